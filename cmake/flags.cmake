@@ -1,0 +1,20 @@
+# Compiler flags of every target of the project. Warnings are errors; arithmetic is reproducible
+# (no contraction into fused multiply-add behind our back, no reassociation).
+add_library(nephroid_flags INTERFACE)
+target_compile_options(nephroid_flags INTERFACE
+  -Wall -Wextra -Werror -Wshadow -Wconversion -Wno-sign-conversion -Wno-psabi -Wnon-virtual-dtor
+  -ffp-contract=off -fno-math-errno -fno-trapping-math)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # g++ 12 warns of string concatenations that are fine (GCC bug 105651).
+  target_compile_options(nephroid_flags INTERFACE -Wno-restrict)
+endif()
+if(NEPHROID_NATIVE)
+  target_compile_options(nephroid_flags INTERFACE -march=native)
+endif()
+if(NEPHROID_SANITIZE)
+  target_compile_options(nephroid_flags INTERFACE -fsanitize=${NEPHROID_SANITIZE}
+                         -fno-omit-frame-pointer)
+  target_link_options(nephroid_flags INTERFACE -fsanitize=${NEPHROID_SANITIZE})
+endif()
+set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
+target_include_directories(nephroid_flags INTERFACE ${CMAKE_SOURCE_DIR}/src)

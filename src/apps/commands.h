@@ -1,0 +1,13 @@
+// The commands of the program, one file each. All return the exit status and throw Error.
+// Who calls it: main.cpp.
+#pragma once
+
+#include "session/options.h"
+
+namespace nephroid {
+
+int run_render(const RenderCommand& command);
+int run_info(const InfoCommand& command);
+int run_compare(const CompareCommand& command);
+
+}  // namespace nephroid

@@ -1,0 +1,40 @@
+// `nephroid compare`: two pictures in, numbers and a heat map out.
+#include <fmt/format.h>
+
+#include "apps/commands.h"
+#include "film/atomic_file.h"
+#include "session/compare.h"
+
+namespace nephroid {
+namespace {
+
+void print_dim_mean(const MeanRatio& ratio) {
+  if (ratio.pixels == 0) {
+    fmt::print("mean_rel below 10: no such pixels\n");
+    return;
+  }
+  fmt::print("mean_rel below 10: {:.6g}", ratio.value);
+  if (ratio.half_width) fmt::print(" +- {:.3g} (95 %)", *ratio.half_width);
+  fmt::print(" over {} pixels\n", ratio.pixels);
+}
+
+}  // namespace
+
+int run_compare(const CompareCommand& command) {
+  if (!command.heat_map.empty()) check_file_can_be_written(command.heat_map);
+  const Picture reference = read_picture(command.reference);
+  const Picture test = read_picture(command.test);
+  CompareOptions options;
+  options.subtract_reference_error = command.subtract_reference_error;
+  const Comparison result = compare_pictures(reference, test, options);
+  fmt::print("rmse={:.6g} relmse={:.6g} relmse_trim={:.6g} mean_rel={:.6g}\n", result.rmse,
+             result.relmse, result.relmse_trim, result.mean.value);
+  print_dim_mean(result.dim_mean);
+  if (!command.heat_map.empty()) {
+    write_heat_map(command.heat_map, reference, test);
+    fmt::print("{}wrote {}\n", heat_map_legend(), command.heat_map);
+  }
+  return static_cast<int>(ExitStatus::kDone);
+}
+
+}  // namespace nephroid

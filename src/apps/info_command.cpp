@@ -1,0 +1,86 @@
+// `nephroid info`: what a scene holds, from its description and from what was built.
+#include <fmt/format.h>
+
+#include "apps/commands.h"
+#include "apps/scene_loading.h"
+#include "scene/embree_scene.h"
+
+namespace nephroid {
+namespace {
+
+/// Triangles of a group; `other` counts the primitives of all other shapes.
+uint64_t count_triangles(const ShapeGroup& group, uint64_t* other) {
+  uint64_t triangles = 0;
+  for (const ShapeRecord& record : group.records) {
+    const uint64_t primitives = record.shape->primitive_count();
+    if (dynamic_cast<const TriangleMesh*>(record.shape.get()) != nullptr)
+      triangles += primitives;
+    else
+      *other += primitives;
+  }
+  return triangles;
+}
+
+void print_geometry(const Scene& scene) {
+  uint64_t other = 0;
+  uint64_t triangles = count_triangles(scene.top, &other);
+  for (const auto& group : scene.groups) triangles += count_triangles(*group, &other);
+  fmt::print("shapes: {} ({} triangles, {} other primitives), {} instances of {} objects\n",
+             scene.shape_count, triangles, other, scene.instances.size(), scene.groups.size());
+  const Bounds3f bounds = scene.top.accelerator->bounds();
+  if (bounds.isEmpty())
+    fmt::print("extents: nothing\n");
+  else
+    fmt::print("extents: {:g} {:g} {:g} to {:g} {:g} {:g}, radius {:g}\n", bounds.min.x,
+               bounds.min.y, bounds.min.z, bounds.max.x, bounds.max.y, bounds.max.z,
+               scene.sphere.radius);
+}
+
+void print_film(const Scene& scene) {
+  const FilmDescription& film = scene.film;
+  fmt::print("resolution: {}x{}\n", film.width, film.height);
+  if (film.crop_x0 != 0 || film.crop_y0 != 0 || film.crop_x1 != film.width ||
+      film.crop_y1 != film.height)
+    fmt::print("crop: x {} to {}, y {} to {}\n", film.crop_x0, film.crop_x1, film.crop_y0,
+               film.crop_y1);
+}
+
+void print_lights(const Scene& scene) {
+  uint64_t infinite = 0, delta = 0;
+  for (const LightPtr& light : scene.lights) {
+    if (light->is_infinite()) ++infinite;
+    if (light->is_delta()) ++delta;
+  }
+  fmt::print("lights: {} (each emitting primitive counts), {} infinite, {} without extent\n",
+             scene.lights.size(), infinite, delta);
+}
+
+void print_integrator(const Scene& scene) {
+  const std::string& own = scene.integrator;
+  const std::string here = integrator_for_scene_name(own.empty() ? "volpath" : own);
+  fmt::print("integrator: {} (--integrator scene: {})\n", own.empty() ? "none" : own,
+             here.empty() ? "not available" : here);
+  fmt::print("pixel samples: {}\n", scene.samples_per_pixel);
+}
+
+}  // namespace
+
+int run_info(const InfoCommand& command) {
+  const LoadedScene loaded = load_scene(command.scene, SceneOverrides{});
+  print_warnings(loaded);
+  const Scene& scene = *loaded.scene;
+  fmt::print("scene: {}\n", command.scene);
+  print_film(scene);
+  fmt::print("camera: {}\n", loaded.description.camera ? loaded.description.camera->type
+                                                       : std::string("perspective (default)"));
+  print_integrator(scene);
+  print_geometry(scene);
+  fmt::print("materials: {}, {}\n", scene.materials.size(),
+             scene.has_specular_material ? "some specular: caustics are possible"
+                                         : "none specular: there can be no caustics");
+  print_lights(scene);
+  fmt::print("warnings: {}\n", loaded.warnings.size());
+  return static_cast<int>(ExitStatus::kDone);
+}
+
+}  // namespace nephroid

@@ -1,0 +1,61 @@
+// The program `nephroid`: understands its arguments, runs a command, turns errors into messages and
+// exit statuses (core/errors.h).
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "apps/commands.h"
+#include "core/errors.h"
+#include "session/command_line.h"
+
+namespace nephroid {
+namespace {
+
+int fail(ExitStatus status, const char* message) {
+  fmt::print(stderr, "nephroid: error: {}\n", message);
+  return static_cast<int>(status);
+}
+
+int print(const std::string& text) {
+  fmt::print("{}", text);
+  return static_cast<int>(ExitStatus::kDone);
+}
+
+int run(const std::vector<std::string>& arguments) {
+  const CommandLine line = parse_command_line(arguments);
+  switch (line.action) {
+    case Action::kRender:
+      return run_render(line.render);
+    case Action::kInfo:
+      return run_info(line.info);
+    case Action::kCompare:
+      return run_compare(line.compare);
+    case Action::kPrint:
+      break;
+  }
+  return print(line.text);
+}
+
+}  // namespace
+}  // namespace nephroid
+
+int main(int argc, char** argv) {
+  using namespace nephroid;
+  try {
+    const int status = run(std::vector<std::string>(argv + (argc > 0 ? 1 : 0), argv + argc));
+    // What was printed may still be on its way to a full disk or a closed pipe.
+    if (std::fflush(stdout) != 0)
+      return fail(ExitStatus::kInputOutput, "standard output: cannot write");
+    return status;
+  } catch (const Error& error) {
+    return fail(error.status(), error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(ExitStatus::kRender, "out of memory");
+  } catch (const std::exception& error) {
+    return fail(ExitStatus::kRender, error.what());
+  }
+}

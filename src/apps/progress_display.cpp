@@ -1,0 +1,80 @@
+// The texts of the bar and the lines.
+#include "apps/progress_display.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace nephroid {
+namespace {
+
+constexpr double kBarInterval = 0.1;  ///< s
+constexpr double kLineInterval = 10;  ///< s
+constexpr int kBarWidth = 24;
+
+std::string bar(double fraction) {
+  const int filled = std::clamp(static_cast<int>(std::lround(fraction * kBarWidth)), 0, kBarWidth);
+  return "[" + std::string(static_cast<size_t>(filled), '#') +
+         std::string(static_cast<size_t>(kBarWidth - filled), '-') + "]";
+}
+
+std::string description(const RenderProgress& p) {
+  std::string text = fmt::format("{}", p.passes_done);
+  if (p.passes_wanted) text += fmt::format("/{}", *p.passes_wanted);
+  text += " passes";
+  if (p.seconds_left) text += fmt::format(", {} left", clock_text(*p.seconds_left));
+  if (p.seconds > 0)
+    text += fmt::format(", {}rays/s", short_number(static_cast<double>(p.rays) / p.seconds));
+  if (p.photons_stored > 0)
+    text += fmt::format(", {}photons kept", short_number(static_cast<double>(p.photons_stored)));
+  if (p.noise) text += fmt::format(", noise {:.3g}", *p.noise);
+  return text;
+}
+
+}  // namespace
+
+ProgressDisplay::ProgressDisplay() : is_terminal_(::isatty(STDERR_FILENO) == 1) {
+  if (!is_terminal_) next_seconds_ = kLineInterval;
+}
+
+void ProgressDisplay::show(const RenderProgress& progress) {
+  if (progress.seconds < next_seconds_) return;
+  next_seconds_ = progress.seconds + (is_terminal_ ? kBarInterval : kLineInterval);
+  if (!is_terminal_) {
+    fmt::print(stderr, "nephroid: {} after {}\n", description(progress),
+               clock_text(progress.seconds));
+    return;
+  }
+  fmt::print(stderr, "\r{} {}\x1b[K", bar(progress.fraction), description(progress));
+  std::fflush(stderr);
+  bar_is_drawn_ = true;
+}
+
+void ProgressDisplay::clear() {
+  if (!bar_is_drawn_) return;
+  fmt::print(stderr, "\r\x1b[K");
+  std::fflush(stderr);
+  bar_is_drawn_ = false;
+}
+
+std::string short_number(double value) {
+  constexpr const char* kUnits[] = {"", "k ", "M ", "G ", "T "};
+  size_t unit = 0;
+  while (value >= 999.5 && unit + 1 < std::size(kUnits)) {
+    value /= 1000;
+    ++unit;
+  }
+  return fmt::format("{:.3g} {}", value, kUnits[unit]);
+}
+
+std::string clock_text(double seconds) {
+  const auto whole = static_cast<int64_t>(std::ceil(std::min(seconds, 1e12)));
+  const int64_t hours = whole / 3600, minutes = whole / 60 % 60;
+  if (hours > 0) return fmt::format("{}:{:02}:{:02}", hours, minutes, whole % 60);
+  return fmt::format("{}:{:02}", minutes, whole % 60);
+}
+
+}  // namespace nephroid

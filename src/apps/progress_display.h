@@ -1,0 +1,31 @@
+// How far a render is, on standard error: a bar that is drawn over itself on a terminal, else a
+// plain line now and then. Who calls it: render_command.cpp. It must not know scenes or estimators.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "session/render_session.h"
+
+namespace nephroid {
+
+class ProgressDisplay {
+ public:
+  ProgressDisplay();
+  /// Shows the state if the last one has been there long enough.
+  void show(const RenderProgress& progress);
+  /// Removes the bar, so that something else can be printed.
+  void clear();
+
+ private:
+  bool is_terminal_;
+  bool bar_is_drawn_ = false;
+  double next_seconds_ = 0;
+};
+
+/// "1.23 M", three digits and the letter of the thousands.
+std::string short_number(double value);
+/// "1:02:03", "2:03" or "0:03".
+std::string clock_text(double seconds);
+
+}  // namespace nephroid

@@ -1,0 +1,91 @@
+// `nephroid render`: scene, integrator, film and session put together.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "apps/commands.h"
+#include "apps/progress_display.h"
+#include "apps/report.h"
+#include "apps/scene_loading.h"
+#include "core/parallel.h"
+#include "film/atomic_file.h"
+#include "film/film_output.h"
+#include "session/file_hash.h"
+#include "session/film_of_scene.h"
+#include "session/render_session.h"
+#include "session/version.h"
+
+namespace nephroid {
+namespace {
+
+constexpr int kSignalStatus = 128;
+
+Metadata metadata_of(const RenderCommand& command, const IntegratorChoice& choice) {
+  return {
+      {"nephroid:version", kVersion},
+      {"nephroid:instruction_set", instruction_set()},
+      {"nephroid:scene", command.scene},
+      {"nephroid:scene_hash", fmt::format("{:016x}", hash_file(command.scene))},
+      {"nephroid:integrator", choice.name},
+      {"nephroid:options", settings_text(choice.options)},
+  };
+}
+
+RenderOptions render_options(const RenderCommand& command, const Scene& scene,
+                             const std::string& output, Metadata metadata) {
+  RenderOptions options;
+  if (command.passes) {
+    options.first_pass = command.passes->first;
+    options.last_pass = command.passes->second;
+  }
+  options.time_limit = command.time_limit;
+  options.noise_target = command.noise_target;
+  options.seed = command.seed.value_or(scene.scene_seed);
+  options.output = output;
+  options.metadata = std::move(metadata);
+  return options;
+}
+
+}  // namespace
+
+int run_render(const RenderCommand& command) {
+  const ThreadLimit threads(command.threads);
+  limit_image_threads(command.threads);
+  // A name that cannot be written is said before the scene is read, which may take long.
+  if (!command.output.empty()) {
+    check_file_can_be_written(command.output);
+    check_file_can_be_written(png_path_beside(command.output));
+  }
+  const LoadedScene loaded = load_scene(command.scene, command.overrides);
+  if (!command.quiet) print_warnings(loaded);
+  const Scene& scene = *loaded.scene;
+
+  const IntegratorChoice choice = choose_integrator(command.integrator, scene.integrator,
+                                                    scene.integrator_parameters, command.settings);
+  Preset preset = make_integrator(choice.name, choice.options, scene);
+  Film film(film_settings(scene.film), preset.route_names);
+  const std::string output =
+      command.output.empty() ? default_output(scene.film, command.scene) : command.output;
+  RenderSession session(scene, preset, film,
+                        render_options(command, scene, output, metadata_of(command, choice)));
+
+  ProgressDisplay display;
+  if (!command.quiet)
+    session.on_progress([&](const RenderProgress& progress) { display.show(progress); });
+  session.on_warning([&](const std::string& warning) {
+    if (command.quiet) return;
+    display.clear();
+    fmt::print(stderr, "nephroid: warning: {}\n", warning);
+  });
+  const SignalListener listener;
+  const RenderResult result = session.run(listener.flags());
+  if (!command.quiet) {
+    display.clear();
+    fmt::print(stderr, "{}", render_report(result, film, output, choice.notes));
+  }
+  return result.reason == StopReason::kSignal ? kSignalStatus + result.signal
+                                              : static_cast<int>(ExitStatus::kDone);
+}
+
+}  // namespace nephroid

@@ -1,0 +1,87 @@
+// Sentences from the counts of estimators and film.
+#include "apps/report.h"
+
+#include <fmt/format.h>
+
+#include "apps/progress_display.h"
+#include "film/film_output.h"
+#include "session/noise.h"
+
+namespace nephroid {
+namespace {
+
+const char* reason_text(StopReason reason) {
+  switch (reason) {
+    case StopReason::kPasses:
+      return "all passes done";
+    case StopReason::kTime:
+      return "time limit";
+    case StopReason::kNoise:
+      return "noise target met";
+    case StopReason::kSignal:
+      break;
+  }
+  return "stopped by a signal";
+}
+
+std::string summary(const RenderResult& result) {
+  uint64_t rays = 0;
+  for (const EstimatorStatistics& s : result.statistics) rays += s.rays;
+  std::string text =
+      fmt::format("{} pass{} in {:.1f} s ({})", result.passes_done,
+                  result.passes_done == 1 ? "" : "es", result.seconds, reason_text(result.reason));
+  if (rays > 0 && result.seconds > 0)
+    text += fmt::format(", {}rays/s", short_number(static_cast<double>(rays) / result.seconds));
+  if (result.noise) text += fmt::format(", estimated noise {:.3g}", *result.noise);
+  return text + "\n";
+}
+
+std::string photon_line(const EstimatorStatistics& first, const EstimatorStatistics& last,
+                        uint32_t passes) {
+  if (last.photon_paths == 0) return {};
+  const double paths = static_cast<double>(last.photon_paths);
+  std::string text = fmt::format(
+      "photons: {}paths per pass, {}photons kept in all, {:.3g} % of paths kept any",
+      short_number(paths / passes), short_number(static_cast<double>(last.photons_stored)),
+      100 * static_cast<double>(last.photon_paths_useful) / paths);
+  if (last.radius_max_pixels > 0)
+    text += fmt::format("\nmerge radius: {:.3g} pixels in the first pass to {:.3g} in the last",
+                        first.radius_max_pixels, last.radius_min_pixels);
+  return text + "\n";
+}
+
+std::string route_lines(const Film& film) {
+  const std::vector<double> shares = route_energy_shares(film);
+  std::string text = "light by route:";
+  for (size_t r = 0; r < shares.size(); ++r)
+    text += fmt::format("{} {} {:.3g} %", r == 0 ? "" : ",", film.routes()[r], 100 * shares[r]);
+  return text + "\n";
+}
+
+std::string film_faults(const Film& film) {
+  std::string text;
+  if (film.bad_values() > 0)
+    text +=
+        fmt::format("warning: {} estimates were not finite and were left out\n", film.bad_values());
+  if (film.saturated_values() > 0)
+    text += fmt::format("warning: {} pixel sums reached their limit\n", film.saturated_values());
+  return text;
+}
+
+}  // namespace
+
+std::string render_report(const RenderResult& result, const Film& film, const std::string& output,
+                          const std::vector<std::string>& notes) {
+  std::string text = summary(result);
+  for (size_t i = 0; i < result.statistics.size(); ++i)
+    text += photon_line(result.first_pass_statistics[i], result.statistics[i], result.passes_done);
+  text += route_lines(film);
+  text += film_faults(film);
+  for (const std::string& note : notes) text += fmt::format("note: {}\n", note);
+  for (const EstimatorStatistics& s : result.statistics)
+    for (const std::string& note : s.notes) text += fmt::format("note: {}\n", note);
+  text += fmt::format("wrote {} and {}\n", output, png_path_beside(output));
+  return text;
+}
+
+}  // namespace nephroid

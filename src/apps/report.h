@@ -1,0 +1,18 @@
+// The short report at the end of a render.
+// Who calls it: render_command.cpp.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "film/film.h"
+#include "session/render_session.h"
+
+namespace nephroid {
+
+/// Time, passes, rays, photons, radii, the share of each route and everything worth knowing about
+/// what was not rendered. `notes` come before those of the estimators.
+std::string render_report(const RenderResult& result, const Film& film, const std::string& output,
+                          const std::vector<std::string>& notes);
+
+}  // namespace nephroid

@@ -1,0 +1,25 @@
+// A scene from its file, with its warnings.
+// Who calls it: the commands that need a scene.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "input/scene_description.h"
+#include "scene/scene.h"
+
+namespace nephroid {
+
+struct LoadedScene {
+  SceneDescription description;
+  std::unique_ptr<Scene> scene;
+  std::vector<std::string> warnings;  ///< "file:line:column: message"
+};
+
+/// Throws SceneError and IoError.
+LoadedScene load_scene(const std::string& file, const SceneOverrides& overrides);
+
+void print_warnings(const LoadedScene& loaded);
+
+}  // namespace nephroid

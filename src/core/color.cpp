@@ -1,0 +1,85 @@
+// The matching curves, the sigmoid polynomials and the film sensor. All of it runs once or more per
+// path, so the eight wavelengths are handled side by side.
+// Who calls it: see color.h. It must not know colour spaces beyond their sensor curves.
+#include "core/color.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <span>
+
+#include "core/spectra_data.h"
+#include "core/spectra_dense.h"
+
+namespace nephroid {
+namespace {
+
+float sigmoid(float p) {
+  return 0.5f + p / (2.0f * std::sqrt(1.0f + p * p));
+}
+
+struct MatchingCurves {
+  std::span<const float> x, y, z;
+};
+
+const MatchingCurves& matching_curves() {
+  static const MatchingCurves curves = [] {
+    const DataTable table = data_table("cie");
+    return MatchingCurves{table.column(0), table.column(1), table.column(2)};
+  }();
+  return curves;
+}
+
+}  // namespace
+
+float SigmoidPolynomial::operator()(float lambda) const {
+  return sigmoid((c0 * lambda + c1) * lambda + c2);
+}
+
+SampledSpectrum SigmoidPolynomial::sample(const SampledWavelengths& lambda) const {
+  const SampledSpectrum::Lanes l = lambda.lambdas().lanes();
+  const SampledSpectrum::Lanes p = (c0 * l + c1) * l + c2;
+  // Plain arrays, because compilers turn a loop over one into a single vector square root.
+  float values[kSpectrumSamples];
+  std::memcpy(values, &p, sizeof values);
+  for (float& v : values) v = sigmoid(v);
+  SampledSpectrum::Lanes result;
+  std::memcpy(&result, values, sizeof result);
+  return SampledSpectrum(result);
+}
+
+float SigmoidPolynomial::max_value() const {
+  float most = std::max((*this)(kLambdaMin), (*this)(kLambdaMax));
+  const float extremum = -c1 / (2.0f * c0);
+  if (extremum >= kLambdaMin && extremum <= kLambdaMax) most = std::max(most, (*this)(extremum));
+  return most;
+}
+
+Xyz cie_xyz(float lambda) {
+  if (!(lambda >= kLambdaMin && lambda <= kLambdaMax)) return {};
+  const MatchingCurves& curves = matching_curves();
+  const float position = lambda - kLambdaMin;
+  const int i = std::min(static_cast<int>(position), kTableNodes - 2);
+  const float t = position - static_cast<float>(i);
+  return {lerp(t, curves.x[i], curves.x[i + 1]), lerp(t, curves.y[i], curves.y[i + 1]),
+          lerp(t, curves.z[i], curves.z[i + 1])};
+}
+
+SensorWeights sensor_weights(const SampledWavelengths& lambda, const RgbColorSpace& space,
+                             float imaging_ratio) {
+  const std::span<const Rgb> curves = space.sensor_curves();
+  const float scale = imaging_ratio / kSpectrumSamples;
+  SensorWeights weights;
+  for (int i = 0; i < kSpectrumSamples; ++i) {
+    const float pdf = lambda.pdf()[i];
+    if (pdf == 0.0f) continue;
+    const Rgb& at = curves[nearest_node(lambda.lambda(i))];
+    const float s = scale / pdf;
+    weights.rgb[0].set(i, at.r * s);
+    weights.rgb[1].set(i, at.g * s);
+    weights.rgb[2].set(i, at.b * s);
+  }
+  return weights;
+}
+
+}  // namespace nephroid

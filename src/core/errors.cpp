@@ -1,0 +1,36 @@
+#include "core/errors.h"
+
+#include <algorithm>
+
+namespace nephroid {
+
+std::string SourceLocation::to_string() const {
+  std::string text = file ? *file : std::string();
+  if (line > 0) text += ":" + std::to_string(line);
+  if (line > 0 && column > 0) text += ":" + std::to_string(column);
+  return text;
+}
+
+std::string located(const SourceLocation& where, const std::string& message) {
+  const std::string place = where.to_string();
+  return place.empty() ? message : place + ": " + message;
+}
+
+SceneError::SceneError(SourceLocation where, const std::string& message)
+    : Error(ExitStatus::kScene, located(where, message)), where_(std::move(where)) {}
+
+void Diagnostics::warn(SourceLocation where, std::string message) {
+  const std::lock_guard lock(mutex_);
+  const std::string text = located(where, message);
+  const bool known = std::any_of(warnings_.begin(), warnings_.end(), [&](const Warning& w) {
+    return located(w.where, w.message) == text;
+  });
+  if (!known) warnings_.push_back({std::move(where), std::move(message)});
+}
+
+std::vector<Warning> Diagnostics::warnings() const {
+  const std::lock_guard lock(mutex_);
+  return warnings_;
+}
+
+}  // namespace nephroid

@@ -1,0 +1,80 @@
+// What can go wrong, as types: each error knows the exit status that it stands for, and errors and
+// warnings about a scene know the place in the user's file. Thrown while loading and writing only;
+// nothing throws while rendering.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace nephroid {
+
+/// A place in a text that a user wrote. Line and column count from 1; 0 means unknown.
+struct SourceLocation {
+  std::shared_ptr<const std::string> file;
+  int line = 0;
+  int column = 0;
+
+  /// "file:line:column", without the parts that are unknown; empty if nothing is known.
+  std::string to_string() const;
+};
+
+/// Exit statuses of the program.
+enum class ExitStatus : int { kDone = 0, kRender = 1, kUsage = 2, kScene = 3, kInputOutput = 4 };
+
+class Error : public std::runtime_error {
+ public:
+  Error(ExitStatus status, const std::string& message)
+      : std::runtime_error(message), status_(status) {}
+  ExitStatus status() const { return status_; }
+
+ private:
+  ExitStatus status_;
+};
+
+/// The scene is wrong: what() reads "file:line:column: what is wrong, what was expected".
+class SceneError : public Error {
+ public:
+  SceneError(SourceLocation where, const std::string& message);
+  const SourceLocation& where() const { return where_; }
+
+ private:
+  SourceLocation where_;
+};
+
+/// A file could not be read or written: what() names the file and the system's reason.
+class IoError : public Error {
+ public:
+  explicit IoError(const std::string& message) : Error(ExitStatus::kInputOutput, message) {}
+};
+
+/// The command line or an option value is wrong.
+class UsageError : public Error {
+ public:
+  explicit UsageError(const std::string& message) : Error(ExitStatus::kUsage, message) {}
+};
+
+struct Warning {
+  SourceLocation where;
+  std::string message;
+};
+
+/// Collects warnings while a scene is loaded; may be called from several threads.
+/// The same message at the same place is kept once.
+class Diagnostics {
+ public:
+  void warn(SourceLocation where, std::string message);
+  std::vector<Warning> warnings() const;
+
+ private:
+  mutable std::mutex mutex_;
+  std::vector<Warning> warnings_;
+};
+
+/// "file:line:column: message", or just the message if the place is unknown.
+std::string located(const SourceLocation& where, const std::string& message);
+
+}  // namespace nephroid

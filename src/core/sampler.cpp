@@ -1,0 +1,32 @@
+#include "core/sampler.h"
+
+#include <boost/random/sobol.hpp>
+
+namespace nephroid {
+
+// The library yields the sequence in Gray code order without its first point, so the point whose Gray
+// code is the single bit k stands at index 2^(k+1) - 1 and is the direction number of that bit.
+static SobolDirections make_directions() {
+  SobolDirections directions{};
+  boost::random::sobol_engine<uint32_t, 32> engine(kSobolDimensions);
+  for (uint32_t bit = 0; bit < 32; ++bit) {
+    engine.seed(static_cast<uint32_t>((uint64_t{1} << (bit + 1)) - 2));
+    for (uint32_t& value : directions[bit]) value = reverse_bits(engine());
+  }
+  return directions;
+}
+
+const SobolDirections& sobol_directions() {
+  static const SobolDirections directions = make_directions();
+  return directions;
+}
+
+SobolPoint::SobolPoint(uint32_t index) : index_(index), reversed_{} {
+  const SobolDirections& directions = sobol_directions();
+  for (uint32_t bit = 0; bit < 32; ++bit) {
+    if (!((index >> bit) & 1u)) continue;
+    for (size_t d = 0; d < reversed_.size(); ++d) reversed_[d] ^= directions[bit][d];
+  }
+}
+
+}  // namespace nephroid

@@ -1,0 +1,113 @@
+// Random numbers as functions: of the pass key, a stream, an index and a dimension, and of nothing
+// else. No generator outlives a path and none belongs to a thread (docs/architecture.md, section 5).
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#include "core/math.h"
+
+namespace nephroid {
+
+/// The only source of randomness. `pass` counts from 0.
+struct PassKey {
+  uint64_t seed = 0;
+  uint32_t pass = 0;
+};
+
+/// A bijective mix of 64 bits with good avalanche (Stafford's variant 13 of the MurmurHash3 finaliser).
+constexpr uint64_t mix_bits(uint64_t v) {
+  v ^= v >> 30;
+  v *= 0xbf58476d1ce4e5b9ull;
+  v ^= v >> 27;
+  v *= 0x94d049bb133111ebull;
+  v ^= v >> 31;
+  return v;
+}
+constexpr uint64_t hash_combine(uint64_t a, uint64_t b) {
+  return mix_bits(a * 0x9e3779b97f4a7c15ull + mix_bits(b + 0x632be59bd9b4e019ull));
+}
+template <class... Rest>
+constexpr uint64_t hash_combine(uint64_t a, uint64_t b, Rest... rest) {
+  return hash_combine(hash_combine(a, b), static_cast<uint64_t>(rest)...);
+}
+/// The upper 24 bits as a float in [0,1).
+constexpr float bits_to_unit_float(uint32_t bits) {
+  return static_cast<float>(bits >> 8) * 0x1p-24f;
+}
+
+/// Reverses the order of the bits.
+constexpr uint32_t reverse_bits(uint32_t v) {
+  v = __builtin_bswap32(v);
+  v = ((v & 0x0f0f0f0fu) << 4) | ((v >> 4) & 0x0f0f0f0fu);
+  v = ((v & 0x33333333u) << 2) | ((v >> 2) & 0x33333333u);
+  return ((v & 0x55555555u) << 1) | ((v >> 1) & 0x55555555u);
+}
+
+/// Owen's nested uniform scramble of a number in [0,1) whose bits are given in reverse order (least
+/// significant first), as the hash of Laine & Karras 2011 in Burley's form (JCGT 2020): each bit is
+/// flipped by a hash of the bits above it.
+constexpr uint32_t owen_scramble_reversed(uint32_t reversed, uint32_t seed) {
+  uint32_t v = reversed;
+  v ^= v * 0x3d20adeau;
+  v += seed;
+  v *= (seed >> 16) | 1u;
+  v ^= v * 0x05526c56u;
+  v ^= v * 0x53a22864u;
+  return reverse_bits(v);
+}
+
+/// Dimensions of the Sobol' sequence that are used; beyond them a path is random, not stratified.
+inline constexpr int kSobolDimensions = 256;
+
+/// Direction numbers (Joe & Kuo 2008), bits reversed, as [bit of the index][dimension].
+using SobolDirections = std::array<std::array<uint32_t, kSobolDimensions>, 32>;
+const SobolDirections& sobol_directions();
+
+/// One point of the Sobol' sequence in all dimensions, bits reversed, not scrambled. Made once per
+/// pass; every pixel scrambles it in its own way.
+class SobolPoint {
+ public:
+  explicit SobolPoint(uint32_t index);
+  uint32_t reversed(int dimension) const { return reversed_[static_cast<size_t>(dimension)]; }
+  uint32_t index() const { return index_; }
+
+ private:
+  uint32_t index_;
+  std::array<uint32_t, kSobolDimensions> reversed_;
+};
+
+/// The random numbers of one path: dimension after dimension of a scrambled Sobol' point. A value
+/// depends on the point's index, the seed and the dimension alone.
+class PathSampler {
+ public:
+  /// `point` outlives the sampler.
+  PathSampler(const SobolPoint& point, uint64_t seed) : point_(&point), seed_(mix_bits(seed)) {}
+  PathSampler(SobolPoint&&, uint64_t) = delete;
+
+  /// Jumps to a dimension, so that each decision along a path keeps its own whatever came before.
+  void start_dimension(int dimension) { dimension_ = dimension; }
+  int dimension() const { return dimension_; }
+
+  float get_1d() {
+    const int d = dimension_++;
+    const uint64_t h = (seed_ + static_cast<uint64_t>(d) * 0x9e3779b97f4a7c15ull) *
+                       0xd6e8feb86659fd93ull;
+    const uint32_t scramble = static_cast<uint32_t>(h >> 32);
+    if (d < kSobolDimensions)
+      return bits_to_unit_float(owen_scramble_reversed(point_->reversed(d), scramble));
+    return bits_to_unit_float(static_cast<uint32_t>(hash_combine(h, point_->index()) >> 32));
+  }
+  Vec2f get_2d() {
+    const float x = get_1d();
+    return {x, get_1d()};
+  }
+
+ private:
+  const SobolPoint* point_;
+  uint64_t seed_;
+  int dimension_ = 0;
+};
+
+}  // namespace nephroid

@@ -1,0 +1,139 @@
+// Radiometric values at a handful of wavelengths, carried along a path together with the
+// wavelengths themselves (hero wavelength sampling, Wilkie et al. 2014; pbrt-v4 chapter 4).
+// Who calls it: everything that carries light. It must not know where spectra come from.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/math.h"
+
+namespace nephroid {
+
+/// Wavelengths per path. Eight fill one AVX register; docs/performance.md has the comparison with 4.
+inline constexpr int kSpectrumSamples = 8;
+
+inline constexpr float kLambdaMin = 360.0f;  ///< nm
+inline constexpr float kLambdaMax = 830.0f;  ///< nm
+
+/// One value per wavelength of a path. Plain value type; arithmetic is per wavelength.
+class SampledSpectrum {
+ public:
+  using Lanes = float __attribute__((vector_size(kSpectrumSamples * sizeof(float))));
+
+  SampledSpectrum() : v_{} {}
+  explicit SampledSpectrum(float c) : v_(Lanes{} + c) {}
+  explicit SampledSpectrum(Lanes v) : v_(v) {}
+
+  float operator[](int i) const { return v_[i]; }
+  void set(int i, float x) { v_[i] = x; }
+  Lanes lanes() const { return v_; }
+
+  SampledSpectrum operator+(const SampledSpectrum& o) const { return SampledSpectrum(v_ + o.v_); }
+  SampledSpectrum operator-(const SampledSpectrum& o) const { return SampledSpectrum(v_ - o.v_); }
+  SampledSpectrum operator*(const SampledSpectrum& o) const { return SampledSpectrum(v_ * o.v_); }
+  SampledSpectrum operator/(const SampledSpectrum& o) const { return SampledSpectrum(v_ / o.v_); }
+  SampledSpectrum operator*(float c) const { return SampledSpectrum(v_ * c); }
+  SampledSpectrum operator/(float c) const { return SampledSpectrum(v_ * (1.0f / c)); }
+  SampledSpectrum operator-() const { return SampledSpectrum(-v_); }
+  friend SampledSpectrum operator*(float c, const SampledSpectrum& s) { return s * c; }
+  SampledSpectrum& operator+=(const SampledSpectrum& o) { return v_ += o.v_, *this; }
+  SampledSpectrum& operator-=(const SampledSpectrum& o) { return v_ -= o.v_, *this; }
+  SampledSpectrum& operator*=(const SampledSpectrum& o) { return v_ *= o.v_, *this; }
+  SampledSpectrum& operator*=(float c) { return v_ *= c, *this; }
+  SampledSpectrum& operator/=(float c) { return v_ *= 1.0f / c, *this; }
+  bool operator==(const SampledSpectrum& o) const {
+    for (int i = 0; i < kSpectrumSamples; ++i)
+      if (v_[i] != o.v_[i]) return false;
+    return true;
+  }
+
+  /// True if every value is exactly zero.
+  bool is_black() const {
+    bool any = false;
+    for (int i = 0; i < kSpectrumSamples; ++i) any |= v_[i] != 0.0f;
+    return !any;
+  }
+  bool is_finite() const {
+    bool all = true;
+    for (int i = 0; i < kSpectrumSamples; ++i) all &= std::isfinite(v_[i]);
+    return all;
+  }
+  float max_component() const {
+    float m = v_[0];
+    for (int i = 1; i < kSpectrumSamples; ++i) m = std::max(m, v_[i]);
+    return m;
+  }
+  float min_component() const {
+    float m = v_[0];
+    for (int i = 1; i < kSpectrumSamples; ++i) m = std::min(m, v_[i]);
+    return m;
+  }
+  float sum() const {
+    float s = 0.0f;
+    for (int i = 0; i < kSpectrumSamples; ++i) s += v_[i];
+    return s;
+  }
+  float average() const { return sum() * (1.0f / kSpectrumSamples); }
+
+  /// fn applied to each value.
+  template <class F>
+  SampledSpectrum map(F&& fn) const {
+    SampledSpectrum r;
+    for (int i = 0; i < kSpectrumSamples; ++i) r.v_[i] = fn(v_[i]);
+    return r;
+  }
+
+ private:
+  Lanes v_;
+};
+
+inline SampledSpectrum sqrt(const SampledSpectrum& s) {
+  return s.map([](float x) { return std::sqrt(std::max(0.0f, x)); });
+}
+inline SampledSpectrum exp(const SampledSpectrum& s) {
+  return s.map([](float x) { return std::exp(x); });
+}
+inline SampledSpectrum clamp(const SampledSpectrum& s, float lo, float hi) {
+  return s.map([lo, hi](float x) { return std::min(std::max(x, lo), hi); });
+}
+inline SampledSpectrum lerp(float t, const SampledSpectrum& a, const SampledSpectrum& b) {
+  return a * (1.0f - t) + b * t;
+}
+/// a / b, and 0 where b is 0.
+inline SampledSpectrum safe_div(const SampledSpectrum& a, const SampledSpectrum& b) {
+  SampledSpectrum r;
+  for (int i = 0; i < kSpectrumSamples; ++i) r.set(i, b[i] != 0.0f ? a[i] / b[i] : 0.0f);
+  return r;
+}
+
+/// The wavelengths of one path (nm) and the density with which each was chosen (1/nm).
+/// lambda(0) is the hero: the one that survives where wavelengths part, as in a prism.
+class SampledWavelengths {
+ public:
+  /// kSpectrumSamples wavelengths, equally spaced in the cumulative distribution of a density that
+  /// follows the eye's sensitivity (pbrt-v4 section 4.5.4), rotated by u in [0,1).
+  static SampledWavelengths sample_visible(float u);
+  /// The same with a uniform density over [kLambdaMin, kLambdaMax].
+  static SampledWavelengths sample_uniform(float u);
+  /// Density of sample_visible at `lambda`, in 1/nm; zero outside [360, 830] nm.
+  static float visible_pdf(float lambda);
+
+  float lambda(int i) const { return lambda_[i]; }
+  const SampledSpectrum& lambdas() const { return lambda_; }
+  /// Zero for wavelengths that were dropped.
+  const SampledSpectrum& pdf() const { return pdf_; }
+
+  /// Keeps the hero only, whose density then accounts for the choice: pdf(0) is divided by the
+  /// number of wavelengths, so the mean over all of them (sum / kSpectrumSamples) stays an unbiased
+  /// estimate. A second call changes nothing.
+  void terminate_secondary();
+  bool secondary_terminated() const { return terminated_; }
+
+ private:
+  SampledSpectrum lambda_;
+  SampledSpectrum pdf_;
+  bool terminated_ = false;
+};
+
+}  // namespace nephroid

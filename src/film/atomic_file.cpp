@@ -1,0 +1,123 @@
+// Temporary file, fsync, rename, fsync of the directory: the POSIX recipe, with the errors of each
+// step.
+#include "film/atomic_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+
+#include "core/errors.h"
+
+namespace nephroid {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMostLinks = 40;
+
+[[noreturn]] void fail(const std::string& path, const std::string& what, int error) {
+  throw IoError(path + ": cannot " + what + ": " + std::strerror(error));
+}
+
+/// The file that `path` stands for, after links, if something can be written there.
+fs::path resolved_target(const std::string& path) {
+  if (path.empty()) throw IoError("cannot write a file without a name");
+  std::error_code error;
+  fs::path target(path);
+  // The file that a link names need not exist yet.
+  for (int link = 0; fs::is_symlink(fs::symlink_status(target, error)); ++link) {
+    const fs::path next = fs::read_symlink(target, error);
+    if (error || link == kMostLinks) throw IoError(path + ": cannot follow the link");
+    target = target.parent_path() / next;
+  }
+  const fs::file_status status = fs::status(target, error);
+  if (fs::is_directory(status)) throw IoError(path + ": cannot write: it is a directory");
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    throw IoError(path + ": cannot write: it is not a regular file");
+  return target;
+}
+
+fs::path directory_of(const fs::path& target) {
+  const fs::path parent = target.parent_path();
+  return parent.empty() ? fs::path(".") : parent;
+}
+
+/// An open file beside the target that vanishes unless it is renamed.
+class TemporaryFile {
+ public:
+  /// `shown` is the name that messages use: the user knows nothing of temporary files.
+  TemporaryFile(const fs::path& target, const std::string& shown) : shown_(shown) {
+    const fs::path directory = directory_of(target);
+    const std::string stem =
+        "." + target.filename().string().substr(0, 128) + ".tmp-" + std::to_string(::getpid());
+    for (int attempt = 0; attempt < 100; ++attempt) {
+      path_ = directory / (stem + "-" + std::to_string(attempt));
+      descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      if (descriptor_ >= 0 || errno != EEXIST) break;
+    }
+    if (descriptor_ < 0) fail(shown_, "write into its directory", errno);
+  }
+  ~TemporaryFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (!renamed_) ::unlink(path_.c_str());
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  void write(std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+      // The kernel takes at most 2 GiB at once.
+      const size_t chunk = std::min(bytes.size(), size_t{1} << 30);
+      const ssize_t written = ::write(descriptor_, bytes.data(), chunk);
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) fail(shown_, "write", errno);
+      if (written == 0) fail(shown_, "write", ENOSPC);
+      bytes = bytes.subspan(static_cast<size_t>(written));
+    }
+  }
+  void rename_to(const fs::path& target) {
+    if (::fsync(descriptor_) != 0) fail(shown_, "flush", errno);
+    const int descriptor = descriptor_;
+    descriptor_ = -1;
+    if (::close(descriptor) != 0) fail(shown_, "close", errno);
+    if (::rename(path_.c_str(), target.c_str()) != 0) fail(shown_, "replace", errno);
+    renamed_ = true;
+    flush_directory(directory_of(target));
+  }
+
+ private:
+  /// The rename has happened; some file systems refuse to flush a directory, which is no loss of
+  /// ours.
+  static void flush_directory(const fs::path& directory) {
+    const int descriptor = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0) return;
+    ::fsync(descriptor);
+    ::close(descriptor);
+  }
+
+  std::string shown_;
+  fs::path path_;
+  int descriptor_ = -1;
+  bool renamed_ = false;
+};
+
+}  // namespace
+
+void write_file_atomically(const std::string& path, std::span<const std::byte> bytes) {
+  const fs::path target = resolved_target(path);
+  TemporaryFile file(target, path);
+  file.write(bytes);
+  file.rename_to(target);
+}
+
+void check_file_can_be_written(const std::string& path) {
+  const fs::path target = resolved_target(path);
+  const TemporaryFile probe(target, path);
+}
+
+}  // namespace nephroid

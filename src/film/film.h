@@ -1,0 +1,108 @@
+// The picture while it is being made: exact sums per pixel, one buffer per route.
+// A sum is 128-bit fixed point with steps of 2^-64, so that adding commutes: any order, any number
+// of threads and any split into runs gives the same bits (docs/architecture.md, section 3). Who
+// calls it: integrators add, session reads. It must not know scenes or estimators.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/color.h"
+#include "core/math.h"
+
+namespace nephroid {
+
+/// Half-open pixel rectangle.
+struct PixelBounds {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  int width() const { return x1 - x0; }
+  int height() const { return y1 - y0; }
+  int64_t area() const { return int64_t{width()} * height(); }
+};
+
+/// Signed 128-bit fixed point with 64 fractional bits; saturates instead of wrapping.
+struct FixedSum {
+  __extension__ using Bits = __int128;
+  Bits bits = 0;
+  /// Adds x rounded to the nearest step. False if it was not finite or the sum saturated (the sum
+  /// is then unchanged, or at the limit).
+  bool add(double x);
+  bool add(const FixedSum& other);
+  double value() const;
+};
+
+/// What a film is: taken from the scene's Film directive and the command line.
+struct FilmSettings {
+  int width = 1280, height = 720;   ///< full resolution
+  PixelBounds crop;                 ///< rendered part, inside the resolution; empty: all of it
+  float imaging_ratio = 1;          ///< exposure time * ISO / 100
+  float max_component = kInfinity;  ///< samples are scaled down to this in their largest component
+  const RgbColorSpace* color_space = nullptr;
+  std::string filename;  ///< as the scene names its output
+  float diagonal_mm = 35;
+};
+
+class Film {
+ public:
+  Film(const FilmSettings& settings, std::vector<std::string> routes);
+
+  const FilmSettings& settings() const { return settings_; }
+  const PixelBounds& bounds() const { return settings_.crop; }
+  const std::vector<std::string>& routes() const { return route_names_; }
+
+  /// Adds one estimate of a pixel by a route. Each pixel has exactly one writer at a time. Values
+  /// that are not finite are counted (see bad_values) and left out.
+  void add(int route, int x, int y, const Rgb& value);
+  /// Replaces what the route has for this pixel, for estimators whose passes cannot be added (E1).
+  /// `estimates` is then set to 1 by the caller.
+  void replace(int route, int x, int y, const Rgb& value);
+  /// Says that `count` more estimates per pixel were added to a route.
+  void add_estimates(int route, uint64_t count);
+  void set_estimates(int route, uint64_t count);
+  uint64_t estimates(int route) const;
+
+  /// First-hit features of a pixel (sums over samples): albedo, normal in world space, depth (0 or
+  /// infinite where nothing was hit). Components that are not finite are left out.
+  void add_features(int x, int y, const Rgb& albedo, const Vec3f& normal, float depth);
+  void add_feature_estimates(uint64_t count);
+
+  /// Mean of a route, and of the sum of all routes (from the accumulators, rounded once).
+  Rgb route_value(int route, int x, int y) const;
+  Rgb value(int x, int y) const;
+  /// Standard error of value(), from the spread of the estimates of each route, taken as
+  /// independent (an upper bound in practice where passes are stratified). Zero with fewer than two
+  /// estimates.
+  Rgb standard_error(int x, int y) const;
+  /// Mean over the feature samples; what hit nothing counts as black.
+  Rgb albedo(int x, int y) const;
+  /// Direction of the mean, unit length; null where nothing was hit.
+  Vec3f normal(int x, int y) const;
+  /// Mean over the samples that hit something, 0 if none did.
+  float depth(int x, int y) const;
+
+  uint64_t bad_values() const;        ///< estimates that were not finite
+  uint64_t saturated_values() const;  ///< sums that reached their limit
+
+ private:
+  struct PixelSums {
+    FixedSum sum[3], square[3];
+  };
+  struct Features {
+    FixedSum albedo[3], normal[3], depth;
+    uint64_t depths = 0;  ///< samples that hit something
+  };
+  size_t index(int x, int y) const {
+    return static_cast<size_t>(y - settings_.crop.y0) * settings_.crop.width() +
+           (x - settings_.crop.x0);
+  }
+  FilmSettings settings_;
+  std::vector<std::string> route_names_;
+  std::vector<std::vector<PixelSums>> sums_;  ///< [route][pixel]
+  std::vector<uint64_t> estimates_;
+  std::vector<Features> features_;
+  uint64_t feature_estimates_ = 0;
+  std::vector<uint32_t> bad_, saturated_;  ///< per pixel, so that counting needs no lock
+};
+
+}  // namespace nephroid

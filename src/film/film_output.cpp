@@ -1,0 +1,109 @@
+// The layers of the output file, filled row by row. Rows are independent, so they are filled in
+// parallel.
+#include "film/film_output.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "core/parallel.h"
+
+namespace nephroid {
+namespace {
+
+constexpr int64_t kRowsPerChunk = 16;
+
+void add_layer(std::vector<std::string>& channels, const std::string& layer, const char* letters) {
+  for (const char* letter = letters; *letter != '\0'; ++letter)
+    channels.push_back(layer.empty() ? std::string(1, *letter) : layer + "." + *letter);
+}
+
+std::vector<std::string> channel_names(const Film& film) {
+  std::vector<std::string> channels;
+  add_layer(channels, "", "RGB");
+  for (const std::string& route : film.routes()) add_layer(channels, route, "RGB");
+  add_layer(channels, "albedo", "RGB");
+  add_layer(channels, "N", "XYZ");
+  add_layer(channels, "", "Z");
+  add_layer(channels, "stderr", "RGB");
+  channels.emplace_back("samples");
+  return channels;
+}
+
+float* put(float* out, const Rgb& color) {
+  out[0] = color.r;
+  out[1] = color.g;
+  out[2] = color.b;
+  return out + 3;
+}
+
+/// Calls body(y) for each row of the film, rows in parallel.
+template <class Body>
+void for_each_row(const Film& film, const Body& body) {
+  parallel_chunks(film.bounds().height(), kRowsPerChunk, [&](int64_t, int64_t begin, int64_t end) {
+    for (int64_t row = begin; row < end; ++row) body(film.bounds().y0 + static_cast<int>(row));
+  });
+}
+
+}  // namespace
+
+Picture film_picture(const Film& film, Metadata metadata) {
+  const PixelBounds& bounds = film.bounds();
+  const int routes = static_cast<int>(film.routes().size());
+  Picture picture;
+  picture.full_width = film.settings().width;
+  picture.full_height = film.settings().height;
+  picture.window = bounds;
+  picture.channels = channel_names(film);
+  picture.color_space = film.settings().color_space;
+  picture.metadata = std::move(metadata);
+  const size_t stride = picture.channels.size();
+  picture.pixels.resize(static_cast<size_t>(bounds.area()) * stride);
+  uint64_t samples = 0;
+  for (int r = 0; r < routes; ++r) samples = std::max(samples, film.estimates(r));
+
+  for_each_row(film, [&](int y) {
+    const size_t row = static_cast<size_t>(y - bounds.y0) * static_cast<size_t>(bounds.width());
+    float* out = picture.pixels.data() + row * stride;
+    for (int x = bounds.x0; x < bounds.x1; ++x) {
+      out = put(out, film.value(x, y));
+      for (int r = 0; r < routes; ++r) out = put(out, film.route_value(r, x, y));
+      out = put(out, film.albedo(x, y));
+      const Vec3f normal = film.normal(x, y);
+      out = put(out, {normal.x, normal.y, normal.z});
+      *out++ = film.depth(x, y);
+      out = put(out, film.standard_error(x, y));
+      *out++ = static_cast<float>(samples);
+    }
+  });
+  return picture;
+}
+
+std::vector<uint8_t> film_srgb8(const Film& film, float exposure) {
+  const PixelBounds& bounds = film.bounds();
+  const RgbColorSpace* space = film.settings().color_space;
+  const bool convert = space != nullptr && space->name() != "srgb";
+  std::vector<uint8_t> bytes(static_cast<size_t>(bounds.area()) * 3);
+  for_each_row(film, [&](int y) {
+    const size_t row = static_cast<size_t>(y - bounds.y0) * static_cast<size_t>(bounds.width());
+    uint8_t* out = bytes.data() + row * 3;
+    for (int x = bounds.x0; x < bounds.x1; ++x) {
+      Rgb color = film.value(x, y);
+      if (convert) color = RgbColorSpace::srgb().from_xyz(space->to_xyz(color));
+      for (int c = 0; c < 3; ++c) *out++ = encode_srgb8(color[c] * exposure);
+    }
+  });
+  return bytes;
+}
+
+void write_film(const std::string& path, const Film& film, Metadata metadata, float exposure) {
+  write_exr(path, film_picture(film, std::move(metadata)));
+  write_png(png_path_beside(path), film.bounds().width(), film.bounds().height(),
+            film_srgb8(film, exposure));
+}
+
+std::string png_path_beside(const std::string& exr_path) {
+  return std::filesystem::path(exr_path).replace_extension(".png").string();
+}
+
+}  // namespace nephroid

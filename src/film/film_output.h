@@ -1,0 +1,26 @@
+// What of a film goes into a file, and under which names.
+// Who calls it: session. It must not know estimators or scenes.
+#pragma once
+
+#include <string>
+
+#include "film/film.h"
+#include "film/image_io.h"
+
+namespace nephroid {
+
+/// The film as channels: R G B (all routes), one layer per route ("caustic.R" ...), albedo, N
+/// (world space), Z, stderr (standard error of R G B) and samples (estimates per pixel, the largest
+/// of the routes).
+Picture film_picture(const Film& film, Metadata metadata);
+
+/// The film's R G B times `exposure`, in sRGB primaries and transfer, interleaved bytes.
+std::vector<uint8_t> film_srgb8(const Film& film, float exposure);
+
+/// Writes the picture as EXR to `path` and its PNG to png_path_beside(path). Throws IoError.
+void write_film(const std::string& path, const Film& film, Metadata metadata, float exposure);
+
+/// "a/b.exr" -> "a/b.png".
+std::string png_path_beside(const std::string& exr_path);
+
+}  // namespace nephroid

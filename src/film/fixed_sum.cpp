@@ -1,0 +1,72 @@
+// The exact accumulator of the film: double -> 128-bit fixed point, rounded to the nearest step
+// once. All shifts are of unsigned magnitudes, so that nothing here is undefined and x and -x
+// cancel.
+#include <bit>
+#include <cmath>
+
+#include "film/film.h"
+
+namespace nephroid {
+namespace {
+
+using Bits = FixedSum::Bits;
+__extension__ using Magnitude = unsigned __int128;
+
+/// The limits are symmetric: -kLimit has a negative that exists.
+constexpr Bits kLimit = static_cast<Bits>(~Magnitude{0} >> 1);
+/// Exponent field of a double whose mantissa counts steps of 2^-64: 1075 (bias and mantissa) - 64.
+constexpr int kExponentOfOneStep = 1011;
+constexpr int kMantissaBits = 53;
+
+/// mantissa / 2^shift, to nearest, ties to even.
+uint64_t shift_right_rounded(uint64_t mantissa, int shift) {
+  if (shift > kMantissaBits) return 0;  // below half a step
+  const uint64_t quotient = mantissa >> shift;
+  const uint64_t rest = mantissa & ((uint64_t{1} << shift) - 1);
+  const uint64_t half = uint64_t{1} << (shift - 1);
+  const bool up = rest > half || (rest == half && (quotient & 1) != 0);
+  return quotient + (up ? 1 : 0);
+}
+
+/// sum + term, held at the limits. False if it had to be held.
+bool add_saturating(Bits* sum, Bits term) {
+  Bits result = 0;
+  const bool overflow = __builtin_add_overflow(*sum, term, &result);
+  if (!overflow && result >= -kLimit) {
+    *sum = result;
+    return true;
+  }
+  *sum = term < 0 ? -kLimit : kLimit;
+  return false;
+}
+
+}  // namespace
+
+bool FixedSum::add(double x) {
+  if (!std::isfinite(x)) return false;
+  const auto pattern = std::bit_cast<uint64_t>(x);
+  const bool negative = (pattern >> 63) != 0;
+  const int exponent = static_cast<int>((pattern >> 52) & 0x7ff);
+  if (exponent == 0) return true;  // zero or subnormal, far below half a step
+  const uint64_t mantissa = (pattern & ((uint64_t{1} << 52) - 1)) | (uint64_t{1} << 52);
+  const int shift = exponent - kExponentOfOneStep;
+  if (shift > 127 - kMantissaBits) {  // |x| >= 2^63
+    bits = negative ? -kLimit : kLimit;
+    return false;
+  }
+  const Magnitude magnitude =
+      shift >= 0 ? Magnitude{mantissa} << shift : shift_right_rounded(mantissa, -shift);
+  const Bits term = static_cast<Bits>(magnitude);
+  return add_saturating(&bits, negative ? -term : term);
+}
+
+bool FixedSum::add(const FixedSum& other) {
+  return add_saturating(&bits, other.bits);
+}
+
+double FixedSum::value() const {
+  // The conversion rounds to nearest; the scaling by a power of two is exact.
+  return static_cast<double>(bits) * 0x1p-64;
+}
+
+}  // namespace nephroid

@@ -1,0 +1,125 @@
+// Images are encoded in memory first and then written as one file, so that every error of the disk
+// is seen by us (an encoder's own stream may swallow those of its last buffer).
+#include "film/image_io.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <span>
+
+#include "core/errors.h"
+#include "film/atomic_file.h"
+
+namespace nephroid {
+namespace {
+
+/// x and y of a colour.
+std::array<float, 2> chromaticity(const RgbColorSpace& space, const Rgb& rgb) {
+  const Xyz xyz = space.to_xyz(rgb);
+  const float sum = xyz.x + xyz.y + xyz.z;
+  return {xyz.x / sum, xyz.y / sum};
+}
+
+/// Red, green, blue and white, as EXR's attribute wants them.
+std::array<float, 8> chromaticities(const RgbColorSpace& space) {
+  std::array<float, 8> result{};
+  const Rgb colors[4] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
+  for (size_t i = 0; i < 4; ++i) {
+    const auto xy = chromaticity(space, colors[i]);
+    result[2 * i] = xy[0];
+    result[2 * i + 1] = xy[1];
+  }
+  return result;
+}
+
+OIIO::ImageSpec exr_spec(const Picture& picture) {
+  OIIO::ImageSpec spec(picture.width(), picture.height(), static_cast<int>(picture.channels.size()),
+                       OIIO::TypeDesc::FLOAT);
+  spec.x = picture.window.x0;
+  spec.y = picture.window.y0;
+  spec.full_width = picture.full_width;
+  spec.full_height = picture.full_height;
+  spec.channelnames = picture.channels;
+  spec.attribute("compression", "zip");
+  const RgbColorSpace* space = picture.color_space;
+  if (space != nullptr && space->name() != "srgb") {
+    const auto values = chromaticities(*space);
+    spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), values.data());
+  }
+  for (const auto& [key, value] : picture.metadata) spec.attribute(key, value);
+  return spec;
+}
+
+/// Encodes with the plugin for `format` and replaces the file.
+void encode_and_write(const std::string& path, const char* format, const OIIO::ImageSpec& spec,
+                      OIIO::TypeDesc type, const void* pixels) {
+  OIIO::Filesystem::IOVecOutput buffer;
+  const std::string inner_name = std::string("picture.") + format;
+  const auto out = OIIO::ImageOutput::create(inner_name, &buffer);
+  if (!out) throw IoError(path + ": cannot write: " + OIIO::geterror());
+  const bool written = out->open(inner_name, spec) && out->write_image(type, pixels);
+  // Closing writes the rest; the first error is the one to report.
+  const std::string reason = written ? std::string() : out->geterror();
+  const bool closed = out->close();
+  if (!written || !closed)
+    throw IoError(path + ": cannot encode: " + (reason.empty() ? out->geterror() : reason));
+  write_file_atomically(path, std::as_bytes(std::span(buffer.buffer())));
+}
+
+}  // namespace
+
+int Picture::find_channel(const std::string& name) const {
+  const auto found = std::find(channels.begin(), channels.end(), name);
+  return found == channels.end() ? -1 : static_cast<int>(found - channels.begin());
+}
+
+void write_exr(const std::string& path, const Picture& picture) {
+  encode_and_write(path, "exr", exr_spec(picture), OIIO::TypeDesc::FLOAT, picture.pixels.data());
+}
+
+void write_png(const std::string& path, int width, int height, const std::vector<uint8_t>& rgb) {
+  OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
+  spec.attribute("oiio:ColorSpace", "sRGB");
+  encode_and_write(path, "png", spec, OIIO::TypeDesc::UINT8, rgb.data());
+}
+
+Picture read_picture(const std::string& path) {
+  const auto in = OIIO::ImageInput::open(path);
+  if (!in) {
+    const std::string reason = OIIO::geterror();
+    throw IoError(path + ": cannot read: " + (reason.empty() ? "unknown format" : reason));
+  }
+  const OIIO::ImageSpec& spec = in->spec();
+  Picture picture;
+  picture.full_width = spec.full_width;
+  picture.full_height = spec.full_height;
+  picture.window = {spec.x, spec.y, spec.x + spec.width, spec.y + spec.height};
+  picture.channels = spec.channelnames;
+  picture.pixels.resize(static_cast<size_t>(spec.image_pixels()) *
+                        static_cast<size_t>(spec.nchannels));
+  for (const OIIO::ParamValue& attribute : spec.extra_attribs)
+    if (attribute.type() == OIIO::TypeDesc::STRING)
+      picture.metadata.emplace_back(attribute.name().string(), attribute.get_string());
+  if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, picture.pixels.data()))
+    throw IoError(path + ": cannot read: " + in->geterror());
+  return picture;
+}
+
+uint8_t encode_srgb8(float linear) {
+  if (!(linear > 0.0f)) return 0;
+  if (linear >= 1.0f) return 255;
+  const float encoded =
+      linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
+  return static_cast<uint8_t>(encoded * 255.0f + 0.5f);
+}
+
+void limit_image_threads(int threads) {
+  OIIO::attribute("threads", threads);
+  OIIO::attribute("exr_threads", threads);
+}
+
+}  // namespace nephroid

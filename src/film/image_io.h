@@ -1,0 +1,53 @@
+// Pictures as files: EXR with any channels, window and metadata; 8-bit PNG; reading any format
+// back. This and its .cpp are where the layer meets OpenImageIO. Who calls it: film_output.h and
+// the session. It must not know films, routes or scenes.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/color.h"
+#include "film/film.h"
+
+namespace nephroid {
+
+/// Key and value, in the order in which they are written.
+using Metadata = std::vector<std::pair<std::string, std::string>>;
+
+/// Named channels of floats, interleaved, rows from the top; `window` is the part of the full
+/// picture that the pixels are.
+struct Picture {
+  int full_width = 0, full_height = 0;
+  PixelBounds window;
+  std::vector<std::string> channels;
+  std::vector<float> pixels;
+  /// Written as the file's chromaticities unless it is null or sRGB.
+  const RgbColorSpace* color_space = nullptr;
+  Metadata metadata;
+
+  int width() const { return window.width(); }
+  int height() const { return window.height(); }
+  /// Index of a channel by its exact name, -1 if it is not there.
+  int find_channel(const std::string& name) const;
+};
+
+/// Writes a float EXR with display window and data window. Throws IoError; see atomic_file.h for
+/// what then remains.
+void write_exr(const std::string& path, const Picture& picture);
+
+/// Writes interleaved 8-bit sRGB, three bytes a pixel. Throws IoError as write_exr does.
+void write_png(const std::string& path, int width, int height, const std::vector<uint8_t>& rgb);
+
+/// Reads the first image of a file of any format, as floats without any conversion of colour, with
+/// string metadata. Throws IoError.
+Picture read_picture(const std::string& path);
+
+/// Linear [0,1] to the sRGB code value, clamped and rounded; NaN becomes 0.
+uint8_t encode_srgb8(float linear);
+
+/// Limits the threads that compress and decompress images; 0 means all of the machine.
+void limit_image_threads(int threads);
+
+}  // namespace nephroid

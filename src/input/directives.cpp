@@ -1,0 +1,288 @@
+// The table of directives and the reading of their arguments. Called through directives.h.
+// Order rules as in pbrt-v4: the camera, film, sampler and so on before WorldBegin, the scene after
+// it, transforms, color spaces and media in both parts.
+#include "input/directives.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "input/option_directive.h"
+#include "input/parameter_reader.h"
+#include "input/spelling.h"
+#include "input/transform_directives.h"
+
+namespace nephroid {
+namespace {
+
+/// What a directive's function works on.
+struct Reader {
+  TokenStream& tokens;
+  SceneBuilder& builder;
+  Diagnostics& diagnostics;
+
+  std::string name(const char* what) { return std::string(tokens.expect_string(what).text); }
+  std::vector<Parameter> parameters() {
+    return read_parameters(tokens, builder.color_space(), diagnostics);
+  }
+  /// "type" parameters ...
+  DirectiveDescription typed(const SourceLocation& where) {
+    DirectiveDescription directive;
+    directive.type = name("a type");
+    directive.where = directive.parameters.where = where;
+    directive.parameters.list = parameters();
+    return directive;
+  }
+  double number(const char* directive) {
+    return number_from(tokens.next(), std::string("a number of ") + directive);
+  }
+  Vec3d vector(const char* directive) {
+    Vec3d v;
+    for (int i = 0; i < 3; ++i) v[i] = number(directive);
+    return v;
+  }
+  Mat44d matrix(const char* directive) {
+    const bool bracketed = tokens.peek().kind == Token::Kind::kOpen;
+    if (bracketed) tokens.next();
+    std::array<double, 16> numbers;
+    for (double& value : numbers) value = number(directive);
+    if (bracketed) {
+      const Token& close = tokens.next();
+      if (close.kind != Token::Kind::kClose)
+        throw SceneError(close.where(), std::string("expected ']' behind the 16 numbers of ") +
+                                            directive + ", found " + describe(close));
+    }
+    return matrix_from_numbers(numbers);
+  }
+};
+
+enum class Part { kBoth, kOptions, kWorld };
+
+struct Directive {
+  const char* name;
+  Part part;
+  void (*read)(Reader& reader, const SourceLocation& where);
+};
+
+void read_rotate(Reader& r, const SourceLocation& where) {
+  const double degrees = r.number("Rotate");
+  const std::optional<Mat44d> m = rotation_matrix(degrees, r.vector("Rotate"));
+  if (!m) throw SceneError(where, "the axis of Rotate is null, expected a direction");
+  r.builder.concat_transform(*m, "Rotate", where);
+}
+
+void read_look_at(Reader& r, const SourceLocation& where) {
+  const Vec3d eye = r.vector("LookAt"), target = r.vector("LookAt"), up = r.vector("LookAt");
+  if (eye == target)
+    throw SceneError(where, "LookAt looks from a point to itself, expected two different points");
+  const std::optional<Mat44d> m = look_at_matrix(eye, target, up);
+  if (!m)
+    throw SceneError(where, "the up vector of LookAt is null or parallel to the view direction");
+  r.builder.concat_transform(*m, "LookAt", where);
+}
+
+void read_active_transform(Reader& r, const SourceLocation&) {
+  const Token& token = r.tokens.next();
+  const std::string_view which = token.kind == Token::Kind::kWord ? token.text : std::string_view();
+  if (which != "All" && which != "StartTime" && which != "EndTime")
+    throw SceneError(token.where(), "expected All, StartTime or EndTime, found " + describe(token));
+  r.builder.set_active_transforms(which != "EndTime", which != "StartTime");
+}
+
+void read_transform_times(Reader& r, const SourceLocation& where) {
+  const double start = r.number("TransformTimes");
+  r.builder.set_transform_times(start, r.number("TransformTimes"), where);
+}
+
+void read_transform_begin(Reader& r, const SourceLocation& where) {
+  r.diagnostics.warn(where, "TransformBegin is deprecated, use AttributeBegin");
+  r.builder.attribute_begin(where);
+}
+
+void read_attribute(Reader& r, const SourceLocation&) {
+  const Token& token = r.tokens.expect_string("an attribute target");
+  const std::string target(token.text);
+  const SourceLocation target_where = token.where();
+  r.builder.set_defaults(target, r.parameters(), target_where);
+}
+
+void read_color_space(Reader& r, const SourceLocation&) {
+  const Token& token = r.tokens.expect_string("a color space");
+  r.builder.set_color_space(std::string(token.text), token.where());
+}
+
+void read_medium_interface(Reader& r, const SourceLocation&) {
+  const std::string inside = r.name("a medium");
+  const bool two = r.tokens.peek().kind == Token::Kind::kString;
+  r.builder.set_medium_interface(inside, two ? r.name("a medium") : inside);
+}
+
+void read_texture(Reader& r, const SourceLocation& where) {
+  const std::string name = r.name("a texture name");
+  const Token& type_token = r.tokens.expect_string("a texture type");
+  const std::string value_type(type_token.text);
+  if (value_type != "float" && value_type != "spectrum") {
+    throw SceneError(type_token.where(), "unknown texture type " + describe(type_token) +
+                                             ", expected \"float\" or \"spectrum\"");
+  }
+  r.builder.add_texture(name, value_type, r.typed(where));
+}
+
+/// Directives with a name instead of a type: MakeNamedMaterial "name" parameters ...
+void read_named(Reader& r, const SourceLocation& where,
+                void (SceneBuilder::*add)(const std::string&, DirectiveDescription)) {
+  DirectiveDescription directive = r.typed(where);
+  const std::string name = std::exchange(directive.type, std::string());
+  if (name.empty()) throw SceneError(where, "the name is empty, expected one to refer to");
+  (r.builder.*add)(name, std::move(directive));
+}
+
+void read_include(Reader& r, const SourceLocation&) {
+  r.tokens.include(r.tokens.expect_string("a file name"));
+}
+
+void read_import(Reader& r, const SourceLocation& where) {
+  r.tokens.enter(r.tokens.expect_string("a file name"));
+  r.builder.import_begin(where);
+  read_directives(r.tokens, r.builder, r.diagnostics);
+  r.builder.import_end();
+  r.tokens.leave();
+}
+
+using Place = SourceLocation;
+
+// Sorted by theme; a handful of string comparisons per directive is nothing beside its numbers.
+constexpr std::array kDirectives = {
+    Directive{"Include", Part::kBoth, read_include},
+    Directive{"Import", Part::kWorld, read_import},
+
+    Directive{"Identity", Part::kBoth,
+              [](Reader& r, const Place& p) { r.builder.set_transform(Mat44d(), p); }},
+    Directive{"Translate", Part::kBoth,
+              [](Reader& r, const Place& p) {
+                r.builder.concat_transform(translation_matrix(r.vector("Translate")), "Translate",
+                                           p);
+              }},
+    Directive{"Scale", Part::kBoth,
+              [](Reader& r, const Place& p) {
+                r.builder.concat_transform(scale_matrix(r.vector("Scale")), "Scale", p);
+              }},
+    Directive{"Rotate", Part::kBoth, read_rotate},
+    Directive{"LookAt", Part::kBoth, read_look_at},
+    Directive{"Transform", Part::kBoth,
+              [](Reader& r, const Place& p) { r.builder.set_transform(r.matrix("Transform"), p); }},
+    Directive{"ConcatTransform", Part::kBoth,
+              [](Reader& r, const Place& p) {
+                r.builder.concat_transform(r.matrix("ConcatTransform"), "ConcatTransform", p);
+              }},
+    Directive{"CoordinateSystem", Part::kBoth,
+              [](Reader& r, const Place&) {
+                r.builder.name_coordinate_system(r.name("a coordinate system"));
+              }},
+    Directive{"CoordSysTransform", Part::kBoth,
+              [](Reader& r, const Place& p) {
+                r.builder.use_coordinate_system(r.name("a coordinate system"), p);
+              }},
+    Directive{"ActiveTransform", Part::kBoth, read_active_transform},
+    Directive{"TransformTimes", Part::kOptions, read_transform_times},
+
+    Directive{"Option", Part::kBoth,
+              [](Reader& r, const Place&) { r.builder.add_option(read_option(r.tokens)); }},
+    Directive{"ColorSpace", Part::kBoth, read_color_space},
+    Directive{"Camera", Part::kOptions,
+              [](Reader& r, const Place& p) { r.builder.set_camera(r.typed(p)); }},
+    Directive{"Film", Part::kOptions,
+              [](Reader& r, const Place& p) { r.builder.set_film(r.typed(p)); }},
+    Directive{"Sampler", Part::kOptions,
+              [](Reader& r, const Place& p) { r.builder.set_sampler(r.typed(p)); }},
+    Directive{"PixelFilter", Part::kOptions,
+              [](Reader& r, const Place& p) { r.builder.set_pixel_filter(r.typed(p)); }},
+    Directive{"Integrator", Part::kOptions,
+              [](Reader& r, const Place& p) { r.builder.set_integrator(r.typed(p)); }},
+    Directive{"Accelerator", Part::kOptions,
+              [](Reader& r, const Place& p) { r.builder.set_accelerator(r.typed(p)); }},
+    Directive{"WorldBegin", Part::kOptions,
+              [](Reader& r, const Place&) { r.builder.world_begin(); }},
+
+    Directive{"AttributeBegin", Part::kWorld,
+              [](Reader& r, const Place& p) { r.builder.attribute_begin(p); }},
+    Directive{"AttributeEnd", Part::kWorld,
+              [](Reader& r, const Place& p) { r.builder.attribute_end(p); }},
+    Directive{"TransformBegin", Part::kWorld, read_transform_begin},
+    Directive{"TransformEnd", Part::kWorld,
+              [](Reader& r, const Place& p) { r.builder.attribute_end(p); }},
+    Directive{"Attribute", Part::kBoth, read_attribute},
+    Directive{"ReverseOrientation", Part::kWorld,
+              [](Reader& r, const Place&) { r.builder.reverse_orientation(); }},
+    Directive{"MediumInterface", Part::kBoth, read_medium_interface},
+    Directive{"ObjectBegin", Part::kWorld,
+              [](Reader& r, const Place& p) { r.builder.object_begin(r.name("an object"), p); }},
+    Directive{"ObjectEnd", Part::kWorld,
+              [](Reader& r, const Place& p) { r.builder.object_end(p); }},
+    Directive{"ObjectInstance", Part::kWorld,
+              [](Reader& r, const Place& p) { r.builder.object_instance(r.name("an object"), p); }},
+
+    Directive{"Material", Part::kWorld,
+              [](Reader& r, const Place& p) { r.builder.add_material(r.typed(p)); }},
+    Directive{
+        "NamedMaterial", Part::kWorld,
+        [](Reader& r, const Place& p) { r.builder.use_named_material(r.name("a material"), p); }},
+    Directive{
+        "MakeNamedMaterial", Part::kWorld,
+        [](Reader& r, const Place& p) { read_named(r, p, &SceneBuilder::add_named_material); }},
+    Directive{"MakeNamedMedium", Part::kBoth,
+              [](Reader& r, const Place& p) { read_named(r, p, &SceneBuilder::add_medium); }},
+    Directive{"Texture", Part::kWorld, read_texture},
+    Directive{"LightSource", Part::kWorld,
+              [](Reader& r, const Place& p) { r.builder.add_light(r.typed(p)); }},
+    Directive{"AreaLightSource", Part::kWorld,
+              [](Reader& r, const Place& p) { r.builder.set_area_light(r.typed(p)); }},
+    Directive{"Shape", Part::kWorld,
+              [](Reader& r, const Place& p) { r.builder.add_shape(r.typed(p)); }},
+};
+
+[[noreturn]] void unknown_directive(const Token& token) {
+  if (token.kind != Token::Kind::kWord)
+    throw SceneError(token.where(), "expected a directive, found " + describe(token));
+  if (token.text == "WorldEnd")
+    throw SceneError(token.where(),
+                     "pbrt-v4 scenes have no WorldEnd, expected the end of the file");
+  std::vector<std::string> names;
+  for (const Directive& directive : kDirectives) names.emplace_back(directive.name);
+  throw SceneError(token.where(),
+                   "unknown directive " + describe(token) + did_you_mean(token.text, names));
+}
+
+void check_part(const Directive& directive, bool in_world, const SourceLocation& where) {
+  if (directive.part == Part::kOptions && in_world) {
+    throw SceneError(
+        where, std::string(directive.name) + " behind WorldBegin, expected it before WorldBegin");
+  }
+  if (directive.part == Part::kWorld && !in_world) {
+    throw SceneError(
+        where, std::string(directive.name) + " before WorldBegin, expected it behind WorldBegin");
+  }
+}
+
+}  // namespace
+
+SourceLocation read_directives(TokenStream& tokens, SceneBuilder& builder,
+                               Diagnostics& diagnostics) {
+  Reader reader{tokens, builder, diagnostics};
+  for (;;) {
+    const Token& token = tokens.next();
+    const SourceLocation where = token.where();
+    if (token.kind == Token::Kind::kEnd) return where;
+    const Directive* const directive =
+        token.kind == Token::Kind::kWord
+            ? std::find_if(kDirectives.begin(), kDirectives.end(),
+                           [&](const Directive& known) { return token.text == known.name; })
+            : kDirectives.end();
+    if (directive == kDirectives.end()) unknown_directive(token);
+    check_part(*directive, builder.in_world(), where);
+    directive->read(reader, where);
+  }
+}
+
+}  // namespace nephroid

@@ -1,0 +1,17 @@
+// Which directives a pbrt-v4 scene may contain, where they may stand and how their arguments read.
+// Called by parse_pbrt_file. Turns syntax into calls of the scene builder; keeps no state of the
+// scene itself.
+#pragma once
+
+#include "core/errors.h"
+#include "input/scene_builder.h"
+#include "input/token_stream.h"
+
+namespace nephroid {
+
+/// Reads directives up to the end of the file (and of all it includes) and gives them to `builder`.
+/// Returns the place of the end. Throws SceneError.
+SourceLocation read_directives(TokenStream& tokens, SceneBuilder& builder,
+                               Diagnostics& diagnostics);
+
+}  // namespace nephroid

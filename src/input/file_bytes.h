@@ -1,0 +1,22 @@
+// Whole files as bytes, unpacked if their name ends in ".gz".
+// Called by the scene parser and by the mesh and data readers of this layer.
+// Knows nothing of what the bytes mean.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace nephroid {
+
+/// The most bytes that a packed file may unpack to.
+inline constexpr uint64_t kMaxUnpackedBytes = uint64_t{8} << 30;
+
+/// The bytes of a file; a name that ends in ".gz" is unpacked, to at most `max_unpacked` bytes.
+/// Throws IoError naming the file and the reason.
+std::string read_file_bytes(const std::string& path, uint64_t max_unpacked = kMaxUnpackedBytes);
+
+/// True if the name ends in `suffix`, whatever the case of its letters.
+bool has_suffix(const std::string& path, const std::string& suffix);
+
+}  // namespace nephroid

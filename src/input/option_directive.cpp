@@ -1,0 +1,77 @@
+// Reading Option directives: the name may carry its type ("bool pixelstats") or not ("pixelstats").
+// Called through option_directive.h.
+#include "input/option_directive.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "input/parameter_reader.h"
+#include "input/spelling.h"
+
+namespace nephroid {
+namespace {
+
+struct KnownOption {
+  const char* name;
+  const char* type;
+};
+
+constexpr std::array kOptions = {
+    KnownOption{"disablepixeljitter", "bool"},
+    KnownOption{"disabletexturefiltering", "bool"},
+    KnownOption{"disablewavelengthjitter", "bool"},
+    KnownOption{"displacementedgescale", "float"},
+    KnownOption{"forcediffuse", "bool"},
+    KnownOption{"msereferenceimage", "string"},
+    KnownOption{"msereferenceout", "string"},
+    KnownOption{"pixelstats", "bool"},
+    KnownOption{"rendercoordsys", "string"},
+    KnownOption{"seed", "integer"},
+    KnownOption{"wavefront", "bool"},
+};
+
+std::string normalized(std::string_view name) {
+  std::string result;
+  for (const char c : name) {
+    if (c != '-' && c != '_')
+      result += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return result;
+}
+
+}  // namespace
+
+Parameter read_option(TokenStream& tokens) {
+  const Token& token = tokens.expect_string("an option");
+  Parameter option;
+  option.where = token.where();
+  const size_t space = token.text.find(' ');
+  const std::string type(space == std::string_view::npos ? std::string_view()
+                                                         : token.text.substr(0, space));
+  option.name = normalized(type.empty() ? token.text : token.text.substr(space + 1));
+
+  const auto* const known =
+      std::find_if(kOptions.begin(), kOptions.end(),
+                   [&](const KnownOption& candidate) { return option.name == candidate.name; });
+  if (known == kOptions.end()) {
+    std::vector<std::string> names;
+    for (const KnownOption& candidate : kOptions) names.emplace_back(candidate.name);
+    throw SceneError(option.where,
+                     "unknown option \"" + option.name + "\"" + did_you_mean(option.name, names));
+  }
+  if (!type.empty() && type != known->type) {
+    throw SceneError(option.where, "option \"" + option.name + "\" has type \"" + type +
+                                       "\", expected \"" + known->type + "\"");
+  }
+  option.type = known->type;
+  read_parameter_values(tokens, option);
+  if (option.numbers.size() + option.strings.size() + option.bools.size() != 1)
+    throw SceneError(option.where, "option \"" + option.name + "\" has several values, expected 1");
+  return option;
+}
+
+}  // namespace nephroid

@@ -1,0 +1,47 @@
+// From a pbrt-v4 file or text to a SceneDescription: puts the token stream, the directive parser
+// and the scene builder together. Called through pbrt_parser.h.
+#include "input/pbrt_parser.h"
+
+#include <filesystem>
+
+#include "input/directives.h"
+#include "input/scene_builder.h"
+#include "input/token_stream.h"
+
+namespace nephroid {
+namespace {
+
+std::string or_here(const std::string& directory) {
+  return directory.empty() ? "." : directory;
+}
+
+void parse(TokenStream& tokens, SceneDescription& scene, Diagnostics& diagnostics) {
+  SceneBuilder builder(scene, diagnostics);
+  const SourceLocation end = read_directives(tokens, builder, diagnostics);
+  builder.finish(end);
+}
+
+}  // namespace
+
+SceneDescription parse_pbrt_file(const std::string& path, Diagnostics& diagnostics) {
+  SceneDescription scene;
+  scene.file = path;
+  scene.directory = or_here(std::filesystem::path(path).parent_path().string());
+  TokenStream tokens(scene.directory);
+  tokens.open_scene(path);
+  parse(tokens, scene, diagnostics);
+  return scene;
+}
+
+SceneDescription parse_pbrt_string(const std::string& text, const std::string& name,
+                                   const std::string& directory, Diagnostics& diagnostics) {
+  SceneDescription scene;
+  scene.file = name;
+  scene.directory = or_here(directory);
+  TokenStream tokens(scene.directory);
+  tokens.open_text(text, name);
+  parse(tokens, scene, diagnostics);
+  return scene;
+}
+
+}  // namespace nephroid

@@ -1,0 +1,19 @@
+// Reads pbrt-v4 scene files into a SceneDescription.
+#pragma once
+
+#include <string>
+
+#include "input/scene_description.h"
+
+namespace nephroid {
+
+/// Parses the file (".gz" is unpacked) and all it includes or imports. Throws IoError if a file cannot
+/// be read and SceneError for anything that is not pbrt-v4. Suspicious things go to `diagnostics`.
+SceneDescription parse_pbrt_file(const std::string& path, Diagnostics& diagnostics);
+
+/// The same for text in memory; `name` stands for the file in messages, relative files are looked for
+/// in `directory`.
+SceneDescription parse_pbrt_string(const std::string& text, const std::string& name,
+                                   const std::string& directory, Diagnostics& diagnostics);
+
+}  // namespace nephroid

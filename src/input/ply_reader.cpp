@@ -1,0 +1,251 @@
+// Reads the vertices and faces of a PLY file into a MeshData; all else in the file is passed over.
+// Called through mesh_data.h. What the header claims is compared with the size of the file before
+// anything is allocated for it. Knows nothing of rendering.
+// Format: G. Turk, "The PLY Polygon File Format", 1994.
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+
+#include "input/file_bytes.h"
+#include "input/mesh_data.h"
+#include "input/ply_header.h"
+#include "input/ply_source.h"
+
+namespace nephroid {
+namespace {
+
+/// Reads the elements of one file; its errors are std::runtime_errors that do not name the file.
+template <class Source>
+class PlyReader {
+ public:
+  PlyReader(const PlyHeader& header, std::string_view body) : header_(header), source_(body) {}
+
+  MeshData read() {
+    vertex_count_ = require("vertex").count;
+    require("face");
+    if (vertex_count_ > std::numeric_limits<uint32_t>::max())
+      throw std::runtime_error("it has more vertices than 32-bit indices can tell apart");
+    for (const PlyElement& element : header_.elements) {
+      check_size(element);
+      if (element.name == "vertex") {
+        read_vertices(element);
+      } else if (element.name == "face") {
+        read_faces(element);
+      } else {
+        for_each(element, [&] {
+          for (const PlyProperty& property : element.properties) skip(property);
+        });
+      }
+    }
+    mesh_.face_indices = std::move(triangle_tags_);
+    mesh_.face_indices.insert(mesh_.face_indices.end(), quad_tags_.begin(), quad_tags_.end());
+    return std::move(mesh_);
+  }
+
+ private:
+  const PlyElement& require(const char* name) const {
+    for (const PlyElement& element : header_.elements) {
+      if (element.name == name) return element;
+    }
+    throw std::runtime_error(std::string("it has no element \"") + name + "\"");
+  }
+
+  static std::string nth(const PlyElement& element, uint64_t index) {
+    return element.name + " " + std::to_string(index) + " (counted from 0)";
+  }
+
+  /// Refuses a file that cannot hold the elements even if all their lists are empty.
+  void check_size(const PlyElement& element) const {
+    const uint64_t needed = element.count * element.least_bytes(Source::kAscii);
+    // The last word of a text needs no blank behind it.
+    const uint64_t present = source_.remaining() + (Source::kAscii ? 1 : 0);
+    if (needed <= present) return;
+    throw std::runtime_error("the file is too short: " + std::to_string(element.count) +
+                             " elements \"" + element.name + "\" need at least " +
+                             std::to_string(needed) + " bytes, " +
+                             std::to_string(needed - present) + " are missing");
+  }
+
+  /// Calls `read_one` for each element and says in errors where it was.
+  template <class ReadOne>
+  void for_each(const PlyElement& element, const ReadOne& read_one) {
+    if (element.properties.empty()) return;
+    uint64_t i = 0;
+    try {
+      for (; i < element.count; ++i) read_one();
+    } catch (const PlyTruncated& truncated) {
+      const uint64_t after = element.count - i - 1;
+      const uint64_t bytes = truncated.missing_bytes + after * element.least_bytes(Source::kAscii);
+      throw std::runtime_error("the file is too short: it ends inside " + nth(element, i) + " of " +
+                               std::to_string(element.count) + ", at least " +
+                               std::to_string(bytes) + " bytes are missing");
+    } catch (const PlyBadValue& bad) {
+      throw std::runtime_error(nth(element, i) + ": " + bad.message);
+    }
+  }
+
+  void skip(const PlyProperty& property) {
+    const int64_t count = property.is_list ? source_.integer(property.count_type) : 1;
+    if (count < 0) throw PlyBadValue{"property \"" + property.name + "\" has a negative length"};
+    source_.skip(property.type, static_cast<uint64_t>(count));
+  }
+
+  void read_vertices(const PlyElement& element);
+  void read_faces(const PlyElement& element);
+  void read_indices(const PlyProperty& property);
+
+  const PlyHeader& header_;
+  Source source_;
+  uint64_t vertex_count_ = 0;
+  MeshData mesh_;
+  std::vector<int> triangle_tags_, quad_tags_;  // face_indices of either kind
+};
+
+/// Where the value of a vertex property goes in a row of eight floats.
+enum Slot { kX, kY, kZ, kNx, kNy, kNz, kU, kV, kSlots };
+
+/// The slot of each property, -1 for none; coordinates that are not complete get none.
+struct VertexLayout {
+  std::vector<int> slots;
+  bool has_normals = false;
+  bool has_uvs = false;
+
+  explicit VertexLayout(const PlyElement& element) : slots(element.properties.size(), -1) {
+    const bool has_positions = assign(element, {"x", "y", "z"}, kX);
+    if (!has_positions)
+      throw std::runtime_error("the element \"vertex\" lacks x, y or z as a single number");
+    has_normals = assign(element, {"nx", "ny", "nz"}, kNx);
+    has_uvs = assign(element, {"u", "v"}, kU) || assign(element, {"s", "t"}, kU) ||
+              assign(element, {"texture_u", "texture_v"}, kU) ||
+              assign(element, {"texture_s", "texture_t"}, kU);
+  }
+
+ private:
+  bool assign(const PlyElement& element, std::initializer_list<const char*> names, int first) {
+    for (const char* name : names) {
+      const int found = element.find(name);
+      if (found < 0 || element.properties[static_cast<size_t>(found)].is_list) return false;
+    }
+    for (const char* name : names) slots[static_cast<size_t>(element.find(name))] = first++;
+    return true;
+  }
+};
+
+template <class Source>
+void PlyReader<Source>::read_vertices(const PlyElement& element) {
+  const VertexLayout layout(element);
+  const size_t count = static_cast<size_t>(element.count);
+  mesh_.positions.reserve(count);
+  if (layout.has_normals) mesh_.normals.reserve(count);
+  if (layout.has_uvs) mesh_.uvs.reserve(count);
+
+  const size_t property_count = element.properties.size();
+  for_each(element, [&] {
+    std::array<float, kSlots> row{};
+    for (size_t i = 0; i < property_count; ++i) {
+      const PlyProperty& property = element.properties[i];
+      if (layout.slots[i] < 0) {
+        skip(property);
+        continue;
+      }
+      const float value = static_cast<float>(source_.number(property.type));
+      if (!std::isfinite(value))
+        throw PlyBadValue{"\"" + property.name + "\" is not a finite float"};
+      row[static_cast<size_t>(layout.slots[i])] = value;
+    }
+    mesh_.positions.emplace_back(row[kX], row[kY], row[kZ]);
+    if (layout.has_normals) mesh_.normals.emplace_back(row[kNx], row[kNy], row[kNz]);
+    if (layout.has_uvs) mesh_.uvs.emplace_back(row[kU], row[kV]);
+  });
+}
+
+template <class Source>
+void PlyReader<Source>::read_indices(const PlyProperty& property) {
+  const int64_t corners = source_.integer(property.count_type);
+  if (corners != 3 && corners != 4)
+    throw PlyBadValue{"it has " + std::to_string(corners) + " vertices, expected 3 or 4"};
+  std::vector<uint32_t>& indices = corners == 3 ? mesh_.triangles : mesh_.quads;
+  for (int64_t i = 0; i < corners; ++i) {
+    const int64_t index = source_.integer(property.type);
+    if (index < 0 || static_cast<uint64_t>(index) >= vertex_count_)
+      throw PlyBadValue{"vertex index " + std::to_string(index) +
+                        " is out of range, the file has " + std::to_string(vertex_count_) +
+                        " vertices"};
+    indices.push_back(static_cast<uint32_t>(index));
+  }
+}
+
+template <class Source>
+void PlyReader<Source>::read_faces(const PlyElement& element) {
+  int corners = element.find("vertex_indices");
+  if (corners < 0) corners = element.find("vertex_index");
+  if (element.count == 0) return;
+  if (corners < 0 || !element.properties[static_cast<size_t>(corners)].is_list)
+    throw std::runtime_error("the element \"face\" has no list \"vertex_indices\"");
+  const size_t corners_at = static_cast<size_t>(corners);
+  if (!is_integer(element.properties[corners_at].type))
+    throw std::runtime_error("the list \"vertex_indices\" is not of an integer type");
+
+  const int tag = element.find("face_indices");
+  const bool has_tags = tag >= 0 && !element.properties[static_cast<size_t>(tag)].is_list &&
+                        is_integer(element.properties[static_cast<size_t>(tag)].type);
+  const size_t tag_at = has_tags ? static_cast<size_t>(tag) : element.properties.size();
+
+  mesh_.triangles.reserve(3 * static_cast<size_t>(element.count));
+  for_each(element, [&] {
+    const size_t quads_before = mesh_.quads.size();
+    int64_t tag_value = 0;
+    for (size_t i = 0; i < element.properties.size(); ++i) {
+      const PlyProperty& property = element.properties[i];
+      if (i == corners_at) {
+        read_indices(property);
+      } else if (i == tag_at) {
+        tag_value = source_.integer(property.type);
+      } else {
+        skip(property);
+      }
+    }
+    if (!has_tags) return;
+    if (tag_value < std::numeric_limits<int>::min() || tag_value > std::numeric_limits<int>::max())
+      throw PlyBadValue{"face index " + std::to_string(tag_value) + " does not fit 32 bits"};
+    (mesh_.quads.size() > quads_before ? quad_tags_ : triangle_tags_)
+        .push_back(static_cast<int>(tag_value));
+  });
+}
+
+MeshData read_mesh(std::string_view bytes) {
+  const PlyHeader header = read_ply_header(bytes);
+  const std::string_view body = bytes.substr(header.size);
+  constexpr bool kLittle = std::endian::native == std::endian::little;
+  switch (header.format) {
+    case PlyHeader::Format::kLittleEndian:
+      return PlyReader<PlyBinarySource<!kLittle>>(header, body).read();
+    case PlyHeader::Format::kBigEndian:
+      return PlyReader<PlyBinarySource<kLittle>>(header, body).read();
+    default:
+      return PlyReader<PlyTextSource>(header, body).read();
+  }
+}
+
+}  // namespace
+
+MeshData read_ply(const std::string& path, const SourceLocation& wanted_by) {
+  std::string bytes;
+  try {
+    bytes = read_file_bytes(path);
+  } catch (const IoError& error) {
+    // If the scene asked for the file, the place where it did is the more useful thing to know.
+    if (wanted_by.line > 0) throw SceneError(wanted_by, error.what());
+    throw;
+  }
+  try {
+    return read_mesh(bytes);
+  } catch (const std::runtime_error& error) {
+    throw SceneError(wanted_by, "cannot use \"" + path + "\": " + error.what());
+  }
+}
+
+}  // namespace nephroid

@@ -1,0 +1,69 @@
+// The interface of every algorithm that turns a pass key into light on the film.
+// An estimator has no loop over passes, opens no file and looks at no clock: session/ owns those.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/sampler.h"
+#include "film/film.h"
+
+namespace nephroid {
+
+class Scene;
+
+struct Capabilities {
+  bool independent_passes = true;  ///< passes may be rendered anywhere, in any order, and added up
+  bool per_pixel_state = false;    ///< keeps more than the film does (E1)
+};
+
+/// Deterministic counts of what an estimator did so far, for progress and report.
+struct EstimatorStatistics {
+  uint64_t rays = 0;             ///< closest-hit and shadow queries
+  uint64_t camera_paths = 0;
+  uint64_t photon_paths = 0;     ///< emitted
+  uint64_t photons_stored = 0;
+  uint64_t photon_paths_useful = 0;  ///< paths that stored at least one photon
+  uint64_t photon_paths_specular = 0;  ///< paths that met an S vertex
+  float radius_min_pixels = 0, radius_max_pixels = 0;  ///< merge radius over footprint, last pass
+  std::vector<std::string> notes;  ///< sentences for the report, e.g. why a route is black
+};
+
+class Estimator {
+ public:
+  virtual ~Estimator() = default;
+  virtual Capabilities capabilities() const = 0;
+  /// Adds pass `key.pass` to the film. The film's estimate counts are updated by the estimator.
+  virtual void render_pass(const PassKey& key, const Scene& scene, Film& film) = 0;
+  virtual EstimatorStatistics statistics() const = 0;
+};
+
+/// Algorithm options, from defaults, the scene's Integrator line and -D key=value, in this order.
+struct IntegratorOptions {
+  int max_depth = 100;  ///< scattering events of the whole path, camera and light side together
+  /// Pixel footprints of the first merge radius.
+  float radius = 0;  ///< 0: the default of the integrator
+  int64_t photons_per_pass = 0;  ///< 0: chosen from the film's size
+  float alpha = 2.0f / 3.0f;  ///< of [E1] and [E2]
+  float specular_alpha = 0.05f;
+  int camera_samples_per_pass = 0;  ///< 0: the default of the integrator
+  int64_t memory_photons = 1 << 22;  ///< photons kept at once; a larger pass runs in batches
+};
+
+/// A preset: the routes' names (film buffers, in order) and the estimators that fill them.
+struct Preset {
+  std::vector<std::string> route_names;
+  std::vector<std::unique_ptr<Estimator>> estimators;
+};
+
+/// Names of the table: "path", "sppm", "mixed".
+std::vector<std::string> integrator_names();
+/// The integrator that stands for a pbrt-v4 name ("volpath" -> "path" ...); empty if there is none.
+std::string integrator_for_scene_name(const std::string& pbrt_name);
+/// Throws UsageError for an unknown name.
+Preset make_integrator(const std::string& name, const IntegratorOptions& options,
+                       const Scene& scene);
+
+}  // namespace nephroid

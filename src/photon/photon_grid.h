@@ -1,0 +1,81 @@
+// Finds the photons around a point. Photons are kept in Morton order; cells of doubling size are runs of
+// that order and found through one hash table a level, so that radii over decades stay cheap.
+// Full cell codes are compared, so that two cells which share a bucket are never mistaken for each
+// other. Who calls it: photon integrators. It must not know BSDFs or films.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "photon/photon.h"
+
+namespace nephroid {
+
+class PhotonGrid {
+ public:
+  /// Takes the photons and sorts them. `max_levels` limits the cell sizes (tests use small values).
+  explicit PhotonGrid(std::vector<Photon> photons, int max_levels = kCoordinateBits + 1);
+
+  size_t size() const { return photons_.size(); }
+  const std::vector<Photon>& photons() const { return photons_; }
+
+  /// Calls found(photon, distance_squared) for every photon with |photon.p - center| <= radius, in an
+  /// order that depends on the photons and the query alone.
+  template <class F>
+  void query(const Vec3f& center, float radius, F&& found) const {
+    if (photons_.empty()) return;
+    const float r2 = radius * radius;
+    // The quantisation is monotonic, so the cells of center +- radius enclose all that can match.
+    const float reach = radius * (1.0f + 4 * kMachineEpsilon) + reach_slack_;
+    uint32_t lo[3], hi[3];
+    for (int i = 0; i < 3; ++i) {
+      if (center[i] + reach < min_[i] || center[i] - reach > max_[i]) return;
+      lo[i] = quantize(center[i] - reach, i);
+      hi[i] = quantize(center[i] + reach, i);
+    }
+    const Level& level = level_for(radius);
+    const int shift = level.shift;
+    for (uint32_t z = lo[2] >> shift; z <= hi[2] >> shift; ++z)
+      for (uint32_t y = lo[1] >> shift; y <= hi[1] >> shift; ++y)
+        for (uint32_t x = lo[0] >> shift; x <= hi[0] >> shift; ++x) {
+          const Cell* cell = level.find(morton(x, y, z));
+          if (!cell) continue;
+          for (uint32_t i = cell->begin; i < cell->end; ++i) {
+            const Vec3f d = positions_[i] - center;
+            const float d2 = dot(d, d);
+            if (d2 <= r2) found(photons_[i], d2);
+          }
+        }
+  }
+
+  static constexpr int kCoordinateBits = 20;
+
+ private:
+  struct Cell {
+    uint64_t code = 0;
+    uint32_t begin = 0, end = 0;  ///< empty if equal
+  };
+  /// Cells of size 2^shift quanta.
+  struct Level {
+    int shift = 0;
+    uint64_t mask = 0;
+    std::vector<Cell> table;  ///< open addressing, a power of two
+    const Cell* find(uint64_t code) const;
+  };
+
+  static uint64_t morton(uint32_t x, uint32_t y, uint32_t z);
+  uint32_t quantize(float x, int axis) const;
+  void sort();
+  void add_level(int shift);
+  const Level& level_for(float radius) const;
+
+  std::vector<Photon> photons_;
+  std::vector<Vec3f> positions_;
+  std::vector<uint64_t> codes_;
+  Vec3f min_, max_;
+  float quantum_ = 1;      ///< size of the smallest cell
+  float reach_slack_ = 0;  ///< rounding of positions, far from the origin
+  std::vector<Level> levels_;
+};
+
+}  // namespace nephroid

@@ -1,0 +1,128 @@
+#include "photon/photon_tracer.h"
+
+#include "core/parallel.h"
+
+namespace nephroid {
+
+namespace {
+
+// A photon's own dimensions, before those of its vertices: light 1, position 2, direction 2.
+constexpr int kEmissionDimensions = 5;
+constexpr uint64_t kStream = 0x70686f746f6e;  // "photon"
+
+class PhotonVisitor {
+ public:
+  PhotonVisitor(const Routes& routes, Route route, const SampledSpectrum& flux,
+                std::vector<Photon>& out)
+      : routes_(routes), route_(route), flux_(flux), out_(out) {}
+
+  void escape(const Walk&) {}
+  void emitter(const Walk&, const SurfaceInteraction&, const Light&) {}
+
+  ClassMask vertex(const Walk& walk, const WalkVertex& v, PathSampler&) {
+    if (contains(v.bsdf.classes(), EventClass::kSpecular)) specular_ = true;
+    if (contains(v.bsdf.finite_classes(), EventClass::kDiffuse) &&
+        routes_.deposits(state_, route_)) {
+      Photon photon;
+      photon.p = v.surface.p;
+      photon.wi = v.surface.wo;
+      photon.ng = v.surface.ng;
+      photon.flux = flux_ * walk.throughput;
+      photon.state = state_;
+      photon.secondary_terminated = walk.lambda.secondary_terminated();
+      photon.events = static_cast<uint16_t>(walk.events);
+      out_.push_back(photon);
+      ++stored_;
+    }
+    return routes_.useful_events(state_, route_);
+  }
+
+  bool scatter(const Walk&, const BsdfSample& s) {
+    state_ = routes_.photon_next(state_, s.event);
+    return true;
+  }
+
+  bool useful() const { return stored_ > 0; }
+  bool specular() const { return specular_; }
+
+ private:
+  const Routes& routes_;
+  const Route route_;
+  const SampledSpectrum flux_;
+  std::vector<Photon>& out_;
+  PhotonState state_ = Routes::kPhotonStart;
+  int stored_ = 0;
+  bool specular_ = false;
+};
+
+// Emission of one photon. Empty if the light gives nothing here.
+struct Emitted {
+  Ray ray;
+  SampledSpectrum flux;
+};
+std::optional<Emitted> emit(const Scene& scene, const SampledWavelengths& lambda, float time,
+                            PathSampler& sampler) {
+  float u_light = sampler.get_1d();
+  const Vec2f u_position = sampler.get_2d();
+  const Vec2f u_direction = sampler.get_2d();
+  const std::optional<LightChoice> choice = scene.light_sampler->sample_by_power(u_light);
+  if (!choice) return std::nullopt;
+  const Light& light = *scene.lights[static_cast<size_t>(choice->light)];
+  const std::optional<EmissionSample> e = light.sample_emission(u_position, u_direction, lambda);
+  if (!e || !(e->pdf_a > 0.0f) || !(e->pdf_w > 0.0f)) return std::nullopt;
+  Emitted out;
+  out.ray = e->ray;
+  out.ray.time = time;
+  out.flux = e->radiance * (e->cos_theta / (choice->pdf_p * e->pdf_a * e->pdf_w));
+  if (out.flux.is_black()) return std::nullopt;
+  return out;
+}
+
+}  // namespace
+
+PhotonTrace trace_photons(const Scene& scene, const Routes& routes, Route route,
+                          const PhotonTraceSettings& settings, int64_t begin, int64_t end) {
+  struct Chunk {
+    std::vector<Photon> photons;
+    uint64_t useful = 0, specular = 0, rays = 0;
+  };
+  std::vector<Chunk> chunks(static_cast<size_t>(chunk_count(end - begin, kPhotonChunk)));
+  const uint64_t first = static_cast<uint64_t>(settings.key.pass) *
+                             static_cast<uint64_t>(settings.photons_per_pass) +
+                         static_cast<uint64_t>(begin);
+  parallel_chunks(end - begin, kPhotonChunk, [&](int64_t c, int64_t b, int64_t e) {
+    Chunk& chunk = chunks[static_cast<size_t>(c)];
+    for (int64_t j = b; j < e; ++j) {
+      // All passes together run through one sequence; the seed changes when its 32 bits are used up.
+      const uint64_t number = first + static_cast<uint64_t>(j);
+      const SobolPoint point(static_cast<uint32_t>(number));
+      PathSampler sampler(point, hash_combine(settings.key.seed, kStream, number >> 32));
+      const auto emitted = emit(scene, settings.lambda, settings.time, sampler);
+      if (!emitted) continue;
+      Walk walk;
+      walk.ray = emitted->ray;
+      walk.lambda = settings.lambda;
+      walk.first_dimension = kEmissionDimensions;
+      walk.second_dimension = kEmissionDimensions + dimensions::kPerVertex;
+      PhotonVisitor visitor(routes, route, emitted->flux, chunk.photons);
+      random_walk(scene, TransportMode::kImportance, settings.max_events, walk, sampler, visitor);
+      chunk.useful += visitor.useful();
+      chunk.specular += visitor.specular();
+      chunk.rays += walk.rays;
+    }
+  });
+  PhotonTrace trace;
+  trace.paths = static_cast<uint64_t>(end - begin);
+  size_t total = 0;
+  for (const Chunk& chunk : chunks) total += chunk.photons.size();
+  trace.photons.reserve(total);
+  for (const Chunk& chunk : chunks) {
+    trace.photons.insert(trace.photons.end(), chunk.photons.begin(), chunk.photons.end());
+    trace.useful_paths += chunk.useful;
+    trace.specular_paths += chunk.specular;
+    trace.rays += chunk.rays;
+  }
+  return trace;
+}
+
+}  // namespace nephroid

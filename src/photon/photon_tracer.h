@@ -1,0 +1,38 @@
+// Shoots photons from the lights and keeps those that belong to a route.
+// Photon number j of pass i depends on (seed, i, j) alone; chunks of numbers are traced on any thread and
+// joined in the order of their numbers (docs/architecture.md, section 5).
+// Who calls it: photon integrators. It must not know films or cameras.
+#pragma once
+
+#include <vector>
+
+#include "photon/photon.h"
+#include "transport/random_walk.h"
+
+namespace nephroid {
+
+struct PhotonTrace {
+  std::vector<Photon> photons;
+  uint64_t paths = 0;           ///< emitted
+  uint64_t useful_paths = 0;    ///< that stored at least one photon
+  uint64_t specular_paths = 0;  ///< that met a surface with an S lobe
+  uint64_t rays = 0;
+};
+
+struct PhotonTraceSettings {
+  PassKey key;
+  int64_t photons_per_pass = 0;  ///< the sequence of a pass starts where the one before ended
+  SampledWavelengths lambda;     ///< of the pass
+  float time = 0;
+  int max_events = 0;            ///< of the whole path: a photon lands with fewer than these
+};
+
+/// Traces photons begin <= j < end of the pass and stores one at every surface with a finite D lobe where
+/// its light side makes it `route`'s. Flux is that of one photon: divide by the number emitted.
+PhotonTrace trace_photons(const Scene& scene, const Routes& routes, Route route,
+                          const PhotonTraceSettings& settings, int64_t begin, int64_t end);
+
+/// Photons are traced in chunks of this many; batches of a pass are whole chunks.
+inline constexpr int64_t kPhotonChunk = 1024;
+
+}  // namespace nephroid

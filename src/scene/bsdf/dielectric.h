@@ -1,0 +1,93 @@
+// Boundaries between transparent media: smooth or rough, reflecting and refracting; and thin panes,
+// whose transmission goes straight through. Values do not depend on the wavelength: with dispersion
+// the material keeps one wavelength and its index.
+// Who calls it: materials, and coated surfaces. It must not know textures or media.
+// Paper: Walter et al. 2007 (generalised half vector, Jacobians).
+#pragma once
+
+#include "scene/bsdf/bsdf.h"
+#include "scene/bsdf/fresnel.h"
+#include "scene/bsdf/microfacet.h"
+
+namespace nephroid {
+
+/// Which of the two things that a boundary does are asked for.
+enum class BoundaryPart : uint8_t { kReflection, kTransmission, kBoth };
+
+/// A boundary; `eta` is the index below over the index above.
+struct DielectricInterface {
+  float eta = 1.5f;
+  TrowbridgeReitz facets;
+
+  struct Value {
+    float f = 0;  ///< without cosine
+    float pdf_w = 0;
+  };
+  struct Sample {
+    Vec3f wi;
+    float weight = 0;  ///< f * |cos| / pdf_w
+    float pdf_w = 0;   ///< for a smooth boundary the discrete probability
+    float eta = 1;     ///< index at wi over index at wo
+    bool transmitted = false;
+  };
+
+  /// True if all lobes are delta functions.
+  bool smooth() const { return eta == 1.0f || facets.smooth(); }
+  /// Share of flux reflected at the side of w by a smooth boundary.
+  float fresnel(const Vec3f& w) const { return eta == 1.0f ? 0.0f : fresnel_dielectric(w.z, eta); }
+  /// f from wi to wo and the density of sample(wo, ..., part); zero if smooth.
+  Value evaluate(const Vec3f& wo, const Vec3f& wi, TransportMode mode, BoundaryPart part) const;
+  /// A direction of `part`, chosen by the Fresnel term if both are asked for. Empty if the light
+  /// does not get away (shadowed facets, total reflection when only transmission is asked for).
+  std::optional<Sample> sample(const Vec3f& wo, float uc, const Vec2f& u, TransportMode mode,
+                               BoundaryPart part) const;
+};
+
+/// Both lobes have the same class. With eta = 1 the boundary does nothing: light goes straight
+/// through, which is no event, whatever `among` is.
+class DielectricBsdf final : public Bsdf {
+ public:
+  DielectricBsdf(const DielectricInterface& boundary, float specular_alpha)
+      : boundary_(boundary),
+        class_(boundary.smooth() ? EventClass::kSpecular
+                                 : boundary.facets.event_class(specular_alpha)) {}
+
+  ClassMask classes() const override { return mask_of(class_); }
+  ClassMask finite_classes() const override {
+    return boundary_.smooth() ? ClassMask::kNone : mask_of(class_);
+  }
+  BsdfEval eval(const Vec3f& wo, const Vec3f& wi, TransportMode mode, EventClass c,
+                ClassMask among) const override;
+  std::optional<BsdfSample> sample(const Vec3f& wo, float uc, const Vec2f& u, TransportMode mode,
+                                   ClassMask among) const override;
+  SampledSpectrum albedo(const Vec3f&) const override { return SampledSpectrum(1.0f); }
+
+ private:
+  DielectricInterface boundary_;
+  EventClass class_;
+};
+
+/// A pane of two parallel boundaries, all reflections between them added up. Its reflection is a
+/// delta lobe of class S; its transmission goes straight through, is no event, and can be sampled
+/// whatever `among` is. No direction depends on the wavelength, so `eta` is a spectrum.
+class ThinDielectricBsdf final : public Bsdf {
+ public:
+  explicit ThinDielectricBsdf(const SampledSpectrum& eta) : eta_(eta) {}
+
+  /// Share of flux reflected by the pane for light at cosine `cos_i` (absolute value is taken).
+  static SampledSpectrum pane_reflectance(float cos_i, const SampledSpectrum& eta);
+
+  ClassMask classes() const override { return ClassMask::kSpecular; }
+  ClassMask finite_classes() const override { return ClassMask::kNone; }
+  BsdfEval eval(const Vec3f&, const Vec3f&, TransportMode, EventClass, ClassMask) const override {
+    return {};
+  }
+  std::optional<BsdfSample> sample(const Vec3f& wo, float uc, const Vec2f& u, TransportMode mode,
+                                   ClassMask among) const override;
+  SampledSpectrum albedo(const Vec3f&) const override { return SampledSpectrum(1.0f); }
+
+ private:
+  SampledSpectrum eta_;
+};
+
+}  // namespace nephroid

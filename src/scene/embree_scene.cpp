@@ -1,0 +1,196 @@
+#include "scene/embree_scene.h"
+
+#include <embree3/rtcore.h>
+
+#include <string>
+#include <vector>
+
+#include "core/errors.h"
+
+namespace nephroid {
+
+class EmbreeDevice {
+ public:
+  EmbreeDevice() : device(rtcNewDevice(nullptr)) {
+    if (!device) throw Error(ExitStatus::kRender, "Embree could not be started");
+  }
+  ~EmbreeDevice() { rtcReleaseDevice(device); }
+  EmbreeDevice(const EmbreeDevice&) = delete;
+  EmbreeDevice& operator=(const EmbreeDevice&) = delete;
+
+  /// Throws if the last calls left an error behind.
+  void check(const char* what) const {
+    const RTCError error = rtcGetDeviceError(device);
+    if (error == RTC_ERROR_NONE) return;
+    const char* reason = error == RTC_ERROR_OUT_OF_MEMORY ? "out of memory" : "internal error";
+    throw Error(ExitStatus::kRender, std::string("Embree: ") + reason + " while " + what);
+  }
+
+  RTCDevice device;
+};
+
+std::shared_ptr<EmbreeDevice> EmbreeScene::make_device() { return std::make_shared<EmbreeDevice>(); }
+
+struct EmbreeScene::Impl {
+  std::shared_ptr<EmbreeDevice> device;
+  RTCScene scene = nullptr;
+  std::vector<ShapePtr> shapes;
+};
+
+EmbreeScene::EmbreeScene(std::shared_ptr<EmbreeDevice> device) : impl_(std::make_unique<Impl>()) {
+  impl_->device = std::move(device);
+  impl_->scene = rtcNewScene(impl_->device->device);
+  rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
+}
+
+EmbreeScene::~EmbreeScene() { rtcReleaseScene(impl_->scene); }
+
+namespace {
+
+void shape_bounds(const RTCBoundsFunctionArguments* args) {
+  const auto* shape = static_cast<const Shape*>(args->geometryUserPtr);
+  const Bounds3f b = shape->bounds(args->primID);
+  args->bounds_o->lower_x = b.min.x;
+  args->bounds_o->lower_y = b.min.y;
+  args->bounds_o->lower_z = b.min.z;
+  args->bounds_o->upper_x = b.max.x;
+  args->bounds_o->upper_y = b.max.y;
+  args->bounds_o->upper_z = b.max.z;
+}
+
+Ray ray_of(const RTCRay& r) {
+  Ray ray;
+  ray.o = {r.org_x, r.org_y, r.org_z};
+  ray.d = {r.dir_x, r.dir_y, r.dir_z};
+  ray.t_max = r.tfar;
+  ray.time = r.time;
+  return ray;
+}
+
+void shape_intersect(const RTCIntersectFunctionNArguments* args) {
+  if (!args->valid[0]) return;
+  const auto* shape = static_cast<const Shape*>(args->geometryUserPtr);
+  auto* rayhit = reinterpret_cast<RTCRayHit*>(args->rayhit);
+  const auto hit = shape->intersect(args->primID, ray_of(rayhit->ray), rayhit->ray.tnear);
+  if (!hit) return;
+  rayhit->ray.tfar = hit->t;
+  rayhit->hit.u = hit->uv.x;
+  rayhit->hit.v = hit->uv.y;
+  rayhit->hit.primID = args->primID;
+  rayhit->hit.geomID = args->geomID;
+  rayhit->hit.instID[0] = args->context->instID[0];
+}
+
+void shape_occluded(const RTCOccludedFunctionNArguments* args) {
+  if (!args->valid[0]) return;
+  const auto* shape = static_cast<const Shape*>(args->geometryUserPtr);
+  auto* ray = reinterpret_cast<RTCRay*>(args->ray);
+  if (shape->intersect(args->primID, ray_of(*ray), ray->tnear)) ray->tfar = -kInfinity;
+}
+
+RTCRay rtc_ray(const Ray& ray, unsigned mask) {
+  RTCRay r;
+  r.org_x = ray.o.x;
+  r.org_y = ray.o.y;
+  r.org_z = ray.o.z;
+  r.tnear = 0.0f;
+  r.dir_x = ray.d.x;
+  r.dir_y = ray.d.y;
+  r.dir_z = ray.d.z;
+  r.time = ray.time;
+  r.tfar = ray.t_max;
+  r.mask = mask;
+  r.id = 0;
+  r.flags = 0;
+  return r;
+}
+
+}  // namespace
+
+uint32_t EmbreeScene::add_shape(ShapePtr shape, unsigned mask) {
+  const RTCDevice device = impl_->device->device;
+  RTCGeometry geometry;
+  if (const auto* mesh = dynamic_cast<const TriangleMesh*>(shape.get())) {
+    // The buffers are shared; the builder of the mesh left room for Embree's 16-byte reads.
+    const MeshData& data = mesh->data();
+    geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                               data.positions.data(), 0, sizeof(Vec3f), data.positions.size());
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                               data.triangles.data(), 0, 3 * sizeof(uint32_t),
+                               data.triangles.size() / 3);
+  } else {
+    geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+    rtcSetGeometryUserPrimitiveCount(geometry, shape->primitive_count());
+    rtcSetGeometryUserData(geometry, const_cast<Shape*>(shape.get()));
+    rtcSetGeometryBoundsFunction(
+        geometry, [](const RTCBoundsFunctionArguments* args) { shape_bounds(args); }, nullptr);
+    rtcSetGeometryIntersectFunction(geometry, shape_intersect);
+    rtcSetGeometryOccludedFunction(geometry, shape_occluded);
+  }
+  rtcSetGeometryMask(geometry, mask);
+  rtcCommitGeometry(geometry);
+  const uint32_t id = rtcAttachGeometry(impl_->scene, geometry);
+  rtcReleaseGeometry(geometry);
+  impl_->shapes.push_back(std::move(shape));
+  impl_->device->check("adding a shape");
+  return id;
+}
+
+uint32_t EmbreeScene::add_instance(const EmbreeScene& child, const Transform& object_to_world,
+                                   unsigned mask) {
+  const RTCGeometry geometry =
+      rtcNewGeometry(impl_->device->device, RTC_GEOMETRY_TYPE_INSTANCE);
+  rtcSetGeometryInstancedScene(geometry, child.impl_->scene);
+  rtcSetGeometryTimeStepCount(geometry, 1);
+  float columns[12];
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 3; ++j) columns[3 * i + j] = static_cast<float>(object_to_world.m[i][j]);
+  rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
+  rtcSetGeometryMask(geometry, mask);
+  rtcCommitGeometry(geometry);
+  const uint32_t id = rtcAttachGeometry(impl_->scene, geometry);
+  rtcReleaseGeometry(geometry);
+  impl_->device->check("adding an instance");
+  return id;
+}
+
+void EmbreeScene::commit() {
+  rtcCommitScene(impl_->scene);
+  impl_->device->check("building the hierarchy");
+}
+
+std::optional<EmbreeHit> EmbreeScene::intersect(const Ray& ray, unsigned mask) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRayHit rayhit;
+  rayhit.ray = rtc_ray(ray, mask);
+  rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  rayhit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(impl_->scene, &context, &rayhit);
+  if (rayhit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  EmbreeHit hit;
+  hit.t = rayhit.ray.tfar;
+  hit.uv = {rayhit.hit.u, rayhit.hit.v};
+  hit.geometry = rayhit.hit.geomID;
+  hit.primitive = rayhit.hit.primID;
+  hit.instance = rayhit.hit.instID[0];
+  return hit;
+}
+
+bool EmbreeScene::occluded(const Ray& ray, unsigned mask) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRay r = rtc_ray(ray, mask);
+  rtcOccluded1(impl_->scene, &context, &r);
+  return r.tfar < 0.0f;
+}
+
+Bounds3f EmbreeScene::bounds() const {
+  RTCBounds b;
+  rtcGetSceneBounds(impl_->scene, &b);
+  if (!(b.lower_x <= b.upper_x)) return {};
+  return {{b.lower_x, b.lower_y, b.lower_z}, {b.upper_x, b.upper_y, b.upper_z}};
+}
+
+}  // namespace nephroid

@@ -1,0 +1,57 @@
+// Ray tracing: a bounding hierarchy over shapes and instances of other hierarchies.
+// The .cpp is the only file that includes Embree (Wald et al. 2014).
+// Who calls it: Scene and the scene builder. It must not know materials or lights.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "scene/shape/shape.h"
+
+namespace nephroid {
+
+/// What a ray met, in the numbers of the hierarchy: geometries are numbered from 0 in the order in
+/// which they were added.
+struct EmbreeHit {
+  float t = 0;
+  Vec2f uv;
+  uint32_t geometry = 0;   ///< in the top level, or in the instanced hierarchy
+  uint32_t primitive = 0;
+  uint32_t instance = kNoInstance;  ///< geometry number of the instance in the top level
+  static constexpr uint32_t kNoInstance = 0xffffffffu;
+};
+
+/// Rays ask for geometry whose mask shares a bit with theirs.
+inline constexpr unsigned kMaskOpaque = 1;
+inline constexpr unsigned kMaskPassing = 2;  ///< may let light straight through
+inline constexpr unsigned kMaskAll = 3;
+
+class EmbreeDevice;
+
+class EmbreeScene {
+ public:
+  explicit EmbreeScene(std::shared_ptr<EmbreeDevice> device);
+  ~EmbreeScene();
+  EmbreeScene(const EmbreeScene&) = delete;
+  EmbreeScene& operator=(const EmbreeScene&) = delete;
+
+  static std::shared_ptr<EmbreeDevice> make_device();
+
+  /// Both return the number of the new geometry. The shape is kept alive.
+  uint32_t add_shape(ShapePtr shape, unsigned mask);
+  /// `child` has been committed and outlives this scene.
+  uint32_t add_instance(const EmbreeScene& child, const Transform& object_to_world, unsigned mask);
+  /// Builds the hierarchy. Throws Error if memory runs out.
+  void commit();
+
+  std::optional<EmbreeHit> intersect(const Ray& ray, unsigned mask) const;
+  bool occluded(const Ray& ray, unsigned mask) const;
+  /// World bounds; empty if there is nothing.
+  Bounds3f bounds() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace nephroid

@@ -1,0 +1,12 @@
+// The Film directive and what the command line changes of it.
+#pragma once
+
+#include "scene/scene.h"
+
+namespace nephroid {
+
+/// pbrt-v4's film parameters: resolution, crop, exposure, colour space, file name. Throws SceneError.
+FilmDescription make_film_description(const SceneDescription& description,
+                                      const SceneOverrides& overrides, Diagnostics& diagnostics);
+
+}  // namespace nephroid

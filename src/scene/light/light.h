@@ -1,0 +1,102 @@
+// The interface of every emitter, world space. One family a file; table.cpp maps the scene format's
+// names to factories; light_sampler.h chooses among many.
+// Who calls it: transport and photon. It must not know routes or integrators.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/spectra.h"
+#include "scene/interaction.h"
+#include "scene/shape/shape.h"
+#include "scene/texture/texture.h"
+
+namespace nephroid {
+
+/// A direction towards a light from a receiving point.
+struct LightSample {
+  SampledSpectrum radiance;  ///< arriving, for a delta light divided by its delta function
+  Vec3f wi;                  ///< unit, from the receiver to the light
+  float pdf_w = 0;           ///< at the receiver; 1 for delta lights
+  Vec3f p;                   ///< point on the light; for infinite lights a point outside the scene
+  Vec3f p_error;             ///< of p; zero for infinite and point lights
+  Vec3f ng;                  ///< of the light's surface, null if it has none
+  bool delta = false;        ///< no walk can hit this light
+  bool infinite = false;
+};
+
+/// A ray that leaves a light: where photons start.
+struct EmissionSample {
+  Ray ray;  ///< origin moved off the surface already
+  SampledSpectrum radiance;
+  float pdf_a = 0;      ///< of the origin, 1/area (for infinite lights on the disk outside the scene;
+                        ///< 1 for a light at a point)
+  float pdf_w = 0;      ///< of the direction, 1/sr (1 for a delta direction)
+  float cos_theta = 1;  ///< at the emitting surface, 1 where there is none
+  /// Flux carried by a path: radiance * cos_theta / (pdf_a * pdf_w).
+};
+
+/// What the light tree knows of a light (Conty Estevez & Kulla 2018; pbrt-v4 section 12.6.3).
+struct LightBounds {
+  Bounds3f bounds;
+  Vec3f axis{0, 0, 1};
+  float power = 0;
+  float cos_theta_o = -1, cos_theta_e = 0;
+  bool two_sided = false;
+};
+
+struct SceneSphere {
+  Vec3f center{0, 0, 0};
+  float radius = 1;
+};
+
+class Light {
+ public:
+  virtual ~Light() = default;
+
+  virtual bool is_delta() const { return false; }
+  virtual bool is_infinite() const { return false; }
+  virtual bool is_area() const { return false; }
+
+  /// A direction to the light as seen from `from`; empty where nothing arrives.
+  virtual std::optional<LightSample> sample_towards(const Vec3f& from, const Vec2f& u,
+                                                    const SampledWavelengths& lambda) const = 0;
+  /// Density pdf_w of sample_towards at `from` for unit direction `wi`; `p` and `ng` are the point hit on
+  /// the light (unused by infinite lights). Zero for delta lights.
+  virtual float pdf_towards(const Vec3f& from, const Vec3f& wi, const Vec3f& p,
+                            const Vec3f& ng) const = 0;
+  /// Radiance leaving a point of an area light with outside normal `ng` in direction `w` (unit, away
+  /// from the light). Black for others.
+  virtual SampledSpectrum radiance(const Vec3f& /*p*/, const Vec3f& /*ng*/, const Vec2f& /*uv*/,
+                                   const Vec3f& /*w*/, const SampledWavelengths&) const {
+    return SampledSpectrum();
+  }
+  /// Radiance of an infinite light seen in unit direction `w` (away from the viewer). Black for others.
+  virtual SampledSpectrum radiance_at_infinity(const Vec3f& /*w*/, const SampledWavelengths&) const {
+    return SampledSpectrum();
+  }
+  /// A ray that leaves the light; `u_position` and `u_direction` in [0,1)^2.
+  virtual std::optional<EmissionSample> sample_emission(const Vec2f& u_position,
+                                                        const Vec2f& u_direction,
+                                                        const SampledWavelengths& lambda) const = 0;
+  /// Approximate emitted power, averaged over wavelengths, in watts: for choosing lights.
+  virtual float power() const = 0;
+  /// Empty for infinite lights.
+  virtual std::optional<LightBounds> bounds() const = 0;
+  /// Called once before rendering, when the extent of the scene is known.
+  virtual void set_scene_sphere(const SceneSphere&) {}
+};
+using LightPtr = std::unique_ptr<Light>;
+
+/// Lights of "LightSource" directives, in file order. Unknown types and bad parameters throw
+/// SceneError; what cannot be rendered yet is a located error or warning. One directive may give no
+/// light (a warning) but never two.
+std::vector<LightPtr> make_lights(const SceneDescription& description, Diagnostics& diagnostics);
+
+/// One light per primitive of a shape with an "AreaLightSource" directive; `alpha` may be null.
+std::vector<LightPtr> make_area_lights(const DirectiveDescription& description, ShapePtr shape,
+                                       const std::string& directory, const TextureLibrary& textures,
+                                       FloatTexturePtr alpha, Diagnostics& diagnostics);
+
+}  // namespace nephroid

@@ -1,0 +1,40 @@
+// Chooses a light for a receiving point (light tree with a share for infinite lights) or for emitting
+// a photon (by power).
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "scene/light/light.h"
+
+namespace nephroid {
+
+struct LightChoice {
+  int light = -1;
+  float pdf_p = 0;
+};
+
+class LightSampler {
+ public:
+  explicit LightSampler(const std::vector<LightPtr>& lights);
+  ~LightSampler();
+  LightSampler(LightSampler&&) noexcept;
+
+  /// A light for point `p` with unit normal `n` (null vector: no normal); empty if none can matter.
+  std::optional<LightChoice> sample(const Vec3f& p, const Vec3f& n, float u) const;
+  /// Probability with which sample() returns `light` at this point.
+  float pmf(const Vec3f& p, const Vec3f& n, int light) const;
+
+  /// A light in proportion to its power; empty if all are black. `u` is rescaled to [0,1) for reuse.
+  std::optional<LightChoice> sample_by_power(float& u) const;
+  float pmf_by_power(int light) const;
+
+  /// Indices of the infinite lights.
+  const std::vector<int>& infinite_lights() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace nephroid

@@ -1,0 +1,135 @@
+// The materials "coateddiffuse" and "coatedconductor".
+// Who calls it: the table. It must not know how layers are evaluated; it only picks the closed form
+// when the coat is the same everywhere and does not scatter.
+#include "scene/bsdf/coated.h"
+#include "scene/bsdf/coated_diffuse.h"
+#include "scene/material/metal_input.h"
+#include "scene/material/surface_material.h"
+
+namespace nephroid {
+namespace {
+
+/// Everything of a coat but its base; parameter names of the boundary start with `prefix`.
+class CoatInput {
+ public:
+  CoatInput(const MaterialDescription& d, const MaterialContext& c, const std::string& prefix)
+      : eta_(d.parameters, prefix + "eta", c.directory),
+        roughness_(c.textures, d.parameters, prefix, d.parameters.get_bool("remaproughness", true)),
+        thickness_(c.textures.float_texture(d.parameters, prefix + "thickness", 0.01f)),
+        albedo_(read_spectrum(c.textures, d.parameters, "albedo", SpectrumKind::kAlbedo, 0.0f)),
+        g_(c.textures.float_texture(d.parameters, "g", 0.0f)),
+        max_depth_(d.parameters.get_int("maxdepth", 10)),
+        walks_(d.parameters.get_int("nsamples", 1)) {
+    for (const auto& [name, value] : {std::pair{"maxdepth", max_depth_}, {"nsamples", walks_}})
+      if (value < 1)
+        throw SceneError(d.where, "\"" + std::string(name) + "\" is " + std::to_string(value) +
+                                      ", expected at least 1");
+  }
+
+  Coat at(const SurfaceInteraction& point, SampledWavelengths& lambda) const {
+    Coat coat;
+    coat.boundary = {eta_.at_hero(lambda), roughness_.at(point)};
+    coat.thickness = positive(thickness_.at(point));
+    coat.albedo = clamp(albedo_.at(point, lambda), 0.0f, 1.0f);
+    coat.scatters = !coat.albedo.is_black();
+    coat.g = std::clamp(g_.at(point), -0.999f, 0.999f);
+    coat.max_depth = max_depth_;
+    coat.walks = walks_;
+    return coat;
+  }
+
+  /// The table of the closed form, or nullptr if the coat varies, is anisotropic or scatters.
+  std::shared_ptr<const CoatTable> table(CoatTableCache& cache) const {
+    const auto facets = roughness_.constant();
+    if (!albedo_.is_black() || !eta_.constant() || !thickness_.constant() || !facets ||
+        facets->alpha_x() != facets->alpha_y())
+      return nullptr;
+    return cache.find_or_make({*eta_.constant(), *facets}, positive(*thickness_.constant()),
+                              max_depth_);
+  }
+
+  ClassMask possible_classes(float specular_alpha) const {
+    return roughness_.possible_classes(specular_alpha);
+  }
+
+ private:
+  static float positive(float thickness) {
+    return std::max(thickness, std::numeric_limits<float>::min());
+  }
+
+  IndexInput eta_;
+  RoughnessInput roughness_;
+  FloatInput thickness_;
+  SpectrumInput albedo_;
+  FloatInput g_;
+  int max_depth_, walks_;
+};
+
+class CoatedDiffuseMaterial final : public SurfaceMaterial {
+ public:
+  CoatedDiffuseMaterial(const MaterialDescription& d, const MaterialContext& c)
+      : SurfaceMaterial(d, c),
+        coat_(d, c, ""),
+        reflectance_(
+            read_spectrum(c.textures, d.parameters, "reflectance", SpectrumKind::kAlbedo, 0.5f)),
+        specular_alpha_(c.settings.specular_alpha),
+        table_(coat_.table(*c.coat_tables)) {}
+
+  const Bsdf* make_bsdf(const SurfaceInteraction& point, SampledWavelengths& lambda,
+                        BsdfArena& arena) const override {
+    const SampledSpectrum rho = clamp(reflectance_.at(point, lambda), 0.0f, 1.0f);
+    if (table_) return arena.make<CoatedDiffuseBsdf>(table_.get(), rho, specular_alpha_);
+    return arena.make<CoatedBsdf<LambertSurface>>(coat_.at(point, lambda), LambertSurface{rho},
+                                                  specular_alpha_);
+  }
+  ClassMask possible_classes() const override {
+    return ClassMask::kDiffuse | coat_.possible_classes(specular_alpha_);
+  }
+
+ private:
+  CoatInput coat_;
+  SpectrumInput reflectance_;
+  float specular_alpha_;
+  std::shared_ptr<const CoatTable> table_;
+};
+
+class CoatedConductorMaterial final : public SurfaceMaterial {
+ public:
+  CoatedConductorMaterial(const MaterialDescription& d, const MaterialContext& c)
+      : SurfaceMaterial(d, c),
+        coat_(d, c, "interface."),
+        metal_(c.textures, d.parameters, "conductor."),
+        roughness_(c.textures, d.parameters, "conductor.",
+                   d.parameters.get_bool("remaproughness", true)),
+        specular_alpha_(c.settings.specular_alpha) {}
+
+  const Bsdf* make_bsdf(const SurfaceInteraction& point, SampledWavelengths& lambda,
+                        BsdfArena& arena) const override {
+    const Coat coat = coat_.at(point, lambda);
+    ConductorSurface metal;
+    metal_.at(point, lambda, coat.boundary.eta, &metal.eta, &metal.k);
+    metal.facets = roughness_.at(point);
+    return arena.make<CoatedBsdf<ConductorSurface>>(coat, metal, specular_alpha_);
+  }
+  ClassMask possible_classes() const override {
+    return coat_.possible_classes(specular_alpha_) | roughness_.possible_classes(specular_alpha_);
+  }
+
+ private:
+  CoatInput coat_;
+  MetalInput metal_;
+  RoughnessInput roughness_;
+  float specular_alpha_;
+};
+
+}  // namespace
+
+MaterialPtr make_coated_diffuse(const MaterialDescription& d, const MaterialContext& c) {
+  return std::make_shared<CoatedDiffuseMaterial>(d, c);
+}
+
+MaterialPtr make_coated_conductor(const MaterialDescription& d, const MaterialContext& c) {
+  return std::make_shared<CoatedConductorMaterial>(d, c);
+}
+
+}  // namespace nephroid

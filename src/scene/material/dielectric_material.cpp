@@ -1,0 +1,75 @@
+// The materials "dielectric" and "thindielectric". A dielectric whose index depends on the
+// wavelength keeps the hero wavelength only; a thin pane bends nothing and keeps all. Who calls it:
+// the table. It must not know participating media.
+#include "scene/bsdf/dielectric.h"
+#include "scene/material/inputs.h"
+#include "scene/material/surface_material.h"
+
+namespace nephroid {
+namespace {
+
+class DielectricMaterial final : public SurfaceMaterial {
+ public:
+  DielectricMaterial(const MaterialDescription& d, const MaterialContext& c)
+      : SurfaceMaterial(d, c),
+        eta_(d.parameters, "eta", c.directory),
+        roughness_(c.textures, d.parameters, "", d.parameters.get_bool("remaproughness", true)),
+        specular_alpha_(c.settings.specular_alpha) {}
+
+  const Bsdf* make_bsdf(const SurfaceInteraction& point, SampledWavelengths& lambda,
+                        BsdfArena& arena) const override {
+    const DielectricInterface boundary{eta_.at_hero(lambda), roughness_.at(point)};
+    return arena.make<DielectricBsdf>(boundary, specular_alpha_);
+  }
+  bool passes_straight() const override { return eta_.constant() == 1.0f; }
+  SampledSpectrum straight_transmittance(const SurfaceInteraction&,
+                                         const SampledWavelengths&) const override {
+    return SampledSpectrum(passes_straight() ? 1.0f : 0.0f);
+  }
+  ClassMask possible_classes() const override {
+    return passes_straight() ? ClassMask::kNone : roughness_.possible_classes(specular_alpha_);
+  }
+
+ private:
+  IndexInput eta_;
+  RoughnessInput roughness_;
+  float specular_alpha_;
+};
+
+class ThinDielectricMaterial final : public SurfaceMaterial {
+ public:
+  ThinDielectricMaterial(const MaterialDescription& d, const MaterialContext& c)
+      : SurfaceMaterial(d, c), eta_(d.parameters, "eta", c.directory) {}
+
+  const Bsdf* make_bsdf(const SurfaceInteraction&, SampledWavelengths& lambda,
+                        BsdfArena& arena) const override {
+    return arena.make<ThinDielectricBsdf>(eta_.at(lambda));
+  }
+  bool passes_straight() const override { return true; }
+  SampledSpectrum straight_transmittance(const SurfaceInteraction& point,
+                                         const SampledWavelengths& lambda) const override {
+    float cos_o = dot(point.wo, point.shading.z);
+    if (has_bump()) {
+      SurfaceInteraction bumped = point;
+      bump(bumped);
+      cos_o = dot(point.wo, bumped.shading.z);
+    }
+    return SampledSpectrum(1.0f) - ThinDielectricBsdf::pane_reflectance(cos_o, eta_.at(lambda));
+  }
+  ClassMask possible_classes() const override { return ClassMask::kSpecular; }
+
+ private:
+  IndexInput eta_;
+};
+
+}  // namespace
+
+MaterialPtr make_dielectric(const MaterialDescription& d, const MaterialContext& c) {
+  return std::make_shared<DielectricMaterial>(d, c);
+}
+
+MaterialPtr make_thin_dielectric(const MaterialDescription& d, const MaterialContext& c) {
+  return std::make_shared<ThinDielectricMaterial>(d, c);
+}
+
+}  // namespace nephroid

@@ -1,0 +1,95 @@
+// The inputs of materials: textures that remember whether they are the same everywhere, so that
+// constant ones cost nothing per point; roughness and refractive indices in the scene format's
+// words. Who calls it: the materials of this folder. It must not know what lobes are made of the
+// values.
+#pragma once
+
+#include "scene/bsdf/microfacet.h"
+#include "scene/texture/texture.h"
+
+namespace nephroid {
+
+/// A float that may vary over the surface.
+class FloatInput {
+ public:
+  FloatInput() = default;
+  explicit FloatInput(FloatTexturePtr texture)
+      : texture_(std::move(texture)), constant_(texture_->constant()) {}
+
+  float at(const SurfaceInteraction& point) const {
+    return constant_ ? *constant_ : texture_->eval(TextureContext(point));
+  }
+  std::optional<float> constant() const { return constant_; }
+
+ private:
+  FloatTexturePtr texture_;
+  std::optional<float> constant_;
+};
+
+/// A spectrum that may vary over the surface.
+class SpectrumInput {
+ public:
+  SpectrumInput() = default;
+  explicit SpectrumInput(SpectrumTexturePtr texture)
+      : texture_(std::move(texture)), constant_(texture_ ? texture_->constant() : nullptr) {}
+
+  bool is_set() const { return texture_ != nullptr; }
+  SampledSpectrum at(const SurfaceInteraction& point, const SampledWavelengths& lambda) const {
+    return constant_ ? constant_->sample(lambda) : texture_->eval(TextureContext(point), lambda);
+  }
+  /// True if the value is zero everywhere.
+  bool is_black() const { return constant_ && !(constant_->max_value() > 0.0f); }
+
+ private:
+  SpectrumTexturePtr texture_;
+  SpectrumPtr constant_;
+};
+
+/// `name` of the parameters as a spectrum texture, else the constant `fallback`.
+SpectrumInput read_spectrum(const TextureLibrary& textures, const ParameterSet& parameters,
+                            const std::string& name, SpectrumKind kind, float fallback);
+
+/// Two roughnesses that become the alphas of facets.
+class RoughnessInput {
+ public:
+  RoughnessInput() = default;
+  /// Reads <prefix>uroughness and <prefix>vroughness, each else <prefix>roughness, else 0.
+  RoughnessInput(const TextureLibrary& textures, const ParameterSet& parameters,
+                 const std::string& prefix, bool remap);
+
+  TrowbridgeReitz at(const SurfaceInteraction& point) const {
+    return constant_ ? *constant_ : facets(u_.at(point), v_.at(point));
+  }
+  std::optional<TrowbridgeReitz> constant() const { return constant_; }
+  /// Classes that a lobe with this roughness may have.
+  ClassMask possible_classes(float specular_alpha) const;
+
+ private:
+  TrowbridgeReitz facets(float u, float v) const;
+
+  FloatInput u_, v_;
+  bool remap_ = true;
+  std::optional<TrowbridgeReitz> constant_;
+};
+
+/// The refractive index of a transparent medium.
+class IndexInput {
+ public:
+  IndexInput() = default;
+  /// Reads `name` (number, rgb, spectrum), else 1.5. Throws SceneError for anything else.
+  IndexInput(const ParameterSet& parameters, const std::string& name, const std::string& directory);
+
+  /// The index if it is the same for all wavelengths.
+  std::optional<float> constant() const { return constant_; }
+  /// The index at the hero wavelength; the others are dropped if it varies. Never 0, and exactly 1
+  /// (no boundary at all) only if it is 1 for all wavelengths.
+  float at_hero(SampledWavelengths& lambda) const;
+  /// The index at each wavelength, none of them 0.
+  SampledSpectrum at(const SampledWavelengths& lambda) const;
+
+ private:
+  SpectrumPtr spectrum_;
+  std::optional<float> constant_;
+};
+
+}  // namespace nephroid

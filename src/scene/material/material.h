@@ -1,0 +1,62 @@
+// Materials: textures evaluated at a point and turned into a BSDF. One family a file; table.cpp maps
+// the scene format's names to factories.
+// Who calls it: Scene and transport. It must not know integrators or lights.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scene/bsdf/bsdf.h"
+#include "scene/texture/texture.h"
+
+namespace nephroid {
+
+class Material {
+ public:
+  virtual ~Material() = default;
+
+  /// The BSDF at a point, in `arena`. May drop secondary wavelengths (dispersion). Never null for a
+  /// surface; null means that the surface is not there ("interface"). The point's shading frame has
+  /// been bumped already.
+  virtual const Bsdf* make_bsdf(const SurfaceInteraction& point, SampledWavelengths& lambda,
+                                BsdfArena& arena) const = 0;
+
+  /// The material that stands for this one at a point: itself, or for `mix` the one that is chosen by
+  /// a hash of the point (pbrt-v4 section 10.5.1).
+  virtual const Material* resolve(const SurfaceInteraction&) const { return this; }
+
+  /// Moves the shading frame by the bump or normal map, if there is one.
+  virtual void bump(SurfaceInteraction&) const {}
+  virtual bool has_bump() const { return false; }
+
+  /// True for "interface" (no surface at all).
+  virtual bool is_interface() const { return false; }
+  /// True if light may pass straight through without a letter (thin dielectrics): shadow rays then
+  /// ask straight_transmittance.
+  virtual bool passes_straight() const { return is_interface(); }
+  /// Weight of a ray that goes straight through, for shadow rays.
+  virtual SampledSpectrum straight_transmittance(const SurfaceInteraction&,
+                                                 const SampledWavelengths&) const {
+    return SampledSpectrum(is_interface() ? 1.0f : 0.0f);
+  }
+  /// Classes that any lobe of this material may have at any point (a conservative answer; for the
+  /// report "why is there no caustic").
+  virtual ClassMask possible_classes() const = 0;
+};
+using MaterialPtr = std::shared_ptr<const Material>;
+
+/// Options of the scene that change how materials become lobes.
+struct MaterialSettings {
+  float specular_alpha = kDefaultSpecularAlpha;
+};
+
+/// Makes all materials of a description, in its order (index = MaterialReference::index). Names are
+/// resolved for `mix`. Throws SceneError for unknown types or names; what cannot be rendered yet is a
+/// located error or warning.
+std::vector<MaterialPtr> make_materials(const SceneDescription& description,
+                                        const TextureLibrary& textures,
+                                        const MaterialSettings& settings,
+                                        Diagnostics& diagnostics);
+
+}  // namespace nephroid

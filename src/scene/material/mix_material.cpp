@@ -1,0 +1,82 @@
+// The materials "mix", which is one of two others at each point, and "interface", which is nothing.
+// Who calls it: the table. It must not know what it mixes.
+#include <bit>
+
+#include "core/sampler.h"
+#include "scene/material/inputs.h"
+#include "scene/material/table.h"
+
+namespace nephroid {
+namespace {
+
+class MixMaterial final : public Material {
+ public:
+  MixMaterial(const MaterialDescription& d, const MaterialContext& c)
+      : amount_(c.textures.float_texture(d.parameters, "amount", 0.5f)), salt_(c.index) {
+    const Parameter* names = d.parameters.find("materials", {"string"});
+    if (!names || names->strings.size() != 2)
+      throw SceneError(names ? names->where : d.where,
+                       "\"mix\" has " + std::to_string(names ? names->strings.size() : size_t{0}) +
+                           " names in \"string materials\", expected two");
+    for (int i = 0; i < 2; ++i) materials_[i] = c.named(names->strings[i], names->where);
+  }
+
+  const Material* resolve(const SurfaceInteraction& point) const override {
+    const float amount = amount_.at(point);
+    if (amount <= 0.0f) return materials_[0]->resolve(point);
+    if (amount >= 1.0f) return materials_[1]->resolve(point);
+    return materials_[hash(point) < amount ? 1 : 0]->resolve(point);
+  }
+  const Bsdf* make_bsdf(const SurfaceInteraction& point, SampledWavelengths& lambda,
+                        BsdfArena& arena) const override {
+    return resolve(point)->make_bsdf(point, lambda, arena);
+  }
+  void bump(SurfaceInteraction& point) const override { resolve(point)->bump(point); }
+  bool has_bump() const override { return materials_[0]->has_bump() || materials_[1]->has_bump(); }
+  bool is_interface() const override {
+    return materials_[0]->is_interface() && materials_[1]->is_interface();
+  }
+  bool passes_straight() const override {
+    return materials_[0]->passes_straight() || materials_[1]->passes_straight();
+  }
+  SampledSpectrum straight_transmittance(const SurfaceInteraction& point,
+                                         const SampledWavelengths& lambda) const override {
+    return resolve(point)->straight_transmittance(point, lambda);
+  }
+  ClassMask possible_classes() const override {
+    return materials_[0]->possible_classes() | materials_[1]->possible_classes();
+  }
+
+ private:
+  float hash(const SurfaceInteraction& s) const {
+    uint64_t h = salt_;
+    for (const float x : {s.p.x, s.p.y, s.p.z, s.wo.x, s.wo.y, s.wo.z})
+      h = hash_combine(h, std::bit_cast<uint32_t>(x));
+    return bits_to_unit_float(static_cast<uint32_t>(h >> 32));
+  }
+
+  FloatInput amount_;
+  MaterialPtr materials_[2];
+  uint64_t salt_;  ///< keeps the choices of nested mixes apart
+};
+
+class InterfaceMaterial final : public Material {
+ public:
+  const Bsdf* make_bsdf(const SurfaceInteraction&, SampledWavelengths&, BsdfArena&) const override {
+    return nullptr;
+  }
+  bool is_interface() const override { return true; }
+  ClassMask possible_classes() const override { return ClassMask::kNone; }
+};
+
+}  // namespace
+
+MaterialPtr make_mix(const MaterialDescription& d, const MaterialContext& c) {
+  return std::make_shared<MixMaterial>(d, c);
+}
+
+MaterialPtr make_interface(const MaterialDescription&, const MaterialContext&) {
+  return std::make_shared<InterfaceMaterial>();
+}
+
+}  // namespace nephroid

@@ -1,0 +1,121 @@
+// The table of material types, and the one loop that makes all materials of a scene; see table.h.
+#include "scene/material/table.h"
+
+namespace nephroid {
+namespace {
+
+constexpr MaterialRow kTable[] = {
+    {"diffuse", make_diffuse},
+    {"diffusetransmission", make_diffuse_transmission},
+    {"dielectric", make_dielectric},
+    {"thindielectric", make_thin_dielectric},
+    {"conductor", make_conductor},
+    {"coateddiffuse", make_coated_diffuse},
+    {"coatedconductor", make_coated_conductor},
+    {"mix", make_mix},
+    {"interface", make_interface},
+    {"none", make_interface},
+    {"", make_interface},
+};
+
+constexpr const char* kNotYet[] = {"subsurface", "hair", "measured"};
+
+/// Makes materials in any order: a mix asks for others that may stand later in the file.
+class Maker {
+ public:
+  Maker(const SceneDescription& description, const TextureLibrary& textures,
+        const MaterialSettings& settings, Diagnostics& diagnostics)
+      : description_(description),
+        textures_(textures),
+        settings_(settings),
+        diagnostics_(diagnostics),
+        materials_(description.materials.size()),
+        state_(description.materials.size(), State::kToDo) {
+    for (size_t i = 0; i < description.materials.size(); ++i)
+      if (!description.materials[i].name.empty()) by_name_[description.materials[i].name] = i;
+  }
+
+  std::vector<MaterialPtr> make_all() {
+    for (size_t i = 0; i < materials_.size(); ++i) make(i);
+    return std::move(materials_);
+  }
+
+ private:
+  enum class State { kToDo, kBeingMade, kDone };
+
+  const MaterialPtr& make(size_t index) {
+    const MaterialDescription& d = description_.materials[index];
+    if (state_[index] == State::kDone) return materials_[index];
+    if (state_[index] == State::kBeingMade)
+      throw SceneError(d.where, "material \"" + d.name +
+                                    "\" is mixed from itself, expected materials that do not "
+                                    "lead back to it");
+    state_[index] = State::kBeingMade;
+    const MaterialContext context{
+        textures_,
+        settings_,
+        diagnostics_,
+        description_.directory,
+        index,
+        [this](const std::string& name, const SourceLocation& where) { return find(name, where); },
+        &coat_tables_};
+    d.parameters.find("type");  // the type of a named material is written as a parameter
+    materials_[index] = row(d).make(d, context);
+    d.parameters.report_unused("material \"" + d.type + "\"", diagnostics_);
+    state_[index] = State::kDone;
+    return materials_[index];
+  }
+
+  MaterialPtr find(const std::string& name, const SourceLocation& where) {
+    const auto found = by_name_.find(name);
+    if (found == by_name_.end())
+      throw SceneError(where, "there is no material named \"" + name +
+                                  "\", expected the name of a MakeNamedMaterial");
+    return make(found->second);
+  }
+
+  static const MaterialRow& row(const MaterialDescription& d) {
+    std::string known;
+    for (const MaterialRow& r : kTable) {
+      if (d.type == r.name) return r;
+      if (*r.name) known += (known.empty() ? "" : ", ") + std::string(r.name);
+    }
+    for (const char* name : kNotYet)
+      if (d.type == name)
+        throw SceneError(
+            d.where, "material \"" + d.type + "\" is not rendered yet, expected one of " + known);
+    throw SceneError(d.where, "unknown material \"" + d.type + "\", expected one of " + known);
+  }
+
+  const SceneDescription& description_;
+  const TextureLibrary& textures_;
+  MaterialSettings settings_;
+  Diagnostics& diagnostics_;
+  std::vector<MaterialPtr> materials_;
+  std::vector<State> state_;
+  std::map<std::string, size_t> by_name_;
+  CoatTableCache coat_tables_;
+};
+
+}  // namespace
+
+std::span<const MaterialRow> material_table() {
+  return kTable;
+}
+
+std::shared_ptr<const CoatTable> CoatTableCache::find_or_make(const DielectricInterface& boundary,
+                                                              float thickness, int max_depth) {
+  const float alpha = boundary.smooth() ? 0.0f : boundary.facets.alpha_x();
+  auto& table = tables_[{boundary.eta, alpha, thickness, max_depth}];
+  if (!table) table = std::make_shared<CoatTable>(boundary, thickness, max_depth);
+  return table;
+}
+
+std::vector<MaterialPtr> make_materials(const SceneDescription& description,
+                                        const TextureLibrary& textures,
+                                        const MaterialSettings& settings,
+                                        Diagnostics& diagnostics) {
+  return Maker(description, textures, settings, diagnostics).make_all();
+}
+
+}  // namespace nephroid

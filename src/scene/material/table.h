@@ -1,0 +1,56 @@
+// The table of material types: the scene format's name and the function that makes one.
+// Who calls it: make_materials, and tests that iterate over all types. A new material is one new
+// file and one row. It must not know what the materials do.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <span>
+#include <tuple>
+
+#include "scene/bsdf/coated_diffuse.h"
+#include "scene/material/material.h"
+
+namespace nephroid {
+
+/// Tables of coats, shared by the materials with the same coat.
+class CoatTableCache {
+ public:
+  std::shared_ptr<const CoatTable> find_or_make(const DielectricInterface& boundary,
+                                                float thickness, int max_depth);
+
+ private:
+  std::map<std::tuple<float, float, float, int>, std::shared_ptr<const CoatTable>> tables_;
+};
+
+/// What a factory may use.
+struct MaterialContext {
+  const TextureLibrary& textures;
+  MaterialSettings settings;
+  Diagnostics& diagnostics;
+  std::string directory;  ///< relative file names are relative to this
+  uint64_t index = 0;     ///< of the material that is being made
+  /// A named material; throws SceneError at the place given if there is none.
+  std::function<MaterialPtr(const std::string&, const SourceLocation&)> named;
+  CoatTableCache* coat_tables = nullptr;
+};
+
+struct MaterialRow {
+  const char* name;
+  MaterialPtr (*make)(const MaterialDescription&, const MaterialContext&);
+};
+
+/// All types that can be rendered.
+std::span<const MaterialRow> material_table();
+
+MaterialPtr make_diffuse(const MaterialDescription&, const MaterialContext&);
+MaterialPtr make_diffuse_transmission(const MaterialDescription&, const MaterialContext&);
+MaterialPtr make_dielectric(const MaterialDescription&, const MaterialContext&);
+MaterialPtr make_thin_dielectric(const MaterialDescription&, const MaterialContext&);
+MaterialPtr make_conductor(const MaterialDescription&, const MaterialContext&);
+MaterialPtr make_coated_diffuse(const MaterialDescription&, const MaterialContext&);
+MaterialPtr make_coated_conductor(const MaterialDescription&, const MaterialContext&);
+MaterialPtr make_mix(const MaterialDescription&, const MaterialContext&);
+MaterialPtr make_interface(const MaterialDescription&, const MaterialContext&);
+
+}  // namespace nephroid

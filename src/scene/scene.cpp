@@ -1,0 +1,123 @@
+#include "scene/scene.h"
+
+#include <bit>
+
+#include "core/sampler.h"
+#include "scene/camera.h"
+#include "scene/pixel_filter.h"
+
+namespace nephroid {
+
+Scene::Scene() = default;
+Scene::~Scene() = default;
+
+namespace {
+
+// Alpha tests are decided by a hash of the ray, as in pbrt-v4: the same ray always sees the same.
+float ray_hash(const Ray& ray) {
+  uint64_t h = 0;
+  for (int i = 0; i < 3; ++i) {
+    h = hash_combine(h, std::bit_cast<uint32_t>(ray.o[i]));
+    h = hash_combine(h, std::bit_cast<uint32_t>(ray.d[i]));
+  }
+  return bits_to_unit_float(static_cast<uint32_t>(h >> 32));
+}
+
+// Brings an interaction of an instanced shape to world space. The error grows by the rounding of the
+// transformed point, whose size the absolute values of the matrix bound.
+void to_world(const Transform& t, SurfaceInteraction& s) {
+  Vec3f error;
+  for (int j = 0; j < 3; ++j) {
+    double carried = 0, rounded = std::abs(t.m[3][j]);
+    for (int i = 0; i < 3; ++i) {
+      carried += std::abs(t.m[i][j]) * static_cast<double>(s.p_error[i]);
+      rounded += std::abs(t.m[i][j] * static_cast<double>(s.p[i]));
+    }
+    error[j] = static_cast<float>(carried * (1 + gamma_bound(3)) + rounded * gamma_bound(3));
+  }
+  s.p = t.point(s.p);
+  s.p_error = error;
+  s.ng = normalize(t.normal(s.ng));
+  s.dpdu = t.vector(s.dpdu);
+  s.dpdv = t.vector(s.dpdv);
+  s.dndu = t.normal(s.dndu);
+  s.dndv = t.normal(s.dndv);
+  s.shading_dpdu = t.vector(s.shading_dpdu);
+  s.shading_dpdv = t.vector(s.shading_dpdv);
+  const Vec3f ns = normalize(t.normal(s.shading.z));
+  s.shading = Frame::from_z_and_tangent(ns, s.shading_dpdu);
+}
+
+}  // namespace
+
+bool Scene::intersect_masked(const Ray& ray, unsigned mask, SurfaceInteraction& hit) const {
+  const std::optional<EmbreeHit> found = top.accelerator->intersect(ray, mask);
+  if (!found) return false;
+  const InstanceRecord* instance = nullptr;
+  const ShapeRecord* record;
+  if (found->instance == EmbreeHit::kNoInstance) {
+    record = &top.records[found->geometry];
+    record->shape->fill(found->primitive, found->uv, ray, found->t, hit);
+  } else {
+    instance = &instances[found->instance - top.records.size()];
+    record = &instance->group->records[found->geometry];
+    Ray local = ray;
+    const Transform world_to_object = instance->object_to_world.inverted();
+    local.o = world_to_object.point(ray.o);
+    local.d = world_to_object.vector(ray.d);
+    record->shape->fill(found->primitive, found->uv, local, found->t, hit);
+    to_world(instance->object_to_world, hit);
+  }
+  hit.wo = -normalize(ray.d);
+  hit.time = ray.time;
+  hit.distance = found->t * length(ray.d);
+  hit.material = record->material;
+  hit.area_light =
+      record->first_light < 0 ? -1 : record->first_light + static_cast<int>(found->primitive);
+  hit.shape = found->geometry;
+  hit.primitive = found->primitive;
+  hit.record = record;
+  return true;
+}
+
+bool Scene::intersect(const Ray& ray, SurfaceInteraction& hit) const {
+  Ray rest = ray;
+  float passed = 0.0f;
+  while (intersect_masked(rest, kMaskAll, hit)) {
+    hit.distance += passed;
+    const FloatTexture* alpha = hit.record->alpha.get();
+    if (!alpha) return true;
+    const float a = alpha->eval(TextureContext(hit));
+    if (a >= 1.0f || (a > 0.0f && ray_hash(rest) < a)) return true;
+    passed = hit.distance;
+    rest.o = hit.spawn_origin(ray.d);
+    if (rest.t_max < kInfinity) rest.t_max = ray.t_max - passed / length(ray.d);
+    if (!(rest.t_max > 0.0f)) return false;
+  }
+  return false;
+}
+
+SampledSpectrum Scene::transmittance(const Ray& shadow_ray,
+                                     const SampledWavelengths& lambda) const {
+  if (top.accelerator->occluded(shadow_ray, kMaskOpaque)) return SampledSpectrum(0.0f);
+  SampledSpectrum weight(1.0f);
+  if (!has_passing_shapes) return weight;
+  // What lets light through is crossed surface by surface, each with its weight.
+  Ray rest = shadow_ray;
+  SurfaceInteraction hit;
+  while (rest.t_max > 0.0f && intersect_masked(rest, kMaskPassing, hit)) {
+    const float a = hit.record->alpha ? std::clamp(hit.record->alpha->eval(TextureContext(hit)),
+                                                   0.0f, 1.0f)
+                                      : 1.0f;
+    const Material& m = *materials[static_cast<size_t>(hit.material)]->resolve(hit);
+    SampledSpectrum through(1.0f - a);
+    if (a > 0.0f && m.passes_straight()) through += m.straight_transmittance(hit, lambda) * a;
+    weight *= through;
+    if (weight.is_black()) return weight;
+    if (rest.t_max < kInfinity) rest.t_max -= hit.distance / length(rest.d);
+    rest.o = hit.spawn_origin(rest.d);
+  }
+  return weight;
+}
+
+}  // namespace nephroid

@@ -1,0 +1,104 @@
+// The immutable, traceable world: what integrators see of a scene.
+// Built once by build_scene from a SceneDescription; read by any number of threads.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/color.h"
+#include "scene/embree_scene.h"
+#include "scene/interaction.h"
+#include "scene/light/light_sampler.h"
+#include "scene/material/material.h"
+
+namespace nephroid {
+
+class Camera;
+class PixelFilter;
+
+/// The film as the scene's Film directive and the command line describe it.
+struct FilmDescription {
+  int width = 1280, height = 720;
+  int crop_x0 = 0, crop_y0 = 0, crop_x1 = 1280, crop_y1 = 720;  ///< pixels, half open
+  float imaging_ratio = 1;          ///< exposure time * ISO / 100
+  float max_component = kInfinity;  ///< of a sample's rgb
+  const RgbColorSpace* color_space = nullptr;
+  std::string filename;
+};
+
+/// What the command line may change of a scene.
+struct SceneOverrides {
+  int width = 0, height = 0;  ///< 0: as in the file
+  bool has_crop = false;
+  float crop[4] = {0, 1, 0, 1};  ///< x0 x1 y0 y1 in [0,1]
+  float specular_alpha = kDefaultSpecularAlpha;
+};
+
+/// A shape with what belongs to it. Emitting shapes have one light per primitive, in a row.
+struct ShapeRecord {
+  ShapePtr shape;
+  int material = 0;
+  int first_light = -1;
+  FloatTexturePtr alpha;  ///< null where the shape is solid
+};
+
+/// Shapes that are placed as a whole: the top level, or the shapes of an object definition.
+struct ShapeGroup {
+  std::vector<ShapeRecord> records;  ///< index = geometry number in the hierarchy
+  std::unique_ptr<EmbreeScene> accelerator;
+};
+
+struct InstanceRecord {
+  const ShapeGroup* group = nullptr;
+  Transform object_to_world;
+};
+
+class Scene {
+ public:
+  Scene();
+  ~Scene();
+
+  /// Closest surface along the ray that is there (alpha-tested; interfaces are reported, the walk
+  /// goes through them). False if the ray leaves the scene.
+  bool intersect(const Ray& ray, SurfaceInteraction& hit) const;
+
+  /// Share of light that gets through a shadow ray up to its t_max: 0 if something stands in between,
+  /// else the product of the weights of what lets light straight through.
+  SampledSpectrum transmittance(const Ray& shadow_ray, const SampledWavelengths& lambda) const;
+
+  /// The light of an emitting surface, else nullptr.
+  const Light* area_light(const SurfaceInteraction& hit) const {
+    return hit.area_light < 0 ? nullptr : lights[static_cast<size_t>(hit.area_light)].get();
+  }
+
+  FilmDescription film;
+  std::unique_ptr<Camera> camera;
+  std::unique_ptr<PixelFilter> filter;
+  std::vector<MaterialPtr> materials;
+  std::vector<LightPtr> lights;
+  std::unique_ptr<LightSampler> light_sampler;
+  SceneSphere sphere;
+  int samples_per_pixel = 16;  ///< of the scene's Sampler line
+  uint64_t scene_seed = 0;
+  std::string integrator;  ///< type of the scene's Integrator line, empty if absent
+  ParameterSet integrator_parameters;
+
+  ShapeGroup top;
+  std::vector<std::unique_ptr<ShapeGroup>> groups;
+  std::vector<InstanceRecord> instances;  ///< geometry numbers follow those of top.records
+  bool has_passing_shapes = false;        ///< any shape that lets light straight through
+  /// True if any shape's material may scatter in class S: without one there are no caustics.
+  bool has_specular_material = false;
+  uint64_t primitive_count = 0;  ///< without instancing
+  uint64_t shape_count = 0;
+
+ private:
+  bool intersect_masked(const Ray& ray, unsigned mask, SurfaceInteraction& hit) const;
+};
+
+/// Throws SceneError or IoError; warnings go to `diagnostics`.
+std::unique_ptr<Scene> build_scene(const SceneDescription& description,
+                                   const SceneOverrides& overrides, Diagnostics& diagnostics);
+
+}  // namespace nephroid

@@ -1,0 +1,182 @@
+// SceneDescription -> Scene, on one page: textures, materials, lights, shapes, instances, camera, film.
+#include <exception>
+#include <map>
+
+#include "core/parallel.h"
+#include "scene/camera.h"
+#include "scene/film_description.h"
+#include "scene/pixel_filter.h"
+#include "scene/scene.h"
+#include "scene/shape_table.h"
+
+namespace nephroid {
+
+namespace {
+
+class SceneBuilder {
+ public:
+  SceneBuilder(const SceneDescription& description, const SceneOverrides& overrides,
+               Diagnostics& diagnostics)
+      : d_(description),
+        diagnostics_(diagnostics),
+        textures_(description, diagnostics),
+        scene_(std::make_unique<Scene>()),
+        device_(EmbreeScene::make_device()) {
+    scene_->materials = make_materials(d_, textures_, {overrides.specular_alpha}, diagnostics);
+    for (size_t i = 0; i < d_.materials.size(); ++i)
+      if (!d_.materials[i].name.empty()) material_index_[d_.materials[i].name] = static_cast<int>(i);
+    scene_->film = make_film_description(d_, overrides, diagnostics);
+    scene_->camera =
+        make_camera(d_.camera, scene_->film.width, scene_->film.height, diagnostics);
+    scene_->filter = make_pixel_filter(d_.pixel_filter, diagnostics);
+    read_sampler();
+    if (d_.integrator) {
+      scene_->integrator = d_.integrator->type;
+      scene_->integrator_parameters = d_.integrator->parameters;
+    }
+    scene_->lights = make_lights(d_, diagnostics);
+  }
+
+  std::unique_ptr<Scene> build() {
+    build_group(d_.shapes, scene_->top);
+    std::map<std::string, const ShapeGroup*> by_name;
+    for (const auto& [name, object] : d_.objects) {
+      auto group = std::make_unique<ShapeGroup>();
+      build_group(object.shapes, *group);
+      group->accelerator->commit();
+      by_name[name] = group.get();
+      scene_->groups.push_back(std::move(group));
+    }
+    for (const InstanceDescription& instance : d_.instances) add_instance(instance, by_name);
+    scene_->top.accelerator->commit();
+    finish();
+    return std::move(scene_);
+  }
+
+ private:
+  void read_sampler() {
+    if (!d_.sampler) return;
+    const ParameterSet& p = d_.sampler->parameters;
+    scene_->samples_per_pixel = d_.sampler->type == "stratified"
+                                    ? p.get_int("xsamples", 4) * p.get_int("ysamples", 4)
+                                    : p.get_int("pixelsamples", 16);
+    if (scene_->samples_per_pixel < 1)
+      throw SceneError(p.where, "the number of pixel samples must be at least 1");
+    scene_->scene_seed = static_cast<uint64_t>(p.get_int("seed", 0));
+  }
+
+  int material_of(const ShapeDescription& shape) const {
+    if (shape.material.index >= 0) return shape.material.index;
+    const auto it = material_index_.find(shape.material.name);
+    if (it != material_index_.end()) return it->second;
+    throw SceneError(shape.material.where, "material \"" + shape.material.name +
+                                               "\" is not defined, expected the name of a "
+                                               "MakeNamedMaterial");
+  }
+
+  // Reading and building meshes takes the time, so it is done for all shapes at once; everything that
+  // has an order (geometry numbers, lights) follows in the order of the file.
+  void build_group(const std::vector<ShapeDescription>& shapes, ShapeGroup& group) {
+    group.accelerator = std::make_unique<EmbreeScene>(device_);
+    std::vector<std::vector<ShapePtr>> made(shapes.size());
+    std::vector<std::exception_ptr> failed(shapes.size());
+    parallel_chunks(static_cast<int64_t>(shapes.size()), 1, [&](int64_t i, int64_t, int64_t) {
+      const auto k = static_cast<size_t>(i);
+      try {
+        made[k] = make_shapes(shapes[k], d_.directory, diagnostics_);
+      } catch (...) {
+        failed[k] = std::current_exception();
+      }
+    });
+    for (size_t i = 0; i < shapes.size(); ++i) {
+      if (failed[i]) std::rethrow_exception(failed[i]);
+      for (const ShapePtr& shape : made[i]) add_shape(shapes[i], shape, group);
+      shapes[i].parameters.report_unused("shape \"" + shapes[i].type + "\"", diagnostics_);
+    }
+  }
+
+  void add_shape(const ShapeDescription& description, const ShapePtr& shape, ShapeGroup& group) {
+    ShapeRecord record;
+    record.shape = shape;
+    record.material = material_of(description);
+    const Material& material = *scene_->materials[static_cast<size_t>(record.material)];
+    record.alpha = textures_.float_texture(description.parameters, "alpha");
+    if (record.alpha && record.alpha->constant() && *record.alpha->constant() >= 1.0f)
+      record.alpha = nullptr;
+    if (description.area_light) add_area_light(description, shape, material, record);
+    const bool passing = material.passes_straight() || record.alpha;
+    scene_->has_passing_shapes |= passing;
+    if (contains(material.possible_classes(), EventClass::kSpecular))
+      scene_->has_specular_material = true;
+    group.accelerator->add_shape(shape, passing ? kMaskPassing : kMaskOpaque);
+    scene_->primitive_count += shape->primitive_count();
+    ++scene_->shape_count;
+    group.records.push_back(std::move(record));
+  }
+
+  void add_area_light(const ShapeDescription& description, const ShapePtr& shape,
+                      const Material& material, ShapeRecord& record) {
+    if (material.is_interface()) {
+      diagnostics_.warn(description.area_light->where,
+                        "an area light on an \"interface\" material does not emit");
+      return;
+    }
+    std::vector<LightPtr> lights =
+        make_area_lights(*description.area_light, shape, d_.directory, textures_, record.alpha,
+                         diagnostics_);
+    if (lights.empty()) return;
+    record.first_light = static_cast<int>(scene_->lights.size());
+    for (LightPtr& light : lights) scene_->lights.push_back(std::move(light));
+  }
+
+  void add_instance(const InstanceDescription& instance,
+                    const std::map<std::string, const ShapeGroup*>& by_name) {
+    const auto it = by_name.find(instance.object);
+    if (it == by_name.end())
+      throw SceneError(instance.where, "object \"" + instance.object +
+                                           "\" is not defined, expected the name of an ObjectBegin");
+    if (it->second->records.empty()) {
+      diagnostics_.warn(instance.where, "object \"" + instance.object + "\" has no shapes");
+      return;
+    }
+    if (instance.transform.is_animated())
+      diagnostics_.warn(instance.where,
+                        "the instance moves: motion blur is not rendered, its start is used");
+    const Transform transform(instance.transform.start);
+    scene_->top.accelerator->add_instance(*it->second->accelerator, transform, kMaskAll);
+    scene_->instances.push_back({it->second, transform});
+  }
+
+  void finish() {
+    const Bounds3f bounds = scene_->top.accelerator->bounds();
+    if (!bounds.isEmpty()) {
+      scene_->sphere.center = (bounds.min + bounds.max) * 0.5f;
+      scene_->sphere.radius = length(bounds.max - scene_->sphere.center);
+    }
+    if (!(scene_->sphere.radius > 0)) scene_->sphere.radius = 1;
+    for (const LightPtr& light : scene_->lights) light->set_scene_sphere(scene_->sphere);
+    scene_->light_sampler = std::make_unique<LightSampler>(scene_->lights);
+    const SourceLocation file{std::make_shared<const std::string>(d_.file), 0, 0};
+    if (scene_->shape_count == 0) diagnostics_.warn(file, "the scene has no shapes");
+    if (scene_->lights.empty())
+      diagnostics_.warn(file, "the scene has no light, the picture will be black");
+    if (!d_.camera)
+      diagnostics_.warn(file, "the scene has no camera, a perspective camera at the origin is used");
+  }
+
+  const SceneDescription& d_;
+  Diagnostics& diagnostics_;
+  TextureLibrary textures_;
+  std::unique_ptr<Scene> scene_;
+  std::shared_ptr<EmbreeDevice> device_;
+  std::map<std::string, int> material_index_;
+};
+
+}  // namespace
+
+std::unique_ptr<Scene> build_scene(const SceneDescription& description,
+                                   const SceneOverrides& overrides, Diagnostics& diagnostics) {
+  return SceneBuilder(description, overrides, diagnostics).build();
+}
+
+}  // namespace nephroid

@@ -1,0 +1,330 @@
+// Meshes of bilinear patches: hit points, texture frames, and points for light sampling.
+// Called through make_bilinear_mesh; the geometry of one patch is in bilinear_patch.h.
+// Frames, orientation and the choice of sampling method follow pbrt-v4, section 6.6.
+#include <stdexcept>
+#include <string>
+
+#include "scene/shape/bilinear_patch.h"
+#include "scene/shape/shape.h"
+#include "scene/shape/solid_angle.h"
+#include "scene/shape/spherical_rectangle.h"
+
+namespace nephroid {
+namespace {
+
+/// Rectangles that cover less are sampled by area (pbrt-v4).
+constexpr double kMinSphericalArea = 1e-4;
+
+Vec3d to_double(const Vec3f& v) {
+  return {v.x, v.y, v.z};
+}
+Vec3f to_float(const Vec3d& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+/// A number in [0,1] with density proportional to the line from a to b, and the inverse cdf's input
+/// u.
+double sample_linear(double u, double a, double b) {
+  if (!(a + b > 0.0)) return u;
+  return std::min(1.0, u * (a + b) / (a + std::sqrt((1.0 - u) * a * a + u * b * b)));
+}
+
+/// The area elements at the corners: the bilinear density that area sampling uses.
+struct CornerWeights {
+  double w00, w10, w01, w11;
+
+  explicit CornerWeights(const BilinearPatch& patch)
+      : w00(patch.cross(0, 0).length()),
+        w10(patch.cross(1, 0).length()),
+        w01(patch.cross(0, 1).length()),
+        w11(patch.cross(1, 1).length()) {}
+  double sum() const { return w00 + w10 + w01 + w11; }
+  Imath::V2d sample(const Vec2f& u) const {
+    const double v = sample_linear(u.y, w00 + w10, w01 + w11);
+    return {sample_linear(u.x, w00 * (1 - v) + w01 * v, w10 * (1 - v) + w11 * v), v};
+  }
+  double pdf(double u, double v) const {
+    return 4.0 * ((w00 * (1 - u) + w10 * u) * (1 - v) + (w01 * (1 - u) + w11 * u) * v) / sum();
+  }
+};
+
+/// v turned by the smallest rotation that takes the unit vector `from` to the unit vector `to`.
+Vec3d rotate_from_to(const Vec3d& from, const Vec3d& to, const Vec3d& v) {
+  const Vec3d axis = from.cross(to);
+  const double cosine = from.dot(to);
+  // Opposite vectors: half a turn around anything orthogonal, here what v has of that plane.
+  if (cosine < -1.0 + 1e-12) return v - from * (2.0 * from.dot(v));
+  const Vec3d moved = axis.cross(v);
+  return v + moved + axis.cross(moved) / (1.0 + cosine);
+}
+
+class BilinearMesh final : public Shape {
+ public:
+  BilinearMesh(MeshData data, bool flip);
+  uint32_t primitive_count() const override { return static_cast<uint32_t>(rectangle_.size()); }
+  Bounds3f bounds(uint32_t) const override;
+  std::optional<ShapeHit> intersect(uint32_t, const Ray&, float t_min) const override;
+  void fill(uint32_t, const Vec2f& hit_uv, const Ray&, float t, SurfaceInteraction&) const override;
+  float area(uint32_t primitive) const override {
+    return static_cast<float>(patch(primitive).area());
+  }
+  std::optional<ShapeSample> sample_area(uint32_t, const Vec2f&) const override;
+  std::optional<ShapeSample> sample_towards(uint32_t, const Vec3f& from,
+                                            const Vec2f&) const override;
+  float pdf_towards(uint32_t, const Vec3f& from, const Vec3f& p, const Vec3f& ng) const override;
+  void normal_bounds(uint32_t, Vec3f* axis, float* cos_half_angle) const override;
+
+ private:
+  const uint32_t* corners(uint32_t primitive) const { return &data_.quads[4 * size_t{primitive}]; }
+  BilinearPatch patch(uint32_t primitive) const {
+    const uint32_t* v = corners(primitive);
+    const auto& p = data_.positions;
+    return {to_double(p[v[0]]), to_double(p[v[1]]), to_double(p[v[2]]), to_double(p[v[3]])};
+  }
+  Vec3d outside_normal(uint32_t primitive, const BilinearPatch&, double u, double v) const;
+  void fill_texture_frame(uint32_t primitive, const Vec2f& uv, SurfaceInteraction& out) const;
+  ShapeSample sample_at(uint32_t primitive, const BilinearPatch&, double u, double v,
+                        double pdf) const;
+
+  MeshData data_;
+  bool flip_;
+  std::vector<uint8_t> rectangle_;  ///< per patch, 1 if it is a plane rectangle
+};
+
+template <class T>
+T blend(const std::vector<T>& values, const uint32_t* v, float s, float t) {
+  return (values[v[0]] * (1.0f - t) + values[v[2]] * t) * (1.0f - s) +
+         (values[v[1]] * (1.0f - t) + values[v[3]] * t) * s;
+}
+template <class T>
+T blend_by_u(const std::vector<T>& values, const uint32_t* v, float t) {
+  return (values[v[1]] - values[v[0]]) * (1.0f - t) + (values[v[3]] - values[v[2]]) * t;
+}
+template <class T>
+T blend_by_v(const std::vector<T>& values, const uint32_t* v, float s) {
+  return (values[v[2]] - values[v[0]]) * (1.0f - s) + (values[v[3]] - values[v[1]]) * s;
+}
+
+/// The unit normal along dpdu x dpdv; that of the centre where the patch is pinched.
+Vec3d unit_cross(const BilinearPatch& patch, double u, double v) {
+  Vec3d n = patch.cross(u, v);
+  if (!(n.dot(n) > 0.0)) n = patch.cross(0.5, 0.5);
+  const double l2 = n.dot(n);
+  return l2 > 0.0 ? n / std::sqrt(l2) : Vec3d(0, 0, 1);
+}
+
+void set_point(const BilinearPatch& patch, double u, double v, Vec3f* p, Vec3f* p_error) {
+  const Vec3d q = patch.point(u, v);
+  *p = to_float(q);
+  for (int i = 0; i < 3; ++i) {
+    const double magnitude = std::abs(patch.p00[i]) + std::abs(patch.p10[i]) +
+                             std::abs(patch.p01[i]) + std::abs(patch.p11[i]);
+    // Rounded once to float; the rest was lost in double.
+    (*p_error)[i] = static_cast<float>(std::abs(q[i]) * 0x1.0001p-24 + magnitude * 16.0 * 0x1p-53);
+  }
+}
+
+BilinearMesh::BilinearMesh(MeshData data, bool flip) : data_(std::move(data)), flip_(flip) {
+  for (const uint32_t index : data_.quads)
+    if (index >= data_.positions.size())
+      throw std::invalid_argument("bilinear mesh: vertex index " + std::to_string(index) +
+                                  " is out of range, there are " +
+                                  std::to_string(data_.positions.size()) + " vertices");
+  const size_t count = data_.quads.size() / 4;
+  rectangle_.reserve(count);
+  for (size_t i = 0; i < count; ++i)
+    rectangle_.push_back(patch(static_cast<uint32_t>(i)).is_rectangle() ? 1 : 0);
+}
+
+Bounds3f BilinearMesh::bounds(uint32_t primitive) const {
+  const uint32_t* v = corners(primitive);
+  Bounds3f box;
+  for (int i = 0; i < 4; ++i) box.extendBy(data_.positions[v[i]]);
+  return box;
+}
+
+std::optional<ShapeHit> BilinearMesh::intersect(uint32_t primitive, const Ray& ray,
+                                                float t_min) const {
+  const auto found = patch(primitive).hits(to_double(ray.o), to_double(ray.d));
+  std::optional<ShapeHit> nearest;
+  for (int i = 0; i < found.count; ++i) {
+    const float t = static_cast<float>(found.hit[i].t);
+    if (!(t > t_min && t < ray.t_max) || (nearest && nearest->t <= t)) continue;
+    nearest =
+        ShapeHit{t, Vec2f(static_cast<float>(found.hit[i].u), static_cast<float>(found.hit[i].v))};
+  }
+  return nearest;
+}
+
+Vec3d BilinearMesh::outside_normal(uint32_t primitive, const BilinearPatch& shape, double u,
+                                   double v) const {
+  Vec3d n = unit_cross(shape, u, v);
+  if (flip_) n = -n;
+  if (data_.normals.empty()) return n;
+  const Vec3f ns =
+      blend(data_.normals, corners(primitive), static_cast<float>(u), static_cast<float>(v));
+  return n.dot(to_double(ns)) < 0.0 ? -n : n;
+}
+
+/// Carries the derivatives by the patch's own (u,v) over to its texture coordinates, as pbrt-v4
+/// does it: exact where each texture axis follows one axis of the patch.
+void BilinearMesh::fill_texture_frame(uint32_t primitive, const Vec2f& uv,
+                                      SurfaceInteraction& out) const {
+  const uint32_t* v = corners(primitive);
+  out.uv = blend(data_.uvs, v, uv.x, uv.y);
+  const Vec2f by_u = blend_by_u(data_.uvs, v, uv.y), by_v = blend_by_v(data_.uvs, v, uv.x);
+  const auto inverse = [](float x) { return std::abs(x) < 1e-8f ? 0.0f : 1.0f / x; };
+  const float duds = inverse(by_u.x), dvds = inverse(by_v.x);
+  const float dudt = inverse(by_u.y), dvdt = inverse(by_v.y);
+  const Vec3f dpds = out.dpdu * duds + out.dpdv * dvds;
+  Vec3f dpdt = out.dpdu * dudt + out.dpdv * dvdt;
+  const Vec3f turned = cross(dpds, dpdt);
+  if (max_component(abs(turned)) > 0.0f) {
+    // The texture's handedness must not turn the surface around.
+    if (dot(cross(out.dpdu, out.dpdv), turned) < 0.0f) dpdt = -dpdt;
+    out.dpdu = dpds;
+    out.dpdv = dpdt;
+  }
+  const Vec3f dnds = out.dndu * duds + out.dndv * dvds;
+  out.dndv = out.dndu * dudt + out.dndv * dvdt;
+  out.dndu = dnds;
+}
+
+void BilinearMesh::fill(uint32_t primitive, const Vec2f& hit_uv, const Ray&, float,
+                        SurfaceInteraction& out) const {
+  const BilinearPatch shape = patch(primitive);
+  const uint32_t* corner = corners(primitive);
+  const double u = hit_uv.x, v = hit_uv.y;
+  set_point(shape, u, v, &out.p, &out.p_error);
+  out.uv = hit_uv;
+  out.face_index = data_.face_indices.empty() ? 0 : data_.face_indices[primitive];
+  const Vec3d pu = shape.dpdu(v), pv = shape.dpdv(u);
+  out.dpdu = to_float(pu);
+  out.dpdv = to_float(pv);
+
+  const Vec3d before = unit_cross(shape, u, v) * (flip_ ? -1.0 : 1.0);
+  out.ng = to_float(outside_normal(primitive, shape, u, v));
+  Vec3f ns(0, 0, 0);
+  if (!data_.normals.empty()) ns = blend(data_.normals, corner, hit_uv.x, hit_uv.y);
+  const bool has_normal = max_component(abs(ns)) > 0.0f;
+  if (has_normal) {
+    out.dndu = blend_by_u(data_.normals, corner, hit_uv.y);
+    out.dndv = blend_by_v(data_.normals, corner, hit_uv.x);
+  } else {
+    // The normal is dpdu x dpdv divided by its length; only the mixed second derivative exists.
+    const Vec3d n = pu.cross(pv), twist = shape.d2pduv();
+    const double l2 = n.dot(n);
+    const auto derivative = [&](const Vec3d& dn) {
+      if (!(l2 > 0.0)) return Vec3f(0, 0, 0);
+      return to_float((dn - n * (n.dot(dn) / l2)) * ((flip_ ? -1.0 : 1.0) / std::sqrt(l2)));
+    };
+    out.dndu = derivative(pu.cross(twist));
+    out.dndv = derivative(twist.cross(pv));
+  }
+  if (!data_.uvs.empty()) fill_texture_frame(primitive, hit_uv, out);
+  out.shading_dpdu = out.dpdu;
+  out.shading_dpdv = out.dpdv;
+  Vec3f shading_normal = out.ng;
+  if (has_normal) {
+    shading_normal = normalize(ns);
+    const Vec3d to = to_double(shading_normal);
+    out.shading_dpdu = to_float(rotate_from_to(before, to, to_double(out.dpdu)));
+    out.shading_dpdv = to_float(rotate_from_to(before, to, to_double(out.dpdv)));
+  }
+  out.shading = Frame::from_z_and_tangent(shading_normal, out.shading_dpdu);
+}
+
+ShapeSample BilinearMesh::sample_at(uint32_t primitive, const BilinearPatch& shape, double u,
+                                    double v, double pdf) const {
+  ShapeSample s;
+  set_point(shape, u, v, &s.p, &s.p_error);
+  s.ng = to_float(outside_normal(primitive, shape, u, v));
+  s.uv = Vec2f(static_cast<float>(u), static_cast<float>(v));
+  if (!data_.uvs.empty()) s.uv = blend(data_.uvs, corners(primitive), s.uv.x, s.uv.y);
+  s.pdf = static_cast<float>(pdf);
+  return s;
+}
+
+std::optional<ShapeSample> BilinearMesh::sample_area(uint32_t primitive, const Vec2f& u) const {
+  const BilinearPatch shape = patch(primitive);
+  const CornerWeights weights(shape);
+  if (!(weights.sum() > 0.0)) return std::nullopt;
+  const Imath::V2d uv = weights.sample(u);
+  const double element = shape.cross(uv.x, uv.y).length();
+  const double pdf = weights.pdf(uv.x, uv.y) / element;
+  if (!(element > 0.0) || !(pdf > 0.0)) return std::nullopt;
+  return sample_at(primitive, shape, uv.x, uv.y, pdf);
+}
+
+std::optional<ShapeSample> BilinearMesh::sample_towards(uint32_t primitive, const Vec3f& from,
+                                                        const Vec2f& u) const {
+  if (rectangle_[primitive]) {
+    const BilinearPatch shape = patch(primitive);
+    const SphericalRectangle seen(to_double(from), shape.p00, shape.dpdu(0.0), shape.dpdv(0.0));
+    if (seen.solid_angle() > kMinSphericalArea) {
+      const Vec2f uv = seen.sample(u);
+      return sample_at(primitive, shape, uv.x, uv.y, 1.0 / seen.solid_angle());
+    }
+  }
+  return seen_from(sample_area(primitive, u), from);
+}
+
+float BilinearMesh::pdf_towards(uint32_t primitive, const Vec3f& from, const Vec3f& p,
+                                const Vec3f& ng) const {
+  const BilinearPatch shape = patch(primitive);
+  if (rectangle_[primitive]) {
+    const SphericalRectangle seen(to_double(from), shape.p00, shape.dpdu(0.0), shape.dpdv(0.0));
+    if (seen.solid_angle() > kMinSphericalArea) return static_cast<float>(1.0 / seen.solid_angle());
+  }
+  // (u,v) of p: where the line along the normal meets the patch nearest to it. A point at the rim
+  // may miss by rounding; then the nearest corner's density is as good.
+  const BilinearPatch::Hits found = shape.hits(to_double(p), to_double(ng));
+  double nearest = std::numeric_limits<double>::infinity(), u = 0.0, v = 0.0;
+  for (int i = 0; i < found.count; ++i)
+    if (std::abs(found.hit[i].t) < nearest) {
+      nearest = std::abs(found.hit[i].t);
+      u = found.hit[i].u;
+      v = found.hit[i].v;
+    }
+  if (found.count == 0) {
+    for (int i = 0; i < 4; ++i) {
+      const Vec3d to_corner = shape.point(i & 1, i >> 1) - to_double(p);
+      if (to_corner.length() < nearest) {
+        nearest = to_corner.length();
+        u = i & 1;
+        v = i >> 1;
+      }
+    }
+  }
+  const CornerWeights weights(shape);
+  const double element = shape.cross(u, v).length();
+  if (!(weights.sum() > 0.0) || !(element > 0.0)) return 0.0f;
+  return area_to_solid_angle(static_cast<float>(weights.pdf(u, v) / element), from, p, ng);
+}
+
+void BilinearMesh::normal_bounds(uint32_t primitive, Vec3f* axis, float* cos_half_angle) const {
+  // The normal before normalisation is affine in u and v, so those of the corners span the cone.
+  const BilinearPatch shape = patch(primitive);
+  Vec3d n[4], sum(0, 0, 0);
+  for (int i = 0; i < 4; ++i) {
+    n[i] = outside_normal(primitive, shape, i & 1, i >> 1);
+    sum += n[i];
+  }
+  *axis = Vec3f(0, 0, 1);
+  *cos_half_angle = -1.0f;
+  if (!(sum.length() > 1e-6)) return;
+  const Vec3d middle = sum.normalized();
+  double cosine = 1.0;
+  for (const Vec3d& corner : n) cosine = std::min(cosine, middle.dot(corner));
+  if (cosine <= 0.0) return;
+  *axis = to_float(middle);
+  *cos_half_angle = static_cast<float>(cosine);
+}
+
+}  // namespace
+
+ShapePtr make_bilinear_mesh(MeshData data, bool flip) {
+  return std::make_shared<BilinearMesh>(std::move(data), flip);
+}
+
+}  // namespace nephroid

@@ -1,0 +1,49 @@
+#include "scene/shape/emitter_rectangles.h"
+
+namespace nephroid {
+
+namespace {
+
+// Relative to the size of the rectangle: what rounding in a file of six digits leaves.
+constexpr float kTolerance = 2e-5f;
+
+bool is_rectangle(const MeshData& mesh, const uint32_t v[4]) {
+  const auto& p = mesh.positions;
+  const Vec3f a = p[v[1]] - p[v[0]], b = p[v[3]] - p[v[0]];
+  const float la = length(a), lb = length(b);
+  if (!(la > 0 && lb > 0)) return false;
+  const Vec3f closing = p[v[0]] - p[v[1]] + p[v[2]] - p[v[3]];
+  if (length(closing) > kTolerance * (la + lb)) return false;
+  if (std::abs(dot(a, b)) > 10 * kTolerance * la * lb) return false;
+  const auto& t = mesh.uvs;
+  const Vec2f bend = t[v[0]] - t[v[1]] + t[v[2]] - t[v[3]];
+  if (std::abs(bend.x) + std::abs(bend.y) > kTolerance) return false;
+  if (!mesh.normals.empty())
+    for (int i = 1; i < 4; ++i)
+      if (length(mesh.normals[v[i]] - mesh.normals[v[0]]) > 1e-4f) return false;
+  return true;
+}
+
+}  // namespace
+
+MeshData join_rectangles(MeshData mesh) {
+  if (mesh.uvs.empty() || !mesh.face_indices.empty() || !mesh.tangents.empty()) return mesh;
+  std::vector<uint32_t> rest;
+  const auto& t = mesh.triangles;
+  for (size_t i = 0; i < t.size(); i += 3) {
+    if (i + 5 < t.size() && t[i] == t[i + 3] && t[i + 2] == t[i + 4]) {
+      const uint32_t quad[4] = {t[i], t[i + 1], t[i + 2], t[i + 5]};
+      if (is_rectangle(mesh, quad)) {
+        mesh.quads.insert(mesh.quads.end(), quad, quad + 4);
+        i += 3;
+        continue;
+      }
+    }
+    rest.insert(rest.end(), t.begin() + static_cast<std::ptrdiff_t>(i),
+                t.begin() + static_cast<std::ptrdiff_t>(i + 3));
+  }
+  mesh.triangles = std::move(rest);
+  return mesh;
+}
+
+}  // namespace nephroid

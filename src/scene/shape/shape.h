@@ -1,0 +1,114 @@
+// Shapes as geometry: something that a ray can hit and a light can be made of. One family a file.
+// Triangle meshes are traced by Embree itself; the others give Embree their intersection function.
+// Who calls it: the Embree scene and area lights. It must not know materials, lights or Embree.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/math.h"
+#include "input/mesh_data.h"
+#include "scene/interaction.h"
+
+namespace nephroid {
+
+/// A point sampled on a shape, world space.
+struct ShapeSample {
+  Vec3f p{0, 0, 0};
+  Vec3f p_error{0, 0, 0};
+  Vec3f ng{0, 0, 0};  ///< outside, as in SurfaceInteraction
+  Vec2f uv{0, 0};     ///< texture coordinates
+  float pdf = 0;      ///< pdf_a (1/area) from sample_area, pdf_w (1/sr) from sample_towards
+};
+
+/// Where a ray met a primitive.
+struct ShapeHit {
+  float t = 0;
+  Vec2f uv{0, 0};  ///< parametric position, as fill() wants it (barycentric for triangles)
+};
+
+class Shape {
+ public:
+  virtual ~Shape() = default;
+
+  virtual uint32_t primitive_count() const = 0;
+  virtual Bounds3f bounds(uint32_t primitive) const = 0;
+
+  /// First hit with t in (t_min, t_max), in double arithmetic inside; empty if none. Meshes of
+  /// triangles leave this to Embree (but implement it, as the oracle of the tests).
+  virtual std::optional<ShapeHit> intersect(uint32_t primitive, const Ray& ray,
+                                            float t_min) const = 0;
+
+  /// Fills everything of the interaction that geometry knows (p, p_error, ng, uv, derivatives,
+  /// shading frame, face_index). `d` is the ray's direction, not normalised; wo, time, distance,
+  /// material, light and ids are the caller's.
+  virtual void fill(uint32_t primitive, const Vec2f& hit_uv, const Ray& ray, float t,
+                    SurfaceInteraction& out) const = 0;
+
+  virtual float area(uint32_t primitive) const = 0;
+  /// Uniform by area; pdf is pdf_a. Empty for a degenerate primitive.
+  virtual std::optional<ShapeSample> sample_area(uint32_t primitive, const Vec2f& u) const = 0;
+  /// As seen from `from`, by solid angle where a good method is known, else by area and converted;
+  /// pdf is pdf_w at `from`. Empty if nothing can be seen.
+  virtual std::optional<ShapeSample> sample_towards(uint32_t primitive, const Vec3f& from,
+                                                    const Vec2f& u) const = 0;
+  /// Density pdf_w of sample_towards for the direction from `from` to the hit point `p` with
+  /// outside normal `ng` on this primitive.
+  virtual float pdf_towards(uint32_t primitive, const Vec3f& from, const Vec3f& p,
+                            const Vec3f& ng) const = 0;
+  /// Cone of normals: axis and cosine of the half angle (-1 if unknown or closed).
+  virtual void normal_bounds(uint32_t primitive, Vec3f* axis, float* cos_half_angle) const = 0;
+};
+using ShapePtr = std::shared_ptr<const Shape>;
+
+/// An indexed triangle mesh in world space. `flip` reverses the outside (pbrt's ReverseOrientation
+/// xor a transform that swaps handedness); where the mesh has normals they decide instead, and the
+/// caller has turned them around for ReverseOrientation (reverse_normals in mesh_preparation.h).
+/// Throws std::invalid_argument if an index is out of range.
+class TriangleMesh : public Shape {
+ public:
+  TriangleMesh(MeshData data, bool flip);
+  uint32_t primitive_count() const override;
+  Bounds3f bounds(uint32_t primitive) const override;
+  std::optional<ShapeHit> intersect(uint32_t, const Ray&, float t_min) const override;
+  void fill(uint32_t, const Vec2f& barycentric, const Ray&, float t,
+            SurfaceInteraction&) const override;
+  float area(uint32_t) const override;
+  std::optional<ShapeSample> sample_area(uint32_t, const Vec2f&) const override;
+  std::optional<ShapeSample> sample_towards(uint32_t, const Vec3f& from,
+                                            const Vec2f&) const override;
+  float pdf_towards(uint32_t, const Vec3f& from, const Vec3f& p, const Vec3f& ng) const override;
+  void normal_bounds(uint32_t, Vec3f* axis, float* cos_half_angle) const override;
+  const MeshData& data() const { return data_; }
+
+ private:
+  MeshData data_;
+  bool flip_;
+};
+
+/// Quadrics keep their transform: they are intersected in object space in double. Any affine map
+/// will do; sample_area is uniform in object space, its pdf_a is right for the world-space point.
+/// The outside is where dpdu x dpdv points in object space (away from the axis or centre, up for
+/// disks), turned around by reverse_orientation xor swapped handedness.
+ShapePtr make_sphere(const Transform& object_to_world, bool reverse_orientation, float radius,
+                     float z_min, float z_max, float phi_max_degrees);
+ShapePtr make_disk(const Transform& object_to_world, bool reverse_orientation, float height,
+                   float radius, float inner_radius, float phi_max_degrees);
+ShapePtr make_cylinder(const Transform& object_to_world, bool reverse_orientation, float radius,
+                       float z_min, float z_max, float phi_max_degrees);
+/// Patches of four corners in pbrt's order p00 p10 p01 p11 (data.quads), world space already;
+/// `flip` and normals as for TriangleMesh.
+ShapePtr make_bilinear_mesh(MeshData data, bool flip);
+/// Loop subdivision to `levels` with limit positions and normals (as pbrt-v4: with
+/// counter-clockwise faces they point to the back, and they are not of unit length). Throws
+/// std::invalid_argument if an index is out of range, the faces are no oriented manifold (with or
+/// without boundary), or there would be too many; the text has no place in it, the caller adds
+/// that.
+MeshData loop_subdivide(const std::vector<Vec3f>& positions, const std::vector<uint32_t>& triangles,
+                        int levels);
+/// Applies a transform to positions, normals and tangents. Normals keep their relative lengths,
+/// which weigh them where they are interpolated.
+void transform_mesh(MeshData& data, const Transform& object_to_world);
+
+}  // namespace nephroid

@@ -1,0 +1,192 @@
+#include "scene/shape_table.h"
+
+#include <filesystem>
+#include <stdexcept>
+
+#include "scene/shape/emitter_rectangles.h"
+#include "scene/shape/mesh_preparation.h"
+
+namespace nephroid {
+
+namespace {
+
+struct Context {
+  const ShapeDescription& description;
+  const ParameterSet& p;
+  const std::string& directory;
+  Diagnostics& diagnostics;
+  Transform transform;
+  bool flip;  ///< ReverseOrientation xor a transform that swaps handedness
+
+  std::string what() const { return "shape \"" + description.type + "\""; }
+};
+
+std::vector<uint32_t> to_indices(const Context& c, const std::vector<int>& values) {
+  std::vector<uint32_t> indices(values.size());
+  for (size_t i = 0; i < values.size(); ++i) {
+    if (values[i] < 0)
+      throw SceneError(c.p.where, c.what() + ": index " + std::to_string(values[i]) +
+                                      " is negative, expected 0 or more");
+    indices[i] = static_cast<uint32_t>(values[i]);
+  }
+  return indices;
+}
+
+// Meshes end here: checked, brought to world space, with room behind the positions for the 16-byte
+// loads of the ray tracer.
+std::vector<ShapePtr> finish_mesh(const Context& c, MeshData data) {
+  validate_mesh(data, c.p.where, c.what(), c.diagnostics);
+  transform_mesh(data, c.transform);
+  if (c.description.area_light) data = join_rectangles(std::move(data));
+  std::vector<ShapePtr> shapes;
+  MeshData patches;
+  if (!data.quads.empty()) {
+    patches = quads_of(data);
+    data = triangles_of(data);
+  }
+  if (!data.triangles.empty()) {
+    data.positions.reserve(data.positions.size() + 2);
+    shapes.push_back(std::make_shared<TriangleMesh>(std::move(data), c.flip));
+  }
+  if (!patches.quads.empty()) shapes.push_back(make_bilinear_mesh(std::move(patches), c.flip));
+  return shapes;
+}
+
+MeshData vertices_of(const Context& c) {
+  MeshData data;
+  data.positions = c.p.get_point3s("P");
+  data.normals = c.p.get_normals("N");
+  data.uvs = c.p.get_point2s("uv");
+  if (data.positions.empty())
+    throw SceneError(c.p.where, c.what() + " has no vertices, expected \"point3 P\"");
+  return data;
+}
+
+std::vector<ShapePtr> triangle_mesh(const Context& c) {
+  MeshData data = vertices_of(c);
+  data.tangents = c.p.get_vector3s("S");
+  data.face_indices = c.p.get_ints("faceIndices");
+  data.triangles = to_indices(c, c.p.get_ints("indices"));
+  if (data.triangles.empty()) {
+    if (data.positions.size() != 3)
+      throw SceneError(c.p.where, c.what() + " has no \"integer indices\"");
+    data.triangles = {0, 1, 2};
+  }
+  if (data.triangles.size() % 3 != 0)
+    throw SceneError(c.p.where, c.what() + ": \"indices\" has " +
+                                    std::to_string(data.triangles.size()) +
+                                    " values, expected a multiple of 3");
+  return finish_mesh(c, std::move(data));
+}
+
+std::vector<ShapePtr> ply_mesh(const Context& c) {
+  const std::string name = c.p.get_string("filename", "");
+  if (name.empty()) throw SceneError(c.p.where, c.what() + " has no \"string filename\"");
+  if (c.p.find("displacement"))
+    c.diagnostics.warn(c.p.where, "\"displacement\" of a shape is not rendered");
+  return finish_mesh(
+      c, read_ply((std::filesystem::path(c.directory) / name).string(), c.p.where));
+}
+
+std::vector<ShapePtr> bilinear_mesh(const Context& c) {
+  MeshData data = vertices_of(c);
+  data.face_indices = c.p.get_ints("faceIndices");
+  if (c.p.find("emissionfilename"))
+    throw SceneError(c.p.where, c.what() + ": \"emissionfilename\" is not rendered");
+  std::vector<uint32_t> corners = to_indices(c, c.p.get_ints("indices"));
+  if (corners.empty()) {
+    if (data.positions.size() != 4)
+      throw SceneError(c.p.where, c.what() + " has no \"integer indices\"");
+    corners = {0, 1, 2, 3};
+  }
+  if (corners.size() % 4 != 0)
+    throw SceneError(c.p.where, c.what() + ": \"indices\" has " + std::to_string(corners.size()) +
+                                    " values, expected a multiple of 4");
+  // Corners are named p00 p10 p01 p11; meshes keep quads in ring order.
+  for (size_t i = 0; i < corners.size(); i += 4) std::swap(corners[i + 2], corners[i + 3]);
+  data.quads = std::move(corners);
+  return finish_mesh(c, std::move(data));
+}
+
+std::vector<ShapePtr> loop_subdivision(const Context& c) {
+  MeshData cage = vertices_of(c);
+  cage.normals.clear();
+  cage.uvs.clear();
+  cage.triangles = to_indices(c, c.p.get_ints("indices"));
+  if (cage.triangles.empty() || cage.triangles.size() % 3 != 0)
+    throw SceneError(c.p.where, c.what() + ": \"indices\" expects a multiple of 3 values");
+  const int levels = c.p.get_int("levels", 3);
+  if (levels < 0 || levels > 10)
+    throw SceneError(c.p.where, c.what() + ": \"levels\" must lie in 0..10");
+  (void)c.p.get_string("scheme", "loop");
+  validate_mesh(cage, c.p.where, c.what(), c.diagnostics);
+  try {
+    return finish_mesh(c, loop_subdivide(cage.positions, cage.triangles, levels));
+  } catch (const std::invalid_argument& e) {
+    throw SceneError(c.p.where, c.what() + ": " + e.what());
+  }
+}
+
+float positive(const Context& c, const char* name, float fallback) {
+  const float v = c.p.get_float(name, fallback);
+  if (!(v > 0))
+    throw SceneError(c.p.where, c.what() + ": \"" + name + "\" must be positive");
+  return v;
+}
+
+std::vector<ShapePtr> sphere(const Context& c) {
+  const float r = positive(c, "radius", 1.0f);
+  return {make_sphere(c.transform, c.description.reverse_orientation, r,
+                      c.p.get_float("zmin", -r), c.p.get_float("zmax", r),
+                      c.p.get_float("phimax", 360.0f))};
+}
+
+std::vector<ShapePtr> disk(const Context& c) {
+  const float r = positive(c, "radius", 1.0f);
+  return {make_disk(c.transform, c.description.reverse_orientation, c.p.get_float("height", 0.0f),
+                    r, c.p.get_float("innerradius", 0.0f), c.p.get_float("phimax", 360.0f))};
+}
+
+std::vector<ShapePtr> cylinder(const Context& c) {
+  return {make_cylinder(c.transform, c.description.reverse_orientation,
+                        positive(c, "radius", 1.0f), c.p.get_float("zmin", -1.0f),
+                        c.p.get_float("zmax", 1.0f), c.p.get_float("phimax", 360.0f))};
+}
+
+struct Row {
+  const char* name;
+  std::vector<ShapePtr> (*make)(const Context&);
+};
+constexpr Row kTable[] = {
+    {"trianglemesh", triangle_mesh}, {"plymesh", ply_mesh}, {"bilinearmesh", bilinear_mesh},
+    {"loopsubdiv", loop_subdivision}, {"sphere", sphere},   {"disk", disk},
+    {"cylinder", cylinder},
+};
+
+}  // namespace
+
+std::vector<std::string> shape_names() {
+  std::vector<std::string> names;
+  for (const Row& row : kTable) names.emplace_back(row.name);
+  return names;
+}
+
+std::vector<ShapePtr> make_shapes(const ShapeDescription& description,
+                                  const std::string& directory, Diagnostics& diagnostics) {
+  if (description.transform.is_animated())
+    diagnostics.warn(description.where,
+                     "the shape moves: motion blur is not rendered, its start is used");
+  const Transform transform(description.transform.start);
+  const Context context{description, description.parameters, directory, diagnostics, transform,
+                        description.reverse_orientation != transform.swaps_handedness()};
+  for (const Row& row : kTable)
+    if (description.type == row.name) return row.make(context);
+  std::string expected;
+  for (const Row& row : kTable) expected += std::string(expected.empty() ? "" : ", ") + row.name;
+  const bool later = description.type == "curve";
+  throw SceneError(description.where,
+                   "shape \"" + description.type + "\" is " +
+                       (later ? "not rendered yet" : "unknown") + ", expected one of " + expected);
+}
+
+}  // namespace nephroid

@@ -1,0 +1,172 @@
+// Lookups in images: wrapping of pixel coordinates, nearest and bilinear values. See image.h.
+#include "scene/texture/image.h"
+
+#include <algorithm>
+
+namespace nephroid {
+
+namespace {
+
+int modulo(int a, int b) {
+  const int r = a % b;
+  return r < 0 ? r + b : r;
+}
+
+/// Moves a pixel into the image; false if it is outside of an image with a black surround.
+bool wrap_pixel(int& x, int& y, int width, int height, WrapMode wrap) {
+  if (x >= 0 && x < width && y >= 0 && y < height) return true;
+  switch (wrap) {
+    case WrapMode::kRepeat:
+      x = modulo(x, width);
+      y = modulo(y, height);
+      return true;
+    case WrapMode::kClamp:
+      x = std::clamp(x, 0, width - 1);
+      y = std::clamp(y, 0, height - 1);
+      return true;
+    case WrapMode::kBlack:
+      return false;
+    case WrapMode::kOctahedralSphere:
+      // Beyond an edge the sphere goes on at the point of the same edge mirrored at its middle.
+      if (x < 0 || x >= width) {
+        x = std::clamp(x < 0 ? -1 - x : 2 * width - 1 - x, 0, width - 1);
+        y = height - 1 - y;
+      }
+      if (y < 0 || y >= height) {
+        x = width - 1 - x;
+        y = std::clamp(y < 0 ? -1 - y : 2 * height - 1 - y, 0, height - 1);
+      }
+      return true;
+  }
+  return false;
+}
+
+/// Pixel coordinate of a position; positions far outside stay representable.
+int floor_to_int(float v) {
+  return static_cast<int>(std::floor(std::clamp(v, -1e9f, 1e9f)));
+}
+
+float decode(const Image::Bytes& b, size_t i) {
+  return b.table[b.values[i]];
+}
+float decode(const Image::Halves& h, size_t i) {
+  return static_cast<float>(h[i]);
+}
+float decode(const Image::Floats& f, size_t i) {
+  return f[i];
+}
+
+/// The four pixels around a position with their weights; weight 0 for those in a black surround.
+struct Footprint {
+  std::array<size_t, 4> pixel{};
+  std::array<float, 4> weight{};
+};
+Footprint bilinear_footprint(const Vec2f& st, int width, int height, WrapMode wrap) {
+  // A period is taken off first, so that the weights keep their digits far away from the origin.
+  Vec2f p = st;
+  if (wrap == WrapMode::kRepeat) p = {p.x - std::floor(p.x), p.y - std::floor(p.y)};
+  const float x = p.x * static_cast<float>(width) - 0.5f;
+  const float y = p.y * static_cast<float>(height) - 0.5f;
+  const int x0 = floor_to_int(x), y0 = floor_to_int(y);
+  const float dx = std::clamp(x - static_cast<float>(x0), 0.0f, 1.0f);
+  const float dy = std::clamp(y - static_cast<float>(y0), 0.0f, 1.0f);
+  const float weights[4] = {(1 - dx) * (1 - dy), dx * (1 - dy), (1 - dx) * dy, dx * dy};
+  Footprint f;
+  for (int i = 0; i < 4; ++i) {
+    int xi = x0 + (i & 1), yi = y0 + (i >> 1);
+    if (!wrap_pixel(xi, yi, width, height, wrap)) continue;
+    f.pixel[i] = static_cast<size_t>(yi) * width + xi;
+    f.weight[i] = weights[i];
+  }
+  return f;
+}
+
+template <class Values>
+float weighted(const Values& values, const Footprint& f, int channels, int channel) {
+  float sum = 0.0f;
+  for (int i = 0; i < 4; ++i)
+    if (f.weight[i] != 0.0f) sum += f.weight[i] * decode(values, f.pixel[i] * channels + channel);
+  return sum;
+}
+
+}  // namespace
+
+std::optional<WrapMode> parse_wrap_mode(std::string_view name) {
+  if (name == "repeat") return WrapMode::kRepeat;
+  if (name == "black") return WrapMode::kBlack;
+  if (name == "clamp") return WrapMode::kClamp;
+  if (name == "octahedralsphere") return WrapMode::kOctahedralSphere;
+  return std::nullopt;
+}
+
+Image::Image(int width, int height, int channels, Pixels pixels, const RgbColorSpace& space)
+    : width_(width),
+      height_(height),
+      channels_(channels),
+      pixels_(std::move(pixels)),
+      space_(&space) {}
+
+size_t Image::memory() const {
+  const size_t n = static_cast<size_t>(width_) * height_ * channels_;
+  return n * (pixels_.index() == 0 ? 1 : pixels_.index() == 1 ? 2 : 4);
+}
+
+bool Image::is_finite() const {
+  for (int y = 0; y < height_; ++y)
+    for (int x = 0; x < width_; ++x)
+      for (int c = 0; c < channels_; ++c)
+        if (!std::isfinite(value(x, y, c))) return false;
+  return true;
+}
+
+float Image::value(int x, int y, int channel) const {
+  const size_t i = (static_cast<size_t>(y) * width_ + x) * channels_ + channel;
+  return std::visit([i](const auto& values) { return decode(values, i); }, pixels_);
+}
+
+Rgb Image::texel(int x, int y, WrapMode wrap) const {
+  if (!wrap_pixel(x, y, width_, height_, wrap)) return {};
+  if (channels_ >= 3) return {value(x, y, 0), value(x, y, 1), value(x, y, 2)};
+  const float v = value(x, y, 0);
+  return {v, v, v};
+}
+
+Rgb Image::nearest(const Vec2f& st, WrapMode wrap) const {
+  return texel(floor_to_int(st.x * static_cast<float>(width_)),
+               floor_to_int(st.y * static_cast<float>(height_)), wrap);
+}
+
+Rgb Image::bilinear(const Vec2f& st, WrapMode wrap) const {
+  const Footprint f = bilinear_footprint(st, width_, height_, wrap);
+  return std::visit(
+      [&](const auto& values) {
+        const float r = weighted(values, f, channels_, 0);
+        if (channels_ < 3) return Rgb{r, r, r};
+        return Rgb{r, weighted(values, f, channels_, 1), weighted(values, f, channels_, 2)};
+      },
+      pixels_);
+}
+
+float Image::nearest_float(const Vec2f& st, WrapMode wrap) const {
+  int x = floor_to_int(st.x * static_cast<float>(width_));
+  int y = floor_to_int(st.y * static_cast<float>(height_));
+  if (channels_ != 3) {
+    if (!wrap_pixel(x, y, width_, height_, wrap)) return 0.0f;
+    return value(x, y, channels_ == 4 ? 3 : 0);
+  }
+  const Rgb c = texel(x, y, wrap);
+  return (c.r + c.g + c.b) / 3.0f;
+}
+
+float Image::bilinear_float(const Vec2f& st, WrapMode wrap) const {
+  if (channels_ == 3) {
+    const Rgb c = bilinear(st, wrap);
+    return (c.r + c.g + c.b) / 3.0f;
+  }
+  const Footprint f = bilinear_footprint(st, width_, height_, wrap);
+  const int channel = channels_ == 4 ? 3 : 0;
+  return std::visit([&](const auto& values) { return weighted(values, f, channels_, channel); },
+                    pixels_);
+}
+
+}  // namespace nephroid

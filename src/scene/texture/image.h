@@ -1,0 +1,68 @@
+// An image in memory, as textures and lights look it up: linear values of 1, 3 or 4 channels, kept
+// as bytes with a table, as half or as float numbers. Row 0 is the top row. Who calls it: image
+// textures and image lights. It must not know files or scenes.
+#pragma once
+
+#include <half.h>
+
+#include <array>
+#include <optional>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "core/color.h"
+#include "core/math.h"
+
+namespace nephroid {
+
+/// What lies outside of the image. kOctahedralSphere continues an equal-area octahedral map over
+/// the edges of the sphere that it shows.
+enum class WrapMode { kRepeat, kBlack, kClamp, kOctahedralSphere };
+/// "repeat", "black", "clamp", "octahedralsphere"; empty for anything else.
+std::optional<WrapMode> parse_wrap_mode(std::string_view name);
+
+class Image {
+ public:
+  struct Bytes {
+    std::vector<uint8_t> values;
+    std::array<float, 256> table;  ///< linear value of a byte
+  };
+  using Halves = std::vector<Imath::half>;
+  using Floats = std::vector<float>;
+  using Pixels = std::variant<Bytes, Halves, Floats>;
+
+  /// `pixels` holds width * height * channels values, row by row from the top, channels
+  /// interleaved; channels is 1 (grey), 3 (rgb) or 4 (rgb and alpha that is not 1 everywhere).
+  Image(int width, int height, int channels, Pixels pixels, const RgbColorSpace& space);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  int channels() const { return channels_; }
+  const RgbColorSpace& color_space() const { return *space_; }
+  /// Bytes that the pixels occupy.
+  size_t memory() const;
+  /// True if no value is infinite or NaN.
+  bool is_finite() const;
+
+  /// Linear value of one channel of a pixel inside the image.
+  float value(int x, int y, int channel) const;
+  /// Colour of a pixel that may lie outside; grey images answer three equal values.
+  Rgb texel(int x, int y, WrapMode wrap) const;
+  /// Colour of the pixel that contains `st`; (0,0) is the upper left corner of the image, (1,1) the
+  /// lower right one.
+  Rgb nearest(const Vec2f& st, WrapMode wrap) const;
+  /// Colour between the centres of the four nearest pixels.
+  Rgb bilinear(const Vec2f& st, WrapMode wrap) const;
+
+  /// The same as one number: grey, else alpha if there is one, else the mean of r, g and b.
+  float nearest_float(const Vec2f& st, WrapMode wrap) const;
+  float bilinear_float(const Vec2f& st, WrapMode wrap) const;
+
+ private:
+  int width_, height_, channels_;
+  Pixels pixels_;
+  const RgbColorSpace* space_;
+};
+
+}  // namespace nephroid

@@ -1,0 +1,44 @@
+// Image files -> Image. The one file of this folder that talks to OpenImageIO is image_file.cpp.
+// Who calls it: the texture library (through ImageCache) and lights with images.
+// It must not know what an image is used for.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "core/errors.h"
+#include "scene/texture/color_encoding.h"
+#include "scene/texture/image.h"
+
+namespace nephroid {
+
+using ImagePtr = std::shared_ptr<const Image>;
+
+/// Reads EXR, PFM, HDR, PNG, TGA, JPEG and whatever else OpenImageIO knows. As in pbrt-v4, only PNG
+/// files obey `encoding` (sRGB if empty); other integer formats are sRGB and floating-point ones
+/// linear. Bytes stay bytes, 16-bit values become half. An image of two channels is grey; one of
+/// more needs channels R, G and B. Throws IoError if the file cannot be read, SceneError at
+/// `wanted_by` if it is no image of one of these kinds.
+ImagePtr read_image(const std::string& path, std::optional<ColorEncoding> encoding,
+                    const SourceLocation& wanted_by);
+
+/// True if read_image asks for the encoding of this file.
+bool image_obeys_encoding(const std::string& path);
+
+/// `file` as the scene wrote it, relative to the directory of the scene.
+std::string resolve_path(const std::string& directory, const std::string& file);
+
+/// Images that were read already, by path and encoding.
+class ImageCache {
+ public:
+  ImagePtr get(const std::string& path, std::optional<ColorEncoding> encoding,
+               const SourceLocation& wanted_by);
+
+ private:
+  std::map<std::pair<std::string, std::optional<ColorEncoding>>, ImagePtr> images_;
+};
+
+}  // namespace nephroid

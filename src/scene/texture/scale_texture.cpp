@@ -1,0 +1,56 @@
+// Texture class "scale": a texture times a float texture.
+#include "scene/texture/texture_table.h"
+
+namespace nephroid {
+
+namespace {
+
+class ScaledFloatTexture final : public FloatTexture {
+ public:
+  ScaledFloatTexture(FloatTexturePtr texture, FloatTexturePtr scale)
+      : texture_(std::move(texture)), scale_(std::move(scale)) {}
+  float eval(const TextureContext& context) const override {
+    const float s = scale_->eval(context);
+    return s == 0.0f ? 0.0f : s * texture_->eval(context);
+  }
+
+ private:
+  FloatTexturePtr texture_, scale_;
+};
+
+class ScaledSpectrumTexture final : public SpectrumTexture {
+ public:
+  ScaledSpectrumTexture(SpectrumTexturePtr texture, FloatTexturePtr scale)
+      : texture_(std::move(texture)), scale_(std::move(scale)) {}
+  SampledSpectrum eval(const TextureContext& context,
+                       const SampledWavelengths& lambda) const override {
+    const float s = scale_->eval(context);
+    return s == 0.0f ? SampledSpectrum() : texture_->eval(context, lambda) * s;
+  }
+
+ private:
+  SpectrumTexturePtr texture_;
+  FloatTexturePtr scale_;
+};
+
+}  // namespace
+
+FloatTexturePtr make_float_scale(const TextureDescription& description, TextureScope& scope) {
+  const FloatTexturePtr texture = scope.float_texture(description.parameters, "tex", 1.0f);
+  const FloatTexturePtr scale = scope.float_texture(description.parameters, "scale", 1.0f);
+  if (texture->constant() && scale->constant())
+    return constant_float_texture(*texture->constant() * *scale->constant());
+  if (scale->constant() == 1.0f) return texture;
+  return std::make_shared<ScaledFloatTexture>(texture, scale);
+}
+
+SpectrumTexturePtr make_spectrum_scale(const TextureDescription& description, SpectrumKind kind,
+                                       TextureScope& scope) {
+  const SpectrumTexturePtr texture =
+      scope.spectrum_texture(description.parameters, "tex", kind, 1.0f);
+  const FloatTexturePtr scale = scope.float_texture(description.parameters, "scale", 1.0f);
+  if (scale->constant() == 1.0f) return texture;
+  return std::make_shared<ScaledSpectrumTexture>(texture, scale);
+}
+
+}  // namespace nephroid

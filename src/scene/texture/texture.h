@@ -1,0 +1,80 @@
+// Textures: float or spectrum values that vary over a surface. One family a file.
+// Who calls it: materials, lights, alpha tests. It must not know BSDFs.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "core/spectra.h"
+#include "input/scene_description.h"
+#include "scene/interaction.h"
+
+namespace nephroid {
+
+/// What a texture may look at.
+struct TextureContext {
+  Vec3f p;  ///< world
+  Vec3f n;  ///< unit, world
+  Vec2f uv;
+  Vec3f dpdx{0, 0, 0}, dpdy{0, 0, 0};
+  float dudx = 0, dudy = 0, dvdx = 0, dvdy = 0;
+  int face_index = 0;
+
+  TextureContext() = default;
+  explicit TextureContext(const SurfaceInteraction& s)
+      : p(s.p), n(s.shading.z), uv(s.uv), face_index(s.face_index) {}
+};
+
+class FloatTexture {
+ public:
+  virtual ~FloatTexture() = default;
+  virtual float eval(const TextureContext& context) const = 0;
+  /// The value, if it is the same everywhere.
+  virtual std::optional<float> constant() const { return std::nullopt; }
+};
+using FloatTexturePtr = std::shared_ptr<const FloatTexture>;
+
+class SpectrumTexture {
+ public:
+  virtual ~SpectrumTexture() = default;
+  virtual SampledSpectrum eval(const TextureContext& context,
+                               const SampledWavelengths& lambda) const = 0;
+  /// The spectrum, if it is the same everywhere.
+  virtual SpectrumPtr constant() const { return nullptr; }
+};
+using SpectrumTexturePtr = std::shared_ptr<const SpectrumTexture>;
+
+/// How an rgb value becomes a spectrum (pbrt-v4's SpectrumType).
+enum class SpectrumKind { kAlbedo, kUnbounded, kIlluminant };
+
+FloatTexturePtr constant_float_texture(float value);
+SpectrumTexturePtr constant_spectrum_texture(SpectrumPtr spectrum);
+
+/// A parameter of type rgb, spectrum (numbers, name or file) or blackbody as a spectrum.
+SpectrumPtr spectrum_from_parameter(const Parameter& parameter, SpectrumKind kind,
+                                    const std::string& directory);
+
+/// The named textures of a scene. A spectrum texture exists in three kinds, made on demand.
+class TextureLibrary {
+ public:
+  /// Makes every texture of the description; throws SceneError for unknown classes, undefined names
+  /// and cycles, IoError for unreadable images. What is not rendered yet is a located error.
+  TextureLibrary(const SceneDescription& description, Diagnostics& diagnostics);
+  ~TextureLibrary();
+
+  /// The parameter `name`, which may be a number or a "texture" reference; nullptr if absent.
+  FloatTexturePtr float_texture(const ParameterSet& parameters, const std::string& name) const;
+  /// The same, `fallback` if absent.
+  FloatTexturePtr float_texture(const ParameterSet& parameters, const std::string& name,
+                                float fallback) const;
+  /// The parameter `name` as rgb, spectrum or texture; nullptr if absent.
+  SpectrumTexturePtr spectrum_texture(const ParameterSet& parameters, const std::string& name,
+                                      SpectrumKind kind) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace nephroid

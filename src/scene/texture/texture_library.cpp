@@ -1,0 +1,175 @@
+// The named textures of a scene: made once, in dependency order, found by name. See texture.h.
+#include <array>
+#include <exception>
+
+#include "scene/texture/texture_table.h"
+
+namespace nephroid {
+
+namespace {
+
+constexpr SpectrumKind kKinds[] = {SpectrumKind::kAlbedo, SpectrumKind::kUnbounded,
+                                   SpectrumKind::kIlluminant};
+
+/// A texture that is made when somebody first asks for it.
+template <class Ptr>
+struct Slot {
+  const TextureDescription* description = nullptr;
+  bool in_progress = false;
+  Ptr texture;
+  std::exception_ptr error;  ///< why it could not be made
+
+  /// The texture; `where` is the parameter that asks.
+  template <class Make>
+  const Ptr& get(const SourceLocation& where, Make&& make) {
+    if (in_progress)
+      throw SceneError(where, "texture \"" + description->name + "\" refers to itself");
+    if (!texture && !error) {
+      in_progress = true;
+      try {
+        texture = make(*description);
+      } catch (...) {
+        error = std::current_exception();
+      }
+      in_progress = false;
+    }
+    if (error) std::rethrow_exception(error);
+    return texture;
+  }
+};
+
+}  // namespace
+
+struct TextureLibrary::Impl final : TextureScope {
+  Impl(const SceneDescription& scene, Diagnostics& d)
+      : directory_(scene.directory), diagnostics_(d) {
+    for (const TextureDescription& t : scene.textures) add(t);
+    for (const TextureDescription& t : scene.textures) make_all_kinds(t);
+    for (const TextureDescription& t : scene.textures)
+      t.parameters.report_unused("texture \"" + t.name + "\"", diagnostics_);
+  }
+
+  void add(const TextureDescription& t) {
+    const bool is_float = t.value_type == "float";
+    if (!is_float && t.value_type != "spectrum")
+      throw SceneError(t.where, "texture \"" + t.name + "\" has values of type \"" + t.value_type +
+                                    "\", expected \"float\" or \"spectrum\"");
+    if (is_float ? floats_.count(t.name) : spectra_.count(t.name))
+      throw SceneError(t.where, t.value_type + " texture \"" + t.name + "\" is defined twice");
+    if (t.transform.is_animated())
+      diagnostics_.warn(t.where, "textures do not move: the transform at the start is used");
+    if (!is_invertible(t.transform.start))
+      throw SceneError(t.where, "the transform of texture \"" + t.name + "\" has no inverse");
+    if (is_float)
+      floats_[t.name].description = &t;
+    else
+      for (auto& slot : spectra_[t.name]) slot.description = &t;
+  }
+
+  /// Makes a texture now, so that a faulty one is found even if nothing uses it. An rgb above 1 is
+  /// no reflectance but may be an emission: such an error waits until somebody asks for that kind.
+  void make_all_kinds(const TextureDescription& t) {
+    if (t.value_type == "float") {
+      find_float(t.name, t.where);
+      return;
+    }
+    find_spectrum(t.name, SpectrumKind::kUnbounded, t.where);
+    for (const SpectrumKind kind : kKinds) {
+      try {
+        find_spectrum(t.name, kind, t.where);
+      } catch (const SceneError&) {
+        if (kind != SpectrumKind::kAlbedo) throw;
+      }
+    }
+  }
+
+  const FloatTexturePtr& find_float(const std::string& name, const SourceLocation& where) {
+    const auto it = floats_.find(name);
+    if (it == floats_.end())
+      throw SceneError(where,
+                       spectra_.count(name)
+                           ? "texture \"" + name + "\" is a spectrum texture, expected a float one"
+                           : "there is no float texture named \"" + name + "\"");
+    return it->second.get(
+        where, [this](const TextureDescription& d) { return make_float_texture(d, *this); });
+  }
+
+  const SpectrumTexturePtr& find_spectrum(const std::string& name, SpectrumKind kind,
+                                          const SourceLocation& where) {
+    const auto it = spectra_.find(name);
+    if (it == spectra_.end())
+      throw SceneError(where,
+                       floats_.count(name)
+                           ? "texture \"" + name + "\" is a float texture, expected a spectrum one"
+                           : "there is no spectrum texture named \"" + name + "\"");
+    return it->second[static_cast<size_t>(kind)].get(
+        where, [&](const TextureDescription& d) { return make_spectrum_texture(d, kind, *this); });
+  }
+
+  /// The only string of a texture reference.
+  static const std::string& reference(const Parameter& p) {
+    if (p.strings.size() != 1)
+      throw SceneError(p.where, "\"texture " + p.name + "\" needs the name of one texture");
+    return p.strings[0];
+  }
+
+  FloatTexturePtr find_float_parameter(const ParameterSet& parameters, const std::string& name) {
+    const Parameter* p = parameters.find(name, {"float", "texture"});
+    if (!p) return nullptr;
+    if (p->type == "texture") return find_float(reference(*p), p->where);
+    return constant_float_texture(parameters.get_float(name, 0.0f));
+  }
+
+  SpectrumTexturePtr find_spectrum_parameter(const ParameterSet& parameters,
+                                             const std::string& name, SpectrumKind kind) {
+    const Parameter* p = parameters.find(name);
+    if (!p) return nullptr;
+    if (p->type == "texture") return find_spectrum(reference(*p), kind, p->where);
+    return constant_spectrum_texture(spectrum_from_parameter(*p, kind, directory_));
+  }
+
+  // TextureScope, for the makers.
+  FloatTexturePtr float_texture(const ParameterSet& parameters, const std::string& name,
+                                float fallback) override {
+    FloatTexturePtr t = find_float_parameter(parameters, name);
+    return t ? t : constant_float_texture(fallback);
+  }
+  SpectrumTexturePtr spectrum_texture(const ParameterSet& parameters, const std::string& name,
+                                      SpectrumKind kind, float fallback) override {
+    SpectrumTexturePtr t = find_spectrum_parameter(parameters, name, kind);
+    return t ? t : constant_spectrum_texture(constant_spectrum(fallback));
+  }
+  ImageCache& images() override { return images_; }
+  const std::string& directory() const override { return directory_; }
+  Diagnostics& diagnostics() override { return diagnostics_; }
+
+ private:
+  std::string directory_;
+  Diagnostics& diagnostics_;
+  ImageCache images_;
+  std::map<std::string, Slot<FloatTexturePtr>> floats_;
+  std::map<std::string, std::array<Slot<SpectrumTexturePtr>, 3>> spectra_;
+};
+
+TextureLibrary::TextureLibrary(const SceneDescription& description, Diagnostics& diagnostics)
+    : impl_(std::make_unique<Impl>(description, diagnostics)) {}
+
+TextureLibrary::~TextureLibrary() = default;
+
+FloatTexturePtr TextureLibrary::float_texture(const ParameterSet& parameters,
+                                              const std::string& name) const {
+  return impl_->find_float_parameter(parameters, name);
+}
+
+FloatTexturePtr TextureLibrary::float_texture(const ParameterSet& parameters,
+                                              const std::string& name, float fallback) const {
+  return impl_->float_texture(parameters, name, fallback);
+}
+
+SpectrumTexturePtr TextureLibrary::spectrum_texture(const ParameterSet& parameters,
+                                                    const std::string& name,
+                                                    SpectrumKind kind) const {
+  return impl_->find_spectrum_parameter(parameters, name, kind);
+}
+
+}  // namespace nephroid

@@ -1,0 +1,36 @@
+// Where on a texture a point of a surface lies: pbrt-v4's mappings uv, spherical, cylindrical,
+// planar and, for three dimensions, the point in the texture's own frame. Who calls it: textures of
+// this folder. It must not know what a texture does with the coordinates.
+#pragma once
+
+#include "scene/texture/texture.h"
+
+namespace nephroid {
+
+/// (s, t) of a point, by the parameters "mapping", "uscale", "vscale", "udelta", "vdelta", "v1",
+/// "v2".
+class TextureMapping2D {
+ public:
+  /// Throws SceneError for an unknown mapping.
+  explicit TextureMapping2D(const TextureDescription& description);
+  Vec2f map(const TextureContext& context) const;
+
+ private:
+  enum class Kind { kUv, kSpherical, kCylindrical, kPlanar };
+  Kind kind_ = Kind::kUv;
+  Vec2f scale_{1, 1}, offset_{0, 0};
+  Vec3f axis_s_{1, 0, 0}, axis_t_{0, 1, 0};
+  Transform world_to_texture_;
+};
+
+/// The point in the frame that was in force at the Texture directive.
+class TextureMapping3D {
+ public:
+  explicit TextureMapping3D(const TextureDescription& description);
+  Vec3f map(const TextureContext& context) const { return world_to_texture_.point(context.p); }
+
+ private:
+  Transform world_to_texture_;
+};
+
+}  // namespace nephroid

@@ -1,0 +1,52 @@
+// The table of texture classes: the scene format's name -> how to make one. A new class is one file
+// with its two makers and one row in texture_table.cpp.
+// Who calls it: the texture library. The makers must not know the library, only TextureScope.
+#pragma once
+
+#include <string>
+
+#include "scene/texture/image_file.h"
+#include "scene/texture/texture.h"
+
+namespace nephroid {
+
+/// What a maker may ask of the scene around it: other textures, images, where files are.
+class TextureScope {
+ public:
+  virtual ~TextureScope() = default;
+  /// The parameter `name` as number or texture, `fallback` if absent.
+  virtual FloatTexturePtr float_texture(const ParameterSet& parameters, const std::string& name,
+                                        float fallback) = 0;
+  /// The parameter `name` as colour or texture, the constant `fallback` if absent.
+  virtual SpectrumTexturePtr spectrum_texture(const ParameterSet& parameters,
+                                              const std::string& name, SpectrumKind kind,
+                                              float fallback) = 0;
+  virtual ImageCache& images() = 0;
+  virtual const std::string& directory() const = 0;
+  virtual Diagnostics& diagnostics() = 0;
+};
+
+using FloatTextureMaker = FloatTexturePtr (*)(const TextureDescription&, TextureScope&);
+using SpectrumTextureMaker = SpectrumTexturePtr (*)(const TextureDescription&, SpectrumKind,
+                                                    TextureScope&);
+
+/// Makes a texture of the description's class; throws SceneError at the directive if there is no
+/// such class or if it is not rendered yet.
+FloatTexturePtr make_float_texture(const TextureDescription& description, TextureScope& scope);
+SpectrumTexturePtr make_spectrum_texture(const TextureDescription& description, SpectrumKind kind,
+                                         TextureScope& scope);
+
+// The makers, one pair a file.
+FloatTexturePtr make_float_constant(const TextureDescription&, TextureScope&);
+SpectrumTexturePtr make_spectrum_constant(const TextureDescription&, SpectrumKind, TextureScope&);
+FloatTexturePtr make_float_scale(const TextureDescription&, TextureScope&);
+SpectrumTexturePtr make_spectrum_scale(const TextureDescription&, SpectrumKind, TextureScope&);
+FloatTexturePtr make_float_mix(const TextureDescription&, TextureScope&);
+SpectrumTexturePtr make_spectrum_mix(const TextureDescription&, SpectrumKind, TextureScope&);
+FloatTexturePtr make_float_checkerboard(const TextureDescription&, TextureScope&);
+SpectrumTexturePtr make_spectrum_checkerboard(const TextureDescription&, SpectrumKind,
+                                              TextureScope&);
+FloatTexturePtr make_float_imagemap(const TextureDescription&, TextureScope&);
+SpectrumTexturePtr make_spectrum_imagemap(const TextureDescription&, SpectrumKind, TextureScope&);
+
+}  // namespace nephroid

@@ -1,0 +1,58 @@
+// How far a picture is from a reference: the numbers of `nephroid compare` and its heat map.
+// Works on linear RGB; values that are not finite count as 1e6, so that they show and do not
+// spread. Who calls it: apps and the agreement tests. It must not know films or scenes.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "film/image_io.h"
+
+namespace nephroid {
+
+struct CompareOptions {
+  /// Takes the reference's own squared error (its stderr channels) out of rmse, relmse and
+  /// relmse_trim; what is left estimates the error against the truth and may be negative.
+  bool subtract_reference_error = false;
+};
+
+/// A relative mean error with half the width of its 95 % interval, if the error is known.
+struct MeanRatio {
+  double value = 0;  ///< mean of the test over mean of the reference, minus 1
+  std::optional<double> half_width;
+  uint64_t pixels = 0;
+};
+
+struct Comparison {
+  double rmse = 0;
+  double relmse = 0;       ///< mean over pixels and channels of (x - r)^2 / (r^2 + 0.01)
+  double relmse_trim = 0;  ///< the same without the worst 0.1 % of pixels (at least one)
+  MeanRatio mean;          ///< all pixels, no interval
+  MeanRatio dim_mean;      ///< pixels whose reference is below 10 in every channel
+};
+
+/// Throws UsageError if the sizes differ, if a picture has fewer than three channels, or if the
+/// reference's error is to be subtracted and it has no stderr channels.
+Comparison compare_pictures(const Picture& reference, const Picture& test,
+                            const CompareOptions& options);
+
+/// Squared relative error of each pixel, mean over channels, rows from the top.
+std::vector<double> relative_squared_errors(const Picture& reference, const Picture& test);
+
+/// Colours of increasing lightness for squared relative errors from kHeatMin to kHeatMax, by the
+/// logarithm; smaller and larger errors take the end colours. Three sRGB bytes.
+inline constexpr double kHeatMin = 1e-5, kHeatMax = 10;
+struct HeatColor {
+  uint8_t r = 0, g = 0, b = 0;
+};
+HeatColor heat_color(double squared_relative_error);
+
+/// Writes the heat map as PNG. Throws IoError.
+void write_heat_map(const std::string& path, const Picture& reference, const Picture& test);
+
+/// The scale of the heat map, one "error  #rrggbb" a line, one line a decade.
+std::string heat_map_legend();
+
+}  // namespace nephroid

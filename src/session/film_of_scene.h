@@ -1,0 +1,18 @@
+// From the scene's words about its film to the film itself, and to the name of the output.
+// Who calls it: apps and tests that render whole scenes.
+#pragma once
+
+#include <string>
+
+#include "film/film.h"
+#include "scene/scene.h"
+
+namespace nephroid {
+
+FilmSettings film_settings(const FilmDescription& description);
+
+/// The output when the user names none: the stem of the scene's film file name (or of the scene's
+/// own, if the film has none), ".exr", in the current directory.
+std::string default_output(const FilmDescription& film, const std::string& scene_file);
+
+}  // namespace nephroid

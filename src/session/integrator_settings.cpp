@@ -1,0 +1,160 @@
+// The table of -D keys and the order of defaults.
+#include "session/integrator_settings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "session/option_values.h"
+
+namespace nephroid {
+namespace {
+
+constexpr int64_t kNoLimit = std::numeric_limits<int64_t>::max();
+constexpr int kMaxInt = std::numeric_limits<int>::max();
+
+float number(const char* key, const std::string& text, double low, double high, bool open) {
+  return static_cast<float>(parse_number(std::string("-D ") + key, text, low, high, open));
+}
+int64_t integer(const char* key, const std::string& text, int64_t low, int64_t high) {
+  return parse_integer(std::string("-D ") + key, text, low, high);
+}
+
+constexpr IntegratorSetting kSettings[] = {
+    {"max-depth", "N", "100, or the scene's maxdepth", "",
+     "Scattering events of a whole path, from the camera to the light.",
+     [](IntegratorOptions& o, const std::string& t) {
+       o.max_depth = static_cast<int>(integer("max-depth", t, 0, kMaxInt));
+     },
+     [](const IntegratorOptions& o) { return fmt::format("{}", o.max_depth); }},
+    {"radius", "X", "0", "pixels",
+     "Merge radius of the first pass, in footprints of a pixel; 0 lets the integrator choose.",
+     [](IntegratorOptions& o, const std::string& t) {
+       o.radius = number("radius", t, 0, std::numeric_limits<float>::max(), false);
+     },
+     [](const IntegratorOptions& o) { return fmt::format("{:g}", o.radius); }},
+    {"photons", "N", "0", "paths",
+     "Photon paths emitted per pass; 0 chooses by the size of the film.",
+     [](IntegratorOptions& o, const std::string& t) {
+       o.photons_per_pass = integer("photons", t, 0, kNoLimit);
+     },
+     [](const IntegratorOptions& o) { return fmt::format("{}", o.photons_per_pass); }},
+    {"alpha", "X", "0.6667", "",
+     "How fast the merge radius shrinks, above 0 to 1: 1 keeps it, smaller values shrink faster.",
+     [](IntegratorOptions& o, const std::string& t) { o.alpha = number("alpha", t, 0, 1, true); },
+     [](const IntegratorOptions& o) { return fmt::format("{:.4g}", o.alpha); }},
+    {"specular-alpha", "X", "0.05", "",
+     "Microfacet roughness (after remapping, the larger of both directions) up to which a lobe "
+     "counts "
+     "as specular.",
+     [](IntegratorOptions& o, const std::string& t) {
+       o.specular_alpha = number("specular-alpha", t, 0, 1, false);
+     },
+     [](const IntegratorOptions& o) { return fmt::format("{:g}", o.specular_alpha); }},
+    {"camera-samples", "N", "0", "samples",
+     "Camera paths per pixel and pass; 0 lets the integrator choose.",
+     [](IntegratorOptions& o, const std::string& t) {
+       o.camera_samples_per_pass = static_cast<int>(integer("camera-samples", t, 0, kMaxInt));
+     },
+     [](const IntegratorOptions& o) { return fmt::format("{}", o.camera_samples_per_pass); }},
+    {"memory-photons", "N", "4194304", "photons",
+     "Photons kept at once; a pass with more runs in batches.",
+     [](IntegratorOptions& o, const std::string& t) {
+       o.memory_photons = integer("memory-photons", t, 1, kNoLimit);
+     },
+     [](const IntegratorOptions& o) { return fmt::format("{}", o.memory_photons); }},
+};
+
+const IntegratorSetting* find_setting(const std::string& key) {
+  for (const IntegratorSetting& setting : kSettings)
+    if (key == setting.key) return &setting;
+  return nullptr;
+}
+
+std::string all_keys() {
+  std::string keys;
+  for (const IntegratorSetting& setting : kSettings) {
+    if (!keys.empty()) keys += ", ";
+    keys += setting.key;
+  }
+  return keys;
+}
+
+/// What the scene's Integrator line says. Radii of pbrt's sppm are in world units and chosen for
+/// its own photon counts: ours is chosen by the footprint, so theirs is only mentioned.
+void take_scene_parameters(const ParameterSet& parameters, bool follow_scene, bool depth_is_given,
+                           IntegratorChoice* choice) {
+  constexpr int kAbsent = -1;
+  const int max_depth = parameters.get_int("maxdepth", kAbsent);
+  if (max_depth >= 0)
+    choice->options.max_depth = max_depth;
+  else if (!depth_is_given)
+    choice->notes.push_back(
+        fmt::format("the scene gives no maxdepth: paths have up to {} scattering events, where "
+                    "pbrt-v4 stops at 5 (-D max-depth=5)",
+                    choice->options.max_depth));
+  if (parameters.find("radius") != nullptr)
+    choice->notes.push_back(
+        "the scene's photon radius in world units is not used: radii are chosen by the size of a "
+        "pixel (-D radius=PIXELS)");
+  const int photons = parameters.get_int("photonsperiteration", kAbsent);
+  if (photons > 0 && follow_scene) choice->options.photons_per_pass = photons;
+}
+
+}  // namespace
+
+std::span<const IntegratorSetting> integrator_settings() {
+  return kSettings;
+}
+
+std::pair<std::string, std::string> parse_setting(const std::string& text) {
+  const size_t equals = text.find('=');
+  if (equals == std::string::npos)
+    throw UsageError(fmt::format("-D: '{}' is not valid, expected key=value with a key of: {}",
+                                 text, all_keys()));
+  std::string key = text.substr(0, equals), value = text.substr(equals + 1);
+  const IntegratorSetting* setting = find_setting(key);
+  if (setting == nullptr)
+    throw UsageError(fmt::format("-D: unknown key '{}', expected one of: {}", key, all_keys()));
+  IntegratorOptions scratch;
+  setting->apply(scratch, value);
+  return {std::move(key), std::move(value)};
+}
+
+void apply_settings(const SettingList& settings, IntegratorOptions* options) {
+  for (const auto& [key, value] : settings)
+    if (const IntegratorSetting* setting = find_setting(key)) setting->apply(*options, value);
+}
+
+IntegratorChoice choose_integrator(const std::string& wanted, const std::string& scene_integrator,
+                                   const ParameterSet& scene_parameters,
+                                   const SettingList& settings) {
+  IntegratorChoice choice;
+  choice.name = wanted;
+  const bool follow_scene = wanted == "scene";
+  if (follow_scene) {
+    // Without an Integrator line pbrt-v4 renders with volpath.
+    const std::string own = scene_integrator.empty() ? "volpath" : scene_integrator;
+    choice.name = integrator_for_scene_name(own);
+    if (choice.name.empty())
+      throw UsageError(fmt::format(
+          "--integrator scene: there is no integrator that stands for the scene's '{}'", own));
+  }
+  const bool depth_is_given = std::any_of(settings.begin(), settings.end(),
+                                          [](const auto& s) { return s.first == "max-depth"; });
+  take_scene_parameters(scene_parameters, follow_scene, depth_is_given, &choice);
+  apply_settings(settings, &choice.options);
+  return choice;
+}
+
+std::string settings_text(const IntegratorOptions& options) {
+  std::string text;
+  for (const IntegratorSetting& setting : kSettings) {
+    if (!text.empty()) text += ' ';
+    text += fmt::format("{}={}", setting.key, setting.print(options));
+  }
+  return text;
+}
+
+}  // namespace nephroid

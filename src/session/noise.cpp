@@ -1,0 +1,60 @@
+// Sums over the film, per chunk of rows and then in the order of the chunks: the stop rule must not
+// depend on threads.
+#include "session/noise.h"
+
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+
+#include "core/parallel.h"
+
+namespace nephroid {
+namespace {
+
+constexpr int64_t kRowsPerChunk = 16;
+constexpr double kRelativeFloor = 0.01;
+
+/// Sum of term(x, y) over the film's pixels.
+template <class Term>
+double sum_over_pixels(const Film& film, const Term& term) {
+  const PixelBounds& bounds = film.bounds();
+  std::vector<double> sums(static_cast<size_t>(chunk_count(bounds.height(), kRowsPerChunk)));
+  parallel_chunks(bounds.height(), kRowsPerChunk, [&](int64_t chunk, int64_t begin, int64_t end) {
+    double sum = 0;
+    for (int64_t row = begin; row < end; ++row)
+      for (int x = bounds.x0; x < bounds.x1; ++x) sum += term(x, bounds.y0 + static_cast<int>(row));
+    sums[static_cast<size_t>(chunk)] = sum;
+  });
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
+}
+
+}  // namespace
+
+std::optional<double> estimated_noise(const Film& film) {
+  for (size_t r = 0; r < film.routes().size(); ++r)
+    if (film.estimates(static_cast<int>(r)) < 2) return std::nullopt;
+  const double sum = sum_over_pixels(film, [&](int x, int y) {
+    const Rgb value = film.value(x, y), error = film.standard_error(x, y);
+    double pixel = 0;
+    for (int c = 0; c < 3; ++c) {
+      const double v = value[c], e = error[c];
+      pixel += e * e / (v * v + kRelativeFloor);
+    }
+    return pixel;
+  });
+  return std::sqrt(sum / (3.0 * static_cast<double>(film.bounds().area())));
+}
+
+std::vector<double> route_energy_shares(const Film& film) {
+  std::vector<double> shares;
+  for (size_t r = 0; r < film.routes().size(); ++r)
+    shares.push_back(sum_over_pixels(film, [&](int x, int y) {
+      const Rgb value = film.route_value(static_cast<int>(r), x, y);
+      return double{value.r} + value.g + value.b;
+    }));
+  const double total = std::accumulate(shares.begin(), shares.end(), 0.0);
+  for (double& share : shares) share = total > 0 ? share / total : 0;
+  return shares;
+}
+
+}  // namespace nephroid

@@ -1,0 +1,30 @@
+// The texts that options take, as values: numbers, durations, ranges, sizes. Each parser takes the
+// whole text or throws UsageError with what was expected; `option` is the name that the message
+// begins with. Who calls it: options.cpp and integrator_settings.cpp.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <utility>
+
+namespace nephroid {
+
+/// A whole number in [low, high].
+int64_t parse_integer(const std::string& option, const std::string& text, int64_t low,
+                      int64_t high);
+/// Any unsigned 64-bit number.
+uint64_t parse_seed(const std::string& option, const std::string& text);
+/// A finite number in [low, high], or in (low, high] if `low_is_open`.
+double parse_number(const std::string& option, const std::string& text, double low, double high,
+                    bool low_is_open);
+/// "90", "90s", "1.5m" or "1h" in seconds, above 0.
+double parse_duration(const std::string& option, const std::string& text);
+/// "N" is passes 0 to N-1, "A..B" is A to B, both included. First and last pass.
+std::pair<uint32_t, uint32_t> parse_passes(const std::string& option, const std::string& text);
+/// "640x360": width and height, each 1 to 65536.
+std::pair<int, int> parse_resolution(const std::string& option, const std::string& text);
+/// "x0,x1,y0,y1" in [0,1], x0 < x1 and y0 < y1.
+std::array<float, 4> parse_crop(const std::string& option, const std::string& text);
+
+}  // namespace nephroid

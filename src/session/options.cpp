@@ -1,0 +1,133 @@
+// The rows of the option table. A new option is one row here and its use in apps/.
+#include "session/options.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/errors.h"
+#include "session/option_values.h"
+
+namespace nephroid {
+namespace {
+
+constexpr double kAnyNumber = std::numeric_limits<double>::infinity();
+constexpr int kMostThreads = 4096;
+
+void set_output(CommandLine& line, const std::string& text) {
+  const bool is_exr = text.size() > 4 && text.compare(text.size() - 4, 4, ".exr") == 0;
+  if (!is_exr)
+    throw UsageError("--output: '" + text +
+                     "' is not valid, expected a name that ends in .exr (a .png is written beside "
+                     "it)");
+  line.render.output = text;
+}
+
+void set_integrator(CommandLine& line, const std::string& text) {
+  const std::vector<std::string> names = integrator_names();
+  if (text != "scene" && std::find(names.begin(), names.end(), text) == names.end()) {
+    std::string known;
+    for (const std::string& name : names) known += name + ", ";
+    throw UsageError("--integrator: unknown integrator '" + text + "', expected one of: " + known +
+                     "scene");
+  }
+  line.render.integrator = text;
+}
+
+void set_resolution(CommandLine& line, const std::string& text) {
+  const auto [width, height] = parse_resolution("--resolution", text);
+  line.render.overrides.width = width;
+  line.render.overrides.height = height;
+}
+
+void set_crop(CommandLine& line, const std::string& text) {
+  const auto crop = parse_crop("--crop", text);
+  line.render.overrides.has_crop = true;
+  std::copy(crop.begin(), crop.end(), line.render.overrides.crop);
+}
+
+void add_setting(CommandLine& line, const std::string& text) {
+  line.render.settings.push_back(parse_setting(text));
+  IntegratorOptions options;
+  apply_settings(line.render.settings, &options);
+  line.render.overrides.specular_alpha = options.specular_alpha;
+}
+
+void set_heat_map(CommandLine& line, const std::string& text) {
+  const bool is_png = text.size() > 4 && text.compare(text.size() - 4, 4, ".png") == 0;
+  if (!is_png)
+    throw UsageError("--heat: '" + text + "' is not valid, expected a name that ends in .png");
+  line.compare.heat_map = text;
+}
+
+constexpr CommandDescription kCommands[] = {
+    {"render", "Render a scene to an EXR and a PNG."},
+    {"info", "Say what is in a scene without rendering it."},
+    {"compare", "Measure how far a picture is from a reference."},
+};
+
+constexpr OptionDescription kOptions[] = {
+    {"render", "SCENE", "", "", "", "", "", "A pbrt-v4 scene file, may be compressed (.gz).", false,
+     [](CommandLine& l, const std::string& t) { l.render.scene = t; }},
+    {"render", "--output", "-o", "OUT.exr", "",
+     "named after the scene's film, in the current directory", "Output",
+     "The picture with all its layers; a PNG is written beside it.", false, set_output},
+    {"render", "--quiet", "", "", "", "", "Output", "Print nothing but errors.", false,
+     [](CommandLine& l, const std::string&) { l.render.quiet = true; }},
+    {"render", "--integrator", "", "NAME", "", "mixed", "Algorithm",
+     "How light is found: path, sppm, mixed, or scene for the one that the scene names.", false,
+     set_integrator},
+    {"render", "-D", "", "KEY=VALUE", "", "", "Algorithm",
+     "Set a number of the integrator; may be given several times.", true, add_setting},
+    {"render", "--seed", "", "S", "", "the scene's, else 0", "Algorithm",
+     "Another seed gives another, independent picture.", false,
+     [](CommandLine& l, const std::string& t) { l.render.seed = parse_seed("--seed", t); }},
+    {"render", "--passes", "", "N|A..B", "passes",
+     "the scene's pixel samples, if no other rule is given", "When to stop",
+     "Stop after N passes; A..B renders a range from 0, both ends included.", false,
+     [](CommandLine& l, const std::string& t) { l.render.passes = parse_passes("--passes", t); }},
+    {"render", "--time", "", "TIME", "s, m or h", "no limit", "When to stop",
+     "Stop at the end of the pass that ends nearest to this time (60s, 5m, 1h).", false,
+     [](CommandLine& l, const std::string& t) {
+       l.render.time_limit = parse_duration("--time", t);
+     }},
+    {"render", "--noise", "", "X", "relative error", "no target", "When to stop",
+     "Stop when the estimated noise, the root of the mean of stderr^2 / (value^2 + 0.01), is at or "
+     "below X.",
+     false,
+     [](CommandLine& l, const std::string& t) {
+       l.render.noise_target = parse_number("--noise", t, 0, kAnyNumber, true);
+     }},
+    {"render", "--resolution", "", "WxH", "pixels", "the scene's", "Picture",
+     "Width and height of the full picture.", false, set_resolution},
+    {"render", "--crop", "", "x0,x1,y0,y1", "0 to 1", "the scene's", "Picture",
+     "Render a part: left, right, top and bottom as fractions of the full picture.", false,
+     set_crop},
+    {"render", "--threads", "-t", "N", "threads", "all of the machine", "Machine",
+     "Number of threads; the picture does not depend on it.", false,
+     [](CommandLine& l, const std::string& t) {
+       l.render.threads = static_cast<int>(parse_integer("--threads", t, 1, kMostThreads));
+     }},
+    {"info", "SCENE", "", "", "", "", "", "A pbrt-v4 scene file, may be compressed (.gz).", false,
+     [](CommandLine& l, const std::string& t) { l.info.scene = t; }},
+    {"compare", "REF", "", "", "", "", "", "The reference picture.", false,
+     [](CommandLine& l, const std::string& t) { l.compare.reference = t; }},
+    {"compare", "TEST", "", "", "", "", "", "The picture to measure, of the same size.", false,
+     [](CommandLine& l, const std::string& t) { l.compare.test = t; }},
+    {"compare", "--heat", "", "OUT.png", "", "none", "",
+     "Write the squared relative error of each pixel in false colours and print their scale.",
+     false, set_heat_map},
+    {"compare", "--subtract-reference-error", "", "", "", "", "",
+     "Take the reference's own error (its stderr channels) out of the squared errors.", false,
+     [](CommandLine& l, const std::string&) { l.compare.subtract_reference_error = true; }},
+};
+
+}  // namespace
+
+std::span<const CommandDescription> command_table() {
+  return kCommands;
+}
+std::span<const OptionDescription> option_table() {
+  return kOptions;
+}
+
+}  // namespace nephroid

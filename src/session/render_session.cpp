@@ -1,0 +1,212 @@
+// The loop of render_session.h on one page: pass, stop rules, progress, intermediate picture.
+#include "session/render_session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/errors.h"
+#include "film/atomic_file.h"
+#include "film/film_output.h"
+#include "scene/scene.h"
+#include "session/noise.h"
+
+namespace nephroid {
+namespace {
+
+/// Work that is not rendering (writing, estimating the noise for display) waits this many times as
+/// long as it took last time, so that it costs less than 2 % of the time.
+constexpr double kIdlePerWork = 50;
+constexpr double kNoiseInterval = 1;  ///< s between noise estimates for progress, at least
+/// A spread of fewer passes says too little to stop on.
+constexpr uint32_t kFewestPassesForNoise = 4;
+
+double steady_seconds() {
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  return std::chrono::duration<double>(now).count();
+}
+
+void check_fits(const Preset& preset, const RenderOptions& options) {
+  if (options.last_pass && *options.last_pass < options.first_pass)
+    throw UsageError("--passes: the range ends before it begins");
+  for (const auto& estimator : preset.estimators) {
+    const Capabilities capabilities = estimator->capabilities();
+    if (options.first_pass > 0 && !capabilities.independent_passes)
+      throw UsageError(
+          fmt::format("--passes {}..: the passes of this integrator depend on each "
+                      "other, expected a range from 0",
+                      options.first_pass));
+    if (options.noise_target > 0 && capabilities.per_pixel_state)
+      throw UsageError(
+          "--noise: this integrator cannot tell how noisy its picture is, expected --passes or "
+          "--time");
+  }
+}
+
+}  // namespace
+
+RenderSession::RenderSession(const Scene& scene, Preset& preset, Film& film, RenderOptions options)
+    : scene_(scene),
+      preset_(preset),
+      film_(film),
+      options_(std::move(options)),
+      clock_(steady_seconds) {
+  check_fits(preset_, options_);
+  if (options_.last_pass)
+    passes_wanted_ = *options_.last_pass - options_.first_pass + 1;
+  else if (!(options_.time_limit > 0) && !(options_.noise_target > 0))
+    passes_wanted_ = static_cast<uint32_t>(std::max(1, scene_.samples_per_pixel));
+  if (!options_.output.empty()) {
+    check_file_can_be_written(options_.output);
+    check_file_can_be_written(png_path_beside(options_.output));
+  }
+}
+
+void RenderSession::on_progress(std::function<void(const RenderProgress&)> callback) {
+  progress_ = std::move(callback);
+}
+void RenderSession::on_warning(std::function<void(const std::string&)> callback) {
+  warning_ = std::move(callback);
+}
+void RenderSession::use_clock(std::function<double()> seconds) {
+  clock_ = std::move(seconds);
+}
+
+RenderResult RenderSession::run(SignalFlags& signals) {
+  start_ = clock_();
+  passes_done_ = 0;
+  next_write_seconds_ = options_.write_interval;
+  RenderResult result;
+  std::optional<StopReason> reason;
+  while (!reason) {
+    render_one_pass();
+    if (passes_done_ == 1) result.first_pass_statistics = statistics();
+    if (noise_check_is_due()) renew_noise();
+    reason = reason_to_stop(signals);
+    report_progress();
+    if (!reason) write_if_due(signals);
+  }
+
+  result.reason = *reason;
+  result.signal = *reason == StopReason::kSignal ? signals.stop.load() : 0;
+  result.passes_done = passes_done_;
+  result.seconds = elapsed();
+  result.noise = noise_;
+  result.statistics = statistics();
+  if (!options_.output.empty()) write_picture();
+  return result;
+}
+
+void RenderSession::render_one_pass() {
+  const double begin = clock_();
+  const PassKey key{options_.seed, options_.first_pass + passes_done_};
+  for (const auto& estimator : preset_.estimators) estimator->render_pass(key, scene_, film_);
+  ++passes_done_;
+  last_pass_seconds_ = clock_() - begin;
+}
+
+std::vector<EstimatorStatistics> RenderSession::statistics() const {
+  std::vector<EstimatorStatistics> result;
+  for (const auto& estimator : preset_.estimators) result.push_back(estimator->statistics());
+  return result;
+}
+
+/// A pass that would end further behind the time limit than this one ends before it is not begun.
+std::optional<StopReason> RenderSession::reason_to_stop(const SignalFlags& signals) const {
+  if (passes_wanted_ && passes_done_ >= *passes_wanted_) return StopReason::kPasses;
+  if (options_.first_pass + passes_done_ == std::numeric_limits<uint32_t>::max())
+    return StopReason::kPasses;
+  if (options_.noise_target > 0 && noise_pass_ == passes_done_ &&
+      passes_done_ >= kFewestPassesForNoise && noise_ && *noise_ <= options_.noise_target)
+    return StopReason::kNoise;
+  if (options_.time_limit > 0 && elapsed() + last_pass_seconds_ / 2 >= options_.time_limit)
+    return StopReason::kTime;
+  if (signals.stop.load() != 0) return StopReason::kSignal;
+  return std::nullopt;
+}
+
+/// With a noise target the checks are at fixed passes, about 6 % apart, so that the clock has no
+/// say in where the render stops. Without one the estimate is for display and follows the clock.
+bool RenderSession::noise_check_is_due() const {
+  if (options_.noise_target > 0)
+    return passes_done_ >= kFewestPassesForNoise &&
+           passes_done_ % std::max(1u, std::bit_floor(passes_done_) / 16) == 0;
+  return progress_ && elapsed() >= next_noise_seconds_;
+}
+
+void RenderSession::renew_noise() {
+  const double begin = clock_();
+  noise_ = estimated_noise(film_);
+  noise_pass_ = passes_done_;
+  const double cost = clock_() - begin;
+  next_noise_seconds_ = elapsed() + std::max(kNoiseInterval, kIdlePerWork * cost);
+}
+
+std::optional<double> RenderSession::seconds_left(double seconds) const {
+  std::optional<double> left;
+  const auto at_most = [&](double candidate) {
+    left = std::max(0.0, left ? std::min(*left, candidate) : candidate);
+  };
+  const double per_pass = seconds / passes_done_;
+  if (passes_wanted_) at_most(per_pass * (*passes_wanted_ - passes_done_));
+  if (options_.time_limit > 0) at_most(options_.time_limit - seconds);
+  // The error falls with the square root of the number of passes.
+  if (options_.noise_target > 0 && noise_ && *noise_ > 0)
+    at_most(per_pass * (noise_pass_ * std::pow(*noise_ / options_.noise_target, 2) - passes_done_));
+  return left;
+}
+
+void RenderSession::report_progress() {
+  if (!progress_) return;
+  RenderProgress progress;
+  progress.passes_done = passes_done_;
+  progress.passes_wanted = passes_wanted_;
+  progress.seconds = elapsed();
+  progress.seconds_left = seconds_left(progress.seconds);
+  progress.noise = noise_;
+  if (progress.seconds_left) {
+    const double total = progress.seconds + *progress.seconds_left;
+    progress.fraction = total > 0 ? progress.seconds / total : 1;
+  }
+  for (const EstimatorStatistics& s : statistics()) {
+    progress.rays += s.rays;
+    progress.photons_stored += s.photons_stored;
+  }
+  progress_(progress);
+}
+
+void RenderSession::write_if_due(SignalFlags& signals) {
+  const bool asked = signals.write.exchange(false);
+  if (options_.output.empty() || (!asked && elapsed() < next_write_seconds_)) return;
+  const double begin = clock_();
+  try {
+    write_picture();
+  } catch (const IoError& error) {
+    if (warning_) warning_(std::string(error.what()) + " (rendering goes on)");
+  }
+  const double cost = clock_() - begin;
+  next_write_seconds_ = elapsed() + std::max(options_.write_interval, kIdlePerWork * cost);
+}
+
+void RenderSession::write_picture() {
+  write_film(options_.output, film_, picture_metadata(), options_.png_exposure);
+}
+
+Metadata RenderSession::picture_metadata() const {
+  Metadata metadata = options_.metadata;
+  metadata.emplace_back("nephroid:seed", fmt::format("{}", options_.seed));
+  metadata.emplace_back("nephroid:passes", fmt::format("{}..{}", options_.first_pass,
+                                                       options_.first_pass + passes_done_ - 1));
+  metadata.emplace_back("nephroid:seconds", fmt::format("{:.3f}", elapsed()));
+  for (size_t r = 0; r < film_.routes().size(); ++r)
+    metadata.emplace_back("nephroid:estimates:" + film_.routes()[r],
+                          fmt::format("{}", film_.estimates(static_cast<int>(r))));
+  return metadata;
+}
+
+}  // namespace nephroid

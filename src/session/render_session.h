@@ -1,0 +1,105 @@
+// The loop over passes: when to stop, when to write, what to say. The only place with a clock, and
+// no pixel depends on it: time decides how many passes there are, never what a pass computes. Who
+// calls it: apps and tests. It must not know how an estimator makes light.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "film/film.h"
+#include "film/image_io.h"
+#include "integrator/estimator.h"
+#include "session/signals.h"
+
+namespace nephroid {
+
+/// What to render. The rules combine and the first met stops; without a last pass, a time limit or
+/// a noise target the number of passes is the scene's pixel samples.
+struct RenderOptions {
+  uint32_t first_pass = 0;
+  std::optional<uint32_t> last_pass;  ///< included
+  double time_limit = 0;              ///< s, 0: none
+  double noise_target = 0;            ///< as estimated_noise(), 0: none
+  uint64_t seed = 0;
+  std::string output;         ///< EXR, a PNG is written beside it; empty: nothing is written
+  double write_interval = 5;  ///< s between intermediate pictures, at least
+  float png_exposure = 1;
+  Metadata metadata;  ///< written first; the session adds passes, time and estimates
+};
+
+enum class StopReason { kPasses, kTime, kNoise, kSignal };
+
+/// Where a render stands after a pass.
+struct RenderProgress {
+  uint32_t passes_done = 0;
+  std::optional<uint32_t> passes_wanted;  ///< empty if only time or noise stop it
+  double seconds = 0;
+  std::optional<double> seconds_left;  ///< by the rule that will be met first, as it looks now
+  std::optional<double> noise;         ///< the last estimate, renewed now and then
+  double fraction = 0;                 ///< of the whole, 0..1
+  uint64_t rays = 0;
+  uint64_t photons_stored = 0;
+};
+
+struct RenderResult {
+  StopReason reason = StopReason::kPasses;
+  int signal = 0;  ///< that stopped it, if one did
+  uint32_t passes_done = 0;
+  double seconds = 0;  ///< rendering, with intermediate pictures, without the last
+  std::optional<double> noise;
+  /// As the preset's estimators: after the first pass (for where radii began) and after the last.
+  std::vector<EstimatorStatistics> first_pass_statistics, statistics;
+};
+
+class RenderSession {
+ public:
+  /// Keeps references to all three. The film has the preset's routes. Throws UsageError if the
+  /// options do not fit the preset, IoError if the output cannot be written.
+  RenderSession(const Scene& scene, Preset& preset, Film& film, RenderOptions options);
+
+  /// Called after every pass.
+  void on_progress(std::function<void(const RenderProgress&)> callback);
+  /// Called when an intermediate picture could not be written; rendering goes on.
+  void on_warning(std::function<void(const std::string&)> callback);
+  /// Seconds from any origin; the machine's steady clock unless set.
+  void use_clock(std::function<double()> seconds);
+
+  /// Renders until a rule or a signal stops it and writes the picture. Throws IoError if the last
+  /// picture cannot be written.
+  RenderResult run(SignalFlags& signals);
+
+ private:
+  std::optional<StopReason> reason_to_stop(const SignalFlags& signals) const;
+  double elapsed() const { return clock_() - start_; }
+  bool noise_check_is_due() const;
+  void render_one_pass();
+  std::vector<EstimatorStatistics> statistics() const;
+  void renew_noise();
+  void report_progress();
+  void write_if_due(SignalFlags& signals);
+  void write_picture();
+  std::optional<double> seconds_left(double seconds) const;
+  Metadata picture_metadata() const;
+
+  const Scene& scene_;
+  Preset& preset_;
+  Film& film_;
+  RenderOptions options_;
+  std::optional<uint32_t> passes_wanted_;
+  std::function<void(const RenderProgress&)> progress_;
+  std::function<void(const std::string&)> warning_;
+  std::function<double()> clock_;
+
+  double start_ = 0;
+  uint32_t passes_done_ = 0;
+  double last_pass_seconds_ = 0;
+  std::optional<double> noise_;
+  uint32_t noise_pass_ = 0;        ///< passes done when noise_ was estimated
+  double next_noise_seconds_ = 0;  ///< of the estimates for progress alone
+  double next_write_seconds_ = 0;
+};
+
+}  // namespace nephroid

@@ -1,0 +1,51 @@
+// sigaction and two lock-free atomics, which is all that a handler may touch.
+#include "session/signals.h"
+
+#include <csignal>
+
+namespace nephroid {
+namespace {
+
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
+
+SignalFlags requests;
+
+void set_action(int signal, void (*handler)(int)) {
+  struct sigaction action = {};
+  action.sa_handler = handler;
+  sigemptyset(&action.sa_mask);
+  action.sa_flags = SA_RESTART;
+  sigaction(signal, &action, nullptr);
+}
+
+void ask_to_stop(int signal) {
+  requests.stop.store(signal);
+  set_action(SIGINT, SIG_DFL);
+  set_action(SIGTERM, SIG_DFL);
+}
+
+void ask_to_write(int) {
+  requests.write.store(true);
+}
+
+}  // namespace
+
+SignalListener::SignalListener() {
+  requests.stop.store(0);
+  requests.write.store(false);
+  set_action(SIGINT, ask_to_stop);
+  set_action(SIGTERM, ask_to_stop);
+  set_action(SIGUSR1, ask_to_write);
+}
+
+SignalListener::~SignalListener() {
+  set_action(SIGINT, SIG_DFL);
+  set_action(SIGTERM, SIG_DFL);
+  set_action(SIGUSR1, SIG_DFL);
+}
+
+SignalFlags& SignalListener::flags() const {
+  return requests;
+}
+
+}  // namespace nephroid

@@ -1,0 +1,27 @@
+// What the outside asks of a running render: stop, or write the picture now.
+// A signal handler can only reach static storage, so this is the one mutable global of the program;
+// it holds requests and never reaches a pixel.
+#pragma once
+
+#include <atomic>
+
+namespace nephroid {
+
+struct SignalFlags {
+  std::atomic<int> stop{0};        ///< the signal that asked to stop, 0 if none did
+  std::atomic<bool> write{false};  ///< a picture is wanted now
+};
+
+/// While it lives, SIGINT and SIGTERM set `stop` and SIGUSR1 sets `write` in flags(). After the
+/// first request to stop both signals have their default action again: the second one kills.
+class SignalListener {
+ public:
+  SignalListener();
+  ~SignalListener();
+  SignalListener(const SignalListener&) = delete;
+  SignalListener& operator=(const SignalListener&) = delete;
+
+  SignalFlags& flags() const;
+};
+
+}  // namespace nephroid

@@ -1,0 +1,94 @@
+// The same bits for any number of threads and for any order of the passes.
+#include <gtest/gtest.h>
+
+#include "core/parallel.h"
+#include "rendering.h"
+
+namespace nephroid {
+namespace {
+
+using namespace testing_support;
+
+const char* const kScene = R"(
+  LookAt 0 1 -6  0 0.8 0  0 1 0
+  Camera "perspective" "float fov" 35 "float lensradius" 0.02 "float focaldistance" 6
+  Film "rgb" "integer xresolution" 24 "integer yresolution" 20
+  PixelFilter "mitchell"
+  WorldBegin
+  AttributeBegin
+    Translate 0 3 0
+    AreaLightSource "diffuse" "rgb L" [9 8 7] "bool twosided" true
+    Shape "disk" "float radius" 0.5 "float height" 0
+  AttributeEnd
+  LightSource "point" "rgb I" [2 3 4] "point3 from" [2 2 -3]
+  Material "diffuse" "rgb reflectance" [0.6 0.5 0.4]
+  Shape "bilinearmesh" "point3 P" [-4 0 -4  4 0 -4  -4 0 4  4 0 4]
+  Material "dielectric" "spectrum eta" "glass-SF11"
+  AttributeBegin Translate -0.8 0.7 0 Shape "sphere" "float radius" 0.6 AttributeEnd
+  Material "coateddiffuse" "rgb reflectance" [0.2 0.5 0.3] "float roughness" 0.2
+  AttributeBegin Translate 0.8 0.7 0 Shape "sphere" "float radius" 0.6 AttributeEnd
+  )";
+
+void expect_same_bits(const Film& a, const Film& b, const std::string& what) {
+  const PixelBounds& bounds = a.bounds();
+  for (int y = bounds.y0; y < bounds.y1; ++y)
+    for (int x = bounds.x0; x < bounds.x1; ++x)
+      for (size_t r = 0; r < a.routes().size(); ++r) {
+        const Rgb u = a.route_value(static_cast<int>(r), x, y);
+        const Rgb v = b.route_value(static_cast<int>(r), x, y);
+        for (int c = 0; c < 3; ++c)
+          ASSERT_EQ(u[c], v[c]) << what << ": pixel " << x << ' ' << y << " route " << r;
+      }
+}
+
+class Determinism : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(Determinism, AnyNumberOfThreads) {
+  const auto scene = scene_from_text(kScene);
+  IntegratorOptions options;
+  options.photons_per_pass = 20000;
+  std::vector<Film> films;
+  for (const int threads : {1, 2, 7}) {
+    const ThreadLimit limit(threads);
+    films.push_back(render(*scene, GetParam(), options, 5, 3));
+  }
+  expect_same_bits(films[0], films[1], "1 and 2 threads");
+  expect_same_bits(films[0], films[2], "1 and 7 threads");
+  EXPECT_GT(picture_mean(films[0]), 0.0);
+}
+
+TEST_P(Determinism, AnyOrderOfIndependentPasses) {
+  const auto scene = scene_from_text(kScene);
+  IntegratorOptions options;
+  options.photons_per_pass = 20000;
+  Preset forwards = make_integrator(GetParam(), options, *scene);
+  for (const auto& e : forwards.estimators)
+    if (!e->capabilities().independent_passes) GTEST_SKIP() << "passes are a sequence";
+  Preset backwards = make_integrator(GetParam(), options, *scene);
+  Film a = film_for(*scene, forwards), b = film_for(*scene, backwards);
+  for (uint32_t pass = 0; pass < 4; ++pass) {
+    for (const auto& e : forwards.estimators) e->render_pass({5, pass}, *scene, a);
+    for (const auto& e : backwards.estimators) e->render_pass({5, 3 - pass}, *scene, b);
+  }
+  expect_same_bits(a, b, "passes forwards and backwards");
+}
+
+TEST_P(Determinism, BatchesOfPhotonsLoseNothing) {
+  // A pass in many batches gathers the same photons: equal up to the rounding of the sums.
+  const auto scene = scene_from_text(kScene);
+  IntegratorOptions whole, batched;
+  whole.photons_per_pass = batched.photons_per_pass = 20000;
+  batched.memory_photons = 8192;
+  const Film a = render(*scene, GetParam(), whole, 5, 2), b = render(*scene, GetParam(), batched, 5, 2);
+  const PixelBounds& bounds = a.bounds();
+  for (int y = bounds.y0; y < bounds.y1; ++y)
+    for (int x = bounds.x0; x < bounds.x1; ++x)
+      for (int c = 0; c < 3; ++c)
+        ASSERT_NEAR(a.value(x, y)[c], b.value(x, y)[c], 1e-4 * (0.01 + std::abs(a.value(x, y)[c])));
+}
+
+INSTANTIATE_TEST_SUITE_P(AllIntegrators, Determinism, ::testing::ValuesIn(integrator_names()),
+                         [](const auto& info) { return info.param; });
+
+}  // namespace
+}  // namespace nephroid

@@ -1,0 +1,110 @@
+// All BSDF families with the parameters that the tests run through; a new family gets a row here
+// and is covered by every test that iterates over the table. Who calls it: the tests of this
+// folder.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scene/bsdf/coated.h"
+#include "scene/bsdf/coated_diffuse.h"
+#include "scene/bsdf/conductor.h"
+#include "scene/bsdf/dielectric.h"
+#include "scene/bsdf/diffuse.h"
+
+namespace nephroid::testing_bsdf {
+
+struct BsdfCase {
+  std::string name;
+  std::function<const Bsdf*(BsdfArena&)> make;
+  bool stochastic = false;  ///< values are estimates
+  bool refracts = false;    ///< radiance and importance differ
+};
+
+inline SampledSpectrum ramp(float from, float to) {
+  SampledSpectrum s;
+  for (int i = 0; i < kSpectrumSamples; ++i)
+    s.set(i, lerp(static_cast<float>(i) / (kSpectrumSamples - 1), from, to));
+  return s;
+}
+
+inline ConductorSurface metal(float alpha_x, float alpha_y) {
+  return {ramp(0.2f, 1.2f), ramp(3.9f, 2.2f), TrowbridgeReitz(alpha_x, alpha_y)};
+}
+
+inline Coat make_coat(float eta, float alpha_x, float alpha_y, float thickness, float albedo,
+                      float g = 0.0f) {
+  Coat coat;
+  coat.boundary = {eta, TrowbridgeReitz(alpha_x, alpha_y)};
+  coat.thickness = thickness;
+  coat.albedo = SampledSpectrum(albedo);
+  coat.scatters = albedo > 0.0f;
+  coat.g = g;
+  return coat;
+}
+
+inline BsdfCase conductor_case(float ax, float ay) {
+  return {"conductor " + std::to_string(ax) + " " + std::to_string(ay), [=](BsdfArena& a) {
+            return a.make<ConductorBsdf>(metal(ax, ay), kDefaultSpecularAlpha);
+          }};
+}
+inline BsdfCase dielectric_case(float eta, float ax, float ay) {
+  const DielectricInterface boundary{eta, TrowbridgeReitz(ax, ay)};
+  return {"dielectric " + std::to_string(eta) + " " + std::to_string(ax) + " " + std::to_string(ay),
+          [=](BsdfArena& a) { return a.make<DielectricBsdf>(boundary, kDefaultSpecularAlpha); },
+          false, true};
+}
+inline BsdfCase coated_diffuse_case(float eta, float alpha, float thickness, float rho) {
+  const auto table = std::make_shared<CoatTable>(
+      DielectricInterface{eta, TrowbridgeReitz(alpha, alpha)}, thickness, 10);
+  return {"coateddiffuse " + std::to_string(eta) + " " + std::to_string(alpha), [=](BsdfArena& a) {
+            return a.make<CoatedDiffuseBsdf>(table.get(), ramp(rho, 0.5f * rho),
+                                             kDefaultSpecularAlpha);
+          }};
+}
+template <class Base>
+BsdfCase coated_case(const std::string& name, const Coat& coat, const Base& base) {
+  return {name,
+          [=](BsdfArena& a) { return a.make<CoatedBsdf<Base>>(coat, base, kDefaultSpecularAlpha); },
+          true};
+}
+
+inline std::vector<BsdfCase> all_cases() {
+  const LambertSurface grey{ramp(0.8f, 0.4f)};
+  return {
+      {"diffuse", [](BsdfArena& a) { return a.make<DiffuseBsdf>(ramp(0.9f, 0.1f)); }},
+      {"diffusetransmission",
+       [](BsdfArena& a) {
+         return a.make<DiffuseTransmissionBsdf>(ramp(0.2f, 0.5f), ramp(0.4f, 0.1f));
+       }},
+      conductor_case(0.0f, 0.0f),
+      conductor_case(0.03f, 0.03f),
+      conductor_case(0.1f, 0.1f),
+      conductor_case(0.1f, 0.4f),
+      conductor_case(1.0f, 1.0f),
+      dielectric_case(1.5f, 0.0f, 0.0f),
+      dielectric_case(1.0f, 0.3f, 0.3f),
+      dielectric_case(1.5f, 0.04f, 0.04f),
+      dielectric_case(1.5f, 0.2f, 0.2f),
+      dielectric_case(1.5f, 0.15f, 0.6f),
+      dielectric_case(0.7f, 0.3f, 0.3f),
+      {"thindielectric", [](BsdfArena& a) { return a.make<ThinDielectricBsdf>(ramp(1.5f, 1.4f)); }},
+      coated_diffuse_case(1.5f, 0.0f, 0.01f, 0.9f),
+      coated_diffuse_case(1.5f, 0.03f, 0.01f, 0.9f),
+      coated_diffuse_case(1.5f, 0.3f, 0.1f, 0.5f),
+      coated_diffuse_case(0.8f, 0.0f, 0.01f, 0.5f),
+      coated_case("coated lambert anisotropic", make_coat(1.5f, 0.1f, 0.4f, 0.01f, 0.0f), grey),
+      coated_case("coated lambert medium", make_coat(1.4f, 0.2f, 0.2f, 0.5f, 0.7f, 0.4f), grey),
+      coated_case("coated metal smooth smooth", make_coat(1.5f, 0, 0, 0.01f, 0), metal(0, 0)),
+      coated_case("coated metal smooth rough", make_coat(1.5f, 0, 0, 0.01f, 0), metal(.15f, .3f)),
+      coated_case("coated metal rough smooth", make_coat(1.5f, .3f, .3f, 0.01f, 0), metal(0, 0)),
+      coated_case("coated metal glossy", make_coat(1.5f, .04f, .04f, 0.01f, 0), metal(.03f, .03f)),
+      coated_case("coated metal rough medium", make_coat(1.3f, .2f, .2f, 0.3f, .8f, -.2f),
+                  metal(.2f, .2f)),
+      coated_case("coated metal mirrors medium", make_coat(1.3f, 0, 0, 0.5f, .8f), metal(0, 0)),
+  };
+}
+
+}  // namespace nephroid::testing_bsdf

@@ -1,0 +1,71 @@
+// The film sensor: in expectation over wavelength sampling, light of a known colour is seen as that
+// colour, with all wavelengths or with the hero alone.
+#include <gtest/gtest.h>
+
+#include "core/color.h"
+#include "core/spectra.h"
+
+namespace nephroid {
+namespace {
+
+/// Mean of the sensor's response over `n` values of u, midpoints. The curves are looked up at the
+/// nearest nanometre, so the integrand has 471 steps and the error is about a step in n.
+Rgb mean_response(const RgbColorSpace& space, const Spectrum& light, float scale, bool hero_only,
+                  float imaging_ratio = 1) {
+  const int n = 40000;
+  double sum[3] = {};
+  for (int k = 0; k < n; ++k) {
+    auto lambda = SampledWavelengths::sample_visible((static_cast<float>(k) + 0.5f) / n);
+    if (hero_only) lambda.terminate_secondary();
+    const Rgb seen =
+        sensor_weights(lambda, space, imaging_ratio).apply(light.sample(lambda) * scale);
+    for (int c = 0; c < 3; ++c) sum[c] += seen[c];
+  }
+  return {static_cast<float>(sum[0] / n), static_cast<float>(sum[1] / n),
+          static_cast<float>(sum[2] / n)};
+}
+
+TEST(Sensor, WhiteEmissionIsWhiteInEverySpace) {
+  for (const char* name : {"srgb", "dci-p3", "rec2020", "aces2065-1"}) {
+    const RgbColorSpace& space = *RgbColorSpace::find(name);
+    const SpectrumPtr white = rgb_illuminant_spectrum(space, {1, 1, 1});
+    const float scale = 1 / spectrum_to_photometric(space.illuminant());
+    for (const bool hero_only : {false, true}) {
+      const Rgb seen = mean_response(space, *white, scale, hero_only);
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c], 1.0f, 1e-3f) << name << hero_only;
+    }
+  }
+}
+
+TEST(Sensor, ColourAndImagingRatioCarryOver) {
+  const RgbColorSpace& space = RgbColorSpace::srgb();
+  const Rgb rgb{4, 2, 1};
+  const SpectrumPtr light = rgb_illuminant_spectrum(space, rgb);
+  const float scale = 1 / spectrum_to_photometric(*light);
+  const Rgb seen = mean_response(space, *light, scale, false, 2.5f);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c], 2.5f * rgb[c], 2.5f * 8e-3f);
+}
+
+TEST(Sensor, OtherSpacesSeeTheSameLight) {
+  // A light defined in one space and seen in another: the matrices say what to expect.
+  const RgbColorSpace &srgb = RgbColorSpace::srgb(), &wide = *RgbColorSpace::find("rec2020");
+  const SpectrumPtr light = rgb_illuminant_spectrum(srgb, {0.8f, 0.3f, 0.2f});
+  const float scale = 1 / spectrum_to_photometric(*light);
+  const Rgb seen = mean_response(wide, *light, scale, false);
+  const Rgb expected = wide.from_xyz(srgb.to_xyz({0.8f, 0.3f, 0.2f}));
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c], expected[c], 2e-3f);
+}
+
+TEST(Sensor, DroppedWavelengthsWeighNothing) {
+  auto lambda = SampledWavelengths::sample_visible(0.5f);
+  const SensorWeights before = sensor_weights(lambda, RgbColorSpace::srgb(), 1);
+  lambda.terminate_secondary();
+  const SensorWeights after = sensor_weights(lambda, RgbColorSpace::srgb(), 1);
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_FLOAT_EQ(after.rgb[c][0], before.rgb[c][0] * kSpectrumSamples);
+    for (int i = 1; i < kSpectrumSamples; ++i) EXPECT_EQ(after.rgb[c][i], 0.0f);
+  }
+}
+
+}  // namespace
+}  // namespace nephroid

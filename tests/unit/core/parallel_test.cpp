@@ -1,0 +1,45 @@
+// Parallel loops: every chunk once, the same chunks for any number of threads, denormals flushed.
+#include "core/parallel.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <vector>
+
+namespace nephroid {
+namespace {
+
+TEST(Parallel, EveryIndexOnceForAnyThreadCount) {
+  for (const int threads : {1, 2, 7}) {
+    const ThreadLimit limit(threads);
+    EXPECT_EQ(thread_count(), threads);
+    std::vector<std::atomic<int>> seen(1000);
+    std::vector<int64_t> chunk_begin(chunk_count(1000, 64), -1);
+    parallel_chunks(1000, 64, [&](int64_t chunk, int64_t begin, int64_t end) {
+      chunk_begin[static_cast<size_t>(chunk)] = begin;
+      for (int64_t i = begin; i < end; ++i) ++seen[static_cast<size_t>(i)];
+    });
+    for (const auto& n : seen) EXPECT_EQ(n, 1);
+    for (size_t c = 0; c < chunk_begin.size(); ++c)
+      EXPECT_EQ(chunk_begin[c], static_cast<int64_t>(c) * 64);
+  }
+}
+
+TEST(Parallel, NothingToDo) {
+  parallel_chunks(0, 16, [](int64_t, int64_t, int64_t) { ADD_FAILURE(); });
+}
+
+TEST(Parallel, DenormalsAreZeroInsideAndTheModeIsPutBack) {
+#if defined(__SSE__)
+  volatile float tiny = 1e-38f;
+  std::atomic<bool> flushed{true};
+  parallel_chunks(64, 1, [&](int64_t, int64_t, int64_t) {
+    if (tiny * 0.01f != 0.0f) flushed = false;
+  });
+  EXPECT_TRUE(flushed);
+  EXPECT_NE(tiny * 0.01f, 0.0f);
+#endif
+}
+
+}  // namespace
+}  // namespace nephroid

@@ -1,0 +1,91 @@
+// Random numbers as functions: stratified, uniform, decorrelated, and a function of their key alone.
+#include "core/sampler.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace nephroid {
+namespace {
+
+TEST(Sampler, EveryDimensionIsStratified) {
+  for (int d = 0; d < kSobolDimensions; ++d) {
+    std::set<int> cells;
+    for (uint32_t i = 0; i < 64; ++i) {
+      const SobolPoint point(i);
+      PathSampler s(point, 42);
+      s.start_dimension(d);
+      cells.insert(static_cast<int>(s.get_1d() * 64));
+    }
+    EXPECT_EQ(cells.size(), 64u) << "dimension " << d;
+  }
+}
+
+TEST(Sampler, FirstTwoDimensionsAreANet) {
+  for (uint64_t seed = 0; seed < 20; ++seed)
+    for (int columns_log2 = 0; columns_log2 <= 6; ++columns_log2) {
+      std::set<int> cells;
+      for (uint32_t i = 0; i < 64; ++i) {
+        const SobolPoint point(i);
+        PathSampler s(point, seed);
+        const Vec2f u = s.get_2d();
+        const int columns = 1 << columns_log2, rows = 64 >> columns_log2;
+        cells.insert(static_cast<int>(u.x * static_cast<float>(columns)) * rows +
+                     static_cast<int>(u.y * static_cast<float>(rows)));
+      }
+      EXPECT_EQ(cells.size(), 64u);
+    }
+}
+
+TEST(Sampler, UniformOverSeedsAtEveryIndex) {
+  // At a fixed index and dimension the scramble alone must make the number uniform: chi-square with 63
+  // degrees of freedom; 124.8 is the quantile for 1e-5.
+  for (const int d : {0, 1, 7, 30, 200, 300})
+    for (const uint32_t i : {0u, 1u, 77u}) {
+      const SobolPoint point(i);
+      std::array<int, 64> histogram{};
+      constexpr int kSeeds = 1 << 16;
+      for (int seed = 0; seed < kSeeds; ++seed) {
+        PathSampler s(point, static_cast<uint64_t>(seed));
+        s.start_dimension(d);
+        ++histogram[static_cast<size_t>(s.get_1d() * 64)];
+      }
+      double chi2 = 0;
+      for (const int n : histogram) chi2 += sqr(n - kSeeds / 64.0) / (kSeeds / 64.0);
+      EXPECT_LT(chi2, 124.8) << "dimension " << d << " index " << i;
+    }
+}
+
+TEST(Sampler, PixelsAreNotCorrelated) {
+  // Correlation of neighbouring seeds at the same index: standard error 1/sqrt(n).
+  double sum = 0;
+  constexpr int kPairs = 20000;
+  const SobolPoint point(5);
+  for (int k = 0; k < kPairs; ++k) {
+    PathSampler a(point, hash_combine(1, static_cast<uint64_t>(k)));
+    PathSampler b(point, hash_combine(1, static_cast<uint64_t>(k + 1)));
+    sum += (a.get_1d() - 0.5) * (b.get_1d() - 0.5) * 12;
+  }
+  EXPECT_LT(std::abs(sum / kPairs), 4.5 / std::sqrt(kPairs));
+}
+
+TEST(Sampler, ValuesBelongToTheirDimension) {
+  const SobolPoint point(9);
+  PathSampler a(point, 3), b(point, 3);
+  for (int i = 0; i < 10; ++i) a.get_1d();
+  b.start_dimension(10);
+  EXPECT_EQ(a.get_1d(), b.get_1d());
+}
+
+TEST(Sampler, ScramblePreservesElementaryIntervals) {
+  // Numbers that agree in their first k bits still do after Owen's scramble.
+  for (uint32_t seed = 1; seed < 200; ++seed) {
+    const uint32_t a = owen_scramble_reversed(reverse_bits(0xabcd0000u), seed * 2654435761u);
+    const uint32_t b = owen_scramble_reversed(reverse_bits(0xabcdffffu), seed * 2654435761u);
+    EXPECT_EQ(a >> 16, b >> 16);
+    EXPECT_NE(a, b);
+  }
+}
+
+}  // namespace
+}  // namespace nephroid

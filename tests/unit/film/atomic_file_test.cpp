@@ -1,0 +1,141 @@
+// Whole-file replacement: the new content or the old one, never anything else left behind.
+#include "film/atomic_file.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "core/errors.h"
+#include "unit/film/scratch_directory.h"
+
+namespace nephroid {
+namespace {
+
+namespace fs = std::filesystem;
+
+void write_text(const std::string& path, const std::string& text) {
+  write_file_atomically(path, std::as_bytes(std::span(text.data(), text.size())));
+}
+std::string read_text(const std::string& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+std::string error_of(const std::string& path) {
+  try {
+    write_text(path, "x");
+  } catch (const IoError& error) {
+    EXPECT_EQ(error.status(), ExitStatus::kInputOutput);
+    return error.what();
+  }
+  return "";
+}
+
+TEST(AtomicFile, WritesAndReplaces) {
+  const ScratchDirectory directory;
+  const std::string path = directory.file("out.bin");
+  write_text(path, "first, the longer one");
+  EXPECT_EQ(read_text(path), "first, the longer one");
+  write_text(path, "second");
+  EXPECT_EQ(read_text(path), "second");
+  write_text(path, "");
+  EXPECT_EQ(read_text(path), "");
+  EXPECT_EQ(directory.entries(), 1u);
+}
+
+TEST(AtomicFile, DirectoryAsTarget) {
+  const ScratchDirectory directory;
+  const std::string path = directory.file("taken");
+  fs::create_directory(path);
+  EXPECT_EQ(error_of(path), path + ": cannot write: it is a directory");
+  EXPECT_THROW(check_file_can_be_written(path), IoError);
+  EXPECT_EQ(directory.entries(), 1u);
+}
+
+TEST(AtomicFile, DeviceAsTargetIsNotReplaced) {
+  EXPECT_NE(error_of("/dev/null").find("not a regular file"), std::string::npos);
+}
+
+TEST(AtomicFile, MissingDirectoryNamesTheReason) {
+  const ScratchDirectory directory;
+  const std::string path = directory.file("nowhere/out.bin");
+  const std::string error = error_of(path);
+  EXPECT_NE(error.find(path), std::string::npos);
+  EXPECT_NE(error.find("No such file or directory"), std::string::npos);
+  EXPECT_THROW(check_file_can_be_written(path), IoError);
+}
+
+TEST(AtomicFile, FileAsDirectory) {
+  const ScratchDirectory directory;
+  write_text(directory.file("plain"), "x");
+  EXPECT_NE(error_of(directory.file("plain/out.bin")).find("Not a directory"), std::string::npos);
+}
+
+TEST(AtomicFile, UnwritableDirectory) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
+  const ScratchDirectory directory;
+  fs::permissions(directory.path(), fs::perms::owner_read | fs::perms::owner_exec);
+  EXPECT_NE(error_of(directory.file("out.bin")).find("Permission denied"), std::string::npos);
+  EXPECT_THROW(check_file_can_be_written(directory.file("out.bin")), IoError);
+}
+
+// A limit on the size of files fails in write(), as a full disk does.
+TEST(AtomicFile, DiskErrorLeavesTheOldFileAndNothingElse) {
+  const ScratchDirectory directory;
+  const std::string path = directory.file("out.bin");
+  write_text(path, "old");
+  struct rlimit before = {};
+  getrlimit(RLIMIT_FSIZE, &before);
+  struct rlimit limited = before;
+  limited.rlim_cur = 1024;
+  auto* const handler = std::signal(SIGXFSZ, SIG_IGN);
+  setrlimit(RLIMIT_FSIZE, &limited);
+  std::string error;
+  try {
+    write_text(path, std::string(100000, 'x'));
+  } catch (const IoError& e) {
+    error = e.what();
+  }
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_NE(error.find("File too large"), std::string::npos) << error;
+  EXPECT_EQ(read_text(path), "old");
+  EXPECT_EQ(directory.entries(), 1u);
+}
+
+TEST(AtomicFile, FollowsLinks) {
+  const ScratchDirectory directory;
+  fs::create_directory(directory.file("elsewhere"));
+  fs::create_symlink("elsewhere/real", directory.file("link"));
+  write_text(directory.file("link"), "content");
+  EXPECT_TRUE(fs::is_symlink(directory.file("link")));
+  EXPECT_EQ(read_text(directory.file("elsewhere/real")), "content");
+  fs::create_symlink("loop", directory.file("loop"));
+  EXPECT_NE(error_of(directory.file("loop")).find("cannot follow the link"), std::string::npos);
+}
+
+TEST(AtomicFile, CheckLeavesNothingBehind) {
+  const ScratchDirectory directory;
+  check_file_can_be_written(directory.file("out.bin"));
+  EXPECT_EQ(directory.entries(), 0u);
+  write_text(directory.file("out.bin"), "old");
+  check_file_can_be_written(directory.file("out.bin"));
+  EXPECT_EQ(read_text(directory.file("out.bin")), "old");
+}
+
+TEST(AtomicFile, NameWithoutDirectoryAndLongName) {
+  const ScratchDirectory directory;
+  EXPECT_THROW(check_file_can_be_written(""), IoError);
+  // Names may have 255 bytes; the temporary name must not be longer than the system allows.
+  write_text(directory.file(std::string(250, 'n')), "x");
+  EXPECT_EQ(directory.entries(), 1u);
+}
+
+}  // namespace
+}  // namespace nephroid

@@ -1,0 +1,210 @@
+// Pictures written and read back: every channel, window, metadata, colour attribute; the PNG's
+// codes.
+#include "film/film_output.h"
+
+#include <OpenImageIO/imageio.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "core/errors.h"
+#include "unit/film/scratch_directory.h"
+
+namespace nephroid {
+namespace {
+
+FilmSettings cropped() {
+  FilmSettings settings;
+  settings.width = 10;
+  settings.height = 8;
+  settings.crop = {3, 2, 7, 7};
+  return settings;
+}
+
+/// Different in each pixel, route and pass.
+Film filled_film(const FilmSettings& settings) {
+  Film film(settings, {"diffuse", "caustic"});
+  const PixelBounds& b = film.bounds();
+  for (int pass = 0; pass < 3; ++pass) {
+    for (int y = b.y0; y < b.y1; ++y)
+      for (int x = b.x0; x < b.x1; ++x) {
+        const auto v = static_cast<float>(x + 10 * y + pass * pass);
+        film.add(0, x, y, {v, v * 0.5f, v * 0.25f});
+        film.add(1, x, y, {1 / v, 2 / v, 3 / v});
+        film.add_features(x, y, {0.1f, 0.2f, 0.3f}, {0, v, 1}, v);
+      }
+    film.add_estimates(0, 1);
+    film.add_estimates(1, 1);
+    film.add_feature_estimates(1);
+  }
+  return film;
+}
+
+float pixel(const Picture& picture, int x, int y, const std::string& channel) {
+  const int c = picture.find_channel(channel);
+  EXPECT_GE(c, 0) << channel;
+  const size_t at =
+      static_cast<size_t>(y - picture.window.y0) * static_cast<size_t>(picture.width()) +
+      static_cast<size_t>(x - picture.window.x0);
+  return picture.pixels[at * picture.channels.size() + static_cast<size_t>(c)];
+}
+
+void expect_rgb(const Picture& picture, int x, int y, const std::string& layer, const Rgb& rgb) {
+  EXPECT_EQ(pixel(picture, x, y, layer + "R"), rgb.r) << layer;
+  EXPECT_EQ(pixel(picture, x, y, layer + "G"), rgb.g) << layer;
+  EXPECT_EQ(pixel(picture, x, y, layer + "B"), rgb.b) << layer;
+}
+
+TEST(FilmOutput, ExrHoldsEveryLayerBitForBit) {
+  const ScratchDirectory directory;
+  const std::string path = directory.file("out.exr");
+  const Film film = filled_film(cropped());
+  write_film(path, film, {}, 1);
+  const Picture picture = read_picture(path);
+  ASSERT_GE(picture.channels.size(), 3u);
+  EXPECT_EQ(picture.channels[0], "R");
+  EXPECT_EQ(picture.channels[1], "G");
+  EXPECT_EQ(picture.channels[2], "B");
+  EXPECT_EQ(picture.channels.size(), 3u + 6 + 3 + 3 + 1 + 3 + 1);
+  const PixelBounds& b = film.bounds();
+  for (int y = b.y0; y < b.y1; ++y)
+    for (int x = b.x0; x < b.x1; ++x) {
+      expect_rgb(picture, x, y, "", film.value(x, y));
+      expect_rgb(picture, x, y, "diffuse.", film.route_value(0, x, y));
+      expect_rgb(picture, x, y, "caustic.", film.route_value(1, x, y));
+      expect_rgb(picture, x, y, "albedo.", film.albedo(x, y));
+      expect_rgb(picture, x, y, "stderr.", film.standard_error(x, y));
+      EXPECT_EQ(pixel(picture, x, y, "N.Y"), film.normal(x, y).y);
+      EXPECT_EQ(pixel(picture, x, y, "N.Z"), film.normal(x, y).z);
+      EXPECT_EQ(pixel(picture, x, y, "Z"), film.depth(x, y));
+      EXPECT_EQ(pixel(picture, x, y, "samples"), 3.0f);
+    }
+  EXPECT_GT(film.standard_error(4, 4).r, 0.0f);
+}
+
+TEST(FilmOutput, CropIsDataWindowInDisplayWindow) {
+  const ScratchDirectory directory;
+  const std::string path = directory.file("out.exr");
+  write_film(path, filled_film(cropped()), {}, 1);
+  const Picture picture = read_picture(path);
+  EXPECT_EQ(picture.full_width, 10);
+  EXPECT_EQ(picture.full_height, 8);
+  EXPECT_EQ(picture.window.x0, 3);
+  EXPECT_EQ(picture.window.y0, 2);
+  EXPECT_EQ(picture.window.x1, 7);
+  EXPECT_EQ(picture.window.y1, 7);
+}
+
+TEST(FilmOutput, MetadataSurvives) {
+  const ScratchDirectory directory;
+  const std::string path = directory.file("out.exr");
+  const Metadata metadata = {{"nephroid:seed", "17"}, {"nephroid:options", "max-depth=5 radius=1"}};
+  write_film(path, filled_film(cropped()), metadata, 1);
+  const Picture picture = read_picture(path);
+  for (const auto& entry : metadata)
+    EXPECT_NE(std::find(picture.metadata.begin(), picture.metadata.end(), entry),
+              picture.metadata.end())
+        << entry.first;
+}
+
+/// The file's chromaticities; empty if it has none.
+std::vector<float> stored_chromaticities(const std::string& path) {
+  const auto in = OIIO::ImageInput::open(path);
+  const auto* attribute = in->spec().find_attribute("chromaticities");
+  if (attribute == nullptr) return {};
+  const auto* values = static_cast<const float*>(attribute->data());
+  return {values, values + 8};
+}
+
+TEST(FilmOutput, ChromaticitiesOfOtherSpacesAreStored) {
+  const ScratchDirectory directory;
+  FilmSettings settings = cropped();
+  settings.color_space = RgbColorSpace::find("rec2020");
+  ASSERT_NE(settings.color_space, nullptr);
+  write_film(directory.file("wide.exr"), filled_film(settings), {}, 1);
+  const std::vector<float> stored = stored_chromaticities(directory.file("wide.exr"));
+  ASSERT_EQ(stored.size(), 8u);
+  // ITU-R BT.2020: primaries to three digits; its white point D65 comes out of the tables.
+  const float expected[8] = {0.708f, 0.292f, 0.170f, 0.797f, 0.131f, 0.046f, 0.3127f, 0.3290f};
+  for (size_t i = 0; i < 8; ++i) EXPECT_NEAR(stored[i], expected[i], 1e-3) << i;
+
+  settings.color_space = &RgbColorSpace::srgb();
+  write_film(directory.file("srgb.exr"), filled_film(settings), {}, 1);
+  EXPECT_TRUE(stored_chromaticities(directory.file("srgb.exr")).empty());
+}
+
+TEST(FilmOutput, SrgbCodes) {
+  EXPECT_EQ(encode_srgb8(-1.0f), 0);
+  EXPECT_EQ(encode_srgb8(std::nanf("")), 0);
+  EXPECT_EQ(encode_srgb8(0.0f), 0);
+  EXPECT_EQ(encode_srgb8(1.0f), 255);
+  EXPECT_EQ(encode_srgb8(kInfinity), 255);
+  EXPECT_EQ(encode_srgb8(0.002f), 7);  // 12.92 * 0.002 * 255 = 6.59
+  EXPECT_EQ(encode_srgb8(0.5f), 188);  // 187.52
+}
+
+TEST(FilmOutput, PngHasTheExposedPicture) {
+  const ScratchDirectory directory;
+  Film film(cropped(), {"all"});
+  film.add(0, 3, 2, {0.25f, 0.125f, 5});
+  film.add_estimates(0, 1);
+  write_film(directory.file("out.exr"), film, {}, 2);
+  const Picture png = read_picture(directory.file("out.png"));
+  EXPECT_EQ(png.width(), 4);
+  EXPECT_EQ(png.height(), 5);
+  EXPECT_FLOAT_EQ(png.pixels[0], 188.0f / 255);
+  EXPECT_FLOAT_EQ(png.pixels[1], 137.0f / 255);  // sRGB of 0.25: 136.96
+  EXPECT_FLOAT_EQ(png.pixels[2], 1.0f);
+  EXPECT_FLOAT_EQ(png.pixels[3], 0.0f);
+}
+
+TEST(FilmOutput, PngOfAWideSpaceIsConverted) {
+  FilmSettings settings = cropped();
+  settings.color_space = RgbColorSpace::find("rec2020");
+  Film film(settings, {"all"});
+  film.add(0, 3, 2, {1, 0, 0});  // outside sRGB: clipped to its red
+  film.add(0, 4, 2, {0.5f, 0.5f, 0.5f});
+  film.add_estimates(0, 1);
+  const std::vector<uint8_t> bytes = film_srgb8(film, 1);
+  EXPECT_EQ(bytes[0], 255);
+  EXPECT_EQ(bytes[1], 0);
+  EXPECT_EQ(bytes[2], 0);
+  for (size_t c = 3; c < 6; ++c) EXPECT_NEAR(bytes[c], 188, 1) << c;
+}
+
+TEST(FilmOutput, FailureNamesTheFileAndLeavesTheOldOne) {
+  const ScratchDirectory directory;
+  const Film film = filled_film(cropped());
+  const std::string missing = directory.file("nowhere/out.exr");
+  try {
+    write_film(missing, film, {}, 1);
+    FAIL() << "written into a directory that does not exist";
+  } catch (const IoError& error) {
+    EXPECT_NE(std::string(error.what()).find(missing), std::string::npos);
+  }
+  std::filesystem::create_directory(directory.file("out.exr"));
+  EXPECT_THROW(write_film(directory.file("out.exr"), film, {}, 1), IoError);
+}
+
+TEST(FilmOutput, ReadingFailsWithTheName) {
+  const ScratchDirectory directory;
+  std::ofstream(directory.file("text.exr")) << "this is no picture";
+  for (const std::string name : {"text.exr", "absent.exr"}) {
+    const std::string path = directory.file(name);
+    try {
+      read_picture(path);
+      FAIL() << path;
+    } catch (const IoError& error) {
+      EXPECT_EQ(std::string(error.what()).rfind(path + ": cannot read: ", 0), 0u) << error.what();
+    }
+  }
+}
+
+TEST(FilmOutput, PngStandsBesideTheExr) {
+  EXPECT_EQ(png_path_beside("a/b.c.exr"), "a/b.c.png");
+  EXPECT_EQ(png_path_beside("plain.exr"), "plain.png");
+}
+
+}  // namespace
+}  // namespace nephroid

@@ -1,0 +1,62 @@
+// Every spelling of a number that scene files use, and what is no number.
+#include "input/number_text.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace nephroid {
+namespace {
+
+TEST(NumberText, ReadsAllSpellings) {
+  const std::pair<const char*, double> cases[] = {{"0", 0},
+                                                  {"1", 1},
+                                                  {"1.", 1},
+                                                  {".5", 0.5},
+                                                  {"-.5", -0.5},
+                                                  {"+5", 5},
+                                                  {"+.25", 0.25},
+                                                  {"1e-3", 1e-3},
+                                                  {"1E3", 1000},
+                                                  {"1.5e+2", 150},
+                                                  {"-1e2", -100},
+                                                  {"000123", 123},
+                                                  {"0.1", 0.1},
+                                                  {"1e308", 1e308},
+                                                  {"4.5e-324", 4.9e-324},
+                                                  {"3.14159265358979", 3.14159265358979}};
+  for (const auto& [text, expected] : cases) {
+    const std::optional<double> value = parse_number(text);
+    ASSERT_TRUE(value) << text;
+    EXPECT_EQ(*value, expected) << text;
+  }
+}
+
+TEST(NumberText, KeepsTheSignOfZero) {
+  EXPECT_TRUE(std::signbit(*parse_number("-0")));
+  EXPECT_FALSE(std::signbit(*parse_number("+0")));
+}
+
+TEST(NumberText, RefusesWhatIsNoNumber) {
+  for (const char* text : {"", "+", "-", ".", "e5", "1e", "1e+", "abc", "1x", "1,5", "0x10", "+-1",
+                           "++1", "-+1", "1 ", " 1", "1.2.3"})
+    EXPECT_FALSE(parse_number(text)) << text;
+}
+
+TEST(NumberText, PassesOnWhatIsNotFinite) {
+  EXPECT_TRUE(std::isinf(*parse_number("1e999")));
+  EXPECT_TRUE(std::isinf(*parse_number("-inf")));
+  EXPECT_TRUE(std::isnan(*parse_number("nan")));
+}
+
+TEST(NumberText, ReadsIntegersOnly) {
+  EXPECT_EQ(parse_integer("42"), 42);
+  EXPECT_EQ(parse_integer("+42"), 42);
+  EXPECT_EQ(parse_integer("-7"), -7);
+  EXPECT_EQ(parse_integer("4294967295"), 4294967295LL);
+  for (const char* text : {"", "+", "1.0", "1e3", "x", "99999999999999999999"})
+    EXPECT_FALSE(parse_integer(text)) << text;
+}
+
+}  // namespace
+}  // namespace nephroid

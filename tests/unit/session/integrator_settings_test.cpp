@@ -1,0 +1,109 @@
+// Defaults, the scene's Integrator line and -D, in that order.
+#include "session/integrator_settings.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace nephroid {
+namespace {
+
+Parameter number_parameter(const std::string& type, const std::string& name, double value) {
+  Parameter parameter;
+  parameter.type = type;
+  parameter.name = name;
+  parameter.numbers = {value};
+  return parameter;
+}
+
+ParameterSet pbrt_sppm() {
+  ParameterSet set;
+  set.list.push_back(number_parameter("integer", "maxdepth", 12));
+  set.list.push_back(number_parameter("integer", "photonsperiteration", 5000));
+  set.list.push_back(number_parameter("float", "radius", 0.01));
+  return set;
+}
+
+bool has_note(const IntegratorChoice& choice, const std::string& part) {
+  return std::any_of(choice.notes.begin(), choice.notes.end(),
+                     [&](const std::string& note) { return note.find(part) != std::string::npos; });
+}
+
+TEST(IntegratorSettings, EveryKeyIsStoredWhereItBelongs) {
+  IntegratorOptions o;
+  apply_settings(
+      {parse_setting("max-depth=7"), parse_setting("radius=1.5"), parse_setting("photons=1000"),
+       parse_setting("alpha=0.75"), parse_setting("specular-alpha=0.2"),
+       parse_setting("camera-samples=3"), parse_setting("memory-photons=99")},
+      &o);
+  EXPECT_EQ(o.max_depth, 7);
+  EXPECT_EQ(o.radius, 1.5f);
+  EXPECT_EQ(o.photons_per_pass, 1000);
+  EXPECT_EQ(o.alpha, 0.75f);
+  EXPECT_EQ(o.specular_alpha, 0.2f);
+  EXPECT_EQ(o.camera_samples_per_pass, 3);
+  EXPECT_EQ(o.memory_photons, 99);
+  EXPECT_EQ(settings_text(o),
+            "max-depth=7 radius=1.5 photons=1000 alpha=0.75 specular-alpha=0.2 camera-samples=3 "
+            "memory-photons=99");
+}
+
+TEST(IntegratorSettings, DocumentedDefaultsAreTheRealOnes) {
+  const IntegratorOptions defaults;
+  for (const IntegratorSetting& setting : integrator_settings()) {
+    const std::string text = setting.default_text;
+    EXPECT_EQ(text.substr(0, text.find(',')), setting.print(defaults)) << setting.key;
+  }
+}
+
+TEST(IntegratorSettings, Errors) {
+  for (const char* text : {"max-depth", "=3", "depth=3", "MAX-DEPTH=3", ""}) {
+    try {
+      parse_setting(text);
+      ADD_FAILURE() << text;
+    } catch (const UsageError& error) {
+      // All keys are listed.
+      for (const IntegratorSetting& setting : integrator_settings())
+        EXPECT_NE(std::string(error.what()).find(setting.key), std::string::npos) << error.what();
+    }
+  }
+  for (const char* text : {"max-depth=", "max-depth=-1", "max-depth=1.5", "radius=-1", "alpha=0",
+                           "alpha=1.1", "photons=-1", "specular-alpha=2", "memory-photons=0"})
+    EXPECT_THROW(parse_setting(text), UsageError) << text;
+}
+
+TEST(IntegratorSettings, SceneDepthIsTakenAndRadiusIsNot) {
+  const IntegratorChoice choice = choose_integrator("mixed", "sppm", pbrt_sppm(), {});
+  EXPECT_EQ(choice.name, "mixed");
+  EXPECT_EQ(choice.options.max_depth, 12);
+  EXPECT_EQ(choice.options.radius, IntegratorOptions().radius);
+  EXPECT_EQ(choice.options.photons_per_pass, IntegratorOptions().photons_per_pass);
+  EXPECT_TRUE(has_note(choice, "radius"));
+  EXPECT_FALSE(has_note(choice, "maxdepth"));
+}
+
+TEST(IntegratorSettings, ScenePhotonCountOnlyWithTheScenesIntegrator) {
+  const IntegratorChoice choice = choose_integrator("scene", "sppm", pbrt_sppm(), {});
+  EXPECT_EQ(choice.name, integrator_for_scene_name("sppm"));
+  EXPECT_EQ(choice.options.photons_per_pass, 5000);
+}
+
+TEST(IntegratorSettings, CommandLineIsOverTheScene) {
+  const IntegratorChoice choice = choose_integrator(
+      "scene", "sppm", pbrt_sppm(), {{"max-depth", "3"}, {"photons", "7"}, {"max-depth", "4"}});
+  EXPECT_EQ(choice.options.max_depth, 4);
+  EXPECT_EQ(choice.options.photons_per_pass, 7);
+}
+
+TEST(IntegratorSettings, SceneWithoutDepthIsNoted) {
+  EXPECT_TRUE(has_note(choose_integrator("mixed", "path", {}, {}), "maxdepth"));
+  EXPECT_FALSE(has_note(choose_integrator("mixed", "path", {}, {{"max-depth", "5"}}), "maxdepth"));
+}
+
+TEST(IntegratorSettings, SceneWithoutAnEquivalent) {
+  EXPECT_THROW(choose_integrator("scene", "function", {}, {}), UsageError);
+  EXPECT_EQ(choose_integrator("scene", "", {}, {}).name, integrator_for_scene_name("volpath"));
+}
+
+}  // namespace
+}  // namespace nephroid

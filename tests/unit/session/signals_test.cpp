@@ -1,0 +1,43 @@
+// Real signals to this process, and to a child that must die of the second.
+#include "session/signals.h"
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+
+namespace nephroid {
+namespace {
+
+TEST(Signals, StopAndWriteAreNoted) {
+  const SignalListener listener;
+  EXPECT_EQ(listener.flags().stop.load(), 0);
+  std::raise(SIGUSR1);
+  EXPECT_TRUE(listener.flags().write.load());
+  EXPECT_EQ(listener.flags().stop.load(), 0);
+  std::raise(SIGTERM);
+  EXPECT_EQ(listener.flags().stop.load(), SIGTERM);
+}
+
+TEST(Signals, ANewListenerStartsAfresh) {
+  {
+    const SignalListener listener;
+    std::raise(SIGINT);
+    EXPECT_EQ(listener.flags().stop.load(), SIGINT);
+  }
+  const SignalListener listener;
+  EXPECT_EQ(listener.flags().stop.load(), 0);
+}
+
+TEST(SignalsDeathTest, TheSecondOneKills) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const auto twice = [](int first, int second) {
+    const SignalListener listener;
+    std::raise(first);
+    std::raise(second);
+  };
+  EXPECT_EXIT(twice(SIGINT, SIGINT), testing::KilledBySignal(SIGINT), "");
+  EXPECT_EXIT(twice(SIGINT, SIGTERM), testing::KilledBySignal(SIGTERM), "");
+}
+
+}  // namespace
+}  // namespace nephroid

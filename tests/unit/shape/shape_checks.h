@@ -1,0 +1,62 @@
+// Checks that hold for every shape: its sampling densities, its derivatives, its error bounds.
+// Used by the tests of this folder; the shape is seen through its interface alone.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <vector>
+
+#include "scene/shape/shape.h"
+
+namespace nephroid::testing {
+
+/// A small generator for tests (SplitMix64).
+class Random {
+ public:
+  explicit Random(uint64_t seed) : state_(seed) {}
+  float unit() { return static_cast<float>(next() >> 40) * 0x1p-24f; }
+  float in(float a, float b) { return a + (b - a) * unit(); }
+  Vec2f square() {
+    const float x = unit();
+    return {x, unit()};
+  }
+  Vec3f direction();
+  Vec3f in_box(float half);
+  /// A rotation by random Euler angles.
+  Mat44d rotation();
+
+ private:
+  uint64_t next();
+  uint64_t state_;
+};
+
+/// The shape's surface by its parameters: fill() without a ray.
+SurfaceInteraction surface_at(const Shape& shape, uint32_t primitive, const Vec2f& hit_uv);
+
+/// Which part of the unit square parametrizes the primitive, and the hit_uv of a parameter.
+struct Parameters {
+  std::function<bool(const Vec2f&)> inside = [](const Vec2f&) { return true; };
+  std::function<Vec2f(const Vec2f&)> hit_uv = [](const Vec2f& uv) { return uv; };
+};
+/// Those of a triangle without texture coordinates: corners (0,0), (1,0), (1,1).
+Parameters triangle_parameters();
+
+/// Samples by area and compares the histogram over the parameters with 1/pdf_a and the area element.
+void check_area_sampling(const Shape& shape, uint32_t primitive, const Parameters& parameters = {});
+/// The same for sample_towards; the expected histogram comes from pdf_towards.
+void check_direction_sampling(const Shape& shape, uint32_t primitive, const Vec3f& from,
+                              const Parameters& parameters = {});
+/// Mean of 1/pdf_w over sample_towards with n^2 stratified samples: the solid angle covered, if
+/// every point of the primitive is seen from `from`.
+double mean_solid_angle(const Shape& shape, uint32_t primitive, const Vec3f& from, int n);
+/// Monte Carlo estimate of the area: mean of 1/pdf_a.
+double mean_area(const Shape& shape, uint32_t primitive, int n);
+/// dpdu, dpdv, dndu, dndv against central differences at a parameter. `scale` is a typical length.
+void check_derivatives(const Shape& shape, uint32_t primitive, const Vec2f& uv, float scale);
+/// Rays that leave a hit point never meet a plane shape again, on either side; nor a convex one on
+/// the outside (`convex`). `around` is a point near the shape, `size` its typical size.
+void check_no_self_hits(const Shape& shape, const Vec3f& around, float size, bool convex,
+                        Random& random);
+
+}  // namespace nephroid::testing
