@@ -1,5 +1,5 @@
-# The tables that are computed once, at build time, and linked into the program: measured spectra and
-# the coefficients that turn sRGB colours into spectra (docs/adr/0002-rgb-spectra.md).
+# The tables that are computed once, at build time, and linked into the program: measured spectra
+# and the coefficients that turn sRGB colours into spectra (docs/adr/0002-rgb-spectra.md).
 set(tables_file ${CMAKE_BINARY_DIR}/tables/tables.bin)
 file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/tables)
 file(GLOB tables_csv CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/data/spectra/*.csv)
@@ -12,10 +12,10 @@ add_executable(nephroid_make_tables ${CMAKE_SOURCE_DIR}/tools/tables/make_tables
 target_include_directories(nephroid_make_tables PRIVATE ${CMAKE_SOURCE_DIR}/src)
 target_compile_options(nephroid_make_tables PRIVATE ${tables_flags} -O3)
 target_link_libraries(nephroid_make_tables PRIVATE Threads::Threads)
-# The renderer fits the tables of the other colour spaces itself; a debug build should not take
-# minutes over it.
+# The renderer fits the tables of the other colour spaces itself. A debug or sanitizer build would take
+# minutes over it, and this is plain arithmetic on arrays of fixed size.
 set_source_files_properties(${CMAKE_SOURCE_DIR}/src/core/color_fit.cpp PROPERTIES
-                            COMPILE_OPTIONS -O3)
+                            COMPILE_OPTIONS "-O3;-fno-sanitize=all")
 
 add_custom_command(OUTPUT ${tables_file}
   COMMAND nephroid_make_tables ${CMAKE_SOURCE_DIR}/data/spectra ${tables_file}

@@ -15,7 +15,10 @@ namespace {
 using Vec3 = std::array<double, 3>;
 constexpr int kLanes = 8;
 using Lanes = double __attribute__((vector_size(kLanes * sizeof(double))));
-constexpr int kBlocks = (kTableNodes + kLanes - 1) / kLanes;
+// A reflectance is smooth enough to be summed at these many wavelengths instead of 471: four times
+// faster, and the error is below that of single precision but for the sharpest edges.
+constexpr int kBlocks = 16;
+constexpr int kQuadrature = kBlocks * kLanes;
 
 constexpr double kFirst = 360.0, kRange = 470.0;  // nm
 // The square of an error of 3e-4 units of CIELAB, a few thousandths of what an eye can tell.
@@ -23,7 +26,7 @@ constexpr double kGoodEnough = 1e-7;
 constexpr int kMaxIterations = 30;
 // Colours at the border of what a reflectance can do (black, white, pure hues) have their best fit
 // at infinity. The bound keeps them finite, so that single precision still places the edges; it
-// costs less than 1e-3 in any component.
+// costs less than 1e-3 in any component of an sRGB colour.
 constexpr double kMaxCoefficient = 1000.0;
 
 Vec3 multiply(const Matrix3d& m, const Vec3& v) {
@@ -72,10 +75,22 @@ class Fitter {
     double norm = 0;
     for (int i = 0; i < kTableNodes; ++i) norm += double(curves.illuminant[i]) * curves.y[i];
     const std::span<const float> curve[3] = {curves.x, curves.y, curves.z};
+    for (int q = 0; q < kQuadrature; ++q)
+      position_[q / kLanes][q % kLanes] = q / double(kQuadrature - 1);
+    // The reflectance at each nanometre is a cubic through four neighbouring positions, so the
+    // weight of a nanometre is dealt out to those four.
     for (int i = 0; i < kTableNodes; ++i) {
-      position_[i / kLanes][i % kLanes] = i / kRange;
-      for (int k = 0; k < 3; ++k)
-        weight_[i / kLanes][k][i % kLanes] = double(curves.illuminant[i]) * curve[k][i] / norm;
+      const double at = i / kRange * (kQuadrature - 1);
+      const int first = std::clamp(static_cast<int>(at) - 1, 0, kQuadrature - 4);
+      for (int a = 0; a < 4; ++a) {
+        double basis = 1;
+        for (int b = 0; b < 4; ++b)
+          if (b != a) basis *= (at - (first + b)) / (a - b);
+        const int q = first + a;
+        for (int k = 0; k < 3; ++k)
+          weight_[q / kLanes][k][q % kLanes] +=
+              basis * double(curves.illuminant[i]) * curve[k][i] / norm;
+      }
     }
   }
 

@@ -92,8 +92,7 @@ class PathSampler {
 
   float get_1d() {
     const int d = dimension_++;
-    const uint64_t h = (seed_ + static_cast<uint64_t>(d) * 0x9e3779b97f4a7c15ull) *
-                       0xd6e8feb86659fd93ull;
+    const uint64_t h = mix_bits(seed_ + static_cast<uint64_t>(d) * 0x9e3779b97f4a7c15ull);
     const uint32_t scramble = static_cast<uint32_t>(h >> 32);
     if (d < kSobolDimensions)
       return bits_to_unit_float(owen_scramble_reversed(point_->reversed(d), scramble));

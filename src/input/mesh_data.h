@@ -18,7 +18,7 @@ struct MeshData {
   std::vector<Vec3f> tangents; ///< per vertex, or empty
   std::vector<uint32_t> triangles;  ///< three indices each
   std::vector<uint32_t> quads;      ///< four indices each, in ring order as PLY has them
-  std::vector<int> face_indices;    ///< per face, first of all triangles, then of all quads; or empty
+  std::vector<int> face_indices;  ///< of all triangles, then of all quads; or empty
 };
 
 /// Reads an ascii, binary_little_endian or binary_big_endian PLY file (".gz" is unpacked): vertex x,y,z,

@@ -28,6 +28,9 @@ CausticPhotons::CausticPhotons(const Routes& routes, Route route, int buffer,
 }
 
 void CausticPhotons::render_pass(const PassKey& key, const Scene& scene, Film& film) {
+  film.add_estimates(buffer_, 1);
+  has_specular_material_ = scene.has_specular_material;
+  if (!has_specular_material_) return;
   const PixelBounds& b = film.bounds();
   const FilmSettings& settings = film.settings();
   const PassSetting setting = pass_setting(key);
@@ -102,7 +105,6 @@ void CausticPhotons::render_pass(const PassKey& key, const Scene& scene, Film& f
       if (m > settings.max_component) rgb = rgb * (settings.max_component / m);
       film.add(buffer_, x, y, rgb);
     }
-  film.add_estimates(buffer_, 1);
   for (const RowResult& r : rows) statistics_.rays += r.rays;
   statistics_.camera_paths += static_cast<uint64_t>(b.area());
   statistics_.radius_min_pixels = radius_pixels;
@@ -111,6 +113,9 @@ void CausticPhotons::render_pass(const PassKey& key, const Scene& scene, Film& f
 
 EstimatorStatistics CausticPhotons::statistics() const {
   EstimatorStatistics s = statistics_;
+  if (!has_specular_material_)
+    s.notes.push_back("no material of the scene has a specular lobe: there are no caustics, and no "
+                      "photons were needed");
   if (s.photons_stored > 0 || s.photon_paths == 0) return s;
   s.notes.push_back("0 of " + std::to_string(s.photon_paths) +
                     " photon paths deposited a photon: the caustic layer is black");

@@ -23,6 +23,7 @@ class CausticPhotons : public Estimator {
   Route route_;
   int buffer_;
   IntegratorOptions options_;
+  bool has_specular_material_ = true;
   EstimatorStatistics statistics_;
 };
 

@@ -21,8 +21,7 @@ class PhotonVisitor {
 
   ClassMask vertex(const Walk& walk, const WalkVertex& v, PathSampler&) {
     if (contains(v.bsdf.classes(), EventClass::kSpecular)) specular_ = true;
-    if (contains(v.bsdf.finite_classes(), EventClass::kDiffuse) &&
-        routes_.deposits(state_, route_)) {
+    if (contains(v.possible, EventClass::kDiffuse) && routes_.deposits(state_, route_)) {
       Photon photon;
       photon.p = v.surface.p;
       photon.wi = v.surface.wo;

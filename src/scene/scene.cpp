@@ -24,7 +24,8 @@ float ray_hash(const Ray& ray) {
 }
 
 // Brings an interaction of an instanced shape to world space. The error grows by the rounding of the
-// transformed point, whose size the absolute values of the matrix bound.
+// transformed point, and of the rays that will be brought to object space from there; the absolute values
+// of the matrix bound both.
 void to_world(const Transform& t, SurfaceInteraction& s) {
   Vec3f error;
   for (int j = 0; j < 3; ++j) {
@@ -33,7 +34,7 @@ void to_world(const Transform& t, SurfaceInteraction& s) {
       carried += std::abs(t.m[i][j]) * static_cast<double>(s.p_error[i]);
       rounded += std::abs(t.m[i][j] * static_cast<double>(s.p[i]));
     }
-    error[j] = static_cast<float>(carried * (1 + gamma_bound(3)) + rounded * gamma_bound(3));
+    error[j] = static_cast<float>(carried * (1 + gamma_bound(3)) + rounded * gamma_bound(9));
   }
   s.p = t.point(s.p);
   s.p_error = error;

@@ -36,6 +36,7 @@ std::vector<uint32_t> to_indices(const Context& c, const std::vector<int>& value
 // loads of the ray tracer.
 std::vector<ShapePtr> finish_mesh(const Context& c, MeshData data) {
   validate_mesh(data, c.p.where, c.what(), c.diagnostics);
+  if (c.description.reverse_orientation) reverse_normals(data);
   transform_mesh(data, c.transform);
   if (c.description.area_light) data = join_rectangles(std::move(data));
   std::vector<ShapePtr> shapes;

@@ -53,6 +53,9 @@ struct WalkVertex {
   const SurfaceInteraction& surface;
   const Bsdf& bsdf;
   Vec3f wo;  ///< local
+  /// Classes that the surface may have here in any of the guises that a `mix` chooses from at random. What
+  /// is stored for others to meet depends on this and not on the guise that this walk happened to see.
+  ClassMask possible;
 
   Vec3f to_local(const Vec3f& w) const { return surface.shading.to_local(w); }
 };
@@ -80,7 +83,8 @@ void random_walk(const Scene& scene, TransportMode mode, int max_events, Walk& w
       return;
     }
     walk.length += hit.distance;
-    const Material* material = scene.materials[static_cast<size_t>(hit.material)]->resolve(hit);
+    const Material& surface = *scene.materials[static_cast<size_t>(hit.material)];
+    const Material* material = surface.resolve(hit);
     if (material->is_interface()) {
       if (++walk.passages > kMaxPassages) return;
       walk.ray.o = hit.spawn_origin(walk.ray.d);
@@ -92,7 +96,7 @@ void random_walk(const Scene& scene, TransportMode mode, int max_events, Walk& w
     arena.clear();
     const Bsdf* bsdf = material->make_bsdf(hit, walk.lambda, arena);
     if (!bsdf) return;
-    const WalkVertex vertex{hit, *bsdf, hit.shading.to_local(hit.wo)};
+    const WalkVertex vertex{hit, *bsdf, hit.shading.to_local(hit.wo), surface.possible_classes()};
     const int dimension = walk.vertex_dimension();
     sampler.start_dimension(dimension + dimensions::kLight);
     const ClassMask among = visitor.vertex(walk, vertex, sampler);

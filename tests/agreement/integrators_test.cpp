@@ -127,9 +127,9 @@ TEST_P(Agreement, WithPathTracing) {
 INSTANTIATE_TEST_SUITE_P(AllIntegrators, Agreement,
                          ::testing::Combine(::testing::ValuesIn(kScenes),
                                             ::testing::Values("mixed", "sppm")),
-                         [](const auto& info) {
-                           return std::string(std::get<0>(info.param).name) + "_" +
-                                  std::get<1>(info.param);
+                         [](const auto& test) {
+                           return std::string(std::get<0>(test.param).name) + "_" +
+                                  std::get<1>(test.param);
                          });
 
 }  // namespace

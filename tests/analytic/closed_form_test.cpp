@@ -150,7 +150,7 @@ TEST_P(Scale, TheUnitOfLengthDoesNotMatter) {
 }
 
 INSTANTIATE_TEST_SUITE_P(AllIntegrators, Scale, ::testing::ValuesIn(integrator_names()),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& test) { return test.param; });
 
 }  // namespace
 }  // namespace nephroid

@@ -88,7 +88,7 @@ TEST_P(Determinism, BatchesOfPhotonsLoseNothing) {
 }
 
 INSTANTIATE_TEST_SUITE_P(AllIntegrators, Determinism, ::testing::ValuesIn(integrator_names()),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& test) { return test.param; });
 
 }  // namespace
 }  // namespace nephroid

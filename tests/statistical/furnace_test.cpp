@@ -22,15 +22,15 @@ const FurnaceScene kScenes[] = {
      R"(Material "dielectric" "float roughness" 0.02 "bool remaproughness" false
         Shape "sphere" "float radius" 0.7
         Material "diffuse" "spectrum reflectance" [300 1 900 1]
-        Translate 0 0 1.2 Shape "disk" "float radius" 1.5)"},
+        Translate 0 0 1.2 Shape "disk" "float radius" 6)"},
     {"glass_over_diffuse",
      R"(Material "dielectric" Shape "sphere" "float radius" 0.7
         Material "diffuse" "spectrum reflectance" [300 1 900 1]
-        Translate 0 0 1.2 Shape "disk" "float radius" 1.5)"},
+        Translate 0 0 1.2 Shape "disk" "float radius" 6)"},
     {"thin_glass",
      R"(Material "thindielectric" Shape "disk" "float radius" 0.9
         Material "diffuse" "spectrum reflectance" [300 1 900 1]
-        Translate 0 0 1.2 Shape "disk" "float radius" 1.5)"},
+        Translate 0 0 1.2 Shape "disk" "float radius" 6)"},
     {"mirror_beside_diffuse",
      R"(Material "diffuse" "spectrum reflectance" [300 1 900 1]
         Shape "sphere" "float radius" 0.6
@@ -71,8 +71,8 @@ TEST_P(Furnace, RadianceIsOne) {
 INSTANTIATE_TEST_SUITE_P(
     AllIntegrators, Furnace,
     ::testing::Combine(::testing::ValuesIn(kScenes), ::testing::ValuesIn(integrator_names())),
-    [](const auto& info) {
-      return std::string(std::get<0>(info.param).name) + "_" + std::get<1>(info.param);
+    [](const auto& test) {
+      return std::string(std::get<0>(test.param).name) + "_" + std::get<1>(test.param);
     });
 
 }  // namespace

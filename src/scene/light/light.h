@@ -17,11 +17,11 @@ namespace nephroid {
 /// A direction towards a light from a receiving point.
 struct LightSample {
   SampledSpectrum radiance;  ///< arriving, for a delta light divided by its delta function
-  Vec3f wi;                  ///< unit, from the receiver to the light
-  float pdf_w = 0;           ///< at the receiver; 1 for delta lights
-  Vec3f p;                   ///< point on the light; for infinite lights a point outside the scene
-  Vec3f p_error;             ///< of p; zero for infinite and point lights
-  Vec3f ng;                  ///< of the light's surface, null if it has none
+  Vec3f wi{0, 0, 0};         ///< unit, from the receiver to the light
+  float pdf_w = 0;           ///< at the receiver; 1 for lights at a point or in one direction
+  Vec3f p{0, 0, 0};          ///< point on the light; for infinite lights a point outside the scene
+  Vec3f p_error{0, 0, 0};    ///< of p; zero for infinite and point lights
+  Vec3f ng{0, 0, 0};         ///< of the light's surface, null if it has none
   bool delta = false;        ///< no walk can hit this light
   bool infinite = false;
 };
@@ -41,6 +41,7 @@ struct EmissionSample {
 struct LightBounds {
   Bounds3f bounds;
   Vec3f axis{0, 0, 1};
+  /// pi times the greatest radiant intensity: for a Lambertian emitter, what one side emits.
   float power = 0;
   float cos_theta_o = -1, cos_theta_e = 0;
   bool two_sided = false;

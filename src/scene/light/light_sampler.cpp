@@ -1,81 +1,159 @@
+// Choice of a light: a share for each infinite light, a light tree (or, for a handful, their
+// importances themselves) for the others; and a choice by power. See light_sampler.h.
 #include "scene/light/light_sampler.h"
 
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#include "core/sampler.h"
 #include "scene/light/light_tree.h"
 
 namespace nephroid {
 
-struct LightSampler::Impl {
-  std::vector<int> infinite;
-  std::vector<char> is_infinite;
-  std::unique_ptr<LightTree> tree;
-  float infinite_share = 0;    ///< probability of choosing any one infinite light
-  std::vector<float> cdf;      ///< of power, by light; the last entry is 1
-  std::vector<float> power_p;  ///< probability by power, by light
-};
+namespace {
 
-LightSampler::LightSampler(const std::vector<LightPtr>& lights) : impl_(std::make_unique<Impl>()) {
-  std::vector<std::pair<int, LightBounds>> bounded;
-  std::vector<double> power;
-  double total = 0;
-  for (size_t i = 0; i < lights.size(); ++i) {
-    const std::optional<LightBounds> bounds = lights[i]->bounds();
-    impl_->is_infinite.push_back(!bounds);
-    if (bounds)
-      bounded.emplace_back(static_cast<int>(i), *bounds);
-    else
-      impl_->infinite.push_back(static_cast<int>(i));
-    power.push_back(std::max(0.0, static_cast<double>(lights[i]->power())));
-    total += power.back();
-  }
-  impl_->tree = std::make_unique<LightTree>(bounded, static_cast<int>(lights.size()));
-  // Each infinite light counts as much as all of the others together.
-  const size_t parts = impl_->infinite.size() + (impl_->tree->empty() ? 0 : 1);
-  impl_->infinite_share = parts > 0 ? 1.0f / static_cast<float>(parts) : 0.0f;
-  double sum = 0;
-  for (const double p : power) {
-    sum += p;
-    impl_->power_p.push_back(total > 0 ? static_cast<float>(p / total) : 0.0f);
-    impl_->cdf.push_back(total > 0 ? static_cast<float>(sum / total) : 0.0f);
-  }
+/// Up to so many lights their importances are compared one by one.
+constexpr int kFew = 4;
+
+/// u with the digits that a float lacks filled from a hash, so that choices among very many lights
+/// keep their probabilities.
+double refine(float u, const Vec3f& p) {
+  const uint64_t bits = hash_combine(std::bit_cast<uint32_t>(u), std::bit_cast<uint32_t>(p.x),
+                                     std::bit_cast<uint32_t>(p.y), std::bit_cast<uint32_t>(p.z));
+  const double fine = u + static_cast<double>(bits >> 40) * 0x1p-48;
+  return std::min(fine, 1.0 - 0x1p-53);
 }
 
+}  // namespace
+
+struct LightSampler::Impl {
+  explicit Impl(const std::vector<LightPtr>& lights) {
+    std::vector<LightTree::Item> items;
+    powers.reserve(lights.size());
+    for (int i = 0; i < static_cast<int>(lights.size()); ++i) {
+      const float power = lights[i]->power();
+      powers.push_back(power > 0.0f && std::isfinite(power) ? power : 0.0f);
+      const auto bounds = lights[i]->bounds();
+      if (!bounds)
+        infinite.push_back(i);
+      else if (bounds->power > 0.0f && std::isfinite(bounds->power) &&
+               is_finite(bounds->bounds.min) && is_finite(bounds->bounds.max))
+        items.push_back({*bounds, i});
+    }
+    is_infinite.assign(lights.size(), false);
+    for (const int i : infinite) is_infinite[i] = true;
+    const int groups = static_cast<int>(infinite.size()) + (items.empty() ? 0 : 1);
+    if (groups > 0) infinite_share = 1.0 / groups;
+    bounded_share = items.empty() ? 0.0 : infinite_share;
+    if (items.size() <= kFew) {
+      for (const LightTree::Item& item : items) {
+        few_lights[few_count] = item.light;
+        few[few_count++] = LightCluster(item.bounds);
+      }
+    } else {
+      tree = std::make_unique<LightTree>(std::move(items), static_cast<int>(lights.size()));
+    }
+    double total = 0.0;
+    for (const float p : powers) total += p;
+    double sum = 0.0;
+    for (const float p : powers) {
+      sum += p;
+      cumulative.push_back(total > 0.0 ? sum / total : 0.0);
+    }
+    total_power = total;
+  }
+
+  /// Importances of the few lights and their sum.
+  std::pair<std::array<double, kFew>, double> few_importances(const Vec3f& p,
+                                                              const Vec3f& n) const {
+    std::array<double, kFew> w{};
+    double sum = 0.0;
+    for (int i = 0; i < few_count; ++i) sum += w[i] = few[i].importance(p, n);
+    return {w, sum};
+  }
+
+  std::vector<int> infinite;
+  std::vector<bool> is_infinite;
+  double infinite_share = 0.0;  ///< of each infinite light
+  double bounded_share = 0.0;   ///< of all others together
+  std::array<LightCluster, kFew> few;
+  std::array<int, kFew> few_lights{};
+  int few_count = 0;
+  std::unique_ptr<LightTree> tree;  ///< if there are more than a few
+  std::vector<float> powers;
+  std::vector<double> cumulative;  ///< distribution by power, upper ends
+  double total_power = 0.0;
+};
+
+LightSampler::LightSampler(const std::vector<LightPtr>& lights)
+    : impl_(std::make_unique<Impl>(lights)) {}
 LightSampler::~LightSampler() = default;
 LightSampler::LightSampler(LightSampler&&) noexcept = default;
 
 std::optional<LightChoice> LightSampler::sample(const Vec3f& p, const Vec3f& n, float u) const {
-  const float share = impl_->infinite_share;
-  const float all_infinite = share * static_cast<float>(impl_->infinite.size());
-  if (u < all_infinite) {
-    const size_t k = std::min(static_cast<size_t>(u / share), impl_->infinite.size() - 1);
-    return LightChoice{impl_->infinite[k], share};
+  const Impl& d = *impl_;
+  double v = refine(u, p);
+  const auto infinite_count = static_cast<double>(d.infinite.size());
+  const double all_infinite = infinite_count * d.infinite_share;
+  if (d.bounded_share == 0.0 || v < all_infinite) {
+    if (d.infinite.empty()) return std::nullopt;
+    const auto i = std::min(static_cast<size_t>(v / d.infinite_share), d.infinite.size() - 1);
+    return LightChoice{d.infinite[i], static_cast<float>(d.infinite_share)};
   }
-  if (impl_->tree->empty()) return std::nullopt;
-  u = std::min((u - all_infinite) / (1 - all_infinite), kOneMinusEpsilon);
-  std::optional<LightChoice> choice = impl_->tree->sample(p, n, u);
-  if (choice) choice->pdf_p *= 1 - all_infinite;
-  return choice;
+  v = std::min((v - all_infinite) / d.bounded_share, 1.0 - 0x1p-53);
+  if (d.tree) {
+    const auto choice = d.tree->sample(p, n, v, d.bounded_share);
+    if (!choice) return std::nullopt;
+    return LightChoice{choice->light, static_cast<float>(choice->probability)};
+  }
+  const auto [weights, sum] = d.few_importances(p, n);
+  if (!(sum > 0.0)) return std::nullopt;
+  double rest = v * sum;
+  int last = 0;
+  for (int i = 0; i < d.few_count; ++i) {
+    if (weights[i] == 0.0) continue;
+    last = i;
+    if (rest < weights[i]) break;
+    rest -= weights[i];
+  }
+  return LightChoice{d.few_lights[last],
+                     static_cast<float>(d.bounded_share * (weights[last] / sum))};
 }
 
 float LightSampler::pmf(const Vec3f& p, const Vec3f& n, int light) const {
-  if (impl_->is_infinite[static_cast<size_t>(light)]) return impl_->infinite_share;
-  const float all_infinite =
-      impl_->infinite_share * static_cast<float>(impl_->infinite.size());
-  return impl_->tree->pmf(p, n, light) * (1 - all_infinite);
+  const Impl& d = *impl_;
+  if (light < 0 || light >= static_cast<int>(d.is_infinite.size())) return 0.0f;
+  if (d.is_infinite[light]) return static_cast<float>(d.infinite_share);
+  if (d.tree) return static_cast<float>(d.tree->pmf(p, n, light, d.bounded_share));
+  const auto [weights, sum] = d.few_importances(p, n);
+  if (!(sum > 0.0)) return 0.0f;
+  for (int i = 0; i < d.few_count; ++i)
+    if (d.few_lights[i] == light) return static_cast<float>(d.bounded_share * (weights[i] / sum));
+  return 0.0f;
 }
 
 std::optional<LightChoice> LightSampler::sample_by_power(float& u) const {
-  const auto it = std::upper_bound(impl_->cdf.begin(), impl_->cdf.end(), u);
-  if (it == impl_->cdf.end()) return std::nullopt;
-  const size_t i = static_cast<size_t>(it - impl_->cdf.begin());
-  const float before = i == 0 ? 0.0f : impl_->cdf[i - 1];
-  u = std::clamp((u - before) / (impl_->cdf[i] - before), 0.0f, kOneMinusEpsilon);
-  return LightChoice{static_cast<int>(i), impl_->power_p[i]};
+  const Impl& d = *impl_;
+  if (!(d.total_power > 0.0)) return std::nullopt;
+  const auto it =
+      std::upper_bound(d.cumulative.begin(), d.cumulative.end(), static_cast<double>(u));
+  auto i = std::min(static_cast<size_t>(it - d.cumulative.begin()), d.cumulative.size() - 1);
+  // The last lights may be black; u below 1 never means one of them.
+  while (d.powers[i] == 0.0f) --i;
+  const double lower = i > 0 ? d.cumulative[i - 1] : 0.0;
+  u = std::clamp(static_cast<float>((u - lower) / (d.cumulative[i] - lower)), 0.0f,
+                 kOneMinusEpsilon);
+  return LightChoice{static_cast<int>(i), pmf_by_power(static_cast<int>(i))};
 }
 
 float LightSampler::pmf_by_power(int light) const {
-  return impl_->power_p[static_cast<size_t>(light)];
+  if (!(impl_->total_power > 0.0)) return 0.0f;
+  return static_cast<float>(impl_->powers[light] / impl_->total_power);
 }
 
-const std::vector<int>& LightSampler::infinite_lights() const { return impl_->infinite; }
+const std::vector<int>& LightSampler::infinite_lights() const {
+  return impl_->infinite;
+}
 
 }  // namespace nephroid

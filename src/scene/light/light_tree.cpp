@@ -1,225 +1,264 @@
+// Building the light tree and walking down it, see light_tree.h.
 #include "scene/light/light_tree.h"
 
+#include <algorithm>
 #include <array>
 
 namespace nephroid {
 
 namespace {
 
-// Deeper than this the tree splits by number instead of by cost, so that a trail fits in 64 bits.
-constexpr int kBalancedDepth = 32;
+constexpr int kBuckets = 12;
+/// Below this depth the halves have equal numbers of lights, so that no way is longer than 64.
+constexpr int kUnbalancedDepth = 40;
 
-struct Cone {
-  Vec3f axis;
-  float cos_half;
-};
-
-float angle_of(float cosine) { return std::acos(std::clamp(cosine, -1.0f, 1.0f)); }
-
-Cone unite_cones(const Vec3f& axis_a, float cos_a, const Vec3f& axis_b, float cos_b) {
-  const float half_a = angle_of(cos_a), half_b = angle_of(cos_b);
-  const float between = angle_of(dot(axis_a, axis_b));
-  if (std::min(between + half_b, kPi) <= half_a) return {axis_a, cos_a};
-  if (std::min(between + half_a, kPi) <= half_b) return {axis_b, cos_b};
-  const float half = (half_a + between + half_b) / 2;
-  const Vec3f normal = cross(axis_a, axis_b);
-  if (half >= kPi || !(length_squared(normal) > 0)) return {axis_a, -1.0f};
-  // The axis of a turned towards b's.
-  const float turn = half - half_a;
-  const Vec3f side = normalize(cross(normalize(normal), axis_a));
-  return {normalize(axis_a * std::cos(turn) + side * std::sin(turn)), std::cos(half)};
-}
-
-// cos and sin of max(0, a - b).
-float cos_difference(float sin_a, float cos_a, float sin_b, float cos_b) {
+/// cos(max(0, a - b)) and sin(max(0, a - b)) of angles in [0, pi].
+float cos_sub_clamped(float sin_a, float cos_a, float sin_b, float cos_b) {
   return cos_a > cos_b ? 1.0f : cos_a * cos_b + sin_a * sin_b;
 }
-float sin_difference(float sin_a, float cos_a, float sin_b, float cos_b) {
+float sin_sub_clamped(float sin_a, float cos_a, float sin_b, float cos_b) {
   return cos_a > cos_b ? 0.0f : sin_a * cos_b - cos_a * sin_b;
 }
 
-// Cost of a node after Conty Estevez & Kulla: power times solid angle of emission times area.
-float cost_of(const LightBounds& b, const Bounds3f& all, int axis) {
-  const float theta_o = angle_of(b.cos_theta_o), theta_e = angle_of(b.cos_theta_e);
-  const float theta_w = std::min(theta_o + theta_e, kPi);
-  const float sin_o = safe_sqrt(1 - sqr(b.cos_theta_o));
-  const float omega = 2 * kPi * (1 - b.cos_theta_o) +
-                      kPi / 2 * (2 * theta_w * sin_o - std::cos(theta_o - 2 * theta_w) -
-                                 2 * theta_o * sin_o + b.cos_theta_o);
-  const Vec3f size = all.max - all.min, d = b.bounds.max - b.bounds.min;
-  const float regularity = size[axis] > 0 ? max_component(size) / size[axis] : 1.0f;
-  return b.power * omega * regularity * (d.x * d.y + d.y * d.z + d.z * d.x + 1e-6f * dot(size, size));
+double safe_acos(double c) {
+  return std::acos(std::clamp(c, -1.0, 1.0));
+}
+
+/// The measure of directions into which a cone of normals emits, weighted by the cosine beyond the
+/// cone (Conty Estevez & Kulla 2018, equation 1).
+double orientation_measure(double cos_o, double cos_e) {
+  const double pi = 3.14159265358979323846;
+  const double o = safe_acos(cos_o), w = std::min(o + safe_acos(cos_e), pi);
+  const double sin_o = std::sin(o);
+  return 2.0 * pi * (1.0 - cos_o) +
+         pi / 2.0 * (2.0 * w * sin_o - std::cos(o - 2.0 * w) - 2.0 * o * sin_o + cos_o);
+}
+
+/// Cost of a group of lights that becomes a child (equation 2); `stretch` punishes thin boxes.
+double group_cost(const LightBounds& b, double stretch) {
+  if (!(b.power > 0.0f)) return 0.0;
+  const Vec3f d = b.bounds.max - b.bounds.min;
+  // The area of the box, and something of its diagonal so that lights in a row are told apart.
+  const double area = 2.0 * (static_cast<double>(d.x) * d.y + static_cast<double>(d.y) * d.z +
+                             static_cast<double>(d.z) * d.x) +
+                      0.1 * (static_cast<double>(d.x) * d.x + static_cast<double>(d.y) * d.y +
+                             static_cast<double>(d.z) * d.z);
+  return b.power * orientation_measure(b.cos_theta_o, b.cos_theta_e) * stretch * area;
+}
+
+Vec3f centroid(const LightTree::Item& item) {
+  return (item.bounds.bounds.min + item.bounds.bounds.max) * 0.5f;
+}
+
+int bucket_of(float position, float low, float high) {
+  const int b = static_cast<int>(static_cast<float>(kBuckets) * ((position - low) / (high - low)));
+  return std::clamp(b, 0, kBuckets - 1);
+}
+
+struct Split {
+  int axis = -1;  ///< -1: none is possible
+  int bucket = 0;
+  float low = 0, high = 0;
+};
+
+/// The best of the planes between buckets along all three axes.
+Split best_split(const std::vector<LightTree::Item>& items, size_t begin, size_t end,
+                 const Bounds3f& bounds, const Bounds3f& centers) {
+  Split best;
+  double best_cost = std::numeric_limits<double>::infinity();
+  const Vec3f extent = bounds.max - bounds.min;
+  const float longest = max_component(extent);
+  for (int axis = 0; axis < 3; ++axis) {
+    const float low = centers.min[axis], high = centers.max[axis];
+    if (!(high > low)) continue;
+    std::array<LightBounds, kBuckets> buckets;
+    for (size_t i = begin; i < end; ++i) {
+      LightBounds& b = buckets[bucket_of(centroid(items[i])[axis], low, high)];
+      b = union_of(b, items[i].bounds);
+    }
+    const double stretch = longest / extent[axis];
+    std::array<double, kBuckets> above{};
+    LightBounds group;
+    for (int i = kBuckets - 1; i > 0; --i) {
+      group = union_of(buckets[i], group);
+      above[i] = group_cost(group, stretch);
+    }
+    group = LightBounds();
+    for (int i = 0; i + 1 < kBuckets; ++i) {
+      group = union_of(group, buckets[i]);
+      const double cost = group_cost(group, stretch) + above[i + 1];
+      if (cost < best_cost) {
+        best_cost = cost;
+        best = {axis, i, low, high};
+      }
+    }
+  }
+  return best;
+}
+
+struct Cone {
+  Vec3d axis;
+  double cos_half = -1;
+};
+
+/// The smallest cone around two cones, or all directions.
+Cone union_of_cones(const Vec3f& axis_a, float cos_a, const Vec3f& axis_b, float cos_b) {
+  const double pi = 3.14159265358979323846;
+  const Vec3d a(axis_a.x, axis_a.y, axis_a.z), b(axis_b.x, axis_b.y, axis_b.z);
+  const double half_a = safe_acos(cos_a), half_b = safe_acos(cos_b);
+  const Vec3d normal = a.cross(b);
+  const double between = std::atan2(normal.length(), a.dot(b));
+  if (std::min(between + half_b, pi) <= half_a) return {a, cos_a};
+  if (std::min(between + half_a, pi) <= half_b) return {b, cos_b};
+  const double half = 0.5 * (half_a + between + half_b);
+  if (half >= pi || normal.length() < 1e-12) return {a, -1.0};
+  // a turned towards b within their plane.
+  const double turn = half - half_a;
+  const Vec3d side = normal.normalized().cross(a);
+  return {(a * std::cos(turn) + side * std::sin(turn)).normalized(), std::cos(half)};
 }
 
 }  // namespace
 
-LightBounds unite(const LightBounds& a, const LightBounds& b) {
-  if (!(a.power > 0)) return b;
-  if (!(b.power > 0)) return a;
-  LightBounds r;
-  r.bounds = a.bounds;
-  r.bounds.extendBy(b.bounds);
-  const Cone cone = unite_cones(a.axis, a.cos_theta_o, b.axis, b.cos_theta_o);
-  r.axis = cone.axis;
-  r.cos_theta_o = cone.cos_half;
-  r.cos_theta_e = std::min(a.cos_theta_e, b.cos_theta_e);
-  r.power = a.power + b.power;
-  r.two_sided = a.two_sided || b.two_sided;
-  return r;
+LightBounds union_of(const LightBounds& a, const LightBounds& b) {
+  if (!(a.power > 0.0f)) return b;
+  if (!(b.power > 0.0f)) return a;
+  LightBounds u;
+  u.bounds = a.bounds;
+  u.bounds.extendBy(b.bounds);
+  const Cone cone = union_of_cones(a.axis, a.cos_theta_o, b.axis, b.cos_theta_o);
+  u.axis = Vec3f(static_cast<float>(cone.axis.x), static_cast<float>(cone.axis.y),
+                 static_cast<float>(cone.axis.z));
+  // Widened by the rounding of the axis to float.
+  u.cos_theta_o = std::max(-1.0f, static_cast<float>(cone.cos_half) - 1e-6f);
+  u.cos_theta_e = std::min(a.cos_theta_e, b.cos_theta_e);
+  u.power = a.power + b.power;
+  u.two_sided = a.two_sided || b.two_sided;
+  return u;
 }
 
-LightTree::Node LightTree::make_node(const LightBounds& b) {
-  Node node;
-  node.min = b.bounds.min;
-  node.max = b.bounds.max;
-  node.center = (b.bounds.min + b.bounds.max) * 0.5f;
-  node.radius2 = length_squared(b.bounds.max - node.center);
-  node.axis = b.axis;
-  node.power = b.power;
-  node.cos_o = b.cos_theta_o;
-  node.sin_o = safe_sqrt(1 - sqr(b.cos_theta_o));
-  node.cos_e = b.cos_theta_e;
-  node.two_sided = b.two_sided;
-  return node;
-}
+LightCluster::LightCluster(const LightBounds& b)
+    : center((b.bounds.min + b.bounds.max) * 0.5f),
+      radius2(0.25f * length_squared(b.bounds.max - b.bounds.min)),
+      axis(b.axis),
+      power(b.power),
+      cos_o(b.cos_theta_o),
+      sin_o(safe_sqrt(1.0f - b.cos_theta_o * b.cos_theta_o)),
+      cos_e(b.cos_theta_e),
+      two_sided(b.two_sided ? 1 : 0) {}
 
-// Bound of what the lights of a node may send to p: power over squared distance, times the best cosines
-// that the box, as seen from p, leaves possible at both ends.
-float LightTree::importance(const Node& node, const Vec3f& p, const Vec3f& n) {
-  const Vec3f to = p - node.center;
-  const float d2 = length_squared(to);
-  const bool inside = d2 <= node.radius2;
-  const Vec3f w = d2 > 0 ? to * (1.0f / std::sqrt(d2)) : Vec3f(0, 0, 1);
-  float sin2_b = inside ? 1.0f : node.radius2 / d2;
-  const float cos_b = inside ? -1.0f : safe_sqrt(1 - sin2_b);
-  const float sin_b = inside ? 0.0f : std::sqrt(sin2_b);
-
-  float cos_w = dot(node.axis, w);
-  if (node.two_sided) cos_w = std::abs(cos_w);
-  const float sin_w = safe_sqrt(1 - sqr(cos_w));
-  const float cos_x = cos_difference(sin_w, cos_w, node.sin_o, node.cos_o);
-  const float sin_x = sin_difference(sin_w, cos_w, node.sin_o, node.cos_o);
-  const float cos_emission = cos_difference(sin_x, cos_x, sin_b, cos_b);
-  if (cos_emission <= node.cos_e) return 0.0f;
-  float value = node.power * cos_emission / std::max(d2, node.radius2);
-  if (length_squared(n) > 0) {
-    const float cos_i = abs_dot(w, n);
-    value *= cos_difference(safe_sqrt(1 - sqr(cos_i)), cos_i, sin_b, cos_b);
+float LightCluster::importance(const Vec3f& p, const Vec3f& n) const {
+  const Vec3f d = p - center;
+  const float d2 = length_squared(d);
+  if (d2 <= radius2) return radius2 > 0.0f ? power / radius2 : 0.0f;
+  const Vec3f w = d * (1.0f / std::sqrt(d2));
+  float cos_w = dot(axis, w);
+  if (two_sided) cos_w = std::abs(cos_w);
+  const float sin_w = safe_sqrt(1.0f - cos_w * cos_w);
+  // Half angle of the sphere as seen from p.
+  const float sin2_b = radius2 / d2;
+  const float sin_b = std::sqrt(sin2_b), cos_b = safe_sqrt(1.0f - sin2_b);
+  // Least angle between a normal of the cluster and a direction from it to p.
+  const float cos_x = cos_sub_clamped(sin_w, cos_w, sin_o, cos_o);
+  const float sin_x = sin_sub_clamped(sin_w, cos_w, sin_o, cos_o);
+  const float cos_p = cos_sub_clamped(sin_x, cos_x, sin_b, cos_b);
+  if (cos_p <= cos_e) return 0.0f;
+  // Lamps that emit backwards too have a negative cosine here, but not no light.
+  float value = power * std::max(cos_p, 0.01f) / d2;
+  if (n.x != 0.0f || n.y != 0.0f || n.z != 0.0f) {
+    const float cos_i = abs_dot(w, n), sin_i = safe_sqrt(1.0f - cos_i * cos_i);
+    value *= std::max(cos_sub_clamped(sin_i, cos_i, sin_b, cos_b), 1e-4f);
   }
-  // A light at exactly this point, of no extent: anything finite will do.
-  if (!std::isfinite(value)) return std::numeric_limits<float>::max() * 1e-10f;
-  return std::max(value, 0.0f);
+  return value;
 }
 
-LightTree::LightTree(const std::vector<std::pair<int, LightBounds>>& lights, int light_count)
-    : trails_(static_cast<size_t>(light_count), 0), depths_(static_cast<size_t>(light_count), -1) {
-  std::vector<Item> items;
-  for (const auto& [light, bounds] : lights)
-    if (bounds.power > 0) items.push_back({light, bounds});
+LightTree::LightTree(std::vector<Item> items, int light_count) : trails_(light_count) {
   if (items.empty()) return;
   nodes_.reserve(2 * items.size());
-  build(items, 0, items.size(), 0, 0);
+  nodes_.emplace_back();
+  build(0, items, 0, items.size(), 0, 0);
 }
 
-int LightTree::build(std::vector<Item>& items, size_t begin, size_t end, uint64_t trail,
-                     int depth) {
-  LightBounds all;
-  Bounds3f centers;
-  for (size_t i = begin; i < end; ++i) {
-    all = unite(all, items[i].bounds);
-    centers.extendBy((items[i].bounds.bounds.min + items[i].bounds.bounds.max) * 0.5f);
-  }
-  const int index = static_cast<int>(nodes_.size());
-  nodes_.push_back(make_node(all));
+LightBounds LightTree::build(uint32_t node, std::vector<Item>& items, size_t begin, size_t end,
+                             uint64_t trail, int depth) {
+  depth_ = std::max(depth_, depth);
   if (end - begin == 1) {
-    const int light = items[begin].light;
-    nodes_.back().leaf = true;
-    nodes_.back().child = light;
-    trails_[static_cast<size_t>(light)] = trail;
-    depths_[static_cast<size_t>(light)] = static_cast<int8_t>(depth);
-    return index;
+    const Item& item = items[begin];
+    nodes_[node].cluster = LightCluster(item.bounds);
+    nodes_[node].child = kLeaf | static_cast<uint32_t>(item.light);
+    trails_[item.light] = {trail, true};
+    return item.bounds;
   }
+  Bounds3f bounds, centers;
+  for (size_t i = begin; i < end; ++i) {
+    bounds.extendBy(items[i].bounds.bounds);
+    centers.extendBy(centroid(items[i]));
+  }
+  size_t middle = begin;
+  if (depth < kUnbalancedDepth) {
+    const Split split = best_split(items, begin, end, bounds, centers);
+    if (split.axis >= 0) {
+      const auto it =
+          std::stable_partition(items.begin() + begin, items.begin() + end, [&](const Item& item) {
+            return bucket_of(centroid(item)[split.axis], split.low, split.high) <= split.bucket;
+          });
+      middle = static_cast<size_t>(it - items.begin());
+    }
+  }
+  if (middle == begin || middle == end) middle = begin + (end - begin) / 2;
 
-  // The cheapest of the splits at eleven planes along each axis; by number where no plane separates.
-  constexpr int kBuckets = 12;
-  const auto bucket_of = [&](const Item& item, int axis) {
-    const float c = (item.bounds.bounds.min[axis] + item.bounds.bounds.max[axis]) * 0.5f;
-    const float t = (c - centers.min[axis]) / (centers.max[axis] - centers.min[axis]);
-    return std::clamp(static_cast<int>(t * kBuckets), 0, kBuckets - 1);
-  };
-  float best = kInfinity;
-  int best_axis = -1, best_split = 0;
-  for (int axis = 0; axis < 3 && depth < kBalancedDepth; ++axis) {
-    if (!(centers.max[axis] > centers.min[axis])) continue;
-    std::array<LightBounds, kBuckets> buckets;
-    for (size_t i = begin; i < end; ++i) {
-      LightBounds& bucket = buckets[static_cast<size_t>(bucket_of(items[i], axis))];
-      bucket = unite(bucket, items[i].bounds);
-    }
-    for (int split = 1; split < kBuckets; ++split) {
-      LightBounds low, high;
-      for (int b = 0; b < split; ++b) low = unite(low, buckets[static_cast<size_t>(b)]);
-      for (int b = split; b < kBuckets; ++b) high = unite(high, buckets[static_cast<size_t>(b)]);
-      if (!(low.power > 0) || !(high.power > 0)) continue;
-      const float cost = cost_of(low, all.bounds, axis) + cost_of(high, all.bounds, axis);
-      if (cost < best) {
-        best = cost;
-        best_axis = axis;
-        best_split = split;
-      }
-    }
-  }
-  size_t middle = (begin + end) / 2;
-  if (best_axis >= 0) {
-    const auto it = std::stable_partition(
-        items.begin() + static_cast<std::ptrdiff_t>(begin),
-        items.begin() + static_cast<std::ptrdiff_t>(end),
-        [&](const Item& item) { return bucket_of(item, best_axis) < best_split; });
-    middle = static_cast<size_t>(it - items.begin());
-  }
-  build(items, begin, middle, trail, depth + 1);
-  const int second = build(items, middle, end, trail | (uint64_t{1} << depth), depth + 1);
-  nodes_[static_cast<size_t>(index)].child = second;
-  return index;
+  const auto child = static_cast<uint32_t>(nodes_.size());
+  nodes_.resize(nodes_.size() + 2);
+  const LightBounds first = build(child, items, begin, middle, trail, depth + 1);
+  const LightBounds second =
+      build(child + 1, items, middle, end, trail | (uint64_t{1} << depth), depth + 1);
+  const LightBounds both = union_of(first, second);
+  nodes_[node].cluster = LightCluster(both);
+  nodes_[node].child = child;
+  return both;
 }
 
-std::optional<LightChoice> LightTree::sample(const Vec3f& p, const Vec3f& n, float u) const {
+double LightTree::first_probability(const Node& node, const Vec3f& p, const Vec3f& n) const {
+  const double first = nodes_[node.child].cluster.importance(p, n);
+  const double second = nodes_[node.child + 1].cluster.importance(p, n);
+  const double sum = first + second;
+  return sum > 0.0 ? first / sum : -1.0;
+}
+
+std::optional<LightTree::Choice> LightTree::sample(const Vec3f& p, const Vec3f& n, double u,
+                                                   double probability) const {
   if (nodes_.empty()) return std::nullopt;
-  size_t i = 0;
-  float probability = 1;
-  if (nodes_[0].leaf && !(importance(nodes_[0], p, n) > 0)) return std::nullopt;
-  while (!nodes_[i].leaf) {
-    const size_t first = i + 1, second = static_cast<size_t>(nodes_[i].child);
-    const float a = importance(nodes_[first], p, n), b = importance(nodes_[second], p, n);
-    if (!(a + b > 0)) return std::nullopt;
-    const float share = a / (a + b);
-    if (u < share) {
-      u = std::min(u / share, kOneMinusEpsilon);
-      probability *= share;
-      i = first;
+  const Node* node = &nodes_[0];
+  if (!(node->cluster.importance(p, n) > 0.0f)) return std::nullopt;
+  while (!(node->child & kLeaf)) {
+    const double first = first_probability(*node, p, n);
+    if (first < 0.0) return std::nullopt;
+    if (u < first) {
+      u /= first;
+      probability *= first;
+      node = &nodes_[node->child];
     } else {
-      u = std::clamp((u - share) / (1 - share), 0.0f, kOneMinusEpsilon);
-      probability *= 1 - share;
-      i = second;
+      u = (u - first) / (1.0 - first);
+      probability *= 1.0 - first;
+      node = &nodes_[node->child + 1];
     }
+    // Rounding must not lead to a child of probability 0 further down.
+    u = std::min(u, 1.0 - 0x1p-53);
   }
-  return LightChoice{nodes_[i].child, probability};
+  return Choice{static_cast<int>(node->child & ~kLeaf), probability};
 }
 
-float LightTree::pmf(const Vec3f& p, const Vec3f& n, int light) const {
-  const int depth = depths_[static_cast<size_t>(light)];
-  if (depth < 0) return 0;
-  if (depth == 0) return importance(nodes_[0], p, n) > 0 ? 1.0f : 0.0f;
-  uint64_t trail = trails_[static_cast<size_t>(light)];
-  size_t i = 0;
-  float probability = 1;
-  for (int level = 0; level < depth; ++level, trail >>= 1) {
-    const size_t first = i + 1, second = static_cast<size_t>(nodes_[i].child);
-    const float a = importance(nodes_[first], p, n), b = importance(nodes_[second], p, n);
-    if (!(a + b > 0)) return 0;
-    const float share = a / (a + b);
-    probability *= (trail & 1) ? 1 - share : share;
-    i = (trail & 1) ? second : first;
+double LightTree::pmf(const Vec3f& p, const Vec3f& n, int light, double probability) const {
+  if (light < 0 || light >= static_cast<int>(trails_.size()) || !trails_[light].present) return 0.0;
+  const Node* node = &nodes_[0];
+  if (!(node->cluster.importance(p, n) > 0.0f)) return 0.0;
+  uint64_t trail = trails_[light].bits;
+  while (!(node->child & kLeaf)) {
+    const double first = first_probability(*node, p, n);
+    if (first < 0.0) return 0.0;
+    probability *= trail & 1 ? 1.0 - first : first;
+    node = &nodes_[node->child + (trail & 1)];
+    trail >>= 1;
   }
   return probability;
 }

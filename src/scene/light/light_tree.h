@@ -1,51 +1,78 @@
-// A tree over lights that are somewhere: chooses one in proportion to a bound of what it may send to a
-// point, in logarithmic time (Conty Estevez & Kulla 2018; pbrt-v4 section 12.6.3).
-// Who calls it: light_sampler.cpp. It must not know what kinds of lights there are.
+// A binary tree over the lights that have bounds; choosing one for a receiving point costs the
+// depth of the tree. (Conty Estevez & Kulla 2018, "Importance Sampling of Many Lights with Adaptive
+// Tree Splitting"; without the splitting, as in pbrt-v4 section 12.6.3.) Who calls it:
+// LightSampler. It must not know lights, only their bounds.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <vector>
 
-#include "scene/light/light_sampler.h"
+#include "scene/light/light.h"
 
 namespace nephroid {
 
-class LightTree {
- public:
-  /// `lights` are pairs of a light's number and its bounds; lights of no power are left out.
-  explicit LightTree(const std::vector<std::pair<int, LightBounds>>& lights, int light_count);
+/// What a node needs of its lights, ready for importance(): one of them or all below an inner node.
+struct LightCluster {
+  Vec3f center{0, 0, 0};  ///< of the sphere around the bounding box
+  float radius2 = 0;
+  Vec3f axis{0, 0, 1};
+  float power = 0;
+  float cos_o = -1, sin_o = 0, cos_e = 0;
+  uint32_t two_sided = 0;
 
-  bool empty() const { return nodes_.empty(); }
-  /// `u` in [0,1). Empty if no light can reach the point.
-  std::optional<LightChoice> sample(const Vec3f& p, const Vec3f& n, float u) const;
-  /// Probability with which sample() returns `light`.
-  float pmf(const Vec3f& p, const Vec3f& n, int light) const;
-
- private:
-  struct Node {
-    Vec3f center, axis;
-    Vec3f min, max;
-    float radius2 = 0;  ///< squared, of the bounding sphere
-    float power = 0, cos_o = -1, sin_o = 0, cos_e = 0;
-    bool two_sided = false, leaf = false;
-    int child = 0;  ///< second child (the first follows its parent), or the light's number in a leaf
-  };
-  struct Item {
-    int light;
-    LightBounds bounds;
-  };
-
-  int build(std::vector<Item>& items, size_t begin, size_t end, uint64_t trail, int depth);
-  static Node make_node(const LightBounds& bounds);
-  static float importance(const Node& node, const Vec3f& p, const Vec3f& n);
-
-  std::vector<Node> nodes_;
-  std::vector<uint64_t> trails_;  ///< by light: the turns from the root to its leaf, lowest bit first
-  std::vector<int8_t> depths_;    ///< by light: -1 if it is not in the tree
+  LightCluster() = default;
+  explicit LightCluster(const LightBounds& bounds);
+  /// An estimate of what arrives at `p` with unit normal `n` (null: none), never 0 where light
+  /// arrives.
+  float importance(const Vec3f& p, const Vec3f& n) const;
 };
 
-/// Smallest bounds that hold both.
-LightBounds unite(const LightBounds& a, const LightBounds& b);
+class LightTree {
+ public:
+  struct Item {
+    LightBounds bounds;
+    int light = -1;
+  };
+  struct Choice {
+    int light = -1;
+    double probability = 0;
+  };
+
+  /// `light_count` is one more than the largest Item::light.
+  LightTree(std::vector<Item> items, int light_count);
+
+  bool empty() const { return nodes_.empty(); }
+  /// A light for `u` in [0,1), with `probability` times the probability of the choice. Empty if no
+  /// light can matter.
+  std::optional<Choice> sample(const Vec3f& p, const Vec3f& n, double u, double probability) const;
+  /// The probability of that choice; 0 for lights that are not in the tree.
+  double pmf(const Vec3f& p, const Vec3f& n, int light, double probability) const;
+  /// Inner nodes on the longest way down.
+  int depth() const { return depth_; }
+
+ private:
+  static constexpr uint32_t kLeaf = 0x80000000u;
+  struct Node {
+    LightCluster cluster;
+    uint32_t child = 0;  ///< first of two neighbours; or kLeaf | index of the light
+  };
+  struct Trail {
+    uint64_t bits = 0;  ///< turns on the way down, the first in the lowest bit
+    bool present = false;
+  };
+
+  LightBounds build(uint32_t node, std::vector<Item>& items, size_t begin, size_t end,
+                    uint64_t trail, int depth);
+  /// Probability of the first child; negative if neither can matter.
+  double first_probability(const Node& node, const Vec3f& p, const Vec3f& n) const;
+
+  std::vector<Node> nodes_;
+  std::vector<Trail> trails_;
+  int depth_ = 0;
+};
+
+/// Bounds of two groups of lights together. A group without power does not count.
+LightBounds union_of(const LightBounds& a, const LightBounds& b);
 
 }  // namespace nephroid

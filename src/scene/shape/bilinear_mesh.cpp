@@ -116,11 +116,17 @@ Vec3d unit_cross(const BilinearPatch& patch, double u, double v) {
 void set_point(const BilinearPatch& patch, double u, double v, Vec3f* p, Vec3f* p_error) {
   const Vec3d q = patch.point(u, v);
   *p = to_float(q);
+  const Vec3d edges[] = {patch.p10 - patch.p00, patch.p01 - patch.p00, patch.p11 - patch.p00};
+  double extent = 0.0;
+  for (const Vec3d& e : edges)
+    extent = std::max({extent, std::abs(e.x), std::abs(e.y), std::abs(e.z)});
   for (int i = 0; i < 3; ++i) {
     const double magnitude = std::abs(patch.p00[i]) + std::abs(patch.p10[i]) +
                              std::abs(patch.p01[i]) + std::abs(patch.p11[i]);
-    // Rounded once to float; the rest was lost in double.
-    (*p_error)[i] = static_cast<float>(std::abs(q[i]) * 0x1.0001p-24 + magnitude * 16.0 * 0x1p-53);
+    // Rounded once to float; the rest was lost in double. The extent stands for the rounding of a
+    // distance to the patch, also along axes on which all coordinates are zero.
+    (*p_error)[i] = static_cast<float>(std::abs(q[i]) * 0x1.0001p-24 + magnitude * 16.0 * 0x1p-53 +
+                                       extent * 64.0 * 0x1p-53);
   }
 }
 
@@ -227,7 +233,7 @@ void BilinearMesh::fill(uint32_t primitive, const Vec2f& hit_uv, const Ray&, flo
   Vec3f shading_normal = out.ng;
   if (has_normal) {
     shading_normal = normalize(ns);
-    const Vec3d to = to_double(shading_normal);
+    const Vec3d to = to_double(shading_normal).normalized();
     out.shading_dpdu = to_float(rotate_from_to(before, to, to_double(out.dpdu)));
     out.shading_dpdv = to_float(rotate_from_to(before, to, to_double(out.dpdv)));
   }

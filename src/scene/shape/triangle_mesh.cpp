@@ -47,7 +47,7 @@ Vec3d edge_cross(const Corners& c) {
   return (to_double(c.p1) - p0).cross(to_double(c.p2) - p0);
 }
 
-Vec3f unit_normal(const Corners& c) {
+inline Vec3f unit_normal(const Corners& c) {
   const Vec3d n = edge_cross(c);
   const double l2 = n.dot(n);
   if (!(l2 > 0.0)) return {0, 0, 1};
@@ -57,7 +57,10 @@ Vec3f unit_normal(const Corners& c) {
 void set_point(const Corners& c, const Weights& b, Vec3f* p, Vec3f* p_error) {
   const Vec3f q0 = c.p0 * b.b0, q1 = c.p1 * b.b1, q2 = c.p2 * b.b2;
   *p = q0 + q1 + q2;
-  *p_error = (abs(q0) + abs(q1) + abs(q2)) * gamma_bound(7);
+  // Besides the rounding of p itself: the ray tracer's distances to the plane are rounded in
+  // proportion to the size of the triangle, also along axes on which all coordinates are zero.
+  const float extent = std::max(max_component(abs(c.p1 - c.p0)), max_component(abs(c.p2 - c.p0)));
+  *p_error = (abs(q0) + abs(q1) + abs(q2)) * gamma_bound(7) + Vec3f(extent * gamma_bound(6));
 }
 
 /// How texture coordinates run over a triangle: the differences to corner 2 and their determinant.
@@ -98,12 +101,31 @@ Vec2f texture_point(const MeshData& mesh, const uint32_t* v, const Weights& b) {
 
 /// The geometric normal towards the outside. `ns` gets the interpolated normal, not normalised, or
 /// null if the mesh has none or they cancel.
-Vec3f outside_normal(const MeshData& mesh, bool flip, const Corners& c, const uint32_t* v,
-                     const Weights& b, Vec3f* ns) {
+inline Vec3f outside_normal(const MeshData& mesh, bool flip, const Corners& c, const uint32_t* v,
+                            const Weights& b, Vec3f* ns) {
   Vec3f n = unit_normal(c);
   if (flip) n = -n;
   *ns = mesh.normals.empty() ? Vec3f(0, 0, 0) : interpolate(mesh.normals, v, b);
   return dot(n, *ns) < 0.0f ? -n : n;
+}
+
+/// Normal and frames of a triangle that has nothing but its corners: the short way, because most
+/// hits take it.
+void fill_plain(const Corners& c, bool flip, SurfaceInteraction& out) {
+  out.dpdu = out.shading_dpdu = c.p1 - c.p0;
+  out.dpdv = out.shading_dpdv = c.p2 - c.p1;
+  const Vec3d p0 = to_double(c.p0), e1 = to_double(c.p1) - p0, e2 = to_double(c.p2) - p0;
+  const Vec3d n = e1.cross(e2);
+  const double n2 = n.dot(n), x2 = e1.dot(e1);
+  if (!(n2 > 0.0)) {
+    out.ng = Vec3f(0, 0, 1);
+    out.shading = Frame();
+    return;
+  }
+  const Vec3d z = n * ((flip ? -1.0 : 1.0) / std::sqrt(n2)), x = e1 * (1.0 / std::sqrt(x2));
+  out.ng = out.shading.z = to_float(z);
+  out.shading.x = to_float(x);
+  out.shading.y = to_float(z.cross(x));
 }
 
 /// Replaces the geometric shading frame by the one of the mesh's normals and tangents.
@@ -183,6 +205,12 @@ void TriangleMesh::fill(uint32_t primitive, const Vec2f& barycentric, const Ray&
   out.uv = texture_point(data_, v, b);
   out.face_index = data_.face_indices.empty() ? 0 : data_.face_indices[primitive];
 
+  out.dndu = out.dndv = Vec3f(0, 0, 0);
+  if (data_.uvs.empty() && data_.normals.empty() && data_.tangents.empty()) {
+    fill_plain(c, flip_, out);
+    return;
+  }
+
   Vec3f ns;
   out.ng = outside_normal(data_, flip_, c, v, b, &ns);
   const TextureEdges texture = texture_edges(data_, v);
@@ -194,7 +222,6 @@ void TriangleMesh::fill(uint32_t primitive, const Vec2f& barycentric, const Ray&
   } else {
     texture.derivatives(c.p0 - c.p2, c.p1 - c.p2, &out.dpdu, &out.dpdv);
   }
-  out.dndu = out.dndv = Vec3f(0, 0, 0);
   if (!data_.normals.empty() || !data_.tangents.empty()) {
     fill_shading(data_, v, b, ns, texture, out);
     return;

@@ -14,9 +14,9 @@ namespace nephroid {
 
 /// What a texture may look at.
 struct TextureContext {
-  Vec3f p;  ///< world
-  Vec3f n;  ///< unit, world
-  Vec2f uv;
+  Vec3f p{0, 0, 0};  ///< world
+  Vec3f n{0, 0, 0};  ///< unit, world
+  Vec2f uv{0, 0};
   Vec3f dpdx{0, 0, 0}, dpdy{0, 0, 0};
   float dudx = 0, dudy = 0, dvdx = 0, dvdy = 0;
   int face_index = 0;

@@ -55,7 +55,7 @@ TEST_P(Filters, WeightsAverageToOneAndFollowTheFilter) {
 
 INSTANTIATE_TEST_SUITE_P(All, Filters,
                          ::testing::Values("box", "triangle", "gaussian", "mitchell", "sinc"),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& test) { return test.param; });
 
 TEST(Filters, UnknownNameIsALocatedError) {
   EXPECT_THROW(filter_named("blurry"), SceneError);

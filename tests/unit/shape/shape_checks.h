@@ -34,15 +34,17 @@ class Random {
 /// The shape's surface by its parameters: fill() without a ray.
 SurfaceInteraction surface_at(const Shape& shape, uint32_t primitive, const Vec2f& hit_uv);
 
-/// Which part of the unit square parametrizes the primitive, and the hit_uv of a parameter.
+/// Which part of the unit square parametrizes the primitive (the share of a grid cell around a
+/// point of it), and the hit_uv of a parameter.
 struct Parameters {
-  std::function<bool(const Vec2f&)> inside = [](const Vec2f&) { return true; };
+  std::function<double(const Vec2f&)> share = [](const Vec2f&) { return 1.0; };
   std::function<Vec2f(const Vec2f&)> hit_uv = [](const Vec2f& uv) { return uv; };
 };
 /// Those of a triangle without texture coordinates: corners (0,0), (1,0), (1,1).
 Parameters triangle_parameters();
 
-/// Samples by area and compares the histogram over the parameters with 1/pdf_a and the area element.
+/// Samples by area and compares the histogram over the parameters with 1/pdf_a and the area
+/// element.
 void check_area_sampling(const Shape& shape, uint32_t primitive, const Parameters& parameters = {});
 /// The same for sample_towards; the expected histogram comes from pdf_towards.
 void check_direction_sampling(const Shape& shape, uint32_t primitive, const Vec3f& from,
@@ -55,8 +57,9 @@ double mean_area(const Shape& shape, uint32_t primitive, int n);
 /// dpdu, dpdv, dndu, dndv against central differences at a parameter. `scale` is a typical length.
 void check_derivatives(const Shape& shape, uint32_t primitive, const Vec2f& uv, float scale);
 /// Rays that leave a hit point never meet a plane shape again, on either side; nor a convex one on
-/// the outside (`convex`). `around` is a point near the shape, `size` its typical size.
-void check_no_self_hits(const Shape& shape, const Vec3f& around, float size, bool convex,
-                        Random& random);
+/// the outside (`convex`). `around` is a point near the shape, `size` its typical size. Returns the
+/// number of hits that were looked at.
+int check_no_self_hits(const Shape& shape, const Vec3f& around, float size, bool convex,
+                       Random& random);
 
 }  // namespace nephroid::testing

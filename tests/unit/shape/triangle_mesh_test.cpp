@@ -13,7 +13,9 @@ MeshData one_triangle(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
   return mesh;
 }
 
-bool same(const Vec3f& a, const Vec3f& b) { return length(a - b) == 0.0f; }
+bool same(const Vec3f& a, const Vec3f& b) {
+  return length(a - b) == 0.0f;
+}
 
 const MeshData kSkew = one_triangle({1, 0.2f, 2}, {2.5f, -0.4f, 1.5f}, {1.4f, 2, 1.1f});
 
@@ -25,8 +27,8 @@ TEST(TriangleMesh, PointAndDefaultTextureCoordinatesFollowEmbreeBarycentrics) {
   EXPECT_LT(length(s.p - expected), 1e-6f);
   EXPECT_TRUE(s.uv.equalWithAbsError({0.75f, 0.5f}, 1e-7f));  // .25 (0,0) + .25 (1,0) + .5 (1,1)
   for (int i = 0; i < 3; ++i) {
-    const float bound = std::abs(p[0][i] * 0.25f) + std::abs(p[1][i] * 0.25f) +
-                        std::abs(p[2][i] * 0.5f);
+    const float bound =
+        std::abs(p[0][i] * 0.25f) + std::abs(p[1][i] * 0.25f) + std::abs(p[2][i] * 0.5f);
     EXPECT_FLOAT_EQ(s.p_error[i], gamma_bound(7) * bound);
   }
 }
@@ -73,6 +75,21 @@ TEST(TriangleMesh, DerivativesMatchFiniteDifferencesOverTheTexture) {
   EXPECT_LT(length(s.shading_dpdv - cross(s.shading.z, s.dpdu)), 1e-5f);
   EXPECT_NEAR(dot(s.shading.z, s.shading_dpdu), 0.0f, 1e-5f);
   EXPECT_GT(dot(s.shading_dpdu, s.dpdu), 0.0f);
+}
+
+TEST(TriangleMesh, DefaultTextureCoordinatesAreTheSameAsWrittenOnes) {
+  MeshData written = kSkew;
+  written.uvs = std::vector<Vec2f>{{0, 0}, {1, 0}, {1, 1}};
+  for (const bool flip : {false, true}) {
+    const SurfaceInteraction a = surface_at(TriangleMesh(kSkew, flip), 0, {0.3f, 0.2f});
+    const SurfaceInteraction b = surface_at(TriangleMesh(written, flip), 0, {0.3f, 0.2f});
+    EXPECT_TRUE(a.uv.equalWithAbsError(b.uv, 1e-6f));
+    EXPECT_LT(length(a.ng - b.ng), 1e-6f);
+    EXPECT_LT(length(a.dpdu - b.dpdu) + length(a.dpdv - b.dpdv), 2e-6f);
+    EXPECT_LT(length(a.shading.x - b.shading.x) + length(a.shading.y - b.shading.y), 1e-6f);
+    EXPECT_LT(length(a.shading_dpdu - b.dpdu) + length(a.shading_dpdv - b.dpdv), 2e-6f);
+    EXPECT_TRUE(same(a.dndu, b.dndu));
+  }
 }
 
 TEST(TriangleMesh, TangentsSetTheShadingFrameEvenWithoutNormals) {
@@ -185,14 +202,16 @@ TEST(TriangleMesh, NothingIsSeenEdgeOnOrOfATriangleWithoutArea) {
 
 TEST(TriangleMesh, RaysDoNotMeetTheTriangleTheyLeave) {
   Random random(5);
-  for (int i = 0; i < 20000; ++i) {
+  int hits = 0;
+  for (int i = 0; i < 40000; ++i) {
     const float size = std::pow(10.0f, random.in(-4, 4));
     const Vec3f center = random.direction() * std::pow(10.0f, random.in(-4, 4));
     const TriangleMesh mesh(one_triangle(center + random.in_box(size), center + random.in_box(size),
                                          center + random.in_box(size)),
                             false);
-    check_no_self_hits(mesh, center, size, false, random);
+    hits += check_no_self_hits(mesh, center, size, false, random);
   }
+  EXPECT_GT(hits, 2000);
 }
 
 }  // namespace

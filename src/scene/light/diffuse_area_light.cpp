@@ -1,0 +1,208 @@
+// The diffuse area light: a primitive of a shape that emits the same radiance in all directions on
+// its outside, or on both sides; uniform, or from an image over the shape's uv.
+#include "core/warps.h"
+#include "scene/light/light_table.h"
+
+namespace nephroid {
+
+namespace {
+
+/// What the lights of one shape share.
+struct AreaEmission {
+  EmissionSpectrum radiance;  ///< of an image: the illuminant, times all scales
+  ImagePtr image;             ///< null if uniform
+  float image_mean = 1;       ///< mean of all values of the image
+  bool two_sided = false;
+  FloatTexturePtr alpha;   ///< null if the surface is there everywhere
+  bool invisible = false;  ///< alpha is 0 everywhere: a lamp that nobody can see or hit
+
+  SampledSpectrum at(const Vec2f& uv, const SampledWavelengths& lambda) const {
+    if (!image) return radiance.sample(lambda);
+    const Rgb c = image->bilinear({uv.x, 1.0f - uv.y}, WrapMode::kClamp);
+    return RgbEmission(image->color_space(), c).sample(lambda) * radiance.sample(lambda);
+  }
+};
+
+class DiffuseAreaLight final : public Light {
+ public:
+  DiffuseAreaLight(std::shared_ptr<const AreaEmission> emission, ShapePtr shape, uint32_t primitive,
+                   float power_scale)
+      : emission_(std::move(emission)),
+        shape_(std::move(shape)),
+        primitive_(primitive),
+        scale_(power_scale),
+        area_(shape_->area(primitive)) {}
+
+  bool is_delta() const override { return emission_->invisible; }
+  bool is_area() const override { return true; }
+
+  std::optional<LightSample> sample_towards(const Vec3f& from, const Vec2f& u,
+                                            const SampledWavelengths& lambda) const override {
+    const auto point = shape_->sample_towards(primitive_, from, u);
+    if (!point || !(point->pdf > 0.0f)) return std::nullopt;
+    const Vec3f d = point->p - from;
+    if (!(length_squared(d) > 0.0f)) return std::nullopt;
+    LightSample s;
+    s.wi = normalize(d);
+    if (!emits_towards(point->ng, -s.wi)) return std::nullopt;
+    s.radiance = emission_->at(point->uv, lambda) * (scale_ * coverage(*point));
+    if (s.radiance.is_black()) return std::nullopt;
+    s.pdf_w = point->pdf;
+    s.p = point->p;
+    s.p_error = point->p_error;
+    s.ng = point->ng;
+    s.delta = emission_->invisible;
+    return s;
+  }
+
+  float pdf_towards(const Vec3f& from, const Vec3f&, const Vec3f& p,
+                    const Vec3f& ng) const override {
+    return emission_->invisible ? 0.0f : shape_->pdf_towards(primitive_, from, p, ng);
+  }
+
+  SampledSpectrum radiance(const Vec3f&, const Vec3f& ng, const Vec2f& uv, const Vec3f& w,
+                           const SampledWavelengths& lambda) const override {
+    if (!emits_towards(ng, w)) return SampledSpectrum();
+    return emission_->at(uv, lambda) * scale_;
+  }
+
+  std::optional<EmissionSample> sample_emission(const Vec2f& u_position, const Vec2f& u_direction,
+                                                const SampledWavelengths& lambda) const override {
+    const auto point = shape_->sample_area(primitive_, u_position);
+    if (!point || !(point->pdf > 0.0f)) return std::nullopt;
+    // The first half of the square is the outside, if both sides emit.
+    Vec2f u = u_direction;
+    float side = 1.0f;
+    if (emission_->two_sided) {
+      side = u.x < 0.5f ? 1.0f : -1.0f;
+      u.x = std::min(u.x < 0.5f ? 2.0f * u.x : 2.0f * u.x - 1.0f, kOneMinusEpsilon);
+    }
+    const Vec3f local = square_to_cosine_hemisphere(u);
+    if (!(local.z > 0.0f)) return std::nullopt;
+    EmissionSample e;
+    e.ray.d = normalize(Frame::from_z(point->ng * side).to_world(local));
+    e.ray.o = offset_ray_origin(point->p, point->p_error, point->ng, e.ray.d);
+    e.radiance = emission_->at(point->uv, lambda) * (scale_ * coverage(*point));
+    if (e.radiance.is_black()) return std::nullopt;
+    e.pdf_a = point->pdf;
+    e.pdf_w = cosine_hemisphere_pdf_w(local.z) * (emission_->two_sided ? 0.5f : 1.0f);
+    e.cos_theta = local.z;
+    return e;
+  }
+
+  float power() const override {
+    return kPi * (emission_->two_sided ? 2.0f : 1.0f) * area_ * mean_radiance();
+  }
+
+  std::optional<LightBounds> bounds() const override {
+    LightBounds b;
+    b.bounds = shape_->bounds(primitive_);
+    shape_->normal_bounds(primitive_, &b.axis, &b.cos_theta_o);
+    b.power = kPi * area_ * mean_radiance();
+    b.cos_theta_e = 0.0f;
+    b.two_sided = emission_->two_sided;
+    return b;
+  }
+
+ private:
+  bool emits_towards(const Vec3f& ng, const Vec3f& w) const {
+    return emission_->two_sided || dot(ng, w) > 0.0f;
+  }
+  float mean_radiance() const {
+    return emission_->radiance.mean() * emission_->image_mean * scale_;
+  }
+  /// Probability with which the surface is there: what a walk that hits it has tested already.
+  float coverage(const ShapeSample& point) const {
+    if (!emission_->alpha) return 1.0f;
+    TextureContext context;
+    context.p = point.p;
+    context.n = point.ng;
+    context.uv = point.uv;
+    return std::clamp(emission_->alpha->eval(context), 0.0f, 1.0f);
+  }
+
+  std::shared_ptr<const AreaEmission> emission_;
+  ShapePtr shape_;
+  uint32_t primitive_;
+  float scale_;  ///< from "power", by this primitive's area
+  float area_;
+};
+
+/// Mean of r, g and b over an image, each times its weight; negative values count as 0.
+double weighted_mean(const Image& image, const Rgb& weights) {
+  double sum = 0.0;
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x) {
+      const Rgb c = image.texel(x, y, WrapMode::kClamp);
+      for (int k = 0; k < 3; ++k) sum += std::max(0.0f, c[k]) * weights[k];
+    }
+  return sum / (static_cast<double>(image.width()) * image.height());
+}
+
+struct UniformOrImage {
+  Emission emission;
+  ImagePtr image;
+  double luminance = 1.0;  ///< mean luminance of the image, in units of its illuminant
+};
+
+UniformOrImage read_area_emission(const DirectiveDescription& description,
+                                  const std::string& directory) {
+  const ParameterSet& p = description.parameters;
+  UniformOrImage e;
+  if (p.get_string("filename", "").empty()) {
+    e.emission = read_emission(p, "L", directory, "srgb");
+    return e;
+  }
+  if (const Parameter* colour = p.find("L"))
+    throw SceneError(colour->where,
+                     "an area light has both \"L\" and \"filename\", expected one of them");
+  e.image = read_light_image(p, directory);
+  const RgbColorSpace& space = e.image->color_space();
+  e.emission.spectrum = {std::shared_ptr<const void>(), &space.illuminant()};
+  e.emission.scale = image_emission_scale(p, space);
+  e.luminance = weighted_mean(*e.image, luminance_weights(space));
+  return e;
+}
+
+}  // namespace
+
+std::vector<LightPtr> make_area_lights(const DirectiveDescription& description, ShapePtr shape,
+                                       const std::string& directory, const TextureLibrary&,
+                                       FloatTexturePtr alpha, Diagnostics& diagnostics) {
+  if (description.type != "diffuse")
+    throw SceneError(description.where,
+                     "unknown area light \"" + description.type + "\", expected \"diffuse\"");
+  const ParameterSet& p = description.parameters;
+  const UniformOrImage e = read_area_emission(description, directory);
+  const bool two_sided = p.get_bool("twosided", false);
+  const float power = p.get_float("power", -1.0f);
+  p.report_unused("area light \"diffuse\"", diagnostics);
+
+  const std::optional<float> opacity = alpha ? alpha->constant() : 1.0f;
+  const bool invisible = opacity && *opacity <= 0.0f;
+  if (invisible || (opacity && *opacity >= 1.0f)) alpha = nullptr;
+  const float image_mean =
+      e.image ? static_cast<float>(weighted_mean(*e.image, {1 / 3.0f, 1 / 3.0f, 1 / 3.0f})) : 1.0f;
+  const auto emission = std::make_shared<const AreaEmission>(
+      AreaEmission{EmissionSpectrum(*e.emission.spectrum, e.emission.scale), e.image, image_mean,
+                   two_sided, std::move(alpha), invisible});
+
+  std::vector<LightPtr> lights;
+  const uint32_t count = shape->primitive_count();
+  if (power > 0.0f && count > 1)
+    diagnostics.warn(p.find("power")->where,
+                     "each of the " + std::to_string(count) +
+                         " primitives of a shape is a light of its own and emits all of \"power\"");
+  for (uint32_t i = 0; i < count; ++i) {
+    float scale = 1.0f;
+    if (power > 0.0f) {
+      // Watts (lumens) of a light whose luminance is 1.
+      const double one = e.luminance * (two_sided ? 2.0 : 1.0) * shape->area(i) * kPi;
+      scale = one > 0.0 ? static_cast<float>(power / one) : 0.0f;
+    }
+    lights.push_back(std::make_unique<DiffuseAreaLight>(emission, shape, i, scale));
+  }
+  return lights;
+}
+
+}  // namespace nephroid

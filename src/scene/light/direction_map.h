@@ -1,0 +1,26 @@
+// Directions between a light's own frame and the world, with the change of solid angle, so that
+// lights under transforms that scale stay exact. Who calls it: spot and image infinite lights. It
+// must not know lights.
+#pragma once
+
+#include "core/math.h"
+
+namespace nephroid {
+
+class DirectionMap {
+ public:
+  DirectionMap() = default;
+  explicit DirectionMap(const Transform& local_to_world);
+
+  Vec3f to_world(const Vec3f& local) const { return normalize(transform_.vector(local)); }
+  Vec3f to_local(const Vec3f& world) const { return normalize(inverse_.vector(world)); }
+  /// Solid angle in the world over solid angle in the local frame around a unit local direction.
+  float jacobian(const Vec3f& local) const;
+
+ private:
+  Transform transform_, inverse_;
+  double determinant_ = 1.0;
+  bool keeps_angles_ = true;
+};
+
+}  // namespace nephroid

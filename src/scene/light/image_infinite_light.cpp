@@ -1,0 +1,157 @@
+// The infinite light with an image: an equal-area octahedral map of the sphere, constant within
+// each pixel, so that the density in proportion to the pixels' mean values is exact.
+#include "core/parallel.h"
+#include "scene/light/direction_map.h"
+#include "scene/light/equal_area_map.h"
+#include "scene/light/infinite_emission.h"
+#include "scene/light/light_table.h"
+#include "scene/light/piecewise_constant_2d.h"
+
+namespace nephroid {
+
+namespace {
+
+float mean_value(const Rgb& c) {
+  return (std::max(0.0f, c.r) + std::max(0.0f, c.g) + std::max(0.0f, c.b)) / 3.0f;
+}
+
+class ImageInfiniteLight final : public Light {
+ public:
+  ImageInfiniteLight(const Image& image, const Transform& local_to_world, float scale)
+      : size_(image.width()),
+        map_(local_to_world),
+        illuminant_(image.color_space().illuminant(), scale),
+        pixels_(static_cast<size_t>(size_) * size_) {
+    std::vector<float> weights(pixels_.size());
+    parallel_chunks(size_, 8, [&](int64_t, int64_t begin, int64_t end) {
+      for (int y = static_cast<int>(begin); y < end; ++y)
+        for (int x = 0; x < size_; ++x) {
+          const Rgb c = image.texel(x, y, WrapMode::kClamp);
+          pixels_[index(x, y)] = RgbEmission(image.color_space(), c);
+          weights[index(x, y)] = mean_value(c);
+        }
+    });
+    distribution_ = PiecewiseConstant2D(std::move(weights), size_, size_);
+  }
+
+  bool is_infinite() const override { return true; }
+
+  std::optional<LightSample> sample_towards(const Vec3f& from, const Vec2f& u,
+                                            const SampledWavelengths& lambda) const override {
+    const auto direction = sample_direction(u);
+    if (!direction) return std::nullopt;
+    LightSample s;
+    s.radiance = pixel_radiance(direction->pixel, lambda);
+    s.wi = direction->w;
+    s.pdf_w = direction->pdf_w;
+    s.p = point_outside(from, s.wi, sphere_);
+    s.infinite = true;
+    return s;
+  }
+
+  float pdf_towards(const Vec3f&, const Vec3f& wi, const Vec3f&, const Vec3f&) const override {
+    const Vec3f local = map_.to_local(wi);
+    const Vec2i pixel = pixel_of(local);
+    return distribution_.pdf(pixel.x, pixel.y) * kInv4Pi / map_.jacobian(local);
+  }
+
+  SampledSpectrum radiance_at_infinity(const Vec3f& w,
+                                       const SampledWavelengths& lambda) const override {
+    const Vec2i pixel = pixel_of(map_.to_local(w));
+    return pixel_radiance(index(pixel.x, pixel.y), lambda);
+  }
+
+  std::optional<EmissionSample> sample_emission(const Vec2f& u_position, const Vec2f& u_direction,
+                                                const SampledWavelengths& lambda) const override {
+    const auto direction = sample_direction(u_direction);
+    if (!direction) return std::nullopt;
+    return emission_through_disk(-direction->w, direction->pdf_w,
+                                 pixel_radiance(direction->pixel, lambda), u_position, sphere_);
+  }
+
+  float power() const override {
+    return 4.0f * kPi * kPi * sqr(sphere_.radius) * illuminant_.mean() *
+           static_cast<float>(distribution_.mean());
+  }
+  std::optional<LightBounds> bounds() const override { return std::nullopt; }
+  void set_scene_sphere(const SceneSphere& sphere) override { sphere_ = sphere; }
+
+ private:
+  struct Direction {
+    Vec3f w;  ///< towards the light
+    float pdf_w = 0;
+    size_t pixel = 0;
+  };
+
+  size_t index(int x, int y) const { return static_cast<size_t>(y) * size_ + x; }
+
+  Vec2i pixel_of(const Vec3f& local) const {
+    const Vec2f st = equal_area_sphere_to_square(local) * static_cast<float>(size_);
+    return {std::clamp(static_cast<int>(st.x), 0, size_ - 1),
+            std::clamp(static_cast<int>(st.y), 0, size_ - 1)};
+  }
+
+  SampledSpectrum pixel_radiance(size_t pixel, const SampledWavelengths& lambda) const {
+    return pixels_[pixel].sample(lambda) * illuminant_.sample(lambda);
+  }
+
+  std::optional<Direction> sample_direction(const Vec2f& u) const {
+    const auto sample = distribution_.sample(u);
+    if (!sample) return std::nullopt;
+    const Vec3f local = equal_area_square_to_sphere(sample->point);
+    return Direction{map_.to_world(local), sample->pdf * kInv4Pi / map_.jacobian(local),
+                     index(sample->x, sample->y)};
+  }
+
+  int size_;
+  DirectionMap map_;
+  EmissionSpectrum illuminant_;  ///< times all scales
+  std::vector<RgbEmission> pixels_;
+  PiecewiseConstant2D distribution_;
+  SceneSphere sphere_;
+};
+
+/// Illuminance of the map on the side of its +z, in units of its illuminant.
+double illuminance_of(const Image& image) {
+  const Rgb luminance = luminance_weights(image.color_space());
+  const int n = image.width();
+  const float step = 1.0f / static_cast<float>(n);
+  double sum = 0.0;
+  for (int y = 0; y < n; ++y)
+    for (int x = 0; x < n; ++x) {
+      const Vec2f centre((static_cast<float>(x) + 0.5f) * step,
+                         (static_cast<float>(y) + 0.5f) * step);
+      const float cosine = equal_area_square_to_sphere(centre).z;
+      if (cosine <= 0.0f) continue;
+      const Rgb c = image.texel(x, y, WrapMode::kClamp);
+      sum += (c.r * luminance.r + c.g * luminance.g + c.b * luminance.b) * cosine;
+    }
+  return sum;
+}
+
+}  // namespace
+
+LightPtr make_image_infinite_light(const LightDescription& description, const LightScope& scope) {
+  const ParameterSet& p = description.parameters;
+  if (const Parameter* colour = p.find("L"))
+    throw SceneError(colour->where,
+                     "an infinite light has both \"L\" and \"filename\", expected one of them");
+  const ImagePtr image = read_light_image(p, scope.directory);
+  if (image->width() != image->height())
+    throw SceneError(p.find("filename")->where,
+                     "the image of an infinite light is " + std::to_string(image->width()) + " x " +
+                         std::to_string(image->height()) +
+                         ", expected a square: an equal-area octahedral map");
+  float scale = image_emission_scale(p, image->color_space());
+  const float wanted = p.get_float("illuminance", -1.0f);
+  if (wanted > 0.0f) {
+    // The factor is pbrt-v4's, which gives each of the n^2 pixels 2 pi / n^2 of solid angle.
+    const double per_pixel = 2.0 * kPi / (static_cast<double>(image->width()) * image->width());
+    const double illuminance = illuminance_of(*image) * per_pixel;
+    scale = illuminance > 0.0 ? static_cast<float>(scale * wanted / illuminance) : 0.0f;
+  }
+  return std::make_unique<ImageInfiniteLight>(*image, Transform(description.transform.start),
+                                              scale);
+}
+
+}  // namespace nephroid

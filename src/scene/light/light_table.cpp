@@ -1,0 +1,55 @@
+// Light types by name, see light_table.h.
+#include "scene/light/light_table.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace nephroid {
+
+namespace {
+
+struct Row {
+  const char* name;
+  LightMaker make;
+};
+constexpr Row kLights[] = {
+    {"point", make_point_light},
+    {"spot", make_spot_light},
+    {"distant", make_distant_light},
+    {"infinite", make_infinite_light},
+};
+
+/// Lights of pbrt-v4 that this renderer knows by name only.
+constexpr const char* kNotRenderedYet[] = {"goniometric", "projection"};
+
+LightMaker maker_of(const LightDescription& description) {
+  std::string names;
+  for (const Row& row : kLights) {
+    if (description.type == row.name) return row.make;
+    names += (names.empty() ? "\"" : ", \"") + std::string(row.name) + "\"";
+  }
+  const bool known = std::any_of(std::begin(kNotRenderedYet), std::end(kNotRenderedYet),
+                                 [&](const char* n) { return description.type == n; });
+  const std::string what = known ? "light \"" + description.type + "\" is not rendered yet"
+                                 : "unknown light \"" + description.type + "\"";
+  throw SceneError(description.where, what + ", expected one of " + names);
+}
+
+}  // namespace
+
+std::vector<LightPtr> make_lights(const SceneDescription& description, Diagnostics& diagnostics) {
+  const LightScope scope{description.directory, description.color_space, diagnostics};
+  std::vector<LightPtr> lights;
+  for (const LightDescription& d : description.lights) {
+    const LightMaker make = maker_of(d);
+    if (!is_invertible(d.transform.start))
+      throw SceneError(d.where, "the transform of this light has no inverse");
+    if (d.transform.is_animated())
+      diagnostics.warn(d.where, "lights do not move: the transform at the start is used");
+    lights.push_back(make(d, scope));
+    d.parameters.report_unused("light \"" + d.type + "\"", diagnostics);
+  }
+  return lights;
+}
+
+}  // namespace nephroid

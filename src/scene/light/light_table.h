@@ -1,0 +1,49 @@
+// The table of light types: the scene format's name -> how to make one. A new light is one file
+// with its maker and one row in light_table.cpp. Who calls it: make_lights. The makers must not
+// know the rest of the scene.
+#pragma once
+
+#include "scene/light/emission_spectrum.h"
+#include "scene/light/light.h"
+#include "scene/texture/image_file.h"
+
+namespace nephroid {
+
+/// What a maker may know of the scene around its directive.
+struct LightScope {
+  const std::string& directory;
+  const std::string& color_space;  ///< of lights that name no colour
+  Diagnostics& diagnostics;
+};
+
+using LightMaker = LightPtr (*)(const LightDescription&, const LightScope&);
+
+// The makers, one a file.
+LightPtr make_point_light(const LightDescription&, const LightScope&);
+LightPtr make_spot_light(const LightDescription&, const LightScope&);
+LightPtr make_distant_light(const LightDescription&, const LightScope&);
+/// Uniform, or make_image_infinite_light if there is a "filename".
+LightPtr make_infinite_light(const LightDescription&, const LightScope&);
+LightPtr make_image_infinite_light(const LightDescription&, const LightScope&);
+
+/// The colour of a light and the factor that makes it photometric.
+struct Emission {
+  SpectrumPtr spectrum;
+  float scale = 1;  ///< "scale" over the spectrum's luminance: radiance is scale * spectrum
+};
+
+/// The parameter `name` as emission, the illuminant of the colour space if absent. Throws
+/// SceneError for colours and scales that are negative or not finite.
+Emission read_emission(const ParameterSet& parameters, const std::string& name,
+                       const std::string& directory, const std::string& color_space);
+
+/// "scale" over the luminance of the illuminant of an image's colour space.
+float image_emission_scale(const ParameterSet& parameters, const RgbColorSpace& space);
+
+/// The image named by "filename"; throws SceneError if it has infinite or NaN values.
+ImagePtr read_light_image(const ParameterSet& parameters, const std::string& directory);
+
+/// Weights of r, g and b in the luminance of a colour.
+Rgb luminance_weights(const RgbColorSpace& space);
+
+}  // namespace nephroid

@@ -1,0 +1,268 @@
+// The light sampler: probabilities that sum to one, are met by the samples, and are zero only where
+// nothing arrives; for no light, a few and very many.
+#include "scene/light/light_sampler.h"
+
+#include "core/warps.h"
+#include "scene/light/light_tree.h"
+#include "unit/light/light_fixture.h"
+
+namespace nephroid::testing_light {
+namespace {
+
+/// A light that has bounds and power and nothing else.
+class FakeLight final : public Light {
+ public:
+  FakeLight(const Vec3f& p, float power, const Vec3f& axis = {0, 0, 1}, float cos_o = -1,
+            bool two_sided = false) {
+    b_.bounds = Bounds3f(p);
+    b_.power = power;
+    b_.axis = axis;
+    b_.cos_theta_o = cos_o;
+    b_.two_sided = two_sided;
+  }
+  std::optional<LightSample> sample_towards(const Vec3f&, const Vec2f&,
+                                            const SampledWavelengths&) const override {
+    return std::nullopt;
+  }
+  float pdf_towards(const Vec3f&, const Vec3f&, const Vec3f&, const Vec3f&) const override {
+    return 0;
+  }
+  std::optional<EmissionSample> sample_emission(const Vec2f&, const Vec2f&,
+                                                const SampledWavelengths&) const override {
+    return std::nullopt;
+  }
+  float power() const override { return b_.power; }
+  std::optional<LightBounds> bounds() const override { return b_; }
+
+ private:
+  LightBounds b_;
+};
+
+/// Triangles, spots and points in a unit cube, `n` in all, and `infinite` infinite lights.
+std::vector<LightPtr> zoo(int n, int infinite) {
+  TestRandom random(21);
+  std::vector<LightPtr> lights;
+  for (int i = 0; i < infinite; ++i) lights.push_back(light_of("LightSource \"infinite\""));
+  for (int i = 0; i < n; ++i) {
+    const Vec3f p(random.next(), random.next(), random.next());
+    const auto near = [&] {
+      return p + (Vec3f(random.next(), random.next(), random.next()) - Vec3f(0.5f)) * 0.2f;
+    };
+    const auto text = [](const Vec3f& v) {
+      return "[" + std::to_string(v.x) + " " + std::to_string(v.y) + " " + std::to_string(v.z) +
+             "]";
+    };
+    const std::string scale = " \"float scale\" " + std::to_string(0.1f + random.next());
+    if (i % 3 == 0) {
+      MeshData m;
+      m.positions = {p, near(), near()};
+      m.triangles = {0, 1, 2};
+      lights.push_back(area_light_of(scale + (i % 2 ? "\"bool twosided\" true" : ""),
+                                     std::make_shared<TriangleMesh>(m, false)));
+    } else if (i % 3 == 1) {
+      const char* edge = i % 2 ? " \"float conedeltaangle\" 0" : "";
+      lights.push_back(light_of("LightSource \"spot\" \"point3 from\" " + text(p) +
+                                "\"point3 to\" " + text(near()) + edge + scale));
+    } else {
+      lights.push_back(light_of("LightSource \"point\" \"point3 from\" " + text(p) + scale));
+    }
+  }
+  return lights;
+}
+
+/// Counts of samples against pmf(); what samples do not give must be the missing rest.
+void expect_frequencies(const std::vector<LightPtr>& lights, const Vec3f& p, const Vec3f& n,
+                        int count) {
+  const LightSampler sampler(lights);
+  std::vector<double> observed(lights.size() + 1), expected(lights.size() + 1);
+  double sum = 0;
+  for (size_t i = 0; i < lights.size(); ++i) {
+    const double pmf = sampler.pmf(p, n, static_cast<int>(i));
+    sum += pmf;
+    expected[i] = count * pmf;
+  }
+  EXPECT_LE(sum, 1 + 1e-5);
+  expected.back() = count * std::max(0.0, 1 - sum);
+  TestRandom random(31);
+  for (int i = 0; i < count; ++i) {
+    const auto choice = sampler.sample(p, n, random.next());
+    if (!choice) {
+      ++observed.back();
+      continue;
+    }
+    ++observed[choice->light];
+    ASSERT_EQ(choice->pdf_p, sampler.pmf(p, n, choice->light));
+    ASSERT_GT(choice->pdf_p, 0.0f);
+  }
+  EXPECT_GT(chi_square_test(observed, expected), 1e-4) << lights.size() << " lights";
+}
+
+TEST(LightSampler, FrequenciesAreTheProbabilities) {
+  for (const int n : {0, 1, 2, 4, 5, 6, 40, 300})
+    for (const int infinite : {0, 1, 2}) {
+      const auto lights = zoo(n, infinite);
+      expect_frequencies(lights, {0.4f, 0.5f, -0.3f}, {0, 0, 1}, 20000);
+      expect_frequencies(lights, {0.5f, 0.5f, 0.5f}, normalize(Vec3f(1, 1, -2)), 20000);
+      expect_frequencies(lights, {7, -3, 2}, {0, 0, 0}, 20000);
+    }
+}
+
+TEST(LightSampler, ProbabilitiesSumToOneIfAllLightsShineEverywhere) {
+  TestRandom random(41);
+  std::vector<LightPtr> lights;
+  for (int i = 0; i < 500; ++i)
+    lights.push_back(std::make_unique<FakeLight>(Vec3f(random.next(), random.next(), random.next()),
+                                                 random.next()));
+  const LightSampler sampler(lights);
+  for (int k = 0; k < 50; ++k) {
+    const Vec3f p = Vec3f(random.next(), random.next(), random.next()) * 3.0f - Vec3f(1);
+    double sum = 0;
+    for (int i = 0; i < 500; ++i) sum += sampler.pmf(p, {0, 1, 0}, i);
+    EXPECT_NEAR(sum, 1.0, 1e-5);
+  }
+}
+
+TEST(LightSampler, InfiniteLightsShareAsPbrtDoes) {
+  const LightSampler sampler(zoo(10, 2));
+  EXPECT_FLOAT_EQ(sampler.pmf({0, 0, 0}, {0, 0, 1}, 0), 1.0f / 3);
+  EXPECT_FLOAT_EQ(sampler.pmf({0, 0, 0}, {0, 0, 1}, 1), 1.0f / 3);
+  EXPECT_EQ(sampler.infinite_lights(), (std::vector<int>{0, 1}));
+  const LightSampler only(zoo(0, 2));
+  EXPECT_FLOAT_EQ(only.pmf({0, 0, 0}, {0, 0, 1}, 1), 0.5f);
+  EXPECT_EQ(only.pmf({0, 0, 0}, {0, 0, 1}, 7), 0.0f);
+}
+
+TEST(LightSampler, NoLightThatArrivesIsForgotten) {
+  for (const int n : {3, 60, 300}) {
+    const auto lights = zoo(n, 0);
+    const LightSampler sampler(lights);
+    TestRandom random(51);
+    int arriving = 0;
+    for (int k = 0; k < 200; ++k) {
+      const Vec3f p = Vec3f(random.next(), random.next(), random.next()) * 2.0f - Vec3f(0.5f);
+      const Vec3f normal = square_to_sphere(random.next2());
+      for (int i = 0; i < n; ++i) {
+        const auto s = lights[i]->sample_towards(p, random.next2(), test_wavelengths());
+        if (!s || s->radiance.is_black()) continue;
+        ++arriving;
+        EXPECT_GT(sampler.pmf(p, normal, i), 0.0f) << i;
+        EXPECT_GT(sampler.pmf(p, {0, 0, 0}, i), 0.0f) << i;
+      }
+    }
+    EXPECT_GT(arriving, 100);
+  }
+}
+
+TEST(LightSampler, BlackLightsAreNeverChosen) {
+  std::vector<LightPtr> lights;
+  for (int i = 0; i < 20; ++i)
+    lights.push_back(
+        std::make_unique<FakeLight>(Vec3f(static_cast<float>(i), 0, 0), i % 2 ? 1.0f : 0.0f));
+  const LightSampler sampler(lights);
+  for (int i = 0; i < 1000; ++i) {
+    float u = (static_cast<float>(i) + 0.5f) / 1000;
+    EXPECT_EQ(sampler.sample({3, 1, 0}, {0, 0, 0}, u)->light % 2, 1);
+    EXPECT_EQ(sampler.sample_by_power(u)->light % 2, 1);
+  }
+  EXPECT_EQ(sampler.pmf({3, 1, 0}, {0, 0, 0}, 4), 0.0f);
+}
+
+TEST(LightSampler, NearAndBrightLightsComeFirst) {
+  std::vector<LightPtr> lights;
+  for (int i = 0; i < 100; ++i)
+    lights.push_back(std::make_unique<FakeLight>(Vec3f(static_cast<float>(i) * 10, 0, 0), 1.0f));
+  const LightSampler sampler(lights);
+  EXPECT_GT(sampler.pmf({500, 0, 1}, {0, 0, 0}, 50), 0.5f);
+  EXPECT_LT(sampler.pmf({500, 0, 1}, {0, 0, 0}, 0), 0.01f);
+}
+
+TEST(LightSampler, ChoicesDoNotDependOnTheUnitOfLength) {
+  std::vector<LightPtr> lights[2];
+  const float unit = 1.0f / 8192;
+  TestRandom random(61);
+  for (int i = 0; i < 60; ++i) {
+    const Vec3f p(random.next(), random.next(), random.next());
+    const float power = random.next();
+    lights[0].push_back(std::make_unique<FakeLight>(p, power));
+    lights[1].push_back(std::make_unique<FakeLight>(p * unit, power));
+  }
+  const LightSampler large(lights[0]), small(lights[1]);
+  for (int k = 0; k < 20; ++k) {
+    const Vec3f p(random.next(), random.next(), random.next());
+    for (int i = 0; i < 60; ++i)
+      EXPECT_NEAR(large.pmf(p, {0, 0, 1}, i), small.pmf(p * unit, {0, 0, 1}, i),
+                  1e-4f * large.pmf(p, {0, 0, 1}, i) + 1e-12f);
+  }
+}
+
+TEST(LightSampler, ManyLightsKeepTheirProbabilities) {
+  constexpr int kLights = 100000, kCount = 1000000, kBins = 1000;
+  TestRandom random(71);
+  std::vector<LightPtr> lights;
+  for (int i = 0; i < kLights; ++i)
+    lights.push_back(std::make_unique<FakeLight>(Vec3f(random.next(), random.next(), random.next()),
+                                                 0.5f + random.next()));
+  const LightSampler sampler(lights);
+  const Vec3f p(0.3f, 0.4f, 2), n(0, 0, -1);
+  std::vector<double> observed(kBins), expected(kBins);
+  double sum = 0;
+  for (int i = 0; i < kLights; ++i) {
+    const double pmf = sampler.pmf(p, n, i);
+    sum += pmf;
+    expected[i % kBins] += kCount * pmf;
+  }
+  EXPECT_NEAR(sum, 1, 1e-4);
+  for (int i = 0; i < kCount; ++i) ++observed[sampler.sample(p, n, random.next())->light % kBins];
+  EXPECT_GT(chi_square_test(observed, expected), 1e-4);
+}
+
+TEST(LightTree, StaysShallowForAwkwardPlaces) {
+  const auto depth = [](const std::function<Vec3f(int)>& place, int n) {
+    std::vector<LightTree::Item> items;
+    for (int i = 0; i < n; ++i) {
+      LightTree::Item item;
+      item.bounds.bounds = Bounds3f(place(i));
+      item.bounds.power = 1;
+      item.light = i;
+      items.push_back(item);
+    }
+    return LightTree(std::move(items), n).depth();
+  };
+  EXPECT_LE(depth([](int) { return Vec3f(1, 2, 3); }, 1000), 10);
+  EXPECT_LE(depth([](int i) { return Vec3f(std::ldexp(1.0f, -i), 0, 0); }, 120), 63);
+  EXPECT_LE(depth([](int i) { return Vec3f(static_cast<float>(i), 0, 0); }, 1024), 20);
+}
+
+TEST(LightSampler, ByPowerFollowsThePowersAndGivesANewNumber) {
+  std::vector<LightPtr> lights;
+  const float powers[] = {0, 1, 3, 0, 4, 0};
+  for (const float p : powers) lights.push_back(std::make_unique<FakeLight>(Vec3f(0.0f), p));
+  const LightSampler sampler(lights);
+  TestRandom random(81);
+  std::vector<double> observed(6), expected(6), rest(10), uniform(10, 1000.0);
+  for (int i = 0; i < 10000; ++i) {
+    float u = random.next();
+    const auto choice = sampler.sample_by_power(u);
+    ++observed[choice->light];
+    EXPECT_EQ(choice->pdf_p, sampler.pmf_by_power(choice->light));
+    ASSERT_TRUE(u >= 0 && u < 1);
+    ++rest[static_cast<int>(u * 10)];
+  }
+  for (int i = 0; i < 6; ++i) {
+    expected[i] = 10000 * powers[i] / 8;
+    EXPECT_FLOAT_EQ(sampler.pmf_by_power(i), powers[i] / 8);
+  }
+  EXPECT_GT(chi_square_test(observed, expected), 1e-4);
+  EXPECT_GT(chi_square_test(rest, uniform), 1e-4);
+}
+
+TEST(LightSampler, NoLightsNoChoice) {
+  const LightSampler sampler{std::vector<LightPtr>()};
+  float u = 0.5f;
+  EXPECT_FALSE(sampler.sample({0, 0, 0}, {0, 0, 1}, u));
+  EXPECT_FALSE(sampler.sample_by_power(u));
+  EXPECT_EQ(sampler.pmf({0, 0, 0}, {0, 0, 1}, 0), 0.0f);
+}
+
+}  // namespace
+}  // namespace nephroid::testing_light
