@@ -119,6 +119,22 @@ uint32_t EmbreeScene::add_shape(ShapePtr shape, unsigned mask) {
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                data.triangles.data(), 0, 3 * sizeof(uint32_t),
                                data.triangles.size() / 3);
+  } else if (const MeshData* flat = shape->flat_quads()) {
+    geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
+    auto* vertices = static_cast<Vec3f*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                sizeof(Vec3f), flat->positions.size()));
+    auto* corners = static_cast<uint32_t*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4,
+                                4 * sizeof(uint32_t), flat->quads.size() / 4));
+    impl_->device->check("adding a shape");
+    std::copy(flat->positions.begin(), flat->positions.end(), vertices);
+    // From patch order to the ring that Embree wants.
+    for (size_t i = 0; i < flat->quads.size(); i += 4) {
+      const uint32_t ring[] = {flat->quads[i], flat->quads[i + 1], flat->quads[i + 3],
+                               flat->quads[i + 2]};
+      std::copy(ring, ring + 4, corners + i);
+    }
   } else {
     geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
     rtcSetGeometryUserPrimitiveCount(geometry, shape->primitive_count());

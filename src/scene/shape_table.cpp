@@ -38,7 +38,9 @@ std::vector<ShapePtr> finish_mesh(const Context& c, MeshData data) {
   validate_mesh(data, c.p.where, c.what(), c.diagnostics);
   if (c.description.reverse_orientation) reverse_normals(data);
   transform_mesh(data, c.transform);
-  if (c.description.area_light) data = join_rectangles(std::move(data));
+  // A lamp's "power" counts for each of its primitives, so those must stay what they are.
+  if (c.description.area_light && !c.description.area_light->parameters.find("power"))
+    data = join_rectangles(std::move(data));
   std::vector<ShapePtr> shapes;
   MeshData patches;
   if (!data.quads.empty()) {

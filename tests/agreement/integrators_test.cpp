@@ -104,14 +104,14 @@ TEST_P(Agreement, WithPathTracing) {
   )" + kRoom + description.world);
   IntegratorOptions options;
   options.max_depth = 12;
-  const auto reference = render_blocks(*scene, "path", options, 256, 1);
+  const auto reference = render_blocks(*scene, "path", options, 512, 1);
 
   // Two radii, r^2 halved: 2 L(r^2/2) - L(r^2) has no bias of first order in r^2.
-  options.photons_per_pass = 16384;
+  options.photons_per_pass = 8192;
   options.radius = 0.5f;
-  const auto large = render_blocks(*scene, integrator, options, 48, 100);
+  const auto large = render_blocks(*scene, integrator, options, 14, 100);
   options.radius = 0.5f * std::sqrt(0.5f);
-  const auto small = render_blocks(*scene, integrator, options, 48, 200);
+  const auto small = render_blocks(*scene, integrator, options, 14, 200);
   for (size_t i = 0; i < reference.size(); ++i) {
     const double extrapolated = 2 * small[i].mean - large[i].mean;
     const double error = std::sqrt(4 * small[i].error * small[i].error +

@@ -22,7 +22,7 @@ const std::string kLookDown = R"(
 // reflectance keeps it so.
 const std::string kFloor = R"(
   Material "diffuse" "spectrum reflectance" [300 0.5 900 0.5]
-  Shape "bilinearmesh" "point3 P" [-50 0 -50  50 0 -50  -50 0 50  50 0 50]
+  Shape "bilinearmesh" "point3 P" [-3 0 -3  3 0 -3  -3 0 3  3 0 3]
 )";
 
 void expect_radiance(const std::string& text, const std::string& integrator, double expected,
@@ -67,14 +67,14 @@ TEST(ClosedForm, BeamThroughAPlate) {
     AttributeBegin
       Material "dielectric" "float eta" 1.5
       Translate 0 2 0 Rotate -90 1 0 0
-      Shape "disk" "float radius" 60
+      Shape "disk" "float radius" 3
       Material "dielectric" "float eta" 1.5
-      Translate 0 0 -0.1 ReverseOrientation Shape "disk" "float radius" 60
+      Translate 0 0 -0.1 ReverseOrientation Shape "disk" "float radius" 3
     AttributeEnd
   )" + kFloor;
   IntegratorOptions options = many_photons();
-  options.photons_per_pass = 1 << 19;
-  options.radius = 200;  // footprints are tiny here, and the beam is uniform
+  options.photons_per_pass = 1 << 16;
+  options.radius = 150;  // footprints are tiny here, and the beam is uniform
   options.max_depth = 3;
   const double r = fresnel0(1.5);
   expect_radiance(text, "mixed", 0.5 / kPi * 3 * (1 - r) * (1 - r), 8, options);
@@ -88,11 +88,11 @@ TEST(ClosedForm, PointLightAndItsMirrorImage) {
   const std::string text = kLookDown + R"(
     LightSource "point" "rgb I" [5 5 5] "point3 from" [0 2 0]
     Material "conductor" "spectrum reflectance" [300 0.9 900 0.9] "float roughness" 0
-    Shape "bilinearmesh" "point3 P" [1 0.001 -30  1 40 -30  1 0.001 30  1 40 30]
+    Shape "bilinearmesh" "point3 P" [1 0.001 -3  1 6 -3  1 0.001 3  1 6 3]
   )" + kFloor;
   IntegratorOptions options = many_photons();
-  options.photons_per_pass = 1 << 19;
-  options.radius = 200;
+  options.photons_per_pass = 1 << 16;
+  options.radius = 20;
   options.max_depth = 2;
   // pbrt's conductor of reflectance r: eta = 1, k = 2 sqrt(r)/sqrt(1-r); Fresnel at the angle of the ray
   // that reaches the origin by way of the mirror.
@@ -139,10 +139,10 @@ TEST_P(Scale, TheUnitOfLengthDoesNotMatter) {
       Translate )" + f(1.4) + f(0) + f(0) + R"( Shape "sphere" "float radius" )" + f(0.6);
   };
   IntegratorOptions options;
-  options.photons_per_pass = 1 << 14;
+  options.photons_per_pass = 1 << 12;
   std::vector<Estimate> means;
   for (const double s : {1.0, 1e-4, 1e4})
-    means.push_back(mean_over_seeds(*scene_from_text(text(s)), GetParam(), options, 16, 16));
+    means.push_back(mean_over_seeds(*scene_from_text(text(s)), GetParam(), options, 16, 8));
   for (const Estimate& e : means) {
     EXPECT_NEAR(e.mean, means[0].mean, kT15 * std::hypot(e.error, means[0].error) + 1e-6);
     EXPECT_LT(e.error, 0.03 * e.mean);

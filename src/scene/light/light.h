@@ -30,9 +30,9 @@ struct LightSample {
 struct EmissionSample {
   Ray ray;  ///< origin moved off the surface already
   SampledSpectrum radiance;
-  float pdf_a = 0;      ///< of the origin, 1/area (for infinite lights on the disk outside the scene;
-                        ///< 1 for a light at a point)
-  float pdf_w = 0;      ///< of the direction, 1/sr (1 for a delta direction)
+  float pdf_a = 0;  ///< of the origin, 1/area (for infinite lights on the disk outside the scene;
+                    ///< 1 for a light at a point)
+  float pdf_w = 0;  ///< of the direction, 1/sr (1 for a delta direction)
   float cos_theta = 1;  ///< at the emitting surface, 1 where there is none
   /// Flux carried by a path: radiance * cos_theta / (pdf_a * pdf_w).
 };
@@ -63,18 +63,20 @@ class Light {
   /// A direction to the light as seen from `from`; empty where nothing arrives.
   virtual std::optional<LightSample> sample_towards(const Vec3f& from, const Vec2f& u,
                                                     const SampledWavelengths& lambda) const = 0;
-  /// Density pdf_w of sample_towards at `from` for unit direction `wi`; `p` and `ng` are the point hit on
-  /// the light (unused by infinite lights). Zero for delta lights.
+  /// Density pdf_w of sample_towards at `from` for unit direction `wi`; `p` and `ng` are the point
+  /// hit on the light (unused by infinite lights). Zero for delta lights.
   virtual float pdf_towards(const Vec3f& from, const Vec3f& wi, const Vec3f& p,
                             const Vec3f& ng) const = 0;
-  /// Radiance leaving a point of an area light with outside normal `ng` in direction `w` (unit, away
-  /// from the light). Black for others.
+  /// Radiance leaving a point of an area light with outside normal `ng` in direction `w` (unit,
+  /// away from the light). Black for others.
   virtual SampledSpectrum radiance(const Vec3f& /*p*/, const Vec3f& /*ng*/, const Vec2f& /*uv*/,
                                    const Vec3f& /*w*/, const SampledWavelengths&) const {
     return SampledSpectrum();
   }
-  /// Radiance of an infinite light seen in unit direction `w` (away from the viewer). Black for others.
-  virtual SampledSpectrum radiance_at_infinity(const Vec3f& /*w*/, const SampledWavelengths&) const {
+  /// Radiance of an infinite light seen in unit direction `w` (away from the viewer). Black for
+  /// others.
+  virtual SampledSpectrum radiance_at_infinity(const Vec3f& /*w*/,
+                                               const SampledWavelengths&) const {
     return SampledSpectrum();
   }
   /// A ray that leaves the light; `u_position` and `u_direction` in [0,1)^2.

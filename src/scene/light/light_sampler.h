@@ -1,5 +1,5 @@
-// Chooses a light for a receiving point (light tree with a share for infinite lights) or for emitting
-// a photon (by power).
+// Chooses a light for a receiving point (light tree with a share for infinite lights) or for
+// emitting a photon (by power).
 #pragma once
 
 #include <optional>
@@ -25,7 +25,8 @@ class LightSampler {
   /// Probability with which sample() returns `light` at this point.
   float pmf(const Vec3f& p, const Vec3f& n, int light) const;
 
-  /// A light in proportion to its power; empty if all are black. `u` is rescaled to [0,1) for reuse.
+  /// A light in proportion to its power; empty if all are black. `u` is rescaled to [0,1) for
+  /// reuse.
   std::optional<LightChoice> sample_by_power(float& u) const;
   float pmf_by_power(int light) const;
 

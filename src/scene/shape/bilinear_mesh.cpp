@@ -61,7 +61,12 @@ Vec3d rotate_from_to(const Vec3d& from, const Vec3d& to, const Vec3d& v) {
 class BilinearMesh final : public Shape {
  public:
   BilinearMesh(MeshData data, bool flip);
-  uint32_t primitive_count() const override { return static_cast<uint32_t>(rectangle_.size()); }
+  uint32_t primitive_count() const override {
+    return static_cast<uint32_t>(data_.quads.size() / 4);
+  }
+  const MeshData* flat_quads() const override {
+    return rectangles_ == primitive_count() ? &data_ : nullptr;
+  }
   Bounds3f bounds(uint32_t) const override;
   std::optional<ShapeHit> intersect(uint32_t, const Ray&, float t_min) const override;
   void fill(uint32_t, const Vec2f& hit_uv, const Ray&, float t, SurfaceInteraction&) const override;
@@ -88,7 +93,15 @@ class BilinearMesh final : public Shape {
 
   MeshData data_;
   bool flip_;
-  std::vector<uint8_t> rectangle_;  ///< per patch, 1 if it is a plane rectangle
+  /// What lamps ask for again and again, worked out once for patches that are plane rectangles.
+  struct Rectangle {
+    bool valid = false;
+    bool one_normal = false;  ///< no vertex normals, or all the same
+    RectangleFrame frame;
+    Vec3f normal;  ///< outside, where there is one
+  };
+  std::vector<Rectangle> rectangle_;  ///< per patch
+  uint32_t rectangles_ = 0;           ///< how many are valid
 };
 
 template <class T>
@@ -124,9 +137,10 @@ void set_point(const BilinearPatch& patch, double u, double v, Vec3f* p, Vec3f* 
     const double magnitude = std::abs(patch.p00[i]) + std::abs(patch.p10[i]) +
                              std::abs(patch.p01[i]) + std::abs(patch.p11[i]);
     // Rounded once to float; the rest was lost in double. The extent stands for the rounding of a
-    // distance to the patch, also along axes on which all coordinates are zero.
+    // distance to the patch, also along axes on which all coordinates are zero; flat patches are traced
+    // in float.
     (*p_error)[i] = static_cast<float>(std::abs(q[i]) * 0x1.0001p-24 + magnitude * 16.0 * 0x1p-53 +
-                                       extent * 64.0 * 0x1p-53);
+                                       extent * static_cast<double>(gamma_bound(6)));
   }
 }
 
@@ -137,9 +151,21 @@ BilinearMesh::BilinearMesh(MeshData data, bool flip) : data_(std::move(data)), f
                                   " is out of range, there are " +
                                   std::to_string(data_.positions.size()) + " vertices");
   const size_t count = data_.quads.size() / 4;
-  rectangle_.reserve(count);
-  for (size_t i = 0; i < count; ++i)
-    rectangle_.push_back(patch(static_cast<uint32_t>(i)).is_rectangle() ? 1 : 0);
+  rectangle_.resize(count);
+  for (size_t i = 0; i < count; ++i) {
+    const auto primitive = static_cast<uint32_t>(i);
+    const BilinearPatch shape = patch(primitive);
+    Rectangle& r = rectangle_[i];
+    r.valid = shape.is_rectangle();
+    if (!r.valid) continue;
+    ++rectangles_;
+    r.frame = RectangleFrame(shape.p00, shape.dpdu(0.0), shape.dpdv(0.0));
+    const uint32_t* v = corners(primitive);
+    r.one_normal = data_.normals.empty() || (data_.normals[v[0]] == data_.normals[v[1]] &&
+                                             data_.normals[v[0]] == data_.normals[v[2]] &&
+                                             data_.normals[v[0]] == data_.normals[v[3]]);
+    r.normal = to_float(outside_normal(primitive, shape, 0.5, 0.5));
+  }
 }
 
 Bounds3f BilinearMesh::bounds(uint32_t primitive) const {
@@ -244,7 +270,8 @@ ShapeSample BilinearMesh::sample_at(uint32_t primitive, const BilinearPatch& sha
                                     double v, double pdf) const {
   ShapeSample s;
   set_point(shape, u, v, &s.p, &s.p_error);
-  s.ng = to_float(outside_normal(primitive, shape, u, v));
+  const Rectangle& r = rectangle_[primitive];
+  s.ng = r.valid && r.one_normal ? r.normal : to_float(outside_normal(primitive, shape, u, v));
   s.uv = Vec2f(static_cast<float>(u), static_cast<float>(v));
   if (!data_.uvs.empty()) s.uv = blend(data_.uvs, corners(primitive), s.uv.x, s.uv.y);
   s.pdf = static_cast<float>(pdf);
@@ -264,12 +291,11 @@ std::optional<ShapeSample> BilinearMesh::sample_area(uint32_t primitive, const V
 
 std::optional<ShapeSample> BilinearMesh::sample_towards(uint32_t primitive, const Vec3f& from,
                                                         const Vec2f& u) const {
-  if (rectangle_[primitive]) {
-    const BilinearPatch shape = patch(primitive);
-    const SphericalRectangle seen(to_double(from), shape.p00, shape.dpdu(0.0), shape.dpdv(0.0));
+  if (rectangle_[primitive].valid) {
+    const SphericalRectangle seen(to_double(from), rectangle_[primitive].frame);
     if (seen.solid_angle() > kMinSphericalArea) {
       const Vec2f uv = seen.sample(u);
-      return sample_at(primitive, shape, uv.x, uv.y, 1.0 / seen.solid_angle());
+      return sample_at(primitive, patch(primitive), uv.x, uv.y, 1.0 / seen.solid_angle());
     }
   }
   return seen_from(sample_area(primitive, u), from);
@@ -277,11 +303,11 @@ std::optional<ShapeSample> BilinearMesh::sample_towards(uint32_t primitive, cons
 
 float BilinearMesh::pdf_towards(uint32_t primitive, const Vec3f& from, const Vec3f& p,
                                 const Vec3f& ng) const {
-  const BilinearPatch shape = patch(primitive);
-  if (rectangle_[primitive]) {
-    const SphericalRectangle seen(to_double(from), shape.p00, shape.dpdu(0.0), shape.dpdv(0.0));
+  if (rectangle_[primitive].valid) {
+    const SphericalRectangle seen(to_double(from), rectangle_[primitive].frame);
     if (seen.solid_angle() > kMinSphericalArea) return static_cast<float>(1.0 / seen.solid_angle());
   }
+  const BilinearPatch shape = patch(primitive);
   // (u,v) of p: where the line along the normal meets the patch nearest to it. A point at the rim
   // may miss by rounding; then the nearest corner's density is as good.
   const BilinearPatch::Hits found = shape.hits(to_double(p), to_double(ng));

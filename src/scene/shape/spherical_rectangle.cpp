@@ -6,34 +6,46 @@
 
 namespace nephroid {
 
-SphericalRectangle::SphericalRectangle(const Vec3d& from, const Vec3d& corner, const Vec3d& edge_x,
-                                       const Vec3d& edge_y) {
-  const double length_x = edge_x.length(), length_y = edge_y.length();
-  const Vec3d x = edge_x / length_x, y = edge_y / length_y;
-  const Vec3d d = corner - from;
-  x0_ = d.dot(x);
-  x1_ = x0_ + length_x;
-  y0_ = d.dot(y);
-  y1_ = y0_ + length_y;
-  z0_ = -std::abs(d.dot(x.cross(y)));
+namespace {
+
+constexpr double kTwoPi = 2.0 * 3.14159265358979323846;
+
+// Argument of a complex number in [0, 2 pi).
+double argument(double re, double im) {
+  const double a = std::atan2(im, re);
+  return a < 0.0 ? a + kTwoPi : a;
+}
+
+}  // namespace
+
+SphericalRectangle::SphericalRectangle(const Vec3d& from, const RectangleFrame& r) {
+  const Vec3d d = r.corner - from;
+  x0_ = d.dot(r.x);
+  x1_ = x0_ + r.length_x;
+  y0_ = d.dot(r.y);
+  y1_ = y0_ + r.length_y;
+  z0_ = -std::abs(d.dot(r.z));
   if (z0_ == 0.0) return;
 
-  // The four inner angles of the spherical rectangle; their excess is the solid angle.
-  const auto angle = [this](double px, double py, double cosine) {
-    return std::atan2(-z0_ * std::sqrt(px * px + py * py + z0_ * z0_), cosine);
+  // The four inner angles of the spherical rectangle; their excess over 2 pi is the solid angle. Angles
+  // are added by multiplying complex numbers, so that one arc tangent is enough.
+  const auto sine = [this](double px, double py) {
+    return -z0_ * std::sqrt(px * px + py * py + z0_ * z0_);
   };
-  const double g0 = angle(x1_, y0_, x1_ * y0_), g1 = angle(x1_, y1_, -x1_ * y1_);
-  const double g2 = angle(x0_, y1_, x0_ * y1_), g3 = angle(x0_, y0_, -x0_ * y0_);
-  const double two_pi = 2.0 * 3.14159265358979323846;
-  k_ = two_pi - g2 - g3;
-  solid_angle_ = std::max(0.0, g0 + g1 - k_);
+  const double c0 = x1_ * y0_, s0 = sine(x1_, y0_), c1 = -x1_ * y1_, s1 = sine(x1_, y1_);
+  const double c2 = x0_ * y1_, s2 = sine(x0_, y1_), c3 = -x0_ * y0_, s3 = sine(x0_, y0_);
+  const double re01 = c0 * c1 - s0 * s1, im01 = c0 * s1 + s0 * c1;
+  start_re_ = c2 * c3 - s2 * s3;
+  start_im_ = c2 * s3 + s2 * c3;
+  solid_angle_ = argument(re01 * start_re_ - im01 * start_im_, re01 * start_im_ + im01 * start_re_);
 }
 
 Vec2f SphericalRectangle::sample(const Vec2f& u) const {
-  const double b0 = -y0_ / std::hypot(y0_, z0_), b1 = y1_ / std::hypot(y1_, z0_);
-  const double angle = u.x * solid_angle_ + k_;
+  const double b0 = -y0_ / std::sqrt(y0_ * y0_ + z0_ * z0_);
+  const double b1 = y1_ / std::sqrt(y1_ * y1_ + z0_ * z0_);
+  const double angle = u.x * solid_angle_ + kTwoPi - argument(start_re_, start_im_);
   const double f = (std::cos(angle) * b0 - b1) / std::sin(angle);
-  const double c = std::copysign(std::clamp(1.0 / std::hypot(f, b0), 0.0, 1.0), f);
+  const double c = std::copysign(std::min(1.0 / std::sqrt(f * f + b0 * b0), 1.0), f);
   const double x = std::clamp(-c * z0_ / std::sqrt(1.0 - c * c), x0_, x1_);
 
   const double d2 = x * x + z0_ * z0_;
