@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/commands.h"
+#include "apps/messages.h"
 #include "core/errors.h"
 #include "session/command_line.h"
 
@@ -16,7 +17,7 @@ namespace nephroid {
 namespace {
 
 int fail(ExitStatus status, const char* message) {
-  fmt::print(stderr, "nephroid: error: {}\n", message);
+  print_error(message);
   return static_cast<int>(status);
 }
 

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "apps/commands.h"
+#include "apps/messages.h"
 #include "apps/progress_display.h"
 #include "apps/report.h"
 #include "apps/scene_loading.h"
@@ -63,6 +64,9 @@ int run_render(const RenderCommand& command) {
 
   const IntegratorChoice choice = choose_integrator(command.integrator, scene.integrator,
                                                     scene.integrator_parameters, command.settings);
+  if (!command.quiet)
+    for (const std::string& warning : choice.warnings) print_warning(warning);
+  check_film_fits(scene.film, command.overrides.width > 0);
   Preset preset = make_integrator(choice.name, choice.options, scene);
   Film film(film_settings(scene.film), preset.route_names);
   const std::string output =
@@ -76,7 +80,7 @@ int run_render(const RenderCommand& command) {
   session.on_warning([&](const std::string& warning) {
     if (command.quiet) return;
     display.clear();
-    fmt::print(stderr, "nephroid: warning: {}\n", warning);
+    print_warning(warning);
   });
   const SignalListener listener;
   const RenderResult result = session.run(listener.flags());

@@ -1,8 +1,7 @@
 // Parse, build, and keep what was suspicious.
 #include "apps/scene_loading.h"
 
-#include <fmt/format.h>
-
+#include "apps/messages.h"
 #include "input/pbrt_parser.h"
 
 namespace nephroid {
@@ -18,8 +17,7 @@ LoadedScene load_scene(const std::string& file, const SceneOverrides& overrides)
 }
 
 void print_warnings(const LoadedScene& loaded) {
-  for (const std::string& warning : loaded.warnings)
-    fmt::print(stderr, "nephroid: warning: {}\n", warning);
+  for (const std::string& warning : loaded.warnings) print_warning(warning);
 }
 
 }  // namespace nephroid

@@ -13,8 +13,6 @@
 #include <memory>
 #include <system_error>
 
-#include "core/errors.h"
-
 namespace nephroid {
 namespace {
 
@@ -105,6 +103,11 @@ std::string unpack(const std::string& path, const std::string& packed, uint64_t 
 }
 
 }  // namespace
+
+void file_is_unreadable(const SourceLocation& named_by, const std::string& message) {
+  if (named_by.line > 0) throw SceneError(named_by, message);
+  throw IoError(message);
+}
 
 bool has_suffix(const std::string& path, const std::string& suffix) {
   return path.size() >= suffix.size() &&

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <string>
 
+#include "core/errors.h"
+
 namespace nephroid {
 
 /// The most bytes that a packed file may unpack to.
@@ -15,6 +17,10 @@ inline constexpr uint64_t kMaxUnpackedBytes = uint64_t{8} << 30;
 /// The bytes of a file; a name that ends in ".gz" is unpacked, to at most `max_unpacked` bytes.
 /// Throws IoError naming the file and the reason.
 std::string read_file_bytes(const std::string& path, uint64_t max_unpacked = kMaxUnpackedBytes);
+
+/// Says that a file cannot be read: throws a SceneError at the place that names the file, or an
+/// IoError if no scene does.
+[[noreturn]] void file_is_unreadable(const SourceLocation& named_by, const std::string& message);
 
 /// True if the name ends in `suffix`, whatever the case of its letters.
 bool has_suffix(const std::string& path, const std::string& suffix);

@@ -237,9 +237,7 @@ MeshData read_ply(const std::string& path, const SourceLocation& wanted_by) {
   try {
     bytes = read_file_bytes(path);
   } catch (const IoError& error) {
-    // If the scene asked for the file, the place where it did is the more useful thing to know.
-    if (wanted_by.line > 0) throw SceneError(wanted_by, error.what());
-    throw;
+    file_is_unreadable(wanted_by, error.what());
   }
   try {
     return read_mesh(bytes);

@@ -25,6 +25,12 @@ std::vector<std::string> keys_of(const std::map<std::string, Value>& map) {
   return keys;
 }
 
+void expect_affine(const Mat44d& m, const char* directive, const SourceLocation& where) {
+  if (!is_affine(m))
+    throw SceneError(where, std::string(directive) +
+                                " gives a projective matrix, expected 0 0 0 1 in its last column");
+}
+
 }  // namespace
 
 void SceneBuilder::concat_transform(const Mat44d& m, const char* directive,
@@ -35,12 +41,14 @@ void SceneBuilder::concat_transform(const Mat44d& m, const char* directive,
     throw SceneError(where, std::string(directive) +
                                 " gives a singular matrix, expected one that can be inverted");
   }
+  expect_affine(m, directive, where);
   state_.ctm = {start, end};
 }
 
 void SceneBuilder::set_transform(const Mat44d& m, const SourceLocation& where) {
   if (is_singular(m) || !is_invertible(m))
     throw SceneError(where, "Transform is a singular matrix, expected one that can be inverted");
+  expect_affine(m, "Transform", where);
   if (state_.start_active) state_.ctm.start = m;
   if (state_.end_active) state_.ctm.end = m;
 }

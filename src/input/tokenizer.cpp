@@ -45,6 +45,9 @@ Tokenizer::Tokenizer(std::shared_ptr<const std::string> name, std::string text)
   const std::string_view start = std::string_view(text_).substr(0, 3);
   if (start.substr(0, 2) == "\xFE\xFF" || start.substr(0, 2) == "\xFF\xFE")
     throw SceneError({name_, 1, 1}, "the file is encoded in UTF-16, expected UTF-8");
+  if (text_.find('\0') != std::string::npos)
+    throw SceneError({name_, 1, 1},
+                     "the file holds zero bytes, so it is no text, expected a scene");
   if (start == "\xEF\xBB\xBF") position_ = line_start_ = 3;  // the UTF-8 byte order mark
 }
 

@@ -80,6 +80,12 @@ Mat44d matrix_from_numbers(const std::array<double, 16>& numbers) {
   return m;
 }
 
+bool is_affine(const Mat44d& m) {
+  constexpr double kRounding = 1e-6;
+  return std::abs(m[0][3]) <= kRounding && std::abs(m[1][3]) <= kRounding &&
+         std::abs(m[2][3]) <= kRounding && std::abs(m[3][3] - 1) <= kRounding;
+}
+
 bool is_singular(const Mat44d& m) {
   // Dividing rows and columns by their largest entry takes the units out of the determinant.
   Mat44d balanced = m;

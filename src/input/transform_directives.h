@@ -25,4 +25,8 @@ Mat44d matrix_from_numbers(const std::array<double, 16>& numbers);
 /// and columns.
 bool is_singular(const Mat44d& m);
 
+/// True if the matrix leaves w alone, up to rounding errors: shapes under a projection are no
+/// shapes.
+bool is_affine(const Mat44d& m);
+
 }  // namespace nephroid

@@ -13,7 +13,7 @@ namespace {
 constexpr uint64_t kStream = 0x6d65726765;  // "merge"
 
 // First merge radius in pixel footprints, if the user gives none.
-constexpr float kDefaultRadius = 3.0f;
+constexpr float kDefaultRadius = 1.5f;
 
 struct RowResult {
   uint64_t rays = 0, found = 0;

@@ -8,7 +8,7 @@ namespace nephroid {
 namespace {
 
 constexpr uint64_t kStream = 0x7370706d;  // "sppm"
-constexpr float kDefaultRadius = 3.0f;
+constexpr float kDefaultRadius = 2.0f;
 
 }  // namespace
 

@@ -1,6 +1,7 @@
 #include "scene/camera.h"
 
 #include "core/warps.h"
+#include "scene/shape/shape.h"
 
 namespace nephroid {
 
@@ -79,6 +80,21 @@ void set_screen(ProjectiveCamera::Settings& s, const ParameterSet& p) {
     throw SceneError(p.where, "\"screenwindow\" is empty");
 }
 
+/// Each number may be fine alone and the camera still so far away, or its screen so large, that
+/// floating-point numbers do not hold its rays.
+void check_rays(const Camera& camera, const ProjectiveCamera::Settings& s,
+                const SourceLocation& where) {
+  const float w = static_cast<float>(s.width), h = static_cast<float>(s.height);
+  for (const Vec2f& film :
+       {Vec2f(0, 0), Vec2f(w, 0), Vec2f(0, h), Vec2f(w, h), Vec2f(w / 2, h / 2)}) {
+    const Ray ray = camera.generate_ray(film, Vec2f(0.3f, 0.6f), 0.5f);
+    if (!is_in_reach(ray.o) || !(std::abs(length(ray.d) - 1) < 1e-3f))
+      throw SceneError(where,
+                       "the camera is too far away or its view too extreme, expected "
+                       "coordinates up to 1e17");
+  }
+}
+
 }  // namespace
 
 std::unique_ptr<Camera> make_camera(const std::optional<CameraDescription>& description, int width,
@@ -86,10 +102,12 @@ std::unique_ptr<Camera> make_camera(const std::optional<CameraDescription>& desc
   static const ParameterSet kNone;
   const ParameterSet& p = description ? description->parameters : kNone;
   const std::string type = description ? description->type : "perspective";
-  if (type != "perspective" && type != "orthographic")
-    throw SceneError(description->where,
-                     "camera \"" + type +
-                         "\" is not rendered, expected \"perspective\" or \"orthographic\"");
+  if (type != "perspective" && type != "orthographic") {
+    const bool known = type == "realistic" || type == "spherical";
+    throw SceneError(description->where, (known ? "camera \"" + type + "\" is not rendered yet"
+                                                : "unknown camera \"" + type + "\"") +
+                                             ", expected \"perspective\" or \"orthographic\"");
+  }
   ProjectiveCamera::Settings s;
   s.width = width;
   s.height = height;
@@ -97,7 +115,7 @@ std::unique_ptr<Camera> make_camera(const std::optional<CameraDescription>& desc
   if (description) {
     if (description->world_to_camera.is_animated())
       diagnostics.warn(description->where,
-                       "the camera moves: motion blur is not rendered, its start is used");
+                       "the camera moves: motion blur is not rendered yet, its start is used");
     s.camera_to_world = Transform(description->world_to_camera.start).inverted();
   }
   set_screen(s, p);
@@ -114,7 +132,9 @@ std::unique_ptr<Camera> make_camera(const std::optional<CameraDescription>& desc
   s.shutter_open = p.get_float("shutteropen", 0.0f);
   s.shutter_close = p.get_float("shutterclose", 1.0f);
   if (description) p.report_unused("camera \"" + type + "\"", diagnostics);
-  return std::make_unique<ProjectiveCamera>(s);
+  auto camera = std::make_unique<ProjectiveCamera>(s);
+  check_rays(*camera, s, p.where);
+  return camera;
 }
 
 }  // namespace nephroid

@@ -2,6 +2,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,17 @@ struct EmbreeScene::Impl {
   std::shared_ptr<EmbreeDevice> device;
   RTCScene scene = nullptr;
   std::vector<ShapePtr> shapes;
+  /// Largest coordinate that a ray may have here: Embree aborts the program at larger ones and at
+  /// NaNs, also at those of the ray in the space of an instance.
+  float reach = kEmbreeReach;
+
+  bool can_trace(const Ray& ray) const {
+    for (int i = 0; i < 3; ++i)
+      if (!(std::abs(ray.o[i]) <= reach && std::abs(ray.d[i]) <= reach)) return false;
+    return ray.t_max >= 0.0f;
+  }
+
+  static constexpr float kEmbreeReach = 1e18f;
 };
 
 EmbreeScene::EmbreeScene(std::shared_ptr<EmbreeDevice> device) : impl_(std::make_unique<Impl>()) {
@@ -168,6 +180,14 @@ uint32_t EmbreeScene::add_instance(const EmbreeScene& child, const Transform& ob
   const uint32_t id = rtcAttachGeometry(impl_->scene, geometry);
   rtcReleaseGeometry(geometry);
   impl_->device->check("adding an instance");
+  // |o'| <= reach |M^-1| + |t|, per axis, has to stay below the reach of the instance.
+  const Mat44d& inverse = object_to_world.inverse;
+  for (int j = 0; j < 3; ++j) {
+    const double stretch =
+        std::abs(inverse[0][j]) + std::abs(inverse[1][j]) + std::abs(inverse[2][j]);
+    const double left = Impl::kEmbreeReach - std::abs(inverse[3][j]);
+    impl_->reach = std::min(impl_->reach, static_cast<float>(0.5 * left / stretch));
+  }
   return id;
 }
 
@@ -177,6 +197,7 @@ void EmbreeScene::commit() {
 }
 
 std::optional<EmbreeHit> EmbreeScene::intersect(const Ray& ray, unsigned mask) const {
+  if (!impl_->can_trace(ray)) return std::nullopt;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRayHit rayhit;
@@ -195,6 +216,7 @@ std::optional<EmbreeHit> EmbreeScene::intersect(const Ray& ray, unsigned mask) c
 }
 
 bool EmbreeScene::occluded(const Ray& ray, unsigned mask) const {
+  if (!impl_->can_trace(ray)) return true;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRay r = rtc_ray(ray, mask);

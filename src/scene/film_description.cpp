@@ -44,7 +44,17 @@ void check_type(const DirectiveDescription& d, Diagnostics& diagnostics) {
     diagnostics.warn(d.where, "film \"gbuffer\" is rendered as \"rgb\" with this program's own layers");
     return;
   }
-  throw SceneError(d.where, "film \"" + d.type + "\" is not rendered, expected \"rgb\"");
+  throw SceneError(d.where, d.type == "spectral"
+                                ? "film \"spectral\" is not rendered yet, expected \"rgb\""
+                                : "unknown film \"" + d.type + "\", expected \"rgb\"");
+}
+
+float positive(const ParameterSet& p, const char* name, float fallback) {
+  const float value = p.get_float(name, fallback);
+  if (!(value > 0))
+    throw SceneError(p.find(name)->where,
+                     "\"" + std::string(name) + "\" of the film must be above 0");
+  return value;
 }
 
 }  // namespace
@@ -59,6 +69,7 @@ FilmDescription make_film_description(const SceneDescription& description,
   film.height = overrides.height > 0 ? overrides.height : p.get_int("yresolution", 720);
   if (overrides.width > 0) (void)p.find("xresolution");
   if (overrides.height > 0) (void)p.find("yresolution");
+  film.where = p.where;
   if (film.width < 1 || film.height < 1 || film.width > 65536 || film.height > 65536)
     throw SceneError(p.where, "the resolution " + std::to_string(film.width) + " x " +
                                   std::to_string(film.height) + " must lie in 1..65536");
@@ -72,13 +83,13 @@ FilmDescription make_film_description(const SceneDescription& description,
     if (!(exposure > 0))
       throw SceneError(c.where, "\"shutterclose\" must be later than \"shutteropen\"");
   }
-  film.imaging_ratio = exposure * p.get_float("iso", 100.0f) / 100.0f;
+  film.imaging_ratio = exposure * positive(p, "iso", 100.0f) / 100.0f;
   const std::string sensor = p.get_string("sensor", "cie1931");
   if (sensor != "cie1931")
     diagnostics.warn(p.where, "sensor \"" + sensor + "\" is rendered as \"cie1931\"");
   if (p.get_float("whitebalance", 0.0f) != 0.0f)
-    diagnostics.warn(p.where, "\"whitebalance\" is not rendered");
-  film.max_component = p.get_float("maxcomponentvalue", kInfinity);
+    diagnostics.warn(p.where, "\"whitebalance\" is not rendered yet");
+  film.max_component = positive(p, "maxcomponentvalue", kInfinity);
   film.color_space = RgbColorSpace::find(description.color_space);
   film.filename = p.get_string("filename", "nephroid.exr");
   (void)p.get_float("diagonal", 35.0f);

@@ -79,6 +79,12 @@ void PixelFilter::Axis::sample(float u, float* x, float* weight) const {
   *weight = value(*x) / (integral * pdf);
 }
 
+bool PixelFilter::can_be_sampled() const {
+  return std::all_of(std::begin(axes_), std::end(axes_), [](const Axis& axis) {
+    return axis.integral > 0 && std::isfinite(1 / axis.integral) && axis.cdf[1] >= 0;
+  });
+}
+
 PixelFilter::Sample PixelFilter::sample(const Vec2f& u) const {
   Sample s;
   // The box is the most used filter and needs no table.
@@ -120,8 +126,9 @@ std::unique_ptr<PixelFilter> make_pixel_filter(
   for (const Row& row : kTable) {
     if (type != row.name) continue;
     const Vec2f radius(p.get_float("xradius", row.radius), p.get_float("yradius", row.radius));
-    if (!(radius.x > 0 && radius.y > 0))
-      throw SceneError(p.where, "the filter's radius must be positive");
+    constexpr float kLargestRadius = 65536;
+    if (!(radius.x > 0 && radius.y > 0 && radius.x <= kLargestRadius && radius.y <= kLargestRadius))
+      throw SceneError(p.where, "the filter's radius must be positive and at most 65536 pixels");
     Parameters parameters{0, 0};
     if (type == "gaussian") parameters[0] = p.get_float("sigma", 0.5f);
     if (type == "mitchell") parameters = {p.get_float("B", 1.f / 3), p.get_float("C", 1.f / 3)};
@@ -129,7 +136,11 @@ std::unique_ptr<PixelFilter> make_pixel_filter(
     if (type == "gaussian" && !(parameters[0] > 0))
       throw SceneError(p.where, "\"sigma\" must be positive");
     if (description) p.report_unused("pixel filter \"" + type + "\"", diagnostics);
-    return std::make_unique<PixelFilter>(row.function, radius, parameters, parameters);
+    auto filter = std::make_unique<PixelFilter>(row.function, radius, parameters, parameters);
+    if (!filter->can_be_sampled())
+      throw SceneError(p.where, "the parameters of the pixel filter \"" + type +
+                                    "\" leave nothing of it, expected a positive integral");
+    return filter;
   }
   throw SceneError(description->where,
                    "pixel filter \"" + type +

@@ -24,6 +24,8 @@ class PixelFilter {
   PixelFilter(float (*function)(float x, float radius, const std::array<float, 2>& parameters),
               Vec2f radius, std::array<float, 2> parameters_x, std::array<float, 2> parameters_y);
 
+  /// False if the parameters leave a function without a positive, finite integral.
+  bool can_be_sampled() const;
   Sample sample(const Vec2f& u) const;
   Vec2f radius() const { return {axes_[0].radius, axes_[1].radius}; }
   /// Value at an offset, normalised so that the integral over the plane is 1.

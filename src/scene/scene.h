@@ -25,6 +25,7 @@ struct FilmDescription {
   float max_component = kInfinity;  ///< of a sample's rgb
   const RgbColorSpace* color_space = nullptr;
   std::string filename;
+  SourceLocation where;  ///< of the Film directive, if there is one
 };
 
 /// What the command line may change of a scene.

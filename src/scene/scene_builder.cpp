@@ -1,5 +1,7 @@
 // SceneDescription -> Scene, on one page: textures, materials, lights, shapes, instances, camera, film.
+#include <algorithm>
 #include <exception>
+#include <limits>
 #include <map>
 
 #include "core/parallel.h"
@@ -35,6 +37,10 @@ class SceneBuilder {
       scene_->integrator_parameters = d_.integrator->parameters;
     }
     scene_->lights = make_lights(d_, diagnostics);
+    for (const MediumDescription& medium : d_.media)
+      diagnostics.warn(medium.where, "medium \"" + medium.name +
+                                         "\": participating media are not rendered yet, the space "
+                                         "is left empty");
   }
 
   std::unique_ptr<Scene> build() {
@@ -57,12 +63,21 @@ class SceneBuilder {
   void read_sampler() {
     if (!d_.sampler) return;
     const ParameterSet& p = d_.sampler->parameters;
-    scene_->samples_per_pixel = d_.sampler->type == "stratified"
-                                    ? p.get_int("xsamples", 4) * p.get_int("ysamples", 4)
-                                    : p.get_int("pixelsamples", 16);
-    if (scene_->samples_per_pixel < 1)
-      throw SceneError(p.where, "the number of pixel samples must be at least 1");
+    const std::string& type = d_.sampler->type;
+    static constexpr const char* kSamplers[] = {"halton", "independent", "paddedsobol", "pmj02bn",
+                                                "sobol",  "stratified",  "zsobol"};
+    if (std::find(std::begin(kSamplers), std::end(kSamplers), type) == std::end(kSamplers))
+      diagnostics_.warn(p.where,
+                        "unknown sampler \"" + type + "\", only its number of samples is taken");
+    const bool stratified = type == "stratified";
+    const int64_t x = stratified ? p.get_int("xsamples", 4) : p.get_int("pixelsamples", 16);
+    const int64_t y = stratified ? p.get_int("ysamples", 4) : 1;
+    if (x < 1 || y < 1 || x * y > std::numeric_limits<int>::max())
+      throw SceneError(p.where, "the number of pixel samples must be at least 1 and fit 32 bits");
+    scene_->samples_per_pixel = static_cast<int>(x * y);
     scene_->scene_seed = static_cast<uint64_t>(p.get_int("seed", 0));
+    for (const char* of_its_own : {"jitter", "randomization"}) (void)p.find(of_its_own);
+    p.report_unused("sampler \"" + type + "\"", diagnostics_);
   }
 
   int material_of(const ShapeDescription& shape) const {
@@ -141,10 +156,30 @@ class SceneBuilder {
     }
     if (instance.transform.is_animated())
       diagnostics_.warn(instance.where,
-                        "the instance moves: motion blur is not rendered, its start is used");
+                        "the instance moves: motion blur is not rendered yet, its start is used");
     const Transform transform(instance.transform.start);
+    check_placement(instance.where, it->second->accelerator->bounds(), transform);
     scene_->top.accelerator->add_instance(*it->second->accelerator, transform, kMaskAll);
     scene_->instances.push_back({it->second, transform});
+  }
+
+  // The ray tracer inverts the matrix of an instance in single precision.
+  static void check_placement(const SourceLocation& where, const Bounds3f& object,
+                              const Transform& transform) {
+    const double volume = std::abs(transform.m.determinant());
+    if (!(volume > 1e-36 && volume < 1e36))
+      throw SceneError(where,
+                       "the transform of this instance is too extreme, expected scales from "
+                       "1e-12 to 1e12");
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3f p(corner & 1 ? object.max.x : object.min.x,
+                    corner & 2 ? object.max.y : object.min.y,
+                    corner & 4 ? object.max.z : object.min.z);
+      if (!is_in_reach(transform.point(p)))
+        throw SceneError(where,
+                         "this instance is too large or too far away, expected coordinates "
+                         "up to 1e17");
+    }
   }
 
   void finish() {

@@ -1,5 +1,7 @@
 #include "scene/shape_table.h"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <stdexcept>
 
@@ -32,12 +34,12 @@ std::vector<uint32_t> to_indices(const Context& c, const std::vector<int>& value
   return indices;
 }
 
-// Meshes end here: checked, brought to world space, with room behind the positions for the 16-byte
+// Meshes end here: brought to world space, checked, with room behind the positions for the 16-byte
 // loads of the ray tracer.
 std::vector<ShapePtr> finish_mesh(const Context& c, MeshData data) {
-  validate_mesh(data, c.p.where, c.what(), c.diagnostics);
   if (c.description.reverse_orientation) reverse_normals(data);
   transform_mesh(data, c.transform);
+  validate_mesh(data, c.p.where, c.what(), c.diagnostics);
   // A lamp's "power" counts for each of its primitives, so those must stay what they are.
   if (c.description.area_light && !c.description.area_light->parameters.find("power"))
     data = join_rectangles(std::move(data));
@@ -86,7 +88,7 @@ std::vector<ShapePtr> ply_mesh(const Context& c) {
   const std::string name = c.p.get_string("filename", "");
   if (name.empty()) throw SceneError(c.p.where, c.what() + " has no \"string filename\"");
   if (c.p.find("displacement"))
-    c.diagnostics.warn(c.p.where, "\"displacement\" of a shape is not rendered");
+    c.diagnostics.warn(c.p.where, "\"displacement\" of a shape is not rendered yet");
   return finish_mesh(
       c, read_ply((std::filesystem::path(c.directory) / name).string(), c.p.where));
 }
@@ -95,7 +97,7 @@ std::vector<ShapePtr> bilinear_mesh(const Context& c) {
   MeshData data = vertices_of(c);
   data.face_indices = c.p.get_ints("faceIndices");
   if (c.p.find("emissionfilename"))
-    throw SceneError(c.p.where, c.what() + ": \"emissionfilename\" is not rendered");
+    throw SceneError(c.p.where, c.what() + ": \"emissionfilename\" is not rendered yet");
   std::vector<uint32_t> corners = to_indices(c, c.p.get_ints("indices"));
   if (corners.empty()) {
     if (data.positions.size() != 4)
@@ -133,27 +135,43 @@ std::vector<ShapePtr> loop_subdivision(const Context& c) {
 float positive(const Context& c, const char* name, float fallback) {
   const float v = c.p.get_float(name, fallback);
   if (!(v > 0))
-    throw SceneError(c.p.where, c.what() + ": \"" + name + "\" must be positive");
+    throw SceneError(
+        c.p.find(name)->where,
+        fmt::format("{}: \"{}\" is {:g}, expected a positive number", c.what(), name, v));
   return v;
+}
+
+// Spheres, disks and cylinders end here: of a piece that has no area nothing is kept.
+std::vector<ShapePtr> finish_quadric(const Context& c, ShapePtr shape) {
+  const Bounds3f bounds = shape->bounds(0);
+  if (!is_in_reach(bounds.min) || !is_in_reach(bounds.max))
+    throw SceneError(c.p.where, c.what() +
+                                    " is too large or too far away, expected coordinates "
+                                    "up to 1e17");
+  if (shape->sample_area(0, Vec2f(0.5f, 0.5f))) return {std::move(shape)};
+  c.diagnostics.warn(c.p.where, c.what() + " has no area, nothing will be seen of it");
+  return {};
 }
 
 std::vector<ShapePtr> sphere(const Context& c) {
   const float r = positive(c, "radius", 1.0f);
-  return {make_sphere(c.transform, c.description.reverse_orientation, r,
-                      c.p.get_float("zmin", -r), c.p.get_float("zmax", r),
-                      c.p.get_float("phimax", 360.0f))};
+  return finish_quadric(
+      c, make_sphere(c.transform, c.description.reverse_orientation, r, c.p.get_float("zmin", -r),
+                     c.p.get_float("zmax", r), c.p.get_float("phimax", 360.0f)));
 }
 
 std::vector<ShapePtr> disk(const Context& c) {
   const float r = positive(c, "radius", 1.0f);
-  return {make_disk(c.transform, c.description.reverse_orientation, c.p.get_float("height", 0.0f),
-                    r, c.p.get_float("innerradius", 0.0f), c.p.get_float("phimax", 360.0f))};
+  return finish_quadric(
+      c, make_disk(c.transform, c.description.reverse_orientation, c.p.get_float("height", 0.0f), r,
+                   c.p.get_float("innerradius", 0.0f), c.p.get_float("phimax", 360.0f)));
 }
 
 std::vector<ShapePtr> cylinder(const Context& c) {
-  return {make_cylinder(c.transform, c.description.reverse_orientation,
-                        positive(c, "radius", 1.0f), c.p.get_float("zmin", -1.0f),
-                        c.p.get_float("zmax", 1.0f), c.p.get_float("phimax", 360.0f))};
+  return finish_quadric(
+      c, make_cylinder(c.transform, c.description.reverse_orientation, positive(c, "radius", 1.0f),
+                       c.p.get_float("zmin", -1.0f), c.p.get_float("zmax", 1.0f),
+                       c.p.get_float("phimax", 360.0f)));
 }
 
 struct Row {
@@ -178,7 +196,7 @@ std::vector<ShapePtr> make_shapes(const ShapeDescription& description,
                                   const std::string& directory, Diagnostics& diagnostics) {
   if (description.transform.is_animated())
     diagnostics.warn(description.where,
-                     "the shape moves: motion blur is not rendered, its start is used");
+                     "the shape moves: motion blur is not rendered yet, its start is used");
   const Transform transform(description.transform.start);
   const Context context{description, description.parameters, directory, diagnostics, transform,
                         description.reverse_orientation != transform.swaps_handedness()};

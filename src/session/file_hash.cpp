@@ -3,7 +3,9 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
+#include <system_error>
 #include <vector>
 
 #include "core/errors.h"
@@ -11,9 +13,11 @@
 namespace nephroid {
 
 uint64_t hash_file(const std::string& path) {
+  uint64_t hash = 0xcbf29ce484222325ull;
+  std::error_code ignored;
+  if (std::filesystem::is_fifo(path, ignored)) return hash;
   std::ifstream file(path, std::ios::binary);
   if (!file) throw IoError(path + ": cannot read: " + std::strerror(errno));
-  uint64_t hash = 0xcbf29ce484222325ull;
   std::vector<char> block(1 << 16);
   while (file) {
     file.read(block.data(), static_cast<std::streamsize>(block.size()));

@@ -6,7 +6,8 @@
 
 namespace nephroid {
 
-/// 64-bit FNV-1a of the file's bytes. Throws IoError if it cannot be read.
+/// 64-bit FNV-1a of the file's bytes; of none for a pipe, which can be read only once. Throws
+/// IoError if the file cannot be read.
 uint64_t hash_file(const std::string& path);
 
 }  // namespace nephroid

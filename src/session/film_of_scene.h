@@ -11,6 +11,10 @@ namespace nephroid {
 
 FilmSettings film_settings(const FilmDescription& description);
 
+/// Refuses a film that this machine's memory cannot hold, before anything is allocated for it:
+/// throws UsageError if its size came from the command line, else SceneError at the Film directive.
+void check_film_fits(const FilmDescription& description, bool size_is_an_option);
+
 /// The output when the user names none: the stem of the scene's film file name (or of the scene's
 /// own, if the film has none), ".exr", in the current directory.
 std::string default_output(const FilmDescription& film, const std::string& scene_file);

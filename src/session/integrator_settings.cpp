@@ -86,8 +86,12 @@ std::string all_keys() {
 void take_scene_parameters(const ParameterSet& parameters, bool follow_scene, bool depth_is_given,
                            IntegratorChoice* choice) {
   constexpr int kAbsent = -1;
+  const Parameter* depth = parameters.find("maxdepth");
   const int max_depth = parameters.get_int("maxdepth", kAbsent);
-  if (max_depth >= 0)
+  if (depth != nullptr && max_depth < 0)
+    throw SceneError(depth->where,
+                     fmt::format("\"maxdepth\" is {}, expected at least 0", max_depth));
+  if (depth != nullptr)
     choice->options.max_depth = max_depth;
   else if (!depth_is_given)
     choice->notes.push_back(
@@ -100,6 +104,64 @@ void take_scene_parameters(const ParameterSet& parameters, bool follow_scene, bo
         "pixel (-D radius=PIXELS)");
   const int photons = parameters.get_int("photonsperiteration", kAbsent);
   if (photons > 0 && follow_scene) choice->options.photons_per_pass = photons;
+}
+
+constexpr const char* kPbrtIntegrators[] = {
+    "ambientocclusion", "bdpt",       "function",      "lightpath", "mlt",    "path",
+    "randomwalk",       "simplepath", "simplevolpath", "sppm",      "volpath"};
+
+/// Parameters that pbrt-v4's integrators have beside those that are taken.
+constexpr const char* kPbrtParameters[] = {"bootstrapsamples",
+                                           "chains",
+                                           "cossample",
+                                           "filename",
+                                           "function",
+                                           "imagefilename",
+                                           "largestepprobability",
+                                           "lightsampler",
+                                           "maxdistance",
+                                           "mutationsperpixel",
+                                           "regularize",
+                                           "samplebsdf",
+                                           "samplelights",
+                                           "seed",
+                                           "sigma",
+                                           "skipbad",
+                                           "visualizestrategies",
+                                           "visualizeweights"};
+
+bool is_pbrt_integrator(const std::string& name) {
+  return std::find(std::begin(kPbrtIntegrators), std::end(kPbrtIntegrators), name) !=
+         std::end(kPbrtIntegrators);
+}
+
+/// The integrator that stands for the scene's own.
+std::string integrator_of_scene(const std::string& scene_integrator, const SourceLocation& where) {
+  // Without an Integrator line pbrt-v4 renders with volpath.
+  const std::string own = scene_integrator.empty() ? "volpath" : scene_integrator;
+  if (!is_pbrt_integrator(own))
+    throw SceneError(where, fmt::format("unknown integrator \"{}\", expected one of: {}", own,
+                                        fmt::join(kPbrtIntegrators, ", ")));
+  std::string name = integrator_for_scene_name(own);
+  if (name.empty())
+    throw UsageError(fmt::format(
+        "--integrator scene: there is no integrator that stands for the scene's '{}'", own));
+  return name;
+}
+
+/// Warns of what pbrt-v4 would not know; nothing depends on it.
+void warn_of_unknown_names(const std::string& scene_integrator, const ParameterSet& parameters,
+                           IntegratorChoice* choice) {
+  Diagnostics diagnostics;
+  if (!scene_integrator.empty() && !is_pbrt_integrator(scene_integrator)) {
+    diagnostics.warn(parameters.where, fmt::format("unknown integrator \"{}\", \"{}\" is used",
+                                                   scene_integrator, choice->name));
+  } else {
+    for (const char* name : kPbrtParameters) (void)parameters.find(name);
+    parameters.report_unused("integrator \"" + scene_integrator + "\"", diagnostics);
+  }
+  for (const Warning& warning : diagnostics.warnings())
+    choice->warnings.push_back(located(warning.where, warning.message));
 }
 
 }  // namespace
@@ -131,19 +193,13 @@ IntegratorChoice choose_integrator(const std::string& wanted, const std::string&
                                    const ParameterSet& scene_parameters,
                                    const SettingList& settings) {
   IntegratorChoice choice;
-  choice.name = wanted;
   const bool follow_scene = wanted == "scene";
-  if (follow_scene) {
-    // Without an Integrator line pbrt-v4 renders with volpath.
-    const std::string own = scene_integrator.empty() ? "volpath" : scene_integrator;
-    choice.name = integrator_for_scene_name(own);
-    if (choice.name.empty())
-      throw UsageError(fmt::format(
-          "--integrator scene: there is no integrator that stands for the scene's '{}'", own));
-  }
+  choice.name =
+      follow_scene ? integrator_of_scene(scene_integrator, scene_parameters.where) : wanted;
   const bool depth_is_given = std::any_of(settings.begin(), settings.end(),
                                           [](const auto& s) { return s.first == "max-depth"; });
   take_scene_parameters(scene_parameters, follow_scene, depth_is_given, &choice);
+  warn_of_unknown_names(scene_integrator, scene_parameters, &choice);
   apply_settings(settings, &choice.options);
   return choice;
 }

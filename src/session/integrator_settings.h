@@ -44,11 +44,12 @@ struct IntegratorChoice {
   std::string name;
   IntegratorOptions options;
   std::vector<std::string> notes;  ///< what of the scene's line was not taken, for the report
+  std::vector<std::string> warnings;  ///< what is wrong with it: "file:line:column: message"
 };
 
 /// `wanted` is an integrator's name, or "scene" for the one that stands for the scene's own. Throws
-/// UsageError if the scene's own is asked for and there is none, SceneError for a parameter of the
-/// wrong type.
+/// UsageError if the scene's own is asked for and nothing stands for it, SceneError if it is asked
+/// for and unknown, or for a parameter of the wrong type or range.
 IntegratorChoice choose_integrator(const std::string& wanted, const std::string& scene_integrator,
                                    const ParameterSet& scene_parameters,
                                    const SettingList& settings);

@@ -1,5 +1,8 @@
 // The infinite light with an image: an equal-area octahedral map of the sphere, constant within
-// each pixel, so that the density in proportion to the pixels' mean values is exact.
+// each pixel, so that the density in proportion to the pixels' mean values is exact. Light sampling
+// takes only what is brighter than the average: the rest is found well by BSDF sampling, which it
+// is weighed against (Karlik et al. 2019, "MIS compensation"). Photons start in proportion to the
+// whole.
 #include "core/parallel.h"
 #include "scene/light/direction_map.h"
 #include "scene/light/equal_area_map.h"
@@ -31,14 +34,18 @@ class ImageInfiniteLight final : public Light {
           weights[index(x, y)] = mean_value(c);
         }
     });
-    distribution_ = PiecewiseConstant2D(std::move(weights), size_, size_);
+    distribution_ = PiecewiseConstant2D(weights, size_, size_);
+    const float mean = static_cast<float>(distribution_.mean());
+    for (float& w : weights) w = std::max(0.0f, w - mean);
+    direct_ = PiecewiseConstant2D(std::move(weights), size_, size_);
+    if (!(direct_.mean() > 1e-3 * distribution_.mean())) direct_ = distribution_;
   }
 
   bool is_infinite() const override { return true; }
 
   std::optional<LightSample> sample_towards(const Vec3f& from, const Vec2f& u,
                                             const SampledWavelengths& lambda) const override {
-    const auto direction = sample_direction(u);
+    const auto direction = sample_direction(direct_, u);
     if (!direction) return std::nullopt;
     LightSample s;
     s.radiance = pixel_radiance(direction->pixel, lambda);
@@ -52,7 +59,7 @@ class ImageInfiniteLight final : public Light {
   float pdf_towards(const Vec3f&, const Vec3f& wi, const Vec3f&, const Vec3f&) const override {
     const Vec3f local = map_.to_local(wi);
     const Vec2i pixel = pixel_of(local);
-    return distribution_.pdf(pixel.x, pixel.y) * kInv4Pi / map_.jacobian(local);
+    return direct_.pdf(pixel.x, pixel.y) * kInv4Pi / map_.jacobian(local);
   }
 
   SampledSpectrum radiance_at_infinity(const Vec3f& w,
@@ -63,7 +70,7 @@ class ImageInfiniteLight final : public Light {
 
   std::optional<EmissionSample> sample_emission(const Vec2f& u_position, const Vec2f& u_direction,
                                                 const SampledWavelengths& lambda) const override {
-    const auto direction = sample_direction(u_direction);
+    const auto direction = sample_direction(distribution_, u_direction);
     if (!direction) return std::nullopt;
     return emission_through_disk(-direction->w, direction->pdf_w,
                                  pixel_radiance(direction->pixel, lambda), u_position, sphere_);
@@ -95,8 +102,9 @@ class ImageInfiniteLight final : public Light {
     return pixels_[pixel].sample(lambda) * illuminant_.sample(lambda);
   }
 
-  std::optional<Direction> sample_direction(const Vec2f& u) const {
-    const auto sample = distribution_.sample(u);
+  std::optional<Direction> sample_direction(const PiecewiseConstant2D& distribution,
+                                            const Vec2f& u) const {
+    const auto sample = distribution.sample(u);
     if (!sample) return std::nullopt;
     const Vec3f local = equal_area_square_to_sphere(sample->point);
     return Direction{map_.to_world(local), sample->pdf * kInv4Pi / map_.jacobian(local),
@@ -107,7 +115,8 @@ class ImageInfiniteLight final : public Light {
   DirectionMap map_;
   EmissionSpectrum illuminant_;  ///< times all scales
   std::vector<RgbEmission> pixels_;
-  PiecewiseConstant2D distribution_;
+  PiecewiseConstant2D distribution_;  ///< by radiance
+  PiecewiseConstant2D direct_;        ///< by radiance above the average, for next-event estimation
   SceneSphere sphere_;
 };
 

@@ -60,7 +60,8 @@ class Light {
   virtual bool is_infinite() const { return false; }
   virtual bool is_area() const { return false; }
 
-  /// A direction to the light as seen from `from`; empty where nothing arrives.
+  /// A direction to the light as seen from `from`; empty where nothing arrives. An infinite light may leave
+  /// out directions that walks find well; pdf_towards is zero there.
   virtual std::optional<LightSample> sample_towards(const Vec3f& from, const Vec2f& u,
                                                     const SampledWavelengths& lambda) const = 0;
   /// Density pdf_w of sample_towards at `from` for unit direction `wi`; `p` and `ng` are the point

@@ -34,6 +34,9 @@ Emission read_emission(const ParameterSet& parameters, const std::string& name,
         illuminant_of(parameters.list.empty() ? color_space : parameters.list.front().color_space);
   const float luminance = spectrum_to_photometric(*e.spectrum);
   e.scale = luminance > 0.0f ? read_scale(parameters) / luminance : 0.0f;
+  if (!std::isfinite(e.scale * e.spectrum->max_value()))
+    throw SceneError(colour ? colour->where : parameters.where,
+                     "the light is too bright for floating-point numbers, expected less than 1e38");
   return e;
 }
 

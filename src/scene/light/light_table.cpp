@@ -45,8 +45,13 @@ std::vector<LightPtr> make_lights(const SceneDescription& description, Diagnosti
     if (!is_invertible(d.transform.start))
       throw SceneError(d.where, "the transform of this light has no inverse");
     if (d.transform.is_animated())
-      diagnostics.warn(d.where, "lights do not move: the transform at the start is used");
+      diagnostics.warn(d.where,
+                       "the light moves: motion blur is not rendered yet, its start is used");
     lights.push_back(make(d, scope));
+    const auto bounds = lights.back()->bounds();
+    if (bounds && !(is_in_reach(bounds->bounds.min) && is_in_reach(bounds->bounds.max)))
+      throw SceneError(d.where,
+                       "light \"" + d.type + "\" is too far away, expected coordinates up to 1e17");
     d.parameters.report_unused("light \"" + d.type + "\"", diagnostics);
   }
   return lights;

@@ -20,15 +20,25 @@ double cumulate(const In* values, int n, float* out) {
   return total;
 }
 
+/// For each n-th of [0,1) the first interval that reaches into it: where a search may start.
+void make_guide(const float* upper, int n, uint32_t* guide) {
+  int i = 0;
+  for (int k = 0; k < n; ++k) {
+    const float begin = static_cast<float>(k) / static_cast<float>(n);
+    while (i < n - 1 && upper[i] <= begin) ++i;
+    guide[k] = static_cast<uint32_t>(i);
+  }
+}
+
 /// The interval of a cumulative distribution that holds u, never an empty one; u becomes the
-/// position in it.
-int find_interval(const float* upper, int n, float& u) {
-  const int i = static_cast<int>(std::upper_bound(upper, upper + n, u) - upper);
-  // u is below 1, and the last upper end is 1: only rounding could lead out.
-  const int k = std::min(i, n - 1);
-  const float lower = k > 0 ? upper[k - 1] : 0.0f;
-  u = std::clamp((u - lower) / (upper[k] - lower), 0.0f, kOneMinusEpsilon);
-  return k;
+/// position in it. The guide leaves one step on average.
+int find_interval(const float* upper, const uint32_t* guide, int n, float& u) {
+  const int k = std::min(static_cast<int>(u * static_cast<float>(n)), n - 1);
+  int i = static_cast<int>(guide[k]);
+  while (i < n - 1 && upper[i] <= u) ++i;
+  const float lower = i > 0 ? upper[i - 1] : 0.0f;
+  u = std::clamp((u - lower) / (upper[i] - lower), 0.0f, kOneMinusEpsilon);
+  return i;
 }
 
 }  // namespace
@@ -43,6 +53,13 @@ PiecewiseConstant2D::PiecewiseConstant2D(std::vector<float> weights, int width, 
     row_sums[y] = cumulate(&weights_[first], width_, &cells_[first]);
   }
   const double total = cumulate(row_sums.data(), height_, rows_.data());
+  row_guide_.resize(height_);
+  make_guide(rows_.data(), height_, row_guide_.data());
+  cell_guide_.resize(cells_.size());
+  for (int y = 0; y < height_; ++y) {
+    const size_t first = static_cast<size_t>(y) * width_;
+    make_guide(&cells_[first], width_, &cell_guide_[first]);
+  }
   mean_ = total / (static_cast<double>(width_) * height_);
   inverse_mean_ = mean_ > 0.0 ? static_cast<float>(1.0 / mean_) : 0.0f;
 }
@@ -51,8 +68,9 @@ std::optional<PiecewiseConstant2D::Sample> PiecewiseConstant2D::sample(const Vec
   if (!(mean_ > 0.0)) return std::nullopt;
   Sample s;
   Vec2f r = u;
-  s.y = find_interval(rows_.data(), height_, r.y);
-  s.x = find_interval(&cells_[static_cast<size_t>(s.y) * width_], width_, r.x);
+  s.y = find_interval(rows_.data(), row_guide_.data(), height_, r.y);
+  const size_t first = static_cast<size_t>(s.y) * width_;
+  s.x = find_interval(&cells_[first], &cell_guide_[first], width_, r.x);
   s.point = {(static_cast<float>(s.x) + r.x) / static_cast<float>(width_),
              (static_cast<float>(s.y) + r.y) / static_cast<float>(height_)};
   s.pdf = pdf(s.x, s.y);

@@ -2,6 +2,7 @@
 // Who calls it: image infinite lights. It must not know images.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -35,6 +36,7 @@ class PiecewiseConstant2D {
   std::vector<float> weights_;
   std::vector<float> rows_;   ///< cumulative distribution of the rows, upper ends
   std::vector<float> cells_;  ///< cumulative distributions within the rows, upper ends
+  std::vector<uint32_t> row_guide_, cell_guide_;  ///< where to start looking, by u
   double mean_ = 0.0;
   float inverse_mean_ = 0.0f;
 };

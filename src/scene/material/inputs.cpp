@@ -18,6 +18,12 @@ RoughnessInput::RoughnessInput(const TextureLibrary& textures, const ParameterSe
   FloatTexturePtr v = textures.float_texture(parameters, prefix + "vroughness");
   u_ = FloatInput(u ? u : both);
   v_ = FloatInput(v ? v : both);
+  for (const char* name : {"roughness", "uroughness", "vroughness"}) {
+    const Parameter* number = parameters.find(prefix + name, {"float"});
+    if (number && !(number->numbers[0] >= 0.0))
+      throw SceneError(number->where,
+                       "\"" + prefix + name + "\" is negative, expected a roughness of at least 0");
+  }
   if (u_.constant() && v_.constant()) constant_ = facets(*u_.constant(), *v_.constant());
 }
 
@@ -48,6 +54,9 @@ IndexInput::IndexInput(const ParameterSet& parameters, const std::string& name,
     constant_ = 1.5f;
   }
   if (constant_ && *constant_ == 0.0f) constant_ = 1.0f;
+  if (constant_ && !(*constant_ > 0.0f))
+    throw SceneError(parameters.find(name)->where,
+                     "\"" + name + "\" is a negative refractive index, expected a positive one");
 }
 
 float IndexInput::at_hero(SampledWavelengths& lambda) const {

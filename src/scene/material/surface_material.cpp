@@ -5,6 +5,8 @@
 
 #include <filesystem>
 
+#include "scene/texture/image_file.h"
+
 namespace nephroid {
 namespace {
 
@@ -47,7 +49,7 @@ NormalMap::NormalMap(const std::string& file, const SourceLocation& where) {
   OIIO::ImageSpec wish;
   wish.attribute("oiio:UnassociatedAlpha", 1);
   const auto input = OIIO::ImageInput::open(file, &wish);
-  if (!input) throw IoError("cannot read normal map \"" + file + "\": " + OIIO::geterror());
+  if (!input) image_is_unreadable(file, OIIO::geterror(), where);
   const OIIO::ImageSpec& spec = input->spec();
   if (spec.nchannels < 3)
     throw SceneError(where, "normal map \"" + file + "\" has " + std::to_string(spec.nchannels) +
@@ -56,7 +58,7 @@ NormalMap::NormalMap(const std::string& file, const SourceLocation& where) {
   height_ = spec.height;
   rgb_.resize(static_cast<size_t>(width_) * height_ * 3);
   if (!input->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, rgb_.data()))
-    throw IoError("cannot read normal map \"" + file + "\": " + input->geterror());
+    image_is_unreadable(file, input->geterror(), where);
 }
 
 Vec3f NormalMap::texel(int x, int y) const {
@@ -84,7 +86,8 @@ SurfaceMaterial::SurfaceMaterial(const MaterialDescription& description,
                              "material has both \"displacement\" and \"normalmap\"; only the "
                              "normal map is used");
   const auto path = std::filesystem::path(context.directory) / file;
-  normal_map_ = std::make_shared<NormalMap>(path.string(), description.where);
+  normal_map_ =
+      std::make_shared<NormalMap>(path.string(), description.parameters.find("normalmap")->where);
 }
 
 void SurfaceMaterial::bump(SurfaceInteraction& s) const {

@@ -46,9 +46,9 @@ class MeshChecker {
   }
   void check_positions() const {
     for (size_t i = 0; i < mesh_.positions.size(); ++i)
-      if (!all_finite(mesh_.positions[i]))
-        fail("has a position that is not finite: vertex " + std::to_string(i) + " is " +
-             text(mesh_.positions[i]));
+      if (!is_in_reach(mesh_.positions[i]))
+        fail("has a position that is not finite or too far away: vertex " + std::to_string(i) +
+             " is " + text(mesh_.positions[i]) + ", expected coordinates up to 1e17");
   }
   void check_count(size_t count, const char* of) const {
     if (count != 0 && count != mesh_.positions.size())

@@ -10,10 +10,11 @@
 namespace nephroid {
 
 /// Throws SceneError if an index is out of range, a position, normal or texture coordinate is not
-/// finite, an array does not fit the number of vertices or faces, or a face is incomplete. Faces
-/// without area are removed (with their face_indices), with one warning that counts them; `what`
-/// names the mesh in messages. Quads may be in ring or in patch order. face_indices, if there are
-/// any, count the triangles first and then the quads.
+/// finite, a position is out of reach (kLargestCoordinate), an array does not fit the number of
+/// vertices or faces, or a face is incomplete. Faces without area are removed (with their
+/// face_indices), with one warning that counts them; `what` names the mesh in messages. Quads may
+/// be in ring or in patch order. face_indices, if there are any, count the triangles first and then
+/// the quads.
 void validate_mesh(MeshData& mesh, const SourceLocation& where, const std::string& what,
                    Diagnostics& diagnostics);
 

@@ -13,6 +13,15 @@
 
 namespace nephroid {
 
+/// Farthest from the origin, per axis, that anything may be: squares of distances fit a float with
+/// room to spare, and so do the rays that the ray tracer accepts.
+inline constexpr float kLargestCoordinate = 1e17f;
+/// False also for NaNs.
+inline bool is_in_reach(const Vec3f& p) {
+  return std::abs(p.x) <= kLargestCoordinate && std::abs(p.y) <= kLargestCoordinate &&
+         std::abs(p.z) <= kLargestCoordinate;
+}
+
 /// A point sampled on a shape, world space.
 struct ShapeSample {
   Vec3f p{0, 0, 0};

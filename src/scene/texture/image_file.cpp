@@ -7,6 +7,10 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <memory>
+#include <new>
+
+#include "input/file_bytes.h"
 
 namespace nephroid {
 
@@ -49,12 +53,15 @@ const RgbColorSpace& color_space_of(const OIIO::ImageSpec& spec) {
 /// Reads all pixels as T and keeps the wanted channels.
 template <class T>
 std::vector<T> read_values(OIIO::ImageInput& input, const std::vector<int>& wanted,
-                           OIIO::TypeDesc type, const std::string& path) {
+                           OIIO::TypeDesc type, const std::string& path,
+                           const SourceLocation& wanted_by) {
   const OIIO::ImageSpec& spec = input.spec();
   const size_t pixels = static_cast<size_t>(spec.width) * spec.height;
-  std::vector<T> all(pixels * spec.nchannels);
-  if (!input.read_image(0, 0, 0, spec.nchannels, type, all.data()))
-    throw IoError("cannot read image \"" + path + "\": " + input.geterror());
+  // Not filled with zeros: a header may claim more than the file has, or than there is memory.
+  const std::unique_ptr<T[]> all(new (std::nothrow) T[pixels * spec.nchannels]);
+  if (!all) image_is_unreadable(path, "it is too large for the memory", wanted_by);
+  if (!input.read_image(0, 0, 0, spec.nchannels, type, all.get()))
+    image_is_unreadable(path, input.geterror(), wanted_by);
   std::vector<T> kept(pixels * wanted.size());
   for (size_t p = 0; p < pixels; ++p)
     for (size_t c = 0; c < wanted.size(); ++c)
@@ -76,6 +83,13 @@ int drop_opaque_alpha(std::vector<T>& values, size_t channels, T one) {
 
 }  // namespace
 
+void image_is_unreadable(const std::string& path, std::string reason,
+                         const SourceLocation& wanted_by) {
+  while (!reason.empty() && reason.back() == '\n') reason.pop_back();
+  for (size_t i; (i = reason.find('\n')) != std::string::npos;) reason.replace(i, 1, "; ");
+  file_is_unreadable(wanted_by, "cannot read image \"" + path + "\": " + reason);
+}
+
 bool image_obeys_encoding(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
@@ -89,8 +103,7 @@ ImagePtr read_image(const std::string& path, std::optional<ColorEncoding> encodi
   OIIO::ImageSpec wish;
   wish.attribute("oiio:UnassociatedAlpha", 1);
   const auto input = OIIO::ImageInput::open(path, &wish);
-  if (!input)
-    throw IoError(located(wanted_by, "cannot read image \"" + path + "\": " + OIIO::geterror()));
+  if (!input) image_is_unreadable(path, OIIO::geterror(), wanted_by);
   const OIIO::ImageSpec spec = input->spec();
   if (spec.deep || spec.depth > 1 || spec.width < 1 || spec.height < 1 || spec.nchannels < 1)
     throw SceneError(wanted_by, "image \"" + path + "\" is deep, a volume or empty");
@@ -104,12 +117,12 @@ ImagePtr read_image(const std::string& path, std::optional<ColorEncoding> encodi
 
   switch (spec.format.basetype) {
     case OIIO::TypeDesc::UINT8: {
-      auto v = read_values<uint8_t>(*input, wanted, OIIO::TypeDesc::UINT8, path);
+      auto v = read_values<uint8_t>(*input, wanted, OIIO::TypeDesc::UINT8, path, wanted_by);
       const int n = drop_opaque_alpha<uint8_t>(v, wanted.size(), 255);
       return make(n, Image::Bytes{std::move(v), code.byte_table()});
     }
     case OIIO::TypeDesc::UINT16: {
-      const auto v = read_values<uint16_t>(*input, wanted, OIIO::TypeDesc::UINT16, path);
+      const auto v = read_values<uint16_t>(*input, wanted, OIIO::TypeDesc::UINT16, path, wanted_by);
       Image::Halves h(v.size());
       std::transform(v.begin(), v.end(), h.begin(), [&code](uint16_t s) {
         return Imath::half(code.decode(static_cast<float>(s) / 65535.0f));
@@ -118,12 +131,12 @@ ImagePtr read_image(const std::string& path, std::optional<ColorEncoding> encodi
       return make(n, std::move(h));
     }
     case OIIO::TypeDesc::HALF: {
-      auto v = read_values<Imath::half>(*input, wanted, OIIO::TypeDesc::HALF, path);
+      auto v = read_values<Imath::half>(*input, wanted, OIIO::TypeDesc::HALF, path, wanted_by);
       const int n = drop_opaque_alpha<Imath::half>(v, wanted.size(), Imath::half(1.0f));
       return make(n, std::move(v));
     }
     default: {
-      auto v = read_values<float>(*input, wanted, OIIO::TypeDesc::FLOAT, path);
+      auto v = read_values<float>(*input, wanted, OIIO::TypeDesc::FLOAT, path, wanted_by);
       const int n = drop_opaque_alpha<float>(v, wanted.size(), 1.0f);
       return make(n, std::move(v));
     }

@@ -20,10 +20,14 @@ using ImagePtr = std::shared_ptr<const Image>;
 /// Reads EXR, PFM, HDR, PNG, TGA, JPEG and whatever else OpenImageIO knows. As in pbrt-v4, only PNG
 /// files obey `encoding` (sRGB if empty); other integer formats are sRGB and floating-point ones
 /// linear. Bytes stay bytes, 16-bit values become half. An image of two channels is grey; one of
-/// more needs channels R, G and B. Throws IoError if the file cannot be read, SceneError at
-/// `wanted_by` if it is no image of one of these kinds.
+/// more needs channels R, G and B. Throws SceneError at `wanted_by` if the file cannot be read
+/// (IoError if no scene names it) or is no image of one of these kinds.
 ImagePtr read_image(const std::string& path, std::optional<ColorEncoding> encoding,
                     const SourceLocation& wanted_by);
+
+/// Says that an image cannot be read, with OpenImageIO's reason in one line: file_is_unreadable.
+[[noreturn]] void image_is_unreadable(const std::string& path, std::string reason,
+                                      const SourceLocation& wanted_by);
 
 /// True if read_image asks for the encoding of this file.
 bool image_obeys_encoding(const std::string& path);

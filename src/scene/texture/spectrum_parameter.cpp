@@ -42,8 +42,8 @@ SpectrumPtr rgb_spectrum(const Parameter& p, SpectrumKind kind) {
 }
 
 /// `source` names where the numbers stood, for messages.
-SpectrumPtr pairs_spectrum(const std::vector<double>& numbers, const SourceLocation& where,
-                           const std::string& source) {
+SpectrumPtr pairs_spectrum(const std::vector<double>& numbers, SpectrumKind kind,
+                           const SourceLocation& where, const std::string& source) {
   if (numbers.size() < 2 || numbers.size() % 2 != 0)
     throw SceneError(where, source + " has " + std::to_string(numbers.size()) +
                                 " numbers, expected pairs of a wavelength in nm and a value");
@@ -51,6 +51,8 @@ SpectrumPtr pairs_spectrum(const std::vector<double>& numbers, const SourceLocat
   for (size_t i = 0; i < numbers.size(); i += 2) {
     if (!std::isfinite(numbers[i]) || !std::isfinite(numbers[i + 1]))
       throw SceneError(where, source + " has a number that is not finite");
+    if (kind == SpectrumKind::kIlluminant && numbers[i + 1] < 0.0)
+      throw SceneError(where, source + " has a negative value, which cannot be emitted");
     if (i > 0 && !(numbers[i] > numbers[i - 2]))
       throw SceneError(where, source + " has wavelengths that do not increase");
     lambda.push_back(static_cast<float>(numbers[i]));
@@ -83,7 +85,7 @@ std::vector<double> numbers_of_file(const std::string& path, const SourceLocatio
   return numbers;
 }
 
-SpectrumPtr named_or_file(const Parameter& p, const std::string& directory) {
+SpectrumPtr named_or_file(const Parameter& p, SpectrumKind kind, const std::string& directory) {
   if (p.strings.size() != 1)
     throw SceneError(
         p.where, quoted(p) + " has " + std::to_string(p.strings.size()) + " names, expected one");
@@ -91,11 +93,11 @@ SpectrumPtr named_or_file(const Parameter& p, const std::string& directory) {
   if (SpectrumPtr s = named_spectrum(name)) return s;
   const std::string path = resolve_path(directory, name);
   try {
-    return pairs_spectrum(numbers_of_file(path, p.where), p.where,
+    return pairs_spectrum(numbers_of_file(path, p.where), kind, p.where,
                           "spectrum file \"" + path + "\"");
   } catch (const IoError& e) {
-    throw IoError(
-        located(p.where, "\"" + name + "\" is not the name of a known spectrum, and " + e.what()));
+    file_is_unreadable(p.where,
+                       "\"" + name + "\" is not the name of a known spectrum, and " + e.what());
   }
 }
 
@@ -111,8 +113,8 @@ SpectrumPtr spectrum_from_parameter(const Parameter& parameter, SpectrumKind kin
     return blackbody_spectrum(static_cast<float>(p.numbers[0]));
   }
   if (p.type == "spectrum")
-    return p.strings.empty() ? pairs_spectrum(p.numbers, p.where, quoted(p))
-                             : named_or_file(p, directory);
+    return p.strings.empty() ? pairs_spectrum(p.numbers, kind, p.where, quoted(p))
+                             : named_or_file(p, kind, directory);
   throw SceneError(p.where, quoted(p) +
                                 " cannot be used here, expected a parameter of type \"rgb\", "
                                 "\"spectrum\" or \"blackbody\"");

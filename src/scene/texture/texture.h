@@ -58,8 +58,8 @@ SpectrumPtr spectrum_from_parameter(const Parameter& parameter, SpectrumKind kin
 /// The named textures of a scene. A spectrum texture exists in three kinds, made on demand.
 class TextureLibrary {
  public:
-  /// Makes every texture of the description; throws SceneError for unknown classes, undefined names
-  /// and cycles, IoError for unreadable images. What is not rendered yet is a located error.
+  /// Makes every texture of the description; throws SceneError for unknown classes, undefined
+  /// names, cycles, unreadable images and what is not rendered yet.
   TextureLibrary(const SceneDescription& description, Diagnostics& diagnostics);
   ~TextureLibrary();
 

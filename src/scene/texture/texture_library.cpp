@@ -57,7 +57,8 @@ struct TextureLibrary::Impl final : TextureScope {
     if (is_float ? floats_.count(t.name) : spectra_.count(t.name))
       throw SceneError(t.where, t.value_type + " texture \"" + t.name + "\" is defined twice");
     if (t.transform.is_animated())
-      diagnostics_.warn(t.where, "textures do not move: the transform at the start is used");
+      diagnostics_.warn(t.where,
+                        "the texture moves: motion blur is not rendered yet, its start is used");
     if (!is_invertible(t.transform.start))
       throw SceneError(t.where, "the transform of texture \"" + t.name + "\" has no inverse");
     if (is_float)
@@ -67,7 +68,8 @@ struct TextureLibrary::Impl final : TextureScope {
   }
 
   /// Makes a texture now, so that a faulty one is found even if nothing uses it. An rgb above 1 is
-  /// no reflectance but may be an emission: such an error waits until somebody asks for that kind.
+  /// no reflectance but may be an emission, a value below 0 is no emission: such an error waits
+  /// until somebody asks for that kind.
   void make_all_kinds(const TextureDescription& t) {
     if (t.value_type == "float") {
       find_float(t.name, t.where);
@@ -78,7 +80,7 @@ struct TextureLibrary::Impl final : TextureScope {
       try {
         find_spectrum(t.name, kind, t.where);
       } catch (const SceneError&) {
-        if (kind != SpectrumKind::kAlbedo) throw;
+        if (kind == SpectrumKind::kUnbounded) throw;
       }
     }
   }
@@ -86,10 +88,11 @@ struct TextureLibrary::Impl final : TextureScope {
   const FloatTexturePtr& find_float(const std::string& name, const SourceLocation& where) {
     const auto it = floats_.find(name);
     if (it == floats_.end())
-      throw SceneError(where,
-                       spectra_.count(name)
-                           ? "texture \"" + name + "\" is a spectrum texture, expected a float one"
-                           : "there is no float texture named \"" + name + "\"");
+      throw SceneError(
+          where,
+          spectra_.count(name)
+              ? "texture \"" + name + "\" is a spectrum texture, expected a float one"
+              : "there is no float texture named \"" + name + "\", expected the name of a Texture");
     return it->second.get(
         where, [this](const TextureDescription& d) { return make_float_texture(d, *this); });
   }
@@ -101,7 +104,8 @@ struct TextureLibrary::Impl final : TextureScope {
       throw SceneError(where,
                        floats_.count(name)
                            ? "texture \"" + name + "\" is a float texture, expected a spectrum one"
-                           : "there is no spectrum texture named \"" + name + "\"");
+                           : "there is no spectrum texture named \"" + name +
+                                 "\", expected the name of a Texture");
     return it->second[static_cast<size_t>(kind)].get(
         where, [&](const TextureDescription& d) { return make_spectrum_texture(d, kind, *this); });
   }

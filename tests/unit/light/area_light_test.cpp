@@ -159,7 +159,7 @@ TEST(AreaLight, ErrorsNameThePlace) {
   const ShapePtr shape = disk_above(2, 1);
   EXPECT_THROW(area_lights_of("\"rgb L\" [1 1 1] \"string filename\" \"x.exr\"", shape),
                SceneError);
-  EXPECT_THROW(area_lights_of("\"string filename\" \"missing.exr\"", shape), IoError);
+  EXPECT_THROW(area_lights_of("\"string filename\" \"missing.exr\"", shape), SceneError);
   EXPECT_THROW(area_lights_of("\"float L\" 1", shape), SceneError);
 }
 

@@ -21,9 +21,7 @@ Mean received(const Light& light, const Target& target, int count) {
   for (int i = 0; i < count; ++i) {
     const Vec2f d = square_to_disk(random.next2()) * target.radius;
     const Vec3f p = target.center + frame.x * d.x + frame.y * d.y;
-    const auto s = light.sample_towards(p, random.next2(), test_wavelengths());
-    mean.add(s ? area * s->radiance[0] * std::max(0.0f, dot(target.normal, s->wi)) / s->pdf_w
-               : 0.0);
+    mean.add(area * irradiance_sample(light, p, target.normal, random));
   }
   return mean;
 }

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/warps.h"
 #include "input/pbrt_parser.h"
 #include "scene/light/light.h"
 #include "unit/bsdf/statistics.h"
@@ -76,15 +77,26 @@ inline ShapePtr rectangle(float half_x, float half_y, float z) {
   return make_bilinear_mesh(m, false);
 }
 
+/// One unbiased estimate of the irradiance at a point: the light's own sample, and a uniform direction for
+/// what light sampling leaves to walks that leave the scene.
+inline double irradiance_sample(const Light& light, const Vec3f& p, const Vec3f& n,
+                                TestRandom& random) {
+  const auto s = light.sample_towards(p, random.next2(), test_wavelengths());
+  double e = s ? s->radiance[0] * std::max(0.0f, dot(n, s->wi)) / s->pdf_w : 0.0;
+  if (light.is_infinite() && !light.is_delta()) {
+    const Vec3f w = square_to_sphere(random.next2());
+    if (light.pdf_towards(p, w, {}, {}) == 0.0f)
+      e += light.radiance_at_infinity(w, test_wavelengths())[0] * std::max(0.0f, dot(n, w)) * 4 * kPi;
+  }
+  return e;
+}
+
 /// Irradiance at `p` with normal `n` at the first wavelength, by sample_towards.
 inline Mean irradiance(const Light& light, const Vec3f& p, const Vec3f& n, int count,
                        uint64_t seed = 1) {
   TestRandom random(seed);
   Mean mean;
-  for (int i = 0; i < count; ++i) {
-    const auto s = light.sample_towards(p, random.next2(), test_wavelengths());
-    mean.add(s ? s->radiance[0] * std::max(0.0f, dot(n, s->wi)) / s->pdf_w : 0.0);
-  }
+  for (int i = 0; i < count; ++i) mean.add(irradiance_sample(light, p, n, random));
   return mean;
 }
 

@@ -48,7 +48,7 @@ TEST(MeshPreparation, ErrorsNamePlaceAndValue) {
   EXPECT_NE(refusal(mesh).find("vertex index -1 in quad 0"), std::string::npos);
   mesh = square_and_triangle();
   mesh.positions[3].y = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_NE(refusal(mesh).find("vertex 3 is (0.000000, nan, 0.000000)"), std::string::npos);
+  EXPECT_NE(refusal(mesh).find("vertex 3 is (0, nan, 0)"), std::string::npos);
   mesh = square_and_triangle();
   mesh.normals.resize(4, Vec3f(0, 0, 1));
   EXPECT_NE(refusal(mesh).find("4 normals, expected 5"), std::string::npos);

@@ -1,0 +1,16 @@
+// Errors and warnings on standard error. What they quote comes from files that may hold anything,
+// so control characters and bytes that are not UTF-8 are shown as \xNN: a terminal obeys none of
+// them. Who calls it: main.cpp and the commands. It must not know what the messages are about.
+#pragma once
+
+#include <string>
+
+namespace nephroid {
+
+void print_error(const std::string& message);
+void print_warning(const std::string& message);
+
+/// The text with everything that is not printable UTF-8, except line ends, as \xNN.
+std::string printable(const std::string& text);
+
+}  // namespace nephroid

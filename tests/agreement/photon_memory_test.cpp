@@ -1,0 +1,59 @@
+// The reduced photon map: what `mixed` stores against what full photon mapping stores, on a Cornell box with a
+// glass sphere (Doidge et al. 2012 report about a tenth).
+#include <gtest/gtest.h>
+
+#include "rendering.h"
+
+namespace nephroid {
+namespace {
+
+using namespace testing_support;
+
+const char* const kBox = R"(
+  LookAt 0 1 -3.4  0 1 0  0 1 0
+  Camera "perspective" "float fov" 40
+  Film "rgb" "integer xresolution" 16 "integer yresolution" 16
+  WorldBegin
+  AttributeBegin
+    AreaLightSource "diffuse" "rgb L" [17 12 4]
+    Shape "bilinearmesh" "point3 P" [-0.25 1.98 -0.25  0.25 1.98 -0.25  -0.25 1.98 0.25  0.25 1.98 0.25]
+  AttributeEnd
+  Material "diffuse" "rgb reflectance" [0.73 0.71 0.68]
+  Shape "bilinearmesh" "point3 P" [-1 0 -1  1 0 -1  -1 0 1  1 0 1]
+  Shape "bilinearmesh" "point3 P" [-1 2 -1  1 2 -1  -1 2 1  1 2 1]
+  Shape "bilinearmesh" "point3 P" [-1 0 1  1 0 1  -1 2 1  1 2 1]
+  Material "diffuse" "rgb reflectance" [0.63 0.06 0.05]
+  Shape "bilinearmesh" "point3 P" [-1 0 -1  -1 0 1  -1 2 -1  -1 2 1]
+  Material "diffuse" "rgb reflectance" [0.14 0.45 0.09]
+  Shape "bilinearmesh" "point3 P" [1 0 -1  1 0 1  1 2 -1  1 2 1]
+  Material "dielectric" "float eta" 1.5
+  Translate 0.2 0.4 0 Shape "sphere" "float radius" 0.4
+)";
+
+uint64_t photons_stored(const Scene& scene, const std::string& integrator) {
+  IntegratorOptions options;
+  options.photons_per_pass = 1 << 16;
+  Preset preset = make_integrator(integrator, options, scene);
+  Film film = film_for(scene, preset);
+  uint64_t stored = 0;
+  for (const auto& e : preset.estimators) {
+    e->render_pass({1, 0}, scene, film);
+    stored += e->statistics().photons_stored;
+  }
+  return stored;
+}
+
+TEST(PhotonMemory, CausticPhotonsAreAFewOfAll) {
+  const auto scene = scene_from_text(kBox);
+  const uint64_t mixed = photons_stored(*scene, "mixed"), all = photons_stored(*scene, "sppm");
+  RecordProperty("mixed", static_cast<int>(mixed));
+  RecordProperty("sppm", static_cast<int>(all));
+  std::printf("photons stored: mixed %llu, sppm %llu, share %.1f %%\n",
+              static_cast<unsigned long long>(mixed), static_cast<unsigned long long>(all),
+              100.0 * static_cast<double>(mixed) / static_cast<double>(all));
+  EXPECT_GT(mixed, 0u);
+  EXPECT_LE(static_cast<double>(mixed), 0.15 * static_cast<double>(all));
+}
+
+}  // namespace
+}  // namespace nephroid

@@ -1,0 +1,81 @@
+// posix_spawn, one pipe and one deadline.
+#include "regression/program.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <stdexcept>
+
+extern char** environ;
+
+namespace nephroid::testing_support {
+namespace {
+
+constexpr std::chrono::seconds kPatience(60);
+
+/// Starts the program with standard error going to `errors`; returns its process id.
+pid_t start(const std::string& folder, const std::vector<std::string>& arguments, int errors) {
+  std::vector<char*> argv = {const_cast<char*>("nephroid")};
+  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  argv.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_adddup2(&actions, errors, STDERR_FILENO);
+  pid_t child = 0;
+  const int failure =
+      posix_spawn(&child, NEPHROID_PROGRAM, &actions, nullptr, argv.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (failure != 0) throw std::runtime_error("cannot start " NEPHROID_PROGRAM);
+  return child;
+}
+
+/// Reads to the end; false if the end does not come in time.
+bool read_all(int descriptor, std::string* text) {
+  const auto deadline = std::chrono::steady_clock::now() + kPatience;
+  for (;;) {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
+        deadline - std::chrono::steady_clock::now());
+    pollfd ready{descriptor, POLLIN, 0};
+    if (left.count() <= 0 || poll(&ready, 1, static_cast<int>(left.count())) == 0) return false;
+    char block[4096];
+    const ssize_t got = read(descriptor, block, sizeof(block));
+    if (got == 0) return true;
+    if (got > 0) text->append(block, static_cast<size_t>(got));
+  }
+}
+
+}  // namespace
+
+ProgramRun run_program(const std::string& folder, const std::vector<std::string>& arguments) {
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
+  ProgramRun run;
+  const pid_t child = start(folder, arguments, ends[1]);
+  close(ends[1]);
+  run.hung = !read_all(ends[0], &run.errors);
+  close(ends[0]);
+  if (run.hung) kill(child, SIGKILL);
+  int state = 0;
+  waitpid(child, &state, 0);
+  if (WIFEXITED(state)) run.status = WEXITSTATUS(state);
+  if (WIFSIGNALED(state)) run.signal = WTERMSIG(state);
+  return run;
+}
+
+std::set<std::string> names_in(const std::string& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    names.insert(entry.path().filename().string());
+  return names;
+}
+
+}  // namespace nephroid::testing_support

@@ -1,0 +1,25 @@
+// Runs the real program on the files of a folder and tells how it ended: what a user would see.
+// Who calls it: the tests of this folder. It must not know what the program does with scenes.
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace nephroid::testing_support {
+
+struct ProgramRun {
+  int status = -1;     ///< exit status; -1 if the program did not exit by itself
+  int signal = 0;      ///< that ended it, 0 if none did
+  bool hung = false;   ///< it was still running after a minute and was ended
+  std::string errors;  ///< all of standard error
+};
+
+/// Runs the program with these arguments in `folder`; its standard input is empty. Throws
+/// std::runtime_error if it cannot be started.
+ProgramRun run_program(const std::string& folder, const std::vector<std::string>& arguments);
+
+/// Names of everything in a folder, hidden files too.
+std::set<std::string> names_in(const std::string& folder);
+
+}  // namespace nephroid::testing_support
