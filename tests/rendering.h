@@ -72,19 +72,60 @@ inline Estimate estimate_of(const std::vector<double>& values) {
   return e;
 }
 
+/// Values of independent renders, as [part][seed].
+using SeedValues = std::vector<std::vector<double>>;
+
+/// Means of `across` x `across` equal blocks of the picture, row by row. The size must be a multiple.
+inline std::vector<double> block_means(const Film& film, int across) {
+  const PixelBounds& b = film.bounds();
+  std::vector<double> means(static_cast<size_t>(across) * static_cast<size_t>(across), 0.0);
+  const int width = b.width() / across, height = b.height() / across;
+  for (int y = 0; y < across * height; ++y)
+    for (int x = 0; x < across * width; ++x) {
+      const Rgb v = film.value(b.x0 + x, b.y0 + y);
+      means[static_cast<size_t>(y / height * across + x / width)] +=
+          (static_cast<double>(v.r) + v.g + v.b) / (3.0 * width * height);
+    }
+  return means;
+}
+
+/// Block means over `seeds` independent renders.
+inline SeedValues block_values(const Scene& scene, const std::string& integrator,
+                               const IntegratorOptions& options, int seeds, uint32_t passes,
+                               uint64_t first_seed, int across = 1) {
+  SeedValues values(static_cast<size_t>(across) * static_cast<size_t>(across));
+  for (int s = 0; s < seeds; ++s) {
+    const std::vector<double> means = block_means(
+        render(scene, integrator, options, first_seed + static_cast<uint64_t>(s), passes), across);
+    for (size_t i = 0; i < means.size(); ++i) values[i].push_back(means[i]);
+  }
+  return values;
+}
+
+/// The same without the bias of the merge radius, which falls with r^2: 2 L(r^2/2) - L(r^2). Both renders of
+/// a seed share all random numbers, so what does not depend on the radius keeps its own noise only.
+inline SeedValues unbiased_block_values(const Scene& scene, const std::string& integrator,
+                                        IntegratorOptions options, int seeds, uint32_t passes,
+                                        uint64_t first_seed, int across = 1) {
+  const SeedValues large =
+      block_values(scene, integrator, options, seeds, passes, first_seed, across);
+  options.radius *= std::sqrt(0.5f);
+  SeedValues values = block_values(scene, integrator, options, seeds, passes, first_seed, across);
+  for (size_t i = 0; i < values.size(); ++i)
+    for (size_t s = 0; s < values[i].size(); ++s) values[i][s] = 2 * values[i][s] - large[i][s];
+  return values;
+}
+
 /// Picture means over `seeds` independent renders.
 inline Estimate mean_over_seeds(const Scene& scene, const std::string& integrator,
                                 const IntegratorOptions& options, int seeds, uint32_t passes,
                                 uint64_t first_seed = 1) {
-  std::vector<double> values;
-  for (int s = 0; s < seeds; ++s)
-    values.push_back(picture_mean(
-        render(scene, integrator, options, first_seed + static_cast<uint64_t>(s), passes)));
-  return estimate_of(values);
+  return estimate_of(block_values(scene, integrator, options, seeds, passes, first_seed)[0]);
 }
 
-/// Quantile of Student's t for 15 degrees of freedom at a two-sided level of 1e-5: with 16 seeds a test that
-/// is right fails once in a hundred thousand choices of the seeds, and these are fixed.
+/// Quantiles of Student's t for 15 and 31 degrees of freedom at a two-sided level of 1e-5: a test that is
+/// right fails once in a hundred thousand choices of the seeds, and these are fixed.
 inline constexpr double kT15 = 6.5;
+inline constexpr double kT31 = 5.27;
 
 }  // namespace nephroid::testing_support

@@ -42,9 +42,10 @@ std::array<std::array<float, 3>, 3> to_float(const Matrix3d& m) {
   return result;
 }
 
-/// Clamped to [0,1]; 0 for what is not a number.
+/// Clamped to [0,1]; 0 for what is not a number, or so dark that its inverse is none.
 float unit(float x) {
-  return std::min(std::max(0.0f, x), 1.0f);
+  constexpr float kDarkest = 1e-20f;
+  return x > kDarkest ? std::min(x, 1.0f) : 0.0f;
 }
 
 struct TableView {

@@ -31,7 +31,9 @@ class FlushToZero {
     _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
     _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
   }
-  ~FlushToZero() { _mm_setcsr(saved_); }
+  ~FlushToZero() {
+    _mm_setcsr(saved_);
+  }
 
  private:
   unsigned saved_;
@@ -55,7 +57,9 @@ struct ThreadLimit::Impl {
 ThreadLimit::ThreadLimit(int threads) : impl_(std::make_unique<Impl>()) {
   impl_->previous = limit.exchange(threads);
 }
-ThreadLimit::~ThreadLimit() { limit = impl_->previous; }
+ThreadLimit::~ThreadLimit() {
+  limit = impl_->previous;
+}
 
 int thread_count() {
   const int n = limit;

@@ -1,5 +1,5 @@
-// Loops over ranges on several threads. The chunks of a loop depend on its arguments alone, never on
-// the number of threads, so that results which are kept per chunk are the same on any machine.
+// Loops over ranges on several threads. The chunks of a loop depend on its arguments alone, never
+// on the number of threads, so that results which are kept per chunk are the same on any machine.
 // The .cpp is the only file that includes a threading library.
 #pragma once
 
@@ -26,7 +26,8 @@ class ThreadLimit {
 };
 
 /// Calls body(chunk, begin, end) for the chunks [0, chunk_size), [chunk_size, 2*chunk_size), ... of
-/// [0, count), in any order and on any thread, with flush-to-zero arithmetic. Returns when all are done.
+/// [0, count), in any order and on any thread, with flush-to-zero arithmetic. Returns when all are
+/// done.
 void parallel_chunks(int64_t count, int64_t chunk_size,
                      const std::function<void(int64_t chunk, int64_t begin, int64_t end)>& body);
 

@@ -4,8 +4,9 @@
 
 namespace nephroid {
 
-// The library yields the sequence in Gray code order without its first point, so the point whose Gray
-// code is the single bit k stands at index 2^(k+1) - 1 and is the direction number of that bit.
+// The library yields the sequence in Gray code order without its first point, so the point whose
+// Gray code is the single bit k stands at index 2^(k+1) - 1 and is the direction number of that
+// bit.
 static SobolDirections make_directions() {
   SobolDirections directions{};
   boost::random::sobol_engine<uint32_t, 32> engine(kSobolDimensions);
@@ -21,11 +22,13 @@ const SobolDirections& sobol_directions() {
   return directions;
 }
 
-SobolPoint::SobolPoint(uint32_t index) : index_(index), reversed_{} {
+SobolPoint::SobolPoint(uint32_t index, int dimensions) : index_(index), dimensions_(dimensions) {
   const SobolDirections& directions = sobol_directions();
+  const size_t count = static_cast<size_t>(dimensions);
+  std::fill_n(reversed_.begin(), count, 0u);
   for (uint32_t bit = 0; bit < 32; ++bit) {
     if (!((index >> bit) & 1u)) continue;
-    for (size_t d = 0; d < reversed_.size(); ++d) reversed_[d] ^= directions[bit][d];
+    for (size_t d = 0; d < count; ++d) reversed_[d] ^= directions[bit][d];
   }
 }
 

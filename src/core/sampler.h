@@ -1,5 +1,6 @@
 // Random numbers as functions: of the pass key, a stream, an index and a dimension, and of nothing
-// else. No generator outlives a path and none belongs to a thread (docs/architecture.md, section 5).
+// else. No generator outlives a path and none belongs to a thread (docs/architecture.md, section
+// 5).
 #pragma once
 
 #include <array>
@@ -16,7 +17,8 @@ struct PassKey {
   uint32_t pass = 0;
 };
 
-/// A bijective mix of 64 bits with good avalanche (Stafford's variant 13 of the MurmurHash3 finaliser).
+/// A bijective mix of 64 bits with good avalanche (Stafford's variant 13 of the MurmurHash3
+/// finaliser).
 constexpr uint64_t mix_bits(uint64_t v) {
   v ^= v >> 30;
   v *= 0xbf58476d1ce4e5b9ull;
@@ -69,13 +71,16 @@ const SobolDirections& sobol_directions();
 /// pass; every pixel scrambles it in its own way.
 class SobolPoint {
  public:
-  explicit SobolPoint(uint32_t index);
+  /// With fewer `dimensions` it is made faster; those beyond are random.
+  explicit SobolPoint(uint32_t index, int dimensions = kSobolDimensions);
+  int dimensions() const { return dimensions_; }
   uint32_t reversed(int dimension) const { return reversed_[static_cast<size_t>(dimension)]; }
   uint32_t index() const { return index_; }
 
  private:
   uint32_t index_;
-  std::array<uint32_t, kSobolDimensions> reversed_;
+  int dimensions_;
+  std::array<uint32_t, kSobolDimensions> reversed_;  ///< the first dimensions_ of them
 };
 
 /// The random numbers of one path: dimension after dimension of a scrambled Sobol' point. A value
@@ -94,7 +99,7 @@ class PathSampler {
     const int d = dimension_++;
     const uint64_t h = mix_bits(seed_ + static_cast<uint64_t>(d) * 0x9e3779b97f4a7c15ull);
     const uint32_t scramble = static_cast<uint32_t>(h >> 32);
-    if (d < kSobolDimensions)
+    if (d < point_->dimensions())
       return bits_to_unit_float(owen_scramble_reversed(point_->reversed(d), scramble));
     return bits_to_unit_float(static_cast<uint32_t>(hash_combine(h, point_->index()) >> 32));
   }

@@ -40,19 +40,21 @@ Film::Film(const FilmSettings& settings, std::vector<std::string> routes)
   saturated_.assign(pixels, 0);
 }
 
+Rgb clamp_component(const Rgb& rgb, float limit) {
+  const float largest = std::max({std::abs(rgb.r), std::abs(rgb.g), std::abs(rgb.b)});
+  return largest > limit ? rgb * (limit / largest) : rgb;
+}
+
 void Film::add(int route, int x, int y, const Rgb& value) {
   const size_t pixel = index(x, y);
   if (!is_finite(value)) {
     ++bad_[pixel];
     return;
   }
-  Rgb kept = value;
-  const float largest = std::max({value.r, value.g, value.b});
-  if (largest > settings_.max_component) kept = value * (settings_.max_component / largest);
   PixelSums& sums = sums_[static_cast<size_t>(route)][pixel];
   bool fits = true;
   for (int c = 0; c < 3; ++c) {
-    const double component = kept[c];
+    const double component = value[c];
     fits &= sums.sum[c].add(component);
     fits &= sums.square[c].add(component * component);
   }

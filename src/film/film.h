@@ -43,6 +43,10 @@ struct FilmSettings {
   float diagonal_mm = 35;
 };
 
+/// The colour scaled so that no component is larger in magnitude than `limit`; hue and sign are
+/// kept.
+Rgb clamp_component(const Rgb& rgb, float limit);
+
 class Film {
  public:
   Film(const FilmSettings& settings, std::vector<std::string> routes);
@@ -51,8 +55,9 @@ class Film {
   const PixelBounds& bounds() const { return settings_.crop; }
   const std::vector<std::string>& routes() const { return route_names_; }
 
-  /// Adds one estimate of a pixel by a route. Each pixel has exactly one writer at a time. Values
-  /// that are not finite are counted (see bad_values) and left out.
+  /// Adds one estimate of a pixel by a route; the caller has clamped it to max_component before it
+  /// applied the filter's weight. Each pixel has exactly one writer at a time. Values that are not
+  /// finite are counted (see bad_values) and left out.
   void add(int route, int x, int y, const Rgb& value);
   /// Replaces what the route has for this pixel, for estimators whose passes cannot be added (E1).
   /// `estimates` is then set to 1 by the caller.

@@ -1,7 +1,7 @@
-// The photon half of `mixed`: stochastic progressive photon mapping with the memoryless radius [E2],
-// storing only the photons of its own route. A pass is a function of the scene, the options and the pass
-// key alone, so passes may be rendered anywhere and added up.
-// Papers: Hachisuka & Jensen 2009; Knaus & Zwicker 2011; Doidge et al. 2012.
+// The photon half of `mixed`: stochastic progressive photon mapping with the memoryless radius
+// [E2], storing only the photons of its own route. A pass is a function of the scene, the options
+// and the pass key alone, so passes may be rendered anywhere and added up. Papers: Hachisuka &
+// Jensen 2009; Knaus & Zwicker 2011; Doidge et al. 2012.
 #pragma once
 
 #include "integrator/estimator.h"
@@ -24,6 +24,7 @@ class CausticPhotons : public Estimator {
   int buffer_;
   IntegratorOptions options_;
   bool has_specular_material_ = true;
+  uint64_t found_ = 0;  ///< photons merged
   EstimatorStatistics statistics_;
 };
 

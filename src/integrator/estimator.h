@@ -21,12 +21,12 @@ struct Capabilities {
 
 /// Deterministic counts of what an estimator did so far, for progress and report.
 struct EstimatorStatistics {
-  uint64_t rays = 0;             ///< closest-hit and shadow queries
+  uint64_t rays = 0;  ///< closest-hit and shadow queries
   uint64_t camera_paths = 0;
-  uint64_t photon_paths = 0;     ///< emitted
+  uint64_t photon_paths = 0;  ///< emitted
   uint64_t photons_stored = 0;
-  uint64_t photon_paths_useful = 0;  ///< paths that stored at least one photon
-  uint64_t photon_paths_specular = 0;  ///< paths that met an S vertex
+  uint64_t photon_paths_useful = 0;                    ///< paths that stored at least one photon
+  uint64_t photon_paths_specular = 0;                  ///< paths that met an S vertex
   float radius_min_pixels = 0, radius_max_pixels = 0;  ///< merge radius over footprint, last pass
   std::vector<std::string> notes;  ///< sentences for the report, e.g. why a route is black
 };
@@ -44,12 +44,13 @@ class Estimator {
 struct IntegratorOptions {
   int max_depth = 100;  ///< scattering events of the whole path, camera and light side together
   /// Pixel footprints of the first merge radius.
-  float radius = 0;  ///< 0: the default of the integrator
+  float radius = 0;              ///< 0: the default of the integrator
   int64_t photons_per_pass = 0;  ///< 0: chosen from the film's size
-  float alpha = 2.0f / 3.0f;  ///< of [E1] and [E2]
+  float alpha = 2.0f / 3.0f;     ///< of [E1] and [E2]
   float specular_alpha = 0.05f;
   int camera_samples_per_pass = 0;  ///< 0: the default of the integrator
-  int64_t memory_photons = 1 << 22;  ///< photons kept at once; a larger pass runs in batches
+  int64_t memory_photons =
+      1 << 20;  ///< photons kept at once (96 bytes each); a larger pass runs in batches
 };
 
 /// A preset: the routes' names (film buffers, in order) and the estimators that fill them.

@@ -12,7 +12,6 @@ namespace nephroid {
 namespace {
 
 struct Features {
-  Rgb albedo;
   Vec3f normal{0, 0, 0};
   float depth = 0;
 };
@@ -46,9 +45,10 @@ class PathVisitor {
 
   ClassMask vertex(const Walk& walk, const WalkVertex& v, PathSampler& sampler) {
     if (walk.vertices == 0) record_features(walk, v);
-    const ClassMask finite = v.bsdf.finite_classes();
-    if (owns_any(finite)) next_event(walk, v, finite, sampler);
-    return ClassMask::kAll;
+    const ClassMask useful = routes_.useful_eye_events(state_, route_);
+    const ClassMask finite = v.bsdf.finite_classes() & useful;
+    if (owns_any(finite)) next_event(walk, v, finite, useful, sampler);
+    return useful;
   }
 
   bool scatter(const Walk&, const BsdfSample& s) {
@@ -58,6 +58,7 @@ class PathVisitor {
 
   const SampledSpectrum& radiance() const { return radiance_; }
   const Features& features() const { return features_; }
+  const SampledSpectrum& albedo() const { return albedo_; }
   uint64_t shadow_rays() const { return shadow_rays_; }
 
  private:
@@ -70,13 +71,14 @@ class PathVisitor {
     return false;
   }
 
-  void next_event(const Walk& walk, const WalkVertex& v, ClassMask finite, PathSampler& sampler) {
+  void next_event(const Walk& walk, const WalkVertex& v, ClassMask finite, ClassMask among,
+                  PathSampler& sampler) {
     const std::optional<DirectSample> d = sample_direct(scene_, v.surface, walk.lambda, sampler);
     if (!d) return;
     SampledSpectrum sum;
     for (const EventClass c : kClasses) {
       if (!contains(finite, c) || !owns(c)) continue;
-      const BsdfEval e = v.bsdf.eval(v.wo, d->wi, TransportMode::kRadiance, c, ClassMask::kAll);
+      const BsdfEval e = v.bsdf.eval(v.wo, d->wi, TransportMode::kRadiance, c, among);
       sum += e.f * (d->delta ? 1.0f : power_heuristic(d->pdf_w, e.pdf_w));
     }
     if (sum.is_black()) return;
@@ -87,8 +89,9 @@ class PathVisitor {
   }
 
   void record_features(const Walk& walk, const WalkVertex& v) {
-    const float a = v.bsdf.albedo(v.wo).average();
-    features_ = {{a, a, a}, v.surface.shading.z, walk.length};
+    albedo_ = v.bsdf.albedo(v.wo);
+    features_.normal = v.surface.shading.z;
+    features_.depth = walk.length;
   }
 
   const Scene& scene_;
@@ -97,13 +100,18 @@ class PathVisitor {
   EyeState state_ = Routes::kEyeStart;
   SampledSpectrum radiance_;
   Features features_;
+  SampledSpectrum albedo_;
   uint64_t shadow_rays_ = 0;
 };
 
-// Largest component at most `limit`, hue kept.
-Rgb clamp_component(const Rgb& rgb, float limit) {
-  const float m = std::max({rgb.r, rgb.g, rgb.b});
-  return m > limit ? rgb * (limit / m) : rgb;
+// The film's response to a flat spectrum of 1, on average over the wavelengths of a path.
+Rgb response_to_white(const FilmSettings& settings) {
+  const Rgb white = settings.color_space->from_xyz({1, 1, 1});
+  return white * (kCieYIntegral * settings.imaging_ratio);
+}
+
+Rgb of_white(const Rgb& rgb, const Rgb& white) {
+  return {rgb.r / white.r, rgb.g / white.g, rgb.b / white.b};
 }
 
 constexpr uint64_t kStream = 0x70617468;  // "path"
@@ -121,14 +129,16 @@ PathEstimator::PathEstimator(const Routes& routes, Route route, int buffer,
 void PathEstimator::render_pass(const PassKey& key, const Scene& scene, Film& film) {
   const PixelBounds& b = film.bounds();
   const FilmSettings& settings = film.settings();
+  const Rgb white = response_to_white(settings);
   std::vector<uint64_t> rays(static_cast<size_t>(b.height()), 0);
   for (int k = 0; k < samples_per_pass_; ++k) {
-    const SobolPoint point(key.pass * static_cast<uint32_t>(samples_per_pass_) +
-                           static_cast<uint32_t>(k));
+    const uint64_t index =
+        uint64_t{key.pass} * static_cast<uint64_t>(samples_per_pass_) + static_cast<uint64_t>(k);
+    const SobolPoint point(static_cast<uint32_t>(index));
     parallel_chunks(b.height(), 1, [&](int64_t row, int64_t, int64_t) {
       const int y = b.y0 + static_cast<int>(row);
       for (int x = b.x0; x < b.x1; ++x) {
-        PathSampler sampler(point, hash_combine(key.seed, kStream, x, y));
+        PathSampler sampler(point, hash_combine(key.seed, kStream, x, y, index >> 32));
         sampler.start_dimension(dimensions::kWavelength);
         const SampledWavelengths lambda = SampledWavelengths::sample_visible(sampler.get_1d());
         sampler.start_dimension(dimensions::kTime);
@@ -139,8 +149,8 @@ void PathEstimator::render_pass(const PassKey& key, const Scene& scene, Film& fi
             sensor_weights(path.walk.lambda, *settings.color_space, settings.imaging_ratio);
         const Rgb rgb = clamp_component(weights.apply(visitor.radiance()), settings.max_component);
         film.add(buffer_, x, y, rgb * path.filter_weight);
-        film.add_features(x, y, visitor.features().albedo, visitor.features().normal,
-                          visitor.features().depth);
+        film.add_features(x, y, of_white(weights.apply(visitor.albedo()), white),
+                          visitor.features().normal, visitor.features().depth);
         rays[static_cast<size_t>(row)] += path.walk.rays + visitor.shadow_rays();
       }
     });

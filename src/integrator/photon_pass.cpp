@@ -19,4 +19,25 @@ int64_t default_photons_per_pass(int64_t pixels) {
                              kMin, kMax);
 }
 
+void count_photons(const PhotonTrace& trace, EstimatorStatistics& statistics) {
+  statistics.photon_paths += trace.paths;
+  statistics.photon_paths_useful += trace.useful_paths;
+  statistics.photon_paths_specular += trace.specular_paths;
+  statistics.photons_stored += trace.photons.size();
+  statistics.rays += trace.rays;
+}
+
+void explain_darkness(uint64_t found, EstimatorStatistics& s) {
+  if (found > 0 || s.photon_paths == 0) return;
+  const std::string of_all = " of " + std::to_string(s.photon_paths) + " photon paths ";
+  if (s.photons_stored > 0)
+    s.notes.push_back(std::to_string(s.photons_stored) +
+                      " photons were stored, none near a point that the camera sees");
+  else if (s.photon_paths_specular == 0)
+    s.notes.push_back("0" + of_all + "met a specular surface");
+  else
+    s.notes.push_back(std::to_string(s.photon_paths_specular) + of_all +
+                      "met a specular surface, none reached a diffuse one behind it");
+}
+
 }  // namespace nephroid

@@ -12,11 +12,8 @@ constexpr float kDefaultRadius = 2.0f;
 
 }  // namespace
 
-Sppm::Sppm(int emission_buffer, int photon_buffer, const IntegratorOptions& options)
-    : routes_(Routes::all(Route::kCaustic)),
-      emission_buffer_(emission_buffer),
-      photon_buffer_(photon_buffer),
-      options_(options) {
+Sppm::Sppm(int photon_buffer, const IntegratorOptions& options)
+    : routes_(Routes::all(Route::kCaustic)), photon_buffer_(photon_buffer), options_(options) {
   if (!(options_.radius > 0)) options_.radius = kDefaultRadius;
 }
 
@@ -40,25 +37,19 @@ void Sppm::render_pass(const PassKey& key, const Scene& scene, Film& film) {
                                         : default_photons_per_pass(b.area());
   trace_settings.max_events = options_.max_depth;
   const int64_t photons = trace_settings.photons_per_pass;
-  const int64_t batch =
-      std::max<int64_t>(kPhotonChunk, options_.memory_photons / 8 / kPhotonChunk * kPhotonChunk);
 
   // What a pass finds is collected over its batches; the radius stays until the pass is complete.
   struct Found {
-    double phi[3] = {0, 0, 0};
+    Rgb phi;
+    float filter_weight = 1;
     uint64_t count = 0;
   };
   std::vector<Found> found(pixels_.size());
   std::vector<uint64_t> rays(static_cast<size_t>(b.height()), 0);
-  for (int64_t begin = 0; begin < photons; begin += batch) {
-    const bool first_batch = begin == 0;
-    PhotonTrace trace = trace_photons(scene, routes_, Route::kCaustic, trace_settings, begin,
-                                      std::min(photons, begin + batch));
-    statistics_.photon_paths += trace.paths;
-    statistics_.photon_paths_useful += trace.useful_paths;
-    statistics_.photon_paths_specular += trace.specular_paths;
-    statistics_.photons_stored += trace.photons.size();
-    statistics_.rays += trace.rays;
+  for (int64_t begin = 0; begin < photons;) {
+    PhotonTrace trace = trace_batch(scene, routes_, Route::kCaustic, trace_settings,
+                                    options_.memory_photons, begin);
+    count_photons(trace, statistics_);
     const PhotonGrid grid(std::move(trace.photons));
 
     parallel_chunks(b.height(), 1, [&](int64_t row, int64_t, int64_t) {
@@ -69,41 +60,29 @@ void Sppm::render_pass(const PassKey& key, const Scene& scene, Film& film) {
         SharedStatistics& pixel = pixels_[index];
         PathSampler sampler(point, hash_combine(key.seed, kStream, x, y));
         CameraPath path = start_camera_path(scene, x, y, sampler, setting.lambda, setting.time);
-        SampledSpectrum flux, seen;
+        SampledSpectrum flux;
         auto merge = [&](const Walk& walk, const WalkVertex& v, EyeState eye) {
           const float width = footprint.width(walk.length);
           if (!(pixel.radius_squared > 0)) {
             pixel.radius_squared = sqr(static_cast<double>(options_.radius) * width);
             footprint_[index] = width;
           }
-          const MergeResult m = merge_photons(
-              grid, routes_, Route::kCaustic, v, eye, walk.events + 1, options_.max_depth,
-              walk.lambda.secondary_terminated(), static_cast<float>(std::sqrt(pixel.radius_squared)));
+          const MergeResult m =
+              merge_photons(grid, routes_, Route::kCaustic, v, eye, walk.events + 1,
+                            options_.max_depth, walk.lambda.secondary_terminated(),
+                            static_cast<float>(std::sqrt(pixel.radius_squared)));
           flux += walk.throughput * (m.reflected + m.hero);
           found[index].count += m.found;
         };
-        auto emission = [&](const Walk& walk, EyeState, const SampledSpectrum& le) {
-          SampledSpectrum l = walk.throughput * le;
-          // The camera walk alone dropped its secondary wavelengths: the hero stands for all.
-          if (walk.lambda.secondary_terminated()) {
-            const float hero = l[0] * kSpectrumSamples;
-            l = SampledSpectrum();
-            l.set(0, hero);
-          }
-          seen += l;
-        };
-        MergeWalkVisitor visitor(scene, routes_, merge, emission);
+        MergeWalkVisitor visitor(routes_, merge);
         random_walk(scene, TransportMode::kRadiance, options_.max_depth, path.walk, sampler,
                     visitor);
         rays[static_cast<size_t>(row)] += path.walk.rays;
-        const Rgb rgb = weights.apply(flux) * path.filter_weight;
-        for (int c = 0; c < 3; ++c) found[index].phi[c] += static_cast<double>(rgb[c]);
-        if (first_batch)
-          film.add(emission_buffer_, x, y, weights.apply(seen) * path.filter_weight);
+        found[index].phi = found[index].phi + weights.apply(flux);
+        found[index].filter_weight = path.filter_weight;
       }
     });
   }
-  film.add_estimates(emission_buffer_, 1);
   film.set_estimates(photon_buffer_, 1);
   emitted_ += static_cast<double>(photons);
 
@@ -112,12 +91,20 @@ void Sppm::render_pass(const PassKey& key, const Scene& scene, Film& film) {
   for (size_t i = 0; i < pixels_.size(); ++i) {
     SharedStatistics& pixel = pixels_[i];
     if (!(pixel.radius_squared > 0)) continue;
-    pixel.update(static_cast<double>(found[i].count), found[i].phi, options_.alpha);
+    // A pass's estimate is clamped as a sample of other integrators is, then weighed by the filter.
+    const double area_of_pass =
+        static_cast<double>(photons) * static_cast<double>(kPi) * pixel.radius_squared;
+    const float limit = settings.max_component * static_cast<float>(area_of_pass);
+    const Rgb kept = clamp_component(found[i].phi, limit) * found[i].filter_weight;
+    const double phi[3] = {kept.r, kept.g, kept.b};
+    pixel.update(static_cast<double>(found[i].count), phi, options_.alpha);
+    found_ += found[i].count;
     const double scale = 1.0 / (emitted_ * static_cast<double>(kPi) * pixel.radius_squared);
-    film.replace(photon_buffer_, b.x0 + static_cast<int>(i % static_cast<size_t>(b.width())),
-                 b.y0 + static_cast<int>(i / static_cast<size_t>(b.width())),
-                 {static_cast<float>(pixel.flux[0] * scale), static_cast<float>(pixel.flux[1] * scale),
-                  static_cast<float>(pixel.flux[2] * scale)});
+    film.replace(
+        photon_buffer_, b.x0 + static_cast<int>(i % static_cast<size_t>(b.width())),
+        b.y0 + static_cast<int>(i / static_cast<size_t>(b.width())),
+        {static_cast<float>(pixel.flux[0] * scale), static_cast<float>(pixel.flux[1] * scale),
+         static_cast<float>(pixel.flux[2] * scale)});
     const float r = static_cast<float>(std::sqrt(pixel.radius_squared)) / footprint_[i];
     smallest = std::min(smallest, r);
     largest = std::max(largest, r);
@@ -126,6 +113,12 @@ void Sppm::render_pass(const PassKey& key, const Scene& scene, Film& film) {
   statistics_.camera_paths += static_cast<uint64_t>(b.area());
   statistics_.radius_min_pixels = largest > 0 ? smallest : 0;
   statistics_.radius_max_pixels = largest;
+}
+
+EstimatorStatistics Sppm::statistics() const {
+  EstimatorStatistics s = statistics_;
+  explain_darkness(found_, s);
+  return s;
 }
 
 }  // namespace nephroid

@@ -12,15 +12,17 @@ namespace {
 Preset make_path(const IntegratorOptions& options, const Scene&) {
   Preset preset;
   preset.route_names = {"diffuse"};
-  preset.estimators.push_back(std::make_unique<PathEstimator>(
-      Routes::all(Route::kDiffuse), Route::kDiffuse, 0, options));
+  preset.estimators.push_back(
+      std::make_unique<PathEstimator>(Routes::all(Route::kDiffuse), Route::kDiffuse, 0, options));
   return preset;
 }
 
 Preset make_sppm(const IntegratorOptions& options, const Scene&) {
   Preset preset;
   preset.route_names = {"emission", "photons"};
-  preset.estimators.push_back(std::make_unique<Sppm>(0, 1, options));
+  preset.estimators.push_back(
+      std::make_unique<PathEstimator>(Routes::seen_emission(), Route::kDiffuse, 0, options));
+  preset.estimators.push_back(std::make_unique<Sppm>(1, options));
   return preset;
 }
 
@@ -28,8 +30,7 @@ Preset make_mixed(const IntegratorOptions& options, const Scene&) {
   const Routes routes = Routes::doidge2012();
   Preset preset;
   preset.route_names = {"diffuse", "caustic"};
-  preset.estimators.push_back(
-      std::make_unique<PathEstimator>(routes, Route::kDiffuse, 0, options));
+  preset.estimators.push_back(std::make_unique<PathEstimator>(routes, Route::kDiffuse, 0, options));
   preset.estimators.push_back(
       std::make_unique<CausticPhotons>(routes, Route::kCaustic, 1, options));
   return preset;
@@ -47,9 +48,9 @@ struct SceneName {
   const char* name;
 };
 constexpr SceneName kSceneNames[] = {
-    {"path", "path"},         {"volpath", "path"}, {"simplepath", "path"},
+    {"path", "path"},          {"volpath", "path"},    {"simplepath", "path"},
     {"simplevolpath", "path"}, {"randomwalk", "path"}, {"sppm", "sppm"},
-    {"bdpt", "mixed"},        {"mlt", "mixed"},    {"lightpath", "mixed"}};
+    {"bdpt", "mixed"},         {"mlt", "mixed"},       {"lightpath", "mixed"}};
 
 }  // namespace
 

@@ -41,8 +41,7 @@ const PhotonGrid::Cell* PhotonGrid::Level::find(uint64_t code) const {
   }
 }
 
-PhotonGrid::PhotonGrid(std::vector<Photon> photons, int max_levels)
-    : photons_(std::move(photons)) {
+PhotonGrid::PhotonGrid(std::vector<Photon> photons, int max_levels) : photons_(std::move(photons)) {
   if (photons_.empty()) return;
   min_ = max_ = photons_[0].p;
   for (const Photon& photon : photons_)
@@ -58,8 +57,8 @@ PhotonGrid::PhotonGrid(std::vector<Photon> photons, int max_levels)
              static_cast<float>(kMaxCoordinate);
   sort();
 
-  // The smallest cells that are worth having hold a few photons each; every doubling up to one cell for all
-  // follows.
+  // The smallest cells that are worth having hold a few photons each; every doubling up to one cell
+  // for all follows.
   int finest = 0;
   for (int shift = 0; shift <= kCoordinateBits; ++shift) {
     size_t cells = 1;
@@ -74,8 +73,8 @@ PhotonGrid::PhotonGrid(std::vector<Photon> photons, int max_levels)
   }
 }
 
-// Stable radix sort by Morton code, 11 bits at a time, so that photons of one cell keep the order in
-// which they were traced.
+// Stable radix sort by Morton code, 11 bits at a time, so that photons of one cell keep the order
+// in which they were traced.
 void PhotonGrid::sort() {
   const size_t n = photons_.size();
   std::vector<uint64_t> codes(n), codes_other(n);
@@ -133,9 +132,7 @@ void PhotonGrid::add_level(int shift) {
 // The finest level whose cells are at least as large as the query's diameter: at most eight cells.
 const PhotonGrid::Level& PhotonGrid::level_for(float radius) const {
   size_t i = 0;
-  while (i + 1 < levels_.size() &&
-         std::ldexp(quantum_, levels_[i].shift) < 2.0f * radius)
-    ++i;
+  while (i + 1 < levels_.size() && std::ldexp(quantum_, levels_[i].shift) < 2.0f * radius) ++i;
   return levels_[i];
 }
 

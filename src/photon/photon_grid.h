@@ -1,7 +1,7 @@
-// Finds the photons around a point. Photons are kept in Morton order; cells of doubling size are runs of
-// that order and found through one hash table a level, so that radii over decades stay cheap.
-// Full cell codes are compared, so that two cells which share a bucket are never mistaken for each
-// other. Who calls it: photon integrators. It must not know BSDFs or films.
+// Finds the photons around a point. Photons are kept in Morton order; cells of doubling size are
+// runs of that order and found through one hash table a level, so that radii over decades stay
+// cheap. Full cell codes are compared, so that two cells which share a bucket are never mistaken
+// for each other. Who calls it: photon integrators. It must not know BSDFs or films.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,8 @@ class PhotonGrid {
   size_t size() const { return photons_.size(); }
   const std::vector<Photon>& photons() const { return photons_; }
 
-  /// Calls found(photon, distance_squared) for every photon with |photon.p - center| <= radius, in an
-  /// order that depends on the photons and the query alone.
+  /// Calls found(photon, distance_squared) for every photon with |photon.p - center| <= radius, in
+  /// an order that depends on the photons and the query alone.
   template <class F>
   void query(const Vec3f& center, float radius, F&& found) const {
     if (photons_.empty()) return;

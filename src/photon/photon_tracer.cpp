@@ -8,6 +8,9 @@ namespace {
 
 // A photon's own dimensions, before those of its vertices: light 1, position 2, direction 2.
 constexpr int kEmissionDimensions = 5;
+// Later vertices are random: photons that come so far are many, and points are made for each
+// photon.
+constexpr int kStratifiedDimensions = 48;
 constexpr uint64_t kStream = 0x70686f746f6e;  // "photon"
 
 class PhotonVisitor {
@@ -20,13 +23,12 @@ class PhotonVisitor {
   void emitter(const Walk&, const SurfaceInteraction&, const Light&) {}
 
   ClassMask vertex(const Walk& walk, const WalkVertex& v, PathSampler&) {
-    if (contains(v.bsdf.classes(), EventClass::kSpecular)) specular_ = true;
     if (contains(v.possible, EventClass::kDiffuse) && routes_.deposits(state_, route_)) {
       Photon photon;
       photon.p = v.surface.p;
       photon.wi = v.surface.wo;
       photon.ng = v.surface.ng;
-      photon.flux = flux_ * walk.throughput;
+      photon.flux = flux_ * walk.throughput / v.surface.coverage;
       photon.state = state_;
       photon.secondary_terminated = walk.lambda.secondary_terminated();
       photon.events = static_cast<uint16_t>(walk.events);
@@ -38,6 +40,7 @@ class PhotonVisitor {
 
   bool scatter(const Walk&, const BsdfSample& s) {
     state_ = routes_.photon_next(state_, s.event);
+    specular_ |= s.event == EventClass::kSpecular;
     return true;
   }
 
@@ -86,15 +89,16 @@ PhotonTrace trace_photons(const Scene& scene, const Routes& routes, Route route,
     uint64_t useful = 0, specular = 0, rays = 0;
   };
   std::vector<Chunk> chunks(static_cast<size_t>(chunk_count(end - begin, kPhotonChunk)));
-  const uint64_t first = static_cast<uint64_t>(settings.key.pass) *
-                             static_cast<uint64_t>(settings.photons_per_pass) +
-                         static_cast<uint64_t>(begin);
+  const uint64_t first =
+      static_cast<uint64_t>(settings.key.pass) * static_cast<uint64_t>(settings.photons_per_pass) +
+      static_cast<uint64_t>(begin);
   parallel_chunks(end - begin, kPhotonChunk, [&](int64_t c, int64_t b, int64_t e) {
     Chunk& chunk = chunks[static_cast<size_t>(c)];
     for (int64_t j = b; j < e; ++j) {
-      // All passes together run through one sequence; the seed changes when its 32 bits are used up.
+      // All passes together run through one sequence; the seed changes when its 32 bits are used
+      // up.
       const uint64_t number = first + static_cast<uint64_t>(j);
-      const SobolPoint point(static_cast<uint32_t>(number));
+      const SobolPoint point(static_cast<uint32_t>(number), kStratifiedDimensions);
       PathSampler sampler(point, hash_combine(settings.key.seed, kStream, number >> 32));
       const auto emitted = emit(scene, settings.lambda, settings.time, sampler);
       if (!emitted) continue;
@@ -122,6 +126,26 @@ PhotonTrace trace_photons(const Scene& scene, const Routes& routes, Route route,
     trace.rays += chunk.rays;
   }
   return trace;
+}
+
+PhotonTrace trace_batch(const Scene& scene, const Routes& routes, Route route,
+                        const PhotonTraceSettings& settings, int64_t limit, int64_t& begin) {
+  constexpr int64_t kGroup = 32 * kPhotonChunk;
+  PhotonTrace batch;
+  while (begin < settings.photons_per_pass && static_cast<int64_t>(batch.photons.size()) < limit) {
+    const int64_t end = std::min(begin + kGroup, settings.photons_per_pass);
+    PhotonTrace group = trace_photons(scene, routes, route, settings, begin, end);
+    begin = end;
+    if (batch.photons.empty())
+      batch.photons = std::move(group.photons);
+    else
+      batch.photons.insert(batch.photons.end(), group.photons.begin(), group.photons.end());
+    batch.paths += group.paths;
+    batch.useful_paths += group.useful_paths;
+    batch.specular_paths += group.specular_paths;
+    batch.rays += group.rays;
+  }
+  return batch;
 }
 
 }  // namespace nephroid

@@ -1,7 +1,7 @@
 // Shoots photons from the lights and keeps those that belong to a route.
-// Photon number j of pass i depends on (seed, i, j) alone; chunks of numbers are traced on any thread and
-// joined in the order of their numbers (docs/architecture.md, section 5).
-// Who calls it: photon integrators. It must not know films or cameras.
+// Photon number j of pass i depends on (seed, i, j) alone; chunks of numbers are traced on any
+// thread and joined in the order of their numbers (docs/architecture.md, section 5). Who calls it:
+// photon integrators. It must not know films or cameras.
 #pragma once
 
 #include <vector>
@@ -15,7 +15,7 @@ struct PhotonTrace {
   std::vector<Photon> photons;
   uint64_t paths = 0;           ///< emitted
   uint64_t useful_paths = 0;    ///< that stored at least one photon
-  uint64_t specular_paths = 0;  ///< that met a surface with an S lobe
+  uint64_t specular_paths = 0;  ///< that had an S event
   uint64_t rays = 0;
 };
 
@@ -24,13 +24,21 @@ struct PhotonTraceSettings {
   int64_t photons_per_pass = 0;  ///< the sequence of a pass starts where the one before ended
   SampledWavelengths lambda;     ///< of the pass
   float time = 0;
-  int max_events = 0;            ///< of the whole path: a photon lands with fewer than these
+  int max_events = 0;  ///< of the whole path: a photon lands with fewer than these
 };
 
-/// Traces photons begin <= j < end of the pass and stores one at every surface with a finite D lobe where
-/// its light side makes it `route`'s. Flux is that of one photon: divide by the number emitted.
+/// Traces photons begin <= j < end of the pass and stores one at every surface with a finite D lobe
+/// where its light side makes it `route`'s. Flux is that of one photon: divide by the number
+/// emitted.
 PhotonTrace trace_photons(const Scene& scene, const Routes& routes, Route route,
                           const PhotonTraceSettings& settings, int64_t begin, int64_t end);
+
+/// Traces from photon `begin` on until the pass ends or `limit` photons are stored, whichever comes
+/// first, in groups of whole chunks: a pass whose photons do not fit in memory is traced, gathered
+/// and dropped in batches. Moves `begin` to where it stopped, which depends on the scene and the
+/// settings alone.
+PhotonTrace trace_batch(const Scene& scene, const Routes& routes, Route route,
+                        const PhotonTraceSettings& settings, int64_t limit, int64_t& begin);
 
 /// Photons are traced in chunks of this many; batches of a pass are whole chunks.
 inline constexpr int64_t kPhotonChunk = 1024;

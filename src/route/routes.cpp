@@ -6,18 +6,18 @@ namespace {
 
 // Eye automaton of C [SD]* D S+ D? L. What matters is how the word ends:
 enum Eye : EyeState {
-  kNoDiffuse,       // C S*
-  kDiffuseLast,     // ... D, and no D S+ right before this D
-  kSpecularChain,   // ... D S+
-  kChainThenDiffuse // ... D S+ D
+  kNoDiffuse,        // C S*
+  kDiffuseLast,      // ... D, and no D S+ right before this D
+  kSpecularChain,    // ... D S+
+  kChainThenDiffuse  // ... D S+ D
 };
 
 // Light automaton: what the light side says about any word that it will be part of.
 enum Photon : PhotonState {
-  kFromLight,   // nothing yet: the word is C ... D@ L
-  kOneDiffuse,  // D: the word is C ... D@ D L
-  kCausticSide, // D? S+ ...: the D at which the photon is merged makes the word caustic
-  kDiffuseSide  // D D ...: never caustic
+  kFromLight,    // nothing yet: the word is C ... D@ L
+  kOneDiffuse,   // D: the word is C ... D@ D L
+  kCausticSide,  // D? S+ ...: the D at which the photon is merged makes the word caustic
+  kDiffuseSide   // D D ...: never caustic
 };
 
 }  // namespace
@@ -66,6 +66,14 @@ Routes Routes::all(Route route) {
   return r;
 }
 
+Routes Routes::seen_emission() {
+  Routes r = all(Route::kCaustic);
+  r.eye_owner_[kNoDiffuse] = Route::kDiffuse;
+  r.expressions_ = {"C S* L", "everything else"};
+  r.complete();
+  return r;
+}
+
 // An event is useful if some continuation deposits for the route: a fixed point over the automaton.
 void Routes::complete() {
   for (size_t route = 0; route < 2; ++route) {
@@ -79,6 +87,17 @@ void Routes::complete() {
       for (const EventClass e : {EventClass::kDiffuse, EventClass::kSpecular})
         if (alive[photon_next_[s][static_cast<size_t>(e)]]) mask = mask | mask_of(e);
       useful_[route][s] = mask;
+    }
+    std::array<bool, kEyeStates> ends{};
+    for (size_t round = 0; round <= kEyeStates; ++round)
+      for (size_t s = 0; s < kEyeStates; ++s)
+        ends[s] = eye_owner_[s] == static_cast<Route>(route) || ends[eye_next_[s][0]] ||
+                  ends[eye_next_[s][1]];
+    for (size_t s = 0; s < kEyeStates; ++s) {
+      ClassMask mask = ClassMask::kNone;
+      for (const EventClass e : {EventClass::kDiffuse, EventClass::kSpecular})
+        if (ends[eye_next_[s][static_cast<size_t>(e)]]) mask = mask | mask_of(e);
+      useful_eye_[route][s] = mask;
     }
   }
 }

@@ -1,7 +1,8 @@
 // Who renders which light: the one place that decides what a caustic is (docs/routes.md).
-// A path is a word C e1 e2 ... en L of event classes, eye first. Camera walks read it from the left,
-// photons from the right; both follow the tables made here, so every word has exactly one owner.
-// Who calls it: integrators. It must not know scenes or estimators. Paper: Doidge et al. 2012.
+// A path is a word C e1 e2 ... en L of event classes, eye first. Camera walks read it from the
+// left, photons from the right; both follow the tables made here, so every word has exactly one
+// owner. Who calls it: integrators. It must not know scenes or estimators. Paper: Doidge et al.
+// 2012.
 #pragma once
 
 #include <array>
@@ -25,6 +26,9 @@ class Routes {
   static Routes doidge2012();
   /// Everything belongs to one route.
   static Routes all(Route route);
+  /// Light that is seen directly or through specular surfaces only, C S* L, belongs to kDiffuse,
+  /// all else to kCaustic: the parts of full photon mapping, which merges at the first D.
+  static Routes seen_emission();
 
   static constexpr EyeState kEyeStart = 0;
   static constexpr PhotonState kPhotonStart = 0;
@@ -40,17 +44,23 @@ class Routes {
   PhotonState photon_next(PhotonState state, EventClass event) const {
     return photon_next_[state][static_cast<size_t>(event)];
   }
-  /// Owner of the word whose eye side, its merge vertex included, is in `eye` and whose light side, the merge
-  /// vertex excluded, is in `photon`.
+  /// Owner of the word whose eye side, its merge vertex included, is in `eye` and whose light side,
+  /// the merge vertex excluded, is in `photon`.
   Route meet(EyeState eye, PhotonState photon) const { return meet_[eye][photon]; }
-  /// True if a photon in this state, deposited at a vertex where eyes merge after C S* D, belongs to
-  /// `route`.
+  /// True if a photon in this state, deposited at a vertex where eyes merge after C S* D, belongs
+  /// to `route`.
   bool deposits(PhotonState photon, Route route) const {
     return meet_[next(kEyeStart, EventClass::kDiffuse)][photon] == route;
   }
-  /// Classes in which a photon may scatter and still be able to reach a vertex where `route` merges.
+  /// Classes in which a photon may scatter and still be able to reach a vertex where `route`
+  /// merges.
   ClassMask useful_events(PhotonState photon, Route route) const {
     return useful_[static_cast<size_t>(route)][photon];
+  }
+
+  /// Classes in which a camera walk may scatter and still be able to end as a word of `route`.
+  ClassMask useful_eye_events(EyeState state, Route route) const {
+    return useful_eye_[static_cast<size_t>(route)][state];
   }
 
   /// The expression of a route, for reports.
@@ -67,6 +77,7 @@ class Routes {
   std::array<std::array<PhotonState, 2>, kPhotonStates> photon_next_{};
   std::array<std::array<Route, kPhotonStates>, kEyeStates> meet_{};
   std::array<std::array<ClassMask, kPhotonStates>, 2> useful_{};
+  std::array<std::array<ClassMask, kEyeStates>, 2> useful_eye_{};
   std::array<std::string, 2> expressions_;
 };
 

@@ -7,8 +7,8 @@ namespace nephroid {
 
 namespace {
 
-// Perspective and orthographic cameras differ in how a film point becomes a camera ray; lens, shutter and
-// transform are common to both (pbrt-v4 sections 5.2 and 5.3).
+// Perspective and orthographic cameras differ in how a film point becomes a camera ray; lens,
+// shutter and transform are common to both (pbrt-v4 sections 5.2 and 5.3).
 class ProjectiveCamera : public Camera {
  public:
   struct Settings {
@@ -23,8 +23,8 @@ class ProjectiveCamera : public Camera {
 
   explicit ProjectiveCamera(const Settings& s) : s_(s) {
     const float screen_pixel =
-        std::max((s.screen[1] - s.screen[0]) / static_cast<float>(s.width),
-                 (s.screen[3] - s.screen[2]) / static_cast<float>(s.height));
+        std::max(std::abs(s.screen[1] - s.screen[0]) / static_cast<float>(s.width),
+                 std::abs(s.screen[3] - s.screen[2]) / static_cast<float>(s.height));
     if (s.perspective) {
       footprint_.spread = screen_pixel * s.tan_half_fov;
     } else {

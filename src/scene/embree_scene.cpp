@@ -30,7 +30,9 @@ class EmbreeDevice {
   RTCDevice device;
 };
 
-std::shared_ptr<EmbreeDevice> EmbreeScene::make_device() { return std::make_shared<EmbreeDevice>(); }
+std::shared_ptr<EmbreeDevice> EmbreeScene::make_device() {
+  return std::make_shared<EmbreeDevice>();
+}
 
 struct EmbreeScene::Impl {
   std::shared_ptr<EmbreeDevice> device;
@@ -55,7 +57,9 @@ EmbreeScene::EmbreeScene(std::shared_ptr<EmbreeDevice> device) : impl_(std::make
   rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
 }
 
-EmbreeScene::~EmbreeScene() { rtcReleaseScene(impl_->scene); }
+EmbreeScene::~EmbreeScene() {
+  rtcReleaseScene(impl_->scene);
+}
 
 namespace {
 
@@ -167,8 +171,7 @@ uint32_t EmbreeScene::add_shape(ShapePtr shape, unsigned mask) {
 
 uint32_t EmbreeScene::add_instance(const EmbreeScene& child, const Transform& object_to_world,
                                    unsigned mask) {
-  const RTCGeometry geometry =
-      rtcNewGeometry(impl_->device->device, RTC_GEOMETRY_TYPE_INSTANCE);
+  const RTCGeometry geometry = rtcNewGeometry(impl_->device->device, RTC_GEOMETRY_TYPE_INSTANCE);
   rtcSetGeometryInstancedScene(geometry, child.impl_->scene);
   rtcSetGeometryTimeStepCount(geometry, 1);
   float columns[12];

@@ -15,7 +15,7 @@ namespace nephroid {
 struct EmbreeHit {
   float t = 0;
   Vec2f uv;
-  uint32_t geometry = 0;   ///< in the top level, or in the instanced hierarchy
+  uint32_t geometry = 0;  ///< in the top level, or in the instanced hierarchy
   uint32_t primitive = 0;
   uint32_t instance = kNoInstance;  ///< geometry number of the instance in the top level
   static constexpr uint32_t kNoInstance = 0xffffffffu;

@@ -41,7 +41,8 @@ void set_crop(FilmDescription& film, const ParameterSet& p, const SceneOverrides
 void check_type(const DirectiveDescription& d, Diagnostics& diagnostics) {
   if (d.type == "rgb") return;
   if (d.type == "gbuffer") {
-    diagnostics.warn(d.where, "film \"gbuffer\" is rendered as \"rgb\" with this program's own layers");
+    diagnostics.warn(d.where,
+                     "film \"gbuffer\" is rendered as \"rgb\" with this program's own layers");
     return;
   }
   throw SceneError(d.where, d.type == "spectral"
@@ -75,7 +76,8 @@ FilmDescription make_film_description(const SceneDescription& description,
                                   std::to_string(film.height) + " must lie in 1..65536");
   set_crop(film, p, overrides);
 
-  // Exposure: the shutter stands in the Camera directive, the rest in the Film (pbrt-v4 section 5.4).
+  // Exposure: the shutter stands in the Camera directive, the rest in the Film (pbrt-v4
+  // section 5.4).
   float exposure = 1;
   if (description.camera) {
     const ParameterSet& c = description.camera->parameters;

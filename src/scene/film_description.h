@@ -5,7 +5,8 @@
 
 namespace nephroid {
 
-/// pbrt-v4's film parameters: resolution, crop, exposure, colour space, file name. Throws SceneError.
+/// pbrt-v4's film parameters: resolution, crop, exposure, colour space, file name. Throws
+/// SceneError.
 FilmDescription make_film_description(const SceneDescription& description,
                                       const SceneOverrides& overrides, Diagnostics& diagnostics);
 

@@ -8,8 +8,12 @@ constexpr int kCells = 128;
 
 using Parameters = std::array<float, 2>;
 
-float box(float, float, const Parameters&) { return 1.0f; }
-float triangle(float x, float radius, const Parameters&) { return std::max(0.0f, radius - std::abs(x)); }
+float box(float, float, const Parameters&) {
+  return 1.0f;
+}
+float triangle(float x, float radius, const Parameters&) {
+  return std::max(0.0f, radius - std::abs(x));
+}
 float gaussian(float x, float radius, const Parameters& p) {
   const auto g = [&](float t) { return std::exp(-t * t / (2 * p[0] * p[0])); };
   return std::max(0.0f, g(x) - g(radius));
@@ -21,7 +25,8 @@ float mitchell(float x, float radius, const Parameters& p) {
     return ((12 - 9 * b - 6 * c) * t * t * t + (-18 + 12 * b + 6 * c) * t * t + (6 - 2 * b)) / 6;
   if (t <= 2)
     return ((-b - 6 * c) * t * t * t + (6 * b + 30 * c) * t * t + (-12 * b - 48 * c) * t +
-            (8 * b + 24 * c)) / 6;
+            (8 * b + 24 * c)) /
+           6;
   return 0;
 }
 float sinc(float x) {
@@ -43,15 +48,15 @@ PixelFilter::PixelFilter(float (*function)(float, float, const Parameters&), Vec
     axis.parameters = i == 0 ? parameters_x : parameters_y;
     axis.integral = 0;
     axis.cdf.assign(kCells + 1, 0.0f);
-    // A cell's probability is its mean |f| plus a little, so that a cell in which the function changes its
-    // sign is still sampled everywhere.
+    // A cell's probability is its mean |f| plus a little, so that a cell in which the function
+    // changes its sign is still sampled everywhere.
     double total = 0, integral = 0, peak = 0;
     std::vector<double> mass(kCells);
     constexpr int kPoints = 32;
     for (int c = 0; c < kCells; ++c) {
       for (int k = 0; k < kPoints; ++k) {
-        const float x = axis.radius * (2 * (static_cast<float>(c * kPoints + k) + 0.5f) /
-                                           (kCells * kPoints) - 1);
+        const float x = axis.radius *
+                        (2 * (static_cast<float>(c * kPoints + k) + 0.5f) / (kCells * kPoints) - 1);
         const double f = axis.value(x);
         mass[c] += std::abs(f) / kPoints;
         integral += f;

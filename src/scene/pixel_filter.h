@@ -1,5 +1,5 @@
-// Reconstruction filters, used by importance sampling: a sample belongs to one pixel, its position is
-// drawn from the filter's absolute value, and it carries the weight that makes the mean unbiased
+// Reconstruction filters, used by importance sampling: a sample belongs to one pixel, its position
+// is drawn from the filter's absolute value, and it carries the weight that makes the mean unbiased
 // (Ernst et al. 2006; pbrt-v4 section 8.8).
 #pragma once
 
@@ -44,7 +44,8 @@ class PixelFilter {
   Axis axes_[2];
 };
 
-/// box, triangle, gaussian, mitchell, sinc with pbrt-v4's parameters and defaults; gaussian if absent.
+/// box, triangle, gaussian, mitchell, sinc with pbrt-v4's parameters and defaults; gaussian if
+/// absent.
 std::unique_ptr<PixelFilter> make_pixel_filter(
     const std::optional<DirectiveDescription>& description, Diagnostics& diagnostics);
 

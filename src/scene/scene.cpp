@@ -23,9 +23,9 @@ float ray_hash(const Ray& ray) {
   return bits_to_unit_float(static_cast<uint32_t>(h >> 32));
 }
 
-// Brings an interaction of an instanced shape to world space. The error grows by the rounding of the
-// transformed point, and of the rays that will be brought to object space from there; the absolute values
-// of the matrix bound both.
+// Brings an interaction of an instanced shape to world space. The error grows by the rounding of
+// the transformed point, and of the rays that will be brought to object space from there; the
+// absolute values of the matrix bound both.
 void to_world(const Transform& t, SurfaceInteraction& s) {
   Vec3f error;
   for (int j = 0; j < 3; ++j) {
@@ -84,12 +84,19 @@ bool Scene::intersect_masked(const Ray& ray, unsigned mask, SurfaceInteraction& 
 bool Scene::intersect(const Ray& ray, SurfaceInteraction& hit) const {
   Ray rest = ray;
   float passed = 0.0f;
+  int passages = 0;
   while (intersect_masked(rest, kMaskAll, hit)) {
     hit.distance += passed;
     const FloatTexture* alpha = hit.record->alpha.get();
+    hit.coverage = 1.0f;
     if (!alpha) return true;
     const float a = alpha->eval(TextureContext(hit));
-    if (a >= 1.0f || (a > 0.0f && ray_hash(rest) < a)) return true;
+    if (a >= 1.0f) return true;
+    if (a > 0.0f && ray_hash(rest) < a) {
+      hit.coverage = a;
+      return true;
+    }
+    if (++passages > kMaxPassages) return false;
     passed = hit.distance;
     rest.o = hit.spawn_origin(ray.d);
     if (rest.t_max < kInfinity) rest.t_max = ray.t_max - passed / length(ray.d);
@@ -106,10 +113,12 @@ SampledSpectrum Scene::transmittance(const Ray& shadow_ray,
   // What lets light through is crossed surface by surface, each with its weight.
   Ray rest = shadow_ray;
   SurfaceInteraction hit;
+  int passages = 0;
   while (rest.t_max > 0.0f && intersect_masked(rest, kMaskPassing, hit)) {
-    const float a = hit.record->alpha ? std::clamp(hit.record->alpha->eval(TextureContext(hit)),
-                                                   0.0f, 1.0f)
-                                      : 1.0f;
+    if (++passages > kMaxPassages) return SampledSpectrum(0.0f);
+    const float a = hit.record->alpha
+                        ? std::clamp(hit.record->alpha->eval(TextureContext(hit)), 0.0f, 1.0f)
+                        : 1.0f;
     const Material& m = *materials[static_cast<size_t>(hit.material)]->resolve(hit);
     SampledSpectrum through(1.0f - a);
     if (a > 0.0f && m.passes_straight()) through += m.straight_transmittance(hit, lambda) * a;

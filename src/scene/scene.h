@@ -21,8 +21,8 @@ class PixelFilter;
 struct FilmDescription {
   int width = 1280, height = 720;
   int crop_x0 = 0, crop_y0 = 0, crop_x1 = 1280, crop_y1 = 720;  ///< pixels, half open
-  float imaging_ratio = 1;          ///< exposure time * ISO / 100
-  float max_component = kInfinity;  ///< of a sample's rgb
+  float imaging_ratio = 1;                                      ///< exposure time * ISO / 100
+  float max_component = kInfinity;                              ///< of a sample's rgb
   const RgbColorSpace* color_space = nullptr;
   std::string filename;
   SourceLocation where;  ///< of the Film directive, if there is one
@@ -55,6 +55,9 @@ struct InstanceRecord {
   Transform object_to_world;
 };
 
+/// Crossings of surfaces that let light straight through after which a ray is given up as trapped.
+inline constexpr int kMaxPassages = 1000;
+
 class Scene {
  public:
   Scene();
@@ -64,8 +67,8 @@ class Scene {
   /// goes through them). False if the ray leaves the scene.
   bool intersect(const Ray& ray, SurfaceInteraction& hit) const;
 
-  /// Share of light that gets through a shadow ray up to its t_max: 0 if something stands in between,
-  /// else the product of the weights of what lets light straight through.
+  /// Share of light that gets through a shadow ray up to its t_max: 0 if something stands in
+  /// between, else the product of the weights of what lets light straight through.
   SampledSpectrum transmittance(const Ray& shadow_ray, const SampledWavelengths& lambda) const;
 
   /// The light of an emitting surface, else nullptr.

@@ -1,4 +1,5 @@
-// SceneDescription -> Scene, on one page: textures, materials, lights, shapes, instances, camera, film.
+// SceneDescription -> Scene, on one page: textures, materials, lights, shapes, instances, camera,
+// film.
 #include <algorithm>
 #include <exception>
 #include <limits>
@@ -26,10 +27,10 @@ class SceneBuilder {
         device_(EmbreeScene::make_device()) {
     scene_->materials = make_materials(d_, textures_, {overrides.specular_alpha}, diagnostics);
     for (size_t i = 0; i < d_.materials.size(); ++i)
-      if (!d_.materials[i].name.empty()) material_index_[d_.materials[i].name] = static_cast<int>(i);
+      if (!d_.materials[i].name.empty())
+        material_index_[d_.materials[i].name] = static_cast<int>(i);
     scene_->film = make_film_description(d_, overrides, diagnostics);
-    scene_->camera =
-        make_camera(d_.camera, scene_->film.width, scene_->film.height, diagnostics);
+    scene_->camera = make_camera(d_.camera, scene_->film.width, scene_->film.height, diagnostics);
     scene_->filter = make_pixel_filter(d_.pixel_filter, diagnostics);
     read_sampler();
     if (d_.integrator) {
@@ -89,8 +90,8 @@ class SceneBuilder {
                                                "MakeNamedMaterial");
   }
 
-  // Reading and building meshes takes the time, so it is done for all shapes at once; everything that
-  // has an order (geometry numbers, lights) follows in the order of the file.
+  // Reading and building meshes takes the time, so it is done for all shapes at once; everything
+  // that has an order (geometry numbers, lights) follows in the order of the file.
   void build_group(const std::vector<ShapeDescription>& shapes, ShapeGroup& group) {
     group.accelerator = std::make_unique<EmbreeScene>(device_);
     std::vector<std::vector<ShapePtr>> made(shapes.size());
@@ -136,9 +137,8 @@ class SceneBuilder {
                         "an area light on an \"interface\" material does not emit");
       return;
     }
-    std::vector<LightPtr> lights =
-        make_area_lights(*description.area_light, shape, d_.directory, textures_, record.alpha,
-                         diagnostics_);
+    std::vector<LightPtr> lights = make_area_lights(*description.area_light, shape, d_.directory,
+                                                    textures_, record.alpha, diagnostics_);
     if (lights.empty()) return;
     record.first_light = static_cast<int>(scene_->lights.size());
     for (LightPtr& light : lights) scene_->lights.push_back(std::move(light));
@@ -148,8 +148,9 @@ class SceneBuilder {
                     const std::map<std::string, const ShapeGroup*>& by_name) {
     const auto it = by_name.find(instance.object);
     if (it == by_name.end())
-      throw SceneError(instance.where, "object \"" + instance.object +
-                                           "\" is not defined, expected the name of an ObjectBegin");
+      throw SceneError(
+          instance.where,
+          "object \"" + instance.object + "\" is not defined, expected the name of an ObjectBegin");
     if (it->second->records.empty()) {
       diagnostics_.warn(instance.where, "object \"" + instance.object + "\" has no shapes");
       return;
@@ -196,7 +197,8 @@ class SceneBuilder {
     if (scene_->lights.empty())
       diagnostics_.warn(file, "the scene has no light, the picture will be black");
     if (!d_.camera)
-      diagnostics_.warn(file, "the scene has no camera, a perspective camera at the origin is used");
+      diagnostics_.warn(file,
+                        "the scene has no camera, a perspective camera at the origin is used");
   }
 
   const SceneDescription& d_;

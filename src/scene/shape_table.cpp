@@ -89,8 +89,7 @@ std::vector<ShapePtr> ply_mesh(const Context& c) {
   if (name.empty()) throw SceneError(c.p.where, c.what() + " has no \"string filename\"");
   if (c.p.find("displacement"))
     c.diagnostics.warn(c.p.where, "\"displacement\" of a shape is not rendered yet");
-  return finish_mesh(
-      c, read_ply((std::filesystem::path(c.directory) / name).string(), c.p.where));
+  return finish_mesh(c, read_ply((std::filesystem::path(c.directory) / name).string(), c.p.where));
 }
 
 std::vector<ShapePtr> bilinear_mesh(const Context& c) {
@@ -179,8 +178,8 @@ struct Row {
   std::vector<ShapePtr> (*make)(const Context&);
 };
 constexpr Row kTable[] = {
-    {"trianglemesh", triangle_mesh}, {"plymesh", ply_mesh}, {"bilinearmesh", bilinear_mesh},
-    {"loopsubdiv", loop_subdivision}, {"sphere", sphere},   {"disk", disk},
+    {"trianglemesh", triangle_mesh},  {"plymesh", ply_mesh}, {"bilinearmesh", bilinear_mesh},
+    {"loopsubdiv", loop_subdivision}, {"sphere", sphere},    {"disk", disk},
     {"cylinder", cylinder},
 };
 
@@ -192,22 +191,24 @@ std::vector<std::string> shape_names() {
   return names;
 }
 
-std::vector<ShapePtr> make_shapes(const ShapeDescription& description,
-                                  const std::string& directory, Diagnostics& diagnostics) {
+std::vector<ShapePtr> make_shapes(const ShapeDescription& description, const std::string& directory,
+                                  Diagnostics& diagnostics) {
   if (description.transform.is_animated())
     diagnostics.warn(description.where,
                      "the shape moves: motion blur is not rendered yet, its start is used");
   const Transform transform(description.transform.start);
-  const Context context{description, description.parameters, directory, diagnostics, transform,
-                        description.reverse_orientation != transform.swaps_handedness()};
+  const Context context{
+      description, description.parameters,
+      directory,   diagnostics,
+      transform,   description.reverse_orientation != transform.swaps_handedness()};
   for (const Row& row : kTable)
     if (description.type == row.name) return row.make(context);
   std::string expected;
   for (const Row& row : kTable) expected += std::string(expected.empty() ? "" : ", ") + row.name;
   const bool later = description.type == "curve";
-  throw SceneError(description.where,
-                   "shape \"" + description.type + "\" is " +
-                       (later ? "not rendered yet" : "unknown") + ", expected one of " + expected);
+  throw SceneError(description.where, "shape \"" + description.type + "\" is " +
+                                          (later ? "not rendered yet" : "unknown") +
+                                          ", expected one of " + expected);
 }
 
 }  // namespace nephroid

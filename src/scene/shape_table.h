@@ -11,10 +11,11 @@
 namespace nephroid {
 
 /// The shapes of one directive, in world space if `to_world`, else in the space of its object
-/// definition (the directive's own transform applied either way). A PLY file with triangles and quads
-/// gives two. Empty after a warning where nothing is left to render. Throws SceneError or IoError.
-std::vector<ShapePtr> make_shapes(const ShapeDescription& description,
-                                  const std::string& directory, Diagnostics& diagnostics);
+/// definition (the directive's own transform applied either way). A PLY file with triangles and
+/// quads gives two. Empty after a warning where nothing is left to render. Throws SceneError or
+/// IoError.
+std::vector<ShapePtr> make_shapes(const ShapeDescription& description, const std::string& directory,
+                                  Diagnostics& diagnostics);
 
 /// Names of all shapes that the table knows.
 std::vector<std::string> shape_names();

@@ -58,7 +58,7 @@ constexpr IntegratorSetting kSettings[] = {
        o.camera_samples_per_pass = static_cast<int>(integer("camera-samples", t, 0, kMaxInt));
      },
      [](const IntegratorOptions& o) { return fmt::format("{}", o.camera_samples_per_pass); }},
-    {"memory-photons", "N", "4194304", "photons",
+    {"memory-photons", "N", "1048576", "photons",
      "Photons kept at once; a pass with more runs in batches.",
      [](IntegratorOptions& o, const std::string& t) {
        o.memory_photons = integer("memory-photons", t, 1, kNoLimit);

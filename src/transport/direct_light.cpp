@@ -26,9 +26,8 @@ std::optional<DirectSample> sample_direct(const Scene& scene, const SurfaceInter
     d.shadow_ray.d = s->wi;
     return d;
   }
-  const Vec3f end = length_squared(s->ng) > 0
-                        ? offset_ray_origin(s->p, s->p_error, s->ng, -s->wi)
-                        : s->p;
+  const Vec3f end =
+      length_squared(s->ng) > 0 ? offset_ray_origin(s->p, s->p_error, s->ng, -s->wi) : s->p;
   d.shadow_ray.d = end - d.shadow_ray.o;
   d.shadow_ray.t_max = 1.0f - 1e-5f;
   return d;

@@ -1,5 +1,5 @@
-// Next-event estimation: light that reaches a vertex straight from a light that was chosen for it, and the
-// densities that multiple importance sampling compares (docs/estimators.md, [D1] to [D4]).
+// Next-event estimation: light that reaches a vertex straight from a light that was chosen for it,
+// and the densities that multiple importance sampling compares (docs/estimators.md, [D1] to [D4]).
 // Who calls it: integrators. It must not know routes or films.
 #pragma once
 

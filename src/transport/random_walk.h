@@ -1,7 +1,7 @@
-// The one random walk through a scene, from the camera or from a light. It finds surfaces, makes their
-// BSDFs, goes straight through what is not there, plays Russian roulette and samples directions; what a
-// vertex is for is the visitor's business.
-// Who calls it: integrators and the photon tracer. It must not know routes or films.
+// The one random walk through a scene, from the camera or from a light. It finds surfaces, makes
+// their BSDFs, goes straight through what is not there, plays Russian roulette and samples
+// directions; what a vertex is for is the visitor's business. Who calls it: integrators and the
+// photon tracer. It must not know routes or films.
 #pragma once
 
 #include "core/sampler.h"
@@ -9,19 +9,19 @@
 
 namespace nephroid {
 
-/// Where each decision of a path finds its random numbers. Every vertex has the same set, so that its
-/// numbers do not depend on what earlier vertices used.
+/// Where each decision of a path finds its random numbers. Every vertex has the same set, so that
+/// its numbers do not depend on what earlier vertices used.
 namespace dimensions {
-inline constexpr int kFilm = 0;        // 2
-inline constexpr int kWavelength = 2;  // 1
-inline constexpr int kFirstVertex = 3; // of camera walks
-inline constexpr int kLens = 11;       // 2
-inline constexpr int kTime = 13;       // 1
+inline constexpr int kFilm = 0;         // 2
+inline constexpr int kWavelength = 2;   // 1
+inline constexpr int kFirstVertex = 3;  // of camera walks
+inline constexpr int kLens = 11;        // 2
+inline constexpr int kTime = 13;        // 1
 inline constexpr int kSecondVertex = 14;
 // within a vertex
-inline constexpr int kLight = 0;      // 3
-inline constexpr int kBsdf = 3;       // 3
-inline constexpr int kRoulette = 6;   // 1
+inline constexpr int kLight = 0;     // 3
+inline constexpr int kBsdf = 3;      // 3
+inline constexpr int kRoulette = 6;  // 1
 inline constexpr int kPerVertex = 8;
 }  // namespace dimensions
 
@@ -30,22 +30,22 @@ struct Walk {
   Ray ray;
   SampledSpectrum throughput{1.0f};
   SampledWavelengths lambda;
-  int vertices = 0;          ///< surfaces at which something was decided
-  int events = 0;            ///< scattering events so far
-  float length = 0;          ///< path length from the start
-  float eta_scale = 1;       ///< product of eta^2 over refractions, which roulette leaves out
+  int vertices = 0;     ///< surfaces at which something was decided
+  int events = 0;       ///< scattering events so far
+  float length = 0;     ///< path length from the start
+  float eta_scale = 1;  ///< product of eta^2 over refractions, which roulette leaves out
   // The last scattering event; before the first one the values of the start.
-  bool delta = true;         ///< a delta lobe or the camera: no other technique could make this ray
-  float pdf_w = 0;           ///< P_c p_c of the direction
+  bool delta = true;  ///< a delta lobe or the camera: no other technique could make this ray
+  float pdf_w = 0;    ///< P_c p_c of the direction
   Vec3f previous_p, previous_ns;  ///< vertex that the ray left and its shading normal
-  uint64_t rays = 0;         ///< closest-hit queries
+  uint64_t rays = 0;              ///< closest-hit queries
   int first_dimension = dimensions::kFirstVertex;    ///< random numbers of the first vertex
   int second_dimension = dimensions::kSecondVertex;  ///< of the second; later ones follow
   int vertex_dimension() const {
     return vertices == 0 ? first_dimension
                          : second_dimension + (vertices - 1) * dimensions::kPerVertex;
   }
-  int passages = 0;          ///< straight passages since the start (bounds the walk)
+  int passages = 0;  ///< straight passages since the start (bounds the walk)
 };
 
 /// A surface vertex that a visitor sees.
@@ -53,15 +53,13 @@ struct WalkVertex {
   const SurfaceInteraction& surface;
   const Bsdf& bsdf;
   Vec3f wo;  ///< local
-  /// Classes that the surface may have here in any of the guises that a `mix` chooses from at random. What
-  /// is stored for others to meet depends on this and not on the guise that this walk happened to see.
+  /// Classes that the surface may have here in any of the guises that a `mix` chooses from at
+  /// random. What is stored for others to meet depends on this and not on the guise that this walk
+  /// happened to see.
   ClassMask possible;
 
   Vec3f to_local(const Vec3f& w) const { return surface.shading.to_local(w); }
 };
-
-/// Crossings of "interface" and thin surfaces after which a walk is given up as trapped.
-inline constexpr int kMaxPassages = 1000;
 
 /// Runs the walk until it leaves, ends or has `max_events` events. The visitor has
 ///   void escape(const Walk&)                         the ray left the scene
@@ -69,8 +67,8 @@ inline constexpr int kMaxPassages = 1000;
 ///   ClassMask vertex(const Walk&, const WalkVertex&, PathSampler&)
 ///                                  a surface; returns the classes in which to go on (kNone: stop)
 ///   bool scatter(const Walk&, const BsdfSample&)     an event was sampled; false: stop
-/// `mode` tells which quantity the throughput carries. In kImportance it includes the correction for
-/// shading normals (Veach 1997, section 5.3).
+/// `mode` tells which quantity the throughput carries. In kImportance it includes the correction
+/// for shading normals (Veach 1997, section 5.3).
 template <class Visitor>
 void random_walk(const Scene& scene, TransportMode mode, int max_events, Walk& walk,
                  PathSampler& sampler, Visitor& visitor) {
@@ -85,13 +83,16 @@ void random_walk(const Scene& scene, TransportMode mode, int max_events, Walk& w
     walk.length += hit.distance;
     const Material& surface = *scene.materials[static_cast<size_t>(hit.material)];
     const Material* material = surface.resolve(hit);
+    hit.coverage *= surface.presence(hit);
     if (material->is_interface()) {
       if (++walk.passages > kMaxPassages) return;
       walk.ray.o = hit.spawn_origin(walk.ray.d);
       continue;
     }
     if (const Light* light = scene.area_light(hit)) visitor.emitter(walk, hit, *light);
-    if (walk.events >= max_events) return;
+    // Without an event left, the walk may still go straight through what adds none.
+    const bool spent = walk.events >= max_events;
+    if (spent && !material->passes_straight()) return;
     if (material->has_bump()) material->bump(hit);
     arena.clear();
     const Bsdf* bsdf = material->make_bsdf(hit, walk.lambda, arena);
@@ -99,8 +100,8 @@ void random_walk(const Scene& scene, TransportMode mode, int max_events, Walk& w
     const WalkVertex vertex{hit, *bsdf, hit.shading.to_local(hit.wo), surface.possible_classes()};
     const int dimension = walk.vertex_dimension();
     sampler.start_dimension(dimension + dimensions::kLight);
-    const ClassMask among = visitor.vertex(walk, vertex, sampler);
-    if (among == ClassMask::kNone) return;
+    const ClassMask among = spent ? ClassMask::kNone : visitor.vertex(walk, vertex, sampler);
+    if (among == ClassMask::kNone && !material->passes_straight()) return;
 
     sampler.start_dimension(dimension + dimensions::kBsdf);
     const float uc = sampler.get_1d();
@@ -117,6 +118,7 @@ void random_walk(const Scene& scene, TransportMode mode, int max_events, Walk& w
       walk.ray.o = hit.spawn_origin(walk.ray.d);
       continue;
     }
+    if (among == ClassMask::kNone) return;
     if (mode == TransportMode::kImportance) {
       const float down = abs_dot(hit.wo, hit.ng) * abs_cos_theta(s->wi);
       if (!(down > 0.0f)) return;

@@ -149,6 +149,13 @@ TEST(BadMaterial, IsLocated) {
                  "7:20: cannot read image \"./absent.png\"");
 }
 
+// Numbers whose inverse is infinite, where colours are looked up in tables.
+TEST(DarkestColour, IsDrawn) {
+  SceneFolder(kHead + "Material \"diffuse\" \"rgb reflectance\" [ 1e-45 -0 0 ]\n" + kTriangle +
+              "LightSource \"infinite\" \"rgb L\" [ 0 1e-40 0 ]\n")
+      .expect_picture({});
+}
+
 TEST(BadTexture, IsLocated) {
   expect_scene_error("Material \"diffuse\" \"texture reflectance\" \"absent\"\n",
                      "7:20: there is no spectrum texture named \"absent\"");

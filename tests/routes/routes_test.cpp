@@ -130,5 +130,22 @@ TEST(Routes, OneRouteForAll) {
   }
 }
 
+TEST(Routes, SeenEmissionIsWhatFullPhotonMappingLeaves) {
+  const Routes routes = Routes::seen_emission();
+  for (const std::string& w : words(8)) {
+    const bool seen = w.find('D') == std::string::npos;
+    EXPECT_EQ(routes.owner(read(routes, w)), seen ? Route::kDiffuse : Route::kCaustic) << w;
+  }
+  EXPECT_EQ(routes.useful_eye_events(Routes::kEyeStart, Route::kDiffuse), ClassMask::kSpecular);
+  EXPECT_EQ(routes.useful_eye_events(read(routes, "D"), Route::kDiffuse), ClassMask::kNone);
+  EXPECT_EQ(routes.useful_eye_events(Routes::kEyeStart, Route::kCaustic), ClassMask::kAll);
+}
+
+TEST(Routes, EveryCameraWalkOfTheMixedMethodMayStillCount) {
+  const Routes routes = Routes::doidge2012();
+  for (const std::string& w : words(6))
+    EXPECT_EQ(routes.useful_eye_events(read(routes, w), Route::kDiffuse), ClassMask::kAll) << w;
+}
+
 }  // namespace
 }  // namespace nephroid

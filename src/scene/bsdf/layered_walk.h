@@ -21,6 +21,7 @@ struct Coat {
   int max_depth = 10;       ///< largest number of steps of the walk
   int walks = 1;            ///< walks per evaluation
   bool scatters = false;    ///< albedo is not black
+  uint64_t seed = 0;        ///< of the random walks; differs from point to point and path to path
 
   /// Share of light that crosses a distance `dz` (in depth) along w.
   static float transmittance(float dz, const Vec3f& w) {
@@ -28,12 +29,12 @@ struct Coat {
   }
 };
 
-/// Random numbers of one walk: a function of the directions, so that the same question has the same
-/// answer.
+/// Random numbers of one walk: a function of the coat's seed and the directions, so that the same question
+/// has the same answer, and other points and paths ask other questions.
 class WalkRandom {
  public:
-  WalkRandom(const Vec3f& a, const Vec3f& b)
-      : state_(hash_combine(bits(a.x, a.y), bits(a.z, b.z), bits(b.x, b.y))) {}
+  WalkRandom(uint64_t seed, const Vec3f& a, const Vec3f& b)
+      : state_(hash_combine(seed, bits(a.x, a.y), bits(a.z, b.z), bits(b.x, b.y))) {}
   explicit WalkRandom(uint64_t seed) : state_(mix_bits(seed)) {}
   float next() {
     state_ += 0x9e3779b97f4a7c15ull;
@@ -217,7 +218,7 @@ class LayeredWalk {
 template <class Base>
 SampledSpectrum layered_base_value(const Coat& coat, const Base& base, const Vec3f& wo,
                                    const Vec3f& wi, TransportMode mode) {
-  WalkRandom random(wo, wi);
+  WalkRandom random(coat.seed, wo, wi);
   LayeredWalk<Base> walk(coat, base, wi, mode);
   SampledSpectrum sum;
   for (int i = 0; i < coat.walks; ++i) sum += walk.run(wo, random);

@@ -1,6 +1,9 @@
 // The materials "coateddiffuse" and "coatedconductor".
 // Who calls it: the table. It must not know how layers are evaluated; it only picks the closed form
 // when the coat is the same everywhere and does not scatter.
+#include <bit>
+
+#include "core/sampler.h"
 #include "scene/bsdf/coated.h"
 #include "scene/bsdf/coated_diffuse.h"
 #include "scene/material/metal_input.h"
@@ -35,6 +38,8 @@ class CoatInput {
     coat.g = std::clamp(g_.at(point), -0.999f, 0.999f);
     coat.max_depth = max_depth_;
     coat.walks = walks_;
+    for (const float x : {point.p.x, point.p.y, point.p.z, lambda.lambda(0)})
+      coat.seed = hash_combine(coat.seed, std::bit_cast<uint32_t>(x));
     return coat;
   }
 
@@ -48,6 +53,8 @@ class CoatInput {
                               max_depth_);
   }
 
+  /// True unless the gap is known to absorb only.
+  bool may_scatter() const { return !albedo_.is_black(); }
   ClassMask possible_classes(float specular_alpha) const {
     return roughness_.possible_classes(specular_alpha);
   }
@@ -112,7 +119,10 @@ class CoatedConductorMaterial final : public SurfaceMaterial {
     return arena.make<CoatedBsdf<ConductorSurface>>(coat, metal, specular_alpha_);
   }
   ClassMask possible_classes() const override {
-    return coat_.possible_classes(specular_alpha_) | roughness_.possible_classes(specular_alpha_);
+    // A medium between coat and metal scatters to all sides, whatever their roughness.
+    const ClassMask medium = coat_.may_scatter() ? ClassMask::kDiffuse : ClassMask::kNone;
+    return coat_.possible_classes(specular_alpha_) | roughness_.possible_classes(specular_alpha_) |
+           medium;
   }
 
  private:

@@ -40,6 +40,8 @@ class Material {
                                                  const SampledWavelengths&) const {
     return SampledSpectrum(is_interface() ? 1.0f : 0.0f);
   }
+  /// Probability that resolve() finds a surface here and not an interface.
+  virtual float presence(const SurfaceInteraction&) const { return is_interface() ? 0.0f : 1.0f; }
   /// Classes that any lobe of this material may have at any point (a conservative answer; for the
   /// report "why is there no caustic").
   virtual ClassMask possible_classes() const = 0;

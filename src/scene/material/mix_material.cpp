@@ -43,6 +43,10 @@ class MixMaterial final : public Material {
                                          const SampledWavelengths& lambda) const override {
     return resolve(point)->straight_transmittance(point, lambda);
   }
+  float presence(const SurfaceInteraction& point) const override {
+    const float amount = std::clamp(amount_.at(point), 0.0f, 1.0f);
+    return (1.0f - amount) * materials_[0]->presence(point) + amount * materials_[1]->presence(point);
+  }
   ClassMask possible_classes() const override {
     return materials_[0]->possible_classes() | materials_[1]->possible_classes();
   }

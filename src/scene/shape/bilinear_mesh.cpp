@@ -137,8 +137,8 @@ void set_point(const BilinearPatch& patch, double u, double v, Vec3f* p, Vec3f* 
     const double magnitude = std::abs(patch.p00[i]) + std::abs(patch.p10[i]) +
                              std::abs(patch.p01[i]) + std::abs(patch.p11[i]);
     // Rounded once to float; the rest was lost in double. The extent stands for the rounding of a
-    // distance to the patch, also along axes on which all coordinates are zero; flat patches are traced
-    // in float.
+    // distance to the patch, also along axes on which all coordinates are zero; flat patches are
+    // traced in float.
     (*p_error)[i] = static_cast<float>(std::abs(q[i]) * 0x1.0001p-24 + magnitude * 16.0 * 0x1p-53 +
                                        extent * static_cast<double>(gamma_bound(6)));
   }

@@ -2,13 +2,15 @@
 // It must not know what the mesh is for.
 #include "scene/shape/mesh_preparation.h"
 
+#include <fmt/format.h>
+
 #include "scene/shape/shape.h"
 
 namespace nephroid {
 namespace {
 
 std::string text(const Vec3f& v) {
-  return "(" + std::to_string(v.x) + ", " + std::to_string(v.y) + ", " + std::to_string(v.z) + ")";
+  return fmt::format("({:g}, {:g}, {:g})", v.x, v.y, v.z);
 }
 
 template <class V>

@@ -18,8 +18,8 @@ namespace nephroid {
 void validate_mesh(MeshData& mesh, const SourceLocation& where, const std::string& what,
                    Diagnostics& diagnostics);
 
-/// Turns the normals around: pbrt does so with the normals of a mesh under ReverseOrientation, before
-/// it asks which side the faces show.
+/// Turns the normals around: pbrt does so with the normals of a mesh under ReverseOrientation,
+/// before it asks which side the faces show.
 void reverse_normals(MeshData& mesh);
 
 /// The mesh with each quad (ring order) cut into two triangles behind the triangles it had.

@@ -55,8 +55,8 @@ class Shape {
   virtual void fill(uint32_t primitive, const Vec2f& hit_uv, const Ray& ray, float t,
                     SurfaceInteraction& out) const = 0;
 
-  /// The mesh, if every primitive is a plane rectangle of `quads` (patch order): the ray tracer may then
-  /// trace them itself; its (u, v) are those of intersect(). nullptr otherwise.
+  /// The mesh, if every primitive is a plane rectangle of `quads` (patch order): the ray tracer may
+  /// then trace them itself; its (u, v) are those of intersect(). nullptr otherwise.
   virtual const MeshData* flat_quads() const { return nullptr; }
 
   virtual float area(uint32_t primitive) const = 0;

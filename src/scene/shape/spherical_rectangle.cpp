@@ -27,8 +27,8 @@ SphericalRectangle::SphericalRectangle(const Vec3d& from, const RectangleFrame& 
   z0_ = -std::abs(d.dot(r.z));
   if (z0_ == 0.0) return;
 
-  // The four inner angles of the spherical rectangle; their excess over 2 pi is the solid angle. Angles
-  // are added by multiplying complex numbers, so that one arc tangent is enough.
+  // The four inner angles of the spherical rectangle; their excess over 2 pi is the solid angle.
+  // Angles are added by multiplying complex numbers, so that one arc tangent is enough.
   const auto sine = [this](double px, double py) {
     return -z0_ * std::sqrt(px * px + py * py + z0_ * z0_);
   };
@@ -38,6 +38,10 @@ SphericalRectangle::SphericalRectangle(const Vec3d& from, const RectangleFrame& 
   start_re_ = c2 * c3 - s2 * s3;
   start_im_ = c2 * s3 + s2 * c3;
   solid_angle_ = argument(re01 * start_re_ - im01 * start_im_, re01 * start_im_ + im01 * start_re_);
+  // More than a hemisphere's half is seen only from above the rectangle; elsewhere such a value is
+  // a tiny negative one, rounded, that went once around.
+  const bool above = x0_ < 0.0 && x1_ > 0.0 && y0_ < 0.0 && y1_ > 0.0;
+  if (!above && solid_angle_ > 0.5 * kTwoPi) solid_angle_ = 0.0;
 }
 
 Vec2f SphericalRectangle::sample(const Vec2f& u) const {

@@ -10,7 +10,7 @@ namespace nephroid {
 
 /// A rectangle's own axes, made once for each.
 struct RectangleFrame {
-  Vec3d corner, x, y, z;       ///< unit axes, x and y along the edges that leave the corner
+  Vec3d corner, x, y, z;  ///< unit axes, x and y along the edges that leave the corner
   double length_x = 0, length_y = 0;
 
   RectangleFrame() = default;
@@ -33,8 +33,8 @@ class SphericalRectangle {
   Vec2f sample(const Vec2f& u) const;
 
  private:
-  double x0_, x1_, y0_, y1_;  ///< in the rectangle's own axes, `from` at the origin
-  double z0_;                 ///< distance of its plane, negative
+  double x0_, x1_, y0_, y1_;            ///< in the rectangle's own axes, `from` at the origin
+  double z0_;                           ///< distance of its plane, negative
   double start_re_ = 1, start_im_ = 0;  ///< complex number whose argument is g2 + g3
   double solid_angle_ = 0;
 };

@@ -115,7 +115,11 @@ void expect_same(const Energies& a, const Energies& b, const std::string& what) 
 
 template <class Base>
 void compare(const std::string& name, const Coat& coat, const Base& base) {
-  const CoatedBsdf<Base> bsdf(coat, base, kDefaultSpecularAlpha);
+  // One walk alone is far from normally distributed where light leaves at grazing angles; the mean of some
+  // is what the test's error bounds can deal with.
+  Coat averaged = coat;
+  averaged.walks = 8;
+  const CoatedBsdf<Base> bsdf(averaged, base, kDefaultSpecularAlpha);
   for (const float angle : {10.0f, 65.0f}) {
     const Vec3f wo = direction_at(angle);
     expect_same(brute_force_energies(coat, base, wo, 150000),

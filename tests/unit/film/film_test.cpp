@@ -128,17 +128,15 @@ TEST(Film, SaturationIsCounted) {
 }
 
 TEST(Film, LargestComponentIsHeldWithTheHueKept) {
-  FilmSettings settings = small_film();
-  settings.max_component = 4;
-  Film film(settings, {"all"});
-  film.add(0, 2, 1, {8, 4, 2});
-  film.add(0, 3, 1, {4, 1, 1});
-  film.add_estimates(0, 1);
-  EXPECT_EQ(film.value(2, 1).r, 4.0f);
-  EXPECT_EQ(film.value(2, 1).g, 2.0f);
-  EXPECT_EQ(film.value(2, 1).b, 1.0f);
-  EXPECT_EQ(film.value(3, 1).r, 4.0f);
-  EXPECT_EQ(film.value(3, 1).g, 1.0f);
+  const Rgb large = clamp_component({8, 4, 2}, 4), small = clamp_component({4, 1, 1}, 4);
+  EXPECT_EQ(large.r, 4.0f);
+  EXPECT_EQ(large.g, 2.0f);
+  EXPECT_EQ(large.b, 1.0f);
+  EXPECT_EQ(small.r, 4.0f);
+  EXPECT_EQ(small.g, 1.0f);
+  // A negative lobe is held as a positive one is.
+  EXPECT_EQ(clamp_component({-8, 4, 2}, 4).r, -4.0f);
+  EXPECT_EQ(clamp_component({-8, 4, 2}, 4).g, 2.0f);
 }
 
 TEST(Film, ReplaceForgetsWhatWasThere) {

@@ -1,0 +1,179 @@
+#include "agreement/scenes.h"
+
+namespace nephroid {
+namespace {
+
+constexpr char kCamera[] = R"(LookAt 0 6 -3  0 0.4 0  0 1 0 Camera "perspective" "float fov" 32)";
+constexpr char kLensCamera[] =
+    R"(LookAt 0 6 -3  0 0.4 0  0 1 0
+       Camera "perspective" "float fov" 32 "float lensradius" 0.15 "float focaldistance" 5)";
+constexpr char kOrthographic[] =
+    R"(LookAt 0 6 -3  0 0.4 0  0 1 0
+       Camera "orthographic" "float screenwindow" [-1.8 1.8 -1.8 1.8])";
+constexpr char kFlipped[] =
+    R"(LookAt 0 6 -3  0 0.4 0  0 1 0
+       Camera "perspective" "float fov" 32 "float screenwindow" [1 -1 1 -1])";
+
+constexpr char kLamp[] = R"(
+  AttributeBegin
+    AreaLightSource "diffuse" "rgb L" [10 9 8]
+    Material "diffuse" "rgb reflectance" [0 0 0]
+    Translate 2.2 3.2 0.5 Rotate 90 1 0 0
+    Shape "disk" "float radius" 0.9
+  AttributeEnd
+)";
+constexpr char kPointLight[] =
+    R"(LightSource "point" "rgb I" [20 18 16] "point3 from" [2.2 3.2 0.5])";
+constexpr char kSpotLight[] =
+    R"(LightSource "spot" "rgb I" [40 36 32] "point3 from" [2.2 3.2 0.5] "point3 to" [0 0.6 0]
+       "float coneangle" 35 "float conedeltaangle" 10)";
+constexpr char kSky[] = R"(LightSource "infinite" "rgb L" [0.5 0.6 0.7])";
+
+constexpr char kRoom[] = R"(
+  Material "diffuse" "rgb reflectance" [0.6 0.5 0.4]
+  Shape "bilinearmesh" "point3 P" [-3.5 0 -3.5  3.5 0 -3.5  -3.5 0 3.5  3.5 0 3.5]
+  Shape "bilinearmesh" "point3 P" [-3.5 0 -3.5  -3.5 0 3.5  -3.5 3 -3.5  -3.5 3 3.5]
+)";
+
+// BALL in a scene's text: a cage whose limit is a ball of radius about 0.6, smooth and of few triangles.
+constexpr char kBall[] = R"(Shape "loopsubdiv" "integer levels" 2
+  "integer indices" [0 2 4 2 1 4 1 3 4 3 0 4 2 0 5 1 2 5 3 1 5 0 3 5]
+  "point3 P" [0.9 0 0  -0.9 0 0  0 0.9 0  0 -0.9 0  0 0 0.9  0 0 -0.9])";
+
+constexpr char kSheetBelowGlass[] = R"(
+  Shape "bilinearmesh" "point3 P" [-3 0.45 -3  3 0.45 -3  -3 0.45 3  3 0.45 3] "float alpha" 0.5
+  Material "dielectric" "float eta" 1.5 Translate 0 1.2 0 Shape "sphere" "float radius" 0.6)";
+
+}  // namespace
+
+const std::vector<AgreementScene> kAgreementScenes = {
+    {.name = "diffuse", .world = R"(Translate 0 0.7 0 Shape "sphere" "float radius" 0.6)"},
+    {.name = "glass",
+     .world = R"(Material "dielectric" "float eta" 1.5 Translate 0 0.9 0
+                 Shape "sphere" "float radius" 0.6)"},
+    {.name = "bumped_glass",
+     .world = R"(Texture "waves" "float" "imagemap" "string filename" "WAVES"
+                   "string encoding" "linear"
+                 Material "dielectric" "float eta" 1.5 "texture displacement" "waves"
+                 Translate 0 0.9 0 Shape "sphere" "float radius" 0.6)"},
+    {.name = "dispersive_glass",
+     .world = R"(Material "dielectric" "spectrum eta" "glass-SF11" Translate 0 0.9 0
+                 Shape "sphere" "float radius" 0.6)"},
+    {.name = "mirror",
+     .world = R"(Material "conductor" "float roughness" 0 Translate 0 0.7 0
+                 Shape "sphere" "float radius" 0.6)"},
+    {.name = "glossy_threshold",
+     .world = R"(Material "conductor" "float roughness" 0.04 "bool remaproughness" false
+                 Translate 0 0.7 0 Shape "sphere" "float radius" 0.6)"},
+    {.name = "glossy",
+     .world = R"(Material "conductor" "float roughness" 0.2 "bool remaproughness" false
+                 Translate 0 0.7 0 Shape "sphere" "float radius" 0.6)"},
+    {.name = "coated",
+     .world = R"(Material "coateddiffuse" "rgb reflectance" [0.2 0.5 0.7] "float roughness" 0
+                 Translate 0 0.7 0 Shape "sphere" "float radius" 0.6)"},
+    {.name = "coated_conductor",
+     .world = R"(Material "coatedconductor" "float interface.roughness" 0
+                   "float conductor.roughness" 0.2
+                 Translate 0 0.7 0 Shape "sphere" "float radius" 0.6)"},
+    {.name = "thin_lens",
+     .world = R"(Material "dielectric" Translate 0 0.9 0 Shape "sphere" "float radius" 0.6)",
+     .camera = kLensCamera},
+    {.name = "half_there_sheet_below_glass", .world = kSheetBelowGlass},
+    {.name = "half_interface_sheet_below_glass",
+     .world = R"(MakeNamedMaterial "paint" "string type" "diffuse" "rgb reflectance" [0.7 0.6 0.5]
+                 MakeNamedMaterial "gap" "string type" "interface"
+                 Material "mix" "string materials" ["paint" "gap"] "float amount" 0.5
+                 Shape "bilinearmesh" "point3 P" [-3 0.45 -3  3 0.45 -3  -3 0.45 3  3 0.45 3]
+                 Material "dielectric" "float eta" 1.5 Translate 0 1.2 0
+                 Shape "sphere" "float radius" 0.6)"},
+    {.name = "mixed_receiver",
+     .world = R"(MakeNamedMaterial "paint" "string type" "diffuse" "rgb reflectance" [0.7 0.6 0.5]
+                 MakeNamedMaterial "metal" "string type" "conductor" "float roughness" 0
+                 Material "mix" "string materials" ["paint" "metal"] "float amount" 0.5
+                 Shape "bilinearmesh" "point3 P" [-3 0.45 -3  3 0.45 -3  -3 0.45 3  3 0.45 3]
+                 Material "dielectric" "float eta" 1.5 Translate 0 1.2 0
+                 Shape "sphere" "float radius" 0.6)"},
+    {.name = "thin_pane_above_mirror",
+     .world = R"(Material "conductor" "float roughness" 0
+                 AttributeBegin Translate 0 0.7 0 Shape "sphere" "float radius" 0.6 AttributeEnd
+                 Material "thindielectric" "float eta" 1.5
+                 Shape "bilinearmesh" "point3 P" [-3.4 2.2 -3  3.4 2.2 -3  -3.4 2.2 3  3.4 2.2 3])"},
+    {.name = "translucent_sheet_below_glass",
+     .world = R"(Material "diffusetransmission" "rgb reflectance" [0.4 0.3 0.2]
+                   "rgb transmittance" [0.2 0.4 0.5]
+                 Shape "bilinearmesh" "point3 P" [-3 0.45 -3  3 0.45 -3  -3 0.45 3  3 0.45 3]
+                 Material "dielectric" "float eta" 1.5 Translate 0 1.2 0
+                 Shape "sphere" "float radius" 0.6)"},
+    {.name = "point_light_and_nearly_smooth_metal",
+     .world = R"(Material "conductor" "float roughness" 0.04 "bool remaproughness" false
+                 Translate 0 0.7 0 Shape "sphere" "float radius" 0.6)",
+     .light = kPointLight},
+    // Light from a point through smooth glass is what no path from the eye can find.
+    {.name = "point_light_and_glass",
+     .world = R"(Material "dielectric" "float eta" 1.5 Translate 0 0.9 0
+                 Shape "sphere" "float radius" 0.6)",
+     .light = kPointLight,
+     .reference = "sppm"},
+    {.name = "spot_light_and_glass",
+     .world = R"(Material "dielectric" "float eta" 1.5 Translate 0 0.9 0
+                 Shape "sphere" "float radius" 0.6)",
+     .light = kSpotLight,
+     .reference = "sppm"},
+    {.name = "spot_light_and_diffuse",
+     .world = R"(Translate 0 0.7 0 Shape "sphere" "float radius" 0.6)",
+     .light = kSpotLight},
+    {.name = "sky_and_glass",
+     .world = R"(Material "dielectric" "float eta" 1.5 Translate 0 0.9 0
+                 Shape "sphere" "float radius" 0.6)",
+     .light = kSky},
+    {.name = "instance_of_smooth_glass",
+     .world = R"(ObjectBegin "ball" Material "dielectric" "float eta" 1.5 BALL ObjectEnd
+                 Translate 0 0.9 0 Rotate 30 1 2 3 ObjectInstance "ball")"},
+    {.name = "instance_as_receiver",
+     .world = R"(ObjectBegin "ball" Material "diffuse" "rgb reflectance" [0.7 0.6 0.5] BALL
+                 ObjectEnd
+                 AttributeBegin Scale 1.5 1 1.5 Translate -0.3 0.6 0 ObjectInstance "ball" AttributeEnd
+                 Material "dielectric" "float eta" 1.5 Translate 0.7 1.9 0.2
+                 Shape "sphere" "float radius" 0.5)"},
+    {.name = "two_events",
+     .world = R"(Material "conductor" "float roughness" 0
+                 AttributeBegin Translate 0 0.7 0 Shape "sphere" "float radius" 0.6 AttributeEnd
+                 Material "interface"
+                 Shape "bilinearmesh" "point3 P" [-3 2 -3  3 2 -3  -3 2 3  3 2 3]
+                 Material "thindielectric" "float eta" 1.5
+                 Shape "bilinearmesh" "point3 P" [-3.4 2.2 -3  3.4 2.2 -3  -3.4 2.2 3  3.4 2.2 3])",
+     .max_depth = 2},
+    {.name = "three_events",
+     .world = R"(Material "dielectric" "float eta" 1.5 Translate 0 0.9 0
+                 Shape "sphere" "float radius" 0.6)",
+     .max_depth = 3},
+    {.name = "orthographic",
+     .world = R"(Material "dielectric" "float eta" 1.5 Translate 0 0.9 0
+                 Shape "sphere" "float radius" 0.6)",
+     .camera = kOrthographic},
+    {.name = "flipped_screen",
+     .world = R"(Material "dielectric" "float eta" 1.5 Translate 0.3 0.9 0.2
+                 Shape "sphere" "float radius" 0.6)",
+     .camera = kFlipped},
+    // The limit is above all that a sample may carry here, and must then change nothing.
+    {.name = "signed_filter_and_limit",
+     .world = R"(Material "conductor" "float roughness" 0 Translate 0 0.7 0
+                 Shape "sphere" "float radius" 0.6)",
+     .film = R"("float maxcomponentvalue" 1000 PixelFilter "mitchell")"},
+};
+
+std::string agreement_scene_text(const AgreementScene& scene, const std::string& waves) {
+  std::string world = scene.world;
+  const auto fill_in = [&world](const std::string& placeholder, const std::string& text) {
+    if (const size_t at = world.find(placeholder); at != std::string::npos)
+      world.replace(at, placeholder.size(), text);
+  };
+  fill_in("WAVES", waves);
+  fill_in("BALL", kBall);
+  const std::string film = *scene.film ? scene.film : R"(PixelFilter "box")";
+  return std::string(scene.camera ? scene.camera : kCamera) +
+         R"( Film "rgb" "integer xresolution" 12 "integer yresolution" 12 )" + film +
+         " WorldBegin\n" + (scene.light ? scene.light : kLamp) + kRoom + world;
+}
+
+}  // namespace nephroid

@@ -1,0 +1,29 @@
+// The small scenes on which all integrators must agree: a floor and a wall, a light that the camera does
+// not see, and one thing to test. Used by integrators_test.cpp. The camera sees no edge of what photons are
+// merged on, so that the error of a merge radius falls with its square.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace nephroid {
+
+struct AgreementScene {
+  const char* name;
+  const char* world;
+  const char* camera = nullptr;  ///< null: a pinhole that looks down
+  const char* light = nullptr;   ///< null: a disk
+  int max_depth = 10;
+  const char* film = "";         ///< parameters of the Film, and the pixel filter
+  const char* reference = "path";
+  uint32_t reference_passes = 96;
+  float radius = 0.5f;           ///< pixel footprints
+  int64_t photons = 8192;        ///< a pass
+};
+
+extern const std::vector<AgreementScene> kAgreementScenes;
+
+/// The text of a whole scene. `waves` is the file of a height field for bumps.
+std::string agreement_scene_text(const AgreementScene& scene, const std::string& waves);
+
+}  // namespace nephroid
