@@ -1,0 +1,190 @@
+// Merging at one visible point, with photons made by hand so that every answer is known.
+#include "photon/merge.h"
+
+#include <gtest/gtest.h>
+
+#include "scene/bsdf/diffuse.h"
+
+namespace nephroid {
+namespace {
+
+constexpr float kReflectance = 0.6f, kTransmittance = 0.3f, kRadius = 0.1f;
+constexpr int kAnyDepth = 100;
+
+SampledSpectrum ramp() {
+  SampledSpectrum s;
+  for (int i = 0; i < kSpectrumSamples; ++i) s.set(i, 1.0f + static_cast<float>(i));
+  return s;
+}
+
+// A visible point at the origin of a floor whose normal is +z, seen from above.
+struct VisiblePoint {
+  SurfaceInteraction surface;
+  DiffuseBsdf reflecting{SampledSpectrum(kReflectance)};
+  DiffuseTransmissionBsdf both{SampledSpectrum(kReflectance), SampledSpectrum(kTransmittance)};
+  bool translucent = false;
+  Vec3f wo = normalize(Vec3f(0.3f, -0.2f, 0.8f));
+
+  VisiblePoint() {
+    surface.p = Vec3f(0, 0, 0);
+    surface.ng = Vec3f(0, 0, 1);
+    surface.wo = wo;
+    surface.shading = Frame::from_z_and_tangent(surface.ng, Vec3f(1, 0, 0));
+  }
+  MergeResult merge(const std::vector<Photon>& photons, EyeState eye, const Routes& routes,
+                    Route route, int eye_events = 1, int max_depth = kAnyDepth,
+                    bool eye_terminated = false) const {
+    const Bsdf& bsdf = translucent ? static_cast<const Bsdf&>(both) : reflecting;
+    const WalkVertex vertex{surface, bsdf, surface.shading.to_local(wo), ClassMask::kDiffuse};
+    return merge_photons(PhotonGrid(photons), routes, route, vertex, eye, eye_events, max_depth,
+                         eye_terminated, kRadius);
+  }
+  // All light belongs to one route.
+  MergeResult merge(const std::vector<Photon>& photons, bool eye_terminated = false) const {
+    return merge(photons, 0, Routes::all(Route::kCaustic), Route::kCaustic, 1, kAnyDepth,
+                 eye_terminated);
+  }
+};
+
+Photon photon_from(const Vec3f& wi) {
+  Photon photon;
+  photon.p = Vec3f(0.02f, 0.03f, 0);
+  photon.wi = normalize(wi);
+  photon.ng = Vec3f(0, 0, 1);
+  photon.flux = ramp();
+  return photon;
+}
+
+void expect_spectrum(const SampledSpectrum& found, const SampledSpectrum& expected,
+                     const std::string& what) {
+  for (int i = 0; i < kSpectrumSamples; ++i)
+    EXPECT_NEAR(found[i], expected[i], 1e-5f * (1.0f + expected[i])) << what << ", wavelength " << i;
+}
+
+TEST(Merge, SumsFluxTimesTheBsdf) {
+  const VisiblePoint point;
+  const MergeResult m = point.merge({photon_from({0, 0, 1}), photon_from({0.5f, 0.3f, 0.4f})});
+  EXPECT_EQ(m.found, 2u);
+  expect_spectrum(m.reflected, ramp() * (2 * kReflectance * kInvPi), "two photons");
+  EXPECT_TRUE(m.hero.is_black());
+}
+
+TEST(Merge, PhotonsBeyondTheRadiusDoNotCount) {
+  const VisiblePoint point;
+  Photon inside = photon_from({0, 0, 1}), outside = inside;
+  inside.p = Vec3f(0.0999f, 0, 0);
+  outside.p = Vec3f(0.1001f, 0, 0);
+  EXPECT_EQ(point.merge({inside, outside}).found, 1u);
+}
+
+TEST(Merge, PhotonsOfAWallDoNotCountOnTheFloor) {
+  const VisiblePoint point;
+  Photon wall = photon_from({0.7f, 0, 0.7f});
+  wall.ng = Vec3f(1, 0, 0);
+  Photon steep = wall;
+  steep.ng = normalize(Vec3f(1, 0, 0.9f));  // 48 degrees
+  const MergeResult none = point.merge({wall, steep});
+  EXPECT_EQ(none.found, 0u);
+  EXPECT_TRUE(none.reflected.is_black());
+  Photon slanted = wall;
+  slanted.ng = normalize(Vec3f(0.5f, 0, 1));  // 27 degrees: the same bent surface
+  EXPECT_EQ(point.merge({wall, slanted}).found, 1u);
+}
+
+TEST(Merge, ThePhotonsOwnCosineIsTheDensityOfItsLanding) {
+  // On a surface that bends, photons of a beam lie with the density of the cosine at their own place.
+  const VisiblePoint point;
+  Photon bent = photon_from({0.6f, 0, 0.8f});
+  bent.ng = normalize(Vec3f(0.4f, 0, 1));
+  const MergeResult m = point.merge({bent});
+  const float share = dot(bent.wi, point.surface.ng) / dot(bent.wi, bent.ng);
+  expect_spectrum(m.reflected, ramp() * (kReflectance * kInvPi * share), "bent surface");
+}
+
+TEST(Merge, ANormalThatPointsTheOtherWayIsTheSameSurface) {
+  const VisiblePoint point;
+  Photon flipped = photon_from({0.5f, 0.3f, 0.4f});
+  flipped.ng = Vec3f(0, 0, -1);
+  const MergeResult m = point.merge({flipped});
+  EXPECT_EQ(m.found, 1u);
+  expect_spectrum(m.reflected, ramp() * (kReflectance * kInvPi), "flipped");
+}
+
+TEST(Merge, TheSideOfArrivalSelectsReflectionOrTransmission) {
+  VisiblePoint point;
+  for (const float normal : {1.0f, -1.0f}) {
+    Photon above = photon_from({0.2f, 0.3f, 0.9f}), below = photon_from({0.2f, 0.3f, -0.9f});
+    above.ng = below.ng = Vec3f(0, 0, normal);
+    point.translucent = true;
+    expect_spectrum(point.merge({above}).reflected, ramp() * (kReflectance * kInvPi), "above");
+    expect_spectrum(point.merge({below}).reflected, ramp() * (kTransmittance * kInvPi), "below");
+    point.translucent = false;
+    expect_spectrum(point.merge({above}).reflected, ramp() * (kReflectance * kInvPi), "above");
+    EXPECT_TRUE(point.merge({below}).reflected.is_black()) << "an opaque floor, lit from below";
+  }
+}
+
+TEST(Merge, TheHeroStandsForAllWavelengthsOnce) {
+  const VisiblePoint point;
+  Photon whole = photon_from({0, 0, 1}), hero = whole;
+  hero.secondary_terminated = 1;
+  SampledSpectrum expected_hero;
+  expected_hero.set(0, ramp()[0] * kReflectance * kInvPi * kSpectrumSamples);
+  const SampledSpectrum expected_whole = ramp() * (kReflectance * kInvPi);
+
+  for (const bool eye : {false, true})
+    for (const bool photon : {false, true}) {
+      const MergeResult m = point.merge({photon ? hero : whole}, eye);
+      const std::string what = std::string("eye ") + (eye ? "dropped" : "kept") + ", photon " +
+                               (photon ? "dropped" : "kept");
+      expect_spectrum(m.reflected, eye || photon ? SampledSpectrum() : expected_whole, what);
+      expect_spectrum(m.hero, eye || photon ? expected_hero : SampledSpectrum(), what);
+    }
+  const MergeResult m = point.merge({whole, hero});
+  expect_spectrum(m.reflected, expected_whole, "one of each");
+  expect_spectrum(m.hero, expected_hero, "one of each");
+}
+
+TEST(Merge, TheDepthLimitCountsTheEventsOfBothSides) {
+  const VisiblePoint point;
+  for (int max_depth = 1; max_depth <= 6; ++max_depth)
+    for (int eye_events = 1; eye_events <= 7; ++eye_events)
+      for (int photon_events = 0; photon_events <= 7; ++photon_events) {
+        Photon photon = photon_from({0, 0, 1});
+        photon.events = static_cast<uint16_t>(photon_events);
+        const MergeResult m = point.merge({photon}, 0, Routes::all(Route::kCaustic),
+                                          Route::kCaustic, eye_events, max_depth);
+        EXPECT_EQ(m.found, eye_events + photon_events <= max_depth ? 1u : 0u)
+            << eye_events << " and " << photon_events << " events of " << max_depth;
+        EXPECT_EQ(m.reflected.is_black(), m.found == 0);
+      }
+}
+
+TEST(Merge, PhotonsOfAnotherRouteArePassedOver) {
+  const VisiblePoint point;
+  const Routes routes = Routes::doidge2012();
+  const EyeState eye = routes.next(Routes::kEyeStart, EventClass::kDiffuse);
+  struct Case {
+    const char* light_side;  // events from the light on
+    Route route;
+  };
+  const Case cases[] = {{"", Route::kDiffuse},    {"D", Route::kDiffuse},   {"S", Route::kCaustic},
+                        {"SS", Route::kCaustic},  {"DS", Route::kCaustic},  {"DD", Route::kDiffuse},
+                        {"DDS", Route::kDiffuse}, {"SD", Route::kCaustic}};
+  std::vector<Photon> all;
+  for (const Case& c : cases) {
+    Photon photon = photon_from({0, 0, 1});
+    for (const char* e = c.light_side; *e; ++e)
+      photon.state = routes.photon_next(
+          photon.state, *e == 'D' ? EventClass::kDiffuse : EventClass::kSpecular);
+    all.push_back(photon);
+    for (const Route route : {Route::kDiffuse, Route::kCaustic})
+      EXPECT_EQ(point.merge({photon}, eye, routes, route).found, route == c.route ? 1u : 0u)
+          << "light side \"" << c.light_side << "\"";
+  }
+  EXPECT_EQ(point.merge(all, eye, routes, Route::kDiffuse).found, 4u);
+  EXPECT_EQ(point.merge(all, eye, routes, Route::kCaustic).found, 4u);
+}
+
+}  // namespace
+}  // namespace nephroid
