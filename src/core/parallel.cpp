@@ -14,7 +14,6 @@
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
 #endif
 
@@ -82,12 +81,6 @@ void parallel_chunks(int64_t count, int64_t chunk_size,
   for (std::thread& t : threads) t.join();
 }
 
-void parallel_invoke(const std::function<void()>& a, const std::function<void()>& b) {
-  std::thread thread(a);
-  b();
-  thread.join();
-}
-
 #else
 
 struct ThreadLimit::Impl {
@@ -123,10 +116,6 @@ void parallel_chunks(int64_t count, int64_t chunk_size,
     tbb::task_arena(thread_count()).execute(loop);
   else
     loop();
-}
-
-void parallel_invoke(const std::function<void()>& a, const std::function<void()>& b) {
-  tbb::parallel_invoke(a, b);
 }
 
 #endif

@@ -36,7 +36,4 @@ constexpr int64_t chunk_count(int64_t count, int64_t chunk_size) {
   return (count + chunk_size - 1) / chunk_size;
 }
 
-/// Runs both, possibly at the same time.
-void parallel_invoke(const std::function<void()>& a, const std::function<void()>& b);
-
 }  // namespace nephroid

@@ -33,24 +33,11 @@ void CausticPhotons::render_pass(const PassKey& key, const Scene& scene, Film& f
   if (!has_specular_material_) return;
   const PixelBounds& b = film.bounds();
   const FilmSettings& settings = film.settings();
-  const PassSetting setting = pass_setting(key);
-  const SensorWeights weights =
-      sensor_weights(setting.lambda, *settings.color_space, settings.imaging_ratio);
-  const PixelFootprint footprint = scene.camera->footprint();
+  const PhotonPass pass = start_photon_pass(key, scene, film, options_);
+  const int64_t photons = pass.trace.photons_per_pass;
   const float shrink =
       static_cast<float>(std::sqrt(memoryless_radius_squared(key.pass, options_.alpha)));
   const float radius_pixels = options_.radius * shrink;
-  const SobolPoint point(key.pass);
-
-  PhotonTraceSettings trace_settings;
-  trace_settings.key = key;
-  trace_settings.lambda = setting.lambda;
-  trace_settings.time = setting.time;
-  trace_settings.photons_per_pass = options_.photons_per_pass > 0
-                                        ? options_.photons_per_pass
-                                        : default_photons_per_pass(b.area());
-  trace_settings.max_events = options_.max_depth;
-  const int64_t photons = trace_settings.photons_per_pass;
 
   // A pixel's estimate is summed over the batches; its filter weight is the same in all of them.
   struct PixelEstimate {
@@ -62,7 +49,7 @@ void CausticPhotons::render_pass(const PassKey& key, const Scene& scene, Film& f
   std::vector<RowResult> rows(static_cast<size_t>(b.height()));
   for (int64_t begin = 0; begin < photons;) {
     PhotonTrace trace =
-        trace_batch(scene, routes_, route_, trace_settings, options_.memory_photons, begin);
+        trace_batch(scene, routes_, route_, pass.trace, options_.memory_photons, begin);
     count_photons(trace, statistics_);
     if (trace.photons.empty()) continue;
     const PhotonGrid grid(std::move(trace.photons));
@@ -71,11 +58,12 @@ void CausticPhotons::render_pass(const PassKey& key, const Scene& scene, Film& f
       const int y = b.y0 + static_cast<int>(row);
       RowResult& result = rows[static_cast<size_t>(row)];
       for (int x = b.x0; x < b.x1; ++x) {
-        PathSampler sampler(point, hash_combine(key.seed, kStream, x, y));
-        CameraPath path = start_camera_path(scene, x, y, sampler, setting.lambda, setting.time);
+        PathSampler sampler(pass.point, hash_combine(key.seed, kStream, x, y));
+        CameraPath path =
+            start_camera_path(scene, x, y, sampler, pass.trace.lambda, pass.trace.time);
         SampledSpectrum sum;
         auto merge = [&](const Walk& walk, const WalkVertex& v, EyeState eye) {
-          const float r = radius_pixels * footprint.width(walk.length);
+          const float r = radius_pixels * pass.footprint.width(walk.length);
           if (!(r > 0.0f)) return;
           const MergeResult m =
               merge_photons(grid, routes_, route_, v, eye, walk.events + 1, options_.max_depth,
@@ -90,7 +78,7 @@ void CausticPhotons::render_pass(const PassKey& key, const Scene& scene, Film& f
         result.rays += path.walk.rays;
         PixelEstimate& pixel =
             pixels[static_cast<size_t>(row) * width + static_cast<size_t>(x - b.x0)];
-        pixel.sum = pixel.sum + weights.apply(sum);
+        pixel.sum = pixel.sum + pass.weights.apply(sum);
         pixel.filter_weight = path.filter_weight;
       }
     });

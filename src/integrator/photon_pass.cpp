@@ -2,21 +2,33 @@
 
 namespace nephroid {
 
-PassSetting pass_setting(const PassKey& key) {
-  // Two dimensions of one scrambled sequence over the passes: any run of passes covers both evenly.
-  constexpr uint64_t kStream = 0x70617373;  // "pass"
-  const SobolPoint point(key.pass);
-  PathSampler sampler(point, hash_combine(key.seed, kStream));
-  PassSetting setting;
-  setting.lambda = SampledWavelengths::sample_visible(sampler.get_1d());
-  setting.time = sampler.get_1d();
-  return setting;
-}
+namespace {
 
+// Photons of a pass when the user gave no number: it grows with the picture, within bounds.
 int64_t default_photons_per_pass(int64_t pixels) {
   constexpr int64_t kMin = 1 << 16, kMax = 1 << 20;
   return std::clamp<int64_t>(static_cast<int64_t>(std::bit_ceil(static_cast<uint64_t>(pixels))),
                              kMin, kMax);
+}
+
+}  // namespace
+
+PhotonPass start_photon_pass(const PassKey& key, const Scene& scene, const Film& film,
+                             const IntegratorOptions& options) {
+  PhotonPass pass{{}, {}, scene.camera->footprint(), SobolPoint(key.pass)};
+  // Two dimensions of one scrambled sequence over the passes: any run of passes covers both evenly.
+  constexpr uint64_t kStream = 0x70617373;  // "pass"
+  PathSampler sampler(pass.point, hash_combine(key.seed, kStream));
+  pass.trace.key = key;
+  pass.trace.lambda = SampledWavelengths::sample_visible(sampler.get_1d());
+  pass.trace.time = sampler.get_1d();
+  pass.trace.photons_per_pass = options.photons_per_pass > 0
+                                    ? options.photons_per_pass
+                                    : default_photons_per_pass(film.bounds().area());
+  pass.trace.max_events = options.max_depth;
+  pass.weights = sensor_weights(pass.trace.lambda, *film.settings().color_space,
+                                film.settings().imaging_ratio);
+  return pass;
 }
 
 void count_photons(const PhotonTrace& trace, EstimatorStatistics& statistics) {

@@ -10,15 +10,16 @@
 
 namespace nephroid {
 
-/// Wavelengths and time that all photons and camera walks of a pass share, stratified over passes.
-struct PassSetting {
-  SampledWavelengths lambda;
-  float time = 0;
+/// What all photons and camera walks of a pass share. Wavelengths and time are stratified over
+/// passes.
+struct PhotonPass {
+  PhotonTraceSettings trace;  ///< with the pass's wavelengths, time and number of photons
+  SensorWeights weights;
+  PixelFootprint footprint;
+  SobolPoint point;  ///< of the camera walks
 };
-PassSetting pass_setting(const PassKey& key);
-
-/// Photons of a pass when the user gave no number: it grows with the picture, within bounds.
-int64_t default_photons_per_pass(int64_t pixels);
+PhotonPass start_photon_pass(const PassKey& key, const Scene& scene, const Film& film,
+                             const IntegratorOptions& options);
 
 /// Adds what one batch of photons did to the counts.
 void count_photons(const PhotonTrace& trace, EstimatorStatistics& statistics);

@@ -20,23 +20,10 @@ Sppm::Sppm(int photon_buffer, const IntegratorOptions& options)
 void Sppm::render_pass(const PassKey& key, const Scene& scene, Film& film) {
   const PixelBounds& b = film.bounds();
   const FilmSettings& settings = film.settings();
-  const PassSetting setting = pass_setting(key);
-  const SensorWeights weights =
-      sensor_weights(setting.lambda, *settings.color_space, settings.imaging_ratio);
-  const PixelFootprint footprint = scene.camera->footprint();
-  const SobolPoint point(key.pass);
+  const PhotonPass pass = start_photon_pass(key, scene, film, options_);
+  const int64_t photons = pass.trace.photons_per_pass;
   pixels_.resize(static_cast<size_t>(b.area()));
   footprint_.resize(pixels_.size());
-
-  PhotonTraceSettings trace_settings;
-  trace_settings.key = key;
-  trace_settings.lambda = setting.lambda;
-  trace_settings.time = setting.time;
-  trace_settings.photons_per_pass = options_.photons_per_pass > 0
-                                        ? options_.photons_per_pass
-                                        : default_photons_per_pass(b.area());
-  trace_settings.max_events = options_.max_depth;
-  const int64_t photons = trace_settings.photons_per_pass;
 
   // What a pass finds is collected over its batches; the radius stays until the pass is complete.
   struct Found {
@@ -47,8 +34,8 @@ void Sppm::render_pass(const PassKey& key, const Scene& scene, Film& film) {
   std::vector<Found> found(pixels_.size());
   std::vector<uint64_t> rays(static_cast<size_t>(b.height()), 0);
   for (int64_t begin = 0; begin < photons;) {
-    PhotonTrace trace = trace_batch(scene, routes_, Route::kCaustic, trace_settings,
-                                    options_.memory_photons, begin);
+    PhotonTrace trace =
+        trace_batch(scene, routes_, Route::kCaustic, pass.trace, options_.memory_photons, begin);
     count_photons(trace, statistics_);
     const PhotonGrid grid(std::move(trace.photons));
 
@@ -58,11 +45,12 @@ void Sppm::render_pass(const PassKey& key, const Scene& scene, Film& film) {
         const size_t index = static_cast<size_t>(row) * static_cast<size_t>(b.width()) +
                              static_cast<size_t>(x - b.x0);
         SharedStatistics& pixel = pixels_[index];
-        PathSampler sampler(point, hash_combine(key.seed, kStream, x, y));
-        CameraPath path = start_camera_path(scene, x, y, sampler, setting.lambda, setting.time);
+        PathSampler sampler(pass.point, hash_combine(key.seed, kStream, x, y));
+        CameraPath path =
+            start_camera_path(scene, x, y, sampler, pass.trace.lambda, pass.trace.time);
         SampledSpectrum flux;
         auto merge = [&](const Walk& walk, const WalkVertex& v, EyeState eye) {
-          const float width = footprint.width(walk.length);
+          const float width = pass.footprint.width(walk.length);
           if (!(pixel.radius_squared > 0)) {
             pixel.radius_squared = sqr(static_cast<double>(options_.radius) * width);
             footprint_[index] = width;
@@ -78,7 +66,7 @@ void Sppm::render_pass(const PassKey& key, const Scene& scene, Film& film) {
         random_walk(scene, TransportMode::kRadiance, options_.max_depth, path.walk, sampler,
                     visitor);
         rays[static_cast<size_t>(row)] += path.walk.rays;
-        found[index].phi = found[index].phi + weights.apply(flux);
+        found[index].phi = found[index].phi + pass.weights.apply(flux);
         found[index].filter_weight = path.filter_weight;
       }
     });
