@@ -2,15 +2,19 @@
 BUILD := build/release
 NEPHROID := $(BUILD)/bin/nephroid
 
-.PHONY: demo test build deps asan tsan format check clean
+.PHONY: demo test program build deps asan tsan format check clean
 
-demo: build
+demo: program
 	@mkdir -p out
 	$(NEPHROID) render scenes/coffee-cup/scene.pbrt -o out/coffee-cup.exr --time 90s
 	@echo "The picture: $(CURDIR)/out/coffee-cup.png"
 
 test: build check
 	ctest --test-dir $(BUILD) --output-on-failure -j $$(nproc)
+
+program: deps
+	@cmake --preset release >/dev/null
+	@cmake --build --preset release --target nephroid
 
 build: deps
 	@cmake --preset release >/dev/null

@@ -1,6 +1,6 @@
-// Renders small scenes for the tests that look at whole pictures: from a scene's text to a film, without
-// files, and statistics over independent seeds. Used by statistical, analytic, agreement and determinism
-// tests.
+// Renders small scenes for the tests that look at whole pictures: from a scene's text to a film,
+// without files, and statistics over independent seeds. Used by statistical, analytic, agreement
+// and determinism tests.
 #pragma once
 
 #include <cmath>
@@ -75,7 +75,8 @@ inline Estimate estimate_of(const std::vector<double>& values) {
 /// Values of independent renders, as [part][seed].
 using SeedValues = std::vector<std::vector<double>>;
 
-/// Means of `across` x `across` equal blocks of the picture, row by row. The size must be a multiple.
+/// Means of `across` x `across` equal blocks of the picture, row by row. The size must be a
+/// multiple.
 inline std::vector<double> block_means(const Film& film, int across) {
   const PixelBounds& b = film.bounds();
   std::vector<double> means(static_cast<size_t>(across) * static_cast<size_t>(across), 0.0);
@@ -102,8 +103,9 @@ inline SeedValues block_values(const Scene& scene, const std::string& integrator
   return values;
 }
 
-/// The same without the bias of the merge radius, which falls with r^2: 2 L(r^2/2) - L(r^2). Both renders of
-/// a seed share all random numbers, so what does not depend on the radius keeps its own noise only.
+/// The same without the bias of the merge radius, which falls with r^2: 2 L(r^2/2) - L(r^2). Both
+/// renders of a seed share all random numbers, so what does not depend on the radius keeps its own
+/// noise only.
 inline SeedValues unbiased_block_values(const Scene& scene, const std::string& integrator,
                                         IntegratorOptions options, int seeds, uint32_t passes,
                                         uint64_t first_seed, int across = 1) {
@@ -123,8 +125,8 @@ inline Estimate mean_over_seeds(const Scene& scene, const std::string& integrato
   return estimate_of(block_values(scene, integrator, options, seeds, passes, first_seed)[0]);
 }
 
-/// Quantiles of Student's t for 15 and 31 degrees of freedom at a two-sided level of 1e-5: a test that is
-/// right fails once in a hundred thousand choices of the seeds, and these are fixed.
+/// Quantiles of Student's t for 15 and 31 degrees of freedom at a two-sided level of 1e-5: a test
+/// that is right fails once in a hundred thousand choices of the seeds, and these are fixed.
 inline constexpr double kT15 = 6.5;
 inline constexpr double kT31 = 5.27;
 

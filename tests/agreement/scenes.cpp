@@ -35,7 +35,8 @@ constexpr char kRoom[] = R"(
   Shape "bilinearmesh" "point3 P" [-3.5 0 -3.5  -3.5 0 3.5  -3.5 3 -3.5  -3.5 3 3.5]
 )";
 
-// BALL in a scene's text: a cage whose limit is a ball of radius about 0.6, smooth and of few triangles.
+// BALL in a scene's text: a cage whose limit is a ball of radius about 0.6, smooth and of few
+// triangles.
 constexpr char kBall[] = R"(Shape "loopsubdiv" "integer levels" 2
   "integer indices" [0 2 4 2 1 4 1 3 4 3 0 4 2 0 5 1 2 5 3 1 5 0 3 5]
   "point3 P" [0.9 0 0  -0.9 0 0  0 0.9 0  0 -0.9 0  0 0 0.9  0 0 -0.9])";
@@ -48,8 +49,7 @@ constexpr char kSheetBelowGlass[] = R"(
 
 const std::vector<AgreementScene> kAgreementScenes = {
     {.name = "diffuse", .world = R"(Translate 0 0.7 0 Shape "sphere" "float radius" 0.6)"},
-    {.name = "glass",
-     .world = R"(Material "dielectric" "float eta" 1.5 Translate 0 0.9 0
+    {.name = "glass", .world = R"(Material "dielectric" "float eta" 1.5 Translate 0 0.9 0
                  Shape "sphere" "float radius" 0.6)"},
     {.name = "bumped_glass",
      .world = R"(Texture "waves" "float" "imagemap" "string filename" "WAVES"
@@ -59,8 +59,7 @@ const std::vector<AgreementScene> kAgreementScenes = {
     {.name = "dispersive_glass",
      .world = R"(Material "dielectric" "spectrum eta" "glass-SF11" Translate 0 0.9 0
                  Shape "sphere" "float radius" 0.6)"},
-    {.name = "mirror",
-     .world = R"(Material "conductor" "float roughness" 0 Translate 0 0.7 0
+    {.name = "mirror", .world = R"(Material "conductor" "float roughness" 0 Translate 0 0.7 0
                  Shape "sphere" "float radius" 0.6)"},
     {.name = "glossy_threshold",
      .world = R"(Material "conductor" "float roughness" 0.04 "bool remaproughness" false
@@ -92,12 +91,14 @@ const std::vector<AgreementScene> kAgreementScenes = {
                  Material "mix" "string materials" ["paint" "metal"] "float amount" 0.5
                  Shape "bilinearmesh" "point3 P" [-3 0.45 -3  3 0.45 -3  -3 0.45 3  3 0.45 3]
                  Material "dielectric" "float eta" 1.5 Translate 0 1.2 0
-                 Shape "sphere" "float radius" 0.6)"},
+                 Shape "sphere" "float radius" 0.6)",
+     .photons = 8192},
     {.name = "thin_pane_above_mirror",
      .world = R"(Material "conductor" "float roughness" 0
                  AttributeBegin Translate 0 0.7 0 Shape "sphere" "float radius" 0.6 AttributeEnd
                  Material "thindielectric" "float eta" 1.5
-                 Shape "bilinearmesh" "point3 P" [-3.4 2.2 -3  3.4 2.2 -3  -3.4 2.2 3  3.4 2.2 3])"},
+                 Shape "bilinearmesh" "point3 P" [-3.4 2.2 -3  3.4 2.2 -3  -3.4 2.2 3  3.4 2.2 3])",
+     .photons = 8192},
     {.name = "translucent_sheet_below_glass",
      .world = R"(Material "diffusetransmission" "rgb reflectance" [0.4 0.3 0.2]
                    "rgb transmittance" [0.2 0.4 0.5]
@@ -107,7 +108,9 @@ const std::vector<AgreementScene> kAgreementScenes = {
     {.name = "point_light_and_nearly_smooth_metal",
      .world = R"(Material "conductor" "float roughness" 0.04 "bool remaproughness" false
                  Translate 0 0.7 0 Shape "sphere" "float radius" 0.6)",
-     .light = kPointLight},
+     .light = kPointLight,
+     .reference_passes = 192,
+     .photons = 8192},
     // Light from a point through smooth glass is what no path from the eye can find.
     {.name = "point_light_and_glass",
      .world = R"(Material "dielectric" "float eta" 1.5 Translate 0 0.9 0
@@ -125,7 +128,8 @@ const std::vector<AgreementScene> kAgreementScenes = {
     {.name = "sky_and_glass",
      .world = R"(Material "dielectric" "float eta" 1.5 Translate 0 0.9 0
                  Shape "sphere" "float radius" 0.6)",
-     .light = kSky},
+     .light = kSky,
+     .photons = 9216},
     {.name = "instance_of_smooth_glass",
      .world = R"(ObjectBegin "ball" Material "dielectric" "float eta" 1.5 BALL ObjectEnd
                  Translate 0 0.9 0 Rotate 30 1 2 3 ObjectInstance "ball")"},
@@ -142,7 +146,8 @@ const std::vector<AgreementScene> kAgreementScenes = {
                  Shape "bilinearmesh" "point3 P" [-3 2 -3  3 2 -3  -3 2 3  3 2 3]
                  Material "thindielectric" "float eta" 1.5
                  Shape "bilinearmesh" "point3 P" [-3.4 2.2 -3  3.4 2.2 -3  -3.4 2.2 3  3.4 2.2 3])",
-     .max_depth = 2},
+     .max_depth = 2,
+     .photons = 8192},
     {.name = "three_events",
      .world = R"(Material "dielectric" "float eta" 1.5 Translate 0 0.9 0
                  Shape "sphere" "float radius" 0.6)",
@@ -159,7 +164,8 @@ const std::vector<AgreementScene> kAgreementScenes = {
     {.name = "signed_filter_and_limit",
      .world = R"(Material "conductor" "float roughness" 0 Translate 0 0.7 0
                  Shape "sphere" "float radius" 0.6)",
-     .film = R"("float maxcomponentvalue" 1000 PixelFilter "mitchell")"},
+     .film = R"("float maxcomponentvalue" 1000 PixelFilter "mitchell")",
+     .photons = 8192},
 };
 
 std::string agreement_scene_text(const AgreementScene& scene, const std::string& waves) {

@@ -1,6 +1,6 @@
-// The small scenes on which all integrators must agree: a floor and a wall, a light that the camera does
-// not see, and one thing to test. Used by integrators_test.cpp. The camera sees no edge of what photons are
-// merged on, so that the error of a merge radius falls with its square.
+// The small scenes on which all integrators must agree: a floor and a wall, a light that the camera
+// does not see, and one thing to test. Used by integrators_test.cpp. The camera sees no edge of
+// what photons are merged on, so that the error of a merge radius falls with its square.
 #pragma once
 
 #include <string>
@@ -14,11 +14,11 @@ struct AgreementScene {
   const char* camera = nullptr;  ///< null: a pinhole that looks down
   const char* light = nullptr;   ///< null: a disk
   int max_depth = 10;
-  const char* film = "";         ///< parameters of the Film, and the pixel filter
+  const char* film = "";  ///< parameters of the Film, and the pixel filter
   const char* reference = "path";
   uint32_t reference_passes = 96;
-  float radius = 0.5f;           ///< pixel footprints
-  int64_t photons = 8192;        ///< a pass
+  float radius = 0.8f;     ///< pixel footprints
+  int64_t photons = 6144;  ///< a pass
 };
 
 extern const std::vector<AgreementScene> kAgreementScenes;

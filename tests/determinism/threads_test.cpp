@@ -125,7 +125,8 @@ TEST_P(Determinism, BatchesOfPhotonsLoseNothing) {
   IntegratorOptions whole, batched;
   whole.photons_per_pass = batched.photons_per_pass = 100000;
   batched.memory_photons = 1;  // as few photons at once as there can be
-  const Film a = render(*scene, GetParam(), whole, 5, 1), b = render(*scene, GetParam(), batched, 5, 1);
+  const Film a = render(*scene, GetParam(), whole, 5, 1),
+             b = render(*scene, GetParam(), batched, 5, 1);
   const PixelBounds& bounds = a.bounds();
   for (int y = bounds.y0; y < bounds.y1; ++y)
     for (int x = bounds.x0; x < bounds.x1; ++x)

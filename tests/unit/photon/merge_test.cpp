@@ -58,7 +58,8 @@ Photon photon_from(const Vec3f& wi) {
 void expect_spectrum(const SampledSpectrum& found, const SampledSpectrum& expected,
                      const std::string& what) {
   for (int i = 0; i < kSpectrumSamples; ++i)
-    EXPECT_NEAR(found[i], expected[i], 1e-5f * (1.0f + expected[i])) << what << ", wavelength " << i;
+    EXPECT_NEAR(found[i], expected[i], 1e-5f * (1.0f + expected[i]))
+        << what << ", wavelength " << i;
 }
 
 TEST(Merge, SumsFluxTimesTheBsdf) {
@@ -92,7 +93,8 @@ TEST(Merge, PhotonsOfAWallDoNotCountOnTheFloor) {
 }
 
 TEST(Merge, ThePhotonsOwnCosineIsTheDensityOfItsLanding) {
-  // On a surface that bends, photons of a beam lie with the density of the cosine at their own place.
+  // On a surface that bends, photons of a beam lie with the density of the cosine at their own
+  // place.
   const VisiblePoint point;
   Photon bent = photon_from({0.6f, 0, 0.8f});
   bent.ng = normalize(Vec3f(0.4f, 0, 1));
@@ -168,15 +170,15 @@ TEST(Merge, PhotonsOfAnotherRouteArePassedOver) {
     const char* light_side;  // events from the light on
     Route route;
   };
-  const Case cases[] = {{"", Route::kDiffuse},    {"D", Route::kDiffuse},   {"S", Route::kCaustic},
-                        {"SS", Route::kCaustic},  {"DS", Route::kCaustic},  {"DD", Route::kDiffuse},
+  const Case cases[] = {{"", Route::kDiffuse},    {"D", Route::kDiffuse},  {"S", Route::kCaustic},
+                        {"SS", Route::kCaustic},  {"DS", Route::kCaustic}, {"DD", Route::kDiffuse},
                         {"DDS", Route::kDiffuse}, {"SD", Route::kCaustic}};
   std::vector<Photon> all;
   for (const Case& c : cases) {
     Photon photon = photon_from({0, 0, 1});
     for (const char* e = c.light_side; *e; ++e)
-      photon.state = routes.photon_next(
-          photon.state, *e == 'D' ? EventClass::kDiffuse : EventClass::kSpecular);
+      photon.state = routes.photon_next(photon.state,
+                                        *e == 'D' ? EventClass::kDiffuse : EventClass::kSpecular);
     all.push_back(photon);
     for (const Route route : {Route::kDiffuse, Route::kCaustic})
       EXPECT_EQ(point.merge({photon}, eye, routes, route).found, route == c.route ? 1u : 0u)

@@ -1,4 +1,5 @@
-// Photons as they leave lights and land: how many, how much, and that neither threads nor batches matter.
+// Photons as they leave lights and land: how many, how much, and that neither threads nor batches
+// matter.
 #include "photon/photon_tracer.h"
 
 #include <gtest/gtest.h>
@@ -86,7 +87,8 @@ TEST(PhotonTracer, BatchesAreTheSamePhotons) {
   const PhotonTrace whole = trace_all(*scene, s);
   const Routes routes = Routes::all(Route::kCaustic);
   std::vector<Photon> joined;
-  for (const auto& [begin, end] : {std::pair<int64_t, int64_t>{0, 1024}, {1024, 5120}, {5120, 10000}}) {
+  for (const auto& [begin, end] :
+       {std::pair<int64_t, int64_t>{0, 1024}, {1024, 5120}, {5120, 10000}}) {
     const PhotonTrace part = trace_photons(*scene, routes, Route::kCaustic, s, begin, end);
     joined.insert(joined.end(), part.photons.begin(), part.photons.end());
   }
@@ -115,7 +117,8 @@ TEST(PhotonTracer, AMemoryLimitOnlyCutsThePassIntoBatches) {
 
 TEST(PhotonTracer, PassesAndSeedsHaveTheirOwnPhotons) {
   const auto scene = scene_from_text(kMany);
-  const PhotonTrace a = trace_all(*scene, settings(4, 0, 2048)), b = trace_all(*scene, settings(4, 1, 2048));
+  const PhotonTrace a = trace_all(*scene, settings(4, 0, 2048)),
+                    b = trace_all(*scene, settings(4, 1, 2048));
   PhotonTraceSettings other = settings(4, 0, 2048);
   other.key.seed = 8;
   const PhotonTrace c = trace_all(*scene, other);
@@ -154,14 +157,17 @@ TEST(PhotonTracer, AFloorReceivesWhatTheLampSendsThere) {
   EXPECT_EQ(trace.useful_paths, trace.photons.size());
   EXPECT_NEAR(static_cast<double>(trace.photons.size()) / kPhotons, share, 0.005 * share);
   for (int i = 0; i < kSpectrumSamples; ++i) {
-    const double expected = static_cast<double>(kPi * kPi) * r1 * r1 * static_cast<double>(radiance[i]) * share;
+    const double expected =
+        static_cast<double>(kPi * kPi) * r1 * r1 * static_cast<double>(radiance[i]) * share;
     ASSERT_GT(expected, 0.0);
-    EXPECT_NEAR(static_cast<double>(sum[i]) / kPhotons, expected, 0.005 * expected) << "wavelength " << i;
+    EXPECT_NEAR(static_cast<double>(sum[i]) / kPhotons, expected, 0.005 * expected)
+        << "wavelength " << i;
   }
 }
 
 TEST(PhotonTracer, RouletteKeepsTheMean) {
-  // A point light in a hollow ball: after k reflections all its light still lies on the ball, times rho^k.
+  // A point light in a hollow ball: after k reflections all its light still lies on the ball, times
+  // rho^k.
   const auto scene = scene_from_text(R"(
     WorldBegin
     LightSource "point" "spectrum I" [300 1 900 1] "point3 from" [0.1 0.2 -0.1]
@@ -185,8 +191,8 @@ TEST(PhotonTracer, RouletteKeepsTheMean) {
     for (size_t j = 1; j <= k; ++j) variance += 1 / counts[j];
     for (int i = 0; i < kSpectrumSamples; ++i) {
       const float rho = 0.3f + 0.5f * (s.lambda.lambda(i) - 360.0f) / 470.0f;
-      const double expected =
-          static_cast<double>(sums[0][i]) * std::pow(static_cast<double>(rho), static_cast<double>(k));
+      const double expected = static_cast<double>(sums[0][i]) *
+                              std::pow(static_cast<double>(rho), static_cast<double>(k));
       EXPECT_NEAR(sums[k][i], expected, 6 * std::sqrt(variance) * expected)
           << k << " reflections, wavelength " << i;
     }
@@ -194,15 +200,16 @@ TEST(PhotonTracer, RouletteKeepsTheMean) {
 }
 
 TEST(PhotonTracer, APartlyPresentSheetStoresTheLightThatItShows) {
-  // Photons meet half of the sheet, and so do eyes: what is stored stands for the whole irradiance, and
-  // what goes on to the floor is the other half.
+  // Photons meet half of the sheet, and so do eyes: what is stored stands for the whole irradiance,
+  // and what goes on to the floor is the other half.
   const auto flux = [](const char* alpha, float height) {
     const auto scene = scene_from_text(std::string(R"(
       WorldBegin
       LightSource "distant" "spectrum L" [300 1 900 1] "point3 from" [0 1 0] "point3 to" [0 0 0]
       Material "diffuse" "spectrum reflectance" [300 0.5 900 0.5]
       Shape "bilinearmesh" "point3 P" [-1 0 -1  1 0 -1  -1 0 1  1 0 1]
-      Shape "bilinearmesh" "point3 P" [-1 1 -1  1 1 -1  -1 1 1  1 1 1] )") + alpha);
+      Shape "bilinearmesh" "point3 P" [-1 1 -1  1 1 -1  -1 1 1  1 1 1] )") +
+                                       alpha);
     double sum = 0;
     for (const Photon& photon : trace_all(*scene, settings(1)).photons)
       if (std::abs(photon.p.y - height) < 1e-3f) sum += static_cast<double>(photon.flux[0]);

@@ -1,0 +1,199 @@
+// What integrators promise beside their pictures: counts, reports, limits, and what straight
+// passages and flipped cameras must not change.
+#include "integrator/estimator.h"
+
+#include <gtest/gtest.h>
+
+#include "rendering.h"
+
+namespace nephroid {
+namespace {
+
+using namespace testing_support;
+
+const std::string kView = R"(
+  LookAt 0 3 -5  0 0.4 0  0 1 0
+  Camera "perspective" "float fov" 30
+  Film "rgb" "integer xresolution" 8 "integer yresolution" 8
+  PixelFilter "box"
+  WorldBegin
+)";
+const std::string kLampAndFloor = R"(
+  AttributeBegin
+    AreaLightSource "diffuse" "rgb L" [10 9 8]
+    Translate 0 4 0 Rotate 90 1 0 0 Shape "disk" "float radius" 0.7
+  AttributeEnd
+  Material "diffuse" "rgb reflectance" [0.6 0.5 0.4]
+  Shape "bilinearmesh" "point3 P" [-6 0 -6  6 0 -6  -6 0 6  6 0 6]
+)";
+const std::string kGlass =
+    R"(Material "dielectric" Translate 0 0.9 0 Shape "sphere" "float radius" 0.6)";
+
+// Statistics of all estimators of a preset after some passes, added up.
+EstimatorStatistics statistics_after(const std::string& text, const std::string& integrator,
+                                     const IntegratorOptions& options, uint32_t passes) {
+  const auto scene = scene_from_text(text);
+  Preset preset = make_integrator(integrator, options, *scene);
+  Film film = film_for(*scene, preset);
+  EstimatorStatistics sum;
+  for (const auto& e : preset.estimators) {
+    for (uint32_t pass = 0; pass < passes; ++pass) e->render_pass({1, pass}, *scene, film);
+    const EstimatorStatistics s = e->statistics();
+    sum.rays += s.rays;
+    sum.photon_paths += s.photon_paths;
+    sum.photons_stored += s.photons_stored;
+    sum.photon_paths_useful += s.photon_paths_useful;
+    sum.photon_paths_specular += s.photon_paths_specular;
+    sum.radius_min_pixels = std::max(sum.radius_min_pixels, s.radius_min_pixels);
+    sum.radius_max_pixels = std::max(sum.radius_max_pixels, s.radius_max_pixels);
+    sum.notes.insert(sum.notes.end(), s.notes.begin(), s.notes.end());
+  }
+  return sum;
+}
+
+TEST(Integrators, AreFoundByName) {
+  const auto scene = scene_from_text(kView + kLampAndFloor);
+  for (const std::string& name : integrator_names()) {
+    const Preset preset = make_integrator(name, {}, *scene);
+    EXPECT_FALSE(preset.estimators.empty()) << name;
+    EXPECT_FALSE(preset.route_names.empty()) << name;
+  }
+  EXPECT_THROW(make_integrator("metropolis", {}, *scene), UsageError);
+  EXPECT_EQ(integrator_for_scene_name("volpath"), "path");
+  EXPECT_EQ(integrator_for_scene_name("bdpt"), "mixed");
+  EXPECT_EQ(integrator_for_scene_name("metropolis"), "");
+}
+
+TEST(Integrators, CountPhotonsExactly) {
+  IntegratorOptions options;
+  options.photons_per_pass = 5000;  // no whole number of chunks
+  for (const char* integrator : {"mixed", "sppm"}) {
+    const EstimatorStatistics s =
+        statistics_after(kView + kLampAndFloor + kGlass, integrator, options, 3);
+    EXPECT_EQ(s.photon_paths, 15000u) << integrator;
+    EXPECT_GT(s.photons_stored, 0u) << integrator;
+    EXPECT_LE(s.photon_paths_useful, s.photon_paths) << integrator;
+    EXPECT_LE(s.photon_paths_useful, s.photons_stored) << integrator;
+    EXPECT_GT(s.photon_paths_specular, 0u) << integrator;
+    EXPECT_GT(s.rays, s.photon_paths) << integrator;
+  }
+}
+
+TEST(Integrators, RadiiShrinkAndArePositive) {
+  IntegratorOptions options;
+  options.photons_per_pass = 20000;
+  options.radius = 2;
+  for (const char* integrator : {"mixed", "sppm"}) {
+    const auto radius = [&](uint32_t passes) {
+      return statistics_after(kView + kLampAndFloor + kGlass, integrator, options, passes)
+          .radius_min_pixels;
+    };
+    const float first = radius(1), fourth = radius(4);
+    EXPECT_GT(fourth, 0) << integrator;
+    EXPECT_LT(fourth, first) << integrator;
+    EXPECT_LE(first, 2.0f + 1e-5f) << integrator;
+  }
+}
+
+TEST(Integrators, SayWhyThereIsNoCaustic) {
+  IntegratorOptions options;
+  options.photons_per_pass = 2000;
+  const auto notes = [&](const std::string& world) {
+    std::string all;
+    for (const std::string& note : statistics_after(kView + world, "mixed", options, 1).notes)
+      all += note + "\n";
+    return all;
+  };
+  EXPECT_EQ(notes(kLampAndFloor + kGlass), "");
+  EXPECT_NE(notes(kLampAndFloor).find("no material of the scene has a specular lobe"),
+            std::string::npos);
+  // The glass hides behind the floor: photons are shot and find nothing.
+  const std::string hidden =
+      notes(kLampAndFloor +
+            R"(Material "dielectric" Translate 0 -3 0 Shape "sphere" "float radius" 0.6)");
+  EXPECT_NE(hidden.find("2000"), std::string::npos) << hidden;
+}
+
+TEST(Integrators, WithoutEventsOnlyLampsAreSeen) {
+  // The camera looks up into the lamp, through things that add no letter.
+  const std::string up = R"(
+    LookAt 0 0.5 0  0 4 0  0 0 1
+    Camera "perspective" "float fov" 10
+    Film "rgb" "integer xresolution" 8 "integer yresolution" 8
+    PixelFilter "box"
+    WorldBegin
+  )" + kLampAndFloor;
+  const std::string interface = R"(
+    Material "interface" Shape "bilinearmesh" "point3 P" [-1 2 -1  1 2 -1  -1 2 1  1 2 1])";
+  const std::string pane = R"(
+    Material "thindielectric" Shape "bilinearmesh" "point3 P" [-1 2 -1  1 2 -1  -1 2 1  1 2 1])";
+  IntegratorOptions options;
+  options.max_depth = 0;
+  options.photons_per_pass = 1024;
+  // Straight down a pane of index 1.5 reflects 2R/(1+R) = 0.0769 of the light.
+  for (const std::string& integrator : integrator_names()) {
+    const auto mean = [&](const std::string& world) {
+      return picture_mean(render(*scene_from_text(up + world), integrator, options, 1, 64));
+    };
+    const double bare = mean("");
+    EXPECT_GT(bare, 8) << integrator;
+    EXPECT_NEAR(mean(interface), bare, 1e-3 * bare) << integrator;
+    EXPECT_NEAR(mean(pane), (1 - 0.0769) * bare, 0.01 * bare) << integrator;
+    EXPECT_EQ(
+        picture_mean(render(*scene_from_text(kView + kLampAndFloor), integrator, options, 1, 2)), 0)
+        << integrator;
+  }
+}
+
+TEST(Integrators, AFlippedScreenIsTheSamePictureTurned) {
+  const auto scene = [](const char* window) {
+    return scene_from_text(std::string(R"(
+      LookAt 0 3 -5  0 0.4 0  0 1 0
+      Camera "perspective" "float fov" 30 "float screenwindow" )") +
+                           window + R"(
+      Film "rgb" "integer xresolution" 8 "integer yresolution" 8
+      PixelFilter "box"
+      WorldBegin )" + kLampAndFloor +
+                           kGlass);
+  };
+  IntegratorOptions options;
+  options.photons_per_pass = 20000;
+  for (const std::string& integrator : integrator_names()) {
+    const Film straight = render(*scene("[-1 1 -1 1]"), integrator, options, 1, 32);
+    const Film turned = render(*scene("[1 -1 1 -1]"), integrator, options, 1, 32);
+    EXPECT_NEAR(picture_mean(turned), picture_mean(straight), 0.1 * picture_mean(straight))
+        << integrator;
+    const std::vector<double> a = block_means(straight, 2), b = block_means(turned, 2);
+    for (size_t i = 0; i < 4; ++i)
+      EXPECT_NEAR(a[i], b[3 - i], 0.2 * a[i]) << integrator << ", block " << i;
+  }
+}
+
+TEST(Integrators, ALimitBoundsEveryPixel) {
+  // With a filter that is nowhere negative no mean can exceed the limit of its samples, in any
+  // route.
+  const std::string text = R"(
+    LookAt 0 3 -5  0 0.4 0  0 1 0
+    Camera "perspective" "float fov" 30
+    Film "rgb" "integer xresolution" 8 "integer yresolution" 8 "float maxcomponentvalue" 0.05
+    PixelFilter "box"
+    WorldBegin
+  )" + kLampAndFloor + kGlass;
+  const auto scene = scene_from_text(text);
+  IntegratorOptions options;
+  options.photons_per_pass = 20000;
+  for (const char* integrator : {"path", "mixed"}) {
+    const Film film = render(*scene, integrator, options, 1, 4);
+    float largest = 0;
+    for (int y = 0; y < 8; ++y)
+      for (int x = 0; x < 8; ++x)
+        for (size_t r = 0; r < film.routes().size(); ++r)
+          for (int c = 0; c < 3; ++c)
+            largest = std::max(largest, film.route_value(static_cast<int>(r), x, y)[c]);
+    EXPECT_LE(largest, 0.05f * (1 + 1e-5f)) << integrator;
+    EXPECT_GT(largest, 0.02f) << integrator << ": the limit does not bite";
+  }
+}
+
+}  // namespace
+}  // namespace nephroid
