@@ -167,12 +167,12 @@ lathe("saucer.ply", [
 
 # A tumbler and the water in it are three surfaces: glass to air, glass to water, water to air. They
 # meet in one ring of vertices, where the water ends at the wall.
-HEIGHT, WATER, THICKNESS, LEAN = 7.3, 5.2, 0.18, 2.4
+HEIGHT, WATER, THICKNESS, LEAN, TURNS = 7.3, 5.2, 0.18, 2.4, 320
 tan_lean, cos_lean = math.tan(math.radians(LEAN)), math.cos(math.radians(LEAN))
-foot = arc((1.9, 0.32), 0.3, -90, -LEAN, 12)
+foot = arc((1.9, 0.32), 0.3, -90, -LEAN, 8)
 top = (end(foot)[0] + (HEIGHT - end(foot)[1]) * tan_lean, HEIGHT)
 rim = arc((top[0] - THICKNESS / 2 * cos_lean, top[1] + THICKNESS / 2 * math.sin(math.radians(LEAN))),
-          THICKNESS / 2, -LEAN, 180 - LEAN, 16)
+          THICKNESS / 2, -LEAN, 180 - LEAN, 10)
 
 
 def inner(z):
@@ -181,24 +181,24 @@ def inner(z):
 
 
 WET, BASE, ROUND = inner(WATER + 0.12), 0.8, 0.5
-bottom = arc((inner(BASE + ROUND)[0] - ROUND / cos_lean, BASE + ROUND), ROUND, -LEAN, -90, 12)
+bottom = arc((inner(BASE + ROUND)[0] - ROUND / cos_lean, BASE + ROUND), ROUND, -LEAN, -90, 8)
 lathe("tumbler_outside.ply", [
     line((0, 0.02), (1.9, 0.02)),
     foot,
     line(end(foot), top),
     rim,
     line(end(rim), WET),
-], 192)
+], TURNS)
 lathe("tumbler_water_side.ply", [
     line(WET, bottom[0][:2]),
     bottom,
     line(end(bottom), (0, BASE)),
-], 192)
+], TURNS)
 r, z = WET
 lathe("water_top.ply", [
-    bezier([(r, z), (r - 0.04, WATER + 0.03), (r - 0.13, WATER), (r - 0.36, WATER)], 10)
+    bezier([(r, z), (r - 0.04, WATER + 0.03), (r - 0.13, WATER), (r - 0.36, WATER)], 7)
     + [(0, WATER, 0, 1)],
-], 192)
+], TURNS)
 
 # A piece of cut crystal.
 cut_stone("crystal.ply", [(0.81, -1.35), (1.5525, -0.3375), (1.485, 0.6075), (0.7425, 1.4175)])
