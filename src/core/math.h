@@ -119,7 +119,7 @@ struct Ray {
   Vec3f o;
   Vec3f d;  ///< need not be unit length; t is in units of it
   float t_max = kInfinity;
-  float time = 0.0f;  ///< 0..1 over the shutter
+  float time = 0.0f;  ///< 0..1 from the start to the end transforms of what moves (TransformTimes)
 };
 
 /// An affine (or, for cameras, projective) map with its inverse, row-vector convention.

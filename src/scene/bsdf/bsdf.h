@@ -19,11 +19,13 @@ namespace nephroid {
 /// Refraction scales radiance, not flux, by 1/eta^2 (pbrt-v4 section 9.5.2).
 enum class TransportMode : uint8_t { kRadiance, kImportance };
 
-/// The class of a scattering event: D is rough enough to connect or merge at, S is not.
-enum class EventClass : uint8_t { kDiffuse = 0, kSpecular = 1 };
+/// The class of a scattering event: D is rough enough to connect or merge at, S is not; V happens
+/// in a medium, so no BSDF has it.
+enum class EventClass : uint8_t { kDiffuse = 0, kSpecular = 1, kVolume = 2 };
+inline constexpr size_t kEventClasses = 3;
 
-/// A set of event classes.
-enum class ClassMask : uint8_t { kNone = 0, kDiffuse = 1, kSpecular = 2, kAll = 3 };
+/// A set of event classes; kAll are those that surfaces have.
+enum class ClassMask : uint8_t { kNone = 0, kDiffuse = 1, kSpecular = 2, kAll = 3, kVolume = 4 };
 constexpr ClassMask mask_of(EventClass c) {
   return static_cast<ClassMask>(1 << static_cast<int>(c));
 }
@@ -54,6 +56,9 @@ struct BsdfSample {
   bool transmitted = false;  ///< wi lies on the other side of the surface than wo
   bool delta = false;
   bool straight_through = false;  ///< adds no letter: the ray goes on as if nothing were there
+  /// The light goes into a subsurface material (wi is on the inside): the walk asks the material's
+  /// Bssrdf where and how it comes out again. Entering and leaving are one D event.
+  bool subsurface = false;
 };
 
 /// Value and density of one class at a given direction, delta lobes left out.

@@ -1,6 +1,6 @@
-// Materials: textures evaluated at a point and turned into a BSDF. One family a file; table.cpp maps
-// the scene format's names to factories.
-// Who calls it: Scene and transport. It must not know integrators or lights.
+// Materials: textures evaluated at a point and turned into a BSDF. One family a file; table.cpp
+// maps the scene format's names to factories. Who calls it: Scene and transport. It must not know
+// integrators or lights.
 #pragma once
 
 #include <memory>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scene/bsdf/bsdf.h"
+#include "scene/bsdf/bssrdf.h"
 #include "scene/texture/texture.h"
 
 namespace nephroid {
@@ -22,9 +23,16 @@ class Material {
   virtual const Bsdf* make_bsdf(const SurfaceInteraction& point, SampledWavelengths& lambda,
                                 BsdfArena& arena) const = 0;
 
-  /// The material that stands for this one at a point: itself, or for `mix` the one that is chosen by
-  /// a hash of the point (pbrt-v4 section 10.5.1).
+  /// The material that stands for this one at a point: itself, or for `mix` the one that is chosen
+  /// by a hash of the point (pbrt-v4 section 10.5.1).
   virtual const Material* resolve(const SurfaceInteraction&) const { return this; }
+
+  /// What lies under a surface whose BSDF samples `subsurface` events, in `arena`; nullptr for all
+  /// other materials. `lambda` has passed make_bsdf already.
+  virtual const Bssrdf* make_bssrdf(const SurfaceInteraction&, const SampledWavelengths&,
+                                    BsdfArena&) const {
+    return nullptr;
+  }
 
   /// Moves the shading frame by the bump or normal map, if there is one.
   virtual void bump(SurfaceInteraction&) const {}
@@ -54,11 +62,10 @@ struct MaterialSettings {
 };
 
 /// Makes all materials of a description, in its order (index = MaterialReference::index). Names are
-/// resolved for `mix`. Throws SceneError for unknown types or names; what cannot be rendered yet is a
-/// located error or warning.
+/// resolved for `mix`. Throws SceneError for unknown types or names; what cannot be rendered yet is
+/// a located error or warning.
 std::vector<MaterialPtr> make_materials(const SceneDescription& description,
                                         const TextureLibrary& textures,
-                                        const MaterialSettings& settings,
-                                        Diagnostics& diagnostics);
+                                        const MaterialSettings& settings, Diagnostics& diagnostics);
 
 }  // namespace nephroid

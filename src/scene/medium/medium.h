@@ -1,0 +1,82 @@
+// The interface of participating media, world space. One family a file; medium_table.cpp maps the
+// scene format's names to factories. Media tell their properties at a point and bound their
+// extinction along a ray; how a ray is tracked through them is transport's business.
+// Who calls it: transport. It must not know walks, routes or lights. pbrt-v4 chapter 11.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/spectra.h"
+#include "input/scene_description.h"
+#include "scene/medium/phase_function.h"
+
+namespace nephroid {
+
+/// A medium at one point.
+struct MediumProperties {
+  SampledSpectrum sigma_a, sigma_s;  ///< 1/length in world units
+  SampledSpectrum le;  ///< emitted radiance per unit of absorption: sigma_a * le is emitted
+  HenyeyGreenstein phase;
+};
+
+/// A piece of a ray along which the extinction sigma_a + sigma_s stays at or below `sigma_maj`.
+struct MajorantSegment {
+  float t_min = 0, t_max = 0;  ///< in units of the ray's direction, which is of unit length
+  SampledSpectrum sigma_maj;   ///< 1/length
+};
+
+/// Walks through the cells of a grid of majorants along a ray: a 3D DDA (Amanatides & Woo 1987).
+/// A medium without a grid has one segment. A value type, no allocation.
+class MajorantIterator {
+ public:
+  /// Nothing at all: the ray misses the medium's bounds.
+  MajorantIterator() = default;
+  /// One segment.
+  explicit MajorantIterator(const MajorantSegment& segment)
+      : t_(segment.t_min), t_end_(segment.t_max), sigma_(segment.sigma_maj) {}
+  /// A grid of `resolution` cells over the unit cube: cell (x, y, z) has majorant
+  /// sigma_t * scales[x + nx (y + ny z)]. `o` and `d` are the ray in the cube's space (t as on
+  /// the world ray), valid for t_min <= t < t_max, where it lies inside the cube.
+  MajorantIterator(const Vec3f& o, const Vec3f& d, float t_min, float t_max,
+                   const SampledSpectrum& sigma_t, const float* scales, const int resolution[3]);
+  /// The next piece, front to back; empty behind the last. Pieces are contiguous.
+  std::optional<MajorantSegment> next();
+
+ private:
+  float t_ = 0, t_end_ = -1;
+  SampledSpectrum sigma_;
+  const float* scales_ = nullptr;  ///< null: one segment
+  int resolution_[3] = {1, 1, 1}, cell_[3] = {0, 0, 0}, step_[3] = {0, 0, 0}, limit_[3] = {0, 0, 0};
+  float next_crossing_[3] = {0, 0, 0}, delta_[3] = {0, 0, 0};
+};
+
+class Medium {
+ public:
+  virtual ~Medium() = default;
+
+  /// True if it may emit anywhere.
+  virtual bool is_emissive() const = 0;
+  /// True if it scatters nowhere and at no wavelength: light is only dimmed by it.
+  virtual bool is_purely_absorbing() const = 0;
+  /// sigma_a + sigma_s where they are the same everywhere: the transmittance is then known in
+  /// closed form. Empty for media that vary in space.
+  virtual std::optional<SampledSpectrum> uniform_extinction(const SampledWavelengths&) const {
+    return std::nullopt;
+  }
+  virtual MediumProperties at(const Vec3f& p, const SampledWavelengths& lambda) const = 0;
+  /// Majorants along a ray of unit direction from its origin to t_max (which may be infinite).
+  virtual MajorantIterator majorants(const Ray& ray, float t_max,
+                                     const SampledWavelengths& lambda) const = 0;
+};
+using MediumPtr = std::shared_ptr<const Medium>;
+
+/// Makes all media of a description, in its order. Throws SceneError or IoError.
+std::vector<MediumPtr> make_media(const SceneDescription& description, Diagnostics& diagnostics);
+
+/// Names of all types that the table knows.
+std::vector<std::string> medium_names();
+
+}  // namespace nephroid

@@ -1,0 +1,31 @@
+// The phase function of Henyey & Greenstein 1941 in pbrt's convention: wo and wi both point away
+// from the vertex, so g > 0 scatters forward, to where dot(wo, wi) = -1.
+// Who calls it: media and transport. It must not know rays or routes.
+#pragma once
+
+#include "core/math.h"
+
+namespace nephroid {
+
+/// A direction sampled from a phase function; its value equals its density.
+struct PhaseSample {
+  Vec3f wi{0, 0, 1};  ///< unit, world
+  float pdf_w = 0;    ///< 1/sr
+};
+
+class HenyeyGreenstein {
+ public:
+  HenyeyGreenstein() = default;
+  /// `g` in (-1, 1): mean cosine of the deflection.
+  explicit HenyeyGreenstein(float g) : g_(g) {}
+  float g() const { return g_; }
+
+  /// Value and density (they are the same, 1/sr) for unit world directions.
+  float eval(const Vec3f& wo, const Vec3f& wi) const;
+  PhaseSample sample(const Vec3f& wo, const Vec2f& u) const;
+
+ private:
+  float g_ = 0;
+};
+
+}  // namespace nephroid
