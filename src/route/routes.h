@@ -1,8 +1,9 @@
 // Who renders which light: the one place that decides what a caustic is (docs/routes.md).
 // A path is a word C e1 e2 ... en L of event classes, eye first. Camera walks read it from the
 // left, photons from the right; both follow the tables made here, so every word has exactly one
-// owner. Who calls it: integrators. It must not know scenes or estimators. Paper: Doidge et al.
-// 2012.
+// owner. Words with a V (a scattering in a medium, or on a surface where photons cannot be merged)
+// belong to kDiffuse. Who calls it: integrators. It must not know scenes or estimators. Paper:
+// Doidge et al. 2012.
 #pragma once
 
 #include <array>
@@ -24,11 +25,14 @@ class Routes {
  public:
   /// The caustic sub-space C [SD]* D S+ D? L belongs to kCaustic, everything else to kDiffuse.
   static Routes doidge2012();
-  /// Everything belongs to one route.
+  /// Everything (but words with a V) belongs to one route.
   static Routes all(Route route);
   /// Light that is seen directly or through specular surfaces only, C S* L, belongs to kDiffuse,
   /// all else to kCaustic: the parts of full photon mapping, which merges at the first D.
   static Routes seen_emission();
+
+  /// The same partition for a scene that has no events but `letters`: fewer events are useful.
+  Routes restricted_to(ClassMask letters) const;
 
   static constexpr EyeState kEyeStart = 0;
   static constexpr PhotonState kPhotonStart = 0;
@@ -66,15 +70,16 @@ class Routes {
   /// The expression of a route, for reports.
   std::string expression(Route route) const;
 
-  static constexpr size_t kEyeStates = 4;
-  static constexpr size_t kPhotonStates = 4;
+  static constexpr size_t kEyeStates = 5;
+  static constexpr size_t kPhotonStates = 5;
 
  private:
-  void complete();
+  void give_volumes_to_diffuse();
+  void complete(ClassMask letters);
 
-  std::array<std::array<EyeState, 2>, kEyeStates> eye_next_{};
+  std::array<std::array<EyeState, kEventClasses>, kEyeStates> eye_next_{};
   std::array<Route, kEyeStates> eye_owner_{};
-  std::array<std::array<PhotonState, 2>, kPhotonStates> photon_next_{};
+  std::array<std::array<PhotonState, kEventClasses>, kPhotonStates> photon_next_{};
   std::array<std::array<Route, kPhotonStates>, kEyeStates> meet_{};
   std::array<std::array<ClassMask, kPhotonStates>, 2> useful_{};
   std::array<std::array<ClassMask, kEyeStates>, 2> useful_eye_{};

@@ -12,17 +12,20 @@ namespace nephroid {
 namespace {
 
 EventClass event_of(char letter) {
-  return letter == 'D' ? EventClass::kDiffuse : EventClass::kSpecular;
+  return letter == 'D'   ? EventClass::kDiffuse
+         : letter == 'S' ? EventClass::kSpecular
+                         : EventClass::kVolume;
 }
 
-// All words over {S, D} of up to `length` letters, the empty one included.
-std::vector<std::string> words(int length) {
+// All words over the letters of up to `length` letters, the empty one included.
+std::vector<std::string> words(int length, const std::string& letters = "SD") {
   std::vector<std::string> all{""};
   for (size_t i = 0; i < all.size(); ++i)
-    if (static_cast<int>(all[i].size()) < length) {
-      all.push_back(all[i] + 'S');
-      all.push_back(all[i] + 'D');
-    }
+    if (static_cast<int>(all[i].size()) < length)
+      for (const char letter : letters) {
+        const std::string longer = all[i] + letter;
+        all.push_back(longer);
+      }
   return all;
 }
 
@@ -67,6 +70,8 @@ TEST(Routes, PaperExample) {
 
 TEST(Routes, EyeTablesAgreeWithTheRegularExpression) {
   const Routes routes = Routes::doidge2012();
+  for (const std::string& w : words(8, "SDV"))
+    EXPECT_EQ(routes.owner(read(routes, w)), oracle(w)) << w;
   for (const std::string& w : words(12)) EXPECT_EQ(routes.owner(read(routes, w)), oracle(w)) << w;
 }
 
@@ -82,7 +87,7 @@ TEST(Routes, BitEncodedFormAgrees) {
 
 TEST(Routes, EyeAndLightAgreeWhereverTheyMeetAtADiffuseVertex) {
   const Routes routes = Routes::doidge2012();
-  for (const std::string& w : words(10))
+  for (const std::string& w : words(8, "SDV"))
     for (size_t k = 0; k < w.size(); ++k) {
       if (w[k] != 'D') continue;
       PhotonState photon = Routes::kPhotonStart;
@@ -95,14 +100,15 @@ TEST(Routes, EachCausticWordIsMergedExactlyOnce) {
   // The eye merges at its first D; a photon deposits there exactly if the word is a caustic, and no
   // earlier event of its path was one that the tables call useless.
   const Routes routes = Routes::doidge2012();
-  for (const std::string& w : words(10)) {
+  for (const std::string& w : words(8, "SDV")) {
     const size_t first = w.find('D');
     if (first == std::string::npos) {
       EXPECT_EQ(oracle(w), Route::kDiffuse) << w;
       continue;
     }
     PhotonState photon = Routes::kPhotonStart;
-    bool reachable = true;
+    // The eye's walk merges behind specular events only.
+    bool reachable = w.find_first_not_of('S') == first;
     for (size_t i = w.size(); --i > first;) {
       reachable &= contains(routes.useful_events(photon, Route::kCaustic), event_of(w[i]));
       photon = routes.photon_next(photon, event_of(w[i]));
@@ -124,27 +130,45 @@ TEST(Routes, UselessLightPathsEnd) {
 TEST(Routes, OneRouteForAll) {
   for (const Route route : {Route::kDiffuse, Route::kCaustic}) {
     const Routes routes = Routes::all(route);
-    for (const std::string& w : words(8)) EXPECT_EQ(routes.owner(read(routes, w)), route);
+    for (const std::string& w : words(6, "SDV")) {
+      const bool volume = w.find('V') != std::string::npos;
+      EXPECT_EQ(routes.owner(read(routes, w)), volume ? Route::kDiffuse : route) << w;
+    }
     EXPECT_TRUE(routes.deposits(Routes::kPhotonStart, route));
-    EXPECT_EQ(routes.useful_events(Routes::kPhotonStart, route), ClassMask::kAll);
+    EXPECT_EQ(routes.useful_events(Routes::kPhotonStart, route) & ClassMask::kAll, ClassMask::kAll);
   }
 }
 
 TEST(Routes, SeenEmissionIsWhatFullPhotonMappingLeaves) {
   const Routes routes = Routes::seen_emission();
-  for (const std::string& w : words(8)) {
-    const bool seen = w.find('D') == std::string::npos;
-    EXPECT_EQ(routes.owner(read(routes, w)), seen ? Route::kDiffuse : Route::kCaustic) << w;
+  for (const std::string& w : words(6, "SDV")) {
+    const bool path = w.find('D') == std::string::npos || w.find('V') != std::string::npos;
+    EXPECT_EQ(routes.owner(read(routes, w)), path ? Route::kDiffuse : Route::kCaustic) << w;
   }
-  EXPECT_EQ(routes.useful_eye_events(Routes::kEyeStart, Route::kDiffuse), ClassMask::kSpecular);
-  EXPECT_EQ(routes.useful_eye_events(read(routes, "D"), Route::kDiffuse), ClassMask::kNone);
-  EXPECT_EQ(routes.useful_eye_events(Routes::kEyeStart, Route::kCaustic), ClassMask::kAll);
+  EXPECT_TRUE(contains(routes.useful_eye_events(read(routes, "D"), Route::kDiffuse),
+                       EventClass::kVolume));
+  // Without media no walk goes on behind the first D in vain.
+  const Routes clear = routes.restricted_to(ClassMask::kAll);
+  EXPECT_EQ(clear.useful_eye_events(Routes::kEyeStart, Route::kDiffuse), ClassMask::kSpecular);
+  EXPECT_EQ(clear.useful_eye_events(read(clear, "D"), Route::kDiffuse), ClassMask::kNone);
+  EXPECT_EQ(clear.useful_eye_events(Routes::kEyeStart, Route::kCaustic), ClassMask::kAll);
+}
+
+TEST(Routes, NoPhotonOfACausticScattersInAMedium) {
+  const Routes routes = Routes::doidge2012();
+  for (const std::string& w : words(6)) {
+    PhotonState photon = Routes::kPhotonStart;
+    for (size_t i = w.size(); i-- > 0;) photon = routes.photon_next(photon, event_of(w[i]));
+    EXPECT_FALSE(contains(routes.useful_events(photon, Route::kCaustic), EventClass::kVolume)) << w;
+  }
 }
 
 TEST(Routes, EveryCameraWalkOfTheMixedMethodMayStillCount) {
   const Routes routes = Routes::doidge2012();
   for (const std::string& w : words(6))
-    EXPECT_EQ(routes.useful_eye_events(read(routes, w), Route::kDiffuse), ClassMask::kAll) << w;
+    EXPECT_EQ(routes.useful_eye_events(read(routes, w), Route::kDiffuse),
+              ClassMask::kAll | ClassMask::kVolume)
+        << w;
 }
 
 }  // namespace
