@@ -13,6 +13,8 @@ struct Row {
 };
 constexpr Row kMedia[] = {
     {"homogeneous", make_homogeneous_medium},
+    {"uniformgrid", make_uniform_grid_medium},
+    {"rgbgrid", make_rgb_grid_medium},
 };
 
 MediumMaker maker_of(const MediumDescription& description) {
