@@ -14,7 +14,7 @@ LAYERS = ["core", "input", "scene", "route", "film", "transport", "photon", "int
           "apps"]
 # Within scene/, the folders that others build on come first; the files of scene/ itself come last. A few
 # headers of scene/ are vocabulary for the folders below it.
-SCENE = ["shape", "bsdf", "texture", "material", "light", ""]
+SCENE = ["shape", "bsdf", "texture", "medium", "material", "light", ""]
 SCENE_VOCABULARY = {"scene/interaction.h"}
 # Folders below scene/ that may use another one although it does not stand to their left.
 LIBRARIES = {

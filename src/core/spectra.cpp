@@ -110,6 +110,10 @@ SpectrumPtr blackbody_spectrum(float kelvin) {
   return std::make_shared<BlackbodySpectrum>(kelvin);
 }
 
+SampledSpectrum sample_blackbody(float kelvin, const SampledWavelengths& lambda) {
+  return kelvin > 0.0f ? BlackbodySpectrum(kelvin).sample(lambda) : SampledSpectrum();
+}
+
 float spectrum_to_photometric(const Spectrum& s) {
   const Spectrum& light = s.photometric_reference();
   double y = 0;

@@ -37,6 +37,8 @@ SpectrumPtr piecewise_linear_spectrum(std::vector<float> lambda, std::vector<flo
 /// Planck's law at `kelvin`, scaled so that its maximum is 1.
 /// Black (0 everywhere) unless `kelvin` is positive.
 SpectrumPtr blackbody_spectrum(float kelvin);
+/// The same at the wavelengths of a path, for temperatures that are met while rendering.
+SampledSpectrum sample_blackbody(float kelvin, const SampledWavelengths& lambda);
 /// CIE daylight of a correlated colour temperature; below 4000 K, where the series is not defined,
 /// a black body. The scale is arbitrary: only the colour counts.
 SpectrumPtr daylight_spectrum(float kelvin);

@@ -39,18 +39,30 @@ class MajorantIterator {
       : t_(segment.t_min), t_end_(segment.t_max), sigma_(segment.sigma_maj) {}
   /// A grid of `resolution` cells over the unit cube: cell (x, y, z) has majorant
   /// sigma_t * scales[x + nx (y + ny z)]. `o` and `d` are the ray in the cube's space (t as on
-  /// the world ray), valid for t_min <= t < t_max, where it lies inside the cube.
-  MajorantIterator(const Vec3f& o, const Vec3f& d, float t_min, float t_max,
+  /// the world ray), valid for t_min <= t < t_max, where it lies inside the cube. `scales` outlive
+  /// the iterator.
+  MajorantIterator(const Vec3d& o, const Vec3d& d, float t_min, float t_max,
                    const SampledSpectrum& sigma_t, const float* scales, const int resolution[3]);
-  /// The next piece, front to back; empty behind the last. Pieces are contiguous.
+  /// The next piece, front to back; empty behind the last. Pieces are contiguous, none is empty,
+  /// and together they are the whole of [t_min, t_max); neighbouring cells with the same majorant
+  /// make one piece.
   std::optional<MajorantSegment> next();
 
  private:
+  /// Where the ray leaves the cell along an axis; `moves` is false if it runs across that axis.
+  void set_crossing(int axis, bool moves);
+  float scale_here() const {
+    return scales_[cell_[0] +
+                   size_t(resolution_[0]) * (cell_[1] + size_t(resolution_[1]) * cell_[2])];
+  }
+
   float t_ = 0, t_end_ = -1;
   SampledSpectrum sigma_;
   const float* scales_ = nullptr;  ///< null: one segment
-  int resolution_[3] = {1, 1, 1}, cell_[3] = {0, 0, 0}, step_[3] = {0, 0, 0}, limit_[3] = {0, 0, 0};
-  float next_crossing_[3] = {0, 0, 0}, delta_[3] = {0, 0, 0};
+  int resolution_[3] = {1, 1, 1}, cell_[3] = {0, 0, 0}, step_[3] = {0, 0, 0};
+  double origin_[3] = {0, 0, 0};         ///< of the ray
+  double per_cell_[3] = {0, 0, 0};       ///< change of t from one wall of cells to the next, signed
+  double next_crossing_[3] = {0, 0, 0};  ///< t
 };
 
 class Medium {

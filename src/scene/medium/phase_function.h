@@ -16,15 +16,20 @@ struct PhaseSample {
 class HenyeyGreenstein {
  public:
   HenyeyGreenstein() = default;
-  /// `g` in (-1, 1): mean cosine of the deflection.
-  explicit HenyeyGreenstein(float g) : g_(g) {}
+  /// `g`: mean cosine of the deflection, taken to be within [-0.99, 0.99] as in pbrt-v4.
+  explicit HenyeyGreenstein(float g) : g_(std::clamp(g, -0.99f, 0.99f)) {}
   float g() const { return g_; }
 
   /// Value and density (they are the same, 1/sr) for unit world directions.
   float eval(const Vec3f& wo, const Vec3f& wi) const;
+  /// Always succeeds, for `u` in [0,1)^2. As in pbrt-v4 small u.x are the deflections that
+  /// g >= 0 prefers.
   PhaseSample sample(const Vec3f& wo, const Vec2f& u) const;
 
  private:
+  /// The value where the direction and the lobe's axis make an angle with 1 - cos = x.
+  float value(float x) const;
+
   float g_ = 0;
 };
 

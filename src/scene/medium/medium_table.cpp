@@ -1,0 +1,64 @@
+// Medium types by name, see medium_table.h.
+#include "scene/medium/medium_table.h"
+
+#include "input/spelling.h"
+
+namespace nephroid {
+
+namespace {
+
+struct Row {
+  const char* name;
+  MediumMaker make;
+};
+constexpr Row kMedia[] = {
+    {"homogeneous", make_homogeneous_medium},
+    {"uniformgrid", make_uniform_grid_medium},
+    {"rgbgrid", make_rgb_grid_medium},
+};
+
+MediumMaker maker_of(const MediumDescription& description) {
+  std::string names;
+  for (const Row& row : kMedia) {
+    if (description.type == row.name) return row.make;
+    names += (names.empty() ? "\"" : ", \"") + std::string(row.name) + "\"";
+  }
+  throw SceneError(description.where, "unknown medium type \"" + description.type + "\"" +
+                                          did_you_mean(description.type, medium_names()) +
+                                          " (expected one of " + names + ")");
+}
+
+/// Media are placed by affine maps with an inverse, so that rays stay straight in them.
+void check_transform(const MediumDescription& d) {
+  const Mat44d& m = d.transform.start;
+  if (!is_invertible(m))
+    throw SceneError(d.where, "the transform of medium \"" + d.name + "\" has no inverse");
+  if (m[0][3] != 0.0 || m[1][3] != 0.0 || m[2][3] != 0.0 || m[3][3] != 1.0)
+    throw SceneError(d.where, "the transform of medium \"" + d.name +
+                                  "\" is a perspective, expected one that keeps lines parallel");
+}
+
+}  // namespace
+
+std::vector<std::string> medium_names() {
+  std::vector<std::string> names;
+  for (const Row& row : kMedia) names.emplace_back(row.name);
+  return names;
+}
+
+std::vector<MediumPtr> make_media(const SceneDescription& description, Diagnostics& diagnostics) {
+  const MediumScope scope{description.directory};
+  std::vector<MediumPtr> media;
+  for (const MediumDescription& d : description.media) {
+    const MediumMaker make = maker_of(d);
+    check_transform(d);
+    if (d.transform.is_animated())
+      diagnostics.warn(d.where,
+                       "medium \"" + d.name + "\" moves: media stay where they are at the start");
+    media.push_back(make(d, scope));
+    d.parameters.report_unused("medium \"" + d.name + "\"", diagnostics);
+  }
+  return media;
+}
+
+}  // namespace nephroid

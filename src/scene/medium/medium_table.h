@@ -1,0 +1,53 @@
+// The table of medium types: the scene format's name -> how to make one, and what the parameters of
+// several types have in common. A new medium is one file with its maker and one row in
+// medium_table.cpp. Who calls it: make_media. The makers must not know the rest of the scene.
+#pragma once
+
+#include "core/spectra_dense.h"
+#include "scene/medium/medium.h"
+#include "scene/texture/texture.h"
+
+namespace nephroid {
+
+/// What a maker may know of the scene around its directive.
+struct MediumScope {
+  const std::string& directory;  ///< relative file names are relative to this
+};
+
+using MediumMaker = MediumPtr (*)(const MediumDescription&, const MediumScope&);
+
+// The makers, one a file. They throw SceneError for bad parameters.
+MediumPtr make_homogeneous_medium(const MediumDescription&, const MediumScope&);
+MediumPtr make_uniform_grid_medium(const MediumDescription&, const MediumScope&);
+MediumPtr make_rgb_grid_medium(const MediumDescription&, const MediumScope&);
+
+/// Absorption and scattering per unit of density, 1/length, looked up at the nearest nanometre as
+/// in pbrt-v4.
+struct Extinction {
+  DenseSpectrum sigma_a, sigma_s;
+};
+/// "sigma_a" and "sigma_s" times `scale`, each 1 where absent.
+Extinction read_extinction(const ParameterSet& parameters, float scale,
+                           const std::string& directory);
+
+/// `spectrum` times `scale` as a table; throws SceneError at `where` if it is negative anywhere or
+/// leaves the range of float.
+DenseSpectrum dense_spectrum(const Spectrum& spectrum, float scale, const SourceLocation& where,
+                             const std::string& name);
+
+/// "Le" times `scale` over the luminance of "Le", as radiance; black if absent or black.
+DenseSpectrum read_emission(const ParameterSet& parameters, float scale,
+                            const std::string& directory);
+
+/// A float that is finite and not negative.
+float read_factor(const ParameterSet& parameters, const std::string& name, float fallback);
+
+/// "scale", by which coefficients are multiplied: 1 if absent.
+inline float read_scale(const ParameterSet& parameters) {
+  return read_factor(parameters, "scale", 1.0f);
+}
+
+/// "g" as a phase function; throws SceneError outside [-1, 1].
+HenyeyGreenstein read_phase(const ParameterSet& parameters);
+
+}  // namespace nephroid
