@@ -103,6 +103,10 @@ class PathSampler {
       return bits_to_unit_float(owen_scramble_reversed(point_->reversed(d), scramble));
     return bits_to_unit_float(static_cast<uint32_t>(hash_combine(h, point_->index()) >> 32));
   }
+  /// A seed for random numbers without end that belong to this path and the current dimension.
+  uint64_t stream_seed() const {
+    return hash_combine(seed_, point_->index(), static_cast<uint64_t>(dimension_));
+  }
   Vec2f get_2d() {
     const float x = get_1d();
     return {x, get_1d()};

@@ -1,5 +1,6 @@
 #include "integrator/path.h"
 
+#include <array>
 #include <vector>
 
 #include "core/parallel.h"
@@ -28,9 +29,9 @@ class PathVisitor {
       const Light& light = *scene_.lights[static_cast<size_t>(i)];
       const SampledSpectrum le = light.radiance_at_infinity(walk.ray.d, walk.lambda);
       if (le.is_black()) continue;
-      const float w =
-          walk.delta ? 1.0f : power_heuristic(walk.pdf_w, direct_pdf_w(scene_, walk, i));
-      radiance_ += walk.throughput * le * w;
+      radiance_ += walk.throughput * le *
+                   (walk.delta ? 1.0f / walk.density.u_mean
+                               : weight_of_hit(walk, direct_pdf_w(scene_, walk, i)));
     }
   }
 
@@ -38,21 +39,38 @@ class PathVisitor {
     if (routes_.owner(state_) != route_) return;
     const SampledSpectrum le = light.radiance(hit.p, hit.ng, hit.uv, hit.wo, walk.lambda);
     if (le.is_black()) return;
-    const float w =
-        walk.delta ? 1.0f : power_heuristic(walk.pdf_w, direct_pdf_w(scene_, walk, hit));
-    radiance_ += walk.throughput * le * w;
+    radiance_ += walk.throughput * le *
+                 (walk.delta ? 1.0f / walk.density.u_mean
+                             : weight_of_hit(walk, direct_pdf_w(scene_, walk, hit)));
   }
 
-  ClassMask vertex(const Walk& walk, const WalkVertex& v, PathSampler& sampler) {
+  void medium_emission(const SampledSpectrum& radiance) {
+    if (routes_.owner(state_) == route_) radiance_ += radiance;
+  }
+
+  ClassMask letters() const { return routes_.useful_eye_events(state_, route_); }
+
+  void vertex(const Walk& walk, const WalkVertex& v, PathSampler& sampler) {
     if (walk.vertices == 0) record_features(walk, v);
-    const ClassMask useful = routes_.useful_eye_events(state_, route_);
+    const ClassMask useful = v.classes_of(letters());
     const ClassMask finite = v.bsdf.finite_classes() & useful;
-    if (owns_any(finite)) next_event(walk, v, finite, useful, sampler);
-    return useful;
+    if (owns_any(v, finite)) next_event(walk, v, finite, useful, sampler);
   }
 
-  bool scatter(const Walk&, const BsdfSample& s) {
-    state_ = routes_.next(state_, s.event);
+  void medium_vertex(const Walk& walk, const MediumVertex& v, PathSampler& sampler) {
+    if (!owns(EventClass::kVolume)) return;
+    const auto d = sample_direct(scene_, Receiver::of(v, walk.medium), walk.lambda, sampler);
+    if (!d) return;
+    ++shadow_rays_;
+    const ShadowFlight shadow = trace_shadow(scene_, *d, walk.lambda, sampler);
+    if (shadow.transmittance.is_black()) return;
+    const float phase = v.phase.eval(v.wo, d->wi_world);
+    radiance_ += walk.throughput * d->radiance * shadow.transmittance *
+                 (phase * weight_of_direct(walk, *d, shadow, phase));
+  }
+
+  bool scatter(const Walk&, EventClass letter) {
+    state_ = routes_.next(state_, letter);
     return true;
   }
 
@@ -64,28 +82,51 @@ class PathVisitor {
  private:
   static constexpr EventClass kClasses[] = {EventClass::kDiffuse, EventClass::kSpecular};
 
-  bool owns(EventClass c) const { return routes_.owner(routes_.next(state_, c)) == route_; }
-  bool owns_any(ClassMask finite) const {
+  bool owns(EventClass letter) const {
+    return routes_.owner(routes_.next(state_, letter)) == route_;
+  }
+  bool owns_any(const WalkVertex& v, ClassMask finite) const {
     for (const EventClass c : kClasses)
-      if (contains(finite, c) && owns(c)) return true;
+      if (contains(finite, c) && owns(v.letter(c))) return true;
     return false;
+  }
+
+  // Weights of the two techniques that find a light, the spectral average included ([D3], [V5]).
+  static float weight_of_hit(const Walk& walk, float direct_pdf) {
+    const SpectralDensity& d = walk.density;
+    return power_heuristic(walk.pdf_w * d.u_mean, direct_pdf * d.l_mean) / d.u_mean;
+  }
+  static float weight_of_direct(const Walk& walk, const DirectSample& direct,
+                                const ShadowFlight& shadow, float walk_pdf) {
+    SpectralDensity d;
+    d.u = walk.density.u * shadow.u;
+    d.l = walk.density.u * shadow.l;
+    d.take_means(walk.lambda);
+    return (direct.delta ? 1.0f : power_heuristic(direct.pdf_w * d.l_mean, walk_pdf * d.u_mean)) /
+           d.l_mean;
   }
 
   void next_event(const Walk& walk, const WalkVertex& v, ClassMask finite, ClassMask among,
                   PathSampler& sampler) {
-    const std::optional<DirectSample> d = sample_direct(scene_, v.surface, walk.lambda, sampler);
+    const auto d =
+        sample_direct(scene_, Receiver::of(v.surface, walk.medium), walk.lambda, sampler);
     if (!d) return;
-    SampledSpectrum sum;
-    for (const EventClass c : kClasses) {
-      if (!contains(finite, c) || !owns(c)) continue;
-      const BsdfEval e = v.bsdf.eval(v.wo, d->wi, TransportMode::kRadiance, c, among);
-      sum += e.f * (d->delta ? 1.0f : power_heuristic(d->pdf_w, e.pdf_w));
+    const Vec3f wi = v.to_local(d->wi_world);
+    std::array<BsdfEval, std::size(kClasses)> evals;
+    bool any = false;
+    for (size_t i = 0; i < evals.size(); ++i) {
+      if (!contains(finite, kClasses[i]) || !owns(v.letter(kClasses[i]))) continue;
+      evals[i] = v.bsdf.eval(v.wo, wi, TransportMode::kRadiance, kClasses[i], among);
+      any |= !evals[i].f.is_black();
     }
-    if (sum.is_black()) return;
+    if (!any) return;
     ++shadow_rays_;
-    const SampledSpectrum through = scene_.transmittance(d->shadow_ray, walk.lambda);
-    if (through.is_black()) return;
-    radiance_ += walk.throughput * sum * d->radiance * through * abs_cos_theta(d->wi);
+    const ShadowFlight shadow = trace_shadow(scene_, *d, walk.lambda, sampler);
+    if (shadow.transmittance.is_black()) return;
+    SampledSpectrum sum;
+    for (const BsdfEval& e : evals)
+      if (!e.f.is_black()) sum += e.f * weight_of_direct(walk, *d, shadow, e.pdf_w);
+    radiance_ += walk.throughput * sum * d->radiance * shadow.transmittance * abs_cos_theta(wi);
   }
 
   void record_features(const Walk& walk, const WalkVertex& v) {

@@ -33,15 +33,17 @@ class MergeWalkVisitor {
  public:
   MergeWalkVisitor(const Routes& routes, Merge& merge) : routes_(routes), merge_(merge) {}
 
+  ClassMask letters() const { return ClassMask::kSpecular; }
   void escape(const Walk&) {}
   void emitter(const Walk&, const SurfaceInteraction&, const Light&) {}
-  ClassMask vertex(const Walk& walk, const WalkVertex& v, PathSampler&) {
-    if (contains(v.bsdf.finite_classes(), EventClass::kDiffuse))
+  void medium_emission(const SampledSpectrum&) {}
+  void medium_vertex(const Walk&, const MediumVertex&, PathSampler&) {}
+  void vertex(const Walk& walk, const WalkVertex& v, PathSampler&) {
+    if (v.merges && contains(v.bsdf.finite_classes(), EventClass::kDiffuse))
       merge_(walk, v, routes_.next(state_, EventClass::kDiffuse));
-    return ClassMask::kSpecular;
   }
-  bool scatter(const Walk&, const BsdfSample& s) {
-    state_ = routes_.next(state_, s.event);
+  bool scatter(const Walk&, EventClass letter) {
+    state_ = routes_.next(state_, letter);
     return true;
   }
 

@@ -17,11 +17,12 @@ Preset make_path(const IntegratorOptions& options, const Scene&) {
   return preset;
 }
 
-Preset make_sppm(const IntegratorOptions& options, const Scene&) {
+Preset make_sppm(const IntegratorOptions& options, const Scene& scene) {
+  const Routes routes = Routes::seen_emission().restricted_to(
+      scene.has_volume_events ? ClassMask::kAll | ClassMask::kVolume : ClassMask::kAll);
   Preset preset;
   preset.route_names = {"emission", "photons"};
-  preset.estimators.push_back(
-      std::make_unique<PathEstimator>(Routes::seen_emission(), Route::kDiffuse, 0, options));
+  preset.estimators.push_back(std::make_unique<PathEstimator>(routes, Route::kDiffuse, 0, options));
   preset.estimators.push_back(std::make_unique<Sppm>(1, options));
   return preset;
 }

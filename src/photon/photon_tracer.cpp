@@ -21,8 +21,12 @@ class PhotonVisitor {
 
   void escape(const Walk&) {}
   void emitter(const Walk&, const SurfaceInteraction&, const Light&) {}
+  void medium_emission(const SampledSpectrum&) {}
+  void medium_vertex(const Walk&, const MediumVertex&, PathSampler&) {}
 
-  ClassMask vertex(const Walk& walk, const WalkVertex& v, PathSampler&) {
+  ClassMask letters() const { return routes_.useful_events(state_, route_); }
+
+  void vertex(const Walk& walk, const WalkVertex& v, PathSampler&) {
     if (contains(v.possible, EventClass::kDiffuse) && routes_.deposits(state_, route_)) {
       Photon photon;
       photon.p = v.surface.p;
@@ -35,12 +39,11 @@ class PhotonVisitor {
       out_.push_back(photon);
       ++stored_;
     }
-    return routes_.useful_events(state_, route_);
   }
 
-  bool scatter(const Walk&, const BsdfSample& s) {
-    state_ = routes_.photon_next(state_, s.event);
-    specular_ |= s.event == EventClass::kSpecular;
+  bool scatter(const Walk&, EventClass letter) {
+    state_ = routes_.photon_next(state_, letter);
+    specular_ |= letter == EventClass::kSpecular;
     return true;
   }
 
@@ -60,6 +63,7 @@ class PhotonVisitor {
 // Emission of one photon. Empty if the light gives nothing here.
 struct Emitted {
   Ray ray;
+  const Medium* medium = nullptr;
   SampledSpectrum flux;
 };
 std::optional<Emitted> emit(const Scene& scene, const SampledWavelengths& lambda, float time,
@@ -75,6 +79,10 @@ std::optional<Emitted> emit(const Scene& scene, const SampledWavelengths& lambda
   Emitted out;
   out.ray = e->ray;
   out.ray.time = time;
+  if (!scene.light_media.empty()) {
+    const MediumInterface& media = scene.light_media[static_cast<size_t>(choice->light)];
+    out.medium = e->from_inside ? media.inside : media.outside;
+  }
   out.flux = e->radiance * (e->cos_theta / (choice->pdf_p * e->pdf_a * e->pdf_w));
   if (out.flux.is_black()) return std::nullopt;
   return out;
@@ -104,6 +112,7 @@ PhotonTrace trace_photons(const Scene& scene, const Routes& routes, Route route,
       if (!emitted) continue;
       Walk walk;
       walk.ray = emitted->ray;
+      walk.medium = emitted->medium;
       walk.lambda = settings.lambda;
       walk.first_dimension = kEmissionDimensions;
       walk.second_dimension = kEmissionDimensions + dimensions::kPerVertex;

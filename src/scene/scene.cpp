@@ -105,24 +105,36 @@ bool Scene::intersect(const Ray& ray, SurfaceInteraction& hit) const {
   return false;
 }
 
+bool Scene::blocked(const Ray& shadow_ray) const {
+  return top.accelerator->occluded(shadow_ray, kMaskOpaque);
+}
+
+bool Scene::intersect_passing(const Ray& ray, SurfaceInteraction& hit) const {
+  return has_passing_shapes && intersect_masked(ray, kMaskPassing, hit);
+}
+
+SampledSpectrum Scene::straight_weight(const SurfaceInteraction& hit,
+                                       const SampledWavelengths& lambda) const {
+  const float a = hit.record->alpha
+                      ? std::clamp(hit.record->alpha->eval(TextureContext(hit)), 0.0f, 1.0f)
+                      : 1.0f;
+  const Material& m = *materials[static_cast<size_t>(hit.material)]->resolve(hit);
+  SampledSpectrum through(1.0f - a);
+  if (a > 0.0f && m.passes_straight()) through += m.straight_transmittance(hit, lambda) * a;
+  return through;
+}
+
 SampledSpectrum Scene::transmittance(const Ray& shadow_ray,
                                      const SampledWavelengths& lambda) const {
-  if (top.accelerator->occluded(shadow_ray, kMaskOpaque)) return SampledSpectrum(0.0f);
-  SampledSpectrum weight(1.0f);
-  if (!has_passing_shapes) return weight;
+  if (blocked(shadow_ray)) return SampledSpectrum(0.0f);
   // What lets light through is crossed surface by surface, each with its weight.
+  SampledSpectrum weight(1.0f);
   Ray rest = shadow_ray;
   SurfaceInteraction hit;
   int passages = 0;
-  while (rest.t_max > 0.0f && intersect_masked(rest, kMaskPassing, hit)) {
+  while (rest.t_max > 0.0f && intersect_passing(rest, hit)) {
     if (++passages > kMaxPassages) return SampledSpectrum(0.0f);
-    const float a = hit.record->alpha
-                        ? std::clamp(hit.record->alpha->eval(TextureContext(hit)), 0.0f, 1.0f)
-                        : 1.0f;
-    const Material& m = *materials[static_cast<size_t>(hit.material)]->resolve(hit);
-    SampledSpectrum through(1.0f - a);
-    if (a > 0.0f && m.passes_straight()) through += m.straight_transmittance(hit, lambda) * a;
-    weight *= through;
+    weight *= straight_weight(hit, lambda);
     if (weight.is_black()) return weight;
     if (rest.t_max < kInfinity) rest.t_max -= hit.distance / length(rest.d);
     rest.o = hit.spawn_origin(rest.d);

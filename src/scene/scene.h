@@ -11,6 +11,7 @@
 #include "scene/interaction.h"
 #include "scene/light/light_sampler.h"
 #include "scene/material/material.h"
+#include "scene/medium/medium.h"
 
 namespace nephroid {
 
@@ -36,12 +37,20 @@ struct SceneOverrides {
   float specular_alpha = kDefaultSpecularAlpha;
 };
 
+/// The media on both sides of a surface or around a light; null is empty space.
+struct MediumInterface {
+  const Medium* inside = nullptr;
+  const Medium* outside = nullptr;
+  bool is_transition() const { return inside != outside; }
+};
+
 /// A shape with what belongs to it. Emitting shapes have one light per primitive, in a row.
 struct ShapeRecord {
   ShapePtr shape;
   int material = 0;
   int first_light = -1;
   FloatTexturePtr alpha;  ///< null where the shape is solid
+  MediumInterface media;  ///< rays that leave the surface change to these if they differ
 };
 
 /// Shapes that are placed as a whole: the top level, or the shapes of an object definition.
@@ -71,6 +80,15 @@ class Scene {
   /// between, else the product of the weights of what lets light straight through.
   SampledSpectrum transmittance(const Ray& shadow_ray, const SampledWavelengths& lambda) const;
 
+  /// True if something opaque stands in the way of a shadow ray.
+  bool blocked(const Ray& shadow_ray) const;
+  /// The first surface on a ray that may let light straight through, whatever opaque things there
+  /// are.
+  bool intersect_passing(const Ray& ray, SurfaceInteraction& hit) const;
+  /// Weight with which light goes straight through a surface that intersect_passing has found.
+  SampledSpectrum straight_weight(const SurfaceInteraction& hit,
+                                  const SampledWavelengths& lambda) const;
+
   /// The light of an emitting surface, else nullptr.
   const Light* area_light(const SurfaceInteraction& hit) const {
     return hit.area_light < 0 ? nullptr : lights[static_cast<size_t>(hit.area_light)].get();
@@ -81,6 +99,9 @@ class Scene {
   std::unique_ptr<PixelFilter> filter;
   std::vector<MaterialPtr> materials;
   std::vector<LightPtr> lights;
+  std::vector<MediumInterface> light_media;  ///< around each light; of an area light, its shape's
+  std::vector<MediumPtr> media;
+  const Medium* camera_medium = nullptr;
   std::unique_ptr<LightSampler> light_sampler;
   SceneSphere sphere;
   int samples_per_pixel = 16;  ///< of the scene's Sampler line
@@ -94,6 +115,8 @@ class Scene {
   bool has_passing_shapes = false;        ///< any shape that lets light straight through
   /// True if any shape's material may scatter in class S: without one there are no caustics.
   bool has_specular_material = false;
+  /// True if a path may have an event V: a medium scatters, or photons cannot be merged somewhere.
+  bool has_volume_events = false;
   uint64_t primitive_count = 0;  ///< without instancing
   uint64_t shape_count = 0;
 

@@ -37,11 +37,17 @@ class SceneBuilder {
       scene_->integrator = d_.integrator->type;
       scene_->integrator_parameters = d_.integrator->parameters;
     }
+    scene_->media = make_media(d_, diagnostics);
+    for (size_t i = 0; i < d_.media.size(); ++i) {
+      medium_index_[d_.media[i].name] = i;
+      scene_->has_volume_events |= !scene_->media[i]->is_purely_absorbing();
+    }
+    if (d_.camera) scene_->camera_medium = medium_named(d_.camera->medium, d_.camera->where);
     scene_->lights = make_lights(d_, diagnostics);
-    for (const MediumDescription& medium : d_.media)
-      diagnostics.warn(medium.where, "medium \"" + medium.name +
-                                         "\": participating media are not rendered yet, the space "
-                                         "is left empty");
+    for (const LightDescription& light : d_.lights) {
+      const Medium* around = medium_named(light.medium, light.where);
+      scene_->light_media.push_back({around, around});
+    }
   }
 
   std::unique_ptr<Scene> build() {
@@ -79,6 +85,14 @@ class SceneBuilder {
     scene_->scene_seed = static_cast<uint64_t>(p.get_int("seed", 0));
     for (const char* of_its_own : {"jitter", "randomization"}) (void)p.find(of_its_own);
     p.report_unused("sampler \"" + type + "\"", diagnostics_);
+  }
+
+  const Medium* medium_named(const std::string& name, const SourceLocation& where) const {
+    if (name.empty()) return nullptr;
+    const auto it = medium_index_.find(name);
+    if (it != medium_index_.end()) return scene_->media[it->second].get();
+    throw SceneError(
+        where, "medium \"" + name + "\" is not defined, expected the name of a MakeNamedMedium");
   }
 
   int material_of(const ShapeDescription& shape) const {
@@ -119,11 +133,14 @@ class SceneBuilder {
     record.alpha = textures_.float_texture(description.parameters, "alpha");
     if (record.alpha && record.alpha->constant() && *record.alpha->constant() >= 1.0f)
       record.alpha = nullptr;
+    record.media = {medium_named(description.inside_medium, description.where),
+                    medium_named(description.outside_medium, description.where)};
     if (description.area_light) add_area_light(description, shape, material, record);
     const bool passing = material.passes_straight() || record.alpha;
     scene_->has_passing_shapes |= passing;
     if (contains(material.possible_classes(), EventClass::kSpecular))
       scene_->has_specular_material = true;
+    if (!material.merges_photons()) scene_->has_volume_events = true;
     group.accelerator->add_shape(shape, passing ? kMaskPassing : kMaskOpaque);
     scene_->primitive_count += shape->primitive_count();
     ++scene_->shape_count;
@@ -141,7 +158,10 @@ class SceneBuilder {
                                                     textures_, record.alpha, diagnostics_);
     if (lights.empty()) return;
     record.first_light = static_cast<int>(scene_->lights.size());
-    for (LightPtr& light : lights) scene_->lights.push_back(std::move(light));
+    for (LightPtr& light : lights) {
+      scene_->lights.push_back(std::move(light));
+      scene_->light_media.push_back(record.media);
+    }
   }
 
   void add_instance(const InstanceDescription& instance,
@@ -207,6 +227,7 @@ class SceneBuilder {
   std::unique_ptr<Scene> scene_;
   std::shared_ptr<EmbreeDevice> device_;
   std::map<std::string, int> material_index_;
+  std::map<std::string, size_t> medium_index_;
 };
 
 }  // namespace

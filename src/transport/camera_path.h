@@ -28,6 +28,7 @@ inline CameraPath start_camera_path(const Scene& scene, int x, int y, PathSample
   path.filter_weight = f.weight;
   path.walk.ray = scene.camera->generate_ray(film, u_lens, u_time);
   path.walk.lambda = lambda;
+  path.walk.medium = scene.camera_medium;
   path.walk.previous_p = path.walk.ray.o;
   return path;
 }

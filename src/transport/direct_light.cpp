@@ -2,12 +2,11 @@
 
 namespace nephroid {
 
-std::optional<DirectSample> sample_direct(const Scene& scene, const SurfaceInteraction& at,
+std::optional<DirectSample> sample_direct(const Scene& scene, const Receiver& at,
                                           const SampledWavelengths& lambda, PathSampler& sampler) {
   const float u_light = sampler.get_1d();
   const Vec2f u = sampler.get_2d();
-  const std::optional<LightChoice> choice =
-      scene.light_sampler->sample(at.p, at.shading.z, u_light);
+  const std::optional<LightChoice> choice = scene.light_sampler->sample(at.p, at.ns, u_light);
   if (!choice) return std::nullopt;
   const Light& light = *scene.lights[static_cast<size_t>(choice->light)];
   const std::optional<LightSample> s = light.sample_towards(at.p, u, lambda);
@@ -16,11 +15,11 @@ std::optional<DirectSample> sample_direct(const Scene& scene, const SurfaceInter
   d.pdf_w = choice->pdf_p * s->pdf_w;
   d.radiance = s->radiance / d.pdf_w;
   d.wi_world = s->wi;
-  d.wi = at.shading.to_local(s->wi);
   d.delta = s->delta;
+  d.medium = at.surface ? medium_towards(*at.surface, s->wi, at.medium) : at.medium;
   // Both ends leave their surfaces by their own error bounds; the tiny margin keeps the ray from
   // reaching the emitter itself.
-  d.shadow_ray.o = at.spawn_origin(s->wi);
+  d.shadow_ray.o = at.surface ? at.surface->spawn_origin(s->wi) : at.p;
   d.shadow_ray.time = at.time;
   if (s->infinite) {
     d.shadow_ray.d = s->wi;
@@ -31,6 +30,39 @@ std::optional<DirectSample> sample_direct(const Scene& scene, const SurfaceInter
   d.shadow_ray.d = end - d.shadow_ray.o;
   d.shadow_ray.t_max = 1.0f - 1e-5f;
   return d;
+}
+
+ShadowFlight trace_shadow(const Scene& scene, const DirectSample& direct,
+                          const SampledWavelengths& lambda, const PathSampler& sampler) {
+  ShadowFlight flight;
+  if (scene.media.empty()) {
+    flight.transmittance = scene.transmittance(direct.shadow_ray, lambda);
+    return flight;
+  }
+  if (scene.blocked(direct.shadow_ray)) {
+    flight.transmittance = SampledSpectrum(0.0f);
+    return flight;
+  }
+  // Piece by piece from one surface that lets light through to the next.
+  FlightRandom random(-1.0f, sampler.stream_seed());
+  const Medium* medium = direct.medium;
+  Ray rest = direct.shadow_ray;
+  const float unit = length(rest.d);
+  rest.d = rest.d / unit;
+  rest.t_max *= unit;
+  SurfaceInteraction hit;
+  for (int passages = 0; rest.t_max > 0.0f; ++passages) {
+    const bool found = scene.intersect_passing(rest, hit);
+    if (medium) cross(*medium, rest, found ? hit.distance : rest.t_max, lambda, random, flight);
+    if (!found || flight.transmittance.is_black()) return flight;
+    flight.transmittance *= scene.straight_weight(hit, lambda);
+    if (flight.transmittance.is_black() || passages > kMaxPassages) break;
+    if (rest.t_max < kInfinity) rest.t_max -= hit.distance;
+    rest.o = hit.spawn_origin(rest.d);
+    medium = medium_towards(hit, rest.d, medium);
+  }
+  if (rest.t_max > 0.0f) flight.transmittance = SampledSpectrum(0.0f);
+  return flight;
 }
 
 float direct_pdf_w(const Scene& scene, const Walk& walk, const SurfaceInteraction& hit) {

@@ -7,18 +7,41 @@
 
 namespace nephroid {
 
-/// One light sample at a vertex, not yet multiplied by any BSDF.
+/// A vertex that asks for light.
+struct Receiver {
+  Vec3f p;
+  Vec3f ns;                                     ///< shading normal, null in a medium
+  const SurfaceInteraction* surface = nullptr;  ///< null in a medium
+  const Medium* medium = nullptr;               ///< around the walk that came here
+  float time = 0;
+
+  static Receiver of(const SurfaceInteraction& s, const Medium* medium) {
+    return {s.p, s.shading.z, &s, medium, s.time};
+  }
+  static Receiver of(const MediumVertex& v, const Medium* medium) {
+    return {v.p, Vec3f(0, 0, 0), nullptr, medium, v.time};
+  }
+};
+
+/// One light sample at a vertex, not yet multiplied by any BSDF or phase function.
 struct DirectSample {
   SampledSpectrum radiance;  ///< arriving unoccluded, divided by pdf_w
-  Vec3f wi_world, wi;        ///< towards the light; wi is local
+  Vec3f wi_world;            ///< unit, towards the light
   float pdf_w = 0;           ///< of choosing the light and the direction
   bool delta = false;        ///< no walk can hit the light
   Ray shadow_ray;
+  const Medium* medium = nullptr;  ///< in which the shadow ray starts
 };
 
 /// Chooses a light and a point on it. Empty if nothing can arrive.
-std::optional<DirectSample> sample_direct(const Scene& scene, const SurfaceInteraction& at,
+std::optional<DirectSample> sample_direct(const Scene& scene, const Receiver& at,
                                           const SampledWavelengths& lambda, PathSampler& sampler);
+
+/// What arrives of a light sample through everything on its way, media included, and how likely
+/// either technique is to find it there ([V5]). Random numbers come from the sampler's current
+/// dimension.
+ShadowFlight trace_shadow(const Scene& scene, const DirectSample& direct,
+                          const SampledWavelengths& lambda, const PathSampler& sampler);
 
 /// Density with which sample_direct at the walk's previous vertex would have found this emitter.
 float direct_pdf_w(const Scene& scene, const Walk& walk, const SurfaceInteraction& hit);

@@ -1,11 +1,12 @@
 // The one random walk through a scene, from the camera or from a light. It finds surfaces, makes
-// their BSDFs, goes straight through what is not there, plays Russian roulette and samples
-// directions; what a vertex is for is the visitor's business. Who calls it: integrators and the
-// photon tracer. It must not know routes or films.
+// their BSDFs, crosses media, goes straight through what is not there, plays Russian roulette and
+// samples directions; what a vertex is for is the visitor's business. Who calls it: integrators and
+// the photon tracer. It must not know routes or films.
 #pragma once
 
 #include "core/sampler.h"
 #include "scene/scene.h"
+#include "transport/medium_flight.h"
 
 namespace nephroid {
 
@@ -22,23 +23,28 @@ inline constexpr int kSecondVertex = 14;
 inline constexpr int kLight = 0;     // 3
 inline constexpr int kBsdf = 3;      // 3
 inline constexpr int kRoulette = 6;  // 1
+inline constexpr int kFlight = 7;    // 1, of the flight that leads to the vertex
 inline constexpr int kPerVertex = 8;
 }  // namespace dimensions
 
 /// A walk between two vertices.
 struct Walk {
-  Ray ray;
+  Ray ray;                         ///< of unit direction
+  const Medium* medium = nullptr;  ///< around the ray's origin
   SampledSpectrum throughput{1.0f};
+  /// Of the choices that media made; estimates divide by density.u_mean.
+  SpectralDensity density;
   SampledWavelengths lambda;
-  int vertices = 0;     ///< surfaces at which something was decided
+  int vertices = 0;     ///< places at which something was decided
   int events = 0;       ///< scattering events so far
   float length = 0;     ///< path length from the start
   float eta_scale = 1;  ///< product of eta^2 over refractions, which roulette leaves out
   // The last scattering event; before the first one the values of the start.
   bool delta = true;  ///< a delta lobe or the camera: no other technique could make this ray
   float pdf_w = 0;    ///< P_c p_c of the direction
-  Vec3f previous_p, previous_ns;  ///< vertex that the ray left and its shading normal
-  uint64_t rays = 0;              ///< closest-hit queries
+  Vec3f previous_p,
+      previous_ns;    ///< vertex that the ray left and its shading normal (null: medium)
+  uint64_t rays = 0;  ///< closest-hit queries
   int first_dimension = dimensions::kFirstVertex;    ///< random numbers of the first vertex
   int second_dimension = dimensions::kSecondVertex;  ///< of the second; later ones follow
   int vertex_dimension() const {
@@ -48,104 +54,238 @@ struct Walk {
   int passages = 0;  ///< straight passages since the start (bounds the walk)
 };
 
+/// The medium on the side of a surface to which `w` (world) points, for light that was in
+/// `current`.
+inline const Medium* medium_towards(const SurfaceInteraction& surface, const Vec3f& w,
+                                    const Medium* current) {
+  const MediumInterface& media = surface.record->media;
+  if (!media.is_transition()) return current;
+  return dot(w, surface.ng) > 0.0f ? media.outside : media.inside;
+}
+
 /// A surface vertex that a visitor sees.
 struct WalkVertex {
   const SurfaceInteraction& surface;
   const Bsdf& bsdf;
   Vec3f wo;  ///< local
-  /// Classes that the surface may have here in any of the guises that a `mix` chooses from at
+  /// Classes in which photons may be merged here in any of the guises that a `mix` chooses from at
   /// random. What is stored for others to meet depends on this and not on the guise that this walk
   /// happened to see.
   ClassMask possible;
+  /// False in a guise where photons cannot be merged: its events count as V.
+  bool merges = true;
 
   Vec3f to_local(const Vec3f& w) const { return surface.shading.to_local(w); }
+  /// The letter of an event of class `c` here.
+  EventClass letter(EventClass c) const { return merges ? c : EventClass::kVolume; }
+  /// Classes of events whose letters are among `letters`.
+  ClassMask classes_of(ClassMask letters) const {
+    if (merges) return letters & ClassMask::kAll;
+    return contains(letters, EventClass::kVolume) ? ClassMask::kAll : ClassMask::kNone;
+  }
+};
+
+/// A vertex in a medium.
+struct MediumVertex {
+  Vec3f p;
+  Vec3f wo;  ///< unit, world
+  HenyeyGreenstein phase;
+  float time = 0;
 };
 
 /// Runs the walk until it leaves, ends or has `max_events` events. The visitor has
+///   ClassMask letters()            events that its path may still have (a V: media may scatter)
 ///   void escape(const Walk&)                         the ray left the scene
 ///   void emitter(const Walk&, const SurfaceInteraction&, const Light&)  it met a light
-///   ClassMask vertex(const Walk&, const WalkVertex&, PathSampler&)
-///                                  a surface; returns the classes in which to go on (kNone: stop)
-///   bool scatter(const Walk&, const BsdfSample&)     an event was sampled; false: stop
+///   void medium_emission(const SampledSpectrum&)     light from a medium, fully weighed
+///   void vertex(const Walk&, const WalkVertex&, PathSampler&)         a surface
+///   void medium_vertex(const Walk&, const MediumVertex&, PathSampler&)  a collision in a medium
+///   bool scatter(const Walk&, EventClass letter)     an event was sampled; false: stop
 /// `mode` tells which quantity the throughput carries. In kImportance it includes the correction
 /// for shading normals (Veach 1997, section 5.3).
 template <class Visitor>
-void random_walk(const Scene& scene, TransportMode mode, int max_events, Walk& walk,
-                 PathSampler& sampler, Visitor& visitor) {
-  BsdfArena arena;
-  SurfaceInteraction hit;
-  for (;;) {
-    ++walk.rays;
-    if (!scene.intersect(walk.ray, hit)) {
-      visitor.escape(walk);
-      return;
-    }
-    walk.length += hit.distance;
-    const Material& surface = *scene.materials[static_cast<size_t>(hit.material)];
-    const Material* material = surface.resolve(hit);
-    hit.coverage *= surface.presence(hit);
-    if (material->is_interface()) {
-      if (++walk.passages > kMaxPassages) return;
-      walk.ray.o = hit.spawn_origin(walk.ray.d);
-      continue;
-    }
-    if (const Light* light = scene.area_light(hit)) visitor.emitter(walk, hit, *light);
-    // Without an event left, the walk may still go straight through what adds none.
-    const bool spent = walk.events >= max_events;
-    if (spent && !material->passes_straight()) return;
-    if (material->has_bump()) material->bump(hit);
-    arena.clear();
-    const Bsdf* bsdf = material->make_bsdf(hit, walk.lambda, arena);
-    if (!bsdf) return;
-    const WalkVertex vertex{hit, *bsdf, hit.shading.to_local(hit.wo), surface.possible_classes()};
-    const int dimension = walk.vertex_dimension();
-    sampler.start_dimension(dimension + dimensions::kLight);
-    const ClassMask among = spent ? ClassMask::kNone : visitor.vertex(walk, vertex, sampler);
-    if (among == ClassMask::kNone && !material->passes_straight()) return;
+class RandomWalk {
+ public:
+  RandomWalk(const Scene& scene, TransportMode mode, int max_events, Walk& walk,
+             PathSampler& sampler, Visitor& visitor)
+      : scene_(scene),
+        mode_(mode),
+        max_events_(max_events),
+        walk_(walk),
+        sampler_(sampler),
+        visitor_(visitor) {}
 
-    sampler.start_dimension(dimension + dimensions::kBsdf);
-    const float uc = sampler.get_1d();
-    const Vec2f u = sampler.get_2d();
-    const std::optional<BsdfSample> s = bsdf->sample(vertex.wo, uc, u, mode, among);
-    if (!s || !(s->pdf_w > 0.0f)) return;
-    const Vec3f wi = hit.shading.to_world(s->wi);
+  void run() {
+    while (step()) {
+    }
+  }
+
+ private:
+  /// One flight and what stands at its end. False: the walk is over.
+  bool step() {
+    ++walk_.rays;
+    const bool found = scene_.intersect(walk_.ray, hit_);
+    if (walk_.medium) {
+      const std::optional<Collision> collision = cross_medium(found ? hit_.distance : kInfinity);
+      if (walk_.throughput.is_black()) return false;
+      if (collision) return scatter_in_medium(*collision);
+    }
+    if (!found) {
+      visitor_.escape(walk_);
+      return false;
+    }
+    walk_.length += hit_.distance;
+    return meet_surface();
+  }
+
+  std::optional<Collision> cross_medium(float distance) {
+    const Medium& medium = *walk_.medium;
+    // One sequence of numbers for the whole way from vertex to vertex, through however many media.
+    if (flight_vertex_ != walk_.vertices) {
+      flight_vertex_ = walk_.vertices;
+      sampler_.start_dimension(walk_.vertex_dimension() + dimensions::kFlight);
+      const uint64_t seed = sampler_.stream_seed();
+      flight_random_ = FlightRandom(sampler_.get_1d(), seed);
+    }
+    SampledSpectrum emitted;
+    if (medium.is_purely_absorbing() || !contains(visitor_.letters(), EventClass::kVolume)) {
+      SampledSpectrum* emission =
+          medium.is_purely_absorbing() && medium.is_emissive() ? &emitted : nullptr;
+      const SampledSpectrum through =
+          attenuation(medium, walk_.ray, distance, walk_.lambda, flight_random_, emission);
+      if (emission) visitor_.medium_emission(walk_.throughput * emitted / walk_.density.u_mean);
+      walk_.throughput *= through;
+      return std::nullopt;
+    }
+    const std::optional<Collision> collision =
+        fly(medium, walk_.ray, distance, walk_.lambda, flight_random_, walk_.throughput,
+            walk_.density, emitted);
+    walk_.density.take_means(walk_.lambda);
+    if (medium.is_emissive()) visitor_.medium_emission(emitted);
+    return collision;
+  }
+
+  bool scatter_in_medium(const Collision& collision) {
+    if (walk_.events >= max_events_) return false;
+    walk_.length += collision.t;
+    const MediumVertex vertex{walk_.ray.o + walk_.ray.d * collision.t, -walk_.ray.d,
+                              collision.phase, walk_.ray.time};
+    const int dimension = walk_.vertex_dimension();
+    sampler_.start_dimension(dimension + dimensions::kLight);
+    visitor_.medium_vertex(walk_, vertex, sampler_);
+    sampler_.start_dimension(dimension + dimensions::kBsdf);
+    const PhaseSample s = vertex.phase.sample(vertex.wo, sampler_.get_2d());
+    if (!(s.pdf_w > 0.0f)) return false;
+    walk_.delta = false;
+    walk_.pdf_w = s.pdf_w;
+    walk_.previous_p = vertex.p;
+    walk_.previous_ns = Vec3f(0, 0, 0);
+    walk_.ray.o = vertex.p;
+    walk_.ray.d = s.wi;
+    return end_of_event(EventClass::kVolume, dimension);
+  }
+
+  bool meet_surface() {
+    const Material& surface = *scene_.materials[static_cast<size_t>(hit_.material)];
+    const Material* material = surface.resolve(hit_);
+    hit_.coverage *= surface.presence(hit_);
+    if (material->is_interface()) return pass();
+    if (const Light* light = scene_.area_light(hit_)) visitor_.emitter(walk_, hit_, *light);
+    // Without an event left, the walk may still go straight through what adds none.
+    const bool spent = walk_.events >= max_events_;
+    if (spent && !material->passes_straight()) return false;
+    if (material->has_bump()) material->bump(hit_);
+    arena_.clear();
+    const Bsdf* bsdf = material->make_bsdf(hit_, walk_.lambda, arena_);
+    if (!bsdf) return false;
+    if (walk_.lambda.secondary_terminated()) walk_.density.take_means(walk_.lambda);
+    const WalkVertex vertex{
+        hit_, *bsdf, hit_.shading.to_local(hit_.wo),
+        surface.merges_photons() ? surface.possible_classes() : ClassMask::kNone,
+        material->merges_photons()};
+    return scatter_at_surface(vertex, *material, spent);
+  }
+
+  bool scatter_at_surface(const WalkVertex& vertex, const Material& material, bool spent) {
+    const int dimension = walk_.vertex_dimension();
+    sampler_.start_dimension(dimension + dimensions::kLight);
+    if (!spent) visitor_.vertex(walk_, vertex, sampler_);
+    const ClassMask among = spent ? ClassMask::kNone : vertex.classes_of(visitor_.letters());
+    if (among == ClassMask::kNone && !material.passes_straight()) return false;
+
+    sampler_.start_dimension(dimension + dimensions::kBsdf);
+    const float uc = sampler_.get_1d();
+    const Vec2f u = sampler_.get_2d();
+    const std::optional<BsdfSample> s = vertex.bsdf.sample(vertex.wo, uc, u, mode_, among);
+    if (!s || !(s->pdf_w > 0.0f)) return false;
+    const Vec3f wi = hit_.shading.to_world(s->wi);
     SampledSpectrum weight = s->f * (abs_cos_theta(s->wi) / s->pdf_w);
     if (s->straight_through) {
-      if (++walk.passages > kMaxPassages) return;
-      ++walk.vertices;
-      walk.throughput *= weight;
-      if (walk.throughput.is_black()) return;
-      walk.ray.o = hit.spawn_origin(walk.ray.d);
-      continue;
+      ++walk_.vertices;
+      walk_.throughput *= weight;
+      return !walk_.throughput.is_black() && pass();
     }
-    if (among == ClassMask::kNone) return;
-    if (mode == TransportMode::kImportance) {
-      const float down = abs_dot(hit.wo, hit.ng) * abs_cos_theta(s->wi);
-      if (!(down > 0.0f)) return;
-      weight *= abs_cos_theta(vertex.wo) * abs_dot(wi, hit.ng) / down;
+    if (among == ClassMask::kNone) return false;
+    if (mode_ == TransportMode::kImportance) {
+      const float down = abs_dot(hit_.wo, hit_.ng) * abs_cos_theta(s->wi);
+      if (!(down > 0.0f)) return false;
+      weight *= abs_cos_theta(vertex.wo) * abs_dot(wi, hit_.ng) / down;
     }
-    walk.throughput *= weight;
-    if (walk.throughput.is_black()) return;
-    ++walk.events;
-    ++walk.vertices;
-    if (s->transmitted && mode == TransportMode::kRadiance) walk.eta_scale *= sqr(s->eta);
-    walk.delta = s->delta;
-    walk.pdf_w = s->pdf_w;
-    walk.previous_p = hit.p;
-    walk.previous_ns = hit.shading.z;
-    if (!visitor.scatter(walk, *s)) return;
-
-    // Roulette on what the walk still carries; the change of radiance inside glass is no loss.
-    const float carried = walk.throughput.max_component() * walk.eta_scale;
-    if (carried < 1.0f) {
-      sampler.start_dimension(dimension + dimensions::kRoulette);
-      if (!(sampler.get_1d() < carried)) return;
-      walk.throughput /= carried;
-    }
-    walk.ray.o = hit.spawn_origin(wi);
-    walk.ray.d = wi;
-    walk.ray.t_max = kInfinity;
+    walk_.throughput *= weight;
+    if (walk_.throughput.is_black()) return false;
+    if (s->transmitted && mode_ == TransportMode::kRadiance) walk_.eta_scale *= sqr(s->eta);
+    walk_.delta = s->delta;
+    walk_.pdf_w = s->pdf_w;
+    walk_.previous_p = hit_.p;
+    walk_.previous_ns = hit_.shading.z;
+    walk_.ray.o = hit_.spawn_origin(wi);
+    walk_.ray.d = wi;
+    walk_.medium = medium_towards(hit_, wi, walk_.medium);
+    return end_of_event(vertex.letter(s->event), dimension);
   }
+
+  /// Goes on behind a surface that is not there.
+  bool pass() {
+    if (++walk_.passages > kMaxPassages) return false;
+    walk_.ray.o = hit_.spawn_origin(walk_.ray.d);
+    walk_.medium = medium_towards(hit_, walk_.ray.d, walk_.medium);
+    return true;
+  }
+
+  /// Counts the event, asks the visitor and plays roulette on what the walk still carries; the
+  /// change of radiance inside glass is no loss.
+  bool end_of_event(EventClass letter, int dimension) {
+    ++walk_.events;
+    ++walk_.vertices;
+    walk_.density.l = walk_.density.u;
+    walk_.density.l_mean = walk_.density.u_mean;
+    if (!visitor_.scatter(walk_, letter)) return false;
+    const float carried = walk_.throughput.max_component() * walk_.eta_scale / walk_.density.u_mean;
+    if (carried < 1.0f) {
+      sampler_.start_dimension(dimension + dimensions::kRoulette);
+      if (!(sampler_.get_1d() < carried)) return false;
+      walk_.throughput /= carried;
+    }
+    walk_.ray.t_max = kInfinity;
+    return true;
+  }
+
+  const Scene& scene_;
+  const TransportMode mode_;
+  const int max_events_;
+  Walk& walk_;
+  PathSampler& sampler_;
+  Visitor& visitor_;
+  SurfaceInteraction hit_;
+  BsdfArena arena_;
+  FlightRandom flight_random_;
+  int flight_vertex_ = -1;
+};
+
+template <class Visitor>
+void random_walk(const Scene& scene, TransportMode mode, int max_events, Walk& walk,
+                 PathSampler& sampler, Visitor& visitor) {
+  RandomWalk<Visitor>(scene, mode, max_events, walk, sampler, visitor).run();
 }
 
 }  // namespace nephroid

@@ -87,6 +87,7 @@ class DiffuseAreaLight final : public Light {
     e.pdf_a = point->pdf;
     e.pdf_w = cosine_hemisphere_pdf_w(local.z) * (emission_->two_sided ? 0.5f : 1.0f);
     e.cos_theta = local.z;
+    e.from_inside = side < 0.0f;
     return e;
   }
 

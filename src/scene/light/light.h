@@ -33,7 +33,8 @@ struct EmissionSample {
   float pdf_a = 0;  ///< of the origin, 1/area (for infinite lights on the disk outside the scene;
                     ///< 1 for a light at a point)
   float pdf_w = 0;  ///< of the direction, 1/sr (1 for a delta direction)
-  float cos_theta = 1;  ///< at the emitting surface, 1 where there is none
+  float cos_theta = 1;       ///< at the emitting surface, 1 where there is none
+  bool from_inside = false;  ///< leaves the side that the surface's normal points away from
   /// Flux carried by a path: radiance * cos_theta / (pdf_a * pdf_w).
 };
 
@@ -60,8 +61,8 @@ class Light {
   virtual bool is_infinite() const { return false; }
   virtual bool is_area() const { return false; }
 
-  /// A direction to the light as seen from `from`; empty where nothing arrives. An infinite light may leave
-  /// out directions that walks find well; pdf_towards is zero there.
+  /// A direction to the light as seen from `from`; empty where nothing arrives. An infinite light
+  /// may leave out directions that walks find well; pdf_towards is zero there.
   virtual std::optional<LightSample> sample_towards(const Vec3f& from, const Vec2f& u,
                                                     const SampledWavelengths& lambda) const = 0;
   /// Density pdf_w of sample_towards at `from` for unit direction `wi`; `p` and `ng` are the point

@@ -34,6 +34,10 @@ class Material {
     return nullptr;
   }
 
+  /// False where photons cannot be merged (hair, whose width is below any merge radius): its events
+  /// are D, but paths that have one belong to path tracing.
+  virtual bool merges_photons() const { return true; }
+
   /// Moves the shading frame by the bump or normal map, if there is one.
   virtual void bump(SurfaceInteraction&) const {}
   virtual bool has_bump() const { return false; }

@@ -1,0 +1,200 @@
+#include "transport/medium_flight.h"
+
+#include <cmath>
+
+namespace nephroid {
+
+namespace {
+
+SampledSpectrum exponential(const SampledSpectrum& x) {
+  return x.map([](float v) { return std::exp(v); });
+}
+
+// exp(-sigma d) where d may be infinite and sigma zero.
+SampledSpectrum beer(const SampledSpectrum& sigma, float distance) {
+  return sigma.map([&](float s) { return s > 0.0f ? std::exp(-s * distance) : 1.0f; });
+}
+
+SampledSpectrum positive_part(const SampledSpectrum& x) {
+  return x.map([](float v) { return std::max(v, 0.0f); });
+}
+
+SampledSpectrum extinction(const MediumProperties& m) {
+  return m.sigma_a + m.sigma_s;
+}
+
+// Distances to the next tentative collision, at the rate of one majorant after the other; the
+// optical depth that is left over at the end of a piece is used up in the next.
+class Steps {
+ public:
+  Steps(MajorantIterator pieces, FlightRandom& random) : pieces_(pieces), random_(random) {}
+
+  /// Moves to the next tentative collision, exponentially distributed with rate(sigma_maj).
+  /// `passed(sigma_maj, length)` is called for every bit of the way. False: the end was reached.
+  template <class Rate, class Passed>
+  bool next(Rate&& rate, Passed&& passed) {
+    float depth = -std::log(1.0f - random_.next());
+    for (;;) {
+      if (!piece_) {
+        piece_ = pieces_.next();
+        if (!piece_) return false;
+        t_ = piece_->t_min;
+      }
+      const float r = rate(piece_->sigma_maj);
+      const float rest = piece_->t_max - t_;
+      if (r > 0.0f && depth < r * rest) {
+        const float step = depth / r;
+        passed(piece_->sigma_maj, step);
+        t_ += step;
+        return true;
+      }
+      passed(piece_->sigma_maj, rest);
+      if (r > 0.0f) depth -= r * rest;
+      piece_.reset();
+    }
+  }
+  float t() const { return t_; }
+  const SampledSpectrum& majorant() const { return piece_->sigma_maj; }
+
+ private:
+  MajorantIterator pieces_;
+  FlightRandom& random_;
+  std::optional<MajorantSegment> piece_;
+  float t_ = 0;
+};
+
+constexpr auto kGrey = [](const SampledSpectrum& sigma) { return sigma.max_component(); };
+constexpr auto kHero = [](const SampledSpectrum& sigma) { return sigma[0]; };
+
+}  // namespace
+
+SampledSpectrum attenuation(const Medium& medium, const Ray& ray, float t_max,
+                            const SampledWavelengths& lambda, FlightRandom& random,
+                            SampledSpectrum* emitted) {
+  if (const auto sigma = medium.uniform_extinction(lambda)) {
+    const SampledSpectrum through = beer(*sigma, t_max);
+    if (emitted && medium.is_emissive()) {
+      // Absorbed share times what is emitted per absorption; scattering takes its part of the rest.
+      const MediumProperties m = medium.at(ray.o, lambda);
+      for (int i = 0; i < kSpectrumSamples; ++i)
+        if ((*sigma)[i] > 0.0f)
+          emitted->set(i,
+                       (*emitted)[i] + m.le[i] * (m.sigma_a[i] / (*sigma)[i]) * (1 - through[i]));
+    }
+    return through;
+  }
+  SampledSpectrum through(1.0f);
+  Steps steps(medium.majorants(ray, t_max, lambda), random);
+  while (steps.next(kGrey, [](const SampledSpectrum&, float) {})) {
+    const MediumProperties m = medium.at(ray.o + ray.d * steps.t(), lambda);
+    const float rate = steps.majorant().max_component();
+    if (emitted) *emitted += through * m.sigma_a * m.le * (1.0f / rate);
+    through *= positive_part(SampledSpectrum(rate) - extinction(m)) * (1.0f / rate);
+    if (through.is_black()) break;
+  }
+  return through;
+}
+
+std::optional<Collision> fly(const Medium& medium, const Ray& ray, float t_max,
+                             const SampledWavelengths& lambda, FlightRandom& random,
+                             SampledSpectrum& throughput, SpectralDensity& density,
+                             SampledSpectrum& emitted) {
+  // [V1]: everything that is relative to the hero's density of the way since the last collision.
+  SampledSpectrum depth;
+  const auto passed = [&](const SampledSpectrum& sigma, float step) {
+    for (int i = 0; i < kSpectrumSamples; ++i)
+      if (sigma[i] > 0.0f) depth.set(i, depth[i] + sigma[i] * step);
+  };
+  const auto relative = [&] {
+    const SampledSpectrum t = exponential(SampledSpectrum(depth[0]) - depth);
+    depth = SampledSpectrum(0.0f);
+    return t;
+  };
+  const bool uniform = medium.uniform_extinction(lambda).has_value();
+  const bool emissive = medium.is_emissive();
+  Steps steps(medium.majorants(ray, t_max, lambda), random);
+  while (steps.next(kHero, passed)) {
+    const MediumProperties m = medium.at(ray.o + ray.d * steps.t(), lambda);
+    const SampledSpectrum& majorant = steps.majorant();
+    const SampledSpectrum t = relative();
+    const SampledSpectrum sigma_t = extinction(m);
+    if (emissive) {  // [V4]
+      SpectralDensity here = density;
+      here.u *= t * majorant / majorant[0];
+      here.take_means(lambda);
+      emitted += throughput * t * m.sigma_a * m.le * (1.0f / (majorant[0] * here.u_mean));
+    }
+    const float p_real = std::min(sigma_t[0] / majorant[0], 1.0f);
+    if (uniform || random.next() < p_real) {  // [V2]
+      throughput *= t * m.sigma_s / sigma_t[0];
+      density.u *= t * sigma_t / sigma_t[0];
+      if (!throughput.is_finite() || !density.u.is_finite()) throughput = SampledSpectrum(0.0f);
+      return Collision{steps.t(), m.phase};
+    }
+    const SampledSpectrum sigma_n = positive_part(majorant - sigma_t);  // [V3]
+    throughput *= t * sigma_n / sigma_n[0];
+    density.u *= t * sigma_n / sigma_n[0];
+    density.l *= t * majorant / sigma_n[0];
+    if (throughput.is_black() || !throughput.is_finite() || !density.u.is_finite()) {
+      throughput = SampledSpectrum(0.0f);
+      return std::nullopt;
+    }
+  }
+  // The shadow ray would have crossed a uniform medium with certainty, others as the walk did.
+  if (uniform) density.l *= std::exp(depth[0]);
+  const SampledSpectrum t = relative();
+  throughput *= t;
+  density.u *= t;
+  if (!uniform) density.l *= t;
+  if (!throughput.is_finite() || !density.u.is_finite()) throughput = SampledSpectrum(0.0f);
+  return std::nullopt;
+}
+
+void cross(const Medium& medium, const Ray& ray, float t_max, const SampledWavelengths& lambda,
+           FlightRandom& random, ShadowFlight& flight) {
+  if (medium.is_purely_absorbing()) {
+    flight.transmittance *= attenuation(medium, ray, t_max, lambda, random, nullptr);
+    return;
+  }
+  if (const auto sigma = medium.uniform_extinction(lambda)) {
+    const SampledSpectrum t = beer(*sigma, t_max);
+    flight.transmittance *= t;
+    flight.u *= t;
+    return;
+  }
+  SampledSpectrum depth;
+  const auto passed = [&](const SampledSpectrum& sigma, float step) {
+    for (int i = 0; i < kSpectrumSamples; ++i)
+      if (sigma[i] > 0.0f) depth.set(i, depth[i] + sigma[i] * step);
+  };
+  const auto multiply = [&](const SampledSpectrum& null_share, const SampledSpectrum& rate) {
+    const SampledSpectrum t = exponential(SampledSpectrum(depth[0]) - depth);
+    depth = SampledSpectrum(0.0f);
+    flight.transmittance *= t * null_share;
+    flight.u *= t * null_share;
+    flight.l *= t * rate;
+  };
+  Steps steps(medium.majorants(ray, t_max, lambda), random);
+  while (steps.next(kHero, passed)) {  // [V5]
+    const MediumProperties m = medium.at(ray.o + ray.d * steps.t(), lambda);
+    const SampledSpectrum majorant = steps.majorant();
+    multiply(positive_part(majorant - extinction(m)) / majorant[0], majorant / majorant[0]);
+    // What hardly arrives is left to a few rays that carry more.
+    const float carried = flight.transmittance.max_component() / flight.l.average();
+    if (!(carried > 0.0f) || !flight.transmittance.is_finite()) {
+      flight.transmittance = SampledSpectrum(0.0f);
+      return;
+    }
+    constexpr float kThin = 0.05f, kSurvive = 0.25f;
+    if (carried < kThin) {
+      if (random.next() >= kSurvive) {
+        flight.transmittance = SampledSpectrum(0.0f);
+        return;
+      }
+      flight.transmittance /= kSurvive;
+    }
+  }
+  multiply(SampledSpectrum(1.0f), SampledSpectrum(1.0f));
+}
+
+}  // namespace nephroid
