@@ -117,7 +117,7 @@ TEST(MaterialTable, EveryTypeMakesABsdfWithItsDefaults) {
 }
 
 TEST(MaterialTable, WrongScenesGetLocatedErrors) {
-  for (const char* type : {"subsurface", "hair", "measured"}) {
+  for (const char* type : {"hair", "measured"}) {
     const std::string error = error_of({material(type)});
     EXPECT_NE(error.find("scene.pbrt:7:3"), std::string::npos) << error;
     EXPECT_NE(error.find("not rendered yet"), std::string::npos) << error;
