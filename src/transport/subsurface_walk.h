@@ -14,7 +14,7 @@ struct SubsurfaceExit {
   /// World space, not bumped; wo is the shading normal, since the light came from no direction;
   /// `distance` is that from the entry.
   SurfaceInteraction surface;
-  SampledSpectrum weight;  ///< what the walk's throughput is multiplied by: Sp / pdf_a
+  SampledSpectrum weight;  ///< what the walk's throughput is multiplied by, [B2]
   int rays = 0;            ///< closest-hit queries
 };
 

@@ -1,5 +1,6 @@
 // The interface of light that enters a surface at one point and leaves it at another, for the
-// separable profile of pbrt-v4: S(po, wo, pi, wi) = (1 - F(wo)) Sp(|po - pi|) Sw(wi).
+// separable profile of pbrt-v4: S(po, wo, pi, wi) = (1 - F(wo)) Sp(|po - pi|) Sw(wi), [B1] of
+// docs/estimators.md.
 // Who calls it: the walk, which finds the second point by a probe ray through the shape
 // (King et al. 2013). It must not know rays, shapes or routes.
 #pragma once

@@ -51,6 +51,7 @@ SampledSpectrum TabulatedBssrdf::sp(const Vec3f& p) const {
   return s;
 }
 
+// The density p_A of [B2].
 float TabulatedBssrdf::pdf_a(const Vec3f& p, const Vec3f& ng) const {
   const Vec3f d = frame_.to_local(p - p_), n = frame_.to_local(ng);
   const float r = length(d);

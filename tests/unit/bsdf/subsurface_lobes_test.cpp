@@ -125,6 +125,27 @@ TEST(SubsurfaceInterface, LetsInWhatADielectricLetsThrough) {
   }
 }
 
+TEST(SubsurfaceInterface, EntryAndExitTogetherAreReciprocal) {
+  // (1 - F) at one end times (1 - F) / (c pi) at the other: either way round and in either mode.
+  const float eta = 1.4f;
+  const SubsurfaceInterfaceBsdf entry({eta, TrowbridgeReitz()}, kDefaultSpecularAlpha);
+  const NormalizedFresnelBsdf exit(eta);
+  const auto both = [&](const Vec3f& wo, const Vec3f& wi, TransportMode mode) {
+    const auto s = entry.sample(wo, 0.999f, {0.5f, 0.5f}, mode, ClassMask::kDiffuse);
+    EXPECT_TRUE(s && s->subsurface);
+    const float in = s->f[0] * std::abs(s->wi.z) / s->pdf_w;
+    return in * exit.eval(kUp, wi, mode, kD, ClassMask::kAll).f[0];
+  };
+  for (const float a : {5.0f, 40.0f, 85.0f})
+    for (const float b : {20.0f, 70.0f}) {
+      const Vec3f wa = direction_at(a), wb = direction_at(b, 2.0f);
+      const float value = both(wa, wb, TransportMode::kRadiance);
+      EXPECT_GT(value, 0.0f);
+      EXPECT_NEAR(both(wb, wa, TransportMode::kImportance), value, 1e-5f * value);
+      EXPECT_NEAR(both(wb, wa, TransportMode::kRadiance), value, 1e-5f * value);
+    }
+}
+
 TEST(SubsurfaceInterface, SamplesSayWhatTheyAre) {
   const SubsurfaceInterfaceBsdf smooth({1.33f, TrowbridgeReitz()}, kDefaultSpecularAlpha);
   EXPECT_EQ(smooth.finite_classes(), ClassMask::kNone);
