@@ -12,13 +12,14 @@ constexpr MaterialRow kTable[] = {
     {"conductor", make_conductor},
     {"coateddiffuse", make_coated_diffuse},
     {"coatedconductor", make_coated_conductor},
+    {"subsurface", make_subsurface},
     {"mix", make_mix},
     {"interface", make_interface},
     {"none", make_interface},
     {"", make_interface},
 };
 
-constexpr const char* kNotYet[] = {"subsurface", "hair", "measured"};
+constexpr const char* kNotYet[] = {"hair", "measured"};
 
 /// Makes materials in any order: a mix asks for others that may stand later in the file.
 class Maker {
@@ -58,7 +59,8 @@ class Maker {
         description_.directory,
         index,
         [this](const std::string& name, const SourceLocation& where) { return find(name, where); },
-        &coat_tables_};
+        &coat_tables_,
+        &bssrdf_tables_};
     d.parameters.find("type");  // the type of a named material is written as a parameter
     materials_[index] = row(d).make(d, context);
     d.parameters.report_unused("material \"" + d.type + "\"", diagnostics_);
@@ -95,6 +97,7 @@ class Maker {
   std::vector<State> state_;
   std::map<std::string, size_t> by_name_;
   CoatTableCache coat_tables_;
+  BssrdfTableCache bssrdf_tables_;
 };
 
 }  // namespace

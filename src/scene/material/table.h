@@ -8,6 +8,7 @@
 #include <span>
 #include <tuple>
 
+#include "scene/bsdf/bssrdf_table.h"
 #include "scene/bsdf/coated_diffuse.h"
 #include "scene/material/material.h"
 
@@ -33,6 +34,7 @@ struct MaterialContext {
   /// A named material; throws SceneError at the place given if there is none.
   std::function<MaterialPtr(const std::string&, const SourceLocation&)> named;
   CoatTableCache* coat_tables = nullptr;
+  BssrdfTableCache* bssrdf_tables = nullptr;
 };
 
 struct MaterialRow {
@@ -50,6 +52,7 @@ MaterialPtr make_thin_dielectric(const MaterialDescription&, const MaterialConte
 MaterialPtr make_conductor(const MaterialDescription&, const MaterialContext&);
 MaterialPtr make_coated_diffuse(const MaterialDescription&, const MaterialContext&);
 MaterialPtr make_coated_conductor(const MaterialDescription&, const MaterialContext&);
+MaterialPtr make_subsurface(const MaterialDescription&, const MaterialContext&);
 MaterialPtr make_mix(const MaterialDescription&, const MaterialContext&);
 MaterialPtr make_interface(const MaterialDescription&, const MaterialContext&);
 

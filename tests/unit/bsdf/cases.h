@@ -13,6 +13,7 @@
 #include "scene/bsdf/conductor.h"
 #include "scene/bsdf/dielectric.h"
 #include "scene/bsdf/diffuse.h"
+#include "scene/bsdf/subsurface_interface.h"
 
 namespace nephroid::testing_bsdf {
 
@@ -56,6 +57,14 @@ inline BsdfCase dielectric_case(float eta, float ax, float ay) {
           [=](BsdfArena& a) { return a.make<DielectricBsdf>(boundary, kDefaultSpecularAlpha); },
           false, true};
 }
+inline BsdfCase subsurface_case(float eta, float ax, float ay) {
+  const DielectricInterface boundary{eta, TrowbridgeReitz(ax, ay)};
+  return {"subsurface " + std::to_string(eta) + " " + std::to_string(ax) + " " + std::to_string(ay),
+          [=](BsdfArena& a) {
+            return a.make<SubsurfaceInterfaceBsdf>(boundary, kDefaultSpecularAlpha);
+          },
+          false, true};
+}
 inline BsdfCase coated_diffuse_case(float eta, float alpha, float thickness, float rho) {
   const auto table = std::make_shared<CoatTable>(
       DielectricInterface{eta, TrowbridgeReitz(alpha, alpha)}, thickness, 10);
@@ -90,6 +99,9 @@ inline std::vector<BsdfCase> all_cases() {
       dielectric_case(1.5f, 0.2f, 0.2f),
       dielectric_case(1.5f, 0.15f, 0.6f),
       dielectric_case(0.7f, 0.3f, 0.3f),
+      subsurface_case(1.33f, 0.0f, 0.0f),
+      subsurface_case(1.33f, 0.04f, 0.04f),
+      subsurface_case(1.5f, 0.1f, 0.3f),
       {"thindielectric", [](BsdfArena& a) { return a.make<ThinDielectricBsdf>(ramp(1.5f, 1.4f)); }},
       coated_diffuse_case(1.5f, 0.0f, 0.01f, 0.9f),
       coated_diffuse_case(1.5f, 0.03f, 0.01f, 0.9f),

@@ -1,0 +1,67 @@
+// Catmull-Rom splines through points that need not be equally spaced: values, integrals and their
+// inverses. The slope at a point is that of the line between its neighbours; at either end that of
+// the first or last interval. Who calls it: the tables of subsurface profiles. It must not know
+// what is tabulated. Source: Catmull & Rom 1974; pbrt-v4 section A.5 for the slopes at the ends.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "core/math.h"
+
+namespace nephroid {
+
+/// A linear combination of four neighbouring values; those with weight 0 may not exist.
+struct SplineWeights {
+  int first = 0;
+  std::array<float, 4> w{};
+
+  /// Sum of weight times `value(i)`, i the index of the point.
+  template <class Value>
+  float of(Value&& value) const {
+    float sum = 0.0f;
+    for (int j = 0; j < 4; ++j)
+      if (w[static_cast<size_t>(j)] != 0.0f) sum += w[static_cast<size_t>(j)] * value(first + j);
+    return sum;
+  }
+};
+
+/// Index of the interval of the ascending points `x` that holds `at`, the last one at its end.
+/// Empty outside of the points, and for NaN.
+std::optional<int> spline_interval(std::span<const float> x, float at);
+
+/// Weights of the spline's value at `at`. Empty outside of the points.
+std::optional<SplineWeights> spline_value(std::span<const float> x, float at);
+
+/// Weights of the value, and of the integral from the interval's start, at the share t in [0,1] of
+/// interval `i`.
+SplineWeights spline_value_at(std::span<const float> x, int i, float t);
+SplineWeights spline_integral_at(std::span<const float> x, int i, float t);
+
+/// Fills `cumulative` with the spline's integral from x[0] to each point; returns the last.
+float spline_integrate(std::span<const float> x, std::span<const float> f,
+                       std::span<float> cumulative);
+
+/// Where the spline through the ascending values `f` has the value `value`; the first or the last
+/// point if it lies below or above all of them.
+float spline_invert(std::span<const float> x, std::span<const float> f, float value);
+
+/// Root in [0,1] of a function that does not fall and starts at or below zero, to float precision:
+/// Newton's steps, halved intervals where they lead astray. `eval(t)` returns value and derivative.
+template <class Eval>
+float solve_rising(Eval&& eval) {
+  float low = 0.0f, high = 1.0f, t = 0.5f;
+  for (int step = 0; step < 64; ++step) {
+    const std::pair<float, float> at = eval(t);
+    (at.first < 0.0f ? low : high) = t;
+    const float newton = t - at.first / at.second;
+    const float next = newton > low && newton < high ? newton : 0.5f * (low + high);
+    if (std::abs(next - t) < 1e-6f || high - low < 1e-6f) return next;
+    t = next;
+  }
+  return t;
+}
+
+}  // namespace nephroid

@@ -1,0 +1,42 @@
+// The separable profile around one point, read from a table at each wavelength's extinction and
+// albedo, and probes that find where its light leaves. Who calls it: the subsurface material makes
+// one per vertex, the walk asks it. It must not know shapes. Papers: Habel et al. 2013 (profile);
+// King et al., BSSRDF Importance Sampling, SIGGRAPH Talks 2013 (probes along three axes).
+#pragma once
+
+#include "scene/bsdf/bssrdf.h"
+#include "scene/bsdf/bssrdf_table.h"
+
+namespace nephroid {
+
+class TabulatedBssrdf final : public Bssrdf {
+ public:
+  /// Around `p` with unit shading normal `ns`, world space. `sigma_a` and `sigma_s` per length in
+  /// the scene's units, not negative. `table` outlives the object. Only the first `wavelengths` of
+  /// a path count (1 after the others were dropped).
+  TabulatedBssrdf(const Vec3f& p, const Vec3f& ns, const SampledSpectrum& sigma_a,
+                  const SampledSpectrum& sigma_s, const BssrdfTable* table, int wavelengths);
+
+  std::optional<BssrdfProbe> sample_probe(float u_axis, const Vec2f& u) const override;
+  SampledSpectrum sp(const Vec3f& p) const override;
+  float pdf_a(const Vec3f& p, const Vec3f& ng) const override;
+  const Bsdf* exit_bsdf(BsdfArena& arena) const override;
+
+  /// Sp at distance r at wavelength i, per area.
+  float profile(int i, float r) const;
+  /// Density of the radii of that wavelength's probes per area of the plane across them.
+  float pdf_r(int i, float r) const;
+  /// Radius beyond which that wavelength's probes do not reach: all but 1/1000 of the profile lies
+  /// within. 0 if nothing leaves.
+  float reach(int i) const { return reach_[i]; }
+
+ private:
+  Vec3f p_;
+  Frame frame_;
+  const BssrdfTable* table_;
+  int wavelengths_;
+  SampledSpectrum sigma_t_, effective_albedo_, reach_;
+  std::array<SplineWeights, kSpectrumSamples> albedo_;
+};
+
+}  // namespace nephroid
