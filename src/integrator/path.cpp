@@ -49,6 +49,7 @@ class PathVisitor {
   }
 
   ClassMask letters() const { return routes_.useful_eye_events(state_, route_); }
+  bool looks_under_surfaces() const { return false; }
 
   void vertex(const Walk& walk, const WalkVertex& v, PathSampler& sampler) {
     if (walk.vertices == 0) record_features(walk, v);

@@ -34,6 +34,7 @@ class MergeWalkVisitor {
   MergeWalkVisitor(const Routes& routes, Merge& merge) : routes_(routes), merge_(merge) {}
 
   ClassMask letters() const { return ClassMask::kSpecular; }
+  bool looks_under_surfaces() const { return true; }
   void escape(const Walk&) {}
   void emitter(const Walk&, const SurfaceInteraction&, const Light&) {}
   void medium_emission(const SampledSpectrum&) {}

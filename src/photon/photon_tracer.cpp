@@ -25,8 +25,10 @@ class PhotonVisitor {
   void medium_vertex(const Walk&, const MediumVertex&, PathSampler&) {}
 
   ClassMask letters() const { return routes_.useful_events(state_, route_); }
+  bool looks_under_surfaces() const { return false; }
 
   void vertex(const Walk& walk, const WalkVertex& v, PathSampler&) {
+    if (v.subsurface_exit) return;  // it is stored where it arrived
     if (contains(v.possible, EventClass::kDiffuse) && routes_.deposits(state_, route_)) {
       Photon photon;
       photon.p = v.surface.p;

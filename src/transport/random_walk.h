@@ -7,6 +7,7 @@
 #include "core/sampler.h"
 #include "scene/scene.h"
 #include "transport/medium_flight.h"
+#include "transport/subsurface_walk.h"
 
 namespace nephroid {
 
@@ -74,6 +75,8 @@ struct WalkVertex {
   ClassMask possible;
   /// False in a guise where photons cannot be merged: its events count as V.
   bool merges = true;
+  /// Light that went under the surface elsewhere comes out here: a walk leaves, it does not arrive.
+  bool subsurface_exit = false;
 
   Vec3f to_local(const Vec3f& w) const { return surface.shading.to_local(w); }
   /// The letter of an event of class `c` here.
@@ -95,6 +98,8 @@ struct MediumVertex {
 
 /// Runs the walk until it leaves, ends or has `max_events` events. The visitor has
 ///   ClassMask letters()            events that its path may still have (a V: media may scatter)
+///   bool looks_under_surfaces()    it wants to see where subsurface light comes out even if D is
+///                                  not among them
 ///   void escape(const Walk&)                         the ray left the scene
 ///   void emitter(const Walk&, const SurfaceInteraction&, const Light&)  it met a light
 ///   void medium_emission(const SampledSpectrum&)     light from a medium, fully weighed
@@ -211,28 +216,34 @@ class RandomWalk {
     sampler_.start_dimension(dimension + dimensions::kLight);
     if (!spent) visitor_.vertex(walk_, vertex, sampler_);
     const ClassMask among = spent ? ClassMask::kNone : vertex.classes_of(visitor_.letters());
-    if (among == ClassMask::kNone && !material.passes_straight()) return false;
+    const bool looks_under = !spent && !vertex.subsurface_exit && material.has_bssrdf() &&
+                             visitor_.looks_under_surfaces();
+    if (among == ClassMask::kNone && !looks_under && !material.passes_straight()) return false;
 
     sampler_.start_dimension(dimension + dimensions::kBsdf);
     const float uc = sampler_.get_1d();
     const Vec2f u = sampler_.get_2d();
-    const std::optional<BsdfSample> s = vertex.bsdf.sample(vertex.wo, uc, u, mode_, among);
+    const std::optional<BsdfSample> s = vertex.bsdf.sample(
+        vertex.wo, uc, u, mode_, looks_under ? among | ClassMask::kDiffuse : among);
     if (!s || !(s->pdf_w > 0.0f)) return false;
-    const Vec3f wi = hit_.shading.to_world(s->wi);
     SampledSpectrum weight = s->f * (abs_cos_theta(s->wi) / s->pdf_w);
     if (s->straight_through) {
       ++walk_.vertices;
       walk_.throughput *= weight;
       return !walk_.throughput.is_black() && pass();
     }
-    if (among == ClassMask::kNone) return false;
+    const Vec3f wi = hit_.shading.to_world(s->wi);
     if (mode_ == TransportMode::kImportance) {
-      const float down = abs_dot(hit_.wo, hit_.ng) * abs_cos_theta(s->wi);
-      if (!(down > 0.0f)) return false;
-      weight *= abs_cos_theta(vertex.wo) * abs_dot(wi, hit_.ng) / down;
+      const float in =
+          vertex.subsurface_exit ? 1.0f : abs_cos_theta(vertex.wo) / abs_dot(hit_.wo, hit_.ng);
+      const float out = s->subsurface ? 1.0f : abs_dot(wi, hit_.ng) / abs_cos_theta(s->wi);
+      if (!std::isfinite(in * out)) return false;
+      weight *= in * out;
     }
     walk_.throughput *= weight;
     if (walk_.throughput.is_black()) return false;
+    if (s->subsurface) return come_out_again(material);
+    if (!contains(among, s->event)) return false;
     if (s->transmitted && mode_ == TransportMode::kRadiance) walk_.eta_scale *= sqr(s->eta);
     walk_.delta = s->delta;
     walk_.pdf_w = s->pdf_w;
@@ -242,6 +253,30 @@ class RandomWalk {
     walk_.ray.d = wi;
     walk_.medium = medium_towards(hit_, wi, walk_.medium);
     return end_of_event(vertex.letter(s->event), dimension);
+  }
+
+  /// The second half of a subsurface event, at another point of the surface: a vertex of its own,
+  /// but one event with the first.
+  bool come_out_again(const Material& material) {
+    const Bssrdf* bssrdf = material.make_bssrdf(hit_, walk_.lambda, arena_);
+    if (!bssrdf) return false;
+    ++walk_.vertices;
+    sampler_.start_dimension(walk_.vertex_dimension());
+    const float u_axis = sampler_.get_1d();
+    const Vec2f u_probe = sampler_.get_2d();
+    const float u_choice = sampler_.get_1d();
+    const std::optional<SubsurfaceExit> exit =
+        find_subsurface_exit(scene_, hit_, material, *bssrdf, u_axis, u_probe, u_choice);
+    if (!exit) return false;
+    ++walk_.vertices;
+    walk_.rays += static_cast<uint64_t>(exit->rays);
+    walk_.length += exit->surface.distance;
+    walk_.throughput *= exit->weight;
+    hit_ = exit->surface;
+    const Bsdf* bsdf = bssrdf->exit_bsdf(arena_);
+    if (!bsdf) return false;
+    const ClassMask possible = material.merges_photons() ? ClassMask::kDiffuse : ClassMask::kNone;
+    return scatter_at_surface({hit_, *bsdf, Vec3f(0, 0, 1), possible, true, true}, material, false);
   }
 
   /// Goes on behind a surface that is not there.

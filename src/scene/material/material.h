@@ -34,6 +34,9 @@ class Material {
     return nullptr;
   }
 
+  /// True if make_bssrdf gives one.
+  virtual bool has_bssrdf() const { return false; }
+
   /// False where photons cannot be merged (hair, whose width is below any merge radius): its events
   /// are D, but paths that have one belong to path tracing.
   virtual bool merges_photons() const { return true; }

@@ -76,6 +76,7 @@ class SubsurfaceMaterial final : public SurfaceMaterial {
     return arena.make<TabulatedBssrdf>(point.p, point.shading.z, sigma_a, sigma_s, table_.get(),
                                        lambda.secondary_terminated() ? 1 : kSpectrumSamples);
   }
+  bool has_bssrdf() const override { return true; }
   ClassMask possible_classes() const override {
     return ClassMask::kDiffuse | roughness_.possible_classes(specular_alpha_);
   }
