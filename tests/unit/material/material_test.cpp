@@ -10,7 +10,6 @@
 #include "core/sampler.h"
 #include "scene/bsdf/conductor.h"
 #include "scene/bsdf/dielectric.h"
-#include "scene/bsdf/tabulated_bssrdf.h"
 #include "scene/material/table.h"
 
 namespace nephroid {
@@ -164,96 +163,6 @@ TEST(DiffuseMaterials, DefaultsAndClamping) {
   EXPECT_NEAR(eval_of(*made.materials[0]).f[0], 0.5f * kInvPi, 1e-6f);
   EXPECT_NEAR(eval_of(*made.materials[1]).f[0], 0.25f * kInvPi, 1e-6f);
   EXPECT_NEAR(eval_of(*made.materials[2]).f[0], 0.5f * kInvPi, 1e-6f);
-}
-
-// Sp of a subsurface material at a distance.
-SampledSpectrum profile_of(const Material& m, float r, const SampledWavelengths& lambda) {
-  BsdfArena arena;
-  const SurfaceInteraction point = flat_point();
-  const Bssrdf* below = m.make_bssrdf(point, lambda, arena);
-  EXPECT_NE(below, nullptr);
-  return below ? below->sp(point.p + Vec3f(r, 0, 0)) : SampledSpectrum();
-}
-
-TEST(SubsurfaceMaterials, EveryWayOfDescribingTheMediumIsThatOfTheFormat) {
-  const auto spectrum = [](const std::string& name, double value) {
-    return numbers("spectrum", name, {200, value, 900, value});
-  };
-  const Made made(
-      {material("subsurface"), material("subsurface", {strings("string", "name", {"Wholemilk"})}),
-       material("subsurface", {numbers("rgb", "sigma_a", {.0011, .0024, .014}),
-                               numbers("rgb", "sigma_s", {2.55, 3.21, 3.77})}),
-       material("subsurface", {spectrum("sigma_a", 0.25), spectrum("sigma_s", 0.75),
-                               numbers("float", "scale", {4}), numbers("float", "g", {0.2}),
-                               numbers("float", "eta", {1.5})}),
-       material("subsurface", {spectrum("reflectance", 0.6), spectrum("mfp", 0.25),
-                               numbers("float", "scale", {2})}),
-       material("diffuse")});
-  EXPECT_TRUE(made.diagnostics.warnings().empty());
-  const SampledWavelengths lambda = SampledWavelengths::sample_visible(0.3f);
-  const float r = 0.4f;
-  // The default is whole milk, measured.
-  const SampledSpectrum milk = profile_of(*made.materials[0], r, lambda);
-  EXPECT_GT(milk.min_component(), 0.0f);
-  for (int i = 0; i < kSpectrumSamples; ++i) {
-    EXPECT_NEAR(profile_of(*made.materials[1], r, lambda)[i], milk[i], 1e-5f * milk[i]);
-    EXPECT_NEAR(profile_of(*made.materials[2], r, lambda)[i], milk[i], 1e-5f * milk[i]);
-  }
-  const auto expect_profile = [&](const Material& m, const BssrdfTable& table, float sigma_a,
-                                  float sigma_s) {
-    const TabulatedBssrdf expected({0, 0, 0}, {0, 0, 1}, SampledSpectrum(sigma_a),
-                                   SampledSpectrum(sigma_s), &table, kSpectrumSamples);
-    const SampledSpectrum found = profile_of(m, r, lambda);
-    for (int i = 0; i < kSpectrumSamples; ++i)
-      EXPECT_NEAR(found[i], expected.profile(i, r), 2e-3f * found[i]);
-  };
-  expect_profile(*made.materials[3], BssrdfTable(0.2f, 1.5f), 1.0f, 3.0f);
-  const BssrdfTable table(0.0f, 1.33f);
-  const float albedo = table.invert_effective_albedo(0.6f);
-  expect_profile(*made.materials[4], table, 2.0f * (1.0f - albedo), 2.0f * albedo);
-
-  SampledWavelengths hero = lambda;
-  hero.terminate_secondary();
-  const SampledSpectrum alone = profile_of(*made.materials[0], r, hero);
-  EXPECT_FLOAT_EQ(alone[0], milk[0]);
-  EXPECT_EQ(alone[1], 0.0f);
-  BsdfArena arena;
-  EXPECT_EQ(made.materials[5]->make_bssrdf(flat_point(), lambda, arena), nullptr);
-}
-
-TEST(SubsurfaceMaterials, BoundaryHasTheRoughnessOfTheFormat) {
-  const Made made(
-      {material("subsurface"), material("subsurface", {numbers("float", "roughness", {0.04})}),
-       material("subsurface",
-                {numbers("float", "roughness", {0.04}), boolean("remaproughness", false)})});
-  EXPECT_EQ(made.materials[0]->possible_classes(), ClassMask::kAll);
-  EXPECT_EQ(made.materials[1]->possible_classes(), ClassMask::kDiffuse);
-  EXPECT_EQ(made.materials[2]->possible_classes(), ClassMask::kAll);
-  const DielectricBsdf glass({1.33f, TrowbridgeReitz(0.2f, 0.2f)}, 0.05f);
-  EXPECT_NEAR(
-      eval_of(*made.materials[1]).f[0],
-      glass.eval(kWo, kWi, TransportMode::kRadiance, EventClass::kDiffuse, ClassMask::kAll).f[0],
-      1e-5f);
-}
-
-TEST(SubsurfaceMaterials, MistakesAreLocated) {
-  const auto expect_error = [](std::vector<Parameter> parameters, const std::string& message) {
-    const std::string error = error_of({material("subsurface", std::move(parameters))});
-    EXPECT_NE(error.find("scene.pbrt:7:3"), std::string::npos) << error;
-    EXPECT_NE(error.find(message), std::string::npos) << error;
-  };
-  expect_error({strings("string", "name", {"Wholemilch"})}, "did you mean \"Wholemilk\"?");
-  expect_error({numbers("rgb", "sigma_a", {1, 1, 1})}, "without \"sigma_s\"");
-  expect_error({numbers("rgb", "sigma_s", {1, 1, 1})}, "without \"sigma_a\"");
-  expect_error({numbers("float", "g", {1})}, "expected a number between -1 and 1");
-  expect_error({numbers("float", "eta", {0.1})}, "expected a number between 0.4 and 2.5");
-  const Made named({material(
-      "subsurface", {strings("string", "name", {"Cream"}), numbers("float", "g", {0.5})})});
-  ASSERT_EQ(named.diagnostics.warnings().size(), 1u);
-  EXPECT_NE(named.diagnostics.warnings()[0].message.find("\"g\" is ignored"), std::string::npos);
-  // Parameters that another way of describing the medium makes idle are told.
-  const Made idle({material("subsurface", {numbers("rgb", "mfp", {1, 1, 1})})});
-  EXPECT_EQ(idle.diagnostics.warnings().size(), 1u);
 }
 
 TEST(ConductorMaterials, RoughnessIsRemappedUnlessToldOtherwise) {
