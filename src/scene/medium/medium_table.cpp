@@ -15,6 +15,7 @@ constexpr Row kMedia[] = {
     {"homogeneous", make_homogeneous_medium},
     {"uniformgrid", make_uniform_grid_medium},
     {"rgbgrid", make_rgb_grid_medium},
+    {"nanovdb", make_nanovdb_medium},
 };
 
 MediumMaker maker_of(const MediumDescription& description) {
