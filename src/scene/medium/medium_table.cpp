@@ -29,16 +29,6 @@ MediumMaker maker_of(const MediumDescription& description) {
                                           " (expected one of " + names + ")");
 }
 
-/// Media are placed by affine maps with an inverse, so that rays stay straight in them.
-void check_transform(const MediumDescription& d) {
-  const Mat44d& m = d.transform.start;
-  if (!is_invertible(m))
-    throw SceneError(d.where, "the transform of medium \"" + d.name + "\" has no inverse");
-  if (m[0][3] != 0.0 || m[1][3] != 0.0 || m[2][3] != 0.0 || m[3][3] != 1.0)
-    throw SceneError(d.where, "the transform of medium \"" + d.name +
-                                  "\" is a perspective, expected one that keeps lines parallel");
-}
-
 }  // namespace
 
 std::vector<std::string> medium_names() {
@@ -52,7 +42,8 @@ std::vector<MediumPtr> make_media(const SceneDescription& description, Diagnosti
   std::vector<MediumPtr> media;
   for (const MediumDescription& d : description.media) {
     const MediumMaker make = maker_of(d);
-    check_transform(d);
+    if (!is_invertible(d.transform.start))
+      throw SceneError(d.where, "the transform of medium \"" + d.name + "\" has no inverse");
     if (d.transform.is_animated())
       diagnostics.warn(d.where,
                        "medium \"" + d.name + "\" moves: media stay where they are at the start");
