@@ -12,9 +12,8 @@ struct Row {
   MediumMaker make;
 };
 constexpr Row kMedia[] = {
-    {"homogeneous", make_homogeneous_medium},
-    {"uniformgrid", make_uniform_grid_medium},
-    {"rgbgrid", make_rgb_grid_medium},
+    {"homogeneous", make_homogeneous_medium}, {"uniformgrid", make_uniform_grid_medium},
+    {"rgbgrid", make_rgb_grid_medium},        {"cloud", make_cloud_medium},
     {"nanovdb", make_nanovdb_medium},
 };
 

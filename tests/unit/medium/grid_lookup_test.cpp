@@ -1,5 +1,6 @@
 // What grids hold between and beyond their samples: known answers for pbrt-v4's convention.
 #include "scene/medium/sampled_grid.h"
+#include "scene/texture/noise.h"
 #include "unit/medium/medium_fixture.h"
 
 namespace nephroid::testing_medium {
@@ -149,6 +150,34 @@ TEST(RgbGrid, SamplesAreTheSpectraOfTheirColours) {
   EXPECT_FALSE(m->is_purely_absorbing());
   EXPECT_TRUE(medium_of("rgbgrid", "\"rgb sigma_a\" [ 1 1 1 ] \"rgb sigma_s\" [ 0 0 0 ]")
                   ->is_purely_absorbing());
+}
+
+TEST(Cloud, IsFullBelowEmptyAboveAndTheNoiseInBetween) {
+  const auto lambda = test_wavelengths();
+  const auto density_at = [&](const std::string& parameters, const Vec3f& p) {
+    return medium_of("cloud", kOne + parameters)->at(p, lambda).sigma_a[0];
+  };
+  EXPECT_EQ(density_at("", {0.3f, -0.1f, 0.2f}), 1);
+  EXPECT_EQ(density_at("", {0.3f, 1, 0.2f}), 0);
+  // Without wisps, the octaves by hand.
+  const MediumPtr smooth = medium_of(
+      "cloud", kOne + "\"float wispiness\" 0 \"float frequency\" 4 \"float density\" 0.9");
+  TestRandom random(9);
+  int between = 0;
+  for (int n = 0; n < 200; ++n) {
+    const Vec3f p(random.next(), random.next(), random.next());
+    double sum = 0, scale = 1, weight = 0.5;
+    for (int i = 0; i < 5; ++i, scale *= 1.99, weight /= 2)
+      sum += weight * noise(p * 4 * static_cast<float>(scale));
+    const double body = std::clamp((1 - p.y) * 4.5 * 0.9 * sum, 0.0, 1.0);
+    const double expected = std::min(body + 2 * std::max(0.0, 0.5 - p.y), 1.0);
+    ASSERT_NEAR(smooth->at(p, lambda).sigma_a[0], expected, 2e-5);
+    between += body > 0 && expected < 1;
+  }
+  EXPECT_GT(between, 30);
+  // Medium space is not the box.
+  EXPECT_EQ(density_at("\"point3 p0\" [ 0 -1 0 ] \"point3 p1\" [ 2 3 2 ]", {1.5f, 2, 1.5f}), 0);
+  EXPECT_FALSE(medium_of("cloud", "")->is_emissive());
 }
 
 TEST(Homogeneous, CoefficientsEmissionAndPresets) {

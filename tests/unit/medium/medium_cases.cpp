@@ -36,6 +36,8 @@ std::vector<MediumCase> medium_cases() {
                              kUneven),
                    {1, -2, 0.5f},
                    8});
+  const MediumPtr cloud = medium_of("cloud", colors + "\"float density\" 2 \"float frequency\" 3");
+  cases.push_back({"cloud", cloud, {0.5f, 0.5f, 0.5f}, 3});
   return cases;
 }
 
