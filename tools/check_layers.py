@@ -21,6 +21,7 @@ LIBRARIES = {
     r"embree\d?/": {"scene/embree_scene.cpp"},
     r"(tbb|oneapi)/": {"core/parallel.cpp"},
     r"OpenImageIO/": {"scene/texture", "scene/material", "film", "tests"},
+    r"nanovdb/": {"scene/medium/nanovdb_grid.cpp"},
     r"CLI/": {"session", "apps"},
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')

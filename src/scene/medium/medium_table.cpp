@@ -12,9 +12,9 @@ struct Row {
   MediumMaker make;
 };
 constexpr Row kMedia[] = {
-    {"homogeneous", make_homogeneous_medium},
-    {"uniformgrid", make_uniform_grid_medium},
-    {"rgbgrid", make_rgb_grid_medium},
+    {"homogeneous", make_homogeneous_medium}, {"uniformgrid", make_uniform_grid_medium},
+    {"rgbgrid", make_rgb_grid_medium},        {"cloud", make_cloud_medium},
+    {"nanovdb", make_nanovdb_medium},
 };
 
 MediumMaker maker_of(const MediumDescription& description) {
@@ -26,16 +26,6 @@ MediumMaker maker_of(const MediumDescription& description) {
   throw SceneError(description.where, "unknown medium type \"" + description.type + "\"" +
                                           did_you_mean(description.type, medium_names()) +
                                           " (expected one of " + names + ")");
-}
-
-/// Media are placed by affine maps with an inverse, so that rays stay straight in them.
-void check_transform(const MediumDescription& d) {
-  const Mat44d& m = d.transform.start;
-  if (!is_invertible(m))
-    throw SceneError(d.where, "the transform of medium \"" + d.name + "\" has no inverse");
-  if (m[0][3] != 0.0 || m[1][3] != 0.0 || m[2][3] != 0.0 || m[3][3] != 1.0)
-    throw SceneError(d.where, "the transform of medium \"" + d.name +
-                                  "\" is a perspective, expected one that keeps lines parallel");
 }
 
 }  // namespace
@@ -51,7 +41,8 @@ std::vector<MediumPtr> make_media(const SceneDescription& description, Diagnosti
   std::vector<MediumPtr> media;
   for (const MediumDescription& d : description.media) {
     const MediumMaker make = maker_of(d);
-    check_transform(d);
+    if (!is_invertible(d.transform.start))
+      throw SceneError(d.where, "the transform of medium \"" + d.name + "\" has no inverse");
     if (d.transform.is_animated())
       diagnostics.warn(d.where,
                        "medium \"" + d.name + "\" moves: media stay where they are at the start");

@@ -20,6 +20,8 @@ using MediumMaker = MediumPtr (*)(const MediumDescription&, const MediumScope&);
 MediumPtr make_homogeneous_medium(const MediumDescription&, const MediumScope&);
 MediumPtr make_uniform_grid_medium(const MediumDescription&, const MediumScope&);
 MediumPtr make_rgb_grid_medium(const MediumDescription&, const MediumScope&);
+MediumPtr make_cloud_medium(const MediumDescription&, const MediumScope&);
+MediumPtr make_nanovdb_medium(const MediumDescription&, const MediumScope&);
 
 /// Absorption and scattering per unit of density, 1/length, looked up at the nearest nanometre as
 /// in pbrt-v4.
