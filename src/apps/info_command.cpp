@@ -24,9 +24,10 @@ uint64_t count_triangles(const ShapeGroup& group, uint64_t* other) {
 void print_geometry(const Scene& scene) {
   uint64_t other = 0;
   uint64_t triangles = count_triangles(scene.top, &other);
-  for (const auto& group : scene.groups) triangles += count_triangles(*group, &other);
+  for (const auto* groups : {&scene.groups, &scene.moving_shapes})
+    for (const auto& group : *groups) triangles += count_triangles(*group, &other);
   fmt::print("shapes: {} ({} triangles, {} other primitives), {} instances of {} objects\n",
-             scene.shape_count, triangles, other, scene.instances.size(), scene.groups.size());
+             scene.shape_count, triangles, other, scene.instance_count, scene.groups.size());
   const Bounds3f bounds = scene.top.accelerator->bounds();
   if (bounds.isEmpty())
     fmt::print("extents: nothing\n");

@@ -3,7 +3,7 @@
 // Who calls it: instances and cameras. It must not know shutters or scene files.
 #pragma once
 
-#include <optional>
+#include <memory>
 
 #include "core/math.h"
 
@@ -12,27 +12,47 @@ namespace nephroid {
 class MotionTransform {
  public:
   MotionTransform() = default;
-  /// Both invertible; equal ones do not move.
-  MotionTransform(const Mat44d& start, const Mat44d& end);
-  explicit MotionTransform(const Mat44d& fixed) : MotionTransform(fixed, fixed) {}
+  /// Both affine and invertible; equal ones do not move. `pivot`, in the space that is transformed,
+  /// is the point whose path is a straight line at constant speed, as rotations turn about it.
+  MotionTransform(const Mat44d& start, const Mat44d& end, const Vec3d& pivot = Vec3d(0, 0, 0));
+  explicit MotionTransform(const Mat44d& fixed) : start_(fixed) {}
 
-  bool moves() const { return moves_; }
-  /// The transform at time in [0,1]; exactly the keyframes at 0 and 1. Costs a matrix inversion
-  /// when it moves.
+  bool moves() const { return moving_ != nullptr; }
+  /// The transform at time in [0,1]; exactly the keyframes at 0 and 1 (and before and after). Costs
+  /// a matrix inversion when it moves. If one keyframe mirrors and the other does not, the motion
+  /// passes through a flat picture, and the inverse there is of no use.
   Transform at(float time) const;
   /// A box around the path of `box` over [time0, time1], conservative: rotations are bounded by
-  /// their arcs.
+  /// their arcs. Empty if `box` is.
   Bounds3f bounds(const Bounds3f& box, float time0, float time1) const;
 
+  /// Into how many equal pieces the motion should be cut for its path to be nearly straight in
+  /// each: 1..16, by the angle of the rotation.
+  int segments() const;
+  /// A box at time step/segments such that the boxes of two neighbouring steps, interpolated
+  /// linearly, contain `box` at all times in between.
+  Bounds3f step_bounds(const Bounds3f& box, int step, int segments) const;
+
  private:
+  /// One keyframe about the pivot: v -> v * stretch * rotation + where the pivot goes.
   struct Decomposition {
-    Vec3d translation{0, 0, 0};
+    Vec3d pivot_image{0, 0, 0};
     double rotation[4] = {0, 0, 0, 1};  ///< unit quaternion x y z w
-    Mat44d stretch;                     ///< upper 3x3, may mirror
+    Mat44d stretch;                     ///< upper 3x3 only; negative definite if it mirrors
   };
-  bool moves_ = false;
-  Transform start_, end_;
-  Decomposition from_, to_;
+  struct Moving {
+    Transform end;
+    Vec3d pivot{0, 0, 0};
+    Decomposition from, to;
+    double half_angle = 0;  ///< between the quaternions: half the rotation, 0..pi/2
+  };
+  static Decomposition decompose(const Mat44d& m, const Vec3d& pivot);
+  Mat44d matrix_at(double time) const;
+  double bend(const Vec3d& from_pivot, double duration) const;
+  void add_moment(const Bounds3f& box, double time, double duration, Vec3d& low, Vec3d& high) const;
+
+  Transform start_;
+  std::shared_ptr<const Moving> moving_;  ///< null if nothing moves, so that instances stay small
 };
 
 }  // namespace nephroid

@@ -61,6 +61,10 @@ void SceneBuilder::set_active_transforms(bool start, bool end) {
 void SceneBuilder::set_transform_times(double start, double end, const SourceLocation& where) {
   if (end < start)
     throw SceneError(where, "TransformTimes ends before it starts, expected start <= end");
+  if (scene_.camera)
+    diagnostics_.warn(where,
+                      "TransformTimes behind Camera: pbrt-v4 keeps the earlier times for the "
+                      "camera, here they count for the camera too");
   scene_.transform_start_time = static_cast<float>(start);
   scene_.transform_end_time = static_cast<float>(end);
 }

@@ -3,6 +3,7 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <deque>
 #include <string>
 #include <vector>
 
@@ -34,21 +35,47 @@ std::shared_ptr<EmbreeDevice> EmbreeScene::make_device() {
   return std::make_shared<EmbreeDevice>();
 }
 
+namespace {
+
+constexpr float kEmbreeReach = 1e18f;
+
+/// False for coordinates beyond `reach` and for NaNs, at which Embree would abort the program.
+bool can_trace(const Ray& ray, float reach) {
+  for (int i = 0; i < 3; ++i)
+    if (!(std::abs(ray.o[i]) <= reach && std::abs(ray.d[i]) <= reach)) return false;
+  return ray.t_max >= 0.0f;
+}
+
+/// What the callback of a moving instance knows: Embree's own instances move linearly between their
+/// time steps, which is not what pbrt's do.
+struct MovingInstance {
+  RTCScene child;
+  float child_reach;
+  Bounds3f child_bounds;
+  MotionTransform motion;
+  int segments;
+};
+
+/// Goes with every query. Embree's hits have room for one instance; where a moving instance stands
+/// within another, the hit holds the inner one, marked with kInner, and this holds the outer one.
+struct TraceContext {
+  RTCIntersectContext embree;  ///< first, so that callbacks get from it to the rest
+  uint32_t outer;
+
+  TraceContext() : outer(EmbreeHit::kNoInstance) { rtcInitIntersectContext(&embree); }
+};
+constexpr uint32_t kInner = 0x80000000u;
+
+}  // namespace
+
 struct EmbreeScene::Impl {
   std::shared_ptr<EmbreeDevice> device;
   RTCScene scene = nullptr;
   std::vector<ShapePtr> shapes;
-  /// Largest coordinate that a ray may have here: Embree aborts the program at larger ones and at
-  /// NaNs, also at those of the ray in the space of an instance.
+  std::deque<MovingInstance> moving;  ///< Embree keeps pointers to them
+  /// Largest coordinate that a ray may have here, also after it was brought to the space of a still
+  /// instance. Moving ones look for themselves.
   float reach = kEmbreeReach;
-
-  bool can_trace(const Ray& ray) const {
-    for (int i = 0; i < 3; ++i)
-      if (!(std::abs(ray.o[i]) <= reach && std::abs(ray.d[i]) <= reach)) return false;
-    return ray.t_max >= 0.0f;
-  }
-
-  static constexpr float kEmbreeReach = 1e18f;
 };
 
 EmbreeScene::EmbreeScene(std::shared_ptr<EmbreeDevice> device) : impl_(std::make_unique<Impl>()) {
@@ -63,15 +90,25 @@ EmbreeScene::~EmbreeScene() {
 
 namespace {
 
+void write_bounds(const Bounds3f& b, RTCBounds* out) {
+  out->lower_x = b.min.x;
+  out->lower_y = b.min.y;
+  out->lower_z = b.min.z;
+  out->upper_x = b.max.x;
+  out->upper_y = b.max.y;
+  out->upper_z = b.max.z;
+}
+
 void shape_bounds(const RTCBoundsFunctionArguments* args) {
   const auto* shape = static_cast<const Shape*>(args->geometryUserPtr);
-  const Bounds3f b = shape->bounds(args->primID);
-  args->bounds_o->lower_x = b.min.x;
-  args->bounds_o->lower_y = b.min.y;
-  args->bounds_o->lower_z = b.min.z;
-  args->bounds_o->upper_x = b.max.x;
-  args->bounds_o->upper_y = b.max.y;
-  args->bounds_o->upper_z = b.max.z;
+  write_bounds(shape->bounds(args->primID), args->bounds_o);
+}
+
+void moving_bounds(const RTCBoundsFunctionArguments* args) {
+  const auto* moving = static_cast<const MovingInstance*>(args->geometryUserPtr);
+  write_bounds(moving->motion.step_bounds(moving->child_bounds, static_cast<int>(args->timeStep),
+                                          moving->segments),
+               args->bounds_o);
 }
 
 Ray ray_of(const RTCRay& r) {
@@ -113,12 +150,59 @@ RTCRay rtc_ray(const Ray& ray, unsigned mask) {
   r.dir_x = ray.d.x;
   r.dir_y = ray.d.y;
   r.dir_z = ray.d.z;
-  r.time = ray.time;
+  r.time = ray.time > 0.0f ? std::min(ray.time, 1.0f) : 0.0f;
   r.tfar = ray.t_max;
   r.mask = mask;
   r.id = 0;
   r.flags = 0;
   return r;
+}
+
+/// Brings a ray to the space of the instance at the ray's time. False where that cannot be traced:
+/// the instance is too small, too far away or flat at that time, and is not seen.
+bool enter_space(const MovingInstance& moving, const RTCRay& r, RTCRay& inside) {
+  const Ray local = object_space_ray(moving.motion.at(r.time), ray_of(r));
+  inside = rtc_ray(local, r.mask);
+  inside.tnear = r.tnear;
+  return can_trace(local, moving.child_reach);
+}
+
+/// Marks the hits of a child as those of this geometry, within the instance in force if there is
+/// one. Returns that one.
+uint32_t enter_instance(TraceContext& context, uint32_t geometry) {
+  const uint32_t outer = context.embree.instID[0];
+  context.embree.instID[0] = outer == EmbreeHit::kNoInstance ? geometry : geometry | kInner;
+  return outer;
+}
+
+void moving_intersect(const RTCIntersectFunctionNArguments* args) {
+  if (!args->valid[0]) return;
+  const auto& moving = *static_cast<const MovingInstance*>(args->geometryUserPtr);
+  auto* rayhit = reinterpret_cast<RTCRayHit*>(args->rayhit);
+  RTCRayHit inside;
+  if (!enter_space(moving, rayhit->ray, inside.ray)) return;
+  inside.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  auto& context = *reinterpret_cast<TraceContext*>(args->context);
+  const uint32_t outer = enter_instance(context, args->geomID);
+  rtcIntersect1(moving.child, args->context, &inside);
+  context.embree.instID[0] = outer;
+  if (inside.hit.geomID == RTC_INVALID_GEOMETRY_ID) return;
+  rayhit->ray.tfar = inside.ray.tfar;
+  rayhit->hit = inside.hit;
+  if (outer != EmbreeHit::kNoInstance) context.outer = outer;
+}
+
+void moving_occluded(const RTCOccludedFunctionNArguments* args) {
+  if (!args->valid[0]) return;
+  const auto& moving = *static_cast<const MovingInstance*>(args->geometryUserPtr);
+  auto* ray = reinterpret_cast<RTCRay*>(args->ray);
+  RTCRay inside;
+  if (!enter_space(moving, *ray, inside)) return;
+  auto& context = *reinterpret_cast<TraceContext*>(args->context);
+  const uint32_t outer = enter_instance(context, args->geomID);
+  rtcOccluded1(moving.child, args->context, &inside);
+  context.embree.instID[0] = outer;
+  if (inside.tfar < 0.0f) ray->tfar = -kInfinity;
 }
 
 }  // namespace
@@ -188,9 +272,31 @@ uint32_t EmbreeScene::add_instance(const EmbreeScene& child, const Transform& ob
   for (int j = 0; j < 3; ++j) {
     const double stretch =
         std::abs(inverse[0][j]) + std::abs(inverse[1][j]) + std::abs(inverse[2][j]);
-    const double left = Impl::kEmbreeReach - std::abs(inverse[3][j]);
+    const double left = kEmbreeReach - std::abs(inverse[3][j]);
     impl_->reach = std::min(impl_->reach, static_cast<float>(0.5 * left / stretch));
   }
+  return id;
+}
+
+uint32_t EmbreeScene::add_moving_instance(const EmbreeScene& child,
+                                          const MotionTransform& object_to_world, unsigned mask) {
+  const Bounds3f bounds = child.bounds();
+  const int segments = object_to_world.segments();
+  impl_->moving.push_back(
+      {child.impl_->scene, child.impl_->reach, bounds, object_to_world, segments});
+  const RTCGeometry geometry = rtcNewGeometry(impl_->device->device, RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryUserPrimitiveCount(geometry, 1);
+  rtcSetGeometryTimeStepCount(geometry, static_cast<unsigned>(segments) + 1);
+  rtcSetGeometryUserData(geometry, &impl_->moving.back());
+  rtcSetGeometryBoundsFunction(
+      geometry, [](const RTCBoundsFunctionArguments* args) { moving_bounds(args); }, nullptr);
+  rtcSetGeometryIntersectFunction(geometry, moving_intersect);
+  rtcSetGeometryOccludedFunction(geometry, moving_occluded);
+  rtcSetGeometryMask(geometry, mask);
+  rtcCommitGeometry(geometry);
+  const uint32_t id = rtcAttachGeometry(impl_->scene, geometry);
+  rtcReleaseGeometry(geometry);
+  impl_->device->check("adding a moving instance");
   return id;
 }
 
@@ -200,14 +306,13 @@ void EmbreeScene::commit() {
 }
 
 std::optional<EmbreeHit> EmbreeScene::intersect(const Ray& ray, unsigned mask) const {
-  if (!impl_->can_trace(ray)) return std::nullopt;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
+  if (!can_trace(ray, impl_->reach)) return std::nullopt;
+  TraceContext context;
   RTCRayHit rayhit;
   rayhit.ray = rtc_ray(ray, mask);
   rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   rayhit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(impl_->scene, &context, &rayhit);
+  rtcIntersect1(impl_->scene, &context.embree, &rayhit);
   if (rayhit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
   EmbreeHit hit;
   hit.t = rayhit.ray.tfar;
@@ -215,23 +320,31 @@ std::optional<EmbreeHit> EmbreeScene::intersect(const Ray& ray, unsigned mask) c
   hit.geometry = rayhit.hit.geomID;
   hit.primitive = rayhit.hit.primID;
   hit.instance = rayhit.hit.instID[0];
+  if (hit.instance != EmbreeHit::kNoInstance && (hit.instance & kInner)) {
+    hit.inner = hit.instance & ~kInner;
+    hit.instance = context.outer;
+  }
   return hit;
 }
 
 bool EmbreeScene::occluded(const Ray& ray, unsigned mask) const {
-  if (!impl_->can_trace(ray)) return true;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
+  if (!can_trace(ray, impl_->reach)) return true;
+  TraceContext context;
   RTCRay r = rtc_ray(ray, mask);
-  rtcOccluded1(impl_->scene, &context, &r);
+  rtcOccluded1(impl_->scene, &context.embree, &r);
   return r.tfar < 0.0f;
 }
 
 Bounds3f EmbreeScene::bounds() const {
   RTCBounds b;
   rtcGetSceneBounds(impl_->scene, &b);
-  if (!(b.lower_x <= b.upper_x)) return {};
-  return {{b.lower_x, b.lower_y, b.lower_z}, {b.upper_x, b.upper_y, b.upper_z}};
+  Bounds3f all;
+  if (b.lower_x <= b.upper_x)
+    all = Bounds3f({b.lower_x, b.lower_y, b.lower_z}, {b.upper_x, b.upper_y, b.upper_z});
+  // Embree interpolates the boxes of what moves, so that only both ends count.
+  for (const MovingInstance& moving : impl_->moving)
+    all.extendBy(moving.motion.bounds(moving.child_bounds, 0.0f, 1.0f));
+  return all;
 }
 
 }  // namespace nephroid

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "core/motion.h"
 #include "scene/shape/shape.h"
 
 namespace nephroid {
@@ -18,6 +19,9 @@ struct EmbreeHit {
   uint32_t geometry = 0;  ///< in the top level, or in the instanced hierarchy
   uint32_t primitive = 0;
   uint32_t instance = kNoInstance;  ///< geometry number of the instance in the top level
+  /// Geometry number of the moving instance within the instanced hierarchy, if `geometry` is a
+  /// number in that one's.
+  uint32_t inner = kNoInstance;
   static constexpr uint32_t kNoInstance = 0xffffffffu;
 };
 
@@ -25,6 +29,16 @@ struct EmbreeHit {
 inline constexpr unsigned kMaskOpaque = 1;
 inline constexpr unsigned kMaskPassing = 2;  ///< may let light straight through
 inline constexpr unsigned kMaskAll = 3;
+
+/// The ray in the space of an instance at the ray's time, as the hierarchy traces it there where
+/// the instance moves; t stays what it is.
+inline Ray object_space_ray(const Transform& object_to_world, const Ray& ray) {
+  const Transform world_to_object = object_to_world.inverted();
+  Ray local = ray;
+  local.o = world_to_object.point(ray.o);
+  local.d = world_to_object.vector(ray.d);
+  return local;
+}
 
 class EmbreeDevice;
 
@@ -37,16 +51,20 @@ class EmbreeScene {
 
   static std::shared_ptr<EmbreeDevice> make_device();
 
-  /// Both return the number of the new geometry. The shape is kept alive.
+  /// All return the number of the new geometry. The shape is kept alive.
   uint32_t add_shape(ShapePtr shape, unsigned mask);
   /// `child` has been committed and outlives this scene.
   uint32_t add_instance(const EmbreeScene& child, const Transform& object_to_world, unsigned mask);
+  /// The same for one that moves with the time of the ray. A child may hold moving instances of
+  /// hierarchies that hold none.
+  uint32_t add_moving_instance(const EmbreeScene& child, const MotionTransform& object_to_world,
+                               unsigned mask);
   /// Builds the hierarchy. Throws Error if memory runs out.
   void commit();
 
   std::optional<EmbreeHit> intersect(const Ray& ray, unsigned mask) const;
   bool occluded(const Ray& ray, unsigned mask) const;
-  /// World bounds; empty if there is nothing.
+  /// World bounds over all times; empty if there is nothing.
   Bounds3f bounds() const;
 
  private:

@@ -54,21 +54,21 @@ void to_world(const Transform& t, SurfaceInteraction& s) {
 bool Scene::intersect_masked(const Ray& ray, unsigned mask, SurfaceInteraction& hit) const {
   const std::optional<EmbreeHit> found = top.accelerator->intersect(ray, mask);
   if (!found) return false;
-  const InstanceRecord* instance = nullptr;
-  const ShapeRecord* record;
-  if (found->instance == EmbreeHit::kNoInstance) {
-    record = &top.records[found->geometry];
-    record->shape->fill(found->primitive, found->uv, ray, found->t, hit);
-  } else {
-    instance = &instances[found->instance - top.records.size()];
-    record = &instance->group->records[found->geometry];
-    Ray local = ray;
-    const Transform world_to_object = instance->object_to_world.inverted();
-    local.o = world_to_object.point(ray.o);
-    local.d = world_to_object.vector(ray.d);
-    record->shape->fill(found->primitive, found->uv, local, found->t, hit);
-    to_world(instance->object_to_world, hit);
+  // Down to the group that was hit, the ray with it, and back up again.
+  const ShapeGroup* group = &top;
+  Ray local = ray;
+  std::optional<Transform> placed[2];
+  int depth = 0;
+  for (const uint32_t number : {found->instance, found->inner}) {
+    if (number == EmbreeHit::kNoInstance) break;
+    const InstanceRecord& instance = group->instances[number - group->records.size()];
+    placed[depth] = instance.object_to_world.at(ray.time);
+    local = object_space_ray(*placed[depth++], local);
+    group = instance.group;
   }
+  const ShapeRecord* record = &group->records[found->geometry];
+  record->shape->fill(found->primitive, found->uv, local, found->t, hit);
+  while (depth > 0) to_world(*placed[--depth], hit);
   hit.wo = -normalize(ray.d);
   hit.time = ray.time;
   hit.distance = found->t * length(ray.d);

@@ -53,15 +53,20 @@ struct ShapeRecord {
   MediumInterface media;  ///< rays that leave the surface change to these if they differ
 };
 
-/// Shapes that are placed as a whole: the top level, or the shapes of an object definition.
-struct ShapeGroup {
-  std::vector<ShapeRecord> records;  ///< index = geometry number in the hierarchy
-  std::unique_ptr<EmbreeScene> accelerator;
-};
+struct ShapeGroup;
 
 struct InstanceRecord {
   const ShapeGroup* group = nullptr;
-  Transform object_to_world;
+  MotionTransform object_to_world;  ///< "world" is the space of the group that it stands in
+};
+
+/// Shapes that are placed as a whole: the top level, the shapes of an object definition, or those
+/// of a directive under an animated transform, in the space before that transform.
+struct ShapeGroup {
+  std::vector<ShapeRecord> records;  ///< index = geometry number in the hierarchy
+  /// Geometry numbers follow those of the records. Outside of the top level, moving shapes only.
+  std::vector<InstanceRecord> instances;
+  std::unique_ptr<EmbreeScene> accelerator;
 };
 
 /// Crossings of surfaces that let light straight through after which a ray is given up as trapped.
@@ -110,15 +115,16 @@ class Scene {
   ParameterSet integrator_parameters;
 
   ShapeGroup top;
-  std::vector<std::unique_ptr<ShapeGroup>> groups;
-  std::vector<InstanceRecord> instances;  ///< geometry numbers follow those of top.records
-  bool has_passing_shapes = false;        ///< any shape that lets light straight through
+  std::vector<std::unique_ptr<ShapeGroup>> groups;         ///< of object definitions
+  std::vector<std::unique_ptr<ShapeGroup>> moving_shapes;  ///< of animated Shape directives
+  bool has_passing_shapes = false;  ///< any shape that lets light straight through
   /// True if any shape's material may scatter in class S: without one there are no caustics.
   bool has_specular_material = false;
   /// True if a path may have an event V: a medium scatters, or photons cannot be merged somewhere.
   bool has_volume_events = false;
   uint64_t primitive_count = 0;  ///< without instancing
   uint64_t shape_count = 0;
+  uint64_t instance_count = 0;  ///< of object definitions
 
  private:
   bool intersect_masked(const Ray& ray, unsigned mask, SurfaceInteraction& hit) const;

@@ -4,6 +4,7 @@
 #include <exception>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "core/parallel.h"
 #include "scene/camera.h"
@@ -32,6 +33,7 @@ class SceneBuilder {
     scene_->film = make_film_description(d_, overrides, diagnostics);
     scene_->camera = make_camera(d_.camera, scene_->film.width, scene_->film.height, diagnostics);
     scene_->filter = make_pixel_filter(d_.pixel_filter, diagnostics);
+    find_instance_pivot();
     read_sampler();
     if (d_.integrator) {
       scene_->integrator = d_.integrator->type;
@@ -118,11 +120,22 @@ class SceneBuilder {
         failed[k] = std::current_exception();
       }
     });
+    // What moves is placed behind what stands still, each directive as a group of its own.
+    std::vector<std::pair<const ShapeDescription*, const ShapeGroup*>> moving;
     for (size_t i = 0; i < shapes.size(); ++i) {
       if (failed[i]) std::rethrow_exception(failed[i]);
-      for (const ShapePtr& shape : made[i]) add_shape(shapes[i], shape, group);
+      ShapeGroup* home = &group;
+      if (is_moving(shapes[i]) && !made[i].empty()) {
+        home = scene_->moving_shapes.emplace_back(std::make_unique<ShapeGroup>()).get();
+        home->accelerator = std::make_unique<EmbreeScene>(device_);
+        moving.emplace_back(&shapes[i], home);
+      }
+      for (const ShapePtr& shape : made[i]) add_shape(shapes[i], shape, *home);
       shapes[i].parameters.report_unused("shape \"" + shapes[i].type + "\"", diagnostics_);
+      if (home != &group) home->accelerator->commit();
     }
+    for (const auto& [shape, home] : moving)
+      place(shape->where, *home, {shape->transform.start, shape->transform.end}, group);
   }
 
   void add_shape(const ShapeDescription& description, const ShapePtr& shape, ShapeGroup& group) {
@@ -171,36 +184,61 @@ class SceneBuilder {
       throw SceneError(
           instance.where,
           "object \"" + instance.object + "\" is not defined, expected the name of an ObjectBegin");
-    if (it->second->records.empty()) {
+    if (it->second->records.empty() && it->second->instances.empty()) {
       diagnostics_.warn(instance.where, "object \"" + instance.object + "\" has no shapes");
       return;
     }
-    if (instance.transform.is_animated())
-      diagnostics_.warn(instance.where,
-                        "the instance moves: motion blur is not rendered yet, its start is used");
-    const Transform transform(instance.transform.start);
-    check_placement(instance.where, it->second->accelerator->bounds(), transform);
-    scene_->top.accelerator->add_instance(*it->second->accelerator, transform, kMaskAll);
-    scene_->instances.push_back({it->second, transform});
+    place(instance.where, *it->second,
+          {instance.transform.start, instance.transform.end, instance_pivot_}, scene_->top);
+    ++scene_->instance_count;
+  }
+
+  // Puts a finished group into another one that is not finished yet.
+  static void place(const SourceLocation& where, const ShapeGroup& group,
+                    const MotionTransform& motion, ShapeGroup& into) {
+    const EmbreeScene& child = *group.accelerator;
+    check_placement(where, child.bounds(), motion);
+    if (motion.moves())
+      into.accelerator->add_moving_instance(child, motion, kMaskAll);
+    else
+      into.accelerator->add_instance(child, motion.at(0.0f), kMaskAll);
+    into.instances.push_back({&group, motion});
   }
 
   // The ray tracer inverts the matrix of an instance in single precision.
   static void check_placement(const SourceLocation& where, const Bounds3f& object,
-                              const Transform& transform) {
-    const double volume = std::abs(transform.m.determinant());
-    if (!(volume > 1e-36 && volume < 1e36))
-      throw SceneError(where,
-                       "the transform of this instance is too extreme, expected scales from "
-                       "1e-12 to 1e12");
-    for (int corner = 0; corner < 8; ++corner) {
-      const Vec3f p(corner & 1 ? object.max.x : object.min.x,
-                    corner & 2 ? object.max.y : object.min.y,
-                    corner & 4 ? object.max.z : object.min.z);
-      if (!is_in_reach(transform.point(p)))
+                              const MotionTransform& motion) {
+    for (const float time : {0.0f, 1.0f}) {
+      const double volume = std::abs(motion.at(time).m.determinant());
+      if (!(volume > 1e-36 && volume < 1e36))
         throw SceneError(where,
-                         "this instance is too large or too far away, expected coordinates "
-                         "up to 1e17");
+                         "the transform of this instance is too extreme, expected scales from "
+                         "1e-12 to 1e12");
     }
+    const Bounds3f reached = motion.bounds(object, 0.0f, 1.0f);
+    if (!is_in_reach(reached.min) || !is_in_reach(reached.max))
+      throw SceneError(where,
+                       "this instance is too large or too far away, expected coordinates "
+                       "up to 1e17");
+  }
+
+  // pbrt-v4 decomposes the matrices of moving instances in its rendering space, so that their
+  // rotations turn about the origin of that: the camera in the middle of its motion, unless the
+  // option asks for world space.
+  void find_instance_pivot() {
+    std::string space = "cameraworld";
+    for (const Parameter& option : d_.options) {
+      if (option.name != "rendercoordsys" || option.strings.size() != 1) continue;
+      space = option.strings[0];
+      if (space != "cameraworld" && space != "camera" && space != "world")
+        throw SceneError(option.where, "unknown coordinate system \"" + space +
+                                           "\", expected \"cameraworld\", \"camera\" or "
+                                           "\"world\"");
+    }
+    if (space == "world" || !d_.camera) return;
+    const TransformDescription& camera = d_.camera->world_to_camera;
+    const Mat44d start = camera.start.inverse(), end = camera.end.inverse();
+    for (int j = 0; j < 3; ++j) instance_pivot_[j] = 0.5 * (start[3][j] + end[3][j]);
   }
 
   void finish() {
@@ -228,6 +266,7 @@ class SceneBuilder {
   std::shared_ptr<EmbreeDevice> device_;
   std::map<std::string, int> material_index_;
   std::map<std::string, size_t> medium_index_;
+  Vec3d instance_pivot_{0, 0, 0};  ///< of instances that move
 };
 
 }  // namespace

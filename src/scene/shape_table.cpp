@@ -191,12 +191,17 @@ std::vector<std::string> shape_names() {
   return names;
 }
 
+bool is_moving(const ShapeDescription& description) {
+  return description.transform.is_animated() && !description.area_light;
+}
+
 std::vector<ShapePtr> make_shapes(const ShapeDescription& description, const std::string& directory,
                                   Diagnostics& diagnostics) {
-  if (description.transform.is_animated())
+  if (description.transform.is_animated() && !is_moving(description))
     diagnostics.warn(description.where,
-                     "the shape moves: motion blur is not rendered yet, its start is used");
-  const Transform transform(description.transform.start);
+                     "a shape that emits light cannot move, the start of its motion is used");
+  const Transform transform =
+      is_moving(description) ? Transform() : Transform(description.transform.start);
   const Context context{
       description, description.parameters,
       directory,   diagnostics,

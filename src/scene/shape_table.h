@@ -10,10 +10,14 @@
 
 namespace nephroid {
 
-/// The shapes of one directive, in world space if `to_world`, else in the space of its object
-/// definition (the directive's own transform applied either way). A PLY file with triangles and
-/// quads gives two. Empty after a warning where nothing is left to render. Throws SceneError or
-/// IoError.
+/// True if the shapes of this directive stand under a transform that moves them. Emitting ones do
+/// not: they stay at their start.
+bool is_moving(const ShapeDescription& description);
+
+/// The shapes of one directive, with the directive's transform applied (in world space, or in that
+/// of the object definition) unless they move: then in the space before it. A PLY file with
+/// triangles and quads gives two. Empty after a warning where nothing is left to render. Throws
+/// SceneError or IoError.
 std::vector<ShapePtr> make_shapes(const ShapeDescription& description, const std::string& directory,
                                   Diagnostics& diagnostics);
 

@@ -139,6 +139,16 @@ const std::vector<AgreementScene> kAgreementScenes = {
                  AttributeBegin Scale 1.5 1 1.5 Translate -0.3 0.6 0 ObjectInstance "ball" AttributeEnd
                  Material "dielectric" "float eta" 1.5 Translate 0.7 1.9 0.2
                  Shape "sphere" "float radius" 0.5)"},
+    {.name = "moving_glass",
+     .world = R"(Material "dielectric" "float eta" 1.5 Translate -0.4 0.9 0 ActiveTransform EndTime
+                 Translate 0.8 0.2 0 Shape "sphere" "float radius" 0.6)"},
+    {.name = "moving_receiver",
+     .world = R"(ObjectBegin "ball" Material "diffuse" "rgb reflectance" [0.7 0.6 0.5] BALL
+                 ObjectEnd
+                 AttributeBegin Scale 1.5 1 1.5 Translate -0.3 0.6 0 ActiveTransform EndTime
+                 Translate 0.2 0 0 Rotate 60 0 1 0 ObjectInstance "ball" AttributeEnd
+                 Material "dielectric" "float eta" 1.5 Translate 0.7 1.9 0.2
+                 Shape "sphere" "float radius" 0.5)"},
     {.name = "two_events",
      .world = R"(Material "conductor" "float roughness" 0
                  AttributeBegin Translate 0 0.7 0 Shape "sphere" "float radius" 0.6 AttributeEnd

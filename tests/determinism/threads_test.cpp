@@ -44,6 +44,8 @@ const char* const kScene = R"(
       "point3 P" [0.5 0 0  -0.5 0 0  0 0.5 0  0 -0.5 0  0 0 0.5  0 0 -0.5]
   ObjectEnd
   AttributeBegin Translate 0 1.6 0.5 ObjectInstance "ball" AttributeEnd
+  AttributeBegin Translate -0.2 0.4 -1.5 ActiveTransform EndTime Translate 0.4 0 0 Rotate 150 1 0 1
+    ObjectInstance "ball" AttributeEnd
   AttributeBegin Translate -1.2 1.8 1 Scale 1 0.6 1.4 Rotate 40 1 1 0 ObjectInstance "ball" AttributeEnd
   Material "diffuse" "rgb reflectance" [0.4 0.4 0.7]
   Shape "trianglemesh" "integer indices" [0 1 2 0 2 3]

@@ -46,7 +46,7 @@ std::vector<LightPtr> make_lights(const SceneDescription& description, Diagnosti
       throw SceneError(d.where, "the transform of this light has no inverse");
     if (d.transform.is_animated())
       diagnostics.warn(d.where,
-                       "the light moves: motion blur is not rendered yet, its start is used");
+                       "a light source cannot move, the start of its motion is used");
     lights.push_back(make(d, scope));
     const auto bounds = lights.back()->bounds();
     if (bounds && !(is_in_reach(bounds->bounds.min) && is_in_reach(bounds->bounds.max)))

@@ -58,7 +58,7 @@ struct TextureLibrary::Impl final : TextureScope {
       throw SceneError(t.where, t.value_type + " texture \"" + t.name + "\" is defined twice");
     if (t.transform.is_animated())
       diagnostics_.warn(t.where,
-                        "the texture moves: motion blur is not rendered yet, its start is used");
+                        "a texture cannot move, the start of its motion is used");
     if (!is_invertible(t.transform.start))
       throw SceneError(t.where, "the transform of texture \"" + t.name + "\" has no inverse");
     if (is_float)
