@@ -253,11 +253,10 @@ void CurveShape::search(const Search& part, const Line& line, double z_min, Near
   const double length2 = chord.x * chord.x + chord.y * chord.y;
   if (!(length2 > 0.0)) return;
   const double along = std::clamp(-(c[0].x * chord.x + c[0].y * chord.y) / length2, 0.0, 1.0);
-  const Vec3d p = polar(c, along, along, along);
-  const double s = part.s0 + along * (part.s1 - part.s0);
-  const double width = seen_width(part.piece, s, line);
-  if (p.x * p.x + p.y * p.y > 0.25 * width * width) return;
-  if (p.z > z_min && p.z < best->z) *best = {s, p, p.z};
+  const Nearest n = refine(part.piece, part.s0 + along * (part.s1 - part.s0), line);
+  const double width = seen_width(part.piece, n.s, line);
+  if (n.p.x * n.p.x + n.p.y * n.p.y > 0.25 * width * width) return;
+  if (n.z > z_min && n.z < best->z) *best = n;
 }
 
 std::optional<ShapeHit> CurveShape::intersect(uint32_t piece, const Ray& ray, float t_min) const {
