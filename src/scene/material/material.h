@@ -57,9 +57,6 @@ class Material {
   /// Classes that any lobe of this material may have at any point (a conservative answer; for the
   /// report "why is there no caustic").
   virtual ClassMask possible_classes() const = 0;
-  /// False if photons must not be gathered on it: what they carry is a density per area of the
-  /// surface, and a fibre that turns to face each ray has no such surface.
-  virtual bool merges_photons() const { return true; }
 };
 using MaterialPtr = std::shared_ptr<const Material>;
 
