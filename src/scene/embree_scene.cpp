@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "scene/shape/curve.h"
 
 namespace nephroid {
 
@@ -141,6 +142,34 @@ void shape_occluded(const RTCOccludedFunctionNArguments* args) {
   if (shape->intersect(args->primID, ray_of(*ray), ray->tnear)) ray->tfar = -kInfinity;
 }
 
+// Ribbons are traced at their full width; what they do not show of it to the ray is dropped here.
+void ribbon_filter(const RTCFilterFunctionNArguments* args) {
+  if (!args->valid[0]) return;
+  const auto* shape = static_cast<const CurveShape*>(args->geometryUserPtr);
+  const Ray ray = ray_of(*reinterpret_cast<const RTCRay*>(args->ray));
+  const auto* hit = reinterpret_cast<const RTCHit*>(args->hit);
+  if (!shape->is_hit(hit->primID, hit->u, ray)) args->valid[0] = 0;
+}
+
+// Ribbons that face the ray; the buffers are shared with the shape.
+RTCGeometry curve_geometry(RTCDevice device, const CurveShape& curves) {
+  const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_FLAT_BEZIER_CURVE);
+  const std::vector<CurveShape::Vertex>& vertices = curves.vertices();
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4,
+                             vertices.data(), 0, sizeof(CurveShape::Vertex), vertices.size());
+  auto* first = static_cast<uint32_t*>(
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT,
+                              sizeof(uint32_t), curves.primitive_count()));
+  if (first)
+    for (uint32_t i = 0; i < curves.primitive_count(); ++i) first[i] = 4 * i;
+  rtcSetGeometryTessellationRate(geometry, CurveShape::kPartsPerPiece);
+  if (curves.type() != CurveType::kRibbon) return geometry;
+  rtcSetGeometryUserData(geometry, const_cast<CurveShape*>(&curves));
+  rtcSetGeometryIntersectFilterFunction(geometry, ribbon_filter);
+  rtcSetGeometryOccludedFilterFunction(geometry, ribbon_filter);
+  return geometry;
+}
+
 RTCRay rtc_ray(const Ray& ray, unsigned mask) {
   RTCRay r;
   r.org_x = ray.o.x;
@@ -219,6 +248,9 @@ uint32_t EmbreeScene::add_shape(ShapePtr shape, unsigned mask) {
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                data.triangles.data(), 0, 3 * sizeof(uint32_t),
                                data.triangles.size() / 3);
+  } else if (const auto* curves = dynamic_cast<const CurveShape*>(shape.get());
+             curves && curves->is_traceable()) {
+    geometry = curve_geometry(device, *curves);
   } else if (const MeshData* flat = shape->flat_quads()) {
     geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
     auto* vertices = static_cast<Vec3f*>(

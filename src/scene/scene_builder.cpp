@@ -110,28 +110,34 @@ class SceneBuilder {
   // that has an order (geometry numbers, lights) follows in the order of the file.
   void build_group(const std::vector<ShapeDescription>& shapes, ShapeGroup& group) {
     group.accelerator = std::make_unique<EmbreeScene>(device_);
-    std::vector<std::vector<ShapePtr>> made(shapes.size());
-    std::vector<std::exception_ptr> failed(shapes.size());
-    parallel_chunks(static_cast<int64_t>(shapes.size()), 1, [&](int64_t i, int64_t, int64_t) {
+    std::vector<std::span<const ShapeDescription>> runs;
+    for (std::span<const ShapeDescription> rest(shapes); !rest.empty();
+         rest = rest.subspan(runs.back().size()))
+      runs.push_back(rest.first(shapes_alike(rest)));
+    std::vector<std::vector<ShapePtr>> made(runs.size());
+    std::vector<std::exception_ptr> failed(runs.size());
+    parallel_chunks(static_cast<int64_t>(runs.size()), 1, [&](int64_t i, int64_t, int64_t) {
       const auto k = static_cast<size_t>(i);
       try {
-        made[k] = make_shapes(shapes[k], d_.directory, diagnostics_);
+        made[k] = make_shapes(runs[k], d_.directory, diagnostics_);
       } catch (...) {
         failed[k] = std::current_exception();
       }
     });
     // What moves is placed behind what stands still, each directive as a group of its own.
     std::vector<std::pair<const ShapeDescription*, const ShapeGroup*>> moving;
-    for (size_t i = 0; i < shapes.size(); ++i) {
+    for (size_t i = 0; i < runs.size(); ++i) {
       if (failed[i]) std::rethrow_exception(failed[i]);
+      const ShapeDescription& first = runs[i][0];
       ShapeGroup* home = &group;
-      if (is_moving(shapes[i]) && !made[i].empty()) {
+      if (is_moving(first) && !made[i].empty()) {
         home = scene_->moving_shapes.emplace_back(std::make_unique<ShapeGroup>()).get();
         home->accelerator = std::make_unique<EmbreeScene>(device_);
-        moving.emplace_back(&shapes[i], home);
+        moving.emplace_back(&first, home);
       }
-      for (const ShapePtr& shape : made[i]) add_shape(shapes[i], shape, *home);
-      shapes[i].parameters.report_unused("shape \"" + shapes[i].type + "\"", diagnostics_);
+      for (const ShapePtr& shape : made[i]) add_shape(first, shape, *home);
+      for (const ShapeDescription& description : runs[i])
+        description.parameters.report_unused("shape \"" + description.type + "\"", diagnostics_);
       if (home != &group) home->accelerator->commit();
     }
     for (const auto& [shape, home] : moving)

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "scene/curve_directives.h"
 #include "scene/shape/emitter_rectangles.h"
 #include "scene/shape/mesh_preparation.h"
 
@@ -13,7 +14,8 @@ namespace nephroid {
 namespace {
 
 struct Context {
-  const ShapeDescription& description;
+  std::span<const ShapeDescription> alike;
+  const ShapeDescription& description;  ///< the first of them
   const ParameterSet& p;
   const std::string& directory;
   Diagnostics& diagnostics;
@@ -173,6 +175,12 @@ std::vector<ShapePtr> cylinder(const Context& c) {
                        c.p.get_float("phimax", 360.0f)));
 }
 
+std::vector<ShapePtr> curves(const Context& c) {
+  ShapePtr shape = make_curves(c.alike, c.diagnostics);
+  if (!shape) return {};
+  return {std::move(shape)};
+}
+
 struct Row {
   const char* name;
   std::vector<ShapePtr> (*make)(const Context&);
@@ -180,7 +188,7 @@ struct Row {
 constexpr Row kTable[] = {
     {"trianglemesh", triangle_mesh},  {"plymesh", ply_mesh}, {"bilinearmesh", bilinear_mesh},
     {"loopsubdiv", loop_subdivision}, {"sphere", sphere},    {"disk", disk},
-    {"cylinder", cylinder},
+    {"cylinder", cylinder},           {"curve", curves},
 };
 
 }  // namespace
@@ -195,25 +203,31 @@ bool is_moving(const ShapeDescription& description) {
   return description.transform.is_animated() && !description.area_light;
 }
 
-std::vector<ShapePtr> make_shapes(const ShapeDescription& description, const std::string& directory,
-                                  Diagnostics& diagnostics) {
+size_t shapes_alike(std::span<const ShapeDescription> descriptions) {
+  return curves_alike(descriptions);
+}
+
+std::vector<ShapePtr> make_shapes(std::span<const ShapeDescription> alike,
+                                  const std::string& directory, Diagnostics& diagnostics) {
+  const ShapeDescription& description = alike[0];
   if (description.transform.is_animated() && !is_moving(description))
     diagnostics.warn(description.where,
                      "a shape that emits light cannot move, the start of its motion is used");
   const Transform transform =
       is_moving(description) ? Transform() : Transform(description.transform.start);
-  const Context context{
-      description, description.parameters,
-      directory,   diagnostics,
-      transform,   description.reverse_orientation != transform.swaps_handedness()};
+  const Context context{alike,
+                        description,
+                        description.parameters,
+                        directory,
+                        diagnostics,
+                        transform,
+                        description.reverse_orientation != transform.swaps_handedness()};
   for (const Row& row : kTable)
     if (description.type == row.name) return row.make(context);
   std::string expected;
   for (const Row& row : kTable) expected += std::string(expected.empty() ? "" : ", ") + row.name;
-  const bool later = description.type == "curve";
-  throw SceneError(description.where, "shape \"" + description.type + "\" is " +
-                                          (later ? "not rendered yet" : "unknown") +
-                                          ", expected one of " + expected);
+  throw SceneError(description.where,
+                   "shape \"" + description.type + "\" is unknown, expected one of " + expected);
 }
 
 }  // namespace nephroid

@@ -2,6 +2,7 @@
 // Who calls it: the scene builder. It must not know materials or lights.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,12 +15,15 @@ namespace nephroid {
 /// not: they stay at their start.
 bool is_moving(const ShapeDescription& description);
 
-/// The shapes of one directive, with the directive's transform applied (in world space, or in that
-/// of the object definition) unless they move: then in the space before it. A PLY file with
-/// triangles and quads gives two. Empty after a warning where nothing is left to render. Throws
-/// SceneError or IoError.
-std::vector<ShapePtr> make_shapes(const ShapeDescription& description, const std::string& directory,
-                                  Diagnostics& diagnostics);
+/// The shapes of one directive, or of all `alike` ones (see shapes_alike), with the directive's
+/// transform applied (in world space, or in that of the object definition) unless they move: then
+/// in the space before it. A PLY file with triangles and quads gives two. Empty after a warning
+/// where nothing is left to render. Throws SceneError or IoError.
+std::vector<ShapePtr> make_shapes(std::span<const ShapeDescription> alike,
+                                  const std::string& directory, Diagnostics& diagnostics);
+
+/// How many directives from the first on make_shapes takes at once: 1 but for curves alike.
+size_t shapes_alike(std::span<const ShapeDescription> descriptions);
 
 /// Names of all shapes that the table knows.
 std::vector<std::string> shape_names();

@@ -118,6 +118,27 @@ TEST_P(Furnace, RadianceIsOne) {
   EXPECT_LT(error, 0.01 * expected.mean) << "the estimate is too noisy to tell";
 }
 
+// Fibres that absorb nothing cannot be seen either. Photons are not gathered on hair, so this is
+// for path tracing alone.
+TEST(HairFurnace, RadianceIsOne) {
+  std::string curls = "Material \"hair\" \"rgb sigma_a\" [0 0 0]\n";
+  for (const char* type : {"flat", "cylinder", "ribbon"})
+    curls += std::string(R"(Translate -0.1 0.1 0.2 Shape "curve" "float width" 0.3 "point3 P" [
+             -1.2 -1 0  -0.5 2 0.5  0.6 -2 -0.5  1.3 1 0] "string type" ")") +
+             type + (std::string(type) == "ribbon" ? "\" \"normal N\" [0 0 1 0 1 1]\n" : "\"\n");
+  const auto scene = scene_from_text(furnace_text({"hair", curls.c_str()}));
+  const auto empty = scene_from_text(furnace_text({"empty", ""}));
+  const Estimate e = mean_over_seeds(*scene, "path", {}, 16, 64);
+  const Estimate expected = mean_over_seeds(*empty, "path", {}, 16, 64, 1000);
+  const double error = std::hypot(e.error, expected.error);
+  EXPECT_NEAR(e.mean, expected.mean, kT15 * error + 1e-3);
+  EXPECT_LT(error, 0.01 * expected.mean);
+  // They are there: dark hair is seen.
+  curls.replace(curls.find("[0 0 0]"), 7, "[9 9 9]");
+  const auto dark = scene_from_text(furnace_text({"dark", curls.c_str()}));
+  EXPECT_LT(mean_over_seeds(*dark, "path", {}, 16, 16).mean, 0.95 * expected.mean);
+}
+
 INSTANTIATE_TEST_SUITE_P(AllIntegrators, Furnace,
                          ::testing::Combine(::testing::ValuesIn(kScenes),
                                             ::testing::ValuesIn(integrator_names())),

@@ -13,13 +13,14 @@ constexpr MaterialRow kTable[] = {
     {"coateddiffuse", make_coated_diffuse},
     {"coatedconductor", make_coated_conductor},
     {"subsurface", make_subsurface},
+    {"hair", make_hair},
     {"mix", make_mix},
     {"interface", make_interface},
     {"none", make_interface},
     {"", make_interface},
 };
 
-constexpr const char* kNotYet[] = {"hair", "measured"};
+constexpr const char* kNotYet[] = {"measured"};
 
 /// Makes materials in any order: a mix asks for others that may stand later in the file.
 class Maker {

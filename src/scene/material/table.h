@@ -53,6 +53,7 @@ MaterialPtr make_conductor(const MaterialDescription&, const MaterialContext&);
 MaterialPtr make_coated_diffuse(const MaterialDescription&, const MaterialContext&);
 MaterialPtr make_coated_conductor(const MaterialDescription&, const MaterialContext&);
 MaterialPtr make_subsurface(const MaterialDescription&, const MaterialContext&);
+MaterialPtr make_hair(const MaterialDescription&, const MaterialContext&);
 MaterialPtr make_mix(const MaterialDescription&, const MaterialContext&);
 MaterialPtr make_interface(const MaterialDescription&, const MaterialContext&);
 

@@ -13,6 +13,7 @@
 #include "scene/bsdf/conductor.h"
 #include "scene/bsdf/dielectric.h"
 #include "scene/bsdf/diffuse.h"
+#include "scene/bsdf/hair.h"
 #include "scene/bsdf/subsurface_interface.h"
 
 namespace nephroid::testing_bsdf {
@@ -22,6 +23,7 @@ struct BsdfCase {
   std::function<const Bsdf*(BsdfArena&)> make;
   bool stochastic = false;  ///< values are estimates
   bool refracts = false;    ///< radiance and importance differ
+  bool adjoint = true;      ///< importance is radiance with wo and wi exchanged
 };
 
 inline SampledSpectrum ramp(float from, float to) {
@@ -80,6 +82,15 @@ BsdfCase coated_case(const std::string& name, const Coat& coat, const Base& base
           true};
 }
 
+inline BsdfCase hair_case(float h, float sigma, float beta_m, float beta_n, float tilt) {
+  return {"hair " + std::to_string(h) + " " + std::to_string(beta_m) + " " + std::to_string(beta_n),
+          [=](BsdfArena& a) {
+            return a.make<HairBsdf>(h, 1.55f, ramp(0.5f * sigma, sigma),
+                                    HairShape(beta_m, beta_n, tilt));
+          },
+          false, false, false};
+}
+
 inline std::vector<BsdfCase> all_cases() {
   const LambertSurface grey{ramp(0.8f, 0.4f)};
   return {
@@ -103,6 +114,9 @@ inline std::vector<BsdfCase> all_cases() {
       subsurface_case(1.33f, 0.04f, 0.04f),
       subsurface_case(1.5f, 0.1f, 0.3f),
       {"thindielectric", [](BsdfArena& a) { return a.make<ThinDielectricBsdf>(ramp(1.5f, 1.4f)); }},
+      hair_case(0.3f, 0.2f, 0.3f, 0.3f, 2.0f),
+      hair_case(-0.7f, 0.0f, 0.5f, 0.2f, 0.0f),
+      hair_case(0.95f, 1.0f, 0.9f, 0.9f, 4.0f),
       coated_diffuse_case(1.5f, 0.0f, 0.01f, 0.9f),
       coated_diffuse_case(1.5f, 0.03f, 0.01f, 0.9f),
       coated_diffuse_case(1.5f, 0.3f, 0.1f, 0.5f),

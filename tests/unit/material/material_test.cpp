@@ -10,6 +10,7 @@
 #include "core/sampler.h"
 #include "scene/bsdf/conductor.h"
 #include "scene/bsdf/dielectric.h"
+#include "scene/bsdf/hair.h"
 #include "scene/material/table.h"
 
 namespace nephroid {
@@ -117,7 +118,7 @@ TEST(MaterialTable, EveryTypeMakesABsdfWithItsDefaults) {
 }
 
 TEST(MaterialTable, WrongScenesGetLocatedErrors) {
-  for (const char* type : {"hair", "measured"}) {
+  for (const char* type : {"measured"}) {
     const std::string error = error_of({material(type)});
     EXPECT_NE(error.find("scene.pbrt:7:3"), std::string::npos) << error;
     EXPECT_NE(error.find("not rendered yet"), std::string::npos) << error;
@@ -271,6 +272,49 @@ TEST(CoatedMaterials, FitTheArena) {
     BsdfArena arena;
     EXPECT_NE(m->make_bsdf(flat_point(), lambda, arena), nullptr);
   }
+}
+
+TEST(HairMaterials, ColoursByEveryParametrisation) {
+  const Made made({material("hair", {numbers("float", "eumelanin", {1.3})}), material("hair"),
+                   material("hair", {numbers("rgb", "sigma_a", {0.5447, 0.9061, 1.781})}),
+                   material("hair", {numbers("rgb", "reflectance", {0.6, 0.6, 0.6})}),
+                   material("hair", {numbers("rgb", "color", {0.6, 0.6, 0.6})}),
+                   material("hair", {numbers("float", "pheomelanin", {1.3})})});
+  EXPECT_TRUE(made.diagnostics.warnings().empty());
+  SampledWavelengths lambda = SampledWavelengths::sample_visible(0.3f);
+  const auto albedo = [&](size_t i) {
+    BsdfArena arena;
+    return made.materials[i]->make_bsdf(flat_point(), lambda, arena)->albedo(kWo);
+  };
+  for (int i = 0; i < kSpectrumSamples; ++i) {
+    EXPECT_FLOAT_EQ(albedo(0)[i], albedo(1)[i]);
+    EXPECT_NEAR(albedo(0)[i], albedo(2)[i], 1e-4f);
+    EXPECT_FLOAT_EQ(albedo(3)[i], albedo(4)[i]);
+  }
+  EXPECT_GT(albedo(5).average(), albedo(0).average());
+  EXPECT_FALSE(made.materials[0]->merges_photons());
+  EXPECT_EQ(made.materials[0]->possible_classes(), ClassMask::kDiffuse);
+
+  // The fit of reflectance: sigma_a = (ln c / polynomial(beta_n))^2, at beta_n = 0.3.
+  const double b = 0.3, c = 0.6;
+  const double fit = 5.969 - 0.215 * b + 2.532 * b * b - 10.73 * std::pow(b, 3) +
+                     5.574 * std::pow(b, 4) + 0.245 * std::pow(b, 5);
+  const float sigma = static_cast<float>(std::pow(std::log(c) / fit, 2));
+  const HairBsdf expected(2 * 0.4f - 1, 1.55f, SampledSpectrum(sigma), HairShape(0.3f, 0.3f, 2.0f));
+  EXPECT_NEAR(albedo(3)[0], expected.albedo(kWo)[0], 1e-4f);
+}
+
+TEST(HairMaterials, ContradictionsAreReported) {
+  const Made made(
+      {material("hair", {numbers("rgb", "sigma_a", {1, 1, 1}), numbers("rgb", "color", {1, 1, 1}),
+                         numbers("float", "eumelanin", {1})})});
+  ASSERT_EQ(made.diagnostics.warnings().size(), 2u);
+  EXPECT_NE(made.diagnostics.warnings()[0].message.find("\"color\" is ignored"), std::string::npos);
+  EXPECT_NE(error_of({material("hair", {numbers("float", "beta_m", {1.5})})})
+                .find("scene.pbrt:7:3: \"beta_m\""),
+            std::string::npos);
+  EXPECT_NE(error_of({material("hair", {numbers("float", "eta", {0})})}).find("not positive"),
+            std::string::npos);
 }
 
 TEST(MixMaterials, ChooseByAmountAndNest) {

@@ -1,0 +1,155 @@
+// Reading of curve directives; see curve_directives.h. Parameters and defaults as pbrt-v4.
+#include "scene/curve_directives.h"
+
+#include <algorithm>
+
+#include "scene/shape/curve.h"
+
+namespace nephroid {
+
+namespace {
+
+/// Enough to make a geometry worth its overhead, and few enough to read a model in parallel.
+constexpr size_t kMostAlike = 4096;
+
+const Parameter* parameter(const ShapeDescription& d, const char* name) {
+  for (const Parameter& p : d.parameters.list)
+    if (p.name == name) return &p;
+  return nullptr;
+}
+
+bool same_type(const ShapeDescription& a, const ShapeDescription& b) {
+  const Parameter* x = parameter(a, "type");
+  const Parameter* y = parameter(b, "type");
+  return x && y ? x->strings == y->strings : !x && !y;
+}
+
+bool alike(const ShapeDescription& a, const ShapeDescription& b) {
+  return b.type == "curve" && !b.area_light && !parameter(b, "alpha") && same_type(a, b) &&
+         a.material.index == b.material.index && a.material.name == b.material.name &&
+         a.reverse_orientation == b.reverse_orientation && a.inside_medium == b.inside_medium &&
+         a.outside_medium == b.outside_medium && a.transform.start == b.transform.start &&
+         a.transform.end == b.transform.end;
+}
+
+CurveType type_of(const ParameterSet& p) {
+  const std::string type = p.get_string("type", "flat");
+  if (type == "flat") return CurveType::kFlat;
+  if (type == "cylinder") return CurveType::kCylinder;
+  if (type == "ribbon") return CurveType::kRibbon;
+  throw SceneError(p.find("type")->where, "curve type \"" + type +
+                                              "\" is unknown, expected \"flat\", \"cylinder\" or "
+                                              "\"ribbon\"");
+}
+
+std::vector<CurveSegment> segments_of(const ParameterSet& p) {
+  const int degree = p.get_int("degree", 3);
+  if (degree != 2 && degree != 3)
+    throw SceneError(p.find("degree")->where,
+                     "a curve has degree " + std::to_string(degree) + ", expected 2 or 3");
+  const std::string basis = p.get_string("basis", "bezier");
+  if (basis != "bezier" && basis != "bspline")
+    throw SceneError(p.find("basis")->where, "curve basis \"" + basis +
+                                                 "\" is unknown, expected \"bezier\" or "
+                                                 "\"bspline\"");
+  const std::vector<Vec3f> points = p.get_point3s("P");
+  for (const Vec3f& point : points)
+    if (!is_in_reach(point))
+      throw SceneError(p.find("P")->where,
+                       "a point of this curve is no number or too far away, expected coordinates "
+                       "up to 1e17");
+  const bool bezier = basis == "bezier";
+  std::vector<CurveSegment> segments =
+      bezier ? bezier_segments(points, degree) : bspline_segments(points, degree);
+  if (segments.empty()) {
+    const std::string first = std::to_string(degree + 1), next = std::to_string(degree);
+    throw SceneError(p.where, "curve has " + std::to_string(points.size()) + " points in \"P\", " +
+                                  (bezier ? "expected " + first + " and " + next +
+                                                " more for each further Bezier segment"
+                                          : "expected at least " + first + " for its b-spline"));
+  }
+  return segments;
+}
+
+// Widths run linearly over the whole curve, from one end of the directive's points to the other.
+void set_widths(const ParameterSet& p, std::vector<CurveSegment>& segments) {
+  const float width = p.get_float("width", 1.0f);
+  const float ends[] = {p.get_float("width0", width), p.get_float("width1", width)};
+  for (const float w : ends)
+    if (!(w >= 0.0f && w <= kLargestCoordinate))
+      throw SceneError(p.where,
+                       "a width of this curve is negative or no number, expected 0 or more");
+  const float count = static_cast<float>(segments.size());
+  for (size_t i = 0; i < segments.size(); ++i) {
+    segments[i].width0 = lerp(static_cast<float>(i) / count, ends[0], ends[1]);
+    segments[i].width1 = lerp(static_cast<float>(i + 1) / count, ends[0], ends[1]);
+  }
+}
+
+void set_normals(const ParameterSet& p, CurveType type, std::vector<CurveSegment>& segments,
+                 Diagnostics& diagnostics) {
+  const std::vector<Vec3f> normals = p.get_normals("N");
+  if (type != CurveType::kRibbon) {
+    if (!normals.empty())
+      diagnostics.warn(p.where, "\"N\" of a curve is ignored, only ribbons have normals");
+    return;
+  }
+  if (normals.size() != segments.size() + 1)
+    throw SceneError(p.where,
+                     "ribbon has " + std::to_string(normals.size()) + " normals \"N\", expected " +
+                         std::to_string(segments.size() + 1) + ": one at each end of its segments");
+  for (const Vec3f& n : normals)
+    if (!is_finite(n) || !(max_component(abs(n)) > 0.0f))
+      throw SceneError(p.find("N")->where,
+                       "a normal of this ribbon is null or no number, expected a direction");
+  for (size_t i = 0; i < segments.size(); ++i) {
+    segments[i].normal0 = normalize(normals[i]);
+    segments[i].normal1 = normalize(normals[i + 1]);
+  }
+}
+
+}  // namespace
+
+size_t curves_alike(std::span<const ShapeDescription> descriptions) {
+  const ShapeDescription& first = descriptions[0];
+  size_t count = 1;
+  if (!alike(first, first)) return count;
+  while (count < std::min(descriptions.size(), kMostAlike) && alike(first, descriptions[count]))
+    ++count;
+  return count;
+}
+
+ShapePtr make_curves(std::span<const ShapeDescription> alike, Diagnostics& diagnostics) {
+  const ShapeDescription& first = alike[0];
+  const CurveType type = type_of(first.parameters);
+  std::vector<CurveSegment> all;
+  for (const ShapeDescription& d : alike) {
+    const ParameterSet& p = d.parameters;
+    if (d.area_light)
+      throw SceneError(d.area_light->where,
+                       "a curve cannot be an area light, expected another shape");
+    (void)p.find("type");
+    (void)p.get_int("splitdepth", 3);  // the program divides curves as they need it
+    std::vector<CurveSegment> segments = segments_of(p);
+    set_widths(p, segments);
+    set_normals(p, type, segments, diagnostics);
+    if (segments.front().width0 > 0.0f || segments.back().width1 > 0.0f)
+      all.insert(all.end(), segments.begin(), segments.end());
+    else
+      diagnostics.warn(d.where, "curve has no width, nothing will be seen of it");
+  }
+  auto shape = std::make_shared<CurveShape>(Transform(first.transform.start),
+                                            first.reverse_orientation, type, all);
+  for (uint32_t i = 0; i < shape->primitive_count(); ++i) {
+    const Bounds3f box = shape->bounds(i);
+    if (!is_in_reach(box.min) || !is_in_reach(box.max))
+      throw SceneError(first.where,
+                       "curve is too large or too far away, expected coordinates up to 1e17");
+  }
+  if (shape->primitive_count() > 0) return shape;
+  if (!all.empty())
+    diagnostics.warn(first.where, "curve has no length, nothing will be seen of it");
+  return nullptr;
+}
+
+}  // namespace nephroid
