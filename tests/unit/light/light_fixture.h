@@ -86,7 +86,7 @@ inline double irradiance_sample(const Light& light, const Vec3f& p, const Vec3f&
   if (light.is_infinite() && !light.is_delta()) {
     const Vec3f w = square_to_sphere(random.next2());
     if (light.pdf_towards(p, w, {}, {}) == 0.0f)
-      e += light.radiance_at_infinity(w, test_wavelengths())[0] * std::max(0.0f, dot(n, w)) * 4 * kPi;
+      e += light.radiance_at_infinity(p, w, test_wavelengths())[0] * std::max(0.0f, dot(n, w)) * 4 * kPi;
   }
   return e;
 }
