@@ -103,7 +103,7 @@ class PortalInfiniteLight final : public Light {
  public:
   PortalInfiniteLight(const Image& sphere, const Transform& local_to_world, const Portal& portal,
                       float scale)
-      : size_(sphere.width()),
+      : size_(sphere.width() == 1 ? kColourSize : sphere.width()),
         portal_(portal),
         illuminant_(sphere.color_space().illuminant(), scale),
         pixels_(static_cast<size_t>(size_) * size_) {
@@ -186,6 +186,10 @@ class PortalInfiniteLight final : public Light {
     float pdf_w = 0;
     size_t pixel = 0;
   };
+
+  /// Of the map of a single colour, which looks the same at any size and is sampled better in
+  /// parts.
+  static constexpr int kColourSize = 64;
 
   size_t index(int x, int y) const { return static_cast<size_t>(y) * size_ + x; }
   int cell(double u) const { return std::min(static_cast<int>(u * size_), size_ - 1); }

@@ -69,7 +69,8 @@ TEST(UniformInfiniteLight, GivesPiAndItsPower) {
   EXPECT_TRUE(agrees(irradiance(*light, {0, 0, 0}, {0, 0, 1}, 40000), kPi * kUnit));
   EXPECT_TRUE(agrees(emitted_flux(*light, 1000), 4 * kPi * kPi * 25 * kUnit));
   EXPECT_NEAR(light->power(), 4 * kPi * kPi * 25 * kUnit, 1e-3f * light->power());
-  EXPECT_NEAR(light->radiance_at_infinity({0, 0, 0}, {0, 1, 0}, test_wavelengths())[0], kUnit, 1e-6f * kUnit);
+  EXPECT_NEAR(light->radiance_at_infinity({0, 0, 0}, {0, 1, 0}, test_wavelengths())[0], kUnit,
+              1e-6f * kUnit);
   const LightPtr bright = light_of(
       "LightSource \"infinite\" \"float illuminance\" 10 \"spectrum L\" " + kWhite, sphere);
   EXPECT_TRUE(agrees(irradiance(*bright, {0, 0, 0}, {0, 0, 1}, 40000), 10 * kUnit));
@@ -137,7 +138,9 @@ class ImageInfiniteLight : public ::testing::Test {
   std::vector<float> values;
 };
 
-double sum_of(const std::vector<double>& v) { return std::accumulate(v.begin(), v.end(), 0.0); }
+double sum_of(const std::vector<double>& v) {
+  return std::accumulate(v.begin(), v.end(), 0.0);
+}
 
 TEST_F(ImageInfiniteLight, DirectionsFollowThePixels) {
   const LightPtr light = make();
