@@ -35,8 +35,8 @@ struct EmissionSample {
   float pdf_w = 0;  ///< of the direction, 1/sr (1 for a delta direction)
   float cos_theta = 1;       ///< at the emitting surface, 1 where there is none
   bool from_inside = false;  ///< leaves the side that the surface's normal points away from
-  /// The light came from infinitely far behind the origin: the caller multiplies by what gets
-  /// through there (what is in the way belongs to nobody else).
+  /// The light came from far behind the origin: the caller multiplies by what gets through from
+  /// there ([P4] in docs/estimators.md) and finds out in which medium it arrives.
   bool from_behind = false;
   /// Flux carried by a path: radiance * cos_theta / (pdf_a * pdf_w).
 };

@@ -1,7 +1,7 @@
 // The infinite light that is seen through a portal only: a rectangle such as a window, for rooms
 // that a map of the whole sky would light mostly from behind their walls. The map is drawn once
 // more in coordinates in which the portal is a rectangle from every point, and sampled within it.
-// (Bitterli, Wyman & Pharr 2015, "Portal-masked environment map sampling".)
+// (Bitterli, Novak & Jarosz 2015, "Portal-masked environment map sampling".)
 #include <array>
 
 #include "core/parallel.h"
@@ -44,7 +44,7 @@ class Portal {
 
   struct Rectified {
     double u = 0, v = 0;
-    double solid_angle = 0;  ///< per area in (u, v)
+    double solid_angle = 0;  ///< per area in (u, v), [P3]
   };
   /// Empty for directions that do not lead out. `w` need not be of unit length.
   std::optional<Rectified> rectified(const Vec3d& world) const {

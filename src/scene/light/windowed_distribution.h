@@ -1,5 +1,5 @@
 // A density on the unit square that is constant in each cell of a grid, sampled within any window
-// of the square by means of a summed-area table (Crow 1984; Bitterli, Wyman & Pharr 2015, "Portal-
+// of the square by means of a summed-area table (Crow 1984; Bitterli, Novak & Jarosz 2015, "Portal-
 // masked environment map sampling"). Who calls it: infinite lights with a portal. It must not know
 // images or directions.
 #pragma once
