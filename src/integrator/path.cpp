@@ -27,7 +27,8 @@ class PathVisitor {
     if (routes_.owner(state_) != route_) return;
     for (const int i : scene_.light_sampler->infinite_lights()) {
       const Light& light = *scene_.lights[static_cast<size_t>(i)];
-      const SampledSpectrum le = light.radiance_at_infinity(walk.ray.d, walk.lambda);
+      const SampledSpectrum le =
+          light.radiance_at_infinity(walk.previous_p, walk.ray.d, walk.lambda);
       if (le.is_black()) continue;
       radiance_ += walk.throughput * le *
                    (walk.delta ? 1.0f / walk.density.u_mean

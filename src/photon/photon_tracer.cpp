@@ -86,6 +86,11 @@ std::optional<Emitted> emit(const Scene& scene, const SampledWavelengths& lambda
     out.medium = e->from_inside ? media.inside : media.outside;
   }
   out.flux = e->radiance * (e->cos_theta / (choice->pdf_p * e->pdf_a * e->pdf_w));
+  if (e->from_behind) {
+    Ray back = out.ray;
+    back.d = -back.d;
+    out.flux *= scene.transmittance(back, lambda);
+  }
   if (out.flux.is_black()) return std::nullopt;
   return out;
 }

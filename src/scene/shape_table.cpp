@@ -97,8 +97,11 @@ std::vector<ShapePtr> ply_mesh(const Context& c) {
 std::vector<ShapePtr> bilinear_mesh(const Context& c) {
   MeshData data = vertices_of(c);
   data.face_indices = c.p.get_ints("faceIndices");
-  if (c.p.find("emissionfilename"))
-    throw SceneError(c.p.where, c.what() + ": \"emissionfilename\" is not rendered yet");
+  if (const Parameter* hint = c.p.find("emissionfilename"))
+    c.diagnostics.warn(hint->where,
+                       c.what() +
+                           ": \"emissionfilename\" is ignored, it tells where to sample the light "
+                           "and does not change the picture");
   std::vector<uint32_t> corners = to_indices(c, c.p.get_ints("indices"));
   if (corners.empty()) {
     if (data.positions.size() != 4)

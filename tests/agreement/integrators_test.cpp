@@ -18,35 +18,44 @@ using namespace testing_support;
 constexpr int kAcross = 3, kSeeds = 32;
 constexpr uint32_t kPhotonPasses = 6;
 
-// A smooth height field as a file, gone with the object.
-class Waves {
+// The files that the scenes name: a smooth height field and a small coloured image; gone with the
+// object.
+class SceneFiles {
  public:
-  Waves() {
+  SceneFiles() {
     std::string pattern =
-        (std::filesystem::temp_directory_path() / "nephroid-waves-XXXXXX").string();
+        (std::filesystem::temp_directory_path() / "nephroid-agreement-XXXXXX").string();
     if (!mkdtemp(pattern.data())) throw IoError("no temporary directory");
     directory_ = pattern;
     constexpr int kSize = 64;
-    std::ofstream out(path(), std::ios::binary);
-    out << "Pf\n" << kSize << ' ' << kSize << "\n-1.0\n";
+    std::vector<float> waves, picture;
     for (int y = 0; y < kSize; ++y)
       for (int x = 0; x < kSize; ++x) {
         const float u = (static_cast<float>(x) + 0.5f) / kSize,
                     v = (static_cast<float>(y) + 0.5f) / kSize;
-        const float height = 0.02f * std::sin(12 * kPi * u) * std::sin(8 * kPi * v);
-        out.write(reinterpret_cast<const char*>(&height), sizeof height);
+        waves.push_back(0.02f * std::sin(12 * kPi * u) * std::sin(8 * kPi * v));
       }
+    for (int i = 0; i < 64; ++i)
+      for (const int period : {5, 3, 7}) picture.push_back(1.0f + static_cast<float>(i % period));
+    write("/waves.pfm", "Pf", kSize, waves);
+    write("/picture.pfm", "PF", 8, picture);
   }
-  ~Waves() {
+  ~SceneFiles() {
     std::error_code ignored;
     std::filesystem::remove_all(directory_, ignored);
   }
-  Waves(const Waves&) = delete;
-  Waves& operator=(const Waves&) = delete;
+  SceneFiles(const SceneFiles&) = delete;
+  SceneFiles& operator=(const SceneFiles&) = delete;
 
-  std::string path() const { return directory_ + "/waves.pfm"; }
+  const std::string& directory() const { return directory_; }
 
  private:
+  void write(const char* name, const char* kind, int size, const std::vector<float>& values) const {
+    std::ofstream out(directory_ + name, std::ios::binary);
+    out << kind << "\n" << size << ' ' << size << "\n-1.0\n";
+    for (const float v : values) out.write(reinterpret_cast<const char*>(&v), sizeof v);
+  }
+
   std::string directory_;
 };
 
@@ -77,8 +86,8 @@ class Agreement : public ::testing::TestWithParam<AgreementScene> {};
 
 TEST_P(Agreement, OfAllIntegrators) {
   const AgreementScene& description = GetParam();
-  const Waves waves;
-  const auto scene = scene_from_text(agreement_scene_text(description, waves.path()));
+  const SceneFiles files;
+  const auto scene = scene_from_text(agreement_scene_text(description, files.directory()));
   IntegratorOptions options;
   options.max_depth = description.max_depth;
   options.photons_per_pass = description.photons;
@@ -106,10 +115,10 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Agreement, ::testing::ValuesIn(kAgreementScenes
 
 // The scene with bumps would agree as well if nothing were bumped.
 TEST(AgreementScenes, TheBumpedGlassIsBumped) {
-  const Waves waves;
+  const SceneFiles files;
   for (const AgreementScene& description : kAgreementScenes) {
     if (std::string(description.name) != "bumped_glass") continue;
-    const auto scene = scene_from_text(agreement_scene_text(description, waves.path()));
+    const auto scene = scene_from_text(agreement_scene_text(description, files.directory()));
     int bumped = 0;
     for (int y = 4; y < 8; ++y)
       for (int x = 4; x < 8; ++x) {

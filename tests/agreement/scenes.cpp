@@ -29,6 +29,32 @@ constexpr char kSpotLight[] =
        "float coneangle" 35 "float conedeltaangle" 10)";
 constexpr char kSky[] = R"(LightSource "infinite" "rgb L" [0.5 0.6 0.7])";
 
+constexpr char kProjector[] = R"(
+  AttributeBegin
+    Translate 0.8 3.4 0.3 Rotate 12 0 0 1 Rotate 90 1 0 0
+    LightSource "projection" "string filename" "PICTURE" "float fov" 95 "float scale" 4
+  AttributeEnd
+)";
+constexpr char kDiagram[] = R"(
+  AttributeBegin
+    Translate 1.2 3.2 0.5 Rotate 35 1 2 3
+    LightSource "goniometric" "string filename" "PICTURE" "rgb I" [20 18 16]
+  AttributeEnd
+)";
+// Above and aside; the sky beyond it is partly hidden, half of that by a sheet with alpha.
+constexpr char kPortal[] = R"(
+  AttributeBegin
+    Rotate 40 1 0.3 0
+    LightSource "infinite" "string filename" "PICTURE" "float scale" 2
+      "point3 portal" [0.9 3 -0.8  2.9 3 -0.8  2.9 3 1.6  0.9 3 1.6]
+  AttributeEnd
+  AttributeBegin
+    Material "diffuse"
+    Shape "bilinearmesh" "point3 P" [2 4.5 -1  3.5 4.5 -1  2 4.5 0.6  3.5 4.5 0.6]
+    Shape "bilinearmesh" "point3 P" [1 4.8 0  3 4.8 0  1 4.8 2  3 4.8 2] "float alpha" 0.5
+  AttributeEnd
+)";
+
 constexpr char kRoom[] = R"(
   Material "diffuse" "rgb reflectance" [0.6 0.5 0.4]
   Shape "bilinearmesh" "point3 P" [-3.5 0 -3.5  3.5 0 -3.5  -3.5 0 3.5  3.5 0 3.5]
@@ -130,6 +156,23 @@ const std::vector<AgreementScene> kAgreementScenes = {
                  Shape "sphere" "float radius" 0.6)",
      .light = kSky,
      .photons = 9216},
+    {.name = "projection_light_and_diffuse",
+     .world = R"(Translate 0 0.7 0 Shape "sphere" "float radius" 0.6)",
+     .light = kProjector},
+    {.name = "projection_light_and_glass",
+     .world = R"(Material "dielectric" "float eta" 1.5 Translate 0 0.9 0
+                 Shape "sphere" "float radius" 0.6)",
+     .light = kProjector,
+     .reference = "sppm",
+     .photons = 9216},
+    {.name = "goniometric_light_and_diffuse",
+     .world = R"(Translate 0 0.7 0 Shape "sphere" "float radius" 0.6)",
+     .light = kDiagram},
+    {.name = "portal_and_glass",
+     .world = R"(Material "dielectric" "float eta" 1.5 Translate 0 0.9 0
+                 Shape "sphere" "float radius" 0.6)",
+     .light = kPortal,
+     .photons = 9216},
     {.name = "instance_of_smooth_glass",
      .world = R"(ObjectBegin "ball" Material "dielectric" "float eta" 1.5 BALL ObjectEnd
                  Translate 0 0.9 0 Rotate 30 1 2 3 ObjectInstance "ball")"},
@@ -178,18 +221,19 @@ const std::vector<AgreementScene> kAgreementScenes = {
      .photons = 8192},
 };
 
-std::string agreement_scene_text(const AgreementScene& scene, const std::string& waves) {
-  std::string world = scene.world;
-  const auto fill_in = [&world](const std::string& placeholder, const std::string& text) {
-    if (const size_t at = world.find(placeholder); at != std::string::npos)
-      world.replace(at, placeholder.size(), text);
-  };
-  fill_in("WAVES", waves);
-  fill_in("BALL", kBall);
+std::string agreement_scene_text(const AgreementScene& scene, const std::string& directory) {
   const std::string film = *scene.film ? scene.film : R"(PixelFilter "box")";
-  return std::string(scene.camera ? scene.camera : kCamera) +
-         R"( Film "rgb" "integer xresolution" 12 "integer yresolution" 12 )" + film +
-         " WorldBegin\n" + (scene.light ? scene.light : kLamp) + kRoom + world;
+  std::string text = std::string(scene.camera ? scene.camera : kCamera) +
+                     R"( Film "rgb" "integer xresolution" 12 "integer yresolution" 12 )" + film +
+                     " WorldBegin\n" + (scene.light ? scene.light : kLamp) + kRoom + scene.world;
+  const auto fill_in = [&text](const std::string& placeholder, const std::string& by) {
+    if (const size_t at = text.find(placeholder); at != std::string::npos)
+      text.replace(at, placeholder.size(), by);
+  };
+  fill_in("WAVES", directory + "/waves.pfm");
+  fill_in("PICTURE", directory + "/picture.pfm");
+  fill_in("BALL", kBall);
+  return text;
 }
 
 }  // namespace nephroid

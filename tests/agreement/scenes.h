@@ -23,7 +23,8 @@ struct AgreementScene {
 
 extern const std::vector<AgreementScene> kAgreementScenes;
 
-/// The text of a whole scene. `waves` is the file of a height field for bumps.
-std::string agreement_scene_text(const AgreementScene& scene, const std::string& waves);
+/// The text of a whole scene. `directory` holds a height field for bumps, waves.pfm, and a small
+/// image, picture.pfm.
+std::string agreement_scene_text(const AgreementScene& scene, const std::string& directory);
 
 }  // namespace nephroid

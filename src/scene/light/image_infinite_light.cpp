@@ -14,10 +14,6 @@ namespace nephroid {
 
 namespace {
 
-float mean_value(const Rgb& c) {
-  return (std::max(0.0f, c.r) + std::max(0.0f, c.g) + std::max(0.0f, c.b)) / 3.0f;
-}
-
 class ImageInfiniteLight final : public Light {
  public:
   ImageInfiniteLight(const Image& image, const Transform& local_to_world, float scale)
@@ -31,7 +27,7 @@ class ImageInfiniteLight final : public Light {
         for (int x = 0; x < size_; ++x) {
           const Rgb c = image.texel(x, y, WrapMode::kClamp);
           pixels_[index(x, y)] = RgbEmission(image.color_space(), c);
-          weights[index(x, y)] = mean_value(c);
+          weights[index(x, y)] = positive_mean(c);
         }
     });
     distribution_ = PiecewiseConstant2D(weights, size_, size_);
@@ -62,7 +58,7 @@ class ImageInfiniteLight final : public Light {
     return direct_.pdf(pixel.x, pixel.y) * kInv4Pi / map_.jacobian(local);
   }
 
-  SampledSpectrum radiance_at_infinity(const Vec3f& w,
+  SampledSpectrum radiance_at_infinity(const Vec3f&, const Vec3f& w,
                                        const SampledWavelengths& lambda) const override {
     const Vec2i pixel = pixel_of(map_.to_local(w));
     return pixel_radiance(index(pixel.x, pixel.y), lambda);
@@ -120,24 +116,6 @@ class ImageInfiniteLight final : public Light {
   SceneSphere sphere_;
 };
 
-/// Illuminance of the map on the side of its +z, in units of its illuminant.
-double illuminance_of(const Image& image) {
-  const Rgb luminance = luminance_weights(image.color_space());
-  const int n = image.width();
-  const float step = 1.0f / static_cast<float>(n);
-  double sum = 0.0;
-  for (int y = 0; y < n; ++y)
-    for (int x = 0; x < n; ++x) {
-      const Vec2f centre((static_cast<float>(x) + 0.5f) * step,
-                         (static_cast<float>(y) + 0.5f) * step);
-      const float cosine = equal_area_square_to_sphere(centre).z;
-      if (cosine <= 0.0f) continue;
-      const Rgb c = image.texel(x, y, WrapMode::kClamp);
-      sum += (c.r * luminance.r + c.g * luminance.g + c.b * luminance.b) * cosine;
-    }
-  return sum;
-}
-
 }  // namespace
 
 LightPtr make_image_infinite_light(const LightDescription& description, const LightScope& scope) {
@@ -145,20 +123,8 @@ LightPtr make_image_infinite_light(const LightDescription& description, const Li
   if (const Parameter* colour = p.find("L"))
     throw SceneError(colour->where,
                      "an infinite light has both \"L\" and \"filename\", expected one of them");
-  const ImagePtr image = read_light_image(p, scope.directory);
-  if (image->width() != image->height())
-    throw SceneError(p.find("filename")->where,
-                     "the image of an infinite light is " + std::to_string(image->width()) + " x " +
-                         std::to_string(image->height()) +
-                         ", expected a square: an equal-area octahedral map");
-  float scale = image_emission_scale(p, image->color_space());
-  const float wanted = p.get_float("illuminance", -1.0f);
-  if (wanted > 0.0f) {
-    // The factor is pbrt-v4's, which gives each of the n^2 pixels 2 pi / n^2 of solid angle.
-    const double per_pixel = 2.0 * kPi / (static_cast<double>(image->width()) * image->width());
-    const double illuminance = illuminance_of(*image) * per_pixel;
-    scale = illuminance > 0.0 ? static_cast<float>(scale * wanted / illuminance) : 0.0f;
-  }
+  const ImagePtr image = read_sphere_image(p, scope.directory, "an infinite light");
+  const float scale = sphere_emission_scale(p, *image);
   return std::make_unique<ImageInfiniteLight>(*image, Transform(description.transform.start),
                                               scale);
 }

@@ -35,6 +35,9 @@ struct EmissionSample {
   float pdf_w = 0;  ///< of the direction, 1/sr (1 for a delta direction)
   float cos_theta = 1;       ///< at the emitting surface, 1 where there is none
   bool from_inside = false;  ///< leaves the side that the surface's normal points away from
+  /// The light came from far behind the origin: the caller multiplies by what gets through from
+  /// there ([P4] in docs/estimators.md) and finds out in which medium it arrives.
+  bool from_behind = false;
   /// Flux carried by a path: radiance * cos_theta / (pdf_a * pdf_w).
 };
 
@@ -75,9 +78,9 @@ class Light {
                                    const Vec3f& /*w*/, const SampledWavelengths&) const {
     return SampledSpectrum();
   }
-  /// Radiance of an infinite light seen in unit direction `w` (away from the viewer). Black for
-  /// others.
-  virtual SampledSpectrum radiance_at_infinity(const Vec3f& /*w*/,
+  /// Radiance of an infinite light seen from the point `from` in unit direction `w` (away from the
+  /// viewer). Black for others.
+  virtual SampledSpectrum radiance_at_infinity(const Vec3f& /*from*/, const Vec3f& /*w*/,
                                                const SampledWavelengths&) const {
     return SampledSpectrum();
   }

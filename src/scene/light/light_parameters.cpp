@@ -1,5 +1,6 @@
 // What the parameters of all lights have in common: colour, photometric scale, image. See
 // light_table.h.
+#include "scene/light/equal_area_map.h"
 #include "scene/light/light_table.h"
 
 namespace nephroid {
@@ -18,6 +19,24 @@ float read_scale(const ParameterSet& parameters) {
 SpectrumPtr illuminant_of(const std::string& color_space) {
   const RgbColorSpace* space = RgbColorSpace::find(color_space);
   return {std::shared_ptr<const void>(), &(space ? *space : RgbColorSpace::srgb()).illuminant()};
+}
+
+/// Illuminance of the map on the side of its +z, in units of its illuminant.
+double illuminance_of(const Image& image) {
+  const Rgb luminance = luminance_weights(image.color_space());
+  const int n = image.width();
+  const float step = 1.0f / static_cast<float>(n);
+  double sum = 0.0;
+  for (int y = 0; y < n; ++y)
+    for (int x = 0; x < n; ++x) {
+      const Vec2f centre((static_cast<float>(x) + 0.5f) * step,
+                         (static_cast<float>(y) + 0.5f) * step);
+      const float cosine = equal_area_square_to_sphere(centre).z;
+      if (cosine <= 0.0f) continue;
+      const Rgb c = image.texel(x, y, WrapMode::kClamp);
+      sum += (c.r * luminance.r + c.g * luminance.g + c.b * luminance.b) * cosine;
+    }
+  return sum;
 }
 
 }  // namespace
@@ -52,6 +71,27 @@ ImagePtr read_light_image(const ParameterSet& parameters, const std::string& dir
     throw SceneError(p.where,
                      "image \"" + path + "\" has infinite or NaN values, which cannot be emitted");
   return image;
+}
+
+ImagePtr read_sphere_image(const ParameterSet& parameters, const std::string& directory,
+                           const std::string& of_what) {
+  ImagePtr image = read_light_image(parameters, directory);
+  if (image->width() != image->height())
+    throw SceneError(parameters.find("filename")->where,
+                     "the image of " + of_what + " is " + std::to_string(image->width()) + " x " +
+                         std::to_string(image->height()) +
+                         ", expected a square: an equal-area octahedral map");
+  return image;
+}
+
+float sphere_emission_scale(const ParameterSet& parameters, const Image& image) {
+  const float scale = image_emission_scale(parameters, image.color_space());
+  const float wanted = parameters.get_float("illuminance", -1.0f);
+  if (!(wanted > 0.0f)) return scale;
+  // The factor is pbrt-v4's, which gives each of the n^2 pixels 2 pi / n^2 of solid angle.
+  const double per_pixel = 2.0 * kPi / (static_cast<double>(image.width()) * image.width());
+  const double illuminance = illuminance_of(image) * per_pixel;
+  return illuminance > 0.0 ? static_cast<float>(scale * wanted / illuminance) : 0.0f;
 }
 
 Rgb luminance_weights(const RgbColorSpace& space) {

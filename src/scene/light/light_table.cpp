@@ -1,9 +1,6 @@
 // Light types by name, see light_table.h.
 #include "scene/light/light_table.h"
 
-#include <algorithm>
-#include <iterator>
-
 namespace nephroid {
 
 namespace {
@@ -13,14 +10,10 @@ struct Row {
   LightMaker make;
 };
 constexpr Row kLights[] = {
-    {"point", make_point_light},
-    {"spot", make_spot_light},
-    {"distant", make_distant_light},
-    {"infinite", make_infinite_light},
+    {"point", make_point_light},           {"spot", make_spot_light},
+    {"distant", make_distant_light},       {"infinite", make_infinite_light},
+    {"projection", make_projection_light}, {"goniometric", make_goniometric_light},
 };
-
-/// Lights of pbrt-v4 that this renderer knows by name only.
-constexpr const char* kNotRenderedYet[] = {"goniometric", "projection"};
 
 LightMaker maker_of(const LightDescription& description) {
   std::string names;
@@ -28,11 +21,8 @@ LightMaker maker_of(const LightDescription& description) {
     if (description.type == row.name) return row.make;
     names += (names.empty() ? "\"" : ", \"") + std::string(row.name) + "\"";
   }
-  const bool known = std::any_of(std::begin(kNotRenderedYet), std::end(kNotRenderedYet),
-                                 [&](const char* n) { return description.type == n; });
-  const std::string what = known ? "light \"" + description.type + "\" is not rendered yet"
-                                 : "unknown light \"" + description.type + "\"";
-  throw SceneError(description.where, what + ", expected one of " + names);
+  throw SceneError(description.where,
+                   "unknown light \"" + description.type + "\", expected one of " + names);
 }
 
 }  // namespace

@@ -22,9 +22,13 @@ using LightMaker = LightPtr (*)(const LightDescription&, const LightScope&);
 LightPtr make_point_light(const LightDescription&, const LightScope&);
 LightPtr make_spot_light(const LightDescription&, const LightScope&);
 LightPtr make_distant_light(const LightDescription&, const LightScope&);
-/// Uniform, or make_image_infinite_light if there is a "filename".
+/// Uniform, or one of the two below if there is a "filename" or a "portal".
 LightPtr make_infinite_light(const LightDescription&, const LightScope&);
 LightPtr make_image_infinite_light(const LightDescription&, const LightScope&);
+/// An infinite light with a "portal".
+LightPtr make_portal_infinite_light(const LightDescription&, const LightScope&);
+LightPtr make_projection_light(const LightDescription&, const LightScope&);
+LightPtr make_goniometric_light(const LightDescription&, const LightScope&);
 
 /// The colour of a light and the factor that makes it photometric.
 struct Emission {
@@ -42,6 +46,19 @@ float image_emission_scale(const ParameterSet& parameters, const RgbColorSpace& 
 
 /// The image named by "filename"; throws SceneError if it has infinite or NaN values.
 ImagePtr read_light_image(const ParameterSet& parameters, const std::string& directory);
+
+/// The same for an equal-area octahedral map of the sphere; throws SceneError if it is not square.
+/// `of_what` is the light in the error's words.
+ImagePtr read_sphere_image(const ParameterSet& parameters, const std::string& directory,
+                           const std::string& of_what);
+
+/// image_emission_scale for a map of the sphere, times what its "illuminance" asks for.
+float sphere_emission_scale(const ParameterSet& parameters, const Image& image);
+
+/// Mean of r, g and b; negative values, which cannot be emitted, count as 0.
+inline float positive_mean(const Rgb& c) {
+  return (std::max(0.0f, c.r) + std::max(0.0f, c.g) + std::max(0.0f, c.b)) / 3.0f;
+}
 
 /// Weights of r, g and b in the luminance of a colour.
 Rgb luminance_weights(const RgbColorSpace& space);

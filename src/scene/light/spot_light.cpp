@@ -43,8 +43,7 @@ class SpotLight final : public Light {
     // A little more than the edge, for the rounding of angles near 0.
     bounds_.cos_theta_e = std::min(
         static_cast<float>(std::cos(radians(end_angle) - radians(std::abs(start_angle)))), 0.9999f);
-    if (map_.jacobian(Vec3f(0, 0, 1)) != 1.0f || map_.jacobian(Vec3f(1, 0, 0)) != 1.0f ||
-        map_.jacobian(Vec3f(0, 1, 0)) != 1.0f) {
+    if (!map_.keeps_angles()) {
       // Under a transform that bends angles nothing simple bounds the cone.
       bounds_.cos_theta_o = -1.0f;
       bounds_.cos_theta_e = 0.0f;

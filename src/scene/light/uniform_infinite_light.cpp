@@ -1,4 +1,5 @@
-// The infinite light that is the same in all directions, and the choice between it and an image.
+// The infinite light that is the same in all directions, and the choice between it, an image
+// and a portal.
 #include "scene/light/infinite_emission.h"
 #include "scene/light/light_table.h"
 
@@ -27,7 +28,7 @@ class UniformInfiniteLight final : public Light {
     return kInv4Pi;
   }
 
-  SampledSpectrum radiance_at_infinity(const Vec3f&,
+  SampledSpectrum radiance_at_infinity(const Vec3f&, const Vec3f&,
                                        const SampledWavelengths& lambda) const override {
     return radiance_.sample(lambda);
   }
@@ -51,10 +52,7 @@ class UniformInfiniteLight final : public Light {
 
 LightPtr make_infinite_light(const LightDescription& description, const LightScope& scope) {
   const ParameterSet& p = description.parameters;
-  if (const Parameter* portal = p.find("portal"))
-    throw SceneError(portal->where,
-                     "an infinite light with a \"portal\" is not rendered yet: it would be seen "
-                     "through the portal only");
+  if (!p.get_point3s("portal").empty()) return make_portal_infinite_light(description, scope);
   if (!p.get_string("filename", "").empty()) return make_image_infinite_light(description, scope);
 
   const Emission e = read_emission(p, "L", scope.directory, scope.color_space);

@@ -16,6 +16,17 @@ ShapePtr sphere_at(const Vec3f& center, float radius) {
                      radius, -radius, radius, 360);
 }
 
+/// Mean of the standard white over the wavelengths of paths, at luminance 1.
+double white_mean() {
+  const Spectrum& white = RgbColorSpace::srgb().illuminant();
+  double sum = 0;
+  for (int i = 0; i < 64; ++i)
+    sum += white.sample(SampledWavelengths::sample_visible((static_cast<float>(i) + 0.5f) / 64))
+               .average() /
+           64;
+  return sum / spectrum_to_photometric(white);
+}
+
 TEST(AreaLight, DiskLightsThePointBelow) {
   const LightPtr light = area_light_of(kWhiteL, disk_above(2, 1.5f));
   const double expected = kPi * kUnit * 1.5 * 1.5 / (1.5 * 1.5 + 4);
@@ -122,6 +133,46 @@ TEST(AreaLight, AlphaOfZeroMakesALampThatNobodySees) {
   EXPECT_TRUE(s->delta);
   EXPECT_TRUE(
       agrees(irradiance(*light, {0, 0, 0}, kUp, 40000), kPi * kUnit * 1.5 * 1.5 / (1.5 * 1.5 + 4)));
+}
+
+TEST(AreaLight, AlphaTexturesCutTheLampOut) {
+  /// There where u > 1/2, half there elsewhere.
+  class Step final : public FloatTexture {
+   public:
+    float eval(const TextureContext& c) const override { return c.uv.x > 0.5f ? 1.0f : 0.5f; }
+  };
+  // In the rectangle's u the right half is that of negative x.
+  const auto alpha = std::make_shared<Step>();
+  const LightPtr light = area_light_of(kWhiteL, rectangle(1, 1, 2), alpha);
+  const LightPtr right = area_light_of(kWhiteL, rectangle(1, 1, 2));
+  EXPECT_TRUE(agrees(emitted_flux(*light, 20000), 0.75 * kPi * 4 * kUnit));
+  EXPECT_TRUE(
+      agrees(emitted_flux(*light, 20000, [](const Ray& r) { return r.o.x < 0 ? 1.0 : 0.0; }),
+             kPi * 2 * kUnit));
+  // Seen from below the centre, where both halves give the same.
+  const Mean whole = irradiance(*right, {0, 0, 0}, kUp, 20000);
+  EXPECT_TRUE(agrees(irradiance(*light, {0, 0, 0}, kUp, 20000, 5), 0.75 * whole.mean(),
+                     0.75 * whole.error()));
+  EXPECT_FALSE(light->is_delta());
+}
+
+TEST(AreaLight, ImagesShineOnBothSidesIfAsked) {
+  const ScratchDirectory scratch;
+  write_square(scratch.file("a.exr"), 2, {1, 1, 1, 2, 2, 2, 3, 3, 3, 6, 6, 6});
+  for (const bool both : {false, true}) {
+    const auto lights = area_lights_of(
+        std::string("\"string filename\" \"a.exr\" ") + (both ? "\"bool twosided\" true" : ""),
+        rectangle(1, 1, 2), nullptr, scratch.path().string());
+    const Light& light = *lights.at(0);
+    EXPECT_EQ(light.radiance({0, 0, 2}, -kUp, {0.5f, 0.5f}, kUp, test_wavelengths()).is_black(),
+              !both);
+    // The mean of the pixels is 3, and of what is smooth between them by symmetry too.
+    const SpectrumPtr white = rgb_illuminant_spectrum(RgbColorSpace::srgb(), {1, 1, 1});
+    const double unit = white->sample(test_wavelengths())[0] / spectrum_to_photometric(*white);
+    const double flux = 3 * unit * kPi * 4 * (both ? 2 : 1);
+    EXPECT_TRUE(agrees(emitted_flux(light, 40000), flux, 1e-3 * flux)) << both;
+    EXPECT_NEAR(light.power(), 3 * white_mean() * kPi * 4 * (both ? 2 : 1), 4e-3 * light.power());
+  }
 }
 
 TEST(AreaLight, ImagesRunUpwardsInV) {

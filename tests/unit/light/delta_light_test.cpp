@@ -170,11 +170,13 @@ TEST(LightDirectives, ErrorsNameThePlace) {
     EXPECT_EQ(e.find("t.pbrt:2:"), 0u) << e;
     EXPECT_NE(e.find(part), std::string::npos) << e;
   };
-  expect("LightSource \"goniometric\"", "not rendered yet");
-  expect("LightSource \"projection\"", "not rendered yet");
   expect("LightSource \"laser\"", "unknown light");
-  expect("LightSource \"infinite\" \"point3 portal\" [0 0 0 1 0 0 1 1 0 0 1 0]",
-         "not rendered yet");
+  expect("LightSource \"infinite\" \"point3 portal\" [0 0 0 1 0 0 1 1 0]", "3 corners");
+  expect("LightSource \"infinite\" \"point3 portal\" [0 0 0 1 0 0 2 1 0 1 1 0]", "no rectangle");
+  expect("LightSource \"infinite\" \"point3 portal\" [0 0 0 1 1 0 1 0 0 0 1 0]", "no rectangle");
+  expect("LightSource \"projection\"", "filename");
+  expect("LightSource \"projection\" \"string filename\" \"x.exr\" \"float fov\" 180", "fov");
+  expect("LightSource \"goniometric\" \"string filename\" \"missing.exr\"", "missing.exr");
   expect("LightSource \"infinite\" \"rgb L\" [1 1 1] \"string filename\" \"x.exr\"", "both");
   expect("LightSource \"spot\" \"point3 to\" [0 0 0]", "same point");
   expect("LightSource \"spot\" \"float coneangle\" 200", "coneangle");
@@ -187,6 +189,14 @@ TEST(LightDirectives, BlackLightsAreLightsWithoutPower) {
   const LightPtr light = light_of("LightSource \"point\" \"spectrum I\" [200 0 900 0]");
   EXPECT_EQ(light->power(), 0.0f);
   EXPECT_EQ(radiance_towards(*light, {0, 0, 1}), 0.0f);
+}
+
+TEST(LightDirectives, AGoniometricLightWithoutADiagramIsAPoint) {
+  Diagnostics d;
+  const auto lights = lights_of("LightSource \"goniometric\" \"spectrum I\" " + kWhite, ".", &d);
+  EXPECT_EQ(d.warnings().size(), 1u);
+  for (const Vec3f& from : {Vec3f(0, 0, 1), Vec3f(0, -1, 0), Vec3f(1, 0, 0)})
+    EXPECT_NEAR(radiance_towards(*lights.at(0), from), kUnit, 1e-6f * kUnit);
 }
 
 TEST(LightDirectives, UnknownParametersAreReported) {

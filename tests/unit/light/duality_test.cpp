@@ -90,5 +90,37 @@ TEST(Duality, ImageUnderAnyTransform) {
                    transform);
 }
 
+TEST(Duality, ImagesFromAPointUnderAnyTransform) {
+  const ScratchDirectory scratch;
+  std::vector<float> rgb;
+  for (int i = 0; i < 64; ++i)
+    for (const int period : {5, 3, 7}) rgb.push_back(static_cast<float>(i % period));
+  write_square(scratch.file("a.exr"), 8, rgb);
+  write_square(scratch.file("wide.exr"), 16, rgb);
+  for (const char* transform : {"Translate 0.3 0 1.5 Rotate 160 1 0.2 0",
+                                "Translate 0 0 2 Scale 1 2 0.7 Rotate 170 1 0.3 0"})
+    for (const char* light : {"\"projection\" \"string filename\" \"a.exr\"",
+                              "\"projection\" \"string filename\" \"wide.exr\" \"float fov\" 40",
+                              "\"goniometric\" \"string filename\" \"a.exr\""})
+      expect_duality(
+          *light_of(std::string(transform) + " LightSource " + light, {}, scratch.path().string()),
+          std::string(transform) + light);
+}
+
+TEST(Duality, Portal) {
+  const ScratchDirectory scratch;
+  std::vector<float> rgb;
+  for (int i = 0; i < 64; ++i)
+    for (const int period : {5, 3, 7}) rgb.push_back(static_cast<float>(i % period));
+  write_square(scratch.file("sky.exr"), 8, rgb);
+  const std::string portal =
+      "\"point3 portal\" [-0.5 -0.6 1.2  -0.5 0.4 1.5  0.7 0.4 1.5  0.7 -0.6 1.2]";
+  for (const char* source : {"", "\"rgb L\" [1 2 3]", "\"string filename\" \"sky.exr\""})
+    expect_duality(
+        *light_of(std::string("Rotate 50 1 1 0 LightSource \"infinite\" ") + source + portal,
+                  {{0, 0, 0}, 4}, scratch.path().string()),
+        source);
+}
+
 }  // namespace
 }  // namespace nephroid::testing_light

@@ -69,7 +69,8 @@ TEST(UniformInfiniteLight, GivesPiAndItsPower) {
   EXPECT_TRUE(agrees(irradiance(*light, {0, 0, 0}, {0, 0, 1}, 40000), kPi * kUnit));
   EXPECT_TRUE(agrees(emitted_flux(*light, 1000), 4 * kPi * kPi * 25 * kUnit));
   EXPECT_NEAR(light->power(), 4 * kPi * kPi * 25 * kUnit, 1e-3f * light->power());
-  EXPECT_NEAR(light->radiance_at_infinity({0, 1, 0}, test_wavelengths())[0], kUnit, 1e-6f * kUnit);
+  EXPECT_NEAR(light->radiance_at_infinity({0, 0, 0}, {0, 1, 0}, test_wavelengths())[0], kUnit,
+              1e-6f * kUnit);
   const LightPtr bright = light_of(
       "LightSource \"infinite\" \"float illuminance\" 10 \"spectrum L\" " + kWhite, sphere);
   EXPECT_TRUE(agrees(irradiance(*bright, {0, 0, 0}, {0, 0, 1}, 40000), 10 * kUnit));
@@ -137,7 +138,9 @@ class ImageInfiniteLight : public ::testing::Test {
   std::vector<float> values;
 };
 
-double sum_of(const std::vector<double>& v) { return std::accumulate(v.begin(), v.end(), 0.0); }
+double sum_of(const std::vector<double>& v) {
+  return std::accumulate(v.begin(), v.end(), 0.0);
+}
 
 TEST_F(ImageInfiniteLight, DirectionsFollowThePixels) {
   const LightPtr light = make();
@@ -163,7 +166,7 @@ TEST_F(ImageInfiniteLight, DensityAndRadianceAreThoseOfThePixel) {
     const float v = values[pixel_of(w)];
     const double density = above[pixel_of(w)] / sum_of(above) * kPixels / (4 * kPi);
     EXPECT_NEAR(light->pdf_towards({0, 0, 0}, w, {}, {}), density, 1e-5 * density);
-    EXPECT_NEAR(light->radiance_at_infinity(w, test_wavelengths())[0], v * unit(),
+    EXPECT_NEAR(light->radiance_at_infinity({0, 0, 0}, w, test_wavelengths())[0], v * unit(),
                 3e-3 * v * unit());
   }
   for (int i = 0; i < 2000; ++i) {
@@ -174,7 +177,7 @@ TEST_F(ImageInfiniteLight, DensityAndRadianceAreThoseOfThePixel) {
                                  st.y - std::floor(st.y), std::ceil(st.y) - st.y});
     if (edge < 1e-4f) continue;
     EXPECT_EQ(light->pdf_towards({0, 0, 0}, s->wi, {}, {}), s->pdf_w);
-    EXPECT_EQ(light->radiance_at_infinity(s->wi, test_wavelengths())[0], s->radiance[0]);
+    EXPECT_EQ(light->radiance_at_infinity({0, 0, 0}, s->wi, test_wavelengths())[0], s->radiance[0]);
   }
 }
 
@@ -192,8 +195,8 @@ TEST_F(ImageInfiniteLight, TurnsWithItsTransform) {
   int same = 0;
   for (int i = 0; i < 1000; ++i) {
     const Vec3f w = equal_area_square_to_sphere(random.next2());
-    same += plain->radiance_at_infinity(w, test_wavelengths())[0] ==
-            turned->radiance_at_infinity({w.x, -w.z, w.y}, test_wavelengths())[0];
+    same += plain->radiance_at_infinity({0, 0, 0}, w, test_wavelengths())[0] ==
+            turned->radiance_at_infinity({0, 0, 0}, {w.x, -w.z, w.y}, test_wavelengths())[0];
   }
   EXPECT_GT(same, 995);
 }
@@ -264,7 +267,7 @@ TEST_F(ImageInfiniteLight, BlackImagesSendNothing) {
   EXPECT_EQ(light->power(), 0.0f);
   EXPECT_FALSE(light->sample_towards({0, 0, 0}, {0.5f, 0.5f}, test_wavelengths()));
   EXPECT_EQ(light->pdf_towards({0, 0, 0}, {0, 0, 1}, {}, {}), 0.0f);
-  EXPECT_TRUE(light->radiance_at_infinity({0, 0, 1}, test_wavelengths()).is_black());
+  EXPECT_TRUE(light->radiance_at_infinity({0, 0, 0}, {0, 0, 1}, test_wavelengths()).is_black());
 }
 
 }  // namespace

@@ -77,8 +77,8 @@ inline ShapePtr rectangle(float half_x, float half_y, float z) {
   return make_bilinear_mesh(m, false);
 }
 
-/// One unbiased estimate of the irradiance at a point: the light's own sample, and a uniform direction for
-/// what light sampling leaves to walks that leave the scene.
+/// One unbiased estimate of the irradiance at a point: the light's own sample, and a uniform
+/// direction for what light sampling leaves to walks that leave the scene.
 inline double irradiance_sample(const Light& light, const Vec3f& p, const Vec3f& n,
                                 TestRandom& random) {
   const auto s = light.sample_towards(p, random.next2(), test_wavelengths());
@@ -86,7 +86,8 @@ inline double irradiance_sample(const Light& light, const Vec3f& p, const Vec3f&
   if (light.is_infinite() && !light.is_delta()) {
     const Vec3f w = square_to_sphere(random.next2());
     if (light.pdf_towards(p, w, {}, {}) == 0.0f)
-      e += light.radiance_at_infinity(w, test_wavelengths())[0] * std::max(0.0f, dot(n, w)) * 4 * kPi;
+      e += light.radiance_at_infinity(p, w, test_wavelengths())[0] * std::max(0.0f, dot(n, w)) * 4 *
+           kPi;
   }
   return e;
 }
@@ -115,6 +116,22 @@ inline Mean emitted_flux(const Light& light, int count,
 inline Mean emitted_flux(const Light& light, int count, uint64_t seed = 2) {
   return emitted_flux(
       light, count, [](const Ray&) { return 1.0; }, seed);
+}
+
+/// Luminous flux by sample_emission, in units of a light of luminance 1 (a scene's lumens).
+inline Mean luminous_flux(const Light& light, int count, uint64_t seed = 9) {
+  TestRandom random(seed);
+  Mean mean;
+  for (int i = 0; i < count; ++i) {
+    const Vec2f u = random.next2(), v = random.next2();
+    const SampledWavelengths lambda = SampledWavelengths::sample_visible(random.next());
+    const auto e = light.sample_emission(u, v, lambda);
+    double sum = 0.0;
+    for (int k = 0; e && k < kSpectrumSamples; ++k)
+      sum += e->radiance[k] * cie_xyz(lambda.lambda(k)).y / lambda.pdf()[k] / kSpectrumSamples;
+    mean.add(e ? sum * e->cos_theta / (e->pdf_a * e->pdf_w) : 0.0);
+  }
+  return mean;
 }
 
 /// True if the mean is `expected` within 4.5 standard errors (and float rounding): by chance this
