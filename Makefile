@@ -2,7 +2,7 @@
 BUILD := build/release
 NEPHROID := $(BUILD)/bin/nephroid
 
-.PHONY: demo test program build deps asan tsan format check clean
+.PHONY: demo test program build deps asan tsan fuzz format check clean
 
 demo: program
 	@mkdir -p out
@@ -31,6 +31,19 @@ asan tsan: deps
 	@cmake --preset $@ >/dev/null
 	@cmake --build --preset $@
 	ctest --test-dir build/$@ --output-on-failure -j $$(nproc)
+
+# Each fuzzer for FUZZ_TIME seconds (docs/reliability.md); needs clang. What they learn stays in
+# build/fuzz/corpus, what they find in build/fuzz/found.
+FUZZ_TIME ?= 1200
+fuzz: deps
+	@cmake --preset fuzz >/dev/null
+	@cmake --build --preset fuzz
+	@for target in scene ply bsdf; do \
+	  mkdir -p build/fuzz/corpus/$$target build/fuzz/found; \
+	  build/fuzz/bin/fuzz_$$target -max_total_time=$(FUZZ_TIME) -timeout=10 -rss_limit_mb=2048 \
+	    -max_len=4096 -dict=tests/fuzz/$$target.dict -artifact_prefix=build/fuzz/found/$$target- \
+	    -print_final_stats=1 build/fuzz/corpus/$$target tests/fuzz/corpus/$$target || exit 1; \
+	done
 
 format:
 	clang-format -i $$(git ls-files '*.h' '*.cpp')

@@ -17,6 +17,7 @@ namespace nephroid {
 namespace {
 
 constexpr size_t kChunk = size_t{1} << 20;
+constexpr size_t kFirstGuess = size_t{1} << 16;
 
 [[noreturn]] void cannot_read(const std::string& path, const std::string& reason) {
   throw IoError("cannot read \"" + path + "\": " + reason);
@@ -39,7 +40,7 @@ std::string read_raw(const std::string& path) {
   if (!file) cannot_read(path, reason_of(errno));
 
   // The size is a hint only: pipes have none, and files may grow or shrink while they are read.
-  size_t expected = kChunk;
+  size_t expected = kFirstGuess;
   if (std::filesystem::is_regular_file(status)) {
     const auto size = std::filesystem::file_size(path, ignored);
     if (!ignored) expected = static_cast<size_t>(size) + 1;

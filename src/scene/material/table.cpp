@@ -1,6 +1,8 @@
 // The table of material types, and the one loop that makes all materials of a scene; see table.h.
 #include "scene/material/table.h"
 
+#include "scene/material/measured_file.h"
+
 namespace nephroid {
 namespace {
 
@@ -14,13 +16,13 @@ constexpr MaterialRow kTable[] = {
     {"coatedconductor", make_coated_conductor},
     {"subsurface", make_subsurface},
     {"hair", make_hair},
+    {"measured", make_measured},
     {"mix", make_mix},
     {"interface", make_interface},
     {"none", make_interface},
     {"", make_interface},
 };
 
-constexpr const char* kNotYet[] = {"measured"};
 
 /// Makes materials in any order: a mix asks for others that may stand later in the file.
 class Maker {
@@ -61,7 +63,8 @@ class Maker {
         index,
         [this](const std::string& name, const SourceLocation& where) { return find(name, where); },
         &coat_tables_,
-        &bssrdf_tables_};
+        &bssrdf_tables_,
+        &measured_files_};
     d.parameters.find("type");  // the type of a named material is written as a parameter
     materials_[index] = row(d).make(d, context);
     d.parameters.report_unused("material \"" + d.type + "\"", diagnostics_);
@@ -83,10 +86,6 @@ class Maker {
       if (d.type == r.name) return r;
       if (*r.name) known += (known.empty() ? "" : ", ") + std::string(r.name);
     }
-    for (const char* name : kNotYet)
-      if (d.type == name)
-        throw SceneError(
-            d.where, "material \"" + d.type + "\" is not rendered yet, expected one of " + known);
     throw SceneError(d.where, "unknown material \"" + d.type + "\", expected one of " + known);
   }
 
@@ -99,6 +98,7 @@ class Maker {
   std::map<std::string, size_t> by_name_;
   CoatTableCache coat_tables_;
   BssrdfTableCache bssrdf_tables_;
+  MeasuredCache measured_files_;
 };
 
 }  // namespace

@@ -24,6 +24,8 @@ class CoatTableCache {
   std::map<std::tuple<float, float, float, int>, std::shared_ptr<const CoatTable>> tables_;
 };
 
+class MeasuredCache;
+
 /// What a factory may use.
 struct MaterialContext {
   const TextureLibrary& textures;
@@ -35,6 +37,7 @@ struct MaterialContext {
   std::function<MaterialPtr(const std::string&, const SourceLocation&)> named;
   CoatTableCache* coat_tables = nullptr;
   BssrdfTableCache* bssrdf_tables = nullptr;
+  MeasuredCache* measured_files = nullptr;
 };
 
 struct MaterialRow {
@@ -54,6 +57,7 @@ MaterialPtr make_coated_diffuse(const MaterialDescription&, const MaterialContex
 MaterialPtr make_coated_conductor(const MaterialDescription&, const MaterialContext&);
 MaterialPtr make_subsurface(const MaterialDescription&, const MaterialContext&);
 MaterialPtr make_hair(const MaterialDescription&, const MaterialContext&);
+MaterialPtr make_measured(const MaterialDescription&, const MaterialContext&);
 MaterialPtr make_mix(const MaterialDescription&, const MaterialContext&);
 MaterialPtr make_interface(const MaterialDescription&, const MaterialContext&);
 

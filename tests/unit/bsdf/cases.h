@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "measured_ggx.h"
 #include "scene/bsdf/coated.h"
 #include "scene/bsdf/coated_diffuse.h"
 #include "scene/bsdf/conductor.h"
@@ -24,6 +25,7 @@ struct BsdfCase {
   bool stochastic = false;  ///< values are estimates
   bool refracts = false;    ///< radiance and importance differ
   bool adjoint = true;      ///< importance is radiance with wo and wi exchanged
+  bool reciprocal = true;   ///< the same value if both directions are exchanged
 };
 
 inline SampledSpectrum ramp(float from, float to) {
@@ -75,6 +77,15 @@ inline BsdfCase coated_diffuse_case(float eta, float alpha, float thickness, flo
                                              kDefaultSpecularAlpha);
           }};
 }
+inline BsdfCase measured_case(const testing_measured::GgxSurface& surface) {
+  const auto brdf = std::make_shared<MeasuredBrdf>(testing_measured::tables_of(surface));
+  const auto make = [brdf](BsdfArena& a) {
+    return a.make<MeasuredBsdf>(*brdf, SampledWavelengths::sample_visible(0.3f));
+  };
+  const std::string name = "measured " + std::to_string(surface.alpha_x) + " " +
+                           std::to_string(surface.alpha_y) + " " + std::to_string(surface.symmetry);
+  return {name, make, false, false, false};
+}
 template <class Base>
 BsdfCase coated_case(const std::string& name, const Coat& coat, const Base& base) {
   return {name,
@@ -121,6 +132,10 @@ inline std::vector<BsdfCase> all_cases() {
       coated_diffuse_case(1.5f, 0.03f, 0.01f, 0.9f),
       coated_diffuse_case(1.5f, 0.3f, 0.1f, 0.5f),
       coated_diffuse_case(0.8f, 0.0f, 0.01f, 0.5f),
+      measured_case({0.4f, 0.4f}),
+      measured_case({0.12f, 0.12f, 1, 1, 10, 96, 16, 2}),
+      measured_case({0.2f, 0.5f, 13, 1, 8, 48, 12, 2}),
+      measured_case({0.5f, 0.25f, 5, 4, 8, 48, 12, 2}),
       coated_case("coated lambert anisotropic", make_coat(1.5f, 0.1f, 0.4f, 0.01f, 0.0f), grey),
       coated_case("coated lambert medium", make_coat(1.4f, 0.2f, 0.2f, 0.5f, 0.7f, 0.4f), grey),
       coated_case("coated metal smooth smooth", make_coat(1.5f, 0, 0, 0.01f, 0), metal(0, 0)),

@@ -91,7 +91,7 @@ TEST(BsdfContract, RadianceAndImportanceAreAdjoint) {
         // Absolute: some ulps of 1 - F, with F the Fresnel term next to total reflection.
         expect_near(radiance.f, importance.f, 2e-3f, c.name, 1e-6f);
         const auto same_way = bsdf.eval(a, b, TransportMode::kImportance, e, ClassMask::kAll);
-        if (!c.refracts || same_hemisphere(a, b))
+        if (c.reciprocal && (!c.refracts || same_hemisphere(a, b)))
           expect_near(radiance.f, same_way.f, 1e-6f, c.name);
       }
     }
@@ -200,7 +200,9 @@ TEST(BsdfContract, NothingIsEverNan) {
       ASSERT_NE(s->wi.z, 0.0f) << c.name;
       const SampledSpectrum weight = s->f * (std::abs(s->wi.z) / s->pdf_w);
       ASSERT_TRUE(weight.is_finite()) << c.name << wo.z;
-      if (!c.stochastic) {
+      // Only a walk from the eye divides by the cosine that it is multiplied with, if values are
+      // not reciprocal.
+      if (!c.stochastic && (c.reciprocal || mode == TransportMode::kRadiance)) {
         ASSERT_LT(weight.max_component(), 10.0f) << c.name << wo.z;
       }
     }

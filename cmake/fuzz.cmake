@@ -1,0 +1,19 @@
+# The fuzzers: one program a target, clang's libFuzzer with address and undefined behaviour
+# sanitizers. `make fuzz` builds and runs them (docs/reliability.md).
+if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+  message(FATAL_ERROR "NEPHROID_FUZZ needs clang++, expected -DCMAKE_CXX_COMPILER=clang++")
+endif()
+
+function(nephroid_fuzzer name)
+  add_executable(fuzz_${name} ${CMAKE_SOURCE_DIR}/tests/fuzz/libfuzzer/entry.cpp
+                 ${CMAKE_SOURCE_DIR}/tests/fuzz/${name}_target.cpp
+                 ${CMAKE_SOURCE_DIR}/tests/fuzz/memory_files.cpp)
+  target_include_directories(fuzz_${name} PRIVATE ${CMAKE_SOURCE_DIR}/tests)
+  target_compile_definitions(fuzz_${name} PRIVATE NEPHROID_FUZZ_TARGET=${name})
+  target_link_libraries(fuzz_${name} PRIVATE ${ARGN})
+  target_link_options(fuzz_${name} PRIVATE -fsanitize=fuzzer -Wl,--wrap=fopen)
+endfunction()
+
+nephroid_fuzzer(scene nephroid_input)
+nephroid_fuzzer(ply nephroid_input)
+nephroid_fuzzer(bsdf nephroid_material)

@@ -1,0 +1,71 @@
+// The tensor files in which measured reflectances are published (".bsdf"): named arrays of numbers
+// with their shapes. Called by the reader of measured materials.
+// Knows nothing of what the arrays mean. What a file claims is compared with its size before
+// anything is allocated for it.
+// Format: J. Dupuy, W. Jakob, "An Adaptive Parameterization for Efficient Material Acquisition and
+// Rendering", 2018 (the files of its data base).
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/errors.h"
+
+namespace nephroid {
+
+/// The number types of the format, with the codes that files use.
+enum class TensorType : uint8_t {
+  kUint8 = 1,
+  kInt8,
+  kUint16,
+  kInt16,
+  kUint32,
+  kInt32,
+  kUint64,
+  kInt64,
+  kFloat16,
+  kFloat32,
+  kFloat64
+};
+
+/// One array: type, extent along each dimension (the last one runs fastest) and bytes.
+struct TensorField {
+  TensorType type = TensorType::kUint8;
+  std::vector<uint64_t> shape;
+  std::string_view bytes;  ///< into the file: as many as type and shape need
+
+  /// "float32 [2 x 3]", for messages.
+  std::string to_string() const;
+};
+
+class TensorFile {
+ public:
+  /// Reads a file (".gz" is unpacked). Throws SceneError at `wanted_by`, or IoError if no scene
+  /// names the file, if it cannot be read; SceneError if it is no tensor file or is damaged.
+  static TensorFile read(const std::string& path, const SourceLocation& wanted_by);
+  /// The same from bytes in memory; `name` stands for the file in messages.
+  TensorFile(std::string bytes, std::string name, SourceLocation wanted_by);
+  TensorFile(const TensorFile&) = delete;
+  TensorFile& operator=(const TensorFile&) = delete;
+
+  /// The field with that name, or nullptr.
+  const TensorField* find(const std::string& name) const;
+  /// The field with that name; throws SceneError if it is absent, or of another type or number of
+  /// dimensions.
+  const TensorField& require(const std::string& name, TensorType type, size_t dimensions) const;
+  /// The numbers of a field that `require` found to be of type kFloat32.
+  static std::vector<float> floats(const TensorField& field);
+
+  /// Says what is wrong with the file: throws SceneError that names the file.
+  [[noreturn]] void fail(const std::string& message) const;
+
+ private:
+  std::string bytes_, name_;
+  SourceLocation wanted_by_;
+  std::map<std::string, TensorField> fields_;
+};
+
+}  // namespace nephroid

@@ -1,0 +1,100 @@
+// Reflection that was measured, in the adaptive parametrisation of its authors: a warp whose
+// density is about that of the visible facets takes the unit square to half vectors, and on that
+// square the tabulated values are smooth. Class D whatever the file: nothing in it says how narrow
+// the lobe is, and values of measured mirrors would be the instrument's, not the surface's.
+// Who calls it: the material "measured". It must not know files.
+// Paper: Dupuy & Jakob 2018; equations [R1] to [R3] of docs/estimators.md.
+#pragma once
+
+#include "scene/bsdf/bilinear_warp.h"
+#include "scene/bsdf/bsdf.h"
+
+namespace nephroid {
+
+/// What a file holds. Directions are polar angles and azimuths in radians; grids lie on the square
+/// (sqrt(2 theta / pi), (phi + pi) / (2 pi)) of facet normals or directions, or, for the last two,
+/// on the square that the facet warp maps to facet normals. All numbers are finite and at most
+/// MeasuredBrdf::kLargest.
+struct MeasuredTables {
+  std::vector<float> phi, theta;   ///< of the outgoing direction, increasing; grids [phi][theta]
+  std::vector<float> wavelengths;  ///< nm, increasing
+  GridFamily facets;               ///< density of facet normals, one grid
+  GridFamily projected_area;       ///< of the facets, seen from a direction, one grid
+  GridFamily visible_facets;       ///< density over the square of normals, per outgoing direction
+  GridFamily luminance;            ///< density of samples, per outgoing direction
+  GridFamily spectra;  ///< f cos / pdf_w of visible facets, grids [phi][theta][wavelength]
+  bool values_are_ratios = true;  ///< else `spectra` has f cos itself
+};
+
+/// The wavelengths of a path among those of a file.
+using WavelengthPlaces = std::array<ParameterAxis::Place, kSpectrumSamples>;
+
+/// One measured surface, shared by all points that have it. Nothing changes after construction.
+class MeasuredBrdf {
+ public:
+  static constexpr float kLargest = 1e9f;  ///< of any number in the tables
+
+  explicit MeasuredBrdf(MeasuredTables tables);
+
+  WavelengthPlaces places(const SampledWavelengths& lambda) const;
+  /// f without cosine, for light from wi that leaves towards wo, both unit and above, and the
+  /// density pdf_w with which sample(wo, ...) finds wi.
+  BsdfEval evaluate(const Vec3f& wo, const Vec3f& wi, const WavelengthPlaces& places) const;
+  struct Sample {
+    SampledSpectrum f;
+    Vec3f wi;
+    float pdf_w = 0;
+  };
+  /// A direction for an outgoing one above; empty if the chosen facet sends the light below.
+  std::optional<Sample> sample(const Vec3f& wo, const Vec2f& u,
+                               const WavelengthPlaces& places) const;
+  /// Approximate reflectance: the mean of the tabulated ratios.
+  SampledSpectrum albedo(const Vec3f& wo, const WavelengthPlaces& places) const;
+
+ private:
+  struct View;
+  View view_from(const Vec3f& wo) const;
+  Vec2f facet_at(const View& view, const Vec3f& m) const;
+  SampledSpectrum ratio(const View& view, const Vec2f& u, const WavelengthPlaces& places) const;
+  float factor(const View& view, const Vec2f& facet, float cos_i) const;
+
+  ParameterAxis phi_, theta_, wavelengths_;
+  bool isotropic_, values_are_ratios_;
+  int symmetry_;  ///< how often the range of azimuths goes into a turn: 1, 2 or 4
+  BilinearFunction facets_, projected_area_;
+  BilinearWarp visible_facets_, luminance_;
+  GridFamily nodes_;            ///< size of the grids of spectra; no values
+  std::vector<float> spectra_;  ///< [phi][theta][y][x][wavelength]
+  std::vector<float> means_;    ///< [phi][theta][wavelength]
+};
+
+/// Reflects on both sides of the surface alike (turned by half a turn). Measured values need not be
+/// reciprocal; both modes use the value that the eye's direction has as the outgoing one. A walk
+/// from a light, for which the tables do not quite say where that value is large, takes a share of
+/// its directions by the cosine alone.
+class MeasuredBsdf final : public Bsdf {
+ public:
+  /// `brdf` outlives the object.
+  MeasuredBsdf(const MeasuredBrdf& brdf, const SampledWavelengths& lambda)
+      : brdf_(&brdf), places_(brdf.places(lambda)) {}
+
+  ClassMask classes() const override { return ClassMask::kDiffuse; }
+  ClassMask finite_classes() const override { return ClassMask::kDiffuse; }
+  BsdfEval eval(const Vec3f& wo, const Vec3f& wi, TransportMode mode, EventClass c,
+                ClassMask among) const override;
+  std::optional<BsdfSample> sample(const Vec3f& wo, float uc, const Vec2f& u, TransportMode mode,
+                                   ClassMask among) const override;
+  SampledSpectrum albedo(const Vec3f& wo) const override {
+    return brdf_->albedo(wo.z < 0.0f ? -wo : wo, places_);
+  }
+
+ private:
+  /// Share of the directions that are sampled from the tables.
+  static float share_of_tables(TransportMode mode);
+  BsdfEval eval_above(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const;
+
+  const MeasuredBrdf* brdf_;
+  WavelengthPlaces places_;
+};
+
+}  // namespace nephroid

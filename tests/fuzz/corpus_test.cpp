@@ -1,0 +1,40 @@
+// Every input that a fuzzer ever failed on, and a few that lead it into the code, once more.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "fuzz/targets.h"
+
+namespace nephroid {
+namespace {
+
+struct Target {
+  const char* name;
+  void (*run)(const std::string& bytes);
+};
+
+class FuzzCorpus : public ::testing::TestWithParam<Target> {};
+
+TEST_P(FuzzCorpus, NothingCrashes) {
+  const auto folder =
+      std::filesystem::path(NEPHROID_SOURCE_DIR) / "tests/fuzz/corpus" / GetParam().name;
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    std::ifstream in(entry.path(), std::ios::binary);
+    ASSERT_TRUE(in) << entry.path();
+    SCOPED_TRACE(entry.path().filename().string());
+    EXPECT_NO_THROW(GetParam().run({std::istreambuf_iterator<char>(in), {}}));
+    ++files;
+  }
+  EXPECT_GE(files, 5);
+}
+
+INSTANTIATE_TEST_SUITE_P(AllTargets, FuzzCorpus,
+                         ::testing::Values(Target{"scene", fuzz::scene}, Target{"ply", fuzz::ply},
+                                           Target{"bsdf", fuzz::bsdf}),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+}  // namespace
+}  // namespace nephroid

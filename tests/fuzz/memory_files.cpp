@@ -1,0 +1,35 @@
+// The fopen of the programs of this folder; see memory_files.h.
+#include "fuzz/memory_files.h"
+
+#include <cerrno>
+#include <cstdio>
+
+namespace nephroid::fuzz {
+namespace {
+
+std::map<std::string, std::string>& files_in_memory() {
+  static std::map<std::string, std::string> files;
+  return files;
+}
+
+}  // namespace
+
+MemoryFiles::MemoryFiles(std::map<std::string, std::string> files) {
+  files_in_memory() = std::move(files);
+}
+
+MemoryFiles::~MemoryFiles() {
+  files_in_memory().clear();
+}
+
+}  // namespace nephroid::fuzz
+
+extern "C" std::FILE* __wrap_fopen(const char* path, const char*) {
+  auto& files = nephroid::fuzz::files_in_memory();
+  const auto found = files.find(path);
+  if (found == files.end()) {
+    errno = ENOENT;
+    return nullptr;
+  }
+  return fmemopen(found->second.data(), found->second.size(), "rb");
+}

@@ -1,0 +1,17 @@
+// What is fuzzed: each target reads hostile bytes and may only return or throw an Error that it
+// catches itself; anything else (a crash, another exception, a hang) is a finding.
+// Who calls it: libFuzzer (libfuzzer/entry.cpp) and the replay of the corpus in `make test`.
+#pragma once
+
+#include <string>
+
+namespace nephroid::fuzz {
+
+/// A scene text with the files that it may include: a line "#file NAME" starts the next file.
+void scene(const std::string& bytes);
+/// A PLY file.
+void ply(const std::string& bytes);
+/// A file of measured reflection; what can be read is also evaluated and sampled.
+void bsdf(const std::string& bytes);
+
+}  // namespace nephroid::fuzz
