@@ -150,12 +150,7 @@ Rgb Image::bilinear(const Vec2f& st, WrapMode wrap) const {
 float Image::nearest_float(const Vec2f& st, WrapMode wrap) const {
   int x = floor_to_int(st.x * static_cast<float>(width_));
   int y = floor_to_int(st.y * static_cast<float>(height_));
-  if (channels_ != 3) {
-    if (!wrap_pixel(x, y, width_, height_, wrap)) return 0.0f;
-    return value(x, y, channels_ == 4 ? 3 : 0);
-  }
-  const Rgb c = texel(x, y, wrap);
-  return (c.r + c.g + c.b) / 3.0f;
+  return wrap_pixel(x, y, width_, height_, wrap) ? value(x, y, 0) : 0.0f;
 }
 
 float Image::bilinear_float(const Vec2f& st, WrapMode wrap) const {

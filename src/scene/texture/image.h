@@ -55,7 +55,9 @@ class Image {
   /// Colour between the centres of the four nearest pixels.
   Rgb bilinear(const Vec2f& st, WrapMode wrap) const;
 
-  /// The same as one number: grey, else alpha if there is one, else the mean of r, g and b.
+  /// The same as one number. The nearest pixel answers its first channel (as pbrt-v4's filter
+  /// "point" does), the bilinear lookup grey, else alpha if there is one, else the mean of r, g and
+  /// b.
   float nearest_float(const Vec2f& st, WrapMode wrap) const;
   float bilinear_float(const Vec2f& st, WrapMode wrap) const;
 

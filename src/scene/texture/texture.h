@@ -15,7 +15,7 @@ namespace nephroid {
 /// What a texture may look at.
 struct TextureContext {
   Vec3f p{0, 0, 0};  ///< world
-  Vec3f n{0, 0, 0};  ///< unit, world
+  Vec3f n{0, 0, 0};  ///< unit geometric normal, world
   Vec2f uv{0, 0};
   Vec3f dpdx{0, 0, 0}, dpdy{0, 0, 0};
   float dudx = 0, dudy = 0, dvdx = 0, dvdy = 0;
@@ -23,7 +23,7 @@ struct TextureContext {
 
   TextureContext() = default;
   explicit TextureContext(const SurfaceInteraction& s)
-      : p(s.p), n(s.shading.z), uv(s.uv), face_index(s.face_index) {}
+      : p(s.p), n(s.ng), uv(s.uv), face_index(s.face_index) {}
 };
 
 class FloatTexture {
@@ -32,6 +32,9 @@ class FloatTexture {
   virtual float eval(const TextureContext& context) const = 0;
   /// The value, if it is the same everywhere.
   virtual std::optional<float> constant() const { return std::nullopt; }
+  /// The texture with its stored values multiplied before anything else is done to them, or null
+  /// for textures that store none.
+  virtual std::shared_ptr<const FloatTexture> with_values_times(float) const { return nullptr; }
 };
 using FloatTexturePtr = std::shared_ptr<const FloatTexture>;
 
@@ -42,6 +45,8 @@ class SpectrumTexture {
                                const SampledWavelengths& lambda) const = 0;
   /// The spectrum, if it is the same everywhere.
   virtual SpectrumPtr constant() const { return nullptr; }
+  /// As for FloatTexture.
+  virtual std::shared_ptr<const SpectrumTexture> with_values_times(float) const { return nullptr; }
 };
 using SpectrumTexturePtr = std::shared_ptr<const SpectrumTexture>;
 
