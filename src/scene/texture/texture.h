@@ -9,6 +9,7 @@
 #include "core/spectra.h"
 #include "input/scene_description.h"
 #include "scene/interaction.h"
+#include "scene/texture/image_file.h"
 
 namespace nephroid {
 
@@ -64,8 +65,10 @@ SpectrumPtr spectrum_from_parameter(const Parameter& parameter, SpectrumKind kin
 class TextureLibrary {
  public:
   /// Makes every texture of the description; throws SceneError for unknown classes, undefined
-  /// names, cycles, unreadable images and what is not rendered yet.
-  TextureLibrary(const SceneDescription& description, Diagnostics& diagnostics);
+  /// names, cycles, unreadable images and what is not rendered yet. `image_memory` bounds the bytes
+  /// that the pixels of images take.
+  TextureLibrary(const SceneDescription& description, Diagnostics& diagnostics,
+                 uint64_t image_memory = kDefaultTextureMemory);
   ~TextureLibrary();
 
   /// The parameter `name`, which may be a number or a "texture" reference; nullptr if absent.

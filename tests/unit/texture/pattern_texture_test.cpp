@@ -41,7 +41,7 @@ TEST(BilerpTexture, InterpolatesSpectra) {
 
 TEST(DotsTexture, AboutHalfOfTheCellsHaveADiscOfTheKnownArea) {
   const Textures t("Texture \"a\" \"float\" \"dots\" \"float inside\" 0 \"float outside\" 1");
-  const int cells = 60, samples = 24;
+  const int cells = 40, samples = 20;
   int dots = 0;
   double covered = 0, expected = 0;
   for (int y = 0; y < cells; ++y) {
