@@ -35,6 +35,7 @@ struct SceneOverrides {
   bool has_crop = false;
   float crop[4] = {0, 1, 0, 1};  ///< x0 x1 y0 y1 in [0,1]
   float specular_alpha = kDefaultSpecularAlpha;
+  uint64_t texture_memory = kDefaultTextureMemory;  ///< bytes for the pixels of image textures
 };
 
 /// The media on both sides of a surface or around a light; null is empty space.

@@ -23,7 +23,7 @@ class SceneBuilder {
                Diagnostics& diagnostics)
       : d_(description),
         diagnostics_(diagnostics),
-        textures_(description, diagnostics),
+        textures_(description, diagnostics, overrides.texture_memory),
         scene_(std::make_unique<Scene>()),
         device_(EmbreeScene::make_device()) {
     scene_->materials = make_materials(d_, textures_, {overrides.specular_alpha}, diagnostics);

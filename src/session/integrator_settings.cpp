@@ -64,6 +64,13 @@ constexpr IntegratorSetting kSettings[] = {
        o.memory_photons = integer("memory-photons", t, 1, kNoLimit);
      },
      [](const IntegratorOptions& o) { return fmt::format("{}", o.memory_photons); }},
+    {"texture-cache", "SIZE", "1G", "bytes",
+     "Memory for the pixels of image textures (K, M, G: powers of 1024); what does not fit is read "
+     "from the files again and again, with the same picture.",
+     [](IntegratorOptions& o, const std::string& t) {
+       o.texture_memory = parse_bytes("-D texture-cache", t);
+     },
+     [](const IntegratorOptions& o) { return bytes_text(o.texture_memory); }},
 };
 
 const IntegratorSetting* find_setting(const std::string& key) {

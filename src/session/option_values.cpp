@@ -59,6 +59,27 @@ double parse_number(const std::string& option, const std::string& text, double l
   fail(option, text, expected);
 }
 
+int64_t parse_bytes(const std::string& option, const std::string& text) {
+  constexpr double kMost = double(int64_t{1} << 40);
+  const size_t unit = text.empty() ? std::string::npos : std::string("KMG").find(text.back());
+  const auto number =
+      number_of<double>(unit == std::string::npos ? text : text.substr(0, text.size() - 1));
+  const double factor = unit == std::string::npos ? 1.0 : std::ldexp(1.0, 10 * (int(unit) + 1));
+  if (number && *number >= 0 && *number * factor <= kMost)
+    return static_cast<int64_t>(*number * factor);
+  fail(option, text, "a number of bytes from 0 to 1024G, such as 4096, 64K, 512M or 1.5G");
+}
+
+std::string bytes_text(int64_t bytes) {
+  size_t unit = 0;
+  while (unit < 3 && bytes != 0 && bytes % 1024 == 0) {
+    bytes /= 1024;
+    ++unit;
+  }
+  constexpr const char* kUnits[] = {"", "K", "M", "G"};
+  return fmt::format("{}{}", bytes, kUnits[unit]);
+}
+
 double parse_duration(const std::string& option, const std::string& text) {
   double unit = 1;
   std::string number = text;

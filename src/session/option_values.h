@@ -18,6 +18,10 @@ uint64_t parse_seed(const std::string& option, const std::string& text);
 /// A finite number in [low, high], or in (low, high] if `low_is_open`.
 double parse_number(const std::string& option, const std::string& text, double low, double high,
                     bool low_is_open);
+/// "4096", "64K", "1.5M" or "1G" in bytes, K, M and G being powers of 1024; up to 1024 G.
+int64_t parse_bytes(const std::string& option, const std::string& text);
+/// The same as text, with the largest unit that leaves a whole number.
+std::string bytes_text(int64_t bytes);
 /// "90", "90s", "1.5m" or "1h" in seconds, above 0.
 double parse_duration(const std::string& option, const std::string& text);
 /// "N" is passes 0 to N-1, "A..B" is A to B, both included. First and last pass.

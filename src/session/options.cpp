@@ -50,6 +50,7 @@ void add_setting(CommandLine& line, const std::string& text) {
   IntegratorOptions options;
   apply_settings(line.render.settings, &options);
   line.render.overrides.specular_alpha = options.specular_alpha;
+  line.render.overrides.texture_memory = static_cast<uint64_t>(options.texture_memory);
 }
 
 void set_heat_map(CommandLine& line, const std::string& text) {

@@ -81,12 +81,46 @@ Footprint bilinear_footprint(const Vec2f& st, int width, int height, WrapMode wr
   return f;
 }
 
+/// The pixels of a footprint, fetched.
+struct Fetched {
+  std::array<float, 16> values;
+};
+float decode(const Fetched& f, size_t i) {
+  return f.values[i];
+}
+
 template <class Values>
 float weighted(const Values& values, const Footprint& f, int channels, int channel) {
   float sum = 0.0f;
   for (int i = 0; i < 4; ++i)
     if (f.weight[i] != 0.0f) sum += f.weight[i] * decode(values, f.pixel[i] * channels + channel);
   return sum;
+}
+
+/// Fetches the pixels of a footprint, by one call if they make a block, and numbers them anew.
+Fetched fetch(const PixelSource& source, Footprint& f, int width, int channels) {
+  Fetched fetched;
+  const auto x = [&](size_t i) { return static_cast<int>(f.pixel[i] % width); };
+  const auto y = [&](size_t i) { return static_cast<int>(f.pixel[i] / width); };
+  const bool is_block = f.pixel[1] == f.pixel[0] + 1 && x(1) != 0 &&
+                        f.pixel[2] == f.pixel[0] + width && f.pixel[3] == f.pixel[2] + 1;
+  if (is_block) source.fetch(x(0), y(0), 2, 2, fetched.values.data());
+  for (size_t i = 0; i < 4; ++i) {
+    if (!is_block && f.weight[i] != 0.0f)
+      source.fetch(x(i), y(i), 1, 1, &fetched.values[i * channels]);
+    f.pixel[i] = i;
+  }
+  return fetched;
+}
+
+/// compute(values) with the values that the footprint's pixel numbers are good for.
+template <class Compute>
+auto with_values(const Image::Pixels& pixels, Footprint& f, int width, int channels,
+                 const Compute& compute) {
+  if (const auto* bytes = std::get_if<Image::Bytes>(&pixels)) return compute(*bytes);
+  if (const auto* halves = std::get_if<Image::Halves>(&pixels)) return compute(*halves);
+  if (const auto* floats = std::get_if<Image::Floats>(&pixels)) return compute(*floats);
+  return compute(fetch(*std::get<Image::Source>(pixels), f, width, channels));
 }
 
 }  // namespace
@@ -107,8 +141,8 @@ Image::Image(int width, int height, int channels, Pixels pixels, const RgbColorS
       space_(&space) {}
 
 size_t Image::memory() const {
-  const size_t n = static_cast<size_t>(width_) * height_ * channels_;
-  return n * (pixels_.index() == 0 ? 1 : pixels_.index() == 1 ? 2 : 4);
+  constexpr size_t kBytes[] = {1, 2, 4, 0};  // per value, in the order of the variant
+  return static_cast<size_t>(width_) * height_ * channels_ * kBytes[pixels_.index()];
 }
 
 bool Image::is_finite() const {
@@ -120,8 +154,12 @@ bool Image::is_finite() const {
 }
 
 float Image::value(int x, int y, int channel) const {
-  const size_t i = (static_cast<size_t>(y) * width_ + x) * channels_ + channel;
-  return std::visit([i](const auto& values) { return decode(values, i); }, pixels_);
+  Footprint f;
+  f.pixel[0] = static_cast<size_t>(y) * width_ + x;
+  f.weight[0] = 1.0f;
+  return with_values(pixels_, f, width_, channels_, [&](const auto& values) {
+    return decode(values, f.pixel[0] * channels_ + channel);
+  });
 }
 
 Rgb Image::texel(int x, int y, WrapMode wrap) const {
@@ -137,25 +175,18 @@ Rgb Image::nearest(const Vec2f& st, WrapMode wrap) const {
 }
 
 Rgb Image::bilinear(const Vec2f& st, WrapMode wrap) const {
-  const Footprint f = bilinear_footprint(st, width_, height_, wrap);
-  return std::visit(
-      [&](const auto& values) {
-        const float r = weighted(values, f, channels_, 0);
-        if (channels_ < 3) return Rgb{r, r, r};
-        return Rgb{r, weighted(values, f, channels_, 1), weighted(values, f, channels_, 2)};
-      },
-      pixels_);
+  Footprint f = bilinear_footprint(st, width_, height_, wrap);
+  return with_values(pixels_, f, width_, channels_, [&](const auto& values) {
+    const float r = weighted(values, f, channels_, 0);
+    if (channels_ < 3) return Rgb{r, r, r};
+    return Rgb{r, weighted(values, f, channels_, 1), weighted(values, f, channels_, 2)};
+  });
 }
 
 float Image::nearest_float(const Vec2f& st, WrapMode wrap) const {
   int x = floor_to_int(st.x * static_cast<float>(width_));
   int y = floor_to_int(st.y * static_cast<float>(height_));
-  if (channels_ != 3) {
-    if (!wrap_pixel(x, y, width_, height_, wrap)) return 0.0f;
-    return value(x, y, channels_ == 4 ? 3 : 0);
-  }
-  const Rgb c = texel(x, y, wrap);
-  return (c.r + c.g + c.b) / 3.0f;
+  return wrap_pixel(x, y, width_, height_, wrap) ? value(x, y, 0) : 0.0f;
 }
 
 float Image::bilinear_float(const Vec2f& st, WrapMode wrap) const {
@@ -163,10 +194,10 @@ float Image::bilinear_float(const Vec2f& st, WrapMode wrap) const {
     const Rgb c = bilinear(st, wrap);
     return (c.r + c.g + c.b) / 3.0f;
   }
-  const Footprint f = bilinear_footprint(st, width_, height_, wrap);
+  Footprint f = bilinear_footprint(st, width_, height_, wrap);
   const int channel = channels_ == 4 ? 3 : 0;
-  return std::visit([&](const auto& values) { return weighted(values, f, channels_, channel); },
-                    pixels_);
+  return with_values(pixels_, f, width_, channels_,
+                     [&](const auto& values) { return weighted(values, f, channels_, channel); });
 }
 
 }  // namespace nephroid

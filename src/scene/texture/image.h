@@ -1,11 +1,12 @@
-// An image in memory, as textures and lights look it up: linear values of 1, 3 or 4 channels, kept
-// as bytes with a table, as half or as float numbers. Row 0 is the top row. Who calls it: image
-// textures and image lights. It must not know files or scenes.
+// An image as textures and lights look it up: linear values of 1, 3 or 4 channels, kept as bytes
+// with a table, as half or as float numbers, or fetched from somewhere. Row 0 is the top row. Who
+// calls it: image textures and image lights. It must not know files or scenes.
 #pragma once
 
 #include <half.h>
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <variant>
@@ -22,6 +23,15 @@ enum class WrapMode { kRepeat, kBlack, kClamp, kOctahedralSphere };
 /// "repeat", "black", "clamp", "octahedralsphere"; empty for anything else.
 std::optional<WrapMode> parse_wrap_mode(std::string_view name);
 
+/// Pixels that are not in memory. Any number of threads may ask.
+class PixelSource {
+ public:
+  virtual ~PixelSource() = default;
+  /// The linear values of a block of up to four pixels inside the image: all channels of a pixel,
+  /// pixel by pixel, row by row.
+  virtual void fetch(int x, int y, int width, int height, float* values) const = 0;
+};
+
 class Image {
  public:
   struct Bytes {
@@ -30,17 +40,19 @@ class Image {
   };
   using Halves = std::vector<Imath::half>;
   using Floats = std::vector<float>;
-  using Pixels = std::variant<Bytes, Halves, Floats>;
+  using Source = std::shared_ptr<const PixelSource>;
+  using Pixels = std::variant<Bytes, Halves, Floats, Source>;
 
-  /// `pixels` holds width * height * channels values, row by row from the top, channels
-  /// interleaved; channels is 1 (grey), 3 (rgb) or 4 (rgb and alpha that is not 1 everywhere).
+  /// `pixels` holds, or fetches, width * height * channels values, row by row from the top,
+  /// channels interleaved; channels is 1 (grey), 3 (rgb) or 4 (rgb and alpha that is not 1
+  /// everywhere).
   Image(int width, int height, int channels, Pixels pixels, const RgbColorSpace& space);
 
   int width() const { return width_; }
   int height() const { return height_; }
   int channels() const { return channels_; }
   const RgbColorSpace& color_space() const { return *space_; }
-  /// Bytes that the pixels occupy.
+  /// Bytes that the pixels occupy in memory: 0 if they are fetched.
   size_t memory() const;
   /// True if no value is infinite or NaN.
   bool is_finite() const;
@@ -55,7 +67,9 @@ class Image {
   /// Colour between the centres of the four nearest pixels.
   Rgb bilinear(const Vec2f& st, WrapMode wrap) const;
 
-  /// The same as one number: grey, else alpha if there is one, else the mean of r, g and b.
+  /// The same as one number. The nearest pixel answers its first channel (as pbrt-v4's filter
+  /// "point" does), the bilinear lookup grey, else alpha if there is one, else the mean of r, g and
+  /// b.
   float nearest_float(const Vec2f& st, WrapMode wrap) const;
   float bilinear_float(const Vec2f& st, WrapMode wrap) const;
 

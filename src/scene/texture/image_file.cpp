@@ -1,7 +1,5 @@
-// Reads image files with OpenImageIO, see image_file.h.
+// Reads whole image files, and decides which are better left in their files. See image_file.h.
 #include "scene/texture/image_file.h"
-
-#include <OpenImageIO/imageio.h>
 
 #include <algorithm>
 #include <cctype>
@@ -11,44 +9,12 @@
 #include <new>
 
 #include "input/file_bytes.h"
+#include "scene/texture/image_input.h"
+#include "scene/texture/paged_image.h"
 
 namespace nephroid {
 
 namespace {
-
-/// Which channels of the file the image keeps: indices of grey, of rgb or of rgba.
-std::vector<int> wanted_channels(const OIIO::ImageSpec& spec, const std::string& path,
-                                 const SourceLocation& wanted_by) {
-  if (spec.nchannels <= 2) return {0};
-  const int r = spec.channelindex("R"), g = spec.channelindex("G"), b = spec.channelindex("B");
-  if (r < 0 || g < 0 || b < 0)
-    throw SceneError(wanted_by, "image \"" + path + "\" has no channels named R, G and B");
-  const int a = spec.channelindex("A");
-  if (a < 0) return {r, g, b};
-  return {r, g, b, a};
-}
-
-/// The space whose primaries an EXR file names; sRGB for files that name none or unknown ones.
-const RgbColorSpace& color_space_of(const OIIO::ImageSpec& spec) {
-  struct Row {
-    const char* name;
-    std::array<float, 6> primaries;
-  };
-  static constexpr Row kRows[] = {{"srgb", {.64f, .33f, .3f, .6f, .15f, .06f}},
-                                  {"dci-p3", {.68f, .32f, .265f, .69f, .15f, .06f}},
-                                  {"rec2020", {.708f, .292f, .17f, .797f, .131f, .046f}},
-                                  {"aces2065-1", {.7347f, .2653f, 0.f, 1.f, .0001f, -.077f}}};
-  const OIIO::ParamValue* p = spec.find_attribute("chromaticities");
-  if (!p || p->type().basetype != OIIO::TypeDesc::FLOAT || p->type().numelements() < 8)
-    return RgbColorSpace::srgb();
-  const float* written = static_cast<const float*>(p->data());
-  for (const Row& row : kRows) {
-    const bool same = std::equal(row.primaries.begin(), row.primaries.end(), written,
-                                 [](float a, float b) { return std::abs(a - b) < 1e-3f; });
-    if (same) return *RgbColorSpace::find(row.name);
-  }
-  return RgbColorSpace::srgb();
-}
 
 /// Reads all pixels as T and keeps the wanted channels.
 template <class T>
@@ -97,50 +63,50 @@ bool image_obeys_encoding(const std::string& path) {
   return extension == ".png";
 }
 
-ImagePtr read_image(const std::string& path, std::optional<ColorEncoding> encoding,
-                    const SourceLocation& wanted_by) {
-  // Alpha is a number of its own here: colours must not come multiplied by it.
-  OIIO::ImageSpec wish;
-  wish.attribute("oiio:UnassociatedAlpha", 1);
-  const auto input = OIIO::ImageInput::open(path, &wish);
-  if (!input) image_is_unreadable(path, OIIO::geterror(), wanted_by);
-  const OIIO::ImageSpec spec = input->spec();
-  if (spec.deep || spec.depth > 1 || spec.width < 1 || spec.height < 1 || spec.nchannels < 1)
-    throw SceneError(wanted_by, "image \"" + path + "\" is deep, a volume or empty");
-  const std::vector<int> wanted = wanted_channels(spec, path, wanted_by);
-  const RgbColorSpace& space = color_space_of(spec);
-  const ColorEncoding code =
-      image_obeys_encoding(path) ? encoding.value_or(ColorEncoding::srgb()) : ColorEncoding::srgb();
-  const auto make = [&](int channels, Image::Pixels pixels) {
-    return std::make_shared<Image>(spec.width, spec.height, channels, std::move(pixels), space);
-  };
+namespace {
 
-  switch (spec.format.basetype) {
-    case OIIO::TypeDesc::UINT8: {
-      auto v = read_values<uint8_t>(*input, wanted, OIIO::TypeDesc::UINT8, path, wanted_by);
+/// All pixels of an opened file.
+ImagePtr read_whole(const ImageInputFile& file, const std::string& path,
+                    const SourceLocation& wanted_by) {
+  const std::vector<int>& wanted = file.channels;
+  const auto make = [&](int channels, Image::Pixels pixels) {
+    return std::make_shared<Image>(file.spec.width, file.spec.height, channels, std::move(pixels),
+                                   *file.space);
+  };
+  const OIIO::TypeDesc type = type_to_read(file.type);
+  switch (file.type) {
+    case StoredType::kByte: {
+      auto v = read_values<uint8_t>(*file.input, wanted, type, path, wanted_by);
       const int n = drop_opaque_alpha<uint8_t>(v, wanted.size(), 255);
-      return make(n, Image::Bytes{std::move(v), code.byte_table()});
+      return make(n, Image::Bytes{std::move(v), file.encoding.byte_table()});
     }
-    case OIIO::TypeDesc::UINT16: {
-      const auto v = read_values<uint16_t>(*input, wanted, OIIO::TypeDesc::UINT16, path, wanted_by);
+    case StoredType::kShort: {
+      const auto v = read_values<uint16_t>(*file.input, wanted, type, path, wanted_by);
       Image::Halves h(v.size());
-      std::transform(v.begin(), v.end(), h.begin(), [&code](uint16_t s) {
-        return Imath::half(code.decode(static_cast<float>(s) / 65535.0f));
+      std::transform(v.begin(), v.end(), h.begin(), [&file](uint16_t s) {
+        return Imath::half(file.encoding.decode(static_cast<float>(s) / 65535.0f));
       });
       const int n = drop_opaque_alpha<Imath::half>(h, wanted.size(), Imath::half(1.0f));
       return make(n, std::move(h));
     }
-    case OIIO::TypeDesc::HALF: {
-      auto v = read_values<Imath::half>(*input, wanted, OIIO::TypeDesc::HALF, path, wanted_by);
+    case StoredType::kHalf: {
+      auto v = read_values<Imath::half>(*file.input, wanted, type, path, wanted_by);
       const int n = drop_opaque_alpha<Imath::half>(v, wanted.size(), Imath::half(1.0f));
       return make(n, std::move(v));
     }
     default: {
-      auto v = read_values<float>(*input, wanted, OIIO::TypeDesc::FLOAT, path, wanted_by);
+      auto v = read_values<float>(*file.input, wanted, type, path, wanted_by);
       const int n = drop_opaque_alpha<float>(v, wanted.size(), 1.0f);
       return make(n, std::move(v));
     }
   }
+}
+
+}  // namespace
+
+ImagePtr read_image(const std::string& path, std::optional<ColorEncoding> encoding,
+                    const SourceLocation& wanted_by) {
+  return read_whole(open_image(path, encoding, wanted_by), path, wanted_by);
 }
 
 std::string resolve_path(const std::string& directory, const std::string& file) {
@@ -149,11 +115,36 @@ std::string resolve_path(const std::string& directory, const std::string& file) 
   return (std::filesystem::path(directory) / path).string();
 }
 
+ImageCache::ImageCache(uint64_t limit) : limit_(limit) {}
+ImageCache::~ImageCache() = default;
+
 ImagePtr ImageCache::get(const std::string& path, std::optional<ColorEncoding> encoding,
                          const SourceLocation& wanted_by) {
   ImagePtr& image = images_[{path, encoding}];
-  if (!image) image = read_image(path, encoding, wanted_by);
+  if (!image) image = load(path, encoding, wanted_by);
   return image;
+}
+
+ImagePtr ImageCache::load(const std::string& path, std::optional<ColorEncoding> encoding,
+                          const SourceLocation& wanted_by) {
+  ImageInputFile file = open_image(path, encoding, wanted_by);
+  // A quarter of the limit is kept for the tiles of images that turn out not to fit.
+  const uint64_t for_whole = limit_ - limit_ / 4;
+  ImagePtr image;
+  if (whole_ + file.memory() > for_whole) {
+    if (!tiles_) tiles_ = TileCache::make();
+    image = tiles_->open(file, path, wanted_by);
+  }
+  if (!image) {
+    image = read_whole(file, path, wanted_by);
+    whole_ += image->memory();
+  }
+  if (tiles_) tiles_->set_limit(limit_ - std::min(whole_, for_whole));
+  return image;
+}
+
+uint64_t ImageCache::memory() const {
+  return whole_ + (tiles_ ? tiles_->memory() : 0);
 }
 
 }  // namespace nephroid

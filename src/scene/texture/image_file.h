@@ -1,4 +1,4 @@
-// Image files -> Image. The one file of this folder that talks to OpenImageIO is image_file.cpp.
+// Image files -> Image, read whole or tile by tile. OpenImageIO shows in image_input.h only.
 // Who calls it: the texture library (through ImageCache) and lights with images.
 // It must not know what an image is used for.
 #pragma once
@@ -35,13 +35,32 @@ bool image_obeys_encoding(const std::string& path);
 /// `file` as the scene wrote it, relative to the directory of the scene.
 std::string resolve_path(const std::string& directory, const std::string& file);
 
-/// Images that were read already, by path and encoding.
+/// Bytes that the images of a scene's textures may take if nobody says otherwise.
+inline constexpr uint64_t kDefaultTextureMemory = uint64_t{1} << 30;
+
+class TileCache;
+
+/// The images of a scene's textures, by path and encoding. Images are read whole, in the order in
+/// which they are asked for, as long as all of them fit three quarters of the limit; the others
+/// stay in their files and share what is left for the tiles that are looked at (paged_image.h). The
+/// pixels are the same either way.
 class ImageCache {
  public:
+  explicit ImageCache(uint64_t limit = kDefaultTextureMemory);
+  ~ImageCache();
+  /// Throws as read_image.
   ImagePtr get(const std::string& path, std::optional<ColorEncoding> encoding,
                const SourceLocation& wanted_by);
+  /// Bytes that pixels take now, for all images that came from here.
+  uint64_t memory() const;
 
  private:
+  ImagePtr load(const std::string& path, std::optional<ColorEncoding> encoding,
+                const SourceLocation& wanted_by);
+
+  uint64_t limit_;
+  uint64_t whole_ = 0;  ///< bytes of images that were read whole
+  std::shared_ptr<TileCache> tiles_;
   std::map<std::pair<std::string, std::optional<ColorEncoding>>, ImagePtr> images_;
 };
 

@@ -54,6 +54,11 @@ class ImageLookup {
     return {std::max(0.0f, c.r), std::max(0.0f, c.g), std::max(0.0f, c.b)};
   }
   const RgbColorSpace& color_space() const { return image_->color_space(); }
+  ImageLookup times(float factor) const {
+    ImageLookup copy = *this;
+    copy.scale_ *= factor;
+    return copy;
+  }
 
  private:
   /// The encoding that the scene asks for, if it does.
@@ -88,6 +93,9 @@ class ImageFloatTexture final : public FloatTexture {
  public:
   explicit ImageFloatTexture(ImageLookup lookup) : lookup_(std::move(lookup)) {}
   float eval(const TextureContext& context) const override { return lookup_.number(context); }
+  FloatTexturePtr with_values_times(float factor) const override {
+    return std::make_shared<ImageFloatTexture>(lookup_.times(factor));
+  }
 
  private:
   ImageLookup lookup_;
@@ -108,6 +116,9 @@ class ImageSpectrumTexture final : public SpectrumTexture {
     if (!(scale > 0.0f)) return SampledSpectrum();
     const SampledSpectrum s = space.polynomial(c * (1.0f / scale)).sample(lambda) * scale;
     return kind_ == SpectrumKind::kUnbounded ? s : s * space.illuminant().sample(lambda);
+  }
+  SpectrumTexturePtr with_values_times(float factor) const override {
+    return std::make_shared<ImageSpectrumTexture>(lookup_.times(factor), kind_);
   }
 
  private:

@@ -1,4 +1,6 @@
-// Texture class "scale": a texture times a float texture.
+// Texture class "scale": a texture times a float texture. As in pbrt-v4, a constant scale of an
+// image multiplies the stored values, so it comes before "invert" and before reflectances are
+// clamped to 1.
 #include "scene/texture/texture_table.h"
 
 namespace nephroid {
@@ -40,7 +42,12 @@ FloatTexturePtr make_float_scale(const TextureDescription& description, TextureS
   const FloatTexturePtr scale = scope.float_texture(description.parameters, "scale", 1.0f);
   if (texture->constant() && scale->constant())
     return constant_float_texture(*texture->constant() * *scale->constant());
-  if (scale->constant() == 1.0f) return texture;
+  // In this class the two factors may stand the other way round, too.
+  for (const auto& [image, factor] : {std::pair(texture, scale), std::pair(scale, texture)}) {
+    if (!factor->constant()) continue;
+    if (*factor->constant() == 1.0f) return image;
+    if (FloatTexturePtr product = image->with_values_times(*factor->constant())) return product;
+  }
   return std::make_shared<ScaledFloatTexture>(texture, scale);
 }
 
@@ -49,7 +56,10 @@ SpectrumTexturePtr make_spectrum_scale(const TextureDescription& description, Sp
   const SpectrumTexturePtr texture =
       scope.spectrum_texture(description.parameters, "tex", kind, 1.0f);
   const FloatTexturePtr scale = scope.float_texture(description.parameters, "scale", 1.0f);
-  if (scale->constant() == 1.0f) return texture;
+  if (const auto factor = scale->constant()) {
+    if (*factor == 1.0f) return texture;
+    if (SpectrumTexturePtr product = texture->with_values_times(*factor)) return product;
+  }
   return std::make_shared<ScaledSpectrumTexture>(texture, scale);
 }
 

@@ -9,13 +9,14 @@
 #include "core/spectra.h"
 #include "input/scene_description.h"
 #include "scene/interaction.h"
+#include "scene/texture/image_file.h"
 
 namespace nephroid {
 
 /// What a texture may look at.
 struct TextureContext {
   Vec3f p{0, 0, 0};  ///< world
-  Vec3f n{0, 0, 0};  ///< unit, world
+  Vec3f n{0, 0, 0};  ///< unit geometric normal, world
   Vec2f uv{0, 0};
   Vec3f dpdx{0, 0, 0}, dpdy{0, 0, 0};
   float dudx = 0, dudy = 0, dvdx = 0, dvdy = 0;
@@ -23,7 +24,7 @@ struct TextureContext {
 
   TextureContext() = default;
   explicit TextureContext(const SurfaceInteraction& s)
-      : p(s.p), n(s.shading.z), uv(s.uv), face_index(s.face_index) {}
+      : p(s.p), n(s.ng), uv(s.uv), face_index(s.face_index) {}
 };
 
 class FloatTexture {
@@ -32,6 +33,9 @@ class FloatTexture {
   virtual float eval(const TextureContext& context) const = 0;
   /// The value, if it is the same everywhere.
   virtual std::optional<float> constant() const { return std::nullopt; }
+  /// The texture with its stored values multiplied before anything else is done to them, or null
+  /// for textures that store none.
+  virtual std::shared_ptr<const FloatTexture> with_values_times(float) const { return nullptr; }
 };
 using FloatTexturePtr = std::shared_ptr<const FloatTexture>;
 
@@ -42,6 +46,8 @@ class SpectrumTexture {
                                const SampledWavelengths& lambda) const = 0;
   /// The spectrum, if it is the same everywhere.
   virtual SpectrumPtr constant() const { return nullptr; }
+  /// As for FloatTexture.
+  virtual std::shared_ptr<const SpectrumTexture> with_values_times(float) const { return nullptr; }
 };
 using SpectrumTexturePtr = std::shared_ptr<const SpectrumTexture>;
 
@@ -59,8 +65,10 @@ SpectrumPtr spectrum_from_parameter(const Parameter& parameter, SpectrumKind kin
 class TextureLibrary {
  public:
   /// Makes every texture of the description; throws SceneError for unknown classes, undefined
-  /// names, cycles, unreadable images and what is not rendered yet.
-  TextureLibrary(const SceneDescription& description, Diagnostics& diagnostics);
+  /// names, cycles, unreadable images and what is not rendered yet. `image_memory` bounds the bytes
+  /// that the pixels of images take.
+  TextureLibrary(const SceneDescription& description, Diagnostics& diagnostics,
+                 uint64_t image_memory = kDefaultTextureMemory);
   ~TextureLibrary();
 
   /// The parameter `name`, which may be a number or a "texture" reference; nullptr if absent.

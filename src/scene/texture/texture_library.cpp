@@ -41,8 +41,8 @@ struct Slot {
 }  // namespace
 
 struct TextureLibrary::Impl final : TextureScope {
-  Impl(const SceneDescription& scene, Diagnostics& d)
-      : directory_(scene.directory), diagnostics_(d) {
+  Impl(const SceneDescription& scene, Diagnostics& d, uint64_t image_memory)
+      : directory_(scene.directory), diagnostics_(d), images_(image_memory) {
     for (const TextureDescription& t : scene.textures) add(t);
     for (const TextureDescription& t : scene.textures) make_all_kinds(t);
     for (const TextureDescription& t : scene.textures)
@@ -155,8 +155,9 @@ struct TextureLibrary::Impl final : TextureScope {
   std::map<std::string, std::array<Slot<SpectrumTexturePtr>, 3>> spectra_;
 };
 
-TextureLibrary::TextureLibrary(const SceneDescription& description, Diagnostics& diagnostics)
-    : impl_(std::make_unique<Impl>(description, diagnostics)) {}
+TextureLibrary::TextureLibrary(const SceneDescription& description, Diagnostics& diagnostics,
+                               uint64_t image_memory)
+    : impl_(std::make_unique<Impl>(description, diagnostics, image_memory)) {}
 
 TextureLibrary::~TextureLibrary() = default;
 

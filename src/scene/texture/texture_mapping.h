@@ -3,6 +3,7 @@
 // this folder. It must not know what a texture does with the coordinates.
 #pragma once
 
+#include "scene/texture/noise.h"
 #include "scene/texture/texture.h"
 
 namespace nephroid {
@@ -28,6 +29,10 @@ class TextureMapping3D {
  public:
   explicit TextureMapping3D(const TextureDescription& description);
   Vec3f map(const TextureContext& context) const { return world_to_texture_.point(context.p); }
+  /// What a lookup stands for, in the same frame.
+  NoiseFootprint footprint(const TextureContext& context) const {
+    return {world_to_texture_.vector(context.dpdx), world_to_texture_.vector(context.dpdy)};
+  }
 
  private:
   Transform world_to_texture_;

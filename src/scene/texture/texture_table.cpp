@@ -1,9 +1,6 @@
 // Texture classes by name, see texture_table.h.
 #include "scene/texture/texture_table.h"
 
-#include <algorithm>
-#include <iterator>
-
 namespace nephroid {
 
 namespace {
@@ -17,33 +14,44 @@ struct Row {
 constexpr Row<FloatTextureMaker> kFloatTextures[] = {
     {"constant", make_float_constant}, {"scale", make_float_scale},
     {"mix", make_float_mix},           {"checkerboard", make_float_checkerboard},
-    {"imagemap", make_float_imagemap},
+    {"imagemap", make_float_imagemap}, {"bilerp", make_float_bilerp},
+    {"dots", make_float_dots},         {"directionmix", make_float_directionmix},
+    {"fbm", make_float_fbm},           {"windy", make_float_windy},
+    {"wrinkled", make_float_wrinkled},
 };
 
 constexpr Row<SpectrumTextureMaker> kSpectrumTextures[] = {
     {"constant", make_spectrum_constant}, {"scale", make_spectrum_scale},
     {"mix", make_spectrum_mix},           {"checkerboard", make_spectrum_checkerboard},
-    {"imagemap", make_spectrum_imagemap},
+    {"imagemap", make_spectrum_imagemap}, {"bilerp", make_spectrum_bilerp},
+    {"dots", make_spectrum_dots},         {"directionmix", make_spectrum_directionmix},
+    {"marble", make_spectrum_marble},
 };
 
-/// Classes of pbrt-v4 that this renderer knows by name only.
-constexpr const char* kNotRenderedYet[] = {"bilerp", "directionmix", "dots",  "fbm",
-                                           "marble", "ptex",         "windy", "wrinkled"};
+template <class Maker, size_t N>
+Maker find_maker(const Row<Maker> (&table)[N], const std::string& name) {
+  for (const Row<Maker>& row : table)
+    if (name == row.name) return row.make;
+  return nullptr;
+}
+
+/// What is wrong with a class that is not in the table of its kind of values.
+std::string complaint(const TextureDescription& description) {
+  const std::string named = "texture class \"" + description.type + "\" ";
+  if (description.type == "ptex")
+    return named + "cannot be rendered: there is no Ptex library among Debian's packages";
+  if (find_maker(kFloatTextures, description.type)) return named + "has float values only";
+  if (find_maker(kSpectrumTextures, description.type)) return named + "has spectrum values only";
+  return "unknown " + named.substr(0, named.size() - 1);
+}
 
 template <class Maker, size_t N>
 Maker maker_of(const Row<Maker> (&table)[N], const TextureDescription& description) {
-  for (const Row<Maker>& row : table)
-    if (description.type == row.name) return row.make;
-  const bool known = std::any_of(std::begin(kNotRenderedYet), std::end(kNotRenderedYet),
-                                 [&](const char* n) { return description.type == n; });
+  if (const Maker maker = find_maker(table, description.type)) return maker;
   std::string names;
   for (const Row<Maker>& row : table)
     names += (names.empty() ? "\"" : ", \"") + std::string(row.name) + "\"";
-  throw SceneError(
-      description.where,
-      (known ? "texture class \"" + description.type + "\" is not rendered yet, expected one of "
-             : "unknown texture class \"" + description.type + "\", expected one of ") +
-          names);
+  throw SceneError(description.where, complaint(description) + ", expected one of " + names);
 }
 
 }  // namespace

@@ -48,5 +48,16 @@ SpectrumTexturePtr make_spectrum_checkerboard(const TextureDescription&, Spectru
                                               TextureScope&);
 FloatTexturePtr make_float_imagemap(const TextureDescription&, TextureScope&);
 SpectrumTexturePtr make_spectrum_imagemap(const TextureDescription&, SpectrumKind, TextureScope&);
+FloatTexturePtr make_float_bilerp(const TextureDescription&, TextureScope&);
+SpectrumTexturePtr make_spectrum_bilerp(const TextureDescription&, SpectrumKind, TextureScope&);
+FloatTexturePtr make_float_directionmix(const TextureDescription&, TextureScope&);
+SpectrumTexturePtr make_spectrum_directionmix(const TextureDescription&, SpectrumKind,
+                                              TextureScope&);
+FloatTexturePtr make_float_dots(const TextureDescription&, TextureScope&);
+SpectrumTexturePtr make_spectrum_dots(const TextureDescription&, SpectrumKind, TextureScope&);
+FloatTexturePtr make_float_fbm(const TextureDescription&, TextureScope&);
+FloatTexturePtr make_float_windy(const TextureDescription&, TextureScope&);
+FloatTexturePtr make_float_wrinkled(const TextureDescription&, TextureScope&);
+SpectrumTexturePtr make_spectrum_marble(const TextureDescription&, SpectrumKind, TextureScope&);
 
 }  // namespace nephroid

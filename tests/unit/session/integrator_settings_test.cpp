@@ -31,11 +31,11 @@ bool has_note(const IntegratorChoice& choice, const std::string& part) {
 
 TEST(IntegratorSettings, EveryKeyIsStoredWhereItBelongs) {
   IntegratorOptions o;
-  apply_settings(
-      {parse_setting("max-depth=7"), parse_setting("radius=1.5"), parse_setting("photons=1000"),
-       parse_setting("alpha=0.75"), parse_setting("specular-alpha=0.2"),
-       parse_setting("camera-samples=3"), parse_setting("memory-photons=99")},
-      &o);
+  apply_settings({parse_setting("max-depth=7"), parse_setting("radius=1.5"),
+                  parse_setting("photons=1000"), parse_setting("alpha=0.75"),
+                  parse_setting("specular-alpha=0.2"), parse_setting("camera-samples=3"),
+                  parse_setting("memory-photons=99"), parse_setting("texture-cache=1.5M")},
+                 &o);
   EXPECT_EQ(o.max_depth, 7);
   EXPECT_EQ(o.radius, 1.5f);
   EXPECT_EQ(o.photons_per_pass, 1000);
@@ -43,9 +43,10 @@ TEST(IntegratorSettings, EveryKeyIsStoredWhereItBelongs) {
   EXPECT_EQ(o.specular_alpha, 0.2f);
   EXPECT_EQ(o.camera_samples_per_pass, 3);
   EXPECT_EQ(o.memory_photons, 99);
+  EXPECT_EQ(o.texture_memory, 1536 * 1024);
   EXPECT_EQ(settings_text(o),
             "max-depth=7 radius=1.5 photons=1000 alpha=0.75 specular-alpha=0.2 camera-samples=3 "
-            "memory-photons=99");
+            "memory-photons=99 texture-cache=1536K");
 }
 
 TEST(IntegratorSettings, DocumentedDefaultsAreTheRealOnes) {
@@ -67,8 +68,10 @@ TEST(IntegratorSettings, Errors) {
         EXPECT_NE(std::string(error.what()).find(setting.key), std::string::npos) << error.what();
     }
   }
-  for (const char* text : {"max-depth=", "max-depth=-1", "max-depth=1.5", "radius=-1", "alpha=0",
-                           "alpha=1.1", "photons=-1", "specular-alpha=2", "memory-photons=0"})
+  for (const char* text :
+       {"max-depth=", "max-depth=-1", "max-depth=1.5", "radius=-1", "alpha=0", "alpha=1.1",
+        "photons=-1", "specular-alpha=2", "memory-photons=0", "texture-cache=", "texture-cache=M",
+        "texture-cache=1T", "texture-cache=-1", "texture-cache=2000G", "texture-cache=nan"})
     EXPECT_THROW(parse_setting(text), UsageError) << text;
 }
 

@@ -159,10 +159,6 @@ TEST(TextureLibrary, ErrorsNameThePlace) {
                         Texture "b" "float" "scale" "texture tex" "a")")
                 .find("refers to itself"),
             std::string::npos);
-  EXPECT_NE(error_of(R"(Texture "a" "float" "windy")").find("not rendered yet"), std::string::npos);
-  EXPECT_NE(error_of(R"(Texture "a" "spectrum" "ptex" "string filename" "x.ptx")")
-                .find("not rendered yet"),
-            std::string::npos);
   EXPECT_NE(error_of(R"(Texture "a" "float" "wood")").find("unknown texture class"),
             std::string::npos);
   EXPECT_NE(error_of(R"(Texture "a" "float" "constant" Texture "a" "float" "constant")")

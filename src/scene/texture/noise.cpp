@@ -1,0 +1,144 @@
+// Perlin's permutation and gradients, see noise.h. Each octave is one lookup of eight gradients.
+#include "scene/texture/noise.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <string>
+
+namespace nephroid {
+
+namespace {
+
+/// Perlin's permutation of 0..255.
+constexpr std::array<uint8_t, 256> kPermutation = {
+    151, 160, 137, 91,  90,  15,  131, 13,  201, 95,  96,  53,  194, 233, 7,   225, 140, 36,  103,
+    30,  69,  142, 8,   99,  37,  240, 21,  10,  23,  190, 6,   148, 247, 120, 234, 75,  0,   26,
+    197, 62,  94,  252, 219, 203, 117, 35,  11,  32,  57,  177, 33,  88,  237, 149, 56,  87,  174,
+    20,  125, 136, 171, 168, 68,  175, 74,  165, 71,  134, 139, 48,  27,  166, 77,  146, 158, 231,
+    83,  111, 229, 122, 60,  211, 133, 230, 220, 105, 92,  41,  55,  46,  245, 40,  244, 102, 143,
+    54,  65,  25,  63,  161, 1,   216, 80,  73,  209, 76,  132, 187, 208, 89,  18,  169, 200, 196,
+    135, 130, 116, 188, 159, 86,  164, 100, 109, 198, 173, 186, 3,   64,  52,  217, 226, 250, 124,
+    123, 5,   202, 38,  147, 118, 126, 255, 82,  85,  212, 207, 206, 59,  227, 47,  16,  58,  17,
+    182, 189, 28,  42,  223, 183, 170, 213, 119, 248, 152, 2,   44,  154, 163, 70,  221, 153, 101,
+    155, 167, 43,  172, 9,   129, 22,  39,  253, 19,  98,  108, 110, 79,  113, 224, 232, 178, 185,
+    112, 104, 218, 246, 97,  228, 251, 34,  242, 193, 238, 210, 144, 12,  191, 179, 162, 241, 81,
+    51,  145, 235, 249, 14,  239, 107, 49,  192, 214, 31,  181, 199, 106, 157, 184, 84,  204, 176,
+    115, 121, 50,  45,  127, 4,   150, 254, 138, 236, 205, 93,  222, 114, 67,  29,  24,  72,  243,
+    141, 128, 195, 78,  66,  215, 61,  156, 180};
+
+/// How much finer an octave is than the one before: just not 2, so that their lattices do not meet.
+constexpr float kLacunarity = 1.99f;
+/// Mean of |noise|, about.
+constexpr float kMeanMagnitude = 0.2f;
+
+unsigned permuted(unsigned i) {
+  return kPermutation[i & 255u];
+}
+
+/// The gradient of a lattice point, one of the twelve from a cube's centre to its edges (four of
+/// them twice), times the offset from there.
+float gradient_times(unsigned x, unsigned y, unsigned z, float dx, float dy, float dz) {
+  const unsigned h = permuted(permuted(permuted(x) + y) + z) & 15u;
+  const float u = h < 8 || h == 12 || h == 13 ? dx : dy;
+  const float v = h < 4 || h == 12 || h == 13 ? dy : dz;
+  return ((h & 1u) != 0 ? -u : u) + ((h & 2u) != 0 ? -v : v);
+}
+
+/// From 0 to 1 with vanishing first and second derivatives at both ends.
+float fade(float t) {
+  return t * t * t * (t * (t * 6.0f - 15.0f) + 10.0f);
+}
+
+/// Cell number, modulo 256, and offset in it of one coordinate.
+struct Cell {
+  unsigned index;
+  float offset;
+  explicit Cell(float coordinate) {
+    // Beyond 2^30 a float has no digits behind the point: what is taken off changes nothing but
+    // the cell.
+    const float v = std::fmod(coordinate, 1073741824.0f);
+    const float below = std::floor(v);
+    index = static_cast<unsigned>(static_cast<int>(below)) & 255u;
+    offset = v - below;
+  }
+};
+
+/// How many octaves the footprint leaves, not whole: the last one counts in part.
+float octaves_left(const NoiseFootprint& f, int octaves) {
+  const float squared = std::max(dot(f.dpdx, f.dpdx), dot(f.dpdy, f.dpdy));
+  return std::clamp(-1.0f - 0.5f * std::log2(squared), 0.0f, static_cast<float>(octaves));
+}
+
+/// 0 below 0.3, 1 above 0.7, smooth in between.
+float share_of_last(float part) {
+  const float t = std::clamp((part - 0.3f) / 0.4f, 0.0f, 1.0f);
+  return t * t * (3.0f - 2.0f * t);
+}
+
+}  // namespace
+
+float noise(const Vec3f& p) {
+  const Cell x(p.x), y(p.y), z(p.z);
+  float corner[2][2][2];
+  for (unsigned k = 0; k < 2; ++k)
+    for (unsigned j = 0; j < 2; ++j)
+      for (unsigned i = 0; i < 2; ++i)
+        corner[k][j][i] =
+            gradient_times(x.index + i, y.index + j, z.index + k, x.offset - static_cast<float>(i),
+                           y.offset - static_cast<float>(j), z.offset - static_cast<float>(k));
+  const float wx = fade(x.offset), wy = fade(y.offset), wz = fade(z.offset);
+  float plane[2];
+  for (int k = 0; k < 2; ++k)
+    plane[k] = lerp(wy, lerp(wx, corner[k][0][0], corner[k][0][1]),
+                    lerp(wx, corner[k][1][0], corner[k][1][1]));
+  return lerp(wz, plane[0], plane[1]);
+}
+
+float fractal_noise(const Vec3f& p, const NoiseFootprint& footprint, float roughness, int octaves) {
+  const float count = octaves_left(footprint, octaves);
+  const int whole = static_cast<int>(count);
+  float sum = 0.0f, frequency = 1.0f, strength = 1.0f;
+  for (int i = 0; i < whole; ++i) {
+    sum += strength * noise(p * frequency);
+    frequency *= kLacunarity;
+    strength *= roughness;
+  }
+  const float share = share_of_last(count - static_cast<float>(whole));
+  return share == 0.0f ? sum : sum + strength * share * noise(p * frequency);
+}
+
+float turbulence(const Vec3f& p, const NoiseFootprint& footprint, float roughness, int octaves) {
+  const float count = octaves_left(footprint, octaves);
+  const int whole = static_cast<int>(count);
+  float sum = 0.0f, frequency = 1.0f, strength = 1.0f;
+  for (int i = 0; i < whole; ++i) {
+    sum += strength * std::abs(noise(p * frequency));
+    frequency *= kLacunarity;
+    strength *= roughness;
+  }
+  // The octave behind the last whole one counts as its mean where it is faded out, and, as in
+  // pbrt-v4, once more among those that are left out: pictures would differ by a constant.
+  const float share = share_of_last(count - static_cast<float>(whole));
+  const float last = share == 0.0f ? 0.0f : std::abs(noise(p * frequency));
+  sum += strength * lerp(share, kMeanMagnitude, last);
+  for (int i = whole; i < octaves; ++i) {
+    sum += strength * kMeanMagnitude;
+    strength *= roughness;
+  }
+  return sum;
+}
+
+NoiseParameters read_noise_parameters(const ParameterSet& parameters) {
+  constexpr int kMostOctaves = 64;
+  NoiseParameters n;
+  n.octaves = parameters.get_int("octaves", n.octaves);
+  n.roughness = parameters.get_float("roughness", n.roughness);
+  if (n.octaves < 0 || n.octaves > kMostOctaves)
+    throw SceneError(parameters.find("octaves")->where,
+                     "\"octaves\" is " + std::to_string(n.octaves) + ", expected 0 to " +
+                         std::to_string(kMostOctaves));
+  return n;
+}
+
+}  // namespace nephroid
