@@ -59,8 +59,7 @@ void CausticPhotons::render_pass(const PassKey& key, const Scene& scene, Film& f
       RowResult& result = rows[static_cast<size_t>(row)];
       for (int x = b.x0; x < b.x1; ++x) {
         PathSampler sampler(pass.point, hash_combine(key.seed, kStream, x, y));
-        CameraPath path =
-            start_camera_path(scene, x, y, sampler, pass.trace.lambda, pass.trace.time);
+        CameraPath path = start_camera_path(scene, x, y, sampler, pass.trace.lambda, pass.u_time);
         SampledSpectrum sum;
         auto merge = [&](const Walk& walk, const WalkVertex& v, EyeState eye) {
           const float r = radius_pixels * pass.footprint.width(walk.length);
@@ -73,12 +72,13 @@ void CausticPhotons::render_pass(const PassKey& key, const Scene& scene, Film& f
                  (static_cast<float>(photons) * kPi * r * r);
         };
         MergeWalkVisitor visitor(routes_, merge);
-        random_walk(scene, TransportMode::kRadiance, options_.max_depth, path.walk, sampler,
-                    visitor);
+        if (path.camera_weight > 0)
+          random_walk(scene, TransportMode::kRadiance, options_.max_depth, path.walk, sampler,
+                      visitor);
         result.rays += path.walk.rays;
         PixelEstimate& pixel =
             pixels[static_cast<size_t>(row) * width + static_cast<size_t>(x - b.x0)];
-        pixel.sum = pixel.sum + pass.weights.apply(sum);
+        pixel.sum = pixel.sum + pass.weights.apply(sum) * path.camera_weight;
         pixel.filter_weight = path.filter_weight;
       }
     });

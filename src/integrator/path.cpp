@@ -187,10 +187,12 @@ void PathEstimator::render_pass(const PassKey& key, const Scene& scene, Film& fi
         sampler.start_dimension(dimensions::kTime);
         CameraPath path = start_camera_path(scene, x, y, sampler, lambda, sampler.get_1d());
         PathVisitor visitor(scene, routes_, route_);
-        random_walk(scene, TransportMode::kRadiance, max_depth_, path.walk, sampler, visitor);
+        if (path.camera_weight > 0)
+          random_walk(scene, TransportMode::kRadiance, max_depth_, path.walk, sampler, visitor);
         const SensorWeights weights =
             sensor_weights(path.walk.lambda, *settings.color_space, settings.imaging_ratio);
-        const Rgb rgb = clamp_component(weights.apply(visitor.radiance()), settings.max_component);
+        const Rgb rgb = clamp_component(weights.apply(visitor.radiance()) * path.camera_weight,
+                                        settings.max_component);
         film.add(buffer_, x, y, rgb * path.filter_weight);
         film.add_features(x, y, of_white(weights.apply(visitor.albedo()), white),
                           visitor.features().normal, visitor.features().depth);

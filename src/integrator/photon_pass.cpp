@@ -15,13 +15,14 @@ int64_t default_photons_per_pass(int64_t pixels) {
 
 PhotonPass start_photon_pass(const PassKey& key, const Scene& scene, const Film& film,
                              const IntegratorOptions& options) {
-  PhotonPass pass{{}, {}, scene.camera->footprint(), SobolPoint(key.pass)};
+  PhotonPass pass{{}, {}, scene.camera->footprint(), 0, SobolPoint(key.pass)};
   // Two dimensions of one scrambled sequence over the passes: any run of passes covers both evenly.
   constexpr uint64_t kStream = 0x70617373;  // "pass"
   PathSampler sampler(pass.point, hash_combine(key.seed, kStream));
   pass.trace.key = key;
   pass.trace.lambda = SampledWavelengths::sample_visible(sampler.get_1d());
-  pass.trace.time = sampler.get_1d();
+  pass.u_time = sampler.get_1d();
+  pass.trace.time = scene.camera->motion_time(pass.u_time);
   pass.trace.photons_per_pass = options.photons_per_pass > 0
                                     ? options.photons_per_pass
                                     : default_photons_per_pass(film.bounds().area());

@@ -16,6 +16,7 @@ struct PhotonPass {
   PhotonTraceSettings trace;  ///< with the pass's wavelengths, time and number of photons
   SensorWeights weights;
   PixelFootprint footprint;
+  float u_time = 0;  ///< of the camera walks; trace.time is the same moment
   SobolPoint point;  ///< of the camera walks
 };
 PhotonPass start_photon_pass(const PassKey& key, const Scene& scene, const Film& film,

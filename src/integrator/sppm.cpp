@@ -46,8 +46,7 @@ void Sppm::render_pass(const PassKey& key, const Scene& scene, Film& film) {
                              static_cast<size_t>(x - b.x0);
         SharedStatistics& pixel = pixels_[index];
         PathSampler sampler(pass.point, hash_combine(key.seed, kStream, x, y));
-        CameraPath path =
-            start_camera_path(scene, x, y, sampler, pass.trace.lambda, pass.trace.time);
+        CameraPath path = start_camera_path(scene, x, y, sampler, pass.trace.lambda, pass.u_time);
         SampledSpectrum flux;
         auto merge = [&](const Walk& walk, const WalkVertex& v, EyeState eye) {
           const float width = pass.footprint.width(walk.length);
@@ -63,10 +62,11 @@ void Sppm::render_pass(const PassKey& key, const Scene& scene, Film& film) {
           found[index].count += m.found;
         };
         MergeWalkVisitor visitor(routes_, merge);
-        random_walk(scene, TransportMode::kRadiance, options_.max_depth, path.walk, sampler,
-                    visitor);
+        if (path.camera_weight > 0)
+          random_walk(scene, TransportMode::kRadiance, options_.max_depth, path.walk, sampler,
+                      visitor);
         rays[static_cast<size_t>(row)] += path.walk.rays;
-        found[index].phi = found[index].phi + pass.weights.apply(flux);
+        found[index].phi = found[index].phi + pass.weights.apply(flux) * path.camera_weight;
         found[index].filter_weight = path.filter_weight;
       }
     });

@@ -94,7 +94,7 @@ FilmDescription make_film_description(const SceneDescription& description,
   film.max_component = positive(p, "maxcomponentvalue", kInfinity);
   film.color_space = RgbColorSpace::find(description.color_space);
   film.filename = p.get_string("filename", "nephroid.exr");
-  (void)p.get_float("diagonal", 35.0f);
+  film.diagonal_mm = positive(p, "diagonal", 35.0f);
   (void)p.get_bool("savefp16", true);
   if (description.film) p.report_unused("film \"" + description.film->type + "\"", diagnostics);
   return film;

@@ -3,7 +3,7 @@
 #include <bit>
 
 #include "core/sampler.h"
-#include "scene/camera.h"
+#include "scene/camera/camera.h"
 #include "scene/pixel_filter.h"
 
 namespace nephroid {

@@ -26,7 +26,8 @@ struct FilmDescription {
   float max_component = kInfinity;                              ///< of a sample's rgb
   const RgbColorSpace* color_space = nullptr;
   std::string filename;
-  SourceLocation where;  ///< of the Film directive, if there is one
+  float diagonal_mm = 35;  ///< of the film that a realistic camera exposes
+  SourceLocation where;    ///< of the Film directive, if there is one
 };
 
 /// What the command line may change of a scene.

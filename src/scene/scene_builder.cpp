@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/parallel.h"
-#include "scene/camera.h"
+#include "scene/camera/camera.h"
 #include "scene/film_description.h"
 #include "scene/pixel_filter.h"
 #include "scene/scene.h"
@@ -31,7 +31,8 @@ class SceneBuilder {
       if (!d_.materials[i].name.empty())
         material_index_[d_.materials[i].name] = static_cast<int>(i);
     scene_->film = make_film_description(d_, overrides, diagnostics);
-    scene_->camera = make_camera(d_.camera, scene_->film.width, scene_->film.height, diagnostics);
+    const FilmDescription& film = scene_->film;
+    scene_->camera = make_camera(d_, {film.width, film.height, film.diagonal_mm}, diagnostics);
     scene_->filter = make_pixel_filter(d_.pixel_filter, diagnostics);
     find_instance_pivot();
     read_sampler();

@@ -20,6 +20,7 @@ FilmSettings film_settings(const FilmDescription& description) {
   settings.max_component = description.max_component;
   settings.color_space = description.color_space;
   settings.filename = description.filename;
+  settings.diagonal_mm = description.diagonal_mm;
   return settings;
 }
 

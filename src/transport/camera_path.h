@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/color.h"
-#include "scene/camera.h"
+#include "scene/camera/camera.h"
 #include "scene/pixel_filter.h"
 #include "transport/random_walk.h"
 
@@ -12,10 +12,13 @@ namespace nephroid {
 struct CameraPath {
   Walk walk;
   float filter_weight = 1;  ///< may be negative
+  /// Of all light along the path; 0 if the lens lets nothing through: there is then no walk, and
+  /// the sample is black. It stays out of the walk, so that roulette does not see it.
+  float camera_weight = 0;
 };
 
 /// Starts a path through pixel (x, y). `lambda` is the path's, or the pass's where it is shared;
-/// `u_time` likewise.
+/// `u_time`, in [0,1), likewise.
 inline CameraPath start_camera_path(const Scene& scene, int x, int y, PathSampler& sampler,
                                     const SampledWavelengths& lambda, float u_time) {
   CameraPath path;
@@ -26,9 +29,12 @@ inline CameraPath start_camera_path(const Scene& scene, int x, int y, PathSample
   const Vec2f film(static_cast<float>(x) + 0.5f + f.offset.x,
                    static_cast<float>(y) + 0.5f + f.offset.y);
   path.filter_weight = f.weight;
-  path.walk.ray = scene.camera->generate_ray(film, u_lens, u_time);
   path.walk.lambda = lambda;
   path.walk.medium = scene.camera_medium;
+  const std::optional<CameraRay> start = scene.camera->generate_ray(film, u_lens, u_time);
+  if (!start) return path;
+  path.camera_weight = start->weight;
+  path.walk.ray = start->ray;
   path.walk.previous_p = path.walk.ray.o;
   return path;
 }

@@ -8,7 +8,7 @@
 
 #include "agreement/scenes.h"
 #include "rendering.h"
-#include "scene/camera.h"
+#include "scene/camera/camera.h"
 
 namespace nephroid {
 namespace {
@@ -124,7 +124,8 @@ TEST(AgreementScenes, TheBumpedGlassIsBumped) {
       for (int x = 4; x < 8; ++x) {
         SurfaceInteraction hit;
         const Vec2f film(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
-        ASSERT_TRUE(scene->intersect(scene->camera->generate_ray(film, Vec2f(0.5f, 0.5f), 0), hit));
+        ASSERT_TRUE(
+            scene->intersect(scene->camera->generate_ray(film, Vec2f(0.5f, 0.5f), 0)->ray, hit));
         const Material& material = *scene->materials[static_cast<size_t>(hit.material)];
         if (!material.has_bump()) continue;
         material.bump(hit);

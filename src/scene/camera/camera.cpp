@@ -1,0 +1,38 @@
+// What all cameras share: the shutter, the way into world space and the measure of a pixel's beam.
+// Declared in camera.h.
+#include "scene/camera/camera.h"
+
+namespace nephroid {
+
+float Camera::motion_time(float u_time) const {
+  const CameraPlacement& p = placement_;
+  if (!(p.keyframe_end > p.keyframe_start)) return 0.0f;
+  const float time = lerp(u_time, p.shutter_open, p.shutter_close);
+  return std::clamp((time - p.keyframe_start) / (p.keyframe_end - p.keyframe_start), 0.0f, 1.0f);
+}
+
+Ray Camera::world_ray(const Vec3f& o, const Vec3f& d, float u_time) const {
+  Ray ray;
+  ray.time = motion_time(u_time);
+  const Transform to_world = camera_to_world(ray.time);
+  ray.o = to_world.point(o);
+  ray.d = normalize(to_world.vector(d));
+  return ray;
+}
+
+PixelFootprint footprint_of_central_pixel(const Camera& camera, const CameraFilm& film) {
+  constexpr Vec2f kMiddle(0.5f, 0.5f);
+  const Vec2f centre(static_cast<float>(film.width) / 2, static_cast<float>(film.height) / 2);
+  const std::optional<CameraRay> here = camera.generate_ray(centre, kMiddle, 0.5f);
+  PixelFootprint footprint;
+  if (!here) return footprint;
+  for (const Vec2f& step : {Vec2f(1, 0), Vec2f(0, 1)}) {
+    const std::optional<CameraRay> there = camera.generate_ray(centre + step, kMiddle, 0.5f);
+    if (!there) continue;
+    footprint.offset = std::max(footprint.offset, length(there->ray.o - here->ray.o));
+    footprint.spread = std::max(footprint.spread, length(there->ray.d - here->ray.d));
+  }
+  return footprint;
+}
+
+}  // namespace nephroid

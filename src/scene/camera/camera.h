@@ -1,0 +1,83 @@
+// Cameras: where the ray through a point of the film starts, where it goes, when, and how much of
+// what it sees arrives. One kind a file; camera_table.cpp maps the scene format's names to them.
+// Who calls it: transport, and the photon pass for its moment. It must not know routes or filters.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "core/errors.h"
+#include "core/motion.h"
+#include "input/scene_description.h"
+
+namespace nephroid {
+
+/// Width of a pixel's beam at a path length s from the film's lens: offset + spread * s. The first
+/// merge radius is measured in it, never in world units.
+struct PixelFootprint {
+  float offset = 0;
+  float spread = 0;
+  float width(float path_length) const { return offset + spread * path_length; }
+};
+
+/// A ray into the scene and the factor of the radiance along it in the pixel's estimate: 1, or what
+/// a lens system lets through over the density with which its pupil was sampled.
+struct CameraRay {
+  Ray ray;
+  float weight = 1;
+};
+
+/// What a camera needs to know of its film.
+struct CameraFilm {
+  int width = 1, height = 1;  ///< pixels of the full resolution
+  float diagonal_mm = 35;
+};
+
+/// Where a camera stands and when its shutter is open.
+struct CameraPlacement {
+  MotionTransform camera_to_world;
+  /// In the scene's own time.
+  float shutter_open = 0, shutter_close = 1;
+  /// Moments of the two keyframes of everything that moves (TransformTimes).
+  float keyframe_start = 0, keyframe_end = 1;
+};
+
+class Camera {
+ public:
+  explicit Camera(const CameraPlacement& placement) : placement_(placement) {}
+  virtual ~Camera() = default;
+
+  /// World ray with unit direction through `film` (pixels, y down, from the corner of the full
+  /// resolution). `u_lens` chooses the point on the lens, `u_time` the moment within the shutter.
+  /// Empty if the lens lets nothing through there: the sample counts and is black.
+  virtual std::optional<CameraRay> generate_ray(const Vec2f& film, const Vec2f& u_lens,
+                                                float u_time) const = 0;
+  virtual PixelFootprint footprint() const = 0;
+
+  /// The moment that u_time in [0,1) chooses within the shutter, as Ray::time counts: 0 at the
+  /// first keyframe of what moves, 1 at the second, and no further. 0 if both are at the same time.
+  virtual float motion_time(float u_time) const;
+  /// Camera space (x right, y up, looking along +z) to world space at a Ray::time.
+  Transform camera_to_world(float motion_time) const {
+    return placement_.camera_to_world.at(motion_time);
+  }
+
+ protected:
+  /// The ray from `o` along `d`, both in camera space, in world space with unit direction.
+  Ray world_ray(const Vec3f& o, const Vec3f& d, float u_time) const;
+
+ private:
+  CameraPlacement placement_;
+};
+
+/// Measures the beam of the pixel in the middle of the film: the rays through its centre and
+/// through its neighbours' in x and y, all through the middle of the lens. Zero if these rays do
+/// not exist.
+PixelFootprint footprint_of_central_pixel(const Camera& camera, const CameraFilm& film);
+
+/// Makes the camera of a scene. Without a description of one it is pbrt-v4's default, a perspective
+/// camera of 90 degrees at the origin. Throws SceneError.
+std::unique_ptr<Camera> make_camera(const SceneDescription& scene, const CameraFilm& film,
+                                    Diagnostics& diagnostics);
+
+}  // namespace nephroid

@@ -1,0 +1,36 @@
+// The table of camera types: the scene format's name and the function that makes one.
+// Who calls it: make_camera, and tests that iterate over all types. A new camera is one new file
+// and one row. It must not know what the cameras do.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+
+#include "scene/camera/camera.h"
+
+namespace nephroid {
+
+/// What a factory may use.
+struct CameraContext {
+  const ParameterSet& parameters;  ///< of the Camera directive
+  CameraPlacement placement;
+  CameraFilm film;
+  std::string directory;  ///< relative file names are relative to this
+  Diagnostics& diagnostics;
+};
+
+struct CameraRow {
+  const char* name;
+  std::unique_ptr<Camera> (*make)(const CameraContext&);
+};
+
+/// All types of the format.
+std::span<const CameraRow> camera_table();
+
+std::unique_ptr<Camera> make_perspective_camera(const CameraContext&);
+std::unique_ptr<Camera> make_orthographic_camera(const CameraContext&);
+std::unique_ptr<Camera> make_spherical_camera(const CameraContext&);
+std::unique_ptr<Camera> make_realistic_camera(const CameraContext&);
+
+}  // namespace nephroid

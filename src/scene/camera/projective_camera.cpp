@@ -1,0 +1,108 @@
+// The perspective and the orthographic camera, with a thin lens. They differ in how a film point
+// becomes a camera ray; all else is common (pbrt-v4 sections 5.2 and 5.3).
+// Who calls it: the table. It must not know lens systems.
+#include "core/warps.h"
+#include "scene/camera/camera_table.h"
+
+namespace nephroid {
+namespace {
+
+class ProjectiveCamera final : public Camera {
+ public:
+  struct Settings {
+    bool perspective = true;
+    float tan_half_fov = 1;
+    float screen[4] = {-1, 1, -1, 1};  ///< x0 x1 y0 y1
+    float lens_radius = 0, focal_distance = 1e6f;
+    int width = 1, height = 1;
+  };
+
+  ProjectiveCamera(const CameraPlacement& placement, const Settings& s) : Camera(placement), s_(s) {
+    const float screen_pixel =
+        std::max(std::abs(s.screen[1] - s.screen[0]) / static_cast<float>(s.width),
+                 std::abs(s.screen[3] - s.screen[2]) / static_cast<float>(s.height));
+    if (s.perspective)
+      footprint_.spread = screen_pixel * s.tan_half_fov;
+    else if (s.lens_radius > 0)
+      footprint_.spread = screen_pixel / s.focal_distance;
+    else
+      footprint_.offset = screen_pixel * length(camera_to_world(0).vector({1, 0, 0}));
+  }
+
+  std::optional<CameraRay> generate_ray(const Vec2f& film, const Vec2f& u_lens,
+                                        float u_time) const override {
+    const float sx = lerp(film.x / static_cast<float>(s_.width), s_.screen[0], s_.screen[1]);
+    const float sy = lerp(film.y / static_cast<float>(s_.height), s_.screen[3], s_.screen[2]);
+    Vec3f o(0, 0, 0), d(0, 0, 1);
+    if (s_.perspective)
+      d = normalize(Vec3f(sx * s_.tan_half_fov, sy * s_.tan_half_fov, 1));
+    else
+      o = Vec3f(sx, sy, 0);
+    // A thin lens: all rays of a film point meet on the plane of focus. The lens lies around the
+    // optical axis, as pbrt-v4 has it, even if the film points of an orthographic camera do not.
+    if (s_.lens_radius > 0) {
+      const Vec2f lens = square_to_disk(u_lens) * s_.lens_radius;
+      const Vec3f focus = o + d * (s_.focal_distance / d.z);
+      o = Vec3f(lens.x, lens.y, 0);
+      d = normalize(focus - o);
+    }
+    return CameraRay{world_ray(o, d, u_time), 1.0f};
+  }
+
+  PixelFootprint footprint() const override { return footprint_; }
+
+ private:
+  Settings s_;
+  PixelFootprint footprint_;
+};
+
+void set_screen(ProjectiveCamera::Settings& s, const ParameterSet& p) {
+  const float aspect =
+      p.get_float("frameaspectratio", static_cast<float>(s.width) / static_cast<float>(s.height));
+  if (!(aspect > 0)) throw SceneError(p.where, "frameaspectratio must be positive");
+  const float x = aspect > 1 ? aspect : 1, y = aspect > 1 ? 1 : 1 / aspect;
+  s.screen[0] = -x;
+  s.screen[1] = x;
+  s.screen[2] = -y;
+  s.screen[3] = y;
+  const std::vector<float> window = p.get_floats("screenwindow");
+  if (window.empty()) return;
+  if (window.size() != 4)
+    throw SceneError(p.where, "\"screenwindow\" has " + std::to_string(window.size()) +
+                                  " values, expected 4 (x0 x1 y0 y1)");
+  for (size_t i = 0; i < 4; ++i) s.screen[i] = window[i];
+  if (s.screen[0] == s.screen[1] || s.screen[2] == s.screen[3])
+    throw SceneError(p.where, "\"screenwindow\" is empty");
+}
+
+ProjectiveCamera::Settings common_settings(const CameraContext& c) {
+  ProjectiveCamera::Settings s;
+  s.width = c.film.width;
+  s.height = c.film.height;
+  set_screen(s, c.parameters);
+  s.lens_radius = c.parameters.get_float("lensradius", 0.0f);
+  s.focal_distance = c.parameters.get_float("focaldistance", 1e6f);
+  if (s.lens_radius < 0 || !(s.focal_distance > 0))
+    throw SceneError(c.parameters.where,
+                     "\"lensradius\" must not be negative, \"focaldistance\" positive");
+  return s;
+}
+
+}  // namespace
+
+std::unique_ptr<Camera> make_perspective_camera(const CameraContext& c) {
+  ProjectiveCamera::Settings s = common_settings(c);
+  const float fov = c.parameters.get_float("fov", 90.0f);
+  if (!(fov > 0 && fov < 180))
+    throw SceneError(c.parameters.where, "\"fov\" must lie between 0 and 180 degrees");
+  s.tan_half_fov = std::tan(fov * kPi / 360.0f);
+  return std::make_unique<ProjectiveCamera>(c.placement, s);
+}
+
+std::unique_ptr<Camera> make_orthographic_camera(const CameraContext& c) {
+  ProjectiveCamera::Settings s = common_settings(c);
+  s.perspective = false;
+  return std::make_unique<ProjectiveCamera>(c.placement, s);
+}
+
+}  // namespace nephroid
