@@ -31,6 +31,8 @@ inline Film film_for(const Scene& scene, const Preset& preset) {
   settings.imaging_ratio = scene.film.imaging_ratio;
   settings.max_component = scene.film.max_component;
   settings.color_space = scene.film.color_space;
+  settings.white_balance = scene.film.white_balance;
+  settings.gbuffer = scene.film.gbuffer != GBufferSpace::kNone;
   return Film(settings, preset.route_names);
 }
 

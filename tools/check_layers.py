@@ -14,11 +14,7 @@ LAYERS = ["core", "input", "scene", "route", "film", "transport", "photon", "int
           "apps"]
 # Within scene/, the folders that others build on come first; the files of scene/ itself come last. A few
 # headers of scene/ are vocabulary for the folders below it.
-<<<<<<< HEAD
-SCENE = ["shape", "bsdf", "texture", "medium", "material", "light", ""]
-=======
-SCENE = ["shape", "bsdf", "texture", "material", "light", "camera", ""]
->>>>>>> 46457ca (Spherical and realistic cameras; cameras that move; rays that a lens blocks)
+SCENE = ["shape", "bsdf", "texture", "medium", "material", "light", "camera", ""]
 SCENE_VOCABULARY = {"scene/interaction.h"}
 # Folders below scene/ that may use another one although it does not stand to their left.
 LIBRARIES = {

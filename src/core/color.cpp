@@ -66,14 +66,15 @@ Xyz cie_xyz(float lambda) {
 }
 
 SensorWeights sensor_weights(const SampledWavelengths& lambda, const RgbColorSpace& space,
-                             float imaging_ratio) {
+                             float imaging_ratio, const std::optional<ColorMatrix>& balance) {
   const std::span<const Rgb> curves = space.sensor_curves();
   const float scale = imaging_ratio / kSpectrumSamples;
   SensorWeights weights;
   for (int i = 0; i < kSpectrumSamples; ++i) {
     const float pdf = lambda.pdf()[i];
     if (pdf == 0.0f) continue;
-    const Rgb& at = curves[nearest_node(lambda.lambda(i))];
+    Rgb at = curves[nearest_node(lambda.lambda(i))];
+    if (balance) at = *balance * at;
     const float s = scale / pdf;
     weights.rgb[0].set(i, at.r * s);
     weights.rgb[1].set(i, at.g * s);

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -21,6 +22,14 @@ struct Rgb {
 struct Xyz {
   float x = 0, y = 0, z = 0;
 };
+
+/// A linear map of rgb values: rows are the results.
+using ColorMatrix = std::array<std::array<float, 3>, 3>;
+inline Rgb operator*(const ColorMatrix& m, const Rgb& c) {
+  return {m[0][0] * c.r + m[0][1] * c.g + m[0][2] * c.b,
+          m[1][0] * c.r + m[1][1] * c.g + m[1][2] * c.b,
+          m[2][0] * c.r + m[2][1] * c.g + m[2][2] * c.b};
+}
 
 /// Coefficients of s(lambda) = 1/2 + p/(2 sqrt(1+p^2)), p = (c0*lambda + c1)*lambda + c2, with
 /// lambda in nm (Jakob & Hanika 2019).
@@ -77,8 +86,10 @@ struct SensorWeights {
     return {(radiance * rgb[0]).sum(), (radiance * rgb[1]).sum(), (radiance * rgb[2]).sum()};
   }
 };
-/// Weights of the CIE 1931 sensor, seen in `space`. Dropped wavelengths have weight 0.
+/// Weights of the CIE 1931 sensor, seen in `space`, after `balance` if there is one. Dropped
+/// wavelengths have weight 0.
 SensorWeights sensor_weights(const SampledWavelengths& lambda, const RgbColorSpace& space,
-                             float imaging_ratio);
+                             float imaging_ratio,
+                             const std::optional<ColorMatrix>& balance = std::nullopt);
 
 }  // namespace nephroid

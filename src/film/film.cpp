@@ -36,6 +36,7 @@ Film::Film(const FilmSettings& settings, std::vector<std::string> routes)
   sums_.assign(route_names_.size(), std::vector<PixelSums>(pixels));
   estimates_.assign(route_names_.size(), 0);
   features_.resize(pixels);
+  if (settings_.gbuffer) surfaces_.resize(pixels);
   bad_.assign(pixels, 0);
   saturated_.assign(pixels, 0);
 }
@@ -98,6 +99,15 @@ void Film::add_features(int x, int y, const Rgb& albedo, const Vec3f& normal, fl
 }
 void Film::add_feature_estimates(uint64_t count) {
   feature_estimates_ += count;
+}
+
+void Film::add_surface(int x, int y, const SurfaceSample& s) {
+  if (surfaces_.empty()) return;
+  SurfaceSums& surface = surfaces_[index(x, y)];
+  const std::array<float, 13> values{s.p.x,  s.p.y,  s.p.z,  s.n.x,  s.n.y,  s.n.z, s.ns.x,
+                                     s.ns.y, s.ns.z, s.uv.x, s.uv.y, s.dzdx, s.dzdy};
+  for (size_t i = 0; i < values.size(); ++i) surface.sums[i].add(values[i]);
+  ++surface.samples;
 }
 
 Rgb Film::route_value(int route, int x, int y) const {
@@ -167,6 +177,26 @@ float Film::depth(int x, int y) const {
   const Features& features = features_[index(x, y)];
   if (features.depths == 0) return 0;
   return static_cast<float>(features.depth.value() / static_cast<double>(features.depths));
+}
+
+SurfaceSample Film::surface(int x, int y) const {
+  SurfaceSample s;
+  if (surfaces_.empty()) return s;
+  const SurfaceSums& surface = surfaces_[index(x, y)];
+  if (surface.samples == 0) return s;
+  const auto mean = [&](size_t i) {
+    return static_cast<float>(surface.sums[i].value() / static_cast<double>(surface.samples));
+  };
+  const auto direction = [&](size_t i) {
+    return normalize(Vec3f(mean(i), mean(i + 1), mean(i + 2)));
+  };
+  s.p = Vec3f(mean(0), mean(1), mean(2));
+  s.n = direction(3);
+  s.ns = direction(6);
+  s.uv = Vec2f(mean(9), mean(10));
+  s.dzdx = std::abs(mean(11));
+  s.dzdy = std::abs(mean(12));
+  return s;
 }
 
 uint64_t Film::bad_values() const {

@@ -4,7 +4,9 @@
 // calls it: integrators add, session reads. It must not know scenes or estimators.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,6 +43,16 @@ struct FilmSettings {
   const RgbColorSpace* color_space = nullptr;
   std::string filename;  ///< as the scene names its output
   float diagonal_mm = 35;
+  std::optional<ColorMatrix> white_balance;  ///< applied to every sample
+  bool gbuffer = false;                      ///< has the geometric layers, see SurfaceSample
+};
+
+/// The surface that a sample saw first, in the coordinate system that the caller chose.
+struct SurfaceSample {
+  Vec3f p{0, 0, 0};
+  Vec3f n{0, 0, 0}, ns{0, 0, 0};  ///< geometric and shading normal, unit, towards the viewer
+  Vec2f uv{0, 0};
+  float dzdx = 0, dzdy = 0;  ///< change of p.z from a pixel to its neighbour
 };
 
 /// The colour scaled so that no component is larger in magnitude than `limit`; hue and sign are
@@ -71,6 +83,8 @@ class Film {
   /// infinite where nothing was hit). Components that are not finite are left out.
   void add_features(int x, int y, const Rgb& albedo, const Vec3f& normal, float depth);
   void add_feature_estimates(uint64_t count);
+  /// Adds to the geometric layers of a film that has them; for samples that hit something.
+  void add_surface(int x, int y, const SurfaceSample& sample);
 
   /// Mean of a route, and of the sum of all routes (from the accumulators, rounded once).
   Rgb route_value(int route, int x, int y) const;
@@ -86,6 +100,10 @@ class Film {
   /// Mean over the samples that hit something, 0 if none did.
   float depth(int x, int y) const;
 
+  /// Mean over the samples that hit something: normals as directions of the mean, dzdx and dzdy as
+  /// magnitudes of theirs. All zero if none did.
+  SurfaceSample surface(int x, int y) const;
+
   uint64_t bad_values() const;        ///< estimates that were not finite
   uint64_t saturated_values() const;  ///< sums that reached their limit
 
@@ -97,6 +115,11 @@ class Film {
     FixedSum albedo[3], normal[3], depth;
     uint64_t depths = 0;  ///< samples that hit something
   };
+  /// Sums of p, n, ns, uv, dzdx and dzdy.
+  struct SurfaceSums {
+    std::array<FixedSum, 13> sums;
+    uint64_t samples = 0;
+  };
   size_t index(int x, int y) const {
     return static_cast<size_t>(y - settings_.crop.y0) * settings_.crop.width() +
            (x - settings_.crop.x0);
@@ -107,6 +130,7 @@ class Film {
   std::vector<uint64_t> estimates_;
   std::vector<Features> features_;
   uint64_t feature_estimates_ = 0;
+  std::vector<SurfaceSums> surfaces_;      ///< empty without geometric layers
   std::vector<uint32_t> bad_, saturated_;  ///< per pixel, so that counting needs no lock
 };
 

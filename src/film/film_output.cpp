@@ -22,12 +22,27 @@ std::vector<std::string> channel_names(const Film& film) {
   std::vector<std::string> channels;
   add_layer(channels, "", "RGB");
   for (const std::string& route : film.routes()) add_layer(channels, route, "RGB");
-  add_layer(channels, "albedo", "RGB");
+  const bool gbuffer = film.settings().gbuffer;
+  add_layer(channels, gbuffer ? "Albedo" : "albedo", "RGB");
   add_layer(channels, "N", "XYZ");
+  if (gbuffer) {
+    add_layer(channels, "P", "XYZ");
+    add_layer(channels, "Ns", "XYZ");
+    for (const char* name : {"u", "v", "dzdx", "dzdy"}) channels.emplace_back(name);
+    add_layer(channels, "Variance", "RGB");
+    add_layer(channels, "RelativeVariance", "RGB");
+  }
   add_layer(channels, "", "Z");
   add_layer(channels, "stderr", "RGB");
   channels.emplace_back("samples");
   return channels;
+}
+
+float* put(float* out, const Vec3f& v) {
+  out[0] = v.x;
+  out[1] = v.y;
+  out[2] = v.z;
+  return out + 3;
 }
 
 float* put(float* out, const Rgb& color) {
@@ -35,6 +50,22 @@ float* put(float* out, const Rgb& color) {
   out[1] = color.g;
   out[2] = color.b;
   return out + 3;
+}
+
+/// The layers that pbrt-v4's gbuffer film has beside the common ones; `samples` is the number of
+/// estimates behind a pixel.
+float* put_gbuffer(float* out, const Film& film, int x, int y, uint64_t samples) {
+  const SurfaceSample s = film.surface(x, y);
+  out = put(out, s.p);
+  out = put(out, s.ns);
+  for (const float value : {s.uv.x, s.uv.y, s.dzdx, s.dzdy}) *out++ = value;
+  // Of a single sample, and over the mean.
+  const Rgb error = film.standard_error(x, y), mean = film.value(x, y);
+  const float n = static_cast<float>(samples);
+  const Rgb variance{error.r * error.r * n, error.g * error.g * n, error.b * error.b * n};
+  out = put(out, variance);
+  for (int c = 0; c < 3; ++c) *out++ = mean[c] == 0 ? 0 : variance[c] / mean[c];
+  return out;
 }
 
 /// Calls body(y) for each row of the film, rows in parallel.
@@ -69,8 +100,9 @@ Picture film_picture(const Film& film, Metadata metadata) {
       out = put(out, film.value(x, y));
       for (int r = 0; r < routes; ++r) out = put(out, film.route_value(r, x, y));
       out = put(out, film.albedo(x, y));
-      const Vec3f normal = film.normal(x, y);
-      out = put(out, {normal.x, normal.y, normal.z});
+      const bool gbuffer = film.settings().gbuffer;
+      out = put(out, gbuffer ? film.surface(x, y).n : film.normal(x, y));
+      if (gbuffer) out = put_gbuffer(out, film, x, y, samples);
       *out++ = film.depth(x, y);
       out = put(out, film.standard_error(x, y));
       *out++ = static_cast<float>(samples);

@@ -11,7 +11,8 @@ namespace nephroid {
 
 /// The film as channels: R G B (all routes), one layer per route ("caustic.R" ...), albedo, N
 /// (world space), Z, stderr (standard error of R G B) and samples (estimates per pixel, the largest
-/// of the routes).
+/// of the routes). A gbuffer film has pbrt-v4's layers instead of albedo and N, in the film's
+/// coordinate system: Albedo, N (geometric), P, Ns, u, v, dzdx, dzdy, Variance, RelativeVariance.
 Picture film_picture(const Film& film, Metadata metadata);
 
 /// The film's R G B times `exposure`, in sRGB primaries and transfer, interleaved bytes.

@@ -188,7 +188,10 @@ constexpr std::array kDirectives = {
     Directive{"TransformTimes", Part::kOptions, read_transform_times},
 
     Directive{"Option", Part::kBoth,
-              [](Reader& r, const Place&) { r.builder.add_option(read_option(r.tokens)); }},
+              [](Reader& r, const Place&) {
+                if (auto option = read_option(r.tokens, r.diagnostics))
+                  r.builder.add_option(std::move(*option));
+              }},
     Directive{"ColorSpace", Part::kBoth, read_color_space},
     Directive{"Camera", Part::kOptions,
               [](Reader& r, const Place& p) { r.builder.set_camera(r.typed(p)); }},

@@ -43,9 +43,18 @@ std::string normalized(std::string_view name) {
   return result;
 }
 
+/// Takes the values of an option whose type is not known, alone or in brackets.
+void skip_values(TokenStream& tokens, const SourceLocation& option) {
+  const Token* token = &tokens.next();
+  if (token->kind == Token::Kind::kOpen)
+    while (token->kind != Token::Kind::kClose && token->kind != Token::Kind::kEnd)
+      token = &tokens.next();
+  if (token->kind == Token::Kind::kEnd) throw SceneError(option, "this option has no values");
+}
+
 }  // namespace
 
-Parameter read_option(TokenStream& tokens) {
+std::optional<Parameter> read_option(TokenStream& tokens, Diagnostics& diagnostics) {
   const Token& token = tokens.expect_string("an option");
   Parameter option;
   option.where = token.where();
@@ -60,8 +69,10 @@ Parameter read_option(TokenStream& tokens) {
   if (known == kOptions.end()) {
     std::vector<std::string> names;
     for (const KnownOption& candidate : kOptions) names.emplace_back(candidate.name);
-    throw SceneError(option.where,
+    diagnostics.warn(option.where,
                      "unknown option \"" + option.name + "\"" + did_you_mean(option.name, names));
+    skip_values(tokens, option.where);
+    return std::nullopt;
   }
   if (!type.empty() && type != known->type) {
     throw SceneError(option.where, "option \"" + option.name + "\" has type \"" + type +

@@ -5,6 +5,7 @@
 
 #include "core/parallel.h"
 #include "core/warps.h"
+#include "integrator/surface_sample.h"
 #include "transport/camera_path.h"
 #include "transport/direct_light.h"
 
@@ -15,6 +16,7 @@ namespace {
 struct Features {
   Vec3f normal{0, 0, 0};
   float depth = 0;
+  FirstSurface surface;  ///< if the depth is above 0
 };
 
 // Collects the light of one camera path.
@@ -135,6 +137,8 @@ class PathVisitor {
     albedo_ = v.bsdf.albedo(v.wo);
     features_.normal = v.surface.shading.z;
     features_.depth = walk.length;
+    features_.surface = {v.surface.p, v.surface.ng, v.surface.shading.z, v.surface.wo,
+                         v.surface.uv};
   }
 
   const Scene& scene_;
@@ -150,7 +154,8 @@ class PathVisitor {
 // The film's response to a flat spectrum of 1, on average over the wavelengths of a path.
 Rgb response_to_white(const FilmSettings& settings) {
   const Rgb white = settings.color_space->from_xyz({1, 1, 1});
-  return white * (kCieYIntegral * settings.imaging_ratio);
+  const Rgb seen = settings.white_balance ? *settings.white_balance * white : white;
+  return seen * (kCieYIntegral * settings.imaging_ratio);
 }
 
 Rgb of_white(const Rgb& rgb, const Rgb& white) {
@@ -183,19 +188,23 @@ void PathEstimator::render_pass(const PassKey& key, const Scene& scene, Film& fi
       for (int x = b.x0; x < b.x1; ++x) {
         PathSampler sampler(point, hash_combine(key.seed, kStream, x, y, index >> 32));
         sampler.start_dimension(dimensions::kWavelength);
-        const SampledWavelengths lambda = SampledWavelengths::sample_visible(sampler.get_1d());
+        const SampledWavelengths lambda =
+            SampledWavelengths::sample_visible(wavelength_number(scene, sampler.get_1d()));
         sampler.start_dimension(dimensions::kTime);
         CameraPath path = start_camera_path(scene, x, y, sampler, lambda, sampler.get_1d());
         PathVisitor visitor(scene, routes_, route_);
         if (path.camera_weight > 0)
           random_walk(scene, TransportMode::kRadiance, max_depth_, path.walk, sampler, visitor);
         const SensorWeights weights =
-            sensor_weights(path.walk.lambda, *settings.color_space, settings.imaging_ratio);
+            sensor_weights(path.walk.lambda, *settings.color_space, settings.imaging_ratio,
+                           settings.white_balance);
         const Rgb rgb = clamp_component(weights.apply(visitor.radiance()) * path.camera_weight,
                                         settings.max_component);
         film.add(buffer_, x, y, rgb * path.filter_weight);
         film.add_features(x, y, of_white(weights.apply(visitor.albedo()), white),
                           visitor.features().normal, visitor.features().depth);
+        if (settings.gbuffer && visitor.features().depth > 0)
+          film.add_surface(x, y, surface_sample(scene, path, visitor.features().surface));
         rays[static_cast<size_t>(row)] += path.walk.rays + visitor.shadow_rays();
       }
     });

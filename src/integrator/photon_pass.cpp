@@ -20,7 +20,8 @@ PhotonPass start_photon_pass(const PassKey& key, const Scene& scene, const Film&
   constexpr uint64_t kStream = 0x70617373;  // "pass"
   PathSampler sampler(pass.point, hash_combine(key.seed, kStream));
   pass.trace.key = key;
-  pass.trace.lambda = SampledWavelengths::sample_visible(sampler.get_1d());
+  pass.trace.lambda =
+      SampledWavelengths::sample_visible(wavelength_number(scene, sampler.get_1d()));
   pass.u_time = sampler.get_1d();
   pass.trace.time = scene.camera->motion_time(pass.u_time);
   pass.trace.photons_per_pass = options.photons_per_pass > 0
@@ -28,7 +29,7 @@ PhotonPass start_photon_pass(const PassKey& key, const Scene& scene, const Film&
                                     : default_photons_per_pass(film.bounds().area());
   pass.trace.max_events = options.max_depth;
   pass.weights = sensor_weights(pass.trace.lambda, *film.settings().color_space,
-                                film.settings().imaging_ratio);
+                                film.settings().imaging_ratio, film.settings().white_balance);
   return pass;
 }
 

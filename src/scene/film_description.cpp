@@ -1,5 +1,10 @@
 #include "scene/film_description.h"
 
+#include <algorithm>
+
+#include "core/white_balance.h"
+#include "input/spelling.h"
+
 namespace nephroid {
 
 namespace {
@@ -38,16 +43,23 @@ void set_crop(FilmDescription& film, const ParameterSet& p, const SceneOverrides
     throw SceneError(p.where, "the crop window contains no pixel");
 }
 
-void check_type(const DirectiveDescription& d, Diagnostics& diagnostics) {
-  if (d.type == "rgb") return;
+/// The coordinate system of a gbuffer film's layers.
+GBufferSpace read_type(const DirectiveDescription& d) {
+  if (d.type == "rgb") return GBufferSpace::kNone;
   if (d.type == "gbuffer") {
-    diagnostics.warn(d.where,
-                     "film \"gbuffer\" is rendered as \"rgb\" with this program's own layers");
-    return;
+    const std::string system = d.parameters.get_string("coordinatesystem", "camera");
+    if (system == "camera") return GBufferSpace::kCamera;
+    if (system == "world") return GBufferSpace::kWorld;
+    throw SceneError(d.parameters.find("coordinatesystem")->where,
+                     "unknown coordinate system \"" + system +
+                         "\" of the film, expected \"camera\" or \"world\"");
   }
-  throw SceneError(d.where, d.type == "spectral"
-                                ? "film \"spectral\" is not rendered yet, expected \"rgb\""
-                                : "unknown film \"" + d.type + "\", expected \"rgb\"");
+  constexpr const char* kExpected = "expected \"rgb\" or \"gbuffer\"";
+  if (d.type == "spectral")
+    throw SceneError(d.where, std::string("film \"spectral\" is not rendered, ") + kExpected);
+  const std::string meant = did_you_mean(d.type, {"rgb", "gbuffer"});
+  throw SceneError(d.where, "unknown film \"" + d.type + "\"" +
+                                (meant.empty() ? std::string(", ") + kExpected : meant));
 }
 
 float positive(const ParameterSet& p, const char* name, float fallback) {
@@ -58,14 +70,42 @@ float positive(const ParameterSet& p, const char* name, float fallback) {
   return value;
 }
 
+// The sensors of the format's table of measured cameras.
+constexpr const char* kMeasuredSensors[] = {
+    "canon_eos_100d", "canon_eos_1dx_mkii", "canon_eos_200d",     "canon_eos_200d_mkii",
+    "canon_eos_5d",   "canon_eos_5d_mkii",  "canon_eos_5d_mkiii", "canon_eos_5d_mkiv",
+    "canon_eos_5ds",  "canon_eos_m",        "hasselblad_l1d_20c", "nikon_d810",
+    "nikon_d850",     "sony_ilce_6400",     "sony_ilce_7m3",      "sony_ilce_7rm3",
+    "sony_ilce_9"};
+
+// A measured sensor sees grey under its white as bright as cie1931 does, and is balanced for 6500 K
+// unless the scene says otherwise: what is lost is its rendition of colours.
+void set_sensor(FilmDescription& film, const ParameterSet& p, Diagnostics& diagnostics) {
+  const std::string sensor = p.get_string("sensor", "cie1931");
+  float kelvin = p.get_float("whitebalance", 0.0f);
+  if (kelvin != 0 && !(kelvin >= 500 && kelvin <= 100000))
+    throw SceneError(p.find("whitebalance")->where,
+                     "\"whitebalance\" must be 0 or a temperature from 500 to 100000 K");
+  if (sensor != "cie1931") {
+    const std::vector<std::string> known(std::begin(kMeasuredSensors), std::end(kMeasuredSensors));
+    if (std::find(known.begin(), known.end(), sensor) == known.end())
+      throw SceneError(p.find("sensor")->where,
+                       "unknown sensor \"" + sensor + "\"" + did_you_mean(sensor, known));
+    diagnostics.warn(p.find("sensor")->where,
+                     "sensor \"" + sensor + "\" is rendered as \"cie1931\" with its exposure");
+    if (kelvin == 0) kelvin = 6500;
+  }
+  if (kelvin != 0) film.white_balance = white_balance(*film.color_space, kelvin);
+}
+
 }  // namespace
 
 FilmDescription make_film_description(const SceneDescription& description,
                                       const SceneOverrides& overrides, Diagnostics& diagnostics) {
   static const ParameterSet kNone;
   const ParameterSet& p = description.film ? description.film->parameters : kNone;
-  if (description.film) check_type(*description.film, diagnostics);
   FilmDescription film;
+  if (description.film) film.gbuffer = read_type(*description.film);
   film.width = overrides.width > 0 ? overrides.width : p.get_int("xresolution", 1280);
   film.height = overrides.height > 0 ? overrides.height : p.get_int("yresolution", 720);
   if (overrides.width > 0) (void)p.find("xresolution");
@@ -86,13 +126,9 @@ FilmDescription make_film_description(const SceneDescription& description,
       throw SceneError(c.where, "\"shutterclose\" must be later than \"shutteropen\"");
   }
   film.imaging_ratio = exposure * positive(p, "iso", 100.0f) / 100.0f;
-  const std::string sensor = p.get_string("sensor", "cie1931");
-  if (sensor != "cie1931")
-    diagnostics.warn(p.where, "sensor \"" + sensor + "\" is rendered as \"cie1931\"");
-  if (p.get_float("whitebalance", 0.0f) != 0.0f)
-    diagnostics.warn(p.where, "\"whitebalance\" is not rendered yet");
   film.max_component = positive(p, "maxcomponentvalue", kInfinity);
   film.color_space = RgbColorSpace::find(description.color_space);
+  set_sensor(film, p, diagnostics);
   film.filename = p.get_string("filename", "nephroid.exr");
   film.diagonal_mm = positive(p, "diagonal", 35.0f);
   (void)p.get_bool("savefp16", true);

@@ -12,11 +12,15 @@
 #include "scene/light/light_sampler.h"
 #include "scene/material/material.h"
 #include "scene/medium/medium.h"
+#include "scene/scene_options.h"
 
 namespace nephroid {
 
 class Camera;
 class PixelFilter;
+
+/// Coordinate system of the geometric layers of a film; kNone: it has none.
+enum class GBufferSpace { kNone, kCamera, kWorld };
 
 /// The film as the scene's Film directive and the command line describe it.
 struct FilmDescription {
@@ -25,6 +29,8 @@ struct FilmDescription {
   float imaging_ratio = 1;                                      ///< exposure time * ISO / 100
   float max_component = kInfinity;                              ///< of a sample's rgb
   const RgbColorSpace* color_space = nullptr;
+  std::optional<ColorMatrix> white_balance;
+  GBufferSpace gbuffer = GBufferSpace::kNone;
   std::string filename;
   float diagonal_mm = 35;  ///< of the film that a realistic camera exposes
   SourceLocation where;    ///< of the Film directive, if there is one
@@ -101,6 +107,7 @@ class Scene {
     return hit.area_light < 0 ? nullptr : lights[static_cast<size_t>(hit.area_light)].get();
   }
 
+  SceneOptions options;
   FilmDescription film;
   std::unique_ptr<Camera> camera;
   std::unique_ptr<PixelFilter> filter;

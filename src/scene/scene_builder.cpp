@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/parallel.h"
+#include "input/spelling.h"
 #include "scene/camera/camera.h"
 #include "scene/film_description.h"
 #include "scene/pixel_filter.h"
@@ -26,7 +27,10 @@ class SceneBuilder {
         textures_(description, diagnostics, overrides.texture_memory),
         scene_(std::make_unique<Scene>()),
         device_(EmbreeScene::make_device()) {
-    scene_->materials = make_materials(d_, textures_, {overrides.specular_alpha}, diagnostics);
+    scene_->options = read_scene_options(d_, diagnostics);
+    check_accelerator(d_, diagnostics);
+    scene_->materials = make_materials(
+        d_, textures_, {overrides.specular_alpha, scene_->options.force_diffuse}, diagnostics);
     for (size_t i = 0; i < d_.materials.size(); ++i)
       if (!d_.materials[i].name.empty())
         material_index_[d_.materials[i].name] = static_cast<int>(i);
@@ -71,21 +75,26 @@ class SceneBuilder {
 
  private:
   void read_sampler() {
+    scene_->scene_seed = static_cast<uint64_t>(scene_->options.seed);
     if (!d_.sampler) return;
     const ParameterSet& p = d_.sampler->parameters;
     const std::string& type = d_.sampler->type;
-    static constexpr const char* kSamplers[] = {"halton", "independent", "paddedsobol", "pmj02bn",
-                                                "sobol",  "stratified",  "zsobol"};
-    if (std::find(std::begin(kSamplers), std::end(kSamplers), type) == std::end(kSamplers))
+    static const std::vector<std::string> kSamplers = {
+        "halton", "independent", "paddedsobol", "pmj02bn", "sobol", "stratified", "zsobol"};
+    if (std::find(kSamplers.begin(), kSamplers.end(), type) == kSamplers.end()) {
+      const std::string meant = did_you_mean(type, kSamplers);
       diagnostics_.warn(p.where,
-                        "unknown sampler \"" + type + "\", only its number of samples is taken");
+                        "unknown sampler \"" + type + "\"" +
+                            (meant.empty() ? ", only its number of samples is taken" : meant));
+    }
     const bool stratified = type == "stratified";
-    const int64_t x = stratified ? p.get_int("xsamples", 4) : p.get_int("pixelsamples", 16);
+    const int64_t x = stratified ? p.get_int("xsamples", 4)
+                                 : p.get_int("pixelsamples", type == "independent" ? 4 : 16);
     const int64_t y = stratified ? p.get_int("ysamples", 4) : 1;
     if (x < 1 || y < 1 || x * y > std::numeric_limits<int>::max())
       throw SceneError(p.where, "the number of pixel samples must be at least 1 and fit 32 bits");
     scene_->samples_per_pixel = static_cast<int>(x * y);
-    scene_->scene_seed = static_cast<uint64_t>(p.get_int("seed", 0));
+    scene_->scene_seed = static_cast<uint64_t>(p.get_int("seed", scene_->options.seed));
     for (const char* of_its_own : {"jitter", "randomization"}) (void)p.find(of_its_own);
     p.report_unused("sampler \"" + type + "\"", diagnostics_);
   }

@@ -21,23 +21,25 @@ FilmSettings film_settings(const FilmDescription& description) {
   settings.color_space = description.color_space;
   settings.filename = description.filename;
   settings.diagonal_mm = description.diagonal_mm;
+  settings.white_balance = description.white_balance;
+  settings.gbuffer = description.gbuffer != GBufferSpace::kNone;
   return settings;
 }
 
 void check_film_fits(const FilmDescription& description, bool size_is_an_option) {
   // The sums of two routes and of the features; everything else comes on top.
-  constexpr double kBytesPerPixel = 320;
+  const double bytes_per_pixel = description.gbuffer == GBufferSpace::kNone ? 320 : 540;
   constexpr double kGiB = 1 << 30;
   const double pixels = static_cast<double>(description.crop_x1 - description.crop_x0) *
                         (description.crop_y1 - description.crop_y0);
   const double memory =
       static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
-  if (pixels * kBytesPerPixel <= memory) return;
+  if (pixels * bytes_per_pixel <= memory) return;
   const std::string message = fmt::format(
       "{:.0f} pixels ({} x {}) need more than {:.0f} GiB of memory and this machine has {:.0f}, "
       "expected a smaller resolution or a crop window",
       pixels, description.crop_x1 - description.crop_x0, description.crop_y1 - description.crop_y0,
-      pixels * kBytesPerPixel / kGiB, memory / kGiB);
+      pixels * bytes_per_pixel / kGiB, memory / kGiB);
   if (size_is_an_option) throw UsageError("--resolution: " + message);
   throw SceneError(description.where, message);
 }

@@ -165,6 +165,9 @@ void warn_of_unknown_names(const std::string& scene_integrator, const ParameterS
                                                    scene_integrator, choice->name));
   } else {
     for (const char* name : kPbrtParameters) (void)parameters.find(name);
+    if (parameters.get_bool("regularize", false))
+      diagnostics.warn(parameters.find("regularize")->where,
+                       "\"regularize\" has no effect here: what it would hide, photons render");
     parameters.report_unused("integrator \"" + scene_integrator + "\"", diagnostics);
   }
   for (const Warning& warning : diagnostics.warnings())

@@ -11,11 +11,19 @@ namespace nephroid {
 
 struct CameraPath {
   Walk walk;
+  Vec2f film, u_lens;  ///< as Camera::generate_ray takes them
+  float u_time = 0;
   float filter_weight = 1;  ///< may be negative
   /// Of all light along the path; 0 if the lens lets nothing through: there is then no walk, and
   /// the sample is black. It stays out of the walk, so that roulette does not see it.
   float camera_weight = 0;
 };
+
+/// The number in [0,1) that chooses a path's wavelengths, or a pass's; `u` unless the scene wants
+/// all of them to be the same.
+inline float wavelength_number(const Scene& scene, float u) {
+  return scene.options.wavelength_jitter ? u : 0.5f;
+}
 
 /// Starts a path through pixel (x, y). `lambda` is the path's, or the pass's where it is shared;
 /// `u_time`, in [0,1), likewise.
@@ -23,15 +31,17 @@ inline CameraPath start_camera_path(const Scene& scene, int x, int y, PathSample
                                     const SampledWavelengths& lambda, float u_time) {
   CameraPath path;
   sampler.start_dimension(dimensions::kFilm);
-  const PixelFilter::Sample f = scene.filter->sample(sampler.get_2d());
+  PixelFilter::Sample f = scene.filter->sample(sampler.get_2d());
+  if (!scene.options.pixel_jitter) f = {Vec2f(0, 0), 1.0f};
   sampler.start_dimension(dimensions::kLens);
-  const Vec2f u_lens = sampler.get_2d();
-  const Vec2f film(static_cast<float>(x) + 0.5f + f.offset.x,
-                   static_cast<float>(y) + 0.5f + f.offset.y);
+  path.u_lens = sampler.get_2d();
+  path.u_time = u_time;
+  path.film =
+      Vec2f(static_cast<float>(x) + 0.5f + f.offset.x, static_cast<float>(y) + 0.5f + f.offset.y);
   path.filter_weight = f.weight;
   path.walk.lambda = lambda;
   path.walk.medium = scene.camera_medium;
-  const std::optional<CameraRay> start = scene.camera->generate_ray(film, u_lens, u_time);
+  const std::optional<CameraRay> start = scene.camera->generate_ray(path.film, path.u_lens, u_time);
   if (!start) return path;
   path.camera_weight = start->weight;
   path.walk.ray = start->ray;

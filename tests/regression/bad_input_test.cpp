@@ -282,11 +282,8 @@ TEST(NotRenderedYet, IsALocatedError) {
   for (const std::string material : {"measured", "subsurface", "hair"})
     expect_scene_error("Material \"" + material + "\"\n",
                        "7:1: material \"" + material + "\" is not rendered yet");
-  for (const std::string camera : {"realistic", "spherical"})
-    SceneFolder(options_with("Camera", "Camera \"" + camera + "\"") + "WorldBegin\n")
-        .expect_error(kScene, "scene.pbrt:4:1: camera \"" + camera + "\" is not rendered yet");
   SceneFolder(options_with("Film", "Film \"spectral\"") + "WorldBegin\n")
-      .expect_error(kScene, "scene.pbrt:1:1: film \"spectral\" is not rendered yet");
+      .expect_error(kScene, "scene.pbrt:1:1: film \"spectral\" is not rendered");
   for (const std::string light : {"goniometric", "projection"})
     expect_refused("LightSource \"" + light + "\"\n",
                    "7:1: light \"" + light + "\" is not rendered yet");
@@ -306,8 +303,7 @@ TEST(NotRenderedYet, IsALocatedWarningWhereThereIsAPicture) {
       "ObjectInstance \"o\"\n" +  // line 24
       "AttributeEnd\nMediumInterface \"fog\" \"\"\nMaterial \"interface\"\n" + "Shape \"sphere\"\n";
   SceneFolder(scene).expect_picture(
-      {"scene.pbrt:5:1: the camera moves: motion blur is not rendered yet",
-       "scene.pbrt:8:1: medium \"fog\": participating media are not rendered yet",
+      {"scene.pbrt:8:1: medium \"fog\": participating media are not rendered yet",
        "scene.pbrt:13:1: the shape moves: motion blur is not rendered yet",
        "scene.pbrt:14:1: the light moves: motion blur is not rendered yet",
        "scene.pbrt:15:1: the texture moves: motion blur is not rendered yet",

@@ -55,7 +55,8 @@ class Camera {
   virtual PixelFootprint footprint() const = 0;
 
   /// The moment that u_time in [0,1) chooses within the shutter, as Ray::time counts: 0 at the
-  /// first keyframe of what moves, 1 at the second, and no further. 0 if both are at the same time.
+  /// first keyframe of what moves, 1 at the second, and no further [K2]. 0 if both are at the same
+  /// time.
   virtual float motion_time(float u_time) const;
   /// Camera space (x right, y up, looking along +z) to world space at a Ray::time.
   Transform camera_to_world(float motion_time) const {

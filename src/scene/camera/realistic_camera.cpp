@@ -56,7 +56,7 @@ class RealisticCamera final : public Camera {
     if (!passed) return std::nullopt;
     CameraRay c;
     c.ray = world_ray(Vec3f(passed->ray.o), Vec3f(passed->ray.d), u_time);
-    // Irradiance from a point of the rear plane: cos^4 / z^2, over the density 1 / area.
+    // [K1]: irradiance from a point of the rear plane, over the density 1 / area.
     const double cos_film = rear_z / (to - from).length();
     c.weight = passed->share * static_cast<float>(sqr(sqr(cos_film)) * pupil.area() / sqr(rear_z));
     return c;

@@ -66,6 +66,7 @@ using MaterialPtr = std::shared_ptr<const Material>;
 /// Options of the scene that change how materials become lobes.
 struct MaterialSettings {
   float specular_alpha = kDefaultSpecularAlpha;
+  bool force_diffuse = false;  ///< every surface is Lambertian
 };
 
 /// Makes all materials of a description, in its order (index = MaterialReference::index). Names are

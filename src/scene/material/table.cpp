@@ -1,6 +1,7 @@
 // The table of material types, and the one loop that makes all materials of a scene; see table.h.
 #include "scene/material/table.h"
 
+#include "scene/material/forced_diffuse.h"
 #include "scene/material/measured_file.h"
 
 namespace nephroid {
@@ -22,7 +23,6 @@ constexpr MaterialRow kTable[] = {
     {"none", make_interface},
     {"", make_interface},
 };
-
 
 /// Makes materials in any order: a mix asks for others that may stand later in the file.
 class Maker {
@@ -67,6 +67,8 @@ class Maker {
         &measured_files_};
     d.parameters.find("type");  // the type of a named material is written as a parameter
     materials_[index] = row(d).make(d, context);
+    if (settings_.force_diffuse && d.type != "mix" && !materials_[index]->is_interface())
+      materials_[index] = force_diffuse(materials_[index]);
     d.parameters.report_unused("material \"" + d.type + "\"", diagnostics_);
     state_[index] = State::kDone;
     return materials_[index];

@@ -83,6 +83,44 @@ TEST(FilmOutput, ExrHoldsEveryLayerBitForBit) {
   EXPECT_GT(film.standard_error(4, 4).r, 0.0f);
 }
 
+TEST(FilmOutput, GbufferLayers) {
+  FilmSettings settings = cropped();
+  settings.gbuffer = true;
+  Film film = filled_film(settings);
+  SurfaceSample a, b;
+  a.p = Vec3f(1, 2, 3);
+  b.p = Vec3f(3, 2, 1);
+  a.n = b.n = Vec3f(0, 0, -1);
+  a.ns = Vec3f(1, 0, 0);
+  b.ns = Vec3f(0, 1, 0);
+  a.uv = Vec2f(0.25f, 0.5f);
+  b.uv = Vec2f(0.75f, 0.5f);
+  a.dzdx = -3;
+  b.dzdx = -1;
+  film.add_surface(4, 3, a);
+  film.add_surface(4, 3, b);
+  const Picture picture = film_picture(film, {});
+  EXPECT_EQ(pixel(picture, 4, 3, "P.X"), 2.0f);
+  EXPECT_EQ(pixel(picture, 4, 3, "P.Z"), 2.0f);
+  EXPECT_EQ(pixel(picture, 4, 3, "N.Z"), -1.0f);
+  EXPECT_NEAR(pixel(picture, 4, 3, "Ns.X"), std::sqrt(0.5), 1e-6);
+  EXPECT_NEAR(pixel(picture, 4, 3, "Ns.Y"), std::sqrt(0.5), 1e-6);
+  EXPECT_EQ(pixel(picture, 4, 3, "u"), 0.5f);
+  EXPECT_EQ(pixel(picture, 4, 3, "v"), 0.5f);
+  EXPECT_EQ(pixel(picture, 4, 3, "dzdx"), 2.0f);
+  EXPECT_EQ(pixel(picture, 4, 3, "dzdy"), 0.0f);
+  EXPECT_EQ(pixel(picture, 5, 3, "P.X"), 0.0f);
+  EXPECT_EQ(pixel(picture, 4, 4, "Albedo.R"), film.albedo(4, 4).r);
+  EXPECT_EQ(pixel(picture, 4, 4, "Z"), film.depth(4, 4));
+  // Three estimates: the variance of one of them is three times that of their mean.
+  const float error = film.standard_error(4, 4).r;
+  EXPECT_GT(error, 0.0f);
+  EXPECT_NEAR(pixel(picture, 4, 4, "Variance.R"), 3 * error * error, 1e-5f * error * error);
+  EXPECT_NEAR(pixel(picture, 4, 4, "RelativeVariance.R"), 3 * error * error / film.value(4, 4).r,
+              1e-5f);
+  EXPECT_EQ(picture.find_channel("albedo.R"), -1);
+}
+
 TEST(FilmOutput, CropIsDataWindowInDisplayWindow) {
   const ScratchDirectory directory;
   const std::string path = directory.file("out.exr");

@@ -109,8 +109,6 @@ TEST(Directives, Options) {
   EXPECT_EQ(scene.options[1].strings, std::vector<std::string>({"a.exr"}));
   EXPECT_EQ(scene.options[2].type, "float");
   EXPECT_EQ(scene.options[3].numbers, std::vector<double>({8}));
-  EXPECT_EQ(parse_error("Option \"sed\" 1"),
-            "t.pbrt:1:8: unknown option \"sed\", did you mean \"seed\"?");
   EXPECT_EQ(parse_error("Option \"float seed\" 1"),
             "t.pbrt:1:8: option \"seed\" has type \"float\", expected \"integer\"");
   EXPECT_EQ(parse_error("Option \"seed\" [1 2]"),
@@ -119,6 +117,20 @@ TEST(Directives, Options) {
       parse_error("Option \"pixelstats\" 1"),
       "t.pbrt:1:21: parameter \"pixelstats\" has type \"bool\", expected true or false, found "
       "\"1\"");
+}
+
+TEST(Directives, UnknownOptionsAreWarnedOfAndSkipped) {
+  for (const char* value : {"1", "[ 1 2 ]", "\"a\"", "true", "[ true ]"}) {
+    Diagnostics diagnostics;
+    const SceneDescription scene =
+        parse_pbrt_string("Option \"sed\" " + std::string(value) + " Option \"seed\" 2 WorldBegin",
+                          "t.pbrt", ".", diagnostics);
+    ASSERT_EQ(scene.options.size(), 1u);
+    EXPECT_EQ(scene.options[0].name, "seed");
+    ASSERT_EQ(diagnostics.warnings().size(), 1u);
+    EXPECT_EQ(diagnostics.warnings()[0].message, "unknown option \"sed\", did you mean \"seed\"?");
+  }
+  EXPECT_EQ(parse_error("Option \"sed\" [ 1"), "t.pbrt:1:8: this option has no values");
 }
 
 TEST(Directives, Materials) {
