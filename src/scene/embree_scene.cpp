@@ -151,15 +151,17 @@ void ribbon_filter(const RTCFilterFunctionNArguments* args) {
   if (!shape->is_hit(hit->primID, hit->u, ray)) args->valid[0] = 0;
 }
 
-// Ribbons that face the ray; the buffers are shared with the shape.
+// Ribbons that face the ray; the buffers are shared with the shape. Embree does not see a curve
+// that is nearer to the origin of the ray than the curve is wide, so that rays do not meet what
+// they leave: they start about as far away anyhow.
 RTCGeometry curve_geometry(RTCDevice device, const CurveShape& curves) {
   const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_FLAT_BEZIER_CURVE);
   const std::vector<CurveShape::Vertex>& vertices = curves.vertices();
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4,
                              vertices.data(), 0, sizeof(CurveShape::Vertex), vertices.size());
-  auto* first = static_cast<uint32_t*>(
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT,
-                              sizeof(uint32_t), curves.primitive_count()));
+  auto* first = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0,
+                                                               RTC_FORMAT_UINT, sizeof(uint32_t),
+                                                               curves.primitive_count()));
   if (first)
     for (uint32_t i = 0; i < curves.primitive_count(); ++i) first[i] = 4 * i;
   rtcSetGeometryTessellationRate(geometry, CurveShape::kPartsPerPiece);

@@ -67,6 +67,9 @@ const FurnaceScene kScenes[] = {
         MakeNamedMaterial "pane" "string type" "thindielectric"
         WALL Material "mix" "string materials" ["white" "pane"] "float amount" 0.6
         Shape "disk" "float radius" 0.9)"},
+    {"hair_before_wall",
+     R"(WALL Material "hair" "rgb sigma_a" [0 0 0] Shape "curve" "string type" "cylinder"
+        "float width" 0.3 "point3 P" [-1.2 -1 0  -0.5 2 0.5  0.6 -2 -0.5  1.3 1 0])"},
     // Smooth normals send a little light into the ball, where it may stay.
     {"smooth_mesh", R"(Material "diffuse" "spectrum reflectance" [300 1 900 1] BALL)", 3e-3},
     {"instance_behind_glass",
@@ -133,7 +136,7 @@ TEST(HairFurnace, RadianceIsOne) {
   const double error = std::hypot(e.error, expected.error);
   EXPECT_NEAR(e.mean, expected.mean, kT15 * error + 1e-3);
   EXPECT_LT(error, 0.01 * expected.mean);
-  // They are there: dark hair is seen.
+  // Dark hair is seen.
   curls.replace(curls.find("[0 0 0]"), 7, "[9 9 9]");
   const auto dark = scene_from_text(furnace_text({"dark", curls.c_str()}));
   EXPECT_LT(mean_over_seeds(*dark, "path", {}, 16, 16).mean, 0.95 * expected.mean);
