@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "agreement/scenes.h"
+#include "measured_ggx.h"
 #include "rendering.h"
 #include "scene/camera/camera.h"
 
@@ -18,8 +19,8 @@ using namespace testing_support;
 constexpr int kAcross = 3, kSeeds = 32;
 constexpr uint32_t kPhotonPasses = 6;
 
-// The files that the scenes name: a smooth height field and a small coloured image; gone with the
-// object.
+// The files that the scenes name: a smooth height field, a small coloured image and a measured
+// reflection; gone with the object.
 class SceneFiles {
  public:
   SceneFiles() {
@@ -39,6 +40,9 @@ class SceneFiles {
       for (const int period : {5, 3, 7}) picture.push_back(1.0f + static_cast<float>(i % period));
     write("/waves.pfm", "Pf", kSize, waves);
     write("/picture.pfm", "PF", 8, picture);
+    const testing_measured::GgxSurface brushed{0.3f, 0.6f, 9, 1, 7, 24, 10, 2};
+    std::ofstream(directory_ + "/brushed.bsdf", std::ios::binary)
+        << testing_measured::bsdf_file_of(testing_measured::tables_of(brushed));
   }
   ~SceneFiles() {
     std::error_code ignored;

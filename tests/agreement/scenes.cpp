@@ -100,6 +100,11 @@ const std::vector<AgreementScene> kAgreementScenes = {
      .world = R"(Material "coatedconductor" "float interface.roughness" 0
                    "float conductor.roughness" 0.2
                  Translate 0 0.7 0 Shape "sphere" "float radius" 0.6)"},
+    {.name = "measured_below_glass",
+     .world = R"(Material "measured" "string filename" "MEASURED"
+                 Shape "bilinearmesh" "point3 P" [-3 0.05 -3  3 0.05 -3  -3 0.05 3  3 0.05 3]
+                 Material "dielectric" "float eta" 1.5 Translate 0 0.9 0
+                 Shape "sphere" "float radius" 0.6)"},
     {.name = "thin_lens",
      .world = R"(Material "dielectric" Translate 0 0.9 0 Shape "sphere" "float radius" 0.6)",
      .camera = kLensCamera},
@@ -232,6 +237,7 @@ std::string agreement_scene_text(const AgreementScene& scene, const std::string&
   };
   fill_in("WAVES", directory + "/waves.pfm");
   fill_in("PICTURE", directory + "/picture.pfm");
+  fill_in("MEASURED", directory + "/brushed.bsdf");
   fill_in("BALL", kBall);
   return text;
 }

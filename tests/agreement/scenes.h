@@ -23,8 +23,8 @@ struct AgreementScene {
 
 extern const std::vector<AgreementScene> kAgreementScenes;
 
-/// The text of a whole scene. `directory` holds a height field for bumps, waves.pfm, and a small
-/// image, picture.pfm.
+/// The text of a whole scene. `directory` holds a height field for bumps, waves.pfm, a small
+/// image, picture.pfm, and a measured reflection, brushed.bsdf.
 std::string agreement_scene_text(const AgreementScene& scene, const std::string& directory);
 
 }  // namespace nephroid

@@ -75,6 +75,8 @@ void check_azimuths(const Fields& fields, const std::vector<float>& phi) {
 
 MeasuredBrdf measured_brdf_from(const TensorFile& file) {
   const Fields fields(file);
+  if (file.find("rgb") && !file.find("spectra"))
+    file.fail("it holds rgb values, expected the file of the same surface that holds spectra");
   file.require("description", TensorType::kUint8, 1);
   MeasuredTables t;
   t.phi = fields.axis("phi_i");

@@ -178,6 +178,12 @@ TEST(MeasuredFile, EveryFieldIsNeeded) {
   }
 }
 
+TEST(MeasuredFile, FilesOfRgbValuesAreNamedAsSuch) {
+  testing_measured::TensorBytes rgb;
+  rgb.add("rgb", {1}, {0.5f});
+  EXPECT_NE(error_in(rgb.bytes()).find("it holds rgb values"), std::string::npos);
+}
+
 TEST(MeasuredFile, TruncationsAndFlippedBitsNeverCrash) {
   const std::string whole = bsdf_file_of(tables_of(small_surface()));
   for (size_t size = 0; size < whole.size(); size += size < 600 ? 1 : 97)
