@@ -1,6 +1,7 @@
 #include "photon/photon_tracer.h"
 
 #include "core/parallel.h"
+#include "transport/direct_light.h"
 
 namespace nephroid {
 
@@ -68,6 +69,22 @@ struct Emitted {
   const Medium* medium = nullptr;
   SampledSpectrum flux;
 };
+/// The way to the photon's origin from outside of the scene ([P4] in docs/estimators.md), where it
+/// starts in `emitted.medium`.
+void come_from_behind(const Scene& scene, const SampledWavelengths& lambda,
+                      const PathSampler& sampler, Emitted& emitted) {
+  const Ray& ray = emitted.ray;
+  DirectSample way;
+  way.shadow_ray = ray;
+  way.shadow_ray.t_max = length(ray.o - scene.sphere.center) + scene.sphere.radius;
+  way.shadow_ray.o = ray.o - ray.d * way.shadow_ray.t_max;
+  way.medium = emitted.medium;
+  const ShadowFlight flight = trace_shadow(scene, way, lambda, sampler);
+  const float density = lambda.secondary_terminated() ? flight.l[0] : flight.l.average();
+  emitted.flux *= flight.transmittance / density;
+  emitted.medium = flight.medium;
+}
+
 std::optional<Emitted> emit(const Scene& scene, const SampledWavelengths& lambda, float time,
                             PathSampler& sampler) {
   float u_light = sampler.get_1d();
@@ -86,11 +103,7 @@ std::optional<Emitted> emit(const Scene& scene, const SampledWavelengths& lambda
     out.medium = e->from_inside ? media.inside : media.outside;
   }
   out.flux = e->radiance * (e->cos_theta / (choice->pdf_p * e->pdf_a * e->pdf_w));
-  if (e->from_behind) {
-    Ray back = out.ray;
-    back.d = -back.d;
-    out.flux *= scene.transmittance(back, lambda);
-  }
+  if (e->from_behind) come_from_behind(scene, lambda, sampler, out);
   if (out.flux.is_black()) return std::nullopt;
   return out;
 }

@@ -54,6 +54,7 @@ ShadowFlight trace_shadow(const Scene& scene, const DirectSample& direct,
   for (int passages = 0; rest.t_max > 0.0f; ++passages) {
     const bool found = scene.intersect_passing(rest, hit);
     if (medium) cross(*medium, rest, found ? hit.distance : rest.t_max, lambda, random, flight);
+    flight.medium = medium;
     if (!found || flight.transmittance.is_black()) return flight;
     flight.transmittance *= scene.straight_weight(hit, lambda);
     if (flight.transmittance.is_black() || passages > kMaxPassages) break;

@@ -73,8 +73,9 @@ std::optional<Collision> fly(const Medium& medium, const Ray& ray, float t_max,
 /// either technique, relative to the density with which it was sampled.
 struct ShadowFlight {
   SampledSpectrum transmittance{1.0f};
-  SampledSpectrum u{1.0f};  ///< had a walk gone this way
-  SampledSpectrum l{1.0f};  ///< of the shadow ray itself
+  SampledSpectrum u{1.0f};         ///< had a walk gone this way
+  SampledSpectrum l{1.0f};         ///< of the shadow ray itself
+  const Medium* medium = nullptr;  ///< around its end
 };
 
 /// Multiplies one more piece onto `flight`.

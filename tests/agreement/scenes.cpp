@@ -54,6 +54,17 @@ constexpr char kPortal[] = R"(
     Shape "bilinearmesh" "point3 P" [1 4.8 0  3 4.8 0  1 4.8 2  3 4.8 2] "float alpha" 0.5
   AttributeEnd
 )";
+// A cloud in the portal itself.
+constexpr char kPortalInSmoke[] = R"(
+  LightSource "infinite" "rgb L" [0.8 0.9 1] "float scale" 3
+    "point3 portal" [0.9 3 -0.8  2.9 3 -0.8  2.9 3 1.6  0.9 3 1.6]
+  MakeNamedMedium "smoke" "string type" "homogeneous" "float scale" 1
+    "rgb sigma_a" [0.5 0.3 0.2] "rgb sigma_s" [0.2 0.3 0.4]
+  AttributeBegin
+    Material "interface" MediumInterface "smoke" ""
+    Translate 1.9 3 0.4 Shape "sphere" "float radius" 1
+  AttributeEnd
+)";
 
 constexpr char kRoom[] = R"(
   Material "diffuse" "rgb reflectance" [0.6 0.5 0.4]
@@ -178,6 +189,9 @@ const std::vector<AgreementScene> kAgreementScenes = {
                  Shape "sphere" "float radius" 0.6)",
      .light = kPortal,
      .photons = 9216},
+    {.name = "portal_in_smoke",
+     .world = R"(Translate 0 0.7 0 Shape "sphere" "float radius" 0.6)",
+     .light = kPortalInSmoke},
     {.name = "instance_of_smooth_glass",
      .world = R"(ObjectBegin "ball" Material "dielectric" "float eta" 1.5 BALL ObjectEnd
                  Translate 0 0.9 0 Rotate 30 1 2 3 ObjectInstance "ball")"},
