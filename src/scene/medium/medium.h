@@ -78,6 +78,7 @@ class Medium {
   virtual std::optional<SampledSpectrum> uniform_extinction(const SampledWavelengths&) const {
     return std::nullopt;
   }
+  /// At a point of a ray's majorants; beyond the medium's bounds there may still be something.
   virtual MediumProperties at(const Vec3f& p, const SampledWavelengths& lambda) const = 0;
   /// Majorants along a ray of unit direction from its origin to t_max (which may be infinite).
   virtual MajorantIterator majorants(const Ray& ray, float t_max,
