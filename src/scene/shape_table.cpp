@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "scene/curve_directives.h"
+#include "scene/shape/displacement.h"
 #include "scene/shape/emitter_rectangles.h"
 #include "scene/shape/mesh_preparation.h"
 
@@ -21,6 +22,7 @@ struct Context {
   Diagnostics& diagnostics;
   Transform transform;
   bool flip;  ///< ReverseOrientation xor a transform that swaps handedness
+  const DisplacementInputs& displacement;
 
   std::string what() const { return "shape \"" + description.type + "\""; }
 };
@@ -86,12 +88,43 @@ std::vector<ShapePtr> triangle_mesh(const Context& c) {
   return finish_mesh(c, std::move(data));
 }
 
+// As in pbrt-v4 the texture is asked at points in object space, before they move.
+MeshData displaced(const Context& c, MeshData data, const FloatTexture& height) {
+  Displacement displacement;
+  // Earlier versions of pbrt-v4 had another name for the length.
+  const char* name = c.p.find("displacement.edgelength") ? "displacement.edgelength" : "edgelength";
+  displacement.edge_length = c.p.get_float(name, 1.0f) * c.displacement.edge_scale;
+  if (!(displacement.edge_length > 0))
+    throw SceneError(c.p.where, fmt::format("{}: the edge length of \"displacement\" is {:g}, "
+                                            "expected a positive number",
+                                            c.what(), displacement.edge_length));
+  if (data.uvs.empty())
+    throw SceneError(c.p.where, c.what() +
+                                    ": \"displacement\" needs texture coordinates, and the file "
+                                    "has none");
+  displacement.object_to_world = Transform(c.description.transform.start);
+  displacement.height = [&](const Vec3f& p, const Vec2f& uv) {
+    TextureContext context;
+    context.p = p;
+    context.uv = uv;
+    return height.eval(context);
+  };
+  std::optional<MeshData> result = displace_mesh(std::move(data), displacement);
+  if (!result)
+    throw SceneError(c.p.where,
+                     fmt::format("{}: \"displacement\" with edges of length {:g} makes more than "
+                                 "{} triangles, expected a larger \"edgelength\"",
+                                 c.what(), displacement.edge_length, kMostDisplacedTriangles));
+  return std::move(*result);
+}
+
 std::vector<ShapePtr> ply_mesh(const Context& c) {
   const std::string name = c.p.get_string("filename", "");
   if (name.empty()) throw SceneError(c.p.where, c.what() + " has no \"string filename\"");
-  if (c.p.find("displacement"))
-    c.diagnostics.warn(c.p.where, "\"displacement\" of a shape is not rendered yet");
-  return finish_mesh(c, read_ply((std::filesystem::path(c.directory) / name).string(), c.p.where));
+  MeshData data = read_ply((std::filesystem::path(c.directory) / name).string(), c.p.where);
+  if (const FloatTexturePtr height = c.displacement.textures.float_texture(c.p, "displacement"))
+    data = displaced(c, std::move(data), *height);
+  return finish_mesh(c, std::move(data));
 }
 
 std::vector<ShapePtr> bilinear_mesh(const Context& c) {
@@ -211,7 +244,8 @@ size_t shapes_alike(std::span<const ShapeDescription> descriptions) {
 }
 
 std::vector<ShapePtr> make_shapes(std::span<const ShapeDescription> alike,
-                                  const std::string& directory, Diagnostics& diagnostics) {
+                                  const std::string& directory, Diagnostics& diagnostics,
+                                  const DisplacementInputs& displacement) {
   const ShapeDescription& description = alike[0];
   if (description.transform.is_animated() && !is_moving(description))
     diagnostics.warn(description.where,
@@ -224,7 +258,8 @@ std::vector<ShapePtr> make_shapes(std::span<const ShapeDescription> alike,
                         directory,
                         diagnostics,
                         transform,
-                        description.reverse_orientation != transform.swaps_handedness()};
+                        description.reverse_orientation != transform.swaps_handedness(),
+                        displacement};
   for (const Row& row : kTable)
     if (description.type == row.name) return row.make(context);
   std::string expected;

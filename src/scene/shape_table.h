@@ -8,8 +8,15 @@
 
 #include "input/scene_description.h"
 #include "scene/shape/shape.h"
+#include "scene/texture/texture.h"
 
 namespace nephroid {
+
+/// What shapes with a "displacement" need of the scene.
+struct DisplacementInputs {
+  const TextureLibrary& textures;
+  float edge_scale = 1;  ///< Option "displacementedgescale"
+};
 
 /// True if the shapes of this directive stand under a transform that moves them. Emitting ones do
 /// not: they stay at their start.
@@ -20,7 +27,8 @@ bool is_moving(const ShapeDescription& description);
 /// in the space before it. A PLY file with triangles and quads gives two. Empty after a warning
 /// where nothing is left to render. Throws SceneError or IoError.
 std::vector<ShapePtr> make_shapes(std::span<const ShapeDescription> alike,
-                                  const std::string& directory, Diagnostics& diagnostics);
+                                  const std::string& directory, Diagnostics& diagnostics,
+                                  const DisplacementInputs& displacement);
 
 /// How many directives from the first on make_shapes takes at once: 1 but for curves alike.
 size_t shapes_alike(std::span<const ShapeDescription> descriptions);
