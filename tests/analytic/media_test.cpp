@@ -263,8 +263,8 @@ TEST(Media, CausticThroughAbsorbingGlass) {
   // A beam falls straight through a plate of coloured glass onto a floor that the camera sees from
   // under the plate. Photons carry it; three events leave C D S S L alone.
   IntegratorOptions options;
-  options.photons_per_pass = 1 << 14;
-  options.radius = 150;  // footprints are tiny here, and the beam is uniform
+  options.photons_per_pass = 1 << 12;
+  options.radius = 300;  // footprints are tiny here, and the beam is uniform
   options.max_depth = 3;
   const double r = (0.5 / 2.5) * (0.5 / 2.5);
   // Layers: the same under all of the plate.
