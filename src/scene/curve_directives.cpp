@@ -119,7 +119,8 @@ size_t curves_alike(std::span<const ShapeDescription> descriptions) {
   return count;
 }
 
-ShapePtr make_curves(std::span<const ShapeDescription> alike, Diagnostics& diagnostics) {
+ShapePtr make_curves(std::span<const ShapeDescription> alike, const Transform& transform,
+                     Diagnostics& diagnostics) {
   const ShapeDescription& first = alike[0];
   const CurveType type = type_of(first.parameters);
   std::vector<CurveSegment> all;
@@ -138,8 +139,7 @@ ShapePtr make_curves(std::span<const ShapeDescription> alike, Diagnostics& diagn
     else
       diagnostics.warn(d.where, "curve has no width, nothing will be seen of it");
   }
-  auto shape = std::make_shared<CurveShape>(Transform(first.transform.start),
-                                            first.reverse_orientation, type, all);
+  auto shape = std::make_shared<CurveShape>(transform, first.reverse_orientation, type, all);
   for (uint32_t i = 0; i < shape->primitive_count(); ++i) {
     const Bounds3f box = shape->bounds(i);
     if (!is_in_reach(box.min) || !is_in_reach(box.max))

@@ -13,8 +13,9 @@ namespace nephroid {
 /// How many directives from the first on are made into one shape: 1 unless they are curves alike.
 size_t curves_alike(std::span<const ShapeDescription> descriptions);
 
-/// The curves of one or more directives that are alike, in world space. Null after a warning if
-/// they have no length or no width. Throws SceneError.
-ShapePtr make_curves(std::span<const ShapeDescription> alike, Diagnostics& diagnostics);
+/// The curves of one or more directives that are alike, mapped by `transform`. Null after a warning
+/// if they have no length or no width. Throws SceneError.
+ShapePtr make_curves(std::span<const ShapeDescription> alike, const Transform& transform,
+                     Diagnostics& diagnostics);
 
 }  // namespace nephroid

@@ -212,7 +212,7 @@ std::vector<ShapePtr> cylinder(const Context& c) {
 }
 
 std::vector<ShapePtr> curves(const Context& c) {
-  ShapePtr shape = make_curves(c.alike, c.diagnostics);
+  ShapePtr shape = make_curves(c.alike, c.transform, c.diagnostics);
   if (!shape) return {};
   return {std::move(shape)};
 }

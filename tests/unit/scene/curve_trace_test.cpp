@@ -188,6 +188,22 @@ TEST(CurveTracing, StretchedCurvesAndInstancesAreMet) {
     }
 }
 
+TEST(CurveTracing, CurvesMove) {
+  const std::string one =
+      R"(Shape "curve" "point3 P" [-1 0 0 -.3 0 0 .3 0 0 1 0 0] "float width" 0.2 )";
+  const Built built("Translate 0 5 0 ActiveTransform EndTime Translate 0 2 0 ActiveTransform All " +
+                    one + one);
+  Ray ray;
+  ray.d = Vec3f(0, 0, 1);
+  SurfaceInteraction hit;
+  for (const float time : {0.0f, 0.5f, 1.0f})
+    for (const float offset : {-0.11f, -0.09f, 0.09f, 0.11f}) {
+      ray.time = time;
+      ray.o = Vec3f(0.4f, 5 + 2 * time + offset, -4);
+      EXPECT_EQ(built.scene->intersect(ray, hit), std::abs(offset) < 0.1f) << time << " " << offset;
+    }
+}
+
 TEST(CurveTracing, WrongDirectivesGetLocatedErrors) {
   const std::string p4 = "\"point3 P\" [0 0 0 1 0 0 2 0 0 3 1 0] ";
   const auto expect_error = [](const std::string& directive, const std::string& text) {
