@@ -84,7 +84,7 @@ inline BsdfCase measured_case(const testing_measured::GgxSurface& surface) {
   };
   const std::string name = "measured " + std::to_string(surface.alpha_x) + " " +
                            std::to_string(surface.alpha_y) + " " + std::to_string(surface.symmetry);
-  return {name, make, false, false, false};
+  return {.name = name, .make = make, .reciprocal = false};
 }
 template <class Base>
 BsdfCase coated_case(const std::string& name, const Coat& coat, const Base& base) {
