@@ -100,8 +100,8 @@ TEST_F(MeshLoading, AThousandInstancesShareTheirMesh) {
   EXPECT_EQ(scene->groups.size(), 1u);
   EXPECT_EQ(scene->shape_count, 1u);
   EXPECT_EQ(scene->primitive_count, 2u);
-  ASSERT_EQ(scene->instances.size(), 1000u);
-  for (const InstanceRecord& instance : scene->instances)
+  ASSERT_EQ(scene->top.instances.size(), 1000u);
+  for (const InstanceRecord& instance : scene->top.instances)
     EXPECT_EQ(instance.group, scene->groups[0].get());
   // The last one is where it should be.
   Ray ray;

@@ -14,7 +14,8 @@ TEST(ShapeTable, WhereToSampleALampDoesNotChangeThePicture) {
       "WorldBegin\nShape \"bilinearmesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 0]\n"
       "  \"string emissionfilename\" \"there is no such file.exr\"",
       "t.pbrt", ".", d);
-  const auto shapes = make_shapes(scene.shapes.at(0), ".", d);
+  const TextureLibrary textures(scene, d);
+  const auto shapes = make_shapes({&scene.shapes.at(0), 1}, ".", d, {textures});
   EXPECT_EQ(shapes.size(), 1u);
   ASSERT_EQ(d.warnings().size(), 1u);
   EXPECT_EQ(d.warnings()[0].where.line, 3);
