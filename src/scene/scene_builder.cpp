@@ -107,13 +107,6 @@ class SceneBuilder {
         where, "medium \"" + name + "\" is not defined, expected the name of a MakeNamedMedium");
   }
 
-  float displacement_edge_scale() const {
-    float scale = 1;
-    for (const Parameter& option : d_.options)
-      if (option.name == "displacementedgescale") scale = static_cast<float>(option.numbers.at(0));
-    return scale;
-  }
-
   int material_of(const ShapeDescription& shape) const {
     if (shape.material.index >= 0) return shape.material.index;
     const auto it = material_index_.find(shape.material.name);
@@ -133,7 +126,7 @@ class SceneBuilder {
       runs.push_back(rest.first(shapes_alike(rest)));
     std::vector<std::vector<ShapePtr>> made(runs.size());
     std::vector<std::exception_ptr> failed(runs.size());
-    const DisplacementInputs displacement{textures_, displacement_edge_scale()};
+    const DisplacementInputs displacement{textures_, scene_->options.displacement_edge_scale};
     parallel_chunks(static_cast<int64_t>(runs.size()), 1, [&](int64_t i, int64_t, int64_t) {
       const auto k = static_cast<size_t>(i);
       try {

@@ -38,8 +38,13 @@ constexpr Row kTable[] = {
     {"seed", [](const Parameter& p, SceneOptions& o) { o.seed = static_cast<int>(p.numbers[0]); },
      ""},
     {"rendercoordsys", check_coordinate_system, ""},
-    {"disabletexturefiltering", nullptr, ""},
-    {"displacementedgescale", nullptr, ""},
+    // Textures are looked up at points, with or without it.
+    {"disabletexturefiltering", [](const Parameter&, SceneOptions&) {}, ""},
+    {"displacementedgescale",
+     [](const Parameter& p, SceneOptions& o) {
+       o.displacement_edge_scale = static_cast<float>(p.numbers[0]);
+     },
+     ""},
     {"msereferenceimage", nullptr, "; nephroid compare measures pictures"},
     {"msereferenceout", nullptr, "; nephroid compare measures pictures"},
     {"pixelstats", nullptr, ""},

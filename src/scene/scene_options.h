@@ -8,10 +8,11 @@
 namespace nephroid {
 
 struct SceneOptions {
-  bool pixel_jitter = true;       ///< false: all samples of a pixel go through its centre
-  bool wavelength_jitter = true;  ///< false: all paths have the same wavelengths
-  bool force_diffuse = false;     ///< every surface is Lambertian and keeps its reflectance
-  int seed = 0;                   ///< where the Sampler line gives none
+  bool pixel_jitter = true;           ///< false: all samples of a pixel go through its centre
+  bool wavelength_jitter = true;      ///< false: all paths have the same wavelengths
+  bool force_diffuse = false;         ///< every surface is Lambertian and keeps its reflectance
+  int seed = 0;                       ///< where the Sampler line gives none
+  float displacement_edge_scale = 1;  ///< factor of the "edgelength" of displaced meshes
 };
 
 /// Warns of options that have no effect here; throws SceneError for values that the format does not

@@ -56,8 +56,7 @@ TEST(SceneOptions, WithoutEffect) {
   EXPECT_EQ(build("Option \"wavefront\" false Option \"pixelstats\" false").warnings, "");
   EXPECT_EQ(build("Option \"wavefront\" true").warnings,
             "test.pbrt:1:8: option \"wavefront\" has no effect here\n");
-  EXPECT_EQ(build("Option \"displacementedgescale\" 2").warnings,
-            "test.pbrt:1:8: option \"displacementedgescale\" has no effect here\n");
+  EXPECT_EQ(build("Option \"bool disabletexturefiltering\" true").warnings, "");
   EXPECT_EQ(build("Option \"msereferenceimage\" \"a.exr\"").warnings,
             "test.pbrt:1:8: option \"msereferenceimage\" has no effect here; nephroid compare "
             "measures pictures\n");
