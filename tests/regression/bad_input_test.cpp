@@ -276,40 +276,30 @@ TEST(BadSampler, IsLocated) {
                  sampler("\"stratified\" \"integer xsamples\" 65536 \"integer ysamples\" 65536"));
 }
 
-TEST(NotRenderedYet, IsALocatedError) {
-  expect_scene_error("Shape \"curve\" \"point3 P\" [ 0 0 0 1 0 0 1 1 0 0 1 0 ]\n",
-                     "7:1: shape \"curve\" is not rendered yet");
-  for (const std::string material : {"measured", "subsurface", "hair"})
-    expect_scene_error("Material \"" + material + "\"\n",
-                       "7:1: material \"" + material + "\" is not rendered yet");
+TEST(NotRendered, IsALocatedError) {
+  expect_scene_error(
+      "AreaLightSource \"diffuse\"\nShape \"curve\" \"point3 P\" [ 0 0 0 1 0 0 1 1 0 0 1 0 ]\n",
+      "8:1: ");
+  expect_scene_error("Material \"measured\"\n", "7:1: ");
   SceneFolder(options_with("Film", "Film \"spectral\"") + "WorldBegin\n")
       .expect_error(kScene, "scene.pbrt:1:1: film \"spectral\" is not rendered");
-  for (const std::string light : {"goniometric", "projection"})
-    expect_refused("LightSource \"" + light + "\"\n",
-                   "7:1: light \"" + light + "\" is not rendered yet");
-  expect_refused("Texture \"t\" \"float\" \"fbm\"\n",
-                 "7:1: texture class \"fbm\" is not rendered yet");
+  expect_refused("LightSource \"projection\"\n", "7:1: ");
+  expect_refused("Texture \"t\" \"float\" \"ptex\"\n", "7:1: texture class \"ptex\"");
+  expect_refused("MediumInterface \"smoke\" \"\"\n" + kTriangle,
+                 "8:1: medium \"smoke\" is not defined");
 }
 
-TEST(NotRenderedYet, IsALocatedWarningWhereThereIsAPicture) {
+TEST(NotRendered, IsALocatedWarningWhereThereIsAPicture) {
   const std::string moving =
       "AttributeBegin\nActiveTransform EndTime\nTranslate 1 0 0\nActiveTransform All\n";
   const std::string scene =
-      "ActiveTransform EndTime Translate 1 0 0 ActiveTransform All\n" + kHead +  // lines 2 to 7
-      "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\"\n" + moving + kTriangle +  // line 13
-      "LightSource \"point\"\n" +                                                         // line 14
-      "Texture \"t\" \"float\" \"constant\"\n" +                                          // line 15
-      "AttributeEnd\nObjectBegin \"o\"\n" + kTriangle + "ObjectEnd\n" + moving +
-      "ObjectInstance \"o\"\n" +  // line 24
-      "AttributeEnd\nMediumInterface \"fog\" \"\"\nMaterial \"interface\"\n" + "Shape \"sphere\"\n";
-  SceneFolder(scene).expect_picture(
-      {"scene.pbrt:8:1: medium \"fog\": participating media are not rendered yet",
-       "scene.pbrt:13:1: the shape moves: motion blur is not rendered yet",
-       "scene.pbrt:14:1: the light moves: motion blur is not rendered yet",
-       "scene.pbrt:15:1: the texture moves: motion blur is not rendered yet",
-       "scene.pbrt:24:1: the instance moves: motion blur is not rendered yet"});
-  expect_refused("MediumInterface \"smoke\" \"\"\n" + kTriangle,
-                 "8:1: medium \"smoke\" is not defined");
+      kHead + moving +                                 // lines 7 to 10
+      "LightSource \"point\"\n" +                     // line 11
+      "Texture \"t\" \"float\" \"constant\"\n" +    // line 12
+      "AreaLightSource \"diffuse\"\n" + kTriangle;    // line 14
+  SceneFolder(scene + "AttributeEnd\n")
+      .expect_picture({"scene.pbrt:11:1: the light moves", "scene.pbrt:12:1: the texture moves",
+                       "scene.pbrt:14:1: a shape that emits light cannot move"});
 }
 
 TEST(SuspiciousScene, IsAWarning) {

@@ -188,6 +188,10 @@ std::shared_ptr<const Image> TileCache::open(ImageInputFile& file, const std::st
   if (!handle || !cache->good(handle)) image_is_unreadable(path, cache->geterror(), wanted_by);
   auto pixels =
       std::make_shared<PagedPixels>(shared_from_this(), cache, handle, file, path, wanted_by);
+  // A file that ends before its header says so is found now, not in the middle of a render.
+  std::array<float, kMostChannels> corner;
+  pixels->fetch(0, 0, 1, 1, corner.data());
+  pixels->fetch(file.spec.width - 1, file.spec.height - 1, 1, 1, corner.data());
   return std::make_shared<Image>(file.spec.width, file.spec.height,
                                  static_cast<int>(file.channels.size()), std::move(pixels),
                                  *file.space);
