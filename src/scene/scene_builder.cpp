@@ -239,20 +239,9 @@ class SceneBuilder {
                        "up to 1e17");
   }
 
-  // pbrt-v4 decomposes the matrices of moving instances in its rendering space, so that their
-  // rotations turn about the origin of that: the camera in the middle of its motion, unless the
-  // option asks for world space.
+  // The origin of pbrt-v4's rendering space: the camera in the middle of its motion.
   void find_instance_pivot() {
-    std::string space = "cameraworld";
-    for (const Parameter& option : d_.options) {
-      if (option.name != "rendercoordsys" || option.strings.size() != 1) continue;
-      space = option.strings[0];
-      if (space != "cameraworld" && space != "camera" && space != "world")
-        throw SceneError(option.where, "unknown coordinate system \"" + space +
-                                           "\", expected \"cameraworld\", \"camera\" or "
-                                           "\"world\"");
-    }
-    if (space == "world" || !d_.camera) return;
+    if (!scene_->options.turn_about_camera || !d_.camera) return;
     const TransformDescription& camera = d_.camera->world_to_camera;
     const Mat44d start = camera.start.inverse(), end = camera.end.inverse();
     for (int j = 0; j < 3; ++j) instance_pivot_[j] = 0.5 * (start[3][j] + end[3][j]);

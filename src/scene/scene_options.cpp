@@ -20,13 +20,14 @@ struct Row {
   const char* why_not;
 };
 
-// Rendering space only moves pbrt-v4's rounding errors: this program's transforms are in double
-// precision and its ray offsets come from error bounds, so there is nothing to choose.
-void check_coordinate_system(const Parameter& option, SceneOptions&) {
+// pbrt-v4 decomposes the matrices of moving instances in its rendering space, so that their
+// rotations turn about the origin of that. Nothing else here depends on it.
+void take_coordinate_system(const Parameter& option, SceneOptions& options) {
   const std::string& name = option.strings[0];
   if (name != "camera" && name != "cameraworld" && name != "world")
     throw SceneError(option.where, "unknown rendering coordinate system \"" + name +
                                        "\", expected \"camera\", \"cameraworld\" or \"world\"");
+  options.turn_about_camera = name != "world";
 }
 
 constexpr Row kTable[] = {
@@ -37,7 +38,7 @@ constexpr Row kTable[] = {
     {"forcediffuse", [](const Parameter& p, SceneOptions& o) { o.force_diffuse = is_on(p); }, ""},
     {"seed", [](const Parameter& p, SceneOptions& o) { o.seed = static_cast<int>(p.numbers[0]); },
      ""},
-    {"rendercoordsys", check_coordinate_system, ""},
+    {"rendercoordsys", take_coordinate_system, ""},
     // Textures are looked up at points, with or without it.
     {"disabletexturefiltering", [](const Parameter&, SceneOptions&) {}, ""},
     {"displacementedgescale",

@@ -12,6 +12,7 @@ struct SceneOptions {
   bool wavelength_jitter = true;      ///< false: all paths have the same wavelengths
   bool force_diffuse = false;         ///< every surface is Lambertian and keeps its reflectance
   int seed = 0;                       ///< where the Sampler line gives none
+  bool turn_about_camera = true;      ///< moving instances, else about the world's origin
   float displacement_edge_scale = 1;  ///< factor of the "edgelength" of displaced meshes
 };
 
