@@ -279,7 +279,7 @@ TEST(BadSampler, IsLocated) {
 TEST(NotRendered, IsALocatedError) {
   expect_scene_error(
       "AreaLightSource \"diffuse\"\nShape \"curve\" \"point3 P\" [ 0 0 0 1 0 0 1 1 0 0 1 0 ]\n",
-      "8:1: ");
+      "7:1: a curve cannot be an area light");
   expect_scene_error("Material \"measured\"\n", "7:1: ");
   SceneFolder(options_with("Film", "Film \"spectral\"") + "WorldBegin\n")
       .expect_error(kScene, "scene.pbrt:1:1: film \"spectral\" is not rendered");
@@ -292,13 +292,13 @@ TEST(NotRendered, IsALocatedError) {
 TEST(NotRendered, IsALocatedWarningWhereThereIsAPicture) {
   const std::string moving =
       "AttributeBegin\nActiveTransform EndTime\nTranslate 1 0 0\nActiveTransform All\n";
-  const std::string scene =
-      kHead + moving +                                 // lines 7 to 10
-      "LightSource \"point\"\n" +                     // line 11
-      "Texture \"t\" \"float\" \"constant\"\n" +    // line 12
-      "AreaLightSource \"diffuse\"\n" + kTriangle;    // line 14
+  const std::string scene = kHead + moving +                              // lines 7 to 10
+                            "LightSource \"point\"\n" +                   // line 11
+                            "Texture \"t\" \"float\" \"constant\"\n" +    // line 12
+                            "AreaLightSource \"diffuse\"\n" + kTriangle;  // line 14
   SceneFolder(scene + "AttributeEnd\n")
-      .expect_picture({"scene.pbrt:11:1: the light moves", "scene.pbrt:12:1: the texture moves",
+      .expect_picture({"scene.pbrt:11:1: a light source cannot move",
+                       "scene.pbrt:12:1: a texture cannot move",
                        "scene.pbrt:14:1: a shape that emits light cannot move"});
 }
 

@@ -176,7 +176,7 @@ TEST_F(PagedImage, WhatFitsIsReadWholeAndCountsTogether) {
   EXPECT_EQ(cache.get(scratch.file("a.png"), {}, {})->memory(), 10000u);
   EXPECT_EQ(cache.get(scratch.file("b.png"), {}, {})->memory(), 10000u);
   EXPECT_EQ(cache.get(scratch.file("c.png"), {}, {})->memory(), 0u);
-  EXPECT_EQ(cache.memory(), 20000u);
+  EXPECT_GT(cache.memory(), 20000u);  // and the tiles of the corners of the third
 }
 
 TEST_F(PagedImage, TexturesLookTheSameWithAndWithoutMemory) {
@@ -209,13 +209,12 @@ TEST_F(PagedImage, FaultyFilesAreErrorsAtTheirPlace) {
   } catch (const SceneError& e) {
     EXPECT_EQ(std::string(e.what()).find("t.pbrt:4:2"), 0u) << e.what();
   }
-  // A file that ends too early is found out when its last rows are looked at.
+  // A file that ends too early is found out when it is opened.
   write_image<float>(scratch.file("cut.exr"), 64, 256, 1, OIIO::TypeDesc::FLOAT,
                      noise_values<float>(64 * 256, 1));
   std::filesystem::resize_file(scratch.file("cut.exr"), 20000);
-  const ImagePtr image = cache.get(scratch.file("cut.exr"), {}, where);
   try {
-    for (int y = 0; y < 256; ++y) image->value(0, y, 0);
+    cache.get(scratch.file("cut.exr"), {}, where);
     ADD_FAILURE();
   } catch (const SceneError& e) {
     EXPECT_EQ(std::string(e.what()).find("t.pbrt:4:2"), 0u) << e.what();
