@@ -30,6 +30,9 @@ int run_compare(const CompareCommand& command) {
   fmt::print("rmse={:.6g} relmse={:.6g} relmse_trim={:.6g} mean_rel={:.6g}\n", result.rmse,
              result.relmse, result.relmse_trim, result.mean.value);
   print_dim_mean(result.dim_mean);
+  if (result.deviations)
+    fmt::print("z_within={:.5g} z_rms={:.4g} (|z| < {:g} in all channels, share of pixels)\n",
+               result.deviations->share_within, result.deviations->rms, kDeviationLimit);
   if (!command.heat_map.empty()) {
     write_heat_map(command.heat_map, reference, test);
     fmt::print("{}wrote {}\n", heat_map_legend(), command.heat_map);

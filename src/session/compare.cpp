@@ -128,6 +128,30 @@ MeanRatio dim_ratio(const std::vector<Triple>& reference, const std::vector<Trip
   return result;
 }
 
+Deviations deviations_of(const std::vector<Triple>& reference, const std::vector<Triple>& test,
+                         const std::vector<Triple>& reference_error,
+                         const std::vector<Triple>& test_error) {
+  Deviations result;
+  size_t within = 0;
+  for (size_t p = 0; p < reference.size(); ++p) {
+    double worst = 0;
+    for (size_t c = 0; c < 3; ++c) {
+      const double variance = square(reference_error[p][c]) + square(test_error[p][c]);
+      const double difference = square(test[p][c] - reference[p][c]);
+      // Where neither picture has an error they must be equal, to the rounding of floats.
+      const double floor = square(1e-5 * reference[p][c]) + 1e-30;
+      const double z2 = difference / std::max(variance, floor);
+      worst = std::max(worst, z2);
+      result.rms += z2;
+    }
+    within += worst < square(kDeviationLimit);
+  }
+  const double pixels = static_cast<double>(reference.size());
+  result.share_within = static_cast<double>(within) / pixels;
+  result.rms = std::sqrt(result.rms / (3 * pixels));
+  return result;
+}
+
 }  // namespace
 
 std::vector<double> relative_squared_errors(const Picture& reference, const Picture& test) {
@@ -167,6 +191,8 @@ Comparison compare_pictures(const Picture& reference, const Picture& test,
   result.mean.value = test_sum / reference_sum - 1;
   result.mean.pixels = r.size();
   result.dim_mean = dim_ratio(r, x, r_error, x_error);
+  if (!r_error.empty() && !x_error.empty())
+    result.deviations = deviations_of(r, x, r_error, x_error);
   return result;
 }
 

@@ -25,12 +25,20 @@ struct MeanRatio {
   uint64_t pixels = 0;
 };
 
+/// Deviations in units of the error of the difference, of both pictures together.
+struct Deviations {
+  double share_within = 0;  ///< of pixels, with |z| below kDeviationLimit in all three channels
+  double rms = 0;           ///< of z over pixels and channels; 1 if both errors are right
+};
+inline constexpr double kDeviationLimit = 3.3;
+
 struct Comparison {
   double rmse = 0;
   double relmse = 0;       ///< mean over pixels and channels of (x - r)^2 / (r^2 + 0.01)
   double relmse_trim = 0;  ///< the same without the worst 0.1 % of pixels (at least one)
   MeanRatio mean;          ///< all pixels, no interval
   MeanRatio dim_mean;      ///< pixels whose reference is below 10 in every channel
+  std::optional<Deviations> deviations;  ///< if both pictures have stderr channels
 };
 
 /// Throws UsageError if the sizes differ, if a picture has fewer than three channels, or if the

@@ -117,6 +117,19 @@ double luminance(const HeatColor& c) {
   return 0.2126 * linear(c.r) + 0.7152 * linear(c.g) + 0.0722 * linear(c.b);
 }
 
+TEST(Compare, DeviationsAreInUnitsOfBothErrors) {
+  const Picture reference =
+      picture_of(kWithError, {1, 1, 1, .3f, .3f, .3f, 2, 2, 2, 0, 0, 0, 3, 3, 3, 0, 0, 0});
+  // z of 2 in one channel, of 4 in one channel, and a pixel that is equal and has no error.
+  const Picture test =
+      picture_of(kWithError, {2, 1, 1, .4f, .4f, .4f, 2, 6, 2, 1, 1, 1, 3, 3, 3, 0, 0, 0});
+  const Comparison c = compare_pictures(reference, test, {});
+  ASSERT_TRUE(c.deviations);
+  EXPECT_NEAR(c.deviations->share_within, 2.0 / 3, 1e-12);
+  EXPECT_NEAR(c.deviations->rms, std::sqrt((4.0 + 16.0) / 9), 1e-6);
+  EXPECT_FALSE(compare_pictures(reference, rgb({1, 1, 1, 2, 2, 2, 3, 3, 3}), {}).deviations);
+}
+
 TEST(HeatMap, LargerErrorsAreLighter) {
   double last = -1;
   // Steps of an eighth of a decade are far more than the rounding of codes.
