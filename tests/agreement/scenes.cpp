@@ -86,6 +86,31 @@ constexpr char kSheetBelowGlass[] = R"(
 
 const std::vector<AgreementScene> kAgreementScenes = {
     {.name = "diffuse", .world = R"(Translate 0 0.7 0 Shape "sphere" "float radius" 0.6)"},
+    // Light goes under the surface; photons are merged where it comes out, and start from there.
+    {.name = "subsurface", .world = R"(AttributeBegin
+       Material "subsurface" "rgb mfp" [0.2 0.12 0.07] "rgb reflectance" [0.8 0.6 0.5]
+       Translate -0.4 0.6 0 Shape "sphere" "float radius" 0.5 AttributeEnd
+       Material "dielectric" Translate 0.7 0.9 0.3 Shape "sphere" "float radius" 0.4)"},
+    {.name = "rough_subsurface",
+     .world = R"(Material "subsurface" "rgb mfp" [0.2 0.12 0.07] "rgb reflectance" [0.8 0.6 0.5]
+       "float roughness" 0.3 Translate 0 0.7 0 Shape "sphere" "float radius" 0.6)"},
+    // Caustics through media that dim, scatter, or both, unlike for each colour.
+    {.name = "tea",
+     .world = R"(MakeNamedMedium "tea" "string type" "homogeneous" "rgb sigma_a" [0.4 0.9 2]
+       "rgb sigma_s" [0 0 0] MediumInterface "tea" "" Material "dielectric" "float eta" 1.33
+       Translate 0 0.9 0 Shape "sphere" "float radius" 0.6)"},
+    {.name = "fog",
+     .world = R"(MakeNamedMedium "fog" "string type" "homogeneous" "rgb sigma_a" [0.05 0.1 0.2]
+       "rgb sigma_s" [0.6 0.4 0.2] "float g" 0.4
+       AttributeBegin MediumInterface "fog" "" Material "interface"
+       Translate 0 0.9 0 Shape "sphere" "float radius" 0.85 AttributeEnd
+       MediumInterface "" "fog" Material "dielectric" "float eta" 1.5
+       Translate 0 0.9 0 Shape "sphere" "float radius" 0.5)"},
+    // Photons are not merged on hair, so caustics that touch it are path-traced.
+    {.name = "hair", .world = R"(AttributeBegin Material "hair" "float eumelanin" 0.3
+       Shape "curve" "point3 P" [-1.2 0.2 0.1  -0.4 0.4 -0.3  0.4 0.2 0.4  1.2 0.3 0.1]
+         "float width" 0.35 AttributeEnd
+       Material "dielectric" "float eta" 1.5 Translate 0.1 1.2 0.1 Shape "sphere" "float radius" 0.5)"},
     {.name = "glass", .world = R"(Material "dielectric" "float eta" 1.5 Translate 0 0.9 0
                  Shape "sphere" "float radius" 0.6)"},
     {.name = "bumped_glass",
@@ -111,8 +136,7 @@ const std::vector<AgreementScene> kAgreementScenes = {
      .world = R"(Material "coatedconductor" "float interface.roughness" 0
                    "float conductor.roughness" 0.2
                  Translate 0 0.7 0 Shape "sphere" "float radius" 0.6)"},
-    {.name = "measured_below_glass",
-     .world = R"(Material "measured" "string filename" "MEASURED"
+    {.name = "measured_below_glass", .world = R"(Material "measured" "string filename" "MEASURED"
                  Shape "bilinearmesh" "point3 P" [-3 0.05 -3  3 0.05 -3  -3 0.05 3  3 0.05 3]
                  Material "dielectric" "float eta" 1.5 Translate 0 0.9 0
                  Shape "sphere" "float radius" 0.6)"},
