@@ -102,6 +102,8 @@ class PathVisitor {
   }
   static float weight_of_direct(const Walk& walk, const DirectSample& direct,
                                 const ShadowFlight& shadow, float walk_pdf) {
+    if (walk.density.plain && shadow.plain)
+      return direct.delta ? 1.0f : power_heuristic(direct.pdf_w, walk_pdf);
     SpectralDensity d;
     d.u = walk.density.u * shadow.u;
     d.l = walk.density.u * shadow.l;

@@ -99,6 +99,7 @@ std::optional<Collision> fly(const Medium& medium, const Ray& ray, float t_max,
                              const SampledWavelengths& lambda, FlightRandom& random,
                              SampledSpectrum& throughput, SpectralDensity& density,
                              SampledSpectrum& emitted) {
+  density.plain = false;
   // [V1]: everything that is relative to the hero's density of the way since the last collision.
   SampledSpectrum depth;
   const auto passed = [&](const SampledSpectrum& sigma, float step) {
@@ -156,6 +157,7 @@ void cross(const Medium& medium, const Ray& ray, float t_max, const SampledWavel
     flight.transmittance *= attenuation(medium, ray, t_max, lambda, random, nullptr);
     return;
   }
+  flight.plain = false;
   if (const auto sigma = medium.uniform_extinction(lambda)) {
     const SampledSpectrum t = beer(*sigma, t_max);
     flight.transmittance *= t;

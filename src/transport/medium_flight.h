@@ -39,6 +39,7 @@ struct SpectralDensity {
   SampledSpectrum u{1.0f};  ///< of the walk itself
   SampledSpectrum l{1.0f};  ///< had the last flight been a shadow ray
   float u_mean = 1, l_mean = 1;
+  bool plain = true;  ///< no choice depended on the wavelength yet: all ones
   void take_means(const SampledWavelengths& lambda) {
     const bool hero_only = lambda.secondary_terminated();
     u_mean = hero_only ? u[0] : u.average();
@@ -76,6 +77,7 @@ struct ShadowFlight {
   SampledSpectrum u{1.0f};         ///< had a walk gone this way
   SampledSpectrum l{1.0f};         ///< of the shadow ray itself
   const Medium* medium = nullptr;  ///< around its end
+  bool plain = true;               ///< u and l are ones
 };
 
 /// Multiplies one more piece onto `flight`.

@@ -292,8 +292,10 @@ class RandomWalk {
   bool end_of_event(EventClass letter, int dimension) {
     ++walk_.events;
     ++walk_.vertices;
-    walk_.density.l = walk_.density.u;
-    walk_.density.l_mean = walk_.density.u_mean;
+    if (!walk_.density.plain) {
+      walk_.density.l = walk_.density.u;
+      walk_.density.l_mean = walk_.density.u_mean;
+    }
     if (!visitor_.scatter(walk_, letter)) return false;
     const float carried = walk_.throughput.max_component() * walk_.eta_scale / walk_.density.u_mean;
     if (carried < 1.0f) {
