@@ -8,7 +8,8 @@
 
 namespace nephroid::fuzz {
 
-/// While it lives, fopen finds these files and nothing else. At most one at a time.
+/// While it lives, reading finds these files (at least one) and nothing else. At most one at a
+/// time.
 class MemoryFiles {
  public:
   explicit MemoryFiles(std::map<std::string, std::string> files);
