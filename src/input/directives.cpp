@@ -59,8 +59,7 @@ struct Reader {
 
 enum class Part { kBoth, kOptions, kWorld };
 
-struct Directive {
-  const char* name;
+struct Directive : FormatDirective {
   Part part;
   void (*read)(Reader& reader, const SourceLocation& where);
 };
@@ -154,94 +153,143 @@ using Place = SourceLocation;
 
 // Sorted by theme; a handful of string comparisons per directive is nothing beside its numbers.
 constexpr std::array kDirectives = {
-    Directive{"Include", Part::kBoth, read_include},
-    Directive{"Import", Part::kWorld, read_import},
+    Directive{{"Include", "\"file\"", "reads the file in place"}, Part::kBoth, read_include},
+    Directive{
+        {"Import", "\"file\"", "reads the file as a scope of its own"}, Part::kWorld, read_import},
 
-    Directive{"Identity", Part::kBoth,
+    Directive{{"Identity", "", ""},
+              Part::kBoth,
               [](Reader& r, const Place& p) { r.builder.set_transform(Mat44d(), p); }},
-    Directive{"Translate", Part::kBoth,
+    Directive{{"Translate", "x y z", ""},
+              Part::kBoth,
               [](Reader& r, const Place& p) {
                 r.builder.concat_transform(translation_matrix(r.vector("Translate")), "Translate",
                                            p);
               }},
-    Directive{"Scale", Part::kBoth,
+    Directive{{"Scale", "x y z", ""},
+              Part::kBoth,
               [](Reader& r, const Place& p) {
                 r.builder.concat_transform(scale_matrix(r.vector("Scale")), "Scale", p);
               }},
-    Directive{"Rotate", Part::kBoth, read_rotate},
-    Directive{"LookAt", Part::kBoth, read_look_at},
-    Directive{"Transform", Part::kBoth,
+    Directive{{"Rotate", "degrees x y z", ""}, Part::kBoth, read_rotate},
+    Directive{{"LookAt", "eye target up, 9 numbers", ""}, Part::kBoth, read_look_at},
+    Directive{{"Transform", "[ 16 numbers ]", ""},
+              Part::kBoth,
               [](Reader& r, const Place& p) { r.builder.set_transform(r.matrix("Transform"), p); }},
-    Directive{"ConcatTransform", Part::kBoth,
+    Directive{{"ConcatTransform", "[ 16 numbers ]", ""},
+              Part::kBoth,
               [](Reader& r, const Place& p) {
                 r.builder.concat_transform(r.matrix("ConcatTransform"), "ConcatTransform", p);
               }},
-    Directive{"CoordinateSystem", Part::kBoth,
+    Directive{{"CoordinateSystem", "\"name\"", ""},
+              Part::kBoth,
               [](Reader& r, const Place&) {
                 r.builder.name_coordinate_system(r.name("a coordinate system"));
               }},
-    Directive{"CoordSysTransform", Part::kBoth,
+    Directive{{"CoordSysTransform", "\"name\"", ""},
+              Part::kBoth,
               [](Reader& r, const Place& p) {
                 r.builder.use_coordinate_system(r.name("a coordinate system"), p);
               }},
-    Directive{"ActiveTransform", Part::kBoth, read_active_transform},
-    Directive{"TransformTimes", Part::kOptions, read_transform_times},
+    Directive{{"ActiveTransform", "StartTime, EndTime or All",
+               "motion of cameras, shapes and instances; see the differences for what cannot move"},
+              Part::kBoth,
+              read_active_transform},
+    Directive{{"TransformTimes", "start end", "in s, 0 and 1 by default"},
+              Part::kOptions,
+              read_transform_times},
 
-    Directive{"Option", Part::kBoth,
+    Directive{{"Option", "\"type name\" value", "see options"},
+              Part::kBoth,
               [](Reader& r, const Place&) {
                 if (auto option = read_option(r.tokens, r.diagnostics))
                   r.builder.add_option(std::move(*option));
               }},
-    Directive{"ColorSpace", Part::kBoth, read_color_space},
-    Directive{"Camera", Part::kOptions,
+    Directive{{"ColorSpace", "\"name\"", "srgb (the default), dci-p3, rec2020 or aces2065-1"},
+              Part::kBoth,
+              read_color_space},
+    Directive{{"Camera", "\"type\" parameters",
+               "see cameras; a perspective camera at the origin with a warning if there is none"},
+              Part::kOptions,
               [](Reader& r, const Place& p) { r.builder.set_camera(r.typed(p)); }},
-    Directive{"Film", Part::kOptions,
+    Directive{{"Film", "\"type\" parameters", "see films"},
+              Part::kOptions,
               [](Reader& r, const Place& p) { r.builder.set_film(r.typed(p)); }},
-    Directive{"Sampler", Part::kOptions,
+    Directive{{"Sampler", "\"type\" parameters", "see samplers"},
+              Part::kOptions,
               [](Reader& r, const Place& p) { r.builder.set_sampler(r.typed(p)); }},
-    Directive{"PixelFilter", Part::kOptions,
+    Directive{{"PixelFilter", "\"type\" parameters", "see pixel filters"},
+              Part::kOptions,
               [](Reader& r, const Place& p) { r.builder.set_pixel_filter(r.typed(p)); }},
-    Directive{"Integrator", Part::kOptions,
+    Directive{{"Integrator", "\"type\" parameters", "see integrators"},
+              Part::kOptions,
               [](Reader& r, const Place& p) { r.builder.set_integrator(r.typed(p)); }},
-    Directive{"Accelerator", Part::kOptions,
+    Directive{{"Accelerator", "\"type\" parameters", "see accelerators"},
+              Part::kOptions,
               [](Reader& r, const Place& p) { r.builder.set_accelerator(r.typed(p)); }},
-    Directive{"WorldBegin", Part::kOptions,
+    Directive{{"WorldBegin", "", ""},
+              Part::kOptions,
               [](Reader& r, const Place&) { r.builder.world_begin(); }},
 
-    Directive{"AttributeBegin", Part::kWorld,
+    Directive{{"AttributeBegin", "", ""},
+              Part::kWorld,
               [](Reader& r, const Place& p) { r.builder.attribute_begin(p); }},
-    Directive{"AttributeEnd", Part::kWorld,
+    Directive{{"AttributeEnd", "", ""},
+              Part::kWorld,
               [](Reader& r, const Place& p) { r.builder.attribute_end(p); }},
-    Directive{"TransformBegin", Part::kWorld, read_transform_begin},
-    Directive{"TransformEnd", Part::kWorld,
+    Directive{{"TransformBegin", "", "deprecated: AttributeBegin with a warning"},
+              Part::kWorld,
+              read_transform_begin},
+    Directive{{"TransformEnd", "", "deprecated: AttributeEnd"},
+              Part::kWorld,
               [](Reader& r, const Place& p) { r.builder.attribute_end(p); }},
-    Directive{"Attribute", Part::kBoth, read_attribute},
-    Directive{"ReverseOrientation", Part::kWorld,
+    Directive{{"Attribute", "\"target\" parameters",
+               "defaults for shape, light, material, medium or texture"},
+              Part::kBoth,
+              read_attribute},
+    Directive{{"ReverseOrientation", "", ""},
+              Part::kWorld,
               [](Reader& r, const Place&) { r.builder.reverse_orientation(); }},
-    Directive{"MediumInterface", Part::kBoth, read_medium_interface},
-    Directive{"ObjectBegin", Part::kWorld,
+    Directive{{"MediumInterface", "\"inside\" \"outside\"",
+               "of shapes, of the camera and of lights; with one name both"},
+              Part::kBoth,
+              read_medium_interface},
+    Directive{{"ObjectBegin", "\"name\"", "shapes in it do not emit (a warning)"},
+              Part::kWorld,
               [](Reader& r, const Place& p) { r.builder.object_begin(r.name("an object"), p); }},
-    Directive{"ObjectEnd", Part::kWorld,
+    Directive{{"ObjectEnd", "", ""},
+              Part::kWorld,
               [](Reader& r, const Place& p) { r.builder.object_end(p); }},
-    Directive{"ObjectInstance", Part::kWorld,
+    Directive{{"ObjectInstance", "\"name\"", ""},
+              Part::kWorld,
               [](Reader& r, const Place& p) { r.builder.object_instance(r.name("an object"), p); }},
 
-    Directive{"Material", Part::kWorld,
+    Directive{{"Material", "\"type\" parameters", "see materials; diffuse if there is none"},
+              Part::kWorld,
               [](Reader& r, const Place& p) { r.builder.add_material(r.typed(p)); }},
     Directive{
-        "NamedMaterial", Part::kWorld,
+        {"NamedMaterial", "\"name\"", "may stand before its MakeNamedMaterial"},
+        Part::kWorld,
         [](Reader& r, const Place& p) { r.builder.use_named_material(r.name("a material"), p); }},
     Directive{
-        "MakeNamedMaterial", Part::kWorld,
+        {"MakeNamedMaterial", "\"name\" \"string type\" parameters", "see materials"},
+        Part::kWorld,
         [](Reader& r, const Place& p) { read_named(r, p, &SceneBuilder::add_named_material); }},
-    Directive{"MakeNamedMedium", Part::kBoth,
+    Directive{{"MakeNamedMedium", "\"name\" \"string type\" parameters", "see media"},
+              Part::kBoth,
               [](Reader& r, const Place& p) { read_named(r, p, &SceneBuilder::add_medium); }},
-    Directive{"Texture", Part::kWorld, read_texture},
-    Directive{"LightSource", Part::kWorld,
+    Directive{{"Texture", "\"name\" \"float or spectrum\" \"class\" parameters", "see textures"},
+              Part::kWorld,
+              read_texture},
+    Directive{{"LightSource", "\"type\" parameters", "see lights"},
+              Part::kWorld,
               [](Reader& r, const Place& p) { r.builder.add_light(r.typed(p)); }},
-    Directive{"AreaLightSource", Part::kWorld,
-              [](Reader& r, const Place& p) { r.builder.set_area_light(r.typed(p)); }},
-    Directive{"Shape", Part::kWorld,
+    Directive{
+        {"AreaLightSource", "\"type\" parameters", "see area lights; of the shapes that follow"},
+        Part::kWorld,
+        [](Reader& r, const Place& p) { r.builder.set_area_light(r.typed(p)); }},
+    Directive{{"Shape", "\"type\" parameters", "see shapes"},
+              Part::kWorld,
               [](Reader& r, const Place& p) { r.builder.add_shape(r.typed(p)); }},
 };
 
@@ -269,6 +317,10 @@ void check_part(const Directive& directive, bool in_world, const SourceLocation&
 }
 
 }  // namespace
+
+std::vector<FormatDirective> format_directives() {
+  return std::vector<FormatDirective>(kDirectives.begin(), kDirectives.end());
+}
 
 SourceLocation read_directives(TokenStream& tokens, SceneBuilder& builder,
                                Diagnostics& diagnostics) {

@@ -3,11 +3,23 @@
 // scene itself.
 #pragma once
 
+#include <vector>
+
 #include "core/errors.h"
 #include "input/scene_builder.h"
 #include "input/token_stream.h"
 
 namespace nephroid {
+
+/// A directive as docs/scene-support.md shows it.
+struct FormatDirective {
+  const char* name;
+  const char* arguments;
+  const char* note;
+};
+
+/// All directives of the format; all are rendered.
+std::vector<FormatDirective> format_directives();
 
 /// Reads directives up to the end of the file (and of all it includes) and gives them to `builder`.
 /// Returns the place of the end. Throws SceneError.

@@ -3,7 +3,6 @@
 #include "input/option_directive.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <string>
 #include <string_view>
@@ -15,23 +14,22 @@
 namespace nephroid {
 namespace {
 
-struct KnownOption {
-  const char* name;
-  const char* type;
-};
-
-constexpr std::array kOptions = {
-    KnownOption{"disablepixeljitter", "bool"},
-    KnownOption{"disabletexturefiltering", "bool"},
-    KnownOption{"disablewavelengthjitter", "bool"},
-    KnownOption{"displacementedgescale", "float"},
-    KnownOption{"forcediffuse", "bool"},
-    KnownOption{"msereferenceimage", "string"},
-    KnownOption{"msereferenceout", "string"},
-    KnownOption{"pixelstats", "bool"},
-    KnownOption{"rendercoordsys", "string"},
-    KnownOption{"seed", "integer"},
-    KnownOption{"wavefront", "bool"},
+constexpr FormatParameter kOptions[] = {
+    {"bool", "disablepixeljitter", "false", "", "all samples go through the centres of pixels"},
+    {"bool", "disabletexturefiltering", "false", "", "textures are never filtered over footprints",
+     Support::kNotNeeded},
+    {"bool", "disablewavelengthjitter", "false", "", "all paths have the same wavelengths"},
+    {"float", "displacementedgescale", "1", "", "times \"edgelength\" of displaced meshes"},
+    {"bool", "forcediffuse", "false", "", "all surfaces are Lambertian and keep their reflectance"},
+    {"string", "msereferenceimage", "none", "", "nephroid compare measures pictures",
+     Support::kWarned},
+    {"string", "msereferenceout", "none", "", "nephroid compare measures pictures",
+     Support::kWarned},
+    {"bool", "pixelstats", "false", "", "", Support::kWarned},
+    {"string", "rendercoordsys", "cameraworld", "",
+     "cameraworld, camera or world: about which point moving instances turn"},
+    {"integer", "seed", "0", "", "where the Sampler line gives none"},
+    {"bool", "wavefront", "false", "", "", Support::kWarned},
 };
 
 std::string normalized(std::string_view name) {
@@ -54,6 +52,10 @@ void skip_values(TokenStream& tokens, const SourceLocation& option) {
 
 }  // namespace
 
+FormatParameters format_options() {
+  return kOptions;
+}
+
 std::optional<Parameter> read_option(TokenStream& tokens, Diagnostics& diagnostics) {
   const Token& token = tokens.expect_string("an option");
   Parameter option;
@@ -64,11 +66,11 @@ std::optional<Parameter> read_option(TokenStream& tokens, Diagnostics& diagnosti
   option.name = normalized(type.empty() ? token.text : token.text.substr(space + 1));
 
   const auto* const known =
-      std::find_if(kOptions.begin(), kOptions.end(),
-                   [&](const KnownOption& candidate) { return option.name == candidate.name; });
-  if (known == kOptions.end()) {
+      std::find_if(std::begin(kOptions), std::end(kOptions),
+                   [&](const FormatParameter& candidate) { return option.name == candidate.name; });
+  if (known == std::end(kOptions)) {
     std::vector<std::string> names;
-    for (const KnownOption& candidate : kOptions) names.emplace_back(candidate.name);
+    for (const FormatParameter& candidate : kOptions) names.emplace_back(candidate.name);
     diagnostics.warn(option.where,
                      "unknown option \"" + option.name + "\"" + did_you_mean(option.name, names));
     skip_values(tokens, option.where);

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "input/scene_description.h"
+#include "input/format_rows.h"
+#include "input/spelling.h"
 
 namespace nephroid {
 namespace {
@@ -84,6 +85,7 @@ std::optional<Vec3f> get_item(const ParameterSet& set, const std::string& name, 
 }  // namespace
 
 const Parameter* ParameterSet::find(const std::string& name) const {
+  if (asked) asked->insert(name);
   for (const Parameter& parameter : list) {
     if (parameter.name != name) continue;
     parameter.used = true;
@@ -94,6 +96,7 @@ const Parameter* ParameterSet::find(const std::string& name) const {
 
 const Parameter* ParameterSet::find(const std::string& name,
                                     std::initializer_list<const char*> types) const {
+  if (asked) asked->insert(name);
   for (const Parameter& parameter : list) {
     if (parameter.name != name || std::none_of(types.begin(), types.end(), [&](const char* type) {
           return parameter.type == type;
@@ -175,11 +178,25 @@ std::vector<Vec3f> ParameterSet::get_normals(const std::string& name) const {
   return get_items<Vec3f>(*this, name, "normal");
 }
 
-void ParameterSet::report_unused(const std::string& of_what, Diagnostics& diagnostics) const {
+void ParameterSet::report_unused(const std::string& of_what, const FormatType& type,
+                                 Diagnostics& diagnostics) const {
   for (const Parameter& parameter : list) {
-    if (!parameter.used)
+    const FormatParameter* known = type.find(parameter.name);
+    if (parameter.used || (known && known->support == Support::kNotNeeded)) continue;
+    const std::string named = title(parameter) + " of " + of_what;
+    if (known) {
       diagnostics.warn(parameter.where,
-                       "unknown parameter \"" + parameter.name + "\" of " + of_what + ", ignored");
+                       named + (known->support == Support::kRendered
+                                    ? " has no effect together with the other parameters"
+                                    : std::string(" is ignored: ") + known->note));
+      continue;
+    }
+    std::vector<std::string> names;
+    for (const FormatParameters& some : type.parameters)
+      for (const FormatParameter& p : some) names.emplace_back(p.name);
+    const std::string meant = did_you_mean(parameter.name, names);
+    diagnostics.warn(parameter.where,
+                     "unknown " + named + (meant.empty() ? std::string(", ignored") : meant));
   }
 }
 

@@ -1,11 +1,12 @@
-// What a scene file said, as plain structs: nothing is interpreted, nothing is looked up, every value
-// remembers where it stood. Written by the parsers of this folder, read by scene/.
-// It must not know what any type of shape, material or light means.
+// What a scene file said, as plain structs: nothing is interpreted, nothing is looked up, every
+// value remembers where it stood. Written by the parsers of this folder, read by scene/. It must
+// not know what any type of shape, material or light means.
 #pragma once
 
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,9 +15,11 @@
 
 namespace nephroid {
 
+struct FormatType;
+
 /// One parameter, for instance "rgb reflectance" [ .5 .5 .5 ]. Exactly one of the vectors is used:
-/// numbers for float, integer, point*, vector*, normal*, rgb, blackbody and numeric spectra; strings
-/// for string, texture, spectrum names and spectrum files; bools for bool.
+/// numbers for float, integer, point*, vector*, normal*, rgb, blackbody and numeric spectra;
+/// strings for string, texture, spectrum names and spectrum files; bools for bool.
 struct Parameter {
   std::string type;  ///< as written, with pbrt's synonyms folded ("point" -> "point3" ...)
   std::string name;
@@ -28,18 +31,20 @@ struct Parameter {
   mutable bool used = false;  ///< set by the getters; what nobody asked for is reported
 };
 
-/// The parameters of one directive. The getters check type and count, throw a located SceneError on a
-/// mismatch, and return the default (or an empty optional / vector) if the name is absent.
+/// The parameters of one directive. The getters check type and count, throw a located SceneError on
+/// a mismatch, and return the default (or an empty optional / vector) if the name is absent.
 class ParameterSet {
  public:
   std::vector<Parameter> list;
   SourceLocation where;  ///< of the directive
+  /// If set, the getters write down what they are asked for: tests hold the tables of the format
+  /// against that.
+  std::set<std::string>* asked = nullptr;
 
   /// Any type; nullptr if absent. Marks the parameter as used.
   const Parameter* find(const std::string& name) const;
   /// Only if its type is one of `types`; another type with that name is left alone.
-  const Parameter* find(const std::string& name,
-                        std::initializer_list<const char*> types) const;
+  const Parameter* find(const std::string& name, std::initializer_list<const char*> types) const;
 
   float get_float(const std::string& name, float fallback) const;
   int get_int(const std::string& name, int fallback) const;
@@ -54,8 +59,10 @@ class ParameterSet {
   std::vector<Vec3f> get_vector3s(const std::string& name) const;
   std::vector<Vec3f> get_normals(const std::string& name) const;
 
-  /// Warns of each parameter that no getter has asked for.
-  void report_unused(const std::string& of_what, Diagnostics& diagnostics) const;
+  /// Warns of each parameter that no getter has asked for, unless `type` says that the picture does
+  /// not depend on it.
+  void report_unused(const std::string& of_what, const FormatType& type,
+                     Diagnostics& diagnostics) const;
 };
 
 /// The two keyframes of an animated transform, row-vector convention, object to world.
@@ -91,8 +98,8 @@ struct LightDescription : DirectiveDescription {
   std::string medium;
 };
 
-/// Index into SceneDescription::materials, or a name that is resolved after parsing (named materials
-/// may be used before they are made).
+/// Index into SceneDescription::materials, or a name that is resolved after parsing (named
+/// materials may be used before they are made).
 struct MaterialReference {
   int index = -1;    ///< valid if >= 0
   std::string name;  ///< else, if not empty
@@ -132,7 +139,7 @@ struct SceneDescription {
   std::optional<DirectiveDescription> film, sampler, pixel_filter, integrator, accelerator;
   std::optional<CameraDescription> camera;
   float transform_start_time = 0, transform_end_time = 1;
-  std::string color_space = "srgb";  ///< of the film: in force at the Film directive
+  std::string color_space = "srgb";            ///< of the film: in force at the Film directive
   std::vector<MaterialDescription> materials;  ///< named and anonymous
   std::vector<TextureDescription> textures;
   std::vector<MediumDescription> media;

@@ -9,6 +9,7 @@
 
 #include "core/sampler.h"
 #include "film/film.h"
+#include "input/format_rows.h"
 
 namespace nephroid {
 
@@ -65,6 +66,9 @@ struct Preset {
 std::vector<std::string> integrator_names();
 /// The integrator that stands for a pbrt-v4 name ("volpath" -> "path" ...); empty if there is none.
 std::string integrator_for_scene_name(const std::string& pbrt_name);
+/// All integrators of the format; refused are those for which nothing stands here.
+std::vector<FormatType> scene_integrator_types();
+
 /// Throws UsageError for an unknown name.
 Preset make_integrator(const std::string& name, const IntegratorOptions& options,
                        const Scene& scene);

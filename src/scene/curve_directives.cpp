@@ -130,7 +130,6 @@ ShapePtr make_curves(std::span<const ShapeDescription> alike, const Transform& t
       throw SceneError(d.area_light->where,
                        "a curve cannot be an area light, expected another shape");
     (void)p.find("type");
-    (void)p.get_int("splitdepth", 3);  // the program divides curves as they need it
     std::vector<CurveSegment> segments = segments_of(p);
     set_widths(p, segments);
     set_normals(p, type, segments, diagnostics);

@@ -43,23 +43,43 @@ void set_crop(FilmDescription& film, const ParameterSet& p, const SceneOverrides
     throw SceneError(p.where, "the crop window contains no pixel");
 }
 
+constexpr FormatParameter kFilm[] = {
+    {"string", "filename", "nephroid.exr"},
+    {"integer", "xresolution", "1280", "pixels", "1 to 65536"},
+    {"integer", "yresolution", "720", "pixels", "1 to 65536"},
+    {"integer[4]", "pixelbounds", "the full picture", "pixels", "x0 x1 y0 y1"},
+    {"float[4]", "cropwindow", "0 1 0 1", "", "x0 x1 y0 y1; pixelbounds wins"},
+    {"float", "diagonal", "35", "mm", "of the realistic camera's film"},
+    {"bool", "savefp16", "true", "", "files have 32-bit floats", Support::kNotNeeded},
+    {"float", "iso", "100"},
+    {"float", "whitebalance", "0, of measured sensors 6500", "K", "0 or 500 to 100000"},
+    {"string", "sensor", "cie1931", "",
+     "a measured sensor is rendered as cie1931 with its exposure, with a warning"},
+    {"float", "maxcomponentvalue", "infinity", "", "samples are scaled down to it; above 0"},
+};
+constexpr FormatParameter kGBuffer[] = {
+    {"string", "coordinatesystem", "camera", "", "camera or world"}};
+constexpr FormatParameter kSpectral[] = {
+    {"integer", "nbuckets", "16"},
+    {"float", "lambdamin", "360", "nm"},
+    {"float", "lambdamax", "830", "nm"},
+};
+constexpr FormatType kFilms[] = {
+    {"rgb", {kFilm}},
+    {"gbuffer", {kFilm, kGBuffer}, "rgb and further layers"},
+    {"spectral", {kFilm, kSpectral}, "the film keeps colours, no spectra", Support::kRefused},
+};
+
 /// The coordinate system of a gbuffer film's layers.
 GBufferSpace read_type(const DirectiveDescription& d) {
-  if (d.type == "rgb") return GBufferSpace::kNone;
-  if (d.type == "gbuffer") {
-    const std::string system = d.parameters.get_string("coordinatesystem", "camera");
-    if (system == "camera") return GBufferSpace::kCamera;
-    if (system == "world") return GBufferSpace::kWorld;
-    throw SceneError(d.parameters.find("coordinatesystem")->where,
-                     "unknown coordinate system \"" + system +
-                         "\" of the film, expected \"camera\" or \"world\"");
-  }
-  constexpr const char* kExpected = "expected \"rgb\" or \"gbuffer\"";
-  if (d.type == "spectral")
-    throw SceneError(d.where, std::string("film \"spectral\" is not rendered, ") + kExpected);
-  const std::string meant = did_you_mean(d.type, {"rgb", "gbuffer"});
-  throw SceneError(d.where, "unknown film \"" + d.type + "\"" +
-                                (meant.empty() ? std::string(", ") + kExpected : meant));
+  if (row_of(kFilms, "film", d.type, d.where).name != std::string("gbuffer"))
+    return GBufferSpace::kNone;
+  const std::string system = d.parameters.get_string("coordinatesystem", "camera");
+  if (system == "camera") return GBufferSpace::kCamera;
+  if (system == "world") return GBufferSpace::kWorld;
+  throw SceneError(
+      d.parameters.find("coordinatesystem")->where,
+      "unknown coordinate system \"" + system + "\" of the film, expected \"camera\" or \"world\"");
 }
 
 float positive(const ParameterSet& p, const char* name, float fallback) {
@@ -100,6 +120,10 @@ void set_sensor(FilmDescription& film, const ParameterSet& p, Diagnostics& diagn
 
 }  // namespace
 
+std::vector<FormatType> film_types() {
+  return format_types(kFilms);
+}
+
 FilmDescription make_film_description(const SceneDescription& description,
                                       const SceneOverrides& overrides, Diagnostics& diagnostics) {
   static const ParameterSet kNone;
@@ -131,8 +155,10 @@ FilmDescription make_film_description(const SceneDescription& description,
   set_sensor(film, p, diagnostics);
   film.filename = p.get_string("filename", "nephroid.exr");
   film.diagonal_mm = positive(p, "diagonal", 35.0f);
-  (void)p.get_bool("savefp16", true);
-  if (description.film) p.report_unused("film \"" + description.film->type + "\"", diagnostics);
+  if (description.film) {
+    const std::string& type = description.film->type;
+    p.report_unused("film \"" + type + "\"", *find_row(kFilms, type), diagnostics);
+  }
   return film;
 }
 

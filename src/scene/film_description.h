@@ -1,9 +1,13 @@
 // The Film directive and what the command line changes of it.
 #pragma once
 
+#include "input/format_rows.h"
 #include "scene/scene.h"
 
 namespace nephroid {
+
+/// All types of the format.
+std::vector<FormatType> film_types();
 
 /// pbrt-v4's film parameters: resolution, crop, exposure, colour space, file name. Throws
 /// SceneError.

@@ -37,6 +37,42 @@ float windowed_sinc(float x, float radius, const Parameters& p) {
   return std::abs(x) > radius ? 0.0f : sinc(x) * sinc(x / p[0]);
 }
 
+struct Row : FormatType {
+  float (*function)(float, float, const Parameters&);
+  float radius;
+};
+constexpr FormatParameter kBox[] = {
+    {"float", "xradius", "0.5", "pixels"},
+    {"float", "yradius", "0.5", "pixels"},
+};
+constexpr FormatParameter kTriangle[] = {
+    {"float", "xradius", "2", "pixels"},
+    {"float", "yradius", "2", "pixels"},
+};
+constexpr FormatParameter kGaussian[] = {
+    {"float", "xradius", "1.5", "pixels"},
+    {"float", "yradius", "1.5", "pixels"},
+    {"float", "sigma", "0.5", "pixels"},
+};
+constexpr FormatParameter kMitchell[] = {
+    {"float", "xradius", "2", "pixels"},
+    {"float", "yradius", "2", "pixels"},
+    {"float", "B", "1/3"},
+    {"float", "C", "1/3"},
+};
+constexpr FormatParameter kSinc[] = {
+    {"float", "xradius", "4", "pixels"},
+    {"float", "yradius", "4", "pixels"},
+    {"float", "tau", "3"},
+};
+constexpr Row kTable[] = {
+    {{"box", {kBox}}, box, 0.5f},
+    {{"triangle", {kTriangle}}, triangle, 2.0f},
+    {{"gaussian", {kGaussian}, "the default"}, gaussian, 1.5f},
+    {{"mitchell", {kMitchell}}, mitchell, 2.0f},
+    {{"sinc", {kSinc}}, windowed_sinc, 4.0f},
+};
+
 }  // namespace
 
 PixelFilter::PixelFilter(float (*function)(float, float, const Parameters&), Vec2f radius,
@@ -113,43 +149,32 @@ float PixelFilter::eval(const Vec2f& offset) const {
   return f;
 }
 
+std::vector<FormatType> pixel_filter_types() {
+  return format_types(kTable);
+}
+
 std::unique_ptr<PixelFilter> make_pixel_filter(
     const std::optional<DirectiveDescription>& description, Diagnostics& diagnostics) {
   static const ParameterSet kNone;
   const std::string type = description ? description->type : "gaussian";
   const ParameterSet& p = description ? description->parameters : kNone;
-  struct Row {
-    const char* name;
-    float (*function)(float, float, const Parameters&);
-    float radius;
-  };
-  static constexpr Row kTable[] = {{"box", box, 0.5f},
-                                   {"triangle", triangle, 2.0f},
-                                   {"gaussian", gaussian, 1.5f},
-                                   {"mitchell", mitchell, 2.0f},
-                                   {"sinc", windowed_sinc, 4.0f}};
-  for (const Row& row : kTable) {
-    if (type != row.name) continue;
-    const Vec2f radius(p.get_float("xradius", row.radius), p.get_float("yradius", row.radius));
-    constexpr float kLargestRadius = 65536;
-    if (!(radius.x > 0 && radius.y > 0 && radius.x <= kLargestRadius && radius.y <= kLargestRadius))
-      throw SceneError(p.where, "the filter's radius must be positive and at most 65536 pixels");
-    Parameters parameters{0, 0};
-    if (type == "gaussian") parameters[0] = p.get_float("sigma", 0.5f);
-    if (type == "mitchell") parameters = {p.get_float("B", 1.f / 3), p.get_float("C", 1.f / 3)};
-    if (type == "sinc") parameters[0] = p.get_float("tau", 3.0f);
-    if (type == "gaussian" && !(parameters[0] > 0))
-      throw SceneError(p.where, "\"sigma\" must be positive");
-    if (description) p.report_unused("pixel filter \"" + type + "\"", diagnostics);
-    auto filter = std::make_unique<PixelFilter>(row.function, radius, parameters, parameters);
-    if (!filter->can_be_sampled())
-      throw SceneError(p.where, "the parameters of the pixel filter \"" + type +
-                                    "\" leave nothing of it, expected a positive integral");
-    return filter;
-  }
-  throw SceneError(description->where,
-                   "pixel filter \"" + type +
-                       "\" is unknown, expected box, triangle, gaussian, mitchell or sinc");
+  const Row& row = row_of(kTable, "pixel filter", type, p.where);
+  const Vec2f radius(p.get_float("xradius", row.radius), p.get_float("yradius", row.radius));
+  constexpr float kLargestRadius = 65536;
+  if (!(radius.x > 0 && radius.y > 0 && radius.x <= kLargestRadius && radius.y <= kLargestRadius))
+    throw SceneError(p.where, "the filter's radius must be positive and at most 65536 pixels");
+  Parameters parameters{0, 0};
+  if (type == "gaussian") parameters[0] = p.get_float("sigma", 0.5f);
+  if (type == "mitchell") parameters = {p.get_float("B", 1.f / 3), p.get_float("C", 1.f / 3)};
+  if (type == "sinc") parameters[0] = p.get_float("tau", 3.0f);
+  if (type == "gaussian" && !(parameters[0] > 0))
+    throw SceneError(p.where, "\"sigma\" must be positive");
+  if (description) p.report_unused("pixel filter \"" + type + "\"", row, diagnostics);
+  auto filter = std::make_unique<PixelFilter>(row.function, radius, parameters, parameters);
+  if (!filter->can_be_sampled())
+    throw SceneError(p.where, "the parameters of the pixel filter \"" + type +
+                                  "\" leave nothing of it, expected a positive integral");
+  return filter;
 }
 
 }  // namespace nephroid

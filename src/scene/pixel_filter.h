@@ -10,7 +10,7 @@
 
 #include "core/errors.h"
 #include "core/math.h"
-#include "input/scene_description.h"
+#include "input/format_rows.h"
 
 namespace nephroid {
 
@@ -43,6 +43,9 @@ class PixelFilter {
   };
   Axis axes_[2];
 };
+
+/// All types of the format.
+std::vector<FormatType> pixel_filter_types();
 
 /// box, triangle, gaussian, mitchell, sinc with pbrt-v4's parameters and defaults; gaussian if
 /// absent.

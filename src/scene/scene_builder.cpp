@@ -1,16 +1,14 @@
 // SceneDescription -> Scene, on one page: textures, materials, lights, shapes, instances, camera,
 // film.
-#include <algorithm>
 #include <exception>
-#include <limits>
 #include <map>
 #include <utility>
 
 #include "core/parallel.h"
-#include "input/spelling.h"
 #include "scene/camera/camera.h"
 #include "scene/film_description.h"
 #include "scene/pixel_filter.h"
+#include "scene/sampler_description.h"
 #include "scene/scene.h"
 #include "scene/shape_table.h"
 
@@ -39,7 +37,9 @@ class SceneBuilder {
     scene_->camera = make_camera(d_, {film.width, film.height, film.diagonal_mm}, diagnostics);
     scene_->filter = make_pixel_filter(d_.pixel_filter, diagnostics);
     find_instance_pivot();
-    read_sampler();
+    const SamplerDescription sampler = read_sampler(d_.sampler, scene_->options.seed, diagnostics);
+    scene_->samples_per_pixel = sampler.samples_per_pixel;
+    scene_->scene_seed = sampler.seed;
     if (d_.integrator) {
       scene_->integrator = d_.integrator->type;
       scene_->integrator_parameters = d_.integrator->parameters;
@@ -74,31 +74,6 @@ class SceneBuilder {
   }
 
  private:
-  void read_sampler() {
-    scene_->scene_seed = static_cast<uint64_t>(scene_->options.seed);
-    if (!d_.sampler) return;
-    const ParameterSet& p = d_.sampler->parameters;
-    const std::string& type = d_.sampler->type;
-    static const std::vector<std::string> kSamplers = {
-        "halton", "independent", "paddedsobol", "pmj02bn", "sobol", "stratified", "zsobol"};
-    if (std::find(kSamplers.begin(), kSamplers.end(), type) == kSamplers.end()) {
-      const std::string meant = did_you_mean(type, kSamplers);
-      diagnostics_.warn(p.where,
-                        "unknown sampler \"" + type + "\"" +
-                            (meant.empty() ? ", only its number of samples is taken" : meant));
-    }
-    const bool stratified = type == "stratified";
-    const int64_t x = stratified ? p.get_int("xsamples", 4)
-                                 : p.get_int("pixelsamples", type == "independent" ? 4 : 16);
-    const int64_t y = stratified ? p.get_int("ysamples", 4) : 1;
-    if (x < 1 || y < 1 || x * y > std::numeric_limits<int>::max())
-      throw SceneError(p.where, "the number of pixel samples must be at least 1 and fit 32 bits");
-    scene_->samples_per_pixel = static_cast<int>(x * y);
-    scene_->scene_seed = static_cast<uint64_t>(p.get_int("seed", scene_->options.seed));
-    for (const char* of_its_own : {"jitter", "randomization"}) (void)p.find(of_its_own);
-    p.report_unused("sampler \"" + type + "\"", diagnostics_);
-  }
-
   const Medium* medium_named(const std::string& name, const SourceLocation& where) const {
     if (name.empty()) return nullptr;
     const auto it = medium_index_.find(name);
@@ -148,7 +123,7 @@ class SceneBuilder {
       }
       for (const ShapePtr& shape : made[i]) add_shape(first, shape, *home);
       for (const ShapeDescription& description : runs[i])
-        description.parameters.report_unused("shape \"" + description.type + "\"", diagnostics_);
+        report_unused_parameters(description, diagnostics_);
       if (home != &group) home->accelerator->commit();
     }
     for (const auto& [shape, home] : moving)

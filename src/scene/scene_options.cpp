@@ -1,10 +1,7 @@
 // One row per option; see scene_options.h.
 #include "scene/scene_options.h"
 
-#include <algorithm>
-#include <string>
-#include <vector>
-
+#include "input/option_directive.h"
 #include "input/spelling.h"
 
 namespace nephroid {
@@ -13,12 +10,6 @@ namespace {
 bool is_on(const Parameter& option) {
   return !option.bools.empty() && option.bools[0];
 }
-
-struct Row {
-  const char* name;
-  void (*take)(const Parameter&, SceneOptions&);  ///< null: it has no effect here
-  const char* why_not;
-};
 
 // pbrt-v4 decomposes the matrices of moving instances in its rendering space, so that their
 // rotations turn about the origin of that. Nothing else here depends on it.
@@ -30,26 +21,40 @@ void take_coordinate_system(const Parameter& option, SceneOptions& options) {
   options.turn_about_camera = name != "world";
 }
 
+/// What the options do that change pictures; the names of all are in input/option_directive.cpp.
+struct Row {
+  const char* name;
+  void (*take)(const Parameter&, SceneOptions&);
+};
 constexpr Row kTable[] = {
-    {"disablepixeljitter", [](const Parameter& p, SceneOptions& o) { o.pixel_jitter = !is_on(p); },
-     ""},
+    {"disablepixeljitter", [](const Parameter& p, SceneOptions& o) { o.pixel_jitter = !is_on(p); }},
     {"disablewavelengthjitter",
-     [](const Parameter& p, SceneOptions& o) { o.wavelength_jitter = !is_on(p); }, ""},
-    {"forcediffuse", [](const Parameter& p, SceneOptions& o) { o.force_diffuse = is_on(p); }, ""},
-    {"seed", [](const Parameter& p, SceneOptions& o) { o.seed = static_cast<int>(p.numbers[0]); },
-     ""},
-    {"rendercoordsys", take_coordinate_system, ""},
-    // Textures are looked up at points, with or without it.
-    {"disabletexturefiltering", [](const Parameter&, SceneOptions&) {}, ""},
+     [](const Parameter& p, SceneOptions& o) { o.wavelength_jitter = !is_on(p); }},
+    {"forcediffuse", [](const Parameter& p, SceneOptions& o) { o.force_diffuse = is_on(p); }},
+    {"seed", [](const Parameter& p, SceneOptions& o) { o.seed = static_cast<int>(p.numbers[0]); }},
     {"displacementedgescale",
      [](const Parameter& p, SceneOptions& o) {
        o.displacement_edge_scale = static_cast<float>(p.numbers[0]);
-     },
-     ""},
-    {"msereferenceimage", nullptr, "; nephroid compare measures pictures"},
-    {"msereferenceout", nullptr, "; nephroid compare measures pictures"},
-    {"pixelstats", nullptr, ""},
-    {"wavefront", nullptr, ""},
+     }},
+    {"rendercoordsys", take_coordinate_system},
+};
+
+constexpr const char* kOneAccelerator = "there is one accelerator, and it has no settings";
+
+constexpr FormatParameter kBvh[] = {
+    {"integer", "maxnodeprims", "4", "", kOneAccelerator, Support::kNotNeeded},
+    {"string", "splitmethod", "sah", "", kOneAccelerator, Support::kNotNeeded},
+};
+constexpr FormatParameter kKdTree[] = {
+    {"integer", "intersectcost", "5", "", kOneAccelerator, Support::kNotNeeded},
+    {"integer", "traversalcost", "1", "", kOneAccelerator, Support::kNotNeeded},
+    {"float", "emptybonus", "0.5", "", kOneAccelerator, Support::kNotNeeded},
+    {"integer", "maxprims", "1", "", kOneAccelerator, Support::kNotNeeded},
+    {"integer", "maxdepth", "-1", "", kOneAccelerator, Support::kNotNeeded},
+};
+constexpr FormatType kAccelerators[] = {
+    {"bvh", {kBvh}, kOneAccelerator, Support::kNotNeeded},
+    {"kdtree", {kKdTree}, kOneAccelerator, Support::kNotNeeded},
 };
 
 }  // namespace
@@ -57,25 +62,33 @@ constexpr Row kTable[] = {
 SceneOptions read_scene_options(const SceneDescription& description, Diagnostics& diagnostics) {
   SceneOptions options;
   for (const Parameter& option : description.options) {
-    const Row* row = std::find_if(std::begin(kTable), std::end(kTable),
-                                  [&](const Row& r) { return option.name == r.name; });
-    if (row == std::end(kTable)) continue;
-    if (row->take)
-      row->take(option, options);
-    else if (option.type != "bool" || is_on(option))
-      diagnostics.warn(option.where,
-                       "option \"" + option.name + "\" has no effect here" + row->why_not);
+    for (const Row& row : kTable)
+      if (option.name == row.name) row.take(option, options);
+    for (const FormatParameter& known : format_options())
+      if (option.name == known.name && known.support == Support::kWarned &&
+          (option.type != "bool" || is_on(option)))
+        diagnostics.warn(option.where, "option \"" + option.name + "\" has no effect here" +
+                                           (*known.note ? "; " : "") + known.note);
   }
   return options;
 }
 
+std::vector<FormatType> accelerator_types() {
+  return format_types(kAccelerators);
+}
+
 void check_accelerator(const SceneDescription& description, Diagnostics& diagnostics) {
-  static const std::vector<std::string> kKnown = {"bvh", "kdtree"};
   if (!description.accelerator) return;
   const std::string& type = description.accelerator->type;
-  if (std::find(kKnown.begin(), kKnown.end(), type) == kKnown.end())
-    diagnostics.warn(description.accelerator->where,
-                     "unknown accelerator \"" + type + "\"" + did_you_mean(type, kKnown));
+  if (const FormatType* row = find_row(kAccelerators, type)) {
+    description.accelerator->parameters.report_unused("accelerator \"" + type + "\"", *row,
+                                                      diagnostics);
+    return;
+  }
+  std::vector<std::string> names;
+  for (const FormatType& known : kAccelerators) names.emplace_back(known.name);
+  diagnostics.warn(description.accelerator->where,
+                   "unknown accelerator \"" + type + "\"" + did_you_mean(type, names));
 }
 
 }  // namespace nephroid

@@ -3,7 +3,7 @@
 // follows from them.
 #pragma once
 
-#include "input/scene_description.h"
+#include "input/format_rows.h"
 
 namespace nephroid {
 
@@ -19,6 +19,9 @@ struct SceneOptions {
 /// Warns of options that have no effect here; throws SceneError for values that the format does not
 /// have.
 SceneOptions read_scene_options(const SceneDescription& description, Diagnostics& diagnostics);
+
+/// All types of accelerators of the format.
+std::vector<FormatType> accelerator_types();
 
 /// There is one accelerator here, whatever the scene says: warns of types that the format does not
 /// have.

@@ -130,11 +130,6 @@ std::vector<ShapePtr> ply_mesh(const Context& c) {
 std::vector<ShapePtr> bilinear_mesh(const Context& c) {
   MeshData data = vertices_of(c);
   data.face_indices = c.p.get_ints("faceIndices");
-  if (const Parameter* hint = c.p.find("emissionfilename"))
-    c.diagnostics.warn(hint->where,
-                       c.what() +
-                           ": \"emissionfilename\" is ignored, it tells where to sample the light "
-                           "and does not change the picture");
   std::vector<uint32_t> corners = to_indices(c, c.p.get_ints("indices"));
   if (corners.empty()) {
     if (data.positions.size() != 4)
@@ -160,7 +155,6 @@ std::vector<ShapePtr> loop_subdivision(const Context& c) {
   const int levels = c.p.get_int("levels", 3);
   if (levels < 0 || levels > 10)
     throw SceneError(c.p.where, c.what() + ": \"levels\" must lie in 0..10");
-  (void)c.p.get_string("scheme", "loop");
   validate_mesh(cage, c.p.where, c.what(), c.diagnostics);
   try {
     return finish_mesh(c, loop_subdivide(cage.positions, cage.triangles, levels));
@@ -217,22 +211,87 @@ std::vector<ShapePtr> curves(const Context& c) {
   return {std::move(shape)};
 }
 
-struct Row {
-  const char* name;
+constexpr FormatParameter kEvery[] = {
+    {"float or texture", "alpha", "1", "", "share of the light that meets the surface"}};
+constexpr FormatParameter kVertices[] = {{"point3[]", "P", "none: an error", "scene units"}};
+constexpr FormatParameter kAttributes[] = {
+    {"normal[]", "N", "none", "", "one for each vertex"},
+    {"point2[]", "uv", "none", "", "one for each vertex"},
+    {"integer[]", "faceIndices", "none"},
+};
+constexpr FormatParameter kTriangles[] = {
+    {"integer[]", "indices", "0 1 2, of three vertices"},
+    {"vector3[]", "S", "none", "", "tangents, one for each vertex"},
+};
+constexpr FormatParameter kPly[] = {
+    {"string", "filename", "none: an error", "", "PLY, may be compressed"},
+    {"float or texture", "displacement", "none", "scene units", "needs uv"},
+    {"float", "edgelength", "1", "scene units", "of displaced triangles, at most"},
+    {"float", "displacement.edgelength", "edgelength", "scene units", "an older name"},
+};
+constexpr FormatParameter kPatches[] = {
+    {"integer[]", "indices", "0 1 2 3, of four vertices", "", "p00 p10 p01 p11"},
+    {"string", "emissionfilename", "none", "",
+     "it tells where to sample the light and does not change the picture", Support::kWarned},
+};
+constexpr FormatParameter kLoop[] = {
+    {"integer[]", "indices", "none: an error"},
+    {"integer", "levels", "3", "", "0 to 10"},
+    {"string", "scheme", "loop", "", "there is one scheme", Support::kNotNeeded},
+};
+constexpr FormatParameter kRadius[] = {{"float", "radius", "1", "scene units", "above 0"}};
+constexpr FormatParameter kPhiMax[] = {{"float", "phimax", "360", "degrees"}};
+constexpr FormatParameter kSphere[] = {
+    {"float", "zmin", "-radius", "scene units"},
+    {"float", "zmax", "radius", "scene units"},
+};
+constexpr FormatParameter kDisk[] = {
+    {"float", "height", "0", "scene units"},
+    {"float", "innerradius", "0", "scene units"},
+};
+constexpr FormatParameter kCylinder[] = {
+    {"float", "zmin", "-1", "scene units"},
+    {"float", "zmax", "1", "scene units"},
+};
+constexpr FormatParameter kCurve[] = {
+    {"string", "type", "flat", "", "flat, cylinder or ribbon"},
+    {"string", "basis", "bezier", "", "bezier or bspline"},
+    {"integer", "degree", "3", "", "2 or 3"},
+    {"float", "width", "1", "scene units"},
+    {"float", "width0", "width", "scene units"},
+    {"float", "width1", "width", "scene units"},
+    {"normal[]", "N", "none", "",
+     "one at each end of the segments of a ribbon; of other types ignored with a warning"},
+    {"integer", "splitdepth", "3", "", "curves are divided as it is needed", Support::kNotNeeded},
+};
+
+struct Row : FormatType {
   std::vector<ShapePtr> (*make)(const Context&);
 };
 constexpr Row kTable[] = {
-    {"trianglemesh", triangle_mesh},  {"plymesh", ply_mesh}, {"bilinearmesh", bilinear_mesh},
-    {"loopsubdiv", loop_subdivision}, {"sphere", sphere},    {"disk", disk},
-    {"cylinder", cylinder},           {"curve", curves},
+    {{"trianglemesh", {kVertices, kTriangles, kAttributes, kEvery}}, triangle_mesh},
+    {{"plymesh", {kPly, kEvery}}, ply_mesh},
+    {{"bilinearmesh", {kVertices, kPatches, kAttributes, kEvery}}, bilinear_mesh},
+    {{"loopsubdiv", {kVertices, kLoop, kEvery}}, loop_subdivision},
+    {{"sphere", {kRadius, kSphere, kPhiMax, kEvery}}, sphere},
+    {{"disk", {kRadius, kDisk, kPhiMax, kEvery}}, disk},
+    {{"cylinder", {kRadius, kCylinder, kPhiMax, kEvery}}, cylinder},
+    {{"curve",
+      {kVertices, kCurve, kEvery},
+      "cannot be an area light (error); rays do not meet a curve nearer to their origin than its "
+      "width"},
+     curves},
 };
 
 }  // namespace
 
-std::vector<std::string> shape_names() {
-  std::vector<std::string> names;
-  for (const Row& row : kTable) names.emplace_back(row.name);
-  return names;
+std::vector<FormatType> shape_types() {
+  return format_types(kTable);
+}
+
+void report_unused_parameters(const ShapeDescription& description, Diagnostics& diagnostics) {
+  if (const Row* row = find_row(kTable, description.type))
+    description.parameters.report_unused("shape \"" + description.type + "\"", *row, diagnostics);
 }
 
 bool is_moving(const ShapeDescription& description) {
@@ -260,12 +319,7 @@ std::vector<ShapePtr> make_shapes(std::span<const ShapeDescription> alike,
                         transform,
                         description.reverse_orientation != transform.swaps_handedness(),
                         displacement};
-  for (const Row& row : kTable)
-    if (description.type == row.name) return row.make(context);
-  std::string expected;
-  for (const Row& row : kTable) expected += std::string(expected.empty() ? "" : ", ") + row.name;
-  throw SceneError(description.where,
-                   "shape \"" + description.type + "\" is unknown, expected one of " + expected);
+  return row_of(kTable, "shape", description.type, description.where).make(context);
 }
 
 }  // namespace nephroid

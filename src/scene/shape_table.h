@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "input/scene_description.h"
+#include "input/format_rows.h"
 #include "scene/shape/shape.h"
 #include "scene/texture/texture.h"
 
@@ -33,7 +33,10 @@ std::vector<ShapePtr> make_shapes(std::span<const ShapeDescription> alike,
 /// How many directives from the first on make_shapes takes at once: 1 but for curves alike.
 size_t shapes_alike(std::span<const ShapeDescription> descriptions);
 
-/// Names of all shapes that the table knows.
-std::vector<std::string> shape_names();
+/// Warns of parameters of the directive that have no effect.
+void report_unused_parameters(const ShapeDescription& description, Diagnostics& diagnostics);
+
+/// All types of the format.
+std::vector<FormatType> shape_types();
 
 }  // namespace nephroid

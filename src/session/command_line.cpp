@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "core/errors.h"
+#include "session/scene_support.h"
 #include "session/version.h"
 
 namespace nephroid {
@@ -61,10 +62,11 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments) {
   check_command(arguments);
   CommandLine line;
   CLI::App app;
-  bool markdown = false;
+  bool options_page = false, scene_support_page = false;
   app.name("nephroid");
   app.set_version_flag("--version", kVersion);
-  app.add_flag("--options-markdown", markdown)->group("");
+  app.add_flag("--options-markdown", options_page)->group("");
+  app.add_flag("--scene-support-markdown", scene_support_page)->group("");
   app.require_subcommand(0, 1);
   for (const CommandDescription& command : command_table()) {
     CLI::App* sub = app.add_subcommand(command.name, command.help);
@@ -90,7 +92,8 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments) {
     throw UsageError(fmt::format("{} (see nephroid {}{}--help)", error.what(), command,
                                  command.empty() ? "" : " "));
   }
-  if (markdown) return printing(options_markdown());
+  if (options_page) return printing(options_markdown());
+  if (scene_support_page) return printing(scene_support_markdown());
   if (chosen_command().empty()) throw UsageError("no command given\n\n" + program_help());
   return line;
 }

@@ -10,7 +10,8 @@
 namespace nephroid {
 
 /// Understands the arguments after the program's name. Help, version and the hidden
-/// --options-markdown come back as Action::kPrint with the text. Throws UsageError.
+/// --options-markdown and --scene-support-markdown come back as Action::kPrint with the text.
+/// Throws UsageError.
 CommandLine parse_command_line(const std::vector<std::string>& arguments);
 
 }  // namespace nephroid

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "session/option_values.h"
 
@@ -113,42 +114,27 @@ void take_scene_parameters(const ParameterSet& parameters, bool follow_scene, bo
   if (photons > 0 && follow_scene) choice->options.photons_per_pass = photons;
 }
 
-constexpr const char* kPbrtIntegrators[] = {
-    "ambientocclusion", "bdpt",       "function",      "lightpath", "mlt",    "path",
-    "randomwalk",       "simplepath", "simplevolpath", "sppm",      "volpath"};
+/// The row of a pbrt-v4 integrator; empty if there is none of that name.
+std::optional<FormatType> pbrt_integrator(const std::string& name) {
+  for (const FormatType& type : scene_integrator_types())
+    if (name == type.name) return type;
+  return std::nullopt;
+}
 
-/// Parameters that pbrt-v4's integrators have beside those that are taken.
-constexpr const char* kPbrtParameters[] = {"bootstrapsamples",
-                                           "chains",
-                                           "cossample",
-                                           "filename",
-                                           "function",
-                                           "imagefilename",
-                                           "largestepprobability",
-                                           "lightsampler",
-                                           "maxdistance",
-                                           "mutationsperpixel",
-                                           "regularize",
-                                           "samplebsdf",
-                                           "samplelights",
-                                           "seed",
-                                           "sigma",
-                                           "skipbad",
-                                           "visualizestrategies",
-                                           "visualizeweights"};
-
-bool is_pbrt_integrator(const std::string& name) {
-  return std::find(std::begin(kPbrtIntegrators), std::end(kPbrtIntegrators), name) !=
-         std::end(kPbrtIntegrators);
+std::string pbrt_integrator_names() {
+  std::string names;
+  for (const FormatType& type : scene_integrator_types())
+    names += (names.empty() ? "" : ", ") + std::string(type.name);
+  return names;
 }
 
 /// The integrator that stands for the scene's own.
 std::string integrator_of_scene(const std::string& scene_integrator, const SourceLocation& where) {
   // Without an Integrator line pbrt-v4 renders with volpath.
   const std::string own = scene_integrator.empty() ? "volpath" : scene_integrator;
-  if (!is_pbrt_integrator(own))
+  if (!pbrt_integrator(own))
     throw SceneError(where, fmt::format("unknown integrator \"{}\", expected one of: {}", own,
-                                        fmt::join(kPbrtIntegrators, ", ")));
+                                        pbrt_integrator_names()));
   std::string name = integrator_for_scene_name(own);
   if (name.empty())
     throw UsageError(fmt::format(
@@ -160,15 +146,16 @@ std::string integrator_of_scene(const std::string& scene_integrator, const Sourc
 void warn_of_unknown_names(const std::string& scene_integrator, const ParameterSet& parameters,
                            IntegratorChoice* choice) {
   Diagnostics diagnostics;
-  if (!scene_integrator.empty() && !is_pbrt_integrator(scene_integrator)) {
+  const std::string own = scene_integrator.empty() ? "volpath" : scene_integrator;
+  const std::optional<FormatType> type = pbrt_integrator(own);
+  if (!type) {
     diagnostics.warn(parameters.where, fmt::format("unknown integrator \"{}\", \"{}\" is used",
                                                    scene_integrator, choice->name));
   } else {
-    for (const char* name : kPbrtParameters) (void)parameters.find(name);
     if (parameters.get_bool("regularize", false))
       diagnostics.warn(parameters.find("regularize")->where,
                        "\"regularize\" has no effect here: what it would hide, photons render");
-    parameters.report_unused("integrator \"" + scene_integrator + "\"", diagnostics);
+    parameters.report_unused("integrator \"" + own + "\"", *type, diagnostics);
   }
   for (const Warning& warning : diagnostics.warnings())
     choice->warnings.push_back(located(warning.where, warning.message));

@@ -125,12 +125,12 @@ TEST(BadParameter, IsLocated) {
                  "7:16: parameter \"radius\" has the unknown type \"flaot\", expected one of");
   expect_refused("Shape \"sphere\" \"float radius\" [ 1 2 ]\n",
                  "7:16: parameter \"radius\" has 2 values, expected 1");
-  expect_refused("Shape \"spere\"\n", "7:1: shape \"spere\" is unknown, expected one of");
+  expect_refused("Shape \"spere\"\n", "7:1: unknown shape \"spere\", did you mean \"sphere\"?");
 }
 
 TEST(BadMaterial, IsLocated) {
   expect_scene_error("Material \"difuse\"\n" + kTriangle,
-                     "7:1: unknown material \"difuse\", expected one of");
+                     "7:1: unknown material \"difuse\", did you mean \"diffuse\"?");
   expect_scene_error("NamedMaterial \"absent\"\n" + kTriangle,
                      "7:1: named material \"absent\" is not defined");
   expect_scene_error(
@@ -223,7 +223,7 @@ TEST(BadLight, IsLocated) {
   expect_refused("LightSource \"point\" \"blackbody I\" 0\n", "7:21: \"blackbody I\" needs");
   expect_refused("LightSource \"point\" \"rgb I\" [ 1e38 0 0 ] \"float scale\" 1e30\n",
                  "7:21: the light is too bright");
-  expect_refused("LightSource \"pont\"\n", "7:1: unknown light \"pont\", expected one of");
+  expect_refused("LightSource \"pont\"\n", "7:1: unknown light \"pont\", did you mean \"point\"?");
   expect_refused("AreaLightSource \"diffuse\" \"rgb L\" [ 0 -1 0 ]\n" + kTriangle,
                  "7:27: \"rgb L\" has a negative or infinite component");
 }

@@ -3,31 +3,51 @@
 
 #include <vector>
 
-#include "input/spelling.h"
 #include "scene/shape/shape.h"
 
 namespace nephroid {
 namespace {
 
-constexpr CameraRow kTable[] = {
-    {"perspective", make_perspective_camera},
-    {"orthographic", make_orthographic_camera},
-    {"spherical", make_spherical_camera},
-    {"realistic", make_realistic_camera},
+constexpr FormatParameter kShutter[] = {
+    {"float", "shutteropen", "0", "s"},
+    {"float", "shutterclose", "1", "s", "later than shutteropen; their distance is the exposure"},
+};
+constexpr FormatParameter kScreen[] = {
+    {"float", "frameaspectratio", "that of the film"},
+    {"float[4]", "screenwindow", "-1 to 1 along the shorter side"},
+};
+constexpr FormatParameter kThinLens[] = {
+    {"float", "lensradius", "0", "scene units"},
+    {"float", "focaldistance", "1e6", "scene units"},
+};
+constexpr FormatParameter kPerspective[] = {
+    {"float", "fov", "90", "degrees", "of the shorter side, between 0 and 180"}};
+constexpr FormatParameter kSpherical[] = {
+    {"string", "mapping", "equalarea", "", "equalarea or equirectangular"},
+    {"float", "lensradius", "0", "scene units", "there is no lens", Support::kNotNeeded},
+    {"float", "focaldistance", "1e6", "scene units", "there is no lens", Support::kNotNeeded},
+    {"float", "frameaspectratio", "that of the film", "", "there is no screen",
+     Support::kNotNeeded},
+    {"float[4]", "screenwindow", "", "", "there is no screen", Support::kNotNeeded},
+};
+constexpr FormatParameter kRealistic[] = {
+    {"string", "lensfile", "none: an error", "", "a table of lenses, in mm"},
+    {"float", "aperturediameter", "1", "mm",
+     "of the stops; larger than the table's with a warning, then the table's"},
+    {"float", "focusdistance", "10", "m", "too short for the lenses: an error"},
+    {"string", "aperture", "circular", "",
+     "circular, gaussian, square, pentagon, star or a square image file"},
 };
 
-const CameraRow& row_of(const std::string& type, const SourceLocation& where) {
-  std::vector<std::string> names;
-  std::string expected;
-  for (const CameraRow& row : kTable) {
-    if (type == row.name) return row;
-    names.emplace_back(row.name);
-    expected += (expected.empty() ? "\"" : ", \"") + names.back() + "\"";
-  }
-  const std::string meant = did_you_mean(type, names);
-  throw SceneError(where, "unknown camera \"" + type + "\"" +
-                              (meant.empty() ? ", expected one of " + expected : meant));
-}
+constexpr CameraRow kTable[] = {
+    {{"perspective", {kPerspective, kThinLens, kScreen, kShutter}}, make_perspective_camera},
+    {{"orthographic", {kThinLens, kScreen, kShutter}}, make_orthographic_camera},
+    {{"spherical", {kSpherical, kShutter}}, make_spherical_camera},
+    {{"realistic",
+      {kRealistic, kShutter},
+      "rays that the lenses block are black, weights of the exit pupil as in pbrt-v4"},
+     make_realistic_camera},
+};
 
 CameraPlacement placement_of(const SceneDescription& scene) {
   CameraPlacement placement;
@@ -67,15 +87,19 @@ std::span<const CameraRow> camera_table() {
   return kTable;
 }
 
+std::vector<FormatType> camera_types() {
+  return format_types(kTable);
+}
+
 std::unique_ptr<Camera> make_camera(const SceneDescription& scene, const CameraFilm& film,
                                     Diagnostics& diagnostics) {
   static const ParameterSet kNone;
   const ParameterSet& p = scene.camera ? scene.camera->parameters : kNone;
   const std::string type = scene.camera ? scene.camera->type : "perspective";
-  const CameraRow& row = row_of(type, p.where);
+  const CameraRow& row = row_of(kTable, "camera", type, p.where);
   std::unique_ptr<Camera> camera =
       row.make({p, placement_of(scene), film, scene.directory, diagnostics});
-  if (scene.camera) p.report_unused("camera \"" + type + "\"", diagnostics);
+  if (scene.camera) p.report_unused("camera \"" + type + "\"", row, diagnostics);
   check_rays(*camera, film, p.where);
   return camera;
 }

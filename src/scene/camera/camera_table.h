@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 
+#include "input/format_rows.h"
 #include "scene/camera/camera.h"
 
 namespace nephroid {
@@ -20,13 +21,13 @@ struct CameraContext {
   Diagnostics& diagnostics;
 };
 
-struct CameraRow {
-  const char* name;
+struct CameraRow : FormatType {
   std::unique_ptr<Camera> (*make)(const CameraContext&);
 };
 
 /// All types of the format.
 std::span<const CameraRow> camera_table();
+std::vector<FormatType> camera_types();
 
 std::unique_ptr<Camera> make_perspective_camera(const CameraContext&);
 std::unique_ptr<Camera> make_orthographic_camera(const CameraContext&);

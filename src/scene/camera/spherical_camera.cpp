@@ -55,10 +55,6 @@ class SphericalCamera final : public Camera {
 std::unique_ptr<Camera> make_spherical_camera(const CameraContext& c) {
   const ParameterSet& p = c.parameters;
   const std::string mapping = p.get_string("mapping", "equalarea");
-  // The format gives these to every camera; this one has no lens and no screen.
-  for (const char* without_use :
-       {"lensradius", "focaldistance", "frameaspectratio", "screenwindow"})
-    (void)p.find(without_use);
   if (mapping == "equalarea")
     return std::make_unique<SphericalCamera>(c.placement, c.film, SphereMapping::kEqualArea);
   if (mapping == "equirectangular")

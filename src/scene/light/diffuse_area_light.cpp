@@ -170,14 +170,12 @@ UniformOrImage read_area_emission(const DirectiveDescription& description,
 std::vector<LightPtr> make_area_lights(const DirectiveDescription& description, ShapePtr shape,
                                        const std::string& directory, const TextureLibrary&,
                                        FloatTexturePtr alpha, Diagnostics& diagnostics) {
-  if (description.type != "diffuse")
-    throw SceneError(description.where,
-                     "unknown area light \"" + description.type + "\", expected \"diffuse\"");
+  const FormatType& type = area_light_type(description);
   const ParameterSet& p = description.parameters;
   const UniformOrImage e = read_area_emission(description, directory);
   const bool two_sided = p.get_bool("twosided", false);
   const float power = p.get_float("power", -1.0f);
-  p.report_unused("area light \"diffuse\"", diagnostics);
+  p.report_unused("area light \"" + description.type + "\"", type, diagnostics);
 
   const std::optional<float> opacity = alpha ? alpha->constant() : 1.0f;
   const bool invisible = opacity && *opacity <= 0.0f;

@@ -5,44 +5,91 @@ namespace nephroid {
 
 namespace {
 
-struct Row {
-  const char* name;
+constexpr FormatParameter kScale[] = {{"float", "scale", "1", "", "of the emission; not negative"}};
+constexpr FormatParameter kPower[] = {
+    {"float", "power", "none", "W", "replaces the brightness if above 0"}};
+constexpr FormatParameter kIlluminance[] = {
+    {"float", "illuminance", "none", "lx", "replaces the brightness if above 0"}};
+constexpr FormatParameter kFrom[] = {{"point3", "from", "0 0 0"}};
+constexpr FormatParameter kTo[] = {{"point3", "to", "0 0 1"}};
+constexpr FormatParameter kIntensity[] = {
+    {"spectrum", "I", "illuminant of the colour space", "intensity"}};
+constexpr FormatParameter kDistant[] = {
+    {"spectrum", "L", "illuminant of the colour space", "irradiance"}};
+constexpr FormatParameter kSpotAxis[] = {
+    {"point3", "to", "0 0 1"},
+    {"float", "coneangle", "30", "degrees", "0 to 180"},
+    {"float", "conedeltaangle", "5", "degrees", "of the edge, inside of the cone"},
+};
+constexpr FormatParameter kInfinite[] = {
+    {"spectrum", "L", "illuminant of the colour space", "radiance",
+     "with \"filename\" an error, with \"filename\" and \"portal\" ignored with a warning; with "
+     "\"portal\" alone what is not rgb is converted to rgb with a warning"},
+    {"string", "filename", "none", "", "a square image: an equal-area octahedral map"},
+    {"point3[4]", "portal", "none", "scene units",
+     "a rectangle in world space, anything else is an error"},
+};
+constexpr FormatParameter kProjection[] = {
+    {"string", "filename", "none: an error", "", "the image projected"},
+    {"float", "fov", "90", "degrees", "of the shorter side, between 0 and 180"},
+};
+constexpr FormatParameter kGoniometric[] = {
+    {"string", "filename", "none", "",
+     "a square equal-area octahedral map; without one a warning, and all directions are alike"},
+};
+constexpr FormatParameter kArea[] = {
+    {"spectrum", "L", "illuminant of sRGB", "radiance", "together with \"filename\" an error"},
+    {"string", "filename", "none", "", "an image over the shape's uv"},
+    {"bool", "twosided", "false"},
+};
+
+struct Row : FormatType {
   LightMaker make;
 };
 constexpr Row kLights[] = {
-    {"point", make_point_light},           {"spot", make_spot_light},
-    {"distant", make_distant_light},       {"infinite", make_infinite_light},
-    {"projection", make_projection_light}, {"goniometric", make_goniometric_light},
+    {{"point", {kIntensity, kScale, kPower, kFrom}}, make_point_light},
+    {{"spot", {kIntensity, kScale, kPower, kFrom, kSpotAxis}}, make_spot_light},
+    {{"distant", {kDistant, kScale, kIlluminance, kFrom, kTo}}, make_distant_light},
+    {{"infinite", {kInfinite, kScale, kIlluminance}}, make_infinite_light},
+    {{"projection", {kProjection, kScale, kPower}}, make_projection_light},
+    {{"goniometric", {kIntensity, kGoniometric, kScale, kPower}}, make_goniometric_light},
 };
-
-LightMaker maker_of(const LightDescription& description) {
-  std::string names;
-  for (const Row& row : kLights) {
-    if (description.type == row.name) return row.make;
-    names += (names.empty() ? "\"" : ", \"") + std::string(row.name) + "\"";
-  }
-  throw SceneError(description.where,
-                   "unknown light \"" + description.type + "\", expected one of " + names);
-}
+constexpr FormatType kAreaLights[] = {
+    {"diffuse",
+     {kArea, kScale, kPower},
+     "\"power\" counts for each triangle, patch or quadric of the shape, with a warning if there "
+     "are several; alpha of the shape counts once, as where a camera ray hits. On curves an error, "
+     "on interface materials and in object definitions ignored with a warning"}};
 
 }  // namespace
+
+std::vector<FormatType> light_types() {
+  return format_types(kLights);
+}
+
+std::vector<FormatType> area_light_types() {
+  return format_types(kAreaLights);
+}
+
+const FormatType& area_light_type(const DirectiveDescription& description) {
+  return row_of(kAreaLights, "area light", description.type, description.where);
+}
 
 std::vector<LightPtr> make_lights(const SceneDescription& description, Diagnostics& diagnostics) {
   const LightScope scope{description.directory, description.color_space, diagnostics};
   std::vector<LightPtr> lights;
   for (const LightDescription& d : description.lights) {
-    const LightMaker make = maker_of(d);
+    const Row& row = row_of(kLights, "light", d.type, d.where);
     if (!is_invertible(d.transform.start))
       throw SceneError(d.where, "the transform of this light has no inverse");
     if (d.transform.is_animated())
-      diagnostics.warn(d.where,
-                       "a light source cannot move, the start of its motion is used");
-    lights.push_back(make(d, scope));
+      diagnostics.warn(d.where, "a light source cannot move, the start of its motion is used");
+    lights.push_back(row.make(d, scope));
     const auto bounds = lights.back()->bounds();
     if (bounds && !(is_in_reach(bounds->bounds.min) && is_in_reach(bounds->bounds.max)))
       throw SceneError(d.where,
                        "light \"" + d.type + "\" is too far away, expected coordinates up to 1e17");
-    d.parameters.report_unused("light \"" + d.type + "\"", diagnostics);
+    d.parameters.report_unused("light \"" + d.type + "\"", row, diagnostics);
   }
   return lights;
 }

@@ -3,6 +3,7 @@
 // know the rest of the scene.
 #pragma once
 
+#include "input/format_rows.h"
 #include "scene/light/emission_spectrum.h"
 #include "scene/light/light.h"
 #include "scene/texture/image_file.h"
@@ -15,6 +16,12 @@ struct LightScope {
   const std::string& color_space;  ///< of lights that name no colour
   Diagnostics& diagnostics;
 };
+
+/// All types of LightSource, and those of AreaLightSource.
+std::vector<FormatType> light_types();
+std::vector<FormatType> area_light_types();
+/// The row of the directive's area light; throws SceneError if there is none.
+const FormatType& area_light_type(const DirectiveDescription&);
 
 using LightMaker = LightPtr (*)(const LightDescription&, const LightScope&);
 

@@ -7,21 +7,128 @@
 namespace nephroid {
 namespace {
 
+constexpr FormatParameter kSurface[] = {
+    {"float or texture", "displacement", "none", "scene units",
+     "bumps; not together with \"normalmap\", which wins with a warning"},
+    {"string", "normalmap", "none", "", "an image file"},
+};
+constexpr FormatParameter kRoughness[] = {
+    {"float or texture", "roughness", "0"},
+    {"float or texture", "uroughness", "roughness"},
+    {"float or texture", "vroughness", "roughness"},
+    {"bool", "remaproughness", "true", "", "false: roughness is the microfacet alpha itself"},
+};
+constexpr FormatParameter kIndex[] = {
+    {"float or spectrum", "eta", "1.5", "",
+     "refractive index; of one that varies with the wavelength only the hero wavelength is kept"},
+};
+constexpr FormatParameter kThinIndex[] = {{"float or spectrum", "eta", "1.5"}};
+constexpr FormatParameter kDiffuse[] = {{"spectrum or texture", "reflectance", "0.5"}};
+constexpr FormatParameter kDiffuseTransmission[] = {
+    {"spectrum or texture", "reflectance", "0.25"},
+    {"spectrum or texture", "transmittance", "0.25"},
+    {"float", "scale", "1", "", "of both"},
+};
+constexpr FormatParameter kConductor[] = {
+    {"spectrum or texture", "eta", "metal-Cu-eta"},
+    {"spectrum or texture", "k", "metal-Cu-k"},
+    {"spectrum or texture", "reflectance", "none", "",
+     "instead of eta and k; together with them an error"},
+};
+constexpr FormatParameter kBetween[] = {
+    {"spectrum or texture", "albedo", "0", "", "of the medium between the two boundaries"},
+    {"float or texture", "g", "0", "", "mean cosine of scattering in that medium"},
+    {"integer", "maxdepth", "10", "", "events of a walk between the boundaries; at least 1"},
+    {"integer", "nsamples", "1", "", "walks per evaluation; at least 1"},
+};
+constexpr FormatParameter kCoatedDiffuse[] = {
+    {"spectrum or texture", "reflectance", "0.5"},
+    {"float or texture", "thickness", "0.01", "mean free paths of the medium"},
+};
+constexpr FormatParameter kCoatedConductor[] = {
+    {"float or texture", "interface.roughness", "0"},
+    {"float or texture", "interface.uroughness", "interface.roughness"},
+    {"float or texture", "interface.vroughness", "interface.roughness"},
+    {"float or spectrum", "interface.eta", "1.5"},
+    {"float or texture", "interface.thickness", "0.01", "mean free paths of the medium"},
+    {"float or texture", "conductor.roughness", "0"},
+    {"float or texture", "conductor.uroughness", "conductor.roughness"},
+    {"float or texture", "conductor.vroughness", "conductor.roughness"},
+    {"spectrum or texture", "conductor.eta", "metal-Cu-eta"},
+    {"spectrum or texture", "conductor.k", "metal-Cu-k"},
+    {"spectrum or texture", "reflectance", "none", "",
+     "of the metal, instead of conductor.eta and conductor.k; together with them an error"},
+    {"bool", "remaproughness", "true"},
+};
+constexpr FormatParameter kSubsurface[] = {
+    {"string", "name", "none", "",
+     "a measured medium (\"Skin1\", \"Whole Milk\" ...); wins over all other ways"},
+    {"spectrum or texture", "sigma_a", "0.0011 0.0024 0.014", "1/scene unit",
+     "absorption; the defaults are those of milk per mm; one of sigma_a and sigma_s without the "
+     "other is an error"},
+    {"spectrum or texture", "sigma_s", "2.55 3.21 3.77", "1/scene unit", "scattering"},
+    {"spectrum or texture", "reflectance", "none", "", "the colour seen, if there is no sigma_a"},
+    {"spectrum or texture", "mfp", "1", "scene units", "mean free path that goes with reflectance"},
+    {"float", "scale", "1", "", "of sigma_a and sigma_s, or of mfp"},
+    {"float", "g", "0", "",
+     "mean cosine, between -1 and 1, else an error; with \"name\" ignored with a warning"},
+    {"float", "eta", "1.33", "", "between 0.4 and 2.5, else an error"},
+};
+constexpr FormatParameter kHair[] = {
+    {"spectrum or texture", "sigma_a", "that of eumelanin 1.3", "1/radius",
+     "the first of sigma_a, reflectance (color) and the pigments counts, the others are ignored "
+     "with a warning"},
+    {"spectrum or texture", "reflectance", "none", "", "the colour of a mass of hair"},
+    {"spectrum or texture", "color", "none", "", "another name of reflectance"},
+    {"float or texture", "eumelanin", "0"},
+    {"float or texture", "pheomelanin", "0"},
+    {"float or texture", "eta", "1.55"},
+    {"float or texture", "beta_m", "0.3", "", "0 to 1, a number outside is an error"},
+    {"float or texture", "beta_n", "0.3", "", "0 to 1, a number outside is an error"},
+    {"float or texture", "alpha", "2", "degrees", "tilt of the scales"},
+};
+constexpr FormatParameter kMeasured[] = {
+    {"string", "filename", "none: an error", "", "an RGL .bsdf file"},
+};
+constexpr FormatParameter kMix[] = {
+    {"string", "materials", "none: an error", "", "two names"},
+    {"float or texture", "amount", "0.5", "", "share of the second"},
+};
+
+constexpr const char* kByRoughness =
+    "S where alpha is at or below specular-alpha (docs/options.md), else D";
+
 constexpr MaterialRow kTable[] = {
-    {"diffuse", make_diffuse},
-    {"diffusetransmission", make_diffuse_transmission},
-    {"dielectric", make_dielectric},
-    {"thindielectric", make_thin_dielectric},
-    {"conductor", make_conductor},
-    {"coateddiffuse", make_coated_diffuse},
-    {"coatedconductor", make_coated_conductor},
-    {"subsurface", make_subsurface},
-    {"hair", make_hair},
-    {"measured", make_measured},
-    {"mix", make_mix},
-    {"interface", make_interface},
-    {"none", make_interface},
-    {"", make_interface},
+    {{"diffuse", {kDiffuse, kSurface}, "D"}, make_diffuse},
+    {{"diffusetransmission", {kDiffuseTransmission, kSurface}, "D"}, make_diffuse_transmission},
+    {{"dielectric", {kIndex, kRoughness, kSurface}, kByRoughness}, make_dielectric},
+    {{"thindielectric",
+      {kThinIndex, kSurface},
+      "reflection S; transmission goes straight on and has no letter"},
+     make_thin_dielectric},
+    {{"conductor", {kConductor, kRoughness, kSurface}, kByRoughness}, make_conductor},
+    {{"coateddiffuse",
+      {kCoatedDiffuse, kIndex, kRoughness, kBetween, kSurface},
+      "reflection by the coat alone: S or D by the coat's roughness; the rest D"},
+     make_coated_diffuse},
+    {{"coatedconductor",
+      {kCoatedConductor, kBetween, kSurface},
+      "reflection by the coat alone: S or D by the coat's roughness; the rest S if coat and metal "
+      "are both S and no medium scatters between them, else D"},
+     make_coated_conductor},
+    {{"subsurface",
+      {kSubsurface, kRoughness, kSurface},
+      "boundary S or D by roughness; light that goes below is one D event of transmission, and "
+      "photons merge where it comes out. A tabulated profile as in pbrt-v4 (ADR 7); below a mix "
+      "light comes out where the mix shows this material"},
+     make_subsurface},
+    {{"hair", {kHair}, "D; photons do not merge on hair, its caustics are left to path"},
+     make_hair},
+    {{"measured", {kMeasured, kSurface}, "D"}, make_measured},
+    {{"mix", {kMix}, "the letter of the material chosen at the point"}, make_mix},
+    {{"interface", {}, "nothing but a boundary of media; no letter"}, make_interface},
+    {{"none", {}, "the same as interface"}, make_interface},
+    {{"", {}, "the same as interface"}, make_interface},
 };
 
 /// Makes materials in any order: a mix asks for others that may stand later in the file.
@@ -65,11 +172,11 @@ class Maker {
         &coat_tables_,
         &bssrdf_tables_,
         &measured_files_};
-    d.parameters.find("type");  // the type of a named material is written as a parameter
-    materials_[index] = row(d).make(d, context);
+    const MaterialRow& row = row_of(kTable, "material", d.type, d.where);
+    materials_[index] = row.make(d, context);
     if (settings_.force_diffuse && d.type != "mix" && !materials_[index]->is_interface())
       materials_[index] = force_diffuse(materials_[index]);
-    d.parameters.report_unused("material \"" + d.type + "\"", diagnostics_);
+    d.parameters.report_unused("material \"" + d.type + "\"", row, diagnostics_);
     state_[index] = State::kDone;
     return materials_[index];
   }
@@ -80,15 +187,6 @@ class Maker {
       throw SceneError(where, "there is no material named \"" + name +
                                   "\", expected the name of a MakeNamedMaterial");
     return make(found->second);
-  }
-
-  static const MaterialRow& row(const MaterialDescription& d) {
-    std::string known;
-    for (const MaterialRow& r : kTable) {
-      if (d.type == r.name) return r;
-      if (*r.name) known += (known.empty() ? "" : ", ") + std::string(r.name);
-    }
-    throw SceneError(d.where, "unknown material \"" + d.type + "\", expected one of " + known);
   }
 
   const SceneDescription& description_;
@@ -107,6 +205,10 @@ class Maker {
 
 std::span<const MaterialRow> material_table() {
   return kTable;
+}
+
+std::vector<FormatType> material_types() {
+  return format_types(kTable);
 }
 
 std::shared_ptr<const CoatTable> CoatTableCache::find_or_make(const DielectricInterface& boundary,

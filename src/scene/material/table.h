@@ -8,6 +8,7 @@
 #include <span>
 #include <tuple>
 
+#include "input/format_rows.h"
 #include "scene/bsdf/bssrdf_table.h"
 #include "scene/bsdf/coated_diffuse.h"
 #include "scene/material/material.h"
@@ -40,13 +41,13 @@ struct MaterialContext {
   MeasuredCache* measured_files = nullptr;
 };
 
-struct MaterialRow {
-  const char* name;
+struct MaterialRow : FormatType {
   MaterialPtr (*make)(const MaterialDescription&, const MaterialContext&);
 };
 
-/// All types that can be rendered.
+/// All types of the format.
 std::span<const MaterialRow> material_table();
+std::vector<FormatType> material_types();
 
 MaterialPtr make_diffuse(const MaterialDescription&, const MaterialContext&);
 MaterialPtr make_diffuse_transmission(const MaterialDescription&, const MaterialContext&);

@@ -89,7 +89,4 @@ using MediumPtr = std::shared_ptr<const Medium>;
 /// Makes all media of a description, in its order. Throws SceneError or IoError.
 std::vector<MediumPtr> make_media(const SceneDescription& description, Diagnostics& diagnostics);
 
-/// Names of all types that the table knows.
-std::vector<std::string> medium_names();
-
 }  // namespace nephroid

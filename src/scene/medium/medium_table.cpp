@@ -1,53 +1,95 @@
 // Medium types by name, see medium_table.h.
 #include "scene/medium/medium_table.h"
 
-#include "input/spelling.h"
-
 namespace nephroid {
 
 namespace {
 
-struct Row {
-  const char* name;
+constexpr FormatParameter kCoefficients[] = {
+    {"spectrum", "sigma_a", "1", "1/scene unit", "absorption; negative is an error"},
+    {"spectrum", "sigma_s", "1", "1/scene unit", "scattering; negative is an error"},
+    {"float", "g", "0", "", "mean cosine of scattering; outside -1 to 1 an error"},
+};
+constexpr FormatParameter kScale[] = {{"float", "scale", "1", "", "of sigma_a and sigma_s"}};
+constexpr FormatParameter kLescale[] = {{"float", "Lescale", "1", "", "of the emission"}};
+constexpr FormatParameter kBox[] = {
+    {"point3", "p0", "0 0 0", "scene units", "one corner of the box"},
+    {"point3", "p1", "1 1 1", "scene units", "the other corner"},
+};
+constexpr FormatParameter kHomogeneous[] = {
+    {"string", "preset", "none", "",
+     "a measured substance (\"Skin1\" ...), wins over sigma_a and sigma_s; an unknown one is an "
+     "error"},
+    {"spectrum", "Le", "0", "radiance", "emission, over its luminance"},
+};
+constexpr FormatParameter kUniformGrid[] = {
+    {"float[nx ny nz]", "density", "none: an error"},
+    {"integer", "nx", "1"},
+    {"integer", "ny", "1"},
+    {"integer", "nz", "1"},
+    {"spectrum", "Le", "0", "radiance", "over its luminance; with \"temperature\" an error"},
+    {"float[nx ny nz]", "Lescale", "1 at the centre", "",
+     "of the emission; as in pbrt-v4 the default falls off towards the walls"},
+    {"float[nx ny nz]", "temperature", "none", "K"},
+};
+constexpr FormatParameter kTemperature[] = {
+    {"float", "temperatureoffset", "temperaturecutoff", "K"},
+    {"float", "temperaturecutoff", "0", "K", "another name of temperatureoffset"},
+    {"float", "temperaturescale", "1"},
+};
+constexpr FormatParameter kRgbGrid[] = {
+    {"rgb[nx ny nz]", "sigma_a", "1", "1/scene unit", "one of sigma_a and sigma_s is needed"},
+    {"rgb[nx ny nz]", "sigma_s", "1", "1/scene unit"},
+    {"rgb[nx ny nz]", "Le", "none", "radiance",
+     "needs sigma_a; as in pbrt-v4 not divided by its luminance"},
+    {"integer", "nx", "1"},
+    {"integer", "ny", "1"},
+    {"integer", "nz", "1"},
+    {"float", "g", "0", "", "mean cosine of scattering; outside -1 to 1 an error"},
+};
+constexpr FormatParameter kCloud[] = {
+    {"float", "density", "1"},
+    {"float", "wispiness", "1"},
+    {"float", "frequency", "5"},
+};
+constexpr FormatParameter kNanoVdb[] = {
+    {"string", "filename", "none: an error", "",
+     "float fog volumes, plain or ZIP, version 32; BLOSC and other grids and versions are errors; "
+     "negative voxels count as 0"},
+    {"string", "gridname", "density", "", "of densities"},
+    {"string", "temperaturename", "temperature", "", "of temperatures, need not be there"},
+};
+
+struct Row : FormatType {
   MediumMaker make;
 };
 constexpr Row kMedia[] = {
-    {"homogeneous", make_homogeneous_medium}, {"uniformgrid", make_uniform_grid_medium},
-    {"rgbgrid", make_rgb_grid_medium},        {"cloud", make_cloud_medium},
-    {"nanovdb", make_nanovdb_medium},
+    {{"homogeneous", {kHomogeneous, kCoefficients, kScale, kLescale}}, make_homogeneous_medium},
+    {{"uniformgrid", {kUniformGrid, kCoefficients, kScale, kTemperature, kBox}},
+     make_uniform_grid_medium},
+    {{"rgbgrid", {kRgbGrid, kScale, kLescale, kBox}}, make_rgb_grid_medium},
+    {{"cloud", {kCloud, kCoefficients, kBox}, "has no scale"}, make_cloud_medium},
+    {{"nanovdb", {kNanoVdb, kCoefficients, kScale, kLescale, kTemperature}}, make_nanovdb_medium},
 };
-
-MediumMaker maker_of(const MediumDescription& description) {
-  std::string names;
-  for (const Row& row : kMedia) {
-    if (description.type == row.name) return row.make;
-    names += (names.empty() ? "\"" : ", \"") + std::string(row.name) + "\"";
-  }
-  throw SceneError(description.where, "unknown medium type \"" + description.type + "\"" +
-                                          did_you_mean(description.type, medium_names()) +
-                                          " (expected one of " + names + ")");
-}
 
 }  // namespace
 
-std::vector<std::string> medium_names() {
-  std::vector<std::string> names;
-  for (const Row& row : kMedia) names.emplace_back(row.name);
-  return names;
+std::vector<FormatType> medium_types() {
+  return format_types(kMedia);
 }
 
 std::vector<MediumPtr> make_media(const SceneDescription& description, Diagnostics& diagnostics) {
   const MediumScope scope{description.directory};
   std::vector<MediumPtr> media;
   for (const MediumDescription& d : description.media) {
-    const MediumMaker make = maker_of(d);
+    const Row& row = row_of(kMedia, "medium type", d.type, d.where);
     if (!is_invertible(d.transform.start))
       throw SceneError(d.where, "the transform of medium \"" + d.name + "\" has no inverse");
     if (d.transform.is_animated())
       diagnostics.warn(d.where,
                        "medium \"" + d.name + "\" moves: media stay where they are at the start");
-    media.push_back(make(d, scope));
-    d.parameters.report_unused("medium \"" + d.name + "\"", diagnostics);
+    media.push_back(row.make(d, scope));
+    d.parameters.report_unused("medium \"" + d.name + "\"", row, diagnostics);
   }
   return media;
 }

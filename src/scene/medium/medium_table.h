@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/spectra_dense.h"
+#include "input/format_rows.h"
 #include "scene/medium/medium.h"
 #include "scene/texture/texture.h"
 
@@ -13,6 +14,9 @@ namespace nephroid {
 struct MediumScope {
   const std::string& directory;  ///< relative file names are relative to this
 };
+
+/// All types of the format.
+std::vector<FormatType> medium_types();
 
 using MediumMaker = MediumPtr (*)(const MediumDescription&, const MediumScope&);
 

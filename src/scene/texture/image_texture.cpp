@@ -20,8 +20,6 @@ class ImageLookup {
                        "unknown texture filter \"" + filter +
                            "\", expected \"point\", \"bilinear\", \"trilinear\" or \"ewa\"");
     point_ = filter == "point";
-    // Read so that it is not reported as unused: it only matters to footprints.
-    p.get_float("maxanisotropy", 8.0f);
 
     const std::string wrap = p.get_string("wrap", "repeat");
     const auto mode = parse_wrap_mode(wrap);

@@ -46,7 +46,8 @@ struct TextureLibrary::Impl final : TextureScope {
     for (const TextureDescription& t : scene.textures) add(t);
     for (const TextureDescription& t : scene.textures) make_all_kinds(t);
     for (const TextureDescription& t : scene.textures)
-      t.parameters.report_unused("texture \"" + t.name + "\"", diagnostics_);
+      t.parameters.report_unused("texture \"" + t.name + "\"", *find_texture_type(t.type),
+                                 diagnostics_);
   }
 
   void add(const TextureDescription& t) {
@@ -57,8 +58,7 @@ struct TextureLibrary::Impl final : TextureScope {
     if (is_float ? floats_.count(t.name) : spectra_.count(t.name))
       throw SceneError(t.where, t.value_type + " texture \"" + t.name + "\" is defined twice");
     if (t.transform.is_animated())
-      diagnostics_.warn(t.where,
-                        "a texture cannot move, the start of its motion is used");
+      diagnostics_.warn(t.where, "a texture cannot move, the start of its motion is used");
     if (!is_invertible(t.transform.start))
       throw SceneError(t.where, "the transform of texture \"" + t.name + "\" has no inverse");
     if (is_float)

@@ -5,64 +5,119 @@ namespace nephroid {
 
 namespace {
 
-template <class Maker>
-struct Row {
-  const char* name;
-  Maker make;
+constexpr FormatParameter kMapping[] = {
+    {"string", "mapping", "uv", "", "uv, spherical, cylindrical or planar"},
+    {"float", "uscale", "1", "", "of mapping uv"},
+    {"float", "vscale", "1", "", "of mapping uv"},
+    {"float", "udelta", "0", "", "of mappings uv and planar"},
+    {"float", "vdelta", "0", "", "of mappings uv and planar"},
+    {"vector3", "v1", "1 0 0", "", "of mapping planar"},
+    {"vector3", "v2", "0 1 0", "", "of mapping planar"},
+};
+constexpr FormatParameter kNoise[] = {
+    {"integer", "octaves", "8", "", "0 to 64"},
+    {"float", "roughness", "0.5"},
+};
+constexpr FormatParameter kConstant[] = {{"values", "value", "1"}};
+constexpr FormatParameter kScale[] = {
+    {"values or texture", "tex", "1"},
+    {"float or texture", "scale", "1"},
+};
+constexpr FormatParameter kMix[] = {
+    {"values or texture", "tex1", "0"},
+    {"values or texture", "tex2", "1"},
+    {"float or texture", "amount", "0.5", "", "share of tex2"},
+};
+constexpr FormatParameter kDirectionMix[] = {
+    {"values or texture", "tex1", "0", "", "where the surface faces the direction"},
+    {"values or texture", "tex2", "1"},
+    {"vector3", "dir", "0 1 0"},
+};
+constexpr FormatParameter kCheckerboard[] = {
+    {"integer", "dimension", "2", "", "2 or 3; 3 has no mapping"},
+    {"values or texture", "tex1", "1"},
+    {"values or texture", "tex2", "0"},
+};
+constexpr FormatParameter kImageMap[] = {
+    {"string", "filename", "none: an error", "", "any format that OpenImageIO reads"},
+    {"string", "filter", "bilinear", "",
+     "point or bilinear; trilinear and ewa are bilinear on the finest level"},
+    {"float", "maxanisotropy", "8", "", "of ewa", Support::kNotNeeded},
+    {"string", "wrap", "repeat", "", "repeat, black, clamp or octahedralsphere"},
+    {"float", "scale", "1"},
+    {"bool", "invert", "false"},
+    {"string", "encoding", "sRGB", "",
+     "of PNG images: sRGB, linear or \"gamma X\"; with other images ignored with a warning"},
+};
+constexpr FormatParameter kBilerp[] = {
+    {"values", "v00", "0"}, {"values", "v10", "0"}, {"values", "v01", "1"}, {"values", "v11", "1"}};
+constexpr FormatParameter kDots[] = {
+    {"values or texture", "inside", "1", "", "between the dots, as in pbrt-v4"},
+    {"values or texture", "outside", "0", "", "of the dots"},
+};
+constexpr FormatParameter kMarble[] = {
+    {"float", "scale", "1"},
+    {"float", "variation", "0.2"},
+};
+constexpr FormatParameter kPtex[] = {
+    {"string", "filename"},
+    {"string", "encoding", "gamma 2.2"},
+    {"float", "scale", "1"},
 };
 
-constexpr Row<FloatTextureMaker> kFloatTextures[] = {
-    {"constant", make_float_constant}, {"scale", make_float_scale},
-    {"mix", make_float_mix},           {"checkerboard", make_float_checkerboard},
-    {"imagemap", make_float_imagemap}, {"bilerp", make_float_bilerp},
-    {"dots", make_float_dots},         {"directionmix", make_float_directionmix},
-    {"fbm", make_float_fbm},           {"windy", make_float_windy},
-    {"wrinkled", make_float_wrinkled},
+/// A class lacks one of the makers if it has values of one kind only.
+struct Row : FormatType {
+  FloatTextureMaker make_float;
+  SpectrumTextureMaker make_spectrum;
+};
+constexpr Row kTable[] = {
+    {{"constant", {kConstant}}, make_float_constant, make_spectrum_constant},
+    {{"scale", {kScale}}, make_float_scale, make_spectrum_scale},
+    {{"mix", {kMix}}, make_float_mix, make_spectrum_mix},
+    {{"directionmix", {kDirectionMix}}, make_float_directionmix, make_spectrum_directionmix},
+    {{"checkerboard", {kCheckerboard, kMapping}},
+     make_float_checkerboard,
+     make_spectrum_checkerboard},
+    {{"imagemap", {kImageMap, kMapping}}, make_float_imagemap, make_spectrum_imagemap},
+    {{"bilerp", {kBilerp, kMapping}}, make_float_bilerp, make_spectrum_bilerp},
+    {{"dots", {kDots, kMapping}}, make_float_dots, make_spectrum_dots},
+    {{"fbm", {kNoise}, "float only"}, make_float_fbm, nullptr},
+    {{"wrinkled", {kNoise}, "float only"}, make_float_wrinkled, nullptr},
+    {{"windy", {}, "float only"}, make_float_windy, nullptr},
+    {{"marble", {kMarble, kNoise}, "spectrum only; a reflectance whatever it is used for"},
+     nullptr,
+     make_spectrum_marble},
+    {{"ptex", {kPtex}, "there is no Ptex library among Debian's packages", Support::kRefused},
+     nullptr,
+     nullptr},
 };
 
-constexpr Row<SpectrumTextureMaker> kSpectrumTextures[] = {
-    {"constant", make_spectrum_constant}, {"scale", make_spectrum_scale},
-    {"mix", make_spectrum_mix},           {"checkerboard", make_spectrum_checkerboard},
-    {"imagemap", make_spectrum_imagemap}, {"bilerp", make_spectrum_bilerp},
-    {"dots", make_spectrum_dots},         {"directionmix", make_spectrum_directionmix},
-    {"marble", make_spectrum_marble},
-};
-
-template <class Maker, size_t N>
-Maker find_maker(const Row<Maker> (&table)[N], const std::string& name) {
-  for (const Row<Maker>& row : table)
-    if (name == row.name) return row.make;
-  return nullptr;
-}
-
-/// What is wrong with a class that is not in the table of its kind of values.
-std::string complaint(const TextureDescription& description) {
-  const std::string named = "texture class \"" + description.type + "\" ";
-  if (description.type == "ptex")
-    return named + "cannot be rendered: there is no Ptex library among Debian's packages";
-  if (find_maker(kFloatTextures, description.type)) return named + "has float values only";
-  if (find_maker(kSpectrumTextures, description.type)) return named + "has spectrum values only";
-  return "unknown " + named.substr(0, named.size() - 1);
-}
-
-template <class Maker, size_t N>
-Maker maker_of(const Row<Maker> (&table)[N], const TextureDescription& description) {
-  if (const Maker maker = find_maker(table, description.type)) return maker;
-  std::string names;
-  for (const Row<Maker>& row : table)
-    names += (names.empty() ? "\"" : ", \"") + std::string(row.name) + "\"";
-  throw SceneError(description.where, complaint(description) + ", expected one of " + names);
+[[noreturn]] void wrong_values(const TextureDescription& description, const char* values) {
+  throw SceneError(description.where, "texture class \"" + description.type + "\" has " + values +
+                                          " values only, expected another class");
 }
 
 }  // namespace
 
+std::vector<FormatType> texture_types() {
+  return format_types(kTable);
+}
+
+const FormatType* find_texture_type(const std::string& name) {
+  return find_row(kTable, name);
+}
+
 FloatTexturePtr make_float_texture(const TextureDescription& description, TextureScope& scope) {
-  return maker_of(kFloatTextures, description)(description, scope);
+  const Row& row = row_of(kTable, "texture class", description.type, description.where);
+  if (!row.make_float) wrong_values(description, "spectrum");
+  return row.make_float(description, scope);
 }
 
 SpectrumTexturePtr make_spectrum_texture(const TextureDescription& description, SpectrumKind kind,
                                          TextureScope& scope) {
-  return maker_of(kSpectrumTextures, description)(description, kind, scope);
+  const Row& row = row_of(kTable, "texture class", description.type, description.where);
+  if (!row.make_spectrum) wrong_values(description, "float");
+  return row.make_spectrum(description, kind, scope);
 }
 
 }  // namespace nephroid

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "input/format_rows.h"
 #include "scene/texture/image_file.h"
 #include "scene/texture/texture.h"
 
@@ -29,6 +30,11 @@ class TextureScope {
 using FloatTextureMaker = FloatTexturePtr (*)(const TextureDescription&, TextureScope&);
 using SpectrumTextureMaker = SpectrumTexturePtr (*)(const TextureDescription&, SpectrumKind,
                                                     TextureScope&);
+
+/// All classes of the format, with their parameters.
+std::vector<FormatType> texture_types();
+/// The class of that name; null if there is none.
+const FormatType* find_texture_type(const std::string& name);
 
 /// Makes a texture of the description's class; throws SceneError at the directive if there is no
 /// such class or if it is not rendered yet.

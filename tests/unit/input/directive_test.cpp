@@ -1,6 +1,7 @@
 // The directives that make up a scene: what they add, what they inherit and what they refuse.
 #include <gtest/gtest.h>
 
+#include "input/format_rows.h"
 #include "unit/input/parse_text.h"
 
 namespace nephroid {
@@ -280,8 +281,9 @@ TEST(Directives, AttributesReachEachTargetAndAreNeverUnknown) {
   EXPECT_EQ(scene.shapes.at(0).area_light->parameters.list.at(0).name, "a");
   EXPECT_TRUE(scene.shapes[0].parameters.list.empty());
   Diagnostics diagnostics;
-  scene.lights[0].parameters.report_unused("light", diagnostics);
-  scene.media[0].parameters.report_unused("medium", diagnostics);
+  const FormatType knows_nothing{"x", {}};
+  scene.lights[0].parameters.report_unused("light", knows_nothing, diagnostics);
+  scene.media[0].parameters.report_unused("medium", knows_nothing, diagnostics);
   EXPECT_TRUE(diagnostics.warnings().empty());
 }
 

@@ -1,6 +1,7 @@
 // The getters of ParameterSet: values, defaults, errors with their place, and unused parameters.
 #include <gtest/gtest.h>
 
+#include "input/format_rows.h"
 #include "input/parameter_reader.h"
 #include "unit/input/parse_text.h"
 
@@ -8,6 +9,14 @@ namespace nephroid {
 namespace {
 
 using testing::error_of;
+
+constexpr FormatParameter kOfSpheres[] = {
+    {"float", "radius"},
+    {"float", "zmin"},
+    {"string", "scheme", "", "", "", Support::kNotNeeded},
+    {"string", "hint", "", "", "it is only a hint", Support::kWarned},
+};
+constexpr FormatType kSphere = {"sphere", {kOfSpheres}};
 
 ParameterSet set_of(const std::string& text) {
   TokenStream tokens(".");
@@ -38,7 +47,7 @@ TEST(ParameterSet, GetsValues) {
   EXPECT_EQ(set.get_floats("f"), std::vector<float>({0.5f}));
 
   Diagnostics diagnostics;
-  set.report_unused("shape \"sphere\"", diagnostics);
+  set.report_unused("shape \"sphere\"", kSphere, diagnostics);
   EXPECT_TRUE(diagnostics.warnings().empty());
 }
 
@@ -139,13 +148,39 @@ TEST(ParameterSet, ReportsWhatNobodyAskedFor) {
   const ParameterSet set = set_of("\"float radius\" 1 \"float foo\" 2\n\"string bar\" \"x\"");
   set.get_float("radius", 1);
   Diagnostics diagnostics;
-  set.report_unused("shape \"sphere\"", diagnostics);
+  set.report_unused("shape \"sphere\"", kSphere, diagnostics);
   const std::vector<Warning> warnings = diagnostics.warnings();
   ASSERT_EQ(warnings.size(), 2u);
   EXPECT_EQ(located(warnings[0].where, warnings[0].message),
             "scene.pbrt:1:18: unknown parameter \"foo\" of shape \"sphere\", ignored");
   EXPECT_EQ(located(warnings[1].where, warnings[1].message),
             "scene.pbrt:2:1: unknown parameter \"bar\" of shape \"sphere\", ignored");
+}
+
+TEST(ParameterSet, SaysWhyAKnownParameterHasNoEffect) {
+  const ParameterSet set =
+      set_of("\"float zmin\" 1\n\"string scheme\" \"a\"\n\"string hint\" \"b\"\n\"float radus\" 1");
+  Diagnostics diagnostics;
+  set.report_unused("shape \"sphere\"", kSphere, diagnostics);
+  std::string messages;
+  for (const Warning& w : diagnostics.warnings()) messages += located(w.where, w.message) + "\n";
+  EXPECT_EQ(
+      messages,
+      "scene.pbrt:1:1: parameter \"zmin\" of shape \"sphere\" has no effect together with the "
+      "other parameters\n"
+      "scene.pbrt:3:1: parameter \"hint\" of shape \"sphere\" is ignored: it is only a hint\n"
+      "scene.pbrt:4:1: unknown parameter \"radus\" of shape \"sphere\", did you mean "
+      "\"radius\"?\n");
+}
+
+TEST(ParameterSet, WritesDownWhatItIsAskedFor) {
+  ParameterSet set = set_of("\"float radius\" 1");
+  std::set<std::string> asked;
+  set.asked = &asked;
+  set.get_float("radius", 1);
+  set.get_string("absent", "");
+  set.find("other", {"float"});
+  EXPECT_EQ(asked, std::set<std::string>({"radius", "absent", "other"}));
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ TEST(ShapeTable, WhereToSampleALampDoesNotChangeThePicture) {
   const TextureLibrary textures(scene, d);
   const auto shapes = make_shapes({&scene.shapes.at(0), 1}, ".", d, {textures});
   EXPECT_EQ(shapes.size(), 1u);
+  report_unused_parameters(scene.shapes.at(0), d);
   ASSERT_EQ(d.warnings().size(), 1u);
   EXPECT_EQ(d.warnings()[0].where.line, 3);
   EXPECT_NE(d.warnings()[0].message.find("emissionfilename"), std::string::npos);

@@ -1,0 +1,27 @@
+// docs/scene-support.md: what becomes of every name of the scene format, from the tables that the
+// loader itself uses. Who calls it: the command line (for tools/update_docs) and tests. It must not
+// know any name of the format.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "input/format_rows.h"
+
+namespace nephroid {
+
+/// The types of one directive.
+struct FormatKind {
+  const char* heading;
+  const char* directive;
+  const char* about;  ///< sentences for the page
+  std::vector<FormatType> types;
+};
+
+/// All directives that have types, in the order of the page.
+std::vector<FormatKind> format_kinds();
+
+/// The page.
+std::string scene_support_markdown();
+
+}  // namespace nephroid
