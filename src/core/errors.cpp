@@ -1,7 +1,5 @@
 #include "core/errors.h"
 
-#include <algorithm>
-
 namespace nephroid {
 
 std::string SourceLocation::to_string() const {
@@ -21,11 +19,8 @@ SceneError::SceneError(SourceLocation where, const std::string& message)
 
 void Diagnostics::warn(SourceLocation where, std::string message) {
   const std::lock_guard lock(mutex_);
-  const std::string text = located(where, message);
-  const bool known = std::any_of(warnings_.begin(), warnings_.end(), [&](const Warning& w) {
-    return located(w.where, w.message) == text;
-  });
-  if (!known) warnings_.push_back({std::move(where), std::move(message)});
+  if (known_.insert(located(where, message)).second)
+    warnings_.push_back({std::move(where), std::move(message)});
 }
 
 std::vector<Warning> Diagnostics::warnings() const {

@@ -1,12 +1,13 @@
 // What can go wrong, as types: each error knows the exit status that it stands for, and errors and
-// warnings about a scene know the place in the user's file. Thrown while loading and writing only;
-// nothing throws while rendering.
+// warnings about a scene know the place in the user's file. Thrown while loading and writing, and
+// by a texture that is read while rendering and has become unreadable.
 #pragma once
 
 #include <memory>
 #include <mutex>
 #include <stdexcept>
 #include <string>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -72,6 +73,7 @@ class Diagnostics {
  private:
   mutable std::mutex mutex_;
   std::vector<Warning> warnings_;
+  std::unordered_set<std::string> known_;  ///< the located texts of warnings_
 };
 
 /// "file:line:column: message", or just the message if the place is unknown.

@@ -48,7 +48,7 @@ class PathVisitor {
   }
 
   void medium_emission(const SampledSpectrum& radiance) {
-    if (routes_.owner(state_) == route_) radiance_ += radiance;
+    if (route_ == Routes::kMediumEmission) radiance_ += radiance;
   }
 
   ClassMask letters() const { return routes_.useful_eye_events(state_, route_); }

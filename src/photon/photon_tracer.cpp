@@ -29,7 +29,6 @@ class PhotonVisitor {
   bool looks_under_surfaces() const { return false; }
 
   void vertex(const Walk& walk, const WalkVertex& v, PathSampler&) {
-    if (v.subsurface_exit) return;  // it is stored where it arrived
     if (contains(v.possible, EventClass::kDiffuse) && routes_.deposits(state_, route_)) {
       Photon photon;
       photon.p = v.surface.p;
@@ -69,20 +68,24 @@ struct Emitted {
   const Medium* medium = nullptr;
   SampledSpectrum flux;
 };
+
 /// The way to the photon's origin from outside of the scene ([P4] in docs/estimators.md), where it
 /// starts in `emitted.medium`.
 void come_from_behind(const Scene& scene, const SampledWavelengths& lambda,
                       const PathSampler& sampler, Emitted& emitted) {
-  const Ray& ray = emitted.ray;
-  DirectSample way;
-  way.shadow_ray = ray;
-  way.shadow_ray.t_max = length(ray.o - scene.sphere.center) + scene.sphere.radius;
-  way.shadow_ray.o = ray.o - ray.d * way.shadow_ray.t_max;
-  way.medium = emitted.medium;
-  const ShadowFlight flight = trace_shadow(scene, way, lambda, sampler);
-  const float density = lambda.secondary_terminated() ? flight.l[0] : flight.l.average();
-  emitted.flux *= flight.transmittance / density;
-  emitted.medium = flight.medium;
+  Ray way = emitted.ray;
+  way.t_max = length(way.o - scene.sphere.center) + scene.sphere.radius;
+  way.o = way.o - way.d * way.t_max;
+  emitted.flux *= attenuation_along(scene, way, emitted.medium, lambda, sampler);
+}
+
+/// What the medium around the scene leaves of light from infinity until it reaches `ray`.
+SampledSpectrum arrival(const Medium& medium, const Ray& ray, const SampledWavelengths& lambda,
+                        const PathSampler& sampler) {
+  Ray back = ray;
+  back.d = -ray.d;
+  FlightRandom random(-1.0f, hash_combine(sampler.stream_seed(), 1));
+  return attenuation(medium, back, kInfinity, lambda, random, nullptr);
 }
 
 std::optional<Emitted> emit(const Scene& scene, const SampledWavelengths& lambda, float time,
@@ -103,6 +106,13 @@ std::optional<Emitted> emit(const Scene& scene, const SampledWavelengths& lambda
     out.medium = e->from_inside ? media.inside : media.outside;
   }
   out.flux = e->radiance * (e->cos_theta / (choice->pdf_p * e->pdf_a * e->pdf_w));
+  // Shadow rays cross all of the medium as well.
+  if (light.is_infinite() && out.medium) {
+    Ray start = out.ray;
+    if (e->from_behind)
+      start.o = start.o - start.d * (length(start.o - scene.sphere.center) + scene.sphere.radius);
+    out.flux *= arrival(*out.medium, start, lambda, sampler);
+  }
   if (e->from_behind) come_from_behind(scene, lambda, sampler, out);
   if (out.flux.is_black()) return std::nullopt;
   return out;

@@ -34,6 +34,9 @@ class Routes {
   /// The same partition for a scene that has no events but `letters`: fewer events are useful.
   Routes restricted_to(ClassMask letters) const;
 
+  /// Light that a medium emits belongs to this route whatever the word: no photon starts there.
+  static constexpr Route kMediumEmission = Route::kDiffuse;
+
   static constexpr EyeState kEyeStart = 0;
   static constexpr PhotonState kPhotonStart = 0;
 

@@ -113,15 +113,19 @@ bool Scene::intersect_passing(const Ray& ray, SurfaceInteraction& hit) const {
   return has_passing_shapes && intersect_masked(ray, kMaskPassing, hit);
 }
 
-SampledSpectrum Scene::straight_weight(const SurfaceInteraction& hit,
-                                       const SampledWavelengths& lambda) const {
+Scene::Passage Scene::passage(const SurfaceInteraction& hit,
+                              const SampledWavelengths& lambda) const {
   const float a = hit.record->alpha
                       ? std::clamp(hit.record->alpha->eval(TextureContext(hit)), 0.0f, 1.0f)
                       : 1.0f;
   const Material& m = *materials[static_cast<size_t>(hit.material)]->resolve(hit);
-  SampledSpectrum through(1.0f - a);
-  if (a > 0.0f && m.passes_straight()) through += m.straight_transmittance(hit, lambda) * a;
-  return through;
+  Passage p;
+  p.beside = SampledSpectrum(1.0f - a);
+  if (a > 0.0f && m.passes_straight()) {
+    p.across = m.straight_transmittance(hit, lambda) * a;
+    p.across_share = a;
+  }
+  return p;
 }
 
 SampledSpectrum Scene::transmittance(const Ray& shadow_ray,
@@ -134,7 +138,8 @@ SampledSpectrum Scene::transmittance(const Ray& shadow_ray,
   int passages = 0;
   while (rest.t_max > 0.0f && intersect_passing(rest, hit)) {
     if (++passages > kMaxPassages) return SampledSpectrum(0.0f);
-    weight *= straight_weight(hit, lambda);
+    const Passage p = passage(hit, lambda);
+    weight *= p.across + p.beside;
     if (weight.is_black()) return weight;
     if (rest.t_max < kInfinity) rest.t_max -= hit.distance / length(rest.d);
     rest.o = hit.spawn_origin(rest.d);

@@ -57,8 +57,9 @@ struct ShapeRecord {
   ShapePtr shape;
   int material = 0;
   int first_light = -1;
-  FloatTexturePtr alpha;  ///< null where the shape is solid
-  MediumInterface media;  ///< rays that leave the surface change to these if they differ
+  FloatTexturePtr alpha;       ///< null where the shape is solid
+  bool merges_photons = true;  ///< of the shape; its material may refuse as well
+  MediumInterface media;       ///< rays that leave the surface change to these if they differ
 };
 
 struct ShapeGroup;
@@ -98,9 +99,13 @@ class Scene {
   /// The first surface on a ray that may let light straight through, whatever opaque things there
   /// are.
   bool intersect_passing(const Ray& ray, SurfaceInteraction& hit) const;
-  /// Weight with which light goes straight through a surface that intersect_passing has found.
-  SampledSpectrum straight_weight(const SurfaceInteraction& hit,
-                                  const SampledWavelengths& lambda) const;
+  /// How light goes straight on at a surface that intersect_passing has found: across it, or beside
+  /// it where alpha says that it is not there. The sum of both is the weight.
+  struct Passage {
+    SampledSpectrum across, beside;
+    float across_share = 0;  ///< a good probability for choosing `across`, 0 or 1 if only one is
+  };
+  Passage passage(const SurfaceInteraction& hit, const SampledWavelengths& lambda) const;
 
   /// The light of an emitting surface, else nullptr.
   const Light* area_light(const SurfaceInteraction& hit) const {
@@ -129,7 +134,8 @@ class Scene {
   bool has_passing_shapes = false;  ///< any shape that lets light straight through
   /// True if any shape's material may scatter in class S: without one there are no caustics.
   bool has_specular_material = false;
-  /// True if a path may have an event V: a medium scatters, or photons cannot be merged somewhere.
+  /// True if words may belong to path tracing for a reason behind their first D: a medium scatters
+  /// or emits, or photons cannot be merged somewhere.
   bool has_volume_events = false;
   uint64_t primitive_count = 0;  ///< without instancing
   uint64_t shape_count = 0;

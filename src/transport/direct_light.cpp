@@ -32,6 +32,36 @@ std::optional<DirectSample> sample_direct(const Scene& scene, const Receiver& at
   return d;
 }
 
+namespace {
+
+// Along an unblocked ray of unit direction, piece by piece from one surface that lets light through
+// to the next. `piece(medium, ray, t_max)` gives the share that a medium lets through; `medium`
+// ends as the one around the end of the ray.
+template <class Piece>
+SampledSpectrum follow(const Scene& scene, Ray rest, const Medium*& medium,
+                       const SampledWavelengths& lambda, FlightRandom& random, Piece&& piece) {
+  SampledSpectrum through(1.0f);
+  SurfaceInteraction hit;
+  for (int passages = 0; rest.t_max > 0.0f; ++passages) {
+    const bool found = scene.intersect_passing(rest, hit);
+    if (medium) through *= piece(*medium, rest, found ? hit.distance : rest.t_max);
+    if (!found || through.is_black()) return through;
+    if (passages >= kMaxPassages) return SampledSpectrum(0.0f);
+    // What passes beside the surface (alpha) stays in its medium, as walks do.
+    const Scene::Passage passage = scene.passage(hit, lambda);
+    const bool crosses = passage.across_share > 0.0f && random.next() < passage.across_share;
+    through *= crosses ? passage.across / passage.across_share
+                       : passage.beside / (1.0f - passage.across_share);
+    if (through.is_black()) return through;
+    if (crosses) medium = medium_towards(hit, rest.d, medium);
+    if (rest.t_max < kInfinity) rest.t_max -= hit.distance;
+    rest.o = hit.spawn_origin(rest.d);
+  }
+  return through;
+}
+
+}  // namespace
+
 ShadowFlight trace_shadow(const Scene& scene, const DirectSample& direct,
                           const SampledWavelengths& lambda, const PathSampler& sampler) {
   ShadowFlight flight;
@@ -43,27 +73,29 @@ ShadowFlight trace_shadow(const Scene& scene, const DirectSample& direct,
     flight.transmittance = SampledSpectrum(0.0f);
     return flight;
   }
-  // Piece by piece from one surface that lets light through to the next.
   FlightRandom random(-1.0f, sampler.stream_seed());
+  Ray ray = direct.shadow_ray;
+  const float unit = length(ray.d);
+  ray.d = ray.d / unit;
+  ray.t_max *= unit;
   const Medium* medium = direct.medium;
-  Ray rest = direct.shadow_ray;
-  const float unit = length(rest.d);
-  rest.d = rest.d / unit;
-  rest.t_max *= unit;
-  SurfaceInteraction hit;
-  for (int passages = 0; rest.t_max > 0.0f; ++passages) {
-    const bool found = scene.intersect_passing(rest, hit);
-    if (medium) cross(*medium, rest, found ? hit.distance : rest.t_max, lambda, random, flight);
-    flight.medium = medium;
-    if (!found || flight.transmittance.is_black()) return flight;
-    flight.transmittance *= scene.straight_weight(hit, lambda);
-    if (flight.transmittance.is_black() || passages > kMaxPassages) break;
-    if (rest.t_max < kInfinity) rest.t_max -= hit.distance;
-    rest.o = hit.spawn_origin(rest.d);
-    medium = medium_towards(hit, rest.d, medium);
-  }
-  if (rest.t_max > 0.0f) flight.transmittance = SampledSpectrum(0.0f);
+  const SampledSpectrum surfaces = follow(
+      scene, ray, medium, lambda, random, [&](const Medium& m, const Ray& piece, float t_max) {
+        cross(m, piece, t_max, lambda, random, flight);
+        return SampledSpectrum(flight.transmittance.is_black() ? 0.0f : 1.0f);
+      });
+  flight.transmittance *= surfaces;
   return flight;
+}
+
+SampledSpectrum attenuation_along(const Scene& scene, const Ray& ray, const Medium*& medium,
+                                  const SampledWavelengths& lambda, const PathSampler& sampler) {
+  if (scene.blocked(ray)) return SampledSpectrum(0.0f);
+  FlightRandom random(-1.0f, sampler.stream_seed());
+  return follow(scene, ray, medium, lambda, random,
+                [&](const Medium& m, const Ray& piece, float t_max) {
+                  return attenuation(m, piece, t_max, lambda, random, nullptr);
+                });
 }
 
 float direct_pdf_w(const Scene& scene, const Walk& walk, const SurfaceInteraction& hit) {

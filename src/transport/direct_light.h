@@ -43,6 +43,12 @@ std::optional<DirectSample> sample_direct(const Scene& scene, const Receiver& at
 ShadowFlight trace_shadow(const Scene& scene, const DirectSample& direct,
                           const SampledWavelengths& lambda, const PathSampler& sampler);
 
+/// What gets along a ray of unit direction through everything on its way, without any density that
+/// depends on the wavelength: for photons. `medium` is the one around the origin, and becomes the
+/// one around the end.
+SampledSpectrum attenuation_along(const Scene& scene, const Ray& ray, const Medium*& medium,
+                                  const SampledWavelengths& lambda, const PathSampler& sampler);
+
 /// Density with which sample_direct at the walk's previous vertex would have found this emitter.
 float direct_pdf_w(const Scene& scene, const Walk& walk, const SurfaceInteraction& hit);
 /// The same for an infinite light in the walk's direction.

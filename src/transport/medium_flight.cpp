@@ -33,6 +33,7 @@ class Steps {
   /// `passed(sigma_maj, length)` is called for every bit of the way. False: the end was reached.
   template <class Rate, class Passed>
   bool next(Rate&& rate, Passed&& passed) {
+    if (++collisions_ > kMaxCollisions) return false;
     float depth = -std::log(1.0f - random_.next());
     for (;;) {
       if (!piece_) {
@@ -54,6 +55,8 @@ class Steps {
     }
   }
   float t() const { return t_; }
+  /// True if the flight was given up; nothing gets through then.
+  bool given_up() const { return collisions_ > kMaxCollisions; }
   const SampledSpectrum& majorant() const { return piece_->sigma_maj; }
 
  private:
@@ -61,7 +64,20 @@ class Steps {
   FlightRandom& random_;
   std::optional<MajorantSegment> piece_;
   float t_ = 0;
+  /// A bound for media that are absurdly dense somewhere along the way.
+  static constexpr int kMaxCollisions = 1 << 20;
+  int collisions_ = 0;
 };
+
+// What hardly arrives is left to a few rays that carry more: false if this is not one of them.
+bool survives(SampledSpectrum& through, float carried, FlightRandom& random) {
+  constexpr float kThin = 0.05f, kSurvive = 0.25f;
+  if (!(carried > 0.0f) || !through.is_finite()) return false;
+  if (carried >= kThin) return true;
+  if (random.next() >= kSurvive) return false;
+  through /= kSurvive;
+  return true;
+}
 
 constexpr auto kGrey = [](const SampledSpectrum& sigma) { return sigma.max_component(); };
 constexpr auto kHero = [](const SampledSpectrum& sigma) { return sigma[0]; };
@@ -90,9 +106,9 @@ SampledSpectrum attenuation(const Medium& medium, const Ray& ray, float t_max,
     const float rate = steps.majorant().max_component();
     if (emitted) *emitted += through * m.sigma_a * m.le * (1.0f / rate);
     through *= positive_part(SampledSpectrum(rate) - extinction(m)) * (1.0f / rate);
-    if (through.is_black()) break;
+    if (!survives(through, through.max_component(), random)) return SampledSpectrum(0.0f);
   }
-  return through;
+  return steps.given_up() ? SampledSpectrum(0.0f) : through;
 }
 
 std::optional<Collision> fly(const Medium& medium, const Ray& ray, float t_max,
@@ -141,6 +157,10 @@ std::optional<Collision> fly(const Medium& medium, const Ray& ray, float t_max,
       return std::nullopt;
     }
   }
+  if (steps.given_up()) {
+    throughput = SampledSpectrum(0.0f);
+    return std::nullopt;
+  }
   // The shadow ray would have crossed a uniform medium with certainty, others as the walk did.
   if (uniform) density.l *= std::exp(depth[0]);
   const SampledSpectrum t = relative();
@@ -181,20 +201,15 @@ void cross(const Medium& medium, const Ray& ray, float t_max, const SampledWavel
     const MediumProperties m = medium.at(ray.o + ray.d * steps.t(), lambda);
     const SampledSpectrum majorant = steps.majorant();
     multiply(positive_part(majorant - extinction(m)) / majorant[0], majorant / majorant[0]);
-    // What hardly arrives is left to a few rays that carry more.
     const float carried = flight.transmittance.max_component() / flight.l.average();
-    if (!(carried > 0.0f) || !flight.transmittance.is_finite()) {
+    if (!survives(flight.transmittance, carried, random)) {
       flight.transmittance = SampledSpectrum(0.0f);
       return;
     }
-    constexpr float kThin = 0.05f, kSurvive = 0.25f;
-    if (carried < kThin) {
-      if (random.next() >= kSurvive) {
-        flight.transmittance = SampledSpectrum(0.0f);
-        return;
-      }
-      flight.transmittance /= kSurvive;
-    }
+  }
+  if (steps.given_up()) {
+    flight.transmittance = SampledSpectrum(0.0f);
+    return;
   }
   multiply(SampledSpectrum(1.0f), SampledSpectrum(1.0f));
 }

@@ -74,10 +74,9 @@ std::optional<Collision> fly(const Medium& medium, const Ray& ray, float t_max,
 /// either technique, relative to the density with which it was sampled.
 struct ShadowFlight {
   SampledSpectrum transmittance{1.0f};
-  SampledSpectrum u{1.0f};         ///< had a walk gone this way
-  SampledSpectrum l{1.0f};         ///< of the shadow ray itself
-  const Medium* medium = nullptr;  ///< around its end
-  bool plain = true;               ///< u and l are ones
+  SampledSpectrum u{1.0f};  ///< had a walk gone this way
+  SampledSpectrum l{1.0f};  ///< of the shadow ray itself
+  bool plain = true;        ///< u and l are ones
 };
 
 /// Multiplies one more piece onto `flight`.

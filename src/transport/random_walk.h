@@ -194,8 +194,9 @@ class RandomWalk {
     const Material& surface = *scene_.materials[static_cast<size_t>(hit_.material)];
     const Material* material = surface.resolve(hit_);
     hit_.coverage *= surface.presence(hit_);
-    if (material->is_interface()) return pass();
+    // A lamp shines whole also where a mix shows no surface.
     if (const Light* light = scene_.area_light(hit_)) visitor_.emitter(walk_, hit_, *light);
+    if (material->is_interface()) return pass();
     // Without an event left, the walk may still go straight through what adds none.
     const bool spent = walk_.events >= max_events_;
     if (spent && !material->passes_straight()) return false;
@@ -204,10 +205,10 @@ class RandomWalk {
     const Bsdf* bsdf = material->make_bsdf(hit_, walk_.lambda, arena_);
     if (!bsdf) return false;
     if (walk_.lambda.secondary_terminated()) walk_.density.take_means(walk_.lambda);
-    const WalkVertex vertex{
-        hit_, *bsdf, hit_.shading.to_local(hit_.wo),
-        surface.merges_photons() ? surface.possible_classes() : ClassMask::kNone,
-        material->merges_photons()};
+    const bool mergeable = hit_.record->merges_photons;
+    const WalkVertex vertex{hit_, *bsdf, hit_.shading.to_local(hit_.wo),
+                            mergeable ? surface.merging_classes() : ClassMask::kNone,
+                            mergeable && material->merges_photons()};
     return scatter_at_surface(vertex, *material, spent);
   }
 
@@ -275,8 +276,8 @@ class RandomWalk {
     hit_ = exit->surface;
     const Bsdf* bsdf = bssrdf->exit_bsdf(arena_);
     if (!bsdf) return false;
-    const ClassMask possible = material.merges_photons() ? ClassMask::kDiffuse : ClassMask::kNone;
-    return scatter_at_surface({hit_, *bsdf, Vec3f(0, 0, 1), possible, true, true}, material, false);
+    return scatter_at_surface({hit_, *bsdf, Vec3f(0, 0, 1), ClassMask::kNone, true, true}, material,
+                              false);
   }
 
   /// Goes on behind a surface that is not there.

@@ -106,6 +106,35 @@ const std::vector<AgreementScene> kAgreementScenes = {
        Translate 0 0.9 0 Shape "sphere" "float radius" 0.85 AttributeEnd
        MediumInterface "" "fog" Material "dielectric" "float eta" 1.5
        Translate 0 0.9 0 Shape "sphere" "float radius" 0.5)"},
+    {.name = "grid_fog",
+     .world = R"(MakeNamedMedium "fog" "string type" "uniformgrid" "integer nx" 2 "integer ny" 2
+       "integer nz" 2 "float density" [0.2 1 0.6 0.1 0.9 0.3 0.5 1] "point3 p0" [-1 -0.2 -1]
+       "point3 p1" [1 2 1] "rgb sigma_a" [0.1 0.2 0.4] "rgb sigma_s" [1.5 1 0.5] "float g" -0.3
+       AttributeBegin MediumInterface "fog" "" Material "interface"
+       Translate 0 0.9 0 Shape "sphere" "float radius" 0.85 AttributeEnd
+       MediumInterface "" "fog" Material "dielectric" "spectrum eta" "glass-SF11"
+       Translate 0 0.9 0 Shape "sphere" "float radius" 0.5)"},
+    // What glows has no photons: path tracing takes all of its light, through glass as well.
+    {.name = "glowing_gas",
+     .world = R"(MakeNamedMedium "fire" "string type" "homogeneous" "rgb sigma_a" [2 1.5 1]
+       "rgb sigma_s" [0.5 0.5 0.5] "rgb Le" [1.2 0.7 0.3]
+       AttributeBegin MediumInterface "fire" "" Material "interface"
+       Translate -0.6 0.7 0 Shape "sphere" "float radius" 0.4 AttributeEnd
+       Material "dielectric" "float eta" 1.5 Translate 0.5 0.9 0 Shape "sphere" "float radius" 0.5)"},
+    // Light that misses a leaf of a cut-out container stays in the medium where it was.
+    {.name = "cut_out_container",
+     .world = R"(MakeNamedMedium "ink" "string type" "homogeneous" "rgb sigma_a" [2 1 0.5]
+       "rgb sigma_s" [0 0 0]
+       AttributeBegin MediumInterface "ink" "" Material "interface"
+       Translate 0 0.9 0 Shape "sphere" "float radius" 0.8 "float alpha" 0.5 AttributeEnd
+       Material "dielectric" "float eta" 1.5 Translate 1 0.9 0.6 Shape "sphere" "float radius" 0.3)"},
+    {.name = "half_hair",
+     .world = R"(MakeNamedMaterial "hair" "string type" "hair" "float eumelanin" 0.3
+       MakeNamedMaterial "skin" "string type" "diffuse" "rgb reflectance" [0.7 0.5 0.4]
+       AttributeBegin Material "mix" "string materials" ["hair" "skin"] "float amount" 0.5
+       Shape "curve" "point3 P" [-1.2 0.2 0.1  -0.4 0.4 -0.3  0.4 0.2 0.4  1.2 0.3 0.1]
+         "float width" 0.35 AttributeEnd
+       Translate 0.9 0.4 1 Shape "sphere" "float radius" 0.4)"},
     // Photons are not merged on hair, so caustics that touch it are path-traced.
     {.name = "hair", .world = R"(AttributeBegin Material "hair" "float eumelanin" 0.3
        Shape "curve" "point3 P" [-1.2 0.2 0.1  -0.4 0.4 -0.3  0.4 0.2 0.4  1.2 0.3 0.1]

@@ -47,6 +47,15 @@ const char* const kScene = R"(
   AttributeBegin Translate -0.2 0.4 -1.5 ActiveTransform EndTime Translate 0.4 0 0 Rotate 150 1 0 1
     ObjectInstance "ball" AttributeEnd
   AttributeBegin Translate -1.2 1.8 1 Scale 1 0.6 1.4 Rotate 40 1 1 0 ObjectInstance "ball" AttributeEnd
+  MakeNamedMedium "smoke" "string type" "uniformgrid" "integer nx" 2 "integer ny" 1 "integer nz" 2
+    "float density" [0.2 1 0.6 0.1] "rgb sigma_s" [1.5 1 0.5] "rgb sigma_a" [0.1 0.2 0.3]
+  AttributeBegin MediumInterface "smoke" "" Material "interface" Translate 0.6 0.6 0.6
+    Shape "sphere" "float radius" 0.6 AttributeEnd
+  AttributeBegin Material "hair" "float eumelanin" 0.5
+    Shape "curve" "point3 P" [-1.2 0.2 -1  -0.4 0.9 -1.3  0.4 0.2 -1  1.2 0.9 -1]
+      "float width" 0.1 AttributeEnd
+  AttributeBegin Material "subsurface" "rgb mfp" [0.2 0.1 0.05] "rgb reflectance" [0.8 0.6 0.5]
+    Translate 1.6 0.5 -0.5 Shape "sphere" "float radius" 0.4 AttributeEnd
   Material "diffuse" "rgb reflectance" [0.4 0.4 0.7]
   Shape "trianglemesh" "integer indices" [0 1 2 0 2 3]
     "point3 P" [-3 0 2  3 0 2  3 3 2.5  -3 3 2.5] "normal N" [-1 0 -1  1 0 -1  1 0 -1  -1 0 -1]

@@ -45,6 +45,7 @@ class CurveShape final : public Shape {
   CurveShape(const Transform& object_to_world, bool reverse_orientation, CurveType type,
              const std::vector<CurveSegment>& segments);
 
+  bool merges_photons() const override { return false; }
   uint32_t primitive_count() const override { return static_cast<uint32_t>(ranges_.size()); }
   Bounds3f bounds(uint32_t piece) const override;
   /// By recursive subdivision in double.

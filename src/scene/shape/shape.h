@@ -59,6 +59,10 @@ class Shape {
   /// then trace them itself; its (u, v) are those of intersect(). nullptr otherwise.
   virtual const MeshData* flat_quads() const { return nullptr; }
 
+  /// False where photons cannot be merged whatever the material: curves are narrow, and turn their
+  /// surface towards each ray.
+  virtual bool merges_photons() const { return true; }
+
   virtual float area(uint32_t primitive) const = 0;
   /// Uniform by area; pdf is pdf_a. Empty for a degenerate primitive.
   virtual std::optional<ShapeSample> sample_area(uint32_t primitive, const Vec2f& u) const = 0;
