@@ -4,21 +4,16 @@
 // theory for the whole picture, so that red means changed.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
-#include <filesystem>
 #include <sstream>
 
-#include "film/film_output.h"
-#include "rendering.h"
-#include "session/integrator_settings.h"
+#include "regression/feature_scene.h"
 
 namespace nephroid {
 namespace {
 
 using namespace testing_support;
 
-const std::string kFolder = NEPHROID_SOURCE_DIR "/tests/regression/features/";
 /// A picture that is right is called wrong once in ten thousand choices of the seeds.
 constexpr double kFalseAlarm = 1e-4;
 constexpr int kSeeds = 12;
@@ -56,7 +51,8 @@ double level_of(size_t count) {
 /// The stored picture of a scene.
 class Reference {
  public:
-  explicit Reference(const std::string& name) : picture_(read_picture(kFolder + name + ".exr")) {
+  explicit Reference(const std::string& name)
+      : picture_(read_picture(kFeatureFolder + name + ".exr")) {
     seeds_ = static_cast<int>(numbers("seeds").at(0));
     passes_ = static_cast<uint32_t>(numbers("passes").at(0));
     for (const std::string& channel : picture_.channels)
@@ -96,32 +92,6 @@ class Reference {
   uint32_t passes_ = 0;
 };
 
-/// A scene of the folder, read without a warning.
-std::unique_ptr<Scene> load(const std::string& name) {
-  Diagnostics diagnostics;
-  const SceneDescription description = parse_pbrt_file(kFolder + name + ".pbrt", diagnostics);
-  auto scene = build_scene(description, {}, diagnostics);
-  for (const Warning& warning : diagnostics.warnings())
-    ADD_FAILURE() << located(warning.where, warning.message);
-  return scene;
-}
-
-IntegratorOptions options_of(const Scene& scene, const std::string& integrator) {
-  return choose_integrator(integrator, scene.integrator, scene.integrator_parameters, {}).options;
-}
-
-/// Values of one channel of many pictures, as [pixel][picture].
-SeedValues values_of(const std::vector<Picture>& pictures, const std::string& channel) {
-  const Picture& first = pictures[0];
-  const auto c = static_cast<size_t>(first.find_channel(channel));
-  const size_t stride = first.channels.size();
-  SeedValues values(first.pixels.size() / stride);
-  for (const Picture& picture : pictures)
-    for (size_t i = 0; i < values.size(); ++i)
-      values[i].push_back(picture.pixels.at(i * stride + c));
-  return values;
-}
-
 /// Compares a channel with what is stored, pixel by pixel; says the worst of those that differ.
 void expect_same_pixels(const SeedValues& found, const Reference& reference,
                         const std::string& channel) {
@@ -147,38 +117,21 @@ void expect_same_pixels(const SeedValues& found, const Reference& reference,
                            << " against " << reference.pixel(channel, worst).mean;
 }
 
-double mean_at(const SeedValues& pixels, size_t seed) {
-  double sum = 0;
-  for (const auto& pixel : pixels) sum += pixel[seed] / static_cast<double>(pixels.size());
-  return sum;
-}
-
-std::vector<std::string> scene_names() {
-  std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(kFolder))
-    if (entry.path().extension() == ".pbrt") names.push_back(entry.path().stem().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
 class Feature : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(Feature, LooksAsStoredWithPath) {
   const Reference reference(GetParam());
-  const auto scene = load(GetParam());
-  const IntegratorOptions options = options_of(*scene, "path");
+  const auto scene = load_feature(GetParam());
   std::vector<Picture> pictures;
   for (uint64_t seed = 1; seed <= kSeeds; ++seed)
-    pictures.push_back(film_picture(render(*scene, "path", options, seed, reference.passes()), {}));
+    pictures.push_back(feature_picture(*scene, seed, reference.passes()));
   ASSERT_EQ(pictures[0].width(), reference.width());
   ASSERT_EQ(pictures[0].height(), reference.height());
   for (const std::string& channel : reference.channels())
-    expect_same_pixels(values_of(pictures, channel), reference, channel);
+    expect_same_pixels(channel_values(pictures, channel), reference, channel);
   for (size_t c = 0; c < 3; ++c) {
-    const SeedValues pixels = values_of(pictures, std::string(1, "RGB"[c]));
-    std::vector<double> means;
-    for (size_t s = 0; s < kSeeds; ++s) means.push_back(mean_at(pixels, s));
-    const Measured now = measured(means), stored = reference.whole(c);
+    const SeedValues pixels = channel_values(pictures, std::string(1, "RGB"[c]));
+    const Measured now = measured(picture_means(pixels)), stored = reference.whole(c);
     EXPECT_GT(probability(now, stored), level_of(3))
         << "mean of "
         << "RGB"[c] << ": " << now.mean << " against " << stored.mean;
@@ -189,10 +142,10 @@ TEST_P(Feature, LooksAsStoredWithPath) {
 // Photons blur a pixel, not the picture: the mean of the three channels, without the bias of the
 // radius.
 TEST_P(Feature, HasTheStoredMeanWithMixed) {
-  const auto scene = load(GetParam());
+  const auto scene = load_feature(GetParam());
   if (!scene->media.empty()) return;  // caustics inside media are not those of photons
   const Reference reference(GetParam());
-  IntegratorOptions options = options_of(*scene, "mixed");
+  IntegratorOptions options = feature_options(*scene, "mixed");
   options.radius = 1;
   options.camera_samples_per_pass = 8;
   options.photons_per_pass = 4096;
@@ -209,7 +162,7 @@ TEST_P(Feature, HasTheStoredMeanWithMixed) {
   EXPECT_LT(std::sqrt(now.variance), 0.02 * now.mean) << "too noisy to tell";
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Feature, ::testing::ValuesIn(scene_names()),
+INSTANTIATE_TEST_SUITE_P(Scenes, Feature, ::testing::ValuesIn(feature_names()),
                          [](const auto& test) { return test.param; });
 
 }  // namespace
