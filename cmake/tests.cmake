@@ -45,6 +45,16 @@ if(TARGET test_regression)
   # These tests run the program itself.
   target_compile_definitions(test_regression PRIVATE NEPHROID_PROGRAM="$<TARGET_FILE:nephroid>")
   add_dependencies(test_regression nephroid)
+  # Writes the files that the scenes of tests/regression/features name.
+  add_executable(make_feature_assets EXCLUDE_FROM_ALL
+    tests/regression/features/make_assets.cpp tests/unit/medium/nanovdb_writer.cpp)
+  target_link_libraries(make_feature_assets PRIVATE nephroid_bsdf nephroid_medium)
+  target_include_directories(make_feature_assets PRIVATE tests)
+  # Writes what tests/regression/feature_test.cpp compares with, see tools/update_regression.
+  add_executable(update_features EXCLUDE_FROM_ALL tests/regression/features/update.cpp)
+  target_link_libraries(update_features PRIVATE nephroid_session)
+  target_include_directories(update_features PRIVATE tests)
+  target_compile_definitions(update_features PRIVATE NEPHROID_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
 endif()
 nephroid_test(fuzz nephroid_material)
 if(TARGET test_fuzz)

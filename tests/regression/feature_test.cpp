@@ -1,0 +1,169 @@
+// Every feature of the scene format still looks as it did: one tiny scene each in the folder
+// "features", rendered with several seeds and compared with the stored mean of many more, pixel by
+// pixel and as a whole. tools/update_regression writes what is stored. The levels are those of
+// theory for the whole picture, so that red means changed.
+#include <gtest/gtest.h>
+
+#include <boost/math/distributions/students_t.hpp>
+#include <sstream>
+
+#include "regression/feature_scene.h"
+
+namespace nephroid {
+namespace {
+
+using namespace testing_support;
+
+/// A picture that is right is called wrong once in ten thousand choices of the seeds.
+constexpr double kFalseAlarm = 1e-4;
+constexpr int kSeeds = 12;
+
+/// What independent renders say of a number.
+struct Measured {
+  double mean = 0;
+  double variance = 0;  ///< of the mean
+  int seeds = 0;
+};
+
+Measured measured(const std::vector<double>& values) {
+  const Estimate e = estimate_of(values);
+  return {e.mean, e.error * e.error, static_cast<int>(values.size())};
+}
+
+/// Probability that the means of two measurements of the same number are so far apart: Welch's t.
+double probability(const Measured& a, const Measured& b) {
+  const double variance = a.variance + b.variance, distance = std::abs(a.mean - b.mean);
+  // Without noise only rounding is left.
+  if (distance <= 1e-5 * (1e-3 + std::abs(b.mean))) return 1;
+  if (!(variance > 0)) return 0;
+  const auto square = [](double x) { return x * x; };
+  const double freedom =
+      square(variance) / (square(a.variance) / (a.seeds - 1) + square(b.variance) / (b.seeds - 1));
+  const boost::math::students_t t(freedom);
+  return 2 * boost::math::cdf(boost::math::complement(t, distance / std::sqrt(variance)));
+}
+
+/// Level of one of `count` tests, none of which may fail by chance (Sidak).
+double level_of(size_t count) {
+  return -std::expm1(std::log1p(-kFalseAlarm) / static_cast<double>(count));
+}
+
+/// The stored picture of a scene.
+class Reference {
+ public:
+  explicit Reference(const std::string& name)
+      : picture_(read_picture(kFeatureFolder + name + ".exr")) {
+    seeds_ = static_cast<int>(numbers("seeds").at(0));
+    passes_ = static_cast<uint32_t>(numbers("passes").at(0));
+    for (const std::string& channel : picture_.channels)
+      if (channel.starts_with("mean.")) channels_.push_back(channel.substr(5));
+  }
+
+  uint32_t passes() const { return passes_; }  ///< of each seed
+  const std::vector<std::string>& channels() const { return channels_; }
+  int width() const { return picture_.width(); }
+  int height() const { return picture_.height(); }
+
+  Measured pixel(const std::string& channel, size_t index) const {
+    const auto value = [&](const std::string& layer) {
+      const auto c = static_cast<size_t>(picture_.find_channel(layer + "." + channel));
+      return static_cast<double>(picture_.pixels[index * picture_.channels.size() + c]);
+    };
+    return {value("mean"), value("variance"), seeds_};
+  }
+  /// The mean of the whole picture, of channel R, G or B.
+  Measured whole(size_t channel) const {
+    return {numbers("picture_mean").at(channel), numbers("picture_variance").at(channel), seeds_};
+  }
+
+ private:
+  std::vector<double> numbers(const std::string& key) const {
+    for (const auto& [name, text] : picture_.metadata)
+      if (name == key) {
+        std::istringstream in(text);
+        return {std::istream_iterator<double>(in), {}};
+      }
+    throw IoError("the stored picture has no attribute " + key);
+  }
+
+  Picture picture_;
+  std::vector<std::string> channels_;
+  int seeds_ = 0;
+  uint32_t passes_ = 0;
+};
+
+/// Compares a channel with what is stored, pixel by pixel; says the worst of those that differ.
+void expect_same_pixels(const SeedValues& found, const Reference& reference,
+                        const std::string& channel) {
+  const double level = level_of(found.size() * reference.channels().size());
+  size_t worst = 0, different = 0;
+  double least = 1;
+  for (size_t i = 0; i < found.size(); ++i) {
+    const Measured stored = reference.pixel(channel, i);
+    Measured now = measured(found[i]);
+    // Few seeds may all miss what is rare. The stored spread tells how much they vary at least.
+    const double usual = stored.variance * stored.seeds / now.seeds;
+    if (usual > now.variance) now = {now.mean, usual, stored.seeds};
+    const double p = probability(now, stored);
+    if (p < level) ++different;
+    if (p < least) {
+      least = p;
+      worst = i;
+    }
+  }
+  const auto width = static_cast<size_t>(reference.width());
+  EXPECT_EQ(different, 0u) << "pixels of " << channel << " differ, most of all x " << worst % width
+                           << ", y " << worst / width << ": " << measured(found[worst]).mean
+                           << " against " << reference.pixel(channel, worst).mean;
+}
+
+class Feature : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(Feature, LooksAsStoredWithPath) {
+  const Reference reference(GetParam());
+  const auto scene = load_feature(GetParam());
+  std::vector<Picture> pictures;
+  for (uint64_t seed = 1; seed <= kSeeds; ++seed)
+    pictures.push_back(feature_picture(*scene, seed, reference.passes()));
+  ASSERT_EQ(pictures[0].width(), reference.width());
+  ASSERT_EQ(pictures[0].height(), reference.height());
+  for (const std::string& channel : reference.channels())
+    expect_same_pixels(channel_values(pictures, channel), reference, channel);
+  for (size_t c = 0; c < 3; ++c) {
+    const SeedValues pixels = channel_values(pictures, std::string(1, "RGB"[c]));
+    const Measured now = measured(picture_means(pixels)), stored = reference.whole(c);
+    EXPECT_GT(probability(now, stored), level_of(3))
+        << "mean of "
+        << "RGB"[c] << ": " << now.mean << " against " << stored.mean;
+    EXPECT_LT(std::sqrt(now.variance), 0.02 * now.mean) << "too noisy to tell";
+  }
+}
+
+// Photons blur a pixel, not the picture: the mean of the three channels, without the bias of the
+// radius.
+TEST_P(Feature, HasTheStoredMeanWithMixed) {
+  const auto scene = load_feature(GetParam());
+  if (!scene->media.empty()) return;  // caustics inside media are not those of photons
+  const Reference reference(GetParam());
+  IntegratorOptions options = feature_options(*scene, "mixed");
+  options.radius = 1;
+  options.camera_samples_per_pass = 8;
+  options.photons_per_pass = 4096;
+  const Measured now = measured(unbiased_block_values(*scene, "mixed", options, kSeeds, 4, 1)[0]);
+  Measured stored{0, 0, reference.whole(0).seeds};
+  for (size_t c = 0; c < 3; ++c) {
+    stored.mean += reference.whole(c).mean / 3;
+    // The channels vary together: the mean varies at most as much as their mean deviation.
+    stored.variance += std::sqrt(reference.whole(c).variance) / 3;
+  }
+  stored.variance *= stored.variance;
+  EXPECT_GT(probability(now, stored), kFalseAlarm)
+      << "mean: " << now.mean << " against " << stored.mean << " +- " << std::sqrt(now.variance);
+  EXPECT_LT(std::sqrt(now.variance), 0.02 * now.mean) << "too noisy to tell";
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Feature, ::testing::ValuesIn(feature_names()),
+                         [](const auto& test) { return test.param; });
+
+}  // namespace
+}  // namespace nephroid
