@@ -61,13 +61,18 @@ std::vector<ShapePtr> finish_mesh(const Context& c, MeshData data) {
   return shapes;
 }
 
-MeshData vertices_of(const Context& c) {
+MeshData positions_of(const Context& c) {
   MeshData data;
   data.positions = c.p.get_point3s("P");
-  data.normals = c.p.get_normals("N");
-  data.uvs = c.p.get_point2s("uv");
   if (data.positions.empty())
     throw SceneError(c.p.where, c.what() + " has no vertices, expected \"point3 P\"");
+  return data;
+}
+
+MeshData vertices_of(const Context& c) {
+  MeshData data = positions_of(c);
+  data.normals = c.p.get_normals("N");
+  data.uvs = c.p.get_point2s("uv");
   return data;
 }
 
@@ -146,9 +151,7 @@ std::vector<ShapePtr> bilinear_mesh(const Context& c) {
 }
 
 std::vector<ShapePtr> loop_subdivision(const Context& c) {
-  MeshData cage = vertices_of(c);
-  cage.normals.clear();
-  cage.uvs.clear();
+  MeshData cage = positions_of(c);
   cage.triangles = to_indices(c, c.p.get_ints("indices"));
   if (cage.triangles.empty() || cage.triangles.size() % 3 != 0)
     throw SceneError(c.p.where, c.what() + ": \"indices\" expects a multiple of 3 values");

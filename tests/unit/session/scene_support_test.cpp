@@ -59,10 +59,11 @@ class Loader {
                const std::string& parameters) const {
     const std::string given = base(directive, type) + " " + parameters;
     if (directive != "Texture") return load_text(directive, scene(directive, type, given));
-    Outcome both = load_text(directive, scene(directive, "float\" \"" + type, given));
+    Outcome both = load_text(directive, scene(directive, "t\" \"float\" \"" + type, given));
     const std::string spectra =
         std::regex_replace(given, std::regex("\"float (tex|v[01]|value|inside)"), "\"spectrum $1");
-    const Outcome other = load_text(directive, scene(directive, "spectrum\" \"" + type, spectra));
+    const Outcome other =
+        load_text(directive, scene(directive, "t\" \"spectrum\" \"" + type, spectra));
     both.asked.insert(other.asked.begin(), other.asked.end());
     both.messages += other.messages;
     both.failed = both.failed && other.failed;
@@ -286,7 +287,7 @@ TEST(SceneSupport, EveryNameInTheTextOfTheLoaderIsListed) {
       for (const FormatParameter& p : parameters_of(type)) listed.insert(p.name);
   // Roughness and indices of coated conductors are written with a prefix.
   const std::regex getter(
-      R"rx((?:\b(?:p|parameters)\.(?:get_\w+|find)\(|\b(?:float_texture|spectrum_texture|read_\w+)\((?:[\w.]+, )+(?:prefix \+ )?)"([^"]+)")rx");
+      R"rx((?:\b(?:p|parameters)\.(?:get_\w+|find)\(|\b(?:float_texture|spectrum_texture|read_\w+)\((?:[\w.]+, )+(?:prefix \+ )?)"([^" ]+)")rx");
   int found = 0;
   const std::filesystem::path source(NEPHROID_SOURCE_DIR);
   for (const char* folder : {"src/scene", "src/session", "src/integrator"}) {
