@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """How fast the caustic of a moving object converges: RMSE of the layer `caustic` over passes.
 
   bench/motion_convergence.py [--passes 1024] [--reference-passes 4096] [--plot FILE.svg]
