@@ -22,7 +22,7 @@ SCENE = ROOT / "scenes/moving-glass/scene.pbrt"
 
 def caustic(out, passes, seed):
     subprocess.run([PROGRAM, "render", SCENE, "-o", out, "--integrator", "mixed", "--quiet",
-                    "--passes", str(passes), "--seed", str(seed)], check=True, capture_output=True)
+                    "-D", "photons=16384", "--passes", str(passes), "--seed", str(seed)], check=True, capture_output=True)
     picture = oiio.ImageBuf(str(out))
     names = list(picture.spec().channelnames)
     pixels = numpy.asarray(picture.get_pixels(oiio.FLOAT))
