@@ -149,7 +149,8 @@ const std::vector<AgreementScene> kAgreementScenes = {
                  Translate 0 0.9 0 Shape "sphere" "float radius" 0.6)"},
     {.name = "dispersive_glass",
      .world = R"(Material "dielectric" "spectrum eta" "glass-SF11" Translate 0 0.9 0
-                 Shape "sphere" "float radius" 0.6)"},
+                 Shape "sphere" "float radius" 0.6)",
+     .photons = 12288},
     {.name = "mirror", .world = R"(Material "conductor" "float roughness" 0 Translate 0 0.7 0
                  Shape "sphere" "float radius" 0.6)"},
     {.name = "glossy_threshold",
