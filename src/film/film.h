@@ -1,4 +1,4 @@
-// The picture while it is being made: exact sums per pixel, one buffer per route.
+// The picture while it is being made: exact sums per pixel, one buffer for each part of the light.
 // A sum is 128-bit fixed point with steps of 2^-64, so that adding commutes: any order, any number
 // of threads and any split into runs gives the same bits (docs/architecture.md, section 3). Who
 // calls it: integrators add, session reads. It must not know scenes or estimators.
@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,23 @@ struct FilmSettings {
   bool gbuffer = false;                      ///< has the geometric layers, see SurfaceSample
 };
 
+/// What the sums of a film are for. The light is divided into parts, each of which belongs to one
+/// route and any number of AOVs; the routes that one estimator samples together are a group, with
+/// one count of estimates and one variance.
+struct FilmLayout {
+  struct Part {
+    int route = 0;
+    std::vector<int> aovs;
+  };
+  std::vector<std::string> routes, aovs;  ///< names of layers
+  std::vector<Part> parts;
+  std::vector<int> groups;  ///< [route]: its group, numbered from 0
+
+  /// One part and one group for each route, no AOVs.
+  static FilmLayout of_routes(std::vector<std::string> names);
+  int group_count() const;
+};
+
 /// The surface that a sample saw first, in the coordinate system that the caller chose.
 struct SurfaceSample {
   Vec3f p{0, 0, 0};
@@ -61,23 +79,26 @@ Rgb clamp_component(const Rgb& rgb, float limit);
 
 class Film {
  public:
-  Film(const FilmSettings& settings, std::vector<std::string> routes);
+  Film(const FilmSettings& settings, FilmLayout layout);
 
   const FilmSettings& settings() const { return settings_; }
   const PixelBounds& bounds() const { return settings_.crop; }
-  const std::vector<std::string>& routes() const { return route_names_; }
+  const FilmLayout& layout() const { return layout_; }
+  /// Parts of a group's routes, in increasing order.
+  const std::vector<int>& parts_of(int group) const;
 
-  /// Adds one estimate of a pixel by a route; the caller has clamped it to max_component before it
-  /// applied the filter's weight. Each pixel has exactly one writer at a time. Values that are not
-  /// finite are counted (see bad_values) and left out.
-  void add(int route, int x, int y, const Rgb& value);
-  /// Replaces what the route has for this pixel, for estimators whose passes cannot be added (E1).
+  /// Adds one estimate of a pixel by a group: values[i] is what it found for parts_of(group)[i].
+  /// The caller has clamped their sum to max_component before it applied the filter's weight. Each
+  /// pixel has exactly one writer at a time. An estimate with a value that is not finite is counted
+  /// (see bad_values) and left out.
+  void add(int group, int x, int y, std::span<const Rgb> values);
+  /// Replaces what the group has for this pixel, for estimators whose passes cannot be added (E1).
   /// `estimates` is then set to 1 by the caller.
-  void replace(int route, int x, int y, const Rgb& value);
-  /// Says that `count` more estimates per pixel were added to a route.
-  void add_estimates(int route, uint64_t count);
-  void set_estimates(int route, uint64_t count);
-  uint64_t estimates(int route) const;
+  void replace(int group, int x, int y, std::span<const Rgb> values);
+  /// Says that `count` more estimates per pixel were added to a group.
+  void add_estimates(int group, uint64_t count);
+  void set_estimates(int group, uint64_t count);
+  uint64_t estimates(int group) const;
 
   /// First-hit features of a pixel (sums over samples): albedo, normal in world space, depth (0 or
   /// infinite where nothing was hit). Components that are not finite are left out.
@@ -86,14 +107,15 @@ class Film {
   /// Adds to the geometric layers of a film that has them; for samples that hit something.
   void add_surface(int x, int y, const SurfaceSample& sample);
 
-  /// Mean of a route, and of the sum of all routes (from the accumulators, rounded once).
+  /// Mean of a route, of an AOV, and of the sum of all routes, each from its parts' accumulators
+  /// and rounded once.
   Rgb route_value(int route, int x, int y) const;
+  Rgb aov_value(int aov, int x, int y) const;
   Rgb value(int x, int y) const;
-  /// Standard error of value(), from the spread of the estimates of each route, taken as
+  /// Standard error of value(), from the spread of the estimates of each group, taken as
   /// independent (an upper bound in practice where passes are stratified). Zero with fewer than two
   /// estimates.
   Rgb standard_error(int x, int y) const;
-  /// Mean over the feature samples; what hit nothing counts as black.
   Rgb albedo(int x, int y) const;
   /// Direction of the mean, unit length; null where nothing was hit.
   Vec3f normal(int x, int y) const;
@@ -108,8 +130,8 @@ class Film {
   uint64_t saturated_values() const;  ///< sums that reached their limit
 
  private:
-  struct PixelSums {
-    FixedSum sum[3], square[3];
+  struct PixelSum {
+    FixedSum rgb[3];
   };
   struct Features {
     FixedSum albedo[3], normal[3], depth;
@@ -125,9 +147,11 @@ class Film {
            (x - settings_.crop.x0);
   }
   FilmSettings settings_;
-  std::vector<std::string> route_names_;
-  std::vector<std::vector<PixelSums>> sums_;  ///< [route][pixel]
-  std::vector<uint64_t> estimates_;
+  FilmLayout layout_;
+  std::vector<std::vector<int>> parts_of_group_;
+  std::vector<std::vector<PixelSum>> sums_;     ///< [part][pixel]
+  std::vector<std::vector<PixelSum>> squares_;  ///< [group][pixel], of an estimate's sum over parts
+  std::vector<uint64_t> estimates_;             ///< [group]
   std::vector<Features> features_;
   uint64_t feature_estimates_ = 0;
   std::vector<SurfaceSums> surfaces_;      ///< empty without geometric layers

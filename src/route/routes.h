@@ -1,92 +1,178 @@
-// Who renders which light: the one place that decides what a caustic is (docs/routes.md).
-// A path is a word C e1 e2 ... en L of event classes, eye first. Camera walks read it from the
-// left, photons from the right; both follow the tables made here, so every word has exactly one
-// owner. Words with a V (a scattering in a medium, or on a surface where photons cannot be merged)
-// belong to kDiffuse. Who calls it: integrators. It must not know scenes or estimators. Paper:
-// Doidge et al. 2012.
+// Who renders which light: the one place that decides it (docs/routes.md).
+// A path is a word of events and a light, eye first. All routes are compiled into one automaton of
+// dense tables (compile.h): camera walks read words from the left, light walks from the right, and
+// where they meet a table names the owner, so every word has exactly one. Who calls it: integrators
+// and the photon tracer. It must not know scenes or estimators.
+// Paper: Doidge et al. 2012, whose two sub-spaces are the preset doidge2012.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <string>
+#include <vector>
 
-#include "scene/bsdf/bsdf.h"
+#include "route/route_set.h"
+#include "route/symbols.h"
 
 namespace nephroid {
 
-/// The routes of the mixed method, numbered as the film's buffers.
-enum class Route : uint8_t { kDiffuse = 0, kCaustic = 1 };
+/// Of the automaton that has read C e1 ... ek.
+using EyeState = uint16_t;
+/// Of the automaton that has read the light and the events from it towards the eye: all words with
+/// such an end are alike to every eye state.
+using LightState = uint16_t;
 
-using EyeState = uint8_t;     ///< of the automaton that has read C e1 ... ek
-using PhotonState = uint8_t;  ///< of the automaton that has read the events from L towards the eye
+/// A part of the picture: the words with the same owner that lie in the same AOVs. Each part is a
+/// buffer of the film; a route is the sum of its parts, and so is an AOV.
+using Part = uint8_t;
+inline constexpr Part kNoPart = 255;
 
-/// Deterministic automata for both directions, dense tables of small integers. A value type.
-class Routes {
+/// What the parts mean: in order of Part.
+struct PartMeaning {
+  int route = 0;
+  std::vector<int> aovs;
+};
+
+/// A set of symbols, e.g. those that a scene has.
+struct SymbolSet {
+  std::vector<bool> events;  ///< [EventSymbol]
+  std::vector<bool> lights;  ///< [LightSymbol]
+};
+
+/// A table of numbers below 65536, in bytes where they fit.
+class NumberTable {
  public:
-  /// The caustic sub-space C [SD]* D S+ D? L belongs to kCaustic, everything else to kDiffuse.
-  static Routes doidge2012();
-  /// Everything (but words with a V) belongs to one route.
-  static Routes all(Route route);
-  /// Light that is seen directly or through specular surfaces only, C S* L, belongs to kDiffuse,
-  /// all else to kCaustic: the parts of full photon mapping, which merges at the first D.
-  static Routes seen_emission();
-
-  /// The same partition for a scene that has no events but `letters`: fewer events are useful.
-  Routes restricted_to(ClassMask letters) const;
-
-  /// Light that a medium emits belongs to this route whatever the word: no photon starts there.
-  static constexpr Route kMediumEmission = Route::kDiffuse;
-
-  static constexpr EyeState kEyeStart = 0;
-  static constexpr PhotonState kPhotonStart = 0;
-
-  /// State after one more event, seen from the eye.
-  EyeState next(EyeState state, EventClass event) const {
-    return eye_next_[state][static_cast<size_t>(event)];
-  }
-  /// Owner of the word that ends here with L.
-  Route owner(EyeState state) const { return eye_owner_[state]; }
-
-  /// State after one more event, seen from the light.
-  PhotonState photon_next(PhotonState state, EventClass event) const {
-    return photon_next_[state][static_cast<size_t>(event)];
-  }
-  /// Owner of the word whose eye side, its merge vertex included, is in `eye` and whose light side,
-  /// the merge vertex excluded, is in `photon`.
-  Route meet(EyeState eye, PhotonState photon) const { return meet_[eye][photon]; }
-  /// True if a photon in this state, deposited at a vertex where eyes merge after C S* D, belongs
-  /// to `route`.
-  bool deposits(PhotonState photon, Route route) const {
-    return meet_[next(kEyeStart, EventClass::kDiffuse)][photon] == route;
-  }
-  /// Classes in which a photon may scatter and still be able to reach a vertex where `route`
-  /// merges.
-  ClassMask useful_events(PhotonState photon, Route route) const {
-    return useful_[static_cast<size_t>(route)][photon];
-  }
-
-  /// Classes in which a camera walk may scatter and still be able to end as a word of `route`.
-  ClassMask useful_eye_events(EyeState state, Route route) const {
-    return useful_eye_[static_cast<size_t>(route)][state];
-  }
-
-  /// The expression of a route, for reports.
-  std::string expression(Route route) const;
-
-  static constexpr size_t kEyeStates = 5;
-  static constexpr size_t kPhotonStates = 5;
+  NumberTable() = default;
+  explicit NumberTable(const std::vector<uint16_t>& numbers);
+  uint16_t operator[](size_t i) const { return narrow_.empty() ? wide_[i] : narrow_[i]; }
+  size_t bytes() const { return narrow_.size() + 2 * wide_.size(); }
 
  private:
-  void give_volumes_to_diffuse();
-  void complete(ClassMask letters);
+  std::vector<uint8_t> narrow_;
+  std::vector<uint16_t> wide_;
+};
 
-  std::array<std::array<EyeState, kEventClasses>, kEyeStates> eye_next_{};
-  std::array<Route, kEyeStates> eye_owner_{};
-  std::array<std::array<PhotonState, kEventClasses>, kPhotonStates> photon_next_{};
-  std::array<std::array<Route, kPhotonStates>, kEyeStates> meet_{};
-  std::array<std::array<ClassMask, kPhotonStates>, 2> useful_{};
-  std::array<std::array<ClassMask, kEyeStates>, 2> useful_eye_{};
-  std::array<std::string, 2> expressions_;
+/// What the compiler makes; rows are states, columns symbols (8 to a label).
+struct RouteTables {
+  size_t eye_states = 0, light_states = 0, event_symbols = 0, light_symbols = 0;
+  NumberTable eye_next;     ///< [eye][event]
+  NumberTable merge_next;   ///< [eye][event]: the event is the vertex where photons are merged
+  std::vector<Part> owner;  ///< [eye][light]
+  NumberTable emitted;      ///< [light symbol] -> LightState
+  NumberTable light_next;   ///< [light state][event]
+  std::vector<Part> meet;   ///< [eye][light state]
+  EyeState start = 0;
+};
+
+/// The routes that one estimator owns together; its walks ask with the number of the group.
+struct RouteGroup {
+  EstimatorKind estimator = EstimatorKind::kPath;
+  std::vector<int> routes;
+  std::vector<Part> parts;
+};
+
+class Routes {
+ public:
+  /// By compile_routes.
+  Routes(std::vector<RouteDefinition> routes, std::vector<AovDefinition> aovs,
+         std::vector<PartMeaning> parts, std::vector<std::string> labels, RouteTables tables);
+
+  const std::vector<RouteDefinition>& definitions() const { return definitions_; }
+  const std::vector<AovDefinition>& aovs() const { return aovs_; }
+  const std::vector<PartMeaning>& parts() const { return parts_; }
+  /// Names that expressions mention; labels()[i] is Label i + 1.
+  const std::vector<std::string>& labels() const { return labels_; }
+  const std::vector<RouteGroup>& groups() const { return groups_; }
+  const RouteTables& tables() const { return tables_; }
+  /// Label of a name: 0 if no expression mentions it.
+  Label label(const std::string& name) const;
+
+  /// The same routes where only these symbols can occur: fewer events are useful.
+  Routes restricted_to(const SymbolSet& symbols) const;
+
+  EyeState start() const { return tables_.start; }
+  /// After one more event, seen from the eye.
+  EyeState next(EyeState eye, EventSymbol e) const {
+    return tables_.eye_next[eye * tables_.event_symbols + e];
+  }
+  /// The same if photons are merged at this event's vertex.
+  EyeState merge(EyeState eye, EventSymbol e) const {
+    return tables_.merge_next[eye * tables_.event_symbols + e];
+  }
+  /// Owner of the word that ends here with a light; never kNoPart for words without a merge and a
+  /// light that some route can reach.
+  Part owner(EyeState eye, LightSymbol light) const {
+    return tables_.owner[eye * tables_.light_symbols + light];
+  }
+
+  /// State of a light walk before its first event.
+  LightState emitted(LightSymbol light) const { return tables_.emitted[light]; }
+  /// After one more event, seen from the light.
+  LightState light_next(LightState state, EventSymbol e) const {
+    return tables_.light_next[state * tables_.event_symbols + e];
+  }
+  /// Owner of the word whose eye side, the vertex where they meet included, is in `eye` and whose
+  /// light side, that vertex excluded, is in `light`. With an eye state from merge(): kNoPart
+  /// unless the owner merges exactly here.
+  Part meet(EyeState eye, LightState light) const {
+    return tables_.meet[eye * tables_.light_states + light];
+  }
+
+  /// True if the part belongs to the group (false for kNoPart).
+  bool owns(size_t group, Part part) const {
+    return part != kNoPart && part_group_[part] == group;
+  }
+
+  // What is of use to the walks of a group, among the symbols that can occur. Masks are of classes,
+  // kVolume included; a class is in it if one of its sides is useful.
+
+  /// True if some word that ends at a light here belongs to the group.
+  bool ends(size_t group, EyeState eye) const { return flags_[group].ends[eye]; }
+  /// Events after which a camera walk may still end at a light in a word of the group.
+  ClassMask useful(size_t group, EyeState eye, Label label) const {
+    return flags_[group].useful[eye * label_count() + label];
+  }
+  /// Events after which a camera walk may still come to a vertex where the group merges.
+  ClassMask useful_before_merge(size_t group, EyeState eye, Label label) const {
+    return flags_[group].useful_before_merge[eye * label_count() + label];
+  }
+  /// Classes of events at which the group may merge photons after this eye state.
+  ClassMask merges(size_t group, EyeState eye, Label label) const {
+    return flags_[group].merges[eye * label_count() + label];
+  }
+  /// Classes at which a photon with this light side may be merged by the group.
+  ClassMask deposits(size_t group, LightState light, Label label) const {
+    return flags_[group].deposits[light * label_count() + label];
+  }
+  /// Events after which a light walk may still be deposited, at that group's merge vertices.
+  ClassMask useful_before_deposit(size_t group, LightState light, Label label) const {
+    return flags_[group].useful_before_deposit[light * label_count() + label];
+  }
+  /// Classes of first events e1 (seen from the eye) with which a light walk makes a word of the
+  /// group when it is connected to the camera.
+  ClassMask connects(size_t group, LightState light, Label label) const {
+    return flags_[group].connects[light * label_count() + label];
+  }
+  /// Events after which a light walk may still be connected to the camera.
+  ClassMask useful_before_connection(size_t group, LightState light, Label label) const {
+    return flags_[group].useful_before_connection[light * label_count() + label];
+  }
+
+ private:
+  struct Flags {
+    std::vector<bool> ends;
+    std::vector<ClassMask> useful, useful_before_merge, merges, deposits, useful_before_deposit,
+        connects, useful_before_connection;
+  };
+  size_t label_count() const { return labels_.size() + 1; }
+  void find_useful_events(const SymbolSet& symbols);
+
+  std::vector<RouteDefinition> definitions_;
+  std::vector<AovDefinition> aovs_;
+  std::vector<PartMeaning> parts_;
+  std::vector<std::string> labels_;
+  RouteTables tables_;
+  std::vector<RouteGroup> groups_;
+  std::vector<uint8_t> part_group_;
+  std::vector<Flags> flags_;  ///< [group]
 };
 
 }  // namespace nephroid

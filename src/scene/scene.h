@@ -41,7 +41,7 @@ struct SceneOverrides {
   int width = 0, height = 0;  ///< 0: as in the file
   bool has_crop = false;
   float crop[4] = {0, 1, 0, 1};  ///< x0 x1 y0 y1 in [0,1]
-  float specular_alpha = kDefaultSpecularAlpha;
+  SpecularBand specular_band;
   uint64_t texture_memory = kDefaultTextureMemory;  ///< bytes for the pixels of image textures
 };
 
@@ -113,12 +113,19 @@ class Scene {
   }
 
   SceneOptions options;
+  SpecularBand specular_band;
   FilmDescription film;
   std::unique_ptr<Camera> camera;
   std::unique_ptr<PixelFilter> filter;
   std::vector<MaterialPtr> materials;
   std::vector<LightPtr> lights;
   std::vector<MediumInterface> light_media;  ///< around each light; of an area light, its shape's
+  // What light path expressions call things: names of the file; what has none there is called after
+  // its type and number ("dielectric2", "infinite1", "diffuse3": counted by type, from 1, in file
+  // order).
+  std::vector<std::string> material_labels;  ///< [material index]
+  std::vector<std::string> medium_labels;    ///< [medium index]
+  std::vector<std::string> light_labels;     ///< [light]; the lights of one AreaLightSource share it
   std::vector<MediumPtr> media;
   const Medium* camera_medium = nullptr;
   std::unique_ptr<LightSampler> light_sampler;

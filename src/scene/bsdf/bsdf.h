@@ -1,5 +1,5 @@
 // The interface of every scattering model, in the local shading frame (z up, pointing outwards).
-// A BSDF is made of lobes, and each lobe has a class, D or S, which is its letter in light path
+// A BSDF is made of lobes, and each lobe has a class, D, G or S, which is its letter in light path
 // expressions. All functions work per class, so that the estimator of a route can weigh exactly the
 // lobes that belong to it (docs/architecture.md, section 4).
 // Who calls it: transport and photon. It must not know routes, textures or lights.
@@ -19,13 +19,24 @@ namespace nephroid {
 /// Refraction scales radiance, not flux, by 1/eta^2 (pbrt-v4 section 9.5.2).
 enum class TransportMode : uint8_t { kRadiance, kImportance };
 
-/// The class of a scattering event: D is rough enough to connect or merge at, S is not; V happens
-/// in a medium, so no BSDF has it.
-enum class EventClass : uint8_t { kDiffuse = 0, kSpecular = 1, kVolume = 2 };
-inline constexpr size_t kEventClasses = 3;
+/// The class of a scattering event, its letter in light path expressions: D diffuse; G glossy, a
+/// lobe with a preferred direction but rough enough to connect or merge at; S is not; V happens in
+/// a medium, so no BSDF has it.
+enum class EventClass : uint8_t { kDiffuse = 0, kGlossy = 1, kSpecular = 2, kVolume = 3 };
+inline constexpr size_t kEventClasses = 4;
+inline constexpr EventClass kSurfaceClasses[] = {EventClass::kDiffuse, EventClass::kGlossy,
+                                                 EventClass::kSpecular};
 
-/// A set of event classes; kAll are those that surfaces have.
-enum class ClassMask : uint8_t { kNone = 0, kDiffuse = 1, kSpecular = 2, kAll = 3, kVolume = 4 };
+/// A set of event classes; kRough are those at which photons merge, kAll those that surfaces have.
+enum class ClassMask : uint8_t {
+  kNone = 0,
+  kDiffuse = 1,
+  kGlossy = 2,
+  kRough = 3,
+  kSpecular = 4,
+  kAll = 7,
+  kVolume = 8
+};
 constexpr ClassMask mask_of(EventClass c) {
   return static_cast<ClassMask>(1 << static_cast<int>(c));
 }
@@ -39,9 +50,12 @@ constexpr ClassMask operator&(ClassMask a, ClassMask b) {
   return static_cast<ClassMask>(static_cast<int>(a) & static_cast<int>(b));
 }
 
-/// Microfacet lobes with alpha (the larger of both directions, after remapping) at or below this
-/// are of class S.
-inline constexpr float kDefaultSpecularAlpha = 0.05f;
+/// Microfacet lobes with alpha (the larger of both directions, after remapping) at or below a
+/// threshold are of class S. In the band between these two the threshold differs from pass to pass
+/// (transport/roughness_band.h), so that no caustic jumps when a slider of roughness is moved.
+struct SpecularBand {
+  float low = 0.035f, high = 0.07f;  ///< low <= high; equal: one threshold for all passes
+};
 
 /// One sampled direction. With c the sampled class, the throughput is multiplied by
 /// f * |cos theta_i| / pdf_w.

@@ -27,6 +27,18 @@ struct CameraRay {
   float weight = 1;
 };
 
+/// A straight line from a point of the scene to the lens, and where it exposes the film.
+struct CameraConnection {
+  Vec3f p;     ///< on the lens, world space
+  Vec3f wi;    ///< unit, from the scene's point to the lens
+  float distance = 0;
+  Vec2f film;  ///< as generate_ray takes it; may lie outside of the picture
+  /// Change of the film position, in pixels^2, per area perpendicular to wi at the scene's point.
+  /// Flux that leaves the point along wi counts with it.
+  float film_density = 0;
+  float weight = 1;  ///< as CameraRay::weight
+};
+
 /// What a camera needs to know of its film.
 struct CameraFilm {
   int width = 1, height = 1;  ///< pixels of the full resolution
@@ -53,6 +65,14 @@ class Camera {
   virtual std::optional<CameraRay> generate_ray(const Vec2f& film, const Vec2f& u_lens,
                                                 float u_time) const = 0;
   virtual PixelFootprint footprint() const = 0;
+
+  /// Connects the world point `p` to the point of the lens that `u_lens` chooses (as generate_ray
+  /// does) at the moment of `u_time`: generate_ray(film, u_lens, u_time) would be the ray back.
+  /// Empty if `p` is behind the camera or exposes nothing, and for cameras that do not connect.
+  virtual std::optional<CameraConnection> connect(const Vec3f& p, const Vec2f& u_lens,
+                                                  float u_time) const = 0;
+  /// False if light paths cannot be connected to this kind of camera (realistic lenses).
+  virtual bool connects() const { return true; }
 
   /// The moment that u_time in [0,1) chooses within the shutter, as Ray::time counts: 0 at the
   /// first keyframe of what moves, 1 at the second, and no further [K2]. 0 if both are at the same

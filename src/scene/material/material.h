@@ -17,11 +17,16 @@ class Material {
  public:
   virtual ~Material() = default;
 
-  /// The BSDF at a point, in `arena`. May drop secondary wavelengths (dispersion). Never null for a
+  /// The BSDF at a point, in `arena`; lobes with alpha up to `specular_alpha` are of class S. May drop secondary wavelengths (dispersion). Never null for a
   /// surface; null means that the surface is not there ("interface"). The point's shading frame has
   /// been bumped already.
   virtual const Bsdf* make_bsdf(const SurfaceInteraction& point, SampledWavelengths& lambda,
-                                BsdfArena& arena) const = 0;
+                                float specular_alpha, BsdfArena& arena) const = 0;
+
+  /// Place in Scene::materials, which stands for its label in light path expressions; -1 outside of
+  /// a scene.
+  int index() const { return index_; }
+  void set_index(int index) { index_ = index; }
 
   /// The material that stands for this one at a point: itself, or for `mix` the one that is chosen
   /// by a hash of the point (pbrt-v4 section 10.5.1).
@@ -66,12 +71,15 @@ class Material {
   /// Classes that any lobe of this material may have at any point (a conservative answer; for the
   /// report "why is there no caustic").
   virtual ClassMask possible_classes() const = 0;
+
+ private:
+  int index_ = -1;
 };
 using MaterialPtr = std::shared_ptr<const Material>;
 
 /// Options of the scene that change how materials become lobes.
 struct MaterialSettings {
-  float specular_alpha = kDefaultSpecularAlpha;
+  SpecularBand specular_band;
   bool force_diffuse = false;  ///< every surface is Lambertian
 };
 

@@ -69,6 +69,11 @@ class Medium {
  public:
   virtual ~Medium() = default;
 
+  /// Place in Scene::media, which stands for its label in light path expressions; -1 outside of a
+  /// scene.
+  int index() const { return index_; }
+  void set_index(int index) { index_ = index; }
+
   /// True if it may emit anywhere.
   virtual bool is_emissive() const = 0;
   /// True if it scatters nowhere and at no wavelength: light is only dimmed by it.

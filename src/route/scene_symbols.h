@@ -1,0 +1,37 @@
+// Which symbols the materials, media and lights of a scene are: the bridge between a scene and the
+// automaton. Who calls it: integrators (symbols of events and lights) and the compiler's callers
+// (what can occur in a scene). It must not know walks.
+#pragma once
+
+#include "route/routes.h"
+#include "scene/scene.h"
+
+namespace nephroid {
+
+class SceneSymbols {
+ public:
+  /// `labels` as Routes::labels().
+  SceneSymbols(const Scene& scene, const std::vector<std::string>& labels);
+
+  Label material(int index) const { return materials_[static_cast<size_t>(index)]; }
+  Label medium(int index) const { return media_[static_cast<size_t>(index)]; }
+  /// Of Scene::lights.
+  LightSymbol light(int index) const { return lights_[static_cast<size_t>(index)]; }
+  /// Of the light that a medium emits.
+  LightSymbol glow(int medium_index) const {
+    return light_symbol(LightKind::kMedium, medium(medium_index));
+  }
+
+  /// What can occur in this scene: a conservative answer.
+  const SymbolSet& present() const { return present_; }
+  /// Labels that nothing in the scene is called: a warning.
+  const std::vector<std::string>& unknown_labels() const { return unknown_; }
+
+ private:
+  std::vector<Label> materials_, media_;
+  std::vector<LightSymbol> lights_;
+  SymbolSet present_;
+  std::vector<std::string> unknown_;
+};
+
+}  // namespace nephroid

@@ -1,0 +1,64 @@
+// The alphabet of light path expressions as small integers. A path is a word C e1 e2 ... en l: its
+// events, eye first, and the light that it ends on. What an expression can tell apart is the class
+// of an event, on which side of the surface it leaves, the label of its material, the kind of the
+// light and the light's label (docs/routes.md).
+// Who calls it: everything that follows or compiles routes. It must not know expressions.
+#pragma once
+
+#include <cstdint>
+
+#include "scene/bsdf/bsdf.h"
+
+namespace nephroid {
+
+/// Labels that no expression mentions are all the same to it: label 0. The others count from 1.
+using Label = uint16_t;
+
+/// Kind of an event: the low three bits of an EventSymbol. Volume events have no side.
+enum class EventKind : uint8_t { kDR, kDT, kGR, kGT, kSR, kST, kV };
+inline constexpr int kEventKinds = 7;
+
+/// An event: 8 * label + kind.
+using EventSymbol = uint16_t;
+
+constexpr EventSymbol event_symbol(EventKind kind, Label label) {
+  return static_cast<EventSymbol>(label << 3 | static_cast<int>(kind));
+}
+constexpr EventSymbol event_symbol(EventClass c, bool transmitted, Label label) {
+  const int kind = c == EventClass::kVolume ? static_cast<int>(EventKind::kV)
+                                            : 2 * static_cast<int>(c) + (transmitted ? 1 : 0);
+  return static_cast<EventSymbol>(label << 3 | kind);
+}
+constexpr EventKind kind_of(EventSymbol s) {
+  return static_cast<EventKind>(s & 7);
+}
+constexpr Label label_of(EventSymbol s) {
+  return static_cast<Label>(s >> 3);
+}
+constexpr EventClass class_of(EventKind kind) {
+  return static_cast<EventClass>(static_cast<int>(kind) >> 1);
+}
+constexpr bool is_transmission(EventKind kind) {
+  return kind == EventKind::kDT || kind == EventKind::kGT || kind == EventKind::kST;
+}
+
+/// Kinds of lights. L is any of them, O an emissive shape, B an infinite light (an environment or a
+/// distant one), M a medium that glows. The others are at a point: no walk can hit them, nor those
+/// in one direction.
+enum class LightKind : uint8_t { kShape, kEnvironment, kDistant, kPoint, kMedium };
+inline constexpr int kLightKinds = 5;
+
+/// A light: 8 * label + kind.
+using LightSymbol = uint16_t;
+
+constexpr LightSymbol light_symbol(LightKind kind, Label label) {
+  return static_cast<LightSymbol>(label << 3 | static_cast<int>(kind));
+}
+constexpr LightKind kind_of_light(LightSymbol s) {
+  return static_cast<LightKind>(s & 7);
+}
+constexpr Label label_of_light(LightSymbol s) {
+  return static_cast<Label>(s >> 3);
+}
+
+}  // namespace nephroid
