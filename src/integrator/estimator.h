@@ -10,6 +10,7 @@
 #include "core/sampler.h"
 #include "film/film.h"
 #include "input/format_rows.h"
+#include "route/routes.h"
 
 namespace nephroid {
 
@@ -48,7 +49,10 @@ struct IntegratorOptions {
   float radius = 0;              ///< 0: the default of the integrator
   int64_t photons_per_pass = 0;  ///< 0: chosen from the film's size
   float alpha = 2.0f / 3.0f;     ///< of [E1] and [E2]
-  float specular_alpha = 0.05f;
+  SpecularBand specular_band;
+  /// Walks of `path` do not look at what is useful for its routes: the same seed gives the same
+  /// paths whatever the routes are.
+  bool blind_walks = false;
   int camera_samples_per_pass = 0;  ///< 0: the default of the integrator
   int64_t memory_photons =
       1 << 20;  ///< photons kept at once (96 bytes each); a larger pass runs in batches
@@ -56,11 +60,24 @@ struct IntegratorOptions {
   int64_t texture_memory = int64_t{1} << 30;
 };
 
-/// A preset: the routes' names (film buffers, in order) and the estimators that fill them.
+/// Estimators and the film that they fill; estimator i samples the film's group i.
 struct Preset {
-  std::vector<std::string> route_names;
+  FilmLayout layout;
   std::vector<std::unique_ptr<Estimator>> estimators;
+  std::shared_ptr<const Routes> routes;
+  std::vector<std::string> warnings;  ///< about the routes: overlaps, paths that are never found
 };
+
+/// The routes by which a picture is made.
+struct RoutePlan {
+  std::vector<RouteDefinition> routes;
+  std::vector<AovDefinition> aovs;
+  bool strict = false;  ///< overlaps are errors
+};
+
+/// Estimators for the routes of a plan in a scene. Throws UsageError for an expression that is
+/// wrong, for routes that leave a path out, and for what an estimator cannot do in this scene.
+Preset make_preset(const RoutePlan& plan, const IntegratorOptions& options, const Scene& scene);
 
 /// Names of the table: "path", "sppm", "mixed".
 std::vector<std::string> integrator_names();
@@ -69,7 +86,9 @@ std::string integrator_for_scene_name(const std::string& pbrt_name);
 /// All integrators of the format; refused are those for which nothing stands here.
 std::vector<FormatType> scene_integrator_types();
 
-/// Throws UsageError for an unknown name.
+/// The plan that an integrator's name stands for. Throws UsageError for an unknown name.
+RoutePlan plan_of_integrator(const std::string& name);
+/// make_preset of it.
 Preset make_integrator(const std::string& name, const IntegratorOptions& options,
                        const Scene& scene);
 

@@ -5,9 +5,12 @@
 
 #include "core/parallel.h"
 #include "core/warps.h"
+#include "film/part_sums.h"
 #include "integrator/surface_sample.h"
 #include "transport/camera_path.h"
 #include "transport/direct_light.h"
+#include "transport/roughness_band.h"
+#include "transport/walk_symbols.h"
 
 namespace nephroid {
 
@@ -22,76 +25,100 @@ struct Features {
 // Collects the light of one camera path.
 class PathVisitor {
  public:
-  PathVisitor(const Scene& scene, const Routes& routes, Route route)
-      : scene_(scene), routes_(routes), route_(route) {}
+  /// With `blind`, walks do not look at what is useful for the routes: any routes see the same
+  /// paths.
+  PathVisitor(const Scene& scene, const OwnedRoutes& owned, bool blind, PartSums& light)
+      : scene_(scene),
+        routes_(*owned.routes),
+        symbols_(*owned.symbols),
+        group_(owned.group),
+        blind_(blind),
+        light_(light),
+        eye_(routes_.start()) {}
 
   void escape(const Walk& walk) {
-    if (routes_.owner(state_) != route_) return;
+    if (!routes_.ends(group_, eye_)) return;
     for (const int i : scene_.light_sampler->infinite_lights()) {
+      const Part part = routes_.owner(eye_, symbols_.light(i));
+      if (!light_.owns(part)) continue;
       const Light& light = *scene_.lights[static_cast<size_t>(i)];
       const SampledSpectrum le =
           light.radiance_at_infinity(walk.previous_p, walk.ray.d, walk.lambda);
       if (le.is_black()) continue;
-      radiance_ += walk.throughput * le *
-                   (walk.delta ? 1.0f / walk.density.u_mean
-                               : weight_of_hit(walk, direct_pdf_w(scene_, walk, i)));
+      light_.add(part, walk.throughput * le *
+                           (walk.delta ? 1.0f / walk.density.u_mean
+                                       : weight_of_hit(walk, direct_pdf_w(scene_, walk, i))));
     }
   }
 
   void emitter(const Walk& walk, const SurfaceInteraction& hit, const Light& light) {
-    if (routes_.owner(state_) != route_) return;
+    const Part part = routes_.owner(eye_, symbols_.light(hit.area_light));
+    if (!light_.owns(part)) return;
     const SampledSpectrum le = light.radiance(hit.p, hit.ng, hit.uv, hit.wo, walk.lambda);
     if (le.is_black()) return;
-    radiance_ += walk.throughput * le *
-                 (walk.delta ? 1.0f / walk.density.u_mean
-                             : weight_of_hit(walk, direct_pdf_w(scene_, walk, hit)));
+    light_.add(part, walk.throughput * le *
+                         (walk.delta ? 1.0f / walk.density.u_mean
+                                     : weight_of_hit(walk, direct_pdf_w(scene_, walk, hit))));
   }
 
-  void medium_emission(const SampledSpectrum& radiance) {
-    if (route_ == Routes::kMediumEmission) radiance_ += radiance;
+  void medium_emission(const Medium& medium, const SampledSpectrum& radiance) {
+    const Part part = routes_.owner(eye_, symbols_.glow(medium.index()));
+    if (light_.owns(part)) light_.add(part, radiance);
   }
 
-  ClassMask letters() const { return routes_.useful_eye_events(state_, route_); }
+  ClassMask useful(const WalkVertex& v) const {
+    return blind_ ? kAnything : routes_.useful(group_, eye_, label_at(symbols_, v));
+  }
+  bool scatters_in(const Medium& medium) const {
+    return blind_ || contains(routes_.useful(group_, eye_, symbols_.medium(medium.index())),
+                              EventClass::kVolume);
+  }
   bool looks_under_surfaces() const { return false; }
 
   void vertex(const Walk& walk, const WalkVertex& v, PathSampler& sampler) {
     if (walk.vertices == 0) record_features(walk, v);
-    const ClassMask useful = v.classes_of(letters());
-    const ClassMask finite = v.bsdf.finite_classes() & useful;
-    if (owns_any(v, finite)) next_event(walk, v, finite, useful, sampler);
+    const ClassMask among = v.classes_of(useful(v));
+    const ClassMask finite = v.bsdf.finite_classes() & among;
+    if (may_end_after_any(v, finite)) next_event(walk, v, finite, among, sampler);
   }
 
   void medium_vertex(const Walk& walk, const MediumVertex& v, PathSampler& sampler) {
-    if (!owns(EventClass::kVolume)) return;
+    const EyeState eye = routes_.next(eye_, symbol_in(symbols_, v.medium));
+    if (!routes_.ends(group_, eye)) return;
     const auto d = sample_direct(scene_, Receiver::of(v, walk.medium), walk.lambda, sampler);
     if (!d) return;
+    const Part part = routes_.owner(eye, symbols_.light(d->light));
+    if (!light_.owns(part)) return;
     ++shadow_rays_;
     const ShadowFlight shadow = trace_shadow(scene_, *d, walk.lambda, sampler);
     if (shadow.transmittance.is_black()) return;
     const float phase = v.phase.eval(v.wo, d->wi_world);
-    radiance_ += walk.throughput * d->radiance * shadow.transmittance *
-                 (phase * weight_of_direct(walk, *d, shadow, phase));
+    light_.add(part, walk.throughput * d->radiance * shadow.transmittance *
+                         (phase * weight_of_direct(walk, *d, shadow, phase)));
   }
 
-  bool scatter(const Walk&, EventClass letter) {
-    state_ = routes_.next(state_, letter);
+  bool scatter(const Walk&, const WalkEvent& event) {
+    eye_ = routes_.next(eye_, symbol_of(symbols_, event));
     return true;
   }
 
-  const SampledSpectrum& radiance() const { return radiance_; }
   const Features& features() const { return features_; }
   const SampledSpectrum& albedo() const { return albedo_; }
   uint64_t shadow_rays() const { return shadow_rays_; }
 
  private:
-  static constexpr EventClass kClasses[] = {EventClass::kDiffuse, EventClass::kSpecular};
+  static constexpr ClassMask kAnything = ClassMask::kAll | ClassMask::kVolume;
 
-  bool owns(EventClass letter) const {
-    return routes_.owner(routes_.next(state_, letter)) == route_;
-  }
-  bool owns_any(const WalkVertex& v, ClassMask finite) const {
-    for (const EventClass c : kClasses)
-      if (contains(finite, c) && owns(v.letter(c))) return true;
+  /// True if an event of one of the classes may be followed by light that belongs to the group.
+  bool may_end_after_any(const WalkVertex& v, ClassMask finite) const {
+    const Label label = label_at(symbols_, v);
+    for (const EventClass c : kSurfaceClasses) {
+      if (!contains(finite, c)) continue;
+      for (const bool transmitted : {false, true})
+        if (routes_.ends(group_,
+                         routes_.next(eye_, event_symbol(v.letter(c), transmitted, label))))
+          return true;
+    }
     return false;
   }
 
@@ -118,21 +145,28 @@ class PathVisitor {
         sample_direct(scene_, Receiver::of(v.surface, walk.medium), walk.lambda, sampler);
     if (!d) return;
     const Vec3f wi = v.to_local(d->wi_world);
-    std::array<BsdfEval, std::size(kClasses)> evals;
+    const LightSymbol light = symbols_.light(d->light);
+    std::array<BsdfEval, std::size(kSurfaceClasses)> evals;
+    std::array<Part, std::size(kSurfaceClasses)> parts;
     bool any = false;
     for (size_t i = 0; i < evals.size(); ++i) {
-      if (!contains(finite, kClasses[i]) || !owns(v.letter(kClasses[i]))) continue;
-      evals[i] = v.bsdf.eval(v.wo, wi, TransportMode::kRadiance, kClasses[i], among);
+      const EventClass c = kSurfaceClasses[i];
+      if (!contains(finite, c)) continue;
+      parts[i] = routes_.owner(routes_.next(eye_, symbol_at(symbols_, v, c, wi)), light);
+      if (!light_.owns(parts[i])) continue;
+      evals[i] = v.bsdf.eval(v.wo, wi, TransportMode::kRadiance, c, among);
       any |= !evals[i].f.is_black();
     }
     if (!any) return;
     ++shadow_rays_;
     const ShadowFlight shadow = trace_shadow(scene_, *d, walk.lambda, sampler);
     if (shadow.transmittance.is_black()) return;
-    SampledSpectrum sum;
-    for (const BsdfEval& e : evals)
-      if (!e.f.is_black()) sum += e.f * weight_of_direct(walk, *d, shadow, e.pdf_w);
-    radiance_ += walk.throughput * sum * d->radiance * shadow.transmittance * abs_cos_theta(wi);
+    const SampledSpectrum arriving =
+        walk.throughput * d->radiance * shadow.transmittance * abs_cos_theta(wi);
+    for (size_t i = 0; i < evals.size(); ++i)
+      if (!evals[i].f.is_black())
+        light_.add(parts[i],
+                   arriving * evals[i].f * weight_of_direct(walk, *d, shadow, evals[i].pdf_w));
   }
 
   void record_features(const Walk& walk, const WalkVertex& v) {
@@ -145,9 +179,11 @@ class PathVisitor {
 
   const Scene& scene_;
   const Routes& routes_;
-  const Route route_;
-  EyeState state_ = Routes::kEyeStart;
-  SampledSpectrum radiance_;
+  const SceneSymbols& symbols_;
+  const size_t group_;
+  const bool blind_;
+  PartSums& light_;
+  EyeState eye_;
   Features features_;
   SampledSpectrum albedo_;
   uint64_t shadow_rays_ = 0;
@@ -168,18 +204,17 @@ constexpr uint64_t kStream = 0x70617468;  // "path"
 
 }  // namespace
 
-PathEstimator::PathEstimator(const Routes& routes, Route route, int buffer,
-                             const IntegratorOptions& options)
-    : routes_(routes),
-      route_(route),
-      buffer_(buffer),
-      max_depth_(options.max_depth),
+PathEstimator::PathEstimator(OwnedRoutes owned, const IntegratorOptions& options)
+    : owned_(std::move(owned)),
+      options_(options),
       samples_per_pass_(std::max(1, options.camera_samples_per_pass)) {}
 
 void PathEstimator::render_pass(const PassKey& key, const Scene& scene, Film& film) {
   const PixelBounds& b = film.bounds();
   const FilmSettings& settings = film.settings();
   const Rgb white = response_to_white(settings);
+  const float specular_alpha = specular_alpha_of_pass(options_.specular_band, key);
+  const int group = static_cast<int>(owned_.group);
   std::vector<uint64_t> rays(static_cast<size_t>(b.height()), 0);
   for (int k = 0; k < samples_per_pass_; ++k) {
     const uint64_t index =
@@ -187,6 +222,7 @@ void PathEstimator::render_pass(const PassKey& key, const Scene& scene, Film& fi
     const SobolPoint point(static_cast<uint32_t>(index));
     parallel_chunks(b.height(), 1, [&](int64_t row, int64_t, int64_t) {
       const int y = b.y0 + static_cast<int>(row);
+      PartSums light(*owned_.routes, owned_.group);
       for (int x = b.x0; x < b.x1; ++x) {
         PathSampler sampler(point, hash_combine(key.seed, kStream, x, y, index >> 32));
         sampler.start_dimension(dimensions::kWavelength);
@@ -194,15 +230,18 @@ void PathEstimator::render_pass(const PassKey& key, const Scene& scene, Film& fi
             SampledWavelengths::sample_visible(wavelength_number(scene, sampler.get_1d()));
         sampler.start_dimension(dimensions::kTime);
         CameraPath path = start_camera_path(scene, x, y, sampler, lambda, sampler.get_1d());
-        PathVisitor visitor(scene, routes_, route_);
+        path.walk.specular_alpha = specular_alpha;
+        light.clear();
+        PathVisitor visitor(scene, owned_, options_.blind_walks, light);
         if (path.camera_weight > 0)
-          random_walk(scene, TransportMode::kRadiance, max_depth_, path.walk, sampler, visitor);
+          random_walk(scene, TransportMode::kRadiance, options_.max_depth, path.walk, sampler,
+                      visitor);
         const SensorWeights weights =
             sensor_weights(path.walk.lambda, *settings.color_space, settings.imaging_ratio,
                            settings.white_balance);
-        const Rgb rgb = clamp_component(weights.apply(visitor.radiance()) * path.camera_weight,
-                                        settings.max_component);
-        film.add(buffer_, x, y, rgb * path.filter_weight);
+        film.add(group, x, y,
+                 light.colors(weights, path.camera_weight, settings.max_component,
+                              path.filter_weight));
         film.add_features(x, y, of_white(weights.apply(visitor.albedo()), white),
                           visitor.features().normal, visitor.features().depth);
         if (settings.gbuffer && visitor.features().depth > 0)
@@ -210,7 +249,7 @@ void PathEstimator::render_pass(const PassKey& key, const Scene& scene, Film& fi
         rays[static_cast<size_t>(row)] += path.walk.rays + visitor.shadow_rays();
       }
     });
-    film.add_estimates(buffer_, 1);
+    film.add_estimates(group, 1);
     film.add_feature_estimates(1);
   }
   for (const uint64_t r : rays) statistics_.rays += r;

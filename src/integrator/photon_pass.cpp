@@ -1,5 +1,7 @@
 #include "integrator/photon_pass.h"
 
+#include "transport/roughness_band.h"
+
 namespace nephroid {
 
 namespace {
@@ -32,9 +34,25 @@ PhotonPass start_photon_pass(const PassKey& key, const Scene& scene, const Film&
                                     ? options.photons_per_pass
                                     : default_photons_per_pass(film.bounds().area());
   pass.trace.max_events = options.max_depth;
+  pass.trace.specular_alpha = specular_alpha_of_pass(options.specular_band, key);
   pass.weights = sensor_weights(pass.trace.lambda, *film.settings().color_space,
                                 film.settings().imaging_ratio, film.settings().white_balance);
   return pass;
+}
+
+bool photons_can_count(const OwnedRoutes& owned) {
+  const Routes& routes = *owned.routes;
+  const SymbolSet& present = owned.symbols->present();
+  for (size_t light = 0; light < present.lights.size(); ++light) {
+    if (!present.lights[light]) continue;
+    const LightState state = routes.emitted(static_cast<LightSymbol>(light));
+    for (size_t label = 0; label <= routes.labels().size(); ++label)
+      if ((routes.deposits(owned.group, state, static_cast<Label>(label)) |
+           routes.useful_before_deposit(owned.group, state, static_cast<Label>(label))) !=
+          ClassMask::kNone)
+        return true;
+  }
+  return false;
 }
 
 void count_photons(const PhotonTrace& trace, EstimatorStatistics& statistics) {

@@ -1,12 +1,13 @@
-// What both photon integrators share: the wavelengths, time and photons of a pass, and the short
-// camera walk C S* D@ that merges at every vertex with a D lobe and goes on through S lobes. Who
-// calls it: caustic_photons.cpp and sppm.cpp. It must not know how radii shrink.
+// What the photon integrators share: the wavelengths, time, roughness threshold and photons of a
+// pass, and the camera walk that comes to every vertex where its routes may merge photons. Who calls
+// it: photon_mapping.cpp, sppm.cpp. It must not know how radii shrink.
 #pragma once
 
 #include "integrator/estimator.h"
 #include "photon/merge.h"
 #include "photon/photon_tracer.h"
 #include "transport/camera_path.h"
+#include "transport/walk_symbols.h"
 
 namespace nephroid {
 
@@ -22,37 +23,66 @@ struct PhotonPass {
 PhotonPass start_photon_pass(const PassKey& key, const Scene& scene, const Film& film,
                              const IntegratorOptions& options);
 
+/// Starts the camera walk of a pixel, with the wavelengths, time and threshold of the pass.
+inline CameraPath start_merging_path(const Scene& scene, int x, int y, PathSampler& sampler,
+                                     const PhotonPass& pass) {
+  CameraPath path = start_camera_path(scene, x, y, sampler, pass.trace.lambda, pass.u_time);
+  path.walk.specular_alpha = pass.trace.specular_alpha;
+  path.walk.per_wavelength = true;
+  return path;
+}
+
+/// False if no photon that can occur in the scene belongs to the group.
+bool photons_can_count(const OwnedRoutes& owned);
+
 /// Adds what one batch of photons did to the counts.
 void count_photons(const PhotonTrace& trace, EstimatorStatistics& statistics);
 
 /// Says why there is no light from photons, if there is none; `found` is how many were merged.
 void explain_darkness(uint64_t found, EstimatorStatistics& statistics);
 
-/// Calls `merge(walk, vertex, eye_state)` at each vertex of the walk with a finite D lobe.
+/// Calls `merge(walk, merge_point)` at each vertex of the walk where photons may be merged.
 template <class Merge>
 class MergeWalkVisitor {
  public:
-  MergeWalkVisitor(const Routes& routes, Merge& merge) : routes_(routes), merge_(merge) {}
+  MergeWalkVisitor(const OwnedRoutes& owned, Merge& merge)
+      : routes_(*owned.routes),
+        symbols_(*owned.symbols),
+        group_(owned.group),
+        merge_(merge),
+        eye_(routes_.start()) {}
 
-  ClassMask letters() const { return ClassMask::kSpecular; }
+  ClassMask useful(const WalkVertex& v) const {
+    return routes_.useful_before_merge(group_, eye_, label_at(symbols_, v));
+  }
+  bool scatters_in(const Medium& medium) const {
+    return contains(routes_.useful_before_merge(group_, eye_, symbols_.medium(medium.index())),
+                    EventClass::kVolume);
+  }
   bool looks_under_surfaces() const { return true; }
   void escape(const Walk&) {}
   void emitter(const Walk&, const SurfaceInteraction&, const Light&) {}
-  void medium_emission(const SampledSpectrum&) {}
+  void medium_emission(const Medium&, const SampledSpectrum&) {}
   void medium_vertex(const Walk&, const MediumVertex&, PathSampler&) {}
   void vertex(const Walk& walk, const WalkVertex& v, PathSampler&) {
-    if (v.merges && contains(v.bsdf.finite_classes(), EventClass::kDiffuse))
-      merge_(walk, v, routes_.next(state_, EventClass::kDiffuse));
+    if (!v.merges) return;
+    const ClassMask classes =
+        routes_.merges(group_, eye_, label_at(symbols_, v)) & v.bsdf.finite_classes();
+    if (classes == ClassMask::kNone) return;
+    merge_(walk, MergePoint{v, eye_, classes, walk.events + 1, walk.throughput,
+                            walk.lambda.secondary_terminated()});
   }
-  bool scatter(const Walk&, EventClass letter) {
-    state_ = routes_.next(state_, letter);
+  bool scatter(const Walk&, const WalkEvent& event) {
+    eye_ = routes_.next(eye_, symbol_of(symbols_, event));
     return true;
   }
 
  private:
   const Routes& routes_;
+  const SceneSymbols& symbols_;
+  const size_t group_;
   Merge& merge_;
-  EyeState state_ = Routes::kEyeStart;
+  EyeState eye_;
 };
 
 }  // namespace nephroid

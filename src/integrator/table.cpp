@@ -1,47 +1,17 @@
-// The one table of integrators: name -> routes and the estimators that own them.
+// The one table of integrators: name -> preset of routes; and what stands for those of the scene
+// format.
 #include "core/errors.h"
-#include "integrator/caustic_photons.h"
-#include "integrator/path.h"
-#include "integrator/sppm.h"
-#include "scene/scene.h"
+#include "integrator/estimator.h"
 
 namespace nephroid {
 
 namespace {
 
-Preset make_path(const IntegratorOptions& options, const Scene&) {
-  Preset preset;
-  preset.route_names = {"diffuse"};
-  preset.estimators.push_back(
-      std::make_unique<PathEstimator>(Routes::all(Route::kDiffuse), Route::kDiffuse, 0, options));
-  return preset;
-}
-
-Preset make_sppm(const IntegratorOptions& options, const Scene& scene) {
-  const Routes routes = Routes::seen_emission().restricted_to(
-      scene.has_volume_events ? ClassMask::kAll | ClassMask::kVolume : ClassMask::kAll);
-  Preset preset;
-  preset.route_names = {"emission", "photons"};
-  preset.estimators.push_back(std::make_unique<PathEstimator>(routes, Route::kDiffuse, 0, options));
-  preset.estimators.push_back(std::make_unique<Sppm>(1, options));
-  return preset;
-}
-
-Preset make_mixed(const IntegratorOptions& options, const Scene&) {
-  const Routes routes = Routes::doidge2012();
-  Preset preset;
-  preset.route_names = {"diffuse", "caustic"};
-  preset.estimators.push_back(std::make_unique<PathEstimator>(routes, Route::kDiffuse, 0, options));
-  preset.estimators.push_back(
-      std::make_unique<CausticPhotons>(routes, Route::kCaustic, 1, options));
-  return preset;
-}
-
 struct Row {
   const char* name;
-  Preset (*make)(const IntegratorOptions&, const Scene&);
+  const char* preset;  ///< of the routes
 };
-constexpr Row kTable[] = {{"mixed", make_mixed}, {"path", make_path}, {"sppm", make_sppm}};
+constexpr Row kTable[] = {{"mixed", "doidge2012"}, {"path", "path-only"}, {"sppm", "sppm"}};
 
 constexpr const char* kOwnChoice = "the program's own choice, with the same picture";
 
@@ -129,13 +99,17 @@ std::vector<FormatType> scene_integrator_types() {
   return format_types(kSceneTable);
 }
 
-Preset make_integrator(const std::string& name, const IntegratorOptions& options,
-                       const Scene& scene) {
+RoutePlan plan_of_integrator(const std::string& name) {
   for (const Row& row : kTable)
-    if (name == row.name) return row.make(options, scene);
+    if (name == row.name) return {*route_preset(row.preset), {}, false};
   std::string expected;
   for (const Row& row : kTable) expected += std::string(expected.empty() ? "" : ", ") + row.name;
   throw UsageError("integrator \"" + name + "\" is unknown, expected one of " + expected);
+}
+
+Preset make_integrator(const std::string& name, const IntegratorOptions& options,
+                       const Scene& scene) {
+  return make_preset(plan_of_integrator(name), options, scene);
 }
 
 }  // namespace nephroid

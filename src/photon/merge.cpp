@@ -1,40 +1,73 @@
 #include "photon/merge.h"
 
+#include <array>
+
+#include "transport/walk_symbols.h"
+
 namespace nephroid {
 
-MergeResult merge_photons(const PhotonGrid& grid, const Routes& routes, Route route,
-                          const WalkVertex& vertex, EyeState eye, int eye_events, int max_depth,
-                          bool eye_terminated, float radius) {
-  MergeResult result;
-  const SurfaceInteraction& at = vertex.surface;
-  grid.query(at.p, radius, [&](const Photon& photon, float) {
-    if (photon.events + eye_events > max_depth) return;
-    if (routes.meet(eye, photon.state) != route) return;
-    if (abs_dot(photon.ng, at.ng) < kMergeMinNormalCosine) return;
+namespace {
+
+/// Eye states behind this vertex, by class and side.
+struct MergeStates {
+  std::array<std::array<EyeState, 2>, std::size(kSurfaceClasses)> of{};
+
+  MergeStates(const OwnedRoutes& owned, const MergePoint& at) {
+    const Label label = label_at(*owned.symbols, at.vertex);
+    for (const EventClass c : kSurfaceClasses)
+      for (const bool transmitted : {false, true})
+        of[static_cast<size_t>(c)][transmitted] =
+            owned.routes->merge(at.eye, event_symbol(c, transmitted, label));
+  }
+};
+
+}  // namespace
+
+uint32_t merge_photons(const PhotonGrid& grid, const OwnedRoutes& owned, const MergePoint& at,
+                       int max_depth, float radius, PartSums& sums) {
+  const WalkVertex& vertex = at.vertex;
+  const MergeStates states(owned, at);
+  uint32_t found = 0;
+  grid.query(vertex.surface.p, radius, [&](const Photon& photon, float) {
+    if (photon.events + at.events > max_depth) return;
+    if (abs_dot(photon.ng, vertex.surface.ng) < kMergeMinNormalCosine) return;
     // The side on which the photon arrived on its own surface, the normals brought to agree, tells
     // reflection from transmission: on a curved surface its direction alone may lie below the
     // visible point's tangent plane.
-    const float agree = dot(photon.ng, at.ng) < 0.0f ? -1.0f : 1.0f;
+    const float agree = dot(photon.ng, vertex.surface.ng) < 0.0f ? -1.0f : 1.0f;
     const float arrives = dot(photon.wi, photon.ng) * agree;
     const float cos_geometric = std::abs(arrives);
     if (!(cos_geometric > 0.0f)) return;
     Vec3f wi = vertex.to_local(photon.wi);
     if (wi.z * arrives < 0.0f) wi.z = -wi.z;
-    const BsdfEval e = vertex.bsdf.eval(vertex.wo, wi, TransportMode::kRadiance,
-                                        EventClass::kDiffuse, ClassMask::kAll);
-    if (e.f.is_black()) return;
-    ++result.found;
-    // A photon lies on its surface with the density of its own cosine; shading normals weigh it as
-    // path tracing would.
-    const SampledSpectrum f = e.f * photon.flux * (abs_cos_theta(wi) / cos_geometric);
-    // A path that lost its secondary wavelengths, on either side or on both, stands for all of them
-    // once.
-    if (eye_terminated || photon.secondary_terminated)
-      result.hero.set(0, result.hero[0] + f[0] * kSpectrumSamples);
-    else
-      result.reflected += f;
+    const bool transmitted = vertex.transmits(wi);
+    bool counts = false;
+    for (const EventClass c : kSurfaceClasses) {
+      if (!contains(at.classes, c)) continue;
+      const Part part =
+          owned.routes->meet(states.of[static_cast<size_t>(c)][transmitted], photon.state);
+      if (!sums.owns(part)) continue;
+      const BsdfEval e =
+          vertex.bsdf.eval(vertex.wo, wi, TransportMode::kRadiance, c, ClassMask::kAll);
+      if (e.f.is_black()) continue;
+      counts = true;
+      // A photon lies on its surface with the density of its own cosine; shading normals weigh it
+      // as path tracing would.
+      const SampledSpectrum f =
+          at.throughput * e.f * photon.flux * (abs_cos_theta(wi) / cos_geometric);
+      // A path that lost its secondary wavelengths, on either side or on both, stands for all of
+      // them once.
+      if (at.secondary_terminated || photon.secondary_terminated) {
+        SampledSpectrum hero;
+        hero.set(0, f[0] * kSpectrumSamples);
+        sums.add(part, hero);
+      } else {
+        sums.add(part, f);
+      }
+    }
+    found += counts;
   });
-  return result;
+  return found;
 }
 
 }  // namespace nephroid

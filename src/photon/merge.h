@@ -3,7 +3,9 @@
 // Who calls it: photon integrators. It must not know films or passes.
 #pragma once
 
+#include "film/part_sums.h"
 #include "photon/photon_grid.h"
+#include "route/scene_symbols.h"
 #include "transport/random_walk.h"
 
 namespace nephroid {
@@ -12,18 +14,21 @@ namespace nephroid {
 /// lie on another wall.
 inline constexpr float kMergeMinNormalCosine = 0.7f;
 
-struct MergeResult {
-  SampledSpectrum reflected;  ///< sum of f_D * flux, to be divided by (N pi r^2)
-  SampledSpectrum hero;       ///< the same for photons that kept only the hero wavelength: lane 0,
-                         ///< already multiplied by the number of wavelengths
-  uint32_t found = 0;  ///< photons that counted
+/// A point at which a camera walk gathers.
+struct MergePoint {
+  const WalkVertex& vertex;
+  EyeState eye = 0;       ///< of the eye side, this vertex excluded
+  ClassMask classes = ClassMask::kNone;  ///< that have finite lobes here and may merge
+  int events = 0;         ///< of the eye side, this vertex included
+  SampledSpectrum throughput;  ///< of the walk up to here
+  bool secondary_terminated = false;  ///< the walk kept only its hero wavelength
 };
 
-/// Gathers at a vertex whose D lobes merge. `eye` is the state of the eye side, this D included;
-/// `eye_events` the events of the eye side, this vertex included. Photons that belong to another
-/// route or make the path longer than `max_depth` events are passed over.
-MergeResult merge_photons(const PhotonGrid& grid, const Routes& routes, Route route,
-                          const WalkVertex& vertex, EyeState eye, int eye_events, int max_depth,
-                          bool eye_terminated, float radius);
+/// Adds throughput * sum of f * flux to the parts that own the photons' paths, to be divided by
+/// (N pi r^2); returns how many photons counted. What belongs to other routes or makes the path
+/// longer than `max_depth` events is passed over. A path that kept only the hero wavelength, on
+/// either side, adds to lane 0 alone, times the number of wavelengths.
+uint32_t merge_photons(const PhotonGrid& grid, const OwnedRoutes& owned, const MergePoint& at,
+                       int max_depth, float radius, PartSums& sums);
 
 }  // namespace nephroid

@@ -12,7 +12,7 @@ struct Photon {
   Vec3f p;
   Vec3f wi;               ///< unit, back along the photon's path
   Vec3f ng;               ///< geometric normal of the surface
-  PhotonState state = 0;  ///< of the light side, this vertex excluded
+  LightState state = 0;   ///< of the light side, this vertex excluded
   uint8_t secondary_terminated = 0;
   uint16_t events = 0;  ///< scattering events before this vertex
 };

@@ -2,6 +2,7 @@
 
 #include "core/parallel.h"
 #include "transport/direct_light.h"
+#include "transport/walk_symbols.h"
 
 namespace nephroid {
 
@@ -16,36 +17,47 @@ constexpr uint64_t kStream = 0x70686f746f6e;  // "photon"
 
 class PhotonVisitor {
  public:
-  PhotonVisitor(const Routes& routes, Route route, const SampledSpectrum& flux,
+  PhotonVisitor(const OwnedRoutes& owned, LightSymbol light, const SampledSpectrum& flux,
                 std::vector<Photon>& out)
-      : routes_(routes), route_(route), flux_(flux), out_(out) {}
+      : routes_(*owned.routes),
+        symbols_(*owned.symbols),
+        group_(owned.group),
+        flux_(flux),
+        out_(out),
+        state_(routes_.emitted(light)) {}
 
   void escape(const Walk&) {}
   void emitter(const Walk&, const SurfaceInteraction&, const Light&) {}
-  void medium_emission(const SampledSpectrum&) {}
+  void medium_emission(const Medium&, const SampledSpectrum&) {}
   void medium_vertex(const Walk&, const MediumVertex&, PathSampler&) {}
 
-  ClassMask letters() const { return routes_.useful_events(state_, route_); }
+  ClassMask useful(const WalkVertex& v) const {
+    return routes_.useful_before_deposit(group_, state_, label_at(symbols_, v));
+  }
+  bool scatters_in(const Medium& medium) const {
+    return contains(
+        routes_.useful_before_deposit(group_, state_, symbols_.medium(medium.index())),
+        EventClass::kVolume);
+  }
   bool looks_under_surfaces() const { return false; }
 
   void vertex(const Walk& walk, const WalkVertex& v, PathSampler&) {
-    if (contains(v.possible, EventClass::kDiffuse) && routes_.deposits(state_, route_)) {
-      Photon photon;
-      photon.p = v.surface.p;
-      photon.wi = v.surface.wo;
-      photon.ng = v.surface.ng;
-      photon.flux = flux_ * walk.throughput / v.surface.coverage;
-      photon.state = state_;
-      photon.secondary_terminated = walk.lambda.secondary_terminated();
-      photon.events = static_cast<uint16_t>(walk.events);
-      out_.push_back(photon);
-      ++stored_;
-    }
+    if ((v.possible & deposits_at(v)) == ClassMask::kNone) return;
+    Photon photon;
+    photon.p = v.surface.p;
+    photon.wi = v.surface.wo;
+    photon.ng = v.surface.ng;
+    photon.flux = flux_ * walk.throughput / v.surface.coverage;
+    photon.state = state_;
+    photon.secondary_terminated = walk.lambda.secondary_terminated();
+    photon.events = static_cast<uint16_t>(walk.events);
+    out_.push_back(photon);
+    ++stored_;
   }
 
-  bool scatter(const Walk&, EventClass letter) {
-    state_ = routes_.photon_next(state_, letter);
-    specular_ |= letter == EventClass::kSpecular;
+  bool scatter(const Walk&, const WalkEvent& event) {
+    state_ = routes_.light_next(state_, symbol_of(symbols_, event));
+    specular_ |= event.letter == EventClass::kSpecular;
     return true;
   }
 
@@ -53,17 +65,28 @@ class PhotonVisitor {
   bool specular() const { return specular_; }
 
  private:
+  /// Where a mix chooses among materials, whoever looks here may see another one.
+  ClassMask deposits_at(const WalkVertex& v) const {
+    if (!v.mixed) return routes_.deposits(group_, state_, label_at(symbols_, v));
+    ClassMask any = ClassMask::kNone;
+    for (size_t label = 0; label <= routes_.labels().size(); ++label)
+      any = any | routes_.deposits(group_, state_, static_cast<Label>(label));
+    return any;
+  }
+
   const Routes& routes_;
-  const Route route_;
+  const SceneSymbols& symbols_;
+  const size_t group_;
   const SampledSpectrum flux_;
   std::vector<Photon>& out_;
-  PhotonState state_ = Routes::kPhotonStart;
+  LightState state_;
   int stored_ = 0;
   bool specular_ = false;
 };
 
 // Emission of one photon. Empty if the light gives nothing here.
 struct Emitted {
+  int light = 0;
   Ray ray;
   const Medium* medium = nullptr;
   SampledSpectrum flux;
@@ -99,6 +122,7 @@ std::optional<Emitted> emit(const Scene& scene, const SampledWavelengths& lambda
   const std::optional<EmissionSample> e = light.sample_emission(u_position, u_direction, lambda);
   if (!e || !(e->pdf_a > 0.0f) || !(e->pdf_w > 0.0f)) return std::nullopt;
   Emitted out;
+  out.light = choice->light;
   out.ray = e->ray;
   out.ray.time = time;
   if (!scene.light_media.empty()) {
@@ -120,7 +144,7 @@ std::optional<Emitted> emit(const Scene& scene, const SampledWavelengths& lambda
 
 }  // namespace
 
-PhotonTrace trace_photons(const Scene& scene, const Routes& routes, Route route,
+PhotonTrace trace_photons(const Scene& scene, const OwnedRoutes& owned,
                           const PhotonTraceSettings& settings, int64_t begin, int64_t end) {
   struct Chunk {
     std::vector<Photon> photons;
@@ -143,10 +167,13 @@ PhotonTrace trace_photons(const Scene& scene, const Routes& routes, Route route,
       Walk walk;
       walk.ray = emitted->ray;
       walk.medium = emitted->medium;
+      walk.specular_alpha = settings.specular_alpha;
+      walk.per_wavelength = true;
       walk.lambda = settings.lambda;
       walk.first_dimension = kEmissionDimensions;
       walk.second_dimension = kEmissionDimensions + dimensions::kPerVertex;
-      PhotonVisitor visitor(routes, route, emitted->flux, chunk.photons);
+      PhotonVisitor visitor(owned, owned.symbols->light(emitted->light), emitted->flux,
+                            chunk.photons);
       random_walk(scene, TransportMode::kImportance, settings.max_events, walk, sampler, visitor);
       chunk.useful += visitor.useful();
       chunk.specular += visitor.specular();
@@ -167,13 +194,13 @@ PhotonTrace trace_photons(const Scene& scene, const Routes& routes, Route route,
   return trace;
 }
 
-PhotonTrace trace_batch(const Scene& scene, const Routes& routes, Route route,
+PhotonTrace trace_batch(const Scene& scene, const OwnedRoutes& owned,
                         const PhotonTraceSettings& settings, int64_t limit, int64_t& begin) {
   constexpr int64_t kGroup = 32 * kPhotonChunk;
   PhotonTrace batch;
   while (begin < settings.photons_per_pass && static_cast<int64_t>(batch.photons.size()) < limit) {
     const int64_t end = std::min(begin + kGroup, settings.photons_per_pass);
-    PhotonTrace group = trace_photons(scene, routes, route, settings, begin, end);
+    PhotonTrace group = trace_photons(scene, owned, settings, begin, end);
     begin = end;
     if (batch.photons.empty())
       batch.photons = std::move(group.photons);

@@ -1,4 +1,4 @@
-// Shoots photons from the lights and keeps those that belong to a route.
+// Shoots photons from the lights and keeps those that belong to an estimator's routes.
 // Photon number j of pass i depends on (seed, i, j) alone; chunks of numbers are traced on any
 // thread and joined in the order of their numbers (docs/architecture.md, section 5). Who calls it:
 // photon integrators. It must not know films or cameras.
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "photon/photon.h"
+#include "route/scene_symbols.h"
 #include "transport/random_walk.h"
 
 namespace nephroid {
@@ -24,20 +25,21 @@ struct PhotonTraceSettings {
   int64_t photons_per_pass = 0;  ///< the sequence of a pass starts where the one before ended
   SampledWavelengths lambda;     ///< of the pass
   float time = 0;
+  float specular_alpha = 0;      ///< of the pass
   int max_events = 0;  ///< of the whole path: a photon lands with fewer than these
 };
 
-/// Traces photons begin <= j < end of the pass and stores one at every surface with a finite D lobe
-/// where its light side makes it `route`'s. Flux is that of one photon: divide by the number
-/// emitted.
-PhotonTrace trace_photons(const Scene& scene, const Routes& routes, Route route,
+/// Traces photons begin <= j < end of the pass and stores one at every surface with a finite lobe
+/// of class D or G where its light side may be merged by the group. Flux is that of one photon:
+/// divide by the number emitted.
+PhotonTrace trace_photons(const Scene& scene, const OwnedRoutes& owned,
                           const PhotonTraceSettings& settings, int64_t begin, int64_t end);
 
 /// Traces from photon `begin` on until the pass ends or `limit` photons are stored, whichever comes
 /// first, in groups of whole chunks: a pass whose photons do not fit in memory is traced, gathered
 /// and dropped in batches. Moves `begin` to where it stopped, which depends on the scene and the
 /// settings alone.
-PhotonTrace trace_batch(const Scene& scene, const Routes& routes, Route route,
+PhotonTrace trace_batch(const Scene& scene, const OwnedRoutes& owned,
                         const PhotonTraceSettings& settings, int64_t limit, int64_t& begin);
 
 /// Photons are traced in chunks of this many; batches of a pass are whole chunks.

@@ -14,23 +14,20 @@ inline double memoryless_radius_squared(uint32_t pass, double alpha) {
   return std::exp(std::lgamma(i + alpha) - std::lgamma(1.0 + alpha) - std::lgamma(i + 1.0));
 }
 
-/// [E1] Hachisuka & Jensen 2009: state that a pixel's region shares over passes.
+/// [E1] Hachisuka & Jensen 2009: what a pixel's region shares over passes, but for the flux tau.
 struct SharedStatistics {
-  double radius_squared = 0;   ///< 0: no visible point yet
-  double count = 0;            ///< N
-  double flux[3] = {0, 0, 0};  ///< tau, as rgb
+  double radius_squared = 0;  ///< 0: no visible point yet
+  double count = 0;           ///< N
 
-  /// One pass found `found` photons whose filtered, weighted flux is `phi` (it may be negative).
-  void update(double found, const double phi[3], double alpha) {
-    if (!(found > 0)) {
-      for (int c = 0; c < 3; ++c) flux[c] += phi[c];
-      return;
-    }
+  /// One pass found `found` photons: shrinks the radius and returns R'^2 / R^2, by which the flux
+  /// tau + phi is multiplied.
+  double update(double found, double alpha) {
+    if (!(found > 0)) return 1.0;
     const double kept = count + alpha * found;
     const double ratio = kept / (count + found);
     count = kept;
     radius_squared *= ratio;
-    for (int c = 0; c < 3; ++c) flux[c] = (flux[c] + phi[c]) * ratio;
+    return ratio;
   }
 };
 

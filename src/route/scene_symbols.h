@@ -3,6 +3,8 @@
 // (what can occur in a scene). It must not know walks.
 #pragma once
 
+#include <memory>
+
 #include "route/routes.h"
 #include "scene/scene.h"
 
@@ -32,6 +34,15 @@ class SceneSymbols {
   std::vector<LightSymbol> lights_;
   SymbolSet present_;
   std::vector<std::string> unknown_;
+};
+
+/// What an estimator needs to know of routes: all of them, their symbols in the scene, and which
+/// group of them it owns. Parts are numbered in the film as here, a group's index is the same in
+/// both.
+struct OwnedRoutes {
+  std::shared_ptr<const Routes> routes;
+  std::shared_ptr<const SceneSymbols> symbols;
+  size_t group = 0;
 };
 
 }  // namespace nephroid

@@ -12,6 +12,7 @@ std::optional<DirectSample> sample_direct(const Scene& scene, const Receiver& at
   const std::optional<LightSample> s = light.sample_towards(at.p, u, lambda);
   if (!s || !(s->pdf_w > 0.0f) || s->radiance.is_black()) return std::nullopt;
   DirectSample d;
+  d.light = choice->light;
   d.pdf_w = choice->pdf_p * s->pdf_w;
   d.radiance = s->radiance / d.pdf_w;
   d.wi_world = s->wi;

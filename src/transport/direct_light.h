@@ -25,6 +25,7 @@ struct Receiver {
 
 /// One light sample at a vertex, not yet multiplied by any BSDF or phase function.
 struct DirectSample {
+  int light = 0;             ///< index of the light
   SampledSpectrum radiance;  ///< arriving unoccluded, divided by pdf_w
   Vec3f wi_world;            ///< unit, towards the light
   float pdf_w = 0;           ///< of choosing the light and the direction

@@ -32,6 +32,10 @@ inline constexpr int kPerVertex = 8;
 struct Walk {
   Ray ray;                         ///< of unit direction
   const Medium* medium = nullptr;  ///< around the ray's origin
+  float specular_alpha = 0;        ///< of the pass: see roughness_band.h
+  /// No choice depends on which wavelength is the hero: for walks that share their wavelengths with
+  /// others that they are multiplied with. Then `density` stays all ones.
+  bool per_wavelength = false;
   SampledSpectrum throughput{1.0f};
   /// Of the choices that media made; estimates divide by density.u_mean.
   SpectralDensity density;
@@ -67,18 +71,22 @@ inline const Medium* medium_towards(const SurfaceInteraction& surface, const Vec
 /// A surface vertex that a visitor sees.
 struct WalkVertex {
   const SurfaceInteraction& surface;
+  const Material& material;  ///< one of the two of a `mix`
   const Bsdf& bsdf;
   Vec3f wo;  ///< local
   /// Classes in which photons may be merged here in any of the guises that a `mix` chooses from at
   /// random. What is stored for others to meet depends on this and not on the guise that this walk
   /// happened to see.
   ClassMask possible;
+  bool mixed = false;  ///< other walks may meet another material here
   /// False in a guise where photons cannot be merged: its events count as V.
   bool merges = true;
   /// Light that went under the surface elsewhere comes out here: a walk leaves, it does not arrive.
   bool subsurface_exit = false;
 
   Vec3f to_local(const Vec3f& w) const { return surface.shading.to_local(w); }
+  /// True if light that leaves along the local direction `wi` is transmitted.
+  bool transmits(const Vec3f& wi) const { return subsurface_exit || wo.z * wi.z < 0.0f; }
   /// The letter of an event of class `c` here.
   EventClass letter(EventClass c) const { return merges ? c : EventClass::kVolume; }
   /// Classes of events whose letters are among `letters`.
@@ -90,22 +98,31 @@ struct WalkVertex {
 
 /// A vertex in a medium.
 struct MediumVertex {
+  const Medium& medium;
   Vec3f p;
   Vec3f wo;  ///< unit, world
   HenyeyGreenstein phase;
   float time = 0;
 };
 
+/// A scattering event of a walk.
+struct WalkEvent {
+  EventClass letter = EventClass::kDiffuse;
+  bool transmitted = false;        ///< of surfaces
+  int material = -1, medium = -1;  ///< index of the one that it happened at
+};
+
 /// Runs the walk until it leaves, ends or has `max_events` events. The visitor has
-///   ClassMask letters()            events that its path may still have (a V: media may scatter)
+///   ClassMask useful(const WalkVertex&)    letters that its path may have here
+///   bool scatters_in(const Medium&)        its path may have a V here
 ///   bool looks_under_surfaces()    it wants to see where subsurface light comes out even if D is
-///                                  not among them
+///                                  not among the letters
 ///   void escape(const Walk&)                         the ray left the scene
 ///   void emitter(const Walk&, const SurfaceInteraction&, const Light&)  it met a light
-///   void medium_emission(const SampledSpectrum&)     light from a medium, fully weighed
+///   void medium_emission(const Medium&, const SampledSpectrum&)  its light, fully weighed
 ///   void vertex(const Walk&, const WalkVertex&, PathSampler&)         a surface
 ///   void medium_vertex(const Walk&, const MediumVertex&, PathSampler&)  a collision in a medium
-///   bool scatter(const Walk&, EventClass letter)     an event was sampled; false: stop
+///   bool scatter(const Walk&, const WalkEvent&)      an event was sampled; false: stop
 /// `mode` tells which quantity the throughput carries. In kImportance it includes the correction
 /// for shading normals (Veach 1997, section 5.3).
 template <class Visitor>
@@ -153,28 +170,31 @@ class RandomWalk {
       flight_random_ = FlightRandom(sampler_.get_1d(), seed);
     }
     SampledSpectrum emitted;
-    if (medium.is_purely_absorbing() || !contains(visitor_.letters(), EventClass::kVolume)) {
-      SampledSpectrum* emission =
-          medium.is_purely_absorbing() && medium.is_emissive() ? &emitted : nullptr;
-      const SampledSpectrum through =
-          attenuation(medium, walk_.ray, distance, walk_.lambda, flight_random_, emission);
-      if (emission) visitor_.medium_emission(walk_.throughput * emitted / walk_.density.u_mean);
+    const bool glows = medium.is_emissive() && !walk_.per_wavelength;
+    if (medium.is_purely_absorbing() || !visitor_.scatters_in(medium)) {
+      const SampledSpectrum through = attenuation(medium, walk_.ray, distance, walk_.lambda,
+                                                  flight_random_, glows ? &emitted : nullptr);
+      if (glows)
+        visitor_.medium_emission(medium, walk_.throughput * emitted / walk_.density.u_mean);
       walk_.throughput *= through;
       return std::nullopt;
     }
+    if (walk_.per_wavelength)
+      return fly_per_wavelength(medium, walk_.ray, distance, walk_.lambda, flight_random_,
+                                walk_.throughput);
     const std::optional<Collision> collision =
         fly(medium, walk_.ray, distance, walk_.lambda, flight_random_, walk_.throughput,
             walk_.density, emitted);
     walk_.density.take_means(walk_.lambda);
-    if (medium.is_emissive()) visitor_.medium_emission(emitted);
+    if (glows) visitor_.medium_emission(medium, emitted);
     return collision;
   }
 
   bool scatter_in_medium(const Collision& collision) {
     if (walk_.events >= max_events_) return false;
     walk_.length += collision.t;
-    const MediumVertex vertex{walk_.ray.o + walk_.ray.d * collision.t, -walk_.ray.d,
-                              collision.phase, walk_.ray.time};
+    const MediumVertex vertex{*walk_.medium, walk_.ray.o + walk_.ray.d * collision.t,
+                              -walk_.ray.d, collision.phase, walk_.ray.time};
     const int dimension = walk_.vertex_dimension();
     sampler_.start_dimension(dimension + dimensions::kLight);
     visitor_.medium_vertex(walk_, vertex, sampler_);
@@ -187,7 +207,10 @@ class RandomWalk {
     walk_.previous_ns = Vec3f(0, 0, 0);
     walk_.ray.o = vertex.p;
     walk_.ray.d = s.wi;
-    return end_of_event(EventClass::kVolume, dimension);
+    WalkEvent event;
+    event.letter = EventClass::kVolume;
+    event.medium = walk_.medium->index();
+    return end_of_event(event, dimension);
   }
 
   bool meet_surface() {
@@ -202,21 +225,26 @@ class RandomWalk {
     if (spent && !material->passes_straight()) return false;
     if (material->has_bump()) material->bump(hit_);
     arena_.clear();
-    const Bsdf* bsdf = material->make_bsdf(hit_, walk_.lambda, arena_);
+    const Bsdf* bsdf = material->make_bsdf(hit_, walk_.lambda, walk_.specular_alpha, arena_);
     if (!bsdf) return false;
     if (walk_.lambda.secondary_terminated()) walk_.density.take_means(walk_.lambda);
     const bool mergeable = hit_.record->merges_photons;
-    const WalkVertex vertex{hit_, *bsdf, hit_.shading.to_local(hit_.wo),
+    const WalkVertex vertex{hit_,
+                            *material,
+                            *bsdf,
+                            hit_.shading.to_local(hit_.wo),
                             mergeable ? surface.merging_classes() : ClassMask::kNone,
+                            material != &surface,
                             mergeable && material->merges_photons()};
-    return scatter_at_surface(vertex, *material, spent);
+    return scatter_at_surface(vertex, spent);
   }
 
-  bool scatter_at_surface(const WalkVertex& vertex, const Material& material, bool spent) {
+  bool scatter_at_surface(const WalkVertex& vertex, bool spent) {
+    const Material& material = vertex.material;
     const int dimension = walk_.vertex_dimension();
     sampler_.start_dimension(dimension + dimensions::kLight);
     if (!spent) visitor_.vertex(walk_, vertex, sampler_);
-    const ClassMask among = spent ? ClassMask::kNone : vertex.classes_of(visitor_.letters());
+    const ClassMask among = spent ? ClassMask::kNone : vertex.classes_of(visitor_.useful(vertex));
     const bool looks_under = !spent && !vertex.subsurface_exit && material.has_bssrdf() &&
                              visitor_.looks_under_surfaces();
     if (among == ClassMask::kNone && !looks_under && !material.passes_straight()) return false;
@@ -253,7 +281,11 @@ class RandomWalk {
     walk_.ray.o = hit_.spawn_origin(wi);
     walk_.ray.d = wi;
     walk_.medium = medium_towards(hit_, wi, walk_.medium);
-    return end_of_event(vertex.letter(s->event), dimension);
+    WalkEvent event;
+    event.letter = vertex.letter(s->event);
+    event.transmitted = vertex.subsurface_exit || s->transmitted;
+    event.material = material.index();
+    return end_of_event(event, dimension);
   }
 
   /// The second half of a subsurface event, at another point of the surface: a vertex of its own,
@@ -276,8 +308,8 @@ class RandomWalk {
     hit_ = exit->surface;
     const Bsdf* bsdf = bssrdf->exit_bsdf(arena_);
     if (!bsdf) return false;
-    return scatter_at_surface({hit_, *bsdf, Vec3f(0, 0, 1), ClassMask::kNone, true, true}, material,
-                              false);
+    return scatter_at_surface(
+        {hit_, material, *bsdf, Vec3f(0, 0, 1), ClassMask::kNone, false, true, true}, false);
   }
 
   /// Goes on behind a surface that is not there.
@@ -290,14 +322,14 @@ class RandomWalk {
 
   /// Counts the event, asks the visitor and plays roulette on what the walk still carries; the
   /// change of radiance inside glass is no loss.
-  bool end_of_event(EventClass letter, int dimension) {
+  bool end_of_event(const WalkEvent& event, int dimension) {
     ++walk_.events;
     ++walk_.vertices;
     if (!walk_.density.plain) {
       walk_.density.l = walk_.density.u;
       walk_.density.l_mean = walk_.density.u_mean;
     }
-    if (!visitor_.scatter(walk_, letter)) return false;
+    if (!visitor_.scatter(walk_, event)) return false;
     const float carried = walk_.throughput.max_component() * walk_.eta_scale / walk_.density.u_mean;
     if (carried < 1.0f) {
       sampler_.start_dimension(dimension + dimensions::kRoulette);

@@ -1,4 +1,4 @@
-#include "integrator/caustic_photons.h"
+#include "integrator/photon_mapping.h"
 
 #include <vector>
 
@@ -21,16 +21,17 @@ struct RowResult {
 
 }  // namespace
 
-CausticPhotons::CausticPhotons(const Routes& routes, Route route, int buffer,
-                               const IntegratorOptions& options)
-    : routes_(routes), route_(route), buffer_(buffer), options_(options) {
+PhotonMapping::PhotonMapping(OwnedRoutes owned, const IntegratorOptions& options)
+    : owned_(std::move(owned)),
+      options_(options),
+      photons_can_count_(photons_can_count(owned_)) {
   if (!(options_.radius > 0)) options_.radius = kDefaultRadius;
 }
 
-void CausticPhotons::render_pass(const PassKey& key, const Scene& scene, Film& film) {
-  film.add_estimates(buffer_, 1);
-  has_specular_material_ = scene.has_specular_material;
-  if (!has_specular_material_) return;
+void PhotonMapping::render_pass(const PassKey& key, const Scene& scene, Film& film) {
+  const int group = static_cast<int>(owned_.group);
+  film.add_estimates(group, 1);
+  if (!photons_can_count_) return;
   const PixelBounds& b = film.bounds();
   const FilmSettings& settings = film.settings();
   const PhotonPass pass = start_photon_pass(key, scene, film, options_);
@@ -40,16 +41,13 @@ void CausticPhotons::render_pass(const PassKey& key, const Scene& scene, Film& f
   const float radius_pixels = options_.radius * shrink;
 
   // A pixel's estimate is summed over the batches; its filter weight is the same in all of them.
-  struct PixelEstimate {
-    Rgb sum;
-    float filter_weight = 1;
-  };
+  const size_t parts = film.parts_of(group).size();
   const size_t width = static_cast<size_t>(b.width());
-  std::vector<PixelEstimate> pixels(static_cast<size_t>(b.area()));
+  std::vector<Rgb> pixels(static_cast<size_t>(b.area()) * parts);
+  std::vector<float> filter_weights(static_cast<size_t>(b.area()), 1.0f);
   std::vector<RowResult> rows(static_cast<size_t>(b.height()));
   for (int64_t begin = 0; begin < photons;) {
-    PhotonTrace trace =
-        trace_batch(scene, routes_, route_, pass.trace, options_.memory_photons, begin);
+    PhotonTrace trace = trace_batch(scene, owned_, pass.trace, options_.memory_photons, begin);
     count_photons(trace, statistics_);
     if (trace.photons.empty()) continue;
     const PhotonGrid grid(std::move(trace.photons));
@@ -57,39 +55,39 @@ void CausticPhotons::render_pass(const PassKey& key, const Scene& scene, Film& f
     parallel_chunks(b.height(), 1, [&](int64_t row, int64_t, int64_t) {
       const int y = b.y0 + static_cast<int>(row);
       RowResult& result = rows[static_cast<size_t>(row)];
+      PartSums sums(*owned_.routes, owned_.group);
       for (int x = b.x0; x < b.x1; ++x) {
         PathSampler sampler(pass.point, hash_combine(key.seed, kStream, x, y));
-        CameraPath path = start_camera_path(scene, x, y, sampler, pass.trace.lambda, pass.u_time);
-        SampledSpectrum sum;
-        auto merge = [&](const Walk& walk, const WalkVertex& v, EyeState eye) {
+        CameraPath path = start_merging_path(scene, x, y, sampler, pass);
+        sums.clear();
+        auto merge = [&](const Walk& walk, MergePoint at) {
           const float r = radius_pixels * pass.footprint.width(walk.length);
           if (!(r > 0.0f)) return;
-          const MergeResult m =
-              merge_photons(grid, routes_, route_, v, eye, walk.events + 1, options_.max_depth,
-                            walk.lambda.secondary_terminated(), r);
-          result.found += m.found;
-          sum += walk.throughput * (m.reflected + m.hero) /
-                 (static_cast<float>(photons) * kPi * r * r);
+          at.throughput = at.throughput / (static_cast<float>(photons) * kPi * r * r);
+          result.found += merge_photons(grid, owned_, at, options_.max_depth, r, sums);
         };
-        MergeWalkVisitor visitor(routes_, merge);
+        MergeWalkVisitor visitor(owned_, merge);
         if (path.camera_weight > 0)
           random_walk(scene, TransportMode::kRadiance, options_.max_depth, path.walk, sampler,
                       visitor);
         result.rays += path.walk.rays;
-        PixelEstimate& pixel =
-            pixels[static_cast<size_t>(row) * width + static_cast<size_t>(x - b.x0)];
-        pixel.sum = pixel.sum + pass.weights.apply(sum) * path.camera_weight;
-        pixel.filter_weight = path.filter_weight;
+        const size_t pixel = static_cast<size_t>(row) * width + static_cast<size_t>(x - b.x0);
+        for (size_t i = 0; i < parts; ++i) {
+          Rgb& sum = pixels[pixel * parts + i];
+          sum = sum + pass.weights.apply(sums.sums()[i]) * path.camera_weight;
+        }
+        filter_weights[pixel] = path.filter_weight;
       }
     });
   }
 
   for (int y = b.y0; y < b.y1; ++y)
     for (int x = b.x0; x < b.x1; ++x) {
-      const PixelEstimate& pixel =
-          pixels[static_cast<size_t>(y - b.y0) * width + static_cast<size_t>(x - b.x0)];
-      film.add(buffer_, x, y,
-               clamp_component(pixel.sum, settings.max_component) * pixel.filter_weight);
+      const size_t pixel = static_cast<size_t>(y - b.y0) * width + static_cast<size_t>(x - b.x0);
+      const std::span<Rgb> estimate(&pixels[pixel * parts], parts);
+      PartSums::clamp_total(estimate, settings.max_component);
+      for (Rgb& color : estimate) color = color * filter_weights[pixel];
+      film.add(group, x, y, estimate);
     }
   for (const RowResult& r : rows) {
     statistics_.rays += r.rays;
@@ -100,12 +98,12 @@ void CausticPhotons::render_pass(const PassKey& key, const Scene& scene, Film& f
   if (statistics_.radius_max_pixels == 0) statistics_.radius_max_pixels = radius_pixels;
 }
 
-EstimatorStatistics CausticPhotons::statistics() const {
+EstimatorStatistics PhotonMapping::statistics() const {
   EstimatorStatistics s = statistics_;
-  if (!has_specular_material_)
+  if (!photons_can_count_)
     s.notes.push_back(
-        "no material of the scene has a specular lobe: there are no caustics, and no "
-        "photons were needed");
+        "no path of this scene belongs to the routes of the photons (no material has a specular "
+        "lobe, for instance), and no photons were needed");
   explain_darkness(found_, s);
   return s;
 }

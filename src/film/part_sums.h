@@ -1,0 +1,64 @@
+// What one estimate of a pixel found for each part of an estimator's routes, before it becomes
+// colour. Who calls it: integrators and the merging of photons, which add, and integrators, which
+// pass the colours on to the film. It must not know walks or scenes.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "core/color.h"
+#include "film/film.h"
+#include "route/routes.h"
+
+namespace nephroid {
+
+class PartSums {
+ public:
+  PartSums(const Routes& routes, size_t group)
+      : sums_(routes.groups()[group].parts.size()), colors_(sums_.size()) {
+    place_.fill(kNotOwned);
+    for (size_t i = 0; i < sums_.size(); ++i)
+      place_[routes.groups()[group].parts[i]] = static_cast<uint8_t>(i);
+  }
+
+  /// True if the group owns this part; false for kNoPart.
+  bool owns(Part part) const { return place_[part] != kNotOwned; }
+  /// Place of an owned part among those of the group, as Film::add counts them.
+  size_t place(Part part) const { return place_[part]; }
+  void add(Part part, const SampledSpectrum& value) { sums_[place_[part]] += value; }
+  void clear() {
+    for (SampledSpectrum& sum : sums_) sum = SampledSpectrum();
+  }
+  std::span<const SampledSpectrum> sums() const { return sums_; }
+
+  /// The sums as colours, times `factor`, all scaled alike so that their total keeps to
+  /// `max_component`, and then times `filter_weight`. Valid until the next call.
+  std::span<const Rgb> colors(const SensorWeights& weights, float factor, float max_component,
+                              float filter_weight) {
+    for (size_t i = 0; i < sums_.size(); ++i) colors_[i] = weights.apply(sums_[i]) * factor;
+    clamp_total(colors_, max_component);
+    for (Rgb& color : colors_) color = color * filter_weight;
+    return colors_;
+  }
+
+  /// Scales all colours alike so that no component of their total is larger in magnitude than
+  /// `limit`.
+  static void clamp_total(std::span<Rgb> colors, float limit) {
+    if (!(limit < kInfinity)) return;
+    Rgb total;
+    for (const Rgb& color : colors) total = total + color;
+    const float largest =
+        std::max({std::abs(total.r), std::abs(total.g), std::abs(total.b)});
+    if (!(largest > limit)) return;
+    for (Rgb& color : colors) color = color * (limit / largest);
+  }
+
+ private:
+  static constexpr uint8_t kNotOwned = 255;
+  std::array<uint8_t, 256> place_;
+  std::vector<SampledSpectrum> sums_;
+  std::vector<Rgb> colors_;
+};
+
+}  // namespace nephroid

@@ -1,0 +1,72 @@
+// A plan of routes and a scene -> the estimators that render them and the layout of their film.
+#include "core/errors.h"
+#include "integrator/light_tracing.h"
+#include "integrator/path.h"
+#include "integrator/photon_mapping.h"
+#include "integrator/sppm.h"
+#include "integrator/vertex_merging.h"
+#include "route/compile.h"
+#include "route/scene_symbols.h"
+
+namespace nephroid {
+
+namespace {
+
+template <class T>
+std::unique_ptr<Estimator> make(OwnedRoutes owned, const IntegratorOptions& options,
+                                const Scene&) {
+  return std::make_unique<T>(std::move(owned), options);
+}
+
+struct Row {
+  EstimatorKind kind;
+  std::unique_ptr<Estimator> (*make)(OwnedRoutes, const IntegratorOptions&, const Scene&);
+};
+constexpr Row kTable[] = {{EstimatorKind::kPath, make<PathEstimator>},
+                          {EstimatorKind::kPhotons, make<PhotonMapping>},
+                          {EstimatorKind::kSppm, make<Sppm>},
+                          {EstimatorKind::kLightTrace, make<LightTracing>},
+                          {EstimatorKind::kPhotonsAndLight, make<VertexMerging>}};
+
+FilmLayout layout_of(const Routes& routes) {
+  FilmLayout layout;
+  for (const RouteDefinition& route : routes.definitions()) layout.routes.push_back(route.name);
+  for (const AovDefinition& aov : routes.aovs()) layout.aovs.push_back(aov.name);
+  for (const PartMeaning& part : routes.parts()) layout.parts.push_back({part.route, part.aovs});
+  layout.groups.resize(layout.routes.size());
+  for (size_t g = 0; g < routes.groups().size(); ++g)
+    for (const int route : routes.groups()[g].routes)
+      layout.groups[static_cast<size_t>(route)] = static_cast<int>(g);
+  return layout;
+}
+
+std::string quoted_list(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "'" : ", '") + name + "'";
+  return text;
+}
+
+}  // namespace
+
+Preset make_preset(const RoutePlan& plan, const IntegratorOptions& options, const Scene& scene) {
+  const auto symbols = std::make_shared<const SceneSymbols>(
+      scene, mentioned_labels(plan.routes, plan.aovs));
+  RouteCompilation compilation = compile_routes(plan.routes, plan.aovs, &symbols->present());
+  Preset preset;
+  for (const RouteFinding& finding : compilation.findings)
+    if (!finding.is_error) preset.warnings.push_back(finding.message);
+  if (!symbols->unknown_labels().empty())
+    preset.warnings.push_back("nothing in the scene is called " +
+                              quoted_list(symbols->unknown_labels()) +
+                              " (`nephroid info SCENE` lists the labels)");
+  preset.routes = std::make_shared<const Routes>(
+      checked_routes(std::move(compilation), plan.strict).restricted_to(symbols->present()));
+  preset.layout = layout_of(*preset.routes);
+  for (size_t g = 0; g < preset.routes->groups().size(); ++g)
+    for (const Row& row : kTable)
+      if (row.kind == preset.routes->groups()[g].estimator)
+        preset.estimators.push_back(row.make({preset.routes, symbols, g}, options, scene));
+  return preset;
+}
+
+}  // namespace nephroid
