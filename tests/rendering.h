@@ -33,14 +33,20 @@ inline Film film_for(const Scene& scene, const Preset& preset) {
   settings.color_space = scene.film.color_space;
   settings.white_balance = scene.film.white_balance;
   settings.gbuffer = scene.film.gbuffer != GBufferSpace::kNone;
-  return Film(settings, preset.route_names);
+  return Film(settings, preset.layout);
+}
+
+/// The routes of an integrator or of a preset of routes.
+inline RoutePlan plan_named(const std::string& name) {
+  if (auto routes = route_preset(name)) return {*std::move(routes), {}, false};
+  return plan_of_integrator(name);
 }
 
 /// Renders passes [first, first + count) of a scene.
 inline Film render(const Scene& scene, const std::string& integrator,
                    const IntegratorOptions& options, uint64_t seed, uint32_t count,
                    uint32_t first = 0) {
-  Preset preset = make_integrator(integrator, options, scene);
+  Preset preset = make_preset(plan_named(integrator), options, scene);
   Film film = film_for(scene, preset);
   for (uint32_t pass = first; pass < first + count; ++pass)
     for (const auto& estimator : preset.estimators)

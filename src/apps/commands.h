@@ -9,5 +9,6 @@ namespace nephroid {
 int run_render(const RenderCommand& command);
 int run_info(const InfoCommand& command);
 int run_compare(const CompareCommand& command);
+int run_routes(const RoutesCommand& command);
 
 }  // namespace nephroid

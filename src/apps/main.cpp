@@ -35,6 +35,8 @@ int run(const std::vector<std::string>& arguments) {
       return run_info(line.info);
     case Action::kCompare:
       return run_compare(line.compare);
+    case Action::kRoutes:
+      return run_routes(line.routes);
     case Action::kPrint:
       break;
   }

@@ -28,9 +28,17 @@ Metadata metadata_of(const RenderCommand& command, const IntegratorChoice& choic
       {"nephroid:instruction_set", instruction_set()},
       {"nephroid:scene", command.scene},
       {"nephroid:scene_hash", fmt::format("{:016x}", hash_file(command.scene))},
-      {"nephroid:integrator", choice.name},
+      {"nephroid:integrator", name_of(command.routes, choice.name)},
       {"nephroid:options", settings_text(choice.options)},
   };
+}
+
+void add_routes(const RoutePlan& plan, Metadata* metadata) {
+  for (const RouteDefinition& route : plan.routes)
+    metadata->emplace_back("nephroid:route:" + route.name,
+                           route.expression + ":" + estimator_type(route.estimator).name);
+  for (const AovDefinition& aov : plan.aovs)
+    metadata->emplace_back("nephroid:aov:" + aov.name, aov.expression);
 }
 
 RenderOptions render_options(const RenderCommand& command, const Scene& scene,
@@ -62,17 +70,24 @@ int run_render(const RenderCommand& command) {
   if (!command.quiet) print_warnings(loaded);
   const Scene& scene = *loaded.scene;
 
-  const IntegratorChoice choice = choose_integrator(command.integrator, scene.integrator,
-                                                    scene.integrator_parameters, command.settings);
+  const IntegratorChoice choice =
+      choose_integrator(command.routes.integrator.empty() ? kDefaultIntegrator
+                                                          : command.routes.integrator,
+                        scene.integrator, scene.integrator_parameters, command.settings);
+  const RoutePlan plan = plan_of(command.routes, choice.name);
   if (!command.quiet)
     for (const std::string& warning : choice.warnings) print_warning(warning);
-  check_film_fits(scene.film, command.overrides.width > 0);
-  Preset preset = make_integrator(choice.name, choice.options, scene);
-  Film film(film_settings(scene.film), preset.route_names);
+  Preset preset = make_preset(plan, choice.options, scene);
+  if (!command.quiet)
+    for (const std::string& warning : preset.warnings) print_warning(warning);
+  check_film_fits(scene.film, preset.layout, command.overrides.width > 0);
+  Film film(film_settings(scene.film), preset.layout);
   const std::string output =
       command.output.empty() ? default_output(scene.film, command.scene) : command.output;
+  Metadata metadata = metadata_of(command, choice);
+  add_routes(plan, &metadata);
   RenderSession session(scene, preset, film,
-                        render_options(command, scene, output, metadata_of(command, choice)));
+                        render_options(command, scene, output, std::move(metadata)));
 
   ProgressDisplay display;
   if (!command.quiet)

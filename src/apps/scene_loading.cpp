@@ -1,19 +1,42 @@
 // Parse, build, and keep what was suspicious.
 #include "apps/scene_loading.h"
 
+#include <algorithm>
+
 #include "apps/messages.h"
 #include "input/pbrt_parser.h"
+#include "scene/film_description.h"
 
 namespace nephroid {
 
-LoadedScene load_scene(const std::string& file, const SceneOverrides& overrides) {
+namespace {
+
+LoadedScene build(SceneDescription description, const SceneOverrides& overrides,
+                  Diagnostics& diagnostics) {
   LoadedScene loaded;
-  Diagnostics diagnostics;
-  loaded.description = parse_pbrt_file(file, diagnostics);
+  loaded.description = std::move(description);
   loaded.scene = build_scene(loaded.description, overrides, diagnostics);
   for (const Warning& warning : diagnostics.warnings())
     loaded.warnings.push_back(located(warning.where, warning.message));
   return loaded;
+}
+
+}  // namespace
+
+LoadedScene load_scene(const std::string& file, const SceneOverrides& overrides) {
+  Diagnostics diagnostics;
+  return build(parse_pbrt_file(file, diagnostics), overrides, diagnostics);
+}
+
+LoadedScene load_small_scene(const std::string& file, SceneOverrides overrides, int longest_side) {
+  Diagnostics diagnostics;
+  SceneDescription description = parse_pbrt_file(file, diagnostics);
+  const FilmDescription film = make_film_description(description, overrides, diagnostics);
+  const double scale =
+      std::min(1.0, static_cast<double>(longest_side) / std::max(film.width, film.height));
+  overrides.width = std::max(1, static_cast<int>(film.width * scale));
+  overrides.height = std::max(1, static_cast<int>(film.height * scale));
+  return build(std::move(description), overrides, diagnostics);
 }
 
 void print_warnings(const LoadedScene& loaded) {

@@ -19,6 +19,8 @@ struct LoadedScene {
 
 /// Throws SceneError and IoError.
 LoadedScene load_scene(const std::string& file, const SceneOverrides& overrides);
+/// The same with a picture whose longer side has at most `longest_side` pixels.
+LoadedScene load_small_scene(const std::string& file, SceneOverrides overrides, int longest_side);
 
 void print_warnings(const LoadedScene& loaded);
 

@@ -213,7 +213,7 @@ void PathEstimator::render_pass(const PassKey& key, const Scene& scene, Film& fi
   const PixelBounds& b = film.bounds();
   const FilmSettings& settings = film.settings();
   const Rgb white = response_to_white(settings);
-  const float specular_alpha = specular_alpha_of_pass(options_.specular_band, key);
+  const float specular_alpha = specular_alpha_of_pass(scene.specular_band, key);
   const int group = static_cast<int>(owned_.group);
   std::vector<uint64_t> rays(static_cast<size_t>(b.height()), 0);
   for (int k = 0; k < samples_per_pass_; ++k) {

@@ -34,7 +34,7 @@ PhotonPass start_photon_pass(const PassKey& key, const Scene& scene, const Film&
                                     ? options.photons_per_pass
                                     : default_photons_per_pass(film.bounds().area());
   pass.trace.max_events = options.max_depth;
-  pass.trace.specular_alpha = specular_alpha_of_pass(options.specular_band, key);
+  pass.trace.specular_alpha = specular_alpha_of_pass(scene.specular_band, key);
   pass.weights = sensor_weights(pass.trace.lambda, *film.settings().color_space,
                                 film.settings().imaging_ratio, film.settings().white_balance);
   return pass;

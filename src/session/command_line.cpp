@@ -30,13 +30,14 @@ void add_option(CLI::App& command, const OptionDescription& row, CommandLine& li
   // One value per use: without this a list would swallow the scene's name.
   option->type_size(1)->allow_extra_args(false);
   option->expected(1, row.repeatable ? CLI::detail::expected_max_vector_size : 1);
-  if (row.is_positional()) option->required();
+  if (row.is_required()) option->required();
 }
 
 void set_action(const std::string& command, CommandLine& line) {
   if (command == "render") line.action = Action::kRender;
   if (command == "info") line.action = Action::kInfo;
   if (command == "compare") line.action = Action::kCompare;
+  if (command == "routes") line.action = Action::kRoutes;
 }
 
 /// A first word that is neither an option nor a command is most likely a command misspelt.

@@ -71,7 +71,7 @@ std::string usage_of(const std::string& command) {
   bool has_options = false;
   for (const OptionDescription* option : options_of(command)) {
     if (option->is_positional())
-      arguments += fmt::format(" {}", option->name);
+      arguments += fmt::format(option->is_required() ? " {}" : " [{}]", option->name);
     else
       has_options = true;
   }

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kAnyNumber = std::numeric_limits<double>::infinity();
 constexpr int kMostThreads = 4096;
+constexpr int kMostPilotPasses = 100000;
 
 void set_output(CommandLine& line, const std::string& text) {
   const bool is_exr = text.size() > 4 && text.compare(text.size() - 4, 4, ".exr") == 0;
@@ -22,6 +23,7 @@ void set_output(CommandLine& line, const std::string& text) {
   line.render.output = text;
 }
 
+template <auto Command>
 void set_integrator(CommandLine& line, const std::string& text) {
   const std::vector<std::string> names = integrator_names();
   if (text != "scene" && std::find(names.begin(), names.end(), text) == names.end()) {
@@ -30,7 +32,7 @@ void set_integrator(CommandLine& line, const std::string& text) {
     throw UsageError("--integrator: unknown integrator '" + text + "', expected one of: " + known +
                      "scene");
   }
-  line.render.integrator = text;
+  (line.*Command).routes.integrator = text;
 }
 
 void set_resolution(CommandLine& line, const std::string& text) {
@@ -45,13 +47,48 @@ void set_crop(CommandLine& line, const std::string& text) {
   std::copy(crop.begin(), crop.end(), line.render.overrides.crop);
 }
 
+template <auto Command>
 void add_setting(CommandLine& line, const std::string& text) {
-  line.render.settings.push_back(parse_setting(text));
+  auto& command = line.*Command;
+  command.settings.push_back(parse_setting(text));
   IntegratorOptions options;
-  apply_settings(line.render.settings, &options);
-  line.render.overrides.specular_alpha = options.specular_alpha;
-  line.render.overrides.texture_memory = static_cast<uint64_t>(options.texture_memory);
+  apply_settings(command.settings, &options);
+  command.overrides.specular_band = options.specular_band;
+  command.overrides.texture_memory = static_cast<uint64_t>(options.texture_memory);
 }
+
+template <auto Command>
+void set_routes(CommandLine& line, const std::string& text) {
+  (line.*Command).routes.preset_or_file = text;
+}
+template <auto Command>
+void add_route(CommandLine& line, const std::string& text) {
+  (line.*Command).routes.routes.push_back(parse_route(text));
+}
+template <auto Command>
+void add_aov(CommandLine& line, const std::string& text) {
+  (line.*Command).routes.aovs.push_back(parse_aov(text));
+}
+template <auto Command>
+void set_strict(CommandLine& line, const std::string&) {
+  (line.*Command).routes.strict = true;
+}
+
+constexpr const char* kIntegratorHelp =
+    "How light is found: path, sppm, mixed, or scene for the one that the scene names. Each is a "
+    "preset of routes.";
+constexpr const char* kRoutesHelp =
+    "Routes by the name of a preset (`nephroid routes --help` lists them) or from a file, one a "
+    "line; instead of --integrator.";
+constexpr const char* kRouteHelp =
+    "One route: a light path expression and the estimator that renders what matches it (path, "
+    "photons, sppm, lighttrace, photons+light). The first route that matches a path owns it.";
+constexpr const char* kAovHelp =
+    "One more layer of the picture: the light of all paths that match, whichever route renders "
+    "them.";
+constexpr const char* kStrictHelp = "Overlapping routes are an error.";
+constexpr const char* kSettingHelp =
+    "Set a number of the integrator; may be given several times.";
 
 void set_heat_map(CommandLine& line, const std::string& text) {
   const bool is_png = text.size() > 4 && text.compare(text.size() - 4, 4, ".png") == 0;
@@ -63,6 +100,7 @@ void set_heat_map(CommandLine& line, const std::string& text) {
 constexpr CommandDescription kCommands[] = {
     {"render", "Render a scene to an EXR and a PNG."},
     {"info", "Say what is in a scene without rendering it."},
+    {"routes", "Say who renders which light, prove it, and measure it in a scene."},
     {"compare", "Measure how far a picture is from a reference."},
 };
 
@@ -72,13 +110,20 @@ constexpr OptionDescription kOptions[] = {
     {"render", "--output", "-o", "OUT.exr", "",
      "named after the scene's film, in the current directory", "Output",
      "The picture with all its layers; a PNG is written beside it.", false, set_output},
+    {"render", "--aov", "", "NAME=EXPR", "", "", "Output", kAovHelp, true,
+     add_aov<&CommandLine::render>},
     {"render", "--quiet", "", "", "", "", "Output", "Print nothing but errors.", false,
      [](CommandLine& l, const std::string&) { l.render.quiet = true; }},
     {"render", "--integrator", "", "NAME", "", "mixed", "Algorithm",
-     "How light is found: path, sppm, mixed, or scene for the one that the scene names.", false,
-     set_integrator},
-    {"render", "-D", "", "KEY=VALUE", "", "", "Algorithm",
-     "Set a number of the integrator; may be given several times.", true, add_setting},
+     kIntegratorHelp, false, set_integrator<&CommandLine::render>},
+    {"render", "--routes", "", "PRESET|FILE", "", "those of the integrator", "Algorithm",
+     kRoutesHelp, false, set_routes<&CommandLine::render>},
+    {"render", "--route", "", "NAME=EXPR:ESTIMATOR", "", "", "Algorithm", kRouteHelp, true,
+     add_route<&CommandLine::render>},
+    {"render", "--strict-routes", "", "", "", "", "Algorithm", kStrictHelp, false,
+     set_strict<&CommandLine::render>},
+    {"render", "-D", "", "KEY=VALUE", "", "", "Algorithm", kSettingHelp, true,
+     add_setting<&CommandLine::render>},
     {"render", "--seed", "", "S", "", "the scene's, else 0", "Algorithm",
      "Another seed gives another, independent picture.", false,
      [](CommandLine& l, const std::string& t) { l.render.seed = parse_seed("--seed", t); }},
@@ -107,6 +152,26 @@ constexpr OptionDescription kOptions[] = {
      "Number of threads; the picture does not depend on it.", false,
      [](CommandLine& l, const std::string& t) {
        l.render.threads = static_cast<int>(parse_integer("--threads", t, 1, kMostThreads));
+     }},
+    {"routes", "SCENE", "", "", "", "none", "",
+     "A scene: what of the routes can occur in it, and how its light divides among them.", false,
+     [](CommandLine& l, const std::string& t) { l.routes.scene = t; }},
+    {"routes", "--integrator", "", "NAME", "", "mixed", "Routes", kIntegratorHelp, false,
+     set_integrator<&CommandLine::routes>},
+    {"routes", "--routes", "", "PRESET|FILE", "", "those of the integrator", "Routes", kRoutesHelp,
+     false, set_routes<&CommandLine::routes>},
+    {"routes", "--route", "", "NAME=EXPR:ESTIMATOR", "", "", "Routes", kRouteHelp, true,
+     add_route<&CommandLine::routes>},
+    {"routes", "--aov", "", "NAME=EXPR", "", "", "Routes", kAovHelp, true,
+     add_aov<&CommandLine::routes>},
+    {"routes", "--strict-routes", "", "", "", "", "Routes", kStrictHelp, false,
+     set_strict<&CommandLine::routes>},
+    {"routes", "-D", "", "KEY=VALUE", "", "", "Pilot", kSettingHelp, true,
+     add_setting<&CommandLine::routes>},
+    {"routes", "--passes", "", "N", "passes", "8", "Pilot",
+     "Passes of the small picture that measures how the scene's light divides.", false,
+     [](CommandLine& l, const std::string& t) {
+       l.routes.passes = static_cast<uint32_t>(parse_integer("--passes", t, 1, kMostPilotPasses));
      }},
     {"info", "SCENE", "", "", "", "", "", "A pbrt-v4 scene file, may be compressed (.gz).", false,
      [](CommandLine& l, const std::string& t) { l.info.scene = t; }},

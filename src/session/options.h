@@ -11,14 +11,18 @@
 
 #include "scene/scene.h"
 #include "session/integrator_settings.h"
+#include "session/route_plan.h"
 
 namespace nephroid {
+
+/// The integrator of a render if nothing on the command line names routes.
+inline constexpr const char* kDefaultIntegrator = "mixed";
 
 /// What `nephroid render` was asked for; defaults are those of the table.
 struct RenderCommand {
   std::string scene;
   std::string output;  ///< empty: named after the scene's film
-  std::string integrator = "mixed";
+  RouteChoice routes;
   std::optional<std::pair<uint32_t, uint32_t>> passes;  ///< first and last
   double time_limit = 0, noise_target = 0;              ///< 0: none
   SceneOverrides overrides;
@@ -32,13 +36,22 @@ struct InfoCommand {
   std::string scene;
 };
 
+/// What `nephroid routes` was asked for.
+struct RoutesCommand {
+  std::string scene;  ///< empty: none
+  RouteChoice routes;
+  SceneOverrides overrides;
+  SettingList settings;
+  uint32_t passes = 8;  ///< of the pilot
+};
+
 struct CompareCommand {
   std::string reference, test;
   std::string heat_map;  ///< empty: none
   bool subtract_reference_error = false;
 };
 
-enum class Action { kRender, kInfo, kCompare, kPrint };
+enum class Action { kRender, kInfo, kCompare, kRoutes, kPrint };
 
 /// A command line that has been understood.
 struct CommandLine {
@@ -46,6 +59,7 @@ struct CommandLine {
   RenderCommand render;
   InfoCommand info;
   CompareCommand compare;
+  RoutesCommand routes;
   std::string text;  ///< what to print, for help, version and the like
 };
 
@@ -68,6 +82,8 @@ struct OptionDescription {
   void (*apply)(CommandLine& line, const std::string& text);
 
   bool is_positional() const { return name[0] != '-'; }
+  /// A positional argument with a default may be left out.
+  bool is_required() const { return is_positional() && default_text[0] == '\0'; }
   bool is_flag() const { return !is_positional() && value[0] == '\0'; }
 };
 

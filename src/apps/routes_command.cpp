@@ -1,0 +1,147 @@
+// `nephroid routes`: the routes, what they compile to, the proof, and with a scene how its light
+// divides among them: the answer to "why do I see no caustic?".
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "apps/commands.h"
+#include "apps/messages.h"
+#include "apps/scene_loading.h"
+#include "core/errors.h"
+#include "route/compile.h"
+#include "session/film_of_scene.h"
+#include "session/noise.h"
+
+namespace nephroid {
+namespace {
+
+/// Pixels of the longer side of the pilot's picture.
+constexpr int kPilotSize = 128;
+
+size_t longest(const std::vector<RouteDefinition>& routes, std::string RouteDefinition::* text) {
+  size_t length = 0;
+  for (const RouteDefinition& route : routes) length = std::max(length, (route.*text).size());
+  return length;
+}
+
+void print_routes(const RoutePlan& plan, const RouteCompilation& compiled) {
+  const size_t name = longest(plan.routes, &RouteDefinition::name);
+  const size_t expression = longest(plan.routes, &RouteDefinition::expression);
+  fmt::print("routes, the first that matches a path owns it:\n");
+  for (size_t i = 0; i < plan.routes.size(); ++i) {
+    const RouteDefinition& route = plan.routes[i];
+    fmt::print("  {:{}}  {:{}}  {:13}  {}\n", route.name, name, route.expression, expression,
+               estimator_type(route.estimator).name,
+               compiled.examples[i].empty() ? std::string("no path")
+                                            : "for example " + compiled.examples[i]);
+  }
+  for (const AovDefinition& aov : plan.aovs)
+    fmt::print("  {:{}}  {:{}}  a layer of its own\n", aov.name, name, aov.expression, expression);
+}
+
+/// Eye states that are reached without merging.
+size_t plain_states(const Routes& routes) {
+  std::vector<bool> seen(routes.tables().eye_states);
+  std::vector<EyeState> todo{routes.start()};
+  seen[routes.start()] = true;
+  size_t count = 0;
+  while (!todo.empty()) {
+    const EyeState s = todo.back();
+    todo.pop_back();
+    ++count;
+    for (size_t e = 0; e < routes.tables().event_symbols; ++e) {
+      if ((e & 7) >= kEventKinds) continue;
+      const EyeState next = routes.next(s, static_cast<EventSymbol>(e));
+      if (!seen[next]) todo.push_back(next);
+      seen[next] = true;
+    }
+  }
+  return count;
+}
+
+void print_automaton(const Routes& routes) {
+  const RouteTables& t = routes.tables();
+  const size_t plain = plain_states(routes);
+  const size_t bytes = t.eye_next.bytes() + t.merge_next.bytes() + t.owner.size() +
+                       t.emitted.bytes() + t.light_next.bytes() + t.meet.size();
+  fmt::print(
+      "automaton: {} states from the eye, {} more behind a merge, {} states from the light, "
+      "{} kinds of events, {} of lights, {} bytes\n",
+      plain, t.eye_states - plain, t.light_states, t.event_symbols / 8 * kEventKinds,
+      t.light_symbols / 8 * kLightKinds, bytes);
+}
+
+/// True if the routes can be rendered.
+bool print_proof(const RouteCompilation& compiled, bool strict) {
+  const auto has = [&](RouteFinding::Kind kind) {
+    return std::any_of(compiled.findings.begin(), compiled.findings.end(),
+                       [&](const RouteFinding& f) { return f.kind == kind; });
+  };
+  const bool complete = !has(RouteFinding::Kind::kHole);
+  const bool overlap = has(RouteFinding::Kind::kOverlap);
+  const bool broken = std::any_of(compiled.findings.begin(), compiled.findings.end(),
+                                  [](const RouteFinding& f) { return f.is_error; });
+  fmt::print("proof: {} states, {}, {}\n", plain_states(compiled.routes),
+             complete ? "complete" : "not complete",
+             overlap ? "disjoint only because the first match wins" : "disjoint");
+  for (const RouteFinding& finding : compiled.findings)
+    fmt::print("{}: {}\n",
+               finding.is_error || (strict && finding.kind == RouteFinding::Kind::kOverlap)
+                   ? "error"
+                   : "warning",
+               finding.message);
+  return !broken && !(strict && overlap);
+}
+
+/// A small picture of the scene, its light by route and by layer, and what the estimators say.
+void print_pilot(const RoutesCommand& command, const RoutePlan& plan,
+                 const IntegratorChoice& choice, const Scene& scene) {
+  Preset preset = make_preset(plan, choice.options, scene);
+  for (const std::string& warning : preset.warnings) print_warning(warning);
+  Film film(film_settings(scene.film), preset.layout);
+  for (uint32_t pass = 0; pass < command.passes; ++pass)
+    for (const auto& estimator : preset.estimators)
+      estimator->render_pass({scene.scene_seed, pass}, scene, film);
+  fmt::print("light of {} ({} passes at {} x {}):\n", command.scene, command.passes,
+             scene.film.width, scene.film.height);
+  const EnergyShares shares = energy_shares(film);
+  for (size_t i = 0; i < plan.routes.size(); ++i)
+    fmt::print("  {:16} {:6.3g} %\n", plan.routes[i].name, 100 * shares.routes[i]);
+  for (size_t i = 0; i < plan.aovs.size(); ++i)
+    fmt::print("  {:16} {:6.3g} % (layer)\n", plan.aovs[i].name, 100 * shares.aovs[i]);
+  for (const auto& estimator : preset.estimators)
+    for (const std::string& note : estimator->statistics().notes) fmt::print("note: {}\n", note);
+}
+
+}  // namespace
+
+int run_routes(const RoutesCommand& command) {
+  if (command.scene.empty()) {
+    const RoutePlan plan = plan_of(command.routes, command.routes.integrator.empty()
+                                                       ? kDefaultIntegrator
+                                                       : command.routes.integrator);
+    const RouteCompilation compiled = compile_routes(plan.routes, plan.aovs);
+    print_routes(plan, compiled);
+    print_automaton(compiled.routes);
+    const bool sound = print_proof(compiled, plan.strict);
+    return static_cast<int>(sound ? ExitStatus::kDone : ExitStatus::kUsage);
+  }
+  const LoadedScene loaded = load_small_scene(command.scene, command.overrides, kPilotSize);
+  print_warnings(loaded);
+  const Scene& scene = *loaded.scene;
+  const IntegratorChoice choice =
+      choose_integrator(command.routes.integrator.empty() ? kDefaultIntegrator
+                                                          : command.routes.integrator,
+                        scene.integrator, scene.integrator_parameters, command.settings);
+  const RoutePlan plan = plan_of(command.routes, choice.name);
+  const SceneSymbols symbols(scene, mentioned_labels(plan.routes, plan.aovs));
+  const RouteCompilation compiled = compile_routes(plan.routes, plan.aovs, &symbols.present());
+  print_routes(plan, compiled);
+  print_automaton(compiled.routes);
+  if (!print_proof(compiled, plan.strict)) return static_cast<int>(ExitStatus::kUsage);
+  print_pilot(command, plan, choice, scene);
+  return static_cast<int>(ExitStatus::kDone);
+}
+
+}  // namespace nephroid

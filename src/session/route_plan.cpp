@@ -1,0 +1,69 @@
+// Which of the sources of routes counts.
+#include "session/route_plan.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "core/errors.h"
+
+namespace nephroid {
+namespace {
+
+void check_one_source(const RouteChoice& choice) {
+  std::string given;
+  int count = 0;
+  for (const auto& [name, is_given] : {std::pair{"--integrator", !choice.integrator.empty()},
+                                       {"--routes", !choice.preset_or_file.empty()},
+                                       {"--route", !choice.routes.empty()}}) {
+    if (!is_given) continue;
+    given += std::string(count == 0 ? "" : " and ") + name;
+    ++count;
+  }
+  if (count > 1)
+    throw UsageError(given + " each say which routes there are, expected only one of them");
+}
+
+std::string read_file(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  if (!in.is_open() || in.bad()) throw IoError("'" + file + "' cannot be read");
+  return text;
+}
+
+std::vector<RouteDefinition> routes_of(const std::string& preset_or_file) {
+  if (const auto preset = route_preset(preset_or_file)) return *preset;
+  if (std::filesystem::exists(preset_or_file))
+    return parse_route_file(read_file(preset_or_file), preset_or_file);
+  std::string known;
+  for (const RoutePreset& preset : route_presets())
+    known += std::string(known.empty() ? "" : ", ") + preset.name;
+  throw UsageError(fmt::format(
+      "--routes: '{}' is neither a preset nor a file, expected the name of a file or one of: {}",
+      preset_or_file, known));
+}
+
+}  // namespace
+
+RoutePlan plan_of(const RouteChoice& choice, const std::string& integrator) {
+  check_one_source(choice);
+  RoutePlan plan;
+  if (!choice.routes.empty())
+    plan.routes = choice.routes;
+  else if (!choice.preset_or_file.empty())
+    plan.routes = routes_of(choice.preset_or_file);
+  else
+    plan = plan_of_integrator(integrator);
+  plan.aovs = choice.aovs;
+  plan.strict = choice.strict;
+  return plan;
+}
+
+std::string name_of(const RouteChoice& choice, const std::string& integrator) {
+  if (!choice.routes.empty()) return "--route";
+  return choice.preset_or_file.empty() ? integrator : choice.preset_or_file;
+}
+
+}  // namespace nephroid

@@ -1,0 +1,29 @@
+// From what the command line says about routes to a plan: an integrator's routes, a preset, a file
+// of routes, or routes one by one. Who calls it: apps. It must not know scenes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "integrator/estimator.h"
+
+namespace nephroid {
+
+/// --integrator, --routes, --route, --aov and --strict-routes as given.
+struct RouteChoice {
+  std::string integrator;  ///< empty: not given
+  std::string preset_or_file;
+  std::vector<RouteDefinition> routes;
+  std::vector<AovDefinition> aovs;
+  bool strict = false;
+};
+
+/// `integrator` is the name to use if neither routes nor a preset are given. Throws UsageError if
+/// more than one source of routes is given, for an unknown preset and for what is wrong in a file;
+/// IoError if the file cannot be read.
+RoutePlan plan_of(const RouteChoice& choice, const std::string& integrator);
+
+/// What the plan came from, for the picture's metadata: "mixed", "split", "routes.txt", "--route".
+std::string name_of(const RouteChoice& choice, const std::string& integrator);
+
+}  // namespace nephroid
