@@ -33,7 +33,7 @@ inline Film film_for(const Scene& scene, const Preset& preset) {
   settings.color_space = scene.film.color_space;
   settings.white_balance = scene.film.white_balance;
   settings.gbuffer = scene.film.gbuffer != GBufferSpace::kNone;
-  return Film(settings, preset.route_names);
+  return Film(settings, preset.layout);
 }
 
 /// Renders passes [first, first + count) of a scene.

@@ -31,8 +31,8 @@ double sum_over_pixels(const Film& film, const Term& term) {
 }  // namespace
 
 std::optional<double> estimated_noise(const Film& film) {
-  for (size_t r = 0; r < film.routes().size(); ++r)
-    if (film.estimates(static_cast<int>(r)) < 2) return std::nullopt;
+  for (int g = 0; g < film.layout().group_count(); ++g)
+    if (film.estimates(g) < 2) return std::nullopt;
   const double sum = sum_over_pixels(film, [&](int x, int y) {
     const Rgb value = film.value(x, y), error = film.standard_error(x, y);
     double pixel = 0;
@@ -47,9 +47,9 @@ std::optional<double> estimated_noise(const Film& film) {
 
 std::vector<double> route_energy_shares(const Film& film) {
   std::vector<double> shares;
-  for (size_t r = 0; r < film.routes().size(); ++r)
+  for (int r = 0; r < static_cast<int>(film.layout().routes.size()); ++r)
     shares.push_back(sum_over_pixels(film, [&](int x, int y) {
-      const Rgb value = film.route_value(static_cast<int>(r), x, y);
+      const Rgb value = film.route_value(r, x, y);
       return double{value.r} + value.g + value.b;
     }));
   const double total = std::accumulate(shares.begin(), shares.end(), 0.0);
