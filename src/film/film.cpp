@@ -74,6 +74,12 @@ Film::Film(const FilmSettings& settings, FilmLayout layout)
   saturated_.assign(pixels, 0);
 }
 
+size_t Film::bytes_per_pixel(const FilmLayout& layout, bool gbuffer) {
+  const size_t sums = layout.parts.size() + static_cast<size_t>(layout.group_count());
+  return sums * sizeof(PixelSum) + sizeof(Features) + (gbuffer ? sizeof(SurfaceSums) : 0) +
+         2 * sizeof(uint32_t);  // bad and saturated
+}
+
 Rgb clamp_component(const Rgb& rgb, float limit) {
   const float largest = std::max({std::abs(rgb.r), std::abs(rgb.g), std::abs(rgb.b)});
   return largest > limit ? rgb * (limit / largest) : rgb;

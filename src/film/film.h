@@ -81,6 +81,8 @@ Rgb clamp_component(const Rgb& rgb, float limit);
 class Film {
  public:
   Film(const FilmSettings& settings, FilmLayout layout);
+  /// Memory that a film takes for each pixel of the crop, with or without geometric layers.
+  static size_t bytes_per_pixel(const FilmLayout& layout, bool gbuffer);
 
   const FilmSettings& settings() const { return settings_; }
   const PixelBounds& bounds() const { return settings_.crop; }
