@@ -2,6 +2,8 @@
 # sources in its folder; a layer links only what stands before it.
 function(nephroid_layer name folder)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${folder}/*.cpp)
+  # A library of its own, see below.
+  list(REMOVE_ITEM sources ${CMAKE_SOURCE_DIR}/src/scene/pixel_filter.cpp)
   if(sources)
     add_library(nephroid_${name} STATIC ${sources})
     target_link_libraries(nephroid_${name} PUBLIC nephroid_flags ${ARGN})
@@ -37,10 +39,13 @@ target_include_directories(nephroid_medium SYSTEM PUBLIC ${NANOVDB_INCLUDE_DIR})
 nephroid_layer(material scene/material nephroid_bsdf nephroid_texture nephroid_medium)
 nephroid_layer(light scene/light nephroid_shape nephroid_texture)
 nephroid_layer(camera scene/camera nephroid_light)
+# All that the film needs of the scene.
+add_library(nephroid_filter STATIC ${CMAKE_SOURCE_DIR}/src/scene/pixel_filter.cpp)
+target_link_libraries(nephroid_filter PUBLIC nephroid_flags nephroid_input)
 nephroid_layer(scene scene nephroid_shape nephroid_material nephroid_light nephroid_camera
-               nephroid_medium embree)
+               nephroid_medium nephroid_filter embree)
 nephroid_layer(route route nephroid_core)
-nephroid_layer(film film nephroid_core nephroid_input OpenImageIO::OpenImageIO)
+nephroid_layer(film film nephroid_filter OpenImageIO::OpenImageIO)
 nephroid_layer(transport transport nephroid_scene nephroid_route)
 nephroid_layer(photon photon nephroid_transport)
 nephroid_layer(integrator integrator nephroid_photon nephroid_film)

@@ -51,11 +51,17 @@ std::string photon_line(const EstimatorStatistics& first, const EstimatorStatist
 }
 
 std::string route_lines(const Film& film) {
-  const std::vector<double> shares = route_energy_shares(film);
-  std::string text = "light by route:";
-  for (size_t r = 0; r < shares.size(); ++r)
-    text += fmt::format("{} {} {:.3g} %", r == 0 ? "" : ",", film.routes()[r], 100 * shares[r]);
-  return text + "\n";
+  const EnergyShares shares = energy_shares(film);
+  const auto line = [](const char* title, const std::vector<std::string>& names,
+                       const std::vector<double>& values) {
+    std::string text = title;
+    for (size_t i = 0; i < names.size(); ++i)
+      text += fmt::format("{} {} {:.3g} %", i == 0 ? "" : ",", names[i], 100 * values[i]);
+    return text + "\n";
+  };
+  std::string text = line("light by route:", film.layout().routes, shares.routes);
+  if (!shares.aovs.empty()) text += line("of it in layers:", film.layout().aovs, shares.aovs);
+  return text;
 }
 
 std::string film_faults(const Film& film) {

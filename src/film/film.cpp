@@ -3,6 +3,7 @@
 #include "film/film.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -10,8 +11,10 @@
 namespace nephroid {
 namespace {
 
-bool is_finite(const Rgb& c) {
-  return std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b);
+bool all_finite(std::span<const Rgb> colors) {
+  return std::all_of(colors.begin(), colors.end(), [](const Rgb& c) {
+    return std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b);
+  });
 }
 
 Rgb to_rgb(const double (&v)[3]) {
@@ -28,17 +31,53 @@ double variance_of_mean(const FixedSum& sum, const FixedSum& square, uint64_t n)
 
 }  // namespace
 
-Film::Film(const FilmSettings& settings, std::vector<std::string> routes)
-    : settings_(settings), route_names_(std::move(routes)) {
+FilmLayout FilmLayout::of_routes(std::vector<std::string> names) {
+  FilmLayout layout;
+  for (int r = 0; r < static_cast<int>(names.size()); ++r) {
+    layout.parts.push_back({r, {}});
+    layout.groups.push_back(r);
+  }
+  layout.routes = std::move(names);
+  return layout;
+}
+
+int FilmLayout::group_count() const {
+  return groups.empty() ? 0 : *std::max_element(groups.begin(), groups.end()) + 1;
+}
+
+Film::Film(const FilmSettings& settings, FilmLayout layout)
+    : settings_(settings), layout_(std::move(layout)) {
   if (settings_.crop.width() <= 0 || settings_.crop.height() <= 0)
     settings_.crop = {0, 0, settings_.width, settings_.height};
+  const auto groups = static_cast<size_t>(layout_.group_count());
+  parts_of_group_.resize(groups);
+  for (size_t i = 0; i < layout_.parts.size(); ++i)
+    parts_of_group_[static_cast<size_t>(layout_.group_of(layout_.parts[i]))].push_back(
+        static_cast<int>(i));
+  parts_of_route_.resize(layout_.routes.size());
+  parts_of_aov_.resize(layout_.aovs.size());
+  for (const std::vector<int>& parts : parts_of_group_)
+    for (const int i : parts) {
+      const FilmLayout::Part& part = layout_.parts[static_cast<size_t>(i)];
+      all_parts_.push_back(i);
+      parts_of_route_[static_cast<size_t>(part.route)].push_back(i);
+      for (const int aov : part.aovs) parts_of_aov_[static_cast<size_t>(aov)].push_back(i);
+    }
+
   const auto pixels = static_cast<size_t>(settings_.crop.area());
-  sums_.assign(route_names_.size(), std::vector<PixelSums>(pixels));
-  estimates_.assign(route_names_.size(), 0);
+  sums_.assign(layout_.parts.size(), std::vector<PixelSum>(pixels));
+  squares_.assign(groups, std::vector<PixelSum>(pixels));
+  estimates_.assign(groups, 0);
   features_.resize(pixels);
   if (settings_.gbuffer) surfaces_.resize(pixels);
   bad_.assign(pixels, 0);
   saturated_.assign(pixels, 0);
+}
+
+size_t Film::bytes_per_pixel(const FilmLayout& layout, bool gbuffer) {
+  const size_t sums = layout.parts.size() + static_cast<size_t>(layout.group_count());
+  return sums * sizeof(PixelSum) + sizeof(Features) + (gbuffer ? sizeof(SurfaceSums) : 0) +
+         2 * sizeof(uint32_t);  // bad and saturated
 }
 
 Rgb clamp_component(const Rgb& rgb, float limit) {
@@ -46,47 +85,60 @@ Rgb clamp_component(const Rgb& rgb, float limit) {
   return largest > limit ? rgb * (limit / largest) : rgb;
 }
 
-void Film::add(int route, int x, int y, const Rgb& value) {
+const std::vector<int>& Film::parts_of(int group) const {
+  return parts_of_group_[static_cast<size_t>(group)];
+}
+
+bool Film::add_finite(int group, size_t pixel, std::span<const Rgb> values) {
+  const std::vector<int>& parts = parts_of(group);
+  double total[3] = {0, 0, 0};
+  bool fits = true;
+  for (size_t i = 0; i < parts.size(); ++i) {
+    PixelSum& sum = sums_[static_cast<size_t>(parts[i])][pixel];
+    for (int c = 0; c < 3; ++c) {
+      total[c] += double{values[i][c]};
+      fits &= sum.rgb[c].add(values[i][c]);
+    }
+  }
+  PixelSum& square = squares_[static_cast<size_t>(group)][pixel];
+  for (int c = 0; c < 3; ++c) fits &= square.rgb[c].add(total[c] * total[c]);
+  return fits;
+}
+
+void Film::add(int group, int x, int y, std::span<const Rgb> values) {
+  assert(values.size() == parts_of(group).size());
   const size_t pixel = index(x, y);
-  if (!is_finite(value)) {
+  if (!all_finite(values)) {
     ++bad_[pixel];
     return;
   }
-  PixelSums& sums = sums_[static_cast<size_t>(route)][pixel];
-  bool fits = true;
-  for (int c = 0; c < 3; ++c) {
-    const double component = value[c];
-    fits &= sums.sum[c].add(component);
-    fits &= sums.square[c].add(component * component);
-  }
-  if (!fits) ++saturated_[pixel];
+  if (!add_finite(group, pixel, values)) ++saturated_[pixel];
 }
 
-void Film::replace(int route, int x, int y, const Rgb& value) {
+void Film::replace(int group, int x, int y, std::span<const Rgb> values) {
+  assert(values.size() == parts_of(group).size());
   const size_t pixel = index(x, y);
-  if (!is_finite(value)) {
+  if (!all_finite(values)) {
     ++bad_[pixel];
     return;
   }
-  PixelSums sums;
-  bool fits = true;
-  for (int c = 0; c < 3; ++c) {
-    const double component = value[c];
-    fits &= sums.sum[c].add(component);
-    fits &= sums.square[c].add(component * component);
-  }
-  if (!fits) ++saturated_[pixel];
-  sums_[static_cast<size_t>(route)][pixel] = sums;
+  for (const int part : parts_of(group)) sums_[static_cast<size_t>(part)][pixel] = {};
+  squares_[static_cast<size_t>(group)][pixel] = {};
+  if (!add_finite(group, pixel, values)) ++saturated_[pixel];
 }
 
-void Film::add_estimates(int route, uint64_t count) {
-  estimates_[static_cast<size_t>(route)] += count;
+void Film::add_estimates(int group, uint64_t count) {
+  estimates_[static_cast<size_t>(group)] += count;
 }
-void Film::set_estimates(int route, uint64_t count) {
-  estimates_[static_cast<size_t>(route)] = count;
+void Film::set_estimates(int group, uint64_t count) {
+  estimates_[static_cast<size_t>(group)] = count;
 }
-uint64_t Film::estimates(int route) const {
-  return estimates_[static_cast<size_t>(route)];
+uint64_t Film::estimates(int group) const {
+  return estimates_[static_cast<size_t>(group)];
+}
+void Film::add_faults(uint64_t bad, uint64_t saturated) {
+  more_bad_ += bad;
+  more_saturated_ += saturated;
 }
 
 void Film::add_features(int x, int y, const Rgb& albedo, const Vec3f& normal, float depth) {
@@ -110,33 +162,31 @@ void Film::add_surface(int x, int y, const SurfaceSample& s) {
   ++surface.samples;
 }
 
-Rgb Film::route_value(int route, int x, int y) const {
-  const auto r = static_cast<size_t>(route);
-  if (estimates_[r] == 0) return {};
-  const PixelSums& sums = sums_[r][index(x, y)];
-  double mean[3];
-  for (int c = 0; c < 3; ++c) mean[c] = sums.sum[c].value() / static_cast<double>(estimates_[r]);
-  return to_rgb(mean);
-}
-
-Rgb Film::value(int x, int y) const {
-  const size_t pixel = index(x, y);
+/// [F1]: accumulators of parts with one count of estimates are added exactly before the division.
+Rgb Film::mean_of_parts(const std::vector<int>& parts, size_t pixel) const {
   double total[3] = {0, 0, 0};
-  const bool same_count = std::adjacent_find(estimates_.begin(), estimates_.end(),
-                                             std::not_equal_to<>()) == estimates_.end();
-  for (int c = 0; c < 3; ++c) {
-    if (same_count && !estimates_.empty() && estimates_[0] > 0) {
-      // One division for all routes: the accumulators are added exactly first.
-      FixedSum sum;
-      for (const auto& route : sums_) sum.add(route[pixel].sum[c]);
-      total[c] = sum.value() / static_cast<double>(estimates_[0]);
-      continue;
-    }
-    for (size_t r = 0; r < sums_.size(); ++r)
-      if (estimates_[r] > 0)
-        total[c] += sums_[r][pixel].sum[c].value() / static_cast<double>(estimates_[r]);
+  for (size_t begin = 0, end = 0; begin < parts.size(); begin = end) {
+    const auto count_of = [&](size_t i) {
+      return estimates(layout_.group_of(layout_.parts[static_cast<size_t>(parts[i])]));
+    };
+    const uint64_t count = count_of(begin);
+    FixedSum sum[3];
+    for (end = begin; end < parts.size() && count_of(end) == count; ++end)
+      for (int c = 0; c < 3; ++c) sum[c].add(sums_[static_cast<size_t>(parts[end])][pixel].rgb[c]);
+    if (count == 0) continue;
+    for (int c = 0; c < 3; ++c) total[c] += sum[c].value() / static_cast<double>(count);
   }
   return to_rgb(total);
+}
+
+Rgb Film::route_value(int route, int x, int y) const {
+  return mean_of_parts(parts_of_route_[static_cast<size_t>(route)], index(x, y));
+}
+Rgb Film::aov_value(int aov, int x, int y) const {
+  return mean_of_parts(parts_of_aov_[static_cast<size_t>(aov)], index(x, y));
+}
+Rgb Film::value(int x, int y) const {
+  return mean_of_parts(all_parts_, index(x, y));
 }
 
 Rgb Film::standard_error(int x, int y) const {
@@ -144,10 +194,12 @@ Rgb Film::standard_error(int x, int y) const {
   double error[3] = {0, 0, 0};
   for (int c = 0; c < 3; ++c) {
     double variance = 0;
-    for (size_t r = 0; r < sums_.size(); ++r) {
-      if (estimates_[r] < 2) continue;
-      const PixelSums& sums = sums_[r][pixel];
-      variance += variance_of_mean(sums.sum[c], sums.square[c], estimates_[r]);
+    for (size_t g = 0; g < squares_.size(); ++g) {
+      if (estimates_[g] < 2) continue;
+      FixedSum sum;
+      for (const int part : parts_of_group_[g])
+        sum.add(sums_[static_cast<size_t>(part)][pixel].rgb[c]);
+      variance += variance_of_mean(sum, squares_[g][pixel].rgb[c], estimates_[g]);
     }
     error[c] = std::sqrt(variance);
   }
@@ -200,10 +252,10 @@ SurfaceSample Film::surface(int x, int y) const {
 }
 
 uint64_t Film::bad_values() const {
-  return std::accumulate(bad_.begin(), bad_.end(), uint64_t{0});
+  return std::accumulate(bad_.begin(), bad_.end(), more_bad_);
 }
 uint64_t Film::saturated_values() const {
-  return std::accumulate(saturated_.begin(), saturated_.end(), uint64_t{0});
+  return std::accumulate(saturated_.begin(), saturated_.end(), more_saturated_);
 }
 
 }  // namespace nephroid

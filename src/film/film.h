@@ -58,11 +58,12 @@ struct FilmLayout {
   };
   std::vector<std::string> routes, aovs;  ///< names of layers
   std::vector<Part> parts;
-  std::vector<int> groups;  ///< [route]: its group, numbered from 0
+  std::vector<int> groups;  ///< [route]: its group, numbered from 0 without a gap
 
   /// One part and one group for each route, no AOVs.
   static FilmLayout of_routes(std::vector<std::string> names);
   int group_count() const;
+  int group_of(const Part& part) const { return groups[static_cast<size_t>(part.route)]; }
 };
 
 /// The surface that a sample saw first, in the coordinate system that the caller chose.
@@ -80,6 +81,8 @@ Rgb clamp_component(const Rgb& rgb, float limit);
 class Film {
  public:
   Film(const FilmSettings& settings, FilmLayout layout);
+  /// Memory that a film takes for each pixel of the crop, with or without geometric layers.
+  static size_t bytes_per_pixel(const FilmLayout& layout, bool gbuffer);
 
   const FilmSettings& settings() const { return settings_; }
   const PixelBounds& bounds() const { return settings_.crop; }
@@ -90,7 +93,7 @@ class Film {
   /// Adds one estimate of a pixel by a group: values[i] is what it found for parts_of(group)[i].
   /// The caller has clamped their sum to max_component before it applied the filter's weight. Each
   /// pixel has exactly one writer at a time. An estimate with a value that is not finite is counted
-  /// (see bad_values) and left out.
+  /// (see bad_values) and left out, with all its parts.
   void add(int group, int x, int y, std::span<const Rgb> values);
   /// Replaces what the group has for this pixel, for estimators whose passes cannot be added (E1).
   /// `estimates` is then set to 1 by the caller.
@@ -99,6 +102,8 @@ class Film {
   void add_estimates(int group, uint64_t count);
   void set_estimates(int group, uint64_t count);
   uint64_t estimates(int group) const;
+  /// Counts what was left out or held before it came here; one caller at a time.
+  void add_faults(uint64_t bad, uint64_t saturated);
 
   /// First-hit features of a pixel (sums over samples): albedo, normal in world space, depth (0 or
   /// infinite where nothing was hit). Components that are not finite are left out.
@@ -116,6 +121,7 @@ class Film {
   /// independent (an upper bound in practice where passes are stratified). Zero with fewer than two
   /// estimates.
   Rgb standard_error(int x, int y) const;
+  /// Mean over the feature samples; what hit nothing counts as black.
   Rgb albedo(int x, int y) const;
   /// Direction of the mean, unit length; null where nothing was hit.
   Vec3f normal(int x, int y) const;
@@ -146,16 +152,23 @@ class Film {
     return static_cast<size_t>(y - settings_.crop.y0) * settings_.crop.width() +
            (x - settings_.crop.x0);
   }
+  /// Adds an estimate of which no value is infinite or NaN. False if a sum reached its limit.
+  bool add_finite(int group, size_t pixel, std::span<const Rgb> values);
+  Rgb mean_of_parts(const std::vector<int>& parts, size_t pixel) const;
+
   FilmSettings settings_;
   FilmLayout layout_;
-  std::vector<std::vector<int>> parts_of_group_;
+  // Lists of parts, each ordered by group.
+  std::vector<std::vector<int>> parts_of_group_, parts_of_route_, parts_of_aov_;
+  std::vector<int> all_parts_;
   std::vector<std::vector<PixelSum>> sums_;     ///< [part][pixel]
   std::vector<std::vector<PixelSum>> squares_;  ///< [group][pixel], of an estimate's sum over parts
   std::vector<uint64_t> estimates_;             ///< [group]
   std::vector<Features> features_;
   uint64_t feature_estimates_ = 0;
-  std::vector<SurfaceSums> surfaces_;      ///< empty without geometric layers
-  std::vector<uint32_t> bad_, saturated_;  ///< per pixel, so that counting needs no lock
+  std::vector<SurfaceSums> surfaces_;           ///< empty without geometric layers
+  std::vector<uint32_t> bad_, saturated_;       ///< per pixel, so that counting needs no lock
+  uint64_t more_bad_ = 0, more_saturated_ = 0;  ///< by add_faults
 };
 
 }  // namespace nephroid

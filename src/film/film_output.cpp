@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <utility>
 
 #include "core/parallel.h"
@@ -21,7 +22,8 @@ void add_layer(std::vector<std::string>& channels, const std::string& layer, con
 std::vector<std::string> channel_names(const Film& film) {
   std::vector<std::string> channels;
   add_layer(channels, "", "RGB");
-  for (const std::string& route : film.routes()) add_layer(channels, route, "RGB");
+  for (const std::string& route : film.layout().routes) add_layer(channels, route, "RGB");
+  for (const std::string& aov : film.layout().aovs) add_layer(channels, aov, "RGB");
   const bool gbuffer = film.settings().gbuffer;
   add_layer(channels, gbuffer ? "Albedo" : "albedo", "RGB");
   add_layer(channels, "N", "XYZ");
@@ -80,7 +82,8 @@ void for_each_row(const Film& film, const Body& body) {
 
 Picture film_picture(const Film& film, Metadata metadata) {
   const PixelBounds& bounds = film.bounds();
-  const int routes = static_cast<int>(film.routes().size());
+  const int routes = static_cast<int>(film.layout().routes.size());
+  const int aovs = static_cast<int>(film.layout().aovs.size());
   Picture picture;
   picture.full_width = film.settings().width;
   picture.full_height = film.settings().height;
@@ -91,7 +94,8 @@ Picture film_picture(const Film& film, Metadata metadata) {
   const size_t stride = picture.channels.size();
   picture.pixels.resize(static_cast<size_t>(bounds.area()) * stride);
   uint64_t samples = 0;
-  for (int r = 0; r < routes; ++r) samples = std::max(samples, film.estimates(r));
+  for (int g = 0; g < film.layout().group_count(); ++g)
+    samples = std::max(samples, film.estimates(g));
 
   for_each_row(film, [&](int y) {
     const size_t row = static_cast<size_t>(y - bounds.y0) * static_cast<size_t>(bounds.width());
@@ -99,6 +103,7 @@ Picture film_picture(const Film& film, Metadata metadata) {
     for (int x = bounds.x0; x < bounds.x1; ++x) {
       out = put(out, film.value(x, y));
       for (int r = 0; r < routes; ++r) out = put(out, film.route_value(r, x, y));
+      for (int a = 0; a < aovs; ++a) out = put(out, film.aov_value(a, x, y));
       out = put(out, film.albedo(x, y));
       const bool gbuffer = film.settings().gbuffer;
       out = put(out, gbuffer ? film.surface(x, y).n : film.normal(x, y));
@@ -109,6 +114,15 @@ Picture film_picture(const Film& film, Metadata metadata) {
     }
   });
   return picture;
+}
+
+std::optional<std::string> clashing_layer(const FilmLayout& layout) {
+  std::set<std::string> taken = {"albedo", "N", "stderr",  // and those of a gbuffer film
+                                 "Albedo", "P", "Ns",     "Variance", "RelativeVariance"};
+  for (const std::vector<std::string>* names : {&layout.routes, &layout.aovs})
+    for (const std::string& name : *names)
+      if (!taken.insert(name).second) return name;
+  return std::nullopt;
 }
 
 std::vector<uint8_t> film_srgb8(const Film& film, float exposure) {

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "core/errors.h"
+#include "film/splats.h"
 
 namespace nephroid {
 
@@ -26,20 +27,26 @@ FilmSettings film_settings(const FilmDescription& description) {
   return settings;
 }
 
-void check_film_fits(const FilmDescription& description, bool size_is_an_option) {
-  // The sums of two routes and of the features; everything else comes on top.
-  const double bytes_per_pixel = description.gbuffer == GBufferSpace::kNone ? 320 : 540;
+void check_film_fits(const FilmDescription& description, const FilmLayout& layout,
+                     size_t splatted_parts, bool size_is_an_option) {
+  // The sums; everything else comes on top.
+  const auto bytes_per_pixel = static_cast<double>(
+      Film::bytes_per_pixel(layout, description.gbuffer != GBufferSpace::kNone) +
+      SplatBuffer::bytes_per_pixel(splatted_parts));
   constexpr double kGiB = 1 << 30;
   const double pixels = static_cast<double>(description.crop_x1 - description.crop_x0) *
                         (description.crop_y1 - description.crop_y0);
   const double memory =
       static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
   if (pixels * bytes_per_pixel <= memory) return;
+  const char* remedy = layout.parts.size() > 2
+                           ? "a smaller resolution, a crop window or fewer routes and AOVs"
+                           : "a smaller resolution or a crop window";
   const std::string message = fmt::format(
       "{:.0f} pixels ({} x {}) need more than {:.0f} GiB of memory and this machine has {:.0f}, "
-      "expected a smaller resolution or a crop window",
+      "expected {}",
       pixels, description.crop_x1 - description.crop_x0, description.crop_y1 - description.crop_y0,
-      pixels * bytes_per_pixel / kGiB, memory / kGiB);
+      pixels * bytes_per_pixel / kGiB, memory / kGiB, remedy);
   if (size_is_an_option) throw UsageError("--resolution: " + message);
   throw SceneError(description.where, message);
 }

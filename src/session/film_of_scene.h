@@ -13,7 +13,9 @@ FilmSettings film_settings(const FilmDescription& description);
 
 /// Refuses a film that this machine's memory cannot hold, before anything is allocated for it:
 /// throws UsageError if its size came from the command line, else SceneError at the Film directive.
-void check_film_fits(const FilmDescription& description, bool size_is_an_option);
+/// `splatted_parts` of the layout's parts have a SplatBuffer beside the film.
+void check_film_fits(const FilmDescription& description, const FilmLayout& layout,
+                     size_t splatted_parts, bool size_is_an_option);
 
 /// The output when the user names none: the stem of the scene's film file name (or of the scene's
 /// own, if the film has none), ".exr", in the current directory.

@@ -31,8 +31,8 @@ double sum_over_pixels(const Film& film, const Term& term) {
 }  // namespace
 
 std::optional<double> estimated_noise(const Film& film) {
-  for (size_t r = 0; r < film.routes().size(); ++r)
-    if (film.estimates(static_cast<int>(r)) < 2) return std::nullopt;
+  for (int g = 0; g < film.layout().group_count(); ++g)
+    if (film.estimates(g) < 2) return std::nullopt;
   const double sum = sum_over_pixels(film, [&](int x, int y) {
     const Rgb value = film.value(x, y), error = film.standard_error(x, y);
     double pixel = 0;
@@ -45,15 +45,21 @@ std::optional<double> estimated_noise(const Film& film) {
   return std::sqrt(sum / (3.0 * static_cast<double>(film.bounds().area())));
 }
 
-std::vector<double> route_energy_shares(const Film& film) {
-  std::vector<double> shares;
-  for (size_t r = 0; r < film.routes().size(); ++r)
-    shares.push_back(sum_over_pixels(film, [&](int x, int y) {
-      const Rgb value = film.route_value(static_cast<int>(r), x, y);
+EnergyShares energy_shares(const Film& film) {
+  const auto energy = [&](Rgb (Film::*value_of)(int, int, int) const, size_t layer) {
+    return sum_over_pixels(film, [&](int x, int y) {
+      const Rgb value = (film.*value_of)(static_cast<int>(layer), x, y);
       return double{value.r} + value.g + value.b;
-    }));
-  const double total = std::accumulate(shares.begin(), shares.end(), 0.0);
-  for (double& share : shares) share = total > 0 ? share / total : 0;
+    });
+  };
+  EnergyShares shares;
+  for (size_t r = 0; r < film.layout().routes.size(); ++r)
+    shares.routes.push_back(energy(&Film::route_value, r));
+  for (size_t a = 0; a < film.layout().aovs.size(); ++a)
+    shares.aovs.push_back(energy(&Film::aov_value, a));
+  const double total = std::accumulate(shares.routes.begin(), shares.routes.end(), 0.0);
+  for (std::vector<double>* list : {&shares.routes, &shares.aovs})
+    for (double& share : *list) share = total > 0 ? share / total : 0;
   return shares;
 }
 

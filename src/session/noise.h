@@ -10,10 +10,13 @@
 namespace nephroid {
 
 /// sqrt(mean over pixels and channels of stderr^2 / (value^2 + 0.01)): the relative root mean
-/// square error that the film claims for itself. Empty while a route has fewer than two estimates.
+/// square error that the film claims for itself. Empty while a group has fewer than two estimates.
 std::optional<double> estimated_noise(const Film& film);
 
-/// Share of each route in the sum of all channels of all pixels; zeros for a black film.
-std::vector<double> route_energy_shares(const Film& film);
+/// Shares in the sum of all channels of all pixels; zeros for a black film.
+struct EnergyShares {
+  std::vector<double> routes, aovs;
+};
+EnergyShares energy_shares(const Film& film);
 
 }  // namespace nephroid

@@ -203,9 +203,10 @@ Metadata RenderSession::picture_metadata() const {
   metadata.emplace_back("nephroid:passes", fmt::format("{}..{}", options_.first_pass,
                                                        options_.first_pass + passes_done_ - 1));
   metadata.emplace_back("nephroid:seconds", fmt::format("{:.3f}", elapsed()));
-  for (size_t r = 0; r < film_.routes().size(); ++r)
-    metadata.emplace_back("nephroid:estimates:" + film_.routes()[r],
-                          fmt::format("{}", film_.estimates(static_cast<int>(r))));
+  const FilmLayout& layout = film_.layout();
+  for (size_t r = 0; r < layout.routes.size(); ++r)
+    metadata.emplace_back("nephroid:estimates:" + layout.routes[r],
+                          fmt::format("{}", film_.estimates(layout.groups[r])));
   return metadata;
 }
 

@@ -56,7 +56,7 @@ struct RenderResult {
 
 class RenderSession {
  public:
-  /// Keeps references to all three. The film has the preset's routes. Throws UsageError if the
+  /// Keeps references to all three. The film has the preset's layout. Throws UsageError if the
   /// options do not fit the preset, IoError if the output cannot be written.
   RenderSession(const Scene& scene, Preset& preset, Film& film, RenderOptions options);
 

@@ -9,10 +9,13 @@
 #include <fstream>
 
 #include "core/errors.h"
+#include "unit/film/one_part.h"
 #include "unit/film/scratch_directory.h"
 
 namespace nephroid {
 namespace {
+
+using testing_support::add_one;
 
 FilmSettings cropped() {
   FilmSettings settings;
@@ -24,14 +27,14 @@ FilmSettings cropped() {
 
 /// Different in each pixel, route and pass.
 Film filled_film(const FilmSettings& settings) {
-  Film film(settings, {"diffuse", "caustic"});
+  Film film(settings, FilmLayout::of_routes({"diffuse", "caustic"}));
   const PixelBounds& b = film.bounds();
   for (int pass = 0; pass < 3; ++pass) {
     for (int y = b.y0; y < b.y1; ++y)
       for (int x = b.x0; x < b.x1; ++x) {
         const auto v = static_cast<float>(x + 10 * y + pass * pass);
-        film.add(0, x, y, {v, v * 0.5f, v * 0.25f});
-        film.add(1, x, y, {1 / v, 2 / v, 3 / v});
+        add_one(film, 0, x, y, {v, v * 0.5f, v * 0.25f});
+        add_one(film, 1, x, y, {1 / v, 2 / v, 3 / v});
         film.add_features(x, y, {0.1f, 0.2f, 0.3f}, {0, v, 1}, v);
       }
     film.add_estimates(0, 1);
@@ -81,6 +84,42 @@ TEST(FilmOutput, ExrHoldsEveryLayerBitForBit) {
       EXPECT_EQ(pixel(picture, x, y, "samples"), 3.0f);
     }
   EXPECT_GT(film.standard_error(4, 4).r, 0.0f);
+}
+
+TEST(FilmOutput, OneLayerPerRouteAndAovAndTheLargestCount) {
+  FilmLayout layout;
+  layout.routes = {"diffuse", "caustic"};
+  layout.aovs = {"key", "fill"};
+  layout.groups = {0, 1};
+  layout.parts = {{0, {0}}, {0, {1}}, {1, {0, 1}}};
+  Film film(cropped(), layout);
+  const Rgb values[] = {{1, 2, 3}, {10, 20, 30}};
+  film.add(0, 4, 3, values);
+  add_one(film, 1, 4, 3, {400, 800, 1200});
+  film.add_estimates(0, 1);
+  film.add_estimates(1, 4);
+  const Picture picture = film_picture(film, {});
+  EXPECT_EQ(picture.channels.size(), 3u + 6 + 6 + 3 + 3 + 1 + 3 + 1);
+  expect_rgb(picture, 4, 3, "", {111, 222, 333});
+  expect_rgb(picture, 4, 3, "diffuse.", {11, 22, 33});
+  expect_rgb(picture, 4, 3, "caustic.", {100, 200, 300});
+  expect_rgb(picture, 4, 3, "key.", {101, 202, 303});
+  expect_rgb(picture, 4, 3, "fill.", {110, 220, 330});
+  EXPECT_EQ(pixel(picture, 4, 3, "samples"), 4.0f);
+}
+
+TEST(FilmOutput, NamesOfTwoLayersAreFound) {
+  FilmLayout layout = FilmLayout::of_routes({"diffuse", "caustic"});
+  layout.aovs = {"key", "Z"};
+  EXPECT_FALSE(clashing_layer(layout).has_value());
+  layout.aovs = {"key", "caustic"};
+  EXPECT_EQ(clashing_layer(layout), "caustic");
+  layout.aovs = {"key", "fill", "key"};
+  EXPECT_EQ(clashing_layer(layout), "key");
+  for (const char* name : {"albedo", "Albedo", "N", "stderr", "Ns", "P", "Variance"}) {
+    layout.aovs = {name};
+    EXPECT_EQ(clashing_layer(layout), name);
+  }
 }
 
 TEST(FilmOutput, GbufferLayers) {
@@ -184,8 +223,8 @@ TEST(FilmOutput, SrgbCodes) {
 
 TEST(FilmOutput, PngHasTheExposedPicture) {
   const ScratchDirectory directory;
-  Film film(cropped(), {"all"});
-  film.add(0, 3, 2, {0.25f, 0.125f, 5});
+  Film film(cropped(), FilmLayout::of_routes({"all"}));
+  add_one(film, 0, 3, 2, {0.25f, 0.125f, 5});
   film.add_estimates(0, 1);
   write_film(directory.file("out.exr"), film, {}, 2);
   const Picture png = read_picture(directory.file("out.png"));
@@ -200,9 +239,9 @@ TEST(FilmOutput, PngHasTheExposedPicture) {
 TEST(FilmOutput, PngOfAWideSpaceIsConverted) {
   FilmSettings settings = cropped();
   settings.color_space = RgbColorSpace::find("rec2020");
-  Film film(settings, {"all"});
-  film.add(0, 3, 2, {1, 0, 0});  // outside sRGB: clipped to its red
-  film.add(0, 4, 2, {0.5f, 0.5f, 0.5f});
+  Film film(settings, FilmLayout::of_routes({"all"}));
+  add_one(film, 0, 3, 2, {1, 0, 0});  // outside sRGB: clipped to its red
+  add_one(film, 0, 4, 2, {0.5f, 0.5f, 0.5f});
   film.add_estimates(0, 1);
   const std::vector<uint8_t> bytes = film_srgb8(film, 1);
   EXPECT_EQ(bytes[0], 255);

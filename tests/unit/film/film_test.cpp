@@ -8,9 +8,13 @@
 #include <vector>
 
 #include "core/sampler.h"
+#include "unit/film/one_part.h"
 
 namespace nephroid {
 namespace {
+
+using testing_support::add_one;
+using testing_support::replace_one;
 
 FilmSettings small_film() {
   FilmSettings settings;
@@ -39,11 +43,11 @@ Plain plain_statistics(const std::vector<float>& values) {
 }
 
 TEST(Film, MeanAndErrorOfOneRoute) {
-  Film film(small_film(), {"all"});
+  Film film(small_film(), FilmLayout::of_routes({"all"}));
   std::vector<float> values;
   for (uint64_t i = 0; i < 40; ++i) {
     const float v = random_value(i);
-    film.add(0, 3, 4, {v, 2 * v, -v});
+    add_one(film, 0, 3, 4, {v, 2 * v, -v});
     values.push_back(v);
   }
   film.add_estimates(0, values.size());
@@ -60,15 +64,15 @@ TEST(Film, MeanAndErrorOfOneRoute) {
 }
 
 TEST(Film, RoutesAddUpEachWithItsOwnCount) {
-  Film film(small_film(), {"diffuse", "caustic"});
+  Film film(small_film(), FilmLayout::of_routes({"diffuse", "caustic"}));
   std::vector<float> diffuse, caustic;
   for (uint64_t i = 0; i < 10; ++i) {
     diffuse.push_back(random_value(i));
-    film.add(0, 2, 1, {diffuse.back(), 0, 0});
+    add_one(film, 0, 2, 1, {diffuse.back(), 0, 0});
   }
   for (uint64_t i = 100; i < 125; ++i) {
     caustic.push_back(random_value(i));
-    film.add(1, 2, 1, {caustic.back(), 0, 0});
+    add_one(film, 1, 2, 1, {caustic.back(), 0, 0});
   }
   film.add_estimates(0, 10);
   film.add_estimates(1, 25);
@@ -81,27 +85,27 @@ TEST(Film, RoutesAddUpEachWithItsOwnCount) {
 
 TEST(Film, BeautyIsRoundedOnce) {
   // Each route alone rounds to 1: only the exact sum of both shows the rest.
-  Film film(small_film(), {"a", "b"});
-  film.add(0, 2, 1, {1, 0, 0});
-  film.add(1, 2, 1, {0x1p-23f, 0, 0});
-  film.add(1, 2, 1, {-0x1p-25f, 0, 0});
+  Film film(small_film(), FilmLayout::of_routes({"a", "b"}));
+  add_one(film, 0, 2, 1, {1, 0, 0});
+  add_one(film, 1, 2, 1, {0x1p-23f, 0, 0});
+  add_one(film, 1, 2, 1, {-0x1p-25f, 0, 0});
   film.add_estimates(0, 1);
   film.add_estimates(1, 1);
   EXPECT_EQ(film.value(2, 1).r, 1.0f + 0x1p-23f);
 }
 
 TEST(Film, NoEstimateIsBlackAndOneHasNoError) {
-  Film film(small_film(), {"all"});
+  Film film(small_film(), FilmLayout::of_routes({"all"}));
   EXPECT_EQ(film.value(2, 1).g, 0.0f);
-  film.add(0, 2, 1, {1, 2, 3});
+  add_one(film, 0, 2, 1, {1, 2, 3});
   film.add_estimates(0, 1);
   EXPECT_EQ(film.value(2, 1).g, 2.0f);
   EXPECT_EQ(film.standard_error(2, 1).g, 0.0f);
 }
 
 TEST(Film, EqualEstimatesHaveNoErrorToSpeakOf) {
-  Film film(small_film(), {"all"});
-  for (int i = 0; i < 100; ++i) film.add(0, 2, 1, {0.1f, 1e6f, 3});
+  Film film(small_film(), FilmLayout::of_routes({"all"}));
+  for (int i = 0; i < 100; ++i) add_one(film, 0, 2, 1, {0.1f, 1e6f, 3});
   film.add_estimates(0, 100);
   // What is left is the rounding of the mean square in double: sqrt(2^-52 / 99) of the value.
   EXPECT_LE(film.standard_error(2, 1).r, 0.1f * 2e-9f);
@@ -109,10 +113,10 @@ TEST(Film, EqualEstimatesHaveNoErrorToSpeakOf) {
 }
 
 TEST(Film, NotFiniteIsCountedAndLeftOut) {
-  Film film(small_film(), {"all"});
-  film.add(0, 2, 1, {1, 1, 1});
-  film.add(0, 2, 1, {1, std::numeric_limits<float>::quiet_NaN(), 1});
-  film.add(0, 3, 1, {kInfinity, 0, 0});
+  Film film(small_film(), FilmLayout::of_routes({"all"}));
+  add_one(film, 0, 2, 1, {1, 1, 1});
+  add_one(film, 0, 2, 1, {1, std::numeric_limits<float>::quiet_NaN(), 1});
+  add_one(film, 0, 3, 1, {kInfinity, 0, 0});
   film.add_estimates(0, 2);
   EXPECT_EQ(film.bad_values(), 2u);
   EXPECT_EQ(film.value(2, 1).r, 0.5f);
@@ -120,10 +124,10 @@ TEST(Film, NotFiniteIsCountedAndLeftOut) {
 }
 
 TEST(Film, SaturationIsCounted) {
-  Film film(small_film(), {"all"});
-  film.add(0, 2, 1, {1e9f, 0, 0});
+  Film film(small_film(), FilmLayout::of_routes({"all"}));
+  add_one(film, 0, 2, 1, {1e9f, 0, 0});
   EXPECT_EQ(film.saturated_values(), 0u);
-  film.add(0, 2, 1, {1e20f, 0, 0});
+  add_one(film, 0, 2, 1, {1e20f, 0, 0});
   EXPECT_EQ(film.saturated_values(), 1u);
 }
 
@@ -140,18 +144,18 @@ TEST(Film, LargestComponentIsHeldWithTheHueKept) {
 }
 
 TEST(Film, ReplaceForgetsWhatWasThere) {
-  Film film(small_film(), {"all"});
-  film.add(0, 2, 1, {5, 5, 5});
-  film.replace(0, 2, 1, {1, 2, 3});
+  Film film(small_film(), FilmLayout::of_routes({"all"}));
+  add_one(film, 0, 2, 1, {5, 5, 5});
+  replace_one(film, 0, 2, 1, {1, 2, 3});
   film.set_estimates(0, 1);
   EXPECT_EQ(film.value(2, 1).b, 3.0f);
-  film.replace(0, 2, 1, {kInfinity, 2, 3});
+  replace_one(film, 0, 2, 1, {kInfinity, 2, 3});
   EXPECT_EQ(film.bad_values(), 1u);
   EXPECT_EQ(film.value(2, 1).b, 3.0f);
 }
 
 TEST(Film, Features) {
-  Film film(small_film(), {"all"});
+  Film film(small_film(), FilmLayout::of_routes({"all"}));
   film.add_features(2, 1, {0.5f, 0.25f, 1}, {0, 0, 1}, 10);
   film.add_features(2, 1, {0.5f, 0.75f, 1}, {0, 1, 0}, 20);
   film.add_features(2, 1, {0, 0, 0}, {0, 0, 0}, kInfinity);  // missed everything
@@ -168,11 +172,112 @@ TEST(Film, Features) {
   EXPECT_EQ(film.bad_values(), 0u);
 }
 
+/// Three routes in two groups: routes 0 and 2 are rendered together, as parts 0, 2 and 3.
+FilmLayout layout_with_aovs() {
+  FilmLayout layout;
+  layout.routes = {"diffuse", "caustic", "rest"};
+  layout.aovs = {"key", "fill", "dark"};
+  layout.groups = {0, 1, 0};
+  layout.parts = {{0, {0}}, {1, {0, 1}}, {2, {}}, {0, {1}}};
+  return layout;
+}
+
+TEST(Film, PartsAddUpToRoutesAovsAndBeauty) {
+  Film film(small_film(), layout_with_aovs());
+  EXPECT_EQ(film.layout().group_count(), 2);
+  EXPECT_EQ(film.parts_of(0), (std::vector<int>{0, 2, 3}));
+  EXPECT_EQ(film.parts_of(1), (std::vector<int>{1}));
+  double sums[4] = {0, 0, 0, 0};
+  std::vector<float> first, second;  // what an estimate of each group found altogether
+  for (uint64_t i = 0; i < 30; ++i) {
+    const Rgb values[] = {
+        {random_value(i), 0, 0}, {random_value(i + 1000), 0, 0}, {-random_value(i + 2000), 0, 0}};
+    film.add(0, 4, 2, values);
+    sums[0] += double{values[0].r};
+    sums[2] += double{values[1].r};
+    sums[3] += double{values[2].r};
+    first.push_back(values[0].r + values[1].r + values[2].r);
+  }
+  for (uint64_t i = 0; i < 12; ++i) {
+    second.push_back(random_value(i + 3000));
+    sums[1] += double{second.back()};
+    add_one(film, 1, 4, 2, {second.back(), 0, 0});
+  }
+  film.add_estimates(0, 30);
+  film.add_estimates(1, 12);
+  const auto near = [](const Rgb& value, double expected) {
+    EXPECT_FLOAT_EQ(value.r, static_cast<float>(expected));
+  };
+  near(film.route_value(0, 4, 2), (sums[0] + sums[3]) / 30);
+  near(film.route_value(1, 4, 2), sums[1] / 12);
+  near(film.route_value(2, 4, 2), sums[2] / 30);
+  near(film.aov_value(0, 4, 2), sums[0] / 30 + sums[1] / 12);
+  near(film.aov_value(1, 4, 2), sums[3] / 30 + sums[1] / 12);
+  EXPECT_EQ(film.aov_value(2, 4, 2).r, 0.0f);
+  near(film.value(4, 2), (sums[0] + sums[2] + sums[3]) / 30 + sums[1] / 12);
+  // The error is that of the groups' totals: parts of one estimate are not independent.
+  const Plain a = plain_statistics(first), b = plain_statistics(second);
+  EXPECT_NEAR(film.standard_error(4, 2).r, std::hypot(a.error, b.error), 1e-6);
+}
+
+TEST(Film, PartsThatCancelInEachEstimateHaveNoError) {
+  Film film(small_film(), layout_with_aovs());
+  for (uint64_t i = 0; i < 20; ++i) {
+    const float v = random_value(i);
+    const Rgb values[] = {{v, 0, 0}, {3, 0, 0}, {-v, 0, 0}};
+    film.add(0, 2, 1, values);
+  }
+  film.add_estimates(0, 20);
+  EXPECT_FLOAT_EQ(film.value(2, 1).r, 3);
+  EXPECT_LE(film.standard_error(2, 1).r, 1e-7f);
+}
+
+TEST(Film, SumsOfPartsAreRoundedOnce) {
+  // Each part alone rounds to 1 or to nothing beside it; the AOV and the route are exact sums.
+  FilmLayout layout;
+  layout.routes = {"all"};
+  layout.aovs = {"same"};
+  layout.groups = {0};
+  layout.parts = {{0, {0}}, {0, {0}}};
+  Film film(small_film(), layout);
+  const Rgb values[] = {{1, 0, 0}, {0x1p-23f, 0, 0}}, rest[] = {{0, 0, 0}, {-0x1p-25f, 0, 0}};
+  film.add(0, 2, 1, values);
+  film.add(0, 2, 1, rest);
+  film.add_estimates(0, 1);
+  for (const Rgb& value : {film.value(2, 1), film.route_value(0, 2, 1), film.aov_value(0, 2, 1)})
+    EXPECT_EQ(value.r, 1.0f + 0x1p-23f);
+}
+
+TEST(Film, AnEstimateWithOneBadPartIsLeftOutAsAWhole) {
+  Film film(small_film(), layout_with_aovs());
+  const Rgb bad[] = {{1, 1, 1}, {0, std::numeric_limits<float>::quiet_NaN(), 0}, {1, 1, 1}};
+  film.add(0, 2, 1, bad);
+  film.add_estimates(0, 1);
+  EXPECT_EQ(film.bad_values(), 1u);
+  EXPECT_EQ(film.value(2, 1).r, 0.0f);
+  film.add_faults(3, 5);
+  EXPECT_EQ(film.bad_values(), 4u);
+  EXPECT_EQ(film.saturated_values(), 5u);
+}
+
+TEST(Film, ReplaceForgetsEveryPartOfItsGroupAlone) {
+  Film film(small_film(), layout_with_aovs());
+  const Rgb before[] = {{1, 1, 1}, {2, 2, 2}, {4, 4, 4}},
+            after[] = {{8, 8, 8}, {0, 0, 0}, {0, 0, 0}};
+  film.add(0, 2, 1, before);
+  add_one(film, 1, 2, 1, {16, 16, 16});
+  film.replace(0, 2, 1, after);
+  film.set_estimates(0, 1);
+  film.add_estimates(1, 1);
+  EXPECT_EQ(film.value(2, 1).g, 24.0f);
+  EXPECT_EQ(film.route_value(2, 2, 1).g, 0.0f);
+}
+
 TEST(Film, EmptyCropIsTheWholePicture) {
   FilmSettings settings;
   settings.width = 4;
   settings.height = 3;
-  const Film film(settings, {"all"});
+  const Film film(settings, FilmLayout::of_routes({"all"}));
   EXPECT_EQ(film.bounds().area(), 12);
   EXPECT_EQ(film.settings().crop.x1, 4);
 }

@@ -2,10 +2,12 @@
 #include "session/film_of_scene.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <fstream>
 
 #include "core/errors.h"
+#include "film/splats.h"
 #include "session/file_hash.h"
 #include "unit/film/scratch_directory.h"
 
@@ -46,6 +48,38 @@ TEST(FilmOfScene, SettingsAreTheScenes) {
   EXPECT_EQ(settings.imaging_ratio, 2);
   EXPECT_EQ(settings.max_component, 5);
   EXPECT_EQ(settings.filename, "f.exr");
+}
+
+TEST(FilmOfScene, MemoryIsThatOfThePartsGroupsAndSplats) {
+  // Just what this machine holds for a film of one route: anything more is refused.
+  const FilmLayout one = FilmLayout::of_routes({"all"});
+  const double memory =
+      static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+  FilmDescription description;
+  description.crop_x0 = description.crop_y0 = 0;
+  description.crop_x1 = 1024;
+  description.crop_y1 =
+      static_cast<int>(memory / static_cast<double>(Film::bytes_per_pixel(one, false)) / 1024);
+  EXPECT_NO_THROW(check_film_fits(description, one, 0, false));
+  EXPECT_THROW(check_film_fits(description, one, 1, false), SceneError);
+  FilmLayout two = one;
+  two.parts.push_back({0, {}});
+  EXPECT_THROW(check_film_fits(description, two, 0, true), UsageError);
+  description.gbuffer = GBufferSpace::kWorld;
+  EXPECT_THROW(check_film_fits(description, one, 0, false), SceneError);
+}
+
+TEST(FilmOfScene, TheFilmsMemoryIsCountedInFull) {
+  // 16 bytes a sum, three sums for each part and each group, features and two counters.
+  FilmLayout layout = FilmLayout::of_routes({"a", "b"});
+  const size_t two = Film::bytes_per_pixel(layout, false);
+  EXPECT_GE(two, 4u * 48 + 120 + 8);
+  layout.parts.push_back({1, {}});
+  EXPECT_EQ(Film::bytes_per_pixel(layout, false), two + 48);
+  layout.groups[1] = 0;
+  EXPECT_EQ(Film::bytes_per_pixel(layout, false), two);
+  EXPECT_GE(Film::bytes_per_pixel(layout, true), two + 13 * 16);
+  EXPECT_EQ(SplatBuffer::bytes_per_pixel(3), 144u);
 }
 
 TEST(FileHash, KnownAnswers) {

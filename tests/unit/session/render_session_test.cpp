@@ -9,10 +9,13 @@
 #include "core/errors.h"
 #include "scene/scene.h"
 #include "session/noise.h"
+#include "unit/film/one_part.h"
 #include "unit/film/scratch_directory.h"
 
 namespace nephroid {
 namespace {
+
+using testing_support::add_one;
 
 /// Everything that a fake pass may do, shared between test and estimator.
 struct Script {
@@ -25,7 +28,7 @@ struct Script {
 
 class FakeEstimator : public Estimator {
  public:
-  FakeEstimator(Script& script, int route) : script_(script), route_(route) {}
+  FakeEstimator(Script& script, int group) : script_(script), group_(group) {}
   Capabilities capabilities() const override { return script_.capabilities; }
   void render_pass(const PassKey& key, const Scene&, Film& film) override {
     script_.now += script_.pass_seconds;
@@ -35,8 +38,8 @@ class FakeEstimator : public Estimator {
     const float value = key.pass % 2 == 0 ? 0.0f : 2.0f;
     for (int y = film.bounds().y0; y < film.bounds().y1; ++y)
       for (int x = film.bounds().x0; x < film.bounds().x1; ++x)
-        film.add(route_, x, y, {value, value, value});
-    film.add_estimates(route_, 1);
+        add_one(film, group_, x, y, {value, value, value});
+    film.add_estimates(group_, 1);
     statistics_.rays += 100;
     statistics_.photons_stored += 10;
     statistics_.radius_max_pixels = 8.0f / static_cast<float>(key.pass + 1);
@@ -45,19 +48,19 @@ class FakeEstimator : public Estimator {
 
  private:
   Script& script_;
-  int route_;
+  int group_;
   EstimatorStatistics statistics_;
 };
 
 class RenderSessionTest : public testing::Test {
  protected:
   RenderSessionTest() {
-    preset_.route_names = {"diffuse"};
+    preset_.layout = FilmLayout::of_routes({"diffuse"});
     preset_.estimators.push_back(std::make_unique<FakeEstimator>(script_, 0));
     FilmSettings settings;
     settings.width = 5;
     settings.height = 3;
-    film_ = std::make_unique<Film>(settings, preset_.route_names);
+    film_ = std::make_unique<Film>(settings, preset_.layout);
     scene_.samples_per_pixel = 6;
   }
   RenderResult run(const RenderOptions& options) {
@@ -115,9 +118,9 @@ TEST_F(RenderSessionTest, RangeNeedsIndependentPasses) {
 
 TEST_F(RenderSessionTest, EveryEstimatorRendersEveryPassInOrder) {
   Script second;
-  preset_.route_names = {"diffuse", "caustic"};
+  preset_.layout = FilmLayout::of_routes({"diffuse", "caustic"});
   preset_.estimators.push_back(std::make_unique<FakeEstimator>(second, 1));
-  film_ = std::make_unique<Film>(film_->settings(), preset_.route_names);
+  film_ = std::make_unique<Film>(film_->settings(), preset_.layout);
   std::vector<std::string> order;
   script_.during_pass = [&](const PassKey& key) {
     order.push_back("a" + std::to_string(key.pass));
@@ -171,7 +174,7 @@ TEST_F(RenderSessionTest, NoiseTargetDoesNotDependOnTheClock) {
   RenderOptions options;
   options.noise_target = 0.1;
   const uint32_t slow = run(options).passes_done;
-  film_ = std::make_unique<Film>(film_->settings(), preset_.route_names);
+  film_ = std::make_unique<Film>(film_->settings(), preset_.layout);
   script_.pass_seconds = 1e-4;
   EXPECT_EQ(run(options).passes_done, slow);
 }
@@ -355,7 +358,7 @@ TEST_F(RenderSessionTest, MetadataOfTheCallerAndTheSession) {
 TEST(Noise, NeedsTwoEstimatesOfEveryRoute) {
   FilmSettings settings;
   settings.width = settings.height = 2;
-  Film film(settings, {"a", "b"});
+  Film film(settings, FilmLayout::of_routes({"a", "b"}));
   film.add_estimates(0, 5);
   film.add_estimates(1, 1);
   EXPECT_FALSE(estimated_noise(film).has_value());
@@ -366,10 +369,10 @@ TEST(Noise, NeedsTwoEstimatesOfEveryRoute) {
 TEST(Noise, SharesOfRoutes) {
   FilmSettings settings;
   settings.width = settings.height = 2;
-  Film film(settings, {"a", "b"});
+  Film film(settings, FilmLayout::of_routes({"a", "b"}));
   EXPECT_EQ(route_energy_shares(film), (std::vector<double>{0, 0}));
-  film.add(0, 0, 0, {2, 0, 0});
-  film.add(1, 1, 1, {3, 6, 0});
+  add_one(film, 0, 0, 0, {2, 0, 0});
+  add_one(film, 1, 1, 1, {3, 6, 0});
   film.add_estimates(0, 2);  // means 1 and 3
   film.add_estimates(1, 3);
   const auto shares = route_energy_shares(film);
