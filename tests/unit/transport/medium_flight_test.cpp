@@ -129,8 +129,8 @@ TEST(FlightPerWavelength, ClosedFormOfAUniformMedium) {
     const double s = double(medium.sigma_t()[k]), end = double(kEnd);
     const Expected e = quadrature(medium, k);
     EXPECT_NEAR(e.through, std::exp(-s * end), 1e-6);
-    if (s > 0)
-      EXPECT_NEAR(e.near + e.far, double(kScattered[k]) / s * (1 - std::exp(-s * end)), 1e-4);
+    if (!(s > 0)) continue;
+    EXPECT_NEAR(e.near + e.far, double(kScattered[k]) / s * (1 - std::exp(-s * end)), 1e-4);
   }
 }
 
