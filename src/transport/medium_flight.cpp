@@ -171,6 +171,42 @@ std::optional<Collision> fly(const Medium& medium, const Ray& ray, float t_max,
   return std::nullopt;
 }
 
+std::optional<Collision> fly_per_wavelength(const Medium& medium, const Ray& ray, float t_max,
+                                            const SampledWavelengths& lambda, FlightRandom& random,
+                                            SampledSpectrum& throughput) {
+  const bool hero_only = lambda.secondary_terminated();
+  const auto mean = [&](const SampledSpectrum& s) { return hero_only ? s[0] : s.average(); };
+  const auto rate_of = [&](const SampledSpectrum& s) {
+    return hero_only ? s[0] : s.max_component();
+  };
+  const auto end = [&] {
+    throughput = SampledSpectrum(0.0f);
+    return std::nullopt;
+  };
+  const float at_start = mean(throughput);
+  if (!(at_start > 0.0f)) return end();
+  Steps steps(medium.majorants(ray, t_max, lambda), random);
+  while (steps.next(rate_of, [](const SampledSpectrum&, float) {})) {  // [V6]
+    const MediumProperties m = medium.at(ray.o + ray.d * steps.t(), lambda);
+    const float rate = rate_of(steps.majorant());
+    const SampledSpectrum real = throughput * m.sigma_s * (1.0f / rate);
+    const SampledSpectrum null =
+        throughput * positive_part(SampledSpectrum(rate) - extinction(m)) * (1.0f / rate);
+    const float mean_real = mean(real), both = mean_real + mean(null);
+    if (!(both > 0.0f)) return end();
+    const float p_real = mean_real / both;
+    if (random.next() < p_real) {
+      throughput = real / p_real;
+      if (!throughput.is_finite()) return end();
+      return Collision{steps.t(), m.phase};
+    }
+    throughput = null / (1.0f - p_real);
+    if (!survives(throughput, mean(throughput) / at_start, random)) return end();
+  }
+  if (steps.given_up()) return end();
+  return std::nullopt;
+}
+
 void cross(const Medium& medium, const Ray& ray, float t_max, const SampledWavelengths& lambda,
            FlightRandom& random, ShadowFlight& flight) {
   if (medium.is_purely_absorbing()) {

@@ -1,7 +1,7 @@
 // How light crosses a medium between two surfaces: collisions sampled against a majorant (delta
 // tracking), null collisions kept as weights, and the spectral multiple importance sampling that
 // makes a path sampled for one wavelength count for all (Miller, Georgiev & Jarosz 2019; Wilkie et
-// al. 2014; pbrt-v4 chapters 11 and 14; docs/estimators.md, [V1] to [V5]).
+// al. 2014; pbrt-v4 chapters 11 and 14; docs/estimators.md, [V1] to [V6]).
 // Who calls it: the random walk and shadow rays. It must not know surfaces, routes or films.
 #pragma once
 
@@ -69,6 +69,13 @@ std::optional<Collision> fly(const Medium& medium, const Ray& ray, float t_max,
                              const SampledWavelengths& lambda, FlightRandom& random,
                              SampledSpectrum& throughput, SpectralDensity& density,
                              SampledSpectrum& emitted);
+
+/// The same for walks whose choices must not depend on which wavelength is the hero, because two of
+/// them meet that share their wavelengths: each wavelength's throughput is an unbiased estimate by
+/// itself, no density goes with it [V6]. Nothing of what the medium emits is seen.
+std::optional<Collision> fly_per_wavelength(const Medium& medium, const Ray& ray, float t_max,
+                                            const SampledWavelengths& lambda, FlightRandom& random,
+                                            SampledSpectrum& throughput);
 
 /// What a shadow ray finds in a medium: the share that gets through and how likely that is for
 /// either technique, relative to the density with which it was sampled.

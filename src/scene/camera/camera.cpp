@@ -20,6 +20,22 @@ Ray Camera::world_ray(const Vec3f& o, const Vec3f& d, float u_time) const {
   return ray;
 }
 
+std::optional<Camera::Sight> Camera::see(const Vec3f& p, const Vec3f& lens, float u_time) const {
+  const Transform to_world = camera_to_world(motion_time(u_time));
+  const Mat44d& i = to_world.inverse;
+  Sight s;
+  s.lens = to_world.point(lens);
+  const Vec3f way = p - s.lens;
+  s.distance = length(way);
+  s.d = normalize(way);
+  s.v = to_world.inverted().vector(s.d);
+  s.camera_volume = static_cast<float>(std::abs(i[0][0] * (i[1][1] * i[2][2] - i[1][2] * i[2][1]) -
+                                                i[0][1] * (i[1][0] * i[2][2] - i[1][2] * i[2][0]) +
+                                                i[0][2] * (i[1][0] * i[2][1] - i[1][1] * i[2][0])));
+  if (!(s.distance > 0) || !is_finite(s.v) || !(s.camera_volume > 0)) return std::nullopt;
+  return s;
+}
+
 PixelFootprint footprint_of_central_pixel(const Camera& camera, const CameraFilm& film) {
   constexpr Vec2f kMiddle(0.5f, 0.5f);
   const Vec2f centre(static_cast<float>(film.width) / 2, static_cast<float>(film.height) / 2);

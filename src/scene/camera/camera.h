@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "core/errors.h"
 #include "core/motion.h"
@@ -29,8 +30,8 @@ struct CameraRay {
 
 /// A straight line from a point of the scene to the lens, and where it exposes the film.
 struct CameraConnection {
-  Vec3f p;     ///< on the lens, world space
-  Vec3f wi;    ///< unit, from the scene's point to the lens
+  Vec3f p;   ///< on the lens, world space
+  Vec3f wi;  ///< unit, from the scene's point to the lens
   float distance = 0;
   Vec2f film;  ///< as generate_ray takes it; may lie outside of the picture
   /// Change of the film position, in pixels^2, per area perpendicular to wi at the scene's point.
@@ -73,6 +74,10 @@ class Camera {
                                                   float u_time) const = 0;
   /// False if light paths cannot be connected to this kind of camera (realistic lenses).
   virtual bool connects() const { return true; }
+  /// Film points outside of the picture that see what `film`, inside, sees, those nearest to it;
+  /// the rest of `out` is unused. Pictures that close upon themselves have some: a filter at their
+  /// edge reaches over it. Returns how many.
+  virtual int repeats(const Vec2f& /*film*/, std::span<Vec2f, 3> /*out*/) const { return 0; }
 
   /// The moment that u_time in [0,1) chooses within the shutter, as Ray::time counts: 0 at the
   /// first keyframe of what moves, 1 at the second, and no further [K2]. 0 if both are at the same
@@ -86,6 +91,17 @@ class Camera {
  protected:
   /// The ray from `o` along `d`, both in camera space, in world space with unit direction.
   Ray world_ray(const Vec3f& o, const Vec3f& d, float u_time) const;
+
+  /// How a world point is seen from a point of the lens, whatever the transform does to lengths.
+  struct Sight {
+    Vec3f lens;               ///< world space
+    Vec3f d;                  ///< unit, world space, from the lens to the point
+    float distance = 0;       ///< world space
+    Vec3f v;                  ///< d in camera space, not of unit length
+    float camera_volume = 0;  ///< of a unit cube of world space in camera space
+  };
+  /// Empty if the point lies on the lens or the transform is flat at that moment.
+  std::optional<Sight> see(const Vec3f& p, const Vec3f& lens, float u_time) const;
 
  private:
   CameraPlacement placement_;

@@ -27,6 +27,8 @@ class ProjectiveCamera final : public Camera {
       footprint_.spread = screen_pixel / s.focal_distance;
     else
       footprint_.offset = screen_pixel * length(camera_to_world(0).vector({1, 0, 0}));
+    pixels_per_screen_area_ = static_cast<float>(s.width) * static_cast<float>(s.height) /
+                              std::abs((s.screen[1] - s.screen[0]) * (s.screen[3] - s.screen[2]));
   }
 
   std::optional<CameraRay> generate_ray(const Vec2f& film, const Vec2f& u_lens,
@@ -51,8 +53,57 @@ class ProjectiveCamera final : public Camera {
 
   PixelFootprint footprint() const override { return footprint_; }
 
+  std::optional<CameraConnection> connect(const Vec3f& p, const Vec2f& u_lens,
+                                          float u_time) const override {
+    if (!s_.perspective && !(s_.lens_radius > 0)) return connect_in_parallel(p, u_time);
+    const Vec2f disk = s_.lens_radius > 0 ? square_to_disk(u_lens) : Vec2f(0, 0);
+    const Vec3f lens(disk.x * s_.lens_radius, disk.y * s_.lens_radius, 0);
+    const std::optional<Sight> sight = see(p, lens, u_time);
+    if (!sight || !(sight->v.z > 0)) return std::nullopt;
+    // All rays of a film point meet where the central one has gone as far as the plane of focus;
+    // the screen is the plane z = 1, or for an orthographic camera that of focus.
+    const float slope_x = sight->v.x / sight->v.z, slope_y = sight->v.y / sight->v.z;
+    const float screen_z = s_.perspective ? 1.0f : s_.focal_distance;
+    const float to_screen = screen_z / s_.focal_distance;
+    const float zoom = s_.perspective ? 1 / s_.tan_half_fov : 1.0f;
+    // Solid angles of world space become camera_volume / |v|^3 times as large in camera space, and
+    // areas of the screen are screen_z^2 / cos^3 as large as their solid angles.
+    return connection(*sight, (slope_x * screen_z + lens.x * to_screen) * zoom,
+                      (slope_y * screen_z + lens.y * to_screen) * zoom,
+                      sqr(zoom * screen_z) * sight->camera_volume /
+                          (sight->v.z * sqr(sight->v.z) * sqr(sight->distance)));
+  }
+
  private:
+  /// Without a lens an orthographic camera looks along z from every point of its screen.
+  std::optional<CameraConnection> connect_in_parallel(const Vec3f& p, float u_time) const {
+    const Transform to_world = camera_to_world(motion_time(u_time));
+    const Vec3f at = to_world.inverted().point(p);
+    if (!(at.z > 0) || !is_finite(at)) return std::nullopt;
+    const std::optional<Sight> sight = see(p, Vec3f(at.x, at.y, 0), u_time);
+    if (!sight) return std::nullopt;
+    const float stretch = length(to_world.vector(Vec3f(0, 0, 1)));
+    return connection(*sight, at.x, at.y, sight->camera_volume * stretch);
+  }
+
+  /// The connection that meets the screen at (sx, sy), where an area perpendicular to it covers
+  /// `screen_area` as much.
+  std::optional<CameraConnection> connection(const Sight& sight, float sx, float sy,
+                                             float screen_area) const {
+    CameraConnection c;
+    c.p = sight.lens;
+    c.wi = -sight.d;
+    c.distance = sight.distance;
+    c.film.x = (sx - s_.screen[0]) / (s_.screen[1] - s_.screen[0]) * static_cast<float>(s_.width);
+    c.film.y = (sy - s_.screen[3]) / (s_.screen[2] - s_.screen[3]) * static_cast<float>(s_.height);
+    c.film_density = screen_area * pixels_per_screen_area_;
+    if (!std::isfinite(c.film.x) || !std::isfinite(c.film.y) || !std::isfinite(c.film_density))
+      return std::nullopt;
+    return c;
+  }
+
   Settings s_;
+  float pixels_per_screen_area_ = 1;
   PixelFootprint footprint_;
 };
 

@@ -64,6 +64,13 @@ class RealisticCamera final : public Camera {
 
   PixelFootprint footprint() const override { return footprint_; }
 
+  // The point of the rear lens from which a world point is seen by a given film point, or the other
+  // way round, is only found by a search.
+  std::optional<CameraConnection> connect(const Vec3f&, const Vec2f&, float) const override {
+    return std::nullopt;
+  }
+  bool connects() const override { return false; }
+
  private:
   static constexpr int kZones = 64;  ///< rings of the film, each with its own pupil
 

@@ -44,6 +44,56 @@ class SphericalCamera final : public Camera {
 
   PixelFootprint footprint() const override { return footprint_; }
 
+  std::optional<CameraConnection> connect(const Vec3f& p, const Vec2f&,
+                                          float u_time) const override {
+    const std::optional<Sight> sight = see(p, Vec3f(0, 0, 0), u_time);
+    if (!sight) return std::nullopt;
+    const Vec3f v = normalize(sight->v);
+    const Vec3f d(v.x, v.z, v.y);
+    Vec2f uv;
+    float density;  // of uv over the solid angle in camera space
+    if (mapping_ == SphereMapping::kEquirectangular) {
+      const float sine = std::hypot(d.x, d.y);
+      const float phi = std::atan2(d.y, d.x);
+      uv = Vec2f((phi < 0 ? phi + 2 * kPi : phi) * kInv2Pi, std::atan2(sine, d.z) * kInvPi);
+      density = kInv2Pi * kInvPi / sine;
+    } else {
+      uv = equal_area_sphere_to_square(d);
+      density = kInv4Pi;
+    }
+    CameraConnection c;
+    c.p = sight->lens;
+    c.wi = -sight->d;
+    c.distance = sight->distance;
+    const float w = static_cast<float>(film_.width), h = static_cast<float>(film_.height);
+    c.film = Vec2f(uv.x * w, uv.y * h);
+    const float stretch = length(sight->v);
+    c.film_density =
+        density * w * h * sight->camera_volume / (stretch * sqr(stretch) * sqr(c.distance));
+    if (!std::isfinite(c.film_density)) return std::nullopt;
+    return c;
+  }
+
+  // The inverse of what generate_ray does with points that lie outside.
+  int repeats(const Vec2f& film, std::span<Vec2f, 3> out) const override {
+    const float w = static_cast<float>(film_.width), h = static_cast<float>(film_.height);
+    const float side = film.x < w / 2 ? 1.0f : -1.0f;
+    if (mapping_ == SphereMapping::kEquirectangular) {
+      // Around the sphere; over the pole, where half a turn away the meridian goes on.
+      const float y = film.y < h / 2 ? -film.y : 2 * h - film.y;
+      out[0] = Vec2f(film.x + side * w, film.y);
+      out[1] = Vec2f(film.x + side * w / 2, y);
+      out[2] = Vec2f(film.x - side * w / 2, y);
+    } else {
+      const float u = film.x / w, v = film.y / h;
+      const float along = v < 0.5f ? 1.0f : -1.0f;
+      out[0] = Vec2f((u < 0.5f ? -u : 2 - u) * w, (1 - v) * h);
+      out[1] = Vec2f((1 - u) * w, (v < 0.5f ? -v : 2 - v) * h);
+      out[2] = Vec2f((u + side) * w, (v + along) * h);
+    }
+    return 3;
+  }
+
  private:
   CameraFilm film_;
   SphereMapping mapping_;

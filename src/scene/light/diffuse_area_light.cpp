@@ -88,6 +88,11 @@ class DiffuseAreaLight final : public Light {
     e.pdf_w = cosine_hemisphere_pdf_w(local.z) * (emission_->two_sided ? 0.5f : 1.0f);
     e.cos_theta = local.z;
     e.from_inside = side < 0.0f;
+    if (!emission_->invisible) e.coverage = coverage(*point);
+    e.p = point->p;
+    e.p_error = point->p_error;
+    e.ng = point->ng;
+    e.uv = point->uv;
     return e;
   }
 

@@ -38,6 +38,12 @@ struct EmissionSample {
   /// The light came from far behind the origin: the caller multiplies by what gets through from
   /// there ([P4] in docs/estimators.md) and finds out in which medium it arrives.
   bool from_behind = false;
+  /// The start point itself, if it lies on a surface that a camera sees shine: radiance() tells
+  /// what leaves it in another direction, `coverage` how much of it is there (alpha); 0: there is
+  /// none.
+  float coverage = 0;
+  Vec3f p, p_error, ng;
+  Vec2f uv;
   /// Flux carried by a path: radiance * cos_theta / (pdf_a * pdf_w).
 };
 

@@ -88,6 +88,9 @@ class Medium {
   /// Majorants along a ray of unit direction from its origin to t_max (which may be infinite).
   virtual MajorantIterator majorants(const Ray& ray, float t_max,
                                      const SampledWavelengths& lambda) const = 0;
+
+ private:
+  int index_ = -1;
 };
 using MediumPtr = std::shared_ptr<const Medium>;
 
