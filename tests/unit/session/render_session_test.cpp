@@ -370,12 +370,12 @@ TEST(Noise, SharesOfRoutes) {
   FilmSettings settings;
   settings.width = settings.height = 2;
   Film film(settings, FilmLayout::of_routes({"a", "b"}));
-  EXPECT_EQ(route_energy_shares(film), (std::vector<double>{0, 0}));
+  EXPECT_EQ(energy_shares(film).routes, (std::vector<double>{0, 0}));
   add_one(film, 0, 0, 0, {2, 0, 0});
   add_one(film, 1, 1, 1, {3, 6, 0});
   film.add_estimates(0, 2);  // means 1 and 3
   film.add_estimates(1, 3);
-  const auto shares = route_energy_shares(film);
+  const auto shares = energy_shares(film).routes;
   EXPECT_NEAR(shares[0], 0.25, 1e-7);
   EXPECT_NEAR(shares[1], 0.75, 1e-7);
 }
