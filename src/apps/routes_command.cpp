@@ -10,6 +10,7 @@
 #include "apps/scene_loading.h"
 #include "core/errors.h"
 #include "route/compile.h"
+#include "route/scene_symbols.h"
 #include "session/film_of_scene.h"
 #include "session/noise.h"
 

@@ -71,7 +71,8 @@ std::string usage_of(const std::string& command) {
   bool has_options = false;
   for (const OptionDescription* option : options_of(command)) {
     if (option->is_positional())
-      arguments += fmt::format(option->is_required() ? " {}" : " [{}]", option->name);
+      arguments += option->is_required() ? fmt::format(" {}", option->name)
+                                         : fmt::format(" [{}]", option->name);
     else
       has_options = true;
   }

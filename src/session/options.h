@@ -81,9 +81,9 @@ struct OptionDescription {
   /// Parses and stores; throws UsageError. The text is empty for a flag.
   void (*apply)(CommandLine& line, const std::string& text);
 
-  bool is_positional() const { return name[0] != '-'; }
+  constexpr bool is_positional() const { return name[0] != '-'; }
   /// A positional argument with a default may be left out.
-  bool is_required() const { return is_positional() && default_text[0] == '\0'; }
+  constexpr bool is_required() const { return is_positional() && default_text[0] == '\0'; }
   bool is_flag() const { return !is_positional() && value[0] == '\0'; }
 };
 
