@@ -56,7 +56,7 @@ TEST(Integrators, AreFoundByName) {
   for (const std::string& name : integrator_names()) {
     const Preset preset = make_integrator(name, {}, *scene);
     EXPECT_FALSE(preset.estimators.empty()) << name;
-    EXPECT_FALSE(preset.route_names.empty()) << name;
+    EXPECT_FALSE(preset.layout.routes.empty()) << name;
   }
   EXPECT_THROW(make_integrator("metropolis", {}, *scene), UsageError);
   EXPECT_EQ(integrator_for_scene_name("volpath"), "path");

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "input/pbrt_parser.h"
+#include "owned_routes.h"
 #include "scene/bsdf/diffuse.h"
 
 namespace nephroid {
@@ -16,6 +18,26 @@ SampledSpectrum ramp() {
   for (int i = 0; i < kSpectrumSamples; ++i) s.set(i, 1.0f + static_cast<float>(i));
   return s;
 }
+
+const Scene& one_material() {
+  static const std::unique_ptr<Scene> scene = [] {
+    Diagnostics diagnostics;
+    return build_scene(parse_pbrt_string("WorldBegin Material \"diffuse\" Shape \"sphere\"",
+                                         "test.pbrt", NEPHROID_SOURCE_DIR "/tests", diagnostics),
+                       {}, diagnostics);
+  }();
+  return *scene;
+}
+
+OwnedRoutes all_photons() {
+  return testing_support::owned_routes(one_material(), {"photons=.*:photons"});
+}
+
+// What a merge found.
+struct Merged {
+  SampledSpectrum reflected;
+  uint32_t found = 0;
+};
 
 // A visible point at the origin of a floor whose normal is +z, seen from above.
 struct VisiblePoint {
@@ -31,20 +53,29 @@ struct VisiblePoint {
     surface.wo = wo;
     surface.shading = Frame::from_z_and_tangent(surface.ng, Vec3f(1, 0, 0));
   }
-  MergeResult merge(const std::vector<Photon>& photons, EyeState eye, const Routes& routes,
-                    Route route, int eye_events = 1, int max_depth = kAnyDepth,
-                    bool eye_terminated = false) const {
+  Merged merge(const std::vector<Photon>& photons, const OwnedRoutes& owned, int eye_events = 1,
+               int max_depth = kAnyDepth, bool eye_terminated = false) const {
     const Bsdf& bsdf = translucent ? static_cast<const Bsdf&>(both) : reflecting;
-    const WalkVertex vertex{surface, bsdf, surface.shading.to_local(wo), ClassMask::kDiffuse};
-    return merge_photons(PhotonGrid(photons), routes, route, vertex, eye, eye_events, max_depth,
-                         eye_terminated, kRadius);
+    const WalkVertex vertex{surface, *one_material().materials.back(), bsdf,
+                            surface.shading.to_local(wo), ClassMask::kDiffuse};
+    PartSums sums(*owned.routes, owned.group);
+    const MergePoint at{vertex,     owned.routes->start(), ClassMask::kRough,
+                        eye_events, SampledSpectrum(1.0f), eye_terminated};
+    Merged merged;
+    merged.found = merge_photons(PhotonGrid(photons), owned, at, max_depth, kRadius, sums);
+    for (const SampledSpectrum& sum : sums.sums()) merged.reflected += sum;
+    return merged;
   }
   // All light belongs to one route.
-  MergeResult merge(const std::vector<Photon>& photons, bool eye_terminated = false) const {
-    return merge(photons, 0, Routes::all(Route::kCaustic), Route::kCaustic, 1, kAnyDepth,
-                 eye_terminated);
+  Merged merge(const std::vector<Photon>& photons, bool eye_terminated = false) const {
+    return merge(photons, all_photons(), 1, kAnyDepth, eye_terminated);
   }
 };
+
+// The light side of a photon straight from a lamp, in routes where all states are alike.
+LightState straight_from(const OwnedRoutes& owned) {
+  return owned.routes->emitted(light_symbol(LightKind::kShape, 0));
+}
 
 Photon photon_from(const Vec3f& wi) {
   Photon photon;
@@ -52,6 +83,7 @@ Photon photon_from(const Vec3f& wi) {
   photon.wi = normalize(wi);
   photon.ng = Vec3f(0, 0, 1);
   photon.flux = ramp();
+  photon.state = straight_from(all_photons());
   return photon;
 }
 
@@ -64,10 +96,9 @@ void expect_spectrum(const SampledSpectrum& found, const SampledSpectrum& expect
 
 TEST(Merge, SumsFluxTimesTheBsdf) {
   const VisiblePoint point;
-  const MergeResult m = point.merge({photon_from({0, 0, 1}), photon_from({0.5f, 0.3f, 0.4f})});
+  const Merged m = point.merge({photon_from({0, 0, 1}), photon_from({0.5f, 0.3f, 0.4f})});
   EXPECT_EQ(m.found, 2u);
   expect_spectrum(m.reflected, ramp() * (2 * kReflectance * kInvPi), "two photons");
-  EXPECT_TRUE(m.hero.is_black());
 }
 
 TEST(Merge, PhotonsBeyondTheRadiusDoNotCount) {
@@ -84,7 +115,7 @@ TEST(Merge, PhotonsOfAWallDoNotCountOnTheFloor) {
   wall.ng = Vec3f(1, 0, 0);
   Photon steep = wall;
   steep.ng = normalize(Vec3f(1, 0, 0.9f));  // 48 degrees
-  const MergeResult none = point.merge({wall, steep});
+  const Merged none = point.merge({wall, steep});
   EXPECT_EQ(none.found, 0u);
   EXPECT_TRUE(none.reflected.is_black());
   Photon slanted = wall;
@@ -98,7 +129,7 @@ TEST(Merge, ThePhotonsOwnCosineIsTheDensityOfItsLanding) {
   const VisiblePoint point;
   Photon bent = photon_from({0.6f, 0, 0.8f});
   bent.ng = normalize(Vec3f(0.4f, 0, 1));
-  const MergeResult m = point.merge({bent});
+  const Merged m = point.merge({bent});
   const float share = dot(bent.wi, point.surface.ng) / dot(bent.wi, bent.ng);
   expect_spectrum(m.reflected, ramp() * (kReflectance * kInvPi * share), "bent surface");
 }
@@ -107,7 +138,7 @@ TEST(Merge, ANormalThatPointsTheOtherWayIsTheSameSurface) {
   const VisiblePoint point;
   Photon flipped = photon_from({0.5f, 0.3f, 0.4f});
   flipped.ng = Vec3f(0, 0, -1);
-  const MergeResult m = point.merge({flipped});
+  const Merged m = point.merge({flipped});
   EXPECT_EQ(m.found, 1u);
   expect_spectrum(m.reflected, ramp() * (kReflectance * kInvPi), "flipped");
 }
@@ -136,26 +167,24 @@ TEST(Merge, TheHeroStandsForAllWavelengthsOnce) {
 
   for (const bool eye : {false, true})
     for (const bool photon : {false, true}) {
-      const MergeResult m = point.merge({photon ? hero : whole}, eye);
-      const std::string what = std::string("eye ") + (eye ? "dropped" : "kept") + ", photon " +
-                               (photon ? "dropped" : "kept");
-      expect_spectrum(m.reflected, eye || photon ? SampledSpectrum() : expected_whole, what);
-      expect_spectrum(m.hero, eye || photon ? expected_hero : SampledSpectrum(), what);
+      const Merged m = point.merge({photon ? hero : whole}, eye);
+      expect_spectrum(m.reflected, eye || photon ? expected_hero : expected_whole,
+                      std::string("eye ") + (eye ? "dropped" : "kept") + ", photon " +
+                          (photon ? "dropped" : "kept"));
     }
-  const MergeResult m = point.merge({whole, hero});
-  expect_spectrum(m.reflected, expected_whole, "one of each");
-  expect_spectrum(m.hero, expected_hero, "one of each");
+  expect_spectrum(point.merge({whole, hero}).reflected, expected_whole + expected_hero,
+                  "one of each");
 }
 
 TEST(Merge, TheDepthLimitCountsTheEventsOfBothSides) {
   const VisiblePoint point;
+  const OwnedRoutes owned = all_photons();
   for (int max_depth = 1; max_depth <= 6; ++max_depth)
     for (int eye_events = 1; eye_events <= 7; ++eye_events)
       for (int photon_events = 0; photon_events <= 7; ++photon_events) {
         Photon photon = photon_from({0, 0, 1});
         photon.events = static_cast<uint16_t>(photon_events);
-        const MergeResult m = point.merge({photon}, 0, Routes::all(Route::kCaustic),
-                                          Route::kCaustic, eye_events, max_depth);
+        const Merged m = point.merge({photon}, owned, eye_events, max_depth);
         EXPECT_EQ(m.found, eye_events + photon_events <= max_depth ? 1u : 0u)
             << eye_events << " and " << photon_events << " events of " << max_depth;
         EXPECT_EQ(m.reflected.is_black(), m.found == 0);
@@ -164,28 +193,31 @@ TEST(Merge, TheDepthLimitCountsTheEventsOfBothSides) {
 
 TEST(Merge, PhotonsOfAnotherRouteArePassedOver) {
   const VisiblePoint point;
-  const Routes routes = Routes::doidge2012();
-  const EyeState eye = routes.next(Routes::kEyeStart, EventClass::kDiffuse);
+  const std::vector<std::string> texts{"caustic=C.*[DG]S+[DG]?L:photons", "rest=.*:sppm"};
+  const OwnedRoutes caustic = testing_support::owned_routes(one_material(), texts, 0);
+  const OwnedRoutes rest = testing_support::owned_routes(one_material(), texts, 1);
   struct Case {
     const char* light_side;  // events from the light on
-    Route route;
+    bool is_caustic;
   };
-  const Case cases[] = {{"", Route::kDiffuse},    {"D", Route::kDiffuse},  {"S", Route::kCaustic},
-                        {"SS", Route::kCaustic},  {"DS", Route::kCaustic}, {"DD", Route::kDiffuse},
-                        {"DDS", Route::kDiffuse}, {"SD", Route::kCaustic}};
+  const Case cases[] = {{"", false},  {"D", false}, {"S", true},    {"SS", true},
+                        {"DS", true}, {"DD", false}, {"DDS", false}, {"SD", true}};
   std::vector<Photon> all;
   for (const Case& c : cases) {
     Photon photon = photon_from({0, 0, 1});
+    photon.state = straight_from(caustic);
     for (const char* e = c.light_side; *e; ++e)
-      photon.state = routes.photon_next(photon.state,
-                                        *e == 'D' ? EventClass::kDiffuse : EventClass::kSpecular);
+      photon.state = caustic.routes->light_next(
+          photon.state,
+          event_symbol(*e == 'D' ? EventClass::kDiffuse : EventClass::kSpecular, false, 0));
     all.push_back(photon);
-    for (const Route route : {Route::kDiffuse, Route::kCaustic})
-      EXPECT_EQ(point.merge({photon}, eye, routes, route).found, route == c.route ? 1u : 0u)
-          << "light side \"" << c.light_side << "\"";
+    EXPECT_EQ(point.merge({photon}, caustic).found, c.is_caustic ? 1u : 0u)
+        << "light side \"" << c.light_side << "\"";
+    EXPECT_EQ(point.merge({photon}, rest).found, c.is_caustic ? 0u : 1u)
+        << "light side \"" << c.light_side << "\"";
   }
-  EXPECT_EQ(point.merge(all, eye, routes, Route::kDiffuse).found, 4u);
-  EXPECT_EQ(point.merge(all, eye, routes, Route::kCaustic).found, 4u);
+  EXPECT_EQ(point.merge(all, caustic).found, 4u);
+  EXPECT_EQ(point.merge(all, rest).found, 4u);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "core/parallel.h"
 #include "input/pbrt_parser.h"
+#include "owned_routes.h"
 
 namespace nephroid {
 namespace {
@@ -30,9 +31,12 @@ PhotonTraceSettings settings(int max_events, uint32_t pass = 0, int64_t photons 
   return s;
 }
 
+OwnedRoutes all_photons(const Scene& scene) {
+  return testing_support::owned_routes(scene, {"photons=.*:photons"});
+}
+
 PhotonTrace trace_all(const Scene& scene, const PhotonTraceSettings& s) {
-  return trace_photons(scene, Routes::all(Route::kCaustic), Route::kCaustic, s, 0,
-                       s.photons_per_pass);
+  return trace_photons(scene, all_photons(scene), s, 0, s.photons_per_pass);
 }
 
 bool same(const Photon& a, const Photon& b) {
@@ -85,11 +89,11 @@ TEST(PhotonTracer, BatchesAreTheSamePhotons) {
   const auto scene = scene_from_text(kMany);
   const PhotonTraceSettings s = settings(8, 1, 10000);
   const PhotonTrace whole = trace_all(*scene, s);
-  const Routes routes = Routes::all(Route::kCaustic);
+  const OwnedRoutes owned = all_photons(*scene);
   std::vector<Photon> joined;
   for (const auto& [begin, end] :
        {std::pair<int64_t, int64_t>{0, 1024}, {1024, 5120}, {5120, 10000}}) {
-    const PhotonTrace part = trace_photons(*scene, routes, Route::kCaustic, s, begin, end);
+    const PhotonTrace part = trace_photons(*scene, owned, s, begin, end);
     joined.insert(joined.end(), part.photons.begin(), part.photons.end());
   }
   expect_same(joined, whole.photons);
@@ -99,13 +103,13 @@ TEST(PhotonTracer, AMemoryLimitOnlyCutsThePassIntoBatches) {
   const auto scene = scene_from_text(kMany);
   const PhotonTraceSettings s = settings(4, 0, 150000);
   const PhotonTrace whole = trace_all(*scene, s);
-  const Routes routes = Routes::all(Route::kCaustic);
+  const OwnedRoutes owned = all_photons(*scene);
   std::vector<Photon> joined;
   uint64_t paths = 0;
   int batches = 0;
   for (int64_t begin = 0; begin < s.photons_per_pass; ++batches) {
     const int64_t before = begin;
-    const PhotonTrace part = trace_batch(*scene, routes, Route::kCaustic, s, 1, begin);
+    const PhotonTrace part = trace_batch(*scene, owned, s, 1, begin);
     ASSERT_GT(begin, before);
     joined.insert(joined.end(), part.photons.begin(), part.photons.end());
     paths += part.paths;

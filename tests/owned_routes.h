@@ -1,0 +1,27 @@
+// Routes for tests that call the photon layer directly.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "route/compile.h"
+#include "route/scene_symbols.h"
+
+namespace nephroid::testing_support {
+
+/// The routes of these texts (as of --route) in a scene; what the proof finds is not looked at.
+/// `group` counts the estimators in the order in which the texts name them.
+inline OwnedRoutes owned_routes(const Scene& scene, const std::vector<std::string>& texts,
+                                size_t group = 0) {
+  std::vector<RouteDefinition> definitions;
+  for (const std::string& text : texts) definitions.push_back(parse_route(text));
+  RouteCompilation compiled = compile_routes(definitions, {});
+  OwnedRoutes owned;
+  owned.symbols = std::make_shared<const SceneSymbols>(scene, compiled.routes.labels());
+  owned.routes = std::make_shared<const Routes>(std::move(compiled.routes));
+  owned.group = group;
+  return owned;
+}
+
+}  // namespace nephroid::testing_support
