@@ -72,9 +72,8 @@ void expect_same_bits(const Film& a, const Film& b, const std::string& what) {
         ASSERT_EQ(a.standard_error(x, y)[c], b.standard_error(x, y)[c])
             << what << ": standard error of " << x << ' ' << y;
       }
-      for (size_t r = 0; r < a.routes().size(); ++r) {
-        const Rgb u = a.route_value(static_cast<int>(r), x, y);
-        const Rgb v = b.route_value(static_cast<int>(r), x, y);
+      for (int r = 0; r < static_cast<int>(a.layout().routes.size()); ++r) {
+        const Rgb u = a.route_value(r, x, y), v = b.route_value(r, x, y);
         for (int c = 0; c < 3; ++c)
           ASSERT_EQ(u[c], v[c]) << what << ": pixel " << x << ' ' << y << " route " << r;
       }
