@@ -10,6 +10,7 @@
 #include "scene/pixel_filter.h"
 #include "scene/sampler_description.h"
 #include "scene/scene.h"
+#include "scene/scene_labels.h"
 #include "scene/shape_table.h"
 
 namespace nephroid {
@@ -23,12 +24,15 @@ class SceneBuilder {
       : d_(description),
         diagnostics_(diagnostics),
         textures_(description, diagnostics, overrides.texture_memory),
+        light_labels_(description),
         scene_(std::make_unique<Scene>()),
         device_(EmbreeScene::make_device()) {
     scene_->options = read_scene_options(d_, diagnostics);
+    scene_->specular_band = overrides.specular_band;
     check_accelerator(d_, diagnostics);
     scene_->materials = make_materials(
-        d_, textures_, {overrides.specular_alpha, scene_->options.force_diffuse}, diagnostics);
+        d_, textures_, {overrides.specular_band, scene_->options.force_diffuse}, diagnostics);
+    scene_->material_labels = material_labels(d_);
     for (size_t i = 0; i < d_.materials.size(); ++i)
       if (!d_.materials[i].name.empty())
         material_index_[d_.materials[i].name] = static_cast<int>(i);
@@ -45,6 +49,7 @@ class SceneBuilder {
       scene_->integrator_parameters = d_.integrator->parameters;
     }
     scene_->media = make_media(d_, diagnostics);
+    scene_->medium_labels = medium_labels(d_);
     for (size_t i = 0; i < d_.media.size(); ++i) {
       medium_index_[d_.media[i].name] = i;
       scene_->has_volume_events |=
@@ -52,9 +57,10 @@ class SceneBuilder {
     }
     if (d_.camera) scene_->camera_medium = medium_named(d_.camera->medium, d_.camera->where);
     scene_->lights = make_lights(d_, diagnostics);
-    for (const LightDescription& light : d_.lights) {
-      const Medium* around = medium_named(light.medium, light.where);
+    for (size_t i = 0; i < d_.lights.size(); ++i) {
+      const Medium* around = medium_named(d_.lights[i].medium, d_.lights[i].where);
       scene_->light_media.push_back({around, around});
+      scene_->light_labels.push_back(light_labels_.light(i));
     }
   }
 
@@ -168,6 +174,7 @@ class SceneBuilder {
     for (LightPtr& light : lights) {
       scene_->lights.push_back(std::move(light));
       scene_->light_media.push_back(record.media);
+      scene_->light_labels.push_back(light_labels_.area_light(*description.area_light));
     }
   }
 
@@ -245,6 +252,7 @@ class SceneBuilder {
   const SceneDescription& d_;
   Diagnostics& diagnostics_;
   TextureLibrary textures_;
+  LightLabels light_labels_;
   std::unique_ptr<Scene> scene_;
   std::shared_ptr<EmbreeDevice> device_;
   std::map<std::string, int> material_index_;

@@ -15,7 +15,7 @@ void use(const MeasuredBrdf& brdf) {
     good = good && bsdf.albedo(wo).is_finite();
     for (const TransportMode mode : {TransportMode::kRadiance, TransportMode::kImportance}) {
       for (const Vec3f& wi : directions) {
-        const BsdfEval e = bsdf.eval(wo, wi, mode, EventClass::kDiffuse, ClassMask::kAll);
+        const BsdfEval e = bsdf.eval(wo, wi, mode, EventClass::kGlossy, ClassMask::kAll);
         good = good && e.f.is_finite() && e.f.min_component() >= 0.0f && e.pdf_w >= 0.0f;
       }
       for (const Vec2f& u : {Vec2f(0, 0), Vec2f(0.3f, 0.8f), Vec2f(kOneMinusEpsilon, 0.5f)}) {

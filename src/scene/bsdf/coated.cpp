@@ -17,9 +17,10 @@ constexpr bool kMetal = std::is_same_v<Base, ConductorSurface>;
 template <class Base>
 EventClass base_class(const Coat& coat, const Base& base, float specular_alpha) {
   if constexpr (kMetal<Base>) {
-    const bool coat_is_s = coat.boundary.smooth() || coat.boundary.facets.event_class(
-                                                         specular_alpha) == EventClass::kSpecular;
-    if (!coat.scatters && coat_is_s) return base.facets.event_class(specular_alpha);
+    if (!coat.scatters)
+      return coat.boundary.event_class(specular_alpha) == EventClass::kSpecular
+                 ? base.facets.event_class(specular_alpha)
+                 : EventClass::kGlossy;
   }
   return EventClass::kDiffuse;
 }
@@ -30,8 +31,7 @@ template <class Base>
 CoatedBsdf<Base>::CoatedBsdf(const Coat& coat, const Base& base, float specular_alpha)
     : coat_(coat),
       base_(base),
-      coat_class_(coat.boundary.smooth() ? EventClass::kSpecular
-                                         : coat.boundary.facets.event_class(specular_alpha)),
+      coat_class_(coat.boundary.event_class(specular_alpha)),
       base_class_(base_class(coat, base, specular_alpha)),
       all_smooth_(coat.boundary.smooth() && base.smooth()),
       base_has_finite_(!all_smooth_ || coat.scatters) {}

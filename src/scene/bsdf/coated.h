@@ -11,9 +11,10 @@
 
 namespace nephroid {
 
-/// Both sides alike, opaque. Classes: the coat's reflection has the class of the coat's roughness;
-/// the rest is S only if the base is a metal, both coat and metal are S, and the gap does not
-/// scatter. Two smooth boundaries make one mirror that also holds the reflections between them.
+/// Both sides alike, opaque. Classes: what only the coat reflected is S or G by the coat's
+/// roughness. The rest is D on a Lambertian base and where the gap scatters; of a metal under a
+/// clear gap it is S if coat and metal both are, else G. Lobes of the same class add up. Two smooth
+/// boundaries make one mirror that also holds the reflections between them.
 template <class Base>
 class CoatedBsdf final : public Bsdf {
  public:

@@ -105,9 +105,7 @@ CoatedDiffuseBsdf::CoatedDiffuseBsdf(const CoatTable* table, const SampledSpectr
     : table_(table),
       base_(reflectance * table->bounces(reflectance) * (kInvPi / sqr(table->boundary().eta))),
       base_energy_(kPi * base_.max_component() * table->diffuse_transmission()),
-      coat_class_(table->boundary().smooth()
-                      ? EventClass::kSpecular
-                      : table->boundary().facets.event_class(specular_alpha)),
+      coat_class_(table->boundary().event_class(specular_alpha)),
       has_coat_lobe_(table->boundary().eta != 1.0f),
       coat_is_delta_(table->boundary().smooth()) {}
 

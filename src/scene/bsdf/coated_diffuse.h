@@ -44,7 +44,7 @@ class CoatTable {
   Table transmission_{}, reflection_{};
 };
 
-/// Two classes: the coat's own reflection has the class of the coat's roughness, the rest is D.
+/// Two classes: the coat's own reflection is S or G by the coat's roughness, the rest is D.
 /// Both sides alike, opaque. `table` outlives the BSDF.
 class CoatedDiffuseBsdf final : public Bsdf {
  public:

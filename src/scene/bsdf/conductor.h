@@ -1,5 +1,5 @@
 // Reflection by metals: a mirror or rough facets, tinted by the complex Fresnel term. Class S if
-// smooth or not rougher than the threshold, else D.
+// smooth or not rougher than the threshold, else G.
 // Who calls it: materials, and coated surfaces whose base is a metal. It must not know textures.
 // Paper: Walter et al. 2007; Heitz 2014 for the shadowing term.
 #pragma once

@@ -33,6 +33,10 @@ struct DielectricInterface {
 
   /// True if all lobes are delta functions.
   bool smooth() const { return eta == 1.0f || facets.smooth(); }
+  /// Class of the lobes: S if smooth or not rougher than `specular_alpha`, else G.
+  EventClass event_class(float specular_alpha) const {
+    return smooth() ? EventClass::kSpecular : facets.event_class(specular_alpha);
+  }
   /// Share of flux reflected at the side of w by a smooth boundary.
   float fresnel(const Vec3f& w) const { return eta == 1.0f ? 0.0f : fresnel_dielectric(w.z, eta); }
   /// f from wi to wo and the density of sample(wo, ..., part); zero if smooth.
@@ -43,14 +47,12 @@ struct DielectricInterface {
                                BoundaryPart part) const;
 };
 
-/// Both lobes have the same class. With eta = 1 the boundary does nothing: light goes straight
-/// through, which is no event, whatever `among` is.
+/// Both lobes have the same class, S or G by roughness. With eta = 1 the boundary does nothing:
+/// light goes straight through, which is no event, whatever `among` is.
 class DielectricBsdf final : public Bsdf {
  public:
   DielectricBsdf(const DielectricInterface& boundary, float specular_alpha)
-      : boundary_(boundary),
-        class_(boundary.smooth() ? EventClass::kSpecular
-                                 : boundary.facets.event_class(specular_alpha)) {}
+      : boundary_(boundary), class_(boundary.event_class(specular_alpha)) {}
 
   ClassMask classes() const override { return mask_of(class_); }
   ClassMask finite_classes() const override {

@@ -237,7 +237,7 @@ BsdfEval MeasuredBsdf::eval_above(const Vec3f& wo, const Vec3f& wi, TransportMod
 
 BsdfEval MeasuredBsdf::eval(const Vec3f& wo, const Vec3f& wi, TransportMode mode, EventClass c,
                             ClassMask among) const {
-  if (c != EventClass::kDiffuse || !contains(among, c) || wo.z == 0.0f || wi.z == 0.0f ||
+  if (c != EventClass::kGlossy || !contains(among, c) || wo.z == 0.0f || wi.z == 0.0f ||
       (wo.z > 0.0f) != (wi.z > 0.0f))
     return {};
   const float side = wo.z > 0.0f ? 1.0f : -1.0f;
@@ -246,10 +246,11 @@ BsdfEval MeasuredBsdf::eval(const Vec3f& wo, const Vec3f& wi, TransportMode mode
 
 std::optional<BsdfSample> MeasuredBsdf::sample(const Vec3f& wo, float uc, const Vec2f& u,
                                                TransportMode mode, ClassMask among) const {
-  if (wo.z == 0.0f || !contains(among, EventClass::kDiffuse)) return std::nullopt;
+  if (wo.z == 0.0f || !contains(among, EventClass::kGlossy)) return std::nullopt;
   const float side = wo.z > 0.0f ? 1.0f : -1.0f;
   const Vec3f o = wo * side;
   BsdfSample s;
+  s.event = EventClass::kGlossy;
   if (mode == TransportMode::kRadiance) {
     const auto chosen = brdf_->sample(o, u, places_);
     if (!chosen) return std::nullopt;

@@ -1,6 +1,6 @@
 // Reflection that was measured, in the adaptive parametrisation of its authors: a warp whose
 // density is about that of the visible facets takes the unit square to half vectors, and on that
-// square the tabulated values are smooth. Class D whatever the file: nothing in it says how narrow
+// square the tabulated values are smooth. Class G whatever the file: nothing in it says how narrow
 // the lobe is, and values of measured mirrors would be the instrument's, not the surface's.
 // Who calls it: the material "measured". It must not know files.
 // Paper: Dupuy & Jakob 2018; equations [R1] to [R3] of docs/estimators.md.
@@ -78,8 +78,8 @@ class MeasuredBsdf final : public Bsdf {
   MeasuredBsdf(const MeasuredBrdf& brdf, const SampledWavelengths& lambda)
       : brdf_(&brdf), places_(brdf.places(lambda)) {}
 
-  ClassMask classes() const override { return ClassMask::kDiffuse; }
-  ClassMask finite_classes() const override { return ClassMask::kDiffuse; }
+  ClassMask classes() const override { return ClassMask::kGlossy; }
+  ClassMask finite_classes() const override { return ClassMask::kGlossy; }
   BsdfEval eval(const Vec3f& wo, const Vec3f& wi, TransportMode mode, EventClass c,
                 ClassMask among) const override;
   std::optional<BsdfSample> sample(const Vec3f& wo, float uc, const Vec2f& u, TransportMode mode,

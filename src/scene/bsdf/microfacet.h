@@ -28,9 +28,10 @@ class TrowbridgeReitz {
   float alpha_y() const { return alpha_y_; }
   float max_alpha() const { return std::max(alpha_x_, alpha_y_); }
 
-  /// Class of a lobe with this roughness: S if smooth or not rougher than `specular_alpha`.
+  /// Class of a lobe with this roughness: S if smooth or not rougher than `specular_alpha`, else
+  /// G.
   EventClass event_class(float specular_alpha) const {
-    return smooth_ || max_alpha() <= specular_alpha ? EventClass::kSpecular : EventClass::kDiffuse;
+    return smooth_ || max_alpha() <= specular_alpha ? EventClass::kSpecular : EventClass::kGlossy;
   }
 
   /// Density of facet normals per projected area, 1/sr, at the unit normal m.

@@ -7,16 +7,17 @@
 
 namespace nephroid {
 
-/// Reflection has the class of its roughness. Going in is of class D, whatever the roughness: the
-/// light comes out diffuse. It is told as a delta lobe, because no other technique makes it.
+/// Reflection has the class of its roughness, S or G. Going in is of class D, whatever the
+/// roughness: the light comes out diffuse. It is told as a delta lobe, because no other technique
+/// makes it.
 class SubsurfaceInterfaceBsdf final : public Bsdf {
  public:
   SubsurfaceInterfaceBsdf(const DielectricInterface& boundary, float specular_alpha)
-      : boundary_(boundary),
-        reflection_(boundary.smooth() ? EventClass::kSpecular
-                                      : boundary.facets.event_class(specular_alpha)) {}
+      : boundary_(boundary), reflection_(boundary.event_class(specular_alpha)) {}
 
-  ClassMask classes() const override { return ClassMask::kDiffuse | mask_of(reflection_); }
+  ClassMask classes() const override {
+    return boundary_.eta == 1.0f ? ClassMask::kDiffuse : ClassMask::kDiffuse | mask_of(reflection_);
+  }
   ClassMask finite_classes() const override {
     return boundary_.smooth() ? ClassMask::kNone : mask_of(reflection_);
   }

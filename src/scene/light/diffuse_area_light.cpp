@@ -180,6 +180,7 @@ std::vector<LightPtr> make_area_lights(const DirectiveDescription& description, 
   const UniformOrImage e = read_area_emission(description, directory);
   const bool two_sided = p.get_bool("twosided", false);
   const float power = p.get_float("power", -1.0f);
+  light_name(p);  // for scene_labels.h
   p.report_unused("area light \"" + description.type + "\"", type, diagnostics);
 
   const std::optional<float> opacity = alpha ? alpha->constant() : 1.0f;

@@ -5,7 +5,10 @@ namespace nephroid {
 
 namespace {
 
-constexpr FormatParameter kScale[] = {{"float", "scale", "1", "", "of the emission; not negative"}};
+constexpr FormatParameter kCommon[] = {
+    {"float", "scale", "1", "", "of the emission; not negative"},
+    {"string", "name", "none", "", "what light path expressions call it; not in pbrt-v4"},
+};
 constexpr FormatParameter kPower[] = {
     {"float", "power", "none", "W", "replaces the brightness if above 0"}};
 constexpr FormatParameter kIlluminance[] = {
@@ -47,16 +50,16 @@ struct Row : FormatType {
   LightMaker make;
 };
 constexpr Row kLights[] = {
-    {{"point", {kIntensity, kScale, kPower, kFrom}}, make_point_light},
-    {{"spot", {kIntensity, kScale, kPower, kFrom, kSpotAxis}}, make_spot_light},
-    {{"distant", {kDistant, kScale, kIlluminance, kFrom, kTo}}, make_distant_light},
-    {{"infinite", {kInfinite, kScale, kIlluminance}}, make_infinite_light},
-    {{"projection", {kProjection, kScale, kPower}}, make_projection_light},
-    {{"goniometric", {kIntensity, kGoniometric, kScale, kPower}}, make_goniometric_light},
+    {{"point", {kIntensity, kCommon, kPower, kFrom}}, make_point_light},
+    {{"spot", {kIntensity, kCommon, kPower, kFrom, kSpotAxis}}, make_spot_light},
+    {{"distant", {kDistant, kCommon, kIlluminance, kFrom, kTo}}, make_distant_light},
+    {{"infinite", {kInfinite, kCommon, kIlluminance}}, make_infinite_light},
+    {{"projection", {kProjection, kCommon, kPower}}, make_projection_light},
+    {{"goniometric", {kIntensity, kGoniometric, kCommon, kPower}}, make_goniometric_light},
 };
 constexpr FormatType kAreaLights[] = {
     {"diffuse",
-     {kArea, kScale, kPower},
+     {kArea, kCommon, kPower},
      "\"power\" counts for each triangle, patch or quadric of the shape, with a warning if there "
      "are several; alpha of the shape counts once, as where a camera ray hits. On curves an error, "
      "on interface materials and in object definitions ignored with a warning"}};
@@ -85,6 +88,7 @@ std::vector<LightPtr> make_lights(const SceneDescription& description, Diagnosti
     if (d.transform.is_animated())
       diagnostics.warn(d.where, "a light source cannot move, the start of its motion is used");
     lights.push_back(row.make(d, scope));
+    light_name(d.parameters);  // for scene_labels.h
     const auto bounds = lights.back()->bounds();
     if (bounds && !(is_in_reach(bounds->bounds.min) && is_in_reach(bounds->bounds.max)))
       throw SceneError(d.where,

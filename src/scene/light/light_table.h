@@ -23,6 +23,12 @@ std::vector<FormatType> area_light_types();
 /// The row of the directive's area light; throws SceneError if there is none.
 const FormatType& area_light_type(const DirectiveDescription&);
 
+/// "name", by which light path expressions know a light (scene_labels.h); empty if it has none.
+/// Throws SceneError if it is no string.
+inline std::string light_name(const ParameterSet& parameters) {
+  return parameters.get_string("name", "");
+}
+
 using LightMaker = LightPtr (*)(const LightDescription&, const LightScope&);
 
 // The makers, one a file.

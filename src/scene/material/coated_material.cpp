@@ -55,8 +55,9 @@ class CoatInput {
 
   /// True unless the gap is known to absorb only.
   bool may_scatter() const { return !albedo_.is_black(); }
-  ClassMask possible_classes(float specular_alpha) const {
-    return roughness_.possible_classes(specular_alpha);
+  /// Of what only the coat reflects.
+  ClassMask possible_classes(const SpecularBand& band) const {
+    return eta_.constant() == 1.0f ? ClassMask::kNone : roughness_.possible_classes(band);
   }
 
  private:
@@ -79,24 +80,24 @@ class CoatedDiffuseMaterial final : public SurfaceMaterial {
         coat_(d, c, ""),
         reflectance_(
             read_spectrum(c.textures, d.parameters, "reflectance", SpectrumKind::kAlbedo, 0.5f)),
-        specular_alpha_(c.settings.specular_alpha),
+        band_(c.settings.specular_band),
         table_(coat_.table(*c.coat_tables)) {}
 
   const Bsdf* make_bsdf(const SurfaceInteraction& point, SampledWavelengths& lambda,
-                        BsdfArena& arena) const override {
+                        float specular_alpha, BsdfArena& arena) const override {
     const SampledSpectrum rho = clamp(reflectance_.at(point, lambda), 0.0f, 1.0f);
-    if (table_) return arena.make<CoatedDiffuseBsdf>(table_.get(), rho, specular_alpha_);
+    if (table_) return arena.make<CoatedDiffuseBsdf>(table_.get(), rho, specular_alpha);
     return arena.make<CoatedBsdf<LambertSurface>>(coat_.at(point, lambda), LambertSurface{rho},
-                                                  specular_alpha_);
+                                                  specular_alpha);
   }
   ClassMask possible_classes() const override {
-    return ClassMask::kDiffuse | coat_.possible_classes(specular_alpha_);
+    return ClassMask::kDiffuse | coat_.possible_classes(band_);
   }
 
  private:
   CoatInput coat_;
   SpectrumInput reflectance_;
-  float specular_alpha_;
+  SpecularBand band_;
   std::shared_ptr<const CoatTable> table_;
 };
 
@@ -108,37 +109,36 @@ class CoatedConductorMaterial final : public SurfaceMaterial {
         metal_(c.textures, d.parameters, "conductor."),
         roughness_(c.textures, d.parameters, "conductor.",
                    d.parameters.get_bool("remaproughness", true)),
-        specular_alpha_(c.settings.specular_alpha) {}
+        band_(c.settings.specular_band) {}
 
   const Bsdf* make_bsdf(const SurfaceInteraction& point, SampledWavelengths& lambda,
-                        BsdfArena& arena) const override {
+                        float specular_alpha, BsdfArena& arena) const override {
     const Coat coat = coat_.at(point, lambda);
     ConductorSurface metal;
     metal_.at(point, lambda, coat.boundary.eta, &metal.eta, &metal.k);
     metal.facets = roughness_.at(point);
-    return arena.make<CoatedBsdf<ConductorSurface>>(coat, metal, specular_alpha_);
+    return arena.make<CoatedBsdf<ConductorSurface>>(coat, metal, specular_alpha);
   }
   ClassMask possible_classes() const override {
     // A medium between coat and metal scatters to all sides, whatever their roughness.
     const ClassMask medium = coat_.may_scatter() ? ClassMask::kDiffuse : ClassMask::kNone;
-    return coat_.possible_classes(specular_alpha_) | roughness_.possible_classes(specular_alpha_) |
-           medium;
+    return coat_.possible_classes(band_) | roughness_.possible_classes(band_) | medium;
   }
 
  private:
   CoatInput coat_;
   MetalInput metal_;
   RoughnessInput roughness_;
-  float specular_alpha_;
+  SpecularBand band_;
 };
 
 }  // namespace
 
-MaterialPtr make_coated_diffuse(const MaterialDescription& d, const MaterialContext& c) {
+NewMaterial make_coated_diffuse(const MaterialDescription& d, const MaterialContext& c) {
   return std::make_shared<CoatedDiffuseMaterial>(d, c);
 }
 
-MaterialPtr make_coated_conductor(const MaterialDescription& d, const MaterialContext& c) {
+NewMaterial make_coated_conductor(const MaterialDescription& d, const MaterialContext& c) {
   return std::make_shared<CoatedConductorMaterial>(d, c);
 }
 

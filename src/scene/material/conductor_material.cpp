@@ -13,23 +13,21 @@ class ConductorMaterial final : public SurfaceMaterial {
       : SurfaceMaterial(d, c),
         metal_(c.textures, d.parameters, ""),
         roughness_(c.textures, d.parameters, "", d.parameters.get_bool("remaproughness", true)),
-        specular_alpha_(c.settings.specular_alpha) {}
+        band_(c.settings.specular_band) {}
 
   const Bsdf* make_bsdf(const SurfaceInteraction& point, SampledWavelengths& lambda,
-                        BsdfArena& arena) const override {
+                        float specular_alpha, BsdfArena& arena) const override {
     ConductorSurface surface;
     metal_.at(point, lambda, 1.0f, &surface.eta, &surface.k);
     surface.facets = roughness_.at(point);
-    return arena.make<ConductorBsdf>(surface, specular_alpha_);
+    return arena.make<ConductorBsdf>(surface, specular_alpha);
   }
-  ClassMask possible_classes() const override {
-    return roughness_.possible_classes(specular_alpha_);
-  }
+  ClassMask possible_classes() const override { return roughness_.possible_classes(band_); }
 
  private:
   MetalInput metal_;
   RoughnessInput roughness_;
-  float specular_alpha_;
+  SpecularBand band_;
 };
 
 SpectrumInput metal_spectrum(const TextureLibrary& textures, const ParameterSet& parameters,
@@ -57,7 +55,7 @@ MetalInput::MetalInput(const TextureLibrary& textures, const ParameterSet& param
   k_ = metal_spectrum(textures, parameters, prefix + "k", "metal-Cu-k");
 }
 
-MaterialPtr make_conductor(const MaterialDescription& d, const MaterialContext& c) {
+NewMaterial make_conductor(const MaterialDescription& d, const MaterialContext& c) {
   return std::make_shared<ConductorMaterial>(d, c);
 }
 

@@ -14,12 +14,12 @@ class DielectricMaterial final : public SurfaceMaterial {
       : SurfaceMaterial(d, c),
         eta_(d.parameters, "eta", c.directory),
         roughness_(c.textures, d.parameters, "", d.parameters.get_bool("remaproughness", true)),
-        specular_alpha_(c.settings.specular_alpha) {}
+        band_(c.settings.specular_band) {}
 
   const Bsdf* make_bsdf(const SurfaceInteraction& point, SampledWavelengths& lambda,
-                        BsdfArena& arena) const override {
+                        float specular_alpha, BsdfArena& arena) const override {
     const DielectricInterface boundary{eta_.at_hero(lambda), roughness_.at(point)};
-    return arena.make<DielectricBsdf>(boundary, specular_alpha_);
+    return arena.make<DielectricBsdf>(boundary, specular_alpha);
   }
   bool passes_straight() const override { return eta_.constant() == 1.0f; }
   SampledSpectrum straight_transmittance(const SurfaceInteraction&,
@@ -27,13 +27,13 @@ class DielectricMaterial final : public SurfaceMaterial {
     return SampledSpectrum(passes_straight() ? 1.0f : 0.0f);
   }
   ClassMask possible_classes() const override {
-    return passes_straight() ? ClassMask::kNone : roughness_.possible_classes(specular_alpha_);
+    return passes_straight() ? ClassMask::kNone : roughness_.possible_classes(band_);
   }
 
  private:
   IndexInput eta_;
   RoughnessInput roughness_;
-  float specular_alpha_;
+  SpecularBand band_;
 };
 
 class ThinDielectricMaterial final : public SurfaceMaterial {
@@ -41,7 +41,7 @@ class ThinDielectricMaterial final : public SurfaceMaterial {
   ThinDielectricMaterial(const MaterialDescription& d, const MaterialContext& c)
       : SurfaceMaterial(d, c), eta_(d.parameters, "eta", c.directory) {}
 
-  const Bsdf* make_bsdf(const SurfaceInteraction&, SampledWavelengths& lambda,
+  const Bsdf* make_bsdf(const SurfaceInteraction&, SampledWavelengths& lambda, float,
                         BsdfArena& arena) const override {
     return arena.make<ThinDielectricBsdf>(eta_.at(lambda));
   }
@@ -64,11 +64,11 @@ class ThinDielectricMaterial final : public SurfaceMaterial {
 
 }  // namespace
 
-MaterialPtr make_dielectric(const MaterialDescription& d, const MaterialContext& c) {
+NewMaterial make_dielectric(const MaterialDescription& d, const MaterialContext& c) {
   return std::make_shared<DielectricMaterial>(d, c);
 }
 
-MaterialPtr make_thin_dielectric(const MaterialDescription& d, const MaterialContext& c) {
+NewMaterial make_thin_dielectric(const MaterialDescription& d, const MaterialContext& c) {
   return std::make_shared<ThinDielectricMaterial>(d, c);
 }
 

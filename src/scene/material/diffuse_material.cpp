@@ -14,7 +14,7 @@ class DiffuseMaterial final : public SurfaceMaterial {
         reflectance_(
             read_spectrum(c.textures, d.parameters, "reflectance", SpectrumKind::kAlbedo, 0.5f)) {}
 
-  const Bsdf* make_bsdf(const SurfaceInteraction& point, SampledWavelengths& lambda,
+  const Bsdf* make_bsdf(const SurfaceInteraction& point, SampledWavelengths& lambda, float,
                         BsdfArena& arena) const override {
     return arena.make<DiffuseBsdf>(clamp(reflectance_.at(point, lambda), 0.0f, 1.0f));
   }
@@ -34,7 +34,7 @@ class DiffuseTransmissionMaterial final : public SurfaceMaterial {
             read_spectrum(c.textures, d.parameters, "transmittance", SpectrumKind::kAlbedo, 0.25f)),
         scale_(d.parameters.get_float("scale", 1.0f)) {}
 
-  const Bsdf* make_bsdf(const SurfaceInteraction& point, SampledWavelengths& lambda,
+  const Bsdf* make_bsdf(const SurfaceInteraction& point, SampledWavelengths& lambda, float,
                         BsdfArena& arena) const override {
     return arena.make<DiffuseTransmissionBsdf>(
         clamp(reflectance_.at(point, lambda) * scale_, 0.0f, 1.0f),
@@ -49,11 +49,11 @@ class DiffuseTransmissionMaterial final : public SurfaceMaterial {
 
 }  // namespace
 
-MaterialPtr make_diffuse(const MaterialDescription& d, const MaterialContext& c) {
+NewMaterial make_diffuse(const MaterialDescription& d, const MaterialContext& c) {
   return std::make_shared<DiffuseMaterial>(d, c);
 }
 
-MaterialPtr make_diffuse_transmission(const MaterialDescription& d, const MaterialContext& c) {
+NewMaterial make_diffuse_transmission(const MaterialDescription& d, const MaterialContext& c) {
   return std::make_shared<DiffuseTransmissionMaterial>(d, c);
 }
 

@@ -17,9 +17,9 @@ class ForcedDiffuse final : public Material {
   explicit ForcedDiffuse(MaterialPtr material) : material_(std::move(material)) {}
 
   const Bsdf* make_bsdf(const SurfaceInteraction& point, SampledWavelengths& lambda,
-                        BsdfArena& arena) const override {
+                        float specular_alpha, BsdfArena& arena) const override {
     BsdfArena own;
-    const Bsdf* bsdf = material_->make_bsdf(point, lambda, own);
+    const Bsdf* bsdf = material_->make_bsdf(point, lambda, specular_alpha, own);
     if (!bsdf) return nullptr;
     uint64_t hash = std::bit_cast<uint32_t>(lambda.lambda(0));
     for (int i = 0; i < 3; ++i)
@@ -50,7 +50,7 @@ class ForcedDiffuse final : public Material {
 
 }  // namespace
 
-MaterialPtr force_diffuse(MaterialPtr material) {
+std::shared_ptr<Material> force_diffuse(MaterialPtr material) {
   return std::make_shared<ForcedDiffuse>(std::move(material));
 }
 

@@ -10,6 +10,6 @@ namespace nephroid {
 /// The Lambertian stand-in for a material that is neither an interface nor a mix. Its reflectance
 /// is an estimate from a few samples, drawn by a hash of the point, the direction and the
 /// wavelength.
-MaterialPtr force_diffuse(MaterialPtr material);
+std::shared_ptr<Material> force_diffuse(MaterialPtr material);
 
 }  // namespace nephroid

@@ -47,7 +47,7 @@ class HairMaterial final : public Material {
     read_color(d, c);
   }
 
-  const Bsdf* make_bsdf(const SurfaceInteraction& point, SampledWavelengths& lambda,
+  const Bsdf* make_bsdf(const SurfaceInteraction& point, SampledWavelengths& lambda, float,
                         BsdfArena& arena) const override {
     const float beta_n = std::clamp(beta_n_.at(point), kSmallestBeta, 1.0f);
     const HairShape shape(std::clamp(beta_m_.at(point), kSmallestBeta, 1.0f), beta_n,
@@ -107,7 +107,7 @@ class HairMaterial final : public Material {
 
 }  // namespace
 
-MaterialPtr make_hair(const MaterialDescription& d, const MaterialContext& c) {
+NewMaterial make_hair(const MaterialDescription& d, const MaterialContext& c) {
   return std::make_shared<HairMaterial>(d, c);
 }
 

@@ -32,8 +32,9 @@ TrowbridgeReitz RoughnessInput::facets(float u, float v) const {
   return {TrowbridgeReitz::roughness_to_alpha(u), TrowbridgeReitz::roughness_to_alpha(v)};
 }
 
-ClassMask RoughnessInput::possible_classes(float specular_alpha) const {
-  return constant_ ? mask_of(constant_->event_class(specular_alpha)) : ClassMask::kAll;
+ClassMask RoughnessInput::possible_classes(const SpecularBand& band) const {
+  if (!constant_) return ClassMask::kGlossy | ClassMask::kSpecular;
+  return mask_of(constant_->event_class(band.low)) | mask_of(constant_->event_class(band.high));
 }
 
 IndexInput::IndexInput(const ParameterSet& parameters, const std::string& name,

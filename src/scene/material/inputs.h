@@ -61,8 +61,8 @@ class RoughnessInput {
     return constant_ ? *constant_ : facets(u_.at(point), v_.at(point));
   }
   std::optional<TrowbridgeReitz> constant() const { return constant_; }
-  /// Classes that a lobe with this roughness may have.
-  ClassMask possible_classes(float specular_alpha) const;
+  /// Classes that a lobe with this roughness may have, whatever the threshold in the band.
+  ClassMask possible_classes(const SpecularBand& band) const;
 
  private:
   TrowbridgeReitz facets(float u, float v) const;

@@ -17,9 +17,10 @@ class Material {
  public:
   virtual ~Material() = default;
 
-  /// The BSDF at a point, in `arena`; lobes with alpha up to `specular_alpha` are of class S. May drop secondary wavelengths (dispersion). Never null for a
-  /// surface; null means that the surface is not there ("interface"). The point's shading frame has
-  /// been bumped already.
+  /// The BSDF at a point, in `arena`; microfacet lobes with alpha up to `specular_alpha` are of
+  /// class S, rougher ones of class G. May drop secondary wavelengths (dispersion). Never null for
+  /// a surface; null means that the surface is not there ("interface"). The point's shading frame
+  /// has been bumped already.
   virtual const Bsdf* make_bsdf(const SurfaceInteraction& point, SampledWavelengths& lambda,
                                 float specular_alpha, BsdfArena& arena) const = 0;
 
@@ -68,8 +69,8 @@ class Material {
   }
   /// Probability that resolve() finds a surface here and not an interface.
   virtual float presence(const SurfaceInteraction&) const { return is_interface() ? 0.0f : 1.0f; }
-  /// Classes that any lobe of this material may have at any point (a conservative answer; for the
-  /// report "why is there no caustic").
+  /// Classes that any lobe of this material may have at any point and with any threshold in the
+  /// band (a conservative answer: what paths can occur, "why is there no caustic").
   virtual ClassMask possible_classes() const = 0;
 
  private:

@@ -18,11 +18,11 @@ class MeasuredMaterial final : public SurfaceMaterial {
                                   d.parameters.find("filename")->where);
   }
 
-  const Bsdf* make_bsdf(const SurfaceInteraction&, SampledWavelengths& lambda,
+  const Bsdf* make_bsdf(const SurfaceInteraction&, SampledWavelengths& lambda, float,
                         BsdfArena& arena) const override {
     return arena.make<MeasuredBsdf>(*brdf_, lambda);
   }
-  ClassMask possible_classes() const override { return ClassMask::kDiffuse; }
+  ClassMask possible_classes() const override { return ClassMask::kGlossy; }
 
  private:
   std::shared_ptr<const MeasuredBrdf> brdf_;
@@ -30,7 +30,7 @@ class MeasuredMaterial final : public SurfaceMaterial {
 
 }  // namespace
 
-MaterialPtr make_measured(const MaterialDescription& d, const MaterialContext& c) {
+NewMaterial make_measured(const MaterialDescription& d, const MaterialContext& c) {
   return std::make_shared<MeasuredMaterial>(d, c);
 }
 

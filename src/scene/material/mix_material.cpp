@@ -28,8 +28,8 @@ class MixMaterial final : public Material {
     return materials_[hash(point) < amount ? 1 : 0]->resolve(point);
   }
   const Bsdf* make_bsdf(const SurfaceInteraction& point, SampledWavelengths& lambda,
-                        BsdfArena& arena) const override {
-    return resolve(point)->make_bsdf(point, lambda, arena);
+                        float specular_alpha, BsdfArena& arena) const override {
+    return resolve(point)->make_bsdf(point, lambda, specular_alpha, arena);
   }
   void bump(SurfaceInteraction& point) const override { resolve(point)->bump(point); }
   bool has_bump() const override { return materials_[0]->has_bump() || materials_[1]->has_bump(); }
@@ -45,7 +45,8 @@ class MixMaterial final : public Material {
   }
   float presence(const SurfaceInteraction& point) const override {
     const float amount = std::clamp(amount_.at(point), 0.0f, 1.0f);
-    return (1.0f - amount) * materials_[0]->presence(point) + amount * materials_[1]->presence(point);
+    return (1.0f - amount) * materials_[0]->presence(point) +
+           amount * materials_[1]->presence(point);
   }
   ClassMask possible_classes() const override {
     return materials_[0]->possible_classes() | materials_[1]->possible_classes();
@@ -72,7 +73,8 @@ class MixMaterial final : public Material {
 
 class InterfaceMaterial final : public Material {
  public:
-  const Bsdf* make_bsdf(const SurfaceInteraction&, SampledWavelengths&, BsdfArena&) const override {
+  const Bsdf* make_bsdf(const SurfaceInteraction&, SampledWavelengths&, float,
+                        BsdfArena&) const override {
     return nullptr;
   }
   bool is_interface() const override { return true; }
@@ -81,11 +83,11 @@ class InterfaceMaterial final : public Material {
 
 }  // namespace
 
-MaterialPtr make_mix(const MaterialDescription& d, const MaterialContext& c) {
+NewMaterial make_mix(const MaterialDescription& d, const MaterialContext& c) {
   return std::make_shared<MixMaterial>(d, c);
 }
 
-MaterialPtr make_interface(const MaterialDescription&, const MaterialContext&) {
+NewMaterial make_interface(const MaterialDescription&, const MaterialContext&) {
   return std::make_shared<InterfaceMaterial>();
 }
 

@@ -40,7 +40,7 @@ class SubsurfaceMaterial final : public SurfaceMaterial {
   SubsurfaceMaterial(const MaterialDescription& d, const MaterialContext& c)
       : SurfaceMaterial(d, c),
         roughness_(c.textures, d.parameters, "", d.parameters.get_bool("remaproughness", true)),
-        specular_alpha_(c.settings.specular_alpha),
+        band_(c.settings.specular_band),
         scale_(d.parameters.get_float("scale", 1.0f)) {
     float g = checked(d.parameters, "g", 0.0f, -1.0f, 1.0f);
     const float eta = checked(d.parameters, "eta", 1.33f, kLeastEta, kMostEta);
@@ -52,10 +52,10 @@ class SubsurfaceMaterial final : public SurfaceMaterial {
     table_ = c.bssrdf_tables->find_or_make(g, eta);
   }
 
-  const Bsdf* make_bsdf(const SurfaceInteraction& point, SampledWavelengths&,
+  const Bsdf* make_bsdf(const SurfaceInteraction& point, SampledWavelengths&, float specular_alpha,
                         BsdfArena& arena) const override {
     const DielectricInterface boundary{table_->eta(), roughness_.at(point)};
-    return arena.make<SubsurfaceInterfaceBsdf>(boundary, specular_alpha_);
+    return arena.make<SubsurfaceInterfaceBsdf>(boundary, specular_alpha);
   }
   const Bssrdf* make_bssrdf(const SurfaceInteraction& point, const SampledWavelengths& lambda,
                             BsdfArena& arena) const override {
@@ -78,7 +78,8 @@ class SubsurfaceMaterial final : public SurfaceMaterial {
   }
   bool has_bssrdf() const override { return true; }
   ClassMask possible_classes() const override {
-    return ClassMask::kDiffuse | roughness_.possible_classes(specular_alpha_);
+    if (table_->eta() == 1.0f) return ClassMask::kDiffuse;
+    return ClassMask::kDiffuse | roughness_.possible_classes(band_);
   }
 
  private:
@@ -121,14 +122,15 @@ class SubsurfaceMaterial final : public SurfaceMaterial {
   }
 
   RoughnessInput roughness_;
-  float specular_alpha_, scale_;
+  SpecularBand band_;
+  float scale_;
   SpectrumInput sigma_a_, sigma_s_, reflectance_, mfp_;
   std::shared_ptr<const BssrdfTable> table_;
 };
 
 }  // namespace
 
-MaterialPtr make_subsurface(const MaterialDescription& d, const MaterialContext& c) {
+NewMaterial make_subsurface(const MaterialDescription& d, const MaterialContext& c) {
   return std::make_shared<SubsurfaceMaterial>(d, c);
 }
 

@@ -96,7 +96,7 @@ constexpr FormatParameter kMix[] = {
 };
 
 constexpr const char* kByRoughness =
-    "S where alpha is at or below specular-alpha (docs/options.md), else D";
+    "S where alpha is at or below specular-alpha (docs/options.md), else G";
 
 constexpr MaterialRow kTable[] = {
     {{"diffuse", {kDiffuse, kSurface}, "D"}, make_diffuse},
@@ -109,22 +109,22 @@ constexpr MaterialRow kTable[] = {
     {{"conductor", {kConductor, kRoughness, kSurface}, kByRoughness}, make_conductor},
     {{"coateddiffuse",
       {kCoatedDiffuse, kIndex, kRoughness, kBetween, kSurface},
-      "reflection by the coat alone: S or D by the coat's roughness; the rest D"},
+      "reflection by the coat alone: S or G by the coat's roughness; the rest D"},
      make_coated_diffuse},
     {{"coatedconductor",
       {kCoatedConductor, kBetween, kSurface},
-      "reflection by the coat alone: S or D by the coat's roughness; the rest S if coat and metal "
-      "are both S and no medium scatters between them, else D"},
+      "reflection by the coat alone: S or G by the coat's roughness; the rest S if coat and metal "
+      "are both S, else G; D if a medium scatters between them"},
      make_coated_conductor},
     {{"subsurface",
       {kSubsurface, kRoughness, kSurface},
-      "boundary S or D by roughness; light that goes below is one D event of transmission, and "
+      "boundary S or G by roughness; light that goes below is one D event of transmission, and "
       "photons merge where it comes out. A tabulated profile as in pbrt-v4 (ADR 7); below a mix "
       "light comes out where the mix shows this material"},
      make_subsurface},
     {{"hair", {kHair}, "D; photons do not merge on hair, its caustics are left to path"},
      make_hair},
-    {{"measured", {kMeasured, kSurface}, "D"}, make_measured},
+    {{"measured", {kMeasured, kSurface}, "G"}, make_measured},
     {{"mix", {kMix}, "the letter of the material chosen at the point"}, make_mix},
     {{"interface", {}, "nothing but a boundary of media; no letter"}, make_interface},
     {{"none", {}, "the same as interface"}, make_interface},
@@ -173,9 +173,11 @@ class Maker {
         &bssrdf_tables_,
         &measured_files_};
     const MaterialRow& row = row_of(kTable, "material", d.type, d.where);
-    materials_[index] = row.make(d, context);
-    if (settings_.force_diffuse && d.type != "mix" && !materials_[index]->is_interface())
-      materials_[index] = force_diffuse(materials_[index]);
+    NewMaterial material = row.make(d, context);
+    if (settings_.force_diffuse && d.type != "mix" && !material->is_interface())
+      material = force_diffuse(material);
+    material->set_index(static_cast<int>(index));
+    materials_[index] = material;
     d.parameters.report_unused("material \"" + d.type + "\"", row, diagnostics_);
     state_[index] = State::kDone;
     return materials_[index];

@@ -41,25 +41,28 @@ struct MaterialContext {
   MeasuredCache* measured_files = nullptr;
 };
 
+/// A material that has no place in a scene yet.
+using NewMaterial = std::shared_ptr<Material>;
+
 struct MaterialRow : FormatType {
-  MaterialPtr (*make)(const MaterialDescription&, const MaterialContext&);
+  NewMaterial (*make)(const MaterialDescription&, const MaterialContext&);
 };
 
 /// All types of the format.
 std::span<const MaterialRow> material_table();
 std::vector<FormatType> material_types();
 
-MaterialPtr make_diffuse(const MaterialDescription&, const MaterialContext&);
-MaterialPtr make_diffuse_transmission(const MaterialDescription&, const MaterialContext&);
-MaterialPtr make_dielectric(const MaterialDescription&, const MaterialContext&);
-MaterialPtr make_thin_dielectric(const MaterialDescription&, const MaterialContext&);
-MaterialPtr make_conductor(const MaterialDescription&, const MaterialContext&);
-MaterialPtr make_coated_diffuse(const MaterialDescription&, const MaterialContext&);
-MaterialPtr make_coated_conductor(const MaterialDescription&, const MaterialContext&);
-MaterialPtr make_subsurface(const MaterialDescription&, const MaterialContext&);
-MaterialPtr make_hair(const MaterialDescription&, const MaterialContext&);
-MaterialPtr make_measured(const MaterialDescription&, const MaterialContext&);
-MaterialPtr make_mix(const MaterialDescription&, const MaterialContext&);
-MaterialPtr make_interface(const MaterialDescription&, const MaterialContext&);
+NewMaterial make_diffuse(const MaterialDescription&, const MaterialContext&);
+NewMaterial make_diffuse_transmission(const MaterialDescription&, const MaterialContext&);
+NewMaterial make_dielectric(const MaterialDescription&, const MaterialContext&);
+NewMaterial make_thin_dielectric(const MaterialDescription&, const MaterialContext&);
+NewMaterial make_conductor(const MaterialDescription&, const MaterialContext&);
+NewMaterial make_coated_diffuse(const MaterialDescription&, const MaterialContext&);
+NewMaterial make_coated_conductor(const MaterialDescription&, const MaterialContext&);
+NewMaterial make_subsurface(const MaterialDescription&, const MaterialContext&);
+NewMaterial make_hair(const MaterialDescription&, const MaterialContext&);
+NewMaterial make_measured(const MaterialDescription&, const MaterialContext&);
+NewMaterial make_mix(const MaterialDescription&, const MaterialContext&);
+NewMaterial make_interface(const MaterialDescription&, const MaterialContext&);
 
 }  // namespace nephroid

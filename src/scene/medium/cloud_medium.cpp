@@ -86,7 +86,7 @@ class CloudMedium final : public Medium {
 
 }  // namespace
 
-MediumPtr make_cloud_medium(const MediumDescription& description, const MediumScope& scope) {
+NewMedium make_cloud_medium(const MediumDescription& description, const MediumScope& scope) {
   const ParameterSet& p = description.parameters;
   const CloudShape shape{p.get_float("density", 1.0f), p.get_float("wispiness", 1.0f),
                          p.get_float("frequency", 5.0f)};

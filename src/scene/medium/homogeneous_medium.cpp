@@ -53,7 +53,7 @@ Extinction preset_extinction(const std::string& name, const SourceLocation& wher
 
 }  // namespace
 
-MediumPtr make_homogeneous_medium(const MediumDescription& description, const MediumScope& scope) {
+NewMedium make_homogeneous_medium(const MediumDescription& description, const MediumScope& scope) {
   const ParameterSet& p = description.parameters;
   const float scale = read_scale(p);
   const std::string preset = p.get_string("preset", "");

@@ -88,7 +88,9 @@ std::vector<MediumPtr> make_media(const SceneDescription& description, Diagnosti
     if (d.transform.is_animated())
       diagnostics.warn(d.where,
                        "medium \"" + d.name + "\" moves: media stay where they are at the start");
-    media.push_back(row.make(d, scope));
+    const NewMedium medium = row.make(d, scope);
+    medium->set_index(static_cast<int>(media.size()));
+    media.push_back(medium);
     d.parameters.report_unused("medium \"" + d.name + "\"", row, diagnostics);
   }
   return media;

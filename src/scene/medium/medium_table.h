@@ -18,14 +18,16 @@ struct MediumScope {
 /// All types of the format.
 std::vector<FormatType> medium_types();
 
-using MediumMaker = MediumPtr (*)(const MediumDescription&, const MediumScope&);
+/// A medium that has no place in a scene yet.
+using NewMedium = std::shared_ptr<Medium>;
+using MediumMaker = NewMedium (*)(const MediumDescription&, const MediumScope&);
 
 // The makers, one a file. They throw SceneError for bad parameters.
-MediumPtr make_homogeneous_medium(const MediumDescription&, const MediumScope&);
-MediumPtr make_uniform_grid_medium(const MediumDescription&, const MediumScope&);
-MediumPtr make_rgb_grid_medium(const MediumDescription&, const MediumScope&);
-MediumPtr make_cloud_medium(const MediumDescription&, const MediumScope&);
-MediumPtr make_nanovdb_medium(const MediumDescription&, const MediumScope&);
+NewMedium make_homogeneous_medium(const MediumDescription&, const MediumScope&);
+NewMedium make_uniform_grid_medium(const MediumDescription&, const MediumScope&);
+NewMedium make_rgb_grid_medium(const MediumDescription&, const MediumScope&);
+NewMedium make_cloud_medium(const MediumDescription&, const MediumScope&);
+NewMedium make_nanovdb_medium(const MediumDescription&, const MediumScope&);
 
 /// Absorption and scattering per unit of density, 1/length, looked up at the nearest nanometre as
 /// in pbrt-v4.

@@ -148,7 +148,7 @@ class NanoVdbMedium final : public Medium {
 
 }  // namespace
 
-MediumPtr make_nanovdb_medium(const MediumDescription& description, const MediumScope& scope) {
+NewMedium make_nanovdb_medium(const MediumDescription& description, const MediumScope& scope) {
   const ParameterSet& p = description.parameters;
   const std::string name = p.get_string("filename", "");
   if (name.empty())

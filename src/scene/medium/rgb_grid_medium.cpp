@@ -135,7 +135,7 @@ std::optional<ColorGrid> read_colors(const MediumDescription& d, const std::stri
 
 }  // namespace
 
-MediumPtr make_rgb_grid_medium(const MediumDescription& description, const MediumScope&) {
+NewMedium make_rgb_grid_medium(const MediumDescription& description, const MediumScope&) {
   const ParameterSet& p = description.parameters;
   ColorCoefficient sigma_a{read_colors(description, "sigma_a")};
   ColorCoefficient sigma_s{read_colors(description, "sigma_s")};

@@ -101,7 +101,7 @@ GridEmission read_grid_emission(const MediumDescription& d, const MediumScope& s
 
 }  // namespace
 
-MediumPtr make_uniform_grid_medium(const MediumDescription& description, const MediumScope& scope) {
+NewMedium make_uniform_grid_medium(const MediumDescription& description, const MediumScope& scope) {
   const ParameterSet& p = description.parameters;
   const std::array<int, 3> resolution = read_grid_resolution(description, "density", 1);
   FloatGrid density(read_grid_floats(description, "density", resolution), resolution);

@@ -19,6 +19,9 @@
 
 namespace nephroid::testing_bsdf {
 
+/// Up to this alpha the lobes of the cases are of class S.
+inline constexpr float kSpecularAlpha = 0.05f;
+
 struct BsdfCase {
   std::string name;
   std::function<const Bsdf*(BsdfArena&)> make;
@@ -51,30 +54,26 @@ inline Coat make_coat(float eta, float alpha_x, float alpha_y, float thickness, 
 }
 
 inline BsdfCase conductor_case(float ax, float ay) {
-  return {"conductor " + std::to_string(ax) + " " + std::to_string(ay), [=](BsdfArena& a) {
-            return a.make<ConductorBsdf>(metal(ax, ay), kDefaultSpecularAlpha);
-          }};
+  return {"conductor " + std::to_string(ax) + " " + std::to_string(ay),
+          [=](BsdfArena& a) { return a.make<ConductorBsdf>(metal(ax, ay), kSpecularAlpha); }};
 }
 inline BsdfCase dielectric_case(float eta, float ax, float ay) {
   const DielectricInterface boundary{eta, TrowbridgeReitz(ax, ay)};
   return {"dielectric " + std::to_string(eta) + " " + std::to_string(ax) + " " + std::to_string(ay),
-          [=](BsdfArena& a) { return a.make<DielectricBsdf>(boundary, kDefaultSpecularAlpha); },
-          false, true};
+          [=](BsdfArena& a) { return a.make<DielectricBsdf>(boundary, kSpecularAlpha); }, false,
+          true};
 }
 inline BsdfCase subsurface_case(float eta, float ax, float ay) {
   const DielectricInterface boundary{eta, TrowbridgeReitz(ax, ay)};
   return {"subsurface " + std::to_string(eta) + " " + std::to_string(ax) + " " + std::to_string(ay),
-          [=](BsdfArena& a) {
-            return a.make<SubsurfaceInterfaceBsdf>(boundary, kDefaultSpecularAlpha);
-          },
+          [=](BsdfArena& a) { return a.make<SubsurfaceInterfaceBsdf>(boundary, kSpecularAlpha); },
           false, true};
 }
 inline BsdfCase coated_diffuse_case(float eta, float alpha, float thickness, float rho) {
   const auto table = std::make_shared<CoatTable>(
       DielectricInterface{eta, TrowbridgeReitz(alpha, alpha)}, thickness, 10);
   return {"coateddiffuse " + std::to_string(eta) + " " + std::to_string(alpha), [=](BsdfArena& a) {
-            return a.make<CoatedDiffuseBsdf>(table.get(), ramp(rho, 0.5f * rho),
-                                             kDefaultSpecularAlpha);
+            return a.make<CoatedDiffuseBsdf>(table.get(), ramp(rho, 0.5f * rho), kSpecularAlpha);
           }};
 }
 inline BsdfCase measured_case(const testing_measured::GgxSurface& surface) {
@@ -88,8 +87,7 @@ inline BsdfCase measured_case(const testing_measured::GgxSurface& surface) {
 }
 template <class Base>
 BsdfCase coated_case(const std::string& name, const Coat& coat, const Base& base) {
-  return {name,
-          [=](BsdfArena& a) { return a.make<CoatedBsdf<Base>>(coat, base, kDefaultSpecularAlpha); },
+  return {name, [=](BsdfArena& a) { return a.make<CoatedBsdf<Base>>(coat, base, kSpecularAlpha); },
           true};
 }
 

@@ -57,7 +57,7 @@ std::vector<Question> questions(const BsdfCase& c, const Bsdf& bsdf) {
   const std::vector<float> angles =
       c.stochastic ? std::vector<float>{50.0f} : std::vector<float>{4.0f, 45.0f, 80.0f, 125.0f};
   for (const float angle : angles) {
-    for (const EventClass e : {EventClass::kDiffuse, EventClass::kSpecular}) {
+    for (const EventClass e : kSurfaceClasses) {
       if (!contains(bsdf.finite_classes(), e)) continue;
       const TransportMode mode =
           list.size() % 2 == 0 ? TransportMode::kRadiance : TransportMode::kImportance;
@@ -94,8 +94,8 @@ TEST(BsdfChiSquare, NoticesAWrongDensity) {
   // The test itself must be able to fail: samples of roughness 0.2 against the density of 0.22.
   class Wrong final : public Bsdf {
    public:
-    ClassMask classes() const override { return ClassMask::kDiffuse; }
-    ClassMask finite_classes() const override { return ClassMask::kDiffuse; }
+    ClassMask classes() const override { return ClassMask::kGlossy; }
+    ClassMask finite_classes() const override { return ClassMask::kGlossy; }
     BsdfEval eval(const Vec3f& wo, const Vec3f& wi, TransportMode m, EventClass c,
                   ClassMask a) const override {
       return stated_.eval(wo, wi, m, c, a);
@@ -111,7 +111,7 @@ TEST(BsdfChiSquare, NoticesAWrongDensity) {
   } wrong;
   EXPECT_LT(
       p_value(wrong,
-              {direction_at(45), EventClass::kDiffuse, ClassMask::kAll, TransportMode::kRadiance},
+              {direction_at(45), EventClass::kGlossy, ClassMask::kAll, TransportMode::kRadiance},
               100000, 1),
       1e-6);
 }

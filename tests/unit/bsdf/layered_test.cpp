@@ -99,7 +99,7 @@ Energies sampled_energies(const Bsdf& bsdf, const Coat& coat, const Vec3f& wo, i
     if (s->delta)
       f -= coat.boundary.fresnel(wo) / s->wi.z;
     else if (!coat.boundary.smooth() && contains(bsdf.finite_classes(), s->event) &&
-             s->event == coat.boundary.facets.event_class(kDefaultSpecularAlpha))
+             s->event == coat.boundary.facets.event_class(kSpecularAlpha))
       f -= coat.boundary.evaluate(wo, s->wi, TransportMode::kRadiance, BoundaryPart::kReflection).f;
     e.add(s->wi.z, f * s->wi.z / s->pdf_w);
   }
@@ -115,11 +115,11 @@ void expect_same(const Energies& a, const Energies& b, const std::string& what) 
 
 template <class Base>
 void compare(const std::string& name, const Coat& coat, const Base& base) {
-  // One walk alone is far from normally distributed where light leaves at grazing angles; the mean of some
-  // is what the test's error bounds can deal with.
+  // One walk alone is far from normally distributed where light leaves at grazing angles; the mean
+  // of some is what the test's error bounds can deal with.
   Coat averaged = coat;
   averaged.walks = 8;
-  const CoatedBsdf<Base> bsdf(averaged, base, kDefaultSpecularAlpha);
+  const CoatedBsdf<Base> bsdf(averaged, base, kSpecularAlpha);
   for (const float angle : {10.0f, 65.0f}) {
     const Vec3f wo = direction_at(angle);
     expect_same(brute_force_energies(coat, base, wo, 150000),
@@ -148,20 +148,16 @@ TEST(Layered, ClosedFormAgreesWithBruteForce) {
       Coat coat = make_coat(1.5f, alpha, alpha, 0.05f, 0);
       coat.max_depth = max_depth;
       const CoatTable table(coat.boundary, coat.thickness, max_depth);
-      const CoatedDiffuseBsdf bsdf(&table, grey.reflectance, kDefaultSpecularAlpha);
+      const CoatedDiffuseBsdf bsdf(&table, grey.reflectance, kSpecularAlpha);
       for (const float angle : {20.0f, 75.0f}) {
         const Vec3f wo = direction_at(angle);
         const Energies brute = brute_force_energies(coat, grey, wo, 100000);
         for (int b = 0; b < kBins; ++b) {
           const double exact = integrate_range(
               [&](const Vec3f& wi) {
-                double f = bsdf.eval(wo, wi, TransportMode::kRadiance, EventClass::kDiffuse,
-                                     ClassMask::kAll)
-                               .f[kLane];
-                if (alpha > kDefaultSpecularAlpha)
-                  f -= coat.boundary
-                           .evaluate(wo, wi, TransportMode::kRadiance, BoundaryPart::kReflection)
-                           .f;
+                const double f = bsdf.eval(wo, wi, TransportMode::kRadiance, EventClass::kDiffuse,
+                                           ClassMask::kAll)
+                                     .f[kLane];
                 return f * wi.z;
               },
               static_cast<double>(b) / kBins, (b + 1.0) / kBins, 1e-4);

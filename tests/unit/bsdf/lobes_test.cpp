@@ -65,7 +65,7 @@ TEST(TrowbridgeReitzFacets, AlphaLimits) {
   EXPECT_FLOAT_EQ(TrowbridgeReitz(1e-3f, 0.0f).alpha_y(), 1e-4f);
   EXPECT_FLOAT_EQ(TrowbridgeReitz::roughness_to_alpha(0.25f), 0.5f);
   EXPECT_EQ(TrowbridgeReitz(0.05f, 0.01f).event_class(0.05f), EventClass::kSpecular);
-  EXPECT_EQ(TrowbridgeReitz(0.01f, 0.051f).event_class(0.05f), EventClass::kDiffuse);
+  EXPECT_EQ(TrowbridgeReitz(0.01f, 0.051f).event_class(0.05f), EventClass::kGlossy);
 }
 
 TEST(Mirrors, SmoothGlassLosesNothing) {
@@ -128,8 +128,7 @@ TEST(RoughGlass, EnergyOfSamplesMatchesQuadrature) {
       const double exact = integrate_range(
           [&](const Vec3f& wi) {
             return static_cast<double>(
-                glass
-                    .eval(wo, wi, TransportMode::kImportance, EventClass::kDiffuse, ClassMask::kAll)
+                glass.eval(wo, wi, TransportMode::kImportance, EventClass::kGlossy, ClassMask::kAll)
                     .f[0] *
                 std::abs(wi.z));
           },
@@ -155,7 +154,7 @@ TEST(Classes, FollowTheThreshold) {
   };
   EXPECT_EQ(classes_of(0.0f), ClassMask::kSpecular);
   EXPECT_EQ(classes_of(0.05f), ClassMask::kSpecular);
-  EXPECT_EQ(classes_of(0.06f), ClassMask::kDiffuse);
+  EXPECT_EQ(classes_of(0.06f), ClassMask::kGlossy);
   const auto coated = [](float coat_alpha, float base_alpha, float albedo) {
     return CoatedBsdf<ConductorSurface>(make_coat(1.5f, coat_alpha, coat_alpha, 0.01f, albedo),
                                         metal(base_alpha, base_alpha), 0.05f)
@@ -163,9 +162,21 @@ TEST(Classes, FollowTheThreshold) {
   };
   EXPECT_EQ(coated(0.0f, 0.0f, 0.0f), ClassMask::kSpecular);
   EXPECT_EQ(coated(0.04f, 0.0f, 0.0f), ClassMask::kSpecular);
-  EXPECT_EQ(coated(0.0f, 0.2f, 0.0f), ClassMask::kAll);
-  EXPECT_EQ(coated(0.2f, 0.0f, 0.0f), ClassMask::kDiffuse);
-  EXPECT_EQ(coated(0.0f, 0.0f, 0.5f), ClassMask::kAll);
+  EXPECT_EQ(coated(0.0f, 0.2f, 0.0f), ClassMask::kGlossy | ClassMask::kSpecular);
+  EXPECT_EQ(coated(0.2f, 0.0f, 0.0f), ClassMask::kGlossy);
+  EXPECT_EQ(coated(0.2f, 0.3f, 0.0f), ClassMask::kGlossy);
+  EXPECT_EQ(coated(0.0f, 0.0f, 0.5f), ClassMask::kDiffuse | ClassMask::kSpecular);
+  EXPECT_EQ(coated(0.2f, 0.0f, 0.5f), ClassMask::kRough);
+  const auto varnished = [](float coat_alpha) {
+    const CoatTable table({1.5f, {coat_alpha, coat_alpha}}, 0.01f, 10);
+    const ClassMask closed = CoatedDiffuseBsdf(&table, ramp(0.5f, 0.5f), 0.05f).classes();
+    const Coat coat = make_coat(1.5f, coat_alpha, coat_alpha, 0.01f, 0);
+    EXPECT_EQ(CoatedBsdf<LambertSurface>(coat, {ramp(0.5f, 0.5f)}, 0.05f).classes(), closed);
+    return closed;
+  };
+  EXPECT_EQ(varnished(0.0f), ClassMask::kDiffuse | ClassMask::kSpecular);
+  EXPECT_EQ(varnished(0.05f), ClassMask::kDiffuse | ClassMask::kSpecular);
+  EXPECT_EQ(varnished(0.2f), ClassMask::kRough);
 }
 
 }  // namespace

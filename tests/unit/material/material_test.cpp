@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <set>
 
 #include "core/sampler.h"
 #include "scene/bsdf/conductor.h"
@@ -58,10 +59,10 @@ struct Made {
   Diagnostics diagnostics;
   std::vector<MaterialPtr> materials;
 
-  explicit Made(std::vector<MaterialDescription> list) {
+  explicit Made(std::vector<MaterialDescription> list, const MaterialSettings& settings = {}) {
     description.materials = std::move(list);
     const TextureLibrary textures(description, diagnostics);
-    materials = make_materials(description, textures, {}, diagnostics);
+    materials = make_materials(description, textures, settings, diagnostics);
   }
 };
 
@@ -87,6 +88,7 @@ SurfaceInteraction flat_point(const Vec3f& p = {0.3f, 0.4f, 0.0f}) {
   return s;
 }
 
+constexpr float kSpecularAlpha = 0.05f;
 const Vec3f kWo = normalize(Vec3f(0.5f, 0.0f, 0.7f));
 const Vec3f kWi = normalize(Vec3f(-0.2f, 0.3f, 0.9f));
 
@@ -102,7 +104,7 @@ TEST(MaterialTable, EveryTypeMakesABsdfWithItsDefaults) {
     EXPECT_EQ(m.resolve(point), &m);
     SampledWavelengths lambda = SampledWavelengths::sample_visible(0.3f);
     BsdfArena arena;
-    const Bsdf* bsdf = m.make_bsdf(point, lambda, arena);
+    const Bsdf* bsdf = m.make_bsdf(point, lambda, kSpecularAlpha, arena);
     EXPECT_FALSE(lambda.secondary_terminated()) << row.name;
     EXPECT_EQ(bsdf == nullptr, m.is_interface()) << row.name;
     if (!bsdf) {
@@ -147,19 +149,95 @@ TEST(MaterialTable, UnusedParametersAreReported) {
   EXPECT_NE(made.diagnostics.warnings()[0].message.find("shininess"), std::string::npos);
 }
 
-BsdfEval eval_of(const Material& m, EventClass c = EventClass::kDiffuse) {
+BsdfEval eval_of(const Material& m, EventClass c) {
   SampledWavelengths lambda = SampledWavelengths::sample_visible(0.3f);
   BsdfArena arena;
-  return m.make_bsdf(flat_point(), lambda, arena)
+  return m.make_bsdf(flat_point(), lambda, kSpecularAlpha, arena)
       ->eval(kWo, kWi, TransportMode::kRadiance, c, ClassMask::kAll);
+}
+
+ClassMask classes_of(const Material& m, float specular_alpha) {
+  SampledWavelengths lambda = SampledWavelengths::sample_visible(0.3f);
+  BsdfArena arena;
+  return m.make_bsdf(flat_point(), lambda, specular_alpha, arena)->classes();
+}
+
+TEST(PossibleClasses, AreThoseOfAllThresholdsInTheBand) {
+  const SpecularBand band{0.1f, 0.3f};
+  const auto rough = [](const std::string& type, double alpha) {
+    return material(type, {numbers("float", "roughness", {alpha}), boolean("remaproughness", false),
+                           numbers("float", "interface.roughness", {alpha}),
+                           numbers("float", "conductor.roughness", {alpha})});
+  };
+  const ClassMask s = ClassMask::kSpecular, g = ClassMask::kGlossy;
+  const std::pair<double, ClassMask> kLobe[] = {{0.0, s},     {0.05, s}, {0.1, s}, {0.2, s | g},
+                                                {0.3, s | g}, {0.4, g},  {1.0, g}};
+  for (const auto& [alpha, lobe] : kLobe) {
+    for (const char* type :
+         {"conductor", "dielectric", "subsurface", "coateddiffuse", "coatedconductor"}) {
+      const Made made({rough(type, alpha)}, {band});
+      const Material& m = *made.materials[0];
+      const bool has_base =
+          std::string(type) == "subsurface" || std::string(type) == "coateddiffuse";
+      EXPECT_EQ(m.possible_classes(), has_base ? lobe | ClassMask::kDiffuse : lobe)
+          << type << " " << alpha;
+      EXPECT_EQ(m.possible_classes(), classes_of(m, band.low) | classes_of(m, band.high))
+          << type << " " << alpha;
+    }
+  }
+}
+
+TEST(PossibleClasses, CoverWhatTheBsdfHas) {
+  // All combinations of coat, metal, gap and index at thresholds in the band.
+  const SpecularBand band{0.1f, 0.3f};
+  for (const double coat : {0.0, 0.2, 0.5})
+    for (const double metal : {0.0, 0.2, 0.5})
+      for (const double albedo : {0.0, 0.5})
+        for (const double eta : {1.0, 1.5})
+          for (const char* type :
+               {"coatedconductor", "coateddiffuse", "subsurface", "dielectric"}) {
+            const Made made(
+                {material(type,
+                          {numbers("float", "interface.roughness", {coat}),
+                           numbers("float", "roughness", {coat}),
+                           numbers("float", "interface.eta", {eta}), numbers("float", "eta", {eta}),
+                           numbers("float", "conductor.roughness", {metal}),
+                           boolean("remaproughness", false),
+                           numbers("spectrum", "albedo", {200, albedo, 900, albedo})})},
+                {band});
+            const Material& m = *made.materials[0];
+            for (const float threshold : {0.1f, 0.19f, 0.21f, 0.3f}) {
+              if (std::string(type) == "dielectric" && eta == 1.0) continue;  // straight, no event
+              const ClassMask classes = classes_of(m, threshold);
+              EXPECT_EQ(classes & m.possible_classes(), classes)
+                  << type << coat << metal << albedo << eta << threshold;
+            }
+          }
+}
+
+TEST(MaterialIndex, IsThePlaceInTheScene) {
+  for (const bool force_diffuse : {false, true}) {
+    const Made made({material("mix", {strings("string", "materials", {"metal", "wall"})}),
+                     material("conductor", {}, "metal"), material("diffuse", {}, "wall"),
+                     material("interface")},
+                    {SpecularBand(), force_diffuse});
+    for (size_t i = 0; i < made.materials.size(); ++i)
+      EXPECT_EQ(made.materials[i]->index(), static_cast<int>(i));
+    std::set<int> chosen;
+    for (int i = 0; i < 50; ++i)
+      chosen.insert(made.materials[0]
+                        ->resolve(flat_point(Vec3f(static_cast<float>(i), 0.5f, 0.0f)))
+                        ->index());
+    EXPECT_EQ(chosen, (std::set<int>{1, 2}));
+  }
 }
 
 TEST(DiffuseMaterials, DefaultsAndClamping) {
   const Made made({material("diffuse"), material("diffusetransmission"),
                    material("diffusetransmission", {numbers("float", "scale", {2})})});
-  EXPECT_NEAR(eval_of(*made.materials[0]).f[0], 0.5f * kInvPi, 1e-6f);
-  EXPECT_NEAR(eval_of(*made.materials[1]).f[0], 0.25f * kInvPi, 1e-6f);
-  EXPECT_NEAR(eval_of(*made.materials[2]).f[0], 0.5f * kInvPi, 1e-6f);
+  EXPECT_NEAR(eval_of(*made.materials[0], EventClass::kDiffuse).f[0], 0.5f * kInvPi, 1e-6f);
+  EXPECT_NEAR(eval_of(*made.materials[1], EventClass::kDiffuse).f[0], 0.25f * kInvPi, 1e-6f);
+  EXPECT_NEAR(eval_of(*made.materials[2], EventClass::kDiffuse).f[0], 0.5f * kInvPi, 1e-6f);
 }
 
 TEST(ConductorMaterials, RoughnessIsRemappedUnlessToldOtherwise) {
@@ -172,13 +250,16 @@ TEST(ConductorMaterials, RoughnessIsRemappedUnlessToldOtherwise) {
   const SampledSpectrum eta = named_spectrum("metal-Cu-eta")->sample(lambda);
   const SampledSpectrum k = named_spectrum("metal-Cu-k")->sample(lambda);
   const auto expected = [&](float ax, float ay) {
-    return ConductorBsdf({eta, k, {ax, ay}}, 0.05f)
-        .eval(kWo, kWi, TransportMode::kRadiance, EventClass::kDiffuse, ClassMask::kAll)
+    return ConductorBsdf({eta, k, {ax, ay}}, kSpecularAlpha)
+        .eval(kWo, kWi, TransportMode::kRadiance, EventClass::kGlossy, ClassMask::kAll)
         .f[2];
   };
-  EXPECT_NEAR(eval_of(*made.materials[0]).f[2] / expected(0.3f, 0.3f), 1.0f, 1e-4f);
-  EXPECT_NEAR(eval_of(*made.materials[1]).f[2] / expected(0.3f, 0.3f), 1.0f, 1e-4f);
-  EXPECT_NEAR(eval_of(*made.materials[2]).f[2] / expected(0.5f, 0.3f), 1.0f, 1e-4f);
+  EXPECT_NEAR(eval_of(*made.materials[0], EventClass::kGlossy).f[2] / expected(0.3f, 0.3f), 1.0f,
+              1e-4f);
+  EXPECT_NEAR(eval_of(*made.materials[1], EventClass::kGlossy).f[2] / expected(0.3f, 0.3f), 1.0f,
+              1e-4f);
+  EXPECT_NEAR(eval_of(*made.materials[2], EventClass::kGlossy).f[2] / expected(0.5f, 0.3f), 1.0f,
+              1e-4f);
 }
 
 TEST(ConductorMaterials, ReflectanceIsMetAtNormalIncidence) {
@@ -186,7 +267,7 @@ TEST(ConductorMaterials, ReflectanceIsMetAtNormalIncidence) {
   const Made made({material("conductor", {reflectance})});
   SampledWavelengths lambda = SampledWavelengths::sample_visible(0.3f);
   BsdfArena arena;
-  const Bsdf* bsdf = made.materials[0]->make_bsdf(flat_point(), lambda, arena);
+  const Bsdf* bsdf = made.materials[0]->make_bsdf(flat_point(), lambda, kSpecularAlpha, arena);
   const Vec3f up(0, 0, 1);
   const auto s = bsdf->sample(up, 0, {0, 0}, TransportMode::kRadiance, ClassMask::kAll);
   ASSERT_TRUE(s && s->delta);
@@ -198,9 +279,9 @@ TEST(DielectricMaterials, DispersionKeepsTheHeroOnly) {
                    material("thindielectric", {strings("spectrum", "eta", {"glass-BK7"})})});
   SampledWavelengths lambda = SampledWavelengths::sample_visible(0.3f);
   BsdfArena arena;
-  made.materials[1]->make_bsdf(flat_point(), lambda, arena);
+  made.materials[1]->make_bsdf(flat_point(), lambda, kSpecularAlpha, arena);
   EXPECT_FALSE(lambda.secondary_terminated());
-  const Bsdf* glass = made.materials[0]->make_bsdf(flat_point(), lambda, arena);
+  const Bsdf* glass = made.materials[0]->make_bsdf(flat_point(), lambda, kSpecularAlpha, arena);
   EXPECT_TRUE(lambda.secondary_terminated());
   const auto s =
       glass->sample(kWo, kOneMinusEpsilon, {0, 0}, TransportMode::kRadiance, ClassMask::kAll);
@@ -221,7 +302,7 @@ TEST(DielectricMaterials, StraightPassageHasTheWeightOfTheSample) {
     BsdfArena arena;
     const Vec3f wo = point.shading.to_local(point.wo);
     const auto s =
-        m.make_bsdf(point, lambda, arena)
+        m.make_bsdf(point, lambda, kSpecularAlpha, arena)
             ->sample(wo, kOneMinusEpsilon, {0, 0}, TransportMode::kRadiance, ClassMask::kAll);
     ASSERT_TRUE(s && s->straight_through);
     EXPECT_NEAR(m.straight_transmittance(point, lambda)[0], s->f[0] * std::abs(s->wi.z), 1e-6f);
@@ -239,7 +320,7 @@ TEST(CoatedMaterials, ClosedFormAndWalkAgreeInTheMean) {
   double sums[2] = {0, 0}, squares[2] = {0, 0};
   constexpr int kCount = 20000;
   for (int m = 0; m < 2; ++m) {
-    const Bsdf* bsdf = made.materials[m]->make_bsdf(point, lambda, arena);
+    const Bsdf* bsdf = made.materials[m]->make_bsdf(point, lambda, kSpecularAlpha, arena);
     ASSERT_TRUE(bsdf);
     for (int i = 0; i < kCount; ++i) {
       const auto at = [&](int k) {
@@ -266,7 +347,7 @@ TEST(CoatedMaterials, FitTheArena) {
   SampledWavelengths lambda = SampledWavelengths::sample_visible(0.3f);
   for (const MaterialPtr& m : made.materials) {
     BsdfArena arena;
-    EXPECT_NE(m->make_bsdf(flat_point(), lambda, arena), nullptr);
+    EXPECT_NE(m->make_bsdf(flat_point(), lambda, kSpecularAlpha, arena), nullptr);
   }
 }
 
@@ -280,7 +361,7 @@ TEST(HairMaterials, ColoursByEveryParametrisation) {
   SampledWavelengths lambda = SampledWavelengths::sample_visible(0.3f);
   const auto albedo = [&](size_t i) {
     BsdfArena arena;
-    return made.materials[i]->make_bsdf(flat_point(), lambda, arena)->albedo(kWo);
+    return made.materials[i]->make_bsdf(flat_point(), lambda, kSpecularAlpha, arena)->albedo(kWo);
   };
   for (int i = 0; i < kSpectrumSamples; ++i) {
     EXPECT_FLOAT_EQ(albedo(0)[i], albedo(1)[i]);
@@ -320,7 +401,7 @@ TEST(MixMaterials, ChooseByAmountAndNest) {
                    material("conductor", {}, "metal"), material("diffuse", {}, "wall"),
                    material("dielectric", {}, "glass")});
   const Material& mix = *made.materials[0];
-  EXPECT_EQ(mix.possible_classes(), ClassMask::kAll);
+  EXPECT_EQ(mix.possible_classes(), ClassMask::kDiffuse | ClassMask::kSpecular);
   int counts[3] = {0, 0, 0};
   constexpr int kCount = 20000;
   for (int i = 0; i < kCount; ++i) {

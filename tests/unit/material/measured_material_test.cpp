@@ -84,17 +84,17 @@ TEST(MeasuredMaterial, TheFileIsReadAndRendersAsItsTablesSay) {
   const BsdfFile file(bsdf_file_of(tables));
   const auto materials = make({measured({file.path()})});
   ASSERT_EQ(materials.size(), 1u);
-  EXPECT_EQ(materials[0]->possible_classes(), ClassMask::kDiffuse);
+  EXPECT_EQ(materials[0]->possible_classes(), ClassMask::kGlossy);
 
   SampledWavelengths lambda = SampledWavelengths::sample_visible(0.6f);
   BsdfArena arena;
-  const Bsdf* read = materials[0]->make_bsdf({}, lambda, arena);
+  const Bsdf* read = materials[0]->make_bsdf({}, lambda, 0.05f, arena);
   EXPECT_FALSE(lambda.secondary_terminated());
   const MeasuredBrdf direct(tables);
   const MeasuredBsdf expected(direct, lambda);
   const Vec3f wo = normalize(Vec3f(0.4f, 0.1f, 0.8f)), wi = normalize(Vec3f(-0.3f, 0.2f, 0.6f));
   const auto eval = [&](const Bsdf& b) {
-    return b.eval(wo, wi, TransportMode::kRadiance, EventClass::kDiffuse, ClassMask::kAll);
+    return b.eval(wo, wi, TransportMode::kRadiance, EventClass::kGlossy, ClassMask::kAll);
   };
   EXPECT_TRUE(eval(*read).f == eval(expected).f);
   EXPECT_EQ(eval(*read).pdf_w, eval(expected).pdf_w);

@@ -98,21 +98,26 @@ TEST(SubsurfaceMaterial, DroppedWavelengthsAreLeftOut) {
 }
 
 TEST(SubsurfaceMaterial, BoundaryHasTheRoughnessOfTheFormat) {
-  EXPECT_EQ(Made("").material->possible_classes(), ClassMask::kAll);
+  const ClassMask smooth = ClassMask::kDiffuse | ClassMask::kSpecular;
+  EXPECT_EQ(Made("").material->possible_classes(), smooth);
+  EXPECT_EQ(
+      Made("\"float roughness\" 0.03 \"bool remaproughness\" false").material->possible_classes(),
+      smooth);
   EXPECT_EQ(
       Made("\"float roughness\" 0.04 \"bool remaproughness\" false").material->possible_classes(),
       ClassMask::kAll);
   const Made rough("\"float roughness\" 0.04");
-  EXPECT_EQ(rough.material->possible_classes(), ClassMask::kDiffuse);
-  const DielectricBsdf glass({1.33f, TrowbridgeReitz(0.2f, 0.2f)}, kDefaultSpecularAlpha);
+  EXPECT_EQ(rough.material->possible_classes(), ClassMask::kRough);
+  const DielectricBsdf glass({1.33f, TrowbridgeReitz(0.2f, 0.2f)}, 0.05f);
   SampledWavelengths lambda = test_wavelengths();
   BsdfArena arena;
   const Vec3f wo = normalize(Vec3f(0.5f, 0.0f, 0.7f)), wi = normalize(Vec3f(-0.2f, 0.3f, 0.9f));
   const auto value = [&](const Bsdf& b) {
-    return b.eval(wo, wi, TransportMode::kRadiance, EventClass::kDiffuse, ClassMask::kAll).f[0];
+    return b.eval(wo, wi, TransportMode::kRadiance, EventClass::kGlossy, ClassMask::kAll).f[0];
   };
   EXPECT_GT(value(glass), 0.0f);
-  EXPECT_FLOAT_EQ(value(*rough.material->make_bsdf(flat_point(), lambda, arena)), value(glass));
+  EXPECT_FLOAT_EQ(value(*rough.material->make_bsdf(flat_point(), lambda, 0.05f, arena)),
+                  value(glass));
 }
 
 TEST(SubsurfaceMaterial, MistakesAreLocated) {
