@@ -1,15 +1,13 @@
 #include "photon/photon_tracer.h"
 
 #include "core/parallel.h"
-#include "transport/direct_light.h"
+#include "photon/emission.h"
 #include "transport/walk_symbols.h"
 
 namespace nephroid {
 
 namespace {
 
-// A photon's own dimensions, before those of its vertices: light 1, position 2, direction 2.
-constexpr int kEmissionDimensions = 5;
 // Later vertices are random: photons that come so far are many, and points are made for each
 // photon.
 constexpr int kStratifiedDimensions = 48;
@@ -83,64 +81,6 @@ class PhotonVisitor {
   int stored_ = 0;
   bool specular_ = false;
 };
-
-// Emission of one photon. Empty if the light gives nothing here.
-struct Emitted {
-  int light = 0;
-  Ray ray;
-  const Medium* medium = nullptr;
-  SampledSpectrum flux;
-};
-
-/// The way to the photon's origin from outside of the scene ([P4] in docs/estimators.md), where it
-/// starts in `emitted.medium`.
-void come_from_behind(const Scene& scene, const SampledWavelengths& lambda,
-                      const PathSampler& sampler, Emitted& emitted) {
-  Ray way = emitted.ray;
-  way.t_max = length(way.o - scene.sphere.center) + scene.sphere.radius;
-  way.o = way.o - way.d * way.t_max;
-  emitted.flux *= attenuation_along(scene, way, emitted.medium, lambda, sampler);
-}
-
-/// What the medium around the scene leaves of light from infinity until it reaches `ray`.
-SampledSpectrum arrival(const Medium& medium, const Ray& ray, const SampledWavelengths& lambda,
-                        const PathSampler& sampler) {
-  Ray back = ray;
-  back.d = -ray.d;
-  FlightRandom random(-1.0f, hash_combine(sampler.stream_seed(), 1));
-  return attenuation(medium, back, kInfinity, lambda, random, nullptr);
-}
-
-std::optional<Emitted> emit(const Scene& scene, const SampledWavelengths& lambda, float time,
-                            PathSampler& sampler) {
-  float u_light = sampler.get_1d();
-  const Vec2f u_position = sampler.get_2d();
-  const Vec2f u_direction = sampler.get_2d();
-  const std::optional<LightChoice> choice = scene.light_sampler->sample_by_power(u_light);
-  if (!choice) return std::nullopt;
-  const Light& light = *scene.lights[static_cast<size_t>(choice->light)];
-  const std::optional<EmissionSample> e = light.sample_emission(u_position, u_direction, lambda);
-  if (!e || !(e->pdf_a > 0.0f) || !(e->pdf_w > 0.0f)) return std::nullopt;
-  Emitted out;
-  out.light = choice->light;
-  out.ray = e->ray;
-  out.ray.time = time;
-  if (!scene.light_media.empty()) {
-    const MediumInterface& media = scene.light_media[static_cast<size_t>(choice->light)];
-    out.medium = e->from_inside ? media.inside : media.outside;
-  }
-  out.flux = e->radiance * (e->cos_theta / (choice->pdf_p * e->pdf_a * e->pdf_w));
-  // Shadow rays cross all of the medium as well.
-  if (light.is_infinite() && out.medium) {
-    Ray start = out.ray;
-    if (e->from_behind)
-      start.o = start.o - start.d * (length(start.o - scene.sphere.center) + scene.sphere.radius);
-    out.flux *= arrival(*out.medium, start, lambda, sampler);
-  }
-  if (e->from_behind) come_from_behind(scene, lambda, sampler, out);
-  if (out.flux.is_black()) return std::nullopt;
-  return out;
-}
 
 }  // namespace
 

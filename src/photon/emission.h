@@ -1,0 +1,30 @@
+// Where a light path starts: a light, a point and a direction, and what it carries from there
+// (docs/estimators.md, [P1] and [P4]).
+// Who calls it: the photon tracer and light tracing. It must not know routes, cameras or films.
+#pragma once
+
+#include <optional>
+
+#include "core/sampler.h"
+#include "scene/scene.h"
+
+namespace nephroid {
+
+/// Random numbers that emit() uses, from the sampler's current dimension on: light 1, position 2,
+/// direction 2.
+inline constexpr int kEmissionDimensions = 5;
+
+struct Emission {
+  int light = 0;                   ///< index into Scene::lights
+  Ray ray;                         ///< of unit direction, off the light already
+  const Medium* medium = nullptr;  ///< around the ray's origin
+  SampledSpectrum flux;            ///< of one light path: divide by the number emitted
+  EmissionSample start;            ///< what the light said
+  float pdf_start = 0;             ///< of the light and the start point, 1/area
+};
+
+/// The start of one light path. Empty if the light gives nothing here.
+std::optional<Emission> emit(const Scene& scene, const SampledWavelengths& lambda, float time,
+                             PathSampler& sampler);
+
+}  // namespace nephroid
