@@ -1,0 +1,127 @@
+// 200 random sets of routes, and the presets, against what they mean by definition: every word of
+// up to six letters over all letters, and of up to twelve over one D and one S, with every kind of
+// light, from both ends and at every meeting point. Sets that are wrong (holes, routes that own
+// nothing, photons without a merge vertex) are among them: the proof must find what these words
+// show.
+#include <gtest/gtest.h>
+
+#include "core/errors.h"
+#include "routes/comparison.h"
+#include "routes/random_routes.h"
+
+namespace nephroid::oracle {
+namespace {
+
+std::string option(const OracleRoute& route) {
+  return route.name + "=" + route.expression.text() + ":" + estimator_type(route.estimator).name;
+}
+
+std::string description(const OracleRoutes& set) {
+  std::string out;
+  for (const OracleRoute& route : set.routes()) out += "--route '" + option(route) + "'\n";
+  for (const OracleRoute& aov : set.aovs())
+    out += "--aov '" + aov.name + "=" + aov.expression.text() + "'\n";
+  return out;
+}
+
+RouteCompilation compile(const OracleRoutes& set, const SymbolSet* symbols) {
+  std::vector<RouteDefinition> routes;
+  std::vector<AovDefinition> aovs;
+  for (const OracleRoute& route : set.routes()) routes.push_back(parse_route(option(route)));
+  for (const OracleRoute& aov : set.aovs())
+    aovs.push_back(parse_aov(aov.name + "=" + aov.expression.text()));
+  return compile_routes(routes, aovs, symbols);
+}
+
+/// Some of all symbols, at least one light and one event among them.
+SymbolSet some_symbols(const SymbolSet& all, RandomRoutes& random) {
+  SymbolSet some = all;
+  for (size_t i = 1; i < all.events.size(); ++i)
+    if (random.below(4) == 0) some.events[i] = false;
+  for (size_t i = 1; i < all.lights.size(); ++i)
+    if (random.below(3) == 0) some.lights[i] = false;
+  return some;
+}
+
+/// All words of the sizes that this set's alphabet allows within the time of a test.
+void compare_words(Comparison& comparison, const Alphabet& alphabet, RandomRoutes& random) {
+  std::vector<int> all;
+  for (int e = 0; e < alphabet.events(); ++e) all.push_back(e);
+  comparison.all_words(all, alphabet.labels() == 1 ? 6 : alphabet.labels() <= 3 ? 3 : 2);
+  comparison.all_words({random.below(2), static_cast<int>(EventKind::kSR) + random.below(2)}, 12);
+  for (int n = 0; n < 300; ++n) {
+    std::vector<int> word;
+    for (int i = 3 + random.below(10); i > 0; --i) word.push_back(random.below(alphabet.events()));
+    comparison.word(word);
+  }
+}
+
+/// One set: the compiled tables and findings against the oracle. `variant` says which symbols the
+/// scene has: all but glowing media, all, some, or some after compiling for all.
+void compare(OracleRoutes set, int variant, RandomRoutes& random) {
+  SCOPED_TRACE(description(set));
+  RouteCompilation compilation = compile(set, nullptr);
+  SymbolSet present = all_symbols(compilation.routes, variant != 0);
+  if (variant >= 2) present = some_symbols(present, random);
+  if (variant == 1 || variant == 2) compilation = compile(set, &present);
+  const Routes routes =
+      variant == 3 ? compilation.routes.restricted_to(present) : compilation.routes;
+
+  Comparison comparison(set, routes, present);
+  compare_words(comparison, set.alphabet(), random);
+  if (variant != 3) comparison.findings(compilation);
+  comparison.nothing_hopeless();
+  EXPECT_EQ(comparison.failure(), "");
+  EXPECT_GT(comparison.words(), 20000u);
+
+  bool errors = false, overlaps = false;
+  for (const RouteFinding& f : compilation.findings) {
+    errors = errors || f.is_error;
+    overlaps = overlaps || f.kind == RouteFinding::Kind::kOverlap;
+  }
+  const auto refused = [&](bool strict) {
+    try {
+      checked_routes(compilation, strict);
+      return false;
+    } catch (const UsageError& error) {
+      EXPECT_NE(std::string(error.what()).find(compilation.findings[0].witness), std::string::npos);
+      return true;
+    }
+  };
+  EXPECT_EQ(refused(false), errors);
+  EXPECT_EQ(refused(true), errors || overlaps);
+}
+
+class BruteForce : public ::testing::TestWithParam<int> {};
+
+TEST_P(BruteForce, TablesAndProofsAgreeWithTheDefinition) {
+  for (int n = 0; n < 5; ++n) {
+    const int seed = 5 * GetParam() + n;
+    std::vector<std::string> labels;
+    if (seed % 4 == 1) labels = {"glass", "key"};
+    if (seed % 16 == 3) labels = {"glass", "water", "key", "sky lamp"};
+    RandomRoutes random(static_cast<uint32_t>(seed) + 1000, labels);
+    compare(random.set(), n < 2 ? 0 : n - 1, random);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Sets, BruteForce, ::testing::Range(0, 40));
+
+TEST(Expressions, WithoutPathsAreRefused) {
+  RandomRoutes random(7, {});
+  const Alphabet alphabet(0);
+  int refused = 0;
+  for (int n = 0; n < 1000; ++n) {
+    const Tree tree = random.expression(false);
+    if (Machine(tree, alphabet, Atom::Marks::kIgnore).matches_any_path()) {
+      EXPECT_NO_THROW(parse_route("r=" + tree.text() + ":path")) << tree.text();
+    } else {
+      ++refused;
+      EXPECT_THROW(parse_route("r=" + tree.text() + ":path"), UsageError) << tree.text();
+    }
+  }
+  EXPECT_GE(refused, 5);
+}
+
+}  // namespace
+}  // namespace nephroid::oracle

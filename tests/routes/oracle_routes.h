@@ -1,0 +1,86 @@
+// What a set of routes means, word by word and by the definitions of docs/routes.md alone: owners,
+// layers and merge vertices. No automaton of several routes, no tables.
+// Who calls it: tests of routes. It must not use src/route but for the rows of estimators.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "route/route_set.h"
+#include "routes/oracle.h"
+
+namespace nephroid::oracle {
+
+struct OracleRoute {
+  std::string name;
+  Tree expression;
+  EstimatorKind estimator = EstimatorKind::kPath;
+};
+
+/// Events, eye first, and a light, as indices into the alphabet's.
+struct Path {
+  std::vector<int> events;
+  int light = 0;
+};
+
+/// What is true of a path.
+struct PathFacts {
+  std::vector<int> matching;           ///< routes, in order
+  std::optional<int> owner;            ///< the one that renders it
+  std::vector<int> aovs;               ///< the layers that it lies in
+  std::vector<size_t> merge_vertices;  ///< from 0; of the owner, if its estimator merges
+  bool marked_twice = false;  ///< the owner matches with two merge vertices in the same reading
+};
+
+class OracleRoutes {
+ public:
+  /// `labels`: the names that atoms mean by 1, 2, ...
+  OracleRoutes(std::vector<OracleRoute> routes, std::vector<OracleRoute> aovs,
+               std::vector<std::string> labels);
+
+  const Alphabet& alphabet() const { return alphabet_; }
+  const std::vector<OracleRoute>& routes() const { return routes_; }
+  const std::vector<OracleRoute>& aovs() const { return aovs_; }
+  const std::vector<std::string>& labels() const { return labels_; }
+  const EstimatorType& type(int route) const {
+    return estimator_type(routes_[size_t(route)].estimator);
+  }
+
+  /// Machines that read words without marks, and those that find the merge vertices of a route:
+  /// they read words with one mark. Routes whose estimators do not merge have none.
+  Machine& route(int i) { return plain_[size_t(i)]; }
+  Machine& aov(int i) { return layers_[size_t(i)]; }
+  Machine* merging(int i) { return merging_[size_t(i)] ? &*merging_[size_t(i)] : nullptr; }
+
+  /// True if a path from this light can be owned by the route.
+  bool can_own(int route, int light) const {
+    return alphabet_.light_kind(light) != LightKind::kMedium || !type(route).starts_at_lights;
+  }
+  /// True if the estimator of the route has a technique for the path, whose owner it is.
+  bool can_sample(int route, const Path& path, size_t merge_vertices) const;
+
+  PathFacts facts(const Path& path);
+
+  /// All paths that a word such as "C <TS'glass'> D L" stands for, each letter read as a place in
+  /// an expression. Stops after `most` of them. Empty if it is not such a word.
+  std::vector<Path> paths_of(const std::string& word, size_t most = 200000) const;
+  /// In the same notation, every detail written.
+  std::string text(const Path& path) const;
+
+ private:
+  Alphabet alphabet_;
+  std::vector<OracleRoute> routes_, aovs_;
+  std::vector<std::string> labels_;
+  std::vector<Machine> plain_, layers_;
+  std::vector<std::optional<Machine>> merging_;
+};
+
+/// One place of an expression from its text: a letter or <..>, without sets and marks. Empty if it
+/// is neither. `labels`: names of labels 1, 2, ...; a name that is not among them is label 0.
+std::optional<Atom> atom_of(const std::string& text, const std::vector<std::string>& labels);
+
+/// The merge vertex of routes without a mark: the first D or G, after S and V only.
+Tree first_rough_event();
+
+}  // namespace nephroid::oracle
