@@ -111,7 +111,7 @@ uint64_t SplatBuffer::add_to_rows(const Splat& splat, int y0, int y1) {
   return held;
 }
 
-void SplatBuffer::finish(double scale) {
+void SplatBuffer::finish(double scale, std::span<const Rgb> also) {
   if (parts_ == 0) return;
   const PixelBounds& crop = film_.bounds();
   const double limit = film_.settings().max_component;
@@ -119,24 +119,25 @@ void SplatBuffer::finish(double scale) {
     std::vector<Rgb> values(parts_);
     for (int y = crop.y0 + static_cast<int>(begin); y < crop.y0 + static_cast<int>(end); ++y)
       for (int x = crop.x0; x < crop.x1; ++x) {
-        Sum* sums = &sums_[(static_cast<size_t>(y - crop.y0) * static_cast<size_t>(crop.width()) +
-                            static_cast<size_t>(x - crop.x0)) *
-                           parts_];
+        const size_t first = (static_cast<size_t>(y - crop.y0) * static_cast<size_t>(crop.width()) +
+                              static_cast<size_t>(x - crop.x0)) *
+                             parts_;
+        double total[3] = {0, 0, 0};
+        const auto found = [&](size_t i, size_t c) {
+          const double other = also.empty() ? 0.0 : double{also[first + i][static_cast<int>(c)]};
+          return sums_[first + i].rgb[c].value() * scale + other;
+        };
+        for (size_t i = 0; i < parts_; ++i)
+          for (size_t c = 0; c < 3; ++c) total[c] += found(i, c);
         // As clamp_component does it, for the total.
-        double largest = 0;
-        for (int c = 0; c < 3; ++c) {
-          FixedSum total;
-          for (size_t i = 0; i < parts_; ++i) total.add(sums[i].rgb[c]);
-          largest = std::max(largest, std::abs(total.value() * scale));
-        }
-        const double factor = largest > limit ? scale * (limit / largest) : scale;
+        const double largest =
+            std::max({std::abs(total[0]), std::abs(total[1]), std::abs(total[2])});
+        const double factor = largest > limit ? limit / largest : 1.0;
         for (size_t i = 0; i < parts_; ++i) {
-          const auto scaled = [&](size_t c) {
-            return static_cast<float>(sums[i].rgb[c].value() * factor);
-          };
-          values[i] = {scaled(0), scaled(1), scaled(2)};
-          sums[i] = {};
+          const auto kept = [&](size_t c) { return static_cast<float>(found(i, c) * factor); };
+          values[i] = {kept(0), kept(1), kept(2)};
         }
+        for (size_t i = 0; i < parts_; ++i) sums_[first + i] = {};
         film_.add(group_, x, y, values);
       }
   });

@@ -39,6 +39,7 @@ struct LightPass {
   int64_t paths = 0;
   float specular_alpha = 0;
   int max_depth = 0;
+  const ConnectionWeight& weight;
 };
 
 struct Chunk {
@@ -78,7 +79,7 @@ class ConnectingVisitor {
   void start(const Walk& walk, const Emission& emission, PathSampler& sampler) {
     const EmissionSample& e = emission.start;
     const Part part = routes_.owner(routes_.start(), symbols_.light(emission.light));
-    if (!pass_.places.owns(part) || !(e.coverage > 0.0f)) return;
+    if (pass_.weight || !pass_.places.owns(part) || !(e.coverage > 0.0f)) return;
     const auto seen = pass_.view.connect(e.p, sampler.get_2d(), u_time_);
     if (!seen) return;
     const Vec3f& w = seen->line.wi;
@@ -111,12 +112,15 @@ class ConnectingVisitor {
         abs_dot(w, v.surface.ng) *
         (v.subsurface_exit ? 1.0f : abs_cos_theta(v.wo) / abs_dot(v.surface.wo, v.surface.ng));
     if (!std::isfinite(cosine)) return;
+    const float weight = pass_.weight ? pass_.weight(seen->line, v) : 1.0f;
     SampledSpectrum through;
     bool traced = false;
     for (const EventClass c : kSurfaceClasses) {
       if (!contains(classes, c)) continue;
-      const Part part =
-          routes_.meet(routes_.next(routes_.start(), symbol_at(symbols_, v, c, wi)), state_);
+      const EventSymbol event = symbol_at(symbols_, v, c, wi);
+      const Part part = routes_.meet(pass_.weight ? routes_.merge(routes_.start(), event)
+                                                  : routes_.next(routes_.start(), event),
+                                     state_);
       if (!pass_.places.owns(part)) continue;
       const BsdfEval e = v.bsdf.eval(v.wo, wi, TransportMode::kImportance, c, ClassMask::kAll);
       if (e.f.is_black()) continue;
@@ -125,14 +129,14 @@ class ConnectingVisitor {
                           medium_towards(v.surface, w, walk.medium), sampler);
       traced = true;
       if (through.is_black()) return;
-      expose(*seen, part, flux_ * walk.throughput * e.f * through * cosine, walk);
+      expose(*seen, part, flux_ * walk.throughput * e.f * through * (cosine * weight), walk);
     }
   }
 
   void medium_vertex(const Walk& walk, const MediumVertex& v, PathSampler& sampler) {
     const Part part =
         routes_.meet(routes_.next(routes_.start(), symbol_in(symbols_, v.medium)), state_);
-    if (!pass_.places.owns(part)) return;
+    if (pass_.weight || !pass_.places.owns(part)) return;
     const auto seen = pass_.view.connect(v.p, sampler.get_2d(), u_time_);
     if (!seen) return;
     const SampledSpectrum through = arrives(*seen, v.p, walk, walk.medium, sampler);
@@ -221,21 +225,23 @@ void require_connecting_camera(const Scene& scene) {
 LightTracing::LightTracing(OwnedRoutes owned, const IntegratorOptions& options)
     : owned_(std::move(owned)), options_(options) {}
 
-void LightTracing::render_pass(const PassKey& key, const Scene& scene, Film& film) {
+int64_t light_pass(const PassKey& key, const Scene& scene, const Film& film,
+                   const OwnedRoutes& owned, const IntegratorOptions& options,
+                   const ConnectionWeight& weight, SplatBuffer& buffer, uint64_t& splats,
+                   EstimatorStatistics& statistics) {
   require_connecting_camera(scene);
-  const int group = static_cast<int>(owned_.group);
-  const PhotonPass settings = start_photon_pass(key, scene, film, options_);
+  const PhotonPass settings = start_photon_pass(key, scene, film, options);
   const LightPass pass{scene,
-                       owned_,
+                       owned,
                        film.settings(),
                        CameraView(scene, film.bounds()),
-                       PartSums(*owned_.routes, owned_.group),
+                       PartSums(*owned.routes, owned.group),
                        key,
                        settings.trace.photons_per_pass,
                        settings.trace.specular_alpha,
-                       options_.max_depth};
+                       options.max_depth,
+                       weight};
   const uint64_t first = uint64_t{key.pass} * static_cast<uint64_t>(pass.paths);
-  SplatBuffer buffer(film, group, *scene.filter);
   for (int64_t begin = 0; begin < pass.paths; begin += kGroup) {
     const int64_t count = std::min(kGroup, pass.paths - begin);
     std::vector<Chunk> chunks(static_cast<size_t>(chunk_count(count, kChunk)));
@@ -244,19 +250,27 @@ void LightTracing::render_pass(const PassKey& key, const Scene& scene, Film& fil
         trace_light_path(pass, first + static_cast<uint64_t>(begin + j),
                          chunks[static_cast<size_t>(c)]);
     });
-    std::vector<Splat> splats;
+    std::vector<Splat> found;
     for (const Chunk& chunk : chunks) {
-      splats.insert(splats.end(), chunk.splats.begin(), chunk.splats.end());
-      statistics_.rays += chunk.rays;
-      statistics_.photon_paths_useful += chunk.useful;
-      statistics_.photon_paths_specular += chunk.specular;
+      found.insert(found.end(), chunk.splats.begin(), chunk.splats.end());
+      statistics.rays += chunk.rays;
+      statistics.photon_paths_useful += chunk.useful;
+      statistics.photon_paths_specular += chunk.specular;
     }
-    buffer.add(splats);
-    splats_ += splats.size();
+    buffer.add(found);
+    splats += found.size();
   }
-  buffer.finish(1.0 / static_cast<double>(pass.paths));
+  statistics.photon_paths += static_cast<uint64_t>(pass.paths);
+  return pass.paths;
+}
+
+void LightTracing::render_pass(const PassKey& key, const Scene& scene, Film& film) {
+  const int group = static_cast<int>(owned_.group);
+  SplatBuffer buffer(film, group, *scene.filter);
+  const int64_t paths =
+      light_pass(key, scene, film, owned_, options_, {}, buffer, splats_, statistics_);
+  buffer.finish(1.0 / static_cast<double>(paths));
   film.add_estimates(group, 1);
-  statistics_.photon_paths += static_cast<uint64_t>(pass.paths);
 }
 
 EstimatorStatistics LightTracing::statistics() const {

@@ -4,13 +4,30 @@
 // and added up. Papers: Dutre, Lafortune, Willems 1993; Veach 1997, chapters 5 and 10.
 #pragma once
 
+#include <functional>
+
+#include "film/splats.h"
 #include "integrator/estimator.h"
 #include "route/scene_symbols.h"
+#include "scene/camera/camera.h"
+#include "transport/random_walk.h"
 
 namespace nephroid {
 
 /// Throws UsageError if light paths cannot be connected to the scene's camera.
 void require_connecting_camera(const Scene& scene);
+
+/// A factor for a connection to the camera from a vertex; empty: 1.
+using ConnectionWeight = std::function<float(const CameraConnection&, const WalkVertex&)>;
+
+/// Traces the light paths of a pass and adds what they expose, not yet divided by their number, to
+/// `buffer`; returns that number and adds rays and paths to `statistics` and the splats to
+/// `splats`. With a weight, only what could as well be merged at the vertex that the camera sees is
+/// connected. Throws as require_connecting_camera.
+int64_t light_pass(const PassKey& key, const Scene& scene, const Film& film,
+                   const OwnedRoutes& owned, const IntegratorOptions& options,
+                   const ConnectionWeight& weight, SplatBuffer& buffer, uint64_t& splats,
+                   EstimatorStatistics& statistics);
 
 class LightTracing : public Estimator {
  public:

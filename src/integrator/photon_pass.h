@@ -32,6 +32,11 @@ inline CameraPath start_merging_path(const Scene& scene, int x, int y, PathSampl
   return path;
 }
 
+/// Said where there is nothing for photons to do.
+inline constexpr const char* kNoPhotonsNote =
+    "no light path of this scene belongs to the routes of the photons (no material has a specular "
+    "lobe, for instance): no photons were needed";
+
 /// False if no photon that can occur in the scene belongs to the group.
 bool photons_can_count(const OwnedRoutes& owned);
 

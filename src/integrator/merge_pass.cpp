@@ -1,0 +1,92 @@
+#include "integrator/merge_pass.h"
+
+#include "core/parallel.h"
+#include "photon/radius_schedule.h"
+
+namespace nephroid {
+
+namespace {
+
+constexpr uint64_t kStream = 0x6d65726765;  // "merge"
+
+constexpr float kDefaultRadius = 1.5f;
+
+struct RowResult {
+  uint64_t rays = 0, found = 0;
+};
+
+}  // namespace
+
+float first_radius(const IntegratorOptions& options) {
+  return options.radius > 0 ? options.radius : kDefaultRadius;
+}
+
+float radius_of_pass(const IntegratorOptions& options, uint32_t pass) {
+  return first_radius(options) *
+         static_cast<float>(std::sqrt(memoryless_radius_squared(pass, options.alpha)));
+}
+
+MergePass merge_pass(const PassKey& key, const Scene& scene, const Film& film,
+                     const OwnedRoutes& owned, const IntegratorOptions& options,
+                     float radius_pixels, const MergeWeight& weight,
+                     EstimatorStatistics& statistics) {
+  const PixelBounds& b = film.bounds();
+  const PhotonPass pass = start_photon_pass(key, scene, film, options);
+  const int64_t photons = pass.trace.photons_per_pass;
+  const size_t parts = film.parts_of(static_cast<int>(owned.group)).size();
+  const size_t width = static_cast<size_t>(b.width());
+  MergePass result;
+  result.values.resize(static_cast<size_t>(b.area()) * parts);
+  result.filter_weights.assign(static_cast<size_t>(b.area()), 1.0f);
+  std::vector<RowResult> rows(static_cast<size_t>(b.height()));
+
+  // A pixel's estimate is summed over the batches; its walk and its filter weight are the same in
+  // all of them.
+  for (int64_t begin = 0; begin < photons;) {
+    PhotonTrace trace = trace_batch(scene, owned, pass.trace, options.memory_photons, begin);
+    count_photons(trace, statistics);
+    if (trace.photons.empty()) continue;
+    const PhotonGrid grid(std::move(trace.photons));
+
+    parallel_chunks(b.height(), 1, [&](int64_t row, int64_t, int64_t) {
+      const int y = b.y0 + static_cast<int>(row);
+      RowResult& counts = rows[static_cast<size_t>(row)];
+      PartSums sums(*owned.routes, owned.group);
+      for (int x = b.x0; x < b.x1; ++x) {
+        PathSampler sampler(pass.point, hash_combine(key.seed, kStream, x, y));
+        CameraPath path = start_merging_path(scene, x, y, sampler, pass);
+        sums.clear();
+        auto merge = [&](const Walk& walk, MergePoint at) {
+          const float r = radius_pixels * pass.footprint.width(walk.length);
+          if (!(r > 0.0f)) return;
+          const float share = weight ? weight(path, at, r) : 1.0f;
+          if (!(share > 0.0f)) return;
+          at.throughput =
+              at.throughput * (share / (static_cast<float>(photons) * kPi * r * r));
+          counts.found += merge_photons(grid, owned, at, options.max_depth, r, sums);
+        };
+        MergeWalkVisitor visitor(owned, merge);
+        if (path.camera_weight > 0)
+          random_walk(scene, TransportMode::kRadiance, options.max_depth, path.walk, sampler,
+                      visitor);
+        counts.rays += path.walk.rays;
+        const size_t pixel = static_cast<size_t>(row) * width + static_cast<size_t>(x - b.x0);
+        for (size_t i = 0; i < parts; ++i) {
+          Rgb& sum = result.values[pixel * parts + i];
+          sum = sum + pass.weights.apply(sums.sums()[i]) * path.camera_weight;
+        }
+        result.filter_weights[pixel] = path.filter_weight;
+      }
+    });
+  }
+  for (const RowResult& row : rows) {
+    statistics.rays += row.rays;
+    result.found += row.found;
+  }
+  statistics.camera_paths += static_cast<uint64_t>(b.area());
+  statistics.radius_min_pixels = radius_pixels;
+  if (statistics.radius_max_pixels == 0) statistics.radius_max_pixels = radius_pixels;
+  return result;
+}
+
+}  // namespace nephroid

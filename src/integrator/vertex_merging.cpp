@@ -1,0 +1,63 @@
+#include "integrator/vertex_merging.h"
+
+#include "integrator/light_tracing.h"
+#include "integrator/merge_pass.h"
+
+namespace nephroid {
+
+namespace {
+
+/// [X1] How many photons merging expects from a light path that lands at a point, for each splat
+/// that connecting expects: the chance that a pixel's walk comes within the radius of it, over 1.
+/// Both techniques trace the same number of light paths.
+float merges_per_splat(const CameraConnection& line, const Vec3f& ng, float radius) {
+  return kPi * sqr(radius) * line.film_density * abs_dot(ng, line.wi);
+}
+
+}  // namespace
+
+VertexMerging::VertexMerging(OwnedRoutes owned, const IntegratorOptions& options)
+    : owned_(std::move(owned)),
+      options_(options),
+      photons_can_count_(photons_can_count(owned_)) {}
+
+void VertexMerging::render_pass(const PassKey& key, const Scene& scene, Film& film) {
+  require_connecting_camera(scene);
+  const int group = static_cast<int>(owned_.group);
+  film.add_estimates(group, 1);
+  if (!photons_can_count_) return;
+  const float radius_pixels = radius_of_pass(options_, key.pass);
+  const PixelFootprint footprint = scene.camera->footprint();
+
+  const MergeWeight merge_weight = [&](const CameraPath& path, const MergePoint& at, float radius) {
+    if (at.events > 1) return 1.0f;
+    const auto line = scene.camera->connect(at.vertex.surface.p, path.u_lens, path.u_time);
+    if (!line) return 1.0f;
+    const float m = merges_per_splat(*line, at.vertex.surface.ng, radius);
+    return m / (1.0f + m);
+  };
+  MergePass merged = merge_pass(key, scene, film, owned_, options_, radius_pixels, merge_weight,
+                                statistics_);
+  found_ += merged.found;
+  const size_t parts = film.parts_of(group).size();
+  for (size_t i = 0; i < merged.values.size(); ++i)
+    merged.values[i] = merged.values[i] * merged.filter_weights[i / parts];
+
+  const ConnectionWeight splat_weight = [&](const CameraConnection& line, const WalkVertex& v) {
+    const float radius = radius_pixels * footprint.width(line.distance);
+    return 1.0f / (1.0f + merges_per_splat(line, v.surface.ng, radius));
+  };
+  SplatBuffer buffer(film, group, *scene.filter);
+  const int64_t paths = light_pass(key, scene, film, owned_, options_, splat_weight, buffer, found_,
+                                   statistics_);
+  buffer.finish(1.0 / static_cast<double>(paths), merged.values);
+}
+
+EstimatorStatistics VertexMerging::statistics() const {
+  EstimatorStatistics s = statistics_;
+  if (!photons_can_count_) s.notes.emplace_back(kNoPhotonsNote);
+  explain_darkness(found_, s);
+  return s;
+}
+
+}  // namespace nephroid
