@@ -116,6 +116,19 @@ TEST_F(RenderSessionTest, RangeNeedsIndependentPasses) {
   EXPECT_EQ(run(options).passes_done, 6u);
 }
 
+TEST_F(RenderSessionTest, LayersOfOneNameAreRefused) {
+  for (const char* name : {"diffuse", "albedo"}) {
+    preset_.layout.aovs = {name};
+    try {
+      run({});
+      FAIL() << name;
+    } catch (const UsageError& error) {
+      EXPECT_NE(std::string(error.what()).find(std::string("called \"") + name), std::string::npos);
+    }
+  }
+  EXPECT_TRUE(script_.passes.empty());
+}
+
 TEST_F(RenderSessionTest, EveryEstimatorRendersEveryPassInOrder) {
   Script second;
   preset_.layout = FilmLayout::of_routes({"diffuse", "caustic"});
@@ -355,7 +368,26 @@ TEST_F(RenderSessionTest, MetadataOfTheCallerAndTheSession) {
   EXPECT_TRUE(std::filesystem::exists(directory.file("out.png")));
 }
 
-TEST(Noise, NeedsTwoEstimatesOfEveryRoute) {
+TEST_F(RenderSessionTest, RoutesOfOneGroupHaveItsEstimates) {
+  const ScratchDirectory directory;
+  preset_.layout.routes = {"diffuse", "none", "caustic"};
+  preset_.layout.groups = {0, 1, 0};  // nobody renders group 1
+  film_ = std::make_unique<Film>(film_->settings(), preset_.layout);
+  RenderOptions options;
+  options.output = directory.file("out.exr");
+  run(options);
+  const Metadata metadata = read_picture(options.output).metadata;
+  const auto estimates = [&](const std::string& route) {
+    for (const auto& [key, value] : metadata)
+      if (key == "nephroid:estimates:" + route) return value;
+    return std::string("absent");
+  };
+  EXPECT_EQ(estimates("diffuse"), "6");
+  EXPECT_EQ(estimates("caustic"), "6");
+  EXPECT_EQ(estimates("none"), "0");
+}
+
+TEST(Noise, NeedsTwoEstimatesOfEveryGroup) {
   FilmSettings settings;
   settings.width = settings.height = 2;
   Film film(settings, FilmLayout::of_routes({"a", "b"}));
