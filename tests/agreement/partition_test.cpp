@@ -1,0 +1,244 @@
+// Routes divide the light and lose none: with the same seed, path tracing of a route and of its
+// complement add up to path tracing of all, pixel by pixel and pass by pass; whoever owns a route,
+// the picture is the same within noise; layers of a partition add up to the picture; and no slider
+// of roughness makes a caustic jump.
+#include <gtest/gtest.h>
+
+#include "rendering.h"
+
+namespace nephroid {
+namespace {
+
+using namespace testing_support;
+
+// Glass and varnish and a rough metal above a floor in a box that is open above; a lamp, a spot and
+// a dim sky. Small enough that every path is found.
+std::string world(const std::string& film = "\"integer xresolution\" 12 \"integer yresolution\" 12") {
+  return R"(
+  LookAt 0 3.2 -4  0 0.4 0  0 1 0
+  Camera "perspective" "float fov" 40
+  PixelFilter "box" "float xradius" 0.5 "float yradius" 0.5
+  Film "rgb" )" + film + R"(
+  WorldBegin
+  AttributeBegin
+    Translate 0 3 0 Rotate 90 1 0 0
+    AreaLightSource "diffuse" "rgb L" [9 8 7] "string name" "key"
+    Shape "disk" "float radius" 0.9
+  AttributeEnd
+  LightSource "infinite" "rgb L" [0.3 0.4 0.5] "string name" "sky"
+  LightSource "spot" "rgb I" [4 5 6] "point3 from" [2 2 -2] "point3 to" [0 0 0]
+  MakeNamedMaterial "floor" "string type" "diffuse" "rgb reflectance" [0.6 0.5 0.4]
+  MakeNamedMaterial "glass" "string type" "dielectric" "float roughness" 0.25
+  MakeNamedMaterial "brass" "string type" "conductor" "float roughness" 0.5
+  MakeNamedMaterial "varnish" "string type" "coateddiffuse" "rgb reflectance" [0.2 0.5 0.3]
+     "float roughness" 0.3
+  NamedMaterial "floor"
+  Shape "bilinearmesh" "point3 P" [-3 0 -3  3 0 -3  -3 0 3  3 0 3]
+  Shape "bilinearmesh" "point3 P" [-3 0 3  3 0 3  -3 2 3  3 2 3]
+  NamedMaterial "glass"
+  AttributeBegin Translate -0.9 0.7 0 Shape "sphere" "float radius" 0.6 AttributeEnd
+  NamedMaterial "brass"
+  AttributeBegin Translate 0.9 0.7 0.3 Shape "sphere" "float radius" 0.5 AttributeEnd
+  NamedMaterial "varnish"
+  AttributeBegin Translate 0.1 0.4 -1 Shape "sphere" "float radius" 0.35 AttributeEnd
+)";
+}
+
+Film render_routes(const Scene& scene, const std::vector<std::string>& routes,
+                   const IntegratorOptions& options, uint64_t seed, uint32_t count,
+                   const std::vector<std::string>& aovs = {}) {
+  RoutePlan plan;
+  for (const std::string& route : routes) plan.routes.push_back(parse_route(route));
+  for (const std::string& aov : aovs) plan.aovs.push_back(parse_aov(aov));
+  Preset preset = make_preset(plan, options, scene);
+  Film film = film_for(scene, preset);
+  for (uint32_t pass = 0; pass < count; ++pass)
+    for (const auto& estimator : preset.estimators)
+      estimator->render_pass({seed, pass}, scene, film);
+  return film;
+}
+
+// Routes of path tracing that do not look at what is useful.
+const char* const kExpressions[] = {
+    "C.*[DG]S+[DG]?L",        "C.*<L.'key'>",          "C[DG]L",      "C.*<..'glass'>.*L",
+    "C(S|G)+<.D'floor'>.*L",  "C.*B",                  "C.*<TG>.*L",  "C.{2,3}L",
+    "C.*<RG'brass'><RD>+O",   "C[^S]*L",
+};
+
+TEST(Partition, ARouteAndItsComplementAddUpInEveryPixelAndPass) {
+  const auto scene = scene_from_text(world());
+  IntegratorOptions options;
+  options.max_depth = 8;
+  options.blind_walks = true;
+  for (const uint32_t pass : {0u, 1u, 5u}) {
+    const auto one_pass = [&](const std::vector<std::string>& routes) {
+      RoutePlan plan;
+      for (const std::string& route : routes) plan.routes.push_back(parse_route(route));
+      Preset preset = make_preset(plan, options, *scene);
+      auto film = std::make_unique<Film>(film_for(*scene, preset));
+      preset.estimators[0]->render_pass({3, pass}, *scene, *film);
+      return film;
+    };
+    const auto all = one_pass({"all=.*:path"});
+    for (const char* expression : kExpressions) {
+      const auto parts =
+          one_pass({std::string("some=") + expression + ":path", "rest=.*:path"});
+      double found = 0, total = 0;
+      for (int y = 0; y < 12; ++y)
+        for (int x = 0; x < 12; ++x) {
+          const Rgb whole = all->value(x, y);
+          const Rgb sum = parts->route_value(0, x, y) + parts->route_value(1, x, y);
+          for (int c = 0; c < 3; ++c)
+            ASSERT_NEAR(sum[c], whole[c], 1e-6 * (1e-3 + std::abs(whole[c])))
+                << expression << ", pass " << pass << ", pixel " << x << ' ' << y;
+          found += parts->route_value(0, x, y).g;
+          total += whole.g;
+        }
+      EXPECT_LT(found, total) << expression;
+      EXPECT_GT(found, 0) << expression;
+    }
+  }
+}
+
+TEST(Partition, LayersOfAPartitionAddUpToThePicture) {
+  const auto scene = scene_from_text(world());
+  IntegratorOptions options;
+  options.max_depth = 8;
+  options.photons_per_pass = 4096;
+  const Film film = render_routes(
+      *scene, {"caustic=C.*[DG]S+[DG]?L:photons", "seen=C[DG]+L:lighttrace", "rest=.*:path"},
+      options, 4, 3,
+      {"key=C.*<L.'key'>", "sky=C.*<L.'sky'>", "others=C.*[^<L.'key'><L.'sky'>]",
+       "everything=.*"});
+  for (int y = 0; y < 12; ++y)
+    for (int x = 0; x < 12; ++x) {
+      const Rgb beauty = film.value(x, y);
+      const Rgb lights = film.aov_value(0, x, y) + film.aov_value(1, x, y) + film.aov_value(2, x, y);
+      Rgb routes;
+      for (int r = 0; r < 3; ++r) routes = routes + film.route_value(r, x, y);
+      for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(lights[c], beauty[c], 3e-7 * beauty[c]);
+        EXPECT_NEAR(routes[c], beauty[c], 3e-7 * beauty[c]);
+        EXPECT_EQ(film.aov_value(3, x, y)[c], beauty[c]);
+      }
+    }
+}
+
+// Whoever owns a route: the same picture as path tracing, by t-tests over seeds.
+struct Owners {
+  const char* name;
+  std::vector<std::string> routes;
+  bool merges = false;
+};
+
+class PartitionOwners : public ::testing::TestWithParam<Owners> {};
+
+TEST_P(PartitionOwners, FindTheSamePicture) {
+  constexpr int kSeeds = 32, kAcross = 2;
+  const auto scene = scene_from_text(world());
+  IntegratorOptions options;
+  options.max_depth = 8;
+  options.photons_per_pass = 6144;
+  options.camera_samples_per_pass = 8;
+  options.radius = 0.6f;
+  const auto values = [&](const std::vector<std::string>& routes, uint64_t first_seed,
+                          float radius) {
+    options.radius = radius;
+    SeedValues values(kAcross * kAcross);
+    for (uint64_t s = 0; s < kSeeds; ++s) {
+      const std::vector<double> means =
+          block_means(render_routes(*scene, routes, options, first_seed + s, 4), kAcross);
+      for (size_t i = 0; i < means.size(); ++i) values[i].push_back(means[i]);
+    }
+    return values;
+  };
+  const SeedValues reference = values({"all=.*:path"}, 1, 0.6f);
+  SeedValues found = values(GetParam().routes, 500, 0.6f);
+  if (GetParam().merges) {
+    const SeedValues small = values(GetParam().routes, 500, 0.6f * std::sqrt(0.5f));
+    for (size_t i = 0; i < found.size(); ++i)
+      for (size_t s = 0; s < kSeeds; ++s) found[i][s] = 2 * small[i][s] - found[i][s];
+  }
+  for (size_t i = 0; i < reference.size(); ++i) {
+    const Estimate a = estimate_of(found[i]), b = estimate_of(reference[i]);
+    const double error = std::hypot(a.error, b.error);
+    std::printf("%-28s block %zu: %.5f against %.5f, %+.2f standard errors of %.2f %%\n",
+                GetParam().name, i, a.mean, b.mean, (a.mean - b.mean) / error,
+                100 * error / b.mean);
+    EXPECT_NEAR(a.mean, b.mean, kT31 * error) << "block " << i;
+    EXPECT_LT(error, 0.015 * b.mean) << "too noisy to tell";
+  }
+}
+
+const std::vector<Owners> kOwners = {
+    {"light_of_all_seen_directly", {"seen=C[DG].*L:lighttrace", "rest=.*:path"}},
+    {"light_of_shapes", {"lamp=CO:lighttrace", "seen=C[DG].*L:lighttrace", "rest=.*:path"}},
+    {"light_of_one_lamp", {"key=C[DG].*<L.'key'>:lighttrace", "rest=.*:path"}},
+    {"light_of_caustics", {"seen=C[DG]S+L:lighttrace", "rest=.*:path"}},
+    {"photons_of_one_material", {"brass=C.*<.G'brass'>[DG]*[DG]L:photons", "rest=.*:path"}, true},
+    {"photons_at_the_last", {"bounced=C.*[DG]@S+[DG]?L:photons", "rest=.*:path"}, true},
+    {"photons_at_the_second", {"second=C[DG][DG]@[DG]*L:photons", "rest=.*:path"}, true},
+    {"photons_and_light", {"seen=C[DG].*L:photons+light", "rest=.*:path"}, true},
+    {"photons_and_light_of_all", {"bare=C[SV]*(L|.*M):path", "rest=.*:photons+light"}, true},
+    {"three_owners",
+     {"a=C.*[DG]S+[DG]?L:photons", "b=C[DG]L:lighttrace", "c=C[DG][DG]L:path", "d=.*:path"},
+     true},
+};
+
+INSTANTIATE_TEST_SUITE_P(Routes, PartitionOwners, ::testing::ValuesIn(kOwners),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+// A metal ring throws a caustic on the floor. Its alpha runs through the band; with a threshold in
+// place of the band the caustic's route would lose everything from one step to the next.
+TEST(RoughnessBand, MovesACausticFromOneRouteToAnotherWithoutAJump) {
+  constexpr uint32_t kPasses = 64;
+  const auto energies = [&](float alpha) {
+    std::string text = R"(
+  LookAt 0 4 -0.01  0 0 0  0 0 1
+  Camera "perspective" "float fov" 30
+  Film "rgb" "integer xresolution" 8 "integer yresolution" 8
+  WorldBegin
+  LightSource "spot" "rgb I" [20 20 20] "point3 from" [3 1.5 0] "point3 to" [0 0.2 0]
+     "float coneangle" 30
+  Material "diffuse" "rgb reflectance" [0.6 0.6 0.6]
+  Shape "bilinearmesh" "point3 P" [-3 0 -3  3 0 -3  -3 0 3  3 0 3]
+  Material "conductor" "bool remaproughness" false "float roughness" )";
+    text += std::to_string(alpha) + R"(
+  AttributeBegin Rotate -90 1 0 0 Shape "cylinder" "float radius" 1 "float zmin" 0.01 "float zmax" 0.5
+  AttributeEnd
+)";
+    const auto scene = scene_from_text(text);
+    IntegratorOptions options;
+    options.photons_per_pass = 8192;
+    options.max_depth = 6;
+    const Film film = render(*scene, "mixed", options, 11, kPasses);
+    double caustic = 0, all = 0;
+    for (int y = 0; y < 8; ++y)
+      for (int x = 0; x < 8; ++x) {
+        caustic += film.route_value(0, x, y).g;
+        all += film.value(x, y).g;
+      }
+    return std::pair{caustic / all, all};
+  };
+  const SpecularBand band;
+  const auto [share_below, energy_below] = energies(0.95f * band.low);
+  const auto [share_above, energy_above] = energies(1.05f * band.high);
+  EXPECT_GT(share_below, 0.05) << "there is a caustic";
+  EXPECT_EQ(share_above, 0) << "above the band nothing is S";
+  constexpr int kSteps = 8;
+  double before = share_below;
+  for (int i = 0; i <= kSteps; ++i) {
+    const float t = (static_cast<float>(i) + 0.5f) / (kSteps + 1);
+    const auto [share, energy] = energies(band.low + t * (band.high - band.low));
+    std::printf("alpha %.4f: caustic %.4f of the light, energy %.4f\n",
+                static_cast<double>(band.low + t * (band.high - band.low)), share, energy);
+    EXPECT_LE(share, before + 0.03 * share_below) << "falls";
+    EXPECT_GE(share, before - 0.3 * share_below) << "does not jump";
+    EXPECT_NEAR(share, share_below * (1 - static_cast<double>(t)), 0.12 * share_below);
+    EXPECT_NEAR(energy, energy_below, 0.03 * energy_below) << "no light is lost on the way";
+    before = share;
+  }
+}
+
+}  // namespace
+}  // namespace nephroid
