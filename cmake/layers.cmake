@@ -39,7 +39,7 @@ nephroid_layer(light scene/light nephroid_shape nephroid_texture)
 nephroid_layer(camera scene/camera nephroid_light)
 nephroid_layer(scene scene nephroid_shape nephroid_material nephroid_light nephroid_camera
                nephroid_medium embree)
-nephroid_layer(route route nephroid_core)
+nephroid_layer(route route nephroid_input)
 nephroid_layer(film film nephroid_core nephroid_input OpenImageIO::OpenImageIO)
 nephroid_layer(transport transport nephroid_scene nephroid_route)
 nephroid_layer(photon photon nephroid_transport)
