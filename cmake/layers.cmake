@@ -44,7 +44,7 @@ add_library(nephroid_filter STATIC ${CMAKE_SOURCE_DIR}/src/scene/pixel_filter.cp
 target_link_libraries(nephroid_filter PUBLIC nephroid_flags nephroid_input)
 nephroid_layer(scene scene nephroid_shape nephroid_material nephroid_light nephroid_camera
                nephroid_medium nephroid_filter embree)
-nephroid_layer(route route nephroid_core)
+nephroid_layer(route route nephroid_scene)
 nephroid_layer(film film nephroid_filter OpenImageIO::OpenImageIO)
 nephroid_layer(transport transport nephroid_scene nephroid_route)
 nephroid_layer(photon photon nephroid_transport)

@@ -31,8 +31,8 @@ struct RouteFinding {
 /// Everything compile_routes found out.
 struct RouteCompilation {
   Routes routes;
-  std::vector<RouteFinding> findings;    ///< errors first
-  std::vector<std::string> examples;     ///< [route]: a shortest path that it owns, "C D S L"
+  std::vector<RouteFinding> findings;  ///< errors first
+  std::vector<std::string> examples;   ///< [route]: a shortest path that it owns, "C D S L"
 };
 
 /// Compiles and proves. A scene's symbols may be given so that findings are about paths that it can

@@ -117,9 +117,7 @@ class Routes {
   }
 
   /// True if the part belongs to the group (false for kNoPart).
-  bool owns(size_t group, Part part) const {
-    return part != kNoPart && part_group_[part] == group;
-  }
+  bool owns(size_t group, Part part) const { return part != kNoPart && part_group_[part] == group; }
 
   // What is of use to the walks of a group, among the symbols that can occur. Masks are of classes,
   // kVolume included; a class is in it if one of its sides is useful.

@@ -1,0 +1,64 @@
+// The first route that matches owns a word. Parts are numbered in the order of routes, then AOVs.
+// Who calls it: through owners.h.
+#include "route/owners.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "core/errors.h"
+
+namespace nephroid {
+
+bool can_reach(const RouteDefinition& route, LightKind light) {
+  return light != LightKind::kMedium || !estimator_type(route.estimator).starts_at_lights;
+}
+
+int owner_of(const WordMatches& matches, std::span<const RouteDefinition> routes, LightKind light) {
+  for (const int r : matches.routes)
+    if (can_reach(routes[static_cast<size_t>(r)], light)) return r;
+  return kNoRoute;
+}
+
+PartAutomaton divide_into_parts(const MatchAutomaton& m, const SymbolClasses& classes,
+                                std::span<const RouteDefinition> routes) {
+  using Meaning = std::pair<int, std::vector<int>>;
+  std::map<Meaning, int> numbers;
+  const auto meaning_at = [&](int state, int light) -> const WordMatches& {
+    return m.matches[static_cast<size_t>(m.automaton.at(state, light))];
+  };
+  const int states = static_cast<int>(m.automaton.states());
+  const int lights = static_cast<int>(m.automaton.lights);
+  for (int s = 0; s < states; ++s)
+    for (int l = 0; l < lights; ++l) {
+      const WordMatches& word = meaning_at(s, l);
+      const int owner = owner_of(word, routes, classes.kind_of_light(l));
+      if (!word.is_marked && owner != kNoRoute) numbers[{owner, word.aovs}] = 0;
+    }
+  if (numbers.size() > kNoPart)
+    throw UsageError("the routes and AOVs divide the picture into " +
+                     std::to_string(numbers.size()) + " parts, expected at most " +
+                     std::to_string(kNoPart) + ": fewer AOVs that overlap");
+
+  PartAutomaton result;
+  for (auto& [meaning, number] : numbers) {
+    number = static_cast<int>(result.parts.size());
+    result.parts.push_back({meaning.first, meaning.second});
+  }
+  Automaton divided = m.automaton;
+  for (int s = 0; s < states; ++s)
+    for (int l = 0; l < lights; ++l) {
+      const WordMatches& word = meaning_at(s, l);
+      const int owner = owner_of(word, routes, classes.kind_of_light(l));
+      const bool counts =
+          owner != kNoRoute &&
+          (!word.is_marked ||
+           std::find(word.marked_by.begin(), word.marked_by.end(), owner) != word.marked_by.end());
+      divided.output[static_cast<size_t>(s * lights + l)] =
+          counts ? numbers.at({owner, word.aovs}) : int{kNoPart};
+    }
+  result.automaton = minimise(divided);
+  return result;
+}
+
+}  // namespace nephroid

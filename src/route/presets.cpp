@@ -1,0 +1,52 @@
+// Sets of routes with a name.
+// Who calls it: through route_set.h. It must not know automata.
+// Papers: Doidge, Jones & Mora 2012; Jensen 1996 for caustics of lights only.
+#include "route/route_set.h"
+
+namespace nephroid {
+
+std::span<const RoutePreset> route_presets() {
+  static const std::vector<RoutePreset> presets = {
+      {"doidge2012",
+       "caustics of lights and of surfaces that a light shines on are photons, the rest path "
+       "tracing",
+       {"caustic=C.*[DG]S+[DG]?L:photons", "diffuse=.*:path"}},
+      {"doidge-last",
+       "the routes of doidge2012, merged where the caustic falls and not where the eye first looks",
+       {"caustic=C.*[DG]@S+[DG]?L:photons", "diffuse=.*:path"}},
+      {"classic",
+       "caustics of lights only are photons, the rest path tracing",
+       {"caustic=C.*[DG]S+L:photons", "diffuse=.*:path"}},
+      {"split",
+       "caustics on what the eye sees directly are traced from the lights, those seen through "
+       "specular surfaces are photons",
+       {"caustic=C([DGV].*)?[DG]S+[DG]?L:lighttrace", "seen-caustic=CS.*[DG]S+[DG]?L:photons",
+        "diffuse=.*:path"}},
+      {"vertex",
+       "caustics are photons that are both merged and connected to the camera",
+       {"caustic=C.*[DG]S+[DG]?L:photons+light", "rest=.*:path"}},
+      {"all-photons",
+       "all light that meets a rough surface is photons",
+       {"emission=C([SV]*L|.*M):path", "photons=.*:photons"}},
+      {"sppm",
+       "all light that meets a rough surface is stochastic progressive photon mapping",
+       {"emission=C([SV]*L|.*M):path", "photons=.*:sppm"}},
+      {"light-only",
+       "whatever can be connected to the camera is traced from the lights, the rest path tracing",
+       {"light=C([DGV].*L|O):lighttrace", "rest=.*:path"}},
+      {"path-only", "everything is path tracing", {"diffuse=.*:path"}},
+  };
+  return presets;
+}
+
+std::optional<std::vector<RouteDefinition>> route_preset(const std::string& name) {
+  for (const RoutePreset& preset : route_presets())
+    if (name == preset.name) {
+      std::vector<RouteDefinition> routes;
+      for (const char* text : preset.routes) routes.push_back(parse_route(text, "preset " + name));
+      return routes;
+    }
+  return std::nullopt;
+}
+
+}  // namespace nephroid

@@ -1,0 +1,305 @@
+// Each question is a search in breadth over words; the first word found is the witness.
+// Who calls it: through proof.h.
+#include "route/proof.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "core/errors.h"
+#include "route/word_search.h"
+
+namespace nephroid {
+namespace {
+
+using Kind = RouteFinding::Kind;
+
+constexpr size_t kMostNodes = size_t{1} << 18;
+
+// What never-sampled words have in common, of the events read so far.
+struct Ends {
+  bool any = false, rough = false, first_specular = false, last_specular = false;
+  auto operator<=>(const Ends&) const = default;
+};
+struct PlainState {
+  int state = 0;
+  Ends ends;
+  auto operator<=>(const PlainState&) const = default;
+};
+// A plain state and the marked variants of the word that may still count: how many (up to 2) are in
+// which state.
+struct MarkedState {
+  int state = 0;
+  std::map<int, int> variants;
+  auto operator<=>(const MarkedState&) const = default;
+};
+
+class Prover {
+ public:
+  explicit Prover(const ProofInput& input) : in_(input) {
+    choose_representatives(in_.classes.event_class, in_.symbols ? &in_.symbols->events : nullptr,
+                           in_.classes.events.size(), events_, event_symbols_);
+    choose_representatives(in_.classes.light_class, in_.symbols ? &in_.symbols->lights : nullptr,
+                           in_.classes.lights.size(), lights_, light_symbols_);
+    if (!in_.symbols)
+      std::erase_if(lights_,
+                    [&](int l) { return in_.classes.kind_of_light(l) == LightKind::kMedium; });
+    full_words_ = words_need_detail();
+  }
+
+  Proof prove() {
+    proof_.examples.resize(in_.routes.size());
+    find_unreachable();
+    look_at_plain_words();
+    look_at_merge_vertices();
+    find_overlaps();
+    std::stable_partition(proof_.findings.begin(), proof_.findings.end(),
+                          [](const RouteFinding& f) { return f.is_error; });
+    return std::move(proof_);
+  }
+
+ private:
+  // Classes that can occur, and for each the first symbol that can.
+  static void choose_representatives(const std::vector<int>& class_of,
+                                     const std::vector<bool>* present, size_t classes,
+                                     std::vector<int>& chosen, std::vector<uint16_t>& symbols) {
+    std::vector<bool> known(classes);
+    symbols.assign(classes, 0);
+    for (size_t s = 0; s < class_of.size(); ++s) {
+      const int c = class_of[s];
+      if (c == SymbolClasses::kNone || known[static_cast<size_t>(c)]) continue;
+      if (present && (s >= present->size() || !(*present)[s])) continue;
+      known[static_cast<size_t>(c)] = true;
+      symbols[static_cast<size_t>(c)] = static_cast<uint16_t>(s);
+      chosen.push_back(c);
+    }
+  }
+  // True if some expression tells apart what the short notation does not.
+  bool words_need_detail() const {
+    if (in_.classes.events.size() > kEventClasses) return true;
+    if (in_.classes.lights.size() > kLightKinds) return true;
+    for (const std::vector<bool>& reads : in_.classes.reads_light)
+      for (size_t l = 0; l < reads.size(); ++l)
+        if (in_.classes.kind_of_light(static_cast<int>(l)) != LightKind::kMedium &&
+            reads[l] != reads[0])
+          return true;
+    return false;
+  }
+  std::string text(const std::vector<int>& word, int light) const {
+    std::vector<EventSymbol> symbols;
+    for (const int e : word) symbols.push_back(event_symbols_[static_cast<size_t>(e)]);
+    return word_text(symbols, light_symbols_[static_cast<size_t>(light)], in_.labels, full_words_);
+  }
+  std::string name(int route) const {
+    return "'" + in_.routes[static_cast<size_t>(route)].name + "'";
+  }
+  // "route 'caustic' (photons)"
+  std::string owner_text(int route) const {
+    return "route " + name(route) + " (" + estimator(route).name + ")";
+  }
+  const EstimatorType& estimator(int route) const {
+    return estimator_type(in_.routes[static_cast<size_t>(route)].estimator);
+  }
+  int route_at(int state, int light) const {
+    const int part = in_.parts.automaton.at(state, light);
+    return part == kNoPart ? kNoRoute : in_.parts.parts[static_cast<size_t>(part)].route;
+  }
+  void report(Kind kind, bool is_error, const std::string& message, const std::string& witness) {
+    proof_.findings.push_back({kind, is_error, message, witness});
+  }
+
+  // Of all words there are, whatever a scene has: a scene without glass makes no route wrong.
+  void find_unreachable() {
+    std::vector<bool> owns(in_.routes.size());
+    for (const PartMeaning& p : in_.parts.parts) owns[static_cast<size_t>(p.route)] = true;
+    for (size_t r = 0; r < owns.size(); ++r)
+      if (!owns[r]) report_unreachable(static_cast<int>(r));
+  }
+  void report_unreachable(int route) {
+    const Automaton& a = in_.matches.automaton;
+    std::vector<int> all;
+    for (int e = 0; e < static_cast<int>(a.events); ++e) all.push_back(e);
+    const WordSearch<int> search(a.start, all, SIZE_MAX,
+                                 [&](int s, int e) { return a.after(s, e); });
+    for (size_t n = 0; n < search.nodes().size(); ++n)
+      for (int l = 0; l < static_cast<int>(a.lights); ++l) {
+        const WordMatches& m =
+            in_.matches.matches[static_cast<size_t>(a.at(search.nodes()[n].state, l))];
+        const int owner = owner_of(m, in_.routes, in_.classes.kind_of_light(l));
+        if (owner == kNoRoute || !std::binary_search(m.routes.begin(), m.routes.end(), route))
+          continue;
+        std::vector<EventSymbol> symbols;
+        for (const int e : search.word(n))
+          symbols.push_back(in_.classes.events[static_cast<size_t>(e)]);
+        const std::string witness =
+            word_text(symbols, in_.classes.lights[static_cast<size_t>(l)], in_.labels, full_words_);
+        return report(Kind::kUnreachable, true,
+                      owner_text(route) +
+                          " owns no path: routes before it match all of its paths, " + name(owner) +
+                          " for instance " + witness,
+                      witness);
+      }
+    report(Kind::kUnreachable, true,
+           owner_text(route) +
+               " owns no path: it matches light from media only, and its "
+               "estimator starts at lights",
+           "");
+  }
+
+  // Holes, examples and what is never sampled.
+  void look_at_plain_words() {
+    const Automaton& a = in_.parts.automaton;
+    const WordSearch<PlainState> search(
+        {a.start, {}}, events_, SIZE_MAX, [&](const PlainState& s, int e) -> PlainState {
+          const bool specular = in_.classes.class_of_event(e) == EventClass::kSpecular;
+          return {a.after(s.state, e),
+                  {true, s.ends.rough || !specular, s.ends.any ? s.ends.first_specular : specular,
+                   specular}};
+        });
+    std::optional<std::string> hole, medium_hole;
+    struct NeverSampled {
+      int rank = 0;
+      std::string witness;
+    };
+    std::vector<NeverSampled> never(in_.routes.size());
+    for (size_t n = 0; n < search.nodes().size(); ++n)
+      for (const int l : lights_) {
+        const PlainState& s = search.nodes()[n].state;
+        const LightKind light = in_.classes.kind_of_light(l);
+        const int route = route_at(s.state, l);
+        if (route == kNoRoute) {
+          std::optional<std::string>& found = light == LightKind::kMedium ? medium_hole : hole;
+          if (!found) found = text(search.word(n), l);
+          continue;
+        }
+        std::string& example = proof_.examples[static_cast<size_t>(route)];
+        if (example.empty()) example = text(search.word(n), l);
+        NeverSampled& worst = never[static_cast<size_t>(route)];
+        const int rank =
+            never_sampled(in_.routes[static_cast<size_t>(route)].estimator, s.ends, light);
+        if (rank > worst.rank) worst = {rank, text(search.word(n), l)};
+      }
+    if (hole)
+      report(Kind::kHole, true,
+             "no route matches " + *hole + "; a last route such as rest=.*:path matches the rest",
+             *hole);
+    if (medium_hole)
+      report(Kind::kHole, true,
+             "no route that can reach light from media matches " + *medium_hole +
+                 "; expected one of path among those that match it",
+             *medium_hole);
+    for (size_t r = 0; r < never.size(); ++r)
+      if (never[r].rank > 0)
+        report(Kind::kNeverSampled, false,
+               never_sampled_text(static_cast<int>(r), never[r].witness), never[r].witness);
+  }
+
+  // 0 if the estimator can make the word, else the more the worse: a caustic is missed more than a
+  // light at a point that nobody expects to see.
+  static int never_sampled(EstimatorKind estimator, const Ends& ends, LightKind light) {
+    if (estimator == EstimatorKind::kPath &&
+        (light == LightKind::kPoint || light == LightKind::kDistant))
+      return !ends.any ? 1 : !ends.last_specular ? 0 : ends.rough ? 3 : 2;
+    if (estimator == EstimatorKind::kLightTrace) {
+      if (ends.any) return ends.first_specular ? 2 : 0;
+      return light == LightKind::kShape ? 0 : 1;
+    }
+    return 0;
+  }
+  std::string never_sampled_text(int route, const std::string& witness) const {
+    const std::string owns = owner_text(route) + " owns " + witness + ", which it cannot find: ";
+    if (in_.routes[static_cast<size_t>(route)].estimator == EstimatorKind::kLightTrace)
+      return owns + "only rough surfaces, media and emitting shapes can be connected to the camera";
+    return owns +
+           "no path meets a light at a point or in one direction, and only a rough S can be "
+           "connected to it";
+  }
+
+  // Words of routes that merge have exactly one vertex where they do.
+  void look_at_merge_vertices() {
+    if (std::none_of(in_.routes.begin(), in_.routes.end(),
+                     [](const RouteDefinition& r) { return estimator_type(r.estimator).merges; }))
+      return;
+    const Automaton& a = in_.parts.automaton;
+    const WordSearch<MarkedState> search({a.start, {}}, events_, kMostNodes,
+                                         [&](const MarkedState& s, int e) {
+                                           MarkedState next{a.after(s.state, e), {}};
+                                           const auto add = [&](int state, int count) {
+                                             int& sum = next.variants[state];
+                                             sum = std::min(sum + count, 2);
+                                           };
+                                           for (const auto& [state, count] : s.variants)
+                                             add(a.after(state, e), count);
+                                           add(a.after_merge(s.state, e), 1);
+                                           next.variants.erase(a.dead);
+                                           return next;
+                                         });
+    if (!search.is_complete())
+      throw UsageError(
+          "the routes are too complex: where photons are merged cannot be proved, "
+          "expected simpler expressions or fewer '@'");
+    std::set<std::pair<int, Kind>> reported;
+    for (size_t n = 0; n < search.nodes().size(); ++n)
+      for (const int l : lights_) {
+        const MarkedState& s = search.nodes()[n].state;
+        const int route = route_at(s.state, l);
+        if (route == kNoRoute || !estimator(route).merges) continue;
+        int vertices = 0;
+        for (const auto& [state, count] : s.variants)
+          if (a.at(state, l) != kNoPart) vertices += count;
+        if (vertices == 1) continue;
+        const Kind kind = vertices == 0 ? Kind::kNoMergeVertex : Kind::kTwoMergeVertices;
+        if (!reported.insert({route, kind}).second) continue;
+        const std::string witness = text(search.word(n), l);
+        report(kind, true,
+               owner_text(route) + " owns " + witness +
+                   (vertices == 0
+                        ? ", in which no single vertex is the one where photons are merged: "
+                          "without '@' that is the first D or G"
+                        : ", in which photons would be merged at more than one vertex, each a "
+                          "part of the light too many: mark exactly one with '@'"),
+               witness);
+      }
+  }
+
+  void find_overlaps() {
+    const Automaton& a = in_.matches.automaton;
+    const WordSearch<int> search(a.start, events_, SIZE_MAX,
+                                 [&](int s, int e) { return a.after(s, e); });
+    std::set<std::pair<int, int>> reported;
+    const int last = static_cast<int>(in_.routes.size()) - 1;
+    for (size_t n = 0; n < search.nodes().size(); ++n)
+      for (const int l : lights_) {
+        const WordMatches& m =
+            in_.matches.matches[static_cast<size_t>(a.at(search.nodes()[n].state, l))];
+        const LightKind light = in_.classes.kind_of_light(l);
+        const int owner = owner_of(m, in_.routes, light);
+        for (const int r : m.routes) {
+          if (r <= owner || r == last || !can_reach(in_.routes[static_cast<size_t>(r)], light))
+            continue;
+          if (!reported.insert({owner, r}).second) continue;
+          const std::string witness = text(search.word(n), l);
+          report(Kind::kOverlap, false,
+                 "routes " + name(owner) + " and " + name(r) + " both match " + witness + "; " +
+                     name(owner) + ", the first, owns it",
+                 witness);
+        }
+      }
+  }
+
+  const ProofInput& in_;
+  std::vector<int> events_, lights_;                     ///< classes that can occur
+  std::vector<uint16_t> event_symbols_, light_symbols_;  ///< [class]: one that can occur
+  bool full_words_ = false;
+  Proof proof_;
+};
+
+}  // namespace
+
+Proof prove(const ProofInput& input) {
+  return Prover(input).prove();
+}
+
+}  // namespace nephroid
