@@ -38,7 +38,7 @@ FUZZ_TIME ?= 1200
 fuzz: deps
 	@cmake --preset fuzz >/dev/null
 	@cmake --build --preset fuzz
-	@for target in scene ply bsdf; do \
+	@for target in scene ply bsdf routes; do \
 	  mkdir -p build/fuzz/corpus/$$target build/fuzz/found; \
 	  build/fuzz/bin/fuzz_$$target -max_total_time=$(FUZZ_TIME) -timeout=10 -rss_limit_mb=2048 \
 	    -max_len=4096 -dict=tests/fuzz/$$target.dict -artifact_prefix=build/fuzz/found/$$target- \

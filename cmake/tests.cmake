@@ -56,7 +56,7 @@ if(TARGET test_regression)
   target_include_directories(update_features PRIVATE tests)
   target_compile_definitions(update_features PRIVATE NEPHROID_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
 endif()
-nephroid_test(fuzz nephroid_material)
+nephroid_test(fuzz nephroid_material nephroid_route)
 if(TARGET test_fuzz)
   # The readers under test open files in memory (tests/fuzz/memory_files.h).
   target_link_options(test_fuzz PRIVATE -Wl,--wrap=fopen)

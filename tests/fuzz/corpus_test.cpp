@@ -33,7 +33,8 @@ TEST_P(FuzzCorpus, NothingCrashes) {
 
 INSTANTIATE_TEST_SUITE_P(AllTargets, FuzzCorpus,
                          ::testing::Values(Target{"scene", fuzz::scene}, Target{"ply", fuzz::ply},
-                                           Target{"bsdf", fuzz::bsdf}),
+                                           Target{"bsdf", fuzz::bsdf},
+                                           Target{"routes", fuzz::routes}),
                          [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace

@@ -13,5 +13,8 @@ void scene(const std::string& bytes);
 void ply(const std::string& bytes);
 /// A file of measured reflection; what can be read is also evaluated and sampled.
 void bsdf(const std::string& bytes);
+/// A file of routes, with lines "--aov NAME=EXPRESSION" among them; what can be read is compiled
+/// and proved, and its tables must agree with themselves from both ends.
+void routes(const std::string& bytes);
 
 }  // namespace nephroid::fuzz
