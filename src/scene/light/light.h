@@ -42,8 +42,8 @@ struct EmissionSample {
   /// what leaves it in another direction, `coverage` how much of it is there (alpha); 0: there is
   /// none.
   float coverage = 0;
-  Vec3f p, p_error, ng;
-  Vec2f uv;
+  Vec3f p{0, 0, 0}, p_error{0, 0, 0}, ng{0, 0, 0};
+  Vec2f uv{0, 0};
   /// Flux carried by a path: radiance * cos_theta / (pdf_a * pdf_w).
 };
 
