@@ -1,6 +1,9 @@
 // `nephroid info`: what a scene holds, from its description and from what was built.
 #include <fmt/format.h>
 
+#include <unordered_map>
+#include <utility>
+
 #include "apps/commands.h"
 #include "apps/scene_loading.h"
 #include "scene/embree_scene.h"
@@ -56,6 +59,23 @@ void print_lights(const Scene& scene) {
              scene.lights.size(), infinite, delta);
 }
 
+/// What `--route` and `--aov` may call things: each label once, with how often it occurs.
+void print_labels(const char* kind, const std::vector<std::string>& labels) {
+  std::vector<std::pair<std::string, size_t>> counts;
+  std::unordered_map<std::string, size_t> places;
+  for (const std::string& label : labels) {
+    const auto [place, is_new] = places.try_emplace(label, counts.size());
+    if (is_new) counts.emplace_back(label, 0);
+    ++counts[place->second].second;
+  }
+  std::string text;
+  for (const auto& [label, count] : counts) {
+    if (!text.empty()) text += ", ";
+    text += count == 1 ? label : fmt::format("{} ({})", label, count);
+  }
+  fmt::print("labels of {}: {}\n", kind, text.empty() ? "none" : text);
+}
+
 void print_integrator(const Scene& scene) {
   const std::string& own = scene.integrator;
   const std::string here = integrator_for_scene_name(own.empty() ? "volpath" : own);
@@ -80,6 +100,9 @@ int run_info(const InfoCommand& command) {
              scene.has_specular_material ? "some specular: caustics are possible"
                                          : "none specular: there can be no caustics");
   print_lights(scene);
+  print_labels("lights", scene.light_labels);
+  print_labels("materials", scene.material_labels);
+  print_labels("media", scene.medium_labels);
   fmt::print("warnings: {}\n", loaded.warnings.size());
   return static_cast<int>(ExitStatus::kDone);
 }

@@ -45,14 +45,19 @@ constexpr IntegratorSetting kSettings[] = {
      "How fast the merge radius shrinks, above 0 to 1: 1 keeps it, smaller values shrink faster.",
      [](IntegratorOptions& o, const std::string& t) { o.alpha = number("alpha", t, 0, 1, true); },
      [](const IntegratorOptions& o) { return fmt::format("{:.4g}", o.alpha); }},
-    {"specular-alpha", "X", "0.05", "",
+    {"specular-alpha", "X or LOW..HIGH", "0.035..0.07", "",
      "Microfacet roughness (after remapping, the larger of both directions) up to which a lobe "
-     "counts "
-     "as specular.",
+     "counts as specular (S) and not as glossy (G); within a range the passes differ, so that "
+     "nothing jumps as roughness grows.",
      [](IntegratorOptions& o, const std::string& t) {
-       o.specular_alpha = number("specular-alpha", t, 0, 1, false);
+       const auto [low, high] = parse_range("-D specular-alpha", t, 0, 1);
+       o.specular_band = {low, high};
      },
-     [](const IntegratorOptions& o) { return fmt::format("{:g}", o.specular_alpha); }},
+     [](const IntegratorOptions& o) {
+       const SpecularBand& band = o.specular_band;
+       return band.low == band.high ? fmt::format("{:g}", band.low)
+                                    : fmt::format("{:g}..{:g}", band.low, band.high);
+     }},
     {"camera-samples", "N", "0", "samples",
      "Camera paths per pixel and pass; 0 lets the integrator choose.",
      [](IntegratorOptions& o, const std::string& t) {

@@ -59,6 +59,17 @@ double parse_number(const std::string& option, const std::string& text, double l
   fail(option, text, expected);
 }
 
+std::pair<float, float> parse_range(const std::string& option, const std::string& text, float low,
+                                    float high) {
+  const size_t dots = text.find("..");
+  const auto first = number_of<float>(text.substr(0, dots));
+  const auto last = dots == std::string::npos ? first : number_of<float>(text.substr(dots + 2));
+  if (first && last && *first >= low && *last >= *first && *last <= high) return {*first, *last};
+  fail(option, text,
+       fmt::format("a number from {:g} to {:g}, or a range of them as in {:g}..{:g}", low, high,
+                   low, high));
+}
+
 int64_t parse_bytes(const std::string& option, const std::string& text) {
   constexpr double kMost = double(int64_t{1} << 40);
   const size_t unit = text.empty() ? std::string::npos : std::string("KMG").find(text.back());

@@ -18,6 +18,9 @@ uint64_t parse_seed(const std::string& option, const std::string& text);
 /// A finite number in [low, high], or in (low, high] if `low_is_open`.
 double parse_number(const std::string& option, const std::string& text, double low, double high,
                     bool low_is_open);
+/// "X" or "LOW..HIGH" with low <= X, LOW <= HIGH and all of them up to `high`; "X" is "X..X".
+std::pair<float, float> parse_range(const std::string& option, const std::string& text, float low,
+                                    float high);
 /// "4096", "64K", "1.5M" or "1G" in bytes, K, M and G being powers of 1024; up to 1024 G.
 int64_t parse_bytes(const std::string& option, const std::string& text);
 /// The same as text, with the largest unit that leaves a whole number.

@@ -53,14 +53,16 @@ TEST(CommandLine, RenderDefaults) {
   EXPECT_EQ(line.render.threads, 0);
   EXPECT_FALSE(line.render.overrides.has_crop);
   EXPECT_EQ(line.render.overrides.width, 0);
-  EXPECT_EQ(line.render.overrides.specular_alpha, kDefaultSpecularAlpha);
+  EXPECT_EQ(line.render.overrides.specular_band.low, SpecularBand().low);
+  EXPECT_EQ(line.render.overrides.specular_band.high, SpecularBand().high);
   EXPECT_FALSE(line.render.quiet);
 }
 
 TEST(CommandLine, RenderWithEverything) {
   const CommandLine line = parse(
       "render -o out.exr --integrator path --passes 2..5 --time 1.5m --noise 0.01 "
-      "--resolution 64x48 --crop 0,0.5,0.25,1 -t 3 --seed 9 -D max-depth=7 -D specular-alpha=0.1 "
+      "--resolution 64x48 --crop 0,0.5,0.25,1 -t 3 --seed 9 -D max-depth=7 -D "
+      "specular-alpha=0.1..0.3 "
       "--quiet scene.pbrt");
   const RenderCommand& r = line.render;
   EXPECT_EQ(r.scene, "scene.pbrt");
@@ -78,7 +80,8 @@ TEST(CommandLine, RenderWithEverything) {
   EXPECT_EQ(*r.seed, 9u);
   ASSERT_EQ(r.settings.size(), 2u);
   EXPECT_EQ(r.settings[0], (std::pair<std::string, std::string>("max-depth", "7")));
-  EXPECT_EQ(r.overrides.specular_alpha, 0.1f);
+  EXPECT_EQ(r.overrides.specular_band.low, 0.1f);
+  EXPECT_EQ(r.overrides.specular_band.high, 0.3f);
   EXPECT_TRUE(r.quiet);
 }
 

@@ -40,13 +40,30 @@ TEST(IntegratorSettings, EveryKeyIsStoredWhereItBelongs) {
   EXPECT_EQ(o.radius, 1.5f);
   EXPECT_EQ(o.photons_per_pass, 1000);
   EXPECT_EQ(o.alpha, 0.75f);
-  EXPECT_EQ(o.specular_alpha, 0.2f);
+  EXPECT_EQ(o.specular_band.low, 0.2f);
+  EXPECT_EQ(o.specular_band.high, 0.2f);
   EXPECT_EQ(o.camera_samples_per_pass, 3);
   EXPECT_EQ(o.memory_photons, 99);
   EXPECT_EQ(o.texture_memory, 1536 * 1024);
   EXPECT_EQ(settings_text(o),
             "max-depth=7 radius=1.5 photons=1000 alpha=0.75 specular-alpha=0.2 camera-samples=3 "
             "memory-photons=99 texture-cache=1536K");
+}
+
+TEST(IntegratorSettings, SpecularAlphaMayBeARange) {
+  IntegratorOptions o;
+  apply_settings({parse_setting("specular-alpha=0.01..0.2")}, &o);
+  EXPECT_EQ(o.specular_band.low, 0.01f);
+  EXPECT_EQ(o.specular_band.high, 0.2f);
+  EXPECT_NE(settings_text(o).find(" specular-alpha=0.01..0.2 "), std::string::npos);
+  try {
+    parse_setting("specular-alpha=0.2..0.01");
+    ADD_FAILURE();
+  } catch (const UsageError& error) {
+    EXPECT_STREQ(error.what(),
+                 "-D specular-alpha: '0.2..0.01' is not valid, expected a number from 0 to 1, or a "
+                 "range of them as in 0..1");
+  }
 }
 
 TEST(IntegratorSettings, DocumentedDefaultsAreTheRealOnes) {
@@ -70,8 +87,9 @@ TEST(IntegratorSettings, Errors) {
   }
   for (const char* text :
        {"max-depth=", "max-depth=-1", "max-depth=1.5", "radius=-1", "alpha=0", "alpha=1.1",
-        "photons=-1", "specular-alpha=2", "memory-photons=0", "texture-cache=", "texture-cache=M",
-        "texture-cache=1T", "texture-cache=-1", "texture-cache=2000G", "texture-cache=nan"})
+        "photons=-1", "specular-alpha=2", "specular-alpha=0.1..", "specular-alpha=0.2..0.1",
+        "memory-photons=0", "texture-cache=", "texture-cache=M", "texture-cache=1T",
+        "texture-cache=-1", "texture-cache=2000G", "texture-cache=nan"})
     EXPECT_THROW(parse_setting(text), UsageError) << text;
 }
 

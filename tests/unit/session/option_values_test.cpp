@@ -75,6 +75,19 @@ TEST(OptionValues, Integers) {
   expect_refused(one_to_eight, {"", "0", "9", "1.0", "four", "4 ", "99999999999999999999"});
 }
 
+TEST(OptionValues, Ranges) {
+  using Range = std::pair<float, float>;
+  EXPECT_EQ(parse_range("-D", "0.5", 0, 1), (Range{0.5f, 0.5f}));
+  EXPECT_EQ(parse_range("-D", "0.25..0.75", 0, 1), (Range{0.25f, 0.75f}));
+  EXPECT_EQ(parse_range("-D", "0..1", 0, 1), (Range{0.0f, 1.0f}));
+  EXPECT_EQ(parse_range("-D", "1..1", 0, 1), (Range{1.0f, 1.0f}));
+  const auto in_unit = [](const std::string& option, const std::string& text) {
+    return parse_range(option, text, 0, 1);
+  };
+  expect_refused(in_unit, {"", "..", "0.5..", "..0.5", "0.7..0.3", "-0.1..0.5", "0.5..1.01", "2",
+                           "0.1..0.2..0.3", "0.1-0.2", "0.1.0.2", "nan", "0..nan", "0..inf", "x"});
+}
+
 TEST(OptionValues, Seeds) {
   EXPECT_EQ(parse_seed("--seed", "0"), 0u);
   EXPECT_EQ(parse_seed("--seed", "18446744073709551615"), std::numeric_limits<uint64_t>::max());
