@@ -187,7 +187,7 @@ TEST(Integrators, ALimitBoundsEveryPixel) {
     float largest = 0;
     for (int y = 0; y < 8; ++y)
       for (int x = 0; x < 8; ++x)
-        for (size_t r = 0; r < film.routes().size(); ++r)
+        for (size_t r = 0; r < film.layout().routes.size(); ++r)
           for (int c = 0; c < 3; ++c)
             largest = std::max(largest, film.route_value(static_cast<int>(r), x, y)[c]);
     EXPECT_LE(largest, 0.05f * (1 + 1e-5f)) << integrator;

@@ -44,7 +44,7 @@ TEST(CommandLine, RenderDefaults) {
   const CommandLine line = parse("render a/b.pbrt");
   EXPECT_EQ(line.action, Action::kRender);
   EXPECT_EQ(line.render.scene, "a/b.pbrt");
-  EXPECT_EQ(line.render.integrator, "mixed");
+  EXPECT_EQ(line.render.routes.integrator, "");
   EXPECT_EQ(line.render.output, "");
   EXPECT_FALSE(line.render.passes.has_value());
   EXPECT_FALSE(line.render.seed.has_value());
@@ -67,7 +67,7 @@ TEST(CommandLine, RenderWithEverything) {
   const RenderCommand& r = line.render;
   EXPECT_EQ(r.scene, "scene.pbrt");
   EXPECT_EQ(r.output, "out.exr");
-  EXPECT_EQ(r.integrator, "path");
+  EXPECT_EQ(r.routes.integrator, "path");
   EXPECT_EQ(r.passes->first, 2u);
   EXPECT_EQ(r.passes->second, 5u);
   EXPECT_EQ(r.time_limit, 90);
