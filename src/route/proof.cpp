@@ -10,6 +10,7 @@
 
 #include "core/errors.h"
 #include "route/word_search.h"
+#include "route/word_text.h"
 
 namespace nephroid {
 namespace {
@@ -46,7 +47,8 @@ class Prover {
     if (!in_.symbols)
       std::erase_if(lights_,
                     [&](int l) { return in_.classes.kind_of_light(l) == LightKind::kMedium; });
-    full_words_ = words_need_detail();
+    full_events_ = in_.classes.events.size() > kEventClasses;
+    full_lights_ = lights_need_detail();
   }
 
   Proof prove() {
@@ -77,8 +79,7 @@ class Prover {
     }
   }
   // True if some expression tells apart what the short notation does not.
-  bool words_need_detail() const {
-    if (in_.classes.events.size() > kEventClasses) return true;
+  bool lights_need_detail() const {
     if (in_.classes.lights.size() > kLightKinds) return true;
     for (const std::vector<bool>& reads : in_.classes.reads_light)
       for (size_t l = 0; l < reads.size(); ++l)
@@ -88,9 +89,15 @@ class Prover {
     return false;
   }
   std::string text(const std::vector<int>& word, int light) const {
-    std::vector<EventSymbol> symbols;
-    for (const int e : word) symbols.push_back(event_symbols_[static_cast<size_t>(e)]);
-    return word_text(symbols, light_symbols_[static_cast<size_t>(light)], in_.labels, full_words_);
+    return text(word, light, event_symbols_, light_symbols_);
+  }
+  // Classes as the symbols given for them.
+  std::string text(const std::vector<int>& word, int light, const std::vector<uint16_t>& events,
+                   const std::vector<uint16_t>& lights) const {
+    std::string text = "C ";
+    for (const int e : word)
+      text += event_text(events[static_cast<size_t>(e)], in_.labels, full_events_) + " ";
+    return text + light_text(lights[static_cast<size_t>(light)], in_.labels, full_lights_);
   }
   std::string name(int route) const {
     return "'" + in_.routes[static_cast<size_t>(route)].name + "'";
@@ -130,11 +137,7 @@ class Prover {
         const int owner = owner_of(m, in_.routes, in_.classes.kind_of_light(l));
         if (owner == kNoRoute || !std::binary_search(m.routes.begin(), m.routes.end(), route))
           continue;
-        std::vector<EventSymbol> symbols;
-        for (const int e : search.word(n))
-          symbols.push_back(in_.classes.events[static_cast<size_t>(e)]);
-        const std::string witness =
-            word_text(symbols, in_.classes.lights[static_cast<size_t>(l)], in_.labels, full_words_);
+        const std::string witness = text(search.word(n), l, in_.classes.events, in_.classes.lights);
         return report(Kind::kUnreachable, true,
                       owner_text(route) +
                           " owns no path: routes before it match all of its paths, " + name(owner) +
@@ -292,7 +295,7 @@ class Prover {
   const ProofInput& in_;
   std::vector<int> events_, lights_;                     ///< classes that can occur
   std::vector<uint16_t> event_symbols_, light_symbols_;  ///< [class]: one that can occur
-  bool full_words_ = false;
+  bool full_events_ = false, full_lights_ = false;       ///< whether words need sides and labels
   Proof proof_;
 };
 

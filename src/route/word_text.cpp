@@ -1,5 +1,7 @@
 // Words in the notation of the expressions.
-// Who calls it: through compile.h.
+// Who calls it: through compile.h and word_text.h.
+#include "route/word_text.h"
+
 #include "route/compile.h"
 
 namespace nephroid {
@@ -8,6 +10,8 @@ namespace {
 std::string label_text(Label label, std::span<const std::string> labels) {
   return label == 0 || label > labels.size() ? "" : "'" + labels[label - size_t{1}] + "'";
 }
+
+}  // namespace
 
 std::string event_text(EventSymbol e, std::span<const std::string> labels, bool full) {
   const char letter = "DGSV"[static_cast<size_t>(class_of(kind_of(e)))];
@@ -28,8 +32,6 @@ std::string light_text(LightSymbol l, std::span<const std::string> labels, bool 
   const std::string label = label_text(label_of_light(l), labels);
   return label.empty() ? letter : "<" + letter + "." + label + ">";
 }
-
-}  // namespace
 
 std::string word_text(std::span<const EventSymbol> events, LightSymbol light,
                       std::span<const std::string> labels, bool full) {
