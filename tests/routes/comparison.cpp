@@ -16,10 +16,6 @@ bool has(ClassMask mask, EventSymbol e) {
   return (mask & mask_of_symbol(e)) != ClassMask::kNone;
 }
 
-bool connects_lights(EstimatorKind kind) {
-  return kind == EstimatorKind::kLightTrace || kind == EstimatorKind::kPhotonsAndLight;
-}
-
 }  // namespace
 
 SymbolSet all_symbols(const Routes& routes, bool media) {

@@ -18,6 +18,11 @@ namespace nephroid::oracle {
 /// Every event and light of the alphabet (light from media if `media`), as routes number them.
 SymbolSet all_symbols(const Routes& routes, bool media);
 
+/// True if the estimator connects light walks to the camera.
+constexpr bool connects_lights(EstimatorKind kind) {
+  return kind == EstimatorKind::kLightTrace || kind == EstimatorKind::kPhotonsAndLight;
+}
+
 class Comparison {
  public:
   /// Findings are about paths of the symbols in `present`; so is what `routes` call useful. All

@@ -2,7 +2,6 @@
 #include "routes/oracle_routes.h"
 
 #include <algorithm>
-#include <sstream>
 #include <utility>
 
 namespace nephroid::oracle {
@@ -106,6 +105,23 @@ std::optional<Atom> atom_of(const std::string& text, const std::vector<std::stri
   return atom;
 }
 
+Atom set_of(std::string_view letters, bool complement) {
+  Atom set;
+  for (const char c : letters) {
+    const Atom letter = *atom_of(std::string(1, c), {});
+    set.eye = set.eye || letter.eye;
+    set.events |= letter.events;
+    set.lights |= letter.lights;
+  }
+  if (complement) {
+    set.eye = !set.eye;
+    set.events = kAllEvents & ~set.events;
+    set.lights = kAllLights & ~set.lights;
+  }
+  set.text = (complement ? "[^" : "[") + std::string(letters) + "]";
+  return set;
+}
+
 Tree first_rough_event() {
   Atom eye, before, here, any;
   eye.eye = true;
@@ -167,9 +183,16 @@ PathFacts OracleRoutes::facts(const Path& path) {
 
 std::vector<Path> OracleRoutes::paths_of(const std::string& word, size_t most) const {
   std::vector<Path> paths(1);
-  std::istringstream in(word);
-  std::vector<std::string> tokens;
-  for (std::string token; in >> token;) tokens.push_back(token);
+  // Letters stand apart; a space in a label is part of it.
+  std::vector<std::string> tokens(1);
+  bool in_label = false;
+  for (const char c : word) {
+    in_label = in_label != (c == '\'');
+    if (c != ' ' || in_label)
+      tokens.back() += c;
+    else if (!tokens.back().empty())
+      tokens.emplace_back();
+  }
   if (tokens.size() < 2 || tokens[0] != "C") return {};
   for (size_t t = 1; t < tokens.size(); ++t) {
     const bool is_light = t + 1 == tokens.size();

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "route/route_set.h"
@@ -79,6 +80,9 @@ class OracleRoutes {
 /// One place of an expression from its text: a letter or <..>, without sets and marks. Empty if it
 /// is neither. `labels`: names of labels 1, 2, ...; a name that is not among them is label 0.
 std::optional<Atom> atom_of(const std::string& text, const std::vector<std::string>& labels);
+
+/// A set [DG], or [^DG] if `complement`, of letters.
+Atom set_of(std::string_view letters, bool complement);
 
 /// The merge vertex of routes without a mark: the first D or G, after S and V only.
 Tree first_rough_event();

@@ -2,29 +2,10 @@
 // standard library's distributions, which differ from machine to machine.
 #include "routes/random_routes.h"
 
-#include <string_view>
 #include <utility>
 
 namespace nephroid::oracle {
 namespace {
-
-/// A set [..] or [^..] of one-letter atoms.
-Atom set_of(std::string_view letters, bool complement) {
-  Atom set;
-  for (const char c : letters) {
-    const Atom letter = *atom_of(std::string(1, c), {});
-    set.eye = set.eye || letter.eye;
-    set.events |= letter.events;
-    set.lights |= letter.lights;
-  }
-  if (complement) {
-    set.eye = !set.eye;
-    set.events = kAllEvents & ~set.events;
-    set.lights = kAllLights & ~set.lights;
-  }
-  set.text = (complement ? "[^" : "[") + std::string(letters) + "]";
-  return set;
-}
 
 /// <X[..]'label'> with a set of classes.
 Atom classes_of(char side, std::string_view letters, const std::string& name, int label) {
