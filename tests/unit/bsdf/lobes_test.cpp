@@ -179,5 +179,63 @@ TEST(Classes, FollowTheThreshold) {
   EXPECT_EQ(varnished(0.2f), ClassMask::kRough);
 }
 
+TEST(Classes, TheThresholdMovesLobesAndChangesNoLight) {
+  const DielectricInterface boundary{1.5f, TrowbridgeReitz(0.05f, 0.2f)};
+  const CoatTable table({1.5f, {0.1f, 0.1f}}, 0.01f, 10);
+  const Coat coat = make_coat(1.5f, 0.1f, 0.2f, 0.05f, 0.0f);
+  const Coat fog = make_coat(1.5f, 0.1f, 0.2f, 0.05f, 0.5f);
+  const LambertSurface grey{ramp(0.5f, 0.2f)};
+  using Maker = std::function<const Bsdf*(BsdfArena&, float)>;
+  const std::pair<const char*, Maker> kBsdfs[] = {
+      {"metal", [&](BsdfArena& a, float t) { return a.make<ConductorBsdf>(metal(0.1f, 0.2f), t); }},
+      {"glass", [&](BsdfArena& a, float t) { return a.make<DielectricBsdf>(boundary, t); }},
+      {"subsurface",
+       [&](BsdfArena& a, float t) { return a.make<SubsurfaceInterfaceBsdf>(boundary, t); }},
+      {"varnish", [&](BsdfArena& a,
+                      float t) { return a.make<CoatedDiffuseBsdf>(&table, grey.reflectance, t); }},
+      {"coated lambert",
+       [&](BsdfArena& a, float t) { return a.make<CoatedBsdf<LambertSurface>>(coat, grey, t); }},
+      {"coated metal",
+       [&](BsdfArena& a, float t) {
+         return a.make<CoatedBsdf<ConductorSurface>>(coat, metal(0.15f, 0.3f), t);
+       }},
+      {"coated metal, medium", [&](BsdfArena& a, float t) {
+         return a.make<CoatedBsdf<ConductorSurface>>(fog, metal(0.15f, 0.3f), t);
+       }}};
+  const auto all_of = [](const Bsdf& bsdf, const Vec3f& wo, const Vec3f& wi) {
+    BsdfEval sum;
+    for (const EventClass c : kSurfaceClasses) {
+      const BsdfEval e = bsdf.eval(wo, wi, TransportMode::kRadiance, c, ClassMask::kAll);
+      sum.f += e.f;
+      sum.pdf_w += e.pdf_w;
+    }
+    return sum;
+  };
+  for (const auto& [name, make] : kBsdfs) {
+    BsdfArena first, second;
+    const Bsdf& glossy = *make(first, 0.01f);
+    const Bsdf& specular = *make(second, 0.25f);
+    EXPECT_NE(glossy.classes(), specular.classes()) << name;
+    TestRandom random(37);
+    int lit = 0;
+    for (int i = 0; i < 300; ++i) {
+      const Vec3f wo = spherical(2.0 * random.next() - 1.0, 6.28 * random.next());
+      const float uc = random.next();
+      const Vec2f u = random.next2();
+      const auto s = glossy.sample(wo, uc, u, TransportMode::kRadiance, ClassMask::kAll);
+      const auto t = specular.sample(wo, uc, u, TransportMode::kRadiance, ClassMask::kAll);
+      ASSERT_EQ(s.has_value(), t.has_value()) << name;
+      if (!s) continue;
+      EXPECT_EQ(s->wi, t->wi) << name;
+      const BsdfEval a = all_of(glossy, wo, s->wi), b = all_of(specular, wo, s->wi);
+      for (int k = 0; k < kSpectrumSamples; ++k)
+        EXPECT_NEAR(a.f[k], b.f[k], 1e-5f * a.f[k]) << name;
+      EXPECT_NEAR(a.pdf_w, b.pdf_w, 1e-5f * a.pdf_w) << name;
+      lit += a.f[0] > 0.0f;
+    }
+    EXPECT_GT(lit, 15) << name;
+  }
+}
+
 }  // namespace
 }  // namespace nephroid::testing_bsdf
