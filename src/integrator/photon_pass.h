@@ -34,8 +34,8 @@ inline CameraPath start_merging_path(const Scene& scene, int x, int y, PathSampl
 
 /// Said where there is nothing for photons to do.
 inline constexpr const char* kNoPhotonsNote =
-    "no light path of this scene belongs to the routes of the photons (no material has a specular "
-    "lobe, for instance): no photons were needed";
+    "nothing in this scene lets light take a path that belongs to the photons (for caustics: no "
+    "material of the scene has a specular lobe), and no photons were needed";
 
 /// False if no photon that can occur in the scene belongs to the group.
 bool photons_can_count(const OwnedRoutes& owned);
