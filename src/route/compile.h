@@ -16,7 +16,7 @@ namespace nephroid {
 struct RouteFinding {
   enum class Kind {
     kOverlap,           ///< warning: two routes match, neither of them the last
-    kUnreachable,       ///< error: a route owns no path
+    kUnreachable,       ///< error: a route owns no path, whatever the scene
     kHole,              ///< error: no route matches
     kNeverSampled,      ///< warning: the owner's estimator cannot make such a path
     kNoMergeVertex,     ///< error: an estimator that merges owns a path without a merge vertex
@@ -31,14 +31,15 @@ struct RouteFinding {
 /// Everything compile_routes found out.
 struct RouteCompilation {
   Routes routes;
-  std::vector<RouteFinding> findings;  ///< errors first
-  std::vector<std::string> examples;   ///< [route]: a shortest path that it owns, "C D S L"
+  std::vector<RouteFinding> findings;  ///< errors first, then overlaps
+  std::vector<std::string>
+      examples;  ///< [route]: a shortest path that it owns, "C D S L", "" if none
 };
 
 /// Compiles and proves. A scene's symbols may be given so that findings are about paths that it can
-/// have; without them all symbols count but light from media, which is only proved if a scene has
-/// it. Throws UsageError with column and caret for an expression that is wrong, and for routes that
-/// are too many or too complex. Findings do not throw.
+/// have and only its events are useful; without them all symbols count but light from media, which
+/// is only proved if a scene has it. Throws UsageError with column and caret for an expression that
+/// is wrong, and for routes that are too many or too complex. Findings do not throw.
 RouteCompilation compile_routes(std::span<const RouteDefinition> routes,
                                 std::span<const AovDefinition> aovs,
                                 const SymbolSet* symbols = nullptr);

@@ -57,8 +57,11 @@ class Prover {
     look_at_plain_words();
     look_at_merge_vertices();
     find_overlaps();
-    std::stable_partition(proof_.findings.begin(), proof_.findings.end(),
-                          [](const RouteFinding& f) { return f.is_error; });
+    std::stable_sort(proof_.findings.begin(), proof_.findings.end(),
+                     [](const RouteFinding& a, const RouteFinding& b) {
+                       if (a.is_error != b.is_error) return a.is_error;
+                       return a.kind < b.kind;
+                     });
     return std::move(proof_);
   }
 
@@ -191,7 +194,7 @@ class Prover {
     if (medium_hole)
       report(Kind::kHole, true,
              "no route that can reach light from media matches " + *medium_hole +
-                 "; expected one of path among those that match it",
+                 ": expected one of path",
              *medium_hole);
     for (size_t r = 0; r < never.size(); ++r)
       if (never[r].rank > 0)
@@ -259,10 +262,10 @@ class Prover {
         report(kind, true,
                owner_text(route) + " owns " + witness +
                    (vertices == 0
-                        ? ", in which no single vertex is the one where photons are merged: "
-                          "without '@' that is the first D or G"
-                        : ", in which photons would be merged at more than one vertex, each a "
-                          "part of the light too many: mark exactly one with '@'"),
+                        ? ", which has no merge vertex: photons need exactly one in each path, "
+                          "where '@' stands, or else the first D or G"
+                        : ", in which photons would be merged at more than one vertex and their "
+                          "light counted more than once: mark exactly one with '@'"),
                witness);
       }
   }

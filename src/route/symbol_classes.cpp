@@ -1,5 +1,5 @@
-// Which symbols each atom reads, and the coarsest partition of the symbols that respects it.
-// Who calls it: through symbol_classes.h.
+// Which symbols each atom reads (one with a mark only D and G), and the coarsest partition of the
+// symbols that respects it. Who calls it: through symbol_classes.h.
 #include "route/symbol_classes.h"
 
 #include <algorithm>
@@ -24,16 +24,17 @@ class AtomReader {
     }
   }
   bool reads_eye() const {
-    return any([](const NumberedPattern& p) { return p.pattern.eye; });
+    return !atom_.merges && any([](const NumberedPattern& p) { return p.pattern.eye; });
   }
   bool reads_event(EventSymbol e) const {
+    if (atom_.merges && !contains(ClassMask::kRough, class_of(kind_of(e)))) return false;
     return any([e](const NumberedPattern& p) {
       return (p.pattern.events >> static_cast<int>(kind_of(e)) & 1u) != 0 &&
              (p.label < 0 || p.label == label_of(e));
     });
   }
   bool reads_light(LightSymbol l) const {
-    return any([l](const NumberedPattern& p) {
+    return !atom_.merges && any([l](const NumberedPattern& p) {
       return (p.pattern.lights >> static_cast<int>(kind_of_light(l)) & 1u) != 0 &&
              (p.label < 0 || p.label == label_of_light(l));
     });

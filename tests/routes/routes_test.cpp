@@ -1,174 +1,221 @@
-// The partition of path space: the paper's known answers, and every short word against a plain regular
-// expression, read from the eye, from the light, and met anywhere in between.
+// The preset of the paper against the paper: its worked example, its bit-encoded form, and the
+// small hand-made tables that the general router replaced; and the useful events that follow from
+// tables.
 #include "route/routes.h"
 
 #include <gtest/gtest.h>
 
-#include <regex>
+#include <array>
 #include <string>
 #include <vector>
+
+#include "routes/letters.h"
 
 namespace nephroid {
 namespace {
 
-EventClass event_of(char letter) {
-  return letter == 'D'   ? EventClass::kDiffuse
-         : letter == 'S' ? EventClass::kSpecular
-                         : EventClass::kVolume;
+// The paper's form: a path is a string of bits (1 = specular), the last of which say whether a
+// vertex may be lit by hitting a light (implicit) or by asking for one (explicit).
+bool diffuse_by_bits(const std::string& events) {
+  // Trailing D or none, then a run of ones which a zero (D) precedes: a caustic.
+  uint32_t bits = 0;
+  for (const char e : events) bits = (bits << 1) | (e == 'S' ? 1u : 0u);
+  const int n = static_cast<int>(events.size());
+  const auto specular = [&](int k) { return ((bits >> k) & 1u) != 0; };
+  int k = 0;
+  if (k < n && !specular(k)) ++k;
+  const int before = k;
+  while (k < n && specular(k)) ++k;
+  return !(k > before && k < n);
 }
 
-// All words over the letters of up to `length` letters, the empty one included.
-std::vector<std::string> words(int length, const std::string& letters = "SD") {
-  std::vector<std::string> all{""};
-  for (size_t i = 0; i < all.size(); ++i)
-    if (static_cast<int>(all[i].size()) < length)
-      for (const char letter : letters) {
-        const std::string longer = all[i] + letter;
-        all.push_back(longer);
-      }
-  return all;
+// The table that was written by hand for C [SD]* D S+ D? L.
+bool diffuse_by_table(const std::string& events) {
+  enum { kNoDiffuse, kDiffuseLast, kSpecularChain, kChainThenDiffuse };
+  constexpr std::array<std::array<int, 2>, 4> next = {{{kDiffuseLast, kNoDiffuse},
+                                                       {kDiffuseLast, kSpecularChain},
+                                                       {kChainThenDiffuse, kSpecularChain},
+                                                       {kDiffuseLast, kSpecularChain}}};
+  size_t state = kNoDiffuse;
+  for (const char e : events) state = static_cast<size_t>(next[state][e == 'S' ? 1 : 0]);
+  return state == kNoDiffuse || state == kDiffuseLast;
 }
 
-Route oracle(const std::string& events) {
-  static const std::regex caustic("[SD]*DS+D?");
-  return std::regex_match(events, caustic) ? Route::kCaustic : Route::kDiffuse;
+size_t group_of(const Routes& routes, EstimatorKind estimator) {
+  for (size_t g = 0; g < routes.groups().size(); ++g)
+    if (routes.groups()[g].estimator == estimator) return g;
+  return routes.groups().size();
 }
-
-EyeState read(const Routes& routes, const std::string& events) {
-  EyeState state = Routes::kEyeStart;
-  for (const char e : events) state = routes.next(state, event_of(e));
-  return state;
-}
-
-// The paper's form: a path is a string of bits (1 = specular), the last three of which index tables of
-// whether a vertex may be lit by hitting a light (implicit) or by asking for one (explicit).
-struct BitEncoded {
-  static bool diffuse_may_end(uint32_t bits, int events) {
-    // Trailing D or none, then a run of ones which a zero (D) precedes: a caustic.
-    const auto specular = [&](int k) { return ((bits >> k) & 1u) != 0; };
-    int k = 0;
-    if (k < events && !specular(k)) ++k;
-    const int before = k;
-    while (k < events && specular(k)) ++k;
-    return !(k > before && k < events);
-  }
-};
 
 TEST(Routes, PaperExample) {
   // The events D D S D D D at vertices 1..6 (Doidge et al. 2012).
-  const Routes routes = Routes::doidge2012();
+  const Routes routes = preset("doidge2012");
   const std::string events = "DDSDDD";
   const bool implicit[] = {true, true, true, false, false, true};
   const bool explicitly[] = {true, true, false, false, true, true};
   for (size_t k = 1; k <= events.size(); ++k) {
-    EXPECT_EQ(routes.owner(read(routes, events.substr(0, k - 1))) == Route::kDiffuse,
-              implicit[k - 1]) << "implicit at vertex " << k;
-    EXPECT_EQ(routes.owner(read(routes, events.substr(0, k))) == Route::kDiffuse,
-              explicitly[k - 1]) << "explicit at vertex " << k;
+    EXPECT_EQ(owner_name(routes, events.substr(0, k - 1)) == "diffuse", implicit[k - 1])
+        << "implicit at vertex " << k;
+    EXPECT_EQ(owner_name(routes, events.substr(0, k)) == "diffuse", explicitly[k - 1])
+        << "explicit at vertex " << k;
   }
 }
 
-TEST(Routes, EyeTablesAgreeWithTheRegularExpression) {
-  const Routes routes = Routes::doidge2012();
-  for (const std::string& w : words(8, "SDV"))
-    EXPECT_EQ(routes.owner(read(routes, w)), oracle(w)) << w;
-  for (const std::string& w : words(12)) EXPECT_EQ(routes.owner(read(routes, w)), oracle(w)) << w;
-}
-
-TEST(Routes, BitEncodedFormAgrees) {
-  const Routes routes = Routes::doidge2012();
-  for (const std::string& w : words(12)) {
-    uint32_t bits = 0;
-    for (const char e : w) bits = (bits << 1) | (e == 'S');
-    EXPECT_EQ(routes.owner(read(routes, w)) == Route::kDiffuse,
-              BitEncoded::diffuse_may_end(bits, static_cast<int>(w.size()))) << w;
+TEST(Routes, TheBitsAndTheTableOfThePaperAgree) {
+  const Routes routes = preset("doidge2012");
+  for (const std::string& w : words(12, "SD")) {
+    const bool diffuse = owner_name(routes, w) == "diffuse";
+    EXPECT_EQ(diffuse, diffuse_by_bits(w)) << w;
+    EXPECT_EQ(diffuse, diffuse_by_table(w)) << w;
   }
 }
 
-TEST(Routes, EyeAndLightAgreeWhereverTheyMeetAtADiffuseVertex) {
-  const Routes routes = Routes::doidge2012();
-  for (const std::string& w : words(8, "SDV"))
-    for (size_t k = 0; k < w.size(); ++k) {
-      if (w[k] != 'D') continue;
-      PhotonState photon = Routes::kPhotonStart;
-      for (size_t i = w.size(); --i > k;) photon = routes.photon_next(photon, event_of(w[i]));
-      EXPECT_EQ(routes.meet(read(routes, w.substr(0, k + 1)), photon), oracle(w)) << w << " at " << k;
-    }
+TEST(Routes, ThePaperNeedsTenStatesFromTheEyeAndFiveFromTheLight) {
+  // From the eye, without a merge: nothing rough yet; something rough but no D or G yet (V); D
+  // last;
+  // ... and all of these again once the D or G where photons are merged is behind. A minimal
+  // automaton has no two states that agree on all continuations.
+  const Routes routes = preset("doidge2012");
+  const RouteTables& t = routes.tables();
+  EXPECT_EQ(t.eye_states, 10u);
+  EXPECT_EQ(t.light_states, 5u);
+  EXPECT_LT(t.eye_next.bytes() + t.merge_next.bytes(), 200u);
 }
 
 TEST(Routes, EachCausticWordIsMergedExactlyOnce) {
-  // The eye merges at its first D; a photon deposits there exactly if the word is a caustic, and no
-  // earlier event of its path was one that the tables call useless.
-  const Routes routes = Routes::doidge2012();
-  for (const std::string& w : words(8, "SDV")) {
-    const size_t first = w.find('D');
-    if (first == std::string::npos) {
-      EXPECT_EQ(oracle(w), Route::kDiffuse) << w;
-      continue;
+  const Routes routes = preset("doidge2012");
+  const size_t photons = group_of(routes, EstimatorKind::kPhotons);
+  for (const std::string& w : words(7, "SDGV")) {
+    int merged = 0;
+    for (size_t k = 0; k < w.size(); ++k) {
+      if (w[k] != 'D' && w[k] != 'G') continue;
+      const EyeState eye = routes.merge(read_from_eye(routes, w.substr(0, k)), event_of(w[k]));
+      const Part part = routes.meet(eye, read_from_light(routes, w.substr(k + 1)));
+      if (part == kNoPart) continue;
+      ++merged;
+      EXPECT_TRUE(routes.owns(photons, part));
+      EXPECT_EQ(w.find_first_of("DG"), k) << w;
     }
-    PhotonState photon = Routes::kPhotonStart;
-    // The eye's walk merges behind specular events only.
-    bool reachable = w.find_first_not_of('S') == first;
-    for (size_t i = w.size(); --i > first;) {
-      reachable &= contains(routes.useful_events(photon, Route::kCaustic), event_of(w[i]));
-      photon = routes.photon_next(photon, event_of(w[i]));
-    }
-    EXPECT_EQ(reachable && routes.deposits(photon, Route::kCaustic), oracle(w) == Route::kCaustic)
-        << w;
+    EXPECT_EQ(merged, owner_name(routes, w) == "caustic" ? 1 : 0) << w;
   }
 }
 
-TEST(Routes, UselessLightPathsEnd) {
-  const Routes routes = Routes::doidge2012();
-  PhotonState state = Routes::kPhotonStart;
-  state = routes.photon_next(state, EventClass::kDiffuse);
-  EXPECT_EQ(routes.useful_events(state, Route::kCaustic), ClassMask::kSpecular);
-  state = routes.photon_next(state, EventClass::kDiffuse);
-  EXPECT_EQ(routes.useful_events(state, Route::kCaustic), ClassMask::kNone);
+TEST(Routes, AMarkMovesTheMergeVertex) {
+  const Routes routes = preset("doidge-last");
+  const auto merges_at = [&](const std::string& w, size_t k) {
+    const EyeState eye = routes.merge(read_from_eye(routes, w.substr(0, k)), event_of(w[k]));
+    return routes.meet(eye, read_from_light(routes, w.substr(k + 1))) != kNoPart;
+  };
+  EXPECT_FALSE(merges_at("DDSD", 0));
+  EXPECT_TRUE(merges_at("DDSD", 1));
+  EXPECT_FALSE(merges_at("DDSD", 3));
+  EXPECT_TRUE(merges_at("DSGS", 2));
 }
 
-TEST(Routes, OneRouteForAll) {
-  for (const Route route : {Route::kDiffuse, Route::kCaustic}) {
-    const Routes routes = Routes::all(route);
-    for (const std::string& w : words(6, "SDV")) {
-      const bool volume = w.find('V') != std::string::npos;
-      EXPECT_EQ(routes.owner(read(routes, w)), volume ? Route::kDiffuse : route) << w;
-    }
-    EXPECT_TRUE(routes.deposits(Routes::kPhotonStart, route));
-    EXPECT_EQ(routes.useful_events(Routes::kPhotonStart, route) & ClassMask::kAll, ClassMask::kAll);
-  }
+TEST(Routes, UselessWalksEnd) {
+  const Routes routes = preset("doidge2012");
+  const size_t photons = group_of(routes, EstimatorKind::kPhotons);
+  const size_t path = group_of(routes, EstimatorKind::kPath);
+  constexpr ClassMask all = ClassMask::kAll | ClassMask::kVolume;
+  // A photon that left two rough surfaces without a specular one is no caustic any more.
+  const LightState once = read_from_light(routes, "D");
+  EXPECT_EQ(routes.useful_before_deposit(photons, once, 0), ClassMask::kSpecular);
+  EXPECT_EQ(routes.useful_before_deposit(photons, read_from_light(routes, "DD"), 0),
+            ClassMask::kNone);
+  EXPECT_EQ(routes.deposits(photons, once, 0), ClassMask::kNone);
+  EXPECT_EQ(routes.deposits(photons, read_from_light(routes, "S"), 0), ClassMask::kRough);
+  // The camera walk of photons ends at its first D or G; that of path tracing may always count.
+  EXPECT_EQ(routes.merges(photons, routes.start(), 0), ClassMask::kRough);
+  EXPECT_EQ(routes.useful_before_merge(photons, routes.start(), 0),
+            ClassMask::kSpecular | ClassMask::kVolume);
+  EXPECT_EQ(routes.useful_before_merge(photons, read_from_eye(routes, "SD"), 0), ClassMask::kNone);
+  for (const std::string& w : words(5, "SDGV"))
+    EXPECT_EQ(routes.useful(path, read_from_eye(routes, w), 0), all) << w;
+  EXPECT_TRUE(routes.ends(path, routes.start()));
+  EXPECT_FALSE(routes.ends(path, read_from_eye(routes, "DS")) &&
+               !routes.owns(path, routes.owner(read_from_eye(routes, "DS"),
+                                               light_symbol(LightKind::kMedium, 0))));
+  // Only path tracing ends walks at lights; only photons are stored.
+  EXPECT_EQ(routes.deposits(path, once, 0), ClassMask::kNone);
+  EXPECT_FALSE(routes.owns(path, kNoPart));
 }
 
-TEST(Routes, SeenEmissionIsWhatFullPhotonMappingLeaves) {
-  const Routes routes = Routes::seen_emission();
-  for (const std::string& w : words(6, "SDV")) {
-    const bool path = w.find('D') == std::string::npos || w.find('V') != std::string::npos;
-    EXPECT_EQ(routes.owner(read(routes, w)), path ? Route::kDiffuse : Route::kCaustic) << w;
-  }
-  EXPECT_TRUE(contains(routes.useful_eye_events(read(routes, "D"), Route::kDiffuse),
-                       EventClass::kVolume));
-  // Without media no walk goes on behind the first D in vain.
-  const Routes clear = routes.restricted_to(ClassMask::kAll);
-  EXPECT_EQ(clear.useful_eye_events(Routes::kEyeStart, Route::kDiffuse), ClassMask::kSpecular);
-  EXPECT_EQ(clear.useful_eye_events(read(clear, "D"), Route::kDiffuse), ClassMask::kNone);
-  EXPECT_EQ(clear.useful_eye_events(Routes::kEyeStart, Route::kCaustic), ClassMask::kAll);
+TEST(Routes, FewerEventsAreUsefulWhereFewerCanOccur) {
+  const Routes routes = preset("all-photons");
+  const size_t path = group_of(routes, EstimatorKind::kPath);
+  EXPECT_TRUE(contains(routes.useful(path, read_from_eye(routes, "D"), 0), EventClass::kVolume));
+  // Without glowing media no camera walk goes on behind the first D in vain.
+  const Routes clear = routes.restricted_to(symbols_of("DS", {LightKind::kShape}));
+  EXPECT_EQ(clear.useful(path, clear.start(), 0), ClassMask::kSpecular);
+  EXPECT_EQ(clear.useful(path, read_from_eye(clear, "D"), 0), ClassMask::kNone);
+  const size_t photons = group_of(clear, EstimatorKind::kPhotons);
+  EXPECT_EQ(clear.merges(photons, clear.start(), 0), ClassMask::kDiffuse);
+  EXPECT_EQ(clear.deposits(photons, read_from_light(clear, ""), 0), ClassMask::kDiffuse);
+  // Without specular surfaces there are no caustics, so nothing is of use to them.
+  const Routes dull = preset("doidge2012").restricted_to(symbols_of("DG", {LightKind::kShape}));
+  const size_t caustics = group_of(dull, EstimatorKind::kPhotons);
+  EXPECT_EQ(dull.useful_before_merge(caustics, dull.start(), 0), ClassMask::kNone);
+  EXPECT_EQ(dull.useful_before_deposit(caustics, read_from_light(dull, ""), 0), ClassMask::kNone);
 }
 
-TEST(Routes, NoPhotonOfACausticScattersInAMedium) {
-  const Routes routes = Routes::doidge2012();
-  for (const std::string& w : words(6)) {
-    PhotonState photon = Routes::kPhotonStart;
-    for (size_t i = w.size(); i-- > 0;) photon = routes.photon_next(photon, event_of(w[i]));
-    EXPECT_FALSE(contains(routes.useful_events(photon, Route::kCaustic), EventClass::kVolume)) << w;
-  }
+TEST(Routes, LightTracingConnectsWhereTheFirstEventOfItsWordsAllows) {
+  const Routes routes = preset("split");
+  const size_t group = group_of(routes, EstimatorKind::kLightTrace);
+  const LightState glass = read_from_light(routes, "S");
+  // C D S L; not C S S L, and not C V S L, which has no D.
+  EXPECT_EQ(routes.connects(group, glass, 0), ClassMask::kRough);
+  EXPECT_EQ(routes.connects(group, read_from_light(routes, ""), 0), ClassMask::kNone);
+  EXPECT_EQ(routes.connects(group, read_from_light(routes, "DS"), 0),
+            ClassMask::kRough | ClassMask::kVolume);
+  EXPECT_EQ(routes.useful_before_connection(group, read_from_light(routes, "DD"), 0),
+            ClassMask::kNone);
+  // Photons are stored for words that begin with S only: at the D behind it.
+  const size_t photons = group_of(routes, EstimatorKind::kPhotons);
+  EXPECT_EQ(routes.deposits(photons, glass, 0), ClassMask::kRough);
+  EXPECT_EQ(routes.merges(photons, routes.start(), 0), ClassMask::kNone);
+  EXPECT_EQ(routes.merges(photons, read_from_eye(routes, "S"), 0), ClassMask::kRough);
 }
 
-TEST(Routes, EveryCameraWalkOfTheMixedMethodMayStillCount) {
-  const Routes routes = Routes::doidge2012();
-  for (const std::string& w : words(6))
-    EXPECT_EQ(routes.useful_eye_events(read(routes, w), Route::kDiffuse),
-              ClassMask::kAll | ClassMask::kVolume)
-        << w;
+TEST(Routes, LightFromMediaGoesToTheFirstRouteThatCanReachIt) {
+  const Routes routes = preset("doidge2012");
+  EXPECT_EQ(owner_name(routes, "DS"), "caustic");
+  EXPECT_EQ(owner_name(routes, "DS", LightKind::kMedium), "diffuse");
+  const Routes only = compiled({"all=.*:lighttrace"}).routes;
+  EXPECT_EQ(owner_name(only, "D", LightKind::kMedium), "");
+}
+
+TEST(Routes, PartsAreRoutesCutByLayers) {
+  const Routes routes =
+      compiled({"caustic=C.*DS+L:photons", "rest=.*:path"}, {"key=C.*<L.'key'>", "direct=C[DGV]L"})
+          .routes;
+  // caustic: with and without the key; rest: each of four.
+  EXPECT_EQ(routes.parts().size(), 6u);
+  ASSERT_EQ(routes.labels(), std::vector<std::string>{"key"});
+  EXPECT_EQ(routes.label("key"), 1);
+  EXPECT_EQ(routes.label("other"), 0);
+  const Part part = routes.owner(read_from_eye(routes, "D"), light_symbol(LightKind::kShape, 1));
+  EXPECT_EQ(routes.parts()[part].route, 1);
+  EXPECT_EQ(routes.parts()[part].aovs, (std::vector<int>{0, 1}));
+  ASSERT_EQ(routes.groups().size(), 2u);
+  EXPECT_EQ(routes.groups()[0].parts, (std::vector<Part>{0, 1}));
+  EXPECT_EQ(routes.groups()[1].parts.size(), 4u);
+}
+
+TEST(Routes, RoutesOfOneEstimatorAreOneGroup) {
+  const Routes routes =
+      compiled({"a=CL:path", "b=CS+L:lighttrace", "c=CD+L:path", "rest=.*:lighttrace"}).routes;
+  ASSERT_EQ(routes.groups().size(), 2u);
+  EXPECT_EQ(routes.groups()[0].estimator, EstimatorKind::kPath);
+  EXPECT_EQ(routes.groups()[0].routes, (std::vector<int>{0, 2}));
+  EXPECT_EQ(routes.groups()[1].routes, (std::vector<int>{1, 3}));
+}
+
+TEST(Routes, WideTablesHoldWhatNarrowOnesCannot) {
+  const NumberTable narrow({0, 255}), wide({0, 256});
+  EXPECT_EQ(narrow.bytes(), 2u);
+  EXPECT_EQ(wide.bytes(), 4u);
+  EXPECT_EQ(narrow[1], 255);
+  EXPECT_EQ(wide[1], 256);
 }
 
 }  // namespace
