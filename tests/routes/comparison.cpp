@@ -297,7 +297,9 @@ void Comparison::findings(const RouteCompilation& compilation) {
                      [&](const Path& path) { return is_defect(f.kind, path); }))
       fail("the witness '" + f.witness + "' is none: " + f.message);
   }
-  for (const auto& [route, events] : shortest_) {
+  for (const auto& entry : shortest_) {
+    const int route = entry.first;
+    const size_t events = entry.second;
     const std::vector<Path> paths = set_.paths_of(compilation.examples[size_t(route)]);
     const auto owned = [&](const Path& path) {
       return present(path) && set_.facts(path).owner == route;
