@@ -74,9 +74,10 @@ std::vector<LightScene> light_scenes() {
       {"equal_area", spherical + R"(Film "rgb" "integer xresolution" 12 "integer yresolution" 12
                      PixelFilter "gaussian" )",
        kLamp + kRoom + kBall},
-      // Everything stands in fog, the camera and the lamp as well.
-      {"fog", fog + R"(MediumInterface "" "fog" )" + kView + kFilm,
-       R"(MediumInterface "" "fog" )" + kLamp + kRoom + kBall},
+      // Everything stands in fog, the camera and the lamp as well, and sheets have it on both
+      // sides.
+      {"fog", fog + R"(MediumInterface "fog" "fog" )" + kView + kFilm,
+       R"(MediumInterface "fog" "fog" )" + kLamp + kRoom + kBall},
       {"spot_light_in_grid_fog", kView + kFilm,
        R"(MakeNamedMedium "grid" "string type" "uniformgrid" "integer nx" 2 "integer ny" 2
           "integer nz" 2 "float density" [0.2 1 0.6 0.1 0.9 0.3 0.5 1] "point3 p0" [-1 0 -1]
@@ -90,8 +91,7 @@ std::vector<LightScene> light_scenes() {
        R"(LightSource "infinite" "rgb L" [0.5 0.6 0.7]
           AttributeBegin Material "conductor" "float roughness" 0.3 Translate 0 0.7 0
           Shape "sphere" "float radius" 0.6 AttributeEnd )" +
-           kRoom,
-       false},
+           kRoom},
       {"caustic_of_a_large_lamp", kView + kFilm,
        R"(AttributeBegin AreaLightSource "diffuse" "rgb L" [3 3 3] Translate 0 3.5 0
           Rotate 90 1 0 0 Shape "disk" "float radius" 1.5 AttributeEnd
@@ -112,16 +112,15 @@ TEST_P(LightTracingAgrees, WithPathTracing) {
   const auto scene = scene_of(GetParam());
   IntegratorOptions options;
   options.max_depth = 6;
-  options.photons_per_pass = 20000;
+  options.photons_per_pass = 12000;
   options.camera_samples_per_pass = 16;
   const SeedValues traced = block_values(*scene, "light-only", options, kSeeds, 4, 1, kAcross);
-  const SeedValues reference =
-      block_values(*scene, "path-only", options, kSeeds, 16, 1000, kAcross);
+  const SeedValues reference = block_values(*scene, "path-only", options, kSeeds, 6, 1000, kAcross);
   double sum = 0, squared_error = 0, difference = 0;
   for (size_t i = 0; i < reference.size(); ++i) {
     const Estimate a = estimate_of(traced[i]), b = estimate_of(reference[i]);
     const double error = std::hypot(a.error, b.error);
-    EXPECT_NEAR(a.mean, b.mean, kT15 * error + 1e-5 * b.mean) << "block " << i;
+    EXPECT_NEAR(a.mean, b.mean, kT15 * error + 1e-6) << "block " << i;
     sum += b.mean;
     difference += a.mean - b.mean;
     squared_error += error * error;
@@ -129,7 +128,7 @@ TEST_P(LightTracingAgrees, WithPathTracing) {
   std::printf("%-28s off by %+.2f %%, standard error %.2f %%\n", GetParam().name,
               100 * difference / sum, 100 * std::sqrt(squared_error) / sum);
   EXPECT_NEAR(difference, 0, kT15 * std::sqrt(squared_error));
-  EXPECT_LT(std::sqrt(squared_error), 0.01 * sum) << "too noisy to tell";
+  EXPECT_LT(std::sqrt(squared_error), 0.02 * sum) << "too noisy to tell";
 
   // Light tracing does find it, and not path tracing in its place.
   const Film film = render(*scene, "light-only", options, 1, 1);
