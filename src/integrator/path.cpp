@@ -67,7 +67,7 @@ class PathVisitor {
   }
 
   ClassMask useful(const WalkVertex& v) const {
-    return blind_ ? kAnything : routes_.useful(group_, eye_, label_at(symbols_, v));
+    return blind_ ? ClassMask::kEvery : routes_.useful(group_, eye_, label_at(symbols_, v));
   }
   bool scatters_in(const Medium& medium) const {
     return blind_ || contains(routes_.useful(group_, eye_, symbols_.medium(medium.index())),
@@ -107,8 +107,6 @@ class PathVisitor {
   uint64_t shadow_rays() const { return shadow_rays_; }
 
  private:
-  static constexpr ClassMask kAnything = ClassMask::kAll | ClassMask::kVolume;
-
   /// True if an event of one of the classes may be followed by light that belongs to the group.
   bool may_end_after_any(const WalkVertex& v, ClassMask finite) const {
     const Label label = label_at(symbols_, v);

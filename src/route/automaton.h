@@ -37,6 +37,7 @@ struct Automaton {
 struct WordMatches {
   std::vector<int> routes, aovs;
   bool is_marked = false;
+  bool touches_hair = false;
   std::vector<int> marked_by;  ///< routes that merge exactly where the word is marked
   auto operator<=>(const WordMatches&) const = default;
 };

@@ -25,8 +25,9 @@ constexpr unsigned kS = bit(EventKind::kSR) | bit(EventKind::kST);
 constexpr unsigned kR = bit(EventKind::kDR) | bit(EventKind::kGR) | bit(EventKind::kSR);
 constexpr unsigned kT = bit(EventKind::kDT) | bit(EventKind::kGT) | bit(EventKind::kST);
 constexpr unsigned kV = bit(EventKind::kV);
+constexpr unsigned kH = bit(EventKind::kH);
 constexpr unsigned kAnyLight = (1u << kLightKinds) - 1;
-constexpr char kLetters[] = "C, D, G, S, R, T, V, L, O, B or M";
+constexpr char kLetters[] = "C, D, G, S, R, T, V, H, L, O, B or M";
 
 unsigned lights_of(char letter) {
   switch (letter) {
@@ -48,8 +49,12 @@ unsigned class_bits(char letter) {
 unsigned side_bits(char letter) {
   return letter == 'R' ? kR : letter == 'T' ? kT : 0;
 }
+// Events without a side.
+unsigned sideless_bits(char letter) {
+  return letter == 'V' ? kV : letter == 'H' ? kH : 0;
+}
 unsigned events_of(char letter) {
-  return class_bits(letter) | side_bits(letter) | (letter == 'V' ? kV : 0);
+  return class_bits(letter) | side_bits(letter) | sideless_bits(letter);
 }
 
 class Parser {
@@ -260,8 +265,8 @@ class Parser {
     const size_t open = at_++;
     SymbolPattern p;
     const char c = skip_spaces();
-    if (c == 'V' || lights_of(c) != 0) {
-      p.events = c == 'V' ? kV : 0;
+    if (sideless_bits(c) != 0 || lights_of(c) != 0) {
+      p.events = sideless_bits(c);
       p.lights = lights_of(c);
       ++at_;
       take('.');
@@ -281,10 +286,11 @@ class Parser {
            "; the class stands behind it, as in <RD>");
     const bool any_side = text_.compare(at_, 1, ".") == 0;
     const unsigned side = one_or_set(&side_bits, "the side: R, T, '.' or a set of them");
-    if (skip_spaces() == 'V') fail("V has no side: write V or <V'label'>");
+    if (const char c = skip_spaces(); sideless_bits(c) != 0)
+      fail(std::string{c} + " has no side: write " + c + " or <" + c + "'label'>");
     const bool any_class = text_.compare(std::min(at_, text_.size()), 1, ".") == 0;
     const unsigned classes = one_or_set(&class_bits, "the class: D, G, S, '.' or a set of them");
-    return any_side && any_class ? kR | kT | kV : side & classes;
+    return any_side && any_class ? kR | kT | kV | kH : side & classes;
   }
   unsigned one_or_set(unsigned (*bits)(char), const char* expected) {
     const char c = skip_spaces();

@@ -10,13 +10,14 @@
 
 namespace nephroid {
 
-bool can_reach(const RouteDefinition& route, LightKind light) {
-  return light != LightKind::kMedium || !estimator_type(route.estimator).starts_at_lights;
+bool can_reach(const RouteDefinition& route, LightKind light, bool touches_hair) {
+  return (light != LightKind::kMedium && !touches_hair) ||
+         !estimator_type(route.estimator).starts_at_lights;
 }
 
 int owner_of(const WordMatches& matches, std::span<const RouteDefinition> routes, LightKind light) {
   for (const int r : matches.routes)
-    if (can_reach(routes[static_cast<size_t>(r)], light)) return r;
+    if (can_reach(routes[static_cast<size_t>(r)], light, matches.touches_hair)) return r;
   return kNoRoute;
 }
 

@@ -12,8 +12,9 @@ namespace nephroid {
 
 inline constexpr int kNoRoute = -1;
 
-/// True if the route's estimator can make light of this kind at all.
-bool can_reach(const RouteDefinition& route, LightKind light);
+/// True if the route's estimator can make such light at all. What starts at lights cannot start in
+/// a medium, and cannot pass hair: its scattering is known for walks from the eye only (ADR 9).
+bool can_reach(const RouteDefinition& route, LightKind light, bool touches_hair);
 
 /// The first of the routes that match a word and can reach its light, or kNoRoute.
 int owner_of(const WordMatches& matches, std::span<const RouteDefinition> routes, LightKind light);

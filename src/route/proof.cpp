@@ -44,9 +44,12 @@ class Prover {
                            in_.classes.events.size(), events_, event_symbols_);
     choose_representatives(in_.classes.light_class, in_.symbols ? &in_.symbols->lights : nullptr,
                            in_.classes.lights.size(), lights_, light_symbols_);
-    if (!in_.symbols)
+    if (!in_.symbols) {
       std::erase_if(lights_,
                     [&](int l) { return in_.classes.kind_of_light(l) == LightKind::kMedium; });
+      std::erase_if(events_,
+                    [&](int e) { return in_.classes.class_of_event(e) == EventClass::kHair; });
+    }
     full_events_ = in_.classes.events.size() > kEventClasses;
     full_lights_ = lights_need_detail();
   }
@@ -149,8 +152,8 @@ class Prover {
       }
     report(Kind::kUnreachable, true,
            owner_text(route) +
-               " owns no path: it matches light from media only, and its "
-               "estimator starts at lights",
+               " owns no path: it matches only light that media emit or that touches hair, and "
+               "its estimator starts at lights",
            "");
   }
 
@@ -164,7 +167,7 @@ class Prover {
                   {true, s.ends.rough || !specular, s.ends.any ? s.ends.first_specular : specular,
                    specular}};
         });
-    std::optional<std::string> hole, medium_hole;
+    std::optional<std::string> hole, medium_hole, hair_hole;
     struct NeverSampled {
       int rank = 0;
       std::string witness;
@@ -176,16 +179,18 @@ class Prover {
         const LightKind light = in_.classes.kind_of_light(l);
         const int route = route_at(s.state, l);
         if (route == kNoRoute) {
-          std::optional<std::string>& found = light == LightKind::kMedium ? medium_hole : hole;
+          std::optional<std::string>& found = light == LightKind::kMedium     ? medium_hole
+                                              : touches_hair(search.word(n)) ? hair_hole
+                                                                             : hole;
           if (!found) found = text(search.word(n), l);
           continue;
         }
         std::string& example = proof_.examples[static_cast<size_t>(route)];
         if (example.empty()) example = text(search.word(n), l);
-        NeverSampled& worst = never[static_cast<size_t>(route)];
+        NeverSampled& best = never[static_cast<size_t>(route)];
         const int rank =
             never_sampled(in_.routes[static_cast<size_t>(route)].estimator, s.ends, light);
-        if (rank > worst.rank) worst = {rank, text(search.word(n), l)};
+        if (rank > best.rank) best = {rank, text(search.word(n), l)};
       }
     if (hole)
       report(Kind::kHole, true,
@@ -196,22 +201,31 @@ class Prover {
              "no route that can reach light from media matches " + *medium_hole +
                  ": expected one of path",
              *medium_hole);
+    if (hair_hole)
+      report(Kind::kHole, true,
+             "no route that can follow light from hair matches " + *hair_hole +
+                 ": expected one of path",
+             *hair_hole);
     for (size_t r = 0; r < never.size(); ++r)
       if (never[r].rank > 0)
         report(Kind::kNeverSampled, false,
                never_sampled_text(static_cast<int>(r), never[r].witness), never[r].witness);
   }
 
-  // 0 if the estimator can make the word, else the more the worse: a caustic is missed more than a
-  // light at a point that nobody expects to see.
+  bool touches_hair(const std::vector<int>& word) const {
+    return std::any_of(word.begin(), word.end(), [&](int e) {
+      return in_.classes.class_of_event(e) == EventClass::kHair;
+    });
+  }
+
+  // 0 if the estimator can make the word or no other can (that nobody sees a light at a point in a
+  // mirror is no fault of a route), else the more the better it serves as a witness.
   static int never_sampled(EstimatorKind estimator, const Ends& ends, LightKind light) {
-    if (estimator == EstimatorKind::kPath &&
-        (light == LightKind::kPoint || light == LightKind::kDistant))
-      return !ends.any ? 1 : !ends.last_specular ? 0 : ends.rough ? 3 : 2;
-    if (estimator == EstimatorKind::kLightTrace) {
-      if (ends.any) return ends.first_specular ? 2 : 0;
-      return light == LightKind::kShape ? 0 : 1;
-    }
+    const bool is_hit = light != LightKind::kPoint && light != LightKind::kDistant;
+    if (estimator == EstimatorKind::kPath) return !is_hit && ends.rough && ends.last_specular;
+    if (estimator == EstimatorKind::kLightTrace)
+      return ends.any ? 2 * (ends.first_specular && (ends.rough || is_hit))
+                      : light == LightKind::kEnvironment;
     return 0;
   }
   std::string never_sampled_text(int route, const std::string& witness) const {
@@ -283,7 +297,7 @@ class Prover {
         const LightKind light = in_.classes.kind_of_light(l);
         const int owner = owner_of(m, in_.routes, light);
         for (const int r : m.routes) {
-          if (r <= owner || r == last || !can_reach(in_.routes[static_cast<size_t>(r)], light))
+          if (r <= owner || r == last || !can_reach(in_.routes[static_cast<size_t>(r)], light, m.touches_hair))
             continue;
           if (!reported.insert({owner, r}).second) continue;
           const std::string witness = text(search.word(n), l);

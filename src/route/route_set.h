@@ -19,7 +19,7 @@ struct EstimatorType {
   const char* name;  ///< as routes write it: path, photons, sppm, lighttrace, photons+light
   const char* help;  ///< one sentence
   bool merges;       ///< each of its paths must have exactly one vertex where photons are merged
-  bool starts_at_lights;  ///< light that a medium emits is out of its reach
+  bool starts_at_lights;  ///< light that a medium emits or that touches hair is out of its reach
 };
 std::span<const EstimatorType> estimator_types();
 const EstimatorType& estimator_type(EstimatorKind kind);

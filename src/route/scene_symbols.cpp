@@ -48,7 +48,7 @@ SceneSymbols::SceneSymbols(const Scene& scene, const std::vector<std::string>& l
     materials_.push_back(label);
     if (material.is_interface()) continue;
     if (curves || !material.merges_photons())
-      present_.events[event_symbol(EventClass::kVolume, false, label)] = true;
+      present_.events[event_symbol(EventClass::kHair, false, label)] = true;
     if (!material.merges_photons()) continue;
     for (const EventClass c : kSurfaceClasses) {
       if (!contains(material.possible_classes(), c)) continue;

@@ -1,5 +1,5 @@
 // Subset construction (Rabin & Scott 1959) over the automata of all routes and AOVs, with and
-// without their marks. A state is a set of places in expressions, and whether a mark was read.
+// without their marks. A state is a set of places in expressions, and whether a mark and whether hair was read.
 // Who calls it: through automaton.h.
 #include <algorithm>
 #include <map>
@@ -24,7 +24,7 @@ class SubsetConstruction {
     a.events = classes_.events.size();
     a.lights = classes_.lights.size();
     a.start = number(start_set());
-    a.dead = number({true, {}});
+    a.dead = number({true, false, {}});
     for (size_t s = 0; s < states_.size(); ++s) {
       const Subset subset = states_[s]->first;
       for (size_t e = 0; e < a.events; ++e) {
@@ -42,6 +42,7 @@ class SubsetConstruction {
  private:
   struct Subset {
     bool is_marked = false;
+    bool touches_hair = false;
     std::vector<int> places;  ///< states with an atom, in order
     auto operator<=>(const Subset&) const = default;
   };
@@ -84,7 +85,8 @@ class SubsetConstruction {
   }
 
   Subset after(const Subset& subset, size_t event, bool merge) {
-    Subset result{subset.is_marked || merge, {}};
+    const bool is_hair = classes_.class_of_event(static_cast<int>(event)) == EventClass::kHair;
+    Subset result{subset.is_marked || merge, subset.touches_hair || is_hair, {}};
     ++stamp_;
     for (const int s : subset.places) {
       const Nfa::State& state = nfa_.states[static_cast<size_t>(s)];
@@ -97,7 +99,7 @@ class SubsetConstruction {
     // Once there is a mark only what obeys it counts.
     const auto obeys = [&](int s) { return obeys_marks(nfa_.states[static_cast<size_t>(s)].copy); };
     if (result.is_marked && std::none_of(result.places.begin(), result.places.end(), obeys))
-      result.places.clear();
+      result = {true, false, {}};
     std::sort(result.places.begin(), result.places.end());
     return result;
   }
@@ -133,6 +135,7 @@ class SubsetConstruction {
     }
     WordMatches m;
     m.is_marked = subset.is_marked;
+    m.touches_hair = subset.touches_hair;
     for (size_t i = 0; i < copies_.routes; ++i) {
       if (accepted[i]) m.routes.push_back(static_cast<int>(i));
       const int marked = copies_.marked_copy[i];

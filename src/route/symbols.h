@@ -14,9 +14,9 @@ namespace nephroid {
 /// Labels that no expression mentions are all the same to it: label 0. The others count from 1.
 using Label = uint16_t;
 
-/// Kind of an event: the low three bits of an EventSymbol. Volume events have no side.
-enum class EventKind : uint8_t { kDR, kDT, kGR, kGT, kSR, kST, kV };
-inline constexpr int kEventKinds = 7;
+/// Kind of an event: the low three bits of an EventSymbol. V and H have no side.
+enum class EventKind : uint8_t { kDR, kDT, kGR, kGT, kSR, kST, kV, kH };
+inline constexpr int kEventKinds = 8;
 
 /// An event: 8 * label + kind.
 using EventSymbol = uint16_t;
@@ -26,6 +26,7 @@ constexpr EventSymbol event_symbol(EventKind kind, Label label) {
 }
 constexpr EventSymbol event_symbol(EventClass c, bool transmitted, Label label) {
   const int kind = c == EventClass::kVolume ? static_cast<int>(EventKind::kV)
+                   : c == EventClass::kHair ? static_cast<int>(EventKind::kH)
                                             : 2 * static_cast<int>(c) + (transmitted ? 1 : 0);
   return static_cast<EventSymbol>(label << 3 | kind);
 }
@@ -36,7 +37,8 @@ constexpr Label label_of(EventSymbol s) {
   return static_cast<Label>(s >> 3);
 }
 constexpr EventClass class_of(EventKind kind) {
-  return static_cast<EventClass>(static_cast<int>(kind) >> 1);
+  return kind == EventKind::kH ? EventClass::kHair
+                               : static_cast<EventClass>(static_cast<int>(kind) >> 1);
 }
 constexpr bool is_transmission(EventKind kind) {
   return kind == EventKind::kDT || kind == EventKind::kGT || kind == EventKind::kST;

@@ -102,7 +102,7 @@ std::vector<bool> any_class(const std::vector<ClassMask>& masks, size_t states) 
   return any;
 }
 
-constexpr ClassMask kEveryClass = ClassMask::kAll | ClassMask::kVolume;
+constexpr ClassMask kEveryClass = ClassMask::kEvery;
 
 }  // namespace
 

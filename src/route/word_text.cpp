@@ -14,10 +14,11 @@ std::string label_text(Label label, std::span<const std::string> labels) {
 }  // namespace
 
 std::string event_text(EventSymbol e, std::span<const std::string> labels, bool full) {
-  const char letter = "DGSV"[static_cast<size_t>(class_of(kind_of(e)))];
+  const char letter = "DGSVH"[static_cast<size_t>(class_of(kind_of(e)))];
   if (!full) return {letter};
   const std::string label = label_text(label_of(e), labels);
-  if (kind_of(e) == EventKind::kV) return label.empty() ? "V" : "<V" + label + ">";
+  if (kind_of(e) == EventKind::kV || kind_of(e) == EventKind::kH)
+    return label.empty() ? std::string{letter} : std::string{'<', letter} + label + ">";
   return std::string("<") + (is_transmission(kind_of(e)) ? 'T' : 'R') + letter + label + ">";
 }
 

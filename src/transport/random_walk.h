@@ -79,7 +79,7 @@ struct WalkVertex {
   /// happened to see.
   ClassMask possible;
   bool mixed = false;  ///< other walks may meet another material here
-  /// False in a guise where photons cannot be merged: its events count as V.
+  /// False in a guise where photons cannot be merged, hair and other curves: its events are H.
   bool merges = true;
   /// Light that went under the surface elsewhere comes out here: a walk leaves, it does not arrive.
   bool subsurface_exit = false;
@@ -88,11 +88,11 @@ struct WalkVertex {
   /// True if light that leaves along the local direction `wi` is transmitted.
   bool transmits(const Vec3f& wi) const { return subsurface_exit || wo.z * wi.z < 0.0f; }
   /// The letter of an event of class `c` here.
-  EventClass letter(EventClass c) const { return merges ? c : EventClass::kVolume; }
+  EventClass letter(EventClass c) const { return merges ? c : EventClass::kHair; }
   /// Classes of events whose letters are among `letters`.
   ClassMask classes_of(ClassMask letters) const {
     if (merges) return letters & ClassMask::kAll;
-    return contains(letters, EventClass::kVolume) ? ClassMask::kAll : ClassMask::kNone;
+    return contains(letters, EventClass::kHair) ? ClassMask::kAll : ClassMask::kNone;
   }
 };
 

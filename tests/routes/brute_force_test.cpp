@@ -176,7 +176,8 @@ TEST(Presets, Split) {
 TEST(Presets, AllPhotons) {
   const Tree emission =
       Tree::choice({Tree::sequence({Tree::repeat(letters("SV"), 0, -1), letters("L")}),
-                    Tree::sequence({any(), letters("M")})});
+                    Tree::sequence({any(), letters("M")}),
+                    Tree::sequence({any(), letters("H"), any(), letters("L")})});
   compare_preset("all-photons",
                  {{"emission", Tree::sequence({letters("C"), emission}), EstimatorKind::kPath},
                   {"photons", any(), EstimatorKind::kPhotons}});

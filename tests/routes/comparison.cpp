@@ -22,7 +22,8 @@ SymbolSet all_symbols(const Routes& routes, bool media) {
   const size_t labels = routes.labels().size() + 1;
   SymbolSet all{std::vector<bool>(8 * labels), std::vector<bool>(8 * labels)};
   for (size_t label = 0; label < labels; ++label) {
-    for (size_t k = 0; k < kEventKinds; ++k) all.events[8 * label + k] = true;
+    for (size_t k = 0; k < kEventKinds; ++k)
+      all.events[8 * label + k] = media || static_cast<EventKind>(k) != EventKind::kH;
     for (size_t k = 0; k < kLightKinds; ++k)
       all.lights[8 * label + k] = media || static_cast<LightKind>(k) != LightKind::kMedium;
   }
@@ -89,6 +90,7 @@ void Comparison::push(int event) {
   for (size_t a = 0; a < now.aovs.size(); ++a)
     now.aovs[a] = set_.aov(static_cast<int>(a)).step(now.aovs[a], plain);
   now.present = before.present && event_present(event);
+  now.hair = before.hair || kind_of(e) == EventKind::kH;
   for (size_t g = 0; g < now.useful.size(); ++g)
     if (routes_.groups()[g].estimator == EstimatorKind::kPath)
       now.useful[g] = before.useful[g] && has(routes_.useful(g, before.eye, label_of(e)), e);
@@ -134,7 +136,7 @@ void Comparison::check_lights() {
       Machine& machine = set_.route(r);
       if (!machine.accepts(machine.step(read.routes[size_t(r)], light))) continue;
       matching.push_back(r);
-      if (owner < 0 && set_.can_own(r, l)) owner = r;
+      if (owner < 0 && set_.can_own(r, l, read.hair)) owner = r;
     }
     for (int a = 0; a < static_cast<int>(read.aovs.size()); ++a)
       if (set_.aov(a).accepts(set_.aov(a).step(read.aovs[size_t(a)], light))) aovs.push_back(a);
@@ -220,7 +222,8 @@ void Comparison::check_useful(int route, Part part) {
 }
 
 void Comparison::note_defects(int route, const std::vector<int>& matching) {
-  const bool glow = set_.alphabet().light_kind(path_.light) == LightKind::kMedium;
+  const bool glow = set_.alphabet().light_kind(path_.light) == LightKind::kMedium ||
+                    read_[length()].hair;
   if (route < 0) {
     (glow ? dark_medium_ : hole_) = true;
     return;
@@ -236,7 +239,7 @@ void Comparison::note_defects(int route, const std::vector<int>& matching) {
     if (vertices_.empty() && defects_.count({Kind::kNoMergeVertex, route}) == 0 &&
         !set_.facts(path_).marked_twice)
       defects_.emplace(Kind::kNoMergeVertex, route);
-  } else if (!set_.can_sample(route, path_, 0)) {
+  } else if (!set_.can_sample(route, path_, 0) && set_.somebody_can_sample(path_)) {
     defects_.emplace(Kind::kNeverSampled, route);
   }
 }

@@ -74,7 +74,7 @@ class Comparison {
     EyeState eye = 0;
     std::vector<Machine::State> routes, aovs;
     std::vector<std::vector<Machine::State>> marked;  // [route][event that is marked]
-    bool present = true;
+    bool present = true, hair = false;
     std::vector<bool> useful;  // [group]: camera walks are told to go on
   };
   std::vector<Read> read_;

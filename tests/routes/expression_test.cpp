@@ -60,7 +60,7 @@ TEST(Expression, MistakesAreShownWithACaret) {
       {"a=C[]L:path", 5, "empty set"},
       {"a=C[D^S]L:path", 6, "'^' stands first"},
       {"a=C[D.]L:path", 6, "any symbol"},
-      {"a=C[^CDGSVL]L:path", 4, "leaves no symbol"},
+      {"a=C[^CDGSVHL]L:path", 4, "leaves no symbol"},
       {"a=C<DR>L:path", 5, "expected the side, R, T or '.', found 'D'"},
       {"a=C<R>L:path", 6, "expected the class"},
       {"a=C<RV>L:path", 6, "V has no side"},
@@ -134,12 +134,12 @@ TEST(Expression, LabelsMayHoldWhatElseHasAMeaning) {
   EXPECT_EQ(mentioned_labels(routes, {}), std::vector<std::string>{"a:b [c] @"});
 }
 
-// Plain words of up to four events over D, G, S and V that an expression matches, with an emissive
+// Plain words of up to four events over D, G, S, V and H that an expression matches, with an emissive
 // shape as the light; `aov` stands for any expression, since layers need no partition.
 std::vector<std::string> matched(const std::string& expression) {
   const Routes routes = compiled({"rest=.*:path"}, {"x=" + expression}).routes;
   std::vector<std::string> result;
-  for (const std::string& w : words(4, "DGSV")) {
+  for (const std::string& w : words(4, "DGSVH")) {
     const Part part = routes.owner(read_from_eye(routes, w), light_symbol(LightKind::kShape, 0));
     if (!routes.parts()[part].aovs.empty()) result.push_back(w);
   }
@@ -157,18 +157,18 @@ TEST(Expression, Grammar) {
   EXPECT_EQ(matched("C(DS){2}L"), Words{"DSDS"});
   EXPECT_EQ(matched("C(D?S?)*VL").size(), words(3, "DS").size());
   EXPECT_EQ(matched("C[DG]L"), (Words{"D", "G"}));
-  EXPECT_EQ(matched("C[^S]L"), (Words{"D", "G", "V"}));
+  EXPECT_EQ(matched("C[^S]L"), (Words{"D", "G", "V", "H"}));
   EXPECT_EQ(matched("C<.[^S]>L"), (Words{"D", "G"}));
-  EXPECT_EQ(matched("C<..>L"), (Words{"D", "G", "S", "V"}));
+  EXPECT_EQ(matched("C<..>L"), (Words{"D", "G", "S", "V", "H"}));
   EXPECT_EQ(matched("CRL"), (Words{"D", "G", "S"}));
   EXPECT_EQ(matched("C<R.>L"), (Words{"D", "G", "S"}));
-  EXPECT_EQ(matched("C.{2}"), (Words{"D", "G", "S", "V"}));
+  EXPECT_EQ(matched("C.{2}"), (Words{"D", "G", "S", "V", "H"}));
   EXPECT_EQ(matched("C.@L"), (Words{"D", "G"}));
   EXPECT_EQ(matched("C[D<RS>]L"), (Words{"D", "S"}));
   EXPECT_EQ(matched("CT*L"), Words{""});
   EXPECT_EQ(matched("C<TD>*L"), Words{""});
   EXPECT_EQ(matched("CB|C<..'wall'>+L|CDO"), Words{"D"});
-  EXPECT_EQ(matched(".*").size(), words(4, "DGSV").size());
+  EXPECT_EQ(matched(".*").size(), words(4, "DGSVH").size());
 }
 
 TEST(Expression, SidesLabelsAndKindsOfLights) {

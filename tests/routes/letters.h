@@ -13,6 +13,7 @@ inline EventSymbol event_of(char letter) {
   const EventClass c = letter == 'D'   ? EventClass::kDiffuse
                        : letter == 'G' ? EventClass::kGlossy
                        : letter == 'S' ? EventClass::kSpecular
+                       : letter == 'H' ? EventClass::kHair
                                        : EventClass::kVolume;
   return event_symbol(c, false, 0);
 }

@@ -63,7 +63,7 @@ struct Atom {
 };
 
 /// Bits of all event kinds, of D and G, and of all light kinds.
-inline constexpr unsigned kAllEvents = 0x7f, kRoughEvents = 0x0f, kAllLights = 0x1f;
+inline constexpr unsigned kAllEvents = 0xff, kRoughEvents = 0x0f, kAllLights = 0x1f;
 
 struct Tree {
   enum class Kind { kAtom, kSequence, kChoice, kRepeat };

@@ -25,6 +25,8 @@ unsigned class_bits(char letter) {
       return bit(EventKind::kSR) | bit(EventKind::kST);
     case 'V':
       return bit(EventKind::kV);
+    case 'H':
+      return bit(EventKind::kH);
     case '.':
       return kAllEvents;
     default:
@@ -37,7 +39,7 @@ unsigned side_bits(char letter) {
   const unsigned t = bit(EventKind::kDT) | bit(EventKind::kGT) | bit(EventKind::kST);
   switch (letter) {
     case 'R':
-      return kAllEvents & ~t & ~bit(EventKind::kV);
+      return (kRoughEvents & ~t) | bit(EventKind::kSR);
     case 'T':
       return t;
     case '.':
@@ -92,8 +94,8 @@ std::optional<Atom> atom_of(const std::string& text, const std::vector<std::stri
     }
     if (inside.empty() || inside.size() > 2) return {};
     const char first = inside[0], second = inside.size() == 2 ? inside[1] : '.';
-    if (first == 'V')
-      atom.events = second == '.' ? bit(EventKind::kV) : 0;
+    if (first == 'V' || first == 'H')
+      atom.events = second == '.' ? class_bits(first) : 0;
     else if (light_bits(first) != 0)
       atom.lights = second == '.' ? light_bits(first) : 0;
     else if (side_bits(first) != 0)
@@ -151,6 +153,21 @@ OracleRoutes::OracleRoutes(std::vector<OracleRoute> routes, std::vector<OracleRo
     layers_.emplace_back(aov.expression, alphabet_, Atom::Marks::kIgnore);
 }
 
+bool OracleRoutes::touches_hair(const Path& path) const {
+  return std::any_of(path.events.begin(), path.events.end(),
+                     [&](int e) { return alphabet_.event_kind(e) == EventKind::kH; });
+}
+
+bool OracleRoutes::somebody_can_sample(const Path& path) const {
+  const auto specular = [&](int e) {
+    const EventKind k = alphabet_.event_kind(e);
+    return k == EventKind::kSR || k == EventKind::kST;
+  };
+  const LightKind light = alphabet_.light_kind(path.light);
+  return (light != LightKind::kPoint && light != LightKind::kDistant) ||
+         !std::all_of(path.events.begin(), path.events.end(), specular);
+}
+
 bool OracleRoutes::can_sample(int route, const Path& path, size_t merge_vertices) const {
   const auto kind_at = [&](size_t i) { return alphabet_.event_kind(path.events[i]); };
   const auto specular = [](EventKind k) { return k == EventKind::kSR || k == EventKind::kST; };
@@ -168,7 +185,7 @@ PathFacts OracleRoutes::facts(const Path& path) {
   for (int r = 0; r < static_cast<int>(routes_.size()); ++r) {
     if (!accepts(route(r), alphabet_, path, {})) continue;
     facts.matching.push_back(r);
-    if (!facts.owner && can_own(r, path.light)) facts.owner = r;
+    if (!facts.owner && can_own(r, path.light, touches_hair(path))) facts.owner = r;
   }
   for (int a = 0; a < static_cast<int>(aovs_.size()); ++a)
     if (accepts(aov(a), alphabet_, path, {})) facts.aovs.push_back(a);

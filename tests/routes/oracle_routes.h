@@ -54,10 +54,14 @@ class OracleRoutes {
   Machine& aov(int i) { return layers_[size_t(i)]; }
   Machine* merging(int i) { return merging_[size_t(i)] ? &*merging_[size_t(i)] : nullptr; }
 
-  /// True if a path from this light can be owned by the route.
-  bool can_own(int route, int light) const {
-    return alphabet_.light_kind(light) != LightKind::kMedium || !type(route).starts_at_lights;
+  bool touches_hair(const Path& path) const;
+  /// True if a path from this light, with an H or without, can be owned by the route.
+  bool can_own(int route, int light, bool hair) const {
+    return (alphabet_.light_kind(light) != LightKind::kMedium && !hair) ||
+           !type(route).starts_at_lights;
   }
+  /// True if any estimator has a technique for the path.
+  bool somebody_can_sample(const Path& path) const;
   /// True if the estimator of the route has a technique for the path, whose owner it is.
   bool can_sample(int route, const Path& path, size_t merge_vertices) const;
 

@@ -25,11 +25,11 @@ RandomRoutes::RandomRoutes(uint32_t seed, std::vector<std::string> labels)
 
 Atom RandomRoutes::event() {
   static const char* const kLetters[] = {"D", "D", "D", "S", "S", "S", "S",
-                                         "G", "G", "V", "R", "T", "."};
+                                         "G", "G", "V", "H", "R", "T", "."};
   static const char* const kPairs[] = {"<RD>", "<TS>", "<RS>", "<.D>", "<.S>", "<T.>",
                                        "<R.>", "<..>", "<TG>", "<TD>", "<V>",  "<V.>"};
   static const char* const kSets[] = {"DG", "SV", "DSG", "RV", "DT", "SD"};
-  static const char* const kOthers[] = {"S", "D", "DG", "V", "T", "SL", "O", "C"};
+  static const char* const kOthers[] = {"S", "D", "DG", "V", "H", "T", "SL", "O", "C"};
   const int choice = below(100);
   if (!labels_.empty() && choice < 35) {
     const int label = 1 + below(static_cast<int>(labels_.size()));

@@ -70,16 +70,17 @@ TEST(Routes, TheBitsAndTheTableOfThePaperAgree) {
   }
 }
 
-TEST(Routes, ThePaperNeedsTenStatesFromTheEyeAndFiveFromTheLight) {
+TEST(Routes, ThePaperNeedsElevenStatesFromTheEyeAndFiveFromTheLight) {
   // From the eye, without a merge: nothing rough yet; something rough but no D or G yet (V); D
   // last;
-  // ... and all of these again once the D or G where photons are merged is behind. A minimal
-  // automaton has no two states that agree on all continuations.
+  // ... and all of these again once the D or G where photons are merged is behind; and hair, which
+  // nothing that follows can change. A minimal automaton has no two states that agree on all
+  // continuations.
   const Routes routes = preset("doidge2012");
   const RouteTables& t = routes.tables();
-  EXPECT_EQ(t.eye_states, 10u);
+  EXPECT_EQ(t.eye_states, 11u);
   EXPECT_EQ(t.light_states, 5u);
-  EXPECT_LT(t.eye_next.bytes() + t.merge_next.bytes(), 200u);
+  EXPECT_LT(t.eye_next.bytes() + t.merge_next.bytes(), 220u);
 }
 
 TEST(Routes, EachCausticWordIsMergedExactlyOnce) {
@@ -116,7 +117,7 @@ TEST(Routes, UselessWalksEnd) {
   const Routes routes = preset("doidge2012");
   const size_t photons = group_of(routes, EstimatorKind::kPhotons);
   const size_t path = group_of(routes, EstimatorKind::kPath);
-  constexpr ClassMask all = ClassMask::kAll | ClassMask::kVolume;
+  constexpr ClassMask all = ClassMask::kEvery;
   // A photon that left two rough surfaces without a specular one is no caustic any more.
   const LightState once = read_from_light(routes, "D");
   EXPECT_EQ(routes.useful_before_deposit(photons, once, 0), ClassMask::kSpecular);

@@ -21,9 +21,15 @@ enum class TransportMode : uint8_t { kRadiance, kImportance };
 
 /// The class of a scattering event, its letter in light path expressions: D diffuse; G glossy, a
 /// lobe with a preferred direction but rough enough to connect or merge at; S is not; V happens in
-/// a medium, so no BSDF has it.
-enum class EventClass : uint8_t { kDiffuse = 0, kGlossy = 1, kSpecular = 2, kVolume = 3 };
-inline constexpr size_t kEventClasses = 4;
+/// a medium, H on hair and other curves, whatever their lobes are, so no BSDF has these two.
+enum class EventClass : uint8_t {
+  kDiffuse = 0,
+  kGlossy = 1,
+  kSpecular = 2,
+  kVolume = 3,
+  kHair = 4
+};
+inline constexpr size_t kEventClasses = 5;
 inline constexpr EventClass kSurfaceClasses[] = {EventClass::kDiffuse, EventClass::kGlossy,
                                                  EventClass::kSpecular};
 
@@ -35,7 +41,9 @@ enum class ClassMask : uint8_t {
   kRough = 3,
   kSpecular = 4,
   kAll = 7,
-  kVolume = 8
+  kVolume = 8,
+  kHair = 16,
+  kEvery = 31
 };
 constexpr ClassMask mask_of(EventClass c) {
   return static_cast<ClassMask>(1 << static_cast<int>(c));
