@@ -20,7 +20,7 @@ namespace {
 /// Pixels of the longer side of the pilot's picture.
 constexpr int kPilotSize = 128;
 
-size_t longest(const std::vector<RouteDefinition>& routes, std::string RouteDefinition::* text) {
+size_t longest(const std::vector<RouteDefinition>& routes, std::string RouteDefinition::*text) {
   size_t length = 0;
   for (const RouteDefinition& route : routes) length = std::max(length, (route.*text).size());
   return length;
@@ -119,9 +119,9 @@ void print_pilot(const RoutesCommand& command, const RoutePlan& plan,
 
 int run_routes(const RoutesCommand& command) {
   if (command.scene.empty()) {
-    const RoutePlan plan = plan_of(command.routes, command.routes.integrator.empty()
-                                                       ? kDefaultIntegrator
-                                                       : command.routes.integrator);
+    const RoutePlan plan =
+        plan_of(command.routes,
+                command.routes.integrator.empty() ? kDefaultIntegrator : command.routes.integrator);
     const RouteCompilation compiled = compile_routes(plan.routes, plan.aovs);
     print_routes(plan, compiled);
     print_automaton(compiled.routes);
@@ -131,10 +131,9 @@ int run_routes(const RoutesCommand& command) {
   const LoadedScene loaded = load_small_scene(command.scene, command.overrides, kPilotSize);
   print_warnings(loaded);
   const Scene& scene = *loaded.scene;
-  const IntegratorChoice choice =
-      choose_integrator(command.routes.integrator.empty() ? kDefaultIntegrator
-                                                          : command.routes.integrator,
-                        scene.integrator, scene.integrator_parameters, command.settings);
+  const IntegratorChoice choice = choose_integrator(
+      command.routes.integrator.empty() ? kDefaultIntegrator : command.routes.integrator,
+      scene.integrator, scene.integrator_parameters, command.settings);
   const RoutePlan plan = plan_of(command.routes, choice.name);
   const SceneSymbols symbols(scene, mentioned_labels(plan.routes, plan.aovs));
   const RouteCompilation compiled = compile_routes(plan.routes, plan.aovs, &symbols.present());

@@ -43,19 +43,31 @@ template <class T>
 constexpr T sqr(T x) {
   return x * x;
 }
-inline float safe_sqrt(float x) { return std::sqrt(std::max(0.0f, x)); }
-inline float lerp(float t, float a, float b) { return (1.0f - t) * a + t * b; }
+inline float safe_sqrt(float x) {
+  return std::sqrt(std::max(0.0f, x));
+}
+inline float lerp(float t, float a, float b) {
+  return (1.0f - t) * a + t * b;
+}
 
-inline float dot(const Vec3f& a, const Vec3f& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline float abs_dot(const Vec3f& a, const Vec3f& b) { return std::abs(dot(a, b)); }
+inline float dot(const Vec3f& a, const Vec3f& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+inline float abs_dot(const Vec3f& a, const Vec3f& b) {
+  return std::abs(dot(a, b));
+}
 /// Cross product with the products taken in double, so that nearly parallel vectors keep digits.
 inline Vec3f cross(const Vec3f& a, const Vec3f& b) {
   const double ax = a.x, ay = a.y, az = a.z, bx = b.x, by = b.y, bz = b.z;
   return {static_cast<float>(ay * bz - az * by), static_cast<float>(az * bx - ax * bz),
           static_cast<float>(ax * by - ay * bx)};
 }
-inline float length_squared(const Vec3f& v) { return dot(v, v); }
-inline float length(const Vec3f& v) { return std::sqrt(length_squared(v)); }
+inline float length_squared(const Vec3f& v) {
+  return dot(v, v);
+}
+inline float length(const Vec3f& v) {
+  return std::sqrt(length_squared(v));
+}
 /// v / |v|. Scales first when |v|^2 would leave the range of float; a null vector stays null.
 inline Vec3f normalize(const Vec3f& v) {
   const float l2 = length_squared(v);
@@ -65,13 +77,19 @@ inline Vec3f normalize(const Vec3f& v) {
   const Vec3f s(v.x / m, v.y / m, v.z / m);
   return s * (1.0f / std::sqrt(length_squared(s)));
 }
-inline Vec3f abs(const Vec3f& v) { return {std::abs(v.x), std::abs(v.y), std::abs(v.z)}; }
-inline float max_component(const Vec3f& v) { return std::max({v.x, v.y, v.z}); }
+inline Vec3f abs(const Vec3f& v) {
+  return {std::abs(v.x), std::abs(v.y), std::abs(v.z)};
+}
+inline float max_component(const Vec3f& v) {
+  return std::max({v.x, v.y, v.z});
+}
 inline bool is_finite(const Vec3f& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 /// n or -n, whichever lies in the hemisphere of v.
-inline Vec3f face_forward(const Vec3f& n, const Vec3f& v) { return dot(n, v) < 0.0f ? -n : n; }
+inline Vec3f face_forward(const Vec3f& n, const Vec3f& v) {
+  return dot(n, v) < 0.0f ? -n : n;
+}
 
 /// Two unit vectors that make a right-handed frame with the unit vector z (Duff et al. 2017).
 inline void coordinate_system(const Vec3f& z, Vec3f* x, Vec3f* y) {
@@ -108,12 +126,24 @@ struct Frame {
 };
 
 /// Trigonometry of unit vectors in a local frame, z up.
-inline float cos_theta(const Vec3f& w) { return w.z; }
-inline float cos2_theta(const Vec3f& w) { return w.z * w.z; }
-inline float abs_cos_theta(const Vec3f& w) { return std::abs(w.z); }
-inline float sin2_theta(const Vec3f& w) { return std::max(0.0f, 1.0f - w.z * w.z); }
-inline float tan2_theta(const Vec3f& w) { return sin2_theta(w) / cos2_theta(w); }
-inline bool same_hemisphere(const Vec3f& a, const Vec3f& b) { return a.z * b.z > 0.0f; }
+inline float cos_theta(const Vec3f& w) {
+  return w.z;
+}
+inline float cos2_theta(const Vec3f& w) {
+  return w.z * w.z;
+}
+inline float abs_cos_theta(const Vec3f& w) {
+  return std::abs(w.z);
+}
+inline float sin2_theta(const Vec3f& w) {
+  return std::max(0.0f, 1.0f - w.z * w.z);
+}
+inline float tan2_theta(const Vec3f& w) {
+  return sin2_theta(w) / cos2_theta(w);
+}
+inline bool same_hemisphere(const Vec3f& a, const Vec3f& b) {
+  return a.z * b.z > 0.0f;
+}
 
 struct Ray {
   Vec3f o;

@@ -48,8 +48,7 @@ class PartSums {
     if (!(limit < kInfinity)) return;
     Rgb total;
     for (const Rgb& color : colors) total = total + color;
-    const float largest =
-        std::max({std::abs(total.r), std::abs(total.g), std::abs(total.b)});
+    const float largest = std::max({std::abs(total.r), std::abs(total.g), std::abs(total.b)});
     if (!(largest > limit)) return;
     for (Rgb& color : colors) color = color * (limit / largest);
   }

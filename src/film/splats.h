@@ -36,9 +36,9 @@ class SplatBuffer {
 
   /// Ends the pass: adds to the film, for each pixel, one estimate of the group: the sums times
   /// `scale` (1 over the number of light paths), plus what another technique found in the pass
-  /// (`also`: [pixel of the crop * parts + part], or empty), scaled down so that their total over the parts has
-  /// no component above the film's max_component. The buffer is then empty, for the next pass. The
-  /// caller adds 1 to the film's number of estimates.
+  /// (`also`: [pixel of the crop * parts + part], or empty), scaled down so that their total over
+  /// the parts has no component above the film's max_component. The buffer is then empty, for the
+  /// next pass. The caller adds 1 to the film's number of estimates.
   void finish(double scale, std::span<const Rgb> also = {});
 
   static constexpr size_t bytes_per_pixel(size_t parts) { return parts * sizeof(Sum); }

@@ -26,8 +26,7 @@ void refuse_type(const std::string& kind, const std::string& name,
   std::vector<std::string> known;
   for (const FormatType& type : types) {
     if (name == type.name)
-      throw SceneError(where,
-                       kind + " \"" + name + "\" is not rendered: " + type.note + expected);
+      throw SceneError(where, kind + " \"" + name + "\" is not rendered: " + type.note + expected);
     known.emplace_back(type.name);
   }
   const std::string meant = did_you_mean(name, known);

@@ -13,18 +13,18 @@ namespace nephroid {
 
 struct MeshData {
   std::vector<Vec3f> positions;
-  std::vector<Vec3f> normals;  ///< per vertex, or empty
-  std::vector<Vec2f> uvs;      ///< per vertex, or empty
-  std::vector<Vec3f> tangents; ///< per vertex, or empty
+  std::vector<Vec3f> normals;       ///< per vertex, or empty
+  std::vector<Vec2f> uvs;           ///< per vertex, or empty
+  std::vector<Vec3f> tangents;      ///< per vertex, or empty
   std::vector<uint32_t> triangles;  ///< three indices each
   std::vector<uint32_t> quads;      ///< four indices each, in ring order as PLY has them
-  std::vector<int> face_indices;  ///< of all triangles, then of all quads; or empty
+  std::vector<int> face_indices;    ///< of all triangles, then of all quads; or empty
 };
 
-/// Reads an ascii, binary_little_endian or binary_big_endian PLY file (".gz" is unpacked): vertex x,y,z,
-/// optional nx,ny,nz and u,v (also s,t and texture_u, texture_v); faces with 3 or 4 indices, larger
-/// ones as an error. Throws IoError or SceneError naming the file; a file shorter than its header
-/// says is an error and nothing is allocated on the header's word alone.
+/// Reads an ascii, binary_little_endian or binary_big_endian PLY file (".gz" is unpacked): vertex
+/// x,y,z, optional nx,ny,nz and u,v (also s,t and texture_u, texture_v); faces with 3 or 4 indices,
+/// larger ones as an error. Throws IoError or SceneError naming the file; a file shorter than its
+/// header says is an error and nothing is allocated on the header's word alone.
 MeshData read_ply(const std::string& path, const SourceLocation& wanted_by);
 
 }  // namespace nephroid

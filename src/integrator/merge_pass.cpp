@@ -61,8 +61,7 @@ MergePass merge_pass(const PassKey& key, const Scene& scene, const Film& film,
           if (!(r > 0.0f)) return;
           const float share = weight ? weight(path, at, r) : 1.0f;
           if (!(share > 0.0f)) return;
-          at.throughput =
-              at.throughput * (share / (static_cast<float>(photons) * kPi * r * r));
+          at.throughput = at.throughput * (share / (static_cast<float>(photons) * kPi * r * r));
           counts.found += merge_photons(grid, owned, at, options.max_depth, r, sums);
         };
         MergeWalkVisitor visitor(owned, merge);

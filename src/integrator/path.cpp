@@ -113,8 +113,7 @@ class PathVisitor {
     for (const EventClass c : kSurfaceClasses) {
       if (!contains(finite, c)) continue;
       for (const bool transmitted : {false, true})
-        if (routes_.ends(group_,
-                         routes_.next(eye_, event_symbol(v.letter(c), transmitted, label))))
+        if (routes_.ends(group_, routes_.next(eye_, event_symbol(v.letter(c), transmitted, label))))
           return true;
     }
     return false;
@@ -237,9 +236,9 @@ void PathEstimator::render_pass(const PassKey& key, const Scene& scene, Film& fi
         const SensorWeights weights =
             sensor_weights(path.walk.lambda, *settings.color_space, settings.imaging_ratio,
                            settings.white_balance);
-        film.add(group, x, y,
-                 light.colors(weights, path.camera_weight, settings.max_component,
-                              path.filter_weight));
+        film.add(
+            group, x, y,
+            light.colors(weights, path.camera_weight, settings.max_component, path.filter_weight));
         film.add_features(x, y, of_white(weights.apply(visitor.albedo()), white),
                           visitor.features().normal, visitor.features().depth);
         if (settings.gbuffer && visitor.features().depth > 0)

@@ -5,9 +5,7 @@
 namespace nephroid {
 
 PhotonMapping::PhotonMapping(OwnedRoutes owned, const IntegratorOptions& options)
-    : owned_(std::move(owned)),
-      options_(options),
-      photons_can_count_(photons_can_count(owned_)) {}
+    : owned_(std::move(owned)), options_(options), photons_can_count_(photons_can_count(owned_)) {}
 
 void PhotonMapping::render_pass(const PassKey& key, const Scene& scene, Film& film) {
   const int group = static_cast<int>(owned_.group);

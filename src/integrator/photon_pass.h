@@ -1,6 +1,6 @@
 // What the photon integrators share: the wavelengths, time, roughness threshold and photons of a
-// pass, and the camera walk that comes to every vertex where its routes may merge photons. Who calls
-// it: photon_mapping.cpp, sppm.cpp. It must not know how radii shrink.
+// pass, and the camera walk that comes to every vertex where its routes may merge photons. Who
+// calls it: photon_mapping.cpp, sppm.cpp. It must not know how radii shrink.
 #pragma once
 
 #include "integrator/estimator.h"

@@ -13,20 +13,20 @@ namespace nephroid {
 namespace {
 
 template <class T>
-std::unique_ptr<Estimator> make(OwnedRoutes owned, const IntegratorOptions& options,
-                                const Scene&) {
+std::unique_ptr<Estimator> make(OwnedRoutes owned, const IntegratorOptions& options, const Scene&) {
   return std::make_unique<T>(std::move(owned), options);
 }
 
 struct Row {
   EstimatorKind kind;
-  std::unique_ptr<Estimator> (*make)(OwnedRoutes, const IntegratorOptions&, const Scene&);
+  std::unique_ptr<Estimator> (*make)(OwnedRoutes, const IntegratorOptions&);
+  bool connects = false;  ///< to the camera
 };
 constexpr Row kTable[] = {{EstimatorKind::kPath, make<PathEstimator>},
                           {EstimatorKind::kPhotons, make<PhotonMapping>},
                           {EstimatorKind::kSppm, make<Sppm>},
-                          {EstimatorKind::kLightTrace, make<LightTracing>},
-                          {EstimatorKind::kPhotonsAndLight, make<VertexMerging>}};
+                          {EstimatorKind::kLightTrace, make<LightTracing>, true},
+                          {EstimatorKind::kPhotonsAndLight, make<VertexMerging>, true}};
 
 FilmLayout layout_of(const Routes& routes) {
   FilmLayout layout;
@@ -49,8 +49,8 @@ std::string quoted_list(const std::vector<std::string>& names) {
 }  // namespace
 
 Preset make_preset(const RoutePlan& plan, const IntegratorOptions& options, const Scene& scene) {
-  const auto symbols = std::make_shared<const SceneSymbols>(
-      scene, mentioned_labels(plan.routes, plan.aovs));
+  const auto symbols =
+      std::make_shared<const SceneSymbols>(scene, mentioned_labels(plan.routes, plan.aovs));
   RouteCompilation compilation = compile_routes(plan.routes, plan.aovs, &symbols->present());
   Preset preset;
   for (const RouteFinding& finding : compilation.findings)
@@ -63,9 +63,11 @@ Preset make_preset(const RoutePlan& plan, const IntegratorOptions& options, cons
       checked_routes(std::move(compilation), plan.strict).restricted_to(symbols->present()));
   preset.layout = layout_of(*preset.routes);
   for (size_t g = 0; g < preset.routes->groups().size(); ++g)
-    for (const Row& row : kTable)
-      if (row.kind == preset.routes->groups()[g].estimator)
-        preset.estimators.push_back(row.make({preset.routes, symbols, g}, options, scene));
+    for (const Row& row : kTable) {
+      if (row.kind != preset.routes->groups()[g].estimator) continue;
+      if (row.connects) require_connecting_camera(scene);
+      preset.estimators.push_back(row.make({preset.routes, symbols, g}, options));
+    }
   return preset;
 }
 

@@ -1,6 +1,6 @@
-// `sppm`: stochastic progressive photon mapping as published [E1], for the photons of its own routes.
-// Per pixel it keeps a radius, a photon count and the flux of each part, so its passes are a
-// sequence. Paper: Hachisuka & Jensen 2009.
+// `sppm`: stochastic progressive photon mapping as published [E1], for the photons of its own
+// routes. Per pixel it keeps a radius, a photon count and the flux of each part, so its passes are
+// a sequence. Paper: Hachisuka & Jensen 2009.
 #pragma once
 
 #include "integrator/estimator.h"

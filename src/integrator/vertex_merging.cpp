@@ -17,9 +17,7 @@ float merges_per_splat(const CameraConnection& line, const Vec3f& ng, float radi
 }  // namespace
 
 VertexMerging::VertexMerging(OwnedRoutes owned, const IntegratorOptions& options)
-    : owned_(std::move(owned)),
-      options_(options),
-      photons_can_count_(photons_can_count(owned_)) {}
+    : owned_(std::move(owned)), options_(options), photons_can_count_(photons_can_count(owned_)) {}
 
 void VertexMerging::render_pass(const PassKey& key, const Scene& scene, Film& film) {
   require_connecting_camera(scene);
@@ -36,8 +34,8 @@ void VertexMerging::render_pass(const PassKey& key, const Scene& scene, Film& fi
     const float m = merges_per_splat(*line, at.vertex.surface.ng, radius);
     return m / (1.0f + m);
   };
-  MergePass merged = merge_pass(key, scene, film, owned_, options_, radius_pixels, merge_weight,
-                                statistics_);
+  MergePass merged =
+      merge_pass(key, scene, film, owned_, options_, radius_pixels, merge_weight, statistics_);
   found_ += merged.found;
   const size_t parts = film.parts_of(group).size();
   for (size_t i = 0; i < merged.values.size(); ++i)
@@ -48,8 +46,8 @@ void VertexMerging::render_pass(const PassKey& key, const Scene& scene, Film& fi
     return 1.0f / (1.0f + merges_per_splat(line, v.surface.ng, radius));
   };
   SplatBuffer buffer(film, group, *scene.filter);
-  const int64_t paths = light_pass(key, scene, film, owned_, options_, splat_weight, buffer, found_,
-                                   statistics_);
+  const int64_t paths =
+      light_pass(key, scene, film, owned_, options_, splat_weight, buffer, found_, statistics_);
   buffer.finish(1.0 / static_cast<double>(paths), merged.values);
 }
 

@@ -1,6 +1,6 @@
 // `photons+light`: the paths that the camera sees through S lobes, or through a medium, are merged;
-// those whose first event can be connected to the camera are found in two ways, by merging there and
-// by light tracing, weighed against each other by multiple importance sampling ([X1] in
+// those whose first event can be connected to the camera are found in two ways, by merging there
+// and by light tracing, weighed against each other by multiple importance sampling ([X1] in
 // docs/estimators.md). Merging is good while its radius is large, light tracing has no bias. Paper:
 // Georgiev, Krivanek, Davidovic, Slusallek 2012; Hachisuka, Pantaleoni, Jensen 2012.
 #pragma once

@@ -17,11 +17,11 @@ inline constexpr float kMergeMinNormalCosine = 0.7f;
 /// A point at which a camera walk gathers.
 struct MergePoint {
   const WalkVertex& vertex;
-  EyeState eye = 0;       ///< of the eye side, this vertex excluded
+  EyeState eye = 0;                      ///< of the eye side, this vertex excluded
   ClassMask classes = ClassMask::kNone;  ///< that have finite lobes here and may merge
-  int events = 0;         ///< of the eye side, this vertex included
-  SampledSpectrum throughput;  ///< of the walk up to here
-  bool secondary_terminated = false;  ///< the walk kept only its hero wavelength
+  int events = 0;                        ///< of the eye side, this vertex included
+  SampledSpectrum throughput;            ///< of the walk up to here
+  bool secondary_terminated = false;     ///< the walk kept only its hero wavelength
 };
 
 /// Adds throughput * sum of f * flux to the parts that own the photons' paths, to be divided by

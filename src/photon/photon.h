@@ -10,9 +10,9 @@ struct Photon {
   SampledSpectrum flux;  ///< at the pass's wavelengths; of a photon that dropped its secondary
                          ///< wavelengths only the hero's is meaningful
   Vec3f p;
-  Vec3f wi;               ///< unit, back along the photon's path
-  Vec3f ng;               ///< geometric normal of the surface
-  LightState state = 0;   ///< of the light side, this vertex excluded
+  Vec3f wi;              ///< unit, back along the photon's path
+  Vec3f ng;              ///< geometric normal of the surface
+  LightState state = 0;  ///< of the light side, this vertex excluded
   uint8_t secondary_terminated = 0;
   uint16_t events = 0;  ///< scattering events before this vertex
 };

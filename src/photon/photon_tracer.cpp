@@ -33,9 +33,8 @@ class PhotonVisitor {
     return routes_.useful_before_deposit(group_, state_, label_at(symbols_, v));
   }
   bool scatters_in(const Medium& medium) const {
-    return contains(
-        routes_.useful_before_deposit(group_, state_, symbols_.medium(medium.index())),
-        EventClass::kVolume);
+    return contains(routes_.useful_before_deposit(group_, state_, symbols_.medium(medium.index())),
+                    EventClass::kVolume);
   }
   bool looks_under_surfaces() const { return false; }
 

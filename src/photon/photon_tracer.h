@@ -25,8 +25,8 @@ struct PhotonTraceSettings {
   int64_t photons_per_pass = 0;  ///< the sequence of a pass starts where the one before ended
   SampledWavelengths lambda;     ///< of the pass
   float time = 0;
-  float specular_alpha = 0;      ///< of the pass
-  int max_events = 0;  ///< of the whole path: a photon lands with fewer than these
+  float specular_alpha = 0;  ///< of the pass
+  int max_events = 0;        ///< of the whole path: a photon lands with fewer than these
 };
 
 /// Traces photons begin <= j < end of the pass and stores one at every surface with a finite lobe

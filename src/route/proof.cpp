@@ -179,7 +179,7 @@ class Prover {
         const LightKind light = in_.classes.kind_of_light(l);
         const int route = route_at(s.state, l);
         if (route == kNoRoute) {
-          std::optional<std::string>& found = light == LightKind::kMedium     ? medium_hole
+          std::optional<std::string>& found = light == LightKind::kMedium    ? medium_hole
                                               : touches_hair(search.word(n)) ? hair_hole
                                                                              : hole;
           if (!found) found = text(search.word(n), l);
@@ -213,9 +213,8 @@ class Prover {
   }
 
   bool touches_hair(const std::vector<int>& word) const {
-    return std::any_of(word.begin(), word.end(), [&](int e) {
-      return in_.classes.class_of_event(e) == EventClass::kHair;
-    });
+    return std::any_of(word.begin(), word.end(),
+                       [&](int e) { return in_.classes.class_of_event(e) == EventClass::kHair; });
   }
 
   // 0 if the estimator can make the word or no other can (that nobody sees a light at a point in a
@@ -297,7 +296,8 @@ class Prover {
         const LightKind light = in_.classes.kind_of_light(l);
         const int owner = owner_of(m, in_.routes, light);
         for (const int r : m.routes) {
-          if (r <= owner || r == last || !can_reach(in_.routes[static_cast<size_t>(r)], light, m.touches_hair))
+          if (r <= owner || r == last ||
+              !can_reach(in_.routes[static_cast<size_t>(r)], light, m.touches_hair))
             continue;
           if (!reported.insert({owner, r}).second) continue;
           const std::string witness = text(search.word(n), l);

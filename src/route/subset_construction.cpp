@@ -1,6 +1,6 @@
 // Subset construction (Rabin & Scott 1959) over the automata of all routes and AOVs, with and
-// without their marks. A state is a set of places in expressions, and whether a mark and whether hair was read.
-// Who calls it: through automaton.h.
+// without their marks. A state is a set of places in expressions, and whether a mark and whether
+// hair was read. Who calls it: through automaton.h.
 #include <algorithm>
 #include <map>
 #include <utility>

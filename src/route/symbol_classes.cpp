@@ -75,8 +75,8 @@ SymbolClasses classify_symbols(std::span<const ExpressionAtom* const> atoms,
   const auto event_key = [&](EventSymbol e) {
     std::vector<bool> key;
     for (const AtomReader& r : readers) key.push_back(r.reads_event(e));
-    for (const EventClass c : {EventClass::kDiffuse, EventClass::kGlossy, EventClass::kSpecular,
-                               EventClass::kVolume})
+    for (const EventClass c :
+         {EventClass::kDiffuse, EventClass::kGlossy, EventClass::kSpecular, EventClass::kVolume})
       key.push_back(class_of(kind_of(e)) == c);
     return key;
   };

@@ -125,7 +125,7 @@ class Scene {
   // order).
   std::vector<std::string> material_labels;  ///< [material index]
   std::vector<std::string> medium_labels;    ///< [medium index]
-  std::vector<std::string> light_labels;     ///< [light]; the lights of one AreaLightSource share it
+  std::vector<std::string> light_labels;  ///< [light]; the lights of one AreaLightSource share it
   std::vector<MediumPtr> media;
   const Medium* camera_medium = nullptr;
   std::unique_ptr<LightSampler> light_sampler;

@@ -43,7 +43,7 @@ void apply_settings(const SettingList& settings, IntegratorOptions* options);
 struct IntegratorChoice {
   std::string name;
   IntegratorOptions options;
-  std::vector<std::string> notes;  ///< what of the scene's line was not taken, for the report
+  std::vector<std::string> notes;     ///< what of the scene's line was not taken, for the report
   std::vector<std::string> warnings;  ///< what is wrong with it: "file:line:column: message"
 };
 

@@ -87,8 +87,7 @@ constexpr const char* kAovHelp =
     "One more layer of the picture: the light of all paths that match, whichever route renders "
     "them.";
 constexpr const char* kStrictHelp = "Overlapping routes are an error.";
-constexpr const char* kSettingHelp =
-    "Set a number of the integrator; may be given several times.";
+constexpr const char* kSettingHelp = "Set a number of the integrator; may be given several times.";
 
 void set_heat_map(CommandLine& line, const std::string& text) {
   const bool is_png = text.size() > 4 && text.compare(text.size() - 4, 4, ".png") == 0;
@@ -114,8 +113,8 @@ constexpr OptionDescription kOptions[] = {
      add_aov<&CommandLine::render>},
     {"render", "--quiet", "", "", "", "", "Output", "Print nothing but errors.", false,
      [](CommandLine& l, const std::string&) { l.render.quiet = true; }},
-    {"render", "--integrator", "", "NAME", "", "mixed", "Algorithm",
-     kIntegratorHelp, false, set_integrator<&CommandLine::render>},
+    {"render", "--integrator", "", "NAME", "", "mixed", "Algorithm", kIntegratorHelp, false,
+     set_integrator<&CommandLine::render>},
     {"render", "--routes", "", "PRESET|FILE", "", "those of the integrator", "Algorithm",
      kRoutesHelp, false, set_routes<&CommandLine::render>},
     {"render", "--route", "", "NAME=EXPR:ESTIMATOR", "", "", "Algorithm", kRouteHelp, true,

@@ -193,8 +193,8 @@ class RandomWalk {
   bool scatter_in_medium(const Collision& collision) {
     if (walk_.events >= max_events_) return false;
     walk_.length += collision.t;
-    const MediumVertex vertex{*walk_.medium, walk_.ray.o + walk_.ray.d * collision.t,
-                              -walk_.ray.d, collision.phase, walk_.ray.time};
+    const MediumVertex vertex{*walk_.medium, walk_.ray.o + walk_.ray.d * collision.t, -walk_.ray.d,
+                              collision.phase, walk_.ray.time};
     const int dimension = walk_.vertex_dimension();
     sampler_.start_dimension(dimension + dimensions::kLight);
     visitor_.medium_vertex(walk_, vertex, sampler_);

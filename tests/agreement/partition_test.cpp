@@ -13,12 +13,14 @@ using namespace testing_support;
 
 // Glass, varnish and a rough metal above a floor before a wall; two lamps and a dim sky. All lights
 // are large, so that path tracing finds every path.
-std::string world(const std::string& film = "\"integer xresolution\" 12 \"integer yresolution\" 12") {
+std::string world(
+    const std::string& film = "\"integer xresolution\" 12 \"integer yresolution\" 12") {
   return R"(
   LookAt 0 3.2 -4  0 0.4 0  0 1 0
   Camera "perspective" "float fov" 40
   PixelFilter "box" "float xradius" 0.5 "float yradius" 0.5
-  Film "rgb" )" + film + R"(
+  Film "rgb" )" +
+         film + R"(
   WorldBegin
   AttributeBegin
     Translate 0 3 0 Rotate 90 1 0 0
@@ -64,9 +66,9 @@ Film render_routes(const Scene& scene, const std::vector<std::string>& routes,
 
 // Routes of path tracing that do not look at what is useful.
 const char* const kExpressions[] = {
-    "C.*[DG]S+[DG]?L",        "C.*<L.'key'>",          "C[DG]L",      "C.*<..'glass'>.*L",
-    "C(S|G)+<.D'floor'>.*L",  "C.*B",                  "C.*<TS>.*L",  "C.{2,3}L",
-    "C.*<RG'brass'>.*O",   "C[^S]*L",
+    "C.*[DG]S+[DG]?L",       "C.*<L.'key'>", "C[DG]L",     "C.*<..'glass'>.*L",
+    "C(S|G)+<.D'floor'>.*L", "C.*B",         "C.*<TS>.*L", "C.{2,3}L",
+    "C.*<RG'brass'>.*O",     "C[^S]*L",
 };
 
 TEST(Partition, ARouteAndItsComplementAddUpInEveryPixelAndPass) {
@@ -85,8 +87,7 @@ TEST(Partition, ARouteAndItsComplementAddUpInEveryPixelAndPass) {
     };
     const auto all = one_pass({"all=.*:path"});
     for (const char* expression : kExpressions) {
-      const auto parts =
-          one_pass({std::string("some=") + expression + ":path", "rest=.*:path"});
+      const auto parts = one_pass({std::string("some=") + expression + ":path", "rest=.*:path"});
       double found = 0, total = 0;
       for (int y = 0; y < 12; ++y)
         for (int x = 0; x < 12; ++x) {
@@ -112,12 +113,12 @@ TEST(Partition, LayersOfAPartitionAddUpToThePicture) {
   const Film film = render_routes(
       *scene, {"caustic=C.*[DG]S+[DG]?L:photons", "seen=C[DG]+L:lighttrace", "rest=.*:path"},
       options, 4, 3,
-      {"key=C.*<L.'key'>", "sky=C.*<L.'sky'>", "others=C.*[^<L.'key'><L.'sky'>]",
-       "everything=.*"});
+      {"key=C.*<L.'key'>", "sky=C.*<L.'sky'>", "others=C.*[^<L.'key'><L.'sky'>]", "everything=.*"});
   for (int y = 0; y < 12; ++y)
     for (int x = 0; x < 12; ++x) {
       const Rgb beauty = film.value(x, y);
-      const Rgb lights = film.aov_value(0, x, y) + film.aov_value(1, x, y) + film.aov_value(2, x, y);
+      const Rgb lights =
+          film.aov_value(0, x, y) + film.aov_value(1, x, y) + film.aov_value(2, x, y);
       Rgb routes;
       for (int r = 0; r < 3; ++r) routes = routes + film.route_value(r, x, y);
       for (int c = 0; c < 3; ++c) {
@@ -225,10 +226,11 @@ TEST(RoughnessBand, MovesACausticFromOneRouteToAnotherWithoutAJump) {
     for (int y = 0; y < 8; ++y)
       for (int x = 0; x < 8; ++x) {
         caustic += film.route_value(0, x, y).g;
-        all += (static_cast<double>(film.value(x, y).r) + film.value(x, y).g + film.value(x, y).b) / 3;
+        all +=
+            (static_cast<double>(film.value(x, y).r) + film.value(x, y).g + film.value(x, y).b) / 3;
       }
-    return std::pair{caustic / all, all / (64 * picture_mean(render(*scene, "path", options, 12,
-                                                                     2 * kPasses)))};
+    return std::pair{caustic / all,
+                     all / (64 * picture_mean(render(*scene, "path", options, 12, 2 * kPasses)))};
   };
   const SpecularBand band;
   const auto [share_below, energy_below] = energies(0.95f * band.low);

@@ -1,5 +1,5 @@
-// The reduced photon map: what `mixed` stores against what full photon mapping stores, on a Cornell box with a
-// glass sphere (Doidge et al. 2012 report about a tenth).
+// The reduced photon map: what `mixed` stores against what full photon mapping stores, on a Cornell
+// box with a glass sphere (Doidge et al. 2012 report about a tenth).
 #include <gtest/gtest.h>
 
 #include "rendering.h"

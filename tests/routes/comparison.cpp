@@ -222,8 +222,8 @@ void Comparison::check_useful(int route, Part part) {
 }
 
 void Comparison::note_defects(int route, const std::vector<int>& matching) {
-  const bool glow = set_.alphabet().light_kind(path_.light) == LightKind::kMedium ||
-                    read_[length()].hair;
+  const bool glow =
+      set_.alphabet().light_kind(path_.light) == LightKind::kMedium || read_[length()].hair;
   if (route < 0) {
     (glow ? dark_medium_ : hole_) = true;
     return;

@@ -134,8 +134,8 @@ TEST(Expression, LabelsMayHoldWhatElseHasAMeaning) {
   EXPECT_EQ(mentioned_labels(routes, {}), std::vector<std::string>{"a:b [c] @"});
 }
 
-// Plain words of up to four events over D, G, S, V and H that an expression matches, with an emissive
-// shape as the light; `aov` stands for any expression, since layers need no partition.
+// Plain words of up to four events over D, G, S, V and H that an expression matches, with an
+// emissive shape as the light; `aov` stands for any expression, since layers need no partition.
 std::vector<std::string> matched(const std::string& expression) {
   const Routes routes = compiled({"rest=.*:path"}, {"x=" + expression}).routes;
   std::vector<std::string> result;

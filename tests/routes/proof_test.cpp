@@ -135,8 +135,9 @@ TEST(Proof, LightThatTouchesHairNeedsARouteThatStartsAtTheEye) {
   EXPECT_EQ(found[0].witness, "C H L");
   const Routes routes = compiled({"seen=.*:photons", "rest=.*:path"}, {}, &hair).routes;
   const auto owner = [&](const std::string& events) {
-    return routes.parts()[routes.owner(read_from_eye(routes, events),
-                                       light_symbol(LightKind::kShape, 0))].route;
+    return routes
+        .parts()[routes.owner(read_from_eye(routes, events), light_symbol(LightKind::kShape, 0))]
+        .route;
   };
   EXPECT_EQ(owner("DD"), 0);
   EXPECT_EQ(owner("DHD"), 1);

@@ -29,8 +29,8 @@ struct Coat {
   }
 };
 
-/// Random numbers of one walk: a function of the coat's seed and the directions, so that the same question
-/// has the same answer, and other points and paths ask other questions.
+/// Random numbers of one walk: a function of the coat's seed and the directions, so that the same
+/// question has the same answer, and other points and paths ask other questions.
 class WalkRandom {
  public:
   WalkRandom(uint64_t seed, const Vec3f& a, const Vec3f& b)

@@ -1,4 +1,5 @@
-// Random numbers as functions: stratified, uniform, decorrelated, and a function of their key alone.
+// Random numbers as functions: stratified, uniform, decorrelated, and a function of their key
+// alone.
 #include "core/sampler.h"
 
 #include <gtest/gtest.h>
@@ -38,8 +39,8 @@ TEST(Sampler, FirstTwoDimensionsAreANet) {
 }
 
 TEST(Sampler, UniformOverSeedsAtEveryIndex) {
-  // At a fixed index and dimension the scramble alone must make the number uniform: chi-square with 63
-  // degrees of freedom; 124.8 is the quantile for 1e-5.
+  // At a fixed index and dimension the scramble alone must make the number uniform: chi-square with
+  // 63 degrees of freedom; 124.8 is the quantile for 1e-5.
   for (const int d : {0, 1, 7, 30, 200, 300})
     for (const uint32_t i : {0u, 1u, 77u}) {
       const SobolPoint point(i);

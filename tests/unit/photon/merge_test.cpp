@@ -200,7 +200,7 @@ TEST(Merge, PhotonsOfAnotherRouteArePassedOver) {
     const char* light_side;  // events from the light on
     bool is_caustic;
   };
-  const Case cases[] = {{"", false},  {"D", false}, {"S", true},    {"SS", true},
+  const Case cases[] = {{"", false},  {"D", false},  {"S", true},    {"SS", true},
                         {"DS", true}, {"DD", false}, {"DDS", false}, {"SD", true}};
   std::vector<Photon> all;
   for (const Case& c : cases) {

@@ -1,5 +1,5 @@
-// The photon grid against brute force: every photon in range found once, none lost, whatever the scale,
-// the position and the number of levels.
+// The photon grid against brute force: every photon in range found once, none lost, whatever the
+// scale, the position and the number of levels.
 #include "photon/photon_grid.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,8 @@ namespace {
 struct Numbers {
   uint64_t state;
   float operator()() {
-    return bits_to_unit_float(static_cast<uint32_t>(mix_bits(++state * 0x9e3779b97f4a7c15ull) >> 32));
+    return bits_to_unit_float(
+        static_cast<uint32_t>(mix_bits(++state * 0x9e3779b97f4a7c15ull) >> 32));
   }
 };
 
@@ -56,12 +57,24 @@ void compare(int count, const Vec3f& origin, float scale, int levels) {
   }
 }
 
-TEST(PhotonGrid, FindsWhatBruteForceFinds) { compare(5000, Vec3f(0, 0, 0), 1.0f, 64); }
-TEST(PhotonGrid, OneLevelOnly) { compare(3000, Vec3f(-3, 2, 1), 1.0f, 1); }
-TEST(PhotonGrid, TwoLevels) { compare(3000, Vec3f(-3, 2, 1), 1.0f, 2); }
-TEST(PhotonGrid, TinyScene) { compare(2000, Vec3f(1e-3f, 0, 0), 1e-4f, 64); }
-TEST(PhotonGrid, HugeScene) { compare(2000, Vec3f(5e3f, -1e4f, 0), 1e4f, 64); }
-TEST(PhotonGrid, FarFromTheOrigin) { compare(2000, Vec3f(1000, 1000, 1000), 1.0f, 64); }
+TEST(PhotonGrid, FindsWhatBruteForceFinds) {
+  compare(5000, Vec3f(0, 0, 0), 1.0f, 64);
+}
+TEST(PhotonGrid, OneLevelOnly) {
+  compare(3000, Vec3f(-3, 2, 1), 1.0f, 1);
+}
+TEST(PhotonGrid, TwoLevels) {
+  compare(3000, Vec3f(-3, 2, 1), 1.0f, 2);
+}
+TEST(PhotonGrid, TinyScene) {
+  compare(2000, Vec3f(1e-3f, 0, 0), 1e-4f, 64);
+}
+TEST(PhotonGrid, HugeScene) {
+  compare(2000, Vec3f(5e3f, -1e4f, 0), 1e4f, 64);
+}
+TEST(PhotonGrid, FarFromTheOrigin) {
+  compare(2000, Vec3f(1000, 1000, 1000), 1.0f, 64);
+}
 TEST(PhotonGrid, FewPhotons) {
   for (const int n : {1, 2, 3, 7}) compare(n, Vec3f(0, 0, 0), 1.0f, 64);
 }

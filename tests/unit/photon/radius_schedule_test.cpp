@@ -18,7 +18,8 @@ TEST(RadiusSchedule, MemorylessFormEqualsTheRecurrence) {
 
 TEST(RadiusSchedule, MemorylessShrinksAsKnausAndZwickerSay) {
   // r^2(i) ~ i^(alpha - 1): a factor 8 of passes halves r^2 for alpha = 2/3.
-  const double ratio = memoryless_radius_squared(79999, 2.0 / 3) / memoryless_radius_squared(9999, 2.0 / 3);
+  const double ratio =
+      memoryless_radius_squared(79999, 2.0 / 3) / memoryless_radius_squared(9999, 2.0 / 3);
   EXPECT_NEAR(ratio, 0.5, 1e-4);
 }
 
@@ -42,8 +43,9 @@ TEST(RadiusSchedule, PassWithoutPhotonsKeepsTheRadius) {
 }
 
 TEST(RadiusSchedule, OneDimensionalDensityConverges) {
-  // Hachisuka & Jensen's one-dimensional validation in the plane: photons of density 2x on the unit square,
-  // seen from a point; the estimate tends to the density there, and the radius keeps shrinking.
+  // Hachisuka & Jensen's one-dimensional validation in the plane: photons of density 2x on the unit
+  // square, seen from a point; the estimate tends to the density there, and the radius keeps
+  // shrinking.
   SharedStatistics s;
   s.radius_squared = 0.04;
   uint64_t n = 0;

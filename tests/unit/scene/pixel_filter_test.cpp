@@ -43,7 +43,8 @@ TEST_P(Filters, WeightsAverageToOneAndFollowTheFilter) {
     constexpr int kQ = 64;
     for (int i = 0; i < kQ; ++i)
       for (int j = 0; j < kQ * 4; ++j) {
-        const float x = r.x * (2 * (static_cast<float>(b) + (static_cast<float>(i) + 0.5f) / kQ) / kBins - 1);
+        const float x =
+            r.x * (2 * (static_cast<float>(b) + (static_cast<float>(i) + 0.5f) / kQ) / kBins - 1);
         const float y = r.y * (2 * (static_cast<float>(j) + 0.5f) / (kQ * 4) - 1);
         expected += filter->eval({x, y});
       }

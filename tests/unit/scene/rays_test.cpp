@@ -1,5 +1,6 @@
-// Rays that leave a surface never meet it again where it is flat: the offsets cover the ray tracer's
-// rounding for triangles and rectangles anywhere, at coordinate zero too, and through instances.
+// Rays that leave a surface never meet it again where it is flat: the offsets cover the ray
+// tracer's rounding for triangles and rectangles anywhere, at coordinate zero too, and through
+// instances.
 #include <gtest/gtest.h>
 
 #include "core/sampler.h"
@@ -13,11 +14,13 @@ namespace {
 struct Numbers {
   uint64_t state;
   float operator()() {
-    return bits_to_unit_float(static_cast<uint32_t>(mix_bits(++state * 0x9e3779b97f4a7c15ull) >> 32));
+    return bits_to_unit_float(
+        static_cast<uint32_t>(mix_bits(++state * 0x9e3779b97f4a7c15ull) >> 32));
   }
 };
 
-// Shoots rays at the plane `y = height` of the scene from above, and others away from where they landed.
+// Shoots rays at the plane `y = height` of the scene from above, and others away from where they
+// landed.
 void expect_no_self_hits(const std::string& world, float size, float height) {
   Diagnostics diagnostics;
   const SceneDescription d =

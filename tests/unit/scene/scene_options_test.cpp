@@ -109,7 +109,8 @@ TEST(FilmLine, Types) {
             "test.pbrt:1:16: unknown coordinate system \"screen\" of the film, expected \"camera\" "
             "or \"world\"");
   EXPECT_EQ(error_of("Film \"spectral\""),
-            "test.pbrt:1:1: film \"spectral\" is not rendered: the film keeps colours, no spectra, expected "
+            "test.pbrt:1:1: film \"spectral\" is not rendered: the film keeps colours, no spectra, "
+            "expected "
             "one of \"rgb\", \"gbuffer\"");
   EXPECT_EQ(error_of("Film \"gbufer\""),
             "test.pbrt:1:1: unknown film \"gbufer\", did you mean \"gbuffer\"?");

@@ -1,4 +1,5 @@
-// Solid angles of rectangles near and far: exact where a closed form exists, never huge by rounding.
+// Solid angles of rectangles near and far: exact where a closed form exists, never huge by
+// rounding.
 #include "scene/shape/spherical_rectangle.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +14,8 @@ const RectangleFrame kUnit(Vec3d(-0.5, -0.5, 0), Vec3d(1, 0, 0), Vec3d(0, 1, 0))
 TEST(SphericalRectangle, AboveTheCentre) {
   for (const double h : {0.01, 0.1, 1.0, 10.0, 100.0}) {
     const double exact = 4 * std::asin(0.25 / (0.25 + h * h));
-    EXPECT_NEAR(SphericalRectangle(Vec3d(0, 0, h), kUnit).solid_angle(), exact, 1e-9 * exact + 1e-13)
+    EXPECT_NEAR(SphericalRectangle(Vec3d(0, 0, h), kUnit).solid_angle(), exact,
+                1e-9 * exact + 1e-13)
         << h;
   }
 }
