@@ -13,7 +13,7 @@ namespace nephroid {
 namespace {
 
 template <class T>
-std::unique_ptr<Estimator> make(OwnedRoutes owned, const IntegratorOptions& options, const Scene&) {
+std::unique_ptr<Estimator> make(OwnedRoutes owned, const IntegratorOptions& options) {
   return std::make_unique<T>(std::move(owned), options);
 }
 
