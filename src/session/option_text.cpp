@@ -95,6 +95,12 @@ bool takes_settings(const std::string& command) {
                      [](const OptionDescription* o) { return std::string("-D") == o->name; });
 }
 
+bool takes_presets(const std::string& command) {
+  const auto options = options_of(command);
+  return std::any_of(options.begin(), options.end(),
+                     [](const OptionDescription* o) { return std::string("--routes") == o->name; });
+}
+
 /// The text of a table cell: a bar would end it.
 std::string cell(std::string text) {
   for (size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2))
@@ -137,6 +143,11 @@ std::string command_help(const std::string& command) {
   for (const IntegratorSetting& setting : integrator_settings())
     text += help_entry(fmt::format("{}={}", setting.key, setting.value),
                        setting.help + unit_and_default(setting.unit, setting.default_text));
+  if (!takes_presets(command)) return text;
+  text += "\nPresets of --routes:\n";
+  for (const RoutePreset& preset : route_presets()) text += help_entry(preset.name, preset.help);
+  text += "\nEstimators of --route:\n";
+  for (const EstimatorType& type : estimator_types()) text += help_entry(type.name, type.help);
   return text;
 }
 
@@ -158,6 +169,13 @@ std::string options_markdown() {
       text += fmt::format("| `{}={}` | {} | {} | {} |\n", setting.key, setting.value,
                           cell(setting.unit), cell(setting.default_text), cell(setting.help));
   }
+  text += "\n## Routes\n\nPresets of `--routes` ([routes.md](routes.md) has their expressions):\n\n";
+  text += "| preset | meaning |\n| --- | --- |\n";
+  for (const RoutePreset& preset : route_presets())
+    text += fmt::format("| `{}` | {} |\n", preset.name, cell(preset.help));
+  text += "\nEstimators of `--route`:\n\n| estimator | meaning |\n| --- | --- |\n";
+  for (const EstimatorType& type : estimator_types())
+    text += fmt::format("| `{}` | {} |\n", type.name, cell(type.help));
   text += "\n## Without a command\n\n`nephroid --help` and `nephroid --version`.\n";
   return text;
 }

@@ -78,8 +78,8 @@ constexpr const char* kIntegratorHelp =
     "How light is found: path, sppm, mixed, or scene for the one that the scene names. Each is a "
     "preset of routes.";
 constexpr const char* kRoutesHelp =
-    "Routes by the name of a preset (`nephroid routes --help` lists them) or from a file, one a "
-    "line; instead of --integrator.";
+    "Routes by the name of a preset (listed below) or from a file, one a line; instead of "
+    "--integrator.";
 constexpr const char* kRouteHelp =
     "One route: a light path expression and the estimator that renders what matches it (path, "
     "photons, sppm, lighttrace, photons+light). The first route that matches a path owns it.";
