@@ -60,7 +60,8 @@ struct IntegratorOptions {
   int64_t texture_memory = int64_t{1} << 30;
 };
 
-/// Estimators and the film that they fill; estimator i samples the film's group i.
+/// Estimators and the film that they fill; estimator i samples the film's group i (one more, if
+/// there is one, its features).
 struct Preset {
   FilmLayout layout;
   std::vector<std::unique_ptr<Estimator>> estimators;

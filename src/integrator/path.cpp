@@ -6,7 +6,7 @@
 #include "core/parallel.h"
 #include "core/warps.h"
 #include "film/part_sums.h"
-#include "integrator/surface_sample.h"
+#include "integrator/features.h"
 #include "transport/camera_path.h"
 #include "transport/direct_light.h"
 #include "transport/roughness_band.h"
@@ -15,12 +15,6 @@
 namespace nephroid {
 
 namespace {
-
-struct Features {
-  Vec3f normal{0, 0, 0};
-  float depth = 0;
-  FirstSurface surface;  ///< if the depth is above 0
-};
 
 // Collects the light of one camera path.
 class PathVisitor {
@@ -76,7 +70,7 @@ class PathVisitor {
   bool looks_under_surfaces() const { return false; }
 
   void vertex(const Walk& walk, const WalkVertex& v, PathSampler& sampler) {
-    if (walk.vertices == 0) record_features(walk, v);
+    features_.record(walk, v);
     const ClassMask among = v.classes_of(useful(v));
     const ClassMask finite = v.bsdf.finite_classes() & among;
     if (may_end_after_any(v, finite)) next_event(walk, v, finite, among, sampler);
@@ -103,7 +97,6 @@ class PathVisitor {
   }
 
   const Features& features() const { return features_; }
-  const SampledSpectrum& albedo() const { return albedo_; }
   uint64_t shadow_rays() const { return shadow_rays_; }
 
  private:
@@ -166,14 +159,6 @@ class PathVisitor {
                    arriving * evals[i].f * weight_of_direct(walk, *d, shadow, evals[i].pdf_w));
   }
 
-  void record_features(const Walk& walk, const WalkVertex& v) {
-    albedo_ = v.bsdf.albedo(v.wo);
-    features_.normal = v.surface.shading.z;
-    features_.depth = walk.length;
-    features_.surface = {v.surface.p, v.surface.ng, v.surface.shading.z, v.surface.wo,
-                         v.surface.uv};
-  }
-
   const Scene& scene_;
   const Routes& routes_;
   const SceneSymbols& symbols_;
@@ -182,20 +167,8 @@ class PathVisitor {
   PartSums& light_;
   EyeState eye_;
   Features features_;
-  SampledSpectrum albedo_;
   uint64_t shadow_rays_ = 0;
 };
-
-// The film's response to a flat spectrum of 1, on average over the wavelengths of a path.
-Rgb response_to_white(const FilmSettings& settings) {
-  const Rgb white = settings.color_space->from_xyz({1, 1, 1});
-  const Rgb seen = settings.white_balance ? *settings.white_balance * white : white;
-  return seen * (kCieYIntegral * settings.imaging_ratio);
-}
-
-Rgb of_white(const Rgb& rgb, const Rgb& white) {
-  return {rgb.r / white.r, rgb.g / white.g, rgb.b / white.b};
-}
 
 constexpr uint64_t kStream = 0x70617468;  // "path"
 
@@ -209,7 +182,6 @@ PathEstimator::PathEstimator(OwnedRoutes owned, const IntegratorOptions& options
 void PathEstimator::render_pass(const PassKey& key, const Scene& scene, Film& film) {
   const PixelBounds& b = film.bounds();
   const FilmSettings& settings = film.settings();
-  const Rgb white = response_to_white(settings);
   const float specular_alpha = specular_alpha_of_pass(scene.specular_band, key);
   const int group = static_cast<int>(owned_.group);
   std::vector<uint64_t> rays(static_cast<size_t>(b.height()), 0);
@@ -239,10 +211,7 @@ void PathEstimator::render_pass(const PassKey& key, const Scene& scene, Film& fi
         film.add(
             group, x, y,
             light.colors(weights, path.camera_weight, settings.max_component, path.filter_weight));
-        film.add_features(x, y, of_white(weights.apply(visitor.albedo()), white),
-                          visitor.features().normal, visitor.features().depth);
-        if (settings.gbuffer && visitor.features().depth > 0)
-          film.add_surface(x, y, surface_sample(scene, path, visitor.features().surface));
+        visitor.features().add_to(film, x, y, scene, path, weights);
         rays[static_cast<size_t>(row)] += path.walk.rays + visitor.shadow_rays();
       }
     });

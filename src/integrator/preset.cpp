@@ -1,5 +1,8 @@
 // A plan of routes and a scene -> the estimators that render them and the layout of their film.
+#include <algorithm>
+
 #include "core/errors.h"
+#include "integrator/features.h"
 #include "integrator/light_tracing.h"
 #include "integrator/path.h"
 #include "integrator/photon_mapping.h"
@@ -68,6 +71,11 @@ Preset make_preset(const RoutePlan& plan, const IntegratorOptions& options, cons
       if (row.connects) require_connecting_camera(scene);
       preset.estimators.push_back(row.make({preset.routes, symbols, g}, options));
     }
+  // Paths from the eye see the features of the picture on their way; nobody else does.
+  const auto& groups = preset.routes->groups();
+  if (std::none_of(groups.begin(), groups.end(),
+                   [](const RouteGroup& group) { return group.estimator == EstimatorKind::kPath; }))
+    preset.estimators.push_back(std::make_unique<FeatureEstimator>());
   return preset;
 }
 

@@ -169,7 +169,8 @@ std::string options_markdown() {
       text += fmt::format("| `{}={}` | {} | {} | {} |\n", setting.key, setting.value,
                           cell(setting.unit), cell(setting.default_text), cell(setting.help));
   }
-  text += "\n## Routes\n\nPresets of `--routes` ([routes.md](routes.md) has their expressions):\n\n";
+  text +=
+      "\n## Routes\n\nPresets of `--routes` ([routes.md](routes.md) has their expressions):\n\n";
   text += "| preset | meaning |\n| --- | --- |\n";
   for (const RoutePreset& preset : route_presets())
     text += fmt::format("| `{}` | {} |\n", preset.name, cell(preset.help));
