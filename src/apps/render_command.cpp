@@ -45,9 +45,7 @@ void add_routes(const RoutePlan& plan, Metadata* metadata) {
 size_t splatted_parts(const Routes& routes) {
   size_t parts = 0;
   for (const RouteGroup& group : routes.groups())
-    if (group.estimator == EstimatorKind::kLightTrace ||
-        group.estimator == EstimatorKind::kPhotonsAndLight)
-      parts += group.parts.size();
+    if (estimator_type(group.estimator).connects) parts += group.parts.size();
   return parts;
 }
 

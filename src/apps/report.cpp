@@ -50,6 +50,15 @@ std::string photon_line(const EstimatorStatistics& first, const EstimatorStatist
   return text + "\n";
 }
 
+std::string light_line(const EstimatorStatistics& last, uint32_t passes) {
+  if (last.light_paths == 0) return {};
+  const double paths = static_cast<double>(last.light_paths);
+  return fmt::format(
+      "light paths: {}per pass, {}connections to the camera in all, {:.3g} % of paths had any\n",
+      short_number(paths / passes), short_number(static_cast<double>(last.splats)),
+      100 * static_cast<double>(last.light_paths_useful) / paths);
+}
+
 std::string route_lines(const Film& film) {
   const EnergyShares shares = energy_shares(film);
   const auto line = [](const char* title, const std::vector<std::string>& names,
@@ -80,7 +89,8 @@ std::string render_report(const RenderResult& result, const Film& film, const st
                           const std::vector<std::string>& notes) {
   std::string text = summary(result);
   for (size_t i = 0; i < result.statistics.size(); ++i)
-    text += photon_line(result.first_pass_statistics[i], result.statistics[i], result.passes_done);
+    text += photon_line(result.first_pass_statistics[i], result.statistics[i], result.passes_done) +
+            light_line(result.statistics[i], result.passes_done);
   text += route_lines(film);
   text += film_faults(film);
   for (const std::string& note : notes) text += fmt::format("note: {}\n", note);

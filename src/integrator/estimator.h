@@ -29,6 +29,9 @@ struct EstimatorStatistics {
   uint64_t photons_stored = 0;
   uint64_t photon_paths_useful = 0;                    ///< paths that stored at least one photon
   uint64_t photon_paths_specular = 0;                  ///< paths that met an S vertex
+  uint64_t light_paths = 0;                            ///< emitted to be connected to the camera
+  uint64_t light_paths_useful = 0;                     ///< that were, at one vertex at least
+  uint64_t splats = 0;                                 ///< connections that expose the film
   float radius_min_pixels = 0, radius_max_pixels = 0;  ///< merge radius over footprint, last pass
   std::vector<std::string> notes;  ///< sentences for the report, e.g. why a route is black
 };
@@ -49,7 +52,7 @@ struct IntegratorOptions {
   float radius = 0;              ///< 0: the default of the integrator
   int64_t photons_per_pass = 0;  ///< 0: chosen from the film's size
   float alpha = 2.0f / 3.0f;     ///< of [E1] and [E2]
-  SpecularBand specular_band;
+  SpecularBand specular_band;    ///< scenes are built with it, no estimator looks at it here
   /// Walks of `path` do not look at what is useful for its routes: the same seed gives the same
   /// paths whatever the routes are.
   bool blind_walks = false;
@@ -89,7 +92,7 @@ std::vector<FormatType> scene_integrator_types();
 
 /// The plan that an integrator's name stands for. Throws UsageError for an unknown name.
 RoutePlan plan_of_integrator(const std::string& name);
-/// make_preset of it.
+/// make_preset of the plan that a name stands for.
 Preset make_integrator(const std::string& name, const IntegratorOptions& options,
                        const Scene& scene);
 

@@ -44,7 +44,7 @@ struct LightPass {
 
 struct Chunk {
   std::vector<Splat> splats;
-  uint64_t rays = 0, useful = 0, specular = 0;
+  uint64_t rays = 0, useful = 0;
 };
 
 // Connects one light path to the camera.
@@ -98,6 +98,7 @@ class ConnectingVisitor {
   }
 
   void vertex(const Walk& walk, const WalkVertex& v, PathSampler& sampler) {
+    if (pass_.weight && v.subsurface_exit) return;
     const ClassMask classes =
         v.classes_of(routes_.connects(group_, state_, label_at(symbols_, v))) &
         v.bsdf.finite_classes();
@@ -146,13 +147,11 @@ class ConnectingVisitor {
 
   bool scatter(const Walk&, const WalkEvent& event) {
     state_ = routes_.light_next(state_, symbol_of(symbols_, event));
-    specular_ |= event.letter == EventClass::kSpecular;
     return true;
   }
 
   uint64_t rays() const { return rays_; }
   bool useful() const { return exposed_; }
-  bool specular() const { return specular_; }
 
  private:
   SampledSpectrum arrives(const Exposure& seen, const Vec3f& origin, const Walk& walk,
@@ -183,7 +182,7 @@ class ConnectingVisitor {
   Chunk& out_;
   LightState state_;
   uint64_t rays_ = 0;
-  bool exposed_ = false, specular_ = false;
+  bool exposed_ = false;
 };
 
 void trace_light_path(const LightPass& pass, uint64_t number, Chunk& out) {
@@ -210,7 +209,6 @@ void trace_light_path(const LightPass& pass, uint64_t number, Chunk& out) {
   random_walk(pass.scene, TransportMode::kImportance, pass.max_depth, walk, sampler, visitor);
   out.rays += walk.rays + visitor.rays();
   out.useful += visitor.useful();
-  out.specular += visitor.specular();
 }
 
 }  // namespace
@@ -227,7 +225,7 @@ LightTracing::LightTracing(OwnedRoutes owned, const IntegratorOptions& options)
 
 int64_t light_pass(const PassKey& key, const Scene& scene, const Film& film,
                    const OwnedRoutes& owned, const IntegratorOptions& options,
-                   const ConnectionWeight& weight, SplatBuffer& buffer, uint64_t& splats,
+                   const ConnectionWeight& weight, SplatBuffer& buffer,
                    EstimatorStatistics& statistics) {
   require_connecting_camera(scene);
   const PhotonPass settings = start_photon_pass(key, scene, film, options);
@@ -254,29 +252,27 @@ int64_t light_pass(const PassKey& key, const Scene& scene, const Film& film,
     for (const Chunk& chunk : chunks) {
       found.insert(found.end(), chunk.splats.begin(), chunk.splats.end());
       statistics.rays += chunk.rays;
-      statistics.photon_paths_useful += chunk.useful;
-      statistics.photon_paths_specular += chunk.specular;
+      statistics.light_paths_useful += chunk.useful;
     }
     buffer.add(found);
-    splats += found.size();
+    statistics.splats += found.size();
   }
-  statistics.photon_paths += static_cast<uint64_t>(pass.paths);
+  statistics.light_paths += static_cast<uint64_t>(pass.paths);
   return pass.paths;
 }
 
 void LightTracing::render_pass(const PassKey& key, const Scene& scene, Film& film) {
   const int group = static_cast<int>(owned_.group);
   SplatBuffer buffer(film, group, *scene.filter);
-  const int64_t paths =
-      light_pass(key, scene, film, owned_, options_, {}, buffer, splats_, statistics_);
+  const int64_t paths = light_pass(key, scene, film, owned_, options_, {}, buffer, statistics_);
   buffer.finish(1.0 / static_cast<double>(paths));
   film.add_estimates(group, 1);
 }
 
 EstimatorStatistics LightTracing::statistics() const {
   EstimatorStatistics s = statistics_;
-  if (splats_ == 0 && s.photon_paths > 0)
-    s.notes.push_back("none of " + std::to_string(s.photon_paths) +
+  if (s.splats == 0 && s.light_paths > 0)
+    s.notes.push_back("none of " + std::to_string(s.light_paths) +
                       " light paths had a point of its routes that the camera sees");
   return s;
 }

@@ -1,7 +1,9 @@
 // `lighttrace`: light paths whose vertices are connected to the camera, and the start points of
 // those on shapes as well. It finds what is seen directly of caustics, without any bias. A pass is
 // a function of the scene, the options and the pass key alone, so passes may be rendered anywhere
-// and added up. Papers: Dutre, Lafortune, Willems 1993; Veach 1997, chapters 5 and 10.
+// and added up. Who calls it: presets, and vertex_merging.cpp for a pass of
+// it. It must not know how photons are merged. Papers: Dutre, Lafortune, Willems 1993; Veach 1997,
+// chapters 5 and 10.
 #pragma once
 
 #include <functional>
@@ -21,12 +23,11 @@ void require_connecting_camera(const Scene& scene);
 using ConnectionWeight = std::function<float(const CameraConnection&, const WalkVertex&)>;
 
 /// Traces the light paths of a pass and adds what they expose, not yet divided by their number, to
-/// `buffer`; returns that number and adds rays and paths to `statistics` and the splats to
-/// `splats`. With a weight, only what could as well be merged at the vertex that the camera sees is
-/// connected. Throws as require_connecting_camera.
+/// `buffer`; returns that number and adds to `statistics`. With a weight, only what could as well
+/// be merged at the vertex that the camera sees is connected. Throws as require_connecting_camera.
 int64_t light_pass(const PassKey& key, const Scene& scene, const Film& film,
                    const OwnedRoutes& owned, const IntegratorOptions& options,
-                   const ConnectionWeight& weight, SplatBuffer& buffer, uint64_t& splats,
+                   const ConnectionWeight& weight, SplatBuffer& buffer,
                    EstimatorStatistics& statistics);
 
 class LightTracing : public Estimator {
@@ -41,7 +42,6 @@ class LightTracing : public Estimator {
  private:
   OwnedRoutes owned_;
   IntegratorOptions options_;
-  uint64_t splats_ = 0;
   EstimatorStatistics statistics_;
 };
 

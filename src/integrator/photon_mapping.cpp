@@ -28,8 +28,7 @@ void PhotonMapping::render_pass(const PassKey& key, const Scene& scene, Film& fi
 
 EstimatorStatistics PhotonMapping::statistics() const {
   EstimatorStatistics s = statistics_;
-  if (!photons_can_count_) s.notes.emplace_back(kNoPhotonsNote);
-  explain_darkness(found_, s);
+  explain_darkness(owned_, found_, s);
   return s;
 }
 

@@ -40,19 +40,42 @@ PhotonPass start_photon_pass(const PassKey& key, const Scene& scene, const Film&
   return pass;
 }
 
-bool photons_can_count(const OwnedRoutes& owned) {
+namespace {
+
+/// True if `what(light state, label)` is not empty for a light and a label of the scene.
+template <class What>
+bool any_emitted(const OwnedRoutes& owned, What&& what) {
   const Routes& routes = *owned.routes;
   const SymbolSet& present = owned.symbols->present();
   for (size_t light = 0; light < present.lights.size(); ++light) {
     if (!present.lights[light]) continue;
     const LightState state = routes.emitted(static_cast<LightSymbol>(light));
     for (size_t label = 0; label <= routes.labels().size(); ++label)
-      if ((routes.deposits(owned.group, state, static_cast<Label>(label)) |
-           routes.useful_before_deposit(owned.group, state, static_cast<Label>(label))) !=
-          ClassMask::kNone)
-        return true;
+      if (what(state, static_cast<Label>(label)) != ClassMask::kNone) return true;
   }
   return false;
+}
+
+bool deposits_at_once(const OwnedRoutes& owned) {
+  return any_emitted(owned, [&](LightState light, Label label) {
+    return owned.routes->deposits(owned.group, light, label);
+  });
+}
+
+bool has_specular_events(const OwnedRoutes& owned) {
+  const std::vector<bool>& events = owned.symbols->present().events;
+  for (size_t e = 0; e < events.size(); ++e)
+    if (events[e] && class_of(kind_of(static_cast<EventSymbol>(e))) == EventClass::kSpecular)
+      return true;
+  return false;
+}
+
+}  // namespace
+
+bool photons_can_count(const OwnedRoutes& owned) {
+  return deposits_at_once(owned) || any_emitted(owned, [&](LightState light, Label label) {
+           return owned.routes->useful_before_deposit(owned.group, light, label);
+         });
 }
 
 void count_photons(const PhotonTrace& trace, EstimatorStatistics& statistics) {
@@ -63,12 +86,23 @@ void count_photons(const PhotonTrace& trace, EstimatorStatistics& statistics) {
   statistics.rays += trace.rays;
 }
 
-void explain_darkness(uint64_t found, EstimatorStatistics& s) {
+void explain_darkness(const OwnedRoutes& owned, uint64_t found, EstimatorStatistics& s) {
+  if (!photons_can_count(owned)) {
+    s.notes.push_back(
+        has_specular_events(owned)
+            ? "nothing in this scene lets light take a path that belongs to the photons, and none "
+              "were needed"
+            : "no material of the scene has a specular lobe: there are no caustics, and no photons "
+              "were needed");
+    return;
+  }
   if (found > 0 || s.photon_paths == 0) return;
   const std::string of_all = " of " + std::to_string(s.photon_paths) + " photon paths ";
   if (s.photons_stored > 0)
     s.notes.push_back(std::to_string(s.photons_stored) +
                       " photons were stored, none near a point that the camera sees");
+  else if (deposits_at_once(owned))
+    s.notes.push_back("none" + of_all + "met a surface at which its route merges");
   else if (s.photon_paths_specular == 0)
     s.notes.push_back("0" + of_all + "met a specular surface");
   else

@@ -1,6 +1,7 @@
 // What the photon integrators share: the wavelengths, time, roughness threshold and photons of a
-// pass, and the camera walk that comes to every vertex where its routes may merge photons. Who
-// calls it: photon_mapping.cpp, sppm.cpp. It must not know how radii shrink.
+// pass, and the camera walk that comes to every vertex where its routes may merge photons.
+// Who calls it: merge_pass.cpp and sppm.cpp; light_tracing.cpp for the settings. It must not know
+// how radii shrink.
 #pragma once
 
 #include "integrator/estimator.h"
@@ -32,11 +33,6 @@ inline CameraPath start_merging_path(const Scene& scene, int x, int y, PathSampl
   return path;
 }
 
-/// Said where there is nothing for photons to do.
-inline constexpr const char* kNoPhotonsNote =
-    "nothing in this scene lets light take a path that belongs to the photons (for caustics: no "
-    "material of the scene has a specular lobe), and no photons were needed";
-
 /// False if no photon that can occur in the scene belongs to the group.
 bool photons_can_count(const OwnedRoutes& owned);
 
@@ -44,7 +40,7 @@ bool photons_can_count(const OwnedRoutes& owned);
 void count_photons(const PhotonTrace& trace, EstimatorStatistics& statistics);
 
 /// Says why there is no light from photons, if there is none; `found` is how many were merged.
-void explain_darkness(uint64_t found, EstimatorStatistics& statistics);
+void explain_darkness(const OwnedRoutes& owned, uint64_t found, EstimatorStatistics& statistics);
 
 /// Calls `merge(walk, merge_point)` at each vertex of the walk where photons may be merged.
 template <class Merge>

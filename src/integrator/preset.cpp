@@ -23,13 +23,12 @@ std::unique_ptr<Estimator> make(OwnedRoutes owned, const IntegratorOptions& opti
 struct Row {
   EstimatorKind kind;
   std::unique_ptr<Estimator> (*make)(OwnedRoutes, const IntegratorOptions&);
-  bool connects = false;  ///< to the camera
 };
 constexpr Row kTable[] = {{EstimatorKind::kPath, make<PathEstimator>},
                           {EstimatorKind::kPhotons, make<PhotonMapping>},
                           {EstimatorKind::kSppm, make<Sppm>},
-                          {EstimatorKind::kLightTrace, make<LightTracing>, true},
-                          {EstimatorKind::kPhotonsAndLight, make<VertexMerging>, true}};
+                          {EstimatorKind::kLightTrace, make<LightTracing>},
+                          {EstimatorKind::kPhotonsAndLight, make<VertexMerging>}};
 
 FilmLayout layout_of(const Routes& routes) {
   FilmLayout layout;
@@ -68,7 +67,7 @@ Preset make_preset(const RoutePlan& plan, const IntegratorOptions& options, cons
   for (size_t g = 0; g < preset.routes->groups().size(); ++g)
     for (const Row& row : kTable) {
       if (row.kind != preset.routes->groups()[g].estimator) continue;
-      if (row.connects) require_connecting_camera(scene);
+      if (estimator_type(row.kind).connects) require_connecting_camera(scene);
       preset.estimators.push_back(row.make({preset.routes, symbols, g}, options));
     }
   // Paths from the eye see the features of the picture on their way; nobody else does.

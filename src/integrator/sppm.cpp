@@ -113,7 +113,7 @@ void Sppm::render_pass(const PassKey& key, const Scene& scene, Film& film) {
 
 EstimatorStatistics Sppm::statistics() const {
   EstimatorStatistics s = statistics_;
-  explain_darkness(found_, s);
+  explain_darkness(owned_, found_, s);
   return s;
 }
 

@@ -28,7 +28,9 @@ void VertexMerging::render_pass(const PassKey& key, const Scene& scene, Film& fi
   const PixelFootprint footprint = scene.camera->footprint();
 
   const MergeWeight merge_weight = [&](const CameraPath& path, const MergePoint& at, float radius) {
-    if (at.events > 1) return 1.0f;
+    // Below a surface the two techniques would be weighed at the two ends of the way: merging
+    // alone.
+    if (at.events > 1 || at.vertex.subsurface_exit) return 1.0f;
     const auto line = scene.camera->connect(at.vertex.surface.p, path.u_lens, path.u_time);
     if (!line) return 1.0f;
     const float m = merges_per_splat(*line, at.vertex.surface.ng, radius);
@@ -38,8 +40,11 @@ void VertexMerging::render_pass(const PassKey& key, const Scene& scene, Film& fi
       merge_pass(key, scene, film, owned_, options_, radius_pixels, merge_weight, statistics_);
   found_ += merged.found;
   const size_t parts = film.parts_of(group).size();
-  for (size_t i = 0; i < merged.values.size(); ++i)
-    merged.values[i] = merged.values[i] * merged.filter_weights[i / parts];
+  for (size_t pixel = 0; pixel < merged.filter_weights.size(); ++pixel) {
+    const std::span<Rgb> estimate(&merged.values[pixel * parts], parts);
+    PartSums::clamp_total(estimate, film.settings().max_component);
+    for (Rgb& color : estimate) color = color * merged.filter_weights[pixel];
+  }
 
   const ConnectionWeight splat_weight = [&](const CameraConnection& line, const WalkVertex& v) {
     const float radius = radius_pixels * footprint.width(line.distance);
@@ -47,14 +52,13 @@ void VertexMerging::render_pass(const PassKey& key, const Scene& scene, Film& fi
   };
   SplatBuffer buffer(film, group, *scene.filter);
   const int64_t paths =
-      light_pass(key, scene, film, owned_, options_, splat_weight, buffer, found_, statistics_);
+      light_pass(key, scene, film, owned_, options_, splat_weight, buffer, statistics_);
   buffer.finish(1.0 / static_cast<double>(paths), merged.values);
 }
 
 EstimatorStatistics VertexMerging::statistics() const {
   EstimatorStatistics s = statistics_;
-  if (!photons_can_count_) s.notes.emplace_back(kNoPhotonsNote);
-  explain_darkness(found_, s);
+  explain_darkness(owned_, found_, s);
   return s;
 }
 

@@ -19,6 +19,7 @@ struct EstimatorType {
   const char* name;  ///< as routes write it: path, photons, sppm, lighttrace, photons+light
   const char* help;  ///< one sentence
   bool merges;       ///< each of its paths must have exactly one vertex where photons are merged
+  bool connects;     ///< light paths are connected to the camera
   bool starts_at_lights;  ///< light that a medium emits or that touches hair is out of its reach
 };
 std::span<const EstimatorType> estimator_types();

@@ -15,15 +15,16 @@ namespace {
 
 constexpr EstimatorType kEstimators[] = {
     {EstimatorKind::kPath, "path", "path tracing with next-event estimation, from the eye", false,
-     false},
+     false, false},
     {EstimatorKind::kPhotons, "photons",
-     "photons merged with a radius that shrinks from pass to pass", true, true},
+     "photons merged with a radius that shrinks from pass to pass", true, false, true},
     {EstimatorKind::kSppm, "sppm",
-     "stochastic progressive photon mapping with a radius for each pixel", true, true},
+     "stochastic progressive photon mapping with a radius for each pixel", true, false, true},
     {EstimatorKind::kLightTrace, "lighttrace",
-     "paths from the lights, each vertex of which is connected to the camera", false, true},
+     "paths from the lights, each vertex of which is connected to the camera", false, true, true},
     {EstimatorKind::kPhotonsAndLight, "photons+light",
-     "photons that are merged and connected to the camera, weighed against each other", true, true},
+     "photons that are merged and connected to the camera, weighed against each other", true, true,
+     true},
 };
 
 // Names of the picture's own layers and channels, and of what is reserved for them.

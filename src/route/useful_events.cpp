@@ -159,8 +159,7 @@ void Routes::find_useful_events(const SymbolSet& symbols) {
     f.useful_before_deposit = events.masks(
         t.light_states, kEveryClass,
         [&](size_t s, EventSymbol e) -> bool { return may_deposit[t.light_next[column(s, e)]]; });
-    const bool connects = groups_[g].estimator == EstimatorKind::kLightTrace ||
-                          groups_[g].estimator == EstimatorKind::kPhotonsAndLight;
+    const bool connects = estimator_type(groups_[g].estimator).connects;
     f.connects = events.masks(t.light_states, kEveryClass, [&](size_t light, EventSymbol e) {
       return connects && owns(g, t.meet[t.eye_next[column(t.start, e)] * t.light_states + light]);
     });

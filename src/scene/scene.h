@@ -141,9 +141,6 @@ class Scene {
   bool has_passing_shapes = false;  ///< any shape that lets light straight through
   /// True if any shape's material may scatter in class S: without one there are no caustics.
   bool has_specular_material = false;
-  /// True if words may belong to path tracing for a reason behind their first D: a medium scatters
-  /// or emits, or photons cannot be merged somewhere.
-  bool has_volume_events = false;
   uint64_t primitive_count = 0;  ///< without instancing
   uint64_t shape_count = 0;
   uint64_t instance_count = 0;  ///< of object definitions

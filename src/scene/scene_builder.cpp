@@ -50,11 +50,7 @@ class SceneBuilder {
     }
     scene_->media = make_media(d_, diagnostics);
     scene_->medium_labels = medium_labels(d_);
-    for (size_t i = 0; i < d_.media.size(); ++i) {
-      medium_index_[d_.media[i].name] = i;
-      scene_->has_volume_events |=
-          !scene_->media[i]->is_purely_absorbing() || scene_->media[i]->is_emissive();
-    }
+    for (size_t i = 0; i < d_.media.size(); ++i) medium_index_[d_.media[i].name] = i;
     if (d_.camera) scene_->camera_medium = medium_named(d_.camera->medium, d_.camera->where);
     scene_->lights = make_lights(d_, diagnostics);
     for (size_t i = 0; i < d_.lights.size(); ++i) {
@@ -153,7 +149,6 @@ class SceneBuilder {
     if (contains(material.possible_classes(), EventClass::kSpecular))
       scene_->has_specular_material = true;
     record.merges_photons = shape->merges_photons();
-    if (!record.merges_photons || material.may_refuse_photons()) scene_->has_volume_events = true;
     group.accelerator->add_shape(shape, passing ? kMaskPassing : kMaskOpaque);
     scene_->primitive_count += shape->primitive_count();
     ++scene_->shape_count;

@@ -91,7 +91,13 @@ struct WalkVertex {
   EventClass letter(EventClass c) const { return merges ? c : EventClass::kHair; }
   /// Classes of events whose letters are among `letters`.
   ClassMask classes_of(ClassMask letters) const {
-    if (merges) return letters & ClassMask::kAll;
+    if (merges) {
+      // What goes below here may come out on a curve.
+      const bool may_become_hair =
+          !subsurface_exit && contains(letters, EventClass::kHair) && material.has_bssrdf();
+      return (letters & ClassMask::kAll) |
+             (may_become_hair ? ClassMask::kDiffuse : ClassMask::kNone);
+    }
     return contains(letters, EventClass::kHair) ? ClassMask::kAll : ClassMask::kNone;
   }
 };
@@ -271,7 +277,7 @@ class RandomWalk {
     }
     walk_.throughput *= weight;
     if (walk_.throughput.is_black()) return false;
-    if (s->subsurface) return come_out_again(material);
+    if (s->subsurface) return come_out_again(material, vertex.merges);
     if (!contains(among, s->event)) return false;
     if (s->transmitted && mode_ == TransportMode::kRadiance) walk_.eta_scale *= sqr(s->eta);
     walk_.delta = s->delta;
@@ -290,7 +296,7 @@ class RandomWalk {
 
   /// The second half of a subsurface event, at another point of the surface: a vertex of its own,
   /// but one event with the first.
-  bool come_out_again(const Material& material) {
+  bool come_out_again(const Material& material, bool entry_merges) {
     const Bssrdf* bssrdf = material.make_bssrdf(hit_, walk_.lambda, arena_);
     if (!bssrdf) return false;
     ++walk_.vertices;
@@ -308,8 +314,10 @@ class RandomWalk {
     hit_ = exit->surface;
     const Bsdf* bsdf = bssrdf->exit_bsdf(arena_);
     if (!bsdf) return false;
+    // The same letter from both sides: H if either end lies on a curve.
+    const bool merges = entry_merges && hit_.record->merges_photons;
     return scatter_at_surface(
-        {hit_, material, *bsdf, Vec3f(0, 0, 1), ClassMask::kNone, false, true, true}, false);
+        {hit_, material, *bsdf, Vec3f(0, 0, 1), ClassMask::kNone, false, merges, true}, false);
   }
 
   /// Goes on behind a surface that is not there.

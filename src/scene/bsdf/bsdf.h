@@ -1,8 +1,8 @@
 // The interface of every scattering model, in the local shading frame (z up, pointing outwards).
 // A BSDF is made of lobes, and each lobe has a class, D, G or S, which is its letter in light path
-// expressions. All functions work per class, so that the estimator of a route can weigh exactly the
-// lobes that belong to it (docs/architecture.md, section 4).
-// Who calls it: transport and photon. It must not know routes, textures or lights.
+// (but on curves) expressions. All functions work per class, so that the estimator of a route can
+// weigh exactly the lobes that belong to it (docs/architecture.md, section 4). Who calls it:
+// transport and photon. It must not know routes, textures or lights.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,8 @@
 // Scattering by a hair fibre, a rough dielectric cylinder with absorption inside: Chiang, Bitterli,
 // Tappan & Burley 2016, "A practical and controllable hair and fur model for production path
 // tracing", on the lobes of d'Eon et al. 2011; conventions of angles, scales and roughness as in
-// pbrt-v4 section 9.9. All lobes are class D and reach the whole sphere.
+// pbrt-v4 section 9.9. All lobes are class D and reach the whole sphere; the
+// letter of its events is H.
 // Who calls it: the hair material. It must not know curves, textures or pigments.
 #pragma once
 

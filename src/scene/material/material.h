@@ -44,10 +44,8 @@ class Material {
   virtual bool has_bssrdf() const { return false; }
 
   /// False where photons cannot be merged (hair, whose width is below any merge radius): its events
-  /// are D, but paths that have one belong to path tracing.
+  /// are H, whatever their lobes.
   virtual bool merges_photons() const { return true; }
-  /// True if resolve() may find a material that does not merge.
-  virtual bool may_refuse_photons() const { return !merges_photons(); }
   /// The classes of possible_classes() in which photons may be merged, in any guise.
   virtual ClassMask merging_classes() const {
     return merges_photons() ? possible_classes() : ClassMask::kNone;

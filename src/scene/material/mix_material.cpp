@@ -51,9 +51,6 @@ class MixMaterial final : public Material {
   ClassMask possible_classes() const override {
     return materials_[0]->possible_classes() | materials_[1]->possible_classes();
   }
-  bool may_refuse_photons() const override {
-    return materials_[0]->may_refuse_photons() || materials_[1]->may_refuse_photons();
-  }
   ClassMask merging_classes() const override {
     return materials_[0]->merging_classes() | materials_[1]->merging_classes();
   }
