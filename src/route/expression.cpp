@@ -4,6 +4,7 @@
 #include "route/expression.h"
 
 #include <algorithm>
+#include <cctype>
 
 #include "route/expression_error.h"
 
@@ -277,7 +278,8 @@ class Parser {
     }
     if (take('\'')) p.label = label();
     if (!take('>'))
-      fail("expected a label or '>' for the '<' at column " + column(open) + ", found " + found());
+      fail("expected a label or '>' for the '<' at column " + column(open) + ", found " + found() +
+           (p.label.empty() && begins_label() ? " (did the shell take the quotes?)" : ""));
     return p;
   }
   unsigned side_and_class() {
@@ -315,6 +317,10 @@ class Parser {
     if (all == 0) fail("expected a letter of " + std::string(expected) + ", found an empty set");
     ++at_;
     return all;
+  }
+  // True at what may be the first letter of a label that has lost its quotes.
+  bool begins_label() const {
+    return at_ < text_.size() && std::isalpha(static_cast<unsigned char>(text_[at_])) != 0;
   }
   std::string label() {
     const size_t begin = at_;

@@ -43,12 +43,18 @@ std::vector<Block> blocks() {
   return all;
 }
 
-/// The value of `option 'VALUE'`, empty if the line is not that option. What stands between the
-/// outermost quotes counts: in a shell, the quotes of labels need double quotes around them.
+/// The value of `option 'VALUE'` or `option "VALUE"` as a shell hands it over, empty if the line is
+/// not that option.
 std::optional<std::string> value_of(const std::string& line, const std::string& option) {
   if (line.rfind(option + " ", 0) != 0) return {};
   const std::string value = line.substr(option.size() + 1);
-  return value[0] == '\'' ? value.substr(1, value.size() - 2) : value;
+  const char quote = value[0];
+  if (quote != '\'' && quote != '"') return value;
+  const std::string inside = value.substr(1, value.size() - 2);
+  EXPECT_EQ(value.back(), quote) << line;
+  EXPECT_EQ(inside.find_first_of(quote == '"' ? "\"$`\\!" : "'"), std::string::npos)
+      << "a shell would not hand this over as it is: " << line;
+  return inside;
 }
 
 struct Options {
