@@ -182,8 +182,8 @@ std::vector<RouteDefinition> parse_route_file(const std::string& text, const std
     const size_t comment = find_outside_labels(whole, '#', 0);
     const Range range = trimmed(whole, 0, std::min(comment, whole.size()));
     if (range.begin == range.end) continue;
-    routes.push_back(parse_route(whole.substr(range.begin, range.end - range.begin),
-                                 file + ":" + std::to_string(number)));
+    // With its indentation, so that columns are those of the file.
+    routes.push_back(parse_route(whole.substr(0, range.end), file + ":" + std::to_string(number)));
   }
   if (routes.empty())
     throw UsageError(file + ": expected routes, NAME=EXPRESSION:ESTIMATOR, one a line; found none");
