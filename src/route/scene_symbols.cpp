@@ -14,50 +14,72 @@ LightKind kind_of_light(const Light& light) {
   return LightKind::kPoint;
 }
 
-// True if photons cannot be merged on some shape, whatever its material.
-bool any_shape_refuses_photons(const Scene& scene) {
-  const auto refuses = [](const ShapeGroup& group) {
-    return std::any_of(group.records.begin(), group.records.end(),
-                       [](const ShapeRecord& r) { return !r.merges_photons; });
+// Calls visit(record) for each shape, also of objects that stand nowhere.
+template <class Visit>
+void for_each_shape(const Scene& scene, const Visit& visit) {
+  const auto each = [&](const ShapeGroup& group) {
+    for (const ShapeRecord& record : group.records) visit(record);
   };
-  const auto any_of = [&](const std::vector<std::unique_ptr<ShapeGroup>>& groups) {
-    return std::any_of(groups.begin(), groups.end(), [&](const auto& g) { return refuses(*g); });
-  };
-  return refuses(scene.top) || any_of(scene.groups) || any_of(scene.moving_shapes);
+  each(scene.top);
+  for (const auto& group : scene.groups) each(*group);
+  for (const auto& group : scene.moving_shapes) each(*group);
+}
+
+// Adds to `found`, by index, the materials that may stand for `material` at a point.
+void add_guises(const Material& material, std::vector<bool>& visited, std::vector<bool>& found) {
+  const auto index = static_cast<size_t>(material.index());
+  if (visited[index]) return;
+  visited[index] = true;
+  if (!material.is_mix()) found[index] = true;
+  for (const MaterialPtr& choice : material.choices()) add_guises(*choice, visited, found);
+}
+
+// Which of a scene's materials scatter, by what they are on.
+struct MaterialsOfShapes {
+  std::vector<bool> on_surfaces;  ///< [material]: some shape where photons can be merged has it
+  std::vector<bool> on_curves;    ///< [material]: some other shape has it
+};
+MaterialsOfShapes materials_of_shapes(const Scene& scene) {
+  const size_t count = scene.materials.size();
+  MaterialsOfShapes result{std::vector<bool>(count), std::vector<bool>(count)};
+  std::vector<bool> visited_on_surfaces(count), visited_on_curves(count);
+  for_each_shape(scene, [&](const ShapeRecord& record) {
+    const Material& material = *scene.materials[static_cast<size_t>(record.material)];
+    if (record.merges_photons)
+      add_guises(material, visited_on_surfaces, result.on_surfaces);
+    else
+      add_guises(material, visited_on_curves, result.on_curves);
+  });
+  return result;
+}
+
+// 0 if no expression mentions names[i].
+Label number_of(const std::vector<std::string>& names, size_t i,
+                const std::vector<std::string>& labels) {
+  if (i >= names.size()) return 0;
+  const auto found = std::find(labels.begin(), labels.end(), names[i]);
+  return found == labels.end() ? Label{0} : static_cast<Label>(found - labels.begin() + 1);
 }
 
 }  // namespace
 
-// Materials that no shape names count as well: a mix may stand for them.
 SceneSymbols::SceneSymbols(const Scene& scene, const std::vector<std::string>& labels) {
   std::vector<bool> known(labels.size());
-  const auto number = [&](const std::vector<std::string>& names, size_t i) -> Label {
-    if (i >= names.size()) return 0;
-    const auto found = std::find(labels.begin(), labels.end(), names[i]);
-    if (found == labels.end()) return 0;
-    known[static_cast<size_t>(found - labels.begin())] = true;
-    return static_cast<Label>(found - labels.begin() + 1);
+  const auto number = [&](const std::vector<std::string>& names, size_t i) {
+    const Label label = number_of(names, i, labels);
+    if (label > 0) known[label - 1u] = true;
+    return label;
   };
   present_.events.assign(8 * (labels.size() + 1), false);
   present_.lights.assign(8 * (labels.size() + 1), false);
 
-  const bool curves = any_shape_refuses_photons(scene);
+  std::vector<bool> called_mix(labels.size());
   for (size_t i = 0; i < scene.materials.size(); ++i) {
-    const Material& material = *scene.materials[i];
-    const Label label = number(scene.material_labels, i);
+    const Label label = number_of(scene.material_labels, i, labels);
     materials_.push_back(label);
-    if (material.is_interface()) continue;
-    if (curves || !material.merges_photons())
-      present_.events[event_symbol(EventClass::kHair, false, label)] = true;
-    if (!material.merges_photons()) continue;
-    for (const EventClass c : kSurfaceClasses) {
-      if (!contains(material.possible_classes(), c)) continue;
-      // Knows which materials shapes have.
-      if (c == EventClass::kSpecular && !scene.has_specular_material) continue;
-      for (const bool transmitted : {false, true})
-        present_.events[event_symbol(c, transmitted, label)] = true;
-    }
+    if (label > 0) (scene.materials[i]->is_mix() ? called_mix : known)[label - 1u] = true;
   }
+  find_surface_events(scene);
   for (size_t i = 0; i < scene.media.size(); ++i) {
     const Medium& medium = *scene.media[i];
     const Label label = number(scene.medium_labels, i);
@@ -72,8 +94,27 @@ SceneSymbols::SceneSymbols(const Scene& scene, const std::vector<std::string>& l
     lights_.push_back(symbol);
     present_.lights[symbol] = true;
   }
-  for (size_t i = 0; i < labels.size(); ++i)
-    if (!known[i]) unknown_.push_back(labels[i]);
+  for (size_t i = 0; i < labels.size(); ++i) {
+    if (known[i]) continue;
+    unknown_.push_back(labels[i]);
+    unknown_is_mix_ = unknown_is_mix_ || called_mix[i];
+  }
+}
+
+void SceneSymbols::find_surface_events(const Scene& scene) {
+  const MaterialsOfShapes shapes = materials_of_shapes(scene);
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    const Material& material = *scene.materials[i];
+    if (material.is_interface()) continue;
+    const bool anywhere = shapes.on_surfaces[i] || shapes.on_curves[i];
+    if (shapes.on_curves[i] || (anywhere && !material.merges_photons()))
+      present_.events[event_symbol(EventClass::kHair, false, materials_[i])] = true;
+    if (!shapes.on_surfaces[i] || !material.merges_photons()) continue;
+    for (const EventClass c : kSurfaceClasses)
+      for (const bool transmitted : {false, true})
+        if (contains(material.possible_classes(), c))
+          present_.events[event_symbol(c, transmitted, materials_[i])] = true;
+  }
 }
 
 }  // namespace nephroid

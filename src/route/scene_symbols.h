@@ -26,14 +26,19 @@ class SceneSymbols {
 
   /// What can occur in this scene: a conservative answer.
   const SymbolSet& present() const { return present_; }
-  /// Labels that nothing in the scene is called: a warning.
+  /// Labels that nothing in the scene goes by: a warning.
   const std::vector<std::string>& unknown_labels() const { return unknown_; }
+  /// True if a label is unknown only because a mix goes by those of its materials.
+  bool unknown_is_mix() const { return unknown_is_mix_; }
 
  private:
+  void find_surface_events(const Scene& scene);
+
   std::vector<Label> materials_, media_;
   std::vector<LightSymbol> lights_;
   SymbolSet present_;
   std::vector<std::string> unknown_;
+  bool unknown_is_mix_ = false;
 };
 
 /// What an estimator needs to know of routes: all of them, their symbols in the scene, and which

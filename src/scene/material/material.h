@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,11 @@ class Material {
   /// The material that stands for this one at a point: itself, or for `mix` the one that is chosen
   /// by a hash of the point (pbrt-v4 section 10.5.1).
   virtual const Material* resolve(const SurfaceInteraction&) const { return this; }
+
+  /// The materials that `mix` chooses among, which may be mixes themselves; empty for all others.
+  virtual std::span<const std::shared_ptr<const Material>> choices() const { return {}; }
+  /// True if others stand for this material everywhere: no event is its own.
+  bool is_mix() const { return !choices().empty(); }
 
   /// What lies under a surface whose BSDF samples `subsurface` events, in `arena`; nullptr for all
   /// other materials. `lambda` has passed make_bsdf already.

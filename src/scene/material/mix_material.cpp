@@ -27,6 +27,7 @@ class MixMaterial final : public Material {
     if (amount >= 1.0f) return materials_[1]->resolve(point);
     return materials_[hash(point) < amount ? 1 : 0]->resolve(point);
   }
+  std::span<const MaterialPtr> choices() const override { return materials_; }
   const Bsdf* make_bsdf(const SurfaceInteraction& point, SampledWavelengths& lambda,
                         float specular_alpha, BsdfArena& arena) const override {
     return resolve(point)->make_bsdf(point, lambda, specular_alpha, arena);
