@@ -59,6 +59,14 @@ void print_lights(const Scene& scene) {
              scene.lights.size(), infinite, delta);
 }
 
+/// A mix goes by the labels of the materials that it shows.
+std::vector<std::string> labels_of_materials(const Scene& scene) {
+  std::vector<std::string> labels;
+  for (size_t i = 0; i < scene.materials.size(); ++i)
+    if (!scene.materials[i]->is_mix()) labels.push_back(scene.material_labels[i]);
+  return labels;
+}
+
 /// What `--route` and `--aov` may call things: each label once, with how often it occurs.
 void print_labels(const char* kind, const std::vector<std::string>& labels) {
   std::vector<std::pair<std::string, size_t>> counts;
@@ -101,7 +109,7 @@ int run_info(const InfoCommand& command) {
                                          : "none specular: there can be no caustics");
   print_lights(scene);
   print_labels("lights", scene.light_labels);
-  print_labels("materials", scene.material_labels);
+  print_labels("materials", labels_of_materials(scene));
   print_labels("media", scene.medium_labels);
   fmt::print("warnings: {}\n", loaded.warnings.size());
   return static_cast<int>(ExitStatus::kDone);

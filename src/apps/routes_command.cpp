@@ -3,14 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "apps/commands.h"
 #include "apps/messages.h"
 #include "apps/scene_loading.h"
 #include "core/errors.h"
-#include "route/compile.h"
-#include "route/scene_symbols.h"
+#include "integrator/compiled_plan.h"
 #include "session/film_of_scene.h"
 #include "session/noise.h"
 
@@ -96,9 +96,9 @@ bool print_proof(const RouteCompilation& compiled, bool strict) {
 }
 
 /// A small picture of the scene, its light by route and by layer, and what the estimators say.
-void print_pilot(const RoutesCommand& command, const RoutePlan& plan,
+void print_pilot(const RoutesCommand& command, const RoutePlan& plan, CompiledPlan compiled,
                  const IntegratorChoice& choice, const Scene& scene) {
-  Preset preset = make_preset(plan, choice.options, scene);
+  Preset preset = make_preset(std::move(compiled), choice.options, scene);
   for (const std::string& warning : preset.warnings) print_warning(warning);
   Film film(film_settings(scene.film), preset.layout);
   for (uint32_t pass = 0; pass < command.passes; ++pass)
@@ -135,12 +135,11 @@ int run_routes(const RoutesCommand& command) {
       command.routes.integrator.empty() ? kDefaultIntegrator : command.routes.integrator,
       scene.integrator, scene.integrator_parameters, command.settings);
   const RoutePlan plan = plan_of(command.routes, choice.name);
-  const SceneSymbols symbols(scene, mentioned_labels(plan.routes, plan.aovs));
-  const RouteCompilation compiled = compile_routes(plan.routes, plan.aovs, &symbols.present());
-  print_routes(plan, compiled);
-  print_automaton(compiled.routes);
-  if (!print_proof(compiled, plan.strict)) return static_cast<int>(ExitStatus::kUsage);
-  print_pilot(command, plan, choice, scene);
+  CompiledPlan compiled = compile_plan(plan, scene);
+  print_routes(plan, compiled.compilation);
+  print_automaton(compiled.compilation.routes);
+  if (!print_proof(compiled.compilation, plan.strict)) return static_cast<int>(ExitStatus::kUsage);
+  print_pilot(command, plan, std::move(compiled), choice, scene);
   return static_cast<int>(ExitStatus::kDone);
 }
 

@@ -2,14 +2,13 @@
 #include <algorithm>
 
 #include "core/errors.h"
+#include "integrator/compiled_plan.h"
 #include "integrator/features.h"
 #include "integrator/light_tracing.h"
 #include "integrator/path.h"
 #include "integrator/photon_mapping.h"
 #include "integrator/sppm.h"
 #include "integrator/vertex_merging.h"
-#include "route/compile.h"
-#include "route/scene_symbols.h"
 
 namespace nephroid {
 
@@ -50,19 +49,32 @@ std::string quoted_list(const std::vector<std::string>& names) {
 
 }  // namespace
 
-Preset make_preset(const RoutePlan& plan, const IntegratorOptions& options, const Scene& scene) {
+CompiledPlan compile_plan(const RoutePlan& plan, const Scene& scene) {
   const auto symbols =
       std::make_shared<const SceneSymbols>(scene, mentioned_labels(plan.routes, plan.aovs));
-  RouteCompilation compilation = compile_routes(plan.routes, plan.aovs, &symbols->present());
+  return {symbols, compile_routes(plan.routes, plan.aovs, &symbols->present()), plan.strict};
+}
+
+Preset make_preset(const RoutePlan& plan, const IntegratorOptions& options, const Scene& scene) {
+  CompiledPlan compiled = compile_plan(plan, scene);
+  std::vector<std::string> warnings;
+  for (const RouteFinding& finding : compiled.compilation.findings)
+    if (!finding.is_error) warnings.push_back(finding.message);
+  Preset preset = make_preset(std::move(compiled), options, scene);
+  preset.warnings.insert(preset.warnings.begin(), warnings.begin(), warnings.end());
+  return preset;
+}
+
+Preset make_preset(CompiledPlan compiled, const IntegratorOptions& options, const Scene& scene) {
+  const auto& symbols = compiled.symbols;
   Preset preset;
-  for (const RouteFinding& finding : compilation.findings)
-    if (!finding.is_error) preset.warnings.push_back(finding.message);
   if (!symbols->unknown_labels().empty())
-    preset.warnings.push_back("nothing in the scene is called " +
-                              quoted_list(symbols->unknown_labels()) +
-                              " (`nephroid info SCENE` lists the labels)");
+    preset.warnings.push_back(
+        "nothing in the scene is called " + quoted_list(symbols->unknown_labels()) +
+        (symbols->unknown_is_mix() ? "; a mix goes by the labels of its materials" : "") +
+        " (`nephroid info SCENE` lists the labels)");
   preset.routes = std::make_shared<const Routes>(
-      checked_routes(std::move(compilation), plan.strict).restricted_to(symbols->present()));
+      checked_routes(std::move(compiled.compilation), compiled.strict));
   preset.layout = layout_of(*preset.routes);
   for (size_t g = 0; g < preset.routes->groups().size(); ++g)
     for (const Row& row : kTable) {
