@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <set>
 #include <utility>
 
 #include "core/parallel.h"
@@ -114,15 +113,6 @@ Picture film_picture(const Film& film, Metadata metadata) {
     }
   });
   return picture;
-}
-
-std::optional<std::string> clashing_layer(const FilmLayout& layout) {
-  std::set<std::string> taken = {"albedo", "N", "stderr",  // and those of a gbuffer film
-                                 "Albedo", "P", "Ns",     "Variance", "RelativeVariance"};
-  for (const std::vector<std::string>* names : {&layout.routes, &layout.aovs})
-    for (const std::string& name : *names)
-      if (!taken.insert(name).second) return name;
-  return std::nullopt;
 }
 
 std::vector<uint8_t> film_srgb8(const Film& film, float exposure) {

@@ -2,7 +2,6 @@
 // Who calls it: session. It must not know estimators or scenes.
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "film/film.h"
@@ -14,12 +13,8 @@ namespace nephroid {
 /// (the same form), albedo, N (world space), Z, stderr (standard error of R G B) and samples
 /// (estimates per pixel, the largest of the groups). A gbuffer film has pbrt-v4's layers instead of
 /// albedo and N, in the film's coordinate system: Albedo, N (geometric), P, Ns, u, v, dzdx, dzdy,
-/// Variance, RelativeVariance.
+/// Variance, RelativeVariance. No route or AOV has one of these names: check_layer_name in route/.
 Picture film_picture(const Film& film, Metadata metadata);
-
-/// The first name of a route or an AOV that another layer of the file has, too; empty if all
-/// differ.
-std::optional<std::string> clashing_layer(const FilmLayout& layout);
 
 /// The film's R G B times `exposure`, in sRGB primaries and transfer, interleaved bytes.
 std::vector<uint8_t> film_srgb8(const Film& film, float exposure);

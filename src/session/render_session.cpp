@@ -34,11 +34,6 @@ double steady_seconds() {
 void check_fits(const Preset& preset, const RenderOptions& options) {
   if (options.last_pass && *options.last_pass < options.first_pass)
     throw UsageError("--passes: the range ends before it begins");
-  if (const auto name = clashing_layer(preset.layout))
-    throw UsageError(
-        fmt::format("two layers of the picture would be called \"{}\", expected another name for "
-                    "the route or AOV",
-                    *name));
   for (const auto& estimator : preset.estimators) {
     const Capabilities capabilities = estimator->capabilities();
     if (options.first_pass > 0 && !capabilities.independent_passes)

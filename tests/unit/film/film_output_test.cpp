@@ -108,20 +108,6 @@ TEST(FilmOutput, OneLayerPerRouteAndAovAndTheLargestCount) {
   EXPECT_EQ(pixel(picture, 4, 3, "samples"), 4.0f);
 }
 
-TEST(FilmOutput, NamesOfTwoLayersAreFound) {
-  FilmLayout layout = FilmLayout::of_routes({"diffuse", "caustic"});
-  layout.aovs = {"key", "Z"};
-  EXPECT_FALSE(clashing_layer(layout).has_value());
-  layout.aovs = {"key", "caustic"};
-  EXPECT_EQ(clashing_layer(layout), "caustic");
-  layout.aovs = {"key", "fill", "key"};
-  EXPECT_EQ(clashing_layer(layout), "key");
-  for (const char* name : {"albedo", "Albedo", "N", "stderr", "Ns", "P", "Variance"}) {
-    layout.aovs = {name};
-    EXPECT_EQ(clashing_layer(layout), name);
-  }
-}
-
 TEST(FilmOutput, GbufferLayers) {
   FilmSettings settings = cropped();
   settings.gbuffer = true;
