@@ -41,14 +41,6 @@ void add_routes(const RoutePlan& plan, Metadata* metadata) {
     metadata->emplace_back("nephroid:aov:" + aov.name, aov.expression);
 }
 
-/// Parts of the light that arrives as splats.
-size_t splatted_parts(const Routes& routes) {
-  size_t parts = 0;
-  for (const RouteGroup& group : routes.groups())
-    if (estimator_type(group.estimator).connects) parts += group.parts.size();
-  return parts;
-}
-
 RenderOptions render_options(const RenderCommand& command, const Scene& scene,
                              const std::string& output, Metadata metadata) {
   RenderOptions options;
@@ -87,8 +79,7 @@ int run_render(const RenderCommand& command) {
   Preset preset = make_preset(plan, choice.options, scene);
   if (!command.quiet)
     for (const std::string& warning : preset.warnings) print_warning(warning);
-  check_film_fits(scene.film, preset.layout, splatted_parts(*preset.routes),
-                  command.overrides.width > 0);
+  check_film_fits(scene.film, preset.layout, *preset.routes, command.overrides.width > 0);
   Film film(film_settings(scene.film), preset.layout);
   const std::string output =
       command.output.empty() ? default_output(scene.film, command.scene) : command.output;

@@ -18,6 +18,10 @@ struct MergePass {
   std::vector<Rgb> values;            ///< [pixel * parts + part], parts as Film::parts_of counts
   std::vector<float> filter_weights;  ///< [pixel]
   uint64_t found = 0;                 ///< photons merged
+
+  static constexpr size_t bytes_per_pixel(size_t parts) {
+    return parts * sizeof(Rgb) + sizeof(float);
+  }
 };
 
 /// The radius is `radius_pixels` footprints at the length of the walk. Adds rays and photons to

@@ -28,11 +28,7 @@ void Sppm::render_pass(const PassKey& key, const Scene& scene, Film& film) {
   flux_.resize(pixels_.size() * parts);
   footprint_.resize(pixels_.size());
 
-  // What a pass finds is collected over its batches; the radius stays until the pass is complete.
-  struct Found {
-    float filter_weight = 1;
-    uint64_t count = 0;
-  };
+  // The radius stays until the pass is complete.
   std::vector<Found> found(pixels_.size());
   std::vector<Rgb> phi(pixels_.size() * parts);
   std::vector<uint64_t> rays(static_cast<size_t>(b.height()), 0);

@@ -3,6 +3,8 @@
 // a sequence. Paper: Hachisuka & Jensen 2009.
 #pragma once
 
+#include <array>
+
 #include "integrator/estimator.h"
 #include "photon/radius_schedule.h"
 #include "route/scene_symbols.h"
@@ -19,7 +21,21 @@ class Sppm : public Estimator {
   void render_pass(const PassKey& key, const Scene& scene, Film& film) override;
   EstimatorStatistics statistics() const override;
 
+  /// Memory of a pixel from pass to pass, and what a pass needs beside it.
+  static constexpr size_t bytes_kept(size_t parts) {
+    return sizeof(SharedStatistics) + parts * sizeof(std::array<double, 3>) + sizeof(float);
+  }
+  static constexpr size_t bytes_of_pass(size_t parts) {
+    return sizeof(Found) + parts * sizeof(Rgb);
+  }
+
  private:
+  /// What a pass finds for a pixel, collected over its batches.
+  struct Found {
+    float filter_weight = 1;
+    uint64_t count = 0;
+  };
+
   OwnedRoutes owned_;
   IntegratorOptions options_;
   std::vector<SharedStatistics> pixels_;

@@ -4,12 +4,37 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "core/errors.h"
 #include "film/splats.h"
+#include "integrator/merge_pass.h"
+#include "integrator/sppm.h"
 
 namespace nephroid {
+namespace {
+
+/// For each pixel: what estimators keep from pass to pass, and what the pass that needs most does;
+/// they render one after another.
+size_t bytes_of_estimators(const Routes& routes) {
+  size_t kept = 0, most = 0;
+  for (const RouteGroup& group : routes.groups()) {
+    const size_t parts = group.parts.size();
+    const EstimatorType& type = estimator_type(group.estimator);
+    size_t pass = type.connects ? SplatBuffer::bytes_per_pixel(parts) : 0;
+    if (group.estimator == EstimatorKind::kSppm) {
+      kept += Sppm::bytes_kept(parts);
+      pass += Sppm::bytes_of_pass(parts);
+    } else if (type.merges) {
+      pass += MergePass::bytes_per_pixel(parts);
+    }
+    most = std::max(most, pass);
+  }
+  return kept + most;
+}
+
+}  // namespace
 
 FilmSettings film_settings(const FilmDescription& description) {
   FilmSettings settings;
@@ -28,11 +53,11 @@ FilmSettings film_settings(const FilmDescription& description) {
 }
 
 void check_film_fits(const FilmDescription& description, const FilmLayout& layout,
-                     size_t splatted_parts, bool size_is_an_option) {
-  // The sums; everything else comes on top.
+                     const Routes& routes, bool size_is_an_option) {
+  // What there is of each pixel; everything else comes on top.
   const auto bytes_per_pixel = static_cast<double>(
       Film::bytes_per_pixel(layout, description.gbuffer != GBufferSpace::kNone) +
-      SplatBuffer::bytes_per_pixel(splatted_parts));
+      bytes_of_estimators(routes));
   constexpr double kGiB = 1 << 30;
   const double pixels = static_cast<double>(description.crop_x1 - description.crop_x0) *
                         (description.crop_y1 - description.crop_y0);

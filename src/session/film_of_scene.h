@@ -5,6 +5,7 @@
 #include <string>
 
 #include "film/film.h"
+#include "route/routes.h"
 #include "scene/scene.h"
 
 namespace nephroid {
@@ -13,9 +14,9 @@ FilmSettings film_settings(const FilmDescription& description);
 
 /// Refuses a film that this machine's memory cannot hold, before anything is allocated for it:
 /// throws UsageError if its size came from the command line, else SceneError at the Film directive.
-/// `splatted_parts` of the layout's parts have a SplatBuffer beside the film.
+/// What the estimators of the routes keep for each pixel is counted, too.
 void check_film_fits(const FilmDescription& description, const FilmLayout& layout,
-                     size_t splatted_parts, bool size_is_an_option);
+                     const Routes& routes, bool size_is_an_option);
 
 /// The output when the user names none: the stem of the scene's film file name (or of the scene's
 /// own, if the film has none), ".exr", in the current directory.

@@ -7,12 +7,20 @@
 #include <fstream>
 
 #include "core/errors.h"
+#include "film/film_output.h"
 #include "film/splats.h"
+#include "route/compile.h"
 #include "session/file_hash.h"
 #include "unit/film/scratch_directory.h"
 
 namespace nephroid {
 namespace {
+
+Routes routes_of(const std::vector<std::string>& texts) {
+  std::vector<RouteDefinition> routes;
+  for (const std::string& text : texts) routes.push_back(parse_route(text));
+  return compile_routes(routes, {}).routes;
+}
 
 TEST(FilmOfScene, DefaultOutputIsHereAndExr) {
   FilmDescription film;
@@ -53,20 +61,59 @@ TEST(FilmOfScene, SettingsAreTheScenes) {
 TEST(FilmOfScene, MemoryIsThatOfThePartsGroupsAndSplats) {
   // Just what this machine holds for a film of one route: anything more is refused.
   const FilmLayout one = FilmLayout::of_routes({"all"});
+  const Routes path = routes_of({"all=.*:path"});
   const double memory =
       static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
   FilmDescription description;
   description.crop_x0 = description.crop_y0 = 0;
   description.crop_x1 = 1024;
-  description.crop_y1 =
-      static_cast<int>(memory / static_cast<double>(Film::bytes_per_pixel(one, false)) / 1024);
-  EXPECT_NO_THROW(check_film_fits(description, one, 0, false));
-  EXPECT_THROW(check_film_fits(description, one, 1, false), SceneError);
+  const auto fill = [&](size_t bytes) {
+    description.crop_y1 = static_cast<int>(memory / static_cast<double>(bytes) / 1024);
+  };
+  const size_t film = Film::bytes_per_pixel(one, false);
+  fill(film);
+  EXPECT_NO_THROW(check_film_fits(description, one, path, false));
   FilmLayout two = one;
   two.parts.push_back({0, {}});
-  EXPECT_THROW(check_film_fits(description, two, 0, true), UsageError);
+  EXPECT_THROW(check_film_fits(description, two, path, true), UsageError);
   description.gbuffer = GBufferSpace::kWorld;
-  EXPECT_THROW(check_film_fits(description, one, 0, false), SceneError);
+  EXPECT_THROW(check_film_fits(description, one, path, false), SceneError);
+  description.gbuffer = GBufferSpace::kNone;
+
+  // A splat is a sum of 48 bytes. A merging pass has a colour for each part and a filter weight;
+  // sppm keeps a radius, a count, a flux and a footprint, and in a pass a colour, a count and a
+  // filter weight. Estimators render one after another.
+  const struct {
+    std::vector<std::string> routes;
+    size_t bytes;
+  } rows[] = {{{"all=.*:lighttrace"}, 48},
+              {{"all=C.*DL:photons"}, 12 + 4},
+              {{"all=C.*DL:photons+light"}, 48 + 12 + 4},
+              {{"all=C.*DL:sppm"}, 16 + 24 + 4 + 12 + 16},
+              {{"a=C.*DL:photons", "b=C.*GL:photons"}, 2 * 12 + 4},
+              {{"a=C.*DL:sppm", "b=C.*GL:photons+light"}, 16 + 24 + 4 + 48 + 12 + 4}};
+  for (const auto& row : rows) {
+    SCOPED_TRACE(row.routes.back());
+    const Routes routes = routes_of(row.routes);
+    fill(film + row.bytes);
+    EXPECT_NO_THROW(check_film_fits(description, one, routes, false));
+    fill(film + row.bytes - 1);
+    EXPECT_THROW(check_film_fits(description, one, routes, false), SceneError);
+  }
+}
+
+TEST(FilmOfScene, NoRouteTakesTheNameOfALayerOfPictures) {
+  FilmSettings settings;
+  settings.width = settings.height = 2;
+  settings.crop = {0, 0, 2, 2};
+  for (const bool gbuffer : {false, true}) {
+    settings.gbuffer = gbuffer;
+    const Film film(settings, FilmLayout::of_routes({"all"}));
+    for (const std::string& channel : film_picture(film, {}).channels) {
+      const std::string layer = channel.substr(0, channel.find('.'));
+      if (layer != "all") EXPECT_THROW(parse_route(layer + "=.*:path"), UsageError) << layer;
+    }
+  }
 }
 
 TEST(FilmOfScene, TheFilmsMemoryIsCountedInFull) {
