@@ -106,10 +106,10 @@ void SceneSymbols::find_surface_events(const Scene& scene) {
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     const Material& material = *scene.materials[i];
     if (material.is_interface()) continue;
-    const bool anywhere = shapes.on_surfaces[i] || shapes.on_curves[i];
-    if (shapes.on_curves[i] || (anywhere && !material.merges_photons()))
+    const bool merges = material.merges_photons();
+    if (shapes.on_curves[i] || (shapes.on_surfaces[i] && !merges))
       present_.events[event_symbol(EventClass::kHair, false, materials_[i])] = true;
-    if (!shapes.on_surfaces[i] || !material.merges_photons()) continue;
+    if (!shapes.on_surfaces[i] || !merges) continue;
     for (const EventClass c : kSurfaceClasses)
       for (const bool transmitted : {false, true})
         if (contains(material.possible_classes(), c))
