@@ -56,8 +56,13 @@ constexpr const char* kTail = R"(
 - A negative value of a `density`, an emission or a coefficient in a scene file is an error; a negative
   voxel of a NanoVDB file counts as 0.
 - The ray tracer does not see a curve that is nearer to the origin of a ray than its width.
-- Caustics inside of media and on hair are rendered by path tracing in every integrator (V vertices and
-  hair do not merge photons).
+- Photons, and the walks that merge them, scatter in media, but a V is no vertex to merge at: what a
+  medium itself shows of a caustic is path traced in every integrator. So are all paths that meet hair or
+  another curve (H).
+- Realistic cameras cannot be used with routes of `lighttrace` and `photons+light`: light paths cannot be
+  connected to them.
+- `Option "disablepixeljitter"` does not concern routes of `lighttrace` and what `photons+light` connects
+  to the camera: that light is always spread by the pixel filter.
 )";
 
 /// The text of a table cell: a bar would end it.
@@ -147,8 +152,8 @@ std::vector<FormatKind> format_kinds() {
        "indices out of range are errors, faces without area are removed with a warning.",
        shape_types()},
       {"Materials", "Material",
-       "Letters are those of the routes (docs/routes.md), per scattering event: S specular, D "
-       "diffuse. Photons merge at D events unless it is said otherwise.",
+       "Letters are those of the routes (docs/routes.md), per scattering event: S specular, G "
+       "glossy, D diffuse, H hair, and on curves H for all of them. Photons merge at D and G.",
        material_types()},
       {"Textures", "Texture",
        "\"Values\" are floats or spectra, by the texture's type. Mappings other than uv and all "
@@ -160,8 +165,8 @@ std::vector<FormatKind> format_kinds() {
        light_types()},
       {"Area lights", "AreaLightSource", "Of the shapes that follow.", area_light_types()},
       {"Media", "MakeNamedMedium",
-       "Scattering in a medium is the letter V: photons pass through with the right "
-       "transmittance, but do not merge there.",
+       "Scattering in a medium is the letter V: photons scatter there where routes have it, else "
+       "they are dimmed by the transmittance; they do not merge there.",
        medium_types()},
   };
 }

@@ -68,6 +68,8 @@ TEST(Expression, MistakesAreShownWithACaret) {
       {"a=C<RD'x>L:path", 7, "ends the label"},
       {"a=C<RD''>L:path", 7, "found nothing"},
       {"a=C<RDL:path", 7, "expected a label or '>' for the '<' at column 4"},
+      {"a=C.*<L.key>:path", 9, "found 'k' (did the shell take the quotes?)"},
+      {"a=C<TSglass>L:path", 7, "found 'g' (did the shell take the quotes?)"},
       {"a=C<C'x'>L:path", 5, "the eye has no sides"},
       {"a=C'x'L:path", 4, "angle brackets"},
       {"a=CD]L:path", 5, "without the bracket that it closes"},
@@ -125,6 +127,10 @@ TEST(Expression, FilesHaveLinesAndComments) {
   const std::string message =
       complaint([] { parse_route_file("# none\na=C(L:path\n", "my.routes"); });
   EXPECT_EQ(message.find("my.routes:2: column 6: "), 0u) << message;
+  const std::string indented =
+      complaint([] { parse_route_file("\n  \ta = C(L : path  # seen\n", "my.routes"); });
+  EXPECT_EQ(indented.find("my.routes:2: column 12: "), 0u) << indented;
+  EXPECT_EQ(indented.substr(indented.find('\n')), "\n    \ta = C(L : path\n    \t        ^");
   EXPECT_NE(complaint([] { parse_route_file("# none\n", "my.routes"); }), "");
 }
 

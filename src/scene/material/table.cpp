@@ -122,7 +122,7 @@ constexpr MaterialRow kTable[] = {
       "photons merge where it comes out. A tabulated profile as in pbrt-v4 (ADR 7); below a mix "
       "light comes out where the mix shows this material"},
      make_subsurface},
-    {{"hair", {kHair}, "D; photons do not merge on hair, its caustics are left to path"},
+    {{"hair", {kHair}, "H; paths that meet hair are left to routes of path (docs/routes.md)"},
      make_hair},
     {{"measured", {kMeasured, kSurface}, "G"}, make_measured},
     {{"mix", {kMix}, "the letter of the material chosen at the point"}, make_mix},
