@@ -1,0 +1,82 @@
+// A session whose estimators do what the test says and whose clock the test turns.
+// Who includes it: the tests of the render loop.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+#include "session/render_session.h"
+#include "unit/film/one_part.h"
+
+namespace nephroid::testing_support {
+
+/// Everything that a fake pass may do, shared between test and estimator.
+struct Script {
+  double now = 0;
+  double pass_seconds = 1;
+  std::vector<PassKey> passes;                      ///< that were rendered
+  std::function<void(const PassKey&)> during_pass;  ///< called in each
+  Capabilities capabilities;
+};
+
+class FakeEstimator : public Estimator {
+ public:
+  FakeEstimator(Script& script, int group) : script_(script), group_(group) {}
+  Capabilities capabilities() const override { return script_.capabilities; }
+  void render_pass(const PassKey& key, const Scene&, Film& film) override {
+    script_.now += script_.pass_seconds;
+    script_.passes.push_back(key);
+    if (script_.during_pass) script_.during_pass(key);
+    // 0, 2, 0, 2 ...: mean 1 and deviation 1 in every pixel.
+    const float value = key.pass % 2 == 0 ? 0.0f : 2.0f;
+    for (int y = film.bounds().y0; y < film.bounds().y1; ++y)
+      for (int x = film.bounds().x0; x < film.bounds().x1; ++x)
+        add_one(film, group_, x, y, {value, value, value});
+    film.add_estimates(group_, 1);
+    statistics_.rays += 100;
+    statistics_.photons_stored += 10;
+    statistics_.radius_max_pixels = 8.0f / static_cast<float>(key.pass + 1);
+  }
+  EstimatorStatistics statistics() const override { return statistics_; }
+
+ private:
+  Script& script_;
+  int group_;
+  EstimatorStatistics statistics_;
+};
+
+/// A film of 5 x 3 pixels, one route, and six samples for each pixel.
+class ScriptedSession : public testing::Test {
+ protected:
+  ScriptedSession() {
+    preset_.layout = FilmLayout::of_routes({"diffuse"});
+    preset_.estimators.push_back(std::make_unique<FakeEstimator>(script_, 0));
+    FilmSettings settings;
+    settings.width = 5;
+    settings.height = 3;
+    film_ = std::make_unique<Film>(settings, preset_.layout);
+    scene_.samples_per_pixel = 6;
+  }
+  RenderResult run(const RenderOptions& options) {
+    RenderSession session(scene_, preset_, *film_, options);
+    session.use_clock([this] { return script_.now; });
+    session.on_progress([this](const RenderProgress& progress) { progress_.push_back(progress); });
+    session.on_warning([this](const std::string& warning) { warnings_.push_back(warning); });
+    return session.run(signals_);
+  }
+
+  Script script_;
+  Preset preset_;
+  Scene scene_;
+  std::unique_ptr<Film> film_;
+  SignalFlags signals_;
+  std::vector<RenderProgress> progress_;
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace nephroid::testing_support

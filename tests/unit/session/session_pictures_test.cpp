@@ -1,0 +1,165 @@
+// Pictures that the render loop writes: at the end, now and then, on demand; what they say of
+// themselves, and what happens if they cannot be written.
+#include <algorithm>
+#include <filesystem>
+
+#include "core/errors.h"
+#include "unit/film/scratch_directory.h"
+#include "unit/session/scripted_session.h"
+
+namespace nephroid {
+namespace {
+
+using SessionPictures = testing_support::ScriptedSession;
+
+/// The passes in the metadata of a picture, "" if there is none.
+std::string passes_in(const std::string& path) {
+  if (!std::filesystem::exists(path)) return "";
+  for (const auto& [key, value] : read_picture(path).metadata)
+    if (key == "nephroid:passes") return value;
+  return "no such key";
+}
+
+TEST_F(SessionPictures, IntermediatePicturesAreWrittenNowAndThen) {
+  const ScratchDirectory directory;
+  RenderOptions options;
+  options.output = directory.file("out.exr");
+  options.write_interval = 3;
+  options.last_pass = 7;
+  std::vector<std::string> seen;
+  script_.during_pass = [&](const PassKey&) { seen.push_back(passes_in(options.output)); };
+  run(options);
+  // Pass i ends at i + 1 seconds; the fake clock says that writing costs nothing.
+  EXPECT_EQ(seen, (std::vector<std::string>{"", "", "", "0..2", "0..2", "0..2", "0..5", "0..5"}));
+  EXPECT_EQ(passes_in(options.output), "0..7");
+}
+
+TEST_F(SessionPictures, PictureOnDemand) {
+  const ScratchDirectory directory;
+  RenderOptions options;
+  options.output = directory.file("out.exr");
+  options.write_interval = 1e9;
+  std::vector<std::string> seen;
+  script_.during_pass = [&](const PassKey& key) {
+    seen.push_back(passes_in(options.output));
+    if (key.pass == 1) signals_.write = true;
+  };
+  options.last_pass = 3;
+  EXPECT_EQ(run(options).reason, StopReason::kPasses);
+  EXPECT_EQ(seen, (std::vector<std::string>{"", "", "0..1", "0..1"}));
+  EXPECT_FALSE(signals_.write);
+}
+
+TEST_F(SessionPictures, WritingStretchesItsIntervalToItsCost) {
+  const ScratchDirectory directory;
+  RenderOptions options;
+  options.output = directory.file("out.exr");
+  options.write_interval = 1;
+  options.last_pass = 999;
+  // The clock moves by a millisecond at each look: a write costs at least that, so that writes are
+  // at least 50 of them apart although the interval has passed long ago.
+  script_.pass_seconds = 0.5;
+  int writes = 0;
+  std::filesystem::file_time_type last{};
+  RenderSession session(scene_, preset_, *film_, options);
+  session.use_clock([&] {
+    const bool exists = std::filesystem::exists(options.output);
+    const auto time = exists ? std::filesystem::last_write_time(options.output)
+                             : std::filesystem::file_time_type{};
+    if (time != last) {
+      // A picture has just been written: let it have taken two seconds.
+      last = time;
+      ++writes;
+      script_.now += 2;
+    }
+    return script_.now;
+  });
+  const RenderResult result = session.run(signals_);
+  EXPECT_GE(writes, 3);
+  EXPECT_LE(2.0 * writes, 0.02 * result.seconds + 4);
+}
+
+TEST_F(SessionPictures, FailedIntermediatePictureIsAWarning) {
+  const ScratchDirectory directory;
+  RenderOptions options;
+  options.output = directory.file("out.exr");
+  options.write_interval = 1e9;
+  script_.during_pass = [&](const PassKey& key) {
+    // Somebody puts a directory in the picture's place for the time of one pass.
+    if (key.pass == 1) {
+      std::filesystem::create_directory(options.output);
+      signals_.write = true;
+    }
+    if (key.pass == 2) std::filesystem::remove(options.output);
+  };
+  options.last_pass = 3;
+  EXPECT_EQ(run(options).passes_done, 4u);
+  ASSERT_EQ(warnings_.size(), 1u);
+  EXPECT_NE(warnings_[0].find("it is a directory"), std::string::npos);
+  EXPECT_EQ(passes_in(options.output), "0..3");
+}
+
+TEST_F(SessionPictures, FailedLastPictureIsAnError) {
+  const ScratchDirectory directory;
+  RenderOptions options;
+  options.output = directory.file("out.exr");
+  options.write_interval = 1e9;
+  script_.during_pass = [&](const PassKey& key) {
+    if (key.pass == 5) std::filesystem::create_directory(options.output);
+  };
+  EXPECT_THROW(run(options), IoError);
+}
+
+TEST_F(SessionPictures, UnwritableOutputIsSaidBeforeTheFirstPass) {
+  const ScratchDirectory directory;
+  RenderOptions options;
+  options.output = directory.file("nowhere/out.exr");
+  EXPECT_THROW(run(options), IoError);
+  options.output = directory.path().string();
+  EXPECT_THROW(run(options), IoError);
+  std::filesystem::create_directory(directory.file("taken.png"));
+  options.output = directory.file("taken.exr");
+  EXPECT_THROW(run(options), IoError);
+  EXPECT_TRUE(script_.passes.empty());
+}
+
+TEST_F(SessionPictures, MetadataOfTheCallerAndTheSession) {
+  const ScratchDirectory directory;
+  RenderOptions options;
+  options.output = directory.file("out.exr");
+  options.seed = 77;
+  options.metadata = {{"nephroid:scene_hash", "abc"}};
+  run(options);
+  const Metadata metadata = read_picture(options.output).metadata;
+  const auto has = [&](const std::string& key, const std::string& value) {
+    return std::find(metadata.begin(), metadata.end(), std::pair(key, value)) != metadata.end();
+  };
+  EXPECT_TRUE(has("nephroid:scene_hash", "abc"));
+  EXPECT_TRUE(has("nephroid:seed", "77"));
+  EXPECT_TRUE(has("nephroid:passes", "0..5"));
+  EXPECT_TRUE(has("nephroid:seconds", "6.000"));
+  EXPECT_TRUE(has("nephroid:estimates:diffuse", "6"));
+  EXPECT_TRUE(std::filesystem::exists(directory.file("out.png")));
+}
+
+TEST_F(SessionPictures, RoutesOfOneGroupHaveItsEstimates) {
+  const ScratchDirectory directory;
+  preset_.layout.routes = {"diffuse", "none", "caustic"};
+  preset_.layout.groups = {0, 1, 0};  // nobody renders group 1
+  film_ = std::make_unique<Film>(film_->settings(), preset_.layout);
+  RenderOptions options;
+  options.output = directory.file("out.exr");
+  run(options);
+  const Metadata metadata = read_picture(options.output).metadata;
+  const auto estimates = [&](const std::string& route) {
+    for (const auto& [key, value] : metadata)
+      if (key == "nephroid:estimates:" + route) return value;
+    return std::string("absent");
+  };
+  EXPECT_EQ(estimates("diffuse"), "6");
+  EXPECT_EQ(estimates("caustic"), "6");
+  EXPECT_EQ(estimates("none"), "0");
+}
+
+}  // namespace
+}  // namespace nephroid
