@@ -43,7 +43,7 @@ void Comparison::nothing_hopeless() {
     };
     const auto hopeless = [&](ClassMask mask, Label label, const auto& leads) {
       for (const EventClass c : {EventClass::kDiffuse, EventClass::kGlossy, EventClass::kSpecular,
-                                 EventClass::kVolume}) {
+                                 EventClass::kVolume, EventClass::kHair}) {
         bool any = !contains(mask, c);
         for (const EventSymbol e : events_)
           any = any || (label_of(e) == label && class_of(kind_of(e)) == c && leads(e));
