@@ -3,6 +3,7 @@
 // and determinism tests.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -42,11 +43,57 @@ inline RoutePlan plan_named(const std::string& name) {
   return plan_of_integrator(name);
 }
 
+inline RoutePlan plan_of(const std::vector<std::string>& routes,
+                         const std::vector<std::string>& aovs = {}) {
+  RoutePlan plan;
+  for (const std::string& route : routes) plan.routes.push_back(parse_route(route));
+  for (const std::string& aov : aovs) plan.aovs.push_back(parse_aov(aov));
+  return plan;
+}
+
+/// All names that plan_named() knows, but only one for each set of routes: the integrators, and the
+/// presets that none of them stands for.
+inline std::vector<std::string> plan_names() {
+  const auto same = [](const RouteDefinition& a, const RouteDefinition& b) {
+    return a.expression == b.expression && a.estimator == b.estimator;
+  };
+  std::vector<std::string> names = integrator_names();
+  const std::vector<std::string> integrators = names;
+  for (const RoutePreset& preset : route_presets()) {
+    const auto routes = plan_named(preset.name).routes;
+    if (std::none_of(integrators.begin(), integrators.end(), [&](const std::string& name) {
+          const auto others = plan_of_integrator(name).routes;
+          return std::equal(routes.begin(), routes.end(), others.begin(), others.end(), same);
+        }))
+      names.emplace_back(preset.name);
+  }
+  return names;
+}
+
+/// A plan's name as part of a test's.
+inline std::string test_name(std::string plan) {
+  std::replace(plan.begin(), plan.end(), '-', '_');
+  return plan;
+}
+
+/// True if some photons of the plan are merged, which gives the picture the bias of a radius.
+inline bool merges_photons(const RoutePlan& plan) {
+  return std::any_of(plan.routes.begin(), plan.routes.end(), [](const RouteDefinition& route) {
+    return estimator_type(route.estimator).merges;
+  });
+}
+
+/// A plan or the name of one.
+struct Plan : RoutePlan {
+  Plan(const RoutePlan& plan) : RoutePlan(plan) {}
+  Plan(const std::string& name) : RoutePlan(plan_named(name)) {}
+  Plan(const char* name) : RoutePlan(plan_named(name)) {}
+};
+
 /// Renders passes [first, first + count) of a scene.
-inline Film render(const Scene& scene, const std::string& integrator,
-                   const IntegratorOptions& options, uint64_t seed, uint32_t count,
-                   uint32_t first = 0) {
-  Preset preset = make_preset(plan_named(integrator), options, scene);
+inline Film render(const Scene& scene, const Plan& plan, const IntegratorOptions& options,
+                   uint64_t seed, uint32_t count, uint32_t first = 0) {
+  Preset preset = make_preset(plan, options, scene);
   Film film = film_for(scene, preset);
   for (uint32_t pass = first; pass < first + count; ++pass)
     for (const auto& estimator : preset.estimators)
@@ -99,13 +146,13 @@ inline std::vector<double> block_means(const Film& film, int across) {
 }
 
 /// Block means over `seeds` independent renders.
-inline SeedValues block_values(const Scene& scene, const std::string& integrator,
+inline SeedValues block_values(const Scene& scene, const Plan& plan,
                                const IntegratorOptions& options, int seeds, uint32_t passes,
                                uint64_t first_seed, int across = 1) {
   SeedValues values(static_cast<size_t>(across) * static_cast<size_t>(across));
   for (int s = 0; s < seeds; ++s) {
     const std::vector<double> means = block_means(
-        render(scene, integrator, options, first_seed + static_cast<uint64_t>(s), passes), across);
+        render(scene, plan, options, first_seed + static_cast<uint64_t>(s), passes), across);
     for (size_t i = 0; i < means.size(); ++i) values[i].push_back(means[i]);
   }
   return values;
@@ -113,24 +160,25 @@ inline SeedValues block_values(const Scene& scene, const std::string& integrator
 
 /// The same without the bias of the merge radius, which falls with r^2: 2 L(r^2/2) - L(r^2). Both
 /// renders of a seed share all random numbers, so what does not depend on the radius keeps its own
-/// noise only.
-inline SeedValues unbiased_block_values(const Scene& scene, const std::string& integrator,
+/// noise only. Where nothing is merged, there is nothing to remove.
+inline SeedValues unbiased_block_values(const Scene& scene, const Plan& plan,
                                         IntegratorOptions options, int seeds, uint32_t passes,
                                         uint64_t first_seed, int across = 1) {
-  const SeedValues large =
-      block_values(scene, integrator, options, seeds, passes, first_seed, across);
+  if (!merges_photons(plan))
+    return block_values(scene, plan, options, seeds, passes, first_seed, across);
+  const SeedValues large = block_values(scene, plan, options, seeds, passes, first_seed, across);
   options.radius *= std::sqrt(0.5f);
-  SeedValues values = block_values(scene, integrator, options, seeds, passes, first_seed, across);
+  SeedValues values = block_values(scene, plan, options, seeds, passes, first_seed, across);
   for (size_t i = 0; i < values.size(); ++i)
     for (size_t s = 0; s < values[i].size(); ++s) values[i][s] = 2 * values[i][s] - large[i][s];
   return values;
 }
 
 /// Picture means over `seeds` independent renders.
-inline Estimate mean_over_seeds(const Scene& scene, const std::string& integrator,
+inline Estimate mean_over_seeds(const Scene& scene, const Plan& plan,
                                 const IntegratorOptions& options, int seeds, uint32_t passes,
                                 uint64_t first_seed = 1) {
-  return estimate_of(block_values(scene, integrator, options, seeds, passes, first_seed)[0]);
+  return estimate_of(block_values(scene, plan, options, seeds, passes, first_seed)[0]);
 }
 
 /// Quantiles of Student's t for 15 and 31 degrees of freedom at a two-sided level of 1e-5: a test

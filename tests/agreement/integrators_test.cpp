@@ -1,13 +1,10 @@
-// Every integrator finds the same picture: means of blocks of pixels and of the whole picture, by
-// t-tests over independent seeds. Photon integrators are extrapolated to a radius of zero. The
-// scenes stand in scenes.cpp.
+// Every integrator and every estimator that routes may name find the same picture: means of blocks
+// of pixels and of the whole picture, by t-tests over independent seeds. Where photons are merged,
+// pictures are extrapolated to a radius of zero. The scenes stand in scenes.cpp.
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
-
+#include "agreement/scene_files.h"
 #include "agreement/scenes.h"
-#include "measured_ggx.h"
 #include "rendering.h"
 #include "scene/camera/camera.h"
 
@@ -16,52 +13,8 @@ namespace {
 
 using namespace testing_support;
 
-constexpr int kAcross = 3, kSeeds = 32;
+constexpr int kAcross = 3, kSeeds = 32, kSeedsOfRoutes = 16;
 constexpr uint32_t kPhotonPasses = 6;
-
-// The files that the scenes name: a smooth height field, a small coloured image and a measured
-// reflection; gone with the object.
-class SceneFiles {
- public:
-  SceneFiles() {
-    std::string pattern =
-        (std::filesystem::temp_directory_path() / "nephroid-agreement-XXXXXX").string();
-    if (!mkdtemp(pattern.data())) throw IoError("no temporary directory");
-    directory_ = pattern;
-    constexpr int kSize = 64;
-    std::vector<float> waves, picture;
-    for (int y = 0; y < kSize; ++y)
-      for (int x = 0; x < kSize; ++x) {
-        const float u = (static_cast<float>(x) + 0.5f) / kSize,
-                    v = (static_cast<float>(y) + 0.5f) / kSize;
-        waves.push_back(0.02f * std::sin(12 * kPi * u) * std::sin(8 * kPi * v));
-      }
-    for (int i = 0; i < 64; ++i)
-      for (const int period : {5, 3, 7}) picture.push_back(1.0f + static_cast<float>(i % period));
-    write("/waves.pfm", "Pf", kSize, waves);
-    write("/picture.pfm", "PF", 8, picture);
-    const testing_measured::GgxSurface brushed{0.3f, 0.6f, 9, 1, 7, 24, 10, 2};
-    std::ofstream(directory_ + "/brushed.bsdf", std::ios::binary)
-        << testing_measured::bsdf_file_of(testing_measured::tables_of(brushed));
-  }
-  ~SceneFiles() {
-    std::error_code ignored;
-    std::filesystem::remove_all(directory_, ignored);
-  }
-  SceneFiles(const SceneFiles&) = delete;
-  SceneFiles& operator=(const SceneFiles&) = delete;
-
-  const std::string& directory() const { return directory_; }
-
- private:
-  void write(const char* name, const char* kind, int size, const std::vector<float>& values) const {
-    std::ofstream out(directory_ + name, std::ios::binary);
-    out << kind << "\n" << size << ' ' << size << "\n-1.0\n";
-    for (const float v : values) out.write(reinterpret_cast<const char*>(&v), sizeof v);
-  }
-
-  std::string directory_;
-};
 
 std::vector<double> whole(const SeedValues& blocks) {
   std::vector<double> values(blocks[0].size(), 0.0);
@@ -71,10 +24,12 @@ std::vector<double> whole(const SeedValues& blocks) {
   return values;
 }
 
-void expect_equal(const SeedValues& found, const SeedValues& reference, const std::string& what) {
+void expect_equal(const SeedValues& found, const SeedValues& reference, const std::string& what,
+                  double noise_limit) {
+  const double quantile = reference[0].size() >= kSeeds ? kT31 : kT15;
   for (size_t i = 0; i < reference.size(); ++i) {
     const Estimate a = estimate_of(found[i]), b = estimate_of(reference[i]);
-    EXPECT_NEAR(a.mean, b.mean, kT31 * std::hypot(a.error, b.error)) << what << ", block " << i;
+    EXPECT_NEAR(a.mean, b.mean, quantile * std::hypot(a.error, b.error)) << what << ", block " << i;
   }
   const Estimate a = estimate_of(whole(found)), b = estimate_of(whole(reference));
   const double error = std::hypot(a.error, b.error);
@@ -82,8 +37,25 @@ void expect_equal(const SeedValues& found, const SeedValues& reference, const st
       "%-52s %.5f against %.5f: off by %+.2f %%, standard error %.2f %% (%.2f %% and %.2f %%)\n",
       what.c_str(), a.mean, b.mean, 100 * (a.mean / b.mean - 1), 100 * error / b.mean,
       100 * a.error / b.mean, 100 * b.error / b.mean);
-  EXPECT_NEAR(a.mean, b.mean, kT31 * error) << what << ", whole picture";
-  EXPECT_LT(error, 0.01 * b.mean) << what << " is too noisy to tell";
+  EXPECT_NEAR(a.mean, b.mean, quantile * error) << what << ", whole picture";
+  EXPECT_LT(error, noise_limit * b.mean) << what << " is too noisy to tell";
+}
+
+IntegratorOptions options_for(const AgreementScene& description) {
+  IntegratorOptions options;
+  options.max_depth = description.max_depth;
+  options.photons_per_pass = description.photons;
+  options.radius = description.radius;
+  options.camera_samples_per_pass = 1;
+  return options;
+}
+
+SeedValues reference_values(const Scene& scene, const AgreementScene& description,
+                            const IntegratorOptions& options, int seeds) {
+  const std::string name = description.reference;
+  return name == "path"
+             ? block_values(scene, name, options, seeds, description.reference_passes, 1, kAcross)
+             : unbiased_block_values(scene, name, options, seeds, kPhotonPasses, 1, kAcross);
 }
 
 class Agreement : public ::testing::TestWithParam<AgreementScene> {};
@@ -92,29 +64,58 @@ TEST_P(Agreement, OfAllIntegrators) {
   const AgreementScene& description = GetParam();
   const SceneFiles files;
   const auto scene = scene_from_text(agreement_scene_text(description, files.directory()));
-  IntegratorOptions options;
-  options.max_depth = description.max_depth;
-  options.photons_per_pass = description.photons;
-  options.radius = description.radius;
-  options.camera_samples_per_pass = 1;
-  const std::string reference_name = description.reference;
-  const SeedValues reference =
-      reference_name == "path"
-          ? block_values(*scene, "path", options, kSeeds, description.reference_passes, 1, kAcross)
-          : unbiased_block_values(*scene, reference_name, options, kSeeds, kPhotonPasses, 1,
-                                  kAcross);
+  IntegratorOptions options = options_for(description);
+  const SeedValues reference = reference_values(*scene, description, options, kSeeds);
   uint64_t first_seed = 1000;
   options.camera_samples_per_pass = 8;  // what the path tracer adds to few passes must not be noisy
   for (const std::string integrator : {"mixed", "sppm"}) {
-    if (integrator == reference_name) continue;
+    if (integrator == description.reference) continue;
     expect_equal(unbiased_block_values(*scene, integrator, options, kSeeds, kPhotonPasses,
                                        first_seed, kAcross),
-                 reference, std::string(description.name) + ", " + integrator);
+                 reference, std::string(description.name) + ", " + integrator, 0.01);
     first_seed += 1000;
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Agreement, ::testing::ValuesIn(kAgreementScenes),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+// Routes that integrators do not have: light tracing, and photons both merged and connected, of
+// caustics alone and wherever they can be.
+struct RoutesToCompare {
+  const char* name;
+  Plan plan;
+};
+
+std::vector<RoutesToCompare> routes_to_compare() {
+  return {{"split", "split"},
+          {"vertex", "vertex"},
+          {"light-only", "light-only"},
+          {"all-vertex", plan_of({"emission=C([SV]*L|.*M|.*H.*L):path", "rest=.*:photons+light"})}};
+}
+
+class RoutesAgree : public ::testing::TestWithParam<AgreementScene> {};
+
+TEST_P(RoutesAgree, WithTheReference) {
+  const AgreementScene& description = GetParam();
+  const SceneFiles files;
+  const auto scene = scene_from_text(agreement_scene_text(description, files.directory()));
+  IntegratorOptions options = options_for(description);
+  const SeedValues reference = reference_values(*scene, description, options, kSeedsOfRoutes);
+  uint64_t first_seed = 1000;
+  options.camera_samples_per_pass = 8;
+  for (const RoutesToCompare& routes : routes_to_compare()) {
+    if (std::any_of(description.left_out.begin(), description.left_out.end(),
+                    [&](const LeftOut& l) { return routes.name == std::string(l.routes); }))
+      continue;
+    expect_equal(unbiased_block_values(*scene, routes.plan, options, kSeedsOfRoutes, kPhotonPasses,
+                                       first_seed, kAcross),
+                 reference, std::string(description.name) + ", " + routes.name, 0.02);
+    first_seed += 1000;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, RoutesAgree, ::testing::ValuesIn(kAgreementScenes),
                          [](const auto& test) { return std::string(test.param.name); });
 
 // The scene with bumps would agree as well if nothing were bumped.

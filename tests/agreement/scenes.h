@@ -8,6 +8,12 @@
 
 namespace nephroid {
 
+/// Routes with which a scene is not rendered.
+struct LeftOut {
+  const char* routes;
+  const char* reason;
+};
+
 struct AgreementScene {
   const char* name;
   const char* world;
@@ -19,6 +25,7 @@ struct AgreementScene {
   uint32_t reference_passes = 96;
   float radius = 0.8f;     ///< pixel footprints
   int64_t photons = 6144;  ///< a pass
+  std::vector<LeftOut> left_out = {};
 };
 
 extern const std::vector<AgreementScene> kAgreementScenes;

@@ -236,8 +236,8 @@ TEST_P(Scale, TheUnitOfLengthDoesNotMatter) {
   EXPECT_GT(reference[0], 0.01);
 }
 
-INSTANTIATE_TEST_SUITE_P(AllIntegrators, Scale, ::testing::ValuesIn(integrator_names()),
-                         [](const auto& test) { return test.param; });
+INSTANTIATE_TEST_SUITE_P(AllRoutes, Scale, ::testing::ValuesIn(plan_names()),
+                         [](const auto& test) { return test_name(test.param); });
 
 }  // namespace
 }  // namespace nephroid

@@ -1,4 +1,5 @@
-// The same bits for any number of threads and for any order of the passes.
+// The same bits for any number of threads and for any order of the passes, by all integrators and
+// all presets of routes.
 #include <gtest/gtest.h>
 
 #include "core/parallel.h"
@@ -117,10 +118,10 @@ TEST_P(Determinism, AnyOrderOfIndependentPasses) {
   const auto scene = scene_from_text(kScene);
   IntegratorOptions options;
   options.photons_per_pass = 20000;
-  Preset forwards = make_integrator(GetParam(), options, *scene);
+  Preset forwards = make_preset(plan_named(GetParam()), options, *scene);
   for (const auto& e : forwards.estimators)
     if (!e->capabilities().independent_passes) GTEST_SKIP() << "passes are a sequence";
-  Preset backwards = make_integrator(GetParam(), options, *scene);
+  Preset backwards = make_preset(plan_named(GetParam()), options, *scene);
   Film a = film_for(*scene, forwards), b = film_for(*scene, backwards);
   for (uint32_t pass = 0; pass < 4; ++pass) {
     for (const auto& e : forwards.estimators) e->render_pass({5, pass}, *scene, a);
@@ -144,8 +145,8 @@ TEST_P(Determinism, BatchesOfPhotonsLoseNothing) {
         ASSERT_NEAR(a.value(x, y)[c], b.value(x, y)[c], 1e-4 * (0.01 + std::abs(a.value(x, y)[c])));
 }
 
-INSTANTIATE_TEST_SUITE_P(AllIntegrators, Determinism, ::testing::ValuesIn(integrator_names()),
-                         [](const auto& test) { return test.param; });
+INSTANTIATE_TEST_SUITE_P(AllRoutes, Determinism, ::testing::ValuesIn(plan_names()),
+                         [](const auto& test) { return test_name(test.param); });
 
 }  // namespace
 }  // namespace nephroid

@@ -1,6 +1,6 @@
 // White furnace: where everything reflects all light and light comes from everywhere, nothing can
-// be seen. Each integrator must find a radiance of exactly 1, up to the noise of its own estimate;
-// photon integrators are extrapolated to a radius of zero.
+// be seen. Each integrator and each preset of routes must find a radiance of exactly 1, up to the
+// noise of its own estimate; where photons are merged, it is extrapolated to a radius of zero.
 #include <gtest/gtest.h>
 
 #include "rendering.h"
@@ -100,19 +100,19 @@ std::string furnace_text(const FurnaceScene& furnace) {
 class Furnace : public ::testing::TestWithParam<std::tuple<FurnaceScene, std::string>> {};
 
 TEST_P(Furnace, RadianceIsOne) {
-  const auto& [furnace, integrator] = GetParam();
+  const auto& [furnace, plan] = GetParam();
   const auto scene = scene_from_text(furnace_text(furnace));
   IntegratorOptions options;
-  options.photons_per_pass = integrator == "sppm" ? 16384 : 8192;
+  const bool merges = merges_photons(plan_named(plan));
+  // Where nearly all light is photons, they must be many.
+  options.photons_per_pass = plan == "sppm" || plan == "all-photons" ? 16384 : 8192;
   options.radius = 1.0f;
-  const Estimate e =
-      integrator == "path"
-          ? mean_over_seeds(*scene, integrator, options, 16, 64)
-          : estimate_of(unbiased_block_values(*scene, integrator, options, 16, 8, 1)[0]);
+  const Estimate e = merges ? estimate_of(unbiased_block_values(*scene, plan, options, 16, 8, 1)[0])
+                            : mean_over_seeds(*scene, plan, options, 16, 64);
   // The constant spectrum has Y = 1 but is not the white of sRGB: compare with the empty picture.
   const auto empty = scene_from_text(furnace_text({"empty", ""}));
   const Estimate expected = mean_over_seeds(*empty, "path", options, 16, 64, 1000);
-  std::printf("%s, %s: off by %+.3f %%, standard error %.3f %%\n", furnace.name, integrator.c_str(),
+  std::printf("%s, %s: off by %+.3f %%, standard error %.3f %%\n", furnace.name, plan.c_str(),
               100 * (e.mean / expected.mean - 1), 100 * e.error / expected.mean);
   EXPECT_NEAR(expected.mean, 1.0, 0.15);
   const double error = std::hypot(e.error, expected.error);
@@ -142,12 +142,12 @@ TEST(HairFurnace, RadianceIsOne) {
   EXPECT_LT(mean_over_seeds(*dark, "path", {}, 16, 16).mean, 0.95 * expected.mean);
 }
 
-INSTANTIATE_TEST_SUITE_P(AllIntegrators, Furnace,
+INSTANTIATE_TEST_SUITE_P(AllRoutes, Furnace,
                          ::testing::Combine(::testing::ValuesIn(kScenes),
-                                            ::testing::ValuesIn(integrator_names())),
+                                            ::testing::ValuesIn(plan_names())),
                          [](const auto& test) {
                            return std::string(std::get<0>(test.param).name) + "_" +
-                                  std::get<1>(test.param);
+                                  test_name(std::get<1>(test.param));
                          });
 
 }  // namespace
