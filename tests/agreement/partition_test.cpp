@@ -143,7 +143,7 @@ TEST(Partition, ARouteAndItsComplementAddUpInEveryPixelAndPass) {
 TEST(Partition, SoTheyDoInMediaHairSkinAndTheBandOfRoughness) {
   expect_complements(
       *scene_from_text(second_world()),
-      {"C.*V.*L", "CV+L", "C<V'fog'>.*<L.'key'>", "C.*<V'fire'>.*M", "C.*M", "CS+.*<M.'fire'>",
+      {"C.*V.*L", "CV+L", "C<V'fog'>.*<L.'key'>", "C.*<V'fire'>.*M", "C.*M", "CD.*<M.'fire'>",
        "C.*H.*L", "C<H'fur'>L", "C.*D.*H.*B", "C[^VH]*O", "C.*<TS'prism'>.*L", "C.*<RS>.*L",
        "C.*<TD'skin'>.*L", "C.*<RS'skin'>.*L", "C.*<TS'frosted'>.*L", "C.*<TG'frosted'>.*L",
        "C.*[DG]S+[DG]?L", "C.*[VD]<T[SG]>+[DGV]?L", "C.*(V|H).*[^M]"});
