@@ -129,8 +129,8 @@ TEST(Expression, FilesHaveLinesAndComments) {
   EXPECT_EQ(message.find("my.routes:2: column 6: "), 0u) << message;
   const std::string indented =
       complaint([] { parse_route_file("\n  \ta = C(L : path  # seen\n", "my.routes"); });
-  EXPECT_EQ(indented.find("my.routes:2: column 12: "), 0u) << indented;
-  EXPECT_EQ(indented.substr(indented.find('\n')), "\n    \ta = C(L : path\n    \t        ^");
+  EXPECT_EQ(indented.find("my.routes:2: column 11: "), 0u) << indented;
+  EXPECT_EQ(indented.substr(indented.find('\n')), "\n    \ta = C(L : path\n    \t       ^");
   EXPECT_NE(complaint([] { parse_route_file("# none\n", "my.routes"); }), "");
 }
 

@@ -48,19 +48,6 @@ TEST_F(RenderSessionTest, RangeNeedsIndependentPasses) {
   EXPECT_EQ(run(options).passes_done, 6u);
 }
 
-TEST_F(RenderSessionTest, LayersOfOneNameAreRefused) {
-  for (const char* name : {"diffuse", "albedo"}) {
-    preset_.layout.aovs = {name};
-    try {
-      run({});
-      FAIL() << name;
-    } catch (const UsageError& error) {
-      EXPECT_NE(std::string(error.what()).find(std::string("called \"") + name), std::string::npos);
-    }
-  }
-  EXPECT_TRUE(script_.passes.empty());
-}
-
 TEST_F(RenderSessionTest, EveryEstimatorRendersEveryPassInOrder) {
   Script second;
   preset_.layout = FilmLayout::of_routes({"diffuse", "caustic"});
