@@ -3,11 +3,12 @@
 presets of routes and independent seeds, and compares means of blocks of the picture by Student's t.
 
   bench/route_agreement.py --scenes DIR [--only NAME ...] [--preset NAME ...] [--seeds 8] [--passes 24]
-                           [--size 96] [--camera-samples 4] [--out DIR]
+                           [--size 96] [--camera-samples 4] [--light EXPR] [--out DIR]
 
 A scene is DIR/NAME/scene.pbrt. The first preset is what the others are compared with. What is merged is
 extrapolated to a radius of zero, where its bias falls with r^2: 2 L(r/sqrt 2) - L(r), both with the same seeds.
-The columns: ratio of the picture's mean to the first preset's with its standard error; the largest |t| over
+With --light only the light of paths that match the expression is compared, e.g. "C.*[DGVH].*L" for all but lamps
+that are seen directly or in mirrors. The columns: ratio of the picture's mean to the first preset's with its standard error; the largest |t| over
 blocks and the bound that it exceeds by chance in one of a thousand tables; how far the layers of the routes are
 from the picture at most, relative to the brightest of both. Needs NumPy and OpenImageIO (Debian:
 /usr/bin/python3).
@@ -42,14 +43,16 @@ def resolution_of(scene, size):
 
 
 def read(path):
-    """The picture's R G B and, by name, its route layers."""
+    """The picture's R G B, its route layers by name, and the light that is compared."""
     image = oiio.ImageBuf(str(path))
     names = image.spec().channelnames
     pixels = image.get_pixels(oiio.FLOAT)
     routes = [a.name.split(":")[2] for a in image.spec().extra_attribs
               if a.name.startswith("nephroid:route:")]
-    layers = {r: np.stack([pixels[..., names.index(f"{r}.{c}")] for c in "RGB"], -1) for r in routes}
-    return pixels[..., :3].astype(np.float64), layers
+    layer = lambda name: np.stack([pixels[..., names.index(f"{name}.{c}")] for c in "RGB"], -1)
+    picture = pixels[..., :3].astype(np.float64)
+    compared = layer("compared").astype(np.float64) if "compared.R" in names else picture
+    return picture, {r: layer(r) for r in routes}, compared
 
 
 def blocks(picture):
@@ -79,12 +82,13 @@ def values(scene, preset, options, out):
             run([PROGRAM, "render", scene, "-o", out, "--routes", preset, "--quiet", "--seed",
                  1 + seed + 1000 * options.preset.index(preset), "--passes", options.passes,
                  "--resolution", options.resolution, "-D", f"radius={radius}", "-D",
-                 f"camera-samples={options.camera_samples}"])
-            picture, layers = read(out)
+                 f"camera-samples={options.camera_samples}",
+                 *(["--aov", f"compared={options.light}"] if options.light else [])])
+            picture, layers, compared = read(out)
             total = sum(layers.values())
             scale = np.maximum(np.maximum(abs(picture), sum(abs(l) for l in layers.values())), 1e-6)
             worst = max(worst, float((abs(total - picture) / scale).max()))
-            found.append(blocks(picture))
+            found.append(blocks(compared))
         result.append(2 * found[1] - found[0] if merges else found[0])
     return np.array(result), worst
 
@@ -101,6 +105,7 @@ def main():
     parser.add_argument("--passes", type=int, default=24)
     parser.add_argument("--size", type=int, default=96)
     parser.add_argument("--camera-samples", type=int, default=4)
+    parser.add_argument("--light")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/route_agreement"))
     options = parser.parse_args()
     globals()["PROGRAM"] = options.program
