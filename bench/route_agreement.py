@@ -47,8 +47,8 @@ def read(path):
     image = oiio.ImageBuf(str(path))
     names = image.spec().channelnames
     pixels = image.get_pixels(oiio.FLOAT)
-    routes = [a.name.split(":")[2] for a in image.spec().extra_attribs
-              if a.name.startswith("nephroid:route:")]
+    text = image.spec().getattribute("nephroid:routes")
+    routes = [line.split(" = ")[0] for line in text.splitlines()]
     layer = lambda name: np.stack([pixels[..., names.index(f"{name}.{c}")] for c in "RGB"], -1)
     picture = pixels[..., :3].astype(np.float64)
     compared = layer("compared").astype(np.float64) if "compared.R" in names else picture

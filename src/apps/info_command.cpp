@@ -60,10 +60,23 @@ void print_lights(const Scene& scene) {
 }
 
 /// A mix goes by the labels of the materials that it shows.
-std::vector<std::string> labels_of_materials(const Scene& scene) {
+/// "glass [S, line 12]": what a material is called, the classes of its events, where it stands.
+std::vector<std::string> labels_of_materials(const SceneDescription& description,
+                                             const Scene& scene) {
   std::vector<std::string> labels;
-  for (size_t i = 0; i < scene.materials.size(); ++i)
-    if (!scene.materials[i]->is_mix()) labels.push_back(scene.material_labels[i]);
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    const Material& material = *scene.materials[i];
+    if (material.is_mix() || material.is_interface()) continue;
+    std::string classes;
+    for (const EventClass c : kSurfaceClasses)
+      if (contains(material.possible_classes(), c)) classes += "DGS"[static_cast<size_t>(c)];
+    const SourceLocation where =
+        i < description.materials.size() ? description.materials[i].where : SourceLocation{};
+    labels.push_back(where.line > 0
+                         ? fmt::format("{} [{}, line {}]", scene.material_labels[i],
+                                       material.merges_photons() ? classes : "H", where.line)
+                         : scene.material_labels[i]);
+  }
   return labels;
 }
 
@@ -109,7 +122,7 @@ int run_info(const InfoCommand& command) {
                                          : "none specular: there can be no caustics");
   print_lights(scene);
   print_labels("lights", scene.light_labels);
-  print_labels("materials", labels_of_materials(scene));
+  print_labels("materials", labels_of_materials(loaded.description, scene));
   print_labels("media", scene.medium_labels);
   fmt::print("warnings: {}\n", loaded.warnings.size());
   return static_cast<int>(ExitStatus::kDone);

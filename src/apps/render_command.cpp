@@ -34,11 +34,14 @@ Metadata metadata_of(const RenderCommand& command, const IntegratorChoice& choic
 }
 
 void add_routes(const RoutePlan& plan, Metadata* metadata) {
+  // As a file of routes has them: their order counts.
+  std::string routes, aovs;
   for (const RouteDefinition& route : plan.routes)
-    metadata->emplace_back("nephroid:route:" + route.name,
-                           route.expression + ":" + estimator_type(route.estimator).name);
-  for (const AovDefinition& aov : plan.aovs)
-    metadata->emplace_back("nephroid:aov:" + aov.name, aov.expression);
+    routes +=
+        route.name + " = " + route.expression + " : " + estimator_type(route.estimator).name + "\n";
+  for (const AovDefinition& aov : plan.aovs) aovs += aov.name + " = " + aov.expression + "\n";
+  metadata->emplace_back("nephroid:routes", routes);
+  if (!aovs.empty()) metadata->emplace_back("nephroid:aovs", aovs);
 }
 
 RenderOptions render_options(const RenderCommand& command, const Scene& scene,

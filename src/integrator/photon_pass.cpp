@@ -62,6 +62,16 @@ bool deposits_at_once(const OwnedRoutes& owned) {
   });
 }
 
+/// "route 'a'", "routes 'a', 'b'" of the group.
+std::string names_of_routes(const OwnedRoutes& owned) {
+  const std::vector<int>& routes = owned.routes->groups()[owned.group].routes;
+  std::string text = routes.size() == 1 ? "route" : "routes";
+  for (size_t i = 0; i < routes.size(); ++i)
+    text += (i == 0 ? " '" : ", '") +
+            owned.routes->definitions()[static_cast<size_t>(routes[i])].name + "'";
+  return text;
+}
+
 bool has_specular_events(const OwnedRoutes& owned) {
   const std::vector<bool>& events = owned.symbols->present().events;
   for (size_t e = 0; e < events.size(); ++e)
@@ -90,10 +100,11 @@ void explain_darkness(const OwnedRoutes& owned, uint64_t found, EstimatorStatist
   if (!photons_can_count(owned)) {
     s.notes.push_back(
         has_specular_events(owned)
-            ? "nothing in this scene lets light take a path that belongs to the photons, and none "
-              "were needed"
-            : "no material of the scene has a specular lobe: there are no caustics, and no photons "
-              "were needed");
+            ? "no path that this scene can have belongs to " + names_of_routes(owned) +
+                  ", and no photons were traced for it"
+            : std::string(
+                  "no material of the scene has a specular lobe: there are no caustics, and no "
+                  "photons were needed"));
     return;
   }
   if (found > 0 || s.photon_paths == 0) return;

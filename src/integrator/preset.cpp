@@ -73,6 +73,12 @@ Preset make_preset(CompiledPlan compiled, const IntegratorOptions& options, cons
         "nothing in the scene is called " + quoted_list(symbols->unknown_labels()) +
         (symbols->unknown_is_mix() ? "; a mix goes by the labels of its materials" : "") +
         " (`nephroid info SCENE` lists the labels)");
+  for (size_t i = 0; i < compiled.compilation.aov_matches.size(); ++i)
+    if (!compiled.compilation.aov_matches[i])
+      preset.warnings.push_back("layer '" + compiled.compilation.routes.aovs()[i].name +
+                                "' will be black: no path that this scene can have matches '" +
+                                compiled.compilation.routes.aovs()[i].expression +
+                                "' (lights are named in <L.'...'>, materials in <..'...'>)");
   preset.routes = std::make_shared<const Routes>(
       checked_routes(std::move(compiled.compilation), compiled.strict));
   preset.layout = layout_of(*preset.routes);

@@ -156,11 +156,12 @@ RouteCompilation compile_routes(std::span<const RouteDefinition> routes,
   const MatchAutomaton matches = determinise(nfa, classes, copies);
   const PartAutomaton parts = divide_into_parts(matches, classes, routes);
   Proof proof = prove({routes, labels, classes, matches, parts, symbols});
+  proof.aov_matches.resize(aovs.size());
   RouteTables tables = write_out(parts.automaton, reverse(parts.automaton), classes);
   Routes compiled({routes.begin(), routes.end()}, {aovs.begin(), aovs.end()}, parts.parts,
                   std::move(labels), std::move(tables));
   return {symbols ? compiled.restricted_to(*symbols) : std::move(compiled),
-          std::move(proof.findings), std::move(proof.examples)};
+          std::move(proof.findings), std::move(proof.examples), std::move(proof.aov_matches)};
 }
 
 Routes checked_routes(RouteCompilation compilation, bool strict) {

@@ -33,7 +33,8 @@ struct RouteCompilation {
   Routes routes;
   std::vector<RouteFinding> findings;  ///< errors first, then overlaps
   std::vector<std::string>
-      examples;  ///< [route]: a shortest path that it owns, "C D S L", "" if none
+      examples;                   ///< [route]: a shortest path that it owns, "C D S L", "" if none
+  std::vector<bool> aov_matches;  ///< [AOV]: some path lies in it
 };
 
 /// Compiles and proves. A scene's symbols may be given so that findings are about paths that it can

@@ -56,6 +56,10 @@ class Prover {
 
   Proof prove() {
     proof_.examples.resize(in_.routes.size());
+    size_t aovs = 0;
+    for (const PartMeaning& part : in_.parts.parts)
+      for (const int aov : part.aovs) aovs = std::max(aovs, static_cast<size_t>(aov) + 1);
+    proof_.aov_matches.resize(aovs);
     find_unreachable();
     look_at_plain_words();
     look_at_merge_vertices();
@@ -185,6 +189,9 @@ class Prover {
           if (!found) found = text(search.word(n), l);
           continue;
         }
+        const int part = in_.parts.automaton.at(s.state, l);
+        for (const int aov : in_.parts.parts[static_cast<size_t>(part)].aovs)
+          proof_.aov_matches[static_cast<size_t>(aov)] = true;
         std::string& example = proof_.examples[static_cast<size_t>(route)];
         if (example.empty()) example = text(search.word(n), l);
         NeverSampled& best = never[static_cast<size_t>(route)];
@@ -228,7 +235,8 @@ class Prover {
     return 0;
   }
   std::string never_sampled_text(int route, const std::string& witness) const {
-    const std::string owns = owner_text(route) + " owns " + witness + ", which it cannot find: ";
+    const std::string owns = owner_text(route) + " owns " + witness +
+                             ", which it cannot find (that light will be missing): ";
     if (in_.routes[static_cast<size_t>(route)].estimator == EstimatorKind::kLightTrace)
       return owns + "only rough surfaces, media and emitting shapes can be connected to the camera";
     return owns +

@@ -24,6 +24,7 @@ struct ProofInput {
 struct Proof {
   std::vector<RouteFinding> findings;  ///< errors first
   std::vector<std::string> examples;   ///< [route]: empty if it owns no path of these symbols
+  std::vector<bool> aov_matches;       ///< [AOV]: any path of these symbols
 };
 
 /// Throws UsageError if there are too many cases to look at.

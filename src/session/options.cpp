@@ -30,7 +30,8 @@ void set_integrator(CommandLine& line, const std::string& text) {
     std::string known;
     for (const std::string& name : names) known += name + ", ";
     throw UsageError("--integrator: unknown integrator '" + text + "', expected one of: " + known +
-                     "scene");
+                     "scene" +
+                     (route_preset(text) ? " (it is a preset: --routes " + text + ")" : ""));
   }
   (line.*Command).routes.integrator = text;
 }
@@ -76,7 +77,7 @@ void set_strict(CommandLine& line, const std::string&) {
 
 constexpr const char* kIntegratorHelp =
     "How light is found: path, sppm, mixed, or scene for the one that the scene names. Each is a "
-    "preset of routes.";
+    "preset of routes: path-only, sppm, doidge2012.";
 constexpr const char* kRoutesHelp =
     "Routes by the name of a preset (listed below) or from a file, one a line; instead of "
     "--integrator.";

@@ -35,7 +35,7 @@ std::string read_file(const std::string& file) {
 
 std::vector<RouteDefinition> routes_of(const std::string& preset_or_file) {
   if (const auto preset = route_preset(preset_or_file)) return *preset;
-  if (std::filesystem::exists(preset_or_file))
+  if (std::filesystem::is_regular_file(preset_or_file))
     return parse_route_file(read_file(preset_or_file), preset_or_file);
   std::string known;
   for (const RoutePreset& preset : route_presets())

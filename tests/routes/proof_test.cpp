@@ -74,6 +74,13 @@ TEST(Proof, RoutesWithoutPathsAreErrorsUnlessOnlyTheSceneLacksThem) {
   EXPECT_EQ(c.examples, (std::vector<std::string>{"", "C L"}));
 }
 
+TEST(Proof, LayersThatNoPathOfTheSceneMatchesAreKnown) {
+  const SymbolSet indoors = symbols_of("DS", {LightKind::kShape});
+  const RouteCompilation c =
+      compiled({"rest=.*:path"}, {"sky=C.*B", "lamp=C.*O", "fog=C.*V.*L"}, &indoors);
+  EXPECT_EQ(c.aov_matches, (std::vector<bool>{false, true, false}));
+}
+
 TEST(Proof, PathTracingMissesPointsBehindSpecularSurfaces) {
   const auto warnings = [](const std::string& letters, LightKind light) {
     const SymbolSet symbols = symbols_of(letters, {light});
