@@ -73,9 +73,9 @@ int run_render(const RenderCommand& command) {
   if (!command.quiet) print_warnings(loaded);
   const Scene& scene = *loaded.scene;
 
-  const IntegratorChoice choice = choose_integrator(
-      command.routes.integrator.empty() ? kDefaultIntegrator : command.routes.integrator,
-      scene.integrator, scene.integrator_parameters, command.settings);
+  const IntegratorChoice choice =
+      choose_integrator(command.routes.integrator_or(kDefaultIntegrator), scene.integrator,
+                        scene.integrator_parameters, command.settings);
   const RoutePlan plan = plan_of(command.routes, choice.name);
   if (!command.quiet)
     for (const std::string& warning : choice.warnings) print_warning(warning);

@@ -120,8 +120,7 @@ void print_pilot(const RoutesCommand& command, const RoutePlan& plan, CompiledPl
 int run_routes(const RoutesCommand& command) {
   if (command.scene.empty()) {
     const RoutePlan plan =
-        plan_of(command.routes,
-                command.routes.integrator.empty() ? kDefaultIntegrator : command.routes.integrator);
+        plan_of(command.routes, command.routes.integrator_or(kDefaultIntegrator));
     const RouteCompilation compiled = compile_routes(plan.routes, plan.aovs);
     print_routes(plan, compiled);
     print_automaton(compiled.routes);
@@ -131,9 +130,9 @@ int run_routes(const RoutesCommand& command) {
   const LoadedScene loaded = load_small_scene(command.scene, command.overrides, kPilotSize);
   print_warnings(loaded);
   const Scene& scene = *loaded.scene;
-  const IntegratorChoice choice = choose_integrator(
-      command.routes.integrator.empty() ? kDefaultIntegrator : command.routes.integrator,
-      scene.integrator, scene.integrator_parameters, command.settings);
+  const IntegratorChoice choice =
+      choose_integrator(command.routes.integrator_or(kDefaultIntegrator), scene.integrator,
+                        scene.integrator_parameters, command.settings);
   const RoutePlan plan = plan_of(command.routes, choice.name);
   CompiledPlan compiled = compile_plan(plan, scene);
   print_routes(plan, compiled.compilation);

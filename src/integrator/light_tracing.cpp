@@ -227,7 +227,6 @@ int64_t light_pass(const PassKey& key, const Scene& scene, const Film& film,
                    const OwnedRoutes& owned, const IntegratorOptions& options,
                    const ConnectionWeight& weight, SplatBuffer& buffer,
                    EstimatorStatistics& statistics) {
-  require_connecting_camera(scene);
   const PhotonPass settings = start_photon_pass(key, scene, film, options);
   const LightPass pass{scene,
                        owned,

@@ -16,7 +16,8 @@
 
 namespace nephroid {
 
-/// Throws UsageError if light paths cannot be connected to the scene's camera.
+/// Throws UsageError if light paths cannot be connected to the scene's camera: asked once, when the
+/// estimators are made.
 void require_connecting_camera(const Scene& scene);
 
 /// A factor for a connection to the camera from a vertex; empty: 1.
@@ -24,7 +25,7 @@ using ConnectionWeight = std::function<float(const CameraConnection&, const Walk
 
 /// Traces the light paths of a pass and adds what they expose, not yet divided by their number, to
 /// `buffer`; returns that number and adds to `statistics`. With a weight, only what could as well
-/// be merged at the vertex that the camera sees is connected. Throws as require_connecting_camera.
+/// be merged at the vertex that the camera sees is connected.
 int64_t light_pass(const PassKey& key, const Scene& scene, const Film& film,
                    const OwnedRoutes& owned, const IntegratorOptions& options,
                    const ConnectionWeight& weight, SplatBuffer& buffer,
@@ -35,7 +36,6 @@ class LightTracing : public Estimator {
   LightTracing(OwnedRoutes owned, const IntegratorOptions& options);
 
   Capabilities capabilities() const override { return {}; }
-  /// Throws as require_connecting_camera.
   void render_pass(const PassKey& key, const Scene& scene, Film& film) override;
   EstimatorStatistics statistics() const override;
 

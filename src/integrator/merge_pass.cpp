@@ -37,7 +37,7 @@ MergePass merge_pass(const PassKey& key, const Scene& scene, const Film& film,
   const size_t width = static_cast<size_t>(b.width());
   MergePass result;
   result.values.resize(static_cast<size_t>(b.area()) * parts);
-  result.filter_weights.assign(static_cast<size_t>(b.area()), 1.0f);
+  std::vector<float> filter_weights(static_cast<size_t>(b.area()), 1.0f);
   std::vector<RowResult> rows(static_cast<size_t>(b.height()));
 
   // A pixel's estimate is summed over the batches; its walk and its filter weight are the same in
@@ -74,9 +74,14 @@ MergePass merge_pass(const PassKey& key, const Scene& scene, const Film& film,
           Rgb& sum = result.values[pixel * parts + i];
           sum = sum + pass.weights.apply(sums.sums()[i]) * path.camera_weight;
         }
-        result.filter_weights[pixel] = path.filter_weight;
+        filter_weights[pixel] = path.filter_weight;
       }
     });
+  }
+  for (size_t pixel = 0; pixel < filter_weights.size(); ++pixel) {
+    const std::span<Rgb> estimate(&result.values[pixel * parts], parts);
+    PartSums::clamp_total(estimate, film.settings().max_component);
+    for (Rgb& color : estimate) color = color * filter_weights[pixel];
   }
   for (const RowResult& row : rows) {
     statistics.rays += row.rays;

@@ -13,12 +13,12 @@ namespace nephroid {
 /// A factor for what is merged at a point with a radius in world units; empty: 1.
 using MergeWeight = std::function<float(const CameraPath&, const MergePoint&, float radius)>;
 
-/// One estimate of each pixel, not clamped, without the filter's weight.
+/// One estimate of each pixel: clamped to the film's max_component, then weighed by the filter.
 struct MergePass {
-  std::vector<Rgb> values;            ///< [pixel * parts + part], parts as Film::parts_of counts
-  std::vector<float> filter_weights;  ///< [pixel]
-  uint64_t found = 0;                 ///< photons merged
+  std::vector<Rgb> values;  ///< [pixel * parts + part], parts as Film::parts_of counts
+  uint64_t found = 0;       ///< photons merged
 
+  /// What a pass takes for each pixel, the filter's weight included.
   static constexpr size_t bytes_per_pixel(size_t parts) {
     return parts * sizeof(Rgb) + sizeof(float);
   }

@@ -11,18 +11,13 @@ void PhotonMapping::render_pass(const PassKey& key, const Scene& scene, Film& fi
   const int group = static_cast<int>(owned_.group);
   film.add_estimates(group, 1);
   if (!photons_can_count_) return;
-  MergePass pass = merge_pass(key, scene, film, owned_, options_,
-                              radius_of_pass(options_, key.pass), {}, statistics_);
+  const MergePass pass = merge_pass(key, scene, film, owned_, options_,
+                                    radius_of_pass(options_, key.pass), {}, statistics_);
   const PixelBounds& b = film.bounds();
   const size_t parts = film.parts_of(group).size();
-  size_t pixel = 0;
+  const Rgb* estimate = pass.values.data();
   for (int y = b.y0; y < b.y1; ++y)
-    for (int x = b.x0; x < b.x1; ++x, ++pixel) {
-      const std::span<Rgb> estimate(&pass.values[pixel * parts], parts);
-      PartSums::clamp_total(estimate, film.settings().max_component);
-      for (Rgb& color : estimate) color = color * pass.filter_weights[pixel];
-      film.add(group, x, y, estimate);
-    }
+    for (int x = b.x0; x < b.x1; ++x, estimate += parts) film.add(group, x, y, {estimate, parts});
   found_ += pass.found;
 }
 

@@ -20,7 +20,6 @@ VertexMerging::VertexMerging(OwnedRoutes owned, const IntegratorOptions& options
     : owned_(std::move(owned)), options_(options), photons_can_count_(photons_can_count(owned_)) {}
 
 void VertexMerging::render_pass(const PassKey& key, const Scene& scene, Film& film) {
-  require_connecting_camera(scene);
   const int group = static_cast<int>(owned_.group);
   film.add_estimates(group, 1);
   if (!photons_can_count_) return;
@@ -36,16 +35,9 @@ void VertexMerging::render_pass(const PassKey& key, const Scene& scene, Film& fi
     const float m = merges_per_splat(*line, at.vertex.surface.ng, radius);
     return m / (1.0f + m);
   };
-  MergePass merged =
+  const MergePass merged =
       merge_pass(key, scene, film, owned_, options_, radius_pixels, merge_weight, statistics_);
   found_ += merged.found;
-  const size_t parts = film.parts_of(group).size();
-  for (size_t pixel = 0; pixel < merged.filter_weights.size(); ++pixel) {
-    const std::span<Rgb> estimate(&merged.values[pixel * parts], parts);
-    PartSums::clamp_total(estimate, film.settings().max_component);
-    for (Rgb& color : estimate) color = color * merged.filter_weights[pixel];
-  }
-
   const ConnectionWeight splat_weight = [&](const CameraConnection& line, const WalkVertex& v) {
     const float radius = radius_pixels * footprint.width(line.distance);
     return 1.0f / (1.0f + merges_per_splat(line, v.surface.ng, radius));

@@ -16,7 +16,6 @@ class VertexMerging : public Estimator {
   VertexMerging(OwnedRoutes owned, const IntegratorOptions& options);
 
   Capabilities capabilities() const override { return {}; }
-  /// Throws UsageError if light paths cannot be connected to the scene's camera.
   void render_pass(const PassKey& key, const Scene& scene, Film& film) override;
   EstimatorStatistics statistics() const override;
 

@@ -16,7 +16,7 @@
 namespace nephroid {
 
 /// The integrator of a render if nothing on the command line names routes.
-inline constexpr const char* kDefaultIntegrator = "mixed";
+inline const std::string kDefaultIntegrator = "mixed";
 
 /// What `nephroid render` was asked for; defaults are those of the table.
 struct RenderCommand {

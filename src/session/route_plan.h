@@ -12,6 +12,9 @@ namespace nephroid {
 /// --integrator, --routes, --route, --aov and --strict-routes as given.
 struct RouteChoice {
   std::string integrator;  ///< empty: not given
+  const std::string& integrator_or(const std::string& other) const {
+    return integrator.empty() ? other : integrator;
+  }
   std::string preset_or_file;
   std::vector<RouteDefinition> routes;
   std::vector<AovDefinition> aovs;

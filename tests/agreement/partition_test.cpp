@@ -225,6 +225,7 @@ const std::vector<Owners> kOwners = {
     {"light_of_one_lamp", {"key=C[DG].*<L.'key'>:lighttrace", "rest=.*:path"}},
     {"light_of_caustics", {"seen=C[DG]S+L:lighttrace", "rest=.*:path"}},
     {"photons_of_one_material", {"brass=C.*<.G'brass'>[DG]*[DG]L:photons", "rest=.*:path"}, true},
+    {"sppm_of_caustics", {"caustic=C.*[DG]S+[DG]?L:sppm", "rest=.*:path"}, true},
     {"photons_at_the_last", {"bounced=C.*[DG]@S+[DG]?L:photons", "rest=.*:path"}, true},
     {"photons_at_the_second", {"second=C[DG][DG]@[DG]*L:photons", "rest=.*:path"}, true},
     {"photons_and_light", {"seen=C[DG].*L:photons+light", "rest=.*:path"}, true},
