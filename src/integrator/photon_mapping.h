@@ -1,7 +1,7 @@
-// `photons`: stochastic progressive photon mapping with the memoryless radius [E2], storing only
-// the photons of its own routes. A pass is a function of the scene, the options and the pass key
-// alone, so passes may be rendered anywhere and added up. Papers: Hachisuka & Jensen 2009; Knaus &
-// Zwicker 2011; Doidge et al. 2012.
+// `photons`: stochastic progressive photon mapping with the memoryless radius [E2], storing only the
+// photons of its own routes. A pass is a function of the scene, the options and the pass key alone,
+// so passes may be rendered anywhere and added up. Who calls it: presets. It must not know how a
+// pass gathers. Papers: Hachisuka & Jensen 2009; Knaus & Zwicker 2011; Doidge et al. 2012.
 #pragma once
 
 #include "integrator/estimator.h"
