@@ -83,13 +83,24 @@ class SobolPoint {
   std::array<uint32_t, kSobolDimensions> reversed_;  ///< the first dimensions_ of them
 };
 
-/// The random numbers of one path: dimension after dimension of a scrambled Sobol' point. A value
-/// depends on the point's index, the seed and the dimension alone.
+/// Numbers in [0,1) that are chosen elsewhere, one for each dimension: the state of a Markov chain
+/// (Kelemen et al. 2002).
+class PrimarySample {
+ public:
+  virtual ~PrimarySample() = default;
+  /// The same number whenever the same dimension is asked for.
+  virtual float number(int dimension) = 0;
+};
+
+/// The random numbers of one path: dimension after dimension of a scrambled Sobol' point, or of a
+/// primary sample. A value depends on the point's index, the seed and the dimension alone.
 class PathSampler {
  public:
   /// `point` outlives the sampler.
   PathSampler(const SobolPoint& point, uint64_t seed) : point_(&point), seed_(mix_bits(seed)) {}
   PathSampler(SobolPoint&&, uint64_t) = delete;
+  /// `primary` outlives the sampler.
+  explicit PathSampler(PrimarySample& primary) : primary_(&primary) {}
 
   /// Jumps to a dimension, so that each decision along a path keeps its own whatever came before.
   void start_dimension(int dimension) { dimension_ = dimension; }
@@ -97,6 +108,7 @@ class PathSampler {
 
   float get_1d() {
     const int d = dimension_++;
+    if (primary_) return primary_->number(d);
     const uint64_t h = mix_bits(seed_ + static_cast<uint64_t>(d) * 0x9e3779b97f4a7c15ull);
     const uint32_t scramble = static_cast<uint32_t>(h >> 32);
     if (d < point_->dimensions())
@@ -105,6 +117,9 @@ class PathSampler {
   }
   /// A seed for random numbers without end that belong to this path and the current dimension.
   uint64_t stream_seed() const {
+    if (primary_)
+      return hash_combine(std::bit_cast<uint32_t>(primary_->number(dimension_)),
+                          static_cast<uint64_t>(dimension_));
     return hash_combine(seed_, point_->index(), static_cast<uint64_t>(dimension_));
   }
   Vec2f get_2d() {
@@ -113,8 +128,9 @@ class PathSampler {
   }
 
  private:
-  const SobolPoint* point_;
-  uint64_t seed_;
+  const SobolPoint* point_ = nullptr;
+  PrimarySample* primary_ = nullptr;  ///< instead of a point
+  uint64_t seed_ = 0;
   int dimension_ = 0;
 };
 

@@ -12,7 +12,20 @@
 namespace nephroid {
 
 /// What can own a route. The rows of estimator_types() say what each can do.
-enum class EstimatorKind : uint8_t { kPath, kPhotons, kSppm, kLightTrace, kPhotonsAndLight };
+enum class EstimatorKind : uint8_t {
+  kPath,
+  kPhotons,
+  kSppm,
+  kLightTrace,
+  kPhotonsAndLight,
+  kBidirectional,
+  kVcm,
+  kMetropolis,
+  kPhotonMap,
+  kPpm,
+  kPointLights,
+  kForecast
+};
 
 struct EstimatorType {
   EstimatorKind kind;

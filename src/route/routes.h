@@ -144,6 +144,11 @@ class Routes {
   ClassMask useful_before_deposit(size_t group, LightState light, Label label) const {
     return flags_[group].useful_before_deposit[light * label_count() + label];
   }
+  /// Events after which a light walk may still be the light's end of a word of the group, wherever
+  /// it is cut in two.
+  ClassMask useful_from_light(size_t group, LightState light, Label label) const {
+    return flags_[group].useful_from_light[light * label_count() + label];
+  }
   /// Classes of first events e1 (seen from the eye) with which a light walk makes a word of the
   /// group when it is connected to the camera.
   ClassMask connects(size_t group, LightState light, Label label) const {
@@ -158,10 +163,12 @@ class Routes {
   struct Flags {
     std::vector<bool> ends;
     std::vector<ClassMask> useful, useful_before_merge, merges, deposits, useful_before_deposit,
-        connects, useful_before_connection;
+        useful_from_light, connects, useful_before_connection;
   };
   size_t label_count() const { return labels_.size() + 1; }
   void find_useful_events(const SymbolSet& symbols);
+  /// [light state]: some eye state that is reached makes a word of the group with it.
+  std::vector<bool> states_that_meet(size_t group, const std::vector<bool>& reached) const;
 
   std::vector<RouteDefinition> definitions_;
   std::vector<AovDefinition> aovs_;

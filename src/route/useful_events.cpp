@@ -106,6 +106,15 @@ constexpr ClassMask kEveryClass = ClassMask::kEvery;
 
 }  // namespace
 
+std::vector<bool> Routes::states_that_meet(size_t group, const std::vector<bool>& reached) const {
+  std::vector<bool> may_meet(tables_.light_states);
+  for (size_t eye = 0; eye < tables_.eye_states; ++eye)
+    for (size_t light = 0; light < tables_.light_states; ++light)
+      if (reached[eye] && owns(group, tables_.meet[eye * tables_.light_states + light]))
+        may_meet[light] = true;
+  return may_meet;
+}
+
 void Routes::find_useful_events(const SymbolSet& symbols) {
   const RouteTables& t = tables_;
   const EventColumns events(t, symbols);
@@ -159,6 +168,10 @@ void Routes::find_useful_events(const SymbolSet& symbols) {
     f.useful_before_deposit = events.masks(
         t.light_states, kEveryClass,
         [&](size_t s, EventSymbol e) -> bool { return may_deposit[t.light_next[column(s, e)]]; });
+    const std::vector<bool> may_meet = states_that_meet(g, reached);
+    f.useful_from_light = events.masks(
+        t.light_states, kEveryClass,
+        [&](size_t s, EventSymbol e) -> bool { return may_meet[t.light_next[column(s, e)]]; });
     const bool connects = estimator_type(groups_[g].estimator).connects;
     f.connects = events.masks(t.light_states, kEveryClass, [&](size_t light, EventSymbol e) {
       return connects && owns(g, t.meet[t.eye_next[column(t.start, e)] * t.light_states + light]);
