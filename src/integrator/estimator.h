@@ -45,6 +45,15 @@ class Estimator {
   virtual EstimatorStatistics statistics() const = 0;
 };
 
+/// Which techniques of a bidirectional estimator are made: all, or one alone.
+struct TechniqueChoice {
+  int s = -1, t = -1;    ///< vertices of the light and of the eye side; -1: any number
+  bool weighted = true;  ///< false: each as if there were no other
+  bool makes(int light_vertices, int eye_vertices) const {
+    return (s < 0 || s == light_vertices) && (t < 0 || t == eye_vertices);
+  }
+};
+
 /// Algorithm options, from defaults, the scene's Integrator line and -D key=value, in this order.
 struct IntegratorOptions {
   int max_depth = 100;  ///< scattering events of the whole path, camera and light side together
@@ -57,6 +66,7 @@ struct IntegratorOptions {
   /// paths whatever the routes are.
   bool blind_walks = false;
   int camera_samples_per_pass = 0;  ///< 0: the default of the integrator
+  TechniqueChoice technique;        ///< of bidirectional estimators
   int64_t memory_photons =
       1 << 20;  ///< photons kept at once (96 bytes each); a larger pass runs in batches
   /// Bytes for the pixels of image textures; scenes are loaded with it, no integrator looks at it.

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "core/errors.h"
+#include "integrator/bidirectional.h"
 #include "integrator/compiled_plan.h"
 #include "integrator/features.h"
 #include "integrator/light_tracing.h"
@@ -27,7 +28,8 @@ constexpr Row kTable[] = {{EstimatorKind::kPath, make<PathEstimator>},
                           {EstimatorKind::kPhotons, make<PhotonMapping>},
                           {EstimatorKind::kSppm, make<Sppm>},
                           {EstimatorKind::kLightTrace, make<LightTracing>},
-                          {EstimatorKind::kPhotonsAndLight, make<VertexMerging>}};
+                          {EstimatorKind::kPhotonsAndLight, make<VertexMerging>},
+                          {EstimatorKind::kBidirectional, make<Bidirectional>}};
 
 FilmLayout layout_of(const Routes& routes) {
   FilmLayout layout;

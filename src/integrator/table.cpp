@@ -11,7 +11,8 @@ struct Row {
   const char* name;
   const char* preset;  ///< of the routes
 };
-constexpr Row kTable[] = {{"mixed", "doidge2012"}, {"path", "path-only"}, {"sppm", "sppm"}};
+constexpr Row kTable[] = {
+    {"mixed", "doidge2012"}, {"path", "path-only"}, {"sppm", "sppm"}, {"bdpt", "bdpt"}};
 
 constexpr const char* kOwnChoice = "the program's own choice, with the same picture";
 
@@ -67,7 +68,7 @@ constexpr SceneRow kSceneTable[] = {
     {{"simplevolpath", {kDepth}, "path"}, "path"},
     {{"randomwalk", {kDepth}, "path"}, "path"},
     {{"sppm", {kDepth, kSppm}, "sppm"}, "sppm"},
-    {{"bdpt", {kDepth, kLightSampler, kRegularize, kBdpt}, "mixed"}, "mixed"},
+    {{"bdpt", {kDepth, kLightSampler, kRegularize, kBdpt}, "bdpt"}, "bdpt"},
     {{"mlt", {kDepth, kRegularize, kMlt}, "mixed"}, "mixed"},
     {{"lightpath", {kDepth}, "mixed"}, "mixed"},
     {{"ambientocclusion",

@@ -23,6 +23,19 @@ struct MergeStates {
 
 }  // namespace
 
+std::optional<PhotonArrival> arrival_at(const WalkVertex& vertex, const Photon& photon) {
+  if (abs_dot(photon.ng, vertex.surface.ng) < kMergeMinNormalCosine) return std::nullopt;
+  // The side on which the photon arrived on its own surface, the normals brought to agree, tells
+  // reflection from transmission: on a curved surface its direction alone may lie below the visible
+  // point's tangent plane.
+  const float agree = dot(photon.ng, vertex.surface.ng) < 0.0f ? -1.0f : 1.0f;
+  const float arrives = dot(photon.wi, photon.ng) * agree;
+  if (!(std::abs(arrives) > 0.0f)) return std::nullopt;
+  PhotonArrival arrival{vertex.to_local(photon.wi), std::abs(arrives)};
+  if (arrival.wi.z * arrives < 0.0f) arrival.wi.z = -arrival.wi.z;
+  return arrival;
+}
+
 uint32_t merge_photons(const PhotonGrid& grid, const OwnedRoutes& owned, const MergePoint& at,
                        int max_depth, float radius, PartSums& sums) {
   const WalkVertex& vertex = at.vertex;
@@ -30,16 +43,9 @@ uint32_t merge_photons(const PhotonGrid& grid, const OwnedRoutes& owned, const M
   uint32_t found = 0;
   grid.query(vertex.surface.p, radius, [&](const Photon& photon, float) {
     if (photon.events + at.events > max_depth) return;
-    if (abs_dot(photon.ng, vertex.surface.ng) < kMergeMinNormalCosine) return;
-    // The side on which the photon arrived on its own surface, the normals brought to agree, tells
-    // reflection from transmission: on a curved surface its direction alone may lie below the
-    // visible point's tangent plane.
-    const float agree = dot(photon.ng, vertex.surface.ng) < 0.0f ? -1.0f : 1.0f;
-    const float arrives = dot(photon.wi, photon.ng) * agree;
-    const float cos_geometric = std::abs(arrives);
-    if (!(cos_geometric > 0.0f)) return;
-    Vec3f wi = vertex.to_local(photon.wi);
-    if (wi.z * arrives < 0.0f) wi.z = -wi.z;
+    const std::optional<PhotonArrival> arrival = arrival_at(vertex, photon);
+    if (!arrival) return;
+    const Vec3f& wi = arrival->wi;
     const bool transmitted = vertex.transmits(wi);
     bool counts = false;
     for (const EventClass c : kSurfaceClasses) {
@@ -54,7 +60,7 @@ uint32_t merge_photons(const PhotonGrid& grid, const OwnedRoutes& owned, const M
       // A photon lies on its surface with the density of its own cosine; shading normals weigh it
       // as path tracing would.
       const SampledSpectrum f =
-          at.throughput * e.f * photon.flux * (abs_cos_theta(wi) / cos_geometric);
+          at.throughput * e.f * photon.flux * (abs_cos_theta(wi) / arrival->cos_geometric);
       // A path that lost its secondary wavelengths, on either side or on both, stands for all of
       // them once.
       if (at.secondary_terminated || photon.secondary_terminated) {

@@ -24,6 +24,14 @@ struct MergePoint {
   bool secondary_terminated = false;     ///< the walk kept only its hero wavelength
 };
 
+/// How a photon arrives at a visible point.
+struct PhotonArrival {
+  Vec3f wi;  ///< local, on the side on which the photon arrived on its own surface
+  float cos_geometric = 0;
+};
+/// Empty if the photon lies on another wall.
+std::optional<PhotonArrival> arrival_at(const WalkVertex& vertex, const Photon& photon);
+
 /// Adds throughput * sum of f * flux to the parts that own the photons' paths, to be divided by
 /// (N pi r^2); returns how many photons counted. What belongs to other routes or makes the path
 /// longer than `max_depth` events is passed over. A path that kept only the hero wavelength, on

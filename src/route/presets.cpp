@@ -34,6 +34,9 @@ std::span<const RoutePreset> route_presets() {
       {"light-only",
        "whatever can be connected to the camera is traced from the lights, the rest path tracing",
        {"light=C([DGV].*L|O):lighttrace", "rest=.*:path"}},
+      {"bdpt",
+       "all light that can be followed from the lights is bidirectional path tracing",
+       {"bdpt=.*:bdpt", "rest=.*:path"}},
       {"path-only", "everything is path tracing", {"diffuse=.*:path"}},
   };
   return presets;

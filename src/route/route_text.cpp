@@ -25,6 +25,9 @@ constexpr EstimatorType kEstimators[] = {
     {EstimatorKind::kPhotonsAndLight, "photons+light",
      "photons that are merged and connected to the camera, weighed against each other", true, true,
      true},
+    {EstimatorKind::kBidirectional, "bdpt",
+     "bidirectional path tracing: paths from eye and lights, connected in all ways", false, false,
+     true},
 };
 
 // Names of the picture's own layers and channels, and of what is reserved for them.

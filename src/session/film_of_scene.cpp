@@ -9,6 +9,7 @@
 
 #include "core/errors.h"
 #include "film/splats.h"
+#include "integrator/bidirectional.h"
 #include "integrator/merge_pass.h"
 #include "integrator/sppm.h"
 
@@ -26,6 +27,8 @@ size_t bytes_of_estimators(const Routes& routes) {
     if (group.estimator == EstimatorKind::kSppm) {
       kept += Sppm::bytes_kept(parts);
       pass += Sppm::bytes_of_pass(parts);
+    } else if (group.estimator == EstimatorKind::kBidirectional) {
+      pass += Bidirectional::bytes_per_pixel(parts);
     } else if (type.merges) {
       pass += MergePass::bytes_per_pixel(parts);
     }
