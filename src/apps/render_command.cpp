@@ -82,8 +82,11 @@ int run_render(const RenderCommand& command) {
   Preset preset = make_preset(plan, choice.options, scene);
   if (!command.quiet)
     for (const std::string& warning : preset.warnings) print_warning(warning);
-  check_film_fits(scene.film, preset.layout, *preset.routes, command.overrides.width > 0);
+  check_film_fits(scene.film, preset.layout, *preset.routes, command.overrides.width > 0,
+                  command.reject_outliers);
   Film film(film_settings(scene.film), preset.layout);
+  if (command.reject_outliers)
+    film.reject_outliers(outlier_settings(*preset.routes, choice.options, *scene.filter));
   const std::string output =
       command.output.empty() ? default_output(scene.film, command.scene) : command.output;
   Metadata metadata = metadata_of(command, choice);

@@ -69,6 +69,8 @@ struct IntegratorOptions {
   TechniqueChoice technique;        ///< of bidirectional estimators
   int64_t memory_photons =
       1 << 20;  ///< photons kept at once (96 bytes each); a larger pass runs in batches
+  /// Similar estimates that confirm one, for films that reject outliers; no integrator looks at it.
+  int outlier_neighbours = 8;
   /// Bytes for the pixels of image textures; scenes are loaded with it, no integrator looks at it.
   int64_t texture_memory = int64_t{1} << 30;
 };

@@ -34,7 +34,7 @@ constexpr EstimatorType kEstimators[] = {
 constexpr const char* kReservedNames[] = {
     "R",    "G",      "B",      "A",      "Z",       "N",        "P",
     "Ns",   "u",      "v",      "Y",      "RY",      "BY",       "dzdx",
-    "dzdy", "albedo", "Albedo", "stderr", "samples", "Variance", "RelativeVariance"};
+    "dzdy", "albedo", "Albedo", "stderr", "samples", "Variance", "RelativeVariance", "outliers"};
 constexpr size_t kLongestName = 64;
 
 bool is_space(char c) {

@@ -37,6 +37,13 @@ size_t bytes_of_estimators(const Routes& routes) {
   return kept + most;
 }
 
+size_t bytes_of_rejection(const Routes& routes) {
+  size_t bytes = 0;
+  for (const RouteGroup& group : routes.groups())
+    bytes += OutlierRejection::bytes_per_pixel(group.parts.size());
+  return bytes;
+}
+
 }  // namespace
 
 FilmSettings film_settings(const FilmDescription& description) {
@@ -55,12 +62,26 @@ FilmSettings film_settings(const FilmDescription& description) {
   return settings;
 }
 
+/// A photon exposes the pixels within the merge radius, a splat those whose filter reaches it.
+OutlierSettings outlier_settings(const Routes& routes, const IntegratorOptions& options,
+                                 const PixelFilter& filter) {
+  OutlierSettings settings;
+  settings.neighbours = options.outlier_neighbours;
+  for (const RouteGroup& group : routes.groups()) {
+    const EstimatorType& type = estimator_type(group.estimator);
+    const float merged = type.merges ? kPi * sqr(first_radius(options)) : 1.0f;
+    const float splatted = type.connects ? 4 * filter.radius().x * filter.radius().y : 1.0f;
+    settings.exposed_pixels.push_back(std::max({1.0f, merged, splatted}));
+  }
+  return settings;
+}
+
 void check_film_fits(const FilmDescription& description, const FilmLayout& layout,
-                     const Routes& routes, bool size_is_an_option) {
+                     const Routes& routes, bool size_is_an_option, bool rejects_outliers) {
   // What there is of each pixel; everything else comes on top.
   const auto bytes_per_pixel = static_cast<double>(
       Film::bytes_per_pixel(layout, description.gbuffer != GBufferSpace::kNone) +
-      bytes_of_estimators(routes));
+      bytes_of_estimators(routes) + (rejects_outliers ? bytes_of_rejection(routes) : 0));
   constexpr double kGiB = 1 << 30;
   const double pixels = static_cast<double>(description.crop_x1 - description.crop_x0) *
                         (description.crop_y1 - description.crop_y0);

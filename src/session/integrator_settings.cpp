@@ -99,6 +99,13 @@ constexpr IntegratorSetting kSettings[] = {
        o.memory_photons = integer("memory-photons", t, 1, kNoLimit);
      },
      [](const IntegratorOptions& o) { return fmt::format("{}", o.memory_photons); }},
+    {"outlier-neighbours", "N", "8", "estimates",
+     "With --outliers reject: how many similar estimates within 5 x 5 pixels confirm an estimate; "
+     "more reject more.",
+     [](IntegratorOptions& o, const std::string& t) {
+       o.outlier_neighbours = static_cast<int>(integer("outlier-neighbours", t, 2, 1000));
+     },
+     [](const IntegratorOptions& o) { return fmt::format("{}", o.outlier_neighbours); }},
     {"texture-cache", "SIZE", "1G", "bytes",
      "Memory for the pixels of image textures (K, M, G: powers of 1024); what does not fit is read "
      "from the files again and again, with the same picture.",

@@ -58,6 +58,12 @@ void add_setting(CommandLine& line, const std::string& text) {
   command.overrides.texture_memory = static_cast<uint64_t>(options.texture_memory);
 }
 
+void set_outliers(CommandLine& line, const std::string& text) {
+  if (text != "reject" && text != "off")
+    throw UsageError("--outliers: '" + text + "' is not valid, expected reject or off");
+  line.render.reject_outliers = text == "reject";
+}
+
 template <auto Command>
 void set_routes(CommandLine& line, const std::string& text) {
   (line.*Command).routes.preset_or_file = text;
@@ -124,6 +130,10 @@ constexpr OptionDescription kOptions[] = {
      set_strict<&CommandLine::render>},
     {"render", "-D", "", "KEY=VALUE", "", "", "Algorithm", kSettingHelp, true,
      add_setting<&CommandLine::render>},
+    {"render", "--outliers", "", "reject|off", "", "off", "Algorithm",
+     "reject keeps estimates that are isolated in position and brightness (fireflies) out of the "
+     "picture until others confirm them; the layer 'outliers' holds them.",
+     false, set_outliers},
     {"render", "--seed", "", "S", "", "the scene's, else 0", "Algorithm",
      "Another seed gives another, independent picture.", false,
      [](CommandLine& l, const std::string& t) { l.render.seed = parse_seed("--seed", t); }},

@@ -29,6 +29,7 @@ struct RenderCommand {
   int threads = 0;  ///< 0: all of the machine
   std::optional<uint64_t> seed;
   SettingList settings;
+  bool reject_outliers = false;
   bool quiet = false;
 };
 
