@@ -99,6 +99,7 @@ class LightVisitor {
     place_ = place;
     merge_place_ = place.p;
     sums_ = is_first_ ? first_sums(walk, ns) : end_.next(line_between(last_, place_));
+    if (!is_first_ && !settings_.connects()) sums_.here = 0;
   }
 
   SideSums first_sums(const Walk& walk, const Vec3f& ns) const {

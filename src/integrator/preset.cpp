@@ -9,6 +9,7 @@
 #include "integrator/path.h"
 #include "integrator/photon_mapping.h"
 #include "integrator/sppm.h"
+#include "integrator/vertex_connection_merging.h"
 #include "integrator/vertex_merging.h"
 
 namespace nephroid {
@@ -29,7 +30,9 @@ constexpr Row kTable[] = {{EstimatorKind::kPath, make<PathEstimator>},
                           {EstimatorKind::kSppm, make<Sppm>},
                           {EstimatorKind::kLightTrace, make<LightTracing>},
                           {EstimatorKind::kPhotonsAndLight, make<VertexMerging>},
-                          {EstimatorKind::kBidirectional, make<Bidirectional>}};
+                          {EstimatorKind::kBidirectional, make<Bidirectional>},
+                          {EstimatorKind::kVcm, make<VertexConnectionMerging>},
+                          {EstimatorKind::kBpm, make<VertexConnectionMerging>}};
 
 FilmLayout layout_of(const Routes& routes) {
   FilmLayout layout;

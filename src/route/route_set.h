@@ -20,6 +20,7 @@ enum class EstimatorKind : uint8_t {
   kPhotonsAndLight,
   kBidirectional,
   kVcm,
+  kBpm,
   kMetropolis,
   kPhotonMap,
   kPpm,

@@ -12,6 +12,7 @@
 #include "integrator/bidirectional.h"
 #include "integrator/merge_pass.h"
 #include "integrator/sppm.h"
+#include "integrator/vertex_connection_merging.h"
 
 namespace nephroid {
 namespace {
@@ -29,6 +30,8 @@ size_t bytes_of_estimators(const Routes& routes) {
       pass += Sppm::bytes_of_pass(parts);
     } else if (group.estimator == EstimatorKind::kBidirectional) {
       pass += Bidirectional::bytes_per_pixel(parts);
+    } else if (group.estimator == EstimatorKind::kVcm || group.estimator == EstimatorKind::kBpm) {
+      pass += VertexConnectionMerging::bytes_per_pixel(parts);
     } else if (type.merges) {
       pass += MergePass::bytes_per_pixel(parts);
     }

@@ -188,6 +188,14 @@ void Comparison::check_useful(int route, Part part) {
 
   const LightState emitted = routes_.emitted(lights_[size_t(path_.light)]);
   LightState light = emitted;
+  if (estimator == EstimatorKind::kBidirectional || estimator == EstimatorKind::kVcm ||
+      estimator == EstimatorKind::kBpm) {
+    if (!read_[n].useful[g]) fail("the eye's walk ends too early");
+    for (size_t i = n; i-- > 0; light = routes_.light_next(light, symbol(i)))
+      if (!has(routes_.useful_from_light(g, light, label_of(symbol(i))), symbol(i)))
+        fail("the light's walk ends too early");
+    return;
+  }
   if (set_.type(route).merges) {
     const size_t vertex = vertices_.front();
     for (size_t i = 0; i <= vertex; ++i) {
