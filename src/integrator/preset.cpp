@@ -8,6 +8,7 @@
 #include "integrator/light_tracing.h"
 #include "integrator/path.h"
 #include "integrator/photon_mapping.h"
+#include "integrator/primary_space.h"
 #include "integrator/sppm.h"
 #include "integrator/vertex_connection_merging.h"
 #include "integrator/vertex_merging.h"
@@ -32,7 +33,8 @@ constexpr Row kTable[] = {{EstimatorKind::kPath, make<PathEstimator>},
                           {EstimatorKind::kPhotonsAndLight, make<VertexMerging>},
                           {EstimatorKind::kBidirectional, make<Bidirectional>},
                           {EstimatorKind::kVcm, make<VertexConnectionMerging>},
-                          {EstimatorKind::kBpm, make<VertexConnectionMerging>}};
+                          {EstimatorKind::kBpm, make<VertexConnectionMerging>},
+                          {EstimatorKind::kPrimarySpace, make<PrimarySpace>}};
 
 FilmLayout layout_of(const Routes& routes) {
   FilmLayout layout;

@@ -12,7 +12,8 @@ struct Row {
   const char* preset;  ///< of the routes
 };
 constexpr Row kTable[] = {{"mixed", "doidge2012"}, {"path", "path-only"}, {"sppm", "sppm"},
-                          {"bdpt", "bdpt"},        {"vcm", "vcm"},        {"bpm", "bpm"}};
+                          {"bdpt", "bdpt"},        {"vcm", "vcm"},        {"bpm", "bpm"},
+                          {"pssmlt", "pssmlt"}};
 
 constexpr const char* kOwnChoice = "the program's own choice, with the same picture";
 

@@ -39,6 +39,7 @@ std::span<const RoutePreset> route_presets() {
        {"bdpt=.*:bdpt", "rest=.*:path"}},
       {"vcm", "the same by vertex connection and merging", {"vcm=.*:vcm", "rest=.*:path"}},
       {"bpm", "the same by bidirectional photon mapping", {"bpm=.*:bpm", "rest=.*:path"}},
+      {"pssmlt", "everything is path tracing explored by Markov chains", {"light=.*:pssmlt"}},
       {"path-only", "everything is path tracing", {"diffuse=.*:path"}},
   };
   return presets;

@@ -232,7 +232,8 @@ class Prover {
   // mirror is no fault of a route), else the more the better it serves as a witness.
   static int never_sampled(EstimatorKind estimator, const Ends& ends, LightKind light) {
     const bool is_hit = light != LightKind::kPoint && light != LightKind::kDistant;
-    if (estimator == EstimatorKind::kPath) return !is_hit && ends.rough && ends.last_specular;
+    if (estimator == EstimatorKind::kPath || estimator == EstimatorKind::kPrimarySpace)
+      return !is_hit && ends.rough && ends.last_specular;
     if (estimator == EstimatorKind::kLightTrace)
       return ends.any ? 2 * (ends.first_specular && (ends.rough || is_hit))
                       : light == LightKind::kEnvironment;

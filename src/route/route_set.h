@@ -25,7 +25,8 @@ enum class EstimatorKind : uint8_t {
   kPhotonMap,
   kPpm,
   kPointLights,
-  kForecast
+  kForecast,
+  kPrimarySpace
 };
 
 struct EstimatorType {

@@ -108,6 +108,24 @@ constexpr IntegratorSetting kSettings[] = {
        o.memory_photons = integer("memory-photons", t, 1, kNoLimit);
      },
      [](const IntegratorOptions& o) { return fmt::format("{}", o.memory_photons); }},
+    {"mutations", "X", "0", "mutations",
+     "Of Metropolis light transport, per pixel and pass; 0 chooses.",
+     [](IntegratorOptions& o, const std::string& t) {
+       o.mutations = number("mutations", t, 0, std::numeric_limits<float>::max(), false);
+     },
+     [](const IntegratorOptions& o) { return fmt::format("{:g}", o.mutations); }},
+    {"chain-length", "N", "0", "mutations",
+     "After how many mutations a Markov chain gives way to a new one; 0 chooses.",
+     [](IntegratorOptions& o, const std::string& t) {
+       o.chain_length = integer("chain-length", t, 0, kNoLimit);
+     },
+     [](const IntegratorOptions& o) { return fmt::format("{}", o.chain_length); }},
+    {"large-step", "X", "0.3", "",
+     "Probability of a mutation that forgets the path it comes from, above 0 to 1.",
+     [](IntegratorOptions& o, const std::string& t) {
+       o.large_step = number("large-step", t, 0, 1, true);
+     },
+     [](const IntegratorOptions& o) { return fmt::format("{:g}", o.large_step); }},
     {"texture-cache", "SIZE", "1G", "bytes",
      "Memory for the pixels of image textures (K, M, G: powers of 1024); what does not fit is read "
      "from the files again and again, with the same picture.",
