@@ -18,7 +18,7 @@ namespace nephroid {
 /// direction. Numbers lie on a ring of length 1.
 struct SmallStep {
   float shortest = 1.0f / 1024;
-  float longest = 1.0f / 64;
+  float longest = 1.0f / 16;
 };
 
 /// A number in [0,1) after a small step; `bits` choose length and direction, evenly.

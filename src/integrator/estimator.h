@@ -74,7 +74,7 @@ struct IntegratorOptions {
   // Of Metropolis light transport.
   float mutations = 0;       ///< a pixel and pass; 0: the default
   int64_t chain_length = 0;  ///< mutations of a chain; 0: the default
-  float large_step = 0.3f;   ///< probability
+  float large_step = 0.1f;   ///< probability
   /// Bytes for the pixels of image textures; scenes are loaded with it, no integrator looks at it.
   int64_t texture_memory = int64_t{1} << 30;
 };

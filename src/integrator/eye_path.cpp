@@ -419,9 +419,11 @@ uint64_t trace_eye_path(const PairSettings& settings, const LightSubpath& path, 
   camera.walk.specular_alpha = settings.specular_alpha;
   camera.walk.per_wavelength = true;
   EyeVisitor visitor(settings, path, camera, light);
-  // A technique with t vertices of the eye side needs no more.
-  const int most = settings.technique.t < 0 ? settings.max_depth
-                                            : std::min(settings.max_depth, settings.technique.t);
+  // A technique with t vertices of the eye side, the lens one of them, needs no more, and no event
+  // where it meets a light.
+  const TechniqueChoice& one = settings.technique;
+  const int most = one.t < 0 ? settings.max_depth
+                             : std::clamp(one.t - (one.s == 0 ? 2 : 1), 0, settings.max_depth);
   random_walk(settings.scene, TransportMode::kRadiance, most, camera.walk, sampler, visitor);
   if (merged) *merged += visitor.merged();
   return camera.walk.rays + visitor.rays();

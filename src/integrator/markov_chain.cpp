@@ -47,14 +47,15 @@ struct Chunk {
 /// One pass.
 class ChainPass {
  public:
-  ChainPass(const PassKey& key, const ChainSettings& settings, double balance,
+  ChainPass(const PassKey& key, const ChainSettings& settings, const ChainPilot& pilot,
             const PathFunctionMaker& make, Film& film, SplatBuffer& buffer)
       : key_(key),
         settings_(settings),
         mutations_(static_cast<double>(settings.chains * settings.mutations)),
         independent_(static_cast<double>(settings.bootstrap) +
                      static_cast<double>(settings.large_step) * mutations_),
-        balance_(balance > 0 ? balance : 1),
+        importance_(pilot.importance),
+        balance_(pilot.balance > 0 ? pilot.balance : 1),
         make_(make),
         film_(film),
         buffer_(buffer) {}
@@ -83,15 +84,15 @@ class ChainPass {
   }
 
   /// [M5]: adds light that was found `times` times.
-  void expose(const FoundLight& found, double brightness, double times, Chunk& out) const {
+  void expose(const FoundLight& found, double target, double times, Chunk& out) const {
     if (!(times > 0)) return;
-    const double scale = times / (independent_ + mutations_ * brightness / balance_);
+    const double scale = times / (independent_ + mutations_ * target / balance_);
     for (const Splat& splat : found.splats)
       out.splats.push_back({splat.film, splat.part, splat.value * static_cast<float>(scale)});
   }
 
   void draw_bootstrap() {
-    brightness_.resize(static_cast<size_t>(settings_.bootstrap));
+    targets_.resize(static_cast<size_t>(settings_.bootstrap));
     for (int64_t first = 0; first < settings_.bootstrap; first += kPathsAtOnce) {
       const int64_t count = std::min(kPathsAtOnce, settings_.bootstrap - first);
       std::vector<Chunk> chunks(static_cast<size_t>(chunk_count(count, kPathsPerChunk)));
@@ -104,10 +105,10 @@ class ChainPass {
           numbers.start(bootstrap_numbers(j), 0);
           found.splats.clear();
           function->evaluate(numbers, found);
-          const double brightness = found.brightness();
-          brightness_[static_cast<size_t>(j)] = brightness;
-          out.statistics.bootstrap_lit += brightness > 0;
-          expose(found, brightness, 1, out);
+          const double target = found.target(importance_);
+          targets_[static_cast<size_t>(j)] = target;
+          out.statistics.bootstrap_lit += target > 0;
+          expose(found, target, 1, out);
         }
         out.statistics.bootstrap += static_cast<uint64_t>(end - begin);
         out.statistics.paths += static_cast<uint64_t>(end - begin);
@@ -118,12 +119,11 @@ class ChainPass {
     }
   }
 
-  /// Chooses a bootstrap path for each chain, in proportion to brightness (systematic sampling);
-  /// any at all if all are black. Returns the sum of the brightness.
+  /// Chooses a bootstrap path for each chain, in proportion to the target (systematic sampling);
+  /// any at all if all are black. Returns the sum of the targets.
   double choose_starts() {
     double total = 0;
-    for (const double b : brightness_) total += b;
-    statistics_.brightness += total;
+    for (const double b : targets_) total += b;
     const double offset = static_cast<double>(bits_to_unit_float(
         static_cast<uint32_t>(hash_combine(key_.seed, kStartStream, key_.pass))));
     double sum = 0;
@@ -135,7 +135,7 @@ class ChainPass {
       }
       const double at =
           (static_cast<double>(c) + offset) / static_cast<double>(settings_.chains) * total;
-      while (j + 1 < brightness_.size() && sum + brightness_[j] <= at) sum += brightness_[j++];
+      while (j + 1 < targets_.size() && sum + targets_[j] <= at) sum += targets_[j++];
       starts_.push_back(static_cast<int64_t>(j));
     }
     return total;
@@ -146,7 +146,7 @@ class ChainPass {
     const std::unique_ptr<PathFunction> function = make_();
     MarkovChain chain(bootstrap_numbers(start),
                       hash_combine(key_.seed, kChainStream, key_.pass, number), settings_,
-                      *function);
+                      importance_, *function);
     ChainStatistics& s = out.statistics;
     double times = 0;  // of the current state
     for (int64_t i = 0; i < settings_.mutations; ++i) {
@@ -156,15 +156,15 @@ class ChainPass {
       const double times_proposed = acceptance * ratio_ + (chain.is_large() ? 1 : 0);
       const bool accepted = chain.decide();
       if (accepted) {
-        expose(chain.proposed(), chain.proposed_brightness(), times, out);  // what was current
+        expose(chain.proposed(), chain.proposed_target(), times, out);  // what was current
         times = times_proposed;
       } else {
-        expose(chain.proposed(), chain.proposed_brightness(), times_proposed, out);
+        expose(chain.proposed(), chain.proposed_target(), times_proposed, out);
       }
       (chain.is_large() ? s.large : s.small) += 1;
       (chain.is_large() ? s.large_accepted : s.small_accepted) += accepted;
     }
-    expose(chain.current(), chain.brightness(), times, out);
+    expose(chain.current(), chain.target(), times, out);
     s.paths += static_cast<uint64_t>(settings_.mutations);
     for (const FoundLight* found : {&chain.current(), &chain.proposed()}) {
       s.rays += found->rays;
@@ -187,13 +187,14 @@ class ChainPass {
   const ChainSettings& settings_;
   const double mutations_;    ///< of all chains
   const double independent_;  ///< paths drawn independently: bootstrap and, on average, large steps
+  const FilmImportance& importance_;
   const double balance_;
   const PathFunctionMaker& make_;
   Film& film_;
   SplatBuffer& buffer_;
-  std::vector<double> brightness_;  ///< of the bootstrap
-  std::vector<int64_t> starts_;     ///< of the chains, among the bootstrap
-  double ratio_ = 0;                ///< mean brightness of the bootstrap over the balance
+  std::vector<double> targets_;  ///< of the bootstrap
+  std::vector<int64_t> starts_;  ///< of the chains, among the bootstrap
+  double ratio_ = 0;             ///< mean target of the bootstrap over the balance
   ChainStatistics statistics_;
 };
 
@@ -209,11 +210,15 @@ void FoundLight::add(const Vec2f& film, size_t part, const Rgb& value) {
   splats.push_back({film, static_cast<uint8_t>(part), value});
 }
 
-double FoundLight::brightness() const {
+double FoundLight::target(const FilmImportance& importance) const {
   double sum = 0;
   for (const Splat& s : splats)
-    sum += std::abs(double{s.value.r}) + std::abs(double{s.value.g}) + std::abs(double{s.value.b});
-  return sum / 3;
+    sum += brightness_of(s.value) * static_cast<double>(importance.at(s.film));
+  return sum;
+}
+
+double brightness_of(const Rgb& color) {
+  return (std::abs(double{color.r}) + std::abs(double{color.g}) + std::abs(double{color.b})) / 3;
 }
 
 void ChainStatistics::add(const ChainStatistics& o) {
@@ -226,12 +231,14 @@ void ChainStatistics::add(const ChainStatistics& o) {
   small += o.small;
   small_accepted += o.small_accepted;
   splats += o.splats;
-  brightness += o.brightness;
 }
 
 MarkovChain::MarkovChain(MarkovSample::Origin origin, uint64_t seed, const ChainSettings& settings,
-                         PathFunction& function)
-    : numbers_(settings.small_step), function_(function), large_step_(settings.large_step) {
+                         const FilmImportance& importance, PathFunction& function)
+    : numbers_(settings.small_step),
+      function_(function),
+      importance_(importance),
+      large_step_(settings.large_step) {
   numbers_.start(std::move(origin), seed);
   evaluate(now_);
 }
@@ -239,7 +246,7 @@ MarkovChain::MarkovChain(MarkovSample::Origin origin, uint64_t seed, const Chain
 void MarkovChain::evaluate(size_t state) {
   states_[state].splats.clear();
   function_.evaluate(numbers_, states_[state]);
-  brightness_[state] = states_[state].brightness();
+  targets_[state] = states_[state].target(importance_);
 }
 
 void MarkovChain::propose() {
@@ -248,7 +255,7 @@ void MarkovChain::propose() {
 }
 
 double MarkovChain::acceptance() const {
-  const double from = brightness_[now_], to = brightness_[1 - now_];
+  const double from = targets_[now_], to = targets_[1 - now_];
   return to < from ? to / from : 1.0;
 }
 
@@ -262,8 +269,10 @@ bool MarkovChain::decide() {
   return true;
 }
 
-double pilot_brightness(uint64_t seed, int64_t count, const PathFunctionMaker& make) {
-  std::vector<double> sums(static_cast<size_t>(chunk_count(count, kPathsPerChunk)), 0.0);
+ChainPilot look_around(uint64_t seed, int64_t count, const FilmArea& area, size_t kinds,
+                       const PathFunctionMaker& make) {
+  std::vector<std::vector<FoundLight>> chunks(
+      static_cast<size_t>(chunk_count(count, kPathsPerChunk)));
   parallel_chunks(count, kPathsPerChunk, [&](int64_t c, int64_t begin, int64_t end) {
     const std::unique_ptr<PathFunction> function = make();
     FoundLight found;
@@ -272,18 +281,25 @@ double pilot_brightness(uint64_t seed, int64_t count, const PathFunctionMaker& m
       numbers.start(independent_numbers(seed, kPilotStream, static_cast<uint64_t>(j)), 0);
       found.splats.clear();
       function->evaluate(numbers, found);
-      sums[static_cast<size_t>(c)] += found.brightness();
+      if (!found.splats.empty()) chunks[static_cast<size_t>(c)].push_back(found);
     }
   });
-  double total = 0;
-  for (const double sum : sums) total += sum;
-  return total / static_cast<double>(count);
+  ChainPilot pilot{FilmImportance(area), std::vector<double>(kinds, 0.0), 0};
+  for (const auto& chunk : chunks)
+    for (const FoundLight& found : chunk)
+      for (const Splat& s : found.splats) pilot.importance.record(s.film, brightness_of(s.value));
+  pilot.importance.learn();
+  for (const auto& chunk : chunks)
+    for (const FoundLight& found : chunk)
+      pilot.kinds[found.kind] += found.target(pilot.importance) / static_cast<double>(count);
+  for (const double b : pilot.kinds) pilot.balance += b;
+  return pilot;
 }
 
-void render_chains(const PassKey& key, const ChainSettings& settings, double balance,
+void render_chains(const PassKey& key, const ChainSettings& settings, const ChainPilot& pilot,
                    const PathFunctionMaker& make, Film& film, SplatBuffer& buffer,
                    ChainStatistics& statistics) {
-  ChainPass pass(key, settings, balance, make, film, buffer);
+  ChainPass pass(key, settings, pilot, make, film, buffer);
   pass.run();
   statistics.add(pass.statistics());
 }

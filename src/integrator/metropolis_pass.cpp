@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/parallel.h"
 #include "scene/scene.h"
 
 namespace nephroid {
@@ -11,18 +12,15 @@ namespace nephroid {
 namespace {
 
 constexpr int64_t kPilotPaths = 1 << 14;
-/// Defaults, measured: docs/adr/0014-chains-restart.md.
+// Defaults, measured: docs/adr/0020-chains-restart.md.
 constexpr double kMutationsPerPixel = 16;
 constexpr int64_t kFewestMutations = 1024;
-constexpr int64_t kChainLength = 256;
+constexpr int64_t kChainLength = 8192;
+constexpr int64_t kFewestChains = 16;
+/// Of the mutations.
 constexpr double kBootstrapShare = 0.25;
 
 }  // namespace
-
-FilmArea::FilmArea(const PixelBounds& crop, const PixelFilter& filter)
-    : low_(Vec2f(static_cast<float>(crop.x0), static_cast<float>(crop.y0)) - filter.radius()),
-      size_(Vec2f(static_cast<float>(crop.width()), static_cast<float>(crop.height())) +
-            filter.radius() * 2.0f) {}
 
 ChainSettings MetropolisPasses::settings_for(int64_t pixels) const {
   const double per_pixel = options_.mutations > 0 ? double{options_.mutations} : kMutationsPerPixel;
@@ -30,22 +28,26 @@ ChainSettings MetropolisPasses::settings_for(int64_t pixels) const {
       std::max(kFewestMutations, static_cast<int64_t>(per_pixel * static_cast<double>(pixels)));
   ChainSettings settings;
   settings.large_step = options_.large_step;
-  settings.mutations =
-      std::min(mutations, options_.chain_length > 0 ? options_.chain_length : kChainLength);
-  settings.chains = (mutations + settings.mutations - 1) / settings.mutations;
+  settings.mutations = options_.chain_length > 0
+                           ? std::min(options_.chain_length, mutations)
+                           : std::min(kChainLength, mutations / kFewestChains);
+  settings.chains = chunk_count(mutations, settings.mutations);
   settings.bootstrap = static_cast<int64_t>(
       kBootstrapShare * static_cast<double>(settings.chains * settings.mutations));
-  settings.bootstrap = std::max<int64_t>(settings.bootstrap, 1);
   return settings;
+}
+
+const ChainPilot& MetropolisPasses::pilot(uint64_t seed, const FilmArea& area, size_t kinds,
+                                          const PathFunctionMaker& make) {
+  if (!pilot_ || pilot_seed_ != seed) pilot_ = look_around(seed, kPilotPaths, area, kinds, make);
+  pilot_seed_ = seed;
+  return *pilot_;
 }
 
 void MetropolisPasses::render(const PassKey& key, const Scene& scene, int group,
                               const PathFunctionMaker& make, Film& film) {
-  if (!pilot_ || pilot_->seed != key.seed)
-    pilot_ = Pilot{key.seed, pilot_brightness(key.seed, kPilotPaths, make)};
   SplatBuffer buffer(film, group, *scene.filter);
-  render_chains(key, settings_for(film.bounds().area()), pilot_->brightness, make, film, buffer,
-                counts_);
+  render_chains(key, settings_for(film.bounds().area()), *pilot_, make, film, buffer, counts_);
   buffer.finish(1.0);
   film.add_estimates(group, 1);
 }
@@ -68,12 +70,11 @@ EstimatorStatistics MetropolisPasses::statistics() const {
   s.notes.push_back(fmt::format(
       "Metropolis: {:.1f} % of {} paths to start from carry light; {:.1f} % of the small and "
       "{:.1f} "
-      "% of the large steps were accepted, {:.1f} % of all were large; brightness {:.4g} a pixel",
+      "% of the large steps were accepted, {:.1f} % of all were large",
       percent(counts_.bootstrap_lit, counts_.bootstrap), counts_.bootstrap,
       percent(counts_.small_accepted, counts_.small),
       percent(counts_.large_accepted, counts_.large),
-      percent(counts_.large, counts_.large + counts_.small),
-      counts_.brightness / static_cast<double>(counts_.bootstrap)));
+      percent(counts_.large, counts_.large + counts_.small)));
   return s;
 }
 

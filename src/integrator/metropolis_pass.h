@@ -10,26 +10,15 @@
 
 namespace nephroid {
 
-/// The places from which something of the crop can be seen: the crop, and around it the filter's
-/// radius.
-class FilmArea {
- public:
-  FilmArea(const PixelBounds& crop, const PixelFilter& filter);
-  /// Evenly distributed over the area.
-  Vec2f place(const Vec2f& u) const { return low_ + Vec2f(u.x * size_.x, u.y * size_.y); }
-  /// In pixels.
-  float area() const { return size_.x * size_.y; }
-
- private:
-  Vec2f low_, size_;
-};
-
 class MetropolisPasses {
  public:
   explicit MetropolisPasses(const IntegratorOptions& options) : options_(options) {}
 
-  /// Adds a pass of a group's light to the film. `make` makes what chains explore; the pilot uses
-  /// it too, once for each seed.
+  /// What a few paths tell, found out with `make` once for each seed.
+  const ChainPilot& pilot(uint64_t seed, const FilmArea& area, size_t kinds,
+                          const PathFunctionMaker& make);
+  /// Adds a pass of a group's light to the film. `make` makes what chains explore. The pilot of the
+  /// pass's seed has been asked for.
   void render(const PassKey& key, const Scene& scene, int group, const PathFunctionMaker& make,
               Film& film);
   EstimatorStatistics statistics() const;
@@ -39,11 +28,8 @@ class MetropolisPasses {
 
   IntegratorOptions options_;
   ChainStatistics counts_;
-  struct Pilot {
-    uint64_t seed = 0;
-    double brightness = 0;
-  };
-  std::optional<Pilot> pilot_;
+  uint64_t pilot_seed_ = 0;
+  std::optional<ChainPilot> pilot_;
 };
 
 }  // namespace nephroid

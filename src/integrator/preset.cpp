@@ -6,6 +6,7 @@
 #include "integrator/compiled_plan.h"
 #include "integrator/features.h"
 #include "integrator/light_tracing.h"
+#include "integrator/multiplexed.h"
 #include "integrator/path.h"
 #include "integrator/photon_mapping.h"
 #include "integrator/primary_space.h"
@@ -34,6 +35,7 @@ constexpr Row kTable[] = {{EstimatorKind::kPath, make<PathEstimator>},
                           {EstimatorKind::kBidirectional, make<Bidirectional>},
                           {EstimatorKind::kVcm, make<VertexConnectionMerging>},
                           {EstimatorKind::kBpm, make<VertexConnectionMerging>},
+                          {EstimatorKind::kMetropolis, make<Multiplexed>},
                           {EstimatorKind::kPrimarySpace, make<PrimarySpace>}};
 
 FilmLayout layout_of(const Routes& routes) {

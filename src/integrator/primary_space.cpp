@@ -68,9 +68,9 @@ void PrimarySpace::render_pass(const PassKey& key, const Scene& scene, Film& fil
                   film.settings(),
                   FilmArea(film.bounds(), *scene.filter),
                   specular_alpha_of_pass(scene.specular_band, key)};
-  passes_.render(
-      key, scene, static_cast<int>(owned_.group),
-      [&pass] { return std::make_unique<CameraPaths>(pass); }, film);
+  const PathFunctionMaker make = [&pass] { return std::make_unique<CameraPaths>(pass); };
+  passes_.pilot(key.seed, pass.area, 1, make);
+  passes_.render(key, scene, static_cast<int>(owned_.group), make, film);
 }
 
 }  // namespace nephroid

@@ -24,7 +24,8 @@ size_t bytes_of_estimators(const Routes& routes) {
   for (const RouteGroup& group : routes.groups()) {
     const size_t parts = group.parts.size();
     const EstimatorType& type = estimator_type(group.estimator);
-    const bool splats = type.connects || group.estimator == EstimatorKind::kPrimarySpace;
+    const bool splats = type.connects || group.estimator == EstimatorKind::kMetropolis ||
+                        group.estimator == EstimatorKind::kPrimarySpace;
     size_t pass = splats ? SplatBuffer::bytes_per_pixel(parts) : 0;
     if (group.estimator == EstimatorKind::kSppm) {
       kept += Sppm::bytes_kept(parts);

@@ -120,7 +120,7 @@ constexpr IntegratorSetting kSettings[] = {
        o.chain_length = integer("chain-length", t, 0, kNoLimit);
      },
      [](const IntegratorOptions& o) { return fmt::format("{}", o.chain_length); }},
-    {"large-step", "X", "0.3", "",
+    {"large-step", "X", "0.1", "",
      "Probability of a mutation that forgets the path it comes from, above 0 to 1.",
      [](IntegratorOptions& o, const std::string& t) {
        o.large_step = number("large-step", t, 0, 1, true);

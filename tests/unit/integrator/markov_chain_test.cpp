@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "rendering.h"
@@ -59,11 +60,11 @@ Film film_of_cells() {
   layout.groups = {0, 0};
   return Film(settings, layout);
 }
-std::unique_ptr<PixelFilter> box_filter() {
-  Diagnostics diagnostics;
-  DirectiveDescription box;
-  box.type = "box";
-  return make_pixel_filter(box, diagnostics);
+std::unique_ptr<Scene> empty_scene() {
+  return scene_from_text(R"(Camera "perspective" PixelFilter "box" WorldBegin)");
+}
+FilmArea area_of_cells(const PixelFilter& filter) {
+  return FilmArea({0, 0, kCells, 1}, filter);
 }
 
 TEST(MarkovChain, StaysWhereItIsBrightInProportion) {
@@ -75,16 +76,9 @@ TEST(MarkovChain, StaysWhereItIsBrightInProportion) {
   constexpr int kSamples = 20000;
   int found[kCells] = {};
   Toy toy;
-  float x = 0;
-  class Recorder : public PathFunction {
-   public:
-    explicit Recorder(Toy& toy) : toy_(toy) {}
-    void evaluate(MarkovSample& numbers, FoundLight& light) override {
-      toy_.evaluate(numbers, light);
-    }
-    Toy& toy_;
-  } function(toy);
-  MarkovChain chain([](int, int) { return 0.1f; }, 21, settings, function);
+  const auto scene = empty_scene();
+  const FilmImportance importance(area_of_cells(*scene->filter));
+  MarkovChain chain([](int, int) { return 0.1f; }, 21, settings, importance, toy);
   for (int n = 0; n < kSamples; ++n) {
     for (int i = 0; i < 64; ++i) {
       chain.propose();
@@ -93,7 +87,7 @@ TEST(MarkovChain, StaysWhereItIsBrightInProportion) {
       chain.decide();
     }
     ASSERT_FALSE(chain.current().splats.empty()) << "no chain stays where it is black";
-    x = chain.current().splats[0].film.x;
+    const float x = chain.current().splats[0].film.x;
     found[std::clamp(static_cast<int>(x), 0, kCells - 1)] += 1;
   }
   double chi_square = 0;
@@ -114,22 +108,30 @@ TEST(MarkovChain, StaysWhereItIsBrightInProportion) {
 struct PassCase {
   const char* name;
   ChainSettings settings;
-  double balance;
+  double balance = 1;
+  bool importance = false;  ///< learned, and wrong: from paths that see little
 };
 
 class ChainPasses : public ::testing::TestWithParam<PassCase> {};
 
 TEST_P(ChainPasses, HaveNoBias) {
-  const auto filter = box_filter();
+  const auto scene = empty_scene();
+  const PixelFilter& filter = *scene->filter;
+  ChainPilot pilot{FilmImportance(area_of_cells(filter)), {}, GetParam().balance};
+  if (GetParam().importance) {
+    pilot.importance.record({1, 0.5f}, 3);
+    pilot.importance.record({9, 0.5f}, 1);
+    pilot.importance.learn();
+    EXPECT_GT(pilot.importance.at({15, 0.5f}), 5 * pilot.importance.at({1, 0.5f}));
+  }
   constexpr int kSeeds = 32, kPasses = 400;
   std::vector<std::vector<double>> there(kCells), mirrored(kCells);
   ChainStatistics statistics;
   for (uint64_t seed = 0; seed < kSeeds; ++seed) {
     Film film = film_of_cells();
-    SplatBuffer buffer(film, 0, *filter);
+    SplatBuffer buffer(film, 0, filter);
     for (uint32_t pass = 0; pass < kPasses; ++pass) {
-      render_chains({seed, pass}, GetParam().settings, GetParam().balance, make_toy, film, buffer,
-                    statistics);
+      render_chains({seed, pass}, GetParam().settings, pilot, make_toy, film, buffer, statistics);
       buffer.finish(1);
       film.add_estimates(0, 1);
     }
@@ -166,16 +168,34 @@ INSTANTIATE_TEST_SUITE_P(
                       PassCase{"few_mutations", {64, 64, 2, 0.3f, {}}, 1},
                       PassCase{"nearly_no_large_steps", {128, 32, 8, 0.001f, {}}, 1},
                       PassCase{"only_large_steps", {16, 4, 64, 1.0f, {}}, 1},
+                      PassCase{"importance", {64, 4, 64, 0.3f, {}}, 1, true},
                       PassCase{"balance_too_low", {32, 4, 64, 0.3f, {}}, 0.01},
                       PassCase{"balance_too_high", {32, 4, 64, 0.3f, {}}, 100},
                       PassCase{"no_balance", {32, 4, 64, 0.3f, {}}, 0}),
     [](const auto& test) { return std::string(test.param.name); });
 
-TEST(MarkovChain, ThePilotFindsTheMeanBrightness) {
-  double expected = 0;
-  for (int i = 0; i < kCells; ++i) expected += brightness_at((i + 0.5) / kCells);
-  // The second part adds half as much again.
-  EXPECT_NEAR(pilot_brightness(3, 1 << 14, make_toy), 1.5 * expected, 1e-3 * expected);
+TEST(MarkovChain, ThePilotMakesTheFilmEquallyBright) {
+  const auto scene = empty_scene();
+  const ChainPilot pilot = look_around(3, 1 << 14, area_of_cells(*scene->filter), 1, make_toy);
+  EXPECT_EQ(pilot.kinds.size(), 1u);
+  EXPECT_EQ(pilot.kinds[0], pilot.balance);
+  // What is bright and what is dark there differs by far less than the light itself.
+  double least = kInfinity, most = 0, darkest = kInfinity, brightest = 0;
+  for (int i = 0; i < kCells; ++i) {
+    const double b =
+        brightness_of(light_of_cell(i)) + 0.5 * brightness_of(light_of_cell(kCells - 1 - i));
+    if (b == 0) continue;
+    const double target =
+        b * static_cast<double>(pilot.importance.at({static_cast<float>(i) + 0.5f, 0.5f}));
+    least = std::min(least, target);
+    most = std::max(most, target);
+    darkest = std::min(darkest, b);
+    brightest = std::max(brightest, b);
+  }
+  EXPECT_GT(brightest, 20 * darkest);
+  EXPECT_LT(most, 0.5 * brightest / darkest * least);
+  const ChainPilot again = look_around(3, 1 << 14, area_of_cells(*scene->filter), 1, make_toy);
+  EXPECT_EQ(again.balance, pilot.balance);
 }
 
 TEST(MarkovChain, LightThatIsNotFiniteIsCountedAndLeftOut) {
@@ -185,9 +205,11 @@ TEST(MarkovChain, LightThatIsNotFiniteIsCountedAndLeftOut) {
   found.add({0, 0}, 0, {0, 0, 0});
   EXPECT_EQ(found.faults, 2u);
   EXPECT_TRUE(found.splats.empty());
-  EXPECT_EQ(found.brightness(), 0);
+  const auto scene = empty_scene();
+  const FilmImportance importance(area_of_cells(*scene->filter));
+  EXPECT_EQ(found.target(importance), 0);
   found.add({0, 0}, 1, {-1, 0.5f, 0.5f});
-  EXPECT_GT(found.brightness(), 0) << "a colour whose components add up to nothing";
+  EXPECT_GT(found.target(importance), 0) << "a colour whose components add up to nothing";
 }
 
 }  // namespace
