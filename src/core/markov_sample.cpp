@@ -8,7 +8,7 @@
 namespace nephroid {
 
 float after_small_step(float number, const SmallStep& step, uint32_t bits) {
-  // [M1]: the sign is the lowest bit, the length comes from the others.
+  // [Z1]: the sign is the lowest bit, the length comes from the others.
   const float u = bits_to_unit_float(bits);
   const float length = step.longest * std::exp(-std::log(step.longest / step.shortest) * u);
   float moved = (bits & 1u) != 0 ? number + length : number - length;

@@ -1,7 +1,7 @@
 // The random numbers of a path as the state of a Markov chain: each proposal moves all of them, a
 // little or anywhere, and is then accepted or rejected. Numbers are moved when they are asked for.
 // Who calls it: integrators of Metropolis light transport. It must not know what the numbers are
-// for. Paper: Kelemen, Szirmay-Kalos, Antal & Csonka 2002; equations [M1] and [M2] of
+// for. Paper: Kelemen, Szirmay-Kalos, Antal & Csonka 2002; equations [Z1] and [Z3] of
 // docs/estimators.md.
 #pragma once
 

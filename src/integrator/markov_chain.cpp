@@ -83,7 +83,7 @@ class ChainPass {
                                uint64_t{key_.pass} * paths + static_cast<uint64_t>(path));
   }
 
-  /// [M5]: adds light that was found `times` times.
+  /// [Z5]: adds light that was found `times` times.
   void expose(const FoundLight& found, double target, double times, Chunk& out) const {
     if (!(times > 0)) return;
     const double scale = times / (independent_ + mutations_ * target / balance_);

@@ -1,8 +1,8 @@
 // Metropolis light transport over any function from random numbers to light on the film: a pass
 // draws paths independently, starts chains at some of them, and adds up what both find. Each pass
 // is unbiased by itself. Who calls it: the estimators that chains explore. It must not know scenes,
-// routes or how paths are made. Papers: Veach & Guibas 1997; Kelemen et al. 2002; equations [M2] to
-// [M5] of docs/estimators.md.
+// routes or how paths are made. Papers: Veach & Guibas 1997; Kelemen et al. 2002; equations [Z2] to
+// [Z5] of docs/estimators.md.
 #pragma once
 
 #include <functional>
@@ -24,7 +24,7 @@ struct FoundLight {
 
   /// Adds what a part of the film receives, per number in the unit cube; black adds nothing.
   void add(const Vec2f& film, size_t part, const Rgb& value);
-  /// [M2]: what chains are in proportion to: how bright all of it is, times how important the film
+  /// [Z2]: what chains are in proportion to: how bright all of it is, times how important the film
   /// is there. Positive unless all is black.
   double target(const FilmImportance& importance) const;
 };
@@ -53,7 +53,7 @@ struct ChainSettings {
 struct ChainPilot {
   FilmImportance importance;
   std::vector<double> kinds;  ///< what paths of each kind add to the mean target
-  /// [M5]: the target at which chains are as good as independent paths, its mean. The picture is
+  /// [Z5]: the target at which chains are as good as independent paths, its mean. The picture is
   /// right for any positive one that does not depend on the pass.
   double balance = 1;
 };
@@ -68,7 +68,7 @@ class MarkovChain {
   /// Draws the next proposal and evaluates it.
   void propose();
   bool is_large() const { return large_; }
-  /// [M3]: the probability with which decide() accepts the proposal.
+  /// [Z3]: the probability with which decide() accepts the proposal.
   double acceptance() const;
   /// True if the proposal is now the current state.
   bool decide();

@@ -11,8 +11,9 @@ namespace nephroid {
 
 namespace {
 
-constexpr int64_t kPilotPaths = 1 << 14;
-// Defaults, measured: docs/adr/0020-chains-restart.md.
+constexpr float kPilotPathsPerPixel = 16;
+constexpr float kFewestPilotPaths = 1 << 11, kMostPilotPaths = 1 << 14;
+// Defaults, measured: docs/adr/0018-chains-restart.md.
 constexpr double kMutationsPerPixel = 16;
 constexpr int64_t kFewestMutations = 1024;
 constexpr int64_t kChainLength = 8192;
@@ -39,7 +40,11 @@ ChainSettings MetropolisPasses::settings_for(int64_t pixels) const {
 
 const ChainPilot& MetropolisPasses::pilot(uint64_t seed, const FilmArea& area, size_t kinds,
                                           const PathFunctionMaker& make) {
-  if (!pilot_ || pilot_seed_ != seed) pilot_ = look_around(seed, kPilotPaths, area, kinds, make);
+  if (!pilot_ || pilot_seed_ != seed) {
+    const float paths =
+        std::clamp(kPilotPathsPerPixel * area.area(), kFewestPilotPaths, kMostPilotPaths);
+    pilot_ = look_around(seed, static_cast<int64_t>(paths), area, kinds, make);
+  }
   pilot_seed_ = seed;
   return *pilot_;
 }
@@ -67,14 +72,13 @@ EstimatorStatistics MetropolisPasses::statistics() const {
   const auto percent = [](uint64_t part, uint64_t whole) {
     return whole > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(whole) : 0.0;
   };
-  s.notes.push_back(fmt::format(
-      "Metropolis: {:.1f} % of {} paths to start from carry light; {:.1f} % of the small and "
-      "{:.1f} "
-      "% of the large steps were accepted, {:.1f} % of all were large",
-      percent(counts_.bootstrap_lit, counts_.bootstrap), counts_.bootstrap,
-      percent(counts_.small_accepted, counts_.small),
-      percent(counts_.large_accepted, counts_.large),
-      percent(counts_.large, counts_.large + counts_.small)));
+  s.notes.push_back(
+      fmt::format("Metropolis: {:.1f} % of {} paths to start from carry light; of the small steps "
+                  "{:.1f} % were accepted, of the large ones {:.1f} %; {:.1f} % of all were large",
+                  percent(counts_.bootstrap_lit, counts_.bootstrap), counts_.bootstrap,
+                  percent(counts_.small_accepted, counts_.small),
+                  percent(counts_.large_accepted, counts_.large),
+                  percent(counts_.large, counts_.large + counts_.small)));
   return s;
 }
 

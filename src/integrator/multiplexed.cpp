@@ -144,13 +144,15 @@ void Multiplexed::render_pass(const PassKey& key, const Scene& scene, Film& film
             FilmArea(film.bounds(), *scene.filter),
             LengthChoice(options_.max_depth)};
   pass.pair.view = scene.camera->connects() ? &view : nullptr;
-  pass.pair.specular_alpha = specular_alpha_of_pass(scene.specular_band, key);
   pass.pair.max_depth = options_.max_depth;
   // One light path and one place of the film for each path that is tried.
   pass.pair.light_paths = static_cast<double>(pass.area.area());
+  // What the pilot sees does not depend on the pass that asks first.
+  pass.pair.specular_alpha = specular_alpha_of_pass(scene.specular_band, {key.seed, 0});
   const PathFunctionMaker make = [&pass] { return std::make_unique<TechniquePaths>(pass); };
   pass.lengths =
       LengthChoice(passes_.pilot(key.seed, pass.area, pass.lengths.lengths(), make).kinds);
+  pass.pair.specular_alpha = specular_alpha_of_pass(scene.specular_band, key);
   passes_.render(key, scene, static_cast<int>(owned_.group), make, film);
 }
 

@@ -1,7 +1,7 @@
 // `mlt`: Markov chains that choose one technique of bidirectional path tracing for each path, so
 // that they stay with the techniques that are good where they are (Hachisuka, Kaplanyan &
 // Dachsbacher 2014). A pass is a function of the scene, the options and the pass key, and unbiased
-// by itself (docs/estimators.md, [M6]). Who calls it: presets. It must not know how pairs of paths
+// by itself (docs/estimators.md, [Z7]). Who calls it: presets. It must not know how pairs of paths
 // are connected or chains are run.
 #pragma once
 

@@ -62,14 +62,12 @@ PrimarySpace::PrimarySpace(OwnedRoutes owned, const IntegratorOptions& options)
     : owned_(std::move(owned)), options_(options), passes_(options) {}
 
 void PrimarySpace::render_pass(const PassKey& key, const Scene& scene, Film& film) {
-  const Pass pass{scene,
-                  owned_,
-                  options_,
-                  film.settings(),
-                  FilmArea(film.bounds(), *scene.filter),
-                  specular_alpha_of_pass(scene.specular_band, key)};
+  Pass pass{scene, owned_, options_, film.settings(), FilmArea(film.bounds(), *scene.filter),
+            // What the pilot sees does not depend on the pass that asks first.
+            specular_alpha_of_pass(scene.specular_band, {key.seed, 0})};
   const PathFunctionMaker make = [&pass] { return std::make_unique<CameraPaths>(pass); };
   passes_.pilot(key.seed, pass.area, 1, make);
+  pass.specular_alpha = specular_alpha_of_pass(scene.specular_band, key);
   passes_.render(key, scene, static_cast<int>(owned_.group), make, film);
 }
 

@@ -1,6 +1,6 @@
 // `pssmlt`: path tracing whose random numbers are explored by Markov chains, so that bright paths
 // which are hard to find lead to others like them (Kelemen et al. 2002). A pass is a function of
-// the scene, the options and the pass key, and unbiased by itself (docs/estimators.md, section 13).
+// the scene, the options and the pass key, and unbiased by itself (docs/estimators.md, section 15).
 // Who calls it: presets. It must not know how chains are run.
 #pragma once
 

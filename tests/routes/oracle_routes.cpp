@@ -178,8 +178,8 @@ bool OracleRoutes::can_sample(int route, const Path& path, size_t merge_vertices
     return n == 0 ? light == LightKind::kShape : !specular(kind_at(0));
   const bool no_area = light == LightKind::kPoint || light == LightKind::kDistant;
   const EstimatorKind estimator = routes_[size_t(route)].estimator;
-  const bool connects =
-      estimator == EstimatorKind::kBidirectional || estimator == EstimatorKind::kVcm;
+  const bool connects = estimator == EstimatorKind::kBidirectional ||
+                        estimator == EstimatorKind::kVcm || estimator == EstimatorKind::kMetropolis;
   const bool merges = estimator == EstimatorKind::kVcm || estimator == EstimatorKind::kBpm;
   if (no_area && connects && n > 0 && !specular(kind_at(0))) return true;
   for (size_t i = 0; no_area && i < n; ++i) {

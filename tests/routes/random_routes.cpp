@@ -123,17 +123,14 @@ Tree RandomRoutes::expression(bool marked) {
 }
 
 OracleRoutes RandomRoutes::set() {
-  static const EstimatorKind kKinds[] = {EstimatorKind::kPath,
-                                         EstimatorKind::kPath,
-                                         EstimatorKind::kPhotons,
-                                         EstimatorKind::kPhotons,
-                                         EstimatorKind::kSppm,
-                                         EstimatorKind::kLightTrace,
-                                         EstimatorKind::kLightTrace,
-                                         EstimatorKind::kPhotonsAndLight,
-                                         EstimatorKind::kBidirectional,
-                                         EstimatorKind::kVcm,
-                                         EstimatorKind::kBpm};
+  static const EstimatorKind kKinds[] = {
+      EstimatorKind::kPath,          EstimatorKind::kPath,
+      EstimatorKind::kPhotons,       EstimatorKind::kPhotons,
+      EstimatorKind::kSppm,          EstimatorKind::kLightTrace,
+      EstimatorKind::kLightTrace,    EstimatorKind::kPhotonsAndLight,
+      EstimatorKind::kBidirectional, EstimatorKind::kVcm,
+      EstimatorKind::kBpm,           EstimatorKind::kMetropolis,
+      EstimatorKind::kPrimarySpace};
   const Alphabet alphabet(static_cast<int>(labels_.size()));
   const auto possible = [&](bool marked) {
     for (;;) {
