@@ -79,7 +79,8 @@ inline std::string test_name(std::string plan) {
 /// True if some photons of the plan are merged, which gives the picture the bias of a radius.
 inline bool merges_photons(const RoutePlan& plan) {
   return std::any_of(plan.routes.begin(), plan.routes.end(), [](const RouteDefinition& route) {
-    return estimator_type(route.estimator).merges;
+    return estimator_type(route.estimator).merges || route.estimator == EstimatorKind::kVcm ||
+           route.estimator == EstimatorKind::kBpm;
   });
 }
 

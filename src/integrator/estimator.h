@@ -48,10 +48,12 @@ class Estimator {
 /// Which techniques of a bidirectional estimator are made: all, or one alone.
 struct TechniqueChoice {
   int s = -1, t = -1;    ///< vertices of the light and of the eye side; -1: any number
+  bool connects = true;  ///< false: merges alone
   bool weighted = true;  ///< false: each as if there were no other
   bool makes(int light_vertices, int eye_vertices) const {
-    return (s < 0 || s == light_vertices) && (t < 0 || t == eye_vertices);
+    return connects && (s < 0 || s == light_vertices) && (t < 0 || t == eye_vertices);
   }
+  bool merges() const { return s < 0 && t < 0; }
 };
 
 /// Algorithm options, from defaults, the scene's Integrator line and -D key=value, in this order.
@@ -71,6 +73,10 @@ struct IntegratorOptions {
       1 << 20;  ///< photons kept at once (96 bytes each); a larger pass runs in batches
   /// Similar estimates that confirm one, for films that reject outliers; no integrator looks at it.
   int outlier_neighbours = 8;
+  // Of Metropolis light transport.
+  float mutations = 0;       ///< a pixel and pass; 0: the default
+  int64_t chain_length = 0;  ///< mutations of a chain; 0: the default
+  float large_step = 0.1f;   ///< probability
   /// Bytes for the pixels of image textures; scenes are loaded with it, no integrator looks at it.
   int64_t texture_memory = int64_t{1} << 30;
 };

@@ -44,7 +44,7 @@ class EyeVisitor {
         eye_(routes_.start()) {}
 
   void escape(const Walk& walk) {
-    if (!settings_.technique.makes(0, walk.events + 2) || !routes_.ends(group_, eye_)) return;
+    if (!makes(0, walk) || !routes_.ends(group_, eye_)) return;
     const Scene& scene = settings_.scene;
     for (const int i : scene.light_sampler->infinite_lights()) {
       const Part part = routes_.owner(eye_, symbols_.light(i));
@@ -65,7 +65,7 @@ class EyeVisitor {
 
   void emitter(const Walk& walk, const SurfaceInteraction& hit, const Light& light) {
     const Part part = routes_.owner(eye_, symbols_.light(hit.area_light));
-    if (!settings_.technique.makes(0, walk.events + 2) || !light_.owns(part)) return;
+    if (!makes(0, walk) || !light_.owns(part)) return;
     const SampledSpectrum le = light.radiance(hit.p, hit.ng, hit.uv, hit.wo, walk.lambda);
     if (le.is_black()) return;
     double weight = 1;
@@ -103,8 +103,9 @@ class EyeVisitor {
     if (among == ClassMask::kNone) return;
     const EyeEnd end{walk, &v, nullptr, among, Receiver::of(v.surface, walk.medium)};
     next_event(end, sampler);
-    if (settings_.connects()) connect(end, sampler);
-    if (settings_.merging && settings_.merging->grid) merge(walk, v, among);
+    if (settings_.connects() && !settings_.merges_only) connect(end, sampler);
+    if (settings_.merging && settings_.merging->grid && settings_.technique.merges())
+      merge(walk, v, among);
   }
 
   void medium_vertex(const Walk& walk, const MediumVertex& v, PathSampler& sampler) {
@@ -113,7 +114,7 @@ class EyeVisitor {
     medium_ = &v;
     const EyeEnd end{walk, nullptr, &v, ClassMask::kVolume, Receiver::of(v, walk.medium)};
     next_event(end, sampler);
-    if (settings_.connects()) connect(end, sampler);
+    if (settings_.connects() && !settings_.merges_only) connect(end, sampler);
   }
 
   bool scatter(const Walk& walk, const WalkEvent& event) {
@@ -135,6 +136,10 @@ class EyeVisitor {
   uint64_t merged() const { return merged_; }
 
  private:
+  bool makes(int light_vertices, const Walk& walk) const {
+    return !settings_.merges_only && settings_.technique.makes(light_vertices, walk.events + 2);
+  }
+
   bool weighs_hit(const Walk& walk) const {
     return settings_.technique.weighted && walk.events > 0;
   }
@@ -147,6 +152,7 @@ class EyeVisitor {
     place_ = place;
     if (camera_.walk.events > 0) {
       sums_ = end_.next(line_between(last_, place_));
+      if (!settings_.connects()) sums_.here = 0;
       return;
     }
     // [W9] The first vertex: light paths that are connected to the camera find it, too.
@@ -244,7 +250,7 @@ class EyeVisitor {
   }
 
   void next_event(const EyeEnd& z, PathSampler& sampler) {
-    if (!settings_.technique.makes(1, z.walk.events + 2)) return;
+    if (!makes(1, z.walk)) return;
     const auto d = sample_direct(settings_.scene, z.receiver, z.walk.lambda, sampler);
     if (!d) return;
     Arms arms;
@@ -395,9 +401,7 @@ void EyeVisitor::merge(const Walk& walk, const WalkVertex& v, ClassMask among) {
             v.subsurface_exit
                 ? 0.0
                 : v.bsdf.eval(wi, v.wo, TransportMode::kImportance, c, ClassMask::kAll).pdf_w;
-        weight = 1 / (1 + (photon.cut_here + heuristic(towards) * photon.cuts_before + sums_.here +
-                           heuristic(back) * sums_.before) /
-                              own);
+        weight = weight_of_merge(sums_, back, {photon.cut_here, photon.cuts_before}, towards, own);
       }
       add(part, walk,
           walk.throughput * e.f * photon.flux *
@@ -415,9 +419,11 @@ uint64_t trace_eye_path(const PairSettings& settings, const LightSubpath& path, 
   camera.walk.specular_alpha = settings.specular_alpha;
   camera.walk.per_wavelength = true;
   EyeVisitor visitor(settings, path, camera, light);
-  // A technique with t vertices of the eye side needs no more.
-  const int most = settings.technique.t < 0 ? settings.max_depth
-                                            : std::min(settings.max_depth, settings.technique.t);
+  // A technique with t vertices of the eye side, the lens one of them, needs no more, and no event
+  // where it meets a light.
+  const TechniqueChoice& one = settings.technique;
+  const int most = one.t < 0 ? settings.max_depth
+                             : std::clamp(one.t - (one.s == 0 ? 2 : 1), 0, settings.max_depth);
   random_walk(settings.scene, TransportMode::kRadiance, most, camera.walk, sampler, visitor);
   if (merged) *merged += visitor.merged();
   return camera.walk.rays + visitor.rays();

@@ -99,6 +99,7 @@ class LightVisitor {
     place_ = place;
     merge_place_ = place.p;
     sums_ = is_first_ ? first_sums(walk, ns) : end_.next(line_between(last_, place_));
+    if (!is_first_ && !settings_.connects()) sums_.here = 0;
   }
 
   SideSums first_sums(const Walk& walk, const Vec3f& ns) const {
@@ -295,9 +296,10 @@ uint64_t trace_light_path(const PairSettings& settings, const SampledWavelengths
   walk.first_dimension = kEmissionDimensions;
   walk.second_dimension = kEmissionDimensions + dimensions::kPerVertex;
   LightVisitor visitor(settings, *emission, u_time, path, seen, photons);
-  // A technique with s vertices of the light side needs no more.
-  const int most = settings.technique.s < 0 ? settings.max_depth
-                                            : std::min(settings.max_depth, settings.technique.s);
+  // A technique with s vertices of the light side, the light itself one of them, needs no more.
+  const int most = settings.technique.s < 0
+                       ? settings.max_depth
+                       : std::clamp(settings.technique.s - 1, 0, settings.max_depth);
   random_walk(settings.scene, TransportMode::kImportance, most, walk, sampler, visitor);
   return walk.rays + visitor.rays();
 }

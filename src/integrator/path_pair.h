@@ -27,12 +27,12 @@ struct PairMerging {
   double photons = 1;                ///< light paths that they come from
   float radius_pixels = 0;
   PixelFootprint footprint;
-  Vec3f eye{0, 0, 0};  ///< where distances count from
-  bool merges = true, connects = true;
+  Vec3f eye{0, 0, 0};    ///< where distances count from
+  bool connects = true;  ///< false: only lights are connected
 
   float radius_at(const Vec3f& p) const { return radius_pixels * footprint.width(length(p - eye)); }
   double weight_at(const Vec3f& p) const {
-    return merges ? heuristic(photons * kPi * sqr(static_cast<double>(radius_at(p)))) : 0;
+    return heuristic(photons * kPi * sqr(static_cast<double>(radius_at(p))));
   }
 };
 
@@ -48,6 +48,7 @@ struct PairSettings {
   double light_paths = 1;
   TechniqueChoice technique{};
   const PairMerging* merging = nullptr;  ///< null: connections only
+  bool merges_only = false;  ///< all other techniques have been made, but count in weights
 
   bool connects() const { return !merging || merging->connects; }
 };

@@ -6,9 +6,12 @@
 #include "integrator/compiled_plan.h"
 #include "integrator/features.h"
 #include "integrator/light_tracing.h"
+#include "integrator/multiplexed.h"
 #include "integrator/path.h"
 #include "integrator/photon_mapping.h"
+#include "integrator/primary_space.h"
 #include "integrator/sppm.h"
+#include "integrator/vertex_connection_merging.h"
 #include "integrator/vertex_merging.h"
 
 namespace nephroid {
@@ -29,7 +32,11 @@ constexpr Row kTable[] = {{EstimatorKind::kPath, make<PathEstimator>},
                           {EstimatorKind::kSppm, make<Sppm>},
                           {EstimatorKind::kLightTrace, make<LightTracing>},
                           {EstimatorKind::kPhotonsAndLight, make<VertexMerging>},
-                          {EstimatorKind::kBidirectional, make<Bidirectional>}};
+                          {EstimatorKind::kBidirectional, make<Bidirectional>},
+                          {EstimatorKind::kVcm, make<VertexConnectionMerging>},
+                          {EstimatorKind::kBpm, make<VertexConnectionMerging>},
+                          {EstimatorKind::kMetropolis, make<Multiplexed>},
+                          {EstimatorKind::kPrimarySpace, make<PrimarySpace>}};
 
 FilmLayout layout_of(const Routes& routes) {
   FilmLayout layout;

@@ -11,8 +11,9 @@ struct Row {
   const char* name;
   const char* preset;  ///< of the routes
 };
-constexpr Row kTable[] = {
-    {"mixed", "doidge2012"}, {"path", "path-only"}, {"sppm", "sppm"}, {"bdpt", "bdpt"}};
+constexpr Row kTable[] = {{"mixed", "doidge2012"}, {"path", "path-only"}, {"sppm", "sppm"},
+                          {"bdpt", "bdpt"},        {"vcm", "vcm"},        {"bpm", "bpm"},
+                          {"pssmlt", "pssmlt"},    {"mlt", "mlt"}};
 
 constexpr const char* kOwnChoice = "the program's own choice, with the same picture";
 
@@ -69,7 +70,7 @@ constexpr SceneRow kSceneTable[] = {
     {{"randomwalk", {kDepth}, "path"}, "path"},
     {{"sppm", {kDepth, kSppm}, "sppm"}, "sppm"},
     {{"bdpt", {kDepth, kLightSampler, kRegularize, kBdpt}, "bdpt"}, "bdpt"},
-    {{"mlt", {kDepth, kRegularize, kMlt}, "mixed"}, "mixed"},
+    {{"mlt", {kDepth, kRegularize, kMlt}, "mlt"}, "mlt"},
     {{"lightpath", {kDepth}, "mixed"}, "mixed"},
     {{"ambientocclusion",
       {kAmbientOcclusion},

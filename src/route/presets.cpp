@@ -37,6 +37,12 @@ std::span<const RoutePreset> route_presets() {
       {"bdpt",
        "all light that can be followed from the lights is bidirectional path tracing",
        {"bdpt=.*:bdpt", "rest=.*:path"}},
+      {"vcm", "the same by vertex connection and merging", {"vcm=.*:vcm", "rest=.*:path"}},
+      {"bpm", "the same by bidirectional photon mapping", {"bpm=.*:bpm", "rest=.*:path"}},
+      {"mlt",
+       "all light that can be followed from the lights is Metropolis light transport",
+       {"mlt=.*:mlt", "rest=.*:path"}},
+      {"pssmlt", "everything is path tracing explored by Markov chains", {"light=.*:pssmlt"}},
       {"path-only", "everything is path tracing", {"diffuse=.*:path"}},
   };
   return presets;

@@ -22,6 +22,8 @@ constexpr size_t kMostNodes = size_t{1} << 18;
 // What never-sampled words have in common, of the events read so far.
 struct Ends {
   bool any = false, rough = false, first_specular = false, last_specular = false;
+  bool mergeable = false;   ///< a D or a G
+  bool rough_pair = false;  ///< two events in a row that are no S
   auto operator<=>(const Ends&) const = default;
 };
 struct PlainState {
@@ -166,10 +168,12 @@ class Prover {
     const Automaton& a = in_.parts.automaton;
     const WordSearch<PlainState> search(
         {a.start, {}}, events_, SIZE_MAX, [&](const PlainState& s, int e) -> PlainState {
-          const bool specular = in_.classes.class_of_event(e) == EventClass::kSpecular;
+          const EventClass c = in_.classes.class_of_event(e);
+          const bool specular = c == EventClass::kSpecular;
           return {a.after(s.state, e),
                   {true, s.ends.rough || !specular, s.ends.any ? s.ends.first_specular : specular,
-                   specular}};
+                   specular, s.ends.mergeable || contains(ClassMask::kRough, c),
+                   s.ends.rough_pair || (s.ends.any && !s.ends.last_specular && !specular)}};
         });
     std::optional<std::string> hole, medium_hole, hair_hole;
     struct NeverSampled {
@@ -228,17 +232,31 @@ class Prover {
   // mirror is no fault of a route), else the more the better it serves as a witness.
   static int never_sampled(EstimatorKind estimator, const Ends& ends, LightKind light) {
     const bool is_hit = light != LightKind::kPoint && light != LightKind::kDistant;
-    if (estimator == EstimatorKind::kPath) return !is_hit && ends.rough && ends.last_specular;
+    if (estimator == EstimatorKind::kPath || estimator == EstimatorKind::kPrimarySpace)
+      return !is_hit && ends.rough && ends.last_specular;
     if (estimator == EstimatorKind::kLightTrace)
       return ends.any ? 2 * (ends.first_specular && (ends.rough || is_hit))
                       : light == LightKind::kEnvironment;
-    return 0;
+    if (!is_cut_anywhere(estimator) || is_hit || !ends.rough || !ends.last_specular) return 0;
+    const bool merges =
+        (estimator == EstimatorKind::kVcm || estimator == EstimatorKind::kBpm) && ends.mergeable;
+    const bool connects =
+        estimator != EstimatorKind::kBpm && (!ends.first_specular || ends.rough_pair);
+    return !merges && !connects;
+  }
+  static bool is_cut_anywhere(EstimatorKind estimator) {
+    return estimator == EstimatorKind::kBidirectional || estimator == EstimatorKind::kVcm ||
+           estimator == EstimatorKind::kBpm || estimator == EstimatorKind::kMetropolis;
   }
   std::string never_sampled_text(int route, const std::string& witness) const {
     const std::string owns = owner_text(route) + " owns " + witness +
                              ", which it cannot find (that light will be missing): ";
     if (in_.routes[static_cast<size_t>(route)].estimator == EstimatorKind::kLightTrace)
       return owns + "only rough surfaces, media and emitting shapes can be connected to the camera";
+    if (is_cut_anywhere(in_.routes[static_cast<size_t>(route)].estimator))
+      return owns +
+             "no path meets a light at a point or in one direction, and wherever it is cut in two, "
+             "there is an S";
     return owns +
            "no path meets a light at a point or in one direction, and only a rough S can be "
            "connected to it";

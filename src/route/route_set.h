@@ -20,11 +20,13 @@ enum class EstimatorKind : uint8_t {
   kPhotonsAndLight,
   kBidirectional,
   kVcm,
+  kBpm,
   kMetropolis,
   kPhotonMap,
   kPpm,
   kPointLights,
-  kForecast
+  kForecast,
+  kPrimarySpace
 };
 
 struct EstimatorType {

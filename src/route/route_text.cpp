@@ -28,6 +28,15 @@ constexpr EstimatorType kEstimators[] = {
     {EstimatorKind::kBidirectional, "bdpt",
      "bidirectional path tracing: paths from eye and lights, connected in all ways", false, false,
      true},
+    {EstimatorKind::kVcm, "vcm",
+     "vertex connection and merging: bdpt, and photons merged at all vertices", false, false, true},
+    {EstimatorKind::kBpm, "bpm",
+     "bidirectional photon mapping: vcm without connections of two walks", false, false, true},
+    {EstimatorKind::kMetropolis, "mlt",
+     "bidirectional paths, one technique at a time, explored by Markov chains", false, false, true},
+    {EstimatorKind::kPrimarySpace, "pssmlt",
+     "path tracing from the eye, explored by Markov chains in the space of its random numbers",
+     false, false, false},
 };
 
 // Names of the picture's own layers and channels, and of what is reserved for them.

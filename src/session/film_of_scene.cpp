@@ -12,6 +12,7 @@
 #include "integrator/bidirectional.h"
 #include "integrator/merge_pass.h"
 #include "integrator/sppm.h"
+#include "integrator/vertex_connection_merging.h"
 
 namespace nephroid {
 namespace {
@@ -23,12 +24,16 @@ size_t bytes_of_estimators(const Routes& routes) {
   for (const RouteGroup& group : routes.groups()) {
     const size_t parts = group.parts.size();
     const EstimatorType& type = estimator_type(group.estimator);
-    size_t pass = type.connects ? SplatBuffer::bytes_per_pixel(parts) : 0;
+    const bool splats = type.connects || group.estimator == EstimatorKind::kMetropolis ||
+                        group.estimator == EstimatorKind::kPrimarySpace;
+    size_t pass = splats ? SplatBuffer::bytes_per_pixel(parts) : 0;
     if (group.estimator == EstimatorKind::kSppm) {
       kept += Sppm::bytes_kept(parts);
       pass += Sppm::bytes_of_pass(parts);
     } else if (group.estimator == EstimatorKind::kBidirectional) {
       pass += Bidirectional::bytes_per_pixel(parts);
+    } else if (group.estimator == EstimatorKind::kVcm || group.estimator == EstimatorKind::kBpm) {
+      pass += VertexConnectionMerging::bytes_per_pixel(parts);
     } else if (type.merges) {
       pass += MergePass::bytes_per_pixel(parts);
     }

@@ -22,28 +22,36 @@ int64_t integer(const char* key, const std::string& text, int64_t low, int64_t h
   return parse_integer(std::string("-D ") + key, text, low, high);
 }
 
+/// "all", "merged" or "S,T", and then perhaps ",raw".
 TechniqueChoice parse_technique(const std::string& text) {
+  constexpr std::string_view kRaw = ",raw";
   TechniqueChoice choice;
-  if (text == "all") return choice;
-  const size_t comma = text.find(',');
-  const size_t end =
-      std::min(text.find(',', comma == std::string::npos ? comma : comma + 1), text.size());
-  const std::string rest = text.substr(end);
-  if (comma == std::string::npos || !(rest.empty() || rest == ",raw"))
+  std::string which = text;
+  if (which.ends_with(kRaw)) {
+    choice.weighted = false;
+    which.resize(which.size() - kRaw.size());
+  }
+  choice.connects = which != "merged";
+  if (which == "all" || which == "merged") return choice;
+  const size_t comma = which.find(',');
+  if (comma == std::string::npos)
     throw UsageError(fmt::format(
-        "-D technique: '{}' is not valid, expected all, S,T or S,T,raw, such as 1,3", text));
+        "-D technique: '{}' is not valid, expected all, merged or S,T (such as 1,3), and after it "
+        ",raw if wanted",
+        text));
   const auto count = [](const std::string& t, int low) {
     return t == "*" ? -1 : static_cast<int>(integer("technique", t, low, kMaxInt));
   };
-  choice.s = count(text.substr(0, comma), 0);
-  choice.t = count(text.substr(comma + 1, end - comma - 1), 1);
-  choice.weighted = rest.empty();
+  choice.s = count(which.substr(0, comma), 0);
+  choice.t = count(which.substr(comma + 1), 1);
   return choice;
 }
 std::string technique_text(const TechniqueChoice& choice) {
-  if (choice.s < 0 && choice.t < 0 && choice.weighted) return "all";
   const auto count = [](int n) { return n < 0 ? std::string("*") : std::to_string(n); };
-  return count(choice.s) + "," + count(choice.t) + (choice.weighted ? "" : ",raw");
+  const std::string which = !choice.connects  ? "merged"
+                            : choice.merges() ? "all"
+                                              : count(choice.s) + "," + count(choice.t);
+  return which + (choice.weighted ? "" : ",raw");
 }
 
 constexpr IntegratorSetting kSettings[] = {
@@ -88,9 +96,10 @@ constexpr IntegratorSetting kSettings[] = {
        o.camera_samples_per_pass = static_cast<int>(integer("camera-samples", t, 0, kMaxInt));
      },
      [](const IntegratorOptions& o) { return fmt::format("{}", o.camera_samples_per_pass); }},
-    {"technique", "S,T[,raw]", "all", "",
-     "Of bdpt and vcm: only paths of S vertices from the light, its start included, and T from the "
-     "eye, the lens included (* for any number); with ,raw as if there were no other technique.",
+    {"technique", "S,T", "all", "",
+     "Of bdpt, vcm and bpm: only paths of S vertices from the light, its start included, and T "
+     "from the eye, the lens included (* for any number), or merged ones; with ,raw behind it "
+     "unweighed, as if there were no other technique.",
      [](IntegratorOptions& o, const std::string& t) { o.technique = parse_technique(t); },
      [](const IntegratorOptions& o) { return technique_text(o.technique); }},
     {"memory-photons", "N", "1048576", "photons",
@@ -106,6 +115,24 @@ constexpr IntegratorSetting kSettings[] = {
        o.outlier_neighbours = static_cast<int>(integer("outlier-neighbours", t, 2, 1000));
      },
      [](const IntegratorOptions& o) { return fmt::format("{}", o.outlier_neighbours); }},
+    {"mutations", "X", "0", "mutations",
+     "Of Metropolis light transport, per pixel and pass; 0 chooses.",
+     [](IntegratorOptions& o, const std::string& t) {
+       o.mutations = number("mutations", t, 0, std::numeric_limits<float>::max(), false);
+     },
+     [](const IntegratorOptions& o) { return fmt::format("{:g}", o.mutations); }},
+    {"chain-length", "N", "0", "mutations",
+     "After how many mutations a Markov chain gives way to a new one; 0 chooses.",
+     [](IntegratorOptions& o, const std::string& t) {
+       o.chain_length = integer("chain-length", t, 0, kNoLimit);
+     },
+     [](const IntegratorOptions& o) { return fmt::format("{}", o.chain_length); }},
+    {"large-step", "X", "0.1", "",
+     "Probability of a mutation that forgets the path it comes from, above 0 to 1.",
+     [](IntegratorOptions& o, const std::string& t) {
+       o.large_step = number("large-step", t, 0, 1, true);
+     },
+     [](const IntegratorOptions& o) { return fmt::format("{:g}", o.large_step); }},
     {"texture-cache", "SIZE", "1G", "bytes",
      "Memory for the pixels of image textures (K, M, G: powers of 1024); what does not fit is read "
      "from the files again and again, with the same picture.",

@@ -97,4 +97,14 @@ inline double weight_of_hit(const LightStart& light, const SideSums& sums) {
               heuristic(light.start) * heuristic(light.onward) * sums.before);
 }
 
+/// [W11] Weight of a merge of an eye side and a light side that both came to one place. `back_eye`
+/// is the density with which its event goes back along the eye side, `back_light` along the light
+/// side; `merge` as in SideEnd, not 0.
+inline double weight_of_merge(const SideSums& eye, double back_eye, const SideSums& light,
+                              double back_light, double merge) {
+  return 1 / (1 + (eye.here + heuristic(back_eye) * eye.before + light.here +
+                   heuristic(back_light) * light.before) /
+                      merge);
+}
+
 }  // namespace nephroid

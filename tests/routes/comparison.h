@@ -23,6 +23,11 @@ constexpr bool connects_lights(EstimatorKind kind) {
   return kind == EstimatorKind::kLightTrace || kind == EstimatorKind::kPhotonsAndLight;
 }
 
+/// True if the estimator has the reach of path tracing from the eye.
+constexpr bool walks_from_eye(EstimatorKind kind) {
+  return kind == EstimatorKind::kPath || kind == EstimatorKind::kPrimarySpace;
+}
+
 class Comparison {
  public:
   /// Findings are about paths of the symbols in `present`; so is what `routes` call useful. All

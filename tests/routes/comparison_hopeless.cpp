@@ -94,7 +94,7 @@ void Comparison::nothing_hopeless() {
         const auto to = [&](const std::vector<bool>& states) {
           return [&](EventSymbol e) { return bool(states[routes_.next(s, e)]); };
         };
-        if (estimator == EstimatorKind::kPath) {
+        if (walks_from_eye(estimator)) {
           if (routes_.ends(g, s) && !ends_here(s)) fail("a walk may end where no path does");
           if (hopeless(routes_.useful(g, s, label), label, to(ending)))
             fail("a hopeless event is useful");
