@@ -7,7 +7,9 @@
 #include "integrator/features.h"
 #include "integrator/light_tracing.h"
 #include "integrator/path.h"
+#include "integrator/photon_map.h"
 #include "integrator/photon_mapping.h"
+#include "integrator/ppm.h"
 #include "integrator/sppm.h"
 #include "integrator/vertex_merging.h"
 
@@ -29,7 +31,9 @@ constexpr Row kTable[] = {{EstimatorKind::kPath, make<PathEstimator>},
                           {EstimatorKind::kSppm, make<Sppm>},
                           {EstimatorKind::kLightTrace, make<LightTracing>},
                           {EstimatorKind::kPhotonsAndLight, make<VertexMerging>},
-                          {EstimatorKind::kBidirectional, make<Bidirectional>}};
+                          {EstimatorKind::kBidirectional, make<Bidirectional>},
+                          {EstimatorKind::kPhotonMap, make<PhotonMap>},
+                          {EstimatorKind::kPpm, make<Ppm>}};
 
 FilmLayout layout_of(const Routes& routes) {
   FilmLayout layout;

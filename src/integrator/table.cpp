@@ -11,8 +11,8 @@ struct Row {
   const char* name;
   const char* preset;  ///< of the routes
 };
-constexpr Row kTable[] = {
-    {"mixed", "doidge2012"}, {"path", "path-only"}, {"sppm", "sppm"}, {"bdpt", "bdpt"}};
+constexpr Row kTable[] = {{"mixed", "doidge2012"},    {"path", "path-only"}, {"sppm", "sppm"},
+                          {"photonmap", "photonmap"}, {"ppm", "ppm"},        {"bdpt", "bdpt"}};
 
 constexpr const char* kOwnChoice = "the program's own choice, with the same picture";
 
