@@ -25,7 +25,10 @@ struct RadiusRange {
 }  // namespace
 
 PhotonMap::PhotonMap(OwnedRoutes owned, const IntegratorOptions& options)
-    : owned_(std::move(owned)), options_(options), photons_can_count_(photons_can_count(owned_)) {
+    : owned_(std::move(owned)),
+      options_(options),
+      photons_can_count_(photons_can_count(owned_)),
+      walks_per_pass_(static_cast<uint32_t>(std::max(1, options.camera_samples_per_pass))) {
   if (!(options_.radius > 0)) options_.radius = kDefaultMaxRadius;
 }
 
@@ -47,20 +50,23 @@ const PhotonMap::Map& PhotonMap::map_of(uint64_t seed, const Scene& scene, const
 
 void PhotonMap::render_pass(const PassKey& key, const Scene& scene, Film& film) {
   const int group = static_cast<int>(owned_.group);
-  film.add_estimates(group, 1);
+  film.add_estimates(group, walks_per_pass_);
   if (!photons_can_count_) return;
   // Each map has random numbers of its own.
   const uint64_t seed = hash_combine(key.seed, kStream, owned_.group);
   const Map& map = map_of(seed, scene, film);
-  PhotonPass pass = start_photon_pass({seed, key.pass % kSets}, scene, film, options_);
-  pass.point = SobolPoint(key.pass);
+  const PhotonPass pass = start_photon_pass({seed, key.pass % kSets}, scene, film, options_);
+  std::vector<SobolPoint> points;
+  for (uint32_t k = 0; k < walks_per_pass_; ++k)
+    points.emplace_back(key.pass * walks_per_pass_ + k);
 
   const PixelBounds& b = film.bounds();
   const size_t parts = film.parts_of(group).size();
-  Gathered gathered(static_cast<size_t>(b.area()), parts);
+  Gathered gathered(static_cast<size_t>(b.area()) * walks_per_pass_, parts);
+  const size_t walks_per_row = static_cast<size_t>(b.width()) * walks_per_pass_;
   std::vector<RadiusRange> rows(static_cast<size_t>(b.height()));
-  gather(scene, b, owned_, options_.max_depth, pass, {{&pass.point, 1}, seed}, gathered,
-         [&](size_t pixel, const CameraPath&, const Walk& walk, MergePoint at,
+  gather(scene, b, owned_, options_.max_depth, pass, {points, seed}, gathered,
+         [&](size_t number, const CameraPath&, const Walk& walk, MergePoint at,
              PartSums& sums) -> uint64_t {
            const float width = pass.footprint.width(walk.length);
            if (!(width > 0.0f)) return 0;
@@ -71,13 +77,13 @@ void PhotonMap::render_pass(const PassKey& key, const Scene& scene, Film& film) 
                                         static_cast<int>(key.pass % kSets)};
            const NearestMerge merged =
                merge_nearest(*map.grid, owned_, at, options_.max_depth, nearest, scratch, sums);
-           rows[pixel / static_cast<size_t>(b.width())].add(merged.radius / width);
+           rows[number / walks_per_row].add(merged.radius / width);
            return merged.found;
          });
   finish_estimates(gathered, film.settings().max_component);
-  for (size_t pixel = 0; pixel < static_cast<size_t>(b.area()); ++pixel) {
-    const int i = static_cast<int>(pixel);
-    film.add(group, b.x0 + i % b.width(), b.y0 + i / b.width(), gathered.of_walk(pixel));
+  for (size_t walk = 0; walk < gathered.filter_weights.size(); ++walk) {
+    const int pixel = static_cast<int>(walk / walks_per_pass_);
+    film.add(group, b.x0 + pixel % b.width(), b.y0 + pixel / b.width(), gathered.of_walk(walk));
   }
   RadiusRange all;
   for (const RadiusRange& row : rows)
@@ -87,7 +93,7 @@ void PhotonMap::render_pass(const PassKey& key, const Scene& scene, Film& film) 
     }
   found_ += gathered.found;
   statistics_.rays += gathered.rays;
-  statistics_.camera_paths += static_cast<uint64_t>(b.area());
+  statistics_.camera_paths += gathered.filter_weights.size();
   statistics_.radius_min_pixels = all.largest > 0 ? all.smallest : 0;
   statistics_.radius_max_pixels = all.largest;
 }

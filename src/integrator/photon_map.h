@@ -35,6 +35,7 @@ class PhotonMap : public Estimator {
   OwnedRoutes owned_;
   IntegratorOptions options_;
   bool photons_can_count_;
+  uint32_t walks_per_pass_;  ///< of a pixel
   std::optional<Map> map_;
   uint64_t found_ = 0;  ///< photons merged
   EstimatorStatistics statistics_;

@@ -67,22 +67,29 @@ class PhotonGrid {
                std::vector<Neighbour>& found) const {
     found.clear();
     if (photons_.empty() || wanted == 0 || !(max_radius > 0.0f)) return;
-    // The smallest cells hold a few photons each: the first disk is one of them, and each further
-    // one has four times its area.
-    float radius = std::min(0.5f * std::ldexp(quantum_, levels_.front().shift), max_radius);
-    for (;; radius = std::min(2.0f * radius, max_radius)) {
+    // The smallest cells hold a few photons each: the first disk is one of them. On a surface the
+    // next one, of the area that the photons so far suggest, holds a few more than are wanted.
+    float radius = max_radius;
+    if (wanted < photons_.size())
+      radius = std::min(0.5f * std::ldexp(quantum_, levels_.front().shift), max_radius);
+    for (;;) {
       found.clear();
       query(center, radius, [&](const Photon& photon, float d2) {
         found.push_back({d2, static_cast<uint32_t>(&photon - photons_.data())});
       });
       const bool is_last = !(radius < max_radius);
-      if (found.size() < wanted && !is_last) continue;
-      std::sort(found.begin(), found.end());
-      size_t kept = 0;
-      for (size_t i = 0; i < found.size() && kept < wanted; ++i)
-        if (counts(photons_[found[i].index])) found[kept++] = found[i];
-      found.resize(kept);
-      if (kept == wanted || is_last) return;
+      size_t kept = found.size();
+      if (kept >= wanted || is_last) {
+        std::sort(found.begin(), found.end());
+        kept = 0;
+        for (size_t i = 0; i < found.size() && kept < wanted; ++i)
+          if (counts(photons_[found[i].index])) found[kept++] = found[i];
+        found.resize(kept);
+        if (kept == wanted || is_last) return;
+      }
+      const float growth = std::sqrt(1.2f * static_cast<float>(wanted) /
+                                     static_cast<float>(std::max<size_t>(kept, 1)));
+      radius = std::min(radius * std::clamp(growth, 1.2f, 4.0f), max_radius);
     }
   }
 
