@@ -13,15 +13,6 @@ constexpr uint32_t kSets = 16;            // a power of two, over which waveleng
 /// Largest radius of an estimate, in footprints, if the user gave none.
 constexpr float kDefaultMaxRadius = 16.0f;
 
-/// Smallest and largest radius of a row's estimates in footprints.
-struct RadiusRange {
-  float smallest = kInfinity, largest = 0;
-  void add(float radius) {
-    smallest = std::min(smallest, radius);
-    largest = std::max(largest, radius);
-  }
-};
-
 }  // namespace
 
 PhotonMap::PhotonMap(OwnedRoutes owned, const IntegratorOptions& options)
@@ -49,53 +40,55 @@ const PhotonMap::Map& PhotonMap::map_of(uint64_t seed, const Scene& scene, const
 }
 
 void PhotonMap::render_pass(const PassKey& key, const Scene& scene, Film& film) {
-  const int group = static_cast<int>(owned_.group);
-  film.add_estimates(group, walks_per_pass_);
+  film.add_estimates(static_cast<int>(owned_.group), walks_per_pass_);
   if (!photons_can_count_) return;
   // Each map has random numbers of its own.
-  const uint64_t seed = hash_combine(key.seed, kStream, owned_.group);
-  const Map& map = map_of(seed, scene, film);
-  const PhotonPass pass = start_photon_pass({seed, key.pass % kSets}, scene, film, options_);
-  std::vector<SobolPoint> points;
-  for (uint32_t k = 0; k < walks_per_pass_; ++k)
-    points.emplace_back(key.pass * walks_per_pass_ + k);
+  const PassKey set{hash_combine(key.seed, kStream, owned_.group), key.pass % kSets};
+  const Map& map = map_of(set.seed, scene, film);
+  PhotonPass pass = start_photon_pass(set, scene, film, options_);
+  std::vector<RadiusRange> rows(static_cast<size_t>(film.bounds().height()));
+  for (uint32_t k = 0; k < walks_per_pass_; ++k) {
+    pass.point = SobolPoint(key.pass * walks_per_pass_ + k);
+    read(map, set, pass, scene, film, rows);
+  }
+  RadiusRange all;
+  for (const RadiusRange& row : rows) {
+    all.smallest = std::min(all.smallest, row.smallest);
+    all.largest = std::max(all.largest, row.largest);
+  }
+  statistics_.radius_min_pixels = all.largest > 0 ? all.smallest : 0;
+  statistics_.radius_max_pixels = all.largest;
+}
 
+void PhotonMap::read(const Map& map, const PassKey& set, const PhotonPass& pass, const Scene& scene,
+                     Film& film, std::span<RadiusRange> rows) {
+  const int group = static_cast<int>(owned_.group);
   const PixelBounds& b = film.bounds();
-  const size_t parts = film.parts_of(group).size();
-  Gathered gathered(static_cast<size_t>(b.area()) * walks_per_pass_, parts);
-  const size_t walks_per_row = static_cast<size_t>(b.width()) * walks_per_pass_;
-  std::vector<RadiusRange> rows(static_cast<size_t>(b.height()));
-  gather(scene, b, owned_, options_.max_depth, pass, {points, seed}, gathered,
-         [&](size_t number, const CameraPath&, const Walk& walk, MergePoint at,
+  const size_t width = static_cast<size_t>(b.width());
+  Gathered gathered(static_cast<size_t>(b.area()), film.parts_of(group).size());
+  gather(scene, b, owned_, options_.max_depth, pass, {{&pass.point, 1}, set.seed}, gathered,
+         [&](size_t pixel, const CameraPath&, const Walk& walk, MergePoint at,
              PartSums& sums) -> uint64_t {
-           const float width = pass.footprint.width(walk.length);
-           if (!(width > 0.0f)) return 0;
+           const float footprint = pass.footprint.width(walk.length);
+           if (!(footprint > 0.0f)) return 0;
            thread_local std::vector<PhotonGrid::Neighbour> scratch;
            at.throughput = at.throughput * static_cast<float>(1.0 / map.paths_of_set);
            const NearestPhotons nearest{static_cast<size_t>(options_.nearest_photons),
-                                        options_.radius * width,
-                                        static_cast<int>(key.pass % kSets)};
+                                        options_.radius * footprint, static_cast<int>(set.pass)};
            const NearestMerge merged =
                merge_nearest(*map.grid, owned_, at, options_.max_depth, nearest, scratch, sums);
-           rows[number / walks_per_row].add(merged.radius / width);
+           RadiusRange& row = rows[pixel / width];
+           row.smallest = std::min(row.smallest, merged.radius / footprint);
+           row.largest = std::max(row.largest, merged.radius / footprint);
            return merged.found;
          });
   finish_estimates(gathered, film.settings().max_component);
-  for (size_t walk = 0; walk < gathered.filter_weights.size(); ++walk) {
-    const int pixel = static_cast<int>(walk / walks_per_pass_);
-    film.add(group, b.x0 + pixel % b.width(), b.y0 + pixel / b.width(), gathered.of_walk(walk));
-  }
-  RadiusRange all;
-  for (const RadiusRange& row : rows)
-    if (row.largest > 0) {
-      all.add(row.smallest);
-      all.add(row.largest);
-    }
+  for (size_t i = 0; i < gathered.filter_weights.size(); ++i)
+    film.add(group, b.x0 + static_cast<int>(i % width), b.y0 + static_cast<int>(i / width),
+             gathered.of_walk(i));
   found_ += gathered.found;
   statistics_.rays += gathered.rays;
   statistics_.camera_paths += gathered.filter_weights.size();
-  statistics_.radius_min_pixels = all.largest > 0 ? all.smallest : 0;
-  statistics_.radius_max_pixels = all.largest;
 }
 
 EstimatorStatistics PhotonMap::statistics() const {

@@ -8,12 +8,15 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "integrator/estimator.h"
 #include "photon/photon_grid.h"
 #include "route/scene_symbols.h"
 
 namespace nephroid {
+
+struct PhotonPass;
 
 class PhotonMap : public Estimator {
  public:
@@ -29,6 +32,13 @@ class PhotonMap : public Estimator {
     std::unique_ptr<PhotonGrid> grid;
     double paths_of_set = 0;
   };
+  /// Smallest and largest radius of a row's estimates in footprints.
+  struct RadiusRange {
+    float smallest = kInfinity, largest = 0;
+  };
+  /// One walk of each pixel, which reads the photons of a set.
+  void read(const Map& map, const PassKey& set, const PhotonPass& pass, const Scene& scene,
+            Film& film, std::span<RadiusRange> rows);
   /// Traces the map of a seed if there is none yet.
   const Map& map_of(uint64_t seed, const Scene& scene, const Film& film);
 

@@ -133,8 +133,10 @@ TEST(HitPoints, Stay) {
   for (uint64_t seed = 0; seed < 16; ++seed) {
     const double stays = picture_mean(render(*scene, "ppm", options, seed, 12));
     const double moves = picture_mean(render(*scene, "sppm", options, seed, 12));
-    EXPECT_TRUE(stays == 0 || stays > 0.8 * 0.5 * kInvPi) << stays;
-    EXPECT_GT(moves, 0.02);
+    // At the edge of the disk half of the photons are missing, or a little more.
+    EXPECT_TRUE(stays == 0 || stays > 0.4 * 0.5 * static_cast<double>(kInvPi)) << stays;
+    EXPECT_GT(moves, 0.05 * 0.5 * static_cast<double>(kInvPi));
+    EXPECT_LT(moves, 0.8 * 0.5 * static_cast<double>(kInvPi));
     dark += stays == 0;
   }
   EXPECT_GT(dark, 2);
@@ -188,14 +190,12 @@ TEST(PhotonMap, BiasKeepsToItsBound) {
   const auto [nearest, less] = look(600, 0.5);
   EXPECT_LT(nearest, 0.4);
   EXPECT_GT(less.mean, dark.mean);
-  // Few photons make the estimate noisy, not wrong: the last one chooses the radius and is not
-  // counted.
-  look(8, 0.5);
 }
 
 // Inside of a sphere that glows and reflects half of all light, radiance is the same everywhere. A
 // cap of a sphere has the area of the plane disk with its chord for a radius: the estimate has no
-// bias, whatever its radius.
+// bias, whatever its radius. Few photons make it noisy, not wrong: the last one chooses the radius
+// and is not counted. Were it, they would be too bright by a part in 19.
 TEST(PhotonMap, AClosedFurnaceIsFlat) {
   const auto scene = scene_from_text(R"(
     LookAt 0 0 0  0 0 1  0 1 0
@@ -209,18 +209,20 @@ TEST(PhotonMap, AClosedFurnaceIsFlat) {
   IntegratorOptions options;
   options.max_depth = 4;
   options.map_photons = 1 << 14;
-  options.camera_samples_per_pass = 4;
+  options.photons_per_pass = 1 << 12;
+  options.camera_samples_per_pass = 8;
   options.radius = 0.7f / scene->camera->footprint().width(1.0f);
   const double expected = 0.5 + 0.25 + 0.125 + 0.0625;
   const struct {
     const char* route;
     int nearest;
-  } rows[] = {{"all=C[DG].*:photonmap", 50},
+  } rows[] = {{"all=C[DG].*:photonmap", 20},
               {"all=C[DG].*:photonmap", kAllPhotons},
               {"all=C[DG].*:ppm", 0}};
   for (const auto& row : rows) {
     options.nearest_photons = row.nearest;
     SeedValues values(4);
+    std::vector<double> whole;
     for (uint64_t seed = 0; seed < 16; ++seed) {
       Preset preset = make_preset(plan_of({row.route, "rest=.*:path"}), options, *scene);
       Film film = film_for(*scene, preset);
@@ -228,14 +230,17 @@ TEST(PhotonMap, AClosedFurnaceIsFlat) {
         preset.estimators[0]->render_pass({seed, pass}, *scene, film);
       const std::vector<double> means = block_means(film, 2);
       for (size_t i = 0; i < 4; ++i) values[i].push_back(means[i]);
+      whole.push_back(picture_mean(film));
     }
     for (const std::vector<double>& block : values) {
       const Estimate e = estimate_of(block);
-      std::printf("%s, %d: off by %+.3f %%, standard error %.3f %%\n", row.route, row.nearest,
-                  100 * (e.mean / expected - 1), 100 * e.error / expected);
-      EXPECT_NEAR(e.mean, expected, kT15 * e.error);
-      EXPECT_LT(e.error, 0.01 * expected);
+      EXPECT_NEAR(e.mean, expected, kT15 * e.error) << row.route << ' ' << row.nearest;
     }
+    const Estimate e = estimate_of(whole);
+    std::printf("%s, %d: off by %+.3f %%, standard error %.3f %%\n", row.route, row.nearest,
+                100 * (e.mean / expected - 1), 100 * e.error / expected);
+    EXPECT_NEAR(e.mean, expected, kT15 * e.error);
+    EXPECT_LT(kT15 * e.error, 0.05 * expected);
   }
 }
 
