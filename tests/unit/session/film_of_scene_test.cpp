@@ -99,9 +99,9 @@ TEST(FilmOfScene, MemoryIsThatOfThePartsGroupsAndSplats) {
     SCOPED_TRACE(row.routes.back());
     const Routes routes = routes_of(row.routes);
     fill(film + row.bytes);
-    EXPECT_NO_THROW(check_film_fits(description, one, routes, false, kHitPoints));
+    EXPECT_NO_THROW(check_film_fits(description, one, routes, false, false, kHitPoints));
     fill(film + row.bytes - 1);
-    EXPECT_THROW(check_film_fits(description, one, routes, false, kHitPoints), SceneError);
+    EXPECT_THROW(check_film_fits(description, one, routes, false, false, kHitPoints), SceneError);
   }
 }
 
