@@ -159,6 +159,10 @@ inline SeedValues block_values(const Scene& scene, const Plan& plan,
   return values;
 }
 
+/// IntegratorOptions::nearest_photons with which photon maps are read in a fixed radius, whose bias
+/// falls with its square as that of other estimators does.
+inline constexpr int kAllPhotons = 1 << 30;
+
 /// The same without the bias of the merge radius, which falls with r^2: 2 L(r^2/2) - L(r^2). Both
 /// renders of a seed share all random numbers, so what does not depend on the radius keeps its own
 /// noise only. Where nothing is merged, there is nothing to remove.

@@ -12,6 +12,7 @@
 #include "core/parallel.h"
 #include "film/atomic_file.h"
 #include "film/film_output.h"
+#include "integrator/ppm.h"
 #include "session/file_hash.h"
 #include "session/film_of_scene.h"
 #include "session/render_session.h"
@@ -83,7 +84,8 @@ int run_render(const RenderCommand& command) {
   if (!command.quiet)
     for (const std::string& warning : preset.warnings) print_warning(warning);
   check_film_fits(scene.film, preset.layout, *preset.routes, command.overrides.width > 0,
-                  command.reject_outliers);
+                  command.reject_outliers,
+                  Ppm::hit_points(choice.options, scene.samples_per_pixel));
   Film film(film_settings(scene.film), preset.layout);
   if (command.reject_outliers)
     film.reject_outliers(outlier_settings(*preset.routes, choice.options, *scene.filter));

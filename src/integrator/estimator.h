@@ -19,6 +19,7 @@ class Scene;
 struct Capabilities {
   bool independent_passes = true;  ///< passes may be rendered anywhere, in any order, and added up
   bool per_pixel_state = false;    ///< keeps more than the film does (E1)
+  bool consistent = true;          ///< tends to the truth as passes are added; else an error stays
 };
 
 /// Deterministic counts of what an estimator did so far, for progress and report.
@@ -32,6 +33,7 @@ struct EstimatorStatistics {
   uint64_t light_paths = 0;                            ///< emitted to be connected to the camera
   uint64_t light_paths_useful = 0;                     ///< that were, at one vertex at least
   uint64_t splats = 0;                                 ///< connections that expose the film
+  uint64_t bytes_kept = 0;                             ///< from pass to pass, beside the film
   float radius_min_pixels = 0, radius_max_pixels = 0;  ///< merge radius over footprint, last pass
   std::vector<std::string> notes;  ///< sentences for the report, e.g. why a route is black
 };
@@ -69,6 +71,9 @@ struct IntegratorOptions {
   bool blind_walks = false;
   int camera_samples_per_pass = 0;  ///< 0: the default of the integrator
   TechniqueChoice technique;        ///< of bidirectional estimators
+  int hit_points = 0;               ///< of a pixel, in `ppm`; 0: chosen from the scene's samples
+  int64_t map_photons = 0;    ///< paths emitted for a photon map; 0: as many as 16 passes have
+  int nearest_photons = 100;  ///< of an estimate from a photon map
   int64_t memory_photons =
       1 << 20;  ///< photons kept at once (96 bytes each); a larger pass runs in batches
   /// Similar estimates that confirm one, for films that reject outliers; no integrator looks at it.

@@ -36,6 +36,9 @@ inline CameraPath start_merging_path(const Scene& scene, int x, int y, PathSampl
 /// False if no photon that can occur in the scene belongs to the group.
 bool photons_can_count(const OwnedRoutes& owned);
 
+/// "route 'a'", "routes 'a', 'b'": those of the group.
+std::string names_of_routes(const OwnedRoutes& owned);
+
 /// Adds what one batch of photons did to the counts.
 void count_photons(const PhotonTrace& trace, EstimatorStatistics& statistics);
 

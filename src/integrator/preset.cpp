@@ -8,8 +8,10 @@
 #include "integrator/light_tracing.h"
 #include "integrator/multiplexed.h"
 #include "integrator/path.h"
+#include "integrator/photon_map.h"
 #include "integrator/photon_mapping.h"
 #include "integrator/primary_space.h"
+#include "integrator/ppm.h"
 #include "integrator/sppm.h"
 #include "integrator/vertex_connection_merging.h"
 #include "integrator/vertex_merging.h"
@@ -37,6 +39,8 @@ constexpr Row kTable[] = {{EstimatorKind::kPath, make<PathEstimator>},
                           {EstimatorKind::kBpm, make<VertexConnectionMerging>},
                           {EstimatorKind::kMetropolis, make<Multiplexed>},
                           {EstimatorKind::kPrimarySpace, make<PrimarySpace>}};
+                          {EstimatorKind::kPhotonMap, make<PhotonMap>},
+                          {EstimatorKind::kPpm, make<Ppm>}};
 
 FilmLayout layout_of(const Routes& routes) {
   FilmLayout layout;

@@ -14,6 +14,8 @@ struct Row {
 constexpr Row kTable[] = {{"mixed", "doidge2012"}, {"path", "path-only"}, {"sppm", "sppm"},
                           {"bdpt", "bdpt"},        {"vcm", "vcm"},        {"bpm", "bpm"},
                           {"pssmlt", "pssmlt"},    {"mlt", "mlt"}};
+constexpr Row kTable[] = {{"mixed", "doidge2012"},    {"path", "path-only"}, {"sppm", "sppm"},
+                          {"photonmap", "photonmap"}, {"ppm", "ppm"},        {"bdpt", "bdpt"}};
 
 constexpr const char* kOwnChoice = "the program's own choice, with the same picture";
 

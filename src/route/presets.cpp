@@ -31,6 +31,18 @@ std::span<const RoutePreset> route_presets() {
       {"sppm",
        "all light that meets a rough surface is stochastic progressive photon mapping",
        {"emission=C([SV]*L|.*M|.*H.*L):path", "photons=.*:sppm"}},
+      {"photonmap",
+       "Jensen's photon maps: caustics are read from one directly, what lights a surface by way of "
+       "others from another where gather rays end, the rest is path tracing",
+       {"caustic=C[SV]*[DG]S+L:photonmap", "indirect=C[SV]*[DG][SV]*[DG]@.*:photonmap",
+        "rest=.*:path"}},
+      {"photonmap-direct",
+       "the same without gather rays: both maps are read where the eye first looks",
+       {"caustic=C[SV]*[DG]S+L:photonmap", "global=C[SV]*[DG]S*[DGV].*:photonmap", "rest=.*:path"}},
+      {"ppm",
+       "all light that meets a rough surface is progressive photon mapping with hit points that "
+       "stay",
+       {"emission=C([SV]*L|.*M|.*H.*L):path", "photons=.*:ppm"}},
       {"light-only",
        "whatever can be connected to the camera is traced from the lights, the rest path tracing",
        {"light=C([DGV].*L|O):lighttrace", "rest=.*:path"}},

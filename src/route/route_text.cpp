@@ -37,13 +37,19 @@ constexpr EstimatorType kEstimators[] = {
     {EstimatorKind::kPrimarySpace, "pssmlt",
      "path tracing from the eye, explored by Markov chains in the space of its random numbers",
      false, false, false},
+    {EstimatorKind::kPhotonMap, "photonmap",
+     "a photon map that all passes read, by the nearest photons; passes add no photons", true,
+     false, true, true},
+    {EstimatorKind::kPpm, "ppm", "progressive photon mapping with hit points that stay", true,
+     false, true},
 };
 
 // Names of the picture's own layers and channels, and of what is reserved for them.
 constexpr const char* kReservedNames[] = {
-    "R",    "G",      "B",      "A",      "Z",       "N",        "P",
-    "Ns",   "u",      "v",      "Y",      "RY",      "BY",       "dzdx",
-    "dzdy", "albedo", "Albedo", "stderr", "samples", "Variance", "RelativeVariance", "outliers"};
+    "R",       "G",      "B",      "A",      "Z",       "N",        "P",
+    "Ns",      "u",      "v",      "Y",      "RY",      "BY",       "dzdx",
+    "dzdy",    "albedo", "Albedo", "stderr", "samples", "Variance", "RelativeVariance",
+    "outliers"};
 constexpr size_t kLongestName = 64;
 
 bool is_space(char c) {

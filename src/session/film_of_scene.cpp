@@ -10,7 +10,9 @@
 #include "core/errors.h"
 #include "film/splats.h"
 #include "integrator/bidirectional.h"
+#include "integrator/gather.h"
 #include "integrator/merge_pass.h"
+#include "integrator/ppm.h"
 #include "integrator/sppm.h"
 #include "integrator/vertex_connection_merging.h"
 
@@ -19,7 +21,7 @@ namespace {
 
 /// For each pixel: what estimators keep from pass to pass, and what the pass that needs most does;
 /// they render one after another.
-size_t bytes_of_estimators(const Routes& routes) {
+size_t bytes_of_estimators(const Routes& routes, int hit_points) {
   size_t kept = 0, most = 0;
   for (const RouteGroup& group : routes.groups()) {
     const size_t parts = group.parts.size();
@@ -34,8 +36,11 @@ size_t bytes_of_estimators(const Routes& routes) {
       pass += Bidirectional::bytes_per_pixel(parts);
     } else if (group.estimator == EstimatorKind::kVcm || group.estimator == EstimatorKind::kBpm) {
       pass += VertexConnectionMerging::bytes_per_pixel(parts);
+    } else if (group.estimator == EstimatorKind::kPpm) {
+      kept += static_cast<size_t>(hit_points) * Ppm::bytes_kept(parts);
+      pass += static_cast<size_t>(hit_points) * Ppm::bytes_of_pass(parts);
     } else if (type.merges) {
-      pass += MergePass::bytes_per_pixel(parts);
+      pass += Gathered::bytes_per_walk(parts);
     }
     most = std::max(most, pass);
   }
@@ -82,11 +87,13 @@ OutlierSettings outlier_settings(const Routes& routes, const IntegratorOptions& 
 }
 
 void check_film_fits(const FilmDescription& description, const FilmLayout& layout,
-                     const Routes& routes, bool size_is_an_option, bool rejects_outliers) {
+                     const Routes& routes, bool size_is_an_option, bool rejects_outliers,
+                     int hit_points) {
   // What there is of each pixel; everything else comes on top.
   const auto bytes_per_pixel = static_cast<double>(
       Film::bytes_per_pixel(layout, description.gbuffer != GBufferSpace::kNone) +
-      bytes_of_estimators(routes) + (rejects_outliers ? bytes_of_rejection(routes) : 0));
+      bytes_of_estimators(routes, hit_points) +
+      (rejects_outliers ? bytes_of_rejection(routes) : 0));
   constexpr double kGiB = 1 << 30;
   const double pixels = static_cast<double>(description.crop_x1 - description.crop_x0) *
                         (description.crop_y1 - description.crop_y0);

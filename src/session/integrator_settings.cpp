@@ -102,8 +102,29 @@ constexpr IntegratorSetting kSettings[] = {
      "unweighed, as if there were no other technique.",
      [](IntegratorOptions& o, const std::string& t) { o.technique = parse_technique(t); },
      [](const IntegratorOptions& o) { return technique_text(o.technique); }},
+    {"hit-points", "N", "0", "hit points",
+     "Hit points of a pixel in ppm, which stay from pass to pass: memory for smooth edges; 0 takes "
+     "the scene's samples per pixel, at least 4 and at most 16.",
+     [](IntegratorOptions& o, const std::string& t) {
+       o.hit_points = static_cast<int>(integer("hit-points", t, 0, kMaxInt));
+     },
+     [](const IntegratorOptions& o) { return fmt::format("{}", o.hit_points); }},
+    {"map-photons", "N", "0", "paths",
+     "Photon paths emitted for each map of photonmap, once; 0 emits those of 16 passes. When "
+     "memory-photons are stored, emission ends.",
+     [](IntegratorOptions& o, const std::string& t) {
+       o.map_photons = integer("map-photons", t, 0, kNoLimit);
+     },
+     [](const IntegratorOptions& o) { return fmt::format("{}", o.map_photons); }},
+    {"nearest", "N", "100", "photons",
+     "Photons of an estimate in photonmap: the nearest ones, within the radius of -D radius; at "
+     "least 2.",
+     [](IntegratorOptions& o, const std::string& t) {
+       o.nearest_photons = static_cast<int>(integer("nearest", t, 2, kMaxInt));
+     },
+     [](const IntegratorOptions& o) { return fmt::format("{}", o.nearest_photons); }},
     {"memory-photons", "N", "1048576", "photons",
-     "Photons kept at once; a pass with more runs in batches.",
+     "Photons kept at once; a pass with more runs in batches, a map with more ends.",
      [](IntegratorOptions& o, const std::string& t) {
        o.memory_photons = integer("memory-photons", t, 1, kNoLimit);
      },

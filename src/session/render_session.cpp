@@ -46,7 +46,7 @@ void check_fits(const Preset& preset, const Film& film, const RenderOptions& opt
           fmt::format("--passes {}..: the passes of this integrator depend on each "
                       "other, expected a range from 0",
                       options.first_pass));
-    if (options.noise_target > 0 && capabilities.per_pixel_state)
+    if (options.noise_target > 0 && (capabilities.per_pixel_state || !capabilities.consistent))
       throw UsageError(
           "--noise: this integrator cannot tell how noisy its picture is, expected --passes or "
           "--time");

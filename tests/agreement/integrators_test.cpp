@@ -47,6 +47,8 @@ IntegratorOptions options_for(const AgreementScene& description) {
   options.photons_per_pass = description.photons;
   options.radius = description.radius;
   options.camera_samples_per_pass = 1;
+  options.hit_points = 4;
+  options.nearest_photons = kAllPhotons;
   return options;
 }
 
@@ -83,8 +85,8 @@ TEST_P(Agreement, OfAllIntegrators) {
 INSTANTIATE_TEST_SUITE_P(Scenes, Agreement, ::testing::ValuesIn(kAgreementScenes),
                          [](const auto& test) { return std::string(test.param.name); });
 
-// Routes that integrators do not have: light tracing, and photons both merged and connected, of
-// caustics alone and wherever they can be.
+// Routes that the integrators above do not have: light tracing, and photons both merged and
+// connected, of caustics alone and wherever they can be.
 struct RoutesToCompare {
   const char* name;
   Plan plan;
@@ -94,6 +96,9 @@ std::vector<RoutesToCompare> routes_to_compare() {
   return {{"split", "split"},
           {"vertex", "vertex"},
           {"light-only", "light-only"},
+          {"ppm", "ppm"},
+          {"photonmap", "photonmap"},
+          {"photonmap-direct", "photonmap-direct"},
           {"all-vertex", plan_of({"emission=C([SV]*L|.*M|.*H.*L):path", "rest=.*:photons+light"})}};
 }
 

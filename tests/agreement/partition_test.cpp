@@ -190,6 +190,8 @@ TEST_P(PartitionOwners, FindTheSamePicture) {
   options.photons_per_pass = 6144;
   options.camera_samples_per_pass = 8;
   options.radius = 0.6f;
+  options.hit_points = 4;
+  options.nearest_photons = kAllPhotons;
   const auto values = [&](const std::vector<std::string>& routes, uint64_t first_seed,
                           float radius) {
     options.radius = radius;
@@ -228,6 +230,12 @@ const std::vector<Owners> kOwners = {
     {"sppm_of_caustics", {"caustic=C.*[DG]S+[DG]?L:sppm", "rest=.*:path"}, true},
     {"photons_at_the_last", {"bounced=C.*[DG]@S+[DG]?L:photons", "rest=.*:path"}, true},
     {"photons_at_the_second", {"second=C[DG][DG]@[DG]*L:photons", "rest=.*:path"}, true},
+    {"ppm_of_caustics", {"caustic=C.*[DG]S+[DG]?L:ppm", "rest=.*:path"}, true},
+    {"photon_map_at_the_first", {"seen=C[DG].*L:photonmap", "rest=.*:path"}, true},
+    {"photon_map_of_gather_rays", {"second=C[DG][DG]@[DG]*L:photonmap", "rest=.*:path"}, true},
+    {"two_photon_maps",
+     {"caustic=C[SV]*[DG]S+L:photonmap", "global=C[SV]*[DG]S*[DGV].*:photonmap", "rest=.*:path"},
+     true},
     {"photons_and_light", {"seen=C[DG].*L:photons+light", "rest=.*:path"}, true},
     {"photons_and_light_of_all", {"bare=C[SV]*(L|.*M):path", "rest=.*:photons+light"}, true},
     {"bdpt_of_all", {"all=.*:bdpt", "rest=.*:path"}},

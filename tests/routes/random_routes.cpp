@@ -2,6 +2,7 @@
 // standard library's distributions, which differ from machine to machine.
 #include "routes/random_routes.h"
 
+#include <iterator>
 #include <utility>
 
 namespace nephroid::oracle {
@@ -131,6 +132,12 @@ OracleRoutes RandomRoutes::set() {
       EstimatorKind::kBidirectional, EstimatorKind::kVcm,
       EstimatorKind::kBpm,           EstimatorKind::kMetropolis,
       EstimatorKind::kPrimarySpace};
+      EstimatorKind::kPath,       EstimatorKind::kPath,
+      EstimatorKind::kPhotons,    EstimatorKind::kPhotons,
+      EstimatorKind::kSppm,       EstimatorKind::kLightTrace,
+      EstimatorKind::kLightTrace, EstimatorKind::kPhotonsAndLight,
+      EstimatorKind::kPhotonMap,  EstimatorKind::kPhotonMap,
+      EstimatorKind::kPpm};
   const Alphabet alphabet(static_cast<int>(labels_.size()));
   const auto possible = [&](bool marked) {
     for (;;) {

@@ -82,23 +82,26 @@ TEST(FilmOfScene, MemoryIsThatOfThePartsGroupsAndSplats) {
 
   // A splat is a sum of 48 bytes. A merging pass has a colour for each part and a filter weight;
   // sppm keeps a radius, a count, a flux and a footprint, and in a pass a colour, a count and a
-  // filter weight. Estimators render one after another.
+  // filter weight, ppm the same for each of its hit points. Estimators render one after another.
+  constexpr int kHitPoints = 5;
   const struct {
     std::vector<std::string> routes;
     size_t bytes;
   } rows[] = {{{"all=.*:lighttrace"}, 48},
               {{"all=C.*DL:photons"}, 12 + 4},
               {{"all=C.*DL:photons+light"}, 48 + 12 + 4},
-              {{"all=C.*DL:sppm"}, 16 + 24 + 4 + 12 + 16},
+              {{"all=C.*DL:sppm"}, 16 + 24 + 4 + 12 + 4 + 8},
+              {{"all=C.*DL:ppm"}, 5 * (16 + 24 + 4 + 12 + 4 + 8)},
+              {{"all=C.*DL:photonmap"}, 12 + 4},
               {{"a=C.*DL:photons", "b=C.*GL:photons"}, 2 * 12 + 4},
               {{"a=C.*DL:sppm", "b=C.*GL:photons+light"}, 16 + 24 + 4 + 48 + 12 + 4}};
   for (const auto& row : rows) {
     SCOPED_TRACE(row.routes.back());
     const Routes routes = routes_of(row.routes);
     fill(film + row.bytes);
-    EXPECT_NO_THROW(check_film_fits(description, one, routes, false));
+    EXPECT_NO_THROW(check_film_fits(description, one, routes, false, false, kHitPoints));
     fill(film + row.bytes - 1);
-    EXPECT_THROW(check_film_fits(description, one, routes, false), SceneError);
+    EXPECT_THROW(check_film_fits(description, one, routes, false, false, kHitPoints), SceneError);
   }
 }
 
