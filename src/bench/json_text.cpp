@@ -95,14 +95,11 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
     object.members.push_back({name, where, {}});
     return true;
   }
-  bool parse_error(size_t position, const std::string& token,
-                   const nlohmann::json::exception&) override {
+  bool parse_error(size_t position, const std::string&, const nlohmann::json::exception&) override {
     const size_t last = position > 0 ? position - 1 : 0;
-    const bool at_end = last >= text_.size();
-    fail_at(places_.at(last),
-            at_end ? std::string("the file ends in the middle of JSON, expected the rest of it")
-                   : fmt::format("'{}' is not JSON here, expected a value, a comma or a bracket",
-                                 token));
+    if (last >= text_.size())
+      fail_at(places_.at(last), "the file ends in the middle of JSON, expected the rest of it");
+    fail_at(places_.at(last), fmt::format("'{}' does not belong here, expected JSON", text_[last]));
   }
 
  private:

@@ -47,6 +47,8 @@ MergePass merge_pass(const PassKey& key, const Scene& scene, const Film& film,
     count_photons(trace, statistics);
     if (trace.photons.empty()) continue;
     const PhotonGrid grid(std::move(trace.photons));
+    count_memory(grid, static_cast<size_t>(b.area()) * MergePass::bytes_per_pixel(parts),
+                 statistics);
 
     parallel_chunks(b.height(), 1, [&](int64_t row, int64_t, int64_t) {
       const int y = b.y0 + static_cast<int>(row);

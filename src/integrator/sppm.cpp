@@ -36,6 +36,7 @@ void Sppm::render_pass(const PassKey& key, const Scene& scene, Film& film) {
     PhotonTrace trace = trace_batch(scene, owned_, pass.trace, options_.memory_photons, begin);
     count_photons(trace, statistics_);
     const PhotonGrid grid(std::move(trace.photons));
+    count_memory(grid, pixels_.size() * (bytes_kept(parts) + bytes_of_pass(parts)), statistics_);
 
     parallel_chunks(b.height(), 1, [&](int64_t row, int64_t, int64_t) {
       const int y = b.y0 + static_cast<int>(row);
