@@ -8,7 +8,6 @@
 #include "apps/messages.h"
 #include "apps/progress_display.h"
 #include "apps/report.h"
-#include "apps/scene_loading.h"
 #include "core/parallel.h"
 #include "film/atomic_file.h"
 #include "film/film_output.h"
@@ -16,6 +15,7 @@
 #include "session/file_hash.h"
 #include "session/film_of_scene.h"
 #include "session/render_session.h"
+#include "session/scene_loading.h"
 #include "session/version.h"
 
 namespace nephroid {
@@ -35,13 +35,9 @@ Metadata metadata_of(const RenderCommand& command, const IntegratorChoice& choic
 }
 
 void add_routes(const RoutePlan& plan, Metadata* metadata) {
-  // As a file of routes has them: their order counts.
-  std::string routes, aovs;
-  for (const RouteDefinition& route : plan.routes)
-    routes +=
-        route.name + " = " + route.expression + " : " + estimator_type(route.estimator).name + "\n";
-  for (const AovDefinition& aov : plan.aovs) aovs += aov.name + " = " + aov.expression + "\n";
-  metadata->emplace_back("nephroid:routes", routes);
+  const std::string aovs = aovs_text(plan);
+  // The order of routes counts.
+  metadata->emplace_back("nephroid:routes", routes_text(plan));
   if (!aovs.empty()) metadata->emplace_back("nephroid:aovs", aovs);
 }
 
@@ -71,7 +67,7 @@ int run_render(const RenderCommand& command) {
     check_file_can_be_written(png_path_beside(command.output));
   }
   const LoadedScene loaded = load_scene(command.scene, command.overrides);
-  if (!command.quiet) print_warnings(loaded);
+  if (!command.quiet) print_warnings(loaded.warnings);
   const Scene& scene = *loaded.scene;
 
   const IntegratorChoice choice =

@@ -35,6 +35,10 @@ struct EstimatorStatistics {
   uint64_t splats = 0;                                 ///< connections that expose the film
   uint64_t bytes_kept = 0;                             ///< from pass to pass, beside the film
   float radius_min_pixels = 0, radius_max_pixels = 0;  ///< merge radius over footprint, last pass
+  /// Memory, the most that was held at once; the film is not counted. `photon_bytes` is of photons
+  /// (or what else is stored of light paths) and of what finds them, `bytes` is that and what is
+  /// kept for each pixel.
+  uint64_t bytes = 0, photon_bytes = 0;
   std::vector<std::string> notes;  ///< sentences for the report, e.g. why a route is black
 };
 

@@ -6,6 +6,7 @@
 
 #include "integrator/estimator.h"
 #include "photon/merge.h"
+#include "photon/photon_grid.h"
 #include "photon/photon_tracer.h"
 #include "transport/camera_path.h"
 #include "transport/walk_symbols.h"
@@ -41,6 +42,9 @@ std::string names_of_routes(const OwnedRoutes& owned);
 
 /// Adds what one batch of photons did to the counts.
 void count_photons(const PhotonTrace& trace, EstimatorStatistics& statistics);
+
+/// Raises the peaks of memory to what a batch holds: its photons, and what is kept for the pixels.
+void count_memory(const PhotonGrid& grid, size_t pixel_bytes, EstimatorStatistics& statistics);
 
 /// Says why there is no light from photons, if there is none; `found` is how many were merged.
 void explain_darkness(const OwnedRoutes& owned, uint64_t found, EstimatorStatistics& statistics);

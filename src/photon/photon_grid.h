@@ -22,6 +22,8 @@ class PhotonGrid {
 
   size_t size() const { return photons_.size(); }
   const std::vector<Photon>& photons() const { return photons_; }
+  /// Memory of the photons and of what finds them.
+  size_t bytes() const;
 
   /// Calls found(photon, distance_squared) for every photon with |photon.p - center| <= radius, in
   /// an order that depends on the photons and the query alone.

@@ -13,6 +13,7 @@ namespace {
 constexpr double kAnyNumber = std::numeric_limits<double>::infinity();
 constexpr int kMostThreads = 4096;
 constexpr int kMostPilotPasses = 100000;
+constexpr int64_t kMostBenchPasses = std::numeric_limits<uint32_t>::max() - 1;
 
 void set_output(CommandLine& line, const std::string& text) {
   const bool is_exr = text.size() > 4 && text.compare(text.size() - 4, 4, ".exr") == 0;
@@ -105,11 +106,22 @@ void set_heat_map(CommandLine& line, const std::string& text) {
   line.compare.heat_map = text;
 }
 
+void add_only(CommandLine& line, const std::string& text) {
+  for (size_t begin = 0; begin <= text.size();) {
+    const size_t comma = std::min(text.find(',', begin), text.size());
+    if (comma == begin)
+      throw UsageError("--only: '" + text + "' is not valid, expected names as in cup,room");
+    line.bench.only.push_back(text.substr(begin, comma - begin));
+    begin = comma + 1;
+  }
+}
+
 constexpr CommandDescription kCommands[] = {
     {"render", "Render a scene to an EXR and a PNG."},
     {"info", "Say what is in a scene without rendering it."},
     {"routes", "Say who renders which light, prove it, and measure it in a scene."},
     {"compare", "Measure how far a picture is from a reference."},
+    {"bench", "Run a suite of integrators and scenes and write a report."},
 };
 
 constexpr OptionDescription kOptions[] = {
@@ -197,6 +209,36 @@ constexpr OptionDescription kOptions[] = {
     {"compare", "--subtract-reference-error", "", "", "", "", "",
      "Take the reference's own error (its stderr channels) out of the squared errors.", false,
      [](CommandLine& l, const std::string&) { l.compare.subtract_reference_error = true; }},
+    {"compare", "--exposure", "", "X", "", "1", "", "Exposure of both pictures for FLIP.", false,
+     [](CommandLine& l, const std::string& t) {
+       l.compare.exposure = static_cast<float>(parse_number("--exposure", t, 0, 1e6, true));
+     }},
+    {"bench", "SUITE.json", "", "", "", "", "", "A suite (docs/bench.md has the format).", false,
+     [](CommandLine& l, const std::string& t) { l.bench.suite = t; }},
+    {"bench", "--time", "", "TIME", "s, m or h", "the suite's", "",
+     "Every run ends with the pass that ends nearest to this time (60s, 5m, 1h).", false,
+     [](CommandLine& l, const std::string& t) {
+       l.bench.time_limit = parse_duration("--time", t);
+     }},
+    {"bench", "--passes", "", "N", "passes", "the suite's", "", "Every run has N passes.", false,
+     [](CommandLine& l, const std::string& t) {
+       l.bench.passes = static_cast<uint32_t>(parse_integer("--passes", t, 1, kMostBenchPasses));
+     }},
+    {"bench", "--out", "", "DIR", "", "the suite's name and .bench, in the current directory", "",
+     "Directory of the report and of all results; runs that are there already are not repeated.",
+     false, [](CommandLine& l, const std::string& t) { l.bench.directory = t; }},
+    {"bench", "--only", "", "SCENE,...", "", "all", "", "Scenes of the suite, by name.", true,
+     add_only},
+    {"bench", "--threads", "-t", "N", "threads", "all of the machine", "",
+     "Number of threads; times depend on it, passes do not.", false,
+     [](CommandLine& l, const std::string& t) {
+       l.bench.threads = static_cast<int>(parse_integer("--threads", t, 1, kMostThreads));
+     }},
+    {"bench", "--strict-claims", "", "", "", "", "",
+     "Exit status 1 if a claim of the suite is not borne out.", false,
+     [](CommandLine& l, const std::string&) { l.bench.strict_claims = true; }},
+    {"bench", "--quiet", "", "", "", "", "", "Print nothing but errors.", false,
+     [](CommandLine& l, const std::string&) { l.bench.quiet = true; }},
 };
 
 }  // namespace

@@ -142,7 +142,7 @@ bool RenderSession::noise_check_is_due() const {
   if (options_.noise_target > 0)
     return passes_done_ >= kFewestPassesForNoise &&
            passes_done_ % std::max(1u, std::bit_floor(passes_done_) / 16) == 0;
-  return progress_ && elapsed() >= next_noise_seconds_;
+  return progress_ && options_.show_noise && elapsed() >= next_noise_seconds_;
 }
 
 void RenderSession::renew_noise() {

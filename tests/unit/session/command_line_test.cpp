@@ -108,7 +108,7 @@ TEST(CommandLine, InfoAndCompare) {
 TEST(CommandLine, Errors) {
   EXPECT_NE(usage_error("").find("no command"), std::string::npos);
   EXPECT_EQ(usage_error("paint s.pbrt"),
-            "unknown command 'paint', expected one of: render, info, routes, compare");
+            "unknown command 'paint', expected one of: render, info, routes, compare, bench");
   EXPECT_NE(usage_error("render").find("SCENE"), std::string::npos);
   EXPECT_NE(usage_error("render a.pbrt b.pbrt").find("b.pbrt"), std::string::npos);
   EXPECT_NE(usage_error("render s.pbrt --resume").find("--resume"), std::string::npos);
