@@ -21,8 +21,7 @@ OutlierSettings outlier_settings(const Routes& routes, const IntegratorOptions& 
 /// throws UsageError if its size came from the command line, else SceneError at the Film directive.
 /// What the estimators of the routes keep for each pixel is counted, too.
 void check_film_fits(const FilmDescription& description, const FilmLayout& layout,
-                     const Routes& routes, bool size_is_an_option,
-                     bool rejects_outliers = false);
+                     const Routes& routes, bool size_is_an_option, bool rejects_outliers = false);
 
 /// The output when the user names none: the stem of the scene's film file name (or of the scene's
 /// own, if the film has none), ".exr", in the current directory.

@@ -31,11 +31,12 @@ bool has_note(const IntegratorChoice& choice, const std::string& part) {
 
 TEST(IntegratorSettings, EveryKeyIsStoredWhereItBelongs) {
   IntegratorOptions o;
-  apply_settings({parse_setting("max-depth=7"), parse_setting("radius=1.5"),
-                  parse_setting("photons=1000"), parse_setting("alpha=0.75"),
-                  parse_setting("specular-alpha=0.2"), parse_setting("camera-samples=3"),
-                  parse_setting("memory-photons=99"), parse_setting("texture-cache=1.5M")},
-                 &o);
+  apply_settings(
+      {parse_setting("max-depth=7"), parse_setting("radius=1.5"), parse_setting("photons=1000"),
+       parse_setting("alpha=0.75"), parse_setting("specular-alpha=0.2"),
+       parse_setting("camera-samples=3"), parse_setting("memory-photons=99"),
+       parse_setting("outlier-neighbours=5"), parse_setting("texture-cache=1.5M")},
+      &o);
   EXPECT_EQ(o.max_depth, 7);
   EXPECT_EQ(o.radius, 1.5f);
   EXPECT_EQ(o.photons_per_pass, 1000);
@@ -44,10 +45,11 @@ TEST(IntegratorSettings, EveryKeyIsStoredWhereItBelongs) {
   EXPECT_EQ(o.specular_band.high, 0.2f);
   EXPECT_EQ(o.camera_samples_per_pass, 3);
   EXPECT_EQ(o.memory_photons, 99);
+  EXPECT_EQ(o.outlier_neighbours, 5);
   EXPECT_EQ(o.texture_memory, 1536 * 1024);
   EXPECT_EQ(settings_text(o),
             "max-depth=7 radius=1.5 photons=1000 alpha=0.75 specular-alpha=0.2 camera-samples=3 "
-            "memory-photons=99 texture-cache=1536K");
+            "memory-photons=99 outlier-neighbours=5 texture-cache=1536K");
 }
 
 TEST(IntegratorSettings, SpecularAlphaMayBeARange) {
