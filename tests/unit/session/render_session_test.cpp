@@ -9,7 +9,7 @@
 namespace nephroid {
 namespace {
 
-using testing_support::Script, testing_support::FakeEstimator;
+using testing_support::add_one, testing_support::Script, testing_support::FakeEstimator;
 using RenderSessionTest = testing_support::ScriptedSession;
 
 TEST_F(RenderSessionTest, WithoutARuleItRendersTheScenesSamples) {
