@@ -41,6 +41,14 @@ void add_routes(const RoutePlan& plan, Metadata* metadata) {
   if (!aovs.empty()) metadata->emplace_back("nephroid:aovs", aovs);
 }
 
+void warn_of_what_is_never_held(const Routes& routes) {
+  for (const RouteGroup& group : routes.groups())
+    if (group.estimator == EstimatorKind::kSppm)
+      print_warning(
+          "--outliers reject: routes of sppm keep theirs, they have no estimates that could be "
+          "held");
+}
+
 RenderOptions render_options(const RenderCommand& command, const Scene& scene,
                              const std::string& output, Metadata metadata) {
   RenderOptions options;
@@ -83,8 +91,10 @@ int run_render(const RenderCommand& command) {
                   command.reject_outliers,
                   Ppm::hit_points(choice.options, scene.samples_per_pixel));
   Film film(film_settings(scene.film), preset.layout);
-  if (command.reject_outliers)
+  if (command.reject_outliers) {
     film.reject_outliers(outlier_settings(*preset.routes, choice.options, *scene.filter));
+    if (!command.quiet) warn_of_what_is_never_held(*preset.routes);
+  }
   const std::string output =
       command.output.empty() ? default_output(scene.film, command.scene) : command.output;
   Metadata metadata = metadata_of(command, choice);

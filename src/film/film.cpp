@@ -239,8 +239,7 @@ Rgb Film::outliers(int x, int y) const {
   for (int g = 0; outliers_ && g < layout_.group_count(); ++g) {
     if (estimates(g) == 0) continue;
     const RgbSum held = outliers_->held(g, index(x, y));
-    for (int c = 0; c < 3; ++c)
-      total[c] += held.rgb[c].value() / static_cast<double>(estimates(g));
+    for (int c = 0; c < 3; ++c) total[c] += held.rgb[c].value() / static_cast<double>(estimates(g));
   }
   return to_rgb(total);
 }

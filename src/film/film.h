@@ -96,9 +96,9 @@ class Film {
   /// Counts what was left out or held before it came here; one caller at a time.
   void add_faults(uint64_t bad, uint64_t saturated);
 
-  /// From now on holds estimates that are too isolated in position and brightness (--outliers
-  /// reject; docs/estimators.md, section 13): what is held is no part of the routes, AOVs and
-  /// value(), but outliers(). Before the first estimate. What `replace` sets is never held.
+  /// From now on holds estimates that are too isolated in position and brightness ([O1] of
+  /// docs/estimators.md): what is held is no part of routes, AOVs and value(), but of outliers().
+  /// Called before the first estimate. What `replace` sets is never held.
   void reject_outliers(OutlierSettings settings);
   /// Null unless outliers are rejected.
   const OutlierRejection* rejection() const { return outliers_ ? &*outliers_ : nullptr; }
@@ -120,9 +120,9 @@ class Film {
   /// What is held of all routes: value() + outliers() is the picture without rejection, up to one
   /// rounding; the sums behind them add up to it exactly. Black without rejection.
   Rgb outliers(int x, int y) const;
-  /// Standard error of value() + outliers(), from the spread of the estimates of each group, taken as
-  /// independent (an upper bound in practice where passes are stratified). Zero with fewer than two
-  /// estimates.
+  /// Standard error of value() + outliers(), from the spread of the estimates of each group, taken
+  /// as independent (an upper bound in practice where passes are stratified). Zero with fewer than
+  /// two estimates.
   Rgb standard_error(int x, int y) const;
   /// Mean over the feature samples; what hit nothing counts as black.
   Rgb albedo(int x, int y) const;
@@ -167,7 +167,7 @@ class Film {
   std::vector<int> all_parts_;
   std::vector<std::vector<RgbSum>> sums_;     ///< [part][pixel]
   std::vector<std::vector<RgbSum>> squares_;  ///< [group][pixel], of an estimate's sum over parts
-  std::vector<uint64_t> estimates_;             ///< [group]
+  std::vector<uint64_t> estimates_;           ///< [group]
   std::optional<OutlierRejection> outliers_;
   std::vector<Features> features_;
   uint64_t feature_estimates_ = 0;

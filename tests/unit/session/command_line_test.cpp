@@ -55,7 +55,17 @@ TEST(CommandLine, RenderDefaults) {
   EXPECT_EQ(line.render.overrides.width, 0);
   EXPECT_EQ(line.render.overrides.specular_band.low, SpecularBand().low);
   EXPECT_EQ(line.render.overrides.specular_band.high, SpecularBand().high);
+  EXPECT_FALSE(line.render.reject_outliers);
   EXPECT_FALSE(line.render.quiet);
+}
+
+TEST(CommandLine, OutliersAreRejectedWhenAskedFor) {
+  EXPECT_TRUE(parse("render s.pbrt --outliers reject").render.reject_outliers);
+  EXPECT_FALSE(parse("render s.pbrt --outliers off").render.reject_outliers);
+  EXPECT_EQ(usage_error("render s.pbrt --outliers yes"),
+            "--outliers: 'yes' is not valid, expected reject or off");
+  EXPECT_EQ(usage_error("render s.pbrt -D outlier-neighbours=1"),
+            "-D outlier-neighbours: '1' is not valid, expected a whole number from 2 to 1000");
 }
 
 TEST(CommandLine, RenderWithEverything) {

@@ -105,13 +105,49 @@ TEST(FilmOfScene, MemoryIsThatOfThePartsGroupsAndSplats) {
   }
 }
 
+TEST(FilmOfScene, RejectionOfOutliersNeedsMemoryToo) {
+  const Routes routes = routes_of({"a=C.*DL:photons", "b=C.*GL:photons", "c=.*:path"});
+  FilmLayout layout = FilmLayout::of_routes({"a", "b", "c"});
+  layout.groups = {0, 0, 1};
+  const double memory =
+      static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+  const size_t bytes = Film::bytes_per_pixel(layout, false) + 2 * 12 + 4 +
+                       OutlierRejection::bytes_per_pixel(2) + OutlierRejection::bytes_per_pixel(1);
+  FilmDescription description;
+  description.crop_x0 = description.crop_y0 = 0;
+  description.crop_x1 = 1024;
+  description.crop_y1 = static_cast<int>(memory / static_cast<double>(bytes) / 1024);
+  EXPECT_NO_THROW(check_film_fits(description, layout, routes, false, true));
+  description.crop_y1 = static_cast<int>(memory / static_cast<double>(bytes - 1) / 1024);
+  EXPECT_THROW(check_film_fits(description, layout, routes, false, true), SceneError);
+  EXPECT_NO_THROW(check_film_fits(description, layout, routes, false, false));
+  // A pixel's counts take 64 bytes, a held sum 48.
+  EXPECT_LE(OutlierRejection::bytes_per_pixel(1), 320u);
+}
+
+TEST(FilmOfScene, RejectionKnowsHowManyPixelsALightPathExposes) {
+  const Routes routes = routes_of({"a=C.*DL:photons", "b=C.*GL:lighttrace", "c=.*:path"});
+  IntegratorOptions options;
+  options.radius = 2;
+  options.outlier_neighbours = 11;
+  const PixelFilter filter([](float, float, const std::array<float, 2>&) { return 1.0f; },
+                           {1.5f, 2}, {}, {});
+  const OutlierSettings settings = outlier_settings(routes, options, filter);
+  EXPECT_EQ(settings.neighbours, 11);
+  ASSERT_EQ(settings.exposed_pixels.size(), 3u);
+  EXPECT_FLOAT_EQ(settings.exposed_pixels[0], 4 * kPi);
+  EXPECT_FLOAT_EQ(settings.exposed_pixels[1], 12);
+  EXPECT_FLOAT_EQ(settings.exposed_pixels[2], 1);
+}
+
 TEST(FilmOfScene, NoRouteTakesTheNameOfALayerOfPictures) {
   FilmSettings settings;
   settings.width = settings.height = 2;
   settings.crop = {0, 0, 2, 2};
   for (const bool gbuffer : {false, true}) {
     settings.gbuffer = gbuffer;
-    const Film film(settings, FilmLayout::of_routes({"all"}));
+    Film film(settings, FilmLayout::of_routes({"all"}));
+    film.reject_outliers({{1.0f}, 8});
     for (const std::string& channel : film_picture(film, {}).channels) {
       const std::string layer = channel.substr(0, channel.find('.'));
       if (layer == "all") continue;
