@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "apps/commands.h"
+#include "apps/messages.h"
 #include "scene/embree_scene.h"
 #include "session/scene_loading.h"
 

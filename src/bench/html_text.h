@@ -11,8 +11,8 @@ namespace nephroid {
 /// The text with what HTML and XML would misread replaced; for content and for attributes.
 std::string html_escape(const std::string& text);
 
-/// Three significant digits, with thousands, powers of ten or neither: "0.0123", "123 000",
-/// "4.5e-07"; an em dash for what is not finite.
+/// Three significant digits, or all before the point: "0.0123", "12345", "4.5e-07"; an em dash for
+/// what is not finite.
 std::string number_text(double value);
 /// "1.23 M", the unit by thousands; "0" for 0.
 std::string count_text(double value);

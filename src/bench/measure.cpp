@@ -27,8 +27,10 @@ Picture colors_of_film(const Film& film) {
 
 Picture part_of(const Picture& picture, const BenchRegion& region) {
   const auto range = [](float low, float high, int size) {
-    const int begin = std::clamp(static_cast<int>(std::ceil(low * size - 0.5f)), 0, size - 1);
-    const int end = std::clamp(static_cast<int>(std::ceil(high * size - 0.5f)), begin + 1, size);
+    const int begin =
+        std::clamp(static_cast<int>(std::ceil(low * static_cast<float>(size) - 0.5f)), 0, size - 1);
+    const int end = std::clamp(static_cast<int>(std::ceil(high * static_cast<float>(size) - 0.5f)),
+                               begin + 1, size);
     return std::pair{begin, end};
   };
   const auto [x0, x1] = range(region.x0, region.x1, picture.width());

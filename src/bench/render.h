@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bench/result.h"
+#include "film/image_io.h"
 #include "session/scene_loading.h"
 #include "session/signals.h"
 

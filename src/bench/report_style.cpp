@@ -6,7 +6,7 @@ namespace nephroid {
 
 const char* const kReportStyle = R"css(
 :root { --ink: #1c1f24; --soft: #5c6470; --line: #d9dde3; --paper: #fff; --wash: #f5f6f8;
-  --good: #176f3d; --bad: #b3261e; --mark: #e8f3ec; }
+  --good: #176f3d; --bad: #b3261e; }
 * { box-sizing: border-box; }
 html { background: var(--paper); color: var(--ink); -webkit-text-size-adjust: 100%; }
 body { font: 16px/1.55 system-ui, -apple-system, "Segoe UI", Roboto, "Noto Sans", sans-serif;
@@ -31,7 +31,7 @@ tbody tr:hover { background: var(--wash); }
 td.best { color: var(--good); font-weight: 650; }
 td.best::before { content: "\2605\00a0"; font-size: 0.7em; vertical-align: 0.15em; }
 .claims { list-style: none; margin: 0.75rem 0; padding: 0; }
-.claims li { border: 1px solid var(--line); border-left-width: 5px; border-radius: 6px;
+.claims > li { border: 1px solid var(--line); border-left-width: 5px; border-radius: 6px;
   margin: 0.6rem 0; padding: 0.6rem 1rem; }
 .claims .holds { border-left-color: var(--good); }
 .claims .fails { border-left-color: var(--bad); }

@@ -39,6 +39,7 @@ MergePass merge_pass(const PassKey& key, const Scene& scene, const Film& film,
     count_photons(trace, statistics);
     if (trace.photons.empty()) continue;
     const PhotonGrid grid(std::move(trace.photons));
+    count_memory(grid, static_cast<size_t>(b.area()) * Gathered::bytes_per_walk(parts), statistics);
     gather(scene, b, owned, options.max_depth, pass,
            {{&pass.point, 1}, hash_combine(key.seed, kStream)}, gathered,
            [&](size_t, const CameraPath& path, const Walk& walk, MergePoint at,
@@ -50,47 +51,6 @@ MergePass merge_pass(const PassKey& key, const Scene& scene, const Film& film,
              at.throughput = at.throughput * (share / (static_cast<float>(photons) * kPi * r * r));
              return merge_photons(grid, owned, at, options.max_depth, r, sums);
            });
-    count_memory(grid, static_cast<size_t>(b.area()) * MergePass::bytes_per_pixel(parts),
-                 statistics);
-
-    parallel_chunks(b.height(), 1, [&](int64_t row, int64_t, int64_t) {
-      const int y = b.y0 + static_cast<int>(row);
-      RowResult& counts = rows[static_cast<size_t>(row)];
-      PartSums sums(*owned.routes, owned.group);
-      for (int x = b.x0; x < b.x1; ++x) {
-        PathSampler sampler(pass.point, hash_combine(key.seed, kStream, x, y));
-        CameraPath path = start_merging_path(scene, x, y, sampler, pass);
-        sums.clear();
-        auto merge = [&](const Walk& walk, MergePoint at) {
-          const float r = radius_pixels * pass.footprint.width(walk.length);
-          if (!(r > 0.0f)) return;
-          const float share = weight ? weight(path, at, r) : 1.0f;
-          if (!(share > 0.0f)) return;
-          at.throughput = at.throughput * (share / (static_cast<float>(photons) * kPi * r * r));
-          counts.found += merge_photons(grid, owned, at, options.max_depth, r, sums);
-        };
-        MergeWalkVisitor visitor(owned, merge);
-        if (path.camera_weight > 0)
-          random_walk(scene, TransportMode::kRadiance, options.max_depth, path.walk, sampler,
-                      visitor);
-        counts.rays += path.walk.rays;
-        const size_t pixel = static_cast<size_t>(row) * width + static_cast<size_t>(x - b.x0);
-        for (size_t i = 0; i < parts; ++i) {
-          Rgb& sum = result.values[pixel * parts + i];
-          sum = sum + pass.weights.apply(sums.sums()[i]) * path.camera_weight;
-        }
-        filter_weights[pixel] = path.filter_weight;
-      }
-    });
-  }
-  for (size_t pixel = 0; pixel < filter_weights.size(); ++pixel) {
-    const std::span<Rgb> estimate(&result.values[pixel * parts], parts);
-    PartSums::clamp_total(estimate, film.settings().max_component);
-    for (Rgb& color : estimate) color = color * filter_weights[pixel];
-  }
-  for (const RowResult& row : rows) {
-    statistics.rays += row.rays;
-    result.found += row.found;
   }
   finish_estimates(gathered, film.settings().max_component);
   statistics.rays += gathered.rays;

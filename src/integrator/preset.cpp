@@ -38,7 +38,7 @@ constexpr Row kTable[] = {{EstimatorKind::kPath, make<PathEstimator>},
                           {EstimatorKind::kVcm, make<VertexConnectionMerging>},
                           {EstimatorKind::kBpm, make<VertexConnectionMerging>},
                           {EstimatorKind::kMetropolis, make<Multiplexed>},
-                          {EstimatorKind::kPrimarySpace, make<PrimarySpace>}};
+                          {EstimatorKind::kPrimarySpace, make<PrimarySpace>},
                           {EstimatorKind::kPhotonMap, make<PhotonMap>},
                           {EstimatorKind::kPpm, make<Ppm>}};
 

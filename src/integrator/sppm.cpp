@@ -46,23 +46,11 @@ void Sppm::render_pass(const PassKey& key, const Scene& scene, Film& film) {
     PhotonTrace trace = trace_batch(scene, owned_, pass.trace, options_.memory_photons, begin);
     count_photons(trace, statistics_);
     const PhotonGrid grid(std::move(trace.photons));
+    count_memory(grid, regions_.size() * (bytes_kept(parts) + bytes_of_pass(parts)), statistics_);
     gather(
         scene, b, owned_, options_.max_depth, pass,
         {points(pass, scene), hash_combine(key.seed, kStream)}, gathered,
         [&](size_t i, const CameraPath&, const Walk& walk, const MergePoint& at, PartSums& sums) {
-    count_memory(grid, pixels_.size() * (bytes_kept(parts) + bytes_of_pass(parts)), statistics_);
-
-    parallel_chunks(b.height(), 1, [&](int64_t row, int64_t, int64_t) {
-      const int y = b.y0 + static_cast<int>(row);
-      PartSums sums(*owned_.routes, owned_.group);
-      for (int x = b.x0; x < b.x1; ++x) {
-        const size_t index = static_cast<size_t>(row) * static_cast<size_t>(b.width()) +
-                             static_cast<size_t>(x - b.x0);
-        SharedStatistics& pixel = pixels_[index];
-        PathSampler sampler(pass.point, hash_combine(key.seed, kStream, x, y));
-        CameraPath path = start_merging_path(scene, x, y, sampler, pass);
-        sums.clear();
-        auto merge = [&](const Walk& walk, const MergePoint& at) {
           const float width = pass.footprint.width(walk.length);
           SharedStatistics& region = regions_[i];
           if (!(region.radius_squared > 0)) {

@@ -1,5 +1,6 @@
 #include "integrator/vertex_merging.h"
 
+#include "integrator/gather.h"
 #include "integrator/light_tracing.h"
 #include "integrator/merge_pass.h"
 
@@ -46,7 +47,7 @@ void VertexMerging::render_pass(const PassKey& key, const Scene& scene, Film& fi
   const size_t parts = film.parts_of(group).size();
   const uint64_t of_splats =
       static_cast<uint64_t>(film.bounds().area()) *
-      (MergePass::bytes_per_pixel(parts) + SplatBuffer::bytes_per_pixel(parts));
+      (Gathered::bytes_per_walk(parts) + SplatBuffer::bytes_per_pixel(parts));
   statistics_.bytes = std::max(statistics_.bytes, of_splats);
   const int64_t paths =
       light_pass(key, scene, film, owned_, options_, splat_weight, buffer, statistics_);

@@ -24,7 +24,6 @@ OutlierSettings outlier_settings(const Routes& routes, const IntegratorOptions& 
 void check_film_fits(const FilmDescription& description, const FilmLayout& layout,
                      const Routes& routes, bool size_is_an_option, bool rejects_outliers = false,
                      int hit_points = 0);
-                     const Routes& routes, bool size_is_an_option, bool rejects_outliers = false);
 
 /// The output when the user names none: the stem of the scene's film file name (or of the scene's
 /// own, if the film has none), ".exr", in the current directory.

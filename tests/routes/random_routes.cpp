@@ -131,13 +131,8 @@ OracleRoutes RandomRoutes::set() {
       EstimatorKind::kLightTrace,    EstimatorKind::kPhotonsAndLight,
       EstimatorKind::kBidirectional, EstimatorKind::kVcm,
       EstimatorKind::kBpm,           EstimatorKind::kMetropolis,
-      EstimatorKind::kPrimarySpace};
-      EstimatorKind::kPath,       EstimatorKind::kPath,
-      EstimatorKind::kPhotons,    EstimatorKind::kPhotons,
-      EstimatorKind::kSppm,       EstimatorKind::kLightTrace,
-      EstimatorKind::kLightTrace, EstimatorKind::kPhotonsAndLight,
-      EstimatorKind::kPhotonMap,  EstimatorKind::kPhotonMap,
-      EstimatorKind::kPpm};
+      EstimatorKind::kPrimarySpace,  EstimatorKind::kPhotonMap,
+      EstimatorKind::kPhotonMap,     EstimatorKind::kPpm};
   const Alphabet alphabet(static_cast<int>(labels_.size()));
   const auto possible = [&](bool marked) {
     for (;;) {
