@@ -128,6 +128,7 @@ class EyeVisitor {
       end_.merge = 0;
     }
     last_ = place_;
+    first_ = first_ && !end_.event.finite;
     eye_ = routes_.next(eye_, symbol_of(symbols_, event));
     return true;
   }
@@ -165,8 +166,9 @@ class EyeVisitor {
   }
 
   double merge_weight(EventClass c) const {
-    return settings_.merging && merges_at(*surface_, c) ? settings_.merging->weight_at(place_.p)
-                                                        : 0;
+    return settings_.merging && merges_at(*surface_, c)
+               ? settings_.merging->weight_at(place_.p, first_)
+               : 0;
   }
 
   /// The events at an eye vertex towards the unit direction `w`; false if there is none of use.
@@ -365,6 +367,7 @@ class EyeVisitor {
   EyeState eye_;
   Place last_, place_;
   Vec3f entry_wo_{0, 0, 1};
+  bool first_ = true;  ///< no event but delta lobes so far
   SideSums sums_;
   SideEnd end_;
   const WalkVertex* surface_ = nullptr;
@@ -378,7 +381,7 @@ void EyeVisitor::merge(const Walk& walk, const WalkVertex& v, ClassMask among) {
   const ClassMask classes = among & ClassMask::kRough;
   const float radius = merging.radius_at(place_.p);
   if (!v.merges || classes == ClassMask::kNone || !(radius > 0.0f)) return;
-  const double own = merging.weight_at(place_.p);
+  const double own = merging.weight_at(place_.p, first_);
   const float scale = 1.0f / (static_cast<float>(merging.photons) * kPi * sqr(radius));
   merging.grid->query(place_.p, radius, [&](const Photon& photon, float) {
     if (photon.events + walk.events + 1 > settings_.max_depth) return;

@@ -80,7 +80,7 @@ class LightVisitor {
     end_.sums = sums_;
     if (surface_) {
       end_.event = density_of_walk(walk, *surface_, event, TransportMode::kImportance);
-      end_.merge = merge_weight(*surface_, event.letter);
+      end_.merge = merge_weight(*surface_, event.letter, false);
     } else {
       const double p = medium_->phase.eval(medium_->wo, walk.ray.d);
       end_.event = {p, p, true};
@@ -119,8 +119,11 @@ class LightVisitor {
     place_ = {v.surface.p, v.surface.ng};
   }
 
-  double merge_weight(const WalkVertex& v, EventClass c) const {
-    return settings_.merging && merges_at(v, c) ? settings_.merging->weight_at(merge_place_) : 0;
+  /// Between the eye and vertices of the light's side there is the one that is connected, unless it
+  /// is connected to the camera itself.
+  double merge_weight(const WalkVertex& v, EventClass c, bool first) const {
+    return settings_.merging && merges_at(v, c) ? settings_.merging->weight_at(merge_place_, first)
+                                                : 0;
   }
 
   LightVertex& store(const Walk& walk, ClassMask classes) {
@@ -133,7 +136,7 @@ class LightVisitor {
     y.state = state_;
     y.events = walk.events;
     y.sums = sums_;
-    y.merge = settings_.merging ? settings_.merging->weight_at(merge_place_) : 0;
+    y.merge = settings_.merging ? settings_.merging->weight_at(merge_place_, false) : 0;
     return y;
   }
 
@@ -203,7 +206,7 @@ class LightVisitor {
               : v.bsdf.eval(wi, v.wo, TransportMode::kRadiance, c, ClassMask::kAll).pdf_w;
       expose(*view, part, walk, e.f * through,
              cosine * weight_of_connection(static_cast<double>(view->line.film_density) * across,
-                                           back, merge_weight(v, c)));
+                                           back, merge_weight(v, c, true)));
     }
   }
 

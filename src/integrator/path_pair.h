@@ -31,8 +31,10 @@ struct PairMerging {
   bool connects = true;  ///< false: only lights are connected
 
   float radius_at(const Vec3f& p) const { return radius_pixels * footprint.width(length(p - eye)); }
-  double weight_at(const Vec3f& p) const {
-    return heuristic(photons * kPi * sqr(static_cast<double>(radius_at(p))));
+  /// `first`: no event between the eye and `p` but delta lobes, so that every photon is a sample of
+  /// its own. Else all photons share the way there, which counts once.
+  double weight_at(const Vec3f& p, bool first) const {
+    return heuristic((first ? photons : 1) * kPi * sqr(static_cast<double>(radius_at(p))));
   }
 };
 
@@ -70,7 +72,7 @@ struct LightVertex {
   LightState state = 0;  ///< of the light side, this vertex excluded
   int events = 0;        ///< before this vertex
   SideSums sums;
-  double merge = 0;  ///< [W8] of D and G here
+  double merge = 0;  ///< [W8] of D and G here, seen by way of another finite event
 
   /// Its BSDF, made anew the first time it is asked for; null in a medium.
   const Bsdf* bsdf() const;

@@ -12,6 +12,7 @@ namespace {
 
 constexpr uint64_t kEyeStream = 0x76636d65;    // "vcme"
 constexpr uint64_t kLightStream = 0x76636d6c;  // "vcml"
+constexpr uint64_t kPairStream = 0x76636d70;   // "vcmp"
 constexpr int64_t kChunk = 1024;
 constexpr int64_t kGroup = 32 * kChunk;
 
@@ -80,14 +81,15 @@ class VcmPass {
   }
 
  private:
-  uint64_t trace_path(int64_t j, LightSubpath* path, std::vector<FilmConnection>* seen,
-                      std::vector<Photon>* photons) const {
+  /// Light path number `j` of those that are merged and connected to the camera.
+  uint64_t trace_path(int64_t j, std::vector<FilmConnection>& seen,
+                      std::vector<Photon>& photons) const {
     const uint64_t number =
         uint64_t{key_.pass} * static_cast<uint64_t>(light_paths_) + static_cast<uint64_t>(j);
     const SobolPoint point(static_cast<uint32_t>(number), kLightPathDimensions);
     PathSampler sampler(point, hash_combine(key_.seed, kLightStream, number >> 32));
-    return trace_light_path(settings_, pass_.trace.lambda, pass_.u_time, sampler, path, seen,
-                            photons);
+    return trace_light_path(settings_, pass_.trace.lambda, pass_.u_time, sampler, nullptr, &seen,
+                            &photons);
   }
 
   /// Light paths from `begin` on until memory is full; moves `begin`.
@@ -103,7 +105,7 @@ class VcmPass {
         for (int64_t j = begin + b; j < begin + e; ++j) {
           seen.clear();
           const size_t before = chunk.photons.size();
-          chunk.rays += trace_path(j, nullptr, &seen, &chunk.photons);
+          chunk.rays += trace_path(j, seen, chunk.photons);
           chunk.useful += chunk.photons.size() > before;
           expose(seen, chunk);
         }
@@ -149,8 +151,13 @@ class VcmPass {
                          static_cast<size_t>(x - b.x0);
     PathSampler sampler(pass_.point, hash_combine(key_.seed, kEyeStream, x, y));
     CameraPath camera = start_merging_path(scene_, x, y, sampler, pass_);
-    if (merging_.connects && !settings_.merges_only)
-      row.rays += trace_path(static_cast<int64_t>(pixel) % light_paths_, &path, nullptr, nullptr);
+    if (merging_.connects && !settings_.merges_only) {
+      // A light path of its own: those that are merged run through one sequence, of which a pixel
+      // would see the same part in all passes.
+      PathSampler own(pass_.point, hash_combine(key_.seed, kPairStream, x, y));
+      row.rays += trace_light_path(settings_, pass_.trace.lambda, pass_.u_time, own, &path, nullptr,
+                                   nullptr);
+    }
     light.clear();
     row.rays += trace_eye_path(settings_, path, camera, sampler, light, &row.merged);
     for (size_t i = 0; i < parts_; ++i) {

@@ -1,8 +1,8 @@
 // Vertex connection and merging: everything that bidirectional path tracing does, and eye paths are
 // merged with the vertices of all light paths of the pass as well. Where routes name `bpm` nothing
-// is connected but lights: bidirectional photon mapping. Wavelengths and time are the pass's. Light
-// paths are traced once for all and, one for each camera path, once more: nothing of them is kept
-// but photons, in batches that fit in memory.
+// is connected but lights: bidirectional photon mapping. Wavelengths and time are the pass's. One
+// set of light paths is merged and connected to the camera, another, one for each camera path, is
+// connected to it: nothing is kept but photons, in batches that fit in memory.
 // Papers: Georgiev et al. 2012; Hachisuka, Pantaleoni & Jensen 2012; Vorba 2011.
 #pragma once
 

@@ -92,7 +92,8 @@ void Comparison::push(int event) {
   now.present = before.present && event_present(event);
   now.hair = before.hair || kind_of(e) == EventKind::kH;
   for (size_t g = 0; g < now.useful.size(); ++g)
-    if (walks_from_eye(routes_.groups()[g].estimator))
+    if (walks_from_eye(routes_.groups()[g].estimator) ||
+        is_cut_anywhere(routes_.groups()[g].estimator))
       now.useful[g] = before.useful[g] && has(routes_.useful(g, before.eye, label_of(e)), e);
 }
 
@@ -188,8 +189,7 @@ void Comparison::check_useful(int route, Part part) {
 
   const LightState emitted = routes_.emitted(lights_[size_t(path_.light)]);
   LightState light = emitted;
-  if (estimator == EstimatorKind::kBidirectional || estimator == EstimatorKind::kVcm ||
-      estimator == EstimatorKind::kBpm || estimator == EstimatorKind::kMetropolis) {
+  if (is_cut_anywhere(estimator)) {
     if (!read_[n].useful[g]) fail("the eye's walk ends too early");
     for (size_t i = n; i-- > 0; light = routes_.light_next(light, symbol(i)))
       if (!has(routes_.useful_from_light(g, light, label_of(symbol(i))), symbol(i)))
