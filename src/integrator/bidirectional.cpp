@@ -13,6 +13,9 @@ namespace {
 constexpr uint64_t kEyeStream = 0x62647065;    // "bdpe"
 constexpr uint64_t kLightStream = 0x6264706c;  // "bdpl"
 
+/// Splats are added in strips of rows of at most this many pixels, or of one row.
+constexpr int kMostPixels = 1 << 16;
+
 /// What a row of pixels found.
 struct Row {
   std::vector<Splat> splats;
@@ -34,19 +37,22 @@ class PairRound {
 
   void render(SplatBuffer& buffer, EstimatorStatistics& statistics) {
     const PixelBounds& b = film_.bounds();
-    std::vector<Row> rows(static_cast<size_t>(b.height()));
-    parallel_chunks(b.height(), 1, [&](int64_t row, int64_t, int64_t) {
-      render_row(b.y0 + static_cast<int>(row), rows[static_cast<size_t>(row)]);
-    });
-    std::vector<Splat> splats;
-    for (const Row& row : rows) {
-      splats.insert(splats.end(), row.splats.begin(), row.splats.end());
-      statistics.rays += row.rays;
-      statistics.light_paths_useful += row.useful;
+    const int strip = std::max(1, kMostPixels / std::max(1, b.width()));
+    for (int begin = b.y0; begin < b.y1; begin += strip) {
+      std::vector<Row> rows(static_cast<size_t>(std::min(strip, b.y1 - begin)));
+      parallel_chunks(static_cast<int64_t>(rows.size()), 1, [&](int64_t row, int64_t, int64_t) {
+        render_row(begin + static_cast<int>(row), rows[static_cast<size_t>(row)]);
+      });
+      std::vector<Splat> splats;
+      for (const Row& row : rows) {
+        splats.insert(splats.end(), row.splats.begin(), row.splats.end());
+        statistics.rays += row.rays;
+        statistics.light_paths_useful += row.useful;
+      }
+      buffer.add(splats);
+      statistics.splats += splats.size();
     }
-    buffer.add(splats);
     buffer.finish(1.0 / settings_.light_paths, values_);
-    statistics.splats += splats.size();
     statistics.camera_paths += static_cast<uint64_t>(b.area());
     statistics.light_paths += static_cast<uint64_t>(b.area());
   }

@@ -1,7 +1,6 @@
 // The eye side of a pair: hits of lights, next-event estimation, and connections to and merges with
 // light paths.
-#include <array>
-
+#include "integrator/path_pair_arms.h"
 #include "integrator/path_pair_geometry.h"
 #include "photon/merge.h"
 #include "transport/walk_symbols.h"
@@ -18,17 +17,6 @@ struct EyeEnd {
   ClassMask among = ClassMask::kNone;  ///< finite classes of use; of a surface
   Receiver receiver;
 };
-
-/// What a vertex scatters towards the other side, as one event of a word.
-struct Arm {
-  SampledSpectrum f;  ///< the cosine included
-  EventDensity density;
-  double merge = 0;
-  EyeState eye = 0;      ///< behind the event, of eye sides
-  LightState light = 0;  ///< behind the event, of light sides
-  bool used = false;
-};
-using Arms = std::array<Arm, std::size(kSurfaceClasses)>;
 
 class EyeVisitor {
  public:
@@ -207,50 +195,6 @@ class EyeVisitor {
     return any;
   }
 
-  bool arms_of_light(const LightVertex& y, const Vec3f& w, Arms& arms) const {
-    if (y.in_medium) {
-      const double p = y.phase.eval(y.surface.wo, w);
-      const Label label = symbols_.medium(y.medium_index);
-      arms[0] = {SampledSpectrum(static_cast<float>(p)),
-                 {p, p, true},
-                 0,
-                 0,
-                 routes_.light_next(y.state, event_symbol(EventClass::kVolume, false, label)),
-                 true};
-      return true;
-    }
-    const Bsdf* bsdf = y.bsdf();
-    if (!bsdf) return false;
-    const Vec3f wi = y.surface.shading.to_local(w);
-    const float across = abs_dot(w, y.surface.ng);
-    // Veach's correction for shading normals [P2].
-    const float cosine =
-        across *
-        (y.subsurface_exit ? 1.0f : abs_cos_theta(y.wo) / abs_dot(y.surface.wo, y.surface.ng));
-    if (!std::isfinite(cosine)) return false;
-    const bool transmits = y.subsurface_exit || y.wo.z * wi.z < 0.0f;
-    bool any = false;
-    for (size_t i = 0; i < arms.size(); ++i) {
-      const EventClass c = kSurfaceClasses[i];
-      if (!contains(y.classes, c)) continue;
-      const BsdfEval e = bsdf->eval(y.wo, wi, TransportMode::kImportance, c, ClassMask::kAll);
-      if (e.f.is_black()) continue;
-      Arm& arm = arms[i];
-      arm.used = any = true;
-      arm.f = e.f * cosine;
-      arm.density = {e.pdf_w, 0, true};
-      if (y.subsurface_exit)
-        arm.density.forward = subsurface_density(y.surface.ng, w);
-      else
-        arm.density.back = bsdf->eval(wi, y.wo, TransportMode::kRadiance, c, ClassMask::kAll).pdf_w;
-      arm.merge = y.merges && contains(ClassMask::kRough, c) ? y.merge : 0;
-      arm.light =
-          routes_.light_next(y.state, event_symbol(y.merges ? c : EventClass::kHair, transmits,
-                                                   symbols_.material(y.material->index())));
-    }
-    return any;
-  }
-
   void next_event(const EyeEnd& z, PathSampler& sampler) {
     if (!makes(1, z.walk)) return;
     const auto d = sample_direct(settings_.scene, z.receiver, z.walk.lambda, sampler);
@@ -330,7 +274,8 @@ class EyeVisitor {
     if (!(d2 > 0.0f)) return;
     const Vec3f w = way / std::sqrt(d2);
     Arms eye_arms, light_arms;
-    if (!arms_of_eye(z, w, eye_arms) || !arms_of_light(y, -w, light_arms)) return;
+    if (!arms_of_eye(z, w, eye_arms) || !arms_of_light(routes_, symbols_, y, -w, light_arms))
+      return;
     const Place at_y{y.surface.p, y.in_medium ? Vec3f(0, 0, 0) : y.surface.ng};
     const LineFactors line = line_between(place_, at_y);
     const bool hero_only = y.lambda.secondary_terminated();

@@ -1,4 +1,5 @@
 // The light side of a pair: its vertices, and those that the camera sees.
+#include "integrator/path_pair_arms.h"
 #include "integrator/path_pair_geometry.h"
 #include "photon/emission.h"
 #include "transport/walk_symbols.h"
@@ -271,6 +272,50 @@ const Bsdf* LightVertex::bsdf() const {
     bsdf_ = material->make_bsdf(surface, own, specular_alpha, arena_);
   }
   return bsdf_;
+}
+
+bool arms_of_light(const Routes& routes, const SceneSymbols& symbols, const LightVertex& y,
+                   const Vec3f& w, Arms& arms) {
+  if (y.in_medium) {
+    const double p = y.phase.eval(y.surface.wo, w);
+    const Label label = symbols.medium(y.medium_index);
+    arms[0] = {SampledSpectrum(static_cast<float>(p)),
+               {p, p, true},
+               0,
+               0,
+               routes.light_next(y.state, event_symbol(EventClass::kVolume, false, label)),
+               true};
+    return true;
+  }
+  const Bsdf* bsdf = y.bsdf();
+  if (!bsdf) return false;
+  const Vec3f wi = y.surface.shading.to_local(w);
+  const float across = abs_dot(w, y.surface.ng);
+  // Veach's correction for shading normals [P2].
+  const float cosine =
+      across *
+      (y.subsurface_exit ? 1.0f : abs_cos_theta(y.wo) / abs_dot(y.surface.wo, y.surface.ng));
+  if (!std::isfinite(cosine)) return false;
+  const bool transmits = y.subsurface_exit || y.wo.z * wi.z < 0.0f;
+  bool any = false;
+  for (size_t i = 0; i < arms.size(); ++i) {
+    const EventClass c = kSurfaceClasses[i];
+    if (!contains(y.classes, c)) continue;
+    const BsdfEval e = bsdf->eval(y.wo, wi, TransportMode::kImportance, c, ClassMask::kAll);
+    if (e.f.is_black()) continue;
+    Arm& arm = arms[i];
+    arm.used = any = true;
+    arm.f = e.f * cosine;
+    arm.density = {e.pdf_w, 0, true};
+    if (y.subsurface_exit)
+      arm.density.forward = subsurface_density(y.surface.ng, w);
+    else
+      arm.density.back = bsdf->eval(wi, y.wo, TransportMode::kRadiance, c, ClassMask::kAll).pdf_w;
+    arm.merge = y.merges && contains(ClassMask::kRough, c) ? y.merge : 0;
+    arm.light = routes.light_next(y.state, event_symbol(y.merges ? c : EventClass::kHair, transmits,
+                                                        symbols.material(y.material->index())));
+  }
+  return any;
 }
 
 LightVertex& LightSubpath::add() {
