@@ -39,6 +39,7 @@ std::string render_text(const BenchRender& render) {
       fmt::format("version {}\nscene {:016x} {}x{}\n{}\nseed {}\n", kVersion, hash_file(scene.file),
                   scene.width, scene.height, limit_text(render.limit), render.integrator->seed);
   text += routes_text(plan) + "aovs\n" + aovs_text(plan);
+  if (render.integrator->reject_outliers) text += "outliers rejected\n";
   for (const auto& [key, value] : settings_of(render)) text += key + "=" + value + "\n";
   return text;
 }

@@ -199,8 +199,11 @@ std::optional<BenchRendered> render_for_bench(const BenchRender& render, const P
                         scene.integrator, scene.integrator_parameters, settings);
   restart_memory_peak();
   Preset preset = make_preset(plan, choice.options, scene);
-  check_film_fits(scene.film, preset.layout, *preset.routes, render.scene->width > 0);
+  check_film_fits(scene.film, preset.layout, *preset.routes, render.scene->width > 0,
+                  render.integrator->reject_outliers);
   Film film(film_settings(scene.film), preset.layout);
+  if (render.integrator->reject_outliers)
+    film.reject_outliers(outlier_settings(*preset.routes, choice.options, *scene.filter));
   if (reference != nullptr) check_size(*reference, film);
 
   Stopwatch watch;

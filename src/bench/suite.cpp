@@ -101,12 +101,17 @@ RouteChoice routes_in(const Fields& fields, const std::string& what, const std::
 
 BenchIntegrator integrator_in(const JsonValue& value, const std::string& file) {
   const Fields fields(value, "an integrator",
-                      {"name", "integrator", "routes", "route", "options", "seed"});
+                      {"name", "integrator", "routes", "route", "options", "seed", "outliers"});
   BenchIntegrator result;
   result.name = name_in(fields);
   result.routes = routes_in(fields, "an integrator", file);
   result.options = options_in(fields);
   result.seed = fields.integer_or("seed", 0, 0, kAnySeed);
+  const std::string outliers = fields.text_or("outliers", "off");
+  if (outliers != "off" && outliers != "reject")
+    fail_at(fields.required("outliers").where,
+            fmt::format("\"outliers\" is \"{}\", expected \"off\" or \"reject\"", outliers));
+  result.reject_outliers = outliers == "reject";
   return result;
 }
 

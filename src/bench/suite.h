@@ -25,6 +25,7 @@ struct BenchIntegrator {
   RouteChoice routes;
   SettingList options;
   uint64_t seed = 0;
+  bool reject_outliers = false;
 };
 
 /// A picture to measure against: a file, or a render of its own.

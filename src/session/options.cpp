@@ -213,7 +213,7 @@ constexpr OptionDescription kOptions[] = {
      [](CommandLine& l, const std::string& t) {
        l.compare.exposure = static_cast<float>(parse_number("--exposure", t, 0, 1e6, true));
      }},
-    {"bench", "SUITE.json", "", "", "", "", "", "A suite (docs/bench.md has the format).", false,
+    {"bench", "SUITE", "", "", "", "", "", "A suite (docs/bench.md has the format).", false,
      [](CommandLine& l, const std::string& t) { l.bench.suite = t; }},
     {"bench", "--time", "", "TIME", "s, m or h", "the suite's", "",
      "Every run ends with the pass that ends nearest to this time (60s, 5m, 1h).", false,

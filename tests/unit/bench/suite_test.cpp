@@ -24,7 +24,8 @@ std::string error_of(const std::string& text) {
 constexpr const char* kWhole = R"({
   "name": "small", "title": "A suite", "description": "Of two.", "time": "1.5m",
   "integrators": [
-    {"name": "mixed", "integrator": "mixed", "options": {"alpha": 0.7, "radius": "2"}},
+    {"name": "mixed", "integrator": "mixed", "options": {"alpha": 0.7, "radius": "2"},
+     "outliers": "reject"},
     {"name": "split", "routes": "doidge2012", "seed": 18446744073709551615},
     {"name": "own", "route": ["caustic = C D S+ L : photons", "rest = .* : path"]}
   ],
@@ -52,6 +53,8 @@ TEST(Suite, EverythingIsUnderstood) {
   EXPECT_EQ(suite.limit.seconds, 90);
   ASSERT_EQ(suite.integrators.size(), 3u);
   EXPECT_EQ(suite.integrators[0].options, (SettingList{{"alpha", "0.7"}, {"radius", "2"}}));
+  EXPECT_TRUE(suite.integrators[0].reject_outliers);
+  EXPECT_FALSE(suite.integrators[1].reject_outliers);
   EXPECT_EQ(suite.integrators[1].seed, 18446744073709551615ull);
   EXPECT_EQ(suite.integrators[2].routes.routes.size(), 2u);
   ASSERT_EQ(suite.scenes.size(), 2u);
@@ -108,6 +111,7 @@ TEST(Suite, ErrorsPointAtTheirPlace) {
       {"0.7", "7", "7, \"rad", "-D alpha: '7' is not valid, expected"},
       {"\"alpha\"", "\"alfa\"", "0.7", "-D: unknown key 'alfa', expected one"},
       {"\"integrator\": \"mixed\"", "\"integrator\": \"magic\"", "\"magic\"", ""},
+      {"\"reject\"", "\"maybe\"", "\"maybe\"", "\"outliers\" is \"maybe\", expected"},
       {"\"doidge2012\"", "\"nowhere\"", "\"nowhere\"", "--routes: 'nowhere' is neither a preset"},
       {"\"own\", \"route\"", "\"split\", \"route\"", "\"split\", \"route\"",
        "the name \"split\" is taken"},
@@ -198,7 +202,7 @@ TEST(JsonText, Errors) {
   EXPECT_EQ(json_error("{\"a\": 1,\n \"a\": 2}").rfind("f:2:2: \"a\" is given twice", 0), 0u);
   EXPECT_EQ(json_error("[1, 2").rfind("f:1:6: the file ends", 0), 0u) << json_error("[1, 2");
   EXPECT_EQ(json_error("").rfind("f:1:1: the file ends", 0), 0u) << json_error("");
-  EXPECT_EQ(json_error("[1,\n x]").rfind("f:2:2: 'x' is not JSON", 0), 0u)
+  EXPECT_EQ(json_error("[1,\n x]").rfind("f:2:2: 'x' does not belong here", 0), 0u)
       << json_error("[1,\n x]");
   EXPECT_NE(json_error(std::string(100, '[')).find("nested too deeply"), std::string::npos);
 }
