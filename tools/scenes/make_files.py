@@ -70,8 +70,10 @@ def wedding_rings():
                 uv.append("%.4f %d" % (x / 13, j))
         indices = ["%d %d %d %d %d %d" % (a, a + 1, a + columns + 2, a, a + columns + 2, a + columns + 1)
                    for a in range(columns)]
-        for name, numbers in (("point3 P", points), ("normal N", normals), ("point2 uv", uv), ("integer indices", indices)):
-            out.write(f'\n"{name}" [' + "\n ".join("  ".join(numbers[k:k + 6]) for k in range(0, len(numbers), 6)) + "]")
+        for name, numbers in (("point3 P", points), ("normal N", normals), ("point2 uv", uv),
+                              ("integer indices", indices)):
+            rows = ["  ".join(numbers[k:k + 6]) for k in range(0, len(numbers), 6)]
+            out.write(f'\n"{name}" [' + "\n ".join(rows) + "]")
         out.write("\n")
 
     rng = random.Random(1834)
@@ -101,7 +103,7 @@ def wedding_rings():
 
 
 def pool():
-    """Rippled water, a little larger than its basin of 8 x 5 m, a mosaic of tiles, a ladder's rail, and a sky with its sun."""
+    """Rippled water, a little larger than its basin of 8 x 5 m, tiles, a ladder's rail, and a sky with its sun."""
     folder = SCENES / "pool"
     rng = random.Random(7)
     waves = []
@@ -116,7 +118,8 @@ def pool():
     # Loop subdivision smooths this net of control points: small to keep, smooth to refract.
     columns, rows = 80, 50
     with open(folder / "water.pbrt", "w") as out:
-        out.write('# The surface of the water, made by tools/scenes/make_files.py.\nShape "loopsubdiv" "integer levels" 2\n"point3 P" [')
+        out.write('# The surface of the water, made by tools/scenes/make_files.py.\n')
+        out.write('Shape "loopsubdiv" "integer levels" 2\n"point3 P" [')
         for j in range(rows + 1):
             out.write("\n" + " ".join("%.3g %.3g %.4f" % water(i / columns, j / rows) for i in range(columns + 1)))
         out.write(']\n"integer indices" [')
@@ -204,14 +207,14 @@ def cut_gems():
 
 
 DIGITS = {1: "00100 01100 00100 00100 00100 00100 01110", 2: "01110 10001 00001 00110 01000 10000 11111",
-          3: "01110 10001 00001 00110 00001 10001 01110", 4: "00010 00110 01010 10010 11111 00010 00010",
+          3: "01110 10001 00001 00110 00001 10001 01110",
           8: "01110 10001 10001 01110 10001 10001 01110", 9: "01110 10001 10001 01111 00001 10001 01110"}
 
 
 def billiards():
     """Pictures of the balls, by longitude and latitude: colour or a stripe, and a number in a white disc."""
     folder = SCENES / "billiards"
-    colours = {1: (0.80, 0.52, 0.04), 2: (0.04, 0.10, 0.42), 3: (0.62, 0.04, 0.03), 4: (0.20, 0.04, 0.30),
+    colours = {1: (0.80, 0.52, 0.04), 2: (0.04, 0.10, 0.42), 3: (0.62, 0.04, 0.03),
                8: (0.015, 0.015, 0.018), 9: (0.80, 0.52, 0.04)}
     white = (0.86, 0.83, 0.74)
     for number, colour in colours.items():
@@ -244,7 +247,8 @@ def fur_ball():
             points = [tuple(c * (1 + length * t) + length * t * t * k for c, k in zip(root, comb))
                       for t in (-0.05, 0.33, 0.66, 1.0)]
             numbers = "  ".join("%.3f %.3f %.3f" % p for p in points)
-            out.write(f'Shape "curve" "string type" "cylinder" "point3 P" [{numbers}] "float width0" 0.014 "float width1" 0.002\n')
+            out.write(f'Shape "curve" "string type" "cylinder" "point3 P" [{numbers}] '
+                      '"float width0" 0.014 "float width1" 0.002\n')
 
 
 for make in (red_wine, wedding_rings, pool, cut_gems, billiards, fur_ball):

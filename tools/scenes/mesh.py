@@ -54,7 +54,10 @@ def unit(a):
 
 
 def lathe(path, pieces, turns):
-    """Turns profiles around z: a piece is a list of (radius, z), smooth within itself (also at its ends if they meet); normals point to its right."""
+    """Turns profiles around z: a piece is a list of (radius, z), normals point to its right.
+
+    A piece is smooth within itself, and at its ends if they meet.
+    """
     vertices, faces = [], []
     for piece in pieces:
         normals, last, closed = [], len(piece) - 1, piece[0] == piece[-1]

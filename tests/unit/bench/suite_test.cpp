@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
 
 #include "bench/json_text.h"
@@ -205,6 +206,31 @@ TEST(JsonText, Errors) {
   EXPECT_EQ(json_error("[1,\n x]").rfind("f:2:2: 'x' does not belong here", 0), 0u)
       << json_error("[1,\n x]");
   EXPECT_NE(json_error(std::string(100, '[')).find("nested too deeply"), std::string::npos);
+}
+
+/// A layer for the energy of a scene needs a name that no route of the runs or the reference has.
+void expect_layers_of_their_own(const BenchScene& scene, const BenchIntegrator& integrator) {
+  for (const RouteDefinition& route :
+       plan_of(integrator.routes, integrator.routes.integrator).routes)
+    for (const BenchEnergy& energy : scene.energy)
+      EXPECT_NE(energy.name, route.name) << scene.name << ", " << integrator.name;
+}
+
+TEST(OwnSuites, AreUnderstoodAndNameScenesThatAreThere) {
+  size_t suites = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(NEPHROID_SOURCE_DIR "/bench")) {
+    if (entry.path().extension() != ".json") continue;
+    ++suites;
+    const BenchSuite suite = read_suite(entry.path().string());
+    for (const BenchScene& scene : suite.scenes) {
+      EXPECT_TRUE(std::filesystem::exists(scene.file)) << scene.file;
+      for (const std::string& name : scene.integrators)
+        expect_layers_of_their_own(scene, *suite.find_integrator(name));
+      if (scene.reference.file.empty())
+        expect_layers_of_their_own(scene, scene.reference.integrator);
+    }
+  }
+  EXPECT_GE(suites, 3u);
 }
 
 }  // namespace
