@@ -36,9 +36,8 @@ TEST(IntegratorSettings, EveryKeyIsStoredWhereItBelongs) {
        parse_setting("alpha=0.75"), parse_setting("specular-alpha=0.2"),
        parse_setting("camera-samples=3"), parse_setting("hit-points=6"),
        parse_setting("map-photons=5000"), parse_setting("nearest=40"),
-       parse_setting("memory-photons=99"), parse_setting("texture-cache=1.5M")},
-       parse_setting("camera-samples=3"), parse_setting("memory-photons=99"),
-       parse_setting("outlier-neighbours=5"), parse_setting("texture-cache=1.5M")},
+       parse_setting("memory-photons=99"), parse_setting("outlier-neighbours=5"),
+       parse_setting("texture-cache=1.5M")},
       &o);
   EXPECT_EQ(o.max_depth, 7);
   EXPECT_EQ(o.radius, 1.5f);
@@ -56,8 +55,7 @@ TEST(IntegratorSettings, EveryKeyIsStoredWhereItBelongs) {
   EXPECT_EQ(settings_text(o),
             "max-depth=7 radius=1.5 photons=1000 alpha=0.75 specular-alpha=0.2 camera-samples=3 "
             "technique=all hit-points=6 map-photons=5000 nearest=40 memory-photons=99 "
-            "outlier-neighbours=8 texture-cache=1536K");
-            "memory-photons=99 outlier-neighbours=5 texture-cache=1536K");
+            "outlier-neighbours=5 texture-cache=1536K");
 }
 
 TEST(IntegratorSettings, SpecularAlphaMayBeARange) {
