@@ -43,10 +43,10 @@ void add_routes(const RoutePlan& plan, Metadata* metadata) {
 
 void warn_of_what_is_never_held(const Routes& routes) {
   for (const RouteGroup& group : routes.groups())
-    if (group.estimator == EstimatorKind::kSppm)
-      print_warning(
-          "--outliers reject: routes of sppm keep theirs, they have no estimates that could be "
-          "held");
+    if (group.estimator == EstimatorKind::kSppm || group.estimator == EstimatorKind::kPpm)
+      print_warning(std::string("--outliers reject: routes of ") +
+                    estimator_type(group.estimator).name +
+                    " keep theirs, they have no estimates that could be held");
 }
 
 RenderOptions render_options(const RenderCommand& command, const Scene& scene,

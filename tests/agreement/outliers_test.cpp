@@ -97,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(AllRoutes, Outliers, ::testing::ValuesIn(plan_names()),
 
 TEST(OutliersOfPath, FirefliesGo) {
   const auto scene = scene_from_text(kScene);
-  const Film reference = render(*scene, "path", options_of_test(), 100, 4096);
+  const Film reference = render(*scene, "path", options_of_test(), 100, 1024);
   const Film plain = render(*scene, "path", options_of_test(), 1, 32);
   const Film film = render_rejecting(*scene, "path", 1, 32);
   EXPECT_LT(relative_error(reference, film), 0.5 * relative_error(reference, plain));
