@@ -111,6 +111,7 @@ TEST_P(Furnace, RadianceIsOne) {
   options.radius = 1.0f;
   options.hit_points = 4;
   options.nearest_photons = kAllPhotons;
+  options.hit_points = 16;
   options.mutations = 48;
   const Estimate e = merges ? estimate_of(unbiased_block_values(*scene, plan, options, 16, 8, 1)[0])
                             : mean_over_seeds(*scene, plan, options, 16, 64);
