@@ -125,6 +125,8 @@ void Bidirectional::render_pass(const PassKey& key, const Scene& scene, Film& fi
   settings.light_paths = static_cast<double>(film.bounds().area());
   settings.technique = options_.technique;
   SplatBuffer buffer(film, group, *scene.filter);
+  const size_t parts = film.parts_of(group).size();
+  statistics_.hold(0, static_cast<uint64_t>(film.bounds().area()) * bytes_per_pixel(parts));
   const int samples = std::max(1, options_.camera_samples_per_pass);
   for (int k = 0; k < samples; ++k) {
     const uint64_t index =

@@ -33,7 +33,6 @@ const PhotonMap::Map& PhotonMap::map_of(uint64_t seed, const Scene& scene, const
   }
   PhotonMapTrace traced = trace_map(scene, owned_, sets, options_.memory_photons);
   count_photons(traced.trace, statistics_);
-  statistics_.bytes_kept = traced.trace.photons.size() * sizeof(Photon);
   map_ = Map{seed, std::make_unique<PhotonGrid>(std::move(traced.trace.photons)),
              static_cast<double>(traced.paths_of_set)};
   return *map_;
@@ -65,7 +64,10 @@ void PhotonMap::read(const Map& map, const PassKey& set, const PhotonPass& pass,
   const int group = static_cast<int>(owned_.group);
   const PixelBounds& b = film.bounds();
   const size_t width = static_cast<size_t>(b.width());
-  Gathered gathered(static_cast<size_t>(b.area()), film.parts_of(group).size());
+  const size_t parts = film.parts_of(group).size();
+  Gathered gathered(static_cast<size_t>(b.area()), parts);
+  statistics_.hold(map.grid->bytes(),
+                   gathered.filter_weights.size() * Gathered::bytes_per_walk(parts));
   gather(scene, b, owned_, options_.max_depth, pass, {{&pass.point, 1}, set.seed}, gathered,
          [&](size_t pixel, const CameraPath&, const Walk& walk, MergePoint at,
              PartSums& sums) -> uint64_t {

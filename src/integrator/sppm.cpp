@@ -29,7 +29,6 @@ void Sppm::start_regions(const Scene& scene, size_t pixels, size_t parts) {
   regions_.resize(pixels * regions_in_pixel_);
   flux_.resize(regions_.size() * parts);
   footprint_.resize(regions_.size());
-  statistics_.bytes_kept = regions_.size() * bytes_kept(parts);
 }
 
 void Sppm::render_pass(const PassKey& key, const Scene& scene, Film& film) {
@@ -46,7 +45,7 @@ void Sppm::render_pass(const PassKey& key, const Scene& scene, Film& film) {
     PhotonTrace trace = trace_batch(scene, owned_, pass.trace, options_.memory_photons, begin);
     count_photons(trace, statistics_);
     const PhotonGrid grid(std::move(trace.photons));
-    count_memory(grid, regions_.size() * (bytes_kept(parts) + bytes_of_pass(parts)), statistics_);
+    statistics_.hold(grid.bytes(), regions_.size() * (bytes_kept(parts) + bytes_of_pass(parts)));
     gather(
         scene, b, owned_, options_.max_depth, pass,
         {points(pass, scene), hash_combine(key.seed, kStream)}, gathered,

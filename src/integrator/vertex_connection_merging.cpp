@@ -67,6 +67,8 @@ class VcmPass {
     do {
       std::vector<Photon> photons = trace_batch_of_paths(begin, buffer, statistics);
       const PhotonGrid grid(std::move(photons));
+      statistics.hold(grid.bytes(),
+                      filter_weights_.size() * VertexConnectionMerging::bytes_per_pixel(parts_));
       merging_.grid = &grid;
       trace_eye_paths(statistics);
       merging_.grid = nullptr;

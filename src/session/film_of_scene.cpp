@@ -33,9 +33,9 @@ size_t bytes_of_estimators(const Routes& routes, int hit_points) {
       kept += Sppm::bytes_kept(parts);
       pass += Sppm::bytes_of_pass(parts);
     } else if (group.estimator == EstimatorKind::kBidirectional) {
-      pass += Bidirectional::bytes_per_pixel(parts);
+      pass = Bidirectional::bytes_per_pixel(parts);
     } else if (group.estimator == EstimatorKind::kVcm || group.estimator == EstimatorKind::kBpm) {
-      pass += VertexConnectionMerging::bytes_per_pixel(parts);
+      pass = VertexConnectionMerging::bytes_per_pixel(parts);
     } else if (group.estimator == EstimatorKind::kPpm) {
       kept += static_cast<size_t>(hit_points) * Ppm::bytes_kept(parts);
       pass += static_cast<size_t>(hit_points) * Ppm::bytes_of_pass(parts);

@@ -52,7 +52,10 @@ TEST(PhotonMap, IsTracedOnceAndEachRouteHasItsOwn) {
     EXPECT_EQ(statistics[1].photon_paths, 16u * 2048u);
     EXPECT_GT(statistics[0].photons_stored, 100u);
     EXPECT_GT(statistics[1].photons_stored, 2 * statistics[0].photons_stored);
-    EXPECT_EQ(statistics[1].bytes_kept, statistics[1].photons_stored * sizeof(Photon));
+    EXPECT_GT(statistics[1].photon_bytes, statistics[1].photons_stored * sizeof(Photon));
+    EXPECT_EQ(statistics[1].bytes, statistics[1].photon_bytes + statistics[1].pixel_bytes);
+    EXPECT_EQ(statistics[1].photon_bytes,
+              statistics_after(*scene, "photonmap", options, 1)[1].photon_bytes);
     ASSERT_EQ(statistics[0].notes.size(), 1u);
     EXPECT_NE(statistics[0].notes[0].find("'caustic'"), std::string::npos);
     EXPECT_EQ(statistics[2].photon_paths, 0u);
@@ -98,13 +101,39 @@ TEST(PhotonMap, APassDoesNotKnowWhichCameBefore) {
   EXPECT_LT(difference, 1e-6 * total);
 }
 
+TEST(Memory, IsCountedByAllThatHoldIt) {
+  const auto scene = scene_from_text(kRoom);
+  IntegratorOptions options;
+  options.photons_per_pass = 4096;
+  const auto held = [&](const char* name, uint32_t passes) {
+    EstimatorStatistics sum;
+    for (const EstimatorStatistics& s : statistics_after(*scene, name, options, passes)) {
+      EXPECT_LE(s.bytes, s.photon_bytes + s.pixel_bytes) << name;
+      EXPECT_GE(s.bytes, std::max(s.photon_bytes, s.pixel_bytes)) << name;
+      sum.photon_bytes += s.photon_bytes;
+      sum.pixel_bytes += s.pixel_bytes;
+    }
+    return sum;
+  };
+  for (const char* name : {"sppm", "ppm", "photonmap", "doidge2012", "vertex", "vcm", "bpm"}) {
+    EXPECT_GT(held(name, 1).photon_bytes, 0u) << name;
+    EXPECT_GT(held(name, 1).pixel_bytes, 0u) << name;
+  }
+  for (const char* name : {"bdpt", "mlt", "pssmlt"}) {
+    EXPECT_EQ(held(name, 1).photon_bytes, 0u) << name;
+    EXPECT_GE(held(name, 1).pixel_bytes, 64u * sizeof(Rgb)) << name;
+    EXPECT_EQ(held(name, 3).pixel_bytes, held(name, 1).pixel_bytes) << name;
+  }
+  EXPECT_EQ(held("path-only", 1).pixel_bytes, 0u);
+}
+
 TEST(HitPoints, MemoryGrowsWithThemAndNotWithPasses) {
   const auto scene = scene_from_text(kRoom);
   IntegratorOptions options;
   options.photons_per_pass = 4096;
   const auto kept = [&](const char* name, int hit_points, uint32_t passes) {
     options.hit_points = hit_points;
-    return statistics_after(*scene, name, options, passes)[1].bytes_kept;
+    return statistics_after(*scene, name, options, passes)[1].pixel_bytes;
   };
   const uint64_t one = kept("ppm", 1, 1);
   EXPECT_EQ(one, kept("sppm", 1, 1));
