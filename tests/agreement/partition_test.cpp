@@ -243,7 +243,7 @@ const std::vector<Owners> kOwners = {
     {"bdpt_of_all", {"all=.*:bdpt", "rest=.*:path"}},
     {"bdpt_of_some", {"glass=C.*<..'glass'>.*L:bdpt", "rest=.*:path"}},
     {"vcm_of_all", {"all=.*:vcm", "rest=.*:path"}, true},
-    {"bpm_of_all", {"all=.*:bpm", "rest=.*:path"}, true},
+    {"bpm_of_caustics", {"caustic=C.*[DG]S+[DG]?L:bpm", "rest=.*:path"}, true},
     {"chains_of_caustics", {"seen=C.*[DG]S+L:mlt", "rest=.*:path"}},
     {"chains_of_all", {"all=.*:mlt", "rest=.*:path"}},
     {"chains_from_the_eye", {"key=C.*<L.'key'>:pssmlt", "rest=.*:path"}},
