@@ -16,8 +16,9 @@ constexpr int kEye = 0, kLight = 1, kTechnique = 2;
 
 /// The guess: each length is tried so often relative to the one before.
 constexpr double kNextLength = 0.85;
-/// Share of the guess once kinds have been looked at.
-constexpr double kGuessed = 0.25;
+/// Shares of the guess once kinds have been looked at: a path is at most four times as bright as by
+/// the guess for its length, twice for its technique.
+constexpr double kGuessedLength = 0.25, kGuessedTechnique = 0.5;
 /// Longer paths than these have a light of which no picture shows anything; they are not left out
 /// but share what is left.
 constexpr int kMostLengths = 1000;
@@ -141,17 +142,18 @@ KindChoice::KindChoice(const KindChoice& guess, std::span<const double> mean_squ
       total += wanted[kind];
     }
   if (!(total > 0)) return;
-  const auto mixed = [](double guessed, double learned) {
-    return kGuessed * guessed + (1 - kGuessed) * learned;
+  const auto mixed = [](double share, double guessed, double learned) {
+    return share * guessed + (1 - share) * learned;
   };
   for (size_t n = 0; n < lengths.size(); ++n) {
     if (lengths[n] > 0) {
       std::vector<double> weights = guess.techniques_[n].probability;
       for (size_t s = 0; s < weights.size(); ++s)
-        weights[s] = mixed(weights[s], wanted[guess.first_kind_[n] + s] / lengths[n]);
+        weights[s] =
+            mixed(kGuessedTechnique, weights[s], wanted[guess.first_kind_[n] + s] / lengths[n]);
       techniques_[n] = Table(std::move(weights));
     }
-    lengths[n] = mixed(guess.length_.probability[n], lengths[n] / total);
+    lengths[n] = mixed(kGuessedLength, guess.length_.probability[n], lengths[n] / total);
   }
   length_ = Table(std::move(lengths));
 }
