@@ -12,7 +12,7 @@ namespace nephroid {
 namespace {
 
 constexpr float kPilotPathsPerPixel = 16;
-constexpr float kFewestPilotPaths = 1 << 11, kMostPilotPaths = 1 << 14;
+constexpr float kFewestPilotPaths = 1 << 11, kMostPilotPaths = 1 << 16;
 // Defaults, measured: docs/adr/0018-chains-restart.md.
 constexpr double kMutationsPerPixel = 16;
 constexpr int64_t kFewestMutations = 1024;

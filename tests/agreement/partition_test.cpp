@@ -192,7 +192,7 @@ TEST_P(PartitionOwners, FindTheSamePicture) {
   options.radius = 0.6f;
   options.hit_points = 4;
   options.nearest_photons = kAllPhotons;
-  options.mutations = 96;
+  options.mutations = 256;
   options.large_step = 0.5f;
   const auto values = [&](const std::vector<std::string>& routes, uint64_t first_seed,
                           float radius) {
