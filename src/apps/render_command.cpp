@@ -42,16 +42,16 @@ void add_routes(const RoutePlan& plan, Metadata* metadata) {
 }
 
 void warn_of_what_is_not_rejected(const Routes& routes) {
-  for (const RouteGroup& group : routes.groups()) {
-    const char* why = nullptr;
-    if (group.estimator == EstimatorKind::kSppm || group.estimator == EstimatorKind::kPpm)
-      why = "they have no estimates that could be held";
-    else if (group.estimator == EstimatorKind::kPhotonMap)
-      why = "their passes read the same photons again and again, and so confirm them";
-    if (why)
-      print_warning(std::string("--outliers reject: routes of ") +
-                    estimator_type(group.estimator).name + " keep theirs, " + why);
-  }
+  const auto warn = [&](EstimatorKind kind, const char* what) {
+    if (std::ranges::any_of(routes.groups(),
+                            [&](const RouteGroup& group) { return group.estimator == kind; }))
+      print_warning(std::string("--outliers reject: routes of ") + estimator_type(kind).name +
+                    what);
+  };
+  for (const EstimatorKind kind : {EstimatorKind::kSppm, EstimatorKind::kPpm})
+    warn(kind, " keep theirs, they have no estimates that could be held");
+  warn(EstimatorKind::kPhotonMap,
+       " show theirs after some passes, which read the same photons again and so confirm them");
 }
 
 RenderOptions render_options(const RenderCommand& command, const Scene& scene,
