@@ -13,7 +13,11 @@ constexpr float kDefaultRadius = 2.0f;
 
 Sppm::Sppm(OwnedRoutes owned, const IntegratorOptions& options)
     : owned_(std::move(owned)), options_(options) {
-  if (!(options_.radius > 0)) options_.radius = kDefaultRadius;
+  options_.radius = first_radius(options_);
+}
+
+float Sppm::first_radius(const IntegratorOptions& options) {
+  return options.radius > 0 ? options.radius : kDefaultRadius;
 }
 
 size_t Sppm::bytes_of_pass(size_t parts) {

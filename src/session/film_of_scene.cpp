@@ -12,6 +12,7 @@
 #include "integrator/bidirectional.h"
 #include "integrator/gather.h"
 #include "integrator/merge_pass.h"
+#include "integrator/photon_map.h"
 #include "integrator/ppm.h"
 #include "integrator/sppm.h"
 #include "integrator/vertex_connection_merging.h"
@@ -54,6 +55,37 @@ size_t bytes_of_rejection(const Routes& routes) {
   return bytes;
 }
 
+/// a of [O2], the pixels that one light path exposes in a pass: a photon those within the first
+/// merge radius, a splat those whose filter reaches it, a path from the eye its own.
+float exposed_pixels(EstimatorKind kind, const IntegratorOptions& options,
+                     const PixelFilter& filter) {
+  const auto within = [](float radius) { return std::max(1.0f, kPi * sqr(radius)); };
+  const float splatted = std::max(1.0f, 4 * filter.radius().x * filter.radius().y);
+  switch (kind) {
+    case EstimatorKind::kPhotons:
+    case EstimatorKind::kBpm:
+      return within(first_radius(options));
+    case EstimatorKind::kSppm:
+    case EstimatorKind::kPpm:
+      return within(Sppm::first_radius(options));
+    case EstimatorKind::kPhotonMap:
+      return within(PhotonMap::largest_radius(options));
+    case EstimatorKind::kPhotonsAndLight:
+    case EstimatorKind::kVcm:
+      return std::max(within(first_radius(options)), splatted);
+    case EstimatorKind::kLightTrace:
+    case EstimatorKind::kBidirectional:
+    case EstimatorKind::kMetropolis:
+    case EstimatorKind::kPrimarySpace:
+      return splatted;
+    case EstimatorKind::kPath:
+    case EstimatorKind::kPointLights:
+    case EstimatorKind::kForecast:
+      break;
+  }
+  return 1;
+}
+
 }  // namespace
 
 FilmSettings film_settings(const FilmDescription& description) {
@@ -72,17 +104,12 @@ FilmSettings film_settings(const FilmDescription& description) {
   return settings;
 }
 
-/// A photon exposes the pixels within the merge radius, a splat those whose filter reaches it.
 OutlierSettings outlier_settings(const Routes& routes, const IntegratorOptions& options,
                                  const PixelFilter& filter) {
   OutlierSettings settings;
   settings.neighbours = options.outlier_neighbours;
-  for (const RouteGroup& group : routes.groups()) {
-    const EstimatorType& type = estimator_type(group.estimator);
-    const float merged = type.merges ? kPi * sqr(first_radius(options)) : 1.0f;
-    const float splatted = type.connects ? 4 * filter.radius().x * filter.radius().y : 1.0f;
-    settings.exposed_pixels.push_back(std::max({1.0f, merged, splatted}));
-  }
+  for (const RouteGroup& group : routes.groups())
+    settings.exposed_pixels.push_back(exposed_pixels(group.estimator, options, filter));
   return settings;
 }
 
