@@ -105,7 +105,8 @@ TEST_P(Furnace, RadianceIsOne) {
   IntegratorOptions options;
   const bool merges = merges_photons(plan_named(plan));
   // Where nearly all light is photons, they must be many.
-  options.photons_per_pass = plan == "sppm" || plan == "all-photons" ? 16384 : 8192;
+  options.photons_per_pass =
+      plan == "sppm" || plan == "bpm" || plan == "all-photons" ? 16384 : 8192;
   options.radius = 1.0f;
   options.hit_points = 4;
   options.nearest_photons = kAllPhotons;
