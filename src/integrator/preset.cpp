@@ -10,8 +10,8 @@
 #include "integrator/path.h"
 #include "integrator/photon_map.h"
 #include "integrator/photon_mapping.h"
-#include "integrator/primary_space.h"
 #include "integrator/ppm.h"
+#include "integrator/primary_space.h"
 #include "integrator/sppm.h"
 #include "integrator/vertex_connection_merging.h"
 #include "integrator/vertex_merging.h"
@@ -65,7 +65,9 @@ std::string quoted_list(const std::vector<std::string>& names) {
 CompiledPlan compile_plan(const RoutePlan& plan, const Scene& scene) {
   const auto symbols =
       std::make_shared<const SceneSymbols>(scene, mentioned_labels(plan.routes, plan.aovs));
-  return {symbols, compile_routes(plan.routes, plan.aovs, &symbols->present()), plan.strict};
+  return {symbols,
+          compile_routes(plan.routes, plan.aovs, &symbols->present(), scene.camera->connects()),
+          plan.strict};
 }
 
 Preset make_preset(const RoutePlan& plan, const IntegratorOptions& options, const Scene& scene) {
