@@ -10,8 +10,8 @@
 #include "integrator/path.h"
 #include "integrator/photon_map.h"
 #include "integrator/photon_mapping.h"
-#include "integrator/primary_space.h"
 #include "integrator/ppm.h"
+#include "integrator/primary_space.h"
 #include "integrator/sppm.h"
 #include "integrator/vertex_connection_merging.h"
 #include "integrator/vertex_merging.h"
@@ -37,6 +37,7 @@ constexpr Row kTable[] = {{EstimatorKind::kPath, make<PathEstimator>},
                           {EstimatorKind::kBidirectional, make<Bidirectional>},
                           {EstimatorKind::kVcm, make<VertexConnectionMerging>},
                           {EstimatorKind::kBpm, make<VertexConnectionMerging>},
+                          {EstimatorKind::kPathAndPhotons, make<VertexConnectionMerging>},
                           {EstimatorKind::kMetropolis, make<Multiplexed>},
                           {EstimatorKind::kPrimarySpace, make<PrimarySpace>},
                           {EstimatorKind::kPhotonMap, make<PhotonMap>},

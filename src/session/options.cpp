@@ -84,7 +84,7 @@ void set_strict(CommandLine& line, const std::string&) {
 
 constexpr const char* kIntegratorHelp =
     "How light is found: path, sppm, mixed, bdpt, photonmap, ppm, or scene for the one that the "
-    "scene names. Each is a preset of routes: path is path-only, mixed doidge2012, the others have "
+    "scene names. Each is a preset of routes: path is path-only, the others have "
     "the names of theirs.";
 constexpr const char* kRoutesHelp =
     "Routes by the name of a preset (listed below) or from a file, one a line; instead of "
