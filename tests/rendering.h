@@ -80,7 +80,8 @@ inline std::string test_name(std::string plan) {
 inline bool merges_photons(const RoutePlan& plan) {
   return std::any_of(plan.routes.begin(), plan.routes.end(), [](const RouteDefinition& route) {
     return estimator_type(route.estimator).merges || route.estimator == EstimatorKind::kVcm ||
-           route.estimator == EstimatorKind::kBpm;
+           route.estimator == EstimatorKind::kBpm ||
+           route.estimator == EstimatorKind::kPathAndPhotons;
   });
 }
 

@@ -45,7 +45,7 @@ class EyeVisitor {
       if (weighs_hit(walk)) {
         const LightStart start =
             light_start(scene, i, {}, last_, -walk.ray.d, direct_pdf_w(scene, walk, i));
-        weight = weight_of_hit(start, end_.next({start.line.at_b, 1}));
+        weight = weight_of_hit(start, end_to_light().next({start.line.at_b, 1}));
       }
       add(part, walk, walk.throughput * le * static_cast<float>(weight));
     }
@@ -60,7 +60,7 @@ class EyeVisitor {
     if (weighs_hit(walk)) {
       const LightStart start = light_start(settings_.scene, hit.area_light, {hit.p, hit.ng}, last_,
                                            -walk.ray.d, direct_pdf_w(settings_.scene, walk, hit));
-      weight = weight_of_hit(start, end_.next({start.line.at_b, start.line.at_a}));
+      weight = weight_of_hit(start, end_to_light().next({start.line.at_b, start.line.at_a}));
     }
     add(part, walk, walk.throughput * le * static_cast<float>(weight));
   }
@@ -79,8 +79,10 @@ class EyeVisitor {
   void vertex(const Walk& walk, const WalkVertex& v, PathSampler& sampler) {
     if (v.subsurface_exit) {
       // [W10] The way under the surface is one step: what was at its entry counts here.
-      sums_.here += heuristic(subsurface_density(place_.ng, entry_wo_)) * sums_.before;
-      sums_.before = 0;
+      for (SideSums* s : {&sums_, &plain_}) {
+        s->here += heuristic(subsurface_density(place_.ng, entry_wo_)) * s->before;
+        s->before = 0;
+      }
       place_ = {v.surface.p, v.surface.ng};
     } else {
       arrive({v.surface.p, v.surface.ng});
@@ -115,6 +117,8 @@ class EyeVisitor {
       end_.event = {p, p, true};
       end_.merge = 0;
     }
+    // An S behind them lets all vertices so far merge.
+    plain_end_ = {event.letter == EventClass::kSpecular ? sums_ : plain_, end_.event, 0};
     last_ = place_;
     first_ = first_ && !end_.event.finite;
     eye_ = routes_.next(eye_, symbol_of(symbols_, event));
@@ -139,18 +143,24 @@ class EyeVisitor {
   void arrive(const Place& place) {
     place_ = place;
     if (camera_.walk.events > 0) {
-      sums_ = end_.next(line_between(last_, place_));
-      if (!settings_.connects()) sums_.here = 0;
+      const LineFactors line = line_between(last_, place_);
+      sums_ = end_.next(line);
+      plain_ = plain_end_.next(line);
+      if (!settings_.connects()) sums_.here = plain_.here = 0;
       return;
     }
     // [W9] The first vertex: light paths that are connected to the camera find it, too.
-    sums_ = {};
+    sums_ = plain_ = {};
     if (!settings_.view || !settings_.connects()) return;
     const auto line = settings_.scene.camera->connect(place.p, camera_.u_lens, camera_.u_time);
     if (!line) return;
     const double density = line->film_density * cosine_at(place, line->wi);
     if (density > 0) sums_.here = heuristic(settings_.light_paths / density);
   }
+
+  bool caustics_only() const { return settings_.merging && settings_.merging->caustics_only; }
+  /// What stands before the light, if nothing but it follows.
+  const SideEnd& end_to_light() const { return caustics_only() ? plain_end_ : end_; }
 
   double merge_weight(EventClass c) const {
     return settings_.merging && merges_at(*surface_, c)
@@ -204,7 +214,8 @@ class EyeVisitor {
     SampledSpectrum arriving;
     LightStart start;
     bool traced = false;
-    for (const Arm& arm : arms) {
+    for (size_t i = 0; i < arms.size(); ++i) {
+      const Arm& arm = arms[i];
       if (!arm.used) continue;
       const Part part = routes_.owner(arm.eye, symbol);
       if (!light_.owns(part)) continue;
@@ -215,8 +226,12 @@ class EyeVisitor {
       }
       traced = true;
       double weight = 1;
-      if (settings_.technique.weighted)
-        weight = weight_of_direct(start, sums_, arm.density.forward, arm.density.back, arm.merge);
+      if (settings_.technique.weighted) {
+        const bool plain =
+            caustics_only() && (z.medium || kSurfaceClasses[i] != EventClass::kSpecular);
+        weight = weight_of_direct(start, plain ? plain_ : sums_, arm.density.forward,
+                                  arm.density.back, plain ? 0 : arm.merge);
+      }
       add(part, z.walk, arriving * arm.f * static_cast<float>(weight));
     }
   }
@@ -314,6 +329,9 @@ class EyeVisitor {
   bool first_ = true;  ///< no event but delta lobes so far
   SideSums sums_;
   SideEnd end_;
+  /// The same where only caustics merge, should no S follow: vertices merge that an S has followed.
+  SideSums plain_;
+  SideEnd plain_end_;
   const WalkVertex* surface_ = nullptr;
   const MediumVertex* medium_ = nullptr;
   uint64_t rays_ = 0;

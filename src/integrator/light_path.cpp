@@ -87,6 +87,7 @@ class LightVisitor {
       end_.event = {p, p, true};
       end_.merge = 0;
     }
+    after_specular_ |= event.letter == EventClass::kSpecular;
     last_ = place_;
     is_first_ = false;
     state_ = routes_.light_next(state_, symbol_of(symbols_, event));
@@ -123,8 +124,10 @@ class LightVisitor {
   /// Between the eye and vertices of the light's side there is the one that is connected, unless it
   /// is connected to the camera itself.
   double merge_weight(const WalkVertex& v, EventClass c, bool first) const {
-    return settings_.merging && merges_at(v, c) ? settings_.merging->weight_at(merge_place_, first)
-                                                : 0;
+    return merges_here() && merges_at(v, c) ? settings_.merging->weight_at(merge_place_, first) : 0;
+  }
+  bool merges_here() const {
+    return settings_.merging && (after_specular_ || !settings_.merging->caustics_only);
   }
 
   LightVertex& store(const Walk& walk, ClassMask classes) {
@@ -136,12 +139,13 @@ class LightVisitor {
     y.state = state_;
     y.events = walk.events;
     y.sums = sums_;
-    y.merge = settings_.merging ? settings_.merging->weight_at(merge_place_, false) : 0;
+    y.merge = merges_here() ? settings_.merging->weight_at(merge_place_, false) : 0;
     return y;
   }
 
   void deposit(const Walk& walk, const WalkVertex& v) {
-    if (v.subsurface_exit || (v.possible & useful_rough(v)) == ClassMask::kNone) return;
+    if (!merges_here() || v.subsurface_exit || (v.possible & useful_rough(v)) == ClassMask::kNone)
+      return;
     Photon photon;
     photon.p = v.surface.p;
     photon.wi = v.surface.wo;
@@ -251,6 +255,7 @@ class LightVisitor {
   Vec3f merge_place_{0, 0, 0};  ///< where the eye side would merge
   Vec3f entry_wo_{0, 0, 1};
   bool is_first_ = true;
+  bool after_specular_ = false;  ///< the light has come by way of an S
   SideSums sums_;
   SideEnd end_;
   const WalkVertex* surface_ = nullptr;

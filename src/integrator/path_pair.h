@@ -29,6 +29,8 @@ struct PairMerging {
   PixelFootprint footprint;
   Vec3f eye{0, 0, 0};    ///< where distances count from
   bool connects = true;  ///< false: only lights are connected
+  /// Merges only photons whose light came by way of an S: what walks find well is left to them.
+  bool caustics_only = false;
 
   float radius_at(const Vec3f& p) const { return radius_pixels * footprint.width(length(p - eye)); }
   /// `first`: no event between the eye and `p` but delta lobes, so that every photon is a sample of

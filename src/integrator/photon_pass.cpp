@@ -62,6 +62,8 @@ bool deposits_at_once(const OwnedRoutes& owned) {
   });
 }
 
+}  // namespace
+
 bool has_specular_events(const OwnedRoutes& owned) {
   const std::vector<bool>& events = owned.symbols->present().events;
   for (size_t e = 0; e < events.size(); ++e)
@@ -69,8 +71,6 @@ bool has_specular_events(const OwnedRoutes& owned) {
       return true;
   return false;
 }
-
-}  // namespace
 
 std::string names_of_routes(const OwnedRoutes& owned) {
   const std::vector<int>& routes = owned.routes->groups()[owned.group].routes;

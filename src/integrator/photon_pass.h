@@ -40,6 +40,9 @@ bool photons_can_count(const OwnedRoutes& owned);
 /// "route 'a'", "routes 'a', 'b'": those of the group.
 std::string names_of_routes(const OwnedRoutes& owned);
 
+/// True if the scene has lobes of class S.
+bool has_specular_events(const OwnedRoutes& owned);
+
 /// Adds what one batch of photons did to the counts.
 void count_photons(const PhotonTrace& trace, EstimatorStatistics& statistics);
 

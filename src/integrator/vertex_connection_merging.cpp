@@ -32,7 +32,7 @@ struct Chunk {
 class VcmPass {
  public:
   VcmPass(const PassKey& key, const Scene& scene, Film& film, const OwnedRoutes& owned,
-          const IntegratorOptions& options, int64_t light_paths)
+          const IntegratorOptions& options)
       : key_(key),
         kind_(owned.routes->groups()[owned.group].estimator),
         seed_(hash_combine(key.seed, static_cast<uint64_t>(kind_))),
@@ -40,22 +40,28 @@ class VcmPass {
         film_(film),
         owned_(owned),
         options_(options),
-        light_paths_(light_paths),
         pass_(start_photon_pass(key, scene, film, options)),
         eye_point_(key.pass, kEyePathDimensions),
         light_point_(key.pass, kPairDimensions),
         view_(scene, film.bounds()),
         places_(*owned.routes, owned.group),
         settings_{scene, owned} {
-    merging_.photons = static_cast<double>(light_paths);
+    merging_.caustics_only = kind_ == EstimatorKind::kPathAndPhotons;
+    if (options.photons_per_pass > 0)
+      light_paths_ = options.photons_per_pass;
+    else if (!merging_.caustics_only)
+      light_paths_ = default_light_paths(film.bounds().area());
+    else
+      light_paths_ = has_specular_events(owned) ? pass_.trace.photons_per_pass : 0;
+    merging_.photons = static_cast<double>(light_paths_);
     merging_.radius_pixels = radius_of_pass(options, key.pass);
     merging_.footprint = pass_.footprint;
     merging_.eye = scene.camera->camera_to_world(pass_.trace.time).point(Vec3f(0, 0, 0));
-    merging_.connects = kind_ != EstimatorKind::kBpm;
+    merging_.connects = kind_ == EstimatorKind::kVcm;
     settings_.view = scene.camera->connects() && merging_.connects ? &view_ : nullptr;
     settings_.specular_alpha = pass_.trace.specular_alpha;
     settings_.max_depth = options.max_depth;
-    settings_.light_paths = static_cast<double>(light_paths);
+    settings_.light_paths = static_cast<double>(light_paths_);
     settings_.technique = options.technique;
     settings_.merging = &merging_;
     const size_t pixels = static_cast<size_t>(film.bounds().area());
@@ -78,7 +84,10 @@ class VcmPass {
       settings_.merges_only = true;
     } while (begin < light_paths_);
     finish_values();
-    buffer.finish(1.0 / static_cast<double>(light_paths_), values_);
+    if (merging_.connects)
+      buffer.finish(1.0 / static_cast<double>(light_paths_), values_);
+    else
+      add_values();
     statistics.photon_paths += static_cast<uint64_t>(light_paths_);
     statistics.camera_paths += static_cast<uint64_t>(film_.bounds().area());
     statistics.radius_min_pixels = merging_.radius_pixels;
@@ -180,6 +189,16 @@ class VcmPass {
     }
   }
 
+  /// Without splats the values are all there is.
+  void add_values() {
+    const PixelBounds& b = film_.bounds();
+    const int group = static_cast<int>(owned_.group);
+    size_t first = 0;
+    for (int y = b.y0; y < b.y1; ++y)
+      for (int x = b.x0; x < b.x1; ++x, first += parts_)
+        film_.add(group, x, y, std::span(values_).subspan(first, parts_));
+  }
+
   const PassKey key_;
   const EstimatorKind kind_;
   const uint64_t seed_;  ///< of the kind: `vcm` and `bpm` of one plan are independent
@@ -187,7 +206,7 @@ class VcmPass {
   Film& film_;
   const OwnedRoutes& owned_;
   const IntegratorOptions& options_;
-  const int64_t light_paths_;
+  int64_t light_paths_ = 0;
   const PhotonPass pass_;
   const SobolPoint eye_point_, light_point_;  ///< of pairs
   const CameraView view_;
@@ -206,9 +225,7 @@ VertexConnectionMerging::VertexConnectionMerging(OwnedRoutes owned,
     : owned_(std::move(owned)), options_(options) {}
 
 void VertexConnectionMerging::render_pass(const PassKey& key, const Scene& scene, Film& film) {
-  const int64_t paths = options_.photons_per_pass > 0 ? options_.photons_per_pass
-                                                      : default_light_paths(film.bounds().area());
-  VcmPass(key, scene, film, owned_, options_, paths).render(statistics_);
+  VcmPass(key, scene, film, owned_, options_).render(statistics_);
   film.add_estimates(static_cast<int>(owned_.group), 1);
 }
 

@@ -238,15 +238,18 @@ class Prover {
       return ends.any ? 2 * (ends.first_specular && (ends.rough || is_hit))
                       : light == LightKind::kEnvironment;
     if (!is_cut_anywhere(estimator) || is_hit || !ends.rough || !ends.last_specular) return 0;
-    const bool merges =
-        (estimator == EstimatorKind::kVcm || estimator == EstimatorKind::kBpm) && ends.mergeable;
+    // With an S at the light's end, wherever a photon is merged it came by way of one.
+    const bool merges = estimator != EstimatorKind::kBidirectional &&
+                        estimator != EstimatorKind::kMetropolis && ends.mergeable;
     const bool connects = estimator != EstimatorKind::kBpm &&
+                          estimator != EstimatorKind::kPathAndPhotons &&
                           ((in_.camera_connects && !ends.first_specular) || ends.rough_pair);
     return !merges && !connects;
   }
   static bool is_cut_anywhere(EstimatorKind estimator) {
     return estimator == EstimatorKind::kBidirectional || estimator == EstimatorKind::kVcm ||
-           estimator == EstimatorKind::kBpm || estimator == EstimatorKind::kMetropolis;
+           estimator == EstimatorKind::kBpm || estimator == EstimatorKind::kPathAndPhotons ||
+           estimator == EstimatorKind::kMetropolis;
   }
   std::string never_sampled_text(int route, const std::string& witness) const {
     const std::string owns = owner_text(route) + " owns " + witness +

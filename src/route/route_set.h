@@ -21,6 +21,7 @@ enum class EstimatorKind : uint8_t {
   kBidirectional,
   kVcm,
   kBpm,
+  kPathAndPhotons,
   kMetropolis,
   kPhotonMap,
   kPpm,

@@ -32,6 +32,8 @@ constexpr EstimatorType kEstimators[] = {
      "vertex connection and merging: bdpt, and photons merged at all vertices", false, false, true},
     {EstimatorKind::kBpm, "bpm",
      "bidirectional photon mapping: vcm without connections of two walks", false, false, true},
+    {EstimatorKind::kPathAndPhotons, "path+photons",
+     "path tracing, and photons merged where their light came by way of an S", false, false, true},
     {EstimatorKind::kMetropolis, "mlt",
      "bidirectional paths, one technique at a time, explored by Markov chains", false, false, true},
     {EstimatorKind::kPrimarySpace, "pssmlt",

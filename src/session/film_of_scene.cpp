@@ -35,7 +35,8 @@ size_t bytes_of_estimators(const Routes& routes, int hit_points) {
       pass += Sppm::bytes_of_pass(parts);
     } else if (group.estimator == EstimatorKind::kBidirectional) {
       pass = Bidirectional::bytes_per_pixel(parts);
-    } else if (group.estimator == EstimatorKind::kVcm || group.estimator == EstimatorKind::kBpm) {
+    } else if (group.estimator == EstimatorKind::kVcm || group.estimator == EstimatorKind::kBpm ||
+               group.estimator == EstimatorKind::kPathAndPhotons) {
       pass = VertexConnectionMerging::bytes_per_pixel(parts);
     } else if (group.estimator == EstimatorKind::kPpm) {
       kept += static_cast<size_t>(hit_points) * Ppm::bytes_kept(parts);
@@ -64,6 +65,7 @@ float exposed_pixels(EstimatorKind kind, const IntegratorOptions& options,
   switch (kind) {
     case EstimatorKind::kPhotons:
     case EstimatorKind::kBpm:
+    case EstimatorKind::kPathAndPhotons:
       return within(first_radius(options));
     case EstimatorKind::kSppm:
     case EstimatorKind::kPpm:

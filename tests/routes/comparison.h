@@ -31,7 +31,8 @@ constexpr bool walks_from_eye(EstimatorKind kind) {
 /// True if it makes a path of an eye's and a light's walk, cut anywhere.
 constexpr bool is_cut_anywhere(EstimatorKind kind) {
   return kind == EstimatorKind::kBidirectional || kind == EstimatorKind::kVcm ||
-         kind == EstimatorKind::kBpm || kind == EstimatorKind::kMetropolis;
+         kind == EstimatorKind::kBpm || kind == EstimatorKind::kPathAndPhotons ||
+         kind == EstimatorKind::kMetropolis;
 }
 
 class Comparison {

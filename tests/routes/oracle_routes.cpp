@@ -180,7 +180,10 @@ bool OracleRoutes::can_sample(int route, const Path& path, size_t merge_vertices
   const EstimatorKind estimator = routes_[size_t(route)].estimator;
   const bool connects = estimator == EstimatorKind::kBidirectional ||
                         estimator == EstimatorKind::kVcm || estimator == EstimatorKind::kMetropolis;
-  const bool merges = estimator == EstimatorKind::kVcm || estimator == EstimatorKind::kBpm;
+  // Photons of path+photons have come by way of an S, as in all words that it cannot find
+  // otherwise.
+  const bool merges = estimator == EstimatorKind::kVcm || estimator == EstimatorKind::kBpm ||
+                      estimator == EstimatorKind::kPathAndPhotons;
   if (no_area && connects && n > 0 && !specular(kind_at(0))) return true;
   for (size_t i = 0; no_area && i < n; ++i) {
     const EventKind k = kind_at(i);

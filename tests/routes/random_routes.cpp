@@ -124,15 +124,23 @@ Tree RandomRoutes::expression(bool marked) {
 }
 
 OracleRoutes RandomRoutes::set() {
-  static const EstimatorKind kKinds[] = {
-      EstimatorKind::kPath,          EstimatorKind::kPath,
-      EstimatorKind::kPhotons,       EstimatorKind::kPhotons,
-      EstimatorKind::kSppm,          EstimatorKind::kLightTrace,
-      EstimatorKind::kLightTrace,    EstimatorKind::kPhotonsAndLight,
-      EstimatorKind::kBidirectional, EstimatorKind::kVcm,
-      EstimatorKind::kBpm,           EstimatorKind::kMetropolis,
-      EstimatorKind::kPrimarySpace,  EstimatorKind::kPhotonMap,
-      EstimatorKind::kPhotonMap,     EstimatorKind::kPpm};
+  static const EstimatorKind kKinds[] = {EstimatorKind::kPath,
+                                         EstimatorKind::kPath,
+                                         EstimatorKind::kPhotons,
+                                         EstimatorKind::kPhotons,
+                                         EstimatorKind::kSppm,
+                                         EstimatorKind::kLightTrace,
+                                         EstimatorKind::kLightTrace,
+                                         EstimatorKind::kPhotonsAndLight,
+                                         EstimatorKind::kBidirectional,
+                                         EstimatorKind::kVcm,
+                                         EstimatorKind::kPathAndPhotons,
+                                         EstimatorKind::kBpm,
+                                         EstimatorKind::kMetropolis,
+                                         EstimatorKind::kPrimarySpace,
+                                         EstimatorKind::kPhotonMap,
+                                         EstimatorKind::kPhotonMap,
+                                         EstimatorKind::kPpm};
   const Alphabet alphabet(static_cast<int>(labels_.size()));
   const auto possible = [&](bool marked) {
     for (;;) {
