@@ -25,7 +25,8 @@ struct Capabilities {
 
 /// Deterministic counts of what an estimator did so far, for progress and report.
 struct EstimatorStatistics {
-  uint64_t rays = 0;  ///< closest-hit and shadow queries
+  uint64_t rays = 0;        ///< closest-hit and shadow queries
+  uint64_t light_rays = 0;  ///< of these, of paths that all pixels share, where they are told apart
   uint64_t camera_paths = 0;
   uint64_t photon_paths = 0;  ///< emitted
   uint64_t photons_stored = 0;
@@ -53,6 +54,8 @@ class Estimator {
  public:
   virtual ~Estimator() = default;
   virtual Capabilities capabilities() const = 0;
+  /// True if its passes add what the camera sees first to the film's features.
+  virtual bool records_features() const { return false; }
   /// Adds pass `key.pass` to the film. The film's estimate counts are updated by the estimator.
   virtual void render_pass(const PassKey& key, const Scene& scene, Film& film) = 0;
   virtual EstimatorStatistics statistics() const = 0;
@@ -80,6 +83,7 @@ struct IntegratorOptions {
   /// Walks of `path` do not look at what is useful for its routes: the same seed gives the same
   /// paths whatever the routes are.
   bool blind_walks = false;
+  bool guides_emission = true;      ///< photons start where earlier ones were of use
   int camera_samples_per_pass = 0;  ///< 0: the default of the integrator
   TechniqueChoice technique;        ///< of bidirectional estimators
   int hit_points = 0;               ///< of a pixel, in `ppm`; 0: chosen from the scene's samples

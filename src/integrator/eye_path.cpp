@@ -21,7 +21,7 @@ struct EyeEnd {
 class EyeVisitor {
  public:
   EyeVisitor(const PairSettings& settings, const LightSubpath& path, const CameraPath& camera,
-             PartSums& light)
+             PartSums& light, Features* features)
       : settings_(settings),
         routes_(*settings.owned.routes),
         symbols_(*settings.owned.symbols),
@@ -29,6 +29,7 @@ class EyeVisitor {
         path_(path),
         camera_(camera),
         light_(light),
+        features_(features),
         eye_(routes_.start()) {}
 
   void escape(const Walk& walk) {
@@ -44,7 +45,7 @@ class EyeVisitor {
       double weight = 1;
       if (weighs_hit(walk)) {
         const LightStart start =
-            light_start(scene, i, {}, last_, -walk.ray.d, direct_pdf_w(scene, walk, i));
+            light_start(settings_, i, {}, last_, -walk.ray.d, direct_pdf_w(scene, walk, i));
         weight = weight_of_hit(start, end_to_light().next({start.line.at_b, 1}));
       }
       add(part, walk, walk.throughput * le * static_cast<float>(weight));
@@ -58,7 +59,7 @@ class EyeVisitor {
     if (le.is_black()) return;
     double weight = 1;
     if (weighs_hit(walk)) {
-      const LightStart start = light_start(settings_.scene, hit.area_light, {hit.p, hit.ng}, last_,
+      const LightStart start = light_start(settings_, hit.area_light, {hit.p, hit.ng}, last_,
                                            -walk.ray.d, direct_pdf_w(settings_.scene, walk, hit));
       weight = weight_of_hit(start, end_to_light().next({start.line.at_b, start.line.at_a}));
     }
@@ -89,6 +90,7 @@ class EyeVisitor {
       entry_wo_ = v.surface.wo;
     }
     surface_ = &v;
+    if (features_) features_->record(walk, v);
     const ClassMask among = v.classes_of(useful(v)) & v.bsdf.finite_classes();
     if (among == ClassMask::kNone) return;
     const EyeEnd end{walk, &v, nullptr, among, Receiver::of(v.surface, walk.medium)};
@@ -240,7 +242,7 @@ class EyeVisitor {
     const Scene& scene = settings_.scene;
     const double direct =
         d.delta ? scene.light_sampler->pmf(z.receiver.p, z.receiver.ns, d.light) : d.pdf_w;
-    return light_start(scene, d.light, {d.p, d.ng}, place_, -d.wi_world, direct);
+    return light_start(settings_, d.light, {d.p, d.ng}, place_, -d.wi_world, direct);
   }
 
   SampledSpectrum shadow(const DirectSample& d, const Walk& walk, const PathSampler& sampler) {
@@ -323,6 +325,7 @@ class EyeVisitor {
   const LightSubpath& path_;
   const CameraPath& camera_;
   PartSums& light_;
+  Features* features_;
   EyeState eye_;
   Place last_, place_;
   Vec3f entry_wo_{0, 0, 1};
@@ -378,11 +381,11 @@ void EyeVisitor::merge(const Walk& walk, const WalkVertex& v, ClassMask among) {
 }  // namespace
 
 uint64_t trace_eye_path(const PairSettings& settings, const LightSubpath& path, CameraPath& camera,
-                        PathSampler& sampler, PartSums& light) {
+                        PathSampler& sampler, PartSums& light, Features* features) {
   if (!(camera.camera_weight > 0)) return 0;
   camera.walk.specular_alpha = settings.specular_alpha;
   camera.walk.per_wavelength = true;
-  EyeVisitor visitor(settings, path, camera, light);
+  EyeVisitor visitor(settings, path, camera, light, features);
   // A technique with t vertices of the eye side, the lens one of them, needs no more, and no event
   // where it meets a light.
   const TechniqueChoice& one = settings.technique;

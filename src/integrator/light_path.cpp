@@ -111,7 +111,7 @@ class LightVisitor {
     const Vec3f& w = walk.ray.d;
     const double direct =
         light.is_delta() ? chosen : chosen * light.pdf_towards(place_.p, -w, start_.p, start_.ng);
-    return light_start(scene, emission_.light, start_, place_, w, direct).first();
+    return light_start(settings_, emission_.light, start_, place_, w, direct).first();
   }
 
   /// [W10] The way under the surface is one step: what was at its entry counts here.
@@ -340,7 +340,8 @@ uint64_t trace_light_path(const PairSettings& settings, const SampledWavelengths
   walk.lambda = lambda;
   sampler.start_dimension(first_dimension);
   const std::optional<Emission> emission =
-      emit(settings.scene, walk.lambda, settings.scene.camera->motion_time(u_time), sampler);
+      emit(settings.scene, settings.guide, walk.lambda, settings.scene.camera->motion_time(u_time),
+           sampler);
   if (!emission) return 0;
   walk.ray = emission->ray;
   walk.medium = emission->medium;

@@ -195,7 +195,7 @@ void trace_light_path(const LightPass& pass, uint64_t number, Chunk& out) {
   const float u_time = sampler.get_1d();
   sampler.start_dimension(0);
   const std::optional<Emission> emission =
-      emit(pass.scene, walk.lambda, pass.scene.camera->motion_time(u_time), sampler);
+      emit(pass.scene, kUnguided, walk.lambda, pass.scene.camera->motion_time(u_time), sampler);
   if (!emission) return;
   walk.ray = emission->ray;
   walk.medium = emission->medium;

@@ -24,10 +24,11 @@ float radius_of_pass(const IntegratorOptions& options, uint32_t pass) {
 
 MergePass merge_pass(const PassKey& key, const Scene& scene, const Film& film,
                      const OwnedRoutes& owned, const IntegratorOptions& options,
-                     float radius_pixels, const MergeWeight& weight,
+                     const EmissionGuide& guide, float radius_pixels, const MergeWeight& weight,
                      EstimatorStatistics& statistics) {
   const PixelBounds& b = film.bounds();
-  const PhotonPass pass = start_photon_pass(key, scene, film, options);
+  PhotonPass pass = start_photon_pass(key, scene, film, options);
+  pass.trace.guide = &guide;
   const int64_t photons = pass.trace.photons_per_pass;
   const size_t parts = film.parts_of(static_cast<int>(owned.group)).size();
   Gathered gathered(static_cast<size_t>(b.area()), parts);

@@ -23,7 +23,7 @@ struct MergePass {
 /// `statistics`.
 MergePass merge_pass(const PassKey& key, const Scene& scene, const Film& film,
                      const OwnedRoutes& owned, const IntegratorOptions& options,
-                     float radius_pixels, const MergeWeight& weight,
+                     const EmissionGuide& guide, float radius_pixels, const MergeWeight& weight,
                      EstimatorStatistics& statistics);
 
 /// First merge radius in footprints: the user's, or the default.

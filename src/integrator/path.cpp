@@ -13,14 +13,29 @@ namespace {
 
 constexpr uint64_t kStream = 0x70617468;  // "path"
 
+/// False if no path that the scene can have belongs to the group.
+bool owns_any_path(const OwnedRoutes& owned) {
+  const Routes& routes = *owned.routes;
+  if (routes.ends(owned.group, routes.start())) return true;
+  for (size_t label = 0; label <= routes.labels().size(); ++label)
+    if (routes.useful(owned.group, routes.start(), static_cast<Label>(label)) != ClassMask::kNone)
+      return true;
+  return false;
+}
+
 }  // namespace
 
 PathEstimator::PathEstimator(OwnedRoutes owned, const IntegratorOptions& options)
     : owned_(std::move(owned)),
       options_(options),
-      samples_per_pass_(std::max(1, options.camera_samples_per_pass)) {}
+      samples_per_pass_(std::max(1, options.camera_samples_per_pass)),
+      finds_something_(owns_any_path(owned_)) {}
 
 void PathEstimator::render_pass(const PassKey& key, const Scene& scene, Film& film) {
+  if (!finds_something_) {
+    film.add_estimates(static_cast<int>(owned_.group), 1);
+    return;
+  }
   const PixelBounds& b = film.bounds();
   const FilmSettings& settings = film.settings();
   const float specular_alpha = specular_alpha_of_pass(scene.specular_band, key);

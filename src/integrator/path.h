@@ -13,6 +13,7 @@ class PathEstimator : public Estimator {
   PathEstimator(OwnedRoutes owned, const IntegratorOptions& options);
 
   Capabilities capabilities() const override { return {}; }
+  bool records_features() const override { return finds_something_; }
   void render_pass(const PassKey& key, const Scene& scene, Film& film) override;
   EstimatorStatistics statistics() const override { return statistics_; }
 
@@ -20,6 +21,7 @@ class PathEstimator : public Estimator {
   OwnedRoutes owned_;
   IntegratorOptions options_;
   int samples_per_pass_;
+  bool finds_something_;  ///< some path that the scene can have is the group's
   EstimatorStatistics statistics_;
 };
 

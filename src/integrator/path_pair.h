@@ -12,6 +12,8 @@
 
 #include "film/part_sums.h"
 #include "integrator/estimator.h"
+#include "integrator/features.h"
+#include "photon/emission_guide.h"
 #include "photon/photon_grid.h"
 #include "route/scene_symbols.h"
 #include "transport/camera_connection.h"
@@ -51,7 +53,8 @@ struct PairSettings {
   /// the number of pixels where each camera path has a light path of its own.
   double light_paths = 1;
   TechniqueChoice technique{};
-  const PairMerging* merging = nullptr;  ///< null: connections only
+  const PairMerging* merging = nullptr;    ///< null: connections only
+  const EmissionGuide& guide = kUnguided;  ///< of the starts of light paths
   bool merges_only = false;  ///< all other techniques have been made, but count in weights
 
   bool connects() const { return !merging || merging->connects; }
@@ -123,8 +126,9 @@ uint64_t trace_light_path(const PairSettings& settings, const SampledWavelengths
 
 /// Runs the eye path that `camera` starts and adds the light of all techniques with t > 1 to
 /// `light`, before the camera's weight. Its wavelengths, where not all are kept, are dealt with:
-/// the sums are those of the wavelengths that it started with. Returns the number of rays.
+/// the sums are those of the wavelengths that it started with. What it saw first goes to
+/// `features`, if they are of interest. Returns the number of rays.
 uint64_t trace_eye_path(const PairSettings& settings, const LightSubpath& path, CameraPath& camera,
-                        PathSampler& sampler, PartSums& light);
+                        PathSampler& sampler, PartSums& light, Features* features = nullptr);
 
 }  // namespace nephroid

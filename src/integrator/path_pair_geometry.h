@@ -63,8 +63,9 @@ inline bool merges_at(const WalkVertex& v, EventClass c) {
 /// How light number `light` starts paths towards the vertex `x` in unit direction `w`. `from` is
 /// its point; not used for infinite lights. `direct_w` is the density of next-event estimation at
 /// x, per steradian; of lights that no walk can hit, the probability of choosing the light ([W5]).
-inline LightStart light_start(const Scene& scene, int light, const Place& from, const Place& x,
-                              const Vec3f& w, double direct_w) {
+inline LightStart light_start(const PairSettings& settings, int light, const Place& from,
+                              const Place& x, const Vec3f& w, double direct_w) {
+  const Scene& scene = settings.scene;
   const Light& l = *scene.lights[static_cast<size_t>(light)];
   const double chosen = scene.light_sampler->pmf_by_power(light);
   const EmissionDensity e = l.emission_pdf(from.ng, w);
@@ -73,12 +74,12 @@ inline LightStart light_start(const Scene& scene, int light, const Place& from, 
   if (l.is_infinite()) {
     s.line = {1, cosine_at(x, w)};
     s.start = chosen * e.pdf_w;
-    s.onward = e.pdf_a;
+    s.onward = settings.guide.density(scene, light, x.p, w, e.pdf_a);
     s.direct = direct_w;
   } else {
     s.line = line_between(from, x);
     s.start = chosen * e.pdf_a;
-    s.onward = e.pdf_w;
+    s.onward = settings.guide.density(scene, light, from.p, w, e.pdf_w);
     s.direct = l.is_delta() ? direct_w * e.pdf_a : direct_w * s.line.at_a;
   }
   return s;

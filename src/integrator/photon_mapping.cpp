@@ -12,6 +12,7 @@ void PhotonMapping::render_pass(const PassKey& key, const Scene& scene, Film& fi
   film.add_estimates(group, 1);
   if (!photons_can_count_) return;
   const MergePass pass = merge_pass(key, scene, film, owned_, options_,
+                                    emission_.guide(key.seed, scene, film, owned_, options_),
                                     radius_of_pass(options_, key.pass), {}, statistics_);
   const PixelBounds& b = film.bounds();
   const size_t parts = film.parts_of(group).size();

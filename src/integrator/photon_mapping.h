@@ -1,10 +1,11 @@
-// `photons`: stochastic progressive photon mapping with the memoryless radius [E2], storing only the
-// photons of its own routes. A pass is a function of the scene, the options and the pass key alone,
-// so passes may be rendered anywhere and added up. Who calls it: presets. It must not know how a
-// pass gathers. Papers: Hachisuka & Jensen 2009; Knaus & Zwicker 2011; Doidge et al. 2012.
+// `photons`: stochastic progressive photon mapping with the memoryless radius [E2], storing only
+// the photons of its own routes. A pass is a function of the scene, the options and the pass key
+// alone, so passes may be rendered anywhere and added up. Who calls it: presets. It must not know
+// how a pass gathers. Papers: Hachisuka & Jensen 2009; Knaus & Zwicker 2011; Doidge et al. 2012.
 #pragma once
 
 #include "integrator/estimator.h"
+#include "integrator/learned_emission.h"
 #include "route/scene_symbols.h"
 
 namespace nephroid {
@@ -18,6 +19,7 @@ class PhotonMapping : public Estimator {
   EstimatorStatistics statistics() const override;
 
  private:
+  LearnedEmission emission_;
   OwnedRoutes owned_;
   IntegratorOptions options_;
   bool photons_can_count_;

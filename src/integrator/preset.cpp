@@ -8,6 +8,7 @@
 #include "integrator/light_tracing.h"
 #include "integrator/multiplexed.h"
 #include "integrator/path.h"
+#include "integrator/path_and_photons.h"
 #include "integrator/photon_map.h"
 #include "integrator/photon_mapping.h"
 #include "integrator/ppm.h"
@@ -37,7 +38,7 @@ constexpr Row kTable[] = {{EstimatorKind::kPath, make<PathEstimator>},
                           {EstimatorKind::kBidirectional, make<Bidirectional>},
                           {EstimatorKind::kVcm, make<VertexConnectionMerging>},
                           {EstimatorKind::kBpm, make<VertexConnectionMerging>},
-                          {EstimatorKind::kPathAndPhotons, make<VertexConnectionMerging>},
+                          {EstimatorKind::kPathAndPhotons, make<PathAndPhotons>},
                           {EstimatorKind::kMetropolis, make<Multiplexed>},
                           {EstimatorKind::kPrimarySpace, make<PrimarySpace>},
                           {EstimatorKind::kPhotonMap, make<PhotonMap>},
@@ -104,10 +105,8 @@ Preset make_preset(CompiledPlan compiled, const IntegratorOptions& options, cons
       if (estimator_type(row.kind).connects) require_connecting_camera(scene);
       preset.estimators.push_back(row.make({preset.routes, symbols, g}, options));
     }
-  // Paths from the eye see the features of the picture on their way; nobody else does.
-  const auto& groups = preset.routes->groups();
-  if (std::none_of(groups.begin(), groups.end(),
-                   [](const RouteGroup& group) { return group.estimator == EstimatorKind::kPath; }))
+  if (std::none_of(preset.estimators.begin(), preset.estimators.end(),
+                   [](const auto& estimator) { return estimator->records_features(); }))
     preset.estimators.push_back(std::make_unique<FeatureEstimator>());
   return preset;
 }

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "core/sampler.h"
-#include "scene/scene.h"
+#include "photon/emission_guide.h"
 
 namespace nephroid {
 
@@ -21,10 +21,11 @@ struct Emission {
   SampledSpectrum flux;            ///< of one light path: divide by the number emitted
   EmissionSample start;            ///< what the light said
   float pdf_start = 0;             ///< of the light and the start point, 1/area
+  float weight = 1;                ///< density of the lights' own start over that of this one
 };
 
-/// The start of one light path. Empty if the light gives nothing here.
-std::optional<Emission> emit(const Scene& scene, const SampledWavelengths& lambda, float time,
-                             PathSampler& sampler);
+/// The start of one light path, as the guide has it. Empty if the light gives nothing here.
+std::optional<Emission> emit(const Scene& scene, const EmissionGuide& guide,
+                             const SampledWavelengths& lambda, float time, PathSampler& sampler);
 
 }  // namespace nephroid

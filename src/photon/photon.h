@@ -9,9 +9,9 @@ namespace nephroid {
 struct Photon {
   SampledSpectrum flux;  ///< at the pass's wavelengths; of a photon that dropped its secondary
                          ///< wavelengths only the hero's is meaningful
-  Vec3f p;
-  Vec3f wi;              ///< unit, back along the photon's path
-  Vec3f ng;              ///< geometric normal of the surface
+  Vec3f p{0, 0, 0};
+  Vec3f wi{0, 0, 0};     ///< unit, back along the photon's path
+  Vec3f ng{0, 0, 0};     ///< geometric normal of the surface
   LightState state = 0;  ///< of the light side, this vertex excluded
   uint8_t secondary_terminated = 0;
   uint8_t set = 0;      ///< of a map whose photons do not share one set of wavelengths

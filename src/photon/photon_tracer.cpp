@@ -1,5 +1,7 @@
 #include "photon/photon_tracer.h"
 
+#include <algorithm>
+
 #include "core/parallel.h"
 #include "photon/emission.h"
 #include "transport/walk_symbols.h"
@@ -27,7 +29,9 @@ class PhotonVisitor {
   void escape(const Walk&) {}
   void emitter(const Walk&, const SurfaceInteraction&, const Light&) {}
   void medium_emission(const Medium&, const SampledSpectrum&) {}
-  void medium_vertex(const Walk&, const MediumVertex&, PathSampler&) {}
+  void medium_vertex(const Walk&, const MediumVertex& v, PathSampler&) {
+    if (!is_met_) meet(v.p);
+  }
 
   ClassMask useful(const WalkVertex& v) const {
     return routes_.useful_before_deposit(group_, state_, label_at(symbols_, v));
@@ -39,6 +43,7 @@ class PhotonVisitor {
   bool looks_under_surfaces() const { return false; }
 
   void vertex(const Walk& walk, const WalkVertex& v, PathSampler&) {
+    if (walk.events == 0 && !is_met_) meet(v.surface.p);
     if ((v.possible & deposits_at(v)) == ClassMask::kNone) return;
     Photon photon;
     photon.p = v.surface.p;
@@ -60,8 +65,13 @@ class PhotonVisitor {
 
   bool useful() const { return stored_ > 0; }
   bool specular() const { return specular_; }
+  const Vec3f& first_hit() const { return first_hit_; }
 
  private:
+  void meet(const Vec3f& p) {
+    first_hit_ = p;
+    is_met_ = true;
+  }
   /// Where a mix chooses among materials, whoever looks here may see another one.
   ClassMask deposits_at(const WalkVertex& v) const {
     if (!v.mixed) return routes_.deposits(group_, state_, label_at(symbols_, v));
@@ -78,8 +88,43 @@ class PhotonVisitor {
   std::vector<Photon>& out_;
   LightState state_;
   int stored_ = 0;
-  bool specular_ = false;
+  bool specular_ = false, is_met_ = false;
+  Vec3f first_hit_{0, 0, 0};
 };
+
+/// What became of one light path.
+struct Outcome {
+  bool useful = false, specular = false;
+  uint64_t rays = 0;
+  UsefulStart start;
+};
+
+/// Photon number `j` of the pass; what it leaves goes to `photons`.
+Outcome trace_photon(const Scene& scene, const OwnedRoutes& owned,
+                     const PhotonTraceSettings& settings, int64_t j, std::vector<Photon>& photons) {
+  // All passes together run through one sequence; the seed changes when its 32 bits are used up.
+  const uint64_t number =
+      static_cast<uint64_t>(settings.key.pass) * static_cast<uint64_t>(settings.photons_per_pass) +
+      static_cast<uint64_t>(j);
+  const SobolPoint point(static_cast<uint32_t>(number), kStratifiedDimensions);
+  PathSampler sampler(point, hash_combine(settings.key.seed, kStream, number >> 32));
+  const auto emitted = emit(scene, *settings.guide, settings.lambda, settings.time, sampler);
+  if (!emitted) return {};
+  Walk walk;
+  walk.ray = emitted->ray;
+  walk.medium = emitted->medium;
+  walk.specular_alpha = settings.specular_alpha;
+  walk.per_wavelength = true;
+  walk.lambda = settings.lambda;
+  walk.first_dimension = kEmissionDimensions;
+  walk.second_dimension = kEmissionDimensions + dimensions::kPerVertex;
+  PhotonVisitor visitor(owned, owned.symbols->light(emitted->light), emitted->flux, photons);
+  random_walk(scene, TransportMode::kImportance, settings.max_events, walk, sampler, visitor);
+  return {visitor.useful(),
+          visitor.specular(),
+          walk.rays,
+          {emitted->light, visitor.first_hit(), emitted->weight}};
+}
 
 }  // namespace
 
@@ -90,33 +135,13 @@ PhotonTrace trace_photons(const Scene& scene, const OwnedRoutes& owned,
     uint64_t useful = 0, specular = 0, rays = 0;
   };
   std::vector<Chunk> chunks(static_cast<size_t>(chunk_count(end - begin, kPhotonChunk)));
-  const uint64_t first =
-      static_cast<uint64_t>(settings.key.pass) * static_cast<uint64_t>(settings.photons_per_pass) +
-      static_cast<uint64_t>(begin);
   parallel_chunks(end - begin, kPhotonChunk, [&](int64_t c, int64_t b, int64_t e) {
     Chunk& chunk = chunks[static_cast<size_t>(c)];
-    for (int64_t j = b; j < e; ++j) {
-      // All passes together run through one sequence; the seed changes when its 32 bits are used
-      // up.
-      const uint64_t number = first + static_cast<uint64_t>(j);
-      const SobolPoint point(static_cast<uint32_t>(number), kStratifiedDimensions);
-      PathSampler sampler(point, hash_combine(settings.key.seed, kStream, number >> 32));
-      const auto emitted = emit(scene, settings.lambda, settings.time, sampler);
-      if (!emitted) continue;
-      Walk walk;
-      walk.ray = emitted->ray;
-      walk.medium = emitted->medium;
-      walk.specular_alpha = settings.specular_alpha;
-      walk.per_wavelength = true;
-      walk.lambda = settings.lambda;
-      walk.first_dimension = kEmissionDimensions;
-      walk.second_dimension = kEmissionDimensions + dimensions::kPerVertex;
-      PhotonVisitor visitor(owned, owned.symbols->light(emitted->light), emitted->flux,
-                            chunk.photons);
-      random_walk(scene, TransportMode::kImportance, settings.max_events, walk, sampler, visitor);
-      chunk.useful += visitor.useful();
-      chunk.specular += visitor.specular();
-      chunk.rays += walk.rays;
+    for (int64_t j = begin + b; j < begin + e; ++j) {
+      const Outcome outcome = trace_photon(scene, owned, settings, j, chunk.photons);
+      chunk.useful += outcome.useful;
+      chunk.specular += outcome.specular;
+      chunk.rays += outcome.rays;
     }
   });
   PhotonTrace trace;
@@ -131,6 +156,26 @@ PhotonTrace trace_photons(const Scene& scene, const OwnedRoutes& owned,
     trace.rays += chunk.rays;
   }
   return trace;
+}
+
+std::vector<UsefulStart> trace_useful_starts(const Scene& scene, const OwnedRoutes& owned,
+                                             const PhotonTraceSettings& settings, int64_t begin,
+                                             int64_t end,
+                                             const std::function<bool(const Photon&)>& is_useful) {
+  std::vector<std::vector<UsefulStart>> chunks(
+      static_cast<size_t>(chunk_count(end - begin, kPhotonChunk)));
+  parallel_chunks(end - begin, kPhotonChunk, [&](int64_t c, int64_t b, int64_t e) {
+    std::vector<Photon> photons;
+    for (int64_t j = begin + b; j < begin + e; ++j) {
+      photons.clear();
+      const Outcome outcome = trace_photon(scene, owned, settings, j, photons);
+      if (std::any_of(photons.begin(), photons.end(), is_useful))
+        chunks[static_cast<size_t>(c)].push_back(outcome.start);
+    }
+  });
+  std::vector<UsefulStart> all;
+  for (const auto& chunk : chunks) all.insert(all.end(), chunk.begin(), chunk.end());
+  return all;
 }
 
 namespace {

@@ -4,9 +4,11 @@
 // photon integrators. It must not know films or cameras.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
+#include "photon/emission_guide.h"
 #include "photon/photon.h"
 #include "route/scene_symbols.h"
 #include "transport/random_walk.h"
@@ -28,6 +30,7 @@ struct PhotonTraceSettings {
   float time = 0;
   float specular_alpha = 0;  ///< of the pass
   int max_events = 0;        ///< of the whole path: a photon lands with fewer than these
+  const EmissionGuide* guide = &kUnguided;  ///< where paths start
 };
 
 /// Traces photons begin <= j < end of the pass and stores one at every surface with a finite lobe
@@ -35,6 +38,13 @@ struct PhotonTraceSettings {
 /// divide by the number emitted.
 PhotonTrace trace_photons(const Scene& scene, const OwnedRoutes& owned,
                           const PhotonTraceSettings& settings, int64_t begin, int64_t end);
+
+/// Starts of the paths begin <= j < end that left a photon which is of use. `is_useful` is called on
+/// any thread.
+std::vector<UsefulStart> trace_useful_starts(const Scene& scene, const OwnedRoutes& owned,
+                                             const PhotonTraceSettings& settings, int64_t begin,
+                                             int64_t end,
+                                             const std::function<bool(const Photon&)>& is_useful);
 
 /// Traces from photon `begin` on until the pass ends or `limit` photons are stored, whichever comes
 /// first, in groups of whole chunks: a pass whose photons do not fit in memory is traced, gathered

@@ -10,7 +10,7 @@ std::span<const RoutePreset> route_presets() {
       {"mixed",
        "path tracing of all that can be followed from the lights, whose caustics are photons as "
        "well, both weighed against each other",
-       {"emission=C(L|.*M|.*H.*L):path", "caustic=C.*[DG]S+[DG]?L:path+photons",
+       {"emission=C(.*M|.*H.*L):path", "caustic=C.*[DG]S+[DG]?L:path+photons",
         "diffuse=.*:path+photons"}},
       {"doidge2012",
        "caustics of lights and of surfaces that a light shines on are photons, the rest path "

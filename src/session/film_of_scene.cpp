@@ -12,10 +12,10 @@
 #include "integrator/bidirectional.h"
 #include "integrator/gather.h"
 #include "integrator/merge_pass.h"
+#include "integrator/pair_pass.h"
 #include "integrator/photon_map.h"
 #include "integrator/ppm.h"
 #include "integrator/sppm.h"
-#include "integrator/vertex_connection_merging.h"
 
 namespace nephroid {
 namespace {
@@ -37,7 +37,7 @@ size_t bytes_of_estimators(const Routes& routes, int hit_points) {
       pass = Bidirectional::bytes_per_pixel(parts);
     } else if (group.estimator == EstimatorKind::kVcm || group.estimator == EstimatorKind::kBpm ||
                group.estimator == EstimatorKind::kPathAndPhotons) {
-      pass = VertexConnectionMerging::bytes_per_pixel(parts);
+      pass = PairPass::bytes_per_pixel(parts);
     } else if (group.estimator == EstimatorKind::kPpm) {
       kept += static_cast<size_t>(hit_points) * Ppm::bytes_kept(parts);
       pass += static_cast<size_t>(hit_points) * Ppm::bytes_of_pass(parts);

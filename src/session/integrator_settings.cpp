@@ -154,6 +154,13 @@ constexpr IntegratorSetting kSettings[] = {
        o.large_step = number("large-step", t, 0, 1, true);
      },
      [](const IntegratorOptions& o) { return fmt::format("{:g}", o.large_step); }},
+    {"guide", "yes|no", "yes", "",
+     "Photons of `photons` and `path+photons` start where earlier ones were of use.",
+     [](IntegratorOptions& o, const std::string& t) {
+       if (t != "yes" && t != "no") throw UsageError("-D guide=" + t + ": expected yes or no");
+       o.guides_emission = t == "yes";
+     },
+     [](const IntegratorOptions& o) { return std::string(o.guides_emission ? "yes" : "no"); }},
     {"texture-cache", "SIZE", "1G", "bytes",
      "Memory for the pixels of image textures (K, M, G: powers of 1024); what does not fit is read "
      "from the files again and again, with the same picture.",

@@ -15,6 +15,7 @@ class DistantLight final : public Light {
 
   bool is_delta() const override { return true; }
   bool is_infinite() const override { return true; }
+  bool emits_through_disk() const override { return true; }
 
   std::optional<LightSample> sample_towards(const Vec3f& from, const Vec2f&,
                                             const SampledWavelengths& lambda) const override {

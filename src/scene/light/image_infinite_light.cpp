@@ -38,6 +38,7 @@ class ImageInfiniteLight final : public Light {
   }
 
   bool is_infinite() const override { return true; }
+  bool emits_through_disk() const override { return true; }
 
   std::optional<LightSample> sample_towards(const Vec3f& from, const Vec2f& u,
                                             const SampledWavelengths& lambda) const override {

@@ -75,6 +75,9 @@ class Light {
   virtual bool is_delta() const { return false; }
   virtual bool is_infinite() const { return false; }
   virtual bool is_area() const { return false; }
+  /// Paths from this infinite light start uniformly on a disk as wide as the scene, whatever their
+  /// direction.
+  virtual bool emits_through_disk() const { return false; }
 
   /// A direction to the light as seen from `from`; empty where nothing arrives. An infinite light
   /// may leave out directions that walks find well; pdf_towards is zero there.

@@ -12,6 +12,7 @@ class UniformInfiniteLight final : public Light {
   explicit UniformInfiniteLight(const EmissionSpectrum& radiance) : radiance_(radiance) {}
 
   bool is_infinite() const override { return true; }
+  bool emits_through_disk() const override { return true; }
 
   std::optional<LightSample> sample_towards(const Vec3f& from, const Vec2f& u,
                                             const SampledWavelengths& lambda) const override {

@@ -259,7 +259,7 @@ TEST_P(PathPair, WeightsAreThoseOfBruteForce) {
                   eye);
       PathSampler light_sampler(point, seed + 1000000);
       light_sampler.start_dimension(0);
-      const auto emission = emit(*scene, lambda, 0.5f, light_sampler);
+      const auto emission = emit(*scene, kUnguided, lambda, 0.5f, light_sampler);
       LightEnd origin;
       if (emission) {
         Walk walk;

@@ -1,0 +1,126 @@
+#include "integrator/balance.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nephroid {
+
+namespace {
+
+/// Each tile with its neighbours: the spread of a few passes is a rough guess.
+std::vector<double> smoothed(const std::vector<double>& values, int width) {
+  const int height = static_cast<int>(values.size()) / width;
+  std::vector<double> out(values.size());
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      double sum = 0, weights = 0;
+      for (int j = std::max(0, y - 1); j <= std::min(height - 1, y + 1); ++j)
+        for (int i = std::max(0, x - 1); i <= std::min(width - 1, x + 1); ++i) {
+          const double w = (i == x ? 2 : 1) * (j == y ? 2 : 1);
+          sum += w * values[static_cast<size_t>(j * width + i)];
+          weights += w;
+        }
+      out[static_cast<size_t>(y * width + x)] = sum / weights;
+    }
+  return out;
+}
+
+}  // namespace
+
+int SampleMap::most() const {
+  return *std::max_element(counts_.begin(), counts_.end());
+}
+
+double SampleMap::mean() const {
+  double sum = 0;
+  for (const uint8_t n : counts_) sum += n;
+  return sum / static_cast<double>(counts_.size());
+}
+
+SampleSpread::ByTile SampleSpread::by_tile() const {
+  const SampleMap tiles(bounds_);
+  ByTile out;
+  out.variance.assign(tiles.counts().size(), 0);
+  out.cost = out.variance;
+  std::vector<double> light(out.variance), pixels(out.variance);
+  double all_light = 0, all_pixels = 0;
+  size_t i = 0;
+  for (int y = 0; y < bounds_.height(); ++y)
+    for (int x = 0; x < bounds_.width(); ++x) {
+      const Sums& s = sums_[i++];
+      if (s.samples < 2) continue;
+      const size_t tile = tiles.tile_of(x, y);
+      const double mean = s.light / s.samples;
+      out.cost[tile] += s.rays / s.samples;
+      out.variance[tile] += std::max(0.0, (s.square - mean * s.light) / (s.samples - 1));
+      light[tile] += std::abs(mean);
+      all_light += std::abs(mean);
+      ++pixels[tile];
+      ++all_pixels;
+    }
+  // Between the absolute error, which forgets the shadows, and the relative one, which forgets
+  // the lights.
+  const double floor = 0.1 * all_light / std::max(1.0, all_pixels);
+  for (size_t t = 0; t < out.variance.size(); ++t) {
+    if (!(pixels[t] > 0)) continue;
+    const double brightness = light[t] / pixels[t] + floor;
+    out.variance[t] = brightness > 0 ? out.variance[t] / (pixels[t] * brightness) : 0;
+    out.cost[t] /= pixels[t];
+  }
+  return out;
+}
+
+double steady_mean(std::vector<double> tiles) {
+  if (tiles.empty()) return 0;
+  std::sort(tiles.begin(), tiles.end());
+  const double most = tiles[std::min(tiles.size() - 1, tiles.size() * 199 / 200)];
+  double sum = 0;
+  for (const double v : tiles) sum += std::min(v, most);
+  return sum / static_cast<double>(tiles.size());
+}
+
+SampleMap share_out(const PixelBounds& bounds, const SampleSpread::ByTile& spread) {
+  SampleMap samples(bounds);
+  std::vector<double> roots = smoothed(spread.variance, samples.width());
+  const std::vector<double> cost = smoothed(spread.cost, samples.width());
+  for (size_t i = 0; i < roots.size(); ++i)
+    roots[i] = cost[i] > 0 ? std::sqrt(roots[i] / cost[i]) : 0;
+  // The quietest of the tiles that have light have one path a pass.
+  const double brightest = *std::max_element(roots.begin(), roots.end());
+  std::vector<double> lit;
+  for (const double v : roots)
+    if (v > 1e-3 * brightest) lit.push_back(v);
+  if (lit.empty()) return samples;
+  std::sort(lit.begin(), lit.end());
+  const double unit = lit[lit.size() / 20];
+  for (size_t i = 0; i < roots.size(); ++i)
+    samples.counts()[i] = static_cast<uint8_t>(
+        std::clamp(std::round(roots[i] / unit), 1.0, double{SampleMap::kMost}));
+  return samples;
+}
+
+Balance::Balance(const Trial& many, const Trial& few) {
+  // V(N) = v + b/N, C(N) = c + d N.
+  const double b =
+      std::max(0.0, (few.variance - many.variance) / (1 / few.light_paths - 1 / many.light_paths));
+  variance_of_camera = std::max(0.05 * many.variance, many.variance - b / many.light_paths);
+  variance_of_light = b;
+  cost_of_light = std::max(0.0, (many.cost - few.cost) / (many.light_paths - few.light_paths));
+  cost_of_camera = std::max(0.1 * few.cost, few.cost - cost_of_light * few.light_paths);
+}
+
+int64_t Balance::light_paths(double camera_paths) const {
+  constexpr double kFewest = 1024, kMost = 1 << 20;
+  if (!(cost_of_light > 0) || !(variance_of_camera > 0)) return static_cast<int64_t>(kFewest);
+  const double best = camera_paths * std::sqrt(variance_of_light * cost_of_camera /
+                                               (variance_of_camera * cost_of_light));
+  return static_cast<int64_t>(std::clamp(best, kFewest, kMost));
+}
+
+double Balance::expense() const {
+  const double paths = static_cast<double>(light_paths(1));
+  return (variance_of_camera + variance_of_light / paths) *
+         (cost_of_camera + cost_of_light * paths);
+}
+
+}  // namespace nephroid

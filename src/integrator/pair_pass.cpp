@@ -1,0 +1,287 @@
+#include "integrator/pair_pass.h"
+
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "core/parallel.h"
+#include "integrator/features.h"
+#include "integrator/merge_pass.h"
+#include "integrator/path_pair.h"
+
+namespace nephroid {
+
+namespace {
+
+constexpr uint64_t kEyeStream = 0x76636d65;    // "vcme"
+constexpr uint64_t kLightStream = 0x76636d6c;  // "vcml"
+constexpr uint64_t kPairStream = 0x76636d70;   // "vcmp"
+constexpr int64_t kChunk = 1024;
+constexpr int64_t kGroup = 32 * kChunk;
+
+/// What a chunk of light paths or a row of pixels found.
+struct Chunk {
+  std::vector<Photon> photons;
+  std::vector<Splat> splats;
+  uint64_t rays = 0, useful = 0, camera_paths = 0;
+};
+
+class Rendering {
+ public:
+  /// For a film like `like`; what is found goes to `film`, unless it is null.
+  Rendering(const PairPass& how, const PassKey& key, const Scene& scene, const Film& like,
+            Film* film, const OwnedRoutes& owned, const IntegratorOptions& options)
+      : how_(how),
+        key_(key),
+        seed_(hash_combine(key.seed,
+                           static_cast<uint64_t>(owned.routes->groups()[owned.group].estimator))),
+        scene_(scene),
+        like_(like),
+        film_(film),
+        owned_(owned),
+        options_(options),
+        pass_(start_photon_pass(key, scene, like, options)),
+        view_(scene, like.bounds()),
+        places_(*owned.routes, owned.group),
+        settings_{.scene = scene, .owned = owned, .guide = *how.guide} {
+    merging_.caustics_only = how.caustics_only;
+    merging_.photons = static_cast<double>(how.light_paths);
+    merging_.radius_pixels = radius_of_pass(options, key.pass);
+    merging_.footprint = pass_.footprint;
+    merging_.eye = scene.camera->camera_to_world(pass_.trace.time).point(Vec3f(0, 0, 0));
+    merging_.connects = how.connects;
+    settings_.view = scene.camera->connects() && merging_.connects ? &view_ : nullptr;
+    settings_.specular_alpha = pass_.trace.specular_alpha;
+    settings_.max_depth = options.max_depth;
+    settings_.light_paths = static_cast<double>(how.light_paths);
+    settings_.technique = options.technique;
+    settings_.merging = &merging_;
+    const size_t pixels = static_cast<size_t>(like.bounds().area());
+    parts_ = like.parts_of(static_cast<int>(owned.group)).size();
+    values_.resize(pixels * parts_);
+    filter_weights_.assign(pixels, 0.0f);
+    const int most = how.samples ? how.samples->most() : 1;
+    points_.resize(static_cast<size_t>(most));
+    for (int n = 1; n <= most; ++n)
+      for (int k = 0; k < n; ++k)
+        points_[static_cast<size_t>(n - 1)].push_back(sample_points(n, k));
+  }
+
+  void render(EstimatorStatistics& statistics) {
+    std::optional<SplatBuffer> buffer;
+    if (film_ && merging_.connects)
+      buffer.emplace(*film_, static_cast<int>(owned_.group), *scene_.filter);
+    int64_t begin = 0;
+    do {
+      std::vector<Photon> photons = trace_batch_of_paths(begin, buffer, statistics);
+      const PhotonGrid grid(std::move(photons));
+      statistics.hold(grid.bytes(), filter_weights_.size() * PairPass::bytes_per_pixel(parts_));
+      merging_.grid = &grid;
+      trace_eye_paths(statistics);
+      merging_.grid = nullptr;
+      settings_.merges_only = true;
+    } while (begin < how_.light_paths);
+    finish_values();
+    if (buffer)
+      buffer->finish(1.0 / static_cast<double>(how_.light_paths), values_);
+    else if (film_)
+      add_values();
+    statistics.photon_paths += static_cast<uint64_t>(how_.light_paths);
+    statistics.radius_min_pixels = merging_.radius_pixels;
+    if (statistics.radius_max_pixels == 0) statistics.radius_max_pixels = merging_.radius_pixels;
+  }
+
+ private:
+  /// Light path number `j` of those that are merged and connected to the camera.
+  uint64_t trace_path(int64_t j, std::vector<FilmConnection>& seen,
+                      std::vector<Photon>& photons) const {
+    const uint64_t number =
+        uint64_t{key_.pass} * static_cast<uint64_t>(how_.light_paths) + static_cast<uint64_t>(j);
+    const SobolPoint point(static_cast<uint32_t>(number), kLightPathDimensions);
+    PathSampler sampler(point, hash_combine(seed_, kLightStream, number >> 32, how_.light_paths));
+    return trace_light_path(settings_, pass_.trace.lambda, pass_.u_time, sampler, nullptr, &seen,
+                            &photons);
+  }
+
+  /// Light paths from `begin` on until memory is full; moves `begin`.
+  std::vector<Photon> trace_batch_of_paths(int64_t& begin, std::optional<SplatBuffer>& buffer,
+                                           EstimatorStatistics& statistics) {
+    std::vector<Photon> photons;
+    while (begin < how_.light_paths &&
+           static_cast<int64_t>(photons.size()) < options_.memory_photons) {
+      const int64_t count = std::min(kGroup, how_.light_paths - begin);
+      std::vector<Chunk> chunks(static_cast<size_t>(chunk_count(count, kChunk)));
+      parallel_chunks(count, kChunk, [&](int64_t c, int64_t b, int64_t e) {
+        std::vector<FilmConnection> seen;
+        Chunk& chunk = chunks[static_cast<size_t>(c)];
+        for (int64_t j = begin + b; j < begin + e; ++j) {
+          seen.clear();
+          const size_t before = chunk.photons.size();
+          chunk.rays += trace_path(j, seen, chunk.photons);
+          chunk.useful += chunk.photons.size() > before;
+          expose(seen, chunk);
+        }
+      });
+      begin += count;
+      std::vector<Splat> splats;
+      for (const Chunk& chunk : chunks) {
+        photons.insert(photons.end(), chunk.photons.begin(), chunk.photons.end());
+        splats.insert(splats.end(), chunk.splats.begin(), chunk.splats.end());
+        statistics.rays += chunk.rays;
+        statistics.light_rays += chunk.rays;
+        statistics.photon_paths_useful += chunk.useful;
+      }
+      if (buffer)
+        buffer->add(splats);
+      else
+        add_to_nearest(splats);
+      statistics.splats += splats.size();
+    }
+    statistics.photons_stored += photons.size();
+    return photons;
+  }
+
+  void add_to_nearest(const std::vector<Splat>& splats) {
+    const PixelBounds& b = like_.bounds();
+    for (const Splat& splat : splats) {
+      const int x = static_cast<int>(std::floor(splat.film.x)) - b.x0,
+                y = static_cast<int>(std::floor(splat.film.y)) - b.y0;
+      if (x < 0 || y < 0 || x >= b.width() || y >= b.height()) continue;
+      Rgb& sum = values_[(static_cast<size_t>(y) * static_cast<size_t>(b.width()) +
+                          static_cast<size_t>(x)) *
+                             parts_ +
+                         splat.part];
+      sum = sum + splat.value * (1.0f / static_cast<float>(how_.light_paths));
+    }
+  }
+
+  void expose(const std::vector<FilmConnection>& seen, Chunk& chunk) const {
+    for (const FilmConnection& c : seen)
+      for (int i = 0; i < c.seen.count; ++i)
+        chunk.splats.push_back({c.seen.film[static_cast<size_t>(i)],
+                                static_cast<uint8_t>(places_.place(c.part)),
+                                pass_.weights.apply(c.value)});
+  }
+
+  /// The numbers of a pixel's sample `k` of `n` in this pass.
+  struct SamplePoints {
+    SobolPoint eye, light;
+  };
+  SamplePoints sample_points(int n, int k) const {
+    const uint32_t passes = how_.head > 0 && key_.pass > 0 ? key_.pass - 1 : key_.pass;
+    const uint32_t index = (key_.pass > 0 ? how_.head : 0) + passes * static_cast<uint32_t>(n) +
+                           static_cast<uint32_t>(k);
+    return {SobolPoint(index, kEyePathDimensions),
+            SobolPoint(index, how_.connects ? kPairDimensions : 1)};
+  }
+
+  void trace_eye_paths(EstimatorStatistics& statistics) {
+    const PixelBounds& b = like_.bounds();
+    std::vector<Chunk> rows(static_cast<size_t>(b.height()));
+    parallel_chunks(b.height(), 1, [&](int64_t row, int64_t, int64_t) {
+      LightSubpath path;
+      PartSums light(*owned_.routes, owned_.group);
+      const int y = b.y0 + static_cast<int>(row);
+      for (int x = b.x0; x < b.x1; ++x) {
+        const int samples = how_.samples ? how_.samples->at(x - b.x0, y - b.y0) : 1;
+        for (int k = 0; k < samples; ++k)
+          trace_sample(x, y, samples, k, path, light, rows[static_cast<size_t>(row)]);
+      }
+    });
+    for (const Chunk& row : rows) {
+      statistics.rays += row.rays;
+      statistics.camera_paths += row.camera_paths;
+    }
+    if (film_ && how_.adds_features && !settings_.merges_only) film_->add_feature_estimates(1);
+  }
+
+  void trace_sample(int x, int y, int samples, int k, LightSubpath& path, PartSums& light,
+                    Chunk& row) {
+    const PixelBounds& b = like_.bounds();
+    const size_t pixel = static_cast<size_t>(y - b.y0) * static_cast<size_t>(b.width()) +
+                         static_cast<size_t>(x - b.x0);
+    const SamplePoints& points = points_[static_cast<size_t>(samples - 1)][static_cast<size_t>(k)];
+    const uint64_t before = row.rays;
+    PathSampler sampler(points.eye, hash_combine(seed_, kEyeStream, x, y));
+    CameraPath camera = start_merging_path(scene_, x, y, sampler, pass_);
+    if (merging_.connects && !settings_.merges_only) {
+      // A light path of its own: those that are merged run through one sequence, of which a pixel
+      // would see the same part in all passes.
+      PathSampler own(points.light, hash_combine(seed_, kPairStream, x, y));
+      row.rays += trace_light_path(settings_, pass_.trace.lambda, pass_.u_time, own, &path, nullptr,
+                                   nullptr, kEyePathDimensions);
+    }
+    light.clear();
+    Features features;
+    const bool sees = film_ && how_.adds_features && !settings_.merges_only && k == 0;
+    row.rays += trace_eye_path(settings_, path, camera, sampler, light, sees ? &features : nullptr);
+    if (sees) features.add_to(*film_, x, y, scene_, camera, pass_.weights);
+    const float share = 1.0f / static_cast<float>(samples);
+    const float factor = camera.camera_weight * camera.filter_weight * share;
+    double seen = 0;
+    for (size_t i = 0; i < parts_; ++i) {
+      Rgb& sum = values_[pixel * parts_ + i];
+      const Rgb color = pass_.weights.apply(light.sums()[i]) * factor;
+      sum = sum + color;
+      seen += double{color.r} + color.g + color.b;
+    }
+    if (how_.spread)
+      how_.spread->add(pixel, seen / (3.0 * share), static_cast<double>(row.rays - before));
+    if (!settings_.merges_only) {
+      filter_weights_[pixel] += std::abs(camera.filter_weight) * share;
+      ++row.camera_paths;
+    }
+  }
+
+  /// Samples are clamped before the filter's weight.
+  void finish_values() {
+    const float limit = like_.settings().max_component;
+    if (!(limit < kInfinity)) return;
+    for (size_t pixel = 0; pixel < filter_weights_.size(); ++pixel)
+      PartSums::clamp_total({&values_[pixel * parts_], parts_}, limit * filter_weights_[pixel]);
+  }
+
+  /// Without splats the values are all there is.
+  void add_values() {
+    const PixelBounds& b = like_.bounds();
+    const int group = static_cast<int>(owned_.group);
+    size_t first = 0;
+    for (int y = b.y0; y < b.y1; ++y)
+      for (int x = b.x0; x < b.x1; ++x, first += parts_)
+        film_->add(group, x, y, std::span(values_).subspan(first, parts_));
+  }
+
+  const PairPass& how_;
+  const PassKey key_;
+  const uint64_t seed_;  ///< of the kind: `vcm` and `bpm` of one plan are independent
+  const Scene& scene_;
+  const Film& like_;
+  Film* film_;
+  const OwnedRoutes& owned_;
+  const IntegratorOptions& options_;
+  const PhotonPass pass_;
+  const CameraView view_;
+  const PartSums places_;
+  PairMerging merging_;
+  PairSettings settings_;
+  std::vector<std::vector<SamplePoints>> points_;  ///< [samples of a pixel - 1][sample]
+  size_t parts_ = 1;
+  std::vector<Rgb> values_;            ///< [pixel * parts + part]
+  std::vector<float> filter_weights_;  ///< mean magnitude over a pixel's samples
+};
+
+}  // namespace
+
+void PairPass::render(const PassKey& key, const Scene& scene, Film& film, const OwnedRoutes& owned,
+                      const IntegratorOptions& options, EstimatorStatistics& statistics) const {
+  Rendering(*this, key, scene, film, &film, owned, options).render(statistics);
+  film.add_estimates(static_cast<int>(owned.group), 1);
+}
+
+void PairPass::try_out(const PassKey& key, const Scene& scene, const Film& film,
+                       const OwnedRoutes& owned, const IntegratorOptions& options,
+                       EstimatorStatistics& statistics) const {
+  Rendering(*this, key, scene, film, nullptr, owned, options).render(statistics);
+}
+
+}  // namespace nephroid

@@ -1,0 +1,42 @@
+// One pass of an estimator that pairs eye paths with light paths: photons are traced and merged,
+// and where the pass connects, another set of light paths, one for each camera path, is connected
+// to it. Wavelengths and time are the pass's; nothing is kept but photons, in batches that fit in
+// memory. Who calls it: vcm, bpm and path+photons, which say how. It must not know passes before
+// it.
+#pragma once
+
+#include "film/splats.h"
+#include "integrator/balance.h"
+#include "integrator/estimator.h"
+#include "photon/emission_guide.h"
+#include "route/scene_symbols.h"
+
+namespace nephroid {
+
+/// How a pass is rendered.
+struct PairPass {
+  int64_t light_paths = 1;     ///< that leave photons; 0: nothing is merged
+  bool connects = true;        ///< false: nothing is connected but lights
+  bool caustics_only = false;  ///< merges only photons whose light came by way of an S
+  bool adds_features = false;  ///< camera paths add what they see first to the film's features
+  const EmissionGuide* guide = &kUnguided;
+  const SampleMap* samples = nullptr;  ///< camera paths of each pixel; null: one
+  /// Camera paths that each pixel has had before pass 1, whatever `samples` says: the numbers of
+  /// the later ones follow on.
+  uint32_t head = 0;
+  SampleSpread* spread = nullptr;  ///< where what each camera path finds goes as well
+
+  /// Renders the pass into the film, its number of estimates included.
+  void render(const PassKey& key, const Scene& scene, Film& film, const OwnedRoutes& owned,
+              const IntegratorOptions& options, EstimatorStatistics& statistics) const;
+  /// Traces what a pass for a film like this one would, and adds nothing to it.
+  void try_out(const PassKey& key, const Scene& scene, const Film& film, const OwnedRoutes& owned,
+               const IntegratorOptions& options, EstimatorStatistics& statistics) const;
+
+  /// What a pass takes for each pixel.
+  static constexpr size_t bytes_per_pixel(size_t parts) {
+    return SplatBuffer::bytes_per_pixel(parts) + parts * sizeof(Rgb) + sizeof(float);
+  }
+};
+
+}  // namespace nephroid

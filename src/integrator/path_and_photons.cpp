@@ -1,0 +1,127 @@
+#include "integrator/path_and_photons.h"
+
+#include <algorithm>
+
+#include "integrator/photon_pass.h"
+#include "integrator/vertex_connection_merging.h"
+
+namespace nephroid {
+
+namespace {
+
+constexpr uint64_t kTrialStream = 0x747269616c;  // "trial"
+constexpr uint32_t kTrialPasses = 2;
+/// Light paths of a trial with few of them are this part of those with many.
+constexpr int64_t kFewer = 8;
+/// What a ray of a pass that connects costs, with all that is evaluated for it, in rays of one that
+/// does not.
+constexpr double kConnectingRay = 1.3;
+/// Camera paths of each pixel in the first pass, from whose spread the others learn.
+constexpr int kHead = 8;
+
+/// Some paths for each pixel of every other tile.
+SampleMap every_other_tile(const PixelBounds& b, int samples) {
+  SampleMap map(b);
+  for (size_t i = 0; i < map.counts().size(); ++i) {
+    const size_t w = static_cast<size_t>(map.width());
+    map.counts()[i] = static_cast<uint8_t>((i / w + i % w) % 2 == 0 ? samples : 0);
+  }
+  return map;
+}
+
+}  // namespace
+
+PathAndPhotons::PathAndPhotons(OwnedRoutes owned, const IntegratorOptions& options)
+    : owned_(std::move(owned)), options_(options) {}
+
+Trial PathAndPhotons::try_out(PairPass how, uint64_t seed, const Scene& scene, const Film& film) {
+  const SampleMap half = every_other_tile(film.bounds(), 1);
+  SampleSpread spread(film.bounds());
+  how.samples = &half;
+  how.spread = &spread;
+  EstimatorStatistics counts;
+  for (uint32_t i = 0; i < kTrialPasses; ++i)
+    how.try_out({hash_combine(seed, kTrialStream), i}, scene, film, owned_, options_, counts);
+  statistics_.rays += counts.rays;
+  statistics_.hold(counts.photon_bytes, counts.pixel_bytes);
+  std::vector<double> tiles;
+  const std::vector<double> variance = spread.by_tile().variance;
+  for (size_t i = 0; i < variance.size(); ++i)
+    if (half.counts()[i] > 0) tiles.push_back(variance[i]);
+  const double of_camera = static_cast<double>(counts.rays - counts.light_rays) /
+                           static_cast<double>(counts.camera_paths) *
+                           static_cast<double>(film.bounds().area());
+  return {steady_mean(std::move(tiles)),
+          of_camera + static_cast<double>(counts.light_rays) / kTrialPasses,
+          static_cast<double>(how.light_paths)};
+}
+
+void PathAndPhotons::learn(uint64_t seed, const Scene& scene, const Film& film) {
+  learned_.emplace(seed, film.bounds());
+  for (uint8_t& n : learned_->head.counts()) n = kHead;
+  Learned& learned = *learned_;
+  PairPass& pass = learned.pass;
+  pass.connects = false;
+  pass.caustics_only = true;
+  pass.guide = &emission_.guide(seed, scene, film, owned_, options_);
+  pass.light_paths =
+      has_specular_events(owned_) ? std::clamp<int64_t>(film.bounds().area(), 1 << 14, 1 << 18) : 0;
+  const Trial many = try_out(pass, seed, scene, film);
+  double expense = many.expense();
+  if (pass.light_paths > 0) {
+    PairPass fewer = pass;
+    fewer.light_paths = pass.light_paths / kFewer;
+    learned.balance.emplace(many, try_out(fewer, seed, scene, film));
+    expense = learned.balance->expense();
+    pass.light_paths = learned.balance->light_paths(kHead);
+  }
+  PairPass connecting;
+  connecting.light_paths = default_light_paths(film.bounds().area());
+  const double other = kConnectingRay * try_out(connecting, seed, scene, film).expense();
+  if (other < expense) {
+    pass = connecting;
+    learned.balance.reset();
+  }
+  if (options_.photons_per_pass > 0) {
+    pass.light_paths = options_.photons_per_pass;
+    learned.balance.reset();
+  }
+  pass.adds_features = true;
+}
+
+const SampleMap& PathAndPhotons::samples(const Scene& scene, const Film& film) {
+  Learned& learned = *learned_;
+  if (learned.samples) return *learned.samples;
+  if (!learned.spread) {
+    learned.spread.emplace(film.bounds());
+    EstimatorStatistics counts;
+    first_pass().try_out({learned.seed, 0}, scene, film, owned_, options_, counts);
+    statistics_.rays += counts.rays;
+  }
+  learned.samples = share_out(film.bounds(), learned.spread->by_tile());
+  return *learned.samples;
+}
+
+PairPass PathAndPhotons::first_pass() {
+  PairPass pass = learned_->pass;
+  pass.samples = &learned_->head;
+  pass.spread = &*learned_->spread;
+  return pass;
+}
+
+void PathAndPhotons::render_pass(const PassKey& key, const Scene& scene, Film& film) {
+  if (!learned_ || learned_->seed != key.seed) learn(key.seed, scene, film);
+  if (key.pass == 0) {
+    learned_->spread.emplace(film.bounds());
+    first_pass().render(key, scene, film, owned_, options_, statistics_);
+    return;
+  }
+  PairPass pass = learned_->pass;
+  pass.samples = &samples(scene, film);
+  pass.head = kHead;
+  if (learned_->balance)
+    pass.light_paths = learned_->balance->light_paths(learned_->samples->mean());
+  pass.render(key, scene, film, owned_, options_, statistics_);
+}
+
+}  // namespace nephroid

@@ -1,0 +1,49 @@
+// `path+photons`: one walk from the eye that finds everything path tracing finds, and whose
+// caustics are photons as well, each weighed against the other; where trial passes show that it is
+// worth its time, light paths are connected and merged everywhere, too. How many light paths a pass
+// has, where they start and how many camera paths each tile has is learned from the scene, a
+// function of scene, film, options and seed (docs/estimators.md, sections 20 and 21).
+// Papers: Doidge, Jones & Mora 2012, whose future work this is; Georgiev et al. 2012 for weights;
+// Grittmann et al. 2022 for choosing techniques by efficiency.
+#pragma once
+
+#include <optional>
+
+#include "integrator/learned_emission.h"
+#include "integrator/pair_pass.h"
+
+namespace nephroid {
+
+class PathAndPhotons final : public Estimator {
+ public:
+  PathAndPhotons(OwnedRoutes owned, const IntegratorOptions& options);
+  Capabilities capabilities() const override { return {}; }
+  bool records_features() const override { return true; }
+  void render_pass(const PassKey& key, const Scene& scene, Film& film) override;
+  EstimatorStatistics statistics() const override { return statistics_; }
+
+ private:
+  /// What all passes of a seed share.
+  struct Learned {
+    Learned(uint64_t of_seed, const PixelBounds& bounds) : seed(of_seed), head(bounds) {}
+    uint64_t seed;
+    PairPass pass;                       ///< light paths are those of the first one
+    std::optional<Balance> balance;      ///< empty: light paths are the same in all
+    SampleMap head;                      ///< camera paths of the first pass
+    std::optional<SampleSpread> spread;  ///< of the first pass
+    std::optional<SampleMap> samples;    ///< of the passes after it
+  };
+  PairPass first_pass();
+  const SampleMap& samples(const Scene& scene, const Film& film);
+  void learn(uint64_t seed, const Scene& scene, const Film& film);
+  /// What a few passes that are thrown away tell of a way to render.
+  Trial try_out(PairPass how, uint64_t seed, const Scene& scene, const Film& film);
+
+  OwnedRoutes owned_;
+  IntegratorOptions options_;
+  LearnedEmission emission_;
+  std::optional<Learned> learned_;
+  EstimatorStatistics statistics_;
+};
+
+}  // namespace nephroid

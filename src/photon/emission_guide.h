@@ -1,0 +1,91 @@
+// Where light paths are worth starting: spheres in the scene at which they are aimed, and how often
+// from which lights, found by looking at which earlier paths were of use. A share of all paths
+// starts as the lights themselves would have it, so that nothing is ever missed
+// (docs/estimators.md, section 20). Immutable once made. Who calls it: emission.cpp and the weights
+// of bidirectional estimators. It must not know routes, cameras or films.
+// Papers: Grittmann et al. 2018, Vorba et al. 2014 for the idea of guided emission.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace nephroid {
+
+/// The start of a light path that was of use.
+struct UsefulStart {
+  int light = 0;
+  Vec3f first_hit{0, 0, 0};  ///< where the path first met something
+  float weight = 1;          ///< density of the lights' own starts over that of its making
+};
+
+class EmissionGuide {
+ public:
+  /// Share of the paths that start as the lights would have it.
+  static constexpr double kDefensive = 0.25;
+  static constexpr int kMaxTargets = 32, kMaxClusters = 256;
+
+  /// Guides nothing: all paths start as the lights would have it.
+  EmissionGuide() = default;
+  /// Learns from useful starts of `paths` paths; guides nothing if there are none.
+  EmissionGuide(const Scene& scene, std::span<const UsefulStart> useful, double paths);
+
+  bool empty() const { return targets_.empty(); }
+
+  struct Target {
+    Vec3f center{0, 0, 0};
+    float radius = 0;
+  };
+  std::span<const Target> targets() const { return targets_; }
+
+  struct Choice {
+    int light = 0;
+    int target = -1;  ///< -1: as the light would have it
+  };
+  /// A light and what to aim at, from a number in [0,1). Empty if all lights are black.
+  std::optional<Choice> choose(const Scene& scene, float u) const;
+
+  /// The unit direction from `p` into a target's cone; empty if `p` is inside the target.
+  std::optional<Vec3f> direction_to(int target, const Vec3f& p, const Vec2f& u) const;
+  /// A point of the disk across unit `w` that hides the target.
+  Vec3f point_across(int target, const Vec3f& w, const Vec2f& u) const;
+
+  /// What takes the place of a light's own density of direction `w` at `p` (per steradian) or, for
+  /// a light whose paths start on the scene's disk, of the ray through `p` along `w` (per area):
+  /// times pmf_by_power() and the density of what is not guided it is the density of a start.
+  double density(const Scene& scene, int light, const Vec3f& p, const Vec3f& w, double own) const;
+  /// Probability of a light over pmf_by_power().
+  double gain(int light) const;
+
+ private:
+  struct Share {
+    int target = 0;
+    double share = 0;  ///< probability of the target with the cluster over that of the cluster
+  };
+  struct Cluster {
+    double pmf = 0;  ///< of its lights, by power
+    std::vector<Share> shares;
+    std::vector<double> cumulative;  ///< of its lights, by power
+  };
+  size_t cluster_of(int light) const { return static_cast<size_t>(light) / cluster_size_; }
+  void gather_lights(const Scene& scene);
+  void share_out(const Scene& scene, std::span<const UsefulStart> useful,
+                 std::span<const int> target_of, double paths);
+
+  std::vector<Target> targets_;
+  std::vector<Cluster> clusters_;
+  size_t cluster_size_ = 1;
+  struct Entry {
+    uint32_t cluster = 0;
+    int target = 0;
+    double cumulative = 0;
+  };
+  std::vector<Entry> entries_;
+};
+
+/// Guides nothing.
+inline const EmissionGuide kUnguided;
+
+}  // namespace nephroid
