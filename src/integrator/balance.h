@@ -55,7 +55,7 @@ class SampleSpread {
   }
   /// Zero where no pixel has two samples.
   struct ByTile {
-    std::vector<double> variance;  ///< [tile] of a sample, over the brightness, [L1]
+    std::vector<double> variance;  ///< [tile] of a sample, over the brightness, [A1]
     std::vector<double> cost;      ///< [tile] of a sample, in rays
   };
   ByTile by_tile() const;
@@ -69,7 +69,7 @@ class SampleSpread {
   std::vector<Sums> sums_;
 };
 
-/// [L2] Shares camera paths out so that the error falls fastest: as the root of variance over cost.
+/// [A2] Shares camera paths out so that the error falls fastest: as the root of variance over cost.
 SampleMap share_out(const PixelBounds& bounds, const SampleSpread::ByTile& spread);
 
 /// What trial passes told.
@@ -83,7 +83,7 @@ struct Trial {
 /// The mean of some tiles without the few that stand out: what one lucky path did says little.
 double steady_mean(std::vector<double> tiles);
 
-/// [L3] The number of light paths with which a pass of `camera_paths` for each pixel has the least
+/// [A3] The number of light paths with which a pass of `camera_paths` for each pixel has the least
 /// variance times cost, and that of one camera path; from a trial with many light paths and one
 /// with few.
 struct Balance {

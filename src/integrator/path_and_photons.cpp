@@ -1,5 +1,7 @@
 #include "integrator/path_and_photons.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "integrator/photon_pass.h"
@@ -122,6 +124,30 @@ void PathAndPhotons::render_pass(const PassKey& key, const Scene& scene, Film& f
   if (learned_->balance)
     pass.light_paths = learned_->balance->light_paths(learned_->samples->mean());
   pass.render(key, scene, film, owned_, options_, statistics_);
+}
+
+EstimatorStatistics PathAndPhotons::statistics() const {
+  EstimatorStatistics s = statistics_;
+  if (!learned_) return s;
+  const PairPass& pass = learned_->pass;
+  if (pass.connects)
+    s.notes.push_back(
+        "trial passes were better with light paths connected and merged everywhere than with "
+        "caustic photons alone");
+  else if (pass.light_paths == 0)
+    s.notes.push_back(
+        "no material of the scene has a specular lobe: there are no caustics, and no photons were "
+        "needed");
+  else if (s.photon_paths > 0 && s.photon_paths_useful == 0)
+    s.notes.push_back("none of " + std::to_string(s.photon_paths) +
+                      " photon paths came to a rough surface by way of a specular one");
+  else if (const size_t targets = pass.guide->targets().size(); targets > 0)
+    s.notes.push_back("photons were aimed at " + std::to_string(targets) +
+                      (targets == 1 ? " place" : " places") + " from which they were of use");
+  if (learned_->samples)
+    s.notes.push_back(fmt::format("{:.3g} camera paths a pixel and pass, 1 to {} by tile",
+                                  learned_->samples->mean(), learned_->samples->most()));
+  return s;
 }
 
 }  // namespace nephroid

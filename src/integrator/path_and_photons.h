@@ -20,7 +20,8 @@ class PathAndPhotons final : public Estimator {
   Capabilities capabilities() const override { return {}; }
   bool records_features() const override { return true; }
   void render_pass(const PassKey& key, const Scene& scene, Film& film) override;
-  EstimatorStatistics statistics() const override { return statistics_; }
+  /// Its notes say what was learned.
+  EstimatorStatistics statistics() const override;
 
  private:
   /// What all passes of a seed share.
