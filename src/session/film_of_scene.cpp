@@ -67,7 +67,6 @@ float exposed_pixels(EstimatorKind kind, const IntegratorOptions& options,
   switch (kind) {
     case EstimatorKind::kPhotons:
     case EstimatorKind::kBpm:
-    case EstimatorKind::kPathAndPhotons:
       return within(first_radius(options));
     case EstimatorKind::kSppm:
     case EstimatorKind::kPpm:
@@ -75,6 +74,7 @@ float exposed_pixels(EstimatorKind kind, const IntegratorOptions& options,
     case EstimatorKind::kPhotonMap:
       return within(PhotonMap::largest_radius(options));
     case EstimatorKind::kPhotonsAndLight:
+    case EstimatorKind::kPathAndPhotons:
     case EstimatorKind::kVcm:
       return std::max(within(first_radius(options)), splatted);
     case EstimatorKind::kLightTrace:

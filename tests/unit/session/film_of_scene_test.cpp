@@ -160,6 +160,7 @@ TEST(FilmOfScene, RejectionKnowsHowManyPixelsALightPathExposes) {
               {"mlt", 12, 12, 12},
               {"pssmlt", 12, 12, 12},
               {"photons+light", 12, 9 * kPi, 12},
+              {"path+photons", 12, 9 * kPi, 12},
               {"vcm", 12, 9 * kPi, 12}};
   for (const EstimatorType& type : estimator_types()) {
     SCOPED_TRACE(type.name);
