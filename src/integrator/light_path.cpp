@@ -95,6 +95,7 @@ class LightVisitor {
   }
 
   uint64_t rays() const { return rays_; }
+  bool after_specular() const { return after_specular_; }
 
  private:
   void arrive(const Walk& walk, const Place& place, const Vec3f& ns) {
@@ -331,7 +332,7 @@ LightVertex& LightSubpath::add() {
   return y;
 }
 
-uint64_t trace_light_path(const PairSettings& settings, const SampledWavelengths& lambda,
+LightPathCounts trace_light_path(const PairSettings& settings, const SampledWavelengths& lambda,
                           float u_time, PathSampler& sampler, LightSubpath* path,
                           std::vector<FilmConnection>* seen, std::vector<Photon>* photons,
                           int first_dimension) {
@@ -342,7 +343,7 @@ uint64_t trace_light_path(const PairSettings& settings, const SampledWavelengths
   const std::optional<Emission> emission =
       emit(settings.scene, settings.guide, walk.lambda, settings.scene.camera->motion_time(u_time),
            sampler);
-  if (!emission) return 0;
+  if (!emission) return {};
   walk.ray = emission->ray;
   walk.medium = emission->medium;
   walk.specular_alpha = settings.specular_alpha;
@@ -355,7 +356,7 @@ uint64_t trace_light_path(const PairSettings& settings, const SampledWavelengths
                        ? settings.max_depth
                        : std::clamp(settings.technique.s - 1, 0, settings.max_depth);
   random_walk(settings.scene, TransportMode::kImportance, most, walk, sampler, visitor);
-  return walk.rays + visitor.rays();
+  return {walk.rays + visitor.rays(), visitor.after_specular()};
 }
 
 }  // namespace nephroid

@@ -130,17 +130,20 @@ EstimatorStatistics PathAndPhotons::statistics() const {
   EstimatorStatistics s = statistics_;
   if (!learned_) return s;
   const PairPass& pass = learned_->pass;
+  const std::string of_all = " of " + std::to_string(s.photon_paths) + " photon paths ";
+  if (!has_specular_events(owned_))
+    s.notes.push_back(
+        "no material of the scene has a specular lobe: there are no caustics, and no caustic "
+        "photons were needed");
+  else if (s.photon_paths > 0 && s.photon_paths_specular == 0)
+    s.notes.push_back("0" + of_all + "met a specular surface");
+  else if (s.photon_paths > 0 && s.photon_paths_useful == 0)
+    s.notes.push_back(std::to_string(s.photon_paths_specular) + of_all +
+                      "met a specular surface, none reached a diffuse one behind it");
   if (pass.connects)
     s.notes.push_back(
         "trial passes were better with light paths connected and merged everywhere than with "
         "caustic photons alone");
-  else if (pass.light_paths == 0)
-    s.notes.push_back(
-        "no material of the scene has a specular lobe: there are no caustics, and no photons were "
-        "needed");
-  else if (s.photon_paths > 0 && s.photon_paths_useful == 0)
-    s.notes.push_back("none of " + std::to_string(s.photon_paths) +
-                      " photon paths came to a rough surface by way of a specular one");
   else if (const size_t targets = pass.guide->targets().size(); targets > 0)
     s.notes.push_back("photons were aimed at " + std::to_string(targets) +
                       (targets == 1 ? " place" : " places") + " from which they were of use");

@@ -285,7 +285,7 @@ TEST(RoughnessBand, MovesACausticFromOneRouteToAnotherWithoutAJump) {
     options.camera_samples_per_pass = 16;
     options.max_depth = 6;
     options.radius = 0.5f;
-    const Film film = render(*scene, "mixed", options, 11, kPasses);
+    const Film film = render(*scene, "doidge2012", options, 11, kPasses);
     double caustic = 0, all = 0;
     for (int y = 0; y < 8; ++y)
       for (int x = 0; x < 8; ++x) {
