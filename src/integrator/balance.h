@@ -43,7 +43,14 @@ class SampleMap {
 
 /// What several samples of each pixel found; each pixel has one writer at a time.
 class SampleSpread {
+  struct Sums {
+    double light = 0, square = 0, rays = 0;
+    int samples = 0;
+  };
+
  public:
+  static constexpr size_t kBytesPerPixel = sizeof(Sums);
+
   explicit SampleSpread(const PixelBounds& b) : bounds_(b), sums_(static_cast<size_t>(b.area())) {}
   /// One sample that took `rays`; `pixel` counts row by row over the crop.
   void add(size_t pixel, double luminance, double rays) {
@@ -61,10 +68,6 @@ class SampleSpread {
   ByTile by_tile() const;
 
  private:
-  struct Sums {
-    double light = 0, square = 0, rays = 0;
-    int samples = 0;
-  };
   PixelBounds bounds_;
   std::vector<Sums> sums_;
 };

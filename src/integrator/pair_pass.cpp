@@ -61,6 +61,7 @@ class Rendering {
     values_.resize(pixels * parts_);
     filter_weights_.assign(pixels, 0.0f);
     const int most = how.samples ? how.samples->most() : 1;
+    if (how.spread) found_.resize(pixels * static_cast<size_t>(most));
     points_.resize(static_cast<size_t>(most));
     for (int n = 1; n <= most; ++n)
       for (int k = 0; k < n; ++k)
@@ -75,12 +76,15 @@ class Rendering {
     do {
       std::vector<Photon> photons = trace_batch_of_paths(begin, buffer, statistics);
       const PhotonGrid grid(std::move(photons));
-      statistics.hold(grid.bytes(), filter_weights_.size() * PairPass::bytes_per_pixel(parts_));
+      statistics.hold(grid.bytes(),
+                      filter_weights_.size() *
+                          PairPass::bytes_per_pixel(parts_, how_.spread ? points_.size() : 0));
       merging_.grid = &grid;
       trace_eye_paths(statistics);
       merging_.grid = nullptr;
       settings_.merges_only = true;
     } while (begin < how_.light_paths);
+    if (how_.spread) add_to_spread();
     finish_values();
     if (buffer)
       buffer->finish(1.0 / static_cast<double>(how_.light_paths), values_);
@@ -228,12 +232,30 @@ class Rendering {
       sum = sum + color;
       seen += double{color.r} + color.g + color.b;
     }
-    if (how_.spread)
-      how_.spread->add(pixel, seen / (3.0 * share), static_cast<double>(row.rays - before));
+    if (how_.spread) {
+      PairPass::Found& found = found_[pixel * points_.size() + static_cast<size_t>(k)];
+      found.light += static_cast<float>(seen / (3.0 * share));
+      found.rays += static_cast<float>(row.rays - before);
+    }
     if (!settings_.merges_only) {
       filter_weights_[pixel] += std::abs(camera.filter_weight) * share;
       ++row.camera_paths;
     }
+  }
+
+  /// Where memory cut the photons into batches, a sample is what it found in all of them.
+  void add_to_spread() {
+    const PixelBounds& b = like_.bounds();
+    size_t pixel = 0;
+    for (int y = 0; y < b.height(); ++y)
+      for (int x = 0; x < b.width(); ++x, ++pixel) {
+        const size_t samples = how_.samples ? static_cast<size_t>(how_.samples->at(x, y)) : 1;
+        for (size_t k = 0; k < samples; ++k) {
+          const PairPass::Found& found = found_[pixel * points_.size() + k];
+          how_.spread->add(pixel, static_cast<double>(found.light),
+                           static_cast<double>(found.rays));
+        }
+      }
   }
 
   /// Samples are clamped before the filter's weight.
@@ -269,8 +291,9 @@ class Rendering {
   PairSettings settings_;
   std::vector<std::vector<SamplePoints>> points_;  ///< [samples of a pixel - 1][sample]
   size_t parts_ = 1;
-  std::vector<Rgb> values_;            ///< [pixel * parts + part]
-  std::vector<float> filter_weights_;  ///< mean magnitude over a pixel's samples
+  std::vector<Rgb> values_;             ///< [pixel * parts + part]
+  std::vector<PairPass::Found> found_;  ///< [pixel * most samples + sample], for the spread
+  std::vector<float> filter_weights_;   ///< mean magnitude over a pixel's samples
 };
 
 }  // namespace

@@ -33,9 +33,15 @@ struct PairPass {
   void try_out(const PassKey& key, const Scene& scene, const Film& film, const OwnedRoutes& owned,
                const IntegratorOptions& options, EstimatorStatistics& statistics) const;
 
-  /// What a pass takes for each pixel.
-  static constexpr size_t bytes_per_pixel(size_t parts) {
-    return SplatBuffer::bytes_per_pixel(parts) + parts * sizeof(Rgb) + sizeof(float);
+  /// What a camera path found.
+  struct Found {
+    float light = 0, rays = 0;
+  };
+  /// What a pass takes for each pixel, of which `spread_samples` samples at most are looked at for
+  /// their spread.
+  static constexpr size_t bytes_per_pixel(size_t parts, size_t spread_samples) {
+    return SplatBuffer::bytes_per_pixel(parts) + parts * sizeof(Rgb) + sizeof(float) +
+           spread_samples * sizeof(Found) + (spread_samples > 0 ? SampleSpread::kBytesPerPixel : 0);
   }
 };
 

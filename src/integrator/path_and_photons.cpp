@@ -18,8 +18,6 @@ constexpr int64_t kFewer = 8;
 /// What a ray of a pass that connects costs, with all that is evaluated for it, in rays of one that
 /// does not.
 constexpr double kConnectingRay = 1.3;
-/// Camera paths of each pixel in the first pass, from whose spread the others learn.
-constexpr int kHead = 8;
 
 /// Some paths for each pixel of every other tile.
 SampleMap every_other_tile(const PixelBounds& b, int samples) {
@@ -101,6 +99,7 @@ const SampleMap& PathAndPhotons::samples(const Scene& scene, const Film& film) {
     statistics_.rays += counts.rays;
   }
   learned.samples = share_out(film.bounds(), learned.spread->by_tile());
+  learned.spread.reset();
   return *learned.samples;
 }
 

@@ -16,12 +16,19 @@ namespace nephroid {
 
 class PathAndPhotons final : public Estimator {
  public:
+  /// Camera paths of each pixel in the first pass, from whose spread the others learn.
+  static constexpr int kHead = 8;
+
   PathAndPhotons(OwnedRoutes owned, const IntegratorOptions& options);
   Capabilities capabilities() const override { return {}; }
   bool records_features() const override { return true; }
   void render_pass(const PassKey& key, const Scene& scene, Film& film) override;
   /// Its notes say what was learned.
   EstimatorStatistics statistics() const override;
+  /// What the pass that takes most has for each pixel, the first one.
+  static constexpr size_t bytes_per_pixel(size_t parts) {
+    return PairPass::bytes_per_pixel(parts, kHead);
+  }
 
  private:
   /// What all passes of a seed share.

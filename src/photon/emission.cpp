@@ -88,8 +88,8 @@ std::optional<Emission> emit(const Scene& scene, const EmissionGuide& guide,
   // [G1]
   const double own = light.is_infinite() ? e->pdf_a : e->pdf_w;
   const double others = light.is_infinite() ? e->pdf_w : e->pdf_a;
-  const double guided =
-      guide.density(scene, choice->light, light.is_area() ? e->p : e->ray.o, e->ray.d, own);
+  const double guided = guide.density(scene, choice->light, light.is_area() ? e->p : e->ray.o,
+                                      e->ray.d, own, choice->target);
   out.weight = static_cast<float>(own / guided);
   out.flux = e->radiance * (e->cos_theta / static_cast<float>(pmf * others * guided));
   // Shadow rays cross all of the medium as well.

@@ -234,7 +234,7 @@ double EmissionGuide::gain(int light) const {
 }
 
 double EmissionGuide::density(const Scene& scene, int light, const Vec3f& p, const Vec3f& w,
-                              double own) const {
+                              double own, int aimed_at) const {
   if (empty()) return own;
   const Light& l = *scene.lights[static_cast<size_t>(light)];
   const bool across = l.is_infinite();
@@ -247,7 +247,8 @@ double EmissionGuide::density(const Scene& scene, int light, const Vec3f& p, con
     if (across ? l.emits_through_disk() : d2 > r2) {
       const float along = dot(way, w);
       const double aside2 = length_squared(way - w * along);
-      if (aside2 > r2 || (!across && along < 0)) continue;
+      const bool inside = aside2 <= r2 && (across || along >= 0);
+      if (!inside && s.target != aimed_at) continue;
       const double sine2 = r2 / d2;
       aimed = across ? 1 / (kPi * r2) : (1 + std::sqrt(1 - sine2)) / (2 * double{kPi} * sine2);
     }

@@ -54,8 +54,12 @@ class EmissionGuide {
 
   /// What takes the place of a light's own density of direction `w` at `p` (per steradian) or, for
   /// a light whose paths start on the scene's disk, of the ray through `p` along `w` (per area):
-  /// times pmf_by_power() and the density of what is not guided it is the density of a start.
-  double density(const Scene& scene, int light, const Vec3f& p, const Vec3f& w, double own) const;
+  /// times pmf_by_power() and the density of what is not guided it is the density of a start. What
+  /// was aimed at target `aimed_at` counts as inside of it, on whichever side of a small one's edge
+  /// rounding has put it: a path that nothing but chance seems to have sent there would weigh
+  /// millions of times too much.
+  double density(const Scene& scene, int light, const Vec3f& p, const Vec3f& w, double own,
+                 int aimed_at = -1) const;
   /// Probability of a light over pmf_by_power().
   double gain(int light) const;
 

@@ -13,6 +13,7 @@
 #include "integrator/gather.h"
 #include "integrator/merge_pass.h"
 #include "integrator/pair_pass.h"
+#include "integrator/path_and_photons.h"
 #include "integrator/photon_map.h"
 #include "integrator/ppm.h"
 #include "integrator/sppm.h"
@@ -35,9 +36,10 @@ size_t bytes_of_estimators(const Routes& routes, int hit_points) {
       pass += Sppm::bytes_of_pass(parts);
     } else if (group.estimator == EstimatorKind::kBidirectional) {
       pass = Bidirectional::bytes_per_pixel(parts);
-    } else if (group.estimator == EstimatorKind::kVcm || group.estimator == EstimatorKind::kBpm ||
-               group.estimator == EstimatorKind::kPathAndPhotons) {
-      pass = PairPass::bytes_per_pixel(parts);
+    } else if (group.estimator == EstimatorKind::kVcm || group.estimator == EstimatorKind::kBpm) {
+      pass = PairPass::bytes_per_pixel(parts, 0);
+    } else if (group.estimator == EstimatorKind::kPathAndPhotons) {
+      pass = PathAndPhotons::bytes_per_pixel(parts);
     } else if (group.estimator == EstimatorKind::kPpm) {
       kept += static_cast<size_t>(hit_points) * Ppm::bytes_kept(parts);
       pass += static_cast<size_t>(hit_points) * Ppm::bytes_of_pass(parts);

@@ -1,0 +1,107 @@
+// What path+photons learns is a function of scene, film, options and seed: the same bits for any
+// number of threads and whichever passes a process renders, in whichever order.
+#include <gtest/gtest.h>
+
+#include "core/parallel.h"
+#include "rendering.h"
+
+namespace nephroid {
+namespace {
+
+using namespace testing_support;
+
+// A small lamp, a glass ball and a floor of which it takes up little: photons are aimed, and tiles
+// differ in their noise.
+const char* const kScene = R"(
+  LookAt 0 3 -4  0 0.3 0  0 1 0
+  Camera "perspective" "float fov" 45
+  Film "rgb" "integer xresolution" 20 "integer yresolution" 16
+  WorldBegin
+  AttributeBegin
+    Translate 1.5 3 0.5 Rotate 90 1 0 0
+    AreaLightSource "diffuse" "rgb L" [90 80 70]
+    Shape "disk" "float radius" 0.1
+  AttributeEnd
+  Material "diffuse" "rgb reflectance" [0.6 0.5 0.4]
+  Shape "bilinearmesh" "point3 P" [-4 0 -4  4 0 -4  -4 0 4  4 0 4]
+  Material "dielectric" "spectrum eta" "glass-SF11"
+  Translate 0 0.6 0 Shape "sphere" "float radius" 0.4
+)";
+
+struct Rendered {
+  std::vector<Film> film;  ///< one
+  std::vector<std::string> notes;
+};
+
+/// Passes in this order, each part by estimators of its own.
+Rendered render_parts(const std::vector<std::vector<uint32_t>>& parts) {
+  const auto scene = scene_from_text(kScene);
+  Rendered result;
+  for (const std::vector<uint32_t>& part : parts) {
+    Preset preset = make_preset(plan_named("mixed"), {}, *scene);
+    if (result.film.empty()) result.film.push_back(film_for(*scene, preset));
+    for (const uint32_t pass : part)
+      for (const auto& e : preset.estimators) e->render_pass({5, pass}, *scene, result.film[0]);
+    for (const auto& e : preset.estimators)
+      for (const std::string& note : e->statistics().notes) result.notes.push_back(note);
+  }
+  return result;
+}
+
+void expect_same_bits(const Film& a, const Film& b, const std::string& what) {
+  const PixelBounds& bounds = a.bounds();
+  for (int y = bounds.y0; y < bounds.y1; ++y)
+    for (int x = bounds.x0; x < bounds.x1; ++x) {
+      const Rgb u = a.value(x, y), v = b.value(x, y);
+      const Rgb p = a.standard_error(x, y), q = b.standard_error(x, y);
+      for (int c = 0; c < 3; ++c) {
+        ASSERT_EQ(u[c], v[c]) << what << ", pixel " << x << ' ' << y;
+        ASSERT_EQ(p[c], q[c]) << what << ", standard error of pixel " << x << ' ' << y;
+      }
+    }
+}
+
+bool says(const Rendered& r, const std::string& words) {
+  return std::any_of(r.notes.begin(), r.notes.end(), [&](const std::string& note) {
+    return note.find(words) != std::string::npos;
+  });
+}
+
+TEST(PathAndPhotons, HasTheSameBitsForAnyNumberOfThreads) {
+  std::vector<Rendered> found;
+  for (const int threads : {1, 2, 3, 7}) {
+    const ThreadLimit limit(threads);
+    found.push_back(render_parts({{0, 1, 2}}));
+    expect_same_bits(found.back().film[0], found[0].film[0], std::to_string(threads) + " threads");
+    EXPECT_EQ(found.back().notes, found[0].notes);
+  }
+  // The test would be worth little if nothing were learned.
+  EXPECT_TRUE(says(found[0], "photons were aimed at")) << ::testing::PrintToString(found[0].notes);
+  EXPECT_TRUE(says(found[0], "camera paths a pixel")) << ::testing::PrintToString(found[0].notes);
+  EXPECT_FALSE(says(found[0], ", 1 to 1 by tile")) << ::testing::PrintToString(found[0].notes);
+}
+
+TEST(PathAndPhotons, HasTheSameBitsForAnyOrderAndAnyRanges) {
+  const Rendered whole = render_parts({{0, 1, 2, 3, 4}});
+  for (const auto& [name, parts] :
+       {std::pair<const char*, std::vector<std::vector<uint32_t>>>{"backwards", {{4, 3, 2, 1, 0}}},
+        {"the first one in the middle", {{2, 0, 4, 1, 3}}},
+        {"ranges", {{3, 4}, {0}, {1, 2}}}})
+    expect_same_bits(render_parts(parts).film[0], whole.film[0], name);
+}
+
+TEST(PathAndPhotons, LearnsAnewForEachSeed) {
+  const auto scene = scene_from_text(kScene);
+  Preset both = make_preset(plan_named("mixed"), {}, *scene),
+         one = make_preset(plan_named("mixed"), {}, *scene);
+  Film a = film_for(*scene, one), b = film_for(*scene, both), other = film_for(*scene, both);
+  for (const auto& e : one.estimators) e->render_pass({6, 1}, *scene, a);
+  for (const auto& e : both.estimators) {
+    e->render_pass({5, 1}, *scene, other);
+    e->render_pass({6, 1}, *scene, b);
+  }
+  expect_same_bits(a, b, "seed 6 after seed 5");
+}
+
+}  // namespace
+}  // namespace nephroid

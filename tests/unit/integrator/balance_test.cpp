@@ -1,0 +1,173 @@
+// How the work of a pass is shared out: against sums by hand, and against the best of all that can
+// be tried where the optimum is known.
+#include "integrator/balance.h"
+
+#include <gtest/gtest.h>
+
+namespace nephroid {
+namespace {
+
+constexpr int kTile = SampleMap::kTile;
+
+PixelBounds tiles(int across, int down) {
+  return {0, 0, across * kTile, down * kTile};
+}
+
+TEST(SampleMap, IsOnePathForEachPixelAtFirst) {
+  // Tiles at the border are cut off.
+  const PixelBounds b{3, 5, 3 + 2 * kTile + 1, 5 + kTile + 2};
+  SampleMap map(b);
+  ASSERT_EQ(map.counts().size(), 6u);
+  EXPECT_EQ(map.mean(), 1);
+  EXPECT_EQ(map.most(), 1);
+  map.counts()[map.tile_of(2 * kTile, kTile)] = 7;
+  EXPECT_EQ(map.at(2 * kTile, kTile + 1), 7);
+  EXPECT_EQ(map.at(2 * kTile - 1, kTile + 1), 1);
+  EXPECT_EQ(map.at(2 * kTile, kTile - 1), 1);
+  EXPECT_EQ(map.most(), 7);
+  EXPECT_EQ(map.mean(), 2);
+}
+
+// [A1]
+TEST(SampleSpread, IsTheVarianceOverTheBrightnessOfATile) {
+  const PixelBounds b = tiles(3, 1);
+  SampleSpread spread(b);
+  // Each pixel of the first tile has four samples of mean 6, each of the second three of mean 60;
+  // those of the third have one and tell nothing.
+  for (int y = 0; y < kTile; ++y)
+    for (int x = 0; x < 3 * kTile; ++x) {
+      const size_t pixel = static_cast<size_t>(y * 3 * kTile + x);
+      if (x < kTile)
+        for (const double v : {2, 4, 8, 10}) spread.add(pixel, v, v + 1);
+      else if (x < 2 * kTile)
+        for (const double v : {30, 60, 90}) spread.add(pixel, v, 5);
+      else
+        spread.add(pixel, 1000, 9);
+    }
+  const SampleSpread::ByTile found = spread.by_tile();
+  const double floor = 0.1 * (6 + 60) / 2;
+  EXPECT_NEAR(found.variance[0], (16 + 4 + 4 + 16) / 3.0 / (6 + floor), 1e-12);
+  EXPECT_NEAR(found.variance[1], 900 / (60 + floor), 1e-12);
+  EXPECT_EQ(found.variance[2], 0);
+  EXPECT_NEAR(found.cost[0], 7, 1e-12);
+  EXPECT_NEAR(found.cost[1], 5, 1e-12);
+  EXPECT_EQ(found.cost[2], 0);
+}
+
+/// Blocks of tiles side by side, wide enough to have tiles none of whose neighbours differ.
+struct Blocks {
+  static constexpr int kWidth = 5, kHeight = 3;
+  explicit Blocks(const std::vector<std::pair<double, double>>& variance_and_cost)
+      : across(kWidth * static_cast<int>(variance_and_cost.size())) {
+    for (int y = 0; y < kHeight; ++y)
+      for (const auto& [variance, cost] : variance_and_cost)
+        for (int x = 0; x < kWidth; ++x) {
+          spread.variance.push_back(variance);
+          spread.cost.push_back(cost);
+        }
+    const SampleMap map = share_out(tiles(across, kHeight), spread);
+    for (size_t i = 0; i < variance_and_cost.size(); ++i) {
+      const size_t middle = static_cast<size_t>(across) + kWidth * i + kWidth / 2;
+      samples.push_back(map.counts()[middle]);
+    }
+  }
+  int across;
+  SampleSpread::ByTile spread;
+  std::vector<int> samples;  ///< in the middle of each block
+};
+
+// [A2]
+TEST(ShareOut, GoesWithTheRootOfVarianceOverCost) {
+  const std::vector<std::pair<double, double>> v_and_c = {{2, 1}, {8, 1},  {18, 1}, {32, 4},
+                                                          {2, 1}, {50, 1}, {128, 4}};
+  const Blocks blocks(v_and_c);
+  EXPECT_EQ(blocks.samples, (std::vector<int>{1, 2, 3, 2, 1, 5, 4}));
+  // No other way to share out has less error for the same work: variance times cost grows whichever
+  // block has one path more or fewer.
+  const auto expense = [&](const std::vector<int>& n) {
+    double error = 0, work = 0;
+    for (size_t i = 0; i < n.size(); ++i) {
+      error += v_and_c[i].first / n[i];
+      work += v_and_c[i].second * n[i];
+    }
+    return error * work;
+  };
+  for (size_t i = 0; i < v_and_c.size(); ++i)
+    for (const int step : {-1, 1}) {
+      std::vector<int> other = blocks.samples;
+      if ((other[i] += step) < 1) continue;
+      EXPECT_GT(expense(other), expense(blocks.samples)) << "block " << i << ", " << step;
+    }
+}
+
+TEST(ShareOut, KeepsItsBounds) {
+  // What is ten thousand times as noisy as the rest has eight paths; what is black has one, and
+  // does not make the quiet look noisy.
+  EXPECT_EQ(Blocks({{1, 1}, {1e4, 1}, {1, 1}, {4, 1}}).samples, (std::vector<int>{1, 8, 1, 2}));
+  EXPECT_EQ(Blocks({{0, 1}, {1, 1}, {1, 1}, {1, 1}, {1, 1}, {1, 1}, {9, 1}}).samples,
+            (std::vector<int>{1, 1, 1, 1, 1, 1, 3}));
+  EXPECT_EQ(Blocks({{0, 1}, {0, 2}}).samples, (std::vector<int>{1, 1}));
+  EXPECT_EQ(Blocks({{0, 0}, {0, 0}}).samples, (std::vector<int>{1, 1}));
+  EXPECT_EQ(Blocks({{4, 1}, {4, 1}}).samples, (std::vector<int>{1, 1}));
+}
+
+TEST(SteadyMean, LeavesOutTheFewThatStandOut) {
+  EXPECT_EQ(steady_mean({}), 0);
+  EXPECT_EQ(steady_mean({3}), 3);
+  std::vector<double> values(1000, 2.0);
+  EXPECT_DOUBLE_EQ(steady_mean(values), 2);
+  values[500] = values[20] = 1e9;
+  EXPECT_DOUBLE_EQ(steady_mean(values), 2);
+  // It is a mean, not a median.
+  for (size_t i = 0; i < 300; ++i) values[i] = 12;
+  EXPECT_NEAR(steady_mean(values), 5, 0.02);
+}
+
+/// A pass whose camera paths have variance a and cost c for each path of a pixel, its N light paths
+/// b/N and d N.
+struct Model {
+  double a, b, c, d;
+  double variance(double camera, double light) const { return a / camera + b / light; }
+  double cost(double camera, double light) const { return c * camera + d * light; }
+  double expense(double camera, double light) const {
+    return variance(camera, light) * cost(camera, light);
+  }
+  Trial trial(double light) const { return {variance(1, light), cost(1, light), light}; }
+};
+
+// [A3]
+TEST(Balance, FindsTheBestNumberOfLightPaths) {
+  for (const Model& m : {Model{0.2, 500, 1e5, 4}, Model{0.01, 2000, 4e5, 9}, Model{1, 3e4, 1e6, 2}})
+    for (const double camera : {1.0, 2.6, 8.0}) {
+      const Balance balance(m.trial(1 << 16), m.trial(1 << 13));
+      const double found = static_cast<double>(balance.light_paths(camera));
+      double best = 1024;
+      for (double n = 1024; n <= 1 << 20; n *= 1.001)
+        if (m.expense(camera, n) < m.expense(camera, best)) best = n;
+      EXPECT_NEAR(found, best, 0.02 * best);
+      EXPECT_NEAR(balance.expense(), m.expense(1, static_cast<double>(balance.light_paths(1))),
+                  1e-6 * balance.expense());
+    }
+}
+
+TEST(Balance, KeepsItsBoundsWhateverTrialsSay) {
+  const Model steady{0.2, 500, 1e5, 4};
+  // Light paths that bring no noise, or fewer of which seem to bring less, are as few as can be.
+  EXPECT_EQ(Balance(Model{0.2, 0, 1e5, 4}.trial(1 << 16), Model{0.2, 0, 1e5, 4}.trial(1 << 13))
+                .light_paths(1),
+            1024);
+  Trial lucky = steady.trial(1 << 13);
+  lucky.variance = 0.1;
+  EXPECT_EQ(Balance(steady.trial(1 << 16), lucky).light_paths(1), 1024);
+  // Noise that falls faster than can be leaves the camera paths some; rays that cost less than
+  // nothing, something.
+  Trial unlucky = steady.trial(1 << 13);
+  unlucky.variance = 1e6;
+  EXPECT_EQ(Balance(steady.trial(1 << 16), unlucky).light_paths(8), 1 << 20);
+  Trial cheap = steady.trial(1 << 16);
+  cheap.cost = 1;
+  EXPECT_EQ(Balance(cheap, steady.trial(1 << 13)).light_paths(1), 1024);
+}
+
+}  // namespace
+}  // namespace nephroid
