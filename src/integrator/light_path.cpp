@@ -333,9 +333,9 @@ LightVertex& LightSubpath::add() {
 }
 
 LightPathCounts trace_light_path(const PairSettings& settings, const SampledWavelengths& lambda,
-                          float u_time, PathSampler& sampler, LightSubpath* path,
-                          std::vector<FilmConnection>* seen, std::vector<Photon>* photons,
-                          int first_dimension) {
+                                 float u_time, PathSampler& sampler, LightSubpath* path,
+                                 std::vector<FilmConnection>* seen, std::vector<Photon>* photons,
+                                 int first_dimension) {
   if (path) path->clear();
   Walk walk;
   walk.lambda = lambda;

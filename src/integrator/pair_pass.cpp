@@ -64,8 +64,9 @@ class Rendering {
     if (how.spread) found_.resize(pixels * static_cast<size_t>(most));
     points_.resize(static_cast<size_t>(most));
     for (int n = 1; n <= most; ++n)
-      for (int k = 0; k < n; ++k)
-        points_[static_cast<size_t>(n - 1)].push_back(sample_points(n, k));
+      if (how.samples ? how.samples->has(n) : n == 1)
+        for (int k = 0; k < n; ++k)
+          points_[static_cast<size_t>(n - 1)].push_back(sample_points(n, k));
   }
 
   void render(EstimatorStatistics& statistics) {
@@ -216,7 +217,8 @@ class Rendering {
       // would see the same part in all passes.
       PathSampler own(points.light, hash_combine(seed_, kPairStream, x, y));
       row.rays += trace_light_path(settings_, pass_.trace.lambda, pass_.u_time, own, &path, nullptr,
-                                   nullptr, kEyePathDimensions).rays;
+                                   nullptr, kEyePathDimensions)
+                      .rays;
     }
     light.clear();
     Features features;

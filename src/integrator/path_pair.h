@@ -124,9 +124,9 @@ struct LightPathCounts {
   bool specular = false;  ///< it had an S event
 };
 LightPathCounts trace_light_path(const PairSettings& settings, const SampledWavelengths& lambda,
-                          float u_time, PathSampler& sampler, LightSubpath* path,
-                          std::vector<FilmConnection>* seen, std::vector<Photon>* photons,
-                          int first_dimension = 0);
+                                 float u_time, PathSampler& sampler, LightSubpath* path,
+                                 std::vector<FilmConnection>* seen, std::vector<Photon>* photons,
+                                 int first_dimension = 0);
 
 /// Runs the eye path that `camera` starts and adds the light of all techniques with t > 1 to
 /// `light`, before the camera's weight. Its wavelengths, where not all are kept, are dealt with:
