@@ -105,15 +105,15 @@ const EmissionGuide& LearnedEmission::guide(uint64_t seed, const Scene& scene, c
   seed_ = seed;
   const EstimatorKind kind = owned.routes->groups()[owned.group].estimator;
   if (kind == EstimatorKind::kPathAndPhotons) {
+    // Photons are of use to it where those of a route of caustics would be.
     const CompiledPlan plan =
         compile_plan({{{"caustic", "C.*[DG]S+[DG]?L", EstimatorKind::kPhotons, {}},
                        {"rest", ".*", EstimatorKind::kPath, {}}},
                       {}},
                      scene);
+    constexpr size_t kCaustics = 0;  // the group of the first route
     const auto routes = std::make_shared<const Routes>(plan.compilation.routes);
-    for (size_t g = 0; g < routes->groups().size(); ++g)
-      if (routes->groups()[g].estimator == EstimatorKind::kPhotons)
-        guide_ = learn(seed, scene, film, {routes, plan.symbols, g}, options);
+    guide_ = learn(seed, scene, film, {routes, plan.symbols, kCaustics}, options);
   } else {
     guide_ = learn(seed, scene, film, owned, options);
   }

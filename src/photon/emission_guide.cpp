@@ -196,8 +196,10 @@ std::optional<EmissionGuide::Choice> EmissionGuide::choose(const Scene& scene, f
   const double below = entry == entries_.begin() ? 0 : std::prev(entry)->cumulative;
   const Cluster& cluster = clusters_[entry->cluster];
   const double x = (v - below) / (entry->cumulative - below) * cluster.pmf;
-  auto light = std::upper_bound(cluster.cumulative.begin(), cluster.cumulative.end(), x);
-  if (light == cluster.cumulative.end()) --light;
+  // Where rounding goes past the last one that shines, it is meant all the same.
+  const auto light =
+      std::min(std::upper_bound(cluster.cumulative.begin(), cluster.cumulative.end(), x),
+               std::lower_bound(cluster.cumulative.begin(), cluster.cumulative.end(), cluster.pmf));
   const auto within = light - cluster.cumulative.begin();
   return Choice{static_cast<int>(entry->cluster * cluster_size_ + static_cast<size_t>(within)),
                 entry->target};

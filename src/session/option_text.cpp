@@ -166,7 +166,7 @@ std::string options_markdown() {
     text += "\nKeys of `-D`, over the scene's Integrator line, which is over the defaults:\n\n";
     text += "| key | unit | default | meaning |\n| --- | --- | --- | --- |\n";
     for (const IntegratorSetting& setting : integrator_settings())
-      text += fmt::format("| `{}={}` | {} | {} | {} |\n", setting.key, setting.value,
+      text += fmt::format("| `{}={}` | {} | {} | {} |\n", setting.key, cell(setting.value),
                           cell(setting.unit), cell(setting.default_text), cell(setting.help));
   }
   text +=

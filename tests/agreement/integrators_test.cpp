@@ -93,7 +93,8 @@ struct RoutesToCompare {
 };
 
 std::vector<RoutesToCompare> routes_to_compare() {
-  return {{"split", "split"},
+  return {{"doidge2012", "doidge2012"},
+          {"split", "split"},
           {"vertex", "vertex"},
           {"light-only", "light-only"},
           {"ppm", "ppm"},

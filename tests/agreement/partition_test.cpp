@@ -246,6 +246,8 @@ const std::vector<Owners> kOwners = {
     {"bdpt_of_some", {"glass=C.*<..'glass'>.*L:bdpt", "rest=.*:path"}},
     {"vcm_of_all", {"all=.*:vcm", "rest=.*:path"}, true, 10},
     {"bpm_of_caustics", {"caustic=C.*[DG]S+[DG]?L:bpm", "rest=.*:path"}, true},
+    {"path_and_photons_of_all", {"all=.*:path+photons", "rest=.*:path"}, true},
+    {"path_and_photons_of_some", {"glass=C.*<..'glass'>.*L:path+photons", "rest=.*:path"}, true},
     {"chains_of_caustics", {"seen=C.*[DG]S+L:mlt", "rest=.*:path"}},
     {"chains_of_all", {"all=.*:mlt", "rest=.*:path"}},
     {"chains_from_the_eye", {"key=C.*<L.'key'>:pssmlt", "rest=.*:path"}},

@@ -1,0 +1,146 @@
+// Photons that start where earlier ones were of use find the same picture as those that start as
+// the lights have it, with less noise; and so do walks whose caustics are photons as well.
+#include <gtest/gtest.h>
+
+#include "integrator/learned_emission.h"
+#include "integrator/pair_pass.h"
+#include "owned_routes.h"
+#include "rendering.h"
+
+namespace nephroid {
+namespace {
+
+using namespace testing_support;
+
+std::string view(const std::string& world) {
+  return R"(
+  LookAt 0 3.2 -2.2  0 0.2 0  0 1 0
+  Camera "perspective" "float fov" 30
+  PixelFilter "box" "float xradius" 0.5 "float yradius" 0.5
+  Film "rgb" "integer xresolution" 12 "integer yresolution" 12
+  WorldBegin
+  Material "diffuse" "rgb reflectance" [0.6 0.5 0.4]
+  Shape "bilinearmesh" "point3 P" [-6 0 -6  6 0 -6  -6 0 6  6 0 6]
+  Material "dielectric" "float eta" 1.5
+  )" + world;
+}
+
+// A glass ball that takes up a small part of what the light falls on.
+const char* const kBall =
+    "AttributeBegin Translate 0 0.5 0 Shape \"sphere\" \"float radius\" 0.3 "
+    "AttributeEnd\n";
+struct Lights {
+  const char* name;
+  const char* text;
+};
+const Lights kLights[] = {
+    {"point", R"(LightSource "point" "rgb I" [9 8 7] "point3 from" [1 3 0.5])"},
+    {"sun_and_lamp",
+     R"(LightSource "distant" "rgb L" [2 2 2] "point3 from" [1 3 0.5] "point3 to" [0 0 0]
+       AttributeBegin Translate -2 3 1 Rotate 90 1 0 0
+       AreaLightSource "diffuse" "rgb L" [20 18 16] "bool twosided" true
+       Shape "disk" "float radius" 0.3 AttributeEnd)"},
+    {"sky", R"(LightSource "infinite" "rgb L" [0.5 0.6 0.7])"},
+};
+
+double sum_of_squared_errors(const SeedValues& values) {
+  double sum = 0;
+  for (const auto& block : values) sum += sqr(estimate_of(block).error);
+  return sum;
+}
+
+class Guided : public ::testing::TestWithParam<Lights> {};
+
+TEST_P(Guided, PhotonsFindTheSameCausticWithLessNoise) {
+  constexpr int kSeeds = 16, kAcross = 3;
+  const auto scene = scene_from_text(view(std::string(kBall) + GetParam().text));
+  IntegratorOptions options;
+  options.photons_per_pass = 2048;
+  options.radius = 2;
+  options.max_depth = 6;
+  const Plan plan = plan_of({"caustic=C.*[DG]S+[DG]?L:photons", "rest=.*:path"});
+  const auto caustics = [&](bool guided, uint64_t first_seed) {
+    options.guides_emission = guided;
+    SeedValues values(kAcross * kAcross);
+    for (uint64_t s = 0; s < kSeeds; ++s) {
+      Preset preset = make_preset(plan, options, *scene);
+      Film film = film_for(*scene, preset);
+      for (uint32_t pass = 0; pass < 8; ++pass)
+        preset.estimators[0]->render_pass({first_seed + s, pass}, *scene, film);
+      for (int b = 0; b < kAcross * kAcross; ++b) {
+        double sum = 0;
+        for (int y = 0; y < 4; ++y)
+          for (int x = 0; x < 4; ++x)
+            sum += static_cast<double>(
+                film.route_value(0, b % kAcross * 4 + x, b / kAcross * 4 + y).g);
+        values[static_cast<size_t>(b)].push_back(sum);
+      }
+    }
+    return values;
+  };
+  const SeedValues guided = caustics(true, 1), own = caustics(false, 1000);
+  double light = 0;
+  for (size_t i = 0; i < own.size(); ++i) {
+    const Estimate a = estimate_of(guided[i]), b = estimate_of(own[i]);
+    EXPECT_NEAR(a.mean, b.mean, kT15 * std::hypot(a.error, b.error)) << "block " << i;
+    light += a.mean;
+  }
+  EXPECT_GT(light, 0);
+  const double gain = sum_of_squared_errors(own) / sum_of_squared_errors(guided);
+  std::printf("%s: variance without a guide over that with one: %.1f\n", GetParam().name, gain);
+  EXPECT_GT(gain, 3);
+}
+
+// The weights of walks and of photons add up to one only if both know how the photons start.
+TEST_P(Guided, WalksAndPhotonsTogetherFindTheSamePicture) {
+  constexpr int kSeeds = 16, kAcross = 3;
+  const auto scene = scene_from_text(view(std::string(kBall) + GetParam().text));
+  IntegratorOptions options;
+  options.radius = 1;
+  options.max_depth = 6;
+  const std::vector<std::string> routes = {"all=.*:path+photons"};
+  const Preset preset = make_preset(plan_of(routes), options, *scene);
+  const OwnedRoutes owned = owned_routes(*scene, routes);
+  const auto values = [&](bool guided, uint64_t first_seed) {
+    SeedValues result(kAcross * kAcross);
+    options.guides_emission = guided;
+    for (uint64_t s = 0; s < kSeeds; ++s) {
+      const auto means = [&](float radius) {
+        options.radius = radius;
+        Film film = film_for(*scene, preset);
+        LearnedEmission learned;
+        PairPass pass;
+        pass.light_paths = 8192;
+        pass.connects = false;
+        pass.caustics_only = true;
+        pass.guide = &learned.guide(first_seed + s, *scene, film, owned, options);
+        EXPECT_EQ(pass.guide->empty(), !guided);
+        SampleMap map(film.bounds());
+        for (uint8_t& n : map.counts()) n = 8;
+        pass.samples = &map;
+        EstimatorStatistics statistics;
+        for (uint32_t i = 0; i < 4; ++i)
+          pass.render({first_seed + s, i}, *scene, film, owned, options, statistics);
+        return block_means(film, kAcross);
+      };
+      const std::vector<double> large = means(1), small = means(std::sqrt(0.5f));
+      for (size_t i = 0; i < large.size(); ++i) result[i].push_back(2 * small[i] - large[i]);
+    }
+    return result;
+  };
+  const SeedValues guided = values(true, 1), own = values(false, 1000);
+  for (size_t i = 0; i < own.size(); ++i) {
+    const Estimate a = estimate_of(guided[i]), b = estimate_of(own[i]);
+    const double error = std::hypot(a.error, b.error);
+    std::printf("%s, block %zu: %.5f against %.5f, %+.2f standard errors of %.2f %%\n",
+                GetParam().name, i, a.mean, b.mean, (a.mean - b.mean) / error,
+                100 * error / b.mean);
+    EXPECT_NEAR(a.mean, b.mean, kT15 * error) << "block " << i;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Lights, Guided, ::testing::ValuesIn(kLights),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+}  // namespace
+}  // namespace nephroid
