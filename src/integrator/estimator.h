@@ -56,6 +56,7 @@ struct IntegratorOptions {
   /// Walks of `path` do not look at what is useful for its routes: the same seed gives the same
   /// paths whatever the routes are.
   bool blind_walks = false;
+  int point_lights = 0;  ///< connections of a pixel and pass; 0: the default
   int camera_samples_per_pass = 0;  ///< 0: the default of the integrator
   int64_t memory_photons =
       1 << 20;  ///< photons kept at once (96 bytes each); a larger pass runs in batches

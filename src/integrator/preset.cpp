@@ -4,9 +4,11 @@
 #include "core/errors.h"
 #include "integrator/compiled_plan.h"
 #include "integrator/features.h"
+#include "integrator/forecast.h"
 #include "integrator/light_tracing.h"
 #include "integrator/path.h"
 #include "integrator/photon_mapping.h"
+#include "integrator/point_lights.h"
 #include "integrator/sppm.h"
 #include "integrator/vertex_merging.h"
 
@@ -27,7 +29,9 @@ constexpr Row kTable[] = {{EstimatorKind::kPath, make<PathEstimator>},
                           {EstimatorKind::kPhotons, make<PhotonMapping>},
                           {EstimatorKind::kSppm, make<Sppm>},
                           {EstimatorKind::kLightTrace, make<LightTracing>},
-                          {EstimatorKind::kPhotonsAndLight, make<VertexMerging>}};
+                          {EstimatorKind::kPhotonsAndLight, make<VertexMerging>},
+                          {EstimatorKind::kPointLights, make<PointLights>},
+                          {EstimatorKind::kForecast, make<Forecast>}};
 
 FilmLayout layout_of(const Routes& routes) {
   FilmLayout layout;

@@ -19,9 +19,19 @@ using Kind = RouteFinding::Kind;
 
 constexpr size_t kMostNodes = size_t{1} << 18;
 
+// How far a word has come to two D or G in a row behind S and V only, where point lights connect.
+enum class PairOfRough : uint8_t { kNone, kFirst, kBoth, kNever };
+PairOfRough after(PairOfRough pair, EventClass c) {
+  if (pair == PairOfRough::kBoth || pair == PairOfRough::kNever) return pair;
+  const bool rough = contains(ClassMask::kRough, c);
+  if (pair == PairOfRough::kFirst) return rough ? PairOfRough::kBoth : PairOfRough::kNever;
+  return rough ? PairOfRough::kFirst : PairOfRough::kNone;
+}
+
 // What never-sampled words have in common, of the events read so far.
 struct Ends {
   bool any = false, rough = false, first_specular = false, last_specular = false;
+  PairOfRough pair = PairOfRough::kNone;
   auto operator<=>(const Ends&) const = default;
 };
 struct PlainState {
@@ -166,10 +176,11 @@ class Prover {
     const Automaton& a = in_.parts.automaton;
     const WordSearch<PlainState> search(
         {a.start, {}}, events_, SIZE_MAX, [&](const PlainState& s, int e) -> PlainState {
-          const bool specular = in_.classes.class_of_event(e) == EventClass::kSpecular;
+          const EventClass c = in_.classes.class_of_event(e);
+          const bool specular = c == EventClass::kSpecular;
           return {a.after(s.state, e),
                   {true, s.ends.rough || !specular, s.ends.any ? s.ends.first_specular : specular,
-                   specular}};
+                   specular, after(s.ends.pair, c)}};
         });
     std::optional<std::string> hole, medium_hole, hair_hole;
     struct NeverSampled {
@@ -228,7 +239,11 @@ class Prover {
   // mirror is no fault of a route), else the more the better it serves as a witness.
   static int never_sampled(EstimatorKind estimator, const Ends& ends, LightKind light) {
     const bool is_hit = light != LightKind::kPoint && light != LightKind::kDistant;
-    if (estimator == EstimatorKind::kPath) return !is_hit && ends.rough && ends.last_specular;
+    const bool out_of_reach = !is_hit && ends.rough && ends.last_specular;
+    if (estimator == EstimatorKind::kPath || estimator == EstimatorKind::kForecast)
+      return out_of_reach;
+    if (estimator == EstimatorKind::kPointLights)
+      return out_of_reach && ends.pair != PairOfRough::kBoth;
     if (estimator == EstimatorKind::kLightTrace)
       return ends.any ? 2 * (ends.first_specular && (ends.rough || is_hit))
                       : light == LightKind::kEnvironment;

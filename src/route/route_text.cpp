@@ -25,6 +25,12 @@ constexpr EstimatorType kEstimators[] = {
     {EstimatorKind::kPhotonsAndLight, "photons+light",
      "photons that are merged and connected to the camera, weighed against each other", true, true,
      true},
+    {EstimatorKind::kPointLights, "pointlights",
+     "path tracing that is connected to virtual point lights at its first rough surface", false,
+     false, true},
+    {EstimatorKind::kForecast, "forecast",
+     "path tracing that looks where photons foretold that a caustic comes from", false, false,
+     false},
 };
 
 // Names of the picture's own layers and channels, and of what is reserved for them.

@@ -64,6 +64,13 @@ constexpr IntegratorSetting kSettings[] = {
        o.camera_samples_per_pass = static_cast<int>(integer("camera-samples", t, 0, kMaxInt));
      },
      [](const IntegratorOptions& o) { return fmt::format("{}", o.camera_samples_per_pass); }},
+    {"point-lights", "N", "0", "connections",
+     "Virtual point lights that a camera path of pointlights is connected to, up to 1024; 0 lets "
+     "the integrator choose.",
+     [](IntegratorOptions& o, const std::string& t) {
+       o.point_lights = static_cast<int>(integer("point-lights", t, 0, 1024));
+     },
+     [](const IntegratorOptions& o) { return fmt::format("{}", o.point_lights); }},
     {"memory-photons", "N", "1048576", "photons",
      "Photons kept at once; a pass with more runs in batches.",
      [](IntegratorOptions& o, const std::string& t) {

@@ -83,7 +83,9 @@ constexpr const char* kRoutesHelp =
     "--integrator.";
 constexpr const char* kRouteHelp =
     "One route: a light path expression and the estimator that renders what matches it (path, "
-    "photons, sppm, lighttrace, photons+light). The first route that matches a path owns it.";
+    "photons, sppm, lighttrace, photons+light, pointlights, forecast). The first route that "
+    "matches "
+    "a path owns it.";
 constexpr const char* kAovHelp =
     "One more layer of the picture: the light of all paths that match, whichever route renders "
     "them.";

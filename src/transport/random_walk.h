@@ -129,6 +129,9 @@ struct WalkEvent {
 ///   void vertex(const Walk&, const WalkVertex&, PathSampler&)         a surface
 ///   void medium_vertex(const Walk&, const MediumVertex&, PathSampler&)  a collision in a medium
 ///   bool scatter(const Walk&, const WalkEvent&)      an event was sampled; false: stop
+/// and may have
+///   std::optional<BsdfSample> sample_direction(const WalkVertex&, float uc, const Vec2f& u,
+///       ClassMask among)    in place of Bsdf::sample, with the density of what it does
 /// `mode` tells which quantity the throughput carries. In kImportance it includes the correction
 /// for shading normals (Veach 1997, section 5.3).
 template <class Visitor>
@@ -258,8 +261,8 @@ class RandomWalk {
     sampler_.start_dimension(dimension + dimensions::kBsdf);
     const float uc = sampler_.get_1d();
     const Vec2f u = sampler_.get_2d();
-    const std::optional<BsdfSample> s = vertex.bsdf.sample(
-        vertex.wo, uc, u, mode_, looks_under ? among | ClassMask::kDiffuse : among);
+    const std::optional<BsdfSample> s =
+        sample_direction(vertex, uc, u, looks_under ? among | ClassMask::kDiffuse : among);
     if (!s || !(s->pdf_w > 0.0f)) return false;
     SampledSpectrum weight = s->f * (abs_cos_theta(s->wi) / s->pdf_w);
     if (s->straight_through) {
@@ -292,6 +295,15 @@ class RandomWalk {
     event.transmitted = vertex.subsurface_exit || s->transmitted;
     event.material = material.index();
     return end_of_event(event, dimension);
+  }
+
+  /// The visitor may choose directions itself.
+  std::optional<BsdfSample> sample_direction(const WalkVertex& vertex, float uc, const Vec2f& u,
+                                             ClassMask among) {
+    if constexpr (requires { visitor_.sample_direction(vertex, uc, u, among); })
+      return visitor_.sample_direction(vertex, uc, u, among);
+    else
+      return vertex.bsdf.sample(vertex.wo, uc, u, mode_, among);
   }
 
   /// The second half of a subsurface event, at another point of the surface: a vertex of its own,

@@ -83,8 +83,8 @@ TEST_P(Agreement, OfAllIntegrators) {
 INSTANTIATE_TEST_SUITE_P(Scenes, Agreement, ::testing::ValuesIn(kAgreementScenes),
                          [](const auto& test) { return std::string(test.param.name); });
 
-// Routes that integrators do not have: light tracing, and photons both merged and connected, of
-// caustics alone and wherever they can be.
+// Routes that integrators do not have: light tracing, photons both merged and connected, of
+// caustics alone and wherever they can be, virtual point lights, and guided path tracing.
 struct RoutesToCompare {
   const char* name;
   Plan plan;
@@ -94,6 +94,9 @@ std::vector<RoutesToCompare> routes_to_compare() {
   return {{"split", "split"},
           {"vertex", "vertex"},
           {"light-only", "light-only"},
+          {"forecast", "forecast"},
+          {"all-point-lights",
+           plan_of({"caustic=C[SV]*[DG]S+L:photons", "all=.*:pointlights", "rest=.*:path"})},
           {"all-vertex", plan_of({"emission=C([SV]*L|.*M|.*H.*L):path", "rest=.*:photons+light"})}};
 }
 

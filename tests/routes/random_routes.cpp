@@ -124,9 +124,11 @@ Tree RandomRoutes::expression(bool marked) {
 
 OracleRoutes RandomRoutes::set() {
   static const EstimatorKind kKinds[] = {
-      EstimatorKind::kPath,       EstimatorKind::kPath,           EstimatorKind::kPhotons,
-      EstimatorKind::kPhotons,    EstimatorKind::kSppm,           EstimatorKind::kLightTrace,
-      EstimatorKind::kLightTrace, EstimatorKind::kPhotonsAndLight};
+      EstimatorKind::kPath,        EstimatorKind::kPath,
+      EstimatorKind::kPhotons,     EstimatorKind::kPhotons,
+      EstimatorKind::kSppm,        EstimatorKind::kLightTrace,
+      EstimatorKind::kLightTrace,  EstimatorKind::kPhotonsAndLight,
+      EstimatorKind::kPointLights, EstimatorKind::kForecast};
   const Alphabet alphabet(static_cast<int>(labels_.size()));
   const auto possible = [&](bool marked) {
     for (;;) {
@@ -136,7 +138,7 @@ OracleRoutes RandomRoutes::set() {
   };
   std::vector<OracleRoute> routes, aovs;
   for (int n = 2 + below(4), i = 1; i <= n; ++i) {
-    const EstimatorKind kind = kKinds[below(8)];
+    const EstimatorKind kind = kKinds[below(10)];
     Tree tree = possible(estimator_type(kind).merges && chance(45));
     // Half of the routes without a mark have a merge vertex in each path.
     if (estimator_type(kind).merges && !tree.has_marks() && chance(50))

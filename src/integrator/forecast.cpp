@@ -1,0 +1,174 @@
+#include "integrator/forecast.h"
+
+#include "integrator/guided_direction.h"
+#include "integrator/path_pass.h"
+#include "integrator/path_visitor.h"
+#include "photon/emission.h"
+
+namespace nephroid {
+
+namespace {
+
+constexpr uint64_t kStream = 0x666f7265;    // "fore"
+constexpr uint64_t kLearning = 0x63617374;  // "cast"
+constexpr int64_t kDefaultPhotons = 1 << 16;
+constexpr int64_t kChunk = 1024;
+// A photon's own dimensions, before those of its vertices.
+constexpr int kWavelength = kEmissionDimensions;  // 1
+constexpr int kTime = kWavelength + 1;            // 1
+constexpr int kFirstVertex = kTime + 1;
+constexpr int kStratifiedDimensions = 48;
+
+/// Notes where light lands that came through something specular.
+class SightVisitor {
+ public:
+  SightVisitor(const OwnedRoutes& owned, LightSymbol light, std::vector<CausticSight>& out)
+      : routes_(*owned.routes),
+        symbols_(*owned.symbols),
+        group_(owned.group),
+        out_(out),
+        state_(routes_.emitted(light)) {}
+
+  void escape(const Walk&) {}
+  void emitter(const Walk&, const SurfaceInteraction&, const Light&) {}
+  void medium_emission(const Medium&, const SampledSpectrum&) {}
+  void medium_vertex(const Walk&, const MediumVertex&, PathSampler&) {}
+  ClassMask useful(const WalkVertex& v) const {
+    return routes_.useful_from_light(group_, state_, label_at(symbols_, v));
+  }
+  bool scatters_in(const Medium& medium) const {
+    return contains(routes_.useful_from_light(group_, state_, symbols_.medium(medium.index())),
+                    EventClass::kVolume);
+  }
+  bool looks_under_surfaces() const { return false; }
+
+  void vertex(const Walk& walk, const WalkVertex& v, PathSampler&) {
+    const ClassMask rough = v.bsdf.finite_classes() & useful(v) & ClassMask::kRough;
+    if (after_specular_ && rough != ClassMask::kNone)
+      out_.push_back({v.surface.p, walk.previous_p});
+  }
+  bool scatter(const Walk&, const WalkEvent& event) {
+    after_specular_ = event.letter == EventClass::kSpecular;
+    state_ = routes_.light_next(state_, symbol_of(symbols_, event));
+    return true;
+  }
+
+ private:
+  const Routes& routes_;
+  const SceneSymbols& symbols_;
+  const size_t group_;
+  std::vector<CausticSight>& out_;
+  LightState state_;
+  bool after_specular_ = false;
+};
+
+/// Path tracing whose directions follow the forecast.
+class ForecastVisitor : public PathVisitor<ForecastVisitor> {
+ public:
+  ForecastVisitor(const Scene& scene, const OwnedRoutes& owned, const ForecastMap& map,
+                  PartSums& light)
+      : PathVisitor(scene, owned, false, light), map_(map) {}
+
+  void vertex(const Walk& walk, const WalkVertex& v, PathSampler& sampler) {
+    const ClassMask rough = v.bsdf.finite_classes() & v.classes_of(useful(v)) & ClassMask::kRough;
+    lobes_ = rough == ClassMask::kNone ? ForecastLobes() : map_.lobes_at(v.surface.p);
+    PathVisitor::vertex(walk, v, sampler);
+  }
+
+  float density(const WalkVertex& v, const Vec3f& wi, EventClass c, ClassMask among,
+                float bsdf_pdf_w) const {
+    return mixture(v, among).pdf_w(wi, c, bsdf_pdf_w);
+  }
+
+  std::optional<BsdfSample> sample_direction(const WalkVertex& v, float uc, const Vec2f& u,
+                                             ClassMask among) const {
+    return mixture(v, among).sample(uc, u);
+  }
+
+  bool scatter(const Walk& walk, const WalkEvent& event) {
+    lobes_ = ForecastLobes();
+    return PathVisitor::scatter(walk, event);
+  }
+
+ private:
+  GuidedDirection mixture(const WalkVertex& v, ClassMask among) const {
+    return {v.bsdf, v.surface.shading, v.wo, among, lobes_};
+  }
+
+  const ForecastMap& map_;
+  ForecastLobes lobes_;  ///< of the vertex at hand
+};
+
+}  // namespace
+
+Forecast::Forecast(OwnedRoutes owned, const IntegratorOptions& options)
+    : owned_(std::move(owned)), options_(options) {}
+
+void Forecast::learn(uint64_t seed, const Scene& scene) {
+  const int64_t photons =
+      options_.photons_per_pass > 0 ? options_.photons_per_pass : kDefaultPhotons;
+  const uint64_t learning_seed = hash_combine(seed, kLearning);
+  const float specular_alpha = specular_alpha_of_pass(scene.specular_band, {learning_seed, 0});
+  struct Chunk {
+    std::vector<CausticSight> sights;
+    uint64_t rays = 0;
+  };
+  std::vector<Chunk> chunks(static_cast<size_t>(chunk_count(photons, kChunk)));
+  parallel_chunks(photons, kChunk, [&](int64_t c, int64_t begin, int64_t end) {
+    Chunk& chunk = chunks[static_cast<size_t>(c)];
+    for (int64_t j = begin; j < end; ++j) {
+      const SobolPoint point(static_cast<uint32_t>(j), kStratifiedDimensions);
+      PathSampler sampler(point, hash_combine(learning_seed, j >> 32));
+      sampler.start_dimension(kWavelength);
+      Walk walk;
+      walk.lambda = SampledWavelengths::sample_visible(wavelength_number(scene, sampler.get_1d()));
+      const float time = scene.camera->motion_time(sampler.get_1d());
+      sampler.start_dimension(0);
+      const auto emitted = emit(scene, walk.lambda, time, sampler);
+      if (!emitted) continue;
+      walk.ray = emitted->ray;
+      walk.medium = emitted->medium;
+      walk.specular_alpha = specular_alpha;
+      walk.per_wavelength = true;
+      walk.first_dimension = kFirstVertex;
+      walk.second_dimension = kFirstVertex + dimensions::kPerVertex;
+      SightVisitor visitor(owned_, owned_.symbols->light(emitted->light), chunk.sights);
+      random_walk(scene, TransportMode::kImportance, options_.max_depth, walk, sampler, visitor);
+      chunk.rays += walk.rays;
+    }
+  });
+  std::vector<CausticSight> sights;
+  for (const Chunk& chunk : chunks) {
+    sights.insert(sights.end(), chunk.sights.begin(), chunk.sights.end());
+    statistics_.rays += chunk.rays;
+  }
+  statistics_.photon_paths += static_cast<uint64_t>(photons);
+  statistics_.photons_stored += sights.size();
+  map_ = ForecastMap(std::move(sights));
+  learned_from_ = seed;
+}
+
+void Forecast::render_pass(const PassKey& key, const Scene& scene, Film& film) {
+  if (learned_from_ != key.seed) learn(key.seed, scene);
+  const PathPass pass{key,    scene, film, owned_, std::max(1, options_.camera_samples_per_pass),
+                      kStream};
+  statistics_.rays += trace_paths(pass, [&](int, int, CameraPath& path, PathSampler& sampler,
+                                            PartSums& light) {
+    ForecastVisitor visitor(scene, owned_, map_, light);
+    if (path.camera_weight > 0)
+      random_walk(scene, TransportMode::kRadiance, options_.max_depth, path.walk, sampler, visitor);
+    return TracedPath{path.walk.rays + visitor.shadow_rays(), pass.weights_of(path)};
+  });
+  statistics_.camera_paths +=
+      static_cast<uint64_t>(film.bounds().area()) * static_cast<uint64_t>(pass.samples);
+}
+
+EstimatorStatistics Forecast::statistics() const {
+  EstimatorStatistics s = statistics_;
+  if (s.photon_paths > 0 && map_.size() == 0)
+    s.notes.push_back("none of " + std::to_string(s.photon_paths) +
+                      " photon paths foretold a caustic: its paths are traced as by path");
+  return s;
+}
+
+}  // namespace nephroid
