@@ -80,9 +80,13 @@ class ForecastVisitor : public PathVisitor<ForecastVisitor> {
     return mixture(v, among).pdf_w(wi, c, bsdf_pdf_w);
   }
 
-  std::optional<BsdfSample> sample_direction(const WalkVertex& v, float uc, const Vec2f& u,
-                                             ClassMask among) const {
-    return mixture(v, among).sample(uc, u);
+  // A direction that is chosen more often carries less for it; roulette must not undo that.
+  std::optional<BsdfSample> sample_direction(Walk& walk, const WalkVertex& v, float uc,
+                                             const Vec2f& u, ClassMask among) const {
+    float gain = 1;
+    const std::optional<BsdfSample> s = mixture(v, among).sample(uc, u, gain);
+    if (s) walk.eta_scale *= gain;
+    return s;
   }
 
   bool scatter(const Walk& walk, const WalkEvent& event) {

@@ -21,13 +21,15 @@ GuidedDirection::GuidedDirection(const Bsdf& bsdf, const Frame& shading, const V
       lobes_(lobes),
       share_(lobes.empty() || guided_ == ClassMask::kNone ? 0.0f : kShareOfForecast) {}
 
-std::optional<BsdfSample> GuidedDirection::sample(float uc, const Vec2f& u) const {
-  if (uc < share_) return sample_forecast(uc / share_, u);
+std::optional<BsdfSample> GuidedDirection::sample(float uc, const Vec2f& u, float& gain) const {
+  if (uc < share_) return sample_forecast(uc / share_, u, gain);
   std::optional<BsdfSample> s =
       bsdf_.sample(wo_, (uc - share_) / (1.0f - share_), u, TransportMode::kRadiance, among_);
   if (!s) return s;
   const bool finite = !s->delta && !s->straight_through && !s->subsurface;
-  s->pdf_w = finite ? pdf_w(s->wi, s->event, s->pdf_w) : s->pdf_w * (1.0f - share_);
+  const float pdf = finite ? pdf_w(s->wi, s->event, s->pdf_w) : s->pdf_w * (1.0f - share_);
+  gain = s->pdf_w > 0.0f ? pdf / s->pdf_w : 1.0f;
+  s->pdf_w = pdf;
   return s;
 }
 
@@ -46,7 +48,8 @@ float GuidedDirection::rough_pdf_w(const Vec3f& wi) const {
 }
 
 // The number that chooses the lobe chooses the class with what is left of it.
-std::optional<BsdfSample> GuidedDirection::sample_forecast(float uc, const Vec2f& u) const {
+std::optional<BsdfSample> GuidedDirection::sample_forecast(float uc, const Vec2f& u,
+                                                           float& gain) const {
   const float scaled = uc * static_cast<float>(lobes_.count());
   const int lobe = std::min(static_cast<int>(scaled), lobes_.count() - 1);
   const Vec3f wi = shading_.to_local(lobes_.sample(lobe, u));
@@ -61,6 +64,7 @@ std::optional<BsdfSample> GuidedDirection::sample_forecast(float uc, const Vec2f
       s->f = e.f;
       s->wi = wi;
       s->pdf_w = pdf_w(wi, c, e.pdf_w);
+      gain = s->pdf_w / e.pdf_w;
       s->event = c;
       s->transmitted = wo_.z * wi.z < 0.0f;
     }

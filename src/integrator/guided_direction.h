@@ -19,8 +19,9 @@ class GuidedDirection {
   GuidedDirection(const Bsdf& bsdf, const Frame& shading, const Vec3f& wo, ClassMask among,
                   const ForecastLobes& lobes);
 
-  /// As Bsdf::sample, with the density of the mixture.
-  std::optional<BsdfSample> sample(float uc, const Vec2f& u) const;
+  /// As Bsdf::sample, with the density of the mixture. `gain` becomes that density over the
+  /// BSDF's alone.
+  std::optional<BsdfSample> sample(float uc, const Vec2f& u, float& gain) const;
   /// Density with which sample() finds the local direction `wi` in class `c`, whose density by the
   /// BSDF alone is `bsdf_pdf_w`; delta lobes left out.
   float pdf_w(const Vec3f& wi, EventClass c, float bsdf_pdf_w) const;
@@ -30,7 +31,7 @@ class GuidedDirection {
     return bsdf_.eval(wo_, wi, TransportMode::kRadiance, c, among_);
   }
   float rough_pdf_w(const Vec3f& wi) const;
-  std::optional<BsdfSample> sample_forecast(float uc, const Vec2f& u) const;
+  std::optional<BsdfSample> sample_forecast(float uc, const Vec2f& u, float& gain) const;
 
   const Bsdf& bsdf_;
   const Frame& shading_;

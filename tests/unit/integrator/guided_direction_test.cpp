@@ -116,7 +116,8 @@ TEST(GuidedDirection, IsADensityThatSamplesFollow) {
       TestRandom random(static_cast<uint64_t>(questions));
       for (int i = 0; i < kSamples; ++i) {
         const float uc = random.next();
-        const auto s = mixture.sample(uc, random.next2());
+        float gain = 0;
+        const auto s = mixture.sample(uc, random.next2(), gain);
         if (!s || s->delta || s->event != c) {
           cells.miss();
           continue;
@@ -124,6 +125,7 @@ TEST(GuidedDirection, IsADensityThatSamplesFollow) {
         cells.add(s->wi);
         const BsdfEval e = bsdf.eval(wo, s->wi, TransportMode::kRadiance, c, ClassMask::kAll);
         ASSERT_NEAR(s->pdf_w, pdf(s->wi), 1e-3f * s->pdf_w) << description.name;
+        ASSERT_NEAR(gain, s->pdf_w / e.pdf_w, 2e-3f * gain) << description.name;
         ASSERT_NEAR(s->f[0], e.f[0], 1e-3f * e.f[0] + 1e-6f) << description.name;
       }
       EXPECT_GT(
@@ -146,13 +148,15 @@ TEST(GuidedDirection, WithoutAForecastIsTheBsdf) {
   for (int i = 0; i < 1000; ++i) {
     const float uc = random.next();
     const Vec2f u = random.next2();
-    const auto a = mixture.sample(uc, u),
+    float gain = 0;
+    const auto a = mixture.sample(uc, u, gain),
                b = bsdf.sample(wo, uc, u, TransportMode::kRadiance, ClassMask::kAll);
     ASSERT_EQ(a.has_value(), b.has_value());
     if (!a) continue;
     EXPECT_EQ(a->wi.x, b->wi.x);
     EXPECT_EQ(a->pdf_w, b->pdf_w);
     EXPECT_EQ(a->event, b->event);
+    EXPECT_EQ(gain, 1);
   }
 }
 
