@@ -79,7 +79,8 @@ inline std::string test_name(std::string plan) {
 /// True if some photons of the plan are merged, which gives the picture the bias of a radius.
 inline bool merges_photons(const RoutePlan& plan) {
   return std::any_of(plan.routes.begin(), plan.routes.end(), [](const RouteDefinition& route) {
-    return estimator_type(route.estimator).merges;
+    return estimator_type(route.estimator).merges || route.estimator == EstimatorKind::kVcm ||
+           route.estimator == EstimatorKind::kBpm;
   });
 }
 
@@ -157,6 +158,10 @@ inline SeedValues block_values(const Scene& scene, const Plan& plan,
   }
   return values;
 }
+
+/// IntegratorOptions::nearest_photons with which photon maps are read in a fixed radius, whose bias
+/// falls with its square as that of other estimators does.
+inline constexpr int kAllPhotons = 1 << 30;
 
 /// The same without the bias of the merge radius, which falls with r^2: 2 L(r^2/2) - L(r^2). Both
 /// renders of a seed share all random numbers, so what does not depend on the radius keeps its own

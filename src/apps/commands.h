@@ -10,5 +10,6 @@ int run_render(const RenderCommand& command);
 int run_info(const InfoCommand& command);
 int run_compare(const CompareCommand& command);
 int run_routes(const RoutesCommand& command);
+int run_bench(const BenchCommand& command);
 
 }  // namespace nephroid

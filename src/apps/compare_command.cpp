@@ -4,6 +4,7 @@
 #include "apps/commands.h"
 #include "film/atomic_file.h"
 #include "session/compare.h"
+#include "session/flip.h"
 
 namespace nephroid {
 namespace {
@@ -29,6 +30,8 @@ int run_compare(const CompareCommand& command) {
   const Comparison result = compare_pictures(reference, test, options);
   fmt::print("rmse={:.6g} relmse={:.6g} relmse_trim={:.6g} mean_rel={:.6g}\n", result.rmse,
              result.relmse, result.relmse_trim, result.mean.value);
+  fmt::print("flip={:.6g} (mean, at exposure {:g})\n", flip(reference, test, command.exposure),
+             command.exposure);
   print_dim_mean(result.dim_mean);
   if (result.deviations)
     fmt::print("z_within={:.5g} z_rms={:.4g} (|z| < {:g} in all channels, share of pixels)\n",

@@ -5,8 +5,9 @@
 #include <utility>
 
 #include "apps/commands.h"
-#include "apps/scene_loading.h"
+#include "apps/messages.h"
 #include "scene/embree_scene.h"
+#include "session/scene_loading.h"
 
 namespace nephroid {
 namespace {
@@ -109,7 +110,7 @@ void print_integrator(const Scene& scene) {
 
 int run_info(const InfoCommand& command) {
   const LoadedScene loaded = load_scene(command.scene, SceneOverrides{});
-  print_warnings(loaded);
+  print_warnings(loaded.warnings);
   const Scene& scene = *loaded.scene;
   fmt::print("scene: {}\n", command.scene);
   print_film(scene);

@@ -37,6 +37,8 @@ int run(const std::vector<std::string>& arguments) {
       return run_compare(line.compare);
     case Action::kRoutes:
       return run_routes(line.routes);
+    case Action::kBench:
+      return run_bench(line.bench);
     case Action::kPrint:
       break;
   }

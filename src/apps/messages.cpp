@@ -49,4 +49,8 @@ void print_warning(const std::string& message) {
   fmt::print(stderr, "nephroid: warning: {}\n", printable(message));
 }
 
+void print_warnings(const std::vector<std::string>& messages) {
+  for (const std::string& message : messages) print_warning(message);
+}
+
 }  // namespace nephroid

@@ -4,11 +4,13 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace nephroid {
 
 void print_error(const std::string& message);
 void print_warning(const std::string& message);
+void print_warnings(const std::vector<std::string>& messages);
 
 /// The text with everything that is not printable UTF-8, except line ends, as \xNN.
 std::string printable(const std::string& text);

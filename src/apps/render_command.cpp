@@ -8,13 +8,14 @@
 #include "apps/messages.h"
 #include "apps/progress_display.h"
 #include "apps/report.h"
-#include "apps/scene_loading.h"
 #include "core/parallel.h"
 #include "film/atomic_file.h"
 #include "film/film_output.h"
+#include "integrator/ppm.h"
 #include "session/file_hash.h"
 #include "session/film_of_scene.h"
 #include "session/render_session.h"
+#include "session/scene_loading.h"
 #include "session/version.h"
 
 namespace nephroid {
@@ -34,14 +35,18 @@ Metadata metadata_of(const RenderCommand& command, const IntegratorChoice& choic
 }
 
 void add_routes(const RoutePlan& plan, Metadata* metadata) {
-  // As a file of routes has them: their order counts.
-  std::string routes, aovs;
-  for (const RouteDefinition& route : plan.routes)
-    routes +=
-        route.name + " = " + route.expression + " : " + estimator_type(route.estimator).name + "\n";
-  for (const AovDefinition& aov : plan.aovs) aovs += aov.name + " = " + aov.expression + "\n";
-  metadata->emplace_back("nephroid:routes", routes);
+  const std::string aovs = aovs_text(plan);
+  // The order of routes counts.
+  metadata->emplace_back("nephroid:routes", routes_text(plan));
   if (!aovs.empty()) metadata->emplace_back("nephroid:aovs", aovs);
+}
+
+void warn_of_what_is_never_held(const Routes& routes) {
+  for (const RouteGroup& group : routes.groups())
+    if (group.estimator == EstimatorKind::kSppm || group.estimator == EstimatorKind::kPpm)
+      print_warning(std::string("--outliers reject: routes of ") +
+                    estimator_type(group.estimator).name +
+                    " keep theirs, they have no estimates that could be held");
 }
 
 RenderOptions render_options(const RenderCommand& command, const Scene& scene,
@@ -70,7 +75,7 @@ int run_render(const RenderCommand& command) {
     check_file_can_be_written(png_path_beside(command.output));
   }
   const LoadedScene loaded = load_scene(command.scene, command.overrides);
-  if (!command.quiet) print_warnings(loaded);
+  if (!command.quiet) print_warnings(loaded.warnings);
   const Scene& scene = *loaded.scene;
 
   const IntegratorChoice choice =
@@ -82,8 +87,14 @@ int run_render(const RenderCommand& command) {
   Preset preset = make_preset(plan, choice.options, scene);
   if (!command.quiet)
     for (const std::string& warning : preset.warnings) print_warning(warning);
-  check_film_fits(scene.film, preset.layout, *preset.routes, command.overrides.width > 0);
+  check_film_fits(scene.film, preset.layout, *preset.routes, command.overrides.width > 0,
+                  command.reject_outliers,
+                  Ppm::hit_points(choice.options, scene.samples_per_pixel));
   Film film(film_settings(scene.film), preset.layout);
+  if (command.reject_outliers) {
+    film.reject_outliers(outlier_settings(*preset.routes, choice.options, *scene.filter));
+    if (!command.quiet) warn_of_what_is_never_held(*preset.routes);
+  }
   const std::string output =
       command.output.empty() ? default_output(scene.film, command.scene) : command.output;
   Metadata metadata = metadata_of(command, choice);

@@ -59,6 +59,13 @@ std::string light_line(const EstimatorStatistics& last, uint32_t passes) {
       100 * static_cast<double>(last.light_paths_useful) / paths);
 }
 
+double all_estimates(const Film& film) {
+  double count = 0;
+  for (int g = 0; g < film.layout().group_count(); ++g)
+    count += static_cast<double>(film.estimates(g)) * static_cast<double>(film.bounds().area());
+  return count;
+}
+
 std::string route_lines(const Film& film) {
   const EnergyShares shares = energy_shares(film);
   const auto line = [](const char* title, const std::vector<std::string>& names,
@@ -70,6 +77,10 @@ std::string route_lines(const Film& film) {
   };
   std::string text = line("light by route:", film.layout().routes, shares.routes);
   if (!shares.aovs.empty()) text += line("of it in layers:", film.layout().aovs, shares.aovs);
+  if (const OutlierRejection* rejection = film.rejection())
+    text += fmt::format(
+        "outliers: {} estimates of {}held, {:.3g} % of all light (layer 'outliers')\n",
+        rejection->held_estimates(), short_number(all_estimates(film)), 100 * shares.outliers);
   return text;
 }
 

@@ -8,11 +8,11 @@
 
 #include "apps/commands.h"
 #include "apps/messages.h"
-#include "apps/scene_loading.h"
 #include "core/errors.h"
 #include "integrator/compiled_plan.h"
 #include "session/film_of_scene.h"
 #include "session/noise.h"
+#include "session/scene_loading.h"
 
 namespace nephroid {
 namespace {
@@ -128,7 +128,7 @@ int run_routes(const RoutesCommand& command) {
     return static_cast<int>(sound ? ExitStatus::kDone : ExitStatus::kUsage);
   }
   const LoadedScene loaded = load_small_scene(command.scene, command.overrides, kPilotSize);
-  print_warnings(loaded);
+  print_warnings(loaded.warnings);
   const Scene& scene = *loaded.scene;
   const IntegratorChoice choice =
       choose_integrator(command.routes.integrator_or(kDefaultIntegrator), scene.integrator,

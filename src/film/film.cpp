@@ -8,6 +8,8 @@
 #include <numeric>
 #include <utility>
 
+#include "core/parallel.h"
+
 namespace nephroid {
 namespace {
 
@@ -65,8 +67,8 @@ Film::Film(const FilmSettings& settings, FilmLayout layout)
     }
 
   const auto pixels = static_cast<size_t>(settings_.crop.area());
-  sums_.assign(layout_.parts.size(), std::vector<PixelSum>(pixels));
-  squares_.assign(groups, std::vector<PixelSum>(pixels));
+  sums_.assign(layout_.parts.size(), std::vector<RgbSum>(pixels));
+  squares_.assign(groups, std::vector<RgbSum>(pixels));
   estimates_.assign(groups, 0);
   features_.resize(pixels);
   if (settings_.gbuffer) surfaces_.resize(pixels);
@@ -76,7 +78,7 @@ Film::Film(const FilmSettings& settings, FilmLayout layout)
 
 size_t Film::bytes_per_pixel(const FilmLayout& layout, bool gbuffer) {
   const size_t sums = layout.parts.size() + static_cast<size_t>(layout.group_count());
-  return sums * sizeof(PixelSum) + sizeof(Features) + (gbuffer ? sizeof(SurfaceSums) : 0) +
+  return sums * sizeof(RgbSum) + sizeof(Features) + (gbuffer ? sizeof(SurfaceSums) : 0) +
          2 * sizeof(uint32_t);  // bad and saturated
 }
 
@@ -89,19 +91,24 @@ const std::vector<int>& Film::parts_of(int group) const {
   return parts_of_group_[static_cast<size_t>(group)];
 }
 
-bool Film::add_finite(int group, size_t pixel, std::span<const Rgb> values) {
+bool Film::add_parts(int group, size_t pixel, std::span<const Rgb> values) {
   const std::vector<int>& parts = parts_of(group);
-  double total[3] = {0, 0, 0};
   bool fits = true;
   for (size_t i = 0; i < parts.size(); ++i) {
-    PixelSum& sum = sums_[static_cast<size_t>(parts[i])][pixel];
-    for (int c = 0; c < 3; ++c) {
-      total[c] += double{values[i][c]};
-      fits &= sum.rgb[c].add(values[i][c]);
-    }
+    RgbSum& sum = sums_[static_cast<size_t>(parts[i])][pixel];
+    for (int c = 0; c < 3; ++c) fits &= sum.rgb[c].add(values[i][c]);
   }
-  PixelSum& square = squares_[static_cast<size_t>(group)][pixel];
-  for (int c = 0; c < 3; ++c) fits &= square.rgb[c].add(total[c] * total[c]);
+  return fits;
+}
+
+bool Film::add_square(int group, size_t pixel, std::span<const Rgb> values) {
+  RgbSum& square = squares_[static_cast<size_t>(group)][pixel];
+  bool fits = true;
+  for (int c = 0; c < 3; ++c) {
+    double total = 0;
+    for (const Rgb& value : values) total += double{value[c]};
+    fits &= square.rgb[c].add(total * total);
+  }
   return fits;
 }
 
@@ -112,7 +119,13 @@ void Film::add(int group, int x, int y, std::span<const Rgb> values) {
     ++bad_[pixel];
     return;
   }
-  if (!add_finite(group, pixel, values)) ++saturated_[pixel];
+  const bool is_held =
+      outliers_ && outliers_->hold(group, pixel, values, [this](int g, size_t p, const auto& held) {
+        release(g, p, held);
+      });
+  bool fits = is_held || add_parts(group, pixel, values);
+  fits &= add_square(group, pixel, values);
+  if (!fits) ++saturated_[pixel];
 }
 
 void Film::replace(int group, int x, int y, std::span<const Rgb> values) {
@@ -124,7 +137,39 @@ void Film::replace(int group, int x, int y, std::span<const Rgb> values) {
   }
   for (const int part : parts_of(group)) sums_[static_cast<size_t>(part)][pixel] = {};
   squares_[static_cast<size_t>(group)][pixel] = {};
-  if (!add_finite(group, pixel, values)) ++saturated_[pixel];
+  bool fits = add_parts(group, pixel, values);
+  fits &= add_square(group, pixel, values);
+  if (!fits) ++saturated_[pixel];
+}
+
+void Film::release(int group, size_t pixel, std::span<const RgbSum> held) {
+  const std::vector<int>& parts = parts_of(group);
+  bool fits = true;
+  for (size_t i = 0; i < parts.size(); ++i)
+    fits &= sums_[static_cast<size_t>(parts[i])][pixel].add(held[i]);
+  if (!fits) ++saturated_[pixel];
+}
+
+void Film::reject_outliers(OutlierSettings settings) {
+  std::vector<size_t> parts;
+  for (const std::vector<int>& group : parts_of_group_) parts.push_back(group.size());
+  outliers_.emplace(settings_.crop.width(), settings_.crop.height(), std::move(parts),
+                    std::move(settings));
+}
+
+void Film::finish_pass() {
+  if (!outliers_) return;
+  const PixelBounds& b = settings_.crop;
+  std::vector<float> shown(static_cast<size_t>(b.area()));
+  parallel_chunks(b.height(), 16, [&](int64_t, int64_t begin, int64_t end) {
+    for (int y = b.y0 + static_cast<int>(begin); y < b.y0 + static_cast<int>(end); ++y)
+      for (int x = b.x0; x < b.x1; ++x)
+        shown[index(x, y)] = OutlierRejection::brightness(value(x, y));
+  });
+  for (int g = 0; g < layout_.group_count(); ++g)
+    outliers_->finish_pass(
+        g, estimates(g), shown,
+        [this](int group, size_t pixel, const auto& held) { release(group, pixel, held); });
 }
 
 void Film::add_estimates(int group, uint64_t count) {
@@ -189,14 +234,27 @@ Rgb Film::value(int x, int y) const {
   return mean_of_parts(all_parts_, index(x, y));
 }
 
+Rgb Film::outliers(int x, int y) const {
+  double total[3] = {0, 0, 0};
+  for (int g = 0; outliers_ && g < layout_.group_count(); ++g) {
+    if (estimates(g) == 0) continue;
+    const RgbSum held = outliers_->held(g, index(x, y));
+    for (int c = 0; c < 3; ++c) total[c] += held.rgb[c].value() / static_cast<double>(estimates(g));
+  }
+  return to_rgb(total);
+}
+
 Rgb Film::standard_error(int x, int y) const {
   const size_t pixel = index(x, y);
+  const auto held = [&](size_t g) {
+    return outliers_ ? outliers_->held(static_cast<int>(g), pixel) : RgbSum();
+  };
   double error[3] = {0, 0, 0};
   for (int c = 0; c < 3; ++c) {
     double variance = 0;
     for (size_t g = 0; g < squares_.size(); ++g) {
       if (estimates_[g] < 2) continue;
-      FixedSum sum;
+      FixedSum sum = held(g).rgb[c];
       for (const int part : parts_of_group_[g])
         sum.add(sums_[static_cast<size_t>(part)][pixel].rgb[c]);
       variance += variance_of_mean(sum, squares_[g][pixel].rgb[c], estimates_[g]);

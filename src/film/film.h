@@ -13,6 +13,8 @@
 
 #include "core/color.h"
 #include "core/math.h"
+#include "film/fixed_sum.h"
+#include "film/outlier_rejection.h"
 
 namespace nephroid {
 
@@ -22,17 +24,6 @@ struct PixelBounds {
   int width() const { return x1 - x0; }
   int height() const { return y1 - y0; }
   int64_t area() const { return int64_t{width()} * height(); }
-};
-
-/// Signed 128-bit fixed point with 64 fractional bits; saturates instead of wrapping.
-struct FixedSum {
-  __extension__ using Bits = __int128;
-  Bits bits = 0;
-  /// Adds x rounded to the nearest step. False if it was not finite or the sum saturated (the sum
-  /// is then unchanged, or at the limit).
-  bool add(double x);
-  bool add(const FixedSum& other);
-  double value() const;
 };
 
 /// What a film is: taken from the scene's Film directive and the command line.
@@ -105,6 +96,15 @@ class Film {
   /// Counts what was left out or held before it came here; one caller at a time.
   void add_faults(uint64_t bad, uint64_t saturated);
 
+  /// From now on holds estimates that are too isolated in position and brightness ([O1] of
+  /// docs/estimators.md): what is held is no part of routes, AOVs and value(), but of outliers().
+  /// Called before the first estimate. What `replace` sets is never held.
+  void reject_outliers(OutlierSettings settings);
+  /// Null unless outliers are rejected.
+  const OutlierRejection* rejection() const { return outliers_ ? &*outliers_ : nullptr; }
+  /// Ends a pass of all groups: what has been confirmed by now is released into the picture.
+  void finish_pass();
+
   /// First-hit features of a pixel (sums over samples): albedo, normal in world space, depth (0 or
   /// infinite where nothing was hit). Components that are not finite are left out.
   void add_features(int x, int y, const Rgb& albedo, const Vec3f& normal, float depth);
@@ -117,9 +117,12 @@ class Film {
   Rgb route_value(int route, int x, int y) const;
   Rgb aov_value(int aov, int x, int y) const;
   Rgb value(int x, int y) const;
-  /// Standard error of value(), from the spread of the estimates of each group, taken as
-  /// independent (an upper bound in practice where passes are stratified). Zero with fewer than two
-  /// estimates.
+  /// What is held of all routes: value() + outliers() is the picture without rejection, up to one
+  /// rounding; the sums behind them add up to it exactly. Black without rejection.
+  Rgb outliers(int x, int y) const;
+  /// Standard error of value() + outliers(), from the spread of the estimates of each group, taken
+  /// as independent (an upper bound in practice where passes are stratified). Zero with fewer than
+  /// two estimates.
   Rgb standard_error(int x, int y) const;
   /// Mean over the feature samples; what hit nothing counts as black.
   Rgb albedo(int x, int y) const;
@@ -136,9 +139,6 @@ class Film {
   uint64_t saturated_values() const;  ///< sums that reached their limit
 
  private:
-  struct PixelSum {
-    FixedSum rgb[3];
-  };
   struct Features {
     FixedSum albedo[3], normal[3], depth;
     uint64_t depths = 0;  ///< samples that hit something
@@ -152,8 +152,12 @@ class Film {
     return static_cast<size_t>(y - settings_.crop.y0) * settings_.crop.width() +
            (x - settings_.crop.x0);
   }
-  /// Adds an estimate of which no value is infinite or NaN. False if a sum reached its limit.
-  bool add_finite(int group, size_t pixel, std::span<const Rgb> values);
+  /// Add an estimate of which no value is infinite or NaN to the parts of its group, and its square
+  /// to the group. False if a sum reached its limit.
+  bool add_parts(int group, size_t pixel, std::span<const Rgb> values);
+  bool add_square(int group, size_t pixel, std::span<const Rgb> values);
+  /// Adds what was held to the parts of a group.
+  void release(int group, size_t pixel, std::span<const RgbSum> parts);
   Rgb mean_of_parts(const std::vector<int>& parts, size_t pixel) const;
 
   FilmSettings settings_;
@@ -161,9 +165,10 @@ class Film {
   // Lists of parts, each ordered by group.
   std::vector<std::vector<int>> parts_of_group_, parts_of_route_, parts_of_aov_;
   std::vector<int> all_parts_;
-  std::vector<std::vector<PixelSum>> sums_;     ///< [part][pixel]
-  std::vector<std::vector<PixelSum>> squares_;  ///< [group][pixel], of an estimate's sum over parts
-  std::vector<uint64_t> estimates_;             ///< [group]
+  std::vector<std::vector<RgbSum>> sums_;     ///< [part][pixel]
+  std::vector<std::vector<RgbSum>> squares_;  ///< [group][pixel], of an estimate's sum over parts
+  std::vector<uint64_t> estimates_;           ///< [group]
+  std::optional<OutlierRejection> outliers_;
   std::vector<Features> features_;
   uint64_t feature_estimates_ = 0;
   std::vector<SurfaceSums> surfaces_;           ///< empty without geometric layers

@@ -23,6 +23,7 @@ std::vector<std::string> channel_names(const Film& film) {
   add_layer(channels, "", "RGB");
   for (const std::string& route : film.layout().routes) add_layer(channels, route, "RGB");
   for (const std::string& aov : film.layout().aovs) add_layer(channels, aov, "RGB");
+  if (film.rejection() != nullptr) add_layer(channels, "outliers", "RGB");
   const bool gbuffer = film.settings().gbuffer;
   add_layer(channels, gbuffer ? "Albedo" : "albedo", "RGB");
   add_layer(channels, "N", "XYZ");
@@ -103,6 +104,7 @@ Picture film_picture(const Film& film, Metadata metadata) {
       out = put(out, film.value(x, y));
       for (int r = 0; r < routes; ++r) out = put(out, film.route_value(r, x, y));
       for (int a = 0; a < aovs; ++a) out = put(out, film.aov_value(a, x, y));
+      if (film.rejection() != nullptr) out = put(out, film.outliers(x, y));
       out = put(out, film.albedo(x, y));
       const bool gbuffer = film.settings().gbuffer;
       out = put(out, gbuffer ? film.surface(x, y).n : film.normal(x, y));

@@ -1,10 +1,11 @@
 // The exact accumulator of the film: double -> 128-bit fixed point, rounded to the nearest step
 // once. All shifts are of unsigned magnitudes, so that nothing here is undefined and x and -x
 // cancel.
+#include "film/fixed_sum.h"
+
 #include <bit>
 #include <cmath>
-
-#include "film/film.h"
+#include <cstdint>
 
 namespace nephroid {
 namespace {

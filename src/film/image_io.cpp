@@ -54,9 +54,10 @@ OIIO::ImageSpec exr_spec(const Picture& picture) {
   return spec;
 }
 
-/// Encodes with the plugin for `format` and replaces the file.
-void encode_and_write(const std::string& path, const char* format, const OIIO::ImageSpec& spec,
-                      OIIO::TypeDesc type, const void* pixels) {
+/// What the plugin for `format` makes of a picture; `path` is its name in messages.
+std::vector<unsigned char> encoded(const std::string& path, const char* format,
+                                   const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
+                                   const void* pixels) {
   OIIO::Filesystem::IOVecOutput buffer;
   const std::string inner_name = std::string("picture.") + format;
   const auto out = OIIO::ImageOutput::create(inner_name, &buffer);
@@ -67,7 +68,13 @@ void encode_and_write(const std::string& path, const char* format, const OIIO::I
   const bool closed = out->close();
   if (!written || !closed)
     throw IoError(path + ": cannot encode: " + (reason.empty() ? out->geterror() : reason));
-  write_file_atomically(path, std::as_bytes(std::span(buffer.buffer())));
+  return std::move(buffer.buffer());
+}
+
+OIIO::ImageSpec png_spec(int width, int height) {
+  OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
+  spec.attribute("oiio:ColorSpace", "sRGB");
+  return spec;
 }
 
 }  // namespace
@@ -78,13 +85,19 @@ int Picture::find_channel(const std::string& name) const {
 }
 
 void write_exr(const std::string& path, const Picture& picture) {
-  encode_and_write(path, "exr", exr_spec(picture), OIIO::TypeDesc::FLOAT, picture.pixels.data());
+  const std::vector<unsigned char> bytes =
+      encoded(path, "exr", exr_spec(picture), OIIO::TypeDesc::FLOAT, picture.pixels.data());
+  write_file_atomically(path, std::as_bytes(std::span(bytes)));
 }
 
 void write_png(const std::string& path, int width, int height, const std::vector<uint8_t>& rgb) {
-  OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
-  spec.attribute("oiio:ColorSpace", "sRGB");
-  encode_and_write(path, "png", spec, OIIO::TypeDesc::UINT8, rgb.data());
+  const std::vector<unsigned char> bytes =
+      encoded(path, "png", png_spec(width, height), OIIO::TypeDesc::UINT8, rgb.data());
+  write_file_atomically(path, std::as_bytes(std::span(bytes)));
+}
+
+std::vector<uint8_t> encode_png(int width, int height, const std::vector<uint8_t>& rgb) {
+  return encoded("a PNG", "png", png_spec(width, height), OIIO::TypeDesc::UINT8, rgb.data());
 }
 
 Picture read_picture(const std::string& path) {

@@ -40,6 +40,9 @@ void write_exr(const std::string& path, const Picture& picture);
 /// Writes interleaved 8-bit sRGB, three bytes a pixel. Throws IoError as write_exr does.
 void write_png(const std::string& path, int width, int height, const std::vector<uint8_t>& rgb);
 
+/// The bytes of such a PNG file. Throws IoError.
+std::vector<uint8_t> encode_png(int width, int height, const std::vector<uint8_t>& rgb);
+
 /// Reads the first image of a file of any format, as floats without any conversion of colour, with
 /// string metadata. Throws IoError.
 Picture read_picture(const std::string& path);

@@ -19,6 +19,7 @@ class Scene;
 struct Capabilities {
   bool independent_passes = true;  ///< passes may be rendered anywhere, in any order, and added up
   bool per_pixel_state = false;    ///< keeps more than the film does (E1)
+  bool consistent = true;          ///< tends to the truth as passes are added; else an error stays
 };
 
 /// Deterministic counts of what an estimator did so far, for progress and report.
@@ -32,7 +33,12 @@ struct EstimatorStatistics {
   uint64_t light_paths = 0;                            ///< emitted to be connected to the camera
   uint64_t light_paths_useful = 0;                     ///< that were, at one vertex at least
   uint64_t splats = 0;                                 ///< connections that expose the film
+  uint64_t bytes_kept = 0;                             ///< from pass to pass, beside the film
   float radius_min_pixels = 0, radius_max_pixels = 0;  ///< merge radius over footprint, last pass
+  /// Memory, the most that was held at once; the film is not counted. `photon_bytes` is of photons
+  /// (or what else is stored of light paths) and of what finds them, `bytes` is that and what is
+  /// kept for each pixel.
+  uint64_t bytes = 0, photon_bytes = 0;
   std::vector<std::string> notes;  ///< sentences for the report, e.g. why a route is black
 };
 
@@ -43,6 +49,17 @@ class Estimator {
   /// Adds pass `key.pass` to the film. The film's estimate counts are updated by the estimator.
   virtual void render_pass(const PassKey& key, const Scene& scene, Film& film) = 0;
   virtual EstimatorStatistics statistics() const = 0;
+};
+
+/// Which techniques of a bidirectional estimator are made: all, or one alone.
+struct TechniqueChoice {
+  int s = -1, t = -1;    ///< vertices of the light and of the eye side; -1: any number
+  bool connects = true;  ///< false: merges alone
+  bool weighted = true;  ///< false: each as if there were no other
+  bool makes(int light_vertices, int eye_vertices) const {
+    return connects && (s < 0 || s == light_vertices) && (t < 0 || t == eye_vertices);
+  }
+  bool merges() const { return s < 0 && t < 0; }
 };
 
 /// Algorithm options, from defaults, the scene's Integrator line and -D key=value, in this order.
@@ -58,8 +75,18 @@ struct IntegratorOptions {
   bool blind_walks = false;
   int point_lights = 0;  ///< connections of a pixel and pass; 0: the default
   int camera_samples_per_pass = 0;  ///< 0: the default of the integrator
+  TechniqueChoice technique;        ///< of bidirectional estimators
+  int hit_points = 0;               ///< of a pixel, in `ppm`; 0: chosen from the scene's samples
+  int64_t map_photons = 0;    ///< paths emitted for a photon map; 0: as many as 16 passes have
+  int nearest_photons = 100;  ///< of an estimate from a photon map
   int64_t memory_photons =
       1 << 20;  ///< photons kept at once (96 bytes each); a larger pass runs in batches
+  /// Similar estimates that confirm one, for films that reject outliers; no integrator looks at it.
+  int outlier_neighbours = 8;
+  // Of Metropolis light transport.
+  float mutations = 0;       ///< a pixel and pass; 0: the default
+  int64_t chain_length = 0;  ///< mutations of a chain; 0: the default
+  float large_step = 0.1f;   ///< probability
   /// Bytes for the pixels of image textures; scenes are loaded with it, no integrator looks at it.
   int64_t texture_memory = int64_t{1} << 30;
 };

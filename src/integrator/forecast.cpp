@@ -11,7 +11,10 @@ namespace {
 
 constexpr uint64_t kStream = 0x666f7265;    // "fore"
 constexpr uint64_t kLearning = 0x63617374;  // "cast"
-constexpr int64_t kDefaultPhotons = 1 << 16;
+// Photons are traced in rounds until there are enough sights, or no more is to be hoped for.
+constexpr int64_t kPhotonsOfRound = 1 << 16;
+constexpr size_t kEnoughSights = 1 << 15;
+constexpr int kMostRounds = 16;
 constexpr int64_t kChunk = 1024;
 // A photon's own dimensions, before those of its vertices.
 constexpr int kWavelength = kEmissionDimensions;  // 1
@@ -19,7 +22,9 @@ constexpr int kTime = kWavelength + 1;            // 1
 constexpr int kFirstVertex = kTime + 1;
 constexpr int kStratifiedDimensions = 48;
 
-/// Notes where light lands that came through something specular.
+/// Notes where light lands that came from a light through nothing but what is specular. What came
+/// by way of other surfaces is left out: a walk in its direction would end on these, not on a
+/// light.
 class SightVisitor {
  public:
   SightVisitor(const OwnedRoutes& owned, LightSymbol light, std::vector<CausticSight>& out)
@@ -36,10 +41,7 @@ class SightVisitor {
   ClassMask useful(const WalkVertex& v) const {
     return routes_.useful_from_light(group_, state_, label_at(symbols_, v));
   }
-  bool scatters_in(const Medium& medium) const {
-    return contains(routes_.useful_from_light(group_, state_, symbols_.medium(medium.index())),
-                    EventClass::kVolume);
-  }
+  bool scatters_in(const Medium&) const { return false; }
   bool looks_under_surfaces() const { return false; }
 
   void vertex(const Walk& walk, const WalkVertex& v, PathSampler&) {
@@ -50,7 +52,7 @@ class SightVisitor {
   bool scatter(const Walk&, const WalkEvent& event) {
     after_specular_ = event.letter == EventClass::kSpecular;
     state_ = routes_.light_next(state_, symbol_of(symbols_, event));
-    return true;
+    return after_specular_;
   }
 
  private:
@@ -63,16 +65,16 @@ class SightVisitor {
 };
 
 /// Path tracing whose directions follow the forecast.
-class ForecastVisitor : public PathVisitor<ForecastVisitor> {
+class ForecastVisitor : public PathVisitorOf<ForecastVisitor> {
  public:
   ForecastVisitor(const Scene& scene, const OwnedRoutes& owned, const ForecastMap& map,
                   PartSums& light)
-      : PathVisitor(scene, owned, false, light), map_(map) {}
+      : PathVisitorOf(scene, owned, false, light, nullptr), map_(map) {}
 
   void vertex(const Walk& walk, const WalkVertex& v, PathSampler& sampler) {
     const ClassMask rough = v.bsdf.finite_classes() & v.classes_of(useful(v)) & ClassMask::kRough;
     lobes_ = rough == ClassMask::kNone ? ForecastLobes() : map_.lobes_at(v.surface.p);
-    PathVisitor::vertex(walk, v, sampler);
+    PathVisitorOf::vertex(walk, v, sampler);
   }
 
   float density(const WalkVertex& v, const Vec3f& wi, EventClass c, ClassMask among,
@@ -91,7 +93,7 @@ class ForecastVisitor : public PathVisitor<ForecastVisitor> {
 
   bool scatter(const Walk& walk, const WalkEvent& event) {
     lobes_ = ForecastLobes();
-    return PathVisitor::scatter(walk, event);
+    return PathVisitorOf::scatter(walk, event);
   }
 
  private:
@@ -109,10 +111,21 @@ Forecast::Forecast(OwnedRoutes owned, const IntegratorOptions& options)
     : owned_(std::move(owned)), options_(options) {}
 
 void Forecast::learn(uint64_t seed, const Scene& scene) {
-  const int64_t photons =
-      options_.photons_per_pass > 0 ? options_.photons_per_pass : kDefaultPhotons;
-  const uint64_t learning_seed = hash_combine(seed, kLearning);
-  const float specular_alpha = specular_alpha_of_pass(scene.specular_band, {learning_seed, 0});
+  std::vector<CausticSight> sights;
+  const bool asked = options_.photons_per_pass > 0;
+  const int64_t photons = asked ? options_.photons_per_pass : kPhotonsOfRound;
+  for (int k = 0; k < (asked ? 1 : kMostRounds) && sights.size() < kEnoughSights; ++k)
+    trace_photons({hash_combine(seed, kLearning), static_cast<uint32_t>(k)}, photons, scene,
+                  sights);
+  statistics_.photons_stored += sights.size();
+  map_ = ForecastMap(std::move(sights));
+  learned_from_ = seed;
+}
+
+void Forecast::trace_photons(const PassKey& key, int64_t photons, const Scene& scene,
+                             std::vector<CausticSight>& sights) {
+  const int64_t first = static_cast<int64_t>(key.pass) * photons;
+  const float specular_alpha = specular_alpha_of_pass(scene.specular_band, {key.seed, 0});
   struct Chunk {
     std::vector<CausticSight> sights;
     uint64_t rays = 0;
@@ -120,9 +133,9 @@ void Forecast::learn(uint64_t seed, const Scene& scene) {
   std::vector<Chunk> chunks(static_cast<size_t>(chunk_count(photons, kChunk)));
   parallel_chunks(photons, kChunk, [&](int64_t c, int64_t begin, int64_t end) {
     Chunk& chunk = chunks[static_cast<size_t>(c)];
-    for (int64_t j = begin; j < end; ++j) {
+    for (int64_t j = first + begin; j < first + end; ++j) {
       const SobolPoint point(static_cast<uint32_t>(j), kStratifiedDimensions);
-      PathSampler sampler(point, hash_combine(learning_seed, j >> 32));
+      PathSampler sampler(point, hash_combine(key.seed, j >> 32));
       sampler.start_dimension(kWavelength);
       Walk walk;
       walk.lambda = SampledWavelengths::sample_visible(wavelength_number(scene, sampler.get_1d()));
@@ -141,15 +154,11 @@ void Forecast::learn(uint64_t seed, const Scene& scene) {
       chunk.rays += walk.rays;
     }
   });
-  std::vector<CausticSight> sights;
   for (const Chunk& chunk : chunks) {
     sights.insert(sights.end(), chunk.sights.begin(), chunk.sights.end());
     statistics_.rays += chunk.rays;
   }
   statistics_.photon_paths += static_cast<uint64_t>(photons);
-  statistics_.photons_stored += sights.size();
-  map_ = ForecastMap(std::move(sights));
-  learned_from_ = seed;
 }
 
 void Forecast::render_pass(const PassKey& key, const Scene& scene, Film& film) {

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "integrator/estimator.h"
 #include "photon/forecast_map.h"
@@ -24,6 +25,8 @@ class Forecast : public Estimator {
 
  private:
   void learn(uint64_t seed, const Scene& scene);
+  void trace_photons(const PassKey& key, int64_t photons, const Scene& scene,
+                     std::vector<CausticSight>& sights);
 
   OwnedRoutes owned_;
   IntegratorOptions options_;

@@ -1,6 +1,6 @@
 #include "integrator/merge_pass.h"
 
-#include "core/parallel.h"
+#include "integrator/gather.h"
 #include "photon/radius_schedule.h"
 
 namespace nephroid {
@@ -10,10 +10,6 @@ namespace {
 constexpr uint64_t kStream = 0x6d65726765;  // "merge"
 
 constexpr float kDefaultRadius = 1.5f;
-
-struct RowResult {
-  uint64_t rays = 0, found = 0;
-};
 
 }  // namespace
 
@@ -34,11 +30,7 @@ MergePass merge_pass(const PassKey& key, const Scene& scene, const Film& film,
   const PhotonPass pass = start_photon_pass(key, scene, film, options);
   const int64_t photons = pass.trace.photons_per_pass;
   const size_t parts = film.parts_of(static_cast<int>(owned.group)).size();
-  const size_t width = static_cast<size_t>(b.width());
-  MergePass result;
-  result.values.resize(static_cast<size_t>(b.area()) * parts);
-  std::vector<float> filter_weights(static_cast<size_t>(b.area()), 1.0f);
-  std::vector<RowResult> rows(static_cast<size_t>(b.height()));
+  Gathered gathered(static_cast<size_t>(b.area()), parts);
 
   // A pixel's estimate is summed over the batches; its walk and its filter weight are the same in
   // all of them.
@@ -47,50 +39,25 @@ MergePass merge_pass(const PassKey& key, const Scene& scene, const Film& film,
     count_photons(trace, statistics);
     if (trace.photons.empty()) continue;
     const PhotonGrid grid(std::move(trace.photons));
-
-    parallel_chunks(b.height(), 1, [&](int64_t row, int64_t, int64_t) {
-      const int y = b.y0 + static_cast<int>(row);
-      RowResult& counts = rows[static_cast<size_t>(row)];
-      PartSums sums(*owned.routes, owned.group);
-      for (int x = b.x0; x < b.x1; ++x) {
-        PathSampler sampler(pass.point, hash_combine(key.seed, kStream, x, y));
-        CameraPath path = start_merging_path(scene, x, y, sampler, pass);
-        sums.clear();
-        auto merge = [&](const Walk& walk, MergePoint at) {
-          const float r = radius_pixels * pass.footprint.width(walk.length);
-          if (!(r > 0.0f)) return;
-          const float share = weight ? weight(path, at, r) : 1.0f;
-          if (!(share > 0.0f)) return;
-          at.throughput = at.throughput * (share / (static_cast<float>(photons) * kPi * r * r));
-          counts.found += merge_photons(grid, owned, at, options.max_depth, r, sums);
-        };
-        MergeWalkVisitor visitor(owned, merge);
-        if (path.camera_weight > 0)
-          random_walk(scene, TransportMode::kRadiance, options.max_depth, path.walk, sampler,
-                      visitor);
-        counts.rays += path.walk.rays;
-        const size_t pixel = static_cast<size_t>(row) * width + static_cast<size_t>(x - b.x0);
-        for (size_t i = 0; i < parts; ++i) {
-          Rgb& sum = result.values[pixel * parts + i];
-          sum = sum + pass.weights.apply(sums.sums()[i]) * path.camera_weight;
-        }
-        filter_weights[pixel] = path.filter_weight;
-      }
-    });
+    count_memory(grid, static_cast<size_t>(b.area()) * Gathered::bytes_per_walk(parts), statistics);
+    gather(scene, b, owned, options.max_depth, pass,
+           {{&pass.point, 1}, hash_combine(key.seed, kStream)}, gathered,
+           [&](size_t, const CameraPath& path, const Walk& walk, MergePoint at,
+               PartSums& sums) -> uint64_t {
+             const float r = radius_pixels * pass.footprint.width(walk.length);
+             if (!(r > 0.0f)) return 0;
+             const float share = weight ? weight(path, at, r) : 1.0f;
+             if (!(share > 0.0f)) return 0;
+             at.throughput = at.throughput * (share / (static_cast<float>(photons) * kPi * r * r));
+             return merge_photons(grid, owned, at, options.max_depth, r, sums);
+           });
   }
-  for (size_t pixel = 0; pixel < filter_weights.size(); ++pixel) {
-    const std::span<Rgb> estimate(&result.values[pixel * parts], parts);
-    PartSums::clamp_total(estimate, film.settings().max_component);
-    for (Rgb& color : estimate) color = color * filter_weights[pixel];
-  }
-  for (const RowResult& row : rows) {
-    statistics.rays += row.rays;
-    result.found += row.found;
-  }
+  finish_estimates(gathered, film.settings().max_component);
+  statistics.rays += gathered.rays;
   statistics.camera_paths += static_cast<uint64_t>(b.area());
   statistics.radius_min_pixels = radius_pixels;
   if (statistics.radius_max_pixels == 0) statistics.radius_max_pixels = radius_pixels;
-  return result;
+  return {std::move(gathered.values), gathered.found};
 }
 
 }  // namespace nephroid

@@ -17,11 +17,6 @@ using MergeWeight = std::function<float(const CameraPath&, const MergePoint&, fl
 struct MergePass {
   std::vector<Rgb> values;  ///< [pixel * parts + part], parts as Film::parts_of counts
   uint64_t found = 0;       ///< photons merged
-
-  /// What a pass takes for each pixel, the filter's weight included.
-  static constexpr size_t bytes_per_pixel(size_t parts) {
-    return parts * sizeof(Rgb) + sizeof(float);
-  }
 };
 
 /// The radius is `radius_pixels` footprints at the length of the walk. Adds rays and photons to

@@ -1,27 +1,11 @@
 #include "integrator/path.h"
 
-#include "integrator/features.h"
 #include "integrator/path_pass.h"
 #include "integrator/path_visitor.h"
 
 namespace nephroid {
 
 namespace {
-
-// Path tracing as it is, and what the walk sees first.
-class PlainVisitor : public PathVisitor<PlainVisitor> {
- public:
-  using PathVisitor::PathVisitor;
-
-  void vertex(const Walk& walk, const WalkVertex& v, PathSampler& sampler) {
-    features_.record(walk, v);
-    PathVisitor::vertex(walk, v, sampler);
-  }
-  const Features& features() const { return features_; }
-
- private:
-  Features features_;
-};
 
 constexpr uint64_t kStream = 0x70617468;  // "path"
 
@@ -36,11 +20,12 @@ void PathEstimator::render_pass(const PassKey& key, const Scene& scene, Film& fi
   const PathPass pass{key, scene, film, owned_, samples_per_pass_, kStream};
   statistics_.rays += trace_paths(pass, [&](int x, int y, CameraPath& path, PathSampler& sampler,
                                             PartSums& light) {
-    PlainVisitor visitor(scene, owned_, options_.blind_walks, light);
+    Features features;
+    PathVisitor visitor(scene, owned_, options_.blind_walks, light, &features);
     if (path.camera_weight > 0)
       random_walk(scene, TransportMode::kRadiance, options_.max_depth, path.walk, sampler, visitor);
     const SensorWeights weights = pass.weights_of(path);
-    visitor.features().add_to(film, x, y, scene, path, weights);
+    features.add_to(film, x, y, scene, path, weights);
     return TracedPath{path.walk.rays + visitor.shadow_rays(), weights};
   });
   film.add_feature_estimates(samples_per_pass_);

@@ -1,13 +1,14 @@
 // What path tracing does at each vertex of a camera walk: light that the walk meets, next-event
 // estimation, and multiple importance sampling of the two (docs/estimators.md, section 2).
-// Who calls it: the estimators that trace paths from the eye, path, pointlights and forecast. It
-// must not know films or passes.
+// Who calls it: the estimators that trace paths from the eye, and the chains that explore the same
+// paths. It must not know films or where the path's random numbers come from.
 #pragma once
 
 #include <array>
 
 #include "core/warps.h"
 #include "film/part_sums.h"
+#include "integrator/features.h"
 #include "transport/direct_light.h"
 #include "transport/walk_symbols.h"
 
@@ -27,17 +28,19 @@ inline SampledSpectrum hero_for_all(const SampledSpectrum& value) {
 ///   float density(const WalkVertex&, const Vec3f& wi, EventClass, ClassMask among, float) const
 ///                                        P_c p_c of the walk towards wi; the last is the BSDF's
 template <class Self>
-class PathVisitor {
+class PathVisitorOf {
  public:
   /// With `blind`, walks do not look at what is useful for the routes: any routes see the same
-  /// paths.
-  PathVisitor(const Scene& scene, const OwnedRoutes& owned, bool blind, PartSums& light)
+  /// paths. `features` are of no interest if null.
+  PathVisitorOf(const Scene& scene, const OwnedRoutes& owned, bool blind, PartSums& light,
+                Features* features)
       : scene_(scene),
         routes_(*owned.routes),
         symbols_(*owned.symbols),
         group_(owned.group),
         blind_(blind),
         light_(light),
+        features_(features),
         eye_(routes_.start()) {}
 
   float share() const { return 1.0f; }
@@ -90,6 +93,7 @@ class PathVisitor {
   bool looks_under_surfaces() const { return false; }
 
   void vertex(const Walk& walk, const WalkVertex& v, PathSampler& sampler) {
+    if (features_ != nullptr) features_->record(walk, v);
     const ClassMask among = v.classes_of(useful(v));
     const ClassMask finite = v.bsdf.finite_classes() & among;
     if (may_end_after_any(v, finite)) next_event(walk, v, finite, among, sampler);
@@ -130,6 +134,7 @@ class PathVisitor {
   const size_t group_;
   const bool blind_;
   PartSums& light_;
+  Features* const features_;
   EyeState eye_;
   uint64_t shadow_rays_ = 0;
 
@@ -212,6 +217,12 @@ class PathVisitor {
               (weight_of_direct(walk, *d, shadow, walk_pdf) * self().share_after(c)));
     }
   }
+};
+
+/// Path tracing as it is.
+class PathVisitor : public PathVisitorOf<PathVisitor> {
+ public:
+  using PathVisitorOf::PathVisitorOf;
 };
 
 }  // namespace nephroid

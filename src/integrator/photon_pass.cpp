@@ -62,16 +62,6 @@ bool deposits_at_once(const OwnedRoutes& owned) {
   });
 }
 
-/// "route 'a'", "routes 'a', 'b'" of the group.
-std::string names_of_routes(const OwnedRoutes& owned) {
-  const std::vector<int>& routes = owned.routes->groups()[owned.group].routes;
-  std::string text = routes.size() == 1 ? "route" : "routes";
-  for (size_t i = 0; i < routes.size(); ++i)
-    text += (i == 0 ? " '" : ", '") +
-            owned.routes->definitions()[static_cast<size_t>(routes[i])].name + "'";
-  return text;
-}
-
 bool has_specular_events(const OwnedRoutes& owned) {
   const std::vector<bool>& events = owned.symbols->present().events;
   for (size_t e = 0; e < events.size(); ++e)
@@ -81,6 +71,15 @@ bool has_specular_events(const OwnedRoutes& owned) {
 }
 
 }  // namespace
+
+std::string names_of_routes(const OwnedRoutes& owned) {
+  const std::vector<int>& routes = owned.routes->groups()[owned.group].routes;
+  std::string text = routes.size() == 1 ? "route" : "routes";
+  for (size_t i = 0; i < routes.size(); ++i)
+    text += (i == 0 ? " '" : ", '") +
+            owned.routes->definitions()[static_cast<size_t>(routes[i])].name + "'";
+  return text;
+}
 
 bool photons_can_count(const OwnedRoutes& owned) {
   return deposits_at_once(owned) || any_emitted(owned, [&](LightState light, Label label) {
@@ -94,6 +93,12 @@ void count_photons(const PhotonTrace& trace, EstimatorStatistics& statistics) {
   statistics.photon_paths_specular += trace.specular_paths;
   statistics.photons_stored += trace.photons.size();
   statistics.rays += trace.rays;
+}
+
+void count_memory(const PhotonGrid& grid, size_t pixel_bytes, EstimatorStatistics& statistics) {
+  const uint64_t photons = grid.bytes();
+  statistics.photon_bytes = std::max(statistics.photon_bytes, photons);
+  statistics.bytes = std::max(statistics.bytes, photons + pixel_bytes);
 }
 
 void explain_darkness(const OwnedRoutes& owned, uint64_t found, EstimatorStatistics& s) {

@@ -6,6 +6,7 @@
 
 #include "integrator/estimator.h"
 #include "photon/merge.h"
+#include "photon/photon_grid.h"
 #include "photon/photon_tracer.h"
 #include "transport/camera_path.h"
 #include "transport/walk_symbols.h"
@@ -36,8 +37,14 @@ inline CameraPath start_merging_path(const Scene& scene, int x, int y, PathSampl
 /// False if no photon that can occur in the scene belongs to the group.
 bool photons_can_count(const OwnedRoutes& owned);
 
+/// "route 'a'", "routes 'a', 'b'": those of the group.
+std::string names_of_routes(const OwnedRoutes& owned);
+
 /// Adds what one batch of photons did to the counts.
 void count_photons(const PhotonTrace& trace, EstimatorStatistics& statistics);
+
+/// Raises the peaks of memory to what a batch holds: its photons, and what is kept for the pixels.
+void count_memory(const PhotonGrid& grid, size_t pixel_bytes, EstimatorStatistics& statistics);
 
 /// Says why there is no light from photons, if there is none; `found` is how many were merged.
 void explain_darkness(const OwnedRoutes& owned, uint64_t found, EstimatorStatistics& statistics);

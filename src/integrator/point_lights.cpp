@@ -31,7 +31,7 @@ float density_per_area(const Vec3f& from, float pdf_w, const Vec3f& p, const Vec
 
 /// Path tracing that leaves to point lights what is theirs of the way from the first rough vertex
 /// to a rough vertex that follows at once.
-class PointLightsVisitor : public PathVisitor<PointLightsVisitor> {
+class PointLightsVisitor : public PathVisitorOf<PointLightsVisitor> {
  public:
   struct Pass {
     const PointLightPool& pool;
@@ -42,7 +42,7 @@ class PointLightsVisitor : public PathVisitor<PointLightsVisitor> {
 
   PointLightsVisitor(const Scene& scene, const OwnedRoutes& owned, const Pass& pass,
                      PartSums& light)
-      : PathVisitor(scene, owned, false, light), pass_(pass) {}
+      : PathVisitorOf(scene, owned, false, light, nullptr), pass_(pass) {}
 
   float share() const { return share_; }
   float share_after(EventClass c) const { return share_ * (is_rough(c) ? rough_share_ : 1.0f); }
@@ -54,7 +54,7 @@ class PointLightsVisitor : public PathVisitor<PointLightsVisitor> {
       rough_share_ =
           1.0f - point_light_share(pass_.density, density_per_area(walk.previous_p, walk.pdf_w,
                                                                    v.surface.p, v.surface.ng));
-    PathVisitor::vertex(walk, v, sampler);
+    PathVisitorOf::vertex(walk, v, sampler);
     if (stage_ == Stage::kBefore && pass_.pool.size() > 0) connect(walk, v, sampler);
   }
 
@@ -65,7 +65,7 @@ class PointLightsVisitor : public PathVisitor<PointLightsVisitor> {
       stage_ = Stage::kBehind;
     else if (stage_ == Stage::kBefore && rough)
       stage_ = Stage::kFirstRough;
-    return PathVisitor::scatter(walk, event);
+    return PathVisitorOf::scatter(walk, event);
   }
 
  private:

@@ -2,14 +2,20 @@
 #include <algorithm>
 
 #include "core/errors.h"
+#include "integrator/bidirectional.h"
 #include "integrator/compiled_plan.h"
 #include "integrator/features.h"
 #include "integrator/forecast.h"
 #include "integrator/light_tracing.h"
+#include "integrator/multiplexed.h"
 #include "integrator/path.h"
+#include "integrator/photon_map.h"
 #include "integrator/photon_mapping.h"
 #include "integrator/point_lights.h"
+#include "integrator/ppm.h"
+#include "integrator/primary_space.h"
 #include "integrator/sppm.h"
+#include "integrator/vertex_connection_merging.h"
 #include "integrator/vertex_merging.h"
 
 namespace nephroid {
@@ -30,6 +36,13 @@ constexpr Row kTable[] = {{EstimatorKind::kPath, make<PathEstimator>},
                           {EstimatorKind::kSppm, make<Sppm>},
                           {EstimatorKind::kLightTrace, make<LightTracing>},
                           {EstimatorKind::kPhotonsAndLight, make<VertexMerging>},
+                          {EstimatorKind::kBidirectional, make<Bidirectional>},
+                          {EstimatorKind::kVcm, make<VertexConnectionMerging>},
+                          {EstimatorKind::kBpm, make<VertexConnectionMerging>},
+                          {EstimatorKind::kMetropolis, make<Multiplexed>},
+                          {EstimatorKind::kPrimarySpace, make<PrimarySpace>},
+                          {EstimatorKind::kPhotonMap, make<PhotonMap>},
+                          {EstimatorKind::kPpm, make<Ppm>},
                           {EstimatorKind::kPointLights, make<PointLights>},
                           {EstimatorKind::kForecast, make<Forecast>}};
 

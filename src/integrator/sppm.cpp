@@ -1,7 +1,6 @@
 #include "integrator/sppm.h"
 
-#include "core/parallel.h"
-#include "integrator/photon_pass.h"
+#include "integrator/gather.h"
 
 namespace nephroid {
 
@@ -17,92 +16,103 @@ Sppm::Sppm(OwnedRoutes owned, const IntegratorOptions& options)
   if (!(options_.radius > 0)) options_.radius = kDefaultRadius;
 }
 
+size_t Sppm::bytes_of_pass(size_t parts) {
+  return Gathered::bytes_per_walk(parts) + sizeof(uint64_t);
+}
+
+std::span<const SobolPoint> Sppm::points(const PhotonPass& pass, const Scene&) {
+  return {&pass.point, 1};
+}
+
+void Sppm::start_regions(const Scene& scene, size_t pixels, size_t parts) {
+  regions_in_pixel_ = static_cast<size_t>(regions_per_pixel(scene));
+  regions_.resize(pixels * regions_in_pixel_);
+  flux_.resize(regions_.size() * parts);
+  footprint_.resize(regions_.size());
+  statistics_.bytes_kept = regions_.size() * bytes_kept(parts);
+}
+
 void Sppm::render_pass(const PassKey& key, const Scene& scene, Film& film) {
-  const int group = static_cast<int>(owned_.group);
-  const size_t parts = film.parts_of(group).size();
   const PixelBounds& b = film.bounds();
-  const FilmSettings& settings = film.settings();
+  const size_t parts = film.parts_of(static_cast<int>(owned_.group)).size();
   const PhotonPass pass = start_photon_pass(key, scene, film, options_);
   const int64_t photons = pass.trace.photons_per_pass;
-  pixels_.resize(static_cast<size_t>(b.area()));
-  flux_.resize(pixels_.size() * parts);
-  footprint_.resize(pixels_.size());
+  start_regions(scene, static_cast<size_t>(b.area()), parts);
 
   // The radius stays until the pass is complete.
-  std::vector<Found> found(pixels_.size());
-  std::vector<Rgb> phi(pixels_.size() * parts);
-  std::vector<uint64_t> rays(static_cast<size_t>(b.height()), 0);
+  Gathered gathered(regions_.size(), parts);
+  std::vector<uint64_t> counts(regions_.size());
   for (int64_t begin = 0; begin < photons;) {
     PhotonTrace trace = trace_batch(scene, owned_, pass.trace, options_.memory_photons, begin);
     count_photons(trace, statistics_);
     const PhotonGrid grid(std::move(trace.photons));
-
-    parallel_chunks(b.height(), 1, [&](int64_t row, int64_t, int64_t) {
-      const int y = b.y0 + static_cast<int>(row);
-      PartSums sums(*owned_.routes, owned_.group);
-      for (int x = b.x0; x < b.x1; ++x) {
-        const size_t index = static_cast<size_t>(row) * static_cast<size_t>(b.width()) +
-                             static_cast<size_t>(x - b.x0);
-        SharedStatistics& pixel = pixels_[index];
-        PathSampler sampler(pass.point, hash_combine(key.seed, kStream, x, y));
-        CameraPath path = start_merging_path(scene, x, y, sampler, pass);
-        sums.clear();
-        auto merge = [&](const Walk& walk, const MergePoint& at) {
+    count_memory(grid, regions_.size() * (bytes_kept(parts) + bytes_of_pass(parts)), statistics_);
+    gather(
+        scene, b, owned_, options_.max_depth, pass,
+        {points(pass, scene), hash_combine(key.seed, kStream)}, gathered,
+        [&](size_t i, const CameraPath&, const Walk& walk, const MergePoint& at, PartSums& sums) {
           const float width = pass.footprint.width(walk.length);
-          if (!(pixel.radius_squared > 0)) {
-            pixel.radius_squared = sqr(static_cast<double>(options_.radius) * width);
-            footprint_[index] = width;
+          SharedStatistics& region = regions_[i];
+          if (!(region.radius_squared > 0)) {
+            region.radius_squared = sqr(static_cast<double>(options_.radius) * width);
+            footprint_[i] = width;
           }
-          found[index].count +=
+          const uint64_t found =
               merge_photons(grid, owned_, at, options_.max_depth,
-                            static_cast<float>(std::sqrt(pixel.radius_squared)), sums);
-        };
-        MergeWalkVisitor visitor(owned_, merge);
-        if (path.camera_weight > 0)
-          random_walk(scene, TransportMode::kRadiance, options_.max_depth, path.walk, sampler,
-                      visitor);
-        rays[static_cast<size_t>(row)] += path.walk.rays;
-        for (size_t i = 0; i < parts; ++i) {
-          Rgb& sum = phi[index * parts + i];
-          sum = sum + pass.weights.apply(sums.sums()[i]) * path.camera_weight;
-        }
-        found[index].filter_weight = path.filter_weight;
-      }
-    });
+                            static_cast<float>(std::sqrt(region.radius_squared)), sums);
+          counts[i] += found;
+          return found;
+        });
   }
-  film.set_estimates(group, 1);
-  emitted_ += static_cast<double>(photons);
+  statistics_.rays += gathered.rays;
+  found_ += gathered.found;
+  statistics_.camera_paths += regions_.size();
+  update(gathered, counts, film, static_cast<double>(photons));
+}
 
-  // [E1] for every pixel, and the picture so far.
+void Sppm::update(Gathered& gathered, std::span<const uint64_t> counts, Film& film,
+                  double photons) {
+  const int group = static_cast<int>(owned_.group);
+  const PixelBounds& b = film.bounds();
+  const size_t parts = film.parts_of(group).size();
+  film.set_estimates(group, 1);
+  emitted_ += photons;
+  std::vector<std::array<double, 3>> sums(parts);
   std::vector<Rgb> values(parts);
   float smallest = kInfinity, largest = 0;
-  for (size_t i = 0; i < pixels_.size(); ++i) {
-    SharedStatistics& pixel = pixels_[i];
-    if (!(pixel.radius_squared > 0)) continue;
-    // A pass's estimate is clamped as a sample of other integrators is, then weighed by the filter.
-    const double area_of_pass =
-        static_cast<double>(photons) * static_cast<double>(kPi) * pixel.radius_squared;
-    const std::span<Rgb> estimate(&phi[i * parts], parts);
-    PartSums::clamp_total(estimate, settings.max_component * static_cast<float>(area_of_pass));
-    const double kept = pixel.update(static_cast<double>(found[i].count), options_.alpha);
-    const double scale = 1.0 / (emitted_ * static_cast<double>(kPi) * pixel.radius_squared);
-    for (size_t k = 0; k < parts; ++k) {
-      std::array<double, 3>& tau = flux_[i * parts + k];
-      const Rgb add = estimate[k] * found[i].filter_weight;
-      for (int c = 0; c < 3; ++c)
-        tau[static_cast<size_t>(c)] = (tau[static_cast<size_t>(c)] + add[c]) * kept;
-      values[k] = {static_cast<float>(tau[0] * scale), static_cast<float>(tau[1] * scale),
-                   static_cast<float>(tau[2] * scale)};
+  for (size_t first = 0; first < regions_.size(); first += regions_in_pixel_) {
+    sums.assign(parts, {});
+    for (size_t i = first; i < first + regions_in_pixel_; ++i) {
+      SharedStatistics& region = regions_[i];
+      if (!(region.radius_squared > 0)) continue;
+      // A pass's estimate is clamped as a sample of other integrators is, then weighed by the
+      // filter.
+      const double area_of_pass = photons * static_cast<double>(kPi) * region.radius_squared;
+      const std::span<Rgb> estimate = gathered.of_walk(i);
+      PartSums::clamp_total(estimate,
+                            film.settings().max_component * static_cast<float>(area_of_pass));
+      const double kept = region.update(static_cast<double>(counts[i]), options_.alpha);
+      const double scale = 1.0 / (emitted_ * static_cast<double>(kPi) * region.radius_squared *
+                                  static_cast<double>(regions_in_pixel_));
+      for (size_t k = 0; k < parts; ++k) {
+        std::array<double, 3>& tau = flux_[i * parts + k];
+        const Rgb add = estimate[k] * gathered.filter_weights[i];
+        for (int c = 0; c < 3; ++c) {
+          const size_t channel = static_cast<size_t>(c);
+          tau[channel] = (tau[channel] + add[c]) * kept;
+          sums[k][channel] += tau[channel] * scale;
+        }
+      }
+      const float r = static_cast<float>(std::sqrt(region.radius_squared)) / footprint_[i];
+      smallest = std::min(smallest, r);
+      largest = std::max(largest, r);
     }
-    found_ += found[i].count;
-    film.replace(group, b.x0 + static_cast<int>(i % static_cast<size_t>(b.width())),
-                 b.y0 + static_cast<int>(i / static_cast<size_t>(b.width())), values);
-    const float r = static_cast<float>(std::sqrt(pixel.radius_squared)) / footprint_[i];
-    smallest = std::min(smallest, r);
-    largest = std::max(largest, r);
+    for (size_t k = 0; k < parts; ++k)
+      values[k] = {static_cast<float>(sums[k][0]), static_cast<float>(sums[k][1]),
+                   static_cast<float>(sums[k][2])};
+    const int pixel = static_cast<int>(first / regions_in_pixel_);
+    film.replace(group, b.x0 + pixel % b.width(), b.y0 + pixel / b.width(), values);
   }
-  for (const uint64_t r : rays) statistics_.rays += r;
-  statistics_.camera_paths += static_cast<uint64_t>(b.area());
   statistics_.radius_min_pixels = largest > 0 ? smallest : 0;
   statistics_.radius_max_pixels = largest;
 }

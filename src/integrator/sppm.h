@@ -1,15 +1,19 @@
 // `sppm`: stochastic progressive photon mapping as published [E1], for the photons of its own
-// routes. Per pixel it keeps a radius, a photon count and the flux of each part, so its passes are
-// a sequence. Paper: Hachisuka & Jensen 2009.
+// routes. Each camera walk's region keeps a radius, a photon count and the flux of each part, so
+// the passes are a sequence. Who calls it: presets; ppm.h, whose walks stay. Papers: Hachisuka &
+// Jensen 2009; Hachisuka, Ogaki & Jensen 2008.
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "integrator/estimator.h"
 #include "photon/radius_schedule.h"
 #include "route/scene_symbols.h"
 
 namespace nephroid {
+
+struct PhotonPass;
 
 class Sppm : public Estimator {
  public:
@@ -21,25 +25,30 @@ class Sppm : public Estimator {
   void render_pass(const PassKey& key, const Scene& scene, Film& film) override;
   EstimatorStatistics statistics() const override;
 
-  /// Memory of a pixel from pass to pass, and what a pass needs beside it.
+  /// Memory of a region from pass to pass, and what a pass needs beside it.
   static constexpr size_t bytes_kept(size_t parts) {
     return sizeof(SharedStatistics) + parts * sizeof(std::array<double, 3>) + sizeof(float);
   }
-  static constexpr size_t bytes_of_pass(size_t parts) {
-    return sizeof(Found) + parts * sizeof(Rgb);
-  }
+  static size_t bytes_of_pass(size_t parts);
+
+ protected:
+  /// The regions of a pixel. Walk k gathers for region k.
+  virtual int regions_per_pixel(const Scene&) const { return 1; }
+  /// The random numbers of the walks of a pass, one point for each region of a pixel.
+  virtual std::span<const SobolPoint> points(const PhotonPass& pass, const Scene& scene);
+
+  const OwnedRoutes owned_;
+  IntegratorOptions options_;
 
  private:
-  /// What a pass finds for a pixel, collected over its batches.
-  struct Found {
-    float filter_weight = 1;
-    uint64_t count = 0;
-  };
+  void start_regions(const Scene& scene, size_t pixels, size_t parts);
+  /// [E1] for every region, and the picture so far.
+  void update(struct Gathered& gathered, std::span<const uint64_t> counts, Film& film,
+              double photons);
 
-  OwnedRoutes owned_;
-  IntegratorOptions options_;
-  std::vector<SharedStatistics> pixels_;
-  std::vector<std::array<double, 3>> flux_;  ///< tau, [pixel * parts + part], as rgb
+  size_t regions_in_pixel_ = 1;
+  std::vector<SharedStatistics> regions_;    ///< [pixel * regions of a pixel + k]
+  std::vector<std::array<double, 3>> flux_;  ///< tau, [region * parts + part], as rgb
   std::vector<float> footprint_;  ///< of the first visible point, world units, for the report
   double emitted_ = 0;            ///< sum of N_i
   uint64_t found_ = 0;            ///< photons merged

@@ -11,7 +11,10 @@ struct Row {
   const char* name;
   const char* preset;  ///< of the routes
 };
-constexpr Row kTable[] = {{"mixed", "doidge2012"}, {"path", "path-only"}, {"sppm", "sppm"}};
+constexpr Row kTable[] = {
+    {"mixed", "doidge2012"}, {"path", "path-only"}, {"sppm", "sppm"}, {"photonmap", "photonmap"},
+    {"ppm", "ppm"},          {"bdpt", "bdpt"},      {"vcm", "vcm"},   {"bpm", "bpm"},
+    {"pssmlt", "pssmlt"},    {"mlt", "mlt"}};
 
 constexpr const char* kOwnChoice = "the program's own choice, with the same picture";
 
@@ -67,8 +70,8 @@ constexpr SceneRow kSceneTable[] = {
     {{"simplevolpath", {kDepth}, "path"}, "path"},
     {{"randomwalk", {kDepth}, "path"}, "path"},
     {{"sppm", {kDepth, kSppm}, "sppm"}, "sppm"},
-    {{"bdpt", {kDepth, kLightSampler, kRegularize, kBdpt}, "mixed"}, "mixed"},
-    {{"mlt", {kDepth, kRegularize, kMlt}, "mixed"}, "mixed"},
+    {{"bdpt", {kDepth, kLightSampler, kRegularize, kBdpt}, "bdpt"}, "bdpt"},
+    {{"mlt", {kDepth, kRegularize, kMlt}, "mlt"}, "mlt"},
     {{"lightpath", {kDepth}, "mixed"}, "mixed"},
     {{"ambientocclusion",
       {kAmbientOcclusion},

@@ -1,5 +1,6 @@
 #include "integrator/vertex_merging.h"
 
+#include "integrator/gather.h"
 #include "integrator/light_tracing.h"
 #include "integrator/merge_pass.h"
 
@@ -43,6 +44,11 @@ void VertexMerging::render_pass(const PassKey& key, const Scene& scene, Film& fi
     return 1.0f / (1.0f + merges_per_splat(line, v.surface.ng, radius));
   };
   SplatBuffer buffer(film, group, *scene.filter);
+  const size_t parts = film.parts_of(group).size();
+  const uint64_t of_splats =
+      static_cast<uint64_t>(film.bounds().area()) *
+      (Gathered::bytes_per_walk(parts) + SplatBuffer::bytes_per_pixel(parts));
+  statistics_.bytes = std::max(statistics_.bytes, of_splats);
   const int64_t paths =
       light_pass(key, scene, film, owned_, options_, splat_weight, buffer, statistics_);
   buffer.finish(1.0 / static_cast<double>(paths), merged.values);

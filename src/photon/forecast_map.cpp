@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace nephroid {
 
@@ -12,6 +13,20 @@ namespace {
 constexpr float kNarrowest = 0.01f;
 // A lobe that is wider says little, and takes half of the samples for it.
 constexpr float kWidest = 0.5f;
+// Lobes overlap: each may be narrower than the reach of the sights that are asked.
+constexpr float kWidthOfReach = 0.5f;
+
+/// Distance from the i-th of the axes to the second nearest other one; 0 if there are none.
+float gap_beside(std::span<const Vec3f> axes, size_t i) {
+  float first = kInfinity, second = kInfinity;
+  for (size_t j = 0; j < axes.size(); ++j) {
+    if (j == i) continue;
+    const float d = length_squared(axes[j] - axes[i]);
+    second = std::min(second, std::max(first, d));
+    first = std::min(first, d);
+  }
+  return second < kInfinity ? std::sqrt(second) : 0.0f;
+}
 
 }  // namespace
 
@@ -112,10 +127,19 @@ ForecastLobes ForecastMap::lobes_at(const Vec3f& p) const {
   nearest.p = p;
   search(0, sights_.size(), nearest);
   const float reach = std::sqrt(nearest.reach_squared());
+  std::array<Vec3f, ForecastLobes::kMost> axes;
+  std::array<float, ForecastLobes::kMost> widths;
+  size_t count = 0;
   for (const Nearest::Entry& entry : nearest.found) {
     const Vec3f way = sights_[entry.sight].caster - p;
     const float distance = length(way);
-    if (reach < kWidest * distance) lobes.add(way / distance, reach / distance);
+    if (!(reach < kWidest * distance)) continue;
+    axes[count] = way / distance;
+    widths[count++] = kWidthOfReach * reach / distance;
+  }
+  for (size_t i = 0; i < count; ++i) {
+    const float gap = gap_beside(std::span(axes).first(count), i);
+    lobes.add(axes[i], std::max(widths[i], std::min(gap, kWidest)));
   }
   return lobes;
 }

@@ -1,5 +1,5 @@
 // Density estimation at one visible point: what the photons around it reflect towards the eye
-// (docs/estimators.md, [M1] and [M2]).
+// (docs/estimators.md, [M1] and [M2]; by the nearest photons [N1]).
 // Who calls it: photon integrators. It must not know films or passes.
 #pragma once
 
@@ -24,11 +24,37 @@ struct MergePoint {
   bool secondary_terminated = false;     ///< the walk kept only its hero wavelength
 };
 
+/// How a photon arrives at a visible point.
+struct PhotonArrival {
+  Vec3f wi;  ///< local, on the side on which the photon arrived on its own surface
+  float cos_geometric = 0;
+};
+/// Empty if the photon lies on another wall.
+std::optional<PhotonArrival> arrival_at(const WalkVertex& vertex, const Photon& photon);
+
 /// Adds throughput * sum of f * flux to the parts that own the photons' paths, to be divided by
 /// (N pi r^2); returns how many photons counted. What belongs to other routes or makes the path
 /// longer than `max_depth` events is passed over. A path that kept only the hero wavelength, on
 /// either side, adds to lane 0 alone, times the number of wavelengths.
 uint32_t merge_photons(const PhotonGrid& grid, const OwnedRoutes& owned, const MergePoint& at,
                        int max_depth, float radius, PartSums& sums);
+
+/// How the nearest photons of a map are read.
+struct NearestPhotons {
+  size_t wanted = 0;     ///< photons, at least 2
+  float max_radius = 0;  ///< world units
+  int set = 0;           ///< of the wavelengths of the eye's walk: others only choose the radius
+};
+/// What was read.
+struct NearestMerge {
+  uint32_t found = 0;  ///< photons that counted, of all sets
+  float radius = 0;    ///< of the estimate, world units
+};
+
+/// Adds the estimate [N1] of what the photons of the set reflect to the parts that own their paths,
+/// to be divided by the number of paths of the set. `scratch` is overwritten.
+NearestMerge merge_nearest(const PhotonGrid& grid, const OwnedRoutes& owned, const MergePoint& at,
+                           int max_depth, const NearestPhotons& nearest,
+                           std::vector<PhotonGrid::Neighbour>& scratch, PartSums& sums);
 
 }  // namespace nephroid

@@ -14,7 +14,9 @@ struct Photon {
   Vec3f ng;              ///< geometric normal of the surface
   LightState state = 0;  ///< of the light side, this vertex excluded
   uint8_t secondary_terminated = 0;
+  uint8_t set = 0;      ///< of a map whose photons do not share one set of wavelengths
   uint16_t events = 0;  ///< scattering events before this vertex
+  float cut_here = 0, cuts_before = 0;  ///< SideSums, where other techniques find the path, too
 };
 
 }  // namespace nephroid

@@ -73,6 +73,13 @@ PhotonGrid::PhotonGrid(std::vector<Photon> photons, int max_levels) : photons_(s
   }
 }
 
+size_t PhotonGrid::bytes() const {
+  size_t total = photons_.size() * sizeof(Photon) + positions_.size() * sizeof(Vec3f) +
+                 codes_.size() * sizeof(uint64_t);
+  for (const Level& level : levels_) total += level.table.size() * sizeof(Cell);
+  return total;
+}
+
 // Stable radix sort by Morton code, 11 bits at a time, so that photons of one cell keep the order
 // in which they were traced.
 void PhotonGrid::sort() {

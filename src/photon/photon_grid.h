@@ -1,9 +1,13 @@
-// Finds the photons around a point. Photons are kept in Morton order; cells of doubling size are
-// runs of that order and found through one hash table a level, so that radii over decades stay
-// cheap. Full cell codes are compared, so that two cells which share a bucket are never mistaken
-// for each other. Who calls it: photon integrators. It must not know BSDFs or films.
+// Finds the photons around a point, all within a radius or the nearest ones. Photons are kept in
+// Morton order; cells of doubling size are runs of that order and found through one hash table a
+// level, so that radii over decades stay cheap. Full cell codes are compared, so that two cells
+// which share a bucket are never mistaken for each other. Who calls it: photon integrators. It must
+// not know BSDFs or films.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <compare>
 #include <cstdint>
 #include <vector>
 
@@ -18,6 +22,8 @@ class PhotonGrid {
 
   size_t size() const { return photons_.size(); }
   const std::vector<Photon>& photons() const { return photons_; }
+  /// Memory of the photons and of what finds them.
+  size_t bytes() const;
 
   /// Calls found(photon, distance_squared) for every photon with |photon.p - center| <= radius, in
   /// an order that depends on the photons and the query alone.
@@ -46,6 +52,47 @@ class PhotonGrid {
             if (d2 <= r2) found(photons_[i], d2);
           }
         }
+  }
+
+  /// A photon that nearest() found.
+  struct Neighbour {
+    float distance_squared = 0;
+    uint32_t index = 0;  ///< into photons()
+    friend auto operator<=>(const Neighbour&, const Neighbour&) = default;
+  };
+
+  /// Puts into `found` the `wanted` nearest photons for which counts(photon), or all of them that
+  /// lie within max_radius if they are fewer, nearest first; of equally near ones the first of
+  /// photons() is the nearest. counts() may be asked for a photon more than once.
+  template <class F>
+  void nearest(const Vec3f& center, float max_radius, size_t wanted, F&& counts,
+               std::vector<Neighbour>& found) const {
+    found.clear();
+    if (photons_.empty() || wanted == 0 || !(max_radius > 0.0f)) return;
+    // The smallest cells hold a few photons each: the first disk is one of them. On a surface the
+    // next one, of the area that the photons so far suggest, holds a few more than are wanted.
+    float radius = max_radius;
+    if (wanted < photons_.size())
+      radius = std::min(0.5f * std::ldexp(quantum_, levels_.front().shift), max_radius);
+    for (;;) {
+      found.clear();
+      query(center, radius, [&](const Photon& photon, float d2) {
+        found.push_back({d2, static_cast<uint32_t>(&photon - photons_.data())});
+      });
+      const bool is_last = !(radius < max_radius);
+      size_t kept = found.size();
+      if (kept >= wanted || is_last) {
+        std::sort(found.begin(), found.end());
+        kept = 0;
+        for (size_t i = 0; i < found.size() && kept < wanted; ++i)
+          if (counts(photons_[found[i].index])) found[kept++] = found[i];
+        found.resize(kept);
+        if (kept == wanted || is_last) return;
+      }
+      const float growth = std::sqrt(1.2f * static_cast<float>(wanted) /
+                                     static_cast<float>(std::max<size_t>(kept, 1)));
+      radius = std::min(radius * std::clamp(growth, 1.2f, 4.0f), max_radius);
+    }
   }
 
   static constexpr int kCoordinateBits = 20;

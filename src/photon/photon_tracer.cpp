@@ -133,24 +133,54 @@ PhotonTrace trace_photons(const Scene& scene, const OwnedRoutes& owned,
   return trace;
 }
 
+namespace {
+
+/// Adds another trace behind the first.
+void append(PhotonTrace&& more, PhotonTrace& to) {
+  if (to.photons.empty())
+    to.photons = std::move(more.photons);
+  else
+    to.photons.insert(to.photons.end(), more.photons.begin(), more.photons.end());
+  to.paths += more.paths;
+  to.useful_paths += more.useful_paths;
+  to.specular_paths += more.specular_paths;
+  to.rays += more.rays;
+}
+
+bool is_full(const PhotonTrace& trace, int64_t limit) {
+  return static_cast<int64_t>(trace.photons.size()) >= limit;
+}
+
+}  // namespace
+
 PhotonTrace trace_batch(const Scene& scene, const OwnedRoutes& owned,
                         const PhotonTraceSettings& settings, int64_t limit, int64_t& begin) {
   constexpr int64_t kGroup = 32 * kPhotonChunk;
   PhotonTrace batch;
-  while (begin < settings.photons_per_pass && static_cast<int64_t>(batch.photons.size()) < limit) {
+  while (begin < settings.photons_per_pass && !is_full(batch, limit)) {
     const int64_t end = std::min(begin + kGroup, settings.photons_per_pass);
-    PhotonTrace group = trace_photons(scene, owned, settings, begin, end);
+    append(trace_photons(scene, owned, settings, begin, end), batch);
     begin = end;
-    if (batch.photons.empty())
-      batch.photons = std::move(group.photons);
-    else
-      batch.photons.insert(batch.photons.end(), group.photons.begin(), group.photons.end());
-    batch.paths += group.paths;
-    batch.useful_paths += group.useful_paths;
-    batch.specular_paths += group.specular_paths;
-    batch.rays += group.rays;
   }
   return batch;
+}
+
+PhotonMapTrace trace_map(const Scene& scene, const OwnedRoutes& owned,
+                         std::span<const PhotonTraceSettings> sets, int64_t limit) {
+  PhotonMapTrace map;
+  const int64_t paths = sets[0].photons_per_pass;
+  std::vector<PhotonTrace> chunks(sets.size());
+  while (map.paths_of_set < paths && !is_full(map.trace, limit)) {
+    const int64_t begin = map.paths_of_set, end = std::min(begin + kPhotonChunk, paths);
+    parallel_chunks(static_cast<int64_t>(sets.size()), 1, [&](int64_t s, int64_t, int64_t) {
+      PhotonTrace& chunk = chunks[static_cast<size_t>(s)];
+      chunk = trace_photons(scene, owned, sets[static_cast<size_t>(s)], begin, end);
+      for (Photon& photon : chunk.photons) photon.set = static_cast<uint8_t>(s);
+    });
+    for (PhotonTrace& chunk : chunks) append(std::move(chunk), map.trace);
+    map.paths_of_set = end;
+  }
+  return map;
 }
 
 }  // namespace nephroid

@@ -4,6 +4,7 @@
 // photon integrators. It must not know films or cameras.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "photon/photon.h"
@@ -41,6 +42,17 @@ PhotonTrace trace_photons(const Scene& scene, const OwnedRoutes& owned,
 /// settings alone.
 PhotonTrace trace_batch(const Scene& scene, const OwnedRoutes& owned,
                         const PhotonTraceSettings& settings, int64_t limit, int64_t& begin);
+
+/// The photons of a map: path j of each set, for j = 0, 1, ... in all sets alike, until the sets
+/// end or `limit` photons are stored. It stops with a whole chunk of each set and keeps all of its
+/// photons, so the number emitted, `paths_of_set` in each set, is exact. A photon knows the number
+/// of its set; there are at most 256. The sets' photons_per_pass are equal.
+struct PhotonMapTrace {
+  PhotonTrace trace;
+  int64_t paths_of_set = 0;
+};
+PhotonMapTrace trace_map(const Scene& scene, const OwnedRoutes& owned,
+                         std::span<const PhotonTraceSettings> sets, int64_t limit);
 
 /// Photons are traced in chunks of this many; batches of a pass are whole chunks.
 inline constexpr int64_t kPhotonChunk = 1024;

@@ -31,6 +31,8 @@ PairOfRough after(PairOfRough pair, EventClass c) {
 // What never-sampled words have in common, of the events read so far.
 struct Ends {
   bool any = false, rough = false, first_specular = false, last_specular = false;
+  bool mergeable = false;   ///< a D or a G
+  bool rough_pair = false;  ///< two events in a row that are no S
   PairOfRough pair = PairOfRough::kNone;
   auto operator<=>(const Ends&) const = default;
 };
@@ -180,7 +182,9 @@ class Prover {
           const bool specular = c == EventClass::kSpecular;
           return {a.after(s.state, e),
                   {true, s.ends.rough || !specular, s.ends.any ? s.ends.first_specular : specular,
-                   specular, after(s.ends.pair, c)}};
+                   specular, s.ends.mergeable || contains(ClassMask::kRough, c),
+                   s.ends.rough_pair || (s.ends.any && !s.ends.last_specular && !specular),
+                   after(s.ends.pair, c)}};
         });
     std::optional<std::string> hole, medium_hole, hair_hole;
     struct NeverSampled {
@@ -240,20 +244,34 @@ class Prover {
   static int never_sampled(EstimatorKind estimator, const Ends& ends, LightKind light) {
     const bool is_hit = light != LightKind::kPoint && light != LightKind::kDistant;
     const bool out_of_reach = !is_hit && ends.rough && ends.last_specular;
-    if (estimator == EstimatorKind::kPath || estimator == EstimatorKind::kForecast)
+    if (estimator == EstimatorKind::kPath || estimator == EstimatorKind::kForecast ||
+        estimator == EstimatorKind::kPrimarySpace)
       return out_of_reach;
     if (estimator == EstimatorKind::kPointLights)
       return out_of_reach && ends.pair != PairOfRough::kBoth;
     if (estimator == EstimatorKind::kLightTrace)
       return ends.any ? 2 * (ends.first_specular && (ends.rough || is_hit))
                       : light == LightKind::kEnvironment;
-    return 0;
+    if (!is_cut_anywhere(estimator) || is_hit || !ends.rough || !ends.last_specular) return 0;
+    const bool merges =
+        (estimator == EstimatorKind::kVcm || estimator == EstimatorKind::kBpm) && ends.mergeable;
+    const bool connects =
+        estimator != EstimatorKind::kBpm && (!ends.first_specular || ends.rough_pair);
+    return !merges && !connects;
+  }
+  static bool is_cut_anywhere(EstimatorKind estimator) {
+    return estimator == EstimatorKind::kBidirectional || estimator == EstimatorKind::kVcm ||
+           estimator == EstimatorKind::kBpm || estimator == EstimatorKind::kMetropolis;
   }
   std::string never_sampled_text(int route, const std::string& witness) const {
     const std::string owns = owner_text(route) + " owns " + witness +
                              ", which it cannot find (that light will be missing): ";
     if (in_.routes[static_cast<size_t>(route)].estimator == EstimatorKind::kLightTrace)
       return owns + "only rough surfaces, media and emitting shapes can be connected to the camera";
+    if (is_cut_anywhere(in_.routes[static_cast<size_t>(route)].estimator))
+      return owns +
+             "no path meets a light at a point or in one direction, and wherever it is cut in two, "
+             "there is an S";
     return owns +
            "no path meets a light at a point or in one direction, and only a rough S can be "
            "connected to it";

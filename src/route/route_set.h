@@ -20,11 +20,13 @@ enum class EstimatorKind : uint8_t {
   kPhotonsAndLight,
   kBidirectional,
   kVcm,
+  kBpm,
   kMetropolis,
   kPhotonMap,
   kPpm,
   kPointLights,
-  kForecast
+  kForecast,
+  kPrimarySpace
 };
 
 struct EstimatorType {
@@ -34,6 +36,7 @@ struct EstimatorType {
   bool merges;       ///< each of its paths must have exactly one vertex where photons are merged
   bool connects;     ///< light paths are connected to the camera
   bool starts_at_lights;  ///< light that a medium emits or that touches hair is out of its reach
+  bool one_route_each = false;  ///< each of its routes is a group of its own, with its own photons
 };
 std::span<const EstimatorType> estimator_types();
 const EstimatorType& estimator_type(EstimatorKind kind);

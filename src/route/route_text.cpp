@@ -25,6 +25,23 @@ constexpr EstimatorType kEstimators[] = {
     {EstimatorKind::kPhotonsAndLight, "photons+light",
      "photons that are merged and connected to the camera, weighed against each other", true, true,
      true},
+    {EstimatorKind::kBidirectional, "bdpt",
+     "bidirectional path tracing: paths from eye and lights, connected in all ways", false, false,
+     true},
+    {EstimatorKind::kVcm, "vcm",
+     "vertex connection and merging: bdpt, and photons merged at all vertices", false, false, true},
+    {EstimatorKind::kBpm, "bpm",
+     "bidirectional photon mapping: vcm without connections of two walks", false, false, true},
+    {EstimatorKind::kMetropolis, "mlt",
+     "bidirectional paths, one technique at a time, explored by Markov chains", false, false, true},
+    {EstimatorKind::kPrimarySpace, "pssmlt",
+     "path tracing from the eye, explored by Markov chains in the space of its random numbers",
+     false, false, false},
+    {EstimatorKind::kPhotonMap, "photonmap",
+     "a photon map that all passes read, by the nearest photons; passes add no photons", true,
+     false, true, true},
+    {EstimatorKind::kPpm, "ppm", "progressive photon mapping with hit points that stay", true,
+     false, true},
     {EstimatorKind::kPointLights, "pointlights",
      "path tracing that is connected to virtual point lights at its first rough surface", false,
      false, true},
@@ -35,9 +52,10 @@ constexpr EstimatorType kEstimators[] = {
 
 // Names of the picture's own layers and channels, and of what is reserved for them.
 constexpr const char* kReservedNames[] = {
-    "R",    "G",      "B",      "A",      "Z",       "N",        "P",
-    "Ns",   "u",      "v",      "Y",      "RY",      "BY",       "dzdx",
-    "dzdy", "albedo", "Albedo", "stderr", "samples", "Variance", "RelativeVariance"};
+    "R",       "G",      "B",      "A",      "Z",       "N",        "P",
+    "Ns",      "u",      "v",      "Y",      "RY",      "BY",       "dzdx",
+    "dzdy",    "albedo", "Albedo", "stderr", "samples", "Variance", "RelativeVariance",
+    "outliers"};
 constexpr size_t kLongestName = 64;
 
 bool is_space(char c) {

@@ -24,19 +24,21 @@ Routes::Routes(std::vector<RouteDefinition> routes, std::vector<AovDefinition> a
       parts_(std::move(parts)),
       labels_(std::move(labels)),
       tables_(std::move(tables)) {
+  std::vector<size_t> group_of;  // [route]
   for (size_t r = 0; r < definitions_.size(); ++r) {
     const EstimatorKind estimator = definitions_[r].estimator;
-    auto group = std::find_if(groups_.begin(), groups_.end(),
-                              [&](const RouteGroup& g) { return g.estimator == estimator; });
+    auto group = std::find_if(groups_.begin(), groups_.end(), [&](const RouteGroup& g) {
+      return g.estimator == estimator && !estimator_type(estimator).one_route_each;
+    });
     if (group == groups_.end()) group = groups_.insert(groups_.end(), {estimator, {}, {}});
     group->routes.push_back(static_cast<int>(r));
+    group_of.push_back(static_cast<size_t>(group - groups_.begin()));
   }
-  for (size_t p = 0; p < parts_.size(); ++p)
-    for (size_t g = 0; g < groups_.size(); ++g)
-      if (groups_[g].estimator == definitions_[static_cast<size_t>(parts_[p].route)].estimator) {
-        groups_[g].parts.push_back(static_cast<Part>(p));
-        part_group_.push_back(static_cast<uint8_t>(g));
-      }
+  for (size_t p = 0; p < parts_.size(); ++p) {
+    const size_t g = group_of[static_cast<size_t>(parts_[p].route)];
+    groups_[g].parts.push_back(static_cast<Part>(p));
+    part_group_.push_back(static_cast<uint8_t>(g));
+  }
   find_useful_events({std::vector<bool>(tables_.event_symbols, true),
                       std::vector<bool>(tables_.light_symbols, true)});
 }

@@ -38,6 +38,7 @@ void set_action(const std::string& command, CommandLine& line) {
   if (command == "info") line.action = Action::kInfo;
   if (command == "compare") line.action = Action::kCompare;
   if (command == "routes") line.action = Action::kRoutes;
+  if (command == "bench") line.action = Action::kBench;
 }
 
 /// A first word that is neither an option nor a command is most likely a command misspelt.

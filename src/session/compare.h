@@ -57,6 +57,9 @@ struct HeatColor {
 };
 HeatColor heat_color(double squared_relative_error);
 
+/// heat_color of each pixel, interleaved bytes.
+std::vector<uint8_t> heat_map(const Picture& reference, const Picture& test);
+
 /// Writes the heat map as PNG. Throws IoError.
 void write_heat_map(const std::string& path, const Picture& reference, const Picture& test);
 

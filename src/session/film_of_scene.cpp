@@ -9,29 +9,49 @@
 
 #include "core/errors.h"
 #include "film/splats.h"
+#include "integrator/bidirectional.h"
+#include "integrator/gather.h"
 #include "integrator/merge_pass.h"
+#include "integrator/ppm.h"
 #include "integrator/sppm.h"
+#include "integrator/vertex_connection_merging.h"
 
 namespace nephroid {
 namespace {
 
 /// For each pixel: what estimators keep from pass to pass, and what the pass that needs most does;
 /// they render one after another.
-size_t bytes_of_estimators(const Routes& routes) {
+size_t bytes_of_estimators(const Routes& routes, int hit_points) {
   size_t kept = 0, most = 0;
   for (const RouteGroup& group : routes.groups()) {
     const size_t parts = group.parts.size();
     const EstimatorType& type = estimator_type(group.estimator);
-    size_t pass = type.connects ? SplatBuffer::bytes_per_pixel(parts) : 0;
+    const bool splats = type.connects || group.estimator == EstimatorKind::kMetropolis ||
+                        group.estimator == EstimatorKind::kPrimarySpace;
+    size_t pass = splats ? SplatBuffer::bytes_per_pixel(parts) : 0;
     if (group.estimator == EstimatorKind::kSppm) {
       kept += Sppm::bytes_kept(parts);
       pass += Sppm::bytes_of_pass(parts);
+    } else if (group.estimator == EstimatorKind::kBidirectional) {
+      pass += Bidirectional::bytes_per_pixel(parts);
+    } else if (group.estimator == EstimatorKind::kVcm || group.estimator == EstimatorKind::kBpm) {
+      pass += VertexConnectionMerging::bytes_per_pixel(parts);
+    } else if (group.estimator == EstimatorKind::kPpm) {
+      kept += static_cast<size_t>(hit_points) * Ppm::bytes_kept(parts);
+      pass += static_cast<size_t>(hit_points) * Ppm::bytes_of_pass(parts);
     } else if (type.merges) {
-      pass += MergePass::bytes_per_pixel(parts);
+      pass += Gathered::bytes_per_walk(parts);
     }
     most = std::max(most, pass);
   }
   return kept + most;
+}
+
+size_t bytes_of_rejection(const Routes& routes) {
+  size_t bytes = 0;
+  for (const RouteGroup& group : routes.groups())
+    bytes += OutlierRejection::bytes_per_pixel(group.parts.size());
+  return bytes;
 }
 
 }  // namespace
@@ -52,12 +72,28 @@ FilmSettings film_settings(const FilmDescription& description) {
   return settings;
 }
 
+/// A photon exposes the pixels within the merge radius, a splat those whose filter reaches it.
+OutlierSettings outlier_settings(const Routes& routes, const IntegratorOptions& options,
+                                 const PixelFilter& filter) {
+  OutlierSettings settings;
+  settings.neighbours = options.outlier_neighbours;
+  for (const RouteGroup& group : routes.groups()) {
+    const EstimatorType& type = estimator_type(group.estimator);
+    const float merged = type.merges ? kPi * sqr(first_radius(options)) : 1.0f;
+    const float splatted = type.connects ? 4 * filter.radius().x * filter.radius().y : 1.0f;
+    settings.exposed_pixels.push_back(std::max({1.0f, merged, splatted}));
+  }
+  return settings;
+}
+
 void check_film_fits(const FilmDescription& description, const FilmLayout& layout,
-                     const Routes& routes, bool size_is_an_option) {
+                     const Routes& routes, bool size_is_an_option, bool rejects_outliers,
+                     int hit_points) {
   // What there is of each pixel; everything else comes on top.
   const auto bytes_per_pixel = static_cast<double>(
       Film::bytes_per_pixel(layout, description.gbuffer != GBufferSpace::kNone) +
-      bytes_of_estimators(routes));
+      bytes_of_estimators(routes, hit_points) +
+      (rejects_outliers ? bytes_of_rejection(routes) : 0));
   constexpr double kGiB = 1 << 30;
   const double pixels = static_cast<double>(description.crop_x1 - description.crop_x0) *
                         (description.crop_y1 - description.crop_y0);

@@ -69,7 +69,7 @@ HeatColor heat_color(double squared_relative_error) {
   return colors[static_cast<size_t>(std::lround(t * (kRampSteps - 1)))];
 }
 
-void write_heat_map(const std::string& path, const Picture& reference, const Picture& test) {
+std::vector<uint8_t> heat_map(const Picture& reference, const Picture& test) {
   const std::vector<double> errors = relative_squared_errors(reference, test);
   std::vector<uint8_t> bytes;
   bytes.reserve(errors.size() * 3);
@@ -77,7 +77,11 @@ void write_heat_map(const std::string& path, const Picture& reference, const Pic
     const HeatColor color = heat_color(error);
     bytes.insert(bytes.end(), {color.r, color.g, color.b});
   }
-  write_png(path, reference.width(), reference.height(), bytes);
+  return bytes;
+}
+
+void write_heat_map(const std::string& path, const Picture& reference, const Picture& test) {
+  write_png(path, reference.width(), reference.height(), heat_map(reference, test));
 }
 
 std::string heat_map_legend() {

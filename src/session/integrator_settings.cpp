@@ -22,6 +22,38 @@ int64_t integer(const char* key, const std::string& text, int64_t low, int64_t h
   return parse_integer(std::string("-D ") + key, text, low, high);
 }
 
+/// "all", "merged" or "S,T", and then perhaps ",raw".
+TechniqueChoice parse_technique(const std::string& text) {
+  constexpr std::string_view kRaw = ",raw";
+  TechniqueChoice choice;
+  std::string which = text;
+  if (which.ends_with(kRaw)) {
+    choice.weighted = false;
+    which.resize(which.size() - kRaw.size());
+  }
+  choice.connects = which != "merged";
+  if (which == "all" || which == "merged") return choice;
+  const size_t comma = which.find(',');
+  if (comma == std::string::npos)
+    throw UsageError(fmt::format(
+        "-D technique: '{}' is not valid, expected all, merged or S,T (such as 1,3), and after it "
+        ",raw if wanted",
+        text));
+  const auto count = [](const std::string& t, int low) {
+    return t == "*" ? -1 : static_cast<int>(integer("technique", t, low, kMaxInt));
+  };
+  choice.s = count(which.substr(0, comma), 0);
+  choice.t = count(which.substr(comma + 1), 1);
+  return choice;
+}
+std::string technique_text(const TechniqueChoice& choice) {
+  const auto count = [](int n) { return n < 0 ? std::string("*") : std::to_string(n); };
+  const std::string which = !choice.connects  ? "merged"
+                            : choice.merges() ? "all"
+                                              : count(choice.s) + "," + count(choice.t);
+  return which + (choice.weighted ? "" : ",raw");
+}
+
 constexpr IntegratorSetting kSettings[] = {
     {"max-depth", "N", "100, or the scene's maxdepth", "",
      "Scattering events of a whole path, from the camera to the light.",
@@ -71,12 +103,64 @@ constexpr IntegratorSetting kSettings[] = {
        o.point_lights = static_cast<int>(integer("point-lights", t, 0, 1024));
      },
      [](const IntegratorOptions& o) { return fmt::format("{}", o.point_lights); }},
+    {"technique", "S,T", "all", "",
+     "Of bdpt, vcm and bpm: only paths of S vertices from the light, its start included, and T "
+     "from the eye, the lens included (* for any number), or merged ones; with ,raw behind it "
+     "unweighed, as if there were no other technique.",
+     [](IntegratorOptions& o, const std::string& t) { o.technique = parse_technique(t); },
+     [](const IntegratorOptions& o) { return technique_text(o.technique); }},
+    {"hit-points", "N", "0", "hit points",
+     "Hit points of a pixel in ppm, which stay from pass to pass: memory for smooth edges; 0 takes "
+     "the scene's samples per pixel, at least 4 and at most 16.",
+     [](IntegratorOptions& o, const std::string& t) {
+       o.hit_points = static_cast<int>(integer("hit-points", t, 0, kMaxInt));
+     },
+     [](const IntegratorOptions& o) { return fmt::format("{}", o.hit_points); }},
+    {"map-photons", "N", "0", "paths",
+     "Photon paths emitted for each map of photonmap, once; 0 emits those of 16 passes. When "
+     "memory-photons are stored, emission ends.",
+     [](IntegratorOptions& o, const std::string& t) {
+       o.map_photons = integer("map-photons", t, 0, kNoLimit);
+     },
+     [](const IntegratorOptions& o) { return fmt::format("{}", o.map_photons); }},
+    {"nearest", "N", "100", "photons",
+     "Photons of an estimate in photonmap: the nearest ones, within the radius of -D radius; at "
+     "least 2.",
+     [](IntegratorOptions& o, const std::string& t) {
+       o.nearest_photons = static_cast<int>(integer("nearest", t, 2, kMaxInt));
+     },
+     [](const IntegratorOptions& o) { return fmt::format("{}", o.nearest_photons); }},
     {"memory-photons", "N", "1048576", "photons",
-     "Photons kept at once; a pass with more runs in batches.",
+     "Photons kept at once; a pass with more runs in batches, a map with more ends.",
      [](IntegratorOptions& o, const std::string& t) {
        o.memory_photons = integer("memory-photons", t, 1, kNoLimit);
      },
      [](const IntegratorOptions& o) { return fmt::format("{}", o.memory_photons); }},
+    {"outlier-neighbours", "N", "8", "estimates",
+     "With --outliers reject: how many similar estimates within 5 x 5 pixels confirm an estimate; "
+     "more reject more.",
+     [](IntegratorOptions& o, const std::string& t) {
+       o.outlier_neighbours = static_cast<int>(integer("outlier-neighbours", t, 2, 1000));
+     },
+     [](const IntegratorOptions& o) { return fmt::format("{}", o.outlier_neighbours); }},
+    {"mutations", "X", "0", "mutations",
+     "Of Metropolis light transport, per pixel and pass; 0 chooses.",
+     [](IntegratorOptions& o, const std::string& t) {
+       o.mutations = number("mutations", t, 0, std::numeric_limits<float>::max(), false);
+     },
+     [](const IntegratorOptions& o) { return fmt::format("{:g}", o.mutations); }},
+    {"chain-length", "N", "0", "mutations",
+     "After how many mutations a Markov chain gives way to a new one; 0 chooses.",
+     [](IntegratorOptions& o, const std::string& t) {
+       o.chain_length = integer("chain-length", t, 0, kNoLimit);
+     },
+     [](const IntegratorOptions& o) { return fmt::format("{}", o.chain_length); }},
+    {"large-step", "X", "0.1", "",
+     "Probability of a mutation that forgets the path it comes from, above 0 to 1.",
+     [](IntegratorOptions& o, const std::string& t) {
+       o.large_step = number("large-step", t, 0, 1, true);
+     },
+     [](const IntegratorOptions& o) { return fmt::format("{:g}", o.large_step); }},
     {"texture-cache", "SIZE", "1G", "bytes",
      "Memory for the pixels of image textures (K, M, G: powers of 1024); what does not fit is read "
      "from the files again and again, with the same picture.",

@@ -58,6 +58,13 @@ EnergyShares energy_shares(const Film& film) {
   for (size_t a = 0; a < film.layout().aovs.size(); ++a)
     shares.aovs.push_back(energy(&Film::aov_value, a));
   const double total = std::accumulate(shares.routes.begin(), shares.routes.end(), 0.0);
+  if (film.rejection() != nullptr) {
+    const double held = sum_over_pixels(film, [&](int x, int y) {
+      const Rgb value = film.outliers(x, y);
+      return double{value.r} + value.g + value.b;
+    });
+    shares.outliers = total + held > 0 ? held / (total + held) : 0;
+  }
   for (std::vector<double>* list : {&shares.routes, &shares.aovs})
     for (double& share : *list) share = total > 0 ? share / total : 0;
   return shares;

@@ -16,6 +16,7 @@ std::optional<double> estimated_noise(const Film& film);
 /// Shares in the sum of all channels of all pixels; zeros for a black film.
 struct EnergyShares {
   std::vector<double> routes, aovs;
+  double outliers = 0;  ///< what is held, over the sum with it
 };
 EnergyShares energy_shares(const Film& film);
 

@@ -13,6 +13,7 @@ namespace {
 constexpr double kAnyNumber = std::numeric_limits<double>::infinity();
 constexpr int kMostThreads = 4096;
 constexpr int kMostPilotPasses = 100000;
+constexpr int64_t kMostBenchPasses = std::numeric_limits<uint32_t>::max() - 1;
 
 void set_output(CommandLine& line, const std::string& text) {
   const bool is_exr = text.size() > 4 && text.compare(text.size() - 4, 4, ".exr") == 0;
@@ -58,6 +59,12 @@ void add_setting(CommandLine& line, const std::string& text) {
   command.overrides.texture_memory = static_cast<uint64_t>(options.texture_memory);
 }
 
+void set_outliers(CommandLine& line, const std::string& text) {
+  if (text != "reject" && text != "off")
+    throw UsageError("--outliers: '" + text + "' is not valid, expected reject or off");
+  line.render.reject_outliers = text == "reject";
+}
+
 template <auto Command>
 void set_routes(CommandLine& line, const std::string& text) {
   (line.*Command).routes.preset_or_file = text;
@@ -76,15 +83,16 @@ void set_strict(CommandLine& line, const std::string&) {
 }
 
 constexpr const char* kIntegratorHelp =
-    "How light is found: path, sppm, mixed, or scene for the one that the scene names. Each is a "
-    "preset of routes: path-only, sppm, doidge2012.";
+    "How light is found: path, sppm, mixed, bdpt, photonmap, ppm, or scene for the one that the "
+    "scene names. Each is a preset of routes: path is path-only, mixed doidge2012, the others have "
+    "the names of theirs.";
 constexpr const char* kRoutesHelp =
     "Routes by the name of a preset (listed below) or from a file, one a line; instead of "
     "--integrator.";
 constexpr const char* kRouteHelp =
     "One route: a light path expression and the estimator that renders what matches it (path, "
-    "photons, sppm, lighttrace, photons+light, pointlights, forecast). The first route that "
-    "matches "
+    "photons, sppm, lighttrace, photons+light, bdpt, photonmap, ppm, pointlights, forecast). The "
+    "first route that matches "
     "a path owns it.";
 constexpr const char* kAovHelp =
     "One more layer of the picture: the light of all paths that match, whichever route renders "
@@ -99,11 +107,22 @@ void set_heat_map(CommandLine& line, const std::string& text) {
   line.compare.heat_map = text;
 }
 
+void add_only(CommandLine& line, const std::string& text) {
+  for (size_t begin = 0; begin <= text.size();) {
+    const size_t comma = std::min(text.find(',', begin), text.size());
+    if (comma == begin)
+      throw UsageError("--only: '" + text + "' is not valid, expected names as in cup,room");
+    line.bench.only.push_back(text.substr(begin, comma - begin));
+    begin = comma + 1;
+  }
+}
+
 constexpr CommandDescription kCommands[] = {
     {"render", "Render a scene to an EXR and a PNG."},
     {"info", "Say what is in a scene without rendering it."},
     {"routes", "Say who renders which light, prove it, and measure it in a scene."},
     {"compare", "Measure how far a picture is from a reference."},
+    {"bench", "Run a suite of integrators and scenes and write a report."},
 };
 
 constexpr OptionDescription kOptions[] = {
@@ -126,6 +145,10 @@ constexpr OptionDescription kOptions[] = {
      set_strict<&CommandLine::render>},
     {"render", "-D", "", "KEY=VALUE", "", "", "Algorithm", kSettingHelp, true,
      add_setting<&CommandLine::render>},
+    {"render", "--outliers", "", "reject|off", "", "off", "Algorithm",
+     "reject keeps estimates that are isolated in position and brightness (fireflies) out of the "
+     "picture until others confirm them; the layer 'outliers' holds them.",
+     false, set_outliers},
     {"render", "--seed", "", "S", "", "the scene's, else 0", "Algorithm",
      "Another seed gives another, independent picture.", false,
      [](CommandLine& l, const std::string& t) { l.render.seed = parse_seed("--seed", t); }},
@@ -187,6 +210,36 @@ constexpr OptionDescription kOptions[] = {
     {"compare", "--subtract-reference-error", "", "", "", "", "",
      "Take the reference's own error (its stderr channels) out of the squared errors.", false,
      [](CommandLine& l, const std::string&) { l.compare.subtract_reference_error = true; }},
+    {"compare", "--exposure", "", "X", "", "1", "", "Exposure of both pictures for FLIP.", false,
+     [](CommandLine& l, const std::string& t) {
+       l.compare.exposure = static_cast<float>(parse_number("--exposure", t, 0, 1e6, true));
+     }},
+    {"bench", "SUITE", "", "", "", "", "", "A suite (docs/bench.md has the format).", false,
+     [](CommandLine& l, const std::string& t) { l.bench.suite = t; }},
+    {"bench", "--time", "", "TIME", "s, m or h", "the suite's", "",
+     "Every run ends with the pass that ends nearest to this time (60s, 5m, 1h).", false,
+     [](CommandLine& l, const std::string& t) {
+       l.bench.time_limit = parse_duration("--time", t);
+     }},
+    {"bench", "--passes", "", "N", "passes", "the suite's", "", "Every run has N passes.", false,
+     [](CommandLine& l, const std::string& t) {
+       l.bench.passes = static_cast<uint32_t>(parse_integer("--passes", t, 1, kMostBenchPasses));
+     }},
+    {"bench", "--out", "", "DIR", "", "the suite's name and .bench, in the current directory", "",
+     "Directory of the report and of all results; runs that are there already are not repeated.",
+     false, [](CommandLine& l, const std::string& t) { l.bench.directory = t; }},
+    {"bench", "--only", "", "SCENE,...", "", "all", "", "Scenes of the suite, by name.", true,
+     add_only},
+    {"bench", "--threads", "-t", "N", "threads", "all of the machine", "",
+     "Number of threads; times depend on it, passes do not.", false,
+     [](CommandLine& l, const std::string& t) {
+       l.bench.threads = static_cast<int>(parse_integer("--threads", t, 1, kMostThreads));
+     }},
+    {"bench", "--strict-claims", "", "", "", "", "",
+     "Exit status 1 if a claim of the suite is not borne out.", false,
+     [](CommandLine& l, const std::string&) { l.bench.strict_claims = true; }},
+    {"bench", "--quiet", "", "", "", "", "", "Print nothing but errors.", false,
+     [](CommandLine& l, const std::string&) { l.bench.quiet = true; }},
 };
 
 }  // namespace

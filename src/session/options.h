@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "scene/scene.h"
 #include "session/integrator_settings.h"
@@ -29,6 +30,7 @@ struct RenderCommand {
   int threads = 0;  ///< 0: all of the machine
   std::optional<uint64_t> seed;
   SettingList settings;
+  bool reject_outliers = false;
   bool quiet = false;
 };
 
@@ -49,9 +51,22 @@ struct CompareCommand {
   std::string reference, test;
   std::string heat_map;  ///< empty: none
   bool subtract_reference_error = false;
+  float exposure = 1;  ///< of FLIP
 };
 
-enum class Action { kRender, kInfo, kCompare, kRoutes, kPrint };
+/// What `nephroid bench` was asked for.
+struct BenchCommand {
+  std::string suite;
+  std::string directory;          ///< empty: named after the suite
+  double time_limit = 0;          ///< of each run, 0: as the suite says
+  uint32_t passes = 0;            ///< of each run, 0: as the suite says
+  std::vector<std::string> only;  ///< names of scenes, all if empty
+  int threads = 0;                ///< 0: all of the machine
+  bool strict_claims = false;
+  bool quiet = false;
+};
+
+enum class Action { kRender, kInfo, kCompare, kRoutes, kBench, kPrint };
 
 /// A command line that has been understood.
 struct CommandLine {
@@ -60,6 +75,7 @@ struct CommandLine {
   InfoCommand info;
   CompareCommand compare;
   RoutesCommand routes;
+  BenchCommand bench;
   std::string text;  ///< what to print, for help, version and the like
 };
 

@@ -31,9 +31,14 @@ double steady_seconds() {
   return std::chrono::duration<double>(now).count();
 }
 
-void check_fits(const Preset& preset, const RenderOptions& options) {
+void check_fits(const Preset& preset, const Film& film, const RenderOptions& options) {
   if (options.last_pass && *options.last_pass < options.first_pass)
     throw UsageError("--passes: the range ends before it begins");
+  if (options.first_pass > 0 && film.rejection() != nullptr)
+    throw UsageError(
+        fmt::format("--passes {}..: with --outliers reject what a pass shows depends on the passes "
+                    "before it, expected a range from 0",
+                    options.first_pass));
   for (const auto& estimator : preset.estimators) {
     const Capabilities capabilities = estimator->capabilities();
     if (options.first_pass > 0 && !capabilities.independent_passes)
@@ -41,7 +46,7 @@ void check_fits(const Preset& preset, const RenderOptions& options) {
           fmt::format("--passes {}..: the passes of this integrator depend on each "
                       "other, expected a range from 0",
                       options.first_pass));
-    if (options.noise_target > 0 && capabilities.per_pixel_state)
+    if (options.noise_target > 0 && (capabilities.per_pixel_state || !capabilities.consistent))
       throw UsageError(
           "--noise: this integrator cannot tell how noisy its picture is, expected --passes or "
           "--time");
@@ -56,7 +61,7 @@ RenderSession::RenderSession(const Scene& scene, Preset& preset, Film& film, Ren
       film_(film),
       options_(std::move(options)),
       clock_(steady_seconds) {
-  check_fits(preset_, options_);
+  check_fits(preset_, film_, options_);
   if (options_.last_pass)
     passes_wanted_ = *options_.last_pass - options_.first_pass + 1;
   else if (!(options_.time_limit > 0) && !(options_.noise_target > 0))
@@ -106,6 +111,7 @@ void RenderSession::render_one_pass() {
   const double begin = clock_();
   const PassKey key{options_.seed, options_.first_pass + passes_done_};
   for (const auto& estimator : preset_.estimators) estimator->render_pass(key, scene_, film_);
+  film_.finish_pass();
   ++passes_done_;
   last_pass_seconds_ = clock_() - begin;
 }
@@ -136,7 +142,7 @@ bool RenderSession::noise_check_is_due() const {
   if (options_.noise_target > 0)
     return passes_done_ >= kFewestPassesForNoise &&
            passes_done_ % std::max(1u, std::bit_floor(passes_done_) / 16) == 0;
-  return progress_ && elapsed() >= next_noise_seconds_;
+  return progress_ && options_.show_noise && elapsed() >= next_noise_seconds_;
 }
 
 void RenderSession::renew_noise() {
@@ -203,6 +209,11 @@ Metadata RenderSession::picture_metadata() const {
   metadata.emplace_back("nephroid:passes", fmt::format("{}..{}", options_.first_pass,
                                                        options_.first_pass + passes_done_ - 1));
   metadata.emplace_back("nephroid:seconds", fmt::format("{:.3f}", elapsed()));
+  if (const OutlierRejection* rejection = film_.rejection()) {
+    metadata.emplace_back("nephroid:outliers", "reject");
+    metadata.emplace_back("nephroid:outlier_estimates",
+                          fmt::format("{}", rejection->held_estimates()));
+  }
   const FilmLayout& layout = film_.layout();
   for (size_t r = 0; r < layout.routes.size(); ++r)
     metadata.emplace_back("nephroid:estimates:" + layout.routes[r],

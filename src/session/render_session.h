@@ -23,6 +23,7 @@ struct RenderOptions {
   std::optional<uint32_t> last_pass;  ///< included
   double time_limit = 0;              ///< s, 0: none
   double noise_target = 0;            ///< as estimated_noise(), 0: none
+  bool show_noise = true;             ///< progress has the noise, which takes a little time
   uint64_t seed = 0;
   std::string output;         ///< EXR, a PNG is written beside it; empty: nothing is written
   double write_interval = 5;  ///< s between intermediate pictures, at least

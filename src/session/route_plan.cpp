@@ -61,6 +61,20 @@ RoutePlan plan_of(const RouteChoice& choice, const std::string& integrator) {
   return plan;
 }
 
+std::string routes_text(const RoutePlan& plan) {
+  std::string text;
+  for (const RouteDefinition& route : plan.routes)
+    text +=
+        route.name + " = " + route.expression + " : " + estimator_type(route.estimator).name + "\n";
+  return text;
+}
+
+std::string aovs_text(const RoutePlan& plan) {
+  std::string text;
+  for (const AovDefinition& aov : plan.aovs) text += aov.name + " = " + aov.expression + "\n";
+  return text;
+}
+
 std::string name_of(const RouteChoice& choice, const std::string& integrator) {
   if (!choice.routes.empty()) return "--route";
   return choice.preset_or_file.empty() ? integrator : choice.preset_or_file;

@@ -29,4 +29,8 @@ RoutePlan plan_of(const RouteChoice& choice, const std::string& integrator);
 /// What the plan came from, for the picture's metadata: "mixed", "split", "routes.txt", "--route".
 std::string name_of(const RouteChoice& choice, const std::string& integrator);
 
+/// The routes of a plan as a file of routes has them, and its AOVs in the same form.
+std::string routes_text(const RoutePlan& plan);
+std::string aovs_text(const RoutePlan& plan);
+
 }  // namespace nephroid

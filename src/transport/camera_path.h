@@ -25,20 +25,15 @@ inline float wavelength_number(const Scene& scene, float u) {
   return scene.options.wavelength_jitter ? u : 0.5f;
 }
 
-/// Starts a path through pixel (x, y). `lambda` is the path's, or the pass's where it is shared;
-/// `u_time`, in [0,1), likewise.
-inline CameraPath start_camera_path(const Scene& scene, int x, int y, PathSampler& sampler,
+/// Starts a path through the place `film`, in pixels. `lambda` is the path's, or the pass's where
+/// it is shared; `u_time`, in [0,1), likewise.
+inline CameraPath start_camera_path(const Scene& scene, const Vec2f& film, PathSampler& sampler,
                                     const SampledWavelengths& lambda, float u_time) {
   CameraPath path;
-  sampler.start_dimension(dimensions::kFilm);
-  PixelFilter::Sample f = scene.filter->sample(sampler.get_2d());
-  if (!scene.options.pixel_jitter) f = {Vec2f(0, 0), 1.0f};
   sampler.start_dimension(dimensions::kLens);
   path.u_lens = sampler.get_2d();
   path.u_time = u_time;
-  path.film =
-      Vec2f(static_cast<float>(x) + 0.5f + f.offset.x, static_cast<float>(y) + 0.5f + f.offset.y);
-  path.filter_weight = f.weight;
+  path.film = film;
   path.walk.lambda = lambda;
   path.walk.medium = scene.camera_medium;
   const std::optional<CameraRay> start = scene.camera->generate_ray(path.film, path.u_lens, u_time);
@@ -46,6 +41,20 @@ inline CameraPath start_camera_path(const Scene& scene, int x, int y, PathSample
   path.camera_weight = start->weight;
   path.walk.ray = start->ray;
   path.walk.previous_p = path.walk.ray.o;
+  return path;
+}
+
+/// Starts a path through a place of pixel (x, y)'s filter.
+inline CameraPath start_camera_path(const Scene& scene, int x, int y, PathSampler& sampler,
+                                    const SampledWavelengths& lambda, float u_time) {
+  sampler.start_dimension(dimensions::kFilm);
+  PixelFilter::Sample f = scene.filter->sample(sampler.get_2d());
+  if (!scene.options.pixel_jitter) f = {Vec2f(0, 0), 1.0f};
+  CameraPath path = start_camera_path(
+      scene,
+      Vec2f(static_cast<float>(x) + 0.5f + f.offset.x, static_cast<float>(y) + 0.5f + f.offset.y),
+      sampler, lambda, u_time);
+  path.filter_weight = f.weight;
   return path;
 }
 

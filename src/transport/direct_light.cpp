@@ -17,6 +17,8 @@ std::optional<DirectSample> sample_direct(const Scene& scene, const Receiver& at
   d.radiance = s->radiance / d.pdf_w;
   d.wi_world = s->wi;
   d.delta = s->delta;
+  d.p = s->p;
+  d.ng = s->ng;
   d.medium = at.surface ? medium_towards(*at.surface, s->wi, at.medium) : at.medium;
   // Both ends leave their surfaces by their own error bounds; the tiny margin keeps the ray from
   // reaching the emitter itself.

@@ -30,6 +30,7 @@ struct DirectSample {
   Vec3f wi_world;            ///< unit, towards the light
   float pdf_w = 0;           ///< of choosing the light and the direction
   bool delta = false;        ///< no walk can hit the light
+  Vec3f p, ng;               ///< point and outside normal of the light, null if it has none
   Ray shadow_ray;
   const Medium* medium = nullptr;  ///< in which the shadow ray starts
 };

@@ -47,6 +47,8 @@ IntegratorOptions options_for(const AgreementScene& description) {
   options.photons_per_pass = description.photons;
   options.radius = description.radius;
   options.camera_samples_per_pass = 1;
+  options.hit_points = 4;
+  options.nearest_photons = kAllPhotons;
   return options;
 }
 
@@ -71,7 +73,7 @@ TEST_P(Agreement, OfAllIntegrators) {
   const SeedValues reference = reference_values(*scene, description, options, kSeeds);
   uint64_t first_seed = 1000;
   options.camera_samples_per_pass = 8;  // what the path tracer adds to few passes must not be noisy
-  for (const std::string integrator : {"mixed", "sppm"}) {
+  for (const std::string integrator : {"mixed", "sppm", "bdpt"}) {
     if (integrator == description.reference) continue;
     expect_equal(unbiased_block_values(*scene, integrator, options, kSeeds, kPhotonPasses,
                                        first_seed, kAcross),
@@ -83,8 +85,9 @@ TEST_P(Agreement, OfAllIntegrators) {
 INSTANTIATE_TEST_SUITE_P(Scenes, Agreement, ::testing::ValuesIn(kAgreementScenes),
                          [](const auto& test) { return std::string(test.param.name); });
 
-// Routes that integrators do not have: light tracing, photons both merged and connected, of
-// caustics alone and wherever they can be, virtual point lights, and guided path tracing.
+// Routes that the integrators above do not have: light tracing, and photons both merged and
+// connected, of caustics alone and wherever they can be, virtual point lights, and guided path
+// tracing.
 struct RoutesToCompare {
   const char* name;
   Plan plan;
@@ -94,6 +97,9 @@ std::vector<RoutesToCompare> routes_to_compare() {
   return {{"split", "split"},
           {"vertex", "vertex"},
           {"light-only", "light-only"},
+          {"ppm", "ppm"},
+          {"photonmap", "photonmap"},
+          {"photonmap-direct", "photonmap-direct"},
           {"forecast", "forecast"},
           {"all-point-lights",
            plan_of({"caustic=C[SV]*[DG]S+L:photons", "all=.*:pointlights", "rest=.*:path"})},

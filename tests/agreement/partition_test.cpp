@@ -190,6 +190,10 @@ TEST_P(PartitionOwners, FindTheSamePicture) {
   options.photons_per_pass = 6144;
   options.camera_samples_per_pass = 8;
   options.radius = 0.6f;
+  options.hit_points = 4;
+  options.nearest_photons = kAllPhotons;
+  options.mutations = 96;
+  options.large_step = 0.5f;
   const auto values = [&](const std::vector<std::string>& routes, uint64_t first_seed,
                           float radius) {
     options.radius = radius;
@@ -228,8 +232,21 @@ const std::vector<Owners> kOwners = {
     {"sppm_of_caustics", {"caustic=C.*[DG]S+[DG]?L:sppm", "rest=.*:path"}, true},
     {"photons_at_the_last", {"bounced=C.*[DG]@S+[DG]?L:photons", "rest=.*:path"}, true},
     {"photons_at_the_second", {"second=C[DG][DG]@[DG]*L:photons", "rest=.*:path"}, true},
+    {"ppm_of_caustics", {"caustic=C.*[DG]S+[DG]?L:ppm", "rest=.*:path"}, true},
+    {"photon_map_at_the_first", {"seen=C[DG].*L:photonmap", "rest=.*:path"}, true},
+    {"photon_map_of_gather_rays", {"second=C[DG][DG]@[DG]*L:photonmap", "rest=.*:path"}, true},
+    {"two_photon_maps",
+     {"caustic=C[SV]*[DG]S+L:photonmap", "global=C[SV]*[DG]S*[DGV].*:photonmap", "rest=.*:path"},
+     true},
     {"photons_and_light", {"seen=C[DG].*L:photons+light", "rest=.*:path"}, true},
     {"photons_and_light_of_all", {"bare=C[SV]*(L|.*M):path", "rest=.*:photons+light"}, true},
+    {"bdpt_of_all", {"all=.*:bdpt", "rest=.*:path"}},
+    {"bdpt_of_some", {"glass=C.*<..'glass'>.*L:bdpt", "rest=.*:path"}},
+    {"vcm_of_all", {"all=.*:vcm", "rest=.*:path"}, true},
+    {"bpm_of_caustics", {"caustic=C.*[DG]S+[DG]?L:bpm", "rest=.*:path"}, true},
+    {"chains_of_caustics", {"seen=C.*[DG]S+L:mlt", "rest=.*:path"}},
+    {"chains_of_all", {"all=.*:mlt", "rest=.*:path"}},
+    {"chains_from_the_eye", {"key=C.*<L.'key'>:pssmlt", "rest=.*:path"}},
     {"point_lights_of_all", {"indirect=C[^VH]*:pointlights", "rest=.*:path"}},
     {"point_lights_of_diffuse", {"diffuse=C[SV]*DD.*L:pointlights", "rest=.*:path"}},
     {"point_lights_behind_glass", {"seen=CS+[DG][DG]+L:pointlights", "rest=.*:path"}},

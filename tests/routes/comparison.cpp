@@ -92,7 +92,8 @@ void Comparison::push(int event) {
   now.present = before.present && event_present(event);
   now.hair = before.hair || kind_of(e) == EventKind::kH;
   for (size_t g = 0; g < now.useful.size(); ++g)
-    if (routes_.groups()[g].estimator == EstimatorKind::kPath)
+    if (walks_from_eye(routes_.groups()[g].estimator) ||
+        is_cut_anywhere(routes_.groups()[g].estimator))
       now.useful[g] = before.useful[g] && has(routes_.useful(g, before.eye, label_of(e)), e);
 }
 
@@ -182,12 +183,19 @@ void Comparison::check_useful(int route, Part part) {
   if (!routes_.owns(g, part)) fail("the part is not the group's");
   if (!set_.can_sample(route, path_, vertices_.size())) return;
   const EstimatorKind estimator = set_.routes()[size_t(route)].estimator;
-  if (estimator == EstimatorKind::kPath && !(read_[n].useful[g] && routes_.ends(g, read_[n].eye)))
+  if (walks_from_eye(estimator) && !(read_[n].useful[g] && routes_.ends(g, read_[n].eye)))
     fail("the camera walk ends too early");
-  if (estimator == EstimatorKind::kPath) return;
+  if (walks_from_eye(estimator)) return;
 
   const LightState emitted = routes_.emitted(lights_[size_t(path_.light)]);
   LightState light = emitted;
+  if (is_cut_anywhere(estimator)) {
+    if (!read_[n].useful[g]) fail("the eye's walk ends too early");
+    for (size_t i = n; i-- > 0; light = routes_.light_next(light, symbol(i)))
+      if (!has(routes_.useful_from_light(g, light, label_of(symbol(i))), symbol(i)))
+        fail("the light's walk ends too early");
+    return;
+  }
   if (set_.type(route).merges) {
     const size_t vertex = vertices_.front();
     for (size_t i = 0; i <= vertex; ++i) {

@@ -23,6 +23,17 @@ constexpr bool connects_lights(EstimatorKind kind) {
   return kind == EstimatorKind::kLightTrace || kind == EstimatorKind::kPhotonsAndLight;
 }
 
+/// True if the estimator has the reach of path tracing from the eye.
+constexpr bool walks_from_eye(EstimatorKind kind) {
+  return kind == EstimatorKind::kPath || kind == EstimatorKind::kPrimarySpace;
+}
+
+/// True if it makes a path of an eye's and a light's walk, cut anywhere.
+constexpr bool is_cut_anywhere(EstimatorKind kind) {
+  return kind == EstimatorKind::kBidirectional || kind == EstimatorKind::kVcm ||
+         kind == EstimatorKind::kBpm || kind == EstimatorKind::kMetropolis;
+}
+
 class Comparison {
  public:
   /// Findings are about paths of the symbols in `present`; so is what `routes` call useful. All

@@ -94,7 +94,7 @@ void Comparison::nothing_hopeless() {
         const auto to = [&](const std::vector<bool>& states) {
           return [&](EventSymbol e) { return bool(states[routes_.next(s, e)]); };
         };
-        if (estimator == EstimatorKind::kPath) {
+        if (walks_from_eye(estimator)) {
           if (routes_.ends(g, s) && !ends_here(s)) fail("a walk may end where no path does");
           if (hopeless(routes_.useful(g, s, label), label, to(ending)))
             fail("a hopeless event is useful");
@@ -110,6 +110,13 @@ void Comparison::nothing_hopeless() {
         const auto to = [&](const std::vector<bool>& states) {
           return [&](EventSymbol e) { return bool(states[routes_.light_next(l, e)]); };
         };
+        const auto meets = [&](EventSymbol e) {
+          return std::any_of(eye_queue.begin(), eye_queue.end(), [&](EyeState s) {
+            return routes_.owns(g, routes_.meet(s, routes_.light_next(l, e)));
+          });
+        };
+        if (hopeless(routes_.useful_from_light(g, l, label), label, meets))
+          fail("light walks go where no eye's walk can meet them");
         if (!depositing.empty() &&
             (hopeless(routes_.useful_before_deposit(g, l, label), label, to(depositing)) ||
              hopeless(routes_.deposits(g, l, label), label,

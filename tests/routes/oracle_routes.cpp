@@ -186,6 +186,16 @@ bool OracleRoutes::can_sample(int route, const Path& path, size_t merge_vertices
     if (first + 1 < n && rough(kind_at(first + 1))) return true;
   }
   const bool no_area = light == LightKind::kPoint || light == LightKind::kDistant;
+  const EstimatorKind estimator = routes_[size_t(route)].estimator;
+  const bool connects = estimator == EstimatorKind::kBidirectional ||
+                        estimator == EstimatorKind::kVcm || estimator == EstimatorKind::kMetropolis;
+  const bool merges = estimator == EstimatorKind::kVcm || estimator == EstimatorKind::kBpm;
+  if (no_area && connects && n > 0 && !specular(kind_at(0))) return true;
+  for (size_t i = 0; no_area && i < n; ++i) {
+    const EventKind k = kind_at(i);
+    if (connects && i > 0 && !specular(k) && !specular(kind_at(i - 1))) return true;
+    if (merges && (kRoughEvents >> static_cast<int>(k) & 1u) != 0) return true;
+  }
   return !(no_area && (n == 0 || specular(kind_at(n - 1))));
 }
 

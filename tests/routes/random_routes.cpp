@@ -2,6 +2,7 @@
 // standard library's distributions, which differ from machine to machine.
 #include "routes/random_routes.h"
 
+#include <iterator>
 #include <utility>
 
 namespace nephroid::oracle {
@@ -124,11 +125,15 @@ Tree RandomRoutes::expression(bool marked) {
 
 OracleRoutes RandomRoutes::set() {
   static const EstimatorKind kKinds[] = {
-      EstimatorKind::kPath,        EstimatorKind::kPath,
-      EstimatorKind::kPhotons,     EstimatorKind::kPhotons,
-      EstimatorKind::kSppm,        EstimatorKind::kLightTrace,
-      EstimatorKind::kLightTrace,  EstimatorKind::kPhotonsAndLight,
-      EstimatorKind::kPointLights, EstimatorKind::kForecast};
+      EstimatorKind::kPath,          EstimatorKind::kPath,
+      EstimatorKind::kPhotons,       EstimatorKind::kPhotons,
+      EstimatorKind::kSppm,          EstimatorKind::kLightTrace,
+      EstimatorKind::kLightTrace,    EstimatorKind::kPhotonsAndLight,
+      EstimatorKind::kBidirectional, EstimatorKind::kVcm,
+      EstimatorKind::kBpm,           EstimatorKind::kMetropolis,
+      EstimatorKind::kPrimarySpace,  EstimatorKind::kPhotonMap,
+      EstimatorKind::kPhotonMap,     EstimatorKind::kPpm,
+      EstimatorKind::kPointLights,   EstimatorKind::kForecast};
   const Alphabet alphabet(static_cast<int>(labels_.size()));
   const auto possible = [&](bool marked) {
     for (;;) {
@@ -138,7 +143,7 @@ OracleRoutes RandomRoutes::set() {
   };
   std::vector<OracleRoute> routes, aovs;
   for (int n = 2 + below(4), i = 1; i <= n; ++i) {
-    const EstimatorKind kind = kKinds[below(10)];
+    const EstimatorKind kind = kKinds[below(static_cast<int>(std::size(kKinds)))];
     Tree tree = possible(estimator_type(kind).merges && chance(45));
     // Half of the routes without a mark have a merge vertex in each path.
     if (estimator_type(kind).merges && !tree.has_marks() && chance(50))

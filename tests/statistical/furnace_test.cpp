@@ -107,6 +107,9 @@ TEST_P(Furnace, RadianceIsOne) {
   // Where nearly all light is photons, they must be many.
   options.photons_per_pass = plan == "sppm" || plan == "all-photons" ? 16384 : 8192;
   options.radius = 1.0f;
+  options.hit_points = 4;
+  options.nearest_photons = kAllPhotons;
+  options.mutations = 48;
   const Estimate e = merges ? estimate_of(unbiased_block_values(*scene, plan, options, 16, 8, 1)[0])
                             : mean_over_seeds(*scene, plan, options, 16, 64);
   // The constant spectrum has Y = 1 but is not the white of sRGB: compare with the empty picture.

@@ -96,6 +96,12 @@ class DiffuseAreaLight final : public Light {
     return e;
   }
 
+  EmissionDensity emission_pdf(const Vec3f& ng, const Vec3f& w) const override {
+    if (!emits_towards(ng, w)) return {};
+    return {1.0f / area_,
+            cosine_hemisphere_pdf_w(abs_dot(ng, w)) * (emission_->two_sided ? 0.5f : 1.0f)};
+  }
+
   float power() const override {
     return kPi * (emission_->two_sided ? 2.0f : 1.0f) * area_ * mean_radiance();
   }

@@ -37,6 +37,10 @@ class DistantLight final : public Light {
     return emission_through_disk(-to_light_, 1.0f, irradiance_.sample(lambda), u_position, sphere_);
   }
 
+  EmissionDensity emission_pdf(const Vec3f&, const Vec3f&) const override {
+    return {disk_pdf_a(sphere_), 1.0f};
+  }
+
   float power() const override { return irradiance_.mean() * kPi * sqr(sphere_.radius); }
   std::optional<LightBounds> bounds() const override { return std::nullopt; }
   void set_scene_sphere(const SceneSphere& sphere) override { sphere_ = sphere; }

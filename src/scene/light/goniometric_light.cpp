@@ -39,6 +39,12 @@ class GoniometricLight final : public PointEmitter {
     return intensity_.sample(lambda) * factor(std::min(static_cast<int>(st.x), size_ - 1),
                                               std::min(static_cast<int>(st.y), size_ - 1));
   }
+  float direction_pdf(const Vec3f& local) const override {
+    const Vec2f st = equal_area_sphere_to_square(local) * static_cast<float>(size_);
+    return distribution_.pdf(std::min(static_cast<int>(st.x), size_ - 1),
+                             std::min(static_cast<int>(st.y), size_ - 1)) *
+           kInv4Pi;
+  }
   float factor(int x, int y) const { return diagram_[static_cast<size_t>(y) * size_ + x]; }
   float mean_intensity() const {
     return intensity_.mean() * static_cast<float>(distribution_.mean());

@@ -72,6 +72,13 @@ class ImageInfiniteLight final : public Light {
                                  pixel_radiance(direction->pixel, lambda), u_position, sphere_);
   }
 
+  EmissionDensity emission_pdf(const Vec3f&, const Vec3f& w) const override {
+    const Vec3f local = map_.to_local(-w);
+    const Vec2i pixel = pixel_of(local);
+    return {disk_pdf_a(sphere_),
+            distribution_.pdf(pixel.x, pixel.y) * kInv4Pi / map_.jacobian(local)};
+  }
+
   float power() const override {
     return 4.0f * kPi * kPi * sqr(sphere_.radius) * illuminant_.mean() *
            static_cast<float>(distribution_.mean());

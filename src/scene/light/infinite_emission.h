@@ -13,6 +13,11 @@ inline Vec3f point_outside(const Vec3f& from, const Vec3f& wi, const SceneSphere
   return from + wi * (2.0f * sphere.radius);
 }
 
+/// Density of the origin of such a ray on the disk, 1/area.
+inline float disk_pdf_a(const SceneSphere& sphere) {
+  return 1.0f / (kPi * sqr(sphere.radius));
+}
+
 /// A ray into the scene along unit `w`, which was chosen with `pdf_w`.
 inline EmissionSample emission_through_disk(const Vec3f& w, float pdf_w,
                                             const SampledSpectrum& radiance,
@@ -23,7 +28,7 @@ inline EmissionSample emission_through_disk(const Vec3f& w, float pdf_w,
   e.ray.o = sphere.center + (frame.x * disk.x + frame.y * disk.y - w) * sphere.radius;
   e.ray.d = w;
   e.radiance = radiance;
-  e.pdf_a = 1.0f / (kPi * sqr(sphere.radius));
+  e.pdf_a = disk_pdf_a(sphere);
   e.pdf_w = pdf_w;
   return e;
 }

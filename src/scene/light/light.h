@@ -47,6 +47,12 @@ struct EmissionSample {
   /// Flux carried by a path: radiance * cos_theta / (pdf_a * pdf_w).
 };
 
+/// How likely sample_emission is to start a path, for weights of multiple importance sampling.
+struct EmissionDensity {
+  float pdf_a = 0;  ///< of the origin, 1/area; of infinite lights across the ray
+  float pdf_w = 0;  ///< of the direction, 1/sr (1 for a delta direction)
+};
+
 /// What the light tree knows of a light (Conty Estevez & Kulla 2018; pbrt-v4 section 12.6.3).
 struct LightBounds {
   Bounds3f bounds;
@@ -94,6 +100,10 @@ class Light {
   virtual std::optional<EmissionSample> sample_emission(const Vec2f& u_position,
                                                         const Vec2f& u_direction,
                                                         const SampledWavelengths& lambda) const = 0;
+  /// Densities of sample_emission for a start on the light with outside normal `ng` (unused by
+  /// lights without a surface) in unit direction `w`, away from the light. Where a shape's own
+  /// density varies, its mean stands for it.
+  virtual EmissionDensity emission_pdf(const Vec3f& ng, const Vec3f& w) const = 0;
   /// Approximate emitted power, averaged over wavelengths, in watts: for choosing lights.
   virtual float power() const = 0;
   /// Empty for infinite lights.

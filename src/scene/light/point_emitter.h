@@ -31,6 +31,11 @@ class PointEmitter : public Light {
     return 0.0f;
   }
 
+  EmissionDensity emission_pdf(const Vec3f&, const Vec3f& w) const final {
+    const Vec3f local = map_.to_local(w);
+    return {1.0f, direction_pdf(local) / map_.jacobian(local)};
+  }
+
   std::optional<LightBounds> bounds() const final { return bounds_; }
 
  protected:
@@ -42,6 +47,9 @@ class PointEmitter : public Light {
 
   /// Power per solid angle into unit direction `local`.
   virtual SampledSpectrum intensity(const Vec3f& local, const SampledWavelengths&) const = 0;
+
+  /// Density of the directions of sample_emission in the local frame, 1/sr.
+  virtual float direction_pdf(const Vec3f& local) const = 0;
 
   /// A ray in unit direction `local`, which was chosen with density `pdf_w` in the local frame.
   EmissionSample emission(const Vec3f& local, float pdf_w, const SampledSpectrum& radiance) const {

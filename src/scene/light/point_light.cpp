@@ -41,6 +41,10 @@ class PointLight final : public Light {
     return e;
   }
 
+  EmissionDensity emission_pdf(const Vec3f&, const Vec3f&) const override {
+    return {1.0f, kInv4Pi};
+  }
+
   float power() const override { return 4.0f * kPi * intensity_.mean(); }
 
   std::optional<LightBounds> bounds() const override {

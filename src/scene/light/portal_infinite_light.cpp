@@ -176,6 +176,15 @@ class PortalInfiniteLight final : public Light {
     return e;
   }
 
+  EmissionDensity emission_pdf(const Vec3f&, const Vec3f& w) const override {
+    const auto r = portal_.rectified(Vec3d(-w));
+    const double cosine = portal_.cosine(-w);
+    if (!r || !(cosine > 0.0) || !(r->solid_angle > 0.0)) return {};
+    const double pdf = distribution_.pdf(cell(r->u), cell(r->v), Portal::Window());
+    return {static_cast<float>(1.0 / (portal_.area() * cosine)),
+            static_cast<float>(pdf / r->solid_angle)};
+  }
+
   float power() const override { return flux_; }
   std::optional<LightBounds> bounds() const override { return std::nullopt; }
   void set_scene_sphere(const SceneSphere& sphere) override { sphere_ = sphere; }

@@ -82,14 +82,24 @@ class ProjectionLight final : public PointEmitter {
 
  private:
   SampledSpectrum intensity(const Vec3f& local, const SampledWavelengths& lambda) const override {
-    if (local.z < kNearest) return SampledSpectrum();
+    const std::optional<Vec2i> at = pixel_towards(local);
+    return at ? pixel(at->x, at->y, lambda) : SampledSpectrum();
+  }
+  float direction_pdf(const Vec3f& local) const override {
+    const std::optional<Vec2i> at = pixel_towards(local);
+    if (!at) return 0.0f;
+    const double per_area = Slide::solid_angle_per_area(local / local.z);
+    return static_cast<float>(distribution_.pdf(at->x, at->y) / (slide_.area() * per_area));
+  }
+  /// Empty where the picture does not reach.
+  std::optional<Vec2i> pixel_towards(const Vec3f& local) const {
+    if (local.z < kNearest) return std::nullopt;
     const float u = 0.5f + 0.5f * local.x / (local.z * slide_.half_x);
     const float v = 0.5f + 0.5f * local.y / (local.z * slide_.half_y);
-    if (!(u >= 0.0f && u <= 1.0f && v >= 0.0f && v <= 1.0f)) return SampledSpectrum();
-    return pixel(
+    if (!(u >= 0.0f && u <= 1.0f && v >= 0.0f && v <= 1.0f)) return std::nullopt;
+    return Vec2i{
         std::min(static_cast<int>(u * static_cast<float>(slide_.width)), slide_.width - 1),
-        std::min(static_cast<int>(v * static_cast<float>(slide_.height)), slide_.height - 1),
-        lambda);
+        std::min(static_cast<int>(v * static_cast<float>(slide_.height)), slide_.height - 1)};
   }
   SampledSpectrum pixel(int x, int y, const SampledWavelengths& lambda) const {
     return pixels_[static_cast<size_t>(y) * slide_.width + x].sample(lambda) *

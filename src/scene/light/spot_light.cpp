@@ -98,6 +98,13 @@ class SpotLight final : public Light {
     return e;
   }
 
+  EmissionDensity emission_pdf(const Vec3f&, const Vec3f& w) const override {
+    const double total = inner_ + 0.5 * edge_;
+    if (!(total > 0.0)) return {};
+    const Vec3f local = map_.to_local(w);
+    return {1.0f, falloff(local) / static_cast<float>(total * 2.0 * kPi) / map_.jacobian(local)};
+  }
+
   float power() const override {
     return intensity_.mean() * 2.0f * kPi * static_cast<float>(inner_ + 0.5 * edge_);
   }

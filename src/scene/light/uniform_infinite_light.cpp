@@ -39,6 +39,10 @@ class UniformInfiniteLight final : public Light {
                                  u_position, sphere_);
   }
 
+  EmissionDensity emission_pdf(const Vec3f&, const Vec3f&) const override {
+    return {disk_pdf_a(sphere_), kInv4Pi};
+  }
+
   float power() const override { return 4.0f * kPi * kPi * sqr(sphere_.radius) * radiance_.mean(); }
   std::optional<LightBounds> bounds() const override { return std::nullopt; }
   void set_scene_sphere(const SceneSphere& sphere) override { sphere_ = sphere; }

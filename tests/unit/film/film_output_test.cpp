@@ -86,6 +86,22 @@ TEST(FilmOutput, ExrHoldsEveryLayerBitForBit) {
   EXPECT_GT(film.standard_error(4, 4).r, 0.0f);
 }
 
+TEST(FilmOutput, WhatIsHeldHasALayer) {
+  Film film(cropped(), FilmLayout::of_routes({"all"}));
+  EXPECT_EQ(film_picture(film, {}).find_channel("outliers.R"), -1);
+  film.reject_outliers({{1.0f}, 8});
+  add_one(film, 0, 4, 3, {10, 20, 30});
+  film.add_estimates(0, 2);
+  film.finish_pass();
+  const Picture picture = film_picture(film, {});
+  EXPECT_EQ(picture.channels.size(), 3u + 3 + 3 + 3 + 3 + 1 + 3 + 1);
+  expect_rgb(picture, 4, 3, "", {0, 0, 0});
+  expect_rgb(picture, 4, 3, "all.", {0, 0, 0});
+  expect_rgb(picture, 4, 3, "outliers.", {5, 10, 15});
+  expect_rgb(picture, 3, 3, "outliers.", {0, 0, 0});
+  expect_rgb(picture, 4, 3, "albedo.", film.albedo(4, 3));
+}
+
 TEST(FilmOutput, OneLayerPerRouteAndAovAndTheLargestCount) {
   FilmLayout layout;
   layout.routes = {"diffuse", "caustic"};

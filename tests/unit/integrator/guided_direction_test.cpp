@@ -182,7 +182,12 @@ TEST(ForecastMap, LooksTowardsTheCastersOfTheNearest) {
     ForecastLobes expected;
     for (const CausticSight& sight : by_distance) {
       const float distance = length(sight.caster - p);
-      expected.add((sight.caster - p) / distance, reach / distance);
+      const Vec3f axis = (sight.caster - p) / distance;
+      std::vector<float> gaps;  // the first is to the axis itself
+      for (const CausticSight& other : by_distance)
+        gaps.push_back(length(normalize(other.caster - p) - axis));
+      std::sort(gaps.begin(), gaps.end());
+      expected.add(axis, std::max(0.5f * reach / distance, std::min(gaps[2], 0.5f)));
     }
     const ForecastLobes found = map.lobes_at(p);
     ASSERT_EQ(found.count(), ForecastLobes::kMost);

@@ -31,6 +31,7 @@ class FakeLight final : public Light {
                                                 const SampledWavelengths&) const override {
     return std::nullopt;
   }
+  EmissionDensity emission_pdf(const Vec3f&, const Vec3f&) const override { return {}; }
   float power() const override { return b_.power; }
   std::optional<LightBounds> bounds() const override { return b_; }
 

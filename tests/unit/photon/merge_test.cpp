@@ -66,6 +66,22 @@ struct VisiblePoint {
     for (const SampledSpectrum& sum : sums.sums()) merged.reflected += sum;
     return merged;
   }
+  // By the nearest photons of set 0.
+  Merged merge_near(const std::vector<Photon>& photons, size_t wanted, float max_radius,
+                    float* radius) const {
+    const OwnedRoutes owned = all_photons();
+    const WalkVertex vertex{surface, *one_material().materials.back(), reflecting,
+                            surface.shading.to_local(wo), ClassMask::kDiffuse};
+    PartSums sums(*owned.routes, owned.group);
+    const MergePoint at{vertex, owned.routes->start(), ClassMask::kRough, 1, SampledSpectrum(1.0f)};
+    std::vector<PhotonGrid::Neighbour> scratch;
+    const NearestMerge near = merge_nearest(PhotonGrid(photons), owned, at, kAnyDepth,
+                                            {wanted, max_radius, 0}, scratch, sums);
+    Merged merged{{}, near.found};
+    *radius = near.radius;
+    for (const SampledSpectrum& sum : sums.sums()) merged.reflected += sum;
+    return merged;
+  }
   // All light belongs to one route.
   Merged merge(const std::vector<Photon>& photons, bool eye_terminated = false) const {
     return merge(photons, all_photons(), 1, kAnyDepth, eye_terminated);
@@ -218,6 +234,42 @@ TEST(Merge, PhotonsOfAnotherRouteArePassedOver) {
   }
   EXPECT_EQ(point.merge(all, caustic).found, 4u);
   EXPECT_EQ(point.merge(all, rest).found, 4u);
+}
+
+TEST(MergeNearest, IsAConeToTheLastPhoton) {
+  const VisiblePoint point;
+  std::vector<Photon> photons(4, photon_from({0, 0, 1}));
+  for (size_t i = 0; i < photons.size(); ++i)
+    photons[i].p = Vec3f(0.01f * static_cast<float>(i + 1), 0, 0);
+  float radius = 0;
+  const Merged m = point.merge_near(photons, 3, 0.1f, &radius);
+  EXPECT_EQ(m.found, 3u);
+  EXPECT_NEAR(radius, 0.03f, 1e-7f);
+  // Weights 1 - 1/3, 1 - 2/3 and 0.
+  const float cone = 3 / (kPi * sqr(0.03f));
+  expect_spectrum(m.reflected, ramp() * (kReflectance * kInvPi * cone), "three of four");
+  // Too few: the largest radius, and the cone reaches to it.
+  const Merged all = point.merge_near(photons, 50, 0.1f, &radius);
+  EXPECT_EQ(all.found, 4u);
+  EXPECT_EQ(radius, 0.1f);
+  expect_spectrum(all.reflected, ramp() * (kReflectance * kInvPi * 3 / (kPi * 0.01f) * 3.0f),
+                  "all");
+}
+
+TEST(MergeNearest, OtherSetsChooseTheRadiusAndNoMore) {
+  const VisiblePoint point;
+  std::vector<Photon> photons(4, photon_from({0, 0, 1}));
+  for (size_t i = 0; i < photons.size(); ++i)
+    photons[i].p = Vec3f(0.01f * static_cast<float>(i + 1), 0, 0);
+  photons[0].set = 5;
+  // One that does not count at all, for its normal, does not choose the radius either.
+  photons[1].ng = Vec3f(1, 0, 0);
+  float radius = 0;
+  const Merged m = point.merge_near(photons, 3, 0.1f, &radius);
+  EXPECT_EQ(m.found, 3u);
+  EXPECT_NEAR(radius, 0.04f, 1e-7f);
+  const float cone = 3 / (kPi * sqr(0.04f));
+  expect_spectrum(m.reflected, ramp() * (kReflectance * kInvPi * cone * 0.25f), "one of set 0");
 }
 
 }  // namespace

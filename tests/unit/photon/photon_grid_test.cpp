@@ -107,5 +107,56 @@ TEST(PhotonGrid, OrderOfPhotonsInACellIsKept) {
   EXPECT_EQ(next, 50);
 }
 
+// The nearest photons by a sort of all of them; of two at the same distance the first one.
+std::vector<PhotonGrid::Neighbour> nearest_of_all(const PhotonGrid& grid, const Vec3f& c,
+                                                  float radius, size_t wanted, int every) {
+  std::vector<PhotonGrid::Neighbour> all;
+  for (uint32_t i = 0; i < grid.size(); ++i) {
+    const Vec3f d = grid.photons()[i].p - c;
+    if (dot(d, d) <= radius * radius && grid.photons()[i].events % every == 0)
+      all.push_back({dot(d, d), i});
+  }
+  std::sort(all.begin(), all.end());
+  all.resize(std::min(all.size(), wanted));
+  return all;
+}
+
+TEST(PhotonGrid, NearestAreThoseOfBruteForce) {
+  const Vec3f origin(2, -1, 0.5f);
+  for (const int levels : {1, 3, 64}) {
+    std::vector<Photon> photons = make_photons(3000, origin, 2, 5);
+    for (size_t i = 0; i < 200; ++i) photons[i].p = photons[200 + i].p;  // pairs in one place
+    const PhotonGrid grid(photons, levels);
+    Numbers u{7};
+    std::vector<PhotonGrid::Neighbour> found;
+    int full = 0, cut = 0;
+    for (int q = 0; q < 300; ++q) {
+      Vec3f c = origin + Vec3f(u(), u(), u()) * 2.4f - Vec3f(0.2f);
+      if (q % 3 == 0) c = photons[static_cast<size_t>(u() * 3000)].p;
+      const float radius = 2 * std::pow(10.0f, -3.0f + 3.3f * u());
+      const size_t wanted = 1 + static_cast<size_t>(u() * 120);
+      const int every = 1 + q % 4;  // of the others none counts
+      grid.nearest(
+          c, radius, wanted, [&](const Photon& p) { return p.events % every == 0; }, found);
+      ASSERT_EQ(found, nearest_of_all(grid, c, radius, wanted, every)) << "query " << q;
+      ++(found.size() == wanted ? full : cut);
+    }
+    EXPECT_GT(full, 50);
+    EXPECT_GT(cut, 50);
+  }
+}
+
+TEST(PhotonGrid, NearestOfNothing) {
+  std::vector<PhotonGrid::Neighbour> found(3);
+  const auto all = [](const Photon&) { return true; };
+  PhotonGrid({}).nearest(Vec3f(0, 0, 0), 1, 5, all, found);
+  EXPECT_TRUE(found.empty());
+  const PhotonGrid grid(make_photons(10, Vec3f(0, 0, 0), 1, 1));
+  grid.nearest(Vec3f(0, 0, 0), 0, 5, all, found);
+  EXPECT_TRUE(found.empty());
+  grid.nearest(Vec3f(0, 0, 0), 100, 50, all, found);
+  EXPECT_EQ(found.size(), 10u);
+}
+
 }  // namespace
 }  // namespace nephroid

@@ -226,5 +226,36 @@ TEST(PhotonTracer, APartlyPresentSheetStoresTheLightThatItShows) {
   EXPECT_NEAR(flux("\"float alpha\" 0.25", 0), 0.75 * solid, 0.02 * solid);
 }
 
+TEST(PhotonTracer, AMapEndsWithAWholeChunkOfEachSetAndKeepsItAll) {
+  const auto scene = scene_from_text(kMany);
+  const OwnedRoutes owned = all_photons(*scene);
+  std::vector<PhotonTraceSettings> sets;
+  for (uint32_t s = 0; s < 3; ++s) sets.push_back(settings(8, s, 5000));
+  const PhotonMapTrace whole = trace_map(*scene, owned, sets, int64_t{1} << 40);
+  EXPECT_EQ(whole.paths_of_set, 5000);
+  EXPECT_EQ(whole.trace.paths, 15000u);
+  const auto of_set = [](const PhotonMapTrace& map, int set) {
+    std::vector<Photon> photons;
+    for (const Photon& photon : map.trace.photons)
+      if (photon.set == set) photons.push_back(photon);
+    return photons;
+  };
+  for (int s = 0; s < 3; ++s)
+    expect_same(of_set(whole, s),
+                trace_photons(*scene, owned, sets[static_cast<size_t>(s)], 0, 5000).photons);
+
+  // With less room it is the beginning of the same map, and every photon of its paths is there.
+  const int64_t limit = static_cast<int64_t>(whole.trace.photons.size()) / 2;
+  const PhotonMapTrace half = trace_map(*scene, owned, sets, limit);
+  EXPECT_EQ(half.paths_of_set % kPhotonChunk, 0);
+  EXPECT_LT(half.paths_of_set, 5000);
+  EXPECT_GE(static_cast<int64_t>(half.trace.photons.size()), limit);
+  EXPECT_EQ(half.trace.paths, 3 * static_cast<uint64_t>(half.paths_of_set));
+  for (int s = 0; s < 3; ++s)
+    expect_same(
+        of_set(half, s),
+        trace_photons(*scene, owned, sets[static_cast<size_t>(s)], 0, half.paths_of_set).photons);
+}
+
 }  // namespace
 }  // namespace nephroid

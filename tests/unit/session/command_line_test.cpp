@@ -55,7 +55,17 @@ TEST(CommandLine, RenderDefaults) {
   EXPECT_EQ(line.render.overrides.width, 0);
   EXPECT_EQ(line.render.overrides.specular_band.low, SpecularBand().low);
   EXPECT_EQ(line.render.overrides.specular_band.high, SpecularBand().high);
+  EXPECT_FALSE(line.render.reject_outliers);
   EXPECT_FALSE(line.render.quiet);
+}
+
+TEST(CommandLine, OutliersAreRejectedWhenAskedFor) {
+  EXPECT_TRUE(parse("render s.pbrt --outliers reject").render.reject_outliers);
+  EXPECT_FALSE(parse("render s.pbrt --outliers off").render.reject_outliers);
+  EXPECT_EQ(usage_error("render s.pbrt --outliers yes"),
+            "--outliers: 'yes' is not valid, expected reject or off");
+  EXPECT_EQ(usage_error("render s.pbrt -D outlier-neighbours=1"),
+            "-D outlier-neighbours: '1' is not valid, expected a whole number from 2 to 1000");
 }
 
 TEST(CommandLine, RenderWithEverything) {
@@ -108,7 +118,7 @@ TEST(CommandLine, InfoAndCompare) {
 TEST(CommandLine, Errors) {
   EXPECT_NE(usage_error("").find("no command"), std::string::npos);
   EXPECT_EQ(usage_error("paint s.pbrt"),
-            "unknown command 'paint', expected one of: render, info, routes, compare");
+            "unknown command 'paint', expected one of: render, info, routes, compare, bench");
   EXPECT_NE(usage_error("render").find("SCENE"), std::string::npos);
   EXPECT_NE(usage_error("render a.pbrt b.pbrt").find("b.pbrt"), std::string::npos);
   EXPECT_NE(usage_error("render s.pbrt --resume").find("--resume"), std::string::npos);

@@ -82,24 +82,62 @@ TEST(FilmOfScene, MemoryIsThatOfThePartsGroupsAndSplats) {
 
   // A splat is a sum of 48 bytes. A merging pass has a colour for each part and a filter weight;
   // sppm keeps a radius, a count, a flux and a footprint, and in a pass a colour, a count and a
-  // filter weight. Estimators render one after another.
+  // filter weight, ppm the same for each of its hit points. Estimators render one after another.
+  constexpr int kHitPoints = 5;
   const struct {
     std::vector<std::string> routes;
     size_t bytes;
   } rows[] = {{{"all=.*:lighttrace"}, 48},
               {{"all=C.*DL:photons"}, 12 + 4},
               {{"all=C.*DL:photons+light"}, 48 + 12 + 4},
-              {{"all=C.*DL:sppm"}, 16 + 24 + 4 + 12 + 16},
+              {{"all=C.*DL:sppm"}, 16 + 24 + 4 + 12 + 4 + 8},
+              {{"all=C.*DL:ppm"}, 5 * (16 + 24 + 4 + 12 + 4 + 8)},
+              {{"all=C.*DL:photonmap"}, 12 + 4},
               {{"a=C.*DL:photons", "b=C.*GL:photons"}, 2 * 12 + 4},
               {{"a=C.*DL:sppm", "b=C.*GL:photons+light"}, 16 + 24 + 4 + 48 + 12 + 4}};
   for (const auto& row : rows) {
     SCOPED_TRACE(row.routes.back());
     const Routes routes = routes_of(row.routes);
     fill(film + row.bytes);
-    EXPECT_NO_THROW(check_film_fits(description, one, routes, false));
+    EXPECT_NO_THROW(check_film_fits(description, one, routes, false, false, kHitPoints));
     fill(film + row.bytes - 1);
-    EXPECT_THROW(check_film_fits(description, one, routes, false), SceneError);
+    EXPECT_THROW(check_film_fits(description, one, routes, false, false, kHitPoints), SceneError);
   }
+}
+
+TEST(FilmOfScene, RejectionOfOutliersNeedsMemoryToo) {
+  const Routes routes = routes_of({"a=C.*DL:photons", "b=C.*GL:photons", "c=.*:path"});
+  FilmLayout layout = FilmLayout::of_routes({"a", "b", "c"});
+  layout.groups = {0, 0, 1};
+  const double memory =
+      static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+  const size_t bytes = Film::bytes_per_pixel(layout, false) + 2 * 12 + 4 +
+                       OutlierRejection::bytes_per_pixel(2) + OutlierRejection::bytes_per_pixel(1);
+  FilmDescription description;
+  description.crop_x0 = description.crop_y0 = 0;
+  description.crop_x1 = 1024;
+  description.crop_y1 = static_cast<int>(memory / static_cast<double>(bytes) / 1024);
+  EXPECT_NO_THROW(check_film_fits(description, layout, routes, false, true));
+  description.crop_y1 = static_cast<int>(memory / static_cast<double>(bytes - 1) / 1024);
+  EXPECT_THROW(check_film_fits(description, layout, routes, false, true), SceneError);
+  EXPECT_NO_THROW(check_film_fits(description, layout, routes, false, false));
+  // A pixel's counts take 64 bytes, a held sum 48.
+  EXPECT_LE(OutlierRejection::bytes_per_pixel(1), 320u);
+}
+
+TEST(FilmOfScene, RejectionKnowsHowManyPixelsALightPathExposes) {
+  const Routes routes = routes_of({"a=C.*DL:photons", "b=C.*GL:lighttrace", "c=.*:path"});
+  IntegratorOptions options;
+  options.radius = 2;
+  options.outlier_neighbours = 11;
+  const PixelFilter filter([](float, float, const std::array<float, 2>&) { return 1.0f; },
+                           {1.5f, 2}, {}, {});
+  const OutlierSettings settings = outlier_settings(routes, options, filter);
+  EXPECT_EQ(settings.neighbours, 11);
+  ASSERT_EQ(settings.exposed_pixels.size(), 3u);
+  EXPECT_FLOAT_EQ(settings.exposed_pixels[0], 4 * kPi);
+  EXPECT_FLOAT_EQ(settings.exposed_pixels[1], 12);
+  EXPECT_FLOAT_EQ(settings.exposed_pixels[2], 1);
 }
 
 TEST(FilmOfScene, NoRouteTakesTheNameOfALayerOfPictures) {
@@ -108,7 +146,8 @@ TEST(FilmOfScene, NoRouteTakesTheNameOfALayerOfPictures) {
   settings.crop = {0, 0, 2, 2};
   for (const bool gbuffer : {false, true}) {
     settings.gbuffer = gbuffer;
-    const Film film(settings, FilmLayout::of_routes({"all"}));
+    Film film(settings, FilmLayout::of_routes({"all"}));
+    film.reject_outliers({{1.0f}, 8});
     for (const std::string& channel : film_picture(film, {}).channels) {
       const std::string layer = channel.substr(0, channel.find('.'));
       if (layer == "all") continue;

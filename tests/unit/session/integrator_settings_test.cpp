@@ -31,11 +31,14 @@ bool has_note(const IntegratorChoice& choice, const std::string& part) {
 
 TEST(IntegratorSettings, EveryKeyIsStoredWhereItBelongs) {
   IntegratorOptions o;
-  apply_settings({parse_setting("max-depth=7"), parse_setting("radius=1.5"),
-                  parse_setting("photons=1000"), parse_setting("alpha=0.75"),
-                  parse_setting("specular-alpha=0.2"), parse_setting("camera-samples=3"),
-                  parse_setting("memory-photons=99"), parse_setting("texture-cache=1.5M")},
-                 &o);
+  apply_settings(
+      {parse_setting("max-depth=7"), parse_setting("radius=1.5"), parse_setting("photons=1000"),
+       parse_setting("alpha=0.75"), parse_setting("specular-alpha=0.2"),
+       parse_setting("camera-samples=3"), parse_setting("hit-points=6"),
+       parse_setting("map-photons=5000"), parse_setting("nearest=40"),
+       parse_setting("technique=2,3,raw"), parse_setting("memory-photons=99"),
+       parse_setting("outlier-neighbours=5"), parse_setting("texture-cache=1.5M")},
+      &o);
   EXPECT_EQ(o.max_depth, 7);
   EXPECT_EQ(o.radius, 1.5f);
   EXPECT_EQ(o.photons_per_pass, 1000);
@@ -43,11 +46,16 @@ TEST(IntegratorSettings, EveryKeyIsStoredWhereItBelongs) {
   EXPECT_EQ(o.specular_band.low, 0.2f);
   EXPECT_EQ(o.specular_band.high, 0.2f);
   EXPECT_EQ(o.camera_samples_per_pass, 3);
+  EXPECT_EQ(o.hit_points, 6);
+  EXPECT_EQ(o.map_photons, 5000);
+  EXPECT_EQ(o.nearest_photons, 40);
   EXPECT_EQ(o.memory_photons, 99);
+  EXPECT_EQ(o.outlier_neighbours, 5);
   EXPECT_EQ(o.texture_memory, 1536 * 1024);
   EXPECT_EQ(settings_text(o),
             "max-depth=7 radius=1.5 photons=1000 alpha=0.75 specular-alpha=0.2 camera-samples=3 "
-            "memory-photons=99 texture-cache=1536K");
+            "technique=2,3,raw hit-points=6 map-photons=5000 nearest=40 memory-photons=99 "
+            "outlier-neighbours=5 texture-cache=1536K");
 }
 
 TEST(IntegratorSettings, SpecularAlphaMayBeARange) {
@@ -64,6 +72,24 @@ TEST(IntegratorSettings, SpecularAlphaMayBeARange) {
                  "-D specular-alpha: '0.2..0.01' is not valid, expected a number from 0 to 1, or a "
                  "range of them as in 0..1");
   }
+}
+
+TEST(IntegratorSettings, ATechniqueIsAPairOfNumbersOrMergesAlone) {
+  const auto choice = [](const std::string& text) {
+    IntegratorOptions o;
+    apply_settings({parse_setting("technique=" + text)}, &o);
+    EXPECT_NE(settings_text(o).find(" technique=" + text + " "), std::string::npos) << text;
+    return o.technique;
+  };
+  EXPECT_TRUE(choice("all").makes(0, 2) && choice("all").makes(5, 1) && choice("all").merges());
+  EXPECT_TRUE(choice("1,*").makes(1, 4) && !choice("1,*").makes(2, 4));
+  EXPECT_TRUE(choice("*,1").makes(3, 1) && !choice("*,1").makes(3, 2) && !choice("*,1").merges());
+  EXPECT_TRUE(choice("merged").merges() && !choice("merged").makes(1, 2));
+  EXPECT_FALSE(choice("2,3,raw").weighted);
+  EXPECT_FALSE(choice("all,raw").weighted);
+  for (const char* text : {"technique=", "technique=1", "technique=1,0", "technique=-1,2",
+                           "technique=1,2,3", "technique=raw", "technique=1,2,weighted"})
+    EXPECT_THROW(parse_setting(text), UsageError) << text;
 }
 
 TEST(IntegratorSettings, DocumentedDefaultsAreTheRealOnes) {

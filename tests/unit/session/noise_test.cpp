@@ -21,6 +21,25 @@ TEST(Noise, NeedsTwoEstimatesOfEveryGroup) {
   EXPECT_EQ(*estimated_noise(film), 0.0);
 }
 
+TEST(Noise, WhatIsHeldIsAShareOfAllAndCountsAsNoise) {
+  FilmSettings settings;
+  settings.width = settings.height = 2;
+  Film plain(settings, FilmLayout::of_routes({"a"})), film = plain;
+  film.reject_outliers({{1.0f}, 8});
+  for (Film* f : {&plain, &film}) {
+    for (const int x : {0, 1}) add_one(*f, 0, x, 0, {1, 1, 1});
+    f->add_estimates(0, 1);
+    f->finish_pass();
+    add_one(*f, 0, 1, 1, {6, 0, 0});
+    f->add_estimates(0, 1);
+    f->finish_pass();
+  }
+  EXPECT_EQ(energy_shares(plain).outliers, 0.0);
+  EXPECT_NEAR(energy_shares(film).outliers, 0.5, 1e-7);
+  EXPECT_EQ(energy_shares(film).routes, std::vector<double>{1});
+  EXPECT_GE(*estimated_noise(film), *estimated_noise(plain));
+}
+
 TEST(Noise, SharesOfRoutes) {
   FilmSettings settings;
   settings.width = settings.height = 2;

@@ -9,7 +9,7 @@
 namespace nephroid {
 namespace {
 
-using testing_support::Script, testing_support::FakeEstimator;
+using testing_support::add_one, testing_support::Script, testing_support::FakeEstimator;
 using RenderSessionTest = testing_support::ScriptedSession;
 
 TEST_F(RenderSessionTest, WithoutARuleItRendersTheScenesSamples) {
@@ -46,6 +46,31 @@ TEST_F(RenderSessionTest, RangeNeedsIndependentPasses) {
   EXPECT_THROW(run(options), UsageError);
   options.first_pass = 0;
   EXPECT_EQ(run(options).passes_done, 6u);
+}
+
+TEST_F(RenderSessionTest, RejectionNeedsARangeFromZero) {
+  film_->reject_outliers({{1.0f}, 8});
+  RenderOptions options;
+  options.first_pass = 3;
+  options.last_pass = 5;
+  EXPECT_THROW(run(options), UsageError);
+  options.first_pass = 0;
+  EXPECT_EQ(run(options).passes_done, 6u);
+}
+
+TEST_F(RenderSessionTest, OutliersAreJudgedAfterEveryPass) {
+  film_->reject_outliers({{1.0f}, 8});
+  RenderOptions options;
+  options.last_pass = 3;
+  std::vector<uint64_t> held;
+  script_.during_pass = [&](const PassKey&) {
+    held.push_back(film_->rejection()->held_estimates());
+    add_one(*film_, 0, 2, 1, {1000, 1000, 1000});
+    add_one(*film_, 0, 2, 1, {1000, 1000, 1000});
+  };
+  run(options);
+  EXPECT_EQ(held, (std::vector<uint64_t>{0, 2, 4, 6}));
+  EXPECT_EQ(film_->rejection()->held_estimates(), 0u);  // the eighth confirmed them
 }
 
 TEST_F(RenderSessionTest, EveryEstimatorRendersEveryPassInOrder) {

@@ -1,5 +1,5 @@
 // A scene from its file, with its warnings.
-// Who calls it: the commands that need a scene.
+// Who calls it: the commands that need a scene, and the benchmark.
 #pragma once
 
 #include <memory>
@@ -21,7 +21,5 @@ struct LoadedScene {
 LoadedScene load_scene(const std::string& file, const SceneOverrides& overrides);
 /// The same with a picture whose longer side has at most `longest_side` pixels.
 LoadedScene load_small_scene(const std::string& file, SceneOverrides overrides, int longest_side);
-
-void print_warnings(const LoadedScene& loaded);
 
 }  // namespace nephroid

@@ -1,9 +1,8 @@
 // Parse, build, and keep what was suspicious.
-#include "apps/scene_loading.h"
+#include "session/scene_loading.h"
 
 #include <algorithm>
 
-#include "apps/messages.h"
 #include "input/pbrt_parser.h"
 #include "scene/film_description.h"
 
@@ -37,10 +36,6 @@ LoadedScene load_small_scene(const std::string& file, SceneOverrides overrides, 
   overrides.width = std::max(1, static_cast<int>(film.width * scale));
   overrides.height = std::max(1, static_cast<int>(film.height * scale));
   return build(std::move(description), overrides, diagnostics);
-}
-
-void print_warnings(const LoadedScene& loaded) {
-  for (const std::string& warning : loaded.warnings) print_warning(warning);
 }
 
 }  // namespace nephroid

@@ -1,0 +1,58 @@
+// `nephroid bench`: a suite in, a report out.
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "apps/commands.h"
+#include "apps/messages.h"
+#include "bench/bench.h"
+#include "core/errors.h"
+#include "core/parallel.h"
+#include "film/image_io.h"
+
+namespace nephroid {
+namespace {
+
+/// The command line that does the same, in this directory.
+std::string command_text(const BenchCommand& command, const std::string& directory) {
+  std::string text = "nephroid bench " + command.suite;
+  if (command.time_limit > 0) text += fmt::format(" --time {}s", command.time_limit);
+  if (command.passes > 0) text += fmt::format(" --passes {}", command.passes);
+  for (const std::string& scene : command.only) text += " --only " + scene;
+  if (command.threads > 0) text += fmt::format(" -t {}", command.threads);
+  return text + " --out " + directory;
+}
+
+void print_summary(const BenchResults& results) {
+  for (size_t i = 0; i < results.verdicts.size(); ++i) {
+    const BenchVerdict::State state = results.verdicts[i].state;
+    const char* word = state == BenchVerdict::State::kHolds   ? "holds"
+                       : state == BenchVerdict::State::kFails ? "FAILS"
+                                                              : "not measured";
+    fmt::print(stderr, "claim {}: {}\n", word, printable(results.suite.claims[i].text));
+  }
+  fmt::print(stderr, "wrote {}/report.html\n", printable(results.directory));
+}
+
+}  // namespace
+
+int run_bench(const BenchCommand& command) {
+  if (command.time_limit > 0 && command.passes > 0)
+    throw UsageError("--time and --passes both say when runs stop, expected only one of them");
+  const ThreadLimit threads(command.threads);
+  limit_image_threads(command.threads);
+  const BenchSuite suite = read_suite(command.suite);
+  BenchOptions options;
+  options.directory = command.directory.empty() ? suite.name + ".bench" : command.directory;
+  options.limit = {command.time_limit, command.passes};
+  options.only = command.only;
+  options.command = command_text(command, options.directory);
+  if (!command.quiet)
+    options.say = [](const std::string& line) { fmt::print(stderr, "{}\n", printable(line)); };
+  const SignalListener listener;
+  const BenchResults results = run_bench(suite, options, listener.flags());
+  if (!command.quiet) print_summary(results);
+  return exit_status(results, command.strict_claims);
+}
+
+}  // namespace nephroid

@@ -1,0 +1,242 @@
+#include "bench/bench.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+
+#include "bench/claims.h"
+#include "bench/kept.h"
+#include "bench/measure.h"
+#include "bench/render.h"
+#include "bench/report.h"
+#include "core/errors.h"
+#include "core/parallel.h"
+#include "film/atomic_file.h"
+#include "session/file_hash.h"
+#include "session/version.h"
+
+namespace nephroid {
+namespace {
+
+constexpr int kSignalStatus = 128;
+
+std::string processor_name() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);) {
+    const size_t colon = line.find(": ");
+    if (line.rfind("model name", 0) == 0 && colon != std::string::npos)
+      return line.substr(colon + 2);
+  }
+  return "unknown";
+}
+
+std::string date_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc = {};
+  gmtime_r(&now, &utc);
+  return fmt::format("{:04}-{:02}-{:02} {:02}:{:02} UTC", utc.tm_year + 1900, utc.tm_mon + 1,
+                     utc.tm_mday, utc.tm_hour, utc.tm_min);
+}
+
+/// The limit that counts: the command line's, the scene's, the suite's.
+BenchLimit limit_of(const BenchSuite& suite, const BenchScene& scene, const BenchLimit& over_all) {
+  if (over_all.is_set()) return over_all;
+  return scene.limit.is_set() ? scene.limit : suite.limit;
+}
+
+std::vector<const BenchScene*> chosen_scenes(const BenchSuite& suite, const BenchOptions& options) {
+  std::string known;
+  for (const BenchScene& scene : suite.scenes) known += (known.empty() ? "" : ", ") + scene.name;
+  for (const std::string& name : options.only)
+    if (suite.find_scene(name) == nullptr)
+      throw UsageError(
+          fmt::format("--only: the suite has no scene '{}', expected one of: {}", name, known));
+  std::vector<const BenchScene*> chosen;
+  for (const BenchScene& scene : suite.scenes) {
+    if (!options.only.empty() &&
+        std::find(options.only.begin(), options.only.end(), scene.name) == options.only.end())
+      continue;
+    if (!limit_of(suite, scene, options.limit).is_set())
+      throw UsageError(fmt::format(
+          "{}: nothing says how long runs of scene '{}' are, expected \"time\" or \"passes\" in "
+          "the suite, or --time or --passes",
+          suite.file, scene.name));
+    chosen.push_back(&scene);
+  }
+  return chosen;
+}
+
+/// One invocation: what all of its renders share.
+class Bench {
+ public:
+  Bench(const BenchSuite& suite, const BenchOptions& options, SignalFlags& signals)
+      : suite_(suite), options_(options), signals_(signals) {}
+
+  bool stopped() const { return signals_.stop.load() != 0; }
+
+  BenchSceneResult scene(const BenchScene& scene) {
+    BenchSceneResult result;
+    result.name = scene.name;
+    Picture reference;
+    try {
+      const auto found = reference_of(scene, &reference);
+      if (!found) return result;
+      result.reference = *found;
+    } catch (const std::exception& error) {
+      result.failure = error.what();
+      options_.say(fmt::format("{}: {}", scene.name, error.what()));
+      return result;
+    }
+    result.width = reference.width();
+    result.height = reference.height();
+    for (const std::string& name : scene.integrators) {
+      const auto run =
+          run_of(scene, *suite_.find_integrator(name), reference, result.reference.key);
+      if (!run) break;
+      result.runs.push_back(*run);
+    }
+    return result;
+  }
+
+ private:
+  /// The reference and its picture, from a file, from earlier or rendered now; nothing if a signal
+  /// stopped it.
+  std::optional<BenchReferenceResult> reference_of(const BenchScene& scene, Picture* picture) {
+    const BenchReference& wanted = scene.reference;
+    BenchReferenceResult result;
+    if (!wanted.file.empty()) {
+      *picture = read_picture(wanted.file);
+      result.picture = wanted.file;
+      result.key = fmt::format("{:016x}", hash_file(wanted.file));
+      result.own_error = own_error(*picture);
+      return result;
+    }
+    const BenchRender render{&scene, &wanted.integrator, wanted.limit, true};
+    const std::string key = reference_key(render);
+    const KeptFiles files = kept_files(options_.directory, "references", scene.name, key);
+    if (const auto text = text_of_file(files.json))
+      if (const auto kept = reference_from_json(*text)) {
+        *picture = read_picture(files.picture);
+        result = *kept;
+        result.kept = true;
+        result.picture = files.picture;
+        return result;
+      }
+    options_.say(fmt::format("{}: rendering the reference", scene.name));
+    const auto rendered = render_for_bench(render, nullptr, shelf_, signals_);
+    if (!rendered) return std::nullopt;
+    write_exr(files.picture, rendered->picture);
+    // Read back as a later invocation will have it.
+    *picture = read_picture(files.picture);
+    result.picture = files.picture;
+    result.key = key;
+    result.rendered = true;
+    result.passes = rendered->run.end().passes;
+    result.seconds = rendered->run.end().seconds;
+    result.own_error = own_error(*picture);
+    result.energy = rendered->run.energy;
+    write_text(files.json, reference_to_json(result));
+    return result;
+  }
+
+  /// A run from earlier or of now; nothing if a signal stopped it.
+  std::optional<BenchRun> run_of(const BenchScene& scene, const BenchIntegrator& integrator,
+                                 const Picture& reference, const std::string& reference_key) {
+    const BenchRender render{&scene, &integrator, limit_of(suite_, scene, options_.limit),
+                             !scene.reference.file.empty()};
+    const std::string title = scene.name + ", " + integrator.name;
+    BenchRun failed;
+    failed.integrator = integrator.name;
+    try {
+      const std::string key = run_key(render, reference_key);
+      const KeptFiles files =
+          kept_files(options_.directory, "runs", scene.name + "-" + integrator.name, key);
+      if (const auto kept = kept_run(files)) {
+        options_.say(title + ": kept from earlier");
+        return kept;
+      }
+      options_.say(title + ": rendering");
+      auto rendered = render_for_bench(render, &reference, shelf_, signals_);
+      if (!rendered) return std::nullopt;
+      BenchRun& run = rendered->run;
+      run.key = key;
+      run.picture = files.picture;
+      write_exr(files.picture, rendered->picture);
+      // What has this file is finished.
+      write_text(files.json, run_to_json(run));
+      options_.say(fmt::format("{}: {} passes in {:.2f} s, RMSE {:.4g}", title, run.end().passes,
+                               run.end().seconds, run.end().errors.rmse));
+      return run;
+    } catch (const std::exception& error) {
+      failed.failure = error.what();
+    }
+    options_.say(title + ": " + failed.failure);
+    return failed;
+  }
+
+  static std::optional<BenchRun> kept_run(const KeptFiles& files) {
+    const auto text = text_of_file(files.json);
+    if (!text || !std::filesystem::exists(files.picture)) return std::nullopt;
+    auto run = run_from_json(*text);
+    if (!run || run->points.empty()) return std::nullopt;
+    run->kept = true;
+    run->picture = files.picture;
+    return run;
+  }
+
+  const BenchSuite& suite_;
+  const BenchOptions& options_;
+  SignalFlags& signals_;
+  SceneShelf shelf_;
+};
+
+void write_results(const BenchResults& results) {
+  const std::filesystem::path directory(results.directory);
+  const auto write = [&](const char* name, const std::string& text) {
+    write_text((directory / name).string(), text);
+  };
+  write("results.json", results_json(results));
+  write("runs.csv", runs_csv(results));
+  write("curves.csv", curves_csv(results));
+  write("report.html", bench_report(results));
+}
+
+}  // namespace
+
+BenchResults run_bench(const BenchSuite& suite, const BenchOptions& options, SignalFlags& signals) {
+  const std::vector<const BenchScene*> scenes = chosen_scenes(suite, options);
+  std::error_code error;
+  std::filesystem::create_directories(options.directory, error);
+  if (error) throw IoError(options.directory + ": cannot make the directory: " + error.message());
+  check_file_can_be_written((std::filesystem::path(options.directory) / "report.html").string());
+
+  BenchResults results;
+  results.suite = suite;
+  results.directory = options.directory;
+  results.machine = {kVersion,   instruction_set(), processor_name(),
+                     date_now(), thread_count(),    options.command};
+  Bench bench(suite, options, signals);
+  for (const BenchScene* scene : scenes) {
+    if (bench.stopped()) break;
+    results.scenes.push_back(bench.scene(*scene));
+  }
+  results.signal = signals.stop.load();
+  results.verdicts = judge_claims(results);
+  write_results(results);
+  return results;
+}
+
+int exit_status(const BenchResults& results, bool strict) {
+  if (results.signal != 0) return kSignalStatus + results.signal;
+  const bool claims_hold =
+      std::all_of(results.verdicts.begin(), results.verdicts.end(),
+                  [](const BenchVerdict& v) { return v.state == BenchVerdict::State::kHolds; });
+  if (results.failures() > 0 || (strict && !claims_hold))
+    return static_cast<int>(ExitStatus::kRender);
+  return static_cast<int>(ExitStatus::kDone);
+}
+
+}  // namespace nephroid

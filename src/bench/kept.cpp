@@ -1,0 +1,93 @@
+#include "bench/kept.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <span>
+#include <system_error>
+
+#include "core/errors.h"
+#include "core/parallel.h"
+#include "film/atomic_file.h"
+#include "session/file_hash.h"
+#include "session/version.h"
+
+namespace nephroid {
+namespace {
+
+/// Another build of the program may be faster, or right where this one is wrong.
+uint64_t hash_of_program() {
+  static const uint64_t hash = [] {
+    const char* self = "/proc/self/exe";
+    return std::filesystem::exists(self) ? hash_file(self) : uint64_t{0};
+  }();
+  return hash;
+}
+
+std::string limit_text(const BenchLimit& limit) {
+  return limit.passes > 0 ? fmt::format("{} passes", limit.passes)
+                          : fmt::format("{} s", limit.seconds);
+}
+
+/// What a picture depends on.
+std::string render_text(const BenchRender& render) {
+  const BenchScene& scene = *render.scene;
+  const RoutePlan plan = plan_of(render);
+  std::string text =
+      fmt::format("version {}\nscene {:016x} {}x{}\n{}\nseed {}\n", kVersion, hash_file(scene.file),
+                  scene.width, scene.height, limit_text(render.limit), render.integrator->seed);
+  text += routes_text(plan) + "aovs\n" + aovs_text(plan);
+  if (render.integrator->reject_outliers) text += "outliers rejected\n";
+  for (const auto& [key, value] : settings_of(render)) text += key + "=" + value + "\n";
+  return text;
+}
+
+}  // namespace
+
+std::string hash_text(const std::string& text) {
+  uint64_t hash = 0xcbf29ce484222325ull;  // FNV-1a, as hash_file
+  for (const char c : text) {
+    hash ^= static_cast<unsigned char>(c);
+    hash *= 0x100000001b3ull;
+  }
+  return fmt::format("{:016x}", hash);
+}
+
+std::string reference_key(const BenchRender& render) {
+  return hash_text(render_text(render));
+}
+
+std::string run_key(const BenchRender& render, const std::string& reference_key) {
+  std::string text = render_text(render);
+  text += fmt::format("reference {}\nprogram {:016x}\n{}\n{} threads\nexposure {}\n", reference_key,
+                      hash_of_program(), instruction_set(), thread_count(), render.scene->exposure);
+  for (const BenchRegion& r : render.scene->regions)
+    text += fmt::format("region {} {} {} {} {}\n", r.name, r.x0, r.x1, r.y0, r.y1);
+  return hash_text(text);
+}
+
+KeptFiles kept_files(const std::string& directory, const std::string& folder,
+                     const std::string& name, const std::string& key) {
+  const std::filesystem::path path = std::filesystem::path(directory) / folder;
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error) throw IoError(path.string() + ": cannot make the directory: " + error.message());
+  const std::string stem = (path / (name + "-" + key)).string();
+  return {stem + ".json", stem + ".exr"};
+}
+
+std::optional<std::string> text_of_file(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return std::nullopt;
+  std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  if (in.bad()) return std::nullopt;
+  return text;
+}
+
+void write_text(const std::string& file, const std::string& text) {
+  write_file_atomically(file, std::as_bytes(std::span(text)));
+}
+
+}  // namespace nephroid

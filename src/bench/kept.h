@@ -1,0 +1,35 @@
+// What is in the directory of results from earlier: files under a name with a hash of all that
+// determines them. Who calls it: bench.cpp. It must not know how they are made.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "bench/render.h"
+
+namespace nephroid {
+
+/// 16 digits that change with the text.
+std::string hash_text(const std::string& text);
+
+/// Of all that determines a rendered reference: scene file, settings, routes and version. Throws
+/// IoError if the scene file cannot be read.
+std::string reference_key(const BenchRender& render);
+/// Of all that determines a run and its figures: those, the reference, the program itself, the
+/// instruction set and the number of threads.
+std::string run_key(const BenchRender& render, const std::string& reference_key);
+
+/// The files of one result.
+struct KeptFiles {
+  std::string json, picture;
+};
+/// In DIRECTORY/FOLDER, named NAME-KEY. Makes the folder; throws IoError if it cannot.
+KeptFiles kept_files(const std::string& directory, const std::string& folder,
+                     const std::string& name, const std::string& key);
+
+/// The text of a file; empty if it cannot be read.
+std::optional<std::string> text_of_file(const std::string& file);
+/// Writes a whole file or nothing. Throws IoError.
+void write_text(const std::string& file, const std::string& text);
+
+}  // namespace nephroid

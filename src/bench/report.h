@@ -1,0 +1,33 @@
+// The HTML page of a suite: one file that holds its pictures, plots, style and script.
+// Who calls it: bench.cpp. It must not know how anything was measured.
+#pragma once
+
+#include <string>
+
+#include "bench/result.h"
+
+namespace nephroid {
+
+/// The page. Pictures are read from the files that the results name; one that cannot be read is
+/// replaced by a message.
+std::string bench_report(const BenchResults& results);
+
+/// The part of the page about one scene.
+std::string report_of_scene(const BenchResults& results, const BenchSceneResult& scene);
+
+/// A table row by row: cells are HTML, `best` marks some.
+struct ReportTable {
+  struct Cell {
+    std::string html;
+    bool best = false;
+  };
+  std::vector<std::string> head;
+  std::vector<std::vector<Cell>> rows;  ///< the first cell is the row's own name
+  std::string html() const;
+};
+
+/// Style and script of the page, and the parts of the page around them.
+extern const char* const kReportStyle;
+extern const char* const kReportScript;
+
+}  // namespace nephroid

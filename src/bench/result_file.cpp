@@ -1,0 +1,246 @@
+// JSON in the order of the structures. Reading trusts the names and types of what this program
+// wrote and gives up at anything else.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "bench/result.h"
+
+namespace nephroid {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json errors_json(const BenchErrors& e) {
+  return {{"rmse", e.rmse},
+          {"relmse", e.relmse},
+          {"relmse_trim", e.relmse_trim},
+          {"mean_error", e.mean_error},
+          {"flip", e.flip}};
+}
+
+BenchErrors errors_of(const Json& json) {
+  return {json.at("rmse"), json.at("relmse"), json.at("relmse_trim"), json.at("mean_error"),
+          json.at("flip")};
+}
+
+Json shares_json(const BenchShares& shares) {
+  Json json = Json::object();
+  for (const auto& [name, share] : shares) json[name] = share;
+  return json;
+}
+
+BenchShares shares_of(const Json& json) {
+  BenchShares shares;
+  for (const auto& [name, share] : json.items()) shares.emplace_back(name, share);
+  return shares;
+}
+
+Json run_json(const BenchRun& run) {
+  Json json = {{"integrator", run.integrator}, {"key", run.key}};
+  if (!run.failure.empty()) {
+    json["failure"] = run.failure;
+    return json;
+  }
+  json["picture"] = run.picture;
+  json["routes"] = run.routes;
+  json["options"] = run.options;
+  json["color_space"] = run.color_space;
+  json["rays"] = run.rays;
+  json["emitted"] = run.emitted;
+  json["photons_stored"] = run.photons_stored;
+  json["bytes"] = run.bytes;
+  json["photon_bytes"] = run.photon_bytes;
+  json["first_pass_bytes"] = run.first_pass_bytes;
+  json["process_bytes"] = run.process_bytes;
+  json["energy"] = shares_json(run.energy);
+  json["regions"] = Json::object();
+  for (const auto& [name, errors] : run.regions) json["regions"][name] = errors_json(errors);
+  json["notes"] = run.notes;
+  json["points"] = Json::array();
+  for (const BenchPoint& p : run.points)
+    json["points"].push_back({{"passes", p.passes},
+                              {"seconds", p.seconds},
+                              {"emitted", p.emitted},
+                              {"errors", errors_json(p.errors)}});
+  return json;
+}
+
+BenchRun run_of(const Json& json) {
+  BenchRun run;
+  run.integrator = json.at("integrator");
+  run.key = json.at("key");
+  run.picture = json.at("picture");
+  run.routes = json.at("routes");
+  run.options = json.at("options");
+  run.color_space = json.at("color_space");
+  run.rays = json.at("rays");
+  run.emitted = json.at("emitted");
+  run.photons_stored = json.at("photons_stored");
+  run.bytes = json.at("bytes");
+  run.photon_bytes = json.at("photon_bytes");
+  run.first_pass_bytes = json.at("first_pass_bytes");
+  run.process_bytes = json.at("process_bytes");
+  run.energy = shares_of(json.at("energy"));
+  for (const auto& [name, errors] : json.at("regions").items())
+    run.regions.emplace_back(name, errors_of(errors));
+  run.notes = json.at("notes").get<std::vector<std::string>>();
+  for (const Json& point : json.at("points"))
+    run.points.push_back({point.at("passes"), point.at("seconds"), point.at("emitted"),
+                          errors_of(point.at("errors"))});
+  return run;
+}
+
+Json reference_json(const BenchReferenceResult& r) {
+  Json json = {{"picture", r.picture}, {"key", r.key},         {"rendered", r.rendered},
+               {"passes", r.passes},   {"seconds", r.seconds}, {"energy", shares_json(r.energy)}};
+  if (r.own_error) json["own_error"] = *r.own_error;
+  return json;
+}
+
+BenchReferenceResult reference_of(const Json& json) {
+  BenchReferenceResult r;
+  r.picture = json.at("picture");
+  r.key = json.at("key");
+  r.rendered = json.at("rendered");
+  r.passes = json.at("passes");
+  r.seconds = json.at("seconds");
+  r.energy = shares_of(json.at("energy"));
+  if (json.contains("own_error")) r.own_error = json.at("own_error").get<double>();
+  return r;
+}
+
+/// What `read` makes of a text, empty if the text is something else.
+template <class Read>
+auto read_json(const std::string& text, const Read& read) -> std::optional<decltype(read(Json()))> {
+  try {
+    return read(Json::parse(text));
+  } catch (const nlohmann::json::exception&) {
+    return std::nullopt;
+  }
+}
+
+/// Text of paths and messages may hold bytes that are not UTF-8.
+std::string dump(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+const char* state_name(BenchVerdict::State state) {
+  if (state == BenchVerdict::State::kHolds) return "holds";
+  return state == BenchVerdict::State::kFails ? "fails" : "not measured";
+}
+
+/// A CSV field: quoted where it must be.
+std::string field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+constexpr const char* kErrorColumns = "rmse,relmse,relmse_trim,mean_error,flip";
+
+std::string error_fields(const BenchErrors& e) {
+  return fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}", e.rmse, e.relmse, e.relmse_trim,
+                     e.mean_error, e.flip);
+}
+
+}  // namespace
+
+const BenchRun* BenchSceneResult::find_run(const std::string& integrator) const {
+  for (const BenchRun& run : runs)
+    if (run.integrator == integrator && run.failure.empty()) return &run;
+  return nullptr;
+}
+
+int BenchResults::failures() const {
+  int count = 0;
+  for (const BenchSceneResult& scene : scenes) {
+    count += !scene.failure.empty();
+    for (const BenchRun& run : scene.runs) count += !run.failure.empty();
+  }
+  return count;
+}
+
+std::string run_to_json(const BenchRun& run) {
+  return dump(run_json(run));
+}
+std::optional<BenchRun> run_from_json(const std::string& text) {
+  return read_json(text, run_of);
+}
+std::string reference_to_json(const BenchReferenceResult& reference) {
+  return dump(reference_json(reference));
+}
+std::optional<BenchReferenceResult> reference_from_json(const std::string& text) {
+  return read_json(text, reference_of);
+}
+
+std::string results_json(const BenchResults& results) {
+  const BenchMachine& m = results.machine;
+  Json json = {{"suite", results.suite.name},
+               {"machine",
+                {{"version", m.version},
+                 {"instruction_set", m.instruction_set},
+                 {"processor", m.processor},
+                 {"threads", m.threads},
+                 {"date", m.date},
+                 {"command", m.command}}},
+               {"scenes", Json::array()},
+               {"claims", Json::array()}};
+  for (const BenchSceneResult& scene : results.scenes) {
+    Json runs = Json::array();
+    for (const BenchRun& run : scene.runs) runs.push_back(run_json(run));
+    json["scenes"].push_back({{"name", scene.name},
+                              {"failure", scene.failure},
+                              {"width", scene.width},
+                              {"height", scene.height},
+                              {"reference", reference_json(scene.reference)},
+                              {"runs", std::move(runs)}});
+  }
+  for (size_t i = 0; i < results.verdicts.size(); ++i) {
+    Json figures = Json::array();
+    for (const BenchFigure& figure : results.verdicts[i].figures)
+      figures.push_back(
+          {{"scene", figure.scene}, {"figure", figure.text}, {"holds", figure.holds}});
+    json["claims"].push_back({{"text", results.suite.claims[i].text},
+                              {"state", state_name(results.verdicts[i].state)},
+                              {"figures", std::move(figures)}});
+  }
+  return dump(json);
+}
+
+std::string runs_csv(const BenchResults& results) {
+  std::string csv = fmt::format(
+      "scene,integrator,passes,seconds,{},rays,emitted,photons_stored,bytes,photon_bytes,"
+      "process_bytes,failure\n",
+      kErrorColumns);
+  for (const BenchSceneResult& scene : results.scenes) {
+    if (!scene.failure.empty())
+      csv += fmt::format("{},,,,,,,,,,,,,,,{}\n", scene.name, field(scene.failure));
+    for (const BenchRun& run : scene.runs) {
+      if (!run.failure.empty()) {
+        csv +=
+            fmt::format("{},{},,,,,,,,,,,,,,{}\n", scene.name, run.integrator, field(run.failure));
+        continue;
+      }
+      csv += fmt::format("{},{},{},{:.3f},{},{},{},{},{},{},{},\n", scene.name, run.integrator,
+                         run.end().passes, run.end().seconds, error_fields(run.end().errors),
+                         run.rays, run.emitted, run.photons_stored, run.bytes, run.photon_bytes,
+                         run.process_bytes);
+    }
+  }
+  return csv;
+}
+
+std::string curves_csv(const BenchResults& results) {
+  std::string csv = fmt::format("scene,integrator,passes,seconds,emitted,{}\n", kErrorColumns);
+  for (const BenchSceneResult& scene : results.scenes)
+    for (const BenchRun& run : scene.runs)
+      for (const BenchPoint& p : run.points)
+        csv += fmt::format("{},{},{},{:.6f},{},{}\n", scene.name, run.integrator, p.passes,
+                           p.seconds, p.emitted, error_fields(p.errors));
+  return csv;
+}
+
+}  // namespace nephroid

@@ -1,0 +1,272 @@
+// The format on one page: one function for each kind of object, the top one last.
+#include "bench/suite.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+
+#include "bench/suite_claims.h"
+#include "bench/suite_fields.h"
+#include "session/option_values.h"
+
+namespace nephroid {
+namespace {
+
+using Kind = JsonValue::Kind;
+
+constexpr uint64_t kAnySeed = std::numeric_limits<uint64_t>::max();
+constexpr uint64_t kMostPasses = std::numeric_limits<uint32_t>::max() - 1;
+constexpr uint64_t kLargestSide = 65536;
+/// References are not made from the random numbers of what is measured against them.
+constexpr uint64_t kReferenceSeed = 12345;
+
+std::string beside(const std::string& suite_file, const std::string& name) {
+  return (std::filesystem::path(suite_file).parent_path() / name).lexically_normal().string();
+}
+
+/// A name that can be part of a file's name.
+std::string name_in(const Fields& fields) {
+  const JsonValue& value = fields.required("name");
+  const std::string& name = text_of(value, "\"name\"");
+  const auto is_good = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
+           c == '_' || c == '+';
+  };
+  if (!name.empty() && std::all_of(name.begin(), name.end(), is_good)) return name;
+  fail_at(value.where,
+          fmt::format("\"{}\" is not valid as a name, expected letters, digits, -, _ and +", name));
+}
+
+template <class Named>
+void check_new_name(const std::vector<Named>& others, const Named& added, const JsonValue& value) {
+  for (const Named& other : others)
+    if (other.name == added.name)
+      fail_at(value.find("name")->where,
+              fmt::format("the name \"{}\" is taken, expected another one", added.name));
+}
+
+BenchLimit limit_in(const Fields& fields) {
+  BenchLimit limit;
+  if (fields.has("time") && fields.has("passes"))
+    fail_at(fields.required("passes").where,
+            "\"time\" and \"passes\" both say when to stop, expected only one of them");
+  if (const JsonValue* time = fields.find("time"))
+    limit.seconds =
+        read_at(*time, [&] { return parse_duration("\"time\"", text_of(*time, "\"time\"")); });
+  limit.passes = static_cast<uint32_t>(fields.integer_or("passes", 0, 1, kMostPasses));
+  return limit;
+}
+
+SettingList options_in(const Fields& fields) {
+  SettingList settings;
+  const JsonValue* options = fields.find("options");
+  if (options == nullptr) return settings;
+  expect_kind(*options, Kind::kObject, "\"options\"");
+  for (const JsonMember& member : options->members) {
+    if (member.value.kind != Kind::kNumber)
+      text_of(member.value, fmt::format("option \"{}\"", member.key));
+    settings.push_back(
+        read_at(member.value, [&] { return parse_setting(member.key + "=" + member.value.text); }));
+  }
+  return settings;
+}
+
+/// Exactly one of "integrator", "routes" and "route".
+RouteChoice routes_in(const Fields& fields, const std::string& what, const std::string& file) {
+  if (int{fields.has("integrator")} + int{fields.has("routes")} + int{fields.has("route")} != 1)
+    fail_at(fields.where(), fmt::format("{} needs exactly one of \"integrator\", \"routes\" and "
+                                        "\"route\"",
+                                        what));
+  RouteChoice choice;
+  choice.integrator = fields.text_or("integrator", "");
+  choice.preset_or_file = fields.text_or("routes", "");
+  if (!choice.preset_or_file.empty() && !route_preset(choice.preset_or_file) &&
+      std::filesystem::exists(beside(file, choice.preset_or_file)))
+    choice.preset_or_file = beside(file, choice.preset_or_file);
+  if (const JsonValue* route = fields.find("route")) {
+    expect_kind(*route, Kind::kArray, "\"route\"");
+    for (const JsonValue& item : route->items)
+      choice.routes.push_back(read_at(item, [&] { return parse_route(text_of(item, "a route")); }));
+    if (route->items.empty()) fail_at(route->where, "\"route\" is empty, expected routes");
+    return choice;
+  }
+  const JsonValue& source = fields.required(fields.has("routes") ? "routes" : "integrator");
+  read_at(source, [&] { return plan_of(choice, choice.integrator); });
+  return choice;
+}
+
+BenchIntegrator integrator_in(const JsonValue& value, const std::string& file) {
+  const Fields fields(value, "an integrator",
+                      {"name", "integrator", "routes", "route", "options", "seed", "outliers"});
+  BenchIntegrator result;
+  result.name = name_in(fields);
+  result.routes = routes_in(fields, "an integrator", file);
+  result.options = options_in(fields);
+  result.seed = fields.integer_or("seed", 0, 0, kAnySeed);
+  const std::string outliers = fields.text_or("outliers", "off");
+  if (outliers != "off" && outliers != "reject")
+    fail_at(fields.required("outliers").where,
+            fmt::format("\"outliers\" is \"{}\", expected \"off\" or \"reject\"", outliers));
+  result.reject_outliers = outliers == "reject";
+  return result;
+}
+
+BenchReference reference_in(const JsonValue& value, const std::string& file) {
+  const Fields fields(
+      value, "a reference",
+      {"file", "integrator", "routes", "route", "options", "passes", "time", "seed"});
+  BenchReference result;
+  if (fields.has("file")) {
+    if (value.members.size() > 1)
+      fail_at(value.where, "a reference from a \"file\" is not rendered, expected no other key");
+    result.file = beside(file, fields.text("file"));
+    return result;
+  }
+  result.integrator.name = "reference";
+  result.integrator.routes = routes_in(fields, "a reference without a \"file\"", file);
+  result.integrator.options = options_in(fields);
+  result.integrator.seed = fields.integer_or("seed", kReferenceSeed, 0, kAnySeed);
+  result.limit = limit_in(fields);
+  if (!result.limit.is_set())
+    fail_at(value.where, "a reference that is rendered needs \"passes\" or \"time\"");
+  return result;
+}
+
+std::vector<BenchEnergy> energy_in(const Fields& fields) {
+  std::vector<BenchEnergy> result;
+  const JsonValue* energy = fields.find("energy");
+  if (energy == nullptr) return result;
+  expect_kind(*energy, Kind::kObject, "\"energy\"");
+  for (const JsonMember& member : energy->members) {
+    const std::string& expression = text_of(member.value, "an expression of \"energy\"");
+    read_at(member.value, [&] { return parse_aov(member.key + "=" + expression); });
+    result.push_back({member.key, expression});
+  }
+  return result;
+}
+
+std::vector<BenchRegion> regions_in(const Fields& fields) {
+  std::vector<BenchRegion> result;
+  const JsonValue* regions = fields.find("region");
+  if (regions == nullptr) return result;
+  expect_kind(*regions, Kind::kObject, "\"region\"");
+  for (const JsonMember& member : regions->members) {
+    expect_kind(member.value, Kind::kArray, "a region");
+    float side[4] = {};
+    bool good = member.value.items.size() == 4;
+    for (size_t i = 0; good && i < 4; ++i)
+      side[i] = static_cast<float>(number_of(member.value.items[i], "a side of a region", 0, 1));
+    good = good && side[0] < side[1] && side[2] < side[3];
+    if (!good)
+      fail_at(member.value.where, fmt::format("region \"{}\" is not valid, expected [x0, x1, y0, "
+                                              "y1] with 0 <= x0 < x1 <= 1 and 0 <= y0 < y1 <= 1",
+                                              member.key));
+    result.push_back({member.key, side[0], side[1], side[2], side[3]});
+  }
+  return result;
+}
+
+void read_resolution(const Fields& fields, BenchScene* scene) {
+  const JsonValue* value = fields.find("resolution");
+  if (value == nullptr) return;
+  expect_kind(*value, Kind::kArray, "\"resolution\"");
+  if (value->items.size() != 2)
+    fail_at(value->where, "\"resolution\" is not valid, expected [width, height]");
+  int* sides[] = {&scene->width, &scene->height};
+  for (size_t i = 0; i < 2; ++i) {
+    const double side = number_of(value->items[i], "a side of \"resolution\"", 1, kLargestSide);
+    *sides[i] = static_cast<int>(side);
+    if (*sides[i] != side)
+      fail_at(value->items[i].where, "a side of \"resolution\" is not whole, expected pixels");
+  }
+}
+
+BenchScene scene_in(const JsonValue& value, const BenchSuite& suite) {
+  const Fields fields(value, "a scene",
+                      {"name", "title", "file", "resolution", "exposure", "reference",
+                       "integrators", "options", "time", "passes", "energy", "region"});
+  BenchScene scene;
+  scene.name = name_in(fields);
+  scene.title = fields.text_or("title", scene.name);
+  scene.file = beside(suite.file, fields.text("file"));
+  read_resolution(fields, &scene);
+  scene.exposure = static_cast<float>(fields.number_or("exposure", 1, 1e-6, 1e6));
+  scene.reference = reference_in(fields.required("reference"), suite.file);
+  for (const JsonValue& item : fields.list("integrators")) {
+    const std::string& name = text_of(item, "an item of \"integrators\"");
+    if (suite.find_integrator(name) == nullptr)
+      fail_at(item.where,
+              fmt::format("unknown integrator \"{}\", expected one of the suite's", name));
+    scene.integrators.push_back(name);
+  }
+  if (scene.integrators.empty())
+    for (const BenchIntegrator& integrator : suite.integrators)
+      scene.integrators.push_back(integrator.name);
+  scene.options = options_in(fields);
+  scene.limit = limit_in(fields);
+  scene.energy = energy_in(fields);
+  scene.regions = regions_in(fields);
+  return scene;
+}
+
+/// The items of a list that must not be empty.
+const std::vector<JsonValue>& filled_list(const Fields& fields, const std::string& name) {
+  const JsonValue& value = fields.required(name);
+  expect_kind(value, Kind::kArray, "\"" + name + "\"");
+  if (value.items.empty())
+    fail_at(value.where, fmt::format("\"{}\" is empty, expected at least one", name));
+  return value.items;
+}
+
+}  // namespace
+
+const BenchIntegrator* BenchSuite::find_integrator(const std::string& wanted) const {
+  for (const BenchIntegrator& integrator : integrators)
+    if (integrator.name == wanted) return &integrator;
+  return nullptr;
+}
+
+const BenchScene* BenchSuite::find_scene(const std::string& wanted) const {
+  for (const BenchScene& scene : scenes)
+    if (scene.name == wanted) return &scene;
+  return nullptr;
+}
+
+BenchSuite parse_suite(const std::string& text, const std::string& file) {
+  const JsonValue root = parse_json(text, file);
+  const Fields fields(
+      root, "a suite",
+      {"name", "title", "description", "time", "passes", "integrators", "scenes", "claims"});
+  BenchSuite suite;
+  suite.file = file;
+  suite.name = name_in(fields);
+  suite.title = fields.text_or("title", suite.name);
+  suite.description = fields.text_or("description", "");
+  suite.limit = limit_in(fields);
+  for (const JsonValue& item : filled_list(fields, "integrators")) {
+    BenchIntegrator integrator = integrator_in(item, file);
+    check_new_name(suite.integrators, integrator, item);
+    suite.integrators.push_back(std::move(integrator));
+  }
+  for (const JsonValue& item : filled_list(fields, "scenes")) {
+    BenchScene scene = scene_in(item, suite);
+    check_new_name(suite.scenes, scene, item);
+    suite.scenes.push_back(std::move(scene));
+  }
+  for (const JsonValue& item : fields.list("claims"))
+    suite.claims.push_back(parse_claim(item, suite));
+  return suite;
+}
+
+BenchSuite read_suite(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  if (!in.is_open() || in.bad()) throw IoError("'" + file + "' cannot be read");
+  return parse_suite(text, file);
+}
+
+}  // namespace nephroid

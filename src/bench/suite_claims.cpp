@@ -1,0 +1,179 @@
+#include "bench/suite_claims.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "bench/suite_fields.h"
+
+namespace nephroid {
+namespace {
+
+struct MetricRow {
+  BenchMetric metric;
+  const char* name;
+};
+constexpr MetricRow kMetrics[] = {
+    {BenchMetric::kRmse, "rmse"},
+    {BenchMetric::kRelmse, "relmse"},
+    {BenchMetric::kRelmseTrim, "relmse_trim"},
+    {BenchMetric::kFlip, "flip"},
+    {BenchMetric::kMeanError, "mean_error"},
+    {BenchMetric::kMemory, "memory"},
+    {BenchMetric::kPhotonMemory, "photon_memory"},
+    {BenchMetric::kMemoryGrowth, "memory_growth"},
+    {BenchMetric::kPhotons, "photons"},
+    {BenchMetric::kEmitted, "emitted"},
+    {BenchMetric::kRays, "rays"},
+    {BenchMetric::kPasses, "passes"},
+    {BenchMetric::kSeconds, "seconds"},
+    {BenchMetric::kSlope, "slope"},
+};
+
+struct AxisRow {
+  BenchAxis axis;
+  const char* name;
+};
+constexpr AxisRow kAxes[] = {
+    {BenchAxis::kPasses, "passes"}, {BenchAxis::kTime, "time"}, {BenchAxis::kEmitted, "emitted"}};
+
+/// The row whose name the value is.
+template <class Row, size_t kCount>
+const Row& row_of(const Row (&rows)[kCount], const JsonValue& value, const std::string& what) {
+  const std::string& name = text_of(value, what);
+  std::string known;
+  for (const Row& row : rows) {
+    if (name == row.name) return row;
+    known += (known.empty() ? "" : ", ") + std::string(row.name);
+  }
+  fail_at(value.where, fmt::format("unknown {} \"{}\", expected one of: {}", what, name, known));
+}
+
+bool is_error(BenchMetric metric) {
+  return metric == BenchMetric::kRmse || metric == BenchMetric::kRelmse ||
+         metric == BenchMetric::kRelmseTrim || metric == BenchMetric::kFlip ||
+         metric == BenchMetric::kMeanError;
+}
+
+void check_integrator(const BenchSuite& suite, const std::string& name, const JsonValue& value) {
+  if (suite.find_integrator(name) == nullptr)
+    fail_at(value.where,
+            fmt::format("unknown integrator \"{}\", expected one of the suite's", name));
+}
+
+bool has_region(const BenchScene& scene, const std::string& name) {
+  return std::any_of(scene.regions.begin(), scene.regions.end(),
+                     [&](const BenchRegion& region) { return region.name == name; });
+}
+
+bool runs(const BenchScene& scene, const std::string& integrator) {
+  return std::find(scene.integrators.begin(), scene.integrators.end(), integrator) !=
+         scene.integrators.end();
+}
+
+/// Subject, others and numbers by the keys that are there.
+void read_form(const Fields& fields, BenchClaim* claim) {
+  const int forms = int{fields.has("smaller")} + int{fields.has("same")} + int{fields.has("of")};
+  if (forms != 1)
+    fail_at(fields.where(),
+            "a claim needs exactly one of \"smaller\" (with \"than\"), \"same\" (with \"as\") and "
+            "\"of\" (with \"between\")");
+  if (fields.has("of")) {
+    claim->form = BenchClaim::Form::kBetween;
+    claim->subject = fields.text("of");
+    const JsonValue& between = fields.required("between");
+    expect_kind(between, JsonValue::Kind::kArray, "\"between\"");
+    if (between.items.size() != 2)
+      fail_at(between.where, "\"between\" is not valid, expected [low, high]");
+    constexpr double kAny = std::numeric_limits<double>::infinity();
+    claim->low = number_of(between.items[0], "\"between\"", -kAny, kAny);
+    claim->high = number_of(between.items[1], "\"between\"", claim->low, kAny);
+    return;
+  }
+  const bool smaller = fields.has("smaller");
+  claim->form = smaller ? BenchClaim::Form::kSmaller : BenchClaim::Form::kSame;
+  claim->subject = fields.text(smaller ? "smaller" : "same");
+  fields.required(smaller ? "than" : "as");
+  claim->others = fields.texts(smaller ? "than" : "as");
+  claim->factor = fields.number_or("factor", 1, smaller ? 0 : 1, 1e12);
+}
+
+std::vector<std::string> keys_for(const Fields& fields) {
+  std::vector<std::string> keys = {"text", "metric", "scenes", "region", "over", "at"};
+  const auto add = [&](std::initializer_list<const char*> more) {
+    keys.insert(keys.end(), more.begin(), more.end());
+  };
+  if (fields.has("smaller")) add({"smaller", "than", "factor"});
+  if (fields.has("same")) add({"same", "as", "factor"});
+  if (fields.has("of")) add({"of", "between"});
+  return keys;
+}
+
+/// What must fit together.
+void check_claim(const Fields& fields, const BenchSuite& suite, const BenchClaim& claim) {
+  for (const char* key : {"smaller", "same", "of", "than", "as"}) {
+    const JsonValue* value = fields.find(key);
+    if (value == nullptr) continue;
+    if (value->kind == JsonValue::Kind::kString) check_integrator(suite, value->text, *value);
+    for (const JsonValue& item : value->items) check_integrator(suite, item.text, item);
+  }
+  if (!claim.region.empty() && (!is_error(claim.metric) || claim.at_equal))
+    fail_at(fields.required("region").where,
+            "\"region\" does not fit, expected it with an error as metric and without \"at\"");
+  if (fields.has("over") && claim.metric != BenchMetric::kSlope)
+    fail_at(fields.required("over").where, "\"over\" does not fit, expected it with a slope only");
+  if (claim.at_equal && (!is_error(claim.metric) || claim.form == BenchClaim::Form::kBetween))
+    fail_at(fields.required("at").where,
+            "\"at\" does not fit, expected it where errors of integrators are compared");
+  for (const JsonValue& item : fields.list("scenes")) {
+    const BenchScene* scene = suite.find_scene(item.text);
+    if (scene == nullptr)
+      fail_at(item.where,
+              fmt::format("unknown scene \"{}\", expected one of the suite's", item.text));
+    std::vector<std::string> needed = claim.others;
+    needed.push_back(claim.subject);
+    for (const std::string& name : needed)
+      if (!runs(*scene, name))
+        fail_at(item.where, fmt::format("scene \"{}\" has no integrator \"{}\", expected a scene "
+                                        "that has all of the claim's",
+                                        item.text, name));
+    if (!claim.region.empty() && !has_region(*scene, claim.region))
+      fail_at(item.where, fmt::format("scene \"{}\" has no region \"{}\", expected one that has",
+                                      item.text, claim.region));
+  }
+}
+
+}  // namespace
+
+const char* metric_name(BenchMetric metric) {
+  return std::find_if(std::begin(kMetrics), std::end(kMetrics),
+                      [&](const MetricRow& row) { return row.metric == metric; })
+      ->name;
+}
+
+const char* axis_name(BenchAxis axis) {
+  return std::find_if(std::begin(kAxes), std::end(kAxes),
+                      [&](const AxisRow& row) { return row.axis == axis; })
+      ->name;
+}
+
+BenchClaim parse_claim(const JsonValue& value, const BenchSuite& suite) {
+  const Fields any(value, "a claim",
+                   {"text", "metric", "scenes", "region", "over", "at", "smaller", "than", "factor",
+                    "same", "as", "of", "between"});
+  BenchClaim claim;
+  read_form(any, &claim);
+  const Fields fields(value, "a claim of this form", keys_for(any));
+  claim.text = fields.text("text");
+  claim.metric = row_of(kMetrics, fields.required("metric"), "metric").metric;
+  claim.region = fields.text_or("region", "");
+  for (const JsonValue& item : fields.list("scenes"))
+    claim.scenes.push_back(text_of(item, "an item of \"scenes\""));
+  if (const JsonValue* over = fields.find("over")) claim.over = row_of(kAxes, *over, "axis").axis;
+  if (const JsonValue* at = fields.find("at")) claim.at_equal = row_of(kAxes, *at, "axis").axis;
+  check_claim(fields, suite, claim);
+  return claim;
+}
+
+}  // namespace nephroid

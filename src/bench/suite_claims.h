@@ -1,0 +1,14 @@
+// The claims of a suite file.
+// Who calls it: suite.cpp. It must not know how claims are judged (claims.h).
+#pragma once
+
+#include "bench/json_text.h"
+#include "bench/suite.h"
+
+namespace nephroid {
+
+/// One claim about the integrators and scenes that the suite has so far. Throws UsageError with the
+/// place of what is wrong.
+BenchClaim parse_claim(const JsonValue& value, const BenchSuite& suite);
+
+}  // namespace nephroid

@@ -1,0 +1,158 @@
+// An estimate waits with all others of its pixel and octave; they are judged together, after the
+// pass, when the counts of all pixels stand still. So no decision depends on threads.
+#include "film/outlier_rejection.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+#include "core/parallel.h"
+
+namespace nephroid {
+namespace {
+
+constexpr int kRowsPerChunk = 4;
+constexpr int kLevelOfOne = 32;
+constexpr uint64_t kMostCounted = 255;
+/// What is brighter goes to the picture, whose sums say when they reach their limit.
+constexpr float kLargest = 0x1p56f;
+/// [O3] An estimate that changes its pixel by no more than this share of what surrounds it, or is
+/// not brighter than this many times that, is no outlier.
+constexpr double kSmallShare = 0.25;
+constexpr double kModerate = 4;
+
+int level_of(float brightness, int levels) {
+  return std::clamp(std::ilogb(brightness) + kLevelOfOne, 0, levels - 1);
+}
+
+}  // namespace
+
+OutlierRejection::OutlierRejection(int width, int height, std::vector<size_t> parts,
+                                   OutlierSettings settings)
+    : width_(width), height_(height), parts_(std::move(parts)), settings_(std::move(settings)) {
+  assert(settings_.exposed_pixels.size() == parts_.size());
+  pixels_.resize(parts_.size());
+  for (std::vector<Pixel>& group : pixels_)
+    group.resize(static_cast<size_t>(width) * static_cast<size_t>(height));
+}
+
+float OutlierRejection::brightness(const Rgb& color) {
+  return std::max({std::abs(color.r), std::abs(color.g), std::abs(color.b)});
+}
+
+/// The last slot takes the place of the one that goes.
+void OutlierRejection::Pixel::remove(size_t slot, size_t parts) {
+  const size_t last = --size;
+  levels[slot] = levels[last];
+  estimates[slot] = estimates[last];
+  if (slot != last)
+    std::copy_n(sums.begin() + static_cast<std::ptrdiff_t>(last * parts), parts,
+                sums.begin() + static_cast<std::ptrdiff_t>(slot * parts));
+  sums.resize(last * parts);
+}
+
+bool OutlierRejection::hold(int group, size_t pixel, std::span<const Rgb> values,
+                            const Release& release) {
+  Rgb total;
+  for (const Rgb& value : values) total = total + value;
+  const float bright = brightness(total);
+  if (!(bright > 0.0f) || !(bright < kLargest)) return false;
+  const int level = level_of(bright, kLevels);
+  Pixel& p = pixels_[static_cast<size_t>(group)][pixel];
+  uint8_t& count = p.counts[static_cast<size_t>(level)];
+  if (count < kMostCounted) ++count;
+  if ((p.confirmed >> level & 1) != 0) return false;
+
+  const size_t parts = parts_[static_cast<size_t>(group)];
+  const auto begin = p.levels.begin(), end = begin + p.size;
+  size_t slot = static_cast<size_t>(std::find(begin, end, level) - begin);
+  if (slot == p.size) {
+    if (p.size == kMostHeld) {
+      const auto darkest = static_cast<size_t>(std::min_element(begin, end) - begin);
+      if (level < p.levels[darkest]) return false;
+      release(group, pixel, p.parts_of(darkest, parts));
+      p.remove(darkest, parts);
+    }
+    slot = p.size++;
+    p.levels[slot] = static_cast<uint8_t>(level);
+    p.estimates[slot] = 0;
+    p.sums.resize(p.size * parts);
+  }
+  ++p.estimates[slot];
+  const std::span<RgbSum> sums = p.parts_of(slot, parts);
+  for (size_t i = 0; i < parts; ++i)
+    for (int c = 0; c < 3; ++c) sums[i].rgb[c].add(values[i][c]);
+  return true;
+}
+
+OutlierRejection::Window OutlierRejection::window_around(size_t pixel) const {
+  const int x = static_cast<int>(pixel % static_cast<size_t>(width_));
+  const int y = static_cast<int>(pixel / static_cast<size_t>(width_));
+  return {std::max(0, x - kWindowRadius), std::max(0, y - kWindowRadius),
+          std::min(width_, x + kWindowRadius + 1), std::min(height_, y + kWindowRadius + 1)};
+}
+
+bool OutlierRejection::is_confirmed(int group, size_t pixel, int level, uint64_t estimates,
+                                    std::span<const float> shown) const {
+  const auto g = static_cast<size_t>(group);
+  const Window w = window_around(pixel);
+  const size_t first = static_cast<size_t>(std::max(0, level - 1));
+  const size_t last = static_cast<size_t>(std::min(kLevels - 1, level + 1));
+  uint64_t similar = 0;
+  double surroundings = 0;
+  for (int y = w.y0; y < w.y1; ++y)
+    for (int x = w.x0; x < w.x1; ++x) {
+      const size_t i =
+          static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x);
+      for (size_t l = first; l <= last; ++l) similar += pixels_[g][i].counts[l];
+      surroundings += double{shown[i]};
+    }
+  surroundings /= w.area();
+  // [O2]
+  const double enough =
+      std::min(settings_.neighbours * std::max(1.0, double{settings_.exposed_pixels[g]}),
+               w.area() * static_cast<double>(std::min(estimates, kMostCounted)) / 2);
+  if (static_cast<double>(similar) >= enough) return true;
+  // [O3]
+  const double limit = std::max(kModerate, kSmallShare * static_cast<double>(estimates));
+  return std::ldexp(1.0, level + 1 - kLevelOfOne) <= limit * surroundings;
+}
+
+void OutlierRejection::finish_pass(int group, uint64_t estimates, std::span<const float> shown,
+                                   const Release& release) {
+  std::vector<Pixel>& pixels = pixels_[static_cast<size_t>(group)];
+  const size_t parts = parts_[static_cast<size_t>(group)];
+  const auto width = static_cast<size_t>(width_);
+  parallel_chunks(height_, kRowsPerChunk, [&](int64_t, int64_t begin, int64_t end) {
+    for (size_t i = static_cast<size_t>(begin) * width; i < static_cast<size_t>(end) * width; ++i) {
+      Pixel& p = pixels[i];
+      for (size_t slot = 0; slot < p.size;) {
+        const int level = p.levels[slot];
+        if (!is_confirmed(group, i, level, estimates, shown)) {
+          ++slot;
+          continue;
+        }
+        p.confirmed |= uint64_t{1} << level;
+        release(group, i, p.parts_of(slot, parts));
+        p.remove(slot, parts);
+      }
+    }
+  });
+}
+
+RgbSum OutlierRejection::held(int group, size_t pixel) const {
+  RgbSum sum;
+  for (const RgbSum& part : pixels_[static_cast<size_t>(group)][pixel].sums) sum.add(part);
+  return sum;
+}
+
+uint64_t OutlierRejection::held_estimates() const {
+  uint64_t count = 0;
+  for (const std::vector<Pixel>& group : pixels_)
+    for (const Pixel& p : group)
+      for (size_t slot = 0; slot < p.size; ++slot) count += p.estimates[slot];
+  return count;
+}
+
+}  // namespace nephroid

@@ -1,0 +1,27 @@
+// What a vertex of one side scatters towards the other, event class by event class, with what the
+// weight of the connection needs. Who calls it: eye_path.cpp; light_path.cpp makes those of light
+// vertices. It must not know films.
+#pragma once
+
+#include <array>
+
+#include "integrator/path_pair.h"
+
+namespace nephroid {
+
+/// One event of a word.
+struct Arm {
+  SampledSpectrum f;  ///< the cosine included
+  EventDensity density;
+  double merge = 0;
+  EyeState eye = 0;      ///< behind the event, of eye sides
+  LightState light = 0;  ///< behind the event, of light sides
+  bool used = false;
+};
+using Arms = std::array<Arm, std::size(kSurfaceClasses)>;
+
+/// The events at a light vertex towards the unit direction `w`; false if there is none.
+bool arms_of_light(const Routes& routes, const SceneSymbols& symbols, const LightVertex& y,
+                   const Vec3f& w, Arms& arms);
+
+}  // namespace nephroid

@@ -1,0 +1,52 @@
+// The one-dimensional validation of Hachisuka & Jensen 2009: photons of a known density on a line,
+// regions that gather them from pass to pass by shared statistics [E1] and with the memoryless
+// radius [E2], and how far both are from the known mean. Equations [E3] of docs/estimators.md. Who
+// calls it: tests and the drawing of convergence. It must not know scenes or films.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace nephroid {
+
+/// Densities on the line [0, 1), which closes upon itself; the integral of each is 1.
+enum class LineDensity {
+  kFlat,  ///< 1
+  kWave,  ///< 1 + 0.8 cos(2 pi x)
+  kStep,  ///< 1.6 in the first half, 0.4 in the second
+};
+
+/// Density at x in [0, 1), per unit length.
+double line_density(LineDensity density, double x);
+/// Mean density over [center - width/2, center + width/2], width at most 1; of width 0 the density
+/// at the centre.
+double line_mean(LineDensity density, double center, double width);
+
+struct LineSettings {
+  LineDensity density = LineDensity::kWave;
+  double center = 0;         ///< of all regions
+  double radius = 0.05;      ///< of the first pass, below 1/4
+  double alpha = 2.0 / 3.0;  ///< of [E1] and [E2]
+  int photons_per_pass = 50000;
+  uint32_t passes = 1000;
+  uint64_t seed = 0;
+};
+
+/// What was estimated minus what is true, per unit length, after some passes.
+struct LineError {
+  uint32_t passes = 0;
+  double shared = 0;      ///< by [E1]
+  double memoryless = 0;  ///< by [E2]
+};
+
+/// Errors of the regions of these widths after 1, 2, 4, 8 ... passes, as [region][power of two]. In
+/// each pass a region gathers around one point, evenly distributed over it. A function of its
+/// arguments alone.
+std::vector<std::vector<LineError>> line_errors(const LineSettings& settings,
+                                                std::span<const double> widths);
+
+/// Slope of log|error| over log(passes) by least squares; points without error are left out.
+double line_slope(std::span<const uint32_t> passes, std::span<const double> errors);
+
+}  // namespace nephroid

@@ -1,0 +1,123 @@
+// Whole renders that reject outliers: by every set of routes they are the picture without rejection
+// divided into two layers; fireflies go; caustics that photons carry stay.
+#include <gtest/gtest.h>
+
+#include "core/parallel.h"
+#include "rendering.h"
+#include "session/film_of_scene.h"
+#include "session/noise.h"
+
+namespace nephroid {
+namespace {
+
+using namespace testing_support;
+
+// A small lamp, which paths through the glass meet by chance only, and a rough mirror.
+const char* const kScene = R"(
+  LookAt 0 4 -5  0 0.4 0  0 1 0
+  Camera "perspective" "float fov" 40
+  Film "rgb" "integer xresolution" 32 "integer yresolution" 32
+  PixelFilter "gaussian"
+  WorldBegin
+  AttributeBegin
+    AreaLightSource "diffuse" "rgb L" [250 230 210]
+    Translate 1.5 3 -0.5 Rotate 90 1 0 0
+    Shape "disk" "float radius" 0.12
+  AttributeEnd
+  LightSource "infinite" "rgb L" [0.2 0.25 0.3]
+  Material "diffuse" "rgb reflectance" [0.6 0.5 0.4]
+  Shape "bilinearmesh" "point3 P" [-4 0 -4  4 0 -4  -4 0 4  4 0 4]
+  Material "conductor" "float roughness" 0.2
+  AttributeBegin Translate 1.2 0.5 0.6 Shape "sphere" "float radius" 0.5 AttributeEnd
+  Material "dielectric" "float eta" 1.5
+  AttributeBegin Translate -0.5 0.8 0 Shape "sphere" "float radius" 0.7 AttributeEnd
+)";
+
+IntegratorOptions options_of_test() {
+  IntegratorOptions options;
+  options.photons_per_pass = 8000;
+  return options;
+}
+
+Film render_rejecting(const Scene& scene, const Plan& plan, uint64_t seed, uint32_t passes) {
+  const IntegratorOptions options = options_of_test();
+  Preset preset = make_preset(plan, options, scene);
+  Film film = film_for(scene, preset);
+  film.reject_outliers(outlier_settings(*preset.routes, options, *scene.filter));
+  for (uint32_t pass = 0; pass < passes; ++pass) {
+    for (const auto& estimator : preset.estimators)
+      estimator->render_pass({seed, pass}, scene, film);
+    film.finish_pass();
+  }
+  return film;
+}
+
+/// Calls body(x, y, c) for every channel of every pixel.
+template <class Body>
+void for_each_channel(const Film& film, const Body& body) {
+  const PixelBounds& b = film.bounds();
+  for (int y = b.y0; y < b.y1; ++y)
+    for (int x = b.x0; x < b.x1; ++x)
+      for (int c = 0; c < 3; ++c) body(x, y, c);
+}
+
+/// Mean of (x-r)^2 / (r^2 + 0.01).
+double relative_error(const Film& reference, const Film& film) {
+  double sum = 0;
+  for_each_channel(film, [&](int x, int y, int c) {
+    const double r = reference.value(x, y)[c], v = film.value(x, y)[c];
+    sum += (v - r) * (v - r) / (r * r + 0.01);
+  });
+  return sum / (3.0 * static_cast<double>(film.bounds().area()));
+}
+
+class Outliers : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(Outliers, AreThePicturesOwnLightForAnyNumberOfThreads) {
+  const auto scene = scene_from_text(kScene);
+  const Film plain = render(*scene, GetParam(), options_of_test(), 3, 4);
+  std::vector<Film> films;
+  for (const int threads : {1, 3}) {
+    const ThreadLimit limit(threads);
+    films.push_back(render_rejecting(*scene, GetParam(), 3, 4));
+  }
+  const Film& film = films[0];
+  for_each_channel(film, [&](int x, int y, int c) {
+    const float kept = film.value(x, y)[c], held = film.outliers(x, y)[c];
+    ASSERT_EQ(films[1].value(x, y)[c], kept);
+    ASSERT_EQ(films[1].outliers(x, y)[c], held);
+    ASSERT_NEAR(kept + held, plain.value(x, y)[c], 1e-6f * (std::abs(kept) + std::abs(held)));
+    // From the sums of both layers: the same bits, so nothing was lost.
+    ASSERT_EQ(film.standard_error(x, y)[c], plain.standard_error(x, y)[c]);
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(AllRoutes, Outliers, ::testing::ValuesIn(plan_names()),
+                         [](const auto& test) { return test_name(test.param); });
+
+TEST(OutliersOfPath, FirefliesGo) {
+  const auto scene = scene_from_text(kScene);
+  const Film reference = render(*scene, "path", options_of_test(), 100, 1024);
+  const Film plain = render(*scene, "path", options_of_test(), 1, 32);
+  const Film film = render_rejecting(*scene, "path", 1, 32);
+  EXPECT_LT(relative_error(reference, film), 0.5 * relative_error(reference, plain));
+  EXPECT_GT(energy_shares(film).outliers, 0.0);
+}
+
+TEST(OutliersOfPhotons, CausticsStay) {
+  const auto scene = scene_from_text(kScene);
+  const auto caustic = [&](const Film& film) {
+    double sum = 0;
+    for_each_channel(film, [&](int x, int y, int c) { sum += film.route_value(0, x, y)[c]; });
+    return sum;
+  };
+  const Film plain = render(*scene, "mixed", options_of_test(), 1, 32);
+  const Film film = render_rejecting(*scene, "mixed", 1, 32);
+  ASSERT_EQ(plain.layout().routes[0], "caustic");
+  EXPECT_GT(energy_shares(plain).routes[0], 0.03);
+  EXPECT_GT(caustic(film), 0.97 * caustic(plain));
+  EXPECT_LT(energy_shares(film).outliers, 0.02);
+}
+
+}  // namespace
+}  // namespace nephroid

@@ -1,0 +1,54 @@
+// The scenes of this repository, as the program sees them: each is read without a warning and gives
+// a picture. Who calls it: nobody, these are tests. It must not know what the pictures show.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "regression/program.h"
+#include "unit/input/temporary_directory.h"
+
+namespace nephroid::testing_support {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Files below scenes/ that are scenes and not parts of one.
+std::vector<std::string> own_scenes() {
+  std::vector<std::string> found;
+  for (const auto& entry : fs::recursive_directory_iterator(NEPHROID_SOURCE_DIR "/scenes")) {
+    if (entry.path().extension() != ".pbrt") continue;
+    std::ifstream file(entry.path());
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    if (text.find("\nWorldBegin") != std::string::npos) found.push_back(entry.path().string());
+  }
+  return found;
+}
+
+TEST(OwnScenes, AreReadWithoutAWarning) {
+  const std::vector<std::string> scenes = own_scenes();
+  ASSERT_GE(scenes.size(), 20u);
+  for (const std::string& scene : scenes) {
+    const ProgramRun run = run_program(fs::temp_directory_path(), {"info", scene});
+    EXPECT_EQ(run.status, 0) << scene;
+    EXPECT_EQ(run.errors, "") << scene;
+  }
+}
+
+TEST(OwnScenes, GiveAPicture) {
+  const testing::TemporaryDirectory folder;
+  for (const std::string& scene : own_scenes()) {
+    const ProgramRun run = run_program(
+        folder.path(),
+        {"render", scene, "-o", "picture.exr", "--resolution", "12x9", "--passes", "1", "--quiet"});
+    EXPECT_EQ(run.status, 0) << scene;
+    EXPECT_EQ(run.errors, "") << scene;
+    EXPECT_TRUE(fs::remove(folder.path("picture.exr"))) << scene;
+  }
+}
+
+}  // namespace
+}  // namespace nephroid::testing_support

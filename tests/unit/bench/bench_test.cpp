@@ -1,0 +1,240 @@
+// Whole suites with pictures of a few pixels: what is rendered, what is kept, what goes wrong, and
+// what the page is like.
+#include "bench/bench.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <csignal>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "bench/kept.h"
+#include "core/errors.h"
+#include "unit/film/scratch_directory.h"
+
+namespace nephroid {
+namespace {
+
+const std::string kRoom = std::string(NEPHROID_SOURCE_DIR) + "/scenes/caustic-room/scene.pbrt";
+
+/// A suite of 8 x 8 pixels; `more` are further scenes, with a comma in front.
+std::string small_suite(const std::string& more = "") {
+  return R"({"name": "tiny", "title": "Tiny <suite>", "description": "One.\n\nTwo & three.",
+    "passes": 4,
+    "integrators": [{"name": "path", "integrator": "path"},
+                    {"name": "mixed", "integrator": "mixed", "options": {"photons": 1024}}],
+    "scenes": [{"name": "room", "file": ")" +
+         kRoom + R"(", "resolution": [8, 8], "reference": {"integrator": "path", "passes": 6},
+                "energy": {"direct": "C[DG]?L"}, "region": {"left": [0, 0.5, 0, 1]}})" +
+         more + R"(],
+    "claims": [{"text": "mixed stores photons", "metric": "photons", "of": "mixed",
+                "between": [1, 1e9]}]})";
+}
+
+class BenchRuns : public testing::Test {
+ protected:
+  BenchResults run(const std::string& suite, const std::vector<std::string>& only = {}) {
+    BenchOptions options;
+    options.directory = scratch_.file("out");
+    options.only = only;
+    options.command = "nephroid bench tiny.json";
+    said_.clear();
+    options.say = [this](const std::string& line) { said_ += line + "\n"; };
+    return run_bench(parse_suite(suite, "tiny.json"), options, signals_);
+  }
+  std::string file(const std::string& name) const {
+    return text_of_file(scratch_.file("out/" + name)).value_or("");
+  }
+
+  ScratchDirectory scratch_;
+  SignalFlags signals_;
+  std::string said_;
+};
+
+TEST_F(BenchRuns, MeasuresEveryIntegrator) {
+  const BenchResults results = run(small_suite());
+  EXPECT_EQ(exit_status(results, true), 0) << said_;
+  ASSERT_EQ(results.scenes.size(), 1u);
+  const BenchSceneResult& room = results.scenes[0];
+  EXPECT_EQ(room.width, 8);
+  EXPECT_EQ(room.reference.passes, 6u);
+  ASSERT_TRUE(room.reference.own_error);
+  EXPECT_GT(*room.reference.own_error, 0);
+  ASSERT_EQ(room.reference.energy.size(), 1u);
+  EXPECT_GT(room.reference.energy[0].second, 0);
+  EXPECT_LT(room.reference.energy[0].second, 1);
+  ASSERT_EQ(room.runs.size(), 2u);
+  for (const BenchRun& run : room.runs) {
+    ASSERT_EQ(run.failure, "");
+    EXPECT_EQ(run.end().passes, 4u);
+    EXPECT_EQ(run.points.front().passes, 1u);
+    EXPECT_EQ(run.points.size(), 4u);
+    EXPECT_GT(run.end().errors.rmse, 0);
+    EXPECT_GT(run.end().errors.flip, 0);
+    EXPECT_GT(run.rays, 0u);
+    ASSERT_EQ(run.regions.size(), 1u);
+    EXPECT_NE(run.regions[0].second.rmse, run.end().errors.rmse);
+    for (size_t i = 1; i < run.points.size(); ++i)
+      EXPECT_GT(run.points[i].seconds, run.points[i - 1].seconds);
+  }
+  // Four passes of a path each are the reference's first four with another seed: no photons.
+  EXPECT_EQ(room.runs[0].bytes, 0u);
+  EXPECT_EQ(room.runs[0].emitted, 0u);
+  EXPECT_EQ(room.runs[1].emitted, 4096u);
+  EXPECT_GT(room.runs[1].photons_stored, 0u);
+  EXPECT_GT(room.runs[1].photon_bytes, 0u);
+  EXPECT_GT(room.runs[1].bytes, room.runs[1].photon_bytes);
+  EXPECT_EQ(results.verdicts.at(0).state, BenchVerdict::State::kHolds);
+  for (const char* name : {"report.html", "results.json", "runs.csv", "curves.csv"})
+    EXPECT_FALSE(file(name).empty()) << name;
+}
+
+TEST_F(BenchRuns, TheSameReferenceHasNoError) {
+  // The integrator is the reference, with its seed.
+  std::string suite = small_suite();
+  const std::string old_part = "\"integrator\": \"path\"}";
+  suite.replace(suite.find(old_part), old_part.size(),
+                "\"integrator\": \"path\", \"seed\": 12345}");
+  const std::string passes = "\"passes\": 6}";
+  suite.replace(suite.find(passes), passes.size(), "\"passes\": 4}");
+  const BenchResults results = run(suite);
+  const BenchErrors& errors = results.scenes.at(0).find_run("path")->end().errors;
+  // Layers of the reference (its shares of light) change how sums are rounded, no more.
+  EXPECT_LT(errors.rmse, 1e-5);
+  EXPECT_LT(errors.flip, 1e-2);
+}
+
+TEST_F(BenchRuns, WhatIsThereIsNotRenderedAgain) {
+  const BenchResults first = run(small_suite());
+  EXPECT_NE(said_.find("rendering"), std::string::npos);
+  const BenchResults second = run(small_suite());
+  EXPECT_EQ(said_.find("rendering"), std::string::npos) << said_;
+  ASSERT_EQ(second.scenes.at(0).runs.size(), 2u);
+  EXPECT_TRUE(second.scenes[0].reference.kept);
+  for (size_t i = 0; i < 2; ++i) {
+    EXPECT_TRUE(second.scenes[0].runs[i].kept);
+    EXPECT_EQ(run_to_json(second.scenes[0].runs[i]), run_to_json(first.scenes[0].runs[i]));
+  }
+  // Another setting of one integrator is another run; the rest stays.
+  std::string changed = small_suite();
+  const std::string old_part = "\"photons\": 1024";
+  changed.replace(changed.find(old_part), old_part.size(), "\"photons\": 2048");
+  const BenchResults third = run(changed);
+  EXPECT_TRUE(third.scenes.at(0).find_run("path")->kept);
+  EXPECT_FALSE(third.scenes[0].find_run("mixed")->kept);
+}
+
+TEST_F(BenchRuns, AFailureDoesNotStopTheRest) {
+  const std::string broken = scratch_.file("broken.pbrt");
+  std::ofstream(broken) << "WorldBegin\nShape \"blob\"\n";
+  const BenchResults results =
+      run(small_suite(R"(, {"name": "lost", "file": "/nowhere/s.pbrt", "resolution": [4, 4],
+                           "reference": {"integrator": "path", "passes": 1}},
+                         {"name": "broken", "file": ")" +
+                      broken + R"(", "reference": {"integrator": "path", "passes": 1}},
+                         {"name": "small", "file": ")" +
+                      kRoom + R"(", "resolution": [4, 4], "reference": {"file": ")" +
+                      scratch_.file("room.exr") + "\"}}"));
+  ASSERT_EQ(results.scenes.size(), 4u);
+  EXPECT_EQ(results.scenes[0].failure, "");
+  EXPECT_EQ(results.scenes[0].runs.size(), 2u);
+  EXPECT_NE(results.scenes[1].failure.find("/nowhere/s.pbrt"), std::string::npos);
+  EXPECT_NE(results.scenes[2].failure.find("broken.pbrt:2"), std::string::npos)
+      << results.scenes[2].failure;
+  EXPECT_NE(results.scenes[3].failure.find("room.exr"), std::string::npos);
+  EXPECT_EQ(results.failures(), 3);
+  EXPECT_EQ(exit_status(results, false), 1);
+  EXPECT_NE(file("report.html").find("/nowhere/s.pbrt"), std::string::npos);
+}
+
+TEST_F(BenchRuns, AReferenceOfAnotherSizeIsSaid) {
+  run(small_suite());
+  const BenchResults results =
+      run(small_suite(R"(, {"name": "small", "file": ")" + kRoom +
+                      R"(", "resolution": [4, 4], "reference": {"file": ")" +
+                      run(small_suite()).scenes.at(0).reference.picture + "\"}}"),
+          {"small"});
+  ASSERT_EQ(results.scenes.size(), 1u);
+  ASSERT_EQ(results.scenes[0].runs.size(), 2u);
+  EXPECT_NE(results.scenes[0].runs[0].failure.find("the reference is 8x8 pixels"),
+            std::string::npos)
+      << results.scenes[0].runs[0].failure;
+}
+
+TEST_F(BenchRuns, ASignalStopsAndTheNextInvocationGoesOn) {
+  signals_.stop.store(SIGTERM);
+  const BenchResults stopped = run(small_suite());
+  EXPECT_EQ(stopped.signal, SIGTERM);
+  EXPECT_EQ(exit_status(stopped, false), 128 + SIGTERM);
+  EXPECT_NE(file("report.html").find("stopped before its end"), std::string::npos);
+  signals_.stop.store(0);
+  EXPECT_EQ(exit_status(run(small_suite()), true), 0);
+}
+
+TEST_F(BenchRuns, ClaimsThatFailMatterOnlyIfTheyAreStrict) {
+  std::string suite = small_suite();
+  suite.replace(suite.find("[1, 1e9]"), 8, "[0, 0.5]");
+  const BenchResults results = run(suite);
+  EXPECT_EQ(results.verdicts.at(0).state, BenchVerdict::State::kFails);
+  EXPECT_EQ(exit_status(results, false), 0);
+  EXPECT_EQ(exit_status(results, true), 1);
+}
+
+TEST_F(BenchRuns, WrongUse) {
+  EXPECT_THROW(run(small_suite(), {"cellar"}), UsageError);
+  std::string endless = small_suite();
+  endless.replace(endless.find("\"passes\": 4,"), 12, "");
+  EXPECT_THROW(run(endless), UsageError);
+}
+
+/// Names of tags that do not match, empty if all do. Style and script are skipped.
+std::string unbalanced(const std::string& html) {
+  std::vector<std::string> open;
+  for (size_t at = html.find('<'); at != std::string::npos; at = html.find('<', at + 1)) {
+    if (html[at + 1] == '!') continue;
+    const size_t end = html.find('>', at);
+    const bool closes = html[at + 1] == '/';
+    const size_t begin = at + (closes ? 2 : 1);
+    const std::string name = html.substr(begin, html.find_first_of(" \n/>", begin) - begin);
+    if (closes) {
+      if (open.empty() || open.back() != name) return name;
+      open.pop_back();
+    } else if (html[end - 1] != '/') {
+      open.push_back(name);
+      if (name == "style" || name == "script") at = html.find("</" + name, at) - 1;
+    }
+  }
+  return open.empty() ? "" : open.back();
+}
+
+TEST_F(BenchRuns, TheReportStandsByItself) {
+  run(small_suite());
+  const std::string html = file("report.html");
+  EXPECT_EQ(unbalanced(html), "");
+  EXPECT_NE(html.find("<h1>Tiny &lt;suite&gt;</h1>"), std::string::npos);
+  EXPECT_NE(html.find("<p>Two &amp; three.</p>"), std::string::npos);
+  // Nothing is fetched: neither by tags nor by style.
+  for (const char* fetching : {"http:", "https:", "src=\"/", "@import", "url(", "<link"})
+    EXPECT_EQ(html.find(fetching), std::string::npos) << fetching;
+  for (size_t at = html.find("src=\""); at != std::string::npos; at = html.find("src=\"", at + 1))
+    EXPECT_EQ(html.compare(at, 26, "src=\"data:image/png;base64"), 0);
+  for (size_t at = html.find("href=\""); at != std::string::npos; at = html.find("href=\"", at + 1))
+    EXPECT_EQ(html[at + 6], '#');
+  // Reference, two runs and two error maps, and the two sides of the slider.
+  size_t pictures = 0;
+  for (size_t at = html.find("<img"); at != std::string::npos; at = html.find("<img", at + 1))
+    ++pictures;
+  EXPECT_EQ(pictures, 7u);
+}
+
+TEST(BenchSuites, TheExamplesAreUnderstood) {
+  const BenchSuite suite = read_suite(std::string(NEPHROID_SOURCE_DIR) + "/bench/smoke.json");
+  EXPECT_EQ(suite.name, "smoke");
+  EXPECT_TRUE(std::ifstream(suite.scenes.at(0).file).good());
+}
+
+}  // namespace
+}  // namespace nephroid

@@ -1,0 +1,199 @@
+// Slopes and claims of made-up curves, and what is kept of a run.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/claims.h"
+#include "bench/fit.h"
+#include "bench/measure.h"
+#include "bench/svg_plot.h"
+#include "core/errors.h"
+
+namespace nephroid {
+namespace {
+
+std::vector<CurvePoint> power_law(double exponent, double factor = 3) {
+  std::vector<CurvePoint> points;
+  for (double x = 1; x < 1000; x *= 1.3) points.push_back({x, factor * std::pow(x, exponent)});
+  return points;
+}
+
+TEST(Fit, ExponentOfAPowerLaw) {
+  EXPECT_NEAR(*log_slope(power_law(-0.5)), -0.5, 1e-12);
+  EXPECT_NEAR(*log_slope(power_law(-1.0 / 3)), -1.0 / 3, 1e-12);
+}
+
+TEST(Fit, TheFirstHalfOfTheRunDoesNotCount) {
+  std::vector<CurvePoint> points = power_law(-0.5);
+  const double half = points.back().x / 2;
+  for (CurvePoint& p : points)
+    if (p.x < half * 0.999) p.y = 100;
+  EXPECT_NEAR(*log_slope(points), -0.5, 1e-12);
+}
+
+TEST(Fit, LeastSquaresOfThreePoints) {
+  // Logarithms (0,0), (1,2), (2,1): slope 1/2.
+  const double e = std::exp(1.0);
+  EXPECT_NEAR(*log_slope({{1, 1}, {e, e * e}, {e * e, e}}), 0.5, 1e-12);
+}
+
+TEST(Fit, TooLittleToTell) {
+  EXPECT_FALSE(log_slope({{1, 1}, {2, 2}}));
+  EXPECT_FALSE(log_slope({{1, 1}, {2, 0}, {3, -1}, {4, 4}}));
+  EXPECT_FALSE(log_slope({{2, 1}, {2, 2}, {2, 3}}));
+}
+
+TEST(Fit, BetweenPoints) {
+  const std::vector<CurvePoint> points = {{1, 8}, {4, 2}, {16, 2}};
+  EXPECT_NEAR(*log_interpolate(points, 2), 4, 1e-12);
+  EXPECT_EQ(*log_interpolate(points, 4), 2);
+  EXPECT_NEAR(*log_interpolate(points, 9), 2, 1e-12);
+  EXPECT_FALSE(log_interpolate(points, 0.5));
+  EXPECT_FALSE(log_interpolate(points, 17));
+}
+
+/// Two integrators on one scene: `fast` has half the error of `slow` after the same passes, and
+/// emits four times as many light paths.
+BenchResults made_up(const std::string& claim) {
+  BenchResults results;
+  results.suite = parse_suite(R"({"name": "s", "passes": 1, "integrators": [
+      {"name": "fast", "integrator": "mixed"}, {"name": "slow", "integrator": "path"}],
+      "scenes": [{"name": "room", "file": "r.pbrt", "reference": {"file": "r.exr"},
+                  "region": {"left": [0, 0.5, 0, 1]}}], "claims": [)" +
+                                  claim + "]}",
+                              "s.json");
+  BenchSceneResult scene;
+  scene.name = "room";
+  for (const char* name : {"fast", "slow"}) {
+    const bool fast = name[0] == 'f';
+    BenchRun run;
+    run.integrator = name;
+    for (uint32_t passes = 1; passes <= 64; passes *= 2) {
+      BenchErrors errors;
+      errors.rmse = (fast ? 1 : 2) / std::sqrt(passes);
+      errors.mean_error = fast ? -0.01 : 0.02;
+      run.points.push_back({passes, passes * 0.5, passes * (fast ? 400u : 100u), errors});
+    }
+    run.bytes = fast ? 1000 : 0;
+    run.first_pass_bytes = fast ? 800 : 0;
+    run.regions = {{"left", {fast ? 0.5 : 0.4, 0, 0, 0, 0}}};
+    scene.runs.push_back(run);
+  }
+  results.scenes.push_back(scene);
+  return results;
+}
+
+BenchVerdict verdict_of(const std::string& claim) {
+  return judge_claims(made_up("{\"text\": \"t\", " + claim + "}")).at(0);
+}
+
+struct ClaimCase {
+  const char* claim;
+  BenchVerdict::State state;
+};
+
+TEST(Claims, AreJudgedByTheirFigures) {
+  using State = BenchVerdict::State;
+  const ClaimCase cases[] = {
+      {R"("metric": "rmse", "smaller": "fast", "than": "slow")", State::kHolds},
+      {R"("metric": "rmse", "smaller": "fast", "than": "slow", "factor": 0.51)", State::kHolds},
+      {R"("metric": "rmse", "smaller": "fast", "than": "slow", "factor": 0.49)", State::kFails},
+      {R"("metric": "rmse", "smaller": "slow", "than": ["fast"])", State::kFails},
+      {R"("metric": "rmse", "same": "fast", "as": "slow", "factor": 1.9)", State::kFails},
+      {R"("metric": "rmse", "same": "fast", "as": "slow", "factor": 2.1)", State::kHolds},
+      // After as many light paths the two are equal.
+      {R"("metric": "rmse", "same": "fast", "as": "slow", "factor": 1.001, "at": "emitted")",
+       State::kHolds},
+      {R"("metric": "rmse", "same": "fast", "as": "slow", "factor": 1.9, "at": "passes")",
+       State::kFails},
+      {R"("metric": "mean_error", "smaller": "fast", "than": "slow")", State::kHolds},
+      {R"("metric": "rmse", "smaller": "fast", "than": "slow", "region": "left")", State::kFails},
+      {R"("metric": "slope", "of": "fast", "between": [-0.501, -0.499])", State::kHolds},
+      {R"("metric": "slope", "of": "fast", "between": [-0.4, 0], "over": "time")", State::kFails},
+      {R"("metric": "memory_growth", "of": "fast", "between": [1.25, 1.25])", State::kHolds},
+      // What stores nothing has no memory to speak of.
+      {R"("metric": "memory", "of": "slow", "between": [0, 9])", State::kNotMeasured},
+      {R"("metric": "passes", "of": "slow", "between": [64, 64])", State::kHolds},
+  };
+  for (const ClaimCase& c : cases) EXPECT_EQ(verdict_of(c.claim).state, c.state) << c.claim;
+}
+
+TEST(Claims, FiguresAreSaid) {
+  const BenchVerdict verdict =
+      verdict_of(R"("metric": "rmse", "smaller": "fast", "than": "slow", "factor": 0.4)");
+  ASSERT_EQ(verdict.figures.size(), 1u);
+  EXPECT_EQ(verdict.figures[0].scene, "room");
+  EXPECT_EQ(verdict.figures[0].text,
+            "rmse of fast 0.125, of slow 0.25: ratio 0.5, at most 0.4 claimed");
+}
+
+TEST(Claims, AMissingRunIsNotMeasured) {
+  BenchResults results =
+      made_up(R"({"text": "t", "metric": "rmse", "smaller": "fast", "than": "slow"})");
+  results.scenes[0].runs[1].failure = "it broke";
+  EXPECT_EQ(judge_claims(results).at(0).state, BenchVerdict::State::kNotMeasured);
+  results.scenes.clear();
+  EXPECT_EQ(judge_claims(results).at(0).state, BenchVerdict::State::kNotMeasured);
+}
+
+TEST(ResultFiles, ARunComesBackAsItWas) {
+  BenchRun run = made_up("").scenes[0].runs[0];
+  run.key = "0123456789abcdef";
+  run.picture = "a \"b\".exr";
+  run.energy = {{"caustic", 0.25}};
+  run.notes = {"a note"};
+  const auto back = run_from_json(run_to_json(run));
+  ASSERT_TRUE(back);
+  EXPECT_EQ(run_to_json(*back), run_to_json(run));
+  EXPECT_EQ(back->points.size(), run.points.size());
+  EXPECT_EQ(back->end().errors.rmse, run.end().errors.rmse);
+  EXPECT_FALSE(run_from_json("{\"key\": 1}"));
+  EXPECT_FALSE(run_from_json("half a fi"));
+}
+
+TEST(ResultFiles, EveryCsvLineHasAllColumns) {
+  BenchResults results = made_up("");
+  results.scenes[0].runs[1].failure = "it broke";
+  BenchSceneResult broken;
+  broken.name = "lost";
+  broken.failure = "no file";
+  results.scenes.push_back(broken);
+  for (const std::string& csv : {runs_csv(results), curves_csv(results)}) {
+    const auto commas = [&](size_t begin, size_t end) {
+      return std::count(csv.begin() + static_cast<std::ptrdiff_t>(begin),
+                        csv.begin() + static_cast<std::ptrdiff_t>(end), ',');
+    };
+    const auto columns = commas(0, csv.find('\n'));
+    for (size_t begin = 0; begin < csv.size(); begin = csv.find('\n', begin) + 1)
+      EXPECT_EQ(commas(begin, csv.find('\n', begin)), columns) << csv.substr(begin, 80);
+  }
+}
+
+TEST(Plot, TicksOfFewAndOfManyDecades) {
+  const auto labels = [](double low, double high) {
+    std::vector<double> values;
+    for (const LogTick& tick : log_ticks(low, high))
+      if (tick.labelled) values.push_back(tick.value);
+    return values;
+  };
+  EXPECT_EQ(labels(1, 1000), (std::vector<double>{1, 10, 100, 1000}));
+  EXPECT_EQ(labels(1.5, 25), (std::vector<double>{2, 5, 10, 20}));
+  EXPECT_EQ(labels(21, 49), (std::vector<double>{30, 40}));
+}
+
+TEST(Measure, ARegionHasThePixelsWhoseCentresItHas) {
+  Picture picture;
+  picture.channels = {"R", "G", "B"};
+  picture.window = {0, 0, 4, 2};
+  for (int i = 0; i < 8; ++i)
+    for (int c = 0; c < 3; ++c) picture.pixels.push_back(static_cast<float>(i));
+  const Picture right = part_of(picture, {"right", 0.5f, 1, 0.5f, 1});
+  EXPECT_EQ(right.width(), 2);
+  EXPECT_EQ(right.height(), 1);
+  EXPECT_EQ(right.pixels, (std::vector<float>{6, 6, 6, 7, 7, 7}));
+  EXPECT_EQ(part_of(picture, {"thin", 0.3f, 0.31f, 0, 0.1f}).pixels.size(), 3u);
+}
+
+}  // namespace
+}  // namespace nephroid

@@ -1,0 +1,220 @@
+// Chains over functions of which everything is known: how long they stay where, and that what a
+// pass adds up to has no bias, however short its chains and few its paths.
+#include "integrator/markov_chain.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "rendering.h"
+
+namespace nephroid {
+namespace {
+
+using namespace testing_support;
+
+constexpr int kCells = 16;
+
+/// Bright in two places that small steps do not connect, black in between, coloured differently.
+/// The integral over cell i is known in closed form for any i.
+Rgb light_at(double x) {
+  if (x < 0.25) return {static_cast<float>(8 * x), 1, 0};
+  if (x >= 0.5 && x < 0.5625) return {0, 40, static_cast<float>(640 * (x - 0.5))};
+  if (x >= 0.75) return {0.2f, 0.2f, 0.2f};
+  return {0, 0, 0};
+}
+double brightness_at(double x) {
+  const Rgb c = light_at(x);
+  return (double{c.r} + double{c.g} + double{c.b}) / 3;
+}
+/// Mean over cell i by the midpoint rule, exact for what is linear within a cell.
+Rgb light_of_cell(int i) {
+  return light_at((i + 0.5) / kCells);
+}
+
+class Toy : public PathFunction {
+ public:
+  void evaluate(MarkovSample& numbers, FoundLight& found) override {
+    const float x = numbers.stream(0).number(0);
+    // Numbers that do nothing, and a part that comes from elsewhere.
+    numbers.stream(1).number(static_cast<int>(x * 10));
+    ++found.rays;
+    found.add(Vec2f(x * kCells, 0.5f), 0, light_at(double{x}) * kCells);
+    found.add(Vec2f(kCells * (1 - x), 0.5f), 1, light_at(double{x}) * (0.5f * kCells));
+  }
+};
+std::unique_ptr<PathFunction> make_toy() {
+  return std::make_unique<Toy>();
+}
+
+Film film_of_cells() {
+  FilmSettings settings;
+  settings.width = kCells;
+  settings.height = 1;
+  settings.crop = {0, 0, kCells, 1};
+  settings.color_space = &RgbColorSpace::srgb();
+  FilmLayout layout;
+  layout.routes = {"there", "mirrored"};
+  layout.parts = {{0, {}}, {1, {}}};
+  layout.groups = {0, 0};
+  return Film(settings, layout);
+}
+std::unique_ptr<Scene> empty_scene() {
+  return scene_from_text(R"(Camera "perspective" PixelFilter "box" WorldBegin)");
+}
+FilmArea area_of_cells(const PixelFilter& filter) {
+  return FilmArea({0, 0, kCells, 1}, filter);
+}
+
+TEST(MarkovChain, StaysWhereItIsBrightInProportion) {
+  // Every 64th state of long chains: next to independent, for a chi-square test over cells.
+  ChainSettings settings;
+  settings.large_step = 0.4f;
+  double expected[kCells] = {}, total = 0;
+  for (int i = 0; i < kCells; ++i) total += expected[i] = brightness_at((i + 0.5) / kCells);
+  constexpr int kSamples = 20000;
+  int found[kCells] = {};
+  Toy toy;
+  const auto scene = empty_scene();
+  const FilmImportance importance(area_of_cells(*scene->filter));
+  MarkovChain chain([](int, int) { return 0.1f; }, 21, settings, importance, toy);
+  for (int n = 0; n < kSamples; ++n) {
+    for (int i = 0; i < 64; ++i) {
+      chain.propose();
+      EXPECT_GE(chain.acceptance(), 0);
+      EXPECT_LE(chain.acceptance(), 1);
+      chain.decide();
+    }
+    ASSERT_FALSE(chain.current().splats.empty()) << "no chain stays where it is black";
+    const float x = chain.current().splats[0].film.x;
+    found[std::clamp(static_cast<int>(x), 0, kCells - 1)] += 1;
+  }
+  double chi_square = 0;
+  int cells = 0;
+  for (int i = 0; i < kCells; ++i) {
+    if (expected[i] == 0) {
+      EXPECT_EQ(found[i], 0) << "cell " << i;
+      continue;
+    }
+    const double e = kSamples * expected[i] / total;
+    chi_square += (found[i] - e) * (found[i] - e) / e;
+    ++cells;
+  }
+  ASSERT_EQ(cells, 9);
+  EXPECT_LT(chi_square, 39.4) << "8 degrees of freedom, level 4e-6";
+}
+
+struct PassCase {
+  const char* name;
+  ChainSettings settings;
+  double balance = 1;
+  bool importance = false;  ///< learned, and wrong: from paths that see little
+};
+
+class ChainPasses : public ::testing::TestWithParam<PassCase> {};
+
+TEST_P(ChainPasses, HaveNoBias) {
+  const auto scene = empty_scene();
+  const PixelFilter& filter = *scene->filter;
+  ChainPilot pilot{FilmImportance(area_of_cells(filter)), {}, GetParam().balance};
+  if (GetParam().importance) {
+    pilot.importance.record({1, 0.5f}, 3);
+    pilot.importance.record({9, 0.5f}, 1);
+    pilot.importance.learn();
+    EXPECT_GT(pilot.importance.at({15, 0.5f}), 5 * pilot.importance.at({1, 0.5f}));
+  }
+  constexpr int kSeeds = 32;
+  // As many paths whatever the size of a pass.
+  const auto passes_of_seed = static_cast<uint32_t>(std::max<int64_t>(
+      400, 120000 / (GetParam().settings.bootstrap +
+                     GetParam().settings.chains * GetParam().settings.mutations)));
+  std::vector<std::vector<double>> there(kCells), mirrored(kCells);
+  ChainStatistics statistics;
+  for (uint64_t seed = 0; seed < kSeeds; ++seed) {
+    Film film = film_of_cells();
+    SplatBuffer buffer(film, 0, filter);
+    for (uint32_t pass = 0; pass < passes_of_seed; ++pass) {
+      render_chains({seed, pass}, GetParam().settings, pilot, make_toy, film, buffer, statistics);
+      buffer.finish(1);
+      film.add_estimates(0, 1);
+    }
+    for (int i = 0; i < kCells; ++i) {
+      const Rgb a = film.route_value(0, i, 0), b = film.route_value(1, i, 0);
+      there[static_cast<size_t>(i)].push_back((double{a.r} + double{a.g} + double{a.b}) / 3);
+      mirrored[static_cast<size_t>(i)].push_back((double{b.r} + double{b.g} + double{b.b}) / 3);
+    }
+  }
+  for (int i = 0; i < kCells; ++i) {
+    const Rgb cell = light_of_cell(i);
+    const double expected = (double{cell.r} + double{cell.g} + double{cell.b}) / 3;
+    const Estimate a = estimate_of(there[static_cast<size_t>(i)]);
+    const Estimate b = estimate_of(mirrored[static_cast<size_t>(kCells - 1 - i)]);
+    EXPECT_NEAR(a.mean, expected, kT31 * a.error + 1e-6) << "cell " << i;
+    EXPECT_NEAR(b.mean, expected / 2, kT31 * b.error + 1e-6) << "cell " << i;
+    EXPECT_LE(a.error, 0.06 * expected) << "too noisy to tell";
+  }
+  const ChainSettings& s = GetParam().settings;
+  const auto passes = static_cast<uint64_t>(kSeeds) * passes_of_seed;
+  EXPECT_EQ(statistics.paths, passes * static_cast<uint64_t>(s.bootstrap + s.chains * s.mutations));
+  EXPECT_EQ(statistics.large + statistics.small,
+            passes * static_cast<uint64_t>(s.chains * s.mutations));
+  EXPECT_NEAR(static_cast<double>(statistics.large) /
+                  static_cast<double>(statistics.large + statistics.small),
+              static_cast<double>(s.large_step), 0.01);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Sizes, ChainPasses,
+    ::testing::Values(PassCase{"usual", {64, 4, 64, 0.3f, {}}, 1},
+                      PassCase{"small_bootstrap", {2, 3, 50, 0.3f, {}}, 1},
+                      PassCase{"one_path_one_chain", {1, 1, 100, 0.3f, {}}, 1},
+                      PassCase{"few_mutations", {64, 64, 2, 0.3f, {}}, 1},
+                      PassCase{"nearly_no_large_steps", {128, 32, 8, 0.001f, {}}, 1},
+                      PassCase{"only_large_steps", {16, 4, 64, 1.0f, {}}, 1},
+                      PassCase{"importance", {64, 4, 64, 0.3f, {}}, 1, true},
+                      PassCase{"balance_too_low", {32, 4, 64, 0.3f, {}}, 0.01},
+                      PassCase{"balance_too_high", {32, 4, 64, 0.3f, {}}, 100},
+                      PassCase{"no_balance", {32, 4, 64, 0.3f, {}}, 0}),
+    [](const auto& test) { return std::string(test.param.name); });
+
+TEST(MarkovChain, ThePilotMakesTheFilmEquallyBright) {
+  const auto scene = empty_scene();
+  const ChainPilot pilot = look_around(3, 1 << 14, area_of_cells(*scene->filter), 1, make_toy);
+  EXPECT_EQ(pilot.kinds.size(), 1u);
+  EXPECT_EQ(pilot.kinds[0], pilot.balance);
+  // What is bright and what is dark there differs by far less than the light itself.
+  double least = kInfinity, most = 0, darkest = kInfinity, brightest = 0;
+  for (int i = 0; i < kCells; ++i) {
+    const double b =
+        brightness_of(light_of_cell(i)) + 0.5 * brightness_of(light_of_cell(kCells - 1 - i));
+    if (b == 0) continue;
+    const double target =
+        b * static_cast<double>(pilot.importance.at({static_cast<float>(i) + 0.5f, 0.5f}));
+    least = std::min(least, target);
+    most = std::max(most, target);
+    darkest = std::min(darkest, b);
+    brightest = std::max(brightest, b);
+  }
+  EXPECT_GT(brightest, 20 * darkest);
+  EXPECT_LT(most / least, 0.75 * brightest / darkest);
+  const ChainPilot again = look_around(3, 1 << 14, area_of_cells(*scene->filter), 1, make_toy);
+  EXPECT_EQ(again.balance, pilot.balance);
+}
+
+TEST(MarkovChain, LightThatIsNotFiniteIsCountedAndLeftOut) {
+  FoundLight found;
+  found.add({0, 0}, 0, {1, kInfinity, 0});
+  found.add({0, 0}, 0, {1, std::nanf(""), 0});
+  found.add({0, 0}, 0, {0, 0, 0});
+  EXPECT_EQ(found.faults, 2u);
+  EXPECT_TRUE(found.splats.empty());
+  const auto scene = empty_scene();
+  const FilmImportance importance(area_of_cells(*scene->filter));
+  EXPECT_EQ(found.target(importance), 0);
+  found.add({0, 0}, 1, {-1, 0.5f, 0.5f});
+  EXPECT_GT(found.target(importance), 0) << "a colour whose components add up to nothing";
+}
+
+}  // namespace
+}  // namespace nephroid

@@ -1,0 +1,182 @@
+// The one-dimensional validation: errors fall to zero with the powers of the number of passes that
+// [E3] predicts, for shared statistics and for the memoryless radius, in regions of several widths.
+#include "photon/line_experiment.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+
+#include "photon/radius_schedule.h"
+
+namespace nephroid {
+namespace {
+
+constexpr double kWidths[] = {0, 0.05, 0.3};
+constexpr int kSeeds = 24;
+
+/// Over seeds: the mean of the errors and their root mean square, as [method][power of two].
+struct Statistics {
+  std::vector<uint32_t> passes;
+  std::vector<double> mean[2], rms[2];
+};
+
+std::vector<Statistics> statistics_of(LineSettings settings,
+                                      std::span<const double> widths = kWidths) {
+  std::vector<Statistics> result(widths.size());
+  for (int seed = 0; seed < kSeeds; ++seed) {
+    settings.seed = static_cast<uint64_t>(seed);
+    const auto errors = line_errors(settings, widths);
+    for (size_t r = 0; r < errors.size(); ++r) {
+      Statistics& s = result[r];
+      for (size_t m = 0; m < 2; ++m) {
+        s.mean[m].resize(errors[r].size());
+        s.rms[m].resize(errors[r].size());
+      }
+      s.passes.clear();
+      for (size_t i = 0; i < errors[r].size(); ++i) {
+        s.passes.push_back(errors[r][i].passes);
+        const double e[2] = {errors[r][i].shared, errors[r][i].memoryless};
+        for (size_t m = 0; m < 2; ++m) {
+          s.mean[m][i] += e[m] / kSeeds;
+          s.rms[m][i] += e[m] * e[m] / kSeeds;
+        }
+      }
+    }
+  }
+  for (Statistics& s : result)
+    for (std::vector<double>& rms : s.rms)
+      for (double& value : rms) value = std::sqrt(value);
+  return result;
+}
+
+/// The slope from `first` passes on.
+double slope(const Statistics& s, const std::vector<double>& errors, size_t first) {
+  return line_slope(std::span(s.passes).subspan(first), std::span(errors).subspan(first));
+}
+
+TEST(LineExperiment, MeansAreIntegrals) {
+  for (const LineDensity density : {LineDensity::kFlat, LineDensity::kWave, LineDensity::kStep})
+    for (const double center : {0.0, 0.3, 0.5, 0.95})
+      for (const double width : {0.1, 0.5, 1.0}) {
+        double sum = 0;
+        constexpr int kSteps = 10000;
+        for (int i = 0; i < kSteps; ++i)
+          sum += line_density(density, center + width * ((i + 0.5) / kSteps - 0.5)) / kSteps;
+        EXPECT_NEAR(line_mean(density, center, width), sum, 2e-4);
+      }
+  EXPECT_NEAR(line_mean(LineDensity::kWave, 0.2, 1), 1, 1e-12);
+}
+
+TEST(LineExperiment, SlopeOfAPower) {
+  const uint32_t passes[] = {1, 2, 4, 8};
+  const double errors[] = {3, -1.5, 0.75, -0.375};
+  EXPECT_NEAR(line_slope(passes, errors), -1, 1e-12);
+}
+
+TEST(LineExperiment, ASeedIsAResult) {
+  LineSettings settings;
+  settings.photons_per_pass = 500;
+  settings.passes = 16;
+  const auto a = line_errors(settings, kWidths), b = line_errors(settings, kWidths);
+  settings.seed = 1;
+  const auto c = line_errors(settings, kWidths);
+  for (size_t r = 0; r < a.size(); ++r) {
+    ASSERT_EQ(a[r].size(), 5u);
+    EXPECT_EQ(a[r][4].passes, 16u);
+    EXPECT_EQ(a[r][4].shared, b[r][4].shared);
+    EXPECT_EQ(a[r][4].memoryless, b[r][4].memoryless);
+    EXPECT_NE(a[r][4].shared, c[r][4].shared);
+  }
+}
+
+// A flat density has no bias, and where a region looks does not matter: the error is noise, whose
+// square falls with passes^-alpha. Of 24 seeds the logarithm of a root mean square has a standard
+// error of 1/sqrt(48) = 0.14, and a fit over six doublings one of 0.14 / sqrt(17.5 * 0.48) = 0.05,
+// more as the points are correlated.
+TEST(LineExperiment, NoiseFallsAsPredicted) {
+  for (const double alpha : {0.5, 2.0 / 3.0, 0.8}) {
+    LineSettings settings;
+    settings.density = LineDensity::kFlat;
+    settings.photons_per_pass = 2000;
+    settings.passes = 512;
+    settings.alpha = alpha;
+    const auto found = statistics_of(settings);
+    for (size_t r = 0; r < found.size(); ++r)
+      for (const int method : {0, 1}) {
+        const double fitted = slope(found[r], found[r].rms[method], 3);
+        std::printf("flat, alpha %.2f, width %.2f, %s: slope %.3f against %.3f\n", alpha,
+                    kWidths[r], method == 0 ? "shared" : "memoryless", fitted, -alpha / 2);
+        EXPECT_NEAR(fitted, -alpha / 2, 0.15);
+        EXPECT_LT(found[r].rms[method].back(), 0.02);
+      }
+  }
+}
+
+// At the crest of a wave the bias of a pass is known in closed form, and its mean over passes falls
+// with passes^(2 alpha - 2) in the end. Seen from 16 passes on, a sum that starts at 1 is not yet
+// that power: the fit is compared with that of the exact sums, and both stand near the power.
+TEST(LineExperiment, BiasFallsAsPredicted) {
+  LineSettings settings;
+  settings.density = LineDensity::kWave;
+  settings.radius = 0.15;
+  settings.photons_per_pass = 20000;
+  settings.passes = 256;
+  const double crest[] = {0};
+  const auto found = statistics_of(settings, crest);
+  // Mean densities within the radii of both methods, those of [E1] with as many photons as are
+  // expected.
+  SharedStatistics shared;
+  shared.radius_squared = settings.radius;
+  double sums[2] = {0, 0};
+  std::vector<double> exact[2];
+  for (uint32_t pass = 0; pass < settings.passes; ++pass) {
+    const double radii[2] = {shared.radius_squared,
+                             settings.radius * memoryless_radius_squared(pass, settings.alpha)};
+    for (int method : {0, 1}) {
+      sums[method] +=
+          line_mean(LineDensity::kWave, 0, 2 * radii[method]) - line_density(LineDensity::kWave, 0);
+      if (std::has_single_bit(pass + 1)) exact[method].push_back(sums[method] / (pass + 1));
+    }
+    shared.update(
+        settings.photons_per_pass * 2 * radii[0] * line_mean(LineDensity::kWave, 0, 2 * radii[0]),
+        settings.alpha);
+  }
+  for (const int method : {0, 1}) {
+    const double fitted = slope(found[0], found[0].mean[method], 4);
+    const double predicted = slope(found[0], exact[method], 4), power = 2 * settings.alpha - 2;
+    const double last = found[0].mean[method].back(), bias = exact[method].back();
+    std::printf("wave, %s: bias slope %.3f, exact sum %.3f, power %.3f; bias %.5f against %.5f\n",
+                method == 0 ? "shared" : "memoryless", fitted, predicted, power, last, bias);
+    EXPECT_NEAR(predicted, power, 0.12);
+    EXPECT_NEAR(fitted, predicted, 0.05);
+    EXPECT_NEAR(last, bias, 0.1 * std::abs(bias));
+  }
+}
+
+// Everywhere, in regions of any width and across a step, both estimates tend to the mean of the
+// region.
+TEST(LineExperiment, ErrorsOfAllRegionsFallToZero) {
+  for (const LineDensity density : {LineDensity::kWave, LineDensity::kStep}) {
+    LineSettings settings;
+    settings.density = density;
+    settings.center = density == LineDensity::kStep ? 0.45 : 0.2;
+    settings.photons_per_pass = 2000;
+    settings.passes = 512;
+    const auto found = statistics_of(settings);
+    for (size_t r = 0; r < found.size(); ++r)
+      for (const int method : {0, 1}) {
+        const double fitted = slope(found[r], found[r].rms[method], 3);
+        std::printf("width %.2f, %s: %.4f after 8 passes, %.4f after 512, slope %.3f\n", kWidths[r],
+                    method == 0 ? "shared" : "memoryless", found[r].rms[method][3],
+                    found[r].rms[method].back(), fitted);
+        EXPECT_LT(found[r].rms[method].back(), 0.35 * found[r].rms[method][3]);
+        EXPECT_GT(fitted,
+                  -0.7);  // where a region looks is noise that falls with 1/2, and no faster
+        EXPECT_LT(fitted, -0.25);
+      }
+  }
+}
+
+}  // namespace
+}  // namespace nephroid
