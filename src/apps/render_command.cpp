@@ -41,12 +41,17 @@ void add_routes(const RoutePlan& plan, Metadata* metadata) {
   if (!aovs.empty()) metadata->emplace_back("nephroid:aovs", aovs);
 }
 
-void warn_of_what_is_never_held(const Routes& routes) {
-  for (const RouteGroup& group : routes.groups())
-    if (group.estimator == EstimatorKind::kSppm || group.estimator == EstimatorKind::kPpm)
-      print_warning(std::string("--outliers reject: routes of ") +
-                    estimator_type(group.estimator).name +
-                    " keep theirs, they have no estimates that could be held");
+void warn_of_what_is_not_rejected(const Routes& routes) {
+  const auto warn = [&](EstimatorKind kind, const char* what) {
+    if (std::ranges::any_of(routes.groups(),
+                            [&](const RouteGroup& group) { return group.estimator == kind; }))
+      print_warning(std::string("--outliers reject: routes of ") + estimator_type(kind).name +
+                    what);
+  };
+  for (const EstimatorKind kind : {EstimatorKind::kSppm, EstimatorKind::kPpm})
+    warn(kind, " keep theirs, they have no estimates that could be held");
+  warn(EstimatorKind::kPhotonMap,
+       " show theirs after some passes, which read the same photons again and so confirm them");
 }
 
 RenderOptions render_options(const RenderCommand& command, const Scene& scene,
@@ -93,7 +98,7 @@ int run_render(const RenderCommand& command) {
   Film film(film_settings(scene.film), preset.layout);
   if (command.reject_outliers) {
     film.reject_outliers(outlier_settings(*preset.routes, choice.options, *scene.filter));
-    if (!command.quiet) warn_of_what_is_never_held(*preset.routes);
+    if (!command.quiet) warn_of_what_is_not_rejected(*preset.routes);
   }
   const std::string output =
       command.output.empty() ? default_output(scene.film, command.scene) : command.output;

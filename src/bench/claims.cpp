@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "bench/fit.h"
+#include "bench/html_text.h"
 
 namespace nephroid {
 namespace {
@@ -30,17 +31,22 @@ double position_of(const BenchPoint& point, BenchAxis axis) {
   return axis == BenchAxis::kPasses ? point.passes : static_cast<double>(point.emitted);
 }
 
-std::vector<CurvePoint> curve_of(const BenchRun& run, BenchMetric metric, BenchAxis axis) {
-  std::vector<CurvePoint> curve;
-  for (const BenchPoint& point : run.points)
-    curve.push_back({position_of(point, axis), error_of(point.errors, metric)});
-  return curve;
+const BenchErrors* find(const BenchNamedErrors& list, const std::string& wanted) {
+  for (const auto& [name, errors] : list)
+    if (name == wanted) return &errors;
+  return nullptr;
 }
 
-std::optional<double> region_error(const BenchRun& run, const BenchClaim& claim) {
-  for (const auto& [name, errors] : run.regions)
-    if (name == claim.region) return error_of(errors, claim.metric);
-  return std::nullopt;
+/// Of the claim's layer; a slope is that of RMSE.
+std::vector<CurvePoint> curve_of(const BenchRun& run, const BenchClaim& claim, BenchAxis axis) {
+  std::vector<CurvePoint> curve;
+  for (const BenchPoint& point : run.points) {
+    const BenchErrors* errors =
+        claim.layer.empty() ? &point.errors : find(point.layers, claim.layer);
+    if (errors != nullptr)
+      curve.push_back({position_of(point, axis), error_of(*errors, claim.metric)});
+  }
+  return curve;
 }
 
 std::optional<double> if_positive(uint64_t value) {
@@ -64,43 +70,78 @@ std::optional<Pair> figures_of(const BenchRun& subject, const BenchRun& other,
   const BenchAxis axis = *claim.at_equal;
   const double x = std::min(position_of(subject.end(), axis), position_of(other.end(), axis));
   if (!(x > 0)) return std::nullopt;
-  const auto a = log_interpolate(curve_of(subject, claim.metric, axis), x);
-  const auto b = log_interpolate(curve_of(other, claim.metric, axis), x);
+  const auto a = log_interpolate(curve_of(subject, claim, axis), x);
+  const auto b = log_interpolate(curve_of(other, claim, axis), x);
   if (!a || !b) return std::nullopt;
   const char* unit = axis == BenchAxis::kTime     ? "s"
                      : axis == BenchAxis::kPasses ? "passes"
                                                   : "light paths";
-  return Pair{*a, *b, fmt::format(" at {:.4g} {}", x, unit)};
+  return Pair{*a, *b, fmt::format(" at {} {}", count_text(x), unit)};
 }
 
-BenchFigure compare(const BenchClaim& claim, const std::string& other, const Pair& pair) {
-  const char* metric = metric_name(claim.metric);
-  BenchFigure figure;
-  const double ratio = pair.subject / pair.other;
-  if (claim.form == BenchClaim::Form::kSmaller) {
-    figure.holds = pair.subject <= claim.factor * pair.other;
-    figure.text = fmt::format(
-        "{} of {} {:.4g}, of {} {:.4g}{}: ratio {:.3g}, at most {:.3g} claimed", metric,
-        claim.subject, pair.subject, other, pair.other, pair.where, ratio, claim.factor);
-  } else {
-    figure.holds =
-        pair.subject <= claim.factor * pair.other && pair.other <= claim.factor * pair.subject;
-    figure.text =
-        fmt::format("{} of {} {:.4g}, of {} {:.4g}{}: ratio {:.3g}, {:.3g} to {:.3g} claimed",
-                    metric, claim.subject, pair.subject, other, pair.other, pair.where, ratio,
-                    1 / claim.factor, claim.factor);
+/// A figure in the unit that it has.
+std::string in_words(BenchMetric metric, double value) {
+  switch (metric) {
+    case BenchMetric::kMemory:
+    case BenchMetric::kPhotonMemory:
+    case BenchMetric::kPixelMemory:
+      return bytes_in_words(value);
+    case BenchMetric::kPhotons:
+    case BenchMetric::kEmitted:
+    case BenchMetric::kRays:
+      return count_text(value);
+    default:
+      return number_text(value);
   }
+}
+
+/// "RMSE of the layer 'caustic'".
+std::string measured(const BenchClaim& claim) {
+  std::string text = metric_title(claim.metric);
+  if (claim.metric == BenchMetric::kSlope) text += fmt::format(" over {}", axis_name(claim.over));
+  if (!claim.layer.empty()) text += " in the layer '" + claim.layer + "'";
+  if (!claim.region.empty()) text += " in the region '" + claim.region + "'";
+  return text + ": ";
+}
+
+/// What is left of RMSEs of the whole picture without the reference's own; empty for other figures.
+std::string without(const BenchClaim& claim, const std::optional<double>& own_error,
+                    std::initializer_list<double> values) {
+  if (claim.metric != BenchMetric::kRmse || !claim.region.empty() || !claim.layer.empty() ||
+      !own_error)
+    return {};
+  std::string text;
+  for (const double value : values)
+    text += (text.empty() ? "" : " and ") + number_text(without_reference(value, *own_error));
+  return "; without the reference's own error " + text;
+}
+
+BenchFigure compare(const BenchClaim& claim, const std::string& other, const Pair& pair,
+                    const std::optional<double>& own_error) {
+  BenchFigure figure;
+  const bool at_most = pair.subject <= claim.factor * pair.other;
+  const bool smaller = claim.form == BenchClaim::Form::kSmaller;
+  figure.holds = at_most && (smaller || pair.other <= claim.factor * pair.subject);
+  const std::string limits = smaller
+                                 ? fmt::format("at most {:.3g}", claim.factor)
+                                 : fmt::format("{:.3g} to {:.3g}", 1 / claim.factor, claim.factor);
+  figure.text =
+      measured(claim) +
+      fmt::format("{} {}, {} {}{}, ratio {:.3g} ({} claimed)", claim.subject,
+                  in_words(claim.metric, pair.subject), other, in_words(claim.metric, pair.other),
+                  pair.where, pair.subject / pair.other, limits) +
+      without(claim, own_error, {pair.subject, pair.other});
   return figure;
 }
 
-BenchFigure place(const BenchClaim& claim, double value) {
+BenchFigure place(const BenchClaim& claim, double value, const std::optional<double>& own_error) {
   BenchFigure figure;
   figure.holds = value >= claim.low && value <= claim.high;
-  const std::string over =
-      claim.metric == BenchMetric::kSlope ? fmt::format(" over {}", axis_name(claim.over)) : "";
   figure.text =
-      fmt::format("{}{} of {} {:.4g}, {:.4g} to {:.4g} claimed", metric_name(claim.metric), over,
-                  claim.subject, value, claim.low, claim.high);
+      measured(claim) +
+      fmt::format("{} {} ({} to {} claimed)", claim.subject, in_words(claim.metric, value),
+                  in_words(claim.metric, claim.low), in_words(claim.metric, claim.high)) +
+      without(claim, own_error, {value});
   return figure;
 }
 
@@ -112,13 +153,13 @@ bool add_figures(const BenchClaim& claim, const BenchSceneResult& scene, BenchVe
   if (claim.form == BenchClaim::Form::kBetween) {
     const auto value = metric_of(*subject, claim);
     if (!value) return false;
-    figures.push_back(place(claim, *value));
+    figures.push_back(place(claim, *value, scene.reference.own_error));
   }
   for (const std::string& name : claim.others) {
     const BenchRun* other = scene.find_run(name);
     const auto pair = other == nullptr ? std::nullopt : figures_of(*subject, *other, claim);
     if (!pair) return false;
-    figures.push_back(compare(claim, name, *pair));
+    figures.push_back(compare(claim, name, *pair, scene.reference.own_error));
   }
   for (BenchFigure& figure : figures) {
     figure.scene = scene.name;
@@ -135,11 +176,12 @@ bool contains(const List& list, const std::string& name) {
 /// Whether a claim is about a scene of the suite.
 bool is_about(const BenchClaim& claim, const BenchScene& scene) {
   if (!claim.scenes.empty()) return contains(claim.scenes, scene.name);
-  const bool has_region =
-      claim.region.empty() ||
-      std::any_of(scene.regions.begin(), scene.regions.end(),
-                  [&](const BenchRegion& region) { return region.name == claim.region; });
-  return has_region && contains(scene.integrators, claim.subject) &&
+  const auto has = [](const auto& list, const std::string& name) {
+    return name.empty() || std::any_of(list.begin(), list.end(),
+                                       [&](const auto& named) { return named.name == name; });
+  };
+  return has(scene.regions, claim.region) && has(scene.layers, claim.layer) &&
+         contains(scene.integrators, claim.subject) &&
          std::all_of(claim.others.begin(), claim.others.end(),
                      [&](const std::string& name) { return contains(scene.integrators, name); });
 }
@@ -152,6 +194,8 @@ std::optional<double> metric_of(const BenchRun& run, const BenchClaim& claim) {
       return if_positive(run.bytes);
     case BenchMetric::kPhotonMemory:
       return if_positive(run.photon_bytes);
+    case BenchMetric::kPixelMemory:
+      return if_positive(run.pixel_bytes);
     case BenchMetric::kMemoryGrowth:
       if (run.first_pass_bytes == 0) return std::nullopt;
       return static_cast<double>(run.bytes) / static_cast<double>(run.first_pass_bytes);
@@ -166,12 +210,15 @@ std::optional<double> metric_of(const BenchRun& run, const BenchClaim& claim) {
     case BenchMetric::kSeconds:
       return run.end().seconds;
     case BenchMetric::kSlope:
-      return log_slope(curve_of(run, BenchMetric::kRmse, claim.over));
+      return log_slope(curve_of(run, claim, claim.over));
     default:
       break;
   }
-  if (!claim.region.empty()) return region_error(run, claim);
-  return error_of(run.end().errors, claim.metric);
+  const BenchErrors* errors = &run.end().errors;
+  if (!claim.region.empty()) errors = find(run.regions, claim.region);
+  if (!claim.layer.empty()) errors = find(run.end().layers, claim.layer);
+  if (errors == nullptr) return std::nullopt;
+  return error_of(*errors, claim.metric);
 }
 
 std::vector<BenchVerdict> judge_claims(const BenchResults& results) {

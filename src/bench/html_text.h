@@ -19,6 +19,9 @@ std::string count_text(double value);
 /// "1.23 MB", by thousands.
 std::string bytes_in_words(double value);
 
+/// "12.3 ms", "4.56 s", "7.89 min", "1.23 h".
+std::string seconds_in_words(double seconds);
+
 /// "data:image/png;base64,..." of interleaved sRGB bytes.
 std::string png_data_url(int width, int height, const std::vector<uint8_t>& rgb);
 

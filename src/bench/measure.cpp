@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/errors.h"
 #include "session/compare.h"
 #include "session/flip.h"
 
 namespace nephroid {
 
-Picture colors_of_film(const Film& film) {
+Picture colors_of_film(const Film& film, std::optional<int> aov) {
   const PixelBounds& b = film.bounds();
   Picture picture;
   picture.full_width = film.settings().width;
@@ -19,10 +20,27 @@ Picture colors_of_film(const Film& film) {
   picture.pixels.reserve(static_cast<size_t>(b.area()) * 3);
   for (int y = b.y0; y < b.y1; ++y)
     for (int x = b.x0; x < b.x1; ++x) {
-      const Rgb value = film.value(x, y);
+      const Rgb value = aov ? film.aov_value(*aov, x, y) : film.value(x, y);
       picture.pixels.insert(picture.pixels.end(), {value.r, value.g, value.b});
     }
   return picture;
+}
+
+Picture layer_of(const Picture& picture, const std::string& layer) {
+  size_t channels[3] = {};
+  for (size_t c = 0; c < 3; ++c) {
+    const int channel = picture.find_channel(layer + "." + "RGB"[c]);
+    if (channel < 0)
+      throw UsageError("the reference has no layer '" + layer +
+                       "', expected one that was rendered with --aov " + layer + "=EXPRESSION");
+    channels[c] = static_cast<size_t>(channel);
+  }
+  Picture result = picture;
+  result.channels = {"R", "G", "B"};
+  result.pixels.clear();
+  for (size_t i = 0; i < picture.pixels.size(); i += picture.channels.size())
+    for (const size_t channel : channels) result.pixels.push_back(picture.pixels[i + channel]);
+  return result;
 }
 
 Picture part_of(const Picture& picture, const BenchRegion& region) {

@@ -7,8 +7,11 @@
 
 namespace nephroid {
 
-/// R, G and B of a film, with its colour space.
-Picture colors_of_film(const Film& film);
+/// R, G and B of a film, with its colour space; of one of its AOVs, if one is given.
+Picture colors_of_film(const Film& film, std::optional<int> aov = std::nullopt);
+
+/// R, G and B of a layer. Throws UsageError if the picture has no such layer.
+Picture layer_of(const Picture& picture, const std::string& layer);
 
 /// The part of a picture that a region covers: pixels whose centres it has, but at least one.
 Picture part_of(const Picture& picture, const BenchRegion& region);

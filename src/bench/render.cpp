@@ -42,7 +42,7 @@ class Stopwatch {
 };
 
 struct Totals {
-  uint64_t rays = 0, emitted = 0, stored = 0, bytes = 0, photon_bytes = 0;
+  uint64_t rays = 0, emitted = 0, stored = 0, bytes = 0, photon_bytes = 0, pixel_bytes = 0;
 };
 Totals totals_of(const std::vector<EstimatorStatistics>& statistics) {
   Totals t;
@@ -52,6 +52,7 @@ Totals totals_of(const std::vector<EstimatorStatistics>& statistics) {
     t.stored += s.photons_stored;
     t.bytes += s.bytes;
     t.photon_bytes += s.photon_bytes;
+    t.pixel_bytes += s.pixel_bytes;
   }
   return t;
 }
@@ -65,8 +66,13 @@ std::vector<EstimatorStatistics> statistics_of(const Preset& preset) {
 /// Measures the film at passes that grow by a factor, and at the end.
 class Curve {
  public:
-  Curve(const Film& film, const Preset& preset, const Picture* reference, float exposure)
-      : film_(film), preset_(preset), reference_(reference), exposure_(exposure) {}
+  Curve(const Film& film, const Preset& preset, const Picture* reference, const BenchScene& scene)
+      : film_(film), preset_(preset), reference_(reference), scene_(scene) {
+    // Runs have the layers in this order, and then those of shares.
+    if (reference_ != nullptr)
+      for (const BenchEnergy& layer : scene_.layers)
+        reference_layers_.push_back(layer_of(*reference_, layer.name));
+  }
 
   void pass_is_done(uint32_t passes, double seconds) {
     if (passes < next_) return;
@@ -80,16 +86,22 @@ class Curve {
 
  private:
   void measure(uint32_t passes, double seconds) {
-    BenchPoint point{passes, seconds, totals_of(statistics_of(preset_)).emitted, {}};
+    BenchPoint point{passes, seconds, totals_of(statistics_of(preset_)).emitted, {}, {}};
     if (reference_ != nullptr)
-      point.errors = measure_errors(*reference_, colors_of_film(film_), exposure_);
-    points_.push_back(point);
+      point.errors = measure_errors(*reference_, colors_of_film(film_), scene_.exposure);
+    for (size_t i = 0; i < reference_layers_.size(); ++i)
+      point.layers.emplace_back(
+          scene_.layers[i].name,
+          measure_errors(reference_layers_[i], colors_of_film(film_, static_cast<int>(i)),
+                         scene_.exposure));
+    points_.push_back(std::move(point));
   }
 
   const Film& film_;
   const Preset& preset_;
   const Picture* reference_;
-  float exposure_;
+  const BenchScene& scene_;
+  std::vector<Picture> reference_layers_;
   uint32_t next_ = 1;
   std::vector<BenchPoint> points_;
 };
@@ -132,6 +144,7 @@ void fill_run(const RenderResult& result, const Film& film, const BenchRender& r
   run->photons_stored = totals.stored;
   run->bytes = totals.bytes;
   run->photon_bytes = totals.photon_bytes;
+  run->pixel_bytes = totals.pixel_bytes;
   run->first_pass_bytes = totals_of(result.first_pass_statistics).bytes;
   const RgbColorSpace* space = film.settings().color_space;
   run->color_space = space == nullptr ? "srgb" : std::string(space->name());
@@ -139,8 +152,10 @@ void fill_run(const RenderResult& result, const Film& film, const BenchRender& r
     run->notes.insert(run->notes.end(), s.notes.begin(), s.notes.end());
   if (render.with_energy) {
     const std::vector<double> shares = energy_shares(film).aovs;
+    const std::vector<BenchEnergy>&layers = render.scene->layers, &energy = render.scene->energy;
     for (size_t i = 0; i < shares.size(); ++i)
-      run->energy.emplace_back(render.scene->energy[i].name, shares[i]);
+      run->energy.emplace_back(i < layers.size() ? layers[i].name : energy[i - layers.size()].name,
+                               shares[i]);
   }
   if (reference == nullptr) return;
   const Picture colors = colors_of_film(film);
@@ -183,9 +198,12 @@ SettingList settings_of(const BenchRender& render) {
 RoutePlan plan_of(const BenchRender& render) {
   const RouteChoice& choice = render.integrator->routes;
   RoutePlan plan = plan_of(choice, choice.integrator_or(kDefaultIntegrator));
+  const auto add = [&](const BenchEnergy& e) {
+    plan.aovs.push_back(parse_aov(e.name + "=" + e.expression));
+  };
+  for (const BenchEnergy& layer : render.scene->layers) add(layer);
   if (render.with_energy)
-    for (const BenchEnergy& energy : render.scene->energy)
-      plan.aovs.push_back(parse_aov(energy.name + "=" + energy.expression));
+    for (const BenchEnergy& energy : render.scene->energy) add(energy);
   return plan;
 }
 
@@ -207,7 +225,7 @@ std::optional<BenchRendered> render_for_bench(const BenchRender& render, const P
   if (reference != nullptr) check_size(*reference, film);
 
   Stopwatch watch;
-  Curve curve(film, preset, reference, render.scene->exposure);
+  Curve curve(film, preset, reference, *render.scene);
   RenderSession session(scene, preset, film, render_options(render));
   session.use_clock([&] { return watch.seconds(); });
   if (reference != nullptr)

@@ -46,13 +46,17 @@ std::string navigation(const BenchResults& results) {
   for (const BenchSceneResult& scene : results.scenes)
     html += fmt::format("<a href=\"#scene-{}\">{}</a>", scene.name,
                         html_escape(title_of(results, scene.name)));
+  for (const BenchExperiment& experiment : results.experiments)
+    html += fmt::format("<a href=\"#experiment-{}\">{}</a>", experiment.name,
+                        html_escape(experiment.title));
   return html + "<a href=\"#again\">How to repeat it</a></nav>\n";
 }
 
-std::string claim_html(const BenchClaim& claim, const BenchVerdict& verdict) {
+std::string claim_html(const BenchResults& results, const BenchClaim& claim,
+                       const BenchVerdict& verdict) {
   const bool holds = verdict.state == BenchVerdict::State::kHolds;
   const bool fails = verdict.state == BenchVerdict::State::kFails;
-  std::string html = fmt::format("<li class=\"{}\"><b>{}</b>{}",
+  std::string html = fmt::format("<li class=\"{}\"><p><b>{}</b>{}</p>",
                                  holds   ? "holds"
                                  : fails ? "fails"
                                          : "unknown",
@@ -63,8 +67,8 @@ std::string claim_html(const BenchClaim& claim, const BenchVerdict& verdict) {
   if (!verdict.figures.empty()) {
     html += "<ul>";
     for (const BenchFigure& figure : verdict.figures)
-      html += fmt::format("<li class=\"{}\">{}: {}</li>", figure.holds ? "yes" : "no",
-                          html_escape(figure.scene), html_escape(figure.text));
+      html += fmt::format("<li class=\"{}\"><b>{}</b> {}</li>", figure.holds ? "yes" : "no",
+                          html_escape(title_of(results, figure.scene)), html_escape(figure.text));
     html += "</ul>";
   }
   return html + "</li>\n";
@@ -76,7 +80,7 @@ std::string claims_section(const BenchResults& results) {
   std::string list;
   for (size_t i = 0; i < results.verdicts.size(); ++i) {
     held += results.verdicts[i].state == BenchVerdict::State::kHolds;
-    list += claim_html(results.suite.claims[i], results.verdicts[i]);
+    list += claim_html(results, results.suite.claims[i], results.verdicts[i]);
   }
   return fmt::format(
       "<h2 id=\"claims\">Claims</h2>\n<p>{} of {} hold.</p>\n"
@@ -90,6 +94,7 @@ std::string summary_section(const BenchResults& results) {
   table.head = {"RMSE"};
   for (const BenchIntegrator& integrator : results.suite.integrators)
     table.head.push_back(integrator.name);
+  table.head.emplace_back("reference’s own");
   for (const BenchSceneResult& scene : results.scenes) {
     std::vector<ReportTable::Cell> row = {{fmt::format("<a href=\"#scene-{}\">{}</a>", scene.name,
                                                        html_escape(title_of(results, scene.name))),
@@ -104,10 +109,13 @@ std::string summary_section(const BenchResults& results) {
       row.push_back({run == nullptr ? "" : number_text(run->end().errors.rmse),
                      run != nullptr && run == best});
     }
+    const std::optional<double>& own = scene.reference.own_error;
+    row.push_back({own ? number_text(*own) : "—", false});
     table.rows.push_back(std::move(row));
   }
   return "<h2 id=\"summary\">Summary</h2>\n<p>Root mean square error against the reference at the "
-         "end of each run; a star marks the smallest.</p>\n" +
+         "end of each run; a star marks the smallest. Last is the error that the reference itself "
+         "estimates that it has.</p>\n" +
          table.html();
 }
 
@@ -122,7 +130,10 @@ std::string again_section(const BenchResults& results) {
       "<p>Time is that of rendering, from the first pass to the end of the last, without loading "
       "the scene and without measuring. Slopes are of the straight line through the logarithms of "
       "RMSE over the second half of a run: −0.5 is what independent samples give. The star marks "
-      "the best of a column. results.json, runs.csv and curves.csv in the same directory have all "
+      "the best of a column. An error without the reference’s is the root of the difference of "
+      "their squares, an estimate of the error against the truth; it is negative where the "
+      "reference’s is the larger. results.json, runs.csv and curves.csv in the same directory have "
+      "all "
       "figures.</p>\n",
       html_escape(m.command), html_escape(m.version), html_escape(m.instruction_set), m.threads,
       m.threads == 1 ? "" : "s", html_escape(m.processor), html_escape(m.date));
@@ -160,6 +171,8 @@ std::string bench_report(const BenchResults& results) {
                         results.failures(), results.failures() == 1 ? "" : "s");
   html += claims_section(results) + summary_section(results);
   for (const BenchSceneResult& scene : results.scenes) html += report_of_scene(results, scene);
+  for (const BenchExperiment& experiment : results.experiments)
+    html += report_of_experiment(experiment);
   return html + again_section(results) + "<script>" + kReportScript +
          "</script>\n</body>\n</html>\n";
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 
 #include "bench/fit.h"
 #include "bench/html_text.h"
@@ -22,7 +23,7 @@ constexpr int kSmallWidth = 300;
 using Cell = ReportTable::Cell;
 
 struct ShownPicture {
-  std::string title, data;
+  std::string title, data, error_data;  ///< error map; none of the reference
 };
 
 std::string display_url(const Picture& picture, float exposure) {
@@ -39,56 +40,75 @@ std::vector<const BenchRun*> good_runs(const BenchSceneResult& scene) {
   return runs;
 }
 
-/// Reference, runs, and error maps of the runs.
+/// Reference and runs.
 std::vector<ShownPicture> pictures_of(const BenchSceneResult& scene, float exposure) {
-  std::vector<ShownPicture> shown, errors;
+  std::vector<ShownPicture> shown;
   const std::vector<const BenchRun*> runs = good_runs(scene);
   Picture reference = read_picture(scene.reference.picture);
   if (!runs.empty()) reference.color_space = RgbColorSpace::find(runs[0]->color_space);
-  shown.push_back({"reference", display_url(reference, exposure)});
+  shown.push_back({"reference", display_url(reference, exposure), {}});
   for (const BenchRun* run : runs) {
     Picture picture = read_picture(run->picture);
     picture.color_space = reference.color_space;
-    shown.push_back({run->integrator, display_url(picture, exposure)});
-    errors.push_back({"error of " + run->integrator, png_data_url(picture.width(), picture.height(),
-                                                                  heat_map(reference, picture))});
+    shown.push_back(
+        {run->integrator, display_url(picture, exposure),
+         png_data_url(picture.width(), picture.height(), heat_map(reference, picture))});
   }
-  shown.insert(shown.end(), errors.begin(), errors.end());
   return shown;
 }
 
+/// Pictures are numbered 2 i, their error maps 2 i + 1.
 std::string select(const std::string& label, const std::vector<ShownPicture>& pictures,
                    size_t chosen) {
-  std::string html = fmt::format("<select aria-label=\"{}\">", label);
-  for (size_t i = 0; i < pictures.size(); ++i)
-    html +=
-        fmt::format("<option value=\"{}\"{}>{}</option>", i,
-                    i == chosen ? " selected=\"selected\"" : "", html_escape(pictures[i].title));
-  return html + "</select>";
+  std::string html = fmt::format("<label>{} <select>", label);
+  const auto add = [&](size_t number, const std::string& title) {
+    html += fmt::format("<option value=\"{}\"{}>{}</option>", number,
+                        number == chosen ? " selected=\"selected\"" : "", html_escape(title));
+  };
+  for (size_t i = 0; i < pictures.size(); ++i) add(2 * i, pictures[i].title);
+  for (size_t i = 1; i < pictures.size(); ++i) add(2 * i + 1, "error of " + pictures[i].title);
+  return html + "</select></label>";
+}
+
+std::string figure(size_t number, const std::string& title, const std::string& data) {
+  return fmt::format(
+      "<figure><img data-picture=\"{}\" alt=\"{}\" "
+      "src=\"{}\"/><figcaption>{}</figcaption></figure>",
+      number, html_escape(title), data, html_escape(title));
+}
+
+/// A column for each picture, with its error map below; below the reference the maps' scale.
+std::string strip(const std::vector<ShownPicture>& pictures, bool small) {
+  std::string html = fmt::format("<div class=\"strip{}\">\n", small ? " small" : "");
+  for (size_t i = 0; i < pictures.size(); ++i) {
+    html += "<div>" + figure(2 * i, pictures[i].title, pictures[i].data);
+    if (i == 0)
+      html += fmt::format(
+          "<p class=\"soft\">Error maps show the squared relative error of each pixel:</p>"
+          "<div class=\"heat\"></div><div class=\"heat-ends soft\"><span>{:g}</span>"
+          "<span>{:g}</span></div>",
+          kHeatMin, kHeatMax);
+    else
+      html += figure(2 * i + 1, "error of " + pictures[i].title, pictures[i].error_data);
+    html += "</div>\n";
+  }
+  return html + "</div>\n";
 }
 
 std::string viewer(const BenchSceneResult& scene, float exposure) {
   const std::vector<ShownPicture> pictures = pictures_of(scene, exposure);
+  const bool small = scene.width < kSmallWidth;
   const std::string first = html_escape(pictures[0].title);
-  std::string html = fmt::format(
-      "<div class=\"view{}\"><div class=\"bar\">{}{}</div><div class=\"stage\">"
-      "<img class=\"left\" alt=\"{}\" src=\"{}\"/><img class=\"right\" alt=\"\" src=\"{}\"/>"
-      "<span class=\"divider\"></span></div>"
-      "<input type=\"range\" min=\"0\" max=\"100\" step=\"0.1\" value=\"50\" "
-      "aria-label=\"How much of the left picture is shown\"/></div>\n",
-      scene.width < kSmallWidth ? " small" : "", select("Left picture", pictures, 0),
-      select("Right picture", pictures, pictures.size() > 1 ? 1 : 0), first, pictures[0].data,
-      pictures[0].data);
-  html += fmt::format("<div class=\"strip{}\">", scene.width < kSmallWidth ? " small" : "");
-  for (const ShownPicture& picture : pictures)
-    html +=
-        fmt::format("<figure><img alt=\"{0}\" src=\"{1}\"/><figcaption>{0}</figcaption></figure>\n",
-                    html_escape(picture.title), picture.data);
-  return html + fmt::format(
-                    "</div>\n<p class=\"soft\">Error maps: squared relative error of each "
-                    "pixel.</p><div class=\"heat\"></div><div class=\"heat-ends soft\">"
-                    "<span>{:g}</span><span>{:g}</span></div>\n",
-                    kHeatMin, kHeatMax);
+  return fmt::format(
+             "<div class=\"view{}\"><div class=\"bar\">{}{}</div><div class=\"stage\">"
+             "<img class=\"left\" alt=\"{}\" src=\"{}\"/>"
+             "<img class=\"right\" alt=\"\" src=\"{}\"/><span class=\"divider\"></span></div>"
+             "<input type=\"range\" min=\"0\" max=\"100\" step=\"0.1\" value=\"50\" "
+             "aria-label=\"How much of the left picture is shown\"/></div>\n",
+             small ? " small" : "", select("left", pictures, 0),
+             select("right", pictures, pictures.size() > 1 ? 2 : 0), first, pictures[0].data,
+             pictures[0].data) +
+         strip(pictures, small);
 }
 
 /// A column: how a run's value is shown, and how good it is (smaller is better, NaN is neither).
@@ -121,31 +141,51 @@ Column error_column(const char* name, double BenchErrors::*error) {
           [value](const BenchRun& run) { return std::abs(value(run)); }};
 }
 
-std::vector<CurvePoint> curve_of(const BenchRun& run, bool over_time) {
+enum class Over { kTime, kPasses, kEmitted };
+
+/// RMSE of the picture, or of a layer by its number.
+std::vector<CurvePoint> curve_of(const BenchRun& run, Over over,
+                                 std::optional<size_t> layer = std::nullopt) {
   std::vector<CurvePoint> curve;
-  for (const BenchPoint& p : run.points)
-    curve.push_back({over_time ? p.seconds : p.passes, p.errors.rmse});
+  for (const BenchPoint& p : run.points) {
+    const double x = over == Over::kTime     ? p.seconds
+                     : over == Over::kPasses ? p.passes
+                                             : static_cast<double>(p.emitted);
+    if (!layer || *layer < p.layers.size())
+      curve.push_back({x, (layer ? p.layers[*layer].second : p.errors).rmse});
+  }
   return curve;
 }
 
-Column slope_column(const char* name, bool over_time) {
-  const auto slope = [over_time](const BenchRun& run) {
-    return log_slope(curve_of(run, over_time)).value_or(std::nan(""));
-  };
-  return {name, [slope](const BenchRun& run) { return number_text(slope(run)); }, slope};
+Column slope_column(const char* name, Over over) {
+  return {name,
+          [over](const BenchRun& run) {
+            return number_text(log_slope(curve_of(run, over)).value_or(std::nan("")));
+          },
+          {}};
 }
 
-std::string error_table(const std::vector<const BenchRun*>& runs) {
-  return table_of(
-      runs, {{"passes", [](const BenchRun& r) { return fmt::format("{}", r.end().passes); }, {}},
-             {"time", [](const BenchRun& r) { return number_text(r.end().seconds) + " s"; }, {}},
-             error_column("RMSE", &BenchErrors::rmse),
-             error_column("relMSE", &BenchErrors::relmse),
-             error_column("relMSE, trimmed", &BenchErrors::relmse_trim),
-             error_column("mean error", &BenchErrors::mean_error),
-             error_column("FLIP", &BenchErrors::flip),
-             slope_column("slope over passes", false),
-             slope_column("slope over time", true)});
+std::string error_table(const std::vector<const BenchRun*>& runs,
+                        const std::optional<double>& own_error) {
+  std::vector<Column> columns = {
+      {"passes", [](const BenchRun& r) { return fmt::format("{}", r.end().passes); }, {}},
+      {"time", [](const BenchRun& r) { return seconds_in_words(r.end().seconds); }, {}},
+      error_column("RMSE", &BenchErrors::rmse)};
+  if (own_error)
+    columns.push_back({"without reference’s",
+                       [&](const BenchRun& r) {
+                         return number_text(without_reference(r.end().errors.rmse, *own_error));
+                       },
+                       {}});
+  for (Column& column :
+       std::vector<Column>{error_column("relMSE", &BenchErrors::relmse),
+                           error_column("relMSE, trimmed", &BenchErrors::relmse_trim),
+                           error_column("mean error", &BenchErrors::mean_error),
+                           error_column("FLIP", &BenchErrors::flip),
+                           slope_column("slope over passes", Over::kPasses),
+                           slope_column("slope over time", Over::kTime)})
+    columns.push_back(std::move(column));
+  return table_of(runs, columns);
 }
 
 std::string bytes_or_dash(uint64_t bytes) {
@@ -161,7 +201,8 @@ std::string work_table(const std::vector<const BenchRun*>& runs) {
       {{"light paths", [](const BenchRun& r) { return count_or_dash(r.emitted); }, {}},
        {"photons stored", [](const BenchRun& r) { return count_or_dash(r.photons_stored); }, {}},
        {"photon memory", [](const BenchRun& r) { return bytes_or_dash(r.photon_bytes); }, {}},
-       {"with pixels' state", [](const BenchRun& r) { return bytes_or_dash(r.bytes); }, {}},
+       {"memory of pixels", [](const BenchRun& r) { return bytes_or_dash(r.pixel_bytes); }, {}},
+       {"both", [](const BenchRun& r) { return bytes_or_dash(r.bytes); }, {}},
        {"whole program", [](const BenchRun& r) { return bytes_or_dash(r.process_bytes); }, {}},
        {"rays", [](const BenchRun& r) { return count_or_dash(r.rays); }, {}},
        {"rays per second",
@@ -169,18 +210,20 @@ std::string work_table(const std::vector<const BenchRun*>& runs) {
         {}}});
 }
 
-std::string region_table(const std::vector<const BenchRun*>& runs) {
+/// RMSE at the end in each region or layer.
+std::string parts_table(const std::string& title, const std::vector<const BenchRun*>& runs,
+                        const std::function<const BenchNamedErrors&(const BenchRun&)>& parts) {
   std::vector<Column> columns;
   std::vector<std::string> names;
-  for (const auto& region : runs[0]->regions) names.push_back("RMSE, " + region.first);
+  for (const auto& part : parts(*runs[0])) names.push_back("RMSE, " + part.first);
   for (size_t i = 0; i < names.size(); ++i) {
-    const auto rmse = [i](const BenchRun& r) {
-      return i < r.regions.size() ? r.regions[i].second.rmse : std::nan("");
+    const auto rmse = [i, &parts](const BenchRun& r) {
+      return i < parts(r).size() ? parts(r)[i].second.rmse : std::nan("");
     };
     columns.push_back(
         {names[i].c_str(), [rmse](const BenchRun& r) { return number_text(rmse(r)); }, rmse});
   }
-  return columns.empty() ? "" : "<h3>Regions</h3>\n" + table_of(runs, columns);
+  return columns.empty() ? "" : "<h3>" + title + "</h3>\n" + table_of(runs, columns);
 }
 
 std::string energy_lines(const BenchSceneResult& scene) {
@@ -199,32 +242,44 @@ std::string energy_lines(const BenchSceneResult& scene) {
 }
 
 std::string plots(const BenchResults& results, const std::vector<const BenchRun*>& runs) {
+  const auto& all = results.suite.integrators;
   std::string legend = "<div class=\"legend\">";
-  std::vector<PlotSeries> time, passes;
+  std::vector<size_t> styles;
   for (const BenchRun* run : runs) {
-    const auto& all = results.suite.integrators;
-    const auto style =
-        static_cast<size_t>(results.suite.find_integrator(run->integrator) - &all[0]);
-    time.push_back({run->integrator, style, curve_of(*run, true)});
-    passes.push_back({run->integrator, style, curve_of(*run, false)});
-    legend += "<span>" + svg_line_sample(style) + html_escape(run->integrator) + "</span>";
+    styles.push_back(static_cast<size_t>(results.suite.find_integrator(run->integrator) - &all[0]));
+    legend += "<span>" + svg_line_sample(styles.back()) + html_escape(run->integrator) + "</span>";
   }
-  return legend + "</div>\n<div class=\"plots\">" +
-         svg_log_plot("Error over time", "seconds", "RMSE", time) +
-         svg_log_plot("Error over passes", "passes", "RMSE", passes) + "</div>\n";
+  const auto plot = [&](const std::string& title, const char* x, Over over,
+                        std::optional<size_t> layer = std::nullopt) {
+    std::vector<PlotSeries> series;
+    for (size_t i = 0; i < runs.size(); ++i)
+      series.push_back({runs[i]->integrator, styles[i], curve_of(*runs[i], over, layer)});
+    return svg_log_plot(title, x, "RMSE", series);
+  };
+  std::string html = "<h3>How errors fall</h3>\n" + legend + "</div>\n<div class=\"plots\">" +
+                     plot("Error over time", "seconds", Over::kTime) +
+                     plot("Error over passes", "passes", Over::kPasses);
+  for (size_t i = 0; i < runs[0]->end().layers.size(); ++i) {
+    const std::string of_layer = "Error of " + runs[0]->end().layers[i].first;
+    html += plot(of_layer + " over light paths", "light paths", Over::kEmitted, i) +
+            plot(of_layer + " over time", "seconds", Over::kTime, i);
+  }
+  return html + "</div>\n";
 }
 
 std::string facts(const BenchScene& scene, const BenchSceneResult& result) {
   const BenchReferenceResult& r = result.reference;
+  const RouteChoice& routes = scene.reference.integrator.routes;
   std::string text =
       fmt::format("{}, {} × {} pixels. Reference: ", scene.file, result.width, result.height);
   if (r.rendered)
-    text += fmt::format("rendered with {}, {} passes in {:.4g} s",
-                        name_of(scene.reference.integrator.routes, ""), r.passes, r.seconds);
+    text += fmt::format("rendered with {}, {} passes in {}", name_of(routes, routes.integrator),
+                        r.passes, seconds_in_words(r.seconds));
   else
     text += r.picture;
   if (r.own_error)
-    text += fmt::format("; its own RMS error, as it estimates it, is {:.3g}", *r.own_error);
+    text +=
+        fmt::format("; its own RMS error, as it estimates it, is {}", number_text(*r.own_error));
   return "<p class=\"facts\">" + html_escape(text) + ".</p>\n";
 }
 
@@ -265,8 +320,14 @@ std::string report_of_scene(const BenchResults& results, const BenchSceneResult&
   }
   const std::vector<const BenchRun*> runs = good_runs(result);
   if (!runs.empty())
-    html += "<h3>Errors</h3>\n" + error_table(runs) + region_table(runs) + plots(results, runs) +
-            "<h3>Work and memory</h3>\n" + work_table(runs) + energy_lines(result) + settings(runs);
+    html +=
+        "<h3>Errors</h3>\n" + error_table(runs, result.reference.own_error) +
+        parts_table("Regions", runs,
+                    [](const BenchRun& r) -> const BenchNamedErrors& { return r.regions; }) +
+        parts_table("Layers", runs,
+                    [](const BenchRun& r) -> const BenchNamedErrors& { return r.end().layers; }) +
+        plots(results, runs) + "<h3>Work and memory</h3>\n" + work_table(runs) +
+        energy_lines(result) + settings(runs);
   return html + "</section>\n";
 }
 

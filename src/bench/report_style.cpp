@@ -25,7 +25,8 @@ pre { background: var(--wash); border-radius: 6px; overflow-x: auto; padding: 0.
 table { border-collapse: collapse; font-size: 0.92rem; font-variant-numeric: tabular-nums; }
 th, td { border-bottom: 1px solid var(--line); padding: 0.35rem 0.9rem 0.35rem 0;
   text-align: right; white-space: nowrap; }
-th { color: var(--soft); font-weight: 500; vertical-align: bottom; }
+th { color: var(--soft); font-weight: 500; line-height: 1.25; max-width: 7.5rem; white-space: normal;
+  vertical-align: bottom; }
 th:first-child, td:first-child { text-align: left; padding-right: 1.4rem; }
 tbody tr:hover { background: var(--wash); }
 td.best { color: var(--good); font-weight: 650; }
@@ -35,16 +36,23 @@ td.best::before { content: "\2605\00a0"; font-size: 0.7em; vertical-align: 0.15e
   margin: 0.6rem 0; padding: 0.6rem 1rem; }
 .claims .holds { border-left-color: var(--good); }
 .claims .fails { border-left-color: var(--bad); }
-.claims b { margin-right: 0.5rem; }
-.claims .holds b { color: var(--good); }
-.claims .fails b, .failure { color: var(--bad); }
-.claims ul { color: var(--soft); font-size: 0.88rem; margin: 0.35rem 0 0; padding-left: 1.1rem; }
+.claims p { margin: 0; max-width: none; }
+.claims b { font-weight: 600; margin-right: 0.5rem; }
+.claims .holds > p b { color: var(--good); }
+.claims .fails > p b, .failure { color: var(--bad); }
+.claims ul { color: var(--soft); font-size: 0.88rem; list-style: none; margin: 0.35rem 0 0;
+  padding: 0; }
+.claims ul li { padding-left: 1.3rem; text-indent: -1.3rem; }
+.claims ul li::before { color: var(--good); content: "\2713"; display: inline-block;
+  text-indent: 0; width: 1.3rem; }
 .claims ul .no { color: var(--bad); }
+.claims ul .no::before { color: var(--bad); content: "\2717"; }
 .failure { background: #fdf1f0; border-radius: 6px; padding: 0.6rem 1rem; white-space: pre-wrap;
   overflow-wrap: anywhere; }
 .view { margin: 1rem 0 0.5rem; max-width: 860px; }
 .view .bar { align-items: center; display: flex; flex-wrap: wrap; gap: 0.5rem;
   justify-content: space-between; margin-bottom: 0.5rem; }
+.view label { color: var(--soft); font-size: 0.9rem; }
 .view select { background: var(--paper); border: 1px solid var(--line); border-radius: 5px;
   color: inherit; font: inherit; font-size: 0.9rem; max-width: 100%; padding: 0.25rem 0.4rem; }
 .stage { background: var(--wash); border-radius: 6px; cursor: ew-resize; overflow: hidden;
@@ -55,14 +63,16 @@ td.best::before { content: "\2605\00a0"; font-size: 0.7em; vertical-align: 0.15e
   margin-left: -1px; position: absolute; top: 0; width: 2px; pointer-events: none; }
 .view input[type=range] { accent-color: #0b57a4; margin: 0.5rem 0 0; width: 100%; }
 .small img { image-rendering: pixelated; }
-.strip { display: grid; gap: 0.75rem; margin: 1rem 0;
-  grid-template-columns: repeat(auto-fill, minmax(150px, 1fr)); }
-.strip figure { margin: 0; }
+.strip { display: grid; gap: 0.75rem; grid-auto-columns: minmax(150px, 1fr); grid-auto-flow: column;
+  margin: 1rem 0; overflow-x: auto; padding-bottom: 0.4rem; }
+.strip > div { max-width: 280px; }
+.strip figure { margin: 0 0 0.6rem; }
 .strip img { border-radius: 4px; cursor: pointer; display: block; width: 100%; }
-.heat { background: linear-gradient(90deg, HEATSTOPS); border-radius: 3px; height: 10px;
-  margin: 0.3rem 0; max-width: 320px; }
-.heat-ends { display: flex; justify-content: space-between; max-width: 320px; }
-.plots { display: grid; gap: 1rem; grid-template-columns: repeat(auto-fit, minmax(300px, 1fr)); }
+.strip img:hover { outline: 2px solid #0b57a4; outline-offset: -2px; }
+figcaption { margin-top: 0.15rem; }
+.heat { background: linear-gradient(90deg, HEATSTOPS); border-radius: 3px; height: 10px; }
+.heat-ends { display: flex; justify-content: space-between; }
+.plots { display: grid; gap: 1rem; grid-template-columns: repeat(auto-fit, minmax(min(420px, 100%), 1fr)); }
 .plot { display: block; height: auto; width: 100%; }
 .plot text { fill: var(--soft); font: 12px system-ui, sans-serif; }
 .plot .title { fill: var(--ink); font-size: 14px; font-weight: 600; }
@@ -77,7 +87,14 @@ details { margin: 0.75rem 0; } summary { cursor: pointer; }
 const char* const kReportScript = R"js(
 document.querySelectorAll('.view').forEach(function (view) {
   var scene = view.parentNode;
-  var pictures = scene.querySelectorAll('.strip img');
+  var pictures = {};
+  scene.querySelectorAll('.strip img').forEach(function (picture) {
+    pictures[picture.dataset.picture] = picture;
+    picture.addEventListener('click', function () {
+      selects[1].value = picture.dataset.picture;
+      show();
+    });
+  });
   var selects = view.querySelectorAll('select');
   var sides = view.querySelectorAll('.stage img');
   var divider = view.querySelector('.divider');
@@ -100,9 +117,6 @@ document.querySelectorAll('.view').forEach(function (view) {
   slider.addEventListener('input', show);
   view.querySelector('.stage').addEventListener('pointerdown', drag);
   view.querySelector('.stage').addEventListener('pointermove', drag);
-  pictures.forEach(function (picture, i) {
-    picture.addEventListener('click', function () { selects[1].value = i; show(); });
-  });
   show();
 });
 )js";

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/experiment.h"
 #include "bench/suite.h"
 
 namespace nephroid {
@@ -20,12 +21,20 @@ struct BenchErrors {
   double flip = 0;
 };
 
+/// Errors of parts of the picture or of its light, by name.
+using BenchNamedErrors = std::vector<std::pair<std::string, BenchErrors>>;
+
+/// An RMSE without what the reference itself adds to it: the root of the difference of squares,
+/// below 0 if the reference's own error is the larger one.
+double without_reference(double rmse, double own_error);
+
 /// A run at the end of a pass.
 struct BenchPoint {
   uint32_t passes = 0;
   double seconds = 0;    ///< of rendering, without the time that measuring took
   uint64_t emitted = 0;  ///< light paths of all kinds
   BenchErrors errors;
+  BenchNamedErrors layers;
 };
 
 /// A share of the light, by name.
@@ -42,10 +51,10 @@ struct BenchRun {
   std::string color_space;
   std::vector<BenchPoint> points;  ///< passes increase, the last is the end
   uint64_t rays = 0, emitted = 0, photons_stored = 0;
-  uint64_t bytes = 0, photon_bytes = 0;  ///< the most at once
+  uint64_t bytes = 0, photon_bytes = 0, pixel_bytes = 0;  ///< the most at once
   uint64_t first_pass_bytes = 0;
   uint64_t process_bytes = 0;  ///< peak of the whole program during the run, 0: not known
-  std::vector<std::pair<std::string, BenchErrors>> regions;
+  BenchNamedErrors regions;
   BenchShares energy;
   std::vector<std::string> notes;
 
@@ -99,7 +108,8 @@ struct BenchResults {
   std::string directory;
   std::vector<BenchSceneResult> scenes;
   std::vector<BenchVerdict> verdicts;  ///< [claim]
-  int signal = 0;                      ///< that stopped it, if one did
+  std::vector<BenchExperiment> experiments;
+  int signal = 0;  ///< that stopped it, if one did
   int failures() const;
 };
 
@@ -109,10 +119,11 @@ std::optional<BenchRun> run_from_json(const std::string& text);
 std::string reference_to_json(const BenchReferenceResult& reference);
 std::optional<BenchReferenceResult> reference_from_json(const std::string& text);
 
-/// Everything as one JSON text, as CSV with a line for each run, and as CSV with a line for each
-/// measured point.
+/// Everything as one JSON text, as CSV with a line for each run, as CSV with a line for each
+/// measured point, and the points of experiments as CSV.
 std::string results_json(const BenchResults& results);
 std::string runs_csv(const BenchResults& results);
 std::string curves_csv(const BenchResults& results);
+std::string experiments_csv(const BenchResults& results);
 
 }  // namespace nephroid

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "bench/result.h"
@@ -31,6 +32,18 @@ Json shares_json(const BenchShares& shares) {
   return json;
 }
 
+Json named_json(const BenchNamedErrors& list) {
+  Json json = Json::object();
+  for (const auto& [name, errors] : list) json[name] = errors_json(errors);
+  return json;
+}
+
+BenchNamedErrors named_of(const Json& json) {
+  BenchNamedErrors list;
+  for (const auto& [name, errors] : json.items()) list.emplace_back(name, errors_of(errors));
+  return list;
+}
+
 BenchShares shares_of(const Json& json) {
   BenchShares shares;
   for (const auto& [name, share] : json.items()) shares.emplace_back(name, share);
@@ -52,18 +65,19 @@ Json run_json(const BenchRun& run) {
   json["photons_stored"] = run.photons_stored;
   json["bytes"] = run.bytes;
   json["photon_bytes"] = run.photon_bytes;
+  json["pixel_bytes"] = run.pixel_bytes;
   json["first_pass_bytes"] = run.first_pass_bytes;
   json["process_bytes"] = run.process_bytes;
   json["energy"] = shares_json(run.energy);
-  json["regions"] = Json::object();
-  for (const auto& [name, errors] : run.regions) json["regions"][name] = errors_json(errors);
+  json["regions"] = named_json(run.regions);
   json["notes"] = run.notes;
   json["points"] = Json::array();
   for (const BenchPoint& p : run.points)
     json["points"].push_back({{"passes", p.passes},
                               {"seconds", p.seconds},
                               {"emitted", p.emitted},
-                              {"errors", errors_json(p.errors)}});
+                              {"errors", errors_json(p.errors)},
+                              {"layers", named_json(p.layers)}});
   return json;
 }
 
@@ -80,15 +94,15 @@ BenchRun run_of(const Json& json) {
   run.photons_stored = json.at("photons_stored");
   run.bytes = json.at("bytes");
   run.photon_bytes = json.at("photon_bytes");
+  run.pixel_bytes = json.at("pixel_bytes");
   run.first_pass_bytes = json.at("first_pass_bytes");
   run.process_bytes = json.at("process_bytes");
   run.energy = shares_of(json.at("energy"));
-  for (const auto& [name, errors] : json.at("regions").items())
-    run.regions.emplace_back(name, errors_of(errors));
+  run.regions = named_of(json.at("regions"));
   run.notes = json.at("notes").get<std::vector<std::string>>();
   for (const Json& point : json.at("points"))
     run.points.push_back({point.at("passes"), point.at("seconds"), point.at("emitted"),
-                          errors_of(point.at("errors"))});
+                          errors_of(point.at("errors")), named_of(point.at("layers"))});
   return run;
 }
 
@@ -126,6 +140,28 @@ std::string dump(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+Json experiments_json(const std::vector<BenchExperiment>& experiments) {
+  Json json = Json::array();
+  for (const BenchExperiment& experiment : experiments) {
+    Json parts = Json::array();
+    for (const ExperimentPart& part : experiment.parts) {
+      Json curves = Json::array();
+      for (const ExperimentCurve& curve : part.curves) {
+        Json points = Json::array();
+        for (const CurvePoint& p : curve.points)
+          points.push_back({{"passes", p.x}, {"error", p.y}});
+        curves.push_back({{"name", curve.name},
+                          {"slope", curve.slope},
+                          {"predicted", curve.predicted},
+                          {"points", std::move(points)}});
+      }
+      parts.push_back({{"title", part.title}, {"curves", std::move(curves)}});
+    }
+    json.push_back({{"name", experiment.name}, {"parts", std::move(parts)}});
+  }
+  return json;
+}
+
 const char* state_name(BenchVerdict::State state) {
   if (state == BenchVerdict::State::kHolds) return "holds";
   return state == BenchVerdict::State::kFails ? "fails" : "not measured";
@@ -152,6 +188,11 @@ const BenchRun* BenchSceneResult::find_run(const std::string& integrator) const 
   for (const BenchRun& run : runs)
     if (run.integrator == integrator && run.failure.empty()) return &run;
   return nullptr;
+}
+
+double without_reference(double rmse, double own_error) {
+  const double square = rmse * rmse - own_error * own_error;
+  return std::copysign(std::sqrt(std::abs(square)), square);
 }
 
 int BenchResults::failures() const {
@@ -187,7 +228,8 @@ std::string results_json(const BenchResults& results) {
                  {"date", m.date},
                  {"command", m.command}}},
                {"scenes", Json::array()},
-               {"claims", Json::array()}};
+               {"claims", Json::array()},
+               {"experiments", experiments_json(results.experiments)}};
   for (const BenchSceneResult& scene : results.scenes) {
     Json runs = Json::array();
     for (const BenchRun& run : scene.runs) runs.push_back(run_json(run));
@@ -213,33 +255,54 @@ std::string results_json(const BenchResults& results) {
 std::string runs_csv(const BenchResults& results) {
   std::string csv = fmt::format(
       "scene,integrator,passes,seconds,{},rays,emitted,photons_stored,bytes,photon_bytes,"
-      "process_bytes,failure\n",
+      "pixel_bytes,process_bytes,rmse_without_reference,failure\n",
       kErrorColumns);
   for (const BenchSceneResult& scene : results.scenes) {
     if (!scene.failure.empty())
-      csv += fmt::format("{},,,,,,,,,,,,,,,{}\n", scene.name, field(scene.failure));
+      csv += fmt::format("{},,,,,,,,,,,,,,,,,{}\n", scene.name, field(scene.failure));
     for (const BenchRun& run : scene.runs) {
       if (!run.failure.empty()) {
-        csv +=
-            fmt::format("{},{},,,,,,,,,,,,,,{}\n", scene.name, run.integrator, field(run.failure));
+        csv += fmt::format("{},{},,,,,,,,,,,,,,,,{}\n", scene.name, run.integrator,
+                           field(run.failure));
         continue;
       }
-      csv += fmt::format("{},{},{},{:.3f},{},{},{},{},{},{},{},\n", scene.name, run.integrator,
-                         run.end().passes, run.end().seconds, error_fields(run.end().errors),
-                         run.rays, run.emitted, run.photons_stored, run.bytes, run.photon_bytes,
-                         run.process_bytes);
+      const std::optional<double>& own = scene.reference.own_error;
+      const std::string without =
+          own ? fmt::format("{:.9g}", without_reference(run.end().errors.rmse, *own)) : "";
+      csv += fmt::format("{},{},{},{:.3f},{},{},{},{},{},{},{},{},{},\n", scene.name,
+                         run.integrator, run.end().passes, run.end().seconds,
+                         error_fields(run.end().errors), run.rays, run.emitted, run.photons_stored,
+                         run.bytes, run.photon_bytes, run.pixel_bytes, run.process_bytes, without);
     }
   }
   return csv;
 }
 
 std::string curves_csv(const BenchResults& results) {
-  std::string csv = fmt::format("scene,integrator,passes,seconds,emitted,{}\n", kErrorColumns);
+  std::string csv =
+      fmt::format("scene,integrator,layer,passes,seconds,emitted,{}\n", kErrorColumns);
   for (const BenchSceneResult& scene : results.scenes)
     for (const BenchRun& run : scene.runs)
-      for (const BenchPoint& p : run.points)
-        csv += fmt::format("{},{},{},{:.6f},{},{}\n", scene.name, run.integrator, p.passes,
-                           p.seconds, p.emitted, error_fields(p.errors));
+      for (const BenchPoint& p : run.points) {
+        const auto line = [&](const std::string& layer, const BenchErrors& errors) {
+          csv += fmt::format("{},{},{},{},{:.6f},{},{}\n", scene.name, run.integrator, layer,
+                             p.passes, p.seconds, p.emitted, error_fields(errors));
+        };
+        line("", p.errors);
+        for (const auto& [name, errors] : p.layers) line(name, errors);
+      }
+  return csv;
+}
+
+std::string experiments_csv(const BenchResults& results) {
+  std::string csv = "experiment,part,curve,passes,error,slope,predicted\n";
+  for (const BenchExperiment& experiment : results.experiments)
+    for (const ExperimentPart& part : experiment.parts)
+      for (const ExperimentCurve& curve : part.curves)
+        for (const CurvePoint& p : curve.points)
+          csv += fmt::format("{},{},{},{:g},{:.9g},{:.6g},{:.6g}\n", experiment.name,
+                             field(part.title), field(curve.name), p.x, p.y, curve.slope,
+                             curve.predicted);
   return csv;
 }
 

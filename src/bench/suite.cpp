@@ -9,6 +9,7 @@
 #include <iterator>
 #include <limits>
 
+#include "bench/experiment.h"
 #include "bench/suite_claims.h"
 #include "bench/suite_fields.h"
 #include "session/option_values.h"
@@ -136,13 +137,14 @@ BenchReference reference_in(const JsonValue& value, const std::string& file) {
   return result;
 }
 
-std::vector<BenchEnergy> energy_in(const Fields& fields) {
+/// The expressions of "energy" or "layer".
+std::vector<BenchEnergy> expressions_in(const Fields& fields, const std::string& key) {
   std::vector<BenchEnergy> result;
-  const JsonValue* energy = fields.find("energy");
-  if (energy == nullptr) return result;
-  expect_kind(*energy, Kind::kObject, "\"energy\"");
-  for (const JsonMember& member : energy->members) {
-    const std::string& expression = text_of(member.value, "an expression of \"energy\"");
+  const JsonValue* expressions = fields.find(key);
+  if (expressions == nullptr) return result;
+  expect_kind(*expressions, Kind::kObject, "\"" + key + "\"");
+  for (const JsonMember& member : expressions->members) {
+    const std::string& expression = text_of(member.value, "an expression of \"" + key + "\"");
     read_at(member.value, [&] { return parse_aov(member.key + "=" + expression); });
     result.push_back({member.key, expression});
   }
@@ -185,10 +187,39 @@ void read_resolution(const Fields& fields, BenchScene* scene) {
   }
 }
 
+/// Layers of a picture have names of their own: those of routes are taken, and so are those of
+/// other layers.
+void check_layers(const Fields& fields, const BenchSuite& suite, const BenchScene& scene) {
+  const auto check = [&](const char* key, const BenchIntegrator& integrator) {
+    const JsonValue* expressions = fields.find(key);
+    if (expressions == nullptr) return;
+    const RouteChoice& choice = integrator.routes;
+    for (const RouteDefinition& route : plan_of(choice, choice.integrator).routes)
+      for (const JsonMember& member : expressions->members)
+        if (member.key == route.name)
+          fail_at(member.where,
+                  fmt::format("the name \"{}\" is taken by a route of {}, expected another one",
+                              member.key, integrator.name));
+  };
+  const bool rendered = scene.reference.file.empty();
+  if (rendered)
+    for (const char* key : {"energy", "layer"}) check(key, scene.reference.integrator);
+  for (const std::string& name : scene.integrators) {
+    check("layer", *suite.find_integrator(name));
+    if (!rendered) check("energy", *suite.find_integrator(name));
+  }
+  const JsonValue *energy = fields.find("energy"), *layers = fields.find("layer");
+  for (size_t i = 0; energy != nullptr && layers != nullptr && i < layers->members.size(); ++i)
+    if (energy->find(layers->members[i].key) != nullptr)
+      fail_at(layers->members[i].where,
+              fmt::format("the name \"{}\" is taken by \"energy\", expected another one",
+                          layers->members[i].key));
+}
+
 BenchScene scene_in(const JsonValue& value, const BenchSuite& suite) {
   const Fields fields(value, "a scene",
                       {"name", "title", "file", "resolution", "exposure", "reference",
-                       "integrators", "options", "time", "passes", "energy", "region"});
+                       "integrators", "options", "time", "passes", "energy", "layer", "region"});
   BenchScene scene;
   scene.name = name_in(fields);
   scene.title = fields.text_or("title", scene.name);
@@ -208,9 +239,21 @@ BenchScene scene_in(const JsonValue& value, const BenchSuite& suite) {
       scene.integrators.push_back(integrator.name);
   scene.options = options_in(fields);
   scene.limit = limit_in(fields);
-  scene.energy = energy_in(fields);
+  scene.energy = expressions_in(fields, "energy");
+  scene.layers = expressions_in(fields, "layer");
+  check_layers(fields, suite, scene);
   scene.regions = regions_in(fields);
   return scene;
+}
+
+std::string experiment_in(const JsonValue& value) {
+  const std::string& name = text_of(value, "an item of \"experiments\"");
+  std::string known;
+  for (const std::string& experiment : experiment_names()) {
+    if (name == experiment) return name;
+    known += (known.empty() ? "" : ", ") + experiment;
+  }
+  fail_at(value.where, fmt::format("unknown experiment \"{}\", expected one of: {}", name, known));
 }
 
 /// The items of a list that must not be empty.
@@ -238,9 +281,9 @@ const BenchScene* BenchSuite::find_scene(const std::string& wanted) const {
 
 BenchSuite parse_suite(const std::string& text, const std::string& file) {
   const JsonValue root = parse_json(text, file);
-  const Fields fields(
-      root, "a suite",
-      {"name", "title", "description", "time", "passes", "integrators", "scenes", "claims"});
+  const Fields fields(root, "a suite",
+                      {"name", "title", "description", "time", "passes", "integrators", "scenes",
+                       "claims", "experiments"});
   BenchSuite suite;
   suite.file = file;
   suite.name = name_in(fields);
@@ -259,6 +302,8 @@ BenchSuite parse_suite(const std::string& text, const std::string& file) {
   }
   for (const JsonValue& item : fields.list("claims"))
     suite.claims.push_back(parse_claim(item, suite));
+  for (const JsonValue& item : fields.list("experiments"))
+    suite.experiments.push_back(experiment_in(item));
   return suite;
 }
 

@@ -35,7 +35,7 @@ struct BenchReference {
   BenchLimit limit;
 };
 
-/// A light path expression whose share of the picture's light is measured.
+/// A light path expression whose share of the picture's light, or whose error, is measured.
 struct BenchEnergy {
   std::string name, expression;
 };
@@ -55,6 +55,7 @@ struct BenchScene {
   SettingList options;                   ///< of all runs and of the reference, before their own
   BenchLimit limit;                      ///< over the suite's
   std::vector<BenchEnergy> energy;
+  std::vector<BenchEnergy> layers;  ///< with errors of their own
   std::vector<BenchRegion> regions;
 };
 
@@ -66,7 +67,8 @@ enum class BenchMetric {
   kMeanError,     ///< magnitude of the relative error of the mean
   kMemory,        ///< bytes of photons and of what is kept for each pixel, at most at once
   kPhotonMemory,  ///< of photons and what finds them alone
-  kMemoryGrowth,  ///< that at the end over that after the first pass
+  kPixelMemory,   ///< of what is kept for each pixel alone
+  kMemoryGrowth,  ///< all memory at the end over that after the first pass
   kPhotons,       ///< stored, in all
   kEmitted,       ///< light paths, in all
   kRays,
@@ -93,6 +95,7 @@ struct BenchClaim {
   double factor = 1, low = 0, high = 0;
   std::vector<std::string> scenes;      ///< all of the suite's in which it can be measured if empty
   std::string region;                   ///< empty: the whole picture
+  std::string layer;                    ///< empty: all light
   BenchAxis over = BenchAxis::kPasses;  ///< of a slope
   /// Compares where both have the same number of these; empty: at the ends of the runs.
   std::optional<BenchAxis> at_equal;
@@ -105,13 +108,15 @@ struct BenchSuite {
   std::vector<BenchIntegrator> integrators;
   std::vector<BenchScene> scenes;
   std::vector<BenchClaim> claims;
+  std::vector<std::string> experiments;  ///< names that experiment.h has
 
   /// Null if there is none of that name.
   const BenchIntegrator* find_integrator(const std::string& wanted) const;
   const BenchScene* find_scene(const std::string& wanted) const;
 };
 
-const char* metric_name(BenchMetric metric);
+/// As readers say it.
+const char* metric_title(BenchMetric metric);
 const char* axis_name(BenchAxis axis);
 
 /// Understands a suite; `file` is its name, and what it names is relative to its directory. Throws

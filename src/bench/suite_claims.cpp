@@ -12,23 +12,24 @@ namespace {
 
 struct MetricRow {
   BenchMetric metric;
-  const char* name;
+  const char *name, *title;
 };
 constexpr MetricRow kMetrics[] = {
-    {BenchMetric::kRmse, "rmse"},
-    {BenchMetric::kRelmse, "relmse"},
-    {BenchMetric::kRelmseTrim, "relmse_trim"},
-    {BenchMetric::kFlip, "flip"},
-    {BenchMetric::kMeanError, "mean_error"},
-    {BenchMetric::kMemory, "memory"},
-    {BenchMetric::kPhotonMemory, "photon_memory"},
-    {BenchMetric::kMemoryGrowth, "memory_growth"},
-    {BenchMetric::kPhotons, "photons"},
-    {BenchMetric::kEmitted, "emitted"},
-    {BenchMetric::kRays, "rays"},
-    {BenchMetric::kPasses, "passes"},
-    {BenchMetric::kSeconds, "seconds"},
-    {BenchMetric::kSlope, "slope"},
+    {BenchMetric::kRmse, "rmse", "RMSE"},
+    {BenchMetric::kRelmse, "relmse", "relMSE"},
+    {BenchMetric::kRelmseTrim, "relmse_trim", "trimmed relMSE"},
+    {BenchMetric::kFlip, "flip", "FLIP"},
+    {BenchMetric::kMeanError, "mean_error", "relative error of the mean"},
+    {BenchMetric::kMemory, "memory", "memory"},
+    {BenchMetric::kPhotonMemory, "photon_memory", "photon memory"},
+    {BenchMetric::kPixelMemory, "pixel_memory", "memory of pixels"},
+    {BenchMetric::kMemoryGrowth, "memory_growth", "growth of memory"},
+    {BenchMetric::kPhotons, "photons", "photons stored"},
+    {BenchMetric::kEmitted, "emitted", "light paths"},
+    {BenchMetric::kRays, "rays", "rays"},
+    {BenchMetric::kPasses, "passes", "passes"},
+    {BenchMetric::kSeconds, "seconds", "seconds"},
+    {BenchMetric::kSlope, "slope", "slope of RMSE"},
 };
 
 struct AxisRow {
@@ -62,9 +63,9 @@ void check_integrator(const BenchSuite& suite, const std::string& name, const Js
             fmt::format("unknown integrator \"{}\", expected one of the suite's", name));
 }
 
-bool has_region(const BenchScene& scene, const std::string& name) {
-  return std::any_of(scene.regions.begin(), scene.regions.end(),
-                     [&](const BenchRegion& region) { return region.name == name; });
+template <class Named>
+bool has(const std::vector<Named>& list, const std::string& name) {
+  return std::any_of(list.begin(), list.end(), [&](const Named& n) { return n.name == name; });
 }
 
 bool runs(const BenchScene& scene, const std::string& integrator) {
@@ -100,7 +101,7 @@ void read_form(const Fields& fields, BenchClaim* claim) {
 }
 
 std::vector<std::string> keys_for(const Fields& fields) {
-  std::vector<std::string> keys = {"text", "metric", "scenes", "region", "over", "at"};
+  std::vector<std::string> keys = {"text", "metric", "scenes", "region", "layer", "over", "at"};
   const auto add = [&](std::initializer_list<const char*> more) {
     keys.insert(keys.end(), more.begin(), more.end());
   };
@@ -121,6 +122,11 @@ void check_claim(const Fields& fields, const BenchSuite& suite, const BenchClaim
   if (!claim.region.empty() && (!is_error(claim.metric) || claim.at_equal))
     fail_at(fields.required("region").where,
             "\"region\" does not fit, expected it with an error as metric and without \"at\"");
+  if (!claim.layer.empty() &&
+      ((!is_error(claim.metric) && claim.metric != BenchMetric::kSlope) || !claim.region.empty()))
+    fail_at(fields.required("layer").where,
+            "\"layer\" does not fit, expected it with an error or a slope as metric and without "
+            "\"region\"");
   if (fields.has("over") && claim.metric != BenchMetric::kSlope)
     fail_at(fields.required("over").where, "\"over\" does not fit, expected it with a slope only");
   if (claim.at_equal && (!is_error(claim.metric) || claim.form == BenchClaim::Form::kBetween))
@@ -138,18 +144,21 @@ void check_claim(const Fields& fields, const BenchSuite& suite, const BenchClaim
         fail_at(item.where, fmt::format("scene \"{}\" has no integrator \"{}\", expected a scene "
                                         "that has all of the claim's",
                                         item.text, name));
-    if (!claim.region.empty() && !has_region(*scene, claim.region))
+    if (!claim.region.empty() && !has(scene->regions, claim.region))
       fail_at(item.where, fmt::format("scene \"{}\" has no region \"{}\", expected one that has",
                                       item.text, claim.region));
+    if (!claim.layer.empty() && !has(scene->layers, claim.layer))
+      fail_at(item.where, fmt::format("scene \"{}\" has no layer \"{}\", expected one that has",
+                                      item.text, claim.layer));
   }
 }
 
 }  // namespace
 
-const char* metric_name(BenchMetric metric) {
+const char* metric_title(BenchMetric metric) {
   return std::find_if(std::begin(kMetrics), std::end(kMetrics),
                       [&](const MetricRow& row) { return row.metric == metric; })
-      ->name;
+      ->title;
 }
 
 const char* axis_name(BenchAxis axis) {
@@ -160,14 +169,15 @@ const char* axis_name(BenchAxis axis) {
 
 BenchClaim parse_claim(const JsonValue& value, const BenchSuite& suite) {
   const Fields any(value, "a claim",
-                   {"text", "metric", "scenes", "region", "over", "at", "smaller", "than", "factor",
-                    "same", "as", "of", "between"});
+                   {"text", "metric", "scenes", "region", "layer", "over", "at", "smaller", "than",
+                    "factor", "same", "as", "of", "between"});
   BenchClaim claim;
   read_form(any, &claim);
   const Fields fields(value, "a claim of this form", keys_for(any));
   claim.text = fields.text("text");
   claim.metric = row_of(kMetrics, fields.required("metric"), "metric").metric;
   claim.region = fields.text_or("region", "");
+  claim.layer = fields.text_or("layer", "");
   for (const JsonValue& item : fields.list("scenes"))
     claim.scenes.push_back(text_of(item, "an item of \"scenes\""));
   if (const JsonValue* over = fields.find("over")) claim.over = row_of(kAxes, *over, "axis").axis;

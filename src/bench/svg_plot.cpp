@@ -101,12 +101,14 @@ std::string curve(const PlotSeries& series, const Range& x, const Range& y) {
   for (const CurvePoint& p : series.points) {
     if (!(p.x > 0 && p.y > 0)) continue;
     line += fmt::format("{:.1f},{:.1f} ", x_of(x, p.x), y_of(y, p.y));
-    markers += marker(series.style, x_of(x, p.x), y_of(y, p.y));
+    if (!series.dashed) markers += marker(series.style, x_of(x, p.x), y_of(y, p.y));
   }
   return fmt::format(
       "<g><title>{}</title><polyline points=\"{}\" fill=\"none\" stroke=\"{}\" "
-      "stroke-width=\"1.8\"/>{}</g>",
-      html_escape(series.name), line, color_of(series.style), markers);
+      "{}/>{}</g>",
+      html_escape(series.name), line, color_of(series.style),
+      series.dashed ? "stroke-width=\"1.2\" stroke-dasharray=\"5 4\"" : "stroke-width=\"1.8\"",
+      markers);
 }
 
 }  // namespace

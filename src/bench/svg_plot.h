@@ -13,6 +13,7 @@ struct PlotSeries {
   std::string name;
   size_t style = 0;  ///< colour and marker
   std::vector<CurvePoint> points;
+  bool dashed = false;  ///< a line to compare with, without markers
 };
 
 /// Points that are not above 0 in both are left out; without any the plot says that it has no data.

@@ -30,8 +30,8 @@ class PairRound {
         key_(key),
         index_(index),
         film_(film),
-        eye_point_(static_cast<uint32_t>(index)),
-        light_point_(static_cast<uint32_t>(index), kLightPathDimensions),
+        eye_point_(static_cast<uint32_t>(index), kEyePathDimensions),
+        light_point_(static_cast<uint32_t>(index), kPairDimensions),
         parts_(film.parts_of(static_cast<int>(settings.owned.group)).size()),
         values_(static_cast<size_t>(film.bounds().area()) * parts_) {}
 
@@ -84,7 +84,8 @@ class PairRound {
         sensor_weights(lambda, *film.color_space, film.imaging_ratio, film.white_balance);
 
     PathSampler sampler(light_point_, hash_combine(key_.seed, kLightStream, x, y, index_ >> 32));
-    row.rays += trace_light_path(settings_, lambda, camera.u_time, sampler, &path, &seen, nullptr);
+    row.rays += trace_light_path(settings_, lambda, camera.u_time, sampler, &path, &seen, nullptr,
+                                 kEyePathDimensions);
     row.useful += !seen.empty();
     for (const FilmConnection& c : seen)
       for (int i = 0; i < c.seen.count; ++i)
@@ -125,6 +126,8 @@ void Bidirectional::render_pass(const PassKey& key, const Scene& scene, Film& fi
   settings.light_paths = static_cast<double>(film.bounds().area());
   settings.technique = options_.technique;
   SplatBuffer buffer(film, group, *scene.filter);
+  const size_t parts = film.parts_of(group).size();
+  statistics_.hold(0, static_cast<uint64_t>(film.bounds().area()) * bytes_per_pixel(parts));
   const int samples = std::max(1, options_.camera_samples_per_pass);
   for (int k = 0; k < samples; ++k) {
     const uint64_t index =

@@ -2,6 +2,7 @@
 // An estimator has no loop over passes, opens no file and looks at no clock: session/ owns those.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -33,13 +34,19 @@ struct EstimatorStatistics {
   uint64_t light_paths = 0;                            ///< emitted to be connected to the camera
   uint64_t light_paths_useful = 0;                     ///< that were, at one vertex at least
   uint64_t splats = 0;                                 ///< connections that expose the film
-  uint64_t bytes_kept = 0;                             ///< from pass to pass, beside the film
   float radius_min_pixels = 0, radius_max_pixels = 0;  ///< merge radius over footprint, last pass
   /// Memory, the most that was held at once; the film is not counted. `photon_bytes` is of photons
-  /// (or what else is stored of light paths) and of what finds them, `bytes` is that and what is
-  /// kept for each pixel.
-  uint64_t bytes = 0, photon_bytes = 0;
+  /// and of what finds them, `pixel_bytes` of what is kept for each pixel and of what a pass adds
+  /// up, `bytes` of both together.
+  uint64_t bytes = 0, photon_bytes = 0, pixel_bytes = 0;
   std::vector<std::string> notes;  ///< sentences for the report, e.g. why a route is black
+
+  /// Counts memory that is held at the same time.
+  void hold(uint64_t of_photons, uint64_t of_pixels) {
+    photon_bytes = std::max(photon_bytes, of_photons);
+    pixel_bytes = std::max(pixel_bytes, of_pixels);
+    bytes = std::max(bytes, of_photons + of_pixels);
+  }
 };
 
 class Estimator {

@@ -122,7 +122,6 @@ class EyeVisitor {
   }
 
   uint64_t rays() const { return rays_; }
-  uint64_t merged() const { return merged_; }
 
  private:
   bool makes(int light_vertices, const Walk& walk) const {
@@ -317,7 +316,7 @@ class EyeVisitor {
   SideEnd end_;
   const WalkVertex* surface_ = nullptr;
   const MediumVertex* medium_ = nullptr;
-  uint64_t rays_ = 0, merged_ = 0;
+  uint64_t rays_ = 0;
 };
 
 /// [W11] Photons around the vertex, with the rules of merge.cpp.
@@ -340,7 +339,6 @@ void EyeVisitor::merge(const Walk& walk, const WalkVertex& v, ClassMask among) {
       if (!light_.owns(part)) continue;
       const BsdfEval e = v.bsdf.eval(v.wo, wi, TransportMode::kRadiance, c, ClassMask::kAll);
       if (e.f.is_black()) continue;
-      ++merged_;
       double weight = 1;
       if (settings_.technique.weighted) {
         const double towards =
@@ -362,7 +360,7 @@ void EyeVisitor::merge(const Walk& walk, const WalkVertex& v, ClassMask among) {
 }  // namespace
 
 uint64_t trace_eye_path(const PairSettings& settings, const LightSubpath& path, CameraPath& camera,
-                        PathSampler& sampler, PartSums& light, uint64_t* merged) {
+                        PathSampler& sampler, PartSums& light) {
   if (!(camera.camera_weight > 0)) return 0;
   camera.walk.specular_alpha = settings.specular_alpha;
   camera.walk.per_wavelength = true;
@@ -373,7 +371,6 @@ uint64_t trace_eye_path(const PairSettings& settings, const LightSubpath& path, 
   const int most = one.t < 0 ? settings.max_depth
                              : std::clamp(one.t - (one.s == 0 ? 2 : 1), 0, settings.max_depth);
   random_walk(settings.scene, TransportMode::kRadiance, most, camera.walk, sampler, visitor);
-  if (merged) *merged += visitor.merged();
   return camera.walk.rays + visitor.rays();
 }
 

@@ -130,7 +130,6 @@ class LightVisitor {
   LightVertex& store(const Walk& walk, ClassMask classes) {
     LightVertex& y = path_->add();
     y.classes = classes;
-    y.medium = walk.medium;
     y.flux = emission_.flux * walk.throughput;
     y.lambda = walk.lambda;
     y.specular_alpha = walk.specular_alpha;
@@ -329,11 +328,12 @@ LightVertex& LightSubpath::add() {
 
 uint64_t trace_light_path(const PairSettings& settings, const SampledWavelengths& lambda,
                           float u_time, PathSampler& sampler, LightSubpath* path,
-                          std::vector<FilmConnection>* seen, std::vector<Photon>* photons) {
+                          std::vector<FilmConnection>* seen, std::vector<Photon>* photons,
+                          int first_dimension) {
   if (path) path->clear();
   Walk walk;
   walk.lambda = lambda;
-  sampler.start_dimension(0);
+  sampler.start_dimension(first_dimension);
   const std::optional<Emission> emission =
       emit(settings.scene, walk.lambda, settings.scene.camera->motion_time(u_time), sampler);
   if (!emission) return 0;
@@ -341,8 +341,8 @@ uint64_t trace_light_path(const PairSettings& settings, const SampledWavelengths
   walk.medium = emission->medium;
   walk.specular_alpha = settings.specular_alpha;
   walk.per_wavelength = true;
-  walk.first_dimension = kEmissionDimensions;
-  walk.second_dimension = kEmissionDimensions + dimensions::kPerVertex;
+  walk.first_dimension = first_dimension + kEmissionDimensions;
+  walk.second_dimension = walk.first_dimension + dimensions::kPerVertex;
   LightVisitor visitor(settings, *emission, u_time, path, seen, photons);
   // A technique with s vertices of the light side, the light itself one of them, needs no more.
   const int most = settings.technique.s < 0

@@ -263,8 +263,8 @@ int64_t light_pass(const PassKey& key, const Scene& scene, const Film& film,
 void LightTracing::render_pass(const PassKey& key, const Scene& scene, Film& film) {
   const int group = static_cast<int>(owned_.group);
   SplatBuffer buffer(film, group, *scene.filter);
-  statistics_.bytes = static_cast<uint64_t>(film.bounds().area()) *
-                      SplatBuffer::bytes_per_pixel(film.parts_of(group).size());
+  statistics_.hold(0, static_cast<uint64_t>(film.bounds().area()) *
+                          SplatBuffer::bytes_per_pixel(film.parts_of(group).size()));
   const int64_t paths = light_pass(key, scene, film, owned_, options_, {}, buffer, statistics_);
   buffer.finish(1.0 / static_cast<double>(paths));
   film.add_estimates(group, 1);

@@ -290,9 +290,11 @@ ChainPilot look_around(uint64_t seed, int64_t count, const FilmArea& area, size_
       for (const Splat& s : found.splats) pilot.importance.record(s.film, brightness_of(s.value));
   pilot.importance.learn();
   for (const auto& chunk : chunks)
-    for (const FoundLight& found : chunk)
-      pilot.kinds[found.kind] += found.target(pilot.importance) / static_cast<double>(count);
-  for (const double b : pilot.kinds) pilot.balance += b;
+    for (const FoundLight& found : chunk) {
+      const double target = found.target(pilot.importance);
+      pilot.balance += target / static_cast<double>(count);
+      pilot.kinds[found.kind] += sqr(target) / static_cast<double>(count);
+    }
   return pilot;
 }
 

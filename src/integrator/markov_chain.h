@@ -52,7 +52,7 @@ struct ChainSettings {
 /// What a few paths that no pass draws tell about all of them.
 struct ChainPilot {
   FilmImportance importance;
-  std::vector<double> kinds;  ///< what paths of each kind add to the mean target
+  std::vector<double> kinds;  ///< what paths of each kind add to the mean squared target
   /// [Z5]: the target at which chains are as good as independent paths, its mean. The picture is
   /// right for any positive one that does not depend on the pass.
   double balance = 1;

@@ -39,7 +39,7 @@ MergePass merge_pass(const PassKey& key, const Scene& scene, const Film& film,
     count_photons(trace, statistics);
     if (trace.photons.empty()) continue;
     const PhotonGrid grid(std::move(trace.photons));
-    count_memory(grid, static_cast<size_t>(b.area()) * Gathered::bytes_per_walk(parts), statistics);
+    statistics.hold(grid.bytes(), static_cast<size_t>(b.area()) * Gathered::bytes_per_walk(parts));
     gather(scene, b, owned, options.max_depth, pass,
            {{&pass.point, 1}, hash_combine(key.seed, kStream)}, gathered,
            [&](size_t, const CameraPath& path, const Walk& walk, MergePoint at,

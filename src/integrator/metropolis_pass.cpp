@@ -12,7 +12,7 @@ namespace nephroid {
 namespace {
 
 constexpr float kPilotPathsPerPixel = 16;
-constexpr float kFewestPilotPaths = 1 << 11, kMostPilotPaths = 1 << 14;
+constexpr float kFewestPilotPaths = 1 << 11, kMostPilotPaths = 1 << 16;
 // Defaults, measured: docs/adr/0018-chains-restart.md.
 constexpr double kMutationsPerPixel = 16;
 constexpr int64_t kFewestMutations = 1024;
@@ -52,6 +52,8 @@ const ChainPilot& MetropolisPasses::pilot(uint64_t seed, const FilmArea& area, s
 void MetropolisPasses::render(const PassKey& key, const Scene& scene, int group,
                               const PathFunctionMaker& make, Film& film) {
   SplatBuffer buffer(film, group, *scene.filter);
+  pixel_bytes_ = static_cast<uint64_t>(film.bounds().area()) *
+                 SplatBuffer::bytes_per_pixel(film.parts_of(group).size());
   render_chains(key, settings_for(film.bounds().area()), *pilot_, make, film, buffer, counts_);
   buffer.finish(1.0);
   film.add_estimates(group, 1);
@@ -62,6 +64,7 @@ EstimatorStatistics MetropolisPasses::statistics() const {
   s.rays = counts_.rays;
   s.camera_paths = counts_.paths;
   s.splats = counts_.splats;
+  s.hold(0, pixel_bytes_);
   if (counts_.bootstrap == 0) return s;
   if (counts_.bootstrap_lit == 0) {
     s.notes.push_back(

@@ -28,6 +28,7 @@ class MetropolisPasses {
 
   IntegratorOptions options_;
   ChainStatistics counts_;
+  uint64_t pixel_bytes_ = 0;  ///< of the sums of a pass
   uint64_t pilot_seed_ = 0;
   std::optional<ChainPilot> pilot_;
 };

@@ -1,6 +1,7 @@
 #include "integrator/multiplexed.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "integrator/path_pair.h"
@@ -15,8 +16,9 @@ constexpr int kEye = 0, kLight = 1, kTechnique = 2;
 
 /// The guess: each length is tried so often relative to the one before.
 constexpr double kNextLength = 0.85;
-/// Share of the guess once lengths have been looked at.
-constexpr double kGuessed = 0.25;
+/// Shares of the guess once kinds have been looked at: a path is at most four times as bright as by
+/// the guess for its length, twice for its technique.
+constexpr double kGuessedLength = 0.25, kGuessedTechnique = 0.5;
 /// Longer paths than these have a light of which no picture shows anything; they are not left out
 /// but share what is left.
 constexpr int kMostLengths = 1000;
@@ -26,7 +28,7 @@ struct Pass {
   PairSettings pair;
   const FilmSettings& film;
   FilmArea area;
-  LengthChoice lengths;
+  KindChoice kinds;
 };
 
 /// One path by one technique.
@@ -37,14 +39,10 @@ class TechniquePaths : public PathFunction {
 
   void evaluate(MarkovSample& numbers, FoundLight& found) override {
     PathSampler choice(numbers.stream(kTechnique));
-    const LengthChoice::Chosen chosen = pass_.lengths.choose(choice.get_1d());
-    // Light is seen directly in one way only; else s + t = length + 2 has length + 2.
-    const int techniques = chosen.length == 0 ? 1 : chosen.length + 2;
-    pair_.technique.s = std::min(static_cast<int>(choice.get_1d() * static_cast<float>(techniques)),
-                                 techniques - 1);
-    pair_.technique.t = chosen.length + 2 - pair_.technique.s;
-    found.kind = static_cast<size_t>(chosen.length);
-    const float factor = static_cast<float>(techniques) / chosen.probability;
+    const KindChoice::Chosen chosen = pass_.kinds.choose(choice.get_2d());
+    pair_.technique = {chosen.s, chosen.length + 2 - chosen.s};
+    found.kind = chosen.kind;
+    const float factor = 1 / chosen.probability;
 
     PathSampler eye(numbers.stream(kEye));
     eye.start_dimension(dimensions::kWavelength);
@@ -100,38 +98,71 @@ class TechniquePaths : public PathFunction {
 
 }  // namespace
 
-LengthChoice::LengthChoice(int max_length)
-    : probability_(static_cast<size_t>(std::min(max_length, kMostLengths - 1)) + 1) {
-  double p = 1;
-  for (double& probability : probability_) probability = std::exchange(p, p * kNextLength);
-  add_up();
-}
-
-LengthChoice::LengthChoice(std::span<const double> brightness)
-    : LengthChoice(static_cast<int>(brightness.size()) - 1) {
+KindChoice::Table::Table(std::vector<double> weights) : probability(std::move(weights)) {
   double total = 0;
-  for (const double b : brightness) total += b;
-  if (!(total > 0)) return;
-  for (size_t n = 0; n < probability_.size(); ++n)
-    probability_[n] = kGuessed * probability_[n] + (1 - kGuessed) * brightness[n] / total;
-  add_up();
-}
-
-void LengthChoice::add_up() {
-  double total = 0;
-  for (const double p : probability_) total += p;
+  for (const double p : probability) total += p;
   double sum = 0;
-  cdf_.clear();
-  for (double& p : probability_) {
+  for (double& p : probability) {
     p /= total;
-    cdf_.push_back(sum += p);
+    cdf.push_back(sum += p);
   }
 }
 
-LengthChoice::Chosen LengthChoice::choose(float u) const {
-  const auto at = std::upper_bound(cdf_.begin(), cdf_.end() - 1, double{u});
-  const auto length = at - cdf_.begin();
-  return {static_cast<int>(length), static_cast<float>(probability_[static_cast<size_t>(length)])};
+size_t KindChoice::Table::choose(float u) const {
+  return static_cast<size_t>(std::upper_bound(cdf.begin(), cdf.end() - 1, double{u}) - cdf.begin());
+}
+
+KindChoice::KindChoice(int max_length) : KindChoice() {
+  const int lengths = std::min(max_length, kMostLengths - 1) + 1;
+  std::vector<double> weights;
+  double weight = 1;
+  size_t kinds = 0;
+  for (int length = 0; length < lengths; ++length) {
+    weights.push_back(std::exchange(weight, weight * kNextLength));
+    // Light is seen directly in one way only; else s + t = length + 2 has length + 2.
+    const size_t techniques = length == 0 ? 1 : static_cast<size_t>(length) + 2;
+    techniques_.emplace_back(std::vector<double>(techniques, 1.0));
+    first_kind_.push_back(kinds);
+    kinds += techniques;
+  }
+  first_kind_.push_back(kinds);
+  length_ = Table(std::move(weights));
+}
+
+KindChoice::KindChoice(const KindChoice& guess, std::span<const double> mean_squares)
+    : KindChoice(guess) {
+  double total = 0;
+  std::vector<double> wanted(mean_squares.size()), lengths(guess.lengths(), 0.0);
+  for (size_t n = 0; n < guess.lengths(); ++n)
+    for (size_t s = 0; s < guess.techniques_[n].probability.size(); ++s) {
+      const size_t kind = guess.first_kind_[n] + s;
+      wanted[kind] = std::sqrt(mean_squares[kind] * guess.length_.probability[n] *
+                               guess.techniques_[n].probability[s]);
+      lengths[n] += wanted[kind];
+      total += wanted[kind];
+    }
+  if (!(total > 0)) return;
+  const auto mixed = [](double share, double guessed, double learned) {
+    return share * guessed + (1 - share) * learned;
+  };
+  for (size_t n = 0; n < lengths.size(); ++n) {
+    if (lengths[n] > 0) {
+      std::vector<double> weights = guess.techniques_[n].probability;
+      for (size_t s = 0; s < weights.size(); ++s)
+        weights[s] =
+            mixed(kGuessedTechnique, weights[s], wanted[guess.first_kind_[n] + s] / lengths[n]);
+      techniques_[n] = Table(std::move(weights));
+    }
+    lengths[n] = mixed(kGuessedLength, guess.length_.probability[n], lengths[n] / total);
+  }
+  length_ = Table(std::move(lengths));
+}
+
+KindChoice::Chosen KindChoice::choose(const Vec2f& u) const {
+  const size_t length = length_.choose(u.x);
+  const size_t s = techniques_[length].choose(u.y);
+  return {static_cast<int>(length), static_cast<int>(s), first_kind_[length] + s,
+          static_cast<float>(length_.probability[length] * techniques_[length].probability[s])};
 }
 
 Multiplexed::Multiplexed(OwnedRoutes owned, const IntegratorOptions& options)
@@ -142,7 +173,7 @@ void Multiplexed::render_pass(const PassKey& key, const Scene& scene, Film& film
   Pass pass{{scene, owned_},
             film.settings(),
             FilmArea(film.bounds(), *scene.filter),
-            LengthChoice(options_.max_depth)};
+            KindChoice(options_.max_depth)};
   pass.pair.view = scene.camera->connects() ? &view : nullptr;
   pass.pair.max_depth = options_.max_depth;
   // One light path and one place of the film for each path that is tried.
@@ -150,8 +181,8 @@ void Multiplexed::render_pass(const PassKey& key, const Scene& scene, Film& film
   // What the pilot sees does not depend on the pass that asks first.
   pass.pair.specular_alpha = specular_alpha_of_pass(scene.specular_band, {key.seed, 0});
   const PathFunctionMaker make = [&pass] { return std::make_unique<TechniquePaths>(pass); };
-  pass.lengths =
-      LengthChoice(passes_.pilot(key.seed, pass.area, pass.lengths.lengths(), make).kinds);
+  pass.kinds =
+      KindChoice(pass.kinds, passes_.pilot(key.seed, pass.area, pass.kinds.kinds(), make).kinds);
   pass.pair.specular_alpha = specular_alpha_of_pass(scene.specular_band, key);
   passes_.render(key, scene, static_cast<int>(owned_.group), make, film);
 }

@@ -13,23 +13,36 @@
 
 namespace nephroid {
 
-/// How often paths of each length, in scattering events, are tried.
-class LengthChoice {
+/// How often paths of each kind are tried: of each length, in scattering events, by each technique.
+class KindChoice {
  public:
   struct Chosen {
     int length;
-    float probability;
+    int s;              ///< vertices of the light side
+    size_t kind;        ///< counted over lengths and techniques
+    float probability;  ///< of this kind
   };
   /// By a guess.
-  explicit LengthChoice(int max_length);
-  /// By how bright each length is; the guess keeps a share, so that no length is left out.
-  explicit LengthChoice(std::span<const double> brightness);
-  Chosen choose(float u) const;
-  size_t lengths() const { return probability_.size(); }
+  explicit KindChoice(int max_length);
+  /// [Z8]: by the mean of the squared target of each kind where `guess` chose;
+  /// the guess keeps a share, so that no kind is left out.
+  KindChoice(const KindChoice& guess, std::span<const double> mean_squares);
+  Chosen choose(const Vec2f& u) const;
+  size_t lengths() const { return techniques_.size(); }
+  size_t kinds() const { return first_kind_.back(); }
 
  private:
-  std::vector<double> probability_, cdf_;
-  void add_up();
+  /// One of a few, with probabilities in proportion to weights.
+  struct Table {
+    std::vector<double> probability, cdf;
+    explicit Table(std::vector<double> weights);
+    size_t choose(float u) const;
+  };
+  KindChoice() : length_({1.0}) {}
+
+  Table length_;
+  std::vector<Table> techniques_;   ///< of each length
+  std::vector<size_t> first_kind_;  ///< of each length, and one behind the last
 };
 
 class Multiplexed : public Estimator {

@@ -65,7 +65,6 @@ struct LightVertex {
   Vec3f wo;               ///< local
   bool merges = true, subsurface_exit = false;
   ClassMask classes = ClassMask::kNone;  ///< finite, and of use to the routes
-  const Medium* medium = nullptr;        ///< around the walk that came here
   SampledSpectrum flux;                  ///< that arrives: divide by nothing, one light path's
   SampledWavelengths lambda;
   float specular_alpha = 0;
@@ -105,20 +104,25 @@ struct FilmConnection {
   SampledSpectrum value;
 };
 
-/// Dimensions of a light path's sampler that are stratified usefully; all of them are its own.
-inline constexpr int kLightPathDimensions = 48;
+/// Dimensions of an eye path and of a light path that are stratified usefully. Two scrambles of one
+/// Sobol' dimension are functions of each other: the paths of a pair, which follow one index, need
+/// dimensions of their own, and the light path's begin after the eye path's.
+inline constexpr int kEyePathDimensions = 96, kLightPathDimensions = 48;
+inline constexpr int kPairDimensions = kEyePathDimensions + kLightPathDimensions;
 
 /// Traces a light path from `sampler`'s numbers, leaves its vertices in `path` (cleared first) and
 /// adds its connections to the camera to `seen`. `lambda` and `u_time` are those of the eye path.
-/// With `photons` the vertices go there instead, for merging. Returns the number of rays.
+/// With `photons` the vertices go there instead, for merging. The path's numbers begin at
+/// `first_dimension`. Returns the number of rays.
 uint64_t trace_light_path(const PairSettings& settings, const SampledWavelengths& lambda,
                           float u_time, PathSampler& sampler, LightSubpath* path,
-                          std::vector<FilmConnection>* seen, std::vector<Photon>* photons);
+                          std::vector<FilmConnection>* seen, std::vector<Photon>* photons,
+                          int first_dimension = 0);
 
 /// Runs the eye path that `camera` starts and adds the light of all techniques with t > 1 to
 /// `light`, before the camera's weight. Its wavelengths, where not all are kept, are dealt with:
 /// the sums are those of the wavelengths that it started with. Returns the number of rays.
 uint64_t trace_eye_path(const PairSettings& settings, const LightSubpath& path, CameraPath& camera,
-                        PathSampler& sampler, PartSums& light, uint64_t* merged = nullptr);
+                        PathSampler& sampler, PartSums& light);
 
 }  // namespace nephroid

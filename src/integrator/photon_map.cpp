@@ -20,7 +20,11 @@ PhotonMap::PhotonMap(OwnedRoutes owned, const IntegratorOptions& options)
       options_(options),
       photons_can_count_(photons_can_count(owned_)),
       walks_per_pass_(static_cast<uint32_t>(std::max(1, options.camera_samples_per_pass))) {
-  if (!(options_.radius > 0)) options_.radius = kDefaultMaxRadius;
+  options_.radius = largest_radius(options_);
+}
+
+float PhotonMap::largest_radius(const IntegratorOptions& options) {
+  return options.radius > 0 ? options.radius : kDefaultMaxRadius;
 }
 
 const PhotonMap::Map& PhotonMap::map_of(uint64_t seed, const Scene& scene, const Film& film) {
@@ -33,7 +37,6 @@ const PhotonMap::Map& PhotonMap::map_of(uint64_t seed, const Scene& scene, const
   }
   PhotonMapTrace traced = trace_map(scene, owned_, sets, options_.memory_photons);
   count_photons(traced.trace, statistics_);
-  statistics_.bytes_kept = traced.trace.photons.size() * sizeof(Photon);
   map_ = Map{seed, std::make_unique<PhotonGrid>(std::move(traced.trace.photons)),
              static_cast<double>(traced.paths_of_set)};
   return *map_;
@@ -48,8 +51,11 @@ void PhotonMap::render_pass(const PassKey& key, const Scene& scene, Film& film) 
   PhotonPass pass = start_photon_pass(set, scene, film, options_);
   std::vector<RadiusRange> rows(static_cast<size_t>(film.bounds().height()));
   for (uint32_t k = 0; k < walks_per_pass_; ++k) {
-    pass.point = SobolPoint(key.pass * walks_per_pass_ + k);
-    read(map, set, pass, scene, film, rows);
+    // A set has a sequence of its own. Of one for all passes it would take every 16th point, which
+    // lie in one strip of each pixel.
+    const uint64_t index = uint64_t{key.pass / kSets} * walks_per_pass_ + k;
+    pass.point = SobolPoint(static_cast<uint32_t>(index));
+    read(map, set, hash_combine(set.seed, kStream, set.pass, index >> 32), pass, scene, film, rows);
   }
   RadiusRange all;
   for (const RadiusRange& row : rows) {
@@ -60,13 +66,16 @@ void PhotonMap::render_pass(const PassKey& key, const Scene& scene, Film& film) 
   statistics_.radius_max_pixels = all.largest;
 }
 
-void PhotonMap::read(const Map& map, const PassKey& set, const PhotonPass& pass, const Scene& scene,
-                     Film& film, std::span<RadiusRange> rows) {
+void PhotonMap::read(const Map& map, const PassKey& set, uint64_t walk_seed, const PhotonPass& pass,
+                     const Scene& scene, Film& film, std::span<RadiusRange> rows) {
   const int group = static_cast<int>(owned_.group);
   const PixelBounds& b = film.bounds();
   const size_t width = static_cast<size_t>(b.width());
-  Gathered gathered(static_cast<size_t>(b.area()), film.parts_of(group).size());
-  gather(scene, b, owned_, options_.max_depth, pass, {{&pass.point, 1}, set.seed}, gathered,
+  const size_t parts = film.parts_of(group).size();
+  Gathered gathered(static_cast<size_t>(b.area()), parts);
+  statistics_.hold(map.grid->bytes(),
+                   gathered.filter_weights.size() * Gathered::bytes_per_walk(parts));
+  gather(scene, b, owned_, options_.max_depth, pass, {{&pass.point, 1}, walk_seed}, gathered,
          [&](size_t pixel, const CameraPath&, const Walk& walk, MergePoint at,
              PartSums& sums) -> uint64_t {
            const float footprint = pass.footprint.width(walk.length);

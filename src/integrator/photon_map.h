@@ -26,6 +26,9 @@ class PhotonMap : public Estimator {
   void render_pass(const PassKey& key, const Scene& scene, Film& film) override;
   EstimatorStatistics statistics() const override;
 
+  /// Of an estimate, in footprints: the user's, or the default.
+  static float largest_radius(const IntegratorOptions& options);
+
  private:
   struct Map {
     uint64_t seed = 0;
@@ -36,9 +39,10 @@ class PhotonMap : public Estimator {
   struct RadiusRange {
     float smallest = kInfinity, largest = 0;
   };
-  /// One walk of each pixel, which reads the photons of a set.
-  void read(const Map& map, const PassKey& set, const PhotonPass& pass, const Scene& scene,
-            Film& film, std::span<RadiusRange> rows);
+  /// One walk of each pixel, by the random numbers of `walk_seed`, which reads the photons of a
+  /// set.
+  void read(const Map& map, const PassKey& set, uint64_t walk_seed, const PhotonPass& pass,
+            const Scene& scene, Film& film, std::span<RadiusRange> rows);
   /// Traces the map of a seed if there is none yet.
   const Map& map_of(uint64_t seed, const Scene& scene, const Film& film);
 

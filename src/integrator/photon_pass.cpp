@@ -95,12 +95,6 @@ void count_photons(const PhotonTrace& trace, EstimatorStatistics& statistics) {
   statistics.rays += trace.rays;
 }
 
-void count_memory(const PhotonGrid& grid, size_t pixel_bytes, EstimatorStatistics& statistics) {
-  const uint64_t photons = grid.bytes();
-  statistics.photon_bytes = std::max(statistics.photon_bytes, photons);
-  statistics.bytes = std::max(statistics.bytes, photons + pixel_bytes);
-}
-
 void explain_darkness(const OwnedRoutes& owned, uint64_t found, EstimatorStatistics& s) {
   if (!photons_can_count(owned)) {
     s.notes.push_back(

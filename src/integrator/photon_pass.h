@@ -43,9 +43,6 @@ std::string names_of_routes(const OwnedRoutes& owned);
 /// Adds what one batch of photons did to the counts.
 void count_photons(const PhotonTrace& trace, EstimatorStatistics& statistics);
 
-/// Raises the peaks of memory to what a batch holds: its photons, and what is kept for the pixels.
-void count_memory(const PhotonGrid& grid, size_t pixel_bytes, EstimatorStatistics& statistics);
-
 /// Says why there is no light from photons, if there is none; `found` is how many were merged.
 void explain_darkness(const OwnedRoutes& owned, uint64_t found, EstimatorStatistics& statistics);
 

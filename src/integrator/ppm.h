@@ -12,6 +12,10 @@ namespace nephroid {
 class Ppm : public Sppm {
  public:
   using Sppm::Sppm;
+  /// What the hit points of a pixel do not see no pass will show.
+  Capabilities capabilities() const override {
+    return {.independent_passes = false, .per_pixel_state = true, .consistent = false};
+  }
   EstimatorStatistics statistics() const override;
 
   /// K: the user's, or the scene's samples per pixel, but at least 4 and at most 16.

@@ -69,7 +69,9 @@ std::string quoted_list(const std::vector<std::string>& names) {
 CompiledPlan compile_plan(const RoutePlan& plan, const Scene& scene) {
   const auto symbols =
       std::make_shared<const SceneSymbols>(scene, mentioned_labels(plan.routes, plan.aovs));
-  return {symbols, compile_routes(plan.routes, plan.aovs, &symbols->present()), plan.strict};
+  return {symbols,
+          compile_routes(plan.routes, plan.aovs, &symbols->present(), scene.camera->connects()),
+          plan.strict};
 }
 
 Preset make_preset(const RoutePlan& plan, const IntegratorOptions& options, const Scene& scene) {

@@ -13,7 +13,11 @@ constexpr float kDefaultRadius = 2.0f;
 
 Sppm::Sppm(OwnedRoutes owned, const IntegratorOptions& options)
     : owned_(std::move(owned)), options_(options) {
-  if (!(options_.radius > 0)) options_.radius = kDefaultRadius;
+  options_.radius = first_radius(options_);
+}
+
+float Sppm::first_radius(const IntegratorOptions& options) {
+  return options.radius > 0 ? options.radius : kDefaultRadius;
 }
 
 size_t Sppm::bytes_of_pass(size_t parts) {
@@ -29,7 +33,6 @@ void Sppm::start_regions(const Scene& scene, size_t pixels, size_t parts) {
   regions_.resize(pixels * regions_in_pixel_);
   flux_.resize(regions_.size() * parts);
   footprint_.resize(regions_.size());
-  statistics_.bytes_kept = regions_.size() * bytes_kept(parts);
 }
 
 void Sppm::render_pass(const PassKey& key, const Scene& scene, Film& film) {
@@ -46,7 +49,7 @@ void Sppm::render_pass(const PassKey& key, const Scene& scene, Film& film) {
     PhotonTrace trace = trace_batch(scene, owned_, pass.trace, options_.memory_photons, begin);
     count_photons(trace, statistics_);
     const PhotonGrid grid(std::move(trace.photons));
-    count_memory(grid, regions_.size() * (bytes_kept(parts) + bytes_of_pass(parts)), statistics_);
+    statistics_.hold(grid.bytes(), regions_.size() * (bytes_kept(parts) + bytes_of_pass(parts)));
     gather(
         scene, b, owned_, options_.max_depth, pass,
         {points(pass, scene), hash_combine(key.seed, kStream)}, gathered,

@@ -25,6 +25,9 @@ class Sppm : public Estimator {
   void render_pass(const PassKey& key, const Scene& scene, Film& film) override;
   EstimatorStatistics statistics() const override;
 
+  /// Of all regions, in footprints: the user's, or the default.
+  static float first_radius(const IntegratorOptions& options);
+
   /// Memory of a region from pass to pass, and what a pass needs beside it.
   static constexpr size_t bytes_kept(size_t parts) {
     return sizeof(SharedStatistics) + parts * sizeof(std::array<double, 3>) + sizeof(float);

@@ -26,7 +26,7 @@ int64_t default_light_paths(int64_t pixels) {
 struct Chunk {
   std::vector<Photon> photons;
   std::vector<Splat> splats;
-  uint64_t rays = 0, useful = 0, merged = 0;
+  uint64_t rays = 0, useful = 0;
 };
 
 class VcmPass {
@@ -34,21 +34,24 @@ class VcmPass {
   VcmPass(const PassKey& key, const Scene& scene, Film& film, const OwnedRoutes& owned,
           const IntegratorOptions& options, int64_t light_paths)
       : key_(key),
+        kind_(owned.routes->groups()[owned.group].estimator),
+        seed_(hash_combine(key.seed, static_cast<uint64_t>(kind_))),
         scene_(scene),
         film_(film),
         owned_(owned),
         options_(options),
         light_paths_(light_paths),
         pass_(start_photon_pass(key, scene, film, options)),
+        eye_point_(key.pass, kEyePathDimensions),
+        light_point_(key.pass, kPairDimensions),
         view_(scene, film.bounds()),
         places_(*owned.routes, owned.group),
         settings_{scene, owned} {
-    const EstimatorKind kind = owned.routes->groups()[owned.group].estimator;
     merging_.photons = static_cast<double>(light_paths);
     merging_.radius_pixels = radius_of_pass(options, key.pass);
     merging_.footprint = pass_.footprint;
     merging_.eye = scene.camera->camera_to_world(pass_.trace.time).point(Vec3f(0, 0, 0));
-    merging_.connects = kind != EstimatorKind::kBpm;
+    merging_.connects = kind_ != EstimatorKind::kBpm;
     settings_.view = scene.camera->connects() && merging_.connects ? &view_ : nullptr;
     settings_.specular_alpha = pass_.trace.specular_alpha;
     settings_.max_depth = options.max_depth;
@@ -67,6 +70,8 @@ class VcmPass {
     do {
       std::vector<Photon> photons = trace_batch_of_paths(begin, buffer, statistics);
       const PhotonGrid grid(std::move(photons));
+      statistics.hold(grid.bytes(),
+                      filter_weights_.size() * VertexConnectionMerging::bytes_per_pixel(parts_));
       merging_.grid = &grid;
       trace_eye_paths(statistics);
       merging_.grid = nullptr;
@@ -87,7 +92,7 @@ class VcmPass {
     const uint64_t number =
         uint64_t{key_.pass} * static_cast<uint64_t>(light_paths_) + static_cast<uint64_t>(j);
     const SobolPoint point(static_cast<uint32_t>(number), kLightPathDimensions);
-    PathSampler sampler(point, hash_combine(key_.seed, kLightStream, number >> 32));
+    PathSampler sampler(point, hash_combine(seed_, kLightStream, number >> 32));
     return trace_light_path(settings_, pass_.trace.lambda, pass_.u_time, sampler, nullptr, &seen,
                             &photons);
   }
@@ -149,17 +154,17 @@ class VcmPass {
     const PixelBounds& b = film_.bounds();
     const size_t pixel = static_cast<size_t>(y - b.y0) * static_cast<size_t>(b.width()) +
                          static_cast<size_t>(x - b.x0);
-    PathSampler sampler(pass_.point, hash_combine(key_.seed, kEyeStream, x, y));
+    PathSampler sampler(eye_point_, hash_combine(seed_, kEyeStream, x, y));
     CameraPath camera = start_merging_path(scene_, x, y, sampler, pass_);
     if (merging_.connects && !settings_.merges_only) {
       // A light path of its own: those that are merged run through one sequence, of which a pixel
       // would see the same part in all passes.
-      PathSampler own(pass_.point, hash_combine(key_.seed, kPairStream, x, y));
+      PathSampler own(light_point_, hash_combine(seed_, kPairStream, x, y));
       row.rays += trace_light_path(settings_, pass_.trace.lambda, pass_.u_time, own, &path, nullptr,
-                                   nullptr);
+                                   nullptr, kEyePathDimensions);
     }
     light.clear();
-    row.rays += trace_eye_path(settings_, path, camera, sampler, light, &row.merged);
+    row.rays += trace_eye_path(settings_, path, camera, sampler, light);
     for (size_t i = 0; i < parts_; ++i) {
       Rgb& sum = values_[pixel * parts_ + i];
       sum = sum + pass_.weights.apply(light.sums()[i]) * camera.camera_weight;
@@ -176,12 +181,15 @@ class VcmPass {
   }
 
   const PassKey key_;
+  const EstimatorKind kind_;
+  const uint64_t seed_;  ///< of the kind: `vcm` and `bpm` of one plan are independent
   const Scene& scene_;
   Film& film_;
   const OwnedRoutes& owned_;
   const IntegratorOptions& options_;
   const int64_t light_paths_;
   const PhotonPass pass_;
+  const SobolPoint eye_point_, light_point_;  ///< of pairs
   const CameraView view_;
   const PartSums places_;
   PairMerging merging_;

@@ -48,7 +48,7 @@ void VertexMerging::render_pass(const PassKey& key, const Scene& scene, Film& fi
   const uint64_t of_splats =
       static_cast<uint64_t>(film.bounds().area()) *
       (Gathered::bytes_per_walk(parts) + SplatBuffer::bytes_per_pixel(parts));
-  statistics_.bytes = std::max(statistics_.bytes, of_splats);
+  statistics_.hold(0, of_splats);
   const int64_t paths =
       light_pass(key, scene, film, owned_, options_, splat_weight, buffer, statistics_);
   buffer.finish(1.0 / static_cast<double>(paths), merged.values);

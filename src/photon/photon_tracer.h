@@ -45,8 +45,9 @@ PhotonTrace trace_batch(const Scene& scene, const OwnedRoutes& owned,
 
 /// The photons of a map: path j of each set, for j = 0, 1, ... in all sets alike, until the sets
 /// end or `limit` photons are stored. It stops with a whole chunk of each set and keeps all of its
-/// photons, so the number emitted, `paths_of_set` in each set, is exact. A photon knows the number
-/// of its set; there are at most 256. The sets' photons_per_pass are equal.
+/// photons; `paths_of_set` is the number emitted in each set. If `limit` ends it, the photons
+/// choose that number, and flux over it is biased by about a round's part of the map (ADR 16). A
+/// photon knows the number of its set; there are at most 256. The sets' photons_per_pass are equal.
 struct PhotonMapTrace {
   PhotonTrace trace;
   int64_t paths_of_set = 0;

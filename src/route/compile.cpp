@@ -147,7 +147,8 @@ RouteTables write_out(const Automaton& eye, const LightSide& light, const Symbol
 }  // namespace
 
 RouteCompilation compile_routes(std::span<const RouteDefinition> routes,
-                                std::span<const AovDefinition> aovs, const SymbolSet* symbols) {
+                                std::span<const AovDefinition> aovs, const SymbolSet* symbols,
+                                bool camera_connects) {
   const Trees trees = parse_all(routes, aovs);
   std::vector<std::string> labels = labels_of(trees);
   ExpressionCopies copies;
@@ -155,7 +156,7 @@ RouteCompilation compile_routes(std::span<const RouteDefinition> routes,
   const SymbolClasses classes = classify_symbols(nfa.atoms, labels);
   const MatchAutomaton matches = determinise(nfa, classes, copies);
   const PartAutomaton parts = divide_into_parts(matches, classes, routes);
-  Proof proof = prove({routes, labels, classes, matches, parts, symbols});
+  Proof proof = prove({routes, labels, classes, matches, parts, symbols, camera_connects});
   proof.aov_matches.resize(aovs.size());
   RouteTables tables = write_out(parts.automaton, reverse(parts.automaton), classes);
   Routes compiled({routes.begin(), routes.end()}, {aovs.begin(), aovs.end()}, parts.parts,

@@ -41,9 +41,10 @@ struct RouteCompilation {
 /// have and only its events are useful; without them all symbols count but light from media, which
 /// is only proved if a scene has it. Throws UsageError with column and caret for an expression that
 /// is wrong, and for routes that are too many or too complex. Findings do not throw.
+/// `camera_connects`: light paths can be connected to the camera (Camera::connects).
 RouteCompilation compile_routes(std::span<const RouteDefinition> routes,
                                 std::span<const AovDefinition> aovs,
-                                const SymbolSet* symbols = nullptr);
+                                const SymbolSet* symbols = nullptr, bool camera_connects = true);
 
 /// The routes of a compilation without errors; throws UsageError with the first error (under
 /// `strict` the first overlap, too).

@@ -241,7 +241,7 @@ class Prover {
 
   // 0 if the estimator can make the word or no other can (that nobody sees a light at a point in a
   // mirror is no fault of a route), else the more the better it serves as a witness.
-  static int never_sampled(EstimatorKind estimator, const Ends& ends, LightKind light) {
+  int never_sampled(EstimatorKind estimator, const Ends& ends, LightKind light) const {
     const bool is_hit = light != LightKind::kPoint && light != LightKind::kDistant;
     const bool out_of_reach = !is_hit && ends.rough && ends.last_specular;
     if (estimator == EstimatorKind::kPath || estimator == EstimatorKind::kForecast ||
@@ -255,8 +255,8 @@ class Prover {
     if (!is_cut_anywhere(estimator) || is_hit || !ends.rough || !ends.last_specular) return 0;
     const bool merges =
         (estimator == EstimatorKind::kVcm || estimator == EstimatorKind::kBpm) && ends.mergeable;
-    const bool connects =
-        estimator != EstimatorKind::kBpm && (!ends.first_specular || ends.rough_pair);
+    const bool connects = estimator != EstimatorKind::kBpm &&
+                          ((in_.camera_connects && !ends.first_specular) || ends.rough_pair);
     return !merges && !connects;
   }
   static bool is_cut_anywhere(EstimatorKind estimator) {
@@ -266,15 +266,18 @@ class Prover {
   std::string never_sampled_text(int route, const std::string& witness) const {
     const std::string owns = owner_text(route) + " owns " + witness +
                              ", which it cannot find (that light will be missing): ";
-    if (in_.routes[static_cast<size_t>(route)].estimator == EstimatorKind::kLightTrace)
+    const EstimatorKind kind = in_.routes[static_cast<size_t>(route)].estimator;
+    if (kind == EstimatorKind::kLightTrace)
       return owns + "only rough surfaces, media and emitting shapes can be connected to the camera";
-    if (is_cut_anywhere(in_.routes[static_cast<size_t>(route)].estimator))
-      return owns +
-             "no path meets a light at a point or in one direction, and wherever it is cut in two, "
+    const std::string start = owns + "no path meets a light at a point or in one direction, ";
+    if (kind == EstimatorKind::kBpm)
+      return start + "none is connected to it behind an S, and photons are merged at D and G only";
+    if (is_cut_anywhere(kind) && !in_.camera_connects)
+      return start +
+             "light paths are not connected to this camera, and wherever else it is cut in two, "
              "there is an S";
-    return owns +
-           "no path meets a light at a point or in one direction, and only a rough S can be "
-           "connected to it";
+    if (is_cut_anywhere(kind)) return start + "and wherever it is cut in two, there is an S";
+    return start + "and only a rough S can be connected to it";
   }
 
   // Words of routes that merge have exactly one vertex where they do.

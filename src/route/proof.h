@@ -19,6 +19,7 @@ struct ProofInput {
   const MatchAutomaton& matches;
   const PartAutomaton& parts;
   const SymbolSet* symbols;  ///< null: all, but no light from media
+  bool camera_connects;      ///< light paths can be connected to the camera
 };
 
 struct Proof {

@@ -12,6 +12,7 @@
 #include "integrator/bidirectional.h"
 #include "integrator/gather.h"
 #include "integrator/merge_pass.h"
+#include "integrator/photon_map.h"
 #include "integrator/ppm.h"
 #include "integrator/sppm.h"
 #include "integrator/vertex_connection_merging.h"
@@ -33,9 +34,9 @@ size_t bytes_of_estimators(const Routes& routes, int hit_points) {
       kept += Sppm::bytes_kept(parts);
       pass += Sppm::bytes_of_pass(parts);
     } else if (group.estimator == EstimatorKind::kBidirectional) {
-      pass += Bidirectional::bytes_per_pixel(parts);
+      pass = Bidirectional::bytes_per_pixel(parts);
     } else if (group.estimator == EstimatorKind::kVcm || group.estimator == EstimatorKind::kBpm) {
-      pass += VertexConnectionMerging::bytes_per_pixel(parts);
+      pass = VertexConnectionMerging::bytes_per_pixel(parts);
     } else if (group.estimator == EstimatorKind::kPpm) {
       kept += static_cast<size_t>(hit_points) * Ppm::bytes_kept(parts);
       pass += static_cast<size_t>(hit_points) * Ppm::bytes_of_pass(parts);
@@ -52,6 +53,37 @@ size_t bytes_of_rejection(const Routes& routes) {
   for (const RouteGroup& group : routes.groups())
     bytes += OutlierRejection::bytes_per_pixel(group.parts.size());
   return bytes;
+}
+
+/// a of [O2], the pixels that one light path exposes in a pass: a photon those within the first
+/// merge radius, a splat those whose filter reaches it, a path from the eye its own.
+float exposed_pixels(EstimatorKind kind, const IntegratorOptions& options,
+                     const PixelFilter& filter) {
+  const auto within = [](float radius) { return std::max(1.0f, kPi * sqr(radius)); };
+  const float splatted = std::max(1.0f, 4 * filter.radius().x * filter.radius().y);
+  switch (kind) {
+    case EstimatorKind::kPhotons:
+    case EstimatorKind::kBpm:
+      return within(first_radius(options));
+    case EstimatorKind::kSppm:
+    case EstimatorKind::kPpm:
+      return within(Sppm::first_radius(options));
+    case EstimatorKind::kPhotonMap:
+      return within(PhotonMap::largest_radius(options));
+    case EstimatorKind::kPhotonsAndLight:
+    case EstimatorKind::kVcm:
+      return std::max(within(first_radius(options)), splatted);
+    case EstimatorKind::kLightTrace:
+    case EstimatorKind::kBidirectional:
+    case EstimatorKind::kMetropolis:
+    case EstimatorKind::kPrimarySpace:
+      return splatted;
+    case EstimatorKind::kPath:
+    case EstimatorKind::kPointLights:
+    case EstimatorKind::kForecast:
+      break;
+  }
+  return 1;
 }
 
 }  // namespace
@@ -72,17 +104,12 @@ FilmSettings film_settings(const FilmDescription& description) {
   return settings;
 }
 
-/// A photon exposes the pixels within the merge radius, a splat those whose filter reaches it.
 OutlierSettings outlier_settings(const Routes& routes, const IntegratorOptions& options,
                                  const PixelFilter& filter) {
   OutlierSettings settings;
   settings.neighbours = options.outlier_neighbours;
-  for (const RouteGroup& group : routes.groups()) {
-    const EstimatorType& type = estimator_type(group.estimator);
-    const float merged = type.merges ? kPi * sqr(first_radius(options)) : 1.0f;
-    const float splatted = type.connects ? 4 * filter.radius().x * filter.radius().y : 1.0f;
-    settings.exposed_pixels.push_back(std::max({1.0f, merged, splatted}));
-  }
+  for (const RouteGroup& group : routes.groups())
+    settings.exposed_pixels.push_back(exposed_pixels(group.estimator, options, filter));
   return settings;
 }
 

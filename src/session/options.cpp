@@ -83,17 +83,16 @@ void set_strict(CommandLine& line, const std::string&) {
 }
 
 constexpr const char* kIntegratorHelp =
-    "How light is found: path, sppm, mixed, bdpt, photonmap, ppm, or scene for the one that the "
-    "scene names. Each is a preset of routes: path is path-only, mixed doidge2012, the others have "
-    "the names of theirs.";
+    "How light is found: path, sppm, mixed, bdpt, vcm, bpm, photonmap, ppm, pssmlt, mlt, or scene "
+    "for the one that the scene names. Each is a preset of routes: path is path-only, mixed "
+    "doidge2012, the others have the names of theirs.";
 constexpr const char* kRoutesHelp =
     "Routes by the name of a preset (listed below) or from a file, one a line; instead of "
     "--integrator.";
 constexpr const char* kRouteHelp =
     "One route: a light path expression and the estimator that renders what matches it (path, "
-    "photons, sppm, lighttrace, photons+light, bdpt, photonmap, ppm, pointlights, forecast). The "
-    "first route that matches "
-    "a path owns it.";
+    "photons, sppm, lighttrace, photons+light, bdpt, vcm, bpm, photonmap, ppm, pssmlt, mlt, "
+    "pointlights, forecast). The first route that matches a path owns it.";
 constexpr const char* kAovHelp =
     "One more layer of the picture: the light of all paths that match, whichever route renders "
     "them.";

@@ -60,9 +60,10 @@ constexpr const char* kTail = R"(
   medium itself shows of a caustic is path traced in every integrator. So are all paths that meet hair or
   another curve (H).
 - Realistic cameras cannot be used with routes of `lighttrace` and `photons+light`: light paths cannot be
-  connected to them.
-- `Option "disablepixeljitter"` does not concern routes of `lighttrace` and what `photons+light` connects
-  to the camera: that light is always spread by the pixel filter.
+  connected to them. `bdpt`, `vcm` and `mlt` do without that connection, and warn of light that nothing
+  else finds.
+- `Option "disablepixeljitter"` does not concern routes of `lighttrace`, `mlt` and `pssmlt`, nor what
+  `photons+light`, `bdpt` and `vcm` connect to the camera: that light is always spread by the pixel filter.
 )";
 
 /// The text of a table cell: a bar would end it.

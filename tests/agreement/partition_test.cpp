@@ -178,6 +178,7 @@ struct Owners {
   const char* name;
   std::vector<std::string> routes;
   bool merges = false;
+  uint32_t passes = 4;
 };
 
 class PartitionOwners : public ::testing::TestWithParam<Owners> {};
@@ -192,23 +193,24 @@ TEST_P(PartitionOwners, FindTheSamePicture) {
   options.radius = 0.6f;
   options.hit_points = 4;
   options.nearest_photons = kAllPhotons;
-  options.mutations = 96;
+  options.mutations = 256;
   options.large_step = 0.5f;
-  const auto values = [&](const std::vector<std::string>& routes, uint64_t first_seed,
-                          float radius) {
+  const auto values = [&](const std::vector<std::string>& routes, uint64_t first_seed, float radius,
+                          uint32_t passes) {
     options.radius = radius;
     SeedValues result(kAcross * kAcross);
     for (uint64_t s = 0; s < kSeeds; ++s) {
       const std::vector<double> means =
-          block_means(render_routes(*scene, routes, options, first_seed + s, 4), kAcross);
+          block_means(render_routes(*scene, routes, options, first_seed + s, passes), kAcross);
       for (size_t i = 0; i < means.size(); ++i) result[i].push_back(means[i]);
     }
     return result;
   };
-  const SeedValues reference = values({"all=.*:path"}, 1, 0.6f);
-  SeedValues found = values(GetParam().routes, 500, 0.6f);
+  const SeedValues reference = values({"all=.*:path"}, 1, 0.6f, 4);
+  SeedValues found = values(GetParam().routes, 500, 0.6f, GetParam().passes);
   if (GetParam().merges) {
-    const SeedValues small = values(GetParam().routes, 500, 0.6f * std::sqrt(0.5f));
+    const SeedValues small =
+        values(GetParam().routes, 500, 0.6f * std::sqrt(0.5f), GetParam().passes);
     for (size_t i = 0; i < found.size(); ++i)
       for (size_t s = 0; s < kSeeds; ++s) found[i][s] = 2 * small[i][s] - found[i][s];
   }
@@ -242,7 +244,7 @@ const std::vector<Owners> kOwners = {
     {"photons_and_light_of_all", {"bare=C[SV]*(L|.*M):path", "rest=.*:photons+light"}, true},
     {"bdpt_of_all", {"all=.*:bdpt", "rest=.*:path"}},
     {"bdpt_of_some", {"glass=C.*<..'glass'>.*L:bdpt", "rest=.*:path"}},
-    {"vcm_of_all", {"all=.*:vcm", "rest=.*:path"}, true},
+    {"vcm_of_all", {"all=.*:vcm", "rest=.*:path"}, true, 10},
     {"bpm_of_caustics", {"caustic=C.*[DG]S+[DG]?L:bpm", "rest=.*:path"}, true},
     {"chains_of_caustics", {"seen=C.*[DG]S+L:mlt", "rest=.*:path"}},
     {"chains_of_all", {"all=.*:mlt", "rest=.*:path"}},

@@ -53,12 +53,12 @@ inline std::string owner_name(const Routes& routes, const std::string& events,
 
 inline RouteCompilation compiled(const std::vector<std::string>& texts,
                                  const std::vector<std::string>& aovs = {},
-                                 const SymbolSet* symbols = nullptr) {
+                                 const SymbolSet* symbols = nullptr, bool camera_connects = true) {
   std::vector<RouteDefinition> routes;
   for (const std::string& text : texts) routes.push_back(parse_route(text));
   std::vector<AovDefinition> layers;
   for (const std::string& text : aovs) layers.push_back(parse_aov(text));
-  return compile_routes(routes, layers, symbols);
+  return compile_routes(routes, layers, symbols, camera_connects);
 }
 
 inline Routes preset(const std::string& name) {

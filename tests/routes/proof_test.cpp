@@ -108,6 +108,34 @@ TEST(Proof, LightTracingMissesWhatIsSeenThroughSpecularSurfaces) {
   EXPECT_EQ(warnings("D", LightKind::kEnvironment)[0].witness, "C L");
 }
 
+TEST(Proof, PairsMissWhatTheCameraCannotBeConnectedFor) {
+  const auto warnings = [](const std::string& estimator, const std::string& letters,
+                           bool camera_connects) {
+    const SymbolSet symbols = symbols_of(letters, {LightKind::kPoint});
+    return findings_of(compiled({"all=.*:" + estimator}, {}, &symbols, camera_connects),
+                       Kind::kNeverSampled);
+  };
+  for (const char* estimator : {"bdpt", "mlt"}) {
+    ASSERT_EQ(warnings(estimator, "DS", true).size(), 1u) << estimator;
+    EXPECT_EQ(warnings(estimator, "DS", true)[0].witness, "C S D S L") << estimator;
+    ASSERT_EQ(warnings(estimator, "DS", false).size(), 1u) << estimator;
+    EXPECT_EQ(warnings(estimator, "DS", false)[0].witness, "C D S L") << estimator;
+    EXPECT_NE(warnings(estimator, "DS", false)[0].message.find("to this camera"),
+              std::string::npos);
+    EXPECT_TRUE(warnings(estimator, "D", false).empty()) << estimator;
+  }
+  EXPECT_TRUE(warnings("vcm", "DS", false).empty());
+  EXPECT_EQ(warnings("vcm", "VS", true)[0].witness, "C S V S L");
+  EXPECT_EQ(warnings("vcm", "VS", false)[0].witness, "C V S L");
+  for (const bool camera_connects : {false, true}) {
+    const auto bpm = warnings("bpm", "VS", camera_connects);
+    ASSERT_EQ(bpm.size(), 1u);
+    EXPECT_EQ(bpm[0].witness, "C V S L");
+    EXPECT_NE(bpm[0].message.find("merged at D and G only"), std::string::npos);
+    EXPECT_TRUE(warnings("bpm", "DS", camera_connects).empty());
+  }
+}
+
 TEST(Proof, EachPathOfPhotonsHasOneMergeVertex) {
   const RouteCompilation none = compiled({"glass=CS+L:photons", "rest=.*:path"});
   ASSERT_EQ(findings_of(none, Kind::kNoMergeVertex).size(), 1u);

@@ -105,10 +105,13 @@ TEST_P(Furnace, RadianceIsOne) {
   IntegratorOptions options;
   const bool merges = merges_photons(plan_named(plan));
   // Where nearly all light is photons, they must be many.
-  options.photons_per_pass = plan == "sppm" || plan == "all-photons" ? 16384 : 8192;
+  const bool mostly_photons =
+      plan == "sppm" || plan == "ppm" || plan == "bpm" || plan == "all-photons";
+  options.photons_per_pass = mostly_photons ? 16384 : 8192;
   options.radius = 1.0f;
   options.hit_points = 4;
   options.nearest_photons = kAllPhotons;
+  options.hit_points = 16;
   options.mutations = 48;
   const Estimate e = merges ? estimate_of(unbiased_block_values(*scene, plan, options, 16, 8, 1)[0])
                             : mean_over_seeds(*scene, plan, options, 16, 64);

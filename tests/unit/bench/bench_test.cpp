@@ -28,7 +28,8 @@ std::string small_suite(const std::string& more = "") {
                     {"name": "mixed", "integrator": "mixed", "options": {"photons": 1024}}],
     "scenes": [{"name": "room", "file": ")" +
          kRoom + R"(", "resolution": [8, 8], "reference": {"integrator": "path", "passes": 6},
-                "energy": {"direct": "C[DG]?L"}, "region": {"left": [0, 0.5, 0, 1]}})" +
+                "energy": {"direct": "C[DG]?L"}, "layer": {"lit": "C[DG]L"},
+                "region": {"left": [0, 0.5, 0, 1]}})" +
          more + R"(],
     "claims": [{"text": "mixed stores photons", "metric": "photons", "of": "mixed",
                 "between": [1, 1e9]}]})";
@@ -63,7 +64,9 @@ TEST_F(BenchRuns, MeasuresEveryIntegrator) {
   EXPECT_EQ(room.reference.passes, 6u);
   ASSERT_TRUE(room.reference.own_error);
   EXPECT_GT(*room.reference.own_error, 0);
-  ASSERT_EQ(room.reference.energy.size(), 1u);
+  // Of the layer and of the share.
+  ASSERT_EQ(room.reference.energy.size(), 2u);
+  EXPECT_EQ(room.reference.energy[0].first, "lit");
   EXPECT_GT(room.reference.energy[0].second, 0);
   EXPECT_LT(room.reference.energy[0].second, 1);
   ASSERT_EQ(room.runs.size(), 2u);
@@ -75,6 +78,9 @@ TEST_F(BenchRuns, MeasuresEveryIntegrator) {
     EXPECT_GT(run.end().errors.rmse, 0);
     EXPECT_GT(run.end().errors.flip, 0);
     EXPECT_GT(run.rays, 0u);
+    ASSERT_EQ(run.end().layers.size(), 1u);
+    EXPECT_GT(run.end().layers[0].second.rmse, 0);
+    EXPECT_LT(run.end().layers[0].second.rmse, run.end().errors.rmse);
     ASSERT_EQ(run.regions.size(), 1u);
     EXPECT_NE(run.regions[0].second.rmse, run.end().errors.rmse);
     for (size_t i = 1; i < run.points.size(); ++i)
@@ -82,6 +88,7 @@ TEST_F(BenchRuns, MeasuresEveryIntegrator) {
   }
   // Four passes of a path each are the reference's first four with another seed: no photons.
   EXPECT_EQ(room.runs[0].bytes, 0u);
+  EXPECT_EQ(room.runs[1].bytes, room.runs[1].photon_bytes + room.runs[1].pixel_bytes);
   EXPECT_EQ(room.runs[0].emitted, 0u);
   EXPECT_EQ(room.runs[1].emitted, 4096u);
   EXPECT_GT(room.runs[1].photons_stored, 0u);
@@ -104,7 +111,35 @@ TEST_F(BenchRuns, TheSameReferenceHasNoError) {
   const BenchErrors& errors = results.scenes.at(0).find_run("path")->end().errors;
   // Layers of the reference (its shares of light) change how sums are rounded, no more.
   EXPECT_LT(errors.rmse, 1e-5);
+  EXPECT_LT(results.scenes[0].find_run("path")->end().layers.at(0).second.rmse, 1e-5);
   EXPECT_LT(errors.flip, 1e-2);
+}
+
+TEST_F(BenchRuns, AReferenceMayTakeATime) {
+  std::string suite = small_suite();
+  const std::string passes = "\"passes\": 6}";
+  suite.replace(suite.find(passes), passes.size(), "\"time\": \"0.05s\"}");
+  const BenchResults results = run(suite);
+  const BenchReferenceResult& reference = results.scenes.at(0).reference;
+  EXPECT_EQ(results.failures(), 0) << said_;
+  EXPECT_GE(reference.passes, 1u);
+  EXPECT_GT(reference.seconds, 0);
+  EXPECT_NE(file("report.html").find(" passes in "), std::string::npos);
+  EXPECT_TRUE(run(suite).scenes.at(0).reference.kept);
+}
+
+TEST_F(BenchRuns, AReferenceFileNeedsTheLayers) {
+  const std::string picture = run(small_suite()).scenes.at(0).reference.picture;
+  const auto with_layer = [&](const std::string& name) {
+    return small_suite(R"(, {"name": "other", "file": ")" + kRoom +
+                       R"(", "resolution": [8, 8], "layer": {")" + name +
+                       R"(": "C[DG]L"}, "reference": {"file": ")" + picture + "\"}}");
+  };
+  EXPECT_EQ(run(with_layer("lit"), {"other"}).scenes.at(0).runs.at(0).failure, "");
+  const BenchResults results = run(with_layer("unlit"), {"other"});
+  EXPECT_NE(results.scenes.at(0).runs.at(0).failure.find("the reference has no layer 'unlit'"),
+            std::string::npos)
+      << results.scenes[0].runs[0].failure;
 }
 
 TEST_F(BenchRuns, WhatIsThereIsNotRenderedAgain) {

@@ -187,6 +187,21 @@ TEST(OutlierRejection, APhotonDoesNotConfirmItself) {
   }
 }
 
+// A pixel's counts end at 255, and so does what is asked for, if a light path exposes everything.
+TEST(OutlierRejection, HalfOf255PassesConfirmHoweverManyThereAre) {
+  for (const uint64_t bright : {127u, 128u}) {
+    OutlierRejection rejection(1, 1, {1}, {{1e6f}, 8});
+    uint64_t released = 0;
+    const auto release = [&](int, size_t, std::span<const RgbSum>) { ++released; };
+    const Rgb value = grey(1000);
+    for (uint64_t i = 0; i < bright; ++i) EXPECT_TRUE(rejection.hold(0, 0, {&value, 1}, release));
+    const float nothing = 0;
+    rejection.finish_pass(0, 1000, {&nothing, 1}, release);
+    EXPECT_EQ(released, bright == 128 ? 1u : 0u);
+    EXPECT_EQ(rejection.held_estimates(), bright == 128 ? 0u : bright);
+  }
+}
+
 TEST(OutlierRejection, NothingIsLost) {
   Film plain(settings_of_test(), FilmLayout::of_routes({"a", "b"}));
   Film film = rejecting(2);

@@ -1,10 +1,12 @@
-// What the Metropolis estimators promise beside their pictures: lengths that are chosen as often as
+// What the Metropolis estimators promise beside their pictures: kinds that are chosen as often as
 // they say, reports, passes of any size and any order, and crops.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "integrator/multiplexed.h"
+#include "integrator/primary_space.h"
 #include "rendering.h"
 
 namespace nephroid {
@@ -30,48 +32,84 @@ const std::string kWorld = R"(
   Translate 0.3 0.5 0 Shape "sphere" "float radius" 0.5
 )";
 
+// The one of a preset's estimators that chains explore.
+Estimator& chains_of(const Preset& preset) {
+  for (const auto& e : preset.estimators)
+    if (dynamic_cast<Multiplexed*>(e.get()) || dynamic_cast<PrimarySpace*>(e.get())) return *e;
+  throw std::logic_error("no chains");
+}
+
 EstimatorStatistics statistics_of(const std::string& text, const std::string& integrator,
                                   const IntegratorOptions& options, uint32_t passes) {
   const auto scene = scene_from_text(text);
   Preset preset = make_integrator(integrator, options, *scene);
   Film film = film_for(*scene, preset);
   for (uint32_t pass = 0; pass < passes; ++pass)
-    preset.estimators[0]->render_pass({1, pass}, *scene, film);
-  return preset.estimators[0]->statistics();
+    chains_of(preset).render_pass({1, pass}, *scene, film);
+  return chains_of(preset).statistics();
 }
 
-void expect_shares(const LengthChoice& choice) {
-  constexpr int kNumbers = 1 << 16;
-  std::vector<int> found(choice.lengths(), 0);
-  std::vector<double> expected(choice.lengths(), 0.0);
-  for (int i = 0; i < kNumbers; ++i) {
-    const LengthChoice::Chosen c = choice.choose((static_cast<float>(i) + 0.5f) / kNumbers);
+/// How often each kind is chosen, of evenly spread numbers, is what the choice says.
+void expect_shares(const KindChoice& choice) {
+  constexpr int kSide = 512;
+  std::vector<int> found(choice.kinds(), 0);
+  std::vector<double> expected(choice.kinds(), 0.0);
+  for (int i = 0; i < kSide * kSide; ++i) {
+    const Vec2f u((static_cast<float>(i % kSide) + 0.5f) / kSide,
+                  (static_cast<float>(i / kSide) + 0.5f) / kSide);
+    const KindChoice::Chosen c = choice.choose(u);
     ASSERT_GE(c.length, 0);
-    ASSERT_LT(static_cast<size_t>(c.length), found.size());
+    ASSERT_LT(static_cast<size_t>(c.length), choice.lengths());
+    ASSERT_GE(c.s, 0);
+    ASSERT_LT(c.s, c.length == 0 ? 1 : c.length + 2);
+    ASSERT_LT(c.kind, found.size());
     ASSERT_GT(c.probability, 0);
-    found[static_cast<size_t>(c.length)] += 1;
-    expected[static_cast<size_t>(c.length)] = double{c.probability} * kNumbers;
+    found[c.kind] += 1;
+    expected[c.kind] = double{c.probability} * kSide * kSide;
   }
-  for (size_t n = 0; n < found.size(); ++n) EXPECT_NEAR(found[n], expected[n], 1.01) << n;
+  // A kind is a rectangle, whose sides are found to less than a point.
+  for (size_t k = 0; k < found.size(); ++k) EXPECT_NEAR(found[k], expected[k], 2.02 * kSide) << k;
 }
 
-TEST(LengthChoice, ChoosesAsOftenAsItSays) {
-  expect_shares(LengthChoice(0));
-  expect_shares(LengthChoice(7));
-  expect_shares(LengthChoice(100));
-  expect_shares(LengthChoice(std::vector<double>{0, 0, 0}));
-  const std::vector<double> bright = {0.2, 5, 0, 1, 0};
-  const LengthChoice learned(bright);
+/// The probability of a kind.
+float share_of(const KindChoice& choice, int length, int s) {
+  for (float x = 0.002f; x < 1; x += 0.004f)
+    for (float y = 0.002f; y < 1; y += 0.004f)
+      if (const auto c = choice.choose({x, y}); c.length == length && c.s == s)
+        return c.probability;
+  return 0;
+}
+
+TEST(KindChoice, ChoosesAsOftenAsItSays) {
+  expect_shares(KindChoice(0));
+  expect_shares(KindChoice(7));
+  const KindChoice guess(4);
+  EXPECT_EQ(guess.kinds(), 1u + 3 + 4 + 5 + 6);
+  std::vector<double> squares(guess.kinds(), 0.0);
+  expect_shares(KindChoice(guess, squares));
+  squares = {0.2, 0, 5, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+  const KindChoice learned(guess, squares);
   expect_shares(learned);
-  EXPECT_EQ(learned.lengths(), 5u);
-  const auto share = [&](const LengthChoice& choice, int length) {
-    for (float u = 0; u < 1; u += 1e-4f)
-      if (const auto c = choice.choose(u); c.length == length) return c.probability;
-    return 0.0f;
+  EXPECT_EQ(learned.kinds(), guess.kinds());
+  EXPECT_GT(share_of(learned, 1, 1), share_of(guess, 1, 1)) << "what is bright is tried more often";
+  EXPECT_GT(share_of(learned, 1, 1), 3 * share_of(learned, 1, 2)) << "by a technique that finds it";
+  EXPECT_GT(share_of(learned, 4, 3), 0) << "what was not seen is still tried";
+  EXPECT_EQ(KindChoice(1 << 30).lengths(), 1000u);
+}
+
+TEST(KindChoice, TriesWhatIsSeldomAndBrightMoreOftenThanItAddsLight) {
+  // Two kinds with the same mean light; one has it in a hundredth of its paths. The noise of
+  // independent paths is least with probabilities as the roots of the mean squares: ten to one.
+  const KindChoice guess(1);
+  const double p = double{share_of(guess, 1, 0)};
+  ASSERT_EQ(guess.kinds(), 4u);
+  const std::vector<double> squares = {0, p, 100 * p, 0};
+  const KindChoice learned(guess, squares);
+  const auto learned_of = [&](int s) {
+    const double length_share = double{share_of(learned, 1, 2)} / (0.5 / 3);
+    return double{share_of(learned, 1, s)} / length_share - 0.5 / 3;
   };
-  EXPECT_GT(share(learned, 1), share(LengthChoice(4), 1)) << "what is bright is tried more often";
-  EXPECT_GT(share(learned, 4), 0) << "what was not seen is still tried";
-  EXPECT_EQ(LengthChoice(1 << 30).lengths(), 1000u);
+  EXPECT_NEAR(learned_of(1) / learned_of(0), 10, 1e-3);
 }
 
 TEST(Metropolis, CountsItsPathsAndSaysHowItWent) {

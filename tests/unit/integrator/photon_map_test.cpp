@@ -52,7 +52,10 @@ TEST(PhotonMap, IsTracedOnceAndEachRouteHasItsOwn) {
     EXPECT_EQ(statistics[1].photon_paths, 16u * 2048u);
     EXPECT_GT(statistics[0].photons_stored, 100u);
     EXPECT_GT(statistics[1].photons_stored, 2 * statistics[0].photons_stored);
-    EXPECT_EQ(statistics[1].bytes_kept, statistics[1].photons_stored * sizeof(Photon));
+    EXPECT_GT(statistics[1].photon_bytes, statistics[1].photons_stored * sizeof(Photon));
+    EXPECT_EQ(statistics[1].bytes, statistics[1].photon_bytes + statistics[1].pixel_bytes);
+    EXPECT_EQ(statistics[1].photon_bytes,
+              statistics_after(*scene, "photonmap", options, 1)[1].photon_bytes);
     ASSERT_EQ(statistics[0].notes.size(), 1u);
     EXPECT_NE(statistics[0].notes[0].find("'caustic'"), std::string::npos);
     EXPECT_EQ(statistics[2].photon_paths, 0u);
@@ -98,19 +101,112 @@ TEST(PhotonMap, APassDoesNotKnowWhichCameBefore) {
   EXPECT_LT(difference, 1e-6 * total);
 }
 
+TEST(Memory, IsCountedByAllThatHoldIt) {
+  const auto scene = scene_from_text(kRoom);
+  IntegratorOptions options;
+  options.photons_per_pass = 4096;
+  const auto held = [&](const char* name, uint32_t passes) {
+    EstimatorStatistics sum;
+    for (const EstimatorStatistics& s : statistics_after(*scene, name, options, passes)) {
+      EXPECT_LE(s.bytes, s.photon_bytes + s.pixel_bytes) << name;
+      EXPECT_GE(s.bytes, std::max(s.photon_bytes, s.pixel_bytes)) << name;
+      sum.photon_bytes += s.photon_bytes;
+      sum.pixel_bytes += s.pixel_bytes;
+    }
+    return sum;
+  };
+  for (const char* name : {"sppm", "ppm", "photonmap", "doidge2012", "vertex", "vcm", "bpm"}) {
+    EXPECT_GT(held(name, 1).photon_bytes, 0u) << name;
+    EXPECT_GT(held(name, 1).pixel_bytes, 0u) << name;
+  }
+  for (const char* name : {"bdpt", "mlt", "pssmlt"}) {
+    EXPECT_EQ(held(name, 1).photon_bytes, 0u) << name;
+    EXPECT_GE(held(name, 1).pixel_bytes, 64u * sizeof(Rgb)) << name;
+    EXPECT_EQ(held(name, 3).pixel_bytes, held(name, 1).pixel_bytes) << name;
+  }
+  EXPECT_EQ(held("path-only", 1).pixel_bytes, 0u);
+}
+
+// The edge of two tiles is in the middle of a pixel, in x. All passes of a set have one moment and
+// one hero wavelength: if each set saw its own strip of the pixel only, the pixel would be made of
+// sixteen such pairs whatever the number of passes.
+const std::string kEdge = R"(
+  LookAt 0 1 0  0 0 0  0 0 1
+  Camera "perspective" "float fov" 40
+  Film "rgb" "integer xresolution" 1 "integer yresolution" 1
+  PixelFilter "box"
+  WorldBegin
+  LightSource "distant" "point3 from" [0 1 0] "point3 to" [0 0 0]
+  Material "diffuse" "rgb reflectance" [0.5 0.5 0.5]
+  Shape "bilinearmesh" "point3 P" [-1 0 -1  0 0 -1  -1 0 1  0 0 1]
+  Material "diffuse" "rgb reflectance" [0.1 0.1 0.1]
+  Shape "bilinearmesh" "point3 P" [0 0 -1  1 0 -1  0 0 1  1 0 1])";
+
+TEST(PhotonMap, EachSetSeesTheWholeOfAPixel) {
+  const auto scene = scene_from_text(kEdge);
+  IntegratorOptions options;
+  options.map_photons = 16 * 4096;
+  options.nearest_photons = kAllPhotons;
+  options.radius = 0.25f;
+  for (uint64_t seed = 0; seed < 3; ++seed) {
+    Preset preset =
+        make_preset(plan_of({"all=C[DG].*:photonmap", "rest=.*:path"}), options, *scene);
+    std::vector<double> sets;
+    double mean = 0;
+    for (uint32_t set = 0; set < 16; ++set) {
+      Film film = film_for(*scene, preset);
+      for (uint32_t round = 0; round < 64; ++round)
+        preset.estimators[0]->render_pass({seed, set + 16 * round}, *scene, film);
+      sets.push_back(picture_mean(film));
+      mean += sets.back() / 16;
+    }
+    EXPECT_GT(mean, 0);
+    // One tile alone would be 5/3 or 1/3 of the mean.
+    for (const double value : sets) EXPECT_NEAR(value, mean, 0.2 * mean) << "seed " << seed;
+    const auto [least, most] = std::minmax_element(sets.begin(), sets.end());
+    std::printf("sets: %.3f to %.3f of their mean\n", *least / mean, *most / mean);
+  }
+}
+
+TEST(PhotonMap, WalksDoNotRepeatWhenTheirNumberTakesMoreThan32Bits) {
+  const auto scene = scene_from_text(kEdge);
+  IntegratorOptions options;
+  options.map_photons = 16 * 256;
+  options.camera_samples_per_pass = 1 << 12;
+  const Plan plan = plan_of({"all=C[DG].*:photonmap", "rest=.*:path"});
+  // The walks of the second have the numbers 2^32 + k in their set.
+  const Rgb first = render(*scene, plan, options, 1, 1, 0).value(0, 0);
+  const Rgb later = render(*scene, plan, options, 1, 1, 16u << 20).value(0, 0);
+  EXPECT_GT(first.g, 0.0f);
+  EXPECT_NE(first.g, later.g);
+}
+
 TEST(HitPoints, MemoryGrowsWithThemAndNotWithPasses) {
   const auto scene = scene_from_text(kRoom);
   IntegratorOptions options;
   options.photons_per_pass = 4096;
   const auto kept = [&](const char* name, int hit_points, uint32_t passes) {
     options.hit_points = hit_points;
-    return statistics_after(*scene, name, options, passes)[1].bytes_kept;
+    return statistics_after(*scene, name, options, passes)[1].pixel_bytes;
   };
   const uint64_t one = kept("ppm", 1, 1);
   EXPECT_EQ(one, kept("sppm", 1, 1));
   EXPECT_EQ(kept("ppm", 7, 1), 7 * one);
   EXPECT_EQ(kept("ppm", 7, 3), 7 * one);
   EXPECT_EQ(kept("sppm", 7, 3), one);
+}
+
+TEST(HitPoints, ConvergeOnlyIfWalksAreNew) {
+  const auto scene = scene_from_text(kRoom);
+  for (const bool stay : {false, true}) {
+    const Preset preset = make_integrator(stay ? "ppm" : "sppm", {}, *scene);
+    for (size_t i = 0; i < preset.estimators.size(); ++i) {
+      const Capabilities capabilities = preset.estimators[i]->capabilities();
+      const EstimatorKind kind = preset.routes->groups()[i].estimator;
+      EXPECT_EQ(capabilities.consistent, kind != EstimatorKind::kPpm);
+      EXPECT_EQ(capabilities.independent_passes, kind == EstimatorKind::kPath);
+    }
+  }
 }
 
 // One pixel sees a lit disk and the dark around it. A hit point lies on one of the two for ever; a

@@ -146,6 +146,10 @@ TEST(DistantLight, ShinesAlongOneDirection) {
   EXPECT_FALSE(light->bounds());
   EXPECT_TRUE(agrees(emitted_flux(*light, 100), 5 * kUnit * kPi * 100));
   EXPECT_NEAR(light->power(), 5 * kUnit * kPi * 100, 1e-3f * light->power());
+  const auto e = light->sample_emission({0.3f, 0.6f}, {0.5f, 0.5f}, test_wavelengths());
+  ASSERT_TRUE(e);
+  EXPECT_FLOAT_EQ(light->emission_pdf(e->ng, e->ray.d).pdf_a, e->pdf_a);
+  EXPECT_EQ(light->emission_pdf(e->ng, e->ray.d).pdf_w, e->pdf_w);
 }
 
 TEST(DistantLight, IgnoresScalesOfItsTransform) {

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
+#include <iterator>
 
 #include "core/errors.h"
 #include "film/film_output.h"
@@ -126,18 +128,54 @@ TEST(FilmOfScene, RejectionOfOutliersNeedsMemoryToo) {
 }
 
 TEST(FilmOfScene, RejectionKnowsHowManyPixelsALightPathExposes) {
-  const Routes routes = routes_of({"a=C.*DL:photons", "b=C.*GL:lighttrace", "c=.*:path"});
-  IntegratorOptions options;
-  options.radius = 2;
-  options.outlier_neighbours = 11;
-  const PixelFilter filter([](float, float, const std::array<float, 2>&) { return 1.0f; },
-                           {1.5f, 2}, {}, {});
-  const OutlierSettings settings = outlier_settings(routes, options, filter);
-  EXPECT_EQ(settings.neighbours, 11);
-  ASSERT_EQ(settings.exposed_pixels.size(), 3u);
-  EXPECT_FLOAT_EQ(settings.exposed_pixels[0], 4 * kPi);
-  EXPECT_FLOAT_EQ(settings.exposed_pixels[1], 12);
-  EXPECT_FLOAT_EQ(settings.exposed_pixels[2], 1);
+  const auto filter_of = [](const Vec2f& radius) {
+    return PixelFilter([](float, float, const std::array<float, 2>&) { return 1.0f; }, radius, {},
+                       {});
+  };
+  const auto exposed = [&](const std::string& route, float radius, const PixelFilter& filter) {
+    IntegratorOptions options;
+    options.radius = radius;
+    options.outlier_neighbours = 11;
+    const OutlierSettings settings = outlier_settings(routes_of({route}), options, filter);
+    EXPECT_EQ(settings.neighbours, 11);
+    EXPECT_EQ(settings.exposed_pixels.size(), 1u);
+    return settings.exposed_pixels.at(0);
+  };
+  // With a filter of 3 x 4 pixels: at the default radius, at a radius of 3 and at one below a
+  // pixel.
+  const PixelFilter wide = filter_of({1.5f, 2}), narrow = filter_of({0.5f, 0.5f});
+  const struct {
+    const char* estimator;
+    float by_default, with_three, with_little;
+  } rows[] = {{"path", 1, 1, 1},
+              {"pointlights", 1, 1, 1},
+              {"forecast", 1, 1, 1},
+              {"photons", 2.25f * kPi, 9 * kPi, 1},
+              {"sppm", 4 * kPi, 9 * kPi, 1},
+              {"ppm", 4 * kPi, 9 * kPi, 1},
+              {"photonmap", 256 * kPi, 9 * kPi, 1},
+              {"bpm", 2.25f * kPi, 9 * kPi, 1},
+              {"lighttrace", 12, 12, 12},
+              {"bdpt", 12, 12, 12},
+              {"mlt", 12, 12, 12},
+              {"pssmlt", 12, 12, 12},
+              {"photons+light", 12, 9 * kPi, 12},
+              {"vcm", 12, 9 * kPi, 12}};
+  for (const EstimatorType& type : estimator_types()) {
+    SCOPED_TRACE(type.name);
+    const auto row = std::find_if(std::begin(rows), std::end(rows), [&](const auto& r) {
+      return std::string(r.estimator) == type.name;
+    });
+    ASSERT_NE(row, std::end(rows));
+    const std::string route = std::string("a=C.*DL:") + type.name;
+    EXPECT_FLOAT_EQ(exposed(route, 0, wide), row->by_default);
+    EXPECT_FLOAT_EQ(exposed(route, 3, wide), row->with_three);
+    EXPECT_FLOAT_EQ(exposed(route, 0.25f, wide), row->with_little);
+    EXPECT_FLOAT_EQ(exposed(route, 0.25f, narrow), 1);
+  }
+  const OutlierSettings both =
+      outlier_settings(routes_of({"a=C.*DL:lighttrace", "b=.*:path"}), {}, wide);
+  EXPECT_EQ(both.exposed_pixels, (std::vector<float>{12, 1}));
 }
 
 TEST(FilmOfScene, NoRouteTakesTheNameOfALayerOfPictures) {
