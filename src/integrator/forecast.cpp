@@ -3,7 +3,7 @@
 #include "integrator/guided_direction.h"
 #include "integrator/path_pass.h"
 #include "integrator/path_visitor.h"
-#include "photon/emission.h"
+#include "photon/light_walk.h"
 
 namespace nephroid {
 
@@ -25,42 +25,25 @@ constexpr int kStratifiedDimensions = 48;
 /// Notes where light lands that came from a light through nothing but what is specular. What came
 /// by way of other surfaces is left out: a walk in its direction would end on these, not on a
 /// light.
-class SightVisitor {
+class SightVisitor : public LightWalkVisitor {
  public:
-  SightVisitor(const OwnedRoutes& owned, LightSymbol light, std::vector<CausticSight>& out)
-      : routes_(*owned.routes),
-        symbols_(*owned.symbols),
-        group_(owned.group),
-        out_(out),
-        state_(routes_.emitted(light)) {}
+  SightVisitor(const OwnedRoutes& owned, const Emission& emission, std::vector<CausticSight>& out)
+      : LightWalkVisitor(owned, emission), out_(out) {}
 
-  void escape(const Walk&) {}
-  void emitter(const Walk&, const SurfaceInteraction&, const Light&) {}
-  void medium_emission(const Medium&, const SampledSpectrum&) {}
-  void medium_vertex(const Walk&, const MediumVertex&, PathSampler&) {}
-  ClassMask useful(const WalkVertex& v) const {
-    return routes_.useful_from_light(group_, state_, label_at(symbols_, v));
-  }
   bool scatters_in(const Medium&) const { return false; }
-  bool looks_under_surfaces() const { return false; }
 
   void vertex(const Walk& walk, const WalkVertex& v, PathSampler&) {
     const ClassMask rough = v.bsdf.finite_classes() & useful(v) & ClassMask::kRough;
     if (after_specular_ && rough != ClassMask::kNone)
       out_.push_back({v.surface.p, walk.previous_p});
   }
-  bool scatter(const Walk&, const WalkEvent& event) {
+  bool scatter(const Walk& walk, const WalkEvent& event) {
     after_specular_ = event.letter == EventClass::kSpecular;
-    state_ = routes_.light_next(state_, symbol_of(symbols_, event));
-    return after_specular_;
+    return LightWalkVisitor::scatter(walk, event) && after_specular_;
   }
 
  private:
-  const Routes& routes_;
-  const SceneSymbols& symbols_;
-  const size_t group_;
   std::vector<CausticSight>& out_;
-  LightState state_;
   bool after_specular_ = false;
 };
 
@@ -119,6 +102,7 @@ void Forecast::learn(uint64_t seed, const Scene& scene) {
                   sights);
   statistics_.photons_stored += sights.size();
   map_ = ForecastMap(std::move(sights));
+  statistics_.hold(map_.bytes(), 0);
   learned_from_ = seed;
 }
 
@@ -128,7 +112,7 @@ void Forecast::trace_photons(const PassKey& key, int64_t photons, const Scene& s
   const float specular_alpha = specular_alpha_of_pass(scene.specular_band, {key.seed, 0});
   struct Chunk {
     std::vector<CausticSight> sights;
-    uint64_t rays = 0;
+    uint64_t rays = 0, useful = 0;
   };
   std::vector<Chunk> chunks(static_cast<size_t>(chunk_count(photons, kChunk)));
   parallel_chunks(photons, kChunk, [&](int64_t c, int64_t begin, int64_t end) {
@@ -137,26 +121,24 @@ void Forecast::trace_photons(const PassKey& key, int64_t photons, const Scene& s
       const SobolPoint point(static_cast<uint32_t>(j), kStratifiedDimensions);
       PathSampler sampler(point, hash_combine(key.seed, j >> 32));
       sampler.start_dimension(kWavelength);
-      Walk walk;
-      walk.lambda = SampledWavelengths::sample_visible(wavelength_number(scene, sampler.get_1d()));
+      const SampledWavelengths lambda =
+          SampledWavelengths::sample_visible(wavelength_number(scene, sampler.get_1d()));
       const float time = scene.camera->motion_time(sampler.get_1d());
       sampler.start_dimension(0);
-      const auto emitted = emit(scene, walk.lambda, time, sampler);
+      const auto emitted = emit(scene, lambda, time, sampler);
       if (!emitted) continue;
-      walk.ray = emitted->ray;
-      walk.medium = emitted->medium;
-      walk.specular_alpha = specular_alpha;
-      walk.per_wavelength = true;
-      walk.first_dimension = kFirstVertex;
-      walk.second_dimension = kFirstVertex + dimensions::kPerVertex;
-      SightVisitor visitor(owned_, owned_.symbols->light(emitted->light), chunk.sights);
+      Walk walk = walk_from(*emitted, lambda, specular_alpha, kFirstVertex);
+      SightVisitor visitor(owned_, *emitted, chunk.sights);
+      const size_t before = chunk.sights.size();
       random_walk(scene, TransportMode::kImportance, options_.max_depth, walk, sampler, visitor);
       chunk.rays += walk.rays;
+      chunk.useful += chunk.sights.size() > before;
     }
   });
   for (const Chunk& chunk : chunks) {
     sights.insert(sights.end(), chunk.sights.begin(), chunk.sights.end());
     statistics_.rays += chunk.rays;
+    statistics_.photon_paths_useful += chunk.useful;
   }
   statistics_.photon_paths += static_cast<uint64_t>(photons);
 }
@@ -178,9 +160,12 @@ void Forecast::render_pass(const PassKey& key, const Scene& scene, Film& film) {
 
 EstimatorStatistics Forecast::statistics() const {
   EstimatorStatistics s = statistics_;
-  if (s.photon_paths > 0 && map_.size() == 0)
-    s.notes.push_back("none of " + std::to_string(s.photon_paths) +
-                      " photon paths foretold a caustic: its paths are traced as by path");
+  if (s.photon_paths == 0) return s;
+  const std::string of_all = std::to_string(s.photon_paths) + " photon paths";
+  s.notes.push_back(map_.size() == 0 ? "none of " + of_all +
+                                           " foretold a caustic: its paths are traced as by path"
+                                     : std::to_string(s.photons_stored) + " sights of " + of_all +
+                                           " foretell caustics; passes add none");
   return s;
 }
 

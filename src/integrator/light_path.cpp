@@ -1,8 +1,7 @@
 // The light side of a pair: its vertices, and those that the camera sees.
 #include "integrator/path_pair_arms.h"
 #include "integrator/path_pair_geometry.h"
-#include "photon/emission.h"
-#include "transport/walk_symbols.h"
+#include "photon/light_walk.h"
 
 namespace nephroid {
 
@@ -331,18 +330,12 @@ uint64_t trace_light_path(const PairSettings& settings, const SampledWavelengths
                           std::vector<FilmConnection>* seen, std::vector<Photon>* photons,
                           int first_dimension) {
   if (path) path->clear();
-  Walk walk;
-  walk.lambda = lambda;
   sampler.start_dimension(first_dimension);
   const std::optional<Emission> emission =
-      emit(settings.scene, walk.lambda, settings.scene.camera->motion_time(u_time), sampler);
+      emit(settings.scene, lambda, settings.scene.camera->motion_time(u_time), sampler);
   if (!emission) return 0;
-  walk.ray = emission->ray;
-  walk.medium = emission->medium;
-  walk.specular_alpha = settings.specular_alpha;
-  walk.per_wavelength = true;
-  walk.first_dimension = first_dimension + kEmissionDimensions;
-  walk.second_dimension = walk.first_dimension + dimensions::kPerVertex;
+  Walk walk =
+      walk_from(*emission, lambda, settings.specular_alpha, first_dimension + kEmissionDimensions);
   LightVisitor visitor(settings, *emission, u_time, path, seen, photons);
   // A technique with s vertices of the light side, the light itself one of them, needs no more.
   const int most = settings.technique.s < 0

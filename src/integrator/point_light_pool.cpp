@@ -3,8 +3,7 @@
 #include <algorithm>
 
 #include "core/parallel.h"
-#include "photon/emission.h"
-#include "transport/walk_symbols.h"
+#include "photon/light_walk.h"
 
 namespace nephroid {
 
@@ -17,31 +16,14 @@ constexpr int64_t kChunk = 128;
 
 using Lights = std::vector<std::unique_ptr<PointLight>>;
 
-class PointLightVisitor {
+class PointLightVisitor : public LightWalkVisitor {
  public:
   PointLightVisitor(const OwnedRoutes& owned, const Scene& scene, const Emission& emission,
                     Lights& out)
-      : routes_(*owned.routes),
-        symbols_(*owned.symbols),
-        group_(owned.group),
+      : LightWalkVisitor(owned, emission),
         delta_light_(scene.lights[static_cast<size_t>(emission.light)]->is_delta()),
         flux_(emission.flux),
-        out_(out),
-        state_(routes_.emitted(symbols_.light(emission.light))) {}
-
-  void escape(const Walk&) {}
-  void emitter(const Walk&, const SurfaceInteraction&, const Light&) {}
-  void medium_emission(const Medium&, const SampledSpectrum&) {}
-  void medium_vertex(const Walk&, const MediumVertex&, PathSampler&) {}
-
-  ClassMask useful(const WalkVertex& v) const {
-    return routes_.useful_from_light(group_, state_, label_at(symbols_, v));
-  }
-  bool scatters_in(const Medium& medium) const {
-    return contains(routes_.useful_from_light(group_, state_, symbols_.medium(medium.index())),
-                    EventClass::kVolume);
-  }
-  bool looks_under_surfaces() const { return false; }
+        out_(out) {}
 
   void vertex(const Walk& walk, const WalkVertex& v, PathSampler&) {
     if (v.subsurface_exit || !v.merges) return;
@@ -63,18 +45,13 @@ class PointLightVisitor {
 
   bool scatter(const Walk& walk, const WalkEvent& event) {
     only_from_light_ |= walk.events == 1 && walk.delta && delta_light_;
-    state_ = routes_.light_next(state_, symbol_of(symbols_, event));
-    return true;
+    return LightWalkVisitor::scatter(walk, event);
   }
 
  private:
-  const Routes& routes_;
-  const SceneSymbols& symbols_;
-  const size_t group_;
   const bool delta_light_;
   const SampledSpectrum flux_;
   Lights& out_;
-  LightState state_;
   bool only_from_light_ = false;
 };
 
@@ -85,14 +62,7 @@ uint64_t trace(const Scene& scene, const OwnedRoutes& owned, const PhotonTraceSe
   PathSampler sampler(point, hash_combine(settings.key.seed, kStream, number >> 32));
   const auto emitted = emit(scene, settings.lambda, settings.time, sampler);
   if (!emitted) return 0;
-  Walk walk;
-  walk.ray = emitted->ray;
-  walk.medium = emitted->medium;
-  walk.specular_alpha = settings.specular_alpha;
-  walk.per_wavelength = true;
-  walk.lambda = settings.lambda;
-  walk.first_dimension = kEmissionDimensions;
-  walk.second_dimension = kEmissionDimensions + dimensions::kPerVertex;
+  Walk walk = walk_from(*emitted, settings.lambda, settings.specular_alpha, kEmissionDimensions);
   PointLightVisitor visitor(owned, scene, *emitted, out);
   random_walk(scene, TransportMode::kImportance, settings.max_events, walk, sampler, visitor);
   return walk.rays;
@@ -104,19 +74,23 @@ PointLightPool::PointLightPool(const Scene& scene, const OwnedRoutes& owned,
                                const PhotonTraceSettings& settings) {
   struct Chunk {
     Lights lights;
-    uint64_t rays = 0;
+    uint64_t rays = 0, useful = 0;
   };
   const int64_t paths = settings.photons_per_pass;
   const uint64_t first = uint64_t{settings.key.pass} * static_cast<uint64_t>(paths);
   std::vector<Chunk> chunks(static_cast<size_t>(chunk_count(paths, kChunk)));
   parallel_chunks(paths, kChunk, [&](int64_t c, int64_t begin, int64_t end) {
     Chunk& chunk = chunks[static_cast<size_t>(c)];
-    for (int64_t j = begin; j < end; ++j)
+    for (int64_t j = begin; j < end; ++j) {
+      const size_t before = chunk.lights.size();
       chunk.rays += trace(scene, owned, settings, first + static_cast<uint64_t>(j), chunk.lights);
+      chunk.useful += chunk.lights.size() > before;
+    }
   });
   double sum = 0;
   for (Chunk& chunk : chunks) {
     rays_ += chunk.rays;
+    useful_paths_ += chunk.useful;
     for (auto& light : chunk.lights) {
       light->flux /= static_cast<float>(paths);
       const float flux = light->secondary_terminated ? light->flux[0] : light->flux.max_component();

@@ -47,6 +47,11 @@ class PointLightPool {
   size_t size() const { return lights_.size(); }
   const PointLight& operator[](size_t i) const { return *lights_[i]; }
   uint64_t rays() const { return rays_; }
+  /// Light paths that left a point light at least.
+  uint64_t useful_paths() const { return useful_paths_; }
+  size_t bytes() const {
+    return size() * (sizeof(PointLight) + sizeof(lights_[0]) + sizeof(sums_[0]));
+  }
 
   /// The k-th of `count` point lights that are chosen for one point with the number u in [0,1), by
   /// systematic sampling with probabilities proportional to their flux. The pool is not empty.
@@ -55,7 +60,7 @@ class PointLightPool {
  private:
   std::vector<std::unique_ptr<PointLight>> lights_;
   std::vector<double> sums_;  ///< of fluxes up to and including each light
-  uint64_t rays_ = 0;
+  uint64_t rays_ = 0, useful_paths_ = 0;
 };
 
 }  // namespace nephroid

@@ -225,7 +225,10 @@ void PointLights::render_pass(const PassKey& key, const Scene& scene, Film& film
   statistics_.rays += pool.rays();
   for (const uint64_t r : rays) statistics_.rays += r;
   statistics_.camera_paths += static_cast<uint64_t>(b.area()) * static_cast<uint64_t>(samples);
-  statistics_.light_paths += static_cast<uint64_t>(pass.trace.photons_per_pass);
+  statistics_.photon_paths += static_cast<uint64_t>(pass.trace.photons_per_pass);
+  statistics_.photon_paths_useful += pool.useful_paths();
+  statistics_.photons_stored += pool.size();
+  statistics_.hold(pool.bytes(), 0);
 }
 
 }  // namespace nephroid

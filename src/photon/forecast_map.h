@@ -47,6 +47,7 @@ class ForecastMap {
   explicit ForecastMap(std::vector<CausticSight> sights);
 
   size_t size() const { return sights_.size(); }
+  size_t bytes() const { return size() * (sizeof(sights_[0]) + sizeof(axes_[0])); }
   /// [T2]: a lobe towards the caster of each of the sights nearest to `p`, unless it would be wide;
   /// none if there are too few sights.
   ForecastLobes lobes_at(const Vec3f& p) const;

@@ -63,7 +63,7 @@ std::span<const RoutePreset> route_presets() {
       {"pointlights",
        "light between diffuse surfaces by virtual point lights, caustics by photons, the rest path "
        "tracing",
-       {"caustic=C.*[DG]S+[DG]?L:photons", "diffuse=C[SV]*DD.*L:pointlights", "rest=.*:path"}},
+       {"caustic=C.*[DG]S+[DG]?L:photons", "diffuse=C[SV]*DD[DG]*L:pointlights", "rest=.*:path"}},
       {"forecast",
        "caustics of lights by path tracing that photons guide, the rest path tracing",
        {"caustic=C.*[DG]S+L:forecast", "diffuse=.*:path"}},
