@@ -4,8 +4,8 @@
 
 #include "core/parallel.h"
 #include "integrator/path_visitor.h"
-#include "integrator/photon_pass.h"
 #include "integrator/point_light_pool.h"
+#include "transport/roughness_band.h"
 
 namespace nephroid {
 
@@ -14,7 +14,7 @@ namespace {
 constexpr uint64_t kStream = 0x706f696e74;   // "point"
 constexpr uint64_t kLearning = 0x70ea2;      // of the seed of the learning set
 constexpr int kDefaultConnections = 32;      // of a pixel and pass
-constexpr int64_t kPathsPerConnection = 64;  // light paths of a pass
+constexpr int64_t kPathsPerConnection = 64;  // light paths of a pass, over all of its samples
 constexpr int64_t kLearningPaths = 1024;
 constexpr int kConnectionDimensions = 1 << 20;  // beyond those of walks; they are random
 
@@ -189,42 +189,55 @@ float PointLights::density_of_seed(const PassKey& key, const Scene& scene, const
 }
 
 void PointLights::render_pass(const PassKey& key, const Scene& scene, Film& film) {
-  const PixelBounds& b = film.bounds();
-  const int group = static_cast<int>(owned_.group);
   const float density = density_of_seed(key, scene, film);
-  PhotonPass pass = start_photon_pass(key, scene, film, options_);
-  const int connections = connections_of(options_);
-  pass.trace.photons_per_pass = connections * kPathsPerConnection;
-  const PointLightPool pool(scene, owned_, pass.trace);
-  const PointLightsVisitor::Pass shared{pool, connections, density, options_.max_depth};
   const int samples = std::max(1, options_.camera_samples_per_pass);
-  std::vector<uint64_t> rays(static_cast<size_t>(b.height()), 0);
+  // Each sample of the pixels has wavelengths, a time and point lights of its own; what the
+  // classes of events are, the pass decides for all.
+  const float specular_alpha = specular_alpha_of_pass(scene.specular_band, key);
   for (int k = 0; k < samples; ++k) {
     const uint64_t index =
         uint64_t{key.pass} * static_cast<uint64_t>(samples) + static_cast<uint64_t>(k);
-    const SobolPoint point(static_cast<uint32_t>(index));
-    parallel_chunks(b.height(), 1, [&](int64_t row, int64_t, int64_t) {
-      const int y = b.y0 + static_cast<int>(row);
-      PartSums light(*owned_.routes, owned_.group);
-      for (int x = b.x0; x < b.x1; ++x) {
-        PathSampler sampler(point, hash_combine(key.seed, kStream, x, y, index >> 32));
-        CameraPath path = start_merging_path(scene, x, y, sampler, pass);
-        light.clear();
-        PointLightsVisitor visitor(scene, owned_, shared, light);
-        if (path.camera_weight > 0)
-          random_walk(scene, TransportMode::kRadiance, options_.max_depth, path.walk, sampler,
-                      visitor);
-        film.add(group, x, y,
-                 light.colors(pass.weights, path.camera_weight, film.settings().max_component,
-                              path.filter_weight));
-        rays[static_cast<size_t>(row)] += path.walk.rays + visitor.shadow_rays();
-      }
-    });
-    film.add_estimates(group, 1);
+    const uint64_t turn = index >> 32;
+    const PassKey own{turn == 0 ? key.seed : hash_combine(key.seed, turn),
+                      static_cast<uint32_t>(index)};
+    PhotonPass pass = start_photon_pass(own, scene, film, options_);
+    pass.trace.specular_alpha = specular_alpha;
+    pass.trace.photons_per_pass =
+        std::max<int64_t>(1, connections_of(options_) * kPathsPerConnection / samples);
+    render_sample(pass, density, scene, film);
   }
+}
+
+void PointLights::render_sample(const PhotonPass& pass, float density, const Scene& scene,
+                                Film& film) {
+  const PixelBounds& b = film.bounds();
+  const int group = static_cast<int>(owned_.group);
+  const PassKey& key = pass.trace.key;
+  const PointLightPool pool(scene, owned_, pass.trace);
+  const PointLightsVisitor::Pass shared{pool, connections_of(options_), density,
+                                        options_.max_depth};
+  std::vector<uint64_t> rays(static_cast<size_t>(b.height()), 0);
+  parallel_chunks(b.height(), 1, [&](int64_t row, int64_t, int64_t) {
+    const int y = b.y0 + static_cast<int>(row);
+    PartSums light(*owned_.routes, owned_.group);
+    for (int x = b.x0; x < b.x1; ++x) {
+      PathSampler sampler(pass.point, hash_combine(key.seed, kStream, x, y));
+      CameraPath path = start_merging_path(scene, x, y, sampler, pass);
+      light.clear();
+      PointLightsVisitor visitor(scene, owned_, shared, light);
+      if (path.camera_weight > 0)
+        random_walk(scene, TransportMode::kRadiance, options_.max_depth, path.walk, sampler,
+                    visitor);
+      film.add(group, x, y,
+               light.colors(pass.weights, path.camera_weight, film.settings().max_component,
+                            path.filter_weight));
+      rays[static_cast<size_t>(row)] += path.walk.rays + visitor.shadow_rays();
+    }
+  });
+  film.add_estimates(group, 1);
   statistics_.rays += pool.rays();
   for (const uint64_t r : rays) statistics_.rays += r;
-  statistics_.camera_paths += static_cast<uint64_t>(b.area()) * static_cast<uint64_t>(samples);
+  statistics_.camera_paths += static_cast<uint64_t>(b.area());
   statistics_.photon_paths += static_cast<uint64_t>(pass.trace.photons_per_pass);
   statistics_.photon_paths_useful += pool.useful_paths();
   statistics_.photons_stored += pool.size();

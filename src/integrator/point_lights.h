@@ -9,8 +9,7 @@
 #include <optional>
 #include <utility>
 
-#include "integrator/estimator.h"
-#include "route/scene_symbols.h"
+#include "integrator/photon_pass.h"
 
 namespace nephroid {
 
@@ -25,6 +24,9 @@ class PointLights : public Estimator {
  private:
   /// [L3], a function of the scene, the options and the seed.
   float density_of_seed(const PassKey& key, const Scene& scene, const Film& film);
+
+  /// One walk of each pixel, with point lights and wavelengths that they share.
+  void render_sample(const PhotonPass& pass, float density, const Scene& scene, Film& film);
 
   OwnedRoutes owned_;
   IntegratorOptions options_;
