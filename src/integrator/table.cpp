@@ -11,10 +11,10 @@ struct Row {
   const char* name;
   const char* preset;  ///< of the routes
 };
-constexpr Row kTable[] = {
-    {"mixed", "doidge2012"}, {"path", "path-only"}, {"sppm", "sppm"}, {"photonmap", "photonmap"},
-    {"ppm", "ppm"},          {"bdpt", "bdpt"},      {"vcm", "vcm"},   {"bpm", "bpm"},
-    {"pssmlt", "pssmlt"},    {"mlt", "mlt"}};
+constexpr Row kTable[] = {{"mixed", "doidge2012"},    {"path", "path-only"}, {"sppm", "sppm"},
+                          {"photonmap", "photonmap"}, {"ppm", "ppm"},        {"bdpt", "bdpt"},
+                          {"vcm", "vcm"},             {"bpm", "bpm"},        {"pssmlt", "pssmlt"},
+                          {"mlt", "mlt"}};
 
 constexpr const char* kOwnChoice = "the program's own choice, with the same picture";
 
