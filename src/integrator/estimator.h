@@ -80,7 +80,7 @@ struct IntegratorOptions {
   /// Walks of `path` do not look at what is useful for its routes: the same seed gives the same
   /// paths whatever the routes are.
   bool blind_walks = false;
-  int point_lights = 0;  ///< connections of a pixel and pass; 0: the default
+  int point_lights = 0;             ///< connections of a pixel and pass; 0: the default
   int camera_samples_per_pass = 0;  ///< 0: the default of the integrator
   TechniqueChoice technique;        ///< of bidirectional estimators
   int hit_points = 0;               ///< of a pixel, in `ppm`; 0: chosen from the scene's samples

@@ -8,37 +8,21 @@ namespace nephroid {
 namespace {
 
 // Walks from a light, carries its sums along and stores what can be connected.
-class LightVisitor {
+class LightVisitor : public LightWalkVisitor {
  public:
   LightVisitor(const PairSettings& settings, const Emission& emission, float u_time,
                LightSubpath* path, std::vector<FilmConnection>* seen, std::vector<Photon>* photons)
-      : settings_(settings),
-        routes_(*settings.owned.routes),
-        symbols_(*settings.owned.symbols),
-        group_(settings.owned.group),
+      : LightWalkVisitor(settings.owned, emission),
+        settings_(settings),
         emission_(emission),
         u_time_(u_time),
         path_(path),
         seen_(seen),
-        photons_(photons),
-        state_(routes_.emitted(symbols_.light(emission.light))) {
+        photons_(photons) {
     const Light& light = *settings.scene.lights[static_cast<size_t>(emission.light)];
     start_.p = light.is_area() ? emission.start.p : emission.ray.o;
     if (light.is_area()) start_.ng = emission.start.ng;
   }
-
-  void escape(const Walk&) {}
-  void emitter(const Walk&, const SurfaceInteraction&, const Light&) {}
-  void medium_emission(const Medium&, const SampledSpectrum&) {}
-
-  ClassMask useful(const WalkVertex& v) const {
-    return routes_.useful_from_light(group_, state_, label_at(symbols_, v));
-  }
-  bool scatters_in(const Medium& medium) const {
-    return contains(routes_.useful_from_light(group_, state_, symbols_.medium(medium.index())),
-                    EventClass::kVolume);
-  }
-  bool looks_under_surfaces() const { return false; }
 
   void vertex(const Walk& walk, const WalkVertex& v, PathSampler& sampler) {
     if (v.subsurface_exit)
@@ -237,15 +221,11 @@ class LightVisitor {
   }
 
   const PairSettings& settings_;
-  const Routes& routes_;
-  const SceneSymbols& symbols_;
-  const size_t group_;
   const Emission& emission_;
   const float u_time_;
   LightSubpath* path_;
   std::vector<FilmConnection>* seen_;
   std::vector<Photon>* photons_;
-  LightState state_;
   Place start_, last_, place_;
   Vec3f merge_place_{0, 0, 0};  ///< where the eye side would merge
   Vec3f entry_wo_{0, 0, 1};
