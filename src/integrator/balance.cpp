@@ -31,9 +31,13 @@ int SampleMap::most() const {
   return *std::max_element(counts_.begin(), counts_.end());
 }
 
+bool SampleMap::has(int samples) const {
+  return std::find(counts_.begin(), counts_.end(), samples) != counts_.end();
+}
+
 double SampleMap::mean() const {
   double sum = 0;
-  for (const uint8_t n : counts_) sum += n;
+  for (const uint16_t n : counts_) sum += n;
   return sum / static_cast<double>(counts_.size());
 }
 
@@ -94,7 +98,7 @@ SampleMap share_out(const PixelBounds& bounds, const SampleSpread::ByTile& sprea
   std::sort(lit.begin(), lit.end());
   const double unit = lit[lit.size() / 20];
   for (size_t i = 0; i < roots.size(); ++i)
-    samples.counts()[i] = static_cast<uint8_t>(
+    samples.counts()[i] = static_cast<uint16_t>(
         std::clamp(std::round(roots[i] / unit), 1.0, double{SampleMap::kMost}));
   return samples;
 }

@@ -18,27 +18,28 @@ class SampleMap {
  public:
   static constexpr int kTile = 4, kMost = 8;
 
-  /// One path for each pixel.
-  explicit SampleMap(const PixelBounds& b)
+  /// The same number of paths for each pixel.
+  explicit SampleMap(const PixelBounds& b, uint16_t samples = 1)
       : width_((b.width() + kTile - 1) / kTile),
         counts_(static_cast<size_t>(width_) * static_cast<size_t>((b.height() + kTile - 1) / kTile),
-                1) {}
+                samples) {}
 
   /// `x` and `y` count from the corner of the crop.
   int at(int x, int y) const { return counts_[tile_of(x, y)]; }
   int most() const;
+  bool has(int samples) const;  ///< some tile has this number
   double mean() const;
   size_t tile_of(int x, int y) const {
     return static_cast<size_t>(y / kTile) * static_cast<size_t>(width_) +
            static_cast<size_t>(x / kTile);
   }
   int width() const { return width_; }
-  std::vector<uint8_t>& counts() { return counts_; }
-  const std::vector<uint8_t>& counts() const { return counts_; }
+  std::vector<uint16_t>& counts() { return counts_; }
+  const std::vector<uint16_t>& counts() const { return counts_; }
 
  private:
   int width_;
-  std::vector<uint8_t> counts_;  ///< [tile]
+  std::vector<uint16_t> counts_;  ///< [tile]
 };
 
 /// What several samples of each pixel found; each pixel has one writer at a time.

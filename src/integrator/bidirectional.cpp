@@ -85,7 +85,8 @@ class PairRound {
 
     PathSampler sampler(light_point_, hash_combine(key_.seed, kLightStream, x, y, index_ >> 32));
     row.rays += trace_light_path(settings_, lambda, camera.u_time, sampler, &path, &seen, nullptr,
-                                 kEyePathDimensions);
+                                 kEyePathDimensions)
+                    .rays;
     row.useful += !seen.empty();
     for (const FilmConnection& c : seen)
       for (int i = 0; i < c.seen.count; ++i)

@@ -84,6 +84,7 @@ struct IntegratorOptions {
   /// paths whatever the routes are.
   bool blind_walks = false;
   bool guides_emission = true;      ///< photons start where earlier ones were of use
+  int point_lights = 0;             ///< connections of a pixel and pass; 0: the default
   int camera_samples_per_pass = 0;  ///< 0: the default of the integrator
   TechniqueChoice technique;        ///< of bidirectional estimators
   int hit_points = 0;               ///< of a pixel, in `ppm`; 0: chosen from the scene's samples

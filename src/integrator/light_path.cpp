@@ -1,45 +1,28 @@
 // The light side of a pair: its vertices, and those that the camera sees.
 #include "integrator/path_pair_arms.h"
 #include "integrator/path_pair_geometry.h"
-#include "photon/emission.h"
-#include "transport/walk_symbols.h"
+#include "photon/light_walk.h"
 
 namespace nephroid {
 
 namespace {
 
 // Walks from a light, carries its sums along and stores what can be connected.
-class LightVisitor {
+class LightVisitor : public LightWalkVisitor {
  public:
   LightVisitor(const PairSettings& settings, const Emission& emission, float u_time,
                LightSubpath* path, std::vector<FilmConnection>* seen, std::vector<Photon>* photons)
-      : settings_(settings),
-        routes_(*settings.owned.routes),
-        symbols_(*settings.owned.symbols),
-        group_(settings.owned.group),
+      : LightWalkVisitor(settings.owned, emission),
+        settings_(settings),
         emission_(emission),
         u_time_(u_time),
         path_(path),
         seen_(seen),
-        photons_(photons),
-        state_(routes_.emitted(symbols_.light(emission.light))) {
+        photons_(photons) {
     const Light& light = *settings.scene.lights[static_cast<size_t>(emission.light)];
     start_.p = light.is_area() ? emission.start.p : emission.ray.o;
     if (light.is_area()) start_.ng = emission.start.ng;
   }
-
-  void escape(const Walk&) {}
-  void emitter(const Walk&, const SurfaceInteraction&, const Light&) {}
-  void medium_emission(const Medium&, const SampledSpectrum&) {}
-
-  ClassMask useful(const WalkVertex& v) const {
-    return routes_.useful_from_light(group_, state_, label_at(symbols_, v));
-  }
-  bool scatters_in(const Medium& medium) const {
-    return contains(routes_.useful_from_light(group_, state_, symbols_.medium(medium.index())),
-                    EventClass::kVolume);
-  }
-  bool looks_under_surfaces() const { return false; }
 
   void vertex(const Walk& walk, const WalkVertex& v, PathSampler& sampler) {
     if (v.subsurface_exit)
@@ -95,6 +78,7 @@ class LightVisitor {
   }
 
   uint64_t rays() const { return rays_; }
+  bool after_specular() const { return after_specular_; }
 
  private:
   void arrive(const Walk& walk, const Place& place, const Vec3f& ns) {
@@ -242,15 +226,11 @@ class LightVisitor {
   }
 
   const PairSettings& settings_;
-  const Routes& routes_;
-  const SceneSymbols& symbols_;
-  const size_t group_;
   const Emission& emission_;
   const float u_time_;
   LightSubpath* path_;
   std::vector<FilmConnection>* seen_;
   std::vector<Photon>* photons_;
-  LightState state_;
   Place start_, last_, place_;
   Vec3f merge_place_{0, 0, 0};  ///< where the eye side would merge
   Vec3f entry_wo_{0, 0, 1};
@@ -331,31 +311,24 @@ LightVertex& LightSubpath::add() {
   return y;
 }
 
-uint64_t trace_light_path(const PairSettings& settings, const SampledWavelengths& lambda,
-                          float u_time, PathSampler& sampler, LightSubpath* path,
-                          std::vector<FilmConnection>* seen, std::vector<Photon>* photons,
-                          int first_dimension) {
+LightPathCounts trace_light_path(const PairSettings& settings, const SampledWavelengths& lambda,
+                                 float u_time, PathSampler& sampler, LightSubpath* path,
+                                 std::vector<FilmConnection>* seen, std::vector<Photon>* photons,
+                                 int first_dimension) {
   if (path) path->clear();
-  Walk walk;
-  walk.lambda = lambda;
   sampler.start_dimension(first_dimension);
-  const std::optional<Emission> emission =
-      emit(settings.scene, settings.guide, walk.lambda, settings.scene.camera->motion_time(u_time),
-           sampler);
-  if (!emission) return 0;
-  walk.ray = emission->ray;
-  walk.medium = emission->medium;
-  walk.specular_alpha = settings.specular_alpha;
-  walk.per_wavelength = true;
-  walk.first_dimension = first_dimension + kEmissionDimensions;
-  walk.second_dimension = walk.first_dimension + dimensions::kPerVertex;
+  const std::optional<Emission> emission = emit(
+      settings.scene, settings.guide, lambda, settings.scene.camera->motion_time(u_time), sampler);
+  if (!emission) return {};
+  Walk walk =
+      walk_from(*emission, lambda, settings.specular_alpha, first_dimension + kEmissionDimensions);
   LightVisitor visitor(settings, *emission, u_time, path, seen, photons);
   // A technique with s vertices of the light side, the light itself one of them, needs no more.
   const int most = settings.technique.s < 0
                        ? settings.max_depth
                        : std::clamp(settings.technique.s - 1, 0, settings.max_depth);
   random_walk(settings.scene, TransportMode::kImportance, most, walk, sampler, visitor);
-  return walk.rays + visitor.rays();
+  return {walk.rays + visitor.rays(), visitor.after_specular()};
 }
 
 }  // namespace nephroid

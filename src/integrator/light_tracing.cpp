@@ -7,7 +7,7 @@
 #include "film/part_sums.h"
 #include "film/splats.h"
 #include "integrator/photon_pass.h"
-#include "photon/emission.h"
+#include "photon/light_walk.h"
 #include "transport/camera_connection.h"
 #include "transport/camera_path.h"
 
@@ -190,19 +190,14 @@ void trace_light_path(const LightPass& pass, uint64_t number, Chunk& out) {
   const SobolPoint point(static_cast<uint32_t>(number), kStratifiedDimensions);
   PathSampler sampler(point, hash_combine(pass.key.seed, kStream, number >> 32));
   sampler.start_dimension(kWavelength);
-  Walk walk;
-  walk.lambda = SampledWavelengths::sample_visible(wavelength_number(pass.scene, sampler.get_1d()));
+  const SampledWavelengths lambda =
+      SampledWavelengths::sample_visible(wavelength_number(pass.scene, sampler.get_1d()));
   const float u_time = sampler.get_1d();
   sampler.start_dimension(0);
   const std::optional<Emission> emission =
-      emit(pass.scene, kUnguided, walk.lambda, pass.scene.camera->motion_time(u_time), sampler);
+      emit(pass.scene, kUnguided, lambda, pass.scene.camera->motion_time(u_time), sampler);
   if (!emission) return;
-  walk.ray = emission->ray;
-  walk.medium = emission->medium;
-  walk.specular_alpha = pass.specular_alpha;
-  walk.per_wavelength = true;
-  walk.first_dimension = kFirstVertex;
-  walk.second_dimension = kFirstVertex + dimensions::kPerVertex;
+  Walk walk = walk_from(*emission, lambda, pass.specular_alpha, kFirstVertex);
   ConnectingVisitor visitor(pass, *emission, u_time, out);
   sampler.start_dimension(kStartLens);
   visitor.start(walk, *emission, sampler);

@@ -64,7 +64,7 @@ class TechniquePaths : public PathFunction {
                          const SensorWeights& weights, float factor, FoundLight& found) {
     if (pair_.view == nullptr) return;
     seen_.clear();
-    found.rays += trace_light_path(pair_, lambda, u_time, light, nullptr, &seen_, nullptr);
+    found.rays += trace_light_path(pair_, lambda, u_time, light, nullptr, &seen_, nullptr).rays;
     for (const FilmConnection& c : seen_)
       for (int i = 0; i < c.seen.count; ++i)
         found.add(c.seen.film[static_cast<size_t>(i)], light_.place(c.part),
@@ -79,7 +79,7 @@ class TechniquePaths : public PathFunction {
     if (!(camera.camera_weight > 0)) return;
     path_.clear();
     if (pair_.technique.s > 1) {
-      found.rays += trace_light_path(pair_, lambda, u_time, light, &path_, nullptr, nullptr);
+      found.rays += trace_light_path(pair_, lambda, u_time, light, &path_, nullptr, nullptr).rays;
       if (path_.size() == 0) return;
     }
     light_.clear();

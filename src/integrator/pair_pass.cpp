@@ -23,7 +23,7 @@ constexpr int64_t kGroup = 32 * kChunk;
 struct Chunk {
   std::vector<Photon> photons;
   std::vector<Splat> splats;
-  uint64_t rays = 0, useful = 0, camera_paths = 0;
+  uint64_t rays = 0, useful = 0, specular = 0, camera_paths = 0;
 };
 
 class Rendering {
@@ -64,8 +64,9 @@ class Rendering {
     if (how.spread) found_.resize(pixels * static_cast<size_t>(most));
     points_.resize(static_cast<size_t>(most));
     for (int n = 1; n <= most; ++n)
-      for (int k = 0; k < n; ++k)
-        points_[static_cast<size_t>(n - 1)].push_back(sample_points(n, k));
+      if (how.samples ? how.samples->has(n) : n == 1)
+        for (int k = 0; k < n; ++k)
+          points_[static_cast<size_t>(n - 1)].push_back(sample_points(n, k));
   }
 
   void render(EstimatorStatistics& statistics) {
@@ -97,8 +98,8 @@ class Rendering {
 
  private:
   /// Light path number `j` of those that are merged and connected to the camera.
-  uint64_t trace_path(int64_t j, std::vector<FilmConnection>& seen,
-                      std::vector<Photon>& photons) const {
+  LightPathCounts trace_path(int64_t j, std::vector<FilmConnection>& seen,
+                             std::vector<Photon>& photons) const {
     const uint64_t number =
         uint64_t{key_.pass} * static_cast<uint64_t>(how_.light_paths) + static_cast<uint64_t>(j);
     const SobolPoint point(static_cast<uint32_t>(number), kLightPathDimensions);
@@ -121,7 +122,9 @@ class Rendering {
         for (int64_t j = begin + b; j < begin + e; ++j) {
           seen.clear();
           const size_t before = chunk.photons.size();
-          chunk.rays += trace_path(j, seen, chunk.photons);
+          const LightPathCounts counts = trace_path(j, seen, chunk.photons);
+          chunk.rays += counts.rays;
+          chunk.specular += counts.specular;
           chunk.useful += chunk.photons.size() > before;
           expose(seen, chunk);
         }
@@ -134,6 +137,7 @@ class Rendering {
         statistics.rays += chunk.rays;
         statistics.light_rays += chunk.rays;
         statistics.photon_paths_useful += chunk.useful;
+        statistics.photon_paths_specular += chunk.specular;
       }
       if (buffer)
         buffer->add(splats);
@@ -213,7 +217,8 @@ class Rendering {
       // would see the same part in all passes.
       PathSampler own(points.light, hash_combine(seed_, kPairStream, x, y));
       row.rays += trace_light_path(settings_, pass_.trace.lambda, pass_.u_time, own, &path, nullptr,
-                                   nullptr, kEyePathDimensions);
+                                   nullptr, kEyePathDimensions)
+                      .rays;
     }
     light.clear();
     Features features;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "integrator/photon_pass.h"
 #include "integrator/vertex_connection_merging.h"
@@ -24,7 +25,7 @@ SampleMap every_other_tile(const PixelBounds& b, int samples) {
   SampleMap map(b);
   for (size_t i = 0; i < map.counts().size(); ++i) {
     const size_t w = static_cast<size_t>(map.width());
-    map.counts()[i] = static_cast<uint8_t>((i / w + i % w) % 2 == 0 ? samples : 0);
+    map.counts()[i] = static_cast<uint16_t>((i / w + i % w) % 2 == 0 ? samples : 0);
   }
   return map;
 }
@@ -57,8 +58,9 @@ Trial PathAndPhotons::try_out(PairPass how, uint64_t seed, const Scene& scene, c
 }
 
 void PathAndPhotons::learn(uint64_t seed, const Scene& scene, const Film& film) {
-  learned_.emplace(seed, film.bounds());
-  for (uint8_t& n : learned_->head.counts()) n = kHead;
+  const int asked = options_.camera_samples_per_pass;
+  const int head = asked > 0 ? std::min<int>(asked, std::numeric_limits<uint16_t>::max()) : kHead;
+  learned_.emplace(seed, SampleMap(film.bounds(), static_cast<uint16_t>(head)));
   Learned& learned = *learned_;
   PairPass& pass = learned.pass;
   pass.connects = false;
@@ -73,7 +75,7 @@ void PathAndPhotons::learn(uint64_t seed, const Scene& scene, const Film& film) 
     fewer.light_paths = pass.light_paths / kFewer;
     learned.balance.emplace(many, try_out(fewer, seed, scene, film));
     expense = learned.balance->expense();
-    pass.light_paths = learned.balance->light_paths(kHead);
+    pass.light_paths = learned.balance->light_paths(head);
   }
   PairPass connecting;
   connecting.light_paths = default_light_paths(film.bounds().area());
@@ -87,6 +89,7 @@ void PathAndPhotons::learn(uint64_t seed, const Scene& scene, const Film& film) 
     learned.balance.reset();
   }
   pass.adds_features = true;
+  if (asked > 0) learned.samples = learned.head;
 }
 
 const SampleMap& PathAndPhotons::samples(const Scene& scene, const Film& film) {
@@ -112,14 +115,14 @@ PairPass PathAndPhotons::first_pass() {
 
 void PathAndPhotons::render_pass(const PassKey& key, const Scene& scene, Film& film) {
   if (!learned_ || learned_->seed != key.seed) learn(key.seed, scene, film);
-  if (key.pass == 0) {
+  if (key.pass == 0 && options_.camera_samples_per_pass == 0) {
     learned_->spread.emplace(film.bounds());
     first_pass().render(key, scene, film, owned_, options_, statistics_);
     return;
   }
   PairPass pass = learned_->pass;
   pass.samples = &samples(scene, film);
-  pass.head = kHead;
+  pass.head = learned_->head.at(0, 0);
   if (learned_->balance)
     pass.light_paths = learned_->balance->light_paths(learned_->samples->mean());
   pass.render(key, scene, film, owned_, options_, statistics_);
@@ -129,17 +132,20 @@ EstimatorStatistics PathAndPhotons::statistics() const {
   EstimatorStatistics s = statistics_;
   if (!learned_) return s;
   const PairPass& pass = learned_->pass;
+  const std::string of_all = " of " + std::to_string(s.photon_paths) + " photon paths ";
+  if (!has_specular_events(owned_))
+    s.notes.push_back(
+        "no material of the scene has a specular lobe: there are no caustics, and no caustic "
+        "photons were needed");
+  else if (s.photon_paths > 0 && s.photon_paths_specular == 0)
+    s.notes.push_back("0" + of_all + "met a specular surface");
+  else if (s.photon_paths > 0 && s.photon_paths_useful == 0)
+    s.notes.push_back(std::to_string(s.photon_paths_specular) + of_all +
+                      "met a specular surface, none reached a diffuse one behind it");
   if (pass.connects)
     s.notes.push_back(
         "trial passes were better with light paths connected and merged everywhere than with "
         "caustic photons alone");
-  else if (pass.light_paths == 0)
-    s.notes.push_back(
-        "no material of the scene has a specular lobe: there are no caustics, and no photons were "
-        "needed");
-  else if (s.photon_paths > 0 && s.photon_paths_useful == 0)
-    s.notes.push_back("none of " + std::to_string(s.photon_paths) +
-                      " photon paths came to a rough surface by way of a specular one");
   else if (const size_t targets = pass.guide->targets().size(); targets > 0)
     s.notes.push_back("photons were aimed at " + std::to_string(targets) +
                       (targets == 1 ? " place" : " places") + " from which they were of use");

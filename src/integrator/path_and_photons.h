@@ -33,7 +33,7 @@ class PathAndPhotons final : public Estimator {
  private:
   /// What all passes of a seed share.
   struct Learned {
-    Learned(uint64_t of_seed, const PixelBounds& bounds) : seed(of_seed), head(bounds) {}
+    Learned(uint64_t of_seed, const SampleMap& of_head) : seed(of_seed), head(of_head) {}
     uint64_t seed;
     PairPass pass;                       ///< light paths are those of the first one
     std::optional<Balance> balance;      ///< empty: light paths are the same in all

@@ -118,11 +118,15 @@ inline constexpr int kPairDimensions = kEyePathDimensions + kLightPathDimensions
 /// Traces a light path from `sampler`'s numbers, leaves its vertices in `path` (cleared first) and
 /// adds its connections to the camera to `seen`. `lambda` and `u_time` are those of the eye path.
 /// With `photons` the vertices go there instead, for merging. The path's numbers begin at
-/// `first_dimension`. Returns the number of rays.
-uint64_t trace_light_path(const PairSettings& settings, const SampledWavelengths& lambda,
-                          float u_time, PathSampler& sampler, LightSubpath* path,
-                          std::vector<FilmConnection>* seen, std::vector<Photon>* photons,
-                          int first_dimension = 0);
+/// `first_dimension`.
+struct LightPathCounts {
+  uint64_t rays = 0;
+  bool specular = false;  ///< it had an S event
+};
+LightPathCounts trace_light_path(const PairSettings& settings, const SampledWavelengths& lambda,
+                                 float u_time, PathSampler& sampler, LightSubpath* path,
+                                 std::vector<FilmConnection>* seen, std::vector<Photon>* photons,
+                                 int first_dimension = 0);
 
 /// Runs the eye path that `camera` starts and adds the light of all techniques with t > 1 to
 /// `light`, before the camera's weight. Its wavelengths, where not all are kept, are dealt with:

@@ -1,7 +1,7 @@
-// What one camera path finds: the light of every word that its group owns, by hits and by
-// next-event estimation, weighed against each other (docs/estimators.md, section 2). Who calls it:
-// `path`, and the chains that explore the same paths. It must not know films or where the path's
-// random numbers come from.
+// What path tracing does at each vertex of a camera walk: light that the walk meets, next-event
+// estimation, and multiple importance sampling of the two (docs/estimators.md, section 2).
+// Who calls it: the estimators that trace paths from the eye, and the chains that explore the same
+// paths. It must not know films or where the path's random numbers come from.
 #pragma once
 
 #include <array>
@@ -14,13 +14,26 @@
 
 namespace nephroid {
 
-/// Collects the light of one camera path.
-class PathVisitor {
+/// Keeps the hero's wavelength only, in the name of all: what a walk that shares its wavelengths
+/// counts when it has lost its secondary ones ([M2]).
+inline SampledSpectrum hero_for_all(const SampledSpectrum& value) {
+  SampledSpectrum hero;
+  hero.set(0, value[0] * kSpectrumSamples);
+  return hero;
+}
+
+/// Collects the light of one camera path. `Self`, the class that is made of this one, may hide
+///   float share() const                  by which all is multiplied that the walk meets
+///   float share_after(EventClass) const  the same behind an event of this class at this vertex
+///   float density(const WalkVertex&, const Vec3f& wi, EventClass, ClassMask among, float) const
+///                                        P_c p_c of the walk towards wi; the last is the BSDF's
+template <class Self>
+class PathVisitorOf {
  public:
   /// With `blind`, walks do not look at what is useful for the routes: any routes see the same
   /// paths. `features` are of no interest if null.
-  PathVisitor(const Scene& scene, const OwnedRoutes& owned, bool blind, PartSums& light,
-              Features* features)
+  PathVisitorOf(const Scene& scene, const OwnedRoutes& owned, bool blind, PartSums& light,
+                Features* features)
       : scene_(scene),
         routes_(*owned.routes),
         symbols_(*owned.symbols),
@@ -29,6 +42,12 @@ class PathVisitor {
         light_(light),
         features_(features),
         eye_(routes_.start()) {}
+
+  float share() const { return 1.0f; }
+  float share_after(EventClass) const { return 1.0f; }
+  float density(const WalkVertex&, const Vec3f&, EventClass, ClassMask, float bsdf_pdf_w) const {
+    return bsdf_pdf_w;
+  }
 
   void escape(const Walk& walk) {
     if (!routes_.ends(group_, eye_)) return;
@@ -39,9 +58,11 @@ class PathVisitor {
       const SampledSpectrum le =
           light.radiance_at_infinity(walk.previous_p, walk.ray.d, walk.lambda);
       if (le.is_black()) continue;
-      light_.add(part, walk.throughput * le *
-                           (walk.delta ? 1.0f / walk.density.u_mean
-                                       : weight_of_hit(walk, direct_pdf_w(scene_, walk, i))));
+      add(walk, part,
+          walk.throughput * le *
+              (walk.delta ? 1.0f / walk.density.u_mean
+                          : weight_of_hit(walk, direct_pdf_w(scene_, walk, i))) *
+              self().share());
     }
   }
 
@@ -50,9 +71,11 @@ class PathVisitor {
     if (!light_.owns(part)) return;
     const SampledSpectrum le = light.radiance(hit.p, hit.ng, hit.uv, hit.wo, walk.lambda);
     if (le.is_black()) return;
-    light_.add(part, walk.throughput * le *
-                         (walk.delta ? 1.0f / walk.density.u_mean
-                                     : weight_of_hit(walk, direct_pdf_w(scene_, walk, hit))));
+    add(walk, part,
+        walk.throughput * le *
+            (walk.delta ? 1.0f / walk.density.u_mean
+                        : weight_of_hit(walk, direct_pdf_w(scene_, walk, hit))) *
+            self().share());
   }
 
   void medium_emission(const Medium& medium, const SampledSpectrum& radiance) {
@@ -83,12 +106,13 @@ class PathVisitor {
     if (!d) return;
     const Part part = routes_.owner(eye, symbols_.light(d->light));
     if (!light_.owns(part)) return;
-    ++shadow_rays_;
-    const ShadowFlight shadow = trace_shadow(scene_, *d, walk.lambda, sampler);
+    const ShadowFlight shadow = shadow_of(walk, *d, sampler);
     if (shadow.transmittance.is_black()) return;
     const float phase = v.phase.eval(v.wo, d->wi_world);
-    light_.add(part, walk.throughput * d->radiance * shadow.transmittance *
-                         (phase * weight_of_direct(walk, *d, shadow, phase)));
+    add(walk, part,
+        walk.throughput * d->radiance * shadow.transmittance *
+            (phase * weight_of_direct(walk, *d, shadow, phase)) *
+            self().share_after(EventClass::kVolume));
   }
 
   bool scatter(const Walk&, const WalkEvent& event) {
@@ -98,7 +122,25 @@ class PathVisitor {
 
   uint64_t shadow_rays() const { return shadow_rays_; }
 
+ protected:
+  void add(const Walk& walk, Part part, const SampledSpectrum& value) {
+    const bool hero_only = walk.per_wavelength && walk.lambda.secondary_terminated();
+    light_.add(part, hero_only ? hero_for_all(value) : value);
+  }
+
+  const Scene& scene_;
+  const Routes& routes_;
+  const SceneSymbols& symbols_;
+  const size_t group_;
+  const bool blind_;
+  PartSums& light_;
+  Features* const features_;
+  EyeState eye_;
+  uint64_t shadow_rays_ = 0;
+
  private:
+  const Self& self() const { return static_cast<const Self&>(*this); }
+
   /// True if an event of one of the classes may be followed by light that belongs to the group.
   bool may_end_after_any(const WalkVertex& v, ClassMask finite) const {
     const Label label = label_at(symbols_, v);
@@ -109,6 +151,21 @@ class PathVisitor {
           return true;
     }
     return false;
+  }
+
+  // Walks whose choices do not depend on the wavelength ask for light in the same way.
+  ShadowFlight shadow_of(const Walk& walk, const DirectSample& direct, const PathSampler& sampler) {
+    ++shadow_rays_;
+    if (!walk.per_wavelength || scene_.media.empty())
+      return trace_shadow(scene_, direct, walk.lambda, sampler);
+    Ray ray = direct.shadow_ray;
+    const float unit = length(ray.d);
+    ray.d = ray.d / unit;
+    ray.t_max *= unit;
+    const Medium* medium = direct.medium;
+    ShadowFlight flight;
+    flight.transmittance = attenuation_along(scene_, ray, medium, walk.lambda, sampler);
+    return flight;
   }
 
   // Weights of the two techniques that find a light, the spectral average included ([D3], [V5]).
@@ -147,26 +204,25 @@ class PathVisitor {
       any |= !evals[i].f.is_black();
     }
     if (!any) return;
-    ++shadow_rays_;
-    const ShadowFlight shadow = trace_shadow(scene_, *d, walk.lambda, sampler);
+    const ShadowFlight shadow = shadow_of(walk, *d, sampler);
     if (shadow.transmittance.is_black()) return;
     const SampledSpectrum arriving =
         walk.throughput * d->radiance * shadow.transmittance * abs_cos_theta(wi);
-    for (size_t i = 0; i < evals.size(); ++i)
-      if (!evals[i].f.is_black())
-        light_.add(parts[i],
-                   arriving * evals[i].f * weight_of_direct(walk, *d, shadow, evals[i].pdf_w));
+    for (size_t i = 0; i < evals.size(); ++i) {
+      if (evals[i].f.is_black()) continue;
+      const EventClass c = kSurfaceClasses[i];
+      const float walk_pdf = self().density(v, wi, c, among, evals[i].pdf_w);
+      add(walk, parts[i],
+          arriving * evals[i].f *
+              (weight_of_direct(walk, *d, shadow, walk_pdf) * self().share_after(c)));
+    }
   }
+};
 
-  const Scene& scene_;
-  const Routes& routes_;
-  const SceneSymbols& symbols_;
-  const size_t group_;
-  const bool blind_;
-  PartSums& light_;
-  Features* const features_;
-  EyeState eye_;
-  uint64_t shadow_rays_ = 0;
+/// Path tracing as it is.
+class PathVisitor : public PathVisitorOf<PathVisitor> {
+ public:
+  using PathVisitorOf::PathVisitorOf;
 };
 
 }  // namespace nephroid

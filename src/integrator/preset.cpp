@@ -5,12 +5,14 @@
 #include "integrator/bidirectional.h"
 #include "integrator/compiled_plan.h"
 #include "integrator/features.h"
+#include "integrator/forecast.h"
 #include "integrator/light_tracing.h"
 #include "integrator/multiplexed.h"
 #include "integrator/path.h"
 #include "integrator/path_and_photons.h"
 #include "integrator/photon_map.h"
 #include "integrator/photon_mapping.h"
+#include "integrator/point_lights.h"
 #include "integrator/ppm.h"
 #include "integrator/primary_space.h"
 #include "integrator/sppm.h"
@@ -42,7 +44,9 @@ constexpr Row kTable[] = {{EstimatorKind::kPath, make<PathEstimator>},
                           {EstimatorKind::kMetropolis, make<Multiplexed>},
                           {EstimatorKind::kPrimarySpace, make<PrimarySpace>},
                           {EstimatorKind::kPhotonMap, make<PhotonMap>},
-                          {EstimatorKind::kPpm, make<Ppm>}};
+                          {EstimatorKind::kPpm, make<Ppm>},
+                          {EstimatorKind::kPointLights, make<PointLights>},
+                          {EstimatorKind::kForecast, make<Forecast>}};
 
 FilmLayout layout_of(const Routes& routes) {
   FilmLayout layout;

@@ -3,8 +3,7 @@
 #include <algorithm>
 
 #include "core/parallel.h"
-#include "photon/emission.h"
-#include "transport/walk_symbols.h"
+#include "photon/light_walk.h"
 
 namespace nephroid {
 
@@ -15,20 +14,11 @@ namespace {
 constexpr int kStratifiedDimensions = 48;
 constexpr uint64_t kStream = 0x70686f746f6e;  // "photon"
 
-class PhotonVisitor {
+class PhotonVisitor : public LightWalkVisitor {
  public:
-  PhotonVisitor(const OwnedRoutes& owned, LightSymbol light, const SampledSpectrum& flux,
-                std::vector<Photon>& out)
-      : routes_(*owned.routes),
-        symbols_(*owned.symbols),
-        group_(owned.group),
-        flux_(flux),
-        out_(out),
-        state_(routes_.emitted(light)) {}
+  PhotonVisitor(const OwnedRoutes& owned, const Emission& emission, std::vector<Photon>& out)
+      : LightWalkVisitor(owned, emission), flux_(emission.flux), out_(out) {}
 
-  void escape(const Walk&) {}
-  void emitter(const Walk&, const SurfaceInteraction&, const Light&) {}
-  void medium_emission(const Medium&, const SampledSpectrum&) {}
   void medium_vertex(const Walk&, const MediumVertex& v, PathSampler&) {
     if (!is_met_) meet(v.p);
   }
@@ -40,7 +30,6 @@ class PhotonVisitor {
     return contains(routes_.useful_before_deposit(group_, state_, symbols_.medium(medium.index())),
                     EventClass::kVolume);
   }
-  bool looks_under_surfaces() const { return false; }
 
   void vertex(const Walk& walk, const WalkVertex& v, PathSampler&) {
     if (walk.events == 0 && !is_met_) meet(v.surface.p);
@@ -57,10 +46,9 @@ class PhotonVisitor {
     ++stored_;
   }
 
-  bool scatter(const Walk&, const WalkEvent& event) {
-    state_ = routes_.light_next(state_, symbol_of(symbols_, event));
+  bool scatter(const Walk& walk, const WalkEvent& event) {
     specular_ |= event.letter == EventClass::kSpecular;
-    return true;
+    return LightWalkVisitor::scatter(walk, event);
   }
 
   bool useful() const { return stored_ > 0; }
@@ -81,12 +69,8 @@ class PhotonVisitor {
     return any;
   }
 
-  const Routes& routes_;
-  const SceneSymbols& symbols_;
-  const size_t group_;
   const SampledSpectrum flux_;
   std::vector<Photon>& out_;
-  LightState state_;
   int stored_ = 0;
   bool specular_ = false, is_met_ = false;
   Vec3f first_hit_{0, 0, 0};
@@ -110,15 +94,8 @@ Outcome trace_photon(const Scene& scene, const OwnedRoutes& owned,
   PathSampler sampler(point, hash_combine(settings.key.seed, kStream, number >> 32));
   const auto emitted = emit(scene, *settings.guide, settings.lambda, settings.time, sampler);
   if (!emitted) return {};
-  Walk walk;
-  walk.ray = emitted->ray;
-  walk.medium = emitted->medium;
-  walk.specular_alpha = settings.specular_alpha;
-  walk.per_wavelength = true;
-  walk.lambda = settings.lambda;
-  walk.first_dimension = kEmissionDimensions;
-  walk.second_dimension = kEmissionDimensions + dimensions::kPerVertex;
-  PhotonVisitor visitor(owned, owned.symbols->light(emitted->light), emitted->flux, photons);
+  Walk walk = walk_from(*emitted, settings.lambda, settings.specular_alpha, kEmissionDimensions);
+  PhotonVisitor visitor(owned, *emitted, photons);
   random_walk(scene, TransportMode::kImportance, settings.max_events, walk, sampler, visitor);
   return {visitor.useful(),
           visitor.specular(),

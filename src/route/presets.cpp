@@ -1,6 +1,7 @@
 // Sets of routes with a name.
 // Who calls it: through route_set.h. It must not know automata.
-// Papers: Doidge, Jones & Mora 2012; Jensen 1996 for caustics of lights only.
+// Papers: Doidge, Jones & Mora 2012; Jensen 1996 for caustics of lights only; Dammertz, Keller
+// & Lensch 2010; Budge, Anderson & Joy 2008.
 #include "route/route_set.h"
 
 namespace nephroid {
@@ -64,6 +65,13 @@ std::span<const RoutePreset> route_presets() {
        "all light that can be followed from the lights is Metropolis light transport",
        {"emission=C(L|.*M|.*H.*L):path", "mlt=.*:mlt"}},
       {"pssmlt", "everything is path tracing explored by Markov chains", {"light=.*:pssmlt"}},
+      {"pointlights",
+       "light between diffuse surfaces by virtual point lights, caustics by photons, the rest path "
+       "tracing",
+       {"caustic=C.*[DG]S+[DG]?L:photons", "diffuse=C[SV]*DD[DG]*L:pointlights", "rest=.*:path"}},
+      {"forecast",
+       "caustics of lights by path tracing that photons guide, the rest path tracing",
+       {"caustic=C.*[DG]S+L:forecast", "diffuse=.*:path"}},
       {"path-only", "everything is path tracing", {"diffuse=.*:path"}},
   };
   return presets;

@@ -19,11 +19,21 @@ using Kind = RouteFinding::Kind;
 
 constexpr size_t kMostNodes = size_t{1} << 18;
 
+// How far a word has come to two D or G in a row behind S and V only, where point lights connect.
+enum class PairOfRough : uint8_t { kNone, kFirst, kBoth, kNever };
+PairOfRough after(PairOfRough pair, EventClass c) {
+  if (pair == PairOfRough::kBoth || pair == PairOfRough::kNever) return pair;
+  const bool rough = contains(ClassMask::kRough, c);
+  if (pair == PairOfRough::kFirst) return rough ? PairOfRough::kBoth : PairOfRough::kNever;
+  return rough ? PairOfRough::kFirst : PairOfRough::kNone;
+}
+
 // What never-sampled words have in common, of the events read so far.
 struct Ends {
   bool any = false, rough = false, first_specular = false, last_specular = false;
   bool mergeable = false;   ///< a D or a G
   bool rough_pair = false;  ///< two events in a row that are no S
+  PairOfRough pair = PairOfRough::kNone;
   auto operator<=>(const Ends&) const = default;
 };
 struct PlainState {
@@ -173,7 +183,8 @@ class Prover {
           return {a.after(s.state, e),
                   {true, s.ends.rough || !specular, s.ends.any ? s.ends.first_specular : specular,
                    specular, s.ends.mergeable || contains(ClassMask::kRough, c),
-                   s.ends.rough_pair || (s.ends.any && !s.ends.last_specular && !specular)}};
+                   s.ends.rough_pair || (s.ends.any && !s.ends.last_specular && !specular),
+                   after(s.ends.pair, c)}};
         });
     std::optional<std::string> hole, medium_hole, hair_hole;
     struct NeverSampled {
@@ -232,8 +243,12 @@ class Prover {
   // mirror is no fault of a route), else the more the better it serves as a witness.
   int never_sampled(EstimatorKind estimator, const Ends& ends, LightKind light) const {
     const bool is_hit = light != LightKind::kPoint && light != LightKind::kDistant;
-    if (estimator == EstimatorKind::kPath || estimator == EstimatorKind::kPrimarySpace)
-      return !is_hit && ends.rough && ends.last_specular;
+    const bool out_of_reach = !is_hit && ends.rough && ends.last_specular;
+    if (estimator == EstimatorKind::kPath || estimator == EstimatorKind::kForecast ||
+        estimator == EstimatorKind::kPrimarySpace)
+      return out_of_reach;
+    if (estimator == EstimatorKind::kPointLights)
+      return out_of_reach && ends.pair != PairOfRough::kBoth;
     if (estimator == EstimatorKind::kLightTrace)
       return ends.any ? 2 * (ends.first_specular && (ends.rough || is_hit))
                       : light == LightKind::kEnvironment;

@@ -44,6 +44,12 @@ constexpr EstimatorType kEstimators[] = {
      false, true, true},
     {EstimatorKind::kPpm, "ppm", "progressive photon mapping with hit points that stay", true,
      false, true},
+    {EstimatorKind::kPointLights, "pointlights",
+     "path tracing that is connected to virtual point lights at its first rough surface", false,
+     false, true},
+    {EstimatorKind::kForecast, "forecast",
+     "path tracing that looks where photons foretold that a caustic comes from", false, false,
+     false},
 };
 
 // Names of the picture's own layers and channels, and of what is reserved for them.

@@ -96,6 +96,13 @@ constexpr IntegratorSetting kSettings[] = {
        o.camera_samples_per_pass = static_cast<int>(integer("camera-samples", t, 0, kMaxInt));
      },
      [](const IntegratorOptions& o) { return fmt::format("{}", o.camera_samples_per_pass); }},
+    {"point-lights", "N", "0", "connections",
+     "Virtual point lights that a camera path of pointlights is connected to, up to 1024; 0 lets "
+     "the integrator choose.",
+     [](IntegratorOptions& o, const std::string& t) {
+       o.point_lights = static_cast<int>(integer("point-lights", t, 0, 1024));
+     },
+     [](const IntegratorOptions& o) { return fmt::format("{}", o.point_lights); }},
     {"technique", "S,T", "all", "",
      "Of bdpt, vcm and bpm: only paths of S vertices from the light, its start included, and T "
      "from the eye, the lens included (* for any number), or merged ones; with ,raw behind it "

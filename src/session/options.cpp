@@ -92,8 +92,7 @@ constexpr const char* kRoutesHelp =
 constexpr const char* kRouteHelp =
     "One route: a light path expression and the estimator that renders what matches it (path, "
     "photons, sppm, lighttrace, photons+light, path+photons, bdpt, vcm, bpm, photonmap, ppm, "
-    "pssmlt, mlt). The "
-    "first route that matches a path owns it.";
+    "pssmlt, mlt, pointlights, forecast). The first route that matches a path owns it.";
 constexpr const char* kAovHelp =
     "One more layer of the picture: the light of all paths that match, whichever route renders "
     "them.";

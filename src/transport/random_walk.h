@@ -40,10 +40,12 @@ struct Walk {
   /// Of the choices that media made; estimates divide by density.u_mean.
   SpectralDensity density;
   SampledWavelengths lambda;
-  int vertices = 0;     ///< places at which something was decided
-  int events = 0;       ///< scattering events so far
-  float length = 0;     ///< path length from the start
-  float eta_scale = 1;  ///< product of eta^2 over refractions, which roulette leaves out
+  int vertices = 0;  ///< places at which something was decided
+  int events = 0;    ///< scattering events so far
+  float length = 0;  ///< path length from the start
+  /// Product of eta^2 over refractions, and of how much more often a guide chose directions than
+  /// the BSDF would have: what roulette leaves out.
+  float eta_scale = 1;
   // The last scattering event; before the first one the values of the start.
   bool delta = true;  ///< a delta lobe or the camera: no other technique could make this ray
   float pdf_w = 0;    ///< P_c p_c of the direction
@@ -129,6 +131,10 @@ struct WalkEvent {
 ///   void vertex(const Walk&, const WalkVertex&, PathSampler&)         a surface
 ///   void medium_vertex(const Walk&, const MediumVertex&, PathSampler&)  a collision in a medium
 ///   bool scatter(const Walk&, const WalkEvent&)      an event was sampled; false: stop
+/// and may have
+///   std::optional<BsdfSample> sample_direction(Walk&, const WalkVertex&, float uc,
+///       const Vec2f& u, ClassMask among)    in place of Bsdf::sample, with the density of what it
+///                                           does; it may change the walk's eta_scale alone
 /// `mode` tells which quantity the throughput carries. In kImportance it includes the correction
 /// for shading normals (Veach 1997, section 5.3).
 template <class Visitor>
@@ -258,8 +264,8 @@ class RandomWalk {
     sampler_.start_dimension(dimension + dimensions::kBsdf);
     const float uc = sampler_.get_1d();
     const Vec2f u = sampler_.get_2d();
-    const std::optional<BsdfSample> s = vertex.bsdf.sample(
-        vertex.wo, uc, u, mode_, looks_under ? among | ClassMask::kDiffuse : among);
+    const std::optional<BsdfSample> s =
+        sample_direction(vertex, uc, u, looks_under ? among | ClassMask::kDiffuse : among);
     if (!s || !(s->pdf_w > 0.0f)) return false;
     SampledSpectrum weight = s->f * (abs_cos_theta(s->wi) / s->pdf_w);
     if (s->straight_through) {
@@ -292,6 +298,15 @@ class RandomWalk {
     event.transmitted = vertex.subsurface_exit || s->transmitted;
     event.material = material.index();
     return end_of_event(event, dimension);
+  }
+
+  /// The visitor may choose directions itself.
+  std::optional<BsdfSample> sample_direction(const WalkVertex& vertex, float uc, const Vec2f& u,
+                                             ClassMask among) {
+    if constexpr (requires { visitor_.sample_direction(walk_, vertex, uc, u, among); })
+      return visitor_.sample_direction(walk_, vertex, uc, u, among);
+    else
+      return vertex.bsdf.sample(vertex.wo, uc, u, mode_, among);
   }
 
   /// The second half of a subsurface event, at another point of the surface: a vertex of its own,

@@ -86,7 +86,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Agreement, ::testing::ValuesIn(kAgreementScenes
                          [](const auto& test) { return std::string(test.param.name); });
 
 // Routes that the integrators above do not have: light tracing, and photons both merged and
-// connected, of caustics alone and wherever they can be.
+// connected, of caustics alone and wherever they can be, virtual point lights, and guided path
+// tracing.
 struct RoutesToCompare {
   const char* name;
   Plan plan;
@@ -100,6 +101,9 @@ std::vector<RoutesToCompare> routes_to_compare() {
           {"ppm", "ppm"},
           {"photonmap", "photonmap"},
           {"photonmap-direct", "photonmap-direct"},
+          {"forecast", "forecast"},
+          {"all-point-lights",
+           plan_of({"caustic=C[SV]*[DG]S+L:photons", "all=.*:pointlights", "rest=.*:path"})},
           {"all-vertex", plan_of({"emission=C([SV]*L|.*M|.*H.*L):path", "rest=.*:photons+light"})}};
 }
 

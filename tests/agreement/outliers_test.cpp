@@ -111,8 +111,8 @@ TEST(OutliersOfPhotons, CausticsStay) {
     for_each_channel(film, [&](int x, int y, int c) { sum += film.route_value(0, x, y)[c]; });
     return sum;
   };
-  const Film plain = render(*scene, "mixed", options_of_test(), 1, 32);
-  const Film film = render_rejecting(*scene, "mixed", 1, 32);
+  const Film plain = render(*scene, "doidge2012", options_of_test(), 1, 32);
+  const Film film = render_rejecting(*scene, "doidge2012", 1, 32);
   ASSERT_EQ(plain.layout().routes[0], "caustic");
   EXPECT_GT(energy_shares(plain).routes[0], 0.03);
   EXPECT_GT(caustic(film), 0.97 * caustic(plain));

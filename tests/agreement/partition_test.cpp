@@ -251,6 +251,11 @@ const std::vector<Owners> kOwners = {
     {"chains_of_caustics", {"seen=C.*[DG]S+L:mlt", "rest=.*:path"}},
     {"chains_of_all", {"all=.*:mlt", "rest=.*:path"}},
     {"chains_from_the_eye", {"key=C.*<L.'key'>:pssmlt", "rest=.*:path"}},
+    {"point_lights_of_all", {"indirect=C[^VH]*:pointlights", "rest=.*:path"}},
+    {"point_lights_of_diffuse", {"diffuse=C[SV]*DD.*L:pointlights", "rest=.*:path"}},
+    {"point_lights_behind_glass", {"seen=CS+[DG][DG]+L:pointlights", "rest=.*:path"}},
+    {"forecast_of_caustics", {"caustic=C.*[DG]S+L:forecast", "rest=.*:path"}},
+    {"forecast_of_all", {"all=.*:forecast"}},
     {"three_owners",
      {"a=C.*[DG]S+[DG]?L:photons", "b=C[DG]L:lighttrace", "c=C[DG][DG]L:path", "d=.*:path"},
      true},
@@ -287,7 +292,7 @@ TEST(RoughnessBand, MovesACausticFromOneRouteToAnotherWithoutAJump) {
     options.camera_samples_per_pass = 16;
     options.max_depth = 6;
     options.radius = 0.5f;
-    const Film film = render(*scene, "mixed", options, 11, kPasses);
+    const Film film = render(*scene, "doidge2012", options, 11, kPasses);
     double caustic = 0, all = 0;
     for (int y = 0; y < 8; ++y)
       for (int x = 0; x < 8; ++x) {

@@ -84,7 +84,8 @@ constexpr char kSheetBelowGlass[] = R"(
 
 // Path tracing cannot find the light, nor light tracing the eye.
 const std::vector<LeftOut> kMirroredCaustics = {
-    {"light-only", "no connection finds C S D S L if the light is at a point"}};
+    {"light-only", "no connection finds C S D S L if the light is at a point"},
+    {"forecast", "no walk from the eye finds C D S L if the light is at a point"}};
 
 }  // namespace
 

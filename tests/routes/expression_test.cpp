@@ -85,7 +85,9 @@ TEST(Expression, MistakesAreShownWithACaret) {
       {"a=CLD?S:path", 3, "can match no path"},
       {"a=CDL", 6, "expected ':' and an estimator"},
       {"a=CDL:", 7, "expected an estimator behind ':'"},
-      {"a=CDL:fotons", 7, "path, photons, sppm, lighttrace, photons+light, bdpt, vcm, bpm, path+photons, mlt, pssmlt, "},
+      {"a=CDL:fotons", 7,
+       "path, photons, sppm, lighttrace, photons+light, bdpt, vcm, bpm, path+photons, mlt, "
+       "pssmlt, "},
       {"CDL:path", 9, "found no '='"},
       {"=CDL:path", 1, "found none"},
       {"a b=CDL:path", 2, "found ' '"},

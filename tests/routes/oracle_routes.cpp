@@ -176,6 +176,15 @@ bool OracleRoutes::can_sample(int route, const Path& path, size_t merge_vertices
   if (type(route).merges) return merge_vertices == 1;
   if (routes_[size_t(route)].estimator == EstimatorKind::kLightTrace)
     return n == 0 ? light == LightKind::kShape : !specular(kind_at(0));
+  if (routes_[size_t(route)].estimator == EstimatorKind::kPointLights) {
+    // Found by connection if the first D or G is followed by another at once.
+    const auto rough = [](EventKind k) {
+      return class_of(k) == EventClass::kDiffuse || class_of(k) == EventClass::kGlossy;
+    };
+    size_t first = 0;
+    while (first < n && !rough(kind_at(first))) ++first;
+    if (first + 1 < n && rough(kind_at(first + 1))) return true;
+  }
   const bool no_area = light == LightKind::kPoint || light == LightKind::kDistant;
   const EstimatorKind estimator = routes_[size_t(route)].estimator;
   const bool connects = estimator == EstimatorKind::kBidirectional ||

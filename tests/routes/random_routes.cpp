@@ -134,13 +134,15 @@ OracleRoutes RandomRoutes::set() {
                                          EstimatorKind::kPhotonsAndLight,
                                          EstimatorKind::kBidirectional,
                                          EstimatorKind::kVcm,
-                                         EstimatorKind::kPathAndPhotons,
                                          EstimatorKind::kBpm,
                                          EstimatorKind::kMetropolis,
                                          EstimatorKind::kPrimarySpace,
                                          EstimatorKind::kPhotonMap,
                                          EstimatorKind::kPhotonMap,
-                                         EstimatorKind::kPpm};
+                                         EstimatorKind::kPpm,
+                                         EstimatorKind::kPathAndPhotons,
+                                         EstimatorKind::kPointLights,
+                                         EstimatorKind::kForecast};
   const Alphabet alphabet(static_cast<int>(labels_.size()));
   const auto possible = [&](bool marked) {
     for (;;) {

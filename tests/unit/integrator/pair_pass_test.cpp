@@ -84,9 +84,9 @@ TEST(PairPass, GoesOnWithThePointsThatTheFirstPassHasLeft) {
   PairPass pass = camera_paths_only();
   SampleMap map(film_for(*places.even.scene, places.even.preset).bounds());
   pass.samples = &map;
-  for (uint8_t& n : map.counts()) n = kHead;
+  for (uint16_t& n : map.counts()) n = kHead;
   expect_numbers(pass, 0, 0, kHead);
-  for (uint8_t& n : map.counts()) n = kLater;
+  for (uint16_t& n : map.counts()) n = kLater;
   pass.head = kHead;
   expect_numbers(pass, 1, kHead, kHead + kLater);
   expect_numbers(pass, 2, kHead + kLater, kHead + 2 * kLater);
@@ -100,7 +100,7 @@ TEST(PairPass, TellsTheSameSpreadInBatches) {
   pass.light_paths = 100000;
   const Film film = film_for(*view.scene, view.preset);
   SampleMap map(film.bounds());
-  for (uint8_t& n : map.counts()) n = 4;
+  for (uint16_t& n : map.counts()) n = 4;
   pass.samples = &map;
   const auto spread = [&](int64_t memory) {
     IntegratorOptions options;

@@ -1,0 +1,44 @@
+// A direction at a surface, chosen either by the BSDF or by a forecast: the mixture, per class of
+// the event, and its density ([T3] in docs/estimators.md).
+// Who calls it: forecast.cpp. It must not know routes or lights.
+#pragma once
+
+#include <optional>
+
+#include "core/math.h"
+#include "photon/forecast_map.h"
+#include "scene/bsdf/bsdf.h"
+
+namespace nephroid {
+
+/// The mixture at one vertex. Only finite lobes of class D and G are guided; with an empty forecast
+/// it is the BSDF alone.
+class GuidedDirection {
+ public:
+  /// `shading` is the frame of the BSDF, `among` the classes that the walk may sample.
+  GuidedDirection(const Bsdf& bsdf, const Frame& shading, const Vec3f& wo, ClassMask among,
+                  const ForecastLobes& lobes);
+
+  /// As Bsdf::sample, with the density of the mixture. `gain` becomes that density over the
+  /// BSDF's alone.
+  std::optional<BsdfSample> sample(float uc, const Vec2f& u, float& gain) const;
+  /// Density with which sample() finds the local direction `wi` in class `c`, whose density by the
+  /// BSDF alone is `bsdf_pdf_w`; delta lobes left out.
+  float pdf_w(const Vec3f& wi, EventClass c, float bsdf_pdf_w) const;
+
+ private:
+  BsdfEval eval(const Vec3f& wi, EventClass c) const {
+    return bsdf_.eval(wo_, wi, TransportMode::kRadiance, c, among_);
+  }
+  float rough_pdf_w(const Vec3f& wi) const;
+  std::optional<BsdfSample> sample_forecast(float uc, const Vec2f& u, float& gain) const;
+
+  const Bsdf& bsdf_;
+  const Frame& shading_;
+  const Vec3f wo_;
+  const ClassMask among_, guided_;
+  const ForecastLobes& lobes_;
+  const float share_;  ///< of the forecast
+};
+
+}  // namespace nephroid

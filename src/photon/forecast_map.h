@@ -1,0 +1,64 @@
+// Where caustics come from: places to which light came through specular surfaces, each with the
+// point of the caster that it came from; and, around any point, a density of directions towards
+// such points ([T1] and [T2] in docs/estimators.md). Who calls it: forecast.cpp.
+// It must not know routes, lights or BSDFs.
+// Paper: Budge, Anderson & Joy 2008.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/math.h"
+
+namespace nephroid {
+
+/// A place where light of a caustic landed, and where on the caster it came from.
+struct CausticSight {
+  Vec3f p, caster;
+};
+
+/// A density of unit directions in world space: the mean of von Mises-Fisher lobes.
+class ForecastLobes {
+ public:
+  static constexpr int kMost = 16;
+
+  bool empty() const { return count_ == 0; }
+  int count() const { return count_; }
+  /// Adds a lobe around the unit vector `axis` of about `width` radians. At most kMost.
+  void add(const Vec3f& axis, float width);
+  /// A direction of lobe `i`, from u in [0,1).
+  Vec3f sample(int i, const Vec2f& u) const;
+  /// Density of directions whose lobe was chosen evenly, per steradian.
+  float pdf_w(const Vec3f& w) const;
+
+ private:
+  struct Lobe {
+    Vec3f axis;
+    float concentration = 0, norm = 0;
+  };
+  std::array<Lobe, kMost> lobes_;
+  int count_ = 0;
+};
+
+/// A balanced tree of sights.
+class ForecastMap {
+ public:
+  ForecastMap() = default;
+  explicit ForecastMap(std::vector<CausticSight> sights);
+
+  size_t size() const { return sights_.size(); }
+  size_t bytes() const { return size() * (sizeof(sights_[0]) + sizeof(axes_[0])); }
+  /// [T2]: a lobe towards the caster of each of the sights nearest to `p`, unless it would be wide;
+  /// none if there are too few sights.
+  ForecastLobes lobes_at(const Vec3f& p) const;
+
+ private:
+  struct Nearest;
+  void build(size_t begin, size_t end);
+  void search(size_t begin, size_t end, Nearest& nearest) const;
+
+  std::vector<CausticSight> sights_;  ///< the middle of each range divides it
+  std::vector<uint8_t> axes_;         ///< along which
+};
+
+}  // namespace nephroid

@@ -1,0 +1,72 @@
+// What a forecast learns: photons of lights that met casters first, once and for all passes.
+#include <gtest/gtest.h>
+
+#include "rendering.h"
+
+namespace nephroid {
+namespace {
+
+using namespace testing_support;
+
+// A lamp above a floor, a mirror beside it, and a screen that may hide the lamp from the mirror,
+// but not from what the mirror sees.
+std::string mirror_and_lamp(bool hidden) {
+  return std::string(R"(
+  LookAt 0 3 -5  0 0.4 0  0 1 0
+  Camera "perspective" "float fov" 30
+  Film "rgb" "integer xresolution" 8 "integer yresolution" 8
+  WorldBegin
+  AttributeBegin
+    AreaLightSource "diffuse" "rgb L" [10 9 8]
+    Translate 0 4 0 Rotate 90 1 0 0 Shape "disk" "float radius" 0.7
+  AttributeEnd
+  Material "diffuse" "rgb reflectance" [0.6 0.5 0.4]
+  Shape "bilinearmesh" "point3 P" [-6 0 -6  6 0 -6  -6 0 6  6 0 6]
+  )") +
+         (hidden ? R"(
+  Shape "bilinearmesh" "point3 P" [0.4 2.5 -6  4 2.5 -6  0.4 2.5 6  4 2.5 6])"
+                 : "") +
+         R"(
+  Material "conductor" "float roughness" 0
+  Shape "bilinearmesh" "point3 P" [3 0 -2  3 0 2  3 2 -2  3 2 2])";
+}
+
+EstimatorStatistics statistics_after(const Scene& scene, const std::vector<std::string>& routes,
+                                     uint32_t passes) {
+  IntegratorOptions options;
+  options.photons_per_pass = 8192;
+  Preset preset = make_preset(plan_of(routes), options, scene);
+  Film film = film_for(scene, preset);
+  for (uint32_t pass = 0; pass < passes; ++pass)
+    for (const auto& e : preset.estimators) e->render_pass({1, pass}, scene, film);
+  return preset.estimators.front()->statistics();
+}
+
+TEST(Forecast, IsLearnedOnce) {
+  const auto scene = scene_from_text(mirror_and_lamp(false));
+  const std::vector<std::string> routes = {"caustic=C.*[DG]S+L:forecast", "rest=.*:path"};
+  const EstimatorStatistics first = statistics_after(*scene, routes, 1);
+  EXPECT_EQ(first.photon_paths, 8192u);
+  EXPECT_GT(first.photons_stored, 100u);
+  EXPECT_EQ(first.photon_paths_useful, first.photons_stored) << "no path lands twice";
+  EXPECT_GE(first.photon_bytes, first.photons_stored * 6 * sizeof(float));
+  ASSERT_EQ(first.notes.size(), 1u);
+  EXPECT_NE(first.notes[0].find("foretell"), std::string::npos);
+  const EstimatorStatistics later = statistics_after(*scene, routes, 5);
+  EXPECT_EQ(later.photon_paths, first.photon_paths);
+  EXPECT_EQ(later.photons_stored, first.photons_stored);
+}
+
+// What a mirror shows of a lit floor is no light that a walk could be sent to.
+TEST(Forecast, KnowsOnlyWhatComesFromLights) {
+  const auto scene = scene_from_text(mirror_and_lamp(true));
+  EXPECT_GT(statistics_after(*scene, {"c=C[DG]@S[DG]L:photons", "rest=.*:path"}, 1).photons_stored,
+            20u);
+  const EstimatorStatistics s = statistics_after(*scene, {"all=.*:forecast"}, 1);
+  EXPECT_EQ(s.photons_stored, 0u);
+  ASSERT_EQ(s.notes.size(), 1u);
+  EXPECT_NE(s.notes[0].find("none of 8192"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace nephroid
