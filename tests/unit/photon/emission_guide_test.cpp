@@ -317,7 +317,7 @@ TEST(EmissionGuide, ThatHasLearnedNothingLeavesThePathsAsTheyAre) {
 TEST(EmissionGuide, TellsTheDensityOfStartPoints) {
   // No path is lost behind this lamp.
   const auto scene =
-      scene_with(std::string(kLights[1].text) +
+      scene_with(std::string(kLights[1].text) + "\n" +
                  R"(LightSource "point" "rgb I" [9 9 9] "point3 from" [-1.5 1.5 1])");
   const EmissionGuide guide = guide_for(*scene);
   const int lamp = scene->lights[0]->is_area() ? 0 : 1;
@@ -336,7 +336,7 @@ TEST(EmissionGuide, HasATargetAroundEachStart) {
   const auto scene = scene_with(kLights[3].text);
   TestRandom random(7);
   // From a single start to many more clusters than targets.
-  for (const int clusters : {1, 2, 30, 200})
+  for (const int clusters : {1, 2, 30, 45, 200})
     for (const int each : {1, 7, 40}) {
       std::vector<UsefulStart> starts;
       for (int c = 0; c < clusters; ++c) {
