@@ -405,7 +405,9 @@ TEST(EmissionGuide, AimsAtSmallTargetsInSpiteOfRounding) {
     ASSERT_GT(weights.size(), 0.5 * EmissionGuide::kDefensive * kPaths) << name;
     std::sort(weights.begin(), weights.end());
     EXPECT_LT(weights.back(), 20 * weights[weights.size() / 2]) << name;
-    if (expected > 0) EXPECT_NEAR(sum, expected, 0.01 * expected) << name;
+    if (expected > 0) {
+      EXPECT_NEAR(sum, expected, 0.01 * expected) << name;
+    }
   }
 }
 
