@@ -1,7 +1,11 @@
 # Tests: one executable per folder below tests/unit (named as the layer it tests) and one per other
-# kind of test. Every test case is a ctest of its own.
+# kind of test. An executable is one ctest: to start one takes a third of a second, as long as most
+# test cases. Those with much to do are cut into shards, so that all cores have work to the end.
 find_package(GTest REQUIRED)
-include(GoogleTest)
+set(shards_agreement 6)
+set(shards_determinism 2)
+set(shards_statistical 4)
+set(shards_unit_integrator 2)
 
 function(nephroid_test folder)
   string(REPLACE "/" "_" name ${folder})
@@ -13,8 +17,18 @@ function(nephroid_test folder)
   target_link_libraries(test_${name} PRIVATE ${ARGN} GTest::gtest GTest::gtest_main)
   target_include_directories(test_${name} PRIVATE ${CMAKE_SOURCE_DIR}/tests)
   target_compile_definitions(test_${name} PRIVATE NEPHROID_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
-  gtest_discover_tests(test_${name} TEST_PREFIX ${name}: DISCOVERY_TIMEOUT 60
-                       DISCOVERY_MODE PRE_TEST)
+  if(NOT shards_${name})
+    add_test(NAME ${name} COMMAND test_${name})
+    set_tests_properties(${name} PROPERTIES TIMEOUT 14400)
+    return()
+  endif()
+  math(EXPR last "${shards_${name}} - 1")
+  foreach(shard RANGE ${last})
+    add_test(NAME ${name}_${shard} COMMAND test_${name})
+    # What takes longest begins first. A sanitizer may need hours.
+    set_tests_properties(${name}_${shard} PROPERTIES COST 100 TIMEOUT 14400 ENVIRONMENT
+      "GTEST_TOTAL_SHARDS=${shards_${name}};GTEST_SHARD_INDEX=${shard}")
+  endforeach()
 endfunction()
 
 nephroid_test(unit/core nephroid_core)

@@ -85,6 +85,22 @@ inline bool merges_photons(const RoutePlan& plan) {
   });
 }
 
+/// A photon map is traced as a whole for its first pass, and it takes 16 passes to read all of it:
+/// with those, the map needs no more photons, nor the eye more walks, than `passes` passes of other
+/// estimators. Plans without photon maps stay as they are.
+inline void use_whole_maps(const RoutePlan& plan, IntegratorOptions& options, uint32_t& passes) {
+  if (std::none_of(plan.routes.begin(), plan.routes.end(), [](const RouteDefinition& route) {
+        return route.estimator == EstimatorKind::kPhotonMap;
+      }))
+    return;
+  constexpr int kPasses = 16;
+  const int count = static_cast<int>(passes);
+  options.map_photons = options.photons_per_pass * count;
+  options.camera_samples_per_pass =
+      (options.camera_samples_per_pass * count + kPasses - 1) / kPasses;
+  passes = kPasses;
+}
+
 /// A plan or the name of one.
 struct Plan : RoutePlan {
   Plan(const RoutePlan& plan) : RoutePlan(plan) {}

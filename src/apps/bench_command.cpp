@@ -13,14 +13,25 @@
 namespace nephroid {
 namespace {
 
+/// A word as a shell reads it back.
+std::string quoted(const std::string& word) {
+  constexpr const char* kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./,:=+@%";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
 /// The command line that does the same, in this directory.
 std::string command_text(const BenchCommand& command, const std::string& directory) {
-  std::string text = "nephroid bench " + command.suite;
+  std::string text = "nephroid bench " + quoted(command.suite);
   if (command.time_limit > 0) text += fmt::format(" --time {}s", command.time_limit);
   if (command.passes > 0) text += fmt::format(" --passes {}", command.passes);
-  for (const std::string& scene : command.only) text += " --only " + scene;
+  for (const std::string& scene : command.only) text += " --only " + quoted(scene);
   if (command.threads > 0) text += fmt::format(" -t {}", command.threads);
-  return text + " --out " + directory;
+  if (command.strict_claims) text += " --strict-claims";
+  return text + " --out " + quoted(directory);
 }
 
 void print_summary(const BenchResults& results) {

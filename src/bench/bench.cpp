@@ -117,7 +117,8 @@ class Bench {
     const BenchRender render{&scene, &wanted.integrator, wanted.limit, true};
     const std::string key = reference_key(render);
     const KeptFiles files = kept_files(options_.directory, "references", scene.name, key);
-    if (const auto text = text_of_file(files.json))
+    const bool has_picture = std::filesystem::exists(files.picture);
+    if (const auto text = text_of_file(files.json); text && has_picture)
       if (const auto kept = reference_from_json(*text)) {
         *picture = read_picture(files.picture);
         result = *kept;

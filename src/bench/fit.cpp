@@ -32,11 +32,12 @@ std::optional<double> log_slope(const std::vector<CurvePoint>& points) {
 }
 
 std::optional<double> log_interpolate(const std::vector<CurvePoint>& points, double x) {
+  // Of points at the same x the last counts: what was emitted once may be read by many passes.
   const auto after =
-      std::find_if(points.begin(), points.end(), [&](const CurvePoint& p) { return p.x >= x; });
-  if (after == points.end()) return std::nullopt;
-  if (after->x == x) return after->y;
+      std::find_if(points.begin(), points.end(), [&](const CurvePoint& p) { return p.x > x; });
   if (after == points.begin()) return std::nullopt;
+  if ((after - 1)->x == x) return (after - 1)->y;
+  if (after == points.end()) return std::nullopt;
   const CurvePoint &a = *(after - 1), &b = *after;
   if (!(a.x > 0 && a.y > 0 && b.y > 0)) return std::nullopt;
   const double t = std::log(x / a.x) / std::log(b.x / a.x);

@@ -124,16 +124,19 @@ void check_size(const Picture& reference, const Film& film) {
       reference.width(), reference.height(), b.width(), b.height()));
 }
 
-Metadata metadata_of(const BenchScene& scene, const BenchRun& run, uint64_t seed) {
-  return {{"nephroid:version", kVersion},
-          {"nephroid:instruction_set", instruction_set()},
-          {"nephroid:scene", scene.file},
-          {"nephroid:integrator", run.integrator},
-          {"nephroid:options", run.options},
-          {"nephroid:routes", run.routes},
-          {"nephroid:seed", fmt::format("{}", seed)},
-          {"nephroid:passes", fmt::format("0..{}", run.end().passes - 1)},
-          {"nephroid:seconds", fmt::format("{:.3f}", run.end().seconds)}};
+Metadata metadata_of(const BenchRender& render, const RoutePlan& plan, const BenchRun& run) {
+  Metadata metadata = {{"nephroid:version", kVersion},
+                       {"nephroid:instruction_set", instruction_set()},
+                       {"nephroid:scene", render.scene->file},
+                       {"nephroid:integrator", run.integrator},
+                       {"nephroid:options", run.options},
+                       {"nephroid:routes", run.routes},
+                       {"nephroid:seed", fmt::format("{}", render.integrator->seed)},
+                       {"nephroid:passes", fmt::format("0..{}", run.end().passes - 1)},
+                       {"nephroid:seconds", fmt::format("{:.3f}", run.end().seconds)}};
+  if (!plan.aovs.empty()) metadata.emplace_back("nephroid:aovs", aovs_text(plan));
+  if (render.integrator->reject_outliers) metadata.emplace_back("nephroid:outliers", "reject");
+  return metadata;
 }
 
 void fill_run(const RenderResult& result, const Film& film, const BenchRender& render,
@@ -146,8 +149,6 @@ void fill_run(const RenderResult& result, const Film& film, const BenchRender& r
   run->photon_bytes = totals.photon_bytes;
   run->pixel_bytes = totals.pixel_bytes;
   run->first_pass_bytes = totals_of(result.first_pass_statistics).bytes;
-  const RgbColorSpace* space = film.settings().color_space;
-  run->color_space = space == nullptr ? "srgb" : std::string(space->name());
   for (const EstimatorStatistics& s : result.statistics)
     run->notes.insert(run->notes.end(), s.notes.begin(), s.notes.end());
   if (render.with_energy) {
@@ -210,7 +211,8 @@ RoutePlan plan_of(const BenchRender& render) {
 std::optional<BenchRendered> render_for_bench(const BenchRender& render, const Picture* reference,
                                               SceneShelf& shelf, SignalFlags& signals) {
   const SettingList settings = settings_of(render);
-  const Scene& scene = *shelf.load(*render.scene, settings).scene;
+  const LoadedScene& loaded = shelf.load(*render.scene, settings);
+  const Scene& scene = *loaded.scene;
   const RoutePlan plan = plan_of(render);
   const IntegratorChoice choice =
       choose_integrator(render.integrator->routes.integrator_or(kDefaultIntegrator),
@@ -242,9 +244,11 @@ std::optional<BenchRendered> render_for_bench(const BenchRender& render, const P
   run.options = settings_text(choice.options);
   run.routes = routes_text(plan);
   run.points = curve.finish(result.passes_done, result.seconds);
-  run.notes = preset.warnings;
+  for (const std::vector<std::string>& warnings :
+       {loaded.warnings, choice.warnings, preset.warnings})
+    run.notes.insert(run.notes.end(), warnings.begin(), warnings.end());
   fill_run(result, film, render, reference, &run);
-  rendered.picture = film_picture(film, metadata_of(*render.scene, run, render.integrator->seed));
+  rendered.picture = film_picture(film, metadata_of(render, plan, run));
   return rendered;
 }
 

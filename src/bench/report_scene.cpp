@@ -44,12 +44,10 @@ std::vector<const BenchRun*> good_runs(const BenchSceneResult& scene) {
 std::vector<ShownPicture> pictures_of(const BenchSceneResult& scene, float exposure) {
   std::vector<ShownPicture> shown;
   const std::vector<const BenchRun*> runs = good_runs(scene);
-  Picture reference = read_picture(scene.reference.picture);
-  if (!runs.empty()) reference.color_space = RgbColorSpace::find(runs[0]->color_space);
+  const Picture reference = read_picture(scene.reference.picture);
   shown.push_back({"reference", display_url(reference, exposure), {}});
   for (const BenchRun* run : runs) {
-    Picture picture = read_picture(run->picture);
-    picture.color_space = reference.color_space;
+    const Picture picture = read_picture(run->picture);
     shown.push_back(
         {run->integrator, display_url(picture, exposure),
          png_data_url(picture.width(), picture.height(), heat_map(reference, picture))});

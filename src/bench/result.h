@@ -43,12 +43,11 @@ using BenchShares = std::vector<std::pair<std::string, double>>;
 /// An integrator on a scene.
 struct BenchRun {
   std::string integrator;
-  std::string key;              ///< hash of all that determines it, 16 digits
-  std::string failure;          ///< empty if it went well; the rest is then empty
-  bool kept = false;            ///< from an earlier invocation
-  std::string picture;          ///< EXR, in the directory of results
-  std::string routes, options;  ///< as in the picture's metadata
-  std::string color_space;
+  std::string key;                 ///< hash of all that determines it, 16 digits
+  std::string failure;             ///< empty if it went well; the rest is then empty
+  bool kept = false;               ///< from an earlier invocation
+  std::string picture;             ///< EXR, in the directory of results
+  std::string routes, options;     ///< as in the picture's metadata
   std::vector<BenchPoint> points;  ///< passes increase, the last is the end
   uint64_t rays = 0, emitted = 0, photons_stored = 0;
   uint64_t bytes = 0, photon_bytes = 0, pixel_bytes = 0;  ///< the most at once
@@ -64,7 +63,6 @@ struct BenchRun {
 struct BenchReferenceResult {
   std::string picture;  ///< file
   std::string key;
-  std::string failure;
   bool rendered = false;  ///< by the suite, now or earlier
   bool kept = false;
   uint32_t passes = 0;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "bench/result.h"
@@ -21,9 +22,16 @@ Json errors_json(const BenchErrors& e) {
           {"flip", e.flip}};
 }
 
+/// JSON has no figure that is not finite, as the relative error of a mean is where the reference is
+/// black: it is written as null.
+double figure_of(const Json& json) {
+  return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
+}
+
 BenchErrors errors_of(const Json& json) {
-  return {json.at("rmse"), json.at("relmse"), json.at("relmse_trim"), json.at("mean_error"),
-          json.at("flip")};
+  const auto figure = [&](const char* name) { return figure_of(json.at(name)); };
+  return {figure("rmse"), figure("relmse"), figure("relmse_trim"), figure("mean_error"),
+          figure("flip")};
 }
 
 Json shares_json(const BenchShares& shares) {
@@ -46,7 +54,7 @@ BenchNamedErrors named_of(const Json& json) {
 
 BenchShares shares_of(const Json& json) {
   BenchShares shares;
-  for (const auto& [name, share] : json.items()) shares.emplace_back(name, share);
+  for (const auto& [name, share] : json.items()) shares.emplace_back(name, figure_of(share));
   return shares;
 }
 
@@ -59,7 +67,6 @@ Json run_json(const BenchRun& run) {
   json["picture"] = run.picture;
   json["routes"] = run.routes;
   json["options"] = run.options;
-  json["color_space"] = run.color_space;
   json["rays"] = run.rays;
   json["emitted"] = run.emitted;
   json["photons_stored"] = run.photons_stored;
@@ -88,7 +95,6 @@ BenchRun run_of(const Json& json) {
   run.picture = json.at("picture");
   run.routes = json.at("routes");
   run.options = json.at("options");
-  run.color_space = json.at("color_space");
   run.rays = json.at("rays");
   run.emitted = json.at("emitted");
   run.photons_stored = json.at("photons_stored");

@@ -129,6 +129,10 @@ void check_claim(const Fields& fields, const BenchSuite& suite, const BenchClaim
             "\"region\"");
   if (fields.has("over") && claim.metric != BenchMetric::kSlope)
     fail_at(fields.required("over").where, "\"over\" does not fit, expected it with a slope only");
+  // Slopes are negative: a factor would turn about what is claimed.
+  if (claim.metric == BenchMetric::kSlope && claim.form != BenchClaim::Form::kBetween)
+    fail_at(fields.required("metric").where,
+            "slopes are not compared, expected \"of\" and \"between\" with the metric \"slope\"");
   if (claim.at_equal && (!is_error(claim.metric) || claim.form == BenchClaim::Form::kBetween))
     fail_at(fields.required("at").where,
             "\"at\" does not fit, expected it where errors of integrators are compared");

@@ -36,6 +36,23 @@ std::array<float, 8> chromaticities(const RgbColorSpace& space) {
   return result;
 }
 
+/// The space whose chromaticities a file has; null if it has none, or those of another.
+const RgbColorSpace* color_space_of(const OIIO::ImageSpec& spec) {
+  const OIIO::ParamValue* found = spec.find_attribute("chromaticities");
+  if (found == nullptr || found->type().basetype != OIIO::TypeDesc::FLOAT ||
+      found->type().basevalues() * static_cast<size_t>(found->nvalues()) != 8)
+    return nullptr;
+  const std::span values(static_cast<const float*>(found->data()), 8);
+  for (const char* name : {"srgb", "dci-p3", "rec2020", "aces2065-1"}) {
+    const RgbColorSpace* space = RgbColorSpace::find(name);
+    const std::array<float, 8> wanted = chromaticities(*space);
+    if (std::equal(values.begin(), values.end(), wanted.begin(),
+                   [](float a, float b) { return std::abs(a - b) < 1e-3f; }))
+      return space;
+  }
+  return nullptr;
+}
+
 OIIO::ImageSpec exr_spec(const Picture& picture) {
   OIIO::ImageSpec spec(picture.width(), picture.height(), static_cast<int>(picture.channels.size()),
                        OIIO::TypeDesc::FLOAT);
@@ -112,6 +129,7 @@ Picture read_picture(const std::string& path) {
   picture.full_height = spec.full_height;
   picture.window = {spec.x, spec.y, spec.x + spec.width, spec.y + spec.height};
   picture.channels = spec.channelnames;
+  picture.color_space = color_space_of(spec);
   picture.pixels.resize(static_cast<size_t>(spec.image_pixels()) *
                         static_cast<size_t>(spec.nchannels));
   for (const OIIO::ParamValue& attribute : spec.extra_attribs)

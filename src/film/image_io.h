@@ -44,7 +44,7 @@ void write_png(const std::string& path, int width, int height, const std::vector
 std::vector<uint8_t> encode_png(int width, int height, const std::vector<uint8_t>& rgb);
 
 /// Reads the first image of a file of any format, as floats without any conversion of colour, with
-/// string metadata. Throws IoError.
+/// string metadata and the colour space that the file's chromaticities tell of. Throws IoError.
 Picture read_picture(const std::string& path);
 
 /// Linear [0,1] to the sRGB code value, clamped and rounded; NaN becomes 0.

@@ -116,7 +116,7 @@ TEST_P(Guided, WalksAndPhotonsTogetherFindTheSamePicture) {
         pass.guide = &learned.guide(first_seed + s, *scene, film, owned, options);
         EXPECT_EQ(pass.guide->empty(), !guided);
         SampleMap map(film.bounds());
-        for (uint8_t& n : map.counts()) n = 8;
+        for (uint16_t& n : map.counts()) n = 8;
         pass.samples = &map;
         EstimatorStatistics statistics;
         for (uint32_t i = 0; i < 4; ++i)

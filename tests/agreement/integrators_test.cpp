@@ -14,7 +14,7 @@ namespace {
 using namespace testing_support;
 
 constexpr int kAcross = 3, kSeeds = 32, kSeedsOfRoutes = 16;
-constexpr uint32_t kPhotonPasses = 6, kPassesOfRoutes = 3;
+constexpr uint32_t kPassesOfRoutes = 3;
 
 std::vector<double> whole(const SeedValues& blocks) {
   std::vector<double> values(blocks[0].size(), 0.0);
@@ -53,14 +53,11 @@ IntegratorOptions options_for(const AgreementScene& description) {
 }
 
 SeedValues reference_values(const Scene& scene, const AgreementScene& description,
-                            const IntegratorOptions& options, int seeds,
-                            uint32_t photon_passes = kPhotonPasses) {
+                            const IntegratorOptions& options, int seeds, uint32_t passes) {
   const std::string name = description.reference;
-  return name == "path"
-             ? block_values(scene, name, options, seeds,
-                            description.reference_passes * photon_passes / kPhotonPasses, 1,
-                            kAcross)
-             : unbiased_block_values(scene, name, options, seeds, photon_passes, 1, kAcross);
+  return name == "path" ? block_values(scene, name, options, seeds,
+                                       description.reference_passes * passes, 1, kAcross)
+                        : unbiased_block_values(scene, name, options, seeds, passes, 1, kAcross);
 }
 
 class Agreement : public ::testing::TestWithParam<AgreementScene> {};
@@ -70,12 +67,13 @@ TEST_P(Agreement, OfAllIntegrators) {
   const SceneFiles files;
   const auto scene = scene_from_text(agreement_scene_text(description, files.directory()));
   IntegratorOptions options = options_for(description);
-  const SeedValues reference = reference_values(*scene, description, options, kSeeds);
+  const SeedValues reference =
+      reference_values(*scene, description, options, kSeeds, description.passes);
   uint64_t first_seed = 1000;
   options.camera_samples_per_pass = 8;  // what the path tracer adds to few passes must not be noisy
   for (const std::string integrator : {"mixed", "sppm", "bdpt"}) {
     if (integrator == description.reference) continue;
-    expect_equal(unbiased_block_values(*scene, integrator, options, kSeeds, kPhotonPasses,
+    expect_equal(unbiased_block_values(*scene, integrator, options, kSeeds, description.passes,
                                        first_seed, kAcross),
                  reference, std::string(description.name) + ", " + integrator, 0.01);
     first_seed += 1000;
@@ -156,8 +154,11 @@ TEST_P(RoutesAgree, WithTheReference) {
     if (std::any_of(description.left_out.begin(), description.left_out.end(),
                     [&](const LeftOut& l) { return routes.name == std::string(l.routes); }))
       continue;
-    expect_equal(unbiased_block_values(*scene, routes.plan, options, kSeedsOfRoutes,
-                                       kPassesOfRoutes, first_seed, kAcross),
+    IntegratorOptions own = options;
+    uint32_t passes = kPassesOfRoutes;
+    use_whole_maps(routes.plan, own, passes);
+    expect_equal(unbiased_block_values(*scene, routes.plan, own, kSeedsOfRoutes, passes, first_seed,
+                                       kAcross),
                  reference, std::string(description.name) + ", " + routes.name, 0.02);
     first_seed += 1000;
   }

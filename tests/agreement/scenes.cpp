@@ -100,11 +100,13 @@ const std::vector<AgreementScene> kAgreementScenes = {
      .world = R"(Material "subsurface" "rgb mfp" [0.2 0.12 0.07] "rgb reflectance" [0.8 0.6 0.5]
        "float roughness" 0.3 Translate 0 0.7 0 Shape "sphere" "float radius" 0.6)"},
     // On curves nothing is merged, whatever their material is, and all that it does is H.
-    {.name = "subsurface_curve", .world = R"(AttributeBegin
+    {.name = "subsurface_curve",
+     .world = R"(AttributeBegin
        Material "subsurface" "rgb mfp" [0.2 0.12 0.07] "rgb reflectance" [0.8 0.6 0.5]
        Shape "curve" "string type" "cylinder" "float width" 0.5
          "point3 P" [-1.2 0.4 0.1  -0.4 0.6 -0.3  0.4 0.4 0.4  1.2 0.5 0.1] AttributeEnd
-       Material "dielectric" "float eta" 1.5 Translate 0.1 1.4 0.1 Shape "sphere" "float radius" 0.5)"},
+       Material "dielectric" "float eta" 1.5 Translate 0.1 1.4 0.1 Shape "sphere" "float radius" 0.5)",
+     .passes = 6},
     // Caustics through media that dim, scatter, or both, unlike for each colour.
     {.name = "tea",
      .world = R"(MakeNamedMedium "tea" "string type" "homogeneous" "rgb sigma_a" [0.4 0.9 2]
@@ -161,7 +163,8 @@ const std::vector<AgreementScene> kAgreementScenes = {
     {.name = "dispersive_glass",
      .world = R"(Material "dielectric" "spectrum eta" "glass-SF11" Translate 0 0.9 0
                  Shape "sphere" "float radius" 0.6)",
-     .photons = 12288},
+     .photons = 12288,
+     .passes = 6},
     {.name = "mirror", .world = R"(Material "conductor" "float roughness" 0 Translate 0 0.7 0
                  Shape "sphere" "float radius" 0.6)"},
     {.name = "glossy_threshold",
@@ -184,14 +187,15 @@ const std::vector<AgreementScene> kAgreementScenes = {
     {.name = "thin_lens",
      .world = R"(Material "dielectric" Translate 0 0.9 0 Shape "sphere" "float radius" 0.6)",
      .camera = kLensCamera},
-    {.name = "half_there_sheet_below_glass", .world = kSheetBelowGlass},
+    {.name = "half_there_sheet_below_glass", .world = kSheetBelowGlass, .passes = 6},
     {.name = "half_interface_sheet_below_glass",
      .world = R"(MakeNamedMaterial "paint" "string type" "diffuse" "rgb reflectance" [0.7 0.6 0.5]
                  MakeNamedMaterial "gap" "string type" "interface"
                  Material "mix" "string materials" ["paint" "gap"] "float amount" 0.5
                  Shape "bilinearmesh" "point3 P" [-3 0.45 -3  3 0.45 -3  -3 0.45 3  3 0.45 3]
                  Material "dielectric" "float eta" 1.5 Translate 0 1.2 0
-                 Shape "sphere" "float radius" 0.6)"},
+                 Shape "sphere" "float radius" 0.6)",
+     .passes = 6},
     {.name = "mixed_receiver",
      .world = R"(MakeNamedMaterial "paint" "string type" "diffuse" "rgb reflectance" [0.7 0.6 0.5]
                  MakeNamedMaterial "metal" "string type" "conductor" "float roughness" 0
@@ -216,14 +220,16 @@ const std::vector<AgreementScene> kAgreementScenes = {
      .world = R"(Material "conductor" "float roughness" 0.04 "bool remaproughness" false
                  Translate 0 0.7 0 Shape "sphere" "float radius" 0.6)",
      .light = kPointLight,
-     .reference_passes = 192,
-     .photons = 8192},
+     .reference_passes = 32,
+     .photons = 8192,
+     .passes = 6},
     // Light from a point through smooth glass is what no path from the eye can find.
     {.name = "point_light_and_glass",
      .world = R"(Material "dielectric" "float eta" 1.5 Translate 0 0.9 0
                  Shape "sphere" "float radius" 0.6)",
      .light = kPointLight,
      .reference = "sppm",
+     .passes = 6,
      .left_out = kMirroredCaustics},
     {.name = "spot_light_and_glass",
      .world = R"(Material "dielectric" "float eta" 1.5 Translate 0 0.9 0
@@ -238,7 +244,8 @@ const std::vector<AgreementScene> kAgreementScenes = {
      .world = R"(Material "dielectric" "float eta" 1.5 Translate 0 0.9 0
                  Shape "sphere" "float radius" 0.6)",
      .light = kSky,
-     .photons = 9216},
+     .photons = 9216,
+     .passes = 6},
     {.name = "projection_light_and_diffuse",
      .world = R"(Translate 0 0.7 0 Shape "sphere" "float radius" 0.6)",
      .light = kProjector},
@@ -248,6 +255,7 @@ const std::vector<AgreementScene> kAgreementScenes = {
      .light = kProjector,
      .reference = "sppm",
      .photons = 9216,
+     .passes = 6,
      .left_out = kMirroredCaustics},
     {.name = "goniometric_light_and_diffuse",
      .world = R"(Translate 0 0.7 0 Shape "sphere" "float radius" 0.6)",

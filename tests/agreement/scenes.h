@@ -22,9 +22,10 @@ struct AgreementScene {
   int max_depth = 10;
   const char* film = "";  ///< parameters of the Film, and the pixel filter
   const char* reference = "path";
-  uint32_t reference_passes = 96;
-  float radius = 0.8f;     ///< pixel footprints
-  int64_t photons = 6144;  ///< a pass
+  uint32_t reference_passes = 16;  ///< of path tracing for each of theirs
+  float radius = 0.8f;             ///< pixel footprints
+  int64_t photons = 6144;          ///< a pass
+  uint32_t passes = 4;             ///< of all that is compared with path tracing
   std::vector<LeftOut> left_out = {};
 };
 

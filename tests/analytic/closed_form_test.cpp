@@ -223,8 +223,11 @@ TEST_P(Scale, TheUnitOfLengthDoesNotMatter) {
   IntegratorOptions options;
   options.photons_per_pass = 1 << 12;
   options.max_depth = 8;
+  const Plan plan(GetParam());
+  uint32_t passes = 8;
+  use_whole_maps(plan, options, passes);
   const auto values = [&](double scale) {
-    return block_values(*scene_from_text(scaled_scene(scale)), GetParam(), options, 8, 8, 1)[0];
+    return block_values(*scene_from_text(scaled_scene(scale)), plan, options, 8, passes, 1)[0];
   };
   const std::vector<double> reference = values(1.0);
   for (const double scale : {1e-4, 1e4}) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -13,6 +14,7 @@
 
 #include "bench/kept.h"
 #include "core/errors.h"
+#include "film/image_io.h"
 #include "unit/film/scratch_directory.h"
 
 namespace nephroid {
@@ -160,6 +162,57 @@ TEST_F(BenchRuns, WhatIsThereIsNotRenderedAgain) {
   const BenchResults third = run(changed);
   EXPECT_TRUE(third.scenes.at(0).find_run("path")->kept);
   EXPECT_FALSE(third.scenes[0].find_run("mixed")->kept);
+}
+
+TEST_F(BenchRuns, WhatWasRemovedIsRenderedAgain) {
+  const BenchResults first = run(small_suite());
+  std::filesystem::remove(first.scenes.at(0).reference.picture);
+  std::filesystem::remove(first.scenes[0].runs.at(1).picture);
+  const BenchResults second = run(small_suite());
+  EXPECT_EQ(second.failures(), 0) << said_;
+  EXPECT_FALSE(second.scenes.at(0).reference.kept);
+  EXPECT_TRUE(std::filesystem::exists(second.scenes[0].reference.picture));
+  EXPECT_TRUE(second.scenes[0].runs.at(0).kept);
+  EXPECT_FALSE(second.scenes[0].runs.at(1).kept);
+  EXPECT_TRUE(run(small_suite()).scenes.at(0).reference.kept);
+}
+
+// A run that is its own reference, in a space whose colours are not those of a screen, and with a
+// parameter that nobody knows.
+TEST_F(BenchRuns, ColoursAreComparedInTheirSpaceAndWarningsAreSaid) {
+  const std::string scene = scratch_.file("wide.pbrt");
+  std::ofstream(scene) << R"(LookAt 0 0 -3  0 0 0  0 1 0 Camera "perspective" "float fov" 40
+    ColorSpace "rec2020"
+    Film "rgb" "integer xresolution" 8 "integer yresolution" 8
+    WorldBegin
+    LightSource "infinite" "rgb L" [0.1 0.7 0.2]
+    Material "diffuse" "float shinyness" 3 Shape "sphere")";
+  const BenchResults results = run(R"({"name": "wide", "passes": 2,
+    "integrators": [{"name": "path", "integrator": "path", "seed": 5, "outliers": "reject"}],
+    "scenes": [{"name": "ball", "file": ")" +
+                                   scene +
+                                   R"(", "layer": {"seen": "C D L"},
+      "reference": {"integrator": "path", "seed": 5, "passes": 2}}]})");
+  ASSERT_EQ(results.failures(), 0) << said_;
+  const BenchRun& ball = results.scenes.at(0).runs.at(0);
+  const Picture picture = read_picture(ball.picture);
+  ASSERT_EQ(picture.color_space, RgbColorSpace::find("rec2020"));
+  EXPECT_LT(ball.end().errors.rmse, 1e-5);
+  EXPECT_LT(ball.end().errors.flip, 1e-3);
+  const auto says = [](const std::vector<std::string>& lines, const char* what) {
+    return std::any_of(lines.begin(), lines.end(), [&](const std::string& line) {
+      return line.find(what) != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(says(ball.notes, "shinyness"));
+  EXPECT_NE(file("report.html").find("shinyness"), std::string::npos);
+  const auto value = [&](const std::string& key) {
+    for (const auto& [name, text] : picture.metadata)
+      if (name == key) return text;
+    return std::string();
+  };
+  EXPECT_EQ(value("nephroid:outliers"), "reject");
+  EXPECT_NE(value("nephroid:aovs").find("seen"), std::string::npos);
 }
 
 TEST_F(BenchRuns, AFailureDoesNotStopTheRest) {

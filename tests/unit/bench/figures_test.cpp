@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "bench/claims.h"
 #include "bench/fit.h"
@@ -51,6 +52,14 @@ TEST(Fit, BetweenPoints) {
   EXPECT_NEAR(*log_interpolate(points, 9), 2, 1e-12);
   EXPECT_FALSE(log_interpolate(points, 0.5));
   EXPECT_FALSE(log_interpolate(points, 17));
+}
+
+TEST(Fit, TheLastOfPointsAtOnePlaceCounts) {
+  // A photon map is emitted by the first pass.
+  const std::vector<CurvePoint> points = {{4, 8}, {4, 2}, {4, 1}};
+  EXPECT_EQ(*log_interpolate(points, 4), 1);
+  EXPECT_FALSE(log_interpolate(points, 3));
+  EXPECT_FALSE(log_interpolate(points, 5));
 }
 
 /// Two integrators on one scene: `fast` has half the error of `slow` after the same passes, and
@@ -199,6 +208,17 @@ TEST(ResultFiles, ARunComesBackAsItWas) {
   EXPECT_EQ(back->end().errors.rmse, run.end().errors.rmse);
   EXPECT_FALSE(run_from_json("{\"key\": 1}"));
   EXPECT_FALSE(run_from_json("half a fi"));
+}
+
+TEST(ResultFiles, FiguresThatAreNotFiniteAreReadBack) {
+  BenchRun run;
+  run.points.resize(1);
+  run.points[0].errors.rmse = 0.5;
+  run.points[0].errors.mean_error = std::numeric_limits<double>::infinity();
+  const auto kept = run_from_json(run_to_json(run));
+  ASSERT_TRUE(kept);
+  EXPECT_EQ(kept->end().errors.rmse, 0.5);
+  EXPECT_FALSE(std::isfinite(kept->end().errors.mean_error));
 }
 
 TEST(ResultFiles, EveryCsvLineHasAllColumns) {

@@ -157,6 +157,8 @@ TEST(Suite, ErrorsPointAtTheirPlace) {
        "scene \"cup\" has no layer \"lost\""},
       {"\"metric\": \"relmse\", \"smaller\"", "\"metric\": \"rays\", \"smaller\"", "\"seen\",",
        "\"layer\" does not fit"},
+      {"\"metric\": \"rmse\", \"smaller\"", "\"metric\": \"slope\", \"smaller\"",
+       "\"slope\", \"smaller\"", "slopes are not compared"},
       {"\"line\"", "\"plane\"", "\"plane\"", "unknown experiment \"plane\", expected one of: line"},
       {"\"over\": \"emitted\"", "\"factor\": 2", "\"factor\": 2",
        "unknown key \"factor\" in a claim of this form"},

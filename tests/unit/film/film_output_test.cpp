@@ -208,8 +208,11 @@ TEST(FilmOutput, ChromaticitiesOfOtherSpacesAreStored) {
   const float expected[8] = {0.708f, 0.292f, 0.170f, 0.797f, 0.131f, 0.046f, 0.3127f, 0.3290f};
   for (size_t i = 0; i < 8; ++i) EXPECT_NEAR(stored[i], expected[i], 1e-3) << i;
 
+  EXPECT_EQ(read_picture(directory.file("wide.exr")).color_space, settings.color_space);
+
   settings.color_space = &RgbColorSpace::srgb();
   write_film(directory.file("srgb.exr"), filled_film(settings), {}, 1);
+  EXPECT_EQ(read_picture(directory.file("srgb.exr")).color_space, nullptr);
   EXPECT_TRUE(stored_chromaticities(directory.file("srgb.exr")).empty());
 }
 
