@@ -20,12 +20,12 @@ constexpr int64_t kFewer = 8;
 /// does not.
 constexpr double kConnectingRay = 1.3;
 
-/// Some paths for each pixel of every other tile.
-SampleMap every_other_tile(const PixelBounds& b, int samples) {
+/// One path for each pixel of every other tile.
+SampleMap every_other_tile(const PixelBounds& b) {
   SampleMap map(b);
   for (size_t i = 0; i < map.counts().size(); ++i) {
     const size_t w = static_cast<size_t>(map.width());
-    map.counts()[i] = static_cast<uint16_t>((i / w + i % w) % 2 == 0 ? samples : 0);
+    map.counts()[i] = (i / w + i % w) % 2 == 0;
   }
   return map;
 }
@@ -36,7 +36,7 @@ PathAndPhotons::PathAndPhotons(OwnedRoutes owned, const IntegratorOptions& optio
     : owned_(std::move(owned)), options_(options) {}
 
 Trial PathAndPhotons::try_out(PairPass how, uint64_t seed, const Scene& scene, const Film& film) {
-  const SampleMap half = every_other_tile(film.bounds(), 1);
+  const SampleMap half = every_other_tile(film.bounds());
   SampleSpread spread(film.bounds());
   how.samples = &half;
   how.spread = &spread;
