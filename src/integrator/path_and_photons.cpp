@@ -16,9 +16,8 @@ constexpr uint64_t kTrialStream = 0x747269616c;  // "trial"
 constexpr uint32_t kTrialPasses = 2;
 /// Light paths of a trial with few of them are this part of those with many.
 constexpr int64_t kFewer = 8;
-/// What a ray of a pass that connects costs, with all that is evaluated for it, in rays of one that
-/// does not.
-constexpr double kConnectingRay = 1.3;
+/// Two passes are a rough guess: connecting has to be better by this factor.
+constexpr double kClearly = 1.3;
 
 /// One path for each pixel of every other tile.
 SampleMap every_other_tile(const PixelBounds& b) {
@@ -79,7 +78,7 @@ void PathAndPhotons::learn(uint64_t seed, const Scene& scene, const Film& film) 
   }
   PairPass connecting;
   connecting.light_paths = default_light_paths(film.bounds().area());
-  const double other = kConnectingRay * try_out(connecting, seed, scene, film).expense();
+  const double other = kClearly * try_out(connecting, seed, scene, film).expense();
   if (other < expense) {
     pass = connecting;
     learned.balance.reset();
