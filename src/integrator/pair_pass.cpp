@@ -35,6 +35,8 @@ class Rendering {
         key_(key),
         seed_(hash_combine(key.seed,
                            static_cast<uint64_t>(owned.routes->groups()[owned.group].estimator))),
+        has_fixed_light_paths_(owned.routes->groups()[owned.group].estimator !=
+                               EstimatorKind::kPathAndPhotons),
         scene_(scene),
         like_(like),
         film_(film),
@@ -103,7 +105,11 @@ class Rendering {
     const uint64_t number =
         uint64_t{key_.pass} * static_cast<uint64_t>(how_.light_paths) + static_cast<uint64_t>(j);
     const SobolPoint point(static_cast<uint32_t>(number), kLightPathDimensions);
-    PathSampler sampler(point, hash_combine(seed_, kLightStream, number >> 32, how_.light_paths));
+    // Where passes differ in their number of light paths, each number has a sequence of its own.
+    const uint64_t seed = has_fixed_light_paths_
+                              ? hash_combine(seed_, kLightStream, number >> 32)
+                              : hash_combine(seed_, kLightStream, number >> 32, how_.light_paths);
+    PathSampler sampler(point, seed);
     return trace_light_path(settings_, pass_.trace.lambda, pass_.u_time, sampler, nullptr, &seen,
                             &photons);
   }
@@ -280,7 +286,8 @@ class Rendering {
 
   const PairPass& how_;
   const PassKey key_;
-  const uint64_t seed_;  ///< of the kind: `vcm` and `bpm` of one plan are independent
+  const uint64_t seed_;               ///< of the kind: `vcm` and `bpm` of one plan are independent
+  const bool has_fixed_light_paths_;  ///< all passes have the same number
   const Scene& scene_;
   const Film& like_;
   Film* film_;

@@ -90,7 +90,9 @@ TEST_F(BenchRuns, MeasuresEveryIntegrator) {
   }
   // Four passes of a path each are the reference's first four with another seed: no photons.
   EXPECT_EQ(room.runs[0].bytes, 0u);
-  EXPECT_EQ(room.runs[1].bytes, room.runs[1].photon_bytes + room.runs[1].pixel_bytes);
+  // The pass that keeps most photons need not be the one that keeps most for the pixels.
+  EXPECT_LE(room.runs[1].bytes, room.runs[1].photon_bytes + room.runs[1].pixel_bytes);
+  EXPECT_GT(room.runs[1].bytes, room.runs[1].pixel_bytes);
   EXPECT_EQ(room.runs[0].emitted, 0u);
   EXPECT_EQ(room.runs[1].emitted, 4096u);
   EXPECT_GT(room.runs[1].photons_stored, 0u);
