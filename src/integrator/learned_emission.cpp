@@ -2,6 +2,7 @@
 
 #include "core/parallel.h"
 #include "integrator/compiled_plan.h"
+#include "integrator/merge_pass.h"
 #include "integrator/photon_pass.h"
 
 namespace nephroid {
@@ -40,7 +41,7 @@ struct VisiblePoints {
 
 /// Points where camera walks of the pass would merge photons.
 VisiblePoints visible_points(const Scene& scene, const Film& film, const OwnedRoutes& owned,
-                             const PhotonPass& pass, int max_depth) {
+                             const PhotonPass& pass, const IntegratorOptions& options) {
   const PixelBounds& b = film.bounds();
   const int stride = pixel_stride(b);
   const int rows = (b.height() + stride - 1) / stride;
@@ -60,13 +61,13 @@ VisiblePoints visible_points(const Scene& scene, const Film& film, const OwnedRo
         found[static_cast<size_t>(row)].push_back(point);
       };
       MergeWalkVisitor visitor(owned, keep);
-      random_walk(scene, TransportMode::kRadiance, max_depth, path.walk, sampler, visitor);
+      random_walk(scene, TransportMode::kRadiance, options.max_depth, path.walk, sampler, visitor);
     }
   });
   std::vector<Photon> points;
   for (const auto& row : found) points.insert(points.end(), row.begin(), row.end());
-  // Wide enough to leave no gaps between the walks.
-  const float radius = 2.0f * static_cast<float>(stride);
+  // Wide enough to leave no gaps between the walks, and to reach as far as a merge.
+  const float radius = std::max(2.0f * static_cast<float>(stride), first_radius(options));
   const Vec3f eye = scene.camera->camera_to_world(pass.trace.time).point(Vec3f(0, 0, 0));
   return {PhotonGrid(std::move(points)), pass.footprint, eye, radius};
 }
@@ -83,7 +84,7 @@ EmissionGuide learn(uint64_t seed, const Scene& scene, const Film& film, const O
     PhotonPass pass =
         start_photon_pass({hash_combine(seed, kStream), round}, scene, film, of_round);
     pass.trace.guide = &guide;
-    const VisiblePoints visible = visible_points(scene, film, owned, pass, options.max_depth);
+    const VisiblePoints visible = visible_points(scene, film, owned, pass, options);
     const std::vector<UsefulStart> found =
         trace_useful_starts(scene, owned, pass.trace, 0, paths,
                             [&](const Photon& photon) { return visible.has_near(photon.p); });

@@ -57,7 +57,9 @@ Trial PathAndPhotons::try_out(PairPass how, uint64_t seed, const Scene& scene, c
 }
 
 void PathAndPhotons::learn(uint64_t seed, const Scene& scene, const Film& film) {
-  const int asked = options_.camera_samples_per_pass;
+  // A film that clamps samples has to see each by itself.
+  const bool clamps = film.settings().max_component < kInfinity;
+  const int asked = clamps ? 1 : options_.camera_samples_per_pass;
   const int head = asked > 0 ? std::min<int>(asked, std::numeric_limits<uint16_t>::max()) : kHead;
   learned_.emplace(seed, SampleMap(film.bounds(), static_cast<uint16_t>(head)));
   Learned& learned = *learned_;
@@ -88,7 +90,8 @@ void PathAndPhotons::learn(uint64_t seed, const Scene& scene, const Film& film) 
     learned.balance.reset();
   }
   pass.adds_features = true;
-  if (asked > 0) learned.samples = learned.head;
+  learned.is_even = asked > 0;
+  if (learned.is_even) learned.samples = learned.head;
 }
 
 const SampleMap& PathAndPhotons::samples(const Scene& scene, const Film& film) {
@@ -114,7 +117,7 @@ PairPass PathAndPhotons::first_pass() {
 
 void PathAndPhotons::render_pass(const PassKey& key, const Scene& scene, Film& film) {
   if (!learned_ || learned_->seed != key.seed) learn(key.seed, scene, film);
-  if (key.pass == 0 && options_.camera_samples_per_pass == 0) {
+  if (key.pass == 0 && !learned_->is_even) {
     learned_->spread.emplace(film.bounds());
     first_pass().render(key, scene, film, owned_, options_, statistics_);
     return;

@@ -38,6 +38,7 @@ class PathAndPhotons final : public Estimator {
     PairPass pass;                       ///< light paths are those of the first one
     std::optional<Balance> balance;      ///< empty: light paths are the same in all
     SampleMap head;                      ///< camera paths of the first pass
+    bool is_even = false;                ///< all passes have as many
     std::optional<SampleSpread> spread;  ///< of the first pass
     std::optional<SampleMap> samples;    ///< of the passes after it
   };
