@@ -155,7 +155,7 @@ TEST_P(RoutesAgree, WithTheReference) {
                     [&](const LeftOut& l) { return routes.name == std::string(l.routes); }))
       continue;
     IntegratorOptions own = options;
-    uint32_t passes = std::max(kPassesOfRoutes, description.passes);
+    uint32_t passes = kPassesOfRoutes;
     use_whole_maps(routes.plan, own, passes);
     expect_equal(unbiased_block_values(*scene, routes.plan, own, kSeedsOfRoutes, passes, first_seed,
                                        kAcross),
