@@ -26,6 +26,27 @@ struct Chunk {
   uint64_t rays = 0, useful = 0, specular = 0, camera_paths = 0;
 };
 
+/// Samples of a film that clamps, which may have to wait for all batches of photons.
+struct SamplesToClamp {
+  size_t parts = 1;
+  std::vector<Rgb> values;     ///< [sample * parts + part]
+  std::vector<float> weights;  ///< magnitude of the filter's weight, times the sample's share
+
+  void resize(size_t samples, size_t parts_of_each) {
+    parts = parts_of_each;
+    values.resize(samples * parts);
+    weights.resize(samples);
+  }
+  bool empty() const { return weights.empty(); }
+  std::span<Rgb> sums(size_t sample) { return std::span(values).subspan(sample * parts, parts); }
+};
+
+float total(std::span<const Rgb> colors) {
+  float sum = 0;
+  for (const Rgb& color : colors) sum += color.r + color.g + color.b;
+  return sum;
+}
+
 class Rendering {
  public:
   /// For a film like `like`; what is found goes to `film`, unless it is null.
@@ -61,10 +82,10 @@ class Rendering {
     const size_t pixels = static_cast<size_t>(like.bounds().area());
     parts_ = like.parts_of(static_cast<int>(owned.group)).size();
     values_.resize(pixels * parts_);
-    filter_weights_.assign(pixels, 0.0f);
     const int most = how.samples ? how.samples->most() : 1;
-    if (how.spread) found_.resize(pixels * static_cast<size_t>(most));
     points_.resize(static_cast<size_t>(most));
+    if (how.spread) found_.resize(pixels * points_.size());
+    if (like.settings().max_component < kInfinity) clamped_.resize(pixels * points_.size(), parts_);
     for (int n = 1; n <= most; ++n)
       if (how.samples ? how.samples->has(n) : n == 1)
         for (int k = 0; k < n; ++k)
@@ -80,15 +101,16 @@ class Rendering {
       std::vector<Photon> photons = trace_batch_of_paths(begin, buffer, statistics);
       const PhotonGrid grid(std::move(photons));
       statistics.hold(grid.bytes(),
-                      filter_weights_.size() *
-                          PairPass::bytes_per_pixel(parts_, how_.spread ? points_.size() : 0));
+                      values_.size() / parts_ *
+                          PairPass::bytes_per_pixel(parts_, how_.spread ? points_.size() : 0,
+                                                    clamped_.empty() ? 0 : points_.size()));
       merging_.grid = &grid;
       trace_eye_paths(statistics);
       merging_.grid = nullptr;
       settings_.merges_only = true;
     } while (begin < how_.light_paths);
+    if (!clamped_.empty()) clamp_samples();
     if (how_.spread) add_to_spread();
-    finish_values();
     if (buffer)
       buffer->finish(1.0 / static_cast<double>(how_.light_paths), values_);
     else if (film_)
@@ -233,22 +255,24 @@ class Rendering {
     if (sees) features.add_to(*film_, x, y, scene_, camera, pass_.weights);
     const float share = 1.0f / static_cast<float>(samples);
     const float factor = camera.camera_weight * camera.filter_weight * share;
+    const size_t sample = pixel * points_.size() + static_cast<size_t>(k);
+    const std::span<Rgb> sums = clamped_.empty()
+                                    ? std::span(values_).subspan(pixel * parts_, parts_)
+                                    : clamped_.sums(sample);
     double seen = 0;
     for (size_t i = 0; i < parts_; ++i) {
-      Rgb& sum = values_[pixel * parts_ + i];
       const Rgb color = pass_.weights.apply(light.sums()[i]) * factor;
-      sum = sum + color;
+      sums[i] = sums[i] + color;
       seen += double{color.r} + color.g + color.b;
     }
     if (how_.spread) {
-      PairPass::Found& found = found_[pixel * points_.size() + static_cast<size_t>(k)];
+      PairPass::Found& found = found_[sample];
       found.light += static_cast<float>(seen / (3.0 * share));
       found.rays += static_cast<float>(row.rays - before);
     }
-    if (!settings_.merges_only) {
-      filter_weights_[pixel] += std::abs(camera.filter_weight) * share;
-      ++row.camera_paths;
-    }
+    if (settings_.merges_only) return;
+    ++row.camera_paths;
+    if (!clamped_.empty()) clamped_.weights[sample] = std::abs(camera.filter_weight) * share;
   }
 
   /// Where memory cut the photons into batches, a sample is what it found in all of them.
@@ -266,12 +290,18 @@ class Rendering {
       }
   }
 
-  /// Samples are clamped before the filter's weight.
-  void finish_values() {
-    const float limit = like_.settings().max_component;
-    if (!(limit < kInfinity)) return;
-    for (size_t pixel = 0; pixel < filter_weights_.size(); ++pixel)
-      PartSums::clamp_total({&values_[pixel * parts_], parts_}, limit * filter_weights_[pixel]);
+  /// Each sample is clamped before the filter's weight, and its light is what is left.
+  void clamp_samples() {
+    for (size_t sample = 0; sample < clamped_.weights.size(); ++sample) {
+      const std::span<Rgb> sums = clamped_.sums(sample);
+      const float before = total(sums);
+      PartSums::clamp_total(sums, like_.settings().max_component * clamped_.weights[sample]);
+      if (how_.spread && before != 0) found_[sample].light *= total(sums) / before;
+      for (size_t i = 0; i < parts_; ++i) {
+        Rgb& value = values_[sample / points_.size() * parts_ + i];
+        value = value + sums[i];
+      }
+    }
   }
 
   /// Without splats the values are all there is.
@@ -302,7 +332,7 @@ class Rendering {
   size_t parts_ = 1;
   std::vector<Rgb> values_;             ///< [pixel * parts + part]
   std::vector<PairPass::Found> found_;  ///< [pixel * most samples + sample], for the spread
-  std::vector<float> filter_weights_;   ///< mean magnitude over a pixel's samples
+  SamplesToClamp clamped_;  ///< empty unless the film clamps; [pixel * most samples + sample]
 };
 
 }  // namespace

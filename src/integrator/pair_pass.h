@@ -38,10 +38,13 @@ struct PairPass {
     float light = 0, rays = 0;
   };
   /// What a pass takes for each pixel, of which `spread_samples` samples at most are looked at for
-  /// their spread.
-  static constexpr size_t bytes_per_pixel(size_t parts, size_t spread_samples) {
-    return SplatBuffer::bytes_per_pixel(parts) + parts * sizeof(Rgb) + sizeof(float) +
-           spread_samples * sizeof(Found) + (spread_samples > 0 ? SampleSpread::kBytesPerPixel : 0);
+  /// their spread, and `clamped_samples` at most are clamped.
+  static constexpr size_t bytes_per_pixel(size_t parts, size_t spread_samples,
+                                          size_t clamped_samples) {
+    return SplatBuffer::bytes_per_pixel(parts) + parts * sizeof(Rgb) +
+           spread_samples * sizeof(Found) +
+           (spread_samples > 0 ? SampleSpread::kBytesPerPixel : 0) +
+           clamped_samples * (parts * sizeof(Rgb) + sizeof(float));
   }
 };
 

@@ -57,9 +57,7 @@ Trial PathAndPhotons::try_out(PairPass how, uint64_t seed, const Scene& scene, c
 }
 
 void PathAndPhotons::learn(uint64_t seed, const Scene& scene, const Film& film) {
-  // A film that clamps samples has to see each by itself.
-  const bool clamps = film.settings().max_component < kInfinity;
-  const int asked = clamps ? 1 : options_.camera_samples_per_pass;
+  const int asked = options_.camera_samples_per_pass;
   const int head = asked > 0 ? std::min<int>(asked, std::numeric_limits<uint16_t>::max()) : kHead;
   learned_.emplace(seed, SampleMap(film.bounds(), static_cast<uint16_t>(head)));
   Learned& learned = *learned_;

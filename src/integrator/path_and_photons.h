@@ -26,8 +26,8 @@ class PathAndPhotons final : public Estimator {
   /// Its notes say what was learned.
   EstimatorStatistics statistics() const override;
   /// What the pass that takes most has for each pixel, the first one.
-  static constexpr size_t bytes_per_pixel(size_t parts) {
-    return PairPass::bytes_per_pixel(parts, kHead);
+  static constexpr size_t bytes_per_pixel(size_t parts, bool clamps) {
+    return PairPass::bytes_per_pixel(parts, kHead, clamps ? kHead : 0);
   }
 
  private:

@@ -23,7 +23,7 @@ namespace {
 
 /// For each pixel: what estimators keep from pass to pass, and what the pass that needs most does;
 /// they render one after another.
-size_t bytes_of_estimators(const Routes& routes, int hit_points) {
+size_t bytes_of_estimators(const Routes& routes, int hit_points, bool clamps) {
   size_t kept = 0, most = 0;
   for (const RouteGroup& group : routes.groups()) {
     const size_t parts = group.parts.size();
@@ -37,9 +37,9 @@ size_t bytes_of_estimators(const Routes& routes, int hit_points) {
     } else if (group.estimator == EstimatorKind::kBidirectional) {
       pass = Bidirectional::bytes_per_pixel(parts);
     } else if (group.estimator == EstimatorKind::kVcm || group.estimator == EstimatorKind::kBpm) {
-      pass = PairPass::bytes_per_pixel(parts, 0);
+      pass = PairPass::bytes_per_pixel(parts, 0, clamps ? 1 : 0);
     } else if (group.estimator == EstimatorKind::kPathAndPhotons) {
-      pass = PathAndPhotons::bytes_per_pixel(parts);
+      pass = PathAndPhotons::bytes_per_pixel(parts, clamps);
     } else if (group.estimator == EstimatorKind::kPpm) {
       kept += static_cast<size_t>(hit_points) * Ppm::bytes_kept(parts);
       pass += static_cast<size_t>(hit_points) * Ppm::bytes_of_pass(parts);
@@ -123,7 +123,7 @@ void check_film_fits(const FilmDescription& description, const FilmLayout& layou
   // What there is of each pixel; everything else comes on top.
   const auto bytes_per_pixel = static_cast<double>(
       Film::bytes_per_pixel(layout, description.gbuffer != GBufferSpace::kNone) +
-      bytes_of_estimators(routes, hit_points) +
+      bytes_of_estimators(routes, hit_points, description.max_component < kInfinity) +
       (rejects_outliers ? bytes_of_rejection(routes) : 0));
   constexpr double kGiB = 1 << 30;
   const double pixels = static_cast<double>(description.crop_x1 - description.crop_x0) *
