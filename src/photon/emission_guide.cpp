@@ -9,6 +9,9 @@ namespace nephroid {
 
 namespace {
 
+/// So many starts say how wide the place is in which they lie.
+constexpr float kFew = 8;
+
 /// Some of the starts, [begin, end) of an order of them, and the ball around them.
 struct Ball {
   size_t begin = 0, end = 0;
@@ -107,14 +110,19 @@ class Splitter {
   std::vector<uint32_t> order_;
 };
 
-/// The part of what a light emits that goes through a target, roughly.
-double part_through(const Scene& scene, const Light& light, const EmissionGuide::Target& target) {
-  if (light.is_infinite()) return std::min(1.0, sqr(double{target.radius} / scene.sphere.radius));
+/// The part of what a light emits that goes through a target is about the square of its radius over
+/// this length. Empty where a light has no place.
+std::optional<double> radius_of_all(const Scene& scene, const Light& light, const Vec3f& center) {
+  if (light.is_infinite()) return double{scene.sphere.radius};
   const auto bounds = light.bounds();
-  if (!bounds) return 1;
+  if (!bounds) return std::nullopt;
   const Vec3f middle = (bounds->bounds.min + bounds->bounds.max) * 0.5f;
-  const double d2 = length_squared(target.center - middle);
-  return std::min(1.0, 0.25 * sqr(double{target.radius}) / std::max(d2, 1e-30));
+  return 2 * std::max(double{length(center - middle)}, 1e-15);
+}
+
+double part_through(const Scene& scene, const Light& light, const EmissionGuide::Target& target) {
+  const auto all = radius_of_all(scene, light, target.center);
+  return all ? std::min(1.0, sqr(double{target.radius} / *all)) : 1;
 }
 
 }  // namespace
@@ -127,17 +135,35 @@ EmissionGuide::EmissionGuide(const Scene& scene, std::span<const UsefulStart> us
   const std::vector<Ball> balls = splitter.balls();
   std::vector<int> target_of(useful.size());
   for (const Ball& ball : balls) {
-    Target target;
-    target.center = (ball.bounds.min + ball.bounds.max) * 0.5f;
-    // Room for what the few starts have not found, most where they are fewest.
-    const float slack = 1.05f + 0.5f / std::sqrt(static_cast<float>(ball.end - ball.begin));
-    target.radius = std::max(0.5f * length(ball.bounds.max - ball.bounds.min) * slack,
-                             1e-4f * scene.sphere.radius);
-    for (size_t i = ball.begin; i < ball.end; ++i)
-      target_of[splitter.order()[i]] = static_cast<int>(targets_.size());
-    targets_.push_back(target);
+    const std::span<const uint32_t> order =
+        std::span(splitter.order()).subspan(ball.begin, ball.end - ball.begin);
+    targets_.push_back(target_around(scene, ball.bounds, useful, order, paths));
+    for (const uint32_t i : order) target_of[i] = static_cast<int>(targets_.size()) - 1;
   }
   share_out(scene, useful, target_of, paths);
+}
+
+EmissionGuide::Target EmissionGuide::target_around(const Scene& scene, const Bounds3f& bounds,
+                                                   std::span<const UsefulStart> useful,
+                                                   std::span<const uint32_t> which,
+                                                   double paths) const {
+  const Vec3f center = (bounds.min + bounds.max) * 0.5f;
+  const float count = static_cast<float>(which.size());
+  // [G5] Room for what the starts have not found, most where they are few: as much as the part of
+  // the light needs that they stand for.
+  std::vector<double> found(clusters_.size(), 0);
+  for (const uint32_t i : which) found[cluster_of(useful[i].light)] += double{useful[i].weight};
+  double needed = 0;
+  for (size_t c = 0; c < clusters_.size(); ++c) {
+    if (!(found[c] > 0)) continue;
+    const auto all = radius_of_all(scene, *scene.lights[c * cluster_size_], center);
+    const double part = std::min(1.0, found[c] / (paths * clusters_[c].pmf));
+    if (all) needed = std::max(needed, *all * std::sqrt(part));
+  }
+  const float slack = 1.05f + 0.5f / std::sqrt(count);
+  return {center, std::max({0.5f * length(bounds.max - bounds.min) * slack,
+                            static_cast<float>(needed) * std::min(1.0f, kFew / count),
+                            1e-4f * scene.sphere.radius})};
 }
 
 void EmissionGuide::gather_lights(const Scene& scene) {

@@ -75,6 +75,10 @@ class EmissionGuide {
   };
   size_t cluster_of(int light) const { return static_cast<size_t>(light) / cluster_size_; }
   void gather_lights(const Scene& scene);
+  /// A ball around those first hits, of which `bounds` is the box, of starts of `paths` paths.
+  Target target_around(const Scene& scene, const Bounds3f& bounds,
+                       std::span<const UsefulStart> useful, std::span<const uint32_t> which,
+                       double paths) const;
   void share_out(const Scene& scene, std::span<const UsefulStart> useful,
                  std::span<const int> target_of, double paths);
 

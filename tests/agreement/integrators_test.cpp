@@ -14,7 +14,6 @@ namespace {
 using namespace testing_support;
 
 constexpr int kAcross = 3, kSeeds = 32, kSeedsOfRoutes = 16;
-constexpr uint32_t kPassesOfRoutes = 3;
 
 std::vector<double> whole(const SeedValues& blocks) {
   std::vector<double> values(blocks[0].size(), 0.0);
@@ -147,7 +146,7 @@ TEST_P(RoutesAgree, WithTheReference) {
   const auto scene = scene_from_text(agreement_scene_text(description, files.directory()));
   IntegratorOptions options = options_for(description);
   const SeedValues reference =
-      reference_values(*scene, description, options, kSeedsOfRoutes, kPassesOfRoutes);
+      reference_values(*scene, description, options, kSeedsOfRoutes, kFewPasses);
   uint64_t first_seed = 1000;
   options.camera_samples_per_pass = 8;
   for (const RoutesToCompare& routes : routes_to_compare()) {
@@ -155,7 +154,7 @@ TEST_P(RoutesAgree, WithTheReference) {
                     [&](const LeftOut& l) { return routes.name == std::string(l.routes); }))
       continue;
     IntegratorOptions own = options;
-    uint32_t passes = kPassesOfRoutes;
+    uint32_t passes = routes.name == std::string("ppm") ? description.passes_of_ppm : kFewPasses;
     use_whole_maps(routes.plan, own, passes);
     expect_equal(unbiased_block_values(*scene, routes.plan, own, kSeedsOfRoutes, passes, first_seed,
                                        kAcross),

@@ -14,6 +14,9 @@ struct LeftOut {
   const char* reason;
 };
 
+/// Passes of what only some scenes are compared with.
+constexpr uint32_t kFewPasses = 3;
+
 struct AgreementScene {
   const char* name;
   const char* world;
@@ -22,10 +25,11 @@ struct AgreementScene {
   int max_depth = 10;
   const char* film = "";  ///< parameters of the Film, and the pixel filter
   const char* reference = "path";
-  uint32_t reference_passes = 16;  ///< of path tracing for each of theirs
-  float radius = 0.8f;             ///< pixel footprints
-  int64_t photons = 6144;          ///< a pass
-  uint32_t passes = 4;             ///< of all that is compared with path tracing
+  uint32_t reference_passes = 16;       ///< of path tracing for each of theirs
+  float radius = 0.8f;                  ///< pixel footprints
+  int64_t photons = 6144;               ///< a pass
+  uint32_t passes = 4;                  ///< of all that is compared with path tracing
+  uint32_t passes_of_ppm = kFewPasses;  ///< all whose light has the wavelengths of the pass
   std::vector<LeftOut> left_out = {};
 };
 

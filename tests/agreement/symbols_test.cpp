@@ -103,7 +103,8 @@ class SymbolsPresent : public ::testing::TestWithParam<AgreementScene> {
       walk.lambda = SampledWavelengths::sample_visible(wavelength_number(scene, sampler.get_1d()));
       const float u_time = sampler.get_1d();
       sampler.start_dimension(0);
-      const auto emission = emit(scene, kUnguided, walk.lambda, scene.camera->motion_time(u_time), sampler);
+      const auto emission =
+          emit(scene, kUnguided, walk.lambda, scene.camera->motion_time(u_time), sampler);
       if (!emission) continue;
       lights.insert(emission->light);
       walk.ray = emission->ray;

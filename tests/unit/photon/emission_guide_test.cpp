@@ -343,7 +343,7 @@ TEST(EmissionGuide, HasATargetAroundEachStart) {
         const Vec2f at = random.next2();
         add_cluster(starts, 0, {6 * at.x - 3, 0, 6 * at.y - 3}, 0.02f, each, random);
       }
-      const EmissionGuide guide(*scene, starts, 1e5);
+      const EmissionGuide guide(*scene, starts, 1e9);
       ASSERT_GE(guide.targets().size(), 1u);
       ASSERT_LE(guide.targets().size(), static_cast<size_t>(EmissionGuide::kMaxTargets));
       for (const auto& target : guide.targets()) {
@@ -356,6 +356,26 @@ TEST(EmissionGuide, HasATargetAroundEachStart) {
                                   return length(t.center - start.first_hit) <= t.radius * 1.001f;
                                 }));
     }
+}
+
+TEST(EmissionGuide, GivesFewStartsAsMuchRoomAsTheyStandFor) {
+  const Vec3f hit(0.3f, 0.5f, 0.0f);
+  const auto radius = [&](const char* light, size_t count, float weight, double paths) {
+    const auto scene = scene_with(light);
+    const std::vector<UsefulStart> starts(count, {0, hit, weight});
+    const EmissionGuide guide(*scene, starts, paths);
+    EXPECT_EQ(guide.targets().size(), 1u);
+    return static_cast<double>(guide.targets()[0].radius);
+  };
+  // The part of all directions that go through a small ball r at distance d is r^2 / (4 d^2).
+  const char* point = R"(LightSource "point" "rgb I" [2 3 4] "point3 from" [0.3 2.5 0])";
+  EXPECT_NEAR(radius(point, 1, 1, 10000), 2 * 2.0 * 0.01, 1e-6);
+  EXPECT_NEAR(radius(point, 4, 1, 10000), 2 * 2.0 * 0.02, 1e-6);
+  EXPECT_NEAR(radius(point, 4, 0.25f, 10000), 2 * 2.0 * 0.01, 1e-6) << "a path that was aimed";
+  EXPECT_NEAR(radius(point, 64, 1, 640000), 2 * 2.0 * 0.01 / 8, 1e-6) << "so many know the place";
+  const char* sky = R"(LightSource "infinite" "rgb L" [0.1 0.2 0.3])";
+  const double scene_radius = static_cast<double>(scene_with(sky)->sphere.radius);
+  EXPECT_NEAR(radius(sky, 1, 1, 10000), 0.01 * scene_radius, 1e-5);
 }
 
 TEST(EmissionGuide, GivesACrowdATargetOfItsOwnWhateverLiesAround) {
@@ -389,7 +409,7 @@ TEST(EmissionGuide, AimsAtSmallTargetsInSpiteOfRounding) {
     const auto scene = scene_with(lights->text);
     const Vec3f spot(1.1f, 0.1f, 0.7f);
     const std::vector<UsefulStart> starts(100, {0, spot, 1});
-    const EmissionGuide guide(*scene, starts, 1e5);
+    const EmissionGuide guide(*scene, starts, 1e9);
     ASSERT_EQ(guide.targets().size(), 1u);
     const double radius = static_cast<double>(guide.targets()[0].radius);
     ASSERT_LT(radius, 1e-3);
