@@ -11,10 +11,19 @@ struct Row {
   const char* name;
   const char* preset;  ///< of the routes
 };
-constexpr Row kTable[] = {
-    {"mixed", "mixed"},   {"path", "path-only"}, {"sppm", "sppm"}, {"photonmap", "photonmap"},
-    {"ppm", "ppm"},       {"bdpt", "bdpt"},      {"vcm", "vcm"},   {"bpm", "bpm"},
-    {"pssmlt", "pssmlt"}, {"mlt", "mlt"}};
+constexpr Row kTable[] = {{"mixed", "mixed"},
+                          {"path", "path-only"},
+                          {"sppm", "sppm"},
+                          {"photonmap", "photonmap"},
+                          {"ppm", "ppm"},
+                          {"bdpt", "bdpt"},
+                          {"vcm", "vcm"},
+                          {"bpm", "bpm"},
+                          {"pssmlt", "pssmlt"},
+                          {"mlt", "mlt"},
+                          {"pointlights", "pointlights"},
+                          {"forecast", "forecast"},
+                          {"doidge2012", "doidge2012"}};
 
 constexpr const char* kOwnChoice = "the program's own choice, with the same picture";
 

@@ -83,9 +83,9 @@ void set_strict(CommandLine& line, const std::string&) {
 }
 
 constexpr const char* kIntegratorHelp =
-    "How light is found: path, sppm, mixed, bdpt, vcm, bpm, photonmap, ppm, pssmlt, mlt, or scene "
-    "for the one that the scene names. Each is a preset of routes: path is path-only, the "
-    "others have the names of theirs.";
+    "How light is found: path, sppm, mixed, bdpt, vcm, bpm, photonmap, ppm, pssmlt, mlt, "
+    "pointlights, forecast, doidge2012, or scene for the one that the scene names. Each is a "
+    "preset of routes: path is path-only, the others have the names of theirs.";
 constexpr const char* kRoutesHelp =
     "Routes by the name of a preset (listed below) or from a file, one a line; instead of "
     "--integrator.";
