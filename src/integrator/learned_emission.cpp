@@ -1,9 +1,7 @@
 #include "integrator/learned_emission.h"
 
-#include "core/parallel.h"
 #include "integrator/compiled_plan.h"
-#include "integrator/merge_pass.h"
-#include "integrator/photon_pass.h"
+#include "integrator/first_sight.h"
 
 namespace nephroid {
 
@@ -11,66 +9,9 @@ namespace {
 
 constexpr uint64_t kStream = 0x6c6561726e;  // "learn"
 constexpr uint32_t kRounds = 3;
-/// Camera walks of a round, about.
-constexpr int kWalks = 1 << 13;
 /// Paths of a round; more in rounds after one that found little.
 constexpr int64_t kPaths = 1 << 14, kMostPaths = 1 << 18;
 constexpr size_t kLittle = 256;
-
-/// Every how many pixels, in each direction, a camera walk starts.
-int pixel_stride(const PixelBounds& b) {
-  int stride = 1;
-  while (b.area() / (int64_t{stride} * stride) > kWalks) ++stride;
-  return stride;
-}
-
-/// What the camera sees: points on surfaces, as photons, and how far around one light counts.
-struct VisiblePoints {
-  PhotonGrid grid;
-  PixelFootprint footprint;
-  Vec3f eye{0, 0, 0};
-  float radius_pixels = 0;
-
-  bool has_near(const Vec3f& p) const {
-    bool any = false;
-    grid.query(p, radius_pixels * footprint.width(length(p - eye)),
-               [&](const Photon&, float) { any = true; });
-    return any;
-  }
-};
-
-/// Points where camera walks of the pass would merge photons.
-VisiblePoints visible_points(const Scene& scene, const Film& film, const OwnedRoutes& owned,
-                             const PhotonPass& pass, const IntegratorOptions& options) {
-  const PixelBounds& b = film.bounds();
-  const int stride = pixel_stride(b);
-  const int rows = (b.height() + stride - 1) / stride;
-  std::vector<std::vector<Photon>> found(static_cast<size_t>(rows));
-  const int shift_x = static_cast<int>(pass.trace.key.pass) % stride,
-            shift_y = static_cast<int>(pass.trace.key.pass / 2) % stride;
-  parallel_chunks(rows, 1, [&](int64_t row, int64_t, int64_t) {
-    const int y = b.y0 + static_cast<int>(row) * stride + shift_y;
-    if (y >= b.y1) return;
-    for (int x = b.x0 + shift_x; x < b.x1; x += stride) {
-      PathSampler sampler(pass.point, hash_combine(pass.trace.key.seed, kStream, x, y));
-      CameraPath path = start_merging_path(scene, x, y, sampler, pass);
-      if (!(path.camera_weight > 0)) continue;
-      auto keep = [&](const Walk&, const MergePoint& at) {
-        Photon point;
-        point.p = at.vertex.surface.p;
-        found[static_cast<size_t>(row)].push_back(point);
-      };
-      MergeWalkVisitor visitor(owned, keep);
-      random_walk(scene, TransportMode::kRadiance, options.max_depth, path.walk, sampler, visitor);
-    }
-  });
-  std::vector<Photon> points;
-  for (const auto& row : found) points.insert(points.end(), row.begin(), row.end());
-  // Wide enough to leave no gaps between the walks, and to reach as far as a merge.
-  const float radius = std::max(2.0f * static_cast<float>(stride), first_radius(options));
-  const Vec3f eye = scene.camera->camera_to_world(pass.trace.time).point(Vec3f(0, 0, 0));
-  return {PhotonGrid(std::move(points)), pass.footprint, eye, radius};
-}
 
 EmissionGuide learn(uint64_t seed, const Scene& scene, const Film& film, const OwnedRoutes& owned,
                     const IntegratorOptions& options) {
@@ -83,6 +24,8 @@ EmissionGuide learn(uint64_t seed, const Scene& scene, const Film& film, const O
     of_round.photons_per_pass = paths;
     PhotonPass pass =
         start_photon_pass({hash_combine(seed, kStream), round}, scene, film, of_round);
+    // What stands in the way of light, the camera can tell before any has met it.
+    if (round == 0) guide = EmissionGuide(scene, caustic_casters(scene, film, pass, of_round));
     pass.trace.guide = &guide;
     const VisiblePoints visible = visible_points(scene, film, owned, pass, options);
     const std::vector<UsefulStart> found =

@@ -11,6 +11,10 @@ namespace {
 
 /// So many starts say how wide the place is in which they lie.
 constexpr float kFew = 8;
+/// Targets are so much wider than the starts in them.
+constexpr float kRoom = 1.05f;
+/// Over the scene's radius.
+constexpr float kSmallest = 1e-4f;
 
 /// Some of the starts, [begin, end) of an order of them, and the ball around them.
 struct Ball {
@@ -140,7 +144,31 @@ EmissionGuide::EmissionGuide(const Scene& scene, std::span<const UsefulStart> us
     targets_.push_back(target_around(scene, ball.bounds, useful, order, paths));
     for (const uint32_t i : order) target_of[i] = static_cast<int>(targets_.size()) - 1;
   }
-  share_out(scene, useful, target_of, paths);
+  share_out(aims_at(scene, useful, target_of, paths));
+}
+
+EmissionGuide::EmissionGuide(const Scene& scene, std::span<const Vec3f> casters) {
+  if (casters.empty()) return;
+  gather_lights(scene);
+  std::vector<UsefulStart> starts(casters.size());
+  for (size_t i = 0; i < casters.size(); ++i) starts[i].first_hit = casters[i];
+  Splitter splitter(starts);
+  std::vector<double> seen;  // of each target, how many
+  for (const Ball& ball : splitter.balls()) {
+    seen.push_back(ball.weight);
+    targets_.push_back({(ball.bounds.min + ball.bounds.max) * 0.5f,
+                        std::max(0.5f * kRoom * length(ball.bounds.max - ball.bounds.min),
+                                 kSmallest * scene.sphere.radius)});
+  }
+  // [G6] Targets as they are seen, lights as they shine there.
+  std::vector<double> aims(clusters_.size() * targets_.size());
+  for (size_t k = 0; k < targets_.size(); ++k) {
+    double all = 0;
+    for (size_t c = 0; c < clusters_.size(); ++c) all += part_of_all(scene, c, targets_[k]);
+    for (size_t c = 0; c < clusters_.size(); ++c)
+      aims[c * targets_.size() + k] = seen[k] * part_of_all(scene, c, targets_[k]) / all;
+  }
+  share_out(aims);
 }
 
 EmissionGuide::Target EmissionGuide::target_around(const Scene& scene, const Bounds3f& bounds,
@@ -160,10 +188,10 @@ EmissionGuide::Target EmissionGuide::target_around(const Scene& scene, const Bou
     const double part = std::min(1.0, found[c] / (paths * clusters_[c].pmf));
     if (all) needed = std::max(needed, *all * std::sqrt(part));
   }
-  const float slack = 1.05f + 0.5f / std::sqrt(count);
+  const float slack = kRoom + 0.5f / std::sqrt(count);
   return {center, std::max({0.5f * length(bounds.max - bounds.min) * slack,
                             static_cast<float>(needed) * std::min(1.0f, kFew / count),
-                            1e-4f * scene.sphere.radius})};
+                            kSmallest * scene.sphere.radius})};
 }
 
 void EmissionGuide::gather_lights(const Scene& scene) {
@@ -177,27 +205,32 @@ void EmissionGuide::gather_lights(const Scene& scene) {
   }
 }
 
-void EmissionGuide::share_out(const Scene& scene, std::span<const UsefulStart> useful,
-                              std::span<const int> target_of, double paths) {
+std::vector<double> EmissionGuide::aims_at(const Scene& scene, std::span<const UsefulStart> useful,
+                                           std::span<const int> target_of, double paths) const {
   const size_t targets = targets_.size();
-  std::vector<double> found(clusters_.size() * targets, 0);
+  std::vector<double> aims(clusters_.size() * targets, 0);
   for (size_t i = 0; i < useful.size(); ++i)
-    found[cluster_of(useful[i].light) * targets + static_cast<size_t>(target_of[i])] +=
+    aims[cluster_of(useful[i].light) * targets + static_cast<size_t>(target_of[i])] +=
         double{useful[i].weight} / paths;
   // [G3] The least variance has the density of a region in proportion to the root of the part of
   // it that is of use.
-  std::vector<double> aims(found.size(), 0);
-  double total = 0;
   for (size_t c = 0; c < clusters_.size(); ++c)
     for (size_t k = 0; k < targets; ++k) {
-      const double share = found[c * targets + k];
-      if (!(share > 0)) continue;
-      const Light& light = *scene.lights[c * cluster_size_];
-      const double through =
-          std::max(share, clusters_[c].pmf * part_through(scene, light, targets_[k]));
-      total += aims[c * targets + k] = std::sqrt(share * through);
+      double& aim = aims[c * targets + k];
+      aim = std::sqrt(aim * std::max(aim, part_of_all(scene, c, targets_[k])));
     }
-  double sum = 0;
+  return aims;
+}
+
+double EmissionGuide::part_of_all(const Scene& scene, size_t cluster, const Target& target) const {
+  return clusters_[cluster].pmf *
+         part_through(scene, *scene.lights[cluster * cluster_size_], target);
+}
+
+void EmissionGuide::share_out(std::span<const double> aims) {
+  const size_t targets = targets_.size();
+  double total = 0, sum = 0;
+  for (const double aim : aims) total += aim;
   for (size_t c = 0; c < clusters_.size(); ++c)
     for (size_t k = 0; k < targets; ++k) {
       const double p = aims[c * targets + k] / total;

@@ -29,6 +29,9 @@ class EmissionGuide {
 
   /// Guides nothing: all paths start as the lights would have it.
   EmissionGuide() = default;
+  /// Aims as much at each place among these points as the lights shine there; guides nothing if
+  /// there are none.
+  EmissionGuide(const Scene& scene, std::span<const Vec3f> casters);
   /// Learns from useful starts of `paths` paths; guides nothing if there are none.
   EmissionGuide(const Scene& scene, std::span<const UsefulStart> useful, double paths);
 
@@ -79,8 +82,13 @@ class EmissionGuide {
   Target target_around(const Scene& scene, const Bounds3f& bounds,
                        std::span<const UsefulStart> useful, std::span<const uint32_t> which,
                        double paths) const;
-  void share_out(const Scene& scene, std::span<const UsefulStart> useful,
-                 std::span<const int> target_of, double paths);
+  /// How often to aim from each cluster at each target, up to a factor, as [cluster * targets +
+  /// target].
+  std::vector<double> aims_at(const Scene& scene, std::span<const UsefulStart> useful,
+                              std::span<const int> target_of, double paths) const;
+  /// The part of what all lights emit that goes from a cluster through a target, roughly.
+  double part_of_all(const Scene& scene, size_t cluster, const Target& target) const;
+  void share_out(std::span<const double> aims);
 
   std::vector<Target> targets_;
   std::vector<Cluster> clusters_;

@@ -93,6 +93,17 @@ EmissionGuide guide_for(const Scene& scene) {
   return {scene, starts, 20000};
 }
 
+/// The same without knowing what is of use: places that could be.
+EmissionGuide guide_to_casters(const Scene& scene) {
+  TestRandom random(6);
+  std::vector<UsefulStart> starts;
+  add_cluster(starts, 0, {0.8f, 0.2f, 0.5f}, 0.25f, 200, random);
+  add_cluster(starts, 0, {-1.2f, 0.4f, -0.6f}, 0.1f, 150, random);
+  std::vector<Vec3f> points;
+  for (const UsefulStart& start : starts) points.push_back(start.first_hit);
+  return {scene, points};
+}
+
 SampledWavelengths test_wavelengths() {
   return SampledWavelengths::sample_visible(0.37f);
 }
@@ -156,10 +167,12 @@ class GuidedEmission : public ::testing::TestWithParam<Lights> {};
 TEST_P(GuidedEmission, HasTheMeansOfTheLightsOwn) {
   constexpr uint32_t kPaths = 150000;
   const auto scene = scene_with(GetParam().text);
-  const EmissionGuide guide = guide_for(*scene);
-  ASSERT_GE(guide.targets().size(), 2u);
+  const EmissionGuide after_light = guide_for(*scene), before_it = guide_to_casters(*scene);
+  ASSERT_GE(after_light.targets().size(), 2u);
+  ASSERT_GE(before_it.targets().size(), 2u);
   Bins own, guided;
   for (uint32_t i = 0; i < kPaths; ++i) {
+    const EmissionGuide& guide = i % 2 == 0 ? after_light : before_it;
     const auto a = random_start(*scene, kUnguided, i, 1), b = random_start(*scene, guide, i, 2);
     own.add(a ? &*a : nullptr);
     guided.add(b ? &*b : nullptr);
@@ -179,7 +192,6 @@ TEST_P(GuidedEmission, AimsAtTheTargets) {
   const auto scene = scene_with(GetParam().text);
   if (scene->lights[0]->is_infinite() && !scene->lights[0]->emits_through_disk())
     GTEST_SKIP() << "starts as the light has it";
-  const EmissionGuide guide = guide_for(*scene);
   const auto share_near = [&](const EmissionGuide& g) {
     int near = 0;
     for (uint32_t i = 0; i < 10000; ++i) {
@@ -190,7 +202,8 @@ TEST_P(GuidedEmission, AimsAtTheTargets) {
     }
     return near;
   };
-  EXPECT_GT(share_near(guide), 3 * share_near(kUnguided));
+  EXPECT_GT(share_near(guide_for(*scene)), 3 * share_near(kUnguided));
+  EXPECT_GT(share_near(guide_to_casters(*scene)), 3 * share_near(kUnguided));
 }
 
 INSTANTIATE_TEST_SUITE_P(Lights, GuidedEmission, ::testing::ValuesIn(kLights),

@@ -1,0 +1,91 @@
+// What is seen before any light path is traced: casters are where runs of specular events end that
+// began behind a rough vertex, and a small thing in a large place is found by them at once.
+#include "integrator/first_sight.h"
+
+#include <gtest/gtest.h>
+
+#include "integrator/learned_emission.h"
+#include "photon/emission.h"
+#include "rendering.h"
+#include "scene/camera/camera.h"
+
+namespace nephroid {
+namespace {
+
+using namespace testing_support;
+
+const std::string kView = R"(
+  LookAt 0 3 -4  0 0 0  0 1 0
+  Camera "perspective" "float fov" 30
+  Film "rgb" "integer xresolution" 64 "integer yresolution" 64
+  PixelFilter "box"
+  WorldBegin
+  LightSource "point" "rgb I" [900 900 900] "point3 from" [20 60 -10]
+  Material "diffuse"
+  Shape "bilinearmesh" "point3 P" [-90 0 -90  90 0 -90  -90 0 90  90 0 90])";
+const std::string kGlass = R"(
+  AttributeBegin Translate 0 0.4 0
+    Material "dielectric" Shape "sphere" "float radius" 0.3 AttributeEnd)";
+const std::string kMirrorBehindTheEye = R"(
+  Material "conductor" "float roughness" 0
+  Shape "bilinearmesh" "point3 P" [-2 0 -6  2 0 -6  -2 4 -6  2 4 -6])";
+
+std::vector<Vec3f> casters_of(const std::string& text, const IntegratorOptions& options = {}) {
+  const auto scene = scene_from_text(text);
+  const Preset preset = make_preset(Plan("doidge2012"), options, *scene);
+  const Film film = film_for(*scene, preset);
+  return caustic_casters(*scene, film, start_photon_pass({1, 0}, *scene, film, options), options);
+}
+
+TEST(CausticCasters, AreWhatSpecularRunsEndOn) {
+  EXPECT_TRUE(casters_of(kView).empty());
+  const auto glass = casters_of(kView + kGlass);
+  EXPECT_GT(glass.size(), 20u);
+  for (const Vec3f& p : glass) EXPECT_NEAR(length(p - Vec3f(0, 0.4f, 0)), 0.3f, 1e-4f);
+  // Seen from the floor, not from the camera.
+  const auto mirror = casters_of(kView + kMirrorBehindTheEye);
+  EXPECT_GT(mirror.size(), 20u);
+  for (const Vec3f& p : mirror) EXPECT_NEAR(p.z, -6, 1e-4f);
+  // The camera's own look through glass is no caustic's: without a rough vertex in front.
+  EXPECT_TRUE(casters_of(R"(Camera "perspective" "float fov" 30
+      Film "rgb" "integer xresolution" 64 "integer yresolution" 64 WorldBegin
+      LightSource "infinite" "rgb L" [1 1 1]
+      Material "dielectric" Translate 0 0 3 Shape "sphere" "float radius" 1)")
+                  .empty());
+}
+
+TEST(CausticCasters, HaveNoNumbersOfTheirOwnInPathsThatAreTooShort) {
+  IntegratorOptions options;
+  options.max_depth = 1;
+  EXPECT_TRUE(casters_of(kView + kGlass, options).empty());
+}
+
+TEST(LearnedEmission, FindsASmallThingThatChanceDoesNot) {
+  // Of all directions, 6 in a million are those in which the lamp shines on the glass: a tenth of
+  // a path of the 16384 of a round.
+  const auto scene = scene_from_text(kView + kGlass);
+  const Preset preset = make_preset(Plan("doidge2012"), {}, *scene);
+  const Film film = film_for(*scene, preset);
+  size_t group = 0;
+  while (preset.routes->groups()[group].estimator != EstimatorKind::kPhotons) ++group;
+  const auto symbols = std::make_shared<const SceneSymbols>(*scene, std::vector<std::string>{});
+  LearnedEmission learned;
+  const EmissionGuide& guide = learned.guide(1, *scene, film, {preset.routes, symbols, group}, {});
+  ASSERT_FALSE(guide.empty());
+  int met = 0;
+  constexpr int kPaths = 4096;
+  const auto lambda = SampledWavelengths::sample_visible(0.4f);
+  for (uint32_t i = 0; i < kPaths; ++i) {
+    const SobolPoint point(i, kEmissionDimensions);
+    PathSampler sampler(point, 7);
+    const auto start = emit(*scene, guide, lambda, 0, sampler);
+    if (!start) continue;
+    const Vec3f way = Vec3f(0, 0.4f, 0) - start->ray.o;
+    met += length_squared(way - start->ray.d * dot(way, start->ray.d)) < 0.09f;
+  }
+  // Others light the floor that is seen through the glass.
+  EXPECT_GT(met, kPaths / 6);
+}
+
+}  // namespace
+}  // namespace nephroid
