@@ -95,29 +95,47 @@ void count_photons(const PhotonTrace& trace, EstimatorStatistics& statistics) {
   statistics.rays += trace.rays;
 }
 
-void explain_darkness(const OwnedRoutes& owned, uint64_t found, EstimatorStatistics& s) {
-  if (!photons_can_count(owned)) {
-    s.notes.push_back(
-        has_specular_events(owned)
-            ? "no path that this scene can have belongs to " + names_of_routes(owned) +
-                  ", and no photons were traced for it"
-            : std::string(
-                  "no material of the scene has a specular lobe: there are no caustics, and no "
-                  "photons were needed"));
-    return;
-  }
-  if (found > 0 || s.photon_paths == 0) return;
+namespace {
+
+const char* const kNothingSpecular =
+    "no material of the scene has a specular lobe: there are no caustics, and no photons were "
+    "needed";
+
+void explain_lost_paths(EstimatorStatistics& s) {
   const std::string of_all = " of " + std::to_string(s.photon_paths) + " photon paths ";
-  if (s.photons_stored > 0)
-    s.notes.push_back(std::to_string(s.photons_stored) +
-                      " photons were stored, none near a point that the camera sees");
-  else if (deposits_at_once(owned))
-    s.notes.push_back("none" + of_all + "met a surface at which its route merges");
-  else if (s.photon_paths_specular == 0)
+  if (s.photon_paths_specular == 0)
     s.notes.push_back("0" + of_all + "met a specular surface");
   else
     s.notes.push_back(std::to_string(s.photon_paths_specular) + of_all +
                       "met a specular surface, none reached a diffuse one behind it");
+}
+
+}  // namespace
+
+void explain_missing_caustics(const OwnedRoutes& owned, EstimatorStatistics& s) {
+  if (!has_specular_events(owned))
+    s.notes.push_back(kNothingSpecular);
+  else if (s.photon_paths > 0 && s.photon_paths_useful == 0)
+    explain_lost_paths(s);
+}
+
+void explain_darkness(const OwnedRoutes& owned, uint64_t found, EstimatorStatistics& s) {
+  if (!photons_can_count(owned)) {
+    s.notes.push_back(has_specular_events(owned)
+                          ? "no path that this scene can have belongs to " +
+                                names_of_routes(owned) + ", and no photons were traced for it"
+                          : std::string(kNothingSpecular));
+    return;
+  }
+  if (found > 0 || s.photon_paths == 0) return;
+  if (s.photons_stored > 0)
+    s.notes.push_back(std::to_string(s.photons_stored) +
+                      " photons were stored, none near a point that the camera sees");
+  else if (deposits_at_once(owned))
+    s.notes.push_back("none of " + std::to_string(s.photon_paths) +
+                      " photon paths met a surface at which its route merges");
+  else
+    explain_lost_paths(s);
 }
 
 }  // namespace nephroid
