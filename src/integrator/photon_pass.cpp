@@ -18,17 +18,15 @@ int64_t default_photons_per_pass(int64_t pixels) {
 PhotonPass start_photon_pass(const PassKey& key, const Scene& scene, const Film& film,
                              const IntegratorOptions& options) {
   PhotonPass pass{{}, {}, scene.camera->footprint(), 0, SobolPoint(key.pass)};
-  // Two dimensions of one scrambled sequence over the passes: any run of passes covers both evenly.
-  // They are those that camera walks leave free: two scrambles of one dimension are functions of
-  // each other, and a pixel would see each time at one place only.
+  // Any run of passes covers wavelengths and times evenly, and both together, so that a thing that
+  // moves has all its colours everywhere; and in an order that has nothing to do with that of the
+  // camera walks, of which a pixel would else see each time at one place only.
   constexpr uint64_t kStream = 0x70617373;  // "pass"
-  PathSampler sampler(pass.point, hash_combine(key.seed, kStream));
+  PathSampler sampler(PaddedPoint{key.pass}, hash_combine(key.seed, kStream));
   pass.trace.key = key;
-  sampler.start_dimension(dimensions::kWavelength);
-  pass.trace.lambda =
-      SampledWavelengths::sample_visible(wavelength_number(scene, sampler.get_1d()));
-  sampler.start_dimension(dimensions::kTime);
-  pass.u_time = sampler.get_1d();
+  const Vec2f u = sampler.get_2d();
+  pass.trace.lambda = SampledWavelengths::sample_visible(wavelength_number(scene, u.x));
+  pass.u_time = u.y;
   pass.trace.time = scene.camera->motion_time(pass.u_time);
   pass.trace.photons_per_pass = options.photons_per_pass > 0
                                     ? options.photons_per_pass
