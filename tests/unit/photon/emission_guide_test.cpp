@@ -34,6 +34,8 @@ const Lights kLights[] = {
        "float coneangle" 65 "float conedeltaangle" 30)"},
     {"goniometric", R"(AttributeBegin Translate 0.3 2.5 0
        LightSource "goniometric" "string filename" "PICTURE" AttributeEnd)"},
+    {"projection", R"(AttributeBegin Translate 0.3 2.5 0 Rotate 90 1 0 0
+       LightSource "projection" "string filename" "PICTURE" "float fov" 110 AttributeEnd)"},
     {"distant", R"(LightSource "distant" "point3 from" [1 3 0.5] "point3 to" [0 0 0])"},
     {"uniform_sky", R"(LightSource "infinite" "rgb L" [0.1 0.2 0.3])"},
     {"image_sky", R"(LightSource "infinite" "string filename" "PICTURE")"},
