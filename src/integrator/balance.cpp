@@ -50,7 +50,8 @@ SampleSpread::ByTile SampleSpread::by_tile() const {
   ByTile out;
   out.variance.assign(tiles.counts().size(), 0);
   out.cost = out.variance;
-  std::vector<double> light(out.variance), pixels(out.variance);
+  out.light = out.variance;
+  std::vector<double> pixels(out.variance);
   double all_light = 0, all_pixels = 0;
   size_t i = 0;
   for (int y = 0; y < bounds_.height(); ++y)
@@ -61,7 +62,7 @@ SampleSpread::ByTile SampleSpread::by_tile() const {
       const double mean = s.light / s.samples;
       out.cost[tile] += s.rays / s.samples;
       out.variance[tile] += std::max(0.0, (s.square - mean * s.light) / (s.samples - 1));
-      light[tile] += std::abs(mean);
+      out.light[tile] += std::abs(mean);
       all_light += std::abs(mean);
       ++pixels[tile];
       ++all_pixels;
@@ -71,7 +72,8 @@ SampleSpread::ByTile SampleSpread::by_tile() const {
   const double floor = 0.1 * all_light / std::max(1.0, all_pixels);
   for (size_t t = 0; t < out.variance.size(); ++t) {
     if (!(pixels[t] > 0)) continue;
-    const double brightness = light[t] / pixels[t] + floor;
+    out.light[t] /= pixels[t];
+    const double brightness = out.light[t] + floor;
     out.variance[t] = brightness > 0 ? out.variance[t] / (pixels[t] * brightness) : 0;
     out.cost[t] /= pixels[t];
   }
@@ -100,11 +102,19 @@ SampleMap share_out(const PixelBounds& bounds, const SampleSpread::ByTile& sprea
     if (v > 1e-3 * brightest) lit.push_back(v);
   if (lit.empty()) return samples;
   std::sort(lit.begin(), lit.end());
-  const double unit = lit[lit.size() / 20];
-  for (size_t i = 0; i < roots.size(); ++i)
-    samples.counts()[i] = static_cast<uint16_t>(
-        std::clamp(std::round(roots[i] / unit), 1.0, double{SampleMap::kMost}));
-  return samples;
+  // Fewer have one where that would be many paths a pass: what all pixels of a pass share, its
+  // wavelengths above all, is averaged over passes alone.
+  for (double unit = lit[lit.size() / 20];; unit *= 1.1) {
+    for (size_t i = 0; i < roots.size(); ++i)
+      samples.counts()[i] = static_cast<uint16_t>(
+          std::clamp(std::round(roots[i] / unit), 1.0, double{SampleMap::kMost}));
+    if (samples.mean() <= SampleMap::kMostMean) return samples;
+  }
+}
+
+double Trial::least_of_unseen(const Trial& other) const {
+  const double unseen = other.light - light - 2 * other.error;
+  return unseen > 0 ? samples * unseen * unseen / (1.1 * other.light) : 0;
 }
 
 Balance::Balance(const Trial& many, const Trial& few) {

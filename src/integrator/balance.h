@@ -17,6 +17,7 @@ namespace nephroid {
 class SampleMap {
  public:
   static constexpr int kTile = 4, kMost = 8;
+  static constexpr double kMostMean = 2.5;  ///< of maps that are shared out
 
   /// The same number of paths for each pixel.
   explicit SampleMap(const PixelBounds& b, uint16_t samples = 1)
@@ -65,6 +66,7 @@ class SampleSpread {
   /// Zero where no pixel has two samples.
   struct ByTile {
     std::vector<double> variance;  ///< [tile] of a sample, over the brightness, [A1]
+    std::vector<double> light;     ///< [tile] mean magnitude
     std::vector<double> cost;      ///< [tile] of a sample, in rays
   };
   ByTile by_tile() const;
@@ -82,6 +84,11 @@ struct Trial {
   double variance = 0;     ///< of one pass
   double cost = 0;         ///< of one pass
   double light_paths = 0;  ///< of one pass
+  double light = 0;        ///< mean of the picture
+  double error = 0;        ///< standard error of that mean
+  double samples = 0;      ///< camera paths that it is a mean of
+  /// [A4] The least variance that light can have which another trial has seen and this one has not.
+  double least_of_unseen(const Trial& other) const;
   double expense() const { return variance * cost; }
 };
 
@@ -94,6 +101,9 @@ double steady_mean(std::vector<double> tiles);
 struct Balance {
   double variance_of_camera = 0, variance_of_light = 0, cost_of_camera = 0, cost_of_light = 0;
   Balance(const Trial& many, const Trial& few);
+  /// Of a pass without light paths.
+  explicit Balance(const Trial& trial)
+      : variance_of_camera(trial.variance), cost_of_camera(trial.cost) {}
   int64_t light_paths(double camera_paths) const;
   double expense() const;
 };

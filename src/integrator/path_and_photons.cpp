@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 
 #include "integrator/photon_pass.h"
 #include "integrator/vertex_connection_merging.h"
@@ -45,16 +45,26 @@ Trial PathAndPhotons::try_out(PairPass how, uint64_t seed, const Scene& scene, c
     how.try_out({hash_combine(seed, kTrialStream), i}, scene, film, owned_, options_, counts);
   statistics_.rays += counts.rays;
   statistics_.hold(counts.photon_bytes, counts.pixel_bytes);
+  const SampleSpread::ByTile found = spread.by_tile();
   std::vector<double> tiles;
-  const std::vector<double> variance = spread.by_tile().variance;
-  for (size_t i = 0; i < variance.size(); ++i)
-    if (half.counts()[i] > 0) tiles.push_back(variance[i]);
+  double light = 0, variance = 0;
+  for (size_t i = 0; i < found.variance.size(); ++i) {
+    if (half.counts()[i] == 0) continue;
+    tiles.push_back(found.variance[i]);
+    light += found.light[i];
+    variance += found.variance[i] * found.light[i];
+  }
+  const double count = static_cast<double>(std::max<size_t>(1, tiles.size()));
+  const double samples = static_cast<double>(counts.camera_paths);
   const double of_camera =
-      static_cast<double>(counts.rays - counts.light_rays - counts.again_rays) /
-      static_cast<double>(counts.camera_paths) * static_cast<double>(film.bounds().area());
-  return {steady_mean(std::move(tiles)),
-          of_camera + static_cast<double>(counts.light_rays) / kTrialPasses,
-          static_cast<double>(how.light_paths)};
+      static_cast<double>(counts.rays - counts.light_rays - counts.again_rays) / samples *
+      static_cast<double>(film.bounds().area());
+  return {.variance = steady_mean(std::move(tiles)),
+          .cost = of_camera + static_cast<double>(counts.light_rays) / kTrialPasses,
+          .light_paths = static_cast<double>(how.light_paths),
+          .light = light / count,
+          .error = std::sqrt(variance / count / samples),
+          .samples = samples};
 }
 
 void PathAndPhotons::learn(uint64_t seed, const Scene& scene, const Film& film) {
@@ -69,18 +79,19 @@ void PathAndPhotons::learn(uint64_t seed, const Scene& scene, const Film& film) 
   pass.light_paths =
       has_specular_events(owned_) ? std::clamp<int64_t>(film.bounds().area(), 1 << 14, 1 << 18) : 0;
   const Trial many = try_out(pass, seed, scene, film);
-  double expense = many.expense();
+  Balance balance(many);
   if (pass.light_paths > 0) {
     PairPass fewer = pass;
     fewer.light_paths = pass.light_paths / kFewer;
-    learned.balance.emplace(many, try_out(fewer, seed, scene, film));
-    expense = learned.balance->expense();
-    pass.light_paths = learned.balance->light_paths(head);
+    balance = Balance(many, try_out(fewer, seed, scene, film));
+    learned.balance = balance;
   }
   PairPass connecting;
   connecting.light_paths = default_light_paths(film.bounds().area());
-  const double other = kClearly * try_out(connecting, seed, scene, film).expense();
-  if (other < expense) {
+  Trial connected = try_out(connecting, seed, scene, film);
+  balance.variance_of_camera += many.least_of_unseen(connected);
+  connected.variance += connected.least_of_unseen(many);
+  if (kClearly * connected.expense() < balance.expense()) {
     pass = connecting;
     learned.balance.reset();
   }
@@ -107,9 +118,17 @@ const SampleMap& PathAndPhotons::samples(const Scene& scene, const Film& film) {
   return *learned.samples;
 }
 
+int64_t PathAndPhotons::light_paths(double camera_paths) const {
+  const PairPass& pass = learned_->pass;
+  if (learned_->balance) return learned_->balance->light_paths(camera_paths);
+  if (!pass.connects || options_.photons_per_pass > 0) return pass.light_paths;
+  return std::llround(static_cast<double>(pass.light_paths) * camera_paths);
+}
+
 PairPass PathAndPhotons::first_pass() {
   PairPass pass = learned_->pass;
   pass.samples = &learned_->head;
+  pass.light_paths = light_paths(pass.samples->mean());
   pass.spread = &*learned_->spread;
   return pass;
 }
@@ -124,8 +143,7 @@ void PathAndPhotons::render_pass(const PassKey& key, const Scene& scene, Film& f
   PairPass pass = learned_->pass;
   pass.samples = &samples(scene, film);
   pass.head = learned_->head.at(0, 0);
-  if (learned_->balance)
-    pass.light_paths = learned_->balance->light_paths(learned_->samples->mean());
+  pass.light_paths = light_paths(pass.samples->mean());
   pass.render(key, scene, film, owned_, options_, statistics_);
 }
 

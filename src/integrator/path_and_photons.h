@@ -43,6 +43,8 @@ class PathAndPhotons final : public Estimator {
     std::optional<SampleMap> samples;    ///< of the passes after it
   };
   PairPass first_pass();
+  /// Of a pass with so many camera paths a pixel.
+  int64_t light_paths(double camera_paths) const;
   const SampleMap& samples(const Scene& scene, const Film& film);
   void learn(uint64_t seed, const Scene& scene, const Film& film);
   /// What a few passes that are thrown away tell of a way to render.

@@ -78,10 +78,10 @@ struct Blocks {
 
 // [A2]
 TEST(ShareOut, GoesWithTheRootOfVarianceOverCost) {
-  const std::vector<std::pair<double, double>> v_and_c = {{2, 1}, {8, 1},  {18, 1}, {32, 4},
-                                                          {2, 1}, {50, 1}, {128, 4}};
+  const std::vector<std::pair<double, double>> v_and_c = {{2, 1}, {8, 1},  {18, 1},  {32, 4},
+                                                          {2, 1}, {50, 1}, {128, 4}, {2, 1}};
   const Blocks blocks(v_and_c);
-  EXPECT_EQ(blocks.samples, (std::vector<int>{1, 2, 3, 2, 1, 5, 4}));
+  EXPECT_EQ(blocks.samples, (std::vector<int>{1, 2, 3, 2, 1, 5, 4, 1}));
   // No other way to share out has less error for the same work: variance times cost grows whichever
   // block has one path more or fewer.
   const auto expense = [&](const std::vector<int>& n) {
@@ -103,12 +103,31 @@ TEST(ShareOut, GoesWithTheRootOfVarianceOverCost) {
 TEST(ShareOut, KeepsItsBounds) {
   // What is ten thousand times as noisy as the rest has eight paths; what is black has one, and
   // does not make the quiet look noisy.
-  EXPECT_EQ(Blocks({{1, 1}, {1e4, 1}, {1, 1}, {4, 1}}).samples, (std::vector<int>{1, 8, 1, 2}));
+  EXPECT_EQ(Blocks({{1, 1}, {1e4, 1}, {1, 1}, {4, 1}, {1, 1}, {1, 1}, {1, 1}, {1, 1}}).samples,
+            (std::vector<int>{1, 8, 1, 2, 1, 1, 1, 1}));
   EXPECT_EQ(Blocks({{0, 1}, {1, 1}, {1, 1}, {1, 1}, {1, 1}, {1, 1}, {9, 1}}).samples,
             (std::vector<int>{1, 1, 1, 1, 1, 1, 3}));
   EXPECT_EQ(Blocks({{0, 1}, {0, 2}}).samples, (std::vector<int>{1, 1}));
   EXPECT_EQ(Blocks({{0, 0}, {0, 0}}).samples, (std::vector<int>{1, 1}));
   EXPECT_EQ(Blocks({{4, 1}, {4, 1}}).samples, (std::vector<int>{1, 1}));
+}
+
+TEST(ShareOut, HasFewPathsAPass) {
+  // Shares stay in proportion, but what is quiet has more than its own.
+  const std::vector<int> samples =
+      Blocks({{1, 1}, {64, 1}, {64, 1}, {64, 1}, {16, 1}, {64, 1}}).samples;
+  EXPECT_EQ(samples, (std::vector<int>{1, 3, 3, 3, 1, 3}));
+}
+
+// [A4]
+TEST(Trial, KnowsTheLeastVarianceOfWhatItHasNotSeen) {
+  const Trial blind{.light = 2, .error = 0.01, .samples = 500},
+      sees{.light = 3, .error = 0.1, .samples = 100};
+  EXPECT_DOUBLE_EQ(blind.least_of_unseen(sees), 500 * 0.8 * 0.8 / 3.3);
+  EXPECT_EQ(sees.least_of_unseen(blind), 0);
+  EXPECT_EQ(sees.least_of_unseen(sees), 0);
+  const Trial lucky{.light = 3, .error = 0.9, .samples = 100};
+  EXPECT_EQ(blind.least_of_unseen(lucky), 0) << "one bright path is no proof";
 }
 
 TEST(SteadyMean, LeavesOutTheFewThatStandOut) {
