@@ -95,13 +95,15 @@ Forecast::Forecast(OwnedRoutes owned, const IntegratorOptions& options)
 
 void Forecast::learn(uint64_t seed, const Scene& scene) {
   std::vector<CausticSight> sights;
+  const uint64_t before = statistics_.photon_paths;
   const bool asked = options_.photons_per_pass > 0;
   const int64_t photons = asked ? options_.photons_per_pass : kPhotonsOfRound;
   for (int k = 0; k < (asked ? 1 : kMostRounds) && sights.size() < kEnoughSights; ++k)
     trace_photons({hash_combine(seed, kLearning), static_cast<uint32_t>(k)}, photons, scene,
                   sights);
-  statistics_.photons_stored += sights.size();
+  paths_of_map_ = statistics_.photon_paths - before;
   map_ = ForecastMap(std::move(sights));
+  statistics_.photons_stored = map_.size();
   statistics_.hold(map_.bytes(), 0);
   learned_from_ = seed;
 }
@@ -161,11 +163,15 @@ void Forecast::render_pass(const PassKey& key, const Scene& scene, Film& film) {
 EstimatorStatistics Forecast::statistics() const {
   EstimatorStatistics s = statistics_;
   if (s.photon_paths == 0) return s;
-  const std::string of_all = std::to_string(s.photon_paths) + " photon paths";
-  s.notes.push_back(map_.size() == 0 ? "none of " + of_all +
-                                           " foretold a caustic: its paths are traced as by path"
-                                     : std::to_string(s.photons_stored) + " sights of " + of_all +
-                                           " foretell caustics; passes add none");
+  const std::string of_all = " of " + std::to_string(paths_of_map_) + " photon paths ";
+  const std::string sights = std::to_string(map_.size()) + " sights" + of_all;
+  const std::string as_path = " a caustic: its paths are traced as by path";
+  if (map_.foretells())
+    s.notes.push_back(sights + "foretell caustics; passes add none");
+  else if (map_.size() > 0)
+    s.notes.push_back(sights + "are too few to foretell" + as_path);
+  else
+    s.notes.push_back("none" + of_all + "foretold" + as_path);
   return s;
 }
 

@@ -225,7 +225,11 @@ TEST(ForecastMap, LooksTowardsTheCastersOfTheNearest) {
 TEST(ForecastMap, SaysNothingWhereItKnowsNothing) {
   EXPECT_TRUE(ForecastMap().lobes_at({0, 0, 0}).empty());
   const CausticSight sight{{0, 0, 0}, {0, 0, 1}};
-  EXPECT_TRUE(ForecastMap({sight, sight}).lobes_at({0, 0, 0}).empty()) << "too few";
+  for (const size_t count : {size_t{1}, size_t{15}, size_t{16}}) {
+    const ForecastMap few(std::vector<CausticSight>(count, sight));
+    EXPECT_EQ(few.foretells(), count == 16);
+    EXPECT_EQ(few.lobes_at({0.1f, 0, 0}).empty(), !few.foretells()) << count;
+  }
   const ForecastMap map(std::vector<CausticSight>(100, sight));
   EXPECT_FALSE(map.lobes_at({0.1f, 0, 0}).empty());
   EXPECT_TRUE(map.lobes_at({50, 0, 0}).empty()) << "all sights are far away";
