@@ -16,11 +16,6 @@ constexpr int64_t kPhotonsOfRound = 1 << 16;
 constexpr size_t kEnoughSights = 1 << 15;
 constexpr int kMostRounds = 16;
 constexpr int64_t kChunk = 1024;
-// A photon's own dimensions, before those of its vertices.
-constexpr int kWavelength = kEmissionDimensions;  // 1
-constexpr int kTime = kWavelength + 1;            // 1
-constexpr int kFirstVertex = kTime + 1;
-constexpr int kStratifiedDimensions = 48;
 
 /// Notes where light lands that came from a light through nothing but what is specular. What came
 /// by way of other surfaces is left out: a walk in its direction would end on these, not on a
@@ -120,17 +115,13 @@ void Forecast::trace_photons(const PassKey& key, int64_t photons, const Scene& s
   parallel_chunks(photons, kChunk, [&](int64_t c, int64_t begin, int64_t end) {
     Chunk& chunk = chunks[static_cast<size_t>(c)];
     for (int64_t j = first + begin; j < first + end; ++j) {
-      const SobolPoint point(static_cast<uint32_t>(j), kStratifiedDimensions);
+      const SobolPoint point(static_cast<uint32_t>(j), kLightPathPointDimensions);
       PathSampler sampler(point, hash_combine(key.seed, j >> 32));
-      sampler.start_dimension(kWavelength);
-      const SampledWavelengths lambda =
-          SampledWavelengths::sample_visible(wavelength_number(scene, sampler.get_1d()));
-      const float time = scene.camera->motion_time(sampler.get_1d());
-      sampler.start_dimension(0);
-      const auto emitted = emit(scene, kUnguided, lambda, time, sampler);
-      if (!emitted) continue;
-      Walk walk = walk_from(*emitted, lambda, specular_alpha, kFirstVertex);
-      SightVisitor visitor(owned_, *emitted, chunk.sights);
+      const auto start = start_light_path(scene, sampler);
+      if (!start) continue;
+      Walk walk =
+          walk_from(start->emission, start->lambda, specular_alpha, kLightPathStartDimensions);
+      SightVisitor visitor(owned_, start->emission, chunk.sights);
       const size_t before = chunk.sights.size();
       random_walk(scene, TransportMode::kImportance, options_.max_depth, walk, sampler, visitor);
       chunk.rays += walk.rays;

@@ -9,8 +9,6 @@ namespace nephroid {
 
 namespace {
 
-// Later vertices are random: points are made for each light path.
-constexpr int kStratifiedDimensions = 48;
 constexpr uint64_t kStream = 0x76706c;  // "vpl"
 constexpr int64_t kChunk = 128;
 
@@ -58,7 +56,7 @@ class PointLightVisitor : public LightWalkVisitor {
 uint64_t trace(const Scene& scene, const OwnedRoutes& owned, const PhotonTraceSettings& settings,
                uint64_t number, Lights& out) {
   // All passes together run through one sequence; the seed changes when its 32 bits are used up.
-  const SobolPoint point(static_cast<uint32_t>(number), kStratifiedDimensions);
+  const SobolPoint point(static_cast<uint32_t>(number), kLightPathPointDimensions);
   PathSampler sampler(point, hash_combine(settings.key.seed, kStream, number >> 32));
   const auto emitted = emit(scene, kUnguided, settings.lambda, settings.time, sampler);
   if (!emitted) return 0;
