@@ -159,7 +159,8 @@ float PointLights::density_of_seed(const PassKey& key, const Scene& scene, const
   PhotonPass pass =
       start_photon_pass({hash_combine(key.seed, kLearning), 0}, scene, film, options_);
   pass.trace.photons_per_pass = kLearningPaths;
-  const PointLightPool pool(scene, owned_, pass.trace);
+  const PointLightPool pool(scene, owned_, pass.trace,
+                            point_lights_in_memory_of(options_.memory_photons));
   statistics_.rays += pool.rays();
   std::vector<float> distances;
   const size_t half = pool.size() / 2;
@@ -203,7 +204,8 @@ void PointLights::render_sample(const PhotonPass& pass, float density, const Sce
   const PixelBounds& b = film.bounds();
   const int group = static_cast<int>(owned_.group);
   const PassKey& key = pass.trace.key;
-  const PointLightPool pool(scene, owned_, pass.trace);
+  const PointLightPool pool(scene, owned_, pass.trace,
+                            point_lights_in_memory_of(options_.memory_photons));
   const PointLightsVisitor::Pass shared{pool, connections_of(options_), density,
                                         options_.max_depth};
   std::vector<uint64_t> rays(static_cast<size_t>(b.height()), 0);
