@@ -115,14 +115,16 @@ struct FilmConnection {
 inline constexpr int kEyePathDimensions = 96, kLightPathDimensions = 48;
 inline constexpr int kPairDimensions = kEyePathDimensions + kLightPathDimensions;
 
-/// Traces a light path from `sampler`'s numbers, leaves its vertices in `path` (cleared first) and
-/// adds its connections to the camera to `seen`. `lambda` and `u_time` are those of the eye path.
-/// With `photons` the vertices go there instead, for merging. The path's numbers begin at
-/// `first_dimension`.
+/// What tracing a light path took.
 struct LightPathCounts {
   uint64_t rays = 0;
   bool specular = false;  ///< it had an S event
 };
+
+/// Traces a light path from `sampler`'s numbers, leaves its vertices in `path` (cleared first) and
+/// adds its connections to the camera to `seen`. `lambda` and `u_time` are those of the eye path.
+/// With `photons` the vertices go there instead, for merging. The path's numbers begin at
+/// `first_dimension`. Returns the number of rays and whether the path had an S event.
 LightPathCounts trace_light_path(const PairSettings& settings, const SampledWavelengths& lambda,
                                  float u_time, PathSampler& sampler, LightSubpath* path,
                                  std::vector<FilmConnection>* seen, std::vector<Photon>* photons,

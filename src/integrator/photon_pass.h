@@ -1,7 +1,8 @@
 // What the photon integrators share: the wavelengths, time, roughness threshold and photons of a
 // pass, and the camera walk that comes to every vertex where its routes may merge photons.
-// Who calls it: merge_pass.cpp and sppm.cpp; light_tracing.cpp for the settings. It must not know
-// how radii shrink.
+// Who calls it: merge_pass.cpp, gather.h, sppm.cpp, photon_map.cpp, pair_pass.cpp,
+// point_lights.cpp, first_sight.cpp and learned_emission.cpp; light_tracing.cpp for the settings.
+// It must not know how radii shrink.
 #pragma once
 
 #include "integrator/estimator.h"
@@ -48,6 +49,10 @@ void count_photons(const PhotonTrace& trace, EstimatorStatistics& statistics);
 
 /// Says why there is no light from photons, if there is none; `found` is how many were merged.
 void explain_darkness(const OwnedRoutes& owned, uint64_t found, EstimatorStatistics& statistics);
+
+/// The same for photons of caustics alone, from the paths that were traced and how many were of
+/// use.
+void explain_missing_caustics(const OwnedRoutes& owned, EstimatorStatistics& statistics);
 
 /// Calls `merge(walk, merge_point)` at each vertex of the walk where photons may be merged.
 template <class Merge>

@@ -1,22 +1,21 @@
 // Light paths that start where earlier ones were of use: whatever is counted over them with their
-// weights has the mean that it has over the lights' own starts, for every kind of light; the
-// density of a start integrates to one; and how targets are made of useful starts.
+// weights has the mean that it has over the lights' own starts, for every kind of light; and the
+// density of a start integrates to one.
 #include "photon/emission_guide.h"
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-
-#include "input/pbrt_parser.h"
 #include "photon/emission.h"
 #include "unit/bsdf/statistics.h"
-#include "unit/film/scratch_directory.h"
+#include "unit/photon/useful_starts.h"
 
 namespace nephroid {
 namespace {
 
 using testing_bsdf::Mean;
 using testing_bsdf::TestRandom;
+using testing_guide::add_cluster;
+using testing_guide::scene_with;
 
 struct Lights {
   const char* name;
@@ -35,6 +34,8 @@ const Lights kLights[] = {
        "float coneangle" 65 "float conedeltaangle" 30)"},
     {"goniometric", R"(AttributeBegin Translate 0.3 2.5 0
        LightSource "goniometric" "string filename" "PICTURE" AttributeEnd)"},
+    {"projection", R"(AttributeBegin Translate 0.3 2.5 0 Rotate 90 1 0 0
+       LightSource "projection" "string filename" "PICTURE" "float fov" 110 AttributeEnd)"},
     {"distant", R"(LightSource "distant" "point3 from" [1 3 0.5] "point3 to" [0 0 0])"},
     {"uniform_sky", R"(LightSource "infinite" "rgb L" [0.1 0.2 0.3])"},
     {"image_sky", R"(LightSource "infinite" "string filename" "PICTURE")"},
@@ -46,37 +47,6 @@ const Lights kLights[] = {
        LightSource "distant" "float illuminance" 0.3 "point3 from" [1 3 0.5] "point3 to" [0 0 0]
        LightSource "infinite" "rgb L" [0.05 0.05 0.05])"},
 };
-
-/// The lights above a floor.
-std::unique_ptr<Scene> scene_with(const std::string& lights) {
-  const ScratchDirectory directory;
-  {
-    std::ofstream picture(directory.file("picture.pfm"), std::ios::binary);
-    picture << "PF\n8 8\n-1.0\n";
-    for (int i = 0; i < 64; ++i)
-      for (const int period : {5, 3, 7}) {
-        const float v = 1.0f + static_cast<float>(i % period);
-        picture.write(reinterpret_cast<const char*>(&v), sizeof v);
-      }
-  }
-  std::string text = "WorldBegin\n" + lights + R"(
-    Material "diffuse" Shape "bilinearmesh" "point3 P" [-3 0 -3  3 0 -3  -3 0 3  3 0 3])";
-  if (const size_t at = text.find("PICTURE"); at != std::string::npos)
-    text.replace(at, 7, directory.file("picture.pfm"));
-  Diagnostics diagnostics;
-  return build_scene(parse_pbrt_string(text, "test.pbrt", ".", diagnostics), {}, diagnostics);
-}
-
-/// Points in a ball.
-void add_cluster(std::vector<UsefulStart>& starts, int light, const Vec3f& center, float radius,
-                 int count, TestRandom& random) {
-  for (int i = 0; i < count; ++i) {
-    const Vec2f z = random.next2(), phi = random.next2();
-    const Vec3f w = testing_bsdf::spherical(2.0 * static_cast<double>(z.x) - 1,
-                                            2 * M_PI * static_cast<double>(phi.x));
-    starts.push_back({light, center + w * (radius * std::cbrt(z.y)), 0.2f + phi.y});
-  }
-}
 
 /// Two far-off places of use for each light, and one that the lamps reach into; those of one light
 /// in a scene of several differ.
@@ -343,74 +313,6 @@ TEST(EmissionGuide, TellsTheDensityOfStartPoints) {
     }
     EXPECT_NEAR(area.mean(), M_PI * 0.25, 4.5 * area.error());
   }
-}
-
-TEST(EmissionGuide, HasATargetAroundEachStart) {
-  const auto scene = scene_with(kLights[3].text);
-  TestRandom random(7);
-  // From a single start to many more clusters than targets.
-  for (const int clusters : {1, 2, 30, 45, 200})
-    for (const int each : {1, 7, 40}) {
-      std::vector<UsefulStart> starts;
-      for (int c = 0; c < clusters; ++c) {
-        const Vec2f at = random.next2();
-        add_cluster(starts, 0, {6 * at.x - 3, 0, 6 * at.y - 3}, 0.02f, each, random);
-      }
-      const EmissionGuide guide(*scene, starts, 1e9);
-      ASSERT_GE(guide.targets().size(), 1u);
-      ASSERT_LE(guide.targets().size(), static_cast<size_t>(EmissionGuide::kMaxTargets));
-      for (const auto& target : guide.targets()) {
-        EXPECT_GE(target.radius, 1e-4f * scene->sphere.radius);
-        EXPECT_LE(target.radius, 1.6f * scene->sphere.radius);
-      }
-      for (const UsefulStart& start : starts)
-        EXPECT_TRUE(std::any_of(guide.targets().begin(), guide.targets().end(),
-                                [&](const EmissionGuide::Target& t) {
-                                  return length(t.center - start.first_hit) <= t.radius * 1.001f;
-                                }));
-    }
-}
-
-TEST(EmissionGuide, GivesFewStartsAsMuchRoomAsTheyStandFor) {
-  const Vec3f hit(0.3f, 0.5f, 0.0f);
-  const auto radius = [&](const char* light, size_t count, float weight, double paths) {
-    const auto scene = scene_with(light);
-    const std::vector<UsefulStart> starts(count, {0, hit, weight});
-    const EmissionGuide guide(*scene, starts, paths);
-    EXPECT_EQ(guide.targets().size(), 1u);
-    return static_cast<double>(guide.targets()[0].radius);
-  };
-  // The part of all directions that go through a small ball r at distance d is r^2 / (4 d^2).
-  const char* point = R"(LightSource "point" "rgb I" [2 3 4] "point3 from" [0.3 2.5 0])";
-  EXPECT_NEAR(radius(point, 1, 1, 10000), 2 * 2.0 * 0.01, 1e-6);
-  EXPECT_NEAR(radius(point, 4, 1, 10000), 2 * 2.0 * 0.02, 1e-6);
-  EXPECT_NEAR(radius(point, 4, 0.25f, 10000), 2 * 2.0 * 0.01, 1e-6) << "a path that was aimed";
-  EXPECT_NEAR(radius(point, 64, 1, 640000), 2 * 2.0 * 0.01 / 8, 1e-6) << "so many know the place";
-  const char* sky = R"(LightSource "infinite" "rgb L" [0.1 0.2 0.3])";
-  const double scene_radius = static_cast<double>(scene_with(sky)->sphere.radius);
-  EXPECT_NEAR(radius(sky, 1, 1, 10000), 0.01 * scene_radius, 1e-5);
-}
-
-TEST(EmissionGuide, GivesACrowdATargetOfItsOwnWhateverLiesAround) {
-  const auto scene = scene_with(kLights[3].text);
-  TestRandom random(8);
-  std::vector<UsefulStart> starts;
-  const Vec3f crowd(0.8f, 0, 0.5f);
-  add_cluster(starts, 0, crowd, 0.05f, 500, random);
-  add_cluster(starts, 0, {0, 0, 0}, 3, 24, random);
-  const EmissionGuide guide(*scene, starts, 1e5);
-  int small = -1;
-  for (size_t i = 0; i < guide.targets().size(); ++i)
-    if (length(guide.targets()[i].center - crowd) < 0.05f && guide.targets()[i].radius < 0.2f)
-      small = static_cast<int>(i);
-  ASSERT_GE(small, 0);
-  int aimed = 0, of_crowd = 0;
-  for (int i = 0; i < 10000; ++i) {
-    const auto choice = guide.choose(*scene, (static_cast<float>(i) + 0.5f) / 10000);
-    aimed += choice->target >= 0;
-    of_crowd += choice->target == small;
-  }
-  EXPECT_GT(of_crowd, 0.05 * aimed);
 }
 
 // A target so small that rounding moves rays across its edge: none may come out of it with the
