@@ -247,33 +247,18 @@ class EyeVisitor {
 
   SampledSpectrum shadow(const DirectSample& d, const Walk& walk, const PathSampler& sampler) {
     ++rays_;
-    const Scene& scene = settings_.scene;
-    if (scene.media.empty()) return scene.transmittance(d.shadow_ray, walk.lambda);
-    Ray ray = d.shadow_ray;
-    const float unit = length(ray.d);
-    ray.d = ray.d / unit;
-    ray.t_max *= unit;
-    const Medium* medium = d.medium;
-    return attenuation_along(scene, ray, medium, walk.lambda, sampler);
+    return attenuation_to_light(settings_.scene, d, walk.lambda, sampler);
   }
 
   /// What gets along the line between the two vertices, `w` from the eye's to the light's.
   SampledSpectrum between(const EyeEnd& z, const LightVertex& y, const Vec3f& w,
                           const PathSampler& sampler) {
     ++rays_;
-    const Vec3f end = y.in_medium ? y.surface.p : y.surface.spawn_origin(-w);
-    Ray ray;
-    ray.o = z.surface ? z.surface->surface.spawn_origin(w) : z.medium->p;
-    ray.time = z.walk.ray.time;
-    const Vec3f way = end - ray.o;
-    const float distance = length(way);
-    if (!(distance > 0.0f)) return SampledSpectrum(0.0f);
-    ray.d = way / distance;
-    ray.t_max = distance * (1.0f - 1e-5f);
-    if (settings_.scene.media.empty()) return settings_.scene.transmittance(ray, z.walk.lambda);
-    const Medium* medium =
-        z.surface ? medium_towards(z.surface->surface, w, z.walk.medium) : z.walk.medium;
-    return attenuation_along(settings_.scene, ray, medium, z.walk.lambda, sampler);
+    return attenuation_between(
+        settings_.scene, z.surface ? z.surface->surface.spawn_origin(w) : z.medium->p,
+        y.in_medium ? y.surface.p : y.surface.spawn_origin(-w), z.walk.ray.time,
+        z.surface ? medium_towards(z.surface->surface, w, z.walk.medium) : z.walk.medium,
+        z.walk.lambda, sampler);
   }
 
   void connect(const EyeEnd& z, const PathSampler& sampler) {

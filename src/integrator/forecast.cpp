@@ -16,11 +16,6 @@ constexpr int64_t kPhotonsOfRound = 1 << 16;
 constexpr size_t kEnoughSights = 1 << 15;
 constexpr int kMostRounds = 16;
 constexpr int64_t kChunk = 1024;
-// A photon's own dimensions, before those of its vertices.
-constexpr int kWavelength = kEmissionDimensions;  // 1
-constexpr int kTime = kWavelength + 1;            // 1
-constexpr int kFirstVertex = kTime + 1;
-constexpr int kStratifiedDimensions = 48;
 
 /// Notes where light lands that came from a light through nothing but what is specular. What came
 /// by way of other surfaces is left out: a walk in its direction would end on these, not on a
@@ -95,13 +90,15 @@ Forecast::Forecast(OwnedRoutes owned, const IntegratorOptions& options)
 
 void Forecast::learn(uint64_t seed, const Scene& scene) {
   std::vector<CausticSight> sights;
+  const uint64_t before = statistics_.photon_paths;
   const bool asked = options_.photons_per_pass > 0;
   const int64_t photons = asked ? options_.photons_per_pass : kPhotonsOfRound;
   for (int k = 0; k < (asked ? 1 : kMostRounds) && sights.size() < kEnoughSights; ++k)
     trace_photons({hash_combine(seed, kLearning), static_cast<uint32_t>(k)}, photons, scene,
                   sights);
-  statistics_.photons_stored += sights.size();
+  paths_of_map_ = statistics_.photon_paths - before;
   map_ = ForecastMap(std::move(sights));
+  statistics_.photons_stored = map_.size();
   statistics_.hold(map_.bytes(), 0);
   learned_from_ = seed;
 }
@@ -118,17 +115,13 @@ void Forecast::trace_photons(const PassKey& key, int64_t photons, const Scene& s
   parallel_chunks(photons, kChunk, [&](int64_t c, int64_t begin, int64_t end) {
     Chunk& chunk = chunks[static_cast<size_t>(c)];
     for (int64_t j = first + begin; j < first + end; ++j) {
-      const SobolPoint point(static_cast<uint32_t>(j), kStratifiedDimensions);
+      const SobolPoint point(static_cast<uint32_t>(j), kLightPathPointDimensions);
       PathSampler sampler(point, hash_combine(key.seed, j >> 32));
-      sampler.start_dimension(kWavelength);
-      const SampledWavelengths lambda =
-          SampledWavelengths::sample_visible(wavelength_number(scene, sampler.get_1d()));
-      const float time = scene.camera->motion_time(sampler.get_1d());
-      sampler.start_dimension(0);
-      const auto emitted = emit(scene, kUnguided, lambda, time, sampler);
-      if (!emitted) continue;
-      Walk walk = walk_from(*emitted, lambda, specular_alpha, kFirstVertex);
-      SightVisitor visitor(owned_, *emitted, chunk.sights);
+      const auto start = start_light_path(scene, sampler);
+      if (!start) continue;
+      Walk walk =
+          walk_from(start->emission, start->lambda, specular_alpha, kLightPathStartDimensions);
+      SightVisitor visitor(owned_, start->emission, chunk.sights);
       const size_t before = chunk.sights.size();
       random_walk(scene, TransportMode::kImportance, options_.max_depth, walk, sampler, visitor);
       chunk.rays += walk.rays;
@@ -161,11 +154,15 @@ void Forecast::render_pass(const PassKey& key, const Scene& scene, Film& film) {
 EstimatorStatistics Forecast::statistics() const {
   EstimatorStatistics s = statistics_;
   if (s.photon_paths == 0) return s;
-  const std::string of_all = std::to_string(s.photon_paths) + " photon paths";
-  s.notes.push_back(map_.size() == 0 ? "none of " + of_all +
-                                           " foretold a caustic: its paths are traced as by path"
-                                     : std::to_string(s.photons_stored) + " sights of " + of_all +
-                                           " foretell caustics; passes add none");
+  const std::string of_all = " of " + std::to_string(paths_of_map_) + " photon paths ";
+  const std::string sights = std::to_string(map_.size()) + " sights" + of_all;
+  const std::string as_path = " a caustic: its paths are traced as by path";
+  if (map_.foretells())
+    s.notes.push_back(sights + "foretell caustics; passes add none");
+  else if (map_.size() > 0)
+    s.notes.push_back(sights + "are too few to foretell" + as_path);
+  else
+    s.notes.push_back("none" + of_all + "foretold" + as_path);
   return s;
 }
 

@@ -32,6 +32,7 @@ class Forecast : public Estimator {
   IntegratorOptions options_;
   std::optional<uint64_t> learned_from_;  ///< the seed
   ForecastMap map_;
+  uint64_t paths_of_map_ = 0;  ///< photon paths that left its sights
   EstimatorStatistics statistics_;
 };
 

@@ -65,6 +65,7 @@ std::optional<BsdfSample> GuidedDirection::sample_forecast(float uc, const Vec2f
       s->wi = wi;
       s->pdf_w = pdf_w(wi, c, e.pdf_w);
       gain = s->pdf_w / e.pdf_w;
+      s->eta = bsdf_.eta_between(wo_, wi);
       s->event = c;
       s->transmitted = wo_.z * wi.z < 0.0f;
     }

@@ -15,13 +15,9 @@ namespace nephroid {
 
 namespace {
 
-// A light path's own dimensions, before those of its vertices.
-constexpr int kWavelength = kEmissionDimensions;  // 1
-constexpr int kTime = kWavelength + 1;            // 1
-constexpr int kStartLens = kTime + 1;             // 2
+// Dimensions between those of a light path's start and those of its vertices.
+constexpr int kStartLens = kLightPathStartDimensions;  // 2
 constexpr int kFirstVertex = kStartLens + 2;
-// Later vertices are random: points are made for each light path.
-constexpr int kStratifiedDimensions = 48;
 constexpr uint64_t kStream = 0x6c69676874;  // "light"
 
 /// Light paths are traced in chunks of this many, and their splats added in groups of chunks.
@@ -48,21 +44,14 @@ struct Chunk {
 };
 
 // Connects one light path to the camera.
-class ConnectingVisitor {
+class ConnectingVisitor : public LightWalkVisitor {
  public:
-  ConnectingVisitor(const LightPass& pass, const Emission& emission, float u_time, Chunk& out)
-      : pass_(pass),
-        routes_(*pass.owned.routes),
-        symbols_(*pass.owned.symbols),
-        group_(pass.owned.group),
-        flux_(emission.flux),
-        u_time_(u_time),
-        out_(out),
-        state_(routes_.emitted(symbols_.light(emission.light))) {}
-
-  void escape(const Walk&) {}
-  void emitter(const Walk&, const SurfaceInteraction&, const Light&) {}
-  void medium_emission(const Medium&, const SampledSpectrum&) {}
+  ConnectingVisitor(const LightPass& pass, const LightPathStart& start, Chunk& out)
+      : LightWalkVisitor(pass.owned, start.emission),
+        pass_(pass),
+        flux_(start.emission.flux),
+        u_time_(start.u_time),
+        out_(out) {}
 
   ClassMask useful(const WalkVertex& v) const {
     return routes_.useful_before_connection(group_, state_, label_at(symbols_, v));
@@ -145,11 +134,6 @@ class ConnectingVisitor {
            walk);
   }
 
-  bool scatter(const Walk&, const WalkEvent& event) {
-    state_ = routes_.light_next(state_, symbol_of(symbols_, event));
-    return true;
-  }
-
   uint64_t rays() const { return rays_; }
   bool useful() const { return exposed_; }
 
@@ -174,33 +158,23 @@ class ConnectingVisitor {
   }
 
   const LightPass& pass_;
-  const Routes& routes_;
-  const SceneSymbols& symbols_;
-  const size_t group_;
   const SampledSpectrum flux_;
   const float u_time_;
   Chunk& out_;
-  LightState state_;
   uint64_t rays_ = 0;
   bool exposed_ = false;
 };
 
 void trace_light_path(const LightPass& pass, uint64_t number, Chunk& out) {
   // All passes together run through one sequence; the seed changes when its 32 bits are used up.
-  const SobolPoint point(static_cast<uint32_t>(number), kStratifiedDimensions);
+  const SobolPoint point(static_cast<uint32_t>(number), kLightPathPointDimensions);
   PathSampler sampler(point, hash_combine(pass.key.seed, kStream, number >> 32));
-  sampler.start_dimension(kWavelength);
-  const SampledWavelengths lambda =
-      SampledWavelengths::sample_visible(wavelength_number(pass.scene, sampler.get_1d()));
-  const float u_time = sampler.get_1d();
-  sampler.start_dimension(0);
-  const std::optional<Emission> emission =
-      emit(pass.scene, kUnguided, lambda, pass.scene.camera->motion_time(u_time), sampler);
-  if (!emission) return;
-  Walk walk = walk_from(*emission, lambda, pass.specular_alpha, kFirstVertex);
-  ConnectingVisitor visitor(pass, *emission, u_time, out);
+  const std::optional<LightPathStart> start = start_light_path(pass.scene, sampler);
+  if (!start) return;
+  Walk walk = walk_from(start->emission, start->lambda, pass.specular_alpha, kFirstVertex);
+  ConnectingVisitor visitor(pass, *start, out);
   sampler.start_dimension(kStartLens);
-  visitor.start(walk, *emission, sampler);
+  visitor.start(walk, start->emission, sampler);
   random_walk(pass.scene, TransportMode::kImportance, pass.max_depth, walk, sampler, visitor);
   out.rays += walk.rays + visitor.rays();
   out.useful += visitor.useful();

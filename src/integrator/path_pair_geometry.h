@@ -47,14 +47,6 @@ inline EventDensity density_of_walk(const Walk& walk, const WalkVertex& v, const
   return event_density(v.bsdf, v.wo, v.to_local(walk.ray.d), mode, event.letter);
 }
 
-/// [M2] A value at all wavelengths of a path that may have kept its hero only.
-inline SampledSpectrum whole_spectrum(const SampledSpectrum& value, bool hero_only) {
-  if (!hero_only) return value;
-  SampledSpectrum hero;
-  hero.set(0, value[0] * kSpectrumSamples);
-  return hero;
-}
-
 /// True if paths may merge at an event of class `c` here.
 inline bool merges_at(const WalkVertex& v, EventClass c) {
   return v.merges && contains(ClassMask::kRough, c);

@@ -14,14 +14,6 @@
 
 namespace nephroid {
 
-/// Keeps the hero's wavelength only, in the name of all: what a walk that shares its wavelengths
-/// counts when it has lost its secondary ones ([M2]).
-inline SampledSpectrum hero_for_all(const SampledSpectrum& value) {
-  SampledSpectrum hero;
-  hero.set(0, value[0] * kSpectrumSamples);
-  return hero;
-}
-
 /// Collects the light of one camera path. `Self`, the class that is made of this one, may hide
 ///   float share() const                  by which all is multiplied that the walk meets
 ///   float share_after(EventClass) const  the same behind an event of this class at this vertex
@@ -124,8 +116,8 @@ class PathVisitorOf {
 
  protected:
   void add(const Walk& walk, Part part, const SampledSpectrum& value) {
-    const bool hero_only = walk.per_wavelength && walk.lambda.secondary_terminated();
-    light_.add(part, hero_only ? hero_for_all(value) : value);
+    light_.add(part,
+               whole_spectrum(value, walk.per_wavelength && walk.lambda.secondary_terminated()));
   }
 
   const Scene& scene_;
@@ -156,15 +148,9 @@ class PathVisitorOf {
   // Walks whose choices do not depend on the wavelength ask for light in the same way.
   ShadowFlight shadow_of(const Walk& walk, const DirectSample& direct, const PathSampler& sampler) {
     ++shadow_rays_;
-    if (!walk.per_wavelength || scene_.media.empty())
-      return trace_shadow(scene_, direct, walk.lambda, sampler);
-    Ray ray = direct.shadow_ray;
-    const float unit = length(ray.d);
-    ray.d = ray.d / unit;
-    ray.t_max *= unit;
-    const Medium* medium = direct.medium;
+    if (!walk.per_wavelength) return trace_shadow(scene_, direct, walk.lambda, sampler);
     ShadowFlight flight;
-    flight.transmittance = attenuation_along(scene_, ray, medium, walk.lambda, sampler);
+    flight.transmittance = attenuation_to_light(scene_, direct, walk.lambda, sampler);
     return flight;
   }
 

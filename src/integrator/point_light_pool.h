@@ -37,20 +37,26 @@ struct ChosenLight {
   float factor = 0;
 };
 
+/// How many point lights have room in the memory of so many photons, at least a thousand.
+int64_t point_lights_in_memory_of(int64_t photons);
+
 class PointLightPool {
  public:
   /// Traces light paths of a pass, with the pass's wavelengths, and keeps a point light at each
   /// surface vertex with a finite lobe of class D or G from which a word of the group can go on
-  /// towards the eye. Deterministic: light path j of pass i depends on the seed, i and j alone.
-  PointLightPool(const Scene& scene, const OwnedRoutes& owned, const PhotonTraceSettings& settings);
+  /// towards the eye; of more than `most` it chooses, and holds a quarter more while it does
+  /// ([L5]). Deterministic: light path j of pass i depends on the seed, i and j alone.
+  PointLightPool(const Scene& scene, const OwnedRoutes& owned, const PhotonTraceSettings& settings,
+                 int64_t most);
 
   size_t size() const { return lights_.size(); }
   const PointLight& operator[](size_t i) const { return *lights_[i]; }
   uint64_t rays() const { return rays_; }
   /// Light paths that left a point light at least.
   uint64_t useful_paths() const { return useful_paths_; }
+  /// The most that was held at once.
   size_t bytes() const {
-    return size() * (sizeof(PointLight) + sizeof(lights_[0]) + sizeof(sums_[0]));
+    return most_held_ * (sizeof(PointLight) + sizeof(lights_[0]) + sizeof(sums_[0]));
   }
 
   /// The k-th of `count` point lights that are chosen for one point with the number u in [0,1), by
@@ -58,8 +64,11 @@ class PointLightPool {
   ChosenLight choose(int k, int count, float u) const;
 
  private:
+  void add_up(int64_t paths);
+
   std::vector<std::unique_ptr<PointLight>> lights_;
   std::vector<double> sums_;  ///< of fluxes up to and including each light
+  size_t most_held_ = 0;
   uint64_t rays_ = 0, useful_paths_ = 0;
 };
 

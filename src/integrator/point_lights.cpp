@@ -124,10 +124,8 @@ class PointLightsVisitor : public PathVisitorOf<PointLightsVisitor> {
         traced = true;
         if (arriving.is_black()) return;
         const SampledSpectrum found = arriving * at_x.f * at_y.f * (geometry * share);
-        if (y.secondary_terminated || walk.lambda.secondary_terminated())
-          light_.add(part, hero_for_all(found));
-        else
-          light_.add(part, found);
+        light_.add(part, whole_spectrum(
+                             found, y.secondary_terminated || walk.lambda.secondary_terminated()));
       }
     }
   }
@@ -135,17 +133,9 @@ class PointLightsVisitor : public PathVisitorOf<PointLightsVisitor> {
   SampledSpectrum seen(const Walk& walk, const WalkVertex& x, const PointLight& y, const Vec3f& w,
                        const PathSampler& sampler) {
     ++shadow_rays_;
-    Ray ray;
-    ray.o = x.surface.spawn_origin(w);
-    ray.time = walk.ray.time;
-    const Vec3f way = y.surface.spawn_origin(-w) - ray.o;
-    ray.t_max = length(way);
-    if (!(ray.t_max > 0.0f)) return SampledSpectrum(0.0f);
-    ray.d = way / ray.t_max;
-    ray.t_max *= 1.0f - 1e-5f;
-    if (scene_.media.empty()) return scene_.transmittance(ray, walk.lambda);
-    const Medium* medium = medium_towards(x.surface, w, walk.medium);
-    return attenuation_along(scene_, ray, medium, walk.lambda, sampler);
+    return attenuation_between(scene_, x.surface.spawn_origin(w), y.surface.spawn_origin(-w),
+                               walk.ray.time, medium_towards(x.surface, w, walk.medium),
+                               walk.lambda, sampler);
   }
 
   const Pass& pass_;
@@ -169,7 +159,8 @@ float PointLights::density_of_seed(const PassKey& key, const Scene& scene, const
   PhotonPass pass =
       start_photon_pass({hash_combine(key.seed, kLearning), 0}, scene, film, options_);
   pass.trace.photons_per_pass = kLearningPaths;
-  const PointLightPool pool(scene, owned_, pass.trace);
+  const PointLightPool pool(scene, owned_, pass.trace,
+                            point_lights_in_memory_of(options_.memory_photons));
   statistics_.rays += pool.rays();
   std::vector<float> distances;
   const size_t half = pool.size() / 2;
@@ -213,7 +204,8 @@ void PointLights::render_sample(const PhotonPass& pass, float density, const Sce
   const PixelBounds& b = film.bounds();
   const int group = static_cast<int>(owned_.group);
   const PassKey& key = pass.trace.key;
-  const PointLightPool pool(scene, owned_, pass.trace);
+  const PointLightPool pool(scene, owned_, pass.trace,
+                            point_lights_in_memory_of(options_.memory_photons));
   const PointLightsVisitor::Pass shared{pool, connections_of(options_), density,
                                         options_.max_depth};
   std::vector<uint64_t> rays(static_cast<size_t>(b.height()), 0);

@@ -122,7 +122,7 @@ void ForecastMap::search(size_t begin, size_t end, Nearest& nearest) const {
 
 ForecastLobes ForecastMap::lobes_at(const Vec3f& p) const {
   ForecastLobes lobes;
-  if (sights_.size() < ForecastLobes::kMost) return lobes;
+  if (!foretells()) return lobes;
   Nearest nearest;
   nearest.p = p;
   search(0, sights_.size(), nearest);

@@ -48,8 +48,10 @@ class ForecastMap {
 
   size_t size() const { return sights_.size(); }
   size_t bytes() const { return size() * (sizeof(sights_[0]) + sizeof(axes_[0])); }
+  /// False if there are too few sights to have K nearest ones: it then has no lobes anywhere.
+  bool foretells() const { return size() >= ForecastLobes::kMost; }
   /// [T2]: a lobe towards the caster of each of the sights nearest to `p`, unless it would be wide;
-  /// none if there are too few sights.
+  /// none if it does not foretell.
   ForecastLobes lobes_at(const Vec3f& p) const;
 
  private:

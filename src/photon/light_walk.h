@@ -1,12 +1,40 @@
 // What walks from the lights have in common: how one sets out, and a visitor that knows what its
 // routes can use and passes by all else. Who calls it: whatever traces paths from the lights.
-// It must not know what walks leave behind, films or cameras.
+// It must not know what walks leave behind, films or what cameras see.
 #pragma once
 
 #include "photon/emission.h"
+#include "transport/camera_path.h"
 #include "transport/walk_symbols.h"
 
 namespace nephroid {
+
+/// Stratified dimensions of a light path that has a point of its own: points are made for each, so
+/// later vertices are random.
+inline constexpr int kLightPathPointDimensions = 48;
+
+/// Random numbers that start_light_path() uses, from dimension 0 on: emit()'s, wavelengths 1 and
+/// time 1.
+inline constexpr int kLightPathStartDimensions = kEmissionDimensions + 2;
+
+/// The start of a light path whose wavelengths and moment are its own.
+struct LightPathStart {
+  SampledWavelengths lambda;
+  float u_time = 0;  ///< of the moment, as cameras take it
+  Emission emission;
+};
+
+/// Starts a light path at any of the lights. Empty as emit() is.
+inline std::optional<LightPathStart> start_light_path(const Scene& scene, PathSampler& sampler) {
+  sampler.start_dimension(kEmissionDimensions);
+  const SampledWavelengths lambda =
+      SampledWavelengths::sample_visible(wavelength_number(scene, sampler.get_1d()));
+  const float u_time = sampler.get_1d();
+  sampler.start_dimension(0);
+  const auto emission = emit(scene, kUnguided, lambda, scene.camera->motion_time(u_time), sampler);
+  if (!emission) return std::nullopt;
+  return LightPathStart{lambda, u_time, *emission};
+}
 
 /// The walk of an emitted light path. Its vertices take their random numbers from
 /// `first_dimension` on; its wavelengths are right each by itself.

@@ -9,9 +9,6 @@ namespace nephroid {
 
 namespace {
 
-// Later vertices are random: photons that come so far are many, and points are made for each
-// photon.
-constexpr int kStratifiedDimensions = 48;
 constexpr uint64_t kStream = 0x70686f746f6e;  // "photon"
 
 class PhotonVisitor : public LightWalkVisitor {
@@ -90,7 +87,7 @@ Outcome trace_photon(const Scene& scene, const OwnedRoutes& owned,
   const uint64_t number =
       static_cast<uint64_t>(settings.key.pass) * static_cast<uint64_t>(settings.photons_per_pass) +
       static_cast<uint64_t>(j);
-  const SobolPoint point(static_cast<uint32_t>(number), kStratifiedDimensions);
+  const SobolPoint point(static_cast<uint32_t>(number), kLightPathPointDimensions);
   PathSampler sampler(point, hash_combine(settings.key.seed, kStream, number >> 32));
   const auto emitted = emit(scene, *settings.guide, settings.lambda, settings.time, sampler);
   if (!emitted) return {};

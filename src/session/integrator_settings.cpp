@@ -131,7 +131,9 @@ constexpr IntegratorSetting kSettings[] = {
      },
      [](const IntegratorOptions& o) { return fmt::format("{}", o.nearest_photons); }},
     {"memory-photons", "N", "1048576", "photons",
-     "Photons kept at once; a pass with more runs in batches, a map with more ends.",
+     "Photons kept at once; a pass with more runs in batches, a map with more ends, and "
+     "pointlights "
+     "chooses as many of its point lights as have room in their memory.",
      [](IntegratorOptions& o, const std::string& t) {
        o.memory_photons = integer("memory-photons", t, 1, kNoLimit);
      },

@@ -63,6 +63,15 @@ SampledSpectrum follow(const Scene& scene, Ray rest, const Medium*& medium,
   return through;
 }
 
+/// The shadow ray with a direction of unit length.
+Ray unit_shadow_ray(const DirectSample& direct) {
+  Ray ray = direct.shadow_ray;
+  const float unit = length(ray.d);
+  ray.d = ray.d / unit;
+  ray.t_max *= unit;
+  return ray;
+}
+
 }  // namespace
 
 ShadowFlight trace_shadow(const Scene& scene, const DirectSample& direct,
@@ -77,16 +86,13 @@ ShadowFlight trace_shadow(const Scene& scene, const DirectSample& direct,
     return flight;
   }
   FlightRandom random(-1.0f, sampler.stream_seed());
-  Ray ray = direct.shadow_ray;
-  const float unit = length(ray.d);
-  ray.d = ray.d / unit;
-  ray.t_max *= unit;
   const Medium* medium = direct.medium;
-  const SampledSpectrum surfaces = follow(
-      scene, ray, medium, lambda, random, [&](const Medium& m, const Ray& piece, float t_max) {
-        cross(m, piece, t_max, lambda, random, flight);
-        return SampledSpectrum(flight.transmittance.is_black() ? 0.0f : 1.0f);
-      });
+  const SampledSpectrum surfaces =
+      follow(scene, unit_shadow_ray(direct), medium, lambda, random,
+             [&](const Medium& m, const Ray& piece, float t_max) {
+               cross(m, piece, t_max, lambda, random, flight);
+               return SampledSpectrum(flight.transmittance.is_black() ? 0.0f : 1.0f);
+             });
   flight.transmittance *= surfaces;
   return flight;
 }
@@ -99,6 +105,28 @@ SampledSpectrum attenuation_along(const Scene& scene, const Ray& ray, const Medi
                 [&](const Medium& m, const Ray& piece, float t_max) {
                   return attenuation(m, piece, t_max, lambda, random, nullptr);
                 });
+}
+
+SampledSpectrum attenuation_to_light(const Scene& scene, const DirectSample& direct,
+                                     const SampledWavelengths& lambda, const PathSampler& sampler) {
+  if (scene.media.empty()) return scene.transmittance(direct.shadow_ray, lambda);
+  const Medium* medium = direct.medium;
+  return attenuation_along(scene, unit_shadow_ray(direct), medium, lambda, sampler);
+}
+
+SampledSpectrum attenuation_between(const Scene& scene, const Vec3f& from, const Vec3f& to,
+                                    float time, const Medium* medium,
+                                    const SampledWavelengths& lambda, const PathSampler& sampler) {
+  const Vec3f way = to - from;
+  const float distance = length(way);
+  if (!(distance > 0.0f)) return SampledSpectrum(0.0f);
+  Ray ray;
+  ray.o = from;
+  ray.d = way / distance;
+  ray.t_max = distance * (1.0f - 1e-5f);
+  ray.time = time;
+  if (scene.media.empty()) return scene.transmittance(ray, lambda);
+  return attenuation_along(scene, ray, medium, lambda, sampler);
 }
 
 float direct_pdf_w(const Scene& scene, const Walk& walk, const SurfaceInteraction& hit) {

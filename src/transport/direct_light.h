@@ -1,5 +1,6 @@
 // Next-event estimation: light that reaches a vertex straight from a light that was chosen for it,
-// and the densities that multiple importance sampling compares (docs/estimators.md, [D1] to [D4]).
+// and the densities that multiple importance sampling compares (docs/estimators.md, [D1] to [D4]);
+// what gets along that and other straight lines.
 // Who calls it: integrators. It must not know routes or films.
 #pragma once
 
@@ -50,6 +51,16 @@ ShadowFlight trace_shadow(const Scene& scene, const DirectSample& direct,
 /// one around the end.
 SampledSpectrum attenuation_along(const Scene& scene, const Ray& ray, const Medium*& medium,
                                   const SampledWavelengths& lambda, const PathSampler& sampler);
+
+/// The same from a light sample's vertex to its light.
+SampledSpectrum attenuation_to_light(const Scene& scene, const DirectSample& direct,
+                                     const SampledWavelengths& lambda, const PathSampler& sampler);
+
+/// The same between two points, off their surfaces already; `medium` is the one at `from`. Black if
+/// they are one.
+SampledSpectrum attenuation_between(const Scene& scene, const Vec3f& from, const Vec3f& to,
+                                    float time, const Medium* medium,
+                                    const SampledWavelengths& lambda, const PathSampler& sampler);
 
 /// Density with which sample_direct at the walk's previous vertex would have found this emitter.
 float direct_pdf_w(const Scene& scene, const Walk& walk, const SurfaceInteraction& hit);

@@ -61,6 +61,15 @@ struct Walk {
   int passages = 0;  ///< straight passages since the start (bounds the walk)
 };
 
+/// [M2] A value at all wavelengths of a path that shares them with others and may have kept its
+/// hero only, whose value then stands for all.
+inline SampledSpectrum whole_spectrum(const SampledSpectrum& value, bool hero_only) {
+  if (!hero_only) return value;
+  SampledSpectrum hero;
+  hero.set(0, value[0] * kSpectrumSamples);
+  return hero;
+}
+
 /// The medium on the side of a surface to which `w` (world) points, for light that was in
 /// `current`.
 inline const Medium* medium_towards(const SurfaceInteraction& surface, const Vec3f& w,

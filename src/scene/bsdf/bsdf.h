@@ -107,6 +107,9 @@ class Bsdf {
   virtual std::optional<BsdfSample> sample(const Vec3f& wo, float uc, const Vec2f& u,
                                            TransportMode mode, ClassMask among) const = 0;
 
+  /// Relative index of refraction along the ray from wo to wi, `eta` of a sample in that direction.
+  virtual float eta_between(const Vec3f& /*wo*/, const Vec3f& /*wi*/) const { return 1.0f; }
+
   /// Approximate hemispherical reflectance plus transmittance, for denoising AOVs only.
   virtual SampledSpectrum albedo(const Vec3f& wo) const = 0;
 };

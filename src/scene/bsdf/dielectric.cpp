@@ -45,7 +45,7 @@ DielectricInterface::Value DielectricInterface::evaluate(const Vec3f& wo, const 
   Value v;
   if (smooth() || wo.z == 0.0f || wi.z == 0.0f) return v;
   const bool reflects = same_side(wo, wi);
-  const float eta_path = reflects ? 1.0f : wo.z > 0.0f ? eta : 1.0f / eta;
+  const float eta_path = eta_between(wo, wi);
   Vec3f m = wi * eta_path + wo;
   if (!(length_squared(m) > 0.0f)) return v;
   m = normalize(m);

@@ -39,6 +39,11 @@ struct DielectricInterface {
   }
   /// Share of flux reflected at the side of w by a smooth boundary.
   float fresnel(const Vec3f& w) const { return eta == 1.0f ? 0.0f : fresnel_dielectric(w.z, eta); }
+  /// Index at wi over index at wo.
+  float eta_between(const Vec3f& wo, const Vec3f& wi) const {
+    if ((wo.z > 0.0f) == (wi.z > 0.0f)) return 1.0f;
+    return wo.z > 0.0f ? eta : 1.0f / eta;
+  }
   /// f from wi to wo and the density of sample(wo, ..., part); zero if smooth.
   Value evaluate(const Vec3f& wo, const Vec3f& wi, TransportMode mode, BoundaryPart part) const;
   /// A direction of `part`, chosen by the Fresnel term if both are asked for. Empty if the light
@@ -62,6 +67,9 @@ class DielectricBsdf final : public Bsdf {
                 ClassMask among) const override;
   std::optional<BsdfSample> sample(const Vec3f& wo, float uc, const Vec2f& u, TransportMode mode,
                                    ClassMask among) const override;
+  float eta_between(const Vec3f& wo, const Vec3f& wi) const override {
+    return boundary_.eta_between(wo, wi);
+  }
   SampledSpectrum albedo(const Vec3f&) const override { return SampledSpectrum(1.0f); }
 
  private:

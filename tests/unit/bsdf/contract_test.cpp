@@ -105,6 +105,25 @@ TEST(BsdfContract, RadianceAndImportanceAreAdjoint) {
   }
 }
 
+// Whoever chooses a direction by other means scales by the same eta as sample() does.
+TEST(BsdfContract, EtaOfADirectionIsThatOfASampleThere) {
+  int refracted = 0;
+  for (const BsdfCase& c : all_cases()) {
+    BsdfArena arena;
+    const Bsdf& bsdf = *c.make(arena);
+    TestRandom random(31);
+    for (int i = 0; i < 500; ++i) {
+      const Vec3f wo = spherical(2.0 * random.next() - 1.0, 6.28 * random.next());
+      const float uc = random.next();
+      const auto s = bsdf.sample(wo, uc, random.next2(), TransportMode::kRadiance, ClassMask::kAll);
+      if (!s) continue;
+      EXPECT_FLOAT_EQ(bsdf.eta_between(wo, s->wi), s->eta) << c.name;
+      refracted += s->eta != 1.0f;
+    }
+  }
+  EXPECT_GT(refracted, 100);
+}
+
 TEST(BsdfContract, RefractionScalesRadianceByTheSquareOfEta) {
   for (const float eta : {1.5f, 0.7f}) {
     for (const float alpha : {0.0f, 0.3f}) {

@@ -1,6 +1,7 @@
 // What a forecast learns: photons of lights that met casters first, once and for all passes.
 #include <gtest/gtest.h>
 
+#include "photon/forecast_map.h"
 #include "rendering.h"
 
 namespace nephroid {
@@ -32,37 +33,57 @@ std::string mirror_and_lamp(bool hidden) {
 }
 
 EstimatorStatistics statistics_after(const Scene& scene, const std::vector<std::string>& routes,
-                                     uint32_t passes) {
+                                     const std::vector<PassKey>& passes, int64_t photons = 8192) {
   IntegratorOptions options;
-  options.photons_per_pass = 8192;
+  options.photons_per_pass = photons;
   Preset preset = make_preset(plan_of(routes), options, scene);
   Film film = film_for(scene, preset);
-  for (uint32_t pass = 0; pass < passes; ++pass)
-    for (const auto& e : preset.estimators) e->render_pass({1, pass}, scene, film);
+  for (const PassKey& pass : passes)
+    for (const auto& e : preset.estimators) e->render_pass(pass, scene, film);
   return preset.estimators.front()->statistics();
 }
 
 TEST(Forecast, IsLearnedOnce) {
   const auto scene = scene_from_text(mirror_and_lamp(false));
   const std::vector<std::string> routes = {"caustic=C.*[DG]S+L:forecast", "rest=.*:path"};
-  const EstimatorStatistics first = statistics_after(*scene, routes, 1);
+  const EstimatorStatistics first = statistics_after(*scene, routes, {{1, 0}});
   EXPECT_EQ(first.photon_paths, 8192u);
   EXPECT_GT(first.photons_stored, 100u);
   EXPECT_EQ(first.photon_paths_useful, first.photons_stored) << "no path lands twice";
   EXPECT_GE(first.photon_bytes, first.photons_stored * 6 * sizeof(float));
   ASSERT_EQ(first.notes.size(), 1u);
   EXPECT_NE(first.notes[0].find("foretell"), std::string::npos);
-  const EstimatorStatistics later = statistics_after(*scene, routes, 5);
+  const EstimatorStatistics later =
+      statistics_after(*scene, routes, {{1, 0}, {1, 1}, {1, 2}, {1, 3}, {1, 4}});
   EXPECT_EQ(later.photon_paths, first.photon_paths);
   EXPECT_EQ(later.photons_stored, first.photons_stored);
+}
+
+// What is said of sights is of those that are there, and only if they change directions.
+TEST(Forecast, SaysWhatItsSightsAreGoodFor) {
+  const auto scene = scene_from_text(mirror_and_lamp(false));
+  const std::vector<std::string> routes = {"all=.*:forecast"};
+  const EstimatorStatistics few = statistics_after(*scene, routes, {{1, 0}}, 128);
+  ASSERT_GT(few.photons_stored, 0u);
+  ASSERT_LT(few.photons_stored, static_cast<uint64_t>(ForecastLobes::kMost));
+  ASSERT_EQ(few.notes.size(), 1u);
+  EXPECT_EQ(few.notes[0], std::to_string(few.photons_stored) +
+                              " sights of 128 photon paths are too few to foretell a caustic: its "
+                              "paths are traced as by path");
+  const EstimatorStatistics other = statistics_after(*scene, routes, {{2, 0}});
+  const EstimatorStatistics both = statistics_after(*scene, routes, {{1, 0}, {2, 0}});
+  EXPECT_EQ(both.photons_stored, other.photons_stored) << "those of the first seed are gone";
+  EXPECT_EQ(both.photon_paths, 2 * other.photon_paths);
+  EXPECT_EQ(both.notes, other.notes);
 }
 
 // What a mirror shows of a lit floor is no light that a walk could be sent to.
 TEST(Forecast, KnowsOnlyWhatComesFromLights) {
   const auto scene = scene_from_text(mirror_and_lamp(true));
-  EXPECT_GT(statistics_after(*scene, {"c=C[DG]@S[DG]L:photons", "rest=.*:path"}, 1).photons_stored,
-            20u);
-  const EstimatorStatistics s = statistics_after(*scene, {"all=.*:forecast"}, 1);
+  EXPECT_GT(
+      statistics_after(*scene, {"c=C[DG]@S[DG]L:photons", "rest=.*:path"}, {{1, 0}}).photons_stored,
+      20u);
+  const EstimatorStatistics s = statistics_after(*scene, {"all=.*:forecast"}, {{1, 0}});
   EXPECT_EQ(s.photons_stored, 0u);
   ASSERT_EQ(s.notes.size(), 1u);
   EXPECT_NE(s.notes[0].find("none of 8192"), std::string::npos);

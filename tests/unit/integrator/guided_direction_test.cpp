@@ -137,6 +137,32 @@ TEST(GuidedDirection, IsADensityThatSamplesFollow) {
   EXPECT_GE(questions, 5);
 }
 
+// Roulette leaves out the factor that refraction has, whoever chose the direction.
+TEST(GuidedDirection, ScalesByRefractionAsTheBsdfDoes) {
+  BsdfArena arena;
+  const float eta = 1.5f;
+  const Bsdf& glass = *dielectric_case(eta, 0.3f, 0.3f).make(arena);
+  const Frame frame;
+  const ForecastLobes lobes = some_lobes();
+  for (const float angle : {40.0f, 140.0f}) {
+    const Vec3f wo = direction_at(angle);
+    const GuidedDirection mixture(glass, frame, wo, ClassMask::kAll, lobes);
+    TestRandom random(5);
+    int transmitted = 0, reflected = 0;
+    for (int i = 0; i < 4000; ++i) {
+      // Numbers below a half choose a lobe of the forecast.
+      const float uc = 0.5f * random.next();
+      float gain = 0;
+      const auto s = mixture.sample(uc, random.next2(), gain);
+      if (!s) continue;
+      ++(s->transmitted ? transmitted : reflected);
+      ASSERT_FLOAT_EQ(s->eta, !s->transmitted ? 1.0f : wo.z > 0 ? eta : 1 / eta);
+    }
+    EXPECT_GT(transmitted, 50) << angle;
+    EXPECT_GT(reflected, 50) << angle;
+  }
+}
+
 TEST(GuidedDirection, WithoutAForecastIsTheBsdf) {
   BsdfArena arena;
   const Bsdf& bsdf = *coated_diffuse_case(1.5f, 0.3f, 0.01f, 0.7f).make(arena);
@@ -199,7 +225,11 @@ TEST(ForecastMap, LooksTowardsTheCastersOfTheNearest) {
 TEST(ForecastMap, SaysNothingWhereItKnowsNothing) {
   EXPECT_TRUE(ForecastMap().lobes_at({0, 0, 0}).empty());
   const CausticSight sight{{0, 0, 0}, {0, 0, 1}};
-  EXPECT_TRUE(ForecastMap({sight, sight}).lobes_at({0, 0, 0}).empty()) << "too few";
+  for (const size_t count : {size_t{1}, size_t{15}, size_t{16}}) {
+    const ForecastMap few(std::vector<CausticSight>(count, sight));
+    EXPECT_EQ(few.foretells(), count == 16);
+    EXPECT_EQ(few.lobes_at({0.1f, 0, 0}).empty(), !few.foretells()) << count;
+  }
   const ForecastMap map(std::vector<CausticSight>(100, sight));
   EXPECT_FALSE(map.lobes_at({0.1f, 0, 0}).empty());
   EXPECT_TRUE(map.lobes_at({50, 0, 0}).empty()) << "all sights are far away";

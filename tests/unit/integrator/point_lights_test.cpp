@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/parallel.h"
 #include "integrator/point_light_pool.h"
 #include "owned_routes.h"
 #include "rendering.h"
@@ -25,10 +26,10 @@ TEST(PointLightShare, LeavesTheWalkWhatWouldBeASpot) {
   EXPECT_EQ(point_light_share(2, kInfinity), 0);
 }
 
-// [L4]
-TEST(PointLightPool, ChoosesByFlux) {
-  const auto scene = scene_from_text(R"(
-  Camera "perspective"
+constexpr const char* kCorner = R"(
+  LookAt 0 2 -6  0 1 0  0 1 0
+  Camera "perspective" "float fov" 40
+  Film "rgb" "integer xresolution" 6 "integer yresolution" 6
   WorldBegin
   AttributeBegin
     AreaLightSource "diffuse" "rgb L" [10 9 8]
@@ -36,14 +37,32 @@ TEST(PointLightPool, ChoosesByFlux) {
   AttributeEnd
   Material "diffuse" "rgb reflectance" [0.6 0.1 0.4]
   Shape "bilinearmesh" "point3 P" [-6 0 -6  6 0 -6  -6 0 6  6 0 6]
-  Shape "bilinearmesh" "point3 P" [-6 0 2  6 0 2  -6 4 2  6 4 2])");
-  const OwnedRoutes owned = owned_routes(*scene, {"all=.*:pointlights", "rest=.*:path"});
+  Shape "bilinearmesh" "point3 P" [-6 0 2  6 0 2  -6 4 2  6 4 2])";
+
+/// A lamp in a ball that reflects all light.
+constexpr const char* kWhiteBall = R"(
+  Camera "perspective"
+  WorldBegin
+  LightSource "point"
+  Material "diffuse" "rgb reflectance" [1 1 1]
+  Shape "sphere" "float radius" 2)";
+
+PhotonTraceSettings settings_of(uint32_t pass, int64_t paths, int max_events = 8) {
   PhotonTraceSettings settings;
-  settings.key = {1, 0};
-  settings.photons_per_pass = 64;
+  settings.key = {1, pass};
+  settings.photons_per_pass = paths;
   settings.lambda = SampledWavelengths::sample_visible(0.3f);
-  settings.max_events = 8;
-  const PointLightPool pool(*scene, owned, settings);
+  settings.max_events = max_events;
+  return settings;
+}
+
+const std::vector<std::string> kAllByPointLights = {"all=.*:pointlights", "rest=.*:path"};
+
+// [L4]
+TEST(PointLightPool, ChoosesByFlux) {
+  const auto scene = scene_from_text(kCorner);
+  const OwnedRoutes owned = owned_routes(*scene, kAllByPointLights);
+  const PointLightPool pool(*scene, owned, settings_of(0, 64), 1 << 20);
   ASSERT_GT(pool.size(), 64u);
   EXPECT_LE(pool.useful_paths(), 64u);
   double total = 0;
@@ -65,6 +84,93 @@ TEST(PointLightPool, ChoosesByFlux) {
   for (size_t i = 0; i < pool.size(); ++i)
     EXPECT_NEAR(chosen[&pool[i]],
                 kCount * kNumbers * static_cast<double>(pool[i].flux.max_component()) / total, 2);
+}
+
+/// Flux of the point lights to the left, and of all.
+std::pair<double, double> fluxes(const PointLightPool& pool) {
+  double left = 0, all = 0;
+  for (size_t i = 0; i < pool.size(); ++i) {
+    const double flux = static_cast<double>(pool[i].flux.max_component());
+    all += flux;
+    if (pool[i].surface.p.x < -0.5f) left += flux;
+  }
+  return {left, all};
+}
+
+// [L5]
+TEST(PointLightPool, KeepsTheFluxOfThoseThatItCannotHold) {
+  const auto scene = scene_from_text(kCorner);
+  const OwnedRoutes owned = owned_routes(*scene, kAllByPointLights);
+  constexpr int64_t kMost = 64;
+  std::vector<double> lost;
+  for (uint32_t pass = 0; pass < 400; ++pass) {
+    const PointLightPool full(*scene, owned, settings_of(pass, 256), 1 << 20);
+    const PointLightPool few(*scene, owned, settings_of(pass, 256), kMost);
+    ASSERT_GT(full.size(), 2 * static_cast<size_t>(kMost));
+    ASSERT_LE(few.size(), static_cast<size_t>(kMost));
+    EXPECT_LE(few.bytes() * full.size(), full.bytes() * kMost * 5 / 4);
+    EXPECT_EQ(few.useful_paths(), full.useful_paths());
+    const auto [left_of_full, all_of_full] = fluxes(full);
+    const auto [left_of_few, all_of_few] = fluxes(few);
+    ASSERT_NEAR(all_of_few, all_of_full, 1e-4 * all_of_full);
+    lost.push_back(left_of_few / left_of_full - 1);
+  }
+  const Estimate e = estimate_of(lost);
+  EXPECT_GT(e.error, 0) << "other lights were chosen";
+  EXPECT_LT(e.error, 0.01);
+  EXPECT_NEAR(e.mean, 0, 4 * e.error);
+}
+
+// [L5] Where no light is lost, a path leaves a light at each of its events.
+TEST(PointLightPool, HoldsNoMoreHoweverDeepAPathIs) {
+  const auto scene = scene_from_text(kWhiteBall);
+  const OwnedRoutes owned = owned_routes(*scene, kAllByPointLights);
+  const PointLightPool full(*scene, owned, settings_of(0, 2, 2000), 1 << 20);
+  ASSERT_GT(full.size(), 2000u);
+  const PointLightPool few(*scene, owned, settings_of(0, 2, 2000), 256);
+  EXPECT_LE(few.size(), 256u);
+  EXPECT_GE(few.size(), 32u);
+  EXPECT_LE(few.bytes() * full.size(), full.bytes() * 256 * 5 / 4);
+  const double all = fluxes(full).second;
+  EXPECT_NEAR(fluxes(few).second, all, 1e-3 * all);
+}
+
+TEST(PointLightPool, IsThinnedAlikeByAnyNumberOfThreads) {
+  const auto scene = scene_from_text(kCorner);
+  const OwnedRoutes owned = owned_routes(*scene, kAllByPointLights);
+  const auto pool_by = [&](int threads) {
+    const ThreadLimit limit(threads);
+    return PointLightPool(*scene, owned, settings_of(3, 4096), 1024);
+  };
+  const PointLightPool one = pool_by(1), many = pool_by(5);
+  ASSERT_GT(one.size(), 512u);
+  ASSERT_EQ(one.size(), many.size());
+  for (size_t i = 0; i < one.size(); ++i) {
+    ASSERT_EQ(one[i].flux, many[i].flux);
+    ASSERT_EQ(one[i].surface.p.x, many[i].surface.p.x);
+  }
+}
+
+// With the memory of one photon there is room for a thousand point lights.
+TEST(PointLights, FindTheSameLightInLittleMemory) {
+  const auto scene = scene_from_text(kCorner);
+  IntegratorOptions options;
+  options.point_lights = 64;
+  std::vector<double> differences;
+  for (uint64_t seed = 1; seed <= 24; ++seed) {
+    options.memory_photons = 1 << 20;
+    const double full = picture_mean(render(*scene, plan_of(kAllByPointLights), options, seed, 1));
+    options.memory_photons = 1;
+    Preset preset = make_preset(plan_of(kAllByPointLights), options, *scene);
+    Film film = film_for(*scene, preset);
+    for (const auto& e : preset.estimators) e->render_pass({seed, 0}, *scene, film);
+    EXPECT_LE(preset.estimators.front()->statistics().photons_stored, 1024u);
+    EXPECT_LT(preset.estimators.front()->statistics().photon_bytes, 4u << 20);
+    differences.push_back(picture_mean(film) / full - 1);
+  }
+  const Estimate e = estimate_of(differences);
+  EXPECT_LT(e.error, 0.005);
+  EXPECT_NEAR(e.mean, 0, 4 * e.error);
 }
 
 }  // namespace
