@@ -15,7 +15,6 @@
 #include "core/errors.h"
 #include "core/parallel.h"
 #include "film/atomic_file.h"
-#include "session/file_hash.h"
 #include "session/version.h"
 
 namespace nephroid {
@@ -110,22 +109,14 @@ class Bench {
     if (!wanted.file.empty()) {
       *picture = read_picture(wanted.file);
       result.picture = wanted.file;
-      result.key = fmt::format("{:016x}", hash_file(wanted.file));
+      result.key = hash_picture(*picture);
       result.own_error = own_error(*picture);
       return result;
     }
     const BenchRender render{&scene, &wanted.integrator, wanted.limit, true};
-    const std::string key = reference_key(render);
-    const KeptFiles files = kept_files(options_.directory, "references", scene.name, key);
-    const bool has_picture = std::filesystem::exists(files.picture);
-    if (const auto text = text_of_file(files.json); text && has_picture)
-      if (const auto kept = reference_from_json(*text)) {
-        *picture = read_picture(files.picture);
-        result = *kept;
-        result.kept = true;
-        result.picture = files.picture;
-        return result;
-      }
+    const KeptFiles files =
+        kept_files(options_.directory, "references", scene.name, reference_key(render));
+    if (const auto kept = kept_reference(files, picture)) return kept;
     options_.say(fmt::format("{}: rendering the reference", scene.name));
     const auto rendered = render_for_bench(render, nullptr, shelf_, signals_);
     if (!rendered) return std::nullopt;
@@ -133,7 +124,7 @@ class Bench {
     // Read back as a later invocation will have it.
     *picture = read_picture(files.picture);
     result.picture = files.picture;
-    result.key = key;
+    result.key = hash_picture(*picture);
     result.rendered = true;
     result.passes = rendered->run.end().passes;
     result.seconds = rendered->run.end().seconds;
@@ -143,16 +134,31 @@ class Bench {
     return result;
   }
 
+  /// The reference of an earlier invocation and its picture, if the figures beside it are of that
+  /// picture.
+  static std::optional<BenchReferenceResult> kept_reference(const KeptFiles& files,
+                                                            Picture* picture) {
+    const auto text = text_of_file(files.json);
+    if (!text || !std::filesystem::exists(files.picture)) return std::nullopt;
+    auto reference = reference_from_json(*text);
+    if (!reference) return std::nullopt;
+    *picture = read_picture(files.picture);
+    if (reference->key != hash_picture(*picture)) return std::nullopt;
+    reference->kept = true;
+    reference->picture = files.picture;
+    return reference;
+  }
+
   /// A run from earlier or of now; nothing if a signal stopped it.
   std::optional<BenchRun> run_of(const BenchScene& scene, const BenchIntegrator& integrator,
-                                 const Picture& reference, const std::string& reference_key) {
+                                 const Picture& reference, const std::string& reference_hash) {
     const BenchRender render{&scene, &integrator, limit_of(suite_, scene, options_.limit),
                              !scene.reference.file.empty()};
     const std::string title = scene.name + ", " + integrator.name;
     BenchRun failed;
     failed.integrator = integrator.name;
     try {
-      const std::string key = run_key(render, reference_key);
+      const std::string key = run_key(render, reference_hash);
       const KeptFiles files =
           kept_files(options_.directory, "runs", scene.name + "-" + integrator.name, key);
       if (const auto kept = kept_run(files)) {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -16,6 +18,17 @@
 
 namespace nephroid {
 namespace {
+
+constexpr uint64_t kHashBegin = 0xcbf29ce484222325ull;
+
+/// FNV-1a, as hash_file, of what was hashed before and these bytes.
+uint64_t hash_bytes(uint64_t hash, std::span<const std::byte> bytes) {
+  for (const std::byte byte : bytes) {
+    hash ^= std::to_integer<uint64_t>(byte);
+    hash *= 0x100000001b3ull;
+  }
+  return hash;
+}
 
 /// Another build of the program may be faster, or right where this one is wrong.
 uint64_t hash_of_program() {
@@ -47,22 +60,27 @@ std::string render_text(const BenchRender& render) {
 }  // namespace
 
 std::string hash_text(const std::string& text) {
-  uint64_t hash = 0xcbf29ce484222325ull;  // FNV-1a, as hash_file
-  for (const char c : text) {
-    hash ^= static_cast<unsigned char>(c);
-    hash *= 0x100000001b3ull;
-  }
-  return fmt::format("{:016x}", hash);
+  return fmt::format("{:016x}", hash_bytes(kHashBegin, std::as_bytes(std::span(text))));
+}
+
+std::string hash_picture(const Picture& p) {
+  std::string text = fmt::format("{}x{} {} {} {} {}\n", p.full_width, p.full_height, p.window.x0,
+                                 p.window.y0, p.window.x1, p.window.y1);
+  for (const std::string& channel : p.channels) text += channel + "\n";
+  if (p.color_space != nullptr) text += p.color_space->name();
+  const uint64_t head = hash_bytes(kHashBegin, std::as_bytes(std::span(text)));
+  return fmt::format("{:016x}", hash_bytes(head, std::as_bytes(std::span(p.pixels))));
 }
 
 std::string reference_key(const BenchRender& render) {
   return hash_text(render_text(render));
 }
 
-std::string run_key(const BenchRender& render, const std::string& reference_key) {
+std::string run_key(const BenchRender& render, const std::string& reference_hash) {
   std::string text = render_text(render);
-  text += fmt::format("reference {}\nprogram {:016x}\n{}\n{} threads\nexposure {}\n", reference_key,
-                      hash_of_program(), instruction_set(), thread_count(), render.scene->exposure);
+  text +=
+      fmt::format("reference {}\nprogram {:016x}\n{}\n{} threads\nexposure {}\n", reference_hash,
+                  hash_of_program(), instruction_set(), thread_count(), render.scene->exposure);
   for (const BenchRegion& r : render.scene->regions)
     text += fmt::format("region {} {} {} {} {}\n", r.name, r.x0, r.x1, r.y0, r.y1);
   return hash_text(text);

@@ -12,12 +12,16 @@ namespace nephroid {
 /// 16 digits that change with the text.
 std::string hash_text(const std::string& text);
 
+/// Of what errors against a picture depend on: window, channels, colour space and pixels, not its
+/// metadata; 16 digits.
+std::string hash_picture(const Picture& picture);
+
 /// Of all that determines a rendered reference: scene file, settings, routes and version. Throws
 /// IoError if the scene file cannot be read.
 std::string reference_key(const BenchRender& render);
-/// Of all that determines a run and its figures: those, the reference, the program itself, the
-/// instruction set and the number of threads.
-std::string run_key(const BenchRender& render, const std::string& reference_key);
+/// Of all that determines a run and its figures: those, the reference's picture (by its
+/// hash_picture), the program itself, the instruction set and the number of threads.
+std::string run_key(const BenchRender& render, const std::string& reference_hash);
 
 /// The files of one result.
 struct KeptFiles {

@@ -61,8 +61,8 @@ struct BenchRun {
 };
 
 struct BenchReferenceResult {
-  std::string picture;  ///< file
-  std::string key;
+  std::string picture;    ///< file
+  std::string key;        ///< hash of the picture itself, 16 digits
   bool rendered = false;  ///< by the suite, now or earlier
   bool kept = false;
   uint32_t passes = 0;

@@ -127,7 +127,7 @@ BenchReferenceResult reference_of(const Json& json) {
   r.passes = json.at("passes");
   r.seconds = json.at("seconds");
   r.energy = shares_of(json.at("energy"));
-  if (json.contains("own_error")) r.own_error = json.at("own_error").get<double>();
+  if (json.contains("own_error")) r.own_error = figure_of(json.at("own_error"));
   return r;
 }
 

@@ -83,6 +83,26 @@ class SobolPoint {
   std::array<uint32_t, kSobolDimensions> reversed_;  ///< the first dimensions_ of them
 };
 
+/// A point whose decisions each have two dimensions that are evenly spread over any run of 2^k
+/// points from a multiple of 2^k on, in an order that has nothing to do with that of other
+/// decisions (padding, after Kollig & Keller 2002 and Burley 2020). For what few points have to
+/// cover in two dimensions: many pairs of high dimensions of one Sobol' sequence are functions of
+/// each other for the first 16 points. Camera paths do better with SobolPoint, whose many
+/// dimensions are even together.
+struct PaddedPoint {
+  uint32_t index = 0;
+};
+
+/// The second dimension of the Sobol' sequence at `index`, bits reversed; the first one is the
+/// index itself. Bit i is the parity of the bits of the index at positions that contain i's.
+constexpr uint32_t sobol_second_reversed(uint32_t index) {
+  index ^= (index >> 1) & 0x55555555u;
+  index ^= (index >> 2) & 0x33333333u;
+  index ^= (index >> 4) & 0x0f0f0f0fu;
+  index ^= (index >> 8) & 0x00ff00ffu;
+  return index ^ ((index >> 16) & 0x0000ffffu);
+}
+
 /// Numbers in [0,1) that are chosen elsewhere, one for each dimension: the state of a Markov chain
 /// (Kelemen et al. 2002).
 class PrimarySample {
@@ -92,13 +112,17 @@ class PrimarySample {
   virtual float number(int dimension) = 0;
 };
 
-/// The random numbers of one path: dimension after dimension of a scrambled Sobol' point, or of a
-/// primary sample. A value depends on the point's index, the seed and the dimension alone.
+/// The random numbers of one path: dimension after dimension of a scrambled Sobol' point, of a
+/// padded point or of a primary sample. A value depends on the point's index, the seed and the
+/// dimension alone, and of a padded point on whether it is one of two.
 class PathSampler {
  public:
   /// `point` outlives the sampler.
-  PathSampler(const SobolPoint& point, uint64_t seed) : point_(&point), seed_(mix_bits(seed)) {}
+  PathSampler(const SobolPoint& point, uint64_t seed)
+      : point_(&point), seed_(mix_bits(seed)), index_(point.index()) {}
   PathSampler(SobolPoint&&, uint64_t) = delete;
+  PathSampler(PaddedPoint point, uint64_t seed)
+      : seed_(mix_bits(seed)), index_(point.index), reversed_index_(reverse_bits(point.index)) {}
   /// `primary` outlives the sampler.
   explicit PathSampler(PrimarySample& primary) : primary_(&primary) {}
 
@@ -109,28 +133,46 @@ class PathSampler {
   float get_1d() {
     const int d = dimension_++;
     if (primary_) return primary_->number(d);
-    const uint64_t h = mix_bits(seed_ + static_cast<uint64_t>(d) * 0x9e3779b97f4a7c15ull);
+    const uint64_t h = hash_of(d);
     const uint32_t scramble = static_cast<uint32_t>(h >> 32);
+    if (!point_) return bits_to_unit_float(owen_scramble_reversed(shuffled_index(h), scramble));
     if (d < point_->dimensions())
       return bits_to_unit_float(owen_scramble_reversed(point_->reversed(d), scramble));
-    return bits_to_unit_float(static_cast<uint32_t>(hash_combine(h, point_->index()) >> 32));
+    return bits_to_unit_float(static_cast<uint32_t>(hash_combine(h, index_) >> 32));
   }
   /// A seed for random numbers without end that belong to this path and the current dimension.
   uint64_t stream_seed() const {
     if (primary_)
       return hash_combine(std::bit_cast<uint32_t>(primary_->number(dimension_)),
                           static_cast<uint64_t>(dimension_));
-    return hash_combine(seed_, point_->index(), static_cast<uint64_t>(dimension_));
+    return hash_combine(seed_, index_, static_cast<uint64_t>(dimension_));
   }
   Vec2f get_2d() {
-    const float x = get_1d();
-    return {x, get_1d()};
+    if (point_ || primary_) {
+      const float x = get_1d();
+      return {x, get_1d()};
+    }
+    const uint64_t h = hash_of(dimension_), h2 = hash_of(dimension_ + 1);
+    const uint32_t i = shuffled_index(h);
+    dimension_ += 2;
+    return {bits_to_unit_float(owen_scramble_reversed(i, static_cast<uint32_t>(h >> 32))),
+            bits_to_unit_float(
+                owen_scramble_reversed(sobol_second_reversed(i), static_cast<uint32_t>(h2 >> 32)))};
   }
 
  private:
+  uint64_t hash_of(int dimension) const {
+    return mix_bits(seed_ + static_cast<uint64_t>(dimension) * 0x9e3779b97f4a7c15ull);
+  }
+  /// Runs of 2^k indices from a multiple of 2^k on stay together.
+  uint32_t shuffled_index(uint64_t hash) const {
+    return owen_scramble_reversed(reversed_index_, static_cast<uint32_t>(hash));
+  }
+
   const SobolPoint* point_ = nullptr;
   PrimarySample* primary_ = nullptr;  ///< instead of a point
   uint64_t seed_ = 0;
+  uint32_t index_ = 0, reversed_index_ = 0;
   int dimension_ = 0;
 };
 

@@ -31,6 +31,10 @@ int SampleMap::most() const {
   return *std::max_element(counts_.begin(), counts_.end());
 }
 
+int SampleMap::fewest() const {
+  return *std::min_element(counts_.begin(), counts_.end());
+}
+
 bool SampleMap::has(int samples) const {
   return std::find(counts_.begin(), counts_.end(), samples) != counts_.end();
 }

@@ -27,6 +27,7 @@ class SampleMap {
   /// `x` and `y` count from the corner of the crop.
   int at(int x, int y) const { return counts_[tile_of(x, y)]; }
   int most() const;
+  int fewest() const;
   bool has(int samples) const;  ///< some tile has this number
   double mean() const;
   size_t tile_of(int x, int y) const {

@@ -38,10 +38,19 @@ struct SomePixels {
   int stride = 1, rows = 0, shift_x = 0, shift_y = 0;
 };
 
+/// What the walks of a row of pixels, or of all, found.
 template <class T>
-std::vector<T> joined(const std::vector<std::vector<T>>& rows) {
-  std::vector<T> all;
-  for (const auto& row : rows) all.insert(all.end(), row.begin(), row.end());
+struct Found {
+  std::vector<T> points;
+  uint64_t rays = 0;
+};
+template <class T>
+Found<T> joined(const std::vector<Found<T>>& rows) {
+  Found<T> all;
+  for (const Found<T>& row : rows) {
+    all.points.insert(all.points.end(), row.points.begin(), row.points.end());
+    all.rays += row.rays;
+  }
   return all;
 }
 
@@ -83,7 +92,7 @@ class CasterVisitor {
 VisiblePoints visible_points(const Scene& scene, const Film& film, const OwnedRoutes& owned,
                              const PhotonPass& pass, const IntegratorOptions& options) {
   const SomePixels pixels(film.bounds(), pass.trace.key.pass);
-  std::vector<std::vector<Photon>> found(static_cast<size_t>(pixels.rows));
+  std::vector<Found<Photon>> found(static_cast<size_t>(pixels.rows));
   pixels.for_each([&](size_t row, int x, int y) {
     PathSampler sampler(pass.point, hash_combine(pass.trace.key.seed, kStream, x, y));
     CameraPath path = start_merging_path(scene, x, y, sampler, pass);
@@ -91,29 +100,33 @@ VisiblePoints visible_points(const Scene& scene, const Film& film, const OwnedRo
     auto keep = [&](const Walk&, const MergePoint& at) {
       Photon point;
       point.p = at.vertex.surface.p;
-      found[row].push_back(point);
+      found[row].points.push_back(point);
     };
     MergeWalkVisitor visitor(owned, keep);
     random_walk(scene, TransportMode::kRadiance, options.max_depth, path.walk, sampler, visitor);
+    found[row].rays += path.walk.rays;
   });
   // Wide enough to leave no gaps between the walks, and to reach as far as a merge.
   const float radius = std::max(2.0f * static_cast<float>(pixels.stride), first_radius(options));
   const Vec3f eye = scene.camera->camera_to_world(pass.trace.time).point(Vec3f(0, 0, 0));
-  return {PhotonGrid(joined(found)), pass.footprint, eye, radius};
+  Found<Photon> all = joined(found);
+  return {PhotonGrid(std::move(all.points)), pass.footprint, eye, radius, all.rays};
 }
 
-std::vector<Vec3f> caustic_casters(const Scene& scene, const Film& film, const PhotonPass& pass,
-                                   const IntegratorOptions& options) {
+CausticCasters caustic_casters(const Scene& scene, const Film& film, const PhotonPass& pass,
+                               const IntegratorOptions& options) {
   const SomePixels pixels(film.bounds(), pass.trace.key.pass);
-  std::vector<std::vector<Vec3f>> found(static_cast<size_t>(pixels.rows));
+  std::vector<Found<Vec3f>> found(static_cast<size_t>(pixels.rows));
   pixels.for_each([&](size_t row, int x, int y) {
     PathSampler sampler(pass.point, hash_combine(pass.trace.key.seed, kStream, x, y));
     CameraPath path = start_merging_path(scene, x, y, sampler, pass);
     if (!(path.camera_weight > 0)) return;
-    CasterVisitor visitor(found[row]);
+    CasterVisitor visitor(found[row].points);
     random_walk(scene, TransportMode::kRadiance, options.max_depth, path.walk, sampler, visitor);
+    found[row].rays += path.walk.rays;
   });
-  return joined(found);
+  Found<Vec3f> all = joined(found);
+  return {std::move(all.points), all.rays};
 }
 
 }  // namespace nephroid

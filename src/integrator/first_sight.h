@@ -16,6 +16,7 @@ struct VisiblePoints {
   PixelFootprint footprint;
   Vec3f eye{0, 0, 0};
   float radius_pixels = 0;
+  uint64_t rays = 0;  ///< that it took
 
   /// True if light that arrives at `p` (world) would be seen.
   bool has_near(const Vec3f& p) const {
@@ -30,10 +31,14 @@ struct VisiblePoints {
 VisiblePoints visible_points(const Scene& scene, const Film& film, const OwnedRoutes& owned,
                              const PhotonPass& pass, const IntegratorOptions& options);
 
+struct CausticCasters {
+  std::vector<Vec3f> points;
+  uint64_t rays = 0;  ///< that it took
+};
 /// Points (world) at which light that reaches a rough vertex of a camera path by way of specular
 /// ones may have met the first of these: the last vertices of runs of S behind a D, G or V, of
 /// paths of as many walks with at most three such vertices.
-std::vector<Vec3f> caustic_casters(const Scene& scene, const Film& film, const PhotonPass& pass,
-                                   const IntegratorOptions& options);
+CausticCasters caustic_casters(const Scene& scene, const Film& film, const PhotonPass& pass,
+                               const IntegratorOptions& options);
 
 }  // namespace nephroid

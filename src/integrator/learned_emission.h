@@ -16,9 +16,11 @@ namespace nephroid {
 
 class LearnedEmission {
  public:
-  /// The guide for the passes of a seed; learned when it is asked for the first time.
+  /// The guide for the passes of a seed; learned when it is asked for the first time, and its rays
+  /// counted then.
   const EmissionGuide& guide(uint64_t seed, const Scene& scene, const Film& film,
-                             const OwnedRoutes& owned, const IntegratorOptions& options);
+                             const OwnedRoutes& owned, const IntegratorOptions& options,
+                             EstimatorStatistics& statistics);
 
  private:
   std::optional<EmissionGuide> guide_;

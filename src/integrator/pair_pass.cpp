@@ -26,7 +26,7 @@ struct Chunk {
   uint64_t rays = 0, useful = 0, specular = 0, camera_paths = 0;
 };
 
-/// Samples of a film that clamps, which may have to wait for all batches of photons.
+/// Samples of a film that clamps, which wait for all batches of photons.
 struct SamplesToClamp {
   size_t parts = 1;
   std::vector<Rgb> values;     ///< [sample * parts + part]
@@ -77,7 +77,7 @@ class Rendering {
     settings_.specular_alpha = pass_.trace.specular_alpha;
     settings_.max_depth = options.max_depth;
     settings_.light_paths = static_cast<double>(how.light_paths);
-    settings_.technique = options.technique;
+    if (has_fixed_light_paths_) settings_.technique = options.technique;
     settings_.merging = &merging_;
     const size_t pixels = static_cast<size_t>(like.bounds().area());
     parts_ = like.parts_of(static_cast<int>(owned.group)).size();
@@ -85,7 +85,7 @@ class Rendering {
     const int most = how.samples ? how.samples->most() : 1;
     points_.resize(static_cast<size_t>(most));
     if (how.spread) found_.resize(pixels * points_.size());
-    if (like.settings().max_component < kInfinity) clamped_.resize(pixels * points_.size(), parts_);
+    if (!film && how.connects && how.spreads_splats) splatted_.resize(pixels);
     for (int n = 1; n <= most; ++n)
       if (how.samples ? how.samples->has(n) : n == 1)
         for (int k = 0; k < n; ++k)
@@ -99,6 +99,8 @@ class Rendering {
     int64_t begin = 0;
     do {
       std::vector<Photon> photons = trace_batch_of_paths(begin, buffer, statistics);
+      if (clamps() && clamped_.empty() && begin < how_.light_paths)
+        clamped_.resize(values_.size() / parts_ * points_.size(), parts_);
       const PhotonGrid grid(std::move(photons));
       statistics.hold(grid.bytes(),
                       values_.size() / parts_ *
@@ -169,7 +171,7 @@ class Rendering {
       }
       if (buffer)
         buffer->add(splats);
-      else
+      else if (!splatted_.empty())
         add_to_nearest(splats);
       statistics.splats += splats.size();
     }
@@ -177,17 +179,15 @@ class Rendering {
     return photons;
   }
 
+  /// The film of a trial is a box a pixel wide.
   void add_to_nearest(const std::vector<Splat>& splats) {
     const PixelBounds& b = like_.bounds();
     for (const Splat& splat : splats) {
       const int x = static_cast<int>(std::floor(splat.film.x)) - b.x0,
                 y = static_cast<int>(std::floor(splat.film.y)) - b.y0;
       if (x < 0 || y < 0 || x >= b.width() || y >= b.height()) continue;
-      Rgb& sum = values_[(static_cast<size_t>(y) * static_cast<size_t>(b.width()) +
-                          static_cast<size_t>(x)) *
-                             parts_ +
-                         splat.part];
-      sum = sum + splat.value * (1.0f / static_cast<float>(how_.light_paths));
+      splatted_[static_cast<size_t>(y) * static_cast<size_t>(b.width()) + static_cast<size_t>(x)] +=
+          total({&splat.value, 1}) / 3.0f / static_cast<float>(how_.light_paths);
     }
   }
 
@@ -226,6 +226,7 @@ class Rendering {
     });
     for (const Chunk& row : rows) {
       statistics.rays += row.rays;
+      if (settings_.merges_only) statistics.again_rays += row.rays;
       statistics.camera_paths += row.camera_paths;
     }
     if (film_ && how_.adds_features && !settings_.merges_only) film_->add_feature_estimates(1);
@@ -254,28 +255,30 @@ class Rendering {
     row.rays += trace_eye_path(settings_, path, camera, sampler, light, sees ? &features : nullptr);
     if (sees) features.add_to(*film_, x, y, scene_, camera, pass_.weights);
     const float share = 1.0f / static_cast<float>(samples);
-    const float factor = camera.camera_weight * camera.filter_weight * share;
     const size_t sample = pixel * points_.size() + static_cast<size_t>(k);
-    const std::span<Rgb> sums = clamped_.empty()
-                                    ? std::span(values_).subspan(pixel * parts_, parts_)
-                                    : clamped_.sums(sample);
-    double seen = 0;
-    for (size_t i = 0; i < parts_; ++i) {
-      const Rgb color = pass_.weights.apply(light.sums()[i]) * factor;
-      sums[i] = sums[i] + color;
-      seen += double{color.r} + color.g + color.b;
-    }
+    // What has to wait for other batches is clamped at the end.
+    const bool waits = !clamped_.empty();
+    const std::span<const Rgb> colors = light.colors(
+        pass_.weights, camera.camera_weight, waits ? kInfinity : like_.settings().max_component,
+        camera.filter_weight * share);
+    const std::span<Rgb> sums =
+        waits ? clamped_.sums(sample) : std::span(values_).subspan(pixel * parts_, parts_);
+    for (size_t i = 0; i < parts_; ++i) sums[i] = sums[i] + colors[i];
+    const double seen = static_cast<double>(total(colors));
     if (how_.spread) {
       PairPass::Found& found = found_[sample];
       found.light += static_cast<float>(seen / (3.0 * share));
-      found.rays += static_cast<float>(row.rays - before);
+      if (!settings_.merges_only) found.rays = static_cast<float>(row.rays - before);
     }
     if (settings_.merges_only) return;
     ++row.camera_paths;
-    if (!clamped_.empty()) clamped_.weights[sample] = std::abs(camera.filter_weight) * share;
+    if (waits) clamped_.weights[sample] = std::abs(camera.filter_weight) * share;
   }
 
-  /// Where memory cut the photons into batches, a sample is what it found in all of them.
+  bool clamps() const { return like_.settings().max_component < kInfinity; }
+
+  /// Where memory cut the photons into batches, a sample is what it found in all of them, in as
+  /// many rays as it took for one; splats are light of all samples of their pixel.
   void add_to_spread() {
     const PixelBounds& b = like_.bounds();
     size_t pixel = 0;
@@ -284,7 +287,9 @@ class Rendering {
         const size_t samples = how_.samples ? static_cast<size_t>(how_.samples->at(x, y)) : 1;
         for (size_t k = 0; k < samples; ++k) {
           const PairPass::Found& found = found_[pixel * points_.size() + k];
-          how_.spread->add(pixel, static_cast<double>(found.light),
+          how_.spread->add(pixel,
+                           static_cast<double>(found.light) +
+                               (splatted_.empty() ? 0.0 : static_cast<double>(splatted_[pixel])),
                            static_cast<double>(found.rays));
         }
       }
@@ -332,7 +337,9 @@ class Rendering {
   size_t parts_ = 1;
   std::vector<Rgb> values_;             ///< [pixel * parts + part]
   std::vector<PairPass::Found> found_;  ///< [pixel * most samples + sample], for the spread
-  SamplesToClamp clamped_;  ///< empty unless the film clamps; [pixel * most samples + sample]
+  std::vector<float> splatted_;         ///< [pixel] mean of the components; of trials that connect
+  /// Empty unless the film clamps and photons come in batches; [pixel * most samples + sample].
+  SamplesToClamp clamped_;
 };
 
 }  // namespace

@@ -25,6 +25,7 @@ struct PairPass {
   /// the later ones follow on.
   uint32_t head = 0;
   SampleSpread* spread = nullptr;  ///< where what each camera path finds goes as well
+  bool spreads_splats = false;     ///< of try_out: and what its pixel gets from light paths
 
   /// Renders the pass into the film, its number of estimates included.
   void render(const PassKey& key, const Scene& scene, Film& film, const OwnedRoutes& owned,

@@ -39,6 +39,7 @@ Trial PathAndPhotons::try_out(PairPass how, uint64_t seed, const Scene& scene, c
   SampleSpread spread(film.bounds());
   how.samples = &half;
   how.spread = &spread;
+  how.spreads_splats = true;
   EstimatorStatistics counts;
   for (uint32_t i = 0; i < kTrialPasses; ++i)
     how.try_out({hash_combine(seed, kTrialStream), i}, scene, film, owned_, options_, counts);
@@ -48,9 +49,9 @@ Trial PathAndPhotons::try_out(PairPass how, uint64_t seed, const Scene& scene, c
   const std::vector<double> variance = spread.by_tile().variance;
   for (size_t i = 0; i < variance.size(); ++i)
     if (half.counts()[i] > 0) tiles.push_back(variance[i]);
-  const double of_camera = static_cast<double>(counts.rays - counts.light_rays) /
-                           static_cast<double>(counts.camera_paths) *
-                           static_cast<double>(film.bounds().area());
+  const double of_camera =
+      static_cast<double>(counts.rays - counts.light_rays - counts.again_rays) /
+      static_cast<double>(counts.camera_paths) * static_cast<double>(film.bounds().area());
   return {steady_mean(std::move(tiles)),
           of_camera + static_cast<double>(counts.light_rays) / kTrialPasses,
           static_cast<double>(how.light_paths)};
@@ -58,13 +59,13 @@ Trial PathAndPhotons::try_out(PairPass how, uint64_t seed, const Scene& scene, c
 
 void PathAndPhotons::learn(uint64_t seed, const Scene& scene, const Film& film) {
   const int asked = options_.camera_samples_per_pass;
-  const int head = asked > 0 ? std::min<int>(asked, std::numeric_limits<uint16_t>::max()) : kHead;
+  const int head = asked > 0 ? asked : kHead;
   learned_.emplace(seed, SampleMap(film.bounds(), static_cast<uint16_t>(head)));
   Learned& learned = *learned_;
   PairPass& pass = learned.pass;
   pass.connects = false;
   pass.caustics_only = true;
-  pass.guide = &emission_.guide(seed, scene, film, owned_, options_);
+  pass.guide = &emission_.guide(seed, scene, film, owned_, options_, statistics_);
   pass.light_paths =
       has_specular_events(owned_) ? std::clamp<int64_t>(film.bounds().area(), 1 << 14, 1 << 18) : 0;
   const Trial many = try_out(pass, seed, scene, film);
@@ -132,26 +133,19 @@ EstimatorStatistics PathAndPhotons::statistics() const {
   EstimatorStatistics s = statistics_;
   if (!learned_) return s;
   const PairPass& pass = learned_->pass;
-  const std::string of_all = " of " + std::to_string(s.photon_paths) + " photon paths ";
-  if (!has_specular_events(owned_))
-    s.notes.push_back(
-        "no material of the scene has a specular lobe: there are no caustics, and no caustic "
-        "photons were needed");
-  else if (s.photon_paths > 0 && s.photon_paths_specular == 0)
-    s.notes.push_back("0" + of_all + "met a specular surface");
-  else if (s.photon_paths > 0 && s.photon_paths_useful == 0)
-    s.notes.push_back(std::to_string(s.photon_paths_specular) + of_all +
-                      "met a specular surface, none reached a diffuse one behind it");
   if (pass.connects)
     s.notes.push_back(
         "trial passes were better with light paths connected and merged everywhere than with "
         "caustic photons alone");
-  else if (const size_t targets = pass.guide->targets().size(); targets > 0)
+  else
+    explain_missing_caustics(owned_, s);
+  if (const size_t targets = pass.guide->targets().size(); targets > 0)
     s.notes.push_back("photons were aimed at " + std::to_string(targets) +
                       (targets == 1 ? " place" : " places") + " from which they were of use");
-  if (learned_->samples)
-    s.notes.push_back(fmt::format("{:.3g} camera paths a pixel and pass, 1 to {} by tile",
-                                  learned_->samples->mean(), learned_->samples->most()));
+  if (learned_->samples && !learned_->is_even)
+    s.notes.push_back(fmt::format("{:.3g} camera paths a pixel and pass, {} to {} by tile",
+                                  learned_->samples->mean(), learned_->samples->fewest(),
+                                  learned_->samples->most()));
   return s;
 }
 

@@ -18,17 +18,15 @@ int64_t default_photons_per_pass(int64_t pixels) {
 PhotonPass start_photon_pass(const PassKey& key, const Scene& scene, const Film& film,
                              const IntegratorOptions& options) {
   PhotonPass pass{{}, {}, scene.camera->footprint(), 0, SobolPoint(key.pass)};
-  // Two dimensions of one scrambled sequence over the passes: any run of passes covers both evenly.
-  // They are those that camera walks leave free: two scrambles of one dimension are functions of
-  // each other, and a pixel would see each time at one place only.
+  // Any run of passes covers wavelengths and times evenly, and both together, so that a thing that
+  // moves has all its colours everywhere; and in an order that has nothing to do with that of the
+  // camera walks, of which a pixel would else see each time at one place only.
   constexpr uint64_t kStream = 0x70617373;  // "pass"
-  PathSampler sampler(pass.point, hash_combine(key.seed, kStream));
+  PathSampler sampler(PaddedPoint{key.pass}, hash_combine(key.seed, kStream));
   pass.trace.key = key;
-  sampler.start_dimension(dimensions::kWavelength);
-  pass.trace.lambda =
-      SampledWavelengths::sample_visible(wavelength_number(scene, sampler.get_1d()));
-  sampler.start_dimension(dimensions::kTime);
-  pass.u_time = sampler.get_1d();
+  const Vec2f u = sampler.get_2d();
+  pass.trace.lambda = SampledWavelengths::sample_visible(wavelength_number(scene, u.x));
+  pass.u_time = u.y;
   pass.trace.time = scene.camera->motion_time(pass.u_time);
   pass.trace.photons_per_pass = options.photons_per_pass > 0
                                     ? options.photons_per_pass
@@ -95,29 +93,47 @@ void count_photons(const PhotonTrace& trace, EstimatorStatistics& statistics) {
   statistics.rays += trace.rays;
 }
 
-void explain_darkness(const OwnedRoutes& owned, uint64_t found, EstimatorStatistics& s) {
-  if (!photons_can_count(owned)) {
-    s.notes.push_back(
-        has_specular_events(owned)
-            ? "no path that this scene can have belongs to " + names_of_routes(owned) +
-                  ", and no photons were traced for it"
-            : std::string(
-                  "no material of the scene has a specular lobe: there are no caustics, and no "
-                  "photons were needed"));
-    return;
-  }
-  if (found > 0 || s.photon_paths == 0) return;
+namespace {
+
+const char* const kNothingSpecular =
+    "no material of the scene has a specular lobe: there are no caustics, and no photons were "
+    "needed";
+
+void explain_lost_paths(EstimatorStatistics& s) {
   const std::string of_all = " of " + std::to_string(s.photon_paths) + " photon paths ";
-  if (s.photons_stored > 0)
-    s.notes.push_back(std::to_string(s.photons_stored) +
-                      " photons were stored, none near a point that the camera sees");
-  else if (deposits_at_once(owned))
-    s.notes.push_back("none" + of_all + "met a surface at which its route merges");
-  else if (s.photon_paths_specular == 0)
+  if (s.photon_paths_specular == 0)
     s.notes.push_back("0" + of_all + "met a specular surface");
   else
     s.notes.push_back(std::to_string(s.photon_paths_specular) + of_all +
                       "met a specular surface, none reached a diffuse one behind it");
+}
+
+}  // namespace
+
+void explain_missing_caustics(const OwnedRoutes& owned, EstimatorStatistics& s) {
+  if (!has_specular_events(owned))
+    s.notes.push_back(kNothingSpecular);
+  else if (s.photon_paths > 0 && s.photon_paths_useful == 0)
+    explain_lost_paths(s);
+}
+
+void explain_darkness(const OwnedRoutes& owned, uint64_t found, EstimatorStatistics& s) {
+  if (!photons_can_count(owned)) {
+    s.notes.push_back(has_specular_events(owned)
+                          ? "no path that this scene can have belongs to " +
+                                names_of_routes(owned) + ", and no photons were traced for it"
+                          : std::string(kNothingSpecular));
+    return;
+  }
+  if (found > 0 || s.photon_paths == 0) return;
+  if (s.photons_stored > 0)
+    s.notes.push_back(std::to_string(s.photons_stored) +
+                      " photons were stored, none near a point that the camera sees");
+  else if (deposits_at_once(owned))
+    s.notes.push_back("none of " + std::to_string(s.photon_paths) +
+                      " photon paths met a surface at which its route merges");
+  else
+    explain_lost_paths(s);
 }
 
 }  // namespace nephroid

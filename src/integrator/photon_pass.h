@@ -50,6 +50,10 @@ void count_photons(const PhotonTrace& trace, EstimatorStatistics& statistics);
 /// Says why there is no light from photons, if there is none; `found` is how many were merged.
 void explain_darkness(const OwnedRoutes& owned, uint64_t found, EstimatorStatistics& statistics);
 
+/// The same for photons of caustics alone, from the paths that were traced and how many were of
+/// use.
+void explain_missing_caustics(const OwnedRoutes& owned, EstimatorStatistics& statistics);
+
 /// Calls `merge(walk, merge_point)` at each vertex of the walk where photons may be merged.
 template <class Merge>
 class MergeWalkVisitor {

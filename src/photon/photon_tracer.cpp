@@ -135,23 +135,26 @@ PhotonTrace trace_photons(const Scene& scene, const OwnedRoutes& owned,
   return trace;
 }
 
-std::vector<UsefulStart> trace_useful_starts(const Scene& scene, const OwnedRoutes& owned,
-                                             const PhotonTraceSettings& settings, int64_t begin,
-                                             int64_t end,
-                                             const std::function<bool(const Photon&)>& is_useful) {
-  std::vector<std::vector<UsefulStart>> chunks(
-      static_cast<size_t>(chunk_count(end - begin, kPhotonChunk)));
+UsefulStarts trace_useful_starts(const Scene& scene, const OwnedRoutes& owned,
+                                 const PhotonTraceSettings& settings, int64_t begin, int64_t end,
+                                 const std::function<bool(const Photon&)>& is_useful) {
+  std::vector<UsefulStarts> chunks(static_cast<size_t>(chunk_count(end - begin, kPhotonChunk)));
   parallel_chunks(end - begin, kPhotonChunk, [&](int64_t c, int64_t b, int64_t e) {
+    UsefulStarts& chunk = chunks[static_cast<size_t>(c)];
     std::vector<Photon> photons;
     for (int64_t j = begin + b; j < begin + e; ++j) {
       photons.clear();
       const Outcome outcome = trace_photon(scene, owned, settings, j, photons);
+      chunk.rays += outcome.rays;
       if (std::any_of(photons.begin(), photons.end(), is_useful))
-        chunks[static_cast<size_t>(c)].push_back(outcome.start);
+        chunk.starts.push_back(outcome.start);
     }
   });
-  std::vector<UsefulStart> all;
-  for (const auto& chunk : chunks) all.insert(all.end(), chunk.begin(), chunk.end());
+  UsefulStarts all;
+  for (const UsefulStarts& chunk : chunks) {
+    all.starts.insert(all.starts.end(), chunk.starts.begin(), chunk.starts.end());
+    all.rays += chunk.rays;
+  }
   return all;
 }
 

@@ -39,12 +39,16 @@ struct PhotonTraceSettings {
 PhotonTrace trace_photons(const Scene& scene, const OwnedRoutes& owned,
                           const PhotonTraceSettings& settings, int64_t begin, int64_t end);
 
-/// Starts of the paths begin <= j < end that left a photon which is of use. `is_useful` is called on
-/// any thread.
-std::vector<UsefulStart> trace_useful_starts(const Scene& scene, const OwnedRoutes& owned,
-                                             const PhotonTraceSettings& settings, int64_t begin,
-                                             int64_t end,
-                                             const std::function<bool(const Photon&)>& is_useful);
+/// What paths of learning found.
+struct UsefulStarts {
+  std::vector<UsefulStart> starts;
+  uint64_t rays = 0;
+};
+/// Starts of the paths begin <= j < end that left a photon which is of use. `is_useful` is called
+/// on any thread.
+UsefulStarts trace_useful_starts(const Scene& scene, const OwnedRoutes& owned,
+                                 const PhotonTraceSettings& settings, int64_t begin, int64_t end,
+                                 const std::function<bool(const Photon&)>& is_useful);
 
 /// Traces from photon `begin` on until the pass ends or `limit` photons are stored, whichever comes
 /// first, in groups of whole chunks: a pass whose photons do not fit in memory is traced, gathered

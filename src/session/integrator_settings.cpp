@@ -91,9 +91,9 @@ constexpr IntegratorSetting kSettings[] = {
                                     : fmt::format("{:g}..{:g}", band.low, band.high);
      }},
     {"camera-samples", "N", "0", "samples",
-     "Camera paths per pixel and pass; 0 lets the integrator choose.",
+     "Camera paths per pixel and pass, up to 65535; 0 lets the integrator choose.",
      [](IntegratorOptions& o, const std::string& t) {
-       o.camera_samples_per_pass = static_cast<int>(integer("camera-samples", t, 0, kMaxInt));
+       o.camera_samples_per_pass = static_cast<int>(integer("camera-samples", t, 0, 65535));
      },
      [](const IntegratorOptions& o) { return fmt::format("{}", o.camera_samples_per_pass); }},
     {"point-lights", "N", "0", "connections",

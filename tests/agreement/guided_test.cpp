@@ -122,16 +122,16 @@ TEST_P(Guided, WalksAndPhotonsTogetherFindTheSamePicture) {
         options.radius = radius;
         Film film = film_for(*scene, preset);
         LearnedEmission learned;
+        EstimatorStatistics statistics;
         PairPass pass;
         pass.light_paths = 8192;
         pass.connects = false;
         pass.caustics_only = true;
-        pass.guide = &learned.guide(first_seed + s, *scene, film, owned, options);
+        pass.guide = &learned.guide(first_seed + s, *scene, film, owned, options, statistics);
         EXPECT_EQ(pass.guide->empty(), !guided);
         SampleMap map(film.bounds());
         for (uint16_t& n : map.counts()) n = 8;
         pass.samples = &map;
-        EstimatorStatistics statistics;
         for (uint32_t i = 0; i < 4; ++i)
           pass.render({first_seed + s, i}, *scene, film, owned, options, statistics);
         return block_means(film, kAcross);

@@ -221,6 +221,21 @@ TEST(ResultFiles, FiguresThatAreNotFiniteAreReadBack) {
   EXPECT_FALSE(std::isfinite(kept->end().errors.mean_error));
 }
 
+// A picture with an infinite standard error somewhere is kept as any other.
+TEST(ResultFiles, AReferenceWhoseErrorIsNotFiniteIsReadBack) {
+  BenchReferenceResult reference;
+  reference.key = "0123456789abcdef";
+  reference.passes = 7;
+  reference.own_error = std::numeric_limits<double>::infinity();
+  const auto kept = reference_from_json(reference_to_json(reference));
+  ASSERT_TRUE(kept);
+  EXPECT_EQ(kept->passes, 7u);
+  ASSERT_TRUE(kept->own_error);
+  EXPECT_FALSE(std::isfinite(*kept->own_error));
+  reference.own_error = std::nullopt;
+  EXPECT_FALSE(reference_from_json(reference_to_json(reference))->own_error);
+}
+
 TEST(ResultFiles, EveryCsvLineHasAllColumns) {
   BenchResults results = made_up("");
   results.scenes[0].runs[1].failure = "it broke";

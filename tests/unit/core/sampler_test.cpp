@@ -38,6 +38,86 @@ TEST(Sampler, FirstTwoDimensionsAreANet) {
     }
 }
 
+TEST(Sampler, SecondDimensionIsThatOfSobol) {
+  for (uint32_t i = 0; i < 5000; ++i)
+    for (const uint32_t index : {i, i * 2654435761u}) {
+      const SobolPoint point(index, 2);
+      ASSERT_EQ(point.reversed(0), index);
+      ASSERT_EQ(point.reversed(1), sobol_second_reversed(index)) << index;
+    }
+}
+
+TEST(PaddedPoint, EachDecisionIsANetOverAnyRunOfSamples) {
+  for (const int decision : {0, 2, 14, 17, 400})
+    for (const uint32_t first : {0u, 64u, 64u * 77u})
+      for (const int samples_log2 : {2, 4, 6})
+        for (int columns_log2 = 0; columns_log2 <= samples_log2; ++columns_log2) {
+          std::set<int> cells, numbers;
+          const int samples = 1 << samples_log2, columns = 1 << columns_log2,
+                    rows = samples >> columns_log2;
+          for (int i = 0; i < samples; ++i) {
+            PathSampler s(PaddedPoint{first + static_cast<uint32_t>(i)}, 5);
+            s.start_dimension(decision);
+            const Vec2f u = s.get_2d();
+            cells.insert(static_cast<int>(u.x * static_cast<float>(columns)) * rows +
+                         static_cast<int>(u.y * static_cast<float>(rows)));
+            s.start_dimension(decision);
+            numbers.insert(static_cast<int>(s.get_1d() * static_cast<float>(samples)));
+          }
+          EXPECT_EQ(cells.size(), static_cast<size_t>(samples)) << decision << ' ' << first;
+          EXPECT_EQ(numbers.size(), static_cast<size_t>(samples)) << decision << ' ' << first;
+        }
+}
+
+TEST(PaddedPoint, DecisionsHaveNothingToDoWithEachOther) {
+  // Pairs of numbers of two decisions, over sixteen samples of many pixels: each of 4 x 4 cells
+  // gets its share, and within a pixel as many cells are hit as by chance. Sobol' dimensions 2 and
+  // 13 would hit 4 of the 16.
+  for (const auto& [a, b] : {std::pair{0, 2}, {2, 13}, {4, 7}, {1, 0}, {3, 200}}) {
+    std::array<int, 16> histogram{};
+    double cells = 0;
+    constexpr int kPixels = 4000, kSamples = 16;
+    for (int pixel = 0; pixel < kPixels; ++pixel) {
+      std::set<size_t> hit;
+      for (uint32_t i = 0; i < kSamples; ++i) {
+        PathSampler s(PaddedPoint{i}, hash_combine(9, pixel));
+        s.start_dimension(a);
+        const int x = static_cast<int>(4 * s.get_1d());
+        s.start_dimension(b);
+        const size_t cell = static_cast<size_t>(4 * x + static_cast<int>(4 * s.get_1d()));
+        hit.insert(cell);
+        ++histogram[cell];
+      }
+      cells += static_cast<double>(hit.size()) / kPixels;
+    }
+    // Both numbers are stratified, so a cell has less spread than by chance alone; five standard
+    // errors of chance.
+    for (const int n : histogram) EXPECT_NEAR(n, kPixels, 5 * std::sqrt(kPixels)) << a << ' ' << b;
+    // By chance four in each row and column hit about eleven.
+    EXPECT_NEAR(cells, 10.9, 0.3) << a << ' ' << b;
+  }
+}
+
+TEST(PaddedPoint, UniformOverSeedsAtEveryIndex) {
+  for (const int d : {0, 1, 7, 300})
+    for (const uint32_t i : {0u, 1u, 77u}) {
+      std::array<int, 64> first{}, second{};
+      constexpr int kSeeds = 1 << 16;
+      for (int seed = 0; seed < kSeeds; ++seed) {
+        PathSampler s(PaddedPoint{i}, static_cast<uint64_t>(seed));
+        s.start_dimension(d);
+        const Vec2f u = s.get_2d();
+        ++first[static_cast<size_t>(u.x * 64)];
+        ++second[static_cast<size_t>(u.y * 64)];
+      }
+      for (const auto& histogram : {first, second}) {
+        double chi2 = 0;
+        for (const int n : histogram) chi2 += sqr(n - kSeeds / 64.0) / (kSeeds / 64.0);
+        EXPECT_LT(chi2, 124.8) << "dimension " << d << " index " << i;
+      }
+    }
+}
+
 TEST(Sampler, UniformOverSeedsAtEveryIndex) {
   // At a fixed index and dimension the scramble alone must make the number uniform: chi-square with
   // 63 degrees of freedom; 124.8 is the quantile for 1e-5.

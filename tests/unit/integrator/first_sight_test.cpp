@@ -34,7 +34,8 @@ std::vector<Vec3f> casters_of(const std::string& text, const IntegratorOptions& 
   const auto scene = scene_from_text(text);
   const Preset preset = make_preset(Plan("doidge2012"), options, *scene);
   const Film film = film_for(*scene, preset);
-  return caustic_casters(*scene, film, start_photon_pass({1, 0}, *scene, film, options), options);
+  const PhotonPass pass = start_photon_pass({1, 0}, *scene, film, options);
+  return caustic_casters(*scene, film, pass, options).points;
 }
 
 TEST(CausticCasters, AreWhatSpecularRunsEndOn) {
@@ -70,7 +71,10 @@ TEST(LearnedEmission, FindsASmallThingThatChanceDoesNot) {
   while (preset.routes->groups()[group].estimator != EstimatorKind::kPhotons) ++group;
   const auto symbols = std::make_shared<const SceneSymbols>(*scene, std::vector<std::string>{});
   LearnedEmission learned;
-  const EmissionGuide& guide = learned.guide(1, *scene, film, {preset.routes, symbols, group}, {});
+  EstimatorStatistics statistics;
+  const EmissionGuide& guide =
+      learned.guide(1, *scene, film, {preset.routes, symbols, group}, {}, statistics);
+  EXPECT_GT(statistics.rays, 3u << 14);
   ASSERT_FALSE(guide.empty());
   int met = 0;
   constexpr int kPaths = 4096;

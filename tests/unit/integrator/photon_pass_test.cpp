@@ -1,0 +1,38 @@
+// The wavelengths and the moment of a pass: over any sixteen passes from a multiple of sixteen on,
+// every quarter of the spectrum meets every quarter of the time.
+#include "integrator/photon_pass.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "rendering.h"
+
+namespace nephroid {
+namespace {
+
+using namespace testing_support;
+
+TEST(PhotonPass, HasAllWavelengthsAtAllTimes) {
+  constexpr uint32_t kPasses = 16;
+  const auto scene = scene_from_text(R"(Film "rgb" "integer xresolution" 4 "integer yresolution" 4
+    WorldBegin LightSource "point" Shape "sphere")");
+  const Preset preset = make_preset(Plan("sppm"), {}, *scene);
+  const Film film = film_for(*scene, preset);
+  for (const uint64_t seed : {1, 2, 3})
+    for (const uint32_t first : {0u, 16u, 1600u}) {
+      std::vector<std::pair<float, float>> moments;  // the first wavelength grows with its number
+      for (uint32_t i = 0; i < kPasses; ++i) {
+        const PhotonPass pass = start_photon_pass({seed, first + i}, *scene, film, {});
+        moments.emplace_back(pass.trace.lambda.lambda(0), pass.u_time);
+      }
+      std::sort(moments.begin(), moments.end());
+      std::set<std::pair<uint32_t, int>> cells;
+      for (uint32_t i = 0; i < kPasses; ++i)
+        cells.emplace(i / 4, static_cast<int>(4 * moments[i].second));
+      EXPECT_EQ(cells.size(), kPasses) << "seed " << seed << ", passes from " << first;
+    }
+}
+
+}  // namespace
+}  // namespace nephroid
