@@ -89,5 +89,25 @@ TEST(Forecast, KnowsOnlyWhatComesFromLights) {
   EXPECT_NE(s.notes[0].find("none of 8192"), std::string::npos);
 }
 
+// Photons are traced in rounds until there are sights enough for a map, or it is clear that there
+// are hardly any.
+TEST(Forecast, LearnsInRoundsForAsLongAsSightsAreFew) {
+  constexpr uint64_t kRound = 1 << 16, kEnough = 1 << 15, kMost = 16 * kRound;
+  const std::vector<std::string> routes = {"caustic=C.*[DG]S+L:forecast", "rest=.*:path"};
+  const auto many = scene_from_text(mirror_and_lamp(false));
+  const EstimatorStatistics enough = statistics_after(*many, routes, {{1, 0}}, 0);
+  EXPECT_EQ(enough.photon_paths % kRound, 0u);
+  EXPECT_GT(enough.photon_paths, kRound) << "one round is not enough";
+  EXPECT_LT(enough.photon_paths, kMost);
+  EXPECT_GE(enough.photons_stored, kEnough);
+  const double rounds = static_cast<double>(enough.photon_paths / kRound);
+  EXPECT_LT(static_cast<double>(enough.photons_stored) * (rounds - 1) / rounds, kEnough)
+      << "it stops as soon as it can";
+  const auto none = scene_from_text(mirror_and_lamp(true));
+  const EstimatorStatistics few = statistics_after(*none, routes, {{1, 0}}, 0);
+  EXPECT_EQ(few.photon_paths, kMost);
+  EXPECT_EQ(few.photons_stored, 0u);
+}
+
 }  // namespace
 }  // namespace nephroid
