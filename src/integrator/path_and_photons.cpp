@@ -119,10 +119,8 @@ const SampleMap& PathAndPhotons::samples(const Scene& scene, const Film& film) {
 }
 
 int64_t PathAndPhotons::light_paths(double camera_paths) const {
-  const PairPass& pass = learned_->pass;
-  if (learned_->balance) return learned_->balance->light_paths(camera_paths);
-  if (!pass.connects || options_.photons_per_pass > 0) return pass.light_paths;
-  return std::llround(static_cast<double>(pass.light_paths) * camera_paths);
+  return learned_->balance ? learned_->balance->light_paths(camera_paths)
+                           : learned_->pass.light_paths;
 }
 
 PairPass PathAndPhotons::first_pass() {
