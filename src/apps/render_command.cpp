@@ -14,6 +14,7 @@
 #include "integrator/ppm.h"
 #include "session/file_hash.h"
 #include "session/film_of_scene.h"
+#include "session/idle_settings.h"
 #include "session/render_session.h"
 #include "session/scene_loading.h"
 #include "session/version.h"
@@ -92,6 +93,7 @@ int run_render(const RenderCommand& command) {
   Preset preset = make_preset(plan, choice.options, scene);
   if (!command.quiet)
     for (const std::string& warning : preset.warnings) print_warning(warning);
+  if (!command.quiet) print_warnings(idle_settings(command.settings, *preset.routes));
   check_film_fits(scene.film, preset.layout, *preset.routes, command.overrides.width > 0,
                   command.reject_outliers,
                   Ppm::hit_points(choice.options, scene.samples_per_pixel));

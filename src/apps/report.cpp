@@ -40,10 +40,12 @@ std::string photon_line(const EstimatorStatistics& first, const EstimatorStatist
                         uint32_t passes) {
   if (last.photon_paths == 0) return {};
   const double paths = static_cast<double>(last.photon_paths);
-  std::string text = fmt::format(
-      "photons: {}paths per pass, {}photons kept in all, {:.3g} % of paths kept any",
-      short_number(paths / passes), short_number(static_cast<double>(last.photons_stored)),
-      100 * static_cast<double>(last.photon_paths_useful) / paths);
+  std::string text =
+      fmt::format("photons: {}paths {}, {}photons kept in all, {:.3g} % of paths kept any",
+                  short_number(last.photons_stay ? paths : paths / passes),
+                  last.photons_stay ? "once" : "per pass",
+                  short_number(static_cast<double>(last.photons_stored)),
+                  100 * static_cast<double>(last.photon_paths_useful) / paths);
   if (last.radius_max_pixels > 0)
     text += fmt::format("\nmerge radius: {:.3g} pixels in the first pass to {:.3g} in the last",
                         first.radius_max_pixels, last.radius_min_pixels);

@@ -15,6 +15,7 @@
 #include "core/errors.h"
 #include "core/parallel.h"
 #include "film/atomic_file.h"
+#include "input/spelling.h"
 #include "session/version.h"
 
 namespace nephroid {
@@ -48,11 +49,15 @@ BenchLimit limit_of(const BenchSuite& suite, const BenchScene& scene, const Benc
 
 std::vector<const BenchScene*> chosen_scenes(const BenchSuite& suite, const BenchOptions& options) {
   std::string known;
-  for (const BenchScene& scene : suite.scenes) known += (known.empty() ? "" : ", ") + scene.name;
+  std::vector<std::string> names;
+  for (const BenchScene& scene : suite.scenes) {
+    known += (known.empty() ? "" : ", ") + scene.name;
+    names.push_back(scene.name);
+  }
   for (const std::string& name : options.only)
     if (suite.find_scene(name) == nullptr)
-      throw UsageError(
-          fmt::format("--only: the suite has no scene '{}', expected one of: {}", name, known));
+      throw UsageError(fmt::format("--only: the suite has no scene '{}', expected one of: {}{}",
+                                   name, known, did_you_mean(name, names)));
   std::vector<const BenchScene*> chosen;
   for (const BenchScene& scene : suite.scenes) {
     if (!options.only.empty() &&
@@ -169,6 +174,8 @@ class Bench {
       auto rendered = render_for_bench(render, &reference, shelf_, signals_);
       if (!rendered) return std::nullopt;
       BenchRun& run = rendered->run;
+      for (const std::string& warning : rendered->warnings)
+        options_.say(title + ": warning: " + warning);
       run.key = key;
       run.picture = files.picture;
       write_exr(files.picture, rendered->picture);

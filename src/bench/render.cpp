@@ -247,6 +247,7 @@ std::optional<BenchRendered> render_for_bench(const BenchRender& render, const P
   for (const std::vector<std::string>& warnings :
        {loaded.warnings, choice.warnings, preset.warnings})
     run.notes.insert(run.notes.end(), warnings.begin(), warnings.end());
+  rendered.warnings = preset.warnings;
   fill_run(result, film, render, reference, &run);
   rendered.picture = film_picture(film, metadata_of(render, plan, run));
   return rendered;

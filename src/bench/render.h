@@ -37,8 +37,9 @@ RoutePlan plan_of(const BenchRender& render);
 
 /// A finished render; nothing if a signal stopped it.
 struct BenchRendered {
-  BenchRun run;     ///< without key and picture
-  Picture picture;  ///< all layers, with metadata
+  BenchRun run;                       ///< without key and picture
+  Picture picture;                    ///< all layers, with metadata
+  std::vector<std::string> warnings;  ///< about its routes, which the run has among its notes
 };
 
 /// Renders and measures against the reference as it goes. A null reference measures nothing, and

@@ -29,6 +29,7 @@ struct EstimatorStatistics {
   uint64_t light_rays = 0;  ///< of these, of paths that all pixels share, where they are told apart
   uint64_t again_rays = 0;  ///< of these, of camera paths walked again for more batches of photons
   uint64_t camera_paths = 0;
+  bool photons_stay = false;  ///< traced once, for all passes
   uint64_t photon_paths = 0;  ///< emitted
   uint64_t photons_stored = 0;
   uint64_t photon_paths_useful = 0;                    ///< paths that stored at least one photon

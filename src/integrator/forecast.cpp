@@ -153,6 +153,7 @@ void Forecast::render_pass(const PassKey& key, const Scene& scene, Film& film) {
 
 EstimatorStatistics Forecast::statistics() const {
   EstimatorStatistics s = statistics_;
+  s.photons_stay = true;
   if (s.photon_paths == 0) return s;
   const std::string of_all = " of " + std::to_string(paths_of_map_) + " photon paths ";
   const std::string sights = std::to_string(map_.size()) + " sights" + of_all;

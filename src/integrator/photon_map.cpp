@@ -102,6 +102,7 @@ void PhotonMap::read(const Map& map, const PassKey& set, uint64_t walk_seed, con
 
 EstimatorStatistics PhotonMap::statistics() const {
   EstimatorStatistics s = statistics_;
+  s.photons_stay = true;
   explain_darkness(owned_, found_, s);
   if (s.photons_stored > 0)
     s.notes.push_back("the map of " + names_of_routes(owned_) + " has " +

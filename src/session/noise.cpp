@@ -34,7 +34,9 @@ std::optional<double> estimated_noise(const Film& film) {
   for (int g = 0; g < film.layout().group_count(); ++g)
     if (film.estimates(g) < 2) return std::nullopt;
   const double sum = sum_over_pixels(film, [&](int x, int y) {
-    const Rgb value = film.value(x, y), error = film.standard_error(x, y);
+    // Of all light, whatever is held: that is what the error is of.
+    const Rgb held = film.rejection() != nullptr ? film.outliers(x, y) : Rgb();
+    const Rgb value = film.value(x, y) + held, error = film.standard_error(x, y);
     double pixel = 0;
     for (int c = 0; c < 3; ++c) {
       const double v = value[c], e = error[c];

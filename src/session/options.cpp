@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/errors.h"
+#include "input/spelling.h"
 #include "session/option_values.h"
 
 namespace nephroid {
@@ -32,7 +33,8 @@ void set_integrator(CommandLine& line, const std::string& text) {
     for (const std::string& name : names) known += name + ", ";
     throw UsageError("--integrator: unknown integrator '" + text + "', expected one of: " + known +
                      "scene" +
-                     (route_preset(text) ? " (it is a preset: --routes " + text + ")" : ""));
+                     (route_preset(text) ? " (it is a preset: --routes " + text + ")"
+                                         : did_you_mean(text, names)));
   }
   (line.*Command).routes.integrator = text;
 }
@@ -162,7 +164,7 @@ constexpr OptionDescription kOptions[] = {
      }},
     {"render", "--noise", "", "X", "relative error", "no target", "When to stop",
      "Stop when the estimated noise, the root of the mean of stderr^2 / (value^2 + 0.01), is at or "
-     "below X.",
+     "below X; sppm, ppm and photonmap cannot tell.",
      false,
      [](CommandLine& l, const std::string& t) {
        l.render.noise_target = parse_number("--noise", t, 0, kAnyNumber, true);

@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "core/errors.h"
+#include "input/spelling.h"
 
 namespace nephroid {
 namespace {
@@ -38,11 +39,14 @@ std::vector<RouteDefinition> routes_of(const std::string& preset_or_file) {
   if (std::filesystem::is_regular_file(preset_or_file))
     return parse_route_file(read_file(preset_or_file), preset_or_file);
   std::string known;
-  for (const RoutePreset& preset : route_presets())
+  std::vector<std::string> names;
+  for (const RoutePreset& preset : route_presets()) {
     known += std::string(known.empty() ? "" : ", ") + preset.name;
+    names.emplace_back(preset.name);
+  }
   throw UsageError(fmt::format(
-      "--routes: '{}' is neither a preset nor a file, expected the name of a file or one of: {}",
-      preset_or_file, known));
+      "--routes: '{}' is neither a preset nor a file, expected the name of a file or one of: {}{}",
+      preset_or_file, known, did_you_mean(preset_or_file, names)));
 }
 
 }  // namespace
