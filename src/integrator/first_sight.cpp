@@ -87,45 +87,50 @@ class CasterVisitor {
   int rough_ = 0;
 };
 
+/// Starts a camera path at some pixels of the film; `run(path, sampler, points of the row)` walks.
+template <class T, class Run>
+Found<T> walk_from(const Scene& scene, const SomePixels& pixels, const PhotonPass& pass,
+                   const Run& run) {
+  std::vector<Found<T>> rows(static_cast<size_t>(pixels.rows));
+  pixels.for_each([&](size_t row, int x, int y) {
+    PathSampler sampler(pass.point, hash_combine(pass.trace.key.seed, kStream, x, y));
+    CameraPath path = start_merging_path(scene, x, y, sampler, pass);
+    if (!(path.camera_weight > 0)) return;
+    run(path, sampler, rows[row].points);
+    rows[row].rays += path.walk.rays;
+  });
+  return joined(rows);
+}
+
 }  // namespace
 
 VisiblePoints visible_points(const Scene& scene, const Film& film, const OwnedRoutes& owned,
                              const PhotonPass& pass, const IntegratorOptions& options) {
   const SomePixels pixels(film.bounds(), pass.trace.key.pass);
-  std::vector<Found<Photon>> found(static_cast<size_t>(pixels.rows));
-  pixels.for_each([&](size_t row, int x, int y) {
-    PathSampler sampler(pass.point, hash_combine(pass.trace.key.seed, kStream, x, y));
-    CameraPath path = start_merging_path(scene, x, y, sampler, pass);
-    if (!(path.camera_weight > 0)) return;
+  const auto run = [&](CameraPath& path, PathSampler& sampler, std::vector<Photon>& points) {
     auto keep = [&](const Walk&, const MergePoint& at) {
       Photon point;
       point.p = at.vertex.surface.p;
-      found[row].points.push_back(point);
+      points.push_back(point);
     };
     MergeWalkVisitor visitor(owned, keep);
     random_walk(scene, TransportMode::kRadiance, options.max_depth, path.walk, sampler, visitor);
-    found[row].rays += path.walk.rays;
-  });
+  };
+  Found<Photon> all = walk_from<Photon>(scene, pixels, pass, run);
   // Wide enough to leave no gaps between the walks, and to reach as far as a merge.
   const float radius = std::max(2.0f * static_cast<float>(pixels.stride), first_radius(options));
   const Vec3f eye = scene.camera->camera_to_world(pass.trace.time).point(Vec3f(0, 0, 0));
-  Found<Photon> all = joined(found);
   return {PhotonGrid(std::move(all.points)), pass.footprint, eye, radius, all.rays};
 }
 
 CausticCasters caustic_casters(const Scene& scene, const Film& film, const PhotonPass& pass,
                                const IntegratorOptions& options) {
   const SomePixels pixels(film.bounds(), pass.trace.key.pass);
-  std::vector<Found<Vec3f>> found(static_cast<size_t>(pixels.rows));
-  pixels.for_each([&](size_t row, int x, int y) {
-    PathSampler sampler(pass.point, hash_combine(pass.trace.key.seed, kStream, x, y));
-    CameraPath path = start_merging_path(scene, x, y, sampler, pass);
-    if (!(path.camera_weight > 0)) return;
-    CasterVisitor visitor(found[row].points);
+  const auto run = [&](CameraPath& path, PathSampler& sampler, std::vector<Vec3f>& points) {
+    CasterVisitor visitor(points);
     random_walk(scene, TransportMode::kRadiance, options.max_depth, path.walk, sampler, visitor);
-    found[row].rays += path.walk.rays;
-  });
-  Found<Vec3f> all = joined(found);
+  };
+  Found<Vec3f> all = walk_from<Vec3f>(scene, pixels, pass, run);
   return {std::move(all.points), all.rays};
 }
 

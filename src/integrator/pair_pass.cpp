@@ -56,8 +56,7 @@ class Rendering {
         key_(key),
         seed_(hash_combine(key.seed,
                            static_cast<uint64_t>(owned.routes->groups()[owned.group].estimator))),
-        has_fixed_light_paths_(owned.routes->groups()[owned.group].estimator !=
-                               EstimatorKind::kPathAndPhotons),
+        learns_(owned.routes->groups()[owned.group].estimator == EstimatorKind::kPathAndPhotons),
         scene_(scene),
         like_(like),
         film_(film),
@@ -77,7 +76,7 @@ class Rendering {
     settings_.specular_alpha = pass_.trace.specular_alpha;
     settings_.max_depth = options.max_depth;
     settings_.light_paths = static_cast<double>(how.light_paths);
-    if (has_fixed_light_paths_) settings_.technique = options.technique;
+    if (!learns_) settings_.technique = options.technique;
     settings_.merging = &merging_;
     const size_t pixels = static_cast<size_t>(like.bounds().area());
     parts_ = like.parts_of(static_cast<int>(owned.group)).size();
@@ -130,9 +129,9 @@ class Rendering {
         uint64_t{key_.pass} * static_cast<uint64_t>(how_.light_paths) + static_cast<uint64_t>(j);
     const SobolPoint point(static_cast<uint32_t>(number), kLightPathDimensions);
     // Where passes differ in their number of light paths, each number has a sequence of its own.
-    const uint64_t seed = has_fixed_light_paths_
-                              ? hash_combine(seed_, kLightStream, number >> 32)
-                              : hash_combine(seed_, kLightStream, number >> 32, how_.light_paths);
+    const uint64_t seed = learns_
+                              ? hash_combine(seed_, kLightStream, number >> 32, how_.light_paths)
+                              : hash_combine(seed_, kLightStream, number >> 32);
     PathSampler sampler(point, seed);
     return trace_light_path(settings_, pass_.trace.lambda, pass_.u_time, sampler, nullptr, &seen,
                             &photons);
@@ -321,8 +320,8 @@ class Rendering {
 
   const PairPass& how_;
   const PassKey key_;
-  const uint64_t seed_;               ///< of the kind: `vcm` and `bpm` of one plan are independent
-  const bool has_fixed_light_paths_;  ///< all passes have the same number
+  const uint64_t seed_;  ///< of the kind: `vcm` and `bpm` of one plan are independent
+  const bool learns_;    ///< path+photons: passes differ in their number of light paths
   const Scene& scene_;
   const Film& like_;
   Film* film_;

@@ -10,7 +10,7 @@ namespace nephroid {
 namespace {
 
 /// So many starts say how wide the place is in which they lie.
-constexpr float kFew = 8;
+constexpr float kTelling = 8;
 /// Targets are so much wider than the starts in them.
 constexpr float kRoom = 1.05f;
 /// Over the scene's radius.
@@ -148,8 +148,11 @@ EmissionGuide::EmissionGuide(const Scene& scene, std::span<const UsefulStart> us
 }
 
 EmissionGuide::EmissionGuide(const Scene& scene, std::span<const Vec3f> casters) {
-  if (casters.empty()) return;
   gather_lights(scene);
+  // Black lights shine nowhere.
+  if (casters.empty() ||
+      std::none_of(clusters_.begin(), clusters_.end(), [](const Cluster& c) { return c.pmf > 0; }))
+    return;
   std::vector<UsefulStart> starts(casters.size());
   for (size_t i = 0; i < casters.size(); ++i) starts[i].first_hit = casters[i];
   Splitter splitter(starts);
@@ -190,7 +193,7 @@ EmissionGuide::Target EmissionGuide::target_around(const Scene& scene, const Bou
   }
   const float slack = kRoom + 0.5f / std::sqrt(count);
   return {center, std::max({0.5f * length(bounds.max - bounds.min) * slack,
-                            static_cast<float>(needed) * std::min(1.0f, kFew / count),
+                            static_cast<float>(needed) * std::min(1.0f, kTelling / count),
                             kSmallest * scene.sphere.radius})};
 }
 

@@ -91,5 +91,18 @@ TEST(LearnedEmission, FindsASmallThingThatChanceDoesNot) {
   EXPECT_GT(met, kPaths / 6);
 }
 
+// Casters are seen, but nothing shines on them: there is nothing to aim from.
+TEST(LearnedEmission, StandsLampsThatAreBlack) {
+  std::string text = kView + kGlass;
+  const std::string lamp = "[900 900 900]";
+  text.replace(text.find(lamp), lamp.size(), "[0 0 0]");
+  const auto scene = scene_from_text(text);
+  EXPECT_TRUE(EmissionGuide(*scene, casters_of(text)).empty());
+  for (const char* plan : {"mixed", "doidge2012"}) {
+    const Film film = render(*scene, plan, {}, 1, 2);
+    EXPECT_EQ(picture_mean(film), 0.0) << plan;
+  }
+}
+
 }  // namespace
 }  // namespace nephroid
