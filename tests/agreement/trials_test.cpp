@@ -2,6 +2,7 @@
 // still that of the others.
 #include <gtest/gtest.h>
 
+#include "lamp_in_a_tube.h"
 #include "rendering.h"
 
 namespace nephroid {
@@ -9,30 +10,10 @@ namespace {
 
 using namespace testing_support;
 
-// A lamp in a tube: what lights the room is the ceiling above it. Only the wall is seen.
-const char* const kTube = R"(
-  LookAt 0 1.4 -4  0 1.7 3  0 1 0
-  Camera "perspective" "float fov" 16
-  Film "rgb" "integer xresolution" 16 "integer yresolution" 16
-  PixelFilter "box"
-  WorldBegin
-  AttributeBegin
-    Translate 0 1 0 Rotate -90 1 0 0
-    AreaLightSource "diffuse" "rgb L" [300 270 240] Shape "disk" "float radius" 0.08
-  AttributeEnd
-  Material "diffuse" "rgb reflectance" [0.7 0.6 0.5]
-  AttributeBegin
-    Translate 0 0.6 0 Rotate -90 1 0 0
-    Shape "cylinder" "float radius" 0.2 "float zmin" 0 "float zmax" 0.8
-  AttributeEnd
-  Shape "bilinearmesh" "point3 P" [-3 0 -5  3 0 -5  -3 0 3  3 0 3]
-  Shape "bilinearmesh" "point3 P" [-3 3 -5  3 3 -5  -3 3 3  3 3 3]
-  Shape "bilinearmesh" "point3 P" [-3 0 3  3 0 3  -3 3 3  3 3 3]
-)";
-
 TEST(Trials, ThatConnectFindTheSamePicture) {
   constexpr int kSeeds = 16, kAcross = 2;
-  const auto scene = scene_from_text(kTube);
+  const auto scene = scene_from_text(lamp_in_a_tube(
+      R"(LookAt 0 1.4 -4  0 1.7 3  0 1 0 Camera "perspective" "float fov" 16)", 16));  // the wall
   IntegratorOptions options;
   options.max_depth = 6;
   const Preset preset = make_preset(plan_named("mixed"), options, *scene);

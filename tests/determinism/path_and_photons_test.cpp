@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/parallel.h"
+#include "lamp_in_a_tube.h"
 #include "rendering.h"
 
 namespace nephroid {
@@ -12,7 +13,7 @@ using namespace testing_support;
 
 // A small lamp, a glass ball and a floor of which it takes up little: photons are aimed, and tiles
 // differ in their noise.
-const char* const kScene = R"(
+const std::string kScene = R"(
   LookAt 0 3 -4  0 0.3 0  0 1 0
   Camera "perspective" "float fov" 45
   Film "rgb" "integer xresolution" 20 "integer yresolution" 16
@@ -28,26 +29,9 @@ const char* const kScene = R"(
   Translate 0 0.6 0 Shape "sphere" "float radius" 0.4
 )";
 
-// A lamp in a tube: what lights the room is the ceiling above it, and trials tell that light paths
-// should be connected.
-const char* const kTube = R"(
-  LookAt 0 1.4 -4  0 1.2 0  0 1 0
-  Camera "perspective" "float fov" 50
-  Film "rgb" "integer xresolution" 32 "integer yresolution" 32
-  WorldBegin
-  AttributeBegin
-    Translate 0 1 0 Rotate -90 1 0 0
-    AreaLightSource "diffuse" "rgb L" [300 270 240] Shape "disk" "float radius" 0.05
-  AttributeEnd
-  Material "diffuse" "rgb reflectance" [0.7 0.6 0.5]
-  AttributeBegin
-    Translate 0 0.6 0 Rotate -90 1 0 0
-    Shape "cylinder" "float radius" 0.15 "float zmin" 0 "float zmax" 1
-  AttributeEnd
-  Shape "bilinearmesh" "point3 P" [-3 0 -5  3 0 -5  -3 0 3  3 0 3]
-  Shape "bilinearmesh" "point3 P" [-3 3 -5  3 3 -5  -3 3 3  3 3 3]
-  Shape "bilinearmesh" "point3 P" [-3 0 3  3 0 3  -3 3 3  3 3 3]
-)";
+// Trials tell that light paths should be connected.
+const std::string kTube =
+    lamp_in_a_tube(R"(LookAt 0 1.4 -4  0 1.2 0  0 1 0 Camera "perspective" "float fov" 50)", 32);
 
 struct Rendered {
   std::vector<Film> film;  ///< one
@@ -55,7 +39,7 @@ struct Rendered {
 };
 
 /// Passes in this order, each part by estimators of its own.
-Rendered render_parts(const char* text, const std::vector<std::vector<uint32_t>>& parts,
+Rendered render_parts(const std::string& text, const std::vector<std::vector<uint32_t>>& parts,
                       const IntegratorOptions& options = {}) {
   const auto scene = scene_from_text(text);
   Rendered result;
@@ -90,7 +74,7 @@ bool says(const Rendered& r, const std::string& words) {
 }
 
 TEST(PathAndPhotons, HasTheSameBitsForAnyNumberOfThreads) {
-  for (const char* text : {kScene, kTube}) {
+  for (const std::string& text : {kScene, kTube}) {
     std::vector<Rendered> found;
     for (const int threads : {1, 2, 3, 7}) {
       const ThreadLimit limit(threads);
@@ -109,7 +93,7 @@ TEST(PathAndPhotons, HasTheSameBitsForAnyNumberOfThreads) {
 }
 
 TEST(PathAndPhotons, HasTheSameBitsForAnyOrderAndAnyRanges) {
-  for (const char* text : {kScene, kTube}) {
+  for (const std::string& text : {kScene, kTube}) {
     const Rendered whole = render_parts(text, {{0, 1, 2, 3, 4}});
     for (const auto& [name, parts] : {std::pair<const char*, std::vector<std::vector<uint32_t>>>{
                                           "backwards", {{4, 3, 2, 1, 0}}},
@@ -122,7 +106,7 @@ TEST(PathAndPhotons, HasTheSameBitsForAnyOrderAndAnyRanges) {
 TEST(PathAndPhotons, LearnsTheSameHoweverFewPhotonsFitInMemory) {
   IntegratorOptions batched;
   batched.memory_photons = 64;
-  for (const char* text : {kScene, kTube}) {
+  for (const std::string& text : {kScene, kTube}) {
     const Rendered whole = render_parts(text, {{0, 1}}),
                    parts = render_parts(text, {{0, 1}}, batched);
     EXPECT_EQ(whole.notes, parts.notes);
