@@ -20,6 +20,8 @@ struct EyeEnd {
 
 class EyeVisitor {
  public:
+  static constexpr bool kEndsAtBranches = false;
+
   EyeVisitor(const PairSettings& settings, const LightSubpath& path, const CameraPath& camera,
              PartSums& light, Features* features)
       : settings_(settings),
@@ -30,10 +32,13 @@ class EyeVisitor {
         camera_(camera),
         light_(light),
         features_(features),
-        eye_(routes_.start()) {}
+        eye_(routes_.start()),
+        root_(settings.merges_only || settings.technique.s >= 0 || settings.technique.t >= 0
+                  ? nullptr
+                  : settings.tree) {}
 
   void escape(const Walk& walk) {
-    if (!makes(0, walk) || !routes_.ends(group_, eye_)) return;
+    if (root_.leaves_lights() || !makes(0, walk) || !routes_.ends(group_, eye_)) return;
     const Scene& scene = settings_.scene;
     for (const int i : scene.light_sampler->infinite_lights()) {
       const Part part = routes_.owner(eye_, symbols_.light(i));
@@ -53,6 +58,7 @@ class EyeVisitor {
   }
 
   void emitter(const Walk& walk, const SurfaceInteraction& hit, const Light& light) {
+    if (root_.leaves_lights()) return;
     const Part part = routes_.owner(eye_, symbols_.light(hit.area_light));
     if (!makes(0, walk) || !light_.owns(part)) return;
     const SampledSpectrum le = light.radiance(hit.p, hit.ng, hit.uv, hit.wo, walk.lambda);
@@ -109,7 +115,17 @@ class EyeVisitor {
     if (settings_.connects() && !settings_.merges_only) connect(end, sampler);
   }
 
+  bool branches(const Walk&) const { return root_.branches(); }
+  // No other technique finds this light.
+  void branch(const Walk& way, const WalkEvent& event, PathSampler& sampler) {
+    from_tree_.clear();
+    rays_ += root_.branch(way, routes_.next(eye_, symbol_of(symbols_, event)), sampler, from_tree_);
+    for (const SpecularTree::Light& l : from_tree_)
+      light_.add(l.part, whole_spectrum(l.value, l.hero_only));
+  }
+
   bool scatter(const Walk& walk, const WalkEvent& event) {
+    root_.scatter(walk, event.letter);
     end_.sums = sums_;
     if (surface_) {
       end_.event = density_of_walk(walk, *surface_, event, TransportMode::kRadiance);
@@ -322,6 +338,8 @@ class EyeVisitor {
   SideEnd plain_end_;
   const WalkVertex* surface_ = nullptr;
   const MediumVertex* medium_ = nullptr;
+  SpecularRoot root_;
+  std::vector<SpecularTree::Light> from_tree_;
   uint64_t rays_ = 0;
 };
 

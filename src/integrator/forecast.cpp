@@ -46,8 +46,8 @@ class SightVisitor : public LightWalkVisitor {
 class ForecastVisitor : public PathVisitorOf<ForecastVisitor> {
  public:
   ForecastVisitor(const Scene& scene, const OwnedRoutes& owned, const ForecastMap& map,
-                  PartSums& light)
-      : PathVisitorOf(scene, owned, false, light, nullptr), map_(map) {}
+                  PartSums& light, const SpecularTree& tree)
+      : PathVisitorOf(scene, owned, false, light, nullptr, &tree), map_(map) {}
 
   void vertex(const Walk& walk, const WalkVertex& v, PathSampler& sampler) {
     const ClassMask rough = v.bsdf.finite_classes() & v.classes_of(useful(v)) & ClassMask::kRough;
@@ -140,12 +140,14 @@ void Forecast::render_pass(const PassKey& key, const Scene& scene, Film& film) {
   if (learned_from_ != key.seed) learn(key.seed, scene);
   const PathPass pass{key,    scene, film, owned_, std::max(1, options_.camera_samples_per_pass),
                       kStream};
+  const SpecularTree tree(scene, owned_, options_.max_depth);
   statistics_.rays += trace_paths(pass, [&](int, int, CameraPath& path, PathSampler& sampler,
                                             PartSums& light) {
-    ForecastVisitor visitor(scene, owned_, map_, light);
+    ForecastVisitor visitor(scene, owned_, map_, light, tree);
     if (path.camera_weight > 0)
       random_walk(scene, TransportMode::kRadiance, options_.max_depth, path.walk, sampler, visitor);
-    return TracedPath{path.walk.rays + visitor.shadow_rays(), pass.weights_of(path)};
+    visitor.finish(path.walk);
+    return TracedPath{path.walk.rays + visitor.more_rays(), pass.weights_of(path)};
   });
   statistics_.camera_paths +=
       static_cast<uint64_t>(film.bounds().area()) * static_cast<uint64_t>(pass.samples);

@@ -65,7 +65,8 @@ class Rendering {
         pass_(start_photon_pass(key, scene, like, options)),
         view_(scene, like.bounds()),
         places_(*owned.routes, owned.group),
-        settings_{.scene = scene, .owned = owned, .guide = *how.guide} {
+        tree_(scene, owned, options.max_depth),
+        settings_{.scene = scene, .owned = owned, .guide = *how.guide, .tree = &tree_} {
     merging_.caustics_only = how.caustics_only;
     merging_.photons = static_cast<double>(how.light_paths);
     merging_.radius_pixels = radius_of_pass(options, key.pass);
@@ -331,6 +332,7 @@ class Rendering {
   const CameraView view_;
   const PartSums places_;
   PairMerging merging_;
+  const SpecularTree tree_;
   PairSettings settings_;
   std::vector<std::vector<SamplePoints>> points_;  ///< [samples of a pixel - 1][sample]
   size_t parts_ = 1;

@@ -13,6 +13,7 @@
 #include "film/part_sums.h"
 #include "integrator/estimator.h"
 #include "integrator/features.h"
+#include "integrator/specular_tree.h"
 #include "photon/emission_guide.h"
 #include "photon/photon_grid.h"
 #include "route/scene_symbols.h"
@@ -56,6 +57,7 @@ struct PairSettings {
   const PairMerging* merging = nullptr;    ///< null: connections only
   const EmissionGuide& guide = kUnguided;  ///< of the starts of light paths
   bool merges_only = false;  ///< all other techniques have been made, but count in weights
+  const SpecularTree* tree = nullptr;  ///< of eye paths; null: none is grown
 
   bool connects() const { return !merging || merging->connects; }
 };

@@ -9,6 +9,7 @@
 #include "core/warps.h"
 #include "film/part_sums.h"
 #include "integrator/features.h"
+#include "integrator/specular_tree.h"
 #include "transport/direct_light.h"
 #include "transport/walk_symbols.h"
 
@@ -22,10 +23,13 @@ namespace nephroid {
 template <class Self>
 class PathVisitorOf {
  public:
+  static constexpr bool kEndsAtBranches = false;
+
   /// With `blind`, walks do not look at what is useful for the routes: any routes see the same
-  /// paths. `features` are of no interest if null.
+  /// paths. `features` are of no interest if null, and no `tree` is grown. Who gives one calls
+  /// finish() when the walk is over.
   PathVisitorOf(const Scene& scene, const OwnedRoutes& owned, bool blind, PartSums& light,
-                Features* features)
+                Features* features, const SpecularTree* tree = nullptr)
       : scene_(scene),
         routes_(*owned.routes),
         symbols_(*owned.symbols),
@@ -33,7 +37,8 @@ class PathVisitorOf {
         blind_(blind),
         light_(light),
         features_(features),
-        eye_(routes_.start()) {}
+        eye_(routes_.start()),
+        root_(tree) {}
 
   float share() const { return 1.0f; }
   float share_after(EventClass) const { return 1.0f; }
@@ -42,7 +47,7 @@ class PathVisitorOf {
   }
 
   void escape(const Walk& walk) {
-    if (!routes_.ends(group_, eye_)) return;
+    if (root_.leaves_lights() || !routes_.ends(group_, eye_)) return;
     for (const int i : scene_.light_sampler->infinite_lights()) {
       const Part part = routes_.owner(eye_, symbols_.light(i));
       if (!light_.owns(part)) continue;
@@ -59,6 +64,7 @@ class PathVisitorOf {
   }
 
   void emitter(const Walk& walk, const SurfaceInteraction& hit, const Light& light) {
+    if (root_.leaves_lights()) return;
     const Part part = routes_.owner(eye_, symbols_.light(hit.area_light));
     if (!light_.owns(part)) return;
     const SampledSpectrum le = light.radiance(hit.p, hit.ng, hit.uv, hit.wo, walk.lambda);
@@ -107,12 +113,29 @@ class PathVisitorOf {
             self().share_after(EventClass::kVolume));
   }
 
-  bool scatter(const Walk&, const WalkEvent& event) {
+  bool branches(const Walk&) const { return root_.branches(); }
+  void branch(const Walk& way, const WalkEvent& event, PathSampler& sampler) {
+    tree_rays_ +=
+        root_.branch(way, routes_.next(eye_, symbol_of(symbols_, event)), sampler, from_trees_);
+  }
+
+  bool scatter(const Walk& walk, const WalkEvent& event) {
+    root_.scatter(walk, event.letter);
     eye_ = routes_.next(eye_, symbol_of(symbols_, event));
     return true;
   }
 
-  uint64_t shadow_rays() const { return shadow_rays_; }
+  /// Adds what trees found. The sensor's weights are those of the wavelengths that the walk ended
+  /// with, and a branch may have kept fewer.
+  void finish(const Walk& walk) {
+    for (const SpecularTree::Light& l : from_trees_)
+      light_.add(l.part,
+                 whole_spectrum(l.value, l.hero_only && (walk.per_wavelength ||
+                                                         !walk.lambda.secondary_terminated())));
+  }
+
+  /// Rays that the walk does not count.
+  uint64_t more_rays() const { return shadow_rays_ + tree_rays_; }
 
  protected:
   void add(const Walk& walk, Part part, const SampledSpectrum& value) {
@@ -203,6 +226,10 @@ class PathVisitorOf {
               (weight_of_direct(walk, *d, shadow, walk_pdf) * self().share_after(c)));
     }
   }
+
+  SpecularRoot root_;
+  std::vector<SpecularTree::Light> from_trees_;
+  uint64_t tree_rays_ = 0;
 };
 
 /// Path tracing as it is.

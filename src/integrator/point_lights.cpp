@@ -223,7 +223,7 @@ void PointLights::render_sample(const PhotonPass& pass, float density, const Sce
       film.add(group, x, y,
                light.colors(pass.weights, path.camera_weight, film.settings().max_component,
                             path.filter_weight));
-      rays[static_cast<size_t>(row)] += path.walk.rays + visitor.shadow_rays();
+      rays[static_cast<size_t>(row)] += path.walk.rays + visitor.more_rays();
     }
   });
   film.add_estimates(group, 1);

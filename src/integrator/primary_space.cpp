@@ -42,7 +42,7 @@ class CameraPaths : public PathFunction {
     PathVisitor visitor(pass_.scene, pass_.owned, pass_.options.blind_walks, light_, nullptr);
     random_walk(pass_.scene, TransportMode::kRadiance, pass_.options.max_depth, path.walk, sampler,
                 visitor);
-    found.rays += path.walk.rays + visitor.shadow_rays();
+    found.rays += path.walk.rays + visitor.more_rays();
     const SensorWeights weights =
         sensor_weights(path.walk.lambda, *pass_.film.color_space, pass_.film.imaging_ratio,
                        pass_.film.white_balance);

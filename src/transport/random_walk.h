@@ -59,6 +59,10 @@ struct Walk {
                          : second_dimension + (vertices - 1) * dimensions::kPerVertex;
   }
   int passages = 0;  ///< straight passages since the start (bounds the walk)
+  float window = 1;  ///< roulette is played on a walk that carries less
+
+  /// What is left of what it started with, as roulette sees it.
+  float carried() const { return throughput.max_component() * eta_scale / density.u_mean; }
 };
 
 /// [M2] A value at all wavelengths of a path that shares them with others and may have kept its
@@ -144,6 +148,11 @@ struct WalkEvent {
 ///   std::optional<BsdfSample> sample_direction(Walk&, const WalkVertex&, float uc,
 ///       const Vec2f& u, ClassMask among)    in place of Bsdf::sample, with the density of what it
 ///                                           does; it may change the walk's eta_scale alone
+///   bool branches(const Walk&)              it wants both ways of a smooth boundary here, and gets
+///   void branch(Walk&, const WalkEvent&, PathSampler&)  each, ready to be followed, before the
+///   walk
+///                                           itself goes one of them
+///   static constexpr bool kEndsAtBranches   true: the walk itself ends there
 /// `mode` tells which quantity the throughput carries. In kImportance it includes the correction
 /// for shading normals (Veach 1997, section 5.3).
 template <class Visitor>
@@ -269,6 +278,10 @@ class RandomWalk {
     const bool looks_under = !spent && !vertex.subsurface_exit && material.has_bssrdf() &&
                              visitor_.looks_under_surfaces();
     if (among == ClassMask::kNone && !looks_under && !material.passes_straight()) return false;
+    if constexpr (requires { visitor_.branches(walk_); })
+      if (contains(among, EventClass::kSpecular) && visitor_.branches(walk_) && branch(vertex) &&
+          Visitor::kEndsAtBranches)
+        return false;
 
     sampler_.start_dimension(dimension + dimensions::kBsdf);
     const float uc = sampler_.get_1d();
@@ -294,19 +307,41 @@ class RandomWalk {
     if (walk_.throughput.is_black()) return false;
     if (s->subsurface) return come_out_again(material, vertex.merges);
     if (!contains(among, s->event)) return false;
-    if (s->transmitted && mode_ == TransportMode::kRadiance) walk_.eta_scale *= sqr(s->eta);
-    walk_.delta = s->delta;
-    walk_.pdf_w = s->pdf_w;
-    walk_.previous_p = hit_.p;
-    walk_.previous_ns = hit_.shading.z;
-    walk_.ray.o = hit_.spawn_origin(wi);
-    walk_.ray.d = wi;
-    walk_.medium = medium_towards(hit_, wi, walk_.medium);
+    return end_of_event(leave(walk_, vertex, *s, wi), dimension);
+  }
+
+  /// Sends a walk off along a sample, whose direction is `wi` in the world.
+  WalkEvent leave(Walk& walk, const WalkVertex& vertex, const BsdfSample& s,
+                  const Vec3f& wi) const {
+    if (s.transmitted && mode_ == TransportMode::kRadiance) walk.eta_scale *= sqr(s.eta);
+    walk.delta = s.delta;
+    walk.pdf_w = s.pdf_w;
+    walk.previous_p = hit_.p;
+    walk.previous_ns = hit_.shading.z;
+    walk.ray.o = hit_.spawn_origin(wi);
+    walk.ray.d = wi;
+    walk.medium = medium_towards(hit_, wi, walk.medium);
     WalkEvent event;
-    event.letter = vertex.letter(s->event);
-    event.transmitted = vertex.subsurface_exit || s->transmitted;
-    event.material = material.index();
-    return end_of_event(event, dimension);
+    event.letter = vertex.letter(s.event);
+    event.transmitted = vertex.subsurface_exit || s.transmitted;
+    event.material = vertex.material.index();
+    return event;
+  }
+
+  /// Gives the visitor both ways of a smooth boundary, each with all that goes there. False if
+  /// there are not two.
+  bool branch(const WalkVertex& vertex) {
+    const auto both = vertex.bsdf.delta_pair(vertex.wo, mode_);
+    if (!both) return false;
+    for (const BsdfSample& s : *both) {
+      Walk way = walk_;
+      way.rays = 0;
+      way.throughput *= s.f * abs_cos_theta(s.wi);
+      const WalkEvent event = leave(way, vertex, s, hit_.shading.to_world(s.wi));
+      count_event(way);
+      visitor_.branch(way, event, sampler_);
+    }
+    return true;
   }
 
   /// The visitor may choose directions itself.
@@ -352,23 +387,27 @@ class RandomWalk {
     return true;
   }
 
+  static void count_event(Walk& walk) {
+    ++walk.events;
+    ++walk.vertices;
+    walk.ray.t_max = kInfinity;
+    if (walk.density.plain) return;
+    walk.density.l = walk.density.u;
+    walk.density.l_mean = walk.density.u_mean;
+  }
+
   /// Counts the event, asks the visitor and plays roulette on what the walk still carries; the
   /// change of radiance inside glass is no loss.
   bool end_of_event(const WalkEvent& event, int dimension) {
-    ++walk_.events;
-    ++walk_.vertices;
-    if (!walk_.density.plain) {
-      walk_.density.l = walk_.density.u;
-      walk_.density.l_mean = walk_.density.u_mean;
-    }
+    count_event(walk_);
     if (!visitor_.scatter(walk_, event)) return false;
-    const float carried = walk_.throughput.max_component() * walk_.eta_scale / walk_.density.u_mean;
-    if (carried < 1.0f) {
+    const float carried = walk_.carried();
+    if (carried < walk_.window) {
       sampler_.start_dimension(dimension + dimensions::kRoulette);
-      if (!(sampler_.get_1d() < carried)) return false;
-      walk_.throughput /= carried;
+      const float survival = carried / walk_.window;
+      if (!(sampler_.get_1d() < survival)) return false;
+      walk_.throughput /= survival;
     }
-    walk_.ray.t_max = kInfinity;
     return true;
   }
 

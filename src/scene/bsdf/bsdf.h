@@ -5,6 +5,7 @@
 // transport and photon. It must not know routes, textures or lights.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <new>
@@ -106,6 +107,13 @@ class Bsdf {
   /// nothing is scattered (also when `among` has no lobe).
   virtual std::optional<BsdfSample> sample(const Vec3f& wo, float uc, const Vec2f& u,
                                            TransportMode mode, ClassMask among) const = 0;
+
+  /// Both directions between which sample() chooses, with what it would say of them, where there
+  /// are two and no more, both of delta lobes of class S; else empty.
+  virtual std::optional<std::array<BsdfSample, 2>> delta_pair(const Vec3f& /*wo*/,
+                                                              TransportMode /*mode*/) const {
+    return std::nullopt;
+  }
 
   /// Relative index of refraction along the ray from wo to wi, `eta` of a sample in that direction.
   virtual float eta_between(const Vec3f& /*wo*/, const Vec3f& /*wi*/) const { return 1.0f; }

@@ -134,6 +134,17 @@ std::optional<BsdfSample> DielectricBsdf::sample(const Vec3f& wo, float uc, cons
   return s;
 }
 
+std::optional<std::array<BsdfSample, 2>> DielectricBsdf::delta_pair(const Vec3f& wo,
+                                                                    TransportMode mode) const {
+  if (!boundary_.smooth() || boundary_.eta == 1.0f) return std::nullopt;
+  // The smallest number of sample() reflects, the largest refracts, unless one of them has no
+  // share.
+  const auto a = sample(wo, 0.0f, Vec2f(0, 0), mode, ClassMask::kSpecular);
+  const auto b = sample(wo, kOneMinusEpsilon, Vec2f(0, 0), mode, ClassMask::kSpecular);
+  if (!a || !b || a->transmitted == b->transmitted) return std::nullopt;
+  return std::array<BsdfSample, 2>{*a, *b};
+}
+
 SampledSpectrum ThinDielectricBsdf::pane_reflectance(float cos_i, const SampledSpectrum& eta) {
   return eta.map([c = std::abs(cos_i)](float e) {
     const float r = fresnel_dielectric(c, e);

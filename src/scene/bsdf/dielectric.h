@@ -67,6 +67,8 @@ class DielectricBsdf final : public Bsdf {
                 ClassMask among) const override;
   std::optional<BsdfSample> sample(const Vec3f& wo, float uc, const Vec2f& u, TransportMode mode,
                                    ClassMask among) const override;
+  std::optional<std::array<BsdfSample, 2>> delta_pair(const Vec3f& wo,
+                                                      TransportMode mode) const override;
   float eta_between(const Vec3f& wo, const Vec3f& wi) const override {
     return boundary_.eta_between(wo, wi);
   }

@@ -68,6 +68,35 @@ TEST(TrowbridgeReitzFacets, AlphaLimits) {
   EXPECT_EQ(TrowbridgeReitz(0.01f, 0.051f).event_class(0.05f), EventClass::kGlossy);
 }
 
+TEST(Mirrors, BothWaysOfSmoothGlassAreThoseOfItsSamples) {
+  const DielectricBsdf glass({1.5f, {}}, 0.05f);
+  TestRandom random(5);
+  int pairs = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3f wo = spherical(2.0 * random.next() - 1.0, 6.28 * random.next());
+    for (const TransportMode mode : {TransportMode::kRadiance, TransportMode::kImportance}) {
+      const auto both = glass.delta_pair(wo, mode);
+      // Inside, beyond the critical angle, all is reflected.
+      EXPECT_EQ(both.has_value(), wo.z > 0 || wo.z < -std::sqrt(1 - 1 / 2.25f)) << wo.z;
+      if (!both) continue;
+      ++pairs;
+      EXPECT_NEAR((*both)[0].pdf_w + (*both)[1].pdf_w, 1.0f, 1e-6f);
+      const auto s = glass.sample(wo, random.next(), {0, 0}, mode, ClassMask::kAll);
+      const BsdfSample& same = (*both)[s->transmitted ? 1 : 0];
+      EXPECT_EQ(same.wi, s->wi);
+      EXPECT_EQ(same.f[0], s->f[0]);
+      EXPECT_EQ(same.pdf_w, s->pdf_w);
+      EXPECT_EQ(same.eta, s->eta);
+    }
+  }
+  EXPECT_GT(pairs, 2000);
+  const Vec3f wo = spherical(0.7, 1.0);
+  EXPECT_FALSE(DielectricBsdf({1.0f, {}}, 0.05f).delta_pair(wo, TransportMode::kRadiance));
+  EXPECT_FALSE(
+      DielectricBsdf({1.5f, {0.01f, 0.01f}}, 0.05f).delta_pair(wo, TransportMode::kRadiance));
+  EXPECT_FALSE(ThinDielectricBsdf(SampledSpectrum(1.5f)).delta_pair(wo, TransportMode::kRadiance));
+}
+
 TEST(Mirrors, SmoothGlassLosesNothing) {
   const DielectricBsdf glass({1.5f, {}}, 0.05f);
   TestRandom random(3);

@@ -1,0 +1,118 @@
+// Trees find what walks that choose one way find, with less noise, whatever glass, media and
+// dispersion do to the wavelengths; and are grown for routes only that own such light.
+#include "integrator/specular_tree.h"
+
+#include <gtest/gtest.h>
+
+#include "integrator/path_visitor.h"
+#include "owned_routes.h"
+#include "rendering.h"
+#include "transport/camera_path.h"
+
+namespace nephroid {
+namespace {
+
+using namespace testing_support;
+
+const std::string kBall = R"(
+  Camera "perspective" "float fov" 40
+  Film "rgb" "integer xresolution" 8 "integer yresolution" 8
+  WorldBegin
+  LightSource "infinite" "rgb L" [0.2 0.3 0.4]
+  AttributeBegin
+    AreaLightSource "diffuse" "rgb L" [90 80 70]
+    Translate 1 2 -1 Shape "sphere" "float radius" 0.4
+  AttributeEnd
+  MediumInterface "inside" ""
+  Translate 0 0 3
+)";
+const std::string kClear =
+    R"(MakeNamedMedium "inside" "string type" "homogeneous" "rgb sigma_a" [0.3 0.2 0.1] "rgb sigma_s" [0 0 0])";
+const std::string kMilky =
+    R"(MakeNamedMedium "inside" "string type" "homogeneous" "rgb sigma_a" [0.1 0.1 0.1] "rgb sigma_s" [0.3 0.2 0.1])";
+
+std::string ball(const std::string& medium, const std::string& material) {
+  std::string text = kBall;
+  text.insert(text.find("WorldBegin") + 10, "\n" + medium + "\n");
+  return text + material + R"( Shape "sphere" "float radius" 1)";
+}
+
+struct Estimate {
+  double mean = 0, variance = 0;  ///< the variance of a path
+};
+
+/// Paths through the middle of the picture, each with its own wavelengths, weighed by the sensor.
+Estimate look(const Scene& scene, const OwnedRoutes& owned, bool grows, bool shares_wavelengths) {
+  const SpecularTree tree(scene, owned, 20);
+  const FilmSettings film;
+  PartSums light(*owned.routes, owned.group);
+  constexpr int kPaths = 1 << 15;
+  double sum = 0, squares = 0;
+  for (uint32_t i = 0; i < kPaths; ++i) {
+    const SobolPoint point(i);
+    PathSampler sampler(point, 11);
+    sampler.start_dimension(dimensions::kWavelength);
+    const auto lambda = SampledWavelengths::sample_visible(sampler.get_1d());
+    sampler.start_dimension(dimensions::kFilm);
+    const Vec2f u = sampler.get_2d();
+    CameraPath path = start_camera_path(scene, Vec2f(8 * u.x, 8 * u.y), sampler, lambda, 0.0f);
+    path.walk.per_wavelength = shares_wavelengths;
+    light.clear();
+    PathVisitor visitor(scene, owned, false, light, nullptr, grows ? &tree : nullptr);
+    random_walk(scene, TransportMode::kRadiance, 20, path.walk, sampler, visitor);
+    visitor.finish(path.walk);
+    const SensorWeights weights =
+        sensor_weights(shares_wavelengths ? lambda : path.walk.lambda, *film.color_space,
+                       film.imaging_ratio, film.white_balance);
+    double value = 0;
+    for (const Rgb& c : light.colors(weights, 1, kInfinity, 1)) value += (c.r + c.g + c.b) / 3;
+    sum += value;
+    squares += value * value;
+  }
+  const double mean = sum / kPaths;
+  return {mean, squares / kPaths - mean * mean};
+}
+
+TEST(SpecularTree, FindsWhatWalksFindWithLessNoise) {
+  const std::string glass = R"(Material "dielectric")";
+  const std::string prism = R"(Material "dielectric" "spectrum eta" "glass-SF11")";
+  const std::string thin = R"(Material "thindielectric")";
+  const std::string mirror = R"(Material "conductor" "float roughness" 0)";
+  const std::string frosted = R"(Material "dielectric" "float roughness" 0.001)";
+  struct Case {
+    const char* name;
+    std::string text;
+    double gain;  ///< at least, in variance
+  };
+  for (const Case& c :
+       {Case{"glass", ball(kClear, glass), 2}, Case{"milk glass", ball(kMilky, glass), 1},
+        Case{"prism", ball(kClear, prism), 1.5}, Case{"pane", ball(kClear, thin), 0.99},
+        Case{"mirror", ball(kClear, mirror), 0.99},
+        Case{"nearly smooth", ball(kClear, frosted), 0.99}}) {
+    const auto scene = scene_from_text(c.text);
+    const OwnedRoutes owned = owned_routes(*scene, {"all=.*:path"});
+    for (const bool shared : {false, true}) {
+      const Estimate walks = look(*scene, owned, false, shared);
+      const Estimate trees = look(*scene, owned, true, shared);
+      const double error = std::sqrt((walks.variance + trees.variance) / (1 << 15));
+      EXPECT_NEAR(trees.mean, walks.mean, 3.5 * error + 1e-9) << c.name << shared;
+      EXPECT_GT(walks.mean, 50 * error) << c.name;
+      EXPECT_GT(walks.variance, c.gain * trees.variance) << c.name << shared;
+    }
+  }
+}
+
+TEST(SpecularTree, IsGrownForRoutesThatOwnItsLight) {
+  const auto scene = scene_from_text(ball(kClear, R"(Material "dielectric")"));
+  const std::string rest = "rest=.*:path";
+  for (const auto& [route, finds] : {std::pair{"of=CS+L:photons+light", true},
+                                     {"of=C.*D.*L:photons+light", false},
+                                     {"of=CS*L:photons+light", true},
+                                     {"of=CL:photons+light", false}}) {
+    const OwnedRoutes owned = owned_routes(*scene, {route, rest});
+    EXPECT_EQ(SpecularTree(*scene, owned, 20).finds_something(), finds) << route;
+  }
+}
+
+}  // namespace
+}  // namespace nephroid
