@@ -25,6 +25,28 @@ std::vector<double> smoothed(const std::vector<double>& values, int width) {
   return out;
 }
 
+/// Variance and cost of a sample; nothing where there are no samples.
+struct OfTiles {
+  std::vector<double> variance, cost;
+  OfTiles(const SampleSpread::ByTile& spread, int width)
+      : variance(smoothed(spread.variance, width)), cost(smoothed(spread.cost, width)) {}
+  double root(size_t tile) const {
+    return cost[tile] > 0 ? std::sqrt(variance[tile] / cost[tile]) : 0;
+  }
+};
+
+/// So many samples that one more is worth `unit`^2 rays of variance, and what the tile then costs
+/// in variance and in rays that are worth as much.
+struct Share {
+  uint16_t samples;
+  double expense;
+  Share(double variance, double cost, double unit, int most)
+      : samples(static_cast<uint16_t>(
+            std::clamp(cost > 0 ? std::round(std::sqrt(variance / cost) / unit) : 1.0, 1.0,
+                       static_cast<double>(most)))),
+        expense(variance / samples + unit * unit * cost * samples) {}
+};
+
 }  // namespace
 
 int SampleMap::most() const {
@@ -45,8 +67,9 @@ double SampleMap::mean() const {
   return sum / static_cast<double>(counts_.size());
 }
 
-SampleSpread::ByTile SampleSpread::by_tile() const {
+SampleSpread::ByTile SampleSpread::by_tile(const SampleSpread* beside) const {
   const SampleMap tiles(bounds_);
+  const ByTile other = beside ? beside->by_tile() : ByTile{};
   ByTile out;
   out.variance.assign(tiles.counts().size(), 0);
   out.cost = out.variance;
@@ -63,7 +86,7 @@ SampleSpread::ByTile SampleSpread::by_tile() const {
       out.cost[tile] += s.rays / s.samples;
       out.variance[tile] += std::max(0.0, (s.square - mean * s.light) / (s.samples - 1));
       out.light[tile] += std::abs(mean);
-      all_light += std::abs(mean);
+      all_light += std::abs(mean) + (beside ? other.light[tile] : 0);
       ++pixels[tile];
       ++all_pixels;
     }
@@ -73,7 +96,7 @@ SampleSpread::ByTile SampleSpread::by_tile() const {
   for (size_t t = 0; t < out.variance.size(); ++t) {
     if (!(pixels[t] > 0)) continue;
     out.light[t] /= pixels[t];
-    const double brightness = out.light[t] + floor;
+    const double brightness = out.light[t] + (beside ? other.light[t] : 0) + floor;
     out.variance[t] = brightness > 0 ? out.variance[t] / (pixels[t] * brightness) : 0;
     out.cost[t] /= pixels[t];
   }
@@ -89,26 +112,37 @@ double steady_mean(std::vector<double> tiles) {
   return sum / static_cast<double>(tiles.size());
 }
 
-SampleMap share_out(const PixelBounds& bounds, const SampleSpread::ByTile& spread) {
-  SampleMap samples(bounds);
-  std::vector<double> roots = smoothed(spread.variance, samples.width());
-  const std::vector<double> cost = smoothed(spread.cost, samples.width());
-  for (size_t i = 0; i < roots.size(); ++i)
-    roots[i] = cost[i] > 0 ? std::sqrt(roots[i] / cost[i]) : 0;
+Shares share_out(const PixelBounds& bounds, const Spreads& spreads) {
+  Shares shares{SampleMap(bounds), SampleMap(bounds, 0)};
+  const int width = shares.paths.width();
+  const OfTiles paths(spreads.paths, width), glints(spreads.glints, width),
+      choice(spreads.choice, width);
+  std::vector<double> roots(paths.cost.size());
+  for (size_t i = 0; i < roots.size(); ++i) roots[i] = paths.root(i);
   // The quietest of the tiles that have light have one path a pass.
   const double brightest = *std::max_element(roots.begin(), roots.end());
   std::vector<double> lit;
   for (const double v : roots)
     if (v > 1e-3 * brightest) lit.push_back(v);
-  if (lit.empty()) return samples;
+  if (lit.empty()) return shares;
   std::sort(lit.begin(), lit.end());
   // Fewer have one where that would be many paths a pass: what all pixels of a pass share, its
   // wavelengths above all, is averaged over passes alone.
   for (double unit = lit[lit.size() / 20];; unit *= 1.1) {
-    for (size_t i = 0; i < roots.size(); ++i)
-      samples.counts()[i] = static_cast<uint16_t>(
-          std::clamp(std::round(roots[i] / unit), 1.0, double{SampleMap::kMost}));
-    if (samples.mean() <= SampleMap::kMostMean) return samples;
+    for (size_t i = 0; i < roots.size(); ++i) {
+      const double v = paths.variance[i], c = paths.cost[i];
+      const Share alone(v, c, unit, SampleMap::kMost);
+      shares.paths.counts()[i] = alone.samples;
+      if (glints.cost.empty()) continue;
+      const Share all(v + choice.variance[i], c, unit, SampleMap::kMost);
+      const Share of_glints(glints.variance[i], glints.cost[i], unit, SampleMap::kMostGlints);
+      // What no walk has seen behind the boundaries of a tile may still be there, and bright.
+      const bool apart = (glints.variance[i] <= 0 && glints.cost[i] > 1) ||
+                         alone.expense + of_glints.expense < all.expense;
+      if (!apart) shares.paths.counts()[i] = all.samples;
+      shares.glints.counts()[i] = apart ? of_glints.samples : 0;
+    }
+    if (shares.paths.mean() <= SampleMap::kMostMean) return shares;
   }
 }
 

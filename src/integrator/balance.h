@@ -16,7 +16,7 @@ namespace nephroid {
 /// Camera paths of each pixel in a pass, the same for all pixels of a tile.
 class SampleMap {
  public:
-  static constexpr int kTile = 4, kMost = 8;
+  static constexpr int kTile = 4, kMost = 8, kMostGlints = 32;
   static constexpr double kMostMean = 2.5;  ///< of maps that are shared out
 
   /// The same number of paths for each pixel.
@@ -57,10 +57,14 @@ class SampleSpread {
   explicit SampleSpread(const PixelBounds& b) : bounds_(b), sums_(static_cast<size_t>(b.area())) {}
   /// One sample that took `rays`; `pixel` counts row by row over the crop.
   void add(size_t pixel, double luminance, double rays) {
+    add(pixel, luminance, rays, luminance * luminance);
+  }
+  /// The same for samples whose mean square is known better.
+  void add(size_t pixel, double luminance, double rays, double square) {
     Sums& s = sums_[pixel];
     s.rays += rays;
     s.light += luminance;
-    s.square += luminance * luminance;
+    s.square += square;
     ++s.samples;
   }
   /// Zero where no pixel has two samples.
@@ -69,15 +73,30 @@ class SampleSpread {
     std::vector<double> light;     ///< [tile] mean magnitude
     std::vector<double> cost;      ///< [tile] of a sample, in rays
   };
-  ByTile by_tile() const;
+  /// What is `beside` these samples in the same pixels counts as brightness of the tiles, too.
+  ByTile by_tile(const SampleSpread* beside = nullptr) const;
 
  private:
   PixelBounds bounds_;
   std::vector<Sums> sums_;
 };
 
-/// [A2] Shares camera paths out so that the error falls fastest: as the root of variance over cost.
-SampleMap share_out(const PixelBounds& bounds, const SampleSpread::ByTile& spread);
+struct Shares {
+  SampleMap paths;   ///< camera paths
+  SampleMap glints;  ///< walks that look for lights behind delta lobes; 0: camera paths find these
+};
+
+/// What the samples of one pass say of all later ones, by tile. The brightness that variances are
+/// taken over is of all light.
+struct Spreads {
+  SampleSpread::ByTile paths;   ///< of camera paths, what glints find left out
+  SampleSpread::ByTile glints;  ///< empty, as `choice`, where there is no such light
+  SampleSpread::ByTile choice;  ///< of glints if camera paths find them; costs nothing more
+};
+
+/// [A2] Shares the work out so that the error falls fastest: walks of either kind as the root of
+/// variance over cost, and each tile in the cheaper of both ways.
+Shares share_out(const PixelBounds& bounds, const Spreads& spreads);
 
 /// What trial passes told.
 struct Trial {

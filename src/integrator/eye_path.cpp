@@ -23,7 +23,7 @@ class EyeVisitor {
   static constexpr bool kEndsAtBranches = false;
 
   EyeVisitor(const PairSettings& settings, const LightSubpath& path, const CameraPath& camera,
-             PartSums& light, Features* features)
+             PartSums& light, Features* features, SpecularRoot::Leaves leaves)
       : settings_(settings),
         routes_(*settings.owned.routes),
         symbols_(*settings.owned.symbols),
@@ -33,9 +33,7 @@ class EyeVisitor {
         light_(light),
         features_(features),
         eye_(routes_.start()),
-        root_(settings.merges_only || settings.technique.s >= 0 || settings.technique.t >= 0
-                  ? nullptr
-                  : settings.tree) {}
+        root_(settings.has_trees() ? settings.tree : nullptr, leaves) {}
 
   void escape(const Walk& walk) {
     if (root_.leaves_lights() || !makes(0, walk) || !routes_.ends(group_, eye_)) return;
@@ -384,11 +382,12 @@ void EyeVisitor::merge(const Walk& walk, const WalkVertex& v, ClassMask among) {
 }  // namespace
 
 uint64_t trace_eye_path(const PairSettings& settings, const LightSubpath& path, CameraPath& camera,
-                        PathSampler& sampler, PartSums& light, Features* features) {
+                        PathSampler& sampler, PartSums& light, Features* features,
+                        SpecularRoot::Leaves leaves) {
   if (!(camera.camera_weight > 0)) return 0;
   camera.walk.specular_alpha = settings.specular_alpha;
   camera.walk.per_wavelength = true;
-  EyeVisitor visitor(settings, path, camera, light, features);
+  EyeVisitor visitor(settings, path, camera, light, features, leaves);
   // A technique with t vertices of the eye side, the lens one of them, needs no more, and no event
   // where it meets a light.
   const TechniqueChoice& one = settings.technique;

@@ -6,6 +6,7 @@
 
 #include "core/parallel.h"
 #include "integrator/features.h"
+#include "integrator/glint_pass.h"
 #include "integrator/merge_pass.h"
 #include "integrator/path_pair.h"
 
@@ -108,6 +109,7 @@ class Rendering {
                                                     clamped_.empty() ? 0 : points_.size()));
       merging_.grid = &grid;
       trace_eye_paths(statistics);
+      if (how_.glints && !settings_.merges_only) look_for_glints(statistics);
       merging_.grid = nullptr;
       settings_.merges_only = true;
     } while (begin < how_.light_paths);
@@ -199,14 +201,17 @@ class Rendering {
                                 pass_.weights.apply(c.value)});
   }
 
+  /// Number of a pixel's first sample of `n` in this pass.
+  uint32_t first_index(int n) const {
+    const uint32_t passes = how_.head > 0 && key_.pass > 0 ? key_.pass - 1 : key_.pass;
+    return (key_.pass > 0 ? how_.head : 0) + passes * static_cast<uint32_t>(n);
+  }
   /// The numbers of a pixel's sample `k` of `n` in this pass.
   struct SamplePoints {
     SobolPoint eye, light;
   };
   SamplePoints sample_points(int n, int k) const {
-    const uint32_t passes = how_.head > 0 && key_.pass > 0 ? key_.pass - 1 : key_.pass;
-    const uint32_t index = (key_.pass > 0 ? how_.head : 0) + passes * static_cast<uint32_t>(n) +
-                           static_cast<uint32_t>(k);
+    const uint32_t index = first_index(n) + static_cast<uint32_t>(k);
     return {SobolPoint(index, kEyePathDimensions),
             SobolPoint(index, how_.connects ? kPairDimensions : 1)};
   }
@@ -252,7 +257,8 @@ class Rendering {
     light.clear();
     Features features;
     const bool sees = film_ && how_.adds_features && !settings_.merges_only && k == 0;
-    row.rays += trace_eye_path(settings_, path, camera, sampler, light, sees ? &features : nullptr);
+    row.rays += trace_eye_path(settings_, path, camera, sampler, light, sees ? &features : nullptr,
+                               leaves_at(x - b.x0, y - b.y0));
     if (sees) features.add_to(*film_, x, y, scene_, camera, pass_.weights);
     const float share = 1.0f / static_cast<float>(samples);
     const size_t sample = pixel * points_.size() + static_cast<size_t>(k);
@@ -273,6 +279,26 @@ class Rendering {
     if (settings_.merges_only) return;
     ++row.camera_paths;
     if (waits) clamped_.weights[sample] = std::abs(camera.filter_weight) * share;
+  }
+
+  SpecularRoot::Leaves leaves_at(int x, int y) const {
+    if (!how_.leaves_glints) return SpecularRoot::Leaves::kBranches;
+    return how_.glints && how_.glints->at(x, y) == 0 ? SpecularRoot::Leaves::kNothing
+                                                     : SpecularRoot::Leaves::kAll;
+  }
+
+  /// Light behind delta lobes alone.
+  void look_for_glints(EstimatorStatistics& statistics) {
+    const GlintPass pass{.scene = scene_,
+                         .like = like_,
+                         .owned = owned_,
+                         .tree = tree_,
+                         .walks = *how_.glints,
+                         .seed = seed_,
+                         .specular_alpha = settings_.specular_alpha,
+                         .spread = how_.glint_spread,
+                         .spread_of_choice = how_.choice_spread};
+    statistics.rays += pass.render(values_, [this](int n) { return first_index(n); });
   }
 
   bool clamps() const { return like_.settings().max_component < kInfinity; }

@@ -26,6 +26,13 @@ struct PairPass {
   uint32_t head = 0;
   SampleSpread* spread = nullptr;  ///< where what each camera path finds goes as well
   bool spreads_splats = false;     ///< of try_out: and what its pixel gets from light paths
+  /// Light behind delta lobes alone is found by walks that look for nothing else; else camera paths
+  /// have trees.
+  bool leaves_glints = false;
+  /// These walks of each pixel: where there are none, camera paths find the light, without trees;
+  /// null: nobody does.
+  const SampleMap* glints = nullptr;
+  SampleSpread *glint_spread = nullptr, *choice_spread = nullptr;  ///< as in GlintPass
 
   /// Renders the pass into the film, its number of estimates included.
   void render(const PassKey& key, const Scene& scene, Film& film, const OwnedRoutes& owned,
@@ -44,7 +51,7 @@ struct PairPass {
                                           size_t clamped_samples) {
     return SplatBuffer::bytes_per_pixel(parts) + parts * sizeof(Rgb) +
            spread_samples * sizeof(Found) +
-           (spread_samples > 0 ? SampleSpread::kBytesPerPixel : 0) +
+           (spread_samples > 0 ? 3 * SampleSpread::kBytesPerPixel : 0) +
            clamped_samples * (parts * sizeof(Rgb) + sizeof(float));
   }
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "integrator/photon_pass.h"
+#include "integrator/specular_tree.h"
 #include "integrator/vertex_connection_merging.h"
 
 namespace nephroid {
@@ -40,6 +41,7 @@ Trial PathAndPhotons::try_out(PairPass how, uint64_t seed, const Scene& scene, c
   how.samples = &half;
   how.spread = &spread;
   how.spreads_splats = true;
+  how.glints = nullptr;
   EstimatorStatistics counts;
   for (uint32_t i = 0; i < kTrialPasses; ++i)
     how.try_out({hash_combine(seed, kTrialStream), i}, scene, film, owned_, options_, counts);
@@ -73,6 +75,7 @@ void PathAndPhotons::learn(uint64_t seed, const Scene& scene, const Film& film) 
   learned_.emplace(seed, SampleMap(film.bounds(), static_cast<uint16_t>(head)));
   Learned& learned = *learned_;
   PairPass& pass = learned.pass;
+  pass.leaves_glints = SpecularTree(scene, owned_, options_.max_depth).finds_something();
   pass.connects = false;
   pass.caustics_only = true;
   pass.guide = &emission_.guide(seed, scene, film, owned_, options_, statistics_);
@@ -87,6 +90,7 @@ void PathAndPhotons::learn(uint64_t seed, const Scene& scene, const Film& film) 
     learned.balance = balance;
   }
   PairPass connecting;
+  connecting.leaves_glints = pass.leaves_glints;
   connecting.light_paths = default_light_paths(film.bounds().area());
   Trial connected = try_out(connecting, seed, scene, film);
   balance.variance_of_camera += many.least_of_unseen(connected);
@@ -101,21 +105,27 @@ void PathAndPhotons::learn(uint64_t seed, const Scene& scene, const Film& film) 
   }
   pass.adds_features = true;
   learned.is_even = asked > 0;
-  if (learned.is_even) learned.samples = learned.head;
+  if (learned.is_even) learned.shares = Shares{learned.head, learned.head};
 }
 
-const SampleMap& PathAndPhotons::samples(const Scene& scene, const Film& film) {
+const Shares& PathAndPhotons::shares(const Scene& scene, const Film& film) {
   Learned& learned = *learned_;
-  if (learned.samples) return *learned.samples;
+  if (learned.shares) return *learned.shares;
   if (!learned.spread) {
     learned.spread.emplace(film.bounds());
     EstimatorStatistics counts;
     first_pass().try_out({learned.seed, 0}, scene, film, owned_, options_, counts);
     statistics_.rays += counts.rays;
   }
-  learned.samples = share_out(film.bounds(), learned.spread->by_tile());
+  const Learned::Spread& spread = *learned.spread;
+  if (learned.pass.leaves_glints)
+    learned.shares = share_out(
+        film.bounds(), {spread.paths.by_tile(&spread.glints), spread.glints.by_tile(&spread.paths),
+                        spread.choice.by_tile(&spread.paths)});
+  else
+    learned.shares = share_out(film.bounds(), {spread.paths.by_tile(), {}, {}});
   learned.spread.reset();
-  return *learned.samples;
+  return *learned.shares;
 }
 
 int64_t PathAndPhotons::light_paths(double camera_paths) const {
@@ -127,7 +137,12 @@ PairPass PathAndPhotons::first_pass() {
   PairPass pass = learned_->pass;
   pass.samples = &learned_->head;
   pass.light_paths = light_paths(pass.samples->mean());
-  pass.spread = &*learned_->spread;
+  pass.spread = &learned_->spread->paths;
+  if (pass.leaves_glints) {
+    pass.glints = &learned_->head;
+    pass.glint_spread = &learned_->spread->glints;
+    pass.choice_spread = &learned_->spread->choice;
+  }
   return pass;
 }
 
@@ -139,7 +154,9 @@ void PathAndPhotons::render_pass(const PassKey& key, const Scene& scene, Film& f
     return;
   }
   PairPass pass = learned_->pass;
-  pass.samples = &samples(scene, film);
+  const Shares& shared = shares(scene, film);
+  pass.samples = &shared.paths;
+  if (pass.leaves_glints) pass.glints = &shared.glints;
   pass.head = learned_->head.at(0, 0);
   pass.light_paths = light_paths(pass.samples->mean());
   pass.render(key, scene, film, owned_, options_, statistics_);
@@ -158,10 +175,14 @@ EstimatorStatistics PathAndPhotons::statistics() const {
   if (const size_t targets = pass.guide->targets().size(); targets > 0)
     s.notes.push_back("photons were aimed at " + std::to_string(targets) +
                       (targets == 1 ? " place" : " places") + " from which they were of use");
-  if (learned_->samples && !learned_->is_even)
-    s.notes.push_back(fmt::format("{:.3g} camera paths a pixel and pass, {} to {} by tile",
-                                  learned_->samples->mean(), learned_->samples->fewest(),
-                                  learned_->samples->most()));
+  if (!learned_->shares || learned_->is_even) return s;
+  const auto note = [&s](const SampleMap& map, const char* what) {
+    s.notes.push_back(fmt::format("{:.3g} {} a pixel and pass, {} to {} by tile", map.mean(), what,
+                                  map.fewest(), map.most()));
+  };
+  note(learned_->shares->paths, "camera paths");
+  if (pass.leaves_glints)
+    note(learned_->shares->glints, "walks for lights behind smooth glass and mirrors");
   return s;
 }
 

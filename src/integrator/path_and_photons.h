@@ -35,17 +35,21 @@ class PathAndPhotons final : public Estimator {
   struct Learned {
     Learned(uint64_t of_seed, const SampleMap& of_head) : seed(of_seed), head(of_head) {}
     uint64_t seed;
-    PairPass pass;                       ///< light paths are those of the first one
-    std::optional<Balance> balance;      ///< empty: light paths are the same in all
-    SampleMap head;                      ///< camera paths of the first pass
-    bool is_even = false;                ///< all passes have as many
-    std::optional<SampleSpread> spread;  ///< of the first pass
-    std::optional<SampleMap> samples;    ///< of the passes after it
+    PairPass pass;                   ///< light paths are those of the first one
+    std::optional<Balance> balance;  ///< empty: light paths are the same in all
+    SampleMap head;                  ///< camera paths of the first pass
+    bool is_even = false;            ///< all passes have as many
+    struct Spread {
+      explicit Spread(const PixelBounds& b) : paths(b), glints(b), choice(b) {}
+      SampleSpread paths, glints, choice;
+    };
+    std::optional<Spread> spread;  ///< of the first pass
+    std::optional<Shares> shares;  ///< of the passes after it
   };
   PairPass first_pass();
   /// Of a pass with so many camera paths a pixel.
   int64_t light_paths(double camera_paths) const;
-  const SampleMap& samples(const Scene& scene, const Film& film);
+  const Shares& shares(const Scene& scene, const Film& film);
   void learn(uint64_t seed, const Scene& scene, const Film& film);
   /// What a few passes that are thrown away tell of a way to render.
   Trial try_out(PairPass how, uint64_t seed, const Scene& scene, const Film& film);

@@ -57,7 +57,8 @@ struct PairSettings {
   const PairMerging* merging = nullptr;    ///< null: connections only
   const EmissionGuide& guide = kUnguided;  ///< of the starts of light paths
   bool merges_only = false;  ///< all other techniques have been made, but count in weights
-  const SpecularTree* tree = nullptr;  ///< of eye paths; null: none is grown
+  const SpecularTree* tree = nullptr;  ///< of eye paths, where all techniques are made
+  bool has_trees() const { return !merges_only && technique.s < 0 && technique.t < 0; }
 
   bool connects() const { return !merging || merging->connects; }
 };
@@ -135,8 +136,10 @@ LightPathCounts trace_light_path(const PairSettings& settings, const SampledWave
 /// Runs the eye path that `camera` starts and adds the light of all techniques with t > 1 to
 /// `light`, before the camera's weight. Its wavelengths, where not all are kept, are dealt with:
 /// the sums are those of the wavelengths that it started with. What it saw first goes to
-/// `features`, if they are of interest. Returns the number of rays.
+/// `features`, if they are of interest. `leaves`: to trees, if the settings have one. Returns the
+/// number of rays.
 uint64_t trace_eye_path(const PairSettings& settings, const LightSubpath& path, CameraPath& camera,
-                        PathSampler& sampler, PartSums& light, Features* features = nullptr);
+                        PathSampler& sampler, PartSums& light, Features* features = nullptr,
+                        SpecularRoot::Leaves leaves = SpecularRoot::Leaves::kBranches);
 
 }  // namespace nephroid

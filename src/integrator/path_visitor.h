@@ -38,7 +38,7 @@ class PathVisitorOf {
         light_(light),
         features_(features),
         eye_(routes_.start()),
-        root_(tree) {}
+        root_(tree, SpecularRoot::Leaves::kBranches) {}
 
   float share() const { return 1.0f; }
   float share_after(EventClass) const { return 1.0f; }

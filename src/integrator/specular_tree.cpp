@@ -1,5 +1,7 @@
 #include "integrator/specular_tree.h"
 
+#include <algorithm>
+
 #include "transport/walk_symbols.h"
 
 namespace nephroid {
@@ -7,7 +9,7 @@ namespace nephroid {
 namespace {
 
 /// A branch that carries less goes one way only, and roulette is played on it.
-constexpr float kWindow = 1.0f / 32;
+constexpr float kWindow = 1.0f / 8;
 /// Branches of branches: bounds the tree where nothing is lost along the way.
 constexpr int kMostBranchings = 16;
 
@@ -96,9 +98,9 @@ class SpecularTree::Visitor {
 
  private:
   void add(const Walk& walk, Part part, const SampledSpectrum& radiance) {
-    if (radiance.is_black()) return;
+    if (walk.events == 0 || radiance.is_black()) return;
     found_.push_back({part, walk.throughput * radiance * (1.0f / walk.density.u_mean),
-                      walk.lambda.secondary_terminated()});
+                      walk.lambda.secondary_terminated(), std::min(1.0f, walk.carried())});
   }
 
   const SpecularTree& tree_;
@@ -116,6 +118,13 @@ SpecularTree::SpecularTree(const Scene& scene, const OwnedRoutes& owned, int max
       owned_(owned),
       max_events_(max_events),
       finds_something_(owns_light_behind_specular(owned)) {}
+
+uint64_t SpecularTree::look(const Walk& walk, PathSampler& sampler,
+                            std::vector<Light>& found) const {
+  Walk root = walk;
+  root.window = kWindow;
+  return Visitor(*this, owned_.routes->start(), 0, found).run(root, sampler);
+}
 
 uint64_t SpecularTree::follow(Walk branch, EyeState eye, PathSampler& sampler,
                               std::vector<Light>& found) const {

@@ -23,7 +23,12 @@ class SpecularTree {
     Part part = kNoPart;  ///< one that the group owns
     SampledSpectrum value;
     bool hero_only = false;  ///< the branch kept its hero wavelength only
+    float chance = 1;        ///< with which a walk that chooses one way each time had come there
   };
+
+  /// Adds to `found` all such light that a camera walk, before its first event, can see. Returns
+  /// the number of rays.
+  uint64_t look(const Walk& walk, PathSampler& sampler, std::vector<Light>& found) const;
 
   /// Adds to `found` all light behind a branch whose events so far, all of them delta lobes, have
   /// led to `eye`. Returns the number of rays.
@@ -38,33 +43,39 @@ class SpecularTree {
   bool finds_something_;
 };
 
-/// A camera walk as the root of such trees: at the first boundary behind nothing but delta lobes
-/// the trees take over, and from there on the walk leaves lights that it meets to them.
+/// What a camera walk that looks for everything leaves to trees.
 class SpecularRoot {
  public:
-  /// No trees if null.
-  explicit SpecularRoot(const SpecularTree* tree)
-      : tree_(tree && tree->finds_something() ? tree : nullptr) {}
+  enum class Leaves : uint8_t {
+    kNothing,   ///< there are no trees
+    kBranches,  ///< trees are grown at the first boundary behind nothing but delta lobes
+    kAll        ///< other walks have looked for all such light
+  };
 
-  bool branches() const { return tree_ && only_delta_ && !grown_; }
-  /// True where the trees find the light that the walk meets.
-  bool leaves_lights() const { return trees_ && only_delta_; }
+  SpecularRoot(const SpecularTree* tree, Leaves leaves)
+      : tree_(tree), leaves_(tree && tree->finds_something() ? leaves : Leaves::kNothing) {}
+
+  bool branches() const { return leaves_ == Leaves::kBranches && only_delta_ && !grown_; }
+  /// True where the light that the walk meets is not its own.
+  bool leaves_lights() const { return left_ && only_delta_; }
   /// One of the two ways; `eye` is the state behind its first event.
   uint64_t branch(const Walk& way, EyeState eye, PathSampler& sampler,
                   std::vector<SpecularTree::Light>& found) {
-    trees_ = true;
+    left_ = true;
     return tree_->follow(way, eye, sampler, found);
   }
   /// The walk itself had an event.
   void scatter(const Walk& walk, EventClass letter) {
-    grown_ = trees_;
+    left_ = left_ || leaves_ == Leaves::kAll;
+    grown_ = left_;
     only_delta_ = only_delta_ && walk.delta && letter == EventClass::kSpecular;
   }
 
  private:
   const SpecularTree* tree_;
+  Leaves leaves_;
   bool only_delta_ = true;  ///< so far
-  bool trees_ = false;      ///< were grown
+  bool left_ = false;       ///< lights behind this place
   bool grown_ = false;      ///< at an earlier vertex
 };
 

@@ -52,6 +52,14 @@ TEST(SampleSpread, IsTheVarianceOverTheBrightnessOfATile) {
   EXPECT_NEAR(found.cost[0], 7, 1e-12);
   EXPECT_NEAR(found.cost[1], 5, 1e-12);
   EXPECT_EQ(found.cost[2], 0);
+
+  // Light beside it makes the same spread less noisy.
+  SampleSpread beside(b);
+  for (size_t pixel = 0; pixel < static_cast<size_t>(b.area()); ++pixel)
+    for (const double v : {10, 20}) beside.add(pixel, v, 1, 500);
+  const double all = 0.1 * ((6 + 60) / 2.0 + 15);
+  EXPECT_NEAR(spread.by_tile(&beside).variance[0], (16 + 4 + 4 + 16) / 3.0 / (6 + 15 + all), 1e-12);
+  EXPECT_NEAR(beside.by_tile().variance[2], (1000 - 15 * 30) / (15 * 1.1), 1e-12);
 }
 
 /// Blocks of tiles side by side, wide enough to have tiles none of whose neighbours differ.
@@ -65,7 +73,7 @@ struct Blocks {
           spread.variance.push_back(variance);
           spread.cost.push_back(cost);
         }
-    const SampleMap map = share_out(tiles(across, kHeight), spread);
+    const SampleMap map = share_out(tiles(across, kHeight), {spread, {}, {}}).paths;
     for (size_t i = 0; i < variance_and_cost.size(); ++i) {
       const size_t middle = static_cast<size_t>(across) + kWidth * i + kWidth / 2;
       samples.push_back(map.counts()[middle]);
@@ -110,6 +118,42 @@ TEST(ShareOut, KeepsItsBounds) {
   EXPECT_EQ(Blocks({{0, 1}, {0, 2}}).samples, (std::vector<int>{1, 1}));
   EXPECT_EQ(Blocks({{0, 0}, {0, 0}}).samples, (std::vector<int>{1, 1}));
   EXPECT_EQ(Blocks({{4, 1}, {4, 1}}).samples, (std::vector<int>{1, 1}));
+}
+
+TEST(ShareOut, LooksForGlintsWhereThatIsCheaper) {
+  struct Block {
+    double glints, cost, choice;
+    int expected_paths, expected_glints;
+  };
+  // Camera paths have variance 4 and take 4 rays.
+  const std::vector<Block> blocks = {
+      {0, 1, 0, 1, 0},       // nothing to be seen there
+      {0, 3, 0, 1, 1},       // boundaries, but no light so far: it may be a rare one
+      {2, 9, 3, 1, 0},       // a tree costs more than it gains
+      {1, 4, 100, 1, 1},     // rare reflections of lamps
+      {36, 4, 1000, 1, 3},   // bright ones
+      {1e6, 4, 1e8, 1, 32},  // never more than this
+      {0, 1, 0, 1, 0},
+  };
+  constexpr int kSide = 5;
+  const int across = kSide * static_cast<int>(blocks.size());
+  Spreads spreads;
+  for (int y = 0; y < kSide; ++y)
+    for (const Block& b : blocks)
+      for (int x = 0; x < kSide; ++x) {
+        spreads.paths.variance.push_back(4);
+        spreads.paths.cost.push_back(4);
+        spreads.glints.variance.push_back(b.glints);
+        spreads.glints.cost.push_back(b.cost);
+        spreads.choice.variance.push_back(b.choice);
+        spreads.choice.cost.push_back(0);
+      }
+  const Shares shares = share_out(tiles(across, kSide), spreads);
+  for (size_t i = 0; i < blocks.size(); ++i) {
+    const size_t middle = static_cast<size_t>(across) * 2 + kSide * i + kSide / 2;
+    EXPECT_EQ(shares.paths.counts()[middle], blocks[i].expected_paths) << i;
+    EXPECT_EQ(shares.glints.counts()[middle], blocks[i].expected_glints) << i;
+  }
 }
 
 TEST(ShareOut, HasFewPathsAPass) {
