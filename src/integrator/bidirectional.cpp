@@ -127,7 +127,7 @@ void Bidirectional::render_pass(const PassKey& key, const Scene& scene, Film& fi
   settings.light_paths = static_cast<double>(film.bounds().area());
   settings.technique = options_.technique;
   const SpecularTree tree(scene, owned_, options_.max_depth);
-  settings.tree = &tree;
+  settings.tree = options_.specular_trees ? &tree : nullptr;
   SplatBuffer buffer(film, group, *scene.filter);
   const size_t parts = film.parts_of(group).size();
   statistics_.hold(0, static_cast<uint64_t>(film.bounds().area()) * bytes_per_pixel(parts));

@@ -46,8 +46,8 @@ class SightVisitor : public LightWalkVisitor {
 class ForecastVisitor : public PathVisitorOf<ForecastVisitor> {
  public:
   ForecastVisitor(const Scene& scene, const OwnedRoutes& owned, const ForecastMap& map,
-                  PartSums& light, const SpecularTree& tree)
-      : PathVisitorOf(scene, owned, false, light, nullptr, &tree), map_(map) {}
+                  PartSums& light, const SpecularTree* tree)
+      : PathVisitorOf(scene, owned, false, light, nullptr, tree), map_(map) {}
 
   void vertex(const Walk& walk, const WalkVertex& v, PathSampler& sampler) {
     const ClassMask rough = v.bsdf.finite_classes() & v.classes_of(useful(v)) & ClassMask::kRough;
@@ -143,7 +143,7 @@ void Forecast::render_pass(const PassKey& key, const Scene& scene, Film& film) {
   const SpecularTree tree(scene, owned_, options_.max_depth);
   statistics_.rays += trace_paths(pass, [&](int, int, CameraPath& path, PathSampler& sampler,
                                             PartSums& light) {
-    ForecastVisitor visitor(scene, owned_, map_, light, tree);
+    ForecastVisitor visitor(scene, owned_, map_, light, options_.specular_trees ? &tree : nullptr);
     if (path.camera_weight > 0)
       random_walk(scene, TransportMode::kRadiance, options_.max_depth, path.walk, sampler, visitor);
     visitor.finish(path.walk);

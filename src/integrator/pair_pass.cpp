@@ -67,7 +67,10 @@ class Rendering {
         view_(scene, like.bounds()),
         places_(*owned.routes, owned.group),
         tree_(scene, owned, options.max_depth),
-        settings_{.scene = scene, .owned = owned, .guide = *how.guide, .tree = &tree_} {
+        settings_{.scene = scene,
+                  .owned = owned,
+                  .guide = *how.guide,
+                  .tree = how.leaves_glints || options.specular_trees ? &tree_ : nullptr} {
     merging_.caustics_only = how.caustics_only;
     merging_.photons = static_cast<double>(how.light_paths);
     merging_.radius_pixels = radius_of_pass(options, key.pass);

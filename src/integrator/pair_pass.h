@@ -26,8 +26,8 @@ struct PairPass {
   uint32_t head = 0;
   SampleSpread* spread = nullptr;  ///< where what each camera path finds goes as well
   bool spreads_splats = false;     ///< of try_out: and what its pixel gets from light paths
-  /// Light behind delta lobes alone is found by walks that look for nothing else; else camera paths
-  /// have trees.
+  /// Light behind delta lobes alone is found by walks that look for nothing else; else camera
+  /// paths find it, with trees if options ask for them.
   bool leaves_glints = false;
   /// These walks of each pixel: where there are none, camera paths find the light, without trees;
   /// null: nobody does.

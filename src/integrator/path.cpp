@@ -37,7 +37,8 @@ void PathEstimator::render_pass(const PassKey& key, const Scene& scene, Film& fi
   statistics_.rays += trace_paths(pass, [&](int x, int y, CameraPath& path, PathSampler& sampler,
                                             PartSums& light) {
     Features features;
-    PathVisitor visitor(scene, owned_, options_.blind_walks, light, &features, &tree);
+    PathVisitor visitor(scene, owned_, options_.blind_walks, light, &features,
+                        options_.specular_trees ? &tree : nullptr);
     if (path.camera_weight > 0)
       random_walk(scene, TransportMode::kRadiance, options_.max_depth, path.walk, sampler, visitor);
     visitor.finish(path.walk);

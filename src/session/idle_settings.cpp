@@ -16,15 +16,17 @@ struct Concern {
 
 const std::vector<Concern>& concerns() {
   using enum EstimatorKind;
-  static const std::vector<Concern> table = {{"technique", {kBidirectional, kVcm, kBpm}},
-                                             {"hit-points", {kPpm}},
-                                             {"map-photons", {kPhotonMap}},
-                                             {"nearest", {kPhotonMap}},
-                                             {"point-lights", {kPointLights}},
-                                             {"mutations", {kMetropolis, kPrimarySpace}},
-                                             {"chain-length", {kMetropolis, kPrimarySpace}},
-                                             {"large-step", {kMetropolis, kPrimarySpace}},
-                                             {"guide", {kPhotons, kPathAndPhotons}}};
+  static const std::vector<Concern> table = {
+      {"technique", {kBidirectional, kVcm, kBpm}},
+      {"hit-points", {kPpm}},
+      {"map-photons", {kPhotonMap}},
+      {"nearest", {kPhotonMap}},
+      {"point-lights", {kPointLights}},
+      {"mutations", {kMetropolis, kPrimarySpace}},
+      {"chain-length", {kMetropolis, kPrimarySpace}},
+      {"large-step", {kMetropolis, kPrimarySpace}},
+      {"guide", {kPhotons, kPathAndPhotons}},
+      {"specular-trees", {kPath, kForecast, kBidirectional, kVcm, kBpm}}};
   return table;
 }
 

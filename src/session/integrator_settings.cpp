@@ -54,6 +54,16 @@ std::string technique_text(const TechniqueChoice& choice) {
   return which + (choice.weighted ? "" : ",raw");
 }
 
+bool yes(const char* key, const std::string& text) {
+  if (text != "yes" && text != "no")
+    throw UsageError(fmt::format("-D {}={}: expected yes or no", key, text));
+  return text == "yes";
+}
+
+std::string yes_text(bool yes) {
+  return yes ? "yes" : "no";
+}
+
 constexpr IntegratorSetting kSettings[] = {
     {"max-depth", "N", "100, or the scene's maxdepth", "",
      "Scattering events of a whole path, from the camera to the light.",
@@ -165,11 +175,17 @@ constexpr IntegratorSetting kSettings[] = {
      [](const IntegratorOptions& o) { return fmt::format("{:g}", o.large_step); }},
     {"guide", "yes|no", "yes", "",
      "Photons of `photons` and `path+photons` start where earlier ones were of use.",
+     [](IntegratorOptions& o, const std::string& t) { o.guides_emission = yes("guide", t); },
+     [](const IntegratorOptions& o) { return yes_text(o.guides_emission); }},
+    {"specular-trees", "yes|no", "no", "",
+     "Walks of `path`, `forecast`, `bdpt`, `vcm` and `bpm` follow both ways at smooth glass to "
+     "lights "
+     "behind it: worth it where small lamps show in much glass. (`mixed` looks for them as it sees "
+     "fit.)",
      [](IntegratorOptions& o, const std::string& t) {
-       if (t != "yes" && t != "no") throw UsageError("-D guide=" + t + ": expected yes or no");
-       o.guides_emission = t == "yes";
+       o.specular_trees = yes("specular-trees", t);
      },
-     [](const IntegratorOptions& o) { return std::string(o.guides_emission ? "yes" : "no"); }},
+     [](const IntegratorOptions& o) { return yes_text(o.specular_trees); }},
     {"texture-cache", "SIZE", "1G", "bytes",
      "Memory for the pixels of image textures (K, M, G: powers of 1024); what does not fit is read "
      "from the files again and again, with the same picture.",

@@ -24,6 +24,7 @@ TEST(IdleSettings, AreSaid) {
             std::vector<std::string>{
                 "-D technique changes nothing here: no route is rendered by bdpt, vcm, bpm"});
   EXPECT_EQ(warnings({{"guide", "no"}, {"mutations", "3"}}, "vcm").size(), 2u);
+  EXPECT_EQ(warnings({{"specular-trees", "yes"}}, "pssmlt").size(), 1u);
 }
 
 TEST(IdleSettings, OthersAreNot) {

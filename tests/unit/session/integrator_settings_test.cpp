@@ -31,16 +31,17 @@ bool has_note(const IntegratorChoice& choice, const std::string& part) {
 
 TEST(IntegratorSettings, EveryKeyIsStoredWhereItBelongs) {
   IntegratorOptions o;
-  apply_settings({parse_setting("max-depth=7"), parse_setting("radius=1.5"),
-                  parse_setting("photons=1000"), parse_setting("alpha=0.75"),
-                  parse_setting("specular-alpha=0.2"), parse_setting("camera-samples=3"),
-                  parse_setting("point-lights=5"), parse_setting("hit-points=6"),
-                  parse_setting("map-photons=5000"), parse_setting("nearest=40"),
-                  parse_setting("technique=2,3,raw"), parse_setting("memory-photons=99"),
-                  parse_setting("outlier-neighbours=5"), parse_setting("mutations=2.5"),
-                  parse_setting("chain-length=77"), parse_setting("large-step=0.25"),
-                  parse_setting("guide=no"), parse_setting("texture-cache=1.5M")},
-                 &o);
+  apply_settings(
+      {parse_setting("max-depth=7"), parse_setting("radius=1.5"), parse_setting("photons=1000"),
+       parse_setting("alpha=0.75"), parse_setting("specular-alpha=0.2"),
+       parse_setting("camera-samples=3"), parse_setting("point-lights=5"),
+       parse_setting("hit-points=6"), parse_setting("map-photons=5000"),
+       parse_setting("nearest=40"), parse_setting("technique=2,3,raw"),
+       parse_setting("memory-photons=99"), parse_setting("outlier-neighbours=5"),
+       parse_setting("mutations=2.5"), parse_setting("chain-length=77"),
+       parse_setting("large-step=0.25"), parse_setting("guide=no"),
+       parse_setting("specular-trees=yes"), parse_setting("texture-cache=1.5M")},
+      &o);
   EXPECT_EQ(o.max_depth, 7);
   EXPECT_EQ(o.radius, 1.5f);
   EXPECT_EQ(o.photons_per_pass, 1000);
@@ -58,12 +59,13 @@ TEST(IntegratorSettings, EveryKeyIsStoredWhereItBelongs) {
   EXPECT_EQ(o.chain_length, 77);
   EXPECT_EQ(o.large_step, 0.25f);
   EXPECT_FALSE(o.guides_emission);
+  EXPECT_TRUE(o.specular_trees);
   EXPECT_EQ(o.texture_memory, 1536 * 1024);
   EXPECT_EQ(settings_text(o),
             "max-depth=7 radius=1.5 photons=1000 alpha=0.75 specular-alpha=0.2 camera-samples=3 "
             "point-lights=5 technique=2,3,raw hit-points=6 map-photons=5000 nearest=40 "
             "memory-photons=99 outlier-neighbours=5 mutations=2.5 chain-length=77 large-step=0.25 "
-            "guide=no "
+            "guide=no specular-trees=yes "
             "texture-cache=1536K");
 }
 
