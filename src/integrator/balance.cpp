@@ -35,6 +35,15 @@ struct OfTiles {
   }
 };
 
+/// Of the tiles that are not black beside the brightest.
+std::vector<double> lit_roots(const OfTiles& tiles) {
+  std::vector<double> roots;
+  for (size_t i = 0; i < tiles.cost.size(); ++i) roots.push_back(tiles.root(i));
+  const double brightest = roots.empty() ? 0 : *std::max_element(roots.begin(), roots.end());
+  std::erase_if(roots, [brightest](double v) { return !(v > 1e-3 * brightest); });
+  return roots;
+}
+
 /// So many samples that one more is worth `unit`^2 rays of variance, and what the tile then costs
 /// in variance and in rays that are worth as much.
 struct Share {
@@ -112,33 +121,30 @@ double steady_mean(std::vector<double> tiles) {
   return sum / static_cast<double>(tiles.size());
 }
 
-Shares share_out(const PixelBounds& bounds, const Spreads& spreads) {
+Shares share_out(const PixelBounds& bounds, const Spreads& spreads, bool glints_apart) {
   Shares shares{SampleMap(bounds), SampleMap(bounds, 0)};
   const int width = shares.paths.width();
   const OfTiles paths(spreads.paths, width), glints(spreads.glints, width),
       choice(spreads.choice, width);
-  std::vector<double> roots(paths.cost.size());
-  for (size_t i = 0; i < roots.size(); ++i) roots[i] = paths.root(i);
-  // The quietest of the tiles that have light have one path a pass.
-  const double brightest = *std::max_element(roots.begin(), roots.end());
-  std::vector<double> lit;
-  for (const double v : roots)
-    if (v > 1e-3 * brightest) lit.push_back(v);
+  std::vector<double> lit = lit_roots(paths);
+  if (lit.empty()) lit = lit_roots(glints);
   if (lit.empty()) return shares;
+  // The quietest of the tiles that have light have one path a pass.
   std::sort(lit.begin(), lit.end());
   // Fewer have one where that would be many paths a pass: what all pixels of a pass share, its
   // wavelengths above all, is averaged over passes alone.
   for (double unit = lit[lit.size() / 20];; unit *= 1.1) {
-    for (size_t i = 0; i < roots.size(); ++i) {
+    for (size_t i = 0; i < paths.cost.size(); ++i) {
       const double v = paths.variance[i], c = paths.cost[i];
       const Share alone(v, c, unit, SampleMap::kMost);
       shares.paths.counts()[i] = alone.samples;
       if (glints.cost.empty()) continue;
       const Share all(v + choice.variance[i], c, unit, SampleMap::kMost);
       const Share of_glints(glints.variance[i], glints.cost[i], unit, SampleMap::kMostGlints);
-      // What no walk has seen behind the boundaries of a tile may still be there, and bright.
-      const bool apart = (glints.variance[i] <= 0 && glints.cost[i] > 1) ||
-                         alone.expense + of_glints.expense < all.expense;
+      // What no walk has seen in the mirrors and the glass of a tile may still be there, and
+      // bright.
+      const bool unseen = glints.variance[i] <= 0 && glints.cost[i] > 1;
+      const bool apart = glints_apart || unseen || alone.expense + of_glints.expense < all.expense;
       if (!apart) shares.paths.counts()[i] = all.samples;
       shares.glints.counts()[i] = apart ? of_glints.samples : 0;
     }

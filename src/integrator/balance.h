@@ -13,13 +13,13 @@
 
 namespace nephroid {
 
-/// Camera paths of each pixel in a pass, the same for all pixels of a tile.
+/// Walks of one kind from each pixel in a pass, the same for all pixels of a tile.
 class SampleMap {
  public:
   static constexpr int kTile = 4, kMost = 8, kMostGlints = 32;
   static constexpr double kMostMean = 2.5;  ///< of maps that are shared out
 
-  /// The same number of paths for each pixel.
+  /// The same number for each pixel.
   explicit SampleMap(const PixelBounds& b, uint16_t samples = 1)
       : width_((b.width() + kTile - 1) / kTile),
         counts_(static_cast<size_t>(width_) * static_cast<size_t>((b.height() + kTile - 1) / kTile),
@@ -95,8 +95,9 @@ struct Spreads {
 };
 
 /// [A2] Shares the work out so that the error falls fastest: walks of either kind as the root of
-/// variance over cost, and each tile in the cheaper of both ways.
-Shares share_out(const PixelBounds& bounds, const Spreads& spreads);
+/// variance over cost, and each tile in the cheaper of both ways; or all glints by walks of their
+/// own.
+Shares share_out(const PixelBounds& bounds, const Spreads& spreads, bool glints_apart = false);
 
 /// What trial passes told.
 struct Trial {

@@ -141,13 +141,12 @@ void Forecast::render_pass(const PassKey& key, const Scene& scene, Film& film) {
   const PathPass pass{key,    scene, film, owned_, std::max(1, options_.camera_samples_per_pass),
                       kStream};
   const SpecularTree tree(scene, owned_, options_.max_depth);
-  statistics_.rays += trace_paths(pass, [&](int, int, CameraPath& path, PathSampler& sampler,
-                                            PartSums& light) {
+  statistics_.rays += trace_paths(pass, [&](int, int, CameraPath& path, const SensorWeights&,
+                                            PathSampler& sampler, PartSums& light) {
     ForecastVisitor visitor(scene, owned_, map_, light, options_.specular_trees ? &tree : nullptr);
     if (path.camera_weight > 0)
       random_walk(scene, TransportMode::kRadiance, options_.max_depth, path.walk, sampler, visitor);
-    visitor.finish(path.walk);
-    return TracedPath{path.walk.rays + visitor.more_rays(), pass.weights_of(path)};
+    return path.walk.rays + visitor.more_rays();
   });
   statistics_.camera_paths +=
       static_cast<uint64_t>(film.bounds().area()) * static_cast<uint64_t>(pass.samples);

@@ -34,17 +34,16 @@ void PathEstimator::render_pass(const PassKey& key, const Scene& scene, Film& fi
   }
   const PathPass pass{key, scene, film, owned_, samples_per_pass_, kStream};
   const SpecularTree tree(scene, owned_, options_.max_depth);
-  statistics_.rays += trace_paths(pass, [&](int x, int y, CameraPath& path, PathSampler& sampler,
+  statistics_.rays += trace_paths(pass, [&](int x, int y, CameraPath& path,
+                                            const SensorWeights& weights, PathSampler& sampler,
                                             PartSums& light) {
     Features features;
     PathVisitor visitor(scene, owned_, options_.blind_walks, light, &features,
                         options_.specular_trees ? &tree : nullptr);
     if (path.camera_weight > 0)
       random_walk(scene, TransportMode::kRadiance, options_.max_depth, path.walk, sampler, visitor);
-    visitor.finish(path.walk);
-    const SensorWeights weights = pass.weights_of(path);
     features.add_to(film, x, y, scene, path, weights);
-    return TracedPath{path.walk.rays + visitor.more_rays(), weights};
+    return path.walk.rays + visitor.more_rays();
   });
   film.add_feature_estimates(samples_per_pass_);
   statistics_.camera_paths += static_cast<uint64_t>(film.bounds().area()) * samples_per_pass_;

@@ -119,9 +119,12 @@ const Shares& PathAndPhotons::shares(const Scene& scene, const Film& film) {
   }
   const Learned::Spread& spread = *learned.spread;
   if (learned.pass.leaves_glints)
-    learned.shares = share_out(
-        film.bounds(), {spread.paths.by_tile(&spread.glints), spread.glints.by_tile(&spread.paths),
-                        spread.choice.by_tile(&spread.paths)});
+    // Where the film clamps, what a tile converges to depends on who finds its bright light.
+    learned.shares =
+        share_out(film.bounds(),
+                  {spread.paths.by_tile(&spread.glints), spread.glints.by_tile(&spread.paths),
+                   spread.choice.by_tile(&spread.paths)},
+                  film.settings().max_component < kInfinity);
   else
     learned.shares = share_out(film.bounds(), {spread.paths.by_tile(), {}, {}});
   learned.spread.reset();
@@ -181,7 +184,7 @@ EstimatorStatistics PathAndPhotons::statistics() const {
                                   map.fewest(), map.most()));
   };
   note(learned_->shares->paths, "camera paths");
-  if (pass.leaves_glints)
+  if (pass.leaves_glints && learned_->shares->glints.most() > 0)
     note(learned_->shares->glints, "walks for lights behind smooth glass and mirrors");
   return s;
 }

@@ -2,7 +2,7 @@
 // caustics are photons as well, each weighed against the other; where trial passes show that it is
 // worth its time, light paths are connected and merged everywhere, too. How many light paths a pass
 // has, where they start and how many camera paths each tile has is learned from the scene, a
-// function of scene, film, options and seed (docs/estimators.md, sections 20 and 21).
+// function of scene, film, options and seed (docs/estimators.md, sections 20 to 22).
 // Papers: Doidge, Jones & Mora 2012, whose future work this is; Georgiev et al. 2012 for weights;
 // Grittmann et al. 2022 for choosing techniques by efficiency.
 #pragma once

@@ -58,7 +58,9 @@ struct PairSettings {
   const EmissionGuide& guide = kUnguided;  ///< of the starts of light paths
   bool merges_only = false;  ///< all other techniques have been made, but count in weights
   const SpecularTree* tree = nullptr;  ///< of eye paths, where all techniques are made
-  bool has_trees() const { return !merges_only && technique.s < 0 && technique.t < 0; }
+  bool has_trees() const {
+    return !merges_only && technique.connects && technique.s < 0 && technique.t < 0;
+  }
 
   bool connects() const { return !merging || merging->connects; }
 };

@@ -30,14 +30,9 @@ struct PathPass {
   }
 };
 
-/// What a walk leaves behind beside its light.
-struct TracedPath {
-  uint64_t rays = 0;
-  SensorWeights weights;  ///< of the wavelengths that it ended with
-};
-
-/// Calls trace(x, y, CameraPath&, PathSampler&, PartSums&) -> TracedPath for each sample of each
-/// pixel and adds the light that it finds to the film. Returns all rays.
+/// Calls trace(x, y, CameraPath&, const SensorWeights&, PathSampler&, PartSums&) -> rays for each
+/// sample of each pixel and adds the light that it finds to the film. The weights, and with them
+/// the light, are of the wavelengths that the path starts with. Returns all rays.
 template <class Trace>
 uint64_t trace_paths(const PathPass& pass, Trace&& trace) {
   const PixelBounds& b = pass.film.bounds();
@@ -60,11 +55,11 @@ uint64_t trace_paths(const PathPass& pass, Trace&& trace) {
         CameraPath path = start_camera_path(pass.scene, x, y, sampler, lambda, sampler.get_1d());
         path.walk.specular_alpha = specular_alpha;
         light.clear();
-        const TracedPath traced = trace(x, y, path, sampler, light);
-        rays[static_cast<size_t>(row)] += traced.rays;
+        const SensorWeights weights = pass.weights_of(path);
+        rays[static_cast<size_t>(row)] += trace(x, y, path, weights, sampler, light);
         pass.film.add(group, x, y,
-                      light.colors(traced.weights, path.camera_weight,
-                                   pass.film.settings().max_component, path.filter_weight));
+                      light.colors(weights, path.camera_weight, pass.film.settings().max_component,
+                                   path.filter_weight));
       }
     });
     pass.film.add_estimates(group, 1);

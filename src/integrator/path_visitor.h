@@ -26,8 +26,7 @@ class PathVisitorOf {
   static constexpr bool kEndsAtBranches = false;
 
   /// With `blind`, walks do not look at what is useful for the routes: any routes see the same
-  /// paths. `features` are of no interest if null, and no `tree` is grown. Who gives one calls
-  /// finish() when the walk is over.
+  /// paths. `features` are of no interest if null, and no `tree` is grown.
   PathVisitorOf(const Scene& scene, const OwnedRoutes& owned, bool blind, PartSums& light,
                 Features* features, const SpecularTree* tree = nullptr)
       : scene_(scene),
@@ -115,8 +114,11 @@ class PathVisitorOf {
 
   bool branches(const Walk&) const { return root_.branches(); }
   void branch(const Walk& way, const WalkEvent& event, PathSampler& sampler) {
+    from_tree_.clear();
     tree_rays_ +=
-        root_.branch(way, routes_.next(eye_, symbol_of(symbols_, event)), sampler, from_trees_);
+        root_.branch(way, routes_.next(eye_, symbol_of(symbols_, event)), sampler, from_tree_);
+    for (const SpecularTree::Light& l : from_tree_)
+      light_.add(l.part, whole_spectrum(l.value, l.hero_only));
   }
 
   bool scatter(const Walk& walk, const WalkEvent& event) {
@@ -125,22 +127,12 @@ class PathVisitorOf {
     return true;
   }
 
-  /// Adds what trees found. The sensor's weights are those of the wavelengths that the walk ended
-  /// with, and a branch may have kept fewer.
-  void finish(const Walk& walk) {
-    for (const SpecularTree::Light& l : from_trees_)
-      light_.add(l.part,
-                 whole_spectrum(l.value, l.hero_only && (walk.per_wavelength ||
-                                                         !walk.lambda.secondary_terminated())));
-  }
-
   /// Rays that the walk does not count.
   uint64_t more_rays() const { return shadow_rays_ + tree_rays_; }
 
  protected:
   void add(const Walk& walk, Part part, const SampledSpectrum& value) {
-    light_.add(part,
-               whole_spectrum(value, walk.per_wavelength && walk.lambda.secondary_terminated()));
+    light_.add(part, whole_spectrum(value, walk.lambda.secondary_terminated()));
   }
 
   const Scene& scene_;
@@ -228,7 +220,7 @@ class PathVisitorOf {
   }
 
   SpecularRoot root_;
-  std::vector<SpecularTree::Light> from_trees_;
+  std::vector<SpecularTree::Light> from_tree_;
   uint64_t tree_rays_ = 0;
 };
 

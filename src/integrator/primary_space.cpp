@@ -38,14 +38,13 @@ class CameraPaths : public PathFunction {
     CameraPath path = start_camera_path(pass_.scene, film, sampler, lambda, u_time);
     if (!(path.camera_weight > 0)) return;
     path.walk.specular_alpha = pass_.specular_alpha;
+    const SensorWeights weights = sensor_weights(
+        lambda, *pass_.film.color_space, pass_.film.imaging_ratio, pass_.film.white_balance);
     light_.clear();
     PathVisitor visitor(pass_.scene, pass_.owned, pass_.options.blind_walks, light_, nullptr);
     random_walk(pass_.scene, TransportMode::kRadiance, pass_.options.max_depth, path.walk, sampler,
                 visitor);
     found.rays += path.walk.rays + visitor.more_rays();
-    const SensorWeights weights =
-        sensor_weights(path.walk.lambda, *pass_.film.color_space, pass_.film.imaging_ratio,
-                       pass_.film.white_balance);
     const std::span<const Rgb> colors =
         light_.colors(weights, path.camera_weight * pass_.area.area(), kInfinity, 1.0f);
     for (size_t part = 0; part < colors.size(); ++part) found.add(film, part, colors[part]);

@@ -4,6 +4,8 @@
 // the photon tracer. It must not know routes or films.
 #pragma once
 
+#include <cassert>
+
 #include "core/sampler.h"
 #include "scene/scene.h"
 #include "transport/medium_flight.h"
@@ -140,7 +142,8 @@ struct WalkEvent {
 ///                                  not among the letters
 ///   void escape(const Walk&)                         the ray left the scene
 ///   void emitter(const Walk&, const SurfaceInteraction&, const Light&)  it met a light
-///   void medium_emission(const Medium&, const SampledSpectrum&)  its light, fully weighed
+///   void medium_emission(const Medium&, const SampledSpectrum&)  its light, fully weighed, of the
+///                                   wavelengths that the walk started with
 ///   void vertex(const Walk&, const WalkVertex&, PathSampler&)         a surface
 ///   void medium_vertex(const Walk&, const MediumVertex&, PathSampler&)  a collision in a medium
 ///   bool scatter(const Walk&, const WalkEvent&)      an event was sampled; false: stop
@@ -149,9 +152,8 @@ struct WalkEvent {
 ///       const Vec2f& u, ClassMask among)    in place of Bsdf::sample, with the density of what it
 ///                                           does; it may change the walk's eta_scale alone
 ///   bool branches(const Walk&)              it wants both ways of a smooth boundary here, and gets
-///   void branch(Walk&, const WalkEvent&, PathSampler&)  each, ready to be followed, before the
-///   walk
-///                                           itself goes one of them
+///   void branch(const Walk&, const WalkEvent&, PathSampler&)  each, ready to be followed, before
+///                                           the walk itself goes one of them; not on curves
 ///   static constexpr bool kEndsAtBranches   true: the walk itself ends there
 /// `mode` tells which quantity the throughput carries. In kImportance it includes the correction
 /// for shading normals (Veach 1997, section 5.3).
@@ -205,7 +207,9 @@ class RandomWalk {
       const SampledSpectrum through = attenuation(medium, walk_.ray, distance, walk_.lambda,
                                                   flight_random_, glows ? &emitted : nullptr);
       if (glows)
-        visitor_.medium_emission(medium, walk_.throughput * emitted / walk_.density.u_mean);
+        visitor_.medium_emission(medium,
+                                 whole_spectrum(walk_.throughput * emitted / walk_.density.u_mean,
+                                                walk_.lambda.secondary_terminated()));
       walk_.throughput *= through;
       return std::nullopt;
     }
@@ -216,7 +220,9 @@ class RandomWalk {
         fly(medium, walk_.ray, distance, walk_.lambda, flight_random_, walk_.throughput,
             walk_.density, emitted);
     walk_.density.take_means(walk_.lambda);
-    if (glows) visitor_.medium_emission(medium, emitted);
+    if (glows)
+      visitor_.medium_emission(medium,
+                               whole_spectrum(emitted, walk_.lambda.secondary_terminated()));
     return collision;
   }
 
@@ -331,6 +337,8 @@ class RandomWalk {
   /// Gives the visitor both ways of a smooth boundary, each with all that goes there. False if
   /// there are not two.
   bool branch(const WalkVertex& vertex) {
+    assert(mode_ == TransportMode::kRadiance);
+    if (vertex.letter(EventClass::kSpecular) != EventClass::kSpecular) return false;
     const auto both = vertex.bsdf.delta_pair(vertex.wo, mode_);
     if (!both) return false;
     for (const BsdfSample& s : *both) {

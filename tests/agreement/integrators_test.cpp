@@ -72,6 +72,7 @@ TEST_P(Agreement, OfAllIntegrators) {
   options.camera_samples_per_pass = 8;  // what the path tracer adds to few passes must not be noisy
   for (const std::string integrator : {"mixed", "sppm", "bdpt"}) {
     if (integrator == description.reference) continue;
+    options.specular_trees = integrator == "bdpt";
     expect_equal(unbiased_block_values(*scene, integrator, options, kSeeds, description.passes,
                                        first_seed, kAcross),
                  reference, std::string(description.name) + ", " + integrator, 0.01);

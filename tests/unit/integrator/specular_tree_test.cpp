@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "integrator/glint_pass.h"
+#include "integrator/path_pair.h"
 #include "integrator/path_visitor.h"
 #include "owned_routes.h"
 #include "rendering.h"
@@ -33,10 +34,13 @@ const std::string kClear =
 const std::string kMilky =
     R"(MakeNamedMedium "inside" "string type" "homogeneous" "rgb sigma_a" [0.1 0.1 0.1] "rgb sigma_s" [0.3 0.2 0.1])";
 
-std::string ball(const std::string& medium, const std::string& material) {
+const std::string kSphere = R"( Shape "sphere" "float radius" 1)";
+
+std::string ball(const std::string& medium, const std::string& material,
+                 const std::string& shape = kSphere) {
   std::string text = kBall;
   text.insert(text.find("WorldBegin") + 10, "\n" + medium + "\n");
-  return text + material + R"( Shape "sphere" "float radius" 1)";
+  return text + material + shape;
 }
 
 struct Estimate {
@@ -66,10 +70,8 @@ Estimate look(const Scene& scene, const OwnedRoutes& owned, bool grows, bool sha
     light.clear();
     PathVisitor visitor(scene, owned, false, light, nullptr, grows ? &tree : nullptr);
     random_walk(scene, TransportMode::kRadiance, 20, path.walk, sampler, visitor);
-    visitor.finish(path.walk);
-    const SensorWeights weights =
-        sensor_weights(shares_wavelengths ? lambda : path.walk.lambda, *scene.film.color_space,
-                       scene.film.imaging_ratio, scene.film.white_balance);
+    const SensorWeights weights = sensor_weights(
+        lambda, *scene.film.color_space, scene.film.imaging_ratio, scene.film.white_balance);
     double value = 0;
     for (const Rgb& c : light.colors(weights, 1, kInfinity, 1)) value += (c.r + c.g + c.b) / 3;
     sum += value;
@@ -85,21 +87,36 @@ TEST(SpecularTree, FindsWhatWalksFindWithLessNoise) {
   const std::string thin = R"(Material "thindielectric")";
   const std::string mirror = R"(Material "conductor" "float roughness" 0)";
   const std::string frosted = R"(Material "dielectric" "float roughness" 0.001)";
+  const std::string pane_before = R"(
+    AttributeBegin Material "thindielectric" Translate 0 0 -1.5 Shape "disk" AttributeEnd )";
+  const std::string mirror_before = R"(
+    AttributeBegin Material "conductor" "float roughness" 0 Translate 0 0 -1.5 Rotate 150 0 1 0
+      Shape "disk" "float radius" 2 AttributeEnd Translate 3 0 -4 )";
+  const std::string around_the_eye = R"( Shape "sphere" "float radius" 4)";
+  const std::string fibre =
+      R"( Shape "curve" "point3 P" [-1 0 0  -0.3 0.1 0  0.3 -0.1 0  1 0 0] "float width" 0.4)";
   struct Case {
     const char* name;
     std::string text;
-    double gain;  ///< at least, in variance
+    double gain;  ///< at least, in variance; 0: no trees, and the very same paths
   };
   for (const Case& c :
        {Case{"glass", ball(kClear, glass), 2}, Case{"milk glass", ball(kMilky, glass), 1},
-        Case{"prism", ball(kClear, prism), 1.5}, Case{"pane", ball(kClear, thin), 0.99},
-        Case{"mirror", ball(kClear, mirror), 0.99},
-        Case{"nearly smooth", ball(kClear, frosted), 0.99}}) {
+        Case{"prism", ball(kClear, prism), 1.5}, Case{"pane", ball(kClear, thin), 0},
+        Case{"mirror", ball(kClear, mirror), 0}, Case{"nearly smooth", ball(kClear, frosted), 0},
+        Case{"fibre", ball(kClear, glass, fibre), 0},
+        Case{"pane and glass", ball(kClear, pane_before + glass), 1.2},
+        Case{"mirror and glass", ball(kClear, mirror_before + glass), 1},
+        Case{"in glass", ball(kClear, glass, around_the_eye), 1}}) {
     const auto scene = scene_from_text(c.text);
     const OwnedRoutes owned = owned_routes(*scene, {"all=.*:path"});
     for (const bool shared : {false, true}) {
       const Estimate walks = look(*scene, owned, false, shared);
       const Estimate trees = look(*scene, owned, true, shared);
+      if (c.gain == 0) {
+        EXPECT_EQ(trees.mean, walks.mean) << c.name;
+        continue;
+      }
       const double error = std::sqrt((walks.variance + trees.variance) / (1 << 15));
       EXPECT_NEAR(trees.mean, walks.mean, 3.5 * error + 1e-9) << c.name << shared;
       EXPECT_GT(walks.mean, 20 * error) << c.name;
@@ -153,6 +170,21 @@ TEST(GlintPass, FindsTheLightBehindDeltaLobes) {
       of_walks += look(*scene, owned, false, false, {x, y, x + 1, y + 1}).variance / 64;
   EXPECT_NEAR(variance, of_walks, 0.2 * of_walks);
   EXPECT_LT(least, 0.6 * of_walks);
+}
+
+TEST(SpecularTree, IsNoPartOfTechniquesAskedForOneByOne) {
+  const auto scene = scene_from_text(ball(kClear, ""));
+  const OwnedRoutes owned = owned_routes(*scene, {"all=.*:vcm"});
+  const auto grows = [&](const TechniqueChoice& technique, bool merges_only = false) {
+    PairSettings settings{*scene, owned};
+    settings.technique = technique;
+    settings.merges_only = merges_only;
+    return settings.has_trees();
+  };
+  EXPECT_TRUE(grows({}));
+  EXPECT_FALSE(grows({}, true)) << "walks again for more photons";
+  EXPECT_FALSE(grows({.s = 0, .t = 3}));
+  EXPECT_FALSE(grows({.connects = false})) << "merged";
 }
 
 TEST(SpecularTree, IsGrownForRoutesThatOwnItsLight) {
