@@ -17,8 +17,9 @@ constexpr uint64_t kTrialStream = 0x747269616c;  // "trial"
 constexpr uint32_t kTrialPasses = 2;
 /// Light paths of a trial with few of them are this part of those with many.
 constexpr int64_t kFewer = 8;
-/// Two passes are a rough guess: connecting has to be better by this factor.
-constexpr double kClearly = 1.3;
+/// Connecting has to be better by this factor: two passes are a rough guess, and do not see that
+/// camera paths alone, whose points fill the gaps of earlier ones, gain more from passes to come.
+constexpr double kClearly = 1.6;
 
 /// One path for each pixel of every other tile.
 SampleMap every_other_tile(const PixelBounds& b) {
