@@ -225,7 +225,8 @@ TEST_P(Scale, TheUnitOfLengthDoesNotMatter) {
   options.photons_per_pass = 1 << 12;
   options.max_depth = 8;
   const Plan plan(GetParam());
-  uint32_t passes = 8;
+  // One walk that rounding turns over and that sees the lamp in the glass is 0.2 % of 8 passes.
+  uint32_t passes = GetParam() == "mixed" ? 64 : 8;
   use_whole_maps(plan, options, passes);
   const auto values = [&](double scale) {
     return block_values(*scene_from_text(scaled_scene(scale)), plan, options, 8, passes, 1)[0];
