@@ -101,7 +101,8 @@ constexpr IntegratorSetting kSettings[] = {
                                     : fmt::format("{:g}..{:g}", band.low, band.high);
      }},
     {"camera-samples", "N", "0", "samples",
-     "Camera paths per pixel and pass, up to 65535; 0 lets the integrator choose.",
+     "Camera paths per pixel and pass, up to 65535; 0 lets the integrator choose. In `mixed` also "
+     "walks for lamps behind glass.",
      [](IntegratorOptions& o, const std::string& t) {
        o.camera_samples_per_pass = static_cast<int>(integer("camera-samples", t, 0, 65535));
      },
@@ -178,10 +179,9 @@ constexpr IntegratorSetting kSettings[] = {
      [](IntegratorOptions& o, const std::string& t) { o.guides_emission = yes("guide", t); },
      [](const IntegratorOptions& o) { return yes_text(o.guides_emission); }},
     {"specular-trees", "yes|no", "no", "",
-     "Walks of `path`, `forecast`, `bdpt`, `vcm` and `bpm` follow both ways at smooth glass to "
-     "lights "
-     "behind it: worth it where small lamps show in much glass. (`mixed` looks for them as it sees "
-     "fit.)",
+     "Camera walks of routes of `path`, `forecast`, `bdpt`, `vcm` and `bpm` follow both ways at "
+     "smooth glass to lights behind it: worth it where small lamps show in much glass. "
+     "(`path+photons`, and so `mixed`, looks for them as it sees fit.)",
      [](IntegratorOptions& o, const std::string& t) {
        o.specular_trees = yes("specular-trees", t);
      },
