@@ -116,10 +116,7 @@ class EyeVisitor {
   bool branches(const Walk&) const { return root_.branches(); }
   // No other technique finds this light.
   void branch(const Walk& way, const WalkEvent& event, PathSampler& sampler) {
-    from_tree_.clear();
-    rays_ += root_.branch(way, routes_.next(eye_, symbol_of(symbols_, event)), sampler, from_tree_);
-    for (const SpecularTree::Light& l : from_tree_)
-      light_.add(l.part, whole_spectrum(l.value, l.hero_only));
+    rays_ += root_.branch(way, routes_.next(eye_, symbol_of(symbols_, event)), sampler, light_);
   }
 
   bool scatter(const Walk& walk, const WalkEvent& event) {
@@ -337,7 +334,6 @@ class EyeVisitor {
   const WalkVertex* surface_ = nullptr;
   const MediumVertex* medium_ = nullptr;
   SpecularRoot root_;
-  std::vector<SpecularTree::Light> from_tree_;
   uint64_t rays_ = 0;
 };
 

@@ -52,8 +52,7 @@ uint64_t GlintPass::render_points(std::span<Rgb> values,
         found.clear();
         const uint64_t took = path.camera_weight > 0 ? tree.look(path.walk, sampler, found) : 0;
         rays[static_cast<size_t>(row)] += took;
-        for (const SpecularTree::Light& l : found)
-          light.add(l.part, whole_spectrum(l.value, l.hero_only));
+        for (const SpecularTree::Light& l : found) l.add_to(light);
         double seen = 0;
         if (!found.empty()) {
           const std::span<const Rgb> colors = light.colors(

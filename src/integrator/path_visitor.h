@@ -114,11 +114,8 @@ class PathVisitorOf {
 
   bool branches(const Walk&) const { return root_.branches(); }
   void branch(const Walk& way, const WalkEvent& event, PathSampler& sampler) {
-    from_tree_.clear();
     tree_rays_ +=
-        root_.branch(way, routes_.next(eye_, symbol_of(symbols_, event)), sampler, from_tree_);
-    for (const SpecularTree::Light& l : from_tree_)
-      light_.add(l.part, whole_spectrum(l.value, l.hero_only));
+        root_.branch(way, routes_.next(eye_, symbol_of(symbols_, event)), sampler, light_);
   }
 
   bool scatter(const Walk& walk, const WalkEvent& event) {
@@ -220,7 +217,6 @@ class PathVisitorOf {
   }
 
   SpecularRoot root_;
-  std::vector<SpecularTree::Light> from_tree_;
   uint64_t tree_rays_ = 0;
 };
 

@@ -1,11 +1,13 @@
 // Lights that the camera sees by way of smooth boundaries alone: both ways are followed at each of
 // them, as in Whitted 1980, where a walk would choose one ([S1] in docs/estimators.md). A lamp
 // mirrored in glass, seen by one path in a hundred, is then seen dimly by all of them.
-// Who calls it: visitors of camera walks, which leave this light to it. It must not know films.
+// Who calls it: visitors of camera walks, which leave this light to it. It must not know films
+// or pixels.
 #pragma once
 
 #include <vector>
 
+#include "film/part_sums.h"
 #include "route/scene_symbols.h"
 #include "transport/random_walk.h"
 
@@ -24,6 +26,9 @@ class SpecularTree {
     SampledSpectrum value;
     bool hero_only = false;  ///< the branch kept its hero wavelength only
     float chance = 1;        ///< with which a walk that chooses one way each time had come there
+
+    /// `sums` are of the wavelengths that the walk started with.
+    void add_to(PartSums& sums) const { sums.add(part, whole_spectrum(value, hero_only)); }
   };
 
   /// Adds to `found` all such light that a camera walk, before its first event, can see. Returns
@@ -58,11 +63,14 @@ class SpecularRoot {
   bool branches() const { return leaves_ == Leaves::kBranches && only_delta_ && !grown_; }
   /// True where the light that the walk meets is not its own.
   bool leaves_lights() const { return left_ && only_delta_; }
-  /// One of the two ways; `eye` is the state behind its first event.
-  uint64_t branch(const Walk& way, EyeState eye, PathSampler& sampler,
-                  std::vector<SpecularTree::Light>& found) {
+  /// One of the two ways; `eye` is the state behind its first event. Adds the light to `sums` and
+  /// returns the number of rays.
+  uint64_t branch(const Walk& way, EyeState eye, PathSampler& sampler, PartSums& sums) {
     left_ = true;
-    return tree_->follow(way, eye, sampler, found);
+    found_.clear();
+    const uint64_t rays = tree_->follow(way, eye, sampler, found_);
+    for (const SpecularTree::Light& l : found_) l.add_to(sums);
+    return rays;
   }
   /// The walk itself had an event.
   void scatter(const Walk& walk, EventClass letter) {
@@ -77,6 +85,7 @@ class SpecularRoot {
   bool only_delta_ = true;  ///< so far
   bool left_ = false;       ///< lights behind this place
   bool grown_ = false;      ///< at an earlier vertex
+  std::vector<SpecularTree::Light> found_;
 };
 
 }  // namespace nephroid

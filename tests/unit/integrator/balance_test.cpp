@@ -154,6 +154,8 @@ TEST(ShareOut, LooksForGlintsWhereThatIsCheaper) {
     EXPECT_EQ(shares.paths.counts()[middle], blocks[i].expected_paths) << i;
     EXPECT_EQ(shares.glints.counts()[middle], blocks[i].expected_glints) << i;
   }
+  // As films that clamp want it.
+  EXPECT_GE(share_out(tiles(across, kSide), spreads, true).glints.fewest(), 1);
 }
 
 TEST(ShareOut, HasFewPathsAPass) {

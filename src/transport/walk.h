@@ -1,0 +1,134 @@
+// A walk between two vertices, the vertices and events that its visitors see, and where each of its
+// decisions finds random numbers. Who calls it: random_walk.h, which runs walks, and whoever looks
+// at them. It must not know how a walk goes on.
+#pragma once
+
+#include "core/sampler.h"
+#include "scene/scene.h"
+#include "transport/medium_flight.h"
+
+namespace nephroid {
+
+/// Where each decision of a path finds its random numbers. Every vertex has the same set, so that
+/// its numbers do not depend on what earlier vertices used.
+namespace dimensions {
+inline constexpr int kFilm = 0;         // 2
+inline constexpr int kWavelength = 2;   // 1
+inline constexpr int kFirstVertex = 3;  // of camera walks
+inline constexpr int kLens = 11;        // 2
+inline constexpr int kTime = 13;        // 1
+inline constexpr int kSecondVertex = 14;
+// within a vertex
+inline constexpr int kLight = 0;     // 3
+inline constexpr int kBsdf = 3;      // 3
+inline constexpr int kRoulette = 6;  // 1
+inline constexpr int kFlight = 7;    // 1, of the flight that leads to the vertex
+inline constexpr int kPerVertex = 8;
+}  // namespace dimensions
+
+/// A walk between two vertices.
+struct Walk {
+  Ray ray;                         ///< of unit direction
+  const Medium* medium = nullptr;  ///< around the ray's origin
+  float specular_alpha = 0;        ///< of the pass: see roughness_band.h
+  /// No choice depends on which wavelength is the hero: for walks that share their wavelengths with
+  /// others that they are multiplied with. Then `density` stays all ones.
+  bool per_wavelength = false;
+  SampledSpectrum throughput{1.0f};
+  /// Of the choices that media made; estimates divide by density.u_mean.
+  SpectralDensity density;
+  SampledWavelengths lambda;
+  int vertices = 0;  ///< places at which something was decided
+  int events = 0;    ///< scattering events so far
+  float length = 0;  ///< path length from the start
+  /// Product of eta^2 over refractions, and of how much more often a guide chose directions than
+  /// the BSDF would have: what roulette leaves out.
+  float eta_scale = 1;
+  // The last scattering event; before the first one the values of the start.
+  bool delta = true;  ///< a delta lobe or the camera: no other technique could make this ray
+  float pdf_w = 0;    ///< P_c p_c of the direction
+  Vec3f previous_p,
+      previous_ns;    ///< vertex that the ray left and its shading normal (null: medium)
+  uint64_t rays = 0;  ///< closest-hit queries
+  int first_dimension = dimensions::kFirstVertex;    ///< random numbers of the first vertex
+  int second_dimension = dimensions::kSecondVertex;  ///< of the second; later ones follow
+  int vertex_dimension() const {
+    return vertices == 0 ? first_dimension
+                         : second_dimension + (vertices - 1) * dimensions::kPerVertex;
+  }
+  int passages = 0;  ///< straight passages since the start (bounds the walk)
+  float window = 1;  ///< roulette is played on a walk that carries less
+
+  /// What is left of what it started with, as roulette sees it.
+  float carried() const { return throughput.max_component() * eta_scale / density.u_mean; }
+};
+
+/// [M2] A value at all wavelengths of a path that shares them with others and may have kept its
+/// hero only, whose value then stands for all.
+inline SampledSpectrum whole_spectrum(const SampledSpectrum& value, bool hero_only) {
+  if (!hero_only) return value;
+  SampledSpectrum hero;
+  hero.set(0, value[0] * kSpectrumSamples);
+  return hero;
+}
+
+/// The medium on the side of a surface to which `w` (world) points, for light that was in
+/// `current`.
+inline const Medium* medium_towards(const SurfaceInteraction& surface, const Vec3f& w,
+                                    const Medium* current) {
+  const MediumInterface& media = surface.record->media;
+  if (!media.is_transition()) return current;
+  return dot(w, surface.ng) > 0.0f ? media.outside : media.inside;
+}
+
+/// A surface vertex that a visitor sees.
+struct WalkVertex {
+  const SurfaceInteraction& surface;
+  const Material& material;  ///< one of the two of a `mix`
+  const Bsdf& bsdf;
+  Vec3f wo;  ///< local
+  /// Classes in which photons may be merged here in any of the guises that a `mix` chooses from at
+  /// random. What is stored for others to meet depends on this and not on the guise that this walk
+  /// happened to see.
+  ClassMask possible;
+  bool mixed = false;  ///< other walks may meet another material here
+  /// False in a guise where photons cannot be merged, hair and other curves: its events are H.
+  bool merges = true;
+  /// Light that went under the surface elsewhere comes out here: a walk leaves, it does not arrive.
+  bool subsurface_exit = false;
+
+  Vec3f to_local(const Vec3f& w) const { return surface.shading.to_local(w); }
+  /// True if light that leaves along the local direction `wi` is transmitted.
+  bool transmits(const Vec3f& wi) const { return subsurface_exit || wo.z * wi.z < 0.0f; }
+  /// The letter of an event of class `c` here.
+  EventClass letter(EventClass c) const { return merges ? c : EventClass::kHair; }
+  /// Classes of events whose letters are among `letters`.
+  ClassMask classes_of(ClassMask letters) const {
+    if (merges) {
+      // What goes below here may come out on a curve.
+      const bool may_become_hair =
+          !subsurface_exit && contains(letters, EventClass::kHair) && material.has_bssrdf();
+      return (letters & ClassMask::kAll) |
+             (may_become_hair ? ClassMask::kDiffuse : ClassMask::kNone);
+    }
+    return contains(letters, EventClass::kHair) ? ClassMask::kAll : ClassMask::kNone;
+  }
+};
+
+/// A vertex in a medium.
+struct MediumVertex {
+  const Medium& medium;
+  Vec3f p;
+  Vec3f wo;  ///< unit, world
+  HenyeyGreenstein phase;
+  float time = 0;
+};
+
+/// A scattering event of a walk.
+struct WalkEvent {
+  EventClass letter = EventClass::kDiffuse;
+  bool transmitted = false;        ///< of surfaces
+  int material = -1, medium = -1;  ///< index of the one that it happened at
+};
+
+}  // namespace nephroid
