@@ -1,5 +1,6 @@
 // The eye side of a pair: hits of lights, next-event estimation, and connections to and merges with
 // light paths.
+#include "integrator/guided_direction.h"
 #include "integrator/path_pair_arms.h"
 #include "integrator/path_pair_geometry.h"
 #include "photon/merge.h"
@@ -23,7 +24,7 @@ class EyeVisitor {
   static constexpr bool kEndsAtBranches = false;
 
   EyeVisitor(const PairSettings& settings, const LightSubpath& path, const CameraPath& camera,
-             PartSums& light, Features* features, SpecularRoot::Leaves leaves)
+             PartSums& light, const EyePathExtras& extras)
       : settings_(settings),
         routes_(*settings.owned.routes),
         symbols_(*settings.owned.symbols),
@@ -31,9 +32,10 @@ class EyeVisitor {
         path_(path),
         camera_(camera),
         light_(light),
-        features_(features),
+        extras_(extras),
+        first_record_(extras.records ? extras.records->size() : 0),
         eye_(routes_.start()),
-        root_(settings.has_trees() ? settings.tree : nullptr, leaves) {}
+        root_(settings.has_trees() ? settings.tree : nullptr, extras.leaves) {}
 
   void escape(const Walk& walk) {
     if (root_.leaves_lights() || !makes(0, walk) || !routes_.ends(group_, eye_)) return;
@@ -94,7 +96,9 @@ class EyeVisitor {
       entry_wo_ = v.surface.wo;
     }
     surface_ = &v;
-    if (features_) features_->record(walk, v);
+    if (extras_.features) extras_.features->record(walk, v);
+    if (extras_.records)
+      carried_ = whole_spectrum(walk.throughput, walk.lambda.secondary_terminated()).average();
     const ClassMask among = v.classes_of(useful(v)) & v.bsdf.finite_classes();
     if (among == ClassMask::kNone) return;
     const EyeEnd end{walk, &v, nullptr, among, Receiver::of(v.surface, walk.medium)};
@@ -119,8 +123,29 @@ class EyeVisitor {
     rays_ += root_.branch(way, routes_.next(eye_, symbol_of(symbols_, event)), sampler, light_);
   }
 
+  /// Weights know the density of the BSDF alone, as all techniques do; what the guide makes of it
+  /// is taken out of the throughput ([Q5]).
+  std::optional<BsdfSample> sample_direction(Walk& walk, const WalkVertex& v, float uc,
+                                             const Vec2f& u, ClassMask among) const {
+    DirectionTree tree;
+    if (settings_.radiance && has_choice(v, among))
+      tree = settings_.radiance->at(v.surface.p, facing(v));
+    if (tree.empty()) return v.bsdf.sample(v.wo, uc, u, TransportMode::kRadiance, among);
+    float gain = 1;
+    std::optional<BsdfSample> s =
+        GuidedDirection<DirectionTree>(v.bsdf, v.surface.shading, v.wo, among, tree)
+            .sample(uc, u, gain);
+    if (!s) return s;
+    s->pdf_w /= gain;
+    walk.throughput /= gain;
+    walk.eta_scale *= gain;  // roulette must not undo that
+    return s;
+  }
+
   bool scatter(const Walk& walk, const WalkEvent& event) {
     root_.scatter(walk, event.letter);
+    if (extras_.records && surface_ && has_choice(*surface_, useful(*surface_)))
+      record(walk, contains(ClassMask::kRough, event.letter) && !walk.delta);
     end_.sums = sums_;
     if (surface_) {
       end_.event = density_of_walk(walk, *surface_, event, TransportMode::kRadiance);
@@ -140,7 +165,35 @@ class EyeVisitor {
 
   uint64_t rays() const { return rays_; }
 
+  /// Each record knew what had been found before it.
+  void finish_records() {
+    if (!extras_.records) return;
+    for (size_t i = first_record_; i < extras_.records->size(); ++i) {
+      RadianceRecord& r = (*extras_.records)[i];
+      r.found = std::max(0.0f, found_ - r.found) / r.carried;
+    }
+  }
+
  private:
+  static Vec3f facing(const WalkVertex& v) {
+    return v.wo.z < 0.0f ? -v.surface.shading.z : v.surface.shading.z;
+  }
+
+  /// True if a guide may choose directions among events of the letters.
+  static bool has_choice(const WalkVertex& v, ClassMask letters) {
+    return v.merges && (v.classes_of(letters) & v.bsdf.finite_classes() & ClassMask::kRough) !=
+                           ClassMask::kNone;
+  }
+
+  void record(const Walk& walk, bool chosen) {
+    if (!(carried_ > 0) || !(walk.pdf_w > 0)) return;
+    RadianceRecord r = RadianceRecord::at(surface_->surface.p, facing(*surface_), walk.ray.d,
+                                          chosen ? walk.pdf_w : 0.0f);
+    r.carried = carried_;
+    r.found = found_;
+    extras_.records->push_back(r);
+  }
+
   bool makes(int light_vertices, const Walk& walk) const {
     return !settings_.merges_only && settings_.technique.makes(light_vertices, walk.events + 2);
   }
@@ -150,7 +203,10 @@ class EyeVisitor {
   }
 
   void add(Part part, const Walk& walk, const SampledSpectrum& value, bool hero_only = false) {
-    light_.add(part, whole_spectrum(value, hero_only || walk.lambda.secondary_terminated()));
+    const SampledSpectrum whole =
+        whole_spectrum(value, hero_only || walk.lambda.secondary_terminated());
+    if (extras_.records) found_ += whole.average();
+    light_.add(part, whole);
   }
 
   void arrive(const Place& place) {
@@ -321,7 +377,10 @@ class EyeVisitor {
   const LightSubpath& path_;
   const CameraPath& camera_;
   PartSums& light_;
-  Features* features_;
+  const EyePathExtras& extras_;
+  const size_t first_record_;
+  float carried_ = 1;  ///< when it came to the vertex
+  float found_ = 0;    ///< by all techniques so far, if there are records
   EyeState eye_;
   Place last_, place_;
   Vec3f entry_wo_{0, 0, 1};
@@ -378,18 +437,18 @@ void EyeVisitor::merge(const Walk& walk, const WalkVertex& v, ClassMask among) {
 }  // namespace
 
 uint64_t trace_eye_path(const PairSettings& settings, const LightSubpath& path, CameraPath& camera,
-                        PathSampler& sampler, PartSums& light, Features* features,
-                        SpecularRoot::Leaves leaves) {
+                        PathSampler& sampler, PartSums& light, const EyePathExtras& extras) {
   if (!(camera.camera_weight > 0)) return 0;
   camera.walk.specular_alpha = settings.specular_alpha;
   camera.walk.per_wavelength = true;
-  EyeVisitor visitor(settings, path, camera, light, features, leaves);
+  EyeVisitor visitor(settings, path, camera, light, extras);
   // A technique with t vertices of the eye side, the lens one of them, needs no more, and no event
   // where it meets a light.
   const TechniqueChoice& one = settings.technique;
   const int most = one.t < 0 ? settings.max_depth
                              : std::clamp(one.t - (one.s == 0 ? 2 : 1), 0, settings.max_depth);
   random_walk(settings.scene, TransportMode::kRadiance, most, camera.walk, sampler, visitor);
+  visitor.finish_records();
   return camera.walk.rays + visitor.rays();
 }
 

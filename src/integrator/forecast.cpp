@@ -75,7 +75,7 @@ class ForecastVisitor : public PathVisitorOf<ForecastVisitor> {
   }
 
  private:
-  GuidedDirection mixture(const WalkVertex& v, ClassMask among) const {
+  GuidedDirection<ForecastLobes> mixture(const WalkVertex& v, ClassMask among) const {
     return {v.bsdf, v.surface.shading, v.wo, among, lobes_};
   }
 

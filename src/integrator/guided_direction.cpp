@@ -1,28 +1,31 @@
 #include "integrator/guided_direction.h"
 
-#include <algorithm>
+#include "integrator/direction_tree.h"
+#include "photon/forecast_map.h"
 
 namespace nephroid {
 
 namespace {
 
-constexpr float kShareOfForecast = 0.5f;
 constexpr EventClass kGuidedClasses[] = {EventClass::kDiffuse, EventClass::kGlossy};
 
 }  // namespace
 
-GuidedDirection::GuidedDirection(const Bsdf& bsdf, const Frame& shading, const Vec3f& wo,
-                                 ClassMask among, const ForecastLobes& lobes)
+template <class Guide>
+GuidedDirection<Guide>::GuidedDirection(const Bsdf& bsdf, const Frame& shading, const Vec3f& wo,
+                                        ClassMask among, const Guide& guide)
     : bsdf_(bsdf),
       shading_(shading),
       wo_(wo),
       among_(among),
       guided_(bsdf.finite_classes() & among & ClassMask::kRough),
-      lobes_(lobes),
-      share_(lobes.empty() || guided_ == ClassMask::kNone ? 0.0f : kShareOfForecast) {}
+      guide_(guide),
+      share_(guide.empty() || guided_ == ClassMask::kNone ? 0.0f : guide.share()) {}
 
-std::optional<BsdfSample> GuidedDirection::sample(float uc, const Vec2f& u, float& gain) const {
-  if (uc < share_) return sample_forecast(uc / share_, u, gain);
+template <class Guide>
+std::optional<BsdfSample> GuidedDirection<Guide>::sample(float uc, const Vec2f& u,
+                                                         float& gain) const {
+  if (uc < share_) return sample_guide(uc / share_, u, gain);
   std::optional<BsdfSample> s =
       bsdf_.sample(wo_, (uc - share_) / (1.0f - share_), u, TransportMode::kRadiance, among_);
   if (!s) return s;
@@ -33,27 +36,28 @@ std::optional<BsdfSample> GuidedDirection::sample(float uc, const Vec2f& u, floa
   return s;
 }
 
-float GuidedDirection::pdf_w(const Vec3f& wi, EventClass c, float bsdf_pdf_w) const {
+template <class Guide>
+float GuidedDirection<Guide>::pdf_w(const Vec3f& wi, EventClass c, float bsdf_pdf_w) const {
   float pdf = bsdf_pdf_w * (1.0f - share_);
   if (share_ > 0.0f && bsdf_pdf_w > 0.0f && contains(guided_, c))
-    pdf += share_ * lobes_.pdf_w(shading_.to_world(wi)) * (bsdf_pdf_w / rough_pdf_w(wi));
+    pdf += share_ * guide_.pdf_w(shading_.to_world(wi)) * (bsdf_pdf_w / rough_pdf_w(wi));
   return pdf;
 }
 
-float GuidedDirection::rough_pdf_w(const Vec3f& wi) const {
+template <class Guide>
+float GuidedDirection<Guide>::rough_pdf_w(const Vec3f& wi) const {
   float sum = 0;
   for (const EventClass c : kGuidedClasses)
     if (contains(guided_, c)) sum += eval(wi, c).pdf_w;
   return sum;
 }
 
-// The number that chooses the lobe chooses the class with what is left of it.
-std::optional<BsdfSample> GuidedDirection::sample_forecast(float uc, const Vec2f& u,
-                                                           float& gain) const {
-  const float scaled = uc * static_cast<float>(lobes_.count());
-  const int lobe = std::min(static_cast<int>(scaled), lobes_.count() - 1);
-  const Vec3f wi = shading_.to_local(lobes_.sample(lobe, u));
-  float left = (scaled - static_cast<float>(lobe)) * rough_pdf_w(wi);
+// The number that chose the guide chooses the class with what is left of it.
+template <class Guide>
+std::optional<BsdfSample> GuidedDirection<Guide>::sample_guide(float uc, const Vec2f& u,
+                                                               float& gain) const {
+  const Vec3f wi = shading_.to_local(guide_.sample(uc, u));
+  float left = uc * rough_pdf_w(wi);
   std::optional<BsdfSample> s;
   for (const EventClass c : kGuidedClasses) {
     if (!contains(guided_, c)) continue;
@@ -74,5 +78,8 @@ std::optional<BsdfSample> GuidedDirection::sample_forecast(float uc, const Vec2f
   }
   return s;
 }
+
+template class GuidedDirection<ForecastLobes>;
+template class GuidedDirection<DirectionTree>;
 
 }  // namespace nephroid

@@ -1,23 +1,28 @@
-// A direction at a surface, chosen either by the BSDF or by a forecast: the mixture, per class of
-// the event, and its density ([T3] in docs/estimators.md).
-// Who calls it: forecast.cpp. It must not know routes or lights.
+// A direction at a surface, chosen either by the BSDF or by a guide: the mixture, per class of the
+// event, and its density ([T3] in docs/estimators.md).
+// Who calls it: forecast.cpp, eye_path.cpp. It must not know routes or lights.
 #pragma once
 
 #include <optional>
 
 #include "core/math.h"
-#include "photon/forecast_map.h"
 #include "scene/bsdf/bsdf.h"
 
 namespace nephroid {
 
-/// The mixture at one vertex. Only finite lobes of class D and G are guided; with an empty forecast
-/// it is the BSDF alone.
+/// The mixture at one vertex. Only finite lobes of class D and G are guided; with an empty guide it
+/// is the BSDF alone. A `Guide`, ForecastLobes or DirectionTree, has
+///   bool empty() const
+///   float share() const                          of the directions that follow it, below 1
+///   Vec3f sample(float& uc, const Vec2f&) const  a unit direction, world; what it uses of `uc` is
+///                                                taken out of it
+///   float pdf_w(const Vec3f&) const
+template <class Guide>
 class GuidedDirection {
  public:
   /// `shading` is the frame of the BSDF, `among` the classes that the walk may sample.
   GuidedDirection(const Bsdf& bsdf, const Frame& shading, const Vec3f& wo, ClassMask among,
-                  const ForecastLobes& lobes);
+                  const Guide& guide);
 
   /// As Bsdf::sample, with the density of the mixture. `gain` becomes that density over the
   /// BSDF's alone.
@@ -31,14 +36,14 @@ class GuidedDirection {
     return bsdf_.eval(wo_, wi, TransportMode::kRadiance, c, among_);
   }
   float rough_pdf_w(const Vec3f& wi) const;
-  std::optional<BsdfSample> sample_forecast(float uc, const Vec2f& u, float& gain) const;
+  std::optional<BsdfSample> sample_guide(float uc, const Vec2f& u, float& gain) const;
 
   const Bsdf& bsdf_;
   const Frame& shading_;
   const Vec3f wo_;
   const ClassMask among_, guided_;
-  const ForecastLobes& lobes_;
-  const float share_;  ///< of the forecast
+  const Guide& guide_;
+  const float share_;  ///< of the guide
 };
 
 }  // namespace nephroid

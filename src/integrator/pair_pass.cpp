@@ -19,11 +19,13 @@ constexpr uint64_t kLightStream = 0x76636d6c;  // "vcml"
 constexpr uint64_t kPairStream = 0x76636d70;   // "vcmp"
 constexpr int64_t kChunk = 1024;
 constexpr int64_t kGroup = 32 * kChunk;
+constexpr size_t kRecordsOfPath = 4;
 
 /// What a chunk of light paths or a row of pixels found.
 struct Chunk {
   std::vector<Photon> photons;
   std::vector<Splat> splats;
+  std::vector<RadianceRecord> records;
   uint64_t rays = 0, useful = 0, specular = 0, camera_paths = 0;
 };
 
@@ -70,6 +72,7 @@ class Rendering {
         settings_{.scene = scene,
                   .owned = owned,
                   .guide = *how.guide,
+                  .radiance = how.radiance,
                   .tree = how.leaves_glints || options.specular_trees ? &tree_ : nullptr} {
     merging_.caustics_only = how.caustics_only;
     merging_.photons = static_cast<double>(how.light_paths);
@@ -106,12 +109,13 @@ class Rendering {
       if (clamps() && clamped_.empty() && begin < how_.light_paths)
         clamped_.resize(values_.size() / parts_ * points_.size(), parts_);
       const PhotonGrid grid(std::move(photons));
-      statistics.hold(grid.bytes(),
-                      values_.size() / parts_ *
-                          PairPass::bytes_per_pixel(parts_, how_.spread ? points_.size() : 0,
-                                                    clamped_.empty() ? 0 : points_.size()));
       merging_.grid = &grid;
       trace_eye_paths(statistics);
+      statistics.hold(
+          grid.bytes() + (how_.records ? how_.records->capacity() * sizeof(RadianceRecord) : 0),
+          values_.size() / parts_ *
+              PairPass::bytes_per_pixel(parts_, how_.spread ? points_.size() : 0,
+                                        clamped_.empty() ? 0 : points_.size()));
       if (how_.glints && !settings_.merges_only) look_for_glints(statistics);
       merging_.grid = nullptr;
       settings_.merges_only = true;
@@ -232,10 +236,14 @@ class Rendering {
           trace_sample(x, y, samples, k, path, light, rows[static_cast<size_t>(row)]);
       }
     });
-    for (const Chunk& row : rows) {
+    for (Chunk& row : rows) {
       statistics.rays += row.rays;
       if (settings_.merges_only) statistics.again_rays += row.rays;
       statistics.camera_paths += row.camera_paths;
+      if (how_.records) {
+        how_.records->insert(how_.records->end(), row.records.begin(), row.records.end());
+        row.records = {};
+      }
     }
     if (film_ && how_.adds_features && !settings_.merges_only) film_->add_feature_estimates(1);
   }
@@ -260,8 +268,10 @@ class Rendering {
     light.clear();
     Features features;
     const bool sees = film_ && how_.adds_features && !settings_.merges_only && k == 0;
-    row.rays += trace_eye_path(settings_, path, camera, sampler, light, sees ? &features : nullptr,
-                               leaves_at(x - b.x0, y - b.y0));
+    row.rays += trace_eye_path(settings_, path, camera, sampler, light,
+                               {.features = sees ? &features : nullptr,
+                                .records = records_of(pixel, k, row),
+                                .leaves = leaves_at(x - b.x0, y - b.y0)});
     if (sees) features.add_to(*film_, x, y, scene_, camera, pass_.weights);
     const float share = 1.0f / static_cast<float>(samples);
     const size_t sample = pixel * points_.size() + static_cast<size_t>(k);
@@ -282,6 +292,15 @@ class Rendering {
     if (settings_.merges_only) return;
     ++row.camera_paths;
     if (waits) clamped_.weights[sample] = std::abs(camera.filter_weight) * share;
+  }
+
+  /// As many of the camera paths as leave room, spread over the film.
+  std::vector<RadianceRecord>* records_of(size_t pixel, int k, Chunk& row) const {
+    if (!how_.records || settings_.merges_only) return nullptr;
+    const size_t paths = values_.size() / parts_ * points_.size();
+    const size_t stride =
+        (paths * kRecordsOfPath + PairPass::kMostRecords - 1) / PairPass::kMostRecords;
+    return (pixel + static_cast<size_t>(k)) % stride == 0 ? &row.records : nullptr;
   }
 
   SpecularRoot::Leaves leaves_at(int x, int y) const {

@@ -8,6 +8,7 @@
 #include "film/splats.h"
 #include "integrator/balance.h"
 #include "integrator/estimator.h"
+#include "integrator/radiance_guide.h"
 #include "photon/emission_guide.h"
 #include "route/scene_symbols.h"
 
@@ -20,6 +21,11 @@ struct PairPass {
   bool caustics_only = false;  ///< merges only photons whose light came by way of an S
   bool adds_features = false;  ///< camera paths add what they see first to the film's features
   const EmissionGuide* guide = &kUnguided;
+  const RadianceGuide* radiance = nullptr;  ///< of the directions of camera paths; null: of none
+  /// Where what camera paths find behind their vertices goes as well, of as many of them as leave
+  /// about kMostRecords.
+  std::vector<RadianceRecord>* records = nullptr;
+  static constexpr size_t kMostRecords = 1 << 19;
   const SampleMap* samples = nullptr;  ///< camera paths of each pixel; null: one
   /// Camera paths that each pixel has had before pass 1, whatever `samples` says: the numbers of
   /// the later ones follow on.

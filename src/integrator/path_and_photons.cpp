@@ -109,15 +109,17 @@ void PathAndPhotons::learn(uint64_t seed, const Scene& scene, const Film& film) 
   if (learned.is_even) learned.shares = Shares{learned.head, learned.head};
 }
 
-const Shares& PathAndPhotons::shares(const Scene& scene, const Film& film) {
+void PathAndPhotons::look_back(const Scene& scene, const Film& film) {
   Learned& learned = *learned_;
-  if (learned.shares) return *learned.shares;
-  if (!learned.spread) {
-    learned.spread.emplace(film.bounds());
+  if (learned.radiance) return;
+  if (!learned.is_seen && (!learned.is_even || options_.guides_walks)) {
     EstimatorStatistics counts;
-    first_pass().try_out({learned.seed, 0}, scene, film, owned_, options_, counts);
+    first_pass(film).try_out({learned.seed, 0}, scene, film, owned_, options_, counts);
     statistics_.rays += counts.rays;
   }
+  learned.radiance.emplace(std::move(learned.records));
+  learned.records = {};
+  if (!learned.spread) return;
   const Learned::Spread& spread = *learned.spread;
   if (learned.pass.leaves_glints)
     // Where the film clamps, what a tile converges to depends on who finds its bright light.
@@ -129,7 +131,6 @@ const Shares& PathAndPhotons::shares(const Scene& scene, const Film& film) {
   else
     learned.shares = share_out(film.bounds(), {spread.paths.by_tile(), {}, {}});
   learned.spread.reset();
-  return *learned.shares;
 }
 
 int64_t PathAndPhotons::light_paths(double camera_paths) const {
@@ -137,31 +138,37 @@ int64_t PathAndPhotons::light_paths(double camera_paths) const {
                            : learned_->pass.light_paths;
 }
 
-PairPass PathAndPhotons::first_pass() {
-  PairPass pass = learned_->pass;
-  pass.samples = &learned_->head;
+PairPass PathAndPhotons::first_pass(const Film& film) {
+  Learned& learned = *learned_;
+  PairPass pass = learned.pass;
+  pass.samples = &learned.head;
   pass.light_paths = light_paths(pass.samples->mean());
-  pass.spread = &learned_->spread->paths;
+  if (pass.leaves_glints) pass.glints = &learned.head;
+  if (options_.guides_walks) pass.records = &learned.records;
+  learned.is_seen = true;
+  if (learned.is_even) return pass;
+  Learned::Spread& spread = learned.spread.emplace(film.bounds());
+  pass.spread = &spread.paths;
   if (pass.leaves_glints) {
-    pass.glints = &learned_->head;
-    pass.glint_spread = &learned_->spread->glints;
-    pass.choice_spread = &learned_->spread->choice;
+    pass.glint_spread = &spread.glints;
+    pass.choice_spread = &spread.choice;
   }
   return pass;
 }
 
 void PathAndPhotons::render_pass(const PassKey& key, const Scene& scene, Film& film) {
   if (!learned_ || learned_->seed != key.seed) learn(key.seed, scene, film);
-  if (key.pass == 0 && !learned_->is_even) {
-    learned_->spread.emplace(film.bounds());
-    first_pass().render(key, scene, film, owned_, options_, statistics_);
+  if (key.pass == 0) {
+    first_pass(film).render(key, scene, film, owned_, options_, statistics_);
     return;
   }
+  look_back(scene, film);
   PairPass pass = learned_->pass;
-  const Shares& shared = shares(scene, film);
+  const Shares& shared = *learned_->shares;
   pass.samples = &shared.paths;
   if (pass.leaves_glints) pass.glints = &shared.glints;
   pass.head = learned_->head.at(0, 0);
+  if (learned_->radiance->guides()) pass.radiance = &*learned_->radiance;
   pass.light_paths = light_paths(pass.samples->mean());
   pass.render(key, scene, film, owned_, options_, statistics_);
 }
@@ -179,6 +186,11 @@ EstimatorStatistics PathAndPhotons::statistics() const {
   if (const size_t targets = pass.guide->targets().size(); targets > 0)
     s.notes.push_back("photons were aimed at " + std::to_string(targets) +
                       (targets == 1 ? " place" : " places") + " from which they were of use");
+  if (learned_->radiance && learned_->radiance->guides())
+    s.notes.push_back(
+        fmt::format("camera walks went where the first pass had found light at {:.3g} % of rough "
+                    "surfaces that they met",
+                    100 * learned_->radiance->guided()));
   if (!learned_->shares || learned_->is_even) return s;
   const auto note = [&s](const SampleMap& map, const char* what) {
     s.notes.push_back(fmt::format("{:.3g} {} a pixel and pass, {} to {} by tile", map.mean(), what,

@@ -39,17 +39,23 @@ class PathAndPhotons final : public Estimator {
     std::optional<Balance> balance;  ///< empty: light paths are the same in all
     SampleMap head;                  ///< camera paths of the first pass
     bool is_even = false;            ///< all passes have as many
+    bool is_seen = false;            ///< the first pass, which has left these two
     struct Spread {
       explicit Spread(const PixelBounds& b) : paths(b), glints(b), choice(b) {}
       SampleSpread paths, glints, choice;
     };
-    std::optional<Spread> spread;  ///< of the first pass
-    std::optional<Shares> shares;  ///< of the passes after it
+    std::optional<Spread> spread;  ///< unless all passes have as many paths
+    std::vector<RadianceRecord> records;
+    // Of the passes after it.
+    std::optional<Shares> shares;
+    std::optional<RadianceGuide> radiance;  ///< empty until the first pass was looked at
   };
-  PairPass first_pass();
+  /// The first pass, which leaves what later ones learn from.
+  PairPass first_pass(const Film& film);
   /// Of a pass with so many camera paths a pixel.
   int64_t light_paths(double camera_paths) const;
-  const Shares& shares(const Scene& scene, const Film& film);
+  /// Makes shares and guide of what the first pass has left, or traces it for that.
+  void look_back(const Scene& scene, const Film& film);
   void learn(uint64_t seed, const Scene& scene, const Film& film);
   /// What a few passes that are thrown away tell of a way to render.
   Trial try_out(PairPass how, uint64_t seed, const Scene& scene, const Film& film);

@@ -13,6 +13,7 @@
 #include "film/part_sums.h"
 #include "integrator/estimator.h"
 #include "integrator/features.h"
+#include "integrator/radiance_guide.h"
 #include "integrator/specular_tree.h"
 #include "photon/emission_guide.h"
 #include "photon/photon_grid.h"
@@ -54,8 +55,9 @@ struct PairSettings {
   /// the number of pixels where each camera path has a light path of its own.
   double light_paths = 1;
   TechniqueChoice technique{};
-  const PairMerging* merging = nullptr;    ///< null: connections only
-  const EmissionGuide& guide = kUnguided;  ///< of the starts of light paths
+  const PairMerging* merging = nullptr;     ///< null: connections only
+  const EmissionGuide& guide = kUnguided;   ///< of the starts of light paths
+  const RadianceGuide* radiance = nullptr;  ///< of the directions of eye paths; null: of none
   bool merges_only = false;  ///< all other techniques have been made, but count in weights
   const SpecularTree* tree = nullptr;  ///< of eye paths, where all techniques are made
   bool has_trees() const {
@@ -135,13 +137,17 @@ LightPathCounts trace_light_path(const PairSettings& settings, const SampledWave
                                  std::vector<FilmConnection>* seen, std::vector<Photon>* photons,
                                  int first_dimension = 0);
 
+/// What else an eye path is for.
+struct EyePathExtras {
+  Features* features = nullptr;                    ///< what it sees first goes there
+  std::vector<RadianceRecord>* records = nullptr;  ///< what it finds behind its vertices goes there
+  SpecularRoot::Leaves leaves = SpecularRoot::Leaves::kBranches;  ///< to trees, if there is one
+};
+
 /// Runs the eye path that `camera` starts and adds the light of all techniques with t > 1 to
 /// `light`, before the camera's weight. Its wavelengths, where not all are kept, are dealt with:
-/// the sums are those of the wavelengths that it started with. What it saw first goes to
-/// `features`, if they are of interest. `leaves`: to trees, if the settings have one. Returns the
-/// number of rays.
+/// the sums are those of the wavelengths that it started with. Returns the number of rays.
 uint64_t trace_eye_path(const PairSettings& settings, const LightSubpath& path, CameraPath& camera,
-                        PathSampler& sampler, PartSums& light, Features* features = nullptr,
-                        SpecularRoot::Leaves leaves = SpecularRoot::Leaves::kBranches);
+                        PathSampler& sampler, PartSums& light, const EyePathExtras& extras = {});
 
 }  // namespace nephroid

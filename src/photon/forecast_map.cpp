@@ -35,7 +35,10 @@ void ForecastLobes::add(const Vec3f& axis, float width) {
   lobes_[static_cast<size_t>(count_++)] = {axis, k, k / (-2.0f * kPi * std::expm1(-2.0f * k))};
 }
 
-Vec3f ForecastLobes::sample(int i, const Vec2f& u) const {
+Vec3f ForecastLobes::sample(float& uc, const Vec2f& u) const {
+  const float scaled = uc * static_cast<float>(count_);
+  const int i = std::min(static_cast<int>(scaled), count_ - 1);
+  uc = scaled - static_cast<float>(i);
   const Lobe& lobe = lobes_[static_cast<size_t>(i)];
   // 1 - cos(theta), kept apart from 1, which it may be close to.
   const float k = lobe.concentration;

@@ -26,8 +26,10 @@ class ForecastLobes {
   int count() const { return count_; }
   /// Adds a lobe around the unit vector `axis` of about `width` radians. At most kMost.
   void add(const Vec3f& axis, float width);
-  /// A direction of lobe `i`, from u in [0,1).
-  Vec3f sample(int i, const Vec2f& u) const;
+  /// Of the directions that should follow it.
+  float share() const { return empty() ? 0.0f : 0.5f; }
+  /// A direction of a lobe that `uc` chooses, from numbers in [0,1); `uc` becomes another.
+  Vec3f sample(float& uc, const Vec2f& u) const;
   /// Density of directions whose lobe was chosen evenly, per steradian.
   float pdf_w(const Vec3f& w) const;
 

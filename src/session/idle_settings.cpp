@@ -26,6 +26,7 @@ const std::vector<Concern>& concerns() {
       {"chain-length", {kMetropolis, kPrimarySpace}},
       {"large-step", {kMetropolis, kPrimarySpace}},
       {"guide", {kPhotons, kPathAndPhotons}},
+      {"guide-walks", {kPathAndPhotons}},
       {"specular-trees", {kPath, kForecast, kBidirectional, kVcm, kBpm}}};
   return table;
 }

@@ -178,6 +178,11 @@ constexpr IntegratorSetting kSettings[] = {
      "Photons of `photons` and `path+photons` start where earlier ones were of use.",
      [](IntegratorOptions& o, const std::string& t) { o.guides_emission = yes("guide", t); },
      [](const IntegratorOptions& o) { return yes_text(o.guides_emission); }},
+    {"guide-walks", "yes|no", "yes", "",
+     "Camera walks of `path+photons`, and so of `mixed`, go where those of the first pass found "
+     "light, where that pays.",
+     [](IntegratorOptions& o, const std::string& t) { o.guides_walks = yes("guide-walks", t); },
+     [](const IntegratorOptions& o) { return yes_text(o.guides_walks); }},
     {"specular-trees", "yes|no", "no", "",
      "Camera walks of routes of `path`, `forecast`, `bdpt`, `vcm` and `bpm` follow both ways at "
      "smooth glass to lights behind it: worth it where small lamps show in much glass. "

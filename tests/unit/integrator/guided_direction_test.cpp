@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "photon/forecast_map.h"
 #include "unit/bsdf/cases.h"
 #include "unit/bsdf/statistics.h"
 
@@ -63,7 +64,11 @@ TEST(ForecastLobes, AreADensityThatSamplesFollow) {
   EXPECT_NEAR(integrate_range(density, -1, 1, 1e-5), 1, 1e-4);
   SphereCells cells;
   TestRandom random(1);
-  for (int i = 0; i < kSamples; ++i) cells.add(lobes.sample(i % lobes.count(), random.next2()));
+  for (int i = 0; i < kSamples; ++i) {
+    float uc = random.next();
+    cells.add(lobes.sample(uc, random.next2()));
+    ASSERT_TRUE(uc >= 0 && uc < 1) << uc;
+  }
   EXPECT_GT(cells.p_value(density, kSamples), kLevel);
 }
 
@@ -77,7 +82,8 @@ TEST(ForecastLobes, AreExactWhereTheyAreNarrow) {
   std::vector<double> observed(6, 0.0), expected;
   const double rings[] = {0.25, 0.5, 1.0, 2.0, 4.0};
   for (int i = 0; i < kSamples; ++i) {
-    const Vec3f w = lobes.sample(0, random.next2());
+    float uc = random.next();
+    const Vec3f w = lobes.sample(uc, random.next2());
     const double t = 0.5 * k * static_cast<double>(length_squared(w - axis));
     ++observed[static_cast<size_t>(std::upper_bound(rings, rings + 5, t) - rings)];
     ASSERT_NEAR(static_cast<double>(lobes.pdf_w(w)), k / (2 * M_PI) * std::exp(-t),

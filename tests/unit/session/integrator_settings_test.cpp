@@ -40,6 +40,7 @@ TEST(IntegratorSettings, EveryKeyIsStoredWhereItBelongs) {
        parse_setting("memory-photons=99"), parse_setting("outlier-neighbours=5"),
        parse_setting("mutations=2.5"), parse_setting("chain-length=77"),
        parse_setting("large-step=0.25"), parse_setting("guide=no"),
+       parse_setting("guide-walks=no"),
        parse_setting("specular-trees=yes"), parse_setting("texture-cache=1.5M")},
       &o);
   EXPECT_EQ(o.max_depth, 7);
@@ -59,13 +60,14 @@ TEST(IntegratorSettings, EveryKeyIsStoredWhereItBelongs) {
   EXPECT_EQ(o.chain_length, 77);
   EXPECT_EQ(o.large_step, 0.25f);
   EXPECT_FALSE(o.guides_emission);
+  EXPECT_FALSE(o.guides_walks);
   EXPECT_TRUE(o.specular_trees);
   EXPECT_EQ(o.texture_memory, 1536 * 1024);
   EXPECT_EQ(settings_text(o),
             "max-depth=7 radius=1.5 photons=1000 alpha=0.75 specular-alpha=0.2 camera-samples=3 "
             "point-lights=5 technique=2,3,raw hit-points=6 map-photons=5000 nearest=40 "
             "memory-photons=99 outlier-neighbours=5 mutations=2.5 chain-length=77 large-step=0.25 "
-            "guide=no specular-trees=yes "
+            "guide=no guide-walks=no specular-trees=yes "
             "texture-cache=1536K");
 }
 

@@ -1,0 +1,102 @@
+// Camera walks that go where those of the first pass found light find the same picture as those
+// that follow their BSDFs alone, with less noise where light comes through a small part of all
+// directions.
+#include <gtest/gtest.h>
+
+#include "integrator/pair_pass.h"
+#include "owned_routes.h"
+#include "rendering.h"
+
+namespace nephroid {
+namespace {
+
+using namespace testing_support;
+
+/// A spot lights a patch of a wall, and the patch all else: a floor, and a ball of the material.
+std::string room(const std::string& ball) {
+  return R"(
+  LookAt 0 2.5 -4  0 0.4 0  0 1 0
+  Camera "perspective" "float fov" 40
+  PixelFilter "box" "float xradius" 0.5 "float yradius" 0.5
+  Film "rgb" "integer xresolution" 48 "integer yresolution" 48
+  WorldBegin
+  LightSource "spot" "rgb I" [90 80 70] "point3 from" [0 3 -1] "point3 to" [0 2 4]
+    "float coneangle" 16 "float conedeltaangle" 4
+  Material "diffuse" "rgb reflectance" [0.6 0.5 0.4]
+  Shape "bilinearmesh" "point3 P" [-6 0 -6  6 0 -6  -6 0 6  6 0 6]
+  Shape "bilinearmesh" "point3 P" [-6 0 4  6 0 4  -6 6 4  6 6 4]
+  )" + ball +
+         R"(
+  AttributeBegin Translate 0 0.6 0 Shape "sphere" "float radius" 0.6 AttributeEnd)";
+}
+
+struct Ball {
+  const char* name;
+  const char* text;
+};
+const Ball kBalls[] = {
+    {"diffuse", R"(Material "diffuse" "rgb reflectance" [0.3 0.5 0.7])"},
+    {"coated", R"(Material "coateddiffuse" "rgb reflectance" [0.3 0.5 0.7] "float roughness" 0)"},
+    {"rough_metal",
+     R"(Material "conductor" "rgb reflectance" [0.8 0.7 0.5] "float roughness" 0.3)"},
+    {"glass", R"(Material "dielectric" "float eta" 1.5)"}};
+
+class GuidedWalks : public ::testing::TestWithParam<Ball> {};
+
+TEST_P(GuidedWalks, FindTheSamePictureWithLessNoise) {
+  constexpr int kSeeds = 16, kAcross = 3;
+  constexpr uint32_t kPasses = 16;
+  const auto scene = scene_from_text(room(GetParam().text));
+  IntegratorOptions options;
+  options.max_depth = 6;
+  const std::vector<std::string> routes = {"all=.*:path+photons"};
+  const Preset preset = make_preset(plan_of(routes), options, *scene);
+  const OwnedRoutes owned = owned_routes(*scene, routes);
+  const auto values = [&](bool guided, uint64_t first_seed) {
+    SeedValues result(kAcross * kAcross);
+    for (uint64_t s = first_seed; s < first_seed + kSeeds; ++s) {
+      Film film = film_for(*scene, preset);
+      EstimatorStatistics statistics;
+      PairPass pass;
+      pass.light_paths = 0;
+      pass.connects = false;
+      pass.caustics_only = true;
+      std::vector<RadianceRecord> records;
+      const SampleMap first(film.bounds(), 16);
+      pass.samples = &first;
+      pass.records = &records;
+      pass.try_out({s, 0}, *scene, film, owned, options, statistics);
+      const RadianceGuide guide(std::move(records));
+      EXPECT_TRUE(guide.guides()) << s;
+      pass.records = nullptr;
+      pass.head = 16;
+      const SampleMap one(film.bounds());
+      pass.samples = &one;
+      if (guided) pass.radiance = &guide;
+      for (uint32_t i = 1; i <= kPasses; ++i)
+        pass.render({s, i}, *scene, film, owned, options, statistics);
+      const std::vector<double> means = block_means(film, kAcross);
+      for (size_t i = 0; i < means.size(); ++i) result[i].push_back(means[i]);
+    }
+    return result;
+  };
+  const SeedValues guided = values(true, 1), own = values(false, 1000);
+  double light = 0, of_guided = 0, of_own = 0;
+  for (size_t i = 0; i < guided.size(); ++i) {
+    const Estimate a = estimate_of(guided[i]), b = estimate_of(own[i]);
+    EXPECT_NEAR(a.mean, b.mean, kT15 * std::hypot(a.error, b.error)) << "block " << i;
+    light += a.mean;
+    of_guided += sqr(a.error);
+    of_own += sqr(b.error);
+  }
+  std::printf("%s: standard error %.2f %%, variance without a guide over that with one: %.1f\n",
+              GetParam().name, 100 * std::sqrt(of_guided) / light, of_own / of_guided);
+  EXPECT_LT(std::sqrt(of_guided + of_own), 0.02 * light) << "too noisy to tell";
+  EXPECT_GT(of_own / of_guided, 1.3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, GuidedWalks, ::testing::ValuesIn(kBalls),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+}  // namespace
+}  // namespace nephroid
