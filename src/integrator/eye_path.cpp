@@ -129,7 +129,7 @@ class EyeVisitor {
                                              const Vec2f& u, ClassMask among) const {
     DirectionTree tree;
     if (settings_.radiance && has_choice(v, among))
-      tree = settings_.radiance->at(v.surface.p, facing(v));
+      tree = settings_.radiance->at(v.surface.p, facing(v), is_glossy(v));
     if (tree.empty()) return v.bsdf.sample(v.wo, uc, u, TransportMode::kRadiance, among);
     float gain = 1;
     std::optional<BsdfSample> s =
@@ -170,7 +170,8 @@ class EyeVisitor {
     if (!extras_.records) return;
     for (size_t i = first_record_; i < extras_.records->size(); ++i) {
       RadianceRecord& r = (*extras_.records)[i];
-      r.found = std::max(0.0f, found_ - r.found) / r.carried;
+      const float behind = (found_ - r.found) / r.carried;
+      r.found = behind > 0.0f && std::isfinite(behind) ? behind : 0.0f;
     }
   }
 
@@ -181,14 +182,31 @@ class EyeVisitor {
 
   /// True if a guide may choose directions among events of the letters.
   static bool has_choice(const WalkVertex& v, ClassMask letters) {
+    // What goes below a surface is no direction.
+    if (v.material.has_bssrdf() && !v.subsurface_exit) return false;
     return v.merges && (v.classes_of(letters) & v.bsdf.finite_classes() & ClassMask::kRough) !=
                            ClassMask::kNone;
   }
 
+  /// [Q2] asks for the density of all lobes that the guide has a say in.
+  static float rough_pdf_w(const WalkVertex& v, const Vec3f& w, ClassMask among) {
+    float sum = 0;
+    for (const EventClass c : {EventClass::kDiffuse, EventClass::kGlossy})
+      if (contains(among & v.bsdf.finite_classes(), c))
+        sum += v.bsdf.eval(v.wo, v.to_local(w), TransportMode::kRadiance, c, among).pdf_w;
+    return sum;
+  }
+  static bool is_glossy(const WalkVertex& v) {
+    return contains(v.bsdf.finite_classes(), EventClass::kGlossy);
+  }
+
   void record(const Walk& walk, bool chosen) {
-    if (!(carried_ > 0) || !(walk.pdf_w > 0)) return;
-    RadianceRecord r = RadianceRecord::at(surface_->surface.p, facing(*surface_), walk.ray.d,
-                                          chosen ? walk.pdf_w : 0.0f);
+    constexpr size_t kMostOfPath = 8;
+    if (!(carried_ > 0) || extras_.records->size() - first_record_ >= kMostOfPath) return;
+    const WalkVertex& v = *surface_;
+    RadianceRecord r =
+        RadianceRecord::at(v.surface.p, facing(v), is_glossy(v), walk.ray.d,
+                           chosen ? rough_pdf_w(v, walk.ray.d, v.classes_of(useful(v))) : 0.0f);
     r.carried = carried_;
     r.found = found_;
     extras_.records->push_back(r);

@@ -111,11 +111,12 @@ class Rendering {
       const PhotonGrid grid(std::move(photons));
       merging_.grid = &grid;
       trace_eye_paths(statistics);
-      statistics.hold(
-          grid.bytes() + (how_.records ? how_.records->capacity() * sizeof(RadianceRecord) : 0),
-          values_.size() / parts_ *
-              PairPass::bytes_per_pixel(parts_, how_.spread ? points_.size() : 0,
-                                        clamped_.empty() ? 0 : points_.size()));
+      statistics.hold(grid.bytes() +
+                          (how_.records ? how_.records->capacity() * sizeof(RadianceRecord) : 0) +
+                          (how_.radiance ? how_.radiance->bytes() : 0),
+                      values_.size() / parts_ *
+                          PairPass::bytes_per_pixel(parts_, how_.spread ? points_.size() : 0,
+                                                    clamped_.empty() ? 0 : points_.size()));
       if (how_.glints && !settings_.merges_only) look_for_glints(statistics);
       merging_.grid = nullptr;
       settings_.merges_only = true;
@@ -236,16 +237,24 @@ class Rendering {
           trace_sample(x, y, samples, k, path, light, rows[static_cast<size_t>(row)]);
       }
     });
+    next_record_ = 0;
     for (Chunk& row : rows) {
       statistics.rays += row.rays;
       if (settings_.merges_only) statistics.again_rays += row.rays;
       statistics.camera_paths += row.camera_paths;
-      if (how_.records) {
-        how_.records->insert(how_.records->end(), row.records.begin(), row.records.end());
-        row.records = {};
-      }
+      if (how_.records) take_records(row.records);
     }
     if (film_ && how_.adds_features && !settings_.merges_only) film_->add_feature_estimates(1);
+  }
+
+  /// Later batches go the same ways again and find what else is merged there.
+  void take_records(std::vector<RadianceRecord>& records) {
+    if (!settings_.merges_only)
+      how_.records->insert(how_.records->end(), records.begin(), records.end());
+    else
+      for (const RadianceRecord& again : records)
+        (*how_.records)[next_record_++].found += again.found;
+    records = {};
   }
 
   void trace_sample(int x, int y, int samples, int k, LightSubpath& path, PartSums& light,
@@ -296,11 +305,11 @@ class Rendering {
 
   /// As many of the camera paths as leave room, spread over the film.
   std::vector<RadianceRecord>* records_of(size_t pixel, int k, Chunk& row) const {
-    if (!how_.records || settings_.merges_only) return nullptr;
+    if (!how_.records) return nullptr;
     const size_t paths = values_.size() / parts_ * points_.size();
     const size_t stride =
         (paths * kRecordsOfPath + PairPass::kMostRecords - 1) / PairPass::kMostRecords;
-    return (pixel + static_cast<size_t>(k)) % stride == 0 ? &row.records : nullptr;
+    return hash_combine(pixel, k) % stride == 0 ? &row.records : nullptr;
   }
 
   SpecularRoot::Leaves leaves_at(int x, int y) const {
@@ -386,6 +395,7 @@ class Rendering {
   size_t parts_ = 1;
   std::vector<Rgb> values_;             ///< [pixel * parts + part]
   std::vector<PairPass::Found> found_;  ///< [pixel * most samples + sample], for the spread
+  size_t next_record_ = 0;              ///< of those that a later batch finds again
   std::vector<float> splatted_;         ///< [pixel] mean of the components; of trials that connect
   /// Empty unless the film clamps and photons come in batches; [pixel * most samples + sample].
   SamplesToClamp clamped_;

@@ -144,8 +144,10 @@ PairPass PathAndPhotons::first_pass(const Film& film) {
   pass.samples = &learned.head;
   pass.light_paths = light_paths(pass.samples->mean());
   if (pass.leaves_glints) pass.glints = &learned.head;
-  if (options_.guides_walks) pass.records = &learned.records;
+  if (learned.radiance) return pass;
   learned.is_seen = true;
+  learned.records.clear();
+  if (options_.guides_walks) pass.records = &learned.records;
   if (learned.is_even) return pass;
   Learned::Spread& spread = learned.spread.emplace(film.bounds());
   pass.spread = &spread.paths;
@@ -188,8 +190,8 @@ EstimatorStatistics PathAndPhotons::statistics() const {
                       (targets == 1 ? " place" : " places") + " from which they were of use");
   if (learned_->radiance && learned_->radiance->guides())
     s.notes.push_back(
-        fmt::format("camera walks went where the first pass had found light at {:.3g} % of rough "
-                    "surfaces that they met",
+        fmt::format("camera walks had directions to follow from the first pass at {:.3g} % of the "
+                    "rough surfaces that they met",
                     100 * learned_->radiance->guided()));
   if (!learned_->shares || learned_->is_even) return s;
   const auto note = [&s](const SampleMap& map, const char* what) {

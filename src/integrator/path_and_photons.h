@@ -2,7 +2,7 @@
 // caustics are photons as well, each weighed against the other; where trial passes show that it is
 // worth its time, light paths are connected and merged everywhere, too. How many light paths a pass
 // has, where they start and how many camera paths each tile has is learned from the scene, a
-// function of scene, film, options and seed (docs/estimators.md, sections 20 to 22).
+// function of scene, film, options and seed (docs/estimators.md, sections 20 to 23).
 // Papers: Doidge, Jones & Mora 2012, whose future work this is; Georgiev et al. 2012 for weights;
 // Grittmann et al. 2022 for choosing techniques by efficiency.
 #pragma once
@@ -39,7 +39,7 @@ class PathAndPhotons final : public Estimator {
     std::optional<Balance> balance;  ///< empty: light paths are the same in all
     SampleMap head;                  ///< camera paths of the first pass
     bool is_even = false;            ///< all passes have as many
-    bool is_seen = false;            ///< the first pass, which has left these two
+    bool is_seen = false;            ///< the first pass was asked for spread and records
     struct Spread {
       explicit Spread(const PixelBounds& b) : paths(b), glints(b), choice(b) {}
       SampleSpread paths, glints, choice;

@@ -11,9 +11,9 @@ namespace nephroid {
 
 namespace {
 
-constexpr uint8_t kSides = 6;
+constexpr uint8_t kSides = 12;
 /// Boxes with more records are cut without a look.
-constexpr size_t kMostRecords = 1 << 16;
+constexpr size_t kManyRecords = 1 << 16;
 constexpr size_t kFewestRecords = 1 << 8;
 constexpr float kShares[] = {0.25f, 0.5f, 0.75f};
 /// A guide has to be better by this factor: second moments do not see how evenly the points of a
@@ -22,11 +22,11 @@ constexpr double kWorthIt = 0.7;
 /// So have the parts of a box, since the best of several guesses is a lucky one.
 constexpr double kWorthCutting = 0.95;
 
-uint8_t side_of(const Vec3f& n) {
+uint8_t side_of(const Vec3f& n, bool glossy) {
   int axis = 0;
   for (int i = 1; i < 3; ++i)
     if (std::abs(n[i]) > std::abs(n[axis])) axis = i;
-  return static_cast<uint8_t>(2 * axis + (n[axis] < 0 ? 1 : 0));
+  return static_cast<uint8_t>((glossy ? 6 : 0) + 2 * axis + (n[axis] < 0 ? 1 : 0));
 }
 
 /// [Q2] of every `step`th record.
@@ -51,9 +51,10 @@ Judgement judge(std::span<const RadianceRecord> records) {
   // Each half says what following the tree of the other one would do.
   Judgement best;
   std::array<double, std::size(kShares)> guided{};
+  const bool few = records.size() < kFewestRecords;
   for (size_t half = 0; half < 2; ++half) {
     std::vector<DirectionTree::Node> nodes;
-    append_direction_tree(moments(records, half, 2), nodes);
+    if (!few) append_direction_tree(moments(records, half, 2), nodes);
     const DirectionTree tree(nodes.data(), 0);
     for (size_t i = 1 - half; i < records.size(); i += 2) {
       const RadianceRecord& r = records[i];
@@ -134,12 +135,13 @@ struct RadianceGuide::Region {
   }
 };
 
-RadianceRecord RadianceRecord::at(const Vec3f& p, const Vec3f& n, const Vec3f& w, float pdf_w) {
+RadianceRecord RadianceRecord::at(const Vec3f& p, const Vec3f& n, bool glossy, const Vec3f& w,
+                                  float pdf_w) {
   RadianceRecord r;
   r.p = p;
   r.square = equal_area_sphere_to_square(w);
   r.pdf_w = pdf_w;
-  r.side = side_of(n);
+  r.side = side_of(n, glossy);
   return r;
 }
 
@@ -169,7 +171,7 @@ RadianceGuide::RadianceGuide(std::vector<RadianceRecord> records) : boxes_(kSide
 
 void RadianceGuide::cut(uint32_t box, std::span<RadianceRecord> records,
                         std::vector<Region>& regions) {
-  if (records.size() > kMostRecords) {
+  if (records.size() > kManyRecords) {
     const Parts parts = halves(records);
     if (!parts.lower.empty()) {
       const uint32_t next = static_cast<uint32_t>(boxes_.size());
@@ -201,9 +203,9 @@ size_t RadianceGuide::bytes() const {
   return boxes_.size() * sizeof(Box) + nodes_.size() * sizeof(DirectionTree::Node);
 }
 
-DirectionTree RadianceGuide::at(const Vec3f& p, const Vec3f& n) const {
+DirectionTree RadianceGuide::at(const Vec3f& p, const Vec3f& n, bool glossy) const {
   if (!guides()) return {};
-  const Box* box = &boxes_[side_of(n)];
+  const Box* box = &boxes_[side_of(n, glossy)];
   while (box->axis >= 0) box = &boxes_[box->next + (p[box->axis] >= box->cut ? 1 : 0)];
   return box->share > 0 ? DirectionTree(&nodes_[box->next], box->share) : DirectionTree();
 }

@@ -1,6 +1,6 @@
 // Where the light comes from that rough surfaces scatter to the eye, learned from earlier walks:
-// the scene is cut into boxes, surfaces that face different ways apart, and each box has a tree of
-// directions and a share of the walks for which following it pays ([Q1] to [Q5] in
+// the scene is cut into boxes, surfaces that face different ways or are glossy apart, and each box
+// has a tree of directions and a share of the walks for which following it pays ([Q1] to [Q5] in
 // docs/estimators.md, section 23). Immutable once made. Who calls it: path+photons, for its walks.
 // It must not know routes, lights or films.
 // Papers: Mueller, Gross & Novak 2017; Rath et al. 2020 for what is learned.
@@ -15,15 +15,17 @@ namespace nephroid {
 
 /// What a walk found by one direction that it chose at a surface that has D or G lobes.
 struct RadianceRecord {
-  Vec3f p;            ///< of the surface, world
-  Vec2f square;       ///< the direction, by the equal-area map of the sphere
-  float pdf_w = 0;    ///< with which the BSDF chose it; 0: by a lobe that no guide has a say in
+  Vec3f p;       ///< of the surface, world
+  Vec2f square;  ///< the direction, by the equal-area map of the sphere
+  /// p_R of [Q2], by which the D and G lobes of the BSDF choose it; 0: another lobe did.
+  float pdf_w = 0;
   float carried = 0;  ///< by the walk before
-  float found = 0;    ///< behind it, over what was carried: X / pdf_w of [Q1]
-  uint8_t side = 0;   ///< that the surface faces
+  float found = 0;    ///< behind it, over what was carried: X / p of [Q1]
+  uint8_t side = 0;   ///< that the surface faces, and whether it has a G lobe
 
   /// `n` is the shading normal on the side of the walk, `w` the direction chosen; both world.
-  static RadianceRecord at(const Vec3f& p, const Vec3f& n, const Vec3f& w, float pdf_w);
+  static RadianceRecord at(const Vec3f& p, const Vec3f& n, bool glossy, const Vec3f& w,
+                           float pdf_w);
 };
 
 class RadianceGuide {
@@ -38,7 +40,7 @@ class RadianceGuide {
   double guided() const { return guided_; }
   size_t bytes() const;
   /// Directions at a point whose shading normal, on the side of the walk, is `n`.
-  DirectionTree at(const Vec3f& p, const Vec3f& n) const;
+  DirectionTree at(const Vec3f& p, const Vec3f& n, bool glossy) const;
 
  private:
   /// A box of the cut scene.

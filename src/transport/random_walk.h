@@ -25,8 +25,9 @@ namespace nephroid {
 ///   bool scatter(const Walk&, const WalkEvent&)      an event was sampled; false: stop
 /// and may have
 ///   std::optional<BsdfSample> sample_direction(Walk&, const WalkVertex&, float uc,
-///       const Vec2f& u, ClassMask among)    in place of Bsdf::sample, with the density of what it
-///                                           does; it may change the walk's eta_scale alone
+///       const Vec2f& u, ClassMask among)    in place of Bsdf::sample. If the density that it says
+///                                           is not that of what it does, it takes the ratio out
+///                                           of the throughput; in eta_scale roulette overlooks it
 ///   bool branches(const Walk&)              it wants both ways of a smooth boundary here, and gets
 ///   void branch(const Walk&, const WalkEvent&, PathSampler&)  each, ready to be followed, before
 ///                                           the walk itself goes one of them; not on curves

@@ -37,6 +37,12 @@ struct Ball {
 const Ball kBalls[] = {
     {"diffuse", R"(Material "diffuse" "rgb reflectance" [0.3 0.5 0.7])"},
     {"coated", R"(Material "coateddiffuse" "rgb reflectance" [0.3 0.5 0.7] "float roughness" 0)"},
+    {"rough_coat",
+     R"(Material "coateddiffuse" "rgb reflectance" [0.3 0.5 0.7] "float roughness" 0.2)"},
+    {"under_the_skin",
+     R"(Material "subsurface" "rgb reflectance" [0.3 0.5 0.7] "rgb mfp" [0.1 0.05 0.03]
+       "float roughness" 0.2)"},
+    {"rough_glass", R"(Material "dielectric" "float eta" 1.5 "float roughness" 0.3)"},
     {"rough_metal",
      R"(Material "conductor" "rgb reflectance" [0.8 0.7 0.5] "float roughness" 0.3)"},
     {"glass", R"(Material "dielectric" "float eta" 1.5)"}};

@@ -29,7 +29,7 @@ std::vector<RadianceRecord> walks(const std::function<float(const Vec3f& p, cons
     const Vec2f place = random.next2();
     const Vec3f p(place.x, place.y, 0), local = square_to_cosine_hemisphere(random.next2());
     const Vec3f w = frame.to_world(local);
-    RadianceRecord r = RadianceRecord::at(p, frame.z, w, cosine_hemisphere_pdf_w(local.z));
+    RadianceRecord r = RadianceRecord::at(p, frame.z, false, w, cosine_hemisphere_pdf_w(local.z));
     r.carried = 1;
     r.found = light(p, w);
     records.push_back(r);
@@ -50,7 +50,7 @@ TEST(RadianceGuide, LooksWhereTheLightIs) {
   }));
   EXPECT_GT(guide.guided(), 0.9);
   for (const float x : {0.2f, 0.8f}) {
-    const DirectionTree tree = guide.at(Vec3f(x, 0.5f, 0), Vec3f(0, 0, 1));
+    const DirectionTree tree = guide.at(Vec3f(x, 0.5f, 0), Vec3f(0, 0, 1), false);
     ASSERT_FALSE(tree.empty());
     EXPECT_GT(tree.share(), 0.4f);
     const Vec3f axis = normalize(x < 0.5f ? from_left : from_right);
@@ -68,7 +68,7 @@ TEST(RadianceGuide, LooksWhereTheLightIs) {
 TEST(RadianceGuide, IsADensityThatSamplesFollow) {
   const RadianceGuide guide(
       walks([](const Vec3f&, const Vec3f& w) { return spot(Vec3f(1, 1, 2), w); }));
-  const DirectionTree tree = guide.at(Vec3f(0.3f, 0.3f, 0), Vec3f(0, 0, 1));
+  const DirectionTree tree = guide.at(Vec3f(0.3f, 0.3f, 0), Vec3f(0, 0, 1), false);
   ASSERT_FALSE(tree.empty());
   // In the square of the map, cell by cell of a grid: what samples find there against the mean of
   // the density, whose leaves are cells of a power of two themselves.
@@ -78,7 +78,7 @@ TEST(RadianceGuide, IsADensityThatSamplesFollow) {
   for (int i = 0; i < kSamples; ++i) {
     float uc = random.next();
     const Vec3f w = tree.sample(uc, random.next2());
-    const RadianceRecord r = RadianceRecord::at(Vec3f(0, 0, 0), Vec3f(0, 0, 1), w, 1);
+    const RadianceRecord r = RadianceRecord::at(Vec3f(0, 0, 0), Vec3f(0, 0, 1), false, w, 1);
     ASSERT_NEAR(length(w), 1, 1e-5);
     ASSERT_FLOAT_EQ(tree.pdf_w(w), tree.pdf_w(r.square));
     const int x = std::min(kGrid - 1, static_cast<int>(r.square.x * kGrid)),
@@ -104,7 +104,8 @@ TEST(RadianceGuide, KeepsTheSidesOfASurfaceApart) {
   records.insert(records.end(), others.begin(), others.end());
   const RadianceGuide guide(std::move(records));
   const Vec3f p(0.5f, 0.5f, 0);
-  const DirectionTree up = guide.at(p, Vec3f(0, 0, 1)), down = guide.at(p, Vec3f(0, 0, -1));
+  const DirectionTree up = guide.at(p, Vec3f(0, 0, 1), false),
+                      down = guide.at(p, Vec3f(0, 0, -1), false);
   ASSERT_FALSE(up.empty());
   ASSERT_FALSE(down.empty());
   EXPECT_GT(up.pdf_w(normalize(above)), 1);
@@ -118,14 +119,20 @@ TEST(RadianceGuide, KeepsTheSidesOfASurfaceApart) {
 TEST(RadianceGuide, LeavesAloneWhatItCannotMend) {
   const RadianceGuide even(walks([](const Vec3f&, const Vec3f&) { return 1.0f; }));
   EXPECT_FALSE(even.guides());
-  EXPECT_TRUE(even.at(Vec3f(0.5f, 0.5f, 0), Vec3f(0, 0, 1)).empty());
+  EXPECT_TRUE(even.at(Vec3f(0.5f, 0.5f, 0), Vec3f(0, 0, 1), false).empty());
   const RadianceGuide black(walks([](const Vec3f&, const Vec3f&) { return 0.0f; }));
   EXPECT_FALSE(black.guides());
   EXPECT_FALSE(RadianceGuide(std::vector<RadianceRecord>{}).guides());
   EXPECT_FALSE(RadianceGuide().guides());
   const RadianceGuide guide(
       walks([](const Vec3f&, const Vec3f& w) { return spot(Vec3f(1, 1, 2), w); }));
-  EXPECT_TRUE(guide.at(Vec3f(0.5f, 0.5f, 0), Vec3f(1, 0, 0)).empty());
+  EXPECT_TRUE(guide.at(Vec3f(0.5f, 0.5f, 0), Vec3f(1, 0, 0), false).empty());
+  EXPECT_TRUE(guide.at(Vec3f(0.5f, 0.5f, 0), Vec3f(0, 0, 1), true).empty())
+      << "no glossy one was seen";
+  std::vector<RadianceRecord> few =
+      walks([](const Vec3f&, const Vec3f& w) { return spot(Vec3f(1, 1, 2), w); });
+  few.resize(200);
+  EXPECT_FALSE(RadianceGuide(std::move(few)).guides());
 }
 
 // A polished floor: whatever directions its diffuse base would like, what a mirror shows must not
@@ -156,8 +163,8 @@ TEST(RadianceGuide, IsAFunctionOfItsRecords) {
     const Vec2f u = random.next2();
     const Vec3f w = square_to_cosine_hemisphere(random.next2());
     const Vec3f p(u.x, u.y, 0), n(0, 0, 1);
-    if (a.at(p, n).empty()) continue;
-    EXPECT_EQ(a.at(p, n).pdf_w(w), b.at(p, n).pdf_w(w));
+    if (a.at(p, n, false).empty()) continue;
+    EXPECT_EQ(a.at(p, n, false).pdf_w(w), b.at(p, n, false).pdf_w(w));
   }
 }
 
