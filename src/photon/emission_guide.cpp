@@ -180,9 +180,6 @@ EmissionGuide::Target EmissionGuide::target_around(const Scene& scene, const Bou
                                                    double paths) const {
   const Vec3f center = (bounds.min + bounds.max) * 0.5f;
   const float count = static_cast<float>(which.size());
-  float farthest = 0;
-  for (const uint32_t i : which)
-    farthest = std::max(farthest, length(useful[i].first_hit - center));
   // [G5] Room for what the starts have not found, most where they are few: as much as the part of
   // the light needs that they stand for.
   std::vector<double> found(clusters_.size(), 0);
@@ -195,9 +192,9 @@ EmissionGuide::Target EmissionGuide::target_around(const Scene& scene, const Bou
     if (all) needed = std::max(needed, *all * std::sqrt(part));
   }
   const float slack = kRoom + 0.5f / std::sqrt(count);
-  return {center,
-          std::max({farthest * slack, static_cast<float>(needed) * std::min(1.0f, kTelling / count),
-                    kSmallest * scene.sphere.radius})};
+  return {center, std::max({0.5f * length(bounds.max - bounds.min) * slack,
+                            static_cast<float>(needed) * std::min(1.0f, kTelling / count),
+                            kSmallest * scene.sphere.radius})};
 }
 
 void EmissionGuide::gather_lights(const Scene& scene) {

@@ -24,7 +24,7 @@ struct UsefulStart {
 class EmissionGuide {
  public:
   /// Share of the paths that start as the lights would have it.
-  static constexpr double kDefensive = 0.125;
+  static constexpr double kDefensive = 0.25;
   static constexpr int kMaxTargets = 32, kMaxClusters = 256;
 
   /// Guides nothing: all paths start as the lights would have it.
@@ -78,7 +78,7 @@ class EmissionGuide {
   };
   size_t cluster_of(int light) const { return static_cast<size_t>(light) / cluster_size_; }
   void gather_lights(const Scene& scene);
-  /// A ball around those first hits, whose box is `bounds`, of starts of `paths` paths.
+  /// A ball around those first hits, of which `bounds` is the box, of starts of `paths` paths.
   Target target_around(const Scene& scene, const Bounds3f& bounds,
                        std::span<const UsefulStart> useful, std::span<const uint32_t> which,
                        double paths) const;
