@@ -1,6 +1,6 @@
 // The eye side of a pair: hits of lights, next-event estimation, and connections to and merges with
 // light paths.
-#include "integrator/guided_direction.h"
+#include "integrator/guided_walk.h"
 #include "integrator/path_pair_arms.h"
 #include "integrator/path_pair_geometry.h"
 #include "photon/merge.h"
@@ -9,15 +9,6 @@
 namespace nephroid {
 
 namespace {
-
-/// A vertex of the eye side where it may be connected, of either kind.
-struct EyeEnd {
-  const Walk& walk;
-  const WalkVertex* surface = nullptr;
-  const MediumVertex* medium = nullptr;
-  ClassMask among = ClassMask::kNone;  ///< finite classes of use; of a surface
-  Receiver receiver;
-};
 
 class EyeVisitor {
  public:
@@ -32,8 +23,8 @@ class EyeVisitor {
         path_(path),
         camera_(camera),
         light_(light),
-        extras_(extras),
-        first_record_(extras.records ? extras.records->size() : 0),
+        features_(extras.features),
+        guided_(settings.radiance, extras.records),
         eye_(routes_.start()),
         root_(settings.has_trees() ? settings.tree : nullptr, extras.leaves) {}
 
@@ -96,9 +87,8 @@ class EyeVisitor {
       entry_wo_ = v.surface.wo;
     }
     surface_ = &v;
-    if (extras_.features) extras_.features->record(walk, v);
-    if (extras_.records)
-      carried_ = whole_spectrum(walk.throughput, walk.lambda.secondary_terminated()).average();
+    if (features_) features_->record(walk, v);
+    guided_.arrive(walk);
     const ClassMask among = v.classes_of(useful(v)) & v.bsdf.finite_classes();
     if (among == ClassMask::kNone) return;
     const EyeEnd end{walk, &v, nullptr, among, Receiver::of(v.surface, walk.medium)};
@@ -123,29 +113,15 @@ class EyeVisitor {
     rays_ += root_.branch(way, routes_.next(eye_, symbol_of(symbols_, event)), sampler, light_);
   }
 
-  /// Weights know the density of the BSDF alone, as all techniques do; what the guide makes of it
-  /// is taken out of the throughput ([Q5]).
+  /// Weights know the density of the BSDF alone, as all techniques do ([Q5]).
   std::optional<BsdfSample> sample_direction(Walk& walk, const WalkVertex& v, float uc,
                                              const Vec2f& u, ClassMask among) const {
-    DirectionTree tree;
-    if (settings_.radiance && has_choice(v, among))
-      tree = settings_.radiance->at(v.surface.p, facing(v), is_glossy(v));
-    if (tree.empty()) return v.bsdf.sample(v.wo, uc, u, TransportMode::kRadiance, among);
-    float gain = 1;
-    std::optional<BsdfSample> s =
-        GuidedDirection<DirectionTree>(v.bsdf, v.surface.shading, v.wo, among, tree)
-            .sample(uc, u, gain);
-    if (!s) return s;
-    s->pdf_w /= gain;
-    walk.throughput /= gain;
-    walk.eta_scale *= gain;  // roulette must not undo that
-    return s;
+    return guided_.sample_direction(walk, v, uc, u, among);
   }
 
   bool scatter(const Walk& walk, const WalkEvent& event) {
     root_.scatter(walk, event.letter);
-    if (extras_.records && surface_ && has_choice(*surface_, useful(*surface_)))
-      record(walk, contains(ClassMask::kRough, event.letter) && !walk.delta);
+    if (surface_) guided_.leave(walk, *surface_, event, useful(*surface_));
     end_.sums = sums_;
     if (surface_) {
       end_.event = density_of_walk(walk, *surface_, event, TransportMode::kRadiance);
@@ -163,55 +139,13 @@ class EyeVisitor {
     return true;
   }
 
-  uint64_t rays() const { return rays_; }
-
-  /// Each record knew what had been found before it.
-  void finish_records() {
-    if (!extras_.records) return;
-    for (size_t i = first_record_; i < extras_.records->size(); ++i) {
-      RadianceRecord& r = (*extras_.records)[i];
-      const float behind = (found_ - r.found) / r.carried;
-      r.found = behind > 0.0f && std::isfinite(behind) ? behind : 0.0f;
-    }
+  /// The walk is over. Returns the rays that it has not counted.
+  uint64_t finish() {
+    guided_.finish();
+    return rays_;
   }
 
  private:
-  static Vec3f facing(const WalkVertex& v) {
-    return v.wo.z < 0.0f ? -v.surface.shading.z : v.surface.shading.z;
-  }
-
-  /// True if a guide may choose directions among events of the letters.
-  static bool has_choice(const WalkVertex& v, ClassMask letters) {
-    // What goes below a surface is no direction.
-    if (v.material.has_bssrdf() && !v.subsurface_exit) return false;
-    return v.merges && (v.classes_of(letters) & v.bsdf.finite_classes() & ClassMask::kRough) !=
-                           ClassMask::kNone;
-  }
-
-  /// [Q2] asks for the density of all lobes that the guide has a say in.
-  static float rough_pdf_w(const WalkVertex& v, const Vec3f& w, ClassMask among) {
-    float sum = 0;
-    for (const EventClass c : {EventClass::kDiffuse, EventClass::kGlossy})
-      if (contains(among & v.bsdf.finite_classes(), c))
-        sum += v.bsdf.eval(v.wo, v.to_local(w), TransportMode::kRadiance, c, among).pdf_w;
-    return sum;
-  }
-  static bool is_glossy(const WalkVertex& v) {
-    return contains(v.bsdf.finite_classes(), EventClass::kGlossy);
-  }
-
-  void record(const Walk& walk, bool chosen) {
-    constexpr size_t kMostOfPath = 8;
-    if (!(carried_ > 0) || extras_.records->size() - first_record_ >= kMostOfPath) return;
-    const WalkVertex& v = *surface_;
-    RadianceRecord r =
-        RadianceRecord::at(v.surface.p, facing(v), is_glossy(v), walk.ray.d,
-                           chosen ? rough_pdf_w(v, walk.ray.d, v.classes_of(useful(v))) : 0.0f);
-    r.carried = carried_;
-    r.found = found_;
-    extras_.records->push_back(r);
-  }
-
   bool makes(int light_vertices, const Walk& walk) const {
     return !settings_.merges_only && settings_.technique.makes(light_vertices, walk.events + 2);
   }
@@ -223,7 +157,7 @@ class EyeVisitor {
   void add(Part part, const Walk& walk, const SampledSpectrum& value, bool hero_only = false) {
     const SampledSpectrum whole =
         whole_spectrum(value, hero_only || walk.lambda.secondary_terminated());
-    if (extras_.records) found_ += whole.average();
+    guided_.add(whole);
     light_.add(part, whole);
   }
 
@@ -309,7 +243,7 @@ class EyeVisitor {
       if (!traced) {
         arriving = z.walk.throughput * d->radiance * shadow(*d, z.walk, sampler);
         if (arriving.is_black()) return;
-        start = start_of(*d, z);
+        start = light_start(settings_, *d, z.receiver, place_);
       }
       traced = true;
       double weight = 1;
@@ -321,13 +255,6 @@ class EyeVisitor {
       }
       add(part, z.walk, arriving * arm.f * static_cast<float>(weight));
     }
-  }
-
-  LightStart start_of(const DirectSample& d, const EyeEnd& z) const {
-    const Scene& scene = settings_.scene;
-    const double direct =
-        d.delta ? scene.light_sampler->pmf(z.receiver.p, z.receiver.ns, d.light) : d.pdf_w;
-    return light_start(settings_, d.light, {d.p, d.ng}, place_, -d.wi_world, direct);
   }
 
   SampledSpectrum shadow(const DirectSample& d, const Walk& walk, const PathSampler& sampler) {
@@ -395,10 +322,8 @@ class EyeVisitor {
   const LightSubpath& path_;
   const CameraPath& camera_;
   PartSums& light_;
-  const EyePathExtras& extras_;
-  const size_t first_record_;
-  float carried_ = 1;  ///< when it came to the vertex
-  float found_ = 0;    ///< by all techniques so far, if there are records
+  Features* features_;
+  GuidedWalk guided_;
   EyeState eye_;
   Place last_, place_;
   Vec3f entry_wo_{0, 0, 1};
@@ -466,8 +391,7 @@ uint64_t trace_eye_path(const PairSettings& settings, const LightSubpath& path, 
   const int most = one.t < 0 ? settings.max_depth
                              : std::clamp(one.t - (one.s == 0 ? 2 : 1), 0, settings.max_depth);
   random_walk(settings.scene, TransportMode::kRadiance, most, camera.walk, sampler, visitor);
-  visitor.finish_records();
-  return camera.walk.rays + visitor.rays();
+  return camera.walk.rays + visitor.finish();
 }
 
 }  // namespace nephroid

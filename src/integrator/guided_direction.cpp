@@ -11,6 +11,14 @@ constexpr EventClass kGuidedClasses[] = {EventClass::kDiffuse, EventClass::kGlos
 
 }  // namespace
 
+float guided_pdf_w(const Bsdf& bsdf, const Vec3f& wo, const Vec3f& wi, ClassMask among) {
+  const ClassMask guided = guided_classes(bsdf, among);
+  float sum = 0;
+  for (const EventClass c : kGuidedClasses)
+    if (contains(guided, c)) sum += bsdf.eval(wo, wi, TransportMode::kRadiance, c, among).pdf_w;
+  return sum;
+}
+
 template <class Guide>
 GuidedDirection<Guide>::GuidedDirection(const Bsdf& bsdf, const Frame& shading, const Vec3f& wo,
                                         ClassMask among, const Guide& guide)
@@ -18,7 +26,7 @@ GuidedDirection<Guide>::GuidedDirection(const Bsdf& bsdf, const Frame& shading, 
       shading_(shading),
       wo_(wo),
       among_(among),
-      guided_(bsdf.finite_classes() & among & ClassMask::kRough),
+      guided_(guided_classes(bsdf, among)),
       guide_(guide),
       share_(guide.empty() || guided_ == ClassMask::kNone ? 0.0f : guide.share()) {}
 
@@ -40,16 +48,9 @@ template <class Guide>
 float GuidedDirection<Guide>::pdf_w(const Vec3f& wi, EventClass c, float bsdf_pdf_w) const {
   float pdf = bsdf_pdf_w * (1.0f - share_);
   if (share_ > 0.0f && bsdf_pdf_w > 0.0f && contains(guided_, c))
-    pdf += share_ * guide_.pdf_w(shading_.to_world(wi)) * (bsdf_pdf_w / rough_pdf_w(wi));
+    pdf += share_ * guide_.pdf_w(shading_.to_world(wi)) *
+           (bsdf_pdf_w / guided_pdf_w(bsdf_, wo_, wi, among_));
   return pdf;
-}
-
-template <class Guide>
-float GuidedDirection<Guide>::rough_pdf_w(const Vec3f& wi) const {
-  float sum = 0;
-  for (const EventClass c : kGuidedClasses)
-    if (contains(guided_, c)) sum += eval(wi, c).pdf_w;
-  return sum;
 }
 
 // The number that chose the guide chooses the class with what is left of it.
@@ -57,7 +58,7 @@ template <class Guide>
 std::optional<BsdfSample> GuidedDirection<Guide>::sample_guide(float uc, const Vec2f& u,
                                                                float& gain) const {
   const Vec3f wi = shading_.to_local(guide_.sample(uc, u));
-  float left = uc * rough_pdf_w(wi);
+  float left = uc * guided_pdf_w(bsdf_, wo_, wi, among_);
   std::optional<BsdfSample> s;
   for (const EventClass c : kGuidedClasses) {
     if (!contains(guided_, c)) continue;

@@ -10,6 +10,13 @@
 
 namespace nephroid {
 
+/// Classes whose directions a guide may choose: those of finite lobes of class D and G.
+inline ClassMask guided_classes(const Bsdf& bsdf, ClassMask among) {
+  return bsdf.finite_classes() & among & ClassMask::kRough;
+}
+/// p_R of [T3]: density with which the BSDF finds the local direction `wi` by one of these.
+float guided_pdf_w(const Bsdf& bsdf, const Vec3f& wo, const Vec3f& wi, ClassMask among);
+
 /// The mixture at one vertex. Only finite lobes of class D and G are guided; with an empty guide it
 /// is the BSDF alone. A `Guide`, ForecastLobes or DirectionTree, has
 ///   bool empty() const
@@ -35,7 +42,6 @@ class GuidedDirection {
   BsdfEval eval(const Vec3f& wi, EventClass c) const {
     return bsdf_.eval(wo_, wi, TransportMode::kRadiance, c, among_);
   }
-  float rough_pdf_w(const Vec3f& wi) const;
   std::optional<BsdfSample> sample_guide(float uc, const Vec2f& u, float& gain) const;
 
   const Bsdf& bsdf_;

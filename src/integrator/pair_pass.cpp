@@ -7,8 +7,10 @@
 #include "core/parallel.h"
 #include "integrator/features.h"
 #include "integrator/glint_pass.h"
+#include "integrator/guided_walk.h"
 #include "integrator/merge_pass.h"
 #include "integrator/path_pair.h"
+#include "integrator/samples_to_clamp.h"
 
 namespace nephroid {
 
@@ -19,7 +21,6 @@ constexpr uint64_t kLightStream = 0x76636d6c;  // "vcml"
 constexpr uint64_t kPairStream = 0x76636d70;   // "vcmp"
 constexpr int64_t kChunk = 1024;
 constexpr int64_t kGroup = 32 * kChunk;
-constexpr size_t kRecordsOfPath = 4;
 
 /// What a chunk of light paths or a row of pixels found.
 struct Chunk {
@@ -27,21 +28,6 @@ struct Chunk {
   std::vector<Splat> splats;
   std::vector<RadianceRecord> records;
   uint64_t rays = 0, useful = 0, specular = 0, camera_paths = 0;
-};
-
-/// Samples of a film that clamps, which wait for all batches of photons.
-struct SamplesToClamp {
-  size_t parts = 1;
-  std::vector<Rgb> values;     ///< [sample * parts + part]
-  std::vector<float> weights;  ///< magnitude of the filter's weight, times the sample's share
-
-  void resize(size_t samples, size_t parts_of_each) {
-    parts = parts_of_each;
-    values.resize(samples * parts);
-    weights.resize(samples);
-  }
-  bool empty() const { return weights.empty(); }
-  std::span<Rgb> sums(size_t sample) { return std::span(values).subspan(sample * parts, parts); }
 };
 
 float total(std::span<const Rgb> colors) {
@@ -68,6 +54,8 @@ class Rendering {
         pass_(start_photon_pass(key, scene, like, options)),
         view_(scene, like.bounds()),
         places_(*owned.routes, owned.group),
+        records_(how.records, static_cast<size_t>(like.bounds().area()) *
+                                  static_cast<size_t>(how.samples ? how.samples->most() : 1)),
         tree_(scene, owned, options.max_depth),
         settings_{.scene = scene,
                   .owned = owned,
@@ -111,12 +99,11 @@ class Rendering {
       const PhotonGrid grid(std::move(photons));
       merging_.grid = &grid;
       trace_eye_paths(statistics);
-      statistics.hold(grid.bytes() +
-                          (how_.records ? how_.records->capacity() * sizeof(RadianceRecord) : 0) +
-                          (how_.radiance ? how_.radiance->bytes() : 0),
-                      values_.size() / parts_ *
-                          PairPass::bytes_per_pixel(parts_, how_.spread ? points_.size() : 0,
-                                                    clamped_.empty() ? 0 : points_.size()));
+      statistics.hold(
+          grid.bytes() + records_.bytes() + (how_.radiance ? how_.radiance->bytes() : 0),
+          values_.size() / parts_ *
+              PairPass::bytes_per_pixel(parts_, how_.spread ? points_.size() : 0,
+                                        clamped_.empty() ? 0 : points_.size()));
       if (how_.glints && !settings_.merges_only) look_for_glints(statistics);
       merging_.grid = nullptr;
       settings_.merges_only = true;
@@ -237,24 +224,13 @@ class Rendering {
           trace_sample(x, y, samples, k, path, light, rows[static_cast<size_t>(row)]);
       }
     });
-    next_record_ = 0;
     for (Chunk& row : rows) {
       statistics.rays += row.rays;
       if (settings_.merges_only) statistics.again_rays += row.rays;
       statistics.camera_paths += row.camera_paths;
-      if (how_.records) take_records(row.records);
+      records_.take(row.records, settings_.merges_only);
     }
     if (film_ && how_.adds_features && !settings_.merges_only) film_->add_feature_estimates(1);
-  }
-
-  /// Later batches go the same ways again and find what else is merged there.
-  void take_records(std::vector<RadianceRecord>& records) {
-    if (!settings_.merges_only)
-      how_.records->insert(how_.records->end(), records.begin(), records.end());
-    else
-      for (const RadianceRecord& again : records)
-        (*how_.records)[next_record_++].found += again.found;
-    records = {};
   }
 
   void trace_sample(int x, int y, int samples, int k, LightSubpath& path, PartSums& light,
@@ -279,7 +255,7 @@ class Rendering {
     const bool sees = film_ && how_.adds_features && !settings_.merges_only && k == 0;
     row.rays += trace_eye_path(settings_, path, camera, sampler, light,
                                {.features = sees ? &features : nullptr,
-                                .records = records_of(pixel, k, row),
+                                .records = records_.of_path(pixel, k, row.records),
                                 .leaves = leaves_at(x - b.x0, y - b.y0)});
     if (sees) features.add_to(*film_, x, y, scene_, camera, pass_.weights);
     const float share = 1.0f / static_cast<float>(samples);
@@ -301,15 +277,6 @@ class Rendering {
     if (settings_.merges_only) return;
     ++row.camera_paths;
     if (waits) clamped_.weights[sample] = std::abs(camera.filter_weight) * share;
-  }
-
-  /// As many of the camera paths as leave room, spread over the film.
-  std::vector<RadianceRecord>* records_of(size_t pixel, int k, Chunk& row) const {
-    if (!how_.records) return nullptr;
-    const size_t paths = values_.size() / parts_ * points_.size();
-    const size_t stride =
-        (paths * kRecordsOfPath + PairPass::kMostRecords - 1) / PairPass::kMostRecords;
-    return hash_combine(pixel, k) % stride == 0 ? &row.records : nullptr;
   }
 
   SpecularRoot::Leaves leaves_at(int x, int y) const {
@@ -389,13 +356,13 @@ class Rendering {
   const CameraView view_;
   const PartSums places_;
   PairMerging merging_;
+  PassRecords records_;
   const SpecularTree tree_;
   PairSettings settings_;
   std::vector<std::vector<SamplePoints>> points_;  ///< [samples of a pixel - 1][sample]
   size_t parts_ = 1;
   std::vector<Rgb> values_;             ///< [pixel * parts + part]
   std::vector<PairPass::Found> found_;  ///< [pixel * most samples + sample], for the spread
-  size_t next_record_ = 0;              ///< of those that a later batch finds again
   std::vector<float> splatted_;         ///< [pixel] mean of the components; of trials that connect
   /// Empty unless the film clamps and photons come in batches; [pixel * most samples + sample].
   SamplesToClamp clamped_;

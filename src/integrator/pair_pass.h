@@ -22,10 +22,8 @@ struct PairPass {
   bool adds_features = false;  ///< camera paths add what they see first to the film's features
   const EmissionGuide* guide = &kUnguided;
   const RadianceGuide* radiance = nullptr;  ///< of the directions of camera paths; null: of none
-  /// Where what camera paths find behind their vertices goes as well, empty before; of as many of
-  /// them as leave about kMostRecords.
+  /// Where what camera paths find behind their vertices goes as well, empty before.
   std::vector<RadianceRecord>* records = nullptr;
-  static constexpr size_t kMostRecords = 1 << 19;
   const SampleMap* samples = nullptr;  ///< camera paths of each pixel; null: one
   /// Camera paths that each pixel has had before pass 1, whatever `samples` says: the numbers of
   /// the later ones follow on.

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "integrator/path_pair.h"
+#include "transport/direct_light.h"
 
 namespace nephroid {
 
@@ -19,6 +20,15 @@ struct Arm {
   bool used = false;
 };
 using Arms = std::array<Arm, std::size(kSurfaceClasses)>;
+
+/// A vertex of the eye side where it may be connected, of either kind.
+struct EyeEnd {
+  const Walk& walk;
+  const WalkVertex* surface = nullptr;
+  const MediumVertex* medium = nullptr;
+  ClassMask among = ClassMask::kNone;  ///< finite classes of use; of a surface
+  Receiver receiver;
+};
 
 /// The events at a light vertex towards the unit direction `w`; false if there is none.
 bool arms_of_light(const Routes& routes, const SceneSymbols& symbols, const LightVertex& y,

@@ -76,5 +76,11 @@ inline LightStart light_start(const PairSettings& settings, int light, const Pla
   }
   return s;
 }
+/// The same for light that next-event estimation found from the vertex `x`, a receiver `at`.
+inline LightStart light_start(const PairSettings& settings, const DirectSample& d,
+                              const Receiver& at, const Place& x) {
+  const double direct = d.delta ? settings.scene.light_sampler->pmf(at.p, at.ns, d.light) : d.pdf_w;
+  return light_start(settings, d.light, {d.p, d.ng}, x, -d.wi_world, direct);
+}
 
 }  // namespace nephroid

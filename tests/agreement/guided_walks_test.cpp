@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "integrator/pair_pass.h"
+#include "lit_patch.h"
 #include "owned_routes.h"
 #include "rendering.h"
 
@@ -11,24 +12,6 @@ namespace nephroid {
 namespace {
 
 using namespace testing_support;
-
-/// A spot lights a patch of a wall, and the patch all else: a floor, and a ball of the material.
-std::string room(const std::string& ball) {
-  return R"(
-  LookAt 0 2.5 -4  0 0.4 0  0 1 0
-  Camera "perspective" "float fov" 40
-  PixelFilter "box" "float xradius" 0.5 "float yradius" 0.5
-  Film "rgb" "integer xresolution" 48 "integer yresolution" 48
-  WorldBegin
-  LightSource "spot" "rgb I" [90 80 70] "point3 from" [0 3 -1] "point3 to" [0 2 4]
-    "float coneangle" 16 "float conedeltaangle" 4
-  Material "diffuse" "rgb reflectance" [0.6 0.5 0.4]
-  Shape "bilinearmesh" "point3 P" [-6 0 -6  6 0 -6  -6 0 6  6 0 6]
-  Shape "bilinearmesh" "point3 P" [-6 0 4  6 0 4  -6 6 4  6 6 4]
-  )" + ball +
-         R"(
-  AttributeBegin Translate 0 0.6 0 Shape "sphere" "float radius" 0.6 AttributeEnd)";
-}
 
 struct Ball {
   const char* name;
@@ -52,7 +35,7 @@ class GuidedWalks : public ::testing::TestWithParam<Ball> {};
 TEST_P(GuidedWalks, FindTheSamePictureWithLessNoise) {
   constexpr int kSeeds = 16, kAcross = 3;
   constexpr uint32_t kPasses = 16;
-  const auto scene = scene_from_text(room(GetParam().text));
+  const auto scene = scene_from_text(lit_patch(GetParam().text, 48));
   IntegratorOptions options;
   options.max_depth = 6;
   const std::vector<std::string> routes = {"all=.*:path+photons"};

@@ -4,6 +4,7 @@
 
 #include "core/parallel.h"
 #include "lamp_in_a_tube.h"
+#include "lit_patch.h"
 #include "rendering.h"
 
 namespace nephroid {
@@ -33,20 +34,8 @@ const std::string kScene = R"(
 const std::string kTube =
     lamp_in_a_tube(R"(LookAt 0 1.4 -4  0 1.2 0  0 1 0 Camera "perspective" "float fov" 50)", 32);
 
-// A spot lights a patch of a wall, and the patch all else: walks learn to go there.
-const std::string kPatch = R"(
-  LookAt 0 2.5 -4  0 0.4 0  0 1 0
-  Camera "perspective" "float fov" 40
-  Film "rgb" "integer xresolution" 40 "integer yresolution" 40
-  WorldBegin
-  LightSource "spot" "rgb I" [90 80 70] "point3 from" [0 3 -1] "point3 to" [0 2 4]
-    "float coneangle" 16 "float conedeltaangle" 4
-  Material "diffuse" "rgb reflectance" [0.6 0.5 0.4]
-  Shape "bilinearmesh" "point3 P" [-6 0 -6  6 0 -6  -6 0 6  6 0 6]
-  Shape "bilinearmesh" "point3 P" [-6 0 4  6 0 4  -6 6 4  6 6 4]
-  Material "dielectric"
-  Translate 0 0.6 0 Shape "sphere" "float radius" 0.6
-)";
+// Walks learn where the light comes from.
+const std::string kPatch = lit_patch(R"(Material "dielectric")", 40);
 
 struct Rendered {
   std::vector<Film> film;  ///< one
