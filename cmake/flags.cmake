@@ -6,7 +6,8 @@ target_compile_options(nephroid_flags INTERFACE
   -ffp-contract=off -fno-math-errno -fno-trapping-math)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # g++ 12 warns of string concatenations that are fine (GCC bug 105651).
-  target_compile_options(nephroid_flags INTERFACE -Wno-restrict)
+  target_compile_options(nephroid_flags INTERFACE -Wno-restrict -Wno-stringop-overflow
+                         -Wno-stringop-overread -Wno-array-bounds)
 endif()
 if(NEPHROID_NATIVE)
   target_compile_options(nephroid_flags INTERFACE -march=native)

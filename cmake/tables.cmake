@@ -15,7 +15,7 @@ target_link_libraries(nephroid_make_tables PRIVATE Threads::Threads)
 # The renderer fits the tables of the other colour spaces itself. A debug or sanitizer build would take
 # minutes over it, and this is plain arithmetic on arrays of fixed size.
 set_source_files_properties(${CMAKE_SOURCE_DIR}/src/core/color_fit.cpp PROPERTIES
-                            COMPILE_OPTIONS "-O3;-fno-sanitize=all")
+                            COMPILE_OPTIONS "-O3;-fno-sanitize=all" SKIP_PRECOMPILE_HEADERS ON)
 
 add_custom_command(OUTPUT ${tables_file}
   COMMAND nephroid_make_tables ${CMAKE_SOURCE_DIR}/data/spectra ${tables_file}

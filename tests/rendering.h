@@ -14,13 +14,14 @@
 #include "input/pbrt_parser.h"
 #include "integrator/estimator.h"
 #include "scene/scene.h"
+#include "source_directory.h"
 
 namespace nephroid::testing_support {
 
 inline std::unique_ptr<Scene> scene_from_text(const std::string& text) {
   Diagnostics diagnostics;
-  const SceneDescription d =
-      parse_pbrt_string(text, "test.pbrt", NEPHROID_SOURCE_DIR "/tests", diagnostics);
+  const SceneDescription d = parse_pbrt_string(
+      text, "test.pbrt", testing_support::source_directory() + "/tests", diagnostics);
   return build_scene(d, {}, diagnostics);
 }
 

@@ -185,9 +185,9 @@ EstimatorStatistics PathAndPhotons::statistics() const {
         "caustic photons alone");
   else
     explain_missing_caustics(owned_, s);
-  if (const size_t targets = pass.guide->targets().size(); targets > 0)
-    s.notes.push_back("photons were aimed at " + std::to_string(targets) +
-                      (targets == 1 ? " place" : " places") + " from which they were of use");
+  if (const size_t places = pass.guide->places(); places > 0)
+    s.notes.push_back("photons were aimed at " + std::to_string(places) +
+                      (places == 1 ? " place" : " places") + " from which they were of use");
   if (learned_->radiance && learned_->radiance->guides())
     s.notes.push_back(
         fmt::format("camera walks had directions to follow from the first pass at {:.3g} % of the "

@@ -1,9 +1,11 @@
 #include "photon/emission_guide.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/warps.h"
+#include "photon/start_tree.h"
 
 namespace nephroid {
 
@@ -13,106 +15,12 @@ namespace {
 constexpr float kTelling = 8;
 /// Targets are so much wider than the starts in them.
 constexpr float kRoom = 1.05f;
+/// [G7] Of the paths that are aimed at a ball, those at the balls around it instead.
+constexpr double kAround = 0.125;
+/// Targets that density() looks at together.
+constexpr size_t kLanes = 8;
 /// Over the scene's radius.
 constexpr float kSmallest = 1e-4f;
-
-/// Some of the starts, [begin, end) of an order of them, and the ball around them.
-struct Ball {
-  size_t begin = 0, end = 0;
-  Bounds3f bounds;
-  double weight = 0;
-
-  /// [G4] The square of the sum over all balls is the variance, up to a factor, if paths are aimed
-  /// at each as [G3] has it.
-  double cost() const { return std::sqrt(weight * length_squared(bounds.max - bounds.min)); }
-};
-
-/// Splits starts into balls: a tree of cuts, of which those are kept that lower the cost.
-class Splitter {
- public:
-  explicit Splitter(std::span<const UsefulStart> starts) : starts_(starts), order_(starts.size()) {
-    for (size_t i = 0; i < order_.size(); ++i) order_[i] = static_cast<uint32_t>(i);
-  }
-
-  std::vector<Ball> balls() {
-    const Ball all = ball_around(0, order_.size());
-    // A ball more costs a little, so that there are few; dearer until there are few enough.
-    for (double share = 0.01;; share *= 2) {
-      Split split = best_split(all, share * all.cost(), 0);
-      if (split.balls.size() <= EmissionGuide::kMaxTargets) return std::move(split.balls);
-    }
-  }
-  const std::vector<uint32_t>& order() const { return order_; }
-
- private:
-  struct Split {
-    std::vector<Ball> balls;
-    double cost = 0;
-  };
-  static constexpr int kMaxDepth = 10;
-  static constexpr size_t kFewStarts = 8;
-
-  const Vec3f& at(size_t i) const { return starts_[order_[i]].first_hit; }
-
-  Ball ball_around(size_t begin, size_t end) const {
-    Ball ball{begin, end, {}, 0};
-    for (size_t i = begin; i < end; ++i) {
-      ball.bounds.extendBy(at(i));
-      ball.weight += double{starts_[order_[i]].weight};
-    }
-    return ball;
-  }
-
-  void sort(const Ball& ball, int axis) {
-    std::sort(order_.begin() + static_cast<std::ptrdiff_t>(ball.begin),
-              order_.begin() + static_cast<std::ptrdiff_t>(ball.end), [&](uint32_t a, uint32_t b) {
-                const float x = starts_[a].first_hit[axis], y = starts_[b].first_hit[axis];
-                return x != y ? x < y : a < b;
-              });
-  }
-
-  /// The cut in two that costs least; leaves the starts in its order.
-  size_t cut(const Ball& ball) {
-    struct {
-      int axis = -1;
-      size_t middle = 0;
-      double cost = 0;
-    } best;
-    std::vector<double> below(ball.end - ball.begin);
-    for (int axis = 0; axis < 3; ++axis) {
-      sort(ball, axis);
-      Ball side{0, 0, {}, 0};
-      for (size_t i = 0; i < below.size(); ++i) below[i] = grown(side, ball.begin + i);
-      side = {0, 0, {}, 0};
-      for (size_t i = below.size() - 1; i > 0; --i) {
-        const double cost = below[i - 1] + grown(side, ball.begin + i);
-        if (best.axis < 0 || cost < best.cost) best = {axis, ball.begin + i, cost};
-      }
-    }
-    sort(ball, best.axis);
-    return best.middle;
-  }
-  double grown(Ball& ball, size_t i) const {
-    ball.bounds.extendBy(at(i));
-    ball.weight += double{starts_[order_[i]].weight};
-    return ball.cost();
-  }
-
-  Split best_split(const Ball& ball, double price, int depth) {
-    Split whole{{ball}, ball.cost() + price};
-    if (depth == kMaxDepth || ball.end - ball.begin < 2 * kFewStarts) return whole;
-    const size_t middle = cut(ball);
-    Split parts = best_split(ball_around(ball.begin, middle), price, depth + 1);
-    Split others = best_split(ball_around(middle, ball.end), price, depth + 1);
-    parts.cost += others.cost;
-    if (parts.cost >= whole.cost) return whole;
-    parts.balls.insert(parts.balls.end(), others.balls.begin(), others.balls.end());
-    return parts;
-  }
-
-  std::span<const UsefulStart> starts_;
-  std::vector<uint32_t> order_;
-};
 
 /// The part of what a light emits that goes through a target is about the square of its radius over
 /// this length. Empty where a light has no place.
@@ -135,16 +43,39 @@ EmissionGuide::EmissionGuide(const Scene& scene, std::span<const UsefulStart> us
                              double paths) {
   if (useful.empty()) return;
   gather_lights(scene);
-  Splitter splitter(useful);
-  const std::vector<Ball> balls = splitter.balls();
+  const StartTree tree(useful, kMaxPlaces);
   std::vector<int> target_of(useful.size());
-  for (const Ball& ball : balls) {
-    const std::span<const uint32_t> order =
-        std::span(splitter.order()).subspan(ball.begin, ball.end - ball.begin);
-    targets_.push_back(target_around(scene, ball.bounds, useful, order, paths));
-    for (const uint32_t i : order) target_of[i] = static_cast<int>(targets_.size()) - 1;
+  for (const StartTree::Crowd& leaf : tree.leaves()) {
+    float farthest = 0;
+    for (const uint32_t i : tree.starts_of(leaf)) {
+      target_of[i] = static_cast<int>(targets_.size());
+      farthest = std::max(farthest, length(useful[i].first_hit - leaf.center()));
+    }
+    targets_.push_back(
+        target_around(scene, leaf.center(), farthest, useful, tree.starts_of(leaf), paths));
   }
-  share_out(aims_at(scene, useful, target_of, paths));
+  places_ = targets_.size();
+  const std::vector<double> aims = aims_at(scene, useful, target_of, paths);
+  std::vector<StartTree::Crowd> wider = tree.inner();
+  if (wider.empty() && tree.leaves()[0].half_diagonal() > 0) wider = tree.leaves();
+  for (const StartTree::Crowd& crowd : wider)
+    targets_.push_back(target_around(scene, crowd.center(), crowd.half_diagonal(), useful,
+                                     tree.starts_of(crowd), paths));
+  // [G7]
+  std::vector<double> all(clusters_.size() * targets_.size(), 0);
+  for (size_t k = 0; k < places_; ++k) {
+    std::vector<size_t> around;
+    for (size_t i = 0; i < wider.size(); ++i)
+      if (wider[i].contains(tree.leaves()[k])) around.push_back(places_ + i);
+    for (size_t c = 0; c < clusters_.size(); ++c) {
+      const double aim = aims[c * places_ + k];
+      double* const of_cluster = &all[c * targets_.size()];
+      of_cluster[k] += around.empty() ? aim : (1 - kAround) * aim;
+      for (const size_t i : around)
+        of_cluster[i] += kAround * aim / static_cast<double>(around.size());
+    }
+  }
+  share_out(all);
 }
 
 EmissionGuide::EmissionGuide(const Scene& scene, std::span<const Vec3f> casters) {
@@ -155,14 +86,14 @@ EmissionGuide::EmissionGuide(const Scene& scene, std::span<const Vec3f> casters)
     return;
   std::vector<UsefulStart> starts(casters.size());
   for (size_t i = 0; i < casters.size(); ++i) starts[i].first_hit = casters[i];
-  Splitter splitter(starts);
+  const StartTree tree(starts, kMaxPlaces);
   std::vector<double> seen;  // of each target, how many
-  for (const Ball& ball : splitter.balls()) {
-    seen.push_back(ball.weight);
-    targets_.push_back({(ball.bounds.min + ball.bounds.max) * 0.5f,
-                        std::max(0.5f * kRoom * length(ball.bounds.max - ball.bounds.min),
-                                 kSmallest * scene.sphere.radius)});
+  for (const StartTree::Crowd& leaf : tree.leaves()) {
+    seen.push_back(leaf.weight);
+    targets_.push_back(
+        {leaf.center(), std::max(kRoom * leaf.half_diagonal(), kSmallest * scene.sphere.radius)});
   }
+  places_ = targets_.size();
   // [G6] Targets as they are seen, lights as they shine there.
   std::vector<double> aims(clusters_.size() * targets_.size());
   for (size_t k = 0; k < targets_.size(); ++k) {
@@ -174,11 +105,11 @@ EmissionGuide::EmissionGuide(const Scene& scene, std::span<const Vec3f> casters)
   share_out(aims);
 }
 
-EmissionGuide::Target EmissionGuide::target_around(const Scene& scene, const Bounds3f& bounds,
+EmissionGuide::Target EmissionGuide::target_around(const Scene& scene, const Vec3f& center,
+                                                   float extent,
                                                    std::span<const UsefulStart> useful,
                                                    std::span<const uint32_t> which,
                                                    double paths) const {
-  const Vec3f center = (bounds.min + bounds.max) * 0.5f;
   const float count = static_cast<float>(which.size());
   // [G5] Room for what the starts have not found, most where they are few: as much as the part of
   // the light needs that they stand for.
@@ -192,9 +123,9 @@ EmissionGuide::Target EmissionGuide::target_around(const Scene& scene, const Bou
     if (all) needed = std::max(needed, *all * std::sqrt(part));
   }
   const float slack = kRoom + 0.5f / std::sqrt(count);
-  return {center, std::max({0.5f * length(bounds.max - bounds.min) * slack,
-                            static_cast<float>(needed) * std::min(1.0f, kTelling / count),
-                            kSmallest * scene.sphere.radius})};
+  return {center,
+          std::max({extent * slack, static_cast<float>(needed) * std::min(1.0f, kTelling / count),
+                    kSmallest * scene.sphere.radius})};
 }
 
 void EmissionGuide::gather_lights(const Scene& scene) {
@@ -231,7 +162,15 @@ double EmissionGuide::part_of_all(const Scene& scene, size_t cluster, const Targ
 }
 
 void EmissionGuide::share_out(std::span<const double> aims) {
-  const size_t targets = targets_.size();
+  const size_t targets = targets_.size(), padded = (targets + kLanes - 1) / kLanes * kLanes;
+  for (size_t k = 0; k < padded; ++k) {
+    const Target none{{0, 0, 0}, -1}, &t = k < targets ? targets_[k] : none;
+    lanes_.x.push_back(t.center.x);
+    lanes_.y.push_back(t.center.y);
+    lanes_.z.push_back(t.center.z);
+    lanes_.radius2.push_back(std::copysign(sqr(t.radius), t.radius));
+  }
+  for (Cluster& cluster : clusters_) cluster.shares.assign(padded, 0);
   double total = 0, sum = 0;
   for (const double aim : aims) total += aim;
   for (size_t c = 0; c < clusters_.size(); ++c)
@@ -240,7 +179,7 @@ void EmissionGuide::share_out(std::span<const double> aims) {
       if (!(p > 0)) continue;
       sum += p;
       entries_.push_back({static_cast<uint32_t>(c), static_cast<int>(k), sum});
-      clusters_[c].shares.push_back({static_cast<int>(k), p / clusters_[c].pmf});
+      clusters_[c].shares[k] = p / clusters_[c].pmf;
     }
 }
 
@@ -293,7 +232,7 @@ Vec3f EmissionGuide::point_across(int target, const Vec3f& w, const Vec2f& u) co
 double EmissionGuide::gain(int light) const {
   if (empty()) return 1;
   double sum = kDefensive;
-  for (const Share& s : clusters_[cluster_of(light)].shares) sum += (1 - kDefensive) * s.share;
+  for (const double share : clusters_[cluster_of(light)].shares) sum += (1 - kDefensive) * share;
   return sum;
 }
 
@@ -301,24 +240,30 @@ double EmissionGuide::density(const Scene& scene, int light, const Vec3f& p, con
                               double own, int aimed_at) const {
   if (empty()) return own;
   const Light& l = *scene.lights[static_cast<size_t>(light)];
-  const bool across = l.is_infinite();
-  double sum = kDefensive * own;
-  for (const Share& s : clusters_[cluster_of(light)].shares) {
-    const Target& t = targets_[static_cast<size_t>(s.target)];
-    const Vec3f way = t.center - p;
-    const double d2 = length_squared(way), r2 = sqr(double{t.radius});
-    double aimed = own;  // from inside of a target
-    if (across ? l.emits_through_disk() : d2 > r2) {
-      const float along = dot(way, w);
-      const double aside2 = length_squared(way - w * along);
-      const bool inside = aside2 <= r2 && (across || along >= 0);
-      if (!inside && s.target != aimed_at) continue;
-      const double sine2 = r2 / d2;
-      aimed = across ? 1 / (kPi * r2) : (1 + std::sqrt(1 - sine2)) / (2 * double{kPi} * sine2);
+  const bool across = l.is_infinite(), has_disk = across && l.emits_through_disk();
+  const std::vector<double>& shares = clusters_[cluster_of(light)].shares;
+  // Sums of their own for each lane, which a compiler makes one instruction of.
+  std::array<double, kLanes> sums{};
+  for (size_t first = 0; first < shares.size(); first += kLanes)
+    for (size_t lane = 0; lane < kLanes; ++lane) {
+      const size_t k = first + lane;
+      const Vec3f way(lanes_.x[k] - p.x, lanes_.y[k] - p.y, lanes_.z[k] - p.z);
+      const float along = way.x * w.x + way.y * w.y + way.z * w.z;
+      const Vec3f aside(way.x - w.x * along, way.y - w.y * along, way.z - w.z * along);
+      const float aside2 = aside.x * aside.x + aside.y * aside.y + aside.z * aside.z;
+      const float r2 = lanes_.radius2[k];
+      const double radius2 = double{r2}, d2 = double{way.x * way.x + way.y * way.y + way.z * way.z};
+      const bool is_aimed = static_cast<int>(k) == aimed_at;
+      const bool hits = is_aimed || (aside2 <= r2 && (across || along >= 0));
+      const double sine2 = radius2 / d2;
+      const double cone = (1 + std::sqrt(std::max(0.0, 1 - sine2))) / (2 * double{kPi} * sine2);
+      const double aimed = across ? 1 / (double{kPi} * radius2) : cone;
+      const bool is_own = across ? !has_disk : d2 <= radius2;  // from inside of a target
+      sums[lane] += shares[k] * (is_own ? own : hits ? aimed : 0.0);
     }
-    sum += (1 - kDefensive) * s.share * aimed;
-  }
-  return sum;
+  double sum = 0;
+  for (const double part : sums) sum += part;
+  return kDefensive * own + (1 - kDefensive) * sum;
 }
 
 }  // namespace nephroid

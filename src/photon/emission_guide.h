@@ -10,22 +10,16 @@
 #include <span>
 #include <vector>
 
+#include "photon/start_tree.h"
 #include "scene/scene.h"
 
 namespace nephroid {
 
-/// The start of a light path that was of use.
-struct UsefulStart {
-  int light = 0;
-  Vec3f first_hit{0, 0, 0};  ///< where the path first met something
-  float weight = 1;          ///< density of the lights' own starts over that of its making
-};
-
 class EmissionGuide {
  public:
   /// Share of the paths that start as the lights would have it.
-  static constexpr double kDefensive = 0.25;
-  static constexpr int kMaxTargets = 32, kMaxClusters = 256;
+  static constexpr double kDefensive = 0.125;
+  static constexpr int kMaxPlaces = 32, kMaxTargets = 2 * kMaxPlaces, kMaxClusters = 256;
 
   /// Guides nothing: all paths start as the lights would have it.
   EmissionGuide() = default;
@@ -42,6 +36,8 @@ class EmissionGuide {
     float radius = 0;
   };
   std::span<const Target> targets() const { return targets_; }
+  /// How many places it aims at. Their targets come first, then those around several or all.
+  size_t places() const { return places_; }
 
   struct Choice {
     int light = 0;
@@ -67,30 +63,35 @@ class EmissionGuide {
   double gain(int light) const;
 
  private:
-  struct Share {
-    int target = 0;
-    double share = 0;  ///< probability of the target with the cluster over that of the cluster
-  };
   struct Cluster {
     double pmf = 0;  ///< of its lights, by power
-    std::vector<Share> shares;
+    /// Probability of each target with the cluster over that of the cluster; as long as `lanes_`.
+    std::vector<double> shares;
     std::vector<double> cumulative;  ///< of its lights, by power
   };
   size_t cluster_of(int light) const { return static_cast<size_t>(light) / cluster_size_; }
   void gather_lights(const Scene& scene);
-  /// A ball around those first hits, of which `bounds` is the box, of starts of `paths` paths.
-  Target target_around(const Scene& scene, const Bounds3f& bounds,
+  /// A ball around those first hits, which lie within `extent` of `center`, of starts of `paths`
+  /// paths.
+  Target target_around(const Scene& scene, const Vec3f& center, float extent,
                        std::span<const UsefulStart> useful, std::span<const uint32_t> which,
                        double paths) const;
-  /// How often to aim from each cluster at each target, up to a factor, as [cluster * targets +
-  /// target].
+  /// How often to aim from each cluster at each of the targets, up to a factor, as [cluster *
+  /// targets + target].
   std::vector<double> aims_at(const Scene& scene, std::span<const UsefulStart> useful,
                               std::span<const int> target_of, double paths) const;
   /// The part of what all lights emit that goes from a cluster through a target, roughly.
   double part_of_all(const Scene& scene, size_t cluster, const Target& target) const;
   void share_out(std::span<const double> aims);
 
+  /// The targets once more, as density() reads them: several at a time, the last ones empty.
+  struct Lanes {
+    std::vector<float> x, y, z, radius2;
+  };
+
   std::vector<Target> targets_;
+  Lanes lanes_;
+  size_t places_ = 0;
   std::vector<Cluster> clusters_;
   size_t cluster_size_ = 1;
   struct Entry {

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "fuzz/targets.h"
+#include "source_directory.h"
 
 namespace nephroid {
 namespace {
@@ -18,8 +19,8 @@ struct Target {
 class FuzzCorpus : public ::testing::TestWithParam<Target> {};
 
 TEST_P(FuzzCorpus, NothingCrashes) {
-  const auto folder =
-      std::filesystem::path(NEPHROID_SOURCE_DIR) / "tests/fuzz/corpus" / GetParam().name;
+  const auto folder = std::filesystem::path(testing_support::source_directory()) /
+                      "tests/fuzz/corpus" / GetParam().name;
   int files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     std::ifstream in(entry.path(), std::ios::binary);

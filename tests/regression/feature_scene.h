@@ -13,11 +13,13 @@
 #include "film/film_output.h"
 #include "rendering.h"
 #include "session/integrator_settings.h"
+#include "source_directory.h"
 
 namespace nephroid::testing_support {
 
 /// Ends with a slash.
-inline const std::string kFeatureFolder = NEPHROID_SOURCE_DIR "/tests/regression/features/";
+inline const std::string kFeatureFolder =
+    testing_support::source_directory() + "/tests/regression/features/";
 
 /// Names of all scenes, without folder and ".pbrt", sorted.
 inline std::vector<std::string> feature_names() {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "regression/program.h"
+#include "source_directory.h"
 #include "unit/input/temporary_directory.h"
 
 namespace nephroid::testing_support {
@@ -19,7 +20,8 @@ namespace fs = std::filesystem;
 /// Files below scenes/ that are scenes and not parts of one.
 std::vector<std::string> own_scenes() {
   std::vector<std::string> found;
-  for (const auto& entry : fs::recursive_directory_iterator(NEPHROID_SOURCE_DIR "/scenes")) {
+  for (const auto& entry :
+       fs::recursive_directory_iterator(testing_support::source_directory() + "/scenes")) {
     if (entry.path().extension() != ".pbrt") continue;
     std::ifstream file(entry.path());
     const std::string text{std::istreambuf_iterator<char>(file), {}};

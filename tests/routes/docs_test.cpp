@@ -10,6 +10,7 @@
 #include "core/errors.h"
 #include "route/compile.h"
 #include "routes/oracle_routes.h"
+#include "source_directory.h"
 
 namespace nephroid {
 namespace {
@@ -22,7 +23,7 @@ struct Block {
 };
 
 std::string page() {
-  std::ifstream in(std::string(NEPHROID_SOURCE_DIR) + "/docs/routes.md");
+  std::ifstream in(testing_support::source_directory() + "/docs/routes.md");
   return {std::istreambuf_iterator<char>(in), {}};
 }
 

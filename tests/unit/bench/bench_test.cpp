@@ -15,12 +15,13 @@
 #include "bench/kept.h"
 #include "core/errors.h"
 #include "film/image_io.h"
+#include "source_directory.h"
 #include "unit/film/scratch_directory.h"
 
 namespace nephroid {
 namespace {
 
-const std::string kRoom = std::string(NEPHROID_SOURCE_DIR) + "/scenes/caustic-room/scene.pbrt";
+const std::string kRoom = testing_support::source_directory() + "/scenes/caustic-room/scene.pbrt";
 
 /// A suite of 8 x 8 pixels; `more` are further scenes, with a comma in front.
 std::string small_suite(const std::string& more = "") {
@@ -379,7 +380,7 @@ TEST_F(BenchRuns, TheReportStandsByItself) {
 }
 
 TEST(BenchSuites, TheExamplesAreUnderstood) {
-  const BenchSuite suite = read_suite(std::string(NEPHROID_SOURCE_DIR) + "/bench/smoke.json");
+  const BenchSuite suite = read_suite(testing_support::source_directory() + "/bench/smoke.json");
   EXPECT_EQ(suite.name, "smoke");
   EXPECT_TRUE(std::ifstream(suite.scenes.at(0).file).good());
 }

@@ -8,6 +8,7 @@
 
 #include "bench/json_text.h"
 #include "core/errors.h"
+#include "source_directory.h"
 
 namespace nephroid {
 namespace {
@@ -232,7 +233,8 @@ TEST(JsonText, Errors) {
 
 TEST(OwnSuites, AreUnderstoodAndNameScenesThatAreThere) {
   size_t suites = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(NEPHROID_SOURCE_DIR "/bench")) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(testing_support::source_directory() + "/bench")) {
     if (entry.path().extension() != ".json") continue;
     ++suites;
     const BenchSuite suite = read_suite(entry.path().string());

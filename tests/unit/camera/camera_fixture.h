@@ -7,6 +7,7 @@
 
 #include "input/pbrt_parser.h"
 #include "scene/camera/camera.h"
+#include "source_directory.h"
 
 namespace nephroid::testing_support {
 
@@ -14,8 +15,9 @@ namespace nephroid::testing_support {
 inline std::unique_ptr<Camera> camera_of(const std::string& text, int width, int height,
                                          float diagonal_mm = 35) {
   Diagnostics diagnostics;
-  const SceneDescription d = parse_pbrt_string(
-      text + "\nWorldBegin", "test.pbrt", NEPHROID_SOURCE_DIR "/tests/unit/camera", diagnostics);
+  const SceneDescription d =
+      parse_pbrt_string(text + "\nWorldBegin", "test.pbrt",
+                        testing_support::source_directory() + "/tests/unit/camera", diagnostics);
   return make_camera(d, {width, height, diagonal_mm}, diagnostics);
 }
 

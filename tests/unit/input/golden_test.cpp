@@ -3,6 +3,7 @@
 
 #include "input/file_bytes.h"
 #include "input/pbrt_parser.h"
+#include "source_directory.h"
 #include "unit/input/scene_dump.h"
 
 namespace nephroid {
@@ -17,7 +18,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, GoldenTest,
 
 TEST_P(GoldenTest, ParsesToItsDump) {
   const std::string base =
-      std::string(NEPHROID_SOURCE_DIR) + "/tests/unit/input/golden/" + GetParam();
+      testing_support::source_directory() + "/tests/unit/input/golden/" + GetParam();
   Diagnostics diagnostics;
   const SceneDescription scene = parse_pbrt_file(base + ".pbrt", diagnostics);
   EXPECT_EQ(testing::dump(scene, diagnostics), read_file_bytes(base + ".txt"));

@@ -135,7 +135,7 @@ void expect_same_mean(const Mean& a, const Mean& b, const std::string& what) {
 class GuidedEmission : public ::testing::TestWithParam<Lights> {};
 
 TEST_P(GuidedEmission, HasTheMeansOfTheLightsOwn) {
-  constexpr uint32_t kPaths = 150000;
+  constexpr uint32_t kPaths = 300000;
   const auto scene = scene_with(GetParam().text);
   const EmissionGuide after_light = guide_for(*scene), before_it = guide_to_casters(*scene);
   ASSERT_GE(after_light.targets().size(), 2u);

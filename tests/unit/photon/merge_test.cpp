@@ -6,6 +6,7 @@
 #include "input/pbrt_parser.h"
 #include "owned_routes.h"
 #include "scene/bsdf/diffuse.h"
+#include "source_directory.h"
 
 namespace nephroid {
 namespace {
@@ -22,9 +23,10 @@ SampledSpectrum ramp() {
 const Scene& one_material() {
   static const std::unique_ptr<Scene> scene = [] {
     Diagnostics diagnostics;
-    return build_scene(parse_pbrt_string("WorldBegin Material \"diffuse\" Shape \"sphere\"",
-                                         "test.pbrt", NEPHROID_SOURCE_DIR "/tests", diagnostics),
-                       {}, diagnostics);
+    return build_scene(
+        parse_pbrt_string("WorldBegin Material \"diffuse\" Shape \"sphere\"", "test.pbrt",
+                          testing_support::source_directory() + "/tests", diagnostics),
+        {}, diagnostics);
   }();
   return *scene;
 }

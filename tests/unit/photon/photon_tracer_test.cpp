@@ -9,6 +9,7 @@
 #include "core/parallel.h"
 #include "input/pbrt_parser.h"
 #include "owned_routes.h"
+#include "source_directory.h"
 
 namespace nephroid {
 namespace {
@@ -17,8 +18,8 @@ constexpr int64_t kPhotons = 1 << 16;
 
 std::unique_ptr<Scene> scene_from_text(const std::string& text) {
   Diagnostics diagnostics;
-  const SceneDescription d =
-      parse_pbrt_string(text, "test.pbrt", NEPHROID_SOURCE_DIR "/tests", diagnostics);
+  const SceneDescription d = parse_pbrt_string(
+      text, "test.pbrt", testing_support::source_directory() + "/tests", diagnostics);
   return build_scene(d, {}, diagnostics);
 }
 

@@ -10,6 +10,7 @@
 
 #include "core/errors.h"
 #include "session/version.h"
+#include "source_directory.h"
 
 namespace nephroid {
 namespace {
@@ -33,7 +34,7 @@ std::string usage_error(const std::string& text) {
 }
 
 std::string read_source_file(const std::string& name) {
-  std::ifstream file(std::string(NEPHROID_SOURCE_DIR) + "/" + name);
+  std::ifstream file(testing_support::source_directory() + "/" + name);
   EXPECT_TRUE(file) << name;
   std::ostringstream text;
   text << file.rdbuf();

@@ -15,6 +15,7 @@
 #include "input/pbrt_parser.h"
 #include "scene/scene.h"
 #include "session/integrator_settings.h"
+#include "source_directory.h"
 #include "unit/input/temporary_directory.h"
 #include "unit/medium/nanovdb_writer.h"
 
@@ -184,7 +185,7 @@ std::vector<FormatParameter> parameters_of(const FormatType& type) {
 }
 
 TEST(SceneSupport, PageIsCurrent) {
-  EXPECT_EQ(read_text(std::string(NEPHROID_SOURCE_DIR) + "/docs/scene-support.md"),
+  EXPECT_EQ(read_text(testing_support::source_directory() + "/docs/scene-support.md"),
             scene_support_markdown())
       << "run tools/update_docs to make docs/scene-support.md anew";
 }
@@ -289,7 +290,7 @@ TEST(SceneSupport, EveryNameInTheTextOfTheLoaderIsListed) {
   const std::regex getter(
       R"rx((?:\b(?:p|parameters)\.(?:get_\w+|find)\(|\b(?:float_texture|spectrum_texture|read_\w+)\((?:[\w.]+, )+(?:prefix \+ )?)"([^" ]+)")rx");
   int found = 0;
-  const std::filesystem::path source(NEPHROID_SOURCE_DIR);
+  const std::filesystem::path source(testing_support::source_directory());
   for (const char* folder : {"src/scene", "src/session", "src/integrator"}) {
     for (const auto& entry : std::filesystem::recursive_directory_iterator(source / folder)) {
       if (!entry.is_regular_file()) continue;
