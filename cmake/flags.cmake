@@ -6,8 +6,7 @@ target_compile_options(nephroid_flags INTERFACE
   -ffp-contract=off -fno-math-errno -fno-trapping-math)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # g++ 12 warns of string concatenations that are fine (GCC bug 105651).
-  target_compile_options(nephroid_flags INTERFACE -Wno-restrict -Wno-stringop-overflow
-                         -Wno-stringop-overread -Wno-array-bounds)
+  target_compile_options(nephroid_flags INTERFACE -Wno-restrict)
 endif()
 if(NEPHROID_NATIVE)
   target_compile_options(nephroid_flags INTERFACE -march=native)

@@ -8,8 +8,11 @@ set(shards_statistical 4)
 set(shards_unit_integrator 2)
 
 add_library(test_source_directory STATIC tests/source_directory.cpp)
-target_link_libraries(test_source_directory PRIVATE nephroid_flags)
-target_compile_definitions(test_source_directory PRIVATE NEPHROID_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
+target_link_libraries(test_source_directory PRIVATE nephroid_core GTest::gtest)
+set_source_files_properties(tests/source_directory.cpp PROPERTIES
+                            COMPILE_DEFINITIONS NEPHROID_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
+# It compiles the headers for all tests: to reuse those of an executable would be to wait for it.
+nephroid_precompiled(test_source_directory test_source_directory <gtest/gtest.h>)
 
 function(nephroid_test folder)
   string(REPLACE "/" "_" name ${folder})
@@ -20,8 +23,7 @@ function(nephroid_test folder)
   add_executable(test_${name} ${sources})
   target_link_libraries(test_${name} PRIVATE ${ARGN} test_source_directory GTest::gtest GTest::gtest_main)
   target_include_directories(test_${name} PRIVATE ${CMAKE_SOURCE_DIR}/tests)
-  # All of them have the precompiled headers of the first one, which is that of core.
-  nephroid_precompiled(test_${name} test_unit_core <gtest/gtest.h>)
+  nephroid_precompiled(test_${name} test_source_directory)
   if(NOT shards_${name})
     add_test(NAME ${name} COMMAND test_${name})
     set_tests_properties(${name} PROPERTIES TIMEOUT 14400)

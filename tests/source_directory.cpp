@@ -2,7 +2,7 @@
 
 namespace nephroid::testing_support {
 
-// The one object that depends on where the tree is: all others are the same in every clone.
+// In a file of its own, so that few objects depend on where the tree is.
 std::string source_directory() {
   return NEPHROID_SOURCE_DIR;
 }

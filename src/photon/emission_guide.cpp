@@ -17,6 +17,8 @@ constexpr float kTelling = 8;
 constexpr float kRoom = 1.05f;
 /// [G7] Of the paths that are aimed at a ball, those at the balls around it instead.
 constexpr double kAround = 0.125;
+/// What makes a ball worth having around the only one.
+constexpr float kWider = 1.05f;
 /// Targets that density() looks at together.
 constexpr size_t kLanes = 8;
 /// Over the scene's radius.
@@ -56,11 +58,15 @@ EmissionGuide::EmissionGuide(const Scene& scene, std::span<const UsefulStart> us
   }
   places_ = targets_.size();
   const std::vector<double> aims = aims_at(scene, useful, target_of, paths);
+  const auto target_of_box = [&](const StartTree::Crowd& crowd) {
+    return target_around(scene, crowd.center(), crowd.half_diagonal(), useful,
+                         tree.starts_of(crowd), paths);
+  };
   std::vector<StartTree::Crowd> wider = tree.inner();
-  if (wider.empty() && tree.leaves()[0].half_diagonal() > 0) wider = tree.leaves();
-  for (const StartTree::Crowd& crowd : wider)
-    targets_.push_back(target_around(scene, crowd.center(), crowd.half_diagonal(), useful,
-                                     tree.starts_of(crowd), paths));
+  // Two balls that are as good as one would be two about whose edges rounding has a say.
+  if (wider.empty() && target_of_box(tree.leaves()[0]).radius > kWider * targets_[0].radius)
+    wider = tree.leaves();
+  for (const StartTree::Crowd& crowd : wider) targets_.push_back(target_of_box(crowd));
   // [G7]
   std::vector<double> all(clusters_.size() * targets_.size(), 0);
   for (size_t k = 0; k < places_; ++k) {
@@ -79,10 +85,10 @@ EmissionGuide::EmissionGuide(const Scene& scene, std::span<const UsefulStart> us
 }
 
 EmissionGuide::EmissionGuide(const Scene& scene, std::span<const Vec3f> casters) {
+  if (casters.empty() || scene.lights.empty()) return;
   gather_lights(scene);
   // Black lights shine nowhere.
-  if (casters.empty() ||
-      std::none_of(clusters_.begin(), clusters_.end(), [](const Cluster& c) { return c.pmf > 0; }))
+  if (std::none_of(clusters_.begin(), clusters_.end(), [](const Cluster& c) { return c.pmf > 0; }))
     return;
   std::vector<UsefulStart> starts(casters.size());
   for (size_t i = 0; i < casters.size(); ++i) starts[i].first_hit = casters[i];
@@ -164,11 +170,11 @@ double EmissionGuide::part_of_all(const Scene& scene, size_t cluster, const Targ
 void EmissionGuide::share_out(std::span<const double> aims) {
   const size_t targets = targets_.size(), padded = (targets + kLanes - 1) / kLanes * kLanes;
   for (size_t k = 0; k < padded; ++k) {
-    const Target none{{0, 0, 0}, -1}, &t = k < targets ? targets_[k] : none;
+    const Target t = k < targets ? targets_[k] : Target();
     lanes_.x.push_back(t.center.x);
     lanes_.y.push_back(t.center.y);
     lanes_.z.push_back(t.center.z);
-    lanes_.radius2.push_back(std::copysign(sqr(t.radius), t.radius));
+    lanes_.radius2.push_back(k < targets ? sqr(t.radius) : -1.0f);
   }
   for (Cluster& cluster : clusters_) cluster.shares.assign(padded, 0);
   double total = 0, sum = 0;
@@ -209,7 +215,7 @@ std::optional<EmissionGuide::Choice> EmissionGuide::choose(const Scene& scene, f
 std::optional<Vec3f> EmissionGuide::direction_to(int target, const Vec3f& p, const Vec2f& u) const {
   const Target& t = targets_[static_cast<size_t>(target)];
   const Vec3f way = t.center - p;
-  const double d2 = length_squared(way), sine2 = sqr(double{t.radius}) / d2;
+  const double d2 = length_squared(way), sine2 = double{sqr(t.radius)} / d2;
   if (!(sine2 < 1)) return std::nullopt;
   // One minus the cosine, which is small for targets far away.
   const double most = sine2 / (1 + std::sqrt(1 - sine2));

@@ -138,8 +138,8 @@ TEST_P(GuidedEmission, HasTheMeansOfTheLightsOwn) {
   constexpr uint32_t kPaths = 300000;
   const auto scene = scene_with(GetParam().text);
   const EmissionGuide after_light = guide_for(*scene), before_it = guide_to_casters(*scene);
-  ASSERT_GE(after_light.targets().size(), 2u);
-  ASSERT_GE(before_it.targets().size(), 2u);
+  ASSERT_GE(after_light.places(), 2u);
+  ASSERT_GE(before_it.places(), 2u);
   Bins own, guided;
   for (uint32_t i = 0; i < kPaths; ++i) {
     const EmissionGuide& guide = i % 2 == 0 ? after_light : before_it;

@@ -35,11 +35,12 @@ TEST(EmissionTargets, HasATargetAroundEachStart) {
         EXPECT_GE(target.radius, 1e-4f * scene->sphere.radius);
         EXPECT_LE(target.radius, 1.6f * scene->sphere.radius);
       }
+      // Those around several places cover everything, whatever these do.
+      const auto places = guide.targets().first(guide.places());
       for (const UsefulStart& start : starts)
-        EXPECT_TRUE(std::any_of(guide.targets().begin(), guide.targets().end(),
-                                [&](const EmissionGuide::Target& t) {
-                                  return length(t.center - start.first_hit) <= t.radius * 1.001f;
-                                }));
+        EXPECT_TRUE(std::any_of(places.begin(), places.end(), [&](const EmissionGuide::Target& t) {
+          return length(t.center - start.first_hit) <= t.radius * 1.001f;
+        }));
     }
 }
 
