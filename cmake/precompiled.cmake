@@ -13,8 +13,8 @@ if(NEPHROID_PRECOMPILED AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
                          -Wno-array-bounds)
 endif()
 
-# TARGET takes the headers that FROM has compiled; a target that is its own source compiles them, and FURTHER
-# ones too. Both need the same compiler flags.
+# TARGET takes the headers that FROM has compiled; a target that is its own source compiles them, and
+# those of the further arguments. Both need the same compiler flags.
 function(nephroid_precompiled target from)
   if(NOT NEPHROID_PRECOMPILED)
     return()
