@@ -126,6 +126,11 @@ struct Balance {
       : variance_of_camera(trial.variance), cost_of_camera(trial.cost) {}
   int64_t light_paths(double camera_paths) const;
   double expense() const;
+  /// That of the same light paths beside the camera paths of another trial.
+  Balance with_camera_paths_of(const Trial& trial) const;
+
+ private:
+  void take_camera_paths(const Trial& trial);
 };
 
 }  // namespace nephroid

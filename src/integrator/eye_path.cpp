@@ -1,5 +1,6 @@
 // The eye side of a pair: hits of lights, next-event estimation, and connections to and merges with
 // light paths.
+#include "integrator/eye_sums.h"
 #include "integrator/guided_walk.h"
 #include "integrator/path_pair_arms.h"
 #include "integrator/path_pair_geometry.h"
@@ -26,6 +27,7 @@ class EyeVisitor {
         features_(extras.features),
         guided_(settings.radiance, extras.records),
         eye_(routes_.start()),
+        sums_(settings.connects(), settings.merging && settings.merging->caustics_only),
         root_(settings.has_trees() ? settings.tree : nullptr, extras.leaves) {}
 
   void escape(const Walk& walk) {
@@ -40,9 +42,10 @@ class EyeVisitor {
       if (le.is_black()) continue;
       double weight = 1;
       if (weighs_hit(walk)) {
-        const LightStart start =
-            light_start(settings_, i, {}, last_, -walk.ray.d, direct_pdf_w(scene, walk, i));
-        weight = weight_of_hit(start, end_to_light().next({start.line.at_b, 1}));
+        const SideEnd& end = sums_.end_to_light();
+        const LightStart start = light_start(settings_, i, {}, last_, -walk.ray.d,
+                                             direct_pdf_w(scene, walk, i), end.has_cuts_before());
+        weight = weight_of_hit(start, end.next({start.line.at_b, 1}));
       }
       add(part, walk, walk.throughput * le * static_cast<float>(weight));
     }
@@ -56,9 +59,11 @@ class EyeVisitor {
     if (le.is_black()) return;
     double weight = 1;
     if (weighs_hit(walk)) {
-      const LightStart start = light_start(settings_, hit.area_light, {hit.p, hit.ng}, last_,
-                                           -walk.ray.d, direct_pdf_w(settings_.scene, walk, hit));
-      weight = weight_of_hit(start, end_to_light().next({start.line.at_b, start.line.at_a}));
+      const SideEnd& end = sums_.end_to_light();
+      const LightStart start =
+          light_start(settings_, hit.area_light, {hit.p, hit.ng}, last_, -walk.ray.d,
+                      direct_pdf_w(settings_.scene, walk, hit), end.has_cuts_before());
+      weight = weight_of_hit(start, end.next({start.line.at_b, start.line.at_a}));
     }
     add(part, walk, walk.throughput * le * static_cast<float>(weight));
   }
@@ -76,11 +81,7 @@ class EyeVisitor {
 
   void vertex(const Walk& walk, const WalkVertex& v, PathSampler& sampler) {
     if (v.subsurface_exit) {
-      // [W10] The way under the surface is one step: what was at its entry counts here.
-      for (SideSums* s : {&sums_, &plain_}) {
-        s->here += heuristic(subsurface_density(place_.ng, entry_wo_)) * s->before;
-        s->before = 0;
-      }
+      sums_.come_out(subsurface_density(place_.ng, entry_wo_));
       place_ = {v.surface.p, v.surface.ng};
     } else {
       arrive({v.surface.p, v.surface.ng});
@@ -121,20 +122,21 @@ class EyeVisitor {
 
   bool scatter(const Walk& walk, const WalkEvent& event) {
     root_.scatter(walk, event.letter);
-    if (surface_) guided_.leave(walk, *surface_, event, useful(*surface_));
-    end_.sums = sums_;
+    EventDensity density;
+    double merge = 0;
     if (surface_) {
-      end_.event = density_of_walk(walk, *surface_, event, TransportMode::kRadiance);
-      end_.merge = merge_weight(event.letter);
+      const ClassMask letters = useful(*surface_);
+      guided_.leave(walk, *surface_, event, letters);
+      density = density_of_walk(walk, *surface_, event, TransportMode::kRadiance,
+                                surface_->classes_of(letters), sums_.asks_back());
+      merge = merge_weight(event.letter);
     } else {
       const double p = medium_->phase.eval(medium_->wo, walk.ray.d);
-      end_.event = {p, p, true};
-      end_.merge = 0;
+      density = {p, p, true};
     }
-    // An S behind them lets all vertices so far merge.
-    plain_end_ = {event.letter == EventClass::kSpecular ? sums_ : plain_, end_.event, 0};
+    sums_.leave(density, merge, event.letter);
     last_ = place_;
-    first_ = first_ && !end_.event.finite;
+    first_ = first_ && !density.finite;
     eye_ = routes_.next(eye_, symbol_of(symbols_, event));
     return true;
   }
@@ -163,25 +165,19 @@ class EyeVisitor {
 
   void arrive(const Place& place) {
     place_ = place;
-    if (camera_.walk.events > 0) {
-      const LineFactors line = line_between(last_, place_);
-      sums_ = end_.next(line);
-      plain_ = plain_end_.next(line);
-      if (!settings_.connects()) sums_.here = plain_.here = 0;
-      return;
-    }
-    // [W9] The first vertex: light paths that are connected to the camera find it, too.
-    sums_ = plain_ = {};
-    if (!settings_.view || !settings_.connects()) return;
-    const auto line = settings_.scene.camera->connect(place.p, camera_.u_lens, camera_.u_time);
-    if (!line) return;
-    const double density = line->film_density * cosine_at(place, line->wi);
-    if (density > 0) sums_.here = heuristic(settings_.light_paths / density);
+    if (camera_.walk.events > 0)
+      sums_.arrive(line_between(last_, place_));
+    else
+      sums_.arrive_first(cut_at_camera());
   }
-
-  bool caustics_only() const { return settings_.merging && settings_.merging->caustics_only; }
-  /// What stands before the light, if nothing but it follows.
-  const SideEnd& end_to_light() const { return caustics_only() ? plain_end_ : end_; }
+  /// [W9] Light paths that are connected to the camera find the first vertex, too.
+  double cut_at_camera() const {
+    if (!settings_.view || !settings_.connects()) return 0;
+    const auto line = settings_.scene.camera->connect(place_.p, camera_.u_lens, camera_.u_time);
+    if (!line) return 0;
+    const double density = line->film_density * cosine_at(place_, line->wi);
+    return density > 0 ? heuristic(settings_.light_paths / density) : 0;
+  }
 
   double merge_weight(EventClass c) const {
     return settings_.merging && merges_at(*surface_, c)
@@ -189,8 +185,9 @@ class EyeVisitor {
                : 0;
   }
 
-  /// The events at an eye vertex towards the unit direction `w`; false if there is none of use.
-  bool arms_of_eye(const EyeEnd& z, const Vec3f& w, Arms& arms) const {
+  /// The events at an eye vertex towards the unit direction `w`, of a light or else of a vertex of
+  /// the light's side; false if there is none of use.
+  bool arms_of_eye(const EyeEnd& z, const Vec3f& w, bool before_light, Arms& arms) const {
     if (z.medium) {
       Arm& arm = arms[0];
       const double p = z.medium->phase.eval(z.medium->wo, w);
@@ -216,10 +213,9 @@ class EyeVisitor {
       arm.density = {e.pdf_w, 0, true};
       if (v.subsurface_exit)
         arm.density.forward = subsurface_density(v.surface.ng, w);
-      else
-        arm.density.back =
-            v.bsdf.eval(wi, v.wo, TransportMode::kImportance, c, ClassMask::kAll).pdf_w;
-      arm.merge = merge_weight(c);
+      else if (sums_.behind(c, before_light).before > 0)
+        arm.density.back = event_density(v.bsdf, wi, v.wo, TransportMode::kImportance, c);
+      arm.merge = sums_.is_plain(c, before_light) ? 0 : merge_weight(c);
       arm.eye = routes_.next(eye_, symbol_at(symbols_, v, c, wi));
     }
     return any;
@@ -230,7 +226,7 @@ class EyeVisitor {
     const auto d = sample_direct(settings_.scene, z.receiver, z.walk.lambda, sampler);
     if (!d) return;
     Arms arms;
-    if (!arms_of_eye(z, d->wi_world, arms)) return;
+    if (!arms_of_eye(z, d->wi_world, true, arms)) return;
     const LightSymbol symbol = symbols_.light(d->light);
     SampledSpectrum arriving;
     LightStart start;
@@ -243,18 +239,27 @@ class EyeVisitor {
       if (!traced) {
         arriving = z.walk.throughput * d->radiance * shadow(*d, z.walk, sampler);
         if (arriving.is_black()) return;
-        start = light_start(settings_, *d, z.receiver, place_);
+        start = light_start(settings_, *d, z.receiver, place_, others_cut(z, arms));
       }
       traced = true;
       double weight = 1;
-      if (settings_.technique.weighted) {
-        const bool plain =
-            caustics_only() && (z.medium || kSurfaceClasses[i] != EventClass::kSpecular);
-        weight = weight_of_direct(start, plain ? plain_ : sums_, arm.density.forward,
-                                  arm.density.back, plain ? 0 : arm.merge);
-      }
+      if (settings_.technique.weighted)
+        weight = weight_of_direct(start, sums_.behind(class_of(z, i), true), arm.density.forward,
+                                  arm.density.back, arm.merge);
       add(part, z.walk, arriving * arm.f * static_cast<float>(weight));
     }
+  }
+
+  /// Class of the event of arm `i`.
+  static EventClass class_of(const EyeEnd& z, size_t i) {
+    return z.medium ? EventClass::kVolume : kSurfaceClasses[i];
+  }
+  /// True if light paths might have come here from the light, by one of the events.
+  bool others_cut(const EyeEnd& z, const Arms& arms) const {
+    for (size_t i = 0; i < arms.size(); ++i)
+      if (arms[i].used && (arms[i].merge > 0 || !sums_.behind(class_of(z, i), true).empty()))
+        return true;
+    return false;
   }
 
   SampledSpectrum shadow(const DirectSample& d, const Walk& walk, const PathSampler& sampler) {
@@ -287,7 +292,7 @@ class EyeVisitor {
     if (!(d2 > 0.0f)) return;
     const Vec3f w = way / std::sqrt(d2);
     Arms eye_arms, light_arms;
-    if (!arms_of_eye(z, w, eye_arms) || !arms_of_light(routes_, symbols_, y, -w, light_arms))
+    if (!arms_of_eye(z, w, false, eye_arms) || !arms_of_light(routes_, symbols_, y, -w, light_arms))
       return;
     const Place at_y{y.surface.p, y.in_medium ? Vec3f(0, 0, 0) : y.surface.ng};
     const LineFactors line = line_between(place_, at_y);
@@ -306,8 +311,9 @@ class EyeVisitor {
         double weight = 1;
         if (settings_.technique.weighted)
           weight =
-              1 / (1 + cuts_before(y.sums, a.density.forward * line.at_b, b.density.back, b.merge) +
-                   cuts_before(sums_, b.density.forward * line.at_a, a.density.back, a.merge));
+              1 /
+              (1 + cuts_before(y.sums, a.density.forward * line.at_b, b.density.back, b.merge) +
+               cuts_before(sums_.all(), b.density.forward * line.at_a, a.density.back, a.merge));
         add(part, z.walk, arriving * a.f * b.f * static_cast<float>(weight), hero_only);
       }
     }
@@ -328,11 +334,7 @@ class EyeVisitor {
   Place last_, place_;
   Vec3f entry_wo_{0, 0, 1};
   bool first_ = true;  ///< no event but delta lobes so far
-  SideSums sums_;
-  SideEnd end_;
-  /// The same where only caustics merge, should no S follow: vertices merge that an S has followed.
-  SideSums plain_;
-  SideEnd plain_end_;
+  EyeSums sums_;
   const WalkVertex* surface_ = nullptr;
   const MediumVertex* medium_ = nullptr;
   SpecularRoot root_;
@@ -363,11 +365,11 @@ void EyeVisitor::merge(const Walk& walk, const WalkVertex& v, ClassMask among) {
       if (settings_.technique.weighted) {
         const double towards =
             v.subsurface_exit ? subsurface_density(photon.ng, photon.wi) : double{e.pdf_w};
-        const double back =
-            v.subsurface_exit
-                ? 0.0
-                : v.bsdf.eval(wi, v.wo, TransportMode::kImportance, c, ClassMask::kAll).pdf_w;
-        weight = weight_of_merge(sums_, back, {photon.cut_here, photon.cuts_before}, towards, own);
+        const double back = v.subsurface_exit || !sums_.asks_back()
+                                ? 0.0
+                                : event_density(v.bsdf, wi, v.wo, TransportMode::kImportance, c);
+        weight =
+            weight_of_merge(sums_.all(), back, {photon.cut_here, photon.cuts_before}, towards, own);
       }
       add(part, walk,
           walk.throughput * e.f * photon.flux *

@@ -63,7 +63,8 @@ class LightVisitor : public LightWalkVisitor {
   bool scatter(const Walk& walk, const WalkEvent& event) {
     end_.sums = sums_;
     if (surface_) {
-      end_.event = density_of_walk(walk, *surface_, event, TransportMode::kImportance);
+      end_.event = density_of_walk(walk, *surface_, event, TransportMode::kImportance,
+                                   surface_->classes_of(useful(*surface_)), sums_.before > 0);
       end_.merge = merge_weight(*surface_, event.letter, false);
     } else {
       const double p = medium_->phase.eval(medium_->wo, walk.ray.d);
@@ -95,7 +96,7 @@ class LightVisitor : public LightWalkVisitor {
     const Vec3f& w = walk.ray.d;
     const double direct =
         light.is_delta() ? chosen : chosen * light.pdf_towards(place_.p, -w, start_.p, start_.ng);
-    return light_start(settings_, emission_.light, start_, place_, w, direct).first();
+    return light_start(settings_, emission_.light, start_, place_, w, direct, true).first();
   }
 
   /// [W10] The way under the surface is one step: what was at its entry counts here.
@@ -188,10 +189,9 @@ class LightVisitor : public LightWalkVisitor {
                           medium_towards(v.surface, w, walk.medium), sampler);
       traced = true;
       if (through.is_black()) return;
-      const double back =
-          v.subsurface_exit
-              ? 0.0
-              : v.bsdf.eval(wi, v.wo, TransportMode::kRadiance, c, ClassMask::kAll).pdf_w;
+      const double back = v.subsurface_exit || !(sums_.before > 0)
+                              ? 0.0
+                              : event_density(v.bsdf, wi, v.wo, TransportMode::kRadiance, c);
       expose(*view, part, walk, e.f * through,
              cosine * weight_of_connection(static_cast<double>(view->line.film_density) * across,
                                            back, merge_weight(v, c, true)));

@@ -242,6 +242,7 @@ class Rendering {
     const uint64_t before = row.rays;
     PathSampler sampler(points.eye, hash_combine(seed_, kEyeStream, x, y));
     CameraPath camera = start_merging_path(scene_, x, y, sampler, pass_);
+    camera.walk.window = how_.window;
     if (merging_.connects && !settings_.merges_only) {
       // A light path of its own: those that are merged run through one sequence, of which a pixel
       // would see the same part in all passes.

@@ -19,6 +19,7 @@ struct PairPass {
   int64_t light_paths = 1;     ///< that leave photons; 0: nothing is merged
   bool connects = true;        ///< false: nothing is connected but lights
   bool caustics_only = false;  ///< merges only photons whose light came by way of an S
+  float window = 1;            ///< of roulette on camera paths
   bool adds_features = false;  ///< camera paths add what they see first to the film's features
   const EmissionGuide* guide = &kUnguided;
   const RadianceGuide* radiance = nullptr;  ///< of the directions of camera paths; null: of none

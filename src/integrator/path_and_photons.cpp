@@ -79,17 +79,28 @@ void PathAndPhotons::learn(uint64_t seed, const Scene& scene, const Film& film) 
   pass.leaves_glints = SpecularTree(scene, owned_, options_.max_depth).finds_something();
   pass.connects = false;
   pass.caustics_only = true;
+  pass.window = kCameraWindow;
   pass.guide = &emission_.guide(seed, scene, film, owned_, options_, statistics_);
   pass.light_paths =
       has_specular_events(owned_) ? std::clamp<int64_t>(film.bounds().area(), 1 << 14, 1 << 18) : 0;
-  const Trial many = try_out(pass, seed, scene, film);
+  Trial many = try_out(pass, seed, scene, film);
   Balance balance(many);
   if (pass.light_paths > 0) {
     PairPass fewer = pass;
     fewer.light_paths = pass.light_paths / kFewer;
     balance = Balance(many, try_out(fewer, seed, scene, film));
-    learned.balance = balance;
   }
+  // [L1]
+  PairPass patient = pass;
+  patient.window = kPatientWindow;
+  const Trial longer = try_out(patient, seed, scene, film);
+  if (const Balance other = balance.with_camera_paths_of(longer);
+      other.expense() < balance.expense()) {
+    pass = patient;
+    balance = other;
+    many = longer;
+  }
+  if (pass.light_paths > 0) learned.balance = balance;
   PairPass connecting;
   connecting.leaves_glints = pass.leaves_glints;
   connecting.light_paths = default_light_paths(film.bounds().area());

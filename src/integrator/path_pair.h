@@ -40,6 +40,7 @@ struct PairMerging {
   /// `first`: no event between the eye and `p` but delta lobes, so that every photon is a sample of
   /// its own. Else all photons share the way there, which counts once.
   double weight_at(const Vec3f& p, bool first) const {
+    if (!(photons > 0)) return 0;
     return heuristic((first ? photons : 1) * kPi * sqr(static_cast<double>(radius_at(p))));
   }
 };

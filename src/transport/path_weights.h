@@ -20,6 +20,8 @@ inline double heuristic(double ratio) {
 struct SideSums {
   double here = 0;    ///< [W3]: the cut between x_{i-1} and x_i
   double before = 0;  ///< [W4]: all cuts before that one
+  /// True if there are none: what the other side would have done counts for nothing.
+  bool empty() const { return here == 0 && before == 0; }
 };
 
 /// The densities of an event at a vertex of a side, per steradian; both 1 for a delta lobe.
@@ -41,6 +43,10 @@ struct SideEnd {
   EventDensity event;
   double merge = 0;  ///< [W8], 0 if the event is none at which paths merge
 
+  /// True if the sums at the next vertex have cuts before the last one.
+  bool has_cuts_before() const {
+    return sums.before > 0 || (event.finite && sums.here + merge > 0);
+  }
   /// The sums at the next vertex, b of `line`. [W3] and [W4]
   SideSums next(const LineFactors& line) const {
     const double forward = heuristic(event.forward * line.at_b);

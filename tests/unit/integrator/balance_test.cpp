@@ -192,7 +192,9 @@ TEST(SteadyMean, LeavesOutTheFewThatStandOut) {
 /// b/N and d N.
 struct Model {
   double a, b, c, d;
-  double variance(double camera, double light) const { return a / camera + b / light; }
+  double variance(double camera, double light) const {
+    return a / camera + (b > 0 ? b / light : 0);
+  }
   double cost(double camera, double light) const { return c * camera + d * light; }
   double expense(double camera, double light) const {
     return variance(camera, light) * cost(camera, light);
@@ -213,6 +215,17 @@ TEST(Balance, FindsTheBestNumberOfLightPaths) {
       EXPECT_NEAR(balance.expense(), m.expense(1, static_cast<double>(balance.light_paths(1))),
                   1e-6 * balance.expense());
     }
+}
+
+TEST(Balance, TellsWhatOtherCameraPathsWouldMakeOfIt) {
+  const Model here{0.2, 500, 1e5, 4}, longer{0.1, 500, 1.5e5, 4}, lone{0.3, 0, 2e5, 0};
+  const Balance balance(here.trial(1 << 16), here.trial(1 << 13));
+  const Balance expected(longer.trial(1 << 16), longer.trial(1 << 13));
+  const Balance other = balance.with_camera_paths_of(longer.trial(1 << 16));
+  EXPECT_NEAR(other.expense(), expected.expense(), 1e-6 * expected.expense());
+  EXPECT_EQ(other.light_paths(3), expected.light_paths(3));
+  EXPECT_LT(other.expense(), balance.expense());
+  EXPECT_NEAR(Balance(here.trial(0)).with_camera_paths_of(lone.trial(0)).expense(), 6e4, 1e-6);
 }
 
 TEST(Balance, KeepsItsBoundsWhateverTrialsSay) {

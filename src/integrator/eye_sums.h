@@ -1,0 +1,70 @@
+// What the weights of an eye path's techniques need of its way so far ([W2] to [W11] in
+// docs/estimators.md), where only caustics may merge twice over: the path does not know yet whether
+// an S will stand between its vertices and the light. Who calls it: eye_path.cpp. It must not know
+// places or routes.
+#pragma once
+
+#include "scene/bsdf/bsdf.h"
+#include "transport/path_weights.h"
+
+namespace nephroid {
+
+class EyeSums {
+ public:
+  /// `connects`: light paths are connected to more than lights. `caustics_only`: merges count where
+  /// an S follows.
+  EyeSums(bool connects, bool caustics_only) : connects_(connects), caustics_only_(caustics_only) {}
+
+  /// [W9] At the first vertex: `cut` is what the connection to the camera counts.
+  void arrive_first(double cut) {
+    all_ = plain_ = {};
+    all_.here = cut;
+  }
+  /// At the next vertex, over the line to it.
+  void arrive(const LineFactors& line) {
+    all_ = end_.next(line);
+    plain_ = plain_end_.next(line);
+    if (!connects_) all_.here = plain_.here = 0;
+  }
+  /// [W10] The way under the surface is one step: what was at its entry counts here. `density` is
+  /// that of the way back out of the entry.
+  void come_out(double density) {
+    for (SideSums* s : {&all_, &plain_}) {
+      s->here += heuristic(density) * s->before;
+      s->before = 0;
+    }
+  }
+
+  /// True if the density back of the event here has something to be multiplied with.
+  bool asks_back() const { return all_.before > 0 || plain_.before > 0; }
+  /// The walk leaves by an event of the letter; `merge` is [W8] of it.
+  void leave(const EventDensity& event, double merge, EventClass letter) {
+    end_ = {all_, event, merge};
+    // An S behind them lets all vertices so far merge.
+    plain_end_ = {letter == EventClass::kSpecular ? all_ : plain_, event, 0};
+  }
+
+  /// True if no merge counts at an event of class `c` here, behind which there is a light or else a
+  /// vertex of the light's side: the event is not the S that it takes.
+  bool is_plain(EventClass c, bool before_light) const {
+    return before_light && caustics_only_ && c != EventClass::kSpecular;
+  }
+  /// At the vertex, for a cut behind such an event.
+  const SideSums& behind(EventClass c, bool before_light) const {
+    return is_plain(c, before_light) ? plain_ : all_;
+  }
+  /// At the vertex, whatever follows.
+  const SideSums& all() const { return all_; }
+  /// What stands before the light, if nothing but it follows.
+  const SideEnd& end_to_light() const { return caustics_only_ ? plain_end_ : end_; }
+
+ private:
+  const bool connects_, caustics_only_;
+  SideSums all_;
+  SideEnd end_;
+  /// The same where only caustics merge, should no S follow: vertices merge that an S has followed.
+  SideSums plain_;
+  SideEnd plain_end_;
+};
+
+}  // namespace nephroid
