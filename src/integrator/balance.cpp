@@ -158,18 +158,18 @@ double Trial::least_of_unseen(const Trial& other) const {
 }
 
 Balance::Balance(const Trial& many, const Trial& few) {
-  // V(N) = v + b/N, C(N) = c + d N.
+  // V(N) = v + b/N.
   const double b =
       std::max(0.0, (few.variance - many.variance) / (1 / few.light_paths - 1 / many.light_paths));
   variance_of_light = b;
-  cost_of_light = std::max(0.0, (many.cost - few.cost) / (many.light_paths - few.light_paths));
+  cost_of_light = many.cost_of_light / many.light_paths;
   take_camera_paths(many);
 }
 
 void Balance::take_camera_paths(const Trial& trial) {
   const double b = trial.light_paths > 0 ? variance_of_light / trial.light_paths : 0;
   variance_of_camera = std::max(0.05 * trial.variance, trial.variance - b);
-  cost_of_camera = std::max(0.1 * trial.cost, trial.cost - cost_of_light * trial.light_paths);
+  cost_of_camera = trial.cost_of_camera;
 }
 
 Balance Balance::with_camera_paths_of(const Trial& trial) const {

@@ -101,15 +101,17 @@ Shares share_out(const PixelBounds& bounds, const Spreads& spreads, bool glints_
 
 /// What trial passes told.
 struct Trial {
-  double variance = 0;     ///< of one pass
-  double cost = 0;         ///< of one pass
-  double light_paths = 0;  ///< of one pass
-  double light = 0;        ///< mean of the picture
-  double error = 0;        ///< standard error of that mean
-  double samples = 0;      ///< camera paths that it is a mean of
+  double variance = 0;        ///< of one pass
+  double cost_of_camera = 0;  ///< of the camera paths of one pass
+  double cost_of_light = 0;   ///< of all its light paths
+  double light_paths = 0;     ///< of one pass
+  double light = 0;           ///< mean of the picture
+  double error = 0;           ///< standard error of that mean
+  double samples = 0;         ///< camera paths that it is a mean of
+  double records = 0;         ///< that a camera path leaves in the mean
   /// [A4] The least variance that light can have which another trial has seen and this one has not.
   double least_of_unseen(const Trial& other) const;
-  double expense() const { return variance * cost; }
+  double expense() const { return variance * (cost_of_camera + cost_of_light); }
 };
 
 /// The mean of some tiles without the few that stand out: what one lucky path did says little.
@@ -123,7 +125,7 @@ struct Balance {
   Balance(const Trial& many, const Trial& few);
   /// Of a pass without light paths.
   explicit Balance(const Trial& trial)
-      : variance_of_camera(trial.variance), cost_of_camera(trial.cost) {}
+      : variance_of_camera(trial.variance), cost_of_camera(trial.cost_of_camera) {}
   int64_t light_paths(double camera_paths) const;
   double expense() const;
   /// That of the same light paths beside the camera paths of another trial.

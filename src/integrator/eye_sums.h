@@ -1,7 +1,7 @@
 // What the weights of an eye path's techniques need of its way so far ([W2] to [W11] in
-// docs/estimators.md), where only caustics may merge twice over: the path does not know yet whether
-// an S will stand between its vertices and the light. Who calls it: eye_path.cpp. It must not know
-// places or routes.
+// docs/estimators.md). Where only caustics merge, the path does not know yet whether an S will
+// stand between its vertices and the light: it keeps the sums for both cases. Who calls it:
+// eye_path.cpp. It must not know places or routes.
 #pragma once
 
 #include "scene/bsdf/bsdf.h"
@@ -36,7 +36,7 @@ class EyeSums {
   }
 
   /// True if the density back of the event here has something to be multiplied with.
-  bool asks_back() const { return all_.before > 0 || plain_.before > 0; }
+  bool asks_back() const { return all_.before > 0; }
   /// The walk leaves by an event of the letter; `merge` is [W8] of it.
   void leave(const EventDensity& event, double merge, EventClass letter) {
     end_ = {all_, event, merge};
@@ -44,8 +44,8 @@ class EyeSums {
     plain_end_ = {letter == EventClass::kSpecular ? all_ : plain_, event, 0};
   }
 
-  /// True if no merge counts at an event of class `c` here, behind which there is a light or else a
-  /// vertex of the light's side: the event is not the S that it takes.
+  /// True if no merge counts where an event of class `c` at the vertex is followed by a light
+  /// (`before_light`; else by a vertex of the light's side), because it is not the S that it takes.
   bool is_plain(EventClass c, bool before_light) const {
     return before_light && caustics_only_ && c != EventClass::kSpecular;
   }

@@ -9,10 +9,6 @@ namespace nephroid {
 
 namespace {
 
-constexpr size_t kMostOfPath = 8;
-/// About so many a path leaves.
-constexpr size_t kOfPath = 4;
-
 Vec3f facing(const WalkVertex& v) {
   return v.wo.z < 0.0f ? -v.surface.shading.z : v.surface.shading.z;
 }
@@ -48,7 +44,8 @@ std::optional<BsdfSample> GuidedWalk::sample_direction(Walk& walk, const WalkVer
 
 void GuidedWalk::record(const Walk& walk, const WalkVertex& v, const WalkEvent& event,
                         ClassMask letters) {
-  if (!has_choice(v, letters) || !(carried_ > 0) || records_->size() - first_record_ >= kMostOfPath)
+  if (!has_choice(v, letters) || !(carried_ > 0) ||
+      records_->size() - first_record_ >= PassRecords::kMostOfPath)
     return;
   // [Q2] asks for the density of all lobes that the guide has a say in.
   const bool chosen = contains(ClassMask::kRough, event.letter) && !walk.delta;
@@ -69,8 +66,13 @@ void GuidedWalk::finish() {
   }
 }
 
-PassRecords::PassRecords(std::vector<RadianceRecord>* all, size_t paths)
-    : all_(all), stride_(std::max<size_t>(1, (paths * kOfPath + kMost - 1) / kMost)) {}
+size_t PassRecords::stride(size_t paths, double of_path) {
+  const double all = static_cast<double>(paths) * of_path;
+  return std::max<size_t>(1, static_cast<size_t>(std::ceil(all / static_cast<double>(kMost))));
+}
+
+PassRecords::PassRecords(std::vector<RadianceRecord>* all, size_t paths, double of_path)
+    : all_(all), stride_(stride(paths, of_path)) {}
 
 std::vector<RadianceRecord>* PassRecords::of_path(size_t pixel, int sample,
                                                   std::vector<RadianceRecord>& row) const {

@@ -53,9 +53,13 @@ class GuidedWalk {
 class PassRecords {
  public:
   static constexpr size_t kMost = 1 << 19;
+  static constexpr size_t kMostOfPath = 8;
+
+  /// One path in so many leaves records, of `paths` that would leave `of_path` each.
+  static size_t stride(size_t paths, double of_path);
 
   /// Keeps none if `all` is null, which is empty before the pass of so many camera paths.
-  PassRecords(std::vector<RadianceRecord>* all, size_t paths);
+  PassRecords(std::vector<RadianceRecord>* all, size_t paths, double of_path);
 
   /// `row`, where the records of this path should go; null: it leaves none.
   std::vector<RadianceRecord>* of_path(size_t pixel, int sample,

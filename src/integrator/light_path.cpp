@@ -293,8 +293,8 @@ bool arms_of_light(const Routes& routes, const SceneSymbols& symbols, const Ligh
     arm.density = {e.pdf_w, 0, true};
     if (y.subsurface_exit)
       arm.density.forward = subsurface_density(y.surface.ng, w);
-    else
-      arm.density.back = bsdf->eval(wi, y.wo, TransportMode::kRadiance, c, ClassMask::kAll).pdf_w;
+    else if (y.sums.before > 0)
+      arm.density.back = event_density(*bsdf, wi, y.wo, TransportMode::kRadiance, c);
     arm.merge = y.merges && contains(ClassMask::kRough, c) ? y.merge : 0;
     arm.light = routes.light_next(y.state, event_symbol(y.merges ? c : EventClass::kHair, transmits,
                                                         symbols.material(y.material->index())));

@@ -54,8 +54,10 @@ class Rendering {
         pass_(start_photon_pass(key, scene, like, options)),
         view_(scene, like.bounds()),
         places_(*owned.routes, owned.group),
-        records_(how.records, static_cast<size_t>(like.bounds().area()) *
-                                  static_cast<size_t>(how.samples ? how.samples->most() : 1)),
+        records_(how.records,
+                 static_cast<size_t>(like.bounds().area()) *
+                     static_cast<size_t>(how.samples ? how.samples->most() : 1),
+                 how.records_of_path),
         tree_(scene, owned, options.max_depth),
         settings_{.scene = scene,
                   .owned = owned,

@@ -8,7 +8,7 @@
 #include "film/splats.h"
 #include "integrator/balance.h"
 #include "integrator/estimator.h"
-#include "integrator/radiance_guide.h"
+#include "integrator/guided_walk.h"
 #include "photon/emission_guide.h"
 #include "route/scene_symbols.h"
 
@@ -25,7 +25,8 @@ struct PairPass {
   const RadianceGuide* radiance = nullptr;  ///< of the directions of camera paths; null: of none
   /// Where what camera paths find behind their vertices goes as well, empty before.
   std::vector<RadianceRecord>* records = nullptr;
-  const SampleMap* samples = nullptr;  ///< camera paths of each pixel; null: one
+  double records_of_path = PassRecords::kMostOfPath;  ///< that a camera path leaves in the mean
+  const SampleMap* samples = nullptr;                 ///< camera paths of each pixel; null: one
   /// Camera paths that each pixel has had before pass 1, whatever `samples` says: the numbers of
   /// the later ones follow on.
   uint32_t head = 0;

@@ -43,6 +43,10 @@ Trial PathAndPhotons::try_out(PairPass how, uint64_t seed, const Scene& scene, c
   how.spread = &spread;
   how.spreads_splats = true;
   how.glints = nullptr;
+  std::vector<RadianceRecord> records;
+  const size_t stride =
+      PassRecords::stride(static_cast<size_t>(film.bounds().area()), how.records_of_path);
+  if (options_.guides_walks && !how.connects) how.records = &records;
   EstimatorStatistics counts;
   for (uint32_t i = 0; i < kTrialPasses; ++i)
     how.try_out({hash_combine(seed, kTrialStream), i}, scene, film, owned_, options_, counts);
@@ -63,11 +67,13 @@ Trial PathAndPhotons::try_out(PairPass how, uint64_t seed, const Scene& scene, c
       static_cast<double>(counts.rays - counts.light_rays - counts.again_rays) / samples *
       static_cast<double>(film.bounds().area());
   return {.variance = steady_mean(std::move(tiles)),
-          .cost = of_camera + static_cast<double>(counts.light_rays) / kTrialPasses,
+          .cost_of_camera = of_camera,
+          .cost_of_light = static_cast<double>(counts.light_rays) / kTrialPasses,
           .light_paths = static_cast<double>(how.light_paths),
           .light = light / count,
           .error = std::sqrt(variance / count / samples),
-          .samples = samples};
+          .samples = samples,
+          .records = static_cast<double>(records.size() * stride) / samples};
 }
 
 void PathAndPhotons::learn(uint64_t seed, const Scene& scene, const Film& film) {
@@ -90,7 +96,7 @@ void PathAndPhotons::learn(uint64_t seed, const Scene& scene, const Film& film) 
     fewer.light_paths = pass.light_paths / kFewer;
     balance = Balance(many, try_out(fewer, seed, scene, film));
   }
-  // [L1]
+  // [A5]
   PairPass patient = pass;
   patient.window = kPatientWindow;
   const Trial longer = try_out(patient, seed, scene, film);
@@ -101,6 +107,7 @@ void PathAndPhotons::learn(uint64_t seed, const Scene& scene, const Film& film) 
     many = longer;
   }
   if (pass.light_paths > 0) learned.balance = balance;
+  pass.records_of_path = std::clamp(1.1 * many.records, 0.25, double{PassRecords::kMostOfPath});
   PairPass connecting;
   connecting.leaves_glints = pass.leaves_glints;
   connecting.light_paths = default_light_paths(film.bounds().area());
@@ -196,6 +203,11 @@ EstimatorStatistics PathAndPhotons::statistics() const {
         "caustic photons alone");
   else
     explain_missing_caustics(owned_, s);
+  if (pass.window == kPatientWindow)
+    s.notes.push_back(
+        "camera paths go on while they carry an eighth of what they started with: trial passes "
+        "were "
+        "better for it");
   if (const size_t places = pass.guide->places(); places > 0)
     s.notes.push_back("photons were aimed at " + std::to_string(places) +
                       (places == 1 ? " place" : " places") + " from which they were of use");

@@ -9,7 +9,7 @@ namespace nephroid {
 namespace {
 
 /// A branch that carries less goes one way only, and roulette is played on it.
-constexpr float kWindow = kPatientWindow;
+constexpr float kWindow = 1.0f / 8;
 /// Branches of branches: bounds the tree where nothing is lost along the way.
 constexpr int kMostBranchings = 16;
 

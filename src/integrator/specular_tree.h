@@ -25,7 +25,9 @@ class SpecularTree {
     Part part = kNoPart;  ///< one that the group owns
     SampledSpectrum value;
     bool hero_only = false;  ///< the branch kept its hero wavelength only
-    float chance = 1;        ///< with which a walk that chooses one way each time had come there
+    /// With which a walk that chooses one way each time, and ends where it is absorbed, had come
+    /// there.
+    float chance = 1;
 
     /// `sums` are of the wavelengths that the walk started with.
     void add_to(PartSums& sums) const { sums.add(part, whole_spectrum(value, hero_only)); }

@@ -199,7 +199,7 @@ struct Model {
   double expense(double camera, double light) const {
     return variance(camera, light) * cost(camera, light);
   }
-  Trial trial(double light) const { return {variance(1, light), cost(1, light), light}; }
+  Trial trial(double light) const { return {variance(1, light), c, d * light, light}; }
 };
 
 // [A3]
@@ -218,14 +218,15 @@ TEST(Balance, FindsTheBestNumberOfLightPaths) {
 }
 
 TEST(Balance, TellsWhatOtherCameraPathsWouldMakeOfIt) {
-  const Model here{0.2, 500, 1e5, 4}, longer{0.1, 500, 1.5e5, 4}, lone{0.3, 0, 2e5, 0};
+  const Model here{0.2, 500, 1e5, 4}, longer{0.1, 500, 1.5e5, 4}, alone{0.2, 0, 1e5, 0},
+      lone{0.3, 0, 2e5, 0};
   const Balance balance(here.trial(1 << 16), here.trial(1 << 13));
   const Balance expected(longer.trial(1 << 16), longer.trial(1 << 13));
   const Balance other = balance.with_camera_paths_of(longer.trial(1 << 16));
   EXPECT_NEAR(other.expense(), expected.expense(), 1e-6 * expected.expense());
   EXPECT_EQ(other.light_paths(3), expected.light_paths(3));
   EXPECT_LT(other.expense(), balance.expense());
-  EXPECT_NEAR(Balance(here.trial(0)).with_camera_paths_of(lone.trial(0)).expense(), 6e4, 1e-6);
+  EXPECT_NEAR(Balance(alone.trial(0)).with_camera_paths_of(lone.trial(0)).expense(), 6e4, 1e-6);
 }
 
 TEST(Balance, KeepsItsBoundsWhateverTrialsSay) {
@@ -237,14 +238,14 @@ TEST(Balance, KeepsItsBoundsWhateverTrialsSay) {
   Trial lucky = steady.trial(1 << 13);
   lucky.variance = 0.1;
   EXPECT_EQ(Balance(steady.trial(1 << 16), lucky).light_paths(1), 1024);
-  // Noise that falls faster than can be leaves the camera paths some; rays that cost less than
-  // nothing, something.
+  // Noise that falls faster than can be leaves the camera paths some.
   Trial unlucky = steady.trial(1 << 13);
   unlucky.variance = 1e6;
   EXPECT_EQ(Balance(steady.trial(1 << 16), unlucky).light_paths(8), 1 << 20);
-  Trial cheap = steady.trial(1 << 16);
-  cheap.cost = 1;
-  EXPECT_EQ(Balance(cheap, steady.trial(1 << 13)).light_paths(1), 1024);
+  // Light paths that cost nothing.
+  EXPECT_EQ(Balance(Model{0.2, 500, 1e5, 0}.trial(1 << 16), Model{0.2, 500, 1e5, 0}.trial(1 << 13))
+                .light_paths(1),
+            1024);
 }
 
 }  // namespace
