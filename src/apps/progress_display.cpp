@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "session/short_number.h"
+
 namespace nephroid {
 namespace {
 
@@ -58,16 +60,6 @@ void ProgressDisplay::clear() {
   fmt::print(stderr, "\r\x1b[K");
   std::fflush(stderr);
   bar_is_drawn_ = false;
-}
-
-std::string short_number(double value) {
-  constexpr const char* kUnits[] = {"", "k ", "M ", "G ", "T "};
-  size_t unit = 0;
-  while (value >= 999.5 && unit + 1 < std::size(kUnits)) {
-    value /= 1000;
-    ++unit;
-  }
-  return fmt::format("{:.3g} {}", value, kUnits[unit]);
 }
 
 std::string clock_text(double seconds) {

@@ -23,8 +23,6 @@ class ProgressDisplay {
   double next_seconds_ = 0;
 };
 
-/// "1.23 M", three digits and the letter of the thousands.
-std::string short_number(double value);
 /// "1:02:03", "2:03" or "0:03".
 std::string clock_text(double seconds);
 

@@ -3,9 +3,10 @@
 
 #include <fmt/format.h>
 
-#include "apps/progress_display.h"
 #include "film/film_output.h"
+#include "session/choices_report.h"
 #include "session/noise.h"
+#include "session/short_number.h"
 
 namespace nephroid {
 namespace {
@@ -34,31 +35,6 @@ std::string summary(const RenderResult& result) {
     text += fmt::format(", {}rays/s", short_number(static_cast<double>(rays) / result.seconds));
   if (result.noise) text += fmt::format(", estimated noise {:.3g}", *result.noise);
   return text + "\n";
-}
-
-std::string photon_line(const EstimatorStatistics& first, const EstimatorStatistics& last,
-                        uint32_t passes) {
-  if (last.photon_paths == 0) return {};
-  const double paths = static_cast<double>(last.photon_paths);
-  std::string text =
-      fmt::format("photons: {}paths {}, {}photons kept in all, {:.3g} % of paths kept any",
-                  short_number(last.photons_stay ? paths : paths / passes),
-                  last.photons_stay ? "once" : "per pass",
-                  short_number(static_cast<double>(last.photons_stored)),
-                  100 * static_cast<double>(last.photon_paths_useful) / paths);
-  if (last.radius_max_pixels > 0)
-    text += fmt::format("\nmerge radius: {:.3g} pixels in the first pass to {:.3g} in the last",
-                        first.radius_max_pixels, last.radius_min_pixels);
-  return text + "\n";
-}
-
-std::string light_line(const EstimatorStatistics& last, uint32_t passes) {
-  if (last.light_paths == 0) return {};
-  const double paths = static_cast<double>(last.light_paths);
-  return fmt::format(
-      "light paths: {}per pass, {}connections to the camera in all, {:.3g} % of paths had any\n",
-      short_number(paths / passes), short_number(static_cast<double>(last.splats)),
-      100 * static_cast<double>(last.light_paths_useful) / paths);
 }
 
 double all_estimates(const Film& film) {
@@ -101,14 +77,12 @@ std::string film_faults(const Film& film) {
 std::string render_report(const RenderResult& result, const Film& film, const std::string& output,
                           const std::vector<std::string>& notes) {
   std::string text = summary(result);
-  for (size_t i = 0; i < result.statistics.size(); ++i)
-    text += photon_line(result.first_pass_statistics[i], result.statistics[i], result.passes_done) +
-            light_line(result.statistics[i], result.passes_done);
+  for (const std::string& line :
+       choices_report(result.first_pass_statistics, result.statistics, result.passes_done))
+    text += line + "\n";
   text += route_lines(film);
   text += film_faults(film);
   for (const std::string& note : notes) text += fmt::format("note: {}\n", note);
-  for (const EstimatorStatistics& s : result.statistics)
-    for (const std::string& note : s.notes) text += fmt::format("note: {}\n", note);
   text += fmt::format("wrote {} and {}\n", output, png_path_beside(output));
   return text;
 }

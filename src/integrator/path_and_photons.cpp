@@ -77,6 +77,7 @@ Trial PathAndPhotons::try_out(PairPass how, uint64_t seed, const Scene& scene, c
 }
 
 void PathAndPhotons::learn(uint64_t seed, const Scene& scene, const Film& film) {
+  const uint64_t rays_before = statistics_.rays;
   const int asked = options_.camera_samples_per_pass;
   const int head = asked > 0 ? asked : kHead;
   learned_.emplace(seed, SampleMap(film.bounds(), static_cast<uint16_t>(head)));
@@ -125,6 +126,7 @@ void PathAndPhotons::learn(uint64_t seed, const Scene& scene, const Film& film) 
   pass.adds_features = true;
   learned.is_even = asked > 0;
   if (learned.is_even) learned.shares = Shares{learned.head, learned.head};
+  statistics_.learning_rays += statistics_.rays - rays_before;
 }
 
 void PathAndPhotons::look_back(const Scene& scene, const Film& film) {
@@ -134,6 +136,7 @@ void PathAndPhotons::look_back(const Scene& scene, const Film& film) {
     EstimatorStatistics counts;
     first_pass(film).try_out({learned.seed, 0}, scene, film, owned_, options_, counts);
     statistics_.rays += counts.rays;
+    statistics_.learning_rays += counts.rays;
   }
   learned.radiance.emplace(std::move(learned.records));
   learned.records = {};
@@ -209,8 +212,11 @@ EstimatorStatistics PathAndPhotons::statistics() const {
         "were "
         "better for it");
   if (const size_t places = pass.guide->places(); places > 0)
-    s.notes.push_back("photons were aimed at " + std::to_string(places) +
-                      (places == 1 ? " place" : " places") + " from which they were of use");
+    s.notes.push_back(
+        fmt::format("photons were aimed at {} place{} from which they were of use; of paths that "
+                    "start anywhere, "
+                    "{:.2g} % would be",
+                    places, places == 1 ? "" : "s", 100 * pass.guide->share_unaimed()));
   if (learned_->radiance && learned_->radiance->guides())
     s.notes.push_back(
         fmt::format("camera walks had directions to follow from the first pass at {:.3g} % of the "

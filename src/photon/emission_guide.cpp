@@ -44,6 +44,7 @@ double part_through(const Scene& scene, const Light& light, const EmissionGuide:
 EmissionGuide::EmissionGuide(const Scene& scene, std::span<const UsefulStart> useful,
                              double paths) {
   if (useful.empty()) return;
+  for (const UsefulStart& start : useful) share_unaimed_ += double{start.weight} / paths;
   gather_lights(scene);
   const StartTree tree(useful, kMaxPlaces);
   std::vector<int> target_of(useful.size());

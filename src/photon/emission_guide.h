@@ -38,6 +38,9 @@ class EmissionGuide {
   std::span<const Target> targets() const { return targets_; }
   /// How many places it aims at. Their targets come first, then those around several or all.
   size_t places() const { return places_; }
+  /// The part of all paths that would have been of use had they started as the lights have it, as
+  /// far as those that were traced can tell.
+  double share_unaimed() const { return share_unaimed_; }
 
   struct Choice {
     int light = 0;
@@ -92,6 +95,7 @@ class EmissionGuide {
   std::vector<Target> targets_;
   Lanes lanes_;
   size_t places_ = 0;
+  double share_unaimed_ = 0;
   std::vector<Cluster> clusters_;
   size_t cluster_size_ = 1;
   struct Entry {

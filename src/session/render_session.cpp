@@ -14,6 +14,7 @@
 #include "film/atomic_file.h"
 #include "film/film_output.h"
 #include "scene/scene.h"
+#include "session/choices_report.h"
 #include "session/noise.h"
 
 namespace nephroid {
@@ -90,7 +91,7 @@ RenderResult RenderSession::run(SignalFlags& signals) {
   std::optional<StopReason> reason;
   while (!reason) {
     render_one_pass();
-    if (passes_done_ == 1) result.first_pass_statistics = statistics();
+    if (passes_done_ == 1) first_pass_statistics_ = statistics();
     if (noise_check_is_due()) renew_noise();
     reason = reason_to_stop(signals);
     report_progress();
@@ -102,6 +103,7 @@ RenderResult RenderSession::run(SignalFlags& signals) {
   result.passes_done = passes_done_;
   result.seconds = elapsed();
   result.noise = noise_;
+  result.first_pass_statistics = first_pass_statistics_;
   result.statistics = statistics();
   if (!options_.output.empty()) write_picture();
   return result;
@@ -214,6 +216,10 @@ Metadata RenderSession::picture_metadata() const {
     metadata.emplace_back("nephroid:outlier_estimates",
                           fmt::format("{}", rejection->held_estimates()));
   }
+  std::string choices;
+  for (const std::string& line : choices_report(first_pass_statistics_, statistics(), passes_done_))
+    choices += line + "\n";
+  metadata.emplace_back("nephroid:choices", choices);
   const FilmLayout& layout = film_.layout();
   for (size_t r = 0; r < layout.routes.size(); ++r)
     metadata.emplace_back("nephroid:estimates:" + layout.routes[r],

@@ -28,7 +28,7 @@ struct RenderOptions {
   std::string output;         ///< EXR, a PNG is written beside it; empty: nothing is written
   double write_interval = 5;  ///< s between intermediate pictures, at least
   float png_exposure = 1;
-  Metadata metadata;  ///< written first; the session adds passes, time and estimates
+  Metadata metadata;  ///< written first; the session adds passes, time, choices and estimates
 };
 
 enum class StopReason { kPasses, kTime, kNoise, kSignal };
@@ -95,6 +95,7 @@ class RenderSession {
   std::function<double()> clock_;
 
   double start_ = 0;
+  std::vector<EstimatorStatistics> first_pass_statistics_;
   uint32_t passes_done_ = 0;
   double last_pass_seconds_ = 0;
   std::optional<double> noise_;

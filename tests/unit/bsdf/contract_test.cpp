@@ -57,6 +57,24 @@ TEST(BsdfContract, SampleAgreesWithEval) {
   }
 }
 
+// Who chose among all that there is knows the density among all classes.
+TEST(BsdfContract, OtherClassesThanThereAreMakeNoDifference) {
+  for (const BsdfCase& c : all_cases()) {
+    BsdfArena arena;
+    const Bsdf& bsdf = *c.make(arena);
+    TestRandom random(13);
+    for (int i = 0; i < 300; ++i) {
+      const Vec3f wo = spherical(2.0 * random.next() - 1.0, 6.28 * random.next());
+      const Vec3f wi = spherical(2.0 * random.next() - 1.0, 6.28 * random.next());
+      for (const EventClass e : kSurfaceClasses)
+        for (const TransportMode mode : kModes)
+          EXPECT_EQ(bsdf.eval(wo, wi, mode, e, bsdf.classes()).pdf_w,
+                    bsdf.eval(wo, wi, mode, e, ClassMask::kAll).pdf_w)
+              << c.name;
+    }
+  }
+}
+
 TEST(BsdfContract, ClassesOutsideTheMaskNeverAppear) {
   for (const BsdfCase& c : all_cases()) {
     BsdfArena arena;

@@ -39,8 +39,12 @@ class FakeEstimator : public Estimator {
         add_one(film, group_, x, y, {value, value, value});
     film.add_estimates(group_, 1);
     statistics_.rays += 100;
+    statistics_.light_rays += 20;
+    statistics_.photon_paths += 50;
+    statistics_.photon_paths_useful += 5;
     statistics_.photons_stored += 10;
     statistics_.radius_max_pixels = 8.0f / static_cast<float>(key.pass + 1);
+    statistics_.radius_min_pixels = statistics_.radius_max_pixels;
   }
   EstimatorStatistics statistics() const override { return statistics_; }
 

@@ -139,6 +139,10 @@ TEST_F(SessionPictures, MetadataOfTheCallerAndTheSession) {
   EXPECT_TRUE(has("nephroid:passes", "0..5"));
   EXPECT_TRUE(has("nephroid:seconds", "6.000"));
   EXPECT_TRUE(has("nephroid:estimates:diffuse", "6"));
+  EXPECT_TRUE(has("nephroid:choices",
+                  "photons: 50 paths per pass, 60 photons kept in all, 10 % of paths kept any\n"
+                  "merge radius: 8 pixels in the first pass to 1.33 in the last\n"
+                  "rays: 80 % of camera paths, 20 % of light paths, 0 % to learn\n"));
   EXPECT_TRUE(std::filesystem::exists(directory.file("out.png")));
 }
 

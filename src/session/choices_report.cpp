@@ -1,0 +1,66 @@
+#include "session/choices_report.h"
+
+#include <fmt/format.h>
+
+#include "session/short_number.h"
+
+namespace nephroid {
+
+namespace {
+
+double part(uint64_t some, uint64_t all) {
+  return static_cast<double>(some) / static_cast<double>(all);
+}
+
+void add_photons(const EstimatorStatistics& first, const EstimatorStatistics& last, uint32_t passes,
+                 std::vector<std::string>& lines) {
+  if (last.photon_paths == 0) return;
+  const double paths = static_cast<double>(last.photon_paths);
+  lines.push_back(
+      fmt::format("photons: {}paths {}, {}photons kept in all, {:.3g} % of paths kept any",
+                  short_number(last.photons_stay ? paths : paths / passes),
+                  last.photons_stay ? "once" : "per pass",
+                  short_number(static_cast<double>(last.photons_stored)),
+                  100 * part(last.photon_paths_useful, last.photon_paths)));
+  if (last.radius_max_pixels > 0)
+    lines.push_back(
+        fmt::format("merge radius: {:.3g} pixels in the first pass to {:.3g} in the last",
+                    first.radius_max_pixels, last.radius_min_pixels));
+}
+
+void add_light_paths(const EstimatorStatistics& last, uint32_t passes,
+                     std::vector<std::string>& lines) {
+  if (last.light_paths == 0) return;
+  lines.push_back(fmt::format(
+      "light paths: {}per pass, {}connections to the camera in all, {:.3g} % of paths had any",
+      short_number(part(last.light_paths, passes)), short_number(static_cast<double>(last.splats)),
+      100 * part(last.light_paths_useful, last.light_paths)));
+}
+
+/// Where the work went, of estimators that tell it apart.
+void add_rays(const EstimatorStatistics& last, std::vector<std::string>& lines) {
+  if (last.rays == 0 || last.light_rays + last.learning_rays == 0) return;
+  const uint64_t of_camera = last.rays - last.light_rays - last.learning_rays;
+  lines.push_back(
+      fmt::format("rays: {:.3g} % of camera paths, {:.3g} % of light paths, {:.3g} % to learn",
+                  100 * part(of_camera, last.rays), 100 * part(last.light_rays, last.rays),
+                  100 * part(last.learning_rays, last.rays)));
+}
+
+}  // namespace
+
+std::vector<std::string> choices_report(const std::vector<EstimatorStatistics>& first,
+                                        const std::vector<EstimatorStatistics>& last,
+                                        uint32_t passes) {
+  std::vector<std::string> lines;
+  for (size_t i = 0; i < last.size(); ++i) {
+    add_photons(first[i], last[i], passes, lines);
+    add_light_paths(last[i], passes, lines);
+    add_rays(last[i], lines);
+  }
+  for (const EstimatorStatistics& s : last)
+    for (const std::string& note : s.notes) lines.push_back("note: " + note);
+  return lines;
+}
+
+}  // namespace nephroid

@@ -1,0 +1,96 @@
+// The sums of an eye path with and without merges that only an S makes possible, against the
+// recursion of one side (path_weights_test.cpp compares that with brute force).
+#include "integrator/eye_sums.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace nephroid {
+namespace {
+
+constexpr LineFactors kLine{0.7, 1.3};
+constexpr EventDensity kEvent{0.4, 0.9, true};
+
+TEST(EyeSums, AreThoseOfOneSideWhereAllMerges) {
+  std::mt19937 engine(5);
+  const auto number = [&] {
+    return std::exp(std::ldexp(6.0 * static_cast<double>(engine()), -32) - 3);
+  };
+  for (const bool connects : {true, false}) {
+    EyeSums eye(connects, false);
+    SideSums side{connects ? 0.3 : 0.0, 0};
+    eye.arrive_first(side.here);
+    for (int i = 0; i < 8; ++i) {
+      EXPECT_EQ(eye.all().here, side.here);
+      EXPECT_EQ(eye.all().before, side.before);
+      EXPECT_EQ(eye.asks_back(), side.before > 0);
+      for (const bool before_light : {true, false})
+        EXPECT_EQ(&eye.behind(EventClass::kDiffuse, before_light), &eye.all());
+      const SideEnd end{side, {number(), number(), true}, number()};
+      eye.leave(end.event, end.merge, EventClass::kGlossy);
+      const LineFactors line{number(), number()};
+      EXPECT_EQ(eye.end_to_light().next(line).before, end.next(line).before);
+      eye.arrive(line);
+      side = end.next(line);
+      if (!connects) side.here = 0;
+    }
+  }
+}
+
+TEST(EyeSums, CountMergesOnlyBehindAnS) {
+  EyeSums eye(false, true);
+  eye.arrive_first(0);
+  for (const EventClass c : {EventClass::kDiffuse, EventClass::kGlossy, EventClass::kVolume}) {
+    EXPECT_TRUE(eye.is_plain(c, true));
+    EXPECT_FALSE(eye.is_plain(c, false)) << "what follows on the light's side may be an S";
+  }
+  EXPECT_FALSE(eye.is_plain(EventClass::kSpecular, true));
+  // D, D: no merge could have found a light here, but one at either would if an S came.
+  for (int i = 0; i < 2; ++i) {
+    eye.leave(kEvent, 2.5, EventClass::kDiffuse);
+    EXPECT_FALSE(eye.end_to_light().has_cuts_before());
+    eye.arrive(kLine);
+    EXPECT_TRUE(eye.asks_back());
+    EXPECT_TRUE(eye.behind(EventClass::kDiffuse, true).empty());
+    EXPECT_GT(eye.behind(EventClass::kSpecular, true).before, 0);
+    EXPECT_GT(eye.behind(EventClass::kDiffuse, false).before, 0);
+  }
+  // The S.
+  const double both = eye.all().before;
+  eye.leave({}, 0, EventClass::kSpecular);
+  EXPECT_TRUE(eye.end_to_light().has_cuts_before());
+  eye.arrive(kLine);
+  EXPECT_GT(both, 0);
+  EXPECT_EQ(eye.behind(EventClass::kDiffuse, true).before, eye.all().before);
+  // A D behind it merges for itself only if another S comes.
+  eye.leave(kEvent, 2.5, EventClass::kDiffuse);
+  eye.arrive(kLine);
+  EXPECT_GT(eye.all().before, eye.behind(EventClass::kDiffuse, true).before);
+  EXPECT_GT(eye.behind(EventClass::kDiffuse, true).before, 0);
+}
+
+TEST(EyeSums, SayWhetherThereIsAnythingBefore) {
+  for (const double here : {0.0, 0.5})
+    for (const double before : {0.0, 0.5})
+      for (const double merge : {0.0, 0.5})
+        for (const bool finite : {true, false}) {
+          const SideEnd end{{here, before}, finite ? kEvent : EventDensity{}, finite ? merge : 0};
+          EXPECT_EQ(end.has_cuts_before(), end.next(kLine).before > 0);
+        }
+}
+
+TEST(EyeSums, TakeTheWayUnderASurfaceAsOneStep) {
+  EyeSums eye(true, true);
+  eye.arrive_first(0.25);
+  eye.leave(kEvent, 2.5, EventClass::kDiffuse);
+  eye.arrive(kLine);
+  const SideSums at_entry = eye.all();
+  eye.come_out(3);
+  EXPECT_EQ(eye.all().here, at_entry.here + heuristic(3) * at_entry.before);
+  EXPECT_EQ(eye.all().before, 0);
+}
+
+}  // namespace
+}  // namespace nephroid

@@ -1,0 +1,53 @@
+// What a render says of its choices, from counts alone.
+#include "session/choices_report.h"
+
+#include <gtest/gtest.h>
+
+namespace nephroid {
+namespace {
+
+using Lines = std::vector<std::string>;
+
+TEST(ChoicesReport, SaysNothingOfWhatWasNotDone) {
+  EstimatorStatistics s;
+  EXPECT_EQ(choices_report({s}, {s}, 3), Lines{});
+  s.rays = 100;
+  EXPECT_EQ(choices_report({s}, {s}, 3), Lines{}) << "all rays are of camera paths";
+}
+
+TEST(ChoicesReport, TellsWhereTheRaysWent) {
+  EstimatorStatistics s;
+  s.rays = 1000;
+  s.light_rays = 250;
+  s.learning_rays = 50;
+  EXPECT_EQ(choices_report({s}, {s}, 1),
+            Lines{"rays: 70 % of camera paths, 25 % of light paths, 5 % to learn"});
+}
+
+TEST(ChoicesReport, HasPhotonsLightPathsAndNotesOfAllEstimators) {
+  EstimatorStatistics first, photons, light;
+  first.radius_max_pixels = 1.5f;
+  photons.photon_paths = 8000;
+  photons.photon_paths_useful = 2000;
+  photons.photons_stored = 2500;
+  photons.radius_max_pixels = 1.5f;
+  photons.radius_min_pixels = 0.75f;
+  photons.notes = {"one"};
+  light.light_paths = 4000;
+  light.light_paths_useful = 400;
+  light.splats = 3000000;
+  light.notes = {"two"};
+  EXPECT_EQ(
+      choices_report({first, {}}, {photons, light}, 4),
+      (Lines{
+          "photons: 2 k paths per pass, 2.5 k photons kept in all, 25 % of paths kept any",
+          "merge radius: 1.5 pixels in the first pass to 0.75 in the last",
+          "light paths: 1 k per pass, 3 M connections to the camera in all, 10 % of paths had any",
+          "note: one", "note: two"}));
+  photons.photons_stay = true;
+  EXPECT_EQ(choices_report({first}, {photons}, 4)[0],
+            "photons: 8 k paths once, 2.5 k photons kept in all, 25 % of paths kept any");
+}
+
+}  // namespace
+}  // namespace nephroid
