@@ -168,7 +168,13 @@ PairPass PathAndPhotons::first_pass(const Film& film) {
   if (learned.radiance) return pass;
   learned.is_seen = true;
   learned.records.clear();
-  if (options_.guides_walks) pass.records = &learned.records;
+  if (options_.guides_walks) {
+    // More would double what it holds.
+    const double paths = learned.head.mean() * static_cast<double>(film.bounds().area());
+    learned.records.reserve(
+        std::min(PassRecords::kMost, static_cast<size_t>(paths * 1.1 * pass.records_of_path) + 64));
+    pass.records = &learned.records;
+  }
   if (learned.is_even) return pass;
   Learned::Spread& spread = learned.spread.emplace(film.bounds());
   pass.spread = &spread.paths;
