@@ -58,11 +58,10 @@ TEST(EyeSums, CountMergesOnlyBehindAnS) {
     EXPECT_GT(eye.behind(EventClass::kDiffuse, false).before, 0);
   }
   // The S.
-  const double both = eye.all().before;
   eye.leave({}, 0, EventClass::kSpecular);
   EXPECT_TRUE(eye.end_to_light().has_cuts_before());
   eye.arrive(kLine);
-  EXPECT_GT(both, 0);
+  EXPECT_GT(eye.all().before, 0);
   EXPECT_EQ(eye.behind(EventClass::kDiffuse, true).before, eye.all().before);
   // A D behind it merges for itself only if another S comes.
   eye.leave(kEvent, 2.5, EventClass::kDiffuse);
