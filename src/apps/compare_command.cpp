@@ -34,8 +34,11 @@ int run_compare(const CompareCommand& command) {
              command.exposure);
   print_dim_mean(result.dim_mean);
   if (result.deviations)
-    fmt::print("z_within={:.5g} z_rms={:.4g} (|z| < {:g} in all channels, share of pixels)\n",
-               result.deviations->share_within, result.deviations->rms, kDeviationLimit);
+    fmt::print(
+        "z_within={:.5g} z_rms={:.4g} z_in_95={:.4g} (shares: of pixels with |z| < {:g} in all "
+        "channels, and of pixels and channels within their 95 % intervals)\n",
+        result.deviations->share_within, result.deviations->rms, result.deviations->share_in_95,
+        kDeviationLimit);
   if (!command.heat_map.empty()) {
     write_heat_map(command.heat_map, reference, test);
     fmt::print("{}wrote {}\n", heat_map_legend(), command.heat_map);

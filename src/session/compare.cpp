@@ -132,7 +132,7 @@ Deviations deviations_of(const std::vector<Triple>& reference, const std::vector
                          const std::vector<Triple>& reference_error,
                          const std::vector<Triple>& test_error) {
   Deviations result;
-  size_t within = 0;
+  size_t within = 0, in_95 = 0;
   for (size_t p = 0; p < reference.size(); ++p) {
     double worst = 0;
     for (size_t c = 0; c < 3; ++c) {
@@ -143,11 +143,13 @@ Deviations deviations_of(const std::vector<Triple>& reference, const std::vector
       const double z2 = difference / std::max(variance, floor);
       worst = std::max(worst, z2);
       result.rms += z2;
+      in_95 += z2 <= square(kTwoSided95);
     }
     within += worst < square(kDeviationLimit);
   }
   const double pixels = static_cast<double>(reference.size());
   result.share_within = static_cast<double>(within) / pixels;
+  result.share_in_95 = static_cast<double>(in_95) / (3 * pixels);
   result.rms = std::sqrt(result.rms / (3 * pixels));
   return result;
 }

@@ -28,6 +28,7 @@ struct MeanRatio {
 /// Deviations in units of the error of the difference, of both pictures together.
 struct Deviations {
   double share_within = 0;  ///< of pixels, with |z| below kDeviationLimit in all three channels
+  double share_in_95 = 0;   ///< of pixels and channels, within the 95 % interval of the difference
   double rms = 0;           ///< of z over pixels and channels; 1 if both errors are right
 };
 inline constexpr double kDeviationLimit = 3.3;

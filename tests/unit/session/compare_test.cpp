@@ -127,6 +127,8 @@ TEST(Compare, DeviationsAreInUnitsOfBothErrors) {
   ASSERT_TRUE(c.deviations);
   EXPECT_NEAR(c.deviations->share_within, 2.0 / 3, 1e-12);
   EXPECT_NEAR(c.deviations->rms, std::sqrt((4.0 + 16.0) / 9), 1e-6);
+  // Of nine values one is two and one four errors off.
+  EXPECT_NEAR(c.deviations->share_in_95, 7.0 / 9, 1e-12);
   EXPECT_FALSE(compare_pictures(reference, rgb({1, 1, 1, 2, 2, 2, 3, 3, 3}), {}).deviations);
 }
 
