@@ -32,7 +32,7 @@ std::string description(const RenderProgress& p) {
     text += fmt::format(", {}rays/s", short_number(static_cast<double>(p.rays) / p.seconds));
   if (p.photons_stored > 0)
     text += fmt::format(", {}photons kept", short_number(static_cast<double>(p.photons_stored)));
-  if (p.noise) text += fmt::format(", noise {:.3g}", *p.noise);
+  if (p.error) text += fmt::format(", error {:.3g}", *p.error);
   return text;
 }
 

@@ -33,7 +33,7 @@ std::string summary(const RenderResult& result) {
                   result.passes_done == 1 ? "" : "es", result.seconds, reason_text(result.reason));
   if (rays > 0 && result.seconds > 0)
     text += fmt::format(", {}rays/s", short_number(static_cast<double>(rays) / result.seconds));
-  if (result.noise) text += fmt::format(", estimated noise {:.3g}", *result.noise);
+  if (result.error) text += fmt::format(", estimated error {:.3g}", *result.error);
   return text + "\n";
 }
 
@@ -80,6 +80,7 @@ std::string render_report(const RenderResult& result, const Film& film, const st
   for (const std::string& line :
        choices_report(result.first_pass_statistics, result.statistics, result.passes_done))
     text += line + "\n";
+  if (result.error_text) text += *result.error_text + "\n";
   text += route_lines(film);
   text += film_faults(film);
   for (const std::string& note : notes) text += fmt::format("note: {}\n", note);

@@ -111,7 +111,7 @@ RenderOptions render_options(const BenchRender& render) {
   if (render.limit.passes > 0) options.last_pass = render.limit.passes - 1;
   options.time_limit = render.limit.seconds;
   options.seed = render.integrator->seed;
-  options.show_noise = false;
+  options.show_error = false;
   return options;
 }
 

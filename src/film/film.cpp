@@ -70,6 +70,11 @@ Film::Film(const FilmSettings& settings, FilmLayout layout)
   sums_.assign(layout_.parts.size(), std::vector<RgbSum>(pixels));
   squares_.assign(groups, std::vector<RgbSum>(pixels));
   estimates_.assign(groups, 0);
+  for (size_t g = 0; g < groups; ++g) {
+    if (!layout_.group_merges(static_cast<int>(g))) continue;
+    biases_.resize(groups);
+    biases_[g].resize(pixels);
+  }
   features_.resize(pixels);
   if (settings_.gbuffer) surfaces_.resize(pixels);
   bad_.assign(pixels, 0);
@@ -78,8 +83,10 @@ Film::Film(const FilmSettings& settings, FilmLayout layout)
 
 size_t Film::bytes_per_pixel(const FilmLayout& layout, bool gbuffer) {
   const size_t sums = layout.parts.size() + static_cast<size_t>(layout.group_count());
-  return sums * sizeof(RgbSum) + sizeof(Features) + (gbuffer ? sizeof(SurfaceSums) : 0) +
-         2 * sizeof(uint32_t);  // bad and saturated
+  const size_t merging =
+      static_cast<size_t>(std::count(layout.merges.begin(), layout.merges.end(), true));
+  return sums * sizeof(RgbSum) + merging * sizeof(Bias) + sizeof(Features) +
+         (gbuffer ? sizeof(SurfaceSums) : 0) + 2 * sizeof(uint32_t);  // bad and saturated
 }
 
 Rgb clamp_component(const Rgb& rgb, float limit) {
@@ -140,6 +147,22 @@ void Film::replace(int group, int x, int y, std::span<const Rgb> values) {
   bool fits = add_parts(group, pixel, values);
   fits &= add_square(group, pixel, values);
   if (!fits) ++saturated_[pixel];
+}
+
+void Film::add_bias(int group, std::span<const float> of_pixels) {
+  if (!layout_.group_merges(group)) return;
+  std::vector<Bias>& biases = biases_[static_cast<size_t>(group)];
+  assert(of_pixels.size() == biases.size());
+  parallel_chunks(static_cast<int64_t>(biases.size()), 1 << 14,
+                  [&](int64_t, int64_t begin, int64_t end) {
+                    for (int64_t i = begin; i < end; ++i) {
+                      const double b = double{of_pixels[static_cast<size_t>(i)]};
+                      if (!std::isfinite(b)) continue;
+                      Bias& bias = biases[static_cast<size_t>(i)];
+                      bias.sum.add(b);
+                      bias.square.add(b * b);
+                    }
+                  });
 }
 
 void Film::release(int group, size_t pixel, std::span<const RgbSum> held) {
@@ -244,24 +267,50 @@ Rgb Film::outliers(int x, int y) const {
   return to_rgb(total);
 }
 
-Rgb Film::standard_error(int x, int y) const {
-  const size_t pixel = index(x, y);
-  const auto held = [&](size_t g) {
-    return outliers_ ? outliers_->held(static_cast<int>(g), pixel) : RgbSum();
-  };
-  double error[3] = {0, 0, 0};
-  for (int c = 0; c < 3; ++c) {
-    double variance = 0;
-    for (size_t g = 0; g < squares_.size(); ++g) {
-      if (estimates_[g] < 2) continue;
-      FixedSum sum = held(g).rgb[c];
-      for (const int part : parts_of_group_[g])
-        sum.add(sums_[static_cast<size_t>(part)][pixel].rgb[c]);
-      variance += variance_of_mean(sum, squares_[g][pixel].rgb[c], estimates_[g]);
-    }
-    error[c] = std::sqrt(variance);
+std::array<double, 3> Film::error_squared(size_t group, size_t pixel) const {
+  std::array<double, 3> squared{};
+  if (estimates_[group] < 2) return squared;
+  const RgbSum held = outliers_ ? outliers_->held(static_cast<int>(group), pixel) : RgbSum();
+  for (size_t c = 0; c < 3; ++c) {
+    FixedSum sum = held.rgb[c];
+    for (const int part : parts_of_group_[group])
+      sum.add(sums_[static_cast<size_t>(part)][pixel].rgb[c]);
+    squared[c] = variance_of_mean(sum, squares_[group][pixel].rgb[c], estimates_[group]);
   }
+  return squared;
+}
+
+Rgb Film::standard_error(int x, int y) const {
+  double error[3] = {0, 0, 0};
+  for (size_t g = 0; g < squares_.size(); ++g) {
+    const std::array<double, 3> squared = error_squared(g, index(x, y));
+    for (size_t c = 0; c < 3; ++c) error[c] += squared[c];
+  }
+  for (double& e : error) e = std::sqrt(e);
   return to_rgb(error);
+}
+
+Rgb Film::standard_error(int group, int x, int y) const {
+  const std::array<double, 3> squared = error_squared(static_cast<size_t>(group), index(x, y));
+  return to_rgb({std::sqrt(squared[0]), std::sqrt(squared[1]), std::sqrt(squared[2])});
+}
+
+float Film::bias(int x, int y) const {
+  double sum = 0;
+  for (size_t g = 0; g < biases_.size(); ++g)
+    if (!biases_[g].empty() && estimates_[g] > 0)
+      sum += biases_[g][index(x, y)].sum.value() / static_cast<double>(estimates_[g]);
+  return static_cast<float>(sum);
+}
+
+float Film::bias_error(int x, int y) const {
+  double sum = 0;
+  for (size_t g = 0; g < biases_.size(); ++g) {
+    if (biases_[g].empty() || estimates_[g] < 2) continue;
+    const Bias& bias = biases_[g][index(x, y)];
+    sum += variance_of_mean(bias.sum, bias.square, estimates_[g]);
+  }
+  return static_cast<float>(std::sqrt(sum));
 }
 
 Rgb Film::albedo(int x, int y) const {

@@ -49,12 +49,16 @@ struct FilmLayout {
   };
   std::vector<std::string> routes, aovs;  ///< names of layers
   std::vector<Part> parts;
-  std::vector<int> groups;  ///< [route]: its group, numbered from 0 without a gap
+  std::vector<int> groups;   ///< [route]: its group, numbered from 0 without a gap
+  std::vector<bool> merges;  ///< [group]: its estimates come with their bias; none if shorter
 
   /// One part and one group for each route, no AOVs.
   static FilmLayout of_routes(std::vector<std::string> names);
   int group_count() const;
   int group_of(const Part& part) const { return groups[static_cast<size_t>(part.route)]; }
+  bool group_merges(int group) const {
+    return static_cast<size_t>(group) < merges.size() && merges[static_cast<size_t>(group)];
+  }
 };
 
 /// The surface that a sample saw first, in the coordinate system that the caller chose.
@@ -89,6 +93,10 @@ class Film {
   /// Replaces what the group has for this pixel, for estimators whose passes cannot be added (E1).
   /// `estimates` is then set to 1 by the caller.
   void replace(int group, int x, int y, std::span<const Rgb> values);
+  /// Adds an estimate of the bias that the group's estimate of each pixel has in the mean (of R, G
+  /// and B), row by row over the crop, once for each estimate; forgotten unless the layout has the
+  /// group merge.
+  void add_bias(int group, std::span<const float> of_pixels);
   /// Says that `count` more estimates per pixel were added to a group.
   void add_estimates(int group, uint64_t count);
   void set_estimates(int group, uint64_t count);
@@ -124,6 +132,14 @@ class Film {
   /// as independent (an upper bound in practice where passes are stratified). Zero with fewer than
   /// two estimates.
   Rgb standard_error(int x, int y) const;
+  /// True if some group's estimates come with their bias.
+  bool has_bias() const { return !biases_.empty(); }
+  /// How far value() lies above the truth, estimated, mean of R, G and B; and the standard error of
+  /// that. Zero without bias, the error also with fewer than two estimates.
+  float bias(int x, int y) const;
+  float bias_error(int x, int y) const;
+  /// The same as standard_error() for the estimates of one group.
+  Rgb standard_error(int group, int x, int y) const;
   /// Mean over the feature samples; what hit nothing counts as black.
   Rgb albedo(int x, int y) const;
   /// Direction of the mean, unit length; null where nothing was hit.
@@ -139,6 +155,9 @@ class Film {
   uint64_t saturated_values() const;  ///< sums that reached their limit
 
  private:
+  struct Bias {
+    FixedSum sum, square;
+  };
   struct Features {
     FixedSum albedo[3], normal[3], depth;
     uint64_t depths = 0;  ///< samples that hit something
@@ -159,6 +178,8 @@ class Film {
   /// Adds what was held to the parts of a group.
   void release(int group, size_t pixel, std::span<const RgbSum> parts);
   Rgb mean_of_parts(const std::vector<int>& parts, size_t pixel) const;
+  /// Squared standard errors of a group's estimates.
+  std::array<double, 3> error_squared(size_t group, size_t pixel) const;
 
   FilmSettings settings_;
   FilmLayout layout_;
@@ -168,6 +189,7 @@ class Film {
   std::vector<std::vector<RgbSum>> sums_;     ///< [part][pixel]
   std::vector<std::vector<RgbSum>> squares_;  ///< [group][pixel], of an estimate's sum over parts
   std::vector<uint64_t> estimates_;           ///< [group]
+  std::vector<std::vector<Bias>> biases_;     ///< [group][pixel], of groups that merge; or empty
   std::optional<OutlierRejection> outliers_;
   std::vector<Features> features_;
   uint64_t feature_estimates_ = 0;

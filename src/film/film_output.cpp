@@ -36,6 +36,7 @@ std::vector<std::string> channel_names(const Film& film) {
   }
   add_layer(channels, "", "Z");
   add_layer(channels, "stderr", "RGB");
+  if (film.has_bias()) channels.emplace_back("bias.Y");
   channels.emplace_back("samples");
   return channels;
 }
@@ -111,6 +112,7 @@ Picture film_picture(const Film& film, Metadata metadata) {
       if (gbuffer) out = put_gbuffer(out, film, x, y, samples);
       *out++ = film.depth(x, y);
       out = put(out, film.standard_error(x, y));
+      if (film.has_bias()) *out++ = film.bias(x, y);
       *out++ = static_cast<float>(samples);
     }
   });

@@ -11,10 +11,10 @@ namespace nephroid {
 
 /// The film as channels: R G B (all routes), one layer per route ("caustic.R" ...) and then per AOV
 /// (the same form), outliers if the film rejects them, albedo, N (world space), Z, stderr (standard
-/// error of R G B) and samples (estimates per pixel, the largest of the groups). A gbuffer film has
-/// pbrt-v4's layers instead of albedo and N, in the film's coordinate system: Albedo, N
-/// (geometric), P, Ns, u, v, dzdx, dzdy, Variance, RelativeVariance. No route or AOV has one of
-/// these names: check_layer_name in route/.
+/// error of R G B), bias.Y if groups tell theirs ([E4], mean of R G B) and samples (estimates per
+/// pixel, the largest of the groups). A gbuffer film has pbrt-v4's layers instead of albedo and N,
+/// in the film's coordinate system: Albedo, N (geometric), P, Ns, u, v, dzdx, dzdy, Variance,
+/// RelativeVariance. No route or AOV has one of these names: check_layer_name in route/.
 Picture film_picture(const Film& film, Metadata metadata);
 
 /// The film's R G B times `exposure`, in sRGB primaries and transfer, interleaved bytes.

@@ -27,10 +27,19 @@ class PartSums {
   /// Place of an owned part among those of the group, as Film::add counts them.
   size_t place(Part part) const { return place_[part]; }
   void add(Part part, const SampledSpectrum& value) { sums_[place_[part]] += value; }
+  /// What the values are off by in the mean, estimated; of all parts together.
+  void add_bias(const SampledSpectrum& value) { bias_ += value; }
   void clear() {
     for (SampledSpectrum& sum : sums_) sum = SampledSpectrum();
+    bias_ = SampledSpectrum();
   }
   std::span<const SampledSpectrum> sums() const { return sums_; }
+
+  /// The bias as the mean of a colour's components.
+  float bias(const SensorWeights& weights) const {
+    const Rgb color = weights.apply(bias_);
+    return (color.r + color.g + color.b) / 3.0f;
+  }
 
   /// The sums as colours, times `factor`, all scaled alike so that their total keeps to
   /// `max_component`, and then times `filter_weight`. Valid until the next call.
@@ -57,6 +66,7 @@ class PartSums {
   static constexpr uint8_t kNotOwned = 255;
   std::array<uint8_t, 256> place_;
   std::vector<SampledSpectrum> sums_;
+  SampledSpectrum bias_;
   std::vector<Rgb> colors_;
 };
 

@@ -7,6 +7,9 @@ namespace nephroid {
 
 namespace {
 
+/// Light paths of a pass.
+constexpr double kFewest = 1 << 10, kMost = 1 << 20;
+
 /// Each tile with its neighbours: the spread of a few passes is a rough guess.
 std::vector<double> smoothed(const std::vector<double>& values, int width) {
   const int height = static_cast<int>(values.size()) / width;
@@ -121,7 +124,8 @@ double steady_mean(std::vector<double> tiles) {
   return sum / static_cast<double>(tiles.size());
 }
 
-Shares share_out(const PixelBounds& bounds, const Spreads& spreads, bool glints_apart) {
+Shares share_out(const PixelBounds& bounds, const Spreads& spreads, bool glints_apart,
+                 double most_mean) {
   Shares shares{SampleMap(bounds), SampleMap(bounds, 0)};
   const int width = shares.paths.width();
   const OfTiles paths(spreads.paths, width), glints(spreads.glints, width),
@@ -148,7 +152,7 @@ Shares share_out(const PixelBounds& bounds, const Spreads& spreads, bool glints_
       if (!apart) shares.paths.counts()[i] = all.samples;
       shares.glints.counts()[i] = apart ? of_glints.samples : 0;
     }
-    if (shares.paths.mean() <= SampleMap::kMostMean) return shares;
+    if (shares.paths.mean() <= most_mean) return shares;
   }
 }
 
@@ -163,6 +167,7 @@ Balance::Balance(const Trial& many, const Trial& few) {
       std::max(0.0, (few.variance - many.variance) / (1 / few.light_paths - 1 / many.light_paths));
   variance_of_light = b;
   cost_of_light = many.cost_of_light / many.light_paths;
+  photons_of_path = many.photons;
   take_camera_paths(many);
 }
 
@@ -178,12 +183,18 @@ Balance Balance::with_camera_paths_of(const Trial& trial) const {
   return other;
 }
 
+double Balance::for_each_camera_path() const {
+  if (!(cost_of_light > 0) || !(variance_of_camera > 0)) return 0;
+  return std::sqrt(variance_of_light * cost_of_camera / (variance_of_camera * cost_of_light));
+}
+
+double Balance::most_light_paths() const {
+  return std::clamp(kMostPhotons / std::max(photons_of_path, 1e-9), kFewest, kMost);
+}
+
 int64_t Balance::light_paths(double camera_paths) const {
-  constexpr double kFewest = 1024, kMost = 1 << 20;
-  if (!(cost_of_light > 0) || !(variance_of_camera > 0)) return static_cast<int64_t>(kFewest);
-  const double best = camera_paths * std::sqrt(variance_of_light * cost_of_camera /
-                                               (variance_of_camera * cost_of_light));
-  return static_cast<int64_t>(std::clamp(best, kFewest, kMost));
+  return static_cast<int64_t>(
+      std::clamp(camera_paths * for_each_camera_path(), kFewest, most_light_paths()));
 }
 
 double Balance::expense() const {

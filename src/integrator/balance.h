@@ -96,8 +96,9 @@ struct Spreads {
 
 /// [A2] Shares the work out so that the error falls fastest: walks of either kind as the root of
 /// variance over cost, and each tile in the cheaper of both ways; or all glints by walks of their
-/// own.
-Shares share_out(const PixelBounds& bounds, const Spreads& spreads, bool glints_apart = false);
+/// own. `most_mean` camera paths a pixel at most, 1 or more.
+Shares share_out(const PixelBounds& bounds, const Spreads& spreads, bool glints_apart = false,
+                 double most_mean = SampleMap::kMostMean);
 
 /// What trial passes told.
 struct Trial {
@@ -109,6 +110,7 @@ struct Trial {
   double error = 0;           ///< standard error of that mean
   double samples = 0;         ///< camera paths that it is a mean of
   double records = 0;         ///< that a camera path leaves in the mean
+  double photons = 0;         ///< that a light path leaves in the mean
   /// [A4] The least variance that light can have which another trial has seen and this one has not.
   double least_of_unseen(const Trial& other) const;
   double expense() const { return variance * (cost_of_camera + cost_of_light); }
@@ -121,18 +123,24 @@ double steady_mean(std::vector<double> tiles);
 /// variance times cost, and that of one camera path; from a trial with many light paths and one
 /// with few.
 struct Balance {
+  static constexpr double kMostPhotons = 1 << 18;  ///< that a pass keeps, about
   double variance_of_camera = 0, variance_of_light = 0, cost_of_camera = 0, cost_of_light = 0;
+  double photons_of_path = 0;
   Balance(const Trial& many, const Trial& few);
   /// Of a pass without light paths.
   explicit Balance(const Trial& trial)
       : variance_of_camera(trial.variance), cost_of_camera(trial.cost_of_camera) {}
   int64_t light_paths(double camera_paths) const;
+  /// Camera paths of each pixel beside which the best number of light paths is not too many.
+  double most_camera_paths() const { return most_light_paths() / for_each_camera_path(); }
   double expense() const;
   /// That of the same light paths beside the camera paths of another trial.
   Balance with_camera_paths_of(const Trial& trial) const;
 
  private:
   void take_camera_paths(const Trial& trial);
+  double most_light_paths() const;
+  double for_each_camera_path() const;
 };
 
 }  // namespace nephroid

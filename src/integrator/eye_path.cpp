@@ -155,12 +155,13 @@ class EyeVisitor {
   bool weighs_hit(const Walk& walk) const {
     return settings_.technique.weighted && walk.events > 0;
   }
-
-  void add(Part part, const Walk& walk, const SampledSpectrum& value, bool hero_only = false) {
+  void add(Part part, const Walk& walk, const SampledSpectrum& value, bool hero_only = false,
+           float bias = 0) {
     const SampledSpectrum whole =
         whole_spectrum(value, hero_only || walk.lambda.secondary_terminated());
     guided_.add(whole);
     light_.add(part, whole);
+    if (bias != 0) light_.add_bias(whole * bias);
   }
 
   void arrive(const Place& place) {
@@ -349,7 +350,7 @@ void EyeVisitor::merge(const Walk& walk, const WalkVertex& v, ClassMask among) {
   if (!v.merges || classes == ClassMask::kNone || !(radius > 0.0f)) return;
   const double own = merging.weight_at(place_.p, first_);
   const float scale = 1.0f / (static_cast<float>(merging.photons) * kPi * sqr(radius));
-  merging.grid->query(place_.p, radius, [&](const Photon& photon, float) {
+  merging.grid->query(place_.p, radius, [&](const Photon& photon, float d2) {
     if (photon.events + walk.events + 1 > settings_.max_depth) return;
     const std::optional<PhotonArrival> arrival = arrival_at(v, photon);
     if (!arrival) return;
@@ -374,7 +375,7 @@ void EyeVisitor::merge(const Walk& walk, const WalkVertex& v, ClassMask among) {
       add(part, walk,
           walk.throughput * e.f * photon.flux *
               (abs_cos_theta(wi) / arrival->cos_geometric * scale * static_cast<float>(weight)),
-          photon.secondary_terminated);
+          photon.secondary_terminated, bias_factor(d2, radius));
     }
   });
 }

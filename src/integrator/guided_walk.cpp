@@ -86,7 +86,7 @@ void PassRecords::take(std::vector<RadianceRecord>& row, bool again) {
   else
     for (const RadianceRecord& r : row) (*all_)[next_++].found += r.found;
   if (next_ == all_->size()) next_ = 0;
-  row = {};
+  row = std::vector<RadianceRecord>();
 }
 
 }  // namespace nephroid

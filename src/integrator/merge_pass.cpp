@@ -58,7 +58,7 @@ MergePass merge_pass(const PassKey& key, const Scene& scene, const Film& film,
   statistics.camera_paths += static_cast<uint64_t>(b.area());
   statistics.radius_min_pixels = radius_pixels;
   if (statistics.radius_max_pixels == 0) statistics.radius_max_pixels = radius_pixels;
-  return {std::move(gathered.values), gathered.found};
+  return {std::move(gathered.values), std::move(gathered.bias), gathered.found};
 }
 
 }  // namespace nephroid

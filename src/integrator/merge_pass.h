@@ -16,6 +16,7 @@ using MergeWeight = std::function<float(const CameraPath&, const MergePoint&, fl
 /// One estimate of each pixel: clamped to the film's max_component, then weighed by the filter.
 struct MergePass {
   std::vector<Rgb> values;  ///< [pixel * parts + part], parts as Film::parts_of counts
+  std::vector<float> bias;  ///< [pixel], [E4]; not clamped
   uint64_t found = 0;       ///< photons merged
 };
 

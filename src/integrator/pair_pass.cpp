@@ -8,6 +8,7 @@
 #include "integrator/features.h"
 #include "integrator/glint_pass.h"
 #include "integrator/guided_walk.h"
+#include "integrator/light_batches.h"
 #include "integrator/merge_pass.h"
 #include "integrator/path_pair.h"
 #include "integrator/samples_to_clamp.h"
@@ -16,18 +17,14 @@ namespace nephroid {
 
 namespace {
 
-constexpr uint64_t kEyeStream = 0x76636d65;    // "vcme"
-constexpr uint64_t kLightStream = 0x76636d6c;  // "vcml"
-constexpr uint64_t kPairStream = 0x76636d70;   // "vcmp"
-constexpr int64_t kChunk = 1024;
-constexpr int64_t kGroup = 32 * kChunk;
+constexpr uint64_t kEyeStream = 0x76636d65;   // "vcme"
+constexpr uint64_t kPairStream = 0x76636d70;  // "vcmp"
+constexpr int kRowsWithRecords = 64;
 
-/// What a chunk of light paths or a row of pixels found.
-struct Chunk {
-  std::vector<Photon> photons;
-  std::vector<Splat> splats;
+/// What a row of pixels left.
+struct Row {
   std::vector<RadianceRecord> records;
-  uint64_t rays = 0, useful = 0, specular = 0, camera_paths = 0;
+  uint64_t rays = 0, camera_paths = 0;
 };
 
 float total(std::span<const Rgb> colors) {
@@ -53,7 +50,6 @@ class Rendering {
         options_(options),
         pass_(start_photon_pass(key, scene, like, options)),
         view_(scene, like.bounds()),
-        places_(*owned.routes, owned.group),
         records_(how.records,
                  static_cast<size_t>(like.bounds().area()) *
                      static_cast<size_t>(how.samples ? how.samples->most() : 1),
@@ -79,6 +75,7 @@ class Rendering {
     const size_t pixels = static_cast<size_t>(like.bounds().area());
     parts_ = like.parts_of(static_cast<int>(owned.group)).size();
     values_.resize(pixels * parts_);
+    if (film) bias_.resize(pixels);
     const int most = how.samples ? how.samples->most() : 1;
     points_.resize(static_cast<size_t>(most));
     if (how.spread) found_.resize(pixels * points_.size());
@@ -93,10 +90,20 @@ class Rendering {
     std::optional<SplatBuffer> buffer;
     if (film_ && merging_.connects)
       buffer.emplace(*film_, static_cast<int>(owned_.group), *scene_.filter);
-    int64_t begin = 0;
+    LightBatches batches({.light_paths = how_.light_paths,
+                          .memory_photons = options_.memory_photons,
+                          .seed = seed_,
+                          .number_varies = learns_},
+                         pass_, settings_);
+    const auto expose = [&](std::span<const Splat> splats) {
+      if (buffer)
+        buffer->add(splats);
+      else if (!splatted_.empty())
+        add_to_nearest(splats);
+    };
     do {
-      std::vector<Photon> photons = trace_batch_of_paths(begin, buffer, statistics);
-      if (clamps() && clamped_.empty() && begin < how_.light_paths)
+      std::vector<Photon> photons = batches.next(expose, statistics);
+      if (clamps() && clamped_.empty() && !batches.empty())
         clamped_.resize(values_.size() / parts_ * points_.size(), parts_);
       const PhotonGrid grid(std::move(photons));
       merging_.grid = &grid;
@@ -109,77 +116,22 @@ class Rendering {
       if (how_.glints && !settings_.merges_only) look_for_glints(statistics);
       merging_.grid = nullptr;
       settings_.merges_only = true;
-    } while (begin < how_.light_paths);
+    } while (!batches.empty());
     if (!clamped_.empty()) clamp_samples();
     if (how_.spread) add_to_spread();
     if (buffer)
       buffer->finish(1.0 / static_cast<double>(how_.light_paths), values_);
     else if (film_)
       add_values();
+    if (film_) film_->add_bias(static_cast<int>(owned_.group), bias_);
     statistics.photon_paths += static_cast<uint64_t>(how_.light_paths);
     statistics.radius_min_pixels = merging_.radius_pixels;
     if (statistics.radius_max_pixels == 0) statistics.radius_max_pixels = merging_.radius_pixels;
   }
 
  private:
-  /// Light path number `j` of those that are merged and connected to the camera.
-  LightPathCounts trace_path(int64_t j, std::vector<FilmConnection>& seen,
-                             std::vector<Photon>& photons) const {
-    const uint64_t number =
-        uint64_t{key_.pass} * static_cast<uint64_t>(how_.light_paths) + static_cast<uint64_t>(j);
-    const SobolPoint point(static_cast<uint32_t>(number), kLightPathDimensions);
-    // Where passes differ in their number of light paths, each number has a sequence of its own.
-    const uint64_t seed = learns_
-                              ? hash_combine(seed_, kLightStream, number >> 32, how_.light_paths)
-                              : hash_combine(seed_, kLightStream, number >> 32);
-    PathSampler sampler(point, seed);
-    return trace_light_path(settings_, pass_.trace.lambda, pass_.u_time, sampler, nullptr, &seen,
-                            &photons);
-  }
-
-  /// Light paths from `begin` on until memory is full; moves `begin`.
-  std::vector<Photon> trace_batch_of_paths(int64_t& begin, std::optional<SplatBuffer>& buffer,
-                                           EstimatorStatistics& statistics) {
-    std::vector<Photon> photons;
-    while (begin < how_.light_paths &&
-           static_cast<int64_t>(photons.size()) < options_.memory_photons) {
-      const int64_t count = std::min(kGroup, how_.light_paths - begin);
-      std::vector<Chunk> chunks(static_cast<size_t>(chunk_count(count, kChunk)));
-      parallel_chunks(count, kChunk, [&](int64_t c, int64_t b, int64_t e) {
-        std::vector<FilmConnection> seen;
-        Chunk& chunk = chunks[static_cast<size_t>(c)];
-        for (int64_t j = begin + b; j < begin + e; ++j) {
-          seen.clear();
-          const size_t before = chunk.photons.size();
-          const LightPathCounts counts = trace_path(j, seen, chunk.photons);
-          chunk.rays += counts.rays;
-          chunk.specular += counts.specular;
-          chunk.useful += chunk.photons.size() > before;
-          expose(seen, chunk);
-        }
-      });
-      begin += count;
-      std::vector<Splat> splats;
-      for (const Chunk& chunk : chunks) {
-        photons.insert(photons.end(), chunk.photons.begin(), chunk.photons.end());
-        splats.insert(splats.end(), chunk.splats.begin(), chunk.splats.end());
-        statistics.rays += chunk.rays;
-        statistics.light_rays += chunk.rays;
-        statistics.photon_paths_useful += chunk.useful;
-        statistics.photon_paths_specular += chunk.specular;
-      }
-      if (buffer)
-        buffer->add(splats);
-      else if (!splatted_.empty())
-        add_to_nearest(splats);
-      statistics.splats += splats.size();
-    }
-    statistics.photons_stored += photons.size();
-    return photons;
-  }
-
   /// The film of a trial is a box a pixel wide.
-  void add_to_nearest(const std::vector<Splat>& splats) {
+  void add_to_nearest(std::span<const Splat> splats) {
     const PixelBounds& b = like_.bounds();
     for (const Splat& splat : splats) {
       const int x = static_cast<int>(std::floor(splat.film.x)) - b.x0,
@@ -188,14 +140,6 @@ class Rendering {
       splatted_[static_cast<size_t>(y) * static_cast<size_t>(b.width()) + static_cast<size_t>(x)] +=
           total({&splat.value, 1}) / 3.0f / static_cast<float>(how_.light_paths);
     }
-  }
-
-  void expose(const std::vector<FilmConnection>& seen, Chunk& chunk) const {
-    for (const FilmConnection& c : seen)
-      for (int i = 0; i < c.seen.count; ++i)
-        chunk.splats.push_back({c.seen.film[static_cast<size_t>(i)],
-                                static_cast<uint8_t>(places_.place(c.part)),
-                                pass_.weights.apply(c.value)});
   }
 
   /// Number of a pixel's first sample of `n` in this pass.
@@ -214,29 +158,37 @@ class Rendering {
   }
 
   void trace_eye_paths(EstimatorStatistics& statistics) {
+    const int height = like_.bounds().height();
+    // The records of some rows at a time are held twice.
+    const int at_once = how_.records ? kRowsWithRecords : height;
+    for (int first = 0; first < height; first += at_once)
+      trace_rows(first, std::min(at_once, height - first), statistics);
+    if (film_ && how_.adds_features && !settings_.merges_only) film_->add_feature_estimates(1);
+  }
+
+  void trace_rows(int first, int count, EstimatorStatistics& statistics) {
     const PixelBounds& b = like_.bounds();
-    std::vector<Chunk> rows(static_cast<size_t>(b.height()));
-    parallel_chunks(b.height(), 1, [&](int64_t row, int64_t, int64_t) {
+    std::vector<Row> rows(static_cast<size_t>(count));
+    parallel_chunks(count, 1, [&](int64_t row, int64_t, int64_t) {
       LightSubpath path;
       PartSums light(*owned_.routes, owned_.group);
-      const int y = b.y0 + static_cast<int>(row);
+      const int y = b.y0 + first + static_cast<int>(row);
       for (int x = b.x0; x < b.x1; ++x) {
         const int samples = how_.samples ? how_.samples->at(x - b.x0, y - b.y0) : 1;
         for (int k = 0; k < samples; ++k)
           trace_sample(x, y, samples, k, path, light, rows[static_cast<size_t>(row)]);
       }
     });
-    for (Chunk& row : rows) {
+    for (Row& row : rows) {
       statistics.rays += row.rays;
       if (settings_.merges_only) statistics.again_rays += row.rays;
       statistics.camera_paths += row.camera_paths;
       records_.take(row.records, settings_.merges_only);
     }
-    if (film_ && how_.adds_features && !settings_.merges_only) film_->add_feature_estimates(1);
   }
 
   void trace_sample(int x, int y, int samples, int k, LightSubpath& path, PartSums& light,
-                    Chunk& row) {
+                    Row& row) {
     const PixelBounds& b = like_.bounds();
     const size_t pixel = static_cast<size_t>(y - b.y0) * static_cast<size_t>(b.width()) +
                          static_cast<size_t>(x - b.x0);
@@ -262,6 +214,9 @@ class Rendering {
                                 .leaves = leaves_at(x - b.x0, y - b.y0)});
     if (sees) features.add_to(*film_, x, y, scene_, camera, pass_.weights);
     const float share = 1.0f / static_cast<float>(samples);
+    if (film_)
+      bias_[pixel] +=
+          light.bias(pass_.weights) * camera.camera_weight * camera.filter_weight * share;
     const size_t sample = pixel * points_.size() + static_cast<size_t>(k);
     // What has to wait for other batches is clamped at the end.
     const bool waits = !clamped_.empty();
@@ -357,7 +312,6 @@ class Rendering {
   const IntegratorOptions& options_;
   const PhotonPass pass_;
   const CameraView view_;
-  const PartSums places_;
   PairMerging merging_;
   PassRecords records_;
   const SpecularTree tree_;
@@ -365,6 +319,7 @@ class Rendering {
   std::vector<std::vector<SamplePoints>> points_;  ///< [samples of a pixel - 1][sample]
   size_t parts_ = 1;
   std::vector<Rgb> values_;             ///< [pixel * parts + part]
+  std::vector<float> bias_;             ///< [pixel], [E4]
   std::vector<PairPass::Found> found_;  ///< [pixel * most samples + sample], for the spread
   std::vector<float> splatted_;         ///< [pixel] mean of the components; of trials that connect
   /// Empty unless the film clamps and photons come in batches; [pixel * most samples + sample].

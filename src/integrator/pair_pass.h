@@ -55,7 +55,7 @@ struct PairPass {
   /// their spread, and `clamped_samples` at most are clamped.
   static constexpr size_t bytes_per_pixel(size_t parts, size_t spread_samples,
                                           size_t clamped_samples) {
-    return SplatBuffer::bytes_per_pixel(parts) + parts * sizeof(Rgb) +
+    return SplatBuffer::bytes_per_pixel(parts) + parts * sizeof(Rgb) + sizeof(float) +
            spread_samples * sizeof(Found) +
            (spread_samples > 0 ? 3 * SampleSpread::kBytesPerPixel : 0) +
            clamped_samples * (parts * sizeof(Rgb) + sizeof(float));

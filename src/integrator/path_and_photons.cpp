@@ -15,6 +15,7 @@ namespace {
 
 constexpr uint64_t kTrialStream = 0x747269616c;  // "trial"
 constexpr uint32_t kTrialPasses = 2;
+constexpr int64_t kMostPathsOfTrial = 1 << 17;
 /// Light paths of a trial with few of them are this part of those with many.
 constexpr int64_t kFewer = 8;
 /// Connecting has to be better by this factor: two passes are a rough guess, and do not see that
@@ -34,7 +35,13 @@ SampleMap every_other_tile(const PixelBounds& b) {
 }  // namespace
 
 PathAndPhotons::PathAndPhotons(OwnedRoutes owned, const IntegratorOptions& options)
-    : owned_(std::move(owned)), options_(options) {}
+    : owned_(std::move(owned)), options_(options) {
+  // Those of a pass whose number is chosen here are about as many as are wanted.
+  constexpr double kRoom = 1.1;
+  if (options_.photons_per_pass == 0)
+    options_.memory_photons =
+        std::min(options_.memory_photons, static_cast<int64_t>(kRoom * Balance::kMostPhotons));
+}
 
 Trial PathAndPhotons::try_out(PairPass how, uint64_t seed, const Scene& scene, const Film& film) {
   const SampleMap half = every_other_tile(film.bounds());
@@ -73,7 +80,10 @@ Trial PathAndPhotons::try_out(PairPass how, uint64_t seed, const Scene& scene, c
           .light = light / count,
           .error = std::sqrt(variance / count / samples),
           .samples = samples,
-          .records = static_cast<double>(records.size() * stride) / samples};
+          .records = static_cast<double>(records.size() * stride) / samples,
+          .photons = counts.photon_paths > 0 ? static_cast<double>(counts.photons_stored) /
+                                                   static_cast<double>(counts.photon_paths)
+                                             : 0};
 }
 
 void PathAndPhotons::learn(uint64_t seed, const Scene& scene, const Film& film) {
@@ -88,8 +98,9 @@ void PathAndPhotons::learn(uint64_t seed, const Scene& scene, const Film& film) 
   pass.caustics_only = true;
   pass.window = kCameraWindow;
   pass.guide = &emission_.guide(seed, scene, film, owned_, options_, statistics_);
-  pass.light_paths =
-      has_specular_events(owned_) ? std::clamp<int64_t>(film.bounds().area(), 1 << 14, 1 << 18) : 0;
+  pass.light_paths = has_specular_events(owned_)
+                         ? std::clamp<int64_t>(film.bounds().area(), 1 << 14, kMostPathsOfTrial)
+                         : 0;
   Trial many = try_out(pass, seed, scene, film);
   Balance balance(many);
   if (pass.light_paths > 0) {
@@ -111,12 +122,15 @@ void PathAndPhotons::learn(uint64_t seed, const Scene& scene, const Film& film) 
   pass.records_of_path = std::clamp(1.1 * many.records, 0.25, double{PassRecords::kMostOfPath});
   PairPass connecting;
   connecting.leaves_glints = pass.leaves_glints;
-  connecting.light_paths = default_light_paths(film.bounds().area());
+  connecting.light_paths = std::min(default_light_paths(film.bounds().area()), kMostPathsOfTrial);
   Trial connected = try_out(connecting, seed, scene, film);
   balance.variance_of_camera += many.least_of_unseen(connected);
   connected.variance += connected.least_of_unseen(many);
   if (kClearly * connected.expense() < balance.expense()) {
     pass = connecting;
+    pass.light_paths =
+        std::min(default_light_paths(film.bounds().area()),
+                 static_cast<int64_t>(Balance::kMostPhotons / std::max(connected.photons, 0.1)));
     learned.balance.reset();
   }
   if (options_.photons_per_pass > 0) {
@@ -138,19 +152,25 @@ void PathAndPhotons::look_back(const Scene& scene, const Film& film) {
     statistics_.rays += counts.rays;
     statistics_.learning_rays += counts.rays;
   }
+  const size_t of_records = learned.records.capacity() * sizeof(RadianceRecord);
   learned.radiance.emplace(std::move(learned.records));
+  // To sort the records takes half as much again.
+  statistics_.hold(of_records + of_records / 2 + learned.radiance->bytes(), 0);
   learned.records = {};
   if (!learned.spread) return;
   const Learned::Spread& spread = *learned.spread;
+  const double most =
+      learned.balance ? std::clamp(learned.balance->most_camera_paths(), 1.0, SampleMap::kMostMean)
+                      : SampleMap::kMostMean;
   if (learned.pass.leaves_glints)
     // Where the film clamps, what a tile converges to depends on who finds its bright light.
     learned.shares =
         share_out(film.bounds(),
                   {spread.paths.by_tile(&spread.glints), spread.glints.by_tile(&spread.paths),
                    spread.choice.by_tile(&spread.paths)},
-                  film.settings().max_component < kInfinity);
+                  film.settings().max_component < kInfinity, most);
   else
-    learned.shares = share_out(film.bounds(), {spread.paths.by_tile(), {}, {}});
+    learned.shares = share_out(film.bounds(), {spread.paths.by_tile(), {}, {}}, false, most);
   learned.spread.reset();
 }
 

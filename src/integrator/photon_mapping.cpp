@@ -20,6 +20,7 @@ void PhotonMapping::render_pass(const PassKey& key, const Scene& scene, Film& fi
   const Rgb* estimate = pass.values.data();
   for (int y = b.y0; y < b.y1; ++y)
     for (int x = b.x0; x < b.x1; ++x, estimate += parts) film.add(group, x, y, {estimate, parts});
+  film.add_bias(group, pass.bias);
   found_ += pass.found;
 }
 

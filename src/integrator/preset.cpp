@@ -48,6 +48,13 @@ constexpr Row kTable[] = {{EstimatorKind::kPath, make<PathEstimator>},
                           {EstimatorKind::kPointLights, make<PointLights>},
                           {EstimatorKind::kForecast, make<Forecast>}};
 
+/// Estimators of independent passes that merge.
+bool tells_bias(EstimatorKind kind) {
+  using enum EstimatorKind;
+  return kind == kPhotons || kind == kPhotonsAndLight || kind == kVcm || kind == kBpm ||
+         kind == kPathAndPhotons;
+}
+
 FilmLayout layout_of(const Routes& routes) {
   FilmLayout layout;
   for (const RouteDefinition& route : routes.definitions()) layout.routes.push_back(route.name);
@@ -57,6 +64,7 @@ FilmLayout layout_of(const Routes& routes) {
   for (size_t g = 0; g < routes.groups().size(); ++g)
     for (const int route : routes.groups()[g].routes)
       layout.groups[static_cast<size_t>(route)] = static_cast<int>(g);
+  for (const auto& group : routes.groups()) layout.merges.push_back(tells_bias(group.estimator));
   return layout;
 }
 

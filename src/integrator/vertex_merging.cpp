@@ -52,6 +52,7 @@ void VertexMerging::render_pass(const PassKey& key, const Scene& scene, Film& fi
   const int64_t paths =
       light_pass(key, scene, film, owned_, options_, splat_weight, buffer, statistics_);
   buffer.finish(1.0 / static_cast<double>(paths), merged.values);
+  film.add_bias(group, merged.bias);
 }
 
 EstimatorStatistics VertexMerging::statistics() const {

@@ -59,19 +59,17 @@ class Merger {
     return each_event(photon, [](Part, const SampledSpectrum&) {});
   }
 
-  /// Adds throughput * f * flux * weight to the parts of the photon's paths. True if it counts.
-  bool add(const Photon& photon, float weight, PartSums& sums) const {
+  /// Adds throughput * f * flux * weight to the parts of the photon's paths, and that times `bias`
+  /// to their bias. True if it counts.
+  bool add(const Photon& photon, float weight, float bias, PartSums& sums) const {
     return each_event(photon, [&](Part part, const SampledSpectrum& scattered) {
-      const SampledSpectrum f = at_.throughput * scattered * photon.flux * weight;
       // A path that lost its secondary wavelengths, on either side or on both, stands for all of
       // them once.
-      if (at_.secondary_terminated || photon.secondary_terminated) {
-        SampledSpectrum hero;
-        hero.set(0, f[0] * kSpectrumSamples);
-        sums.add(part, hero);
-      } else {
-        sums.add(part, f);
-      }
+      const SampledSpectrum value =
+          whole_spectrum(at_.throughput * scattered * photon.flux * weight,
+                         at_.secondary_terminated || photon.secondary_terminated);
+      sums.add(part, value);
+      sums.add_bias(value * bias);
     });
   }
 
@@ -101,8 +99,9 @@ uint32_t merge_photons(const PhotonGrid& grid, const OwnedRoutes& owned, const M
                        int max_depth, float radius, PartSums& sums) {
   const Merger merger(owned, at, max_depth);
   uint32_t found = 0;
-  grid.query(at.vertex.surface.p, radius,
-             [&](const Photon& photon, float) { found += merger.add(photon, 1.0f, sums); });
+  grid.query(at.vertex.surface.p, radius, [&](const Photon& photon, float d2) {
+    found += merger.add(photon, 1.0f, bias_factor(d2, radius), sums);
+  });
   return found;
 }
 
@@ -121,7 +120,8 @@ NearestMerge merge_nearest(const PhotonGrid& grid, const OwnedRoutes& owned, con
   for (const PhotonGrid::Neighbour& neighbour : scratch) {
     const Photon& photon = grid.photons()[neighbour.index];
     if (photon.set != nearest.set) continue;
-    merger.add(photon, top * (1.0f - std::sqrt(neighbour.distance_squared) / result.radius), sums);
+    merger.add(photon, top * (1.0f - std::sqrt(neighbour.distance_squared) / result.radius), 0,
+               sums);
   }
   return result;
 }

@@ -14,6 +14,12 @@ namespace nephroid {
 /// lie on another wall.
 inline constexpr float kMergeMinNormalCosine = 0.7f;
 
+/// [E4] What a merge within `radius` adds to the estimate of its bias, over what it adds to the
+/// light.
+inline float bias_factor(float distance_squared, float radius) {
+  return 2 * distance_squared < radius * radius ? -2.0f : 2.0f;
+}
+
 /// A point at which a camera walk gathers.
 struct MergePoint {
   const WalkVertex& vertex;
@@ -35,7 +41,8 @@ std::optional<PhotonArrival> arrival_at(const WalkVertex& vertex, const Photon& 
 /// Adds throughput * sum of f * flux to the parts that own the photons' paths, to be divided by
 /// (N pi r^2); returns how many photons counted. What belongs to other routes or makes the path
 /// longer than `max_depth` events is passed over. A path that kept only the hero wavelength, on
-/// either side, adds to lane 0 alone, times the number of wavelengths.
+/// either side, adds to lane 0 alone, times the number of wavelengths. The sums' bias [E4] is
+/// divided like the light.
 uint32_t merge_photons(const PhotonGrid& grid, const OwnedRoutes& owned, const MergePoint& at,
                        int max_depth, float radius, PartSums& sums);
 

@@ -21,6 +21,29 @@ uint64_t spread_bits(uint64_t v) {
   return (v | (v << 2)) & 0x1249249249249249ull;
 }
 
+/// Cells of 2^shift quanta that have a photon; `codes` are sorted.
+size_t count_cells(const std::vector<uint64_t>& codes, int shift) {
+  size_t cells = 1;
+  for (size_t i = 1; i < codes.size(); ++i)
+    cells += (codes[i] >> (3 * shift)) != (codes[i - 1] >> (3 * shift));
+  return cells;
+}
+
+/// Puts photon order[i] in place i, without memory for another set of them. Spoils `order`.
+void take_in_order(std::vector<Photon>& photons, std::vector<uint32_t>& order) {
+  for (uint32_t first = 0; first < order.size(); ++first) {
+    if (order[first] == first) continue;
+    const Photon moved = photons[first];
+    uint32_t to = first;
+    while (order[to] != first) {
+      photons[to] = photons[order[to]];
+      to = std::exchange(order[to], to);
+    }
+    photons[to] = moved;
+    order[to] = to;
+  }
+}
+
 }  // namespace
 
 uint64_t PhotonGrid::morton(uint32_t x, uint32_t y, uint32_t z) {
@@ -55,34 +78,28 @@ PhotonGrid::PhotonGrid(std::vector<Photon> photons, int max_levels) : photons_(s
   // Photons that all lie in one point still need a cell of some size.
   quantum_ = std::max({extent, magnitude * 1e-6f, std::numeric_limits<float>::min() * 1e6f}) /
              static_cast<float>(kMaxCoordinate);
-  sort();
+  const std::vector<uint64_t> codes = sort();
 
   // The smallest cells that are worth having hold a few photons each; every doubling up to one cell
   // for all follows.
   int finest = 0;
   for (int shift = 0; shift <= kCoordinateBits; ++shift) {
-    size_t cells = 1;
-    for (size_t i = 1; i < codes_.size(); ++i)
-      cells += (codes_[i] >> (3 * shift)) != (codes_[i - 1] >> (3 * shift));
     finest = shift;
-    if (cells * 2 <= codes_.size()) break;
+    if (count_cells(codes, shift) * 2 <= codes.size()) break;
   }
   for (int shift = finest; shift <= kCoordinateBits; ++shift) {
     if (static_cast<int>(levels_.size()) == max_levels) break;
-    add_level(shift);
+    add_level(shift, codes);
   }
-}
-
-size_t PhotonGrid::bytes() const {
-  size_t total = photons_.size() * sizeof(Photon) + positions_.size() * sizeof(Vec3f) +
-                 codes_.size() * sizeof(uint64_t);
+  size_t total = photons_.capacity() * sizeof(Photon) + positions_.size() * sizeof(Vec3f) +
+                 codes.size() * sizeof(uint64_t);
   for (const Level& level : levels_) total += level.table.size() * sizeof(Cell);
-  return total;
+  bytes_ = std::max(bytes_, total);
 }
 
 // Stable radix sort by Morton code, 11 bits at a time, so that photons of one cell keep the order
 // in which they were traced.
-void PhotonGrid::sort() {
+std::vector<uint64_t> PhotonGrid::sort() {
   const size_t n = photons_.size();
   std::vector<uint64_t> codes(n), codes_other(n);
   std::vector<uint32_t> order(n), order_other(n);
@@ -106,28 +123,23 @@ void PhotonGrid::sort() {
     codes.swap(codes_other);
     order.swap(order_other);
   }
-  std::vector<Photon> sorted(n);
+  bytes_ = photons_.capacity() * sizeof(Photon) +
+           n * (2 * sizeof(uint64_t) + 2 * sizeof(uint32_t) + sizeof(Vec3f));
+  take_in_order(photons_, order);
   positions_.resize(n);
-  for (size_t i = 0; i < n; ++i) {
-    sorted[i] = photons_[order[i]];
-    positions_[i] = sorted[i].p;
-  }
-  photons_ = std::move(sorted);
-  codes_ = std::move(codes);
+  for (size_t i = 0; i < n; ++i) positions_[i] = photons_[i].p;
+  return codes;
 }
 
-void PhotonGrid::add_level(int shift) {
+void PhotonGrid::add_level(int shift, const std::vector<uint64_t>& codes) {
   Level level;
   level.shift = shift;
-  size_t cells = 1;
-  for (size_t i = 1; i < codes_.size(); ++i)
-    cells += (codes_[i] >> (3 * shift)) != (codes_[i - 1] >> (3 * shift));
-  level.table.resize(std::bit_ceil(2 * cells));
+  level.table.resize(std::bit_ceil(2 * count_cells(codes, shift)));
   level.mask = level.table.size() - 1;
-  for (size_t begin = 0; begin < codes_.size();) {
-    const uint64_t code = codes_[begin] >> (3 * shift);
+  for (size_t begin = 0; begin < codes.size();) {
+    const uint64_t code = codes[begin] >> (3 * shift);
     size_t end = begin + 1;
-    while (end < codes_.size() && (codes_[end] >> (3 * shift)) == code) ++end;
+    while (end < codes.size() && (codes[end] >> (3 * shift)) == code) ++end;
     uint64_t slot = mix_bits(code) & level.mask;
     while (level.table[slot].begin != level.table[slot].end) slot = (slot + 1) & level.mask;
     level.table[slot] = {code, static_cast<uint32_t>(begin), static_cast<uint32_t>(end)};

@@ -22,8 +22,9 @@ class PhotonGrid {
 
   size_t size() const { return photons_.size(); }
   const std::vector<Photon>& photons() const { return photons_; }
-  /// Memory of the photons and of what finds them.
-  size_t bytes() const;
+  /// Memory of the photons and of what finds them, the most that was held, while it was made or
+  /// since.
+  size_t bytes() const { return bytes_; }
 
   /// Calls found(photon, distance_squared) for every photon with |photon.p - center| <= radius, in
   /// an order that depends on the photons and the query alone.
@@ -112,17 +113,18 @@ class PhotonGrid {
 
   static uint64_t morton(uint32_t x, uint32_t y, uint32_t z);
   uint32_t quantize(float x, int axis) const;
-  void sort();
-  void add_level(int shift);
+  /// Sorts the photons and returns their codes.
+  std::vector<uint64_t> sort();
+  void add_level(int shift, const std::vector<uint64_t>& codes);
   const Level& level_for(float radius) const;
 
   std::vector<Photon> photons_;
   std::vector<Vec3f> positions_;
-  std::vector<uint64_t> codes_;
   Vec3f min_, max_;
   float quantum_ = 1;      ///< size of the smallest cell
   float reach_slack_ = 0;  ///< rounding of positions, far from the origin
   std::vector<Level> levels_;
+  size_t bytes_ = 0;
 };
 
 }  // namespace nephroid

@@ -54,10 +54,10 @@ constexpr EstimatorType kEstimators[] = {
 
 // Names of the picture's own layers and channels, and of what is reserved for them.
 constexpr const char* kReservedNames[] = {
-    "R",       "G",      "B",      "A",      "Z",       "N",        "P",
-    "Ns",      "u",      "v",      "Y",      "RY",      "BY",       "dzdx",
-    "dzdy",    "albedo", "Albedo", "stderr", "samples", "Variance", "RelativeVariance",
-    "outliers"};
+    "R",        "G",      "B",      "A",      "Z",       "N",        "P",
+    "Ns",       "u",      "v",      "Y",      "RY",      "BY",       "dzdx",
+    "dzdy",     "albedo", "Albedo", "stderr", "samples", "Variance", "RelativeVariance",
+    "outliers", "bias"};
 constexpr size_t kLongestName = 64;
 
 bool is_space(char c) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "session/noise.h"
 #include "session/short_number.h"
 
 namespace nephroid {
@@ -61,6 +62,25 @@ std::vector<std::string> choices_report(const std::vector<EstimatorStatistics>& 
   for (const EstimatorStatistics& s : last)
     for (const std::string& note : s.notes) lines.push_back("note: " + note);
   return lines;
+}
+
+std::optional<std::string> error_report(const Film& film) {
+  const std::optional<ErrorShares> shares = error_shares(film);
+  if (!shares) return std::nullopt;
+  const FilmLayout& layout = film.layout();
+  std::string text = "estimated error:";
+  for (size_t g = 0; g < shares->groups.size(); ++g) {
+    text += fmt::format("{} {:.3g} % noise", g == 0 ? "" : ",", 100 * shares->groups[g]);
+    if (shares->groups.size() == 1) continue;
+    const char* before = " of ";
+    for (size_t r = 0; r < layout.routes.size(); ++r) {
+      if (layout.groups[r] != static_cast<int>(g)) continue;
+      text += before + layout.routes[r];
+      before = " and ";
+    }
+  }
+  if (film.has_bias()) text += fmt::format(", {:.3g} % bias of merging", 100 * shares->bias);
+  return text;
 }
 
 }  // namespace nephroid

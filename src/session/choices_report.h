@@ -1,8 +1,9 @@
-// What estimators chose and found, in sentences: photons, radii, where the rays went, and their own
-// notes. Who calls it: the session, for the picture's metadata, and the program, for the end of a
-// render. It must not know clocks.
+// What estimators chose and found, in sentences: photons, radii, where the rays went, their own
+// notes, and how far off they take themselves to be. Who calls it: the session, for the picture's
+// metadata, and the program, for the end of a render. It must not know clocks.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,5 +16,9 @@ namespace nephroid {
 std::vector<std::string> choices_report(const std::vector<EstimatorStatistics>& first,
                                         const std::vector<EstimatorStatistics>& last,
                                         uint32_t passes);
+
+/// A line of the errors that the film claims for itself, by the routes that are sampled together;
+/// empty while it claims none.
+std::optional<std::string> error_report(const Film& film);
 
 }  // namespace nephroid

@@ -163,8 +163,8 @@ constexpr OptionDescription kOptions[] = {
        l.render.time_limit = parse_duration("--time", t);
      }},
     {"render", "--noise", "", "X", "relative error", "no target", "When to stop",
-     "Stop when the estimated noise, the root of the mean of stderr^2 / (value^2 + 0.01), is at or "
-     "below X; sppm, ppm and photonmap cannot tell.",
+     "Stop when the estimated error, the root of the mean of (stderr^2 + bias^2) / (value^2 + "
+     "0.01), is at or below X; sppm, ppm and photonmap cannot tell.",
      false,
      [](CommandLine& l, const std::string& t) {
        l.render.noise_target = parse_number("--noise", t, 0, kAnyNumber, true);

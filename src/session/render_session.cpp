@@ -20,10 +20,10 @@
 namespace nephroid {
 namespace {
 
-/// Work that is not rendering (writing, estimating the noise for display) waits this many times as
+/// Work that is not rendering (writing, estimating the error for display) waits this many times as
 /// long as it took last time, so that it costs less than 2 % of the time.
 constexpr double kIdlePerWork = 50;
-constexpr double kNoiseInterval = 1;  ///< s between noise estimates for progress, at least
+constexpr double kErrorInterval = 1;  ///< s between estimates for progress, at least
 /// A spread of fewer passes says too little to stop on.
 constexpr uint32_t kFewestPassesForNoise = 4;
 
@@ -92,7 +92,7 @@ RenderResult RenderSession::run(SignalFlags& signals) {
   while (!reason) {
     render_one_pass();
     if (passes_done_ == 1) first_pass_statistics_ = statistics();
-    if (noise_check_is_due()) renew_noise();
+    if (error_check_is_due()) renew_error();
     reason = reason_to_stop(signals);
     report_progress();
     if (!reason) write_if_due(signals);
@@ -102,7 +102,8 @@ RenderResult RenderSession::run(SignalFlags& signals) {
   result.signal = *reason == StopReason::kSignal ? signals.stop.load() : 0;
   result.passes_done = passes_done_;
   result.seconds = elapsed();
-  result.noise = noise_;
+  if (error_) result.error = error_->total();
+  result.error_text = error_text();
   result.first_pass_statistics = first_pass_statistics_;
   result.statistics = statistics();
   if (!options_.output.empty()) write_picture();
@@ -129,8 +130,8 @@ std::optional<StopReason> RenderSession::reason_to_stop(const SignalFlags& signa
   if (passes_wanted_ && passes_done_ >= *passes_wanted_) return StopReason::kPasses;
   if (options_.first_pass + passes_done_ == std::numeric_limits<uint32_t>::max())
     return StopReason::kPasses;
-  if (options_.noise_target > 0 && noise_pass_ == passes_done_ &&
-      passes_done_ >= kFewestPassesForNoise && noise_ && *noise_ <= options_.noise_target)
+  if (options_.noise_target > 0 && error_pass_ == passes_done_ &&
+      passes_done_ >= kFewestPassesForNoise && error_ && error_->total() <= options_.noise_target)
     return StopReason::kNoise;
   if (options_.time_limit > 0 && elapsed() + last_pass_seconds_ / 2 >= options_.time_limit)
     return StopReason::kTime;
@@ -140,19 +141,25 @@ std::optional<StopReason> RenderSession::reason_to_stop(const SignalFlags& signa
 
 /// With a noise target the checks are at fixed passes, about 6 % apart, so that the clock has no
 /// say in where the render stops. Without one the estimate is for display and follows the clock.
-bool RenderSession::noise_check_is_due() const {
+bool RenderSession::error_check_is_due() const {
   if (options_.noise_target > 0)
     return passes_done_ >= kFewestPassesForNoise &&
            passes_done_ % std::max(1u, std::bit_floor(passes_done_) / 16) == 0;
-  return progress_ && options_.show_noise && elapsed() >= next_noise_seconds_;
+  return progress_ && options_.show_error && elapsed() >= next_error_seconds_;
 }
 
-void RenderSession::renew_noise() {
+void RenderSession::renew_error() {
   const double begin = clock_();
-  noise_ = estimated_noise(film_);
-  noise_pass_ = passes_done_;
+  error_ = estimated_error(film_);
+  error_pass_ = passes_done_;
   const double cost = clock_() - begin;
-  next_noise_seconds_ = elapsed() + std::max(kNoiseInterval, kIdlePerWork * cost);
+  next_error_seconds_ = elapsed() + std::max(kErrorInterval, kIdlePerWork * cost);
+}
+
+std::optional<std::string> RenderSession::error_text() const {
+  for (const auto& estimator : preset_.estimators)
+    if (!estimator->capabilities().consistent) return std::nullopt;
+  return error_report(film_);
 }
 
 std::optional<double> RenderSession::seconds_left(double seconds) const {
@@ -163,9 +170,8 @@ std::optional<double> RenderSession::seconds_left(double seconds) const {
   const double per_pass = seconds / passes_done_;
   if (passes_wanted_) at_most(per_pass * (*passes_wanted_ - passes_done_));
   if (options_.time_limit > 0) at_most(options_.time_limit - seconds);
-  // The error falls with the square root of the number of passes.
-  if (options_.noise_target > 0 && noise_ && *noise_ > 0)
-    at_most(per_pass * (noise_pass_ * std::pow(*noise_ / options_.noise_target, 2) - passes_done_));
+  if (options_.noise_target > 0 && error_ && error_->total() > 0)
+    at_most(per_pass * (error_pass_ * passes_to(*error_, options_.noise_target) - passes_done_));
   return left;
 }
 
@@ -176,7 +182,7 @@ void RenderSession::report_progress() {
   progress.passes_wanted = passes_wanted_;
   progress.seconds = elapsed();
   progress.seconds_left = seconds_left(progress.seconds);
-  progress.noise = noise_;
+  if (error_) progress.error = error_->total();
   if (progress.seconds_left) {
     const double total = progress.seconds + *progress.seconds_left;
     progress.fraction = total > 0 ? progress.seconds / total : 1;
@@ -219,6 +225,7 @@ Metadata RenderSession::picture_metadata() const {
   std::string choices;
   for (const std::string& line : choices_report(first_pass_statistics_, statistics(), passes_done_))
     choices += line + "\n";
+  if (const auto text = error_text()) choices += *text + "\n";
   metadata.emplace_back("nephroid:choices", choices);
   const FilmLayout& layout = film_.layout();
   for (size_t r = 0; r < layout.routes.size(); ++r)

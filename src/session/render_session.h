@@ -12,6 +12,7 @@
 #include "film/film.h"
 #include "film/image_io.h"
 #include "integrator/estimator.h"
+#include "session/noise.h"
 #include "session/signals.h"
 
 namespace nephroid {
@@ -22,8 +23,8 @@ struct RenderOptions {
   uint32_t first_pass = 0;
   std::optional<uint32_t> last_pass;  ///< included
   double time_limit = 0;              ///< s, 0: none
-  double noise_target = 0;            ///< as estimated_noise(), 0: none
-  bool show_noise = true;             ///< progress has the noise, which takes a little time
+  double noise_target = 0;            ///< as estimated_error().total(), 0: none
+  bool show_error = true;             ///< progress has the error, which takes a little time
   uint64_t seed = 0;
   std::string output;         ///< EXR, a PNG is written beside it; empty: nothing is written
   double write_interval = 5;  ///< s between intermediate pictures, at least
@@ -39,7 +40,7 @@ struct RenderProgress {
   std::optional<uint32_t> passes_wanted;  ///< empty if only time or noise stop it
   double seconds = 0;
   std::optional<double> seconds_left;  ///< by the rule that will be met first, as it looks now
-  std::optional<double> noise;         ///< the last estimate, renewed now and then
+  std::optional<double> error;         ///< the last estimate, renewed now and then
   double fraction = 0;                 ///< of the whole, 0..1
   uint64_t rays = 0;
   uint64_t photons_stored = 0;
@@ -49,8 +50,9 @@ struct RenderResult {
   StopReason reason = StopReason::kPasses;
   int signal = 0;  ///< that stopped it, if one did
   uint32_t passes_done = 0;
-  double seconds = 0;  ///< rendering, with intermediate pictures, without the last
-  std::optional<double> noise;
+  double seconds = 0;           ///< rendering, with intermediate pictures, without the last
+  std::optional<double> error;  ///< as estimated_error().total()
+  std::optional<std::string> error_text;  ///< as error_report(); of consistent estimators alone
   /// As the preset's estimators: after the first pass (for where radii began) and after the last.
   std::vector<EstimatorStatistics> first_pass_statistics, statistics;
 };
@@ -75,10 +77,12 @@ class RenderSession {
  private:
   std::optional<StopReason> reason_to_stop(const SignalFlags& signals) const;
   double elapsed() const { return clock_() - start_; }
-  bool noise_check_is_due() const;
+  bool error_check_is_due() const;
   void render_one_pass();
   std::vector<EstimatorStatistics> statistics() const;
-  void renew_noise();
+  void renew_error();
+  /// The line of error_report(), empty where an estimator knows only a part of its error.
+  std::optional<std::string> error_text() const;
   void report_progress();
   void write_if_due(SignalFlags& signals);
   void write_picture();
@@ -98,9 +102,9 @@ class RenderSession {
   std::vector<EstimatorStatistics> first_pass_statistics_;
   uint32_t passes_done_ = 0;
   double last_pass_seconds_ = 0;
-  std::optional<double> noise_;
-  uint32_t noise_pass_ = 0;        ///< passes done when noise_ was estimated
-  double next_noise_seconds_ = 0;  ///< of the estimates for progress alone
+  std::optional<EstimatedError> error_;
+  uint32_t error_pass_ = 0;        ///< passes done when error_ was estimated
+  double next_error_seconds_ = 0;  ///< of the estimates for progress alone
   double next_write_seconds_ = 0;
 };
 

@@ -67,6 +67,8 @@ void expect_same_bits(const Film& a, const Film& b, const std::string& what) {
   for (int y = bounds.y0; y < bounds.y1; ++y)
     for (int x = bounds.x0; x < bounds.x1; ++x) {
       ASSERT_EQ(a.depth(x, y), b.depth(x, y)) << what << ": depth of pixel " << x << ' ' << y;
+      ASSERT_EQ(a.bias(x, y), b.bias(x, y)) << what << ": bias of " << x << ' ' << y;
+      ASSERT_EQ(a.bias_error(x, y), b.bias_error(x, y)) << what << ' ' << x << ' ' << y;
       for (int c = 0; c < 3; ++c) {
         ASSERT_EQ(a.albedo(x, y)[c], b.albedo(x, y)[c]) << what << ": albedo of " << x << ' ' << y;
         ASSERT_EQ(a.normal(x, y)[c], b.normal(x, y)[c]) << what << ": normal of " << x << ' ' << y;

@@ -59,6 +59,20 @@ void expect_rgb(const Picture& picture, int x, int y, const std::string& layer, 
   EXPECT_EQ(pixel(picture, x, y, layer + "B"), rgb.b) << layer;
 }
 
+TEST(FilmOutput, TellsTheBiasOfWhatMerges) {
+  FilmSettings settings;
+  settings.width = 2;
+  settings.height = 1;
+  FilmLayout layout = FilmLayout::of_routes({"a"});
+  layout.merges = {true};
+  Film film(settings, layout);
+  film.add_bias(0, std::vector<float>{0.5f, -1});
+  film.add_estimates(0, 2);
+  const Picture picture = film_picture(film, {});
+  EXPECT_EQ(pixel(picture, 0, 0, "bias.Y"), 0.25f);
+  EXPECT_EQ(pixel(picture, 1, 0, "bias.Y"), -0.5f);
+}
+
 TEST(FilmOutput, ExrHoldsEveryLayerBitForBit) {
   const ScratchDirectory directory;
   const std::string path = directory.file("out.exr");
@@ -89,6 +103,7 @@ TEST(FilmOutput, ExrHoldsEveryLayerBitForBit) {
 TEST(FilmOutput, WhatIsHeldHasALayer) {
   Film film(cropped(), FilmLayout::of_routes({"all"}));
   EXPECT_EQ(film_picture(film, {}).find_channel("outliers.R"), -1);
+  EXPECT_EQ(film_picture(film, {}).find_channel("bias.Y"), -1);
   film.reject_outliers({{1.0f}, 8});
   add_one(film, 0, 4, 3, {10, 20, 30});
   film.add_estimates(0, 2);

@@ -163,6 +163,20 @@ TEST(ShareOut, HasFewPathsAPass) {
   const std::vector<int> samples =
       Blocks({{1, 1}, {64, 1}, {64, 1}, {64, 1}, {16, 1}, {64, 1}}).samples;
   EXPECT_EQ(samples, (std::vector<int>{1, 3, 3, 3, 1, 3}));
+  // Or as few as the caller asks for.
+  SampleSpread::ByTile spread;
+  for (int i = 0; i < 24; ++i) {
+    spread.variance.push_back(i < 4 ? 1 : 64);
+    spread.cost.push_back(1);
+  }
+  spread.light.assign(24, 1);
+  double last = 0;
+  for (const double most : {1.0, 2.0, 3.0}) {
+    const double mean = share_out({0, 0, 24 * 4, 4}, {spread, {}, {}}, false, most).paths.mean();
+    EXPECT_LE(mean, most);
+    EXPECT_GT(mean, last);
+    last = mean;
+  }
 }
 
 // [A4]
@@ -227,6 +241,22 @@ TEST(Balance, TellsWhatOtherCameraPathsWouldMakeOfIt) {
   EXPECT_EQ(other.light_paths(3), expected.light_paths(3));
   EXPECT_LT(other.expense(), balance.expense());
   EXPECT_NEAR(Balance(alone.trial(0)).with_camera_paths_of(lone.trial(0)).expense(), 6e4, 1e-6);
+}
+
+TEST(Balance, KeepsAsManyPhotonsAsMemoryIsFor) {
+  const Model m{0.2, 5e4, 1e6, 4};
+  Trial many = m.trial(1 << 16);
+  const int64_t best = Balance(many, m.trial(1 << 13)).light_paths(1);
+  for (const double photons : {0.01, 4.0}) {
+    many.photons = photons;
+    const Balance balance(many, m.trial(1 << 13));
+    const double most = std::min(Balance::kMostPhotons / photons, 1048576.0);
+    EXPECT_EQ(balance.light_paths(100), static_cast<int64_t>(most));
+    const double camera = balance.most_camera_paths();
+    EXPECT_NEAR(static_cast<double>(balance.light_paths(camera)), most, 2);
+    EXPECT_NEAR(static_cast<double>(balance.light_paths(camera / 2)), most / 2, 2);
+    EXPECT_NEAR(camera, most / static_cast<double>(best), 1e-3 * camera);
+  }
 }
 
 TEST(Balance, KeepsItsBoundsWhateverTrialsSay) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "core/sampler.h"
 
@@ -105,6 +106,37 @@ TEST(PhotonGrid, OrderOfPhotonsInACellIsKept) {
   int next = 0;
   grid.query(Vec3f(1, 1, 1), 0.1f, [&](const Photon& p, float) { EXPECT_EQ(p.events, next++); });
   EXPECT_EQ(next, 50);
+}
+
+TEST(PhotonGrid, SortsAsAStableSortOfCellsDoes) {
+  // Of places on a line the order of cells is that of the line.
+  std::vector<Photon> photons(1000);
+  for (size_t i = 0; i < photons.size(); ++i) {
+    photons[i].p = Vec3f(static_cast<float>(i * 7919 % 37), 2, 3);
+    photons[i].events = static_cast<uint16_t>(i);
+  }
+  std::vector<size_t> order(photons.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](size_t a, size_t b) { return photons[a].p.x < photons[b].p.x; });
+  const PhotonGrid grid(photons);
+  ASSERT_EQ(grid.size(), order.size());
+  for (size_t i = 0; i < order.size(); ++i) {
+    EXPECT_EQ(grid.photons()[i].events, photons[order[i]].events) << i;
+    EXPECT_EQ(grid.photons()[i].p, photons[order[i]].p) << i;
+  }
+}
+
+TEST(PhotonGrid, SaysWhatItTakes) {
+  EXPECT_EQ(PhotonGrid({}).bytes(), 0u);
+  std::vector<Photon> photons(4096);
+  for (size_t i = 0; i < photons.size(); ++i)
+    photons[i].p = Vec3f(static_cast<float>(i % 64), static_cast<float>(i / 64), 0);
+  photons.shrink_to_fit();
+  const double of_each =
+      static_cast<double>(PhotonGrid(photons).bytes()) / static_cast<double>(photons.size());
+  EXPECT_GE(of_each, sizeof(Photon) + 36.0) << "the sort, which is over when the cells are made";
+  EXPECT_LE(of_each, sizeof(Photon) + 20.0 + 64.0);
 }
 
 // The nearest photons by a sort of all of them; of two at the same distance the first one.

@@ -49,5 +49,28 @@ TEST(ChoicesReport, HasPhotonsLightPathsAndNotesOfAllEstimators) {
             "photons: 8 k paths once, 2.5 k photons kept in all, 25 % of paths kept any");
 }
 
+TEST(ErrorReport, TellsRoutesThatAreSampledTogether) {
+  FilmSettings settings;
+  settings.width = settings.height = 1;
+  FilmLayout layout = FilmLayout::of_routes({"a", "b", "c"});
+  layout.groups = {0, 1, 0};
+  layout.merges = {false, true};
+  Film film(settings, layout);
+  EXPECT_FALSE(error_report(film).has_value());
+  const Rgb none[2] = {};
+  for (const float v : {1.0f, 3.0f}) {
+    film.add(0, 0, 0, none);
+    film.add(1, 0, 0, std::vector<Rgb>{{v, v, v}});
+    film.add_bias(1, std::vector<float>{0.2f});
+    for (int g = 0; g < 2; ++g) film.add_estimates(g, 1);
+  }
+  EXPECT_EQ(error_report(film),
+            "estimated error: 0 % noise of a and c, 49.9 % noise of b, 9.99 % bias of merging");
+  Film one(settings, FilmLayout::of_routes({"a"}));
+  for (int i = 0; i < 2; ++i) one.add(0, 0, 0, std::vector<Rgb>{{1, 1, 1}});
+  one.add_estimates(0, 2);
+  EXPECT_EQ(error_report(one), "estimated error: 0 % noise");
+}
+
 }  // namespace
 }  // namespace nephroid

@@ -82,21 +82,22 @@ TEST(FilmOfScene, MemoryIsThatOfThePartsGroupsAndSplats) {
   EXPECT_THROW(check_film_fits(description, one, path, false), SceneError);
   description.gbuffer = GBufferSpace::kNone;
 
-  // A splat is a sum of 48 bytes. A merging pass has a colour for each part and a filter weight;
-  // sppm keeps a radius, a count, a flux and a footprint, and in a pass a colour, a count and a
-  // filter weight, ppm the same for each of its hit points. Estimators render one after another.
+  // A splat is a sum of 48 bytes. A merging pass has a colour for each part, a filter weight and a
+  // bias; sppm keeps a radius, a count, a flux and a footprint, and in a pass a colour, a count, a
+  // filter weight and a bias, ppm the same for each of its hit points. Estimators render one after
+  // another.
   constexpr int kHitPoints = 5;
   const struct {
     std::vector<std::string> routes;
     size_t bytes;
   } rows[] = {{{"all=.*:lighttrace"}, 48},
-              {{"all=C.*DL:photons"}, 12 + 4},
-              {{"all=C.*DL:photons+light"}, 48 + 12 + 4},
-              {{"all=C.*DL:sppm"}, 16 + 24 + 4 + 12 + 4 + 8},
-              {{"all=C.*DL:ppm"}, 5 * (16 + 24 + 4 + 12 + 4 + 8)},
-              {{"all=C.*DL:photonmap"}, 12 + 4},
-              {{"a=C.*DL:photons", "b=C.*GL:photons"}, 2 * 12 + 4},
-              {{"a=C.*DL:sppm", "b=C.*GL:photons+light"}, 16 + 24 + 4 + 48 + 12 + 4}};
+              {{"all=C.*DL:photons"}, 12 + 8},
+              {{"all=C.*DL:photons+light"}, 48 + 12 + 8},
+              {{"all=C.*DL:sppm"}, 16 + 24 + 4 + 12 + 8 + 8},
+              {{"all=C.*DL:ppm"}, 5 * (16 + 24 + 4 + 12 + 8 + 8)},
+              {{"all=C.*DL:photonmap"}, 12 + 8},
+              {{"a=C.*DL:photons", "b=C.*GL:photons"}, 2 * 12 + 8},
+              {{"a=C.*DL:sppm", "b=C.*GL:photons+light"}, 16 + 24 + 4 + 48 + 12 + 8}};
   for (const auto& row : rows) {
     SCOPED_TRACE(row.routes.back());
     const Routes routes = routes_of(row.routes);
@@ -113,7 +114,7 @@ TEST(FilmOfScene, RejectionOfOutliersNeedsMemoryToo) {
   layout.groups = {0, 0, 1};
   const double memory =
       static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
-  const size_t bytes = Film::bytes_per_pixel(layout, false) + 2 * 12 + 4 +
+  const size_t bytes = Film::bytes_per_pixel(layout, false) + 2 * 12 + 8 +
                        OutlierRejection::bytes_per_pixel(2) + OutlierRejection::bytes_per_pixel(1);
   FilmDescription description;
   description.crop_x0 = description.crop_y0 = 0;

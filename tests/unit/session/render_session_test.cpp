@@ -123,8 +123,8 @@ TEST_F(RenderSessionTest, NoiseTargetStopsWhereTheErrorHasFallenToIt) {
   const RenderResult result = run(options);
   EXPECT_EQ(result.reason, StopReason::kNoise);
   EXPECT_EQ(result.passes_done, 26u);
-  ASSERT_TRUE(result.noise.has_value());
-  EXPECT_NEAR(*result.noise, 1 / std::sqrt(25 * 1.01), 1e-6);
+  ASSERT_TRUE(result.error.has_value());
+  EXPECT_NEAR(*result.error, 1 / std::sqrt(25 * 1.01), 1e-6);
 }
 
 TEST_F(RenderSessionTest, NoiseTargetDoesNotDependOnTheClock) {
@@ -179,7 +179,7 @@ TEST_F(RenderSessionTest, ProgressCountsAndForetells) {
   EXPECT_NEAR(p.fraction, 4 / 8.4, 1e-12);
   EXPECT_EQ(p.rays, 400u);
   EXPECT_EQ(p.photons_stored, 40u);
-  EXPECT_TRUE(p.noise.has_value());
+  EXPECT_TRUE(p.error.has_value());
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "core/errors.h"
+#include "session/choices_report.h"
 #include "unit/film/scratch_directory.h"
 #include "unit/session/scripted_session.h"
 
@@ -142,7 +143,8 @@ TEST_F(SessionPictures, MetadataOfTheCallerAndTheSession) {
   EXPECT_TRUE(has("nephroid:choices",
                   "photons: 50 paths per pass, 60 photons kept in all, 10 % of paths kept any\n"
                   "merge radius: 8 pixels in the first pass to 1.33 in the last\n"
-                  "rays: 80 % of camera paths, 20 % of light paths, 0 % to learn\n"));
+                  "rays: 80 % of camera paths, 20 % of light paths, 0 % to learn\n" +
+                      *error_report(*film_) + "\n"));
   EXPECT_TRUE(std::filesystem::exists(directory.file("out.png")));
 }
 
