@@ -40,7 +40,7 @@ def main():
     parser.add_argument("--renders", type=int, default=100)
     parser.add_argument("--resolution", default="96x64")
     args = parser.parse_args()
-    print("| scene | integrator | within 95 % | least | most | rms of z |\n| --- | --- | --- | --- | --- | --- |")
+    print("| scene | integrator | within the 95 % interval | least of one render | most of one render | rms of z |\n| --- | --- | --- | --- | --- | --- |")
     with tempfile.TemporaryDirectory() as directory:
         reference, picture = pathlib.Path(directory, "reference.exr"), pathlib.Path(directory, "picture.exr")
         for scene in args.scenes:

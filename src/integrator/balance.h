@@ -96,7 +96,7 @@ struct Spreads {
 
 /// [A2] Shares the work out so that the error falls fastest: walks of either kind as the root of
 /// variance over cost, and each tile in the cheaper of both ways; or all glints by walks of their
-/// own. `most_mean` camera paths a pixel at most, 1 or more.
+/// own. `most_mean` camera paths a pixel in the mean at most, 1 or more.
 Shares share_out(const PixelBounds& bounds, const Spreads& spreads, bool glints_apart = false,
                  double most_mean = SampleMap::kMostMean);
 
@@ -125,11 +125,12 @@ double steady_mean(std::vector<double> tiles);
 struct Balance {
   static constexpr double kMostPhotons = 1 << 18;  ///< that a pass keeps, about
   double variance_of_camera = 0, variance_of_light = 0, cost_of_camera = 0, cost_of_light = 0;
-  double photons_of_path = 0;
+  double photons_of_path = 0;  ///< that one light path leaves
   Balance(const Trial& many, const Trial& few);
   /// Of a pass without light paths.
   explicit Balance(const Trial& trial)
       : variance_of_camera(trial.variance), cost_of_camera(trial.cost_of_camera) {}
+  /// The best number, as far as it leaves no more than kMostPhotons.
   int64_t light_paths(double camera_paths) const;
   /// Camera paths of each pixel beside which the best number of light paths is not too many.
   double most_camera_paths() const { return most_light_paths() / for_each_camera_path(); }

@@ -15,7 +15,7 @@ namespace nephroid {
 struct Gathered {
   std::vector<Rgb> values;            ///< [walk * parts + part], with the camera's weight
   std::vector<float> filter_weights;  ///< [walk]
-  std::vector<float> bias;            ///< [walk], mean of the components; as the values
+  std::vector<float> bias;            ///< [walk], mean of the components, with the camera's weight
   uint64_t rays = 0, found = 0;       ///< found: photons merged
 
   Gathered(size_t walks, size_t parts)

@@ -42,7 +42,8 @@ class LightBatches {
     std::vector<Splat> splats;
     uint64_t rays = 0, useful = 0, specular = 0;
   };
-  LightPathCounts trace_path(int64_t number, std::vector<FilmConnection>& seen,
+  /// Light path `j` of the pass.
+  LightPathCounts trace_path(int64_t j, std::vector<FilmConnection>& seen,
                              std::vector<Photon>& photons) const;
   void trace_chunk(int64_t begin, int64_t end, Chunk& chunk) const;
   void reserve(std::vector<Photon>& photons, std::span<const Chunk> chunks,

@@ -36,7 +36,8 @@ SampleMap every_other_tile(const PixelBounds& b) {
 
 PathAndPhotons::PathAndPhotons(OwnedRoutes owned, const IntegratorOptions& options)
     : owned_(std::move(owned)), options_(options) {
-  // Those of a pass whose number is chosen here are about as many as are wanted.
+  // Where the number of light paths is chosen here, a pass leaves about kMostPhotons; what is more
+  // comes in batches.
   constexpr double kRoom = 1.1;
   if (options_.photons_per_pass == 0)
     options_.memory_photons =

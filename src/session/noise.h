@@ -1,4 +1,4 @@
-// Numbers about a whole film: how noisy it is and how its light divides among the routes.
+// Numbers about a whole film: how far off it is and how its light divides among the routes.
 // Who calls it: the render session and the report. It must not know passes or clocks.
 #pragma once
 
@@ -19,7 +19,8 @@ struct EstimatedError {
 };
 std::optional<EstimatedError> estimated_error(const Film& film);
 /// How many times as many passes have an error of `target`, above 0, as it looks now: noise falls
-/// with the square root of their number, the bias of merging with the cube root ([E2], 2/3).
+/// with the square root of their number, the bias of merging with the cube root ([E2], alpha =
+/// 2/3).
 double passes_to(const EstimatedError& error, double target);
 
 /// The same by parts.

@@ -49,7 +49,7 @@ void check_fits(const Preset& preset, const Film& film, const RenderOptions& opt
                       options.first_pass));
     if (options.noise_target > 0 && (capabilities.per_pixel_state || !capabilities.consistent))
       throw UsageError(
-          "--noise: this integrator cannot tell how noisy its picture is, expected --passes or "
+          "--noise: this integrator cannot tell how far off its picture is, expected --passes or "
           "--time");
   }
 }

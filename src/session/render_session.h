@@ -37,7 +37,7 @@ enum class StopReason { kPasses, kTime, kNoise, kSignal };
 /// Where a render stands after a pass.
 struct RenderProgress {
   uint32_t passes_done = 0;
-  std::optional<uint32_t> passes_wanted;  ///< empty if only time or noise stop it
+  std::optional<uint32_t> passes_wanted;  ///< empty if only time or error stop it
   double seconds = 0;
   std::optional<double> seconds_left;  ///< by the rule that will be met first, as it looks now
   std::optional<double> error;         ///< the last estimate, renewed now and then

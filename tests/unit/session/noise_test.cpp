@@ -1,4 +1,4 @@
-// The noise that a film tells of, and how much of its light each route has.
+// The error that a film tells of, and how much of its light each route has.
 #include "session/noise.h"
 
 #include <gtest/gtest.h>
