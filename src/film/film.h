@@ -132,14 +132,14 @@ class Film {
   /// as independent (an upper bound in practice where passes are stratified). Zero with fewer than
   /// two estimates.
   Rgb standard_error(int x, int y) const;
+  /// The same for the estimates of one group.
+  Rgb standard_error(int group, int x, int y) const;
   /// True if some group's estimates come with their bias.
   bool has_bias() const { return !biases_.empty(); }
   /// How far value() lies above the truth, estimated, mean of R, G and B; and the standard error of
   /// that. Zero without bias, the error also with fewer than two estimates.
   float bias(int x, int y) const;
   float bias_error(int x, int y) const;
-  /// The same as standard_error() for the estimates of one group.
-  Rgb standard_error(int group, int x, int y) const;
   /// Mean over the feature samples; what hit nothing counts as black.
   Rgb albedo(int x, int y) const;
   /// Direction of the mean, unit length; null where nothing was hit.

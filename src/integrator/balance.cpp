@@ -183,7 +183,7 @@ Balance Balance::with_camera_paths_of(const Trial& trial) const {
   return other;
 }
 
-double Balance::for_each_camera_path() const {
+double Balance::light_paths_of_camera_path() const {
   if (!(cost_of_light > 0) || !(variance_of_camera > 0)) return 0;
   return std::sqrt(variance_of_light * cost_of_camera / (variance_of_camera * cost_of_light));
 }
@@ -194,7 +194,7 @@ double Balance::most_light_paths() const {
 
 int64_t Balance::light_paths(double camera_paths) const {
   return static_cast<int64_t>(
-      std::clamp(camera_paths * for_each_camera_path(), kFewest, most_light_paths()));
+      std::clamp(camera_paths * light_paths_of_camera_path(), kFewest, most_light_paths()));
 }
 
 double Balance::expense() const {

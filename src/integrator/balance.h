@@ -133,7 +133,7 @@ struct Balance {
   /// The best number, as far as it leaves no more than kMostPhotons.
   int64_t light_paths(double camera_paths) const;
   /// Camera paths of each pixel beside which the best number of light paths is not too many.
-  double most_camera_paths() const { return most_light_paths() / for_each_camera_path(); }
+  double most_camera_paths() const { return most_light_paths() / light_paths_of_camera_path(); }
   double expense() const;
   /// That of the same light paths beside the camera paths of another trial.
   Balance with_camera_paths_of(const Trial& trial) const;
@@ -141,7 +141,7 @@ struct Balance {
  private:
   void take_camera_paths(const Trial& trial);
   double most_light_paths() const;
-  double for_each_camera_path() const;
+  double light_paths_of_camera_path() const;
 };
 
 }  // namespace nephroid

@@ -15,13 +15,13 @@ namespace nephroid {
 struct Gathered {
   std::vector<Rgb> values;            ///< [walk * parts + part], with the camera's weight
   std::vector<float> filter_weights;  ///< [walk]
-  std::vector<float> bias;            ///< [walk], mean of the components, with the camera's weight
+  std::vector<float> bias;            ///< [walk], mean of the components, as the values; or empty
   uint64_t rays = 0, found = 0;       ///< found: photons merged
 
-  Gathered(size_t walks, size_t parts)
-      : values(walks * parts), filter_weights(walks, 1.0f), bias(walks) {}
+  Gathered(size_t walks, size_t parts) : values(walks * parts), filter_weights(walks, 1.0f) {}
+  /// Without bias.
   static constexpr size_t bytes_per_walk(size_t parts) {
-    return parts * sizeof(Rgb) + 2 * sizeof(float);
+    return parts * sizeof(Rgb) + sizeof(float);
   }
   /// One walk's colours. They are not clamped.
   std::span<Rgb> of_walk(size_t walk) {
@@ -37,7 +37,7 @@ inline void finish_estimates(Gathered& gathered, float max_component) {
     const std::span<Rgb> estimate = gathered.of_walk(walk);
     PartSums::clamp_total(estimate, max_component);
     for (Rgb& color : estimate) color = color * gathered.filter_weights[walk];
-    gathered.bias[walk] *= gathered.filter_weights[walk];
+    if (!gathered.bias.empty()) gathered.bias[walk] *= gathered.filter_weights[walk];
   }
 }
 
@@ -78,7 +78,7 @@ void gather(const Scene& scene, const PixelBounds& b, const OwnedRoutes& owned, 
         const std::span<Rgb> values = into.of_walk(number);
         for (size_t i = 0; i < values.size(); ++i)
           values[i] = values[i] + pass.weights.apply(sums.sums()[i]) * path.camera_weight;
-        into.bias[number] += sums.bias(pass.weights) * path.camera_weight;
+        if (!into.bias.empty()) into.bias[number] += sums.bias(pass.weights) * path.camera_weight;
         into.filter_weights[number++] = path.filter_weight;
       }
   });

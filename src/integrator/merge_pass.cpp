@@ -22,6 +22,10 @@ float radius_of_pass(const IntegratorOptions& options, uint32_t pass) {
          static_cast<float>(std::sqrt(memoryless_radius_squared(pass, options.alpha)));
 }
 
+size_t MergePass::bytes_per_pixel(size_t parts) {
+  return Gathered::bytes_per_walk(parts) + sizeof(float);
+}
+
 MergePass merge_pass(const PassKey& key, const Scene& scene, const Film& film,
                      const OwnedRoutes& owned, const IntegratorOptions& options,
                      const EmissionGuide& guide, float radius_pixels, const MergeWeight& weight,
@@ -31,7 +35,9 @@ MergePass merge_pass(const PassKey& key, const Scene& scene, const Film& film,
   pass.trace.guide = &guide;
   const int64_t photons = pass.trace.photons_per_pass;
   const size_t parts = film.parts_of(static_cast<int>(owned.group)).size();
-  Gathered gathered(static_cast<size_t>(b.area()), parts);
+  const size_t pixels = static_cast<size_t>(b.area());
+  Gathered gathered(pixels, parts);
+  gathered.bias.resize(pixels);
 
   // A pixel's estimate is summed over the batches; its walk and its filter weight are the same in
   // all of them.
@@ -40,7 +46,7 @@ MergePass merge_pass(const PassKey& key, const Scene& scene, const Film& film,
     count_photons(trace, statistics);
     if (trace.photons.empty()) continue;
     const PhotonGrid grid(std::move(trace.photons));
-    statistics.hold(grid.bytes(), static_cast<size_t>(b.area()) * Gathered::bytes_per_walk(parts));
+    statistics.hold(grid.bytes(), pixels * MergePass::bytes_per_pixel(parts));
     gather(scene, b, owned, options.max_depth, pass,
            {{&pass.point, 1}, hash_combine(key.seed, kStream)}, gathered,
            [&](size_t, const CameraPath& path, const Walk& walk, MergePoint at,

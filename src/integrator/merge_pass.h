@@ -18,6 +18,8 @@ struct MergePass {
   std::vector<Rgb> values;  ///< [pixel * parts + part], parts as Film::parts_of counts
   std::vector<float> bias;  ///< [pixel], [E4]; not clamped
   uint64_t found = 0;       ///< photons merged
+  /// What it takes for each pixel.
+  static size_t bytes_per_pixel(size_t parts);
 };
 
 /// The radius is `radius_pixels` footprints at the length of the walk. Adds rays and photons to

@@ -1,6 +1,5 @@
 #include "integrator/vertex_merging.h"
 
-#include "integrator/gather.h"
 #include "integrator/light_tracing.h"
 #include "integrator/merge_pass.h"
 
@@ -47,7 +46,7 @@ void VertexMerging::render_pass(const PassKey& key, const Scene& scene, Film& fi
   const size_t parts = film.parts_of(group).size();
   const uint64_t of_splats =
       static_cast<uint64_t>(film.bounds().area()) *
-      (Gathered::bytes_per_walk(parts) + SplatBuffer::bytes_per_pixel(parts));
+      (MergePass::bytes_per_pixel(parts) + SplatBuffer::bytes_per_pixel(parts));
   statistics_.hold(0, of_splats);
   const int64_t paths =
       light_pass(key, scene, film, owned_, options_, splat_weight, buffer, statistics_);

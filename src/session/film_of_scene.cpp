@@ -43,8 +43,10 @@ size_t bytes_of_estimators(const Routes& routes, int hit_points, bool clamps) {
     } else if (group.estimator == EstimatorKind::kPpm) {
       kept += static_cast<size_t>(hit_points) * Ppm::bytes_kept(parts);
       pass += static_cast<size_t>(hit_points) * Ppm::bytes_of_pass(parts);
-    } else if (type.merges) {
+    } else if (group.estimator == EstimatorKind::kPhotonMap) {
       pass += Gathered::bytes_per_walk(parts);
+    } else if (type.merges) {
+      pass += MergePass::bytes_per_pixel(parts);
     }
     most = std::max(most, pass);
   }

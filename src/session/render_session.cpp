@@ -85,7 +85,7 @@ void RenderSession::use_clock(std::function<double()> seconds) {
 
 RenderResult RenderSession::run(SignalFlags& signals) {
   start_ = clock_();
-  passes_done_ = 0;
+  passes_done_ = error_text_pass_ = 0;
   next_write_seconds_ = options_.write_interval;
   RenderResult result;
   std::optional<StopReason> reason;
@@ -103,9 +103,10 @@ RenderResult RenderSession::run(SignalFlags& signals) {
   result.passes_done = passes_done_;
   result.seconds = elapsed();
   if (error_) result.error = error_->total();
-  result.error_text = error_text();
   result.first_pass_statistics = first_pass_statistics_;
   result.statistics = statistics();
+  renew_error_text();
+  result.error_text = error_text_;
   if (!options_.output.empty()) write_picture();
   return result;
 }
@@ -156,10 +157,13 @@ void RenderSession::renew_error() {
   next_error_seconds_ = elapsed() + std::max(kErrorInterval, kIdlePerWork * cost);
 }
 
-std::optional<std::string> RenderSession::error_text() const {
+void RenderSession::renew_error_text() {
+  if (error_text_pass_ == passes_done_) return;
+  error_text_pass_ = passes_done_;
+  error_text_.reset();
   for (const auto& estimator : preset_.estimators)
-    if (!estimator->capabilities().consistent) return std::nullopt;
-  return error_report(film_);
+    if (!estimator->capabilities().consistent) return;
+  error_text_ = error_report(film_);
 }
 
 std::optional<double> RenderSession::seconds_left(double seconds) const {
@@ -208,6 +212,7 @@ void RenderSession::write_if_due(SignalFlags& signals) {
 }
 
 void RenderSession::write_picture() {
+  renew_error_text();
   write_film(options_.output, film_, picture_metadata(), options_.png_exposure);
 }
 
@@ -225,7 +230,7 @@ Metadata RenderSession::picture_metadata() const {
   std::string choices;
   for (const std::string& line : choices_report(first_pass_statistics_, statistics(), passes_done_))
     choices += line + "\n";
-  if (const auto text = error_text()) choices += *text + "\n";
+  if (error_text_) choices += *error_text_ + "\n";
   metadata.emplace_back("nephroid:choices", choices);
   const FilmLayout& layout = film_.layout();
   for (size_t r = 0; r < layout.routes.size(); ++r)

@@ -81,8 +81,8 @@ class RenderSession {
   void render_one_pass();
   std::vector<EstimatorStatistics> statistics() const;
   void renew_error();
-  /// The line of error_report(), empty where an estimator knows only a part of its error.
-  std::optional<std::string> error_text() const;
+  /// Makes error_text_ that of the passes so far.
+  void renew_error_text();
   void report_progress();
   void write_if_due(SignalFlags& signals);
   void write_picture();
@@ -103,7 +103,10 @@ class RenderSession {
   uint32_t passes_done_ = 0;
   double last_pass_seconds_ = 0;
   std::optional<EstimatedError> error_;
-  uint32_t error_pass_ = 0;        ///< passes done when error_ was estimated
+  uint32_t error_pass_ = 0;  ///< passes done when error_ was estimated
+  /// The line of error_report(), empty where an estimator knows only a part of its error.
+  std::optional<std::string> error_text_;
+  uint32_t error_text_pass_ = 0;   ///< passes done when it was made
   double next_error_seconds_ = 0;  ///< of the estimates for progress alone
   double next_write_seconds_ = 0;
 };

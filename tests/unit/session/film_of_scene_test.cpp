@@ -83,9 +83,9 @@ TEST(FilmOfScene, MemoryIsThatOfThePartsGroupsAndSplats) {
   description.gbuffer = GBufferSpace::kNone;
 
   // A splat is a sum of 48 bytes. A merging pass has a colour for each part, a filter weight and a
-  // bias; sppm keeps a radius, a count, a flux and a footprint, and in a pass a colour, a count, a
-  // filter weight and a bias, ppm the same for each of its hit points. Estimators render one after
-  // another.
+  // bias; sppm keeps a radius, a count, a flux and a footprint, and in a pass a colour, a count and
+  // a filter weight, ppm the same for each of its hit points. A photon map is read without bias.
+  // Estimators render one after another.
   constexpr int kHitPoints = 5;
   const struct {
     std::vector<std::string> routes;
@@ -93,9 +93,9 @@ TEST(FilmOfScene, MemoryIsThatOfThePartsGroupsAndSplats) {
   } rows[] = {{{"all=.*:lighttrace"}, 48},
               {{"all=C.*DL:photons"}, 12 + 8},
               {{"all=C.*DL:photons+light"}, 48 + 12 + 8},
-              {{"all=C.*DL:sppm"}, 16 + 24 + 4 + 12 + 8 + 8},
-              {{"all=C.*DL:ppm"}, 5 * (16 + 24 + 4 + 12 + 8 + 8)},
-              {{"all=C.*DL:photonmap"}, 12 + 8},
+              {{"all=C.*DL:sppm"}, 16 + 24 + 4 + 12 + 4 + 8},
+              {{"all=C.*DL:ppm"}, 5 * (16 + 24 + 4 + 12 + 4 + 8)},
+              {{"all=C.*DL:photonmap"}, 12 + 4},
               {{"a=C.*DL:photons", "b=C.*GL:photons"}, 2 * 12 + 8},
               {{"a=C.*DL:sppm", "b=C.*GL:photons+light"}, 16 + 24 + 4 + 48 + 12 + 8}};
   for (const auto& row : rows) {
