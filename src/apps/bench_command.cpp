@@ -28,6 +28,7 @@ std::string command_text(const BenchCommand& command, const std::string& directo
   std::string text = "nephroid bench " + quoted(command.suite);
   if (command.time_limit > 0) text += fmt::format(" --time {}s", command.time_limit);
   if (command.passes > 0) text += fmt::format(" --passes {}", command.passes);
+  if (command.repeat > 0) text += fmt::format(" --repeat {}", command.repeat);
   for (const std::string& scene : command.only) text += " --only " + quoted(scene);
   if (command.threads > 0) text += fmt::format(" -t {}", command.threads);
   if (command.strict_claims) text += " --strict-claims";
@@ -56,6 +57,7 @@ int run_bench(const BenchCommand& command) {
   BenchOptions options;
   options.directory = command.directory.empty() ? suite.name + ".bench" : command.directory;
   options.limit = {command.time_limit, command.passes};
+  options.repeat = command.repeat;
   options.only = command.only;
   options.command = command_text(command, options.directory);
   if (!command.quiet)

@@ -96,16 +96,30 @@ class Bench {
     }
     result.width = reference.width();
     result.height = reference.height();
-    for (const std::string& name : scene.integrators) {
-      const auto run =
-          run_of(scene, *suite_.find_integrator(name), reference, result.reference.key);
-      if (!run) break;
-      result.runs.push_back(*run);
-    }
+    // Round by round: what else the machine does meets all integrators alike.
+    const uint32_t rounds = options_.repeat > 0 ? options_.repeat : suite_.repeat;
+    for (uint32_t round = 0; round < rounds; ++round)
+      if (!run_all(scene, round, reference, &result)) break;
     return result;
   }
 
  private:
+  /// Every integrator of the scene with its seed and `round` more; false if a signal stopped it.
+  bool run_all(const BenchScene& scene, uint32_t round, const Picture& reference,
+               BenchSceneResult* result) {
+    for (size_t i = 0; i < scene.integrators.size(); ++i) {
+      BenchIntegrator integrator = *suite_.find_integrator(scene.integrators[i]);
+      integrator.seed += round;
+      const auto run = run_of(scene, integrator, reference, result->reference.key);
+      if (!run) return false;
+      if (round == 0)
+        result->runs.push_back(*run);
+      else
+        result->runs[i].again.push_back(*run);
+    }
+    return true;
+  }
+
   /// The reference and its picture, from a file, from earlier or rendered now; nothing if a signal
   /// stopped it.
   std::optional<BenchReferenceResult> reference_of(const BenchScene& scene, Picture* picture) {
@@ -159,9 +173,11 @@ class Bench {
                                  const Picture& reference, const std::string& reference_hash) {
     const BenchRender render{&scene, &integrator, limit_of(suite_, scene, options_.limit),
                              !scene.reference.file.empty()};
-    const std::string title = scene.name + ", " + integrator.name;
+    std::string title = scene.name + ", " + integrator.name;
+    if (integrator.seed > 0) title += fmt::format(", seed {}", integrator.seed);
     BenchRun failed;
     failed.integrator = integrator.name;
+    failed.seed = integrator.seed;
     try {
       const std::string key = run_key(render, reference_hash);
       const KeptFiles files =

@@ -15,6 +15,7 @@ namespace nephroid {
 struct BenchOptions {
   std::string directory;          ///< of results; made if it is not there
   BenchLimit limit;               ///< over all of the suite's
+  uint32_t repeat = 0;            ///< renders of each run, 0: as the suite says
   std::vector<std::string> only;  ///< scenes by name, all if empty
   std::string command;            ///< as it was given, for the report
   /// Called with a line for whoever waits.

@@ -7,6 +7,7 @@
 
 #include "bench/fit.h"
 #include "bench/html_text.h"
+#include "bench/repeats.h"
 
 namespace nephroid {
 namespace {
@@ -65,7 +66,8 @@ std::optional<Pair> figures_of(const BenchRun& subject, const BenchRun& other,
   if (!claim.at_equal) {
     const auto a = metric_of(subject, claim), b = metric_of(other, claim);
     if (!a || !b) return std::nullopt;
-    return Pair{*a, *b, ""};
+    const size_t renders = renders_of(subject).size();
+    return Pair{*a, *b, renders > 1 ? fmt::format(" over {} renders", renders) : ""};
   }
   const BenchAxis axis = *claim.at_equal;
   const double x = std::min(position_of(subject.end(), axis), position_of(other.end(), axis));
@@ -214,9 +216,11 @@ std::optional<double> metric_of(const BenchRun& run, const BenchClaim& claim) {
     default:
       break;
   }
-  const BenchErrors* errors = &run.end().errors;
-  if (!claim.region.empty()) errors = find(run.regions, claim.region);
-  if (!claim.layer.empty()) errors = find(run.end().layers, claim.layer);
+  if (claim.region.empty() && claim.layer.empty())
+    return error_of(errors_at_end(run), claim.metric);
+  const BenchNamedErrors parts =
+      claim.region.empty() ? layer_errors_at_end(run) : region_errors(run);
+  const BenchErrors* errors = find(parts, claim.region.empty() ? claim.layer : claim.region);
   if (errors == nullptr) return std::nullopt;
   return error_of(*errors, claim.metric);
 }

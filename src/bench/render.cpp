@@ -241,6 +241,7 @@ std::optional<BenchRendered> render_for_bench(const BenchRender& render, const P
   BenchRun& run = rendered.run;
   run.process_bytes = memory_peak();
   run.integrator = render.integrator->name;
+  run.seed = render.integrator->seed;
   run.options = settings_text(choice.options);
   run.routes = routes_text(plan);
   run.points = curve.finish(result.passes_done, result.seconds);

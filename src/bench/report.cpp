@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "bench/html_text.h"
+#include "bench/repeats.h"
 #include "session/compare.h"
 
 namespace nephroid {
@@ -102,20 +103,20 @@ std::string summary_section(const BenchResults& results) {
     const BenchRun* best = nullptr;
     for (const BenchRun& run : scene.runs)
       if (run.failure.empty() &&
-          (best == nullptr || run.end().errors.rmse < best->end().errors.rmse))
+          (best == nullptr || errors_at_end(run).rmse < errors_at_end(*best).rmse))
         best = &run;
     for (const BenchIntegrator& integrator : results.suite.integrators) {
       const BenchRun* run = scene.find_run(integrator.name);
-      row.push_back({run == nullptr ? "" : number_text(run->end().errors.rmse),
-                     run != nullptr && run == best});
+      row.push_back({run == nullptr ? "" : rmse_text(*run), run != nullptr && run == best});
     }
     const std::optional<double>& own = scene.reference.own_error;
     row.push_back({own ? number_text(*own) : "—", false});
     table.rows.push_back(std::move(row));
   }
   return "<h2 id=\"summary\">Summary</h2>\n<p>Root mean square error against the reference at the "
-         "end of each run; a star marks the smallest. Last is the error that the reference itself "
-         "estimates that it has.</p>\n" +
+         "end of each run; a star marks the smallest. Where runs were repeated with other seeds, "
+         "the mean is over all of them, and the smallest and the largest RMSE of one picture "
+         "follow. Last is the error that the reference itself estimates that it has.</p>\n" +
          table.html();
 }
 
@@ -152,6 +153,15 @@ std::string ReportTable::html() const {
     html += "</tr>\n";
   }
   return html + "</tbody></table></div>\n";
+}
+
+std::string rmse_text(const BenchRun& run) {
+  const std::string rmse = number_text(errors_at_end(run).rmse);
+  const size_t renders = renders_of(run).size();
+  if (renders == 1) return rmse;
+  const RmseRange range = rmse_range(run);
+  return fmt::format("{} ({} renders: {} to {})", rmse, renders, number_text(range.least),
+                     number_text(range.most));
 }
 
 std::string bench_report(const BenchResults& results) {

@@ -12,6 +12,9 @@ namespace nephroid {
 /// replaced by a message.
 std::string bench_report(const BenchResults& results);
 
+/// RMSE at the end, over all renders of the run, and between which it lies if there are several.
+std::string rmse_text(const BenchRun& run);
+
 /// The part of the page about one scene.
 std::string report_of_scene(const BenchResults& results, const BenchSceneResult& scene);
 

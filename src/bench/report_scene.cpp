@@ -8,6 +8,7 @@
 
 #include "bench/fit.h"
 #include "bench/html_text.h"
+#include "bench/repeats.h"
 #include "bench/report.h"
 #include "bench/svg_plot.h"
 #include "core/errors.h"
@@ -134,7 +135,7 @@ std::string table_of(const std::vector<const BenchRun*>& runs, const std::vector
 }
 
 Column error_column(const char* name, double BenchErrors::*error) {
-  const auto value = [error](const BenchRun& run) { return run.end().errors.*error; };
+  const auto value = [error](const BenchRun& run) { return errors_at_end(run).*error; };
   return {name, [value](const BenchRun& run) { return number_text(value(run)); },
           [value](const BenchRun& run) { return std::abs(value(run)); }};
 }
@@ -168,11 +169,11 @@ std::string error_table(const std::vector<const BenchRun*>& runs,
   std::vector<Column> columns = {
       {"passes", [](const BenchRun& r) { return fmt::format("{}", r.end().passes); }, {}},
       {"time", [](const BenchRun& r) { return seconds_in_words(r.end().seconds); }, {}},
-      error_column("RMSE", &BenchErrors::rmse)};
+      {"RMSE", rmse_text, [](const BenchRun& r) { return errors_at_end(r).rmse; }}};
   if (own_error)
     columns.push_back({"without reference’s",
                        [&](const BenchRun& r) {
-                         return number_text(without_reference(r.end().errors.rmse, *own_error));
+                         return number_text(without_reference(errors_at_end(r).rmse, *own_error));
                        },
                        {}});
   for (Column& column :
@@ -210,7 +211,7 @@ std::string work_table(const std::vector<const BenchRun*>& runs) {
 
 /// RMSE at the end in each region or layer.
 std::string parts_table(const std::string& title, const std::vector<const BenchRun*>& runs,
-                        const std::function<const BenchNamedErrors&(const BenchRun&)>& parts) {
+                        const std::function<BenchNamedErrors(const BenchRun&)>& parts) {
   std::vector<Column> columns;
   std::vector<std::string> names;
   for (const auto& part : parts(*runs[0])) names.push_back("RMSE, " + part.first);
@@ -304,8 +305,12 @@ std::string report_of_scene(const BenchResults& results, const BenchSceneResult&
     failure(result.failure);
     return html + "</section>\n";
   }
-  for (const BenchRun& run : result.runs)
+  for (const BenchRun& run : result.runs) {
     if (!run.failure.empty()) failure(run.integrator + ": " + run.failure);
+    for (const BenchRun& again : run.again)
+      if (!again.failure.empty())
+        failure(fmt::format("{}, seed {}: {}", run.integrator, again.seed, again.failure));
+  }
   if (result.reference.picture.empty()) {
     failure("stopped before the reference was finished");
     return html + "</section>\n";
@@ -318,14 +323,10 @@ std::string report_of_scene(const BenchResults& results, const BenchSceneResult&
   }
   const std::vector<const BenchRun*> runs = good_runs(result);
   if (!runs.empty())
-    html +=
-        "<h3>Errors</h3>\n" + error_table(runs, result.reference.own_error) +
-        parts_table("Regions", runs,
-                    [](const BenchRun& r) -> const BenchNamedErrors& { return r.regions; }) +
-        parts_table("Layers", runs,
-                    [](const BenchRun& r) -> const BenchNamedErrors& { return r.end().layers; }) +
-        plots(results, runs) + "<h3>Work and memory</h3>\n" + work_table(runs) +
-        energy_lines(result) + settings(runs);
+    html += "<h3>Errors</h3>\n" + error_table(runs, result.reference.own_error) +
+            parts_table("Regions", runs, region_errors) +
+            parts_table("Layers", runs, layer_errors_at_end) + plots(results, runs) +
+            "<h3>Work and memory</h3>\n" + work_table(runs) + energy_lines(result) + settings(runs);
   return html + "</section>\n";
 }
 

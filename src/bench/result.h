@@ -43,6 +43,7 @@ using BenchShares = std::vector<std::pair<std::string, double>>;
 /// An integrator on a scene.
 struct BenchRun {
   std::string integrator;
+  uint64_t seed = 0;
   std::string key;                 ///< hash of all that determines it, 16 digits
   std::string failure;             ///< empty if it went well; the rest is then empty
   bool kept = false;               ///< from an earlier invocation
@@ -56,6 +57,7 @@ struct BenchRun {
   BenchNamedErrors regions;
   BenchShares energy;
   std::vector<std::string> notes;
+  std::vector<BenchRun> again;  ///< the same with the seeds that follow; repeats.h has the means
 
   const BenchPoint& end() const { return points.back(); }
 };

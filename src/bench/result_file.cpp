@@ -7,6 +7,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "bench/repeats.h"
 #include "bench/result.h"
 
 namespace nephroid {
@@ -58,8 +59,9 @@ BenchShares shares_of(const Json& json) {
   return shares;
 }
 
+/// One render.
 Json run_json(const BenchRun& run) {
-  Json json = {{"integrator", run.integrator}, {"key", run.key}};
+  Json json = {{"integrator", run.integrator}, {"seed", run.seed}, {"key", run.key}};
   if (!run.failure.empty()) {
     json["failure"] = run.failure;
     return json;
@@ -91,6 +93,7 @@ Json run_json(const BenchRun& run) {
 BenchRun run_of(const Json& json) {
   BenchRun run;
   run.integrator = json.at("integrator");
+  run.seed = json.at("seed");
   run.key = json.at("key");
   run.picture = json.at("picture");
   run.routes = json.at("routes");
@@ -188,6 +191,18 @@ std::string error_fields(const BenchErrors& e) {
                      e.mean_error, e.flip);
 }
 
+std::string run_line(const BenchSceneResult& scene, const BenchRun& run) {
+  const std::string begin = fmt::format("{},{},{},", scene.name, run.integrator, run.seed);
+  if (!run.failure.empty()) return fmt::format("{},,,,,,,,,,,,,,,{}\n", begin, field(run.failure));
+  const std::optional<double>& own = scene.reference.own_error;
+  const std::string without =
+      own ? fmt::format("{:.9g}", without_reference(run.end().errors.rmse, *own)) : "";
+  return begin + fmt::format("{},{:.3f},{},{},{},{},{},{},{},{},{},\n", run.end().passes,
+                             run.end().seconds, error_fields(run.end().errors), run.rays,
+                             run.emitted, run.photons_stored, run.bytes, run.photon_bytes,
+                             run.pixel_bytes, run.process_bytes, without);
+}
+
 }  // namespace
 
 const BenchRun* BenchSceneResult::find_run(const std::string& integrator) const {
@@ -205,7 +220,10 @@ int BenchResults::failures() const {
   int count = 0;
   for (const BenchSceneResult& scene : scenes) {
     count += !scene.failure.empty();
-    for (const BenchRun& run : scene.runs) count += !run.failure.empty();
+    for (const BenchRun& run : scene.runs) {
+      count += !run.failure.empty();
+      for (const BenchRun& again : run.again) count += !again.failure.empty();
+    }
   }
   return count;
 }
@@ -238,7 +256,15 @@ std::string results_json(const BenchResults& results) {
                {"experiments", experiments_json(results.experiments)}};
   for (const BenchSceneResult& scene : results.scenes) {
     Json runs = Json::array();
-    for (const BenchRun& run : scene.runs) runs.push_back(run_json(run));
+    for (const BenchRun& run : scene.runs) {
+      Json all = run_json(run);
+      if (!run.again.empty()) {
+        if (run.failure.empty()) all["errors_of_all"] = errors_json(errors_at_end(run));
+        all["again"] = Json::array();
+        for (const BenchRun& again : run.again) all["again"].push_back(run_json(again));
+      }
+      runs.push_back(std::move(all));
+    }
     json["scenes"].push_back({{"name", scene.name},
                               {"failure", scene.failure},
                               {"width", scene.width},
@@ -260,25 +286,15 @@ std::string results_json(const BenchResults& results) {
 
 std::string runs_csv(const BenchResults& results) {
   std::string csv = fmt::format(
-      "scene,integrator,passes,seconds,{},rays,emitted,photons_stored,bytes,photon_bytes,"
+      "scene,integrator,seed,passes,seconds,{},rays,emitted,photons_stored,bytes,photon_bytes,"
       "pixel_bytes,process_bytes,rmse_without_reference,failure\n",
       kErrorColumns);
   for (const BenchSceneResult& scene : results.scenes) {
     if (!scene.failure.empty())
-      csv += fmt::format("{},,,,,,,,,,,,,,,,,{}\n", scene.name, field(scene.failure));
-    for (const BenchRun& run : scene.runs) {
-      if (!run.failure.empty()) {
-        csv += fmt::format("{},{},,,,,,,,,,,,,,,,{}\n", scene.name, run.integrator,
-                           field(run.failure));
-        continue;
-      }
-      const std::optional<double>& own = scene.reference.own_error;
-      const std::string without =
-          own ? fmt::format("{:.9g}", without_reference(run.end().errors.rmse, *own)) : "";
-      csv += fmt::format("{},{},{},{:.3f},{},{},{},{},{},{},{},{},{},\n", scene.name,
-                         run.integrator, run.end().passes, run.end().seconds,
-                         error_fields(run.end().errors), run.rays, run.emitted, run.photons_stored,
-                         run.bytes, run.photon_bytes, run.pixel_bytes, run.process_bytes, without);
+      csv += fmt::format("{},,,,,,,,,,,,,,,,,,{}\n", scene.name, field(scene.failure));
+    for (const BenchRun& first : scene.runs) {
+      csv += run_line(scene, first);
+      for (const BenchRun& again : first.again) csv += run_line(scene, again);
     }
   }
   return csv;

@@ -282,14 +282,15 @@ const BenchScene* BenchSuite::find_scene(const std::string& wanted) const {
 BenchSuite parse_suite(const std::string& text, const std::string& file) {
   const JsonValue root = parse_json(text, file);
   const Fields fields(root, "a suite",
-                      {"name", "title", "description", "time", "passes", "integrators", "scenes",
-                       "claims", "experiments"});
+                      {"name", "title", "description", "time", "passes", "repeat", "integrators",
+                       "scenes", "claims", "experiments"});
   BenchSuite suite;
   suite.file = file;
   suite.name = name_in(fields);
   suite.title = fields.text_or("title", suite.name);
   suite.description = fields.text_or("description", "");
   suite.limit = limit_in(fields);
+  suite.repeat = static_cast<uint32_t>(fields.integer_or("repeat", 1, 1, kMostRepeats));
   for (const JsonValue& item : filled_list(fields, "integrators")) {
     BenchIntegrator integrator = integrator_in(item, file);
     check_new_name(suite.integrators, integrator, item);

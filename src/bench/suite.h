@@ -105,6 +105,7 @@ struct BenchSuite {
   std::string file;  ///< as the command line named it
   std::string name, title, description;
   BenchLimit limit;
+  uint32_t repeat = 1;  ///< renders of each run, with seeds that follow each other
   std::vector<BenchIntegrator> integrators;
   std::vector<BenchScene> scenes;
   std::vector<BenchClaim> claims;
@@ -114,6 +115,9 @@ struct BenchSuite {
   const BenchIntegrator* find_integrator(const std::string& wanted) const;
   const BenchScene* find_scene(const std::string& wanted) const;
 };
+
+/// Renders of a run.
+constexpr uint32_t kMostRepeats = 1000;
 
 /// As readers say it.
 const char* metric_title(BenchMetric metric);

@@ -14,6 +14,7 @@ namespace {
 constexpr double kAnyNumber = std::numeric_limits<double>::infinity();
 constexpr int kMostThreads = 4096;
 constexpr int kMostPilotPasses = 100000;
+constexpr int64_t kMostBenchRepeats = 1000;
 constexpr int64_t kMostBenchPasses = std::numeric_limits<uint32_t>::max() - 1;
 
 void set_output(CommandLine& line, const std::string& text) {
@@ -225,6 +226,13 @@ constexpr OptionDescription kOptions[] = {
     {"bench", "--passes", "", "N", "passes", "the suite's", "", "Every run has N passes.", false,
      [](CommandLine& l, const std::string& t) {
        l.bench.passes = static_cast<uint32_t>(parse_integer("--passes", t, 1, kMostBenchPasses));
+     }},
+    {"bench", "--repeat", "", "N", "renders", "the suite's, or 1", "",
+     "Every run is rendered so many times, with its seed and those that follow; errors are those "
+     "of all.",
+     false,
+     [](CommandLine& l, const std::string& t) {
+       l.bench.repeat = static_cast<uint32_t>(parse_integer("--repeat", t, 1, kMostBenchRepeats));
      }},
     {"bench", "--out", "", "DIR", "", "the suite's name and .bench, in the current directory", "",
      "Directory of the report and of all results; runs that are there already are not repeated.",

@@ -60,6 +60,7 @@ struct BenchCommand {
   std::string directory;          ///< empty: named after the suite
   double time_limit = 0;          ///< of each run, 0: as the suite says
   uint32_t passes = 0;            ///< of each run, 0: as the suite says
+  uint32_t repeat = 0;            ///< renders of each run, 0: as the suite says
   std::vector<std::string> only;  ///< names of scenes, all if empty
   int threads = 0;                ///< 0: all of the machine
   bool strict_claims = false;

@@ -167,6 +167,31 @@ TEST_F(BenchRuns, WhatIsThereIsNotRenderedAgain) {
   EXPECT_FALSE(third.scenes[0].find_run("mixed")->kept);
 }
 
+// Each repetition is a run of its own, with the next seed.
+TEST_F(BenchRuns, RunsAreRepeatedWithOtherSeeds) {
+  const BenchResults alone = run(small_suite());
+  std::string twice = small_suite();
+  twice.insert(1, "\"repeat\": 3, ");
+  const BenchResults results = run(twice);
+  EXPECT_EQ(results.failures(), 0) << said_;
+  ASSERT_EQ(results.scenes.at(0).runs.size(), 2u);
+  for (size_t i = 0; i < 2; ++i) {
+    const BenchRun& first = results.scenes[0].runs[i];
+    EXPECT_TRUE(first.kept);
+    EXPECT_EQ(run_to_json(first), run_to_json(alone.scenes.at(0).runs.at(i)));
+    ASSERT_EQ(first.again.size(), 2u);
+    for (size_t j = 0; j < 2; ++j) {
+      EXPECT_EQ(first.again[j].seed, j + 1);
+      EXPECT_EQ(first.again[j].integrator, first.integrator);
+      EXPECT_NE(first.again[j].end().errors.rmse, first.end().errors.rmse);
+    }
+    EXPECT_NE(file("results.json").find("errors_of_all"), std::string::npos);
+    EXPECT_NE(file("report.html").find("(3 renders: "), std::string::npos);
+  }
+  const std::string csv = file("runs.csv");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 7);
+}
+
 TEST_F(BenchRuns, WhatWasRemovedIsRenderedAgain) {
   const BenchResults first = run(small_suite());
   std::filesystem::remove(first.scenes.at(0).reference.picture);

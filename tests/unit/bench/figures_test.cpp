@@ -8,6 +8,7 @@
 #include "bench/claims.h"
 #include "bench/fit.h"
 #include "bench/measure.h"
+#include "bench/repeats.h"
 #include "bench/svg_plot.h"
 #include "core/errors.h"
 
@@ -195,8 +196,34 @@ TEST(Claims, AMissingRunIsNotMeasured) {
   EXPECT_EQ(judge_claims(results).at(0).state, BenchVerdict::State::kNotMeasured);
 }
 
+// One picture is one draw: what counts is the error to be expected.
+TEST(Repeats, ErrorsAreThoseOfAllRenders) {
+  BenchResults results =
+      made_up(R"({"text": "t", "metric": "rmse", "smaller": "fast", "than": "slow"})");
+  BenchRun& fast = results.scenes[0].runs[0];
+  const double alone = fast.end().errors.rmse;
+  EXPECT_EQ(errors_at_end(fast).rmse, alone);
+  BenchRun again = fast, broken = fast;
+  again.points.back().errors.rmse = 7 * alone;
+  again.points.back().errors.mean_error = 0.03;
+  again.regions[0].second.rmse = 1.5;
+  broken.failure = "it broke";
+  fast.again = {again, broken};
+  EXPECT_NEAR(errors_at_end(fast).rmse, 5 * alone, 1e-12);
+  EXPECT_NEAR(errors_at_end(fast).mean_error, 0.01, 1e-12);
+  EXPECT_NEAR(region_errors(fast).at(0).second.rmse, std::sqrt((0.25 + 2.25) / 2), 1e-12);
+  EXPECT_EQ(rmse_range(fast).least, alone);
+  EXPECT_EQ(rmse_range(fast).most, 7 * alone);
+  EXPECT_EQ(results.failures(), 1);
+  // Alone it would be better than `slow` by a factor of two.
+  const BenchVerdict verdict = judge_claims(results).at(0);
+  EXPECT_EQ(verdict.state, BenchVerdict::State::kFails);
+  EXPECT_NE(verdict.figures.at(0).text.find("over 2 renders"), std::string::npos);
+}
+
 TEST(ResultFiles, ARunComesBackAsItWas) {
   BenchRun run = made_up("").scenes[0].runs[0];
+  run.seed = 3;
   run.key = "0123456789abcdef";
   run.picture = "a \"b\".exr";
   run.energy = {{"caustic", 0.25}};
@@ -238,6 +265,7 @@ TEST(ResultFiles, AReferenceWhoseErrorIsNotFiniteIsReadBack) {
 
 TEST(ResultFiles, EveryCsvLineHasAllColumns) {
   BenchResults results = made_up("");
+  results.scenes[0].runs[0].again = {results.scenes[0].runs[0]};
   results.scenes[0].runs[1].failure = "it broke";
   BenchSceneResult broken;
   broken.name = "lost";
