@@ -22,13 +22,15 @@ const SobolDirections& sobol_directions() {
   return directions;
 }
 
-SobolPoint::SobolPoint(uint32_t index, int dimensions) : index_(index), dimensions_(dimensions) {
+SobolPoint::SobolPoint(uint32_t index, int dimensions, std::span<const uint8_t> order)
+    : index_(index), dimensions_(dimensions) {
   const SobolDirections& directions = sobol_directions();
-  const size_t count = static_cast<size_t>(dimensions);
+  const size_t count = static_cast<size_t>(dimensions), dealt = std::min(order.size(), count);
   std::fill_n(reversed_.begin(), count, 0u);
   for (uint32_t bit = 0; bit < 32; ++bit) {
     if (!((index >> bit) & 1u)) continue;
-    for (size_t d = 0; d < count; ++d) reversed_[d] ^= directions[bit][d];
+    for (size_t d = 0; d < dealt; ++d) reversed_[d] ^= directions[bit][order[d]];
+    for (size_t d = dealt; d < count; ++d) reversed_[d] ^= directions[bit][d];
   }
 }
 

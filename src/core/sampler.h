@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <span>
 
 #include "core/math.h"
 
@@ -71,8 +72,10 @@ const SobolDirections& sobol_directions();
 /// pass; every pixel scrambles it in its own way.
 class SobolPoint {
  public:
-  /// With fewer `dimensions` it is made faster; those beyond are random.
-  explicit SobolPoint(uint32_t index, int dimensions = kSobolDimensions);
+  /// With fewer `dimensions` it is made faster; those beyond are random. The first ones are those
+  /// of the sequence that `order` says, the others follow as they are.
+  explicit SobolPoint(uint32_t index, int dimensions = kSobolDimensions,
+                      std::span<const uint8_t> order = {});
   int dimensions() const { return dimensions_; }
   uint32_t reversed(int dimension) const { return reversed_[static_cast<size_t>(dimension)]; }
   uint32_t index() const { return index_; }

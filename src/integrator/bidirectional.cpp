@@ -30,7 +30,7 @@ class PairRound {
         key_(key),
         index_(index),
         film_(film),
-        eye_point_(static_cast<uint32_t>(index), kEyePathDimensions),
+        eye_point_(eye_point(static_cast<uint32_t>(index), kEyePathDimensions)),
         light_point_(static_cast<uint32_t>(index), kPairDimensions),
         parts_(film.parts_of(static_cast<int>(settings.owned.group)).size()),
         values_(static_cast<size_t>(film.bounds().area()) * parts_) {}

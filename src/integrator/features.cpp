@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/parallel.h"
+#include "transport/eye_point.h"
 
 namespace nephroid {
 
@@ -61,7 +62,7 @@ void Features::add_to(Film& film, int x, int y, const Scene& scene, const Camera
 void FeatureEstimator::render_pass(const PassKey& key, const Scene& scene, Film& film) {
   const PixelBounds& b = film.bounds();
   const FilmSettings& settings = film.settings();
-  const SobolPoint point(key.pass);
+  const SobolPoint point = eye_point(key.pass);
   std::vector<uint64_t> rays(static_cast<size_t>(b.height()), 0);
   parallel_chunks(b.height(), 1, [&](int64_t row, int64_t, int64_t) {
     const int y = b.y0 + static_cast<int>(row);

@@ -10,6 +10,7 @@
 #include "film/film.h"
 #include "integrator/balance.h"
 #include "integrator/specular_tree.h"
+#include "transport/eye_point.h"
 
 namespace nephroid {
 
@@ -34,7 +35,8 @@ struct GlintPass {
     for (int n = 1; n <= walks.most(); ++n)
       if (walks.has(n))
         for (int k = 0; k < n; ++k)
-          points[static_cast<size_t>(n)].emplace_back(first_index(n) + static_cast<uint32_t>(k));
+          points[static_cast<size_t>(n)].push_back(
+              eye_point(first_index(n) + static_cast<uint32_t>(k)));
     return render_points(values, points);
   }
 

@@ -153,7 +153,7 @@ class Rendering {
   };
   SamplePoints sample_points(int n, int k) const {
     const uint32_t index = first_index(n) + static_cast<uint32_t>(k);
-    return {SobolPoint(index, kEyePathDimensions),
+    return {eye_point(index, kEyePathDimensions),
             SobolPoint(index, how_.connects ? kPairDimensions : 1)};
   }
 

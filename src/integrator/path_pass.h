@@ -10,6 +10,7 @@
 #include "integrator/estimator.h"
 #include "route/scene_symbols.h"
 #include "transport/camera_path.h"
+#include "transport/eye_point.h"
 #include "transport/roughness_band.h"
 
 namespace nephroid {
@@ -42,7 +43,7 @@ uint64_t trace_paths(const PathPass& pass, Trace&& trace) {
   for (int k = 0; k < pass.samples; ++k) {
     const uint64_t index =
         uint64_t{pass.key.pass} * static_cast<uint64_t>(pass.samples) + static_cast<uint64_t>(k);
-    const SobolPoint point(static_cast<uint32_t>(index));
+    const SobolPoint point = eye_point(static_cast<uint32_t>(index));
     parallel_chunks(b.height(), 1, [&](int64_t row, int64_t, int64_t) {
       const int y = b.y0 + static_cast<int>(row);
       PartSums light(*pass.owned.routes, pass.owned.group);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "integrator/gather.h"
+#include "transport/eye_point.h"
 
 namespace nephroid {
 
@@ -54,7 +55,7 @@ void PhotonMap::render_pass(const PassKey& key, const Scene& scene, Film& film) 
     // A set has a sequence of its own. Of one for all passes it would take every 16th point, which
     // lie in one strip of each pixel.
     const uint64_t index = uint64_t{key.pass / kSets} * walks_per_pass_ + k;
-    pass.point = SobolPoint(static_cast<uint32_t>(index));
+    pass.point = eye_point(static_cast<uint32_t>(index));
     read(map, set, hash_combine(set.seed, kStream, set.pass, index >> 32), pass, scene, film, rows);
   }
   RadiusRange all;

@@ -1,5 +1,6 @@
 #include "integrator/photon_pass.h"
 
+#include "transport/eye_point.h"
 #include "transport/roughness_band.h"
 
 namespace nephroid {
@@ -17,7 +18,7 @@ int64_t default_photons_per_pass(int64_t pixels) {
 
 PhotonPass start_photon_pass(const PassKey& key, const Scene& scene, const Film& film,
                              const IntegratorOptions& options) {
-  PhotonPass pass{{}, {}, scene.camera->footprint(), 0, SobolPoint(key.pass)};
+  PhotonPass pass{{}, {}, scene.camera->footprint(), 0, eye_point(key.pass)};
   // Any run of passes covers wavelengths and times evenly, and both together, so that a thing that
   // moves has all its colours everywhere; and in an order that has nothing to do with that of the
   // camera walks, of which a pixel would else see each time at one place only.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "scene/scene.h"
+#include "transport/eye_point.h"
 
 namespace nephroid {
 
@@ -23,7 +24,7 @@ int Ppm::regions_per_pixel(const Scene& scene) const {
 
 std::span<const SobolPoint> Ppm::points(const PhotonPass&, const Scene& scene) {
   while (points_.size() < static_cast<size_t>(regions_per_pixel(scene)))
-    points_.emplace_back(static_cast<uint32_t>(points_.size()));
+    points_.push_back(eye_point(static_cast<uint32_t>(points_.size())));
   return points_;
 }
 
