@@ -48,7 +48,7 @@ double unevenness(int first, int second) {
   return sum / 9;
 }
 
-// In the order of the sequence the directions of the second and third vertex had 16 and 12.
+// In the order of the sequence the directions of the second and third vertex had 16 and 13.
 TEST(EyePoint, DecisionsOfTwoNumbersAreNearlyAsEvenAsCanBe) {
   EXPECT_NEAR(unevenness(dimensions::kFilm, dimensions::kFilm + 1), 1, 1e-12);
   for (int vertex = 0; vertex < 5; ++vertex) {
