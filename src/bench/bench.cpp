@@ -104,12 +104,24 @@ class Bench {
   }
 
  private:
-  /// Every integrator of the scene with its seed and `round` more; false if a signal stopped it.
+  /// The seed of a round: one after the other, without that of the reference, whose own numbers
+  /// would make the error too small.
+  static uint64_t seed_of_round(const BenchScene& scene, uint64_t first, uint32_t round) {
+    const bool rendered = scene.reference.file.empty();
+    const uint64_t taken = scene.reference.integrator.seed;
+    const uint64_t seed = first + round;
+    // Differences: the sum may wrap round.
+    return rendered && round > 0 && taken - first <= round && taken != first ? seed + 1 : seed;
+  }
+
+  /// Every integrator of the scene, with the seed of the round; false if a signal stopped it. What
+  /// failed in the first round is not tried again.
   bool run_all(const BenchScene& scene, uint32_t round, const Picture& reference,
                BenchSceneResult* result) {
     for (size_t i = 0; i < scene.integrators.size(); ++i) {
       BenchIntegrator integrator = *suite_.find_integrator(scene.integrators[i]);
-      integrator.seed += round;
+      if (round > 0 && !result->runs[i].failure.empty()) continue;
+      integrator.seed = seed_of_round(scene, integrator.seed, round);
       const auto run = run_of(scene, integrator, reference, result->reference.key);
       if (!run) return false;
       if (round == 0)

@@ -61,13 +61,31 @@ struct Pair {
   std::string where;
 };
 
+bool is_error(BenchMetric metric) {
+  return metric == BenchMetric::kRmse || metric == BenchMetric::kRelmse ||
+         metric == BenchMetric::kRelmseTrim || metric == BenchMetric::kFlip ||
+         metric == BenchMetric::kMeanError;
+}
+
+/// How many renders errors at the end are of; empty for one each, and for other figures.
+std::string over_renders(const BenchClaim& claim, std::initializer_list<const BenchRun*> runs) {
+  if (!is_error(claim.metric)) return {};
+  std::string counts;
+  bool several = false;
+  for (const BenchRun* run : runs) {
+    const size_t count = renders_of(*run).size();
+    several |= count > 1;
+    counts += fmt::format("{}{}", counts.empty() ? "" : " and ", count);
+  }
+  return several ? fmt::format(" over {} renders", counts) : "";
+}
+
 std::optional<Pair> figures_of(const BenchRun& subject, const BenchRun& other,
                                const BenchClaim& claim) {
   if (!claim.at_equal) {
     const auto a = metric_of(subject, claim), b = metric_of(other, claim);
     if (!a || !b) return std::nullopt;
-    const size_t renders = renders_of(subject).size();
-    return Pair{*a, *b, renders > 1 ? fmt::format(" over {} renders", renders) : ""};
+    return Pair{*a, *b, over_renders(claim, {&subject, &other})};
   }
   const BenchAxis axis = *claim.at_equal;
   const double x = std::min(position_of(subject.end(), axis), position_of(other.end(), axis));
@@ -136,12 +154,13 @@ BenchFigure compare(const BenchClaim& claim, const std::string& other, const Pai
   return figure;
 }
 
-BenchFigure place(const BenchClaim& claim, double value, const std::optional<double>& own_error) {
+BenchFigure place(const BenchClaim& claim, double value, const std::string& where,
+                  const std::optional<double>& own_error) {
   BenchFigure figure;
   figure.holds = value >= claim.low && value <= claim.high;
   figure.text =
       measured(claim) +
-      fmt::format("{} {} ({} to {} claimed)", claim.subject, in_words(claim.metric, value),
+      fmt::format("{} {}{} ({} to {} claimed)", claim.subject, in_words(claim.metric, value), where,
                   in_words(claim.metric, claim.low), in_words(claim.metric, claim.high)) +
       without(claim, own_error, {value});
   return figure;
@@ -155,7 +174,8 @@ bool add_figures(const BenchClaim& claim, const BenchSceneResult& scene, BenchVe
   if (claim.form == BenchClaim::Form::kBetween) {
     const auto value = metric_of(*subject, claim);
     if (!value) return false;
-    figures.push_back(place(claim, *value, scene.reference.own_error));
+    figures.push_back(
+        place(claim, *value, over_renders(claim, {subject}), scene.reference.own_error));
   }
   for (const std::string& name : claim.others) {
     const BenchRun* other = scene.find_run(name);

@@ -31,7 +31,7 @@ BenchNamedErrors means_over(const BenchRun& run, const List& list) {
   for (size_t i = 0; i < list(run).size(); ++i)
     means.emplace_back(list(run)[i].first,
                        mean_over(renders, [&](const BenchRun& r) -> const BenchErrors& {
-                         return list(r)[i].second;
+                         return list(r).at(i).second;
                        }));
   return means;
 }

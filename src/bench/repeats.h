@@ -9,7 +9,7 @@
 
 namespace nephroid {
 
-/// The run itself and its repetitions, without those that failed.
+/// The run itself, which has not failed, and its repetitions, without those that have.
 std::vector<const BenchRun*> renders_of(const BenchRun& run);
 
 /// At the ends of all renders: the root of the mean of the squares of RMSE, the means of the

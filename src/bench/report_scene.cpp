@@ -217,7 +217,8 @@ std::string parts_table(const std::string& title, const std::vector<const BenchR
   for (const auto& part : parts(*runs[0])) names.push_back("RMSE, " + part.first);
   for (size_t i = 0; i < names.size(); ++i) {
     const auto rmse = [i, &parts](const BenchRun& r) {
-      return i < parts(r).size() ? parts(r)[i].second.rmse : std::nan("");
+      const BenchNamedErrors errors = parts(r);
+      return i < errors.size() ? errors[i].second.rmse : std::nan("");
     };
     columns.push_back(
         {names[i].c_str(), [rmse](const BenchRun& r) { return number_text(rmse(r)); }, rmse});

@@ -120,7 +120,7 @@ std::string reference_to_json(const BenchReferenceResult& reference);
 std::optional<BenchReferenceResult> reference_from_json(const std::string& text);
 
 /// Everything as one JSON text, as CSV with a line for each run, as CSV with a line for each
-/// measured point, and the points of experiments as CSV.
+/// measured point of the first renders, and the points of experiments as CSV.
 std::string results_json(const BenchResults& results);
 std::string runs_csv(const BenchResults& results);
 std::string curves_csv(const BenchResults& results);

@@ -21,6 +21,7 @@ using Kind = JsonValue::Kind;
 
 constexpr uint64_t kAnySeed = std::numeric_limits<uint64_t>::max();
 constexpr uint64_t kMostPasses = std::numeric_limits<uint32_t>::max() - 1;
+constexpr uint32_t kMostRepeats = 1000;
 constexpr uint64_t kLargestSide = 65536;
 /// References are not made from the random numbers of what is measured against them.
 constexpr uint64_t kReferenceSeed = 12345;

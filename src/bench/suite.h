@@ -116,9 +116,6 @@ struct BenchSuite {
   const BenchScene* find_scene(const std::string& wanted) const;
 };
 
-/// Renders of a run.
-constexpr uint32_t kMostRepeats = 1000;
-
 /// As readers say it.
 const char* metric_title(BenchMetric metric);
 const char* axis_name(BenchAxis axis);

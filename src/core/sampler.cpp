@@ -1,5 +1,6 @@
 #include "core/sampler.h"
 
+#include <algorithm>
 #include <boost/random/sobol.hpp>
 
 namespace nephroid {

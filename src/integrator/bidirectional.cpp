@@ -31,7 +31,7 @@ class PairRound {
         index_(index),
         film_(film),
         eye_point_(eye_point(static_cast<uint32_t>(index), kEyePathDimensions)),
-        light_point_(static_cast<uint32_t>(index), kPairDimensions),
+        light_point_(light_point(static_cast<uint32_t>(index))),
         parts_(film.parts_of(static_cast<int>(settings.owned.group)).size()),
         values_(static_cast<size_t>(film.bounds().area()) * parts_) {}
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/parallel.h"
-#include "transport/eye_point.h"
+#include "transport/path_points.h"
 
 namespace nephroid {
 

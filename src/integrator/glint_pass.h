@@ -10,7 +10,7 @@
 #include "film/film.h"
 #include "integrator/balance.h"
 #include "integrator/specular_tree.h"
-#include "transport/eye_point.h"
+#include "transport/path_points.h"
 
 namespace nephroid {
 

@@ -154,7 +154,7 @@ class Rendering {
   SamplePoints sample_points(int n, int k) const {
     const uint32_t index = first_index(n) + static_cast<uint32_t>(k);
     return {eye_point(index, kEyePathDimensions),
-            SobolPoint(index, how_.connects ? kPairDimensions : 1)};
+            how_.connects ? light_point(index) : SobolPoint(index, 1)};
   }
 
   void trace_eye_paths(EstimatorStatistics& statistics) {

@@ -20,7 +20,7 @@
 #include "route/scene_symbols.h"
 #include "transport/camera_connection.h"
 #include "transport/camera_path.h"
-#include "transport/eye_point.h"
+#include "transport/path_points.h"
 #include "transport/path_weights.h"
 
 namespace nephroid {
@@ -117,12 +117,6 @@ struct FilmConnection {
   Part part = kNoPart;  ///< one that the group owns
   SampledSpectrum value;
 };
-
-/// Dimensions of an eye path and of a light path that are stratified usefully. Two scrambles of one
-/// Sobol' dimension are functions of each other: the paths of a pair, which follow one index, need
-/// dimensions of their own, and the light path's begin after the eye path's.
-inline constexpr int kLightPathDimensions = 48;
-inline constexpr int kPairDimensions = kEyePathDimensions + kLightPathDimensions;
 
 /// What tracing a light path took.
 struct LightPathCounts {

@@ -10,7 +10,7 @@
 #include "integrator/estimator.h"
 #include "route/scene_symbols.h"
 #include "transport/camera_path.h"
-#include "transport/eye_point.h"
+#include "transport/path_points.h"
 #include "transport/roughness_band.h"
 
 namespace nephroid {

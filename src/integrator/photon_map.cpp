@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "integrator/gather.h"
-#include "transport/eye_point.h"
+#include "transport/path_points.h"
 
 namespace nephroid {
 

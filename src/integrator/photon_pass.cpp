@@ -1,6 +1,6 @@
 #include "integrator/photon_pass.h"
 
-#include "transport/eye_point.h"
+#include "transport/path_points.h"
 #include "transport/roughness_band.h"
 
 namespace nephroid {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "scene/scene.h"
-#include "transport/eye_point.h"
+#include "transport/path_points.h"
 
 namespace nephroid {
 

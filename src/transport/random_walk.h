@@ -111,7 +111,7 @@ class RandomWalk {
     const int dimension = walk_.vertex_dimension();
     sampler_.start_dimension(dimension + dimensions::kLight);
     visitor_.medium_vertex(walk_, vertex, sampler_);
-    sampler_.start_dimension(dimension + dimensions::kBsdf);
+    sampler_.start_dimension(dimension + dimensions::kBsdf + 1);  // the direction's pair
     const PhaseSample s = vertex.phase.sample(vertex.wo, sampler_.get_2d());
     if (!(s.pdf_w > 0.0f)) return false;
     walk_.delta = false;

@@ -20,7 +20,7 @@ inline constexpr int kTime = 13;        // 1
 inline constexpr int kSecondVertex = 14;
 // within a vertex
 inline constexpr int kLight = 0;     // 3
-inline constexpr int kBsdf = 3;      // 3
+inline constexpr int kBsdf = 3;      // 3: the lobe, which media have not, and the direction
 inline constexpr int kRoulette = 6;  // 1
 inline constexpr int kFlight = 7;    // 1, of the flight that leads to the vertex
 inline constexpr int kPerVertex = 8;

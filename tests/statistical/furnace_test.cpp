@@ -112,6 +112,7 @@ const Estimate& light_alone() {
 
 /// As many as bring the standard error to a few parts in a thousand.
 uint32_t passes_of(const std::string& plan) {
+  if (plan == "vcm") return 12;
   if (merges_photons(plan_named(plan))) return 8;
   if (plan == "pssmlt") return 4;
   if (plan == "light-only") return 16;

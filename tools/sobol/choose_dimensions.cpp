@@ -1,12 +1,13 @@
-// Deals the dimensions of the Sobol' sequence to the decisions of a camera path: prints the order
-// that src/transport/eye_point.cpp has. See docs/estimators.md, section 25, for what is measured
-// ([N1]) and what is weighed against what. Run it by tools/choose_dimensions.
+// Deals the dimensions of the Sobol' sequence to the decisions of a camera path, and others to
+// those of a light path that is connected with it: prints the orders that
+// src/transport/path_points.cpp has. See docs/estimators.md, section 25, for what is measured
+// ([U1]) and what is weighed against what. Run it by tools/choose_dimensions.
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstdio>
-#include <map>
+#include <initializer_list>
 #include <vector>
 
 #include "core/sampler.h"
@@ -15,18 +16,18 @@ using namespace nephroid;
 
 namespace {
 
-/// Those of camera paths; light paths that are connected with them have what follows.
-constexpr int kDimensions = 96;
+/// Those of camera paths come first; light paths have what follows.
+constexpr int kDimensions = kSobolDimensions, kOfEye = 96, kNumbersOfLight = 48;
 /// Runs of 2^4 to 2^12 points count alike.
 constexpr int kFirstLog2 = 4, kLastLog2 = 12;
-/// Chosen in pairs with all that matters to them; later vertices have what is left, in order.
-constexpr int kVertices = 5;
+/// As many as these have numbers for.
+constexpr int kVertices = 11, kVerticesOfLight = 5;
 /// One poor run must not hide what the others are like.
 constexpr double kMostRatio = 20;
 
 using Decision = std::vector<int>;  ///< its dimensions
 
-/// 1 + (1 - rho) g(z) of [N1], for each point and dimension.
+/// 1 + (1 - rho) g(z) of [U1], for each point and dimension.
 struct Run {
   size_t points;
   std::vector<double> factors;  ///< [point][dimension]
@@ -36,12 +37,18 @@ struct Run {
     for (size_t i = 0; i < points; ++i) {
       const SobolPoint point(static_cast<uint32_t>(i), kDimensions);
       for (int d = 0; d < kDimensions; ++d) {
-        const double rest = std::pow(kRho, std::countr_zero(point.reversed(d)));
-        factors.push_back(1 + (1 - rest) - (1 - kRho) * rest);
+        const double finest = std::pow(kRho, std::countr_zero(point.reversed(d)));
+        factors.push_back(1 + (1 - finest) - (1 - kRho) * finest);
       }
     }
   }
   const double* of_point(size_t i) const { return &factors[i * kDimensions]; }
+  /// Unevenness of the first two dimensions.
+  double best_pair() const {
+    double sum = 0;
+    for (size_t i = 0; i < points; ++i) sum += product(i, {0, 1});
+    return sum / static_cast<double>(points) - 1;
+  }
   double product(size_t i, const Decision& with) const {
     double p = 1;
     for (const int d : with) p *= of_point(i)[d];
@@ -65,57 +72,58 @@ double nth(std::vector<double> values, double part) {
   return *at;
 }
 
+/// Dimensions to choose from.
+struct Pool {
+  int begin, end;
+};
+
 using Table = std::array<std::array<double, kDimensions>, kDimensions>;
 
 /// How uneven each pair of dimensions is together with others, over what is good; mean over runs.
-const Table& pairs(Decision with) {
-  static std::map<Decision, Table> known;
-  std::sort(with.begin(), with.end());
-  const auto found = known.find(with);
-  if (found != known.end()) return found->second;
-  Table& sum = known[with];
-  sum = {};
+Table pairs(const Decision& with, Pool pool) {
+  Table sum{};
   for (const Run& run : runs()) {
     Table t{};
     for (size_t i = 0; i < run.points; ++i) {
       const double w = run.product(i, with) / static_cast<double>(run.points);
       const double* f = run.of_point(i);
-      for (int a = 0; a < kDimensions; ++a)
-        for (int b = a + 1; b < kDimensions; ++b) t[a][b] += w * f[a] * f[b];
+      for (int a = pool.begin; a < pool.end; ++a)
+        for (int b = a + 1; b < pool.end; ++b) t[a][b] += w * f[a] * f[b];
     }
     std::vector<double> all;
-    for (int a = 0; a < kDimensions; ++a)
-      for (int b = a + 1; b < kDimensions; ++b)
-        all.push_back(t[a][b] = std::max(t[a][b] - 1, 1e-9));
-    const double good = with.empty() ? t[0][1] : nth(all, 0.005);
-    for (int a = 0; a < kDimensions; ++a)
-      for (int b = a + 1; b < kDimensions; ++b)
+    for (int a = pool.begin; a < pool.end; ++a)
+      for (int b = a + 1; b < pool.end; ++b) all.push_back(t[a][b] = std::max(t[a][b] - 1, 1e-9));
+    const double good = with.empty() ? run.best_pair() : nth(all, 0.005);
+    for (int a = pool.begin; a < pool.end; ++a)
+      for (int b = a + 1; b < pool.end; ++b)
         sum[a][b] += std::min(t[a][b] / good, kMostRatio) / static_cast<double>(runs().size());
   }
   return sum;
 }
 
 /// The same of single dimensions.
-std::array<double, kDimensions> singles(const Decision& with) {
+std::array<double, kDimensions> singles(const Decision& with, Pool pool) {
   std::array<double, kDimensions> sum{};
   for (const Run& run : runs()) {
-    std::vector<double> t(kDimensions, 0.0);
-    for (size_t i = 0; i < run.points; ++i)
-      for (int d = 0; d < kDimensions; ++d)
-        t[static_cast<size_t>(d)] +=
-            run.product(i, with) * run.of_point(i)[d] / static_cast<double>(run.points);
+    std::vector<double> t(static_cast<size_t>(pool.end - pool.begin), 0.0);
+    for (size_t i = 0; i < run.points; ++i) {
+      const double w = run.product(i, with) / static_cast<double>(run.points);
+      for (size_t d = 0; d < t.size(); ++d)
+        t[d] += w * run.of_point(i)[pool.begin + static_cast<int>(d)];
+    }
     for (double& v : t) v = std::max(v - 1, 1e-9);
     const double good = nth(t, 0.03);
-    for (int d = 0; d < kDimensions; ++d)
-      sum[d] += std::min(t[static_cast<size_t>(d)] / good, kMostRatio) /
-                static_cast<double>(runs().size());
+    for (size_t d = 0; d < t.size(); ++d)
+      sum[static_cast<size_t>(pool.begin) + d] +=
+          std::min(t[d] / good, kMostRatio) / static_cast<double>(runs().size());
   }
   return sum;
 }
 
-Decision operator+(Decision a, const Decision& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
+Decision joined(std::initializer_list<Decision> parts) {
+  Decision all;
+  for (const Decision& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
 }
 
 struct Term {
@@ -125,30 +133,31 @@ struct Term {
 
 class Dealer {
  public:
+  explicit Dealer(Pool pool) : pool_(pool) {}
+
   Decision number(const std::vector<Term>& terms) {
     std::array<double, kDimensions> sum{};
     for (const Term& t : terms) {
-      const auto s = singles(t.with);
-      for (int d = 0; d < kDimensions; ++d) sum[d] += t.weight * s[d];
+      const auto s = singles(t.with, pool_);
+      for (int d = pool_.begin; d < pool_.end; ++d) sum[d] += t.weight * s[d];
     }
     int best = -1;
-    for (int d = 0; d < kDimensions; ++d)
+    for (int d = pool_.begin; d < pool_.end; ++d)
       if (!taken_[d] && (best < 0 || sum[d] < sum[best])) best = d;
     return take({best});
   }
   Decision pair(const std::vector<Term>& terms) {
+    Table sum{};
+    for (const Term& t : terms) {
+      const Table s = pairs(t.with, pool_);
+      for (int a = pool_.begin; a < pool_.end; ++a)
+        for (int b = a + 1; b < pool_.end; ++b) sum[a][b] += t.weight * s[a][b];
+    }
     Decision best;
-    double least = 0;
-    for (int a = 0; a < kDimensions; ++a)
-      for (int b = a + 1; b < kDimensions; ++b) {
-        if (taken_[a] || taken_[b]) continue;
-        double sum = 0;
-        for (const Term& t : terms) sum += t.weight * pairs(t.with)[a][b];
-        if (best.empty() || sum < least) {
-          least = sum;
+    for (int a = pool_.begin; a < pool_.end; ++a)
+      for (int b = a + 1; b < pool_.end; ++b)
+        if (!taken_[a] && !taken_[b] && (best.empty() || sum[a][b] < sum[best[0]][best[1]]))
           best = {a, b};
-        }
-      }
     return take(best);
   }
   Decision take(const Decision& d) {
@@ -157,12 +166,13 @@ class Dealer {
   }
   Decision rest() const {
     Decision r;
-    for (int d = 0; d < kDimensions; ++d)
+    for (int d = pool_.begin; d < pool_.end; ++d)
       if (!taken_[d]) r.push_back(d);
     return r;
   }
 
  private:
+  const Pool pool_;
   std::array<bool, kDimensions> taken_{};
 };
 
@@ -170,50 +180,104 @@ struct Vertex {
   Decision light_number, light, lobe, direction;
 };
 
-}  // namespace
+double unevenness(const Decision& d) {
+  return pairs({}, {d[0], d[1] + 1})[d[0]][d[1]];
+}
 
-int main() {
-  Dealer dealer;
+void print(const char* what, const Decision& order) {
+  std::printf("%s\n", what);
+  for (size_t i = 0; i < order.size(); ++i)
+    std::printf("%d,%s", order[i], (i + 1) % 16 == 0 ? "\n" : " ");
+}
+
+/// Film, wavelength, and so on as in src/transport/walk.h.
+Decision deal_to_eye(std::vector<Vertex>& path) {
+  Dealer dealer({0, kOfEye});
   const Decision film = dealer.take({0, 1});
-  std::vector<Vertex> path;
   for (int i = 0; i < kVertices; ++i) {
     Vertex v;
-    // Before a number or a pair come the film, or the vertex before and the one before that: behind
-    // glass its lobe alone.
+    // What vertex i is integrated with: the direction before it, the one before that, and the lobe
+    // between, which alone decides at glass.
     const bool first = i == 0;
     const Vertex before = first ? Vertex{} : path.back();
     const Decision near = first ? film : before.direction;
     const Decision far = i < 2 ? film : path[static_cast<size_t>(i) - 2].direction;
     const auto number_terms = [&]() -> std::vector<Term> {
       if (first) return {{film}};
-      return {{near}, {far + before.lobe}, {before.lobe}};
+      return {{near}, {joined({far, before.lobe})}, {before.lobe}};
     };
     const auto pair_terms = [&](const Decision& number) -> std::vector<Term> {
-      if (first) return {{{}}, {number, 0.5}, {film}, {film + number}};
-      return {{{}}, {number, 0.5}, {near}, {far, 0.5}, {far + before.lobe, 0.5}, {near + number}};
+      if (first) return {{{}}, {number, 0.5}, {film}, {joined({film, number})}};
+      return {{{}},
+              {number, 0.5},
+              {near},
+              {far, 0.5},
+              {joined({far, before.lobe}), 0.5},
+              {joined({near, number})}};
     };
     v.light_number = dealer.number(number_terms());
     v.light = dealer.pair(pair_terms(v.light_number));
     v.lobe = dealer.number(number_terms());
     v.direction = dealer.pair(pair_terms(v.lobe));
     path.push_back(v);
+    std::fprintf(stderr,
+                 "eye's vertex %d: unevenness %.2f of the light's point, %.2f of the direction\n",
+                 i + 1, unevenness(v.light), unevenness(v.direction));
   }
   const Decision wavelength = dealer.number({{film}});
   const Decision lens = dealer.pair({{{}}, {film}, {path[0].light}});
   const Decision time = dealer.number({{film}});
-  Decision order = film + wavelength;
+  Decision order = joined({film, wavelength});
   for (int i = 0; i < kVertices; ++i) {
     const Vertex& v = path[static_cast<size_t>(i)];
     const Decision roulette = dealer.number({{v.direction}});
     const Decision flight =
         dealer.number({{i == 0 ? film : path[static_cast<size_t>(i) - 1].direction}});
-    order = order + v.light_number + v.light + v.lobe + v.direction + roulette + flight;
-    if (i == 0) order = order + lens + time;
-    const auto unevenness = [](const Decision& d) { return pairs({})[d[0]][d[1]]; };
-    std::fprintf(stderr, "vertex %d: unevenness %.2f of the light's point, %.2f of the direction\n",
-                 i + 1, unevenness(v.light), unevenness(v.direction));
+    order = joined({order, v.light_number, v.light, v.lobe, v.direction, roulette, flight});
+    if (i == 0) order = joined({order, lens, time});
   }
-  order = order + dealer.rest();
-  for (size_t i = 0; i < order.size(); ++i)
-    std::printf("%d,%s", order[i], (i + 1) % 16 == 0 ? "\n" : " ");
+  return joined({order, dealer.rest()});
+}
+
+/// Light, point and direction, then vertices; beside the first ones of the eye.
+Decision deal_to_light(const std::vector<Vertex>& eye) {
+  Dealer dealer({kOfEye, kDimensions});
+  const Decision film = {0, 1}, first = eye[0].direction;
+  const Decision light = dealer.number({{film}, {first}});
+  const Decision point = dealer.pair({{{}}, {light, 0.5}, {film}, {first, 0.5}});
+  const Decision away = dealer.pair({{{}}, {point}, {film}, {light, 0.5}});
+  std::vector<Vertex> path;
+  for (int i = 0; i < kVerticesOfLight; ++i) {
+    const Decision before = i == 0 ? away : path.back().direction;
+    Vertex v;
+    v.lobe = dealer.number({{before}});
+    v.direction = dealer.pair({{{}}, {v.lobe, 0.5}, {before}, {film}, {joined({before, v.lobe})}});
+    path.push_back(v);
+    std::fprintf(stderr, "light's vertex %d: unevenness %.2f of the direction\n", i + 1,
+                 unevenness(v.direction));
+  }
+  std::fprintf(stderr, "light: unevenness %.2f of the point, %.2f of the direction\n",
+               unevenness(point), unevenness(away));
+  std::vector<Decision> others;  // roulette and flight
+  for (const Vertex& v : path)
+    others.push_back(joined({dealer.number({{v.direction}}), dealer.number({{v.direction}})}));
+  // Nobody asks for lights at these vertices.
+  const Decision rest = dealer.rest();
+  auto next = rest.begin();
+  Decision order = joined({light, point, away});
+  for (size_t i = 0; i < path.size(); ++i) {
+    order = joined({order, Decision(next, next + 3), path[i].lobe, path[i].direction, others[i]});
+    next += 3;
+  }
+  order = joined({order, Decision(next, rest.end())});
+  order.resize(kNumbersOfLight);
+  return order;
+}
+
+}  // namespace
+
+int main() {
+  std::vector<Vertex> eye;
+  print("camera paths:", deal_to_eye(eye));
+  print("light paths beside them:", deal_to_light(eye));
 }

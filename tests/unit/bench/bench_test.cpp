@@ -16,47 +16,10 @@
 #include "core/errors.h"
 #include "film/image_io.h"
 #include "source_directory.h"
-#include "unit/film/scratch_directory.h"
+#include "unit/bench/bench_runs.h"
 
 namespace nephroid {
 namespace {
-
-const std::string kRoom = testing_support::source_directory() + "/scenes/caustic-room/scene.pbrt";
-
-/// A suite of 8 x 8 pixels; `more` are further scenes, with a comma in front.
-std::string small_suite(const std::string& more = "") {
-  return R"({"name": "tiny", "title": "Tiny <suite>", "description": "One.\n\nTwo & three.",
-    "passes": 4,
-    "integrators": [{"name": "path", "integrator": "path"},
-                    {"name": "mixed", "integrator": "mixed", "options": {"photons": 1024}}],
-    "scenes": [{"name": "room", "file": ")" +
-         kRoom + R"(", "resolution": [8, 8], "reference": {"integrator": "path", "passes": 6},
-                "energy": {"direct": "C[DG]?L"}, "layer": {"lit": "C[DG]L"},
-                "region": {"left": [0, 0.5, 0, 1]}})" +
-         more + R"(],
-    "claims": [{"text": "mixed stores photons", "metric": "photons", "of": "mixed",
-                "between": [1, 1e9]}]})";
-}
-
-class BenchRuns : public testing::Test {
- protected:
-  BenchResults run(const std::string& suite, const std::vector<std::string>& only = {}) {
-    BenchOptions options;
-    options.directory = scratch_.file("out");
-    options.only = only;
-    options.command = "nephroid bench tiny.json";
-    said_.clear();
-    options.say = [this](const std::string& line) { said_ += line + "\n"; };
-    return run_bench(parse_suite(suite, "tiny.json"), options, signals_);
-  }
-  std::string file(const std::string& name) const {
-    return text_of_file(scratch_.file("out/" + name)).value_or("");
-  }
-
-  ScratchDirectory scratch_;
-  SignalFlags signals_;
-  std::string said_;
-};
 
 TEST_F(BenchRuns, MeasuresEveryIntegrator) {
   const BenchResults results = run(small_suite());
@@ -165,31 +128,6 @@ TEST_F(BenchRuns, WhatIsThereIsNotRenderedAgain) {
   const BenchResults third = run(changed);
   EXPECT_TRUE(third.scenes.at(0).find_run("path")->kept);
   EXPECT_FALSE(third.scenes[0].find_run("mixed")->kept);
-}
-
-// Each repetition is a run of its own, with the next seed.
-TEST_F(BenchRuns, RunsAreRepeatedWithOtherSeeds) {
-  const BenchResults alone = run(small_suite());
-  std::string twice = small_suite();
-  twice.insert(1, "\"repeat\": 3, ");
-  const BenchResults results = run(twice);
-  EXPECT_EQ(results.failures(), 0) << said_;
-  ASSERT_EQ(results.scenes.at(0).runs.size(), 2u);
-  for (size_t i = 0; i < 2; ++i) {
-    const BenchRun& first = results.scenes[0].runs[i];
-    EXPECT_TRUE(first.kept);
-    EXPECT_EQ(run_to_json(first), run_to_json(alone.scenes.at(0).runs.at(i)));
-    ASSERT_EQ(first.again.size(), 2u);
-    for (size_t j = 0; j < 2; ++j) {
-      EXPECT_EQ(first.again[j].seed, j + 1);
-      EXPECT_EQ(first.again[j].integrator, first.integrator);
-      EXPECT_NE(first.again[j].end().errors.rmse, first.end().errors.rmse);
-    }
-    EXPECT_NE(file("results.json").find("errors_of_all"), std::string::npos);
-    EXPECT_NE(file("report.html").find("(3 renders: "), std::string::npos);
-  }
-  const std::string csv = file("runs.csv");
-  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 7);
 }
 
 TEST_F(BenchRuns, WhatWasRemovedIsRenderedAgain) {
