@@ -26,8 +26,8 @@ inline constexpr int kFlight = 7;    // 1, of the flight that leads to the verte
 inline constexpr int kPerVertex = 8;
 }  // namespace dimensions
 
-/// Windows of roulette of camera walks that look for lights by themselves: what they begin with, and
-/// what they have where longer walks pay (docs/estimators.md, section 24).
+/// Windows of roulette of camera walks that look for lights by themselves: what they begin with,
+/// and what they have where longer walks pay (docs/estimators.md, section 24).
 inline constexpr float kCameraWindow = 1.0f / 3, kPatientWindow = 1.0f / 8;
 
 /// A walk between two vertices.
