@@ -215,7 +215,7 @@ TEST(Media, SingleScatteringOfAPointLight) {
                      });
           return sum * white(lambda);
         },
-        128);
+        1024);
     expect_mean(*scene, "path", m.name, expected, 256, options);
   }
 }

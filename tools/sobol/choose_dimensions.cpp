@@ -22,6 +22,8 @@ constexpr int kDimensions = kSobolDimensions, kOfEye = 96, kNumbersOfLight = 48;
 constexpr int kFirstLog2 = 4, kLastLog2 = 12;
 /// As many as these have numbers for.
 constexpr int kVertices = 11, kVerticesOfLight = 5;
+/// Where roulette is worth a dimension before the vertices behind have theirs.
+constexpr int kVerticesOfRoulette = 3;
 /// One poor run must not hide what the others are like.
 constexpr double kMostRatio = 20;
 
@@ -177,7 +179,7 @@ class Dealer {
 };
 
 struct Vertex {
-  Decision light_number, light, lobe, direction;
+  Decision light_number, light, lobe, direction, roulette;
 };
 
 double unevenness(const Decision& d) {
@@ -219,6 +221,8 @@ Decision deal_to_eye(std::vector<Vertex>& path) {
     v.light = dealer.pair(pair_terms(v.light_number));
     v.lobe = dealer.number(number_terms());
     v.direction = dealer.pair(pair_terms(v.lobe));
+    if (i < kVerticesOfRoulette)
+      v.roulette = dealer.number({{v.direction}, {film}, {joined({film, v.direction})}});
     path.push_back(v);
     std::fprintf(stderr,
                  "eye's vertex %d: unevenness %.2f of the light's point, %.2f of the direction\n",
@@ -230,7 +234,7 @@ Decision deal_to_eye(std::vector<Vertex>& path) {
   Decision order = joined({film, wavelength});
   for (int i = 0; i < kVertices; ++i) {
     const Vertex& v = path[static_cast<size_t>(i)];
-    const Decision roulette = dealer.number({{v.direction}});
+    const Decision roulette = i < kVerticesOfRoulette ? v.roulette : dealer.number({{v.direction}});
     const Decision flight =
         dealer.number({{i == 0 ? film : path[static_cast<size_t>(i) - 1].direction}});
     order = joined({order, v.light_number, v.light, v.lobe, v.direction, roulette, flight});

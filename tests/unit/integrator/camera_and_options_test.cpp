@@ -21,7 +21,7 @@ const std::string kLens =
 TEST(CameraWeight, PathTakesTheLensesShare) {
   const auto scene =
       scene_from_text(kLens + R"(WorldBegin LightSource "infinite" "rgb L" [1 1 1])");
-  const Film film = render(*scene, "path", {}, 1, 400);
+  const Film film = render(*scene, "path", {}, 1, 1600);
   for (const Vec2i& pixel : {Vec2i(0, 0), Vec2i(3, 2)}) {
     double expected = 0;
     constexpr int kSide = 60;

@@ -169,8 +169,8 @@ TEST(Integrators, AFlippedScreenIsTheSamePictureTurned) {
   options.photons_per_pass = 20000;
   options.mutations = 128;  // blocks of a few percent of noise
   for (const std::string& integrator : integrator_names()) {
-    const Film straight = render(*scene("[-1 1 -1 1]"), integrator, options, 1, 16);
-    const Film turned = render(*scene("[1 -1 1 -1]"), integrator, options, 1, 16);
+    const Film straight = render(*scene("[-1 1 -1 1]"), integrator, options, 1, 64);
+    const Film turned = render(*scene("[1 -1 1 -1]"), integrator, options, 1, 64);
     EXPECT_NEAR(picture_mean(turned), picture_mean(straight), 0.1 * picture_mean(straight))
         << integrator;
     const std::vector<double> a = block_means(straight, 2), b = block_means(turned, 2);
