@@ -86,6 +86,19 @@ class BilinearMesh final : public Shape {
     const auto& p = data_.positions;
     return {to_double(p[v[0]]), to_double(p[v[1]]), to_double(p[v[2]]), to_double(p[v[3]])};
   }
+  /// A plane rectangle, with all that lamps ask for again and again side by side in memory.
+  struct Rectangle {
+    Vec3f p00, p10, p01, p11;
+    Vec3f p_error;  ///< see error_of_patch
+    Vec3f normal;   ///< outside, where there is one
+    bool valid = false;
+    bool one_normal = false;  ///< no vertex normals, or all the same
+    RectangleFrame frame;
+
+    BilinearPatch patch() const {
+      return {to_double(p00), to_double(p10), to_double(p01), to_double(p11)};
+    }
+  };
   Vec3d outside_normal(uint32_t primitive, const BilinearPatch&, double u, double v) const;
   void fill_texture_frame(uint32_t primitive, const Vec2f& uv, SurfaceInteraction& out) const;
   ShapeSample sample_at(uint32_t primitive, const BilinearPatch&, double u, double v,
@@ -93,13 +106,6 @@ class BilinearMesh final : public Shape {
 
   MeshData data_;
   bool flip_;
-  /// What lamps ask for again and again, worked out once for patches that are plane rectangles.
-  struct Rectangle {
-    bool valid = false;
-    bool one_normal = false;  ///< no vertex normals, or all the same
-    RectangleFrame frame;
-    Vec3f normal;  ///< outside, where there is one
-  };
   std::vector<Rectangle> rectangle_;  ///< per patch
   uint32_t rectangles_ = 0;           ///< how many are valid
 };
@@ -126,22 +132,26 @@ Vec3d unit_cross(const BilinearPatch& patch, double u, double v) {
   return l2 > 0.0 ? n / std::sqrt(l2) : Vec3d(0, 0, 1);
 }
 
-void set_point(const BilinearPatch& patch, double u, double v, Vec3f* p, Vec3f* p_error) {
-  const Vec3d q = patch.point(u, v);
-  *p = to_float(q);
-  const Vec3d edges[] = {patch.p10 - patch.p00, patch.p01 - patch.p00, patch.p11 - patch.p00};
+/// The part of a point's error that is the same all over the patch: what was lost in double, and
+/// the extent, which stands for the rounding of a distance to the patch, also along axes on which
+/// all coordinates are zero; flat patches are traced in float.
+Vec3f error_of_patch(const BilinearPatch& patch) {
   double extent = 0.0;
-  for (const Vec3d& e : edges)
+  for (const Vec3d& e : {patch.p10 - patch.p00, patch.p01 - patch.p00, patch.p11 - patch.p00})
     extent = std::max({extent, std::abs(e.x), std::abs(e.y), std::abs(e.z)});
+  Vec3d error;
   for (int i = 0; i < 3; ++i) {
     const double magnitude = std::abs(patch.p00[i]) + std::abs(patch.p10[i]) +
                              std::abs(patch.p01[i]) + std::abs(patch.p11[i]);
-    // Rounded once to float; the rest was lost in double. The extent stands for the rounding of a
-    // distance to the patch, also along axes on which all coordinates are zero; flat patches are
-    // traced in float.
-    (*p_error)[i] = static_cast<float>(std::abs(q[i]) * 0x1.0001p-24 + magnitude * 16.0 * 0x1p-53 +
-                                       extent * static_cast<double>(gamma_bound(6)));
+    error[i] = magnitude * 16.0 * 0x1p-53 + extent * static_cast<double>(gamma_bound(6));
   }
+  return to_float(error * 0x1.00001p0);
+}
+
+/// `q` rounded to float, which is the rest of the error.
+void set_point(const Vec3d& q, const Vec3f& error_of_patch, Vec3f* p, Vec3f* p_error) {
+  *p = to_float(q);
+  *p_error = abs(*p) * 0x1.0002p-24f + error_of_patch;
 }
 
 BilinearMesh::BilinearMesh(MeshData data, bool flip) : data_(std::move(data)), flip_(flip) {
@@ -159,6 +169,11 @@ BilinearMesh::BilinearMesh(MeshData data, bool flip) : data_(std::move(data)), f
     r.valid = shape.is_rectangle();
     if (!r.valid) continue;
     ++rectangles_;
+    r.p00 = to_float(shape.p00);
+    r.p10 = to_float(shape.p10);
+    r.p01 = to_float(shape.p01);
+    r.p11 = to_float(shape.p11);
+    r.p_error = error_of_patch(shape);
     r.frame = RectangleFrame(shape.p00, shape.dpdu(0.0), shape.dpdv(0.0));
     const uint32_t* v = corners(primitive);
     r.one_normal = data_.normals.empty() || (data_.normals[v[0]] == data_.normals[v[1]] &&
@@ -227,7 +242,9 @@ void BilinearMesh::fill(uint32_t primitive, const Vec2f& hit_uv, const Ray&, flo
   const BilinearPatch shape = patch(primitive);
   const uint32_t* corner = corners(primitive);
   const double u = hit_uv.x, v = hit_uv.y;
-  set_point(shape, u, v, &out.p, &out.p_error);
+  const Rectangle& rectangle = rectangle_[primitive];
+  set_point(shape.point(u, v), rectangle.valid ? rectangle.p_error : error_of_patch(shape), &out.p,
+            &out.p_error);
   out.uv = hit_uv;
   out.face_index = data_.face_indices.empty() ? 0 : data_.face_indices[primitive];
   const Vec3d pu = shape.dpdu(v), pv = shape.dpdv(u);
@@ -269,8 +286,8 @@ void BilinearMesh::fill(uint32_t primitive, const Vec2f& hit_uv, const Ray&, flo
 ShapeSample BilinearMesh::sample_at(uint32_t primitive, const BilinearPatch& shape, double u,
                                     double v, double pdf) const {
   ShapeSample s;
-  set_point(shape, u, v, &s.p, &s.p_error);
   const Rectangle& r = rectangle_[primitive];
+  set_point(shape.point(u, v), r.valid ? r.p_error : error_of_patch(shape), &s.p, &s.p_error);
   s.ng = r.valid && r.one_normal ? r.normal : to_float(outside_normal(primitive, shape, u, v));
   s.uv = Vec2f(static_cast<float>(u), static_cast<float>(v));
   if (!data_.uvs.empty()) s.uv = blend(data_.uvs, corners(primitive), s.uv.x, s.uv.y);
@@ -279,6 +296,10 @@ ShapeSample BilinearMesh::sample_at(uint32_t primitive, const BilinearPatch& sha
 }
 
 std::optional<ShapeSample> BilinearMesh::sample_area(uint32_t primitive, const Vec2f& u) const {
+  if (const Rectangle& r = rectangle_[primitive]; r.valid) {
+    const BilinearPatch rectangle = r.patch();
+    return sample_at(primitive, rectangle, u.x, u.y, 1.0 / rectangle.cross(u.x, u.y).length());
+  }
   const BilinearPatch shape = patch(primitive);
   const CornerWeights weights(shape);
   if (!(weights.sum() > 0.0)) return std::nullopt;
@@ -291,11 +312,11 @@ std::optional<ShapeSample> BilinearMesh::sample_area(uint32_t primitive, const V
 
 std::optional<ShapeSample> BilinearMesh::sample_towards(uint32_t primitive, const Vec3f& from,
                                                         const Vec2f& u) const {
-  if (rectangle_[primitive].valid) {
-    const SphericalRectangle seen(to_double(from), rectangle_[primitive].frame);
+  if (const Rectangle& r = rectangle_[primitive]; r.valid) {
+    const SphericalRectangle seen(to_double(from), r.frame);
     if (seen.solid_angle() > kMinSphericalArea) {
       const Vec2f uv = seen.sample(u);
-      return sample_at(primitive, patch(primitive), uv.x, uv.y, 1.0 / seen.solid_angle());
+      return sample_at(primitive, r.patch(), uv.x, uv.y, 1.0 / seen.solid_angle());
     }
   }
   return seen_from(sample_area(primitive, u), from);
@@ -303,9 +324,11 @@ std::optional<ShapeSample> BilinearMesh::sample_towards(uint32_t primitive, cons
 
 float BilinearMesh::pdf_towards(uint32_t primitive, const Vec3f& from, const Vec3f& p,
                                 const Vec3f& ng) const {
-  if (rectangle_[primitive].valid) {
-    const SphericalRectangle seen(to_double(from), rectangle_[primitive].frame);
+  if (const Rectangle& r = rectangle_[primitive]; r.valid) {
+    const SphericalRectangle seen(to_double(from), r.frame);
     if (seen.solid_angle() > kMinSphericalArea) return static_cast<float>(1.0 / seen.solid_angle());
+    const double area = r.patch().cross(0.5, 0.5).length();
+    return area_to_solid_angle(static_cast<float>(1.0 / area), from, p, ng);
   }
   const BilinearPatch shape = patch(primitive);
   // (u,v) of p: where the line along the normal meets the patch nearest to it. A point at the rim

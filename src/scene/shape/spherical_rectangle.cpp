@@ -45,14 +45,20 @@ SphericalRectangle::SphericalRectangle(const Vec3d& from, const RectangleFrame& 
 }
 
 Vec2f SphericalRectangle::sample(const Vec2f& u) const {
-  const double b0 = -y0_ / std::sqrt(y0_ * y0_ + z0_ * z0_);
-  const double b1 = y1_ / std::sqrt(y1_ * y1_ + z0_ * z0_);
-  const double angle = u.x * solid_angle_ + kTwoPi - argument(start_re_, start_im_);
-  const double f = (std::cos(angle) * b0 - b1) / std::sin(angle);
-  const double c = std::copysign(std::min(1.0 / std::sqrt(f * f + b0 * b0), 1.0), f);
-  const double x = std::clamp(-c * z0_ / std::sqrt(1.0 - c * c), x0_, x1_);
+  const double z2 = z0_ * z0_;
+  const double b0 = -y0_ / std::sqrt(y0_ * y0_ + z2);
+  const double b1 = y1_ / std::sqrt(y1_ * y1_ + z2);
+  // Cosine and sine of the angle less the start's argument, each times the start's modulus.
+  const double angle = u.x * solid_angle_;
+  const double cosine = std::cos(angle), sine = std::sin(angle);
+  const double modulus = std::sqrt(start_re_ * start_re_ + start_im_ * start_im_);
+  const double f = ((cosine * start_re_ + sine * start_im_) * b0 - b1 * modulus) /
+                   (sine * start_re_ - cosine * start_im_);
+  // c / sqrt(1 - c^2) where c = 1 / sqrt(f^2 + b0^2) with the sign of f.
+  const double reach = std::sqrt(std::max(1e-300, f * f + b0 * b0 - 1.0));
+  const double x = std::clamp(std::copysign(-z0_ / reach, f), x0_, x1_);
 
-  const double d2 = x * x + z0_ * z0_;
+  const double d2 = x * x + z2;
   const double h0 = y0_ / std::sqrt(d2 + y0_ * y0_), h1 = y1_ / std::sqrt(d2 + y1_ * y1_);
   const double h = h0 + u.y * (h1 - h0);
   const double y = std::clamp(h * std::sqrt(d2 / std::max(1e-300, 1.0 - h * h)), y0_, y1_);
