@@ -60,3 +60,7 @@ if(app_sources)
   target_link_libraries(nephroid PRIVATE nephroid_bench CLI11::CLI11)
   nephroid_precompiled(nephroid nephroid_core)
 endif()
+
+# Run by tools/measure_photons.
+add_executable(photon_floor EXCLUDE_FROM_ALL ${CMAKE_SOURCE_DIR}/tools/floor/photon_floor.cpp)
+target_link_libraries(photon_floor PRIVATE nephroid_session)

@@ -21,21 +21,39 @@ uint64_t spread_bits(uint64_t v) {
   return (v | (v << 2)) & 0x1249249249249249ull;
 }
 
-/// Cells of 2^shift quanta that have a photon; `codes` are sorted.
-size_t count_cells(const std::vector<uint64_t>& codes, int shift) {
-  size_t cells = 1;
+/// How many cells of 2^shift quanta have a photon, for each shift; `codes` are sorted.
+std::array<size_t, PhotonGrid::kCoordinateBits + 1> count_cells(
+    const std::vector<uint64_t>& codes) {
+  std::array<size_t, PhotonGrid::kCoordinateBits + 1> cells{};
+  // First, of each shift, the neighbours that part company at the next finer one.
   for (size_t i = 1; i < codes.size(); ++i)
-    cells += (codes[i] >> (3 * shift)) != (codes[i - 1] >> (3 * shift));
+    ++cells[static_cast<size_t>(std::bit_width(codes[i] ^ codes[i - 1]) + 2) / 3];
+  size_t boundaries = 0;
+  for (size_t shift = cells.size(); shift-- > 0;)
+    boundaries += std::exchange(cells[shift], boundaries + 1);
   return cells;
 }
 
-/// Puts photon order[i] in place i, without memory for another set of them. Spoils `order`.
+/// Puts photon order[i] in place i, without memory for another set of them. Spoils `order`. A
+/// second index runs ahead along the cycle and fetches what is moved next: the places are far from
+/// each other.
 void take_in_order(std::vector<Photon>& photons, std::vector<uint32_t>& order) {
+  constexpr int kAhead = 12;
   for (uint32_t first = 0; first < order.size(); ++first) {
     if (order[first] == first) continue;
+    uint32_t ahead = first;
+    const auto run_ahead = [&] {
+      if (order[ahead] == first) return;
+      ahead = order[ahead];
+      const char* photon = reinterpret_cast<const char*>(&photons[ahead]);
+      __builtin_prefetch(photon, 1);
+      __builtin_prefetch(photon + sizeof(Photon) - 1, 1);
+    };
+    for (int i = 0; i < kAhead; ++i) run_ahead();
     const Photon moved = photons[first];
     uint32_t to = first;
     while (order[to] != first) {
+      run_ahead();
       photons[to] = photons[order[to]];
       to = std::exchange(order[to], to);
     }
@@ -46,12 +64,8 @@ void take_in_order(std::vector<Photon>& photons, std::vector<uint32_t>& order) {
 
 }  // namespace
 
-uint64_t PhotonGrid::morton(uint32_t x, uint32_t y, uint32_t z) {
-  return spread_bits(x) | (spread_bits(y) << 1) | (spread_bits(z) << 2);
-}
-
 uint32_t PhotonGrid::quantize(float x, int axis) const {
-  const float q = (x - min_[axis]) / quantum_;
+  const float q = (x - min_[axis]) * quanta_;
   if (!(q > 0.0f)) return 0;
   return q >= static_cast<float>(kMaxCoordinate) ? kMaxCoordinate : static_cast<uint32_t>(q);
 }
@@ -64,7 +78,7 @@ const PhotonGrid::Cell* PhotonGrid::Level::find(uint64_t code) const {
   }
 }
 
-PhotonGrid::PhotonGrid(std::vector<Photon> photons, int max_levels) : photons_(std::move(photons)) {
+PhotonGrid::PhotonGrid(std::vector<Photon> photons) : photons_(std::move(photons)) {
   if (photons_.empty()) return;
   min_ = max_ = photons_[0].p;
   for (const Photon& photon : photons_)
@@ -74,25 +88,26 @@ PhotonGrid::PhotonGrid(std::vector<Photon> photons, int max_levels) : photons_(s
     }
   const float extent = max_component(max_ - min_);
   const float magnitude = std::max(max_component(abs(min_)), max_component(abs(max_)));
-  reach_slack_ = magnitude * 2 * kMachineEpsilon;
+  slack_ = magnitude * 2 * kMachineEpsilon;
   // Photons that all lie in one point still need a cell of some size.
   quantum_ = std::max({extent, magnitude * 1e-6f, std::numeric_limits<float>::min() * 1e6f}) /
              static_cast<float>(kMaxCoordinate);
+  quanta_ = 1.0f / quantum_;
   const std::vector<uint64_t> codes = sort();
 
   // The smallest cells that are worth having hold a few photons each; every doubling up to one cell
   // for all follows.
+  const auto counts = count_cells(codes);
   int finest = 0;
-  for (int shift = 0; shift <= kCoordinateBits; ++shift) {
-    finest = shift;
-    if (count_cells(codes, shift) * 2 <= codes.size()) break;
-  }
+  while (finest < kCoordinateBits && counts[static_cast<size_t>(finest)] * 2 > codes.size())
+    ++finest;
+  std::vector<Cell> cells = finest_cells(finest, codes, counts[static_cast<size_t>(finest)]);
+  const size_t working = (codes.size() + 2 * cells.size()) * sizeof(uint64_t);
   for (int shift = finest; shift <= kCoordinateBits; ++shift) {
-    if (static_cast<int>(levels_.size()) == max_levels) break;
-    add_level(shift, codes);
+    add_level(shift, cells);
+    join_cells(cells);
   }
-  size_t total = photons_.capacity() * sizeof(Photon) + positions_.size() * sizeof(Vec3f) +
-                 codes.size() * sizeof(uint64_t);
+  size_t total = photons_.capacity() * sizeof(Photon) + positions_.size() * sizeof(Vec3f) + working;
   for (const Level& level : levels_) total += level.table.size() * sizeof(Cell);
   bytes_ = std::max(bytes_, total);
 }
@@ -105,7 +120,7 @@ std::vector<uint64_t> PhotonGrid::sort() {
   std::vector<uint32_t> order(n), order_other(n);
   for (size_t i = 0; i < n; ++i) {
     const Vec3f& p = photons_[i].p;
-    codes[i] = morton(quantize(p.x, 0), quantize(p.y, 1), quantize(p.z, 2));
+    for (int axis = 0; axis < 3; ++axis) codes[i] |= spread_bits(quantize(p[axis], axis)) << axis;
   }
   std::iota(order.begin(), order.end(), 0u);
   constexpr int kDigit = 11;
@@ -131,28 +146,88 @@ std::vector<uint64_t> PhotonGrid::sort() {
   return codes;
 }
 
-void PhotonGrid::add_level(int shift, const std::vector<uint64_t>& codes) {
+std::vector<PhotonGrid::Cell> PhotonGrid::finest_cells(int shift,
+                                                       const std::vector<uint64_t>& codes,
+                                                       size_t count) {
+  std::vector<Cell> cells;
+  cells.reserve(count);
+  for (size_t i = 0; i < codes.size(); ++i) {
+    const uint64_t code = codes[i] >> (3 * shift);
+    if (cells.empty() || cells.back().code != code)
+      cells.push_back({code, static_cast<uint32_t>(i), 0});
+    cells.back().end = static_cast<uint32_t>(i) + 1;
+  }
+  return cells;
+}
+
+void PhotonGrid::join_cells(std::vector<Cell>& cells) {
+  size_t last = 0;
+  cells[0].code >>= 3;
+  for (size_t i = 1; i < cells.size(); ++i) {
+    const Cell cell = {cells[i].code >> 3, cells[i].begin, cells[i].end};
+    if (cells[last].code == cell.code)
+      cells[last].end = cell.end;
+    else
+      cells[++last] = cell;
+  }
+  cells.resize(last + 1);
+}
+
+void PhotonGrid::add_level(int shift, const std::vector<Cell>& cells) {
   Level level;
   level.shift = shift;
-  level.table.resize(std::bit_ceil(2 * count_cells(codes, shift)));
+  level.size = std::ldexp(quantum_, shift);
+  level.table.resize(std::bit_ceil(2 * cells.size()));
   level.mask = level.table.size() - 1;
-  for (size_t begin = 0; begin < codes.size();) {
-    const uint64_t code = codes[begin] >> (3 * shift);
-    size_t end = begin + 1;
-    while (end < codes.size() && (codes[end] >> (3 * shift)) == code) ++end;
-    uint64_t slot = mix_bits(code) & level.mask;
+  for (const Cell& cell : cells) {
+    uint64_t slot = mix_bits(cell.code) & level.mask;
     while (level.table[slot].begin != level.table[slot].end) slot = (slot + 1) & level.mask;
-    level.table[slot] = {code, static_cast<uint32_t>(begin), static_cast<uint32_t>(end)};
-    begin = end;
+    level.table[slot] = cell;
   }
   levels_.push_back(std::move(level));
 }
 
-// The finest level whose cells are at least as large as the query's diameter: at most eight cells.
-const PhotonGrid::Level& PhotonGrid::level_for(float radius) const {
+// The finest level whose cells are wider than a query, by more than the quantisation rounds: it
+// reaches into two in each direction. The last one has a single cell.
+const PhotonGrid::Level& PhotonGrid::level_for(float reach) const {
+  const float width = 2.0f * reach + quantum_;
   size_t i = 0;
-  while (i + 1 < levels_.size() && std::ldexp(quantum_, levels_[i].shift) < 2.0f * radius) ++i;
+  while (i + 1 < levels_.size() && levels_[i].size <= width) ++i;
   return levels_[i];
+}
+
+void PhotonGrid::find_runs(const Vec3f& center, float radius, Runs& runs) const {
+  // The quantisation is monotonic, so the cells of center +- reach enclose all that can match.
+  const float reach = reach_of(radius);
+  const Level& level = level_for(reach);
+  struct Axis {
+    uint64_t code[2];  ///< of the lower and the upper cell
+    float d2[2];       ///< square of the least distance to them along this axis
+    int count;         ///< 1 if they are the same
+  } axes[3];
+  for (int i = 0; i < 3; ++i) {
+    if (center[i] + reach < min_[i] || center[i] - reach > max_[i]) return;
+    const uint32_t lo = quantize(center[i] - reach, i) >> level.shift;
+    const uint32_t hi = quantize(center[i] + reach, i) >> level.shift;
+    const float boundary = min_[i] + static_cast<float>(hi) * level.size;
+    const float away = std::max(0.0f, std::abs(center[i] - boundary) - slack_ - quantum_);
+    const bool below = center[i] < boundary;
+    axes[i].count = lo == hi ? 1 : 2;
+    axes[i].code[0] = spread_bits(lo) << i;
+    axes[i].code[1] = spread_bits(hi) << i;
+    axes[i].d2[0] = lo == hi || below ? 0.0f : away * away;
+    axes[i].d2[1] = below ? away * away : 0.0f;
+  }
+  const float r2 = reach * reach;
+  for (int z = 0; z < axes[2].count; ++z)
+    for (int y = 0; y < axes[1].count; ++y)
+      for (int x = 0; x < axes[0].count; ++x) {
+        if (axes[0].d2[x] + axes[1].d2[y] + axes[2].d2[z] > r2) continue;
+        const Cell* cell = level.find(axes[0].code[x] | axes[1].code[y] | axes[2].code[z]);
+        if (!cell) continue;
+        runs.begin[runs.count] = cell->begin;
+        runs.end[runs.count++] = cell->end;
+      }
 }
 
 }  // namespace nephroid

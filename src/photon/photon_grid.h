@@ -17,8 +17,8 @@ namespace nephroid {
 
 class PhotonGrid {
  public:
-  /// Takes the photons and sorts them. `max_levels` limits the cell sizes (tests use small values).
-  explicit PhotonGrid(std::vector<Photon> photons, int max_levels = kCoordinateBits + 1);
+  /// Takes the photons and sorts them.
+  explicit PhotonGrid(std::vector<Photon> photons);
 
   size_t size() const { return photons_.size(); }
   const std::vector<Photon>& photons() const { return photons_; }
@@ -32,27 +32,25 @@ class PhotonGrid {
   void query(const Vec3f& center, float radius, F&& found) const {
     if (photons_.empty()) return;
     const float r2 = radius * radius;
-    // The quantisation is monotonic, so the cells of center +- radius enclose all that can match.
-    const float reach = radius * (1.0f + 4 * kMachineEpsilon) + reach_slack_;
-    uint32_t lo[3], hi[3];
-    for (int i = 0; i < 3; ++i) {
-      if (center[i] + reach < min_[i] || center[i] - reach > max_[i]) return;
-      lo[i] = quantize(center[i] - reach, i);
-      hi[i] = quantize(center[i] + reach, i);
-    }
-    const Level& level = level_for(radius);
-    const int shift = level.shift;
-    for (uint32_t z = lo[2] >> shift; z <= hi[2] >> shift; ++z)
-      for (uint32_t y = lo[1] >> shift; y <= hi[1] >> shift; ++y)
-        for (uint32_t x = lo[0] >> shift; x <= hi[0] >> shift; ++x) {
-          const Cell* cell = level.find(morton(x, y, z));
-          if (!cell) continue;
-          for (uint32_t i = cell->begin; i < cell->end; ++i) {
-            const Vec3f d = positions_[i] - center;
-            const float d2 = dot(d, d);
-            if (d2 <= r2) found(photons_[i], d2);
-          }
+    Runs runs;
+    find_runs(center, radius, runs);
+    // Those that are near are collected without a branch for each, then used.
+    uint32_t near[kCollected];
+    float distances[kCollected];
+    for (int k = 0; k < runs.count; ++k) {
+      for (uint32_t i = runs.begin[k]; i < runs.end[k];) {
+        const uint32_t end = std::min(runs.end[k], i + kCollected);
+        uint32_t count = 0;
+        for (; i < end; ++i) {
+          const Vec3f d = positions_[i] - center;
+          const float d2 = dot(d, d);
+          near[count] = i;
+          distances[count] = d2;
+          count += d2 <= r2;
         }
+        for (uint32_t j = 0; j < count; ++j) found(photons_[near[j]], distances[j]);
+      }
+    }
   }
 
   /// A photon that nearest() found.
@@ -99,30 +97,46 @@ class PhotonGrid {
   static constexpr int kCoordinateBits = 20;
 
  private:
+  static constexpr uint32_t kCollected = 64;
+
   struct Cell {
     uint64_t code = 0;
     uint32_t begin = 0, end = 0;  ///< empty if equal
   };
+  /// Photons of the cells that a query reaches into: two in each direction at most.
+  struct Runs {
+    int count = 0;
+    uint32_t begin[8], end[8];
+  };
   /// Cells of size 2^shift quanta.
   struct Level {
     int shift = 0;
+    float size = 0;
     uint64_t mask = 0;
     std::vector<Cell> table;  ///< open addressing, a power of two
     const Cell* find(uint64_t code) const;
   };
 
-  static uint64_t morton(uint32_t x, uint32_t y, uint32_t z);
   uint32_t quantize(float x, int axis) const;
+  void find_runs(const Vec3f& center, float radius, Runs& runs) const;
   /// Sorts the photons and returns their codes.
   std::vector<uint64_t> sort();
-  void add_level(int shift, const std::vector<uint64_t>& codes);
-  const Level& level_for(float radius) const;
+  /// The cells of 2^shift quanta in the order of their codes; there are `count`.
+  static std::vector<Cell> finest_cells(int shift, const std::vector<uint64_t>& codes,
+                                        size_t count);
+  /// Makes of them the cells of twice the size.
+  static void join_cells(std::vector<Cell>& cells);
+  void add_level(int shift, const std::vector<Cell>& cells);
+  /// Half the side of the box that holds all that can match.
+  float reach_of(float radius) const { return radius * (1.0f + 4 * kMachineEpsilon) + slack_; }
+  const Level& level_for(float reach) const;
 
   std::vector<Photon> photons_;
   std::vector<Vec3f> positions_;
   Vec3f min_, max_;
-  float quantum_ = 1;      ///< size of the smallest cell
-  float reach_slack_ = 0;  ///< rounding of positions, far from the origin
+  float quantum_ = 1;  ///< size of the smallest cell
+  float quanta_ = 1;   ///< a unit of length in quanta
+  float slack_ = 0;    ///< rounding of positions, far from the origin
   std::vector<Level> levels_;
   size_t bytes_ = 0;
 };

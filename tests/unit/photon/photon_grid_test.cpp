@@ -34,9 +34,9 @@ std::vector<Photon> make_photons(int count, const Vec3f& origin, float scale, ui
   return photons;
 }
 
-void compare(int count, const Vec3f& origin, float scale, int levels) {
+void compare(int count, const Vec3f& origin, float scale) {
   const std::vector<Photon> photons = make_photons(count, origin, scale, 17);
-  const PhotonGrid grid(photons, levels);
+  const PhotonGrid grid(photons);
   ASSERT_EQ(grid.size(), photons.size());
   Numbers u{99};
   for (int q = 0; q < 200; ++q) {
@@ -59,25 +59,42 @@ void compare(int count, const Vec3f& origin, float scale, int levels) {
 }
 
 TEST(PhotonGrid, FindsWhatBruteForceFinds) {
-  compare(5000, Vec3f(0, 0, 0), 1.0f, 64);
+  compare(5000, Vec3f(0, 0, 0), 1.0f);
+  compare(3000, Vec3f(-3, 2, 1), 1.0f);
 }
-TEST(PhotonGrid, OneLevelOnly) {
-  compare(3000, Vec3f(-3, 2, 1), 1.0f, 1);
-}
-TEST(PhotonGrid, TwoLevels) {
-  compare(3000, Vec3f(-3, 2, 1), 1.0f, 2);
+// Photons, centers and rims of queries lie on the boundaries of cells, of every size.
+TEST(PhotonGrid, BoundariesOfCells) {
+  constexpr int kSide = 16;
+  std::vector<Photon> photons(kSide * kSide * kSide + 1);
+  for (size_t i = 0; i + 1 < photons.size(); ++i)
+    photons[i].p = Vec3f(static_cast<float>(i % kSide), static_cast<float>(i / kSide % kSide),
+                         static_cast<float>(i / kSide / kSide));
+  // With this one the box is as many quanta wide as there are.
+  photons.back().p = Vec3f(static_cast<float>((1 << PhotonGrid::kCoordinateBits) - 1) / 65536);
+  const PhotonGrid grid(photons);
+  for (const float radius : {0.0f, 1.0f, 1.5f, 2.0f, 3.0f, 4.0f, 8.0f})
+    for (size_t i = 0; i < photons.size(); i += 7) {
+      const Vec3f c = photons[i].p + Vec3f(i % 2 == 0 ? 0.0f : 0.5f, 0, 0);
+      size_t expected = 0, found = 0;
+      for (const Photon& p : photons) {
+        const Vec3f d = p.p - c;
+        expected += dot(d, d) <= radius * radius;
+      }
+      grid.query(c, radius, [&](const Photon&, float) { ++found; });
+      ASSERT_EQ(found, expected) << "photon " << i << " radius " << radius;
+    }
 }
 TEST(PhotonGrid, TinyScene) {
-  compare(2000, Vec3f(1e-3f, 0, 0), 1e-4f, 64);
+  compare(2000, Vec3f(1e-3f, 0, 0), 1e-4f);
 }
 TEST(PhotonGrid, HugeScene) {
-  compare(2000, Vec3f(5e3f, -1e4f, 0), 1e4f, 64);
+  compare(2000, Vec3f(5e3f, -1e4f, 0), 1e4f);
 }
 TEST(PhotonGrid, FarFromTheOrigin) {
-  compare(2000, Vec3f(1000, 1000, 1000), 1.0f, 64);
+  compare(2000, Vec3f(1000, 1000, 1000), 1.0f);
 }
 TEST(PhotonGrid, FewPhotons) {
-  for (const int n : {1, 2, 3, 7}) compare(n, Vec3f(0, 0, 0), 1.0f, 64);
+  for (const int n : {1, 2, 3, 7}) compare(n, Vec3f(0, 0, 0), 1.0f);
 }
 
 TEST(PhotonGrid, AllPhotonsInOnePoint) {
@@ -155,27 +172,25 @@ std::vector<PhotonGrid::Neighbour> nearest_of_all(const PhotonGrid& grid, const 
 
 TEST(PhotonGrid, NearestAreThoseOfBruteForce) {
   const Vec3f origin(2, -1, 0.5f);
-  for (const int levels : {1, 3, 64}) {
-    std::vector<Photon> photons = make_photons(3000, origin, 2, 5);
-    for (size_t i = 0; i < 200; ++i) photons[i].p = photons[200 + i].p;  // pairs in one place
-    const PhotonGrid grid(photons, levels);
-    Numbers u{7};
-    std::vector<PhotonGrid::Neighbour> found;
-    int full = 0, cut = 0;
-    for (int q = 0; q < 300; ++q) {
-      Vec3f c = origin + Vec3f(u(), u(), u()) * 2.4f - Vec3f(0.2f);
-      if (q % 3 == 0) c = photons[static_cast<size_t>(u() * 3000)].p;
-      const float radius = 2 * std::pow(10.0f, -3.0f + 3.3f * u());
-      const size_t wanted = 1 + static_cast<size_t>(u() * 120);
-      const int every = 1 + q % 4;  // of the others none counts
-      grid.nearest(
-          c, radius, wanted, [&](const Photon& p) { return p.events % every == 0; }, found);
-      ASSERT_EQ(found, nearest_of_all(grid, c, radius, wanted, every)) << "query " << q;
-      ++(found.size() == wanted ? full : cut);
-    }
-    EXPECT_GT(full, 50);
-    EXPECT_GT(cut, 50);
+  std::vector<Photon> photons = make_photons(3000, origin, 2, 5);
+  for (size_t i = 0; i < 200; ++i) photons[i].p = photons[200 + i].p;  // pairs in one place
+  const PhotonGrid grid(photons);
+  Numbers u{7};
+  std::vector<PhotonGrid::Neighbour> found;
+  int full = 0, cut = 0;
+  for (int q = 0; q < 300; ++q) {
+    Vec3f c = origin + Vec3f(u(), u(), u()) * 2.4f - Vec3f(0.2f);
+    if (q % 3 == 0) c = photons[static_cast<size_t>(u() * 3000)].p;
+    const float radius = 2 * std::pow(10.0f, -3.0f + 3.3f * u());
+    const size_t wanted = 1 + static_cast<size_t>(u() * 120);
+    const int every = 1 + q % 4;  // of the others none counts
+    grid.nearest(
+        c, radius, wanted, [&](const Photon& p) { return p.events % every == 0; }, found);
+    ASSERT_EQ(found, nearest_of_all(grid, c, radius, wanted, every)) << "query " << q;
+    ++(found.size() == wanted ? full : cut);
   }
+  EXPECT_GT(full, 50);
+  EXPECT_GT(cut, 50);
 }
 
 TEST(PhotonGrid, NearestOfNothing) {
