@@ -102,6 +102,8 @@ RenderResult RenderSession::run(SignalFlags& signals) {
   result.signal = *reason == StopReason::kSignal ? signals.stop.load() : 0;
   result.passes_done = passes_done_;
   result.seconds = elapsed();
+  // What the clock let stand is of an earlier picture.
+  if ((options_.noise_target > 0 || shows_error()) && error_pass_ != passes_done_) renew_error();
   if (error_) result.error = error_->total();
   result.first_pass_statistics = first_pass_statistics_;
   result.statistics = statistics();
@@ -146,7 +148,7 @@ bool RenderSession::error_check_is_due() const {
   if (options_.noise_target > 0)
     return passes_done_ >= kFewestPassesForNoise &&
            passes_done_ % std::max(1u, std::bit_floor(passes_done_) / 16) == 0;
-  return progress_ && options_.show_error && elapsed() >= next_error_seconds_;
+  return shows_error() && elapsed() >= next_error_seconds_;
 }
 
 void RenderSession::renew_error() {

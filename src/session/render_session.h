@@ -77,6 +77,7 @@ class RenderSession {
  private:
   std::optional<StopReason> reason_to_stop(const SignalFlags& signals) const;
   double elapsed() const { return clock_() - start_; }
+  bool shows_error() const { return progress_ && options_.show_error; }
   bool error_check_is_due() const;
   void render_one_pass();
   std::vector<EstimatorStatistics> statistics() const;

@@ -136,6 +136,16 @@ TEST_F(RenderSessionTest, NoiseTargetDoesNotDependOnTheClock) {
   EXPECT_EQ(run(options).passes_done, slow);
 }
 
+TEST_F(RenderSessionTest, TheErrorAtTheEndIsThatOfThePicture) {
+  // So fast that progress shows that of the first passes until the end.
+  script_.pass_seconds = 1e-6;
+  RenderOptions options;
+  options.last_pass = 25;
+  const RenderResult result = run(options);
+  ASSERT_TRUE(result.error.has_value());
+  EXPECT_NEAR(*result.error, 1 / std::sqrt(25 * 1.01), 1e-6);
+}
+
 TEST_F(RenderSessionTest, NoiseTargetIsRefusedWithoutAnErrorEstimate) {
   script_.capabilities.per_pixel_state = true;
   RenderOptions options;
