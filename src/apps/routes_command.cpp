@@ -10,6 +10,7 @@
 #include "apps/messages.h"
 #include "core/errors.h"
 #include "integrator/compiled_plan.h"
+#include "session/choices_report.h"
 #include "session/film_of_scene.h"
 #include "session/noise.h"
 #include "session/scene_loading.h"
@@ -111,8 +112,11 @@ void print_pilot(const RoutesCommand& command, const RoutePlan& plan, CompiledPl
     fmt::print("  {:16} {:6.3g} %\n", plan.routes[i].name, 100 * shares.routes[i]);
   for (size_t i = 0; i < plan.aovs.size(); ++i)
     fmt::print("  {:16} {:6.3g} % (layer)\n", plan.aovs[i].name, 100 * shares.aovs[i]);
-  for (const auto& estimator : preset.estimators)
-    for (const std::string& note : estimator->statistics().notes) fmt::print("note: {}\n", note);
+  std::vector<EstimatorStatistics> statistics;
+  for (const auto& estimator : preset.estimators) statistics.push_back(estimator->statistics());
+  for (const std::string& line : technique_report(statistics)) fmt::print("{}\n", line);
+  for (const EstimatorStatistics& s : statistics)
+    for (const std::string& note : s.notes) fmt::print("note: {}\n", note);
 }
 
 }  // namespace

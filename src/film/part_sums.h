@@ -9,6 +9,7 @@
 
 #include "core/color.h"
 #include "film/film.h"
+#include "film/technique_light.h"
 #include "route/routes.h"
 
 namespace nephroid {
@@ -26,11 +27,28 @@ class PartSums {
   bool owns(Part part) const { return place_[part] != kNotOwned; }
   /// Place of an owned part among those of the group, as Film::add counts them.
   size_t place(Part part) const { return place_[part]; }
-  void add(Part part, const SampledSpectrum& value) { sums_[place_[part]] += value; }
+  void add(Part part, const SampledSpectrum& value, Technique technique = Technique::kMeetLight) {
+    sums_[place_[part]] += value;
+    if (!of_techniques_.empty())
+      of_techniques_[place_[part]][static_cast<size_t>(technique)] += value;
+  }
+  /// From now on it is kept which technique added what.
+  void tell_techniques_apart() { of_techniques_.resize(sums_.size()); }
+  /// Adds what each of them found to `light` (as large as the parts), as the sum of a colour's
+  /// components times `factor`.
+  void add_techniques_to(std::span<TechniqueLight> light, const SensorWeights& weights,
+                         double factor) const {
+    for (size_t i = 0; i < of_techniques_.size(); ++i)
+      for (size_t t = 0; t < kTechniqueCount; ++t) {
+        const Rgb color = weights.apply(of_techniques_[i][t]);
+        light[i][t] += factor * (static_cast<double>(color.r) + color.g + color.b);
+      }
+  }
   /// What the values are off by in the mean, estimated; of all parts together.
   void add_bias(const SampledSpectrum& value) { bias_ += value; }
   void clear() {
     for (SampledSpectrum& sum : sums_) sum = SampledSpectrum();
+    for (auto& sums : of_techniques_) sums.fill(SampledSpectrum());
     bias_ = SampledSpectrum();
   }
   std::span<const SampledSpectrum> sums() const { return sums_; }
@@ -66,6 +84,7 @@ class PartSums {
   static constexpr uint8_t kNotOwned = 255;
   std::array<uint8_t, 256> place_;
   std::vector<SampledSpectrum> sums_;
+  std::vector<std::array<SampledSpectrum, kTechniqueCount>> of_techniques_;  ///< empty: untold
   SampledSpectrum bias_;
   std::vector<Rgb> colors_;
 };

@@ -4,6 +4,7 @@
 
 #include "core/parallel.h"
 #include "integrator/path_pair.h"
+#include "integrator/technique_counter.h"
 #include "transport/roughness_band.h"
 
 namespace nephroid {
@@ -20,6 +21,7 @@ constexpr int kMostPixels = 1 << 16;
 struct Row {
   std::vector<Splat> splats;
   uint64_t rays = 0, useful = 0;
+  TechniqueCounter::Row techniques;
 };
 
 /// One sample of each pixel.
@@ -32,6 +34,7 @@ class PairRound {
         film_(film),
         eye_point_(eye_point(static_cast<uint32_t>(index), kEyePathDimensions)),
         light_point_(light_point(static_cast<uint32_t>(index))),
+        techniques_(film, settings.owned.group, key.pass),
         parts_(film.parts_of(static_cast<int>(settings.owned.group)).size()),
         values_(static_cast<size_t>(film.bounds().area()) * parts_) {}
 
@@ -48,11 +51,14 @@ class PairRound {
         splats.insert(splats.end(), row.splats.begin(), row.splats.end());
         statistics.rays += row.rays;
         statistics.light_paths_useful += row.useful;
+        techniques_.add(row.techniques);
       }
+      techniques_.add_splats(splats, 1.0 / settings_.light_paths);
       buffer.add(splats);
       statistics.splats += splats.size();
     }
     buffer.finish(1.0 / settings_.light_paths, values_);
+    techniques_.add_to(statistics.techniques);
     statistics.camera_paths += static_cast<uint64_t>(b.area());
     statistics.light_paths += static_cast<uint64_t>(b.area());
   }
@@ -63,6 +69,7 @@ class PairRound {
     LightSubpath path;
     std::vector<FilmConnection> seen;
     PartSums light(*settings_.owned.routes, settings_.owned.group);
+    row.techniques = techniques_.start_row(light);
     for (int x = b.x0; x < b.x1; ++x) {
       seen.clear();
       light.clear();
@@ -99,6 +106,8 @@ class PairRound {
                          static_cast<size_t>(x - b.x0);
     const std::span<const Rgb> colors =
         light.colors(weights, camera.camera_weight, film.max_component, camera.filter_weight);
+    light.add_techniques_to(row.techniques, weights,
+                            static_cast<double>(camera.camera_weight) * camera.filter_weight);
     std::copy(colors.begin(), colors.end(),
               values_.begin() + static_cast<std::ptrdiff_t>(pixel * parts_));
   }
@@ -108,6 +117,7 @@ class PairRound {
   const uint64_t index_;
   Film& film_;
   const SobolPoint eye_point_, light_point_;
+  TechniqueCounter techniques_;
   const size_t parts_;
   std::vector<Rgb> values_;  ///< [pixel * parts + part]
 };

@@ -10,6 +10,7 @@
 
 #include "core/sampler.h"
 #include "film/film.h"
+#include "film/technique_light.h"
 #include "input/format_rows.h"
 #include "route/routes.h"
 
@@ -43,6 +44,9 @@ struct EstimatorStatistics {
   /// and of what finds them, `pixel_bytes` of what is kept for each pixel and of what a pass adds
   /// up, `bytes` of both together.
   uint64_t bytes = 0, photon_bytes = 0, pixel_bytes = 0;
+  /// Of estimators that combine techniques: what each found in the first passes. Samples count
+  /// before they are clamped.
+  std::vector<RouteTechniques> techniques;
   std::vector<std::string> notes;  ///< sentences for the report, e.g. why a route is black
 
   /// Counts memory that is held at the same time.

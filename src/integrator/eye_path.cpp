@@ -47,7 +47,7 @@ class EyeVisitor {
                                              direct_pdf_w(scene, walk, i), end.has_cuts_before());
         weight = weight_of_hit(start, end.next({start.line.at_b, 1}));
       }
-      add(part, walk, walk.throughput * le * static_cast<float>(weight));
+      add(part, walk, Technique::kMeetLight, walk.throughput * le * static_cast<float>(weight));
     }
   }
 
@@ -65,7 +65,7 @@ class EyeVisitor {
                       direct_pdf_w(settings_.scene, walk, hit), end.has_cuts_before());
       weight = weight_of_hit(start, end.next({start.line.at_b, start.line.at_a}));
     }
-    add(part, walk, walk.throughput * le * static_cast<float>(weight));
+    add(part, walk, Technique::kMeetLight, walk.throughput * le * static_cast<float>(weight));
   }
 
   void medium_emission(const Medium&, const SampledSpectrum&) {}
@@ -151,16 +151,15 @@ class EyeVisitor {
   bool makes(int light_vertices, const Walk& walk) const {
     return !settings_.merges_only && settings_.technique.makes(light_vertices, walk.events + 2);
   }
-
   bool weighs_hit(const Walk& walk) const {
     return settings_.technique.weighted && walk.events > 0;
   }
-  void add(Part part, const Walk& walk, const SampledSpectrum& value, bool hero_only = false,
-           float bias = 0) {
+  void add(Part part, const Walk& walk, Technique technique, const SampledSpectrum& value,
+           bool hero_only = false, float bias = 0) {
     const SampledSpectrum whole =
         whole_spectrum(value, hero_only || walk.lambda.secondary_terminated());
     guided_.add(whole);
-    light_.add(part, whole);
+    light_.add(part, whole, technique);
     if (bias != 0) light_.add_bias(whole * bias);
   }
 
@@ -247,7 +246,7 @@ class EyeVisitor {
       if (settings_.technique.weighted)
         weight = weight_of_direct(start, sums_.behind(class_of(z, i), true), arm.density.forward,
                                   arm.density.back, arm.merge);
-      add(part, z.walk, arriving * arm.f * static_cast<float>(weight));
+      add(part, z.walk, Technique::kSampleLight, arriving * arm.f * static_cast<float>(weight));
     }
   }
 
@@ -315,7 +314,8 @@ class EyeVisitor {
               1 /
               (1 + cuts_before(y.sums, a.density.forward * line.at_b, b.density.back, b.merge) +
                cuts_before(sums_.all(), b.density.forward * line.at_a, a.density.back, a.merge));
-        add(part, z.walk, arriving * a.f * b.f * static_cast<float>(weight), hero_only);
+        add(part, z.walk, Technique::kConnect, arriving * a.f * b.f * static_cast<float>(weight),
+            hero_only);
       }
     }
   }
@@ -372,7 +372,7 @@ void EyeVisitor::merge(const Walk& walk, const WalkVertex& v, ClassMask among) {
         weight =
             weight_of_merge(sums_.all(), back, {photon.cut_here, photon.cuts_before}, towards, own);
       }
-      add(part, walk,
+      add(part, walk, Technique::kMerge,
           walk.throughput * e.f * photon.flux *
               (abs_cos_theta(wi) / arrival->cos_geometric * scale * static_cast<float>(weight)),
           photon.secondary_terminated, bias_factor(d2, radius));

@@ -12,6 +12,7 @@
 #include "integrator/merge_pass.h"
 #include "integrator/path_pair.h"
 #include "integrator/samples_to_clamp.h"
+#include "integrator/technique_counter.h"
 
 namespace nephroid {
 
@@ -25,6 +26,7 @@ constexpr int kRowsWithRecords = 64;
 struct Row {
   std::vector<RadianceRecord> records;
   uint64_t rays = 0, camera_paths = 0;
+  TechniqueCounter::Row techniques;
 };
 
 float total(std::span<const Rgb> colors) {
@@ -48,6 +50,7 @@ class Rendering {
         film_(film),
         owned_(owned),
         options_(options),
+        techniques_(film ? TechniqueCounter(like, owned.group, key.pass) : TechniqueCounter(like)),
         pass_(start_photon_pass(key, scene, like, options)),
         view_(scene, like.bounds()),
         records_(how.records,
@@ -96,6 +99,7 @@ class Rendering {
                           .number_varies = learns_},
                          pass_, settings_);
     const auto expose = [&](std::span<const Splat> splats) {
+      techniques_.add_splats(splats, 1.0 / static_cast<double>(how_.light_paths));
       if (buffer)
         buffer->add(splats);
       else if (!splatted_.empty())
@@ -124,6 +128,7 @@ class Rendering {
     else if (film_)
       add_values();
     if (film_) film_->add_bias(static_cast<int>(owned_.group), bias_);
+    techniques_.add_to(statistics.techniques);
     statistics.photon_paths += static_cast<uint64_t>(how_.light_paths);
     statistics.radius_min_pixels = merging_.radius_pixels;
     if (statistics.radius_max_pixels == 0) statistics.radius_max_pixels = merging_.radius_pixels;
@@ -172,6 +177,7 @@ class Rendering {
     parallel_chunks(count, 1, [&](int64_t row, int64_t, int64_t) {
       LightSubpath path;
       PartSums light(*owned_.routes, owned_.group);
+      rows[static_cast<size_t>(row)].techniques = techniques_.start_row(light);
       const int y = b.y0 + first + static_cast<int>(row);
       for (int x = b.x0; x < b.x1; ++x) {
         const int samples = how_.samples ? how_.samples->at(x - b.x0, y - b.y0) : 1;
@@ -184,6 +190,7 @@ class Rendering {
       if (settings_.merges_only) statistics.again_rays += row.rays;
       statistics.camera_paths += row.camera_paths;
       records_.take(row.records, settings_.merges_only);
+      techniques_.add(row.techniques);
     }
   }
 
@@ -217,6 +224,9 @@ class Rendering {
     if (film_)
       bias_[pixel] +=
           light.bias(pass_.weights) * camera.camera_weight * camera.filter_weight * share;
+    light.add_techniques_to(
+        row.techniques, pass_.weights,
+        static_cast<double>(camera.camera_weight) * camera.filter_weight * share);
     const size_t sample = pixel * points_.size() + static_cast<size_t>(k);
     // What has to wait for other batches is clamped at the end.
     const bool waits = !clamped_.empty();
@@ -254,7 +264,9 @@ class Rendering {
                          .specular_alpha = settings_.specular_alpha,
                          .spread = how_.glint_spread,
                          .spread_of_choice = how_.choice_spread};
+    techniques_.add_values(values_, Technique::kMeetByMirrors, -1);
     statistics.rays += pass.render(values_, [this](int n) { return first_index(n); });
+    techniques_.add_values(values_, Technique::kMeetByMirrors, 1);
   }
 
   bool clamps() const { return like_.settings().max_component < kInfinity; }
@@ -310,6 +322,7 @@ class Rendering {
   Film* film_;
   const OwnedRoutes& owned_;
   const IntegratorOptions& options_;
+  TechniqueCounter techniques_;
   const PhotonPass pass_;
   const CameraView view_;
   PairMerging merging_;

@@ -2,12 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <utility>
+
 #include "session/noise.h"
 #include "session/short_number.h"
 
 namespace nephroid {
 
 namespace {
+
+/// Shares of techniques below this are not worth saying.
+constexpr double kLeastShare = 1e-4;
 
 double part(uint64_t some, uint64_t all) {
   return static_cast<double>(some) / static_cast<double>(all);
@@ -50,6 +57,30 @@ void add_rays(const EstimatorStatistics& last, std::vector<std::string>& lines) 
 
 }  // namespace
 
+std::vector<std::string> technique_report(const std::vector<EstimatorStatistics>& statistics) {
+  static constexpr std::array<const char*, kTechniqueCount> kNames = {
+      "lights met",     "lights sampled",   "light paths connected",
+      "photons merged", "light paths seen", "lights behind mirrors and glass"};
+  std::vector<std::string> lines;
+  for (const EstimatorStatistics& s : statistics)
+    for (const RouteTechniques& r : s.techniques) {
+      double all = 0;
+      std::vector<std::pair<double, const char*>> found;
+      for (const double light : r.light) all += light;
+      if (!(all > 0)) continue;
+      for (size_t t = 0; t < kTechniqueCount; ++t)
+        if (r.light[t] >= kLeastShare * all) found.push_back({r.light[t], kNames[t]});
+      std::stable_sort(found.begin(), found.end(),
+                       [](const auto& a, const auto& b) { return a.first > b.first; });
+      std::string line = fmt::format("{}, by technique:", r.route);
+      for (size_t i = 0; i < found.size(); ++i)
+        line += fmt::format("{} {:.3g} % {}", i == 0 ? "" : ",", 100 * found[i].first / all,
+                            found[i].second);
+      lines.push_back(line + " (first passes)");
+    }
+  return lines;
+}
+
 std::vector<std::string> choices_report(const std::vector<EstimatorStatistics>& first,
                                         const std::vector<EstimatorStatistics>& last,
                                         uint32_t passes) {
@@ -59,6 +90,7 @@ std::vector<std::string> choices_report(const std::vector<EstimatorStatistics>& 
     add_light_paths(last[i], passes, lines);
     add_rays(last[i], lines);
   }
+  for (std::string& line : technique_report(last)) lines.push_back(std::move(line));
   for (const EstimatorStatistics& s : last)
     for (const std::string& note : s.notes) lines.push_back("note: " + note);
   return lines;

@@ -17,6 +17,10 @@ std::vector<std::string> choices_report(const std::vector<EstimatorStatistics>& 
                                         const std::vector<EstimatorStatistics>& last,
                                         uint32_t passes);
 
+/// A line for each route whose estimator combines techniques: which of them carried its light in
+/// the first passes.
+std::vector<std::string> technique_report(const std::vector<EstimatorStatistics>& statistics);
+
 /// A line of the errors that the film claims for itself, by the routes that are sampled together;
 /// empty while it claims none.
 std::optional<std::string> error_report(const Film& film);

@@ -49,6 +49,18 @@ TEST(ChoicesReport, HasPhotonsLightPathsAndNotesOfAllEstimators) {
             "photons: 8 k paths once, 2.5 k photons kept in all, 25 % of paths kept any");
 }
 
+TEST(TechniqueReport, NamesThoseThatCarryARouteLargestFirst) {
+  EstimatorStatistics s;
+  RouteTechniques caustic{"caustic", {}}, black{"black", {}};
+  caustic.light[static_cast<size_t>(Technique::kSampleLight)] = 1;
+  caustic.light[static_cast<size_t>(Technique::kMerge)] = 3;
+  caustic.light[static_cast<size_t>(Technique::kMeetByMirrors)] = 1e-9;
+  s.techniques = {caustic, black};
+  EXPECT_EQ(
+      technique_report({s}),
+      Lines{"caustic, by technique: 75 % photons merged, 25 % lights sampled (first passes)"});
+}
+
 TEST(ErrorReport, TellsRoutesThatAreSampledTogether) {
   FilmSettings settings;
   settings.width = settings.height = 1;

@@ -1,0 +1,90 @@
+// What estimators say of their techniques adds up to what they put on the film.
+#include <gtest/gtest.h>
+
+#include "rendering.h"
+
+namespace nephroid {
+namespace {
+
+using namespace testing_support;
+
+constexpr char kScene[] = R"(
+  LookAt 0 2.5 -4  0 0.5 0  0 1 0
+  Camera "perspective" "float fov" 45
+  Film "rgb" "integer xresolution" 16 "integer yresolution" 12
+  PixelFilter "box" "float xradius" 0.5 "float yradius" 0.5
+  WorldBegin
+  AttributeBegin
+    AreaLightSource "diffuse" "rgb L" [9 8 7]
+    Translate 0 3 0 Rotate 90 1 0 0 Shape "disk" "float radius" 0.6
+  AttributeEnd
+  Material "diffuse" "rgb reflectance" [0.6 0.5 0.4]
+  Shape "bilinearmesh" "point3 P" [-4 0 -4  4 0 -4  -4 0 4  4 0 4]
+  Material "dielectric" "float eta" 1.5
+  AttributeBegin Translate 0 0.7 0 Shape "sphere" "float radius" 0.6 AttributeEnd
+)";
+
+double light_of(const Film& film, size_t route) {
+  double sum = 0;
+  const PixelBounds& b = film.bounds();
+  for (int y = b.y0; y < b.y1; ++y)
+    for (int x = b.x0; x < b.x1; ++x) {
+      const Rgb v = film.route_value(static_cast<int>(route), x, y);
+      sum += static_cast<double>(v.r) + v.g + v.b;
+    }
+  return sum;
+}
+
+class Techniques : public testing::TestWithParam<std::string> {};
+
+TEST_P(Techniques, AddUpToTheLightOfTheirRoutes) {
+  const auto scene = scene_from_text(kScene);
+  IntegratorOptions options;
+  options.photons_per_pass = 4000;
+  Preset preset = make_preset(Plan(GetParam()), options, *scene);
+  Film film = film_for(*scene, preset);
+  constexpr uint32_t kPasses = 3;
+  for (uint32_t pass = 0; pass < kPasses; ++pass)
+    for (const auto& estimator : preset.estimators) estimator->render_pass({5, pass}, *scene, film);
+  int told = 0;
+  for (const auto& estimator : preset.estimators)
+    for (const RouteTechniques& r : estimator->statistics().techniques) {
+      const auto& names = film.layout().routes;
+      const auto route =
+          static_cast<size_t>(std::find(names.begin(), names.end(), r.route) - names.begin());
+      ASSERT_LT(route, names.size());
+      double sum = 0;
+      for (const double light : r.light) {
+        EXPECT_GE(light, -1e-6) << r.route;
+        sum += light;
+      }
+      const double expected = kPasses * light_of(film, route);
+      EXPECT_NEAR(sum, expected, 1e-4 * expected) << r.route;
+      told += sum > 0;
+    }
+  EXPECT_GT(told, 0);
+}
+
+// In all routes together every technique has something to say.
+TEST_P(Techniques, AreTheOnesThatTheEstimatorHas) {
+  const auto scene = scene_from_text(kScene);
+  Preset preset = make_preset(Plan(GetParam()), {}, *scene);
+  Film film = film_for(*scene, preset);
+  preset.estimators.back()->render_pass({5, 0}, *scene, film);
+  TechniqueLight all{};
+  for (const RouteTechniques& r : preset.estimators.back()->statistics().techniques)
+    for (size_t t = 0; t < kTechniqueCount; ++t) all[t] += r.light[t];
+  const auto found = [&](Technique t) { return all[static_cast<size_t>(t)] > 1e-6; };
+  const bool connects = GetParam() == "bdpt" || GetParam() == "vcm";
+  EXPECT_TRUE(found(Technique::kMeetLight) || GetParam() == "mixed" || GetParam() == "bpm");
+  EXPECT_TRUE(found(Technique::kSampleLight));
+  EXPECT_EQ(found(Technique::kConnect), connects);
+  EXPECT_EQ(found(Technique::kMeetCamera), connects);
+  EXPECT_EQ(found(Technique::kMerge), GetParam() != "bdpt");
+  EXPECT_EQ(found(Technique::kMeetByMirrors), GetParam() == "mixed");
+}
+
+INSTANTIATE_TEST_SUITE_P(Estimators, Techniques, testing::Values("bdpt", "vcm", "bpm", "mixed"));
+
+}  // namespace
+}  // namespace nephroid
