@@ -2,6 +2,7 @@
 // its outside, or on both sides; uniform, or from an image over the shape's uv.
 #include "core/warps.h"
 #include "scene/light/light_table.h"
+#include "scene/shape/plane_rectangle.h"
 
 namespace nephroid {
 
@@ -29,6 +30,7 @@ class DiffuseAreaLight final : public Light {
                    float power_scale)
       : emission_(std::move(emission)),
         shape_(std::move(shape)),
+        rectangle_(emission_->image || emission_->alpha ? nullptr : shape_->rectangle(primitive)),
         primitive_(primitive),
         scale_(power_scale),
         area_(shape_->area(primitive)) {}
@@ -38,7 +40,8 @@ class DiffuseAreaLight final : public Light {
 
   std::optional<LightSample> sample_towards(const Vec3f& from, const Vec2f& u,
                                             const SampledWavelengths& lambda) const override {
-    const auto point = shape_->sample_towards(primitive_, from, u);
+    const auto point = rectangle_ ? rectangle_->sample_towards(from, u)
+                                  : shape_->sample_towards(primitive_, from, u);
     if (!point || !(point->pdf > 0.0f)) return std::nullopt;
     const Vec3f d = point->p - from;
     if (!(length_squared(d) > 0.0f)) return std::nullopt;
@@ -57,7 +60,9 @@ class DiffuseAreaLight final : public Light {
 
   float pdf_towards(const Vec3f& from, const Vec3f&, const Vec3f& p,
                     const Vec3f& ng) const override {
-    return emission_->invisible ? 0.0f : shape_->pdf_towards(primitive_, from, p, ng);
+    if (emission_->invisible) return 0.0f;
+    return rectangle_ ? rectangle_->pdf_towards(from, p, ng)
+                      : shape_->pdf_towards(primitive_, from, p, ng);
   }
 
   SampledSpectrum radiance(const Vec3f&, const Vec3f& ng, const Vec2f& uv, const Vec3f& w,
@@ -135,6 +140,7 @@ class DiffuseAreaLight final : public Light {
 
   std::shared_ptr<const AreaEmission> emission_;
   ShapePtr shape_;
+  const PlaneRectangle* rectangle_;  ///< of the shape, where nobody asks for uv; or null
   uint32_t primitive_;
   float scale_;  ///< from "power", by this primitive's area
   float area_;

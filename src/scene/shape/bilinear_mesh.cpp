@@ -5,15 +5,12 @@
 #include <string>
 
 #include "scene/shape/bilinear_patch.h"
+#include "scene/shape/plane_rectangle.h"
 #include "scene/shape/shape.h"
 #include "scene/shape/solid_angle.h"
-#include "scene/shape/spherical_rectangle.h"
 
 namespace nephroid {
 namespace {
-
-/// Rectangles that cover less are sampled by area (pbrt-v4).
-constexpr double kMinSphericalArea = 1e-4;
 
 Vec3d to_double(const Vec3f& v) {
   return {v.x, v.y, v.z};
@@ -78,36 +75,33 @@ class BilinearMesh final : public Shape {
                                             const Vec2f&) const override;
   float pdf_towards(uint32_t, const Vec3f& from, const Vec3f& p, const Vec3f& ng) const override;
   void normal_bounds(uint32_t, Vec3f* axis, float* cos_half_angle) const override;
+  const PlaneRectangle* rectangle(uint32_t primitive) const override {
+    const auto& r = rectangle_[primitive];
+    return r && has_one_normal(primitive) ? &*r : nullptr;
+  }
 
  private:
   const uint32_t* corners(uint32_t primitive) const { return &data_.quads[4 * size_t{primitive}]; }
+  /// Of a plane patch: no vertex normals, or all the same.
+  bool has_one_normal(uint32_t primitive) const {
+    if (data_.normals.empty()) return true;
+    const uint32_t* v = corners(primitive);
+    const auto& n = data_.normals;
+    return n[v[0]] == n[v[1]] && n[v[0]] == n[v[2]] && n[v[0]] == n[v[3]];
+  }
   BilinearPatch patch(uint32_t primitive) const {
     const uint32_t* v = corners(primitive);
     const auto& p = data_.positions;
     return {to_double(p[v[0]]), to_double(p[v[1]]), to_double(p[v[2]]), to_double(p[v[3]])};
   }
-  /// A plane rectangle, with all that lamps ask for again and again side by side in memory.
-  struct Rectangle {
-    Vec3f p00, p10, p01, p11;
-    Vec3f p_error;  ///< see error_of_patch
-    Vec3f normal;   ///< outside, where there is one
-    bool valid = false;
-    bool one_normal = false;  ///< no vertex normals, or all the same
-    RectangleFrame frame;
-
-    BilinearPatch patch() const {
-      return {to_double(p00), to_double(p10), to_double(p01), to_double(p11)};
-    }
-  };
   Vec3d outside_normal(uint32_t primitive, const BilinearPatch&, double u, double v) const;
   void fill_texture_frame(uint32_t primitive, const Vec2f& uv, SurfaceInteraction& out) const;
-  ShapeSample sample_at(uint32_t primitive, const BilinearPatch&, double u, double v,
-                        double pdf) const;
+  ShapeSample of_mesh(uint32_t primitive, ShapeSample) const;
 
   MeshData data_;
   bool flip_;
-  std::vector<Rectangle> rectangle_;  ///< per patch
-  uint32_t rectangles_ = 0;           ///< how many are valid
+  std::vector<std::optional<PlaneRectangle>> rectangle_;  ///< of patches that are ones
+  uint32_t rectangles_ = 0;                               ///< how many there are
 };
 
 template <class T>
@@ -132,28 +126,6 @@ Vec3d unit_cross(const BilinearPatch& patch, double u, double v) {
   return l2 > 0.0 ? n / std::sqrt(l2) : Vec3d(0, 0, 1);
 }
 
-/// The part of a point's error that is the same all over the patch: what was lost in double, and
-/// the extent, which stands for the rounding of a distance to the patch, also along axes on which
-/// all coordinates are zero; flat patches are traced in float.
-Vec3f error_of_patch(const BilinearPatch& patch) {
-  double extent = 0.0;
-  for (const Vec3d& e : {patch.p10 - patch.p00, patch.p01 - patch.p00, patch.p11 - patch.p00})
-    extent = std::max({extent, std::abs(e.x), std::abs(e.y), std::abs(e.z)});
-  Vec3d error;
-  for (int i = 0; i < 3; ++i) {
-    const double magnitude = std::abs(patch.p00[i]) + std::abs(patch.p10[i]) +
-                             std::abs(patch.p01[i]) + std::abs(patch.p11[i]);
-    error[i] = magnitude * 16.0 * 0x1p-53 + extent * static_cast<double>(gamma_bound(6));
-  }
-  return to_float(error * 0x1.00001p0);
-}
-
-/// `q` rounded to float, which is the rest of the error.
-void set_point(const Vec3d& q, const Vec3f& error_of_patch, Vec3f* p, Vec3f* p_error) {
-  *p = to_float(q);
-  *p_error = abs(*p) * 0x1.0002p-24f + error_of_patch;
-}
-
 BilinearMesh::BilinearMesh(MeshData data, bool flip) : data_(std::move(data)), flip_(flip) {
   for (const uint32_t index : data_.quads)
     if (index >= data_.positions.size())
@@ -165,21 +137,9 @@ BilinearMesh::BilinearMesh(MeshData data, bool flip) : data_(std::move(data)), f
   for (size_t i = 0; i < count; ++i) {
     const auto primitive = static_cast<uint32_t>(i);
     const BilinearPatch shape = patch(primitive);
-    Rectangle& r = rectangle_[i];
-    r.valid = shape.is_rectangle();
-    if (!r.valid) continue;
+    if (!shape.is_rectangle()) continue;
     ++rectangles_;
-    r.p00 = to_float(shape.p00);
-    r.p10 = to_float(shape.p10);
-    r.p01 = to_float(shape.p01);
-    r.p11 = to_float(shape.p11);
-    r.p_error = error_of_patch(shape);
-    r.frame = RectangleFrame(shape.p00, shape.dpdu(0.0), shape.dpdv(0.0));
-    const uint32_t* v = corners(primitive);
-    r.one_normal = data_.normals.empty() || (data_.normals[v[0]] == data_.normals[v[1]] &&
-                                             data_.normals[v[0]] == data_.normals[v[2]] &&
-                                             data_.normals[v[0]] == data_.normals[v[3]]);
-    r.normal = to_float(outside_normal(primitive, shape, 0.5, 0.5));
+    rectangle_[i].emplace(shape, to_float(outside_normal(primitive, shape, 0.5, 0.5)));
   }
 }
 
@@ -242,9 +202,9 @@ void BilinearMesh::fill(uint32_t primitive, const Vec2f& hit_uv, const Ray&, flo
   const BilinearPatch shape = patch(primitive);
   const uint32_t* corner = corners(primitive);
   const double u = hit_uv.x, v = hit_uv.y;
-  const Rectangle& rectangle = rectangle_[primitive];
-  set_point(shape.point(u, v), rectangle.valid ? rectangle.p_error : error_of_patch(shape), &out.p,
-            &out.p_error);
+  const auto& rectangle = rectangle_[primitive];
+  set_patch_point(shape.point(u, v), rectangle ? rectangle->error() : error_of_patch(shape), &out.p,
+                  &out.p_error);
   out.uv = hit_uv;
   out.face_index = data_.face_indices.empty() ? 0 : data_.face_indices[primitive];
   const Vec3d pu = shape.dpdu(v), pv = shape.dpdv(u);
@@ -283,23 +243,17 @@ void BilinearMesh::fill(uint32_t primitive, const Vec2f& hit_uv, const Ray&, flo
   out.shading = Frame::from_z_and_tangent(shading_normal, out.shading_dpdu);
 }
 
-ShapeSample BilinearMesh::sample_at(uint32_t primitive, const BilinearPatch& shape, double u,
-                                    double v, double pdf) const {
-  ShapeSample s;
-  const Rectangle& r = rectangle_[primitive];
-  set_point(shape.point(u, v), r.valid ? r.p_error : error_of_patch(shape), &s.p, &s.p_error);
-  s.ng = r.valid && r.one_normal ? r.normal : to_float(outside_normal(primitive, shape, u, v));
-  s.uv = Vec2f(static_cast<float>(u), static_cast<float>(v));
+/// A sample of the patch alone with the mesh's normal and texture coordinates.
+ShapeSample BilinearMesh::of_mesh(uint32_t primitive, ShapeSample s) const {
+  if (!data_.normals.empty())
+    s.ng = to_float(outside_normal(primitive, patch(primitive), s.uv.x, s.uv.y));
   if (!data_.uvs.empty()) s.uv = blend(data_.uvs, corners(primitive), s.uv.x, s.uv.y);
-  s.pdf = static_cast<float>(pdf);
   return s;
 }
 
 std::optional<ShapeSample> BilinearMesh::sample_area(uint32_t primitive, const Vec2f& u) const {
-  if (const Rectangle& r = rectangle_[primitive]; r.valid) {
-    const BilinearPatch rectangle = r.patch();
-    return sample_at(primitive, rectangle, u.x, u.y, 1.0 / rectangle.cross(u.x, u.y).length());
-  }
+  if (const auto& rectangle = rectangle_[primitive])
+    return of_mesh(primitive, rectangle->sample_area(u));
   const BilinearPatch shape = patch(primitive);
   const CornerWeights weights(shape);
   if (!(weights.sum() > 0.0)) return std::nullopt;
@@ -307,29 +261,25 @@ std::optional<ShapeSample> BilinearMesh::sample_area(uint32_t primitive, const V
   const double element = shape.cross(uv.x, uv.y).length();
   const double pdf = weights.pdf(uv.x, uv.y) / element;
   if (!(element > 0.0) || !(pdf > 0.0)) return std::nullopt;
-  return sample_at(primitive, shape, uv.x, uv.y, pdf);
+  ShapeSample s;
+  set_patch_point(shape.point(uv.x, uv.y), error_of_patch(shape), &s.p, &s.p_error);
+  s.ng = to_float(outside_normal(primitive, shape, uv.x, uv.y));
+  s.uv = Vec2f(static_cast<float>(uv.x), static_cast<float>(uv.y));
+  s.pdf = static_cast<float>(pdf);
+  return of_mesh(primitive, s);
 }
 
 std::optional<ShapeSample> BilinearMesh::sample_towards(uint32_t primitive, const Vec3f& from,
                                                         const Vec2f& u) const {
-  if (const Rectangle& r = rectangle_[primitive]; r.valid) {
-    const SphericalRectangle seen(to_double(from), r.frame);
-    if (seen.solid_angle() > kMinSphericalArea) {
-      const Vec2f uv = seen.sample(u);
-      return sample_at(primitive, r.patch(), uv.x, uv.y, 1.0 / seen.solid_angle());
-    }
-  }
-  return seen_from(sample_area(primitive, u), from);
+  const auto& rectangle = rectangle_[primitive];
+  if (!rectangle) return seen_from(sample_area(primitive, u), from);
+  const std::optional<ShapeSample> s = rectangle->sample_towards(from, u);
+  return s ? std::optional(of_mesh(primitive, *s)) : s;
 }
 
 float BilinearMesh::pdf_towards(uint32_t primitive, const Vec3f& from, const Vec3f& p,
                                 const Vec3f& ng) const {
-  if (const Rectangle& r = rectangle_[primitive]; r.valid) {
-    const SphericalRectangle seen(to_double(from), r.frame);
-    if (seen.solid_angle() > kMinSphericalArea) return static_cast<float>(1.0 / seen.solid_angle());
-    const double area = r.patch().cross(0.5, 0.5).length();
-    return area_to_solid_angle(static_cast<float>(1.0 / area), from, p, ng);
-  }
+  if (const auto& rectangle = rectangle_[primitive]) return rectangle->pdf_towards(from, p, ng);
   const BilinearPatch shape = patch(primitive);
   // (u,v) of p: where the line along the normal meets the patch nearest to it. A point at the rim
   // may miss by rounding; then the nearest corner's density is as good.

@@ -37,6 +37,8 @@ struct ShapeHit {
   Vec2f uv{0, 0};  ///< parametric position, as fill() wants it (barycentric for triangles)
 };
 
+class PlaneRectangle;
+
 class Shape {
  public:
   virtual ~Shape() = default;
@@ -76,6 +78,9 @@ class Shape {
                             const Vec3f& ng) const = 0;
   /// Cone of normals: axis and cosine of the half angle (-1 if unknown or closed).
   virtual void normal_bounds(uint32_t primitive, Vec3f* axis, float* cos_half_angle) const = 0;
+  /// The rectangle that the primitive is, if its samples are those of the shape but for their
+  /// texture coordinates; nullptr otherwise. It lives as long as the shape.
+  virtual const PlaneRectangle* rectangle(uint32_t) const { return nullptr; }
 };
 using ShapePtr = std::shared_ptr<const Shape>;
 

@@ -1,0 +1,81 @@
+#include "scene/shape/plane_rectangle.h"
+
+#include "scene/shape/solid_angle.h"
+
+namespace nephroid {
+
+namespace {
+
+/// Rectangles that cover less are sampled by area (pbrt-v4).
+constexpr double kMinSphericalArea = 1e-4;
+
+Vec3d to_double(const Vec3f& v) {
+  return {v.x, v.y, v.z};
+}
+Vec3f to_float(const Vec3d& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+}  // namespace
+
+Vec3f error_of_patch(const BilinearPatch& patch) {
+  double extent = 0.0;
+  for (const Vec3d& e : {patch.p10 - patch.p00, patch.p01 - patch.p00, patch.p11 - patch.p00})
+    extent = std::max({extent, std::abs(e.x), std::abs(e.y), std::abs(e.z)});
+  Vec3d error;
+  for (int i = 0; i < 3; ++i) {
+    const double magnitude = std::abs(patch.p00[i]) + std::abs(patch.p10[i]) +
+                             std::abs(patch.p01[i]) + std::abs(patch.p11[i]);
+    error[i] = magnitude * 16.0 * 0x1p-53 + extent * static_cast<double>(gamma_bound(6));
+  }
+  return to_float(error * 0x1.00001p0);
+}
+
+void set_patch_point(const Vec3d& q, const Vec3f& error_of_patch, Vec3f* p, Vec3f* p_error) {
+  *p = to_float(q);
+  *p_error = abs(*p) * 0x1.0002p-24f + error_of_patch;
+}
+
+PlaneRectangle::PlaneRectangle(const BilinearPatch& patch, const Vec3f& normal)
+    : frame_(patch.p00, patch.dpdu(0.0), patch.dpdv(0.0)),
+      p00_(to_float(patch.p00)),
+      p10_(to_float(patch.p10)),
+      p01_(to_float(patch.p01)),
+      p11_(to_float(patch.p11)),
+      error_(error_of_patch(patch)),
+      normal_(normal) {}
+
+BilinearPatch PlaneRectangle::patch() const {
+  return {to_double(p00_), to_double(p10_), to_double(p01_), to_double(p11_)};
+}
+
+ShapeSample PlaneRectangle::sample_at(const BilinearPatch& patch, const Vec2f& uv,
+                                      double pdf) const {
+  ShapeSample s;
+  set_patch_point(patch.point(uv.x, uv.y), error_, &s.p, &s.p_error);
+  s.ng = normal_;
+  s.uv = uv;
+  s.pdf = static_cast<float>(pdf);
+  return s;
+}
+
+ShapeSample PlaneRectangle::sample_area(const Vec2f& u) const {
+  const BilinearPatch p = patch();
+  return sample_at(p, u, 1.0 / p.cross(u.x, u.y).length());
+}
+
+std::optional<ShapeSample> PlaneRectangle::sample_towards(const Vec3f& from, const Vec2f& u) const {
+  const SphericalRectangle seen(to_double(from), frame_);
+  if (seen.solid_angle() > kMinSphericalArea)
+    return sample_at(patch(), seen.sample(u), 1.0 / seen.solid_angle());
+  return seen_from(sample_area(u), from);
+}
+
+float PlaneRectangle::pdf_towards(const Vec3f& from, const Vec3f& p, const Vec3f& ng) const {
+  const SphericalRectangle seen(to_double(from), frame_);
+  if (seen.solid_angle() > kMinSphericalArea) return static_cast<float>(1.0 / seen.solid_angle());
+  const double area = patch().cross(0.5, 0.5).length();
+  return area_to_solid_angle(static_cast<float>(1.0 / area), from, p, ng);
+}
+
+}  // namespace nephroid
