@@ -4,6 +4,8 @@
 #pragma once
 
 #include <array>
+#include <cassert>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -27,7 +29,11 @@ class PartSums {
   bool owns(Part part) const { return place_[part] != kNotOwned; }
   /// Place of an owned part among those of the group, as Film::add counts them.
   size_t place(Part part) const { return place_[part]; }
-  void add(Part part, const SampledSpectrum& value, Technique technique = Technique::kMeetLight) {
+  void add(Part part, const SampledSpectrum& value) {
+    assert(of_techniques_.empty());
+    sums_[place_[part]] += value;
+  }
+  void add(Part part, const SampledSpectrum& value, Technique technique) {
     sums_[place_[part]] += value;
     if (!of_techniques_.empty())
       of_techniques_[place_[part]][static_cast<size_t>(technique)] += value;
@@ -35,13 +41,14 @@ class PartSums {
   /// From now on it is kept which technique added what.
   void tell_techniques_apart() { of_techniques_.resize(sums_.size()); }
   /// Adds what each of them found to `light` (as large as the parts), as the sum of a colour's
-  /// components times `factor`.
+  /// components times `factor`; nothing of what is not finite, as the film.
   void add_techniques_to(std::span<TechniqueLight> light, const SensorWeights& weights,
                          double factor) const {
     for (size_t i = 0; i < of_techniques_.size(); ++i)
       for (size_t t = 0; t < kTechniqueCount; ++t) {
         const Rgb color = weights.apply(of_techniques_[i][t]);
-        light[i][t] += factor * (static_cast<double>(color.r) + color.g + color.b);
+        const double found = factor * (static_cast<double>(color.r) + color.g + color.b);
+        if (std::isfinite(found)) light[i][t] += found;
       }
   }
   /// What the values are off by in the mean, estimated; of all parts together.

@@ -44,8 +44,8 @@ struct EstimatorStatistics {
   /// and of what finds them, `pixel_bytes` of what is kept for each pixel and of what a pass adds
   /// up, `bytes` of both together.
   uint64_t bytes = 0, photon_bytes = 0, pixel_bytes = 0;
-  /// Of estimators that combine techniques: what each found in the first passes. Samples count
-  /// before they are clamped.
+  /// Of pairs of paths (`bdpt`, `vcm`, `bpm`, `path+photons`): what each technique found in passes
+  /// 0 to 7. Samples count before they are clamped.
   std::vector<RouteTechniques> techniques;
   std::vector<std::string> notes;  ///< sentences for the report, e.g. why a route is black
 

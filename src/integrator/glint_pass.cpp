@@ -29,10 +29,16 @@ uint64_t GlintPass::render_points(std::span<Rgb> values,
   const PixelBounds& b = like.bounds();
   const FilmSettings& film = like.settings();
   const size_t parts = owned.routes->groups()[owned.group].parts.size();
-  std::vector<uint64_t> rays(static_cast<size_t>(b.height()));
+  struct Row {
+    uint64_t rays = 0;
+    TechniqueCounter::Row techniques;
+  };
+  std::vector<Row> rows(static_cast<size_t>(b.height()));
   parallel_chunks(b.height(), 1, [&](int64_t row, int64_t, int64_t) {
     const int y = static_cast<int>(row);
     PartSums light(*owned.routes, owned.group);
+    Row& of_row = rows[static_cast<size_t>(row)];
+    if (techniques) of_row.techniques = techniques->start_row(light);
     std::vector<SpecularTree::Light> found;
     size_t pixel = static_cast<size_t>(row) * static_cast<size_t>(b.width());
     for (int x = 0; x < b.width(); ++x, ++pixel) {
@@ -51,13 +57,17 @@ uint64_t GlintPass::render_points(std::span<Rgb> values,
         light.clear();
         found.clear();
         const uint64_t took = path.camera_weight > 0 ? tree.look(path.walk, sampler, found) : 0;
-        rays[static_cast<size_t>(row)] += took;
+        of_row.rays += took;
         for (const SpecularTree::Light& l : found) l.add_to(light);
         double seen = 0;
         if (!found.empty()) {
-          const std::span<const Rgb> colors = light.colors(
-              sensor_weights(lambda, *film.color_space, film.imaging_ratio, film.white_balance),
-              path.camera_weight, film.max_component, path.filter_weight);
+          const SensorWeights weights =
+              sensor_weights(lambda, *film.color_space, film.imaging_ratio, film.white_balance);
+          const std::span<const Rgb> colors =
+              light.colors(weights, path.camera_weight, film.max_component, path.filter_weight);
+          light.add_techniques_to(
+              of_row.techniques, weights,
+              static_cast<double>(path.camera_weight) * path.filter_weight * share);
           for (size_t i = 0; i < parts; ++i) {
             Rgb& value = values[pixel * parts + i];
             value = value + colors[i] * share;
@@ -70,7 +80,10 @@ uint64_t GlintPass::render_points(std::span<Rgb> values,
     }
   });
   uint64_t sum = 0;
-  for (const uint64_t r : rays) sum += r;
+  for (const Row& row : rows) {
+    sum += row.rays;
+    if (techniques) techniques->add(row.techniques);
+  }
   return sum;
 }
 

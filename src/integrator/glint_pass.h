@@ -10,6 +10,7 @@
 #include "film/film.h"
 #include "integrator/balance.h"
 #include "integrator/specular_tree.h"
+#include "integrator/technique_counter.h"
 #include "transport/path_points.h"
 
 namespace nephroid {
@@ -26,6 +27,7 @@ struct GlintPass {
   /// And the spread, as well as these walks know it, of what camera paths would find that choose
   /// one way at each boundary.
   SampleSpread* spread_of_choice = nullptr;
+  TechniqueCounter* techniques = nullptr;  ///< where what was found is counted
 
   /// Adds each pixel's estimate to values[pixel * parts + part]. Walk k of n has the number
   /// first_index(n) + k of its pixel. Returns the number of rays.

@@ -263,10 +263,9 @@ class Rendering {
                          .seed = seed_,
                          .specular_alpha = settings_.specular_alpha,
                          .spread = how_.glint_spread,
-                         .spread_of_choice = how_.choice_spread};
-    techniques_.add_values(values_, Technique::kMeetByMirrors, -1);
+                         .spread_of_choice = how_.choice_spread,
+                         .techniques = &techniques_};
     statistics.rays += pass.render(values_, [this](int n) { return first_index(n); });
-    techniques_.add_values(values_, Technique::kMeetByMirrors, 1);
   }
 
   bool clamps() const { return like_.settings().max_component < kInfinity; }

@@ -30,7 +30,9 @@ class SpecularTree {
     float chance = 1;
 
     /// `sums` are of the wavelengths that the walk started with.
-    void add_to(PartSums& sums) const { sums.add(part, whole_spectrum(value, hero_only)); }
+    void add_to(PartSums& sums) const {
+      sums.add(part, whole_spectrum(value, hero_only), Technique::kMeetByMirrors);
+    }
   };
 
   /// Adds to `found` all such light that a camera walk, before its first event, can see. Returns

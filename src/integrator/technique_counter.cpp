@@ -38,14 +38,9 @@ void TechniqueCounter::add_splats(std::span<const Splat> splats, double share) {
     return x >= static_cast<float>(begin) && x < static_cast<float>(end);
   };
   for (const Splat& splat : splats)
-    if (within(splat.film.x, b.x0, b.x1) && within(splat.film.y, b.y0, b.y1))
+    if (within(splat.film.x, b.x0, b.x1) && within(splat.film.y, b.y0, b.y1) &&
+        std::isfinite(total(splat.value)))
       parts_[splat.part][static_cast<size_t>(Technique::kMeetCamera)] += share * total(splat.value);
-}
-
-void TechniqueCounter::add_values(std::span<const Rgb> values, Technique technique, double sign) {
-  if (parts_.empty()) return;
-  for (size_t i = 0; i < values.size(); ++i)
-    parts_[i % parts_.size()][static_cast<size_t>(technique)] += sign * total(values[i]);
 }
 
 void TechniqueCounter::add_to(std::vector<RouteTechniques>& all) const {

@@ -24,10 +24,9 @@ class TechniqueCounter {
   /// What a row of pixels counts in, with sums that tell techniques apart if it does.
   Row start_row(PartSums& light) const;
   void add(const Row& row);
-  /// Each counts `share` times; those beside the film do not.
+  /// Each counts `share` times; those beside the film do not, nor what is not
+  /// finite.
   void add_splats(std::span<const Splat> splats, double share);
-  /// Values of pixels, one for each part, `sign` times.
-  void add_values(std::span<const Rgb> values, Technique technique, double sign);
   /// Joins the parts of each route and adds them to what other passes found.
   void add_to(std::vector<RouteTechniques>& all) const;
 

@@ -90,7 +90,7 @@ PhotonGrid::PhotonGrid(std::vector<Photon> photons) : photons_(std::move(photons
   const float magnitude = std::max(max_component(abs(min_)), max_component(abs(max_)));
   slack_ = magnitude * 2 * kMachineEpsilon;
   // Photons that all lie in one point still need a cell of some size.
-  quantum_ = std::max({extent, magnitude * 1e-6f, std::numeric_limits<float>::min() * 1e6f}) /
+  quantum_ = std::max({extent, magnitude * 1e-6f, std::numeric_limits<float>::min() * 1e8f}) /
              static_cast<float>(kMaxCoordinate);
   quanta_ = 1.0f / quantum_;
   const std::vector<uint64_t> codes = sort();
@@ -187,35 +187,46 @@ void PhotonGrid::add_level(int shift, const std::vector<Cell>& cells) {
   levels_.push_back(std::move(level));
 }
 
-// The finest level whose cells are wider than a query, by more than the quantisation rounds: it
-// reaches into two in each direction. The last one has a single cell.
-const PhotonGrid::Level& PhotonGrid::level_for(float reach) const {
-  const float width = 2.0f * reach + quantum_;
+// A query reaches into two cells in each direction at most. The level is first guessed by size,
+// then the cells themselves say whether that holds, whatever was rounded. The last one has a single
+// cell.
+const PhotonGrid::Level& PhotonGrid::level_for(float reach, const uint32_t (&lo)[3],
+                                               const uint32_t (&hi)[3]) const {
   size_t i = 0;
-  while (i + 1 < levels_.size() && levels_[i].size <= width) ++i;
+  while (i + 1 < levels_.size() && levels_[i].size <= 2.0f * reach) ++i;
+  const auto too_fine = [&](int shift) {
+    bool any = false;
+    for (int axis = 0; axis < 3; ++axis) any |= (hi[axis] >> shift) - (lo[axis] >> shift) > 1;
+    return any;
+  };
+  while (too_fine(levels_[i].shift)) ++i;
   return levels_[i];
 }
 
 void PhotonGrid::find_runs(const Vec3f& center, float radius, Runs& runs) const {
   // The quantisation is monotonic, so the cells of center +- reach enclose all that can match.
-  const float reach = reach_of(radius);
-  const Level& level = level_for(reach);
+  const float reach = radius * (1.0f + 4 * kMachineEpsilon) + slack_;
+  uint32_t lo[3], hi[3];
+  for (int i = 0; i < 3; ++i) {
+    if (center[i] + reach < min_[i] || center[i] - reach > max_[i]) return;
+    lo[i] = quantize(center[i] - reach, i);
+    hi[i] = quantize(center[i] + reach, i);
+  }
+  const Level& level = level_for(reach, lo, hi);
   struct Axis {
     uint64_t code[2];  ///< of the lower and the upper cell
     float d2[2];       ///< square of the least distance to them along this axis
     int count;         ///< 1 if they are the same
   } axes[3];
   for (int i = 0; i < 3; ++i) {
-    if (center[i] + reach < min_[i] || center[i] - reach > max_[i]) return;
-    const uint32_t lo = quantize(center[i] - reach, i) >> level.shift;
-    const uint32_t hi = quantize(center[i] + reach, i) >> level.shift;
-    const float boundary = min_[i] + static_cast<float>(hi) * level.size;
+    const uint32_t first = lo[i] >> level.shift, second = hi[i] >> level.shift;
+    const float boundary = min_[i] + static_cast<float>(second) * level.size;
     const float away = std::max(0.0f, std::abs(center[i] - boundary) - slack_ - quantum_);
     const bool below = center[i] < boundary;
-    axes[i].count = lo == hi ? 1 : 2;
-    axes[i].code[0] = spread_bits(lo) << i;
-    axes[i].code[1] = spread_bits(hi) << i;
-    axes[i].d2[0] = lo == hi || below ? 0.0f : away * away;
+    axes[i].count = first == second ? 1 : 2;
+    axes[i].code[0] = spread_bits(first) << i;
+    axes[i].code[1] = spread_bits(second) << i;
+    axes[i].d2[0] = first == second || below ? 0.0f : away * away;
     axes[i].d2[1] = below ? away * away : 0.0f;
   }
   const float r2 = reach * reach;

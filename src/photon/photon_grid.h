@@ -127,9 +127,8 @@ class PhotonGrid {
   /// Makes of them the cells of twice the size.
   static void join_cells(std::vector<Cell>& cells);
   void add_level(int shift, const std::vector<Cell>& cells);
-  /// Half the side of the box that holds all that can match.
-  float reach_of(float radius) const { return radius * (1.0f + 4 * kMachineEpsilon) + slack_; }
-  const Level& level_for(float reach) const;
+  /// For a query between these quanta.
+  const Level& level_for(float reach, const uint32_t (&lo)[3], const uint32_t (&hi)[3]) const;
 
   std::vector<Photon> photons_;
   std::vector<Vec3f> positions_;

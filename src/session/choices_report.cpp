@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "session/noise.h"
@@ -58,9 +57,6 @@ void add_rays(const EstimatorStatistics& last, std::vector<std::string>& lines) 
 }  // namespace
 
 std::vector<std::string> technique_report(const std::vector<EstimatorStatistics>& statistics) {
-  static constexpr std::array<const char*, kTechniqueCount> kNames = {
-      "lights met",     "lights sampled",   "light paths connected",
-      "photons merged", "light paths seen", "lights behind mirrors and glass"};
   std::vector<std::string> lines;
   for (const EstimatorStatistics& s : statistics)
     for (const RouteTechniques& r : s.techniques) {
@@ -69,7 +65,8 @@ std::vector<std::string> technique_report(const std::vector<EstimatorStatistics>
       for (const double light : r.light) all += light;
       if (!(all > 0)) continue;
       for (size_t t = 0; t < kTechniqueCount; ++t)
-        if (r.light[t] >= kLeastShare * all) found.push_back({r.light[t], kNames[t]});
+        if (r.light[t] >= kLeastShare * all)
+          found.push_back({r.light[t], technique_name(static_cast<Technique>(t))});
       std::stable_sort(found.begin(), found.end(),
                        [](const auto& a, const auto& b) { return a.first > b.first; });
       std::string line = fmt::format("{}, by technique:", r.route);

@@ -17,8 +17,8 @@ std::vector<std::string> choices_report(const std::vector<EstimatorStatistics>& 
                                         const std::vector<EstimatorStatistics>& last,
                                         uint32_t passes);
 
-/// A line for each route whose estimator combines techniques: which of them carried its light in
-/// the first passes.
+/// A line for each route of estimators that count it (`bdpt`, `vcm`, `bpm`, `path+photons`): which
+/// of their techniques carried its light in passes 0 to 7, if these were rendered.
 std::vector<std::string> technique_report(const std::vector<EstimatorStatistics>& statistics);
 
 /// A line of the errors that the film claims for itself, by the routes that are sampled together;

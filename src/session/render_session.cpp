@@ -85,7 +85,9 @@ void RenderSession::use_clock(std::function<double()> seconds) {
 
 RenderResult RenderSession::run(SignalFlags& signals) {
   start_ = clock_();
-  passes_done_ = error_text_pass_ = 0;
+  passes_done_ = error_text_pass_ = error_pass_ = 0;
+  error_.reset();
+  next_error_seconds_ = 0;
   next_write_seconds_ = options_.write_interval;
   RenderResult result;
   std::optional<StopReason> reason;

@@ -1,13 +1,16 @@
 // Measures photons against what no photon map could beat: prints a line of Markdown for each scene.
 // Traces a pass of photons (one thread), sorts them into the grid, and asks the grid for those
-// around places where photons lie, with a radius that finds so many in the mean. The bare loop then
+// around places between photons, with a radius that finds about so many. The bare loop then
 // visits the photons that were found once more, at known places of the same sorted photons. Built
 // and run by tools/measure_photons.
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <exception>
+#include <memory>
 #include <optional>
+#include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -88,9 +91,7 @@ Gather measure_gather(const PhotonGrid& grid, size_t wanted) {
   SampledSpectrum sum;
   const double seconds = least_seconds([&] {
     for (const Vec3f& p : where)
-      grid.query(p, radius, [&](const Photon& photon, float d2) {
-        if (d2 <= radius * radius) sum += photon.flux;
-      });
+      grid.query(p, radius, [&](const Photon& photon, float) { sum += photon.flux; });
   });
   // Runs of photons that follow each other in memory.
   struct Run {
@@ -144,6 +145,7 @@ void measure(const char* file) {
   double building = 1e30;
   for (int i = 0; i < kRuns; ++i) {
     std::vector<Photon> copy = trace.photons;
+    grid.reset();
     building = std::min(building, seconds_of([&] { grid.emplace(std::move(copy)); }));
   }
   const auto n = static_cast<double>(trace.photons.size());

@@ -30,7 +30,8 @@ class DiffuseAreaLight final : public Light {
                    float power_scale)
       : emission_(std::move(emission)),
         shape_(std::move(shape)),
-        rectangle_(emission_->image || emission_->alpha ? nullptr : shape_->rectangle(primitive)),
+        rectangle_(emission_->image || emission_->alpha ? std::nullopt
+                                                        : shape_->rectangle(primitive)),
         primitive_(primitive),
         scale_(power_scale),
         area_(shape_->area(primitive)) {}
@@ -140,7 +141,7 @@ class DiffuseAreaLight final : public Light {
 
   std::shared_ptr<const AreaEmission> emission_;
   ShapePtr shape_;
-  const PlaneRectangle* rectangle_;  ///< of the shape, where nobody asks for uv; or null
+  std::optional<PlaneRectangle> rectangle_;  ///< the primitive, if it is one and nobody asks for uv
   uint32_t primitive_;
   float scale_;  ///< from "power", by this primitive's area
   float area_;

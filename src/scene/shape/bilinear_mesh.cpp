@@ -75,14 +75,14 @@ class BilinearMesh final : public Shape {
                                             const Vec2f&) const override;
   float pdf_towards(uint32_t, const Vec3f& from, const Vec3f& p, const Vec3f& ng) const override;
   void normal_bounds(uint32_t, Vec3f* axis, float* cos_half_angle) const override;
-  const PlaneRectangle* rectangle(uint32_t primitive) const override {
-    const auto& r = rectangle_[primitive];
-    return r && has_one_normal(primitive) ? &*r : nullptr;
+  std::optional<PlaneRectangle> rectangle(uint32_t primitive) const override {
+    if (!is_rectangle_[primitive] || !has_one_normal(primitive)) return std::nullopt;
+    return plane(primitive);
   }
 
  private:
   const uint32_t* corners(uint32_t primitive) const { return &data_.quads[4 * size_t{primitive}]; }
-  /// Of a plane patch: no vertex normals, or all the same.
+  /// No vertex normals, or all the same.
   bool has_one_normal(uint32_t primitive) const {
     if (data_.normals.empty()) return true;
     const uint32_t* v = corners(primitive);
@@ -96,12 +96,13 @@ class BilinearMesh final : public Shape {
   }
   Vec3d outside_normal(uint32_t primitive, const BilinearPatch&, double u, double v) const;
   void fill_texture_frame(uint32_t primitive, const Vec2f& uv, SurfaceInteraction& out) const;
+  PlaneRectangle plane(uint32_t primitive) const;  ///< of a patch that is a rectangle
   ShapeSample of_mesh(uint32_t primitive, ShapeSample) const;
 
   MeshData data_;
   bool flip_;
-  std::vector<std::optional<PlaneRectangle>> rectangle_;  ///< of patches that are ones
-  uint32_t rectangles_ = 0;                               ///< how many there are
+  std::vector<bool> is_rectangle_;  ///< per patch
+  uint32_t rectangles_ = 0;         ///< how many there are
 };
 
 template <class T>
@@ -133,14 +134,16 @@ BilinearMesh::BilinearMesh(MeshData data, bool flip) : data_(std::move(data)), f
                                   " is out of range, there are " +
                                   std::to_string(data_.positions.size()) + " vertices");
   const size_t count = data_.quads.size() / 4;
-  rectangle_.resize(count);
+  is_rectangle_.resize(count);
   for (size_t i = 0; i < count; ++i) {
-    const auto primitive = static_cast<uint32_t>(i);
-    const BilinearPatch shape = patch(primitive);
-    if (!shape.is_rectangle()) continue;
-    ++rectangles_;
-    rectangle_[i].emplace(shape, to_float(outside_normal(primitive, shape, 0.5, 0.5)));
+    is_rectangle_[i] = patch(static_cast<uint32_t>(i)).is_rectangle();
+    rectangles_ += is_rectangle_[i];
   }
+}
+
+PlaneRectangle BilinearMesh::plane(uint32_t primitive) const {
+  const BilinearPatch shape = patch(primitive);
+  return {shape, to_float(outside_normal(primitive, shape, 0.5, 0.5))};
 }
 
 Bounds3f BilinearMesh::bounds(uint32_t primitive) const {
@@ -202,9 +205,7 @@ void BilinearMesh::fill(uint32_t primitive, const Vec2f& hit_uv, const Ray&, flo
   const BilinearPatch shape = patch(primitive);
   const uint32_t* corner = corners(primitive);
   const double u = hit_uv.x, v = hit_uv.y;
-  const auto& rectangle = rectangle_[primitive];
-  set_patch_point(shape.point(u, v), rectangle ? rectangle->error() : error_of_patch(shape), &out.p,
-                  &out.p_error);
+  set_patch_point(shape.point(u, v), error_of_patch(shape), &out.p, &out.p_error);
   out.uv = hit_uv;
   out.face_index = data_.face_indices.empty() ? 0 : data_.face_indices[primitive];
   const Vec3d pu = shape.dpdu(v), pv = shape.dpdv(u);
@@ -245,15 +246,14 @@ void BilinearMesh::fill(uint32_t primitive, const Vec2f& hit_uv, const Ray&, flo
 
 /// A sample of the patch alone with the mesh's normal and texture coordinates.
 ShapeSample BilinearMesh::of_mesh(uint32_t primitive, ShapeSample s) const {
-  if (!data_.normals.empty())
+  if (!has_one_normal(primitive))
     s.ng = to_float(outside_normal(primitive, patch(primitive), s.uv.x, s.uv.y));
   if (!data_.uvs.empty()) s.uv = blend(data_.uvs, corners(primitive), s.uv.x, s.uv.y);
   return s;
 }
 
 std::optional<ShapeSample> BilinearMesh::sample_area(uint32_t primitive, const Vec2f& u) const {
-  if (const auto& rectangle = rectangle_[primitive])
-    return of_mesh(primitive, rectangle->sample_area(u));
+  if (is_rectangle_[primitive]) return of_mesh(primitive, plane(primitive).sample_area(u));
   const BilinearPatch shape = patch(primitive);
   const CornerWeights weights(shape);
   if (!(weights.sum() > 0.0)) return std::nullopt;
@@ -265,21 +265,21 @@ std::optional<ShapeSample> BilinearMesh::sample_area(uint32_t primitive, const V
   set_patch_point(shape.point(uv.x, uv.y), error_of_patch(shape), &s.p, &s.p_error);
   s.ng = to_float(outside_normal(primitive, shape, uv.x, uv.y));
   s.uv = Vec2f(static_cast<float>(uv.x), static_cast<float>(uv.y));
+  if (!data_.uvs.empty()) s.uv = blend(data_.uvs, corners(primitive), s.uv.x, s.uv.y);
   s.pdf = static_cast<float>(pdf);
-  return of_mesh(primitive, s);
+  return s;
 }
 
 std::optional<ShapeSample> BilinearMesh::sample_towards(uint32_t primitive, const Vec3f& from,
                                                         const Vec2f& u) const {
-  const auto& rectangle = rectangle_[primitive];
-  if (!rectangle) return seen_from(sample_area(primitive, u), from);
-  const std::optional<ShapeSample> s = rectangle->sample_towards(from, u);
+  if (!is_rectangle_[primitive]) return seen_from(sample_area(primitive, u), from);
+  const std::optional<ShapeSample> s = plane(primitive).sample_towards(from, u);
   return s ? std::optional(of_mesh(primitive, *s)) : s;
 }
 
 float BilinearMesh::pdf_towards(uint32_t primitive, const Vec3f& from, const Vec3f& p,
                                 const Vec3f& ng) const {
-  if (const auto& rectangle = rectangle_[primitive]) return rectangle->pdf_towards(from, p, ng);
+  if (is_rectangle_[primitive]) return plane(primitive).pdf_towards(from, p, ng);
   const BilinearPatch shape = patch(primitive);
   // (u,v) of p: where the line along the normal meets the patch nearest to it. A point at the rim
   // may miss by rounding; then the nearest corner's density is as good.

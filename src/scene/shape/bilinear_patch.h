@@ -1,7 +1,7 @@
 // One bilinear patch p(u,v) over four corners as pure geometry, in double.
-// Who calls it: bilinear_mesh.cpp. It must not know meshes, normals or texture coordinates.
-// Intersection: A. Reshetov, "Cool Patches: A Geometric Approach to Ray/Bilinear Patch
-// Intersections", Ray Tracing Gems, 2019.
+// Who calls it: bilinear_mesh.cpp and plane_rectangle.cpp. It must not know meshes, normals or
+// texture coordinates. Intersection: A. Reshetov, "Cool Patches: A Geometric Approach to
+// Ray/Bilinear Patch Intersections", Ray Tracing Gems, 2019.
 #pragma once
 
 #include "core/math.h"

@@ -31,9 +31,9 @@ Vec3f error_of_patch(const BilinearPatch& patch) {
   return to_float(error * 0x1.00001p0);
 }
 
-void set_patch_point(const Vec3d& q, const Vec3f& error_of_patch, Vec3f* p, Vec3f* p_error) {
+void set_patch_point(const Vec3d& q, const Vec3f& patch_error, Vec3f* p, Vec3f* p_error) {
   *p = to_float(q);
-  *p_error = abs(*p) * 0x1.0002p-24f + error_of_patch;
+  *p_error = abs(*p) * 0x1.0002p-24f + patch_error;
 }
 
 PlaneRectangle::PlaneRectangle(const BilinearPatch& patch, const Vec3f& normal)
@@ -43,14 +43,15 @@ PlaneRectangle::PlaneRectangle(const BilinearPatch& patch, const Vec3f& normal)
       p01_(to_float(patch.p01)),
       p11_(to_float(patch.p11)),
       error_(error_of_patch(patch)),
-      normal_(normal) {}
+      normal_(normal),
+      area_(patch.cross(0.5, 0.5).length()) {}
 
-BilinearPatch PlaneRectangle::patch() const {
-  return {to_double(p00_), to_double(p10_), to_double(p01_), to_double(p11_)};
+std::optional<PlaneRectangle> Shape::rectangle(uint32_t) const {
+  return std::nullopt;
 }
 
-ShapeSample PlaneRectangle::sample_at(const BilinearPatch& patch, const Vec2f& uv,
-                                      double pdf) const {
+ShapeSample PlaneRectangle::sample_at(const Vec2f& uv, double pdf) const {
+  const BilinearPatch patch{to_double(p00_), to_double(p10_), to_double(p01_), to_double(p11_)};
   ShapeSample s;
   set_patch_point(patch.point(uv.x, uv.y), error_, &s.p, &s.p_error);
   s.ng = normal_;
@@ -60,22 +61,20 @@ ShapeSample PlaneRectangle::sample_at(const BilinearPatch& patch, const Vec2f& u
 }
 
 ShapeSample PlaneRectangle::sample_area(const Vec2f& u) const {
-  const BilinearPatch p = patch();
-  return sample_at(p, u, 1.0 / p.cross(u.x, u.y).length());
+  return sample_at(u, 1.0 / area_);
 }
 
 std::optional<ShapeSample> PlaneRectangle::sample_towards(const Vec3f& from, const Vec2f& u) const {
   const SphericalRectangle seen(to_double(from), frame_);
   if (seen.solid_angle() > kMinSphericalArea)
-    return sample_at(patch(), seen.sample(u), 1.0 / seen.solid_angle());
+    return sample_at(seen.sample(u), 1.0 / seen.solid_angle());
   return seen_from(sample_area(u), from);
 }
 
 float PlaneRectangle::pdf_towards(const Vec3f& from, const Vec3f& p, const Vec3f& ng) const {
   const SphericalRectangle seen(to_double(from), frame_);
   if (seen.solid_angle() > kMinSphericalArea) return static_cast<float>(1.0 / seen.solid_angle());
-  const double area = patch().cross(0.5, 0.5).length();
-  return area_to_solid_angle(static_cast<float>(1.0 / area), from, p, ng);
+  return area_to_solid_angle(static_cast<float>(1.0 / area_), from, p, ng);
 }
 
 }  // namespace nephroid

@@ -79,8 +79,8 @@ class Shape {
   /// Cone of normals: axis and cosine of the half angle (-1 if unknown or closed).
   virtual void normal_bounds(uint32_t primitive, Vec3f* axis, float* cos_half_angle) const = 0;
   /// The rectangle that the primitive is, if its samples are those of the shape but for their
-  /// texture coordinates; nullptr otherwise. It lives as long as the shape.
-  virtual const PlaneRectangle* rectangle(uint32_t) const { return nullptr; }
+  /// texture coordinates.
+  virtual std::optional<PlaneRectangle> rectangle(uint32_t primitive) const;
 };
 using ShapePtr = std::shared_ptr<const Shape>;
 

@@ -1,5 +1,5 @@
 // Solid angle and area-preserving parametrization of a rectangle seen from a point.
-// Called by bilinear_mesh.cpp; the angles of the spherical rectangle are taken with atan2 instead
+// Called by plane_rectangle.cpp; the angles of the spherical rectangle are taken with atan2 instead
 // of acos, which keeps their digits when the rectangle is seen at a grazing angle. Urena, Fajardo,
 // King 2013.
 #include "scene/shape/spherical_rectangle.h"

@@ -1,5 +1,5 @@
 // The part of the unit sphere around a point that a rectangle in space covers: its solid angle and
-// uniform points in it. Who calls it: the bilinear patches. It must not know meshes.
+// uniform points in it. Who calls it: plane_rectangle.cpp. It must not know meshes.
 // C. Urena, M. Fajardo, A. King, "An Area-Preserving Parametrization for Spherical Rectangles",
 // EGSR 2013.
 #pragma once

@@ -137,11 +137,13 @@ TEST_F(RenderSessionTest, NoiseTargetDoesNotDependOnTheClock) {
 }
 
 TEST_F(RenderSessionTest, TheErrorAtTheEndIsThatOfThePicture) {
-  // So fast that progress shows that of the first passes until the end.
-  script_.pass_seconds = 1e-6;
+  // Progress renews it every second: last after pass 20.
+  script_.pass_seconds = 0.1;
   RenderOptions options;
   options.last_pass = 25;
   const RenderResult result = run(options);
+  ASSERT_TRUE(progress_.back().error.has_value());
+  EXPECT_GT(*progress_.back().error, 1.05 / std::sqrt(25 * 1.01));
   ASSERT_TRUE(result.error.has_value());
   EXPECT_NEAR(*result.error, 1 / std::sqrt(25 * 1.01), 1e-6);
 }
