@@ -1,6 +1,7 @@
 // What estimators say of their techniques adds up to what they put on the film.
 #include <gtest/gtest.h>
 
+#include "core/parallel.h"
 #include "rendering.h"
 
 namespace nephroid {
@@ -81,6 +82,45 @@ TEST_P(Techniques, AreTheOnesThatTheEstimatorHas) {
   EXPECT_EQ(found(Technique::kMeetCamera), connects);
   EXPECT_EQ(found(Technique::kMerge), GetParam() != "bdpt");
   EXPECT_EQ(found(Technique::kMeetByMirrors), GetParam() == "mixed");
+}
+
+TechniqueLight light_of_pass(const std::string& plan, const IntegratorOptions& options,
+                             uint32_t pass) {
+  const auto scene = scene_from_text(kScene);
+  Preset preset = make_preset(Plan(plan), options, *scene);
+  Film film = film_for(*scene, preset);
+  preset.estimators.back()->render_pass({5, pass}, *scene, film);
+  TechniqueLight all{};
+  for (const RouteTechniques& r : preset.estimators.back()->statistics().techniques)
+    for (size_t t = 0; t < kTechniqueCount; ++t) all[t] += r.light[t];
+  return all;
+}
+
+TEST_P(Techniques, AreTheSameForAnyNumberOfThreads) {
+  std::vector<TechniqueLight> found;
+  for (const int threads : {1, 3}) {
+    const ThreadLimit limit(threads);
+    found.push_back(light_of_pass(GetParam(), {}, 0));
+  }
+  EXPECT_EQ(found[0], found[1]);
+}
+
+TEST_P(Techniques, AreCountedInTheFirstPassesAlone) {
+  EXPECT_NE(light_of_pass(GetParam(), {}, 7), TechniqueLight{});
+  EXPECT_EQ(light_of_pass(GetParam(), {}, 8), TechniqueLight{});
+}
+
+TEST(TechniquesOfTrees, AreNotLightsMetByWalks) {
+  // The lamp is a glint of the ball, which few paths see.
+  IntegratorOptions options;
+  options.camera_samples_per_pass = 16;
+  IntegratorOptions with_trees = options;
+  with_trees.specular_trees = true;
+  const auto by_mirrors = [](const TechniqueLight& all) {
+    return all[static_cast<size_t>(Technique::kMeetByMirrors)];
+  };
+  EXPECT_GT(by_mirrors(light_of_pass("bdpt", with_trees, 0)), 0);
+  EXPECT_EQ(by_mirrors(light_of_pass("bdpt", options, 0)), 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Estimators, Techniques, testing::Values("bdpt", "vcm", "bpm", "mixed"));

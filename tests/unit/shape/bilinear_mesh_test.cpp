@@ -1,5 +1,6 @@
 // Tests of bilinear patches: hits against the parametric form and against triangles, frames,
 // normals, areas, sampling of rectangles and of twisted patches.
+#include "scene/shape/plane_rectangle.h"
 #include "shape_checks.h"
 
 namespace nephroid {
@@ -208,6 +209,46 @@ TEST(BilinearMesh, RaysDoNotMeetThePlanePatchTheyLeave) {
     hits += check_no_self_hits(*shape, o + (u + v) * 0.5f, size, false, random);
   }
   EXPECT_GT(hits, 4000);
+}
+
+// Lamps keep the rectangles and ask these in place of the mesh.
+TEST(BilinearMesh, RectanglesSampleAsTheMeshDoes) {
+  MeshData with_uvs = rectangle(), with_normals = rectangle();
+  with_uvs.uvs = {{0.5f, 0}, {0.5f, 1}, {0.25f, 0}, {0.25f, 1}};
+  const Vec3f back = -surface_at(*make_bilinear_mesh(rectangle(), false), 0, {0.5f, 0.5f}).ng;
+  with_normals.normals.assign(4, back);
+  Random random(31);
+  for (const MeshData& data : {rectangle(), with_uvs, with_normals})
+    for (const bool flip : {false, true}) {
+      const ShapePtr shape = make_bilinear_mesh(data, flip);
+      const auto plane = shape->rectangle(0);
+      ASSERT_TRUE(plane);
+      for (int i = 0; i < 200; ++i) {
+        // Every other place is so far away that the rectangle is sampled by area.
+        const Vec3f from = random.in_box(i % 2 == 0 ? 3.0f : 3000.0f);
+        const Vec2f u = random.square();
+        const auto a = plane->sample_towards(from, u), b = shape->sample_towards(0, from, u);
+        ASSERT_EQ(a.has_value(), b.has_value());
+        if (!a) continue;
+        EXPECT_EQ(a->p, b->p);
+        EXPECT_EQ(a->p_error, b->p_error);
+        EXPECT_EQ(a->ng, b->ng);
+        EXPECT_EQ(a->ng, surface_at(*shape, 0, {0.5f, 0.5f}).ng);
+        EXPECT_EQ(a->pdf, b->pdf);
+        const float pdf = plane->pdf_towards(from, a->p, a->ng);
+        EXPECT_EQ(pdf, shape->pdf_towards(0, from, a->p, a->ng));
+        EXPECT_NEAR(pdf, a->pdf, 1e-4f * pdf);
+      }
+    }
+}
+
+TEST(BilinearMesh, OtherPatchesAreNoRectangles) {
+  EXPECT_FALSE(make_bilinear_mesh(trapezoid(), false)->rectangle(0));
+  EXPECT_FALSE(make_bilinear_mesh(twisted(), false)->rectangle(0));
+  MeshData bent = rectangle();
+  bent.normals.assign(4, Vec3f(0, 0, 1));
+  bent.normals[3].y = 0.1f;
+  EXPECT_FALSE(make_bilinear_mesh(bent, false)->rectangle(0));
 }
 
 }  // namespace
