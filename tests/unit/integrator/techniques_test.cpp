@@ -38,11 +38,9 @@ double light_of(const Film& film, size_t route) {
 
 class Techniques : public testing::TestWithParam<std::string> {};
 
-TEST_P(Techniques, AddUpToTheLightOfTheirRoutes) {
+void expect_sums(const std::string& plan, const IntegratorOptions& options) {
   const auto scene = scene_from_text(kScene);
-  IntegratorOptions options;
-  options.photons_per_pass = 4000;
-  Preset preset = make_preset(Plan(GetParam()), options, *scene);
+  Preset preset = make_preset(Plan(plan), options, *scene);
   Film film = film_for(*scene, preset);
   constexpr uint32_t kPasses = 3;
   for (uint32_t pass = 0; pass < kPasses; ++pass)
@@ -64,6 +62,15 @@ TEST_P(Techniques, AddUpToTheLightOfTheirRoutes) {
       told += sum > 0;
     }
   EXPECT_GT(told, 0);
+}
+
+TEST_P(Techniques, AddUpToTheLightOfTheirRoutes) {
+  IntegratorOptions options;
+  options.photons_per_pass = 4000;
+  expect_sums(GetParam(), options);
+  // Photons in several batches, of which the later ones are merged alone.
+  options.memory_photons = 1024;
+  expect_sums(GetParam(), options);
 }
 
 // In all routes together every technique has something to say.
