@@ -77,6 +77,13 @@ inline Vec3f normalize(const Vec3f& v) {
   const Vec3f s(v.x / m, v.y / m, v.z / m);
   return s * (1.0f / std::sqrt(length_squared(s)));
 }
+inline Vec3d to_double(const Vec3f& v) {
+  return {v.x, v.y, v.z};
+}
+/// Rounded, each component once.
+inline Vec3f to_float(const Vec3d& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
 inline Vec3f abs(const Vec3f& v) {
   return {std::abs(v.x), std::abs(v.y), std::abs(v.z)};
 }

@@ -102,7 +102,7 @@ PhotonGrid::PhotonGrid(std::vector<Photon> photons) : photons_(std::move(photons
   while (finest < kCoordinateBits && counts[static_cast<size_t>(finest)] * 2 > codes.size())
     ++finest;
   std::vector<Cell> cells = finest_cells(finest, codes, counts[static_cast<size_t>(finest)]);
-  const size_t working = (codes.size() + 2 * cells.size()) * sizeof(uint64_t);
+  const size_t working = codes.size() * sizeof(uint64_t) + cells.size() * sizeof(Cell);
   for (int shift = finest; shift <= kCoordinateBits; ++shift) {
     add_level(shift, cells);
     join_cells(cells);

@@ -12,13 +12,6 @@
 namespace nephroid {
 namespace {
 
-Vec3d to_double(const Vec3f& v) {
-  return {v.x, v.y, v.z};
-}
-Vec3f to_float(const Vec3d& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-
 /// A number in [0,1] with density proportional to the line from a to b, and the inverse cdf's input
 /// u.
 double sample_linear(double u, double a, double b) {
@@ -97,6 +90,7 @@ class BilinearMesh final : public Shape {
   Vec3d outside_normal(uint32_t primitive, const BilinearPatch&, double u, double v) const;
   void fill_texture_frame(uint32_t primitive, const Vec2f& uv, SurfaceInteraction& out) const;
   PlaneRectangle plane(uint32_t primitive) const;  ///< of a patch that is a rectangle
+  Vec2f texture_point(uint32_t primitive, const Vec2f& uv) const;
   ShapeSample of_mesh(uint32_t primitive, ShapeSample) const;
 
   MeshData data_;
@@ -244,11 +238,16 @@ void BilinearMesh::fill(uint32_t primitive, const Vec2f& hit_uv, const Ray&, flo
   out.shading = Frame::from_z_and_tangent(shading_normal, out.shading_dpdu);
 }
 
+/// Texture coordinates of the point (u,v) of a patch.
+Vec2f BilinearMesh::texture_point(uint32_t primitive, const Vec2f& uv) const {
+  return data_.uvs.empty() ? uv : blend(data_.uvs, corners(primitive), uv.x, uv.y);
+}
+
 /// A sample of the patch alone with the mesh's normal and texture coordinates.
 ShapeSample BilinearMesh::of_mesh(uint32_t primitive, ShapeSample s) const {
   if (!has_one_normal(primitive))
     s.ng = to_float(outside_normal(primitive, patch(primitive), s.uv.x, s.uv.y));
-  if (!data_.uvs.empty()) s.uv = blend(data_.uvs, corners(primitive), s.uv.x, s.uv.y);
+  s.uv = texture_point(primitive, s.uv);
   return s;
 }
 
@@ -264,8 +263,7 @@ std::optional<ShapeSample> BilinearMesh::sample_area(uint32_t primitive, const V
   ShapeSample s;
   set_patch_point(shape.point(uv.x, uv.y), error_of_patch(shape), &s.p, &s.p_error);
   s.ng = to_float(outside_normal(primitive, shape, uv.x, uv.y));
-  s.uv = Vec2f(static_cast<float>(uv.x), static_cast<float>(uv.y));
-  if (!data_.uvs.empty()) s.uv = blend(data_.uvs, corners(primitive), s.uv.x, s.uv.y);
+  s.uv = texture_point(primitive, Vec2f(static_cast<float>(uv.x), static_cast<float>(uv.y)));
   s.pdf = static_cast<float>(pdf);
   return s;
 }

@@ -11,12 +11,6 @@ namespace {
 
 using Bezier = std::array<Vec3d, 4>;
 
-Vec3d to_double(const Vec3f& v) {
-  return {v.x, v.y, v.z};
-}
-Vec3f to_float(const Vec3d& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
 Vec3d mix(const Vec3d& a, const Vec3d& b, double t) {
   return a * (1.0 - t) + b * t;
 }

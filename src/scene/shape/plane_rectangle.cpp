@@ -9,13 +9,6 @@ namespace {
 /// Rectangles that cover less are sampled by area (pbrt-v4).
 constexpr double kMinSphericalArea = 1e-4;
 
-Vec3d to_double(const Vec3f& v) {
-  return {v.x, v.y, v.z};
-}
-Vec3f to_float(const Vec3d& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-
 }  // namespace
 
 Vec3f error_of_patch(const BilinearPatch& patch) {

@@ -25,12 +25,6 @@ Vec3d transform_transposed(const Mat44d& m, const Vec3d& v) {
           v.x * m[1][0] + v.y * m[1][1] + v.z * m[1][2],
           v.x * m[2][0] + v.y * m[2][1] + v.z * m[2][2]};
 }
-Vec3d to_double(const Vec3f& v) {
-  return {v.x, v.y, v.z};
-}
-Vec3f to_float(const Vec3d& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
 Vec3d unit(const Vec3d& v) {
   return v / std::sqrt(v.dot(v));
 }

@@ -34,13 +34,6 @@ T interpolate(const std::vector<T>& values, const uint32_t* v, const Weights& b)
   return values[v[0]] * b.b0 + values[v[1]] * b.b1 + values[v[2]] * b.b2;
 }
 
-Vec3d to_double(const Vec3f& v) {
-  return {v.x, v.y, v.z};
-}
-Vec3f to_float(const Vec3d& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-
 /// Twice the area times the normal; in double, where the edges of floats are exact or nearly so.
 Vec3d edge_cross(const Corners& c) {
   const Vec3d p0 = to_double(c.p0);
