@@ -1,9 +1,9 @@
 #include "integrator/forecast.h"
 
-#include "integrator/guided_direction.h"
 #include "integrator/path_pass.h"
 #include "integrator/path_visitor.h"
 #include "photon/light_walk.h"
+#include "transport/guided_direction.h"
 
 namespace nephroid {
 
@@ -76,7 +76,7 @@ class ForecastVisitor : public PathVisitorOf<ForecastVisitor> {
 
  private:
   GuidedDirection<ForecastLobes> mixture(const WalkVertex& v, ClassMask among) const {
-    return {v.bsdf, v.surface.shading, v.wo, among, lobes_};
+    return {v.bsdf, v.surface.shading, v.wo, TransportMode::kRadiance, among, lobes_};
   }
 
   const ForecastMap& map_;

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/sampler.h"
-#include "integrator/guided_direction.h"
+#include "transport/guided_direction.h"
 
 namespace nephroid {
 
@@ -33,7 +33,7 @@ std::optional<BsdfSample> GuidedWalk::sample_direction(Walk& walk, const WalkVer
   if (tree.empty()) return v.bsdf.sample(v.wo, uc, u, TransportMode::kRadiance, among);
   float gain = 1;
   std::optional<BsdfSample> s =
-      GuidedDirection<DirectionTree>(v.bsdf, v.surface.shading, v.wo, among, tree)
+      GuidedDirection(v.bsdf, v.surface.shading, v.wo, TransportMode::kRadiance, among, tree)
           .sample(uc, u, gain);
   if (!s) return s;
   s->pdf_w /= gain;
@@ -49,8 +49,9 @@ void GuidedWalk::record(const Walk& walk, const WalkVertex& v, const WalkEvent& 
     return;
   // [Q2] asks for the density of all lobes that the guide has a say in.
   const bool chosen = contains(ClassMask::kRough, event.letter) && !walk.delta;
-  const float pdf_w =
-      chosen ? guided_pdf_w(v.bsdf, v.wo, v.to_local(walk.ray.d), v.classes_of(letters)) : 0.0f;
+  const float pdf_w = chosen ? guided_pdf_w(v.bsdf, v.wo, v.to_local(walk.ray.d),
+                                            TransportMode::kRadiance, v.classes_of(letters))
+                             : 0.0f;
   RadianceRecord r = RadianceRecord::at(v.surface.p, facing(v), is_glossy(v), walk.ray.d, pdf_w);
   r.carried = carried_;
   r.found = found_;

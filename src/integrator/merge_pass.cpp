@@ -28,7 +28,7 @@ size_t MergePass::bytes_per_pixel(size_t parts) {
 
 MergePass merge_pass(const PassKey& key, const Scene& scene, const Film& film,
                      const OwnedRoutes& owned, const IntegratorOptions& options,
-                     const EmissionGuide& guide, float radius_pixels, const MergeWeight& weight,
+                     const PhotonGuide& guide, float radius_pixels, const MergeWeight& weight,
                      EstimatorStatistics& statistics) {
   const PixelBounds& b = film.bounds();
   PhotonPass pass = start_photon_pass(key, scene, film, options);

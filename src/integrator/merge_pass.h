@@ -26,7 +26,7 @@ struct MergePass {
 /// `statistics`.
 MergePass merge_pass(const PassKey& key, const Scene& scene, const Film& film,
                      const OwnedRoutes& owned, const IntegratorOptions& options,
-                     const EmissionGuide& guide, float radius_pixels, const MergeWeight& weight,
+                     const PhotonGuide& guide, float radius_pixels, const MergeWeight& weight,
                      EstimatorStatistics& statistics);
 
 /// First merge radius in footprints: the user's, or the default.

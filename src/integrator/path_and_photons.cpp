@@ -98,7 +98,7 @@ void PathAndPhotons::learn(uint64_t seed, const Scene& scene, const Film& film) 
   pass.connects = false;
   pass.caustics_only = true;
   pass.window = kCameraWindow;
-  pass.guide = &emission_.guide(seed, scene, film, owned_, options_, statistics_);
+  pass.guide = &learned_photons_.guide(seed, scene, film, owned_, options_, statistics_).starts;
   pass.light_paths = has_specular_events(owned_)
                          ? std::clamp<int64_t>(film.bounds().area(), 1 << 14, kMostPathsOfTrial)
                          : 0;
@@ -238,12 +238,7 @@ EstimatorStatistics PathAndPhotons::statistics() const {
         "camera paths go on while they carry an eighth of what they started with: trial passes "
         "were "
         "better for it");
-  if (const size_t places = pass.guide->places(); places > 0)
-    s.notes.push_back(
-        fmt::format("photons were aimed at {} place{} from which they were of use; of paths that "
-                    "start anywhere, "
-                    "{:.2g} % would be",
-                    places, places == 1 ? "" : "s", 100 * pass.guide->share_unaimed()));
+  learned_photons_.add_notes(s);
   if (learned_->radiance && learned_->radiance->guides())
     s.notes.push_back(
         fmt::format("camera walks had directions to follow from the first pass at {:.3g} % of the "

@@ -9,7 +9,7 @@
 
 #include <optional>
 
-#include "integrator/learned_emission.h"
+#include "integrator/learned_photons.h"
 #include "integrator/pair_pass.h"
 
 namespace nephroid {
@@ -62,7 +62,7 @@ class PathAndPhotons final : public Estimator {
 
   OwnedRoutes owned_;
   IntegratorOptions options_;
-  LearnedEmission emission_;
+  LearnedPhotons learned_photons_;
   std::optional<Learned> learned_;
   EstimatorStatistics statistics_;
 };

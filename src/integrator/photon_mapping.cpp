@@ -11,8 +11,7 @@ void PhotonMapping::render_pass(const PassKey& key, const Scene& scene, Film& fi
   const int group = static_cast<int>(owned_.group);
   film.add_estimates(group, 1);
   if (!photons_can_count_) return;
-  const EmissionGuide& guide =
-      emission_.guide(key.seed, scene, film, owned_, options_, statistics_);
+  const PhotonGuide& guide = learned_.guide(key.seed, scene, film, owned_, options_, statistics_);
   const MergePass pass = merge_pass(key, scene, film, owned_, options_, guide,
                                     radius_of_pass(options_, key.pass), {}, statistics_);
   const PixelBounds& b = film.bounds();
@@ -26,6 +25,7 @@ void PhotonMapping::render_pass(const PassKey& key, const Scene& scene, Film& fi
 
 EstimatorStatistics PhotonMapping::statistics() const {
   EstimatorStatistics s = statistics_;
+  learned_.add_notes(s);
   explain_darkness(owned_, found_, s);
   return s;
 }

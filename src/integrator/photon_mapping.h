@@ -5,7 +5,7 @@
 #pragma once
 
 #include "integrator/estimator.h"
-#include "integrator/learned_emission.h"
+#include "integrator/learned_photons.h"
 #include "route/scene_symbols.h"
 
 namespace nephroid {
@@ -19,7 +19,7 @@ class PhotonMapping : public Estimator {
   EstimatorStatistics statistics() const override;
 
  private:
-  LearnedEmission emission_;
+  LearnedPhotons learned_;
   OwnedRoutes owned_;
   IntegratorOptions options_;
   bool photons_can_count_;

@@ -35,8 +35,8 @@ void VertexMerging::render_pass(const PassKey& key, const Scene& scene, Film& fi
     const float m = merges_per_splat(*line, at.vertex.surface.ng, radius);
     return m / (1.0f + m);
   };
-  const MergePass merged = merge_pass(key, scene, film, owned_, options_, kUnguided, radius_pixels,
-                                      merge_weight, statistics_);
+  const MergePass merged = merge_pass(key, scene, film, owned_, options_, kUnguidedPhotons,
+                                      radius_pixels, merge_weight, statistics_);
   found_ += merged.found;
   const ConnectionWeight splat_weight = [&](const CameraConnection& line, const WalkVertex& v) {
     const float radius = radius_pixels * footprint.width(line.distance);

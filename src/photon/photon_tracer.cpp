@@ -4,6 +4,7 @@
 
 #include "core/parallel.h"
 #include "photon/light_walk.h"
+#include "transport/guided_direction.h"
 
 namespace nephroid {
 
@@ -13,8 +14,12 @@ constexpr uint64_t kStream = 0x70686f746f6e;  // "photon"
 
 class PhotonVisitor : public LightWalkVisitor {
  public:
-  PhotonVisitor(const OwnedRoutes& owned, const Emission& emission, std::vector<Photon>& out)
-      : LightWalkVisitor(owned, emission), flux_(emission.flux), out_(out) {}
+  PhotonVisitor(const OwnedRoutes& owned, const CasterGuide& casters, const Emission& emission,
+                std::vector<Photon>& out)
+      : LightWalkVisitor(owned, emission), casters_(casters), flux_(emission.flux), out_(out) {
+    start_.light = emission.light;
+    start_.weight = emission.weight;
+  }
 
   void medium_vertex(const Walk&, const MediumVertex& v, PathSampler&) {
     if (!is_met_) meet(v.p);
@@ -30,6 +35,7 @@ class PhotonVisitor : public LightWalkVisitor {
 
   void vertex(const Walk& walk, const WalkVertex& v, PathSampler&) {
     if (walk.events == 0 && !is_met_) meet(v.surface.p);
+    here_ = v.surface.p;
     if ((v.possible & deposits_at(v)) == ClassMask::kNone) return;
     Photon photon;
     photon.p = v.surface.p;
@@ -43,19 +49,52 @@ class PhotonVisitor : public LightWalkVisitor {
     ++stored_;
   }
 
+  /// A direction that is chosen more often carries less for it; roulette must not undo that.
+  std::optional<BsdfSample> sample_direction(Walk& walk, const WalkVertex& v, float uc,
+                                             const Vec2f& u, ClassMask among) const {
+    CasterCones cones;
+    if (!casters_.empty() && needs_specular(v)) cones = casters_.at(v, among);
+    float gain = 1;
+    const auto s =
+        GuidedDirection(v.bsdf, v.surface.shading, v.wo, TransportMode::kImportance, among, cones)
+            .sample(uc, u, gain);
+    if (s) walk.eta_scale *= gain;
+    return s;
+  }
+
   bool scatter(const Walk& walk, const WalkEvent& event) {
-    specular_ |= event.letter == EventClass::kSpecular;
+    const bool specular = event.letter == EventClass::kSpecular;
+    if (specular && rough_ && !caster_) caster_ = here_;
+    specular_ |= specular;
+    rough_ |= !specular;
     return LightWalkVisitor::scatter(walk, event);
   }
 
   bool useful() const { return stored_ > 0; }
   bool specular() const { return specular_; }
-  const Vec3f& first_hit() const { return first_hit_; }
+  /// Of a useful path.
+  const UsefulStart& start() const { return start_; }
+  /// Where the path met the first S behind a rough vertex or one in a medium.
+  const std::optional<Vec3f>& caster() const { return caster_; }
 
  private:
   void meet(const Vec3f& p) {
-    first_hit_ = p;
+    start_.first_hit = p;
     is_met_ = true;
+  }
+  /// True if light that leaves `v` by a D or G is of use only where it meets an S.
+  bool needs_specular(const WalkVertex& v) const {
+    const Label here = label_at(symbols_, v);
+    ClassMask next = ClassMask::kNone;
+    for (const EventClass c : {EventClass::kDiffuse, EventClass::kGlossy})
+      for (const bool transmitted : {false, true}) {
+        const LightState state = routes_.light_next(state_, event_symbol(c, transmitted, here));
+        for (size_t label = 0; label <= routes_.labels().size(); ++label)
+          next =
+              next | routes_.useful_before_deposit(group_, state, static_cast<Label>(label)) |
+              routes_.deposits(group_, state, static_cast<Label>(label));
+      }
+    return next == ClassMask::kSpecular;
   }
   /// Where a mix chooses among materials, whoever looks here may see another one.
   ClassMask deposits_at(const WalkVertex& v) const {
@@ -66,11 +105,14 @@ class PhotonVisitor : public LightWalkVisitor {
     return any;
   }
 
+  const CasterGuide& casters_;
   const SampledSpectrum flux_;
   std::vector<Photon>& out_;
   int stored_ = 0;
-  bool specular_ = false, is_met_ = false;
-  Vec3f first_hit_{0, 0, 0};
+  bool specular_ = false, rough_ = false, is_met_ = false;
+  UsefulStart start_;
+  Vec3f here_{0, 0, 0};
+  std::optional<Vec3f> caster_;
 };
 
 /// What became of one light path.
@@ -78,6 +120,7 @@ struct Outcome {
   bool useful = false, specular = false;
   uint64_t rays = 0;
   UsefulStart start;
+  std::optional<Vec3f> caster;
 };
 
 /// Photon number `j` of the pass; what it leaves goes to `photons`.
@@ -89,15 +132,12 @@ Outcome trace_photon(const Scene& scene, const OwnedRoutes& owned,
       static_cast<uint64_t>(j);
   const SobolPoint point(static_cast<uint32_t>(number), kLightPathPointDimensions);
   PathSampler sampler(point, hash_combine(settings.key.seed, kStream, number >> 32));
-  const auto emitted = emit(scene, *settings.guide, settings.lambda, settings.time, sampler);
+  const auto emitted = emit(scene, settings.guide->starts, settings.lambda, settings.time, sampler);
   if (!emitted) return {};
   Walk walk = walk_from(*emitted, settings.lambda, settings.specular_alpha, kEmissionDimensions);
-  PhotonVisitor visitor(owned, *emitted, photons);
+  PhotonVisitor visitor(owned, settings.guide->casters, *emitted, photons);
   random_walk(scene, TransportMode::kImportance, settings.max_events, walk, sampler, visitor);
-  return {visitor.useful(),
-          visitor.specular(),
-          walk.rays,
-          {emitted->light, visitor.first_hit(), emitted->weight}};
+  return {visitor.useful(), visitor.specular(), walk.rays, visitor.start(), visitor.caster()};
 }
 
 }  // namespace
@@ -143,13 +183,17 @@ UsefulStarts trace_useful_starts(const Scene& scene, const OwnedRoutes& owned,
       photons.clear();
       const Outcome outcome = trace_photon(scene, owned, settings, j, photons);
       chunk.rays += outcome.rays;
-      if (std::any_of(photons.begin(), photons.end(), is_useful))
-        chunk.starts.push_back(outcome.start);
+      if (std::none_of(photons.begin(), photons.end(), is_useful)) continue;
+      chunk.starts.push_back(outcome.start);
+      if (!outcome.caster) continue;
+      chunk.casters.push_back(outcome.start);
+      chunk.casters.back().first_hit = *outcome.caster;
     }
   });
   UsefulStarts all;
   for (const UsefulStarts& chunk : chunks) {
     all.starts.insert(all.starts.end(), chunk.starts.begin(), chunk.starts.end());
+    all.casters.insert(all.casters.end(), chunk.casters.begin(), chunk.casters.end());
     all.rays += chunk.rays;
   }
   return all;

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "photon/emission_guide.h"
 #include "photon/photon.h"
+#include "photon/photon_guide.h"
 #include "route/scene_symbols.h"
 #include "transport/random_walk.h"
 
@@ -30,7 +30,7 @@ struct PhotonTraceSettings {
   float time = 0;
   float specular_alpha = 0;  ///< of the pass
   int max_events = 0;        ///< of the whole path: a photon lands with fewer than these
-  const EmissionGuide* guide = &kUnguided;  ///< where paths start
+  const PhotonGuide* guide = &kUnguidedPhotons;
 };
 
 /// Traces photons begin <= j < end of the pass and stores one at every surface with a finite lobe
@@ -42,6 +42,8 @@ PhotonTrace trace_photons(const Scene& scene, const OwnedRoutes& owned,
 /// What paths of learning found.
 struct UsefulStarts {
   std::vector<UsefulStart> starts;
+  /// Where they met the first smooth thing behind a rough one, in the place of `first_hit`.
+  std::vector<UsefulStart> casters;
   uint64_t rays = 0;
 };
 /// Starts of the paths begin <= j < end that left a photon which is of use. `is_useful` is called

@@ -175,7 +175,8 @@ constexpr IntegratorSetting kSettings[] = {
      },
      [](const IntegratorOptions& o) { return fmt::format("{:g}", o.large_step); }},
     {"guide", "yes|no", "yes", "",
-     "Photons of `photons` and `path+photons` start where earlier ones were of use.",
+     "Photons of `photons` and `path+photons` start where earlier ones were of use; those of "
+     "`photons` also go where these went from rough surfaces.",
      [](IntegratorOptions& o, const std::string& t) { o.guides_emission = yes("guide", t); },
      [](const IntegratorOptions& o) { return yes_text(o.guides_emission); }},
     {"guide-walks", "yes|no", "yes", "",

@@ -2,7 +2,7 @@
 // the lights have it, with less noise; and so do walks whose caustics are photons as well.
 #include <gtest/gtest.h>
 
-#include "integrator/learned_emission.h"
+#include "integrator/learned_photons.h"
 #include "integrator/pair_pass.h"
 #include "owned_routes.h"
 #include "rendering.h"
@@ -51,8 +51,7 @@ double sum_of_squared_errors(const SeedValues& values) {
 
 class Guided : public ::testing::TestWithParam<Lights> {};
 
-// What lit surfaces send through the ball comes from all over the floor: that must not be lost, but
-// a guide is of no use to it, so the noise is that of caustics of lights.
+// Those of lights, and those of what the lights shine on, which comes from all over the floor.
 TEST_P(Guided, PhotonsFindTheSameCausticWithLessNoise) {
   constexpr int kSeeds = 16, kAcross = 3, kBlocks = kAcross * kAcross;
   constexpr uint32_t kPasses = 32;
@@ -64,7 +63,7 @@ TEST_P(Guided, PhotonsFindTheSameCausticWithLessNoise) {
   const Plan plan = plan_of(
       {"of-lights=C.*[DG]S+L:photons", "of-the-lit=C.*[DG]S+[DG]L:photons", "rest=.*:path"});
   struct Caustics {
-    SeedValues of_lights = SeedValues(kBlocks), all = SeedValues(kBlocks);
+    SeedValues of_lights = SeedValues(kBlocks), of_the_lit = of_lights, all = of_lights;
   };
   const auto caustics = [&](bool guided, uint64_t first_seed) {
     options.guides_emission = guided;
@@ -82,6 +81,7 @@ TEST_P(Guided, PhotonsFindTheSameCausticWithLessNoise) {
               sum[route] += static_cast<double>(
                   film.route_value(route, b % kAcross * 4 + x, b / kAcross * 4 + y).g);
         values.of_lights[static_cast<size_t>(b)].push_back(sum[0]);
+        values.of_the_lit[static_cast<size_t>(b)].push_back(sum[1]);
         values.all[static_cast<size_t>(b)].push_back(sum[0] + sum[1]);
       }
     }
@@ -98,10 +98,15 @@ TEST_P(Guided, PhotonsFindTheSameCausticWithLessNoise) {
       std::sqrt(sum_of_squared_errors(guided.all) + sum_of_squared_errors(own.all));
   const double gain =
       sum_of_squared_errors(own.of_lights) / sum_of_squared_errors(guided.of_lights);
-  std::printf("%s: standard error %.2f %%, variance without a guide over that with one: %.1f\n",
-              GetParam().name, 100 * error / light, gain);
+  const double of_the_lit =
+      sum_of_squared_errors(own.of_the_lit) / sum_of_squared_errors(guided.of_the_lit);
+  std::printf(
+      "%s: standard error %.2f %%, variance without a guide over that with one: %.1f, of what the "
+      "lights shine on: %.1f\n",
+      GetParam().name, 100 * error / light, gain, of_the_lit);
   EXPECT_LT(error, 0.05 * light) << "too noisy to tell";
   EXPECT_GT(gain, 3);
+  EXPECT_GT(of_the_lit, 3);
 }
 
 // The weights of walks and of photons add up to one only if both know how the photons start.
@@ -121,13 +126,14 @@ TEST_P(Guided, WalksAndPhotonsTogetherFindTheSamePicture) {
       const auto means = [&](float radius) {
         options.radius = radius;
         Film film = film_for(*scene, preset);
-        LearnedEmission learned;
+        LearnedPhotons learned;
         EstimatorStatistics statistics;
         PairPass pass;
         pass.light_paths = 8192;
         pass.connects = false;
         pass.caustics_only = true;
-        pass.guide = &learned.guide(first_seed + s, *scene, film, owned, options, statistics);
+        pass.guide =
+            &learned.guide(first_seed + s, *scene, film, owned, options, statistics).starts;
         EXPECT_EQ(pass.guide->empty(), !guided);
         SampleMap map(film.bounds());
         for (uint16_t& n : map.counts()) n = 8;

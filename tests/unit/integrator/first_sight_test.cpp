@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "integrator/learned_emission.h"
+#include "integrator/learned_photons.h"
 #include "photon/emission.h"
 #include "rendering.h"
 #include "scene/camera/camera.h"
@@ -61,7 +61,7 @@ TEST(CausticCasters, HaveNoNumbersOfTheirOwnInPathsThatAreTooShort) {
   EXPECT_TRUE(casters_of(kView + kGlass, options).empty());
 }
 
-TEST(LearnedEmission, FindsASmallThingThatChanceDoesNot) {
+TEST(LearnedPhotons, FindsASmallThingThatChanceDoesNot) {
   // Of all directions, 6 in a million are those in which the lamp shines on the glass: a tenth of
   // a path of the 16384 of a round.
   const auto scene = scene_from_text(kView + kGlass);
@@ -70,10 +70,10 @@ TEST(LearnedEmission, FindsASmallThingThatChanceDoesNot) {
   size_t group = 0;
   while (preset.routes->groups()[group].estimator != EstimatorKind::kPhotons) ++group;
   const auto symbols = std::make_shared<const SceneSymbols>(*scene, std::vector<std::string>{});
-  LearnedEmission learned;
+  LearnedPhotons learned;
   EstimatorStatistics statistics;
   const EmissionGuide& guide =
-      learned.guide(1, *scene, film, {preset.routes, symbols, group}, {}, statistics);
+      learned.guide(1, *scene, film, {preset.routes, symbols, group}, {}, statistics).starts;
   EXPECT_GT(statistics.rays, 3u << 14);
   ASSERT_FALSE(guide.empty());
   int met = 0;
@@ -92,7 +92,7 @@ TEST(LearnedEmission, FindsASmallThingThatChanceDoesNot) {
 }
 
 // Casters are seen, but nothing shines on them: there is nothing to aim from.
-TEST(LearnedEmission, StandsLampsThatAreBlack) {
+TEST(LearnedPhotons, StandsLampsThatAreBlack) {
   std::string text = kView + kGlass;
   const std::string lamp = "[900 900 900]";
   text.replace(text.find(lamp), lamp.size(), "[0 0 0]");

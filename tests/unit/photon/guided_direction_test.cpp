@@ -1,6 +1,6 @@
 // Directions that photons foretold: the lobes and the mixture are densities, what is sampled
 // follows them, and a map looks towards the casters of the nearest sights.
-#include "integrator/guided_direction.h"
+#include "transport/guided_direction.h"
 
 #include <gtest/gtest.h>
 
@@ -110,7 +110,8 @@ TEST(GuidedDirection, IsADensityThatSamplesFollow) {
     BsdfArena arena;
     const Bsdf& bsdf = *description.make(arena);
     const Vec3f wo = direction_at(40);
-    const GuidedDirection mixture(bsdf, shading, wo, ClassMask::kAll, lobes);
+    const GuidedDirection mixture(bsdf, shading, wo, TransportMode::kRadiance, ClassMask::kAll,
+                                  lobes);
     for (const EventClass c : kSurfaceClasses) {
       if (!contains(bsdf.finite_classes(), c)) continue;
       ++questions;
@@ -152,7 +153,8 @@ TEST(GuidedDirection, ScalesByRefractionAsTheBsdfDoes) {
   const ForecastLobes lobes = some_lobes();
   for (const float angle : {40.0f, 140.0f}) {
     const Vec3f wo = direction_at(angle);
-    const GuidedDirection mixture(glass, frame, wo, ClassMask::kAll, lobes);
+    const GuidedDirection mixture(glass, frame, wo, TransportMode::kRadiance, ClassMask::kAll,
+                                  lobes);
     TestRandom random(5);
     int transmitted = 0, reflected = 0;
     for (int i = 0; i < 4000; ++i) {
@@ -175,7 +177,7 @@ TEST(GuidedDirection, WithoutAForecastIsTheBsdf) {
   const Vec3f wo = direction_at(40);
   const ForecastLobes none;
   const Frame frame;
-  const GuidedDirection mixture(bsdf, frame, wo, ClassMask::kAll, none);
+  const GuidedDirection mixture(bsdf, frame, wo, TransportMode::kRadiance, ClassMask::kAll, none);
   TestRandom random(3);
   for (int i = 0; i < 1000; ++i) {
     const float uc = random.next();

@@ -1,0 +1,102 @@
+#include "integrator/learned_photons.h"
+
+#include <fmt/format.h>
+
+#include "integrator/compiled_plan.h"
+#include "integrator/first_sight.h"
+
+namespace nephroid {
+
+namespace {
+
+constexpr uint64_t kStream = 0x6c6561726e;  // "learn"
+constexpr uint32_t kRounds = 3;
+/// Paths of a round; more in rounds after one that found little.
+constexpr int64_t kPaths = 1 << 14, kMostPaths = 1 << 18;
+constexpr size_t kLittle = 256;
+
+CasterGuide guide_to(std::span<const Vec3f> casters, const Scene& scene) {
+  std::vector<UsefulStart> met(casters.size());
+  for (size_t i = 0; i < met.size(); ++i) met[i].first_hit = casters[i];
+  return {met, scene.sphere.radius};
+}
+
+PhotonGuide learn(uint64_t seed, const Scene& scene, const Film& film, const OwnedRoutes& owned,
+                  const IntegratorOptions& options, bool aims_from_surfaces, uint64_t& rays) {
+  if (!photons_can_count(owned)) return {};
+  // Photons of learning are aimed from lights alone: how often they were of use is what
+  // EmissionGuide asks for.
+  PhotonGuide guide;
+  CausticCasters seen;
+  std::vector<UsefulStart> useful, met;
+  int64_t paths = kPaths, all_paths = 0;
+  for (uint32_t round = 0; round < kRounds; ++round) {
+    IntegratorOptions of_round = options;
+    of_round.photons_per_pass = paths;
+    PhotonPass pass =
+        start_photon_pass({hash_combine(seed, kStream), round}, scene, film, of_round);
+    // What stands in the way of light, the camera can tell before any has met it.
+    if (round == 0) {
+      seen = caustic_casters(scene, film, pass, of_round);
+      guide.starts = EmissionGuide(scene, seen.points);
+      rays += seen.rays;
+    }
+    pass.trace.guide = &guide;
+    const VisiblePoints visible = visible_points(scene, film, owned, pass, options);
+    const UsefulStarts found =
+        trace_useful_starts(scene, owned, pass.trace, 0, paths,
+                            [&](const Photon& photon) { return visible.has_near(photon.p); });
+    useful.insert(useful.end(), found.starts.begin(), found.starts.end());
+    met.insert(met.end(), found.casters.begin(), found.casters.end());
+    rays += visible.rays + found.rays;
+    all_paths += paths;
+    guide.starts = EmissionGuide(scene, useful, static_cast<double>(all_paths));
+    if (useful.size() < kLittle) paths = std::min(4 * paths, kMostPaths);
+  }
+  if (aims_from_surfaces)
+    guide.casters =
+        met.empty() ? guide_to(seen.points, scene) : CasterGuide(met, scene.sphere.radius);
+  return guide;
+}
+
+}  // namespace
+
+const PhotonGuide& LearnedPhotons::guide(uint64_t seed, const Scene& scene, const Film& film,
+                                         const OwnedRoutes& owned, const IntegratorOptions& options,
+                                         EstimatorStatistics& statistics) {
+  if (!options.guides_emission) return kUnguidedPhotons;
+  if (guide_ && seed_ == seed) return *guide_;
+  seed_ = seed;
+  const EstimatorKind kind = owned.routes->groups()[owned.group].estimator;
+  if (kind == EstimatorKind::kPathAndPhotons) {
+    // Photons are of use to it where those of a route of caustics would be.
+    const CompiledPlan plan =
+        compile_plan({{{"caustic", "C.*[DG]S+[DG]?L", EstimatorKind::kPhotons, {}},
+                       {"rest", ".*", EstimatorKind::kPath, {}}},
+                      {}},
+                     scene);
+    constexpr size_t kCaustics = 0;  // the group of the first route
+    const auto routes = std::make_shared<const Routes>(plan.compilation.routes);
+    guide_ = learn(seed, scene, film, {routes, plan.symbols, kCaustics}, options, false,
+                   statistics.rays);
+  } else {
+    guide_ = learn(seed, scene, film, owned, options, true, statistics.rays);
+  }
+  return *guide_;
+}
+
+void LearnedPhotons::add_notes(EstimatorStatistics& statistics) const {
+  if (!guide_) return;
+  const auto of = [](size_t places) { return places == 1 ? "" : "s"; };
+  if (const size_t places = guide_->starts.places(); places > 0)
+    statistics.notes.push_back(
+        fmt::format("photons were aimed at {} place{} from which they were of use; of paths that "
+                    "start anywhere, {:.2g} % would be",
+                    places, of(places), 100 * guide_->starts.share_unaimed()));
+  if (const size_t places = guide_->casters.places(); places > 0)
+    statistics.notes.push_back(
+        fmt::format("half of the photons at rough surfaces were aimed at {} smooth thing{}", places,
+                    of(places)));
+}
+
+}  // namespace nephroid

@@ -1,0 +1,99 @@
+#include "photon/caster_guide.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "transport/guided_direction.h"
+
+namespace nephroid {
+
+namespace {
+
+constexpr size_t kMaxPlaces = CasterCones::kMost / 2;
+/// [G8] How much less the inside of a ball around several places is aimed at than that of a place.
+constexpr float kAround = 0.125f;
+/// Over the scene's radius.
+constexpr float kSmallest = 1e-4f;
+/// Of a ball that fills much of the sky as it is seen from a vertex, nothing is gained.
+constexpr float kMostSine2 = 0.9f;
+/// The least density that a BSDF is taken to have towards a ball that is partly in its reach.
+constexpr float kLeastDensity = 0.1f / kPi;
+
+}  // namespace
+
+void CasterCones::add(const Vec3f& axis, float narrowness, float weight) {
+  cones_[static_cast<size_t>(count_++)] = {axis, narrowness, weight};
+  total_ += weight;
+}
+
+Vec3f CasterCones::sample(float& uc, const Vec2f& u) const {
+  const Cone* cone = cones_.data();
+  float left = uc * total_;
+  for (int i = 1; i < count_ && left >= cone->weight; ++i) left -= (cone++)->weight;
+  uc = std::clamp(left / cone->weight, 0.0f, kOneMinusEpsilon);
+  const Frame frame = Frame::from_z(cone->axis);
+  const float phi = 2 * kPi * u.y;
+  // Rounding may put a direction outside: what seems to have come there by chance alone would weigh
+  // thousands of times too much.
+  for (float below = cone->narrowness * u.x;; below *= 0.75f) {
+    const float sine = std::sqrt(below * (2 - below));
+    const Vec3f w =
+        normalize(frame.to_world(Vec3f(sine * std::cos(phi), sine * std::sin(phi), 1 - below)));
+    if (cone->contains(w)) return w;
+    if (!(below > 0)) return cone->axis;
+  }
+}
+
+float CasterCones::pdf_w(const Vec3f& w) const {
+  float sum = 0;
+  for (int i = 0; i < count_; ++i) {
+    const Cone& cone = cones_[static_cast<size_t>(i)];
+    if (cone.contains(w)) sum += cone.weight / (2 * kPi * cone.narrowness);
+  }
+  return sum / total_;
+}
+
+CasterGuide::CasterGuide(std::span<const UsefulStart> met, float scene_radius) {
+  if (met.empty()) return;
+  const StartTree tree(met, kMaxPlaces);
+  const auto add = [&](const StartTree::Crowd& crowd, float extent, float share) {
+    // Room for what has not been found, most where little has.
+    const float room = 1.05f + 0.5f / std::sqrt(static_cast<float>(crowd.end - crowd.begin));
+    const float radius = std::max(extent * room, kSmallest * scene_radius);
+    balls_.push_back(
+        {crowd.center(), radius, share * static_cast<float>(std::sqrt(crowd.weight)) / radius});
+  };
+  for (const StartTree::Crowd& leaf : tree.leaves()) {
+    float farthest = 0;
+    for (const uint32_t i : tree.starts_of(leaf))
+      farthest = std::max(farthest, length(met[i].first_hit - leaf.center()));
+    add(leaf, farthest, 1);
+  }
+  places_ = balls_.size();
+  for (const StartTree::Crowd& crowd : tree.inner()) add(crowd, crowd.half_diagonal(), kAround);
+  if (tree.inner().empty()) add(tree.leaves()[0], tree.leaves()[0].half_diagonal(), kAround);
+}
+
+CasterCones CasterGuide::at(const WalkVertex& v, ClassMask among) const {
+  CasterCones cones;
+  // What goes below a surface is no direction.
+  if (!v.merges || v.subsurface_exit || v.material.has_bssrdf() ||
+      guided_classes(v.bsdf, among) == ClassMask::kNone)
+    return cones;
+  for (const Ball& ball : balls_) {
+    const Vec3f way = ball.center - v.surface.p;
+    const float d2 = length_squared(way), sine2 = sqr(ball.radius) / d2;
+    if (!(sine2 < kMostSine2)) continue;
+    const Vec3f axis = way / std::sqrt(d2);
+    const Vec3f wi = v.to_local(axis);
+    float density = guided_pdf_w(v.bsdf, v.wo, wi, TransportMode::kImportance, among);
+    const bool crosses_horizon = sqr(wi.z) < sine2;
+    if (!(density > 0) && !crosses_horizon) continue;
+    density = std::max(density, kLeastDensity);
+    const float narrowness = sine2 / (1 + std::sqrt(1 - sine2));
+    cones.add(axis, narrowness, ball.use * density * narrowness);
+  }
+  return cones;
+}
+
+}  // namespace nephroid

@@ -1,0 +1,75 @@
+// Where light that leaves a rough surface is of use: at the smooth things by way of which earlier
+// light paths came to what the camera sees. They are kept as balls; as seen from a vertex these are
+// cones, and a share of the directions of light paths falls into them (docs/estimators.md, [G8]).
+// Immutable once made. Who calls it: photon_tracer.cpp. It must not know routes, cameras or films.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "photon/start_tree.h"
+#include "transport/walk.h"
+
+namespace nephroid {
+
+/// The directions from a vertex to the casters: a `Guide` of GuidedDirection.
+class CasterCones {
+ public:
+  static constexpr int kMost = 16;
+  /// Of the directions, those into cones.
+  static constexpr float kShare = 0.5f;
+
+  bool empty() const { return count_ == 0; }
+  float share() const { return kShare; }
+  /// A unit direction, world, evenly in one of the cones. What chose the cone is taken out of `uc`.
+  Vec3f sample(float& uc, const Vec2f& u) const;
+  /// Density of the unit direction `w`, world, per steradian. What sample() gave is inside of its
+  /// cone, however narrow that is.
+  float pdf_w(const Vec3f& w) const;
+
+  /// One more cone, `weight` times as likely as one of weight 1. `narrowness` is one minus the
+  /// cosine of its half angle, above 0 and at most 1.
+  void add(const Vec3f& axis, float narrowness, float weight);
+
+ private:
+  struct Cone {
+    Vec3f axis;
+    float narrowness = 0;
+    float weight = 0;
+    /// One minus the cosine is small for narrow cones.
+    bool contains(const Vec3f& w) const { return 0.5f * length_squared(w - axis) <= narrowness; }
+  };
+  std::array<Cone, kMost> cones_;
+  int count_ = 0;
+  float total_ = 0;  ///< of the weights
+};
+
+class CasterGuide {
+ public:
+  /// Guides nothing.
+  CasterGuide() = default;
+  /// Learns from where useful paths met the first smooth thing behind a rough one; guides nothing
+  /// if there are none.
+  CasterGuide(std::span<const UsefulStart> met, float scene_radius);
+
+  bool empty() const { return balls_.empty(); }
+  size_t places() const { return places_; }
+
+  struct Ball {
+    Vec3f center{0, 0, 0};
+    float radius = 0;
+    float use = 0;  ///< [G8], over that of other balls
+  };
+  std::span<const Ball> balls() const { return balls_; }
+
+  /// The balls as light that comes to `v` sees them, where events may have these classes. Those
+  /// around the vertex, and those that its BSDF does not reach, are left out.
+  CasterCones at(const WalkVertex& v, ClassMask among) const;
+
+ private:
+  std::vector<Ball> balls_;
+  size_t places_ = 0;
+};
+
+}  // namespace nephroid

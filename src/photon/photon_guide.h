@@ -1,0 +1,18 @@
+// What was learned about the paths of photons: where they should start and where they should go
+// from rough surfaces. Who calls it: photon integrators, which learn it, and photon_tracer.cpp.
+#pragma once
+
+#include "photon/caster_guide.h"
+#include "photon/emission_guide.h"
+
+namespace nephroid {
+
+struct PhotonGuide {
+  EmissionGuide starts;
+  CasterGuide casters;
+};
+
+/// Guides nothing.
+inline const PhotonGuide kUnguidedPhotons;
+
+}  // namespace nephroid
