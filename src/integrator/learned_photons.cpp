@@ -14,10 +14,17 @@ constexpr uint32_t kRounds = 3;
 /// Paths of a round; more in rounds after one that found little.
 constexpr int64_t kPaths = 1 << 14, kMostPaths = 1 << 18;
 constexpr size_t kLittle = 256;
+constexpr size_t kFewCasters = 16;
 
-CasterGuide guide_to(std::span<const Vec3f> casters, const Scene& scene) {
-  std::vector<UsefulStart> met(casters.size());
-  for (size_t i = 0; i < met.size(); ++i) met[i].first_hit = casters[i];
+/// Of those that photons have met and, while these are too few to tell how large a thing is, of
+/// those that the camera has seen.
+CasterGuide caster_guide(std::vector<UsefulStart> met, const CausticCasters& seen,
+                         const Scene& scene) {
+  if (met.size() < kFewCasters)
+    for (const Vec3f& p : seen.points) {
+      met.emplace_back();
+      met.back().first_hit = p;
+    }
   return {met, scene.sphere.radius};
 }
 
@@ -53,9 +60,8 @@ PhotonGuide learn(uint64_t seed, const Scene& scene, const Film& film, const Own
     guide.starts = EmissionGuide(scene, useful, static_cast<double>(all_paths));
     if (useful.size() < kLittle) paths = std::min(4 * paths, kMostPaths);
   }
-  if (aims_from_surfaces)
-    guide.casters =
-        met.empty() ? guide_to(seen.points, scene) : CasterGuide(met, scene.sphere.radius);
+  if (aims_from_surfaces && owned.routes->needs_specular(owned.group))
+    guide.casters = caster_guide(std::move(met), seen, scene);
   return guide;
 }
 
@@ -95,8 +101,9 @@ void LearnedPhotons::add_notes(EstimatorStatistics& statistics) const {
                     places, of(places), 100 * guide_->starts.share_unaimed()));
   if (const size_t places = guide_->casters.places(); places > 0)
     statistics.notes.push_back(
-        fmt::format("half of the photons at rough surfaces were aimed at {} smooth thing{}", places,
-                    of(places)));
+        fmt::format("where photons left rough surfaces and only light by way of S is of use, half "
+                    "of them were aimed at {} place{} that had led there",
+                    places, of(places)));
 }
 
 }  // namespace nephroid

@@ -238,7 +238,7 @@ EstimatorStatistics PathAndPhotons::statistics() const {
         "camera paths go on while they carry an eighth of what they started with: trial passes "
         "were "
         "better for it");
-  learned_photons_.add_notes(s);
+  if (!pass.guide->empty()) learned_photons_.add_notes(s);
   if (learned_->radiance && learned_->radiance->guides())
     s.notes.push_back(
         fmt::format("camera walks had directions to follow from the first pass at {:.3g} % of the "

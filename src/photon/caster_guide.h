@@ -1,7 +1,8 @@
 // Where light that leaves a rough surface is of use: at the smooth things by way of which earlier
 // light paths came to what the camera sees. They are kept as balls; as seen from a vertex these are
 // cones, and a share of the directions of light paths falls into them (docs/estimators.md, [G8]).
-// Immutable once made. Who calls it: photon_tracer.cpp. It must not know routes, cameras or films.
+// Immutable once made. Who calls it: learned_photons.cpp, which makes it, and photon_tracer.cpp. It
+// must not know routes, cameras or films.
 #pragma once
 
 #include <array>
@@ -28,8 +29,8 @@ class CasterCones {
   /// cone, however narrow that is.
   float pdf_w(const Vec3f& w) const;
 
-  /// One more cone, `weight` times as likely as one of weight 1. `narrowness` is one minus the
-  /// cosine of its half angle, above 0 and at most 1.
+  /// One more cone, of kMost at most, `weight` times as likely as one of weight 1. `narrowness` is
+  /// one minus the cosine of its half angle, above 0 and at most 1.
   void add(const Vec3f& axis, float narrowness, float weight);
 
  private:
@@ -49,8 +50,8 @@ class CasterGuide {
  public:
   /// Guides nothing.
   CasterGuide() = default;
-  /// Learns from where useful paths met the first smooth thing behind a rough one; guides nothing
-  /// if there are none.
+  /// Learns from where useful paths met the smooth thing that they needed behind a rough one;
+  /// guides nothing if there are none.
   CasterGuide(std::span<const UsefulStart> met, float scene_radius);
 
   bool empty() const { return balls_.empty(); }

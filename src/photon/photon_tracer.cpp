@@ -53,7 +53,10 @@ class PhotonVisitor : public LightWalkVisitor {
   std::optional<BsdfSample> sample_direction(Walk& walk, const WalkVertex& v, float uc,
                                              const Vec2f& u, ClassMask among) const {
     CasterCones cones;
-    if (!casters_.empty() && needs_specular(v)) cones = casters_.at(v, among);
+    if (!casters_.empty() && guided_classes(v.bsdf, among) != ClassMask::kNone &&
+        leaves_for_specular(v))
+      cones = casters_.at(v, among);
+    if (cones.empty()) return v.bsdf.sample(v.wo, uc, u, TransportMode::kImportance, among);
     float gain = 1;
     const auto s =
         GuidedDirection(v.bsdf, v.surface.shading, v.wo, TransportMode::kImportance, among, cones)
@@ -63,19 +66,26 @@ class PhotonVisitor : public LightWalkVisitor {
   }
 
   bool scatter(const Walk& walk, const WalkEvent& event) {
-    const bool specular = event.letter == EventClass::kSpecular;
-    if (specular && rough_ && !caster_) caster_ = here_;
-    specular_ |= specular;
-    rough_ |= !specular;
-    return LightWalkVisitor::scatter(walk, event);
+    if (event.letter == EventClass::kSpecular) {
+      specular_ = true;
+      if (needs_specular_ && !caster_) caster_ = Caster{here_, out_.size()};
+    }
+    const bool go_on = LightWalkVisitor::scatter(walk, event);
+    needs_specular_ =
+        contains(ClassMask::kRough, event.letter) && routes_.needs_specular(group_, state_);
+    return go_on;
   }
 
   bool useful() const { return stored_ > 0; }
   bool specular() const { return specular_; }
   /// Of a useful path.
   const UsefulStart& start() const { return start_; }
-  /// Where the path met the first S behind a rough vertex or one in a medium.
-  const std::optional<Vec3f>& caster() const { return caster_; }
+  /// Where the path met an S that it needed behind a rough vertex, and what it left from then on.
+  struct Caster {
+    Vec3f p;
+    size_t first_photon = 0;
+  };
+  const std::optional<Caster>& caster() const { return caster_; }
 
  private:
   void meet(const Vec3f& p) {
@@ -83,18 +93,14 @@ class PhotonVisitor : public LightWalkVisitor {
     is_met_ = true;
   }
   /// True if light that leaves `v` by a D or G is of use only where it meets an S.
-  bool needs_specular(const WalkVertex& v) const {
-    const Label here = label_at(symbols_, v);
-    ClassMask next = ClassMask::kNone;
+  bool leaves_for_specular(const WalkVertex& v) const {
     for (const EventClass c : {EventClass::kDiffuse, EventClass::kGlossy})
-      for (const bool transmitted : {false, true}) {
-        const LightState state = routes_.light_next(state_, event_symbol(c, transmitted, here));
-        for (size_t label = 0; label <= routes_.labels().size(); ++label)
-          next =
-              next | routes_.useful_before_deposit(group_, state, static_cast<Label>(label)) |
-              routes_.deposits(group_, state, static_cast<Label>(label));
-      }
-    return next == ClassMask::kSpecular;
+      for (const bool transmitted : {false, true})
+        if (!routes_.needs_specular(
+                group_,
+                routes_.light_next(state_, event_symbol(c, transmitted, label_at(symbols_, v)))))
+          return false;
+    return true;
   }
   /// Where a mix chooses among materials, whoever looks here may see another one.
   ClassMask deposits_at(const WalkVertex& v) const {
@@ -109,10 +115,10 @@ class PhotonVisitor : public LightWalkVisitor {
   const SampledSpectrum flux_;
   std::vector<Photon>& out_;
   int stored_ = 0;
-  bool specular_ = false, rough_ = false, is_met_ = false;
+  bool specular_ = false, needs_specular_ = false, is_met_ = false;
   UsefulStart start_;
   Vec3f here_{0, 0, 0};
-  std::optional<Vec3f> caster_;
+  std::optional<Caster> caster_;
 };
 
 /// What became of one light path.
@@ -120,7 +126,7 @@ struct Outcome {
   bool useful = false, specular = false;
   uint64_t rays = 0;
   UsefulStart start;
-  std::optional<Vec3f> caster;
+  std::optional<PhotonVisitor::Caster> caster;
 };
 
 /// Photon number `j` of the pass; what it leaves goes to `photons`.
@@ -185,9 +191,12 @@ UsefulStarts trace_useful_starts(const Scene& scene, const OwnedRoutes& owned,
       chunk.rays += outcome.rays;
       if (std::none_of(photons.begin(), photons.end(), is_useful)) continue;
       chunk.starts.push_back(outcome.start);
-      if (!outcome.caster) continue;
+      if (!outcome.caster ||
+          std::none_of(photons.begin() + static_cast<std::ptrdiff_t>(outcome.caster->first_photon),
+                       photons.end(), is_useful))
+        continue;
       chunk.casters.push_back(outcome.start);
-      chunk.casters.back().first_hit = *outcome.caster;
+      chunk.casters.back().first_hit = outcome.caster->p;
     }
   });
   UsefulStarts all;

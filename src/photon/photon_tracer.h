@@ -42,7 +42,8 @@ PhotonTrace trace_photons(const Scene& scene, const OwnedRoutes& owned,
 /// What paths of learning found.
 struct UsefulStarts {
   std::vector<UsefulStart> starts;
-  /// Where they met the first smooth thing behind a rough one, in the place of `first_hit`.
+  /// Of those that needed an S behind a rough vertex for it, where they met it, in the place of
+  /// `first_hit`.
   std::vector<UsefulStart> casters;
   uint64_t rays = 0;
 };

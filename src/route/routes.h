@@ -6,6 +6,7 @@
 // Paper: Doidge et al. 2012, whose two sub-spaces are the preset doidge2012.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -144,6 +145,15 @@ class Routes {
   ClassMask useful_before_deposit(size_t group, LightState light, Label label) const {
     return flags_[group].useful_before_deposit[light * label_count() + label];
   }
+  /// True if a light walk in this state is of use to the group's photons only where it meets an S
+  /// next; for the group, if there is such a state.
+  bool needs_specular(size_t group, LightState light) const {
+    return flags_[group].needs_specular[light];
+  }
+  bool needs_specular(size_t group) const {
+    const std::vector<bool>& states = flags_[group].needs_specular;
+    return std::find(states.begin(), states.end(), true) != states.end();
+  }
   /// Events after which a light walk may still be the light's end of a word of the group, wherever
   /// it is cut in two.
   ClassMask useful_from_light(size_t group, LightState light, Label label) const {
@@ -161,7 +171,7 @@ class Routes {
 
  private:
   struct Flags {
-    std::vector<bool> ends;
+    std::vector<bool> ends, needs_specular;
     std::vector<ClassMask> useful, useful_before_merge, merges, deposits, useful_before_deposit,
         useful_from_light, connects, useful_before_connection;
   };

@@ -168,6 +168,13 @@ void Routes::find_useful_events(const SymbolSet& symbols) {
     f.useful_before_deposit = events.masks(
         t.light_states, kEveryClass,
         [&](size_t s, EventSymbol e) -> bool { return may_deposit[t.light_next[column(s, e)]]; });
+    f.needs_specular.assign(t.light_states, false);
+    for (size_t light = 0; light < t.light_states; ++light) {
+      ClassMask next = ClassMask::kNone;
+      for (size_t i = light * label_count(); i < (light + 1) * label_count(); ++i)
+        next = next | f.useful_before_deposit[i] | f.deposits[i];
+      f.needs_specular[light] = next == ClassMask::kSpecular;
+    }
     const std::vector<bool> may_meet = states_that_meet(g, reached);
     f.useful_from_light = events.masks(
         t.light_states, kEveryClass,

@@ -1,7 +1,7 @@
 // A direction at a surface, chosen either by the BSDF or by a guide: the mixture, per class of the
 // event, and its density ([T3] in docs/estimators.md).
-// Who calls it: forecast.cpp, guided_walk.cpp, photon_tracer.cpp. It must not know routes or
-// lights.
+// Who calls it: forecast.cpp, guided_walk.cpp, photon_tracer.cpp and caster_guide.cpp. It must not
+// know routes or lights.
 #pragma once
 
 #include <optional>
@@ -70,9 +70,12 @@ class GuidedDirection {
  private:
   float mixed_pdf_w(const Vec3f& wi, const Vec3f& world, EventClass c, float bsdf_pdf_w) const {
     float pdf = bsdf_pdf_w * (1.0f - share_);
-    if (share_ > 0.0f && bsdf_pdf_w > 0.0f && contains(guided_, c))
-      pdf +=
-          share_ * guide_.pdf_w(world) * (bsdf_pdf_w / guided_pdf_w(bsdf_, wo_, wi, mode_, among_));
+    if (!(share_ > 0.0f) || !(bsdf_pdf_w > 0.0f) || !contains(guided_, c)) return pdf;
+    const float guide_pdf_w = guide_.pdf_w(world);
+    if (!(guide_pdf_w > 0.0f)) return pdf;
+    const float all = guided_pdf_w(bsdf_, wo_, wi, mode_, among_);
+    // Rounding may let a BSDF sample what it then says it cannot.
+    if (all > 0.0f) pdf += share_ * guide_pdf_w * (bsdf_pdf_w / all);
     return pdf;
   }
 

@@ -93,6 +93,8 @@ TEST_P(Guided, PhotonsFindTheSameCausticWithLessNoise) {
     const Estimate a = estimate_of(guided.all[i]), b = estimate_of(own.all[i]);
     EXPECT_NEAR(a.mean, b.mean, kT15 * std::hypot(a.error, b.error)) << "block " << i;
     light += a.mean;
+    const Estimate c = estimate_of(guided.of_the_lit[i]), d = estimate_of(own.of_the_lit[i]);
+    EXPECT_NEAR(c.mean, d.mean, kT15 * std::hypot(c.error, d.error)) << "lit, block " << i;
   }
   const double error =
       std::sqrt(sum_of_squared_errors(guided.all) + sum_of_squared_errors(own.all));

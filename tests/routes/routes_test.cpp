@@ -125,6 +125,12 @@ TEST(Routes, UselessWalksEnd) {
             ClassMask::kNone);
   EXPECT_EQ(routes.deposits(photons, once, 0), ClassMask::kNone);
   EXPECT_EQ(routes.deposits(photons, read_from_light(routes, "S"), 0), ClassMask::kRough);
+  EXPECT_TRUE(routes.needs_specular(photons));
+  EXPECT_TRUE(routes.needs_specular(photons, once));
+  for (const char* free : {"", "S", "DS", "DSD", "DD"})
+    EXPECT_FALSE(routes.needs_specular(photons, read_from_light(routes, free))) << free;
+  const Routes whole = preset("all-photons");
+  EXPECT_FALSE(whole.needs_specular(group_of(whole, EstimatorKind::kPhotons)));
   // The camera walk of photons ends at its first D or G; that of path tracing may always count.
   EXPECT_EQ(routes.merges(photons, routes.start(), 0), ClassMask::kRough);
   EXPECT_EQ(routes.useful_before_merge(photons, routes.start(), 0),

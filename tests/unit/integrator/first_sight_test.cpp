@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "integrator/learned_photons.h"
+#include "owned_routes.h"
 #include "photon/emission.h"
 #include "rendering.h"
 #include "scene/camera/camera.h"
@@ -89,6 +90,36 @@ TEST(LearnedPhotons, FindsASmallThingThatChanceDoesNot) {
   }
   // Others light the floor that is seen through the glass.
   EXPECT_GT(met, kPaths / 6);
+}
+
+// A lamp lights a spot on the floor, six metres away: of what that scatters next to nothing meets
+// the glass by chance.
+TEST(LearnedPhotons, AimFromTheFloorAtTheGlass) {
+  std::string text = kView + kGlass;
+  const std::string lamp = R"(LightSource "point" "rgb I" [900 900 900] "point3 from" [20 60 -10])";
+  text.replace(text.find(lamp), lamp.size(),
+               R"(LightSource "spot" "rgb I" [90 90 90] "point3 from" [6 3 0] "point3 to" [6 0 0]
+                  "float coneangle" 20)");
+  const auto scene = scene_from_text(text);
+  const OwnedRoutes owned =
+      owned_routes(*scene, {"of-the-lit=C.*[DG]S+[DG]L:photons", "rest=.*:path"});
+  const Film film = film_for(*scene, make_preset(Plan("doidge2012"), {}, *scene));
+  LearnedPhotons learned;
+  EstimatorStatistics statistics;
+  const PhotonGuide& guide = learned.guide(1, *scene, film, owned, {}, statistics);
+  ASSERT_FALSE(guide.casters.empty());
+  const PhotonGuide from_lights_alone{guide.starts, {}};
+  const auto stored = [&](const PhotonGuide& g) {
+    PhotonTraceSettings settings = start_photon_pass({3, 0}, *scene, film, {}).trace;
+    settings.guide = &g;
+    return trace_photons(*scene, owned, settings, 0, 1 << 14).useful_paths;
+  };
+  EXPECT_GT(stored(guide), 500u);
+  EXPECT_GT(stored(guide), 5 * stored(from_lights_alone));
+  // Where all photons are of use, those that bounce go as the surface has it.
+  const OwnedRoutes all = owned_routes(*scene, {"all=.*:photons"});
+  LearnedPhotons of_all;
+  EXPECT_TRUE(of_all.guide(1, *scene, film, all, {}, statistics).casters.empty());
 }
 
 // Casters are seen, but nothing shines on them: there is nothing to aim from.

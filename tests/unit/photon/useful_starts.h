@@ -1,4 +1,4 @@
-// Scenes and useful starts for emission_guide_test.cpp and emission_targets_test.cpp.
+// Scenes and useful starts for the tests of guides.
 #pragma once
 
 #include <fstream>
