@@ -20,10 +20,11 @@ SCENE_VOCABULARY = {"scene/interaction.h"}
 LIBRARIES = {
     r"embree\d?/": {"scene/embree_scene.cpp"},
     r"(tbb|oneapi)/": {"core/parallel.cpp"},
+    r"OpenEXR/": {"film"},
     r"OpenImageIO/": {"scene/texture", "scene/material", "film", "tests"},
     r"nanovdb/": {"scene/medium/nanovdb_grid.cpp"},
     r"CLI/": {"session", "apps"},
-    r"nlohmann/": {"bench"},
+    r"nlohmann/": {"bench", "session/merge.cpp"},
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 

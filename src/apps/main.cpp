@@ -33,6 +33,8 @@ int run(const std::vector<std::string>& arguments) {
       return run_render(line.render);
     case Action::kInfo:
       return run_info(line.info);
+    case Action::kMerge:
+      return run_merge(line.merge);
     case Action::kCompare:
       return run_compare(line.compare);
     case Action::kRoutes:

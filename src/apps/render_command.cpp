@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 
 #include "apps/commands.h"
 #include "apps/messages.h"
@@ -15,6 +16,7 @@
 #include "session/file_hash.h"
 #include "session/film_of_scene.h"
 #include "session/idle_settings.h"
+#include "session/merge.h"
 #include "session/render_session.h"
 #include "session/scene_loading.h"
 #include "session/version.h"
@@ -33,6 +35,23 @@ Metadata metadata_of(const RenderCommand& command, const IntegratorChoice& choic
       {"nephroid:integrator", name_of(command.routes, choice.name)},
       {"nephroid:options", settings_text(choice.options)},
   };
+}
+
+void add_picture(const RenderCommand& command, const Scene& scene, const Preset& preset,
+                 const Film& film, Metadata* metadata) {
+  const PixelBounds& crop = film.bounds();
+  metadata->emplace_back(
+      "nephroid:film", fmt::format("{}x{}, columns {} to {}, rows {} to {}", film.settings().width,
+                                   film.settings().height, crop.x0, crop.x1, crop.y0, crop.y1));
+  metadata->emplace_back("nephroid:seed",
+                         fmt::format("{}", command.seed.value_or(scene.scene_seed)));
+  if (command.reject_outliers) metadata->emplace_back("nephroid:outliers", "reject");
+  bool independent = true;
+  for (const auto& estimator : preset.estimators) {
+    const Capabilities capabilities = estimator->capabilities();
+    independent &= capabilities.independent_passes && capabilities.consistent;
+  }
+  add_film_metadata(film, independent, metadata);
 }
 
 void add_routes(const RoutePlan& plan, Metadata* metadata) {
@@ -66,6 +85,8 @@ RenderOptions render_options(const RenderCommand& command, const Scene& scene,
   options.noise_target = command.noise_target;
   options.seed = command.seed.value_or(scene.scene_seed);
   options.output = output;
+  options.checkpoint_interval = command.checkpoint_interval;
+  options.keeps_state = command.keeps_state;
   options.metadata = std::move(metadata);
   return options;
 }
@@ -106,8 +127,13 @@ int run_render(const RenderCommand& command) {
       command.output.empty() ? default_output(scene.film, command.scene) : command.output;
   Metadata metadata = metadata_of(command, choice);
   add_routes(plan, &metadata);
-  RenderSession session(scene, preset, film,
-                        render_options(command, scene, output, std::move(metadata)));
+  add_picture(command, scene, preset, film, &metadata);
+  Checkpoint begin_with;
+  if (command.resume && std::filesystem::exists(output))
+    begin_with = go_on_from(output, metadata, scene, preset, film);
+  RenderOptions options = render_options(command, scene, output, std::move(metadata));
+  options.begin_with = std::move(begin_with);
+  RenderSession session(scene, preset, film, std::move(options));
 
   ProgressDisplay display;
   if (!command.quiet)

@@ -28,9 +28,11 @@ const char* reason_text(StopReason reason) {
 std::string summary(const RenderResult& result) {
   uint64_t rays = 0;
   for (const EstimatorStatistics& s : result.statistics) rays += s.rays;
-  std::string text =
-      fmt::format("{} pass{} in {:.1f} s ({})", result.passes_done,
-                  result.passes_done == 1 ? "" : "es", result.seconds, reason_text(result.reason));
+  std::string text = fmt::format("{} pass{} in {:.1f} s ({})", result.passes_of_run,
+                                 result.passes_of_run == 1 ? "" : "es", result.seconds,
+                                 reason_text(result.reason));
+  if (result.passes_done > result.passes_of_run)
+    text += fmt::format(", {} in all runs", result.passes_done);
   if (rays > 0 && result.seconds > 0)
     text += fmt::format(", {}rays/s", short_number(static_cast<double>(rays) / result.seconds));
   if (result.error) text += fmt::format(", estimated error {:.3g}", *result.error);
@@ -78,7 +80,7 @@ std::string render_report(const RenderResult& result, const Film& film, const st
                           const std::vector<std::string>& notes) {
   std::string text = summary(result);
   for (const std::string& line :
-       choices_report(result.first_pass_statistics, result.statistics, result.passes_done))
+       choices_report(result.first_pass_statistics, result.statistics, result.passes_of_run))
     text += line + "\n";
   if (result.error_text) text += *result.error_text + "\n";
   text += route_lines(film);

@@ -15,6 +15,7 @@
 #include "core/errors.h"
 #include "core/parallel.h"
 #include "film/atomic_file.h"
+#include "film/exr_file.h"
 #include "input/spelling.h"
 #include "session/version.h"
 

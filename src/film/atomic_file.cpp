@@ -69,15 +69,17 @@ class TemporaryFile {
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 
-  void write(std::span<const std::byte> bytes) {
+  void write(uint64_t offset, std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
       // The kernel takes at most 2 GiB at once.
       const size_t chunk = std::min(bytes.size(), size_t{1} << 30);
-      const ssize_t written = ::write(descriptor_, bytes.data(), chunk);
+      const ssize_t written =
+          ::pwrite(descriptor_, bytes.data(), chunk, static_cast<off_t>(offset));
       if (written < 0 && errno == EINTR) continue;
       if (written < 0) fail(shown_, "write", errno);
       if (written == 0) fail(shown_, "write", ENOSPC);
       bytes = bytes.subspan(static_cast<size_t>(written));
+      offset += static_cast<uint64_t>(written);
     }
   }
   void rename_to(const fs::path& target) {
@@ -108,11 +110,25 @@ class TemporaryFile {
 
 }  // namespace
 
+struct AtomicFile::State {
+  explicit State(const std::string& path) : target(resolved_target(path)), file(target, path) {}
+  fs::path target;
+  TemporaryFile file;
+};
+
+AtomicFile::AtomicFile(const std::string& path) : state_(std::make_unique<State>(path)) {}
+AtomicFile::~AtomicFile() = default;
+void AtomicFile::write(uint64_t offset, std::span<const std::byte> bytes) {
+  state_->file.write(offset, bytes);
+}
+void AtomicFile::commit() {
+  state_->file.rename_to(state_->target);
+}
+
 void write_file_atomically(const std::string& path, std::span<const std::byte> bytes) {
-  const fs::path target = resolved_target(path);
-  TemporaryFile file(target, path);
-  file.write(bytes);
-  file.rename_to(target);
+  AtomicFile file(path);
+  file.write(0, bytes);
+  file.commit();
 }
 
 void check_file_can_be_written(const std::string& path) {

@@ -4,14 +4,34 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 
 namespace nephroid {
 
-/// Writes the bytes to a temporary file in the same directory, flushes it to the disk, renames it
-/// to `path` and flushes the directory. A symbolic link is followed. Throws IoError with the
-/// system's reason; the temporary file is then gone and an old file is as it was.
+/// A temporary file beside `path` that takes its place when it is whole. A symbolic link is
+/// followed. All throw IoError with the system's reason; the temporary file vanishes with the
+/// object unless it was committed, and an old file is then as it was.
+class AtomicFile {
+ public:
+  explicit AtomicFile(const std::string& path);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  /// At so many bytes from its beginning.
+  void write(uint64_t offset, std::span<const std::byte> bytes);
+  /// Flushes it to the disk, renames it to `path` and flushes the directory.
+  void commit();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// The bytes as an AtomicFile.
 void write_file_atomically(const std::string& path, std::span<const std::byte> bytes);
 
 /// Throws the IoError that write_file_atomically(path) would throw now, as far as that can be known

@@ -76,7 +76,11 @@ Film::Film(const FilmSettings& settings, FilmLayout layout)
     biases_[g].resize(pixels);
   }
   features_.resize(pixels);
-  if (settings_.gbuffer) surfaces_.resize(pixels);
+  depths_.assign(pixels, 0);
+  if (settings_.gbuffer) {
+    surfaces_.resize(pixels);
+    surface_samples_.assign(pixels, 0);
+  }
   bad_.assign(pixels, 0);
   saturated_.assign(pixels, 0);
 }
@@ -86,7 +90,8 @@ size_t Film::bytes_per_pixel(const FilmLayout& layout, bool gbuffer) {
   const size_t merging =
       static_cast<size_t>(std::count(layout.merges.begin(), layout.merges.end(), true));
   return sums * sizeof(RgbSum) + merging * sizeof(Bias) + sizeof(Features) +
-         (gbuffer ? sizeof(SurfaceSums) : 0) + 2 * sizeof(uint32_t);  // bad and saturated
+         (gbuffer ? sizeof(SurfaceSums) + sizeof(uint64_t) : 0) + sizeof(uint64_t) +
+         2 * sizeof(uint32_t);  // depths, bad and saturated
 }
 
 Rgb clamp_component(const Rgb& rgb, float limit) {
@@ -205,29 +210,30 @@ uint64_t Film::estimates(int group) const {
   return estimates_[static_cast<size_t>(group)];
 }
 void Film::add_faults(uint64_t bad, uint64_t saturated) {
-  more_bad_ += bad;
-  more_saturated_ += saturated;
+  counts_.bad += bad;
+  counts_.saturated += saturated;
 }
 
 void Film::add_features(int x, int y, const Rgb& albedo, const Vec3f& normal, float depth) {
-  Features& features = features_[index(x, y)];
+  const size_t pixel = index(x, y);
+  Features& features = features_[pixel];
   for (int c = 0; c < 3; ++c) {
     features.albedo[c].add(albedo[c]);
     features.normal[c].add(normal[c]);
   }
-  if (depth > 0 && features.depth.add(depth)) ++features.depths;
+  if (depth > 0 && features.depth.add(depth)) ++depths_[pixel];
 }
 void Film::add_feature_estimates(uint64_t count) {
-  feature_estimates_ += count;
+  counts_.feature_estimates += count;
 }
 
 void Film::add_surface(int x, int y, const SurfaceSample& s) {
   if (surfaces_.empty()) return;
-  SurfaceSums& surface = surfaces_[index(x, y)];
+  const size_t pixel = index(x, y);
   const std::array<float, 13> values{s.p.x,  s.p.y,  s.p.z,  s.n.x,  s.n.y,  s.n.z, s.ns.x,
                                      s.ns.y, s.ns.z, s.uv.x, s.uv.y, s.dzdx, s.dzdy};
-  for (size_t i = 0; i < values.size(); ++i) surface.sums[i].add(values[i]);
-  ++surface.samples;
+  for (size_t i = 0; i < values.size(); ++i) surfaces_[pixel][i].add(values[i]);
+  ++surface_samples_[pixel];
 }
 
 /// [F1]: accumulators of parts with one count of estimates are added exactly before the division.
@@ -314,11 +320,11 @@ float Film::bias_error(int x, int y) const {
 }
 
 Rgb Film::albedo(int x, int y) const {
-  if (feature_estimates_ == 0) return {};
+  if (counts_.feature_estimates == 0) return {};
   const Features& features = features_[index(x, y)];
   double mean[3];
   for (int c = 0; c < 3; ++c)
-    mean[c] = features.albedo[c].value() / static_cast<double>(feature_estimates_);
+    mean[c] = features.albedo[c].value() / static_cast<double>(counts_.feature_estimates);
   return to_rgb(mean);
 }
 
@@ -333,18 +339,19 @@ Vec3f Film::normal(int x, int y) const {
 }
 
 float Film::depth(int x, int y) const {
-  const Features& features = features_[index(x, y)];
-  if (features.depths == 0) return 0;
-  return static_cast<float>(features.depth.value() / static_cast<double>(features.depths));
+  const size_t pixel = index(x, y);
+  if (depths_[pixel] == 0) return 0;
+  return static_cast<float>(features_[pixel].depth.value() / static_cast<double>(depths_[pixel]));
 }
 
 SurfaceSample Film::surface(int x, int y) const {
   SurfaceSample s;
   if (surfaces_.empty()) return s;
   const SurfaceSums& surface = surfaces_[index(x, y)];
-  if (surface.samples == 0) return s;
+  const uint64_t samples = surface_samples_[index(x, y)];
+  if (samples == 0) return s;
   const auto mean = [&](size_t i) {
-    return static_cast<float>(surface.sums[i].value() / static_cast<double>(surface.samples));
+    return static_cast<float>(surface[i].value() / static_cast<double>(samples));
   };
   const auto direction = [&](size_t i) {
     return normalize(Vec3f(mean(i), mean(i + 1), mean(i + 2)));
@@ -359,10 +366,10 @@ SurfaceSample Film::surface(int x, int y) const {
 }
 
 uint64_t Film::bad_values() const {
-  return std::accumulate(bad_.begin(), bad_.end(), more_bad_);
+  return std::accumulate(bad_.begin(), bad_.end(), counts_.bad);
 }
 uint64_t Film::saturated_values() const {
-  return std::accumulate(saturated_.begin(), saturated_.end(), more_saturated_);
+  return std::accumulate(saturated_.begin(), saturated_.end(), counts_.saturated);
 }
 
 }  // namespace nephroid

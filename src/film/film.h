@@ -15,6 +15,7 @@
 #include "core/math.h"
 #include "film/fixed_sum.h"
 #include "film/outlier_rejection.h"
+#include "film/render_state.h"
 
 namespace nephroid {
 
@@ -24,6 +25,7 @@ struct PixelBounds {
   int width() const { return x1 - x0; }
   int height() const { return y1 - y0; }
   int64_t area() const { return int64_t{width()} * height(); }
+  bool operator==(const PixelBounds&) const = default;
 };
 
 /// What a film is: taken from the scene's Film directive and the command line.
@@ -151,6 +153,13 @@ class Film {
   /// magnitudes of theirs. All zero if none did.
   SurfaceSample surface(int x, int y) const;
 
+  /// All that it has summed up, as it lies in memory: to be written down, or to be read back into a
+  /// film of the same settings and layout, which then goes on as if nothing had happened.
+  RenderState state();
+  /// Adds what another film of the same settings and layout has of other passes, whose estimates
+  /// can be added; neither rejects outliers.
+  void add(const Film& other);
+
   uint64_t bad_values() const;        ///< estimates that were not finite
   uint64_t saturated_values() const;  ///< sums that reached their limit
 
@@ -160,13 +169,9 @@ class Film {
   };
   struct Features {
     FixedSum albedo[3], normal[3], depth;
-    uint64_t depths = 0;  ///< samples that hit something
   };
   /// Sums of p, n, ns, uv, dzdx and dzdy.
-  struct SurfaceSums {
-    std::array<FixedSum, 13> sums;
-    uint64_t samples = 0;
-  };
+  using SurfaceSums = std::array<FixedSum, 13>;
   size_t index(int x, int y) const {
     return static_cast<size_t>(y - settings_.crop.y0) * settings_.crop.width() +
            (x - settings_.crop.x0);
@@ -192,10 +197,15 @@ class Film {
   std::vector<std::vector<Bias>> biases_;     ///< [group][pixel], of groups that merge; or empty
   std::optional<OutlierRejection> outliers_;
   std::vector<Features> features_;
-  uint64_t feature_estimates_ = 0;
-  std::vector<SurfaceSums> surfaces_;           ///< empty without geometric layers
-  std::vector<uint32_t> bad_, saturated_;       ///< per pixel, so that counting needs no lock
-  uint64_t more_bad_ = 0, more_saturated_ = 0;  ///< by add_faults
+  std::vector<uint64_t> depths_;           ///< [pixel], feature samples that hit something
+  std::vector<SurfaceSums> surfaces_;      ///< empty without geometric layers
+  std::vector<uint64_t> surface_samples_;  ///< [pixel], of these
+  std::vector<uint32_t> bad_, saturated_;  ///< per pixel, so that counting needs no lock
+  struct Counts {
+    uint64_t feature_estimates = 0;
+    uint64_t bad = 0, saturated = 0;  ///< by add_faults
+  };
+  Counts counts_;
 };
 
 }  // namespace nephroid

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/parallel.h"
+#include "film/exr_file.h"
 
 namespace nephroid {
 namespace {
@@ -136,8 +137,13 @@ std::vector<uint8_t> film_srgb8(const Film& film, float exposure) {
   return bytes;
 }
 
-void write_film(const std::string& path, const Film& film, Metadata metadata, float exposure) {
-  write_exr(path, film_picture(film, std::move(metadata)));
+void write_film(const std::string& path, const Film& film, Metadata metadata, float exposure,
+                const RenderState* state) {
+  write_exr(path, film_picture(film, std::move(metadata)), state);
+  write_preview(path, film, exposure);
+}
+
+void write_preview(const std::string& path, const Film& film, float exposure) {
   write_png(png_path_beside(path), film.bounds().width(), film.bounds().height(),
             film_srgb8(film, exposure));
 }

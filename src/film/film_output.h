@@ -20,8 +20,12 @@ Picture film_picture(const Film& film, Metadata metadata);
 /// The film's R G B times `exposure`, in sRGB primaries and transfer, interleaved bytes.
 std::vector<uint8_t> film_srgb8(const Film& film, float exposure);
 
-/// Writes the picture as EXR to `path` and its PNG to png_path_beside(path). Throws IoError.
-void write_film(const std::string& path, const Film& film, Metadata metadata, float exposure);
+/// Writes the picture as EXR to `path`, with the state of its render if there is one, and its PNG
+/// to png_path_beside(path). Throws IoError.
+void write_film(const std::string& path, const Film& film, Metadata metadata, float exposure,
+                const RenderState* state = nullptr);
+/// The PNG alone.
+void write_preview(const std::string& path, const Film& film, float exposure);
 
 /// "a/b.exr" -> "a/b.png".
 std::string png_path_beside(const std::string& exr_path);

@@ -1,40 +1,23 @@
-// Images are encoded in memory first and then written as one file, so that every error of the disk
-// is seen by us (an encoder's own stream may swallow those of its last buffer).
+// A PNG is encoded in memory first and then written as one file, so that every error of the disk is
+// seen by us (an encoder's own stream may swallow those of its last buffer).
 #include "film/image_io.h"
 
+#include <OpenEXR/ImfThreading.h>
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 #include <span>
+#include <thread>
 
 #include "core/errors.h"
 #include "film/atomic_file.h"
+#include "film/chromaticities.h"
 
 namespace nephroid {
 namespace {
-
-/// x and y of a colour.
-std::array<float, 2> chromaticity(const RgbColorSpace& space, const Rgb& rgb) {
-  const Xyz xyz = space.to_xyz(rgb);
-  const float sum = xyz.x + xyz.y + xyz.z;
-  return {xyz.x / sum, xyz.y / sum};
-}
-
-/// Red, green, blue and white, as EXR's attribute wants them.
-std::array<float, 8> chromaticities(const RgbColorSpace& space) {
-  std::array<float, 8> result{};
-  const Rgb colors[4] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
-  for (size_t i = 0; i < 4; ++i) {
-    const auto xy = chromaticity(space, colors[i]);
-    result[2 * i] = xy[0];
-    result[2 * i + 1] = xy[1];
-  }
-  return result;
-}
 
 /// The space whose chromaticities a file has; null if it has none, or those of another.
 const RgbColorSpace* color_space_of(const OIIO::ImageSpec& spec) {
@@ -42,33 +25,7 @@ const RgbColorSpace* color_space_of(const OIIO::ImageSpec& spec) {
   if (found == nullptr || found->type().basetype != OIIO::TypeDesc::FLOAT ||
       found->type().basevalues() * static_cast<size_t>(found->nvalues()) != 8)
     return nullptr;
-  const std::span values(static_cast<const float*>(found->data()), 8);
-  for (const char* name : {"srgb", "dci-p3", "rec2020", "aces2065-1"}) {
-    const RgbColorSpace* space = RgbColorSpace::find(name);
-    const std::array<float, 8> wanted = chromaticities(*space);
-    if (std::equal(values.begin(), values.end(), wanted.begin(),
-                   [](float a, float b) { return std::abs(a - b) < 1e-3f; }))
-      return space;
-  }
-  return nullptr;
-}
-
-OIIO::ImageSpec exr_spec(const Picture& picture) {
-  OIIO::ImageSpec spec(picture.width(), picture.height(), static_cast<int>(picture.channels.size()),
-                       OIIO::TypeDesc::FLOAT);
-  spec.x = picture.window.x0;
-  spec.y = picture.window.y0;
-  spec.full_width = picture.full_width;
-  spec.full_height = picture.full_height;
-  spec.channelnames = picture.channels;
-  spec.attribute("compression", "zip");
-  const RgbColorSpace* space = picture.color_space;
-  if (space != nullptr && space->name() != "srgb") {
-    const auto values = chromaticities(*space);
-    spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), values.data());
-  }
-  for (const auto& [key, value] : picture.metadata) spec.attribute(key, value);
-  return spec;
+  return color_space_with(std::span(static_cast<const float*>(found->data()), 8));
 }
 
 /// What the plugin for `format` makes of a picture; `path` is its name in messages.
@@ -99,12 +56,6 @@ OIIO::ImageSpec png_spec(int width, int height) {
 int Picture::find_channel(const std::string& name) const {
   const auto found = std::find(channels.begin(), channels.end(), name);
   return found == channels.end() ? -1 : static_cast<int>(found - channels.begin());
-}
-
-void write_exr(const std::string& path, const Picture& picture) {
-  const std::vector<unsigned char> bytes =
-      encoded(path, "exr", exr_spec(picture), OIIO::TypeDesc::FLOAT, picture.pixels.data());
-  write_file_atomically(path, std::as_bytes(std::span(bytes)));
 }
 
 void write_png(const std::string& path, int width, int height, const std::vector<uint8_t>& rgb) {
@@ -149,6 +100,8 @@ uint8_t encode_srgb8(float linear) {
 }
 
 void limit_image_threads(int threads) {
+  Imf::setGlobalThreadCount(threads > 0 ? threads
+                                        : static_cast<int>(std::thread::hardware_concurrency()));
   OIIO::attribute("threads", threads);
   OIIO::attribute("exr_threads", threads);
 }

@@ -1,5 +1,5 @@
-// Pictures as files: EXR with any channels, window and metadata; 8-bit PNG; reading any format
-// back. This and its .cpp are where the layer meets OpenImageIO. Who calls it: film_output.h and
+// Pictures as files: 8-bit PNG, and reading any format back; exr_file.h writes EXR. Its .cpp is
+// where the layer meets OpenImageIO. Who calls it: film_output.h and
 // the session. It must not know films, routes or scenes.
 #pragma once
 
@@ -33,11 +33,8 @@ struct Picture {
   int find_channel(const std::string& name) const;
 };
 
-/// Writes a float EXR with display window and data window. Throws IoError; see atomic_file.h for
-/// what then remains.
-void write_exr(const std::string& path, const Picture& picture);
-
-/// Writes interleaved 8-bit sRGB, three bytes a pixel. Throws IoError as write_exr does.
+/// Writes interleaved 8-bit sRGB, three bytes a pixel. Throws IoError; see atomic_file.h for what
+/// then remains.
 void write_png(const std::string& path, int width, int height, const std::vector<uint8_t>& rgb);
 
 /// The bytes of such a PNG file. Throws IoError.

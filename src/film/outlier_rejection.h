@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "core/color.h"
@@ -52,6 +53,12 @@ class OutlierRejection {
   /// Estimates that are held, of all groups and pixels.
   uint64_t held_estimates() const;
 
+  /// What it keeps, as words, most_words() at most, and back. load() throws IoError if they make no
+  /// sense.
+  std::vector<uint32_t> save() const;
+  void load(std::span<const uint32_t> words);
+  size_t most_words() const;
+
   /// Brightness of a colour as the density sees it: its largest component in magnitude.
   static float brightness(const Rgb& color);
   int neighbours() const { return settings_.neighbours; }
@@ -63,13 +70,17 @@ class OutlierRejection {
   /// Octaves of brightness, 2^-32 to 2^31; what lies outside is at the ends.
   static constexpr int kLevels = 64;
 
-  /// One pixel of one group. Held sums are in the order of `levels`, all parts of one together.
-  struct Pixel {
+  /// One pixel of one group, but for what is held.
+  struct PixelHead {
     std::array<uint8_t, kLevels> counts{};  ///< estimates of an octave, saturating
     uint64_t confirmed = 0;                 ///< octaves that need not wait any more, as bits
     std::array<uint8_t, kMostHeld> levels{};
     std::array<uint32_t, kMostHeld> estimates{};
-    uint8_t size = 0;
+    uint32_t size = 0;
+  };
+  static_assert(std::has_unique_object_representations_v<PixelHead>);
+  /// Held sums are in the order of `levels`, all parts of one together.
+  struct Pixel : PixelHead {
     std::vector<RgbSum> sums;
 
     std::span<RgbSum> parts_of(size_t slot, size_t parts) {

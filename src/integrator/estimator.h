@@ -66,6 +66,9 @@ class Estimator {
   /// Adds pass `key.pass` to the film. The film's estimate counts are updated by the estimator.
   virtual void render_pass(const PassKey& key, const Scene& scene, Film& film) = 0;
   virtual EstimatorStatistics statistics() const = 0;
+  /// Adds what it keeps from pass to pass beside the film, so that it can go on from there; nothing
+  /// where passes are independent. What was learned is no state: it is learned again.
+  virtual void add_state(const Scene&, const Film&, RenderState&) {}
 };
 
 /// Which techniques of a bidirectional estimator are made: all, or one alone.

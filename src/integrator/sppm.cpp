@@ -68,7 +68,7 @@ void Sppm::render_pass(const PassKey& key, const Scene& scene, Film& film) {
         });
   }
   statistics_.rays += gathered.rays;
-  found_ += gathered.found;
+  totals_.found += gathered.found;
   statistics_.camera_paths += regions_.size();
   update(gathered, counts, film, static_cast<double>(photons));
 }
@@ -79,7 +79,7 @@ void Sppm::update(Gathered& gathered, std::span<const uint64_t> counts, Film& fi
   const PixelBounds& b = film.bounds();
   const size_t parts = film.parts_of(group).size();
   film.set_estimates(group, 1);
-  emitted_ += photons;
+  totals_.emitted += photons;
   std::vector<std::array<double, 3>> sums(parts);
   std::vector<Rgb> values(parts);
   float smallest = kInfinity, largest = 0;
@@ -95,8 +95,8 @@ void Sppm::update(Gathered& gathered, std::span<const uint64_t> counts, Film& fi
       PartSums::clamp_total(estimate,
                             film.settings().max_component * static_cast<float>(area_of_pass));
       const double kept = region.update(static_cast<double>(counts[i]), options_.alpha);
-      const double scale = 1.0 / (emitted_ * static_cast<double>(kPi) * region.radius_squared *
-                                  static_cast<double>(regions_in_pixel_));
+      const double scale = 1.0 / (totals_.emitted * static_cast<double>(kPi) *
+                                  region.radius_squared * static_cast<double>(regions_in_pixel_));
       for (size_t k = 0; k < parts; ++k) {
         std::array<double, 3>& tau = flux_[i * parts + k];
         const Rgb add = estimate[k] * gathered.filter_weights[i];
@@ -120,9 +120,19 @@ void Sppm::update(Gathered& gathered, std::span<const uint64_t> counts, Film& fi
   statistics_.radius_max_pixels = largest;
 }
 
+void Sppm::add_state(const Scene& scene, const Film& film, RenderState& state) {
+  const size_t parts = film.parts_of(static_cast<int>(owned_.group)).size();
+  start_regions(scene, static_cast<size_t>(film.bounds().area()), parts);
+  const std::string name = "group." + std::to_string(owned_.group);
+  state.add(name + ".regions", std::span(regions_), regions_in_pixel_);
+  state.add(name + ".flux", std::span(flux_), regions_in_pixel_ * parts);
+  state.add(name + ".footprint", std::span(footprint_), regions_in_pixel_);
+  state.add(name + ".totals", std::span(&totals_, 1));
+}
+
 EstimatorStatistics Sppm::statistics() const {
   EstimatorStatistics s = statistics_;
-  explain_darkness(owned_, found_, s);
+  explain_darkness(owned_, totals_.found, s);
   return s;
 }
 

@@ -24,6 +24,7 @@ class Sppm : public Estimator {
   }
   void render_pass(const PassKey& key, const Scene& scene, Film& film) override;
   EstimatorStatistics statistics() const override;
+  void add_state(const Scene& scene, const Film& film, RenderState& state) override;
 
   /// Of all regions, in footprints: the user's, or the default.
   static float first_radius(const IntegratorOptions& options);
@@ -53,8 +54,11 @@ class Sppm : public Estimator {
   std::vector<SharedStatistics> regions_;    ///< [pixel * regions of a pixel + k]
   std::vector<std::array<double, 3>> flux_;  ///< tau, [region * parts + part], as rgb
   std::vector<float> footprint_;  ///< of the first visible point, world units, for the report
-  double emitted_ = 0;            ///< sum of N_i
-  uint64_t found_ = 0;            ///< photons merged
+  struct Totals {
+    double emitted = 0;  ///< sum of N_i
+    uint64_t found = 0;  ///< photons merged
+  };
+  Totals totals_;
   EstimatorStatistics statistics_;
 };
 

@@ -28,13 +28,14 @@ void add_option(CLI::App& command, const OptionDescription& row, CommandLine& li
   CLI::Option* option =
       command.add_option_function<std::vector<std::string>>(names, apply_all, row.help);
   // One value per use: without this a list would swallow the scene's name.
-  option->type_size(1)->allow_extra_args(false);
+  option->type_size(1)->allow_extra_args(row.is_positional() && row.repeatable);
   option->expected(1, row.repeatable ? CLI::detail::expected_max_vector_size : 1);
   if (row.is_required()) option->required();
 }
 
 void set_action(const std::string& command, CommandLine& line) {
   if (command == "render") line.action = Action::kRender;
+  if (command == "merge") line.action = Action::kMerge;
   if (command == "info") line.action = Action::kInfo;
   if (command == "compare") line.action = Action::kCompare;
   if (command == "routes") line.action = Action::kRoutes;

@@ -17,13 +17,14 @@ constexpr int kMostPilotPasses = 100000;
 constexpr int64_t kMostBenchRepeats = 1000;
 constexpr int64_t kMostBenchPasses = std::numeric_limits<uint32_t>::max() - 1;
 
+template <auto Command>
 void set_output(CommandLine& line, const std::string& text) {
   const bool is_exr = text.size() > 4 && text.compare(text.size() - 4, 4, ".exr") == 0;
   if (!is_exr)
     throw UsageError("--output: '" + text +
                      "' is not valid, expected a name that ends in .exr (a .png is written beside "
                      "it)");
-  line.render.output = text;
+  (line.*Command).output = text;
 }
 
 template <auto Command>
@@ -121,6 +122,7 @@ void add_only(CommandLine& line, const std::string& text) {
 
 constexpr CommandDescription kCommands[] = {
     {"render", "Render a scene to an EXR and a PNG."},
+    {"merge", "Add up pictures of different passes of one render."},
     {"info", "Say what is in a scene without rendering it."},
     {"routes", "Say who renders which light, prove it, and measure it in a scene."},
     {"compare", "Measure how far a picture is from a reference."},
@@ -132,9 +134,24 @@ constexpr OptionDescription kOptions[] = {
      [](CommandLine& l, const std::string& t) { l.render.scene = t; }},
     {"render", "--output", "-o", "OUT.exr", "",
      "named after the scene's film, in the current directory", "Output",
-     "The picture with all its layers; a PNG is written beside it.", false, set_output},
+     "The picture with all its layers; a PNG is written beside it.", false,
+     set_output<&CommandLine::render>},
     {"render", "--aov", "", "NAME=EXPR", "", "", "Output", kAovHelp, true,
      add_aov<&CommandLine::render>},
+    {"render", "--resume", "", "", "", "", "Output",
+     "Go on from the picture that is there, by all runs together as one run would have rendered "
+     "it; start if none is there.",
+     false, [](CommandLine& l, const std::string&) { l.render.resume = true; }},
+    {"render", "--checkpoint", "", "TIME", "s, m or h", "60s", "Output",
+     "How often the picture is written while it is made, with all that is needed to go on from "
+     "it; less often where that would take more than 2 % of the time.",
+     false,
+     [](CommandLine& l, const std::string& t) {
+       l.render.checkpoint_interval = parse_duration("--checkpoint", t);
+     }},
+    {"render", "--no-state", "", "", "", "", "Output",
+     "Write the picture alone: a smaller file, from which no render can go on.", false,
+     [](CommandLine& l, const std::string&) { l.render.keeps_state = false; }},
     {"render", "--quiet", "", "", "", "", "Output", "Print nothing but errors.", false,
      [](CommandLine& l, const std::string&) { l.render.quiet = true; }},
     {"render", "--integrator", "", "NAME", "", "mixed", "Algorithm", kIntegratorHelp, false,
@@ -180,6 +197,12 @@ constexpr OptionDescription kOptions[] = {
      [](CommandLine& l, const std::string& t) {
        l.render.threads = static_cast<int>(parse_integer("--threads", t, 1, kMostThreads));
      }},
+    {"merge", "PICTURE", "", "", "", "", "",
+     "Pictures of one render, of disjoint passes (render --passes A..B), with their state.", true,
+     [](CommandLine& l, const std::string& t) { l.merge.inputs.push_back(t); }},
+    {"merge", "--output", "-o", "OUT.exr", "", "", "",
+     "Their sum, from which a render can go on; a PNG is written beside it.", false,
+     set_output<&CommandLine::merge>},
     {"routes", "SCENE", "", "", "", "none", "",
      "A scene: what of the routes can occur in it, and how its light divides among them.", false,
      [](CommandLine& l, const std::string& t) { l.routes.scene = t; }},

@@ -31,6 +31,9 @@ struct RenderCommand {
   std::optional<uint64_t> seed;
   SettingList settings;
   bool reject_outliers = false;
+  bool resume = false;
+  double checkpoint_interval = 60;  ///< s
+  bool keeps_state = true;
   bool quiet = false;
 };
 
@@ -45,6 +48,12 @@ struct RoutesCommand {
   SceneOverrides overrides;
   SettingList settings;
   uint32_t passes = 8;  ///< of the pilot
+};
+
+/// What `nephroid merge` was asked for.
+struct MergeCommand {
+  std::vector<std::string> inputs;
+  std::string output;
 };
 
 struct CompareCommand {
@@ -67,7 +76,7 @@ struct BenchCommand {
   bool quiet = false;
 };
 
-enum class Action { kRender, kInfo, kCompare, kRoutes, kBench, kPrint };
+enum class Action { kRender, kMerge, kInfo, kCompare, kRoutes, kBench, kPrint };
 
 /// A command line that has been understood.
 struct CommandLine {
@@ -75,6 +84,7 @@ struct CommandLine {
   RenderCommand render;
   InfoCommand info;
   CompareCommand compare;
+  MergeCommand merge;
   RoutesCommand routes;
   BenchCommand bench;
   std::string text;  ///< what to print, for help, version and the like

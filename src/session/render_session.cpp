@@ -40,8 +40,15 @@ void check_fits(const Preset& preset, const Film& film, const RenderOptions& opt
         fmt::format("--passes {}..: with --outliers reject what a pass shows depends on the passes "
                     "before it, expected a range from 0",
                     options.first_pass));
+  const std::vector<PassRange>& before = options.begin_with.passes.ranges();
+  const bool from_zero = before.empty() || (before.size() == 1 && before[0].first == 0);
   for (const auto& estimator : preset.estimators) {
     const Capabilities capabilities = estimator->capabilities();
+    if (!from_zero && !capabilities.independent_passes)
+      throw UsageError(
+          fmt::format("--resume: the passes of this integrator depend on each other, and the "
+                      "picture has {}, expected a range from 0",
+                      options.begin_with.passes.text()));
     if (options.first_pass > 0 && !capabilities.independent_passes)
       throw UsageError(
           fmt::format("--passes {}..: the passes of this integrator depend on each "
@@ -63,6 +70,8 @@ RenderSession::RenderSession(const Scene& scene, Preset& preset, Film& film, Ren
       options_(std::move(options)),
       clock_(steady_seconds) {
   check_fits(preset_, film_, options_);
+  done_ = options_.begin_with.passes;
+  passes_before_ = passes_done_ = static_cast<uint32_t>(done_.count());
   if (options_.last_pass)
     passes_wanted_ = *options_.last_pass - options_.first_pass + 1;
   else if (!(options_.time_limit > 0) && !(options_.noise_target > 0))
@@ -85,15 +94,17 @@ void RenderSession::use_clock(std::function<double()> seconds) {
 
 RenderResult RenderSession::run(SignalFlags& signals) {
   start_ = clock_();
-  passes_done_ = error_text_pass_ = error_pass_ = 0;
+  error_text_pass_ = error_pass_ = 0;
   error_.reset();
   next_error_seconds_ = 0;
-  next_write_seconds_ = options_.write_interval;
+  next_preview_seconds_ = options_.preview_interval;
+  next_checkpoint_seconds_ = options_.checkpoint_interval;
   RenderResult result;
   std::optional<StopReason> reason;
+  if (!next_pass()) reason = StopReason::kPasses;
   while (!reason) {
     render_one_pass();
-    if (passes_done_ == 1) first_pass_statistics_ = statistics();
+    if (passes_of_run() == 1) first_pass_statistics_ = statistics();
     if (error_check_is_due()) renew_error();
     reason = reason_to_stop(signals);
     report_progress();
@@ -103,6 +114,7 @@ RenderResult RenderSession::run(SignalFlags& signals) {
   result.reason = *reason;
   result.signal = *reason == StopReason::kSignal ? signals.stop.load() : 0;
   result.passes_done = passes_done_;
+  result.passes_of_run = passes_of_run();
   result.seconds = elapsed();
   // What the clock let stand is of an earlier picture.
   if ((options_.noise_target > 0 || shows_error()) && error_pass_ != passes_done_) renew_error();
@@ -115,11 +127,21 @@ RenderResult RenderSession::run(SignalFlags& signals) {
   return result;
 }
 
+std::optional<uint32_t> RenderSession::next_pass() const {
+  const std::optional<uint32_t> pass = done_.first_missing(options_.first_pass);
+  constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();  // --passes cannot name it
+  if (!pass || *pass == kNone || (options_.last_pass && *pass > *options_.last_pass) ||
+      (passes_wanted_ && *pass - options_.first_pass >= *passes_wanted_))
+    return std::nullopt;
+  return pass;
+}
+
 void RenderSession::render_one_pass() {
   const double begin = clock_();
-  const PassKey key{options_.seed, options_.first_pass + passes_done_};
+  const PassKey key{options_.seed, *next_pass()};
   for (const auto& estimator : preset_.estimators) estimator->render_pass(key, scene_, film_);
   film_.finish_pass();
+  done_.add(key.pass);
   ++passes_done_;
   last_pass_seconds_ = clock_() - begin;
 }
@@ -132,13 +154,12 @@ std::vector<EstimatorStatistics> RenderSession::statistics() const {
 
 /// A pass that would end further behind the time limit than this one ends before it is not begun.
 std::optional<StopReason> RenderSession::reason_to_stop(const SignalFlags& signals) const {
-  if (passes_wanted_ && passes_done_ >= *passes_wanted_) return StopReason::kPasses;
-  if (options_.first_pass + passes_done_ == std::numeric_limits<uint32_t>::max())
-    return StopReason::kPasses;
+  if (!next_pass()) return StopReason::kPasses;
   if (options_.noise_target > 0 && error_pass_ == passes_done_ &&
       passes_done_ >= kFewestPassesForNoise && error_ && error_->total() <= options_.noise_target)
     return StopReason::kNoise;
-  if (options_.time_limit > 0 && elapsed() + last_pass_seconds_ / 2 >= options_.time_limit)
+  if (options_.time_limit > 0 &&
+      seconds_of_all_runs() + last_pass_seconds_ / 2 >= options_.time_limit)
     return StopReason::kTime;
   if (signals.stop.load() != 0) return StopReason::kSignal;
   return std::nullopt;
@@ -175,9 +196,9 @@ std::optional<double> RenderSession::seconds_left(double seconds) const {
   const auto at_most = [&](double candidate) {
     left = std::max(0.0, left ? std::min(*left, candidate) : candidate);
   };
-  const double per_pass = seconds / passes_done_;
-  if (passes_wanted_) at_most(per_pass * (*passes_wanted_ - passes_done_));
-  if (options_.time_limit > 0) at_most(options_.time_limit - seconds);
+  const double per_pass = seconds / passes_of_run();
+  if (passes_wanted_) at_most(per_pass * (static_cast<double>(*passes_wanted_) - passes_done_));
+  if (options_.time_limit > 0) at_most(options_.time_limit - options_.begin_with.seconds - seconds);
   if (options_.noise_target > 0 && error_ && error_->total() > 0)
     at_most(per_pass * (error_pass_ * passes_to(*error_, options_.noise_target) - passes_done_));
   return left;
@@ -204,35 +225,50 @@ void RenderSession::report_progress() {
 
 void RenderSession::write_if_due(SignalFlags& signals) {
   const bool asked = signals.write.exchange(false);
-  if (options_.output.empty() || (!asked && elapsed() < next_write_seconds_)) return;
+  if (options_.output.empty()) return;
+  if (asked || elapsed() >= next_checkpoint_seconds_) {
+    next_checkpoint_seconds_ = write_now(options_.checkpoint_interval, [this] { write_picture(); });
+    next_preview_seconds_ = elapsed() + options_.preview_interval;
+  } else if (elapsed() >= next_preview_seconds_) {
+    next_preview_seconds_ = write_now(options_.preview_interval, [this] {
+      write_preview(options_.output, film_, options_.png_exposure);
+    });
+  }
+}
+
+double RenderSession::write_now(double interval, const std::function<void()>& write) {
   const double begin = clock_();
   try {
-    write_picture();
+    write();
   } catch (const IoError& error) {
     if (warning_) warning_(std::string(error.what()) + " (rendering goes on)");
   }
   const double cost = clock_() - begin;
-  next_write_seconds_ = elapsed() + std::max(options_.write_interval, kIdlePerWork * cost);
+  return elapsed() + std::max(interval, kIdlePerWork * cost);
 }
 
 void RenderSession::write_picture() {
   renew_error_text();
-  write_film(options_.output, film_, picture_metadata(), options_.png_exposure);
+  std::optional<RenderState> state;
+  if (options_.keeps_state) state = state_of(scene_, preset_, film_);
+  write_film(options_.output, film_, picture_metadata(), options_.png_exposure,
+             state ? &*state : nullptr);
 }
 
 Metadata RenderSession::picture_metadata() const {
   Metadata metadata = options_.metadata;
-  metadata.emplace_back("nephroid:seed", fmt::format("{}", options_.seed));
-  metadata.emplace_back("nephroid:passes", fmt::format("{}..{}", options_.first_pass,
-                                                       options_.first_pass + passes_done_ - 1));
-  metadata.emplace_back("nephroid:seconds", fmt::format("{:.3f}", elapsed()));
+  metadata.emplace_back("nephroid:passes", done_.text());
+  metadata.emplace_back("nephroid:seconds", fmt::format("{:.3f}", seconds_of_all_runs()));
+  metadata.emplace_back("nephroid:history",
+                        options_.begin_with.history +
+                            fmt::format("{} passes in {:.3f} s\n", passes_of_run(), elapsed()));
   if (const OutlierRejection* rejection = film_.rejection()) {
-    metadata.emplace_back("nephroid:outliers", "reject");
     metadata.emplace_back("nephroid:outlier_estimates",
                           fmt::format("{}", rejection->held_estimates()));
   }
   std::string choices;
-  for (const std::string& line : choices_report(first_pass_statistics_, statistics(), passes_done_))
+  for (const std::string& line :
+       choices_report(first_pass_statistics_, statistics(), passes_of_run()))
     choices += line + "\n";
   if (error_text_) choices += *error_text_ + "\n";
   metadata.emplace_back("nephroid:choices", choices);

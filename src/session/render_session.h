@@ -12,6 +12,7 @@
 #include "film/film.h"
 #include "film/image_io.h"
 #include "integrator/estimator.h"
+#include "session/checkpoint.h"
 #include "session/noise.h"
 #include "session/signals.h"
 
@@ -26,8 +27,11 @@ struct RenderOptions {
   double noise_target = 0;            ///< as estimated_error().total(), 0: none
   bool show_error = true;             ///< progress has the error, which takes a little time
   uint64_t seed = 0;
-  std::string output;         ///< EXR, a PNG is written beside it; empty: nothing is written
-  double write_interval = 5;  ///< s between intermediate pictures, at least
+  std::string output;               ///< EXR, a PNG is written beside it; empty: nothing is written
+  double preview_interval = 5;      ///< s between intermediate PNGs, at least
+  double checkpoint_interval = 60;  ///< s between intermediate EXRs, at least
+  bool keeps_state = true;          ///< EXRs hold what is needed to go on
+  Checkpoint begin_with;            ///< what film and estimators hold already
   float png_exposure = 1;
   Metadata metadata;  ///< written first; the session adds passes, time, choices and estimates
 };
@@ -48,10 +52,11 @@ struct RenderProgress {
 
 struct RenderResult {
   StopReason reason = StopReason::kPasses;
-  int signal = 0;  ///< that stopped it, if one did
-  uint32_t passes_done = 0;
-  double seconds = 0;           ///< rendering, with intermediate pictures, without the last
-  std::optional<double> error;  ///< as estimated_error().total()
+  int signal = 0;              ///< that stopped it, if one did
+  uint32_t passes_done = 0;    ///< in all runs
+  uint32_t passes_of_run = 0;  ///< in this one
+  double seconds = 0;  ///< rendering, with intermediate pictures, without the last; of this run
+  std::optional<double> error;            ///< as estimated_error().total()
   std::optional<std::string> error_text;  ///< as error_report(); of consistent estimators alone
   /// As the preset's estimators: after the first pass (for where radii began) and after the last.
   std::vector<EstimatorStatistics> first_pass_statistics, statistics;
@@ -77,6 +82,9 @@ class RenderSession {
  private:
   std::optional<StopReason> reason_to_stop(const SignalFlags& signals) const;
   double elapsed() const { return clock_() - start_; }
+  double seconds_of_all_runs() const { return options_.begin_with.seconds + elapsed(); }
+  std::optional<uint32_t> next_pass() const;
+  uint32_t passes_of_run() const { return passes_done_ - passes_before_; }
   bool shows_error() const { return progress_ && options_.show_error; }
   bool error_check_is_due() const;
   void render_one_pass();
@@ -87,6 +95,8 @@ class RenderSession {
   void report_progress();
   void write_if_due(SignalFlags& signals);
   void write_picture();
+  /// Writes, says what went wrong, and returns when to do it again.
+  double write_now(double interval, const std::function<void()>& write);
   std::optional<double> seconds_left(double seconds) const;
   Metadata picture_metadata() const;
 
@@ -101,7 +111,8 @@ class RenderSession {
 
   double start_ = 0;
   std::vector<EstimatorStatistics> first_pass_statistics_;
-  uint32_t passes_done_ = 0;
+  PassRanges done_;
+  uint32_t passes_before_ = 0, passes_done_ = 0;  ///< before this run, and by now
   double last_pass_seconds_ = 0;
   std::optional<EstimatedError> error_;
   uint32_t error_pass_ = 0;  ///< passes done when error_ was estimated
@@ -109,7 +120,7 @@ class RenderSession {
   std::optional<std::string> error_text_;
   uint32_t error_text_pass_ = 0;   ///< passes done when it was made
   double next_error_seconds_ = 0;  ///< of the estimates for progress alone
-  double next_write_seconds_ = 0;
+  double next_preview_seconds_ = 0, next_checkpoint_seconds_ = 0;
 };
 
 }  // namespace nephroid

@@ -14,6 +14,7 @@
 
 #include "bench/kept.h"
 #include "core/errors.h"
+#include "film/exr_file.h"
 #include "film/image_io.h"
 #include "source_directory.h"
 #include "unit/bench/bench_runs.h"

@@ -116,13 +116,22 @@ TEST(CommandLine, InfoAndCompare) {
   EXPECT_TRUE(compare.compare.subtract_reference_error);
 }
 
+TEST(CommandLine, MergeTakesAnyNumberOfPictures) {
+  const CommandLine line = parse("merge b.exr a.exr c.exr -o all.exr");
+  EXPECT_EQ(line.action, Action::kMerge);
+  EXPECT_EQ(line.merge.inputs, (std::vector<std::string>{"b.exr", "a.exr", "c.exr"}));
+  EXPECT_EQ(line.merge.output, "all.exr");
+}
+
 TEST(CommandLine, Errors) {
   EXPECT_NE(usage_error("").find("no command"), std::string::npos);
-  EXPECT_EQ(usage_error("paint s.pbrt"),
-            "unknown command 'paint', expected one of: render, info, routes, compare, bench");
+  EXPECT_EQ(
+      usage_error("paint s.pbrt"),
+      "unknown command 'paint', expected one of: render, merge, info, routes, compare, bench");
   EXPECT_NE(usage_error("render").find("SCENE"), std::string::npos);
   EXPECT_NE(usage_error("render a.pbrt b.pbrt").find("b.pbrt"), std::string::npos);
-  EXPECT_NE(usage_error("render s.pbrt --resume").find("--resume"), std::string::npos);
+  EXPECT_NE(usage_error("render s.pbrt --resumes").find("--resumes"), std::string::npos);
+  EXPECT_NE(usage_error("merge -o c.exr").find("PICTURE"), std::string::npos);
   EXPECT_NE(usage_error("render s.pbrt --passes").find("--passes"), std::string::npos);
   EXPECT_NE(usage_error("render s.pbrt --passes 0").find("--passes: '0'"), std::string::npos);
   EXPECT_NE(usage_error("render s.pbrt --noise 0").find("--noise: '0'"), std::string::npos);

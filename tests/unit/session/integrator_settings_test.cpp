@@ -31,18 +31,27 @@ bool has_note(const IntegratorChoice& choice, const std::string& part) {
 
 TEST(IntegratorSettings, EveryKeyIsStoredWhereItBelongs) {
   IntegratorOptions o;
-  apply_settings(
-      {parse_setting("max-depth=7"), parse_setting("radius=1.5"), parse_setting("photons=1000"),
-       parse_setting("alpha=0.75"), parse_setting("specular-alpha=0.2"),
-       parse_setting("camera-samples=3"), parse_setting("point-lights=5"),
-       parse_setting("hit-points=6"), parse_setting("map-photons=5000"),
-       parse_setting("nearest=40"), parse_setting("technique=2,3,raw"),
-       parse_setting("memory-photons=99"), parse_setting("outlier-neighbours=5"),
-       parse_setting("mutations=2.5"), parse_setting("chain-length=77"),
-       parse_setting("large-step=0.25"), parse_setting("guide=no"),
-       parse_setting("guide-walks=no"),
-       parse_setting("specular-trees=yes"), parse_setting("texture-cache=1.5M")},
-      &o);
+  apply_settings({parse_setting("max-depth=7"),
+                  parse_setting("radius=1.5"),
+                  parse_setting("photons=1000"),
+                  parse_setting("alpha=0.75"),
+                  parse_setting("specular-alpha=0.2"),
+                  parse_setting("camera-samples=3"),
+                  parse_setting("point-lights=5"),
+                  parse_setting("hit-points=6"),
+                  parse_setting("map-photons=5000"),
+                  parse_setting("nearest=40"),
+                  parse_setting("technique=2,3,raw"),
+                  parse_setting("memory-photons=99"),
+                  parse_setting("outlier-neighbours=5"),
+                  parse_setting("mutations=2.5"),
+                  parse_setting("chain-length=77"),
+                  parse_setting("large-step=0.25"),
+                  parse_setting("guide=no"),
+                  parse_setting("guide-walks=no"),
+                  parse_setting("specular-trees=yes"),
+                  parse_setting("texture-cache=1.5M")},
+                 &o);
   EXPECT_EQ(o.max_depth, 7);
   EXPECT_EQ(o.radius, 1.5f);
   EXPECT_EQ(o.photons_per_pass, 1000);

@@ -25,7 +25,7 @@ TEST_F(SessionPictures, IntermediatePicturesAreWrittenNowAndThen) {
   const ScratchDirectory directory;
   RenderOptions options;
   options.output = directory.file("out.exr");
-  options.write_interval = 3;
+  options.checkpoint_interval = 3;
   options.last_pass = 7;
   std::vector<std::string> seen;
   script_.during_pass = [&](const PassKey&) { seen.push_back(passes_in(options.output)); };
@@ -35,11 +35,66 @@ TEST_F(SessionPictures, IntermediatePicturesAreWrittenNowAndThen) {
   EXPECT_EQ(passes_in(options.output), "0..7");
 }
 
+// Between checkpoints the PNG shows how far it is.
+TEST_F(SessionPictures, PreviewsAreMoreFrequent) {
+  const ScratchDirectory directory;
+  RenderOptions options;
+  options.output = directory.file("out.exr");
+  options.preview_interval = 2;
+  options.checkpoint_interval = 5;
+  options.last_pass = 7;
+  std::vector<std::pair<bool, bool>> seen;
+  script_.during_pass = [&](const PassKey&) {
+    const std::string png = directory.file("out.png");
+    seen.emplace_back(std::filesystem::exists(options.output), std::filesystem::exists(png));
+    std::filesystem::remove(png);
+  };
+  run(options);
+  // Pass i ends at i + 1 seconds: previews at 2 and 4, a checkpoint with its own at 5, a preview at
+  // 7.
+  const std::vector<std::pair<bool, bool>> wanted = {{false, false}, {false, false}, {false, true},
+                                                     {false, false}, {false, true},  {true, true},
+                                                     {true, false},  {true, true}};
+  EXPECT_EQ(seen, wanted);
+}
+
+// The passes of earlier runs are not rendered again, wherever they lie, and their time counts.
+TEST_F(SessionPictures, GoesOnWhereEarlierRunsWere) {
+  const ScratchDirectory directory;
+  RenderOptions options;
+  options.output = directory.file("out.exr");
+  options.last_pass = 9;
+  options.begin_with = {*PassRanges::parse("0..2,5..6"), 100, "5 passes in 100.000 s\n"};
+  RenderResult result = run(options);
+  std::vector<uint32_t> rendered;
+  for (const PassKey& key : script_.passes) rendered.push_back(key.pass);
+  EXPECT_EQ(rendered, (std::vector<uint32_t>{3, 4, 7, 8, 9}));
+  EXPECT_EQ(result.passes_of_run, 5u);
+  EXPECT_EQ(result.passes_done, 10u);
+  EXPECT_EQ(passes_in(options.output), "0..9");
+  // All are there: nothing is left to do, and the picture is written all the same.
+  script_.passes.clear();
+  std::filesystem::remove(options.output);
+  options.begin_with.passes = *PassRanges::parse("0..9");
+  result = run(options);
+  EXPECT_EQ(result.passes_of_run, 0u);
+  EXPECT_TRUE(script_.passes.empty());
+  EXPECT_EQ(passes_in(options.output), "0..9");
+  // Three more seconds are three more passes.
+  options.last_pass.reset();
+  options.time_limit = 103;
+  EXPECT_EQ(run(options).passes_of_run, 3u);
+  // Passes that depend on each other cannot fill a gap.
+  script_.capabilities.independent_passes = false;
+  options.begin_with.passes = *PassRanges::parse("0..2,5..6");
+  EXPECT_THROW(run(options), UsageError);
+}
+
 TEST_F(SessionPictures, PictureOnDemand) {
   const ScratchDirectory directory;
   RenderOptions options;
   options.output = directory.file("out.exr");
-  options.write_interval = 1e9;
+  options.checkpoint_interval = 1e9;
   std::vector<std::string> seen;
   script_.during_pass = [&](const PassKey& key) {
     seen.push_back(passes_in(options.output));
@@ -55,7 +110,7 @@ TEST_F(SessionPictures, WritingStretchesItsIntervalToItsCost) {
   const ScratchDirectory directory;
   RenderOptions options;
   options.output = directory.file("out.exr");
-  options.write_interval = 1;
+  options.checkpoint_interval = 1;
   options.last_pass = 999;
   // The clock moves by a millisecond at each look: a write costs at least that, so that writes are
   // at least 50 of them apart although the interval has passed long ago.
@@ -84,7 +139,7 @@ TEST_F(SessionPictures, FailedIntermediatePictureIsAWarning) {
   const ScratchDirectory directory;
   RenderOptions options;
   options.output = directory.file("out.exr");
-  options.write_interval = 1e9;
+  options.checkpoint_interval = 1e9;
   script_.during_pass = [&](const PassKey& key) {
     // Somebody puts a directory in the picture's place for the time of one pass.
     if (key.pass == 1) {
@@ -104,7 +159,7 @@ TEST_F(SessionPictures, FailedLastPictureIsAnError) {
   const ScratchDirectory directory;
   RenderOptions options;
   options.output = directory.file("out.exr");
-  options.write_interval = 1e9;
+  options.checkpoint_interval = 1e9;
   script_.during_pass = [&](const PassKey& key) {
     if (key.pass == 5) std::filesystem::create_directory(options.output);
   };
@@ -128,7 +183,6 @@ TEST_F(SessionPictures, MetadataOfTheCallerAndTheSession) {
   const ScratchDirectory directory;
   RenderOptions options;
   options.output = directory.file("out.exr");
-  options.seed = 77;
   options.metadata = {{"nephroid:scene_hash", "abc"}};
   run(options);
   const Metadata metadata = read_picture(options.output).metadata;
@@ -136,9 +190,9 @@ TEST_F(SessionPictures, MetadataOfTheCallerAndTheSession) {
     return std::find(metadata.begin(), metadata.end(), std::pair(key, value)) != metadata.end();
   };
   EXPECT_TRUE(has("nephroid:scene_hash", "abc"));
-  EXPECT_TRUE(has("nephroid:seed", "77"));
   EXPECT_TRUE(has("nephroid:passes", "0..5"));
   EXPECT_TRUE(has("nephroid:seconds", "6.000"));
+  EXPECT_TRUE(has("nephroid:history", "6 passes in 6.000 s\n"));
   EXPECT_TRUE(has("nephroid:estimates:diffuse", "6"));
   EXPECT_TRUE(has("nephroid:choices",
                   "photons: 50 paths per pass, 60 photons kept in all, 10 % of paths kept any\n"

@@ -1,0 +1,25 @@
+// `nephroid merge`: pictures of disjoint passes in, their sum out.
+#include <fmt/format.h>
+
+#include "apps/commands.h"
+#include "apps/messages.h"
+#include "core/errors.h"
+#include "film/atomic_file.h"
+#include "film/film_output.h"
+#include "session/merge.h"
+
+namespace nephroid {
+
+int run_merge(const MergeCommand& command) {
+  if (command.output.empty())
+    throw UsageError("merge: no --output given, expected a name that ends in .exr");
+  check_file_can_be_written(command.output);
+  check_file_can_be_written(png_path_beside(command.output));
+  const Merged merged = merge_pictures(command.inputs, command.output);
+  for (const std::string& warning : merged.warnings) print_warning(warning);
+  fmt::print("{} passes ({}), rendered in {:.1f} s; wrote {} and {}\n", merged.passes.count(),
+             merged.passes.text(), merged.seconds, command.output, png_path_beside(command.output));
+  return static_cast<int>(ExitStatus::kDone);
+}
+
+}  // namespace nephroid

@@ -1,0 +1,124 @@
+// What a film keeps, as a RenderState, and the sum of two films.
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+
+#include "core/errors.h"
+#include "core/parallel.h"
+#include "film/film.h"
+
+namespace nephroid {
+
+RenderState Film::state() {
+  RenderState state;
+  const auto numbered = [](const char* name, size_t i) { return name + std::to_string(i); };
+  for (size_t i = 0; i < sums_.size(); ++i)
+    state.add(numbered("film.sum.", i), std::span(sums_[i]));
+  for (size_t g = 0; g < squares_.size(); ++g)
+    state.add(numbered("film.square.", g), std::span(squares_[g]));
+  for (size_t g = 0; g < biases_.size(); ++g)
+    if (!biases_[g].empty()) state.add(numbered("film.bias.", g), std::span(biases_[g]));
+  state.add("film.features", std::span(features_));
+  state.add("film.depths", std::span(depths_));
+  if (!surfaces_.empty()) {
+    state.add("film.surfaces", std::span(surfaces_));
+    state.add("film.surface_samples", std::span(surface_samples_));
+  }
+  state.add("film.bad", std::span(bad_));
+  state.add("film.saturated", std::span(saturated_));
+  state.add("film.estimates", std::span(estimates_));
+  state.add("film.counts", std::span(&counts_, 1));
+  if (outliers_)
+    state.streams.push_back({"film.outliers", outliers_->most_words(),
+                             [this] { return outliers_->save(); },
+                             [this](std::span<const uint32_t> words) { outliers_->load(words); }});
+  return state;
+}
+
+void Film::add(const Film& other) {
+  assert(!outliers_ && !other.outliers_ && other.sums_.size() == sums_.size() &&
+         other.bad_.size() == bad_.size());
+  parallel_chunks(static_cast<int64_t>(bad_.size()), 1 << 14, [&](int64_t, int64_t b, int64_t e) {
+    for (size_t i = static_cast<size_t>(b); i < static_cast<size_t>(e); ++i) {
+      bool fits = true;
+      for (size_t p = 0; p < sums_.size(); ++p) fits &= sums_[p][i].add(other.sums_[p][i]);
+      for (size_t g = 0; g < squares_.size(); ++g) fits &= squares_[g][i].add(other.squares_[g][i]);
+      for (size_t g = 0; g < biases_.size(); ++g) {
+        if (biases_[g].empty()) continue;
+        biases_[g][i].sum.add(other.biases_[g][i].sum);
+        biases_[g][i].square.add(other.biases_[g][i].square);
+      }
+      for (int c = 0; c < 3; ++c) {
+        features_[i].albedo[c].add(other.features_[i].albedo[c]);
+        features_[i].normal[c].add(other.features_[i].normal[c]);
+      }
+      features_[i].depth.add(other.features_[i].depth);
+      depths_[i] += other.depths_[i];
+      if (!surfaces_.empty()) {
+        for (size_t k = 0; k < surfaces_[i].size(); ++k) surfaces_[i][k].add(other.surfaces_[i][k]);
+        surface_samples_[i] += other.surface_samples_[i];
+      }
+      bad_[i] += other.bad_[i];
+      saturated_[i] += other.saturated_[i] + (fits ? 0u : 1u);
+    }
+  });
+  for (size_t g = 0; g < estimates_.size(); ++g) estimates_[g] += other.estimates_[g];
+  counts_.feature_estimates += other.counts_.feature_estimates;
+  counts_.bad += other.counts_.bad;
+  counts_.saturated += other.counts_.saturated;
+}
+
+namespace {
+
+void put(std::vector<uint32_t>& words, const void* data, size_t bytes) {
+  const size_t at = words.size();
+  words.resize(at + bytes / 4);
+  std::memcpy(words.data() + at, data, bytes);
+}
+
+}  // namespace
+
+// Of each pixel of each group that has been used: its number, the fixed part, what it holds.
+size_t OutlierRejection::most_words() const {
+  size_t words = 0;
+  for (size_t g = 0; g < pixels_.size(); ++g)
+    words +=
+        pixels_[g].size() * (2 + (sizeof(PixelHead) + kMostHeld * parts_[g] * sizeof(RgbSum)) / 4);
+  return words;
+}
+
+std::vector<uint32_t> OutlierRejection::save() const {
+  std::vector<uint32_t> words;
+  for (size_t g = 0; g < pixels_.size(); ++g)
+    for (size_t i = 0; i < pixels_[g].size(); ++i) {
+      const Pixel& p = pixels_[g][i];
+      const uint32_t place[2] = {static_cast<uint32_t>(g), static_cast<uint32_t>(i)};
+      put(words, place, sizeof place);
+      put(words, static_cast<const PixelHead*>(&p), sizeof(PixelHead));
+      put(words, p.sums.data(), p.sums.size() * sizeof(RgbSum));
+    }
+  return words;
+}
+
+void OutlierRejection::load(std::span<const uint32_t> words) {
+  const auto take = [&](void* data, size_t bytes) {
+    if (words.size() * 4 < bytes) throw IoError("it ends too early");
+    std::memcpy(data, words.data(), bytes);
+    words = words.subspan(bytes / 4);
+  };
+  while (!words.empty()) {
+    uint32_t place[2];
+    take(place, sizeof place);
+    if (place[0] >= pixels_.size() || place[1] >= pixels_[place[0]].size())
+      throw IoError("it has a pixel that is not there");
+    Pixel& p = pixels_[place[0]][place[1]];
+    take(static_cast<PixelHead*>(&p), sizeof(PixelHead));
+    if (p.size > kMostHeld || std::any_of(p.levels.begin(), p.levels.end(),
+                                          [](uint8_t level) { return level >= kLevels; }))
+      throw IoError("a pixel holds more than it can");
+    p.sums.resize(p.size * parts_[place[0]]);
+    take(p.sums.data(), p.sums.size() * sizeof(RgbSum));
+  }
+}
+
+}  // namespace nephroid

@@ -1,0 +1,180 @@
+// A render that is interrupted after any pass and goes on from its picture, any number of times,
+// ends with the bits of one that was not; and so does the sum of pictures of disjoint passes, in
+// any order. For all integrators and all presets of routes.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "core/errors.h"
+#include "determinism/scene_of_all_kinds.h"
+#include "film/film_output.h"
+#include "rendering.h"
+#include "session/checkpoint.h"
+#include "session/merge.h"
+#include "unit/film/scratch_directory.h"
+
+namespace nephroid {
+namespace {
+
+using namespace testing_support;
+
+constexpr uint32_t kPasses = 4;
+
+IntegratorOptions small_passes() {
+  IntegratorOptions options;
+  options.photons_per_pass = 5000;
+  options.map_photons = 20000;
+  return options;
+}
+
+/// A run of the program: it begins with what film and estimators are when they are new.
+struct OneRun {
+  OneRun(const Scene& of_scene, const std::string& plan, bool rejects)
+      : scene(of_scene),
+        preset(make_preset(plan_named(plan), small_passes(), scene)),
+        film(film_for(scene, preset)) {
+    if (rejects)
+      film.reject_outliers(
+          {std::vector<float>(static_cast<size_t>(film.layout().group_count()), 1.0f), 8});
+    metadata = {{"nephroid:version", "test"}, {"nephroid:seed", "5"}};
+    bool independent = true;
+    for (const auto& e : preset.estimators) independent &= e->capabilities().independent_passes;
+    add_film_metadata(film, independent, &metadata);
+  }
+  void render(uint32_t first, uint32_t last) {
+    for (uint32_t pass = first; pass <= last; ++pass) {
+      for (const auto& e : preset.estimators) e->render_pass({5, pass}, scene, film);
+      film.finish_pass();
+      done.add(pass);
+    }
+  }
+  void go_on(const std::string& path) {
+    done = go_on_from(path, metadata, scene, preset, film).passes;
+  }
+  void write(const std::string& path) {
+    Metadata all = metadata;
+    all.emplace_back("nephroid:passes", done.text());
+    const RenderState state = state_of(scene, preset, film);
+    write_exr(path, film_picture(film, all), &state);
+  }
+
+  const Scene& scene;
+  Preset preset;
+  Film film;
+  Metadata metadata;
+  PassRanges done;
+};
+
+void expect_same_state(RenderState a, RenderState b, const std::string& what) {
+  ASSERT_EQ(a.arrays.size(), b.arrays.size());
+  for (size_t i = 0; i < a.arrays.size(); ++i) {
+    ASSERT_EQ(a.arrays[i].bytes.size(), b.arrays[i].bytes.size());
+    ASSERT_EQ(
+        std::memcmp(a.arrays[i].bytes.data(), b.arrays[i].bytes.data(), a.arrays[i].bytes.size()),
+        0)
+        << what << ": " << a.arrays[i].name;
+  }
+  ASSERT_EQ(a.streams.size(), b.streams.size());
+  for (size_t i = 0; i < a.streams.size(); ++i)
+    ASSERT_EQ(a.streams[i].save(), b.streams[i].save()) << what << ": " << a.streams[i].name;
+}
+
+class Resume : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(Resume, EndsWithTheBitsOfOneRun) {
+  const auto scene = scene_from_text(kScene);
+  const ScratchDirectory directory;
+  const std::string path = directory.file("picture.exr");
+  for (const bool rejects : {false, true}) {
+    OneRun whole(*scene, GetParam(), rejects);
+    whole.render(0, kPasses - 1);
+    EXPECT_GT(picture_mean(whole.film), 0.0);
+    for (const std::vector<uint32_t>& ends : {std::vector<uint32_t>{0, 3}, {1, 3}, {0, 1, 2, 3}}) {
+      uint32_t next = 0;
+      for (const uint32_t end : ends) {
+        OneRun run(*scene, GetParam(), rejects);
+        if (next > 0) run.go_on(path);
+        run.render(next, end);
+        run.write(path);
+        next = end + 1;
+      }
+      OneRun last(*scene, GetParam(), rejects);
+      last.go_on(path);
+      EXPECT_EQ(last.done.text(), "0..3");
+      expect_same_state(state_of(*scene, last.preset, last.film),
+                        state_of(*scene, whole.preset, whole.film),
+                        std::to_string(ends.size()) + " runs");
+    }
+    // The rest of the presets does not depend on what the film does with estimates.
+    if (GetParam() != "path") break;
+  }
+}
+
+TEST_P(Resume, PicturesOfOtherPassesAddUp) {
+  const auto scene = scene_from_text(kScene);
+  const ScratchDirectory directory;
+  std::vector<std::string> parts;
+  for (const auto& [first, last] : {std::pair<uint32_t, uint32_t>{2, 2}, {0, 1}, {3, 3}}) {
+    OneRun run(*scene, GetParam(), false);
+    run.render(first, last);
+    parts.push_back(directory.file(std::to_string(first) + ".exr"));
+    run.write(parts.back());
+  }
+  const std::string sum = directory.file("sum.exr");
+  OneRun whole(*scene, GetParam(), false);
+  bool independent = true;
+  for (const auto& e : whole.preset.estimators) independent &= e->capabilities().independent_passes;
+  if (!independent) {
+    EXPECT_THROW(merge_pictures(parts, sum), UsageError);
+    return;
+  }
+  whole.render(0, kPasses - 1);
+  for (int order = 0; order < 3; ++order) {
+    EXPECT_EQ(merge_pictures(parts, sum).passes.text(), "0..3");
+    OneRun merged(*scene, GetParam(), false);
+    merged.go_on(sum);
+    expect_same_state(merged.film.state(), whole.film.state(), "merged");
+    const Picture picture = read_picture(sum), wanted = film_picture(whole.film, {});
+    for (size_t c = 0; c < wanted.channels.size(); ++c) {
+      const int found = picture.find_channel(wanted.channels[c]);
+      ASSERT_GE(found, 0) << wanted.channels[c];
+      for (size_t i = 0; i < static_cast<size_t>(picture.window.area()); ++i)
+        ASSERT_EQ(picture.pixels[i * picture.channels.size() + static_cast<size_t>(found)],
+                  wanted.pixels[i * wanted.channels.size() + c])
+            << wanted.channels[c];
+    }
+    std::rotate(parts.begin(), parts.begin() + 1, parts.end());
+  }
+  parts.push_back(parts[0]);
+  EXPECT_THROW(merge_pictures(parts, sum), UsageError);
+}
+
+INSTANTIATE_TEST_SUITE_P(AllRoutes, Resume, ::testing::ValuesIn(plan_names()),
+                         [](const auto& test) { return test_name(test.param); });
+
+TEST(ResumeRefuses, ThePictureOfAnotherRender) {
+  const auto scene = scene_from_text(kScene);
+  const ScratchDirectory directory;
+  const std::string path = directory.file("picture.exr");
+  OneRun run(*scene, "path", false);
+  run.metadata.emplace_back("nephroid:options", "max-depth=5 radius=1");
+  run.render(0, 0);
+  run.write(path);
+  OneRun other(*scene, "path", false);
+  other.metadata[1].second = "6";
+  other.metadata.emplace_back("nephroid:options", "max-depth=5 radius=2 alpha=1");
+  try {
+    other.go_on(path);
+    FAIL() << "went on";
+  } catch (const UsageError& error) {
+    const std::string text = error.what();
+    for (const char* line : {"seed 5, here 6", "radius 1, here 2", "alpha nothing, here 1"})
+      EXPECT_NE(text.find(line), std::string::npos) << text;
+    EXPECT_EQ(text.find("max-depth"), std::string::npos) << text;
+  }
+  write_exr(path, film_picture(run.film, run.metadata));
+  EXPECT_THROW(run.go_on(path), IoError);
+}
+
+}  // namespace
+}  // namespace nephroid

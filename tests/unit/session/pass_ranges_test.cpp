@@ -1,0 +1,56 @@
+// Ranges of passes: what they hold, how they join, what is missing, and their text.
+#include "session/pass_ranges.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace nephroid {
+namespace {
+
+constexpr uint32_t kLast = std::numeric_limits<uint32_t>::max();
+
+PassRanges ranges(const std::string& text) {
+  const auto parsed = PassRanges::parse(text);
+  EXPECT_TRUE(parsed) << text;
+  return parsed.value_or(PassRanges());
+}
+
+TEST(PassRanges, JoinWhatIsNextToEachOther) {
+  PassRanges r;
+  for (const uint32_t pass : {4u, 0u, 2u, 1u, 9u}) r.add(pass);
+  EXPECT_EQ(r.text(), "0..2,4..4,9..9");
+  EXPECT_EQ(r.count(), 5u);
+  r.add(ranges("3..3,5..8"));
+  EXPECT_EQ(r.text(), "0..9");
+  EXPECT_EQ(ranges("0..4294967295").count(), uint64_t{1} << 32);
+  EXPECT_EQ(ranges("").text(), "");
+  EXPECT_TRUE(ranges("").empty());
+}
+
+TEST(PassRanges, TellWhatIsMissing) {
+  const PassRanges r = ranges("2..3,7..8");
+  EXPECT_EQ(r.first_missing(0), 0u);
+  EXPECT_EQ(r.first_missing(2), 4u);
+  EXPECT_EQ(r.first_missing(7), 9u);
+  EXPECT_EQ(r.first_missing(20), 20u);
+  EXPECT_FALSE(ranges("0..4294967295").first_missing(5));
+  EXPECT_TRUE(r.contains(8));
+  EXPECT_FALSE(r.contains(9));
+}
+
+TEST(PassRanges, TellWhatTwoHave) {
+  EXPECT_EQ(ranges("0..9,20..29").overlap(ranges("25..40")), (PassRange{25, 29}));
+  EXPECT_FALSE(ranges("0..9,20..29").overlap(ranges("10..19,30..4294967295")));
+  EXPECT_EQ(ranges("5..4294967295").overlap(ranges("4294967295..4294967295")),
+            (PassRange{kLast, kLast}));
+}
+
+TEST(PassRanges, RefuseOtherText) {
+  for (const char* text : {"1", "1..", "..1", "2..1", "0..3,3..4", "0..1,", ",0..1", "0..1 ",
+                           "a..b", "-1..2", "0..4294967296", "0..1;2..3"})
+    EXPECT_FALSE(PassRanges::parse(text)) << text;
+}
+
+}  // namespace
+}  // namespace nephroid
