@@ -101,8 +101,8 @@ void print_labels(const char* kind, const std::vector<std::string>& labels) {
 void print_integrator(const Scene& scene) {
   const std::string& own = scene.integrator;
   const std::string here = integrator_for_scene_name(own.empty() ? "volpath" : own);
-  fmt::print("integrator: {} (--integrator scene: {})\n", own.empty() ? "none" : own,
-             here.empty() ? "not available" : here);
+  fmt::print("integrator that the scene names: {} (rendered by {} with --integrator scene)\n",
+             own.empty() ? "none" : own, here.empty() ? "not available" : here);
   fmt::print("pixel samples: {}\n", scene.samples_per_pixel);
 }
 

@@ -133,6 +133,9 @@ int run_render(const RenderCommand& command) {
     begin_with = go_on_from(output, metadata, scene, preset, film);
   RenderOptions options = render_options(command, scene, output, std::move(metadata));
   options.begin_with = std::move(begin_with);
+  std::vector<std::string> notes = preset.notes;
+  options.notes = notes;
+  notes.insert(notes.end(), choice.notes.begin(), choice.notes.end());
   RenderSession session(scene, preset, film, std::move(options));
 
   ProgressDisplay display;
@@ -147,7 +150,7 @@ int run_render(const RenderCommand& command) {
   const RenderResult result = session.run(listener.flags());
   if (!command.quiet) {
     display.clear();
-    fmt::print(stderr, "{}", render_report(result, film, output, choice.notes));
+    fmt::print(stderr, "{}", render_report(result, film, output, notes));
   }
   return result.reason == StopReason::kSignal ? kSignalStatus + result.signal
                                               : static_cast<int>(ExitStatus::kDone);

@@ -35,7 +35,7 @@ void print_routes(const RoutePlan& plan, const RouteCompilation& compiled) {
     const RouteDefinition& route = plan.routes[i];
     fmt::print("  {:{}}  {:{}}  {:13}  {}\n", route.name, name, route.expression, expression,
                estimator_type(route.estimator).name,
-               compiled.examples[i].empty() ? std::string("no path")
+               compiled.examples[i].empty() ? std::string("(no path in it)")
                                             : "for example " + compiled.examples[i]);
   }
   for (const AovDefinition& aov : plan.aovs)

@@ -121,6 +121,7 @@ struct Preset {
   std::vector<std::unique_ptr<Estimator>> estimators;
   std::shared_ptr<const Routes> routes;
   std::vector<std::string> warnings;  ///< about the routes: overlaps, paths that are never found
+  std::vector<std::string> notes;     ///< why routes are black that no photon could find
 };
 
 /// The routes by which a picture is made.

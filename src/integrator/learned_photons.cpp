@@ -96,14 +96,14 @@ void LearnedPhotons::add_notes(EstimatorStatistics& statistics) const {
   const auto of = [](size_t places) { return places == 1 ? "" : "s"; };
   if (const size_t places = guide_->starts.places(); places > 0)
     statistics.notes.push_back(
-        fmt::format("photons were aimed at {} place{} from which they were of use; of paths that "
-                    "start anywhere, {:.2g} % would be",
+        fmt::format("photons start towards {} place{} where earlier ones were of use; without aim, "
+                    "{:.2g} % of them would have been",
                     places, of(places), 100 * guide_->starts.share_unaimed()));
   if (const size_t places = guide_->casters.places(); places > 0)
-    statistics.notes.push_back(
-        fmt::format("where photons left rough surfaces and only light by way of S is of use, half "
-                    "of them were aimed at {} place{} that had led there",
-                    places, of(places)));
+    statistics.notes.push_back(fmt::format(
+        "photons that a rough surface scatters, and that only glass or a mirror can make "
+        "a caustic of, go towards {} place{} where earlier ones met some",
+        places, of(places)));
 }
 
 }  // namespace nephroid

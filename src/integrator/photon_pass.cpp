@@ -97,8 +97,8 @@ void count_photons(const PhotonTrace& trace, EstimatorStatistics& statistics) {
 namespace {
 
 const char* const kNothingSpecular =
-    "no material of the scene has a specular lobe: there are no caustics, and no photons were "
-    "needed";
+    "no material of the scene has a specular lobe (microfacets of an alpha above that of -D "
+    "specular-alpha are glossy): there are no caustics, and no photons were needed";
 
 void explain_lost_paths(EstimatorStatistics& s) {
   const std::string of_all = " of " + std::to_string(s.photon_paths) + " photon paths ";
@@ -106,7 +106,8 @@ void explain_lost_paths(EstimatorStatistics& s) {
     s.notes.push_back("0" + of_all + "met a specular surface");
   else
     s.notes.push_back(std::to_string(s.photon_paths_specular) + of_all +
-                      "met a specular surface, none reached a diffuse one behind it");
+                      "met a specular surface, none reached a diffuse one behind it within the "
+                      "depth of paths (-D max-depth)");
 }
 
 }  // namespace

@@ -108,6 +108,14 @@ Preset make_preset(CompiledPlan compiled, const IntegratorOptions& options, cons
                                 "' will be black: no path that this scene can have matches '" +
                                 compiled.compilation.routes.aovs()[i].expression +
                                 "' (lights are named in <L.'...'>, materials in <..'...'>)");
+  const std::vector<std::string>& examples = compiled.compilation.examples;
+  for (size_t r = 0; r < examples.size(); ++r) {
+    const RouteDefinition& route = compiled.compilation.routes.definitions()[r];
+    // Estimators of photons say it themselves.
+    if (examples[r].empty() && route.estimator == EstimatorKind::kPath)
+      preset.notes.push_back("'" + route.name +
+                             "' is black: no path that this scene can have belongs to it");
+  }
   preset.routes = std::make_shared<const Routes>(
       checked_routes(std::move(compiled.compilation), compiled.strict));
   preset.layout = layout_of(*preset.routes);

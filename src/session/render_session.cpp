@@ -101,7 +101,10 @@ RenderResult RenderSession::run(SignalFlags& signals) {
   next_checkpoint_seconds_ = options_.checkpoint_interval;
   RenderResult result;
   std::optional<StopReason> reason;
-  if (!next_pass()) reason = StopReason::kPasses;
+  if (!next_pass()) {
+    reason = StopReason::kPasses;
+    first_pass_statistics_ = statistics();
+  }
   while (!reason) {
     render_one_pass();
     if (passes_of_run() == 1) first_pass_statistics_ = statistics();
@@ -270,6 +273,7 @@ Metadata RenderSession::picture_metadata() const {
   for (const std::string& line :
        choices_report(first_pass_statistics_, statistics(), passes_of_run()))
     choices += line + "\n";
+  for (const std::string& note : options_.notes) choices += "note: " + note + "\n";
   if (error_text_) choices += *error_text_ + "\n";
   metadata.emplace_back("nephroid:choices", choices);
   const FilmLayout& layout = film_.layout();

@@ -33,6 +33,7 @@ struct RenderOptions {
   bool keeps_state = true;          ///< EXRs hold what is needed to go on
   Checkpoint begin_with;            ///< what film and estimators hold already
   float png_exposure = 1;
+  std::vector<std::string> notes;  ///< of the choices that a picture tells
   Metadata metadata;  ///< written first; the session adds passes, time, choices and estimates
 };
 

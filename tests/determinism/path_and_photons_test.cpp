@@ -89,7 +89,7 @@ TEST(PathAndPhotons, HasTheSameBitsForAnyNumberOfThreads) {
     }
     // The test would be worth little if nothing were learned.
     const std::string notes = ::testing::PrintToString(found[0].notes);
-    EXPECT_EQ(says(found[0], "photons were aimed at"), text == kScene) << notes;
+    EXPECT_EQ(says(found[0], "photons start towards"), text == kScene) << notes;
     EXPECT_EQ(says(found[0], "connected and merged everywhere"), text != kScene) << notes;
     EXPECT_TRUE(says(found[0], "camera paths a pixel")) << notes;
     EXPECT_FALSE(says(found[0], ", 1 to 1 by tile")) << notes;
