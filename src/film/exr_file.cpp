@@ -21,6 +21,7 @@
 #include <charconv>
 #include <cstring>
 #include <map>
+#include <optional>
 
 #include "core/errors.h"
 #include "film/atomic_file.h"
@@ -38,20 +39,30 @@ constexpr size_t kStreamWidth = 1024;
 constexpr const char* kChecksums = "checksums";
 constexpr const char* kWordsKey = "nephroid:words";
 
-/// Where the encoder's bytes go.
+/// Where the encoder's bytes go. It writes its tables of offsets where nobody sees an exception, so
+/// the first error is kept.
 class AtomicOutput : public Imf::OStream {
  public:
   AtomicOutput(const std::string& path, AtomicFile& file) : OStream(path.c_str()), file_(file) {}
   void write(const char* data, int size) override {
-    file_.write(position_, std::as_bytes(std::span(data, static_cast<size_t>(size))));
+    try {
+      file_.write(position_, std::as_bytes(std::span(data, static_cast<size_t>(size))));
+    } catch (const IoError& error) {
+      if (!error_) error_ = error;
+      throw;
+    }
     position_ += static_cast<uint64_t>(size);
   }
   uint64_t tellp() override { return position_; }
   void seekp(uint64_t position) override { position_ = position; }
+  void throw_if_failed() const {
+    if (error_) throw *error_;
+  }
 
  private:
   AtomicFile& file_;
   uint64_t position_ = 0;
+  std::optional<IoError> error_;
 };
 
 Imath::Box2i box_of(const PixelBounds& b) {
@@ -208,11 +219,11 @@ void write_exr(const std::string& path, const Picture& picture, const RenderStat
             frame_of(parts[i].window, channels_of_words(parts[i].words), Imf::UINT,
                      parts[i].memory()),
             parts[i].window);
-  } catch (const IoError&) {
-    throw;
   } catch (const std::exception& error) {
+    output.throw_if_failed();
     throw IoError(path + ": cannot encode: " + error.what());
   }
+  output.throw_if_failed();
   file.commit();
 }
 

@@ -3,7 +3,9 @@
 #include "film/exr_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <numeric>
@@ -141,6 +143,32 @@ TEST(ExrFile, NoticesDamage) {
       EXPECT_TRUE(saved == loaded) << "byte " << at;
   }
   EXPECT_GT(noticed, tried / 2);
+}
+
+// Whichever byte is the first that the disk has no room for: the tables of offsets come last.
+TEST(ExrFile, AFullDiskIsAnErrorAndTheOldFileStays) {
+  const ScratchDirectory directory;
+  const std::string path = directory.file("a.exr");
+  Memory saved(1);
+  const RenderState state = saved.state();
+  write_exr(path, some_picture(), &state);
+  const auto size = static_cast<rlim_t>(std::filesystem::file_size(path));
+  const auto before = std::filesystem::last_write_time(path);
+  struct rlimit old {};
+  getrlimit(RLIMIT_FSIZE, &old);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  for (const rlim_t room : {rlim_t{0}, rlim_t{100}, rlim_t{3000}, size / 2, size - 1}) {
+    const struct rlimit limited { room, old.rlim_max };
+    setrlimit(RLIMIT_FSIZE, &limited);
+    EXPECT_THROW(write_exr(path, some_picture(), &state), IoError) << room;
+    setrlimit(RLIMIT_FSIZE, &old);
+  }
+  std::signal(SIGXFSZ, handler);
+  EXPECT_EQ(std::filesystem::last_write_time(path), before);
+  size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(directory.path()))
+    files += entry.is_regular_file();
+  EXPECT_EQ(files, 1u);
 }
 
 TEST(ExrFile, LeavesTheOldFileWhereItCannotWrite) {
