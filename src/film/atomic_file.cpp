@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <system_error>
@@ -47,14 +49,38 @@ fs::path directory_of(const fs::path& target) {
   return parent.empty() ? fs::path(".") : parent;
 }
 
+/// What the names of temporary files for a target begin with on this machine; the process's number
+/// and another one follow.
+std::string temporary_stem(const fs::path& target) {
+  char host[65] = {};
+  ::gethostname(host, sizeof host - 1);
+  return "." + target.filename().string().substr(0, 128) + ".tmp-" +
+         std::string(host, ::strnlen(host, 32)) + "@";
+}
+
+/// Removes what processes that were killed while they wrote to the target have left.
+void remove_leftovers(const fs::path& target) {
+  const std::string stem = temporary_stem(target);
+  std::error_code error;
+  for (fs::directory_iterator i(directory_of(target), error), end; !error && i != end;
+       i.increment(error)) {
+    const std::string name = i->path().filename().string();
+    if (name.rfind(stem, 0) != 0) continue;
+    pid_t process = 0;
+    const char* const digits = name.data() + stem.size();
+    const auto [after, wrong] = std::from_chars(digits, name.data() + name.size(), process);
+    if (wrong != std::errc() || process <= 0 || *after != '-') continue;
+    if (::kill(process, 0) != 0 && errno == ESRCH) ::unlink(i->path().c_str());
+  }
+}
+
 /// An open file beside the target that vanishes unless it is renamed.
 class TemporaryFile {
  public:
   /// `shown` is the name that messages use: the user knows nothing of temporary files.
   TemporaryFile(const fs::path& target, const std::string& shown) : shown_(shown) {
     const fs::path directory = directory_of(target);
-    const std::string stem =
-        "." + target.filename().string().substr(0, 128) + ".tmp-" + std::to_string(::getpid());
+    const std::string stem = temporary_stem(target) + std::to_string(::getpid());
     for (int attempt = 0; attempt < 100; ++attempt) {
       path_ = directory / (stem + "-" + std::to_string(attempt));
       descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -133,6 +159,7 @@ void write_file_atomically(const std::string& path, std::span<const std::byte> b
 
 void check_file_can_be_written(const std::string& path) {
   const fs::path target = resolved_target(path);
+  remove_leftovers(target);
   const TemporaryFile probe(target, path);
 }
 

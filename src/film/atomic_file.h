@@ -35,7 +35,8 @@ class AtomicFile {
 void write_file_atomically(const std::string& path, std::span<const std::byte> bytes);
 
 /// Throws the IoError that write_file_atomically(path) would throw now, as far as that can be known
-/// without replacing the file: a directory in its place, a missing or unwritable directory.
+/// without replacing the file: a directory in its place, a missing or unwritable directory. Removes
+/// temporary files for it that processes of this machine have left when they were killed.
 void check_file_can_be_written(const std::string& path);
 
 }  // namespace nephroid

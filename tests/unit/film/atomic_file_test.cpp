@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -107,6 +108,30 @@ TEST(AtomicFile, DiskErrorLeavesTheOldFileAndNothingElse) {
   EXPECT_NE(error.find("File too large"), std::string::npos) << error;
   EXPECT_EQ(read_text(path), "old");
   EXPECT_EQ(directory.entries(), 1u);
+}
+
+// Of processes that are no more, on this machine; nobody else's.
+TEST(AtomicFile, LeftoversOfTheDeadAreRemoved) {
+  const ScratchDirectory directory;
+  const std::string path = directory.file("out.bin");
+  const pid_t child = ::fork();
+  if (child == 0) {
+    AtomicFile file(path);
+    ::kill(::getpid(), SIGKILL);
+  }
+  ASSERT_GT(child, 0);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFSIGNALED(status));
+  EXPECT_EQ(directory.entries(), 1u);
+  AtomicFile ours(path);
+  write_text(directory.file(".out.bin.tmp-elsewhere@" + std::to_string(child) + "-0"),
+             "another machine's");
+  write_text(directory.file(".out.bin.tmp-notes"), "somebody's");
+  write_text(directory.file(".other.bin.tmp-" + std::to_string(child)), "another file's");
+  EXPECT_EQ(directory.entries(), 5u);
+  check_file_can_be_written(path);
+  EXPECT_EQ(directory.entries(), 4u);
 }
 
 TEST(AtomicFile, FollowsLinks) {
