@@ -24,7 +24,7 @@ LIBRARIES = {
     r"OpenImageIO/": {"scene/texture", "scene/material", "film", "tests"},
     r"nanovdb/": {"scene/medium/nanovdb_grid.cpp"},
     r"CLI/": {"session", "apps"},
-    r"nlohmann/": {"bench", "session/merge.cpp"},
+    r"nlohmann/": {"bench", "session/film_metadata.cpp"},
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 

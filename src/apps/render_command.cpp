@@ -14,9 +14,9 @@
 #include "film/film_output.h"
 #include "integrator/ppm.h"
 #include "session/file_hash.h"
+#include "session/film_metadata.h"
 #include "session/film_of_scene.h"
 #include "session/idle_settings.h"
-#include "session/merge.h"
 #include "session/render_session.h"
 #include "session/scene_loading.h"
 #include "session/version.h"
@@ -37,21 +37,16 @@ Metadata metadata_of(const RenderCommand& command, const IntegratorChoice& choic
   };
 }
 
-void add_picture(const RenderCommand& command, const Scene& scene, const Preset& preset,
-                 const Film& film, Metadata* metadata) {
+void add_film(const Preset& preset, const Film& film, Metadata* metadata) {
   const PixelBounds& crop = film.bounds();
   metadata->emplace_back(
       "nephroid:film", fmt::format("{}x{}, columns {} to {}, rows {} to {}", film.settings().width,
                                    film.settings().height, crop.x0, crop.x1, crop.y0, crop.y1));
-  metadata->emplace_back("nephroid:seed",
-                         fmt::format("{}", command.seed.value_or(scene.scene_seed)));
-  if (command.reject_outliers) metadata->emplace_back("nephroid:outliers", "reject");
-  bool independent = true;
-  for (const auto& estimator : preset.estimators) {
+  const bool passes_add_up = std::ranges::all_of(preset.estimators, [](const auto& estimator) {
     const Capabilities capabilities = estimator->capabilities();
-    independent &= capabilities.independent_passes && capabilities.consistent;
-  }
-  add_film_metadata(film, independent, metadata);
+    return capabilities.independent_passes && capabilities.consistent;
+  });
+  add_film_metadata(film, passes_add_up, metadata);
 }
 
 void add_routes(const RoutePlan& plan, Metadata* metadata) {
@@ -127,12 +122,14 @@ int run_render(const RenderCommand& command) {
       command.output.empty() ? default_output(scene.film, command.scene) : command.output;
   Metadata metadata = metadata_of(command, choice);
   add_routes(plan, &metadata);
-  add_picture(command, scene, preset, film, &metadata);
-  Checkpoint begin_with;
-  if (command.resume && std::filesystem::exists(output))
-    begin_with = go_on_from(output, metadata, scene, preset, film);
+  add_film(preset, film, &metadata);
   RenderOptions options = render_options(command, scene, output, std::move(metadata));
-  options.begin_with = std::move(begin_with);
+  if (command.resume && std::filesystem::exists(output)) {
+    Metadata here = options.metadata;
+    here.emplace_back("nephroid:seed", fmt::format("{}", options.seed));
+    if (command.reject_outliers) here.emplace_back("nephroid:outliers", "reject");
+    options.begin_with = go_on_from(output, here, scene, preset, film);
+  }
   std::vector<std::string> notes = preset.notes;
   options.notes = notes;
   notes.insert(notes.end(), choice.notes.begin(), choice.notes.end());

@@ -239,7 +239,7 @@ struct StateFile::Input {
   std::map<std::string, Place> parts;
 
   [[noreturn]] void fail(const std::string& what) const {
-    throw IoError(path + ": cannot go on from it: " + what);
+    throw IoError(path + ": cannot read its state: " + what);
   }
   const Place& find(const std::string& name) const {
     const auto found = parts.find(name);
@@ -299,16 +299,21 @@ StateFile::StateFile(const std::string& path) : input_(std::make_unique<Input>()
 }
 
 StateFile::~StateFile() = default;
+StateFile::StateFile(StateFile&&) noexcept = default;
+StateFile& StateFile::operator=(StateFile&&) noexcept = default;
+
+const std::string& StateFile::path() const {
+  return input_->path;
+}
+
+Vec2i StateFile::resolution() const {
+  const Imath::Box2i& box = input_->file->header(0).displayWindow();
+  return {box.max.x - box.min.x + 1, box.max.y - box.min.y + 1};
+}
 
 PixelBounds StateFile::window() const {
   const Imath::Box2i& box = input_->file->header(0).dataWindow();
   return {box.min.x, box.min.y, box.max.x + 1, box.max.y + 1};
-}
-
-std::string StateFile::value_of(const std::string& key) const {
-  for (const auto& [k, value] : metadata_)
-    if (k == key) return value;
-  return {};
 }
 
 bool StateFile::has_state() const {

@@ -23,13 +23,15 @@ class StateFile {
   /// Opens a file of write_exr.
   explicit StateFile(const std::string& path);
   ~StateFile();
+  StateFile(StateFile&&) noexcept;
+  StateFile& operator=(StateFile&&) noexcept;
 
   /// Of the picture.
   const Metadata& metadata() const { return metadata_; }
-  /// The pixels that the picture has.
+  const std::string& path() const;
+  /// Width and height of the full picture, and the pixels of it that there are.
+  Vec2i resolution() const;
   PixelBounds window() const;
-  /// Empty if the key is not there.
-  std::string value_of(const std::string& key) const;
   bool has_state() const;
   /// Reads all arrays and streams, each of which must be in the file with the size that it has
   /// here, and be whole.

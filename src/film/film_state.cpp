@@ -1,9 +1,6 @@
 // What a film keeps, as a RenderState, and the sum of two films.
-#include <algorithm>
 #include <cassert>
-#include <cstring>
 
-#include "core/errors.h"
 #include "core/parallel.h"
 #include "film/film.h"
 
@@ -66,59 +63,6 @@ void Film::add(const Film& other) {
   counts_.feature_estimates += other.counts_.feature_estimates;
   counts_.bad += other.counts_.bad;
   counts_.saturated += other.counts_.saturated;
-}
-
-namespace {
-
-void put(std::vector<uint32_t>& words, const void* data, size_t bytes) {
-  const size_t at = words.size();
-  words.resize(at + bytes / 4);
-  std::memcpy(words.data() + at, data, bytes);
-}
-
-}  // namespace
-
-// Of each pixel of each group that has been used: its number, the fixed part, what it holds.
-size_t OutlierRejection::most_words() const {
-  size_t words = 0;
-  for (size_t g = 0; g < pixels_.size(); ++g)
-    words +=
-        pixels_[g].size() * (2 + (sizeof(PixelHead) + kMostHeld * parts_[g] * sizeof(RgbSum)) / 4);
-  return words;
-}
-
-std::vector<uint32_t> OutlierRejection::save() const {
-  std::vector<uint32_t> words;
-  for (size_t g = 0; g < pixels_.size(); ++g)
-    for (size_t i = 0; i < pixels_[g].size(); ++i) {
-      const Pixel& p = pixels_[g][i];
-      const uint32_t place[2] = {static_cast<uint32_t>(g), static_cast<uint32_t>(i)};
-      put(words, place, sizeof place);
-      put(words, static_cast<const PixelHead*>(&p), sizeof(PixelHead));
-      put(words, p.sums.data(), p.sums.size() * sizeof(RgbSum));
-    }
-  return words;
-}
-
-void OutlierRejection::load(std::span<const uint32_t> words) {
-  const auto take = [&](void* data, size_t bytes) {
-    if (words.size() * 4 < bytes) throw IoError("it ends too early");
-    std::memcpy(data, words.data(), bytes);
-    words = words.subspan(bytes / 4);
-  };
-  while (!words.empty()) {
-    uint32_t place[2];
-    take(place, sizeof place);
-    if (place[0] >= pixels_.size() || place[1] >= pixels_[place[0]].size())
-      throw IoError("it has a pixel that is not there");
-    Pixel& p = pixels_[place[0]][place[1]];
-    take(static_cast<PixelHead*>(&p), sizeof(PixelHead));
-    if (p.size > kMostHeld || std::any_of(p.levels.begin(), p.levels.end(),
-                                          [](uint8_t level) { return level >= kLevels; }))
-      throw IoError("a pixel holds more than it can");
-    p.sums.resize(p.size * parts_[place[0]]);
-    take(p.sums.data(), p.sums.size() * sizeof(RgbSum));
-  }
 }
 
 }  // namespace nephroid

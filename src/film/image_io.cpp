@@ -53,6 +53,12 @@ OIIO::ImageSpec png_spec(int width, int height) {
 
 }  // namespace
 
+std::string value_of(const Metadata& metadata, const std::string& key) {
+  for (const auto& [k, value] : metadata)
+    if (k == key) return value;
+  return {};
+}
+
 int Picture::find_channel(const std::string& name) const {
   const auto found = std::find(channels.begin(), channels.end(), name);
   return found == channels.end() ? -1 : static_cast<int>(found - channels.begin());

@@ -16,6 +16,9 @@ namespace nephroid {
 /// Key and value, in the order in which they are written.
 using Metadata = std::vector<std::pair<std::string, std::string>>;
 
+/// Of the first such key; empty if there is none.
+std::string value_of(const Metadata& metadata, const std::string& key);
+
 /// Named channels of floats, interleaved, rows from the top; `window` is the part of the full
 /// picture that the pixels are.
 struct Picture {

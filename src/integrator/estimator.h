@@ -94,7 +94,7 @@ struct IntegratorOptions {
   /// paths whatever the routes are.
   bool blind_walks = false;
   bool specular_trees = false;      ///< walks of one way each look for lights both ways
-  bool guides_emission = true;      ///< photons start and go where earlier ones were of use
+  bool guides_photons = true;       ///< photons start and go where earlier ones were of use
   bool guides_walks = true;         ///< camera walks go where earlier ones found light
   int point_lights = 0;             ///< connections of a pixel and pass; 0: the default
   int camera_samples_per_pass = 0;  ///< 0: the default of the integrator

@@ -70,7 +70,7 @@ PhotonGuide learn(uint64_t seed, const Scene& scene, const Film& film, const Own
 const PhotonGuide& LearnedPhotons::guide(uint64_t seed, const Scene& scene, const Film& film,
                                          const OwnedRoutes& owned, const IntegratorOptions& options,
                                          EstimatorStatistics& statistics) {
-  if (!options.guides_emission) return kUnguidedPhotons;
+  if (!options.guides_photons) return kUnguidedPhotons;
   if (guide_ && seed_ == seed) return *guide_;
   seed_ = seed;
   const EstimatorKind kind = owned.routes->groups()[owned.group].estimator;

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <map>
 #include <sstream>
@@ -24,14 +23,35 @@ std::map<std::string, std::string> settings_in(const std::string& text) {
   return settings;
 }
 
-std::string value_of(const Metadata& metadata, const std::string& key) {
-  for (const auto& [k, value] : metadata)
-    if (k == key) return value;
-  return {};
-}
-
 std::string shown(const std::string& value) {
   return value.empty() ? "nothing" : value;
+}
+
+/// Metadata that tell which render a picture is of.
+constexpr const char* kIdentity[] = {"version", "scene_hash", "film",     "routes",
+                                     "aovs",    "options",    "outliers", "seed"};
+
+/// Empty if nothing that counts differs.
+std::string differences(const Metadata& a, const Metadata& b, const std::string& other) {
+  std::string text;
+  const auto add = [&](const std::string& what, const std::string& there, const std::string& here) {
+    text += fmt::format("\n  {} {}, {} {}", what, shown(there), other, shown(here));
+  };
+  for (const std::string key : kIdentity) {
+    const std::string there = value_of(a, "nephroid:" + key), here = value_of(b, "nephroid:" + key);
+    if (there == here) continue;
+    if (key != "options") {
+      add(key, there, here);
+      continue;
+    }
+    const auto of_a = settings_in(there), of_b = settings_in(here);
+    for (const auto& [name, value] : of_a)
+      if (const auto found = of_b.find(name); found == of_b.end() || found->second != value)
+        add(name, value, found == of_b.end() ? "" : found->second);
+    for (const auto& [name, value] : of_b)
+      if (of_a.find(name) == of_a.end()) add(name, "", value);
+  }
+  return text;
 }
 
 }  // namespace
@@ -42,56 +62,34 @@ RenderState state_of(const Scene& scene, Preset& preset, Film& film) {
   return state;
 }
 
-const std::vector<std::string>& identity_keys() {
-  static const std::vector<std::string> keys = {
-      "nephroid:version", "nephroid:scene_hash", "nephroid:film",     "nephroid:routes",
-      "nephroid:aovs",    "nephroid:options",    "nephroid:outliers", "nephroid:seed"};
-  return keys;
+PassRanges passes_of(const StateFile& file, const std::string& purpose) {
+  const std::string refusal = file.path() + ": cannot " + purpose + ": ";
+  if (!file.has_state())
+    throw IoError(refusal +
+                  "it has no state, expected a picture that was rendered without --no-state");
+  const auto passes = PassRanges::parse(value_of(file.metadata(), "nephroid:passes"));
+  if (!passes || passes->empty()) throw IoError(refusal + "it does not say which passes it has");
+  return *passes;
 }
 
-std::vector<std::string> differences(const StateFile& file, const Metadata& here) {
-  std::vector<std::string> found;
-  const auto add = [&](const std::string& what, const std::string& there, const std::string& now) {
-    found.push_back(fmt::format("{} {}, here {}", what, shown(there), shown(now)));
-  };
-  const std::string prefix = "nephroid:";
-  for (const std::string& key : identity_keys()) {
-    const std::string there = file.value_of(key), now = value_of(here, key);
-    if (there == now) continue;
-    if (key != "nephroid:options") {
-      add(key.substr(prefix.size()), there, now);
-      continue;
-    }
-    const auto a = settings_in(there), b = settings_in(now);
-    for (const auto& [name, value] : a)
-      if (const auto other = b.find(name); other == b.end() || other->second != value)
-        add(name, value, other == b.end() ? "" : other->second);
-    for (const auto& [name, value] : b)
-      if (a.find(name) == a.end()) add(name, "", value);
-  }
-  return found;
+void require_same_render(const StateFile& file, const Metadata& metadata, const std::string& other,
+                         const std::string& purpose) {
+  const std::string found = differences(file.metadata(), metadata, other);
+  if (!found.empty())
+    throw UsageError(file.path() + ": cannot " + purpose +
+                     ": it is the picture of another render:" + found);
 }
 
 Checkpoint go_on_from(const std::string& path, const Metadata& here, const Scene& scene,
                       Preset& preset, Film& film) {
+  const std::string purpose = "go on from it";
   StateFile file(path);
-  if (!file.has_state())
-    throw IoError(path +
-                  ": cannot go on from it: it has no state, expected a picture that was rendered "
-                  "without --no-state");
-  const std::vector<std::string> different = differences(file, here);
-  if (!different.empty()) {
-    std::string list;
-    for (const std::string& line : different) list += "\n  " + line;
-    throw UsageError(path + ": cannot go on from it: it is the picture of another render:" + list);
-  }
-  const std::optional<PassRanges> passes = PassRanges::parse(file.value_of("nephroid:passes"));
-  if (!passes || passes->empty())
-    throw IoError(path + ": cannot go on from it: it does not say which passes it has");
-  Checkpoint checkpoint{*passes, std::strtod(file.value_of("nephroid:seconds").c_str(), nullptr),
-                        file.value_of("nephroid:history")};
+  const PassRanges passes = passes_of(file, purpose);
+  require_same_render(file, here, "here", purpose);
   file.load(state_of(scene, preset, film));
-  return checkpoint;
+  const Metadata& metadata = file.metadata();
+  return {passes, std::strtod(value_of(metadata, "nephroid:seconds").c_str(), nullptr),
+          value_of(metadata, "nephroid:history")};
 }
 
 }  // namespace nephroid

@@ -3,9 +3,7 @@
 // must not know when pictures are written.
 #pragma once
 
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "film/exr_file.h"
 #include "integrator/estimator.h"
@@ -23,13 +21,14 @@ struct Checkpoint {
 /// All that a render keeps, as it lies in memory: of the film and of the estimators.
 RenderState state_of(const Scene& scene, Preset& preset, Film& film);
 
-/// Metadata that a picture must share with a render that goes on from it: version, scene, routes,
-/// options, seed, film.
-const std::vector<std::string>& identity_keys();
+/// The passes that a picture with state has. Throws IoError, "cannot `purpose`", without state.
+PassRanges passes_of(const StateFile& file, const std::string& purpose);
 
-/// What differs between two renders, each as "options: radius 1, here 2"; empty if nothing that
-/// counts does.
-std::vector<std::string> differences(const StateFile& file, const Metadata& here);
+/// Throws UsageError, "cannot `purpose`", with all that differs, each as "radius 1, here 2", unless
+/// metadata tell of the same render as those of the file: version, scene, film, routes, options,
+/// outliers and seed. `other` is what these are called, "here" for example.
+void require_same_render(const StateFile& file, const Metadata& metadata, const std::string& other,
+                         const std::string& purpose);
 
 /// Reads the state of a file into film and estimators. Throws UsageError if it is the picture of
 /// another render, with all that differs, and IoError if it has no state or cannot be read.

@@ -177,8 +177,8 @@ constexpr IntegratorSetting kSettings[] = {
     {"guide", "yes|no", "yes", "",
      "Photons of `photons` and `path+photons` start where earlier ones were of use; those of "
      "`photons` also go where these went from rough surfaces.",
-     [](IntegratorOptions& o, const std::string& t) { o.guides_emission = yes("guide", t); },
-     [](const IntegratorOptions& o) { return yes_text(o.guides_emission); }},
+     [](IntegratorOptions& o, const std::string& t) { o.guides_photons = yes("guide", t); },
+     [](const IntegratorOptions& o) { return yes_text(o.guides_photons); }},
     {"guide-walks", "yes|no", "yes", "",
      "Camera walks of `path+photons`, and so of `mixed`, go where those of the first pass found "
      "light, where that pays.",

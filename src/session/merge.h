@@ -6,14 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "film/film.h"
-#include "film/image_io.h"
 #include "session/pass_ranges.h"
 
 namespace nephroid {
-
-/// Metadata by which a film can be made again from its picture.
-void add_film_metadata(const Film& film, bool independent_passes, Metadata* metadata);
 
 struct Merged {
   PassRanges passes;

@@ -260,12 +260,14 @@ void RenderSession::write_picture() {
 
 Metadata RenderSession::picture_metadata() const {
   Metadata metadata = options_.metadata;
+  metadata.emplace_back("nephroid:seed", fmt::format("{}", options_.seed));
   metadata.emplace_back("nephroid:passes", done_.text());
   metadata.emplace_back("nephroid:seconds", fmt::format("{:.3f}", seconds_of_all_runs()));
   metadata.emplace_back("nephroid:history",
                         options_.begin_with.history +
                             fmt::format("{} passes in {:.3f} s\n", passes_of_run(), elapsed()));
   if (const OutlierRejection* rejection = film_.rejection()) {
+    metadata.emplace_back("nephroid:outliers", "reject");
     metadata.emplace_back("nephroid:outlier_estimates",
                           fmt::format("{}", rejection->held_estimates()));
   }

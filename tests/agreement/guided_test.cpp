@@ -66,7 +66,7 @@ TEST_P(Guided, PhotonsFindTheSameCausticWithLessNoise) {
     SeedValues of_lights = SeedValues(kBlocks), of_the_lit = of_lights, all = of_lights;
   };
   const auto caustics = [&](bool guided, uint64_t first_seed) {
-    options.guides_emission = guided;
+    options.guides_photons = guided;
     Caustics values;
     for (uint64_t s = 0; s < kSeeds; ++s) {
       Preset preset = make_preset(plan, options, *scene);
@@ -123,7 +123,7 @@ TEST_P(Guided, WalksAndPhotonsTogetherFindTheSamePicture) {
   const OwnedRoutes owned = owned_routes(*scene, routes);
   const auto values = [&](bool guided, uint64_t first_seed) {
     SeedValues result(kAcross * kAcross);
-    options.guides_emission = guided;
+    options.guides_photons = guided;
     for (uint64_t s = 0; s < kSeeds; ++s) {
       const auto means = [&](float radius) {
         options.radius = radius;

@@ -10,6 +10,7 @@
 #include "film/film_output.h"
 #include "rendering.h"
 #include "session/checkpoint.h"
+#include "session/film_metadata.h"
 #include "session/merge.h"
 #include "unit/film/scratch_directory.h"
 

@@ -82,8 +82,9 @@ TEST(ExrFile, StateComesBackAndThePictureIsAsWithoutIt) {
     write_exr(path, some_picture(), &state);
     StateFile file(path);
     EXPECT_TRUE(file.has_state());
-    EXPECT_EQ(file.value_of("nephroid:passes"), "0..7");
+    EXPECT_EQ(value_of(file.metadata(), "nephroid:passes"), "0..7");
     EXPECT_EQ(file.window(), some_picture().window);
+    EXPECT_EQ(file.resolution(), Vec2i(100, 50));
     file.load(loaded.state());
     EXPECT_TRUE(saved == loaded) << words;
   }

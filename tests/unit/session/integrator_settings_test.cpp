@@ -68,7 +68,7 @@ TEST(IntegratorSettings, EveryKeyIsStoredWhereItBelongs) {
   EXPECT_EQ(o.mutations, 2.5f);
   EXPECT_EQ(o.chain_length, 77);
   EXPECT_EQ(o.large_step, 0.25f);
-  EXPECT_FALSE(o.guides_emission);
+  EXPECT_FALSE(o.guides_photons);
   EXPECT_FALSE(o.guides_walks);
   EXPECT_TRUE(o.specular_trees);
   EXPECT_EQ(o.texture_memory, 1536 * 1024);

@@ -16,15 +16,20 @@ using SessionPictures = testing_support::ScriptedSession;
 /// The passes in the metadata of a picture, "" if there is none.
 std::string passes_in(const std::string& path) {
   if (!std::filesystem::exists(path)) return "";
-  for (const auto& [key, value] : read_picture(path).metadata)
-    if (key == "nephroid:passes") return value;
-  return "no such key";
+  return value_of(read_picture(path).metadata, "nephroid:passes");
+}
+
+/// A render whose picture goes to the directory, written before the end only if it is asked for.
+RenderOptions options_in(const ScratchDirectory& directory) {
+  RenderOptions options;
+  options.output = directory.file("out.exr");
+  options.checkpoint_interval = 1e9;
+  return options;
 }
 
 TEST_F(SessionPictures, IntermediatePicturesAreWrittenNowAndThen) {
   const ScratchDirectory directory;
-  RenderOptions options;
-  options.output = directory.file("out.exr");
+  RenderOptions options = options_in(directory);
   options.checkpoint_interval = 3;
   options.last_pass = 7;
   std::vector<std::string> seen;
@@ -38,8 +43,7 @@ TEST_F(SessionPictures, IntermediatePicturesAreWrittenNowAndThen) {
 // Between checkpoints the PNG shows how far it is.
 TEST_F(SessionPictures, PreviewsAreMoreFrequent) {
   const ScratchDirectory directory;
-  RenderOptions options;
-  options.output = directory.file("out.exr");
+  RenderOptions options = options_in(directory);
   options.preview_interval = 2;
   options.checkpoint_interval = 5;
   options.last_pass = 7;
@@ -61,8 +65,7 @@ TEST_F(SessionPictures, PreviewsAreMoreFrequent) {
 // The passes of earlier runs are not rendered again, wherever they lie, and their time counts.
 TEST_F(SessionPictures, GoesOnWhereEarlierRunsWere) {
   const ScratchDirectory directory;
-  RenderOptions options;
-  options.output = directory.file("out.exr");
+  RenderOptions options = options_in(directory);
   options.last_pass = 9;
   options.begin_with = {*PassRanges::parse("0..2,5..6"), 100, "5 passes in 100.000 s\n"};
   RenderResult result = run(options);
@@ -92,9 +95,7 @@ TEST_F(SessionPictures, GoesOnWhereEarlierRunsWere) {
 
 TEST_F(SessionPictures, PictureOnDemand) {
   const ScratchDirectory directory;
-  RenderOptions options;
-  options.output = directory.file("out.exr");
-  options.checkpoint_interval = 1e9;
+  RenderOptions options = options_in(directory);
   std::vector<std::string> seen;
   script_.during_pass = [&](const PassKey& key) {
     seen.push_back(passes_in(options.output));
@@ -108,8 +109,7 @@ TEST_F(SessionPictures, PictureOnDemand) {
 
 TEST_F(SessionPictures, WritingStretchesItsIntervalToItsCost) {
   const ScratchDirectory directory;
-  RenderOptions options;
-  options.output = directory.file("out.exr");
+  RenderOptions options = options_in(directory);
   options.checkpoint_interval = 1;
   options.last_pass = 999;
   // The clock moves by a millisecond at each look: a write costs at least that, so that writes are
@@ -137,9 +137,7 @@ TEST_F(SessionPictures, WritingStretchesItsIntervalToItsCost) {
 
 TEST_F(SessionPictures, FailedIntermediatePictureIsAWarning) {
   const ScratchDirectory directory;
-  RenderOptions options;
-  options.output = directory.file("out.exr");
-  options.checkpoint_interval = 1e9;
+  RenderOptions options = options_in(directory);
   script_.during_pass = [&](const PassKey& key) {
     // Somebody puts a directory in the picture's place for the time of one pass.
     if (key.pass == 1) {
@@ -157,9 +155,7 @@ TEST_F(SessionPictures, FailedIntermediatePictureIsAWarning) {
 
 TEST_F(SessionPictures, FailedLastPictureIsAnError) {
   const ScratchDirectory directory;
-  RenderOptions options;
-  options.output = directory.file("out.exr");
-  options.checkpoint_interval = 1e9;
+  RenderOptions options = options_in(directory);
   script_.during_pass = [&](const PassKey& key) {
     if (key.pass == 5) std::filesystem::create_directory(options.output);
   };
@@ -181,8 +177,8 @@ TEST_F(SessionPictures, UnwritableOutputIsSaidBeforeTheFirstPass) {
 
 TEST_F(SessionPictures, MetadataOfTheCallerAndTheSession) {
   const ScratchDirectory directory;
-  RenderOptions options;
-  options.output = directory.file("out.exr");
+  RenderOptions options = options_in(directory);
+  options.seed = 77;
   options.metadata = {{"nephroid:scene_hash", "abc"}};
   run(options);
   const Metadata metadata = read_picture(options.output).metadata;
@@ -190,6 +186,7 @@ TEST_F(SessionPictures, MetadataOfTheCallerAndTheSession) {
     return std::find(metadata.begin(), metadata.end(), std::pair(key, value)) != metadata.end();
   };
   EXPECT_TRUE(has("nephroid:scene_hash", "abc"));
+  EXPECT_TRUE(has("nephroid:seed", "77"));
   EXPECT_TRUE(has("nephroid:passes", "0..5"));
   EXPECT_TRUE(has("nephroid:seconds", "6.000"));
   EXPECT_TRUE(has("nephroid:history", "6 passes in 6.000 s\n"));
@@ -207,14 +204,11 @@ TEST_F(SessionPictures, RoutesOfOneGroupHaveItsEstimates) {
   preset_.layout.routes = {"diffuse", "none", "caustic"};
   preset_.layout.groups = {0, 1, 0};  // nobody renders group 1
   film_ = std::make_unique<Film>(film_->settings(), preset_.layout);
-  RenderOptions options;
-  options.output = directory.file("out.exr");
+  const RenderOptions options = options_in(directory);
   run(options);
   const Metadata metadata = read_picture(options.output).metadata;
   const auto estimates = [&](const std::string& route) {
-    for (const auto& [key, value] : metadata)
-      if (key == "nephroid:estimates:" + route) return value;
-    return std::string("absent");
+    return value_of(metadata, "nephroid:estimates:" + route);
   };
   EXPECT_EQ(estimates("diffuse"), "6");
   EXPECT_EQ(estimates("caustic"), "6");

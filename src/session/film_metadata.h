@@ -1,0 +1,19 @@
+// What a film is, in the metadata of its picture, so that it can be made again without the scene.
+// Who calls it: the command render writes it, merge reads it. It must not know what is in a film.
+#pragma once
+
+#include "film/exr_file.h"
+#include "film/film.h"
+
+namespace nephroid {
+
+/// `passes_add_up`: those of the film's estimators are independent and tend to the truth.
+void add_film_metadata(const Film& film, bool passes_add_up, Metadata* metadata);
+
+/// An empty film like that of the picture. Throws IoError if its metadata make no sense.
+Film film_of(const StateFile& file);
+
+/// What add_film_metadata was told.
+bool passes_add_up(const StateFile& file);
+
+}  // namespace nephroid
