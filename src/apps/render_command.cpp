@@ -12,11 +12,12 @@
 #include "core/parallel.h"
 #include "film/atomic_file.h"
 #include "film/film_output.h"
+#include "input/scene_files.h"
 #include "integrator/ppm.h"
-#include "session/file_hash.h"
 #include "session/film_metadata.h"
 #include "session/film_of_scene.h"
 #include "session/idle_settings.h"
+#include "session/process_memory.h"
 #include "session/render_session.h"
 #include "session/scene_loading.h"
 #include "session/version.h"
@@ -26,12 +27,13 @@ namespace {
 
 constexpr int kSignalStatus = 128;
 
-Metadata metadata_of(const RenderCommand& command, const IntegratorChoice& choice) {
+Metadata metadata_of(const RenderCommand& command, const SceneFiles& files,
+                     const IntegratorChoice& choice) {
   return {
       {"nephroid:version", kVersion},
       {"nephroid:instruction_set", instruction_set()},
       {"nephroid:scene", command.scene},
-      {"nephroid:scene_hash", fmt::format("{:016x}", hash_file(command.scene))},
+      {"nephroid:scene_hash", fmt::format("{:016x}", files.hash())},
       {"nephroid:integrator", name_of(command.routes, choice.name)},
       {"nephroid:options", settings_text(choice.options)},
   };
@@ -69,6 +71,14 @@ void warn_of_what_is_not_rejected(const Routes& routes) {
        " show theirs after some passes, which read the same photons again and so confirm them");
 }
 
+/// The user's, over what a limit of memory leaves room for.
+SettingList settings_of(const RenderCommand& command) {
+  SettingList settings;
+  if (command.memory > 0) settings = settings_within(command.memory);
+  settings.insert(settings.end(), command.settings.begin(), command.settings.end());
+  return settings;
+}
+
 RenderOptions render_options(const RenderCommand& command, const Scene& scene,
                              const std::string& output, Metadata metadata) {
   RenderOptions options;
@@ -82,6 +92,8 @@ RenderOptions render_options(const RenderCommand& command, const Scene& scene,
   options.output = output;
   options.checkpoint_interval = command.checkpoint_interval;
   options.keeps_state = command.keeps_state;
+  std::error_code no_temporary_directory;
+  options.rescue_directory = std::filesystem::temp_directory_path(no_temporary_directory).string();
   options.metadata = std::move(metadata);
   return options;
 }
@@ -96,13 +108,19 @@ int run_render(const RenderCommand& command) {
     check_file_can_be_written(command.output);
     check_file_can_be_written(png_path_beside(command.output));
   }
-  const LoadedScene loaded = load_scene(command.scene, command.overrides);
+  limit_memory(command.memory > 0 ? command.memory : machine_memory());
+  const SettingList settings = settings_of(command);
+  SceneOverrides overrides = command.overrides;
+  IntegratorOptions of_settings;
+  apply_settings(settings, &of_settings);
+  overrides.texture_memory = static_cast<uint64_t>(of_settings.texture_memory);
+  const LoadedScene loaded = load_scene(command.scene, overrides);
   if (!command.quiet) print_warnings(loaded.warnings);
   const Scene& scene = *loaded.scene;
 
   const IntegratorChoice choice =
       choose_integrator(command.routes.integrator_or(kDefaultIntegrator), scene.integrator,
-                        scene.integrator_parameters, command.settings);
+                        scene.integrator_parameters, settings);
   const RoutePlan plan = plan_of(command.routes, choice.name);
   if (!command.quiet)
     for (const std::string& warning : choice.warnings) print_warning(warning);
@@ -110,9 +128,13 @@ int run_render(const RenderCommand& command) {
   if (!command.quiet)
     for (const std::string& warning : preset.warnings) print_warning(warning);
   if (!command.quiet) print_warnings(idle_settings(command.settings, *preset.routes));
-  check_film_fits(scene.film, preset.layout, *preset.routes, command.overrides.width > 0,
-                  command.reject_outliers,
-                  Ppm::hit_points(choice.options, scene.samples_per_pixel));
+  const uint64_t memory = command.memory > 0 ? command.memory : machine_memory();
+  check_memory(
+      {scene.film, preset.layout, *preset.routes, command.reject_outliers,
+       Ppm::hit_points(choice.options, scene.samples_per_pixel), choice.options.memory_photons,
+       memory_in_use(), command.memory > 0 ? overrides.texture_memory / 4 : 0, true},
+      memory, command.memory > 0, command.overrides.width > 0);
+  limit_memory(memory);
   Film film(film_settings(scene.film), preset.layout);
   if (command.reject_outliers) {
     film.reject_outliers(outlier_settings(*preset.routes, choice.options, *scene.filter));
@@ -120,7 +142,7 @@ int run_render(const RenderCommand& command) {
   }
   const std::string output =
       command.output.empty() ? default_output(scene.film, command.scene) : command.output;
-  Metadata metadata = metadata_of(command, choice);
+  Metadata metadata = metadata_of(command, *loaded.description.files, choice);
   add_routes(plan, &metadata);
   add_film(preset, film, &metadata);
   RenderOptions options = render_options(command, scene, output, std::move(metadata));
@@ -148,6 +170,10 @@ int run_render(const RenderCommand& command) {
   if (!command.quiet) {
     display.clear();
     fmt::print(stderr, "{}", render_report(result, film, output, notes));
+  }
+  if (command.strict && !result.faults.empty()) {
+    print_error("--strict: " + result.faults[0]);
+    return static_cast<int>(ExitStatus::kRender);
   }
   return result.reason == StopReason::kSignal ? kSignalStatus + result.signal
                                               : static_cast<int>(ExitStatus::kDone);

@@ -64,16 +64,6 @@ std::string route_lines(const Film& film) {
   return text;
 }
 
-std::string film_faults(const Film& film) {
-  std::string text;
-  if (film.bad_values() > 0)
-    text +=
-        fmt::format("warning: {} estimates were not finite and were left out\n", film.bad_values());
-  if (film.saturated_values() > 0)
-    text += fmt::format("warning: {} pixel sums reached their limit\n", film.saturated_values());
-  return text;
-}
-
 }  // namespace
 
 std::string render_report(const RenderResult& result, const Film& film, const std::string& output,
@@ -84,7 +74,7 @@ std::string render_report(const RenderResult& result, const Film& film, const st
     text += line + "\n";
   if (result.error_text) text += *result.error_text + "\n";
   text += route_lines(film);
-  text += film_faults(film);
+  for (const std::string& fault : result.faults) text += fmt::format("warning: {}\n", fault);
   for (const std::string& note : notes) text += fmt::format("note: {}\n", note);
   text += fmt::format("wrote {} and {}\n", output, png_path_beside(output));
   return text;

@@ -10,25 +10,15 @@
 #include <span>
 #include <system_error>
 
+#include "core/content_hash.h"
 #include "core/errors.h"
 #include "core/parallel.h"
 #include "film/atomic_file.h"
-#include "session/file_hash.h"
+#include "input/scene_files.h"
 #include "session/version.h"
 
 namespace nephroid {
 namespace {
-
-constexpr uint64_t kHashBegin = 0xcbf29ce484222325ull;
-
-/// FNV-1a, as hash_file, of what was hashed before and these bytes.
-uint64_t hash_bytes(uint64_t hash, std::span<const std::byte> bytes) {
-  for (const std::byte byte : bytes) {
-    hash ^= std::to_integer<uint64_t>(byte);
-    hash *= 0x100000001b3ull;
-  }
-  return hash;
-}
 
 /// Another build of the program may be faster, or right where this one is wrong.
 uint64_t hash_of_program() {
@@ -60,7 +50,7 @@ std::string render_text(const BenchRender& render) {
 }  // namespace
 
 std::string hash_text(const std::string& text) {
-  return fmt::format("{:016x}", hash_bytes(kHashBegin, std::as_bytes(std::span(text))));
+  return fmt::format("{:016x}", hash_of(std::as_bytes(std::span(text))));
 }
 
 std::string hash_picture(const Picture& p) {
@@ -68,8 +58,10 @@ std::string hash_picture(const Picture& p) {
                                  p.window.y0, p.window.x1, p.window.y1);
   for (const std::string& channel : p.channels) text += channel + "\n";
   if (p.color_space != nullptr) text += p.color_space->name();
-  const uint64_t head = hash_bytes(kHashBegin, std::as_bytes(std::span(text)));
-  return fmt::format("{:016x}", hash_bytes(head, std::as_bytes(std::span(p.pixels))));
+  ContentHash hash;
+  hash.add(std::as_bytes(std::span(text)));
+  hash.add(std::as_bytes(std::span(p.pixels)));
+  return fmt::format("{:016x}", hash.value());
 }
 
 std::string reference_key(const BenchRender& render) {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "bench/measure.h"
-#include "bench/process_memory.h"
+#include "session/process_memory.h"
 #include "film/film_output.h"
 #include "session/film_of_scene.h"
 #include "session/noise.h"
@@ -219,8 +219,8 @@ std::optional<BenchRendered> render_for_bench(const BenchRender& render, const P
                         scene.integrator, scene.integrator_parameters, settings);
   restart_memory_peak();
   Preset preset = make_preset(plan, choice.options, scene);
-  check_film_fits(scene.film, preset.layout, *preset.routes, render.scene->width > 0,
-                  render.integrator->reject_outliers);
+  check_memory({scene.film, preset.layout, *preset.routes, render.integrator->reject_outliers},
+               machine_memory(), false, render.scene->width > 0);
   Film film(film_settings(scene.film), preset.layout);
   if (render.integrator->reject_outliers)
     film.reject_outliers(outlier_settings(*preset.routes, choice.options, *scene.filter));

@@ -20,12 +20,15 @@
 #include <bit>
 #include <charconv>
 #include <cstring>
+#include <filesystem>
 #include <map>
 #include <optional>
 
+#include "core/content_hash.h"
 #include "core/errors.h"
 #include "film/atomic_file.h"
 #include "film/chromaticities.h"
+#include "input/exr_header.h"
 
 namespace nephroid {
 namespace {
@@ -150,23 +153,6 @@ std::vector<uint32_t> words_of(std::span<const std::byte> bytes) {
   return words;
 }
 
-/// 64 bits that change with any bit of the words.
-class Checksum {
- public:
-  void add(std::span<const std::byte> bytes) {
-    for (size_t i = 0; i + 4 <= bytes.size(); i += 4) {
-      uint32_t word;
-      std::memcpy(&word, bytes.data() + i, 4);
-      hash_ = (hash_ ^ word) * 0x9e3779b97f4a7c15ull;
-      hash_ ^= hash_ >> 29;
-    }
-  }
-  uint64_t value() const { return hash_; }
-
- private:
-  uint64_t hash_ = 0xcbf29ce484222325ull;
-};
-
 Imf::Header part_header(const Picture& picture, const Part& part) {
   // Sums are noise below and nearly nothing above, of which this finds all that there is to find.
   Imf::Header header =
@@ -188,10 +174,9 @@ std::vector<Part> parts_of(const RenderState& state, const PixelBounds& window) 
     parts.push_back(part_of_stream(stream.name, stream.save()));
   std::vector<uint32_t> checksums;
   for (const Part& part : parts) {
-    Checksum checksum;
-    checksum.add(part.bytes);
-    checksums.push_back(static_cast<uint32_t>(checksum.value()));
-    checksums.push_back(static_cast<uint32_t>(checksum.value() >> 32));
+    const uint64_t hash = hash_of(part.bytes);
+    checksums.push_back(static_cast<uint32_t>(hash));
+    checksums.push_back(static_cast<uint32_t>(hash >> 32));
   }
   parts.push_back(part_of_stream(kChecksums, std::move(checksums)));
   return parts;
@@ -229,6 +214,7 @@ void write_exr(const std::string& path, const Picture& picture, const RenderStat
 
 struct StateFile::Input {
   std::string path;
+  uint64_t bytes = 0;
   std::unique_ptr<Imf::MultiPartInputFile> file;
   struct Place {
     int part = 0;
@@ -275,7 +261,10 @@ struct StateFile::Input {
 StateFile::StateFile(const std::string& path) : input_(std::make_unique<Input>()) {
   Input& in = *input_;
   in.path = path;
+  if (const std::string fault = fault_of_exr_header(path); !fault.empty())
+    throw IoError(path + ": cannot read: " + fault);
   try {
+    in.bytes = std::filesystem::file_size(path);
     in.file = std::make_unique<Imf::MultiPartInputFile>(path.c_str());
     const Imf::Header& first = in.file->header(0);
     for (auto a = first.begin(); a != first.end(); ++a)
@@ -316,13 +305,17 @@ PixelBounds StateFile::window() const {
   return {box.min.x, box.min.y, box.max.x + 1, box.max.y + 1};
 }
 
+uint64_t StateFile::size() const {
+  return input_->bytes;
+}
+
 bool StateFile::has_state() const {
   return !input_->parts.empty();
 }
 
 void StateFile::load(const RenderState& state) {
   const Input& in = *input_;
-  std::vector<Checksum> found;
+  std::vector<uint64_t> found;
   for (const RenderState::Array& array : state.arrays) {
     const Input::Place& place = in.find(array.name);
     if (place.total_words * 4 != array.bytes.size())
@@ -333,17 +326,17 @@ void StateFile::load(const RenderState& state) {
       const std::vector<uint32_t> words = in.read_stream(array.name, array.bytes.size() / 4);
       std::memcpy(array.bytes.data(), words.data(), array.bytes.size());
     }
-    found.emplace_back().add(array.bytes);
+    found.push_back(hash_of(array.bytes));
   }
   std::vector<std::vector<uint32_t>> streams;
   for (const RenderState::Stream& stream : state.streams) {
     streams.push_back(in.read_stream(stream.name, stream.most_words));
-    found.emplace_back().add(std::as_bytes(std::span(streams.back())));
+    found.push_back(hash_of(std::as_bytes(std::span(streams.back()))));
   }
   const std::vector<uint32_t> checksums = in.read_stream(kChecksums, 2 * found.size());
   if (checksums.size() != 2 * found.size()) in.fail("its parts are not those of this render");
   for (size_t i = 0; i < found.size(); ++i)
-    if (found[i].value() != (checksums[2 * i] | uint64_t{checksums[2 * i + 1]} << 32))
+    if (found[i] != (checksums[2 * i] | uint64_t{checksums[2 * i + 1]} << 32))
       in.fail(fmt::format("'{}' is damaged", i < state.arrays.size()
                                                  ? state.arrays[i].name
                                                  : state.streams[i - state.arrays.size()].name));

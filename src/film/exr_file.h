@@ -32,6 +32,8 @@ class StateFile {
   /// Width and height of the full picture, and the pixels of it that there are.
   Vec2i resolution() const;
   PixelBounds window() const;
+  /// Bytes of the file.
+  uint64_t size() const;
   bool has_state() const;
   /// Reads all arrays and streams, each of which must be in the file with the size that it has
   /// here, and be whole.

@@ -3,9 +3,9 @@
 #include "film/film.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "core/parallel.h"
@@ -13,10 +13,8 @@
 namespace nephroid {
 namespace {
 
-bool all_finite(std::span<const Rgb> colors) {
-  return std::all_of(colors.begin(), colors.end(), [](const Rgb& c) {
-    return std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b);
-  });
+bool is_finite(const Rgb& c) {
+  return std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b);
 }
 
 Rgb to_rgb(const double (&v)[3]) {
@@ -81,8 +79,7 @@ Film::Film(const FilmSettings& settings, FilmLayout layout)
     surfaces_.resize(pixels);
     surface_samples_.assign(pixels, 0);
   }
-  bad_.assign(pixels, 0);
-  saturated_.assign(pixels, 0);
+  bad_.resize(layout_.routes.size());
 }
 
 size_t Film::bytes_per_pixel(const FilmLayout& layout, bool gbuffer) {
@@ -90,8 +87,7 @@ size_t Film::bytes_per_pixel(const FilmLayout& layout, bool gbuffer) {
   const size_t merging =
       static_cast<size_t>(std::count(layout.merges.begin(), layout.merges.end(), true));
   return sums * sizeof(RgbSum) + merging * sizeof(Bias) + sizeof(Features) +
-         (gbuffer ? sizeof(SurfaceSums) + sizeof(uint64_t) : 0) + sizeof(uint64_t) +
-         2 * sizeof(uint32_t);  // depths, bad and saturated
+         (gbuffer ? sizeof(SurfaceSums) + sizeof(uint64_t) : 0) + sizeof(uint64_t);  // depths
 }
 
 Rgb clamp_component(const Rgb& rgb, float limit) {
@@ -127,31 +123,25 @@ bool Film::add_square(int group, size_t pixel, std::span<const Rgb> values) {
 void Film::add(int group, int x, int y, std::span<const Rgb> values) {
   assert(values.size() == parts_of(group).size());
   const size_t pixel = index(x, y);
-  if (!all_finite(values)) {
-    ++bad_[pixel];
-    return;
-  }
+  if (is_bad(group, x, y, values)) return;
   const bool is_held =
       outliers_ && outliers_->hold(group, pixel, values, [this](int g, size_t p, const auto& held) {
         release(g, p, held);
       });
   bool fits = is_held || add_parts(group, pixel, values);
   fits &= add_square(group, pixel, values);
-  if (!fits) ++saturated_[pixel];
+  if (!fits) count_saturated(1);
 }
 
 void Film::replace(int group, int x, int y, std::span<const Rgb> values) {
   assert(values.size() == parts_of(group).size());
   const size_t pixel = index(x, y);
-  if (!all_finite(values)) {
-    ++bad_[pixel];
-    return;
-  }
+  if (is_bad(group, x, y, values)) return;
   for (const int part : parts_of(group)) sums_[static_cast<size_t>(part)][pixel] = {};
   squares_[static_cast<size_t>(group)][pixel] = {};
   bool fits = add_parts(group, pixel, values);
   fits &= add_square(group, pixel, values);
-  if (!fits) ++saturated_[pixel];
+  if (!fits) count_saturated(1);
 }
 
 void Film::add_bias(int group, std::span<const float> of_pixels) {
@@ -175,7 +165,7 @@ void Film::release(int group, size_t pixel, std::span<const RgbSum> held) {
   bool fits = true;
   for (size_t i = 0; i < parts.size(); ++i)
     fits &= sums_[static_cast<size_t>(parts[i])][pixel].add(held[i]);
-  if (!fits) ++saturated_[pixel];
+  if (!fits) count_saturated(1);
 }
 
 void Film::reject_outliers(OutlierSettings settings) {
@@ -209,9 +199,29 @@ void Film::set_estimates(int group, uint64_t count) {
 uint64_t Film::estimates(int group) const {
   return estimates_[static_cast<size_t>(group)];
 }
-void Film::add_faults(uint64_t bad, uint64_t saturated) {
-  counts_.bad += bad;
-  counts_.saturated += saturated;
+void Film::count_bad(int group, size_t part, const Vec2i& pixel) {
+  const auto route = layout_.parts[static_cast<size_t>(parts_of(group)[part])].route;
+  BadEstimates& bad = bad_[static_cast<size_t>(route)];
+  std::atomic_ref(bad.count).fetch_add(1, std::memory_order_relaxed);
+  const PixelBounds& crop = settings_.crop;
+  if (pixel.x < crop.x0 || pixel.x >= crop.x1 || pixel.y < crop.y0 || pixel.y >= crop.y1) return;
+  const uint64_t at = index(pixel.x, pixel.y);
+  const std::atomic_ref first(bad.first_pixel);
+  for (uint64_t seen = first.load(); at < seen && !first.compare_exchange_weak(seen, at);) {
+  }
+}
+
+void Film::count_saturated(uint64_t sums) {
+  std::atomic_ref(counts_.saturated).fetch_add(sums, std::memory_order_relaxed);
+}
+
+bool Film::is_bad(int group, int x, int y, std::span<const Rgb> values) {
+  for (size_t part = 0; part < values.size(); ++part)
+    if (!is_finite(values[part])) {
+      count_bad(group, part, {x, y});
+      return true;
+    }
+  return false;
 }
 
 void Film::add_features(int x, int y, const Rgb& albedo, const Vec3f& normal, float depth) {
@@ -366,10 +376,9 @@ SurfaceSample Film::surface(int x, int y) const {
 }
 
 uint64_t Film::bad_values() const {
-  return std::accumulate(bad_.begin(), bad_.end(), counts_.bad);
-}
-uint64_t Film::saturated_values() const {
-  return std::accumulate(saturated_.begin(), saturated_.end(), counts_.saturated);
+  uint64_t count = 0;
+  for (const BadEstimates& bad : bad_) count += bad.count;
+  return count;
 }
 
 }  // namespace nephroid

@@ -63,6 +63,13 @@ struct FilmLayout {
   }
 };
 
+/// Estimates of a route that were left out because a value was infinite or NaN.
+struct BadEstimates {
+  static constexpr uint64_t kNoPixel = ~uint64_t{0};
+  uint64_t count = 0;
+  uint64_t first_pixel = kNoPixel;  ///< the first of their pixels, row by row over the crop
+};
+
 /// The surface that a sample saw first, in the coordinate system that the caller chose.
 struct SurfaceSample {
   Vec3f p{0, 0, 0};
@@ -90,7 +97,7 @@ class Film {
   /// Adds one estimate of a pixel by a group: values[i] is what it found for parts_of(group)[i].
   /// The caller has clamped their sum to max_component before it applied the filter's weight. Each
   /// pixel has exactly one writer at a time. An estimate with a value that is not finite is counted
-  /// (see bad_values) and left out, with all its parts.
+  /// (see bad_estimates) and left out, with all its parts.
   void add(int group, int x, int y, std::span<const Rgb> values);
   /// Replaces what the group has for this pixel, for estimators whose passes cannot be added (E1).
   /// `estimates` is then set to 1 by the caller.
@@ -103,8 +110,10 @@ class Film {
   void add_estimates(int group, uint64_t count);
   void set_estimates(int group, uint64_t count);
   uint64_t estimates(int group) const;
-  /// Counts what was left out or held before it came here; one caller at a time.
-  void add_faults(uint64_t bad, uint64_t saturated);
+  /// Counts an estimate that was left out before it came here, of parts_of(group)[part] and, if it
+  /// is inside the crop, of a pixel; or sums that reached their limit. Any number of threads.
+  void count_bad(int group, size_t part, const Vec2i& pixel);
+  void count_saturated(uint64_t sums);
 
   /// From now on holds estimates that are too isolated in position and brightness ([O1] of
   /// docs/estimators.md): what is held is no part of routes, AOVs and value(), but of outliers().
@@ -160,8 +169,12 @@ class Film {
   /// can be added; neither rejects outliers.
   void add(const Film& other);
 
-  uint64_t bad_values() const;        ///< estimates that were not finite
-  uint64_t saturated_values() const;  ///< sums that reached their limit
+  /// Estimates that were not finite; the route is that of the first part that was not.
+  const BadEstimates& bad_estimates(int route) const { return bad_[static_cast<size_t>(route)]; }
+  uint64_t bad_values() const;
+  uint64_t saturated_values() const {
+    return counts_.saturated;
+  }  ///< sums that reached their limit
 
  private:
   struct Bias {
@@ -182,6 +195,8 @@ class Film {
   bool add_square(int group, size_t pixel, std::span<const Rgb> values);
   /// Adds what was held to the parts of a group.
   void release(int group, size_t pixel, std::span<const RgbSum> parts);
+  /// Counts an estimate with a value that is not finite. False if it has none.
+  bool is_bad(int group, int x, int y, std::span<const Rgb> values);
   Rgb mean_of_parts(const std::vector<int>& parts, size_t pixel) const;
   /// Squared standard errors of a group's estimates.
   std::array<double, 3> error_squared(size_t group, size_t pixel) const;
@@ -200,10 +215,10 @@ class Film {
   std::vector<uint64_t> depths_;           ///< [pixel], feature samples that hit something
   std::vector<SurfaceSums> surfaces_;      ///< empty without geometric layers
   std::vector<uint64_t> surface_samples_;  ///< [pixel], of these
-  std::vector<uint32_t> bad_, saturated_;  ///< per pixel, so that counting needs no lock
+  std::vector<BadEstimates> bad_;          ///< [route]
   struct Counts {
     uint64_t feature_estimates = 0;
-    uint64_t bad = 0, saturated = 0;  ///< by add_faults
+    uint64_t saturated = 0;
   };
   Counts counts_;
 };

@@ -1,4 +1,5 @@
 // What a film keeps, as a RenderState, and the sum of two films.
+#include <algorithm>
 #include <cassert>
 
 #include "core/parallel.h"
@@ -22,7 +23,6 @@ RenderState Film::state() {
     state.add("film.surface_samples", std::span(surface_samples_));
   }
   state.add("film.bad", std::span(bad_));
-  state.add("film.saturated", std::span(saturated_));
   state.add("film.estimates", std::span(estimates_));
   state.add("film.counts", std::span(&counts_, 1));
   if (outliers_)
@@ -34,34 +34,40 @@ RenderState Film::state() {
 
 void Film::add(const Film& other) {
   assert(!outliers_ && !other.outliers_ && other.sums_.size() == sums_.size() &&
-         other.bad_.size() == bad_.size());
-  parallel_chunks(static_cast<int64_t>(bad_.size()), 1 << 14, [&](int64_t, int64_t b, int64_t e) {
-    for (size_t i = static_cast<size_t>(b); i < static_cast<size_t>(e); ++i) {
-      bool fits = true;
-      for (size_t p = 0; p < sums_.size(); ++p) fits &= sums_[p][i].add(other.sums_[p][i]);
-      for (size_t g = 0; g < squares_.size(); ++g) fits &= squares_[g][i].add(other.squares_[g][i]);
-      for (size_t g = 0; g < biases_.size(); ++g) {
-        if (biases_[g].empty()) continue;
-        biases_[g][i].sum.add(other.biases_[g][i].sum);
-        biases_[g][i].square.add(other.biases_[g][i].square);
-      }
-      for (int c = 0; c < 3; ++c) {
-        features_[i].albedo[c].add(other.features_[i].albedo[c]);
-        features_[i].normal[c].add(other.features_[i].normal[c]);
-      }
-      features_[i].depth.add(other.features_[i].depth);
-      depths_[i] += other.depths_[i];
-      if (!surfaces_.empty()) {
-        for (size_t k = 0; k < surfaces_[i].size(); ++k) surfaces_[i][k].add(other.surfaces_[i][k]);
-        surface_samples_[i] += other.surface_samples_[i];
-      }
-      bad_[i] += other.bad_[i];
-      saturated_[i] += other.saturated_[i] + (fits ? 0u : 1u);
-    }
-  });
+         other.depths_.size() == depths_.size());
+  parallel_chunks(static_cast<int64_t>(depths_.size()), 1 << 14,
+                  [&](int64_t, int64_t b, int64_t e) {
+                    for (size_t i = static_cast<size_t>(b); i < static_cast<size_t>(e); ++i) {
+                      bool fits = true;
+                      for (size_t p = 0; p < sums_.size(); ++p)
+                        fits &= sums_[p][i].add(other.sums_[p][i]);
+                      for (size_t g = 0; g < squares_.size(); ++g)
+                        fits &= squares_[g][i].add(other.squares_[g][i]);
+                      for (size_t g = 0; g < biases_.size(); ++g) {
+                        if (biases_[g].empty()) continue;
+                        biases_[g][i].sum.add(other.biases_[g][i].sum);
+                        biases_[g][i].square.add(other.biases_[g][i].square);
+                      }
+                      for (int c = 0; c < 3; ++c) {
+                        features_[i].albedo[c].add(other.features_[i].albedo[c]);
+                        features_[i].normal[c].add(other.features_[i].normal[c]);
+                      }
+                      features_[i].depth.add(other.features_[i].depth);
+                      depths_[i] += other.depths_[i];
+                      if (!surfaces_.empty()) {
+                        for (size_t k = 0; k < surfaces_[i].size(); ++k)
+                          surfaces_[i][k].add(other.surfaces_[i][k]);
+                        surface_samples_[i] += other.surface_samples_[i];
+                      }
+                      if (!fits) count_saturated(1);
+                    }
+                  });
   for (size_t g = 0; g < estimates_.size(); ++g) estimates_[g] += other.estimates_[g];
   counts_.feature_estimates += other.counts_.feature_estimates;
-  counts_.bad += other.counts_.bad;
+  for (size_t r = 0; r < bad_.size(); ++r) {
+    bad_[r].count += other.bad_[r].count;
+    bad_[r].first_pixel = std::min(bad_[r].first_pixel, other.bad_[r].first_pixel);
+  }
   counts_.saturated += other.counts_.saturated;
 }
 

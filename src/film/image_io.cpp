@@ -15,6 +15,7 @@
 #include "core/errors.h"
 #include "film/atomic_file.h"
 #include "film/chromaticities.h"
+#include "input/exr_header.h"
 
 namespace nephroid {
 namespace {
@@ -75,6 +76,8 @@ std::vector<uint8_t> encode_png(int width, int height, const std::vector<uint8_t
 }
 
 Picture read_picture(const std::string& path) {
+  if (const std::string fault = fault_of_exr_header(path); !fault.empty())
+    throw IoError(path + ": cannot read: " + fault);
   const auto in = OIIO::ImageInput::open(path);
   if (!in) {
     const std::string reason = OIIO::geterror();

@@ -25,6 +25,7 @@ constexpr double kSmallShare = 0.25;
 constexpr double kModerate = 4;
 
 void put(std::vector<uint32_t>& words, const void* data, size_t bytes) {
+  if (bytes == 0) return;
   const size_t at = words.size();
   words.resize(at + bytes / 4);
   std::memcpy(words.data() + at, data, bytes);
@@ -188,7 +189,7 @@ std::vector<uint32_t> OutlierRejection::save() const {
 void OutlierRejection::load(std::span<const uint32_t> words) {
   const auto take = [&](void* data, size_t bytes) {
     if (words.size() * 4 < bytes) throw IoError("it ends too early");
-    std::memcpy(data, words.data(), bytes);
+    if (bytes > 0) std::memcpy(data, words.data(), bytes);
     words = words.subspan(bytes / 4);
   };
   while (!words.empty()) {

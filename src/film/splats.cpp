@@ -34,6 +34,14 @@ bool is_usable(const Splat& splat) {
          std::isfinite(splat.value.b) && !std::isnan(splat.film.x) && !std::isnan(splat.film.y);
 }
 
+/// A pixel that no film has, if the point is at NaN or far away.
+Vec2i pixel_of(const Vec2f& film) {
+  const auto coordinate = [](float x) {
+    return std::abs(x) < 1e9f ? static_cast<int>(std::floor(x)) : -1;
+  };
+  return {coordinate(film.x), coordinate(film.y)};
+}
+
 }  // namespace
 
 SplatBuffer::SplatBuffer(Film& film, int group, const PixelFilter& filter)
@@ -61,10 +69,9 @@ std::vector<std::vector<uint32_t>> SplatBuffer::splats_by_strip(std::span<const 
   const PixelBounds& crop = film_.bounds();
   std::vector<std::vector<uint32_t>> strips(
       static_cast<size_t>(chunk_count(crop.height(), kRowsPerStrip)));
-  uint64_t bad = 0;
   for (size_t i = 0; i < splats.size(); ++i) {
     if (!is_usable(splats[i])) {
-      ++bad;
+      film_.count_bad(group_, splats[i].part, pixel_of(splats[i].film));
       continue;
     }
     const PixelBounds reached = reached_by(splats[i].film);
@@ -73,7 +80,6 @@ std::vector<std::vector<uint32_t>> SplatBuffer::splats_by_strip(std::span<const 
     for (auto s = static_cast<size_t>((reached.y0 - crop.y0) / kRowsPerStrip); s <= last; ++s)
       strips[s].push_back(static_cast<uint32_t>(i));
   }
-  film_.add_faults(bad, 0);
   return strips;
 }
 
@@ -88,7 +94,7 @@ void SplatBuffer::add_batch(std::span<const Splat> splats) {
           held[s] +=
               add_to_rows(splats[i], top + static_cast<int>(begin), top + static_cast<int>(end));
       });
-  film_.add_faults(0, std::accumulate(held.begin(), held.end(), uint64_t{0}));
+  film_.count_saturated(std::accumulate(held.begin(), held.end(), uint64_t{0}));
 }
 
 uint64_t SplatBuffer::add_to_rows(const Splat& splat, int y0, int y1) {

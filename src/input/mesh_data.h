@@ -8,6 +8,7 @@
 
 #include "core/errors.h"
 #include "core/math.h"
+#include "input/scene_files.h"
 
 namespace nephroid {
 
@@ -25,6 +26,6 @@ struct MeshData {
 /// x,y,z, optional nx,ny,nz and u,v (also s,t and texture_u, texture_v); faces with 3 or 4 indices,
 /// larger ones as an error. Throws IoError or SceneError naming the file; a file shorter than its
 /// header says is an error and nothing is allocated on the header's word alone.
-MeshData read_ply(const std::string& path, const SourceLocation& wanted_by);
+MeshData read_ply(SceneFiles& files, const std::string& path, const SourceLocation& wanted_by);
 
 }  // namespace nephroid

@@ -11,10 +11,6 @@
 namespace nephroid {
 namespace {
 
-std::string or_here(const std::string& directory) {
-  return directory.empty() ? "." : directory;
-}
-
 void parse(TokenStream& tokens, SceneDescription& scene, Diagnostics& diagnostics) {
   SceneBuilder builder(scene, diagnostics);
   const SourceLocation end = read_directives(tokens, builder, diagnostics);
@@ -26,8 +22,8 @@ void parse(TokenStream& tokens, SceneDescription& scene, Diagnostics& diagnostic
 SceneDescription parse_pbrt_file(const std::string& path, Diagnostics& diagnostics) {
   SceneDescription scene;
   scene.file = path;
-  scene.directory = or_here(std::filesystem::path(path).parent_path().string());
-  TokenStream tokens(scene.directory);
+  scene.files = std::make_shared<SceneFiles>(std::filesystem::path(path).parent_path().string());
+  TokenStream tokens(*scene.files);
   tokens.open_scene(path);
   parse(tokens, scene, diagnostics);
   return scene;
@@ -37,8 +33,8 @@ SceneDescription parse_pbrt_string(const std::string& text, const std::string& n
                                    const std::string& directory, Diagnostics& diagnostics) {
   SceneDescription scene;
   scene.file = name;
-  scene.directory = or_here(directory);
-  TokenStream tokens(scene.directory);
+  scene.files = std::make_shared<SceneFiles>(directory);
+  TokenStream tokens(*scene.files);
   tokens.open_text(text, name);
   parse(tokens, scene, diagnostics);
   return scene;

@@ -232,10 +232,10 @@ MeshData read_mesh(std::string_view bytes) {
 
 }  // namespace
 
-MeshData read_ply(const std::string& path, const SourceLocation& wanted_by) {
+MeshData read_ply(SceneFiles& files, const std::string& path, const SourceLocation& wanted_by) {
   std::string bytes;
   try {
-    bytes = read_file_bytes(path);
+    bytes = files.read(path);
   } catch (const IoError& error) {
     file_is_unreadable(wanted_by, error.what());
   }

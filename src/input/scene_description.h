@@ -12,6 +12,7 @@
 
 #include "core/errors.h"
 #include "core/math.h"
+#include "input/scene_files.h"
 
 namespace nephroid {
 
@@ -133,8 +134,9 @@ struct InstanceDescription {
 
 /// Everything a scene file said, in file order. Directives that were absent are empty optionals.
 struct SceneDescription {
-  std::string file;       ///< as given by the user
-  std::string directory;  ///< relative file names are relative to this
+  std::string file;  ///< as given by the user
+  /// Never null; copies share it.
+  std::shared_ptr<SceneFiles> files = std::make_shared<SceneFiles>();
   std::vector<Parameter> options;
   std::optional<DirectiveDescription> film, sampler, pixel_filter, integrator, accelerator;
   std::optional<CameraDescription> camera;

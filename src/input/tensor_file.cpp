@@ -111,10 +111,11 @@ std::string TensorField::to_string() const {
   return text + (shape.size() > kShown ? " x ...]" : "]");
 }
 
-TensorFile TensorFile::read(const std::string& path, const SourceLocation& wanted_by) {
+TensorFile TensorFile::read(SceneFiles& files, const std::string& path,
+                            const SourceLocation& wanted_by) {
   std::string bytes;
   try {
-    bytes = read_file_bytes(path);
+    bytes = files.read(path);
   } catch (const IoError& error) {
     file_is_unreadable(wanted_by, error.what());
   }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "input/scene_files.h"
 
 namespace nephroid {
 
@@ -45,7 +46,8 @@ class TensorFile {
  public:
   /// Reads a file (".gz" is unpacked). Throws SceneError at `wanted_by`, or IoError if no scene
   /// names the file, if it cannot be read; SceneError if it is no tensor file or is damaged.
-  static TensorFile read(const std::string& path, const SourceLocation& wanted_by);
+  static TensorFile read(SceneFiles& files, const std::string& path,
+                         const SourceLocation& wanted_by);
   /// The same from bytes in memory; `name` stands for the file in messages.
   TensorFile(std::string bytes, std::string name, SourceLocation wanted_by);
   TensorFile(const TensorFile&) = delete;

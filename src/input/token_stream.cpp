@@ -7,7 +7,6 @@
 #include <system_error>
 #include <utility>
 
-#include "input/file_bytes.h"
 #include "input/number_text.h"
 
 namespace nephroid {
@@ -22,8 +21,9 @@ std::string canonical(const std::string& path) {
 }  // namespace
 
 void TokenStream::open_scene(const std::string& path) {
+  files_of_scene_.set_top(path);
   files_.push_back({std::make_unique<Tokenizer>(std::make_shared<const std::string>(path),
-                                                read_file_bytes(path)),
+                                                files_of_scene_.read(path)),
                     path, canonical(path), true});
 }
 
@@ -45,17 +45,15 @@ void TokenStream::leave() {
 }
 
 void TokenStream::push(const Token& file_name, bool is_scope) {
-  std::filesystem::path path{std::string(file_name.text)};
-  if (path.empty()) throw SceneError(file_name.where(), "the file name is empty");
-  if (path.is_relative() && directory_ != ".") path = directory_ / path;
+  if (file_name.text.empty()) throw SceneError(file_name.where(), "the file name is empty");
   OpenFile file;
-  file.shown_path = path.string();
+  file.shown_path = files_of_scene_.path_of(std::string(file_name.text));
   file.canonical_path = canonical(file.shown_path);
   file.is_scope = is_scope;
   check_nesting(file_name, file);
   std::string text;
   try {
-    text = read_file_bytes(file.shown_path);
+    text = files_of_scene_.read(file.shown_path);
   } catch (const IoError& error) {
     throw SceneError(file_name.where(), error.what());
   }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "input/scene_files.h"
 #include "input/tokenizer.h"
 
 namespace nephroid {
@@ -16,8 +17,8 @@ class TokenStream {
   /// How deep files may include each other.
   static constexpr size_t kMaxDepth = 64;
 
-  /// Relative file names of directives are looked for in `directory`.
-  explicit TokenStream(std::string directory) : directory_(std::move(directory)) {}
+  /// Names in directives are found in `files`, which must outlive the stream.
+  explicit TokenStream(SceneFiles& files) : files_of_scene_(files) {}
 
   /// Starts with the text of a file (`path` as the user gave it). Throws IoError.
   void open_scene(const std::string& path);
@@ -52,7 +53,7 @@ class TokenStream {
   void check_nesting(const Token& file_name, const OpenFile& file) const;
   std::string chain_to(const std::string& last) const;
 
-  std::string directory_;
+  SceneFiles& files_of_scene_;
   std::vector<OpenFile> files_;
   Token ahead_;
   bool has_ahead_ = false;

@@ -39,16 +39,15 @@ MarkovSample::Origin independent_numbers(uint64_t seed, uint64_t stream, uint64_
 }
 
 struct Chunk {
-  std::vector<Splat> splats;
+  std::vector<Splat> splats, bad;
   ChainStatistics statistics;
-  uint64_t faults = 0;
 };
 
 /// One pass.
 class ChainPass {
  public:
   ChainPass(const PassKey& key, const ChainSettings& settings, const ChainPilot& pilot,
-            const PathFunctionMaker& make, Film& film, SplatBuffer& buffer)
+            const PathFunctionMaker& make, SplatBuffer& buffer)
       : key_(key),
         settings_(settings),
         mutations_(static_cast<double>(settings.chains * settings.mutations)),
@@ -57,7 +56,6 @@ class ChainPass {
         importance_(pilot.importance),
         balance_(pilot.balance > 0 ? pilot.balance : 1),
         make_(make),
-        film_(film),
         buffer_(buffer) {}
 
   void run() {
@@ -113,7 +111,7 @@ class ChainPass {
         out.statistics.bootstrap += static_cast<uint64_t>(end - begin);
         out.statistics.paths += static_cast<uint64_t>(end - begin);
         out.statistics.rays += found.rays;
-        out.faults = found.faults;
+        out.bad = found.bad;
       });
       take(chunks);
     }
@@ -168,7 +166,7 @@ class ChainPass {
     s.paths += static_cast<uint64_t>(settings_.mutations);
     for (const FoundLight* found : {&chain.current(), &chain.proposed()}) {
       s.rays += found->rays;
-      out.faults += found->faults;
+      out.bad.insert(out.bad.end(), found->bad.begin(), found->bad.end());
     }
   }
 
@@ -177,7 +175,7 @@ class ChainPass {
     for (const Chunk& chunk : chunks) {
       splats.insert(splats.end(), chunk.splats.begin(), chunk.splats.end());
       statistics_.add(chunk.statistics);
-      film_.add_faults(chunk.faults, 0);
+      buffer_.add(chunk.bad);  // to be counted
     }
     buffer_.add(splats);
     statistics_.splats += splats.size();
@@ -190,7 +188,6 @@ class ChainPass {
   const FilmImportance& importance_;
   const double balance_;
   const PathFunctionMaker& make_;
-  Film& film_;
   SplatBuffer& buffer_;
   std::vector<double> targets_;  ///< of the bootstrap
   std::vector<int64_t> starts_;  ///< of the chains, among the bootstrap
@@ -203,7 +200,7 @@ class ChainPass {
 void FoundLight::add(const Vec2f& film, size_t part, const Rgb& value) {
   const float sum = value.r + value.g + value.b;
   if (!std::isfinite(sum)) {
-    ++faults;
+    bad.push_back({film, static_cast<uint8_t>(part), value});
     return;
   }
   if (value.r == 0 && value.g == 0 && value.b == 0) return;
@@ -299,9 +296,9 @@ ChainPilot look_around(uint64_t seed, int64_t count, const FilmArea& area, size_
 }
 
 void render_chains(const PassKey& key, const ChainSettings& settings, const ChainPilot& pilot,
-                   const PathFunctionMaker& make, Film& film, SplatBuffer& buffer,
+                   const PathFunctionMaker& make, SplatBuffer& buffer,
                    ChainStatistics& statistics) {
-  ChainPass pass(key, settings, pilot, make, film, buffer);
+  ChainPass pass(key, settings, pilot, make, buffer);
   pass.run();
   statistics.add(pass.statistics());
 }

@@ -18,9 +18,9 @@ namespace nephroid {
 /// The light that one set of random numbers brings to the film.
 struct FoundLight {
   std::vector<Splat> splats;
-  size_t kind = 0;      ///< which of a function's kinds of paths it is, for the pilot
-  uint64_t rays = 0;    ///< counted over all calls
-  uint64_t faults = 0;  ///< values that were not finite and are left out, over all calls
+  size_t kind = 0;         ///< which of a function's kinds of paths it is, for the pilot
+  uint64_t rays = 0;       ///< counted over all calls
+  std::vector<Splat> bad;  ///< values that were not finite, over all calls
 
   /// Adds what a part of the film receives, per number in the unit cube; black adds nothing.
   void add(const Vec2f& film, size_t part, const Rgb& value);
@@ -105,7 +105,6 @@ ChainPilot look_around(uint64_t seed, int64_t count, const FilmArea& area, size_
 
 /// Adds all that the paths of a pass find to `buffer`, to be finished with the scale 1.
 void render_chains(const PassKey& key, const ChainSettings& settings, const ChainPilot& pilot,
-                   const PathFunctionMaker& make, Film& film, SplatBuffer& buffer,
-                   ChainStatistics& statistics);
+                   const PathFunctionMaker& make, SplatBuffer& buffer, ChainStatistics& statistics);
 
 }  // namespace nephroid

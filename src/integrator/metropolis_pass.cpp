@@ -54,7 +54,7 @@ void MetropolisPasses::render(const PassKey& key, const Scene& scene, int group,
   SplatBuffer buffer(film, group, *scene.filter);
   pixel_bytes_ = static_cast<uint64_t>(film.bounds().area()) *
                  SplatBuffer::bytes_per_pixel(film.parts_of(group).size());
-  render_chains(key, settings_for(film.bounds().area()), *pilot_, make, film, buffer, counts_);
+  render_chains(key, settings_for(film.bounds().area()), *pilot_, make, buffer, counts_);
   buffer.finish(1.0);
   film.add_estimates(group, 1);
 }

@@ -108,7 +108,7 @@ class SceneBuilder {
     parallel_chunks(static_cast<int64_t>(runs.size()), 1, [&](int64_t i, int64_t, int64_t) {
       const auto k = static_cast<size_t>(i);
       try {
-        made[k] = make_shapes(runs[k], d_.directory, diagnostics_, displacement);
+        made[k] = make_shapes(runs[k], *d_.files, diagnostics_, displacement);
       } catch (...) {
         failed[k] = std::current_exception();
       }
@@ -162,7 +162,7 @@ class SceneBuilder {
                         "an area light on an \"interface\" material does not emit");
       return;
     }
-    std::vector<LightPtr> lights = make_area_lights(*description.area_light, shape, d_.directory,
+    std::vector<LightPtr> lights = make_area_lights(*description.area_light, shape, *d_.files,
                                                     textures_, record.alpha, diagnostics_);
     if (lights.empty()) return;
     record.first_light = static_cast<int>(scene_->lights.size());

@@ -18,7 +18,7 @@ struct Context {
   std::span<const ShapeDescription> alike;
   const ShapeDescription& description;  ///< the first of them
   const ParameterSet& p;
-  const std::string& directory;
+  SceneFiles& files;
   Diagnostics& diagnostics;
   Transform transform;
   bool flip;  ///< ReverseOrientation xor a transform that swaps handedness
@@ -126,7 +126,7 @@ MeshData displaced(const Context& c, MeshData data, const FloatTexture& height) 
 std::vector<ShapePtr> ply_mesh(const Context& c) {
   const std::string name = c.p.get_string("filename", "");
   if (name.empty()) throw SceneError(c.p.where, c.what() + " has no \"string filename\"");
-  MeshData data = read_ply((std::filesystem::path(c.directory) / name).string(), c.p.where);
+  MeshData data = read_ply(c.files, c.files.path_of(name), c.p.where);
   if (const FloatTexturePtr height = c.displacement.textures.float_texture(c.p, "displacement"))
     data = displaced(c, std::move(data), *height);
   return finish_mesh(c, std::move(data));
@@ -305,8 +305,8 @@ size_t shapes_alike(std::span<const ShapeDescription> descriptions) {
   return curves_alike(descriptions);
 }
 
-std::vector<ShapePtr> make_shapes(std::span<const ShapeDescription> alike,
-                                  const std::string& directory, Diagnostics& diagnostics,
+std::vector<ShapePtr> make_shapes(std::span<const ShapeDescription> alike, SceneFiles& files,
+                                  Diagnostics& diagnostics,
                                   const DisplacementInputs& displacement) {
   const ShapeDescription& description = alike[0];
   if (description.transform.is_animated() && !is_moving(description))
@@ -317,7 +317,7 @@ std::vector<ShapePtr> make_shapes(std::span<const ShapeDescription> alike,
   const Context context{alike,
                         description,
                         description.parameters,
-                        directory,
+                        files,
                         diagnostics,
                         transform,
                         description.reverse_orientation != transform.swaps_handedness(),

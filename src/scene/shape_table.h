@@ -26,9 +26,8 @@ bool is_moving(const ShapeDescription& description);
 /// transform applied (in world space, or in that of the object definition) unless they move: then
 /// in the space before it. A PLY file with triangles and quads gives two. Empty after a warning
 /// where nothing is left to render. Throws SceneError or IoError.
-std::vector<ShapePtr> make_shapes(std::span<const ShapeDescription> alike,
-                                  const std::string& directory, Diagnostics& diagnostics,
-                                  const DisplacementInputs& displacement);
+std::vector<ShapePtr> make_shapes(std::span<const ShapeDescription> alike, SceneFiles& files,
+                                  Diagnostics& diagnostics, const DisplacementInputs& displacement);
 
 /// How many directives from the first on make_shapes takes at once: 1 but for curves alike.
 size_t shapes_alike(std::span<const ShapeDescription> descriptions);

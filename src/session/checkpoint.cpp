@@ -44,7 +44,8 @@ std::string differences(const Metadata& a, const Metadata& b, const std::string&
       add(key, there, here);
       continue;
     }
-    const auto of_a = settings_in(there), of_b = settings_in(here);
+    auto of_a = settings_in(there), of_b = settings_in(here);
+    for (auto* settings : {&of_a, &of_b}) settings->erase("texture-cache");  // the same picture
     for (const auto& [name, value] : of_a)
       if (const auto found = of_b.find(name); found == of_b.end() || found->second != value)
         add(name, value, found == of_b.end() ? "" : found->second);

@@ -11,7 +11,8 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr const char* kLayoutKey = "nephroid:layout";
-constexpr int64_t kMostPixels = int64_t{1} << 32;
+/// Runs of equal bytes are as long as 128.
+constexpr uint64_t kMostBytesPerByte = 128;
 
 Json layout_of(const StateFile& file) {
   return Json::parse(value_of(file.metadata(), kLayoutKey));
@@ -47,7 +48,6 @@ Film film_of(const StateFile& file) {
     settings.width = file.resolution().x;
     settings.height = file.resolution().y;
     settings.crop = file.window();
-    if (settings.crop.area() > kMostPixels) throw std::runtime_error("bad window");
     settings.gbuffer = json.at("gbuffer").get<bool>();
     settings.color_space = RgbColorSpace::find(json.at("space").get<std::string>());
     FilmLayout layout;
@@ -66,6 +66,9 @@ Film film_of(const StateFile& file) {
       for (const int aov : part.aovs) fits &= in(aov, layout.aovs.size());
     }
     if (!fits) throw std::runtime_error("bad layout");
+    const uint64_t pixels = static_cast<uint64_t>(settings.crop.area());
+    if (pixels / kMostBytesPerByte * Film::bytes_per_pixel(layout, settings.gbuffer) > file.size())
+      throw std::runtime_error("bad window");
     return Film(settings, std::move(layout));
   } catch (const std::exception&) {
     senseless(file);

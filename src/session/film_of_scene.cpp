@@ -2,7 +2,6 @@
 #include "session/film_of_scene.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -17,6 +16,7 @@
 #include "integrator/photon_map.h"
 #include "integrator/ppm.h"
 #include "integrator/sppm.h"
+#include "photon/photon.h"
 
 namespace nephroid {
 namespace {
@@ -58,6 +58,33 @@ size_t bytes_of_rejection(const Routes& routes) {
   for (const RouteGroup& group : routes.groups())
     bytes += OutlierRejection::bytes_per_pixel(group.parts.size());
   return bytes;
+}
+
+/// A photon, and its share of what finds it, while that is made.
+constexpr double kBytesPerPhoton = 2 * sizeof(Photon);
+
+bool keeps_photons(const Routes& routes) {
+  return std::ranges::any_of(routes.groups(), [](const RouteGroup& group) {
+    return estimator_type(group.estimator).merges ||
+           group.estimator == EstimatorKind::kPathAndPhotons ||
+           group.estimator == EstimatorKind::kVcm || group.estimator == EstimatorKind::kBpm ||
+           group.estimator == EstimatorKind::kForecast ||
+           group.estimator == EstimatorKind::kPointLights;
+  });
+}
+
+/// Channels of a picture in memory, see film_output.cpp; the geometric layers come on top.
+size_t bytes_of_picture(const FilmLayout& layout) {
+  constexpr size_t kCommonChannels = 16, kPngBytes = 3;
+  return sizeof(float) * (3 * (layout.routes.size() + layout.aovs.size()) + kCommonChannels) +
+         kPngBytes;
+}
+
+std::string short_bytes(double bytes) {
+  constexpr double kMiB = 1 << 20, kGiB = 1 << 30;
+  return bytes >= 1000 * kGiB ? fmt::format("{:.0f} GiB", bytes / kGiB)
+         : bytes >= kGiB      ? fmt::format("{:.3g} GiB", bytes / kGiB)
+                              : fmt::format("{:.3g} MiB", bytes / kMiB);
 }
 
 /// a of [O2], the pixels that one light path exposes in a pass: a photon those within the first
@@ -119,30 +146,44 @@ OutlierSettings outlier_settings(const Routes& routes, const IntegratorOptions& 
   return settings;
 }
 
-void check_film_fits(const FilmDescription& description, const FilmLayout& layout,
-                     const Routes& routes, bool size_is_an_option, bool rejects_outliers,
-                     int hit_points) {
-  // What there is of each pixel; everything else comes on top.
-  const auto bytes_per_pixel = static_cast<double>(
-      Film::bytes_per_pixel(layout, description.gbuffer != GBufferSpace::kNone) +
-      bytes_of_estimators(routes, hit_points, description.max_component < kInfinity) +
-      (rejects_outliers ? bytes_of_rejection(routes) : 0));
-  constexpr double kGiB = 1 << 30;
-  const double pixels = static_cast<double>(description.crop_x1 - description.crop_x0) *
-                        (description.crop_y1 - description.crop_y0);
-  const double memory =
-      static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
-  if (pixels * bytes_per_pixel <= memory) return;
-  const char* remedy = layout.parts.size() > 2
-                           ? "a smaller resolution, a crop window or fewer routes and AOVs"
-                           : "a smaller resolution or a crop window";
+void check_memory(const MemoryNeed& need, uint64_t limit, bool limit_is_an_option,
+                  bool size_is_an_option) {
+  const FilmDescription& film = need.film;
+  const int width = film.crop_x1 - film.crop_x0, height = film.crop_y1 - film.crop_y0;
+  const double pixels = static_cast<double>(width) * height;
+  const auto of_pixels = [&](size_t bytes) { return pixels * static_cast<double>(bytes); };
+  const struct {
+    const char* what;
+    double bytes;
+  } rows[] = {
+      {"what is read already", static_cast<double>(need.held)},
+      {"the film",
+       of_pixels(Film::bytes_per_pixel(need.layout, film.gbuffer != GBufferSpace::kNone) +
+                 (need.rejects_outliers ? bytes_of_rejection(need.routes) : 0))},
+      {"passes", of_pixels(bytes_of_estimators(need.routes, need.hit_points,
+                                               film.max_component < kInfinity))},
+      {"photons",
+       keeps_photons(need.routes) ? static_cast<double>(need.photons) * kBytesPerPhoton : 0.0},
+      {"textures", static_cast<double>(need.textures)},
+      {"writing the picture", need.writes ? of_pixels(bytes_of_picture(need.layout)) : 0.0},
+  };
+  double total = 0;
+  std::string list;
+  for (const auto& row : rows) {
+    total += row.bytes;
+    if (row.bytes > 0)
+      list += fmt::format("{}{} {}", list.empty() ? "" : ", ", short_bytes(row.bytes), row.what);
+  }
+  if (total <= static_cast<double>(limit)) return;
   const std::string message = fmt::format(
-      "{:.0f} pixels ({} x {}) need more than {:.0f} GiB of memory and this machine has {:.0f}, "
-      "expected {}",
-      pixels, description.crop_x1 - description.crop_x0, description.crop_y1 - description.crop_y0,
-      pixels * bytes_per_pixel / kGiB, memory / kGiB, remedy);
+      "{:.0f} pixels ({} x {}) need about {} ({}), {} {}, expected {}a smaller "
+      "resolution, a crop window or fewer routes and AOVs",
+      pixels, width, height, short_bytes(total), list,
+      limit_is_an_option ? "the limit is" : "this machine has",
+      short_bytes(static_cast<double>(limit)), limit_is_an_option ? "a higher one, " : "");
+  if (limit_is_an_option) throw UsageError("--memory: " + message);
   if (size_is_an_option) throw UsageError("--resolution: " + message);
-  throw SceneError(description.where, message);
+  throw SceneError(film.where, message);
 }
 
 std::string default_output(const FilmDescription& film, const std::string& scene_file) {

@@ -17,13 +17,25 @@ FilmSettings film_settings(const FilmDescription& description);
 OutlierSettings outlier_settings(const Routes& routes, const IntegratorOptions& options,
                                  const PixelFilter& filter);
 
-/// Refuses a film that this machine's memory cannot hold, before anything is allocated for it:
-/// throws UsageError if its size came from the command line, else SceneError at the Film directive.
-/// What the estimators of the routes keep for each pixel is counted, too; `hit_points` are those of
-/// `ppm` in a pixel.
-void check_film_fits(const FilmDescription& description, const FilmLayout& layout,
-                     const Routes& routes, bool size_is_an_option, bool rejects_outliers = false,
-                     int hit_points = 0);
+/// What a render is about to take memory for.
+struct MemoryNeed {
+  const FilmDescription& film;
+  const FilmLayout& layout;
+  const Routes& routes;
+  bool rejects_outliers = false;
+  int hit_points = 0;     ///< of `ppm` in a pixel
+  int64_t photons = 0;    ///< kept at once, if routes need any
+  uint64_t held = 0;      ///< bytes that the process holds already, the scene among them
+  uint64_t textures = 0;  ///< bytes that may still be taken for them
+  bool writes = false;    ///< a picture at the end
+};
+
+/// Refuses a render that does not fit `limit` bytes, before anything is allocated for it, with what
+/// it needs them for: throws UsageError if the limit or the film's size came from the command line,
+/// else SceneError at the Film directive. What the estimators of the routes keep for each pixel is
+/// counted, too.
+void check_memory(const MemoryNeed& need, uint64_t limit, bool limit_is_an_option,
+                  bool size_is_an_option);
 
 /// The output when the user names none: the stem of the scene's film file name (or of the scene's
 /// own, if the film has none), ".exr", in the current directory.

@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "photon/photon.h"
 #include "session/option_values.h"
 
 namespace nephroid {
@@ -326,6 +327,15 @@ IntegratorChoice choose_integrator(const std::string& wanted, const std::string&
   warn_of_unknown_names(scene_integrator, scene_parameters, &choice);
   apply_settings(settings, &choice.options);
   return choice;
+}
+
+SettingList settings_within(uint64_t memory) {
+  const IntegratorOptions defaults;
+  const auto share = static_cast<int64_t>(memory / 4);
+  constexpr auto kBytesPerPhoton = static_cast<int64_t>(2 * sizeof(Photon));
+  return {{"texture-cache", bytes_text(std::min(share, defaults.texture_memory))},
+          {"memory-photons", fmt::format("{}", std::clamp<int64_t>(share / kBytesPerPhoton, 1,
+                                                                   defaults.memory_photons))}};
 }
 
 std::string settings_text(const IntegratorOptions& options) {

@@ -36,6 +36,10 @@ using SettingList = std::vector<std::pair<std::string, std::string>>;
 /// the keys.
 std::pair<std::string, std::string> parse_setting(const std::string& text);
 
+/// Makes caches no larger than a share of `memory` bytes each: what a list of settings begins with
+/// that respects --memory.
+SettingList settings_within(uint64_t memory);
+
 /// Applies what parse_setting has accepted.
 void apply_settings(const SettingList& settings, IntegratorOptions* options);
 

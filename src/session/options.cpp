@@ -13,6 +13,8 @@ namespace {
 
 constexpr double kAnyNumber = std::numeric_limits<double>::infinity();
 constexpr int kMostThreads = 4096;
+/// Libraries, tables and threads take half of it.
+constexpr uint64_t kLeastMemory = uint64_t{256} << 20;
 constexpr int kMostPilotPasses = 100000;
 constexpr int64_t kMostBenchRepeats = 1000;
 constexpr int64_t kMostBenchPasses = std::numeric_limits<uint32_t>::max() - 1;
@@ -149,6 +151,9 @@ constexpr OptionDescription kOptions[] = {
      [](CommandLine& l, const std::string& t) {
        l.render.checkpoint_interval = parse_duration("--checkpoint", t);
      }},
+    {"render", "--strict", "", "", "", "", "Output",
+     "Exit status 1 if anything was left out of the picture because it was no number.", false,
+     [](CommandLine& l, const std::string&) { l.render.strict = true; }},
     {"render", "--no-state", "", "", "", "", "Output",
      "Write the picture alone: a smaller file, from which no render can go on.", false,
      [](CommandLine& l, const std::string&) { l.render.keeps_state = false; }},
@@ -196,6 +201,16 @@ constexpr OptionDescription kOptions[] = {
      "Number of threads; the picture does not depend on it.", false,
      [](CommandLine& l, const std::string& t) {
        l.render.threads = static_cast<int>(parse_integer("--threads", t, 1, kMostThreads));
+     }},
+    {"render", "--memory", "", "SIZE", "bytes", "what the machine has", "Machine",
+     "Take no more memory than this (K, M, G: powers of 1024); a quarter of it at most is for "
+     "textures and a quarter for photons, unless -D says otherwise. A render that needs more is "
+     "refused before it starts.",
+     false,
+     [](CommandLine& l, const std::string& t) {
+       l.render.memory = static_cast<uint64_t>(parse_bytes("--memory", t));
+       if (l.render.memory < kLeastMemory)
+         throw UsageError("--memory: '" + t + "' is not valid, expected at least 256M");
      }},
     {"merge", "PICTURE", "", "", "", "", "",
      "Pictures of one render, of disjoint passes (render --passes A..B), with their state.", true,

@@ -27,13 +27,15 @@ struct RenderCommand {
   std::optional<std::pair<uint32_t, uint32_t>> passes;  ///< first and last
   double time_limit = 0, noise_target = 0;              ///< 0: none
   SceneOverrides overrides;
-  int threads = 0;  ///< 0: all of the machine
+  int threads = 0;      ///< 0: all of the machine
+  uint64_t memory = 0;  ///< bytes, 0: what the machine has
   std::optional<uint64_t> seed;
   SettingList settings;
   bool reject_outliers = false;
   bool resume = false;
   double checkpoint_interval = 60;  ///< s
   bool keeps_state = true;
+  bool strict = false;
   bool quiet = false;
 };
 

@@ -2,11 +2,13 @@
 #include "session/render_session.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <bit>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <utility>
 
@@ -15,6 +17,7 @@
 #include "film/film_output.h"
 #include "scene/scene.h"
 #include "session/choices_report.h"
+#include "session/fault_report.h"
 #include "session/noise.h"
 
 namespace nephroid {
@@ -126,7 +129,8 @@ RenderResult RenderSession::run(SignalFlags& signals) {
   result.statistics = statistics();
   renew_error_text();
   result.error_text = error_text_;
-  if (!options_.output.empty()) write_picture();
+  result.faults = fault_report(scene_, film_);
+  if (!options_.output.empty()) write_last_picture();
   return result;
 }
 
@@ -230,7 +234,8 @@ void RenderSession::write_if_due(SignalFlags& signals) {
   const bool asked = signals.write.exchange(false);
   if (options_.output.empty()) return;
   if (asked || elapsed() >= next_checkpoint_seconds_) {
-    next_checkpoint_seconds_ = write_now(options_.checkpoint_interval, [this] { write_picture(); });
+    next_checkpoint_seconds_ =
+        write_now(options_.checkpoint_interval, [this] { write_picture(options_.output); });
     next_preview_seconds_ = elapsed() + options_.preview_interval;
   } else if (elapsed() >= next_preview_seconds_) {
     next_preview_seconds_ = write_now(options_.preview_interval, [this] {
@@ -250,12 +255,29 @@ double RenderSession::write_now(double interval, const std::function<void()>& wr
   return elapsed() + std::max(interval, kIdlePerWork * cost);
 }
 
-void RenderSession::write_picture() {
+void RenderSession::write_last_picture() {
+  namespace fs = std::filesystem;
+  try {
+    write_picture(options_.output);
+  } catch (const IoError& error) {
+    if (options_.rescue_directory.empty()) throw;
+    const fs::path rescue =
+        fs::path(options_.rescue_directory) /
+        fmt::format("nephroid-{}-{}", ::getpid(), fs::path(options_.output).filename().string());
+    try {
+      write_picture(rescue.string());
+    } catch (const IoError&) {
+      throw error;
+    }
+    throw IoError(fmt::format("{}; the picture is in {}", error.what(), rescue.string()));
+  }
+}
+
+void RenderSession::write_picture(const std::string& path) {
   renew_error_text();
   std::optional<RenderState> state;
   if (options_.keeps_state) state = state_of(scene_, preset_, film_);
-  write_film(options_.output, film_, picture_metadata(), options_.png_exposure,
-             state ? &*state : nullptr);
+  write_film(path, film_, picture_metadata(), options_.png_exposure, state ? &*state : nullptr);
 }
 
 Metadata RenderSession::picture_metadata() const {
@@ -277,6 +299,8 @@ Metadata RenderSession::picture_metadata() const {
     choices += line + "\n";
   for (const std::string& note : options_.notes) choices += "note: " + note + "\n";
   if (error_text_) choices += *error_text_ + "\n";
+  for (const std::string& fault : fault_report(scene_, film_))
+    choices += "warning: " + fault + "\n";
   metadata.emplace_back("nephroid:choices", choices);
   const FilmLayout& layout = film_.layout();
   for (size_t r = 0; r < layout.routes.size(); ++r)

@@ -28,6 +28,7 @@ struct RenderOptions {
   bool show_error = true;             ///< progress has the error, which takes a little time
   uint64_t seed = 0;
   std::string output;               ///< EXR, a PNG is written beside it; empty: nothing is written
+  std::string rescue_directory;     ///< for the last picture if it cannot be written; empty: none
   double preview_interval = 5;      ///< s between intermediate PNGs, at least
   double checkpoint_interval = 60;  ///< s between intermediate EXRs, at least
   bool keeps_state = true;          ///< EXRs hold what is needed to go on
@@ -59,6 +60,7 @@ struct RenderResult {
   double seconds = 0;  ///< rendering, with intermediate pictures, without the last; of this run
   std::optional<double> error;            ///< as estimated_error().total()
   std::optional<std::string> error_text;  ///< as error_report(); of consistent estimators alone
+  std::vector<std::string> faults;        ///< as fault_report()
   /// As the preset's estimators: after the first pass (for where radii began) and after the last.
   std::vector<EstimatorStatistics> first_pass_statistics, statistics;
 };
@@ -77,7 +79,7 @@ class RenderSession {
   void use_clock(std::function<double()> seconds);
 
   /// Renders until a rule or a signal stops it and writes the picture. Throws IoError if the last
-  /// picture cannot be written.
+  /// picture cannot be written; it says where the picture is instead, if it could be rescued.
   RenderResult run(SignalFlags& signals);
 
  private:
@@ -95,7 +97,8 @@ class RenderSession {
   void renew_error_text();
   void report_progress();
   void write_if_due(SignalFlags& signals);
-  void write_picture();
+  void write_picture(const std::string& path);
+  void write_last_picture();
   /// Writes, says what went wrong, and returns when to do it again.
   double write_now(double interval, const std::function<void()>& write);
   std::optional<double> seconds_left(double seconds) const;

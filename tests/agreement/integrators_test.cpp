@@ -3,7 +3,7 @@
 // pictures are extrapolated to a radius of zero. The scenes stand in scenes.cpp.
 #include <gtest/gtest.h>
 
-#include "agreement/scene_files.h"
+#include "agreement/scene_assets.h"
 #include "agreement/scenes.h"
 #include "rendering.h"
 #include "scene/camera/camera.h"
@@ -63,7 +63,7 @@ class Agreement : public ::testing::TestWithParam<AgreementScene> {};
 
 TEST_P(Agreement, OfAllIntegrators) {
   const AgreementScene& description = GetParam();
-  const SceneFiles files;
+  const SceneAssets files;
   const auto scene = scene_from_text(agreement_scene_text(description, files.directory()));
   IntegratorOptions options = options_for(description);
   const SeedValues reference =
@@ -143,7 +143,7 @@ class RoutesAgree : public ::testing::TestWithParam<AgreementScene> {};
 
 TEST_P(RoutesAgree, WithTheReference) {
   const AgreementScene& description = GetParam();
-  const SceneFiles files;
+  const SceneAssets files;
   const auto scene = scene_from_text(agreement_scene_text(description, files.directory()));
   IntegratorOptions options = options_for(description);
   const SeedValues reference =
@@ -169,7 +169,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, RoutesAgree, ::testing::ValuesIn(scenes_of_rout
 
 // The scene with bumps would agree as well if nothing were bumped.
 TEST(AgreementScenes, TheBumpedGlassIsBumped) {
-  const SceneFiles files;
+  const SceneAssets files;
   for (const AgreementScene& description : kAgreementScenes) {
     if (std::string(description.name) != "bumped_glass") continue;
     const auto scene = scene_from_text(agreement_scene_text(description, files.directory()));

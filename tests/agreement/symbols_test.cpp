@@ -5,7 +5,7 @@
 
 #include <set>
 
-#include "agreement/scene_files.h"
+#include "agreement/scene_assets.h"
 #include "agreement/scenes.h"
 #include "photon/emission.h"
 #include "rendering.h"
@@ -120,7 +120,7 @@ class SymbolsPresent : public ::testing::TestWithParam<AgreementScene> {
 };
 
 TEST_P(SymbolsPresent, AreAllThatWalksMeet) {
-  const SceneFiles files;
+  const SceneAssets files;
   const auto scene = scene_from_text(agreement_scene_text(GetParam(), files.directory()));
   const std::vector<std::string> labels = all_labels(*scene);
   const SceneSymbols symbols(*scene, labels);

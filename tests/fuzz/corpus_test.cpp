@@ -32,11 +32,14 @@ TEST_P(FuzzCorpus, NothingCrashes) {
   EXPECT_GE(files, 5);
 }
 
-INSTANTIATE_TEST_SUITE_P(AllTargets, FuzzCorpus,
-                         ::testing::Values(Target{"scene", fuzz::scene}, Target{"ply", fuzz::ply},
-                                           Target{"bsdf", fuzz::bsdf},
-                                           Target{"routes", fuzz::routes}),
-                         [](const auto& test) { return std::string(test.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    AllTargets, FuzzCorpus,
+    ::testing::Values(Target{"scene", fuzz::scene}, Target{"ply", fuzz::ply},
+                      Target{"bsdf", fuzz::bsdf}, Target{"routes", fuzz::routes},
+                      Target{"image", fuzz::image}, Target{"environment", fuzz::environment},
+                      Target{"nanovdb", fuzz::nanovdb}, Target{"checkpoint", fuzz::checkpoint},
+                      Target{"command", fuzz::command}),
+    [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace
 }  // namespace nephroid

@@ -24,8 +24,9 @@ void check(const MeshData& mesh) {
 
 void ply(const std::string& bytes) {
   const MemoryFiles files({{"mesh.ply", bytes}});
+  SceneFiles scene_files;
   try {
-    check(read_ply("mesh.ply", {}));
+    check(read_ply(scene_files, "mesh.ply", {}));
   } catch (const Error&) {
   }
 }

@@ -17,4 +17,15 @@ void bsdf(const std::string& bytes);
 /// and proved, and its tables must agree with themselves from both ends.
 void routes(const std::string& bytes);
 
+/// An image file, read whole, as it is stored, and tile by tile.
+void image(const std::string& bytes);
+/// An image file as the lights that take one have it; what can be read is sampled.
+void environment(const std::string& bytes);
+/// A NanoVDB file, or changes to a sound one; what can be read is looked up and walked through.
+void nanovdb(const std::string& bytes);
+/// A picture with the state of a render, read without its scene; or words of held outliers.
+void checkpoint(const std::string& bytes);
+/// A command line, an argument a line.
+void command(const std::string& bytes);
+
 }  // namespace nephroid::fuzz

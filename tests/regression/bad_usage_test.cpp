@@ -33,7 +33,7 @@ TEST(BadUsage, SaysWhatIsExpected) {
   folder.expect_error(kUsage, "-D: unknown key 'raduis', expected one of", {"-D", "raduis=1"});
   folder.expect_error(kUsage, "--resolution: '8by8' is not valid, expected WIDTHxHEIGHT",
                       {"--resolution", "8by8"});
-  folder.expect_error(kUsage, "--resolution: 4294967296 pixels (65536 x 65536) need more than",
+  folder.expect_error(kUsage, "--resolution: 4294967296 pixels (65536 x 65536) need about",
                       {"--resolution", "65536x65536"});
 }
 

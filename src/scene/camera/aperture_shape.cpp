@@ -105,14 +105,14 @@ float ApertureShape::at(double x, double y) const {
                             dy * ((1 - dx) * value(x0, y0 + 1) + dx * value(x0 + 1, y0 + 1)));
 }
 
-std::shared_ptr<const ApertureShape> make_aperture_shape(const std::string& name,
-                                                         const std::string& directory,
+std::shared_ptr<const ApertureShape> make_aperture_shape(const std::string& name, SceneFiles& files,
                                                          const SourceLocation& where) {
   if (name.empty() || name == "circular") return nullptr;
   if (const std::optional<Image> shape = built_in_shape(name))
     return std::make_shared<ApertureShape>(*shape, where);
-  return std::make_shared<ApertureShape>(
-      *read_image(resolve_path(directory, name), std::nullopt, where), where);
+  const std::string path = files.path_of(name);
+  files.count(path);
+  return std::make_shared<ApertureShape>(*read_image(path, std::nullopt, where), where);
 }
 
 }  // namespace nephroid

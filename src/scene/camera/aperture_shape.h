@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/errors.h"
+#include "input/scene_files.h"
 #include "scene/texture/image.h"
 
 namespace nephroid {
@@ -30,9 +31,8 @@ class ApertureShape {
 };
 
 /// "gaussian", "square", "pentagon" or "star", or else the image file of that name, relative to
-/// `directory`; null for "" and "circular". Throws SceneError at `where`.
-std::shared_ptr<const ApertureShape> make_aperture_shape(const std::string& name,
-                                                         const std::string& directory,
+/// the scene; null for "" and "circular". Throws SceneError at `where`.
+std::shared_ptr<const ApertureShape> make_aperture_shape(const std::string& name, SceneFiles& files,
                                                          const SourceLocation& where);
 
 }  // namespace nephroid

@@ -98,7 +98,7 @@ std::unique_ptr<Camera> make_camera(const SceneDescription& scene, const CameraF
   const std::string type = scene.camera ? scene.camera->type : "perspective";
   const CameraRow& row = row_of(kTable, "camera", type, p.where);
   std::unique_ptr<Camera> camera =
-      row.make({p, placement_of(scene), film, scene.directory, diagnostics});
+      row.make({p, placement_of(scene), film, *scene.files, diagnostics});
   if (scene.camera) p.report_unused("camera \"" + type + "\"", row, diagnostics);
   check_rays(*camera, film, p.where);
   return camera;

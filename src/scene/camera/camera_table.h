@@ -17,7 +17,7 @@ struct CameraContext {
   const ParameterSet& parameters;  ///< of the Camera directive
   CameraPlacement placement;
   CameraFilm film;
-  std::string directory;  ///< relative file names are relative to this
+  SceneFiles& files;
   Diagnostics& diagnostics;
 };
 

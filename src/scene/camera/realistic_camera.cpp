@@ -82,10 +82,11 @@ class RealisticCamera final : public Camera {
 };
 
 /// Numbers of a lens table: separated by spaces, "#" starts a comment.
-std::vector<double> read_numbers(const std::string& path, const SourceLocation& named_by) {
+std::vector<double> read_numbers(SceneFiles& files, const std::string& path,
+                                 const SourceLocation& named_by) {
   std::string text;
   try {
-    text = read_file_bytes(path);
+    text = files.read(path);
   } catch (const IoError& error) {
     file_is_unreadable(named_by, error.what());
   }
@@ -116,9 +117,10 @@ std::vector<double> read_numbers(const std::string& path, const SourceLocation& 
 }
 
 /// The table's rows in metres; stops get the diameter that the scene asks for, at most their own.
-std::vector<LensSurface> read_lens_table(const std::string& path, const SourceLocation& named_by,
-                                         double stop_diameter_mm, Diagnostics& diagnostics) {
-  const std::vector<double> n = read_numbers(path, named_by);
+std::vector<LensSurface> read_lens_table(SceneFiles& files, const std::string& path,
+                                         const SourceLocation& named_by, double stop_diameter_mm,
+                                         Diagnostics& diagnostics) {
+  const std::vector<double> n = read_numbers(files, path, named_by);
   const SourceLocation table{std::make_shared<const std::string>(path), 0, 0};
   if (n.empty() || n.size() % 4 != 0)
     throw SceneError(table, "the lens table has " + std::to_string(n.size()) +
@@ -157,9 +159,9 @@ std::unique_ptr<Camera> make_realistic_camera(const CameraContext& c) {
     throw SceneError(p.where, "\"aperturediameter\" and \"focusdistance\" must be positive");
   const std::string shape = p.get_string("aperture", "");
   const Parameter* named = p.find("aperture");
-  LensSystem lenses(read_lens_table(resolve_path(c.directory, file), p.find("lensfile")->where,
+  LensSystem lenses(read_lens_table(c.files, c.files.path_of(file), p.find("lensfile")->where,
                                     static_cast<double>(diameter), c.diagnostics),
-                    make_aperture_shape(shape, c.directory, named ? named->where : p.where));
+                    make_aperture_shape(shape, c.files, named ? named->where : p.where));
   // The height of the paraxial rays is pbrt-v4's, so that both agree on what is sharp.
   if (!lenses.focus(static_cast<double>(distance), static_cast<double>(c.film.diagonal_mm) * 1e-6))
     throw SceneError(p.where,

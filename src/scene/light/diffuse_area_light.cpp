@@ -164,18 +164,17 @@ struct UniformOrImage {
   double luminance = 1.0;  ///< mean luminance of the image, in units of its illuminant
 };
 
-UniformOrImage read_area_emission(const DirectiveDescription& description,
-                                  const std::string& directory) {
+UniformOrImage read_area_emission(const DirectiveDescription& description, SceneFiles& files) {
   const ParameterSet& p = description.parameters;
   UniformOrImage e;
   if (p.get_string("filename", "").empty()) {
-    e.emission = read_emission(p, "L", directory, "srgb");
+    e.emission = read_emission(p, "L", files, "srgb");
     return e;
   }
   if (const Parameter* colour = p.find("L"))
     throw SceneError(colour->where,
                      "an area light has both \"L\" and \"filename\", expected one of them");
-  e.image = read_light_image(p, directory);
+  e.image = read_light_image(p, files);
   const RgbColorSpace& space = e.image->color_space();
   e.emission.spectrum = {std::shared_ptr<const void>(), &space.illuminant()};
   e.emission.scale = image_emission_scale(p, space);
@@ -186,11 +185,11 @@ UniformOrImage read_area_emission(const DirectiveDescription& description,
 }  // namespace
 
 std::vector<LightPtr> make_area_lights(const DirectiveDescription& description, ShapePtr shape,
-                                       const std::string& directory, const TextureLibrary&,
+                                       SceneFiles& files, const TextureLibrary&,
                                        FloatTexturePtr alpha, Diagnostics& diagnostics) {
   const FormatType& type = area_light_type(description);
   const ParameterSet& p = description.parameters;
-  const UniformOrImage e = read_area_emission(description, directory);
+  const UniformOrImage e = read_area_emission(description, files);
   const bool two_sided = p.get_bool("twosided", false);
   const float power = p.get_float("power", -1.0f);
   light_name(p);  // for scene_labels.h

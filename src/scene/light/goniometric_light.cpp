@@ -60,7 +60,7 @@ class GoniometricLight final : public PointEmitter {
 
 LightPtr make_goniometric_light(const LightDescription& description, const LightScope& scope) {
   const ParameterSet& p = description.parameters;
-  const Emission e = read_emission(p, "I", scope.directory, scope.color_space);
+  const Emission e = read_emission(p, "I", scope.files, scope.color_space);
   int size = 1;
   std::vector<float> diagram = {1.0f};
   if (p.get_string("filename", "").empty()) {
@@ -68,7 +68,7 @@ LightPtr make_goniometric_light(const LightDescription& description, const Light
                            "the goniometric light has no \"filename\" and shines alike in all "
                            "directions");
   } else {
-    const ImagePtr image = read_sphere_image(p, scope.directory, "a goniometric light");
+    const ImagePtr image = read_sphere_image(p, scope.files, "a goniometric light");
     size = image->width();
     diagram.clear();
     for (int y = 0; y < size; ++y)

@@ -111,8 +111,10 @@ class ImageInfiniteLight final : public Light {
     const auto sample = distribution.sample(u);
     if (!sample) return std::nullopt;
     const Vec3f local = equal_area_square_to_sphere(sample->point);
-    return Direction{map_.to_world(local), sample->pdf * kInv4Pi / map_.jacobian(local),
-                     index(sample->x, sample->y)};
+    const float pdf_w = sample->pdf * kInv4Pi / map_.jacobian(local);
+    // It underflows where another pixel is brighter by 30 orders of magnitude.
+    if (!(pdf_w > 0.0f)) return std::nullopt;
+    return Direction{map_.to_world(local), pdf_w, index(sample->x, sample->y)};
   }
 
   int size_;
@@ -131,7 +133,7 @@ LightPtr make_image_infinite_light(const LightDescription& description, const Li
   if (const Parameter* colour = p.find("L"))
     throw SceneError(colour->where,
                      "an infinite light has both \"L\" and \"filename\", expected one of them");
-  const ImagePtr image = read_sphere_image(p, scope.directory, "an infinite light");
+  const ImagePtr image = read_sphere_image(p, scope.files, "an infinite light");
   const float scale = sphere_emission_scale(p, *image);
   return std::make_unique<ImageInfiniteLight>(*image, Transform(description.transform.start),
                                               scale);

@@ -123,7 +123,7 @@ std::vector<LightPtr> make_lights(const SceneDescription& description, Diagnosti
 
 /// One light per primitive of a shape with an "AreaLightSource" directive; `alpha` may be null.
 std::vector<LightPtr> make_area_lights(const DirectiveDescription& description, ShapePtr shape,
-                                       const std::string& directory, const TextureLibrary& textures,
+                                       SceneFiles& files, const TextureLibrary& textures,
                                        FloatTexturePtr alpha, Diagnostics& diagnostics);
 
 }  // namespace nephroid

@@ -41,12 +41,12 @@ double illuminance_of(const Image& image) {
 
 }  // namespace
 
-Emission read_emission(const ParameterSet& parameters, const std::string& name,
-                       const std::string& directory, const std::string& color_space) {
+Emission read_emission(const ParameterSet& parameters, const std::string& name, SceneFiles& files,
+                       const std::string& color_space) {
   Emission e;
   const Parameter* colour = parameters.find(name);
   if (colour)
-    e.spectrum = spectrum_from_parameter(*colour, SpectrumKind::kIlluminant, directory);
+    e.spectrum = spectrum_from_parameter(*colour, SpectrumKind::kIlluminant, files);
   else
     // The parameters of a directive share the colour space that was in force at it.
     e.spectrum =
@@ -63,9 +63,10 @@ float image_emission_scale(const ParameterSet& parameters, const RgbColorSpace& 
   return read_scale(parameters) / spectrum_to_photometric(space.illuminant());
 }
 
-ImagePtr read_light_image(const ParameterSet& parameters, const std::string& directory) {
+ImagePtr read_light_image(const ParameterSet& parameters, SceneFiles& files) {
   const Parameter& p = *parameters.find("filename");
-  const std::string path = resolve_path(directory, parameters.get_string("filename", ""));
+  const std::string path = files.path_of(parameters.get_string("filename", ""));
+  files.count(path);
   ImagePtr image = read_image(path, std::nullopt, p.where);
   if (!image->is_finite())
     throw SceneError(p.where,
@@ -73,9 +74,9 @@ ImagePtr read_light_image(const ParameterSet& parameters, const std::string& dir
   return image;
 }
 
-ImagePtr read_sphere_image(const ParameterSet& parameters, const std::string& directory,
+ImagePtr read_sphere_image(const ParameterSet& parameters, SceneFiles& files,
                            const std::string& of_what) {
-  ImagePtr image = read_light_image(parameters, directory);
+  ImagePtr image = read_light_image(parameters, files);
   if (image->width() != image->height())
     throw SceneError(parameters.find("filename")->where,
                      "the image of " + of_what + " is " + std::to_string(image->width()) + " x " +

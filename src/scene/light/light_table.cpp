@@ -79,7 +79,7 @@ const FormatType& area_light_type(const DirectiveDescription& description) {
 }
 
 std::vector<LightPtr> make_lights(const SceneDescription& description, Diagnostics& diagnostics) {
-  const LightScope scope{description.directory, description.color_space, diagnostics};
+  const LightScope scope{*description.files, description.color_space, diagnostics};
   std::vector<LightPtr> lights;
   for (const LightDescription& d : description.lights) {
     const Row& row = row_of(kLights, "light", d.type, d.where);

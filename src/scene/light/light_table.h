@@ -12,7 +12,7 @@ namespace nephroid {
 
 /// What a maker may know of the scene around its directive.
 struct LightScope {
-  const std::string& directory;
+  SceneFiles& files;
   const std::string& color_space;  ///< of lights that name no colour
   Diagnostics& diagnostics;
 };
@@ -51,18 +51,18 @@ struct Emission {
 
 /// The parameter `name` as emission, the illuminant of the colour space if absent. Throws
 /// SceneError for colours and scales that are negative or not finite.
-Emission read_emission(const ParameterSet& parameters, const std::string& name,
-                       const std::string& directory, const std::string& color_space);
+Emission read_emission(const ParameterSet& parameters, const std::string& name, SceneFiles& files,
+                       const std::string& color_space);
 
 /// "scale" over the luminance of the illuminant of an image's colour space.
 float image_emission_scale(const ParameterSet& parameters, const RgbColorSpace& space);
 
 /// The image named by "filename"; throws SceneError if it has infinite or NaN values.
-ImagePtr read_light_image(const ParameterSet& parameters, const std::string& directory);
+ImagePtr read_light_image(const ParameterSet& parameters, SceneFiles& files);
 
 /// The same for an equal-area octahedral map of the sphere; throws SceneError if it is not square.
 /// `of_what` is the light in the error's words.
-ImagePtr read_sphere_image(const ParameterSet& parameters, const std::string& directory,
+ImagePtr read_sphere_image(const ParameterSet& parameters, SceneFiles& files,
                            const std::string& of_what);
 
 /// image_emission_scale for a map of the sphere, times what its "illuminance" asks for.

@@ -51,14 +51,18 @@ class PointEmitter : public Light {
   /// Density of the directions of sample_emission in the local frame, 1/sr.
   virtual float direction_pdf(const Vec3f& local) const = 0;
 
-  /// A ray in unit direction `local`, which was chosen with density `pdf_w` in the local frame.
-  EmissionSample emission(const Vec3f& local, float pdf_w, const SampledSpectrum& radiance) const {
+  /// A ray in unit direction `local`, which was chosen with density `pdf_w` in the local frame;
+  /// empty if the density underflows, where other directions are brighter by 30 orders of
+  /// magnitude.
+  std::optional<EmissionSample> emission(const Vec3f& local, float pdf_w,
+                                         const SampledSpectrum& radiance) const {
     EmissionSample e;
     e.ray.o = p_;
     e.ray.d = map_.to_world(local);
     e.radiance = radiance;
     e.pdf_a = 1.0f;
     e.pdf_w = pdf_w / map_.jacobian(local);
+    if (!(e.pdf_w > 0.0f)) return std::nullopt;
     return e;
   }
 

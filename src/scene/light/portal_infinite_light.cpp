@@ -212,7 +212,10 @@ class PortalInfiniteLight final : public Light {
     if (!s) return std::nullopt;
     const Portal::Direction d = portal_.direction(s->x, s->y);
     if (!(d.solid_angle > 0.0)) return std::nullopt;
-    return Direction{d.w, static_cast<float>(s->pdf / d.solid_angle), index(s->column, s->row)};
+    const auto pdf_w = static_cast<float>(s->pdf / d.solid_angle);
+    // It underflows where another pixel is brighter by 30 orders of magnitude.
+    if (!(pdf_w > 0.0f)) return std::nullopt;
+    return Direction{d.w, pdf_w, index(s->column, s->row)};
   }
 
   int size_;
@@ -250,7 +253,7 @@ Portal read_portal(const ParameterSet& p) {
 /// given as one loses the shape of its spectrum, and its luminance counts.
 ImagePtr image_of_colour(const ParameterSet& p, const LightScope& scope) {
   const Parameter* colour = p.find("L");
-  const Emission e = read_emission(p, "L", scope.directory, scope.color_space);
+  const Emission e = read_emission(p, "L", scope.files, scope.color_space);
   if (colour && colour->type != "rgb")
     scope.diagnostics.warn(colour->where,
                            "\"L\" of an infinite light with a portal is converted to rgb");
@@ -269,8 +272,8 @@ LightPtr make_portal_infinite_light(const LightDescription& description, const L
   if (has_file && colour)
     scope.diagnostics.warn(
         colour->where, "\"L\" of an infinite light with a portal and a \"filename\" is ignored");
-  const ImagePtr image = has_file ? read_sphere_image(p, scope.directory, "an infinite light")
-                                  : image_of_colour(p, scope);
+  const ImagePtr image =
+      has_file ? read_sphere_image(p, scope.files, "an infinite light") : image_of_colour(p, scope);
   return std::make_unique<PortalInfiniteLight>(*image, Transform(description.transform.start),
                                                portal, sphere_emission_scale(p, *image));
 }

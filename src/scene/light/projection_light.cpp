@@ -140,7 +140,7 @@ LightPtr make_projection_light(const LightDescription& description, const LightS
   if (!(fov > 0.0f && fov < 180.0f))
     throw SceneError(p.find("fov")->where,
                      "the \"fov\" of a projection light must lie between 0 and 180 degrees");
-  const ImagePtr image = read_light_image(p, scope.directory);
+  const ImagePtr image = read_light_image(p, scope.files);
   const Slide slide(image->width(), image->height(), fov);
   float scale = image_emission_scale(p, image->color_space());
   const float power = p.get_float("power", -1.0f);

@@ -16,7 +16,7 @@ namespace {
 class CoatInput {
  public:
   CoatInput(const MaterialDescription& d, const MaterialContext& c, const std::string& prefix)
-      : eta_(d.parameters, prefix + "eta", c.directory),
+      : eta_(d.parameters, prefix + "eta", c.files),
         roughness_(c.textures, d.parameters, prefix, d.parameters.get_bool("remaproughness", true)),
         thickness_(c.textures.float_texture(d.parameters, prefix + "thickness", 0.01f)),
         albedo_(read_spectrum(c.textures, d.parameters, "albedo", SpectrumKind::kAlbedo, 0.0f)),

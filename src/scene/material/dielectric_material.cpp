@@ -12,7 +12,7 @@ class DielectricMaterial final : public SurfaceMaterial {
  public:
   DielectricMaterial(const MaterialDescription& d, const MaterialContext& c)
       : SurfaceMaterial(d, c),
-        eta_(d.parameters, "eta", c.directory),
+        eta_(d.parameters, "eta", c.files),
         roughness_(c.textures, d.parameters, "", d.parameters.get_bool("remaproughness", true)),
         band_(c.settings.specular_band) {}
 
@@ -39,7 +39,7 @@ class DielectricMaterial final : public SurfaceMaterial {
 class ThinDielectricMaterial final : public SurfaceMaterial {
  public:
   ThinDielectricMaterial(const MaterialDescription& d, const MaterialContext& c)
-      : SurfaceMaterial(d, c), eta_(d.parameters, "eta", c.directory) {}
+      : SurfaceMaterial(d, c), eta_(d.parameters, "eta", c.files) {}
 
   const Bsdf* make_bsdf(const SurfaceInteraction&, SampledWavelengths& lambda, float,
                         BsdfArena& arena) const override {

@@ -37,8 +37,7 @@ ClassMask RoughnessInput::possible_classes(const SpecularBand& band) const {
   return mask_of(constant_->event_class(band.low)) | mask_of(constant_->event_class(band.high));
 }
 
-IndexInput::IndexInput(const ParameterSet& parameters, const std::string& name,
-                       const std::string& directory) {
+IndexInput::IndexInput(const ParameterSet& parameters, const std::string& name, SceneFiles& files) {
   if (const Parameter* number = parameters.find(name, {"float"})) {
     if (number->numbers.size() != 1)
       throw SceneError(number->where, "\"" + name + "\" has " +
@@ -46,7 +45,7 @@ IndexInput::IndexInput(const ParameterSet& parameters, const std::string& name,
                                           " numbers, expected one refractive index");
     constant_ = static_cast<float>(number->numbers[0]);
   } else if (const Parameter* spectrum = parameters.find(name, {"spectrum", "rgb", "blackbody"})) {
-    spectrum_ = spectrum_from_parameter(*spectrum, SpectrumKind::kUnbounded, directory);
+    spectrum_ = spectrum_from_parameter(*spectrum, SpectrumKind::kUnbounded, files);
     if (spectrum_->is_constant()) constant_ = spectrum_->max_value();
   } else if (const Parameter* other = parameters.find(name)) {
     throw SceneError(other->where, "\"" + name + "\" is of type " + other->type +

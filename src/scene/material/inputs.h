@@ -77,7 +77,7 @@ class IndexInput {
  public:
   IndexInput() = default;
   /// Reads `name` (number, rgb, spectrum), else 1.5. Throws SceneError for anything else.
-  IndexInput(const ParameterSet& parameters, const std::string& name, const std::string& directory);
+  IndexInput(const ParameterSet& parameters, const std::string& name, SceneFiles& files);
 
   /// The index if it is the same for all wavelengths.
   std::optional<float> constant() const { return constant_; }

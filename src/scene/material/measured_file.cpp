@@ -94,12 +94,12 @@ MeasuredBrdf measured_brdf_from(const TensorFile& file) {
   return MeasuredBrdf(std::move(t));
 }
 
-std::shared_ptr<const MeasuredBrdf> MeasuredCache::get(const std::string& path,
+std::shared_ptr<const MeasuredBrdf> MeasuredCache::get(SceneFiles& files, const std::string& path,
                                                        const SourceLocation& wanted_by) {
   auto& surface = surfaces_[path];
   if (!surface)
-    surface =
-        std::make_shared<const MeasuredBrdf>(measured_brdf_from(TensorFile::read(path, wanted_by)));
+    surface = std::make_shared<const MeasuredBrdf>(
+        measured_brdf_from(TensorFile::read(files, path, wanted_by)));
   return surface;
 }
 

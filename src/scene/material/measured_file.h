@@ -20,7 +20,8 @@ MeasuredBrdf measured_brdf_from(const TensorFile& file);
 class MeasuredCache {
  public:
   /// Throws as TensorFile::read and measured_brdf_from.
-  std::shared_ptr<const MeasuredBrdf> get(const std::string& path, const SourceLocation& wanted_by);
+  std::shared_ptr<const MeasuredBrdf> get(SceneFiles& files, const std::string& path,
+                                          const SourceLocation& wanted_by);
 
  private:
   std::map<std::string, std::shared_ptr<const MeasuredBrdf>> surfaces_;

@@ -14,8 +14,8 @@ class MeasuredMaterial final : public SurfaceMaterial {
     if (file.empty())
       throw SceneError(d.where,
                        "material \"measured\" has no \"string filename\", expected a .bsdf file");
-    brdf_ = c.measured_files->get(resolve_path(c.directory, file),
-                                  d.parameters.find("filename")->where);
+    brdf_ =
+        c.measured_files->get(c.files, c.files.path_of(file), d.parameters.find("filename")->where);
   }
 
   const Bsdf* make_bsdf(const SurfaceInteraction&, SampledWavelengths& lambda, float,

@@ -1,12 +1,6 @@
 // Bump and normal mapping; see surface_material.h.
 #include "scene/material/surface_material.h"
 
-#include <OpenImageIO/imageio.h>
-
-#include <filesystem>
-
-#include "scene/texture/image_file.h"
-
 namespace nephroid {
 namespace {
 
@@ -38,42 +32,17 @@ Tangents normal_mapped(const SurfaceInteraction& s, const NormalMap& map) {
   return {u * length(s.shading_dpdu), normalize(cross(n, u)) * length(s.shading_dpdv)};
 }
 
-int wrapped(int i, int size) {
-  const int r = i % size;
-  return r < 0 ? r + size : r;
-}
-
 }  // namespace
 
-NormalMap::NormalMap(const std::string& file, const SourceLocation& where) {
-  OIIO::ImageSpec wish;
-  wish.attribute("oiio:UnassociatedAlpha", 1);
-  const auto input = OIIO::ImageInput::open(file, &wish);
-  if (!input) image_is_unreadable(file, OIIO::geterror(), where);
-  const OIIO::ImageSpec& spec = input->spec();
-  if (spec.nchannels < 3)
-    throw SceneError(where, "normal map \"" + file + "\" has " + std::to_string(spec.nchannels) +
-                                " channels, expected three");
-  width_ = spec.width;
-  height_ = spec.height;
-  rgb_.resize(static_cast<size_t>(width_) * height_ * 3);
-  if (!input->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, rgb_.data()))
-    image_is_unreadable(file, input->geterror(), where);
-}
-
-Vec3f NormalMap::texel(int x, int y) const {
-  const size_t i = (static_cast<size_t>(wrapped(y, height_)) * width_ + wrapped(x, width_)) * 3;
-  return Vec3f(rgb_[i], rgb_[i + 1], rgb_[i + 2]) * 2.0f - Vec3f(1.0f);
+NormalMap::NormalMap(const std::string& file, const SourceLocation& where)
+    : image_(read_stored_image(file, where)) {
+  if (image_->channels() < 3)
+    throw SceneError(where, "normal map \"" + file + "\" is grey, expected three channels");
 }
 
 Vec3f NormalMap::at(const Vec2f& uv) const {
-  const float u = uv.x - std::floor(uv.x), v = 1.0f - uv.y - std::floor(1.0f - uv.y);
-  const float x = u * static_cast<float>(width_) - 0.5f;
-  const float y = v * static_cast<float>(height_) - 0.5f;
-  const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
-  const float fx = x - static_cast<float>(x0), fy = y - static_cast<float>(y0);
-  return (texel(x0, y0) * (1 - fx) + texel(x0 + 1, y0) * fx) * (1 - fy) +
-         (texel(x0, y0 + 1) * (1 - fx) + texel(x0 + 1, y0 + 1) * fx) * fy;
+  const Rgb c = image_->bilinear({uv.x, 1.0f - uv.y}, WrapMode::kRepeat);
+  return Vec3f(c.r, c.g, c.b) * 2.0f - Vec3f(1.0f);
 }
 
 SurfaceMaterial::SurfaceMaterial(const MaterialDescription& description,
@@ -85,9 +54,9 @@ SurfaceMaterial::SurfaceMaterial(const MaterialDescription& description,
     context.diagnostics.warn(description.where,
                              "material has both \"displacement\" and \"normalmap\"; only the "
                              "normal map is used");
-  const auto path = std::filesystem::path(context.directory) / file;
-  normal_map_ =
-      std::make_shared<NormalMap>(path.string(), description.parameters.find("normalmap")->where);
+  const std::string path = context.files.path_of(file);
+  context.files.count(path);
+  normal_map_ = std::make_shared<NormalMap>(path, description.parameters.find("normalmap")->where);
 }
 
 void SurfaceMaterial::bump(SurfaceInteraction& s) const {

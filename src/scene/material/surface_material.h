@@ -8,7 +8,7 @@
 
 namespace nephroid {
 
-/// An image of tangent-space normals, stored linearly, repeated over uv.
+/// An image of tangent-space normals, stored as they are, repeated over uv.
 class NormalMap {
  public:
   /// Reads an image file; throws IoError if it cannot, SceneError at `where` if it has no three
@@ -18,9 +18,7 @@ class NormalMap {
   Vec3f at(const Vec2f& uv) const;
 
  private:
-  Vec3f texel(int x, int y) const;
-  int width_ = 0, height_ = 0;
-  std::vector<float> rgb_;
+  ImagePtr image_;
 };
 
 class SurfaceMaterial : public Material {

@@ -166,7 +166,7 @@ class Maker {
         textures_,
         settings_,
         diagnostics_,
-        description_.directory,
+        *description_.files,
         index,
         [this](const std::string& name, const SourceLocation& where) { return find(name, where); },
         &coat_tables_,

@@ -32,8 +32,8 @@ struct MaterialContext {
   const TextureLibrary& textures;
   MaterialSettings settings;
   Diagnostics& diagnostics;
-  std::string directory;  ///< relative file names are relative to this
-  uint64_t index = 0;     ///< of the material that is being made
+  SceneFiles& files;
+  uint64_t index = 0;  ///< of the material that is being made
   /// A named material; throws SceneError at the place given if there is none.
   std::function<MaterialPtr(const std::string&, const SourceLocation&)> named;
   CoatTableCache* coat_tables = nullptr;

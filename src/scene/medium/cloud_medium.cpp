@@ -92,8 +92,7 @@ NewMedium make_cloud_medium(const MediumDescription& description, const MediumSc
                          p.get_float("frequency", 5.0f)};
   // pbrt-v4 has no "scale" here.
   return std::make_shared<CloudMedium>(read_medium_box(description),
-                                       read_extinction(p, 1.0f, scope.directory), read_phase(p),
-                                       shape);
+                                       read_extinction(p, 1.0f, scope.files), read_phase(p), shape);
 }
 
 }  // namespace nephroid

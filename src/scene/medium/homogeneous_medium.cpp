@@ -58,11 +58,10 @@ NewMedium make_homogeneous_medium(const MediumDescription& description, const Me
   const float scale = read_scale(p);
   const std::string preset = p.get_string("preset", "");
   const Extinction extinction = preset.empty()
-                                    ? read_extinction(p, scale, scope.directory)
+                                    ? read_extinction(p, scale, scope.files)
                                     : preset_extinction(preset, p.find("preset")->where, scale);
   return std::make_shared<HomogeneousMedium>(
-      extinction, read_emission(p, read_factor(p, "Lescale", 1.0f), scope.directory),
-      read_phase(p));
+      extinction, read_emission(p, read_factor(p, "Lescale", 1.0f), scope.files), read_phase(p));
 }
 
 }  // namespace nephroid

@@ -7,10 +7,10 @@ namespace nephroid {
 namespace {
 
 DenseSpectrum read_coefficient(const ParameterSet& parameters, const std::string& name, float scale,
-                               const std::string& directory) {
+                               SceneFiles& files) {
   const Parameter* p = parameters.find(name);
   const SpectrumPtr spectrum =
-      p ? spectrum_from_parameter(*p, SpectrumKind::kUnbounded, directory) : constant_spectrum(1);
+      p ? spectrum_from_parameter(*p, SpectrumKind::kUnbounded, files) : constant_spectrum(1);
   return dense_spectrum(*spectrum, scale, p ? p->where : parameters.where, name);
 }
 
@@ -30,17 +30,15 @@ DenseSpectrum dense_spectrum(const Spectrum& spectrum, float scale, const Source
   return DenseSpectrum(values);
 }
 
-Extinction read_extinction(const ParameterSet& parameters, float scale,
-                           const std::string& directory) {
-  return {read_coefficient(parameters, "sigma_a", scale, directory),
-          read_coefficient(parameters, "sigma_s", scale, directory)};
+Extinction read_extinction(const ParameterSet& parameters, float scale, SceneFiles& files) {
+  return {read_coefficient(parameters, "sigma_a", scale, files),
+          read_coefficient(parameters, "sigma_s", scale, files)};
 }
 
-DenseSpectrum read_emission(const ParameterSet& parameters, float scale,
-                            const std::string& directory) {
+DenseSpectrum read_emission(const ParameterSet& parameters, float scale, SceneFiles& files) {
   const Parameter* p = parameters.find("Le");
   const SpectrumPtr le =
-      p ? spectrum_from_parameter(*p, SpectrumKind::kIlluminant, directory) : constant_spectrum(0);
+      p ? spectrum_from_parameter(*p, SpectrumKind::kIlluminant, files) : constant_spectrum(0);
   const float luminance = spectrum_to_photometric(*le);
   return dense_spectrum(*le, luminance > 0.0f ? scale / luminance : 0.0f,
                         p ? p->where : parameters.where, "Le");

@@ -79,7 +79,7 @@ std::vector<FormatType> medium_types() {
 }
 
 std::vector<MediumPtr> make_media(const SceneDescription& description, Diagnostics& diagnostics) {
-  const MediumScope scope{description.directory};
+  const MediumScope scope{*description.files};
   std::vector<MediumPtr> media;
   for (const MediumDescription& d : description.media) {
     const Row& row = row_of(kMedia, "medium type", d.type, d.where);

@@ -12,7 +12,7 @@ namespace nephroid {
 
 /// What a maker may know of the scene around its directive.
 struct MediumScope {
-  const std::string& directory;  ///< relative file names are relative to this
+  SceneFiles& files;
 };
 
 /// All types of the format.
@@ -35,8 +35,7 @@ struct Extinction {
   DenseSpectrum sigma_a, sigma_s;
 };
 /// "sigma_a" and "sigma_s" times `scale`, each 1 where absent.
-Extinction read_extinction(const ParameterSet& parameters, float scale,
-                           const std::string& directory);
+Extinction read_extinction(const ParameterSet& parameters, float scale, SceneFiles& files);
 
 /// `spectrum` times `scale` as a table; throws SceneError at `where` if it is negative anywhere or
 /// leaves the range of float.
@@ -44,8 +43,7 @@ DenseSpectrum dense_spectrum(const Spectrum& spectrum, float scale, const Source
                              const std::string& name);
 
 /// "Le" times `scale` over the luminance of "Le", as radiance; black if absent or black.
-DenseSpectrum read_emission(const ParameterSet& parameters, float scale,
-                            const std::string& directory);
+DenseSpectrum read_emission(const ParameterSet& parameters, float scale, SceneFiles& files);
 
 /// A float that is finite and not negative.
 float read_factor(const ParameterSet& parameters, const std::string& name, float fallback);

@@ -11,6 +11,9 @@ namespace nephroid {
 
 namespace {
 
+/// Of a coordinate or an entry of a transform, so that products of them are finite.
+constexpr double kLargest = 1e30;
+
 using Root = nanovdb::NanoRoot<float>;
 using Upper = nanovdb::NanoUpper<float>;
 using Lower = nanovdb::NanoLower<float>;
@@ -168,14 +171,18 @@ std::unique_ptr<NanoVdbGrid> NanoVdbGrid::read(const std::string& file, const st
   auto impl = std::make_unique<Impl>();
   impl->bytes = std::move(*bytes);
   const auto& data = *reinterpret_cast<const nanovdb::GridData*>(impl->bytes.data());
+  const auto is_usable = [](double x) { return std::abs(x) < kLargest; };
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) impl->medium_from_index[j][i] = data.mMap.mMatD[3 * i + j];
     impl->medium_from_index[3][i] = data.mMap.mVecD[i];
-    impl->medium_min[i] = data.mWorldBBox.min()[i];
-    impl->medium_max[i] = data.mWorldBBox.max()[i];
-    if (!(impl->medium_max[i] - impl->medium_min[i] > 0.0) ||
-        !std::isfinite(impl->medium_max[i] - impl->medium_min[i]))
+    for (int j = 0; j < 4; ++j)
+      if (!is_usable(impl->medium_from_index[j][i]))
+        throw SceneError(where, title + " has a transform that is not finite");
+    const double min = data.mWorldBBox.min()[i], max = data.mWorldBBox.max()[i];
+    if (!is_usable(min) || !is_usable(max) || !(max - min > 1 / kLargest))
       throw SceneError(where, title + " is empty or infinite");
+    impl->medium_min[i] = min;
+    impl->medium_max[i] = max;
   }
   if (!is_invertible(impl->medium_from_index))
     throw SceneError(where, title + " has a transform without an inverse");

@@ -155,10 +155,10 @@ NewMedium make_nanovdb_medium(const MediumDescription& description, const Medium
     throw SceneError(description.where, "medium \"" + description.name +
                                             "\" has no \"filename\", expected a .nvdb file");
   const SourceLocation& where = p.find("filename")->where;
-  const std::string path = resolve_path(scope.directory, name);
+  const std::string path = scope.files.path_of(name);
   std::string file;
   try {
-    file = read_file_bytes(path);
+    file = scope.files.read(path);
   } catch (const IoError& e) {
     file_is_unreadable(where, e.what());
   }
@@ -170,7 +170,7 @@ NewMedium make_nanovdb_medium(const MediumDescription& description, const Medium
       NanoVdbGrid::read(file, p.get_string("temperaturename", "temperature"), path, where);
   const MediumBounds bounds(*density, temperature.get());
   return std::make_shared<NanoVdbMedium>(bounds, description.transform.start,
-                                         read_extinction(p, read_scale(p), scope.directory),
+                                         read_extinction(p, read_scale(p), scope.files),
                                          read_phase(p), std::move(density), std::move(temperature),
                                          read_factor(p, "Lescale", 1.0f), read_temperature_map(p));
 }

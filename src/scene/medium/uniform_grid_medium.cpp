@@ -91,7 +91,7 @@ GridEmission read_grid_emission(const MediumDescription& d, const MediumScope& s
   FloatGrid scale = p.find("Lescale")
                         ? FloatGrid(read_grid_floats(d, "Lescale", resolution), resolution)
                         : FloatGrid({1.0f}, {1, 1, 1});
-  GridEmission e{std::move(scale), read_emission(p, 1.0f, scope.directory), std::nullopt,
+  GridEmission e{std::move(scale), read_emission(p, 1.0f, scope.files), std::nullopt,
                  read_temperature_map(p)};
   if (temperature)
     e.temperature = FloatGrid(read_grid_floats(d, "temperature", resolution, true), resolution);
@@ -106,8 +106,8 @@ NewMedium make_uniform_grid_medium(const MediumDescription& description, const M
   const std::array<int, 3> resolution = read_grid_resolution(description, "density", 1);
   FloatGrid density(read_grid_floats(description, "density", resolution), resolution);
   return std::make_shared<UniformGridMedium>(
-      read_medium_box(description), read_extinction(p, read_scale(p), scope.directory),
-      read_phase(p), std::move(density), read_grid_emission(description, scope, resolution));
+      read_medium_box(description), read_extinction(p, read_scale(p), scope.files), read_phase(p),
+      std::move(density), read_grid_emission(description, scope, resolution));
 }
 
 }  // namespace nephroid

@@ -37,13 +37,11 @@ class BilerpFloatTexture final : public FloatTexture {
 
 class BilerpSpectrumTexture final : public SpectrumTexture {
  public:
-  BilerpSpectrumTexture(const TextureDescription& description, SpectrumKind kind,
-                        const std::string& directory)
+  BilerpSpectrumTexture(const TextureDescription& description, SpectrumKind kind, SceneFiles& files)
       : mapping_(description) {
     for (size_t i = 0; i < 4; ++i) {
       const Parameter* p = description.parameters.find(kCorners[i]);
-      values_[i] =
-          p ? spectrum_from_parameter(*p, kind, directory) : constant_spectrum(kDefaults[i]);
+      values_[i] = p ? spectrum_from_parameter(*p, kind, files) : constant_spectrum(kDefaults[i]);
     }
   }
   SampledSpectrum eval(const TextureContext& context,
@@ -67,7 +65,7 @@ FloatTexturePtr make_float_bilerp(const TextureDescription& description, Texture
 
 SpectrumTexturePtr make_spectrum_bilerp(const TextureDescription& description, SpectrumKind kind,
                                         TextureScope& scope) {
-  return std::make_shared<BilerpSpectrumTexture>(description, kind, scope.directory());
+  return std::make_shared<BilerpSpectrumTexture>(description, kind, scope.files());
 }
 
 }  // namespace nephroid

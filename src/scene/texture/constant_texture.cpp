@@ -45,7 +45,7 @@ SpectrumTexturePtr make_spectrum_constant(const TextureDescription& description,
                                           TextureScope& scope) {
   const Parameter* value = description.parameters.find("value");
   if (!value) return constant_spectrum_texture(constant_spectrum(1.0f));
-  return constant_spectrum_texture(spectrum_from_parameter(*value, kind, scope.directory()));
+  return constant_spectrum_texture(spectrum_from_parameter(*value, kind, scope.files()));
 }
 
 }  // namespace nephroid

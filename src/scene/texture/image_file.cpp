@@ -109,10 +109,10 @@ ImagePtr read_image(const std::string& path, std::optional<ColorEncoding> encodi
   return read_whole(open_image(path, encoding, wanted_by), path, wanted_by);
 }
 
-std::string resolve_path(const std::string& directory, const std::string& file) {
-  const std::filesystem::path path(file);
-  if (path.is_absolute() || directory.empty()) return file;
-  return (std::filesystem::path(directory) / path).string();
+ImagePtr read_stored_image(const std::string& path, const SourceLocation& wanted_by) {
+  ImageInputFile file = open_image(path, {}, wanted_by);
+  file.encoding = ColorEncoding::linear();
+  return read_whole(file, path, wanted_by);
 }
 
 ImageCache::ImageCache(uint64_t limit) : limit_(limit) {}

@@ -17,13 +17,16 @@ namespace nephroid {
 
 using ImagePtr = std::shared_ptr<const Image>;
 
-/// Reads EXR, PFM, HDR, PNG, TGA, JPEG and whatever else OpenImageIO knows. As in pbrt-v4, only PNG
-/// files obey `encoding` (sRGB if empty); other integer formats are sRGB and floating-point ones
-/// linear. Bytes stay bytes, 16-bit values become half. An image of two channels is grey; one of
-/// more needs channels R, G and B. Throws SceneError at `wanted_by` if the file cannot be read
-/// (IoError if no scene names it) or is no image of one of these kinds.
+/// Reads EXR, PNG, JPEG, HDR, PFM, TGA, TIFF and BMP files, which are known by their first bytes
+/// (TGA by its name). As in pbrt-v4, only PNG files obey `encoding` (sRGB if empty); other integer
+/// formats are sRGB and floating-point ones linear. Bytes stay bytes, 16-bit values become half. An
+/// image of two channels is grey; one of more needs channels R, G and B. Throws SceneError at
+/// `wanted_by` if the file cannot be read (IoError if no scene names it) or is no image of one of
+/// these kinds.
 ImagePtr read_image(const std::string& path, std::optional<ColorEncoding> encoding,
                     const SourceLocation& wanted_by);
+/// The same with the numbers as they are stored, integers from 0 to 1, whatever the format.
+ImagePtr read_stored_image(const std::string& path, const SourceLocation& wanted_by);
 
 /// Says that an image cannot be read, with OpenImageIO's reason in one line: file_is_unreadable.
 [[noreturn]] void image_is_unreadable(const std::string& path, std::string reason,
@@ -31,9 +34,6 @@ ImagePtr read_image(const std::string& path, std::optional<ColorEncoding> encodi
 
 /// True if read_image asks for the encoding of this file.
 bool image_obeys_encoding(const std::string& path);
-
-/// `file` as the scene wrote it, relative to the directory of the scene.
-std::string resolve_path(const std::string& directory, const std::string& file);
 
 /// Bytes that the images of a scene's textures may take if nobody says otherwise.
 inline constexpr uint64_t kDefaultTextureMemory = uint64_t{1} << 30;

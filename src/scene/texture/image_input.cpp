@@ -1,15 +1,87 @@
 // Opens image files with OpenImageIO and says what is in them, see image_input.h.
 #include "scene/texture/image_input.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <span>
+#include <string_view>
 
+#include "input/exr_header.h"
+#include "input/file_bytes.h"
 #include "scene/texture/image_file.h"
 
 namespace nephroid {
 
 namespace {
+
+using Creator = OIIO::ImageInput::Creator;
+
+struct Format {
+  std::vector<std::string_view> beginnings;  ///< of a file: any of them
+  std::string_view suffix;                   ///< of its name, if the content does not tell
+  Creator create;
+};
+
+/// OpenImageIO knows many more, films among them: the fewer readers a hostile file can choose from,
+/// the better.
+std::span<const Format> formats() {
+  using namespace std::string_view_literals;
+  static const Format kFormats[] = {
+      {{"\x76\x2f\x31\x01"sv}, {}, [] { return OIIO::ImageInput::create("openexr").release(); }},
+      {{"\x89PNG"sv}, {}, [] { return OIIO::ImageInput::create("png").release(); }},
+      {{"\xff\xd8\xff"sv}, {}, [] { return OIIO::ImageInput::create("jpeg").release(); }},
+      {{"#?"sv}, {}, [] { return OIIO::ImageInput::create("hdr").release(); }},
+      {{"PF"sv, "Pf"sv, "P1"sv, "P2"sv, "P3"sv, "P4"sv, "P5"sv, "P6"sv},
+       {},
+       [] { return OIIO::ImageInput::create("pnm").release(); }},
+      {{"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv},
+       {},
+       [] { return OIIO::ImageInput::create("tiff").release(); }},
+      {{"BM"sv}, {}, [] { return OIIO::ImageInput::create("bmp").release(); }},
+      {{}, ".tga", [] { return OIIO::ImageInput::create("targa").release(); }},
+  };
+  return kFormats;
+}
+
+/// Throws as open_image if the file cannot be read or is of no known format.
+Creator reader_of(const std::string& path, const SourceLocation& wanted_by) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored))
+    image_is_unreadable(path, "it is a directory", wanted_by);
+  std::ifstream file(path, std::ios::binary);
+  if (!file) image_is_unreadable(path, std::strerror(errno), wanted_by);
+  std::array<char, 8> bytes{};
+  file.read(bytes.data(), bytes.size());
+  const std::string_view begin(bytes.data(), static_cast<size_t>(file.gcount()));
+  for (const Format& format : formats())
+    if (std::ranges::any_of(format.beginnings, [&](auto b) { return begin.starts_with(b); }) ||
+        (!format.suffix.empty() && has_suffix(path, std::string(format.suffix))))
+      return format.create;
+  image_is_unreadable(path, "it is none of the formats EXR, PNG, JPEG, HDR, PFM, TGA, TIFF and BMP",
+                      wanted_by);
+}
+
+/// No file that somebody painted is packed so well; one that claims it would only take memory.
+constexpr uint64_t kMostBytesPerByte = 1 << 16;
+constexpr uint64_t kClaimsThatDoNoHarm = uint64_t{64} << 20;
+
+void check_size(const OIIO::ImageSpec& spec, const std::string& path,
+                const SourceLocation& wanted_by) {
+  std::error_code ignored;
+  const uint64_t claimed = spec.image_bytes(true),
+                 there = std::filesystem::file_size(path, ignored);
+  if (claimed > kClaimsThatDoNoHarm && claimed / kMostBytesPerByte > there)
+    throw SceneError(wanted_by, fmt::format("image \"{}\" says that it has {} x {} pixels of {} "
+                                            "channels, which cannot be in a file of {} bytes",
+                                            path, spec.width, spec.height, spec.nchannels, there));
+}
 
 /// Which channels of the file the image keeps: indices of grey, of rgb or of rgba.
 std::vector<int> wanted_channels(const OIIO::ImageSpec& spec, const std::string& path,
@@ -58,12 +130,16 @@ ImageInputFile open_image(const std::string& path, std::optional<ColorEncoding> 
   // Alpha is a number of its own here: colours must not come multiplied by it.
   OIIO::ImageSpec wish;
   wish.attribute("oiio:UnassociatedAlpha", 1);
-  file.input = OIIO::ImageInput::open(path, &wish);
-  if (!file.input) image_is_unreadable(path, OIIO::geterror(), wanted_by);
-  file.spec = file.input->spec();
+  file.create = reader_of(path, wanted_by);
+  if (const std::string fault = fault_of_exr_header(path); !fault.empty())
+    image_is_unreadable(path, fault, wanted_by);
+  file.input.reset(file.create());
+  if (!file.input || !file.input->open(path, file.spec, wish))
+    image_is_unreadable(path, file.input ? file.input->geterror() : OIIO::geterror(), wanted_by);
   const OIIO::ImageSpec& spec = file.spec;
   if (spec.deep || spec.depth > 1 || spec.width < 1 || spec.height < 1 || spec.nchannels < 1)
     throw SceneError(wanted_by, "image \"" + path + "\" is deep, a volume or empty");
+  check_size(spec, path, wanted_by);
   file.channels = wanted_channels(spec, path, wanted_by);
   file.space = &color_space_of(spec);
   file.encoding =

@@ -20,6 +20,7 @@ namespace nephroid {
 enum class StoredType { kByte, kShort, kHalf, kFloat };
 
 struct ImageInputFile {
+  OIIO::ImageInput::Creator create = nullptr;  ///< makes another reader of the file's format
   std::unique_ptr<OIIO::ImageInput> input;
   OIIO::ImageSpec spec;
   std::vector<int> channels;  ///< indices of grey, of rgb or of rgba among those of the file

@@ -35,8 +35,9 @@ class ImageLookup {
     if (file.empty())
       throw SceneError(description.where, "texture \"" + description.name +
                                               "\" has no \"filename\", expected an image file");
-    image_ = scope.images().get(resolve_path(scope.directory(), file), encoding(p, file, scope),
-                                p.find("filename")->where);
+    const std::string path = scope.files().path_of(file);
+    scope.files().count(path);
+    image_ = scope.images().get(path, encoding(p, file, scope), p.find("filename")->where);
   }
 
   float number(const TextureContext& context) const {

@@ -184,6 +184,7 @@ std::shared_ptr<const Image> TileCache::open(ImageInputFile& file, const std::st
   }
   file.input.reset();
   OIIO::ImageCache* cache = impl_->cache;
+  cache->add_file(OIIO::ustring(path), file.create);
   OIIO::ImageCache::ImageHandle* handle = cache->get_image_handle(OIIO::ustring(path));
   if (!handle || !cache->good(handle)) image_is_unreadable(path, cache->geterror(), wanted_by);
   auto pixels =

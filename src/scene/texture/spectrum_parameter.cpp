@@ -62,8 +62,9 @@ SpectrumPtr pairs_spectrum(const std::vector<double>& numbers, SpectrumKind kind
 }
 
 /// Numbers of a text file, separated by blanks; "#" starts a comment.
-std::vector<double> numbers_of_file(const std::string& path, const SourceLocation& where) {
-  const std::string text = read_file_bytes(path);
+std::vector<double> numbers_of_file(SceneFiles& files, const std::string& path,
+                                    const SourceLocation& where) {
+  const std::string text = files.read(path);
   std::vector<double> numbers;
   size_t i = 0;
   while (i < text.size()) {
@@ -85,15 +86,15 @@ std::vector<double> numbers_of_file(const std::string& path, const SourceLocatio
   return numbers;
 }
 
-SpectrumPtr named_or_file(const Parameter& p, SpectrumKind kind, const std::string& directory) {
+SpectrumPtr named_or_file(const Parameter& p, SpectrumKind kind, SceneFiles& files) {
   if (p.strings.size() != 1)
     throw SceneError(
         p.where, quoted(p) + " has " + std::to_string(p.strings.size()) + " names, expected one");
   const std::string& name = p.strings[0];
   if (SpectrumPtr s = named_spectrum(name)) return s;
-  const std::string path = resolve_path(directory, name);
+  const std::string path = files.path_of(name);
   try {
-    return pairs_spectrum(numbers_of_file(path, p.where), kind, p.where,
+    return pairs_spectrum(numbers_of_file(files, path, p.where), kind, p.where,
                           "spectrum file \"" + path + "\"");
   } catch (const IoError& e) {
     file_is_unreadable(p.where,
@@ -104,7 +105,7 @@ SpectrumPtr named_or_file(const Parameter& p, SpectrumKind kind, const std::stri
 }  // namespace
 
 SpectrumPtr spectrum_from_parameter(const Parameter& parameter, SpectrumKind kind,
-                                    const std::string& directory) {
+                                    SceneFiles& files) {
   const Parameter& p = parameter;
   if (p.type == "rgb") return rgb_spectrum(p, kind);
   if (p.type == "blackbody") {
@@ -114,7 +115,7 @@ SpectrumPtr spectrum_from_parameter(const Parameter& parameter, SpectrumKind kin
   }
   if (p.type == "spectrum")
     return p.strings.empty() ? pairs_spectrum(p.numbers, kind, p.where, quoted(p))
-                             : named_or_file(p, kind, directory);
+                             : named_or_file(p, kind, files);
   throw SceneError(p.where, quoted(p) +
                                 " cannot be used here, expected a parameter of type \"rgb\", "
                                 "\"spectrum\" or \"blackbody\"");

@@ -59,7 +59,7 @@ SpectrumTexturePtr constant_spectrum_texture(SpectrumPtr spectrum);
 
 /// A parameter of type rgb, spectrum (numbers, name or file) or blackbody as a spectrum.
 SpectrumPtr spectrum_from_parameter(const Parameter& parameter, SpectrumKind kind,
-                                    const std::string& directory);
+                                    SceneFiles& files);
 
 /// The named textures of a scene. A spectrum texture exists in three kinds, made on demand.
 class TextureLibrary {

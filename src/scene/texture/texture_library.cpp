@@ -42,7 +42,7 @@ struct Slot {
 
 struct TextureLibrary::Impl final : TextureScope {
   Impl(const SceneDescription& scene, Diagnostics& d, uint64_t image_memory)
-      : directory_(scene.directory), diagnostics_(d), images_(image_memory) {
+      : files_(scene.files), diagnostics_(d), images_(image_memory) {
     for (const TextureDescription& t : scene.textures) add(t);
     for (const TextureDescription& t : scene.textures) make_all_kinds(t);
     for (const TextureDescription& t : scene.textures)
@@ -129,7 +129,7 @@ struct TextureLibrary::Impl final : TextureScope {
     const Parameter* p = parameters.find(name);
     if (!p) return nullptr;
     if (p->type == "texture") return find_spectrum(reference(*p), kind, p->where);
-    return constant_spectrum_texture(spectrum_from_parameter(*p, kind, directory_));
+    return constant_spectrum_texture(spectrum_from_parameter(*p, kind, *files_));
   }
 
   // TextureScope, for the makers.
@@ -144,11 +144,11 @@ struct TextureLibrary::Impl final : TextureScope {
     return t ? t : constant_spectrum_texture(constant_spectrum(fallback));
   }
   ImageCache& images() override { return images_; }
-  const std::string& directory() const override { return directory_; }
+  SceneFiles& files() override { return *files_; }
   Diagnostics& diagnostics() override { return diagnostics_; }
 
  private:
-  std::string directory_;
+  std::shared_ptr<SceneFiles> files_;
   Diagnostics& diagnostics_;
   ImageCache images_;
   std::map<std::string, Slot<FloatTexturePtr>> floats_;

@@ -23,7 +23,7 @@ class TextureScope {
                                               const std::string& name, SpectrumKind kind,
                                               float fallback) = 0;
   virtual ImageCache& images() = 0;
-  virtual const std::string& directory() const = 0;
+  virtual SceneFiles& files() = 0;
   virtual Diagnostics& diagnostics() = 0;
 };
 

@@ -17,9 +17,14 @@ double mean_over_square(const ApertureShape& shape) {
   return sum / (kPoints * kPoints);
 }
 
+std::shared_ptr<const ApertureShape> stop(const std::string& name) {
+  SceneFiles files;
+  return make_aperture_shape(name, files, {});
+}
+
 TEST(ApertureShape, AsBrightAsARoundStop) {
   for (const char* name : {"gaussian", "square", "pentagon", "star"}) {
-    const auto shape = make_aperture_shape(name, ".", {});
+    const auto shape = stop(name);
     ASSERT_NE(shape, nullptr) << name;
     EXPECT_NEAR(mean_over_square(*shape), kPi / 4, 0.003) << name;
     // Nothing beyond the reach, something close to it.
@@ -31,23 +36,23 @@ TEST(ApertureShape, AsBrightAsARoundStop) {
     EXPECT_LE(furthest, shape->reach()) << name;
     EXPECT_GT(furthest, shape->reach() - 0.04) << name;
   }
-  EXPECT_EQ(make_aperture_shape("", ".", {}), nullptr);
-  EXPECT_EQ(make_aperture_shape("circular", ".", {}), nullptr);
-  EXPECT_THROW(make_aperture_shape("heart.png", ".", {}), Error);
+  EXPECT_EQ(stop(""), nullptr);
+  EXPECT_EQ(stop("circular"), nullptr);
+  EXPECT_THROW(stop("heart.png"), Error);
 }
 
 TEST(ApertureShape, ValuesOfTheBuiltInOnes) {
-  const auto square = make_aperture_shape("square", ".", {});
+  const auto square = stop("square");
   EXPECT_NEAR(square->at(0.3, -0.4), kPi, 1e-4);
   EXPECT_EQ(square->at(0.3, -0.6), 0.0f);
   // The pentagon stands on its tip, the star has one towards -x.
-  const auto pentagon = make_aperture_shape("pentagon", ".", {});
+  const auto pentagon = stop("pentagon");
   EXPECT_GT(pentagon->at(0, -0.75), 0.0f);
   EXPECT_EQ(pentagon->at(0, 0.75), 0.0f);
-  const auto star = make_aperture_shape("star", ".", {});
+  const auto star = stop("star");
   EXPECT_GT(star->at(-0.9, 0), 0.0f);
   EXPECT_EQ(star->at(0.9, 0), 0.0f);
-  const auto gaussian = make_aperture_shape("gaussian", ".", {});
+  const auto gaussian = stop("gaussian");
   EXPECT_NEAR(gaussian->at(0.5, 0.2) / gaussian->at(0, 0),
               (std::exp(-0.29) - std::exp(-1)) / (1 - std::exp(-1)), 1e-3);
 }

@@ -11,6 +11,11 @@
 namespace nephroid {
 namespace {
 
+std::shared_ptr<const ApertureShape> stop(const std::string& shape) {
+  SceneFiles files;
+  return make_aperture_shape(shape, files, {});
+}
+
 using testing_support::camera_error;
 using testing_support::camera_of;
 
@@ -72,7 +77,7 @@ TEST(LensSystem, RaysGoBackTheWayTheyCame) {
 // a shape of the stop is turned against them; and the bounds are not much larger than that.
 TEST(LensSystem, PupilBoundsHoldAllThatPasses) {
   for (const char* shape_name : {"", "star", "square"}) {
-    const LensSystem lens(symmetric_surfaces(0.004), make_aperture_shape(shape_name, ".", {}));
+    const LensSystem lens(symmetric_surfaces(0.004), stop(shape_name));
     int passed = 0;
     for (int zone = 0; zone < 8; ++zone) {
       const PupilBounds b = lens.bound_exit_pupil(0.002 * zone, 0.002 * (zone + 1));
@@ -161,7 +166,7 @@ Light light_of(const std::vector<double>& values) {
 class BruteForce {
  public:
   explicit BruteForce(double stop_radius, const char* shape = "")
-      : lens_(symmetric_surfaces(stop_radius), make_aperture_shape(shape, ".", {})) {
+      : lens_(symmetric_surfaces(stop_radius), stop(shape)) {
     EXPECT_TRUE(lens_.focus(2, 35e-6));
   }
   /// Film point as the camera takes it; empty if blocked.

@@ -182,6 +182,30 @@ FilmLayout layout_with_aovs() {
   return layout;
 }
 
+TEST(Film, BadEstimatesAreThoseOfARouteAndAPixel) {
+  Film film(small_film(), layout_with_aovs()), other(small_film(), layout_with_aovs());
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(film.bad_estimates(0).first_pixel, BadEstimates::kNoPixel);
+  film.count_bad(0, 0, {3, 2});
+  film.count_bad(0, 0, {2, 1});
+  film.count_bad(0, 0, {-1, 1});
+  const Rgb values[] = {{1, 1, 1}, {nan, 0, 0}, {nan, 0, 0}};
+  film.add(0, 3, 1, values);
+  const PixelBounds& crop = film.bounds();
+  const auto index = [&](int x, int y) {
+    return static_cast<uint64_t>((y - crop.y0) * crop.width() + x - crop.x0);
+  };
+  EXPECT_EQ(film.bad_estimates(0).count, 3u);
+  EXPECT_EQ(film.bad_estimates(0).first_pixel, index(2, 1));
+  EXPECT_EQ(film.bad_estimates(2).count, 1u);
+  EXPECT_EQ(film.bad_estimates(2).first_pixel, index(3, 1));
+  EXPECT_EQ(film.bad_values(), 4u);
+  other.count_bad(0, 0, {3, 1});
+  other.add(film);
+  EXPECT_EQ(other.bad_estimates(0).count, 4u);
+  EXPECT_EQ(other.bad_estimates(0).first_pixel, index(2, 1));
+}
+
 TEST(Film, PartsAddUpToRoutesAovsAndBeauty) {
   Film film(small_film(), layout_with_aovs());
   EXPECT_EQ(film.layout().group_count(), 2);
@@ -255,8 +279,7 @@ TEST(Film, AnEstimateWithOneBadPartIsLeftOutAsAWhole) {
   film.add_estimates(0, 1);
   EXPECT_EQ(film.bad_values(), 1u);
   EXPECT_EQ(film.value(2, 1).r, 0.0f);
-  film.add_faults(3, 5);
-  EXPECT_EQ(film.bad_values(), 4u);
+  film.count_saturated(5);
   EXPECT_EQ(film.saturated_values(), 5u);
 }
 

@@ -27,7 +27,7 @@ TEST(Directives, OptionsBeforeTheWorld) {
   EXPECT_EQ(scene.accelerator->type, "bvh");
   EXPECT_EQ(scene.camera->type, "realistic");
   EXPECT_EQ(scene.file, "t.pbrt");
-  EXPECT_EQ(scene.directory, ".");
+  EXPECT_EQ(scene.files->directory(), ".");
 }
 
 TEST(Directives, AbsentOptionsAreEmpty) {

@@ -37,7 +37,7 @@ TEST_F(IncludeTest, ReadsFilesRelativeToTheScene) {
   directory_.write("parts/b.pbrt", "\nShape \"cylinder\"");
   const SceneDescription scene = parse_file("scene.pbrt");
   EXPECT_EQ(scene.file, at("scene.pbrt"));
-  EXPECT_EQ(scene.directory, directory_.path());
+  EXPECT_EQ(scene.files->directory(), directory_.path());
   EXPECT_EQ(scene.film->where.to_string(), at("parts/top.pbrt:1:1"));
   ASSERT_EQ(scene.shapes.size(), 3u);
   EXPECT_EQ(scene.shapes[0].where.to_string(), at("parts/b.pbrt:2:1"));
@@ -51,7 +51,7 @@ TEST_F(IncludeTest, TextInMemoryIncludesFromItsDirectory) {
   const SceneDescription scene =
       parse_pbrt_string("WorldBegin Include \"a.pbrt\"", "text", directory_.path(), diagnostics_);
   EXPECT_EQ(scene.shapes.size(), 1u);
-  EXPECT_EQ(scene.directory, directory_.path());
+  EXPECT_EQ(scene.files->directory(), directory_.path());
 }
 
 TEST_F(IncludeTest, AbsolutePathsAreTakenAsTheyAre) {

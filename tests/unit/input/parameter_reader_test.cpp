@@ -14,7 +14,8 @@ using testing::error_of;
 using testing::parse_warnings;
 
 std::vector<Parameter> read(const std::string& text) {
-  TokenStream tokens(".");
+  SceneFiles files;
+  TokenStream tokens(files);
   tokens.open_text(text, "f");
   Diagnostics diagnostics;
   return read_parameters(tokens, "rec2020", diagnostics);

@@ -19,7 +19,8 @@ constexpr FormatParameter kOfSpheres[] = {
 constexpr FormatType kSphere = {"sphere", {kOfSpheres}};
 
 ParameterSet set_of(const std::string& text) {
-  TokenStream tokens(".");
+  SceneFiles files;
+  TokenStream tokens(files);
   tokens.open_text(text, "scene.pbrt");
   Diagnostics diagnostics;
   ParameterSet set;

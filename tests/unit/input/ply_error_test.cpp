@@ -22,10 +22,11 @@ const std::string kFaces = "element face 1\nproperty list uchar int vertex_indic
 
 class PlyErrorTest : public ::testing::Test {
  protected:
+  SceneFiles files;
   /// The message without the part that names the file.
   std::string error_in(const std::string& bytes) {
     const std::string path = directory_.write("m.ply", bytes);
-    const std::string message = error_of([&] { read_ply(path, {}); });
+    const std::string message = error_of([&] { read_ply(files, path, {}); });
     const std::string start = "cannot use \"" + path + "\": ";
     EXPECT_EQ(message.substr(0, start.size()), start);
     return message.size() > start.size() ? message.substr(start.size()) : message;
@@ -179,14 +180,14 @@ TEST_F(PlyErrorTest, MeshesNeedVerticesAndFaces) {
 TEST_F(PlyErrorTest, TheSceneThatWantedTheFileIsNamed) {
   const SourceLocation wanted{std::make_shared<const std::string>("s.pbrt"), 4, 7};
   const std::string absent = directory_.path("absent.ply");
-  EXPECT_EQ(error_of([&] { read_ply(absent, wanted); }),
+  EXPECT_EQ(error_of([&] { read_ply(files, absent, wanted); }),
             "s.pbrt:4:7: cannot read \"" + absent + "\": No such file or directory");
   const std::string bad = directory_.write("bad.ply", "x");
-  EXPECT_EQ(error_of([&] { read_ply(bad, wanted); }),
+  EXPECT_EQ(error_of([&] { read_ply(files, bad, wanted); }),
             "s.pbrt:4:7: cannot use \"" + bad +
                 "\": it does not start with \"ply\", so it is no PLY file");
-  EXPECT_THROW(read_ply(absent, {}), IoError);
-  EXPECT_THROW(read_ply(directory_.path(), {}), IoError);
+  EXPECT_THROW(read_ply(files, absent, {}), IoError);
+  EXPECT_THROW(read_ply(files, directory_.path(), {}), IoError);
 }
 
 }  // namespace

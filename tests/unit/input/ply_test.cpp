@@ -22,7 +22,8 @@ using Indices = std::vector<uint32_t>;
 class PlyTest : public ::testing::TestWithParam<PlyEncoding> {
  protected:
   MeshData read(const std::string& bytes, const std::string& name = "m.ply") {
-    return read_ply(directory_.write(name, bytes), {});
+    SceneFiles files;
+    return read_ply(files, directory_.write(name, bytes), {});
   }
   TemporaryDirectory directory_;
 };

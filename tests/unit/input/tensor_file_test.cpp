@@ -75,17 +75,18 @@ TEST(TensorFile, FieldsHaveTypeShapeAndNumbers) {
 }
 
 TEST(TensorFile, FilesAreReadAndUnpackedAndNamed) {
+  SceneFiles files;
   const testing::TemporaryDirectory directory;
   for (const std::string& path : {directory.write("a.bsdf", two_fields()),
                                   directory.write("a.bsdf.gz", testing::gzip(two_fields()))})
-    EXPECT_EQ(TensorFile::read(path, {}).find("text")->bytes, "hello");
+    EXPECT_EQ(TensorFile::read(files, path, {}).find("text")->bytes, "hello");
   const SourceLocation wanted{std::make_shared<const std::string>("s.pbrt"), 4, 7};
   const std::string absent = directory.path("absent.bsdf");
-  EXPECT_EQ(error_of([&] { TensorFile::read(absent, wanted); }),
+  EXPECT_EQ(error_of([&] { TensorFile::read(files, absent, wanted); }),
             "s.pbrt:4:7: cannot read \"" + absent + "\": No such file or directory");
-  EXPECT_THROW(TensorFile::read(absent, {}), IoError);
+  EXPECT_THROW(TensorFile::read(files, absent, {}), IoError);
   const std::string bad = directory.write("bad.bsdf", "nonsense");
-  EXPECT_EQ(error_of([&] { TensorFile::read(bad, wanted); }),
+  EXPECT_EQ(error_of([&] { TensorFile::read(files, bad, wanted); }),
             "s.pbrt:4:7: cannot use \"" + bad +
                 "\": it does not start with \"tensor_file\", so it is no tensor file");
 }

@@ -135,7 +135,7 @@ TEST_P(ChainPasses, HaveNoBias) {
     Film film = film_of_cells();
     SplatBuffer buffer(film, 0, filter);
     for (uint32_t pass = 0; pass < passes_of_seed; ++pass) {
-      render_chains({seed, pass}, GetParam().settings, pilot, make_toy, film, buffer, statistics);
+      render_chains({seed, pass}, GetParam().settings, pilot, make_toy, buffer, statistics);
       buffer.finish(1);
       film.add_estimates(0, 1);
     }
@@ -223,7 +223,7 @@ TEST(MarkovChain, LightThatIsNotFiniteIsCountedAndLeftOut) {
   found.add({0, 0}, 0, {1, kInfinity, 0});
   found.add({0, 0}, 0, {1, std::nanf(""), 0});
   found.add({0, 0}, 0, {0, 0, 0});
-  EXPECT_EQ(found.faults, 2u);
+  EXPECT_EQ(found.bad.size(), 2u);
   EXPECT_TRUE(found.splats.empty());
   const auto scene = empty_scene();
   const FilmImportance importance(area_of_cells(*scene->filter));

@@ -56,7 +56,7 @@ inline std::vector<LightPtr> area_lights_of(const std::string& parameters, const
       "WorldBegin\nAreaLightSource \"diffuse\" " + parameters + "\nShape \"sphere\"", "t.pbrt",
       directory, d);
   const TextureLibrary textures(scene, d);
-  return make_area_lights(*scene.shapes.at(0).area_light, shape, directory, textures,
+  return make_area_lights(*scene.shapes.at(0).area_light, shape, *scene.files, textures,
                           std::move(alpha), d);
 }
 inline LightPtr area_light_of(const std::string& parameters, const ShapePtr& shape,

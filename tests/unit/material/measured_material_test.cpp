@@ -104,8 +104,9 @@ TEST(MeasuredMaterial, TheFileIsReadAndRendersAsItsTablesSay) {
 TEST(MeasuredMaterial, MaterialsOfTheSameFileShareIt) {
   const BsdfFile file(bsdf_file_of(tables_of(small_surface())));
   MeasuredCache cache;
-  const auto first = cache.get(file.path(), {});
-  EXPECT_EQ(first.get(), cache.get(file.path(), {}).get());
+  SceneFiles files;
+  const auto first = cache.get(files, file.path(), {});
+  EXPECT_EQ(first.get(), cache.get(files, file.path(), {}).get());
   EXPECT_EQ(make({measured({file.path()}), measured({file.path()})}).size(), 2u);
 }
 

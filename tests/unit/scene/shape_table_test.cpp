@@ -15,7 +15,7 @@ TEST(ShapeTable, WhereToSampleALampDoesNotChangeThePicture) {
       "  \"string emissionfilename\" \"there is no such file.exr\"",
       "t.pbrt", ".", d);
   const TextureLibrary textures(scene, d);
-  const auto shapes = make_shapes({&scene.shapes.at(0), 1}, ".", d, {textures});
+  const auto shapes = make_shapes({&scene.shapes.at(0), 1}, *scene.files, d, {textures});
   EXPECT_EQ(shapes.size(), 1u);
   report_unused_parameters(scene.shapes.at(0), d);
   ASSERT_EQ(d.warnings().size(), 1u);

@@ -2,17 +2,14 @@
 #include "session/film_of_scene.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <fstream>
 #include <iterator>
 
 #include "core/errors.h"
 #include "film/film_output.h"
 #include "film/splats.h"
 #include "route/compile.h"
-#include "session/file_hash.h"
 #include "unit/film/scratch_directory.h"
 
 namespace nephroid {
@@ -60,12 +57,13 @@ TEST(FilmOfScene, SettingsAreTheScenes) {
   EXPECT_EQ(settings.filename, "f.exr");
 }
 
+constexpr uint64_t kMemory = uint64_t{64} << 30;
+
 TEST(FilmOfScene, MemoryIsThatOfThePartsGroupsAndSplats) {
-  // Just what this machine holds for a film of one route: anything more is refused.
+  // Just what a film of one route needs: anything more is refused.
   const FilmLayout one = FilmLayout::of_routes({"all"});
   const Routes path = routes_of({"all=.*:path"});
-  const double memory =
-      static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+  const auto memory = static_cast<double>(kMemory);
   FilmDescription description;
   description.crop_x0 = description.crop_y0 = 0;
   description.crop_x1 = 1024;
@@ -74,12 +72,12 @@ TEST(FilmOfScene, MemoryIsThatOfThePartsGroupsAndSplats) {
   };
   const size_t film = Film::bytes_per_pixel(one, false);
   fill(film);
-  EXPECT_NO_THROW(check_film_fits(description, one, path, false));
+  EXPECT_NO_THROW(check_memory({description, one, path}, kMemory, false, false));
   FilmLayout two = one;
   two.parts.push_back({0, {}});
-  EXPECT_THROW(check_film_fits(description, two, path, true), UsageError);
+  EXPECT_THROW(check_memory({description, two, path}, kMemory, false, true), UsageError);
   description.gbuffer = GBufferSpace::kWorld;
-  EXPECT_THROW(check_film_fits(description, one, path, false), SceneError);
+  EXPECT_THROW(check_memory({description, one, path}, kMemory, false, false), SceneError);
   description.gbuffer = GBufferSpace::kNone;
 
   // A splat is a sum of 48 bytes. A merging pass has a colour for each part, a filter weight and a
@@ -102,28 +100,56 @@ TEST(FilmOfScene, MemoryIsThatOfThePartsGroupsAndSplats) {
     SCOPED_TRACE(row.routes.back());
     const Routes routes = routes_of(row.routes);
     fill(film + row.bytes);
-    EXPECT_NO_THROW(check_film_fits(description, one, routes, false, false, kHitPoints));
+    const MemoryNeed need{description, one, routes, false, kHitPoints};
+    EXPECT_NO_THROW(check_memory(need, kMemory, false, false));
     fill(film + row.bytes - 1);
-    EXPECT_THROW(check_film_fits(description, one, routes, false, false, kHitPoints), SceneError);
+    EXPECT_THROW(check_memory(need, kMemory, false, false), SceneError);
   }
+}
+
+TEST(FilmOfScene, MemoryIsRefusedWithWhatItIsFor) {
+  const FilmLayout one = FilmLayout::of_routes({"all"});
+  const Routes photons = routes_of({"all=C.*DL:photons"}), path = routes_of({"all=.*:path"});
+  FilmDescription description;
+  description.crop_x0 = description.crop_y0 = 0;
+  description.crop_x1 = description.crop_y1 = 16;
+  constexpr uint64_t kMiB = 1 << 20;
+  MemoryNeed need{description, one, photons};
+  need.held = 100 * kMiB;
+  need.textures = 50 * kMiB;
+  need.photons = 1 << 20;
+  need.writes = true;
+  EXPECT_NO_THROW(check_memory(need, 1 << 30, true, false));
+  try {
+    check_memory(need, 160 * kMiB, true, false);
+    FAIL();
+  } catch (const UsageError& error) {
+    const std::string what = error.what();
+    for (const char* part : {"--memory: 256 pixels (16 x 16) need about ", "100 MiB what is read",
+                             "MiB photons", "50 MiB textures", "the limit is 160 MiB"})
+      EXPECT_NE(what.find(part), std::string::npos) << part << " in " << what;
+  }
+  // Nobody keeps photons here.
+  EXPECT_NO_THROW(check_memory({description, one, path, false, 0, 1 << 20, 100 * kMiB, 50 * kMiB},
+                               160 * kMiB, true, false));
 }
 
 TEST(FilmOfScene, RejectionOfOutliersNeedsMemoryToo) {
   const Routes routes = routes_of({"a=C.*DL:photons", "b=C.*GL:photons", "c=.*:path"});
   FilmLayout layout = FilmLayout::of_routes({"a", "b", "c"});
   layout.groups = {0, 0, 1};
-  const double memory =
-      static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+  const auto memory = static_cast<double>(kMemory);
   const size_t bytes = Film::bytes_per_pixel(layout, false) + 2 * 12 + 8 +
                        OutlierRejection::bytes_per_pixel(2) + OutlierRejection::bytes_per_pixel(1);
   FilmDescription description;
   description.crop_x0 = description.crop_y0 = 0;
   description.crop_x1 = 1024;
   description.crop_y1 = static_cast<int>(memory / static_cast<double>(bytes) / 1024);
-  EXPECT_NO_THROW(check_film_fits(description, layout, routes, false, true));
+  const MemoryNeed with{description, layout, routes, true}, without{description, layout, routes};
+  EXPECT_NO_THROW(check_memory(with, kMemory, false, false));
   description.crop_y1 = static_cast<int>(memory / static_cast<double>(bytes - 1) / 1024);
-  EXPECT_THROW(check_film_fits(description, layout, routes, false, true), SceneError);
-  EXPECT_NO_THROW(check_film_fits(description, layout, routes, false, false));
+  EXPECT_THROW(check_memory(with, kMemory, false, false), SceneError);
+  EXPECT_NO_THROW(check_memory(without, kMemory, false, false));
   // A pixel's counts take 64 bytes, a held sum 48.
   EXPECT_LE(OutlierRejection::bytes_per_pixel(1), 320u);
 }
@@ -197,30 +223,16 @@ TEST(FilmOfScene, NoRouteTakesTheNameOfALayerOfPictures) {
 }
 
 TEST(FilmOfScene, TheFilmsMemoryIsCountedInFull) {
-  // 16 bytes a sum, three sums for each part and each group, features and two counters.
+  // 16 bytes a sum, three sums for each part and each group, features and a counter.
   FilmLayout layout = FilmLayout::of_routes({"a", "b"});
   const size_t two = Film::bytes_per_pixel(layout, false);
-  EXPECT_GE(two, 4u * 48 + 120 + 8);
+  EXPECT_GE(two, 4u * 48 + 112 + 8);
   layout.parts.push_back({1, {}});
   EXPECT_EQ(Film::bytes_per_pixel(layout, false), two + 48);
   layout.groups[1] = 0;
   EXPECT_EQ(Film::bytes_per_pixel(layout, false), two);
   EXPECT_GE(Film::bytes_per_pixel(layout, true), two + 13 * 16);
   EXPECT_EQ(SplatBuffer::bytes_per_pixel(3), 144u);
-}
-
-TEST(FileHash, KnownAnswers) {
-  const ScratchDirectory directory;
-  const auto hash_of = [&](const std::string& text) {
-    std::ofstream(directory.file("f"), std::ios::binary) << text;
-    return hash_file(directory.file("f"));
-  };
-  // The published values of 64-bit FNV-1a.
-  EXPECT_EQ(hash_of(""), 0xcbf29ce484222325ull);
-  EXPECT_EQ(hash_of("a"), 0xaf63dc4c8601ec8cull);
-  EXPECT_EQ(hash_of("foobar"), 0x85944171f73967e8ull);
-  EXPECT_NE(hash_of(std::string(100000, 'x')), hash_of(std::string(100001, 'x')));
-  EXPECT_THROW(hash_file(directory.file("absent")), IoError);
 }
 
 }  // namespace

@@ -22,7 +22,8 @@ Parameter word(const std::string& value) {
 }
 SpectrumPtr make(const Parameter& p, SpectrumKind kind = SpectrumKind::kUnbounded,
                  const std::string& directory = ".") {
-  return spectrum_from_parameter(p, kind, directory);
+  SceneFiles files(directory);
+  return spectrum_from_parameter(p, kind, files);
 }
 
 TEST(SpectrumParameter, PairsAreInterpolated) {

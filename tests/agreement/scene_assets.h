@@ -14,9 +14,9 @@
 namespace nephroid {
 
 /// A smooth height field, a small coloured image and a measured reflection; gone with the object.
-class SceneFiles {
+class SceneAssets {
  public:
-  SceneFiles() {
+  SceneAssets() {
     std::string pattern =
         (std::filesystem::temp_directory_path() / "nephroid-agreement-XXXXXX").string();
     if (!mkdtemp(pattern.data())) throw IoError("no temporary directory");
@@ -37,12 +37,12 @@ class SceneFiles {
     std::ofstream(directory_ + "/brushed.bsdf", std::ios::binary)
         << testing_measured::bsdf_file_of(testing_measured::tables_of(brushed));
   }
-  ~SceneFiles() {
+  ~SceneAssets() {
     std::error_code ignored;
     std::filesystem::remove_all(directory_, ignored);
   }
-  SceneFiles(const SceneFiles&) = delete;
-  SceneFiles& operator=(const SceneFiles&) = delete;
+  SceneAssets(const SceneAssets&) = delete;
+  SceneAssets& operator=(const SceneAssets&) = delete;
 
   const std::string& directory() const { return directory_; }
 

@@ -1,0 +1,127 @@
+// Layout: "OpenEXR File Layout", openexr.com; magic number, version and flags, then for each part
+// attributes of name, type, size and value up to an empty name, and an empty part at the end of
+// several.
+#include "input/exr_header.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string_view>
+#include <system_error>
+
+namespace nephroid {
+namespace {
+
+constexpr uint32_t kMagic = 20000630;
+constexpr uint32_t kManyParts = 0x1000;
+constexpr size_t kLongestName = 255;
+/// Nobody's picture is packed so well; a small one does no harm.
+constexpr uint64_t kMostPixelsPerByte = 1 << 16, kFewPixels = 1 << 24;
+constexpr int64_t kWidest = 1 << 16;
+
+constexpr int kChannelBytes = 16;
+struct FixedSize {
+  std::string_view type;
+  uint32_t bytes;
+};
+constexpr FixedSize kFixedSizes[] = {{"box2i", 16},      {"box2f", 16},   {"chromaticities", 32},
+                                     {"compression", 1}, {"double", 8},   {"envmap", 1},
+                                     {"float", 4},       {"int", 4},      {"keycode", 28},
+                                     {"lineOrder", 1},   {"m33f", 36},    {"m33d", 72},
+                                     {"m44f", 64},       {"m44d", 128},   {"rational", 8},
+                                     {"tiledesc", 9},    {"timecode", 8}, {"v2i", 8},
+                                     {"v2f", 8},         {"v2d", 16},     {"v3i", 12},
+                                     {"v3f", 12},        {"v3d", 24},     {"deepImageState", 1}};
+
+class Header {
+ public:
+  Header(const std::string& path, uint64_t size) : file_(path, std::ios::binary), size_(size) {}
+
+  std::string fault() {
+    if (number() != kMagic || !file_) return "";
+    const bool many = (number() & kManyParts) != 0;
+    for (;;) {
+      size_t attributes = 0;
+      for (;; ++attributes) {
+        const std::optional<std::string> name = text();
+        if (!name) return "its header ends too early";
+        if (name->empty()) break;
+        const std::optional<std::string> type = text();
+        const uint32_t bytes = number();
+        if (!type || !file_ || bytes > size_ - position()) return "its header ends too early";
+        const uint64_t end = position() + bytes;
+        if (!has_possible_size(*type, bytes, end)) return "its header is damaged";
+        file_.seekg(static_cast<std::streamoff>(end - bytes));
+        if (*name == "dataWindow" && *type == "box2i" && !is_possible_window())
+          return "it claims more pixels than could be in it";
+        file_.seekg(static_cast<std::streamoff>(end));
+      }
+      if (!many || attributes == 0) return "";
+    }
+  }
+
+ private:
+  uint64_t position() { return static_cast<uint64_t>(file_.tellg()); }
+  uint32_t number() {
+    std::array<char, 4> bytes{};
+    file_.read(bytes.data(), bytes.size());
+    uint32_t value;
+    std::memcpy(&value, bytes.data(), sizeof value);
+    return value;
+  }
+  /// Up to a zero byte; empty if there is none near.
+  std::optional<std::string> text() {
+    std::string result;
+    for (char c; file_.get(c);) {
+      if (c == '\0') return result;
+      if (result.size() == kLongestName) break;
+      result += c;
+    }
+    return std::nullopt;
+  }
+  /// The library reads values by their type and goes on where that ends, whatever the size says.
+  bool has_possible_size(const std::string& type, uint32_t bytes, uint64_t end) {
+    if (type == "chlist") {
+      for (;;) {
+        const std::optional<std::string> channel = text();
+        if (!channel || position() > end) return false;
+        if (channel->empty()) return position() == end;
+        file_.seekg(kChannelBytes, std::ios::cur);
+      }
+    }
+    if (type == "preview") {
+      const uint64_t width = number(), height = number();
+      return bytes == 8 + 4 * width * height;
+    }
+    const auto fixed = std::ranges::find(kFixedSizes, type, &FixedSize::type);
+    return fixed == std::end(kFixedSizes) || fixed->bytes == bytes;
+  }
+  bool is_possible_window() {
+    std::array<int64_t, 4> corners;  // x0, y0, x1, y1
+    for (int64_t& c : corners) c = static_cast<int32_t>(number());
+    const int64_t width = std::max<int64_t>(0, corners[2] - corners[0] + 1);
+    const int64_t height = std::max<int64_t>(0, corners[3] - corners[1] + 1);
+    const auto pixels = static_cast<uint64_t>(width) * static_cast<uint64_t>(height);
+    // The library keeps blocks of whole rows.
+    if (width > kWidest && static_cast<uint64_t>(width) > size_) return false;
+    return pixels <= kFewPixels || pixels / kMostPixelsPerByte <= size_;
+  }
+
+  std::ifstream file_;
+  uint64_t size_;
+};
+
+}  // namespace
+
+std::string fault_of_exr_header(const std::string& path) {
+  std::error_code error;
+  const uint64_t size = std::filesystem::file_size(path, error);
+  if (error) return "";
+  return Header(path, size).fault();
+}
+
+}  // namespace nephroid

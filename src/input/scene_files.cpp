@@ -1,0 +1,86 @@
+#include "input/scene_files.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <span>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "core/content_hash.h"
+#include "core/errors.h"
+#include "input/file_bytes.h"
+
+namespace nephroid {
+
+SceneFiles::SceneFiles(std::string directory)
+    : directory_(directory.empty() ? "." : std::move(directory)) {}
+
+std::string SceneFiles::path_of(const std::string& name) const {
+  const std::filesystem::path path(name);
+  // What is here is shown as the scene wrote it.
+  if (path.is_absolute() || directory_ == ".") return name;
+  return (std::filesystem::path(directory_) / path).string();
+}
+
+std::string SceneFiles::read(const std::string& path) {
+  std::string bytes = read_file_bytes(path);
+  count(path, bytes);
+  return bytes;
+}
+
+void SceneFiles::count(const std::string& path) {
+  const std::string name = counted_name(path);
+  {
+    const std::lock_guard lock(mutex_);
+    if (read_.contains(name)) return;
+  }
+  try {
+    const uint64_t hash = hash_file(path);
+    const std::lock_guard lock(mutex_);
+    read_[name] = hash;
+  } catch (const IoError&) {  // whoever wants it will say so
+  }
+}
+
+void SceneFiles::count(const std::string& path, const std::string& bytes) {
+  const uint64_t hash = hash_of(std::as_bytes(std::span(bytes)));
+  const std::lock_guard lock(mutex_);
+  read_[counted_name(path)] = hash;
+}
+
+uint64_t SceneFiles::hash() const {
+  const std::lock_guard lock(mutex_);
+  ContentHash all;
+  for (const auto& [name, hash] : read_) {
+    all.add(std::as_bytes(std::span(name)));
+    all.add(std::as_bytes(std::span(&hash, 1)));
+  }
+  return all.value();
+}
+
+std::string SceneFiles::counted_name(const std::string& path) const {
+  if (path == top_) return "";
+  const std::string inside =
+      directory_ == "." ? "" : (std::filesystem::path(directory_) / "").string();
+  return path.starts_with(inside) ? path.substr(inside.size()) : path;
+}
+
+uint64_t hash_file(const std::string& path) {
+  ContentHash hash;
+  std::error_code ignored;
+  if (std::filesystem::is_fifo(path, ignored)) return hash.value();
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw IoError(path + ": cannot read: " + std::strerror(errno));
+  std::vector<char> block(1 << 16);
+  while (file) {
+    file.read(block.data(), static_cast<std::streamsize>(block.size()));
+    hash.add(std::as_bytes(std::span(block).first(static_cast<size_t>(file.gcount()))));
+  }
+  if (file.bad()) throw IoError(path + ": cannot read: " + std::strerror(errno));
+  return hash.value();
+}
+
+}  // namespace nephroid

@@ -1,0 +1,51 @@
+// The files of a scene: where the names in it lead, and what has been read, so that a picture can
+// say of which scene it is.
+// Who calls it: the parser, and whatever reads meshes, images, spectra, lenses, media. It must not
+// know what is in the files.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <string>
+
+namespace nephroid {
+
+/// May be asked from several threads.
+class SceneFiles {
+ public:
+  /// Relative names are relative to `directory`.
+  explicit SceneFiles(std::string directory = ".");
+
+  const std::string& directory() const { return directory_; }
+  /// The path that a name in the scene stands for.
+  std::string path_of(const std::string& name) const;
+
+  /// read_file_bytes, and what has been read counts in the hash.
+  std::string read(const std::string& path);
+  /// For files that somebody else reads; one that cannot be read is not counted.
+  void count(const std::string& path);
+  /// For a file that has been read already.
+  void count(const std::string& path, const std::string& bytes);
+
+  /// Of all that has been read: the files' contents and, but for the scene's own file, their names
+  /// as seen from the directory. The same wherever the directory is, and in whatever order the
+  /// files were read.
+  uint64_t hash() const;
+
+  /// The scene's own file, whose name does not count.
+  void set_top(const std::string& path) { top_ = path; }
+
+ private:
+  std::string counted_name(const std::string& path) const;
+
+  std::string directory_, top_;
+  mutable std::mutex mutex_;
+  std::map<std::string, uint64_t> read_;  ///< hash of the content by counted_name
+};
+
+/// ContentHash of a file's bytes, of none for a pipe, which can be read only once. Throws IoError
+/// if it cannot be read.
+uint64_t hash_file(const std::string& path);
+
+}  // namespace nephroid

@@ -1,0 +1,70 @@
+// Linux tells through /proc (proc(5)); clear_refs takes 5 for "forget the peak". A limit on data
+// segments (setrlimit(2)) counts what is reserved, more than what is held, so that the difference
+// is added to it.
+#include "session/process_memory.h"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+
+namespace nephroid {
+namespace {
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kCanLimit = false;
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+constexpr bool kCanLimit = false;
+#else
+constexpr bool kCanLimit = true;
+#endif
+#else
+constexpr bool kCanLimit = true;
+#endif
+
+/// Bytes in a line "Key:   123 kB" of this process's status; 0 if there is none.
+uint64_t status_bytes(const std::string& key) {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with(key)) return std::stoull(line.substr(key.size())) * 1024;
+  return 0;
+}
+
+}  // namespace
+
+uint64_t machine_memory() {
+  uint64_t bytes = static_cast<uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
+                   static_cast<uint64_t>(::sysconf(_SC_PAGESIZE));
+  for (const char* file :
+       {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"}) {
+    uint64_t limit = 0;  // "max" is no number
+    if (std::ifstream(file) >> limit && limit > 0) bytes = std::min(bytes, limit);
+  }
+  return bytes;
+}
+
+uint64_t memory_in_use() {
+  return status_bytes("VmRSS:");
+}
+
+void limit_memory(uint64_t bytes) {
+  const uint64_t held = memory_in_use(), reserved = status_bytes("VmData:");
+  rlimit limit{};
+  if (!kCanLimit || held == 0 || ::getrlimit(RLIMIT_DATA, &limit) != 0) return;
+  const uint64_t wanted = reserved + (bytes > held ? bytes - held : 0);
+  limit.rlim_cur = std::min<rlim_t>(wanted, limit.rlim_max);
+  ::setrlimit(RLIMIT_DATA, &limit);
+}
+
+void restart_memory_peak() {
+  std::ofstream("/proc/self/clear_refs") << "5";
+}
+
+uint64_t memory_peak() {
+  return status_bytes("VmHWM:");
+}
+
+}  // namespace nephroid

@@ -1,0 +1,26 @@
+// The memory of this process and of the machine, as the system counts it.
+// Who calls it: the command render and the benchmark. It must not know what the memory is for.
+#pragma once
+
+#include <cstdint>
+
+namespace nephroid {
+
+/// Bytes that this machine has, or that it lets this group of processes have (cgroup), if less.
+uint64_t machine_memory();
+
+/// Bytes of physical memory that the process holds now; 0 if the system does not tell.
+uint64_t memory_in_use();
+
+/// From now on the process cannot hold more than `bytes`: allocations beyond throw std::bad_alloc.
+/// Threads that start later take a little of it. Does nothing where the system has no such limit,
+/// and in builds with sanitizers, which need memory of their own.
+void limit_memory(uint64_t bytes);
+
+/// Starts a new peak, where the system can do that; else the peak stays that of the whole process.
+void restart_memory_peak();
+
+/// Bytes of physical memory held at most since the last restart; 0 if the system does not tell.
+uint64_t memory_peak();
+
+}  // namespace nephroid

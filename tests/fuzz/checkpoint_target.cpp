@@ -1,0 +1,45 @@
+// Pictures with the state of a render; see targets.h.
+#include <cstring>
+#include <vector>
+
+#include "film/outlier_rejection.h"
+#include "fuzz/disk_file.h"
+#include "fuzz/targets.h"
+#include "session/checkpoint.h"
+#include "session/film_metadata.h"
+#include "session/merge.h"
+
+namespace nephroid::fuzz {
+namespace {
+
+void read(const std::string& path) {
+  StateFile file(path);
+  const PassRanges passes = passes_of(file, "read it");
+  if (PassRanges::parse(passes.text()) != passes) __builtin_trap();
+  Film film = film_of(file);
+  passes_add_up(file);
+  file.load(film.state());
+}
+
+/// What is held of outliers, which checksums protect in a file.
+void held(const std::string& bytes) {
+  std::vector<uint32_t> words(bytes.size() / 4);
+  if (!words.empty()) std::memcpy(words.data(), bytes.data(), words.size() * 4);
+  OutlierRejection rejection(4, 3, {1, 2}, {});
+  rejection.load(words);
+  if (rejection.save().size() > rejection.most_words()) __builtin_trap();
+  rejection.held_estimates();
+}
+
+}  // namespace
+
+void checkpoint(const std::string& bytes) {
+  try {
+    if (!bytes.starts_with("\x76\x2f")) return held(bytes);
+    const DiskFile file(bytes, ".exr");
+    read(file.path());
+  } catch (const Error&) {
+  }
+}
+
+}  // namespace nephroid::fuzz

@@ -1,0 +1,26 @@
+// Command lines; see targets.h.
+#include "core/errors.h"
+#include "fuzz/targets.h"
+#include "session/command_line.h"
+#include "session/integrator_settings.h"
+#include "session/pass_ranges.h"
+
+namespace nephroid::fuzz {
+
+void command(const std::string& bytes) {
+  std::vector<std::string> arguments;
+  for (size_t start = 0; start <= bytes.size();) {
+    const size_t end = std::min(bytes.find('\n', start), bytes.size());
+    arguments.push_back(bytes.substr(start, end - start));
+    start = end + 1;
+  }
+  for (const std::string& argument : arguments)
+    if (const auto passes = PassRanges::parse(argument))
+      if (PassRanges::parse(passes->text()) != passes) __builtin_trap();
+  try {
+    parse_command_line(arguments);
+  } catch (const Error&) {
+  }
+}
+
+}  // namespace nephroid::fuzz
