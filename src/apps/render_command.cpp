@@ -108,7 +108,8 @@ int run_render(const RenderCommand& command) {
     check_file_can_be_written(command.output);
     check_file_can_be_written(png_path_beside(command.output));
   }
-  limit_memory(command.memory > 0 ? command.memory : machine_memory());
+  const uint64_t memory = command.memory > 0 ? command.memory : machine_memory();
+  limit_memory(memory, bytes_of_stacks());
   const SettingList settings = settings_of(command);
   SceneOverrides overrides = command.overrides;
   IntegratorOptions of_settings;
@@ -128,7 +129,6 @@ int run_render(const RenderCommand& command) {
   if (!command.quiet)
     for (const std::string& warning : preset.warnings) print_warning(warning);
   if (!command.quiet) print_warnings(idle_settings(command.settings, *preset.routes));
-  const uint64_t memory = command.memory > 0 ? command.memory : machine_memory();
   check_memory(
       {scene.film, preset.layout, *preset.routes, command.reject_outliers,
        Ppm::hit_points(choice.options, scene.samples_per_pixel), choice.options.memory_photons,

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <new>
 #include <optional>
 #include <stdexcept>
 
@@ -241,6 +242,8 @@ MeshData read_ply(SceneFiles& files, const std::string& path, const SourceLocati
   }
   try {
     return read_mesh(bytes);
+  } catch (const std::bad_alloc&) {
+    throw SceneError(wanted_by, "cannot use \"" + path + "\": it does not fit the memory");
   } catch (const std::runtime_error& error) {
     throw SceneError(wanted_by, "cannot use \"" + path + "\": " + error.what());
   }

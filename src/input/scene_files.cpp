@@ -4,6 +4,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <new>
 #include <span>
 #include <system_error>
 #include <utility>
@@ -26,9 +27,13 @@ std::string SceneFiles::path_of(const std::string& name) const {
 }
 
 std::string SceneFiles::read(const std::string& path) {
-  std::string bytes = read_file_bytes(path);
-  count(path, bytes);
-  return bytes;
+  try {
+    std::string bytes = read_file_bytes(path);
+    count(path, bytes);
+    return bytes;
+  } catch (const std::bad_alloc&) {
+    throw IoError("cannot read \"" + path + "\": it does not fit the memory");
+  }
 }
 
 void SceneFiles::count(const std::string& path) {

@@ -109,6 +109,10 @@ class SceneBuilder {
       const auto k = static_cast<size_t>(i);
       try {
         made[k] = make_shapes(runs[k], *d_.files, diagnostics_, displacement);
+      } catch (const std::bad_alloc&) {
+        const ShapeDescription& shape = runs[k][0];
+        failed[k] = std::make_exception_ptr(
+            SceneError(shape.where, "shape \"" + shape.type + "\" does not fit the memory"));
       } catch (...) {
         failed[k] = std::current_exception();
       }

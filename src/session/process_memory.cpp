@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <fstream>
 #include <string>
+#include <thread>
 
 namespace nephroid {
 namespace {
@@ -50,11 +51,19 @@ uint64_t memory_in_use() {
   return status_bytes("VmRSS:");
 }
 
-void limit_memory(uint64_t bytes) {
+uint64_t bytes_of_stacks() {
+  rlimit stack{};
+  const bool is_known = ::getrlimit(RLIMIT_STACK, &stack) == 0 && stack.rlim_cur != RLIM_INFINITY;
+  constexpr uint64_t kDefault = uint64_t{8} << 20;
+  // Rendering, images and encoders have as many each as there are processors.
+  return (is_known ? uint64_t{stack.rlim_cur} : kDefault) * 4 * std::thread::hardware_concurrency();
+}
+
+void limit_memory(uint64_t bytes, uint64_t to_come) {
   const uint64_t held = memory_in_use(), reserved = status_bytes("VmData:");
   rlimit limit{};
   if (!kCanLimit || held == 0 || ::getrlimit(RLIMIT_DATA, &limit) != 0) return;
-  const uint64_t wanted = reserved + (bytes > held ? bytes - held : 0);
+  const uint64_t wanted = reserved + to_come + (bytes > held ? bytes - held : 0);
   limit.rlim_cur = std::min<rlim_t>(wanted, limit.rlim_max);
   ::setrlimit(RLIMIT_DATA, &limit);
 }

@@ -13,9 +13,12 @@ uint64_t machine_memory();
 uint64_t memory_in_use();
 
 /// From now on the process cannot hold more than `bytes`: allocations beyond throw std::bad_alloc.
-/// Threads that start later take a little of it. Does nothing where the system has no such limit,
-/// and in builds with sanitizers, which need memory of their own.
-void limit_memory(uint64_t bytes);
+/// The stacks of threads that start later count in full, so `to_come` is given beyond. Does nothing
+/// where the system has no such limit, and in builds with sanitizers, which need memory of their
+/// own.
+void limit_memory(uint64_t bytes, uint64_t to_come = 0);
+/// Of the stacks of all threads that will be started.
+uint64_t bytes_of_stacks();
 
 /// Starts a new peak, where the system can do that; else the peak stays that of the whole process.
 void restart_memory_peak();

@@ -2,6 +2,7 @@
 #include "session/scene_loading.h"
 
 #include <algorithm>
+#include <new>
 
 #include "input/pbrt_parser.h"
 #include "scene/film_description.h"
@@ -24,7 +25,11 @@ LoadedScene build(SceneDescription description, const SceneOverrides& overrides,
 
 LoadedScene load_scene(const std::string& file, const SceneOverrides& overrides) {
   Diagnostics diagnostics;
-  return build(parse_pbrt_file(file, diagnostics), overrides, diagnostics);
+  try {
+    return build(parse_pbrt_file(file, diagnostics), overrides, diagnostics);
+  } catch (const std::bad_alloc&) {
+    throw IoError(file + ": the scene does not fit the memory");
+  }
 }
 
 LoadedScene load_small_scene(const std::string& file, SceneOverrides overrides, int longest_side) {

@@ -252,7 +252,7 @@ TEST(BadFilm, IsLocated) {
   const auto film = [](const std::string& text) { return options_with("Film", "Film " + text); };
   SceneFolder(film("\"rgb\" \"integer xresolution\" 65536 \"integer yresolution\" 65536") +
               "WorldBegin\n")
-      .expect_error(kScene, "scene.pbrt:1:1: 4294967296 pixels (65536 x 65536) need more than");
+      .expect_error(kScene, "scene.pbrt:1:1: 4294967296 pixels (65536 x 65536) need about");
   expect_refused("", "1:1: the resolution 100000 x 1 must lie in 1..65536",
                  film("\"rgb\" \"integer xresolution\" 100000 \"integer yresolution\" 1"));
   expect_refused("", "1:12: \"iso\" of the film must be above 0", film("\"rgb\" \"float iso\" 0"));

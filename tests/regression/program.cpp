@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -59,13 +60,17 @@ ProgramRun run_program(const std::string& folder, const std::vector<std::string>
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
   ProgramRun run;
+  const auto begin = std::chrono::steady_clock::now();
   const pid_t child = start(folder, arguments, ends[1]);
   close(ends[1]);
   run.hung = !read_all(ends[0], &run.errors);
   close(ends[0]);
   if (run.hung) kill(child, SIGKILL);
   int state = 0;
-  waitpid(child, &state, 0);
+  rusage usage{};
+  wait4(child, &state, 0, &usage);
+  run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  run.peak_memory = static_cast<uint64_t>(usage.ru_maxrss) * 1024;
   if (WIFEXITED(state)) run.status = WEXITSTATUS(state);
   if (WIFSIGNALED(state)) run.signal = WTERMSIG(state);
   return run;

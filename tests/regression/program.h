@@ -2,6 +2,7 @@
 // Who calls it: the tests of this folder. It must not know what the program does with scenes.
 #pragma once
 
+#include <cstdint>
 #include <set>
 #include <string>
 #include <vector>
@@ -9,10 +10,12 @@
 namespace nephroid::testing_support {
 
 struct ProgramRun {
-  int status = -1;     ///< exit status; -1 if the program did not exit by itself
-  int signal = 0;      ///< that ended it, 0 if none did
-  bool hung = false;   ///< it was still running after a minute and was ended
-  std::string errors;  ///< all of standard error
+  int status = -1;           ///< exit status; -1 if the program did not exit by itself
+  int signal = 0;            ///< that ended it, 0 if none did
+  bool hung = false;         ///< it was still running after a minute and was ended
+  std::string errors;        ///< all of standard error
+  double seconds = 0;        ///< that it ran
+  uint64_t peak_memory = 0;  ///< bytes
 };
 
 /// Runs the program with these arguments in `folder`; its standard input is empty. Throws

@@ -68,9 +68,13 @@ ImagePtr read_light_image(const ParameterSet& parameters, SceneFiles& files) {
   const std::string path = files.path_of(parameters.get_string("filename", ""));
   files.count(path);
   ImagePtr image = read_image(path, std::nullopt, p.where);
-  if (!image->is_finite())
+  // What a light sends into the scene is larger by its area.
+  constexpr float kBrightest = 1e30f;
+  if (const float largest = image->largest_value(); !(largest <= kBrightest))
     throw SceneError(p.where,
-                     "image \"" + path + "\" has infinite or NaN values, which cannot be emitted");
+                     "image \"" + path + "\" has " +
+                         (std::isfinite(largest) ? "values above 1e30" : "infinite or NaN values") +
+                         ", which cannot be emitted");
   return image;
 }
 

@@ -145,12 +145,16 @@ size_t Image::memory() const {
   return static_cast<size_t>(width_) * height_ * channels_ * kBytes[pixels_.index()];
 }
 
-bool Image::is_finite() const {
+float Image::largest_value() const {
+  float largest = 0;
   for (int y = 0; y < height_; ++y)
     for (int x = 0; x < width_; ++x)
-      for (int c = 0; c < channels_; ++c)
-        if (!std::isfinite(value(x, y, c))) return false;
-  return true;
+      for (int c = 0; c < channels_; ++c) {
+        const float v = std::abs(value(x, y, c));
+        if (!std::isfinite(v)) return kInfinity;
+        largest = std::max(largest, v);
+      }
+  return largest;
 }
 
 float Image::value(int x, int y, int channel) const {

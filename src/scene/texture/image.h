@@ -54,8 +54,8 @@ class Image {
   const RgbColorSpace& color_space() const { return *space_; }
   /// Bytes that the pixels occupy in memory: 0 if they are fetched.
   size_t memory() const;
-  /// True if no value is infinite or NaN.
-  bool is_finite() const;
+  /// The largest magnitude of a value; infinite if one is infinite or NaN.
+  float largest_value() const;
 
   /// Linear value of one channel of a pixel inside the image.
   float value(int x, int y, int channel) const;

@@ -1,6 +1,8 @@
 // Reads whole image files, and decides which are better left in their files. See image_file.h.
 #include "scene/texture/image_file.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -25,7 +27,7 @@ std::vector<T> read_values(OIIO::ImageInput& input, const std::vector<int>& want
   const size_t pixels = static_cast<size_t>(spec.width) * spec.height;
   // Not filled with zeros: a header may claim more than the file has, or than there is memory.
   const std::unique_ptr<T[]> all(new (std::nothrow) T[pixels * spec.nchannels]);
-  if (!all) image_is_unreadable(path, "it is too large for the memory", wanted_by);
+  if (!all) throw std::bad_alloc();
   if (!input.read_image(0, 0, 0, spec.nchannels, type, all.get()))
     image_is_unreadable(path, input.geterror(), wanted_by);
   std::vector<T> kept(pixels * wanted.size());
@@ -65,9 +67,8 @@ bool image_obeys_encoding(const std::string& path) {
 
 namespace {
 
-/// All pixels of an opened file.
-ImagePtr read_whole(const ImageInputFile& file, const std::string& path,
-                    const SourceLocation& wanted_by) {
+ImagePtr read_pixels(const ImageInputFile& file, const std::string& path,
+                     const SourceLocation& wanted_by) {
   const std::vector<int>& wanted = file.channels;
   const auto make = [&](int channels, Image::Pixels pixels) {
     return std::make_shared<Image>(file.spec.width, file.spec.height, channels, std::move(pixels),
@@ -102,6 +103,16 @@ ImagePtr read_whole(const ImageInputFile& file, const std::string& path,
   }
 }
 
+/// All pixels of an opened file.
+ImagePtr read_whole(const ImageInputFile& file, const std::string& path,
+                    const SourceLocation& wanted_by) {
+  try {
+    return read_pixels(file, path, wanted_by);
+  } catch (const std::bad_alloc&) {
+    image_is_unreadable(path, "it does not fit the memory", wanted_by);
+  }
+}
+
 }  // namespace
 
 ImagePtr read_image(const std::string& path, std::optional<ColorEncoding> encoding,
@@ -125,12 +136,24 @@ ImagePtr ImageCache::get(const std::string& path, std::optional<ColorEncoding> e
   return image;
 }
 
+namespace {
+/// To unpack so much again for a few pixels would look like a program that hangs.
+constexpr uint64_t kSlowFromTheFront = uint64_t{256} << 20;
+}  // namespace
+
 ImagePtr ImageCache::load(const std::string& path, std::optional<ColorEncoding> encoding,
                           const SourceLocation& wanted_by) {
   ImageInputFile file = open_image(path, encoding, wanted_by);
   // A quarter of the limit is kept for the tiles of images that turn out not to fit.
   const uint64_t for_whole = limit_ - limit_ / 4;
   ImagePtr image;
+  if (file.memory() > std::max(for_whole, kSlowFromTheFront) && !file.has_parts())
+    throw SceneError(
+        wanted_by,
+        fmt::format("image \"{}\" takes {} MB, more than the {} MB that textures may take, and can "
+                    "only be read from front to back; expected a larger -D texture-cache, or an "
+                    "EXR or TIFF file, which can be read in parts",
+                    path, file.memory() >> 20, for_whole >> 20));
   if (whole_ + file.memory() > for_whole) {
     if (!tiles_) tiles_ = TileCache::make();
     image = tiles_->open(file, path, wanted_by);

@@ -124,6 +124,11 @@ uint64_t ImageInputFile::memory() const {
   return uint64_t(spec.width) * uint64_t(spec.height) * channels.size() * bytes;
 }
 
+bool ImageInputFile::has_parts() const {
+  const std::string_view format = input->format_name();
+  return spec.tile_width > 0 || format == "openexr" || format == "tiff";
+}
+
 ImageInputFile open_image(const std::string& path, std::optional<ColorEncoding> encoding,
                           const SourceLocation& wanted_by) {
   ImageInputFile file;

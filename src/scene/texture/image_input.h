@@ -30,6 +30,8 @@ struct ImageInputFile {
 
   /// Bytes of the wanted channels in memory, where shorts become half.
   uint64_t memory() const;
+  /// True if a part can be read without all that comes before it.
+  bool has_parts() const;
 };
 
 /// Opens a file; `encoding` and the errors are those of read_image.
