@@ -152,7 +152,7 @@ constexpr OptionDescription kOptions[] = {
        l.render.checkpoint_interval = parse_duration("--checkpoint", t);
      }},
     {"render", "--strict", "", "", "", "", "Output",
-     "Exit status 1 if anything was left out of the picture because it was no number.", false,
+     "Exit status 1 if estimates were left out of the picture because they were infinite or no numbers.", false,
      [](CommandLine& l, const std::string&) { l.render.strict = true; }},
     {"render", "--no-state", "", "", "", "", "Output",
      "Write the picture alone: a smaller file, from which no render can go on.", false,

@@ -162,6 +162,50 @@ TEST_F(SessionPictures, FailedLastPictureIsAnError) {
   EXPECT_THROW(run(options), IoError);
 }
 
+/// What IoError says, "" if there is none.
+template <class F>
+std::string io_error_of(F&& f) {
+  try {
+    f();
+  } catch (const IoError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST_F(SessionPictures, TheLastPictureIsRescuedWhereItsDirectoryVanished) {
+  const ScratchDirectory directory, elsewhere;
+  std::filesystem::create_directory(directory.file("pictures"));
+  RenderOptions options;
+  options.output = directory.file("pictures/out.exr");
+  options.checkpoint_interval = 2;
+  options.rescue_directory = elsewhere.path().string();
+  script_.during_pass = [&](const PassKey& key) {
+    if (key.pass == 1) std::filesystem::remove_all(directory.file("pictures"));
+  };
+  const std::string message = io_error_of([&] { run(options); });
+  const size_t said = message.find("the picture is in ");
+  ASSERT_NE(said, std::string::npos) << message;
+  EXPECT_EQ(message.find(options.output), 0u) << message;
+  EXPECT_EQ(passes_in(message.substr(said + 18)), "0..5");
+  EXPECT_EQ(script_.passes.size(), 6u);  // it went on
+  EXPECT_FALSE(warnings_.empty());
+}
+
+TEST_F(SessionPictures, WhatCannotBeRescuedIsTheFirstError) {
+  const ScratchDirectory directory;
+  std::filesystem::create_directory(directory.file("pictures"));
+  RenderOptions options;
+  options.output = directory.file("pictures/out.exr");
+  options.rescue_directory = directory.file("nowhere");
+  script_.during_pass = [&](const PassKey&) {
+    std::filesystem::remove_all(directory.file("pictures"));
+  };
+  const std::string message = io_error_of([&] { run(options); });
+  EXPECT_EQ(message.find(options.output), 0u) << message;
+  EXPECT_EQ(message.find("the picture is in"), std::string::npos);
+}
+
 TEST_F(SessionPictures, UnwritableOutputIsSaidBeforeTheFirstPass) {
   const ScratchDirectory directory;
   RenderOptions options;
