@@ -15,6 +15,7 @@
 #include "core/errors.h"
 #include "film/atomic_file.h"
 #include "film/chromaticities.h"
+#include "input/claimed_size.h"
 #include "input/exr_header.h"
 
 namespace nephroid {
@@ -90,6 +91,8 @@ Picture read_picture(const std::string& path) {
   picture.window = {spec.x, spec.y, spec.x + spec.width, spec.y + spec.height};
   picture.channels = spec.channelnames;
   picture.color_space = color_space_of(spec);
+  if (!is_possible_size(spec.image_bytes(true), path))
+    throw IoError(path + ": cannot read: it claims more pixels than could be in it");
   picture.pixels.resize(static_cast<size_t>(spec.image_pixels()) *
                         static_cast<size_t>(spec.nchannels));
   for (const OIIO::ParamValue& attribute : spec.extra_attribs)

@@ -184,7 +184,7 @@ TEST(BadImage, IsLocated) {
   expect_image_error(
       texture + "\"a.pfm\"\n", "a.pfm", "PF\n20000 20000\n-1.0\n" + kPly,
       "7:35: image \"a.pfm\" says that it has 20000 x 20000 pixels of 3 channels, which "
-      "cannot be in a file of 200 bytes");
+      "cannot be in so small a file");
   expect_image_error("LightSource \"infinite\" \"string filename\" \"a.pfm\"\n", "a.pfm",
                      "PF\n2 1\n-1.0\n" + std::string(24, '\0'),
                      "7:24: the image of an infinite light is 2 x 1, expected a square");

@@ -13,6 +13,7 @@
 #include <span>
 #include <string_view>
 
+#include "input/claimed_size.h"
 #include "input/exr_header.h"
 #include "input/file_bytes.h"
 #include "scene/texture/image_file.h"
@@ -66,21 +67,6 @@ Creator reader_of(const std::string& path, const SourceLocation& wanted_by) {
       return format.create;
   image_is_unreadable(path, "it is none of the formats EXR, PNG, JPEG, HDR, PFM, TGA, TIFF and BMP",
                       wanted_by);
-}
-
-/// No file that somebody painted is packed so well; one that claims it would only take memory.
-constexpr uint64_t kMostBytesPerByte = 1 << 16;
-constexpr uint64_t kClaimsThatDoNoHarm = uint64_t{64} << 20;
-
-void check_size(const OIIO::ImageSpec& spec, const std::string& path,
-                const SourceLocation& wanted_by) {
-  std::error_code ignored;
-  const uint64_t claimed = spec.image_bytes(true),
-                 there = std::filesystem::file_size(path, ignored);
-  if (claimed > kClaimsThatDoNoHarm && claimed / kMostBytesPerByte > there)
-    throw SceneError(wanted_by, fmt::format("image \"{}\" says that it has {} x {} pixels of {} "
-                                            "channels, which cannot be in a file of {} bytes",
-                                            path, spec.width, spec.height, spec.nchannels, there));
 }
 
 /// Which channels of the file the image keeps: indices of grey, of rgb or of rgba.
@@ -144,7 +130,10 @@ ImageInputFile open_image(const std::string& path, std::optional<ColorEncoding> 
   const OIIO::ImageSpec& spec = file.spec;
   if (spec.deep || spec.depth > 1 || spec.width < 1 || spec.height < 1 || spec.nchannels < 1)
     throw SceneError(wanted_by, "image \"" + path + "\" is deep, a volume or empty");
-  check_size(spec, path, wanted_by);
+  if (!is_possible_size(spec.image_bytes(true), path))
+    throw SceneError(wanted_by, fmt::format("image \"{}\" says that it has {} x {} pixels of {} "
+                                            "channels, which cannot be in so small a file",
+                                            path, spec.width, spec.height, spec.nchannels));
   file.channels = wanted_channels(spec, path, wanted_by);
   file.space = &color_space_of(spec);
   file.encoding =

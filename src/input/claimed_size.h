@@ -1,0 +1,24 @@
+// Whether a file can hold what it says that it holds, asked before memory is taken for it.
+// Who calls it: the readers of images and pictures. It must not know formats.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <system_error>
+
+namespace nephroid {
+
+/// False if `claimed` bytes of pixels cannot be in the file: nothing that somebody painted is
+/// packed so well. Sizes that do no harm are always possible, and so are those of pipes and
+/// devices.
+inline bool is_possible_size(uint64_t claimed, const std::string& path) {
+  constexpr uint64_t kMostBytesPerByte = 1 << 16;
+  constexpr uint64_t kHarmless = uint64_t{64} << 20;
+  if (claimed <= kHarmless) return true;
+  std::error_code error;
+  const uint64_t there = std::filesystem::file_size(path, error);
+  return error || claimed / kMostBytesPerByte <= there;
+}
+
+}  // namespace nephroid

@@ -1,0 +1,53 @@
+// --memory is kept, or the render is refused before it starts.
+#include <gtest/gtest.h>
+
+#include "regression/program.h"
+#include "regression/scene_folder.h"
+#include "source_directory.h"
+
+namespace nephroid::testing_support {
+namespace {
+
+const std::string kScene = source_directory() + "/scenes/caustic-room/scene.pbrt";
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kIsLarge = true;
+#else
+constexpr bool kIsLarge = false;
+#endif
+
+class MemoryLimit : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(MemoryLimit, IsKept) {
+  if (kIsLarge) GTEST_SKIP() << "sanitizers take memory of their own";
+  const testing::TemporaryDirectory folder;
+  const ProgramRun run = run_program(
+      folder.path(), {"render", kScene, "--memory", "320M", "--resolution", "240x160", "--passes",
+                      "2", "--integrator", GetParam(), "-o", "picture.exr", "--quiet"});
+  EXPECT_EQ(run.status, 0) << run.errors;
+  EXPECT_LT(run.peak_memory, uint64_t{320} << 20);
+}
+
+TEST_P(MemoryLimit, IsRefusedBeforeItStarts) {
+  const testing::TemporaryDirectory folder;
+  const ProgramRun run = run_program(
+      folder.path(), {"render", kScene, "--memory", "320M", "--resolution", "2400x1600", "--passes",
+                      "2", "--integrator", GetParam(), "-o", "picture.exr", "--quiet"});
+  EXPECT_EQ(run.status, kUsage) << run.errors;
+  EXPECT_NE(run.errors.find("nephroid: error: --memory: 3840000 pixels (2400 x 1600) need about "),
+            std::string::npos)
+      << run.errors;
+  EXPECT_EQ(names_in(folder.path()).count("picture.exr"), 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Integrators, MemoryLimit,
+                         ::testing::Values("mixed", "path", "sppm", "ppm", "photonmap", "vcm",
+                                           "mlt"));
+
+TEST(MemoryLimitOption, TooLittleForTheProgramItselfIsSaid) {
+  SceneFolder().expect_error(kUsage, "--memory: '10M' is not valid, expected at least 256M",
+                             {"--memory", "10M"});
+}
+
+}  // namespace
+}  // namespace nephroid::testing_support

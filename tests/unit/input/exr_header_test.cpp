@@ -1,0 +1,91 @@
+// Headers that the library must not be given, and those that it may.
+#include "input/exr_header.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "input/claimed_size.h"
+#include "unit/input/temporary_directory.h"
+
+namespace nephroid {
+namespace {
+
+using testing::TemporaryDirectory;
+
+std::string number(uint32_t value) {
+  std::string bytes(4, '\0');
+  std::memcpy(bytes.data(), &value, 4);
+  return bytes;
+}
+std::string text(const std::string& value) {
+  return value + std::string(1, '\0');
+}
+std::string attribute(const std::string& name, const std::string& type, const std::string& value) {
+  return text(name) + text(type) + number(static_cast<uint32_t>(value.size())) + value;
+}
+std::string box(int x0, int y0, int x1, int y1) {
+  std::string bytes;
+  for (const int c : {x0, y0, x1, y1}) bytes += number(static_cast<uint32_t>(c));
+  return bytes;
+}
+const std::string kChannels = text("B") + std::string(16, 'x') + text("");
+const std::string kSound =
+    attribute("channels", "chlist", kChannels) + attribute("compression", "compression", "\3") +
+    attribute("dataWindow", "box2i", box(-5, 0, 94, 49)) +
+    attribute("displayWindow", "box2i", box(0, 0, 2000000000, 2000000000)) +
+    attribute("comments", "string", "any length") + attribute("mine", "a type of my own", "123");
+
+class ExrHeader : public ::testing::Test {
+ protected:
+  std::string fault(const std::string& attributes, uint32_t version = 2) {
+    return fault_of(number(20000630) + number(version) + attributes);
+  }
+  std::string fault_of(const std::string& bytes) {
+    return fault_of_exr_header(directory_.write("f.exr", bytes));
+  }
+  TemporaryDirectory directory_;
+};
+
+TEST_F(ExrHeader, WhatIsSoundOrOfAnotherFormatIsLetThrough) {
+  EXPECT_EQ(fault(kSound + text("")), "");
+  EXPECT_EQ(fault(kSound + text("") + kSound + text("") + text(""), 0x1002), "");
+  EXPECT_EQ(fault_of("P6 1 1 255 abc"), "");
+  EXPECT_EQ(fault_of(""), "");
+  EXPECT_EQ(fault_of_exr_header(directory_.path("absent")), "");
+}
+
+TEST_F(ExrHeader, ClaimsBeyondTheFileAreFaults) {
+  for (size_t cut = 8; cut < 8 + kSound.size(); ++cut)
+    EXPECT_NE(fault_of((number(20000630) + number(2) + kSound).substr(0, cut)), "") << cut;
+  EXPECT_NE(fault(text("long") + text("string") + number(0x7fffffff) + "abc" + text("")), "");
+  EXPECT_NE(fault(text("negative") + text("string") + number(0xffffffff) + "abc" + text("")), "");
+  EXPECT_NE(fault(attribute("dataWindow", "box2i", box(0, 0, 60000, 60000)) + text("")), "");
+  EXPECT_NE(fault(attribute("dataWindow", "box2i", box(0, 0, 6000000, 7)) + text("")), "");
+  // The second part, too.
+  EXPECT_NE(
+      fault(kSound + text("") + attribute("dataWindow", "box2i", box(0, 0, 60000, 60000)), 0x1002),
+      "");
+}
+
+TEST_F(ExrHeader, SizesThatTheTypeDoesNotHaveAreFaults) {
+  EXPECT_NE(fault(attribute("compression", "compression", "12") + text("")), "");
+  EXPECT_NE(fault(attribute("channels", "chlist", kChannels + "more") + text("")), "");
+  EXPECT_NE(fault(attribute("channels", "chlist", text("B") + std::string(16, 'x')) + text("")),
+            "");
+  EXPECT_NE(fault(attribute("preview", "preview", number(100) + number(100) + "abcd") + text("")),
+            "");
+  EXPECT_EQ(fault(attribute("preview", "preview", number(1) + number(1) + "abcd") + text("")), "");
+}
+
+TEST(ClaimedSize, IsComparedWithTheFile) {
+  const TemporaryDirectory directory;
+  const std::string small = directory.write("s", "12345678");
+  EXPECT_TRUE(is_possible_size(uint64_t{64} << 20, small));
+  EXPECT_FALSE(is_possible_size((uint64_t{64} << 20) + 65536, small));
+  EXPECT_TRUE(is_possible_size(uint64_t{1} << 40, "/dev/stdin"));
+  EXPECT_TRUE(is_possible_size(uint64_t{1} << 30, directory.write("l", std::string(1 << 14, 'x'))));
+}
+
+}  // namespace
+}  // namespace nephroid
