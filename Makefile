@@ -2,7 +2,7 @@
 BUILD := build/release
 NEPHROID := $(BUILD)/bin/nephroid
 
-.PHONY: demo test program build deps asan tsan fuzz format check clean
+.PHONY: demo test program build deps sanitize asan tsan fuzz format check clean
 
 demo: program
 	@mkdir -p out
@@ -26,6 +26,9 @@ deps:
 # What needs no build: layers, and documentation that is generated.
 check:
 	@python3 tools/check_layers.py
+
+# All tests (of those with most passes some) under address, undefined behaviour and thread sanitizers.
+sanitize: asan tsan
 
 asan tsan: deps
 	@cmake --preset $@ >/dev/null

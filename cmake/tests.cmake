@@ -2,6 +2,15 @@
 # kind of test. An executable is one ctest: to start one takes a third of a second, as long as most
 # test cases. Those with much to do are cut into shards, so that all cores have work to the end.
 find_package(GTest REQUIRED)
+# A sanitizer is slow: of the tests with most passes it sees one shard in so many.
+set(sanitized_shards_agreement 24)
+set(sanitized_shards_statistical 24)
+set(sanitized_shards_analytic 4)
+set(sanitizer_environment
+    "ASAN_OPTIONS=detect_stack_use_after_return=1"
+    "UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1"
+    "LSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tools/sanitizers/lsan.supp"
+    "TSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tools/sanitizers/tsan.supp:halt_on_error=1")
 set(shards_agreement 6)
 set(shards_determinism 2)
 set(shards_statistical 4)
@@ -24,6 +33,15 @@ function(nephroid_test folder)
   target_link_libraries(test_${name} PRIVATE ${ARGN} test_source_directory GTest::gtest GTest::gtest_main)
   target_include_directories(test_${name} PRIVATE ${CMAKE_SOURCE_DIR}/tests)
   nephroid_precompiled(test_${name} test_source_directory)
+  if(NEPHROID_SANITIZE)
+    add_test(NAME ${name} COMMAND test_${name})
+    set(environment ${sanitizer_environment})
+    if(sanitized_shards_${name})
+      list(APPEND environment "GTEST_TOTAL_SHARDS=${sanitized_shards_${name}}" "GTEST_SHARD_INDEX=0")
+    endif()
+    set_tests_properties(${name} PROPERTIES TIMEOUT 14400 ENVIRONMENT "${environment}")
+    return()
+  endif()
   if(NOT shards_${name})
     add_test(NAME ${name} COMMAND test_${name})
     set_tests_properties(${name} PROPERTIES TIMEOUT 14400)
@@ -32,7 +50,7 @@ function(nephroid_test folder)
   math(EXPR last "${shards_${name}} - 1")
   foreach(shard RANGE ${last})
     add_test(NAME ${name}_${shard} COMMAND test_${name})
-    # What takes longest begins first. A sanitizer may need hours.
+    # What takes longest begins first.
     set_tests_properties(${name}_${shard} PROPERTIES COST 100 TIMEOUT 14400 ENVIRONMENT
       "GTEST_TOTAL_SHARDS=${shards_${name}};GTEST_SHARD_INDEX=${shard}")
   endforeach()

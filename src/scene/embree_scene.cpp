@@ -12,9 +12,16 @@
 
 namespace nephroid {
 
+#ifdef NEPHROID_STD_THREADS
+/// Its own threads would confuse ThreadSanitizer, which does not see their locks.
+constexpr const char* kEmbreeConfig = "threads=1";
+#else
+constexpr const char* kEmbreeConfig = nullptr;
+#endif
+
 class EmbreeDevice {
  public:
-  EmbreeDevice() : device(rtcNewDevice(nullptr)) {
+  EmbreeDevice() : device(rtcNewDevice(kEmbreeConfig)) {
     if (!device) throw Error(ExitStatus::kRender, "Embree could not be started");
   }
   ~EmbreeDevice() { rtcReleaseDevice(device); }
