@@ -109,7 +109,8 @@ int run_render(const RenderCommand& command) {
     check_file_can_be_written(png_path_beside(command.output));
   }
   const uint64_t memory = command.memory > 0 ? command.memory : machine_memory();
-  limit_memory(memory, bytes_of_stacks());
+  MemoryLimit limit;
+  limit.set(memory, bytes_of_stacks(command.threads));
   const SettingList settings = settings_of(command);
   SceneOverrides overrides = command.overrides;
   IntegratorOptions of_settings;
@@ -129,12 +130,11 @@ int run_render(const RenderCommand& command) {
   if (!command.quiet)
     for (const std::string& warning : preset.warnings) print_warning(warning);
   if (!command.quiet) print_warnings(idle_settings(command.settings, *preset.routes));
-  check_memory(
-      {scene.film, preset.layout, *preset.routes, command.reject_outliers,
-       Ppm::hit_points(choice.options, scene.samples_per_pixel), choice.options.memory_photons,
-       memory_in_use(), command.memory > 0 ? overrides.texture_memory / 4 : 0, true},
-      memory, command.memory > 0, command.overrides.width > 0);
-  limit_memory(memory);
+  check_memory({scene.film, preset.layout, *preset.routes, command.reject_outliers,
+                Ppm::hit_points(choice.options, scene.samples_per_pixel),
+                choice.options.memory_photons, memory_in_use(), overrides.texture_memory / 4, true},
+               memory, command.memory > 0, command.overrides.width > 0);
+  limit.set(memory);
   Film film(film_settings(scene.film), preset.layout);
   if (command.reject_outliers) {
     film.reject_outliers(outlier_settings(*preset.routes, choice.options, *scene.filter));
@@ -161,8 +161,7 @@ int run_render(const RenderCommand& command) {
   if (!command.quiet)
     session.on_progress([&](const RenderProgress& progress) { display.show(progress); });
   session.on_warning([&](const std::string& warning) {
-    if (command.quiet) return;
-    display.clear();
+    if (!command.quiet) display.clear();
     print_warning(warning);
   });
   const SignalListener listener;
@@ -171,7 +170,7 @@ int run_render(const RenderCommand& command) {
     display.clear();
     fmt::print(stderr, "{}", render_report(result, film, output, notes));
   }
-  if (command.strict && !result.faults.empty()) {
+  if (command.strict && !result.faults.empty() && result.reason != StopReason::kSignal) {
     print_error("--strict: " + result.faults[0]);
     return static_cast<int>(ExitStatus::kRender);
   }

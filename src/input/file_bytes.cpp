@@ -35,6 +35,10 @@ std::string read_raw(const std::string& path) {
   std::error_code ignored;
   const std::filesystem::file_status status = std::filesystem::status(path, ignored);
   if (std::filesystem::is_directory(status)) cannot_read(path, "it is a directory");
+  // Some never end.
+  if (std::filesystem::is_block_file(status) ||
+      (std::filesystem::is_character_file(status) && path != "/dev/null" && path != "/dev/stdin"))
+    cannot_read(path, "it is a device");
   errno = 0;
   const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
   if (!file) cannot_read(path, reason_of(errno));

@@ -68,15 +68,22 @@ uint64_t SceneFiles::hash() const {
 
 std::string SceneFiles::counted_name(const std::string& path) const {
   if (path == top_) return "";
-  const std::string inside =
-      directory_ == "." ? "" : (std::filesystem::path(directory_) / "").string();
-  return path.starts_with(inside) ? path.substr(inside.size()) : path;
+  const auto absolute = [](const std::string& name) {
+    std::error_code error;
+    const std::filesystem::path result = std::filesystem::absolute(name, error);
+    return (error ? std::filesystem::path(name) : result).lexically_normal();
+  };
+  // However the way to it is written.
+  return absolute(path).lexically_relative(absolute(directory_)).string();
 }
 
 uint64_t hash_file(const std::string& path) {
   ContentHash hash;
   std::error_code ignored;
-  if (std::filesystem::is_fifo(path, ignored)) return hash.value();
+  const auto kind = std::filesystem::status(path, ignored).type();
+  if (kind == std::filesystem::file_type::fifo || kind == std::filesystem::file_type::character ||
+      kind == std::filesystem::file_type::block)
+    return hash.value();
   std::ifstream file(path, std::ios::binary);
   if (!file) throw IoError(path + ": cannot read: " + std::strerror(errno));
   std::vector<char> block(1 << 16);

@@ -29,8 +29,8 @@ class SceneFiles {
   void count(const std::string& path, const std::string& bytes);
 
   /// Of all that has been read: the files' contents and, but for the scene's own file, their names
-  /// as seen from the directory. The same wherever the directory is, and in whatever order the
-  /// files were read.
+  /// as seen from the directory, however they are written. The same wherever the directory is, and
+  /// in whatever order the files were read.
   uint64_t hash() const;
 
   /// The scene's own file, whose name does not count.
@@ -44,8 +44,8 @@ class SceneFiles {
   std::map<std::string, uint64_t> read_;  ///< hash of the content by counted_name
 };
 
-/// ContentHash of a file's bytes, of none for a pipe, which can be read only once. Throws IoError
-/// if it cannot be read.
+/// ContentHash of a file's bytes, of none for pipes and devices, which can be read only once or
+/// never end. Throws IoError if it cannot be read.
 uint64_t hash_file(const std::string& path);
 
 }  // namespace nephroid

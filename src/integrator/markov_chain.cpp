@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/parallel.h"
@@ -200,7 +201,9 @@ class ChainPass {
 void FoundLight::add(const Vec2f& film, size_t part, const Rgb& value) {
   const float sum = value.r + value.g + value.b;
   if (!std::isfinite(sum)) {
-    bad.push_back({film, static_cast<uint8_t>(part), value});
+    // Components that are finite may have a sum that is not.
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    bad.push_back({film, static_cast<uint8_t>(part), {nan, nan, nan}});
     return;
   }
   if (value.r == 0 && value.g == 0 && value.b == 0) return;
@@ -277,6 +280,7 @@ ChainPilot look_around(uint64_t seed, int64_t count, const FilmArea& area, size_
     for (int64_t j = begin; j < end; ++j) {
       numbers.start(independent_numbers(seed, kPilotStream, static_cast<uint64_t>(j)), 0);
       found.splats.clear();
+      found.bad.clear();  // counted in passes
       function->evaluate(numbers, found);
       if (!found.splats.empty()) chunks[static_cast<size_t>(c)].push_back(found);
     }

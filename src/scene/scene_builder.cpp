@@ -111,8 +111,8 @@ class SceneBuilder {
         made[k] = make_shapes(runs[k], *d_.files, diagnostics_, displacement);
       } catch (const std::bad_alloc&) {
         const ShapeDescription& shape = runs[k][0];
-        failed[k] = std::make_exception_ptr(
-            SceneError(shape.where, "shape \"" + shape.type + "\" does not fit the memory"));
+        failed[k] = std::make_exception_ptr(SceneError(
+            shape.where, "there is not enough memory while shape \"" + shape.type + "\" is read"));
       } catch (...) {
         failed[k] = std::current_exception();
       }

@@ -18,9 +18,7 @@ std::string seen_at(const Scene& scene, int x, int y) {
                      hit.p.z);
 }
 
-}  // namespace
-
-std::vector<std::string> fault_report(const Scene& scene, const Film& film) {
+std::vector<std::string> report(const Scene* scene, const Film& film) {
   std::vector<std::string> lines;
   const FilmLayout& layout = film.layout();
   for (size_t r = 0; r < layout.routes.size(); ++r) {
@@ -33,14 +31,23 @@ std::vector<std::string> fault_report(const Scene& scene, const Film& film) {
       const auto width = static_cast<uint64_t>(crop.width());
       const int x = crop.x0 + static_cast<int>(bad.first_pixel % width);
       const int y = crop.y0 + static_cast<int>(bad.first_pixel / width);
-      line += fmt::format("; the first of their pixels is {},{}, where the camera sees {}", x, y,
-                          seen_at(scene, x, y));
+      line += fmt::format("; the first of their pixels is {},{}", x, y);
+      if (scene != nullptr) line += ", where the camera sees " + seen_at(*scene, x, y);
     }
     lines.push_back(line);
   }
   if (film.saturated_values() > 0)
     lines.push_back(fmt::format("{} pixel sums reached their limit", film.saturated_values()));
   return lines;
+}
+
+}  // namespace
+
+std::vector<std::string> fault_report(const Scene& scene, const Film& film) {
+  return report(&scene, film);
+}
+std::vector<std::string> fault_report(const Film& film) {
+  return report(nullptr, film);
 }
 
 }  // namespace nephroid

@@ -13,5 +13,7 @@ namespace nephroid {
 /// A line for each route of which estimates were not finite, with how many, and the first pixel and
 /// what is seen there; and one if sums reached their limit. Empty if nothing was left out.
 std::vector<std::string> fault_report(const Scene& scene, const Film& film);
+/// The same where there is no scene to look at.
+std::vector<std::string> fault_report(const Film& film);
 
 }  // namespace nephroid

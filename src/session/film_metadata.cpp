@@ -12,7 +12,7 @@ using Json = nlohmann::json;
 
 constexpr const char* kLayoutKey = "nephroid:layout";
 /// Runs of equal bytes are as long as 128.
-constexpr uint64_t kMostBytesPerByte = 128;
+constexpr double kMostBytesPerByte = 128;
 
 Json layout_of(const StateFile& file) {
   return Json::parse(value_of(file.metadata(), kLayoutKey));
@@ -66,8 +66,9 @@ Film film_of(const StateFile& file) {
       for (const int aov : part.aovs) fits &= in(aov, layout.aovs.size());
     }
     if (!fits) throw std::runtime_error("bad layout");
-    const uint64_t pixels = static_cast<uint64_t>(settings.crop.area());
-    if (pixels / kMostBytesPerByte * Film::bytes_per_pixel(layout, settings.gbuffer) > file.size())
+    const double bytes = static_cast<double>(settings.crop.area()) *
+                         static_cast<double>(Film::bytes_per_pixel(layout, settings.gbuffer));
+    if (bytes > kMostBytesPerByte * static_cast<double>(file.size()))
       throw std::runtime_error("bad window");
     return Film(settings, std::move(layout));
   } catch (const std::exception&) {

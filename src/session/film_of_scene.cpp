@@ -73,10 +73,11 @@ bool keeps_photons(const Routes& routes) {
   });
 }
 
-/// Channels of a picture in memory, see film_output.cpp; the geometric layers come on top.
-size_t bytes_of_picture(const FilmLayout& layout) {
-  constexpr size_t kCommonChannels = 16, kPngBytes = 3;
-  return sizeof(float) * (3 * (layout.routes.size() + layout.aovs.size()) + kCommonChannels) +
+/// Channels of a picture in memory, see film_output.cpp.
+size_t bytes_of_picture(const FilmLayout& layout, bool gbuffer) {
+  constexpr size_t kCommonChannels = 20, kGbufferChannels = 16, kPngBytes = 3;
+  return sizeof(float) * (3 * (layout.routes.size() + layout.aovs.size()) + kCommonChannels +
+                          (gbuffer ? kGbufferChannels : 0)) +
          kPngBytes;
 }
 
@@ -151,21 +152,23 @@ void check_memory(const MemoryNeed& need, uint64_t limit, bool limit_is_an_optio
   const FilmDescription& film = need.film;
   const int width = film.crop_x1 - film.crop_x0, height = film.crop_y1 - film.crop_y0;
   const double pixels = static_cast<double>(width) * height;
+  const bool gbuffer = film.gbuffer != GBufferSpace::kNone;
+  // A copy of what is held is written.
+  const size_t of_rejection = need.rejects_outliers ? bytes_of_rejection(need.routes) : 0;
   const auto of_pixels = [&](size_t bytes) { return pixels * static_cast<double>(bytes); };
   const struct {
     const char* what;
     double bytes;
   } rows[] = {
       {"what is read already", static_cast<double>(need.held)},
-      {"the film",
-       of_pixels(Film::bytes_per_pixel(need.layout, film.gbuffer != GBufferSpace::kNone) +
-                 (need.rejects_outliers ? bytes_of_rejection(need.routes) : 0))},
+      {"the film", of_pixels(Film::bytes_per_pixel(need.layout, gbuffer) + of_rejection)},
       {"passes", of_pixels(bytes_of_estimators(need.routes, need.hit_points,
                                                film.max_component < kInfinity))},
       {"photons",
        keeps_photons(need.routes) ? static_cast<double>(need.photons) * kBytesPerPhoton : 0.0},
       {"textures", static_cast<double>(need.textures)},
-      {"writing the picture", need.writes ? of_pixels(bytes_of_picture(need.layout)) : 0.0},
+      {"writing the picture",
+       need.writes ? of_pixels(bytes_of_picture(need.layout, gbuffer) + of_rejection) : 0.0},
   };
   double total = 0;
   std::string list;

@@ -8,6 +8,7 @@
 #include "core/errors.h"
 #include "film/film_output.h"
 #include "session/checkpoint.h"
+#include "session/fault_report.h"
 #include "session/film_metadata.h"
 
 namespace nephroid {
@@ -15,26 +16,26 @@ namespace {
 
 constexpr const char* kPurpose = "merge it";
 
-/// A picture to be merged.
+/// A picture to be merged. There may be more of them than files may be open.
 struct Input {
-  explicit Input(const std::string& path) : file(path), passes(passes_of(file, kPurpose)) {}
-  StateFile file;
-  PassRanges passes;
+  std::string path;
+  uint32_t first_pass;
 };
 
 }  // namespace
 
 Merged merge_pictures(const std::vector<std::string>& inputs, const std::string& output) {
   std::vector<Input> files;
-  for (const std::string& path : inputs) files.emplace_back(path);
+  for (const std::string& path : inputs)
+    files.push_back({path, passes_of(StateFile(path), kPurpose).ranges()[0].first});
   // The order of the arguments does not count.
-  std::sort(files.begin(), files.end(), [](const Input& a, const Input& b) {
-    return a.passes.ranges()[0].first < b.passes.ranges()[0].first;
-  });
-  const StateFile& first = files[0].file;
+  std::ranges::sort(files, {}, &Input::first_pass);
+  const StateFile first(files[0].path);
   Merged merged;
   std::string history;
-  for (const auto& [file, passes] : files) {
+  for (const Input& input : files) {
+    const StateFile file(input.path);
+    const PassRanges passes = passes_of(file, kPurpose);
     require_same_render(file, first.metadata(), "in " + first.path(), kPurpose);
     const auto refuse = [&name = file.path()](const std::string& why) {
       throw UsageError(name + ": cannot " + kPurpose + ": " + why);
@@ -56,9 +57,9 @@ Merged merge_pictures(const std::vector<std::string>& inputs, const std::string&
                       file.path(), with, first.path(), first_with));
   }
   Film sum = film_of(first);
-  for (Input& input : files) {
+  for (const Input& input : files) {
     Film film = film_of(first);
-    input.file.load(film.state());
+    StateFile(input.path).load(film.state());
     sum.add(film);
   }
   Metadata metadata;
@@ -71,6 +72,9 @@ Merged merge_pictures(const std::vector<std::string>& inputs, const std::string&
   metadata.emplace_back("nephroid:passes", merged.passes.text());
   metadata.emplace_back("nephroid:seconds", fmt::format("{:.3f}", merged.seconds));
   metadata.emplace_back("nephroid:history", history);
+  std::string faults;
+  for (const std::string& fault : fault_report(sum)) faults += "warning: " + fault + "\n";
+  if (!faults.empty()) metadata.emplace_back("nephroid:choices", faults);
   for (size_t r = 0; r < sum.layout().routes.size(); ++r)
     metadata.emplace_back("nephroid:estimates:" + sum.layout().routes[r],
                           fmt::format("{}", sum.estimates(sum.layout().groups[r])));

@@ -152,7 +152,8 @@ constexpr OptionDescription kOptions[] = {
        l.render.checkpoint_interval = parse_duration("--checkpoint", t);
      }},
     {"render", "--strict", "", "", "", "", "Output",
-     "Exit status 1 if estimates were left out of the picture because they were infinite or no numbers.", false,
+     "Exit status 1 if estimates were left out of the picture because they were infinite or no "
+     "numbers, or if sums reached their limit.", false,
      [](CommandLine& l, const std::string&) { l.render.strict = true; }},
     {"render", "--no-state", "", "", "", "", "Output",
      "Write the picture alone: a smaller file, from which no render can go on.", false,

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <thread>
@@ -39,10 +40,22 @@ uint64_t status_bytes(const std::string& key) {
 uint64_t machine_memory() {
   uint64_t bytes = static_cast<uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
                    static_cast<uint64_t>(::sysconf(_SC_PAGESIZE));
-  for (const char* file :
-       {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"}) {
+  const auto obey = [&](const std::filesystem::path& file) {
     uint64_t limit = 0;  // "max" is no number
     if (std::ifstream(file) >> limit && limit > 0) bytes = std::min(bytes, limit);
+  };
+  // "0::/a/b" of version 2, "7:memory:/a/b" of version 1; inside a container the way is its own.
+  obey("/sys/fs/cgroup/memory.max");
+  obey("/sys/fs/cgroup/memory/memory.limit_in_bytes");
+  std::ifstream groups("/proc/self/cgroup");
+  for (std::string line; std::getline(groups, line);) {
+    const bool is_second = line.starts_with("0::");
+    const size_t begin = line.find(":memory:");
+    if (!is_second && begin == std::string::npos) continue;
+    std::filesystem::path group = line.substr(is_second ? 3 : begin + 8);
+    for (; group.has_relative_path(); group = group.parent_path())
+      obey((is_second ? "/sys/fs/cgroup" : "/sys/fs/cgroup/memory") + group.string() +
+           (is_second ? "/memory.max" : "/memory.limit_in_bytes"));
   }
   return bytes;
 }
@@ -51,20 +64,27 @@ uint64_t memory_in_use() {
   return status_bytes("VmRSS:");
 }
 
-uint64_t bytes_of_stacks() {
+uint64_t bytes_of_stacks(int threads) {
   rlimit stack{};
   const bool is_known = ::getrlimit(RLIMIT_STACK, &stack) == 0 && stack.rlim_cur != RLIM_INFINITY;
   constexpr uint64_t kDefault = uint64_t{8} << 20;
-  // Rendering, images and encoders have as many each as there are processors.
-  return (is_known ? uint64_t{stack.rlim_cur} : kDefault) * 4 * std::thread::hardware_concurrency();
+  // Rendering, images and encoders have as many each.
+  const uint64_t of_each =
+      threads > 0 ? static_cast<uint64_t>(threads) : std::thread::hardware_concurrency();
+  return (is_known ? uint64_t{stack.rlim_cur} : kDefault) * 4 * of_each;
 }
 
-void limit_memory(uint64_t bytes, uint64_t to_come) {
+MemoryLimit::MemoryLimit() {
+  rlimit limit{};
+  if (kCanLimit && ::getrlimit(RLIMIT_DATA, &limit) == 0) of_user_ = limit.rlim_cur;
+}
+
+void MemoryLimit::set(uint64_t bytes, uint64_t to_come) {
   const uint64_t held = memory_in_use(), reserved = status_bytes("VmData:");
   rlimit limit{};
-  if (!kCanLimit || held == 0 || ::getrlimit(RLIMIT_DATA, &limit) != 0) return;
+  if (of_user_ == 0 || held == 0 || ::getrlimit(RLIMIT_DATA, &limit) != 0) return;
   const uint64_t wanted = reserved + to_come + (bytes > held ? bytes - held : 0);
-  limit.rlim_cur = std::min<rlim_t>(wanted, limit.rlim_max);
+  limit.rlim_cur = std::min<rlim_t>(wanted, of_user_);
   ::setrlimit(RLIMIT_DATA, &limit);
 }
 

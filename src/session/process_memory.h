@@ -12,13 +12,24 @@ uint64_t machine_memory();
 /// Bytes of physical memory that the process holds now; 0 if the system does not tell.
 uint64_t memory_in_use();
 
-/// From now on the process cannot hold more than `bytes`: allocations beyond throw std::bad_alloc.
-/// The stacks of threads that start later count in full, so `to_come` is given beyond. Does nothing
-/// where the system has no such limit, and in builds with sanitizers, which need memory of their
-/// own.
-void limit_memory(uint64_t bytes, uint64_t to_come = 0);
-/// Of the stacks of all threads that will be started.
-uint64_t bytes_of_stacks();
+/// The system's limit on the process. Does nothing where the system has none, and in builds with
+/// sanitizers, which need memory of their own.
+class MemoryLimit {
+ public:
+  /// Remembers the limit that the user has set, which is never raised.
+  MemoryLimit();
+  /// From now on the process cannot hold more than `bytes`: allocations beyond throw
+  /// std::bad_alloc. The stacks of threads that start later count in full, so `to_come` is given
+  /// beyond.
+  void set(uint64_t bytes, uint64_t to_come = 0);
+
+ private:
+  uint64_t of_user_ = 0;  ///< 0: there is no way to limit
+};
+
+/// Of the stacks of all threads that will be started for rendering with so many; 0: with all of the
+/// machine.
+uint64_t bytes_of_stacks(int threads);
 
 /// Starts a new peak, where the system can do that; else the peak stays that of the whole process.
 void restart_memory_peak();

@@ -2,18 +2,20 @@
 #include "session/render_session.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <bit>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <limits>
+#include <new>
 #include <utility>
 
 #include "core/errors.h"
 #include "film/atomic_file.h"
+#include "film/exr_file.h"
 #include "film/film_output.h"
 #include "scene/scene.h"
 #include "session/choices_report.h"
@@ -234,8 +236,7 @@ void RenderSession::write_if_due(SignalFlags& signals) {
   const bool asked = signals.write.exchange(false);
   if (options_.output.empty()) return;
   if (asked || elapsed() >= next_checkpoint_seconds_) {
-    next_checkpoint_seconds_ =
-        write_now(options_.checkpoint_interval, [this] { write_picture(options_.output); });
+    next_checkpoint_seconds_ = write_now(options_.checkpoint_interval, [this] { write_picture(); });
     next_preview_seconds_ = elapsed() + options_.preview_interval;
   } else if (elapsed() >= next_preview_seconds_) {
     next_preview_seconds_ = write_now(options_.preview_interval, [this] {
@@ -258,26 +259,38 @@ double RenderSession::write_now(double interval, const std::function<void()>& wr
 void RenderSession::write_last_picture() {
   namespace fs = std::filesystem;
   try {
-    write_picture(options_.output);
+    write_exr_file(options_.output);
   } catch (const IoError& error) {
-    if (options_.rescue_directory.empty()) throw;
-    const fs::path rescue =
-        fs::path(options_.rescue_directory) /
-        fmt::format("nephroid-{}-{}", ::getpid(), fs::path(options_.output).filename().string());
+    // A directory of its own: nobody else can have put a link there.
+    std::string directory = (fs::path(options_.rescue_directory) / "nephroid-XXXXXX").string();
+    if (options_.rescue_directory.empty() || ::mkdtemp(directory.data()) == nullptr) throw;
+    const fs::path rescue = fs::path(directory) / fs::path(options_.output).filename();
     try {
-      write_picture(rescue.string());
+      write_exr_file(rescue.string());
     } catch (const IoError&) {
+      std::error_code ignored;
+      fs::remove_all(directory, ignored);
       throw error;
     }
     throw IoError(fmt::format("{}; the picture is in {}", error.what(), rescue.string()));
   }
+  write_preview(options_.output, film_, options_.png_exposure);
 }
 
-void RenderSession::write_picture(const std::string& path) {
+void RenderSession::write_picture() {
+  write_exr_file(options_.output);
+  write_preview(options_.output, film_, options_.png_exposure);
+}
+
+void RenderSession::write_exr_file(const std::string& path) {
   renew_error_text();
   std::optional<RenderState> state;
   if (options_.keeps_state) state = state_of(scene_, preset_, film_);
-  write_film(path, film_, picture_metadata(), options_.png_exposure, state ? &*state : nullptr);
+  try {
+    write_exr(path, film_picture(film_, picture_metadata()), state ? &*state : nullptr);
+  } catch (const std::bad_alloc&) {
+    throw IoError(path + ": cannot write: there is not enough memory");
+  }
 }
 
 Metadata RenderSession::picture_metadata() const {
@@ -285,9 +298,10 @@ Metadata RenderSession::picture_metadata() const {
   metadata.emplace_back("nephroid:seed", fmt::format("{}", options_.seed));
   metadata.emplace_back("nephroid:passes", done_.text());
   metadata.emplace_back("nephroid:seconds", fmt::format("{:.3f}", seconds_of_all_runs()));
-  metadata.emplace_back("nephroid:history",
-                        options_.begin_with.history +
-                            fmt::format("{} passes in {:.3f} s\n", passes_of_run(), elapsed()));
+  std::string history = options_.begin_with.history;
+  if (passes_of_run() > 0)
+    history += fmt::format("{} passes in {:.3f} s\n", passes_of_run(), elapsed());
+  metadata.emplace_back("nephroid:history", history);
   if (const OutlierRejection* rejection = film_.rejection()) {
     metadata.emplace_back("nephroid:outliers", "reject");
     metadata.emplace_back("nephroid:outlier_estimates",

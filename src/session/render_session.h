@@ -97,7 +97,9 @@ class RenderSession {
   void renew_error_text();
   void report_progress();
   void write_if_due(SignalFlags& signals);
-  void write_picture(const std::string& path);
+  void write_picture();
+  /// The picture without its PNG.
+  void write_exr_file(const std::string& path);
   void write_last_picture();
   /// Writes, says what went wrong, and returns when to do it again.
   double write_now(double interval, const std::function<void()>& write);

@@ -7,7 +7,6 @@
 #include "fuzz/targets.h"
 #include "session/checkpoint.h"
 #include "session/film_metadata.h"
-#include "session/merge.h"
 
 namespace nephroid::fuzz {
 namespace {

@@ -1,4 +1,8 @@
 // Command lines; see targets.h.
+#include <algorithm>
+#include <string>
+#include <vector>
+
 #include "core/errors.h"
 #include "fuzz/targets.h"
 #include "session/command_line.h"

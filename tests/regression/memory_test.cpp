@@ -23,7 +23,7 @@ TEST_P(MemoryLimit, IsKept) {
   const testing::TemporaryDirectory folder;
   const ProgramRun run = run_program(
       folder.path(), {"render", kScene, "--memory", "320M", "--resolution", "240x160", "--passes",
-                      "2", "--integrator", GetParam(), "-o", "picture.exr", "--quiet"});
+                      "2", "-t", "2", "--integrator", GetParam(), "-o", "picture.exr", "--quiet"});
   EXPECT_EQ(run.status, 0) << run.errors;
   EXPECT_LT(run.peak_memory, uint64_t{320} << 20);
 }
@@ -32,7 +32,7 @@ TEST_P(MemoryLimit, IsRefusedBeforeItStarts) {
   const testing::TemporaryDirectory folder;
   const ProgramRun run = run_program(
       folder.path(), {"render", kScene, "--memory", "320M", "--resolution", "2400x1600", "--passes",
-                      "2", "--integrator", GetParam(), "-o", "picture.exr", "--quiet"});
+                      "2", "-t", "2", "--integrator", GetParam(), "-o", "picture.exr", "--quiet"});
   EXPECT_EQ(run.status, kUsage) << run.errors;
   EXPECT_NE(run.errors.find("nephroid: error: --memory: 3840000 pixels (2400 x 1600) need about "),
             std::string::npos)

@@ -4,13 +4,14 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <stdexcept>
 
 extern char** environ;
@@ -39,14 +40,23 @@ pid_t start(const std::string& folder, const std::vector<std::string>& arguments
   return child;
 }
 
-/// Reads to the end; false if the end does not come in time.
-bool read_all(int descriptor, std::string* text) {
+/// The most memory that a process has held. What wait4 tells has that of whoever started it.
+uint64_t peak_memory_of(pid_t process) {
+  std::ifstream status("/proc/" + std::to_string(process) + "/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("VmHWM:")) return std::stoull(line.substr(6)) * 1024;
+  return 0;
+}
+
+/// Reads to the end and looks at the memory meanwhile; false if the end does not come in time.
+bool read_all(int descriptor, pid_t process, std::string* text, uint64_t* peak_memory) {
   const auto deadline = std::chrono::steady_clock::now() + kPatience;
+  constexpr int kMilliseconds = 10;
   for (;;) {
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
-        deadline - std::chrono::steady_clock::now());
+    *peak_memory = std::max(*peak_memory, peak_memory_of(process));
+    if (std::chrono::steady_clock::now() > deadline) return false;
     pollfd ready{descriptor, POLLIN, 0};
-    if (left.count() <= 0 || poll(&ready, 1, static_cast<int>(left.count())) == 0) return false;
+    if (poll(&ready, 1, kMilliseconds) == 0) continue;
     char block[4096];
     const ssize_t got = read(descriptor, block, sizeof(block));
     if (got == 0) return true;
@@ -63,14 +73,12 @@ ProgramRun run_program(const std::string& folder, const std::vector<std::string>
   const auto begin = std::chrono::steady_clock::now();
   const pid_t child = start(folder, arguments, ends[1]);
   close(ends[1]);
-  run.hung = !read_all(ends[0], &run.errors);
+  run.hung = !read_all(ends[0], child, &run.errors, &run.peak_memory);
   close(ends[0]);
   if (run.hung) kill(child, SIGKILL);
   int state = 0;
-  rusage usage{};
-  wait4(child, &state, 0, &usage);
+  waitpid(child, &state, 0);
   run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  run.peak_memory = static_cast<uint64_t>(usage.ru_maxrss) * 1024;
   if (WIFEXITED(state)) run.status = WEXITSTATUS(state);
   if (WIFSIGNALED(state)) run.signal = WTERMSIG(state);
   return run;

@@ -15,7 +15,7 @@ struct ProgramRun {
   bool hung = false;         ///< it was still running after a minute and was ended
   std::string errors;        ///< all of standard error
   double seconds = 0;        ///< that it ran
-  uint64_t peak_memory = 0;  ///< bytes
+  uint64_t peak_memory = 0;  ///< bytes, as seen a hundred times a second
 };
 
 /// Runs the program with these arguments in `folder`; its standard input is empty. Throws

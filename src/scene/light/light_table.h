@@ -57,7 +57,7 @@ Emission read_emission(const ParameterSet& parameters, const std::string& name, 
 /// "scale" over the luminance of the illuminant of an image's colour space.
 float image_emission_scale(const ParameterSet& parameters, const RgbColorSpace& space);
 
-/// The image named by "filename"; throws SceneError if it has infinite or NaN values.
+/// The image named by "filename"; throws SceneError if it has infinite, NaN or enormous values.
 ImagePtr read_light_image(const ParameterSet& parameters, SceneFiles& files);
 
 /// The same for an equal-area octahedral map of the sphere; throws SceneError if it is not square.

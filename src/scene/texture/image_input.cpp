@@ -54,8 +54,9 @@ std::span<const Format> formats() {
 /// Throws as open_image if the file cannot be read or is of no known format.
 Creator reader_of(const std::string& path, const SourceLocation& wanted_by) {
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored))
-    image_is_unreadable(path, "it is a directory", wanted_by);
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    image_is_unreadable(path, "it is no file", wanted_by);
   std::ifstream file(path, std::ios::binary);
   if (!file) image_is_unreadable(path, std::strerror(errno), wanted_by);
   std::array<char, 8> bytes{};
