@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <limits>
 
 #include "core/sampler.h"
 #include "scene/light/light_tree.h"
@@ -33,7 +34,9 @@ struct LightSampler::Impl {
     powers.reserve(lights.size());
     for (int i = 0; i < static_cast<int>(lights.size()); ++i) {
       const float power = lights[i]->power();
-      powers.push_back(power > 0.0f && std::isfinite(power) ? power : 0.0f);
+      // An infinite light in an enormous scene may have more than there are numbers.
+      constexpr float kMost = std::numeric_limits<float>::max();
+      powers.push_back(power > 0.0f ? std::min(power, kMost) : 0.0f);
       const auto bounds = lights[i]->bounds();
       if (!bounds)
         infinite.push_back(i);

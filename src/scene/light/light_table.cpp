@@ -1,8 +1,6 @@
 // Light types by name, see light_table.h.
 #include "scene/light/light_table.h"
 
-#include <cmath>
-
 namespace nephroid {
 
 namespace {
@@ -95,11 +93,13 @@ std::vector<LightPtr> make_lights(const SceneDescription& description, Diagnosti
     if (bounds && !(is_in_reach(bounds->bounds.min) && is_in_reach(bounds->bounds.max)))
       throw SceneError(d.where,
                        "light \"" + d.type + "\" is too far away, expected coordinates up to 1e17");
-    // A wanted power over that of an image that is nearly black, for one.
-    if (!std::isfinite(lights.back()->power()))
+    // A wanted power over that of an image that is nearly black, for one. That of infinite lights
+    // grows with the scene.
+    constexpr float kMostPower = 1e30f;
+    if (!(lights.back()->power() <= kMostPower))
       throw SceneError(d.where, "light \"" + d.type +
-                                    "\" is too bright for floating-point numbers, expected less "
-                                    "than 1e38");
+                                    "\" is too bright for floating-point numbers, expected a power "
+                                    "up to 1e30");
     d.parameters.report_unused("light \"" + d.type + "\"", row, diagnostics);
   }
   return lights;
