@@ -172,9 +172,8 @@ class Film {
   /// Estimates that were not finite; the route is that of the first part that was not.
   const BadEstimates& bad_estimates(int route) const { return bad_[static_cast<size_t>(route)]; }
   uint64_t bad_values() const;
-  uint64_t saturated_values() const {
-    return counts_.saturated;
-  }  ///< sums that reached their limit
+  /// Sums that reached their limit.
+  uint64_t saturated_values() const { return counts_.saturated; }
 
  private:
   struct Bias {

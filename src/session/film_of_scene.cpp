@@ -16,7 +16,6 @@
 #include "integrator/photon_map.h"
 #include "integrator/ppm.h"
 #include "integrator/sppm.h"
-#include "photon/photon.h"
 
 namespace nephroid {
 namespace {
@@ -59,9 +58,6 @@ size_t bytes_of_rejection(const Routes& routes) {
     bytes += OutlierRejection::bytes_per_pixel(group.parts.size());
   return bytes;
 }
-
-/// A photon, and its share of what finds it, while that is made.
-constexpr double kBytesPerPhoton = 2 * sizeof(Photon);
 
 bool keeps_photons(const Routes& routes) {
   return std::ranges::any_of(routes.groups(), [](const RouteGroup& group) {
@@ -164,8 +160,9 @@ void check_memory(const MemoryNeed& need, uint64_t limit, bool limit_is_an_optio
       {"the film", of_pixels(Film::bytes_per_pixel(need.layout, gbuffer) + of_rejection)},
       {"passes", of_pixels(bytes_of_estimators(need.routes, need.hit_points,
                                                film.max_component < kInfinity))},
-      {"photons",
-       keeps_photons(need.routes) ? static_cast<double>(need.photons) * kBytesPerPhoton : 0.0},
+      {"photons", keeps_photons(need.routes)
+                      ? static_cast<double>(need.photons) * double{kBytesPerPhoton}
+                      : 0.0},
       {"textures", static_cast<double>(need.textures)},
       {"writing the picture",
        need.writes ? of_pixels(bytes_of_picture(need.layout, gbuffer) + of_rejection) : 0.0},

@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-#include "photon/photon.h"
+#include "session/film_of_scene.h"
 #include "session/option_values.h"
 
 namespace nephroid {
@@ -332,10 +332,9 @@ IntegratorChoice choose_integrator(const std::string& wanted, const std::string&
 SettingList settings_within(uint64_t memory) {
   const IntegratorOptions defaults;
   const auto share = static_cast<int64_t>(memory / 4);
-  constexpr auto kBytesPerPhoton = static_cast<int64_t>(2 * sizeof(Photon));
   return {{"texture-cache", bytes_text(std::min(share, defaults.texture_memory))},
-          {"memory-photons", fmt::format("{}", std::clamp<int64_t>(share / kBytesPerPhoton, 1,
-                                                                   defaults.memory_photons))}};
+          {"memory-photons", fmt::format("{}", std::clamp<int64_t>(share / int64_t{kBytesPerPhoton},
+                                                                   1, defaults.memory_photons))}};
 }
 
 std::string settings_text(const IntegratorOptions& options) {

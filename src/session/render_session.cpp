@@ -262,7 +262,9 @@ void RenderSession::write_last_picture() {
     write_exr_file(options_.output);
   } catch (const IoError& error) {
     // A directory of its own: nobody else can have put a link there.
-    std::string directory = (fs::path(options_.rescue_directory) / "nephroid-XXXXXX").string();
+    const std::string random_letters(6, 'X');  // that mkdtemp puts in their place
+    std::string directory =
+        (fs::path(options_.rescue_directory) / ("nephroid-" + random_letters)).string();
     if (options_.rescue_directory.empty() || ::mkdtemp(directory.data()) == nullptr) throw;
     const fs::path rescue = fs::path(directory) / fs::path(options_.output).filename();
     try {
