@@ -39,7 +39,7 @@ constexpr FormatParameter kCheckerboard[] = {
     {"values or texture", "tex2", "0"},
 };
 constexpr FormatParameter kImageMap[] = {
-    {"string", "filename", "none: an error", "", "any format that OpenImageIO reads"},
+    {"string", "filename", "none: an error", "", "EXR, PNG, JPEG, HDR, PFM, TGA, TIFF, BMP"},
     {"string", "filter", "bilinear", "",
      "point or bilinear; trilinear and ewa are bilinear on the finest level"},
     {"float", "maxanisotropy", "8", "", "of ewa", Support::kNotNeeded},
