@@ -9,6 +9,7 @@
 
 #include "bench/claims.h"
 #include "bench/kept.h"
+#include "bench/kept_scenes.h"
 #include "bench/measure.h"
 #include "bench/render.h"
 #include "bench/report.h"
@@ -78,7 +79,7 @@ std::vector<const BenchScene*> chosen_scenes(const BenchSuite& suite, const Benc
 class Bench {
  public:
   Bench(const BenchSuite& suite, const BenchOptions& options, SignalFlags& signals)
-      : suite_(suite), options_(options), signals_(signals) {}
+      : suite_(suite), options_(options), signals_(signals), scenes_(options.directory) {}
 
   bool stopped() const { return signals_.stop.load() != 0; }
 
@@ -133,6 +134,13 @@ class Bench {
     return true;
   }
 
+  /// Of all files of a render's scene.
+  uint64_t hash_of_scene(const BenchRender& render) {
+    return scenes_.hash(render.scene->file, [&]() -> const SceneFiles& {
+      return *shelf_.load(*render.scene, settings_of(render)).description.files;
+    });
+  }
+
   /// The reference and its picture, from a file, from earlier or rendered now; nothing if a signal
   /// stopped it.
   std::optional<BenchReferenceResult> reference_of(const BenchScene& scene, Picture* picture) {
@@ -146,8 +154,8 @@ class Bench {
       return result;
     }
     const BenchRender render{&scene, &wanted.integrator, wanted.limit, true};
-    const KeptFiles files =
-        kept_files(options_.directory, "references", scene.name, reference_key(render));
+    const KeptFiles files = kept_files(options_.directory, "references", scene.name,
+                                       reference_key(render, hash_of_scene(render)));
     if (const auto kept = kept_reference(files, picture)) return kept;
     options_.say(fmt::format("{}: rendering the reference", scene.name));
     const auto rendered = render_for_bench(render, nullptr, shelf_, signals_);
@@ -192,7 +200,7 @@ class Bench {
     failed.integrator = integrator.name;
     failed.seed = integrator.seed;
     try {
-      const std::string key = run_key(render, reference_hash);
+      const std::string key = run_key(render, hash_of_scene(render), reference_hash);
       const KeptFiles files =
           kept_files(options_.directory, "runs", scene.name + "-" + integrator.name, key);
       if (const auto kept = kept_run(files)) {
@@ -234,6 +242,7 @@ class Bench {
   const BenchOptions& options_;
   SignalFlags& signals_;
   SceneShelf shelf_;
+  KeptScenes scenes_;
 };
 
 void write_results(const BenchResults& results) {

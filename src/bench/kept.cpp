@@ -35,11 +35,11 @@ std::string limit_text(const BenchLimit& limit) {
 }
 
 /// What a picture depends on.
-std::string render_text(const BenchRender& render) {
+std::string render_text(const BenchRender& render, uint64_t scene_hash) {
   const BenchScene& scene = *render.scene;
   const RoutePlan plan = plan_of(render);
   std::string text =
-      fmt::format("version {}\nscene {:016x} {}x{}\n{}\nseed {}\n", kVersion, hash_file(scene.file),
+      fmt::format("version {}\nscene {:016x} {}x{}\n{}\nseed {}\n", kVersion, scene_hash,
                   scene.width, scene.height, limit_text(render.limit), render.integrator->seed);
   text += routes_text(plan) + "aovs\n" + aovs_text(plan);
   if (render.integrator->reject_outliers) text += "outliers rejected\n";
@@ -64,12 +64,13 @@ std::string hash_picture(const Picture& p) {
   return fmt::format("{:016x}", hash.value());
 }
 
-std::string reference_key(const BenchRender& render) {
-  return hash_text(render_text(render));
+std::string reference_key(const BenchRender& render, uint64_t scene_hash) {
+  return hash_text(render_text(render, scene_hash));
 }
 
-std::string run_key(const BenchRender& render, const std::string& reference_hash) {
-  std::string text = render_text(render);
+std::string run_key(const BenchRender& render, uint64_t scene_hash,
+                    const std::string& reference_hash) {
+  std::string text = render_text(render, scene_hash);
   text +=
       fmt::format("reference {}\nprogram {:016x}\n{}\n{} threads\nexposure {}\n", reference_hash,
                   hash_of_program(), instruction_set(), thread_count(), render.scene->exposure);
@@ -78,13 +79,18 @@ std::string run_key(const BenchRender& render, const std::string& reference_hash
   return hash_text(text);
 }
 
-KeptFiles kept_files(const std::string& directory, const std::string& folder,
-                     const std::string& name, const std::string& key) {
+std::string kept_stem(const std::string& directory, const std::string& folder,
+                      const std::string& name, const std::string& key) {
   const std::filesystem::path path = std::filesystem::path(directory) / folder;
   std::error_code error;
   std::filesystem::create_directories(path, error);
   if (error) throw IoError(path.string() + ": cannot make the directory: " + error.message());
-  const std::string stem = (path / (name + "-" + key)).string();
+  return (path / (name + "-" + key)).string();
+}
+
+KeptFiles kept_files(const std::string& directory, const std::string& folder,
+                     const std::string& name, const std::string& key) {
+  const std::string stem = kept_stem(directory, folder, name, key);
   return {stem + ".json", stem + ".exr"};
 }
 

@@ -2,6 +2,7 @@
 // determines them. Who calls it: bench.cpp. It must not know how they are made.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -16,18 +17,23 @@ std::string hash_text(const std::string& text);
 /// metadata; 16 digits.
 std::string hash_picture(const Picture& picture);
 
-/// Of all that determines a rendered reference: scene file, settings, routes and version. Throws
-/// IoError if the scene file cannot be read.
-std::string reference_key(const BenchRender& render);
+/// Of all that determines a rendered reference: the scene (SceneFiles::hash), settings, routes and
+/// version.
+std::string reference_key(const BenchRender& render, uint64_t scene_hash);
 /// Of all that determines a run and its figures: those, the reference's picture (by its
 /// hash_picture), the program itself, the instruction set and the number of threads.
-std::string run_key(const BenchRender& render, const std::string& reference_hash);
+std::string run_key(const BenchRender& render, uint64_t scene_hash,
+                    const std::string& reference_hash);
+
+/// DIRECTORY/FOLDER/NAME-KEY, which lacks an ending. Makes the folder; throws IoError if it cannot.
+std::string kept_stem(const std::string& directory, const std::string& folder,
+                      const std::string& name, const std::string& key);
 
 /// The files of one result.
 struct KeptFiles {
   std::string json, picture;
 };
-/// In DIRECTORY/FOLDER, named NAME-KEY. Makes the folder; throws IoError if it cannot.
+/// Those with that stem.
 KeptFiles kept_files(const std::string& directory, const std::string& folder,
                      const std::string& name, const std::string& key);
 

@@ -7,11 +7,11 @@
 #include <cmath>
 
 #include "bench/measure.h"
-#include "session/process_memory.h"
 #include "film/film_output.h"
 #include "session/film_of_scene.h"
 #include "session/noise.h"
 #include "session/options.h"
+#include "session/process_memory.h"
 #include "session/render_session.h"
 #include "session/version.h"
 

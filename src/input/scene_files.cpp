@@ -29,31 +29,29 @@ std::string SceneFiles::path_of(const std::string& name) const {
 std::string SceneFiles::read(const std::string& path) {
   try {
     std::string bytes = read_file_bytes(path);
-    count(path, bytes);
+    const uint64_t hash = hash_of(std::as_bytes(std::span(bytes)));
+    const std::lock_guard lock(mutex_);
+    read_[counted_name(path)] = hash;
     return bytes;
   } catch (const std::bad_alloc&) {
     throw IoError("cannot read \"" + path + "\": it does not fit the memory");
   }
 }
 
-void SceneFiles::count(const std::string& path) {
-  const std::string name = counted_name(path);
+std::string SceneFiles::counted_path_of(const std::string& name) {
+  const std::string path = path_of(name);
+  const std::string counted = counted_name(path);
   {
     const std::lock_guard lock(mutex_);
-    if (read_.contains(name)) return;
+    if (read_.contains(counted)) return path;
   }
   try {
     const uint64_t hash = hash_file(path);
     const std::lock_guard lock(mutex_);
-    read_[name] = hash;
+    read_[counted] = hash;
   } catch (const IoError&) {  // whoever wants it will say so
   }
-}
-
-void SceneFiles::count(const std::string& path, const std::string& bytes) {
-  const uint64_t hash = hash_of(std::as_bytes(std::span(bytes)));
-  const std::lock_guard lock(mutex_);
-  read_[counted_name(path)] = hash;
+  return path;
 }
 
 uint64_t SceneFiles::hash() const {
@@ -64,6 +62,14 @@ uint64_t SceneFiles::hash() const {
     all.add(std::as_bytes(std::span(&hash, 1)));
   }
   return all.value();
+}
+
+std::vector<std::string> SceneFiles::names() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::string> names;
+  for (const auto& entry : read_)
+    if (!entry.first.empty()) names.push_back(entry.first);
+  return names;
 }
 
 std::string SceneFiles::counted_name(const std::string& path) const {

@@ -8,6 +8,7 @@
 #include <map>
 #include <mutex>
 #include <string>
+#include <vector>
 
 namespace nephroid {
 
@@ -23,20 +24,22 @@ class SceneFiles {
 
   /// read_file_bytes, and what has been read counts in the hash.
   std::string read(const std::string& path);
-  /// For files that somebody else reads; one that cannot be read is not counted.
-  void count(const std::string& path);
-  /// For a file that has been read already.
-  void count(const std::string& path, const std::string& bytes);
+  /// path_of a file that somebody else is about to read, an image for instance: it counts in the
+  /// hash, if it can be read.
+  std::string counted_path_of(const std::string& name);
 
   /// Of all that has been read: the files' contents and, but for the scene's own file, their names
   /// as seen from the directory, however they are written. The same wherever the directory is, and
   /// in whatever order the files were read.
   uint64_t hash() const;
+  /// Of all that has been read, the scene's own file apart: path_of finds them.
+  std::vector<std::string> names() const;
 
   /// The scene's own file, whose name does not count.
   void set_top(const std::string& path) { top_ = path; }
 
  private:
+  /// How a path is called in the hash.
   std::string counted_name(const std::string& path) const;
 
   std::string directory_, top_;

@@ -164,7 +164,8 @@ const TensorField& TensorFile::require(const std::string& name, TensorType type,
 std::vector<float> TensorFile::floats(const TensorField& field) {
   std::vector<float> values(field.bytes.size() / sizeof(float));
   if constexpr (std::endian::native == std::endian::little) {
-    if (!values.empty()) std::memcpy(values.data(), field.bytes.data(), field.bytes.size());
+    if (!values.empty())
+      std::memcpy(values.data(), field.bytes.data(), values.size() * sizeof(float));
   } else {
     for (size_t i = 0; i < values.size(); ++i)
       values[i] =

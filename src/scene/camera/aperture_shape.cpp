@@ -110,8 +110,7 @@ std::shared_ptr<const ApertureShape> make_aperture_shape(const std::string& name
   if (name.empty() || name == "circular") return nullptr;
   if (const std::optional<Image> shape = built_in_shape(name))
     return std::make_shared<ApertureShape>(*shape, where);
-  const std::string path = files.path_of(name);
-  files.count(path);
+  const std::string path = files.counted_path_of(name);
   return std::make_shared<ApertureShape>(*read_image(path, std::nullopt, where), where);
 }
 

@@ -65,8 +65,7 @@ float image_emission_scale(const ParameterSet& parameters, const RgbColorSpace& 
 
 ImagePtr read_light_image(const ParameterSet& parameters, SceneFiles& files) {
   const Parameter& p = *parameters.find("filename");
-  const std::string path = files.path_of(parameters.get_string("filename", ""));
-  files.count(path);
+  const std::string path = files.counted_path_of(parameters.get_string("filename", ""));
   ImagePtr image = read_image(path, std::nullopt, p.where);
   // What a light sends into the scene is larger by its area.
   constexpr float kBrightest = 1e30f;

@@ -54,9 +54,8 @@ SurfaceMaterial::SurfaceMaterial(const MaterialDescription& description,
     context.diagnostics.warn(description.where,
                              "material has both \"displacement\" and \"normalmap\"; only the "
                              "normal map is used");
-  const std::string path = context.files.path_of(file);
-  context.files.count(path);
-  normal_map_ = std::make_shared<NormalMap>(path, description.parameters.find("normalmap")->where);
+  normal_map_ = std::make_shared<NormalMap>(context.files.counted_path_of(file),
+                                            description.parameters.find("normalmap")->where);
 }
 
 void SurfaceMaterial::bump(SurfaceInteraction& s) const {

@@ -35,8 +35,7 @@ class ImageLookup {
     if (file.empty())
       throw SceneError(description.where, "texture \"" + description.name +
                                               "\" has no \"filename\", expected an image file");
-    const std::string path = scope.files().path_of(file);
-    scope.files().count(path);
+    const std::string path = scope.files().counted_path_of(file);
     image_ = scope.images().get(path, encoding(p, file, scope), p.find("filename")->where);
   }
 

@@ -131,6 +131,37 @@ TEST_F(BenchRuns, WhatIsThereIsNotRenderedAgain) {
   EXPECT_FALSE(third.scenes[0].find_run("mixed")->kept);
 }
 
+TEST_F(BenchRuns, AnotherFileOfTheSceneIsAnotherScene) {
+  const auto write_mesh = [&](const char* vertices) {
+    write_text(scratch_.file("mesh.pbrt"), std::string("Shape \"trianglemesh\" \"point3 P\" [") +
+                                               vertices + "] \"integer indices\" [0 1 2]");
+  };
+  write_text(scratch_.file("scene.pbrt"),
+             "Camera \"perspective\"\nWorldBegin\nLightSource \"infinite\"\n"
+             "Include \"mesh.pbrt\"\n");
+  std::string suite = small_suite();
+  suite.replace(suite.find(kRoom), kRoom.size(), scratch_.file("scene.pbrt"));
+  const auto kept = [&] {
+    const BenchResults results = run(suite);
+    EXPECT_EQ(results.failures(), 0) << said_;
+    const BenchSceneResult& scene = results.scenes.at(0);
+    EXPECT_EQ(scene.reference.kept, scene.runs.at(0).kept);
+    return scene.reference.kept;
+  };
+  write_mesh("-1 0 4  1 0 4  0 1 4");
+  EXPECT_FALSE(kept());
+  EXPECT_TRUE(kept());
+  write_mesh("-1 0 4  1 0 4  0 2 4");
+  EXPECT_FALSE(kept());
+  // One that is included since counts as well.
+  write_text(scratch_.file("more.pbrt"), "Shape \"disk\"");
+  write_text(scratch_.file("mesh.pbrt"), "Include \"more.pbrt\"");
+  EXPECT_FALSE(kept());
+  EXPECT_TRUE(kept());
+  write_text(scratch_.file("more.pbrt"), "Shape \"sphere\"");
+  EXPECT_FALSE(kept());
+}
+
 TEST_F(BenchRuns, WhatWasRemovedIsRenderedAgain) {
   const BenchResults first = run(small_suite());
   std::filesystem::remove(first.scenes.at(0).reference.picture);

@@ -48,7 +48,7 @@ TEST(SceneHash, IsOfEveryFileThatWasRead) {
 
   SceneFiles expected(directory.path().string());
   expected.set_top(directory.file("scene.pbrt"));
-  for (const std::string& name : names) expected.count(expected.path_of(name));
+  for (const std::string& name : names) expected.counted_path_of(name);
   const LoadedScene loaded = load_scene(directory.file("scene.pbrt"), {});
   EXPECT_EQ(loaded.description.files->hash(), expected.hash());
   // No less and no more: the sum knows each of them.
@@ -56,7 +56,7 @@ TEST(SceneHash, IsOfEveryFileThatWasRead) {
     SceneFiles less(directory.path().string());
     less.set_top(directory.file("scene.pbrt"));
     for (const std::string& name : names)
-      if (name != left_out) less.count(less.path_of(name));
+      if (name != left_out) less.counted_path_of(name);
     EXPECT_NE(less.hash(), expected.hash()) << left_out;
   }
 }
