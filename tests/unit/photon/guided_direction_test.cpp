@@ -182,7 +182,8 @@ TEST(GuidedDirection, ScalesByRefractionAsTheBsdfDoes) {
 
 TEST(GuidedDirection, WithoutAForecastIsTheBsdf) {
   BsdfArena arena;
-  const Bsdf& bsdf = *coated_diffuse_case(1.5f, 0.3f, 0.01f, 0.7f).make(arena);
+  const BsdfCase coated = coated_diffuse_case(1.5f, 0.3f, 0.01f, 0.7f);  // keeps its table
+  const Bsdf& bsdf = *coated.make(arena);
   const Vec3f wo = direction_at(40);
   const ForecastLobes none;
   const Frame frame;
