@@ -62,7 +62,8 @@ int run_bench(const BenchCommand& command) {
   options.command = command_text(command, options.directory);
   if (!command.quiet)
     options.say = [](const std::string& line) { fmt::print(stderr, "{}\n", printable(line)); };
-  const SignalListener listener;
+  SignalListener listener;
+  listener.note_stops();
   const BenchResults results = run_bench(suite, options, listener.flags());
   if (!command.quiet) print_summary(results);
   return exit_status(results, command.strict_claims);

@@ -101,6 +101,8 @@ RenderOptions render_options(const RenderCommand& command, const Scene& scene,
 }  // namespace
 
 int run_render(const RenderCommand& command) {
+  // A picture that is asked for while the scene is read is written after the first pass.
+  SignalListener signals;
   const ThreadLimit threads(command.threads);
   limit_image_threads(command.threads);
   // A name that cannot be written is said before the scene is read, which may take long.
@@ -164,8 +166,8 @@ int run_render(const RenderCommand& command) {
     if (!command.quiet) display.clear();
     print_warning(warning);
   });
-  const SignalListener listener;
-  const RenderResult result = session.run(listener.flags());
+  signals.note_stops();
+  const RenderResult result = session.run(signals.flags());
   if (!command.quiet) {
     display.clear();
     fmt::print(stderr, "{}", render_report(result, film, output, notes));

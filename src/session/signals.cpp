@@ -33,9 +33,12 @@ void ask_to_write(int) {
 SignalListener::SignalListener() {
   requests.stop.store(0);
   requests.write.store(false);
+  set_action(SIGUSR1, ask_to_write);
+}
+
+void SignalListener::note_stops() {
   set_action(SIGINT, ask_to_stop);
   set_action(SIGTERM, ask_to_stop);
-  set_action(SIGUSR1, ask_to_write);
 }
 
 SignalListener::~SignalListener() {

@@ -12,8 +12,9 @@ struct SignalFlags {
   std::atomic<bool> write{false};  ///< a picture is wanted now
 };
 
-/// While it lives, SIGINT and SIGTERM set `stop` and SIGUSR1 sets `write` in flags(). After the
-/// first request to stop both signals have their default action again: the second one kills.
+/// While it lives, SIGUSR1 sets `write` in flags(), and from note_stops() on SIGINT and SIGTERM set
+/// `stop`. Before, and after the first request to stop, these two have their default action: while
+/// there is nothing to write yet, and at the second time of asking, they end the program.
 class SignalListener {
  public:
   SignalListener();
@@ -21,6 +22,7 @@ class SignalListener {
   SignalListener(const SignalListener&) = delete;
   SignalListener& operator=(const SignalListener&) = delete;
 
+  void note_stops();
   SignalFlags& flags() const;
 };
 

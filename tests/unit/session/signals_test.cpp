@@ -9,7 +9,8 @@ namespace nephroid {
 namespace {
 
 TEST(Signals, StopAndWriteAreNoted) {
-  const SignalListener listener;
+  SignalListener listener;
+  listener.note_stops();
   EXPECT_EQ(listener.flags().stop.load(), 0);
   std::raise(SIGUSR1);
   EXPECT_TRUE(listener.flags().write.load());
@@ -20,7 +21,8 @@ TEST(Signals, StopAndWriteAreNoted) {
 
 TEST(Signals, ANewListenerStartsAfresh) {
   {
-    const SignalListener listener;
+    SignalListener listener;
+    listener.note_stops();
     std::raise(SIGINT);
     EXPECT_EQ(listener.flags().stop.load(), SIGINT);
   }
@@ -31,12 +33,24 @@ TEST(Signals, ANewListenerStartsAfresh) {
 TEST(SignalsDeathTest, TheSecondOneKills) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   const auto twice = [](int first, int second) {
-    const SignalListener listener;
+    SignalListener listener;
+    listener.note_stops();
     std::raise(first);
     std::raise(second);
   };
   EXPECT_EXIT(twice(SIGINT, SIGINT), testing::KilledBySignal(SIGINT), "");
   EXPECT_EXIT(twice(SIGINT, SIGTERM), testing::KilledBySignal(SIGTERM), "");
+}
+
+TEST(SignalsDeathTest, BeforeThereIsSomethingToWriteTheFirstOneKills) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const auto early = [](int signal) {
+    const SignalListener listener;
+    std::raise(SIGUSR1);  // noted, for when there is
+    if (listener.flags().write.load()) std::raise(signal);
+  };
+  EXPECT_EXIT(early(SIGINT), testing::KilledBySignal(SIGINT), "");
+  EXPECT_EXIT(early(SIGTERM), testing::KilledBySignal(SIGTERM), "");
 }
 
 }  // namespace
