@@ -41,9 +41,9 @@ void print_summary(const BenchResults& results) {
     const char* word = state == BenchVerdict::State::kHolds   ? "holds"
                        : state == BenchVerdict::State::kFails ? "FAILS"
                                                               : "not measured";
-    fmt::print(stderr, "claim {}: {}\n", word, printable(results.suite.claims[i].text));
+    say(fmt::format("claim {}: {}\n", word, printable(results.suite.claims[i].text)));
   }
-  fmt::print(stderr, "wrote {}/report.html\n", printable(results.directory));
+  say(fmt::format("wrote {}/report.html\n", printable(results.directory)));
 }
 
 }  // namespace
@@ -60,8 +60,7 @@ int run_bench(const BenchCommand& command) {
   options.repeat = command.repeat;
   options.only = command.only;
   options.command = command_text(command, options.directory);
-  if (!command.quiet)
-    options.say = [](const std::string& line) { fmt::print(stderr, "{}\n", printable(line)); };
+  if (!command.quiet) options.say = [](const std::string& line) { say(printable(line) + "\n"); };
   SignalListener listener;
   listener.note_stops();
   const BenchResults results = run_bench(suite, options, listener.flags());

@@ -41,12 +41,18 @@ std::string printable(const std::string& text) {
   return result;
 }
 
+void say(const std::string& text) {
+  std::fwrite(text.data(), 1, text.size(), stderr);
+  std::fflush(stderr);
+  std::clearerr(stderr);
+}
+
 void print_error(const std::string& message) {
-  fmt::print(stderr, "nephroid: error: {}\n", printable(message));
+  say(fmt::format("nephroid: error: {}\n", printable(message)));
 }
 
 void print_warning(const std::string& message) {
-  fmt::print(stderr, "nephroid: warning: {}\n", printable(message));
+  say(fmt::format("nephroid: warning: {}\n", printable(message)));
 }
 
 void print_warnings(const std::vector<std::string>& messages) {

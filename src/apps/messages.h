@@ -8,6 +8,9 @@
 
 namespace nephroid {
 
+/// To standard error as it is. A log that cannot be written, on a full disk or closed, ends
+/// nothing.
+void say(const std::string& text);
 void print_error(const std::string& message);
 void print_warning(const std::string& message);
 void print_warnings(const std::vector<std::string>& messages);

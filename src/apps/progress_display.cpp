@@ -6,8 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "apps/messages.h"
 #include "session/short_number.h"
 
 namespace nephroid {
@@ -46,19 +46,17 @@ void ProgressDisplay::show(const RenderProgress& progress) {
   if (progress.seconds < next_seconds_) return;
   next_seconds_ = progress.seconds + (is_terminal_ ? kBarInterval : kLineInterval);
   if (!is_terminal_) {
-    fmt::print(stderr, "nephroid: {} after {}\n", description(progress),
-               clock_text(progress.seconds));
+    say(fmt::format("nephroid: {} after {}\n", description(progress),
+                    clock_text(progress.seconds)));
     return;
   }
-  fmt::print(stderr, "\r{} {}\x1b[K", bar(progress.fraction), description(progress));
-  std::fflush(stderr);
+  say(fmt::format("\r{} {}\x1b[K", bar(progress.fraction), description(progress)));
   bar_is_drawn_ = true;
 }
 
 void ProgressDisplay::clear() {
   if (!bar_is_drawn_) return;
-  fmt::print(stderr, "\r\x1b[K");
-  std::fflush(stderr);
+  say("\r\x1b[K");
   bar_is_drawn_ = false;
 }
 

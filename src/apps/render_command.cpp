@@ -31,7 +31,7 @@ Metadata metadata_of(const RenderCommand& command, const SceneFiles& files,
                      const IntegratorChoice& choice) {
   return {
       {"nephroid:version", kVersion},
-      {"nephroid:instruction_set", instruction_set()},
+      {kInstructionSetKey, instruction_set()},
       {"nephroid:scene", command.scene},
       {"nephroid:scene_hash", fmt::format("{:016x}", files.hash())},
       {"nephroid:integrator", name_of(command.routes, choice.name)},
@@ -45,8 +45,7 @@ void add_film(const Preset& preset, const Film& film, Metadata* metadata) {
       "nephroid:film", fmt::format("{}x{}, columns {} to {}, rows {} to {}", film.settings().width,
                                    film.settings().height, crop.x0, crop.x1, crop.y0, crop.y1));
   const bool passes_add_up = std::ranges::all_of(preset.estimators, [](const auto& estimator) {
-    const Capabilities capabilities = estimator->capabilities();
-    return capabilities.independent_passes && capabilities.consistent;
+    return estimator->capabilities().independent_passes;
   });
   add_film_metadata(film, passes_add_up, metadata);
 }
@@ -153,6 +152,7 @@ int run_render(const RenderCommand& command) {
     here.emplace_back("nephroid:seed", fmt::format("{}", options.seed));
     if (command.reject_outliers) here.emplace_back("nephroid:outliers", "reject");
     options.begin_with = go_on_from(output, here, scene, preset, film);
+    if (!command.quiet) print_warnings(options.begin_with.warnings);
   }
   std::vector<std::string> notes = preset.notes;
   options.notes = notes;
@@ -170,7 +170,7 @@ int run_render(const RenderCommand& command) {
   const RenderResult result = session.run(signals.flags());
   if (!command.quiet) {
     display.clear();
-    fmt::print(stderr, "{}", render_report(result, film, output, notes));
+    say(render_report(result, film, output, notes));
   }
   if (command.strict && !result.faults.empty() && result.reason != StopReason::kSignal) {
     print_error("--strict: " + result.faults[0]);

@@ -152,10 +152,12 @@ void Film::add_bias(int group, std::span<const float> of_pixels) {
                   [&](int64_t, int64_t begin, int64_t end) {
                     for (int64_t i = begin; i < end; ++i) {
                       const double b = double{of_pixels[static_cast<size_t>(i)]};
-                      if (!std::isfinite(b)) continue;
+                      if (!std::isfinite(b)) {
+                        count_saturated(1);
+                        continue;
+                      }
                       Bias& bias = biases[static_cast<size_t>(i)];
-                      bias.sum.add(b);
-                      bias.square.add(b * b);
+                      if (!(bias.sum.add(b) && bias.square.add(b * b))) count_saturated(1);
                     }
                   });
 }
@@ -227,11 +229,17 @@ bool Film::is_bad(int group, int x, int y, std::span<const Rgb> values) {
 void Film::add_features(int x, int y, const Rgb& albedo, const Vec3f& normal, float depth) {
   const size_t pixel = index(x, y);
   Features& features = features_[pixel];
+  bool fits = true;
   for (int c = 0; c < 3; ++c) {
-    features.albedo[c].add(albedo[c]);
-    features.normal[c].add(normal[c]);
+    fits &= features.albedo[c].add(albedo[c]);
+    fits &= features.normal[c].add(normal[c]);
   }
-  if (depth > 0 && features.depth.add(depth)) ++depths_[pixel];
+  if (!(depth <= 0)) {
+    const bool depth_fits = features.depth.add(depth);
+    if (depth_fits) ++depths_[pixel];
+    fits &= depth_fits;
+  }
+  if (!fits) count_saturated(1);
 }
 void Film::add_feature_estimates(uint64_t count) {
   counts_.feature_estimates += count;
@@ -242,7 +250,9 @@ void Film::add_surface(int x, int y, const SurfaceSample& s) {
   const size_t pixel = index(x, y);
   const std::array<float, 13> values{s.p.x,  s.p.y,  s.p.z,  s.n.x,  s.n.y,  s.n.z, s.ns.x,
                                      s.ns.y, s.ns.z, s.uv.x, s.uv.y, s.dzdx, s.dzdy};
-  for (size_t i = 0; i < values.size(); ++i) surfaces_[pixel][i].add(values[i]);
+  bool fits = true;
+  for (size_t i = 0; i < values.size(); ++i) fits &= surfaces_[pixel][i].add(values[i]);
+  if (!fits) count_saturated(1);
   ++surface_samples_[pixel];
 }
 

@@ -58,6 +58,8 @@ class Header {
         file_.seekg(static_cast<std::streamoff>(end - bytes));
         if (*name == "dataWindow" && *type == "box2i" && !is_possible_window())
           return "it claims more pixels than could be in it";
+        if (*name == "tiles" && *type == "tiledesc" && !is_possible_tile())
+          return "it claims larger tiles than could be in it";
         file_.seekg(static_cast<std::streamoff>(end));
       }
       if (!many || attributes == 0) return "";
@@ -109,6 +111,12 @@ class Header {
     // The library keeps blocks of whole rows.
     if (width > kWidest && static_cast<uint64_t>(width) > size_) return false;
     return pixels <= kFewPixels || pixels / kMostPixelsPerByte <= size_;
+  }
+
+  /// The library makes room for whole tiles before it reads one.
+  bool is_possible_tile() {
+    const uint64_t width = number(), height = number();
+    return width * height <= std::max(kFewPixels, size_);
   }
 
   std::ifstream file_;

@@ -1,5 +1,8 @@
 #include "integrator/sppm.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "integrator/gather.h"
 
 namespace nephroid {
@@ -94,7 +97,18 @@ void Sppm::update(Gathered& gathered, std::span<const uint64_t> counts, Film& fi
       const std::span<Rgb> estimate = gathered.of_walk(i);
       PartSums::clamp_total(estimate,
                             film.settings().max_component * static_cast<float>(area_of_pass));
-      const double kept = region.update(static_cast<double>(counts[i]), options_.alpha);
+      // What is no number would stay in the sum for ever: it is as if no photon had been found.
+      const auto bad = std::ranges::find_if_not(estimate, [](const Rgb& v) {
+        return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
+      });
+      if (bad != estimate.end()) {
+        const int at = static_cast<int>(first / regions_in_pixel_);
+        film.count_bad(group, static_cast<size_t>(bad - estimate.begin()),
+                       {b.x0 + at % b.width(), b.y0 + at / b.width()});
+        std::ranges::fill(estimate, Rgb{});
+      }
+      const double found = bad == estimate.end() ? static_cast<double>(counts[i]) : 0.0;
+      const double kept = region.update(found, options_.alpha);
       const double scale = 1.0 / (totals_.emitted * static_cast<double>(kPi) *
                                   region.radius_squared * static_cast<double>(regions_in_pixel_));
       for (size_t k = 0; k < parts; ++k) {

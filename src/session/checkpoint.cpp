@@ -81,6 +81,33 @@ void require_same_render(const StateFile& file, const Metadata& metadata, const 
                      ": it is the picture of another render:" + found);
 }
 
+std::string instruction_sets_of(const Metadata& metadata) {
+  return value_of(metadata, kInstructionSetKey);
+}
+
+std::string joined_instruction_sets(const std::string& a, const std::string& b) {
+  std::string joined;
+  for (const std::string& sets : {a, b}) {
+    std::istringstream words(sets);
+    for (std::string set; std::getline(words, set, ';');) {
+      if (set.starts_with(' ')) set.erase(0, 1);
+      if (!set.empty() && ("; " + joined + ";").find("; " + set + ";") == std::string::npos)
+        joined += (joined.empty() ? "" : "; ") + set;
+    }
+  }
+  return joined;
+}
+
+std::optional<std::string> warning_of_instruction_sets(const StateFile& file,
+                                                       const Metadata& metadata,
+                                                       const std::string& other) {
+  const std::string there = instruction_sets_of(file.metadata()),
+                    here = instruction_sets_of(metadata);
+  if (there == here) return std::nullopt;
+  return fmt::format("{}: rendered with {}, {} {}: the last bits may differ from those of one run",
+                     file.path(), shown(there), other, shown(here));
+}
+
 Checkpoint go_on_from(const std::string& path, const Metadata& here, const Scene& scene,
                       Preset& preset, Film& film) {
   const std::string purpose = "go on from it";
@@ -89,8 +116,14 @@ Checkpoint go_on_from(const std::string& path, const Metadata& here, const Scene
   require_same_render(file, here, "here", purpose);
   file.load(state_of(scene, preset, film));
   const Metadata& metadata = file.metadata();
-  return {passes, std::strtod(value_of(metadata, "nephroid:seconds").c_str(), nullptr),
-          value_of(metadata, "nephroid:history")};
+  Checkpoint checkpoint{passes,
+                        std::strtod(value_of(metadata, "nephroid:seconds").c_str(), nullptr),
+                        value_of(metadata, "nephroid:history"),
+                        instruction_sets_of(metadata),
+                        {}};
+  if (auto warning = warning_of_instruction_sets(file, here, "here"))
+    checkpoint.warnings.push_back(std::move(*warning));
+  return checkpoint;
 }
 
 }  // namespace nephroid

@@ -3,7 +3,9 @@
 // must not know when pictures are written.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "film/exr_file.h"
 #include "integrator/estimator.h"
@@ -16,6 +18,8 @@ struct Checkpoint {
   PassRanges passes;
   double seconds = 0;   ///< of rendering, all runs together
   std::string history;  ///< a line for each run
+  std::string instruction_sets;
+  std::vector<std::string> warnings;
 };
 
 /// All that a render keeps, as it lies in memory: of the film and of the estimators.
@@ -29,6 +33,16 @@ PassRanges passes_of(const StateFile& file, const std::string& purpose);
 /// outliers and seed. `other` is what these are called, "here" for example.
 void require_same_render(const StateFile& file, const Metadata& metadata, const std::string& other,
                          const std::string& purpose);
+
+/// With which instruction sets a picture's passes were rendered: those of version.h, one or more.
+inline constexpr const char* kInstructionSetKey = "nephroid:instruction_set";
+std::string instruction_sets_of(const Metadata& metadata);
+/// Each of both once.
+std::string joined_instruction_sets(const std::string& a, const std::string& b);
+/// What to say if the file's are others than those of `metadata`, which are called `other`.
+std::optional<std::string> warning_of_instruction_sets(const StateFile& file,
+                                                       const Metadata& metadata,
+                                                       const std::string& other);
 
 /// Reads the state of a file into film and estimators. Throws UsageError if it is the picture of
 /// another render, with all that differs, and IoError if it has no state or cannot be read.

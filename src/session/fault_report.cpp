@@ -26,8 +26,9 @@ std::vector<std::string> report(const Scene* scene, const Film& film) {
     if (bad.count == 0) continue;
     std::string line = fmt::format("{} estimates of route {} were not finite and were left out",
                                    bad.count, layout.routes[r]);
-    if (bad.first_pixel != BadEstimates::kNoPixel) {
-      const PixelBounds& crop = film.bounds();
+    const PixelBounds& crop = film.bounds();
+    // None, or from a file that is wrong.
+    if (bad.first_pixel < static_cast<uint64_t>(crop.area())) {
       const auto width = static_cast<uint64_t>(crop.width());
       const int x = crop.x0 + static_cast<int>(bad.first_pixel % width);
       const int y = crop.y0 + static_cast<int>(bad.first_pixel / width);
@@ -37,7 +38,11 @@ std::vector<std::string> report(const Scene* scene, const Film& film) {
     lines.push_back(line);
   }
   if (film.saturated_values() > 0)
-    lines.push_back(fmt::format("{} pixel sums reached their limit", film.saturated_values()));
+    lines.push_back(
+        fmt::format("{} values of pixels (light, features or estimates of errors) reached the "
+                    "limit of a sum or "
+                    "were not finite",
+                    film.saturated_values()));
   return lines;
 }
 

@@ -7,7 +7,7 @@
 
 namespace nephroid {
 
-/// `passes_add_up`: those of the film's estimators are independent and tend to the truth.
+/// `passes_add_up`: those of the film's estimators are independent of each other.
 void add_film_metadata(const Film& film, bool passes_add_up, Metadata* metadata);
 
 /// An empty film like that of the picture. Throws IoError if its metadata make no sense.

@@ -19,7 +19,7 @@ constexpr const char* kPurpose = "merge it";
 /// A picture to be merged. There may be more of them than files may be open.
 struct Input {
   std::string path;
-  uint32_t first_pass;
+  PassRanges passes;
 };
 
 }  // namespace
@@ -27,15 +27,15 @@ struct Input {
 Merged merge_pictures(const std::vector<std::string>& inputs, const std::string& output) {
   std::vector<Input> files;
   for (const std::string& path : inputs)
-    files.push_back({path, passes_of(StateFile(path), kPurpose).ranges()[0].first});
+    files.push_back({path, passes_of(StateFile(path), kPurpose)});
   // The order of the arguments does not count.
-  std::ranges::sort(files, {}, &Input::first_pass);
+  std::ranges::sort(files, {}, [](const Input& i) { return i.passes.ranges()[0].first; });
   const StateFile first(files[0].path);
   Merged merged;
-  std::string history;
+  std::string history, sets;
   for (const Input& input : files) {
     const StateFile file(input.path);
-    const PassRanges passes = passes_of(file, kPurpose);
+    const PassRanges& passes = input.passes;
     require_same_render(file, first.metadata(), "in " + first.path(), kPurpose);
     const auto refuse = [&name = file.path()](const std::string& why) {
       throw UsageError(name + ": cannot " + kPurpose + ": " + why);
@@ -47,31 +47,32 @@ Merged merge_pictures(const std::vector<std::string>& inputs, const std::string&
     merged.passes.add(passes);
     merged.seconds += std::strtod(value_of(file.metadata(), "nephroid:seconds").c_str(), nullptr);
     history += value_of(file.metadata(), "nephroid:history");
-    const std::string key = "nephroid:instruction_set";
-    const std::string with = value_of(file.metadata(), key),
-                      first_with = value_of(first.metadata(), key);
-    if (with != first_with)
-      merged.warnings.push_back(
-          fmt::format("{}: rendered with {}, {} with {}: the last bits of their passes may differ "
-                      "from those of one run",
-                      file.path(), with, first.path(), first_with));
+    if (const auto warning =
+            warning_of_instruction_sets(file, first.metadata(), "in " + first.path()))
+      merged.warnings.push_back(*warning);
+    sets = joined_instruction_sets(sets, instruction_sets_of(file.metadata()));
   }
   Film sum = film_of(first);
   for (const Input& input : files) {
+    StateFile file(input.path);
+    // A render that goes on may have written a newer one meanwhile.
+    if (passes_of(file, kPurpose) != input.passes)
+      throw IoError(input.path + ": cannot merge it: it changed while it was read");
     Film film = film_of(first);
-    StateFile(input.path).load(film.state());
+    file.load(film.state());
     sum.add(film);
   }
   Metadata metadata;
   for (const auto& [key, value] : first.metadata()) {
     const bool of_one_run = key == "nephroid:passes" || key == "nephroid:seconds" ||
                             key == "nephroid:history" || key == "nephroid:choices" ||
-                            key.starts_with("nephroid:estimates:");
+                            key == kInstructionSetKey || key.starts_with("nephroid:estimates:");
     if (key.starts_with("nephroid:") && !of_one_run) metadata.emplace_back(key, value);
   }
   metadata.emplace_back("nephroid:passes", merged.passes.text());
   metadata.emplace_back("nephroid:seconds", fmt::format("{:.3f}", merged.seconds));
   metadata.emplace_back("nephroid:history", history);
+  metadata.emplace_back(kInstructionSetKey, sets);
   std::string faults;
   for (const std::string& fault : fault_report(sum)) faults += "warning: " + fault + "\n";
   if (!faults.empty()) metadata.emplace_back("nephroid:choices", faults);

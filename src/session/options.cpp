@@ -156,7 +156,8 @@ constexpr OptionDescription kOptions[] = {
      "numbers, or if sums reached their limit.", false,
      [](CommandLine& l, const std::string&) { l.render.strict = true; }},
     {"render", "--no-state", "", "", "", "", "Output",
-     "Write the picture alone: a smaller file, from which no render can go on.", false,
+     "Leave the last picture without what a render needs to go on from it: a smaller file. Pictures "
+     "on the way, and that of a render that a signal stops, have it.", false,
      [](CommandLine& l, const std::string&) { l.render.keeps_state = false; }},
     {"render", "--quiet", "", "", "", "", "Output", "Print nothing but errors.", false,
      [](CommandLine& l, const std::string&) { l.render.quiet = true; }},

@@ -37,10 +37,10 @@ std::optional<PassRanges> PassRanges::parse(const std::string& text) {
     if (!first || !take(rest, "..")) return std::nullopt;
     const auto last = take_number(rest);
     if (!last || *last < *first) return std::nullopt;
-    const PassRanges next(PassRange{*first, *last});
-    if (result.overlap(next)) return std::nullopt;
-    result.add(next);
+    if (!result.empty() && *first <= result.ranges_.back().last) return std::nullopt;
+    result.ranges_.push_back({*first, *last});
   } while (take(rest, ","));
+  result.join();
   if (!rest.empty()) return std::nullopt;
   return result;
 }

@@ -18,7 +18,8 @@ class PassRanges {
  public:
   PassRanges() = default;
   explicit PassRanges(PassRange range) : ranges_{range} {}
-  /// "0..63,100..199", as text() writes it; empty if it is anything else, or ranges that overlap.
+  /// "0..63,100..199", as text() writes it; empty if it is anything else, or if the ranges do not
+  /// increase.
   static std::optional<PassRanges> parse(const std::string& text);
   std::string text() const;
 

@@ -37,6 +37,10 @@ double steady_seconds() {
   return std::chrono::duration<double>(now).count();
 }
 
+[[noreturn]] void lacks_memory(const std::string& path) {
+  throw IoError(path + ": cannot write: there is not enough memory");
+}
+
 void check_fits(const Preset& preset, const Film& film, const RenderOptions& options) {
   if (options.last_pass && *options.last_pass < options.first_pass)
     throw UsageError("--passes: the range ends before it begins");
@@ -106,9 +110,11 @@ RenderResult RenderSession::run(SignalFlags& signals) {
   next_checkpoint_seconds_ = options_.checkpoint_interval;
   RenderResult result;
   std::optional<StopReason> reason;
-  if (!next_pass()) {
-    reason = StopReason::kPasses;
-    first_pass_statistics_ = statistics();
+  if (passes_done_ > 0) {
+    // It may have come as far as was wished for.
+    if (options_.noise_target > 0 && error_check_is_due()) renew_error();
+    reason = reason_to_stop(signals);
+    if (reason) first_pass_statistics_ = statistics();
   }
   while (!reason) {
     render_one_pass();
@@ -132,7 +138,8 @@ RenderResult RenderSession::run(SignalFlags& signals) {
   renew_error_text();
   result.error_text = error_text_;
   result.faults = fault_report(scene_, film_);
-  if (!options_.output.empty()) write_last_picture();
+  if (!options_.output.empty())
+    write_last_picture(options_.keeps_state || *reason == StopReason::kSignal);
   return result;
 }
 
@@ -239,9 +246,7 @@ void RenderSession::write_if_due(SignalFlags& signals) {
     next_checkpoint_seconds_ = write_now(options_.checkpoint_interval, [this] { write_picture(); });
     next_preview_seconds_ = elapsed() + options_.preview_interval;
   } else if (elapsed() >= next_preview_seconds_) {
-    next_preview_seconds_ = write_now(options_.preview_interval, [this] {
-      write_preview(options_.output, film_, options_.png_exposure);
-    });
+    next_preview_seconds_ = write_now(options_.preview_interval, [this] { write_png(); });
   }
 }
 
@@ -256,10 +261,10 @@ double RenderSession::write_now(double interval, const std::function<void()>& wr
   return elapsed() + std::max(interval, kIdlePerWork * cost);
 }
 
-void RenderSession::write_last_picture() {
+void RenderSession::write_last_picture(bool with_state) {
   namespace fs = std::filesystem;
   try {
-    write_exr_file(options_.output);
+    write_exr_file(options_.output, with_state);
   } catch (const IoError& error) {
     // A directory of its own: nobody else can have put a link there.
     const std::string random_letters(6, 'X');  // that mkdtemp puts in their place
@@ -268,7 +273,7 @@ void RenderSession::write_last_picture() {
     if (options_.rescue_directory.empty() || ::mkdtemp(directory.data()) == nullptr) throw;
     const fs::path rescue = fs::path(directory) / fs::path(options_.output).filename();
     try {
-      write_exr_file(rescue.string());
+      write_exr_file(rescue.string(), with_state);
     } catch (const IoError&) {
       std::error_code ignored;
       fs::remove_all(directory, ignored);
@@ -276,27 +281,38 @@ void RenderSession::write_last_picture() {
     }
     throw IoError(fmt::format("{}; the picture is in {}", error.what(), rescue.string()));
   }
-  write_preview(options_.output, film_, options_.png_exposure);
+  write_png();
 }
 
 void RenderSession::write_picture() {
-  write_exr_file(options_.output);
-  write_preview(options_.output, film_, options_.png_exposure);
+  write_exr_file(options_.output, true);
+  write_png();
 }
 
-void RenderSession::write_exr_file(const std::string& path) {
+void RenderSession::write_png() {
+  try {
+    write_preview(options_.output, film_, options_.png_exposure);
+  } catch (const std::bad_alloc&) {
+    lacks_memory(png_path_beside(options_.output));
+  }
+}
+
+void RenderSession::write_exr_file(const std::string& path, bool with_state) {
   renew_error_text();
   std::optional<RenderState> state;
-  if (options_.keeps_state) state = state_of(scene_, preset_, film_);
+  if (with_state) state = state_of(scene_, preset_, film_);
   try {
     write_exr(path, film_picture(film_, picture_metadata()), state ? &*state : nullptr);
   } catch (const std::bad_alloc&) {
-    throw IoError(path + ": cannot write: there is not enough memory");
+    lacks_memory(path);
   }
 }
 
 Metadata RenderSession::picture_metadata() const {
   Metadata metadata = options_.metadata;
+  for (auto& [key, value] : metadata)
+    if (key == kInstructionSetKey)
+      value = joined_instruction_sets(options_.begin_with.instruction_sets, value);
   metadata.emplace_back("nephroid:seed", fmt::format("{}", options_.seed));
   metadata.emplace_back("nephroid:passes", done_.text());
   metadata.emplace_back("nephroid:seconds", fmt::format("{:.3f}", seconds_of_all_runs()));

@@ -99,8 +99,9 @@ class RenderSession {
   void write_if_due(SignalFlags& signals);
   void write_picture();
   /// The picture without its PNG.
-  void write_exr_file(const std::string& path);
-  void write_last_picture();
+  void write_exr_file(const std::string& path, bool with_state);
+  void write_png();
+  void write_last_picture(bool with_state);
   /// Writes, says what went wrong, and returns when to do it again.
   double write_now(double interval, const std::function<void()>& write);
   std::optional<double> seconds_left(double seconds) const;

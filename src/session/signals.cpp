@@ -21,7 +21,6 @@ void set_action(int signal, void (*handler)(int)) {
 void ask_to_stop(int signal) {
   requests.stop.store(signal);
   set_action(SIGINT, SIG_DFL);
-  set_action(SIGTERM, SIG_DFL);
 }
 
 void ask_to_write(int) {
@@ -34,6 +33,8 @@ SignalListener::SignalListener() {
   requests.stop.store(0);
   requests.write.store(false);
   set_action(SIGUSR1, ask_to_write);
+  set_action(SIGPIPE, SIG_IGN);
+  set_action(SIGXFSZ, SIG_IGN);
 }
 
 void SignalListener::note_stops() {
@@ -45,6 +46,8 @@ SignalListener::~SignalListener() {
   set_action(SIGINT, SIG_DFL);
   set_action(SIGTERM, SIG_DFL);
   set_action(SIGUSR1, SIG_DFL);
+  set_action(SIGPIPE, SIG_DFL);
+  set_action(SIGXFSZ, SIG_DFL);
 }
 
 SignalFlags& SignalListener::flags() const {

@@ -13,8 +13,10 @@ struct SignalFlags {
 };
 
 /// While it lives, SIGUSR1 sets `write` in flags(), and from note_stops() on SIGINT and SIGTERM set
-/// `stop`. Before, and after the first request to stop, these two have their default action: while
-/// there is nothing to write yet, and at the second time of asking, they end the program.
+/// `stop`. Before, while there is nothing to write yet, these two end the program, and so does a
+/// SIGINT after the first request to stop; a second SIGTERM, which supervisors send to a process
+/// and to its group, does not. A log that nobody reads any more and files that grow too large are
+/// errors of writing and no signals.
 class SignalListener {
  public:
   SignalListener();

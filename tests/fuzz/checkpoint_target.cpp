@@ -6,6 +6,7 @@
 #include "fuzz/disk_file.h"
 #include "fuzz/targets.h"
 #include "session/checkpoint.h"
+#include "session/fault_report.h"
 #include "session/film_metadata.h"
 
 namespace nephroid::fuzz {
@@ -18,6 +19,7 @@ void read(const std::string& path) {
   Film film = film_of(file);
   passes_add_up(file);
   file.load(film.state());
+  fault_report(film);
 }
 
 /// What is held of outliers, which checksums protect in a file.

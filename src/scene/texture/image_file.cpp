@@ -144,7 +144,8 @@ constexpr uint64_t kSlowFromTheFront = uint64_t{256} << 20;
 ImagePtr ImageCache::load(const std::string& path, std::optional<ColorEncoding> encoding,
                           const SourceLocation& wanted_by) {
   ImageInputFile file = open_image(path, encoding, wanted_by);
-  // A quarter of the limit is kept for the tiles of images that turn out not to fit.
+  // A quarter of the limit is kept for the tiles of images that turn out not to fit, and no more is
+  // given to them: it is counted before the render begins.
   const uint64_t for_whole = limit_ - limit_ / 4;
   ImagePtr image;
   if (file.memory() > std::max(for_whole, kSlowFromTheFront) && !file.has_parts())
@@ -162,7 +163,7 @@ ImagePtr ImageCache::load(const std::string& path, std::optional<ColorEncoding> 
     image = read_whole(file, path, wanted_by);
     whole_ += image->memory();
   }
-  if (tiles_) tiles_->set_limit(limit_ - std::min(whole_, for_whole));
+  if (tiles_) tiles_->set_limit(limit_ / 4);
   return image;
 }
 

@@ -40,7 +40,10 @@ TEST(FaultReport, TellsRoutePixelAndWhatIsSeenThere) {
                           "at ("),
             0u)
       << lines[1];
-  EXPECT_EQ(lines[2], "3 pixel sums reached their limit");
+  EXPECT_EQ(
+      lines[2],
+      "3 values of pixels (light, features or estimates of errors) reached the limit of a sum "
+      "or were not finite");
 }
 
 }  // namespace

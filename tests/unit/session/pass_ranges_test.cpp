@@ -47,8 +47,8 @@ TEST(PassRanges, TellWhatTwoHave) {
 }
 
 TEST(PassRanges, RefuseOtherText) {
-  for (const char* text : {"1", "1..", "..1", "2..1", "0..3,3..4", "0..1,", ",0..1", "0..1 ",
-                           "a..b", "-1..2", "0..4294967296", "0..1;2..3"})
+  for (const char* text : {"1", "1..", "..1", "2..1", "0..3,3..4", "4..5,0..1", "0..1,", ",0..1",
+                           "0..1 ", "a..b", "-1..2", "0..4294967296", "0..1;2..3"})
     EXPECT_FALSE(PassRanges::parse(text)) << text;
 }
 

@@ -1,9 +1,11 @@
 // Pictures that the render loop writes: at the end, now and then, on demand; what they say of
 // themselves, and what happens if they cannot be written.
 #include <algorithm>
+#include <csignal>
 #include <filesystem>
 
 #include "core/errors.h"
+#include "film/exr_file.h"
 #include "session/choices_report.h"
 #include "unit/film/scratch_directory.h"
 #include "unit/session/scripted_session.h"
@@ -67,7 +69,7 @@ TEST_F(SessionPictures, GoesOnWhereEarlierRunsWere) {
   const ScratchDirectory directory;
   RenderOptions options = options_in(directory);
   options.last_pass = 9;
-  options.begin_with = {*PassRanges::parse("0..2,5..6"), 100, "5 passes in 100.000 s\n"};
+  options.begin_with = {*PassRanges::parse("0..2,5..6"), 100, "5 passes in 100.000 s\n", "", {}};
   RenderResult result = run(options);
   std::vector<uint32_t> rendered;
   for (const PassKey& key : script_.passes) rendered.push_back(key.pass);
@@ -91,6 +93,28 @@ TEST_F(SessionPictures, GoesOnWhereEarlierRunsWere) {
   script_.capabilities.independent_passes = false;
   options.begin_with.passes = *PassRanges::parse("0..2,5..6");
   EXPECT_THROW(run(options), UsageError);
+}
+
+// A slim picture is for the end: what may be needed to go on has the state.
+TEST_F(SessionPictures, OnlyTheLastPictureIsLeftWithoutState) {
+  const ScratchDirectory directory;
+  RenderOptions options = options_in(directory);
+  options.keeps_state = false;
+  options.checkpoint_interval = 2;
+  options.last_pass = 3;
+  const auto has_state = [&] { return StateFile(options.output).has_state(); };
+  script_.during_pass = [&](const PassKey& key) {
+    if (key.pass >= 2) {
+      EXPECT_TRUE(has_state());
+    }
+  };
+  run(options);
+  EXPECT_FALSE(has_state());
+  script_.during_pass = [&](const PassKey& key) {
+    if (key.pass == 1) signals_.stop = SIGTERM;
+  };
+  EXPECT_EQ(run(options).reason, StopReason::kSignal);
+  EXPECT_TRUE(has_state());
 }
 
 TEST_F(SessionPictures, PictureOnDemand) {

@@ -30,7 +30,7 @@ TEST(Signals, ANewListenerStartsAfresh) {
   EXPECT_EQ(listener.flags().stop.load(), 0);
 }
 
-TEST(SignalsDeathTest, TheSecondOneKills) {
+TEST(SignalsDeathTest, TheSecondInterruptKills) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   const auto twice = [](int first, int second) {
     SignalListener listener;
@@ -39,7 +39,21 @@ TEST(SignalsDeathTest, TheSecondOneKills) {
     std::raise(second);
   };
   EXPECT_EXIT(twice(SIGINT, SIGINT), testing::KilledBySignal(SIGINT), "");
-  EXPECT_EXIT(twice(SIGINT, SIGTERM), testing::KilledBySignal(SIGTERM), "");
+  EXPECT_EXIT(twice(SIGTERM, SIGINT), testing::KilledBySignal(SIGINT), "");
+}
+
+TEST(Signals, ASecondTerminationChangesNothing) {
+  SignalListener listener;
+  listener.note_stops();
+  std::raise(SIGTERM);
+  std::raise(SIGTERM);
+  EXPECT_EQ(listener.flags().stop.load(), SIGTERM);
+}
+
+TEST(Signals, WritingToNobodyIsNoSignal) {
+  const SignalListener listener;
+  std::raise(SIGPIPE);
+  std::raise(SIGXFSZ);
 }
 
 TEST(SignalsDeathTest, BeforeThereIsSomethingToWriteTheFirstOneKills) {

@@ -1,0 +1,127 @@
+// Resuming and merging as a user does it, with the program: what comes out has the bits of one run,
+// what is of another render is refused by name, and a log that cannot be written ends nothing.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+
+#include "film/image_io.h"
+#include "regression/scene_folder.h"
+#include "source_directory.h"
+
+namespace nephroid::testing_support {
+namespace {
+
+class CheckpointCommand : public ::testing::Test {
+ protected:
+  /// Renders the caustic room, small; expects that status.
+  ProgramRun render(const std::string& output, const std::vector<std::string>& more,
+                    int status = 0) {
+    std::vector<std::string> arguments{"render", kRoom, "--resolution", "24x16", "-t",
+                                       "2",      "-D",  "photons=2000", "-o",    output + ".exr"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    ProgramRun run = run_program(folder_.path(), arguments);
+    EXPECT_EQ(run.status, status) << run.errors;
+    return run;
+  }
+  Picture picture(const std::string& name) const {
+    return read_picture(folder_.path(name + ".exr"));
+  }
+  void expect_same(const std::string& a, const std::string& b) const {
+    const Picture first = picture(a), second = picture(b);
+    EXPECT_EQ(first.channels, second.channels);
+    EXPECT_TRUE(first.pixels == second.pixels) << a << " and " << b;
+  }
+  static void expect_said(const ProgramRun& run, const std::string& text) {
+    EXPECT_NE(run.errors.find(text), std::string::npos) << run.errors;
+  }
+
+  const std::string kRoom = source_directory() + "/scenes/caustic-room/scene.pbrt";
+  const testing::TemporaryDirectory folder_;
+};
+
+TEST_F(CheckpointCommand, WhatIsResumedIsOneRun) {
+  for (const std::string integrator : {"mixed", "sppm"}) {
+    const auto passes = [&](const std::string& range) {
+      return std::vector<std::string>{"--integrator", integrator, "--passes", range, "--resume"};
+    };
+    render(integrator + "-whole", passes("4"));
+    render(integrator + "-parts", passes("1"));
+    render(integrator + "-parts", passes("3"));
+    render(integrator + "-parts", passes("4"));
+    expect_same(integrator + "-whole", integrator + "-parts");
+  }
+}
+
+TEST_F(CheckpointCommand, WhatIsMergedIsOneRun) {
+  render("whole", {"--passes", "4"});
+  render("a", {"--passes", "0..0"});
+  render("b", {"--passes", "1..2"});
+  render("c", {"--passes", "3..3"});
+  const ProgramRun merged =
+      run_program(folder_.path(), {"merge", "c.exr", "a.exr", "b.exr", "-o", "sum.exr"});
+  EXPECT_EQ(merged.status, 0) << merged.errors;
+  expect_same("whole", "sum");
+  EXPECT_EQ(value_of(picture("sum").metadata, "nephroid:passes"), "0..3");
+}
+
+TEST_F(CheckpointCommand, AnotherRenderIsRefusedWithWhatDiffers) {
+  render("a", {"--passes", "1"});
+  expect_said(render("a", {"--passes", "2", "--resume", "--seed", "3"}, kUsage), "seed 0, here 3");
+  expect_said(render("a", {"--passes", "2", "--resume", "-D", "max-depth=3"}, kUsage),
+              "max-depth 32, here 3");
+  expect_said(render("a", {"--passes", "2", "--resume", "--crop", "0,0.5,0,1"}, kUsage),
+              "film 24x16, columns 0 to 24, rows 0 to 16, here 24x16, columns 0 to 12");
+  SceneFolder other;
+  other.render({"--passes", "1"});
+  other.write("scene.pbrt", kHead + kTriangle + "# the same to look at, another file\n");
+  expect_said(other.render({"--passes", "2", "--resume"}), "scene_hash ");
+}
+
+TEST_F(CheckpointCommand, NoStateLeavesAPictureAlone) {
+  render("a", {"--passes", "1", "--no-state"});
+  expect_said(render("a", {"--passes", "2", "--resume"}, kInputOutput), "it has no state");
+}
+
+TEST_F(CheckpointCommand, ANoiseTargetThatIsMetIsMet) {
+  const std::vector<std::string> line{"--integrator", "path", "--noise", "0.5", "--resume"};
+  render("a", line);
+  const Picture first = picture("a");
+  render("a", line);
+  EXPECT_EQ(value_of(picture("a").metadata, "nephroid:passes"),
+            value_of(first.metadata, "nephroid:passes"));
+  EXPECT_TRUE(picture("a").pixels == first.pixels);
+}
+
+TEST_F(CheckpointCommand, WhatIsNotFiniteIsSaidAndStrictAboutIt) {
+  // Light that floating-point numbers hold, on a film whose sensitivity makes too much of it.
+  const SceneFolder folder(
+      "Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 8 \"float iso\" 1e30\n"
+      "LookAt 0 0 -3  0 0 0  0 1 0\nCamera \"perspective\"\nWorldBegin\n"
+      "LightSource \"point\" \"rgb I\" [1e25 1e25 1e25] \"point3 from\" [0 0 -3]\n" +
+      kTriangle);
+  for (const char* integrator : {"path", "mixed", "sppm"}) {
+    const std::vector<std::string> line{"--passes", "2", "--integrator", integrator};
+    const ProgramRun plain = folder.render(line);
+    EXPECT_EQ(plain.status, 0) << plain.errors;
+    expect_said(plain, "were not finite and were left out");
+    std::vector<std::string> strict = line;
+    strict.push_back("--strict");
+    EXPECT_EQ(folder.render(strict).status, 1) << integrator;
+  }
+}
+
+TEST_F(CheckpointCommand, ALogOnAFullDiskEndsNothing) {
+  const auto status = [&](const std::string& log) {
+    const std::string line = "cd '" + folder_.path() + "' && '" NEPHROID_PROGRAM "' render '" +
+                             kRoom + "' --resolution 24x16 --passes 2 -o a.exr 2>" + log;
+    const int result = std::system(line.c_str());
+    return WIFEXITED(result) ? WEXITSTATUS(result) : -1;
+  };
+  EXPECT_EQ(status("/dev/full"), 0);
+  EXPECT_EQ(status("&-"), 0);
+  EXPECT_EQ(picture("a").width(), 24);
+}
+
+}  // namespace
+}  // namespace nephroid::testing_support
