@@ -19,6 +19,7 @@ if(NEPHROID_SANITIZE)
   target_link_options(nephroid_flags INTERFACE -fsanitize=${NEPHROID_SANITIZE})
 endif()
 if(NEPHROID_FUZZ)
+  set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O2 -g")  # with assertions
   set(fuzz_sanitizers -fsanitize=address,undefined,fuzzer-no-link -fno-sanitize-recover=undefined)
   target_compile_options(nephroid_flags INTERFACE ${fuzz_sanitizers} -fno-omit-frame-pointer)
   target_link_options(nephroid_flags INTERFACE -fsanitize=address,undefined)

@@ -26,7 +26,9 @@ void read(const std::string& path) {
 void held(const std::string& bytes) {
   std::vector<uint32_t> words(bytes.size() / 4);
   if (!words.empty()) std::memcpy(words.data(), bytes.data(), words.size() * 4);
-  OutlierRejection rejection(4, 3, {1, 2}, {});
+  OutlierSettings settings;
+  settings.exposed_pixels = {1, 1};
+  OutlierRejection rejection(4, 3, {1, 2}, settings);
   rejection.load(words);
   if (rejection.save().size() > rejection.most_words()) __builtin_trap();
   rejection.held_estimates();
