@@ -36,7 +36,7 @@ Vec3f direction(float c) {
 }  // namespace
 
 CoatTable::CoatTable(const DielectricInterface& boundary, float thickness, int max_depth)
-    : boundary_(boundary), thickness_(thickness), base_bounces_((max_depth + 1) / 2) {
+    : boundary_(boundary), thickness_(thickness), base_bounces_(max_depth / 2 + max_depth % 2) {
   if (!boundary_.smooth()) fill_rough_tables();
   // Both are integrals over the cosine with weight 2c; the smooth coat is cheap, so it gets more
   // points for the kink at the critical angle.

@@ -163,7 +163,9 @@ ImagePtr ImageCache::load(const std::string& path, std::optional<ColorEncoding> 
     image = read_whole(file, path, wanted_by);
     whole_ += image->memory();
   }
-  if (tiles_) tiles_->set_limit(limit_ / 4);
+  // OpenImageIO aborts when threads together hold more than ten times the limit.
+  constexpr uint64_t kFewestTileBytes = 1 << 20;
+  if (tiles_) tiles_->set_limit(std::max(limit_ / 4, kFewestTileBytes));
   return image;
 }
 
