@@ -57,6 +57,18 @@ void add_routes(const RoutePlan& plan, Metadata* metadata) {
   if (!aovs.empty()) metadata->emplace_back("nephroid:aovs", aovs);
 }
 
+/// What a picture has beside the wanted passes stays in it, and no picture of those can be merged
+/// with it.
+void warn_of_passes_beyond(const RenderOptions& options, const std::string& output) {
+  const PassRanges& done = options.begin_with.passes;
+  if (!options.last_pass || done.empty()) return;
+  const uint32_t first = done.ranges().front().first, last = done.ranges().back().last;
+  if (first < options.first_pass || last > *options.last_pass)
+    print_warning(
+        fmt::format("{} has passes {}, of which --passes {}..{} are wanted; the others stay",
+                    output, done.text(), options.first_pass, *options.last_pass));
+}
+
 void warn_of_what_is_not_rejected(const Routes& routes) {
   const auto warn = [&](EstimatorKind kind, const char* what) {
     if (std::ranges::any_of(routes.groups(),
@@ -152,7 +164,10 @@ int run_render(const RenderCommand& command) {
     here.emplace_back("nephroid:seed", fmt::format("{}", options.seed));
     if (command.reject_outliers) here.emplace_back("nephroid:outliers", "reject");
     options.begin_with = go_on_from(output, here, scene, preset, film);
-    if (!command.quiet) print_warnings(options.begin_with.warnings);
+    if (!command.quiet) {
+      print_warnings(options.begin_with.warnings);
+      warn_of_passes_beyond(options, output);
+    }
   }
   std::vector<std::string> notes = preset.notes;
   options.notes = notes;

@@ -42,8 +42,10 @@ Merged merge_pictures(const std::vector<std::string>& inputs, const std::string&
     };
     if (!passes_add_up(file))
       refuse("passes of this integrator cannot be added up; --resume goes on with it");
-    if (const auto both = merged.passes.overlap(passes))
-      refuse(fmt::format("another picture has passes {}..{}, too", both->first, both->last));
+    if (merged.passes.overlap(passes))
+      for (const Input& other : files)
+        if (const auto both = other.passes.overlap(passes); both && &other != &input)
+          refuse(fmt::format("{} has passes {}..{}, too", other.path, both->first, both->last));
     merged.passes.add(passes);
     merged.seconds += std::strtod(value_of(file.metadata(), "nephroid:seconds").c_str(), nullptr);
     history += value_of(file.metadata(), "nephroid:history");
@@ -51,6 +53,12 @@ Merged merge_pictures(const std::vector<std::string>& inputs, const std::string&
             warning_of_instruction_sets(file, first.metadata(), "in " + first.path()))
       merged.warnings.push_back(*warning);
     sets = joined_instruction_sets(sets, instruction_sets_of(file.metadata()));
+  }
+  for (uint32_t pass = 0; const PassRange& range : merged.passes.ranges()) {
+    if (range.first > pass)
+      merged.warnings.push_back(
+          fmt::format("passes {}..{} are in none of the pictures", pass, range.first - 1));
+    pass = range.last + 1;
   }
   Film sum = film_of(first);
   for (const Input& input : files) {

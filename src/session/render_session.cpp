@@ -270,14 +270,18 @@ void RenderSession::write_last_picture(bool with_state) {
     const std::string random_letters(6, 'X');  // that mkdtemp puts in their place
     std::string directory =
         (fs::path(options_.rescue_directory) / ("nephroid-" + random_letters)).string();
-    if (options_.rescue_directory.empty() || ::mkdtemp(directory.data()) == nullptr) throw;
+    const auto lost = [&] {
+      return IoError(fmt::format("{}; it cannot be put into '{}' either, the picture is lost",
+                                 error.what(), options_.rescue_directory));
+    };
+    if (options_.rescue_directory.empty() || ::mkdtemp(directory.data()) == nullptr) throw lost();
     const fs::path rescue = fs::path(directory) / fs::path(options_.output).filename();
     try {
       write_exr_file(rescue.string(), with_state);
     } catch (const IoError&) {
       std::error_code ignored;
       fs::remove_all(directory, ignored);
-      throw error;
+      throw lost();
     }
     throw IoError(fmt::format("{}; the picture is in {}", error.what(), rescue.string()));
   }

@@ -18,6 +18,12 @@ void set_action(int signal, void (*handler)(int)) {
   sigaction(signal, &action, nullptr);
 }
 
+auto action_of(int signal) {
+  struct sigaction action = {};
+  sigaction(signal, nullptr, &action);
+  return action.sa_handler;
+}
+
 void ask_to_stop(int signal) {
   requests.stop.store(signal);
   set_action(SIGINT, SIG_DFL);
@@ -40,11 +46,13 @@ SignalListener::SignalListener() {
 void SignalListener::note_stops() {
   set_action(SIGINT, ask_to_stop);
   set_action(SIGTERM, ask_to_stop);
+  if (action_of(SIGHUP) != SIG_IGN) set_action(SIGHUP, ask_to_stop);
 }
 
 SignalListener::~SignalListener() {
   set_action(SIGINT, SIG_DFL);
   set_action(SIGTERM, SIG_DFL);
+  if (action_of(SIGHUP) != SIG_IGN) set_action(SIGHUP, SIG_DFL);
   set_action(SIGUSR1, SIG_DFL);
   set_action(SIGPIPE, SIG_DFL);
   set_action(SIGXFSZ, SIG_DFL);

@@ -12,11 +12,11 @@ struct SignalFlags {
   std::atomic<bool> write{false};  ///< a picture is wanted now
 };
 
-/// While it lives, SIGUSR1 sets `write` in flags(), and from note_stops() on SIGINT and SIGTERM set
-/// `stop`. Before, while there is nothing to write yet, these two end the program, and so does a
-/// SIGINT after the first request to stop; a second SIGTERM, which supervisors send to a process
-/// and to its group, does not. A log that nobody reads any more and files that grow too large are
-/// errors of writing and no signals.
+/// While it lives, SIGUSR1 sets `write` in flags(), and from note_stops() on SIGINT, SIGTERM and
+/// SIGHUP (unless it is ignored, as by nohup) set `stop`. Before, while there is nothing to write
+/// yet, these end the program, and so does a SIGINT after the first request to stop; a second
+/// SIGTERM, which supervisors send to a process and to its group, does not. A log that nobody reads
+/// any more and files that grow too large are errors of writing and no signals.
 class SignalListener {
  public:
   SignalListener();

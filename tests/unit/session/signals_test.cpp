@@ -50,6 +50,24 @@ TEST(Signals, ASecondTerminationChangesNothing) {
   EXPECT_EQ(listener.flags().stop.load(), SIGTERM);
 }
 
+TEST(Signals, ATerminalThatClosesStopsUnlessItIsIgnored) {
+  {
+    SignalListener listener;
+    listener.note_stops();
+    std::raise(SIGHUP);
+    EXPECT_EQ(listener.flags().stop.load(), SIGHUP);
+  }
+  std::signal(SIGHUP, SIG_IGN);
+  {
+    SignalListener listener;
+    listener.note_stops();
+    std::raise(SIGHUP);
+    EXPECT_EQ(listener.flags().stop.load(), 0);
+  }
+  std::raise(SIGHUP);  // still ignored
+  std::signal(SIGHUP, SIG_DFL);
+}
+
 TEST(Signals, WritingToNobodyIsNoSignal) {
   const SignalListener listener;
   std::raise(SIGPIPE);
