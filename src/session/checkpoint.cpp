@@ -109,7 +109,7 @@ std::optional<std::string> warning_of_instruction_sets(const StateFile& file,
 }
 
 Checkpoint go_on_from(const std::string& path, const Metadata& here, const Scene& scene,
-                      Preset& preset, Film& film) {
+                      Preset& preset, Film& film) try {
   const std::string purpose = "go on from it";
   StateFile file(path);
   const PassRanges passes = passes_of(file, purpose);
@@ -124,6 +124,8 @@ Checkpoint go_on_from(const std::string& path, const Metadata& here, const Scene
   if (auto warning = warning_of_instruction_sets(file, here, "here"))
     checkpoint.warnings.push_back(std::move(*warning));
   return checkpoint;
+} catch (const IoError& error) {
+  throw IoError(std::string(error.what()) + "; without --resume the render starts anew");
 }
 
 }  // namespace nephroid
