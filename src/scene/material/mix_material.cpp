@@ -1,6 +1,8 @@
 // The materials "mix", which is one of two others at each point, and "interface", which is nothing.
 // Who calls it: the table. It must not know what it mixes.
+#include <algorithm>
 #include <bit>
+#include <string>
 
 #include "core/sampler.h"
 #include "scene/material/inputs.h"
@@ -18,7 +20,15 @@ class MixMaterial final : public Material {
       throw SceneError(names ? names->where : d.where,
                        "\"mix\" has " + std::to_string(names ? names->strings.size() : size_t{0}) +
                            " names in \"string materials\", expected two");
-    for (int i = 0; i < 2; ++i) materials_[i] = c.named(names->strings[i], names->where);
+    for (int i = 0; i < 2; ++i) {
+      materials_[i] = c.named(names->strings[i], names->where);
+      if (const auto* mix = dynamic_cast<const MixMaterial*>(materials_[i].get()))
+        depth_ = std::max(depth_, mix->depth_ + 1);
+    }
+    if (depth_ > kDeepest)
+      throw SceneError(names->where, "\"mix\" within \"mix\" is nested more than " +
+                                         std::to_string(kDeepest) +
+                                         " deep, expected a mixture of fewer");
   }
 
   const Material* resolve(const SurfaceInteraction& point) const override {
@@ -57,6 +67,9 @@ class MixMaterial final : public Material {
   }
 
  private:
+  /// presence() asks both materials of each: as many as a power of two.
+  static constexpr int kDeepest = 16;
+
   float hash(const SurfaceInteraction& s) const {
     uint64_t h = salt_;
     for (const float x : {s.p.x, s.p.y, s.p.z, s.wo.x, s.wo.y, s.wo.z})
@@ -66,6 +79,7 @@ class MixMaterial final : public Material {
 
   FloatInput amount_;
   MaterialPtr materials_[2];
+  int depth_ = 1;  ///< of mixtures in each other
   uint64_t salt_;  ///< keeps the choices of nested mixes apart
 };
 
