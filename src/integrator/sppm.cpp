@@ -88,6 +88,8 @@ void Sppm::update(Gathered& gathered, std::span<const uint64_t> counts, Film& fi
   float smallest = kInfinity, largest = 0;
   for (size_t first = 0; first < regions_.size(); first += regions_in_pixel_) {
     sums.assign(parts, {});
+    const int index = static_cast<int>(first / regions_in_pixel_);
+    const Vec2i pixel(b.x0 + index % b.width(), b.y0 + index / b.width());
     for (size_t i = first; i < first + regions_in_pixel_; ++i) {
       SharedStatistics& region = regions_[i];
       if (!(region.radius_squared > 0)) continue;
@@ -102,9 +104,7 @@ void Sppm::update(Gathered& gathered, std::span<const uint64_t> counts, Film& fi
         return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
       });
       if (bad != estimate.end()) {
-        const int at = static_cast<int>(first / regions_in_pixel_);
-        film.count_bad(group, static_cast<size_t>(bad - estimate.begin()),
-                       {b.x0 + at % b.width(), b.y0 + at / b.width()});
+        film.count_bad(group, static_cast<size_t>(bad - estimate.begin()), pixel);
         std::ranges::fill(estimate, Rgb{});
       }
       const double found = bad == estimate.end() ? static_cast<double>(counts[i]) : 0.0;
@@ -127,8 +127,7 @@ void Sppm::update(Gathered& gathered, std::span<const uint64_t> counts, Film& fi
     for (size_t k = 0; k < parts; ++k)
       values[k] = {static_cast<float>(sums[k][0]), static_cast<float>(sums[k][1]),
                    static_cast<float>(sums[k][2])};
-    const int pixel = static_cast<int>(first / regions_in_pixel_);
-    film.replace(group, b.x0 + pixel % b.width(), b.y0 + pixel / b.width(), values);
+    film.replace(group, pixel.x, pixel.y, values);
   }
   statistics_.radius_min_pixels = largest > 0 ? smallest : 0;
   statistics_.radius_max_pixels = largest;

@@ -25,19 +25,13 @@ void for_each_shape(const Scene& scene, const Visit& visit) {
   for (const auto& group : scene.moving_shapes) each(*group);
 }
 
-// Adds to `found`, by index, the materials that may stand for `material` at a point. Mixtures of
-// mixtures may be deeper than the stack.
+// Adds to `found`, by index, the materials that may stand for `material` at a point.
 void add_guises(const Material& material, std::vector<bool>& visited, std::vector<bool>& found) {
-  std::vector<const Material*> waiting{&material};
-  while (!waiting.empty()) {
-    const Material& next = *waiting.back();
-    waiting.pop_back();
-    const auto index = static_cast<size_t>(next.index());
-    if (visited[index]) continue;
-    visited[index] = true;
-    if (!next.is_mix()) found[index] = true;
-    for (const MaterialPtr& choice : next.choices()) waiting.push_back(choice.get());
-  }
+  const auto index = static_cast<size_t>(material.index());
+  if (visited[index]) return;
+  visited[index] = true;
+  if (!material.is_mix()) found[index] = true;
+  for (const MaterialPtr& choice : material.choices()) add_guises(*choice, visited, found);
 }
 
 // Which of a scene's materials scatter, by what they are on.

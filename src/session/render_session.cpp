@@ -271,8 +271,9 @@ void RenderSession::write_last_picture(bool with_state) {
     std::string directory =
         (fs::path(options_.rescue_directory) / ("nephroid-" + random_letters)).string();
     const auto lost = [&] {
-      return IoError(fmt::format("{}; it cannot be put into '{}' either, the picture is lost",
-                                 error.what(), options_.rescue_directory));
+      return IoError(
+          fmt::format("{}; nor into '{}': what was rendered since it was last written is lost",
+                      error.what(), options_.rescue_directory));
     };
     if (options_.rescue_directory.empty() || ::mkdtemp(directory.data()) == nullptr) throw lost();
     const fs::path rescue = fs::path(directory) / fs::path(options_.output).filename();

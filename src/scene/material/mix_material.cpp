@@ -67,7 +67,7 @@ class MixMaterial final : public Material {
   }
 
  private:
-  /// presence() asks both materials of each: as many as a power of two.
+  /// What asks both materials of each asks a power of two of them, and recurses.
   static constexpr int kDeepest = 16;
 
   float hash(const SurfaceInteraction& s) const {
