@@ -51,6 +51,7 @@ void TokenStream::push(const Token& file_name, bool is_scope) {
   file.canonical_path = canonical(file.shown_path);
   file.is_scope = is_scope;
   check_nesting(file_name, file);
+  ++files_included_;
   std::string text;
   try {
     text = files_of_scene_.read(file.shown_path);
@@ -72,6 +73,10 @@ void TokenStream::check_nesting(const Token& file_name, const OpenFile& file) co
                                             std::to_string(kMaxDepth) +
                                             " deep: " + chain_to(file.shown_path));
   }
+  if (files_included_ >= kMaxFiles)
+    throw SceneError(file_name.where(), "more than " + std::to_string(kMaxFiles) +
+                                            " files are included in all, expected fewer: " +
+                                            chain_to(file.shown_path));
 }
 
 std::string TokenStream::chain_to(const std::string& last) const {

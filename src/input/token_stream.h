@@ -16,6 +16,9 @@ class TokenStream {
  public:
   /// How deep files may include each other.
   static constexpr size_t kMaxDepth = 64;
+  /// How many files may be included in all: files that include the next one twice each would be
+  /// read 2^64 times.
+  static constexpr size_t kMaxFiles = 65536;
 
   /// Names in directives are found in `files`, which must outlive the stream.
   explicit TokenStream(SceneFiles& files) : files_of_scene_(files) {}
@@ -27,7 +30,7 @@ class TokenStream {
 
   /// Continues with the file that the string token `file_name` of a directive names; when it ends,
   /// the stream goes on behind the directive (Include). Throws SceneError at the token if the file
-  /// cannot be read, includes itself or is nested too deeply.
+  /// cannot be read, includes itself, is nested too deeply or one of too many.
   void include(const Token& file_name);
   /// The same, but the stream stops with kEnd at the end of the file, until leave() (Import).
   void enter(const Token& file_name);
@@ -55,6 +58,7 @@ class TokenStream {
 
   SceneFiles& files_of_scene_;
   std::vector<OpenFile> files_;
+  size_t files_included_ = 0;
   Token ahead_;
   bool has_ahead_ = false;
 };

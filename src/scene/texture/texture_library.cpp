@@ -1,6 +1,8 @@
 // The named textures of a scene: made once, in dependency order, found by name. See texture.h.
+#include <algorithm>
 #include <array>
 #include <exception>
+#include <vector>
 
 #include "scene/texture/texture_table.h"
 
@@ -10,6 +12,21 @@ namespace {
 
 constexpr SpectrumKind kKinds[] = {SpectrumKind::kAlbedo, SpectrumKind::kUnbounded,
                                    SpectrumKind::kIlluminant};
+
+/// What one look at a texture asks for, at most.
+struct TextureCost {
+  int depth = 1;     ///< textures in each other, which recurse
+  double looks = 1;  ///< at textures in all; those that are used twice count twice
+
+  void add(const TextureCost& part) {
+    depth = std::max(depth, part.depth + 1);
+    looks += part.looks;
+  }
+};
+/// More overflow the stack, or, with a texture that mixes the one before it with itself and so on,
+/// never come to an end.
+constexpr int kDeepest = 256;
+constexpr double kMostLooks = 10000;
 
 /// A texture that is made when somebody first asks for it.
 template <class Ptr>
@@ -93,8 +110,8 @@ struct TextureLibrary::Impl final : TextureScope {
           spectra_.count(name)
               ? "texture \"" + name + "\" is a spectrum texture, expected a float one"
               : "there is no float texture named \"" + name + "\", expected the name of a Texture");
-    return it->second.get(
-        where, [this](const TextureDescription& d) { return make_float_texture(d, *this); });
+    return get(it->second, where,
+               [this](const TextureDescription& d) { return make_float_texture(d, *this); });
   }
 
   const SpectrumTexturePtr& find_spectrum(const std::string& name, SpectrumKind kind,
@@ -106,8 +123,47 @@ struct TextureLibrary::Impl final : TextureScope {
                            ? "texture \"" + name + "\" is a float texture, expected a spectrum one"
                            : "there is no spectrum texture named \"" + name +
                                  "\", expected the name of a Texture");
-    return it->second[static_cast<size_t>(kind)].get(
-        where, [&](const TextureDescription& d) { return make_spectrum_texture(d, kind, *this); });
+    return get(it->second[static_cast<size_t>(kind)], where,
+               [&](const TextureDescription& d) { return make_spectrum_texture(d, kind, *this); });
+  }
+
+  /// The slot's texture, which adds its cost to the one that is being made and asks for it.
+  template <class Ptr, class Make>
+  const Ptr& get(Slot<Ptr>& slot, const SourceLocation& where, Make&& make) {
+    const Ptr& texture =
+        slot.get(where, [&](const TextureDescription& d) { return make_bounded(d, make); });
+    if (!in_progress_.empty()) in_progress_.back().add(costs_.at(texture.get()));
+    return texture;
+  }
+
+  /// Makes a texture; throws SceneError at its directive if a look at it would ask for too much.
+  template <class Make>
+  auto make_bounded(const TextureDescription& d, Make&& make) {
+    struct InProgress {
+      std::vector<TextureCost>& costs;
+      explicit InProgress(std::vector<TextureCost>& c) : costs(c) { costs.emplace_back(); }
+      ~InProgress() { costs.pop_back(); }
+    } const in_progress(in_progress_);
+    check_depth(d, static_cast<int>(in_progress_.size()));
+    auto texture = make(d);
+    const TextureCost cost = texture->constant() ? TextureCost() : in_progress_.back();
+    check_depth(d, cost.depth);
+    if (cost.looks > kMostLooks)
+      throw SceneError(d.where, "texture \"" + d.name + "\" is made of more than " +
+                                    std::to_string(static_cast<int>(kMostLooks)) +
+                                    " textures, each counted as often as it is used, expected "
+                                    "fewer");
+    // It may be one of its parts, times 1.
+    costs_.try_emplace(texture.get(), cost);
+    return texture;
+  }
+
+  static void check_depth(const TextureDescription& d, int depth) {
+    if (depth > kDeepest)
+      throw SceneError(d.where, "texture \"" + d.name +
+                                    "\" is one of textures in each other more "
+                                    "than " +
+                                    std::to_string(kDeepest) + " deep, expected fewer");
   }
 
   /// The only string of a texture reference.
@@ -153,6 +209,8 @@ struct TextureLibrary::Impl final : TextureScope {
   ImageCache images_;
   std::map<std::string, Slot<FloatTexturePtr>> floats_;
   std::map<std::string, std::array<Slot<SpectrumTexturePtr>, 3>> spectra_;
+  std::vector<TextureCost> in_progress_;      ///< of textures that are being made, parts last
+  std::map<const void*, TextureCost> costs_;  ///< by texture; those in the slots are kept
 };
 
 TextureLibrary::TextureLibrary(const SceneDescription& description, Diagnostics& diagnostics,

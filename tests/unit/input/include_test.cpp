@@ -158,6 +158,18 @@ TEST_F(IncludeTest, TheSameFileTwiceIsNoCycle) {
   EXPECT_EQ(parse_file("scene.pbrt").shapes.size(), 2u);
 }
 
+TEST_F(IncludeTest, TheNumberOfFilesIsLimited) {
+  // Each file has the next one twice.
+  constexpr int kLast = 40;
+  for (int i = 0; i < kLast; ++i) {
+    const std::string next = "Include \"" + std::to_string(i + 1) + ".pbrt\"\n";
+    directory_.write(std::to_string(i) + ".pbrt", (i == 0 ? "WorldBegin\n" : "") + next + next);
+  }
+  directory_.write(std::to_string(kLast) + ".pbrt", "");
+  EXPECT_NE(file_error("0.pbrt").find("more than 65536 files are included in all"),
+            std::string::npos);
+}
+
 TEST_F(IncludeTest, DepthIsLimited) {
   const auto chain = [this](int depth) {
     directory_.write("0.pbrt", "WorldBegin Include \"1.pbrt\"");

@@ -151,6 +151,40 @@ TEST(TextureLibrary, ResolvesNamesInAnyOrder) {
   EXPECT_EQ(t.number("a")->constant(), 6.0f);
 }
 
+/// "t0", and `count` textures of a class, each made of the one before it.
+std::string chain_of(int count, const std::string& values, const std::string& rest) {
+  std::string text = "Texture \"t0\" \"" + values + "\" \"checkerboard\"\n";
+  for (int i = 1; i <= count; ++i) {
+    const std::string last = "\"t" + std::to_string(i - 1) + "\"";
+    text += "Texture \"t" + std::to_string(i) + "\" \"" + values + "\" ";
+    for (const char c : rest) text += c == '@' ? last : std::string(1, c);
+    text += "\n";
+  }
+  return text;
+}
+
+TEST(TextureLibrary, BoundsWhatOneLookAsksFor) {
+  const std::string one = "\"mix\" \"texture tex1\" @";
+  const std::string both = one + " \"texture tex2\" @";
+  const std::string itself = "\"scale\" \"texture tex\" @";
+  for (const std::string values : {"float", "spectrum"}) {
+    SCOPED_TRACE(values);
+    EXPECT_EQ(error_of(chain_of(255, values, one)), "no error");
+    EXPECT_NE(error_of(chain_of(256, values, one)).find("more than 256 deep"), std::string::npos);
+    // 1, 3, 7, ... 8191 textures.
+    EXPECT_EQ(error_of(chain_of(12, values, both)), "no error");
+    EXPECT_NE(error_of(chain_of(13, values, both)).find("\"t13\" is made of more than 10000"),
+              std::string::npos);
+    EXPECT_EQ(error_of(chain_of(20000, values, itself)), "no error") << "each is the one before it";
+  }
+  std::string backwards;
+  for (int i = 0; i < 20000; ++i)
+    backwards += "Texture \"t" + std::to_string(i) + "\" \"float\" \"scale\" \"texture tex\" \"t" +
+                 std::to_string(i + 1) + "\"\n";
+  backwards += "Texture \"t20000\" \"float\" \"constant\"";
+  EXPECT_NE(error_of(backwards).find("more than 256 deep"), std::string::npos);
+}
+
 TEST(TextureLibrary, ErrorsNameThePlace) {
   EXPECT_EQ(error_of(R"(Texture "a" "float" "scale" "texture tex" "b")").find("t.pbrt:2:"), 0u);
   EXPECT_NE(error_of(R"(Texture "a" "float" "scale" "texture tex" "b")").find("named \"b\""),
