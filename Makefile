@@ -28,14 +28,17 @@ check:
 	@python3 tools/check_layers.py
 
 # All tests (of those with most passes one in 24, the next ones with SHARD=1 ...) under address,
-# undefined behaviour and thread sanitizers.
+# undefined behaviour and thread sanitizers; or those that TESTS names ("unit_core unit_input").
 SHARD ?= 0
+TESTS ?=
+empty :=
 sanitize: asan tsan
 
 asan tsan: deps
 	@cmake --preset $@ -DNEPHROID_SANITIZED_SHARD=$(SHARD) >/dev/null
-	@cmake --build --preset $@
-	ctest --test-dir build/$@ --output-on-failure -j $$(nproc)
+	@cmake --build --preset $@ $(if $(TESTS),--target $(TESTS:%=test_%))
+	ctest --test-dir build/$@ --output-on-failure -j $$(nproc) \
+	  $(if $(TESTS),-R '^($(subst $(empty) $(empty),|,$(strip $(TESTS))))$$')
 
 # Each fuzzer for FUZZ_TIME seconds (docs/reliability.md); needs clang. What they learn stays in
 # build/fuzz/corpus, what they find in build/fuzz/found. OpenImageIO loses the text of an error of libpng.

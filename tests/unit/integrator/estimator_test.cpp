@@ -205,5 +205,39 @@ TEST(Integrators, ALimitBoundsEveryPixel) {
   }
 }
 
+TEST(Integrators, APixelOfSharedStatisticsGoesOnAfterAPassThatIsNotFinite) {
+  // So bright that the sum over some photons is infinite in about a third of all pixels of a pass.
+  // If that stayed in a pixel's flux, more than half of all passes of pixels would be lost.
+  const auto scene = scene_from_text(R"(
+    LookAt 0 0 -5  0 0 0  0 1 0
+    Camera "perspective" "float fov" 30
+    Film "rgb" "integer xresolution" 24 "integer yresolution" 24
+         "float maxcomponentvalue" 1 "float iso" 5e11
+    WorldBegin
+    LightSource "point" "point3 from" [0 0 -4] "rgb I" [1e28 1e28 1e28]
+    Material "diffuse"
+    Shape "disk" "float radius" 2
+  )");
+  constexpr int kPasses = 8, kPixels = 24 * 24;
+  IntegratorOptions options;
+  options.photons_per_pass = 4000;
+  const Film film = render(*scene, "sppm", options, 1, kPasses);
+  uint64_t lost = 0;
+  int dark = 0;
+  for (size_t r = 0; r < film.layout().routes.size(); ++r)
+    lost += film.bad_estimates(static_cast<int>(r)).count;
+  EXPECT_GT(lost, uint64_t{kPasses * kPixels / 10});
+  EXPECT_LT(lost, uint64_t{kPasses * kPixels / 2});
+  for (int y = 0; y < 24; ++y)
+    for (int x = 0; x < 24; ++x) {
+      Rgb sum;
+      for (size_t r = 0; r < film.layout().routes.size(); ++r)
+        sum = sum + film.route_value(static_cast<int>(r), x, y);
+      EXPECT_TRUE(std::isfinite(sum[0] + sum[1] + sum[2])) << x << "," << y;
+      dark += sum[0] > 0 ? 0 : 1;
+    }
+  EXPECT_LT(dark, kPixels / 10);
+}
+
 }  // namespace
 }  // namespace nephroid
