@@ -8,10 +8,12 @@ namespace nephroid {
 
 /// [E2] Knaus & Zwicker 2011: r(i)^2 / r(1)^2 for pass i = `pass` + 1, that is the product of
 /// (k + alpha)/(k + 1) over k = 1 .. i-1. In closed form Gamma(i + alpha) / (Gamma(1 + alpha) i!),
-/// so that any pass is as cheap as the first.
+/// so that any pass is as cheap as the first. (std::lgamma would write to the global `signgam`.)
 inline double memoryless_radius_squared(uint32_t pass, double alpha) {
   const double i = static_cast<double>(pass) + 1.0;
-  return std::exp(std::lgamma(i + alpha) - std::lgamma(1.0 + alpha) - std::lgamma(i + 1.0));
+  int sign = 0;
+  return std::exp(::lgamma_r(i + alpha, &sign) - ::lgamma_r(1.0 + alpha, &sign) -
+                  ::lgamma_r(i + 1.0, &sign));
 }
 
 /// [E1] Hachisuka & Jensen 2009: what a pixel's region shares over passes, but for the flux tau.
