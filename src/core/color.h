@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <span>
@@ -18,6 +19,7 @@ struct Rgb {
   float operator[](int i) const { return i == 0 ? r : i == 1 ? g : b; }
   Rgb operator+(const Rgb& o) const { return {r + o.r, g + o.g, b + o.b}; }
   Rgb operator*(float c) const { return {r * c, g * c, b * c}; }
+  bool is_finite() const { return std::isfinite(r) && std::isfinite(g) && std::isfinite(b); }
 };
 struct Xyz {
   float x = 0, y = 0, z = 0;

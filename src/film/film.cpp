@@ -13,10 +13,6 @@
 namespace nephroid {
 namespace {
 
-bool is_finite(const Rgb& c) {
-  return std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b);
-}
-
 Rgb to_rgb(const double (&v)[3]) {
   return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
 }
@@ -219,7 +215,7 @@ void Film::count_saturated(uint64_t sums) {
 
 bool Film::is_bad(int group, int x, int y, std::span<const Rgb> values) {
   for (size_t part = 0; part < values.size(); ++part)
-    if (!is_finite(values[part])) {
+    if (!values[part].is_finite()) {
       count_bad(group, part, {x, y});
       return true;
     }

@@ -172,7 +172,7 @@ class Film {
   /// Estimates that were not finite; the route is that of the first part that was not.
   const BadEstimates& bad_estimates(int route) const { return bad_[static_cast<size_t>(route)]; }
   uint64_t bad_values() const;
-  /// Sums that reached their limit.
+  /// Sums that reached their limit, and features and biases that were not finite.
   uint64_t saturated_values() const { return counts_.saturated; }
 
  private:

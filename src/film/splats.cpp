@@ -30,8 +30,7 @@ Range pixels_around(double x, double radius, int lowest, int highest) {
 }
 
 bool is_usable(const Splat& splat) {
-  return std::isfinite(splat.value.r) && std::isfinite(splat.value.g) &&
-         std::isfinite(splat.value.b) && !std::isnan(splat.film.x) && !std::isnan(splat.film.y);
+  return splat.value.is_finite() && !std::isnan(splat.film.x) && !std::isnan(splat.film.y);
 }
 
 /// A pixel that no film has, if the point is at NaN or far away.

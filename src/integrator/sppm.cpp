@@ -100,9 +100,7 @@ void Sppm::update(Gathered& gathered, std::span<const uint64_t> counts, Film& fi
       PartSums::clamp_total(estimate,
                             film.settings().max_component * static_cast<float>(area_of_pass));
       // What is no number would stay in the sum for ever: it is as if no photon had been found.
-      const auto bad = std::ranges::find_if_not(estimate, [](const Rgb& v) {
-        return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
-      });
+      const auto bad = std::ranges::find_if_not(estimate, &Rgb::is_finite);
       if (bad != estimate.end()) {
         film.count_bad(group, static_cast<size_t>(bad - estimate.begin()), pixel);
         std::ranges::fill(estimate, Rgb{});

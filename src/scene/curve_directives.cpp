@@ -77,8 +77,9 @@ void set_widths(const ParameterSet& p, std::vector<CurveSegment>& segments) {
   const float ends[] = {p.get_float("width0", width), p.get_float("width1", width)};
   for (const float w : ends)
     if (!(w >= 0.0f && w <= kLargestCoordinate))
-      throw SceneError(p.where,
-                       "a width of this curve is negative or no number, expected 0 or more");
+      throw SceneError(
+          p.where,
+          "a width of this curve is negative, beyond 1e17 or no number, expected 0 to 1e17");
   const float count = static_cast<float>(segments.size());
   for (size_t i = 0; i < segments.size(); ++i) {
     segments[i].width0 = lerp(static_cast<float>(i) / count, ends[0], ends[1]);
