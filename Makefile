@@ -51,8 +51,9 @@ fuzz: deps
 	  mkdir -p build/fuzz/corpus/$$target build/fuzz/found; \
 	  dict=tests/fuzz/$$target.dict; \
 	  case $$target in image|environment) leaks=0 ;; *) leaks=1 ;; esac; \
-	  build/fuzz/bin/fuzz_$$target -max_total_time=$(FUZZ_TIME) -timeout=60 -rss_limit_mb=2048 \
-	    -max_len=16384 $$(test -f $$dict && echo -dict=$$dict) -detect_leaks=$$leaks \
+	  ASAN_OPTIONS=detect_leaks=$$leaks build/fuzz/bin/fuzz_$$target \
+	    -max_total_time=$(FUZZ_TIME) -timeout=60 -rss_limit_mb=2048 -max_len=16384 \
+	    $$(test -f $$dict && echo -dict=$$dict) \
 	    -artifact_prefix=build/fuzz/found/$$target- \
 	    -print_final_stats=1 build/fuzz/corpus/$$target tests/fuzz/corpus/$$target || exit 1; \
 	done

@@ -8,7 +8,7 @@ set(NEPHROID_SANITIZED_SHARD 0 CACHE STRING "Which of the tests with most passes
 set(sanitized_shards_agreement 24)
 set(sanitized_shards_statistical 24)
 set(sanitized_shards_analytic 12)
-set(sanitized_shards_unit_integrator 4)
+set(sanitized_shards_unit_integrator 12)
 set(sanitizer_environment
     "ASAN_OPTIONS=detect_stack_use_after_return=1"
     "UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1"

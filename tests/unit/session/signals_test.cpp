@@ -8,7 +8,16 @@
 namespace nephroid {
 namespace {
 
-TEST(Signals, StopAndWriteAreNoted) {
+/// What started the tests may ignore some of them: nohup, a shell in the background.
+class Signals : public testing::Test {
+ protected:
+  void SetUp() override {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
+  }
+};
+using SignalsDeathTest = Signals;
+
+TEST_F(Signals, StopAndWriteAreNoted) {
   SignalListener listener;
   listener.note_stops();
   EXPECT_EQ(listener.flags().stop.load(), 0);
@@ -19,7 +28,7 @@ TEST(Signals, StopAndWriteAreNoted) {
   EXPECT_EQ(listener.flags().stop.load(), SIGTERM);
 }
 
-TEST(Signals, ANewListenerStartsAfresh) {
+TEST_F(Signals, ANewListenerStartsAfresh) {
   {
     SignalListener listener;
     listener.note_stops();
@@ -30,7 +39,7 @@ TEST(Signals, ANewListenerStartsAfresh) {
   EXPECT_EQ(listener.flags().stop.load(), 0);
 }
 
-TEST(SignalsDeathTest, TheSecondInterruptKills) {
+TEST_F(SignalsDeathTest, TheSecondInterruptKills) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   const auto twice = [](int first, int second) {
     SignalListener listener;
@@ -42,7 +51,7 @@ TEST(SignalsDeathTest, TheSecondInterruptKills) {
   EXPECT_EXIT(twice(SIGTERM, SIGINT), testing::KilledBySignal(SIGINT), "");
 }
 
-TEST(Signals, ASecondTerminationChangesNothing) {
+TEST_F(Signals, ASecondTerminationChangesNothing) {
   SignalListener listener;
   listener.note_stops();
   std::raise(SIGTERM);
@@ -50,7 +59,7 @@ TEST(Signals, ASecondTerminationChangesNothing) {
   EXPECT_EQ(listener.flags().stop.load(), SIGTERM);
 }
 
-TEST(Signals, ATerminalThatClosesStopsUnlessItIsIgnored) {
+TEST_F(Signals, ATerminalThatClosesStopsUnlessItIsIgnored) {
   {
     SignalListener listener;
     listener.note_stops();
@@ -68,13 +77,13 @@ TEST(Signals, ATerminalThatClosesStopsUnlessItIsIgnored) {
   std::signal(SIGHUP, SIG_DFL);
 }
 
-TEST(Signals, WritingToNobodyIsNoSignal) {
+TEST_F(Signals, WritingToNobodyIsNoSignal) {
   const SignalListener listener;
   std::raise(SIGPIPE);
   std::raise(SIGXFSZ);
 }
 
-TEST(SignalsDeathTest, BeforeThereIsSomethingToWriteTheFirstOneKills) {
+TEST_F(SignalsDeathTest, BeforeThereIsSomethingToWriteTheFirstOneKills) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   const auto early = [](int signal) {
     const SignalListener listener;
