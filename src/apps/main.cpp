@@ -63,6 +63,7 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     return fail(ExitStatus::kRender, "out of memory");
   } catch (const std::exception& error) {
+    if (std::ferror(stdout)) return fail(ExitStatus::kInputOutput, "standard output: cannot write");
     return fail(ExitStatus::kRender, error.what());
   }
 }

@@ -3,6 +3,7 @@
 #include "film/atomic_file.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -58,6 +59,16 @@ std::string temporary_stem(const fs::path& target) {
          std::string(host, ::strnlen(host, 32)) + "@";
 }
 
+/// Whether nobody writes to a temporary file of this process's number: a process of an earlier
+/// start of the machine or the container may have had it as well.
+bool is_abandoned(const fs::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool abandoned = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+  ::close(descriptor);
+  return abandoned;
+}
+
 /// Removes what processes that were killed while they wrote to the target have left.
 void remove_leftovers(const fs::path& target) {
   const std::string stem = temporary_stem(target);
@@ -70,7 +81,9 @@ void remove_leftovers(const fs::path& target) {
     const char* const digits = name.data() + stem.size();
     const auto [after, wrong] = std::from_chars(digits, name.data() + name.size(), process);
     if (wrong != std::errc() || process <= 0 || *after != '-') continue;
-    if (::kill(process, 0) != 0 && errno == ESRCH) ::unlink(i->path().c_str());
+    const bool is_dead =
+        process == ::getpid() ? is_abandoned(i->path()) : ::kill(process, 0) != 0 && errno == ESRCH;
+    if (is_dead) ::unlink(i->path().c_str());
   }
 }
 
@@ -87,6 +100,7 @@ class TemporaryFile {
       if (descriptor_ >= 0 || errno != EEXIST) break;
     }
     if (descriptor_ < 0) fail(shown_, "write into its directory", errno);
+    ::flock(descriptor_, LOCK_EX | LOCK_NB);
   }
   ~TemporaryFile() {
     if (descriptor_ >= 0) ::close(descriptor_);

@@ -230,7 +230,7 @@ void Film::add_features(int x, int y, const Rgb& albedo, const Vec3f& normal, fl
     fits &= features.albedo[c].add(albedo[c]);
     fits &= features.normal[c].add(normal[c]);
   }
-  if (!(depth <= 0)) {
+  if (!(depth <= 0) && depth != kInfinity) {
     const bool depth_fits = features.depth.add(depth);
     if (depth_fits) ++depths_[pixel];
     fits &= depth_fits;

@@ -45,18 +45,18 @@ void Film::add(const Film& other) {
                         fits &= squares_[g][i].add(other.squares_[g][i]);
                       for (size_t g = 0; g < biases_.size(); ++g) {
                         if (biases_[g].empty()) continue;
-                        biases_[g][i].sum.add(other.biases_[g][i].sum);
-                        biases_[g][i].square.add(other.biases_[g][i].square);
+                        fits &= biases_[g][i].sum.add(other.biases_[g][i].sum);
+                        fits &= biases_[g][i].square.add(other.biases_[g][i].square);
                       }
                       for (int c = 0; c < 3; ++c) {
-                        features_[i].albedo[c].add(other.features_[i].albedo[c]);
-                        features_[i].normal[c].add(other.features_[i].normal[c]);
+                        fits &= features_[i].albedo[c].add(other.features_[i].albedo[c]);
+                        fits &= features_[i].normal[c].add(other.features_[i].normal[c]);
                       }
-                      features_[i].depth.add(other.features_[i].depth);
+                      fits &= features_[i].depth.add(other.features_[i].depth);
                       depths_[i] += other.depths_[i];
                       if (!surfaces_.empty()) {
                         for (size_t k = 0; k < surfaces_[i].size(); ++k)
-                          surfaces_[i][k].add(other.surfaces_[i][k]);
+                          fits &= surfaces_[i][k].add(other.surfaces_[i][k]);
                         surface_samples_[i] += other.surface_samples_[i];
                       }
                       if (!fits) count_saturated(1);

@@ -164,7 +164,7 @@ uint64_t OutlierRejection::held_estimates() const {
   return count;
 }
 
-// Of each pixel of each group that has been used: its number, the fixed part, what it holds.
+// Of each pixel of each group: its number, the fixed part, what it holds.
 size_t OutlierRejection::most_words() const {
   size_t words = 0;
   for (size_t g = 0; g < pixels_.size(); ++g)

@@ -29,8 +29,8 @@ class SceneFiles {
   std::string counted_path_of(const std::string& name);
 
   /// Of all that has been read: the files' contents and, but for the scene's own file, their names
-  /// as seen from the directory, however they are written. The same wherever the directory is, and
-  /// in whatever order the files were read.
+  /// as seen from the directory, however they are written. The same wherever the directory is (if
+  /// absolute names of files elsewhere do not occur), and in whatever order the files were read.
   uint64_t hash() const;
   /// Of all that has been read, the scene's own file apart: path_of finds them.
   std::vector<std::string> names() const;

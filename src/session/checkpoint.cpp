@@ -116,9 +116,14 @@ Checkpoint go_on_from(const std::string& path, const Metadata& here, const Scene
   require_same_render(file, here, "here", purpose);
   file.load(state_of(scene, preset, film));
   const Metadata& metadata = file.metadata();
+  const auto seconds = [&](const char* key) {
+    return std::strtod(value_of(metadata, key).c_str(), nullptr);
+  };
   Checkpoint checkpoint{passes,
-                        std::strtod(value_of(metadata, "nephroid:seconds").c_str(), nullptr),
+                        seconds("nephroid:seconds"),
+                        seconds("nephroid:last_pass_seconds"),
                         value_of(metadata, "nephroid:history"),
+                        value_of(metadata, "nephroid:choices"),
                         instruction_sets_of(metadata),
                         {}};
   if (auto warning = warning_of_instruction_sets(file, here, "here"))

@@ -16,8 +16,10 @@ namespace nephroid {
 /// What has been rendered before.
 struct Checkpoint {
   PassRanges passes;
-  double seconds = 0;   ///< of rendering, all runs together
+  double seconds = 0;  ///< of rendering, all runs together
+  double last_pass_seconds = 0;
   std::string history;  ///< a line for each run
+  std::string choices;  ///< the report of the last run
   std::string instruction_sets;
   std::vector<std::string> warnings;
 };

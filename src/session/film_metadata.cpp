@@ -71,6 +71,8 @@ Film film_of(const StateFile& file) {
     if (bytes > kMostBytesPerByte * static_cast<double>(file.size()))
       throw std::runtime_error("bad window");
     return Film(settings, std::move(layout));
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception&) {
     senseless(file);
   }

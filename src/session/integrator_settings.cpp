@@ -77,17 +77,17 @@ constexpr IntegratorSetting kSettings[] = {
      [](IntegratorOptions& o, const std::string& t) {
        o.radius = number("radius", t, 0, std::numeric_limits<float>::max(), false);
      },
-     [](const IntegratorOptions& o) { return fmt::format("{:g}", o.radius); }},
+     [](const IntegratorOptions& o) { return fmt::format("{}", o.radius); }},
     {"photons", "N", "0", "paths",
      "Photon paths emitted per pass; 0 chooses by the size of the film.",
      [](IntegratorOptions& o, const std::string& t) {
        o.photons_per_pass = integer("photons", t, 0, kNoLimit);
      },
      [](const IntegratorOptions& o) { return fmt::format("{}", o.photons_per_pass); }},
-    {"alpha", "X", "0.6667", "",
+    {"alpha", "X", "0.6666667", "",
      "How fast the merge radius shrinks, above 0 to 1: 1 keeps it, smaller values shrink faster.",
      [](IntegratorOptions& o, const std::string& t) { o.alpha = number("alpha", t, 0, 1, true); },
-     [](const IntegratorOptions& o) { return fmt::format("{:.4g}", o.alpha); }},
+     [](const IntegratorOptions& o) { return fmt::format("{}", o.alpha); }},
     {"specular-alpha", "X or LOW..HIGH", "0.035..0.07", "",
      "Microfacet roughness (after remapping, the larger of both directions) up to which a lobe "
      "counts as specular (S) and not as glossy (G); within a range the passes differ, so that "
@@ -98,8 +98,8 @@ constexpr IntegratorSetting kSettings[] = {
      },
      [](const IntegratorOptions& o) {
        const SpecularBand& band = o.specular_band;
-       return band.low == band.high ? fmt::format("{:g}", band.low)
-                                    : fmt::format("{:g}..{:g}", band.low, band.high);
+       return band.low == band.high ? fmt::format("{}", band.low)
+                                    : fmt::format("{}..{}", band.low, band.high);
      }},
     {"camera-samples", "N", "0", "samples",
      "Camera paths per pixel and pass, up to 65535; 0 lets the integrator choose. In `mixed` also "
@@ -162,7 +162,7 @@ constexpr IntegratorSetting kSettings[] = {
      [](IntegratorOptions& o, const std::string& t) {
        o.mutations = number("mutations", t, 0, std::numeric_limits<float>::max(), false);
      },
-     [](const IntegratorOptions& o) { return fmt::format("{:g}", o.mutations); }},
+     [](const IntegratorOptions& o) { return fmt::format("{}", o.mutations); }},
     {"chain-length", "N", "0", "mutations",
      "After how many mutations a Markov chain gives way to a new one; 0 chooses.",
      [](IntegratorOptions& o, const std::string& t) {
@@ -174,7 +174,7 @@ constexpr IntegratorSetting kSettings[] = {
      [](IntegratorOptions& o, const std::string& t) {
        o.large_step = number("large-step", t, 0, 1, true);
      },
-     [](const IntegratorOptions& o) { return fmt::format("{:g}", o.large_step); }},
+     [](const IntegratorOptions& o) { return fmt::format("{}", o.large_step); }},
     {"guide", "yes|no", "yes", "",
      "Photons of `photons` and `path+photons` start where earlier ones were of use; those of "
      "`photons` also go where these went from rough surfaces.",

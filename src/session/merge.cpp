@@ -40,6 +40,8 @@ Merged merge_pictures(const std::vector<std::string>& inputs, const std::string&
     const auto refuse = [&name = file.path()](const std::string& why) {
       throw UsageError(name + ": cannot " + kPurpose + ": " + why);
     };
+    if (value_of(file.metadata(), "nephroid:outliers") == "reject")
+      refuse("with --outliers reject passes depend on each other; --resume goes on with it");
     if (!passes_add_up(file))
       refuse("passes of this integrator cannot be added up; --resume goes on with it");
     if (merged.passes.overlap(passes))
@@ -73,8 +75,9 @@ Merged merge_pictures(const std::vector<std::string>& inputs, const std::string&
   Metadata metadata;
   for (const auto& [key, value] : first.metadata()) {
     const bool of_one_run = key == "nephroid:passes" || key == "nephroid:seconds" ||
-                            key == "nephroid:history" || key == "nephroid:choices" ||
-                            key == kInstructionSetKey || key.starts_with("nephroid:estimates:");
+                            key == "nephroid:last_pass_seconds" || key == "nephroid:history" ||
+                            key == "nephroid:choices" || key == kInstructionSetKey ||
+                            key.starts_with("nephroid:estimates:");
     if (key.starts_with("nephroid:") && !of_one_run) metadata.emplace_back(key, value);
   }
   metadata.emplace_back("nephroid:passes", merged.passes.text());

@@ -36,7 +36,9 @@ std::optional<PassRanges> PassRanges::parse(const std::string& text) {
     const auto first = take_number(rest);
     if (!first || !take(rest, "..")) return std::nullopt;
     const auto last = take_number(rest);
-    if (!last || *last < *first) return std::nullopt;
+    // The greatest number is no pass, so that they can be counted.
+    if (!last || *last < *first || *last == std::numeric_limits<uint32_t>::max())
+      return std::nullopt;
     if (!result.empty() && *first <= result.ranges_.back().last) return std::nullopt;
     result.ranges_.push_back({*first, *last});
   } while (take(rest, ","));
@@ -63,11 +65,10 @@ bool PassRanges::contains(uint32_t pass) const {
                      [&](const PassRange& r) { return r.first <= pass && pass <= r.last; });
 }
 
-std::optional<uint32_t> PassRanges::first_missing(uint32_t from) const {
+uint32_t PassRanges::first_missing(uint32_t from) const {
   for (const PassRange& r : ranges_) {
     if (from < r.first) return from;
     if (from > r.last) continue;
-    if (r.last == std::numeric_limits<uint32_t>::max()) return std::nullopt;
     from = r.last + 1;
   }
   return from;

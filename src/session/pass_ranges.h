@@ -29,7 +29,7 @@ class PassRanges {
   uint64_t count() const;
   bool contains(uint32_t pass) const;
   /// The lowest pass from `from` on that is not in it; empty if all are.
-  std::optional<uint32_t> first_missing(uint32_t from) const;
+  uint32_t first_missing(uint32_t from) const;
   /// What both have; empty if nothing.
   std::optional<PassRange> overlap(const PassRanges& other) const;
 

@@ -81,6 +81,7 @@ RenderSession::RenderSession(const Scene& scene, Preset& preset, Film& film, Ren
   check_fits(preset_, film_, options_);
   done_ = options_.begin_with.passes;
   passes_before_ = passes_done_ = static_cast<uint32_t>(done_.count());
+  last_pass_seconds_ = options_.begin_with.last_pass_seconds;
   if (options_.last_pass)
     passes_wanted_ = *options_.last_pass - options_.first_pass + 1;
   else if (!(options_.time_limit > 0) && !(options_.noise_target > 0))
@@ -110,7 +111,7 @@ RenderResult RenderSession::run(SignalFlags& signals) {
   next_checkpoint_seconds_ = options_.checkpoint_interval;
   RenderResult result;
   std::optional<StopReason> reason;
-  if (passes_done_ > 0) {
+  if (!done_.empty()) {
     // It may have come as far as was wished for.
     if (options_.noise_target > 0 && error_check_is_due()) renew_error();
     reason = reason_to_stop(signals);
@@ -144,10 +145,10 @@ RenderResult RenderSession::run(SignalFlags& signals) {
 }
 
 std::optional<uint32_t> RenderSession::next_pass() const {
-  const std::optional<uint32_t> pass = done_.first_missing(options_.first_pass);
+  const uint32_t pass = done_.first_missing(options_.first_pass);
   constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();  // --passes cannot name it
-  if (!pass || *pass == kNone || (options_.last_pass && *pass > *options_.last_pass) ||
-      (passes_wanted_ && *pass - options_.first_pass >= *passes_wanted_))
+  if (pass == kNone || (options_.last_pass && pass > *options_.last_pass) ||
+      (passes_wanted_ && pass - options_.first_pass >= *passes_wanted_))
     return std::nullopt;
   return pass;
 }
@@ -313,14 +314,33 @@ void RenderSession::write_exr_file(const std::string& path, bool with_state) {
   }
 }
 
+/// What the program chose, and what is wrong with the picture, a line each.
+std::string RenderSession::choices_text() const {
+  std::string choices;
+  for (const std::string& line :
+       choices_report(first_pass_statistics_, statistics(), passes_of_run()))
+    choices += line + "\n";
+  for (const std::string& note : options_.notes) choices += "note: " + note + "\n";
+  if (error_text_) choices += *error_text_ + "\n";
+  for (const std::string& fault : fault_report(scene_, film_))
+    choices += "warning: " + fault + "\n";
+  return choices;
+}
+
 Metadata RenderSession::picture_metadata() const {
   Metadata metadata = options_.metadata;
+  // Who renders nothing more has nothing to say that the picture does not say already.
+  const bool rendered = passes_of_run() > 0 || done_.empty();
   for (auto& [key, value] : metadata)
-    if (key == kInstructionSetKey)
+    if (key == kInstructionSetKey && rendered)
       value = joined_instruction_sets(options_.begin_with.instruction_sets, value);
+    else if (key == kInstructionSetKey)
+      value = options_.begin_with.instruction_sets;
   metadata.emplace_back("nephroid:seed", fmt::format("{}", options_.seed));
   metadata.emplace_back("nephroid:passes", done_.text());
   metadata.emplace_back("nephroid:seconds", fmt::format("{:.3f}", seconds_of_all_runs()));
+  if (last_pass_seconds_ > 0)
+    metadata.emplace_back("nephroid:last_pass_seconds", fmt::format("{:.6f}", last_pass_seconds_));
   std::string history = options_.begin_with.history;
   if (passes_of_run() > 0)
     history += fmt::format("{} passes in {:.3f} s\n", passes_of_run(), elapsed());
@@ -330,15 +350,8 @@ Metadata RenderSession::picture_metadata() const {
     metadata.emplace_back("nephroid:outlier_estimates",
                           fmt::format("{}", rejection->held_estimates()));
   }
-  std::string choices;
-  for (const std::string& line :
-       choices_report(first_pass_statistics_, statistics(), passes_of_run()))
-    choices += line + "\n";
-  for (const std::string& note : options_.notes) choices += "note: " + note + "\n";
-  if (error_text_) choices += *error_text_ + "\n";
-  for (const std::string& fault : fault_report(scene_, film_))
-    choices += "warning: " + fault + "\n";
-  metadata.emplace_back("nephroid:choices", choices);
+  metadata.emplace_back("nephroid:choices",
+                        rendered ? choices_text() : options_.begin_with.choices);
   const FilmLayout& layout = film_.layout();
   for (size_t r = 0; r < layout.routes.size(); ++r)
     metadata.emplace_back("nephroid:estimates:" + layout.routes[r],

@@ -105,6 +105,7 @@ class RenderSession {
   /// Writes, says what went wrong, and returns when to do it again.
   double write_now(double interval, const std::function<void()>& write);
   std::optional<double> seconds_left(double seconds) const;
+  std::string choices_text() const;
   Metadata picture_metadata() const;
 
   const Scene& scene_;

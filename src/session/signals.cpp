@@ -26,7 +26,13 @@ auto action_of(int signal) {
 
 void ask_to_stop(int signal) {
   requests.stop.store(signal);
-  set_action(SIGINT, SIG_DFL);
+  if (action_of(SIGINT) != SIG_IGN) set_action(SIGINT, SIG_DFL);
+}
+
+/// Whoever started the program may have had them ignored: nohup, a shell in the background.
+void set_stop_actions(void (*handler)(int)) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    if (action_of(signal) != SIG_IGN) set_action(signal, handler);
 }
 
 void ask_to_write(int) {
@@ -44,18 +50,13 @@ SignalListener::SignalListener() {
 }
 
 void SignalListener::note_stops() {
-  set_action(SIGINT, ask_to_stop);
-  set_action(SIGTERM, ask_to_stop);
-  if (action_of(SIGHUP) != SIG_IGN) set_action(SIGHUP, ask_to_stop);
+  set_stop_actions(ask_to_stop);
 }
 
 SignalListener::~SignalListener() {
-  set_action(SIGINT, SIG_DFL);
-  set_action(SIGTERM, SIG_DFL);
-  if (action_of(SIGHUP) != SIG_IGN) set_action(SIGHUP, SIG_DFL);
+  set_stop_actions(SIG_DFL);
   set_action(SIGUSR1, SIG_DFL);
-  set_action(SIGPIPE, SIG_DFL);
-  set_action(SIGXFSZ, SIG_DFL);
+  // SIGPIPE and SIGXFSZ stay errors of writing: why a render failed is still to be said.
 }
 
 SignalFlags& SignalListener::flags() const {

@@ -13,10 +13,10 @@ struct SignalFlags {
 };
 
 /// While it lives, SIGUSR1 sets `write` in flags(), and from note_stops() on SIGINT, SIGTERM and
-/// SIGHUP (unless it is ignored, as by nohup) set `stop`. Before, while there is nothing to write
-/// yet, these end the program, and so does a SIGINT after the first request to stop; a second
+/// SIGHUP (unless they are ignored, as by nohup) set `stop`. Before, while there is nothing to
+/// write yet, these end the program, and so does a SIGINT after the first request to stop; a second
 /// SIGTERM, which supervisors send to a process and to its group, does not. A log that nobody reads
-/// any more and files that grow too large are errors of writing and no signals.
+/// any more and files that grow too large are errors of writing and no signals, from then on.
 class SignalListener {
  public:
   SignalListener();

@@ -25,10 +25,7 @@ class MixMaterial final : public Material {
       if (const auto* mix = dynamic_cast<const MixMaterial*>(materials_[i].get()))
         depth_ = std::max(depth_, mix->depth_ + 1);
     }
-    if (depth_ > kDeepest)
-      throw SceneError(names->where, "\"mix\" within \"mix\" is nested more than " +
-                                         std::to_string(kDeepest) +
-                                         " deep, expected a mixture of fewer");
+    if (depth_ > kDeepestMixture) refuse_deep_mixture(names->where);
   }
 
   const Material* resolve(const SurfaceInteraction& point) const override {
@@ -67,9 +64,6 @@ class MixMaterial final : public Material {
   }
 
  private:
-  /// What asks both materials of each asks a power of two of them, and recurses.
-  static constexpr int kDeepest = 16;
-
   float hash(const SurfaceInteraction& s) const {
     uint64_t h = salt_;
     for (const float x : {s.p.x, s.p.y, s.p.z, s.wo.x, s.wo.y, s.wo.z})
@@ -94,6 +88,12 @@ class InterfaceMaterial final : public Material {
 };
 
 }  // namespace
+
+void refuse_deep_mixture(const SourceLocation& where) {
+  throw SceneError(where, "\"mix\" within \"mix\" is nested more than " +
+                              std::to_string(kDeepestMixture) +
+                              " deep, expected a mixture of fewer");
+}
 
 NewMaterial make_mix(const MaterialDescription& d, const MaterialContext& c) {
   return std::make_shared<MixMaterial>(d, c);

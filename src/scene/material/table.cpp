@@ -173,7 +173,9 @@ class Maker {
         &bssrdf_tables_,
         &measured_files_};
     const MaterialRow& row = row_of(kTable, "material", d.type, d.where);
+    ++being_made_;
     NewMaterial material = row.make(d, context);
+    --being_made_;
     if (settings_.force_diffuse && d.type != "mix" && !material->is_interface())
       material = force_diffuse(material);
     material->set_index(static_cast<int>(index));
@@ -188,6 +190,9 @@ class Maker {
     if (found == by_name_.end())
       throw SceneError(where, "there is no material named \"" + name +
                                   "\", expected the name of a MakeNamedMaterial");
+    // A mixture may name what has not been made yet.
+    if (being_made_ > kDeepestMixture && state_[found->second] == State::kToDo)
+      refuse_deep_mixture(where);
     return make(found->second);
   }
 
@@ -197,6 +202,7 @@ class Maker {
   Diagnostics& diagnostics_;
   std::vector<MaterialPtr> materials_;
   std::vector<State> state_;
+  int being_made_ = 0;  ///< materials that wait for each other
   std::map<std::string, size_t> by_name_;
   CoatTableCache coat_tables_;
   BssrdfTableCache bssrdf_tables_;

@@ -41,6 +41,11 @@ struct MaterialContext {
   MeasuredCache* measured_files = nullptr;
 };
 
+/// Mixtures may be this deep in each other: what asks both materials of each asks a power of two of
+/// them, and recurses.
+inline constexpr int kDeepestMixture = 16;
+[[noreturn]] void refuse_deep_mixture(const SourceLocation& where);
+
 /// A material that has no place in a scene yet.
 using NewMaterial = std::shared_ptr<Material>;
 

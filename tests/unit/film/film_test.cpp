@@ -160,6 +160,7 @@ TEST(Film, Features) {
   film.add_features(2, 1, {0.5f, 0.75f, 1}, {0, 1, 0}, 20);
   film.add_features(2, 1, {0, 0, 0}, {0, 0, 0}, kInfinity);  // missed everything
   film.add_features(2, 1, {0, 0, 0}, {0, 0, 0}, 0);          // the same in other words
+  EXPECT_EQ(film.saturated_values(), 0u);
   film.add_feature_estimates(4);
   EXPECT_FLOAT_EQ(film.albedo(2, 1).r, 0.25f);
   EXPECT_FLOAT_EQ(film.albedo(2, 1).g, 0.25f);

@@ -29,6 +29,19 @@ bool has_note(const IntegratorChoice& choice, const std::string& part) {
                      [&](const std::string& note) { return note.find(part) != std::string::npos; });
 }
 
+// The text decides whether two pictures are of one render.
+TEST(IntegratorSettings, WhatDiffersHasAnotherText) {
+  for (const std::string key : {"alpha", "radius", "specular-alpha", "mutations", "large-step"}) {
+    IntegratorOptions a, b;
+    apply_settings({parse_setting(key + "=0.6667")}, &a);
+    apply_settings({parse_setting(key + "=0.66670007")}, &b);
+    EXPECT_NE(settings_text(a), settings_text(b)) << key;
+  }
+  IntegratorOptions said;
+  apply_settings({parse_setting("alpha=0.6666667")}, &said);
+  EXPECT_EQ(said.alpha, IntegratorOptions().alpha);
+}
+
 TEST(IntegratorSettings, EveryKeyIsStoredWhereItBelongs) {
   IntegratorOptions o;
   apply_settings({parse_setting("max-depth=7"),

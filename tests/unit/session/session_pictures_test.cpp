@@ -69,7 +69,9 @@ TEST_F(SessionPictures, GoesOnWhereEarlierRunsWere) {
   const ScratchDirectory directory;
   RenderOptions options = options_in(directory);
   options.last_pass = 9;
-  options.begin_with = {*PassRanges::parse("0..2,5..6"), 100, "5 passes in 100.000 s\n", "", {}};
+  options.begin_with.passes = *PassRanges::parse("0..2,5..6");
+  options.begin_with.seconds = 100;
+  options.begin_with.history = "5 passes in 100.000 s\n";
   RenderResult result = run(options);
   std::vector<uint32_t> rendered;
   for (const PassKey& key : script_.passes) rendered.push_back(key.pass);
@@ -81,7 +83,10 @@ TEST_F(SessionPictures, GoesOnWhereEarlierRunsWere) {
   script_.passes.clear();
   std::filesystem::remove(options.output);
   options.begin_with.passes = *PassRanges::parse("0..9");
+  options.begin_with.choices = "what the earlier runs chose\n";
   result = run(options);
+  EXPECT_EQ(value_of(read_picture(options.output).metadata, "nephroid:choices"),
+            options.begin_with.choices);
   EXPECT_EQ(result.passes_of_run, 0u);
   EXPECT_TRUE(script_.passes.empty());
   EXPECT_EQ(passes_in(options.output), "0..9");
@@ -89,6 +94,12 @@ TEST_F(SessionPictures, GoesOnWhereEarlierRunsWere) {
   options.last_pass.reset();
   options.time_limit = 103;
   EXPECT_EQ(run(options).passes_of_run, 3u);
+  // A run that stopped before a pass that would have ended far behind the limit is not gone on
+  // with.
+  options.begin_with.seconds = 99.7;
+  options.time_limit = 100;
+  options.begin_with.last_pass_seconds = 1;
+  EXPECT_EQ(run(options).passes_of_run, 0u);
   // Passes that depend on each other cannot fill a gap.
   script_.capabilities.independent_passes = false;
   options.begin_with.passes = *PassRanges::parse("0..2,5..6");
@@ -241,6 +252,19 @@ TEST_F(SessionPictures, UnwritableOutputIsSaidBeforeTheFirstPass) {
   options.output = directory.file("taken.exr");
   EXPECT_THROW(run(options), IoError);
   EXPECT_TRUE(script_.passes.empty());
+}
+
+// Else it might render one more.
+TEST_F(SessionPictures, AnotherRunKnowsHowLongAPassTook) {
+  const ScratchDirectory directory;
+  RenderOptions options = options_in(directory);
+  options.time_limit = 10.4;
+  run(options);
+  const Metadata metadata = read_picture(options.output).metadata;
+  const auto found = std::ranges::find(metadata, "nephroid:last_pass_seconds",
+                                       &std::pair<std::string, std::string>::first);
+  ASSERT_NE(found, metadata.end());
+  EXPECT_EQ(std::stod(found->second), 1);
 }
 
 TEST_F(SessionPictures, MetadataOfTheCallerAndTheSession) {

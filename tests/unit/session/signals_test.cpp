@@ -77,8 +77,27 @@ TEST_F(Signals, ATerminalThatClosesStopsUnlessItIsIgnored) {
   std::signal(SIGHUP, SIG_DFL);
 }
 
+TEST_F(Signals, WhatIsIgnoredStaysIgnored) {
+  std::signal(SIGINT, SIG_IGN);
+  {
+    SignalListener listener;
+    listener.note_stops();
+    std::raise(SIGINT);
+    EXPECT_EQ(listener.flags().stop.load(), 0);
+    std::raise(SIGTERM);
+    std::raise(SIGINT);
+    EXPECT_EQ(listener.flags().stop.load(), SIGTERM);
+  }
+  std::raise(SIGINT);
+}
+
+// Also when all is over and why is still to be said.
 TEST_F(Signals, WritingToNobodyIsNoSignal) {
-  const SignalListener listener;
+  {
+    const SignalListener listener;
+    std::raise(SIGPIPE);
+    std::raise(SIGXFSZ);
+  }
   std::raise(SIGPIPE);
   std::raise(SIGXFSZ);
 }
