@@ -100,6 +100,7 @@ class TemporaryFile {
       if (descriptor_ >= 0 || errno != EEXIST) break;
     }
     if (descriptor_ < 0) fail(shown_, "write into its directory", errno);
+    // For is_abandoned, which finds nothing abandoned where a file system has no locks.
     ::flock(descriptor_, LOCK_EX | LOCK_NB);
   }
   ~TemporaryFile() {

@@ -28,7 +28,8 @@ class PassRanges {
   bool empty() const { return ranges_.empty(); }
   uint64_t count() const;
   bool contains(uint32_t pass) const;
-  /// The lowest pass from `from` on that is not in it; empty if all are.
+  /// The lowest pass from `from` on that is not in it; the greatest number, which is no pass, if
+  /// all are.
   uint32_t first_missing(uint32_t from) const;
   /// What both have; empty if nothing.
   std::optional<PassRange> overlap(const PassRanges& other) const;

@@ -330,12 +330,11 @@ std::string RenderSession::choices_text() const {
 Metadata RenderSession::picture_metadata() const {
   Metadata metadata = options_.metadata;
   // Who renders nothing more has nothing to say that the picture does not say already.
-  const bool rendered = passes_of_run() > 0 || done_.empty();
+  const bool rendered = passes_of_run() > 0;
   for (auto& [key, value] : metadata)
-    if (key == kInstructionSetKey && rendered)
-      value = joined_instruction_sets(options_.begin_with.instruction_sets, value);
-    else if (key == kInstructionSetKey)
-      value = options_.begin_with.instruction_sets;
+    if (key == kInstructionSetKey)
+      value = joined_instruction_sets(options_.begin_with.instruction_sets,
+                                      rendered ? value : std::string());
   metadata.emplace_back("nephroid:seed", fmt::format("{}", options_.seed));
   metadata.emplace_back("nephroid:passes", done_.text());
   metadata.emplace_back("nephroid:seconds", fmt::format("{:.3f}", seconds_of_all_runs()));
