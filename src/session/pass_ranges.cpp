@@ -60,6 +60,15 @@ uint64_t PassRanges::count() const {
   return sum;
 }
 
+uint64_t PassRanges::count(PassRange within) const {
+  uint64_t sum = 0;
+  for (const PassRange& r : ranges_) {
+    const uint32_t first = std::max(r.first, within.first), last = std::min(r.last, within.last);
+    if (first <= last) sum += uint64_t{last} - first + 1;
+  }
+  return sum;
+}
+
 bool PassRanges::contains(uint32_t pass) const {
   return std::any_of(ranges_.begin(), ranges_.end(),
                      [&](const PassRange& r) { return r.first <= pass && pass <= r.last; });

@@ -27,6 +27,8 @@ class PassRanges {
   const std::vector<PassRange>& ranges() const { return ranges_; }
   bool empty() const { return ranges_.empty(); }
   uint64_t count() const;
+  /// Of those from first to last of `within`.
+  uint64_t count(PassRange within) const;
   bool contains(uint32_t pass) const;
   /// The lowest pass from `from` on that is not in it; the greatest number, which is no pass, if
   /// all are.

@@ -208,13 +208,21 @@ void RenderSession::renew_error_text() {
   error_text_ = error_report(film_);
 }
 
+/// A picture may have passes beyond the range that is wanted now.
+uint32_t RenderSession::passes_done_of_wanted() const {
+  if (!passes_wanted_) return passes_done_;
+  const uint32_t last = options_.first_pass + (*passes_wanted_ - 1);
+  return static_cast<uint32_t>(done_.count({options_.first_pass, last}));
+}
+
 std::optional<double> RenderSession::seconds_left(double seconds) const {
   std::optional<double> left;
   const auto at_most = [&](double candidate) {
     left = std::max(0.0, left ? std::min(*left, candidate) : candidate);
   };
   const double per_pass = seconds / passes_of_run();
-  if (passes_wanted_) at_most(per_pass * (static_cast<double>(*passes_wanted_) - passes_done_));
+  if (passes_wanted_)
+    at_most(per_pass * (static_cast<double>(*passes_wanted_) - passes_done_of_wanted()));
   if (options_.time_limit > 0) at_most(options_.time_limit - options_.begin_with.seconds - seconds);
   if (options_.noise_target > 0 && error_ && error_->total() > 0)
     at_most(per_pass * (error_pass_ * passes_to(*error_, options_.noise_target) - passes_done_));
@@ -224,7 +232,7 @@ std::optional<double> RenderSession::seconds_left(double seconds) const {
 void RenderSession::report_progress() {
   if (!progress_) return;
   RenderProgress progress;
-  progress.passes_done = passes_done_;
+  progress.passes_done = passes_done_of_wanted();
   progress.passes_wanted = passes_wanted_;
   progress.seconds = elapsed();
   progress.seconds_left = seconds_left(progress.seconds);

@@ -104,6 +104,7 @@ class RenderSession {
   void write_last_picture(bool with_state);
   /// Writes, says what went wrong, and returns when to do it again.
   double write_now(double interval, const std::function<void()>& write);
+  uint32_t passes_done_of_wanted() const;
   std::optional<double> seconds_left(double seconds) const;
   std::string choices_text() const;
   Metadata picture_metadata() const;

@@ -24,6 +24,8 @@ TEST(PassRanges, JoinWhatIsNextToEachOther) {
   r.add(ranges("3..3,5..8"));
   EXPECT_EQ(r.text(), "0..9");
   EXPECT_EQ(ranges("0..4294967294").count(), (uint64_t{1} << 32) - 1);
+  EXPECT_EQ(ranges("0..9,20..29").count({5, 21}), 7u);
+  EXPECT_EQ(ranges("0..9").count({20, 29}), 0u);
   EXPECT_EQ(ranges("").text(), "");
   EXPECT_TRUE(ranges("").empty());
 }
