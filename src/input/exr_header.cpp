@@ -22,6 +22,12 @@ constexpr size_t kLongestName = 255;
 /// Nobody's picture is packed so well; a small one does no harm.
 constexpr uint64_t kMostPixelsPerByte = 1 << 16, kFewPixels = 1 << 24;
 constexpr int64_t kWidest = 1 << 16;
+/// The same of a tile or a block of rows, which the library makes room for before it reads one.
+constexpr uint64_t kMostChunkBytesPerByte = 64, kFewChunkBytes = 1 << 28;
+constexpr uint64_t kBytesPerSample = 4, kBytesPerChunkOffset = 8;
+/// By the number of the compression: none, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A, DWAA, DWAB.
+constexpr std::array<uint64_t, 10> kRowsInBlock = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
+constexpr uint64_t kMostRowsInBlock = 256;
 
 constexpr int kChannelBytes = 16;
 struct FixedSize {
@@ -46,6 +52,7 @@ class Header {
     const bool many = (number() & kManyParts) != 0;
     for (;;) {
       size_t attributes = 0;
+      part_ = {};
       for (;; ++attributes) {
         const std::optional<std::string> name = text();
         if (!name) return "its header ends too early";
@@ -58,10 +65,11 @@ class Header {
         file_.seekg(static_cast<std::streamoff>(end - bytes));
         if (*name == "dataWindow" && *type == "box2i" && !is_possible_window())
           return "it claims more pixels than could be in it";
-        if (*name == "tiles" && *type == "tiledesc" && !is_possible_tile())
-          return "it claims larger tiles than could be in it";
+        if (*name == "compression" && *type == "compression") part_.rows_in_block = rows_in_block();
+        if (*name == "tiles" && *type == "tiledesc") part_.tile = Extent{number(), number()};
         file_.seekg(static_cast<std::streamoff>(end));
       }
+      if (!has_possible_chunks()) return "it claims more in one piece than could be in it";
       if (!many || attributes == 0) return "";
     }
   }
@@ -93,6 +101,7 @@ class Header {
         if (!channel || position() > end) return false;
         if (channel->empty()) return position() == end;
         file_.seekg(kChannelBytes, std::ios::cur);
+        ++part_.channels;
       }
     }
     if (type == "preview") {
@@ -108,19 +117,45 @@ class Header {
     const int64_t width = std::max<int64_t>(0, corners[2] - corners[0] + 1);
     const int64_t height = std::max<int64_t>(0, corners[3] - corners[1] + 1);
     const auto pixels = static_cast<uint64_t>(width) * static_cast<uint64_t>(height);
+    part_.window = {static_cast<uint64_t>(width), static_cast<uint64_t>(height)};
     // The library keeps blocks of whole rows.
     if (width > kWidest && static_cast<uint64_t>(width) > size_) return false;
     return pixels <= kFewPixels || pixels / kMostPixelsPerByte <= size_;
   }
 
-  /// The library makes room for whole tiles before it reads one.
-  bool is_possible_tile() {
-    const uint64_t width = number(), height = number();
-    return width * height <= std::max(kFewPixels, size_);
+  uint64_t rows_in_block() {
+    const auto compression = static_cast<size_t>(file_.get());
+    return compression < kRowsInBlock.size() ? kRowsInBlock[compression] : kMostRowsInBlock;
   }
 
+  /// One tile or block of rows of this part with all its channels, and how many tiles there are:
+  /// each has its offset in the file.
+  bool has_possible_chunks() const {
+    const Extent chunk = part_.tile.value_or(
+        Extent{part_.window.width, std::min(part_.window.height, part_.rows_in_block)});
+    const double bytes = static_cast<double>(chunk.width) * static_cast<double>(chunk.height) *
+                         static_cast<double>(kBytesPerSample * part_.channels);
+    const uint64_t most = std::max(kFewChunkBytes, size_ * kMostChunkBytesPerByte);
+    if (bytes > static_cast<double>(most)) return false;
+    // A tile of no width is the library's to refuse.
+    if (!part_.tile || chunk.width == 0 || chunk.height == 0) return true;
+    const auto count = [](uint64_t all, uint64_t each) { return (all + each - 1) / each; };
+    return count(part_.window.width, chunk.width) * count(part_.window.height, chunk.height) <=
+           size_ / kBytesPerChunkOffset;
+  }
+
+  struct Extent {
+    uint64_t width = 0, height = 0;
+  };
+  struct Part {
+    Extent window;
+    std::optional<Extent> tile;
+    uint64_t channels = 0;
+    uint64_t rows_in_block = kMostRowsInBlock;
+  };
   std::ifstream file_;
   uint64_t size_;
+  Part part_;
 };
 
 }  // namespace

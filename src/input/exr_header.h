@@ -8,8 +8,8 @@
 namespace nephroid {
 
 /// What is wrong with the file's headers; empty if nothing is, as far as this looks: each attribute
-/// lies within the file, and no window has more pixels than could be in it. Empty for other files,
-/// and for those that cannot be opened.
+/// lies within the file, and no window, tile or block of rows has more in it than could be in the
+/// file. Empty for other files, and for those that cannot be opened.
 std::string fault_of_exr_header(const std::string& path);
 
 }  // namespace nephroid

@@ -68,6 +68,37 @@ TEST_F(ExrHeader, ClaimsBeyondTheFileAreFaults) {
       "");
 }
 
+TEST_F(ExrHeader, ATileOrBlockIsBoundedWithAllItsChannels) {
+  const auto channels = [](int count) {
+    std::string list;
+    for (int i = 0; i < count; ++i) list += text("C" + std::to_string(i)) + std::string(16, 'x');
+    return attribute("channels", "chlist", list + text(""));
+  };
+  const auto tiles = [](uint32_t width, uint32_t height) {
+    return attribute("tiles", "tiledesc", number(width) + number(height) + '\0');
+  };
+  const auto window = [](int width, int height) {
+    return attribute("dataWindow", "box2i", box(0, 0, width - 1, height - 1));
+  };
+  const std::string end = text("");
+  EXPECT_EQ(fault(channels(4) + window(4096, 4096) + tiles(4096, 4096) + end), "");
+  EXPECT_NE(fault(channels(5) + window(4096, 4096) + tiles(4096, 4096) + end), "");
+  EXPECT_NE(fault(tiles(4096, 4096) + channels(5) + end), "") << "in any order";
+  EXPECT_NE(fault(channels(1) + tiles(0xffffffff, 0xffffffff) + end), "");
+  EXPECT_EQ(fault(channels(4) + window(65536, 256) + end), "");
+  EXPECT_NE(fault(channels(5) + window(65536, 256) + end), "");
+  EXPECT_EQ(fault(channels(64) + attribute("compression", "compression", "\3") +
+                  window(65536, 256) + end),
+            "")
+      << "ZIP packs 16 rows together";
+  // Every tile has an offset of eight bytes.
+  const std::string room(8 * 16, 'x');
+  EXPECT_EQ(fault(channels(1) + window(4, 4) + tiles(1, 1) + end + room), "");
+  EXPECT_NE(fault(channels(1) + window(40, 40) + tiles(1, 1) + end + room), "");
+  EXPECT_EQ(fault(channels(1) + window(40, 40) + tiles(0, 0) + end + room), "")
+      << "the library's to refuse";
+}
+
 TEST_F(ExrHeader, SizesThatTheTypeDoesNotHaveAreFaults) {
   EXPECT_NE(fault(attribute("compression", "compression", "12") + text("")), "");
   EXPECT_NE(fault(attribute("channels", "chlist", kChannels + "more") + text("")), "");
