@@ -123,7 +123,7 @@ int run_render(const RenderCommand& command) {
   }
   const uint64_t memory = command.memory > 0 ? command.memory : machine_memory();
   MemoryLimit limit;
-  limit.set(memory, bytes_of_stacks(command.threads));
+  limit.set(memory, bytes_of_stacks_to_come(command.threads));
   const SettingList settings = settings_of(command);
   SceneOverrides overrides = command.overrides;
   IntegratorOptions of_settings;
@@ -147,7 +147,7 @@ int run_render(const RenderCommand& command) {
                 Ppm::hit_points(choice.options, scene.samples_per_pixel),
                 choice.options.memory_photons, memory_in_use(), overrides.texture_memory / 4, true},
                memory, command.memory > 0, command.overrides.width > 0);
-  limit.set(memory);
+  limit.set(memory, bytes_of_stacks_to_come(command.threads));
   Film film(film_settings(scene.film), preset.layout);
   if (command.reject_outliers) {
     film.reject_outliers(outlier_settings(*preset.routes, choice.options, *scene.filter));

@@ -59,8 +59,8 @@ std::string temporary_stem(const fs::path& target) {
          std::string(host, ::strnlen(host, 32)) + "@";
 }
 
-/// Whether nobody writes to a temporary file of this process's number: a process of an earlier
-/// start of the machine or the container may have had it as well.
+/// Whether nobody writes to a temporary file. The number of its process does not tell: one of an
+/// earlier start of the machine may have had ours, and those of another container we do not see.
 bool is_abandoned(const fs::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return false;
@@ -81,9 +81,8 @@ void remove_leftovers(const fs::path& target) {
     const char* const digits = name.data() + stem.size();
     const auto [after, wrong] = std::from_chars(digits, name.data() + name.size(), process);
     if (wrong != std::errc() || process <= 0 || *after != '-') continue;
-    const bool is_dead =
-        process == ::getpid() ? is_abandoned(i->path()) : ::kill(process, 0) != 0 && errno == ESRCH;
-    if (is_dead) ::unlink(i->path().c_str());
+    const bool may_live = process != ::getpid() && (::kill(process, 0) == 0 || errno != ESRCH);
+    if (!may_live && is_abandoned(i->path())) ::unlink(i->path().c_str());
   }
 }
 

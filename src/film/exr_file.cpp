@@ -14,6 +14,7 @@
 #include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfThreading.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,7 +39,8 @@ static_assert(std::endian::native == std::endian::little);
 constexpr const char* kPartPrefix = "state.";
 /// What is not of pixels is a picture of this width.
 constexpr size_t kStreamWidth = 1024;
-/// The last part: two words for each other one, by which damage is seen.
+/// The last part: two words for each other one, and two for the picture's texts, by which damage is
+/// seen.
 constexpr const char* kChecksums = "checksums";
 constexpr const char* kWordsKey = "nephroid:words";
 
@@ -163,7 +165,22 @@ Imf::Header part_header(const Picture& picture, const Part& part) {
   return header;
 }
 
-std::vector<Part> parts_of(const RenderState& state, const PixelBounds& window) {
+void add_words(uint64_t hash, std::vector<uint32_t>* words) {
+  words->push_back(static_cast<uint32_t>(hash));
+  words->push_back(static_cast<uint32_t>(hash >> 32));
+}
+
+/// Of all texts, which say what the picture is.
+uint64_t hash_of_texts(const Imf::Header& header) {
+  std::string texts;
+  for (auto a = header.begin(); a != header.end(); ++a)
+    if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&a.attribute()))
+      texts += std::string(a.name()) + '\0' + text->value() + '\0';
+  return hash_of(std::as_bytes(std::span(texts)));
+}
+
+std::vector<Part> parts_of(const RenderState& state, const PixelBounds& window,
+                           const Imf::Header& picture) {
   std::vector<Part> parts;
   for (const RenderState::Array& array : state.arrays)
     if (is_of_pixels(array, window))
@@ -173,25 +190,46 @@ std::vector<Part> parts_of(const RenderState& state, const PixelBounds& window) 
   for (const RenderState::Stream& stream : state.streams)
     parts.push_back(part_of_stream(stream.name, stream.save()));
   std::vector<uint32_t> checksums;
-  for (const Part& part : parts) {
-    const uint64_t hash = hash_of(part.bytes);
-    checksums.push_back(static_cast<uint32_t>(hash));
-    checksums.push_back(static_cast<uint32_t>(hash >> 32));
-  }
+  for (const Part& part : parts) add_words(hash_of(part.bytes), &checksums);
+  add_words(hash_of_texts(picture), &checksums);
   parts.push_back(part_of_stream(kChecksums, std::move(checksums)));
   return parts;
 }
 
+/// What the encoder makes room for, for each buffer: rows of all parts, packed and unpacked, and
+/// what it sorts their bytes in.
+uint64_t bytes_of_rows(int width, size_t channels, size_t state_words) {
+  constexpr uint64_t kRowsOfZip = 16, kCopies = 3;
+  return 4 * kCopies * static_cast<uint64_t>(width) * (kRowsOfZip * channels + state_words);
+}
+
+/// Two buffers for each; without any, the caller's thread encodes, with one.
+int encoder_threads(uint64_t bytes_of_buffer) {
+  const uint64_t fit = kMostEncoderBytes / (2 * bytes_of_buffer);
+  return static_cast<int>(std::min<uint64_t>(fit, static_cast<uint64_t>(Imf::globalThreadCount())));
+}
+
 }  // namespace
+
+uint64_t encoder_bytes(int width, size_t channels, size_t state_words) {
+  const uint64_t each = bytes_of_rows(width, channels, state_words);
+  return std::max(each, 2 * each * static_cast<uint64_t>(encoder_threads(each)));
+}
 
 void write_exr(const std::string& path, const Picture& picture, const RenderState* state) {
   AtomicFile file(path);
   AtomicOutput output(path, file);
-  const std::vector<Part> parts = state ? parts_of(*state, picture.window) : std::vector<Part>();
   try {
     std::vector<Imf::Header> headers{picture_header(picture)};
+    std::vector<Part> parts;
+    if (state) parts = parts_of(*state, picture.window, headers[0]);
     for (const Part& part : parts) headers.push_back(part_header(picture, part));
-    Imf::MultiPartOutputFile out(output, headers.data(), static_cast<int>(headers.size()));
+    size_t state_words = 0;
+    for (const Part& part : parts) state_words += part.words;
+    Imf::MultiPartOutputFile out(
+        output, headers.data(), static_cast<int>(headers.size()), false,
+        encoder_threads(
+            bytes_of_rows(picture.window.width(), picture.channels.size(), state_words)));
     const auto write = [&](size_t i, const Imf::FrameBuffer& frame, const PixelBounds& window) {
       Imf::OutputPart part(out, static_cast<int>(i));
       part.setFrameBuffer(frame);
@@ -258,14 +296,28 @@ struct StateFile::Input {
   }
 };
 
+namespace {
+
+/// As part_header makes them. The library takes other memory for other kinds.
+bool is_of_state(const Imf::Header& header) {
+  if (!header.hasType() || header.type() != Imf::SCANLINEIMAGE) return false;
+  for (auto c = header.channels().begin(); c != header.channels().end(); ++c)
+    if (c.channel().type != Imf::UINT) return false;
+  return header.compression() == Imf::RLE_COMPRESSION;
+}
+
+}  // namespace
+
 StateFile::StateFile(const std::string& path) : input_(std::make_unique<Input>()) {
   Input& in = *input_;
   in.path = path;
-  if (const std::string fault = fault_of_exr_header(path); !fault.empty())
+  // Runs of equal bytes are unpacked as fast as they are read, and every thread would have buffers.
+  constexpr int kThreads = 0;
+  if (const std::string fault = fault_of_exr_header(path, kThreads); !fault.empty())
     throw IoError(path + ": cannot read: " + fault);
   try {
     in.bytes = std::filesystem::file_size(path);
-    in.file = std::make_unique<Imf::MultiPartInputFile>(path.c_str());
+    in.file = std::make_unique<Imf::MultiPartInputFile>(path.c_str(), kThreads);
     const Imf::Header& first = in.file->header(0);
     for (auto a = first.begin(); a != first.end(); ++a)
       if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&a.attribute()))
@@ -275,6 +327,8 @@ StateFile::StateFile(const std::string& path) : input_(std::make_unique<Input>()
       const Imf::Header& header = in.file->header(i);
       const auto* words = header.findTypedAttribute<Imf::StringAttribute>(kWordsKey);
       if (!words || !header.hasName() || !header.name().starts_with(prefix)) continue;
+      if (!is_of_state(header))
+        throw IoError(fmt::format("'{}' is no part of this program's", header.name()));
       const Imath::Box2i& box = header.dataWindow();
       Input::Place place{i, {box.min.x, box.min.y, box.max.x + 1, box.max.y + 1}, 0, 0};
       for (auto c = header.channels().begin(); c != header.channels().end(); ++c) ++place.words;
@@ -333,10 +387,15 @@ void StateFile::load(const RenderState& state) {
     streams.push_back(in.read_stream(stream.name, stream.most_words));
     found.push_back(hash_of(std::as_bytes(std::span(streams.back()))));
   }
-  const std::vector<uint32_t> checksums = in.read_stream(kChecksums, 2 * found.size());
-  if (checksums.size() != 2 * found.size()) in.fail("its parts are not those of this render");
+  const std::vector<uint32_t> checksums = in.read_stream(kChecksums, 2 * found.size() + 2);
+  if (checksums.size() != 2 * found.size() + 2) in.fail("its parts are not those of this render");
+  const auto is_whole = [&](size_t i, uint64_t hash) {
+    return hash == (checksums[2 * i] | uint64_t{checksums[2 * i + 1]} << 32);
+  };
+  if (!is_whole(found.size(), hash_of_texts(in.file->header(0))))
+    in.fail("what its metadata say is damaged");
   for (size_t i = 0; i < found.size(); ++i)
-    if (found[i] != (checksums[2 * i] | uint64_t{checksums[2 * i + 1]} << 32))
+    if (!is_whole(i, found[i]))
       in.fail(fmt::format("'{}' is damaged", i < state.arrays.size()
                                                  ? state.arrays[i].name
                                                  : state.streams[i - state.arrays.size()].name));

@@ -112,8 +112,9 @@ uint8_t encode_srgb8(float linear) {
 }
 
 void limit_image_threads(int threads) {
-  Imf::setGlobalThreadCount(threads > 0 ? threads
-                                        : static_cast<int>(std::thread::hardware_concurrency()));
+  if (threads <= 0) threads = static_cast<int>(std::thread::hardware_concurrency());
+  threads = std::clamp(threads, 1, kMostImageThreads);
+  Imf::setGlobalThreadCount(threads);
   OIIO::attribute("threads", threads);
   OIIO::attribute("exr_threads", threads);
 }

@@ -50,7 +50,8 @@ Picture read_picture(const std::string& path);
 /// Linear [0,1] to the sRGB code value, clamped and rounded; NaN becomes 0.
 uint8_t encode_srgb8(float linear);
 
-/// Limits the threads that compress and decompress images; 0 means all of the machine.
+/// Limits the threads that compress and decompress images; 0 means all of the machine. They are at
+/// most kMostImageThreads in any case.
 void limit_image_threads(int threads);
 
 }  // namespace nephroid

@@ -22,14 +22,16 @@ constexpr size_t kLongestName = 255;
 /// Nobody's picture is packed so well; a small one does no harm.
 constexpr uint64_t kMostPixelsPerByte = 1 << 16, kFewPixels = 1 << 24;
 constexpr int64_t kWidest = 1 << 16;
-/// The same of a tile or a block of rows, which the library makes room for before it reads one.
-constexpr uint64_t kMostChunkBytesPerByte = 64, kFewChunkBytes = 1 << 28;
-constexpr uint64_t kBytesPerSample = 4, kBytesPerChunkOffset = 8;
+/// The same of the tiles or blocks of rows that the library makes room for before it reads the
+/// first.
+constexpr uint64_t kMostBufferBytesPerByte = 512, kFewBufferBytes = 1 << 30;
+constexpr uint64_t kBytesPerChunkOffset = 8;
+constexpr uint32_t kHalf = 1;  // a channel's type; the others have four bytes
 /// By the number of the compression: none, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A, DWAA, DWAB.
 constexpr std::array<uint64_t, 10> kRowsInBlock = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
 constexpr uint64_t kMostRowsInBlock = 256;
 
-constexpr int kChannelBytes = 16;
+constexpr int kChannelBytesAfterType = 12;
 struct FixedSize {
   std::string_view type;
   uint32_t bytes;
@@ -45,7 +47,10 @@ constexpr FixedSize kFixedSizes[] = {{"box2i", 16},      {"box2f", 16},   {"chro
 
 class Header {
  public:
-  Header(const std::string& path, uint64_t size) : file_(path, std::ios::binary), size_(size) {}
+  Header(const std::string& path, uint64_t size, int threads)
+      : file_(path, std::ios::binary),
+        size_(size),
+        buffers_(threads > 0 ? 2 * static_cast<uint64_t>(threads) : 1) {}
 
   std::string fault() {
     if (number() != kMagic || !file_) return "";
@@ -65,6 +70,7 @@ class Header {
         file_.seekg(static_cast<std::streamoff>(end - bytes));
         if (*name == "dataWindow" && *type == "box2i" && !is_possible_window())
           return "it claims more pixels than could be in it";
+        if (*name == "type" && *type == "string" && is_deep(bytes)) return "it is a deep image";
         if (*name == "compression" && *type == "compression") part_.rows_in_block = rows_in_block();
         if (*name == "tiles" && *type == "tiledesc") part_.tile = Extent{number(), number()};
         file_.seekg(static_cast<std::streamoff>(end));
@@ -100,8 +106,8 @@ class Header {
         const std::optional<std::string> channel = text();
         if (!channel || position() > end) return false;
         if (channel->empty()) return position() == end;
-        file_.seekg(kChannelBytes, std::ios::cur);
-        ++part_.channels;
+        part_.pixel_bytes += number() == kHalf ? 2 : 4;
+        file_.seekg(kChannelBytesAfterType, std::ios::cur);
       }
     }
     if (type == "preview") {
@@ -123,19 +129,26 @@ class Header {
     return pixels <= kFewPixels || pixels / kMostPixelsPerByte <= size_;
   }
 
+  /// The library would make room for as many samples as the file claims.
+  bool is_deep(uint32_t bytes) {
+    std::string type(std::min<uint32_t>(bytes, 4), '\0');
+    file_.read(type.data(), static_cast<std::streamsize>(type.size()));
+    return type == "deep";
+  }
+
   uint64_t rows_in_block() {
     const auto compression = static_cast<size_t>(file_.get());
     return compression < kRowsInBlock.size() ? kRowsInBlock[compression] : kMostRowsInBlock;
   }
 
-  /// One tile or block of rows of this part with all its channels, and how many tiles there are:
-  /// each has its offset in the file.
+  /// The tiles or blocks of rows of this part that the library holds at once, with all their
+  /// channels, and how many tiles there are: each has its offset in the file.
   bool has_possible_chunks() const {
     const Extent chunk = part_.tile.value_or(
         Extent{part_.window.width, std::min(part_.window.height, part_.rows_in_block)});
     const double bytes = static_cast<double>(chunk.width) * static_cast<double>(chunk.height) *
-                         static_cast<double>(kBytesPerSample * part_.channels);
-    const uint64_t most = std::max(kFewChunkBytes, size_ * kMostChunkBytesPerByte);
+                         static_cast<double>(buffers_ * part_.pixel_bytes);
+    const uint64_t most = std::max(kFewBufferBytes, size_ * kMostBufferBytesPerByte);
     if (bytes > static_cast<double>(most)) return false;
     // A tile of no width is the library's to refuse.
     if (!part_.tile || chunk.width == 0 || chunk.height == 0) return true;
@@ -150,21 +163,21 @@ class Header {
   struct Part {
     Extent window;
     std::optional<Extent> tile;
-    uint64_t channels = 0;
+    uint64_t pixel_bytes = 0;
     uint64_t rows_in_block = kMostRowsInBlock;
   };
   std::ifstream file_;
-  uint64_t size_;
+  uint64_t size_, buffers_;
   Part part_;
 };
 
 }  // namespace
 
-std::string fault_of_exr_header(const std::string& path) {
+std::string fault_of_exr_header(const std::string& path, int threads) {
   std::error_code error;
   const uint64_t size = std::filesystem::file_size(path, error);
   if (error) return "";
-  return Header(path, size).fault();
+  return Header(path, size, threads).fault();
 }
 
 }  // namespace nephroid

@@ -12,11 +12,12 @@
 
 namespace nephroid {
 
+/// No cache of 128 MiB for subdivision surfaces, which are meshes here before Embree sees them.
 #ifdef NEPHROID_STD_THREADS
 /// Its own threads would confuse ThreadSanitizer, which does not see their locks.
-constexpr const char* kEmbreeConfig = "threads=1";
+constexpr const char* kEmbreeConfig = "tessellation_cache_size=0,threads=1";
 #else
-constexpr const char* kEmbreeConfig = nullptr;
+constexpr const char* kEmbreeConfig = "tessellation_cache_size=0";
 #endif
 
 class EmbreeDevice {

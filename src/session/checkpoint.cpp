@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <map>
 #include <sstream>
@@ -73,6 +74,14 @@ PassRanges passes_of(const StateFile& file, const std::string& purpose) {
   return *passes;
 }
 
+double seconds_of(const StateFile& file, const std::string& key) {
+  const std::string text = value_of(file.metadata(), key);
+  const double seconds = std::strtod(text.c_str(), nullptr);
+  if (!(seconds >= 0) || !std::isfinite(seconds))
+    throw IoError(fmt::format("{}: '{}' of {} is no time", file.path(), text, key));
+  return seconds;
+}
+
 void require_same_render(const StateFile& file, const Metadata& metadata, const std::string& other,
                          const std::string& purpose) {
   const std::string found = differences(file.metadata(), metadata, other);
@@ -116,12 +125,9 @@ Checkpoint go_on_from(const std::string& path, const Metadata& here, const Scene
   require_same_render(file, here, "here", purpose);
   file.load(state_of(scene, preset, film));
   const Metadata& metadata = file.metadata();
-  const auto seconds = [&](const char* key) {
-    return std::strtod(value_of(metadata, key).c_str(), nullptr);
-  };
   Checkpoint checkpoint{passes,
-                        seconds("nephroid:seconds"),
-                        seconds("nephroid:last_pass_seconds"),
+                        seconds_of(file, "nephroid:seconds"),
+                        seconds_of(file, "nephroid:last_pass_seconds"),
                         value_of(metadata, "nephroid:history"),
                         value_of(metadata, "nephroid:choices"),
                         instruction_sets_of(metadata),

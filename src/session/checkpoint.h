@@ -30,6 +30,9 @@ RenderState state_of(const Scene& scene, Preset& preset, Film& film);
 /// The passes that a picture with state has. Throws IoError, "cannot `purpose`", without state.
 PassRanges passes_of(const StateFile& file, const std::string& purpose);
 
+/// A time in the metadata, 0 if it is not there. Throws IoError for what is no time.
+double seconds_of(const StateFile& file, const std::string& key);
+
 /// Throws UsageError, "cannot `purpose`", with all that differs, each as "radius 1, here 2", unless
 /// metadata tell of the same render as those of the file: version, scene, film, routes, options,
 /// outliers and seed. `other` is what these are called, "here" for example.

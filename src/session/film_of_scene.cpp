@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "core/errors.h"
+#include "film/exr_file.h"
 #include "film/splats.h"
 #include "integrator/bidirectional.h"
 #include "integrator/gather.h"
@@ -20,9 +21,13 @@
 namespace nephroid {
 namespace {
 
-/// For each pixel: what estimators keep from pass to pass, and what the pass that needs most does;
-/// they render one after another.
-size_t bytes_of_estimators(const Routes& routes, int hit_points, bool clamps) {
+/// For each pixel.
+struct BytesOfEstimators {
+  size_t kept = 0;     ///< from pass to pass
+  size_t of_pass = 0;  ///< of the one that needs most; they render one after another
+};
+
+BytesOfEstimators bytes_of_estimators(const Routes& routes, int hit_points, bool clamps) {
   size_t kept = 0, most = 0;
   for (const RouteGroup& group : routes.groups()) {
     const size_t parts = group.parts.size();
@@ -49,7 +54,7 @@ size_t bytes_of_estimators(const Routes& routes, int hit_points, bool clamps) {
     }
     most = std::max(most, pass);
   }
-  return kept + most;
+  return {kept, most};
 }
 
 size_t bytes_of_rejection(const Routes& routes) {
@@ -69,12 +74,11 @@ bool keeps_photons(const Routes& routes) {
   });
 }
 
-/// Channels of a picture in memory, see film_output.cpp.
-size_t bytes_of_picture(const FilmLayout& layout, bool gbuffer) {
-  constexpr size_t kCommonChannels = 20, kGbufferChannels = 16, kPngBytes = 3;
-  return sizeof(float) * (3 * (layout.routes.size() + layout.aovs.size()) + kCommonChannels +
-                          (gbuffer ? kGbufferChannels : 0)) +
-         kPngBytes;
+/// Of a picture in memory, see film_output.cpp.
+size_t channels_of_picture(const FilmLayout& layout, bool gbuffer) {
+  constexpr size_t kCommonChannels = 20, kGbufferChannels = 16;
+  return 3 * (layout.routes.size() + layout.aovs.size()) + kCommonChannels +
+         (gbuffer ? kGbufferChannels : 0);
 }
 
 std::string short_bytes(double bytes) {
@@ -151,21 +155,29 @@ void check_memory(const MemoryNeed& need, uint64_t limit, bool limit_is_an_optio
   const bool gbuffer = film.gbuffer != GBufferSpace::kNone;
   // A copy of what is held is written.
   const size_t of_rejection = need.rejects_outliers ? bytes_of_rejection(need.routes) : 0;
+  const size_t of_film = Film::bytes_per_pixel(need.layout, gbuffer);
+  const BytesOfEstimators of_estimators =
+      bytes_of_estimators(need.routes, need.hit_points, film.max_component < kInfinity);
+  const size_t channels = channels_of_picture(need.layout, gbuffer);
+  constexpr size_t kPngBytes = 3;
+  const uint64_t of_encoder =
+      encoder_bytes(width, channels, (of_film + of_estimators.kept) / sizeof(uint32_t));
   const auto of_pixels = [&](size_t bytes) { return pixels * static_cast<double>(bytes); };
   const struct {
     const char* what;
     double bytes;
   } rows[] = {
       {"what is read already", static_cast<double>(need.held)},
-      {"the film", of_pixels(Film::bytes_per_pixel(need.layout, gbuffer) + of_rejection)},
-      {"passes", of_pixels(bytes_of_estimators(need.routes, need.hit_points,
-                                               film.max_component < kInfinity))},
+      {"the film", of_pixels(of_film + of_rejection)},
+      {"passes", of_pixels(of_estimators.kept + of_estimators.of_pass)},
       {"photons", keeps_photons(need.routes)
                       ? static_cast<double>(need.photons) * double{kBytesPerPhoton}
                       : 0.0},
       {"textures", static_cast<double>(need.textures)},
-      {"writing the picture",
-       need.writes ? of_pixels(bytes_of_picture(need.layout, gbuffer) + of_rejection) : 0.0},
+      {"writing the picture", need.writes
+                                  ? of_pixels(sizeof(float) * channels + kPngBytes + of_rejection) +
+                                        static_cast<double>(of_encoder)
+                                  : 0.0},
   };
   double total = 0;
   std::string list;

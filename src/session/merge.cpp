@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "core/errors.h"
 #include "film/film_output.h"
 #include "session/checkpoint.h"
 #include "session/fault_report.h"
 #include "session/film_metadata.h"
+#include "session/version.h"
 
 namespace nephroid {
 namespace {
@@ -21,6 +21,19 @@ struct Input {
   std::string path;
   PassRanges passes;
 };
+
+void warn_of_gaps(Merged& merged) {
+  constexpr size_t kMostNamed = 20;
+  size_t gaps = 0;
+  for (uint32_t pass = 0; const PassRange& range : merged.passes.ranges()) {
+    if (range.first > pass && ++gaps <= kMostNamed)
+      merged.warnings.push_back(
+          fmt::format("passes {}..{} are in none of the pictures", pass, range.first - 1));
+    pass = range.last + 1;
+  }
+  if (gaps > kMostNamed)
+    merged.warnings.push_back(fmt::format("so are {} more ranges of passes", gaps - kMostNamed));
+}
 
 }  // namespace
 
@@ -40,6 +53,9 @@ Merged merge_pictures(const std::vector<std::string>& inputs, const std::string&
     const auto refuse = [&name = file.path()](const std::string& why) {
       throw UsageError(name + ": cannot " + kPurpose + ": " + why);
     };
+    if (const std::string version = value_of(file.metadata(), "nephroid:version");
+        version != kVersion)
+      refuse(fmt::format("it is of version {}, this program is {}", version, kVersion));
     if (value_of(file.metadata(), "nephroid:outliers") == "reject")
       refuse("with --outliers reject passes depend on each other; --resume goes on with it");
     if (!passes_add_up(file))
@@ -49,19 +65,14 @@ Merged merge_pictures(const std::vector<std::string>& inputs, const std::string&
         if (const auto both = other.passes.overlap(passes); both && &other != &input)
           refuse(fmt::format("{} has passes {}..{}, too", other.path, both->first, both->last));
     merged.passes.add(passes);
-    merged.seconds += std::strtod(value_of(file.metadata(), "nephroid:seconds").c_str(), nullptr);
+    merged.seconds += seconds_of(file, "nephroid:seconds");
     history += value_of(file.metadata(), "nephroid:history");
     if (const auto warning =
             warning_of_instruction_sets(file, first.metadata(), "in " + first.path()))
       merged.warnings.push_back(*warning);
     sets = joined_instruction_sets(sets, instruction_sets_of(file.metadata()));
   }
-  for (uint32_t pass = 0; const PassRange& range : merged.passes.ranges()) {
-    if (range.first > pass)
-      merged.warnings.push_back(
-          fmt::format("passes {}..{} are in none of the pictures", pass, range.first - 1));
-    pass = range.last + 1;
-  }
+  warn_of_gaps(merged);
   Film sum = film_of(first);
   for (const Input& input : files) {
     StateFile file(input.path);

@@ -84,10 +84,13 @@ uint32_t PassRanges::first_missing(uint32_t from) const {
 }
 
 std::optional<PassRange> PassRanges::overlap(const PassRanges& other) const {
-  for (const PassRange& a : ranges_)
-    for (const PassRange& b : other.ranges_)
-      if (a.first <= b.last && b.first <= a.last)
-        return PassRange{std::max(a.first, b.first), std::min(a.last, b.last)};
+  // Side by side: both are in order.
+  auto a = ranges_.begin(), b = other.ranges_.begin();
+  while (a != ranges_.end() && b != other.ranges_.end()) {
+    if (a->first <= b->last && b->first <= a->last)
+      return PassRange{std::max(a->first, b->first), std::min(a->last, b->last)};
+    ++(a->last < b->last ? a : b);
+  }
   return std::nullopt;
 }
 

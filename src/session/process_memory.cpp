@@ -27,12 +27,17 @@ constexpr bool kCanLimit = true;
 constexpr bool kCanLimit = true;
 #endif
 
-/// Bytes in a line "Key:   123 kB" of this process's status; 0 if there is none.
-uint64_t status_bytes(const std::string& key) {
+/// The number in a line "Key:   123" of this process's status; 0 if there is none.
+uint64_t status_number(const std::string& key) {
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);)
-    if (line.starts_with(key)) return std::stoull(line.substr(key.size())) * 1024;
+    if (line.starts_with(key)) return std::stoull(line.substr(key.size()));
   return 0;
+}
+
+/// Of a line "Key:   123 kB".
+uint64_t status_bytes(const std::string& key) {
+  return status_number(key) * 1024;
 }
 
 }  // namespace
@@ -64,14 +69,16 @@ uint64_t memory_in_use() {
   return status_bytes("VmRSS:");
 }
 
-uint64_t bytes_of_stacks(int threads) {
+uint64_t bytes_of_stacks_to_come(int threads) {
   rlimit stack{};
   const bool is_known = ::getrlimit(RLIMIT_STACK, &stack) == 0 && stack.rlim_cur != RLIM_INFINITY;
   constexpr uint64_t kDefault = uint64_t{8} << 20;
-  // Rendering, images and encoders have as many each.
   const uint64_t of_each =
       threads > 0 ? static_cast<uint64_t>(threads) : std::thread::hardware_concurrency();
-  return (is_known ? uint64_t{stack.rlim_cur} : kDefault) * 4 * of_each;
+  // Rendering, images and encoders have as many each, and this one.
+  const uint64_t in_all = 3 * of_each + 1, started = status_number("Threads:");
+  return in_all <= started ? 0
+                           : (is_known ? uint64_t{stack.rlim_cur} : kDefault) * (in_all - started);
 }
 
 MemoryLimit::MemoryLimit() {

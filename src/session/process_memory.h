@@ -27,9 +27,9 @@ class MemoryLimit {
   uint64_t of_user_ = 0;  ///< 0: there is no way to limit
 };
 
-/// Of the stacks of all threads that will be started for rendering with so many; 0: with all of the
-/// machine.
-uint64_t bytes_of_stacks(int threads);
+/// Of the stacks of the threads that are still to be started for rendering with so many; 0: with
+/// all of the machine.
+uint64_t bytes_of_stacks_to_come(int threads);
 
 /// Starts a new peak, where the system can do that; else the peak stays that of the whole process.
 void restart_memory_peak();

@@ -55,7 +55,8 @@ void SignalListener::note_stops() {
 
 SignalListener::~SignalListener() {
   set_stop_actions(SIG_DFL);
-  set_action(SIGUSR1, SIG_DFL);
+  // A scheduler that asks for pictures now and then knows nothing of a process that is at its end.
+  set_action(SIGUSR1, SIG_IGN);
   // SIGPIPE and SIGXFSZ stay errors of writing: why a render failed is still to be said.
 }
 

@@ -16,6 +16,8 @@ void read(const std::string& path) {
   StateFile file(path);
   const PassRanges passes = passes_of(file, "read it");
   if (PassRanges::parse(passes.text()) != passes) __builtin_trap();
+  if (!passes.overlap(passes)) __builtin_trap();
+  seconds_of(file, "nephroid:seconds");
   Film film = film_of(file);
   passes_add_up(file);
   file.load(film.state());

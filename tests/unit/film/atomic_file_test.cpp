@@ -138,6 +138,23 @@ TEST(AtomicFile, LeftoversOfTheDeadAreRemoved) {
   EXPECT_EQ(directory.entries(), 4u);
 }
 
+// A process that we do not see, in another container of this host, writes it.
+TEST(AtomicFile, WhatSomebodyHoldsIsNoLeftover) {
+  const ScratchDirectory directory;
+  const std::string path = directory.file("out.bin");
+  std::optional<AtomicFile> theirs(path);
+  const std::string held = fs::directory_iterator(directory.file(""))->path().string();
+  const pid_t gone = ::fork();
+  if (gone == 0) ::_exit(0);
+  ::waitpid(gone, nullptr, 0);
+  fs::rename(held, held.substr(0, held.rfind('@') + 1) + std::to_string(gone) + "-0");
+  check_file_can_be_written(path);
+  EXPECT_EQ(directory.entries(), 1u);
+  theirs.reset();
+  check_file_can_be_written(path);
+  EXPECT_EQ(directory.entries(), 0u);
+}
+
 TEST(AtomicFile, FollowsLinks) {
   const ScratchDirectory directory;
   fs::create_directory(directory.file("elsewhere"));

@@ -146,6 +146,63 @@ TEST(ExrFile, NoticesDamage) {
   EXPECT_GT(noticed, tried / 2);
 }
 
+/// The n-th place of `what` in the file becomes `by`, of the same length.
+void replace_in(const std::string& path, const std::string& what, const std::string& by,
+                int n = 1) {
+  std::ifstream in(path, std::ios::binary);
+  std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  size_t at = bytes.find(what);
+  for (int i = 1; i < n && at != std::string::npos; ++i) at = bytes.find(what, at + 1);
+  ASSERT_NE(at, std::string::npos) << what;
+  std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes.replace(at, by.size(), by);
+}
+
+// The metadata say which passes a picture has.
+TEST(ExrFile, NoticesDamageOfTexts) {
+  const ScratchDirectory directory;
+  const std::string path = directory.file("a.exr");
+  Memory saved(1), loaded(2);
+  const RenderState state = saved.state();
+  write_exr(path, some_picture(), &state);
+  EXPECT_EQ(error_of_load(path, loaded), "");
+  replace_in(path, "0..7", "0..3");
+  EXPECT_NE(error_of_load(path, loaded).find("metadata say is damaged"), std::string::npos);
+}
+
+// For parts of other kinds the library takes memory that nobody has looked at.
+TEST(ExrFile, ReadsNoPartsOfOtherKinds) {
+  const ScratchDirectory directory;
+  const std::string path = directory.file("a.exr");
+  Memory saved(1), loaded(2);
+  const RenderState state = saved.state();
+  using namespace std::string_literals;
+  const std::string compression = "compression\0compression\0\1\0\0\0"s, type = "w000\0"s;
+  write_exr(path, some_picture(), &state);
+  replace_in(path, compression + '\1', compression + '\3', 2);
+  EXPECT_NE(error_of_load(path, loaded).find("is no part of this program's"), std::string::npos);
+  write_exr(path, some_picture(), &state);
+  replace_in(path, type + '\0', type + '\2', 2);
+  EXPECT_NE(error_of_load(path, loaded).find("is no part of this program's"), std::string::npos);
+}
+
+// Wide pictures have large buffers, of which many threads have many.
+TEST(ExrFile, TheEncoderHoldsNoMoreThanItMay) {
+  limit_image_threads(8);
+  EXPECT_LE(encoder_bytes(4000, 40, 100), kMostEncoderBytes);
+  EXPECT_GT(encoder_bytes(4000, 40, 100), kMostEncoderBytes / 2);
+  EXPECT_LT(encoder_bytes(40, 40, 100), kMostEncoderBytes / 8);
+  // One buffer is as large as it must be.
+  EXPECT_GT(encoder_bytes(1000000, 40, 100), kMostEncoderBytes);
+  limit_image_threads(0);
+  const ScratchDirectory directory;
+  Picture wide = some_picture();
+  wide.full_width = wide.window.x1 = 250000;
+  wide.pixels.resize(static_cast<size_t>(wide.window.area()) * 4);
+  std::iota(wide.pixels.begin(), wide.pixels.end(), 0.0f);
+  write_exr(directory.file("wide.exr"), wide);
+  EXPECT_EQ(read_picture(directory.file("wide.exr")).pixels, wide.pixels);
+}
+
 // Whichever byte is the first that the disk has no room for: the tables of offsets come last.
 TEST(ExrFile, AFullDiskIsAnErrorAndTheOldFileStays) {
   const ScratchDirectory directory;

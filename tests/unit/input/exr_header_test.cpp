@@ -68,10 +68,12 @@ TEST_F(ExrHeader, ClaimsBeyondTheFileAreFaults) {
       "");
 }
 
-TEST_F(ExrHeader, ATileOrBlockIsBoundedWithAllItsChannels) {
-  const auto channels = [](int count) {
+TEST_F(ExrHeader, TilesAndBlocksOfAllThreadsAreBoundedWithAllTheirChannels) {
+  constexpr uint32_t kHalf = 1, kFloat = 2;
+  const auto channels = [](int count, uint32_t type) {
     std::string list;
-    for (int i = 0; i < count; ++i) list += text("C" + std::to_string(i)) + std::string(16, 'x');
+    for (int i = 0; i < count; ++i)
+      list += text("C" + std::to_string(i)) + number(type) + std::string(12, 'x');
     return attribute("channels", "chlist", list + text(""));
   };
   const auto tiles = [](uint32_t width, uint32_t height) {
@@ -80,23 +82,38 @@ TEST_F(ExrHeader, ATileOrBlockIsBoundedWithAllItsChannels) {
   const auto window = [](int width, int height) {
     return attribute("dataWindow", "box2i", box(0, 0, width - 1, height - 1));
   };
-  const std::string end = text("");
-  EXPECT_EQ(fault(channels(4) + window(4096, 4096) + tiles(4096, 4096) + end), "");
-  EXPECT_NE(fault(channels(5) + window(4096, 4096) + tiles(4096, 4096) + end), "");
-  EXPECT_NE(fault(tiles(4096, 4096) + channels(5) + end), "") << "in any order";
-  EXPECT_NE(fault(channels(1) + tiles(0xffffffff, 0xffffffff) + end), "");
-  EXPECT_EQ(fault(channels(4) + window(65536, 256) + end), "");
-  EXPECT_NE(fault(channels(5) + window(65536, 256) + end), "");
-  EXPECT_EQ(fault(channels(64) + attribute("compression", "compression", "\3") +
-                  window(65536, 256) + end),
+  const std::string end = text(""), four = channels(4, kFloat), five = channels(5, kFloat);
+  // 64 MiB each, and 16 of them.
+  EXPECT_EQ(fault(four + window(4096, 4096) + tiles(2048, 2048) + end + std::string(32, 'x')), "");
+  EXPECT_NE(fault(five + window(4096, 4096) + tiles(2048, 2048) + end + std::string(32, 'x')), "");
+  EXPECT_NE(fault(tiles(2048, 2048) + five + end), "") << "in any order";
+  EXPECT_EQ(fault(channels(8, kHalf) + tiles(2048, 2048) + end), "");
+  EXPECT_NE(fault(channels(9, kHalf) + tiles(2048, 2048) + end), "");
+  EXPECT_NE(fault(four + window(4096, 4096) + tiles(4096, 4096) + end), "");
+  EXPECT_EQ(fault(four + window(4096, 4096) + tiles(4096, 4096) + end + std::string(1 << 23, 'x')),
+            "")
+      << "a file that is large enough";
+  EXPECT_NE(fault(channels(1, kFloat) + tiles(0xffffffff, 0xffffffff) + end), "");
+  EXPECT_EQ(fault(four + window(16384, 256) + end), "");
+  EXPECT_NE(fault(five + window(16384, 256) + end), "");
+  EXPECT_EQ(fault(channels(64, kFloat) + attribute("compression", "compression", "\3") +
+                  window(16384, 256) + end),
             "")
       << "ZIP packs 16 rows together";
   // Every tile has an offset of eight bytes.
-  const std::string room(8 * 16, 'x');
-  EXPECT_EQ(fault(channels(1) + window(4, 4) + tiles(1, 1) + end + room), "");
-  EXPECT_NE(fault(channels(1) + window(40, 40) + tiles(1, 1) + end + room), "");
-  EXPECT_EQ(fault(channels(1) + window(40, 40) + tiles(0, 0) + end + room), "")
+  const std::string room(8 * 16, 'x'), one = channels(1, kFloat);
+  EXPECT_EQ(fault(one + window(4, 4) + tiles(1, 1) + end + room), "");
+  EXPECT_NE(fault(one + window(40, 40) + tiles(1, 1) + end + room), "");
+  EXPECT_EQ(fault(one + window(40, 40) + tiles(0, 0) + end + room), "")
       << "the library's to refuse";
+}
+
+TEST_F(ExrHeader, DeepPartsAreFaults) {
+  const std::string end = text("");
+  EXPECT_EQ(fault(attribute("type", "string", "scanlineimage") + end), "");
+  EXPECT_NE(fault(attribute("type", "string", "deepscanline") + end), "");
+  EXPECT_NE(fault(attribute("type", "string", "deeptile") + end), "");
+  EXPECT_EQ(fault(attribute("type", "string", "de") + end), "");
 }
 
 TEST_F(ExrHeader, SizesThatTheTypeDoesNotHaveAreFaults) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <limits>
 
 namespace nephroid {
@@ -46,6 +47,24 @@ TEST(PassRanges, TellWhatTwoHave) {
   EXPECT_FALSE(ranges("0..9,20..29").overlap(ranges("10..19,30..4294967294")));
   EXPECT_EQ(ranges("5..4294967294").overlap(ranges("4294967294..4294967294")),
             (PassRange{kLast, kLast}));
+}
+
+// Against each pair by itself.
+TEST(PassRanges, TellWhatTwoHaveHoweverTheyLie) {
+  for (uint32_t a = 0; a < 128; ++a)
+    for (uint32_t b = 0; b < 128; ++b) {
+      PassRanges first, second;
+      for (uint32_t bit = 0; bit < 7; ++bit) {
+        if (a >> bit & 1) first.add(bit);
+        if (b >> bit & 1) second.add(bit);
+      }
+      const auto both = first.overlap(second);
+      ASSERT_EQ(both.has_value(), (a & b) != 0) << a << ' ' << b;
+      if (!both) continue;
+      const auto lowest = static_cast<uint32_t>(std::countr_zero(a & b));
+      ASSERT_EQ(both->first, lowest) << a << ' ' << b;
+      ASSERT_EQ(both->last, lowest + static_cast<uint32_t>(std::countr_one((a & b) >> lowest)) - 1);
+    }
 }
 
 TEST(PassRanges, RefuseOtherText) {

@@ -1,0 +1,62 @@
+// What metadata of a picture are believed, and what merging refuses before it reads any state.
+#include "session/checkpoint.h"
+
+#include <gtest/gtest.h>
+
+#include "core/errors.h"
+#include "session/merge.h"
+#include "session/version.h"
+#include "unit/film/scratch_directory.h"
+
+namespace nephroid {
+namespace {
+
+/// A picture of two pixels with some state, of which only the metadata matter here.
+void write(const std::string& path, const Metadata& metadata) {
+  Picture picture;
+  picture.full_width = picture.window.x1 = 2;
+  picture.full_height = picture.window.y1 = 1;
+  picture.channels = {"R", "G", "B"};
+  picture.pixels.resize(6);
+  picture.metadata = metadata;
+  std::vector<uint64_t> sums(2);
+  RenderState state;
+  state.add("sums", std::span(sums));
+  write_exr(path, picture, &state);
+}
+
+TEST(Checkpoint, TimesAreFiniteAndNotNegative) {
+  const ScratchDirectory directory;
+  const std::string path = directory.file("a.exr");
+  for (const std::string text : {"nan", "inf", "-1", "1e999"}) {
+    write(path, {{"nephroid:seconds", text}});
+    EXPECT_THROW(seconds_of(StateFile(path), "nephroid:seconds"), IoError) << text;
+  }
+  write(path, {{"nephroid:seconds", "12.5"}});
+  EXPECT_EQ(seconds_of(StateFile(path), "nephroid:seconds"), 12.5);
+  EXPECT_EQ(seconds_of(StateFile(path), "nephroid:last_pass_seconds"), 0);
+}
+
+std::string refusal_of_merge(const std::string& version) {
+  const ScratchDirectory directory;
+  const std::string a = directory.file("a.exr"), b = directory.file("b.exr");
+  write(a, {{"nephroid:version", version}, {"nephroid:passes", "0..1"}});
+  write(b, {{"nephroid:version", version}, {"nephroid:passes", "2..3"}});
+  try {
+    merge_pictures({a, b}, directory.file("sum.exr"));
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Merge, AddsUpPicturesOfThisVersionOnly) {
+  const std::string mine = std::string("this program is ") + kVersion;
+  EXPECT_NE(refusal_of_merge("0.0.1").find("it is of version 0.0.1, " + mine), std::string::npos)
+      << refusal_of_merge("0.0.1");
+  // These are refused as well, but for what they are.
+  EXPECT_EQ(refusal_of_merge(kVersion).find(mine), std::string::npos);
+}
+
+}  // namespace
+}  // namespace nephroid
