@@ -1,6 +1,6 @@
 // What a render keeps from pass to pass, as spans over the memory in which it lies: enough to write
-// it down and to go on from it. Who calls it: the film and estimators tell theirs, exr_file.h reads
-// and writes it. It must not know what the bytes mean.
+// it down and to go on from it. Who calls it: the film and estimators tell theirs, exr_file.h
+// writes it, state_file.h reads it. It must not know what the bytes mean.
 #pragma once
 
 #include <cstddef>

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "film/exr_file.h"
+#include "film/state_file.h"
 #include "integrator/estimator.h"
 #include "session/pass_ranges.h"
 

@@ -2,7 +2,7 @@
 // Who calls it: the command render writes it, merge reads it. It must not know what is in a film.
 #pragma once
 
-#include "film/exr_file.h"
+#include "film/state_file.h"
 #include "film/film.h"
 
 namespace nephroid {

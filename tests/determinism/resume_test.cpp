@@ -9,6 +9,7 @@
 
 #include "core/errors.h"
 #include "determinism/scene_of_all_kinds.h"
+#include "film/exr_file.h"
 #include "film/film_output.h"
 #include "rendering.h"
 #include "session/checkpoint.h"

@@ -11,6 +11,7 @@
 #include <numeric>
 
 #include "core/errors.h"
+#include "film/state_file.h"
 #include "unit/film/scratch_directory.h"
 
 namespace nephroid {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.h"
+#include "film/exr_file.h"
 #include "session/merge.h"
 #include "session/version.h"
 #include "unit/film/scratch_directory.h"

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "core/errors.h"
-#include "film/exr_file.h"
+#include "film/state_file.h"
 #include "session/choices_report.h"
 #include "unit/film/scratch_directory.h"
 #include "unit/session/scripted_session.h"

@@ -1,0 +1,36 @@
+// How a state lies in a picture's file: the names of its parts and channels, the pixels of what is
+// not of pixels, and frames over memory. Who calls it: exr_file.cpp, which writes it, and
+// state_file.cpp, which reads it; nobody else, it has OpenEXR's types in it.
+#pragma once
+
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "film/film.h"
+
+namespace nephroid::exr_layout {
+
+inline constexpr const char* kPartPrefix = "state.";
+/// The last part: two words for each other one, and two for the picture's texts, by which damage is
+/// seen.
+inline constexpr const char* kChecksums = "checksums";
+/// How many words of a part are used.
+inline constexpr const char* kWordsKey = "nephroid:words";
+
+/// Items of a part, or of the picture, as they lie in memory: `channels` 32-bit numbers together.
+Imf::FrameBuffer frame_of(const PixelBounds& window, const std::vector<std::string>& channels,
+                          Imf::PixelType type, const void* memory);
+
+/// The pixels, of a word each, of what is not of pixels.
+PixelBounds window_of_stream(size_t words);
+
+std::vector<std::string> channels_of_words(size_t words);
+
+/// Of all texts, which say what the picture is.
+uint64_t hash_of_texts(const Imf::Header& header);
+
+}  // namespace nephroid::exr_layout
