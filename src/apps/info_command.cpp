@@ -1,4 +1,5 @@
-// `nephroid info`: what a scene holds, from its description and from what was built.
+// `nephroid info`: what a scene holds, from its description and from what was built; or what a
+// picture is of.
 #include <fmt/format.h>
 
 #include <unordered_map>
@@ -7,6 +8,7 @@
 #include "apps/commands.h"
 #include "apps/messages.h"
 #include "scene/embree_scene.h"
+#include "session/picture_description.h"
 #include "session/scene_loading.h"
 
 namespace nephroid {
@@ -109,10 +111,14 @@ void print_integrator(const Scene& scene) {
 }  // namespace
 
 int run_info(const InfoCommand& command) {
-  const LoadedScene loaded = load_scene(command.scene, SceneOverrides{});
+  if (is_picture(command.file)) {
+    fmt::print("{}", description_of_picture(command.file));
+    return static_cast<int>(ExitStatus::kDone);
+  }
+  const LoadedScene loaded = load_scene(command.file, SceneOverrides{});
   print_warnings(loaded.warnings);
   const Scene& scene = *loaded.scene;
-  fmt::print("scene: {}\n", command.scene);
+  fmt::print("scene: {}\n", command.file);
   print_film(scene);
   fmt::print("camera: {}\n", loaded.description.camera ? loaded.description.camera->type
                                                        : std::string("perspective (default)"));

@@ -127,13 +127,7 @@ Imf::Header part_header(const Picture& picture, const Part& part) {
   return header;
 }
 
-void add_words(uint64_t hash, std::vector<uint32_t>* words) {
-  words->push_back(static_cast<uint32_t>(hash));
-  words->push_back(static_cast<uint32_t>(hash >> 32));
-}
-
-std::vector<Part> parts_of(const RenderState& state, const PixelBounds& window,
-                           const Imf::Header& picture) {
+std::vector<Part> parts_of(const RenderState& state, const PixelBounds& window) {
   std::vector<Part> parts;
   for (const RenderState::Array& array : state.arrays)
     if (is_of_pixels(array, window))
@@ -143,8 +137,11 @@ std::vector<Part> parts_of(const RenderState& state, const PixelBounds& window,
   for (const RenderState::Stream& stream : state.streams)
     parts.push_back(part_of_stream(stream.name, stream.save()));
   std::vector<uint32_t> checksums;
-  for (const Part& part : parts) add_words(hash_of(part.bytes), &checksums);
-  add_words(hash_of_texts(picture), &checksums);
+  for (const Part& part : parts) {
+    const uint64_t hash = hash_of(part.bytes);
+    checksums.push_back(static_cast<uint32_t>(hash));
+    checksums.push_back(static_cast<uint32_t>(hash >> 32));
+  }
   parts.push_back(part_of_stream(kChecksums, std::move(checksums)));
   return parts;
 }
@@ -175,8 +172,9 @@ void write_exr(const std::string& path, const Picture& picture, const RenderStat
   try {
     std::vector<Imf::Header> headers{picture_header(picture)};
     std::vector<Part> parts;
-    if (state) parts = parts_of(*state, picture.window, headers[0]);
+    if (state) parts = parts_of(*state, picture.window);
     for (const Part& part : parts) headers.push_back(part_header(picture, part));
+    if (state) headers.back().insert(kTextsKey, Imf::StringAttribute(hash_of_texts(headers[0])));
     size_t state_words = 0;
     for (const Part& part : parts) state_words += part.words;
     Imf::MultiPartOutputFile out(

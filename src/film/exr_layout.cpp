@@ -40,12 +40,12 @@ std::vector<std::string> channels_of_words(size_t words) {
   return names;
 }
 
-uint64_t hash_of_texts(const Imf::Header& header) {
+std::string hash_of_texts(const Imf::Header& header) {
   std::string texts;
   for (auto a = header.begin(); a != header.end(); ++a)
     if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&a.attribute()))
       texts += std::string(a.name()) + '\0' + text->value() + '\0';
-  return hash_of(std::as_bytes(std::span(texts)));
+  return fmt::format("{:016x}", hash_of(std::as_bytes(std::span(texts))));
 }
 
 }  // namespace nephroid::exr_layout

@@ -6,7 +6,6 @@
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -15,9 +14,11 @@
 namespace nephroid::exr_layout {
 
 inline constexpr const char* kPartPrefix = "state.";
-/// The last part: two words for each other one, and two for the picture's texts, by which damage is
-/// seen.
+/// The last part: two words for each other one, by which damage is seen.
 inline constexpr const char* kChecksums = "checksums";
+/// In that part's header: hash_of_texts of the picture. Times differ from run to run, what is in the
+/// parts does not.
+inline constexpr const char* kTextsKey = "nephroid:texts";
 /// How many words of a part are used.
 inline constexpr const char* kWordsKey = "nephroid:words";
 
@@ -30,7 +31,7 @@ PixelBounds window_of_stream(size_t words);
 
 std::vector<std::string> channels_of_words(size_t words);
 
-/// Of all texts, which say what the picture is.
-uint64_t hash_of_texts(const Imf::Header& header);
+/// Of all texts in a header, which say what the picture is; in hexadecimal digits.
+std::string hash_of_texts(const Imf::Header& header);
 
 }  // namespace nephroid::exr_layout

@@ -162,18 +162,17 @@ void StateFile::load(const RenderState& state) {
     streams.push_back(in.read_stream(stream.name, stream.most_words));
     found.push_back(hash_of(std::as_bytes(std::span(streams.back()))));
   }
-  const std::vector<uint32_t> checksums = in.read_stream(kChecksums, 2 * found.size() + 2);
-  if (checksums.size() != 2 * found.size() + 2) in.fail("its parts are not those of this render");
-  const auto is_whole = [&](size_t i, uint64_t hash) {
-    return hash == (checksums[2 * i] | uint64_t{checksums[2 * i + 1]} << 32);
-  };
-  if (!is_whole(found.size(), hash_of_texts(in.file->header(0))))
-    in.fail("what its metadata say is damaged");
+  const std::vector<uint32_t> checksums = in.read_stream(kChecksums, 2 * found.size());
+  if (checksums.size() != 2 * found.size()) in.fail("its parts are not those of this render");
   for (size_t i = 0; i < found.size(); ++i)
-    if (!is_whole(i, found[i]))
+    if (found[i] != (checksums[2 * i] | uint64_t{checksums[2 * i + 1]} << 32))
       in.fail(fmt::format("'{}' is damaged", i < state.arrays.size()
                                                  ? state.arrays[i].name
                                                  : state.streams[i - state.arrays.size()].name));
+  const auto* texts =
+      in.file->header(in.find(kChecksums).part).findTypedAttribute<Imf::StringAttribute>(kTextsKey);
+  if (!texts || texts->value() != hash_of_texts(in.file->header(0)))
+    in.fail("what its metadata say is damaged");
   for (size_t i = 0; i < streams.size(); ++i) try {
       state.streams[i].load(streams[i]);
     } catch (const IoError& error) {

@@ -10,7 +10,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr const char* kLayoutKey = "nephroid:layout";
 /// Runs of equal bytes are as long as 128.
 constexpr double kMostBytesPerByte = 128;
 

@@ -7,6 +7,9 @@
 
 namespace nephroid {
 
+/// Of the metadata that are for this program alone.
+inline constexpr const char* kLayoutKey = "nephroid:layout";
+
 /// `passes_add_up`: those of the film's estimators are independent of each other.
 void add_film_metadata(const Film& film, bool passes_add_up, Metadata* metadata);
 

@@ -125,7 +125,7 @@ void add_only(CommandLine& line, const std::string& text) {
 constexpr CommandDescription kCommands[] = {
     {"render", "Render a scene to an EXR and a PNG."},
     {"merge", "Add up pictures of different passes of one render."},
-    {"info", "Say what is in a scene without rendering it."},
+    {"info", "Say what is in a scene, or what a picture is of and how far it has come."},
     {"routes", "Say who renders which light, prove it, and measure it in a scene."},
     {"compare", "Measure how far a picture is from a reference."},
     {"bench", "Run a suite of integrators and scenes and write a report."},
@@ -240,8 +240,9 @@ constexpr OptionDescription kOptions[] = {
      [](CommandLine& l, const std::string& t) {
        l.routes.passes = static_cast<uint32_t>(parse_integer("--passes", t, 1, kMostPilotPasses));
      }},
-    {"info", "SCENE", "", "", "", "", "", "A pbrt-v4 scene file, may be compressed (.gz).", false,
-     [](CommandLine& l, const std::string& t) { l.info.scene = t; }},
+    {"info", "FILE", "", "", "", "", "",
+     "A pbrt-v4 scene file, may be compressed (.gz), or a picture that this program wrote.", false,
+     [](CommandLine& l, const std::string& t) { l.info.file = t; }},
     {"compare", "REF", "", "", "", "", "", "The reference picture.", false,
      [](CommandLine& l, const std::string& t) { l.compare.reference = t; }},
     {"compare", "TEST", "", "", "", "", "", "The picture to measure, of the same size.", false,

@@ -40,7 +40,7 @@ struct RenderCommand {
 };
 
 struct InfoCommand {
-  std::string scene;
+  std::string file;  ///< a scene or a picture
 };
 
 /// What `nephroid routes` was asked for.

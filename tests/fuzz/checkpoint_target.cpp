@@ -8,6 +8,7 @@
 #include "session/checkpoint.h"
 #include "session/fault_report.h"
 #include "session/film_metadata.h"
+#include "session/picture_description.h"
 
 namespace nephroid::fuzz {
 namespace {
@@ -18,6 +19,7 @@ void read(const std::string& path) {
   if (PassRanges::parse(passes.text()) != passes) __builtin_trap();
   if (!passes.overlap(passes)) __builtin_trap();
   seconds_of(file, "nephroid:seconds");
+  description_of_picture(path);
   Film film = film_of(file);
   passes_add_up(file);
   file.load(film.state());

@@ -6,6 +6,7 @@
 #include "core/errors.h"
 #include "film/exr_file.h"
 #include "session/merge.h"
+#include "session/picture_description.h"
 #include "session/version.h"
 #include "unit/film/scratch_directory.h"
 
@@ -36,6 +37,21 @@ TEST(Checkpoint, TimesAreFiniteAndNotNegative) {
   write(path, {{"nephroid:seconds", "12.5"}});
   EXPECT_EQ(seconds_of(StateFile(path), "nephroid:seconds"), 12.5);
   EXPECT_EQ(seconds_of(StateFile(path), "nephroid:last_pass_seconds"), 0);
+}
+
+TEST(PictureDescription, SaysWhatThePictureIsOf) {
+  const ScratchDirectory directory;
+  const std::string path = directory.file("a.exr");
+  write(path, {{"nephroid:passes", "0..1,4..9"},
+               {"nephroid:layout", "{\"passes_add_up\":true}"},
+               {"nephroid:history", "2 passes in 1.000 s\n6 passes in 3.000 s\n"}});
+  EXPECT_TRUE(is_picture(path));
+  EXPECT_EQ(description_of_picture(path),
+            "picture: " + path +
+                "\nresolution: 2x1\nstate: 8 passes (0..1,4..9), to be resumed or merged\n"
+                "history:\n  2 passes in 1.000 s\n  6 passes in 3.000 s\npasses: 0..1,4..9\n");
+  EXPECT_FALSE(is_picture(directory.file("none.exr")));
+  EXPECT_FALSE(is_picture(directory.path()));
 }
 
 std::string refusal_of_merge(const std::string& version) {

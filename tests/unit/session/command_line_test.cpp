@@ -107,7 +107,7 @@ TEST(CommandLine, OtherSpellings) {
 TEST(CommandLine, InfoAndCompare) {
   const CommandLine info = parse("info s.pbrt");
   EXPECT_EQ(info.action, Action::kInfo);
-  EXPECT_EQ(info.info.scene, "s.pbrt");
+  EXPECT_EQ(info.info.file, "s.pbrt");
   const CommandLine compare = parse("compare a.exr b.exr --heat h.png --subtract-reference-error");
   EXPECT_EQ(compare.action, Action::kCompare);
   EXPECT_EQ(compare.compare.reference, "a.exr");

@@ -1,0 +1,16 @@
+// What a picture that the program wrote is of, and how far it has come, in sentences.
+// Who calls it: the command info. It must not know scenes.
+#pragma once
+
+#include <string>
+
+namespace nephroid {
+
+/// True for files that begin as OpenEXR files do.
+bool is_picture(const std::string& path);
+
+/// A line for the file, its pixels and its passes, and whether a render can go on from it; then all
+/// that its metadata say, a line each, longer texts indented below their names. Throws IoError.
+std::string description_of_picture(const std::string& path);
+
+}  // namespace nephroid
