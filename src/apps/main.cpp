@@ -11,6 +11,7 @@
 #include "apps/commands.h"
 #include "apps/messages.h"
 #include "core/errors.h"
+#include "film/image_io.h"
 #include "session/command_line.h"
 
 namespace nephroid {
@@ -53,6 +54,7 @@ int run(const std::vector<std::string>& arguments) {
 int main(int argc, char** argv) {
   using namespace nephroid;
   try {
+    limit_image_threads(0);  // a command may have fewer
     const int status = run(std::vector<std::string>(argv + (argc > 0 ? 1 : 0), argv + argc));
     // What was printed may still be on its way to a full disk or a closed pipe.
     if (std::fflush(stdout) != 0)

@@ -12,6 +12,7 @@
 #include <csignal>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 #include <system_error>
 
 #include "core/errors.h"
@@ -59,14 +60,28 @@ std::string temporary_stem(const fs::path& target) {
          std::string(host, ::strnlen(host, 32)) + "@";
 }
 
-/// Whether nobody writes to a temporary file. The number of its process does not tell: one of an
-/// earlier start of the machine may have had ours, and those of another container we do not see.
-bool is_abandoned(const fs::path& path) {
+/// Whether somebody writes to a temporary file; empty where the file system has no locks. (To ask
+/// for a shared lock a file need not be open for writing, which matters on NFS.)
+std::optional<bool> is_held(const fs::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return false;
-  const bool abandoned = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+  if (descriptor < 0) return std::nullopt;
+  std::optional<bool> held;
+  if (::flock(descriptor, LOCK_SH | LOCK_NB) == 0)
+    held = false;
+  else if (errno == EWOULDBLOCK)
+    held = true;
   ::close(descriptor);
-  return abandoned;
+  return held;
+}
+
+/// Whether a process that wrote to the temporary file is no more. Its number alone does not tell:
+/// one of an earlier start of the machine may have had ours, and those of another container we do
+/// not see.
+bool is_abandoned(const fs::path& path, pid_t process) {
+  const bool is_ours = process == ::getpid();
+  if (!is_ours && (::kill(process, 0) == 0 || errno != ESRCH)) return false;
+  const std::optional<bool> held = is_held(path);
+  return held ? !*held : !is_ours;
 }
 
 /// Removes what processes that were killed while they wrote to the target have left.
@@ -81,8 +96,7 @@ void remove_leftovers(const fs::path& target) {
     const char* const digits = name.data() + stem.size();
     const auto [after, wrong] = std::from_chars(digits, name.data() + name.size(), process);
     if (wrong != std::errc() || process <= 0 || *after != '-') continue;
-    const bool may_live = process != ::getpid() && (::kill(process, 0) == 0 || errno != ESRCH);
-    if (!may_live && is_abandoned(i->path())) ::unlink(i->path().c_str());
+    if (is_abandoned(i->path(), process)) ::unlink(i->path().c_str());
   }
 }
 
@@ -99,7 +113,7 @@ class TemporaryFile {
       if (descriptor_ >= 0 || errno != EEXIST) break;
     }
     if (descriptor_ < 0) fail(shown_, "write into its directory", errno);
-    // For is_abandoned, which finds nothing abandoned where a file system has no locks.
+    // For is_abandoned.
     ::flock(descriptor_, LOCK_EX | LOCK_NB);
   }
   ~TemporaryFile() {

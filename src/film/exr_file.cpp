@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <new>
 #include <optional>
 
 #include "core/content_hash.h"
@@ -26,8 +27,6 @@
 #include "film/exr_layout.h"
 
 namespace nephroid {
-
-using namespace exr_layout;
 
 namespace {
 
@@ -118,9 +117,7 @@ std::vector<uint32_t> words_of(std::span<const std::byte> bytes) {
 }
 
 Imf::Header part_header(const Picture& picture, const Part& part) {
-  // Sums are noise below and nearly nothing above, of which this finds all that there is to find.
-  Imf::Header header =
-      header_of(picture, part.window, kPartPrefix + part.name, Imf::RLE_COMPRESSION);
+  Imf::Header header = header_of(picture, part.window, kPartPrefix + part.name, kStateCompression);
   for (const std::string& channel : channels_of_words(part.words))
     header.channels().insert(channel, Imf::Channel(Imf::UINT));
   header.insert(kWordsKey, Imf::StringAttribute(std::to_string(part.bytes.size() / 4)));
@@ -138,9 +135,8 @@ std::vector<Part> parts_of(const RenderState& state, const PixelBounds& window) 
     parts.push_back(part_of_stream(stream.name, stream.save()));
   std::vector<uint32_t> checksums;
   for (const Part& part : parts) {
-    const uint64_t hash = hash_of(part.bytes);
-    checksums.push_back(static_cast<uint32_t>(hash));
-    checksums.push_back(static_cast<uint32_t>(hash >> 32));
+    const auto words = words_of_hash(hash_of(part.bytes));
+    checksums.insert(checksums.end(), words.begin(), words.end());
   }
   parts.push_back(part_of_stream(kChecksums, std::move(checksums)));
   return parts;
@@ -169,10 +165,10 @@ uint64_t encoder_bytes(int width, size_t channels, size_t state_words) {
 void write_exr(const std::string& path, const Picture& picture, const RenderState* state) {
   AtomicFile file(path);
   AtomicOutput output(path, file);
+  std::vector<Part> parts;
+  if (state) parts = parts_of(*state, picture.window);
   try {
     std::vector<Imf::Header> headers{picture_header(picture)};
-    std::vector<Part> parts;
-    if (state) parts = parts_of(*state, picture.window);
     for (const Part& part : parts) headers.push_back(part_header(picture, part));
     if (state) headers.back().insert(kTextsKey, Imf::StringAttribute(hash_of_texts(headers[0])));
     size_t state_words = 0;
@@ -193,6 +189,9 @@ void write_exr(const std::string& path, const Picture& picture, const RenderStat
             frame_of(parts[i].window, channels_of_words(parts[i].words), Imf::UINT,
                      parts[i].memory()),
             parts[i].window);
+  } catch (const std::bad_alloc&) {
+    output.throw_if_failed();
+    throw;
   } catch (const std::exception& error) {
     output.throw_if_failed();
     throw IoError(path + ": cannot encode: " + error.what());

@@ -1,6 +1,8 @@
 // Words are written as they lie in memory.
 #include "film/exr_layout.h"
 
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <fmt/format.h>
 
@@ -10,7 +12,7 @@
 
 #include "core/content_hash.h"
 
-namespace nephroid::exr_layout {
+namespace nephroid {
 
 static_assert(std::endian::native == std::endian::little);
 
@@ -40,6 +42,17 @@ std::vector<std::string> channels_of_words(size_t words) {
   return names;
 }
 
+std::array<uint32_t, 2> words_of_hash(uint64_t hash) {
+  return {static_cast<uint32_t>(hash), static_cast<uint32_t>(hash >> 32)};
+}
+
+bool is_of_state(const Imf::Header& header) {
+  if (!header.hasType() || header.type() != Imf::SCANLINEIMAGE) return false;
+  for (auto c = header.channels().begin(); c != header.channels().end(); ++c)
+    if (c.channel().type != Imf::UINT) return false;
+  return header.compression() == kStateCompression;
+}
+
 std::string hash_of_texts(const Imf::Header& header) {
   std::string texts;
   for (auto a = header.begin(); a != header.end(); ++a)
@@ -48,4 +61,4 @@ std::string hash_of_texts(const Imf::Header& header) {
   return fmt::format("{:016x}", hash_of(std::as_bytes(std::span(texts))));
 }
 
-}  // namespace nephroid::exr_layout
+}  // namespace nephroid

@@ -1,26 +1,35 @@
 // How a state lies in a picture's file: the names of its parts and channels, the pixels of what is
 // not of pixels, and frames over memory. Who calls it: exr_file.cpp, which writes it, and
-// state_file.cpp, which reads it; nobody else, it has OpenEXR's types in it.
+// state_file.cpp, which reads it; nobody else, it has OpenEXR's types in it. It
+// must not know what a state means.
 #pragma once
 
+#include <OpenEXR/ImfCompression.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 
+#include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "film/film.h"
 
-namespace nephroid::exr_layout {
+namespace nephroid {
 
 inline constexpr const char* kPartPrefix = "state.";
 /// The last part: two words for each other one, by which damage is seen.
 inline constexpr const char* kChecksums = "checksums";
-/// In that part's header: hash_of_texts of the picture. Times differ from run to run, what is in the
-/// parts does not.
+/// In that part's header: hash_of_texts of the picture. Times differ from run to run, what is in
+/// the parts does not.
 inline constexpr const char* kTextsKey = "nephroid:texts";
 /// How many words of a part are used.
 inline constexpr const char* kWordsKey = "nephroid:words";
+
+/// Sums are noise below and nearly nothing above, of which run lengths find all that there is.
+inline constexpr Imf::Compression kStateCompression = Imf::RLE_COMPRESSION;
+/// True for headers of rows of words in that compression, and so of all parts of states.
+bool is_of_state(const Imf::Header& header);
 
 /// Items of a part, or of the picture, as they lie in memory: `channels` 32-bit numbers together.
 Imf::FrameBuffer frame_of(const PixelBounds& window, const std::vector<std::string>& channels,
@@ -31,7 +40,10 @@ PixelBounds window_of_stream(size_t words);
 
 std::vector<std::string> channels_of_words(size_t words);
 
+/// A checksum as two words, the lower one first.
+std::array<uint32_t, 2> words_of_hash(uint64_t hash);
+
 /// Of all texts in a header, which say what the picture is; in hexadecimal digits.
 std::string hash_of_texts(const Imf::Header& header);
 
-}  // namespace nephroid::exr_layout
+}  // namespace nephroid

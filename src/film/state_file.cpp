@@ -23,8 +23,6 @@
 
 namespace nephroid {
 
-using namespace exr_layout;
-
 struct StateFile::Input {
   std::string path;
   uint64_t bytes = 0;
@@ -71,18 +69,6 @@ struct StateFile::Input {
   }
 };
 
-namespace {
-
-/// As part_header makes them. The library takes other memory for other kinds.
-bool is_of_state(const Imf::Header& header) {
-  if (!header.hasType() || header.type() != Imf::SCANLINEIMAGE) return false;
-  for (auto c = header.channels().begin(); c != header.channels().end(); ++c)
-    if (c.channel().type != Imf::UINT) return false;
-  return header.compression() == Imf::RLE_COMPRESSION;
-}
-
-}  // namespace
-
 StateFile::StateFile(const std::string& path) : input_(std::make_unique<Input>()) {
   Input& in = *input_;
   in.path = path;
@@ -114,6 +100,12 @@ StateFile::StateFile(const std::string& path) : input_(std::make_unique<Input>()
   } catch (const std::exception& error) {
     throw IoError(path + ": cannot read: " + error.what());
   }
+  const auto checksums = in.parts.find(kChecksums);
+  if (checksums == in.parts.end()) return;  // there is no state, or it cannot be loaded
+  const auto* texts =
+      in.file->header(checksums->second.part).findTypedAttribute<Imf::StringAttribute>(kTextsKey);
+  if (!texts) in.fail("it was written by an earlier build of this program");
+  if (texts->value() != hash_of_texts(in.file->header(0))) in.fail("its metadata are damaged");
 }
 
 StateFile::~StateFile() = default;
@@ -165,14 +157,11 @@ void StateFile::load(const RenderState& state) {
   const std::vector<uint32_t> checksums = in.read_stream(kChecksums, 2 * found.size());
   if (checksums.size() != 2 * found.size()) in.fail("its parts are not those of this render");
   for (size_t i = 0; i < found.size(); ++i)
-    if (found[i] != (checksums[2 * i] | uint64_t{checksums[2 * i + 1]} << 32))
+    if (const auto words = words_of_hash(found[i]);
+        !std::equal(words.begin(), words.end(), checksums.begin() + static_cast<ptrdiff_t>(2 * i)))
       in.fail(fmt::format("'{}' is damaged", i < state.arrays.size()
                                                  ? state.arrays[i].name
                                                  : state.streams[i - state.arrays.size()].name));
-  const auto* texts =
-      in.file->header(in.find(kChecksums).part).findTypedAttribute<Imf::StringAttribute>(kTextsKey);
-  if (!texts || texts->value() != hash_of_texts(in.file->header(0)))
-    in.fail("what its metadata say is damaged");
   for (size_t i = 0; i < streams.size(); ++i) try {
       state.streams[i].load(streams[i]);
     } catch (const IoError& error) {

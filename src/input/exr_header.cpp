@@ -144,16 +144,22 @@ class Header {
   /// The tiles or blocks of rows of this part that the library holds at once, with all their
   /// channels, and how many tiles there are: each has its offset in the file.
   bool has_possible_chunks() const {
-    const Extent chunk = part_.tile.value_or(
-        Extent{part_.window.width, std::min(part_.window.height, part_.rows_in_block)});
-    const double bytes = static_cast<double>(chunk.width) * static_cast<double>(chunk.height) *
-                         static_cast<double>(buffers_ * part_.pixel_bytes);
-    const uint64_t most = std::max(kFewBufferBytes, size_ * kMostBufferBytesPerByte);
-    if (bytes > static_cast<double>(most)) return false;
+    const auto is_possible = [&](const Extent& chunk) {
+      const double bytes = static_cast<double>(chunk.width) * static_cast<double>(chunk.height) *
+                           static_cast<double>(buffers_ * part_.pixel_bytes);
+      return bytes <=
+             static_cast<double>(std::max(kFewBufferBytes, size_ * kMostBufferBytesPerByte));
+    };
+    // A part that says how large its tiles are need not have any.
+    if (!is_possible({part_.window.width, std::min(part_.window.height, part_.rows_in_block)}))
+      return false;
+    if (!part_.tile) return true;
+    const Extent& tile = *part_.tile;
+    if (!is_possible(tile)) return false;
     // A tile of no width is the library's to refuse.
-    if (!part_.tile || chunk.width == 0 || chunk.height == 0) return true;
+    if (tile.width == 0 || tile.height == 0) return true;
     const auto count = [](uint64_t all, uint64_t each) { return (all + each - 1) / each; };
-    return count(part_.window.width, chunk.width) * count(part_.window.height, chunk.height) <=
+    return count(part_.window.width, tile.width) * count(part_.window.height, tile.height) <=
            size_ / kBytesPerChunkOffset;
   }
 

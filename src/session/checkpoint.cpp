@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <map>
 #include <sstream>
 
@@ -76,8 +76,11 @@ PassRanges passes_of(const StateFile& file, const std::string& purpose) {
 
 double seconds_of(const StateFile& file, const std::string& key) {
   const std::string text = value_of(file.metadata(), key);
-  const double seconds = std::strtod(text.c_str(), nullptr);
-  if (!(seconds >= 0) || !std::isfinite(seconds))
+  if (text.empty()) return 0;
+  double seconds = 0;
+  const char* const end = text.data() + text.size();
+  const auto [after, error] = std::from_chars(text.data(), end, seconds);
+  if (error != std::errc() || after != end || !(seconds >= 0) || !std::isfinite(seconds))
     throw IoError(fmt::format("{}: '{}' of {} is no time", file.path(), text, key));
   return seconds;
 }

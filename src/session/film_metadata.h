@@ -2,8 +2,8 @@
 // Who calls it: the command render writes it, merge reads it. It must not know what is in a film.
 #pragma once
 
-#include "film/state_file.h"
 #include "film/film.h"
+#include "film/state_file.h"
 
 namespace nephroid {
 

@@ -32,7 +32,8 @@ void warn_of_gaps(Merged& merged) {
     pass = range.last + 1;
   }
   if (gaps > kMostNamed)
-    merged.warnings.push_back(fmt::format("so are {} more ranges of passes", gaps - kMostNamed));
+    merged.warnings.push_back(
+        fmt::format("{} more ranges of passes are in none of them", gaps - kMostNamed));
 }
 
 }  // namespace
@@ -44,6 +45,11 @@ Merged merge_pictures(const std::vector<std::string>& inputs, const std::string&
   // The order of the arguments does not count.
   std::ranges::sort(files, {}, [](const Input& i) { return i.passes.ranges()[0].first; });
   const StateFile first(files[0].path);
+  if (const std::string version = value_of(first.metadata(), "nephroid:version");
+      version != kVersion)
+    throw UsageError(fmt::format("{}: cannot {}: it is of version {}, this program is {}",
+                                 first.path(), kPurpose, version.empty() ? "?" : version,
+                                 kVersion));
   Merged merged;
   std::string history, sets;
   for (const Input& input : files) {
@@ -53,9 +59,6 @@ Merged merge_pictures(const std::vector<std::string>& inputs, const std::string&
     const auto refuse = [&name = file.path()](const std::string& why) {
       throw UsageError(name + ": cannot " + kPurpose + ": " + why);
     };
-    if (const std::string version = value_of(file.metadata(), "nephroid:version");
-        version != kVersion)
-      refuse(fmt::format("it is of version {}, this program is {}", version, kVersion));
     if (value_of(file.metadata(), "nephroid:outliers") == "reject")
       refuse("with --outliers reject passes depend on each other; --resume goes on with it");
     if (!passes_add_up(file))

@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
+#include <string_view>
 
 #include "session/checkpoint.h"
 #include "session/film_metadata.h"

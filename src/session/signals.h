@@ -16,7 +16,9 @@ struct SignalFlags {
 /// SIGHUP (unless they are ignored, as by nohup) set `stop`. Before, while there is nothing to
 /// write yet, these end the program, and so does a SIGINT after the first request to stop; a second
 /// SIGTERM, which supervisors send to a process and to its group, does not. A log that nobody reads
-/// any more and files that grow too large are errors of writing and no signals, from then on.
+/// any more and files that grow too large are errors of writing and no signals, from then on; and
+/// SIGUSR1, which comes from whoever does not see that the program is at its end, is ignored after
+/// it.
 class SignalListener {
  public:
   SignalListener();

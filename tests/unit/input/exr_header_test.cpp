@@ -100,6 +100,13 @@ TEST_F(ExrHeader, TilesAndBlocksOfAllThreadsAreBoundedWithAllTheirChannels) {
                   window(16384, 256) + end),
             "")
       << "ZIP packs 16 rows together";
+  EXPECT_NE(fault(five + window(16384, 256) + tiles(16384, 1) + end + std::string(2048, 'x')), "")
+      << "tiles in a picture of rows";
+  EXPECT_NE(fault(four + window(16384, 256) + end + five + window(16384, 256) + end + end, 0x1002),
+            "")
+      << "the second of two parts";
+  EXPECT_EQ(fault(four + window(16384, 256) + end + four + window(16384, 256) + end + end, 0x1002),
+            "");
   // Every tile has an offset of eight bytes.
   const std::string room(8 * 16, 'x'), one = channels(1, kFloat);
   EXPECT_EQ(fault(one + window(4, 4) + tiles(1, 1) + end + room), "");

@@ -30,7 +30,7 @@ void write(const std::string& path, const Metadata& metadata) {
 TEST(Checkpoint, TimesAreFiniteAndNotNegative) {
   const ScratchDirectory directory;
   const std::string path = directory.file("a.exr");
-  for (const std::string text : {"nan", "inf", "-1", "1e999"}) {
+  for (const std::string text : {"nan", "inf", "-1", "1e999", "abc", "1x", " 1", "0x10"}) {
     write(path, {{"nephroid:seconds", text}});
     EXPECT_THROW(seconds_of(StateFile(path), "nephroid:seconds"), IoError) << text;
   }
@@ -68,11 +68,16 @@ std::string refusal_of_merge(const std::string& version) {
 }
 
 TEST(Merge, AddsUpPicturesOfThisVersionOnly) {
-  const std::string mine = std::string("this program is ") + kVersion;
-  EXPECT_NE(refusal_of_merge("0.0.1").find("it is of version 0.0.1, " + mine), std::string::npos)
-      << refusal_of_merge("0.0.1");
+  const std::string mine = std::string(", this program is ") + kVersion;
+  for (const std::string version : {"0.0.1", ""})
+    EXPECT_NE(refusal_of_merge(version).find("it is of version " +
+                                             (version.empty() ? "?" : version) + mine),
+              std::string::npos)
+        << refusal_of_merge(version);
   // These are refused as well, but for what they are.
-  EXPECT_EQ(refusal_of_merge(kVersion).find(mine), std::string::npos);
+  EXPECT_NE(refusal_of_merge(kVersion).find("what it says of its film makes no sense"),
+            std::string::npos)
+      << refusal_of_merge(kVersion);
 }
 
 }  // namespace

@@ -102,6 +102,11 @@ TEST_F(Signals, WritingToNobodyIsNoSignal) {
   std::raise(SIGXFSZ);
 }
 
+TEST_F(Signals, PicturesMayBeAskedForAtTheVeryEnd) {
+  { const SignalListener listener; }
+  std::raise(SIGUSR1);
+}
+
 TEST_F(SignalsDeathTest, BeforeThereIsSomethingToWriteTheFirstOneKills) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   const auto early = [](int signal) {
