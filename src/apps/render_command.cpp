@@ -69,6 +69,15 @@ void warn_of_passes_beyond(const RenderOptions& options, const std::string& outp
                     output, done.text(), options.first_pass, *options.last_pass));
 }
 
+void warn_of_what_is_replaced(const std::string& output, const Metadata& here) {
+  const PassRanges passes = passes_to_go_on_from(output, here);
+  if (!passes.empty())
+    print_warning(
+        fmt::format("{} has passes {} of this very render and will be replaced; --resume "
+                    "goes on with it",
+                    output, passes.text()));
+}
+
 void warn_of_what_is_not_rejected(const Routes& routes) {
   const auto warn = [&](EstimatorKind kind, const char* what) {
     if (std::ranges::any_of(routes.groups(),
@@ -159,14 +168,16 @@ int run_render(const RenderCommand& command) {
   add_routes(plan, &metadata);
   add_film(preset, film, &metadata);
   RenderOptions options = render_options(command, scene, output, std::move(metadata));
-  if (command.resume && std::filesystem::exists(output)) {
+  if (std::filesystem::exists(output)) {
     Metadata here = options.metadata;
     here.emplace_back("nephroid:seed", fmt::format("{}", options.seed));
     if (command.reject_outliers) here.emplace_back("nephroid:outliers", "reject");
-    options.begin_with = go_on_from(output, here, scene, preset, film);
-    if (!command.quiet) {
+    if (command.resume) {
+      options.begin_with = go_on_from(output, here, scene, preset, film);
       print_warnings(options.begin_with.warnings);
       warn_of_passes_beyond(options, output);
+    } else {
+      warn_of_what_is_replaced(output, here);
     }
   }
   std::vector<std::string> notes = preset.notes;
@@ -181,7 +192,7 @@ int run_render(const RenderCommand& command) {
     if (!command.quiet) display.clear();
     print_warning(warning);
   });
-  signals.note_stops();
+  signals.note_stops(!command.quiet);
   const RenderResult result = session.run(signals.flags());
   if (!command.quiet) {
     display.clear();

@@ -120,6 +120,16 @@ std::optional<std::string> warning_of_instruction_sets(const StateFile& file,
                      file.path(), shown(there), other, shown(here));
 }
 
+PassRanges passes_to_go_on_from(const std::string& path, const Metadata& here) {
+  try {
+    const StateFile file(path);
+    if (file.has_state() && differences(file.metadata(), here, "here").empty())
+      return passes_of(file, "go on from it");
+  } catch (const IoError&) {
+  }
+  return {};
+}
+
 Checkpoint go_on_from(const std::string& path, const Metadata& here, const Scene& scene,
                       Preset& preset, Film& film) try {
   const std::string purpose = "go on from it";

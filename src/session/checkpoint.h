@@ -49,6 +49,10 @@ std::optional<std::string> warning_of_instruction_sets(const StateFile& file,
                                                        const Metadata& metadata,
                                                        const std::string& other);
 
+/// The passes of a picture that a render with these metadata could go on from; empty if the file is
+/// none.
+PassRanges passes_to_go_on_from(const std::string& path, const Metadata& here);
+
 /// Reads the state of a file into film and estimators. Throws UsageError if it is the picture of
 /// another render, with all that differs, and IoError if it has no state or cannot be read.
 Checkpoint go_on_from(const std::string& path, const Metadata& here, const Scene& scene,

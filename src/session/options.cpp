@@ -159,8 +159,10 @@ constexpr OptionDescription kOptions[] = {
      "Leave the last picture without what a render needs to go on from it: a smaller file. Pictures "
      "on the way, and that of a render that a signal stops, have it.", false,
      [](CommandLine& l, const std::string&) { l.render.keeps_state = false; }},
-    {"render", "--quiet", "", "", "", "", "Output", "Print nothing but errors.", false,
-     [](CommandLine& l, const std::string&) { l.render.quiet = true; }},
+    {"render", "--quiet", "", "", "", "", "Output",
+     "Print nothing but errors, and what the picture is in danger of: that it cannot be written, what it is resumed from, "
+     "what it replaces.",
+     false, [](CommandLine& l, const std::string&) { l.render.quiet = true; }},
     {"render", "--integrator", "", "NAME", "", "mixed", "Algorithm", kIntegratorHelp, false,
      set_integrator<&CommandLine::render>},
     {"render", "--routes", "", "PRESET|FILE", "", "those of the integrator", "Algorithm",

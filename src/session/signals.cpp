@@ -1,7 +1,11 @@
-// sigaction and two lock-free atomics, which is all that a handler may touch.
+// sigaction, lock-free atomics and write(2), which is all that a handler may touch.
 #include "session/signals.h"
 
+#include <unistd.h>
+
+#include <cerrno>
 #include <csignal>
+#include <string_view>
 
 namespace nephroid {
 namespace {
@@ -9,6 +13,7 @@ namespace {
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
 SignalFlags requests;
+std::atomic<bool> answers{false};
 
 void set_action(int signal, void (*handler)(int)) {
   struct sigaction action = {};
@@ -26,6 +31,12 @@ auto action_of(int signal) {
 
 void ask_to_stop(int signal) {
   requests.stop.store(signal);
+  constexpr std::string_view kAnswer =
+      "\nnephroid: stopping after this pass; one more interrupt stops at once\n";
+  const int error = errno;
+  if (signal == SIGINT && answers.load() && action_of(SIGINT) != SIG_DFL) [[maybe_unused]]
+    const ssize_t written = ::write(STDERR_FILENO, kAnswer.data(), kAnswer.size());
+  errno = error;
   if (action_of(SIGINT) != SIG_IGN) set_action(SIGINT, SIG_DFL);
 }
 
@@ -49,7 +60,8 @@ SignalListener::SignalListener() {
   set_action(SIGXFSZ, SIG_IGN);
 }
 
-void SignalListener::note_stops() {
+void SignalListener::note_stops(bool answer_interrupts) {
+  answers.store(answer_interrupts);
   set_stop_actions(ask_to_stop);
 }
 

@@ -26,7 +26,8 @@ class SignalListener {
   SignalListener(const SignalListener&) = delete;
   SignalListener& operator=(const SignalListener&) = delete;
 
-  void note_stops();
+  /// If wished, the first SIGINT is answered on standard error: a pass may take long.
+  void note_stops(bool answer_interrupts = false);
   SignalFlags& flags() const;
 };
 

@@ -53,6 +53,15 @@ TEST_F(CheckpointCommand, WhatIsResumedIsOneRun) {
   }
 }
 
+TEST_F(CheckpointCommand, WhatIsReplacedIsSaid) {
+  const std::string said = "a.exr has passes 0..2 of this very render and will be replaced";
+  EXPECT_EQ(render("a", {"--passes", "3"}).errors.find("replaced"), std::string::npos);
+  expect_said(render("a", {"--passes", "1", "--quiet"}), said);
+  render("a", {"--passes", "3", "--resume"});
+  EXPECT_EQ(render("a", {"--passes", "1", "--seed", "5"}).errors.find("replaced"),
+            std::string::npos);
+}
+
 TEST_F(CheckpointCommand, WhatIsMergedIsOneRun) {
   render("whole", {"--passes", "4"});
   render("a", {"--passes", "0..0"});

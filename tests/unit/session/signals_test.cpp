@@ -39,6 +39,19 @@ TEST_F(Signals, ANewListenerStartsAfresh) {
   EXPECT_EQ(listener.flags().stop.load(), 0);
 }
 
+TEST_F(SignalsDeathTest, TheFirstInterruptIsAnswered) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const auto twice = [](int signal, bool answer) {
+    SignalListener listener;
+    listener.note_stops(answer);
+    std::raise(signal);
+    std::raise(SIGINT);
+  };
+  EXPECT_EXIT(twice(SIGINT, true), testing::KilledBySignal(SIGINT), "stopping after this pass");
+  EXPECT_EXIT(twice(SIGINT, false), testing::KilledBySignal(SIGINT), "^$");
+  EXPECT_EXIT(twice(SIGTERM, true), testing::KilledBySignal(SIGINT), "^$");
+}
+
 TEST_F(SignalsDeathTest, TheSecondInterruptKills) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   const auto twice = [](int first, int second) {
