@@ -29,14 +29,18 @@ auto action_of(int signal) {
   return action.sa_handler;
 }
 
-void ask_to_stop(int signal) {
-  requests.stop.store(signal);
-  constexpr std::string_view kAnswer =
+/// An answer that cannot be written changes nothing.
+void answer() {
+  constexpr std::string_view kText =
       "\nnephroid: stopping after this pass; one more interrupt stops at once\n";
   const int error = errno;
-  if (signal == SIGINT && answers.load() && action_of(SIGINT) != SIG_DFL) [[maybe_unused]]
-    const ssize_t written = ::write(STDERR_FILENO, kAnswer.data(), kAnswer.size());
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kText.data(), kText.size());
   errno = error;
+}
+
+void ask_to_stop(int signal) {
+  requests.stop.store(signal);
+  if (signal == SIGINT && answers.load()) answer();
   if (action_of(SIGINT) != SIG_IGN) set_action(SIGINT, SIG_DFL);
 }
 
