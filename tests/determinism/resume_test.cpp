@@ -15,6 +15,7 @@
 #include "session/checkpoint.h"
 #include "session/film_metadata.h"
 #include "session/merge.h"
+#include "session/version.h"
 #include "unit/film/scratch_directory.h"
 
 namespace nephroid {
@@ -40,7 +41,7 @@ struct OneRun {
     if (rejects)
       film.reject_outliers(
           {std::vector<float>(static_cast<size_t>(film.layout().group_count()), 1.0f), 8});
-    metadata = {{"nephroid:version", "test"}, {"nephroid:seed", "5"}};
+    metadata = {{"nephroid:version", kVersion}, {"nephroid:seed", "5"}};
     bool independent = true;
     for (const auto& e : preset.estimators) independent &= e->capabilities().independent_passes;
     add_film_metadata(film, independent, &metadata);
