@@ -69,6 +69,7 @@ void warn_of_passes_beyond(const RenderOptions& options, const std::string& outp
                     output, done.text(), options.first_pass, *options.last_pass));
 }
 
+/// A picture of this render that would not have to be rendered again.
 void warn_of_what_is_replaced(const std::string& output, const Metadata& here) {
   const PassRanges passes = passes_to_go_on_from(output, here);
   if (!passes.empty())
