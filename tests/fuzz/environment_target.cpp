@@ -17,7 +17,11 @@ const char* const kLights[] = {"\"infinite\"",
                                "\"infinite\" \"float illuminance\" 3",
                                "\"goniometric\" \"float power\" 2"};
 
-/// Samples and densities must be numbers that agree with each other as far as signs go.
+bool is_density(float pdf) {
+  return std::isfinite(pdf) && pdf >= 0.0f;
+}
+
+/// Samples and densities must be finite and agree with each other as far as signs go.
 void use(Light& light) {
   light.set_scene_sphere({Vec3f(0, 0, 0), 2});
   const SampledWavelengths lambda = SampledWavelengths::sample_visible(0.4f);
@@ -30,15 +34,16 @@ void use(Light& light) {
   for (const Vec2f& u : {Vec2f(0, 0), Vec2f(0.3f, 0.8f), Vec2f(kOneMinusEpsilon, 0.5f)}) {
     const Vec3f from(0.1f, -0.2f, 0.3f);
     if (const auto s = light.sample_towards(from, u, lambda)) {
-      must(s->radiance.is_finite() && is_finite(s->wi) && s->pdf_w > 0, "sample_towards");
-      const float pdf = light.pdf_towards(from, s->wi, s->p, s->ng);
-      must(pdf >= 0 && !std::isnan(pdf), "pdf_towards");
+      must(s->radiance.is_finite() && is_finite(s->wi) && is_density(s->pdf_w) && s->pdf_w > 0,
+           "sample_towards");
+      must(is_density(light.pdf_towards(from, s->wi, s->p, s->ng)), "pdf_towards");
     }
     if (const auto e = light.sample_emission(u, u, lambda)) {
-      must(e->radiance.is_finite() && is_finite(e->ray.d) && e->pdf_a > 0 && e->pdf_w > 0,
-           "sample_emission");
+      must(e->radiance.is_finite() && is_finite(e->ray.d), "sample_emission");
+      must(is_density(e->pdf_a) && is_density(e->pdf_w) && e->pdf_a > 0 && e->pdf_w > 0,
+           "its densities");
       const EmissionDensity density = light.emission_pdf(e->ng, e->ray.d);
-      must(density.pdf_a >= 0 && density.pdf_w >= 0, "emission_pdf");
+      must(is_density(density.pdf_a) && is_density(density.pdf_w), "emission_pdf");
     }
     must(light.radiance_at_infinity(from, Vec3f(0.6f, 0, 0.8f), lambda).is_finite(),
          "radiance_at_infinity");

@@ -2,6 +2,7 @@
 #include "scene/light/piecewise_constant_2d.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace nephroid {
 
@@ -61,6 +62,8 @@ PiecewiseConstant2D::PiecewiseConstant2D(std::vector<float> weights, int width, 
     make_guide(&cells_[first], width_, &cell_guide_[first]);
   }
   mean_ = total / (static_cast<double>(width_) * height_);
+  // Of less the inverse is beyond a float.
+  if (mean_ < std::numeric_limits<float>::min()) mean_ = 0.0;
   inverse_mean_ = mean_ > 0.0 ? static_cast<float>(1.0 / mean_) : 0.0f;
 }
 

@@ -19,7 +19,8 @@ class PiecewiseConstant2D {
   };
 
   PiecewiseConstant2D() = default;
-  /// `weights` are non-negative, row by row.
+  /// `weights` are non-negative, row by row. If their mean is smaller than any normal float they
+  /// count as zero.
   PiecewiseConstant2D(std::vector<float> weights, int width, int height);
 
   /// Empty if all weights are zero.

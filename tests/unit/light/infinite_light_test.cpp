@@ -61,6 +61,11 @@ TEST(PiecewiseConstant2D, SamplesCellsByTheirWeights) {
   for (int i = 0; i < 12; ++i) EXPECT_EQ(observed[i] == 0, weights[i] == 0) << i;
   EXPECT_GT(chi_square_test(observed, expected), 1e-4);
   EXPECT_FALSE(PiecewiseConstant2D({0, 0, 0, 0}, 2, 2).sample({0.5f, 0.5f}));
+  // The inverse of this mean is no float.
+  const PiecewiseConstant2D faint({0, 4e-39f, 0, 0}, 2, 2);
+  EXPECT_FALSE(faint.sample({0.5f, 0.5f}));
+  EXPECT_EQ(faint.pdf(0, 0), 0);
+  EXPECT_EQ(faint.mean(), 0);
 }
 
 TEST(UniformInfiniteLight, GivesPiAndItsPower) {
