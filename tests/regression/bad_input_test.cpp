@@ -225,9 +225,15 @@ TEST(BadLight, IsLocated) {
   expect_refused("LightSource \"point\" \"blackbody I\" 0\n", "7:21: \"blackbody I\" needs");
   expect_refused("LightSource \"point\" \"rgb I\" [ 1e38 0 0 ] \"float scale\" 1e30\n",
                  "7:21: the light is too bright");
+  expect_refused(
+      "LightSource \"spot\" \"float coneangle\" 0.01 \"float conedeltaangle\" 0.001 "
+      "\"float power\" 1e38\n",
+      "7:72: what this light emits must grow by more than 1e30 for this \"power\"");
   expect_refused("LightSource \"pont\"\n", "7:1: unknown light \"pont\", did you mean \"point\"?");
   expect_refused("AreaLightSource \"diffuse\" \"rgb L\" [ 0 -1 0 ]\n" + kTriangle,
                  "7:27: \"rgb L\" has a negative or infinite component");
+  expect_refused("AreaLightSource \"diffuse\" \"float power\" 1e38\n" + kTriangle,
+                 "7:27: what this light emits must grow by more than 1e30");
 }
 
 /// kOptions with one line replaced.

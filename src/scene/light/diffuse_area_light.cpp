@@ -215,7 +215,7 @@ std::vector<LightPtr> make_area_lights(const DirectiveDescription& description, 
     if (power > 0.0f) {
       // Watts (lumens) of a light whose luminance is 1.
       const double one = e.luminance * (two_sided ? 2.0 : 1.0) * shape->area(i) * kPi;
-      scale = one > 0.0 ? static_cast<float>(power / one) : 0.0f;
+      scale = scale_to(*p.find("power"), power, one, 1.0f);
     }
     lights.push_back(std::make_unique<DiffuseAreaLight>(emission, shape, i, scale));
   }

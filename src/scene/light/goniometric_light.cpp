@@ -81,7 +81,7 @@ LightPtr make_goniometric_light(const LightDescription& description, const Light
     double sum = 0.0;
     for (const float v : diagram) sum += v;
     const double per_intensity = 4.0 * kPi * sum / static_cast<double>(diagram.size());
-    scale = per_intensity > 0.0 ? static_cast<float>(scale * power / per_intensity) : 0.0f;
+    scale = scale_to(*p.find("power"), power, per_intensity, scale);
   }
   // The map's pole is y of the light's frame.
   const Transform swap_y_and_z(Mat44d(1, 0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 1));

@@ -81,8 +81,9 @@ class ImageInfiniteLight final : public Light {
   }
 
   float power() const override {
-    return 4.0f * kPi * kPi * sqr(sphere_.radius) * illuminant_.mean() *
-           static_cast<float>(distribution_.mean());
+    // Either of the first two may be enormous and the other tiny.
+    return illuminant_.mean() * static_cast<float>(distribution_.mean()) * 4.0f * kPi * kPi *
+           sqr(sphere_.radius);
   }
   std::optional<LightBounds> bounds() const override { return std::nullopt; }
   void set_scene_sphere(const SceneSphere& sphere) override { sphere_ = sphere; }

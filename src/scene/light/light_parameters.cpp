@@ -15,6 +15,9 @@ float read_scale(const ParameterSet& parameters) {
   return scale;
 }
 
+/// Beyond it products of a light's factor with spectra and pixels leave the range of floats.
+constexpr float kLargestScale = 1e30f;
+
 /// The illuminant of a colour space; the spaces live as long as the program.
 SpectrumPtr illuminant_of(const std::string& color_space) {
   const RgbColorSpace* space = RgbColorSpace::find(color_space);
@@ -60,7 +63,21 @@ Emission read_emission(const ParameterSet& parameters, const std::string& name, 
 }
 
 float image_emission_scale(const ParameterSet& parameters, const RgbColorSpace& space) {
-  return read_scale(parameters) / spectrum_to_photometric(space.illuminant());
+  const float scale = read_scale(parameters) / spectrum_to_photometric(space.illuminant());
+  if (!(scale <= kLargestScale))
+    throw SceneError(parameters.find("scale")->where,
+                     "the light is too bright for floating-point numbers, expected a \"scale\" up "
+                     "to 1e30");
+  return scale;
+}
+
+float scale_to(const Parameter& wanted, float value, double unscaled, float scale) {
+  if (!(unscaled > 0.0)) return 0.0f;
+  const double scaled = static_cast<double>(scale) * value / unscaled;
+  if (!(scaled <= kLargestScale))
+    throw SceneError(wanted.where, "what this light emits must grow by more than 1e30 for this \"" +
+                                       wanted.name + "\", expected a smaller one");
+  return static_cast<float>(scaled);
 }
 
 ImagePtr read_light_image(const ParameterSet& parameters, SceneFiles& files) {
@@ -90,12 +107,12 @@ ImagePtr read_sphere_image(const ParameterSet& parameters, SceneFiles& files,
 
 float sphere_emission_scale(const ParameterSet& parameters, const Image& image) {
   const float scale = image_emission_scale(parameters, image.color_space());
-  const float wanted = parameters.get_float("illuminance", -1.0f);
-  if (!(wanted > 0.0f)) return scale;
+  const float illuminance = parameters.get_float("illuminance", -1.0f);
+  if (!(illuminance > 0.0f)) return scale;
   // The factor is pbrt-v4's, which gives each of the n^2 pixels 2 pi / n^2 of solid angle.
   const double per_pixel = 2.0 * kPi / (static_cast<double>(image.width()) * image.width());
-  const double illuminance = illuminance_of(image) * per_pixel;
-  return illuminance > 0.0 ? static_cast<float>(scale * wanted / illuminance) : 0.0f;
+  return scale_to(*parameters.find("illuminance"), illuminance, illuminance_of(image) * per_pixel,
+                  scale);
 }
 
 Rgb luminance_weights(const RgbColorSpace& space) {

@@ -54,8 +54,14 @@ struct Emission {
 Emission read_emission(const ParameterSet& parameters, const std::string& name, SceneFiles& files,
                        const std::string& color_space);
 
-/// "scale" over the luminance of the illuminant of an image's colour space.
+/// "scale" over the luminance of the illuminant of an image's colour space. Throws SceneError for
+/// scales that are negative, not finite or enormous.
 float image_emission_scale(const ParameterSet& parameters, const RgbColorSpace& space);
+
+/// `scale` times what it takes for a light to have `value`, as the parameter `wanted` asks, where
+/// it has `unscaled`; 0 if that is 0. Throws SceneError if floating-point numbers do not reach so
+/// far.
+float scale_to(const Parameter& wanted, float value, double unscaled, float scale);
 
 /// The image named by "filename"; throws SceneError if it has infinite, NaN or enormous values.
 ImagePtr read_light_image(const ParameterSet& parameters, SceneFiles& files);

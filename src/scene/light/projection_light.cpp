@@ -144,10 +144,7 @@ LightPtr make_projection_light(const LightDescription& description, const LightS
   const Slide slide(image->width(), image->height(), fov);
   float scale = image_emission_scale(p, image->color_space());
   const float power = p.get_float("power", -1.0f);
-  if (power > 0.0f) {
-    const double one = lumens(*image, slide);
-    scale = one > 0.0 ? static_cast<float>(scale * power / one) : 0.0f;
-  }
+  if (power > 0.0f) scale = scale_to(*p.find("power"), power, lumens(*image, slide), scale);
   const Transform upright(Mat44d().setScale(Vec3d(1, -1, 1)));
   return std::make_unique<ProjectionLight>(upright * Transform(description.transform.start), *image,
                                            slide, scale);

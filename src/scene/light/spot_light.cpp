@@ -160,7 +160,7 @@ LightPtr make_spot_light(const LightDescription& description, const LightScope& 
   if (power > 0.0f) {
     const double start = std::cos(radians(cone - delta)), end = std::cos(radians(cone));
     const double per_intensity = 2.0 * kPi * ((1.0 - start) + (start - end) / 2.0);
-    scale = per_intensity > 0.0 ? static_cast<float>(scale * power / per_intensity) : 0.0f;
+    scale = scale_to(*p.find("power"), power, per_intensity, scale);
   }
   const Transform to_world = look_frame(from, to) * Transform(description.transform.start);
   return std::make_unique<SpotLight>(to_world, EmissionSpectrum(*e.spectrum, scale), cone,
