@@ -188,6 +188,15 @@ TEST(BadImage, IsLocated) {
   expect_image_error("LightSource \"infinite\" \"string filename\" \"a.pfm\"\n", "a.pfm",
                      "PF\n2 1\n-1.0\n" + std::string(24, '\0'),
                      "7:24: the image of an infinite light is 2 x 1, expected a square");
+  // The smallest normal float, little-endian.
+  const std::string faint = "Pf\n1 1\n-1.0\n" + std::string("\0\0\x80\0", 4);
+  const std::string sky = "LightSource \"infinite\" \"string filename\" \"a.pfm\" ";
+  expect_image_error(sky + "\"float illuminance\" 1000\n", "a.pfm", faint,
+                     "7:50: what this light emits must grow by more than 1e30 for this "
+                     "\"illuminance\"");
+  expect_image_error(sky + "\"float scale\" 1e38\n", "a.pfm", faint,
+                     "7:50: the light is too bright for floating-point numbers, expected a "
+                     "\"scale\" up to 1e30");
 }
 
 TEST(BadTransform, IsLocated) {

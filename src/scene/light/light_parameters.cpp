@@ -15,7 +15,7 @@ float read_scale(const ParameterSet& parameters) {
   return scale;
 }
 
-/// Beyond it products of a light's factor with spectra and pixels leave the range of floats.
+/// Beyond it, products of a light's factor with spectra and pixels leave the range of floats.
 constexpr float kLargestScale = 1e30f;
 
 /// The illuminant of a colour space; the spaces live as long as the program.
