@@ -5,6 +5,10 @@ find_package(GTest REQUIRED)
 # A sanitizer is slow: of the tests with most passes it sees one shard in so many, the one that
 # NEPHROID_SANITIZED_SHARD (modulo so many) says.
 set(NEPHROID_SANITIZED_SHARD 0 CACHE STRING "Which of the tests with most passes a sanitizer sees")
+if(NOT NEPHROID_SANITIZED_SHARD MATCHES "^[0-9]+$")
+  message(FATAL_ERROR "NEPHROID_SANITIZED_SHARD (make's SHARD) is \"${NEPHROID_SANITIZED_SHARD}\", "
+                      "expected a number from 0 on")
+endif()
 set(sanitized_shards_agreement 24)
 set(sanitized_shards_statistical 24)
 set(sanitized_shards_analytic 12)
