@@ -1,7 +1,10 @@
 # The layers, in the order in which data flows through them. Each is a small static library of all
-# sources in its folder; a layer links only what stands before it.
+# sources in its folder, and in its rooms if it is made of rooms; a layer links only what stands before it.
 function(nephroid_layer name folder)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${folder}/*.cpp)
+  if(NOT folder MATCHES "^scene")
+    file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${folder}/*.cpp)
+  endif()
   # A library of its own, see below.
   list(REMOVE_ITEM sources ${CMAKE_SOURCE_DIR}/src/scene/pixel_filter.cpp)
   if(sources)

@@ -12,7 +12,7 @@
 #include "core/errors.h"
 #include "film/film.h"
 #include "input/pbrt_parser.h"
-#include "integrator/estimator.h"
+#include "integrator/estimator/estimator.h"
 #include "scene/scene.h"
 #include "source_directory.h"
 

@@ -13,7 +13,7 @@
 #include "film/atomic_file.h"
 #include "film/film_output.h"
 #include "input/scene_files.h"
-#include "integrator/ppm.h"
+#include "integrator/photon_mapping/ppm.h"
 #include "session/film_metadata.h"
 #include "session/film_of_scene.h"
 #include "session/idle_settings.h"

@@ -9,7 +9,7 @@
 #include "apps/commands.h"
 #include "apps/messages.h"
 #include "core/errors.h"
-#include "integrator/compiled_plan.h"
+#include "integrator/presets/compiled_plan.h"
 #include "session/choices_report.h"
 #include "session/film_of_scene.h"
 #include "session/noise.h"

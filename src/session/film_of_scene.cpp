@@ -9,14 +9,14 @@
 #include "core/errors.h"
 #include "film/exr_file.h"
 #include "film/splats.h"
-#include "integrator/bidirectional.h"
-#include "integrator/gather.h"
-#include "integrator/merge_pass.h"
-#include "integrator/pair_pass.h"
-#include "integrator/path_and_photons.h"
-#include "integrator/photon_map.h"
-#include "integrator/ppm.h"
-#include "integrator/sppm.h"
+#include "integrator/bidirectional/bidirectional.h"
+#include "integrator/bidirectional/pair_pass.h"
+#include "integrator/mixed/path_and_photons.h"
+#include "integrator/photon_mapping/photon_map.h"
+#include "integrator/photon_mapping/ppm.h"
+#include "integrator/photon_mapping/sppm.h"
+#include "integrator/photons/gather.h"
+#include "integrator/photons/merge_pass.h"
 
 namespace nephroid {
 namespace {

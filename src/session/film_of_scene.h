@@ -5,7 +5,7 @@
 #include <string>
 
 #include "film/film.h"
-#include "integrator/estimator.h"
+#include "integrator/estimator/estimator.h"
 #include "photon/photon.h"
 #include "route/routes.h"
 #include "scene/scene.h"

@@ -10,7 +10,7 @@
 
 #include "core/errors.h"
 #include "input/scene_description.h"
-#include "integrator/estimator.h"
+#include "integrator/estimator/estimator.h"
 
 namespace nephroid {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "integrator/estimator.h"
+#include "integrator/estimator/estimator.h"
 
 namespace nephroid {
 

@@ -2,8 +2,8 @@
 // the lights have it, with less noise; and so do walks whose caustics are photons as well.
 #include <gtest/gtest.h>
 
-#include "integrator/learned_photons.h"
-#include "integrator/pair_pass.h"
+#include "integrator/bidirectional/pair_pass.h"
+#include "integrator/learning/photon_guiding.h"
 #include "owned_routes.h"
 #include "rendering.h"
 

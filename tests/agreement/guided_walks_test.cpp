@@ -3,7 +3,7 @@
 // directions.
 #include <gtest/gtest.h>
 
-#include "integrator/pair_pass.h"
+#include "integrator/bidirectional/pair_pass.h"
 #include "lit_patch.h"
 #include "owned_routes.h"
 #include "rendering.h"

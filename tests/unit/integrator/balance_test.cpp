@@ -1,6 +1,6 @@
 // How the work of a pass is shared out: against sums by hand, and against the best of all that can
 // be tried where the optimum is known.
-#include "integrator/balance.h"
+#include "integrator/mixed/balance.h"
 
 #include <gtest/gtest.h>
 

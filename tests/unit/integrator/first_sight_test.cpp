@@ -1,10 +1,9 @@
 // What is seen before any light path is traced: casters are where runs of specular events end that
 // began behind a rough vertex, and a small thing in a large place is found by them at once.
-#include "integrator/first_sight.h"
-
 #include <gtest/gtest.h>
 
-#include "integrator/learned_photons.h"
+#include "integrator/learning/photon_guiding.h"
+#include "integrator/learning/visible_points.h"
 #include "owned_routes.h"
 #include "photon/emission.h"
 #include "rendering.h"

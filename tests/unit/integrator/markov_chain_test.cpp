@@ -1,6 +1,6 @@
 // Chains over functions of which everything is known: how long they stay where, and that what a
 // pass adds up to has no bias, however short its chains and few its paths.
-#include "integrator/markov_chain.h"
+#include "integrator/metropolis/markov_chain.h"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "integrator/multiplexed.h"
-#include "integrator/primary_space.h"
+#include "integrator/metropolis/multiplexed.h"
+#include "integrator/metropolis/primary_space.h"
 #include "rendering.h"
 
 namespace nephroid {

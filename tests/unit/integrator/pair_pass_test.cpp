@@ -1,6 +1,6 @@
 // Passes of path+photons as they are numbered and measured: later passes go on where the first one
 // ended, and what a pass tells of its spread does not depend on memory.
-#include "integrator/pair_pass.h"
+#include "integrator/bidirectional/pair_pass.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // The weights of pairs against brute force: both walks are run once more and written down, and the
 // densities of every technique of a path are multiplied up from its vertices, as [W1] says, without
 // the sums that walks carry along.
-#include "integrator/path_pair.h"
+#include "integrator/bidirectional/path_pair.h"
 
 #include <gtest/gtest.h>
 

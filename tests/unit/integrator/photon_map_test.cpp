@@ -1,6 +1,6 @@
 // Photon maps and hit points: what is traced once, whose photons are whose, what memory grows with,
 // the bound of the bias [N2], and a closed furnace, in which there is none.
-#include "integrator/photon_map.h"
+#include "integrator/photon_mapping/photon_map.h"
 
 #include <gtest/gtest.h>
 

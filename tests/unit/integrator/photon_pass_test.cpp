@@ -1,6 +1,6 @@
 // The wavelengths and the moment of a pass: over any sixteen passes from a multiple of sixteen on,
 // every quarter of the spectrum meets every quarter of the time.
-#include "integrator/photon_pass.h"
+#include "integrator/photons/photon_pass.h"
 
 #include <gtest/gtest.h>
 

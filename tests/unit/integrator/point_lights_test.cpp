@@ -1,5 +1,5 @@
 // Virtual point lights: the share that is theirs is bounded, and they are chosen by their flux.
-#include "integrator/point_lights.h"
+#include "integrator/virtual_lights/point_lights.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <map>
 
 #include "core/parallel.h"
-#include "integrator/point_light_pool.h"
+#include "integrator/virtual_lights/point_light_pool.h"
 #include "owned_routes.h"
 #include "rendering.h"
 

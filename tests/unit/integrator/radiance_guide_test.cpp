@@ -1,7 +1,7 @@
 // What walks found, made into densities of directions: they are densities that samples follow,
 // they look where the light is, on each side of a surface by itself, and where it does not pay
 // nobody is guided.
-#include "integrator/radiance_guide.h"
+#include "integrator/learning/radiance_guide.h"
 
 #include <gtest/gtest.h>
 

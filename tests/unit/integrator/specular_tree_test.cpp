@@ -1,12 +1,12 @@
 // Trees find what walks that choose one way find, with less noise, whatever glass, media and
 // dispersion do to the wavelengths; and are grown for routes only that own such light.
-#include "integrator/specular_tree.h"
+#include "integrator/path/specular_tree.h"
 
 #include <gtest/gtest.h>
 
-#include "integrator/glint_pass.h"
-#include "integrator/path_pair.h"
-#include "integrator/path_visitor.h"
+#include "integrator/bidirectional/path_pair.h"
+#include "integrator/path/path_visitor.h"
+#include "integrator/path/specular_chain_pass.h"
 #include "owned_routes.h"
 #include "rendering.h"
 #include "transport/camera_path.h"

@@ -1,0 +1,153 @@
+#include "integrator/bidirectional/bidirectional.h"
+
+#include <vector>
+
+#include "core/parallel.h"
+#include "integrator/bidirectional/path_pair.h"
+#include "integrator/estimator/technique_counter.h"
+#include "transport/roughness_band.h"
+
+namespace nephroid {
+
+namespace {
+
+constexpr uint64_t kEyeStream = 0x62647065;    // "bdpe"
+constexpr uint64_t kLightStream = 0x6264706c;  // "bdpl"
+
+/// Splats are added in strips of rows of at most this many pixels, or of one row.
+constexpr int kMostPixels = 1 << 16;
+
+/// What a row of pixels found.
+struct Row {
+  std::vector<Splat> splats;
+  uint64_t rays = 0, useful = 0;
+  TechniqueCounter::Row techniques;
+};
+
+/// One sample of each pixel.
+class PairRound {
+ public:
+  PairRound(const PairSettings& settings, const PassKey& key, uint64_t index, Film& film)
+      : settings_(settings),
+        key_(key),
+        index_(index),
+        film_(film),
+        eye_point_(eye_point(static_cast<uint32_t>(index), kEyePathDimensions)),
+        light_point_(light_point(static_cast<uint32_t>(index))),
+        techniques_(film, settings.owned.group, key.pass),
+        parts_(film.parts_of(static_cast<int>(settings.owned.group)).size()),
+        values_(static_cast<size_t>(film.bounds().area()) * parts_) {}
+
+  void render(SplatBuffer& buffer, EstimatorStatistics& statistics) {
+    const PixelBounds& b = film_.bounds();
+    const int strip = std::max(1, kMostPixels / std::max(1, b.width()));
+    for (int begin = b.y0; begin < b.y1; begin += strip) {
+      std::vector<Row> rows(static_cast<size_t>(std::min(strip, b.y1 - begin)));
+      parallel_chunks(static_cast<int64_t>(rows.size()), 1, [&](int64_t row, int64_t, int64_t) {
+        render_row(begin + static_cast<int>(row), rows[static_cast<size_t>(row)]);
+      });
+      std::vector<Splat> splats;
+      for (const Row& row : rows) {
+        splats.insert(splats.end(), row.splats.begin(), row.splats.end());
+        statistics.rays += row.rays;
+        statistics.light_paths_useful += row.useful;
+        techniques_.add(row.techniques);
+      }
+      techniques_.add_splats(splats, 1.0 / settings_.light_paths);
+      buffer.add(splats);
+      statistics.splats += splats.size();
+    }
+    buffer.finish(1.0 / settings_.light_paths, values_);
+    techniques_.add_to(statistics.techniques);
+    statistics.camera_paths += static_cast<uint64_t>(b.area());
+    statistics.light_paths += static_cast<uint64_t>(b.area());
+  }
+
+ private:
+  void render_row(int y, Row& row) {
+    const PixelBounds& b = film_.bounds();
+    LightSubpath path;
+    std::vector<FilmConnection> seen;
+    PartSums light(*settings_.owned.routes, settings_.owned.group);
+    row.techniques = techniques_.start_row(light);
+    for (int x = b.x0; x < b.x1; ++x) {
+      seen.clear();
+      light.clear();
+      render_pixel(x, y, path, seen, light, row);
+    }
+  }
+
+  void render_pixel(int x, int y, LightSubpath& path, std::vector<FilmConnection>& seen,
+                    PartSums& light, Row& row) {
+    const Scene& scene = settings_.scene;
+    const FilmSettings& film = film_.settings();
+    PathSampler eye(eye_point_, hash_combine(key_.seed, kEyeStream, x, y, index_ >> 32));
+    eye.start_dimension(dimensions::kWavelength);
+    const SampledWavelengths lambda =
+        SampledWavelengths::sample_visible(wavelength_number(scene, eye.get_1d()));
+    eye.start_dimension(dimensions::kTime);
+    CameraPath camera = start_camera_path(scene, x, y, eye, lambda, eye.get_1d());
+    const SensorWeights weights =
+        sensor_weights(lambda, *film.color_space, film.imaging_ratio, film.white_balance);
+
+    PathSampler sampler(light_point_, hash_combine(key_.seed, kLightStream, x, y, index_ >> 32));
+    row.rays += trace_light_path(settings_, lambda, camera.u_time, sampler, &path, &seen, nullptr,
+                                 kEyePathDimensions)
+                    .rays;
+    row.useful += !seen.empty();
+    for (const FilmConnection& c : seen)
+      for (int i = 0; i < c.seen.count; ++i)
+        row.splats.push_back({c.seen.film[static_cast<size_t>(i)],
+                              static_cast<uint8_t>(light.place(c.part)), weights.apply(c.value)});
+    if (settings_.technique.t == 1) return;
+    row.rays += trace_eye_path(settings_, path, camera, eye, light);
+    const PixelBounds& b = film_.bounds();
+    const size_t pixel = static_cast<size_t>(y - b.y0) * static_cast<size_t>(b.width()) +
+                         static_cast<size_t>(x - b.x0);
+    const std::span<const Rgb> colors =
+        light.colors(weights, camera.camera_weight, film.max_component, camera.filter_weight);
+    light.add_techniques_to(row.techniques, weights,
+                            static_cast<double>(camera.camera_weight) * camera.filter_weight);
+    std::copy(colors.begin(), colors.end(),
+              values_.begin() + static_cast<std::ptrdiff_t>(pixel * parts_));
+  }
+
+  const PairSettings& settings_;
+  const PassKey key_;
+  const uint64_t index_;
+  Film& film_;
+  const SobolPoint eye_point_, light_point_;
+  TechniqueCounter techniques_;
+  const size_t parts_;
+  std::vector<Rgb> values_;  ///< [pixel * parts + part]
+};
+
+}  // namespace
+
+Bidirectional::Bidirectional(OwnedRoutes owned, const IntegratorOptions& options)
+    : owned_(std::move(owned)), options_(options) {}
+
+void Bidirectional::render_pass(const PassKey& key, const Scene& scene, Film& film) {
+  const int group = static_cast<int>(owned_.group);
+  const CameraView view(scene, film.bounds());
+  PairSettings settings{scene, owned_};
+  settings.view = scene.camera->connects() ? &view : nullptr;
+  settings.specular_alpha = specular_alpha_of_pass(scene.specular_band, key);
+  settings.max_depth = options_.max_depth;
+  settings.light_paths = static_cast<double>(film.bounds().area());
+  settings.technique = options_.technique;
+  const SpecularTree tree(scene, owned_, options_.max_depth);
+  settings.tree = options_.specular_trees ? &tree : nullptr;
+  SplatBuffer buffer(film, group, *scene.filter);
+  const size_t parts = film.parts_of(group).size();
+  statistics_.hold(0, static_cast<uint64_t>(film.bounds().area()) * bytes_per_pixel(parts));
+  const int samples = std::max(1, options_.camera_samples_per_pass);
+  for (int k = 0; k < samples; ++k) {
+    const uint64_t index =
+        uint64_t{key.pass} * static_cast<uint64_t>(samples) + static_cast<uint64_t>(k);
+    PairRound(settings, key, index, film).render(buffer, statistics_);
+    film.add_estimates(group, 1);
+  }
+}
+
+}  // namespace nephroid

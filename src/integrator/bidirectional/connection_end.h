@@ -1,0 +1,37 @@
+// What a vertex of one side scatters towards the other, event class by event class, with what the
+// weight of the connection needs. Who calls it: eye_path.cpp; light_path.cpp makes those of light
+// vertices. It must not know films.
+#pragma once
+
+#include <array>
+
+#include "integrator/bidirectional/path_pair.h"
+#include "transport/direct_light.h"
+
+namespace nephroid {
+
+/// One event of a word.
+struct Arm {
+  SampledSpectrum f;  ///< the cosine included
+  EventDensity density;
+  double merge = 0;
+  EyeState eye = 0;      ///< behind the event, of eye sides
+  LightState light = 0;  ///< behind the event, of light sides
+  bool used = false;
+};
+using Arms = std::array<Arm, std::size(kSurfaceClasses)>;
+
+/// A vertex of the eye side where it may be connected, of either kind.
+struct EyeEnd {
+  const Walk& walk;
+  const WalkVertex* surface = nullptr;
+  const MediumVertex* medium = nullptr;
+  ClassMask among = ClassMask::kNone;  ///< finite classes of use; of a surface
+  Receiver receiver;
+};
+
+/// The events at a light vertex towards the unit direction `w`; false if there is none.
+bool arms_of_light(const Routes& routes, const SceneSymbols& symbols, const LightVertex& y,
+                   const Vec3f& w, Arms& arms);
+
+}  // namespace nephroid

@@ -1,0 +1,400 @@
+// The eye side of a pair: hits of lights, next-event estimation, and connections to and merges with
+// light paths.
+#include "integrator/bidirectional/connection_end.h"
+#include "integrator/bidirectional/eye_weights.h"
+#include "integrator/bidirectional/path_pair_geometry.h"
+#include "integrator/learning/guided_walk.h"
+#include "photon/merge.h"
+#include "transport/walk_symbols.h"
+
+namespace nephroid {
+
+namespace {
+
+class EyeVisitor {
+ public:
+  static constexpr bool kEndsAtBranches = false;
+
+  EyeVisitor(const PairSettings& settings, const LightSubpath& path, const CameraPath& camera,
+             PartSums& light, const EyePathExtras& extras)
+      : settings_(settings),
+        routes_(*settings.owned.routes),
+        symbols_(*settings.owned.symbols),
+        group_(settings.owned.group),
+        path_(path),
+        camera_(camera),
+        light_(light),
+        features_(extras.features),
+        guided_(settings.radiance, extras.records),
+        eye_(routes_.start()),
+        sums_(settings.connects(), settings.merging && settings.merging->caustics_only),
+        root_(settings.has_trees() ? settings.tree : nullptr, extras.leaves) {}
+
+  void escape(const Walk& walk) {
+    if (root_.leaves_lights() || !makes(0, walk) || !routes_.ends(group_, eye_)) return;
+    const Scene& scene = settings_.scene;
+    for (const int i : scene.light_sampler->infinite_lights()) {
+      const Part part = routes_.owner(eye_, symbols_.light(i));
+      if (!light_.owns(part)) continue;
+      const Light& light = *scene.lights[static_cast<size_t>(i)];
+      const SampledSpectrum le =
+          light.radiance_at_infinity(walk.previous_p, walk.ray.d, walk.lambda);
+      if (le.is_black()) continue;
+      double weight = 1;
+      if (weighs_hit(walk)) {
+        const SideEnd& end = sums_.end_to_light();
+        const LightStart start = light_start(settings_, i, {}, last_, -walk.ray.d,
+                                             direct_pdf_w(scene, walk, i), end.has_cuts_before());
+        weight = weight_of_hit(start, end.next({start.line.at_b, 1}));
+      }
+      add(part, walk, Technique::kMeetLight, walk.throughput * le * static_cast<float>(weight));
+    }
+  }
+
+  void emitter(const Walk& walk, const SurfaceInteraction& hit, const Light& light) {
+    if (root_.leaves_lights()) return;
+    const Part part = routes_.owner(eye_, symbols_.light(hit.area_light));
+    if (!makes(0, walk) || !light_.owns(part)) return;
+    const SampledSpectrum le = light.radiance(hit.p, hit.ng, hit.uv, hit.wo, walk.lambda);
+    if (le.is_black()) return;
+    double weight = 1;
+    if (weighs_hit(walk)) {
+      const SideEnd& end = sums_.end_to_light();
+      const LightStart start =
+          light_start(settings_, hit.area_light, {hit.p, hit.ng}, last_, -walk.ray.d,
+                      direct_pdf_w(settings_.scene, walk, hit), end.has_cuts_before());
+      weight = weight_of_hit(start, end.next({start.line.at_b, start.line.at_a}));
+    }
+    add(part, walk, Technique::kMeetLight, walk.throughput * le * static_cast<float>(weight));
+  }
+
+  void medium_emission(const Medium&, const SampledSpectrum&) {}
+
+  ClassMask useful(const WalkVertex& v) const {
+    return routes_.useful(group_, eye_, label_at(symbols_, v));
+  }
+  bool scatters_in(const Medium& medium) const {
+    return contains(routes_.useful(group_, eye_, symbols_.medium(medium.index())),
+                    EventClass::kVolume);
+  }
+  bool looks_under_surfaces() const { return false; }
+
+  void vertex(const Walk& walk, const WalkVertex& v, PathSampler& sampler) {
+    if (v.subsurface_exit) {
+      sums_.come_out(subsurface_density(place_.ng, entry_wo_));
+      place_ = {v.surface.p, v.surface.ng};
+    } else {
+      arrive({v.surface.p, v.surface.ng});
+      entry_wo_ = v.surface.wo;
+    }
+    surface_ = &v;
+    if (features_) features_->record(walk, v);
+    guided_.arrive(walk);
+    const ClassMask among = v.classes_of(useful(v)) & v.bsdf.finite_classes();
+    if (among == ClassMask::kNone) return;
+    const EyeEnd end{walk, &v, nullptr, among, Receiver::of(v.surface, walk.medium)};
+    next_event(end, sampler);
+    if (settings_.connects() && !settings_.merges_only) connect(end, sampler);
+    if (settings_.merging && settings_.merging->grid && settings_.technique.merges())
+      merge(walk, v, among);
+  }
+
+  void medium_vertex(const Walk& walk, const MediumVertex& v, PathSampler& sampler) {
+    arrive({v.p, Vec3f(0, 0, 0)});
+    surface_ = nullptr;
+    medium_ = &v;
+    const EyeEnd end{walk, nullptr, &v, ClassMask::kVolume, Receiver::of(v, walk.medium)};
+    next_event(end, sampler);
+    if (settings_.connects() && !settings_.merges_only) connect(end, sampler);
+  }
+
+  bool branches(const Walk&) const { return root_.branches(); }
+  // No other technique finds this light.
+  void branch(const Walk& way, const WalkEvent& event, PathSampler& sampler) {
+    rays_ += root_.branch(way, routes_.next(eye_, symbol_of(symbols_, event)), sampler, light_);
+  }
+
+  /// Weights know the density of the BSDF alone, as all techniques do ([Q5]).
+  std::optional<BsdfSample> sample_direction(Walk& walk, const WalkVertex& v, float uc,
+                                             const Vec2f& u, ClassMask among) const {
+    return guided_.sample_direction(walk, v, uc, u, among);
+  }
+
+  bool scatter(const Walk& walk, const WalkEvent& event) {
+    root_.scatter(walk, event.letter);
+    EventDensity density;
+    double merge = 0;
+    if (surface_) {
+      const ClassMask letters = useful(*surface_);
+      guided_.leave(walk, *surface_, event, letters);
+      density = density_of_walk(walk, *surface_, event, TransportMode::kRadiance,
+                                surface_->classes_of(letters), sums_.asks_back());
+      merge = merge_weight(event.letter);
+    } else {
+      const double p = medium_->phase.eval(medium_->wo, walk.ray.d);
+      density = {p, p, true};
+    }
+    sums_.leave(density, merge, event.letter);
+    last_ = place_;
+    first_ = first_ && !density.finite;
+    eye_ = routes_.next(eye_, symbol_of(symbols_, event));
+    return true;
+  }
+
+  /// The walk is over. Returns the rays that it has not counted.
+  uint64_t finish() {
+    guided_.finish();
+    return rays_;
+  }
+
+ private:
+  bool makes(int light_vertices, const Walk& walk) const {
+    return !settings_.merges_only && settings_.technique.makes(light_vertices, walk.events + 2);
+  }
+  bool weighs_hit(const Walk& walk) const {
+    return settings_.technique.weighted && walk.events > 0;
+  }
+  void add(Part part, const Walk& walk, Technique technique, const SampledSpectrum& value,
+           bool hero_only = false, float bias = 0) {
+    const SampledSpectrum whole =
+        whole_spectrum(value, hero_only || walk.lambda.secondary_terminated());
+    guided_.add(whole);
+    light_.add(part, whole, technique);
+    if (bias != 0) light_.add_bias(whole * bias);
+  }
+
+  void arrive(const Place& place) {
+    place_ = place;
+    if (camera_.walk.events > 0)
+      sums_.arrive(line_between(last_, place_));
+    else
+      sums_.arrive_first(cut_at_camera());
+  }
+  /// [W9] Light paths that are connected to the camera find the first vertex, too.
+  double cut_at_camera() const {
+    if (!settings_.view || !settings_.connects()) return 0;
+    const auto line = settings_.scene.camera->connect(place_.p, camera_.u_lens, camera_.u_time);
+    if (!line) return 0;
+    const double density = line->film_density * cosine_at(place_, line->wi);
+    return density > 0 ? heuristic(settings_.light_paths / density) : 0;
+  }
+
+  double merge_weight(EventClass c) const {
+    return settings_.merging && merges_at(*surface_, c)
+               ? settings_.merging->weight_at(place_.p, first_)
+               : 0;
+  }
+
+  /// The events at an eye vertex towards the unit direction `w`, of a light or else of a vertex of
+  /// the light's side; false if there is none of use.
+  bool arms_of_eye(const EyeEnd& z, const Vec3f& w, bool before_light, Arms& arms) const {
+    if (z.medium) {
+      Arm& arm = arms[0];
+      const double p = z.medium->phase.eval(z.medium->wo, w);
+      arm = {SampledSpectrum(static_cast<float>(p)),
+             {p, p, true},
+             0,
+             routes_.next(eye_, symbol_in(symbols_, z.medium->medium)),
+             0,
+             true};
+      return true;
+    }
+    const WalkVertex& v = *z.surface;
+    const Vec3f wi = v.to_local(w);
+    bool any = false;
+    for (size_t i = 0; i < arms.size(); ++i) {
+      const EventClass c = kSurfaceClasses[i];
+      if (!contains(z.among, c)) continue;
+      const BsdfEval e = v.bsdf.eval(v.wo, wi, TransportMode::kRadiance, c, ClassMask::kAll);
+      if (e.f.is_black()) continue;
+      Arm& arm = arms[i];
+      arm.used = any = true;
+      arm.f = e.f * abs_cos_theta(wi);
+      arm.density = {e.pdf_w, 0, true};
+      if (v.subsurface_exit)
+        arm.density.forward = subsurface_density(v.surface.ng, w);
+      else if (sums_.behind(c, before_light).before > 0)
+        arm.density.back = event_density(v.bsdf, wi, v.wo, TransportMode::kImportance, c);
+      arm.merge = sums_.is_plain(c, before_light) ? 0 : merge_weight(c);
+      arm.eye = routes_.next(eye_, symbol_at(symbols_, v, c, wi));
+    }
+    return any;
+  }
+
+  void next_event(const EyeEnd& z, PathSampler& sampler) {
+    if (!makes(1, z.walk)) return;
+    const auto d = sample_direct(settings_.scene, z.receiver, z.walk.lambda, sampler);
+    if (!d) return;
+    Arms arms;
+    if (!arms_of_eye(z, d->wi_world, true, arms)) return;
+    const LightSymbol symbol = symbols_.light(d->light);
+    SampledSpectrum arriving;
+    LightStart start;
+    bool traced = false;
+    for (size_t i = 0; i < arms.size(); ++i) {
+      const Arm& arm = arms[i];
+      if (!arm.used) continue;
+      const Part part = routes_.owner(arm.eye, symbol);
+      if (!light_.owns(part)) continue;
+      if (!traced) {
+        arriving = z.walk.throughput * d->radiance * shadow(*d, z.walk, sampler);
+        if (arriving.is_black()) return;
+        start = light_start(settings_, *d, z.receiver, place_, others_cut(z, arms));
+      }
+      traced = true;
+      double weight = 1;
+      if (settings_.technique.weighted)
+        weight = weight_of_direct(start, sums_.behind(class_of(z, i), true), arm.density.forward,
+                                  arm.density.back, arm.merge);
+      add(part, z.walk, Technique::kSampleLight, arriving * arm.f * static_cast<float>(weight));
+    }
+  }
+
+  /// Class of the event of arm `i`.
+  static EventClass class_of(const EyeEnd& z, size_t i) {
+    return z.medium ? EventClass::kVolume : kSurfaceClasses[i];
+  }
+  /// True if light paths might have come here from the light, by one of the events.
+  bool others_cut(const EyeEnd& z, const Arms& arms) const {
+    for (size_t i = 0; i < arms.size(); ++i)
+      if (arms[i].used && (arms[i].merge > 0 || !sums_.behind(class_of(z, i), true).empty()))
+        return true;
+    return false;
+  }
+
+  SampledSpectrum shadow(const DirectSample& d, const Walk& walk, const PathSampler& sampler) {
+    ++rays_;
+    return attenuation_to_light(settings_.scene, d, walk.lambda, sampler);
+  }
+
+  /// What gets along the line between the two vertices, `w` from the eye's to the light's.
+  SampledSpectrum between(const EyeEnd& z, const LightVertex& y, const Vec3f& w,
+                          const PathSampler& sampler) {
+    ++rays_;
+    return attenuation_between(
+        settings_.scene, z.surface ? z.surface->surface.spawn_origin(w) : z.medium->p,
+        y.in_medium ? y.surface.p : y.surface.spawn_origin(-w), z.walk.ray.time,
+        z.surface ? medium_towards(z.surface->surface, w, z.walk.medium) : z.walk.medium,
+        z.walk.lambda, sampler);
+  }
+
+  void connect(const EyeEnd& z, const PathSampler& sampler) {
+    for (size_t i = 0; i < path_.size(); ++i) {
+      const LightVertex& y = path_[i];
+      if (z.walk.events + y.events + 2 > settings_.max_depth) return;
+      if (settings_.technique.makes(y.events + 2, z.walk.events + 2)) connect_to(z, y, sampler);
+    }
+  }
+
+  void connect_to(const EyeEnd& z, const LightVertex& y, const PathSampler& sampler) {
+    const Vec3f way = y.surface.p - place_.p;
+    const float d2 = length_squared(way);
+    if (!(d2 > 0.0f)) return;
+    const Vec3f w = way / std::sqrt(d2);
+    Arms eye_arms, light_arms;
+    if (!arms_of_eye(z, w, false, eye_arms) || !arms_of_light(routes_, symbols_, y, -w, light_arms))
+      return;
+    const Place at_y{y.surface.p, y.in_medium ? Vec3f(0, 0, 0) : y.surface.ng};
+    const LineFactors line = line_between(place_, at_y);
+    const bool hero_only = y.lambda.secondary_terminated();
+    SampledSpectrum arriving;
+    bool traced = false;
+    for (const Arm& a : eye_arms) {
+      if (!a.used) continue;
+      for (const Arm& b : light_arms) {
+        if (!b.used) continue;
+        const Part part = routes_.meet(a.eye, b.light);
+        if (!light_.owns(part)) continue;
+        if (!traced) arriving = z.walk.throughput * y.flux * between(z, y, w, sampler) / d2;
+        traced = true;
+        if (arriving.is_black()) return;
+        double weight = 1;
+        if (settings_.technique.weighted)
+          weight =
+              1 /
+              (1 + cuts_before(y.sums, a.density.forward * line.at_b, b.density.back, b.merge) +
+               cuts_before(sums_.all(), b.density.forward * line.at_a, a.density.back, a.merge));
+        add(part, z.walk, Technique::kConnect, arriving * a.f * b.f * static_cast<float>(weight),
+            hero_only);
+      }
+    }
+  }
+
+  void merge(const Walk& walk, const WalkVertex& v, ClassMask among);
+
+  const PairSettings& settings_;
+  const Routes& routes_;
+  const SceneSymbols& symbols_;
+  const size_t group_;
+  const LightSubpath& path_;
+  const CameraPath& camera_;
+  PartSums& light_;
+  Features* features_;
+  GuidedWalk guided_;
+  EyeState eye_;
+  Place last_, place_;
+  Vec3f entry_wo_{0, 0, 1};
+  bool first_ = true;  ///< no event but delta lobes so far
+  EyeSums sums_;
+  const WalkVertex* surface_ = nullptr;
+  const MediumVertex* medium_ = nullptr;
+  SpecularRoot root_;
+  uint64_t rays_ = 0;
+};
+
+/// [W11] Photons around the vertex, with the rules of merge.cpp.
+void EyeVisitor::merge(const Walk& walk, const WalkVertex& v, ClassMask among) {
+  const PairMerging& merging = *settings_.merging;
+  const ClassMask classes = among & ClassMask::kRough;
+  const float radius = merging.radius_at(place_.p);
+  if (!v.merges || classes == ClassMask::kNone || !(radius > 0.0f)) return;
+  const double own = merging.weight_at(place_.p, first_);
+  const float scale = 1.0f / (static_cast<float>(merging.photons) * kPi * sqr(radius));
+  merging.grid->query(place_.p, radius, [&](const Photon& photon, float d2) {
+    if (photon.events + walk.events + 1 > settings_.max_depth) return;
+    const std::optional<PhotonArrival> arrival = arrival_at(v, photon);
+    if (!arrival) return;
+    const Vec3f& wi = arrival->wi;
+    for (const EventClass c : kSurfaceClasses) {
+      if (!contains(classes, c)) continue;
+      const Part part =
+          routes_.meet(routes_.next(eye_, symbol_at(symbols_, v, c, wi)), photon.state);
+      if (!light_.owns(part)) continue;
+      const BsdfEval e = v.bsdf.eval(v.wo, wi, TransportMode::kRadiance, c, ClassMask::kAll);
+      if (e.f.is_black()) continue;
+      double weight = 1;
+      if (settings_.technique.weighted) {
+        const double towards =
+            v.subsurface_exit ? subsurface_density(photon.ng, photon.wi) : double{e.pdf_w};
+        const double back = v.subsurface_exit || !sums_.asks_back()
+                                ? 0.0
+                                : event_density(v.bsdf, wi, v.wo, TransportMode::kImportance, c);
+        weight =
+            weight_of_merge(sums_.all(), back, {photon.cut_here, photon.cuts_before}, towards, own);
+      }
+      add(part, walk, Technique::kMerge,
+          walk.throughput * e.f * photon.flux *
+              (abs_cos_theta(wi) / arrival->cos_geometric * scale * static_cast<float>(weight)),
+          photon.secondary_terminated, bias_factor(d2, radius));
+    }
+  });
+}
+
+}  // namespace
+
+uint64_t trace_eye_path(const PairSettings& settings, const LightSubpath& path, CameraPath& camera,
+                        PathSampler& sampler, PartSums& light, const EyePathExtras& extras) {
+  if (!(camera.camera_weight > 0)) return 0;
+  camera.walk.specular_alpha = settings.specular_alpha;
+  camera.walk.per_wavelength = true;
+  EyeVisitor visitor(settings, path, camera, light, extras);
+  // A technique with t vertices of the eye side, the lens one of them, needs no more, and no event
+  // where it meets a light.
+  const TechniqueChoice& one = settings.technique;
+  const int most = one.t < 0 ? settings.max_depth
+                             : std::clamp(one.t - (one.s == 0 ? 2 : 1), 0, settings.max_depth);
+  random_walk(settings.scene, TransportMode::kRadiance, most, camera.walk, sampler, visitor);
+  return camera.walk.rays + visitor.finish();
+}
+
+}  // namespace nephroid

@@ -1,0 +1,91 @@
+#include "integrator/bidirectional/light_batches.h"
+
+#include <algorithm>
+
+#include "core/parallel.h"
+
+namespace nephroid {
+
+namespace {
+
+constexpr uint64_t kLightStream = 0x76636d6c;  // "vcml"
+constexpr int64_t kChunk = 1024;
+constexpr int64_t kGroup = 32 * kChunk;
+
+}  // namespace
+
+LightPathCounts LightBatches::trace_path(int64_t j, std::vector<FilmConnection>& seen,
+                                         std::vector<Photon>& photons) const {
+  const uint64_t number = uint64_t{pass_.trace.key.pass} * static_cast<uint64_t>(how_.light_paths) +
+                          static_cast<uint64_t>(j);
+  const SobolPoint point(static_cast<uint32_t>(number), kLightPathDimensions);
+  const uint64_t seed = how_.number_varies
+                            ? hash_combine(how_.seed, kLightStream, number >> 32, how_.light_paths)
+                            : hash_combine(how_.seed, kLightStream, number >> 32);
+  PathSampler sampler(point, seed);
+  return trace_light_path(settings_, pass_.trace.lambda, pass_.u_time, sampler, nullptr, &seen,
+                          &photons);
+}
+
+void LightBatches::trace_chunk(int64_t begin, int64_t end, Chunk& chunk) const {
+  std::vector<FilmConnection> seen;
+  for (int64_t j = begin; j < end; ++j) {
+    seen.clear();
+    const size_t before = chunk.photons.size();
+    const LightPathCounts counts = trace_path(j, seen, chunk.photons);
+    chunk.rays += counts.rays;
+    chunk.specular += counts.specular;
+    chunk.useful += chunk.photons.size() > before;
+    for (const FilmConnection& c : seen)
+      for (int i = 0; i < c.seen.count; ++i)
+        chunk.splats.push_back({c.seen.film[static_cast<size_t>(i)],
+                                static_cast<uint8_t>(places_.place(c.part)),
+                                pass_.weights.apply(c.value)});
+  }
+}
+
+/// Makes room for the photons of the chunks and for those that are to be expected of the batch
+/// after them: growing by and by would take twice as much.
+void LightBatches::reserve(std::vector<Photon>& photons, std::span<const Chunk> chunks,
+                           int64_t batch_begin) const {
+  constexpr double kRoom = 1.02;
+  size_t needed = photons.size();
+  for (const Chunk& chunk : chunks) needed += chunk.photons.size();
+  if (needed <= photons.capacity()) return;
+  const double of_path = static_cast<double>(needed) / static_cast<double>(begin_ - batch_begin);
+  const double all = of_path * static_cast<double>(how_.light_paths - batch_begin);
+  // The group that fills the memory is taken as a whole.
+  const double most = static_cast<double>(how_.memory_photons) + of_path * kGroup;
+  photons.reserve(std::max(needed, static_cast<size_t>(kRoom * std::min(all, most))));
+}
+
+std::vector<Photon> LightBatches::next(const std::function<void(std::span<const Splat>)>& expose,
+                                       EstimatorStatistics& statistics) {
+  const int64_t batch_begin = begin_;
+  std::vector<Photon> photons;
+  while (!empty() && static_cast<int64_t>(photons.size()) < how_.memory_photons) {
+    const int64_t count = std::min(kGroup, how_.light_paths - begin_);
+    std::vector<Chunk> chunks(static_cast<size_t>(chunk_count(count, kChunk)));
+    parallel_chunks(count, kChunk, [&](int64_t c, int64_t b, int64_t e) {
+      trace_chunk(begin_ + b, begin_ + e, chunks[static_cast<size_t>(c)]);
+    });
+    begin_ += count;
+    reserve(photons, chunks, batch_begin);
+    std::vector<Splat> splats;
+    for (Chunk& chunk : chunks) {
+      photons.insert(photons.end(), chunk.photons.begin(), chunk.photons.end());
+      chunk.photons = std::vector<Photon>();
+      splats.insert(splats.end(), chunk.splats.begin(), chunk.splats.end());
+      statistics.rays += chunk.rays;
+      statistics.light_rays += chunk.rays;
+      statistics.photon_paths_useful += chunk.useful;
+      statistics.photon_paths_specular += chunk.specular;
+    }
+    expose(splats);
+    statistics.splats += splats.size();
+  }
+  statistics.photons_stored += photons.size();
+  return photons;
+}
+
+}  // namespace nephroid

@@ -1,0 +1,59 @@
+// The light paths of a pass that leave photons, traced in batches that fit in memory; those that
+// the camera sees become splats on the way. Who calls it: pair_pass.cpp. It must not know films'
+// sums or what photons are merged with.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "film/splats.h"
+#include "integrator/bidirectional/path_pair.h"
+#include "integrator/photons/photon_pass.h"
+
+namespace nephroid {
+
+/// Keeps references to all that it is given but the numbers.
+class LightBatches {
+ public:
+  struct How {
+    int64_t light_paths = 0;     ///< of the pass, all batches together
+    int64_t memory_photons = 0;  ///< a batch is full when it has as many
+    uint64_t seed = 0;           ///< of the random numbers of all passes
+    /// Passes differ in their number of light paths: each number has a sequence of its own.
+    bool number_varies = false;
+  };
+  LightBatches(const How& how, const PhotonPass& pass, const PairSettings& settings)
+      : how_(how),
+        pass_(pass),
+        settings_(settings),
+        places_(*settings.owned.routes, settings.owned.group) {}
+
+  /// True once all light paths are traced.
+  bool empty() const { return begin_ >= how_.light_paths; }
+  /// The photons of the next batch; `expose` is called with splats, a few times, in order. Adds to
+  /// the counts.
+  std::vector<Photon> next(const std::function<void(std::span<const Splat>)>& expose,
+                           EstimatorStatistics& statistics);
+
+ private:
+  struct Chunk {
+    std::vector<Photon> photons;
+    std::vector<Splat> splats;
+    uint64_t rays = 0, useful = 0, specular = 0;
+  };
+  /// Light path `j` of the pass.
+  LightPathCounts trace_path(int64_t j, std::vector<FilmConnection>& seen,
+                             std::vector<Photon>& photons) const;
+  void trace_chunk(int64_t begin, int64_t end, Chunk& chunk) const;
+  void reserve(std::vector<Photon>& photons, std::span<const Chunk> chunks,
+               int64_t batch_begin) const;
+
+  const How how_;
+  const PhotonPass& pass_;
+  const PairSettings& settings_;
+  const PartSums places_;
+  int64_t begin_ = 0;  ///< of what is left
+};
+
+}  // namespace nephroid

@@ -1,0 +1,334 @@
+// The light side of a pair: its vertices, and those that the camera sees.
+#include "integrator/bidirectional/connection_end.h"
+#include "integrator/bidirectional/path_pair_geometry.h"
+#include "photon/light_walk.h"
+
+namespace nephroid {
+
+namespace {
+
+// Walks from a light, carries its sums along and stores what can be connected.
+class LightVisitor : public LightWalkVisitor {
+ public:
+  LightVisitor(const PairSettings& settings, const Emission& emission, float u_time,
+               LightSubpath* path, std::vector<FilmConnection>* seen, std::vector<Photon>* photons)
+      : LightWalkVisitor(settings.owned, emission),
+        settings_(settings),
+        emission_(emission),
+        u_time_(u_time),
+        path_(path),
+        seen_(seen),
+        photons_(photons) {
+    const Light& light = *settings.scene.lights[static_cast<size_t>(emission.light)];
+    start_.p = light.is_area() ? emission.start.p : emission.ray.o;
+    if (light.is_area()) start_.ng = emission.start.ng;
+  }
+
+  void vertex(const Walk& walk, const WalkVertex& v, PathSampler& sampler) {
+    if (v.subsurface_exit)
+      come_out(v);
+    else
+      arrive(walk, {v.surface.p, v.surface.ng}, v.surface.shading.z);
+    if (!v.subsurface_exit) entry_wo_ = v.surface.wo;
+    surface_ = &v;
+    const ClassMask classes = v.classes_of(useful(v)) & v.bsdf.finite_classes();
+    if (photons_) deposit(walk, v);
+    if (classes == ClassMask::kNone) return;
+    if (seen_) connect_surface(walk, v, classes, sampler);
+    if (path_) {
+      LightVertex& y = store(walk, classes);
+      y.surface = v.surface;
+      y.material = &v.material;
+      y.wo = v.wo;
+      y.merges = v.merges;
+      y.subsurface_exit = v.subsurface_exit;
+    }
+  }
+
+  void medium_vertex(const Walk& walk, const MediumVertex& v, PathSampler& sampler) {
+    arrive(walk, {v.p, Vec3f(0, 0, 0)}, Vec3f(0, 0, 0));
+    surface_ = nullptr;
+    medium_ = &v;
+    if (seen_) connect_medium(walk, v, sampler);
+    if (!path_) return;
+    LightVertex& y = store(walk, ClassMask::kVolume);
+    y.in_medium = true;
+    y.surface.p = v.p;
+    y.surface.wo = v.wo;
+    y.material = nullptr;
+    y.phase = v.phase;
+    y.medium_index = v.medium.index();
+  }
+
+  bool scatter(const Walk& walk, const WalkEvent& event) {
+    end_.sums = sums_;
+    if (surface_) {
+      end_.event = density_of_walk(walk, *surface_, event, TransportMode::kImportance,
+                                   surface_->classes_of(useful(*surface_)), sums_.before > 0);
+      end_.merge = merge_weight(*surface_, event.letter, false);
+    } else {
+      const double p = medium_->phase.eval(medium_->wo, walk.ray.d);
+      end_.event = {p, p, true};
+      end_.merge = 0;
+    }
+    after_specular_ |= event.letter == EventClass::kSpecular;
+    last_ = place_;
+    is_first_ = false;
+    state_ = routes_.light_next(state_, symbol_of(symbols_, event));
+    return true;
+  }
+
+  uint64_t rays() const { return rays_; }
+  bool after_specular() const { return after_specular_; }
+
+ private:
+  void arrive(const Walk& walk, const Place& place, const Vec3f& ns) {
+    place_ = place;
+    merge_place_ = place.p;
+    sums_ = is_first_ ? first_sums(walk, ns) : end_.next(line_between(last_, place_));
+    if (!is_first_ && !settings_.connects()) sums_.here = 0;
+  }
+
+  SideSums first_sums(const Walk& walk, const Vec3f& ns) const {
+    const Scene& scene = settings_.scene;
+    const Light& light = *scene.lights[static_cast<size_t>(emission_.light)];
+    const double chosen = scene.light_sampler->pmf(place_.p, ns, emission_.light);
+    const Vec3f& w = walk.ray.d;
+    const double direct =
+        light.is_delta() ? chosen : chosen * light.pdf_towards(place_.p, -w, start_.p, start_.ng);
+    return light_start(settings_, emission_.light, start_, place_, w, direct, true).first();
+  }
+
+  /// [W10] The way under the surface is one step: what was at its entry counts here.
+  void come_out(const WalkVertex& v) {
+    sums_.here += heuristic(subsurface_density(place_.ng, entry_wo_)) * sums_.before;
+    sums_.before = 0;
+    place_ = {v.surface.p, v.surface.ng};
+  }
+
+  /// Between the eye and vertices of the light's side there is the one that is connected, unless it
+  /// is connected to the camera itself.
+  double merge_weight(const WalkVertex& v, EventClass c, bool first) const {
+    return merges_here() && merges_at(v, c) ? settings_.merging->weight_at(merge_place_, first) : 0;
+  }
+  bool merges_here() const {
+    return settings_.merging && (after_specular_ || !settings_.merging->caustics_only);
+  }
+
+  LightVertex& store(const Walk& walk, ClassMask classes) {
+    LightVertex& y = path_->add();
+    y.classes = classes;
+    y.flux = emission_.flux * walk.throughput;
+    y.lambda = walk.lambda;
+    y.specular_alpha = walk.specular_alpha;
+    y.state = state_;
+    y.events = walk.events;
+    y.sums = sums_;
+    y.merge = merges_here() ? settings_.merging->weight_at(merge_place_, false) : 0;
+    return y;
+  }
+
+  void deposit(const Walk& walk, const WalkVertex& v) {
+    if (!merges_here() || v.subsurface_exit || (v.possible & useful_rough(v)) == ClassMask::kNone)
+      return;
+    Photon photon;
+    photon.p = v.surface.p;
+    photon.wi = v.surface.wo;
+    photon.ng = v.surface.ng;
+    photon.flux = emission_.flux * walk.throughput / v.surface.coverage;
+    photon.state = state_;
+    photon.secondary_terminated = walk.lambda.secondary_terminated();
+    photon.events = static_cast<uint16_t>(walk.events);
+    photon.cut_here = static_cast<float>(sums_.here);
+    photon.cuts_before = static_cast<float>(sums_.before);
+    photons_->push_back(photon);
+  }
+  /// D and G of use here; where a mix chooses among materials, in any guise.
+  ClassMask useful_rough(const WalkVertex& v) const {
+    if (!v.mixed) return useful(v) & ClassMask::kRough;
+    ClassMask any = ClassMask::kNone;
+    for (size_t label = 0; label <= routes_.labels().size(); ++label)
+      any = any | routes_.useful_from_light(group_, state_, static_cast<Label>(label));
+    return any & ClassMask::kRough;
+  }
+
+  bool makes_connection(const Walk& walk) const {
+    return settings_.view && settings_.connects() && settings_.technique.makes(walk.events + 2, 1);
+  }
+  /// [W9] `density` of the camera's walks at the vertex, in pixels over area, towards `back`.
+  float weight_of_connection(double density, double back, double merge) const {
+    if (!settings_.technique.weighted) return 1.0f;
+    return static_cast<float>(
+        1 / (1 + cuts_before(sums_, density, back, merge) / heuristic(settings_.light_paths)));
+  }
+
+  void connect_surface(const Walk& walk, const WalkVertex& v, ClassMask classes,
+                       PathSampler& sampler) {
+    if (!makes_connection(walk)) return;
+    const auto view = settings_.view->connect(v.surface.p, sampler.get_2d(), u_time_);
+    if (!view) return;
+    const Vec3f& w = view->line.wi;
+    const Vec3f wi = v.to_local(w);
+    const float across = abs_dot(w, v.surface.ng);
+    // Veach's correction for shading normals [P2].
+    const float cosine =
+        across *
+        (v.subsurface_exit ? 1.0f : abs_cos_theta(v.wo) / abs_dot(v.surface.wo, v.surface.ng));
+    if (!std::isfinite(cosine)) return;
+    SampledSpectrum through;
+    bool traced = false;
+    for (const EventClass c : kSurfaceClasses) {
+      if (!contains(classes, c)) continue;
+      const Part part =
+          routes_.meet(routes_.next(routes_.start(), symbol_at(symbols_, v, c, wi)), state_);
+      if (!routes_.owns(group_, part)) continue;
+      const BsdfEval e = v.bsdf.eval(v.wo, wi, TransportMode::kImportance, c, ClassMask::kAll);
+      if (e.f.is_black()) continue;
+      if (!traced)
+        through = arrives(*view, v.surface.spawn_origin(w), walk,
+                          medium_towards(v.surface, w, walk.medium), sampler);
+      traced = true;
+      if (through.is_black()) return;
+      const double back = v.subsurface_exit || !(sums_.before > 0)
+                              ? 0.0
+                              : event_density(v.bsdf, wi, v.wo, TransportMode::kRadiance, c);
+      expose(*view, part, walk, e.f * through,
+             cosine * weight_of_connection(static_cast<double>(view->line.film_density) * across,
+                                           back, merge_weight(v, c, true)));
+    }
+  }
+
+  void connect_medium(const Walk& walk, const MediumVertex& v, PathSampler& sampler) {
+    const Part part =
+        routes_.meet(routes_.next(routes_.start(), symbol_in(symbols_, v.medium)), state_);
+    if (!makes_connection(walk) || !routes_.owns(group_, part)) return;
+    const auto view = settings_.view->connect(v.p, sampler.get_2d(), u_time_);
+    if (!view) return;
+    const SampledSpectrum through = arrives(*view, v.p, walk, walk.medium, sampler);
+    const float phase = v.phase.eval(v.wo, view->line.wi);
+    expose(*view, part, walk, through,
+           phase * weight_of_connection(view->line.film_density, phase, 0));
+  }
+
+  SampledSpectrum arrives(const Exposure& view, const Vec3f& origin, const Walk& walk,
+                          const Medium* medium, const PathSampler& sampler) {
+    ++rays_;
+    return attenuation_to_camera(settings_.scene, origin, walk.ray.time, medium, view.line,
+                                 walk.lambda, sampler);
+  }
+
+  void expose(const Exposure& view, Part part, const Walk& walk, const SampledSpectrum& share,
+              float factor) {
+    const SampledSpectrum value = emission_.flux * walk.throughput * share *
+                                  (factor * view.line.film_density * view.line.weight);
+    if (value.is_black()) return;
+    seen_->push_back({view, part, whole_spectrum(value, walk.lambda.secondary_terminated())});
+  }
+
+  const PairSettings& settings_;
+  const Emission& emission_;
+  const float u_time_;
+  LightSubpath* path_;
+  std::vector<FilmConnection>* seen_;
+  std::vector<Photon>* photons_;
+  Place start_, last_, place_;
+  Vec3f merge_place_{0, 0, 0};  ///< where the eye side would merge
+  Vec3f entry_wo_{0, 0, 1};
+  bool is_first_ = true;
+  bool after_specular_ = false;  ///< the light has come by way of an S
+  SideSums sums_;
+  SideEnd end_;
+  const WalkVertex* surface_ = nullptr;
+  const MediumVertex* medium_ = nullptr;
+  uint64_t rays_ = 0;
+};
+
+}  // namespace
+
+const Bsdf* LightVertex::bsdf() const {
+  if (bsdf_ || !material) return bsdf_;
+  arena_.clear();
+  SampledWavelengths own = lambda;
+  if (subsurface_exit) {
+    const Bssrdf* bssrdf = material->make_bssrdf(surface, own, arena_);
+    bsdf_ = bssrdf ? bssrdf->exit_bsdf(arena_) : nullptr;
+  } else {
+    bsdf_ = material->make_bsdf(surface, own, specular_alpha, arena_);
+  }
+  return bsdf_;
+}
+
+bool arms_of_light(const Routes& routes, const SceneSymbols& symbols, const LightVertex& y,
+                   const Vec3f& w, Arms& arms) {
+  if (y.in_medium) {
+    const double p = y.phase.eval(y.surface.wo, w);
+    const Label label = symbols.medium(y.medium_index);
+    arms[0] = {SampledSpectrum(static_cast<float>(p)),
+               {p, p, true},
+               0,
+               0,
+               routes.light_next(y.state, event_symbol(EventClass::kVolume, false, label)),
+               true};
+    return true;
+  }
+  const Bsdf* bsdf = y.bsdf();
+  if (!bsdf) return false;
+  const Vec3f wi = y.surface.shading.to_local(w);
+  const float across = abs_dot(w, y.surface.ng);
+  // Veach's correction for shading normals [P2].
+  const float cosine =
+      across *
+      (y.subsurface_exit ? 1.0f : abs_cos_theta(y.wo) / abs_dot(y.surface.wo, y.surface.ng));
+  if (!std::isfinite(cosine)) return false;
+  const bool transmits = y.subsurface_exit || y.wo.z * wi.z < 0.0f;
+  bool any = false;
+  for (size_t i = 0; i < arms.size(); ++i) {
+    const EventClass c = kSurfaceClasses[i];
+    if (!contains(y.classes, c)) continue;
+    const BsdfEval e = bsdf->eval(y.wo, wi, TransportMode::kImportance, c, ClassMask::kAll);
+    if (e.f.is_black()) continue;
+    Arm& arm = arms[i];
+    arm.used = any = true;
+    arm.f = e.f * cosine;
+    arm.density = {e.pdf_w, 0, true};
+    if (y.subsurface_exit)
+      arm.density.forward = subsurface_density(y.surface.ng, w);
+    else if (y.sums.before > 0)
+      arm.density.back = event_density(*bsdf, wi, y.wo, TransportMode::kRadiance, c);
+    arm.merge = y.merges && contains(ClassMask::kRough, c) ? y.merge : 0;
+    arm.light = routes.light_next(y.state, event_symbol(y.merges ? c : EventClass::kHair, transmits,
+                                                        symbols.material(y.material->index())));
+  }
+  return any;
+}
+
+LightVertex& LightSubpath::add() {
+  if (size_ == vertices_.size()) vertices_.push_back(std::make_unique<LightVertex>());
+  LightVertex& y = *vertices_[size_++];
+  y.bsdf_ = nullptr;
+  y.in_medium = y.subsurface_exit = false;
+  y.merges = true;
+  return y;
+}
+
+LightPathCounts trace_light_path(const PairSettings& settings, const SampledWavelengths& lambda,
+                                 float u_time, PathSampler& sampler, LightSubpath* path,
+                                 std::vector<FilmConnection>* seen, std::vector<Photon>* photons,
+                                 int first_dimension) {
+  if (path) path->clear();
+  sampler.start_dimension(first_dimension);
+  const std::optional<Emission> emission = emit(
+      settings.scene, settings.guide, lambda, settings.scene.camera->motion_time(u_time), sampler);
+  if (!emission) return {};
+  Walk walk =
+      walk_from(*emission, lambda, settings.specular_alpha, first_dimension + kEmissionDimensions);
+  LightVisitor visitor(settings, *emission, u_time, path, seen, photons);
+  // A technique with s vertices of the light side, the light itself one of them, needs no more.
+  const int most = settings.technique.s < 0
+                       ? settings.max_depth
+                       : std::clamp(settings.technique.s - 1, 0, settings.max_depth);
+  random_walk(settings.scene, TransportMode::kImportance, most, walk, sampler, visitor);
+  return {walk.rays + visitor.rays(), visitor.after_specular()};
+}
+
+}  // namespace nephroid

@@ -1,0 +1,95 @@
+// What both sides of a pair of paths need at their vertices: the densities of events, factors of
+// lines, and how a light would have started there. Who calls it: light_path.cpp, eye_path.cpp. It
+// must not know routes.
+#pragma once
+
+#include "integrator/bidirectional/path_pair.h"
+#include "transport/direct_light.h"
+
+namespace nephroid {
+
+/// A point of a path; `ng` is null in a medium and for lights at a point.
+struct Place {
+  Vec3f p{0, 0, 0}, ng{0, 0, 0};
+};
+
+/// |cos| of a unit direction with the surface, 1 where there is none.
+inline double cosine_at(const Place& at, const Vec3f& w) {
+  return length_squared(at.ng) > 0 ? abs_dot(at.ng, w) : 1.0;
+}
+
+inline LineFactors line_between(const Place& a, const Place& b) {
+  const Vec3f d = b.p - a.p;
+  const double d2 = length_squared(d);
+  if (!(d2 > 0)) return {};
+  const Vec3f w = d / static_cast<float>(std::sqrt(d2));
+  return {cosine_at(a, w) / d2, cosine_at(b, w) / d2};
+}
+
+/// Density of an event of class `c` from `wo` to `wi`, local, among all classes.
+inline double event_density(const Bsdf& bsdf, const Vec3f& wo, const Vec3f& wi, TransportMode mode,
+                            EventClass c) {
+  return bsdf.eval(wo, wi, mode, c, ClassMask::kAll).pdf_w;
+}
+/// Where light comes out from under a surface, and where it went in, the cosine alone counts
+/// ([W10]).
+inline double subsurface_density(const Vec3f& ng, const Vec3f& w) {
+  return abs_dot(ng, w) * kInvPi;
+}
+
+/// The event of the letter that a walk has just sampled at a surface, by choosing `among` these
+/// classes. Without `asks_back`, where sums have nothing to multiply it with, `back` is 0.
+inline EventDensity density_of_walk(const Walk& walk, const WalkVertex& v, const WalkEvent& event,
+                                    TransportMode mode, ClassMask among, bool asks_back) {
+  if (v.subsurface_exit) return {subsurface_density(v.surface.ng, walk.ray.d), 0, true};
+  if (walk.delta) return {};
+  const Vec3f wi = v.to_local(walk.ray.d);
+  // A walk that chose among all classes knows the density.
+  const bool knows = (v.bsdf.classes() & among) == v.bsdf.classes();
+  EventDensity d{knows ? double{walk.pdf_w} : event_density(v.bsdf, v.wo, wi, mode, event.letter),
+                 0, true};
+  if (!asks_back) return d;
+  const TransportMode other =
+      mode == TransportMode::kRadiance ? TransportMode::kImportance : TransportMode::kRadiance;
+  d.back = event_density(v.bsdf, wi, v.wo, other, event.letter);
+  return d;
+}
+
+/// True if paths may merge at an event of class `c` here.
+inline bool merges_at(const WalkVertex& v, EventClass c) {
+  return v.merges && contains(ClassMask::kRough, c);
+}
+
+/// How light number `light` starts paths towards the vertex `x` in unit direction `w`. `from` is
+/// its point; not used for infinite lights. `direct_w` is the density of next-event estimation at
+/// x, per steradian; of lights that no walk can hit, the probability of choosing the light ([W5]).
+/// Without `asks_onward`, where sums have nothing to multiply it with, `onward` is 0.
+inline LightStart light_start(const PairSettings& settings, int light, const Place& from,
+                              const Place& x, const Vec3f& w, double direct_w, bool asks_onward) {
+  const Scene& scene = settings.scene;
+  const Light& l = *scene.lights[static_cast<size_t>(light)];
+  const double chosen = scene.light_sampler->pmf_by_power(light);
+  const EmissionDensity e = l.emission_pdf(from.ng, w);
+  LightStart s;
+  s.hit = !l.is_delta();
+  if (l.is_infinite()) {
+    s.line = {1, cosine_at(x, w)};
+    s.start = chosen * e.pdf_w;
+    if (asks_onward) s.onward = settings.guide.density(scene, light, x.p, w, e.pdf_a);
+    s.direct = direct_w;
+  } else {
+    s.line = line_between(from, x);
+    s.start = chosen * e.pdf_a;
+    if (asks_onward) s.onward = settings.guide.density(scene, light, from.p, w, e.pdf_w);
+    s.direct = l.is_delta() ? direct_w * e.pdf_a : direct_w * s.line.at_a;
+  }
+  return s;
+}
+/// The same for light that next-event estimation found from the vertex `x`, a receiver `at`.
+inline LightStart light_start(const PairSettings& settings, const DirectSample& d,
+                              const Receiver& at, const Place& x, bool asks_onward) {
+  const double direct = d.delta ? settings.scene.light_sampler->pmf(at.p, at.ns, d.light) : d.pdf_w;
+  return light_start(settings, d.light, {d.p, d.ng}, x, -d.wi_world, direct, asks_onward);
+}
+
+}  // namespace nephroid

@@ -1,0 +1,91 @@
+#include "integrator/estimator/features.h"
+
+#include <vector>
+
+#include "core/parallel.h"
+#include "transport/path_points.h"
+
+namespace nephroid {
+
+namespace {
+
+constexpr uint64_t kStream = 0x66656174;  // "feat"
+
+// The film's response to a flat spectrum of 1, on average over the wavelengths of a path.
+Rgb response_to_white(const FilmSettings& settings) {
+  const Rgb white = settings.color_space->from_xyz({1, 1, 1});
+  const Rgb seen = settings.white_balance ? *settings.white_balance * white : white;
+  return seen * (kCieYIntegral * settings.imaging_ratio);
+}
+
+Rgb of_white(const Rgb& rgb, const Rgb& white) {
+  return {rgb.r / white.r, rgb.g / white.g, rgb.b / white.b};
+}
+
+// Ends at the first surface that does not let the walk straight through.
+class FirstVertexVisitor {
+ public:
+  explicit FirstVertexVisitor(Features& features) : features_(features) {}
+
+  ClassMask useful(const WalkVertex&) const { return ClassMask::kNone; }
+  bool scatters_in(const Medium&) const { return false; }
+  bool looks_under_surfaces() const { return false; }
+  void escape(const Walk&) {}
+  void emitter(const Walk&, const SurfaceInteraction&, const Light&) {}
+  void medium_emission(const Medium&, const SampledSpectrum&) {}
+  void medium_vertex(const Walk&, const MediumVertex&, PathSampler&) {}
+  void vertex(const Walk& walk, const WalkVertex& v, PathSampler&) { features_.record(walk, v); }
+  bool scatter(const Walk&, const WalkEvent&) { return false; }
+
+ private:
+  Features& features_;
+};
+
+}  // namespace
+
+void Features::record(const Walk& walk, const WalkVertex& v) {
+  if (walk.vertices > 0) return;
+  albedo_ = v.bsdf.albedo(v.wo);
+  normal_ = v.surface.shading.z;
+  depth_ = walk.length;
+  surface_ = {v.surface.p, v.surface.ng, v.surface.shading.z, v.surface.wo, v.surface.uv};
+}
+
+void Features::add_to(Film& film, int x, int y, const Scene& scene, const CameraPath& path,
+                      const SensorWeights& weights) const {
+  const FilmSettings& settings = film.settings();
+  film.add_features(x, y, of_white(weights.apply(albedo_), response_to_white(settings)), normal_,
+                    depth_);
+  if (settings.gbuffer && depth_ > 0) film.add_surface(x, y, surface_sample(scene, path, surface_));
+}
+
+void FeatureEstimator::render_pass(const PassKey& key, const Scene& scene, Film& film) {
+  const PixelBounds& b = film.bounds();
+  const FilmSettings& settings = film.settings();
+  const SobolPoint point = eye_point(key.pass);
+  std::vector<uint64_t> rays(static_cast<size_t>(b.height()), 0);
+  parallel_chunks(b.height(), 1, [&](int64_t row, int64_t, int64_t) {
+    const int y = b.y0 + static_cast<int>(row);
+    for (int x = b.x0; x < b.x1; ++x) {
+      PathSampler sampler(point, hash_combine(key.seed, kStream, x, y));
+      sampler.start_dimension(dimensions::kWavelength);
+      const SampledWavelengths lambda =
+          SampledWavelengths::sample_visible(wavelength_number(scene, sampler.get_1d()));
+      sampler.start_dimension(dimensions::kTime);
+      CameraPath path = start_camera_path(scene, x, y, sampler, lambda, sampler.get_1d());
+      Features features;
+      FirstVertexVisitor visitor(features);
+      if (path.camera_weight > 0)
+        random_walk(scene, TransportMode::kRadiance, 1, path.walk, sampler, visitor);
+      const SensorWeights weights = sensor_weights(path.walk.lambda, *settings.color_space,
+                                                   settings.imaging_ratio, settings.white_balance);
+      features.add_to(film, x, y, scene, path, weights);
+      rays[static_cast<size_t>(row)] += path.walk.rays;
+    }
+  });
+  film.add_feature_estimates(1);
+  for (const uint64_t r : rays) statistics_.rays += r;
+  statistics_.camera_paths += static_cast<uint64_t>(b.area());
+}
+
+}  // namespace nephroid

@@ -1,0 +1,39 @@
+// What camera paths see first: albedo, normal and depth of every film, and the geometric layers of
+// a gbuffer film. Who calls it: path and path+photons, whose walks see it anyway, and presets
+// without these, by an estimator that does nothing else. It must not know routes or channels.
+#pragma once
+
+#include "integrator/estimator/estimator.h"
+#include "integrator/estimator/surface_sample.h"
+#include "transport/camera_path.h"
+
+namespace nephroid {
+
+/// The first surface of one camera path.
+class Features {
+ public:
+  /// Called at every vertex; the first one counts.
+  void record(const Walk& walk, const WalkVertex& v);
+  /// Adds one sample of a pixel to the film's features. `weights` are of the path's wavelengths.
+  void add_to(Film& film, int x, int y, const Scene& scene, const CameraPath& path,
+              const SensorWeights& weights) const;
+
+ private:
+  SampledSpectrum albedo_;
+  Vec3f normal_{0, 0, 0};
+  float depth_ = 0;  ///< 0: nothing was seen
+  FirstSurface surface_;
+};
+
+/// Adds features and no light: one sample of each pixel a pass.
+class FeatureEstimator : public Estimator {
+ public:
+  Capabilities capabilities() const override { return {}; }
+  void render_pass(const PassKey& key, const Scene& scene, Film& film) override;
+  EstimatorStatistics statistics() const override { return statistics_; }
+
+ private:
+  EstimatorStatistics statistics_;
+};
+
+}  // namespace nephroid

@@ -1,0 +1,88 @@
+#include "integrator/metropolis/metropolis_pass.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/parallel.h"
+#include "scene/scene.h"
+
+namespace nephroid {
+
+namespace {
+
+constexpr float kPilotPathsPerPixel = 16;
+constexpr float kFewestPilotPaths = 1 << 11, kMostPilotPaths = 1 << 16;
+// Defaults, measured: docs/adr/0018-chains-restart.md.
+constexpr double kMutationsPerPixel = 16;
+constexpr int64_t kFewestMutations = 1024;
+constexpr int64_t kChainLength = 8192;
+constexpr int64_t kFewestChains = 16;
+/// Of the mutations.
+constexpr double kBootstrapShare = 0.25;
+
+}  // namespace
+
+ChainSettings MetropolisPasses::settings_for(int64_t pixels) const {
+  const double per_pixel = options_.mutations > 0 ? double{options_.mutations} : kMutationsPerPixel;
+  const int64_t mutations =
+      std::max(kFewestMutations, static_cast<int64_t>(per_pixel * static_cast<double>(pixels)));
+  ChainSettings settings;
+  settings.large_step = options_.large_step;
+  settings.mutations = options_.chain_length > 0
+                           ? std::min(options_.chain_length, mutations)
+                           : std::min(kChainLength, mutations / kFewestChains);
+  settings.chains = chunk_count(mutations, settings.mutations);
+  settings.bootstrap = static_cast<int64_t>(
+      kBootstrapShare * static_cast<double>(settings.chains * settings.mutations));
+  return settings;
+}
+
+const ChainPilot& MetropolisPasses::pilot(uint64_t seed, const FilmArea& area, size_t kinds,
+                                          const PathFunctionMaker& make) {
+  if (!pilot_ || pilot_seed_ != seed) {
+    const float paths =
+        std::clamp(kPilotPathsPerPixel * area.area(), kFewestPilotPaths, kMostPilotPaths);
+    pilot_ = look_around(seed, static_cast<int64_t>(paths), area, kinds, make);
+  }
+  pilot_seed_ = seed;
+  return *pilot_;
+}
+
+void MetropolisPasses::render(const PassKey& key, const Scene& scene, int group,
+                              const PathFunctionMaker& make, Film& film) {
+  SplatBuffer buffer(film, group, *scene.filter);
+  pixel_bytes_ = static_cast<uint64_t>(film.bounds().area()) *
+                 SplatBuffer::bytes_per_pixel(film.parts_of(group).size());
+  render_chains(key, settings_for(film.bounds().area()), *pilot_, make, buffer, counts_);
+  buffer.finish(1.0);
+  film.add_estimates(group, 1);
+}
+
+EstimatorStatistics MetropolisPasses::statistics() const {
+  EstimatorStatistics s;
+  s.rays = counts_.rays;
+  s.camera_paths = counts_.paths;
+  s.splats = counts_.splats;
+  s.hold(0, pixel_bytes_);
+  if (counts_.bootstrap == 0) return s;
+  if (counts_.bootstrap_lit == 0) {
+    s.notes.push_back(
+        fmt::format("none of {} paths that were drawn to start chains from found any light",
+                    counts_.bootstrap));
+    return s;
+  }
+  const auto percent = [](uint64_t part, uint64_t whole) {
+    return whole > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(whole) : 0.0;
+  };
+  s.notes.push_back(
+      fmt::format("Metropolis: {:.1f} % of {} paths to start from carry light; of the small steps "
+                  "{:.1f} % were accepted, of the large ones {:.1f} %; {:.1f} % of all were large",
+                  percent(counts_.bootstrap_lit, counts_.bootstrap), counts_.bootstrap,
+                  percent(counts_.small_accepted, counts_.small),
+                  percent(counts_.large_accepted, counts_.large),
+                  percent(counts_.large, counts_.large + counts_.small)));
+  return s;
+}
+
+}  // namespace nephroid

@@ -1,0 +1,73 @@
+#include "integrator/metropolis/primary_space.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "integrator/path/path_visitor.h"
+#include "transport/camera_path.h"
+#include "transport/roughness_band.h"
+
+namespace nephroid {
+
+namespace {
+
+/// What the paths of a pass share.
+struct Pass {
+  const Scene& scene;
+  const OwnedRoutes& owned;
+  const IntegratorOptions& options;
+  const FilmSettings& film;
+  FilmArea area;
+  float specular_alpha = 0;
+};
+
+class CameraPaths : public PathFunction {
+ public:
+  explicit CameraPaths(const Pass& pass)
+      : pass_(pass), light_(*pass.owned.routes, pass.owned.group) {}
+
+  void evaluate(MarkovSample& numbers, FoundLight& found) override {
+    PathSampler sampler(numbers.stream(0));
+    sampler.start_dimension(dimensions::kWavelength);
+    const SampledWavelengths lambda =
+        SampledWavelengths::sample_visible(wavelength_number(pass_.scene, sampler.get_1d()));
+    sampler.start_dimension(dimensions::kTime);
+    const float u_time = sampler.get_1d();
+    sampler.start_dimension(dimensions::kFilm);
+    const Vec2f film = pass_.area.place(sampler.get_2d());
+    CameraPath path = start_camera_path(pass_.scene, film, sampler, lambda, u_time);
+    if (!(path.camera_weight > 0)) return;
+    path.walk.specular_alpha = pass_.specular_alpha;
+    const SensorWeights weights = sensor_weights(
+        lambda, *pass_.film.color_space, pass_.film.imaging_ratio, pass_.film.white_balance);
+    light_.clear();
+    PathVisitor visitor(pass_.scene, pass_.owned, pass_.options.blind_walks, light_, nullptr);
+    random_walk(pass_.scene, TransportMode::kRadiance, pass_.options.max_depth, path.walk, sampler,
+                visitor);
+    found.rays += path.walk.rays + visitor.more_rays();
+    const std::span<const Rgb> colors =
+        light_.colors(weights, path.camera_weight * pass_.area.area(), kInfinity, 1.0f);
+    for (size_t part = 0; part < colors.size(); ++part) found.add(film, part, colors[part]);
+  }
+
+ private:
+  const Pass& pass_;
+  PartSums light_;
+};
+
+}  // namespace
+
+PrimarySpace::PrimarySpace(OwnedRoutes owned, const IntegratorOptions& options)
+    : owned_(std::move(owned)), options_(options), passes_(options) {}
+
+void PrimarySpace::render_pass(const PassKey& key, const Scene& scene, Film& film) {
+  Pass pass{scene, owned_, options_, film.settings(), FilmArea(film.bounds(), *scene.filter),
+            // What the pilot sees does not depend on the pass that asks first.
+            specular_alpha_of_pass(scene.specular_band, {key.seed, 0})};
+  const PathFunctionMaker make = [&pass] { return std::make_unique<CameraPaths>(pass); };
+  passes_.pilot(key.seed, pass.area, 1, make);
+  pass.specular_alpha = specular_alpha_of_pass(scene.specular_band, key);
+  passes_.render(key, scene, static_cast<int>(owned_.group), make, film);
+}
+
+}  // namespace nephroid

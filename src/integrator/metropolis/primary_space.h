@@ -1,0 +1,27 @@
+// `pssmlt`: path tracing whose random numbers are explored by Markov chains, so that bright paths
+// which are hard to find lead to others like them (Kelemen et al. 2002). A pass is a function of
+// the scene, the options and the pass key, and unbiased by itself (docs/estimators.md, section 15).
+// Who calls it: presets. It must not know how chains are run.
+#pragma once
+
+#include "integrator/estimator/estimator.h"
+#include "integrator/metropolis/metropolis_pass.h"
+#include "route/scene_symbols.h"
+
+namespace nephroid {
+
+class PrimarySpace : public Estimator {
+ public:
+  PrimarySpace(OwnedRoutes owned, const IntegratorOptions& options);
+
+  Capabilities capabilities() const override { return {}; }
+  void render_pass(const PassKey& key, const Scene& scene, Film& film) override;
+  EstimatorStatistics statistics() const override { return passes_.statistics(); }
+
+ private:
+  OwnedRoutes owned_;
+  IntegratorOptions options_;
+  MetropolisPasses passes_;
+};
+
+}  // namespace nephroid

@@ -1,0 +1,52 @@
+#include "integrator/path/path.h"
+
+#include "integrator/path/path_pass.h"
+#include "integrator/path/path_visitor.h"
+
+namespace nephroid {
+
+namespace {
+
+constexpr uint64_t kStream = 0x70617468;  // "path"
+
+/// False if no path that the scene can have belongs to the group.
+bool owns_any_path(const OwnedRoutes& owned) {
+  const Routes& routes = *owned.routes;
+  if (routes.ends(owned.group, routes.start())) return true;
+  for (size_t label = 0; label <= routes.labels().size(); ++label)
+    if (routes.useful(owned.group, routes.start(), static_cast<Label>(label)) != ClassMask::kNone)
+      return true;
+  return false;
+}
+
+}  // namespace
+
+PathEstimator::PathEstimator(OwnedRoutes owned, const IntegratorOptions& options)
+    : owned_(std::move(owned)),
+      options_(options),
+      samples_per_pass_(std::max(1, options.camera_samples_per_pass)),
+      finds_something_(owns_any_path(owned_)) {}
+
+void PathEstimator::render_pass(const PassKey& key, const Scene& scene, Film& film) {
+  if (!finds_something_) {
+    film.add_estimates(static_cast<int>(owned_.group), 1);
+    return;
+  }
+  const PathPass pass{key, scene, film, owned_, samples_per_pass_, kStream};
+  const SpecularTree tree(scene, owned_, options_.max_depth);
+  statistics_.rays += trace_paths(pass, [&](int x, int y, CameraPath& path,
+                                            const SensorWeights& weights, PathSampler& sampler,
+                                            PartSums& light) {
+    Features features;
+    PathVisitor visitor(scene, owned_, options_.blind_walks, light, &features,
+                        options_.specular_trees ? &tree : nullptr);
+    if (path.camera_weight > 0)
+      random_walk(scene, TransportMode::kRadiance, options_.max_depth, path.walk, sampler, visitor);
+    features.add_to(film, x, y, scene, path, weights);
+    return path.walk.rays + visitor.more_rays();
+  });
+  film.add_feature_estimates(samples_per_pass_);
+  statistics_.camera_paths += static_cast<uint64_t>(film.bounds().area()) * samples_per_pass_;
+}
+
+}  // namespace nephroid

@@ -1,0 +1,229 @@
+// What path tracing does at each vertex of a camera walk: light that the walk meets, next-event
+// estimation, and multiple importance sampling of the two (docs/estimators.md, section 2).
+// Who calls it: the estimators that trace paths from the eye, and the chains that explore the same
+// paths. It must not know films or where the path's random numbers come from.
+#pragma once
+
+#include <array>
+
+#include "core/warps.h"
+#include "film/part_sums.h"
+#include "integrator/estimator/features.h"
+#include "integrator/path/specular_tree.h"
+#include "transport/direct_light.h"
+#include "transport/walk_symbols.h"
+
+namespace nephroid {
+
+/// Collects the light of one camera path. `Self`, the class that is made of this one, may hide
+///   float share() const                  by which all is multiplied that the walk meets
+///   float share_after(EventClass) const  the same behind an event of this class at this vertex
+///   float density(const WalkVertex&, const Vec3f& wi, EventClass, ClassMask among, float) const
+///                                        P_c p_c of the walk towards wi; the last is the BSDF's
+template <class Self>
+class PathVisitorOf {
+ public:
+  static constexpr bool kEndsAtBranches = false;
+
+  /// With `blind`, walks do not look at what is useful for the routes: any routes see the same
+  /// paths. `features` are of no interest if null, and no `tree` is grown.
+  PathVisitorOf(const Scene& scene, const OwnedRoutes& owned, bool blind, PartSums& light,
+                Features* features, const SpecularTree* tree = nullptr)
+      : scene_(scene),
+        routes_(*owned.routes),
+        symbols_(*owned.symbols),
+        group_(owned.group),
+        blind_(blind),
+        light_(light),
+        features_(features),
+        eye_(routes_.start()),
+        root_(tree, SpecularRoot::Leaves::kBranches) {}
+
+  float share() const { return 1.0f; }
+  float share_after(EventClass) const { return 1.0f; }
+  float density(const WalkVertex&, const Vec3f&, EventClass, ClassMask, float bsdf_pdf_w) const {
+    return bsdf_pdf_w;
+  }
+
+  void escape(const Walk& walk) {
+    if (root_.leaves_lights() || !routes_.ends(group_, eye_)) return;
+    for (const int i : scene_.light_sampler->infinite_lights()) {
+      const Part part = routes_.owner(eye_, symbols_.light(i));
+      if (!light_.owns(part)) continue;
+      const Light& light = *scene_.lights[static_cast<size_t>(i)];
+      const SampledSpectrum le =
+          light.radiance_at_infinity(walk.previous_p, walk.ray.d, walk.lambda);
+      if (le.is_black()) continue;
+      add(walk, part,
+          walk.throughput * le *
+              (walk.delta ? 1.0f / walk.density.u_mean
+                          : weight_of_hit(walk, direct_pdf_w(scene_, walk, i))) *
+              self().share());
+    }
+  }
+
+  void emitter(const Walk& walk, const SurfaceInteraction& hit, const Light& light) {
+    if (root_.leaves_lights()) return;
+    const Part part = routes_.owner(eye_, symbols_.light(hit.area_light));
+    if (!light_.owns(part)) return;
+    const SampledSpectrum le = light.radiance(hit.p, hit.ng, hit.uv, hit.wo, walk.lambda);
+    if (le.is_black()) return;
+    add(walk, part,
+        walk.throughput * le *
+            (walk.delta ? 1.0f / walk.density.u_mean
+                        : weight_of_hit(walk, direct_pdf_w(scene_, walk, hit))) *
+            self().share());
+  }
+
+  void medium_emission(const Medium& medium, const SampledSpectrum& radiance) {
+    const Part part = routes_.owner(eye_, symbols_.glow(medium.index()));
+    if (light_.owns(part)) light_.add(part, radiance);
+  }
+
+  ClassMask useful(const WalkVertex& v) const {
+    return blind_ ? ClassMask::kEvery : routes_.useful(group_, eye_, label_at(symbols_, v));
+  }
+  bool scatters_in(const Medium& medium) const {
+    return blind_ || contains(routes_.useful(group_, eye_, symbols_.medium(medium.index())),
+                              EventClass::kVolume);
+  }
+  bool looks_under_surfaces() const { return false; }
+
+  void vertex(const Walk& walk, const WalkVertex& v, PathSampler& sampler) {
+    if (features_ != nullptr) features_->record(walk, v);
+    const ClassMask among = v.classes_of(useful(v));
+    const ClassMask finite = v.bsdf.finite_classes() & among;
+    if (may_end_after_any(v, finite)) next_event(walk, v, finite, among, sampler);
+  }
+
+  void medium_vertex(const Walk& walk, const MediumVertex& v, PathSampler& sampler) {
+    const EyeState eye = routes_.next(eye_, symbol_in(symbols_, v.medium));
+    if (!routes_.ends(group_, eye)) return;
+    const auto d = sample_direct(scene_, Receiver::of(v, walk.medium), walk.lambda, sampler);
+    if (!d) return;
+    const Part part = routes_.owner(eye, symbols_.light(d->light));
+    if (!light_.owns(part)) return;
+    const ShadowFlight shadow = shadow_of(walk, *d, sampler);
+    if (shadow.transmittance.is_black()) return;
+    const float phase = v.phase.eval(v.wo, d->wi_world);
+    add(walk, part,
+        walk.throughput * d->radiance * shadow.transmittance *
+            (phase * weight_of_direct(walk, *d, shadow, phase)) *
+            self().share_after(EventClass::kVolume));
+  }
+
+  bool branches(const Walk&) const { return root_.branches(); }
+  void branch(const Walk& way, const WalkEvent& event, PathSampler& sampler) {
+    tree_rays_ +=
+        root_.branch(way, routes_.next(eye_, symbol_of(symbols_, event)), sampler, light_);
+  }
+
+  bool scatter(const Walk& walk, const WalkEvent& event) {
+    root_.scatter(walk, event.letter);
+    eye_ = routes_.next(eye_, symbol_of(symbols_, event));
+    return true;
+  }
+
+  /// Rays that the walk does not count.
+  uint64_t more_rays() const { return shadow_rays_ + tree_rays_; }
+
+ protected:
+  void add(const Walk& walk, Part part, const SampledSpectrum& value) {
+    light_.add(part, whole_spectrum(value, walk.lambda.secondary_terminated()));
+  }
+
+  const Scene& scene_;
+  const Routes& routes_;
+  const SceneSymbols& symbols_;
+  const size_t group_;
+  const bool blind_;
+  PartSums& light_;
+  Features* const features_;
+  EyeState eye_;
+  uint64_t shadow_rays_ = 0;
+
+ private:
+  const Self& self() const { return static_cast<const Self&>(*this); }
+
+  /// True if an event of one of the classes may be followed by light that belongs to the group.
+  bool may_end_after_any(const WalkVertex& v, ClassMask finite) const {
+    const Label label = label_at(symbols_, v);
+    for (const EventClass c : kSurfaceClasses) {
+      if (!contains(finite, c)) continue;
+      for (const bool transmitted : {false, true})
+        if (routes_.ends(group_, routes_.next(eye_, event_symbol(v.letter(c), transmitted, label))))
+          return true;
+    }
+    return false;
+  }
+
+  // Walks whose choices do not depend on the wavelength ask for light in the same way.
+  ShadowFlight shadow_of(const Walk& walk, const DirectSample& direct, const PathSampler& sampler) {
+    ++shadow_rays_;
+    if (!walk.per_wavelength) return trace_shadow(scene_, direct, walk.lambda, sampler);
+    ShadowFlight flight;
+    flight.transmittance = attenuation_to_light(scene_, direct, walk.lambda, sampler);
+    return flight;
+  }
+
+  // Weights of the two techniques that find a light, the spectral average included ([D3], [V5]).
+  static float weight_of_hit(const Walk& walk, float direct_pdf) {
+    const SpectralDensity& d = walk.density;
+    return power_heuristic(walk.pdf_w * d.u_mean, direct_pdf * d.l_mean) / d.u_mean;
+  }
+  static float weight_of_direct(const Walk& walk, const DirectSample& direct,
+                                const ShadowFlight& shadow, float walk_pdf) {
+    if (walk.density.plain && shadow.plain)
+      return direct.delta ? 1.0f : power_heuristic(direct.pdf_w, walk_pdf);
+    SpectralDensity d;
+    d.u = walk.density.u * shadow.u;
+    d.l = walk.density.u * shadow.l;
+    d.take_means(walk.lambda);
+    return (direct.delta ? 1.0f : power_heuristic(direct.pdf_w * d.l_mean, walk_pdf * d.u_mean)) /
+           d.l_mean;
+  }
+
+  void next_event(const Walk& walk, const WalkVertex& v, ClassMask finite, ClassMask among,
+                  PathSampler& sampler) {
+    const auto d =
+        sample_direct(scene_, Receiver::of(v.surface, walk.medium), walk.lambda, sampler);
+    if (!d) return;
+    const Vec3f wi = v.to_local(d->wi_world);
+    const LightSymbol light = symbols_.light(d->light);
+    std::array<BsdfEval, std::size(kSurfaceClasses)> evals;
+    std::array<Part, std::size(kSurfaceClasses)> parts;
+    bool any = false;
+    for (size_t i = 0; i < evals.size(); ++i) {
+      const EventClass c = kSurfaceClasses[i];
+      if (!contains(finite, c)) continue;
+      parts[i] = routes_.owner(routes_.next(eye_, symbol_at(symbols_, v, c, wi)), light);
+      if (!light_.owns(parts[i])) continue;
+      evals[i] = v.bsdf.eval(v.wo, wi, TransportMode::kRadiance, c, among);
+      any |= !evals[i].f.is_black();
+    }
+    if (!any) return;
+    const ShadowFlight shadow = shadow_of(walk, *d, sampler);
+    if (shadow.transmittance.is_black()) return;
+    const SampledSpectrum arriving =
+        walk.throughput * d->radiance * shadow.transmittance * abs_cos_theta(wi);
+    for (size_t i = 0; i < evals.size(); ++i) {
+      if (evals[i].f.is_black()) continue;
+      const EventClass c = kSurfaceClasses[i];
+      const float walk_pdf = self().density(v, wi, c, among, evals[i].pdf_w);
+      add(walk, parts[i],
+          arriving * evals[i].f *
+              (weight_of_direct(walk, *d, shadow, walk_pdf) * self().share_after(c)));
+    }
+  }
+
+  SpecularRoot root_;
+  uint64_t tree_rays_ = 0;
+};
+
+/// Path tracing as it is.
+class PathVisitor : public PathVisitorOf<PathVisitor> {
+ public:
+  using PathVisitorOf::PathVisitorOf;
+};
+
+}  // namespace nephroid

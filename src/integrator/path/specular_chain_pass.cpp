@@ -1,0 +1,90 @@
+#include "integrator/path/specular_chain_pass.h"
+
+#include "core/parallel.h"
+#include "film/part_sums.h"
+#include "transport/camera_path.h"
+
+namespace nephroid {
+
+namespace {
+
+constexpr uint64_t kStream = 0x676c696e74;  // "glint"
+
+/// The square of the lights, each found as often as chance has it and then as bright as that is
+/// rare, over the square of their sum.
+double rarity(const std::vector<SpecularTree::Light>& found) {
+  double sum = 0, squares = 0;
+  for (const SpecularTree::Light& l : found) {
+    const double value = static_cast<double>(l.value.average());
+    sum += value;
+    squares += value * value / static_cast<double>(l.chance);
+  }
+  return sum > 0 ? squares / (sum * sum) : 0;
+}
+
+}  // namespace
+
+uint64_t GlintPass::render_points(std::span<Rgb> values,
+                                  const std::vector<std::vector<SobolPoint>>& points) const {
+  const PixelBounds& b = like.bounds();
+  const FilmSettings& film = like.settings();
+  const size_t parts = owned.routes->groups()[owned.group].parts.size();
+  struct Row {
+    uint64_t rays = 0;
+    TechniqueCounter::Row techniques;
+  };
+  std::vector<Row> rows(static_cast<size_t>(b.height()));
+  parallel_chunks(b.height(), 1, [&](int64_t row, int64_t, int64_t) {
+    const int y = static_cast<int>(row);
+    PartSums light(*owned.routes, owned.group);
+    Row& of_row = rows[static_cast<size_t>(row)];
+    if (techniques) of_row.techniques = techniques->start_row(light);
+    std::vector<SpecularTree::Light> found;
+    size_t pixel = static_cast<size_t>(row) * static_cast<size_t>(b.width());
+    for (int x = 0; x < b.width(); ++x, ++pixel) {
+      const auto& of_pixel = points[static_cast<size_t>(walks.at(x, y))];
+      const float share = 1.0f / static_cast<float>(of_pixel.size());
+      for (const SobolPoint& point : of_pixel) {
+        PathSampler sampler(point, hash_combine(seed, kStream, b.x0 + x, b.y0 + y));
+        sampler.start_dimension(dimensions::kWavelength);
+        const SampledWavelengths lambda =
+            SampledWavelengths::sample_visible(wavelength_number(scene, sampler.get_1d()));
+        sampler.start_dimension(dimensions::kTime);
+        CameraPath path =
+            start_camera_path(scene, b.x0 + x, b.y0 + y, sampler, lambda, sampler.get_1d());
+        path.walk.specular_alpha = specular_alpha;
+        path.walk.per_wavelength = true;
+        light.clear();
+        found.clear();
+        const uint64_t took = path.camera_weight > 0 ? tree.look(path.walk, sampler, found) : 0;
+        of_row.rays += took;
+        for (const SpecularTree::Light& l : found) l.add_to(light);
+        double seen = 0;
+        if (!found.empty()) {
+          const SensorWeights weights =
+              sensor_weights(lambda, *film.color_space, film.imaging_ratio, film.white_balance);
+          const std::span<const Rgb> colors =
+              light.colors(weights, path.camera_weight, film.max_component, path.filter_weight);
+          light.add_techniques_to(
+              of_row.techniques, weights,
+              static_cast<double>(path.camera_weight) * path.filter_weight * share);
+          for (size_t i = 0; i < parts; ++i) {
+            Rgb& value = values[pixel * parts + i];
+            value = value + colors[i] * share;
+            seen += static_cast<double>(colors[i].r + colors[i].g + colors[i].b) / 3;
+          }
+        }
+        if (spread) spread->add(pixel, seen, static_cast<double>(took));
+        if (spread_of_choice) spread_of_choice->add(pixel, seen, 0, seen * seen * rarity(found));
+      }
+    }
+  });
+  uint64_t sum = 0;
+  for (const Row& row : rows) {
+    sum += row.rays;
+    if (techniques) techniques->add(row.techniques);
+  }
+  return sum;
+}
+
+}  // namespace nephroid

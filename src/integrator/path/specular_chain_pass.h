@@ -1,0 +1,51 @@
+// One pass of walks that look for nothing but lights behind delta lobes, as many for each pixel as
+// a map says: the light that a pass of pairs may leave to others, with wavelengths and times that
+// no other walk shares, because they have no photons in common. Who calls it: pair_pass.cpp. It
+// must not know films' sums.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "film/film.h"
+#include "integrator/estimator/technique_counter.h"
+#include "integrator/mixed/balance.h"
+#include "integrator/path/specular_tree.h"
+#include "transport/path_points.h"
+
+namespace nephroid {
+
+struct GlintPass {
+  const Scene& scene;
+  const Film& like;
+  const OwnedRoutes& owned;
+  const SpecularTree& tree;
+  const SampleMap& walks;          ///< of each pixel; may be 0
+  uint64_t seed = 0;               ///< of the estimator
+  float specular_alpha = 0;        ///< of the pass
+  SampleSpread* spread = nullptr;  ///< where what each walk finds goes as well
+  /// And the spread, as well as these walks know it, of what camera paths would find that choose
+  /// one way at each boundary.
+  SampleSpread* spread_of_choice = nullptr;
+  TechniqueCounter* techniques = nullptr;  ///< where what was found is counted
+
+  /// Adds each pixel's estimate to values[pixel * parts + part]. Walk k of n has the number
+  /// first_index(n) + k of its pixel. Returns the number of rays.
+  template <class FirstIndex>
+  uint64_t render(std::span<Rgb> values, FirstIndex&& first_index) const {
+    std::vector<std::vector<SobolPoint>> points(static_cast<size_t>(walks.most()) + 1);
+    for (int n = 1; n <= walks.most(); ++n)
+      if (walks.has(n))
+        for (int k = 0; k < n; ++k)
+          points[static_cast<size_t>(n)].push_back(
+              eye_point(first_index(n) + static_cast<uint32_t>(k)));
+    return render_points(values, points);
+  }
+
+ private:
+  /// `points[n]`: of the walks of a pixel that has n.
+  uint64_t render_points(std::span<Rgb> values,
+                         const std::vector<std::vector<SobolPoint>>& points) const;
+};
+
+}  // namespace nephroid

@@ -1,0 +1,117 @@
+#include "integrator/photon_mapping/photon_map.h"
+
+#include <algorithm>
+
+#include "integrator/photons/gather.h"
+#include "transport/path_points.h"
+
+namespace nephroid {
+
+namespace {
+
+constexpr uint64_t kStream = 0x706d6170;  // "pmap"
+constexpr uint32_t kSets = 16;            // a power of two, over which wavelengths are stratified
+/// Largest radius of an estimate, in footprints, if the user gave none.
+constexpr float kDefaultMaxRadius = 16.0f;
+
+}  // namespace
+
+PhotonMap::PhotonMap(OwnedRoutes owned, const IntegratorOptions& options)
+    : owned_(std::move(owned)),
+      options_(options),
+      photons_can_count_(photons_can_count(owned_)),
+      walks_per_pass_(static_cast<uint32_t>(std::max(1, options.camera_samples_per_pass))) {
+  options_.radius = largest_radius(options_);
+}
+
+float PhotonMap::largest_radius(const IntegratorOptions& options) {
+  return options.radius > 0 ? options.radius : kDefaultMaxRadius;
+}
+
+const PhotonMap::Map& PhotonMap::map_of(uint64_t seed, const Scene& scene, const Film& film) {
+  if (map_ && map_->seed == seed) return *map_;
+  std::vector<PhotonTraceSettings> sets;
+  for (uint32_t s = 0; s < kSets; ++s) {
+    sets.push_back(start_photon_pass({seed, s}, scene, film, options_).trace);
+    if (options_.map_photons > 0)
+      sets.back().photons_per_pass = (options_.map_photons - 1) / kSets + 1;
+  }
+  PhotonMapTrace traced = trace_map(scene, owned_, sets, options_.memory_photons);
+  count_photons(traced.trace, statistics_);
+  map_ = Map{seed, std::make_unique<PhotonGrid>(std::move(traced.trace.photons)),
+             static_cast<double>(traced.paths_of_set)};
+  return *map_;
+}
+
+void PhotonMap::render_pass(const PassKey& key, const Scene& scene, Film& film) {
+  film.add_estimates(static_cast<int>(owned_.group), walks_per_pass_);
+  if (!photons_can_count_) return;
+  // Each map has random numbers of its own.
+  const PassKey set{hash_combine(key.seed, kStream, owned_.group), key.pass % kSets};
+  const Map& map = map_of(set.seed, scene, film);
+  PhotonPass pass = start_photon_pass(set, scene, film, options_);
+  std::vector<RadiusRange> rows(static_cast<size_t>(film.bounds().height()));
+  for (uint32_t k = 0; k < walks_per_pass_; ++k) {
+    // A set has a sequence of its own. Of one for all passes it would take every 16th point, which
+    // lie in one strip of each pixel.
+    const uint64_t index = uint64_t{key.pass / kSets} * walks_per_pass_ + k;
+    pass.point = eye_point(static_cast<uint32_t>(index));
+    read(map, set, hash_combine(set.seed, kStream, set.pass, index >> 32), pass, scene, film, rows);
+  }
+  RadiusRange all;
+  for (const RadiusRange& row : rows) {
+    all.smallest = std::min(all.smallest, row.smallest);
+    all.largest = std::max(all.largest, row.largest);
+  }
+  statistics_.radius_min_pixels = all.largest > 0 ? all.smallest : 0;
+  statistics_.radius_max_pixels = all.largest;
+}
+
+void PhotonMap::read(const Map& map, const PassKey& set, uint64_t walk_seed, const PhotonPass& pass,
+                     const Scene& scene, Film& film, std::span<RadiusRange> rows) {
+  const int group = static_cast<int>(owned_.group);
+  const PixelBounds& b = film.bounds();
+  const size_t width = static_cast<size_t>(b.width());
+  const size_t parts = film.parts_of(group).size();
+  Gathered gathered(static_cast<size_t>(b.area()), parts);
+  statistics_.hold(map.grid->bytes(),
+                   gathered.filter_weights.size() * Gathered::bytes_per_walk(parts));
+  gather(scene, b, owned_, options_.max_depth, pass, {{&pass.point, 1}, walk_seed}, gathered,
+         [&](size_t pixel, const CameraPath&, const Walk& walk, MergePoint at,
+             PartSums& sums) -> uint64_t {
+           const float footprint = pass.footprint.width(walk.length);
+           if (!(footprint > 0.0f)) return 0;
+           thread_local std::vector<PhotonGrid::Neighbour> scratch;
+           at.throughput = at.throughput * static_cast<float>(1.0 / map.paths_of_set);
+           const NearestPhotons nearest{static_cast<size_t>(options_.nearest_photons),
+                                        options_.radius * footprint, static_cast<int>(set.pass)};
+           const NearestMerge merged =
+               merge_nearest(*map.grid, owned_, at, options_.max_depth, nearest, scratch, sums);
+           RadiusRange& row = rows[pixel / width];
+           row.smallest = std::min(row.smallest, merged.radius / footprint);
+           row.largest = std::max(row.largest, merged.radius / footprint);
+           return merged.found;
+         });
+  finish_estimates(gathered, film.settings().max_component);
+  for (size_t i = 0; i < gathered.filter_weights.size(); ++i)
+    film.add(group, b.x0 + static_cast<int>(i % width), b.y0 + static_cast<int>(i / width),
+             gathered.of_walk(i));
+  found_ += gathered.found;
+  statistics_.rays += gathered.rays;
+  statistics_.camera_paths += gathered.filter_weights.size();
+}
+
+EstimatorStatistics PhotonMap::statistics() const {
+  EstimatorStatistics s = statistics_;
+  s.photons_stay = true;
+  explain_darkness(owned_, found_, s);
+  if (s.photons_stored > 0)
+    s.notes.push_back("the map of " + names_of_routes(owned_) + " has " +
+                      std::to_string(s.photons_stored) + " photons of " +
+                      std::to_string(s.photon_paths) +
+                      " paths; passes add none (-D map-photons=N, "
+                      "-D memory-photons=N)");
+  return s;
+}
+
+}  // namespace nephroid

@@ -1,0 +1,65 @@
+// `sppm`: stochastic progressive photon mapping as published [E1], for the photons of its own
+// routes. Each camera walk's region keeps a radius, a photon count and the flux of each part, so
+// the passes are a sequence. Who calls it: presets; ppm.h, whose walks stay. Papers: Hachisuka &
+// Jensen 2009; Hachisuka, Ogaki & Jensen 2008.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "integrator/estimator/estimator.h"
+#include "photon/radius_schedule.h"
+#include "route/scene_symbols.h"
+
+namespace nephroid {
+
+struct PhotonPass;
+
+class Sppm : public Estimator {
+ public:
+  Sppm(OwnedRoutes owned, const IntegratorOptions& options);
+
+  Capabilities capabilities() const override {
+    return {.independent_passes = false, .per_pixel_state = true};
+  }
+  void render_pass(const PassKey& key, const Scene& scene, Film& film) override;
+  EstimatorStatistics statistics() const override;
+  void add_state(const Scene& scene, const Film& film, RenderState& state) override;
+
+  /// Of all regions, in footprints: the user's, or the default.
+  static float first_radius(const IntegratorOptions& options);
+
+  /// Memory of a region from pass to pass, and what a pass needs beside it.
+  static constexpr size_t bytes_kept(size_t parts) {
+    return sizeof(SharedStatistics) + parts * sizeof(std::array<double, 3>) + sizeof(float);
+  }
+  static size_t bytes_of_pass(size_t parts);
+
+ protected:
+  /// The regions of a pixel. Walk k gathers for region k.
+  virtual int regions_per_pixel(const Scene&) const { return 1; }
+  /// The random numbers of the walks of a pass, one point for each region of a pixel.
+  virtual std::span<const SobolPoint> points(const PhotonPass& pass, const Scene& scene);
+
+  const OwnedRoutes owned_;
+  IntegratorOptions options_;
+
+ private:
+  void start_regions(const Scene& scene, size_t pixels, size_t parts);
+  /// [E1] for every region, and the picture so far.
+  void update(struct Gathered& gathered, std::span<const uint64_t> counts, Film& film,
+              double photons);
+
+  size_t regions_in_pixel_ = 1;
+  std::vector<SharedStatistics> regions_;    ///< [pixel * regions of a pixel + k]
+  std::vector<std::array<double, 3>> flux_;  ///< tau, [region * parts + part], as rgb
+  std::vector<float> footprint_;  ///< of the first visible point, world units, for the report
+  struct Totals {
+    double emitted = 0;  ///< sum of N_i
+    uint64_t found = 0;  ///< photons merged
+  };
+  Totals totals_;
+  EstimatorStatistics statistics_;
+};
+
+}  // namespace nephroid

@@ -1,0 +1,141 @@
+#include "integrator/photons/photon_pass.h"
+
+#include "transport/path_points.h"
+#include "transport/roughness_band.h"
+
+namespace nephroid {
+
+namespace {
+
+// Photons of a pass when the user gave no number: it grows with the picture, within bounds.
+int64_t default_photons_per_pass(int64_t pixels) {
+  constexpr int64_t kMin = 1 << 16, kMax = 1 << 20;
+  return std::clamp<int64_t>(static_cast<int64_t>(std::bit_ceil(static_cast<uint64_t>(pixels))),
+                             kMin, kMax);
+}
+
+}  // namespace
+
+PhotonPass start_photon_pass(const PassKey& key, const Scene& scene, const Film& film,
+                             const IntegratorOptions& options) {
+  PhotonPass pass{{}, {}, scene.camera->footprint(), 0, eye_point(key.pass)};
+  // Any run of passes covers wavelengths and times evenly, and both together, so that a thing that
+  // moves has all its colours everywhere; and in an order that has nothing to do with that of the
+  // camera walks, of which a pixel would else see each time at one place only.
+  constexpr uint64_t kStream = 0x70617373;  // "pass"
+  PathSampler sampler(PaddedPoint{key.pass}, hash_combine(key.seed, kStream));
+  pass.trace.key = key;
+  const Vec2f u = sampler.get_2d();
+  pass.trace.lambda = SampledWavelengths::sample_visible(wavelength_number(scene, u.x));
+  pass.u_time = u.y;
+  pass.trace.time = scene.camera->motion_time(pass.u_time);
+  pass.trace.photons_per_pass = options.photons_per_pass > 0
+                                    ? options.photons_per_pass
+                                    : default_photons_per_pass(film.bounds().area());
+  pass.trace.max_events = options.max_depth;
+  pass.trace.specular_alpha = specular_alpha_of_pass(scene.specular_band, key);
+  pass.weights = sensor_weights(pass.trace.lambda, *film.settings().color_space,
+                                film.settings().imaging_ratio, film.settings().white_balance);
+  return pass;
+}
+
+namespace {
+
+/// True if `what(light state, label)` is not empty for a light and a label of the scene.
+template <class What>
+bool any_emitted(const OwnedRoutes& owned, What&& what) {
+  const Routes& routes = *owned.routes;
+  const SymbolSet& present = owned.symbols->present();
+  for (size_t light = 0; light < present.lights.size(); ++light) {
+    if (!present.lights[light]) continue;
+    const LightState state = routes.emitted(static_cast<LightSymbol>(light));
+    for (size_t label = 0; label <= routes.labels().size(); ++label)
+      if (what(state, static_cast<Label>(label)) != ClassMask::kNone) return true;
+  }
+  return false;
+}
+
+bool deposits_at_once(const OwnedRoutes& owned) {
+  return any_emitted(owned, [&](LightState light, Label label) {
+    return owned.routes->deposits(owned.group, light, label);
+  });
+}
+
+}  // namespace
+
+bool has_specular_events(const OwnedRoutes& owned) {
+  const std::vector<bool>& events = owned.symbols->present().events;
+  for (size_t e = 0; e < events.size(); ++e)
+    if (events[e] && class_of(kind_of(static_cast<EventSymbol>(e))) == EventClass::kSpecular)
+      return true;
+  return false;
+}
+
+std::string names_of_routes(const OwnedRoutes& owned) {
+  const std::vector<int>& routes = owned.routes->groups()[owned.group].routes;
+  std::string text = routes.size() == 1 ? "route" : "routes";
+  for (size_t i = 0; i < routes.size(); ++i)
+    text += (i == 0 ? " '" : ", '") +
+            owned.routes->definitions()[static_cast<size_t>(routes[i])].name + "'";
+  return text;
+}
+
+bool photons_can_count(const OwnedRoutes& owned) {
+  return deposits_at_once(owned) || any_emitted(owned, [&](LightState light, Label label) {
+           return owned.routes->useful_before_deposit(owned.group, light, label);
+         });
+}
+
+void count_photons(const PhotonTrace& trace, EstimatorStatistics& statistics) {
+  statistics.photon_paths += trace.paths;
+  statistics.photon_paths_useful += trace.useful_paths;
+  statistics.photon_paths_specular += trace.specular_paths;
+  statistics.photons_stored += trace.photons.size();
+  statistics.rays += trace.rays;
+}
+
+namespace {
+
+const char* const kNothingSpecular =
+    "no material of the scene has a specular lobe (microfacets of an alpha above that of -D "
+    "specular-alpha are glossy): there are no caustics, and no photons were needed";
+
+void explain_lost_paths(EstimatorStatistics& s) {
+  const std::string of_all = " of " + std::to_string(s.photon_paths) + " photon paths ";
+  if (s.photon_paths_specular == 0)
+    s.notes.push_back("0" + of_all + "met a specular surface");
+  else
+    s.notes.push_back(std::to_string(s.photon_paths_specular) + of_all +
+                      "met a specular surface, none reached a diffuse one behind it within the "
+                      "depth of paths (-D max-depth)");
+}
+
+}  // namespace
+
+void explain_missing_caustics(const OwnedRoutes& owned, EstimatorStatistics& s) {
+  if (!has_specular_events(owned))
+    s.notes.push_back(kNothingSpecular);
+  else if (s.photon_paths > 0 && s.photon_paths_useful == 0)
+    explain_lost_paths(s);
+}
+
+void explain_darkness(const OwnedRoutes& owned, uint64_t found, EstimatorStatistics& s) {
+  if (!photons_can_count(owned)) {
+    s.notes.push_back(has_specular_events(owned)
+                          ? "no path that this scene can have belongs to " +
+                                names_of_routes(owned) + ", and no photons were traced for it"
+                          : std::string(kNothingSpecular));
+    return;
+  }
+  if (found > 0 || s.photon_paths == 0) return;
+  if (s.photons_stored > 0)
+    s.notes.push_back(std::to_string(s.photons_stored) +
+                      " photons were stored, none near a point that the camera sees");
+  else if (deposits_at_once(owned))
+    s.notes.push_back("none of " + std::to_string(s.photon_paths) +
+                      " photon paths met a surface at which its route merges");
+  else
+    explain_lost_paths(s);
+}
+
+}  // namespace nephroid

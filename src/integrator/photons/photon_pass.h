@@ -1,0 +1,101 @@
+// What the photon integrators share: the wavelengths, time, roughness threshold and photons of a
+// pass, and the camera walk that comes to every vertex where its routes may merge photons.
+// Who calls it: merge_pass.cpp, gather.h, sppm.cpp, photon_map.cpp, pair_pass.cpp,
+// point_lights.cpp, first_sight.cpp and learned_photons.cpp; light_tracing.cpp for the settings.
+// It must not know how radii shrink.
+#pragma once
+
+#include "integrator/estimator/estimator.h"
+#include "photon/merge.h"
+#include "photon/photon_grid.h"
+#include "photon/photon_tracer.h"
+#include "transport/camera_path.h"
+#include "transport/walk_symbols.h"
+
+namespace nephroid {
+
+/// What all photons and camera walks of a pass share. Wavelengths and time are stratified over
+/// passes.
+struct PhotonPass {
+  PhotonTraceSettings trace;  ///< with the pass's wavelengths, time and number of photons
+  SensorWeights weights;
+  PixelFootprint footprint;
+  float u_time = 0;  ///< of the camera walks; trace.time is the same moment
+  SobolPoint point;  ///< of the camera walks
+};
+PhotonPass start_photon_pass(const PassKey& key, const Scene& scene, const Film& film,
+                             const IntegratorOptions& options);
+
+/// Starts the camera walk of a pixel, with the wavelengths, time and threshold of the pass.
+inline CameraPath start_merging_path(const Scene& scene, int x, int y, PathSampler& sampler,
+                                     const PhotonPass& pass) {
+  CameraPath path = start_camera_path(scene, x, y, sampler, pass.trace.lambda, pass.u_time);
+  path.walk.specular_alpha = pass.trace.specular_alpha;
+  path.walk.per_wavelength = true;
+  return path;
+}
+
+/// False if no photon that can occur in the scene belongs to the group.
+bool photons_can_count(const OwnedRoutes& owned);
+
+/// "route 'a'", "routes 'a', 'b'": those of the group.
+std::string names_of_routes(const OwnedRoutes& owned);
+
+/// True if the scene has lobes of class S.
+bool has_specular_events(const OwnedRoutes& owned);
+
+/// Adds what one batch of photons did to the counts.
+void count_photons(const PhotonTrace& trace, EstimatorStatistics& statistics);
+
+/// Says why there is no light from photons, if there is none; `found` is how many were merged.
+void explain_darkness(const OwnedRoutes& owned, uint64_t found, EstimatorStatistics& statistics);
+
+/// The same for photons of caustics alone, from the paths that were traced and how many were of
+/// use.
+void explain_missing_caustics(const OwnedRoutes& owned, EstimatorStatistics& statistics);
+
+/// Calls `merge(walk, merge_point)` at each vertex of the walk where photons may be merged.
+template <class Merge>
+class MergeWalkVisitor {
+ public:
+  MergeWalkVisitor(const OwnedRoutes& owned, Merge& merge)
+      : routes_(*owned.routes),
+        symbols_(*owned.symbols),
+        group_(owned.group),
+        merge_(merge),
+        eye_(routes_.start()) {}
+
+  ClassMask useful(const WalkVertex& v) const {
+    return routes_.useful_before_merge(group_, eye_, label_at(symbols_, v));
+  }
+  bool scatters_in(const Medium& medium) const {
+    return contains(routes_.useful_before_merge(group_, eye_, symbols_.medium(medium.index())),
+                    EventClass::kVolume);
+  }
+  bool looks_under_surfaces() const { return true; }
+  void escape(const Walk&) {}
+  void emitter(const Walk&, const SurfaceInteraction&, const Light&) {}
+  void medium_emission(const Medium&, const SampledSpectrum&) {}
+  void medium_vertex(const Walk&, const MediumVertex&, PathSampler&) {}
+  void vertex(const Walk& walk, const WalkVertex& v, PathSampler&) {
+    if (!v.merges) return;
+    const ClassMask classes =
+        routes_.merges(group_, eye_, label_at(symbols_, v)) & v.bsdf.finite_classes();
+    if (classes == ClassMask::kNone) return;
+    merge_(walk, MergePoint{v, eye_, classes, walk.events + 1, walk.throughput,
+                            walk.lambda.secondary_terminated()});
+  }
+  bool scatter(const Walk&, const WalkEvent& event) {
+    eye_ = routes_.next(eye_, symbol_of(symbols_, event));
+    return true;
+  }
+
+ private:
+  const Routes& routes_;
+  const SceneSymbols& symbols_;
+  const size_t group_;
+  Merge& merge_;
+  EyeState eye_;
+};
+
+}  // namespace nephroid

@@ -1,0 +1,134 @@
+// A plan of routes and a scene -> the estimators that render them and the layout of their film.
+#include <algorithm>
+
+#include "core/errors.h"
+#include "integrator/bidirectional/bidirectional.h"
+#include "integrator/bidirectional/vertex_connection_merging.h"
+#include "integrator/estimator/features.h"
+#include "integrator/metropolis/multiplexed.h"
+#include "integrator/metropolis/primary_space.h"
+#include "integrator/mixed/path_and_photons.h"
+#include "integrator/path/forecast.h"
+#include "integrator/path/path.h"
+#include "integrator/photon_mapping/light_tracing.h"
+#include "integrator/photon_mapping/photon_map.h"
+#include "integrator/photon_mapping/photon_mapping.h"
+#include "integrator/photon_mapping/ppm.h"
+#include "integrator/photon_mapping/sppm.h"
+#include "integrator/photon_mapping/vertex_merging.h"
+#include "integrator/presets/compiled_plan.h"
+#include "integrator/virtual_lights/point_lights.h"
+
+namespace nephroid {
+
+namespace {
+
+template <class T>
+std::unique_ptr<Estimator> make(OwnedRoutes owned, const IntegratorOptions& options) {
+  return std::make_unique<T>(std::move(owned), options);
+}
+
+struct Row {
+  EstimatorKind kind;
+  std::unique_ptr<Estimator> (*make)(OwnedRoutes, const IntegratorOptions&);
+};
+constexpr Row kTable[] = {{EstimatorKind::kPath, make<PathEstimator>},
+                          {EstimatorKind::kPhotons, make<PhotonMapping>},
+                          {EstimatorKind::kSppm, make<Sppm>},
+                          {EstimatorKind::kLightTrace, make<LightTracing>},
+                          {EstimatorKind::kPhotonsAndLight, make<VertexMerging>},
+                          {EstimatorKind::kBidirectional, make<Bidirectional>},
+                          {EstimatorKind::kVcm, make<VertexConnectionMerging>},
+                          {EstimatorKind::kBpm, make<VertexConnectionMerging>},
+                          {EstimatorKind::kPathAndPhotons, make<PathAndPhotons>},
+                          {EstimatorKind::kMetropolis, make<Multiplexed>},
+                          {EstimatorKind::kPrimarySpace, make<PrimarySpace>},
+                          {EstimatorKind::kPhotonMap, make<PhotonMap>},
+                          {EstimatorKind::kPpm, make<Ppm>},
+                          {EstimatorKind::kPointLights, make<PointLights>},
+                          {EstimatorKind::kForecast, make<Forecast>}};
+
+/// Estimators of independent passes that merge.
+bool tells_bias(EstimatorKind kind) {
+  using enum EstimatorKind;
+  return kind == kPhotons || kind == kPhotonsAndLight || kind == kVcm || kind == kBpm ||
+         kind == kPathAndPhotons;
+}
+
+FilmLayout layout_of(const Routes& routes) {
+  FilmLayout layout;
+  for (const RouteDefinition& route : routes.definitions()) layout.routes.push_back(route.name);
+  for (const AovDefinition& aov : routes.aovs()) layout.aovs.push_back(aov.name);
+  for (const PartMeaning& part : routes.parts()) layout.parts.push_back({part.route, part.aovs});
+  layout.groups.resize(layout.routes.size());
+  for (size_t g = 0; g < routes.groups().size(); ++g)
+    for (const int route : routes.groups()[g].routes)
+      layout.groups[static_cast<size_t>(route)] = static_cast<int>(g);
+  for (const auto& group : routes.groups()) layout.merges.push_back(tells_bias(group.estimator));
+  return layout;
+}
+
+std::string quoted_list(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "'" : ", '") + name + "'";
+  return text;
+}
+
+}  // namespace
+
+CompiledPlan compile_plan(const RoutePlan& plan, const Scene& scene) {
+  const auto symbols =
+      std::make_shared<const SceneSymbols>(scene, mentioned_labels(plan.routes, plan.aovs));
+  return {symbols,
+          compile_routes(plan.routes, plan.aovs, &symbols->present(), scene.camera->connects()),
+          plan.strict};
+}
+
+Preset make_preset(const RoutePlan& plan, const IntegratorOptions& options, const Scene& scene) {
+  CompiledPlan compiled = compile_plan(plan, scene);
+  std::vector<std::string> warnings;
+  for (const RouteFinding& finding : compiled.compilation.findings)
+    if (!finding.is_error) warnings.push_back(finding.message);
+  Preset preset = make_preset(std::move(compiled), options, scene);
+  preset.warnings.insert(preset.warnings.begin(), warnings.begin(), warnings.end());
+  return preset;
+}
+
+Preset make_preset(CompiledPlan compiled, const IntegratorOptions& options, const Scene& scene) {
+  const auto& symbols = compiled.symbols;
+  Preset preset;
+  if (!symbols->unknown_labels().empty())
+    preset.warnings.push_back(
+        "nothing in the scene is called " + quoted_list(symbols->unknown_labels()) +
+        (symbols->unknown_is_mix() ? "; a mix goes by the labels of its materials" : "") +
+        " (`nephroid info SCENE` lists the labels)");
+  for (size_t i = 0; i < compiled.compilation.aov_matches.size(); ++i)
+    if (!compiled.compilation.aov_matches[i])
+      preset.warnings.push_back("layer '" + compiled.compilation.routes.aovs()[i].name +
+                                "' will be black: no path that this scene can have matches '" +
+                                compiled.compilation.routes.aovs()[i].expression +
+                                "' (lights are named in <L.'...'>, materials in <..'...'>)");
+  const std::vector<std::string>& examples = compiled.compilation.examples;
+  for (size_t r = 0; r < examples.size(); ++r) {
+    const RouteDefinition& route = compiled.compilation.routes.definitions()[r];
+    // Estimators of photons say it themselves.
+    if (examples[r].empty() && route.estimator == EstimatorKind::kPath)
+      preset.notes.push_back("'" + route.name +
+                             "' is black: no path that this scene can have belongs to it");
+  }
+  preset.routes = std::make_shared<const Routes>(
+      checked_routes(std::move(compiled.compilation), compiled.strict));
+  preset.layout = layout_of(*preset.routes);
+  for (size_t g = 0; g < preset.routes->groups().size(); ++g)
+    for (const Row& row : kTable) {
+      if (row.kind != preset.routes->groups()[g].estimator) continue;
+      if (estimator_type(row.kind).connects) require_connecting_camera(scene);
+      preset.estimators.push_back(row.make({preset.routes, symbols, g}, options));
+    }
+  if (std::none_of(preset.estimators.begin(), preset.estimators.end(),
+                   [](const auto& estimator) { return estimator->records_features(); }))
+    preset.estimators.push_back(std::make_unique<FeatureEstimator>());
+  return preset;
+}
+
+}  // namespace nephroid

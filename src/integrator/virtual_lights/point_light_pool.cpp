@@ -1,0 +1,182 @@
+#include "integrator/virtual_lights/point_light_pool.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "core/parallel.h"
+#include "photon/light_walk.h"
+
+namespace nephroid {
+
+namespace {
+
+constexpr uint64_t kStream = 0x76706c;      // "vpl"
+constexpr uint64_t kThinning = 0x7468696e;  // "thin"
+constexpr int64_t kChunk = 4;               // groups are small
+
+using Lights = std::vector<std::unique_ptr<PointLight>>;
+
+/// What lights are chosen by.
+double flux_of(const PointLight& light) {
+  const SampledSpectrum& flux = light.flux;
+  return static_cast<double>(light.secondary_terminated ? flux[0] : flux.max_component());
+}
+
+void drop_black(Lights& lights) {
+  std::erase_if(lights, [](const auto& light) { return !(flux_of(*light) > 0.0); });
+}
+
+/// [L5] Keeps `most` of the lights or fewer, by systematic sampling with the number u in [0,1).
+void thin(Lights& lights, int64_t most, float u) {
+  drop_black(lights);
+  double total = 0;
+  for (const auto& light : lights) total += flux_of(*light);
+  const double step = total / static_cast<double>(most);
+  Lights kept;
+  double below = 0;
+  int64_t next = 0;
+  for (auto& light : lights) {
+    const double flux = flux_of(*light);
+    below += flux;
+    int64_t count = 0;
+    for (; next < most && (static_cast<double>(next) + static_cast<double>(u)) * step < below;
+         ++next)
+      ++count;
+    if (count == 0) continue;
+    light->flux *= static_cast<float>(static_cast<double>(count) * step / flux);
+    kept.push_back(std::move(light));
+  }
+  lights = std::move(kept);
+}
+
+class PointLightVisitor : public LightWalkVisitor {
+ public:
+  /// Leaves no more than `most` lights of the path in `out`; `seed` is the path's own.
+  PointLightVisitor(const OwnedRoutes& owned, const Scene& scene, const Emission& emission,
+                    int64_t most, uint64_t seed, Lights& out)
+      : LightWalkVisitor(owned, emission),
+        delta_light_(scene.lights[static_cast<size_t>(emission.light)]->is_delta()),
+        flux_(emission.flux),
+        most_(most),
+        seed_(seed),
+        out_(out) {}
+
+  void vertex(const Walk& walk, const WalkVertex& v, PathSampler&) {
+    if (v.subsurface_exit || !v.merges) return;
+    if ((v.bsdf.finite_classes() & useful(v) & ClassMask::kRough) == ClassMask::kNone) return;
+    auto light = std::make_unique<PointLight>();
+    light->surface = v.surface;
+    light->material = &v.material;
+    light->medium = walk.medium;
+    light->wo = v.wo;
+    light->flux = flux_ * walk.throughput;
+    light->state = state_;
+    light->events = walk.events;
+    light->only_from_light = only_from_light_;
+    SampledWavelengths lambda = walk.lambda;
+    light->bsdf = v.material.make_bsdf(light->surface, lambda, walk.specular_alpha, light->arena);
+    light->secondary_terminated = lambda.secondary_terminated();
+    if (!light->bsdf) return;
+    if (static_cast<int64_t>(out_.size()) == most_) thin(out_, most_ / 2, number_of(walk.events));
+    out_.push_back(std::move(light));
+  }
+
+  bool scatter(const Walk& walk, const WalkEvent& event) {
+    only_from_light_ |= walk.events == 1 && walk.delta && delta_light_;
+    return LightWalkVisitor::scatter(walk, event);
+  }
+
+ private:
+  float number_of(int events) const {
+    return bits_to_unit_float(static_cast<uint32_t>(hash_combine(seed_, kThinning, events) >> 32));
+  }
+
+  const bool delta_light_;
+  const SampledSpectrum flux_;
+  const int64_t most_;
+  const uint64_t seed_;
+  Lights& out_;
+  bool only_from_light_ = false;
+};
+
+/// Traces light path `number`, returns its rays and leaves up to `most` lights in `out`.
+uint64_t trace(const Scene& scene, const OwnedRoutes& owned, const PhotonTraceSettings& settings,
+               uint64_t number, int64_t most, Lights& out) {
+  // All passes together run through one sequence; the seed changes when its 32 bits are used up.
+  const SobolPoint point(static_cast<uint32_t>(number), kLightPathPointDimensions);
+  PathSampler sampler(point, hash_combine(settings.key.seed, kStream, number >> 32));
+  const auto emitted = emit(scene, kUnguided, settings.lambda, settings.time, sampler);
+  if (!emitted) return 0;
+  Walk walk = walk_from(*emitted, settings.lambda, settings.specular_alpha, kEmissionDimensions);
+  PointLightVisitor visitor(owned, scene, *emitted, most, hash_combine(settings.key.seed, number),
+                            out);
+  random_walk(scene, TransportMode::kImportance, settings.max_events, walk, sampler, visitor);
+  return walk.rays;
+}
+
+}  // namespace
+
+int64_t point_lights_in_memory_of(int64_t photons) {
+  constexpr double kSize = sizeof(PointLight), kFewest = 1024;
+  return static_cast<int64_t>(
+      std::max(kFewest, static_cast<double>(photons) * sizeof(Photon) / kSize));
+}
+
+PointLightPool::PointLightPool(const Scene& scene, const OwnedRoutes& owned,
+                               const PhotonTraceSettings& settings, int64_t most) {
+  const int64_t paths = settings.photons_per_pass;
+  const uint64_t first = uint64_t{settings.key.pass} * static_cast<uint64_t>(paths);
+  // Whatever the paths of a group do, they leave no more than a quarter of what may be held. As
+  // much is made free at a time, so that lights are drawn now and then and not after each group.
+  const int64_t room = std::max<int64_t>(2, most / 4);
+  const int64_t of_group = std::max<int64_t>(1, room / std::max(1, settings.max_events));
+  struct Chunk {
+    Lights lights;
+    uint64_t rays = 0, useful = 0;
+  };
+  for (int64_t begin = 0; begin < paths; begin += of_group) {
+    const int64_t count = std::min(of_group, paths - begin);
+    std::vector<Chunk> chunks(static_cast<size_t>(chunk_count(count, kChunk)));
+    parallel_chunks(count, kChunk, [&](int64_t c, int64_t b, int64_t e) {
+      Chunk& chunk = chunks[static_cast<size_t>(c)];
+      Lights of_path;
+      for (int64_t j = begin + b; j < begin + e; ++j) {
+        of_path.clear();
+        chunk.rays +=
+            trace(scene, owned, settings, first + static_cast<uint64_t>(j), room, of_path);
+        chunk.useful += !of_path.empty();
+        std::move(of_path.begin(), of_path.end(), std::back_inserter(chunk.lights));
+      }
+    });
+    for (Chunk& chunk : chunks) {
+      rays_ += chunk.rays;
+      useful_paths_ += chunk.useful;
+      std::move(chunk.lights.begin(), chunk.lights.end(), std::back_inserter(lights_));
+    }
+    most_held_ = std::max(most_held_, lights_.size());
+    if (static_cast<int64_t>(lights_.size()) > most)
+      thin(lights_, most - room,
+           bits_to_unit_float(static_cast<uint32_t>(
+               hash_combine(settings.key.seed, kThinning, settings.key.pass, begin) >> 32)));
+  }
+  add_up(paths);
+}
+
+void PointLightPool::add_up(int64_t paths) {
+  for (auto& light : lights_) light->flux /= static_cast<float>(paths);
+  drop_black(lights_);
+  double sum = 0;
+  for (const auto& light : lights_) sums_.push_back(sum += flux_of(*light));
+}
+
+ChosenLight PointLightPool::choose(int k, int count, float u) const {
+  const double total = sums_.back();
+  const double at = (static_cast<double>(k) + static_cast<double>(u)) / count * total;
+  const size_t i = std::min(
+      static_cast<size_t>(std::upper_bound(sums_.begin(), sums_.end(), at) - sums_.begin()),
+      sums_.size() - 1);
+  const double flux = sums_[i] - (i > 0 ? sums_[i - 1] : 0.0);
+  return {lights_[i].get(), static_cast<float>(total / (count * flux))};
+}
+
+}  // namespace nephroid

@@ -1,0 +1,42 @@
+// `pointlights`: light that goes from one rough surface to another is found twice: at the first
+// rough vertex of a camera walk, connected to virtual point lights, and by the walk itself, which
+// goes on as path tracing does. A weight leaves to the walk what a point light that is too near
+// would make a spot of ([L1] to [L4] in docs/estimators.md), so nothing is clamped away. A pass is
+// a function of the scene, the options and the pass key alone. Who calls it: presets.
+// Papers: Kollig & Keller 2004; Dammertz, Keller & Lensch 2010.
+#pragma once
+
+#include <optional>
+#include <utility>
+
+#include "integrator/photons/photon_pass.h"
+
+namespace nephroid {
+
+class PointLights : public Estimator {
+ public:
+  PointLights(OwnedRoutes owned, const IntegratorOptions& options);
+
+  Capabilities capabilities() const override { return {}; }
+  void render_pass(const PassKey& key, const Scene& scene, Film& film) override;
+  EstimatorStatistics statistics() const override { return statistics_; }
+
+ private:
+  /// [L3], a function of the scene, the options and the seed.
+  float density_of_seed(const PassKey& key, const Scene& scene, const Film& film);
+
+  /// One walk of each pixel, with point lights and wavelengths that they share.
+  void render_sample(const PhotonPass& pass, float density, const Scene& scene, Film& film);
+
+  OwnedRoutes owned_;
+  IntegratorOptions options_;
+  std::optional<std::pair<uint64_t, float>> density_;  ///< of a seed
+  EstimatorStatistics statistics_;
+};
+
+/// [L1]: share of the light from y to x that point lights find, where a walk at x finds y with the
+/// density `walk_pdf_a` per area and point lights lie with `density` per area. The walk finds the
+/// rest.
+float point_light_share(float density, float walk_pdf_a);
+
+}  // namespace nephroid
