@@ -12,7 +12,7 @@
 #include "core/errors.h"
 #include "film/film.h"
 #include "input/pbrt_parser.h"
-#include "integrator/estimator/estimator.h"
+#include "integrator/presets/integrator_table.h"
 #include "scene/scene.h"
 #include "source_directory.h"
 

@@ -9,7 +9,7 @@
 #include "apps/commands.h"
 #include "apps/messages.h"
 #include "core/errors.h"
-#include "integrator/presets/compiled_plan.h"
+#include "integrator/presets/preset.h"
 #include "session/choices_report.h"
 #include "session/film_of_scene.h"
 #include "session/noise.h"
@@ -103,8 +103,7 @@ void print_pilot(const RoutesCommand& command, const RoutePlan& plan, CompiledPl
   for (const std::string& warning : preset.warnings) print_warning(warning);
   Film film(film_settings(scene.film), preset.layout);
   for (uint32_t pass = 0; pass < command.passes; ++pass)
-    for (const auto& estimator : preset.estimators)
-      estimator->render_pass({scene.scene_seed, pass}, scene, film);
+    preset.render_pass({scene.scene_seed, pass}, scene, film);
   fmt::print("light of {} ({} passes at {} x {}):\n", command.scene, command.passes,
              scene.film.width, scene.film.height);
   const EnergyShares shares = energy_shares(film);
@@ -112,8 +111,7 @@ void print_pilot(const RoutesCommand& command, const RoutePlan& plan, CompiledPl
     fmt::print("  {:16} {:6.3g} %\n", plan.routes[i].name, 100 * shares.routes[i]);
   for (size_t i = 0; i < plan.aovs.size(); ++i)
     fmt::print("  {:16} {:6.3g} % (layer)\n", plan.aovs[i].name, 100 * shares.aovs[i]);
-  std::vector<EstimatorStatistics> statistics;
-  for (const auto& estimator : preset.estimators) statistics.push_back(estimator->statistics());
+  const std::vector<EstimatorStatistics> statistics = preset.statistics();
   for (const std::string& line : technique_report(statistics)) fmt::print("{}\n", line);
   for (const EstimatorStatistics& s : statistics)
     for (const std::string& note : s.notes) fmt::print("note: {}\n", note);

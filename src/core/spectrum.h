@@ -77,6 +77,14 @@ class SampledSpectrum {
   }
   float average() const { return sum() * (1.0f / kSpectrumSamples); }
 
+  static void members(auto& self, auto& archive) {
+    for (int i = 0; i < kSpectrumSamples; ++i) {
+      float value = self.v_[i];
+      archive(value);
+      if constexpr (!std::is_const_v<std::remove_reference_t<decltype(self)>>) self.v_[i] = value;
+    }
+  }
+
   /// fn applied to each value.
   template <class F>
   SampledSpectrum map(F&& fn) const {

@@ -27,55 +27,34 @@ double variance_of_mean(const FixedSum& sum, const FixedSum& square, uint64_t n)
 
 }  // namespace
 
-FilmLayout FilmLayout::of_routes(std::vector<std::string> names) {
-  FilmLayout layout;
-  for (int r = 0; r < static_cast<int>(names.size()); ++r) {
-    layout.parts.push_back({r, {}});
-    layout.groups.push_back(r);
-  }
-  layout.routes = std::move(names);
-  return layout;
-}
-
-int FilmLayout::group_count() const {
-  return groups.empty() ? 0 : *std::max_element(groups.begin(), groups.end()) + 1;
-}
-
-Film::Film(const FilmSettings& settings, FilmLayout layout)
-    : settings_(settings), layout_(std::move(layout)) {
-  if (settings_.crop.width() <= 0 || settings_.crop.height() <= 0)
-    settings_.crop = {0, 0, settings_.width, settings_.height};
-  const auto groups = static_cast<size_t>(layout_.group_count());
-  parts_of_group_.resize(groups);
-  for (size_t i = 0; i < layout_.parts.size(); ++i)
-    parts_of_group_[static_cast<size_t>(layout_.group_of(layout_.parts[i]))].push_back(
-        static_cast<int>(i));
-  parts_of_route_.resize(layout_.routes.size());
-  parts_of_aov_.resize(layout_.aovs.size());
-  for (const std::vector<int>& parts : parts_of_group_)
-    for (const int i : parts) {
-      const FilmLayout::Part& part = layout_.parts[static_cast<size_t>(i)];
+Film::Film(const FilmSettings& settings, FilmLayout layout) : format_(settings, std::move(layout)) {
+  const int groups = this->layout().group_count();
+  parts_of_route_.resize(this->layout().routes.size());
+  parts_of_aov_.resize(this->layout().aovs.size());
+  for (int g = 0; g < groups; ++g)
+    for (const int i : parts_of(g)) {
+      const FilmLayout::Part& part = this->layout().parts[static_cast<size_t>(i)];
       all_parts_.push_back(i);
       parts_of_route_[static_cast<size_t>(part.route)].push_back(i);
       for (const int aov : part.aovs) parts_of_aov_[static_cast<size_t>(aov)].push_back(i);
     }
 
-  const auto pixels = static_cast<size_t>(settings_.crop.area());
-  sums_.assign(layout_.parts.size(), std::vector<RgbSum>(pixels));
-  squares_.assign(groups, std::vector<RgbSum>(pixels));
-  estimates_.assign(groups, 0);
-  for (size_t g = 0; g < groups; ++g) {
-    if (!layout_.group_merges(static_cast<int>(g))) continue;
-    biases_.resize(groups);
-    biases_[g].resize(pixels);
+  const auto pixels = static_cast<size_t>(bounds().area());
+  sums_.assign(this->layout().parts.size(), std::vector<RgbSum>(pixels));
+  squares_.assign(static_cast<size_t>(groups), std::vector<RgbSum>(pixels));
+  estimates_.assign(static_cast<size_t>(groups), 0);
+  for (int g = 0; g < groups; ++g) {
+    if (!this->layout().group_merges(g)) continue;
+    biases_.resize(static_cast<size_t>(groups));
+    biases_[static_cast<size_t>(g)].resize(pixels);
   }
   features_.resize(pixels);
   depths_.assign(pixels, 0);
-  if (settings_.gbuffer) {
+  if (this->settings().gbuffer) {
     surfaces_.resize(pixels);
     surface_samples_.assign(pixels, 0);
   }
-  bad_.resize(layout_.routes.size());
+  bad_.resize(this->layout().routes.size());
 }
 
 size_t Film::bytes_per_pixel(const FilmLayout& layout, bool gbuffer) {
@@ -89,10 +68,6 @@ size_t Film::bytes_per_pixel(const FilmLayout& layout, bool gbuffer) {
 Rgb clamp_component(const Rgb& rgb, float limit) {
   const float largest = std::max({std::abs(rgb.r), std::abs(rgb.g), std::abs(rgb.b)});
   return largest > limit ? rgb * (limit / largest) : rgb;
-}
-
-const std::vector<int>& Film::parts_of(int group) const {
-  return parts_of_group_[static_cast<size_t>(group)];
 }
 
 bool Film::add_parts(int group, size_t pixel, std::span<const Rgb> values) {
@@ -141,7 +116,7 @@ void Film::replace(int group, int x, int y, std::span<const Rgb> values) {
 }
 
 void Film::add_bias(int group, std::span<const float> of_pixels) {
-  if (!layout_.group_merges(group)) return;
+  if (!layout().group_merges(group)) return;
   std::vector<Bias>& biases = biases_[static_cast<size_t>(group)];
   assert(of_pixels.size() == biases.size());
   parallel_chunks(static_cast<int64_t>(biases.size()), 1 << 14,
@@ -168,21 +143,20 @@ void Film::release(int group, size_t pixel, std::span<const RgbSum> held) {
 
 void Film::reject_outliers(OutlierSettings settings) {
   std::vector<size_t> parts;
-  for (const std::vector<int>& group : parts_of_group_) parts.push_back(group.size());
-  outliers_.emplace(settings_.crop.width(), settings_.crop.height(), std::move(parts),
-                    std::move(settings));
+  for (int g = 0; g < layout().group_count(); ++g) parts.push_back(parts_of(g).size());
+  outliers_.emplace(bounds().width(), bounds().height(), std::move(parts), std::move(settings));
 }
 
 void Film::finish_pass() {
   if (!outliers_) return;
-  const PixelBounds& b = settings_.crop;
+  const PixelBounds& b = bounds();
   std::vector<float> shown(static_cast<size_t>(b.area()));
   parallel_chunks(b.height(), 16, [&](int64_t, int64_t begin, int64_t end) {
     for (int y = b.y0 + static_cast<int>(begin); y < b.y0 + static_cast<int>(end); ++y)
       for (int x = b.x0; x < b.x1; ++x)
         shown[index(x, y)] = OutlierRejection::brightness(value(x, y));
   });
-  for (int g = 0; g < layout_.group_count(); ++g)
+  for (int g = 0; g < layout().group_count(); ++g)
     outliers_->finish_pass(
         g, estimates(g), shown,
         [this](int group, size_t pixel, const auto& held) { release(group, pixel, held); });
@@ -198,10 +172,10 @@ uint64_t Film::estimates(int group) const {
   return estimates_[static_cast<size_t>(group)];
 }
 void Film::count_bad(int group, size_t part, const Vec2i& pixel) {
-  const auto route = layout_.parts[static_cast<size_t>(parts_of(group)[part])].route;
+  const auto route = layout().parts[static_cast<size_t>(parts_of(group)[part])].route;
   BadEstimates& bad = bad_[static_cast<size_t>(route)];
   std::atomic_ref(bad.count).fetch_add(1, std::memory_order_relaxed);
-  const PixelBounds& crop = settings_.crop;
+  const PixelBounds& crop = bounds();
   if (pixel.x < crop.x0 || pixel.x >= crop.x1 || pixel.y < crop.y0 || pixel.y >= crop.y1) return;
   const uint64_t at = index(pixel.x, pixel.y);
   const std::atomic_ref first(bad.first_pixel);
@@ -257,7 +231,7 @@ Rgb Film::mean_of_parts(const std::vector<int>& parts, size_t pixel) const {
   double total[3] = {0, 0, 0};
   for (size_t begin = 0, end = 0; begin < parts.size(); begin = end) {
     const auto count_of = [&](size_t i) {
-      return estimates(layout_.group_of(layout_.parts[static_cast<size_t>(parts[i])]));
+      return estimates(layout().group_of(layout().parts[static_cast<size_t>(parts[i])]));
     };
     const uint64_t count = count_of(begin);
     FixedSum sum[3];
@@ -281,7 +255,7 @@ Rgb Film::value(int x, int y) const {
 
 Rgb Film::outliers(int x, int y) const {
   double total[3] = {0, 0, 0};
-  for (int g = 0; outliers_ && g < layout_.group_count(); ++g) {
+  for (int g = 0; outliers_ && g < layout().group_count(); ++g) {
     if (estimates(g) == 0) continue;
     const RgbSum held = outliers_->held(g, index(x, y));
     for (int c = 0; c < 3; ++c) total[c] += held.rgb[c].value() / static_cast<double>(estimates(g));
@@ -295,7 +269,7 @@ std::array<double, 3> Film::error_squared(size_t group, size_t pixel) const {
   const RgbSum held = outliers_ ? outliers_->held(static_cast<int>(group), pixel) : RgbSum();
   for (size_t c = 0; c < 3; ++c) {
     FixedSum sum = held.rgb[c];
-    for (const int part : parts_of_group_[group])
+    for (const int part : parts_of(static_cast<int>(group)))
       sum.add(sums_[static_cast<size_t>(part)][pixel].rgb[c]);
     squared[c] = variance_of_mean(sum, squares_[group][pixel].rgb[c], estimates_[group]);
   }

@@ -13,55 +13,12 @@
 
 #include "core/color.h"
 #include "core/math.h"
+#include "film/film_format.h"
 #include "film/fixed_sum.h"
 #include "film/outlier_rejection.h"
 #include "film/render_state.h"
 
 namespace nephroid {
-
-/// Half-open pixel rectangle.
-struct PixelBounds {
-  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-  int width() const { return x1 - x0; }
-  int height() const { return y1 - y0; }
-  int64_t area() const { return int64_t{width()} * height(); }
-  bool operator==(const PixelBounds&) const = default;
-};
-
-/// What a film is: taken from the scene's Film directive and the command line.
-struct FilmSettings {
-  int width = 1280, height = 720;   ///< full resolution
-  PixelBounds crop;                 ///< rendered part, inside the resolution; empty: all of it
-  float imaging_ratio = 1;          ///< exposure time * ISO / 100
-  float max_component = kInfinity;  ///< samples are scaled down to this in their largest component
-  const RgbColorSpace* color_space = nullptr;
-  std::string filename;  ///< as the scene names its output
-  float diagonal_mm = 35;
-  std::optional<ColorMatrix> white_balance;  ///< applied to every sample
-  bool gbuffer = false;                      ///< has the geometric layers, see SurfaceSample
-};
-
-/// What the sums of a film are for. The light is divided into parts, each of which belongs to one
-/// route and any number of AOVs; the routes that one estimator samples together are a group, with
-/// one count of estimates and one variance.
-struct FilmLayout {
-  struct Part {
-    int route = 0;
-    std::vector<int> aovs;
-  };
-  std::vector<std::string> routes, aovs;  ///< names of layers
-  std::vector<Part> parts;
-  std::vector<int> groups;   ///< [route]: its group, numbered from 0 without a gap
-  std::vector<bool> merges;  ///< [group]: its estimates come with their bias; none if shorter
-
-  /// One part and one group for each route, no AOVs.
-  static FilmLayout of_routes(std::vector<std::string> names);
-  int group_count() const;
-  int group_of(const Part& part) const { return groups[static_cast<size_t>(part.route)]; }
-  bool group_merges(int group) const {
-    return static_cast<size_t>(group) < merges.size() && merges[static_cast<size_t>(group)];
-  }
-};
 
 /// Estimates of a route that were left out because a value was infinite or NaN.
 struct BadEstimates {
@@ -88,11 +45,12 @@ class Film {
   /// Memory that a film takes for each pixel of the crop, with or without geometric layers.
   static size_t bytes_per_pixel(const FilmLayout& layout, bool gbuffer);
 
-  const FilmSettings& settings() const { return settings_; }
-  const PixelBounds& bounds() const { return settings_.crop; }
-  const FilmLayout& layout() const { return layout_; }
+  const FilmFormat& format() const { return format_; }
+  const FilmSettings& settings() const { return format_.settings(); }
+  const PixelBounds& bounds() const { return format_.bounds(); }
+  const FilmLayout& layout() const { return format_.layout(); }
   /// Parts of a group's routes, in increasing order.
-  const std::vector<int>& parts_of(int group) const;
+  const std::vector<int>& parts_of(int group) const { return format_.parts_of(group); }
 
   /// Adds one estimate of a pixel by a group: values[i] is what it found for parts_of(group)[i].
   /// The caller has clamped their sum to max_component before it applied the filter's weight. Each
@@ -185,8 +143,7 @@ class Film {
   /// Sums of p, n, ns, uv, dzdx and dzdy.
   using SurfaceSums = std::array<FixedSum, 13>;
   size_t index(int x, int y) const {
-    return static_cast<size_t>(y - settings_.crop.y0) * settings_.crop.width() +
-           (x - settings_.crop.x0);
+    return static_cast<size_t>(y - bounds().y0) * bounds().width() + (x - bounds().x0);
   }
   /// Add an estimate of which no value is infinite or NaN to the parts of its group, and its square
   /// to the group. False if a sum reached its limit.
@@ -200,10 +157,9 @@ class Film {
   /// Squared standard errors of a group's estimates.
   std::array<double, 3> error_squared(size_t group, size_t pixel) const;
 
-  FilmSettings settings_;
-  FilmLayout layout_;
+  FilmFormat format_;
   // Lists of parts, each ordered by group.
-  std::vector<std::vector<int>> parts_of_group_, parts_of_route_, parts_of_aov_;
+  std::vector<std::vector<int>> parts_of_route_, parts_of_aov_;
   std::vector<int> all_parts_;
   std::vector<std::vector<RgbSum>> sums_;     ///< [part][pixel]
   std::vector<std::vector<RgbSum>> squares_;  ///< [group][pixel], of an estimate's sum over parts

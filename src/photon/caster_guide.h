@@ -56,11 +56,13 @@ class CasterGuide {
 
   bool empty() const { return balls_.empty(); }
   size_t places() const { return places_; }
+  static void members(auto& self, auto& archive) { archive(self.balls_, self.places_); }
 
   struct Ball {
     Vec3f center{0, 0, 0};
     float radius = 0;
     float use = 0;  ///< [G8], over that of other balls
+    static void members(auto& self, auto& archive) { archive(self.center, self.radius, self.use); }
   };
   std::span<const Ball> balls() const { return balls_; }
 

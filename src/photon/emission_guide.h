@@ -31,9 +31,15 @@ class EmissionGuide {
 
   bool empty() const { return targets_.empty(); }
 
+  static void members(auto& self, auto& archive) {
+    archive(self.targets_, self.lanes_, self.places_, self.share_unaimed_, self.clusters_,
+            self.cluster_size_, self.entries_);
+  }
+
   struct Target {
     Vec3f center{0, 0, 0};
     float radius = 0;
+    static void members(auto& self, auto& archive) { archive(self.center, self.radius); }
   };
   std::span<const Target> targets() const { return targets_; }
   /// How many places it aims at. Their targets come first, then those around several or all.
@@ -71,6 +77,9 @@ class EmissionGuide {
     /// Probability of each target with the cluster over that of the cluster; as long as `lanes_`.
     std::vector<double> shares;
     std::vector<double> cumulative;  ///< of its lights, by power
+    static void members(auto& self, auto& archive) {
+      archive(self.pmf, self.shares, self.cumulative);
+    }
   };
   size_t cluster_of(int light) const { return static_cast<size_t>(light) / cluster_size_; }
   void gather_lights(const Scene& scene);
@@ -90,6 +99,9 @@ class EmissionGuide {
   /// The targets once more, as density() reads them: several at a time, the last ones empty.
   struct Lanes {
     std::vector<float> x, y, z, radius2;
+    static void members(auto& self, auto& archive) {
+      archive(self.x, self.y, self.z, self.radius2);
+    }
   };
 
   std::vector<Target> targets_;
@@ -102,6 +114,9 @@ class EmissionGuide {
     uint32_t cluster = 0;
     int target = 0;
     double cumulative = 0;
+    static void members(auto& self, auto& archive) {
+      archive(self.cluster, self.target, self.cumulative);
+    }
   };
   std::vector<Entry> entries_;
 };

@@ -15,6 +15,7 @@ namespace nephroid {
 /// A place where light of a caustic landed, and where on the caster it came from.
 struct CausticSight {
   Vec3f p, caster;
+  static void members(auto& self, auto& archive) { archive(self.p, self.caster); }
 };
 
 /// A density of unit directions in world space: the mean of von Mises-Fisher lobes.
@@ -55,6 +56,7 @@ class ForecastMap {
   /// [T2]: a lobe towards the caster of each of the sights nearest to `p`, unless it would be wide;
   /// none if it does not foretell.
   ForecastLobes lobes_at(const Vec3f& p) const;
+  static void members(auto& self, auto& archive) { archive(self.sights_, self.axes_); }
 
  private:
   struct Nearest;

@@ -10,6 +10,7 @@ namespace nephroid {
 struct PhotonGuide {
   EmissionGuide starts;
   CasterGuide casters;
+  static void members(auto& self, auto& archive) { archive(self.starts, self.casters); }
 };
 
 /// Guides nothing.

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "film/state_file.h"
-#include "integrator/estimator/estimator.h"
+#include "integrator/presets/preset.h"
 #include "session/pass_ranges.h"
 
 namespace nephroid {

@@ -41,7 +41,7 @@ BytesOfEstimators bytes_of_estimators(const Routes& routes, int hit_points, bool
     } else if (group.estimator == EstimatorKind::kBidirectional) {
       pass = Bidirectional::bytes_per_pixel(parts);
     } else if (group.estimator == EstimatorKind::kVcm || group.estimator == EstimatorKind::kBpm) {
-      pass = PairPass::bytes_per_pixel(parts, 0, clamps ? 1 : 0);
+      pass = pair_pass_bytes_per_pixel(parts, 0, clamps ? 1 : 0);
     } else if (group.estimator == EstimatorKind::kPathAndPhotons) {
       pass = PathAndPhotons::bytes_per_pixel(parts, clamps);
     } else if (group.estimator == EstimatorKind::kPpm) {

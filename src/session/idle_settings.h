@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "route/route_set.h"
+#include "route/routes.h"
 #include "session/integrator_settings.h"
 
 namespace nephroid {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "integrator/presets/integrator_table.h"
 #include "session/film_of_scene.h"
 #include "session/option_values.h"
 

@@ -6,6 +6,7 @@
 
 #include "core/errors.h"
 #include "input/spelling.h"
+#include "integrator/presets/integrator_table.h"
 #include "session/option_values.h"
 
 namespace nephroid {

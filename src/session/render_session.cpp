@@ -156,7 +156,7 @@ std::optional<uint32_t> RenderSession::next_pass() const {
 void RenderSession::render_one_pass() {
   const double begin = clock_();
   const PassKey key{options_.seed, *next_pass()};
-  for (const auto& estimator : preset_.estimators) estimator->render_pass(key, scene_, film_);
+  preset_.render_pass(key, scene_, film_);
   film_.finish_pass();
   done_.add(key.pass);
   ++passes_done_;
@@ -164,9 +164,7 @@ void RenderSession::render_one_pass() {
 }
 
 std::vector<EstimatorStatistics> RenderSession::statistics() const {
-  std::vector<EstimatorStatistics> result;
-  for (const auto& estimator : preset_.estimators) result.push_back(estimator->statistics());
-  return result;
+  return preset_.statistics();
 }
 
 /// A pass that would end further behind the time limit than this one ends before it is not begun.

@@ -11,7 +11,7 @@
 
 #include "film/film.h"
 #include "film/image_io.h"
-#include "integrator/estimator/estimator.h"
+#include "integrator/presets/preset.h"
 #include "session/checkpoint.h"
 #include "session/noise.h"
 #include "session/signals.h"

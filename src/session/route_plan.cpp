@@ -9,6 +9,7 @@
 
 #include "core/errors.h"
 #include "input/spelling.h"
+#include "integrator/presets/integrator_table.h"
 
 namespace nephroid {
 namespace {

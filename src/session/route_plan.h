@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "integrator/estimator/estimator.h"
+#include "integrator/presets/preset.h"
 
 namespace nephroid {
 

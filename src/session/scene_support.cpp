@@ -7,7 +7,7 @@
 
 #include "input/directives.h"
 #include "input/option_directive.h"
-#include "integrator/estimator/estimator.h"
+#include "integrator/presets/integrator_table.h"
 #include "scene/camera/camera_table.h"
 #include "scene/film_description.h"
 #include "scene/light/light_table.h"

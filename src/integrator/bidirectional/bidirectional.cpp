@@ -34,7 +34,7 @@ class PairRound {
         film_(film),
         eye_point_(eye_point(static_cast<uint32_t>(index), kEyePathDimensions)),
         light_point_(light_point(static_cast<uint32_t>(index))),
-        techniques_(film, settings.owned.group, key.pass),
+        techniques_(film.format(), settings.owned.group, key.pass),
         parts_(film.parts_of(static_cast<int>(settings.owned.group)).size()),
         values_(static_cast<size_t>(film.bounds().area()) * parts_) {}
 
@@ -127,7 +127,8 @@ class PairRound {
 Bidirectional::Bidirectional(OwnedRoutes owned, const IntegratorOptions& options)
     : owned_(std::move(owned)), options_(options) {}
 
-void Bidirectional::render_pass(const PassKey& key, const Scene& scene, Film& film) {
+std::unique_ptr<PassFindings> Bidirectional::render_pass(const PassKey& key, const Learned*,
+                                                         const Scene& scene, Film& film) {
   const int group = static_cast<int>(owned_.group);
   const CameraView view(scene, film.bounds());
   PairSettings settings{scene, owned_};
@@ -148,6 +149,7 @@ void Bidirectional::render_pass(const PassKey& key, const Scene& scene, Film& fi
     PairRound(settings, key, index, film).render(buffer, statistics_);
     film.add_estimates(group, 1);
   }
+  return nullptr;
 }
 
 }  // namespace nephroid

@@ -13,7 +13,8 @@ class Bidirectional final : public Estimator {
  public:
   Bidirectional(OwnedRoutes owned, const IntegratorOptions& options);
   Capabilities capabilities() const override { return {}; }
-  void render_pass(const PassKey& key, const Scene& scene, Film& film) override;
+  std::unique_ptr<PassFindings> render_pass(const PassKey& key, const Learned*, const Scene& scene,
+                                            Film& film) override;
   EstimatorStatistics statistics() const override { return statistics_; }
 
   /// What a pass takes for each pixel.

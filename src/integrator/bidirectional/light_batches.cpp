@@ -16,12 +16,14 @@ constexpr int64_t kGroup = 32 * kChunk;
 
 LightPathCounts LightBatches::trace_path(int64_t j, std::vector<FilmConnection>& seen,
                                          std::vector<Photon>& photons) const {
-  const uint64_t number = uint64_t{pass_.trace.key.pass} * static_cast<uint64_t>(how_.light_paths) +
-                          static_cast<uint64_t>(j);
+  const uint64_t number =
+      uint64_t{pass_.trace.key.pass} * static_cast<uint64_t>(config_.light_paths) +
+      static_cast<uint64_t>(j);
   const SobolPoint point(static_cast<uint32_t>(number), kLightPathDimensions);
-  const uint64_t seed = how_.number_varies
-                            ? hash_combine(how_.seed, kLightStream, number >> 32, how_.light_paths)
-                            : hash_combine(how_.seed, kLightStream, number >> 32);
+  const uint64_t seed =
+      config_.number_varies
+          ? hash_combine(config_.seed, kLightStream, number >> 32, config_.light_paths)
+          : hash_combine(config_.seed, kLightStream, number >> 32);
   PathSampler sampler(point, seed);
   return trace_light_path(settings_, pass_.trace.lambda, pass_.u_time, sampler, nullptr, &seen,
                           &photons);
@@ -53,9 +55,9 @@ void LightBatches::reserve(std::vector<Photon>& photons, std::span<const Chunk> 
   for (const Chunk& chunk : chunks) needed += chunk.photons.size();
   if (needed <= photons.capacity()) return;
   const double of_path = static_cast<double>(needed) / static_cast<double>(begin_ - batch_begin);
-  const double all = of_path * static_cast<double>(how_.light_paths - batch_begin);
+  const double all = of_path * static_cast<double>(config_.light_paths - batch_begin);
   // The group that fills the memory is taken as a whole.
-  const double most = static_cast<double>(how_.memory_photons) + of_path * kGroup;
+  const double most = static_cast<double>(config_.memory_photons) + of_path * kGroup;
   photons.reserve(std::max(needed, static_cast<size_t>(kRoom * std::min(all, most))));
 }
 
@@ -63,8 +65,8 @@ std::vector<Photon> LightBatches::next(const std::function<void(std::span<const 
                                        EstimatorStatistics& statistics) {
   const int64_t batch_begin = begin_;
   std::vector<Photon> photons;
-  while (!empty() && static_cast<int64_t>(photons.size()) < how_.memory_photons) {
-    const int64_t count = std::min(kGroup, how_.light_paths - begin_);
+  while (!empty() && static_cast<int64_t>(photons.size()) < config_.memory_photons) {
+    const int64_t count = std::min(kGroup, config_.light_paths - begin_);
     std::vector<Chunk> chunks(static_cast<size_t>(chunk_count(count, kChunk)));
     parallel_chunks(count, kChunk, [&](int64_t c, int64_t b, int64_t e) {
       trace_chunk(begin_ + b, begin_ + e, chunks[static_cast<size_t>(c)]);

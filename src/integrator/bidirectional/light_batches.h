@@ -16,21 +16,21 @@ namespace nephroid {
 /// Keeps references to all that it is given but the numbers.
 class LightBatches {
  public:
-  struct How {
+  struct Config {
     int64_t light_paths = 0;     ///< of the pass, all batches together
     int64_t memory_photons = 0;  ///< a batch is full when it has as many
     uint64_t seed = 0;           ///< of the random numbers of all passes
     /// Passes differ in their number of light paths: each number has a sequence of its own.
     bool number_varies = false;
   };
-  LightBatches(const How& how, const PhotonPass& pass, const PairSettings& settings)
-      : how_(how),
+  LightBatches(const Config& config, const PhotonPass& pass, const PairSettings& settings)
+      : config_(config),
         pass_(pass),
         settings_(settings),
         places_(*settings.owned.routes, settings.owned.group) {}
 
   /// True once all light paths are traced.
-  bool empty() const { return begin_ >= how_.light_paths; }
+  bool empty() const { return begin_ >= config_.light_paths; }
   /// The photons of the next batch; `expose` is called with splats, a few times, in order. Adds to
   /// the counts.
   std::vector<Photon> next(const std::function<void(std::span<const Splat>)>& expose,
@@ -49,7 +49,7 @@ class LightBatches {
   void reserve(std::vector<Photon>& photons, std::span<const Chunk> chunks,
                int64_t batch_begin) const;
 
-  const How how_;
+  const Config config_;
   const PhotonPass& pass_;
   const PairSettings& settings_;
   const PartSums places_;

@@ -1,65 +1,106 @@
 // One pass of an estimator that pairs eye paths with light paths: photons are traced and merged,
 // and where the pass connects, another set of light paths, one for each camera path, is connected
 // to it. Wavelengths and time are the pass's; nothing is kept but photons, in batches that fit in
-// memory. Who calls it: vcm, bpm and path+photons, which say how. It must not know passes before
-// it.
+// memory. It must not know passes before it, or what becomes of what it measures.
 #pragma once
 
+#include <optional>
+
 #include "film/splats.h"
+#include "integrator/bidirectional/measured_samples.h"
 #include "integrator/estimator/estimator.h"
 #include "integrator/learning/guided_walk.h"
-#include "integrator/mixed/balance.h"
+#include "integrator/path/specular_chain_pass.h"
 #include "photon/emission_guide.h"
 #include "route/scene_symbols.h"
 
 namespace nephroid {
 
-/// How a pass is rendered.
-struct PairPass {
-  int64_t light_paths = 1;     ///< that leave photons; 0: nothing is merged
-  bool connects = true;        ///< false: nothing is connected but lights
-  bool caustics_only = false;  ///< merges only photons whose light came by way of an S
-  float window = 1;            ///< of roulette on camera paths
-  bool adds_features = false;  ///< camera paths add what they see first to the film's features
-  const EmissionGuide* guide = &kUnguided;
-  const RadianceGuide* radiance = nullptr;  ///< of the directions of camera paths; null: of none
-  /// Where what camera paths find behind their vertices goes as well, empty before.
-  std::vector<RadianceRecord>* records = nullptr;
-  double records_of_path = PassRecords::kMostOfPath;  ///< that a camera path leaves in the mean
-  const SampleMap* samples = nullptr;                 ///< camera paths of each pixel; null: one
-  /// Camera paths that each pixel has had before pass 1, whatever `samples` says: the numbers of
-  /// the later ones follow on.
-  uint32_t head = 0;
-  SampleSpread* spread = nullptr;  ///< where what each camera path finds goes as well
-  bool spreads_splats = false;     ///< of try_out: and what its pixel gets from light paths
-  /// Light behind delta lobes alone is found by walks that look for nothing else; else camera
-  /// paths find it, with trees if options ask for them.
-  bool leaves_glints = false;
-  /// These walks of each pixel: where there are none, camera paths find the light, without trees;
-  /// null: nobody does.
-  const SampleMap* glints = nullptr;
-  SampleSpread *glint_spread = nullptr, *choice_spread = nullptr;  ///< as in GlintPass
-
-  /// Renders the pass into the film, its number of estimates included.
-  void render(const PassKey& key, const Scene& scene, Film& film, const OwnedRoutes& owned,
-              const IntegratorOptions& options, EstimatorStatistics& statistics) const;
-  /// Traces what a pass for a film like this one would, and adds nothing to it.
-  void try_out(const PassKey& key, const Scene& scene, const Film& film, const OwnedRoutes& owned,
-               const IntegratorOptions& options, EstimatorStatistics& statistics) const;
-
-  /// What a camera path found.
-  struct Found {
-    float light = 0, rays = 0;
-  };
-  /// What a pass takes for each pixel, of which `spread_samples` samples at most are looked at for
-  /// their spread, and `clamped_samples` at most are clamped.
-  static constexpr size_t bytes_per_pixel(size_t parts, size_t spread_samples,
-                                          size_t clamped_samples) {
-    return SplatBuffer::bytes_per_pixel(parts) + parts * sizeof(Rgb) + sizeof(float) +
-           spread_samples * sizeof(Found) +
-           (spread_samples > 0 ? 3 * SampleSpread::kBytesPerPixel : 0) +
-           clamped_samples * (parts * sizeof(Rgb) + sizeof(float));
+/// The techniques of a pass, among which trial passes choose.
+struct PairTechniques {
+  int64_t light_paths = 1;        ///< that leave photons; 0: nothing is merged
+  bool connects = true;           ///< false: nothing is connected but lights
+  bool caustics_only = false;     ///< merges only photons whose light came by way of an S
+  bool separates_chains = false;  ///< specular chains are for walks of their own
+  float roulette_threshold = 1;   ///< of camera paths
+  static void members(auto& self, auto& archive) {
+    archive(self.light_paths, self.connects, self.caustics_only, self.separates_chains,
+            self.roulette_threshold);
   }
 };
+
+/// What all that a pass does is made from.
+struct PairPass {
+  PassKey key;
+  uint64_t seed = 0;  ///< of the estimator's random numbers: those of one plan are independent
+  const Scene& scene;
+  const OwnedRoutes& owned;
+  const IntegratorOptions& options;
+  PairTechniques techniques{};
+  const EmissionGuide& emission = kUnguided;
+  /// Estimators whose passes differ in their number of light paths: each number has a sequence of
+  /// random numbers of its own.
+  bool light_paths_vary = false;
+  /// One technique of the estimator alone.
+  TechniqueChoice technique{};
+};
+
+/// How often each pixel is sampled.
+struct PairSamples {
+  const SampleMap& paths;   ///< camera paths
+  const SampleMap& chains;  ///< walks for specular chains; 0: camera paths find them
+  /// Camera paths that each pixel has had before pass 1, whatever `paths` says: the numbers of the
+  /// later ones follow on.
+  uint32_t in_first_pass = 0;
+};
+
+/// A pass whose light goes to a film.
+struct PairRender {
+  Film& film;
+  PairSamples samples;
+  bool adds_features = false;  ///< camera paths add what they see first to the film's features
+  const RadianceGuide& directions = kNoRadiance;  ///< of camera paths
+};
+
+/// A pass that is measured so that later ones can be better.
+struct PairLearning {
+  bool measures_variance = true;
+  bool keeps_records = true;  ///< of the light behind the vertices of camera paths
+  double records_per_path = PassRecords::kMaxPerPath;  ///< expected, in the mean
+};
+struct PairFindings final : PassFindings {
+  struct Variance {
+    explicit Variance(const PixelBounds& b) : paths(b), chains(b) {}
+    SampleVariance paths;
+    ChainVariance chains;
+  };
+  std::optional<Variance> variance;
+  std::vector<RadianceRecord> records;
+};
+
+/// A pass that tells how good its techniques are, and whose light is thrown away.
+struct PairTrial {
+  const SampleMap& paths;  ///< camera paths of each pixel
+  bool counts_records = false;
+  double records_per_path = PassRecords::kMaxPerPath;
+};
+
+/// Adds a pass to the film, the number of estimates included.
+void render(const PairPass& pass, const PairRender& to, EstimatorStatistics& statistics);
+/// The same, and returns what was measured.
+std::unique_ptr<PairFindings> render(const PairPass& pass, const PairRender& to,
+                                     const PairLearning& learning, EstimatorStatistics& statistics);
+/// Measures the same pass for no film.
+std::unique_ptr<PairFindings> measure(const PairPass& pass, const FilmFormat& film,
+                                      const PairSamples& samples, const PairLearning& learning,
+                                      EstimatorStatistics& statistics);
+/// Adds what camera paths find of specular chains to nothing, all else and what their pixels get
+/// from light paths to `variance`. Returns the number of records that they would leave.
+size_t try_out(const PairPass& pass, const FilmFormat& film, const PairTrial& trial,
+               SampleVariance& variance, EstimatorStatistics& statistics);
+
+/// Memory of a pass for each pixel, of which `measured_samples` samples at most are measured, and
+/// `clamped_samples` at most are clamped.
+size_t pair_pass_bytes_per_pixel(size_t parts, size_t measured_samples, size_t clamped_samples);
 
 }  // namespace nephroid

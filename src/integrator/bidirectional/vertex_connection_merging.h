@@ -1,6 +1,6 @@
 // Vertex connection and merging: everything that bidirectional path tracing does, and eye paths are
-// merged with the vertices of all light paths of the pass as well. Where routes name `bpm` nothing
-// is connected but lights: bidirectional photon mapping.
+// merged with the vertices of all light paths of the pass as well. `bpm`, bidirectional photon
+// mapping, is the same with nothing connected but lights.
 // Papers: Georgiev et al. 2012; Hachisuka, Pantaleoni & Jensen 2012; Vorba 2011.
 #pragma once
 
@@ -11,17 +11,33 @@ namespace nephroid {
 /// Light paths of a pass: one for each pixel, within bounds; they are shared or spare outside.
 int64_t default_light_paths(int64_t pixels);
 
-class VertexConnectionMerging final : public Estimator {
+class VertexConnectionMerging : public Estimator {
  public:
-  VertexConnectionMerging(OwnedRoutes owned, const IntegratorOptions& options);
+  VertexConnectionMerging(OwnedRoutes owned, const IntegratorOptions& options)
+      : VertexConnectionMerging(std::move(owned), options, true, 6) {}
   Capabilities capabilities() const override { return {}; }
-  void render_pass(const PassKey& key, const Scene& scene, Film& film) override;
+  std::unique_ptr<PassFindings> render_pass(const PassKey& key, const Learned*, const Scene& scene,
+                                            Film& film) override;
   EstimatorStatistics statistics() const override { return statistics_; }
+
+ protected:
+  /// Estimators with other numbers are independent of each other.
+  VertexConnectionMerging(OwnedRoutes owned, const IntegratorOptions& options, bool connects,
+                          uint64_t number)
+      : owned_(std::move(owned)), options_(options), connects_(connects), number_(number) {}
 
  private:
   OwnedRoutes owned_;
   IntegratorOptions options_;
+  bool connects_;
+  uint64_t number_;
   EstimatorStatistics statistics_;
+};
+
+class BidirectionalPhotonMapping final : public VertexConnectionMerging {
+ public:
+  BidirectionalPhotonMapping(OwnedRoutes owned, const IntegratorOptions& options)
+      : VertexConnectionMerging(std::move(owned), options, false, 7) {}
 };
 
 }  // namespace nephroid

@@ -59,7 +59,8 @@ void Features::add_to(Film& film, int x, int y, const Scene& scene, const Camera
   if (settings.gbuffer && depth_ > 0) film.add_surface(x, y, surface_sample(scene, path, surface_));
 }
 
-void FeatureEstimator::render_pass(const PassKey& key, const Scene& scene, Film& film) {
+std::unique_ptr<PassFindings> FeatureEstimator::render_pass(const PassKey& key, const Learned*,
+                                                            const Scene& scene, Film& film) {
   const PixelBounds& b = film.bounds();
   const FilmSettings& settings = film.settings();
   const SobolPoint point = eye_point(key.pass);
@@ -86,6 +87,7 @@ void FeatureEstimator::render_pass(const PassKey& key, const Scene& scene, Film&
   film.add_feature_estimates(1);
   for (const uint64_t r : rays) statistics_.rays += r;
   statistics_.camera_paths += static_cast<uint64_t>(b.area());
+  return nullptr;
 }
 
 }  // namespace nephroid

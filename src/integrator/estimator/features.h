@@ -29,7 +29,8 @@ class Features {
 class FeatureEstimator : public Estimator {
  public:
   Capabilities capabilities() const override { return {}; }
-  void render_pass(const PassKey& key, const Scene& scene, Film& film) override;
+  std::unique_ptr<PassFindings> render_pass(const PassKey& key, const Learned*, const Scene& scene,
+                                            Film& film) override;
   EstimatorStatistics statistics() const override { return statistics_; }
 
  private:

@@ -16,7 +16,7 @@ double total(const Rgb& color) {
 
 }  // namespace
 
-TechniqueCounter::TechniqueCounter(const Film& film, size_t group, uint32_t pass)
+TechniqueCounter::TechniqueCounter(const FilmFormat& film, size_t group, uint32_t pass)
     : film_(film), group_(group) {
   if (pass < kCountedPasses) parts_.resize(film.parts_of(static_cast<int>(group)).size());
 }

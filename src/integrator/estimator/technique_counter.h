@@ -17,9 +17,9 @@ class TechniqueCounter {
   using Row = std::vector<TechniqueLight>;  ///< [part]; empty where nothing is counted
 
   /// Of pass number `pass` of a group of the film.
-  TechniqueCounter(const Film& film, size_t group, uint32_t pass);
+  TechniqueCounter(const FilmFormat& film, size_t group, uint32_t pass);
   /// Counts nothing.
-  explicit TechniqueCounter(const Film& film) : film_(film) {}
+  explicit TechniqueCounter(const FilmFormat& film) : film_(film) {}
 
   /// What a row of pixels counts in, with sums that tell techniques apart if it does.
   Row start_row(PartSums& light) const;
@@ -30,7 +30,7 @@ class TechniqueCounter {
   void add_to(std::vector<RouteTechniques>& all) const;
 
  private:
-  const Film& film_;
+  const FilmFormat& film_;
   size_t group_ = 0;
   Row parts_;
 };

@@ -17,6 +17,7 @@ class DirectionTree {
   struct Node {
     float mass[4] = {};      ///< of the quarters; bit 0 is the half along x, bit 1 along y
     uint32_t child[4] = {};  ///< counted from the root; 0: none
+    static void members(auto& self, auto& archive) { archive(self.mass, self.child); }
   };
 
   /// Has no directions.

@@ -45,7 +45,7 @@ std::optional<BsdfSample> GuidedWalk::sample_direction(Walk& walk, const WalkVer
 void GuidedWalk::record(const Walk& walk, const WalkVertex& v, const WalkEvent& event,
                         ClassMask letters) {
   if (!has_choice(v, letters) || !(carried_ > 0) ||
-      records_->size() - first_record_ >= PassRecords::kMostOfPath)
+      records_->size() - first_record_ >= PassRecords::kMaxPerPath)
     return;
   // [Q2] asks for the density of all lobes that the guide has a say in.
   const bool chosen = contains(ClassMask::kRough, event.letter) && !walk.delta;
@@ -69,7 +69,7 @@ void GuidedWalk::finish() {
 
 size_t PassRecords::stride(size_t paths, double of_path) {
   const double all = static_cast<double>(paths) * of_path;
-  return std::max<size_t>(1, static_cast<size_t>(std::ceil(all / static_cast<double>(kMost))));
+  return std::max<size_t>(1, static_cast<size_t>(std::ceil(all / static_cast<double>(kMax))));
 }
 
 PassRecords::PassRecords(std::vector<RadianceRecord>* all, size_t paths, double of_path)

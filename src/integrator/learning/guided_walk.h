@@ -49,11 +49,11 @@ class GuidedWalk {
   float found_ = 0;    ///< so far
 };
 
-/// The records of a pass: of as many camera paths as leave about kMost, row by row.
+/// The records of a pass: of as many camera paths as leave about kMax, row by row.
 class PassRecords {
  public:
-  static constexpr size_t kMost = 1 << 19;
-  static constexpr size_t kMostOfPath = 8;
+  static constexpr size_t kMax = 1 << 19;
+  static constexpr size_t kMaxPerPath = 8;
 
   /// One path in so many leaves records, of `paths` that would leave `of_path` each.
   static size_t stride(size_t paths, double of_path);

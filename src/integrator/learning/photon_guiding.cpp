@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "integrator/learning/visible_points.h"
-#include "integrator/presets/compiled_plan.h"
 
 namespace nephroid {
 
@@ -28,12 +27,16 @@ CasterGuide caster_guide(std::vector<UsefulStart> met, const CausticCasters& see
   return {met, scene.sphere.radius};
 }
 
-PhotonGuide learn(uint64_t seed, const Scene& scene, const Film& film, const OwnedRoutes& owned,
-                  const IntegratorOptions& options, bool aims_from_surfaces, uint64_t& rays) {
-  if (!photons_can_count(owned)) return {};
+}  // namespace
+
+GuidedPhotons guide_photons(uint64_t seed, const Scene& scene, const FilmFormat& film,
+                            const OwnedRoutes& owned, const IntegratorOptions& options,
+                            bool guides_scattering) {
+  if (!options.guides_photons || !photons_can_count(owned)) return {};
   // Photons of learning are aimed from lights alone: how often they were of use is what
   // EmissionGuide asks for.
-  PhotonGuide guide;
+  GuidedPhotons learned;
+  PhotonGuide& guide = learned.guide;
   CausticCasters seen;
   std::vector<UsefulStart> useful, met;
   int64_t paths = kPaths, all_paths = 0;
@@ -46,7 +49,7 @@ PhotonGuide learn(uint64_t seed, const Scene& scene, const Film& film, const Own
     if (round == 0) {
       seen = caustic_casters(scene, film, pass, of_round);
       guide.starts = EmissionGuide(scene, seen.points);
-      rays += seen.rays;
+      learned.rays += seen.rays;
     }
     pass.trace.guide = &guide;
     const VisiblePoints visible = visible_points(scene, film, owned, pass, options);
@@ -55,55 +58,33 @@ PhotonGuide learn(uint64_t seed, const Scene& scene, const Film& film, const Own
                             [&](const Photon& photon) { return visible.has_near(photon.p); });
     useful.insert(useful.end(), found.starts.begin(), found.starts.end());
     met.insert(met.end(), found.casters.begin(), found.casters.end());
-    rays += visible.rays + found.rays;
+    learned.rays += visible.rays + found.rays;
     all_paths += paths;
     guide.starts = EmissionGuide(scene, useful, static_cast<double>(all_paths));
     if (useful.size() < kLittle) paths = std::min(4 * paths, kMostPaths);
   }
-  if (aims_from_surfaces && owned.routes->needs_specular(owned.group))
+  if (guides_scattering && owned.routes->needs_specular(owned.group))
     guide.casters = caster_guide(std::move(met), seen, scene);
-  return guide;
+  return learned;
 }
 
-}  // namespace
-
-const PhotonGuide& LearnedPhotons::guide(uint64_t seed, const Scene& scene, const Film& film,
-                                         const OwnedRoutes& owned, const IntegratorOptions& options,
-                                         EstimatorStatistics& statistics) {
-  if (!options.guides_photons) return kUnguidedPhotons;
-  if (guide_ && seed_ == seed) return *guide_;
-  seed_ = seed;
-  const EstimatorKind kind = owned.routes->groups()[owned.group].estimator;
-  if (kind == EstimatorKind::kPathAndPhotons) {
-    // Photons are of use to it where those of a route of caustics would be.
-    const CompiledPlan plan =
-        compile_plan({{{"caustic", "C.*[DG]S+[DG]?L", EstimatorKind::kPhotons, {}},
-                       {"rest", ".*", EstimatorKind::kPath, {}}},
-                      {}},
-                     scene);
-    constexpr size_t kCaustics = 0;  // the group of the first route
-    const auto routes = std::make_shared<const Routes>(plan.compilation.routes);
-    guide_ = learn(seed, scene, film, {routes, plan.symbols, kCaustics}, options, false,
-                   statistics.rays);
-  } else {
-    guide_ = learn(seed, scene, film, owned, options, true, statistics.rays);
-  }
-  return *guide_;
+void LearnedPhotons::add_to(EstimatorStatistics& statistics) const {
+  statistics.rays += photons_.rays;
+  statistics.learning_rays += photons_.rays;
+  photons_.add_notes(statistics);
 }
 
-void LearnedPhotons::add_notes(EstimatorStatistics& statistics) const {
-  if (!guide_) return;
-  const auto of = [](size_t places) { return places == 1 ? "" : "s"; };
-  if (const size_t places = guide_->starts.places(); places > 0)
-    statistics.notes.push_back(
-        fmt::format("photons start towards {} place{} where earlier ones were of use; without aim, "
-                    "{:.2g} % of them would have been",
-                    places, of(places), 100 * guide_->starts.share_unaimed()));
-  if (const size_t places = guide_->casters.places(); places > 0)
+void GuidedPhotons::add_notes(EstimatorStatistics& statistics) const {
+  const auto plural = [](size_t count) { return count == 1 ? "" : "s"; };
+  if (const size_t targets = guide.starts.places(); targets > 0)
     statistics.notes.push_back(fmt::format(
-        "photons that a rough surface scatters, and that only glass or a mirror can make "
-        "a caustic of, go towards {} place{} where earlier ones met some",
-        places, of(places)));
+        "photon emission guided to {} target{}; without guiding {:.2g} % of photon paths would be "
+        "useful",
+        targets, plural(targets), 100 * guide.starts.share_unaimed()));
+  if (const size_t targets = guide.casters.places(); targets > 0)
+    statistics.notes.push_back(
+        fmt::format("photons scattered by rough surfaces guided to {} caustic caster{}", targets,
+                    plural(targets)));
 }
 
 }  // namespace nephroid

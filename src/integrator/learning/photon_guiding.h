@@ -1,12 +1,8 @@
 // Learns where the photons of an estimator should start and where they should go from rough
 // surfaces: what the camera sees through its routes is scattered over the scene as points, photons
 // are traced in a few rounds, and the paths of those that land near such a point make the guide,
-// each round with what the rounds before have learned. A function of scene, film, options and seed
-// alone: every pass of a render, wherever it is rendered, has the same guide (docs/estimators.md,
-// section 20). Who calls it: photon integrators. It must not know how photons are merged.
+// each round with what the rounds before have learned (docs/estimators.md, section 20).
 #pragma once
-
-#include <optional>
 
 #include "integrator/estimator/estimator.h"
 #include "photon/photon_guide.h"
@@ -14,19 +10,33 @@
 
 namespace nephroid {
 
-class LearnedPhotons {
- public:
-  /// The guide for the passes of a seed; learned when it is asked for the first time, and its rays
-  /// counted then. That of path+photons has no casters: ADR 25.
-  const PhotonGuide& guide(uint64_t seed, const Scene& scene, const Film& film,
-                           const OwnedRoutes& owned, const IntegratorOptions& options,
-                           EstimatorStatistics& statistics);
+/// What photon guiding has learned.
+struct GuidedPhotons {
+  PhotonGuide guide;
+  uint64_t rays = 0;  ///< that learning took
+
   /// What was learned, in words.
   void add_notes(EstimatorStatistics& statistics) const;
+  static void members(auto& self, auto& archive) { archive(self.guide, self.rays); }
+};
+
+/// A function of its arguments. With `guides_scattering` photons are guided from rough surfaces,
+/// too (ADR 25); else where they start alone. Guides nothing where options or routes have no use
+/// for it.
+GuidedPhotons guide_photons(uint64_t seed, const Scene& scene, const FilmFormat& film,
+                            const OwnedRoutes& owned, const IntegratorOptions& options,
+                            bool guides_scattering);
+
+/// The same as what an estimator has learned.
+class LearnedPhotons final : public Learned {
+ public:
+  explicit LearnedPhotons(GuidedPhotons photons) : photons_(std::move(photons)) {}
+  const PhotonGuide& guide() const { return photons_.guide; }
+  void write(ByteWriter& to) const override { to(photons_); }
+  void add_to(EstimatorStatistics& statistics) const override;
 
  private:
-  std::optional<PhotonGuide> guide_;
-  uint64_t seed_ = 0;
+  GuidedPhotons photons_;
 };
 
 }  // namespace nephroid

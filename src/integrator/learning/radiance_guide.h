@@ -41,6 +41,9 @@ class RadianceGuide {
   size_t bytes() const;
   /// Directions at a point whose shading normal, on the side of the walk, is `n`.
   DirectionTree at(const Vec3f& p, const Vec3f& n, bool glossy) const;
+  static void members(auto& self, auto& archive) {
+    archive(self.boxes_, self.nodes_, self.guided_);
+  }
 
  private:
   /// A box of the cut scene.
@@ -49,6 +52,9 @@ class RadianceGuide {
     float cut = 0;      ///< of inner ones, where
     float share = 0;    ///< of leaves that guide
     uint32_t next = 0;  ///< of inner ones the lower part, the upper one follows; of leaves the root
+    static void members(auto& self, auto& archive) {
+      archive(self.axis, self.cut, self.share, self.next);
+    }
   };
   struct Region;
   /// Cuts a box until its parts are worth looking at, which are left to `regions`.
@@ -59,5 +65,8 @@ class RadianceGuide {
   std::vector<DirectionTree::Node> nodes_;
   double guided_ = 0;
 };
+
+/// Guides nothing.
+inline const RadianceGuide kNoRadiance;
 
 }  // namespace nephroid

@@ -104,7 +104,7 @@ Found<T> walk_from(const Scene& scene, const SomePixels& pixels, const PhotonPas
 
 }  // namespace
 
-VisiblePoints visible_points(const Scene& scene, const Film& film, const OwnedRoutes& owned,
+VisiblePoints visible_points(const Scene& scene, const FilmFormat& film, const OwnedRoutes& owned,
                              const PhotonPass& pass, const IntegratorOptions& options) {
   const SomePixels pixels(film.bounds(), pass.trace.key.pass);
   const auto run = [&](CameraPath& path, PathSampler& sampler, std::vector<Photon>& points) {
@@ -123,7 +123,7 @@ VisiblePoints visible_points(const Scene& scene, const Film& film, const OwnedRo
   return {PhotonGrid(std::move(all.points)), pass.footprint, eye, radius, all.rays};
 }
 
-CausticCasters caustic_casters(const Scene& scene, const Film& film, const PhotonPass& pass,
+CausticCasters caustic_casters(const Scene& scene, const FilmFormat& film, const PhotonPass& pass,
                                const IntegratorOptions& options) {
   const SomePixels pixels(film.bounds(), pass.trace.key.pass);
   const auto run = [&](CameraPath& path, PathSampler& sampler, std::vector<Vec3f>& points) {

@@ -28,7 +28,7 @@ struct VisiblePoints {
 };
 
 /// Points where camera walks of the pass would merge photons of the group, of about 2^13 walks.
-VisiblePoints visible_points(const Scene& scene, const Film& film, const OwnedRoutes& owned,
+VisiblePoints visible_points(const Scene& scene, const FilmFormat& film, const OwnedRoutes& owned,
                              const PhotonPass& pass, const IntegratorOptions& options);
 
 struct CausticCasters {
@@ -38,7 +38,7 @@ struct CausticCasters {
 /// Points (world) at which light that reaches a rough vertex of a camera path by way of specular
 /// ones may have met the first of these: the last vertices of runs of S behind a D, G or V, of
 /// paths of as many walks with at most three such vertices.
-CausticCasters caustic_casters(const Scene& scene, const Film& film, const PhotonPass& pass,
+CausticCasters caustic_casters(const Scene& scene, const FilmFormat& film, const PhotonPass& pass,
                                const IntegratorOptions& options);
 
 }  // namespace nephroid

@@ -28,13 +28,18 @@ class FilmArea {
   Vec2f size() const { return size_; }
   /// In pixels.
   float area() const { return size_.x * size_.y; }
+  static void members(auto& self, auto& archive) { archive(self.low_, self.size_); }
 
  private:
-  Vec2f low_, size_;
+  friend class FilmImportance;
+  FilmArea() = default;
+  Vec2f low_{0, 0}, size_{0, 0};
 };
 
 class FilmImportance {
  public:
+  /// To be read into.
+  FilmImportance() = default;
   /// 1 everywhere.
   explicit FilmImportance(const FilmArea& area);
 
@@ -44,6 +49,9 @@ class FilmImportance {
   void learn();
   /// Positive.
   float at(const Vec2f& film) const;
+  static void members(auto& self, auto& archive) {
+    archive(self.area_, self.width_, self.height_, self.found_, self.importance_);
+  }
 
  private:
   double& cell(std::vector<double>& cells, int x, int y) const {

@@ -56,6 +56,10 @@ struct ChainPilot {
   /// [Z5]: the target at which chains are as good as independent paths, its mean. The picture is
   /// right for any positive one that does not depend on the pass.
   double balance = 1;
+
+  static void members(auto& self, auto& archive) {
+    archive(self.importance, self.kinds, self.balance);
+  }
 };
 
 /// One chain, step by step.

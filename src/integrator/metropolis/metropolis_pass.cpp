@@ -38,23 +38,27 @@ ChainSettings MetropolisPasses::settings_for(int64_t pixels) const {
   return settings;
 }
 
-const ChainPilot& MetropolisPasses::pilot(uint64_t seed, const FilmArea& area, size_t kinds,
-                                          const PathFunctionMaker& make) {
-  if (!pilot_ || pilot_seed_ != seed) {
-    const float paths =
-        std::clamp(kPilotPathsPerPixel * area.area(), kFewestPilotPaths, kMostPilotPaths);
-    pilot_ = look_around(seed, static_cast<int64_t>(paths), area, kinds, make);
-  }
-  pilot_seed_ = seed;
-  return *pilot_;
+std::shared_ptr<const LearnedPilot> LearnedPilot::learn(uint64_t seed, const FilmArea& area,
+                                                        size_t kinds,
+                                                        const PathFunctionMaker& make) {
+  const float paths =
+      std::clamp(kPilotPathsPerPixel * area.area(), kFewestPilotPaths, kMostPilotPaths);
+  return std::make_shared<const LearnedPilot>(
+      look_around(seed, static_cast<int64_t>(paths), area, kinds, make));
+}
+
+std::shared_ptr<const LearnedPilot> LearnedPilot::read(ByteReader& from) {
+  ChainPilot pilot;
+  from(pilot);
+  return std::make_shared<const LearnedPilot>(std::move(pilot));
 }
 
 void MetropolisPasses::render(const PassKey& key, const Scene& scene, int group,
-                              const PathFunctionMaker& make, Film& film) {
+                              const ChainPilot& pilot, const PathFunctionMaker& make, Film& film) {
   SplatBuffer buffer(film, group, *scene.filter);
   pixel_bytes_ = static_cast<uint64_t>(film.bounds().area()) *
                  SplatBuffer::bytes_per_pixel(film.parts_of(group).size());
-  render_chains(key, settings_for(film.bounds().area()), *pilot_, make, buffer, counts_);
+  render_chains(key, settings_for(film.bounds().area()), pilot, make, buffer, counts_);
   buffer.finish(1.0);
   film.add_estimates(group, 1);
 }

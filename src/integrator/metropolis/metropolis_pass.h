@@ -1,26 +1,36 @@
 // What the Metropolis estimators share: how large a pass is, the pilot that says how chains and
 // independent paths are balanced, the film that paths are spread over, and the report.
-// Who calls it: primary_space.cpp and multiplexed.cpp. It must not know how paths are made.
+// It must not know how paths are made.
 #pragma once
-
-#include <optional>
 
 #include "integrator/estimator/estimator.h"
 #include "integrator/metropolis/markov_chain.h"
 
 namespace nephroid {
 
+/// What a few paths tell of a scene before the first pass.
+class LearnedPilot final : public Learned {
+ public:
+  explicit LearnedPilot(ChainPilot pilot) : pilot_(std::move(pilot)) {}
+  /// Traces them with `make`.
+  static std::shared_ptr<const LearnedPilot> learn(uint64_t seed, const FilmArea& area,
+                                                   size_t kinds, const PathFunctionMaker& make);
+  static std::shared_ptr<const LearnedPilot> read(ByteReader& from);
+  const ChainPilot& pilot() const { return pilot_; }
+  void write(ByteWriter& to) const override { to(pilot_); }
+  void add_to(EstimatorStatistics&) const override {}
+
+ private:
+  ChainPilot pilot_;
+};
+
 class MetropolisPasses {
  public:
   explicit MetropolisPasses(const IntegratorOptions& options) : options_(options) {}
 
-  /// What a few paths tell, found out with `make` once for each seed.
-  const ChainPilot& pilot(uint64_t seed, const FilmArea& area, size_t kinds,
-                          const PathFunctionMaker& make);
-  /// Adds a pass of a group's light to the film. `make` makes what chains explore. The pilot of the
-  /// pass's seed has been asked for.
-  void render(const PassKey& key, const Scene& scene, int group, const PathFunctionMaker& make,
-              Film& film);
+  /// Adds a pass of a group's light to the film. `make` makes what chains explore.
+  void render(const PassKey& key, const Scene& scene, int group, const ChainPilot& pilot,
+              const PathFunctionMaker& make, Film& film);
   EstimatorStatistics statistics() const;
 
  private:
@@ -29,8 +39,6 @@ class MetropolisPasses {
   IntegratorOptions options_;
   ChainStatistics counts_;
   uint64_t pixel_bytes_ = 0;  ///< of the sums of a pass
-  uint64_t pilot_seed_ = 0;
-  std::optional<ChainPilot> pilot_;
 };
 
 }  // namespace nephroid

@@ -168,23 +168,50 @@ KindChoice::Chosen KindChoice::choose(const Vec2f& u) const {
 Multiplexed::Multiplexed(OwnedRoutes owned, const IntegratorOptions& options)
     : owned_(std::move(owned)), options_(options), passes_(options) {}
 
-void Multiplexed::render_pass(const PassKey& key, const Scene& scene, Film& film) {
-  const CameraView view(scene, film.bounds());
-  Pass pass{{scene, owned_},
+namespace {
+
+/// What paths share in a pass; `kinds` are those of the guess.
+Pass start_pass(const Scene& scene, const OwnedRoutes& owned, const FilmFormat& film,
+                const IntegratorOptions& options, const CameraView& view, const PassKey& key) {
+  Pass pass{{scene, owned},
             film.settings(),
             FilmArea(film.bounds(), *scene.filter),
-            KindChoice(options_.max_depth)};
+            KindChoice(options.max_depth)};
   pass.pair.view = scene.camera->connects() ? &view : nullptr;
-  pass.pair.max_depth = options_.max_depth;
+  pass.pair.max_depth = options.max_depth;
   // One light path and one place of the film for each path that is tried.
   pass.pair.light_paths = static_cast<double>(pass.area.area());
-  // What the pilot sees does not depend on the pass that asks first.
-  pass.pair.specular_alpha = specular_alpha_of_pass(scene.specular_band, {key.seed, 0});
-  const PathFunctionMaker make = [&pass] { return std::make_unique<TechniquePaths>(pass); };
-  pass.kinds =
-      KindChoice(pass.kinds, passes_.pilot(key.seed, pass.area, pass.kinds.kinds(), make).kinds);
   pass.pair.specular_alpha = specular_alpha_of_pass(scene.specular_band, key);
-  passes_.render(key, scene, static_cast<int>(owned_.group), make, film);
+  return pass;
+}
+
+PathFunctionMaker maker_of(const Pass& pass) {
+  return [&pass] { return std::make_unique<TechniquePaths>(pass); };
+}
+
+}  // namespace
+
+std::shared_ptr<const Learned> Multiplexed::learn(const Scene& scene, const FilmFormat& film,
+                                                  uint64_t seed) const {
+  const CameraView view(scene, film.bounds());
+  // Its threshold is that of pass 0, whichever pass asks.
+  const Pass pass = start_pass(scene, owned_, film, options_, view, {seed, 0});
+  return LearnedPilot::learn(seed, pass.area, pass.kinds.kinds(), maker_of(pass));
+}
+
+std::shared_ptr<const Learned> Multiplexed::read_learned(ByteReader& from,
+                                                         const FilmFormat&) const {
+  return LearnedPilot::read(from);
+}
+
+std::unique_ptr<PassFindings> Multiplexed::render_pass(const PassKey& key, const Learned* learned,
+                                                       const Scene& scene, Film& film) {
+  const ChainPilot& pilot = static_cast<const LearnedPilot*>(learned)->pilot();
+  const CameraView view(scene, film.bounds());
+  Pass pass = start_pass(scene, owned_, film.format(), options_, view, key);
+  pass.kinds = KindChoice(pass.kinds, pilot.kinds);
+  passes_.render(key, scene, static_cast<int>(owned_.group), pilot, maker_of(pass), film);
+  return nullptr;
 }
 
 }  // namespace nephroid

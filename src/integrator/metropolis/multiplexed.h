@@ -1,11 +1,9 @@
 // `mlt`: Markov chains that choose one technique of bidirectional path tracing for each path, so
 // that they stay with the techniques that are good where they are (Hachisuka, Kaplanyan &
 // Dachsbacher 2014). A pass is a function of the scene, the options and the pass key, and unbiased
-// by itself (docs/estimators.md, [Z7]). Who calls it: presets. It must not know how pairs of paths
+// by itself (docs/estimators.md, [Z7]). It must not know how pairs of paths
 // are connected or chains are run.
 #pragma once
-
-#include <optional>
 
 #include "integrator/estimator/estimator.h"
 #include "integrator/metropolis/metropolis_pass.h"
@@ -50,7 +48,11 @@ class Multiplexed : public Estimator {
   Multiplexed(OwnedRoutes owned, const IntegratorOptions& options);
 
   Capabilities capabilities() const override { return {}; }
-  void render_pass(const PassKey& key, const Scene& scene, Film& film) override;
+  std::shared_ptr<const Learned> learn(const Scene& scene, const FilmFormat& film,
+                                       uint64_t seed) const override;
+  std::shared_ptr<const Learned> read_learned(ByteReader& from, const FilmFormat&) const override;
+  std::unique_ptr<PassFindings> render_pass(const PassKey& key, const Learned* learned,
+                                            const Scene& scene, Film& film) override;
   EstimatorStatistics statistics() const override { return passes_.statistics(); }
 
  private:

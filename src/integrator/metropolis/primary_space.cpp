@@ -60,14 +60,42 @@ class CameraPaths : public PathFunction {
 PrimarySpace::PrimarySpace(OwnedRoutes owned, const IntegratorOptions& options)
     : owned_(std::move(owned)), options_(options), passes_(options) {}
 
-void PrimarySpace::render_pass(const PassKey& key, const Scene& scene, Film& film) {
-  Pass pass{scene, owned_, options_, film.settings(), FilmArea(film.bounds(), *scene.filter),
-            // What the pilot sees does not depend on the pass that asks first.
-            specular_alpha_of_pass(scene.specular_band, {key.seed, 0})};
-  const PathFunctionMaker make = [&pass] { return std::make_unique<CameraPaths>(pass); };
-  passes_.pilot(key.seed, pass.area, 1, make);
-  pass.specular_alpha = specular_alpha_of_pass(scene.specular_band, key);
-  passes_.render(key, scene, static_cast<int>(owned_.group), make, film);
+namespace {
+
+PathFunctionMaker maker_of(const Pass& pass) {
+  return [&pass] { return std::make_unique<CameraPaths>(pass); };
+}
+
+}  // namespace
+
+std::shared_ptr<const Learned> PrimarySpace::learn(const Scene& scene, const FilmFormat& film,
+                                                   uint64_t seed) const {
+  // Its threshold is that of pass 0, whichever pass asks.
+  const Pass pass{scene,
+                  owned_,
+                  options_,
+                  film.settings(),
+                  FilmArea(film.bounds(), *scene.filter),
+                  specular_alpha_of_pass(scene.specular_band, {seed, 0})};
+  return LearnedPilot::learn(seed, pass.area, 1, maker_of(pass));
+}
+
+std::shared_ptr<const Learned> PrimarySpace::read_learned(ByteReader& from,
+                                                          const FilmFormat&) const {
+  return LearnedPilot::read(from);
+}
+
+std::unique_ptr<PassFindings> PrimarySpace::render_pass(const PassKey& key, const Learned* learned,
+                                                        const Scene& scene, Film& film) {
+  const Pass pass{scene,
+                  owned_,
+                  options_,
+                  film.settings(),
+                  FilmArea(film.bounds(), *scene.filter),
+                  specular_alpha_of_pass(scene.specular_band, key)};
+  passes_.render(key, scene, static_cast<int>(owned_.group),
+                 static_cast<const LearnedPilot*>(learned)->pilot(), maker_of(pass), film);
+  return nullptr;
 }
 
 }  // namespace nephroid

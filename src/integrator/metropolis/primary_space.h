@@ -1,7 +1,7 @@
 // `pssmlt`: path tracing whose random numbers are explored by Markov chains, so that bright paths
 // which are hard to find lead to others like them (Kelemen et al. 2002). A pass is a function of
 // the scene, the options and the pass key, and unbiased by itself (docs/estimators.md, section 15).
-// Who calls it: presets. It must not know how chains are run.
+// It must not know how chains are run.
 #pragma once
 
 #include "integrator/estimator/estimator.h"
@@ -15,7 +15,11 @@ class PrimarySpace : public Estimator {
   PrimarySpace(OwnedRoutes owned, const IntegratorOptions& options);
 
   Capabilities capabilities() const override { return {}; }
-  void render_pass(const PassKey& key, const Scene& scene, Film& film) override;
+  std::shared_ptr<const Learned> learn(const Scene& scene, const FilmFormat& film,
+                                       uint64_t seed) const override;
+  std::shared_ptr<const Learned> read_learned(ByteReader& from, const FilmFormat&) const override;
+  std::unique_ptr<PassFindings> render_pass(const PassKey& key, const Learned* learned,
+                                            const Scene& scene, Film& film) override;
   EstimatorStatistics statistics() const override { return passes_.statistics(); }
 
  private:

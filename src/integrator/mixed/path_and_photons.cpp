@@ -1,26 +1,28 @@
 #include "integrator/mixed/path_and_photons.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "integrator/bidirectional/vertex_connection_merging.h"
+#include "integrator/mixed/learned_mix.h"
 #include "integrator/path/specular_tree.h"
 #include "integrator/photons/photon_pass.h"
+#include "route/plan.h"
 
 namespace nephroid {
 
 namespace {
 
+/// Of the estimator's random numbers.
+constexpr uint64_t kNumber = 8;
 constexpr uint64_t kTrialStream = 0x747269616c;  // "trial"
 constexpr uint32_t kTrialPasses = 2;
-constexpr int64_t kMostPathsOfTrial = 1 << 17;
+constexpr int64_t kMaxTrialPaths = 1 << 17;
 /// Light paths of a trial with few of them are this part of those with many.
 constexpr int64_t kFewer = 8;
 /// Connecting has to be better by this factor: two passes are a rough guess, and do not see that
 /// camera paths alone, whose points fill the gaps of earlier ones, gain more from passes to come.
-constexpr double kClearly = 1.6;
+constexpr double kRequiredGain = 1.6;
 
 /// One path for each pixel of every other tile.
 SampleMap every_other_tile(const PixelBounds& b) {
@@ -32,227 +34,271 @@ SampleMap every_other_tile(const PixelBounds& b) {
   return map;
 }
 
+/// Photons are of use where those of a route of caustics would be.
+GuidedPhotons guide_caustic_photons(uint64_t seed, const Scene& scene, const FilmFormat& film,
+                                    const IntegratorOptions& options) {
+  const CompiledPlan plan =
+      compile_plan({{{"caustic", "C.*[DG]S+[DG]?L", EstimatorKind::kPhotons, {}},
+                     {"rest", ".*", EstimatorKind::kPath, {}}},
+                    {}},
+                   scene);
+  constexpr size_t kCaustics = 0;  // the group of the first route
+  const auto routes = std::make_shared<const Routes>(plan.compilation.routes);
+  return guide_photons(seed, scene, film, {routes, plan.symbols, kCaustics}, options, false);
+}
+
+/// Runs trial passes and counts what they cost.
+class Trials {
+ public:
+  Trials(uint64_t seed, const Scene& scene, const FilmFormat& film, const OwnedRoutes& owned,
+         const IntegratorOptions& options)
+      : seed_(seed),
+        scene_(scene),
+        film_(film),
+        owned_(owned),
+        options_(options),
+        tiles_(every_other_tile(film.bounds())) {}
+
+  /// What a few passes that are thrown away tell of these techniques.
+  Trial run(const PairTechniques& techniques, const EmissionGuide& emission) {
+    SampleVariance variance(film_.bounds());
+    const PairTrial trial{.paths = tiles_,
+                          .counts_records = options_.guides_walks && !techniques.connects};
+    const size_t stride =
+        PassRecords::stride(static_cast<size_t>(film_.bounds().area()), trial.records_per_path);
+    EstimatorStatistics counts;
+    size_t records = 0;
+    for (uint32_t i = 0; i < kTrialPasses; ++i) {
+      const PassKey key{hash_combine(seed_, kTrialStream), i};
+      records += try_out({.key = key,
+                          .seed = hash_combine(key.seed, kNumber),
+                          .scene = scene_,
+                          .owned = owned_,
+                          .options = options_,
+                          .techniques = techniques,
+                          .emission = emission,
+                          .light_paths_vary = true},
+                         film_, trial, variance, counts);
+    }
+    costs_.rays += counts.rays;
+    costs_.hold(counts.photon_bytes, counts.pixel_bytes);
+    return judge(variance.by_tile(), counts, techniques, static_cast<double>(records * stride));
+  }
+
+  const EstimatorStatistics& costs() const { return costs_; }
+
+ private:
+  Trial judge(const SampleVariance::ByTile& found, const EstimatorStatistics& counts,
+              const PairTechniques& techniques, double records) const {
+    std::vector<double> tiles;
+    double light = 0, variance = 0;
+    for (size_t i = 0; i < found.variance.size(); ++i) {
+      if (tiles_.counts()[i] == 0) continue;
+      tiles.push_back(found.variance[i]);
+      light += found.light[i];
+      variance += found.variance[i] * found.light[i];
+    }
+    const double count = static_cast<double>(std::max<size_t>(1, tiles.size()));
+    const double samples = static_cast<double>(counts.camera_paths);
+    const double camera_rays =
+        static_cast<double>(counts.rays - counts.light_rays - counts.again_rays) / samples *
+        static_cast<double>(film_.bounds().area());
+    return {.variance = winsorized_mean(std::move(tiles)),
+            .cost_of_camera = camera_rays,
+            .cost_of_light = static_cast<double>(counts.light_rays) / kTrialPasses,
+            .light_paths = static_cast<double>(techniques.light_paths),
+            .light = light / count,
+            .error = std::sqrt(variance / count / samples),
+            .samples = samples,
+            .records = records / samples,
+            .photons = counts.photon_paths > 0 ? static_cast<double>(counts.photons_stored) /
+                                                     static_cast<double>(counts.photon_paths)
+                                               : 0};
+  }
+
+  const uint64_t seed_;
+  const Scene& scene_;
+  const FilmFormat& film_;
+  const OwnedRoutes& owned_;
+  const IntegratorOptions& options_;
+  const SampleMap tiles_;
+  EstimatorStatistics costs_;
+};
+
+SampleAllocation allocation(const PairFindings::Variance& v, const MixPlan& plan,
+                            const FilmFormat& film) {
+  const double most = plan.balance
+                          ? std::clamp(plan.balance->max_camera_paths(), 1.0, SampleMap::kMaxMean)
+                          : SampleMap::kMaxMean;
+  if (!plan.techniques.separates_chains)
+    return allocate_samples(film.bounds(), {v.paths.by_tile(), {}, {}}, false, most);
+  // Where the film clamps, what a tile converges to depends on who finds its bright light.
+  return allocate_samples(film.bounds(),
+                          {v.paths.by_tile(&v.chains.walks), v.chains.walks.by_tile(&v.paths),
+                           v.chains.choice.by_tile(&v.paths)},
+                          film.settings().max_component < kInfinity, most);
+}
+
+const LearnedMix& as_mix(const Learned* learned) {
+  return *static_cast<const LearnedMix*>(learned);
+}
+
 }  // namespace
 
 PathAndPhotons::PathAndPhotons(OwnedRoutes owned, const IntegratorOptions& options)
     : owned_(std::move(owned)), options_(options) {
-  // Where the number of light paths is chosen here, a pass leaves about kMostPhotons; what is more
+  // Where the number of light paths is chosen here, a pass leaves about kMaxPhotons; what is more
   // comes in batches.
-  constexpr double kRoom = 1.1;
+  constexpr double kMemorySlack = 1.1;
   if (options_.photons_per_pass == 0)
-    options_.memory_photons =
-        std::min(options_.memory_photons, static_cast<int64_t>(kRoom * Balance::kMostPhotons));
+    options_.memory_photons = std::min(options_.memory_photons,
+                                       static_cast<int64_t>(kMemorySlack * Balance::kMaxPhotons));
 }
 
-Trial PathAndPhotons::try_out(PairPass how, uint64_t seed, const Scene& scene, const Film& film) {
-  const SampleMap half = every_other_tile(film.bounds());
-  SampleSpread spread(film.bounds());
-  how.samples = &half;
-  how.spread = &spread;
-  how.spreads_splats = true;
-  how.glints = nullptr;
-  std::vector<RadianceRecord> records;
-  const size_t stride =
-      PassRecords::stride(static_cast<size_t>(film.bounds().area()), how.records_of_path);
-  if (options_.guides_walks && !how.connects) how.records = &records;
-  EstimatorStatistics counts;
-  for (uint32_t i = 0; i < kTrialPasses; ++i)
-    how.try_out({hash_combine(seed, kTrialStream), i}, scene, film, owned_, options_, counts);
-  statistics_.rays += counts.rays;
-  statistics_.hold(counts.photon_bytes, counts.pixel_bytes);
-  const SampleSpread::ByTile found = spread.by_tile();
-  std::vector<double> tiles;
-  double light = 0, variance = 0;
-  for (size_t i = 0; i < found.variance.size(); ++i) {
-    if (half.counts()[i] == 0) continue;
-    tiles.push_back(found.variance[i]);
-    light += found.light[i];
-    variance += found.variance[i] * found.light[i];
-  }
-  const double count = static_cast<double>(std::max<size_t>(1, tiles.size()));
-  const double samples = static_cast<double>(counts.camera_paths);
-  const double of_camera =
-      static_cast<double>(counts.rays - counts.light_rays - counts.again_rays) / samples *
-      static_cast<double>(film.bounds().area());
-  return {.variance = steady_mean(std::move(tiles)),
-          .cost_of_camera = of_camera,
-          .cost_of_light = static_cast<double>(counts.light_rays) / kTrialPasses,
-          .light_paths = static_cast<double>(how.light_paths),
-          .light = light / count,
-          .error = std::sqrt(variance / count / samples),
-          .samples = samples,
-          .records = static_cast<double>(records.size() * stride) / samples,
-          .photons = counts.photon_paths > 0 ? static_cast<double>(counts.photons_stored) /
-                                                   static_cast<double>(counts.photon_paths)
-                                             : 0};
-}
-
-void PathAndPhotons::learn(uint64_t seed, const Scene& scene, const Film& film) {
-  const uint64_t rays_before = statistics_.rays;
+std::shared_ptr<const Learned> PathAndPhotons::learn(const Scene& scene, const FilmFormat& film,
+                                                     uint64_t seed) const {
+  const int64_t pixels = film.bounds().area();
   const int asked = options_.camera_samples_per_pass;
-  const int head = asked > 0 ? asked : kHead;
-  learned_.emplace(seed, SampleMap(film.bounds(), static_cast<uint16_t>(head)));
-  Learned& learned = *learned_;
-  PairPass& pass = learned.pass;
-  pass.leaves_glints = SpecularTree(scene, owned_, options_.max_depth).finds_something();
-  pass.connects = false;
-  pass.caustics_only = true;
-  pass.window = kCameraWindow;
-  pass.guide = &learned_photons_.guide(seed, scene, film, owned_, options_, statistics_).starts;
-  pass.light_paths = has_specular_events(owned_)
-                         ? std::clamp<int64_t>(film.bounds().area(), 1 << 14, kMostPathsOfTrial)
-                         : 0;
-  Trial many = try_out(pass, seed, scene, film);
+  MixPlan plan;
+  plan.first_samples =
+      SampleMap(film.bounds(), static_cast<uint16_t>(asked > 0 ? asked : kFirstPassSamples));
+  plan.is_even = asked > 0;
+  plan.lacks_specular = !has_specular_events(owned_);
+  plan.photons = guide_caustic_photons(seed, scene, film, options_);
+  const EmissionGuide& emission = plan.photons.guide.starts;
+  PairTechniques& chosen = plan.techniques;
+  chosen = {
+      .light_paths = plan.lacks_specular ? 0 : std::clamp<int64_t>(pixels, 1 << 14, kMaxTrialPaths),
+      .connects = false,
+      .caustics_only = true,
+      .separates_chains = SpecularTree(scene, owned_, options_.max_depth).finds_something(),
+      .roulette_threshold = kCameraWindow};
+  Trials trials(seed, scene, film, owned_, options_);
+  Trial many = trials.run(chosen, emission);
   Balance balance(many);
-  if (pass.light_paths > 0) {
-    PairPass fewer = pass;
-    fewer.light_paths = pass.light_paths / kFewer;
-    balance = Balance(many, try_out(fewer, seed, scene, film));
+  if (chosen.light_paths > 0) {
+    PairTechniques fewer = chosen;
+    fewer.light_paths = chosen.light_paths / kFewer;
+    balance = Balance(many, trials.run(fewer, emission));
   }
   // [A5]
-  PairPass patient = pass;
-  patient.window = kPatientWindow;
-  const Trial longer = try_out(patient, seed, scene, film);
+  PairTechniques patient = chosen;
+  patient.roulette_threshold = kPatientWindow;
+  const Trial longer = trials.run(patient, emission);
   if (const Balance other = balance.with_camera_paths_of(longer);
-      other.expense() < balance.expense()) {
-    pass = patient;
+      other.inverse_efficiency() < balance.inverse_efficiency()) {
+    chosen = patient;
     balance = other;
     many = longer;
   }
-  if (pass.light_paths > 0) learned.balance = balance;
-  pass.records_of_path = std::clamp(1.1 * many.records, 0.25, double{PassRecords::kMostOfPath});
-  PairPass connecting;
-  connecting.leaves_glints = pass.leaves_glints;
-  connecting.light_paths = std::min(default_light_paths(film.bounds().area()), kMostPathsOfTrial);
-  Trial connected = try_out(connecting, seed, scene, film);
-  balance.variance_of_camera += many.least_of_unseen(connected);
-  connected.variance += connected.least_of_unseen(many);
-  if (kClearly * connected.expense() < balance.expense()) {
-    pass = connecting;
-    pass.light_paths =
-        std::min(default_light_paths(film.bounds().area()),
-                 static_cast<int64_t>(Balance::kMostPhotons / std::max(connected.photons, 0.1)));
-    learned.balance.reset();
+  if (chosen.light_paths > 0) plan.balance = balance;
+  plan.records_per_path = std::clamp(1.1 * many.records, 0.25, double{PassRecords::kMaxPerPath});
+  const PairTechniques connecting{
+      .light_paths = std::min(default_light_paths(pixels), kMaxTrialPaths),
+      .separates_chains = chosen.separates_chains};
+  Trial connected = trials.run(connecting, kUnguided);
+  balance.variance_of_camera += many.min_variance_of_unseen(connected);
+  connected.variance += connected.min_variance_of_unseen(many);
+  if (kRequiredGain * connected.inverse_efficiency() < balance.inverse_efficiency()) {
+    chosen = connecting;
+    chosen.light_paths =
+        std::min(default_light_paths(pixels),
+                 static_cast<int64_t>(Balance::kMaxPhotons / std::max(connected.photons, 0.1)));
+    plan.balance.reset();
+    plan.records_per_path = PassRecords::kMaxPerPath;
   }
   if (options_.photons_per_pass > 0) {
-    pass.light_paths = options_.photons_per_pass;
-    learned.balance.reset();
+    chosen.light_paths = options_.photons_per_pass;
+    plan.balance.reset();
   }
-  pass.adds_features = true;
-  learned.is_even = asked > 0;
-  if (learned.is_even) learned.shares = Shares{learned.head, learned.head};
-  statistics_.learning_rays += statistics_.rays - rays_before;
+  plan.rays = trials.costs().rays;
+  plan.photon_bytes = trials.costs().photon_bytes;
+  plan.pixel_bytes = trials.costs().pixel_bytes;
+  return std::make_shared<const LearnedMix>(std::move(plan));
 }
 
-void PathAndPhotons::look_back(const Scene& scene, const Film& film) {
-  Learned& learned = *learned_;
-  if (learned.radiance) return;
-  if (!learned.is_seen && (!learned.is_even || options_.guides_walks)) {
-    EstimatorStatistics counts;
-    first_pass(film).try_out({learned.seed, 0}, scene, film, owned_, options_, counts);
-    statistics_.rays += counts.rays;
-    statistics_.learning_rays += counts.rays;
-  }
-  const size_t of_records = learned.records.capacity() * sizeof(RadianceRecord);
-  learned.radiance.emplace(std::move(learned.records));
-  // To sort the records takes half as much again.
-  statistics_.hold(of_records + of_records / 2 + learned.radiance->bytes(), 0);
-  learned.records = {};
-  if (!learned.spread) return;
-  const Learned::Spread& spread = *learned.spread;
-  const double most =
-      learned.balance ? std::clamp(learned.balance->most_camera_paths(), 1.0, SampleMap::kMostMean)
-                      : SampleMap::kMostMean;
-  if (learned.pass.leaves_glints)
-    // Where the film clamps, what a tile converges to depends on who finds its bright light.
-    learned.shares =
-        share_out(film.bounds(),
-                  {spread.paths.by_tile(&spread.glints), spread.glints.by_tile(&spread.paths),
-                   spread.choice.by_tile(&spread.paths)},
-                  film.settings().max_component < kInfinity, most);
-  else
-    learned.shares = share_out(film.bounds(), {spread.paths.by_tile(), {}, {}}, false, most);
-  learned.spread.reset();
-}
-
-int64_t PathAndPhotons::light_paths(double camera_paths) const {
-  return learned_->balance ? learned_->balance->light_paths(camera_paths)
-                           : learned_->pass.light_paths;
-}
-
-PairPass PathAndPhotons::first_pass(const Film& film) {
-  Learned& learned = *learned_;
-  PairPass pass = learned.pass;
-  pass.samples = &learned.head;
-  pass.light_paths = light_paths(pass.samples->mean());
-  if (pass.leaves_glints) pass.glints = &learned.head;
-  if (learned.radiance) return pass;
-  learned.is_seen = true;
-  learned.records.clear();
-  if (options_.guides_walks) {
-    // More would double what it holds.
-    const double paths = learned.head.mean() * static_cast<double>(film.bounds().area());
-    learned.records.reserve(
-        std::min(PassRecords::kMost, static_cast<size_t>(paths * 1.1 * pass.records_of_path) + 64));
-    pass.records = &learned.records;
-  }
-  if (learned.is_even) return pass;
-  Learned::Spread& spread = learned.spread.emplace(film.bounds());
-  pass.spread = &spread.paths;
-  if (pass.leaves_glints) {
-    pass.glint_spread = &spread.glints;
-    pass.choice_spread = &spread.choice;
-  }
+PairPass PathAndPhotons::pass_of(const PassKey& key, const Scene& scene,
+                                 const LearnedMix& learned) const {
+  const MixPlan& plan = learned.plan();
+  const SampleMap& paths = key.pass > 0 ? learned.refinement()->samples.paths : plan.first_samples;
+  PairPass pass{.key = key,
+                .seed = hash_combine(key.seed, kNumber),
+                .scene = scene,
+                .owned = owned_,
+                .options = options_,
+                .techniques = plan.techniques,
+                .emission = plan.techniques.connects ? kUnguided : plan.photons.guide.starts,
+                .light_paths_vary = true};
+  pass.techniques.light_paths = plan.light_paths(paths.mean());
   return pass;
 }
 
-void PathAndPhotons::render_pass(const PassKey& key, const Scene& scene, Film& film) {
-  if (!learned_ || learned_->seed != key.seed) learn(key.seed, scene, film);
-  if (key.pass == 0) {
-    first_pass(film).render(key, scene, film, owned_, options_, statistics_);
-    return;
-  }
-  look_back(scene, film);
-  PairPass pass = learned_->pass;
-  const Shares& shared = *learned_->shares;
-  pass.samples = &shared.paths;
-  if (pass.leaves_glints) pass.glints = &shared.glints;
-  pass.head = learned_->head.at(0, 0);
-  if (learned_->radiance->guides()) pass.radiance = &*learned_->radiance;
-  pass.light_paths = light_paths(pass.samples->mean());
-  pass.render(key, scene, film, owned_, options_, statistics_);
+PairLearning PathAndPhotons::learning_of(const LearnedMix& learned) const {
+  return {.measures_variance = !learned.plan().is_even,
+          .keeps_records = options_.guides_walks,
+          .records_per_path = learned.plan().records_per_path};
 }
 
-EstimatorStatistics PathAndPhotons::statistics() const {
-  EstimatorStatistics s = statistics_;
-  if (!learned_) return s;
-  const PairPass& pass = learned_->pass;
-  if (pass.connects)
-    s.notes.push_back(
-        "trial passes were better with light paths connected and merged everywhere than with "
-        "caustic photons alone");
-  else
-    explain_missing_caustics(owned_, s);
-  if (pass.window == kPatientWindow)
-    s.notes.push_back(
-        "camera paths go on while they carry an eighth of what they started with: trial passes "
-        "were "
-        "better for it");
-  if (!pass.guide->empty()) learned_photons_.add_notes(s);
-  if (learned_->radiance && learned_->radiance->guides())
-    s.notes.push_back(
-        fmt::format("camera walks had directions to follow from the first pass at {:.3g} % of the "
-                    "rough surfaces that they met",
-                    100 * learned_->radiance->guided()));
-  if (!learned_->shares || learned_->is_even) return s;
-  const auto note = [&s](const SampleMap& map, const char* what) {
-    s.notes.push_back(fmt::format("{:.3g} {} a pixel and pass, {} to {} by tile", map.mean(), what,
-                                  map.fewest(), map.most()));
-  };
-  note(learned_->shares->paths, "camera paths");
-  if (pass.leaves_glints && learned_->shares->glints.most() > 0)
-    note(learned_->shares->glints, "walks for lights behind smooth glass and mirrors");
-  return s;
+std::shared_ptr<const Learned> PathAndPhotons::learn_from_first_pass(
+    std::shared_ptr<const Learned> before, std::unique_ptr<PassFindings> found, const Scene& scene,
+    const FilmFormat& film, uint64_t seed) const {
+  const LearnedMix& mix = as_mix(before.get());
+  MixPlan plan = mix.plan();
+  const PairLearning learning = learning_of(mix);
+  const bool learns = learning.measures_variance || learning.keeps_records;
+  if (!found && learns) {
+    EstimatorStatistics counts;
+    found = measure(pass_of({seed, 0}, scene, mix), film, {plan.first_samples, plan.first_samples},
+                    learning, counts);
+    plan.rays += counts.rays;
+  }
+  MixRefinement refinement{{plan.first_samples, plan.first_samples}, {}};
+  if (auto* of_pass = static_cast<PairFindings*>(found.get())) {
+    EstimatorStatistics memory;
+    memory.hold(plan.photon_bytes, plan.pixel_bytes);
+    const size_t record_bytes = of_pass->records.capacity() * sizeof(RadianceRecord);
+    refinement.directions = RadianceGuide(std::move(of_pass->records));
+    // To sort the records takes half as much again.
+    memory.hold(record_bytes + record_bytes / 2 + refinement.directions.bytes(), 0);
+    plan.photon_bytes = memory.photon_bytes;
+    plan.pixel_bytes = memory.pixel_bytes;
+    if (of_pass->variance) refinement.samples = allocation(*of_pass->variance, plan, film);
+  }
+  return std::make_shared<const LearnedMix>(std::move(plan), std::move(refinement));
+}
+
+std::shared_ptr<const Learned> PathAndPhotons::read_learned(ByteReader& from,
+                                                            const FilmFormat&) const {
+  MixPlan plan;
+  std::optional<MixRefinement> refinement;
+  from(plan, refinement);
+  return std::make_shared<const LearnedMix>(std::move(plan), std::move(refinement));
+}
+
+std::unique_ptr<PassFindings> PathAndPhotons::render_pass(const PassKey& key,
+                                                          const Learned* learned,
+                                                          const Scene& scene, Film& film) {
+  const LearnedMix& mix = as_mix(learned);
+  const MixPlan& plan = mix.plan();
+  const PairPass pass = pass_of(key, scene, mix);
+  if (key.pass == 0) {
+    const PairRender to{
+        .film = film, .samples = {plan.first_samples, plan.first_samples}, .adds_features = true};
+    const PairLearning learning = learning_of(mix);
+    if (learning.measures_variance || learning.keeps_records)
+      return render(pass, to, learning, statistics_);
+    render(pass, to, statistics_);
+    return nullptr;
+  }
+  const MixRefinement& refined = *mix.refinement();
+  render(pass,
+         {.film = film,
+          .samples = {refined.samples.paths, refined.samples.chains,
+                      static_cast<uint32_t>(plan.first_samples.at(0, 0))},
+          .adds_features = true,
+          .directions = refined.directions},
+         statistics_);
+  return nullptr;
 }
 
 }  // namespace nephroid

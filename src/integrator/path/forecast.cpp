@@ -2,6 +2,7 @@
 
 #include "integrator/path/path_pass.h"
 #include "integrator/path/path_visitor.h"
+#include "photon/forecast_map.h"
 #include "photon/light_walk.h"
 #include "transport/guided_direction.h"
 
@@ -83,28 +84,47 @@ class ForecastVisitor : public PathVisitorOf<ForecastVisitor> {
   ForecastLobes lobes_;  ///< of the vertex at hand
 };
 
-}  // namespace
+/// The map, and what it took to make it.
+struct Forecasting {
+  ForecastMap map;
+  uint64_t photon_paths = 0, photon_paths_useful = 0, rays = 0;
+  static void members(auto& self, auto& archive) {
+    archive(self.map, self.photon_paths, self.photon_paths_useful, self.rays);
+  }
+};
 
-Forecast::Forecast(OwnedRoutes owned, const IntegratorOptions& options)
-    : owned_(std::move(owned)), options_(options) {}
+class LearnedForecast final : public Learned {
+ public:
+  explicit LearnedForecast(Forecasting made) : made_(std::move(made)) {}
+  const ForecastMap& map() const { return made_.map; }
+  void write(ByteWriter& to) const override { to(made_); }
+  void add_to(EstimatorStatistics& s) const override;
 
-void Forecast::learn(uint64_t seed, const Scene& scene) {
-  std::vector<CausticSight> sights;
-  const uint64_t before = statistics_.photon_paths;
-  const bool asked = options_.photons_per_pass > 0;
-  const int64_t photons = asked ? options_.photons_per_pass : kPhotonsOfRound;
-  for (int k = 0; k < (asked ? 1 : kMostRounds) && sights.size() < kEnoughSights; ++k)
-    trace_photons({hash_combine(seed, kLearning), static_cast<uint32_t>(k)}, photons, scene,
-                  sights);
-  paths_of_map_ = statistics_.photon_paths - before;
-  map_ = ForecastMap(std::move(sights));
-  statistics_.photons_stored = map_.size();
-  statistics_.hold(map_.bytes(), 0);
-  learned_from_ = seed;
+ private:
+  Forecasting made_;
+};
+
+void LearnedForecast::add_to(EstimatorStatistics& s) const {
+  s.rays += made_.rays;
+  s.learning_rays += made_.rays;
+  s.photon_paths += made_.photon_paths;
+  s.photon_paths_useful += made_.photon_paths_useful;
+  s.photons_stored += map().size();
+  s.hold(map().bytes(), 0);
+  const std::string of_all = " of " + std::to_string(made_.photon_paths) + " photon paths ";
+  const std::string sights = std::to_string(map().size()) + " sights" + of_all;
+  const std::string as_path = " a caustic: its paths are traced as by path";
+  if (map().foretells())
+    s.notes.push_back(sights + "foretell caustics; passes add none");
+  else if (map().size() > 0)
+    s.notes.push_back(sights + "are too few to foretell" + as_path);
+  else
+    s.notes.push_back("none" + of_all + "foretold" + as_path);
 }
 
-void Forecast::trace_photons(const PassKey& key, int64_t photons, const Scene& scene,
-                             std::vector<CausticSight>& sights) {
+/// Traces the photons of a round and adds what they saw.
+void trace_round(const PassKey& key, int64_t photons, const Scene& scene, const OwnedRoutes& owned,
+                 int max_depth, std::vector<CausticSight>& sights, Forecasting& made) {
   const int64_t first = static_cast<int64_t>(key.pass) * photons;
   const float specular_alpha = specular_alpha_of_pass(scene.specular_band, {key.seed, 0});
   struct Chunk {
@@ -121,50 +141,66 @@ void Forecast::trace_photons(const PassKey& key, int64_t photons, const Scene& s
       if (!start) continue;
       Walk walk =
           walk_from(start->emission, start->lambda, specular_alpha, kLightPathStartDimensions);
-      SightVisitor visitor(owned_, start->emission, chunk.sights);
+      SightVisitor visitor(owned, start->emission, chunk.sights);
       const size_t before = chunk.sights.size();
-      random_walk(scene, TransportMode::kImportance, options_.max_depth, walk, sampler, visitor);
+      random_walk(scene, TransportMode::kImportance, max_depth, walk, sampler, visitor);
       chunk.rays += walk.rays;
       chunk.useful += chunk.sights.size() > before;
     }
   });
   for (const Chunk& chunk : chunks) {
     sights.insert(sights.end(), chunk.sights.begin(), chunk.sights.end());
-    statistics_.rays += chunk.rays;
-    statistics_.photon_paths_useful += chunk.useful;
+    made.rays += chunk.rays;
+    made.photon_paths_useful += chunk.useful;
   }
-  statistics_.photon_paths += static_cast<uint64_t>(photons);
+  made.photon_paths += static_cast<uint64_t>(photons);
 }
 
-void Forecast::render_pass(const PassKey& key, const Scene& scene, Film& film) {
-  if (learned_from_ != key.seed) learn(key.seed, scene);
+}  // namespace
+
+Forecast::Forecast(OwnedRoutes owned, const IntegratorOptions& options)
+    : owned_(std::move(owned)), options_(options) {}
+
+std::shared_ptr<const Learned> Forecast::learn(const Scene& scene, const FilmFormat&,
+                                               uint64_t seed) const {
+  Forecasting made;
+  std::vector<CausticSight> sights;
+  const bool asked = options_.photons_per_pass > 0;
+  const int64_t photons = asked ? options_.photons_per_pass : kPhotonsOfRound;
+  for (int k = 0; k < (asked ? 1 : kMostRounds) && sights.size() < kEnoughSights; ++k)
+    trace_round({hash_combine(seed, kLearning), static_cast<uint32_t>(k)}, photons, scene, owned_,
+                options_.max_depth, sights, made);
+  made.map = ForecastMap(std::move(sights));
+  return std::make_shared<LearnedForecast>(std::move(made));
+}
+
+std::shared_ptr<const Learned> Forecast::read_learned(ByteReader& from, const FilmFormat&) const {
+  Forecasting made;
+  from(made);
+  return std::make_shared<LearnedForecast>(std::move(made));
+}
+
+std::unique_ptr<PassFindings> Forecast::render_pass(const PassKey& key, const Learned* learned,
+                                                    const Scene& scene, Film& film) {
+  const ForecastMap& map = static_cast<const LearnedForecast*>(learned)->map();
   const PathPass pass{key,    scene, film, owned_, std::max(1, options_.camera_samples_per_pass),
                       kStream};
   const SpecularTree tree(scene, owned_, options_.max_depth);
   statistics_.rays += trace_paths(pass, [&](int, int, CameraPath& path, const SensorWeights&,
                                             PathSampler& sampler, PartSums& light) {
-    ForecastVisitor visitor(scene, owned_, map_, light, options_.specular_trees ? &tree : nullptr);
+    ForecastVisitor visitor(scene, owned_, map, light, options_.specular_trees ? &tree : nullptr);
     if (path.camera_weight > 0)
       random_walk(scene, TransportMode::kRadiance, options_.max_depth, path.walk, sampler, visitor);
     return path.walk.rays + visitor.more_rays();
   });
   statistics_.camera_paths +=
       static_cast<uint64_t>(film.bounds().area()) * static_cast<uint64_t>(pass.samples);
+  return nullptr;
 }
 
 EstimatorStatistics Forecast::statistics() const {
   EstimatorStatistics s = statistics_;
   s.photons_stay = true;
-  if (s.photon_paths == 0) return s;
-  const std::string of_all = " of " + std::to_string(paths_of_map_) + " photon paths ";
-  const std::string sights = std::to_string(map_.size()) + " sights" + of_all;
-  const std::string as_path = " a caustic: its paths are traced as by path";
-  if (map_.foretells())
-    s.notes.push_back(sights + "foretell caustics; passes add none");
-  else if (map_.size() > 0)
-    s.notes.push_back(sights + "are too few to foretell" + as_path);
-  else
-    s.notes.push_back("none" + of_all + "foretold" + as_path);
   return s;
 }
 

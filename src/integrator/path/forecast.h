@@ -3,14 +3,10 @@
 // casters that photons near by came from, by a mixture whose density is known ([T3] in
 // docs/estimators.md), so it finds the same light as path tracing, with no bias. What is learned
 // is a function of the scene, the options and the seed, a pass of these and its number.
-// Who calls it: presets. Paper: Budge, Anderson & Joy 2008.
+// Paper: Budge, Anderson & Joy 2008.
 #pragma once
 
-#include <optional>
-#include <vector>
-
 #include "integrator/estimator/estimator.h"
-#include "photon/forecast_map.h"
 #include "route/scene_symbols.h"
 
 namespace nephroid {
@@ -20,19 +16,16 @@ class Forecast : public Estimator {
   Forecast(OwnedRoutes owned, const IntegratorOptions& options);
 
   Capabilities capabilities() const override { return {}; }
-  void render_pass(const PassKey& key, const Scene& scene, Film& film) override;
+  std::shared_ptr<const Learned> learn(const Scene& scene, const FilmFormat& film,
+                                       uint64_t seed) const override;
+  std::shared_ptr<const Learned> read_learned(ByteReader& from, const FilmFormat&) const override;
+  std::unique_ptr<PassFindings> render_pass(const PassKey& key, const Learned* learned,
+                                            const Scene& scene, Film& film) override;
   EstimatorStatistics statistics() const override;
 
  private:
-  void learn(uint64_t seed, const Scene& scene);
-  void trace_photons(const PassKey& key, int64_t photons, const Scene& scene,
-                     std::vector<CausticSight>& sights);
-
   OwnedRoutes owned_;
   IntegratorOptions options_;
-  std::optional<uint64_t> learned_from_;  ///< the seed
-  ForecastMap map_;
-  uint64_t paths_of_map_ = 0;  ///< photon paths that left its sights
   EstimatorStatistics statistics_;
 };
 

@@ -27,10 +27,11 @@ PathEstimator::PathEstimator(OwnedRoutes owned, const IntegratorOptions& options
       samples_per_pass_(std::max(1, options.camera_samples_per_pass)),
       finds_something_(owns_any_path(owned_)) {}
 
-void PathEstimator::render_pass(const PassKey& key, const Scene& scene, Film& film) {
+std::unique_ptr<PassFindings> PathEstimator::render_pass(const PassKey& key, const Learned*,
+                                                         const Scene& scene, Film& film) {
   if (!finds_something_) {
     film.add_estimates(static_cast<int>(owned_.group), 1);
-    return;
+    return nullptr;
   }
   const PathPass pass{key, scene, film, owned_, samples_per_pass_, kStream};
   const SpecularTree tree(scene, owned_, options_.max_depth);
@@ -47,6 +48,7 @@ void PathEstimator::render_pass(const PassKey& key, const Scene& scene, Film& fi
   });
   film.add_feature_estimates(samples_per_pass_);
   statistics_.camera_paths += static_cast<uint64_t>(film.bounds().area()) * samples_per_pass_;
+  return nullptr;
 }
 
 }  // namespace nephroid

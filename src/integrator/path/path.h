@@ -14,7 +14,8 @@ class PathEstimator : public Estimator {
 
   Capabilities capabilities() const override { return {}; }
   bool records_features() const override { return finds_something_; }
-  void render_pass(const PassKey& key, const Scene& scene, Film& film) override;
+  std::unique_ptr<PassFindings> render_pass(const PassKey& key, const Learned*, const Scene& scene,
+                                            Film& film) override;
   EstimatorStatistics statistics() const override { return statistics_; }
 
  private:

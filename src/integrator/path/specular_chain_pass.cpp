@@ -24,10 +24,10 @@ double rarity(const std::vector<SpecularTree::Light>& found) {
 
 }  // namespace
 
-uint64_t GlintPass::render_points(std::span<Rgb> values,
-                                  const std::vector<std::vector<SobolPoint>>& points) const {
-  const PixelBounds& b = like.bounds();
-  const FilmSettings& film = like.settings();
+uint64_t SpecularChainPass::render_points(
+    std::span<Rgb> values, const std::vector<std::vector<SobolPoint>>& points) const {
+  const PixelBounds& b = film.bounds();
+  const FilmSettings& settings = film.settings();
   const size_t parts = owned.routes->groups()[owned.group].parts.size();
   struct Row {
     uint64_t rays = 0;
@@ -61,10 +61,10 @@ uint64_t GlintPass::render_points(std::span<Rgb> values,
         for (const SpecularTree::Light& l : found) l.add_to(light);
         double seen = 0;
         if (!found.empty()) {
-          const SensorWeights weights =
-              sensor_weights(lambda, *film.color_space, film.imaging_ratio, film.white_balance);
+          const SensorWeights weights = sensor_weights(
+              lambda, *settings.color_space, settings.imaging_ratio, settings.white_balance);
           const std::span<const Rgb> colors =
-              light.colors(weights, path.camera_weight, film.max_component, path.filter_weight);
+              light.colors(weights, path.camera_weight, settings.max_component, path.filter_weight);
           light.add_techniques_to(
               of_row.techniques, weights,
               static_cast<double>(path.camera_weight) * path.filter_weight * share);
@@ -74,8 +74,10 @@ uint64_t GlintPass::render_points(std::span<Rgb> values,
             seen += static_cast<double>(colors[i].r + colors[i].g + colors[i].b) / 3;
           }
         }
-        if (spread) spread->add(pixel, seen, static_cast<double>(took));
-        if (spread_of_choice) spread_of_choice->add(pixel, seen, 0, seen * seen * rarity(found));
+        if (measured) {
+          measured->walks.add(pixel, seen, static_cast<double>(took));
+          measured->choice.add(pixel, seen, 0, seen * seen * rarity(found));
+        }
       }
     }
   });

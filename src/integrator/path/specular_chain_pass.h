@@ -1,32 +1,35 @@
-// One pass of walks that look for nothing but lights behind delta lobes, as many for each pixel as
-// a map says: the light that a pass of pairs may leave to others, with wavelengths and times that
-// no other walk shares, because they have no photons in common. Who calls it: pair_pass.cpp. It
-// must not know films' sums.
+// One pass of walks for specular chains: lights behind delta lobes alone, which a pass of pairs may
+// leave to others. As many walks for each pixel as a map says, with wavelengths and times that no
+// other walk shares, because they have no photons in common. It must not know films' sums.
 #pragma once
 
 #include <span>
 #include <vector>
 
 #include "film/film.h"
+#include "integrator/estimator/sample_map.h"
 #include "integrator/estimator/technique_counter.h"
-#include "integrator/mixed/balance.h"
 #include "integrator/path/specular_tree.h"
 #include "transport/path_points.h"
 
 namespace nephroid {
 
-struct GlintPass {
+/// How much the light of specular chains varies.
+struct ChainVariance {
+  explicit ChainVariance(const PixelBounds& b) : walks(b), choice(b) {}
+  SampleVariance walks;   ///< of the walks of a SpecularChainPass
+  SampleVariance choice;  ///< of camera paths that choose one way at each boundary, as far as known
+};
+
+struct SpecularChainPass {
   const Scene& scene;
-  const Film& like;
+  const FilmFormat& film;
   const OwnedRoutes& owned;
   const SpecularTree& tree;
-  const SampleMap& walks;          ///< of each pixel; may be 0
-  uint64_t seed = 0;               ///< of the estimator
-  float specular_alpha = 0;        ///< of the pass
-  SampleSpread* spread = nullptr;  ///< where what each walk finds goes as well
-  /// And the spread, as well as these walks know it, of what camera paths would find that choose
-  /// one way at each boundary.
-  SampleSpread* spread_of_choice = nullptr;
+  const SampleMap& walks;                  ///< of each pixel; may be 0
+  uint64_t seed = 0;                       ///< of the estimator
+  float specular_alpha = 0;                ///< of the pass
+  ChainVariance* measured = nullptr;       ///< measures what each walk finds; null: nobody asks
   TechniqueCounter* techniques = nullptr;  ///< where what was found is counted
 
   /// Adds each pixel's estimate to values[pixel * parts + part]. Walk k of n has the number

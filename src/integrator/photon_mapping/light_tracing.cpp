@@ -196,7 +196,7 @@ int64_t light_pass(const PassKey& key, const Scene& scene, const Film& film,
                    const OwnedRoutes& owned, const IntegratorOptions& options,
                    const ConnectionWeight& weight, SplatBuffer& buffer,
                    EstimatorStatistics& statistics) {
-  const PhotonPass settings = start_photon_pass(key, scene, film, options);
+  const PhotonPass settings = start_photon_pass(key, scene, film.format(), options);
   const LightPass pass{scene,
                        owned,
                        film.settings(),
@@ -229,7 +229,8 @@ int64_t light_pass(const PassKey& key, const Scene& scene, const Film& film,
   return pass.paths;
 }
 
-void LightTracing::render_pass(const PassKey& key, const Scene& scene, Film& film) {
+std::unique_ptr<PassFindings> LightTracing::render_pass(const PassKey& key, const Learned*,
+                                                        const Scene& scene, Film& film) {
   const int group = static_cast<int>(owned_.group);
   SplatBuffer buffer(film, group, *scene.filter);
   statistics_.hold(0, static_cast<uint64_t>(film.bounds().area()) *
@@ -237,6 +238,7 @@ void LightTracing::render_pass(const PassKey& key, const Scene& scene, Film& fil
   const int64_t paths = light_pass(key, scene, film, owned_, options_, {}, buffer, statistics_);
   buffer.finish(1.0 / static_cast<double>(paths));
   film.add_estimates(group, 1);
+  return nullptr;
 }
 
 EstimatorStatistics LightTracing::statistics() const {

@@ -36,7 +36,8 @@ class LightTracing : public Estimator {
   LightTracing(OwnedRoutes owned, const IntegratorOptions& options);
 
   Capabilities capabilities() const override { return {}; }
-  void render_pass(const PassKey& key, const Scene& scene, Film& film) override;
+  std::unique_ptr<PassFindings> render_pass(const PassKey& key, const Learned*, const Scene& scene,
+                                            Film& film) override;
   EstimatorStatistics statistics() const override;
 
  private:

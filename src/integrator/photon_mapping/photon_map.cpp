@@ -7,7 +7,45 @@
 
 namespace nephroid {
 
+/// The photons of all sets, and what it took to trace them.
+struct TracedMap {
+  PhotonGrid grid{{}};
+  uint64_t seed = 0;  ///< of its random numbers
+  double paths_of_set = 0;
+  uint64_t paths = 0, useful_paths = 0, specular_paths = 0, rays = 0;
+};
+
 namespace {
+
+class LearnedMap final : public Learned {
+ public:
+  LearnedMap(TracedMap map, std::string routes)
+      : map_(std::move(map)), routes_(std::move(routes)) {}
+  const TracedMap& map() const { return map_; }
+  void write(ByteWriter& to) const override {
+    to(map_.seed, map_.grid.photons(), map_.paths_of_set, map_.paths, map_.useful_paths,
+       map_.specular_paths, map_.rays);
+  }
+  void add_to(EstimatorStatistics& s) const override;
+
+ private:
+  TracedMap map_;
+  std::string routes_;  ///< their names
+};
+
+void LearnedMap::add_to(EstimatorStatistics& s) const {
+  s.rays += map_.rays;
+  s.learning_rays += map_.rays;
+  s.photon_paths += map_.paths;
+  s.photon_paths_useful += map_.useful_paths;
+  s.photon_paths_specular += map_.specular_paths;
+  s.photons_stored += map_.grid.size();
+  s.hold(map_.grid.bytes(), 0);
+  if (map_.grid.size() > 0)
+    s.notes.push_back("the map of " + routes_ + " has " + std::to_string(map_.grid.size()) +
+                      " photons of " + std::to_string(map_.paths) +
+                      " paths; passes add none (-D map-photons=N, -D memory-photons=N)");
+}
 
 constexpr uint64_t kStream = 0x706d6170;  // "pmap"
 constexpr uint32_t kSets = 16;            // a power of two, over which wavelengths are stratified
@@ -28,35 +66,57 @@ float PhotonMap::largest_radius(const IntegratorOptions& options) {
   return options.radius > 0 ? options.radius : kDefaultMaxRadius;
 }
 
-const PhotonMap::Map& PhotonMap::map_of(uint64_t seed, const Scene& scene, const Film& film) {
-  if (map_ && map_->seed == seed) return *map_;
+std::shared_ptr<const Learned> PhotonMap::learn(const Scene& scene, const FilmFormat& film,
+                                                uint64_t seed) const {
+  if (!photons_can_count_) return nullptr;
+  const uint64_t map_seed = seed_of_map(seed);
   std::vector<PhotonTraceSettings> sets;
   for (uint32_t s = 0; s < kSets; ++s) {
-    sets.push_back(start_photon_pass({seed, s}, scene, film, options_).trace);
+    sets.push_back(start_photon_pass({map_seed, s}, scene, film, options_).trace);
     if (options_.map_photons > 0)
       sets.back().photons_per_pass = (options_.map_photons - 1) / kSets + 1;
   }
   PhotonMapTrace traced = trace_map(scene, owned_, sets, options_.memory_photons);
-  count_photons(traced.trace, statistics_);
-  map_ = Map{seed, std::make_unique<PhotonGrid>(std::move(traced.trace.photons)),
-             static_cast<double>(traced.paths_of_set)};
-  return *map_;
+  const PhotonTrace& t = traced.trace;
+  TracedMap map{.seed = map_seed,
+                .paths_of_set = static_cast<double>(traced.paths_of_set),
+                .paths = t.paths,
+                .useful_paths = t.useful_paths,
+                .specular_paths = t.specular_paths,
+                .rays = t.rays};
+  map.grid = PhotonGrid(std::move(traced.trace.photons));
+  return std::make_shared<LearnedMap>(std::move(map), names_of_routes(owned_));
 }
 
-void PhotonMap::render_pass(const PassKey& key, const Scene& scene, Film& film) {
+std::shared_ptr<const Learned> PhotonMap::read_learned(ByteReader& from, const FilmFormat&) const {
+  TracedMap map;
+  std::vector<Photon> photons;
+  from(map.seed, photons, map.paths_of_set, map.paths, map.useful_paths, map.specular_paths,
+       map.rays);
+  map.grid = PhotonGrid(std::move(photons));
+  return std::make_shared<LearnedMap>(std::move(map), names_of_routes(owned_));
+}
+
+uint64_t PhotonMap::seed_of_map(uint64_t seed) const {
+  return hash_combine(seed, kStream, owned_.group);
+}
+
+std::unique_ptr<PassFindings> PhotonMap::render_pass(const PassKey& key, const Learned* learned,
+                                                     const Scene& scene, Film& film) {
   film.add_estimates(static_cast<int>(owned_.group), walks_per_pass_);
-  if (!photons_can_count_) return;
-  // Each map has random numbers of its own.
-  const PassKey set{hash_combine(key.seed, kStream, owned_.group), key.pass % kSets};
-  const Map& map = map_of(set.seed, scene, film);
-  PhotonPass pass = start_photon_pass(set, scene, film, options_);
+  if (!photons_can_count_) return nullptr;
+  const TracedMap& map = static_cast<const LearnedMap*>(learned)->map();
+  // Walks have the wavelengths, time and threshold of the set that they read.
+  const PassKey set{map.seed, key.pass % kSets};
+  PhotonPass pass = start_photon_pass(set, scene, film.format(), options_);
   std::vector<RadiusRange> rows(static_cast<size_t>(film.bounds().height()));
   for (uint32_t k = 0; k < walks_per_pass_; ++k) {
     // A set has a sequence of its own. Of one for all passes it would take every 16th point, which
     // lie in one strip of each pixel.
     const uint64_t index = uint64_t{key.pass / kSets} * walks_per_pass_ + k;
     pass.point = eye_point(static_cast<uint32_t>(index));
-    read(map, set, hash_combine(set.seed, kStream, set.pass, index >> 32), pass, scene, film, rows);
+    read(map, set, hash_combine(seed_of_map(key.seed), kStream, set.pass, index >> 32), pass, scene,
+         film, rows);
   }
   RadiusRange all;
   for (const RadiusRange& row : rows) {
@@ -65,16 +125,18 @@ void PhotonMap::render_pass(const PassKey& key, const Scene& scene, Film& film) 
   }
   statistics_.radius_min_pixels = all.largest > 0 ? all.smallest : 0;
   statistics_.radius_max_pixels = all.largest;
+  return nullptr;
 }
 
-void PhotonMap::read(const Map& map, const PassKey& set, uint64_t walk_seed, const PhotonPass& pass,
-                     const Scene& scene, Film& film, std::span<RadiusRange> rows) {
+void PhotonMap::read(const TracedMap& map, const PassKey& set, uint64_t walk_seed,
+                     const PhotonPass& pass, const Scene& scene, Film& film,
+                     std::span<RadiusRange> rows) {
   const int group = static_cast<int>(owned_.group);
   const PixelBounds& b = film.bounds();
   const size_t width = static_cast<size_t>(b.width());
   const size_t parts = film.parts_of(group).size();
   Gathered gathered(static_cast<size_t>(b.area()), parts);
-  statistics_.hold(map.grid->bytes(),
+  statistics_.hold(map.grid.bytes(),
                    gathered.filter_weights.size() * Gathered::bytes_per_walk(parts));
   gather(scene, b, owned_, options_.max_depth, pass, {{&pass.point, 1}, walk_seed}, gathered,
          [&](size_t pixel, const CameraPath&, const Walk& walk, MergePoint at,
@@ -86,7 +148,7 @@ void PhotonMap::read(const Map& map, const PassKey& set, uint64_t walk_seed, con
            const NearestPhotons nearest{static_cast<size_t>(options_.nearest_photons),
                                         options_.radius * footprint, static_cast<int>(set.pass)};
            const NearestMerge merged =
-               merge_nearest(*map.grid, owned_, at, options_.max_depth, nearest, scratch, sums);
+               merge_nearest(map.grid, owned_, at, options_.max_depth, nearest, scratch, sums);
            RadiusRange& row = rows[pixel / width];
            row.smallest = std::min(row.smallest, merged.radius / footprint);
            row.largest = std::max(row.largest, merged.radius / footprint);
@@ -105,12 +167,6 @@ EstimatorStatistics PhotonMap::statistics() const {
   EstimatorStatistics s = statistics_;
   s.photons_stay = true;
   explain_darkness(owned_, found_, s);
-  if (s.photons_stored > 0)
-    s.notes.push_back("the map of " + names_of_routes(owned_) + " has " +
-                      std::to_string(s.photons_stored) + " photons of " +
-                      std::to_string(s.photon_paths) +
-                      " paths; passes add none (-D map-photons=N, "
-                      "-D memory-photons=N)");
   return s;
 }
 

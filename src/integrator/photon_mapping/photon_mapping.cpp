@@ -1,5 +1,6 @@
 #include "integrator/photon_mapping/photon_mapping.h"
 
+#include "integrator/learning/photon_guiding.h"
 #include "integrator/photons/merge_pass.h"
 
 namespace nephroid {
@@ -7,11 +8,24 @@ namespace nephroid {
 PhotonMapping::PhotonMapping(OwnedRoutes owned, const IntegratorOptions& options)
     : owned_(std::move(owned)), options_(options), photons_can_count_(photons_can_count(owned_)) {}
 
-void PhotonMapping::render_pass(const PassKey& key, const Scene& scene, Film& film) {
+std::shared_ptr<const Learned> PhotonMapping::learn(const Scene& scene, const FilmFormat& film,
+                                                    uint64_t seed) const {
+  return std::make_shared<LearnedPhotons>(guide_photons(seed, scene, film, owned_, options_, true));
+}
+
+std::shared_ptr<const Learned> PhotonMapping::read_learned(ByteReader& from,
+                                                           const FilmFormat&) const {
+  GuidedPhotons photons;
+  from(photons);
+  return std::make_shared<LearnedPhotons>(std::move(photons));
+}
+
+std::unique_ptr<PassFindings> PhotonMapping::render_pass(const PassKey& key, const Learned* learned,
+                                                         const Scene& scene, Film& film) {
   const int group = static_cast<int>(owned_.group);
   film.add_estimates(group, 1);
-  if (!photons_can_count_) return;
-  const PhotonGuide& guide = learned_.guide(key.seed, scene, film, owned_, options_, statistics_);
+  if (!photons_can_count_) return nullptr;
+  const PhotonGuide& guide = static_cast<const LearnedPhotons*>(learned)->guide();
   const MergePass pass = merge_pass(key, scene, film, owned_, options_, guide,
                                     radius_of_pass(options_, key.pass), {}, statistics_);
   const PixelBounds& b = film.bounds();
@@ -21,11 +35,11 @@ void PhotonMapping::render_pass(const PassKey& key, const Scene& scene, Film& fi
     for (int x = b.x0; x < b.x1; ++x, estimate += parts) film.add(group, x, y, {estimate, parts});
   film.add_bias(group, pass.bias);
   found_ += pass.found;
+  return nullptr;
 }
 
 EstimatorStatistics PhotonMapping::statistics() const {
   EstimatorStatistics s = statistics_;
-  learned_.add_notes(s);
   explain_darkness(owned_, found_, s);
   return s;
 }

@@ -1,11 +1,10 @@
 // `photons`: stochastic progressive photon mapping with the memoryless radius [E2], storing only
 // the photons of its own routes. A pass is a function of the scene, the options and the pass key
-// alone, so passes may be rendered anywhere and added up. Who calls it: presets. It must not know
-// how a pass gathers. Papers: Hachisuka & Jensen 2009; Knaus & Zwicker 2011; Doidge et al. 2012.
+// alone, so passes may be rendered anywhere and added up. It must not know how a pass gathers.
+// Papers: Hachisuka & Jensen 2009; Knaus & Zwicker 2011; Doidge et al. 2012.
 #pragma once
 
 #include "integrator/estimator/estimator.h"
-#include "integrator/learning/photon_guiding.h"
 #include "route/scene_symbols.h"
 
 namespace nephroid {
@@ -15,11 +14,14 @@ class PhotonMapping : public Estimator {
   PhotonMapping(OwnedRoutes owned, const IntegratorOptions& options);
 
   Capabilities capabilities() const override { return {}; }
-  void render_pass(const PassKey& key, const Scene& scene, Film& film) override;
+  std::shared_ptr<const Learned> learn(const Scene& scene, const FilmFormat& film,
+                                       uint64_t seed) const override;
+  std::shared_ptr<const Learned> read_learned(ByteReader& from, const FilmFormat&) const override;
+  std::unique_ptr<PassFindings> render_pass(const PassKey& key, const Learned* learned,
+                                            const Scene& scene, Film& film) override;
   EstimatorStatistics statistics() const override;
 
  private:
-  LearnedPhotons learned_;
   OwnedRoutes owned_;
   IntegratorOptions options_;
   bool photons_can_count_;

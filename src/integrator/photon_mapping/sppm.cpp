@@ -38,10 +38,11 @@ void Sppm::start_regions(const Scene& scene, size_t pixels, size_t parts) {
   footprint_.resize(regions_.size());
 }
 
-void Sppm::render_pass(const PassKey& key, const Scene& scene, Film& film) {
+std::unique_ptr<PassFindings> Sppm::render_pass(const PassKey& key, const Learned*,
+                                                const Scene& scene, Film& film) {
   const PixelBounds& b = film.bounds();
   const size_t parts = film.parts_of(static_cast<int>(owned_.group)).size();
-  const PhotonPass pass = start_photon_pass(key, scene, film, options_);
+  const PhotonPass pass = start_photon_pass(key, scene, film.format(), options_);
   const int64_t photons = pass.trace.photons_per_pass;
   start_regions(scene, static_cast<size_t>(b.area()), parts);
 
@@ -74,6 +75,7 @@ void Sppm::render_pass(const PassKey& key, const Scene& scene, Film& film) {
   totals_.found += gathered.found;
   statistics_.camera_paths += regions_.size();
   update(gathered, counts, film, static_cast<double>(photons));
+  return nullptr;
 }
 
 void Sppm::update(Gathered& gathered, std::span<const uint64_t> counts, Film& film,

@@ -22,7 +22,8 @@ class Sppm : public Estimator {
   Capabilities capabilities() const override {
     return {.independent_passes = false, .per_pixel_state = true};
   }
-  void render_pass(const PassKey& key, const Scene& scene, Film& film) override;
+  std::unique_ptr<PassFindings> render_pass(const PassKey& key, const Learned*, const Scene& scene,
+                                            Film& film) override;
   EstimatorStatistics statistics() const override;
   void add_state(const Scene& scene, const Film& film, RenderState& state) override;
 

@@ -19,10 +19,11 @@ float merges_per_splat(const CameraConnection& line, const Vec3f& ng, float radi
 VertexMerging::VertexMerging(OwnedRoutes owned, const IntegratorOptions& options)
     : owned_(std::move(owned)), options_(options), photons_can_count_(photons_can_count(owned_)) {}
 
-void VertexMerging::render_pass(const PassKey& key, const Scene& scene, Film& film) {
+std::unique_ptr<PassFindings> VertexMerging::render_pass(const PassKey& key, const Learned*,
+                                                         const Scene& scene, Film& film) {
   const int group = static_cast<int>(owned_.group);
   film.add_estimates(group, 1);
-  if (!photons_can_count_) return;
+  if (!photons_can_count_) return nullptr;
   const float radius_pixels = radius_of_pass(options_, key.pass);
   const PixelFootprint footprint = scene.camera->footprint();
 
@@ -52,6 +53,7 @@ void VertexMerging::render_pass(const PassKey& key, const Scene& scene, Film& fi
       light_pass(key, scene, film, owned_, options_, splat_weight, buffer, statistics_);
   buffer.finish(1.0 / static_cast<double>(paths), merged.values);
   film.add_bias(group, merged.bias);
+  return nullptr;
 }
 
 EstimatorStatistics VertexMerging::statistics() const {

@@ -31,7 +31,7 @@ MergePass merge_pass(const PassKey& key, const Scene& scene, const Film& film,
                      const PhotonGuide& guide, float radius_pixels, const MergeWeight& weight,
                      EstimatorStatistics& statistics) {
   const PixelBounds& b = film.bounds();
-  PhotonPass pass = start_photon_pass(key, scene, film, options);
+  PhotonPass pass = start_photon_pass(key, scene, film.format(), options);
   pass.trace.guide = &guide;
   const int64_t photons = pass.trace.photons_per_pass;
   const size_t parts = film.parts_of(static_cast<int>(owned.group)).size();

@@ -16,7 +16,7 @@ int64_t default_photons_per_pass(int64_t pixels) {
 
 }  // namespace
 
-PhotonPass start_photon_pass(const PassKey& key, const Scene& scene, const Film& film,
+PhotonPass start_photon_pass(const PassKey& key, const Scene& scene, const FilmFormat& film,
                              const IntegratorOptions& options) {
   PhotonPass pass{{}, {}, scene.camera->footprint(), 0, eye_point(key.pass)};
   // Any run of passes covers wavelengths and times evenly, and both together, so that a thing that
@@ -112,8 +112,8 @@ void explain_lost_paths(EstimatorStatistics& s) {
 
 }  // namespace
 
-void explain_missing_caustics(const OwnedRoutes& owned, EstimatorStatistics& s) {
-  if (!has_specular_events(owned))
+void explain_missing_caustics(bool lacks_specular, EstimatorStatistics& s) {
+  if (lacks_specular)
     s.notes.push_back(kNothingSpecular);
   else if (s.photon_paths > 0 && s.photon_paths_useful == 0)
     explain_lost_paths(s);

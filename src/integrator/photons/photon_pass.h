@@ -23,7 +23,7 @@ struct PhotonPass {
   float u_time = 0;  ///< of the camera walks; trace.time is the same moment
   SobolPoint point;  ///< of the camera walks
 };
-PhotonPass start_photon_pass(const PassKey& key, const Scene& scene, const Film& film,
+PhotonPass start_photon_pass(const PassKey& key, const Scene& scene, const FilmFormat& film,
                              const IntegratorOptions& options);
 
 /// Starts the camera walk of a pixel, with the wavelengths, time and threshold of the pass.
@@ -52,7 +52,7 @@ void explain_darkness(const OwnedRoutes& owned, uint64_t found, EstimatorStatist
 
 /// The same for photons of caustics alone, from the paths that were traced and how many were of
 /// use.
-void explain_missing_caustics(const OwnedRoutes& owned, EstimatorStatistics& statistics);
+void explain_missing_caustics(bool lacks_specular, EstimatorStatistics& statistics);
 
 /// Calls `merge(walk, merge_point)` at each vertex of the walk where photons may be merged.
 template <class Merge>

@@ -1,7 +1,8 @@
 // The one table of integrators: name -> preset of routes; and what stands for those of the scene
 // format.
+#include "integrator/presets/integrator_table.h"
+
 #include "core/errors.h"
-#include "integrator/estimator/estimator.h"
 
 namespace nephroid {
 

@@ -1,4 +1,6 @@
 // A plan of routes and a scene -> the estimators that render them and the layout of their film.
+#include "integrator/presets/preset.h"
+
 #include <algorithm>
 
 #include "core/errors.h"
@@ -16,7 +18,6 @@
 #include "integrator/photon_mapping/ppm.h"
 #include "integrator/photon_mapping/sppm.h"
 #include "integrator/photon_mapping/vertex_merging.h"
-#include "integrator/presets/compiled_plan.h"
 #include "integrator/virtual_lights/point_lights.h"
 
 namespace nephroid {
@@ -39,7 +40,7 @@ constexpr Row kTable[] = {{EstimatorKind::kPath, make<PathEstimator>},
                           {EstimatorKind::kPhotonsAndLight, make<VertexMerging>},
                           {EstimatorKind::kBidirectional, make<Bidirectional>},
                           {EstimatorKind::kVcm, make<VertexConnectionMerging>},
-                          {EstimatorKind::kBpm, make<VertexConnectionMerging>},
+                          {EstimatorKind::kBpm, make<BidirectionalPhotonMapping>},
                           {EstimatorKind::kPathAndPhotons, make<PathAndPhotons>},
                           {EstimatorKind::kMetropolis, make<Multiplexed>},
                           {EstimatorKind::kPrimarySpace, make<PrimarySpace>},
@@ -75,14 +76,6 @@ std::string quoted_list(const std::vector<std::string>& names) {
 }
 
 }  // namespace
-
-CompiledPlan compile_plan(const RoutePlan& plan, const Scene& scene) {
-  const auto symbols =
-      std::make_shared<const SceneSymbols>(scene, mentioned_labels(plan.routes, plan.aovs));
-  return {symbols,
-          compile_routes(plan.routes, plan.aovs, &symbols->present(), scene.camera->connects()),
-          plan.strict};
-}
 
 Preset make_preset(const RoutePlan& plan, const IntegratorOptions& options, const Scene& scene) {
   CompiledPlan compiled = compile_plan(plan, scene);
@@ -129,6 +122,21 @@ Preset make_preset(CompiledPlan compiled, const IntegratorOptions& options, cons
                    [](const auto& estimator) { return estimator->records_features(); }))
     preset.estimators.push_back(std::make_unique<FeatureEstimator>());
   return preset;
+}
+
+void Preset::render_pass(const PassKey& key, const Scene& scene, Film& film) {
+  learned.resize(estimators.size());
+  for (size_t i = 0; i < estimators.size(); ++i)
+    learned[i].render_pass(*estimators[i], key, scene, film);
+}
+
+std::vector<EstimatorStatistics> Preset::statistics() const {
+  std::vector<EstimatorStatistics> all;
+  for (size_t i = 0; i < estimators.size(); ++i) {
+    all.push_back(estimators[i]->statistics());
+    if (i < learned.size()) learned[i].add_to(all.back());
+  }
+  return all;
 }
 
 }  // namespace nephroid

@@ -144,6 +144,22 @@ class PointLightsVisitor : public PathVisitorOf<PointLightsVisitor> {
   float rough_share_ = 1;  ///< the same of an event of class D or G at this vertex
 };
 
+/// [L3] How densely point lights are to lie.
+class LearnedDensity final : public Learned {
+ public:
+  LearnedDensity(float density, uint64_t rays) : density_(density), rays_(rays) {}
+  float density() const { return density_; }
+  void write(ByteWriter& to) const override { to(density_, rays_); }
+  void add_to(EstimatorStatistics& s) const override {
+    s.rays += rays_;
+    s.learning_rays += rays_;
+  }
+
+ private:
+  float density_;
+  uint64_t rays_;
+};
+
 }  // namespace
 
 float point_light_share(float density, float walk_pdf_a) {
@@ -154,14 +170,12 @@ float point_light_share(float density, float walk_pdf_a) {
 PointLights::PointLights(OwnedRoutes owned, const IntegratorOptions& options)
     : owned_(std::move(owned)), options_(options) {}
 
-float PointLights::density_of_seed(const PassKey& key, const Scene& scene, const Film& film) {
-  if (density_ && density_->first == key.seed) return density_->second;
-  PhotonPass pass =
-      start_photon_pass({hash_combine(key.seed, kLearning), 0}, scene, film, options_);
+std::shared_ptr<const Learned> PointLights::learn(const Scene& scene, const FilmFormat& film,
+                                                  uint64_t seed) const {
+  PhotonPass pass = start_photon_pass({hash_combine(seed, kLearning), 0}, scene, film, options_);
   pass.trace.photons_per_pass = kLearningPaths;
   const PointLightPool pool(scene, owned_, pass.trace,
                             point_lights_in_memory_of(options_.memory_photons));
-  statistics_.rays += pool.rays();
   std::vector<float> distances;
   const size_t half = pool.size() / 2;
   for (size_t i = 0; i < half; ++i) {
@@ -175,12 +189,20 @@ float PointLights::density_of_seed(const PassKey& key, const Scene& scene, const
     if (*middle > 0.0f)
       density = static_cast<float>(connections_of(options_)) / (2.0f * kPi * *middle);
   }
-  density_ = {key.seed, density};
-  return density;
+  return std::make_shared<LearnedDensity>(density, pool.rays());
 }
 
-void PointLights::render_pass(const PassKey& key, const Scene& scene, Film& film) {
-  const float density = density_of_seed(key, scene, film);
+std::shared_ptr<const Learned> PointLights::read_learned(ByteReader& from,
+                                                         const FilmFormat&) const {
+  float density = 0;
+  uint64_t rays = 0;
+  from(density, rays);
+  return std::make_shared<LearnedDensity>(density, rays);
+}
+
+std::unique_ptr<PassFindings> PointLights::render_pass(const PassKey& key, const Learned* learned,
+                                                       const Scene& scene, Film& film) {
+  const float density = static_cast<const LearnedDensity*>(learned)->density();
   const int samples = std::max(1, options_.camera_samples_per_pass);
   // Each sample of the pixels has wavelengths, a time and point lights of its own; what the
   // classes of events are, the pass decides for all.
@@ -191,12 +213,13 @@ void PointLights::render_pass(const PassKey& key, const Scene& scene, Film& film
     const uint64_t turn = index >> 32;
     const PassKey own{turn == 0 ? key.seed : hash_combine(key.seed, turn),
                       static_cast<uint32_t>(index)};
-    PhotonPass pass = start_photon_pass(own, scene, film, options_);
+    PhotonPass pass = start_photon_pass(own, scene, film.format(), options_);
     pass.trace.specular_alpha = specular_alpha;
     pass.trace.photons_per_pass =
         std::max<int64_t>(1, connections_of(options_) * kPathsPerConnection / samples);
     render_sample(pass, density, scene, film);
   }
+  return nullptr;
 }
 
 void PointLights::render_sample(const PhotonPass& pass, float density, const Scene& scene,

@@ -2,12 +2,9 @@
 // rough vertex of a camera walk, connected to virtual point lights, and by the walk itself, which
 // goes on as path tracing does. A weight leaves to the walk what a point light that is too near
 // would make a spot of ([L1] to [L4] in docs/estimators.md), so nothing is clamped away. A pass is
-// a function of the scene, the options and the pass key alone. Who calls it: presets.
+// a function of the scene, the options and the pass key alone.
 // Papers: Kollig & Keller 2004; Dammertz, Keller & Lensch 2010.
 #pragma once
-
-#include <optional>
-#include <utility>
 
 #include "integrator/photons/photon_pass.h"
 
@@ -18,19 +15,19 @@ class PointLights : public Estimator {
   PointLights(OwnedRoutes owned, const IntegratorOptions& options);
 
   Capabilities capabilities() const override { return {}; }
-  void render_pass(const PassKey& key, const Scene& scene, Film& film) override;
+  std::shared_ptr<const Learned> learn(const Scene& scene, const FilmFormat& film,
+                                       uint64_t seed) const override;
+  std::shared_ptr<const Learned> read_learned(ByteReader& from, const FilmFormat&) const override;
+  std::unique_ptr<PassFindings> render_pass(const PassKey& key, const Learned* learned,
+                                            const Scene& scene, Film& film) override;
   EstimatorStatistics statistics() const override { return statistics_; }
 
  private:
-  /// [L3], a function of the scene, the options and the seed.
-  float density_of_seed(const PassKey& key, const Scene& scene, const Film& film);
-
   /// One walk of each pixel, with point lights and wavelengths that they share.
   void render_sample(const PhotonPass& pass, float density, const Scene& scene, Film& film);
 
   OwnedRoutes owned_;
   IntegratorOptions options_;
-  std::optional<std::pair<uint64_t, float>> density_;  ///< of a seed
   EstimatorStatistics statistics_;
 };
 

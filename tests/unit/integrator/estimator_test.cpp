@@ -1,6 +1,6 @@
 // What integrators promise beside their pictures: counts, reports, limits, and what straight
 // passages and flipped cameras must not change.
-#include "integrator/estimator/estimator.h"
+#include "integrator/presets/integrator_table.h"
 
 #include <gtest/gtest.h>
 

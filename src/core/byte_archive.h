@@ -1,0 +1,124 @@
+// Values as bytes and back, for what is kept beside a picture. Numbers stand as they lie in memory,
+// lists after their length. A type takes part by a static function that names its members once:
+//   static void members(auto& self, auto& archive) { archive(self.a, self.b); }
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include "core/errors.h"
+#include "core/math.h"
+
+namespace nephroid {
+
+/// A type whose bytes are its value: no padding, no pointers.
+template <class T>
+concept PlainBytes = std::is_arithmetic_v<T> || std::is_enum_v<T> || std::is_same_v<T, Vec2f> ||
+    std::is_same_v<T, Vec3f>;
+
+class ByteWriter {
+ public:
+  template <class... T>
+  void operator()(const T&... values) {
+    (write(values), ...);
+  }
+  const std::vector<std::byte>& bytes() const { return bytes_; }
+
+ private:
+  template <class T>
+  void write(const T& value) {
+    if constexpr (PlainBytes<T>) {
+      append(&value, sizeof(T));
+    } else {
+      T::members(value, *this);
+    }
+  }
+  template <class T>
+  void write(const std::vector<T>& list) {
+    write(static_cast<uint64_t>(list.size()));
+    if constexpr (PlainBytes<T>)
+      append(list.data(), list.size() * sizeof(T));
+    else
+      for (const T& value : list) write(value);
+  }
+  template <class T, size_t N>
+  void write(const T (&list)[N]) {
+    for (const T& value : list) write(value);
+  }
+  template <class T>
+  void write(const std::optional<T>& value) {
+    write(static_cast<uint8_t>(value.has_value()));
+    if (value) write(*value);
+  }
+  void append(const void* data, size_t size) {
+    const auto* begin = static_cast<const std::byte*>(data);
+    bytes_.insert(bytes_.end(), begin, begin + size);
+  }
+
+  std::vector<std::byte> bytes_;
+};
+
+/// Reads what a ByteWriter wrote. Throws IoError where the bytes end too early or a list claims to
+/// be longer than they are.
+class ByteReader {
+ public:
+  explicit ByteReader(std::span<const std::byte> bytes) : left_(bytes) {}
+  template <class... T>
+  void operator()(T&... values) {
+    (read(values), ...);
+  }
+  bool at_end() const { return left_.empty(); }
+
+ private:
+  template <class T>
+  void read(T& value) {
+    if constexpr (PlainBytes<T>) {
+      take(&value, sizeof(T));
+    } else {
+      T::members(value, *this);
+    }
+  }
+  template <class T>
+  void read(std::vector<T>& list) {
+    uint64_t size = 0;
+    read(size);
+    // Each element has a byte at least.
+    constexpr uint64_t kLeastBytes = PlainBytes<T> ? sizeof(T) : 1;
+    if (size > left_.size() / kLeastBytes) damaged();
+    list.clear();
+    if constexpr (PlainBytes<T>) {
+      list.resize(size);
+      take(list.data(), size * sizeof(T));
+    } else {
+      for (uint64_t i = 0; i < size; ++i) read(list.emplace_back());
+    }
+  }
+  template <class T, size_t N>
+  void read(T (&list)[N]) {
+    for (T& value : list) read(value);
+  }
+  template <class T>
+  void read(std::optional<T>& value) {
+    uint8_t has_value = 0;
+    read(has_value);
+    value.reset();
+    if (has_value) read(value.emplace());
+  }
+  void take(void* data, size_t size) {
+    if (size > left_.size()) damaged();
+    if (size > 0) std::memcpy(data, left_.data(), size);
+    left_ = left_.subspan(size);
+  }
+  [[noreturn]] static void damaged() {
+    throw IoError("stored values are damaged: they end too early");
+  }
+
+  std::span<const std::byte> left_;
+};
+
+}  // namespace nephroid

@@ -1,0 +1,79 @@
+// What a film is, without its sums: size, crop, colours, and the parts into which its light is
+// divided. It must not know scenes or estimators.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/color.h"
+#include "core/math.h"
+
+namespace nephroid {
+
+/// Half-open pixel rectangle.
+struct PixelBounds {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  int width() const { return x1 - x0; }
+  int height() const { return y1 - y0; }
+  int64_t area() const { return int64_t{width()} * height(); }
+  bool operator==(const PixelBounds&) const = default;
+};
+
+/// What a film is: taken from the scene's Film directive and the command line.
+struct FilmSettings {
+  int width = 1280, height = 720;   ///< full resolution
+  PixelBounds crop;                 ///< rendered part, inside the resolution; empty: all of it
+  float imaging_ratio = 1;          ///< exposure time * ISO / 100
+  float max_component = kInfinity;  ///< samples are scaled down to this in their largest component
+  const RgbColorSpace* color_space = nullptr;
+  std::string filename;  ///< as the scene names its output
+  float diagonal_mm = 35;
+  std::optional<ColorMatrix> white_balance;  ///< applied to every sample
+  bool gbuffer = false;                      ///< has the geometric layers, see SurfaceSample
+};
+
+/// What the sums of a film are for. The light is divided into parts, each of which belongs to one
+/// route and any number of AOVs; the routes that one estimator samples together are a group, with
+/// one count of estimates and one variance.
+struct FilmLayout {
+  struct Part {
+    int route = 0;
+    std::vector<int> aovs;
+  };
+  std::vector<std::string> routes, aovs;  ///< names of layers
+  std::vector<Part> parts;
+  std::vector<int> groups;   ///< [route]: its group, numbered from 0 without a gap
+  std::vector<bool> merges;  ///< [group]: its estimates come with their bias; none if shorter
+
+  /// One part and one group for each route, no AOVs.
+  static FilmLayout of_routes(std::vector<std::string> names);
+  int group_count() const;
+  int group_of(const Part& part) const { return groups[static_cast<size_t>(part.route)]; }
+  bool group_merges(int group) const {
+    return static_cast<size_t>(group) < merges.size() && merges[static_cast<size_t>(group)];
+  }
+};
+
+/// Settings and layout together: all that an estimator needs to know of a film to learn for it.
+class FilmFormat {
+ public:
+  /// An empty crop becomes the whole picture.
+  FilmFormat(const FilmSettings& settings, FilmLayout layout);
+
+  const FilmSettings& settings() const { return settings_; }
+  const PixelBounds& bounds() const { return settings_.crop; }
+  const FilmLayout& layout() const { return layout_; }
+  /// Parts of a group's routes, in increasing order.
+  const std::vector<int>& parts_of(int group) const {
+    return parts_of_group_[static_cast<size_t>(group)];
+  }
+
+ private:
+  FilmSettings settings_;
+  FilmLayout layout_;
+  std::vector<std::vector<int>> parts_of_group_;
+};
+
+}  // namespace nephroid

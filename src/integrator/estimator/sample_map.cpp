@@ -1,0 +1,62 @@
+#include "integrator/estimator/sample_map.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nephroid {
+
+int SampleMap::most() const {
+  return *std::max_element(counts_.begin(), counts_.end());
+}
+
+int SampleMap::fewest() const {
+  return *std::min_element(counts_.begin(), counts_.end());
+}
+
+bool SampleMap::has(int samples) const {
+  return std::find(counts_.begin(), counts_.end(), samples) != counts_.end();
+}
+
+double SampleMap::mean() const {
+  double sum = 0;
+  for (const uint16_t n : counts_) sum += n;
+  return sum / static_cast<double>(counts_.size());
+}
+
+SampleVariance::ByTile SampleVariance::by_tile(const SampleVariance* others) const {
+  const SampleMap tiles(bounds_);
+  const ByTile other = others ? others->by_tile() : ByTile{};
+  ByTile out;
+  out.variance.assign(tiles.counts().size(), 0);
+  out.cost = out.variance;
+  out.light = out.variance;
+  std::vector<double> pixels(out.variance);
+  double all_light = 0, all_pixels = 0;
+  size_t i = 0;
+  for (int y = 0; y < bounds_.height(); ++y)
+    for (int x = 0; x < bounds_.width(); ++x) {
+      const Sums& s = sums_[i++];
+      if (s.samples < 2) continue;
+      const size_t tile = tiles.tile_of(x, y);
+      const double mean = s.light / s.samples;
+      out.cost[tile] += s.rays / s.samples;
+      out.variance[tile] += std::max(0.0, (s.square - mean * s.light) / (s.samples - 1));
+      out.light[tile] += std::abs(mean);
+      all_light += std::abs(mean) + (others ? other.light[tile] : 0);
+      ++pixels[tile];
+      ++all_pixels;
+    }
+  // Between the absolute error, which forgets the shadows, and the relative one, which forgets
+  // the lights.
+  const double floor = 0.1 * all_light / std::max(1.0, all_pixels);
+  for (size_t t = 0; t < out.variance.size(); ++t) {
+    if (!(pixels[t] > 0)) continue;
+    out.light[t] /= pixels[t];
+    const double brightness = out.light[t] + (others ? other.light[t] : 0) + floor;
+    out.variance[t] = brightness > 0 ? out.variance[t] / (pixels[t] * brightness) : 0;
+    out.cost[t] /= pixels[t];
+  }
+  return out;
+}
+
+}  // namespace nephroid

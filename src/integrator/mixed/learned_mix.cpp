@@ -1,0 +1,41 @@
+#include "integrator/mixed/learned_mix.h"
+
+#include <fmt/format.h>
+
+#include "integrator/photons/photon_pass.h"
+
+namespace nephroid {
+
+void LearnedMix::add_to(EstimatorStatistics& s) const {
+  s.rays += plan_.rays + plan_.photons.rays;
+  s.learning_rays += plan_.rays + plan_.photons.rays;
+  s.hold(plan_.photon_bytes, plan_.pixel_bytes);
+  const PairTechniques& techniques = plan_.techniques;
+  if (techniques.connects)
+    s.notes.push_back(
+        "trial passes were better with light paths connected and merged everywhere than with "
+        "caustic photons alone");
+  else
+    explain_missing_caustics(plan_.lacks_specular, s);
+  if (techniques.roulette_threshold == kPatientWindow)
+    s.notes.push_back(
+        "Russian roulette begins at an eighth of what a camera path started with: trial passes "
+        "were better for it");
+  if (!techniques.connects) plan_.photons.add_notes(s);
+  if (!refinement_) return;
+  if (refinement_->directions.guides())
+    s.notes.push_back(
+        fmt::format("camera paths guided by the first pass at {:.3g} % of the rough surfaces that "
+                    "they met",
+                    100 * refinement_->directions.guided()));
+  if (plan_.is_even) return;
+  const auto note = [&s](const SampleMap& map, const char* what) {
+    s.notes.push_back(fmt::format("{:.3g} {} a pixel and pass, {} to {} by tile", map.mean(), what,
+                                  map.fewest(), map.most()));
+  };
+  note(refinement_->samples.paths, "camera paths");
+  if (techniques.separates_chains && refinement_->samples.chains.most() > 0)
+    note(refinement_->samples.chains, "walks for lights behind smooth glass and mirrors");
+}
+
+}  // namespace nephroid
