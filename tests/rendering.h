@@ -115,8 +115,7 @@ inline Film render(const Scene& scene, const Plan& plan, const IntegratorOptions
   Preset preset = make_preset(plan, options, scene);
   Film film = film_for(scene, preset);
   for (uint32_t pass = first; pass < first + count; ++pass)
-    for (const auto& estimator : preset.estimators)
-      estimator->render_pass({seed, pass}, scene, film);
+    preset.render_pass({seed, pass}, scene, film);
   return film;
 }
 

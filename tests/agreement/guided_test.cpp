@@ -72,7 +72,7 @@ TEST_P(Guided, PhotonsFindTheSameCausticWithLessNoise) {
       Preset preset = make_preset(plan, options, *scene);
       Film film = film_for(*scene, preset);
       for (uint32_t pass = 0; pass < kPasses; ++pass)
-        preset.estimators[0]->render_pass({first_seed + s, pass}, *scene, film);
+        preset.render_pass({first_seed + s, pass}, *scene, film);
       for (int b = 0; b < kBlocks; ++b) {
         double sum[2] = {0, 0};
         for (int route = 0; route < 2; ++route)
@@ -128,20 +128,21 @@ TEST_P(Guided, WalksAndPhotonsTogetherFindTheSamePicture) {
       const auto means = [&](float radius) {
         options.radius = radius;
         Film film = film_for(*scene, preset);
-        LearnedPhotons learned;
+        const PhotonGuide guide =
+            guide_caustic_photons(first_seed + s, *scene, film.format(), options).guide;
+        EXPECT_EQ(guide.starts.empty(), !guided);
+        const SampleMap map(film.bounds(), 8), no_walks(film.bounds(), 0);
         EstimatorStatistics statistics;
-        PairPass pass;
-        pass.light_paths = 8192;
-        pass.connects = false;
-        pass.caustics_only = true;
-        pass.guide =
-            &learned.guide(first_seed + s, *scene, film, owned, options, statistics).starts;
-        EXPECT_EQ(pass.guide->empty(), !guided);
-        SampleMap map(film.bounds());
-        for (uint16_t& n : map.counts()) n = 8;
-        pass.samples = &map;
         for (uint32_t i = 0; i < 4; ++i)
-          pass.render({first_seed + s, i}, *scene, film, owned, options, statistics);
+          render({.key = {first_seed + s, i},
+                  .seed = first_seed + s,
+                  .scene = *scene,
+                  .owned = owned,
+                  .options = options,
+                  .techniques = {.light_paths = 8192, .connects = false, .caustics_only = true},
+                  .emission = guide.starts,
+                  .light_paths_vary = true},
+                 {.film = film, .samples = {map, no_walks}}, statistics);
         return block_means(film, kAcross);
       };
       const std::vector<double> large = means(1), small = means(std::sqrt(0.5f));

@@ -46,24 +46,26 @@ TEST_P(GuidedWalks, FindTheSamePictureWithLessNoise) {
     for (uint64_t s = first_seed; s < first_seed + kSeeds; ++s) {
       Film film = film_for(*scene, preset);
       EstimatorStatistics statistics;
-      PairPass pass;
-      pass.light_paths = 0;
-      pass.connects = false;
-      pass.caustics_only = true;
-      std::vector<RadianceRecord> records;
-      const SampleMap first(film.bounds(), 16);
-      pass.samples = &first;
-      pass.records = &records;
-      pass.try_out({s, 0}, *scene, film, owned, options, statistics);
-      const RadianceGuide guide(std::move(records));
+      const auto pass_of = [&](uint32_t number) {
+        return PairPass{.key = {s, number},
+                        .seed = s,
+                        .scene = *scene,
+                        .owned = owned,
+                        .options = options,
+                        .techniques = {.light_paths = 0, .connects = false, .caustics_only = true},
+                        .light_paths_vary = true};
+      };
+      const SampleMap first(film.bounds(), 16), one(film.bounds()), no_walks(film.bounds(), 0);
+      const auto found = measure(pass_of(0), film.format(), {first, no_walks},
+                                 {.measures_variance = false}, statistics);
+      const RadianceGuide guide(std::move(found->records));
       EXPECT_TRUE(guide.guides()) << s;
-      pass.records = nullptr;
-      pass.head = 16;
-      const SampleMap one(film.bounds());
-      pass.samples = &one;
-      if (guided) pass.radiance = &guide;
       for (uint32_t i = 1; i <= kPasses; ++i)
-        pass.render({s, i}, *scene, film, owned, options, statistics);
+        render(pass_of(i),
+               {.film = film,
+                .samples = {one, no_walks, 16},
+                .directions = guided ? guide : kNoRadiance},
+               statistics);
       const std::vector<double> means = block_means(film, kAcross);
       for (size_t i = 0; i < means.size(); ++i) result[i].push_back(means[i]);
     }

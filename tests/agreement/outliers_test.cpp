@@ -45,8 +45,7 @@ Film render_rejecting(const Scene& scene, const Plan& plan, uint64_t seed, uint3
   Film film = film_for(scene, preset);
   film.reject_outliers(outlier_settings(*preset.routes, options, *scene.filter));
   for (uint32_t pass = 0; pass < passes; ++pass) {
-    for (const auto& estimator : preset.estimators)
-      estimator->render_pass({seed, pass}, scene, film);
+    preset.render_pass({seed, pass}, scene, film);
     film.finish_pass();
   }
   return film;

@@ -37,10 +37,8 @@ uint64_t photons_stored(const Scene& scene, const std::string& plan) {
   Preset preset = make_preset(plan_named(plan), options, scene);
   Film film = film_for(scene, preset);
   uint64_t stored = 0;
-  for (const auto& e : preset.estimators) {
-    e->render_pass({1, 0}, scene, film);
-    stored += e->statistics().photons_stored;
-  }
+  preset.render_pass({1, 0}, scene, film);
+  for (const EstimatorStatistics& s : preset.statistics()) stored += s.photons_stored;
   return stored;
 }
 

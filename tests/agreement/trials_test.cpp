@@ -14,13 +14,12 @@ constexpr int kSeeds = 16, kAcross = 2;
 
 /// What the default integrator says of its first passes.
 std::string notes_of(const Scene& scene, const IntegratorOptions& options) {
-  const Preset preset = make_preset(plan_named("mixed"), options, scene);
+  Preset preset = make_preset(plan_named("mixed"), options, scene);
   Film film = film_for(scene, preset);
   std::string notes;
-  for (const auto& e : preset.estimators) {
-    for (const uint32_t pass : {0u, 1u}) e->render_pass({1, pass}, scene, film);
-    for (const std::string& note : e->statistics().notes) notes += note + "\n";
-  }
+  for (const uint32_t pass : {0u, 1u}) preset.render_pass({1, pass}, scene, film);
+  for (const EstimatorStatistics& s : preset.statistics())
+    for (const std::string& note : s.notes) notes += note + "\n";
   return notes;
 }
 

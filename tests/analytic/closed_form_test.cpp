@@ -86,12 +86,11 @@ TEST(ClosedForm, DiskAboveAFloor) {
   options.radius = 150;
   Preset mixed = make_integrator("mixed", options, *scene);
   Film film = film_for(*scene, mixed);
-  for (uint32_t pass = 0; pass < 8; ++pass)
-    for (const auto& e : mixed.estimators) e->render_pass({1, pass}, *scene, film);
+  for (uint32_t pass = 0; pass < 8; ++pass) mixed.render_pass({1, pass}, *scene, film);
   uint64_t emitted = 0, stored = 0;
-  for (const auto& e : mixed.estimators) {
-    emitted += e->statistics().photon_paths;
-    stored += e->statistics().photons_stored;
+  for (const EstimatorStatistics& s : mixed.statistics()) {
+    emitted += s.photon_paths;
+    stored += s.photons_stored;
   }
   EXPECT_EQ(emitted, uint64_t{8} << 16);
   EXPECT_GT(stored, 200u);

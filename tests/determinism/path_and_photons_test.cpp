@@ -6,6 +6,7 @@
 #include "lamp_in_a_tube.h"
 #include "lit_patch.h"
 #include "rendering.h"
+#include "same_bits.h"
 
 namespace nephroid {
 namespace {
@@ -50,25 +51,11 @@ Rendered render_parts(const std::string& text, const std::vector<std::vector<uin
   for (const std::vector<uint32_t>& part : parts) {
     Preset preset = make_preset(plan_named("mixed"), options, *scene);
     if (result.film.empty()) result.film.push_back(film_for(*scene, preset));
-    for (const uint32_t pass : part)
-      for (const auto& e : preset.estimators) e->render_pass({5, pass}, *scene, result.film[0]);
-    for (const auto& e : preset.estimators)
-      for (const std::string& note : e->statistics().notes) result.notes.push_back(note);
+    for (const uint32_t pass : part) preset.render_pass({5, pass}, *scene, result.film[0]);
+    for (const EstimatorStatistics& s : preset.statistics())
+      for (const std::string& note : s.notes) result.notes.push_back(note);
   }
   return result;
-}
-
-void expect_same_bits(const Film& a, const Film& b, const std::string& what) {
-  const PixelBounds& bounds = a.bounds();
-  for (int y = bounds.y0; y < bounds.y1; ++y)
-    for (int x = bounds.x0; x < bounds.x1; ++x) {
-      const Rgb u = a.value(x, y), v = b.value(x, y);
-      const Rgb p = a.standard_error(x, y), q = b.standard_error(x, y);
-      for (int c = 0; c < 3; ++c) {
-        ASSERT_EQ(u[c], v[c]) << what << ", pixel " << x << ' ' << y;
-        ASSERT_EQ(p[c], q[c]) << what << ", standard error of pixel " << x << ' ' << y;
-      }
-    }
 }
 
 bool says(const Rendered& r, const std::string& words) {
@@ -89,11 +76,11 @@ TEST(PathAndPhotons, HasTheSameBitsForAnyNumberOfThreads) {
     }
     // The test would be worth little if nothing were learned.
     const std::string notes = ::testing::PrintToString(found[0].notes);
-    EXPECT_EQ(says(found[0], "photons start towards"), text == kScene) << notes;
+    EXPECT_EQ(says(found[0], "photon emission guided to"), text == kScene) << notes;
     EXPECT_EQ(says(found[0], "connected and merged everywhere"), text != kScene) << notes;
     EXPECT_TRUE(says(found[0], "camera paths a pixel")) << notes;
     EXPECT_FALSE(says(found[0], ", 1 to 1 by tile")) << notes;
-    EXPECT_TRUE(says(found[0], "had directions to follow") || text != kPatch) << notes;
+    EXPECT_TRUE(says(found[0], "camera paths guided by the first pass") || text != kPatch) << notes;
   }
 }
 
@@ -129,11 +116,9 @@ TEST(PathAndPhotons, LearnsAnewForEachSeed) {
   Preset both = make_preset(plan_named("mixed"), {}, *scene),
          one = make_preset(plan_named("mixed"), {}, *scene);
   Film a = film_for(*scene, one), b = film_for(*scene, both), other = film_for(*scene, both);
-  for (const auto& e : one.estimators) e->render_pass({6, 1}, *scene, a);
-  for (const auto& e : both.estimators) {
-    e->render_pass({5, 1}, *scene, other);
-    e->render_pass({6, 1}, *scene, b);
-  }
+  one.render_pass({6, 1}, *scene, a);
+  both.render_pass({5, 1}, *scene, other);
+  both.render_pass({6, 1}, *scene, b);
   expect_same_bits(a, b, "seed 6 after seed 5");
 }
 

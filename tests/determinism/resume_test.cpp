@@ -48,7 +48,7 @@ struct OneRun {
   }
   void render(uint32_t first, uint32_t last) {
     for (uint32_t pass = first; pass <= last; ++pass) {
-      for (const auto& e : preset.estimators) e->render_pass({5, pass}, scene, film);
+      preset.render_pass({5, pass}, scene, film);
       film.finish_pass();
       done.add(pass);
     }

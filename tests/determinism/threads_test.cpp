@@ -5,32 +5,12 @@
 #include "core/parallel.h"
 #include "determinism/scene_of_all_kinds.h"
 #include "rendering.h"
+#include "same_bits.h"
 
 namespace nephroid {
 namespace {
 
 using namespace testing_support;
-
-void expect_same_bits(const Film& a, const Film& b, const std::string& what) {
-  const PixelBounds& bounds = a.bounds();
-  for (int y = bounds.y0; y < bounds.y1; ++y)
-    for (int x = bounds.x0; x < bounds.x1; ++x) {
-      ASSERT_EQ(a.depth(x, y), b.depth(x, y)) << what << ": depth of pixel " << x << ' ' << y;
-      ASSERT_EQ(a.bias(x, y), b.bias(x, y)) << what << ": bias of " << x << ' ' << y;
-      ASSERT_EQ(a.bias_error(x, y), b.bias_error(x, y)) << what << ' ' << x << ' ' << y;
-      for (int c = 0; c < 3; ++c) {
-        ASSERT_EQ(a.albedo(x, y)[c], b.albedo(x, y)[c]) << what << ": albedo of " << x << ' ' << y;
-        ASSERT_EQ(a.normal(x, y)[c], b.normal(x, y)[c]) << what << ": normal of " << x << ' ' << y;
-        ASSERT_EQ(a.standard_error(x, y)[c], b.standard_error(x, y)[c])
-            << what << ": standard error of " << x << ' ' << y;
-      }
-      for (int r = 0; r < static_cast<int>(a.layout().routes.size()); ++r) {
-        const Rgb u = a.route_value(r, x, y), v = b.route_value(r, x, y);
-        for (int c = 0; c < 3; ++c)
-          ASSERT_EQ(u[c], v[c]) << what << ": pixel " << x << ' ' << y << " route " << r;
-      }
-    }
-}
 
 // The features are compared above; they must not all be zero.
 void expect_features(const Film& film) {
@@ -76,8 +56,8 @@ TEST_P(Determinism, AnyOrderOfIndependentPasses) {
   Preset backwards = make_preset(plan_named(GetParam()), options, *scene);
   Film a = film_for(*scene, forwards), b = film_for(*scene, backwards);
   for (uint32_t pass = 0; pass < 4; ++pass) {
-    for (const auto& e : forwards.estimators) e->render_pass({5, pass}, *scene, a);
-    for (const auto& e : backwards.estimators) e->render_pass({5, 3 - pass}, *scene, b);
+    forwards.render_pass({5, pass}, *scene, a);
+    backwards.render_pass({5, 3 - pass}, *scene, b);
   }
   expect_same_bits(a, b, "passes forwards and backwards");
 }

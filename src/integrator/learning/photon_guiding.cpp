@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "integrator/learning/visible_points.h"
+#include "route/plan.h"
 
 namespace nephroid {
 
@@ -66,6 +67,18 @@ GuidedPhotons guide_photons(uint64_t seed, const Scene& scene, const FilmFormat&
   if (guides_scattering && owned.routes->needs_specular(owned.group))
     guide.casters = caster_guide(std::move(met), seen, scene);
   return learned;
+}
+
+GuidedPhotons guide_caustic_photons(uint64_t seed, const Scene& scene, const FilmFormat& film,
+                                    const IntegratorOptions& options) {
+  const CompiledPlan plan =
+      compile_plan({{{"caustic", "C.*[DG]S+[DG]?L", EstimatorKind::kPhotons, {}},
+                     {"rest", ".*", EstimatorKind::kPath, {}}},
+                    {}},
+                   scene);
+  constexpr size_t kCaustics = 0;  // the group of the first route
+  const auto routes = std::make_shared<const Routes>(plan.compilation.routes);
+  return guide_photons(seed, scene, film, {routes, plan.symbols, kCaustics}, options, false);
 }
 
 void LearnedPhotons::add_to(EstimatorStatistics& statistics) const {

@@ -27,6 +27,11 @@ GuidedPhotons guide_photons(uint64_t seed, const Scene& scene, const FilmFormat&
                             const OwnedRoutes& owned, const IntegratorOptions& options,
                             bool guides_scattering);
 
+/// The same where photons start, for an estimator of other routes whose photons are of use where
+/// those of a route of caustics would be.
+GuidedPhotons guide_caustic_photons(uint64_t seed, const Scene& scene, const FilmFormat& film,
+                                    const IntegratorOptions& options);
+
 /// The same as what an estimator has learned.
 class LearnedPhotons final : public Learned {
  public:

@@ -7,7 +7,6 @@
 #include "integrator/mixed/learned_mix.h"
 #include "integrator/path/specular_tree.h"
 #include "integrator/photons/photon_pass.h"
-#include "route/plan.h"
 
 namespace nephroid {
 
@@ -32,19 +31,6 @@ SampleMap every_other_tile(const PixelBounds& b) {
     map.counts()[i] = (i / w + i % w) % 2 == 0;
   }
   return map;
-}
-
-/// Photons are of use where those of a route of caustics would be.
-GuidedPhotons guide_caustic_photons(uint64_t seed, const Scene& scene, const FilmFormat& film,
-                                    const IntegratorOptions& options) {
-  const CompiledPlan plan =
-      compile_plan({{{"caustic", "C.*[DG]S+[DG]?L", EstimatorKind::kPhotons, {}},
-                     {"rest", ".*", EstimatorKind::kPath, {}}},
-                    {}},
-                   scene);
-  constexpr size_t kCaustics = 0;  // the group of the first route
-  const auto routes = std::make_shared<const Routes>(plan.compilation.routes);
-  return guide_photons(seed, scene, film, {routes, plan.symbols, kCaustics}, options, false);
 }
 
 /// Runs trial passes and counts what they cost.

@@ -29,9 +29,9 @@ TEST(SampleMap, IsOnePathForEachPixelAtFirst) {
 }
 
 // [A1]
-TEST(SampleSpread, IsTheVarianceOverTheBrightnessOfATile) {
+TEST(SampleVariance, IsTheVarianceOverTheBrightnessOfATile) {
   const PixelBounds b = tiles(3, 1);
-  SampleSpread spread(b);
+  SampleVariance spread(b);
   // Each pixel of the first tile has four samples of mean 6, each of the second three of mean 60;
   // those of the third have one and tell nothing.
   for (int y = 0; y < kTile; ++y)
@@ -44,7 +44,7 @@ TEST(SampleSpread, IsTheVarianceOverTheBrightnessOfATile) {
       else
         spread.add(pixel, 1000, 9);
     }
-  const SampleSpread::ByTile found = spread.by_tile();
+  const SampleVariance::ByTile found = spread.by_tile();
   const double floor = 0.1 * (6 + 60) / 2;
   EXPECT_NEAR(found.variance[0], (16 + 4 + 4 + 16) / 3.0 / (6 + floor), 1e-12);
   EXPECT_NEAR(found.variance[1], 900 / (60 + floor), 1e-12);
@@ -54,7 +54,7 @@ TEST(SampleSpread, IsTheVarianceOverTheBrightnessOfATile) {
   EXPECT_EQ(found.cost[2], 0);
 
   // Light beside it makes the same spread less noisy.
-  SampleSpread beside(b);
+  SampleVariance beside(b);
   for (size_t pixel = 0; pixel < static_cast<size_t>(b.area()); ++pixel)
     for (const double v : {10, 20}) beside.add(pixel, v, 1, 500);
   const double all = 0.1 * ((6 + 60) / 2.0 + 15);
@@ -73,19 +73,19 @@ struct Blocks {
           spread.variance.push_back(variance);
           spread.cost.push_back(cost);
         }
-    const SampleMap map = share_out(tiles(across, kHeight), {spread, {}, {}}).paths;
+    const SampleMap map = allocate_samples(tiles(across, kHeight), {spread, {}, {}}).paths;
     for (size_t i = 0; i < variance_and_cost.size(); ++i) {
       const size_t middle = static_cast<size_t>(across) + kWidth * i + kWidth / 2;
       samples.push_back(map.counts()[middle]);
     }
   }
   int across;
-  SampleSpread::ByTile spread;
+  SampleVariance::ByTile spread;
   std::vector<int> samples;  ///< in the middle of each block
 };
 
 // [A2]
-TEST(ShareOut, GoesWithTheRootOfVarianceOverCost) {
+TEST(AllocateSamples, GoesWithTheRootOfVarianceOverCost) {
   const std::vector<std::pair<double, double>> v_and_c = {{2, 1}, {8, 1},  {18, 1},  {32, 4},
                                                           {2, 1}, {50, 1}, {128, 4}, {2, 1}};
   const Blocks blocks(v_and_c);
@@ -108,7 +108,7 @@ TEST(ShareOut, GoesWithTheRootOfVarianceOverCost) {
     }
 }
 
-TEST(ShareOut, KeepsItsBounds) {
+TEST(AllocateSamples, KeepsItsBounds) {
   // What is ten thousand times as noisy as the rest has eight paths; what is black has one, and
   // does not make the quiet look noisy.
   EXPECT_EQ(Blocks({{1, 1}, {1e4, 1}, {1, 1}, {4, 1}, {1, 1}, {1, 1}, {1, 1}, {1, 1}}).samples,
@@ -120,10 +120,10 @@ TEST(ShareOut, KeepsItsBounds) {
   EXPECT_EQ(Blocks({{4, 1}, {4, 1}}).samples, (std::vector<int>{1, 1}));
 }
 
-TEST(ShareOut, LooksForGlintsWhereThatIsCheaper) {
+TEST(AllocateSamples, LooksForChainsWhereThatIsCheaper) {
   struct Block {
-    double glints, cost, choice;
-    int expected_paths, expected_glints;
+    double chains, cost, choice;
+    int expected_paths, expected_chains;
   };
   // Camera paths have variance 4 and take 4 rays.
   const std::vector<Block> blocks = {
@@ -137,34 +137,34 @@ TEST(ShareOut, LooksForGlintsWhereThatIsCheaper) {
   };
   constexpr int kSide = 5;
   const int across = kSide * static_cast<int>(blocks.size());
-  Spreads spreads;
+  TileStatistics tiles_found;
   for (int y = 0; y < kSide; ++y)
     for (const Block& b : blocks)
       for (int x = 0; x < kSide; ++x) {
-        spreads.paths.variance.push_back(4);
-        spreads.paths.cost.push_back(4);
-        spreads.glints.variance.push_back(b.glints);
-        spreads.glints.cost.push_back(b.cost);
-        spreads.choice.variance.push_back(b.choice);
-        spreads.choice.cost.push_back(0);
+        tiles_found.paths.variance.push_back(4);
+        tiles_found.paths.cost.push_back(4);
+        tiles_found.chains.variance.push_back(b.chains);
+        tiles_found.chains.cost.push_back(b.cost);
+        tiles_found.choice.variance.push_back(b.choice);
+        tiles_found.choice.cost.push_back(0);
       }
-  const Shares shares = share_out(tiles(across, kSide), spreads);
+  const SampleAllocation shares = allocate_samples(tiles(across, kSide), tiles_found);
   for (size_t i = 0; i < blocks.size(); ++i) {
     const size_t middle = static_cast<size_t>(across) * 2 + kSide * i + kSide / 2;
     EXPECT_EQ(shares.paths.counts()[middle], blocks[i].expected_paths) << i;
-    EXPECT_EQ(shares.glints.counts()[middle], blocks[i].expected_glints) << i;
+    EXPECT_EQ(shares.chains.counts()[middle], blocks[i].expected_chains) << i;
   }
   // As films that clamp want it.
-  EXPECT_GE(share_out(tiles(across, kSide), spreads, true).glints.fewest(), 1);
+  EXPECT_GE(allocate_samples(tiles(across, kSide), tiles_found, true).chains.fewest(), 1);
 }
 
-TEST(ShareOut, HasFewPathsAPass) {
+TEST(AllocateSamples, HasFewPathsAPass) {
   // Shares stay in proportion, but what is quiet has more than its own.
   const std::vector<int> samples =
       Blocks({{1, 1}, {64, 1}, {64, 1}, {64, 1}, {16, 1}, {64, 1}}).samples;
   EXPECT_EQ(samples, (std::vector<int>{1, 3, 3, 3, 1, 3}));
   // Or as few as the caller asks for.
-  SampleSpread::ByTile spread;
+  SampleVariance::ByTile spread;
   for (int i = 0; i < 24; ++i) {
     spread.variance.push_back(i < 4 ? 1 : 64);
     spread.cost.push_back(1);
@@ -172,7 +172,8 @@ TEST(ShareOut, HasFewPathsAPass) {
   spread.light.assign(24, 1);
   double last = 0;
   for (const double most : {1.0, 2.0, 3.0}) {
-    const double mean = share_out({0, 0, 24 * 4, 4}, {spread, {}, {}}, false, most).paths.mean();
+    const double mean =
+        allocate_samples({0, 0, 24 * 4, 4}, {spread, {}, {}}, false, most).paths.mean();
     EXPECT_LE(mean, most);
     EXPECT_GT(mean, last);
     last = mean;
@@ -183,23 +184,23 @@ TEST(ShareOut, HasFewPathsAPass) {
 TEST(Trial, KnowsTheLeastVarianceOfWhatItHasNotSeen) {
   const Trial blind{.light = 2, .error = 0.01, .samples = 500},
       sees{.light = 3, .error = 0.1, .samples = 100};
-  EXPECT_DOUBLE_EQ(blind.least_of_unseen(sees), 500 * 0.8 * 0.8 / 3.3);
-  EXPECT_EQ(sees.least_of_unseen(blind), 0);
-  EXPECT_EQ(sees.least_of_unseen(sees), 0);
+  EXPECT_DOUBLE_EQ(blind.min_variance_of_unseen(sees), 500 * 0.8 * 0.8 / 3.3);
+  EXPECT_EQ(sees.min_variance_of_unseen(blind), 0);
+  EXPECT_EQ(sees.min_variance_of_unseen(sees), 0);
   const Trial lucky{.light = 3, .error = 0.9, .samples = 100};
-  EXPECT_EQ(blind.least_of_unseen(lucky), 0) << "one bright path is no proof";
+  EXPECT_EQ(blind.min_variance_of_unseen(lucky), 0) << "one bright path is no proof";
 }
 
-TEST(SteadyMean, LeavesOutTheFewThatStandOut) {
-  EXPECT_EQ(steady_mean({}), 0);
-  EXPECT_EQ(steady_mean({3}), 3);
+TEST(WinsorizedMean, LeavesOutTheFewThatStandOut) {
+  EXPECT_EQ(winsorized_mean({}), 0);
+  EXPECT_EQ(winsorized_mean({3}), 3);
   std::vector<double> values(1000, 2.0);
-  EXPECT_DOUBLE_EQ(steady_mean(values), 2);
+  EXPECT_DOUBLE_EQ(winsorized_mean(values), 2);
   values[500] = values[20] = 1e9;
-  EXPECT_DOUBLE_EQ(steady_mean(values), 2);
+  EXPECT_DOUBLE_EQ(winsorized_mean(values), 2);
   // It is a mean, not a median.
   for (size_t i = 0; i < 300; ++i) values[i] = 12;
-  EXPECT_NEAR(steady_mean(values), 5, 0.02);
+  EXPECT_NEAR(winsorized_mean(values), 5, 0.02);
 }
 
 /// A pass whose camera paths have variance a and cost c for each path of a pixel, its N light paths
@@ -226,8 +227,9 @@ TEST(Balance, FindsTheBestNumberOfLightPaths) {
       for (double n = 1024; n <= 1 << 20; n *= 1.001)
         if (m.expense(camera, n) < m.expense(camera, best)) best = n;
       EXPECT_NEAR(found, best, 0.02 * best);
-      EXPECT_NEAR(balance.expense(), m.expense(1, static_cast<double>(balance.light_paths(1))),
-                  1e-6 * balance.expense());
+      EXPECT_NEAR(balance.inverse_efficiency(),
+                  m.expense(1, static_cast<double>(balance.light_paths(1))),
+                  1e-6 * balance.inverse_efficiency());
     }
 }
 
@@ -237,10 +239,12 @@ TEST(Balance, TellsWhatOtherCameraPathsWouldMakeOfIt) {
   const Balance balance(here.trial(1 << 16), here.trial(1 << 13));
   const Balance expected(longer.trial(1 << 16), longer.trial(1 << 13));
   const Balance other = balance.with_camera_paths_of(longer.trial(1 << 16));
-  EXPECT_NEAR(other.expense(), expected.expense(), 1e-6 * expected.expense());
+  EXPECT_NEAR(other.inverse_efficiency(), expected.inverse_efficiency(),
+              1e-6 * expected.inverse_efficiency());
   EXPECT_EQ(other.light_paths(3), expected.light_paths(3));
-  EXPECT_LT(other.expense(), balance.expense());
-  EXPECT_NEAR(Balance(alone.trial(0)).with_camera_paths_of(lone.trial(0)).expense(), 6e4, 1e-6);
+  EXPECT_LT(other.inverse_efficiency(), balance.inverse_efficiency());
+  EXPECT_NEAR(Balance(alone.trial(0)).with_camera_paths_of(lone.trial(0)).inverse_efficiency(), 6e4,
+              1e-6);
 }
 
 TEST(Balance, KeepsAsManyPhotonsAsMemoryIsFor) {
@@ -250,9 +254,9 @@ TEST(Balance, KeepsAsManyPhotonsAsMemoryIsFor) {
   for (const double photons : {0.01, 4.0}) {
     many.photons = photons;
     const Balance balance(many, m.trial(1 << 13));
-    const double most = std::min(Balance::kMostPhotons / photons, 1048576.0);
+    const double most = std::min(Balance::kMaxPhotons / photons, 1048576.0);
     EXPECT_EQ(balance.light_paths(100), static_cast<int64_t>(most));
-    const double camera = balance.most_camera_paths();
+    const double camera = balance.max_camera_paths();
     EXPECT_NEAR(static_cast<double>(balance.light_paths(camera)), most, 2);
     EXPECT_NEAR(static_cast<double>(balance.light_paths(camera / 2)), most / 2, 2);
     EXPECT_NEAR(camera, most / static_cast<double>(best), 1e-3 * camera);

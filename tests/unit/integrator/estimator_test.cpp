@@ -1,9 +1,8 @@
 // What integrators promise beside their pictures: counts, reports, limits, and what straight
 // passages and flipped cameras must not change.
-#include "integrator/presets/integrator_table.h"
-
 #include <gtest/gtest.h>
 
+#include "integrator/presets/integrator_table.h"
 #include "rendering.h"
 
 namespace nephroid {
@@ -36,9 +35,8 @@ EstimatorStatistics statistics_after(const std::string& text, const std::string&
   Preset preset = make_integrator(integrator, options, *scene);
   Film film = film_for(*scene, preset);
   EstimatorStatistics sum;
-  for (const auto& e : preset.estimators) {
-    for (uint32_t pass = 0; pass < passes; ++pass) e->render_pass({1, pass}, *scene, film);
-    const EstimatorStatistics s = e->statistics();
+  for (uint32_t pass = 0; pass < passes; ++pass) preset.render_pass({1, pass}, *scene, film);
+  for (const EstimatorStatistics& s : preset.statistics()) {
     sum.rays += s.rays;
     sum.photon_paths += s.photon_paths;
     sum.photons_stored += s.photons_stored;

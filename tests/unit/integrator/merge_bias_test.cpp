@@ -37,8 +37,7 @@ Sums sums_of(const Scene& scene, const std::string& plan, float radius_pixels) {
   Preset preset =
       make_preset(plan_of({"bare=C[SV]*(L|.*M):path", "all=.*:" + plan}), options, scene);
   Film film = film_for(scene, preset);
-  for (uint32_t pass = 0; pass < 16; ++pass)
-    for (const auto& e : preset.estimators) e->render_pass({1, pass}, scene, film);
+  for (uint32_t pass = 0; pass < 16; ++pass) preset.render_pass({1, pass}, scene, film);
   EXPECT_TRUE(film.has_bias());
   Sums sums;
   for (int y = 0; y < 8; ++y)

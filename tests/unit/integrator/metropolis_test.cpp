@@ -32,10 +32,12 @@ const std::string kWorld = R"(
   Translate 0.3 0.5 0 Shape "sphere" "float radius" 0.5
 )";
 
-// The one of a preset's estimators that chains explore.
-Estimator& chains_of(const Preset& preset) {
-  for (const auto& e : preset.estimators)
-    if (dynamic_cast<Multiplexed*>(e.get()) || dynamic_cast<PrimarySpace*>(e.get())) return *e;
+// The number of the one of a preset's estimators that chains explore.
+size_t chains_of(const Preset& preset) {
+  for (size_t i = 0; i < preset.estimators.size(); ++i) {
+    const Estimator* e = preset.estimators[i].get();
+    if (dynamic_cast<const Multiplexed*>(e) || dynamic_cast<const PrimarySpace*>(e)) return i;
+  }
   throw std::logic_error("no chains");
 }
 
@@ -44,9 +46,8 @@ EstimatorStatistics statistics_of(const std::string& text, const std::string& in
   const auto scene = scene_from_text(text);
   Preset preset = make_integrator(integrator, options, *scene);
   Film film = film_for(*scene, preset);
-  for (uint32_t pass = 0; pass < passes; ++pass)
-    chains_of(preset).render_pass({1, pass}, *scene, film);
-  return chains_of(preset).statistics();
+  for (uint32_t pass = 0; pass < passes; ++pass) preset.render_pass({1, pass}, *scene, film);
+  return preset.statistics()[chains_of(preset)];
 }
 
 /// How often each kind is chosen, of evenly spread numbers, is what the choice says.

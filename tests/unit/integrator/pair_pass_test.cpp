@@ -1,5 +1,5 @@
 // Passes of path+photons as they are numbered and measured: later passes go on where the first one
-// ended, and what a pass tells of its spread does not depend on memory.
+// ended, and what a pass tells of its variance does not depend on memory.
 #include "integrator/bidirectional/pair_pass.h"
 
 #include <gtest/gtest.h>
@@ -27,23 +27,33 @@ struct View {
       : scene(scene_from_text(kView + world)),
         preset(make_preset(plan_of({"all=.*:path+photons"}), {}, *scene)),
         owned(owned_routes(*scene, {"all=.*:path+photons"})) {}
-  Film render(const PairPass& pass, uint32_t number, const IntegratorOptions& options = {}) const {
+  PairPass pass_of(const PairTechniques& techniques, uint32_t number,
+                   const IntegratorOptions& options) const {
+    return {.key = {3, number},
+            .seed = 3,
+            .scene = *scene,
+            .owned = owned,
+            .options = options,
+            .techniques = techniques,
+            .light_paths_vary = true};
+  }
+  Film render(const PairTechniques& techniques, uint32_t number, const SampleMap& map,
+              uint32_t in_first_pass = 0) const {
     Film film = film_for(*scene, preset);
     EstimatorStatistics statistics;
-    pass.render({3, number}, *scene, film, owned, options, statistics);
+    nephroid::render(pass_of(techniques, number, {}),
+                     {.film = film, .samples = {map, no_walks, in_first_pass}}, statistics);
     return film;
   }
   std::unique_ptr<Scene> scene;
   Preset preset;
   OwnedRoutes owned;
+  PixelBounds bounds = film_for(*scene, preset).bounds();
+  SampleMap one_path{bounds}, no_walks{bounds, 0};
 };
 
-PairPass camera_paths_only() {
-  PairPass pass;
-  pass.light_paths = 0;
-  pass.connects = false;
-  pass.caustics_only = true;
-  return pass;
+PairTechniques camera_paths_only() {
+  return {.light_paths = 0, .connects = false, .caustics_only = true};
 }
 
 // Light that depends on the place alone: over that of even light in the same pass, which has the
@@ -52,8 +62,9 @@ struct Places {
   View uneven{R"(LightSource "point" "rgb I" [9 9 9] "point3 from" [1.5 1.2 0.7])"};
   View even{R"(LightSource "distant" "rgb L" [1 1 1] "point3 from" [0 1 0] "point3 to" [0 0 0])"};
 
-  std::vector<double> of(const PairPass& pass, uint32_t number) const {
-    const Film a = uneven.render(pass, number), b = even.render(pass, number);
+  std::vector<double> of(uint32_t number, const SampleMap& map, uint32_t in_first_pass = 0) const {
+    const Film a = uneven.render(camera_paths_only(), number, map, in_first_pass),
+               b = even.render(camera_paths_only(), number, map, in_first_pass);
     std::vector<double> values;
     for (int y = 0; y < 8; ++y)
       for (int x = 0; x < 12; ++x)
@@ -69,10 +80,10 @@ TEST(PairPass, GoesOnWithThePointsThatTheFirstPassHasLeft) {
   // One path a pass, in the order of their numbers.
   std::vector<std::vector<double>> single;
   for (uint32_t i = 0; i < kHead + 2 * kLater; ++i)
-    single.push_back(places.of(camera_paths_only(), i));
-  const auto expect_numbers = [&](const PairPass& pass, uint32_t number, uint32_t begin,
-                                  uint32_t end) {
-    const std::vector<double> found = places.of(pass, number);
+    single.push_back(places.of(i, places.even.one_path));
+  const auto expect_numbers = [&](const SampleMap& map, uint32_t in_first_pass, uint32_t number,
+                                  uint32_t begin, uint32_t end) {
+    const std::vector<double> found = places.of(number, map, in_first_pass);
     for (size_t pixel = 0; pixel < found.size(); ++pixel) {
       double sum = 0;
       for (uint32_t i = begin; i < end; ++i) sum += single[i][pixel];
@@ -81,29 +92,25 @@ TEST(PairPass, GoesOnWithThePointsThatTheFirstPassHasLeft) {
           << "pass " << number << ", pixel " << pixel;
     }
   };
-  PairPass pass = camera_paths_only();
-  SampleMap map(film_for(*places.even.scene, places.even.preset).bounds());
-  pass.samples = &map;
-  for (uint16_t& n : map.counts()) n = kHead;
-  expect_numbers(pass, 0, 0, kHead);
-  for (uint16_t& n : map.counts()) n = kLater;
-  pass.head = kHead;
-  expect_numbers(pass, 1, kHead, kHead + kLater);
-  expect_numbers(pass, 2, kHead + kLater, kHead + 2 * kLater);
+  const SampleMap first(places.even.bounds, kHead), later(places.even.bounds, kLater);
+  expect_numbers(first, 0, 0, 0, kHead);
+  expect_numbers(later, kHead, 1, kHead, kHead + kLater);
+  expect_numbers(later, kHead, 2, kHead + kLater, kHead + 2 * kLater);
 }
 
 // Mean of all pixels over passes, its standard error, and the rays.
 struct Mean {
   double value = 0, error = 0, rays = 0;
 };
-Mean mean_of(const View& view, const PairPass& pass, uint32_t passes,
+Mean mean_of(const View& view, const PairTechniques& techniques, uint32_t passes,
              const IntegratorOptions& options = {}) {
   Mean mean;
   double squares = 0;
   for (uint32_t i = 0; i < passes; ++i) {
     Film film = film_for(*view.scene, view.preset);
     EstimatorStatistics statistics;
-    pass.render({3, i}, *view.scene, film, view.owned, options, statistics);
+    render(view.pass_of(techniques, i, options),
+           {.film = film, .samples = {view.one_path, view.no_walks}}, statistics);
     double sum = 0;
     for (int y = 0; y < 8; ++y)
       for (int x = 0; x < 12; ++x) sum += static_cast<double>(film.value(x, y).g) / 96;
@@ -121,11 +128,11 @@ TEST(PairPass, FindsTheSameLightHoweverLongItsCameraPathsAre) {
     Shape "bilinearmesh" "point3 P" [-4 0 4  4 0 4  -4 5 4  4 5 4]
     AttributeBegin AreaLightSource "diffuse" "rgb L" [2 2 2]
     Shape "bilinearmesh" "point3 P" [-4 0 -4  4 0 -4  -4 5 -4  4 5 -4] AttributeEnd)");
-  PairPass pass = camera_paths_only();
+  PairTechniques pass = camera_paths_only();
   const Mean one = mean_of(box, pass, 200);
   double rays = one.rays;
   for (const float window : {kCameraWindow, kPatientWindow}) {
-    pass.window = window;
+    pass.roulette_threshold = window;
     const Mean longer = mean_of(box, pass, 200);
     EXPECT_NEAR(longer.value, one.value, 4 * std::hypot(longer.error, one.error)) << window;
     EXPECT_LT(longer.error, 0.02 * longer.value);
@@ -139,7 +146,7 @@ TEST(PairPass, LeavesCausticsToWalksWhereThereAreNoPhotons) {
     AttributeBegin AreaLightSource "diffuse" "rgb L" [2 2 2] Translate 0 9 0
     Shape "sphere" "float radius" 3 AttributeEnd
     Material "dielectric" Translate 0 0.8 0 Shape "sphere" "float radius" 0.6)");
-  PairPass pass = camera_paths_only();
+  PairTechniques pass = camera_paths_only();
   const Mean walks = mean_of(view, pass, 200);
   pass.light_paths = 1 << 14;
   // Pixels are large here: with the radius of a picture, merging adds five per cent.
@@ -150,27 +157,24 @@ TEST(PairPass, LeavesCausticsToWalksWhereThereAreNoPhotons) {
   EXPECT_LT(walks.error, 0.02 * walks.value);
 }
 
-TEST(PairPass, TellsTheSameSpreadInBatches) {
+TEST(PairPass, TellsTheSameVarianceInBatches) {
   const View view(R"(
     LightSource "point" "rgb I" [9 9 9] "point3 from" [1.5 2.2 0.7]
     Material "dielectric" Translate 0 0.8 0 Shape "sphere" "float radius" 0.6)");
-  PairPass pass = camera_paths_only();
+  PairTechniques pass = camera_paths_only();
   pass.light_paths = 100000;
-  const Film film = film_for(*view.scene, view.preset);
-  SampleMap map(film.bounds());
-  for (uint16_t& n : map.counts()) n = 4;
-  pass.samples = &map;
-  const auto spread = [&](int64_t memory) {
+  const SampleMap map(view.bounds, 4);
+  const FilmFormat format = film_for(*view.scene, view.preset).format();
+  const auto variance = [&](int64_t memory) {
     IntegratorOptions options;
     options.memory_photons = memory;
-    SampleSpread found(film.bounds());
-    pass.spread = &found;
+    SampleVariance found(view.bounds);
     EstimatorStatistics statistics;
-    pass.try_out({3, 0}, *view.scene, film, view.owned, options, statistics);
+    try_out(view.pass_of(pass, 0, options), format, {.paths = map}, found, statistics);
     EXPECT_GT(statistics.photons_stored, 100u);
     return found.by_tile();
   };
-  const SampleSpread::ByTile whole = spread(1 << 20), batches = spread(1);
+  const SampleVariance::ByTile whole = variance(1 << 20), batches = variance(1);
   double most = 0;
   for (size_t i = 0; i < whole.variance.size(); ++i) {
     EXPECT_NEAR(batches.variance[i], whole.variance[i], 1e-3 * whole.variance[i] + 1e-6);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.h"
+#include "photon/photon.h"
 #include "rendering.h"
 #include "scene/camera/camera.h"
 
@@ -33,12 +34,8 @@ std::vector<EstimatorStatistics> statistics_after(const Scene& scene, const Plan
                                                   uint32_t passes) {
   Preset preset = make_preset(plan, options, scene);
   Film film = film_for(scene, preset);
-  std::vector<EstimatorStatistics> statistics;
-  for (const auto& e : preset.estimators) {
-    for (uint32_t pass = 0; pass < passes; ++pass) e->render_pass({1, pass}, scene, film);
-    statistics.push_back(e->statistics());
-  }
-  return statistics;
+  for (uint32_t pass = 0; pass < passes; ++pass) preset.render_pass({1, pass}, scene, film);
+  return preset.statistics();
 }
 
 TEST(PhotonMap, IsTracedOnceAndEachRouteHasItsOwn) {
@@ -151,12 +148,13 @@ TEST(PhotonMap, EachSetSeesTheWholeOfAPixel) {
   for (uint64_t seed = 0; seed < 3; ++seed) {
     Preset preset =
         make_preset(plan_of({"all=C[DG].*:photonmap", "rest=.*:path"}), options, *scene);
+    LearningLoop map;
     std::vector<double> sets;
     double mean = 0;
     for (uint32_t set = 0; set < 16; ++set) {
       Film film = film_for(*scene, preset);
       for (uint32_t round = 0; round < 64; ++round)
-        preset.estimators[0]->render_pass({seed, set + 16 * round}, *scene, film);
+        map.render_pass(*preset.estimators[0], {seed, set + 16 * round}, *scene, film);
       sets.push_back(picture_mean(film));
       mean += sets.back() / 16;
     }
@@ -264,11 +262,11 @@ TEST(PhotonMap, BiasKeepsToItsBound) {
     for (uint64_t seed = 0; seed < 32; ++seed) {
       Preset preset = make_preset(plan, options, *scene);
       Film film = film_for(*scene, preset);
+      LearningLoop map;
       for (uint32_t pass = 0; pass < 16; ++pass)
-        preset.estimators[0]->render_pass({seed, pass}, *scene, film);
-      radius = std::max(
-          radius,
-          footprint * static_cast<double>(preset.estimators[0]->statistics().radius_max_pixels));
+        map.render_pass(*preset.estimators[0], {seed, pass}, *scene, film);
+      radius = std::max(radius,
+                        footprint * static_cast<double>(preset.estimators[0]->statistics().radius_max_pixels));
       values.push_back(picture_mean(film) / truth - 1);
     }
     const Estimate bias = estimate_of(values);
@@ -322,8 +320,9 @@ TEST(PhotonMap, AClosedFurnaceIsFlat) {
     for (uint64_t seed = 0; seed < 16; ++seed) {
       Preset preset = make_preset(plan_of({row.route, "rest=.*:path"}), options, *scene);
       Film film = film_for(*scene, preset);
+      LearningLoop map;
       for (uint32_t pass = 0; pass < 16; ++pass)
-        preset.estimators[0]->render_pass({seed, pass}, *scene, film);
+        map.render_pass(*preset.estimators[0], {seed, pass}, *scene, film);
       const std::vector<double> means = block_means(film, 2);
       for (size_t i = 0; i < 4; ++i) values[i].push_back(means[i]);
       whole.push_back(picture_mean(film));

@@ -23,7 +23,7 @@ TEST(PhotonPass, HasAllWavelengthsAtAllTimes) {
     for (const uint32_t first : {0u, 16u, 1600u}) {
       std::vector<std::pair<float, float>> moments;  // the first wavelength grows with its number
       for (uint32_t i = 0; i < kPasses; ++i) {
-        const PhotonPass pass = start_photon_pass({seed, first + i}, *scene, film, {});
+        const PhotonPass pass = start_photon_pass({seed, first + i}, *scene, film.format(), {});
         moments.emplace_back(pass.trace.lambda.lambda(0), pass.u_time);
       }
       std::sort(moments.begin(), moments.end());

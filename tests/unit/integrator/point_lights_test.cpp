@@ -163,9 +163,9 @@ TEST(PointLights, FindTheSameLightInLittleMemory) {
     options.memory_photons = 1;
     Preset preset = make_preset(plan_of(kAllByPointLights), options, *scene);
     Film film = film_for(*scene, preset);
-    for (const auto& e : preset.estimators) e->render_pass({seed, 0}, *scene, film);
-    EXPECT_LE(preset.estimators.front()->statistics().photons_stored, 1024u);
-    EXPECT_LT(preset.estimators.front()->statistics().photon_bytes, 4u << 20);
+    preset.render_pass({seed, 0}, *scene, film);
+    EXPECT_LE(preset.statistics().front().photons_stored, 1024u);
+    EXPECT_LT(preset.statistics().front().photon_bytes, 4u << 20);
     differences.push_back(picture_mean(film) / full - 1);
   }
   const Estimate e = estimate_of(differences);

@@ -127,7 +127,7 @@ TEST(SpecularTree, FindsWhatWalksFindWithLessNoise) {
 
 // Walks that look for this light alone find all of it, and foretell how noisy it is for walks that
 // choose one way at each boundary.
-TEST(GlintPass, FindsTheLightBehindDeltaLobes) {
+TEST(SpecularChainPass, FindsTheLightBehindDeltaLobes) {
   const auto scene = scene_from_text(ball(kClear, R"(Material "dielectric" "float eta" 2)"));
   const OwnedRoutes owned = owned_routes(*scene, {"of=CS+L:photons+light", "rest=.*:path"});
   const Preset preset = make_preset(plan_named("path"), {}, *scene);
@@ -136,15 +136,14 @@ TEST(GlintPass, FindsTheLightBehindDeltaLobes) {
   const SpecularTree tree(*scene, owned, 20);
   constexpr int kWalks = 32, kPasses = 64;
   SampleMap map(b, kWalks);
-  SampleSpread spread(b), choice(b);
-  const GlintPass pass{.scene = *scene,
-                       .like = film,
-                       .owned = owned,
-                       .tree = tree,
-                       .walks = map,
-                       .seed = 5,
-                       .spread = &spread,
-                       .spread_of_choice = &choice};
+  ChainVariance measured(b);
+  const SpecularChainPass pass{.scene = *scene,
+                               .film = film.format(),
+                               .owned = owned,
+                               .tree = tree,
+                               .walks = map,
+                               .seed = 5,
+                               .measured = &measured};
   const size_t parts = owned.routes->groups()[0].parts.size();
   std::vector<Rgb> values(static_cast<size_t>(b.area()) * parts);
   for (uint32_t i = 0; i < kPasses; ++i)
@@ -156,7 +155,8 @@ TEST(GlintPass, FindsTheLightBehindDeltaLobes) {
   EXPECT_NEAR(sum / kPasses / static_cast<double>(b.area()), walks.mean, 3.5 * error);
   EXPECT_GT(walks.mean, 20 * error);
 
-  const SampleSpread::ByTile foretold = choice.by_tile(), apart = spread.by_tile();
+  const SampleVariance::ByTile foretold = measured.choice.by_tile(),
+                               apart = measured.walks.by_tile();
   double variance = 0, least = 0, light = 0;
   for (const double v : foretold.light) light += v / 4;
   for (size_t tile = 0; tile < foretold.variance.size(); ++tile) {

@@ -43,11 +43,10 @@ void expect_sums(const std::string& plan, const IntegratorOptions& options) {
   Preset preset = make_preset(Plan(plan), options, *scene);
   Film film = film_for(*scene, preset);
   constexpr uint32_t kPasses = 3;
-  for (uint32_t pass = 0; pass < kPasses; ++pass)
-    for (const auto& estimator : preset.estimators) estimator->render_pass({5, pass}, *scene, film);
+  for (uint32_t pass = 0; pass < kPasses; ++pass) preset.render_pass({5, pass}, *scene, film);
   int told = 0;
-  for (const auto& estimator : preset.estimators)
-    for (const RouteTechniques& r : estimator->statistics().techniques) {
+  for (const EstimatorStatistics& s : preset.statistics())
+    for (const RouteTechniques& r : s.techniques) {
       const auto& names = film.layout().routes;
       const auto route =
           static_cast<size_t>(std::find(names.begin(), names.end(), r.route) - names.begin());
@@ -78,9 +77,9 @@ TEST_P(Techniques, AreTheOnesThatTheEstimatorHas) {
   const auto scene = scene_from_text(kScene);
   Preset preset = make_preset(Plan(GetParam()), {}, *scene);
   Film film = film_for(*scene, preset);
-  preset.estimators.back()->render_pass({5, 0}, *scene, film);
+  preset.render_pass({5, 0}, *scene, film);
   TechniqueLight all{};
-  for (const RouteTechniques& r : preset.estimators.back()->statistics().techniques)
+  for (const RouteTechniques& r : preset.statistics().back().techniques)
     for (size_t t = 0; t < kTechniqueCount; ++t) all[t] += r.light[t];
   const auto found = [&](Technique t) { return all[static_cast<size_t>(t)] > 1e-6; };
   const bool connects = GetParam() == "bdpt" || GetParam() == "vcm";
@@ -96,9 +95,9 @@ TechniqueLight light_of_pass(const std::string& plan, const IntegratorOptions& o
   const auto scene = scene_from_text(kScene);
   Preset preset = make_preset(Plan(plan), options, *scene);
   Film film = film_for(*scene, preset);
-  preset.estimators.back()->render_pass({5, pass}, *scene, film);
+  preset.render_pass({5, pass}, *scene, film);
   TechniqueLight all{};
-  for (const RouteTechniques& r : preset.estimators.back()->statistics().techniques)
+  for (const RouteTechniques& r : preset.statistics().back().techniques)
     for (size_t t = 0; t < kTechniqueCount; ++t) all[t] += r.light[t];
   return all;
 }

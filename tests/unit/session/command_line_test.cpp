@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "core/errors.h"
+#include "integrator/presets/integrator_table.h"
 #include "session/version.h"
 #include "source_directory.h"
 

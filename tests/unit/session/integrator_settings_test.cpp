@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "integrator/presets/integrator_table.h"
+
 namespace nephroid {
 namespace {
 

@@ -28,7 +28,8 @@ class FakeEstimator : public Estimator {
  public:
   FakeEstimator(Script& script, int group) : script_(script), group_(group) {}
   Capabilities capabilities() const override { return script_.capabilities; }
-  void render_pass(const PassKey& key, const Scene&, Film& film) override {
+  std::unique_ptr<PassFindings> render_pass(const PassKey& key, const Learned*, const Scene&,
+                                            Film& film) override {
     script_.now += script_.pass_seconds;
     script_.passes.push_back(key);
     if (script_.during_pass) script_.during_pass(key);
@@ -45,6 +46,7 @@ class FakeEstimator : public Estimator {
     statistics_.photons_stored += 10;
     statistics_.radius_max_pixels = 8.0f / static_cast<float>(key.pass + 1);
     statistics_.radius_min_pixels = statistics_.radius_max_pixels;
+    return nullptr;
   }
   EstimatorStatistics statistics() const override { return statistics_; }
 

@@ -1,11 +1,11 @@
 // The sums of an eye path with and without merges that only an S makes possible, against the
 // recursion of one side (path_weights_test.cpp compares that with brute force).
+#include "integrator/bidirectional/eye_weights.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
-
-#include "integrator/bidirectional/eye_weights.h"
 
 namespace nephroid {
 namespace {

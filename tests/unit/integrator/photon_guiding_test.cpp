@@ -1,8 +1,9 @@
 // What is seen before any light path is traced: casters are where runs of specular events end that
 // began behind a rough vertex, and a small thing in a large place is found by them at once.
+#include "integrator/learning/photon_guiding.h"
+
 #include <gtest/gtest.h>
 
-#include "integrator/learning/photon_guiding.h"
 #include "integrator/learning/visible_points.h"
 #include "owned_routes.h"
 #include "photon/emission.h"
@@ -34,8 +35,8 @@ std::vector<Vec3f> casters_of(const std::string& text, const IntegratorOptions& 
   const auto scene = scene_from_text(text);
   const Preset preset = make_preset(Plan("doidge2012"), options, *scene);
   const Film film = film_for(*scene, preset);
-  const PhotonPass pass = start_photon_pass({1, 0}, *scene, film, options);
-  return caustic_casters(*scene, film, pass, options).points;
+  const PhotonPass pass = start_photon_pass({1, 0}, *scene, film.format(), options);
+  return caustic_casters(*scene, film.format(), pass, options).points;
 }
 
 TEST(CausticCasters, AreWhatSpecularRunsEndOn) {
@@ -61,7 +62,7 @@ TEST(CausticCasters, HaveNoNumbersOfTheirOwnInPathsThatAreTooShort) {
   EXPECT_TRUE(casters_of(kView + kGlass, options).empty());
 }
 
-TEST(LearnedPhotons, FindsASmallThingThatChanceDoesNot) {
+TEST(PhotonGuiding, FindsASmallThingThatChanceDoesNot) {
   // Of all directions, 6 in a million are those in which the lamp shines on the glass: a tenth of
   // a path of the 16384 of a round.
   const auto scene = scene_from_text(kView + kGlass);
@@ -70,11 +71,10 @@ TEST(LearnedPhotons, FindsASmallThingThatChanceDoesNot) {
   size_t group = 0;
   while (preset.routes->groups()[group].estimator != EstimatorKind::kPhotons) ++group;
   const auto symbols = std::make_shared<const SceneSymbols>(*scene, std::vector<std::string>{});
-  LearnedPhotons learned;
-  EstimatorStatistics statistics;
-  const EmissionGuide& guide =
-      learned.guide(1, *scene, film, {preset.routes, symbols, group}, {}, statistics).starts;
-  EXPECT_GT(statistics.rays, 3u << 14);
+  const GuidedPhotons learned =
+      guide_photons(1, *scene, film.format(), {preset.routes, symbols, group}, {}, true);
+  const EmissionGuide& guide = learned.guide.starts;
+  EXPECT_GT(learned.rays, 3u << 14);
   ASSERT_FALSE(guide.empty());
   int met = 0;
   constexpr int kPaths = 4096;
@@ -93,7 +93,7 @@ TEST(LearnedPhotons, FindsASmallThingThatChanceDoesNot) {
 
 // A lamp lights a spot on the floor, six metres away: of what that scatters next to nothing meets
 // the glass by chance.
-TEST(LearnedPhotons, AimFromTheFloorAtTheGlass) {
+TEST(PhotonGuiding, AimFromTheFloorAtTheGlass) {
   std::string text = kView + kGlass;
   const std::string lamp = R"(LightSource "point" "rgb I" [900 900 900] "point3 from" [20 60 -10])";
   text.replace(text.find(lamp), lamp.size(),
@@ -103,13 +103,11 @@ TEST(LearnedPhotons, AimFromTheFloorAtTheGlass) {
   const OwnedRoutes owned =
       owned_routes(*scene, {"of-the-lit=C.*[DG]S+[DG]L:photons", "rest=.*:path"});
   const Film film = film_for(*scene, make_preset(Plan("doidge2012"), {}, *scene));
-  LearnedPhotons learned;
-  EstimatorStatistics statistics;
-  const PhotonGuide& guide = learned.guide(1, *scene, film, owned, {}, statistics);
+  const PhotonGuide guide = guide_photons(1, *scene, film.format(), owned, {}, true).guide;
   ASSERT_FALSE(guide.casters.empty());
   const PhotonGuide from_lights_alone{guide.starts, {}};
   const auto stored = [&](const PhotonGuide& g) {
-    PhotonTraceSettings settings = start_photon_pass({3, 0}, *scene, film, {}).trace;
+    PhotonTraceSettings settings = start_photon_pass({3, 0}, *scene, film.format(), {}).trace;
     settings.guide = &g;
     return trace_photons(*scene, owned, settings, 0, 1 << 14).useful_paths;
   };
@@ -117,12 +115,11 @@ TEST(LearnedPhotons, AimFromTheFloorAtTheGlass) {
   EXPECT_GT(stored(guide), 5 * stored(from_lights_alone));
   // Where all photons are of use, those that bounce go as the surface has it.
   const OwnedRoutes all = owned_routes(*scene, {"all=.*:photons"});
-  LearnedPhotons of_all;
-  EXPECT_TRUE(of_all.guide(1, *scene, film, all, {}, statistics).casters.empty());
+  EXPECT_TRUE(guide_photons(1, *scene, film.format(), all, {}, true).guide.casters.empty());
 }
 
 // Casters are seen, but nothing shines on them: there is nothing to aim from.
-TEST(LearnedPhotons, StandsLampsThatAreBlack) {
+TEST(PhotonGuiding, StandsLampsThatAreBlack) {
   std::string text = kView + kGlass;
   const std::string lamp = "[900 900 900]";
   text.replace(text.find(lamp), lamp.size(), "[0 0 0]");

@@ -1,0 +1,75 @@
+// What estimators learn is all that their passes depend on beside scene, options and pass key: a
+// value that was written and read again, and another estimator of the same plan, give the same
+// bits.
+#include <gtest/gtest.h>
+
+#include "determinism/scene_of_all_kinds.h"
+#include "rendering.h"
+#include "same_bits.h"
+
+namespace nephroid {
+namespace {
+
+using namespace testing_support;
+
+class LearnedBits : public ::testing::TestWithParam<std::string> {};
+
+/// The value after its bytes have been through a file.
+std::shared_ptr<const Learned> copied(const Estimator& estimator, const FilmFormat& format,
+                                      const std::shared_ptr<const Learned>& value) {
+  if (!value) return nullptr;
+  ByteWriter written, again;
+  value->write(written);
+  ByteReader reader(written.bytes());
+  const auto copy = estimator.read_learned(reader, format);
+  EXPECT_TRUE(reader.at_end());
+  copy->write(again);
+  EXPECT_EQ(written.bytes(), again.bytes());
+  return copy;
+}
+
+TEST_P(LearnedBits, AValueThatWasWrittenAndReadGivesTheSamePasses) {
+  const auto scene = scene_from_text(kScene);
+  IntegratorOptions options;
+  options.map_photons = 1 << 14;
+  Preset whole = make_preset(plan_named(GetParam()), options, *scene),
+         from_values = make_preset(plan_named(GetParam()), options, *scene);
+  Film expected = film_for(*scene, whole), found = film_for(*scene, from_values);
+  for (const uint32_t pass : {0u, 1u}) whole.render_pass({5, pass}, *scene, expected);
+  const FilmFormat& format = expected.format();
+  for (size_t i = 0; i < whole.estimators.size(); ++i) {
+    const Estimator& estimator = *whole.estimators[i];
+    const LearnedValues& values = whole.learned[i].learn(estimator, 5, *scene, format);
+    from_values.learned.emplace_back().use({copied(estimator, format, values.before_passes),
+                                            copied(estimator, format, values.after_first_pass)});
+  }
+  for (const uint32_t pass : {0u, 1u}) from_values.render_pass({5, pass}, *scene, found);
+  expect_same_bits(found, expected, GetParam());
+}
+
+TEST_P(LearnedBits, BytesThatAreCutOffAreRefused) {
+  const auto scene = scene_from_text(kScene);
+  IntegratorOptions options;
+  options.map_photons = 1 << 12;
+  Preset preset = make_preset(plan_named(GetParam()), options, *scene);
+  const Film film = film_for(*scene, preset);
+  preset.learned.resize(preset.estimators.size());
+  for (size_t i = 0; i < preset.estimators.size(); ++i) {
+    const Estimator& estimator = *preset.estimators[i];
+    const auto value = estimator.learn(*scene, film.format(), 5);
+    if (!value) continue;
+    ByteWriter written;
+    value->write(written);
+    const std::span<const std::byte> bytes(written.bytes());
+    for (size_t kept = 0; kept < bytes.size(); kept += 1 + bytes.size() / 50) {
+      ByteReader reader(bytes.first(kept));
+      EXPECT_THROW(estimator.read_learned(reader, film.format()), IoError) << kept;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Plans, LearnedBits, ::testing::ValuesIn(plan_names()),
+                         [](const auto& test) { return test_name(test.param); });
+
+}  // namespace
+}  // namespace nephroid
