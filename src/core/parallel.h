@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <utility>
+#include <vector>
 
 namespace nephroid {
 
@@ -34,6 +36,25 @@ void parallel_chunks(int64_t count, int64_t chunk_size,
 /// Number of chunks of such a loop.
 constexpr int64_t chunk_count(int64_t count, int64_t chunk_size) {
   return (count + chunk_size - 1) / chunk_size;
+}
+
+/// Runs work(result, begin, end) for the same chunks, each with a T of its own, and returns the
+/// results in the order of the chunks.
+template <class T, class Work>
+std::vector<T> chunk_results(int64_t count, int64_t chunk_size, Work&& work) {
+  std::vector<T> results(static_cast<size_t>(chunk_count(count, chunk_size)));
+  parallel_chunks(count, chunk_size, [&](int64_t chunk, int64_t begin, int64_t end) {
+    work(results[static_cast<size_t>(chunk)], begin, end);
+  });
+  return results;
+}
+
+/// The same, and then calls append(T&&) with each result, in order, on this thread: what is
+/// appended does not depend on the number of threads.
+template <class T, class Work, class Append>
+void ordered_reduce(int64_t count, int64_t chunk_size, Work&& work, Append&& append) {
+  for (T& result : chunk_results<T>(count, chunk_size, std::forward<Work>(work)))
+    append(std::move(result));
 }
 
 }  // namespace nephroid

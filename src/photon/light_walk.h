@@ -1,9 +1,10 @@
-// What walks from the lights have in common: how one sets out, and a visitor that knows what its
-// routes can use and passes by all else. Who calls it: whatever traces paths from the lights.
-// It must not know what walks leave behind, films or what cameras see.
+// What all paths from the lights have in common: their random numbers, how one sets out and is
+// walked, the photon that it leaves at a vertex, and a visitor that knows what its routes can use
+// and passes by all else. It must not know films or what cameras see.
 #pragma once
 
 #include "photon/emission.h"
+#include "photon/photon.h"
 #include "transport/camera_path.h"
 #include "transport/walk_symbols.h"
 
@@ -13,42 +14,77 @@ namespace nephroid {
 /// later vertices are random.
 inline constexpr int kLightPathPointDimensions = 48;
 
-/// Random numbers that start_light_path() uses, from dimension 0 on: emit()'s, wavelengths 1 and
-/// time 1.
+/// Random numbers of the start of a path with a moment of its own, from dimension 0 on: emit()'s,
+/// wavelengths 1 and time 1.
 inline constexpr int kLightPathStartDimensions = kEmissionDimensions + 2;
 
-/// The start of a light path whose wavelengths and moment are its own.
-struct LightPathStart {
-  SampledWavelengths lambda;
-  float u_time = 0;  ///< of the moment, as cameras take it
-  Emission emission;
+/// The light paths of all passes as one sequence of numbers. The seed of their random numbers
+/// changes when the 32 bits of a Sobol' index are used up.
+struct LightPathSequence {
+  uint64_t seed = 0;
+  int dimensions = kLightPathPointDimensions;  ///< stratified ones
+  /// Sequences of one seed that differ in this are independent.
+  std::optional<uint64_t> variant{};
+
+  /// Calls f(sampler) with the random numbers of a path.
+  template <class F>
+  void at(uint64_t number, F&& f) const {
+    const SobolPoint point(static_cast<uint32_t>(number), dimensions);
+    uint64_t own_seed = hash_combine(seed, number >> 32);
+    if (variant) own_seed = hash_combine(own_seed, *variant);
+    PathSampler sampler(point, own_seed);
+    f(sampler);
+  }
 };
 
-/// Starts a light path at any of the lights. Empty as emit() is.
-inline std::optional<LightPathStart> start_light_path(const Scene& scene, PathSampler& sampler) {
+/// What the light paths of a pass share.
+struct LightPathLaunch {
+  const Scene& scene;
+  const EmissionGuide& guide = kUnguided;
+  float specular_alpha = 0;
+  int max_events = 0;
+};
+
+/// The wavelengths and the moment of a light path.
+struct LightPathMoment {
+  SampledWavelengths lambda;
+  float u_time = 0;  ///< as cameras take it
+};
+
+/// Draws them for a path that shares neither with any other.
+inline LightPathMoment sample_moment(const Scene& scene, PathSampler& sampler) {
   sampler.start_dimension(kEmissionDimensions);
-  const SampledWavelengths lambda =
-      SampledWavelengths::sample_visible(wavelength_number(scene, sampler.get_1d()));
-  const float u_time = sampler.get_1d();
+  LightPathMoment moment;
+  moment.lambda = SampledWavelengths::sample_visible(wavelength_number(scene, sampler.get_1d()));
+  moment.u_time = sampler.get_1d();
   sampler.start_dimension(0);
-  const auto emission = emit(scene, kUnguided, lambda, scene.camera->motion_time(u_time), sampler);
-  if (!emission) return std::nullopt;
-  return LightPathStart{lambda, u_time, *emission};
+  return moment;
 }
 
-/// The walk of an emitted light path. Its vertices take their random numbers from
-/// `first_dimension` on; its wavelengths are right each by itself.
-inline Walk walk_from(const Emission& emission, const SampledWavelengths& lambda,
-                      float specular_alpha, int first_dimension) {
+/// Emits a light path and walks it, its wavelengths right each by itself. Numbers of the emission
+/// begin at the sampler's dimension, those of vertices at `first_vertex_dimension`.
+/// make_visitor(emission) makes what looks at it; if that has `start(walk, emission, sampler)`, it
+/// is called before the walk. finish(visitor, walk) is called behind it; not if no light is
+/// emitted.
+template <class MakeVisitor, class Finish>
+void launch_light_path(const LightPathLaunch& launch, const SampledWavelengths& lambda, float time,
+                       PathSampler& sampler, int first_vertex_dimension, MakeVisitor&& make_visitor,
+                       Finish&& finish) {
+  const std::optional<Emission> emission = emit(launch.scene, launch.guide, lambda, time, sampler);
+  if (!emission) return;
   Walk walk;
-  walk.ray = emission.ray;
-  walk.medium = emission.medium;
-  walk.specular_alpha = specular_alpha;
+  walk.ray = emission->ray;
+  walk.medium = emission->medium;
+  walk.specular_alpha = launch.specular_alpha;
   walk.per_wavelength = true;
   walk.lambda = lambda;
-  walk.first_dimension = first_dimension;
-  walk.second_dimension = first_dimension + dimensions::kPerVertex;
-  return walk;
+  walk.first_dimension = first_vertex_dimension;
+  walk.second_dimension = first_vertex_dimension + dimensions::kPerVertex;
+  auto visitor = make_visitor(*emission);
+  if constexpr (requires { visitor.start(walk, *emission, sampler); })
+    visitor.start(walk, *emission, sampler);
+  random_walk(launch.scene, TransportMode::kImportance, launch.max_events, walk, sampler, visitor);
+  finish(visitor, walk);
 }
 
 /// Carries the state of the light side of a group's paths along. A class that is made of it adds
@@ -82,6 +118,31 @@ class LightWalkVisitor {
   }
 
  protected:
+  /// The photon that the path leaves at a vertex, of a path that was emitted with `flux`.
+  Photon photon_at(const Walk& walk, const WalkVertex& v, const SampledSpectrum& flux) const {
+    Photon photon;
+    photon.p = v.surface.p;
+    photon.wi = v.surface.wo;
+    photon.ng = v.surface.ng;
+    photon.flux = flux * walk.throughput / v.surface.coverage;
+    photon.state = state_;
+    photon.secondary_terminated = walk.lambda.secondary_terminated();
+    photon.events = static_cast<uint16_t>(walk.events);
+    return photon;
+  }
+  /// True if an eye path may meet here a class among `classes_of(label)`. Where a mix chooses among
+  /// materials, whoever looks here may see another one.
+  template <class ClassesOf>
+  bool may_be_met(const WalkVertex& v, ClassesOf&& classes_of) const {
+    ClassMask any = ClassMask::kNone;
+    if (!v.mixed)
+      any = classes_of(label_at(symbols_, v));
+    else
+      for (size_t label = 0; label <= routes_.labels().size(); ++label)
+        any = any | classes_of(static_cast<Label>(label));
+    return (v.possible & any) != ClassMask::kNone;
+  }
+
   const Routes& routes_;
   const SceneSymbols& symbols_;
   const size_t group_;

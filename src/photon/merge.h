@@ -1,12 +1,14 @@
 // Density estimation at one visible point: what the photons around it reflect towards the eye
-// (docs/estimators.md, [M1] and [M2]; by the nearest photons [N1]).
-// Who calls it: photon integrators. It must not know films or passes.
+// (docs/estimators.md, [M1] and [M2]; by the nearest photons [N1]). It must not know films, passes
+// or how other techniques are weighed against it.
 #pragma once
+
+#include <array>
 
 #include "film/part_sums.h"
 #include "photon/photon_grid.h"
 #include "route/scene_symbols.h"
-#include "transport/random_walk.h"
+#include "transport/walk_symbols.h"
 
 namespace nephroid {
 
@@ -37,6 +39,63 @@ struct PhotonArrival {
 };
 /// Empty if the photon lies on another wall.
 std::optional<PhotonArrival> arrival_at(const WalkVertex& vertex, const Photon& photon);
+
+/// An event of the eye path by which a photon makes a path of the group.
+struct MergeEvent {
+  Part part = kNoPart;
+  EventClass letter = EventClass::kDiffuse;
+  Vec3f wi;          ///< local
+  BsdfEval bsdf;     ///< never black
+  float cosine = 0;  ///< the visible point's over the photon's own: a photon lies on its surface
+                     ///< with the density of its own cosine, shading normals weigh it as path
+                     ///< tracing would
+};
+
+/// The photons at one visible point, one after another.
+class PhotonMerger {
+ public:
+  /// `next(event symbol)`: the eye state behind an event here.
+  template <class Next>
+  PhotonMerger(const OwnedRoutes& owned, const MergePoint& at, int max_depth, Next&& next)
+      : routes_(*owned.routes), group_(owned.group), at_(at), max_depth_(max_depth) {
+    const Label label = label_at(*owned.symbols, at.vertex);
+    for (const EventClass c : kSurfaceClasses)
+      for (const bool transmitted : {false, true})
+        states_[static_cast<size_t>(c)][transmitted] = next(event_symbol(c, transmitted, label));
+  }
+
+  /// Calls reflects(MergeEvent) for each class in which the photon makes a path of the group that
+  /// is not too long. Returns true if there was one.
+  template <class Reflects>
+  bool each_event(const Photon& photon, Reflects&& reflects) const {
+    const WalkVertex& vertex = at_.vertex;
+    if (photon.events + at_.events > max_depth_) return false;
+    const std::optional<PhotonArrival> arrival = arrival_at(vertex, photon);
+    if (!arrival) return false;
+    const bool transmitted = vertex.transmits(arrival->wi);
+    bool counts = false;
+    for (const EventClass c : kSurfaceClasses) {
+      if (!contains(at_.classes, c)) continue;
+      const Part part = routes_.meet(states_[static_cast<size_t>(c)][transmitted], photon.state);
+      if (!routes_.owns(group_, part)) continue;
+      const BsdfEval e =
+          vertex.bsdf.eval(vertex.wo, arrival->wi, TransportMode::kRadiance, c, ClassMask::kAll);
+      if (e.f.is_black()) continue;
+      counts = true;
+      reflects(
+          MergeEvent{part, c, arrival->wi, e, abs_cos_theta(arrival->wi) / arrival->cos_geometric});
+    }
+    return counts;
+  }
+
+ private:
+  const Routes& routes_;
+  const size_t group_;
+  const MergePoint& at_;
+  const int max_depth_;
+  /// Eye states behind this vertex, by class and side.
+  std::array<std::array<EyeState, 2>, std::size(kSurfaceClasses)> states_{};
+};
 
 /// Adds throughput * sum of f * flux to the parts that own the photons' paths, to be divided by
 /// (N pi r^2); returns how many photons counted. What belongs to other routes or makes the path

@@ -36,16 +36,9 @@ class PhotonVisitor : public LightWalkVisitor {
   void vertex(const Walk& walk, const WalkVertex& v, PathSampler&) {
     if (walk.events == 0 && !is_met_) meet(v.surface.p);
     here_ = v.surface.p;
-    if ((v.possible & deposits_at(v)) == ClassMask::kNone) return;
-    Photon photon;
-    photon.p = v.surface.p;
-    photon.wi = v.surface.wo;
-    photon.ng = v.surface.ng;
-    photon.flux = flux_ * walk.throughput / v.surface.coverage;
-    photon.state = state_;
-    photon.secondary_terminated = walk.lambda.secondary_terminated();
-    photon.events = static_cast<uint16_t>(walk.events);
-    out_.push_back(photon);
+    if (!may_be_met(v, [&](Label label) { return routes_.deposits(group_, state_, label); }))
+      return;
+    out_.push_back(photon_at(walk, v, flux_));
     ++stored_;
   }
 
@@ -102,15 +95,6 @@ class PhotonVisitor : public LightWalkVisitor {
           return false;
     return true;
   }
-  /// Where a mix chooses among materials, whoever looks here may see another one.
-  ClassMask deposits_at(const WalkVertex& v) const {
-    if (!v.mixed) return routes_.deposits(group_, state_, label_at(symbols_, v));
-    ClassMask any = ClassMask::kNone;
-    for (size_t label = 0; label <= routes_.labels().size(); ++label)
-      any = any | routes_.deposits(group_, state_, static_cast<Label>(label));
-    return any;
-  }
-
   const CasterGuide& casters_;
   const SampledSpectrum flux_;
   std::vector<Photon>& out_;
@@ -132,18 +116,25 @@ struct Outcome {
 /// Photon number `j` of the pass; what it leaves goes to `photons`.
 Outcome trace_photon(const Scene& scene, const OwnedRoutes& owned,
                      const PhotonTraceSettings& settings, int64_t j, std::vector<Photon>& photons) {
-  // All passes together run through one sequence; the seed changes when its 32 bits are used up.
+  const LightPathSequence sequence{hash_combine(settings.key.seed, kStream)};
   const uint64_t number =
       static_cast<uint64_t>(settings.key.pass) * static_cast<uint64_t>(settings.photons_per_pass) +
       static_cast<uint64_t>(j);
-  const SobolPoint point(static_cast<uint32_t>(number), kLightPathPointDimensions);
-  PathSampler sampler(point, hash_combine(settings.key.seed, kStream, number >> 32));
-  const auto emitted = emit(scene, settings.guide->starts, settings.lambda, settings.time, sampler);
-  if (!emitted) return {};
-  Walk walk = walk_from(*emitted, settings.lambda, settings.specular_alpha, kEmissionDimensions);
-  PhotonVisitor visitor(owned, settings.guide->casters, *emitted, photons);
-  random_walk(scene, TransportMode::kImportance, settings.max_events, walk, sampler, visitor);
-  return {visitor.useful(), visitor.specular(), walk.rays, visitor.start(), visitor.caster()};
+  const LightPathLaunch launch{scene, settings.guide->starts, settings.specular_alpha,
+                               settings.max_events};
+  Outcome outcome;
+  sequence.at(number, [&](PathSampler& sampler) {
+    launch_light_path(
+        launch, settings.lambda, settings.time, sampler, kEmissionDimensions,
+        [&](const Emission& emission) {
+          return PhotonVisitor(owned, settings.guide->casters, emission, photons);
+        },
+        [&](const PhotonVisitor& visitor, const Walk& walk) {
+          outcome = {visitor.useful(), visitor.specular(), walk.rays, visitor.start(),
+                     visitor.caster()};
+        });
+  });
+  return outcome;
 }
 
 }  // namespace
@@ -154,16 +145,15 @@ PhotonTrace trace_photons(const Scene& scene, const OwnedRoutes& owned,
     std::vector<Photon> photons;
     uint64_t useful = 0, specular = 0, rays = 0;
   };
-  std::vector<Chunk> chunks(static_cast<size_t>(chunk_count(end - begin, kPhotonChunk)));
-  parallel_chunks(end - begin, kPhotonChunk, [&](int64_t c, int64_t b, int64_t e) {
-    Chunk& chunk = chunks[static_cast<size_t>(c)];
-    for (int64_t j = begin + b; j < begin + e; ++j) {
-      const Outcome outcome = trace_photon(scene, owned, settings, j, chunk.photons);
-      chunk.useful += outcome.useful;
-      chunk.specular += outcome.specular;
-      chunk.rays += outcome.rays;
-    }
-  });
+  std::vector<Chunk> chunks =
+      chunk_results<Chunk>(end - begin, kPhotonChunk, [&](Chunk& chunk, int64_t b, int64_t e) {
+        for (int64_t j = begin + b; j < begin + e; ++j) {
+          const Outcome outcome = trace_photon(scene, owned, settings, j, chunk.photons);
+          chunk.useful += outcome.useful;
+          chunk.specular += outcome.specular;
+          chunk.rays += outcome.rays;
+        }
+      });
   PhotonTrace trace;
   trace.paths = static_cast<uint64_t>(end - begin);
   size_t total = 0;
@@ -181,9 +171,7 @@ PhotonTrace trace_photons(const Scene& scene, const OwnedRoutes& owned,
 UsefulStarts trace_useful_starts(const Scene& scene, const OwnedRoutes& owned,
                                  const PhotonTraceSettings& settings, int64_t begin, int64_t end,
                                  const std::function<bool(const Photon&)>& is_useful) {
-  std::vector<UsefulStarts> chunks(static_cast<size_t>(chunk_count(end - begin, kPhotonChunk)));
-  parallel_chunks(end - begin, kPhotonChunk, [&](int64_t c, int64_t b, int64_t e) {
-    UsefulStarts& chunk = chunks[static_cast<size_t>(c)];
+  const auto trace_chunk = [&](UsefulStarts& chunk, int64_t b, int64_t e) {
     std::vector<Photon> photons;
     for (int64_t j = begin + b; j < begin + e; ++j) {
       photons.clear();
@@ -198,13 +186,13 @@ UsefulStarts trace_useful_starts(const Scene& scene, const OwnedRoutes& owned,
       chunk.casters.push_back(outcome.start);
       chunk.casters.back().first_hit = outcome.caster->p;
     }
-  });
+  };
   UsefulStarts all;
-  for (const UsefulStarts& chunk : chunks) {
+  ordered_reduce<UsefulStarts>(end - begin, kPhotonChunk, trace_chunk, [&](UsefulStarts&& chunk) {
     all.starts.insert(all.starts.end(), chunk.starts.begin(), chunk.starts.end());
     all.casters.insert(all.casters.end(), chunk.casters.begin(), chunk.casters.end());
     all.rays += chunk.rays;
-  }
+  });
   return all;
 }
 

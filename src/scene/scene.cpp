@@ -96,7 +96,7 @@ bool Scene::intersect(const Ray& ray, SurfaceInteraction& hit) const {
       hit.coverage = a;
       return true;
     }
-    if (++passages > kMaxPassages) return false;
+    if (++passages > kMaxStraightEvents) return false;
     passed = hit.distance;
     rest.o = hit.spawn_origin(ray.d);
     if (rest.t_max < kInfinity) rest.t_max = ray.t_max - passed / length(ray.d);
@@ -121,7 +121,7 @@ Scene::Passage Scene::passage(const SurfaceInteraction& hit,
   const Material& m = *materials[static_cast<size_t>(hit.material)]->resolve(hit);
   Passage p;
   p.beside = SampledSpectrum(1.0f - a);
-  if (a > 0.0f && m.passes_straight()) {
+  if (a > 0.0f && m.transmits_straight()) {
     p.across = m.straight_transmittance(hit, lambda) * a;
     p.across_share = a;
   }
@@ -137,7 +137,7 @@ SampledSpectrum Scene::transmittance(const Ray& shadow_ray,
   SurfaceInteraction hit;
   int passages = 0;
   while (rest.t_max > 0.0f && intersect_passing(rest, hit)) {
-    if (++passages > kMaxPassages) return SampledSpectrum(0.0f);
+    if (++passages > kMaxStraightEvents) return SampledSpectrum(0.0f);
     const Passage p = passage(hit, lambda);
     weight *= p.across + p.beside;
     if (weight.is_black()) return weight;

@@ -79,7 +79,7 @@ struct ShapeGroup {
 };
 
 /// Crossings of surfaces that let light straight through after which a ray is given up as trapped.
-inline constexpr int kMaxPassages = 1000;
+inline constexpr int kMaxStraightEvents = 1000;
 
 class Scene {
  public:

@@ -148,7 +148,7 @@ class SceneBuilder {
     record.media = {medium_named(description.inside_medium, description.where),
                     medium_named(description.outside_medium, description.where)};
     if (description.area_light) add_area_light(description, shape, material, record);
-    const bool passing = material.passes_straight() || record.alpha;
+    const bool passing = material.transmits_straight() || record.alpha;
     scene_->has_passing_shapes |= passing;
     if (contains(material.possible_classes(), EventClass::kSpecular))
       scene_->has_specular_material = true;

@@ -10,11 +10,11 @@ CameraView::CameraView(const Scene& scene, const PixelBounds& crop) : camera_(*s
   high_ = Vec2f(static_cast<float>(crop.x1), static_cast<float>(crop.y1)) + radius;
 }
 
-std::optional<Exposure> CameraView::connect(const Vec3f& p, const Vec2f& u_lens,
-                                            float u_time) const {
+std::optional<LensConnection> CameraView::connect(const Vec3f& p, const Vec2f& u_lens,
+                                                  float u_time) const {
   const std::optional<CameraConnection> line = camera_.connect(p, u_lens, u_time);
   if (!line) return std::nullopt;
-  Exposure e{*line, {}, 0};
+  LensConnection e{*line, {}, 0};
   const auto add = [&](const Vec2f& film) {
     if (reaches(film)) e.film[static_cast<size_t>(e.count++)] = film;
   };

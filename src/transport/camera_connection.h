@@ -1,12 +1,13 @@
-// From a vertex of a light path to the camera: the points of the picture that a straight line to
-// the lens exposes, and what gets along it. Who calls it: estimators that connect light to the
-// camera. It must not know routes.
+// From a vertex of a light path to the camera (light tracing, t = 1): the points of the picture
+// that a straight line to the lens exposes, and what gets along it. It must not know how
+// other techniques are weighed against this one.
 #pragma once
 
 #include <array>
 #include <optional>
 
 #include "film/film.h"
+#include "route/routes.h"
 #include "scene/camera/camera.h"
 #include "scene/pixel_filter.h"
 #include "transport/random_walk.h"
@@ -14,7 +15,7 @@
 namespace nephroid {
 
 /// A connection and the film points that it exposes: several where the picture closes upon itself.
-struct Exposure {
+struct LensConnection {
   CameraConnection line;
   std::array<Vec2f, 4> film;
   int count = 0;
@@ -27,7 +28,7 @@ class CameraView {
 
   /// Connects `p` to the lens. Empty if no pixel of the crop has a filter that reaches the film
   /// point. `u_lens` and `u_time` as Camera::connect.
-  std::optional<Exposure> connect(const Vec3f& p, const Vec2f& u_lens, float u_time) const;
+  std::optional<LensConnection> connect(const Vec3f& p, const Vec2f& u_lens, float u_time) const;
 
  private:
   bool reaches(const Vec2f& film) const {
@@ -42,5 +43,87 @@ class CameraView {
 SampledSpectrum attenuation_to_camera(const Scene& scene, const Vec3f& origin, float time,
                                       const Medium* medium, const CameraConnection& line,
                                       const SampledWavelengths& lambda, const PathSampler& sampler);
+
+/// The cosine of a light path's vertex towards the unit direction `w` (world), whose local form is
+/// `wo` on the other side, with Veach's correction for shading normals ([P2] in docs/estimators.md;
+/// Veach 1997, section 5.3). Where light comes out from under the surface it has been brought there
+/// by area. Infinite or not a number at grazing angles.
+inline float light_side_cosine(const SurfaceInteraction& surface, const Vec3f& wo, const Vec3f& w,
+                               bool subsurface_exit) {
+  return abs_dot(w, surface.ng) *
+         (subsurface_exit ? 1.0f : abs_cos_theta(wo) / abs_dot(surface.wo, surface.ng));
+}
+
+/// Light that a surface vertex of a light path scatters to the lens in one class of events.
+struct CameraEvent {
+  const LensConnection& seen;
+  Part part = kNoPart;
+  EventClass letter = EventClass::kDiffuse;
+  Vec3f wi;                 ///< local, towards the lens
+  SampledSpectrum f;        ///< of the BSDF
+  SampledSpectrum through;  ///< share of light that gets to the lens
+  float cosine = 0;         ///< light_side_cosine
+};
+
+/// Connects light paths of a moment to the camera, and counts the rays that this takes.
+class CameraConnector {
+ public:
+  CameraConnector(const Scene& scene, const CameraView& view, float u_time)
+      : scene_(scene), view_(view), u_time_(u_time) {}
+
+  /// Calls found(CameraEvent) for each of the finite `classes` at a surface in which light gets to
+  /// the lens and makes a path of a part, as `part_of(class, wi)` says; kNoPart is passed over.
+  template <class PartOf, class Found>
+  void connect(const Walk& walk, const WalkVertex& v, ClassMask classes, PathSampler& sampler,
+               PartOf&& part_of, Found&& found) {
+    const auto seen = view_.connect(v.surface.p, sampler.get_2d(), u_time_);
+    if (!seen) return;
+    const Vec3f& w = seen->line.wi;
+    const Vec3f wi = v.to_local(w);
+    const float cosine = light_side_cosine(v.surface, v.wo, w, v.subsurface_exit);
+    if (!std::isfinite(cosine)) return;
+    SampledSpectrum through;
+    bool traced = false;
+    for (const EventClass c : kSurfaceClasses) {
+      if (!contains(classes, c)) continue;
+      const Part part = part_of(c, wi);
+      if (part == kNoPart) continue;
+      const BsdfEval e = v.bsdf.eval(v.wo, wi, TransportMode::kImportance, c, ClassMask::kAll);
+      if (e.f.is_black()) continue;
+      if (!traced)
+        through = arrives(*seen, v.surface.spawn_origin(w), walk,
+                          medium_towards(v.surface, w, walk.medium), sampler);
+      traced = true;
+      if (through.is_black()) return;
+      found(CameraEvent{*seen, part, c, wi, e.f, through, cosine});
+    }
+  }
+
+  /// Calls found(seen, through, phase function) at a vertex in a medium.
+  template <class Found>
+  void connect(const Walk& walk, const MediumVertex& v, PathSampler& sampler, Found&& found) {
+    const auto seen = view_.connect(v.p, sampler.get_2d(), u_time_);
+    if (!seen) return;
+    const SampledSpectrum through = arrives(*seen, v.p, walk, walk.medium, sampler);
+    found(*seen, through, v.phase.eval(v.wo, seen->line.wi));
+  }
+
+  /// Share of light that gets from `origin`, in `medium`, to the lens.
+  SampledSpectrum arrives(const LensConnection& seen, const Vec3f& origin, const Walk& walk,
+                          const Medium* medium, const PathSampler& sampler) {
+    ++rays_;
+    return attenuation_to_camera(scene_, origin, walk.ray.time, medium, seen.line, walk.lambda,
+                                 sampler);
+  }
+  const CameraView& view() const { return view_; }
+  float u_time() const { return u_time_; }
+  uint64_t rays() const { return rays_; }
+
+ private:
+  const Scene& scene_;
+  const CameraView& view_;
+  const float u_time_;
+  uint64_t rays_ = 0;
+};
 
 }  // namespace nephroid

@@ -49,7 +49,7 @@ SampledSpectrum follow(const Scene& scene, Ray rest, const Medium*& medium,
     const bool found = scene.intersect_passing(rest, hit);
     if (medium) through *= piece(*medium, rest, found ? hit.distance : rest.t_max);
     if (!found || through.is_black()) return through;
-    if (passages >= kMaxPassages) return SampledSpectrum(0.0f);
+    if (passages >= kMaxStraightEvents) return SampledSpectrum(0.0f);
     // What passes beside the surface (alpha) stays in its medium, as walks do.
     const Scene::Passage passage = scene.passage(hit, lambda);
     const bool crosses = passage.across_share > 0.0f && random.next() < passage.across_share;

@@ -12,7 +12,8 @@
 namespace nephroid {
 
 /// Runs the walk until it leaves, ends or has `max_events` events. The visitor has
-///   ClassMask useful(const WalkVertex&)    letters that its path may have here
+///   ClassMask useful(const WalkVertex&)    letters that its path may have here: asked once for a
+///                                  vertex, and then its `letters`
 ///   bool scatters_in(const Medium&)        its path may have a V here
 ///   bool looks_under_surfaces()    it wants to see where subsurface light comes out even if D is
 ///                                  not among the letters
@@ -132,35 +133,34 @@ class RandomWalk {
     hit_.coverage *= surface.presence(hit_);
     // A lamp shines whole also where a mix shows no surface.
     if (const Light* light = scene_.area_light(hit_)) visitor_.emitter(walk_, hit_, *light);
-    if (material->is_interface()) return pass();
+    if (material->is_interface()) return go_straight_through();
     // Without an event left, the walk may still go straight through what adds none.
     const bool spent = walk_.events >= max_events_;
-    if (spent && !material->passes_straight()) return false;
+    if (spent && !material->transmits_straight()) return false;
     if (material->has_bump()) material->bump(hit_);
     arena_.clear();
     const Bsdf* bsdf = material->make_bsdf(hit_, walk_.lambda, walk_.specular_alpha, arena_);
     if (!bsdf) return false;
     if (walk_.lambda.secondary_terminated()) walk_.density.take_means(walk_.lambda);
     const bool mergeable = hit_.record->merges_photons;
-    const WalkVertex vertex{hit_,
-                            *material,
-                            *bsdf,
-                            hit_.shading.to_local(hit_.wo),
-                            mergeable ? surface.merging_classes() : ClassMask::kNone,
-                            material != &surface,
-                            mergeable && material->merges_photons()};
-    return scatter_at_surface(vertex, spent);
+    return scatter_at_surface({hit_, *material, *bsdf, hit_.shading.to_local(hit_.wo),
+                               mergeable ? surface.merging_classes() : ClassMask::kNone,
+                               material != &surface, mergeable && material->merges_photons()},
+                              spent);
   }
 
-  bool scatter_at_surface(const WalkVertex& vertex, bool spent) {
+  bool scatter_at_surface(WalkVertex vertex, bool spent) {
     const Material& material = vertex.material;
     const int dimension = walk_.vertex_dimension();
     sampler_.start_dimension(dimension + dimensions::kLight);
-    if (!spent) visitor_.vertex(walk_, vertex, sampler_);
-    const ClassMask among = spent ? ClassMask::kNone : vertex.classes_of(visitor_.useful(vertex));
+    if (!spent) {
+      vertex.letters = visitor_.useful(vertex);
+      visitor_.vertex(walk_, vertex, sampler_);
+    }
+    const ClassMask among = vertex.useful_classes();
     const bool looks_under = !spent && !vertex.subsurface_exit && material.has_bssrdf() &&
                              visitor_.looks_under_surfaces();
-    if (among == ClassMask::kNone && !looks_under && !material.passes_straight()) return false;
+    if (among == ClassMask::kNone && !looks_under && !material.transmits_straight()) return false;
     if constexpr (requires { visitor_.branches(walk_); })
       if (contains(among, EventClass::kSpecular) && visitor_.branches(walk_) && branch(vertex) &&
           Visitor::kEndsAtBranches)
@@ -176,7 +176,7 @@ class RandomWalk {
     if (s->straight_through) {
       ++walk_.vertices;
       walk_.throughput *= weight;
-      return !walk_.throughput.is_black() && pass();
+      return !walk_.throughput.is_black() && go_straight_through();
     }
     const Vec3f wi = hit_.shading.to_world(s->wi);
     if (mode_ == TransportMode::kImportance) {
@@ -265,8 +265,8 @@ class RandomWalk {
   }
 
   /// Goes on behind a surface that is not there.
-  bool pass() {
-    if (++walk_.passages > kMaxPassages) return false;
+  bool go_straight_through() {
+    if (++walk_.straight_events > kMaxStraightEvents) return false;
     walk_.ray.o = hit_.spawn_origin(walk_.ray.d);
     walk_.medium = medium_towards(hit_, walk_.ray.d, walk_.medium);
     return true;
@@ -287,9 +287,9 @@ class RandomWalk {
     count_event(walk_);
     if (!visitor_.scatter(walk_, event)) return false;
     const float carried = walk_.carried();
-    if (carried < walk_.window) {
+    if (carried < walk_.roulette_threshold) {
       sampler_.start_dimension(dimension + dimensions::kRoulette);
-      const float survival = carried / walk_.window;
+      const float survival = carried / walk_.roulette_threshold;
       if (!(sampler_.get_1d() < survival)) return false;
       walk_.throughput /= survival;
     }

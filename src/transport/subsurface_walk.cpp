@@ -19,7 +19,7 @@ std::optional<SubsurfaceExit> find_subsurface_exit(const Scene& scene,
   SubsurfaceExit exit;
   SurfaceInteraction hit;
   int found = 0;
-  for (int passages = 0; passages < kMaxPassages && ray.t_max > 0.0f; ++passages) {
+  for (int passages = 0; passages < kMaxStraightEvents && ray.t_max > 0.0f; ++passages) {
     ++exit.rays;
     if (!scene.intersect(ray, hit)) break;
     if (scene.materials[static_cast<size_t>(hit.material)]->resolve(hit) == &material) {

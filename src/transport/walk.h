@@ -26,9 +26,9 @@ inline constexpr int kFlight = 7;    // 1, of the flight that leads to the verte
 inline constexpr int kPerVertex = 8;
 }  // namespace dimensions
 
-/// Windows of roulette of camera walks that look for lights by themselves: what they begin with,
-/// and what they have where longer walks pay (docs/estimators.md, section 24).
-inline constexpr float kCameraWindow = 1.0f / 3, kPatientWindow = 1.0f / 8;
+/// Russian roulette thresholds of camera walks that look for lights by themselves: what they begin
+/// with, and what they have where longer walks pay (docs/estimators.md, section 24).
+inline constexpr float kCameraRouletteThreshold = 1.0f / 3, kPatientRouletteThreshold = 1.0f / 8;
 
 /// A walk between two vertices.
 struct Walk {
@@ -60,8 +60,8 @@ struct Walk {
     return vertices == 0 ? first_dimension
                          : second_dimension + (vertices - 1) * dimensions::kPerVertex;
   }
-  int passages = 0;  ///< straight passages since the start (bounds the walk)
-  float window = 1;  ///< roulette is played on a walk that carries less
+  int straight_events = 0;       ///< straight-through events since the start (bounds the walk)
+  float roulette_threshold = 1;  ///< roulette is played on a walk that carries less
 
   /// What is left of what it started with, as roulette sees it.
   float carried() const { return throughput.max_component() * eta_scale / density.u_mean; }
@@ -100,22 +100,26 @@ struct WalkVertex {
   bool merges = true;
   /// Light that went under the surface elsewhere comes out here: a walk leaves, it does not arrive.
   bool subsurface_exit = false;
+  /// Letters of events from which the walk's path can go on: its visitor's answer to `useful`.
+  ClassMask letters = ClassMask::kNone;
 
+  /// Classes of events that the walk may have here.
+  ClassMask useful_classes() const { return classes_of(letters); }
   Vec3f to_local(const Vec3f& w) const { return surface.shading.to_local(w); }
   /// True if light that leaves along the local direction `wi` is transmitted.
   bool transmits(const Vec3f& wi) const { return subsurface_exit || wo.z * wi.z < 0.0f; }
   /// The letter of an event of class `c` here.
   EventClass letter(EventClass c) const { return merges ? c : EventClass::kHair; }
-  /// Classes of events whose letters are among `letters`.
-  ClassMask classes_of(ClassMask letters) const {
+  /// Classes of events whose letters are among `some`.
+  ClassMask classes_of(ClassMask some) const {
     if (merges) {
       // What goes below here may come out on a curve.
       const bool may_become_hair =
-          !subsurface_exit && contains(letters, EventClass::kHair) && material.has_bssrdf();
-      return (letters & ClassMask::kAll) |
+          !subsurface_exit && contains(some, EventClass::kHair) && material.has_bssrdf();
+      return (some & ClassMask::kAll) |
              (may_become_hair ? ClassMask::kDiffuse : ClassMask::kNone);
     }
-    return contains(letters, EventClass::kHair) ? ClassMask::kAll : ClassMask::kNone;
+    return contains(some, EventClass::kHair) ? ClassMask::kAll : ClassMask::kNone;
   }
 };
 

@@ -67,7 +67,7 @@ class PairRound {
   void render_row(int y, Row& row) {
     const PixelBounds& b = film_.bounds();
     LightSubpath path;
-    std::vector<FilmConnection> seen;
+    std::vector<CameraSplat> seen;
     PartSums light(*settings_.owned.routes, settings_.owned.group);
     row.techniques = techniques_.start_row(light);
     for (int x = b.x0; x < b.x1; ++x) {
@@ -77,7 +77,7 @@ class PairRound {
     }
   }
 
-  void render_pixel(int x, int y, LightSubpath& path, std::vector<FilmConnection>& seen,
+  void render_pixel(int x, int y, LightSubpath& path, std::vector<CameraSplat>& seen,
                     PartSums& light, Row& row) {
     const Scene& scene = settings_.scene;
     const FilmSettings& film = film_.settings();
@@ -95,7 +95,7 @@ class PairRound {
                                  kEyePathDimensions)
                     .rays;
     row.useful += !seen.empty();
-    for (const FilmConnection& c : seen)
+    for (const CameraSplat& c : seen)
       for (int i = 0; i < c.seen.count; ++i)
         row.splats.push_back({c.seen.film[static_cast<size_t>(i)],
                               static_cast<uint8_t>(light.place(c.part)), weights.apply(c.value)});

@@ -90,7 +90,7 @@ class EyeVisitor {
     surface_ = &v;
     if (features_) features_->record(walk, v);
     guided_.arrive(walk);
-    const ClassMask among = v.classes_of(useful(v)) & v.bsdf.finite_classes();
+    const ClassMask among = v.useful_classes() & v.bsdf.finite_classes();
     if (among == ClassMask::kNone) return;
     const EyeEnd end{walk, &v, nullptr, among, Receiver::of(v.surface, walk.medium)};
     next_event(end, sampler);
@@ -125,10 +125,9 @@ class EyeVisitor {
     EventDensity density;
     double merge = 0;
     if (surface_) {
-      const ClassMask letters = useful(*surface_);
-      guided_.leave(walk, *surface_, event, letters);
+      guided_.leave(walk, *surface_, event);
       density = density_of_walk(walk, *surface_, event, TransportMode::kRadiance,
-                                surface_->classes_of(letters), sums_.asks_back());
+                                surface_->useful_classes(), sums_.asks_back());
       merge = merge_weight(event.letter);
     } else {
       const double p = medium_->phase.eval(medium_->wo, walk.ray.d);
@@ -342,41 +341,39 @@ class EyeVisitor {
   uint64_t rays_ = 0;
 };
 
-/// [W11] Photons around the vertex, with the rules of merge.cpp.
+/// [W11] Photons around the vertex.
 void EyeVisitor::merge(const Walk& walk, const WalkVertex& v, ClassMask among) {
   const PairMerging& merging = *settings_.merging;
   const ClassMask classes = among & ClassMask::kRough;
   const float radius = merging.radius_at(place_.p);
   if (!v.merges || classes == ClassMask::kNone || !(radius > 0.0f)) return;
+  const MergePoint at{
+      v, eye_, classes, walk.events + 1, walk.throughput, walk.lambda.secondary_terminated()};
+  // Made for the first photon: most vertices have none.
+  std::optional<PhotonMerger> merger;
   const double own = merging.weight_at(place_.p, first_);
   const float scale = 1.0f / (static_cast<float>(merging.photons) * kPi * sqr(radius));
   merging.grid->query(place_.p, radius, [&](const Photon& photon, float d2) {
-    if (photon.events + walk.events + 1 > settings_.max_depth) return;
-    const std::optional<PhotonArrival> arrival = arrival_at(v, photon);
-    if (!arrival) return;
-    const Vec3f& wi = arrival->wi;
-    for (const EventClass c : kSurfaceClasses) {
-      if (!contains(classes, c)) continue;
-      const Part part =
-          routes_.meet(routes_.next(eye_, symbol_at(symbols_, v, c, wi)), photon.state);
-      if (!light_.owns(part)) continue;
-      const BsdfEval e = v.bsdf.eval(v.wo, wi, TransportMode::kRadiance, c, ClassMask::kAll);
-      if (e.f.is_black()) continue;
+    if (!merger)
+      merger.emplace(settings_.owned, at, settings_.max_depth,
+                     [&](EventSymbol event) { return routes_.next(eye_, event); });
+    merger->each_event(photon, [&](const MergeEvent& event) {
       double weight = 1;
       if (settings_.technique.weighted) {
         const double towards =
-            v.subsurface_exit ? subsurface_density(photon.ng, photon.wi) : double{e.pdf_w};
-        const double back = v.subsurface_exit || !sums_.asks_back()
-                                ? 0.0
-                                : event_density(v.bsdf, wi, v.wo, TransportMode::kImportance, c);
+            v.subsurface_exit ? subsurface_density(photon.ng, photon.wi) : double{event.bsdf.pdf_w};
+        const double back =
+            v.subsurface_exit || !sums_.asks_back()
+                ? 0.0
+                : event_density(v.bsdf, event.wi, v.wo, TransportMode::kImportance, event.letter);
         weight =
             weight_of_merge(sums_.all(), back, {photon.cut_here, photon.cuts_before}, towards, own);
       }
-      add(part, walk, Technique::kMerge,
-          walk.throughput * e.f * photon.flux *
-              (abs_cos_theta(wi) / arrival->cos_geometric * scale * static_cast<float>(weight)),
+      add(event.part, walk, Technique::kMerge,
+          walk.throughput * event.bsdf.f * photon.flux *
+              (event.cosine * scale * static_cast<float>(weight)),
           photon.secondary_terminated, bias_factor(d2, radius));
-    }
+    });
   });
 }
 

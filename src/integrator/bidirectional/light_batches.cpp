@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/parallel.h"
+#include "photon/light_walk.h"
 
 namespace nephroid {
 
@@ -14,23 +15,23 @@ constexpr int64_t kGroup = 32 * kChunk;
 
 }  // namespace
 
-LightPathCounts LightBatches::trace_path(int64_t j, std::vector<FilmConnection>& seen,
+LightPathCounts LightBatches::trace_path(int64_t j, std::vector<CameraSplat>& seen,
                                          std::vector<Photon>& photons) const {
   const uint64_t number =
       uint64_t{pass_.trace.key.pass} * static_cast<uint64_t>(config_.light_paths) +
       static_cast<uint64_t>(j);
-  const SobolPoint point(static_cast<uint32_t>(number), kLightPathDimensions);
-  const uint64_t seed =
-      config_.number_varies
-          ? hash_combine(config_.seed, kLightStream, number >> 32, config_.light_paths)
-          : hash_combine(config_.seed, kLightStream, number >> 32);
-  PathSampler sampler(point, seed);
-  return trace_light_path(settings_, pass_.trace.lambda, pass_.u_time, sampler, nullptr, &seen,
-                          &photons);
+  LightPathSequence sequence{hash_combine(config_.seed, kLightStream), kLightPathDimensions};
+  if (config_.number_varies) sequence.variant = static_cast<uint64_t>(config_.light_paths);
+  LightPathCounts counts;
+  sequence.at(number, [&](PathSampler& sampler) {
+    counts = trace_light_path(settings_, pass_.trace.lambda, pass_.u_time, sampler, nullptr, &seen,
+                              &photons);
+  });
+  return counts;
 }
 
 void LightBatches::trace_chunk(int64_t begin, int64_t end, Chunk& chunk) const {
-  std::vector<FilmConnection> seen;
+  std::vector<CameraSplat> seen;
   for (int64_t j = begin; j < end; ++j) {
     seen.clear();
     const size_t before = chunk.photons.size();
@@ -38,7 +39,7 @@ void LightBatches::trace_chunk(int64_t begin, int64_t end, Chunk& chunk) const {
     chunk.rays += counts.rays;
     chunk.specular += counts.specular;
     chunk.useful += chunk.photons.size() > before;
-    for (const FilmConnection& c : seen)
+    for (const CameraSplat& c : seen)
       for (int i = 0; i < c.seen.count; ++i)
         chunk.splats.push_back({c.seen.film[static_cast<size_t>(i)],
                                 static_cast<uint8_t>(places_.place(c.part)),
@@ -67,10 +68,9 @@ std::vector<Photon> LightBatches::next(const std::function<void(std::span<const 
   std::vector<Photon> photons;
   while (!empty() && static_cast<int64_t>(photons.size()) < config_.memory_photons) {
     const int64_t count = std::min(kGroup, config_.light_paths - begin_);
-    std::vector<Chunk> chunks(static_cast<size_t>(chunk_count(count, kChunk)));
-    parallel_chunks(count, kChunk, [&](int64_t c, int64_t b, int64_t e) {
-      trace_chunk(begin_ + b, begin_ + e, chunks[static_cast<size_t>(c)]);
-    });
+    std::vector<Chunk> chunks = chunk_results<Chunk>(
+        count, kChunk,
+        [&](Chunk& chunk, int64_t b, int64_t e) { trace_chunk(begin_ + b, begin_ + e, chunk); });
     begin_ += count;
     reserve(photons, chunks, batch_begin);
     std::vector<Splat> splats;

@@ -43,7 +43,7 @@ class LightBatches {
     uint64_t rays = 0, useful = 0, specular = 0;
   };
   /// Light path `j` of the pass.
-  LightPathCounts trace_path(int64_t j, std::vector<FilmConnection>& seen,
+  LightPathCounts trace_path(int64_t j, std::vector<CameraSplat>& seen,
                              std::vector<Photon>& photons) const;
   void trace_chunk(int64_t begin, int64_t end, Chunk& chunk) const;
   void reserve(std::vector<Photon>& photons, std::span<const Chunk> chunks,

@@ -11,17 +11,17 @@ namespace {
 class LightVisitor : public LightWalkVisitor {
  public:
   LightVisitor(const PairSettings& settings, const Emission& emission, float u_time,
-               LightSubpath* path, std::vector<FilmConnection>* seen, std::vector<Photon>* photons)
+               LightSubpath* path, std::vector<CameraSplat>* seen, std::vector<Photon>* photons)
       : LightWalkVisitor(settings.owned, emission),
         settings_(settings),
         emission_(emission),
-        u_time_(u_time),
         path_(path),
         seen_(seen),
         photons_(photons) {
     const Light& light = *settings.scene.lights[static_cast<size_t>(emission.light)];
     start_.p = light.is_area() ? emission.start.p : emission.ray.o;
     if (light.is_area()) start_.ng = emission.start.ng;
+    if (settings.view) camera_.emplace(settings.scene, *settings.view, u_time);
   }
 
   void vertex(const Walk& walk, const WalkVertex& v, PathSampler& sampler) {
@@ -31,7 +31,7 @@ class LightVisitor : public LightWalkVisitor {
       arrive(walk, {v.surface.p, v.surface.ng}, v.surface.shading.z);
     if (!v.subsurface_exit) entry_wo_ = v.surface.wo;
     surface_ = &v;
-    const ClassMask classes = v.classes_of(useful(v)) & v.bsdf.finite_classes();
+    const ClassMask classes = v.useful_classes() & v.bsdf.finite_classes();
     if (photons_) deposit(walk, v);
     if (classes == ClassMask::kNone) return;
     if (seen_) connect_surface(walk, v, classes, sampler);
@@ -64,7 +64,7 @@ class LightVisitor : public LightWalkVisitor {
     end_.sums = sums_;
     if (surface_) {
       end_.event = density_of_walk(walk, *surface_, event, TransportMode::kImportance,
-                                   surface_->classes_of(useful(*surface_)), sums_.before > 0);
+                                   surface_->useful_classes(), sums_.before > 0);
       end_.merge = merge_weight(*surface_, event.letter, false);
     } else {
       const double p = medium_->phase.eval(medium_->wo, walk.ray.d);
@@ -78,7 +78,7 @@ class LightVisitor : public LightWalkVisitor {
     return true;
   }
 
-  uint64_t rays() const { return rays_; }
+  uint64_t rays() const { return camera_ ? camera_->rays() : 0; }
   bool after_specular() const { return after_specular_; }
 
  private:
@@ -129,27 +129,14 @@ class LightVisitor : public LightWalkVisitor {
   }
 
   void deposit(const Walk& walk, const WalkVertex& v) {
-    if (!merges_here() || v.subsurface_exit || (v.possible & useful_rough(v)) == ClassMask::kNone)
+    if (!merges_here() || v.subsurface_exit || !may_be_met(v, [&](Label label) {
+          return routes_.useful_from_light(group_, state_, label) & ClassMask::kRough;
+        }))
       return;
-    Photon photon;
-    photon.p = v.surface.p;
-    photon.wi = v.surface.wo;
-    photon.ng = v.surface.ng;
-    photon.flux = emission_.flux * walk.throughput / v.surface.coverage;
-    photon.state = state_;
-    photon.secondary_terminated = walk.lambda.secondary_terminated();
-    photon.events = static_cast<uint16_t>(walk.events);
+    Photon photon = photon_at(walk, v, emission_.flux);
     photon.cut_here = static_cast<float>(sums_.here);
     photon.cuts_before = static_cast<float>(sums_.before);
     photons_->push_back(photon);
-  }
-  /// D and G of use here; where a mix chooses among materials, in any guise.
-  ClassMask useful_rough(const WalkVertex& v) const {
-    if (!v.mixed) return useful(v) & ClassMask::kRough;
-    ClassMask any = ClassMask::kNone;
-    for (size_t label = 0; label <= routes_.labels().size(); ++label)
-      any = any | routes_.useful_from_light(group_, state_, static_cast<Label>(label));
-    return any & ClassMask::kRough;
   }
 
   bool makes_connection(const Walk& walk) const {
@@ -165,71 +152,48 @@ class LightVisitor : public LightWalkVisitor {
   void connect_surface(const Walk& walk, const WalkVertex& v, ClassMask classes,
                        PathSampler& sampler) {
     if (!makes_connection(walk)) return;
-    const auto view = settings_.view->connect(v.surface.p, sampler.get_2d(), u_time_);
-    if (!view) return;
-    const Vec3f& w = view->line.wi;
-    const Vec3f wi = v.to_local(w);
-    const float across = abs_dot(w, v.surface.ng);
-    // Veach's correction for shading normals [P2].
-    const float cosine =
-        across *
-        (v.subsurface_exit ? 1.0f : abs_cos_theta(v.wo) / abs_dot(v.surface.wo, v.surface.ng));
-    if (!std::isfinite(cosine)) return;
-    SampledSpectrum through;
-    bool traced = false;
-    for (const EventClass c : kSurfaceClasses) {
-      if (!contains(classes, c)) continue;
+    const auto part_of = [&](EventClass c, const Vec3f& wi) {
       const Part part =
           routes_.meet(routes_.next(routes_.start(), symbol_at(symbols_, v, c, wi)), state_);
-      if (!routes_.owns(group_, part)) continue;
-      const BsdfEval e = v.bsdf.eval(v.wo, wi, TransportMode::kImportance, c, ClassMask::kAll);
-      if (e.f.is_black()) continue;
-      if (!traced)
-        through = arrives(*view, v.surface.spawn_origin(w), walk,
-                          medium_towards(v.surface, w, walk.medium), sampler);
-      traced = true;
-      if (through.is_black()) return;
-      const double back = v.subsurface_exit || !(sums_.before > 0)
-                              ? 0.0
-                              : event_density(v.bsdf, wi, v.wo, TransportMode::kRadiance, c);
-      expose(*view, part, walk, e.f * through,
-             cosine * weight_of_connection(static_cast<double>(view->line.film_density) * across,
-                                           back, merge_weight(v, c, true)));
-    }
+      return routes_.owns(group_, part) ? part : kNoPart;
+    };
+    camera_->connect(walk, v, classes, sampler, part_of, [&](const CameraEvent& event) {
+      const CameraConnection& line = event.seen.line;
+      const double back =
+          v.subsurface_exit || !(sums_.before > 0)
+              ? 0.0
+              : event_density(v.bsdf, event.wi, v.wo, TransportMode::kRadiance, event.letter);
+      splat(event.seen, event.part, walk, event.f * event.through,
+            event.cosine * weight_of_connection(static_cast<double>(line.film_density) *
+                                                    abs_dot(line.wi, v.surface.ng),
+                                                back, merge_weight(v, event.letter, true)));
+    });
   }
 
   void connect_medium(const Walk& walk, const MediumVertex& v, PathSampler& sampler) {
     const Part part =
         routes_.meet(routes_.next(routes_.start(), symbol_in(symbols_, v.medium)), state_);
     if (!makes_connection(walk) || !routes_.owns(group_, part)) return;
-    const auto view = settings_.view->connect(v.p, sampler.get_2d(), u_time_);
-    if (!view) return;
-    const SampledSpectrum through = arrives(*view, v.p, walk, walk.medium, sampler);
-    const float phase = v.phase.eval(v.wo, view->line.wi);
-    expose(*view, part, walk, through,
-           phase * weight_of_connection(view->line.film_density, phase, 0));
+    camera_->connect(walk, v, sampler,
+                     [&](const LensConnection& seen, const SampledSpectrum& through, float phase) {
+                       splat(seen, part, walk, through,
+                             phase * weight_of_connection(seen.line.film_density, phase, 0));
+                     });
   }
 
-  SampledSpectrum arrives(const Exposure& view, const Vec3f& origin, const Walk& walk,
-                          const Medium* medium, const PathSampler& sampler) {
-    ++rays_;
-    return attenuation_to_camera(settings_.scene, origin, walk.ray.time, medium, view.line,
-                                 walk.lambda, sampler);
-  }
-
-  void expose(const Exposure& view, Part part, const Walk& walk, const SampledSpectrum& share,
-              float factor) {
+  void splat(const LensConnection& seen, Part part, const Walk& walk, const SampledSpectrum& share,
+             float factor) {
     const SampledSpectrum value = emission_.flux * walk.throughput * share *
-                                  (factor * view.line.film_density * view.line.weight);
+                                  (factor * seen.line.film_density * seen.line.weight);
     if (value.is_black()) return;
-    seen_->push_back({view, part, whole_spectrum(value, walk.lambda.secondary_terminated())});
+    seen_->push_back({seen, part, whole_spectrum(value, walk.lambda.secondary_terminated())});
   }
 
   const PairSettings& settings_;
   const Emission& emission_;
-  const float u_time_;
+  std::optional<CameraConnector> camera_;  ///< empty if paths are not connected to the camera
   LightSubpath* path_;
-  std::vector<FilmConnection>* seen_;
+  std::vector<CameraSplat>* seen_;
   std::vector<Photon>* photons_;
   Place start_, last_, place_;
   Vec3f merge_place_{0, 0, 0};  ///< where the eye side would merge
@@ -240,7 +204,6 @@ class LightVisitor : public LightWalkVisitor {
   SideEnd end_;
   const WalkVertex* surface_ = nullptr;
   const MediumVertex* medium_ = nullptr;
-  uint64_t rays_ = 0;
 };
 
 }  // namespace
@@ -274,11 +237,7 @@ bool arms_of_light(const Routes& routes, const SceneSymbols& symbols, const Ligh
   const Bsdf* bsdf = y.bsdf();
   if (!bsdf) return false;
   const Vec3f wi = y.surface.shading.to_local(w);
-  const float across = abs_dot(w, y.surface.ng);
-  // Veach's correction for shading normals [P2].
-  const float cosine =
-      across *
-      (y.subsurface_exit ? 1.0f : abs_cos_theta(y.wo) / abs_dot(y.surface.wo, y.surface.ng));
+  const float cosine = light_side_cosine(y.surface, y.wo, w, y.subsurface_exit);
   if (!std::isfinite(cosine)) return false;
   const bool transmits = y.subsurface_exit || y.wo.z * wi.z < 0.0f;
   bool any = false;
@@ -313,22 +272,26 @@ LightVertex& LightSubpath::add() {
 
 LightPathCounts trace_light_path(const PairSettings& settings, const SampledWavelengths& lambda,
                                  float u_time, PathSampler& sampler, LightSubpath* path,
-                                 std::vector<FilmConnection>* seen, std::vector<Photon>* photons,
+                                 std::vector<CameraSplat>* seen, std::vector<Photon>* photons,
                                  int first_dimension) {
   if (path) path->clear();
   sampler.start_dimension(first_dimension);
-  const std::optional<Emission> emission = emit(
-      settings.scene, settings.guide, lambda, settings.scene.camera->motion_time(u_time), sampler);
-  if (!emission) return {};
-  Walk walk =
-      walk_from(*emission, lambda, settings.specular_alpha, first_dimension + kEmissionDimensions);
-  LightVisitor visitor(settings, *emission, u_time, path, seen, photons);
   // A technique with s vertices of the light side, the light itself one of them, needs no more.
   const int most = settings.technique.s < 0
                        ? settings.max_depth
                        : std::clamp(settings.technique.s - 1, 0, settings.max_depth);
-  random_walk(settings.scene, TransportMode::kImportance, most, walk, sampler, visitor);
-  return {walk.rays + visitor.rays(), visitor.after_specular()};
+  const LightPathLaunch launch{settings.scene, settings.guide, settings.specular_alpha, most};
+  LightPathCounts counts;
+  launch_light_path(
+      launch, lambda, settings.scene.camera->motion_time(u_time), sampler,
+      first_dimension + kEmissionDimensions,
+      [&](const Emission& emission) {
+        return LightVisitor(settings, emission, u_time, path, seen, photons);
+      },
+      [&](const LightVisitor& visitor, const Walk& walk) {
+        counts = {walk.rays + visitor.rays(), visitor.after_specular()};
+      });
+  return counts;
 }
 
 }  // namespace nephroid

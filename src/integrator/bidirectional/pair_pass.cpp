@@ -201,7 +201,7 @@ class PairRendering {
     const uint64_t rays_before = row.rays;
     PathSampler sampler(points.eye, hash_combine(in_.seed, kEyeStream, x, y));
     CameraPath camera = start_merging_path(in_.scene, x, y, sampler, pass_);
-    camera.walk.window = techniques_.roulette_threshold;
+    camera.walk.roulette_threshold = techniques_.roulette_threshold;
     if (merging_.connects && !settings_.merges_only) {
       // A light path of its own: those that are merged run through one sequence, of which a pixel
       // would see the same part in all passes.

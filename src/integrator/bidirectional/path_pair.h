@@ -112,8 +112,8 @@ class LightSubpath {
 
 /// A light path seen by the camera: `value` counts as radiance times the line's film density and
 /// weight are applied, divided by the number of light paths.
-struct FilmConnection {
-  Exposure seen;
+struct CameraSplat {
+  LensConnection seen;
   Part part = kNoPart;  ///< one that the group owns
   SampledSpectrum value;
 };
@@ -130,7 +130,7 @@ struct LightPathCounts {
 /// `first_dimension`. Returns the number of rays and whether the path had an S event.
 LightPathCounts trace_light_path(const PairSettings& settings, const SampledWavelengths& lambda,
                                  float u_time, PathSampler& sampler, LightSubpath* path,
-                                 std::vector<FilmConnection>* seen, std::vector<Photon>* photons,
+                                 std::vector<CameraSplat>* seen, std::vector<Photon>* photons,
                                  int first_dimension = 0);
 
 /// What else an eye path is for.

@@ -42,15 +42,14 @@ std::optional<BsdfSample> GuidedWalk::sample_direction(Walk& walk, const WalkVer
   return s;
 }
 
-void GuidedWalk::record(const Walk& walk, const WalkVertex& v, const WalkEvent& event,
-                        ClassMask letters) {
-  if (!has_choice(v, letters) || !(carried_ > 0) ||
+void GuidedWalk::record(const Walk& walk, const WalkVertex& v, const WalkEvent& event) {
+  if (!has_choice(v, v.letters) || !(carried_ > 0) ||
       records_->size() - first_record_ >= PassRecords::kMaxPerPath)
     return;
   // [Q2] asks for the density of all lobes that the guide has a say in.
   const bool chosen = contains(ClassMask::kRough, event.letter) && !walk.delta;
   const float pdf_w = chosen ? guided_pdf_w(v.bsdf, v.wo, v.to_local(walk.ray.d),
-                                            TransportMode::kRadiance, v.classes_of(letters))
+                                            TransportMode::kRadiance, v.useful_classes())
                              : 0.0f;
   RadianceRecord r = RadianceRecord::at(v.surface.p, facing(v), is_glossy(v), walk.ray.d, pdf_w);
   r.carried = carried_;

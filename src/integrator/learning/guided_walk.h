@@ -32,15 +32,15 @@ class GuidedWalk {
   void add(const SampledSpectrum& light) {
     if (records_) found_ += light.average();
   }
-  /// The walk leaves the surface `v`, at which it may have events of these letters.
-  void leave(const Walk& walk, const WalkVertex& v, const WalkEvent& event, ClassMask letters) {
-    if (records_) record(walk, v, event, letters);
+  /// The walk leaves the surface `v`.
+  void leave(const Walk& walk, const WalkVertex& v, const WalkEvent& event) {
+    if (records_) record(walk, v, event);
   }
   /// The walk is over: each record knew what had been found before it.
   void finish();
 
  private:
-  void record(const Walk& walk, const WalkVertex& v, const WalkEvent& event, ClassMask letters);
+  void record(const Walk& walk, const WalkVertex& v, const WalkEvent& event);
 
   const RadianceGuide* const guide_;
   std::vector<RadianceRecord>* const records_;

@@ -65,7 +65,7 @@ class TechniquePaths : public PathFunction {
     if (pair_.view == nullptr) return;
     seen_.clear();
     found.rays += trace_light_path(pair_, lambda, u_time, light, nullptr, &seen_, nullptr).rays;
-    for (const FilmConnection& c : seen_)
+    for (const CameraSplat& c : seen_)
       for (int i = 0; i < c.seen.count; ++i)
         found.add(c.seen.film[static_cast<size_t>(i)], light_.place(c.part),
                   weights.apply(c.value) * factor);
@@ -93,7 +93,7 @@ class TechniquePaths : public PathFunction {
   PairSettings pair_;
   PartSums light_;
   LightSubpath path_;
-  std::vector<FilmConnection> seen_;
+  std::vector<CameraSplat> seen_;
 };
 
 }  // namespace

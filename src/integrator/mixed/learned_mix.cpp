@@ -17,7 +17,7 @@ void LearnedMix::add_to(EstimatorStatistics& s) const {
         "caustic photons alone");
   else
     explain_missing_caustics(plan_.lacks_specular, s);
-  if (techniques.roulette_threshold == kPatientWindow)
+  if (techniques.roulette_threshold == kPatientRouletteThreshold)
     s.notes.push_back(
         "Russian roulette begins at an eighth of what a camera path started with: trial passes "
         "were better for it");

@@ -158,7 +158,7 @@ std::shared_ptr<const Learned> PathAndPhotons::learn(const Scene& scene, const F
       .connects = false,
       .caustics_only = true,
       .separates_chains = SpecularTree(scene, owned_, options_.max_depth).finds_something(),
-      .roulette_threshold = kCameraWindow};
+      .roulette_threshold = kCameraRouletteThreshold};
   Trials trials(seed, scene, film, owned_, options_);
   Trial many = trials.run(chosen, emission);
   Balance balance(many);
@@ -169,7 +169,7 @@ std::shared_ptr<const Learned> PathAndPhotons::learn(const Scene& scene, const F
   }
   // [A5]
   PairTechniques patient = chosen;
-  patient.roulette_threshold = kPatientWindow;
+  patient.roulette_threshold = kPatientRouletteThreshold;
   const Trial longer = trials.run(patient, emission);
   if (const Balance other = balance.with_camera_paths_of(longer);
       other.inverse_efficiency() < balance.inverse_efficiency()) {

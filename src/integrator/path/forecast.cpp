@@ -29,7 +29,7 @@ class SightVisitor : public LightWalkVisitor {
   bool scatters_in(const Medium&) const { return false; }
 
   void vertex(const Walk& walk, const WalkVertex& v, PathSampler&) {
-    const ClassMask rough = v.bsdf.finite_classes() & useful(v) & ClassMask::kRough;
+    const ClassMask rough = v.bsdf.finite_classes() & v.letters & ClassMask::kRough;
     if (after_specular_ && rough != ClassMask::kNone)
       out_.push_back({v.surface.p, walk.previous_p});
   }
@@ -51,7 +51,7 @@ class ForecastVisitor : public PathVisitorOf<ForecastVisitor> {
       : PathVisitorOf(scene, owned, false, light, nullptr, tree), map_(map) {}
 
   void vertex(const Walk& walk, const WalkVertex& v, PathSampler& sampler) {
-    const ClassMask rough = v.bsdf.finite_classes() & v.classes_of(useful(v)) & ClassMask::kRough;
+    const ClassMask rough = v.bsdf.finite_classes() & v.useful_classes() & ClassMask::kRough;
     lobes_ = rough == ClassMask::kNone ? ForecastLobes() : map_.lobes_at(v.surface.p);
     PathVisitorOf::vertex(walk, v, sampler);
   }
@@ -131,28 +131,27 @@ void trace_round(const PassKey& key, int64_t photons, const Scene& scene, const 
     std::vector<CausticSight> sights;
     uint64_t rays = 0, useful = 0;
   };
-  std::vector<Chunk> chunks(static_cast<size_t>(chunk_count(photons, kChunk)));
-  parallel_chunks(photons, kChunk, [&](int64_t c, int64_t begin, int64_t end) {
-    Chunk& chunk = chunks[static_cast<size_t>(c)];
-    for (int64_t j = first + begin; j < first + end; ++j) {
-      const SobolPoint point(static_cast<uint32_t>(j), kLightPathPointDimensions);
-      PathSampler sampler(point, hash_combine(key.seed, j >> 32));
-      const auto start = start_light_path(scene, sampler);
-      if (!start) continue;
-      Walk walk =
-          walk_from(start->emission, start->lambda, specular_alpha, kLightPathStartDimensions);
-      SightVisitor visitor(owned, start->emission, chunk.sights);
-      const size_t before = chunk.sights.size();
-      random_walk(scene, TransportMode::kImportance, max_depth, walk, sampler, visitor);
-      chunk.rays += walk.rays;
-      chunk.useful += chunk.sights.size() > before;
-    }
-  });
-  for (const Chunk& chunk : chunks) {
+  const LightPathSequence sequence{key.seed};
+  const LightPathLaunch launch{
+      .scene = scene, .specular_alpha = specular_alpha, .max_events = max_depth};
+  const auto trace_chunk = [&](Chunk& chunk, int64_t begin, int64_t end) {
+    for (int64_t j = first + begin; j < first + end; ++j)
+      sequence.at(static_cast<uint64_t>(j), [&](PathSampler& sampler) {
+        const LightPathMoment moment = sample_moment(scene, sampler);
+        const size_t before = chunk.sights.size();
+        launch_light_path(
+            launch, moment.lambda, scene.camera->motion_time(moment.u_time), sampler,
+            kLightPathStartDimensions,
+            [&](const Emission& emission) { return SightVisitor(owned, emission, chunk.sights); },
+            [&](const SightVisitor&, const Walk& walk) { chunk.rays += walk.rays; });
+        chunk.useful += chunk.sights.size() > before;
+      });
+  };
+  ordered_reduce<Chunk>(photons, kChunk, trace_chunk, [&](Chunk&& chunk) {
     sights.insert(sights.end(), chunk.sights.begin(), chunk.sights.end());
     made.rays += chunk.rays;
     made.photon_paths_useful += chunk.useful;
-  }
+  });
   made.photon_paths += static_cast<uint64_t>(photons);
 }
 

@@ -55,7 +55,7 @@ uint64_t trace_paths(const PathPass& pass, Trace&& trace) {
         sampler.start_dimension(dimensions::kTime);
         CameraPath path = start_camera_path(pass.scene, x, y, sampler, lambda, sampler.get_1d());
         path.walk.specular_alpha = specular_alpha;
-        path.walk.window = kCameraWindow;
+        path.walk.roulette_threshold = kCameraRouletteThreshold;
         light.clear();
         const SensorWeights weights = pass.weights_of(path);
         rays[static_cast<size_t>(row)] += trace(x, y, path, weights, sampler, light);

@@ -91,7 +91,7 @@ class PathVisitorOf {
 
   void vertex(const Walk& walk, const WalkVertex& v, PathSampler& sampler) {
     if (features_ != nullptr) features_->record(walk, v);
-    const ClassMask among = v.classes_of(useful(v));
+    const ClassMask among = v.useful_classes();
     const ClassMask finite = v.bsdf.finite_classes() & among;
     if (may_end_after_any(v, finite)) next_event(walk, v, finite, among, sampler);
   }

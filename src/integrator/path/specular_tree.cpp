@@ -122,13 +122,13 @@ SpecularTree::SpecularTree(const Scene& scene, const OwnedRoutes& owned, int max
 uint64_t SpecularTree::look(const Walk& walk, PathSampler& sampler,
                             std::vector<Light>& found) const {
   Walk root = walk;
-  root.window = kWindow;
+  root.roulette_threshold = kWindow;
   return Visitor(*this, owned_.routes->start(), 0, found).run(root, sampler);
 }
 
 uint64_t SpecularTree::follow(Walk branch, EyeState eye, PathSampler& sampler,
                               std::vector<Light>& found) const {
-  branch.window = kWindow;
+  branch.roulette_threshold = kWindow;
   return Visitor(*this, eye, 1, found).run(branch, sampler);
 }
 

@@ -46,11 +46,11 @@ struct Chunk {
 // Connects one light path to the camera.
 class ConnectingVisitor : public LightWalkVisitor {
  public:
-  ConnectingVisitor(const LightPass& pass, const LightPathStart& start, Chunk& out)
-      : LightWalkVisitor(pass.owned, start.emission),
+  ConnectingVisitor(const LightPass& pass, const Emission& emission, float u_time, Chunk& out)
+      : LightWalkVisitor(pass.owned, emission),
         pass_(pass),
-        flux_(start.emission.flux),
-        u_time_(start.u_time),
+        flux_(emission.flux),
+        camera_(pass.scene, pass.view, u_time),
         out_(out) {}
 
   ClassMask useful(const WalkVertex& v) const {
@@ -66,10 +66,11 @@ class ConnectingVisitor : public LightWalkVisitor {
 
   /// The start point itself: the word `C l`.
   void start(const Walk& walk, const Emission& emission, PathSampler& sampler) {
+    sampler.start_dimension(kStartLens);
     const EmissionSample& e = emission.start;
     const Part part = routes_.owner(routes_.start(), symbols_.light(emission.light));
     if (pass_.weight || !pass_.places.owns(part) || !(e.coverage > 0.0f)) return;
-    const auto seen = pass_.view.connect(e.p, sampler.get_2d(), u_time_);
+    const auto seen = pass_.view.connect(e.p, sampler.get_2d(), camera_.u_time());
     if (!seen) return;
     const Vec3f& w = seen->line.wi;
     const Light& light = *pass_.scene.lights[static_cast<size_t>(emission.light)];
@@ -81,9 +82,9 @@ class ConnectingVisitor : public LightWalkVisitor {
       medium = dot(w, e.ng) > 0.0f ? media.outside : media.inside;
     }
     const SampledSpectrum through =
-        arrives(*seen, offset_ray_origin(e.p, e.p_error, e.ng, w), walk, medium, sampler);
-    expose(*seen, part, radiance * through * (e.coverage * abs_dot(w, e.ng) / emission.pdf_start),
-           walk);
+        camera_.arrives(*seen, offset_ray_origin(e.p, e.p_error, e.ng, w), walk, medium, sampler);
+    splat(*seen, part, radiance * through * (e.coverage * abs_dot(w, e.ng) / emission.pdf_start),
+          walk);
   }
 
   void vertex(const Walk& walk, const WalkVertex& v, PathSampler& sampler) {
@@ -92,63 +93,39 @@ class ConnectingVisitor : public LightWalkVisitor {
         v.classes_of(routes_.connects(group_, state_, label_at(symbols_, v))) &
         v.bsdf.finite_classes();
     if (classes == ClassMask::kNone) return;
-    const auto seen = pass_.view.connect(v.surface.p, sampler.get_2d(), u_time_);
-    if (!seen) return;
-    const Vec3f& w = seen->line.wi;
-    const Vec3f wi = v.to_local(w);
-    // Veach's correction for shading normals [P2]; where light comes out from under the surface it
-    // has been brought there by area.
-    const float cosine =
-        abs_dot(w, v.surface.ng) *
-        (v.subsurface_exit ? 1.0f : abs_cos_theta(v.wo) / abs_dot(v.surface.wo, v.surface.ng));
-    if (!std::isfinite(cosine)) return;
-    const float weight = pass_.weight ? pass_.weight(seen->line, v) : 1.0f;
-    SampledSpectrum through;
-    bool traced = false;
-    for (const EventClass c : kSurfaceClasses) {
-      if (!contains(classes, c)) continue;
+    const auto part_of = [&](EventClass c, const Vec3f& wi) {
       const EventSymbol event = symbol_at(symbols_, v, c, wi);
       const Part part = routes_.meet(pass_.weight ? routes_.merge(routes_.start(), event)
                                                   : routes_.next(routes_.start(), event),
                                      state_);
-      if (!pass_.places.owns(part)) continue;
-      const BsdfEval e = v.bsdf.eval(v.wo, wi, TransportMode::kImportance, c, ClassMask::kAll);
-      if (e.f.is_black()) continue;
-      if (!traced)
-        through = arrives(*seen, v.surface.spawn_origin(w), walk,
-                          medium_towards(v.surface, w, walk.medium), sampler);
-      traced = true;
-      if (through.is_black()) return;
-      expose(*seen, part, flux_ * walk.throughput * e.f * through * (cosine * weight), walk);
-    }
+      return pass_.places.owns(part) ? part : kNoPart;
+    };
+    camera_.connect(walk, v, classes, sampler, part_of, [&](const CameraEvent& event) {
+      const float weight = pass_.weight ? pass_.weight(event.seen.line, v) : 1.0f;
+      splat(event.seen, event.part,
+            flux_ * walk.throughput * event.f * event.through * (event.cosine * weight), walk);
+    });
   }
 
   void medium_vertex(const Walk& walk, const MediumVertex& v, PathSampler& sampler) {
     const Part part =
         routes_.meet(routes_.next(routes_.start(), symbol_in(symbols_, v.medium)), state_);
     if (pass_.weight || !pass_.places.owns(part)) return;
-    const auto seen = pass_.view.connect(v.p, sampler.get_2d(), u_time_);
-    if (!seen) return;
-    const SampledSpectrum through = arrives(*seen, v.p, walk, walk.medium, sampler);
-    expose(*seen, part, flux_ * walk.throughput * through * v.phase.eval(v.wo, seen->line.wi),
-           walk);
+    camera_.connect(walk, v, sampler,
+                    [&](const LensConnection& seen, const SampledSpectrum& through, float phase) {
+                      splat(seen, part, flux_ * walk.throughput * through * phase, walk);
+                    });
   }
 
-  uint64_t rays() const { return rays_; }
-  bool useful() const { return exposed_; }
+  uint64_t rays() const { return camera_.rays(); }
+  bool is_seen() const { return is_seen_; }
 
  private:
-  SampledSpectrum arrives(const Exposure& seen, const Vec3f& origin, const Walk& walk,
-                          const Medium* medium, const PathSampler& sampler) {
-    ++rays_;
-    return attenuation_to_camera(pass_.scene, origin, walk.ray.time, medium, seen.line, walk.lambda,
-                                 sampler);
-  }
-
   /// Flux per solid angle that goes to the lens becomes light on the film.
-  void expose(const Exposure& seen, Part part, const SampledSpectrum& intensity, const Walk& walk) {
+  void splat(const LensConnection& seen, Part part, const SampledSpectrum& intensity,
+             const Walk& walk) {
     if (intensity.is_black()) return;
-    exposed_ = true;
+    is_seen_ = true;
     const SensorWeights weights = sensor_weights(
         walk.lambda, *pass_.film.color_space, pass_.film.imaging_ratio, pass_.film.white_balance);
     const Rgb value = weights.apply(intensity) * (seen.line.film_density * seen.line.weight);
@@ -159,25 +136,27 @@ class ConnectingVisitor : public LightWalkVisitor {
 
   const LightPass& pass_;
   const SampledSpectrum flux_;
-  const float u_time_;
+  CameraConnector camera_;
   Chunk& out_;
-  uint64_t rays_ = 0;
-  bool exposed_ = false;
+  bool is_seen_ = false;
 };
 
 void trace_light_path(const LightPass& pass, uint64_t number, Chunk& out) {
-  // All passes together run through one sequence; the seed changes when its 32 bits are used up.
-  const SobolPoint point(static_cast<uint32_t>(number), kLightPathPointDimensions);
-  PathSampler sampler(point, hash_combine(pass.key.seed, kStream, number >> 32));
-  const std::optional<LightPathStart> start = start_light_path(pass.scene, sampler);
-  if (!start) return;
-  Walk walk = walk_from(start->emission, start->lambda, pass.specular_alpha, kFirstVertex);
-  ConnectingVisitor visitor(pass, *start, out);
-  sampler.start_dimension(kStartLens);
-  visitor.start(walk, start->emission, sampler);
-  random_walk(pass.scene, TransportMode::kImportance, pass.max_depth, walk, sampler, visitor);
-  out.rays += walk.rays + visitor.rays();
-  out.useful += visitor.useful();
+  const LightPathSequence sequence{hash_combine(pass.key.seed, kStream)};
+  const LightPathLaunch launch{
+      .scene = pass.scene, .specular_alpha = pass.specular_alpha, .max_events = pass.max_depth};
+  sequence.at(number, [&](PathSampler& sampler) {
+    const LightPathMoment moment = sample_moment(pass.scene, sampler);
+    launch_light_path(
+        launch, moment.lambda, pass.scene.camera->motion_time(moment.u_time), sampler, kFirstVertex,
+        [&](const Emission& emission) {
+          return ConnectingVisitor(pass, emission, moment.u_time, out);
+        },
+        [&](const ConnectingVisitor& visitor, const Walk& walk) {
+          out.rays += walk.rays + visitor.rays();
+          out.useful += visitor.is_seen();
+        });
+  });
 }
 
 }  // namespace
@@ -210,18 +189,16 @@ int64_t light_pass(const PassKey& key, const Scene& scene, const Film& film,
   const uint64_t first = uint64_t{key.pass} * static_cast<uint64_t>(pass.paths);
   for (int64_t begin = 0; begin < pass.paths; begin += kGroup) {
     const int64_t count = std::min(kGroup, pass.paths - begin);
-    std::vector<Chunk> chunks(static_cast<size_t>(chunk_count(count, kChunk)));
-    parallel_chunks(count, kChunk, [&](int64_t c, int64_t b, int64_t e) {
+    const auto trace_chunk = [&](Chunk& chunk, int64_t b, int64_t e) {
       for (int64_t j = b; j < e; ++j)
-        trace_light_path(pass, first + static_cast<uint64_t>(begin + j),
-                         chunks[static_cast<size_t>(c)]);
-    });
+        trace_light_path(pass, first + static_cast<uint64_t>(begin + j), chunk);
+    };
     std::vector<Splat> found;
-    for (const Chunk& chunk : chunks) {
+    ordered_reduce<Chunk>(count, kChunk, trace_chunk, [&](Chunk&& chunk) {
       found.insert(found.end(), chunk.splats.begin(), chunk.splats.end());
       statistics.rays += chunk.rays;
       statistics.light_paths_useful += chunk.useful;
-    }
+    });
     buffer.add(found);
     statistics.splats += found.size();
   }

@@ -63,7 +63,7 @@ class PointLightVisitor : public LightWalkVisitor {
 
   void vertex(const Walk& walk, const WalkVertex& v, PathSampler&) {
     if (v.subsurface_exit || !v.merges) return;
-    if ((v.bsdf.finite_classes() & useful(v) & ClassMask::kRough) == ClassMask::kNone) return;
+    if ((v.bsdf.finite_classes() & v.letters & ClassMask::kRough) == ClassMask::kNone) return;
     auto light = std::make_unique<PointLight>();
     light->surface = v.surface;
     light->material = &v.material;
@@ -102,16 +102,20 @@ class PointLightVisitor : public LightWalkVisitor {
 /// Traces light path `number`, returns its rays and leaves up to `most` lights in `out`.
 uint64_t trace(const Scene& scene, const OwnedRoutes& owned, const PhotonTraceSettings& settings,
                uint64_t number, int64_t most, Lights& out) {
-  // All passes together run through one sequence; the seed changes when its 32 bits are used up.
-  const SobolPoint point(static_cast<uint32_t>(number), kLightPathPointDimensions);
-  PathSampler sampler(point, hash_combine(settings.key.seed, kStream, number >> 32));
-  const auto emitted = emit(scene, kUnguided, settings.lambda, settings.time, sampler);
-  if (!emitted) return 0;
-  Walk walk = walk_from(*emitted, settings.lambda, settings.specular_alpha, kEmissionDimensions);
-  PointLightVisitor visitor(owned, scene, *emitted, most, hash_combine(settings.key.seed, number),
-                            out);
-  random_walk(scene, TransportMode::kImportance, settings.max_events, walk, sampler, visitor);
-  return walk.rays;
+  const LightPathSequence sequence{hash_combine(settings.key.seed, kStream)};
+  const LightPathLaunch launch{
+      .scene = scene, .specular_alpha = settings.specular_alpha, .max_events = settings.max_events};
+  uint64_t rays = 0;
+  sequence.at(number, [&](PathSampler& sampler) {
+    launch_light_path(
+        launch, settings.lambda, settings.time, sampler, kEmissionDimensions,
+        [&](const Emission& emission) {
+          return PointLightVisitor(owned, scene, emission, most,
+                                   hash_combine(settings.key.seed, number), out);
+        },
+        [&](const PointLightVisitor&, const Walk& walk) { rays = walk.rays; });
+  });
+  return rays;
 }
 
 }  // namespace
@@ -136,9 +140,7 @@ PointLightPool::PointLightPool(const Scene& scene, const OwnedRoutes& owned,
   };
   for (int64_t begin = 0; begin < paths; begin += of_group) {
     const int64_t count = std::min(of_group, paths - begin);
-    std::vector<Chunk> chunks(static_cast<size_t>(chunk_count(count, kChunk)));
-    parallel_chunks(count, kChunk, [&](int64_t c, int64_t b, int64_t e) {
-      Chunk& chunk = chunks[static_cast<size_t>(c)];
+    const auto trace_chunk = [&](Chunk& chunk, int64_t b, int64_t e) {
       Lights of_path;
       for (int64_t j = begin + b; j < begin + e; ++j) {
         of_path.clear();
@@ -147,12 +149,12 @@ PointLightPool::PointLightPool(const Scene& scene, const OwnedRoutes& owned,
         chunk.useful += !of_path.empty();
         std::move(of_path.begin(), of_path.end(), std::back_inserter(chunk.lights));
       }
-    });
-    for (Chunk& chunk : chunks) {
+    };
+    ordered_reduce<Chunk>(count, kChunk, trace_chunk, [&](Chunk&& chunk) {
       rays_ += chunk.rays;
       useful_paths_ += chunk.useful;
       std::move(chunk.lights.begin(), chunk.lights.end(), std::back_inserter(lights_));
-    }
+    });
     most_held_ = std::max(most_held_, lights_.size());
     if (static_cast<int64_t>(lights_.size()) > most)
       thin(lights_, most - room,

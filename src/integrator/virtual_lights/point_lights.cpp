@@ -5,6 +5,7 @@
 #include "core/parallel.h"
 #include "integrator/path/path_visitor.h"
 #include "integrator/virtual_lights/point_light_pool.h"
+#include "transport/camera_connection.h"
 #include "transport/roughness_band.h"
 
 namespace nephroid {
@@ -74,7 +75,7 @@ class PointLightsVisitor : public PathVisitorOf<PointLightsVisitor> {
 
   void connect(const Walk& walk, const WalkVertex& v, PathSampler& sampler) {
     if (!v.merges) return;
-    const ClassMask among = v.classes_of(useful(v));
+    const ClassMask among = v.useful_classes();
     const ClassMask classes = v.bsdf.finite_classes() & among & ClassMask::kRough;
     if (classes == ClassMask::kNone) return;
     sampler.start_dimension(kConnectionDimensions);
@@ -95,9 +96,7 @@ class PointLightsVisitor : public PathVisitorOf<PointLightsVisitor> {
     if (!(d2 > 0.0f)) return;
     const Vec3f w = way / std::sqrt(d2);
     const Vec3f wi = x.to_local(w), to_x = y.surface.shading.to_local(-w);
-    // Veach's correction for shading normals [P2] on the side of the light.
-    const float cosine =
-        abs_dot(w, y.surface.ng) * abs_cos_theta(y.wo) / abs_dot(y.surface.wo, y.surface.ng);
+    const float cosine = light_side_cosine(y.surface, y.wo, w, false);
     if (!std::isfinite(cosine)) return;
     const float geometry = abs_cos_theta(wi) * cosine / d2 * chosen.factor;
     const Label label = symbols_.material(y.material->index());

@@ -21,13 +21,13 @@ class DielectricMaterial final : public SurfaceMaterial {
     const DielectricInterface boundary{eta_.at_hero(lambda), roughness_.at(point)};
     return arena.make<DielectricBsdf>(boundary, specular_alpha);
   }
-  bool passes_straight() const override { return eta_.constant() == 1.0f; }
+  bool transmits_straight() const override { return eta_.constant() == 1.0f; }
   SampledSpectrum straight_transmittance(const SurfaceInteraction&,
                                          const SampledWavelengths&) const override {
-    return SampledSpectrum(passes_straight() ? 1.0f : 0.0f);
+    return SampledSpectrum(transmits_straight() ? 1.0f : 0.0f);
   }
   ClassMask possible_classes() const override {
-    return passes_straight() ? ClassMask::kNone : roughness_.possible_classes(band_);
+    return transmits_straight() ? ClassMask::kNone : roughness_.possible_classes(band_);
   }
 
  private:
@@ -45,7 +45,7 @@ class ThinDielectricMaterial final : public SurfaceMaterial {
                         BsdfArena& arena) const override {
     return arena.make<ThinDielectricBsdf>(eta_.at(lambda));
   }
-  bool passes_straight() const override { return true; }
+  bool transmits_straight() const override { return true; }
   SampledSpectrum straight_transmittance(const SurfaceInteraction& point,
                                          const SampledWavelengths& lambda) const override {
     float cos_o = dot(point.wo, point.shading.z);

@@ -65,7 +65,7 @@ class Material {
   virtual bool is_interface() const { return false; }
   /// True if light may pass straight through without a letter (thin dielectrics): shadow rays then
   /// ask straight_transmittance.
-  virtual bool passes_straight() const { return is_interface(); }
+  virtual bool transmits_straight() const { return is_interface(); }
   /// Weight of a ray that goes straight through, for shadow rays.
   virtual SampledSpectrum straight_transmittance(const SurfaceInteraction&,
                                                  const SampledWavelengths&) const {

@@ -44,8 +44,8 @@ class MixMaterial final : public Material {
   bool is_interface() const override {
     return materials_[0]->is_interface() && materials_[1]->is_interface();
   }
-  bool passes_straight() const override {
-    return materials_[0]->passes_straight() || materials_[1]->passes_straight();
+  bool transmits_straight() const override {
+    return materials_[0]->transmits_straight() || materials_[1]->transmits_straight();
   }
   SampledSpectrum straight_transmittance(const SurfaceInteraction& point,
                                          const SampledWavelengths& lambda) const override {

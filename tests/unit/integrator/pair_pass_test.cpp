@@ -131,7 +131,7 @@ TEST(PairPass, FindsTheSameLightHoweverLongItsCameraPathsAre) {
   PairTechniques pass = camera_paths_only();
   const Mean one = mean_of(box, pass, 200);
   double rays = one.rays;
-  for (const float window : {kCameraWindow, kPatientWindow}) {
+  for (const float window : {kCameraRouletteThreshold, kPatientRouletteThreshold}) {
     pass.roulette_threshold = window;
     const Mean longer = mean_of(box, pass, 200);
     EXPECT_NEAR(longer.value, one.value, 4 * std::hypot(longer.error, one.error)) << window;

@@ -283,13 +283,13 @@ TEST_P(PathPair, WeightsAreThoseOfBruteForce) {
           for (const bool weighted : {false, true}) {
             settings.technique = {s, t, true, weighted};
             LightSubpath path;
-            std::vector<FilmConnection> seen;
+            std::vector<CameraSplat> seen;
             PathSampler to_light(point, seed + 1000000), to_eye(point, seed);
             trace_light_path(settings, lambda, 0.5f, to_light, &path, &seen, nullptr);
             PartSums sums(*owned.routes, owned.group);
             CameraPath again = start(to_eye);
             trace_eye_path(settings, path, again, to_eye, sums);
-            for (const FilmConnection& c : seen) light_sum[weighted] += c.value[0];
+            for (const CameraSplat& c : seen) light_sum[weighted] += c.value[0];
             if (t > 1) light_sum[weighted] += sums.sums()[0][0];
           }
           if (!(light_sum[0] > 0)) continue;
@@ -355,14 +355,14 @@ TEST_P(PathPair, TechniquesAddUpToTheWhole) {
       PathSampler to_light(point, static_cast<uint64_t>(pixel) + 1000),
           to_eye(point, static_cast<uint64_t>(pixel));
       LightSubpath path;
-      std::vector<FilmConnection> seen;
+      std::vector<CameraSplat> seen;
       const SampledWavelengths lambda = SampledWavelengths::sample_visible(0.6f);
       trace_light_path(settings, lambda, 0.5f, to_light, &path, &seen, nullptr);
       PartSums sums(*owned.routes, owned.group);
       CameraPath camera = start_camera_path(*scene, pixel % 12, pixel / 12, to_eye, lambda, 0.5f);
       if (technique.t != 1) trace_eye_path(settings, path, camera, to_eye, sums);
       double sum = sums.sums()[0].sum();
-      for (const FilmConnection& c : seen) sum += c.value.sum();
+      for (const CameraSplat& c : seen) sum += c.value.sum();
       return sum;
     };
     double sum = 0;

@@ -74,11 +74,11 @@ TEST(DielectricMaterials, StraightPassageHasTheWeightOfTheSample) {
                    material("dielectric", {numbers("float", "eta", {1})})});
   const SurfaceInteraction point = flat_point();
   SampledWavelengths lambda = SampledWavelengths::sample_visible(0.3f);
-  EXPECT_FALSE(made.materials[1]->passes_straight());
+  EXPECT_FALSE(made.materials[1]->transmits_straight());
   EXPECT_TRUE(made.materials[1]->straight_transmittance(point, lambda).is_black());
   for (const int i : {0, 2}) {
     const Material& m = *made.materials[i];
-    EXPECT_TRUE(m.passes_straight());
+    EXPECT_TRUE(m.transmits_straight());
     BsdfArena arena;
     const Vec3f wo = point.shading.to_local(point.wo);
     const auto s =

@@ -32,7 +32,7 @@ TEST(MaterialTable, EveryTypeMakesABsdfWithItsDefaults) {
     EXPECT_FALSE(lambda.secondary_terminated()) << row.name;
     EXPECT_EQ(bsdf == nullptr, m.is_interface()) << row.name;
     if (!bsdf) {
-      EXPECT_TRUE(m.passes_straight());
+      EXPECT_TRUE(m.transmits_straight());
       EXPECT_EQ(m.straight_transmittance(point, lambda)[0], 1.0f);
       continue;
     }
