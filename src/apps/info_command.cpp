@@ -8,7 +8,7 @@
 #include "apps/commands.h"
 #include "apps/messages.h"
 #include "scene/embree_scene.h"
-#include "session/picture_description.h"
+#include "session/checkpoint/picture_description.h"
 #include "session/scene_loading.h"
 
 namespace nephroid {

@@ -8,19 +8,19 @@
 #include "apps/commands.h"
 #include "apps/messages.h"
 #include "apps/progress_display.h"
-#include "apps/report.h"
+#include "apps/render_report.h"
 #include "core/parallel.h"
 #include "film/atomic_file.h"
 #include "film/film_output.h"
 #include "input/scene_files.h"
 #include "integrator/ppm.h"
-#include "session/film_metadata.h"
+#include "session/checkpoint/film_metadata.h"
+#include "session/checkpoint/version.h"
 #include "session/film_of_scene.h"
-#include "session/idle_settings.h"
 #include "session/process_memory.h"
 #include "session/render_session.h"
 #include "session/scene_loading.h"
-#include "session/version.h"
+#include "session/settings/unused_settings.h"
 
 namespace nephroid {
 namespace {
@@ -152,7 +152,7 @@ int run_render(const RenderCommand& command) {
   Preset preset = make_preset(plan, choice.options, scene);
   if (!command.quiet)
     for (const std::string& warning : preset.warnings) print_warning(warning);
-  if (!command.quiet) print_warnings(idle_settings(command.settings, *preset.routes));
+  if (!command.quiet) print_warnings(unused_settings(command.settings, *preset.routes));
   check_memory({scene.film, preset.layout, *preset.routes, command.reject_outliers,
                 Ppm::hit_points(choice.options, scene.samples_per_pixel),
                 choice.options.memory_photons, memory_in_use(), overrides.texture_memory / 4, true},

@@ -10,9 +10,9 @@
 #include "apps/messages.h"
 #include "core/errors.h"
 #include "integrator/compiled_plan.h"
-#include "session/choices_report.h"
 #include "session/film_of_scene.h"
-#include "session/noise.h"
+#include "session/report/choices_report.h"
+#include "session/report/noise.h"
 #include "session/scene_loading.h"
 
 namespace nephroid {

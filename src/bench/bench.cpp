@@ -18,7 +18,7 @@
 #include "film/atomic_file.h"
 #include "film/exr_file.h"
 #include "input/spelling.h"
-#include "session/version.h"
+#include "session/checkpoint/version.h"
 
 namespace nephroid {
 namespace {

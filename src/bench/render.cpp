@@ -8,12 +8,12 @@
 
 #include "bench/measure.h"
 #include "film/film_output.h"
+#include "options/options.h"
+#include "session/checkpoint/version.h"
 #include "session/film_of_scene.h"
-#include "session/noise.h"
-#include "session/options.h"
 #include "session/process_memory.h"
 #include "session/render_session.h"
-#include "session/version.h"
+#include "session/report/noise.h"
 
 namespace nephroid {
 namespace {

@@ -17,6 +17,7 @@
 #include "integrator/photon_map.h"
 #include "integrator/ppm.h"
 #include "integrator/sppm.h"
+#include "session/settings/integrator_settings.h"
 
 namespace nephroid {
 namespace {

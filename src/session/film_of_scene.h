@@ -6,7 +6,6 @@
 
 #include "film/film.h"
 #include "integrator/estimator.h"
-#include "photon/photon.h"
 #include "route/routes.h"
 #include "scene/scene.h"
 
@@ -17,9 +16,6 @@ FilmSettings film_settings(const FilmDescription& description);
 /// How a film of these routes rejects outliers.
 OutlierSettings outlier_settings(const Routes& routes, const IntegratorOptions& options,
                                  const PixelFilter& filter);
-
-/// Of a photon, and of its share of what finds it while that is made.
-inline constexpr size_t kBytesPerPhoton = 2 * sizeof(Photon);
 
 /// What a render is about to take memory for.
 struct MemoryNeed {

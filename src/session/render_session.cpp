@@ -18,9 +18,9 @@
 #include "film/exr_file.h"
 #include "film/film_output.h"
 #include "scene/scene.h"
-#include "session/choices_report.h"
-#include "session/fault_report.h"
-#include "session/noise.h"
+#include "session/report/choices_report.h"
+#include "session/report/invalid_samples.h"
+#include "session/report/noise.h"
 
 namespace nephroid {
 namespace {
@@ -138,7 +138,7 @@ RenderResult RenderSession::run(SignalFlags& signals) {
   result.statistics = statistics();
   renew_error_text();
   result.error_text = error_text_;
-  result.faults = fault_report(scene_, film_);
+  result.faults = invalid_samples(scene_, film_);
   if (!options_.output.empty())
     write_last_picture(options_.keeps_state || *reason == StopReason::kSignal);
   return result;
@@ -330,7 +330,7 @@ std::string RenderSession::choices_text() const {
     choices += line + "\n";
   for (const std::string& note : options_.notes) choices += "note: " + note + "\n";
   if (error_text_) choices += *error_text_ + "\n";
-  for (const std::string& fault : fault_report(scene_, film_))
+  for (const std::string& fault : invalid_samples(scene_, film_))
     choices += "warning: " + fault + "\n";
   return choices;
 }

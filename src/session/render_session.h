@@ -12,8 +12,8 @@
 #include "film/film.h"
 #include "film/image_io.h"
 #include "integrator/estimator.h"
-#include "session/checkpoint.h"
-#include "session/noise.h"
+#include "session/checkpoint/checkpoint.h"
+#include "session/report/noise.h"
 #include "session/signals.h"
 
 namespace nephroid {
@@ -60,7 +60,7 @@ struct RenderResult {
   double seconds = 0;  ///< rendering, with intermediate pictures, without the last; of this run
   std::optional<double> error;            ///< as estimated_error().total()
   std::optional<std::string> error_text;  ///< as error_report(); of consistent estimators alone
-  std::vector<std::string> faults;        ///< as fault_report()
+  std::vector<std::string> faults;        ///< as invalid_samples()
   /// As the preset's estimators: after the first pass (for where radii began) and after the last.
   std::vector<EstimatorStatistics> first_pass_statistics, statistics;
 };

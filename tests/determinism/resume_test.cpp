@@ -12,10 +12,10 @@
 #include "film/exr_file.h"
 #include "film/film_output.h"
 #include "rendering.h"
-#include "session/checkpoint.h"
-#include "session/film_metadata.h"
-#include "session/merge.h"
-#include "session/version.h"
+#include "session/checkpoint/checkpoint.h"
+#include "session/checkpoint/film_metadata.h"
+#include "session/checkpoint/merge_pictures.h"
+#include "session/checkpoint/version.h"
 #include "unit/film/scratch_directory.h"
 
 namespace nephroid {

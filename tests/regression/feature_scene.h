@@ -12,7 +12,7 @@
 
 #include "film/film_output.h"
 #include "rendering.h"
-#include "session/integrator_settings.h"
+#include "session/settings/integrator_settings.h"
 #include "source_directory.h"
 
 namespace nephroid::testing_support {

@@ -1,5 +1,5 @@
 // Defaults, the scene's Integrator line and -D, in that order.
-#include "session/integrator_settings.h"
+#include "session/settings/integrator_settings.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 
 #include "core/errors.h"
 #include "film/state_file.h"
-#include "session/choices_report.h"
+#include "session/report/choices_report.h"
 #include "unit/film/scratch_directory.h"
 #include "unit/session/scripted_session.h"
 
