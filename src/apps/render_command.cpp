@@ -14,7 +14,6 @@
 #include "film/film_output.h"
 #include "input/scene_files.h"
 #include "integrator/ppm.h"
-#include "session/checkpoint/film_metadata.h"
 #include "session/checkpoint/version.h"
 #include "session/film_of_scene.h"
 #include "session/process_memory.h"
@@ -27,34 +26,16 @@ namespace {
 
 constexpr int kSignalStatus = 128;
 
-Metadata metadata_of(const RenderCommand& command, const SceneFiles& files,
-                     const IntegratorChoice& choice) {
-  return {
-      {"nephroid:version", kVersion},
-      {kInstructionSetKey, instruction_set()},
-      {"nephroid:scene", command.scene},
-      {"nephroid:scene_hash", fmt::format("{:016x}", files.hash())},
-      {"nephroid:integrator", name_of(command.routes, choice.name)},
-      {"nephroid:options", settings_text(choice.options)},
-  };
-}
-
-void add_film(const Preset& preset, const Film& film, Metadata* metadata) {
-  const PixelBounds& crop = film.bounds();
-  metadata->emplace_back(
-      "nephroid:film", fmt::format("{}x{}, columns {} to {}, rows {} to {}", film.settings().width,
-                                   film.settings().height, crop.x0, crop.x1, crop.y0, crop.y1));
-  const bool passes_add_up = std::ranges::all_of(preset.estimators, [](const auto& estimator) {
-    return estimator->capabilities().independent_passes;
-  });
-  add_film_metadata(film, passes_add_up, metadata);
-}
-
-void add_routes(const RoutePlan& plan, Metadata* metadata) {
-  const std::string aovs = aovs_text(plan);
-  // The order of routes counts.
-  metadata->emplace_back("nephroid:routes", routes_text(plan));
-  if (!aovs.empty()) metadata->emplace_back("nephroid:aovs", aovs);
+RenderIdentity identity_of(const RenderCommand& command, const SceneFiles& files,
+                           const IntegratorChoice& choice, const RoutePlan& plan) {
+  RenderIdentity identity = RenderIdentity::of_this_program();
+  identity.scene = command.scene;
+  identity.scene_hash = fmt::format("{:016x}", files.hash());
+  identity.integrator = name_of(command.routes, choice.name);
+  identity.options = settings_text(choice.options);
+  identity.routes = routes_text(plan);
+  identity.aovs = aovs_text(plan);
+  return identity;
 }
 
 /// What a picture has beside the wanted passes stays in it, and no picture of those can be merged
@@ -70,7 +51,7 @@ void warn_of_passes_beyond(const RenderOptions& options, const std::string& outp
 }
 
 /// A picture of this render that would not have to be rendered again.
-void warn_of_what_is_replaced(const std::string& output, const Metadata& here) {
+void warn_of_what_is_replaced(const std::string& output, const RenderIdentity& here) {
   const PassRanges passes = passes_to_go_on_from(output, here);
   if (!passes.empty())
     print_warning(
@@ -101,7 +82,7 @@ SettingList settings_of(const RenderCommand& command) {
 }
 
 RenderOptions render_options(const RenderCommand& command, const Scene& scene,
-                             const std::string& output, Metadata metadata) {
+                             const std::string& output, RenderIdentity identity) {
   RenderOptions options;
   if (command.passes) {
     options.first_pass = command.passes->first;
@@ -115,7 +96,7 @@ RenderOptions render_options(const RenderCommand& command, const Scene& scene,
   options.keeps_state = command.keeps_state;
   std::error_code no_temporary_directory;
   options.rescue_directory = std::filesystem::temp_directory_path(no_temporary_directory).string();
-  options.metadata = std::move(metadata);
+  options.identity = std::move(identity);
   return options;
 }
 
@@ -165,14 +146,11 @@ int run_render(const RenderCommand& command) {
   }
   const std::string output =
       command.output.empty() ? default_output(scene.film, command.scene) : command.output;
-  Metadata metadata = metadata_of(command, *loaded.description.files, choice);
-  add_routes(plan, &metadata);
-  add_film(preset, film, &metadata);
-  RenderOptions options = render_options(command, scene, output, std::move(metadata));
+  RenderOptions options = render_options(
+      command, scene, output, identity_of(command, *loaded.description.files, choice, plan));
+  options.identity.set_film(film, options.seed);
   if (std::filesystem::exists(output)) {
-    Metadata here = options.metadata;
-    here.emplace_back("nephroid:seed", fmt::format("{}", options.seed));
-    if (command.reject_outliers) here.emplace_back("nephroid:outliers", "reject");
+    const RenderIdentity& here = options.identity;
     if (command.resume) {
       options.begin_with = go_on_from(output, here, scene, preset, film);
       print_warnings(options.begin_with.warnings);

@@ -125,17 +125,17 @@ void check_size(const Picture& reference, const Film& film) {
 }
 
 Metadata metadata_of(const BenchRender& render, const RoutePlan& plan, const BenchRun& run) {
-  Metadata metadata = {{"nephroid:version", kVersion},
-                       {"nephroid:instruction_set", instruction_set()},
-                       {"nephroid:scene", render.scene->file},
-                       {"nephroid:integrator", run.integrator},
-                       {"nephroid:options", run.options},
-                       {"nephroid:routes", run.routes},
-                       {"nephroid:seed", fmt::format("{}", render.integrator->seed)},
-                       {"nephroid:passes", fmt::format("0..{}", run.end().passes - 1)},
-                       {"nephroid:seconds", fmt::format("{:.3f}", run.end().seconds)}};
-  if (!plan.aovs.empty()) metadata.emplace_back("nephroid:aovs", aovs_text(plan));
-  if (render.integrator->reject_outliers) metadata.emplace_back("nephroid:outliers", "reject");
+  RenderIdentity identity = RenderIdentity::of_this_program();
+  identity.scene = render.scene->file;
+  identity.integrator = run.integrator;
+  identity.options = run.options;
+  identity.routes = run.routes;
+  identity.aovs = aovs_text(plan);
+  identity.seed = fmt::format("{}", render.integrator->seed);
+  if (render.integrator->reject_outliers) identity.outliers = "reject";
+  Metadata metadata = identity.to_metadata();
+  metadata.emplace_back(kPassesKey, fmt::format("0..{}", run.end().passes - 1));
+  metadata.emplace_back(kSecondsKey, fmt::format("{:.3f}", run.end().seconds));
   return metadata;
 }
 

@@ -35,7 +35,7 @@ struct RenderOptions {
   Checkpoint begin_with;            ///< what film and estimators hold already
   float png_exposure = 1;
   std::vector<std::string> notes;  ///< of the choices that a picture tells
-  Metadata metadata;  ///< written first; the session adds passes, time, choices and estimates
+  RenderIdentity identity;         ///< what the picture tells; the session sets film and seed
 };
 
 enum class StopReason { kPasses, kTime, kNoise, kSignal };

@@ -18,7 +18,7 @@ void read(const std::string& path) {
   const PassRanges passes = passes_of(file, "read it");
   if (PassRanges::parse(passes.text()) != passes) __builtin_trap();
   if (!passes.overlap(passes)) __builtin_trap();
-  seconds_of(file, "nephroid:seconds");
+  seconds_of(file, kSecondsKey);
   description_of_picture(path);
   Film film = film_of(file);
   passes_add_up(file);

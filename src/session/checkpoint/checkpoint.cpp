@@ -2,61 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <map>
-#include <sstream>
 
 #include "core/errors.h"
 
 namespace nephroid {
-namespace {
 
-/// "key=value" words, by key.
-std::map<std::string, std::string> settings_in(const std::string& text) {
-  std::map<std::string, std::string> settings;
-  std::istringstream words(text);
-  for (std::string word; words >> word;) {
-    const size_t equals = word.find('=');
-    settings[word.substr(0, equals)] =
-        equals == std::string::npos ? std::string() : word.substr(equals + 1);
-  }
-  return settings;
+bool passes_are_independent(const Preset& preset) {
+  return std::ranges::all_of(preset.estimators, [](const auto& estimator) {
+    return estimator->capabilities().independent_passes;
+  });
 }
-
-std::string shown(const std::string& value) {
-  return value.empty() ? "nothing" : value;
-}
-
-/// Metadata that tell which render a picture is of.
-constexpr const char* kIdentity[] = {"version", "scene_hash", "film",     "routes",
-                                     "aovs",    "options",    "outliers", "seed"};
-
-/// Empty if nothing that counts differs.
-std::string differences(const Metadata& a, const Metadata& b, const std::string& other) {
-  std::string text;
-  const auto add = [&](const std::string& what, const std::string& there, const std::string& here) {
-    text += fmt::format("\n  {} {}, {} {}", what, shown(there), other, shown(here));
-  };
-  for (const std::string key : kIdentity) {
-    const std::string there = value_of(a, "nephroid:" + key), here = value_of(b, "nephroid:" + key);
-    if (there == here) continue;
-    if (key != "options") {
-      add(key, there, here);
-      continue;
-    }
-    auto of_a = settings_in(there), of_b = settings_in(here);
-    for (auto* settings : {&of_a, &of_b}) settings->erase("texture-cache");  // the same picture
-    for (const auto& [name, value] : of_a)
-      if (const auto found = of_b.find(name); found == of_b.end() || found->second != value)
-        add(name, value, found == of_b.end() ? "" : found->second);
-    for (const auto& [name, value] : of_b)
-      if (of_a.find(name) == of_a.end()) add(name, "", value);
-  }
-  return text;
-}
-
-}  // namespace
 
 RenderState state_of(const Scene& scene, Preset& preset, Film& film) {
   RenderState state = film.state();
@@ -69,7 +27,7 @@ PassRanges passes_of(const StateFile& file, const std::string& purpose) {
   if (!file.has_state())
     throw IoError(refusal +
                   "it has no state, expected a picture that was rendered without --no-state");
-  const auto passes = PassRanges::parse(value_of(file.metadata(), "nephroid:passes"));
+  const auto passes = PassRanges::parse(value_of(file.metadata(), kPassesKey));
   if (!passes || passes->empty()) throw IoError(refusal + "it does not say which passes it has");
   return *passes;
 }
@@ -85,52 +43,54 @@ double seconds_of(const StateFile& file, const std::string& key) {
   return seconds;
 }
 
-void require_same_render(const StateFile& file, const Metadata& metadata, const std::string& other,
-                         const std::string& purpose) {
-  const std::string found = differences(file.metadata(), metadata, other);
-  if (!found.empty())
-    throw UsageError(file.path() + ": cannot " + purpose +
-                     ": it is the picture of another render:" + found);
-}
-
-std::string instruction_sets_of(const Metadata& metadata) {
-  return value_of(metadata, kInstructionSetKey);
-}
-
-std::string joined_instruction_sets(const std::string& a, const std::string& b) {
-  std::string joined;
-  for (const std::string& sets : {a, b}) {
-    std::istringstream words(sets);
-    for (std::string set; std::getline(words, set, ';');) {
-      if (set.starts_with(' ')) set.erase(0, 1);
-      if (!set.empty() && ("; " + joined + ";").find("; " + set + ";") == std::string::npos)
-        joined += (joined.empty() ? "" : "; ") + set;
-    }
-  }
-  return joined;
+void require_same_render(const StateFile& file, const RenderIdentity& other,
+                         const std::string& name, const std::string& purpose) {
+  const auto found = RenderIdentity::from_metadata(file.metadata()).differences(other, name);
+  if (found.empty()) return;
+  throw UsageError(fmt::format("{}: cannot {}: it is the picture of another render:\n  {}",
+                               file.path(), purpose, fmt::join(found, "\n  ")));
 }
 
 std::optional<std::string> warning_of_instruction_sets(const StateFile& file,
-                                                       const Metadata& metadata,
-                                                       const std::string& other) {
-  const std::string there = instruction_sets_of(file.metadata()),
-                    here = instruction_sets_of(metadata);
+                                                       const RenderIdentity& other,
+                                                       const std::string& name) {
+  const std::string there = value_of(file.metadata(), kInstructionSetKey);
+  const std::string& here = other.instruction_sets;
   if (there == here) return std::nullopt;
+  const auto shown = [](const std::string& sets) { return sets.empty() ? "nothing" : sets; };
   return fmt::format("{}: rendered with {}, {} {}: the last bits may differ from those of one run",
-                     file.path(), shown(there), other, shown(here));
+                     file.path(), shown(there), name, shown(here));
 }
 
-PassRanges passes_to_go_on_from(const std::string& path, const Metadata& here) {
+void add_progress(const Checkpoint& progress, Metadata* metadata) {
+  metadata->emplace_back(kPassesKey, progress.passes.text());
+  metadata->emplace_back(kSecondsKey, fmt::format("{:.3f}", progress.seconds));
+  if (progress.last_pass_seconds > 0)
+    metadata->emplace_back(kLastPassSecondsKey, fmt::format("{:.6f}", progress.last_pass_seconds));
+  metadata->emplace_back(kHistoryKey, progress.history);
+}
+
+void add_estimates(const Film& film, Metadata* metadata) {
+  if (const OutlierRejection* rejection = film.rejection())
+    metadata->emplace_back(kOutlierEstimatesKey, fmt::format("{}", rejection->held_estimates()));
+  const FilmLayout& layout = film.layout();
+  for (size_t r = 0; r < layout.routes.size(); ++r)
+    metadata->emplace_back(kEstimatesKey + layout.routes[r],
+                           fmt::format("{}", film.estimates(layout.groups[r])));
+}
+
+PassRanges passes_to_go_on_from(const std::string& path, const RenderIdentity& here) {
   try {
     const StateFile file(path);
-    if (file.has_state() && differences(file.metadata(), here, "here").empty())
+    const RenderIdentity there = RenderIdentity::from_metadata(file.metadata());
+    if (file.has_state() && there.differences(here, "here").empty())
       return passes_of(file, "go on from it");
   } catch (const IoError&) {
   }
   return {};
 }
 
-Checkpoint go_on_from(const std::string& path, const Metadata& here, const Scene& scene,
+Checkpoint go_on_from(const std::string& path, const RenderIdentity& here, const Scene& scene,
                       Preset& preset, Film& film) try {
   const std::string purpose = "go on from it";
   StateFile file(path);
@@ -139,11 +99,11 @@ Checkpoint go_on_from(const std::string& path, const Metadata& here, const Scene
   file.load(state_of(scene, preset, film));
   const Metadata& metadata = file.metadata();
   Checkpoint checkpoint{passes,
-                        seconds_of(file, "nephroid:seconds"),
-                        seconds_of(file, "nephroid:last_pass_seconds"),
-                        value_of(metadata, "nephroid:history"),
-                        value_of(metadata, "nephroid:choices"),
-                        instruction_sets_of(metadata),
+                        seconds_of(file, kSecondsKey),
+                        seconds_of(file, kLastPassSecondsKey),
+                        value_of(metadata, kHistoryKey),
+                        value_of(metadata, kChoicesKey),
+                        value_of(metadata, kInstructionSetKey),
                         {}};
   if (auto warning = warning_of_instruction_sets(file, here, "here"))
     checkpoint.warnings.push_back(std::move(*warning));

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/errors.h"
+#include "session/checkpoint/render_identity.h"
 
 namespace nephroid {
 namespace {

@@ -1,14 +1,11 @@
 // What a film is, in the metadata of its picture, so that it can be made again without the scene.
-// Who calls it: the command render writes it, merge reads it. It must not know what is in a film.
+// It must not know what is in a film.
 #pragma once
 
 #include "film/film.h"
 #include "film/state_file.h"
 
 namespace nephroid {
-
-/// Of the metadata that are for this program alone.
-inline constexpr const char* kLayoutKey = "nephroid:layout";
 
 /// `passes_add_up`: those of the film's estimators are independent of each other.
 void add_film_metadata(const Film& film, bool passes_add_up, Metadata* metadata);

@@ -45,21 +45,21 @@ Merged merge_pictures(const std::vector<std::string>& inputs, const std::string&
   // The order of the arguments does not count.
   std::ranges::sort(files, {}, [](const Input& i) { return i.passes.ranges()[0].first; });
   const StateFile first(files[0].path);
-  if (const std::string version = value_of(first.metadata(), "nephroid:version");
-      version != kVersion)
+  RenderIdentity identity = RenderIdentity::from_metadata(first.metadata());
+  if (identity.version != kVersion)
     throw UsageError(fmt::format("{}: cannot {}: it is of version {}, this program is {}",
-                                 first.path(), kPurpose, version.empty() ? "?" : version,
-                                 kVersion));
+                                 first.path(), kPurpose,
+                                 identity.version.empty() ? "?" : identity.version, kVersion));
   Merged merged;
   std::string history, sets;
   for (const Input& input : files) {
     const StateFile file(input.path);
     const PassRanges& passes = input.passes;
-    require_same_render(file, first.metadata(), "in " + first.path(), kPurpose);
+    require_same_render(file, identity, "in " + first.path(), kPurpose);
     const auto refuse = [&name = file.path()](const std::string& why) {
       throw UsageError(name + ": cannot " + kPurpose + ": " + why);
     };
-    if (value_of(file.metadata(), "nephroid:outliers") == "reject")
+    if (value_of(file.metadata(), kOutliersKey) == "reject")
       refuse("with --outliers reject passes depend on each other; --resume goes on with it");
     if (!passes_add_up(file))
       refuse("passes of this integrator cannot be added up; --resume goes on with it");
@@ -68,12 +68,11 @@ Merged merge_pictures(const std::vector<std::string>& inputs, const std::string&
         if (const auto both = other.passes.overlap(passes); both && &other != &input)
           refuse(fmt::format("{} has passes {}..{}, too", other.path, both->first, both->last));
     merged.passes.add(passes);
-    merged.seconds += seconds_of(file, "nephroid:seconds");
-    history += value_of(file.metadata(), "nephroid:history");
-    if (const auto warning =
-            warning_of_instruction_sets(file, first.metadata(), "in " + first.path()))
+    merged.seconds += seconds_of(file, kSecondsKey);
+    history += value_of(file.metadata(), kHistoryKey);
+    if (const auto warning = warning_of_instruction_sets(file, identity, "in " + first.path()))
       merged.warnings.push_back(*warning);
-    sets = joined_instruction_sets(sets, instruction_sets_of(file.metadata()));
+    sets = joined_instruction_sets(sets, value_of(file.metadata(), kInstructionSetKey));
   }
   warn_of_gaps(merged);
   Film sum = film_of(first);
@@ -86,24 +85,18 @@ Merged merge_pictures(const std::vector<std::string>& inputs, const std::string&
     file.load(film.state());
     sum.add(film);
   }
-  Metadata metadata;
-  for (const auto& [key, value] : first.metadata()) {
-    const bool of_one_run = key == "nephroid:passes" || key == "nephroid:seconds" ||
-                            key == "nephroid:last_pass_seconds" || key == "nephroid:history" ||
-                            key == "nephroid:choices" || key == kInstructionSetKey ||
-                            key.starts_with("nephroid:estimates:");
-    if (key.starts_with("nephroid:") && !of_one_run) metadata.emplace_back(key, value);
-  }
-  metadata.emplace_back("nephroid:passes", merged.passes.text());
-  metadata.emplace_back("nephroid:seconds", fmt::format("{:.3f}", merged.seconds));
-  metadata.emplace_back("nephroid:history", history);
-  metadata.emplace_back(kInstructionSetKey, sets);
+  identity.instruction_sets = sets;
+  Metadata metadata = identity.to_metadata();
+  metadata.emplace_back(kLayoutKey, value_of(first.metadata(), kLayoutKey));
+  Checkpoint progress;
+  progress.passes = merged.passes;
+  progress.seconds = merged.seconds;
+  progress.history = history;
+  add_progress(progress, &metadata);
   std::string faults;
   for (const std::string& fault : invalid_samples(sum)) faults += "warning: " + fault + "\n";
-  if (!faults.empty()) metadata.emplace_back("nephroid:choices", faults);
-  for (size_t r = 0; r < sum.layout().routes.size(); ++r)
-    metadata.emplace_back("nephroid:estimates:" + sum.layout().routes[r],
-                          fmt::format("{}", sum.estimates(sum.layout().groups[r])));
+  if (!faults.empty()) metadata.emplace_back(kChoicesKey, faults);
+  add_estimates(sum, &metadata);
   const RenderState state = sum.state();
   write_film(output, sum, std::move(metadata), 1, &state);
   return merged;

@@ -14,8 +14,6 @@
 namespace nephroid {
 namespace {
 
-constexpr std::string_view kPrefix = "nephroid:";
-
 std::string state_line(const StateFile& file) {
   if (!file.has_state()) return "none: it cannot be resumed or merged";
   const PassRanges passes = passes_of(file, "describe it");
@@ -54,8 +52,8 @@ std::string description_of_picture(const std::string& path) {
         fmt::format("crop: x {} to {}, y {} to {}\n", window.x0, window.x1, window.y0, window.y1);
   text += fmt::format("state: {}\n", state_line(file));
   for (const auto& [key, value] : file.metadata())
-    if (key.starts_with(kPrefix) && key != kLayoutKey)
-      text += entry(std::string_view(key).substr(kPrefix.size()), value);
+    if (key.starts_with(kKeyPrefix) && key != kLayoutKey)
+      text += entry(std::string_view(key).substr(kKeyPrefix.size()), value);
   return text;
 }
 
