@@ -137,7 +137,7 @@ class Bench {
   /// Of all files of a render's scene.
   uint64_t hash_of_scene(const BenchRender& render) {
     return scenes_.hash(render.scene->file, [&]() -> const SceneFiles& {
-      return *shelf_.load(*render.scene, settings_of(render)).description.files;
+      return *shelf_.load(render).description.files;
     });
   }
 

@@ -57,12 +57,7 @@ void set_crop(CommandLine& line, const std::string& text) {
 
 template <auto Command>
 void add_setting(CommandLine& line, const std::string& text) {
-  auto& command = line.*Command;
-  command.settings.push_back(parse_setting(text));
-  IntegratorOptions options;
-  apply_settings(command.settings, &options);
-  command.overrides.specular_band = options.specular_band;
-  command.overrides.texture_memory = static_cast<uint64_t>(options.texture_memory);
+  (line.*Command).settings.push_back(parse_setting(text));
 }
 
 void set_outliers(CommandLine& line, const std::string& text) {

@@ -16,9 +16,6 @@
 
 namespace nephroid {
 
-/// The integrator of a render if nothing on the command line names routes.
-inline const std::string kDefaultIntegrator = "mixed";
-
 /// What `nephroid render` was asked for; defaults are those of the table.
 struct RenderCommand {
   std::string scene;
@@ -47,7 +44,6 @@ struct InfoCommand {
 struct RoutesCommand {
   std::string scene;  ///< empty: none
   RouteChoice routes;
-  SceneOverrides overrides;
   SettingList settings;
   uint32_t passes = 8;  ///< of the pilot
 };

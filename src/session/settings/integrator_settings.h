@@ -1,6 +1,5 @@
-// Where the numbers of an integrator come from: built-in defaults, the scene's Integrator line,
-// then -D key=value, each over the one before. One table has every key with its default, unit and
-// help. Who calls it: options.cpp (names and help) and apps (values).
+// The numbers of a render, each a key of -D: one table with default, unit and help. It must not
+// know scenes.
 #pragma once
 
 #include <span>
@@ -9,22 +8,38 @@
 #include <vector>
 
 #include "core/errors.h"
-#include "input/scene_description.h"
 #include "integrator/estimator.h"
 #include "photon/photon.h"
+#include "scene/scene.h"
 
 namespace nephroid {
 
+/// Numbers that no integrator looks at: scenes are built, and films reject outliers, with them.
+struct SceneSettings {
+  SpecularBand specular_band;
+  uint64_t texture_memory = kDefaultTextureMemory;  ///< bytes for the pixels of image textures
+  int outlier_neighbours = 8;                       ///< similar estimates that confirm one
+};
+
+/// All that -D sets.
+struct RenderSettings {
+  IntegratorOptions integrator;
+  SceneSettings scene;
+  std::vector<std::string> given;  ///< keys that were set, in order
+
+  bool gives(const std::string& key) const;
+};
+
 struct IntegratorSetting {
   const char* key;
-  const char* value;  ///< what the value is, for help: "N", "X"
+  const char* value;  ///< placeholder of the value in help: "N", "X"
   const char* default_text;
   const char* unit;  ///< empty if it has none
   const char* help;
   /// Parses and stores; throws UsageError.
-  void (*apply)(IntegratorOptions& options, const std::string& text);
-  /// What is stored now, for metadata.
-  std::string (*print)(const IntegratorOptions& options);
+  void (*apply)(RenderSettings& settings, const std::string& text);
+  /// The stored value as metadata have it.
+  std::string (*print)(const RenderSettings& settings);
 };
 
 /// The table of keys, in the order in which help shows them.
@@ -37,32 +52,17 @@ using SettingList = std::vector<std::pair<std::string, std::string>>;
 /// the keys.
 std::pair<std::string, std::string> parse_setting(const std::string& text);
 
+/// Applies what parse_setting has accepted.
+void apply_settings(const SettingList& settings, RenderSettings* target);
+
+/// The list over the defaults. With a limit of `memory` bytes, 0 being none, textures and photons
+/// have a quarter of it each at most, unless the list says otherwise.
+RenderSettings render_settings(const SettingList& list, uint64_t memory = 0);
+
 /// Bytes of a photon and of its share of the grid while that is built.
 inline constexpr size_t kBytesPerPhoton = 2 * sizeof(Photon);
 
-/// Makes caches no larger than a share of `memory` bytes each: what a list of settings begins with
-/// that respects --memory.
-SettingList settings_within(uint64_t memory);
-
-/// Applies what parse_setting has accepted.
-void apply_settings(const SettingList& settings, IntegratorOptions* options);
-
-/// What the scene and the command line chose.
-struct IntegratorChoice {
-  std::string name;
-  IntegratorOptions options;
-  std::vector<std::string> notes;     ///< what of the scene's line was not taken, for the report
-  std::vector<std::string> warnings;  ///< what is wrong with it: "file:line:column: message"
-};
-
-/// `wanted` is an integrator's name, or "scene" for the one that stands for the scene's own. Throws
-/// UsageError if the scene's own is asked for and nothing stands for it, SceneError if it is asked
-/// for and unknown, or for a parameter of the wrong type or range.
-IntegratorChoice choose_integrator(const std::string& wanted, const std::string& scene_integrator,
-                                   const ParameterSet& scene_parameters,
-                                   const SettingList& settings);
-
 /// "max-depth=100 radius=0 ...", every key.
-std::string settings_text(const IntegratorOptions& options);
+std::string settings_text(const RenderSettings& settings);
 
 }  // namespace nephroid

@@ -33,13 +33,14 @@ const std::vector<Concern>& concerns() {
 
 }  // namespace
 
-std::vector<std::string> unused_settings(const SettingList& settings, const Routes& routes) {
+std::vector<std::string> unused_settings(const std::vector<std::string>& keys,
+                                         const Routes& routes) {
   const auto renders = [&](EstimatorKind kind) {
     return std::any_of(routes.groups().begin(), routes.groups().end(),
                        [&](const RouteGroup& group) { return group.estimator == kind; });
   };
   std::vector<std::string> warnings;
-  for (const auto& [key, value] : settings)
+  for (const std::string& key : keys)
     for (const Concern& concern : concerns()) {
       if (key != concern.key ||
           std::any_of(concern.estimators.begin(), concern.estimators.end(), renders))

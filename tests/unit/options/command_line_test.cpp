@@ -54,8 +54,6 @@ TEST(CommandLine, RenderDefaults) {
   EXPECT_EQ(line.render.threads, 0);
   EXPECT_FALSE(line.render.overrides.has_crop);
   EXPECT_EQ(line.render.overrides.width, 0);
-  EXPECT_EQ(line.render.overrides.specular_band.low, SpecularBand().low);
-  EXPECT_EQ(line.render.overrides.specular_band.high, SpecularBand().high);
   EXPECT_FALSE(line.render.reject_outliers);
   EXPECT_FALSE(line.render.quiet);
 }
@@ -91,8 +89,7 @@ TEST(CommandLine, RenderWithEverything) {
   EXPECT_EQ(*r.seed, 9u);
   ASSERT_EQ(r.settings.size(), 2u);
   EXPECT_EQ(r.settings[0], (std::pair<std::string, std::string>("max-depth", "7")));
-  EXPECT_EQ(r.overrides.specular_band.low, 0.1f);
-  EXPECT_EQ(r.overrides.specular_band.high, 0.3f);
+  EXPECT_EQ(r.settings[1], (std::pair<std::string, std::string>("specular-alpha", "0.1..0.3")));
   EXPECT_TRUE(r.quiet);
 }
 

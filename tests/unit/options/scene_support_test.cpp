@@ -14,7 +14,7 @@
 #include "input/option_directive.h"
 #include "input/pbrt_parser.h"
 #include "scene/scene.h"
-#include "session/settings/integrator_settings.h"
+#include "session/settings/integrator_choice.h"
 #include "source_directory.h"
 #include "unit/input/temporary_directory.h"
 #include "unit/medium/nanovdb_writer.h"

@@ -4,8 +4,8 @@
 
 #include <limits>
 
+#include "film/film_settings.h"
 #include "input/pbrt_parser.h"
-#include "session/film_of_scene.h"
 #include "unit/film/one_part.h"
 
 namespace nephroid {

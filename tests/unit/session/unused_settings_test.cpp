@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "rendering.h"
+#include "session/settings/integrator_settings.h"
 
 namespace nephroid {
 namespace {
@@ -13,10 +14,10 @@ using namespace testing_support;
 std::vector<std::string> warnings(const SettingList& settings, const Plan& plan) {
   const auto scene = scene_from_text(R"(Film "rgb" "integer xresolution" 4 "integer yresolution" 4
     WorldBegin LightSource "point" Shape "sphere")");
-  return unused_settings(settings, *make_preset(plan, {}, *scene).routes);
+  return unused_settings(render_settings(settings).given, *make_preset(plan, {}, *scene).routes);
 }
 
-TEST(IdleSettings, AreSaid) {
+TEST(UnusedSettings, AreSaid) {
   EXPECT_EQ(
       warnings({{"hit-points", "9"}, {"max-depth", "4"}}, "mixed"),
       std::vector<std::string>{"-D hit-points changes nothing here: no route is rendered by ppm"});
@@ -27,7 +28,7 @@ TEST(IdleSettings, AreSaid) {
   EXPECT_EQ(warnings({{"specular-trees", "yes"}}, "pssmlt").size(), 1u);
 }
 
-TEST(IdleSettings, OthersAreNot) {
+TEST(UnusedSettings, OthersAreNot) {
   EXPECT_TRUE(warnings({{"hit-points", "9"}}, "ppm").empty());
   EXPECT_TRUE(warnings({{"technique", "1,2"}}, "bdpt").empty());
   EXPECT_TRUE(warnings({{"guide", "no"}, {"photons", "3"}}, "mixed").empty());
