@@ -1,19 +1,23 @@
 # The layers, in the order in which data flows through them. Each is a small static library of all
-# sources in its folder, and in its rooms if it is made of rooms; a layer links only what stands before it.
+# sources in its folder; a layer links only what stands before it:
+# nephroid_layer(NAME FOLDER LIBRARY... [ROOMS FOLDER...]). Rooms are folders in the layer's own, whose
+# sources go into the same library; tools/check_layers.py holds their order.
 function(nephroid_layer name folder)
+  cmake_parse_arguments(PARSE_ARGV 2 layer "" "" "ROOMS")
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${folder}/*.cpp)
-  if(NOT folder MATCHES "^scene")
-    file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${folder}/*.cpp)
-  endif()
+  foreach(room ${layer_ROOMS})
+    file(GLOB of_room CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${folder}/${room}/*.cpp)
+    list(APPEND sources ${of_room})
+  endforeach()
   # A library of its own, see below.
   list(REMOVE_ITEM sources ${CMAKE_SOURCE_DIR}/src/scene/pixel_filter.cpp)
   if(sources)
     add_library(nephroid_${name} STATIC ${sources})
-    target_link_libraries(nephroid_${name} PUBLIC nephroid_flags ${ARGN})
+    target_link_libraries(nephroid_${name} PUBLIC nephroid_flags ${layer_UNPARSED_ARGUMENTS})
     nephroid_precompiled(nephroid_${name} nephroid_core)
   else()
     add_library(nephroid_${name} INTERFACE)
-    target_link_libraries(nephroid_${name} INTERFACE nephroid_flags ${ARGN})
+    target_link_libraries(nephroid_${name} INTERFACE nephroid_flags ${layer_UNPARSED_ARGUMENTS})
   endif()
 endfunction()
 
@@ -53,9 +57,13 @@ nephroid_layer(route route nephroid_scene)
 nephroid_layer(film film nephroid_filter PkgConfig::OpenImageIO ${OPENEXR_LIBRARY})
 nephroid_layer(transport transport nephroid_scene nephroid_route)
 nephroid_layer(photon photon nephroid_transport)
-nephroid_layer(integrator integrator nephroid_photon nephroid_film)
-nephroid_layer(session session nephroid_integrator)
-nephroid_layer(bench bench nephroid_session nlohmann_json::nlohmann_json)
+nephroid_layer(integrator integrator nephroid_photon nephroid_film
+               ROOMS estimator path photons learning photon_mapping virtual_lights bidirectional
+                     metropolis mixed presets)
+nephroid_layer(image image nephroid_film)
+nephroid_layer(session session nephroid_integrator ROOMS settings report checkpoint)
+nephroid_layer(options options nephroid_session)
+nephroid_layer(bench bench nephroid_options nephroid_image nlohmann_json::nlohmann_json)
 
 file(GLOB app_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/apps/*.cpp)
 if(app_sources)

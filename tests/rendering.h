@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/errors.h"
-#include "film/film.h"
+#include "film/film_settings.h"
 #include "input/pbrt_parser.h"
 #include "integrator/presets/integrator_table.h"
 #include "scene/scene.h"
@@ -26,16 +26,7 @@ inline std::unique_ptr<Scene> scene_from_text(const std::string& text) {
 }
 
 inline Film film_for(const Scene& scene, const Preset& preset) {
-  FilmSettings settings;
-  settings.width = scene.film.width;
-  settings.height = scene.film.height;
-  settings.crop = {scene.film.crop_x0, scene.film.crop_y0, scene.film.crop_x1, scene.film.crop_y1};
-  settings.imaging_ratio = scene.film.imaging_ratio;
-  settings.max_component = scene.film.max_component;
-  settings.color_space = scene.film.color_space;
-  settings.white_balance = scene.film.white_balance;
-  settings.gbuffer = scene.film.gbuffer != GBufferSpace::kNone;
-  return Film(settings, preset.layout);
+  return Film(film_settings(scene.film), preset.layout);
 }
 
 /// The routes of an integrator or of a preset of routes.

@@ -10,32 +10,39 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SRC = ROOT / "src"
-LAYERS = ["core", "input", "scene", "route", "film", "transport", "photon", "integrator", "session",
-          "bench", "apps"]
-# Within scene/, the folders that others build on come first; the files of scene/ itself come last. A few
-# headers of scene/ are vocabulary for the folders below it.
-SCENE = ["shape", "bsdf", "texture", "medium", "material", "light", "camera", ""]
-SCENE_VOCABULARY = {"scene/interaction.h"}
-# Folders below scene/ that may use another one although it does not stand to their left.
+LAYERS = ["core", "input", "scene", "route", "film", "transport", "photon", "integrator", "image",
+          "session", "options", "bench", "apps"]
+# Layers with folders of their own, which are rooms: in this order each includes only from those to its
+# left. "" is the layer's own files.
+ROOMS = {
+    "scene": ["shape", "bsdf", "texture", "medium", "material", "light", "camera", ""],
+    "integrator": ["estimator", "path", "photons", "learning", "photon_mapping", "virtual_lights",
+                   "bidirectional", "metropolis", "mixed", "presets"],
+    "session": ["settings", "report", "checkpoint", ""],
+}
+# Headers that all rooms of their layer may include.
+VOCABULARY = {"scene/interaction.h"}
+# External libraries and where they may be included.
 LIBRARIES = {
     r"embree\d?/": {"scene/embree_scene.cpp"},
     r"(tbb|oneapi)/": {"core/parallel.cpp"},
     r"OpenEXR/": {"film"},
     r"OpenImageIO/": {"scene/texture", "scene/material", "film", "tests"},
     r"nanovdb/": {"scene/medium/nanovdb_grid.cpp"},
-    r"CLI/": {"session", "apps"},
-    r"nlohmann/": {"bench", "session/film_metadata.cpp"},
+    r"CLI/": {"options"},
+    r"nlohmann/": {"bench", "session/checkpoint/film_metadata.cpp"},
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 
 def layer_of(path):
-    """(layer, position within scene) of a path relative to src/, or None."""
-    parts = path.split("/")
-    if parts[0] not in LAYERS:
+    """(layer, room) of a path relative to src/, as positions; None if it has no such place."""
+    layer, *folders = path.split("/")[:-1] or [""]
+    room = "/".join(folders)
+    rooms = ROOMS.get(layer, [""])
+    if layer not in LAYERS or room not in rooms:
         return None
-    sub = SCENE.index(parts[1]) if parts[0] == "scene" and len(parts) > 2 else len(SCENE) - 1
-    return LAYERS.index(parts[0]), sub if parts[0] == "scene" else 0
+    return LAYERS.index(layer), rooms.index(room)
 
 
 def library_allowed(path, places):
@@ -64,7 +71,7 @@ def main():
                                         + " or ".join(sorted(places)))
                 continue
             other = layer_of(name)
-            if other is None or name in SCENE_VOCABULARY:
+            if other is None or name in VOCABULARY:
                 continue
             if other > own:
                 problems.append(f"src/{path}:{number}: includes \"{name}\", which stands to its right")

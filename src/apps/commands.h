@@ -2,7 +2,7 @@
 // Who calls it: main.cpp.
 #pragma once
 
-#include "session/options.h"
+#include "options/options.h"
 
 namespace nephroid {
 

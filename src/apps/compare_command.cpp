@@ -3,8 +3,8 @@
 
 #include "apps/commands.h"
 #include "film/atomic_file.h"
-#include "session/compare.h"
-#include "session/flip.h"
+#include "image/compare.h"
+#include "image/flip.h"
 
 namespace nephroid {
 namespace {

@@ -9,7 +9,7 @@
 #include "apps/messages.h"
 #include "integrator/presets/integrator_table.h"
 #include "scene/embree_scene.h"
-#include "session/picture_description.h"
+#include "session/checkpoint/picture_description.h"
 #include "session/scene_loading.h"
 
 namespace nephroid {

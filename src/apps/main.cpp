@@ -12,7 +12,7 @@
 #include "apps/messages.h"
 #include "core/errors.h"
 #include "film/image_io.h"
-#include "session/command_line.h"
+#include "options/command_line.h"
 
 namespace nephroid {
 namespace {

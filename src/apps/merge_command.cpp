@@ -6,7 +6,7 @@
 #include "core/errors.h"
 #include "film/atomic_file.h"
 #include "film/film_output.h"
-#include "session/merge.h"
+#include "session/checkpoint/merge_pictures.h"
 
 namespace nephroid {
 

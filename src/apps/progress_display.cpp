@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "apps/messages.h"
-#include "session/short_number.h"
+#include "session/report/short_number.h"
 
 namespace nephroid {
 namespace {

@@ -1,210 +1,103 @@
-// `nephroid render`: scene, integrator, film and session put together.
+// `nephroid render`: session/render.h on a terminal.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cstdio>
 #include <filesystem>
 
 #include "apps/commands.h"
 #include "apps/messages.h"
 #include "apps/progress_display.h"
-#include "apps/report.h"
+#include "apps/render_report.h"
 #include "core/parallel.h"
 #include "film/atomic_file.h"
 #include "film/film_output.h"
-#include "input/scene_files.h"
-#include "integrator/photon_mapping/ppm.h"
-#include "session/film_metadata.h"
 #include "session/film_of_scene.h"
-#include "session/idle_settings.h"
 #include "session/process_memory.h"
-#include "session/render_session.h"
-#include "session/scene_loading.h"
-#include "session/version.h"
+#include "session/render.h"
 
 namespace nephroid {
 namespace {
 
 constexpr int kSignalStatus = 128;
 
-Metadata metadata_of(const RenderCommand& command, const SceneFiles& files,
-                     const IntegratorChoice& choice) {
-  return {
-      {"nephroid:version", kVersion},
-      {kInstructionSetKey, instruction_set()},
-      {"nephroid:scene", command.scene},
-      {"nephroid:scene_hash", fmt::format("{:016x}", files.hash())},
-      {"nephroid:integrator", name_of(command.routes, choice.name)},
-      {"nephroid:options", settings_text(choice.options)},
-  };
-}
-
-void add_film(const Preset& preset, const Film& film, Metadata* metadata) {
-  const PixelBounds& crop = film.bounds();
-  metadata->emplace_back(
-      "nephroid:film", fmt::format("{}x{}, columns {} to {}, rows {} to {}", film.settings().width,
-                                   film.settings().height, crop.x0, crop.x1, crop.y0, crop.y1));
-  const bool passes_add_up = std::ranges::all_of(preset.estimators, [](const auto& estimator) {
-    return estimator->capabilities().independent_passes;
-  });
-  add_film_metadata(film, passes_add_up, metadata);
-}
-
-void add_routes(const RoutePlan& plan, Metadata* metadata) {
-  const std::string aovs = aovs_text(plan);
-  // The order of routes counts.
-  metadata->emplace_back("nephroid:routes", routes_text(plan));
-  if (!aovs.empty()) metadata->emplace_back("nephroid:aovs", aovs);
-}
-
-/// What a picture has beside the wanted passes stays in it, and no picture of those can be merged
-/// with it.
-void warn_of_passes_beyond(const RenderOptions& options, const std::string& output) {
-  const PassRanges& done = options.begin_with.passes;
-  if (!options.last_pass || done.empty()) return;
-  const uint32_t first = done.ranges().front().first, last = done.ranges().back().last;
-  if (first < options.first_pass || last > *options.last_pass)
-    print_warning(
-        fmt::format("{} has passes {}, of which --passes {}..{} are wanted; the others stay",
-                    output, done.text(), options.first_pass, *options.last_pass));
-}
-
-/// A picture of this render that would not have to be rendered again.
-void warn_of_what_is_replaced(const std::string& output, const Metadata& here) {
-  const PassRanges passes = passes_to_go_on_from(output, here);
-  if (!passes.empty())
-    print_warning(
-        fmt::format("{} has passes {} of this very render and will be replaced; --resume "
-                    "goes on with it",
-                    output, passes.text()));
-}
-
-void warn_of_what_is_not_rejected(const Routes& routes) {
-  const auto warn = [&](EstimatorKind kind, const char* what) {
-    if (std::ranges::any_of(routes.groups(),
-                            [&](const RouteGroup& group) { return group.estimator == kind; }))
-      print_warning(std::string("--outliers reject: routes of ") + estimator_type(kind).name +
-                    what);
-  };
-  for (const EstimatorKind kind : {EstimatorKind::kSppm, EstimatorKind::kPpm})
-    warn(kind, " keep theirs, they have no estimates that could be held");
-  warn(EstimatorKind::kPhotonMap,
-       " show theirs after some passes, which read the same photons again and so confirm them");
-}
-
-/// The user's, over what a limit of memory leaves room for.
-SettingList settings_of(const RenderCommand& command) {
-  SettingList settings;
-  if (command.memory > 0) settings = settings_within(command.memory);
-  settings.insert(settings.end(), command.settings.begin(), command.settings.end());
-  return settings;
-}
-
-RenderOptions render_options(const RenderCommand& command, const Scene& scene,
-                             const std::string& output, Metadata metadata) {
-  RenderOptions options;
+RenderRequest request_of(const RenderCommand& command) {
+  RenderRequest request;
+  request.scene = command.scene;
+  request.overrides = command.overrides;
+  request.routes = command.routes;
+  request.settings = render_settings(command.settings, command.memory);
+  request.reject_outliers = command.reject_outliers;
+  request.memory = command.memory;
+  request.seed = command.seed;
+  request.resume = command.resume;
+  RenderOptions& options = request.options;
   if (command.passes) {
     options.first_pass = command.passes->first;
     options.last_pass = command.passes->second;
   }
   options.time_limit = command.time_limit;
   options.noise_target = command.noise_target;
-  options.seed = command.seed.value_or(scene.scene_seed);
-  options.output = output;
+  options.output = command.output;
   options.checkpoint_interval = command.checkpoint_interval;
   options.keeps_state = command.keeps_state;
   std::error_code no_temporary_directory;
   options.rescue_directory = std::filesystem::temp_directory_path(no_temporary_directory).string();
-  options.metadata = std::move(metadata);
-  return options;
+  return request;
+}
+
+/// --quiet leaves the warnings about the output file.
+RenderWarnings warnings_of(const RenderCommand& command, ProgressDisplay& display) {
+  RenderWarnings warnings;
+  if (!command.quiet) warnings.input = print_warning;
+  warnings.output = [&display](const std::string& warning) {
+    display.clear();
+    print_warning(warning);
+  };
+  return warnings;
+}
+
+int exit_status(const RenderCommand& command, const RenderResult& result) {
+  if (result.reason == StopReason::kSignal) return kSignalStatus + result.signal;
+  if (!command.strict || result.faults.empty()) return static_cast<int>(ExitStatus::kDone);
+  print_error("--strict: " + result.faults[0]);
+  return static_cast<int>(ExitStatus::kRender);
+}
+
+/// Scene files take long to read, so this comes before.
+void check_can_be_written(const std::string& output) {
+  if (output.empty()) return;
+  check_file_can_be_written(output);
+  check_file_can_be_written(png_path_beside(output));
 }
 
 }  // namespace
 
 int run_render(const RenderCommand& command) {
-  // A picture that is asked for while the scene is read is written after the first pass.
+  // SIGUSR1 may come while the scene is read: the picture is written after the first pass.
   SignalListener signals;
   const ThreadLimit threads(command.threads);
   limit_image_threads(command.threads);
-  // A name that cannot be written is said before the scene is read, which may take long.
-  if (!command.output.empty()) {
-    check_file_can_be_written(command.output);
-    check_file_can_be_written(png_path_beside(command.output));
-  }
+  check_can_be_written(command.output);
+  RenderRequest request = request_of(command);
+
   const uint64_t memory = command.memory > 0 ? command.memory : machine_memory();
   MemoryLimit limit;
   limit.set(memory, bytes_of_stacks_to_come(command.threads));
-  const SettingList settings = settings_of(command);
-  SceneOverrides overrides = command.overrides;
-  IntegratorOptions of_settings;
-  apply_settings(settings, &of_settings);
-  overrides.texture_memory = static_cast<uint64_t>(of_settings.texture_memory);
-  const LoadedScene loaded = load_scene(command.scene, overrides);
-  if (!command.quiet) print_warnings(loaded.warnings);
-  const Scene& scene = *loaded.scene;
-
-  const IntegratorChoice choice =
-      choose_integrator(command.routes.integrator_or(kDefaultIntegrator), scene.integrator,
-                        scene.integrator_parameters, settings);
-  const RoutePlan plan = plan_of(command.routes, choice.name);
-  if (!command.quiet)
-    for (const std::string& warning : choice.warnings) print_warning(warning);
-  Preset preset = make_preset(plan, choice.options, scene);
-  if (!command.quiet)
-    for (const std::string& warning : preset.warnings) print_warning(warning);
-  if (!command.quiet) print_warnings(idle_settings(command.settings, *preset.routes));
-  check_memory({scene.film, preset.layout, *preset.routes, command.reject_outliers,
-                Ppm::hit_points(choice.options, scene.samples_per_pixel),
-                choice.options.memory_photons, memory_in_use(), overrides.texture_memory / 4, true},
-               memory, command.memory > 0, command.overrides.width > 0);
+  const LoadedScene loaded = load_scene(request);
   limit.set(memory, bytes_of_stacks_to_come(command.threads));
-  Film film(film_settings(scene.film), preset.layout);
-  if (command.reject_outliers) {
-    film.reject_outliers(outlier_settings(*preset.routes, choice.options, *scene.filter));
-    if (!command.quiet) warn_of_what_is_not_rejected(*preset.routes);
-  }
-  const std::string output =
-      command.output.empty() ? default_output(scene.film, command.scene) : command.output;
-  Metadata metadata = metadata_of(command, *loaded.description.files, choice);
-  add_routes(plan, &metadata);
-  add_film(preset, film, &metadata);
-  RenderOptions options = render_options(command, scene, output, std::move(metadata));
-  if (std::filesystem::exists(output)) {
-    Metadata here = options.metadata;
-    here.emplace_back("nephroid:seed", fmt::format("{}", options.seed));
-    if (command.reject_outliers) here.emplace_back("nephroid:outliers", "reject");
-    if (command.resume) {
-      options.begin_with = go_on_from(output, here, scene, preset, film);
-      print_warnings(options.begin_with.warnings);
-      warn_of_passes_beyond(options, output);
-    } else {
-      warn_of_what_is_replaced(output, here);
-    }
-  }
-  std::vector<std::string> notes = preset.notes;
-  options.notes = notes;
-  notes.insert(notes.end(), choice.notes.begin(), choice.notes.end());
-  RenderSession session(scene, preset, film, std::move(options));
+  if (command.output.empty())
+    request.options.output = default_output(loaded.scene->film, command.scene);
 
   ProgressDisplay display;
+  Render render(request, loaded, warnings_of(command, display));
   if (!command.quiet)
-    session.on_progress([&](const RenderProgress& progress) { display.show(progress); });
-  session.on_warning([&](const std::string& warning) {
-    if (!command.quiet) display.clear();
-    print_warning(warning);
-  });
+    render.on_progress([&](const RenderProgress& progress) { display.show(progress); });
   signals.note_stops(!command.quiet);
-  const RenderResult result = session.run(signals.flags());
+  const RenderResult result = render.run(signals.flags());
   if (!command.quiet) {
     display.clear();
-    say(render_report(result, film, output, notes));
+    say(render_report(result, render.film(), request.options.output, render.notes()));
   }
-  if (command.strict && !result.faults.empty() && result.reason != StopReason::kSignal) {
-    print_error("--strict: " + result.faults[0]);
-    return static_cast<int>(ExitStatus::kRender);
-  }
-  return result.reason == StopReason::kSignal ? kSignalStatus + result.signal
-                                              : static_cast<int>(ExitStatus::kDone);
+  return exit_status(command, result);
 }
 
 }  // namespace nephroid

@@ -9,11 +9,11 @@
 #include "apps/commands.h"
 #include "apps/messages.h"
 #include "core/errors.h"
+#include "film/film_settings.h"
 #include "integrator/presets/preset.h"
-#include "session/choices_report.h"
-#include "session/film_of_scene.h"
-#include "session/noise.h"
-#include "session/scene_loading.h"
+#include "session/render.h"
+#include "session/report/choices_report.h"
+#include "session/report/noise.h"
 
 namespace nephroid {
 namespace {
@@ -98,8 +98,8 @@ bool print_proof(const RouteCompilation& compiled, bool strict) {
 
 /// A small picture of the scene, its light by route and by layer, and what the estimators say.
 void print_pilot(const RoutesCommand& command, const RoutePlan& plan, CompiledPlan compiled,
-                 const IntegratorChoice& choice, const Scene& scene) {
-  Preset preset = make_preset(std::move(compiled), choice.options, scene);
+                 const IntegratorOptions& options, const Scene& scene) {
+  Preset preset = make_preset(std::move(compiled), options, scene);
   for (const std::string& warning : preset.warnings) print_warning(warning);
   Film film(film_settings(scene.film), preset.layout);
   for (uint32_t pass = 0; pass < command.passes; ++pass)
@@ -129,18 +129,20 @@ int run_routes(const RoutesCommand& command) {
     const bool sound = print_proof(compiled, plan.strict);
     return static_cast<int>(sound ? ExitStatus::kDone : ExitStatus::kUsage);
   }
-  const LoadedScene loaded = load_small_scene(command.scene, command.overrides, kPilotSize);
+  RenderRequest request;
+  request.scene = command.scene;
+  request.routes = command.routes;
+  request.settings = render_settings(command.settings);
+  const LoadedScene loaded = load_small_scene(request, kPilotSize);
   print_warnings(loaded.warnings);
   const Scene& scene = *loaded.scene;
-  const IntegratorChoice choice =
-      choose_integrator(command.routes.integrator_or(kDefaultIntegrator), scene.integrator,
-                        scene.integrator_parameters, command.settings);
+  const IntegratorChoice choice = choose_integrator(request, scene);
   const RoutePlan plan = plan_of(command.routes, choice.name);
   CompiledPlan compiled = compile_plan(plan, scene);
   print_routes(plan, compiled.compilation);
   print_automaton(compiled.compilation.routes);
   if (!print_proof(compiled.compilation, plan.strict)) return static_cast<int>(ExitStatus::kUsage);
-  print_pilot(command, plan, std::move(compiled), choice, scene);
+  print_pilot(command, plan, std::move(compiled), choice.settings.integrator, scene);
   return static_cast<int>(ExitStatus::kDone);
 }
 

@@ -18,7 +18,7 @@
 #include "film/atomic_file.h"
 #include "film/exr_file.h"
 #include "input/spelling.h"
-#include "session/version.h"
+#include "session/checkpoint/version.h"
 
 namespace nephroid {
 namespace {
@@ -137,7 +137,7 @@ class Bench {
   /// Of all files of a render's scene.
   uint64_t hash_of_scene(const BenchRender& render) {
     return scenes_.hash(render.scene->file, [&]() -> const SceneFiles& {
-      return *shelf_.load(*render.scene, settings_of(render)).description.files;
+      return *shelf_.load(render).description.files;
     });
   }
 

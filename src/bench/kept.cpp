@@ -15,7 +15,7 @@
 #include "core/parallel.h"
 #include "film/atomic_file.h"
 #include "input/scene_files.h"
-#include "session/version.h"
+#include "session/checkpoint/version.h"
 
 namespace nephroid {
 namespace {

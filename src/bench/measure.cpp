@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/errors.h"
-#include "session/compare.h"
-#include "session/flip.h"
+#include "image/compare.h"
+#include "image/flip.h"
 
 namespace nephroid {
 

@@ -9,11 +9,8 @@
 #include "bench/measure.h"
 #include "film/film_output.h"
 #include "session/film_of_scene.h"
-#include "session/noise.h"
-#include "session/options.h"
 #include "session/process_memory.h"
-#include "session/render_session.h"
-#include "session/version.h"
+#include "session/report/noise.h"
 
 namespace nephroid {
 namespace {
@@ -57,12 +54,6 @@ Totals totals_of(const std::vector<EstimatorStatistics>& statistics) {
   return t;
 }
 
-std::vector<EstimatorStatistics> statistics_of(const Preset& preset) {
-  std::vector<EstimatorStatistics> result;
-  for (const auto& estimator : preset.estimators) result.push_back(estimator->statistics());
-  return result;
-}
-
 /// Measures the film at passes that grow by a factor, and at the end.
 class Curve {
  public:
@@ -86,7 +77,7 @@ class Curve {
 
  private:
   void measure(uint32_t passes, double seconds) {
-    BenchPoint point{passes, seconds, totals_of(statistics_of(preset_)).emitted, {}, {}};
+    BenchPoint point{passes, seconds, totals_of(preset_.statistics()).emitted, {}, {}};
     if (reference_ != nullptr)
       point.errors = measure_errors(*reference_, colors_of_film(film_), scene_.exposure);
     for (size_t i = 0; i < reference_layers_.size(); ++i)
@@ -106,15 +97,6 @@ class Curve {
   std::vector<BenchPoint> points_;
 };
 
-RenderOptions render_options(const BenchRender& render) {
-  RenderOptions options;
-  if (render.limit.passes > 0) options.last_pass = render.limit.passes - 1;
-  options.time_limit = render.limit.seconds;
-  options.seed = render.integrator->seed;
-  options.show_error = false;
-  return options;
-}
-
 void check_size(const Picture& reference, const Film& film) {
   const PixelBounds& b = film.bounds();
   if (reference.width() == b.width() && reference.height() == b.height()) return;
@@ -124,18 +106,13 @@ void check_size(const Picture& reference, const Film& film) {
       reference.width(), reference.height(), b.width(), b.height()));
 }
 
-Metadata metadata_of(const BenchRender& render, const RoutePlan& plan, const BenchRun& run) {
-  Metadata metadata = {{"nephroid:version", kVersion},
-                       {"nephroid:instruction_set", instruction_set()},
-                       {"nephroid:scene", render.scene->file},
-                       {"nephroid:integrator", run.integrator},
-                       {"nephroid:options", run.options},
-                       {"nephroid:routes", run.routes},
-                       {"nephroid:seed", fmt::format("{}", render.integrator->seed)},
-                       {"nephroid:passes", fmt::format("0..{}", run.end().passes - 1)},
-                       {"nephroid:seconds", fmt::format("{:.3f}", run.end().seconds)}};
-  if (!plan.aovs.empty()) metadata.emplace_back("nephroid:aovs", aovs_text(plan));
-  if (render.integrator->reject_outliers) metadata.emplace_back("nephroid:outliers", "reject");
+Metadata metadata_of(RenderIdentity identity, const BenchRun& run) {
+  identity.integrator = run.integrator;
+  Metadata metadata = identity.to_metadata();
+  Checkpoint progress;
+  progress.passes = PassRanges(PassRange{0, run.end().passes - 1});
+  progress.seconds = run.end().seconds;
+  add_progress(progress, &metadata);
   return metadata;
 }
 
@@ -171,20 +148,42 @@ bool same(const SceneOverrides& a, const SceneOverrides& b) {
          a.specular_band.high == b.specular_band.high && a.texture_memory == b.texture_memory;
 }
 
+/// The routes of a render and the AOVs that its shares of light need.
+RouteChoice routes_of(const BenchRender& render) {
+  RouteChoice routes = render.integrator->routes;
+  const auto add = [&](const BenchEnergy& e) {
+    routes.aovs.push_back(parse_aov(e.name + "=" + e.expression));
+  };
+  for (const BenchEnergy& layer : render.scene->layers) add(layer);
+  if (render.with_energy)
+    for (const BenchEnergy& energy : render.scene->energy) add(energy);
+  return routes;
+}
+
+RenderRequest request_of(const BenchRender& render) {
+  RenderRequest request;
+  request.scene = render.scene->file;
+  request.overrides.width = render.scene->width;
+  request.overrides.height = render.scene->height;
+  request.routes = routes_of(render);
+  request.settings = render_settings(settings_of(render));
+  request.reject_outliers = render.integrator->reject_outliers;
+  request.seed = render.integrator->seed;
+  if (render.limit.passes > 0) request.options.last_pass = render.limit.passes - 1;
+  request.options.time_limit = render.limit.seconds;
+  request.options.show_error = false;
+  return request;
+}
+
 }  // namespace
 
-const LoadedScene& SceneShelf::load(const BenchScene& scene, const SettingList& settings) {
-  IntegratorOptions options;
-  apply_settings(settings, &options);
-  SceneOverrides overrides;
-  overrides.width = scene.width;
-  overrides.height = scene.height;
-  overrides.specular_band = options.specular_band;
-  overrides.texture_memory = static_cast<uint64_t>(options.texture_memory);
-  if (loaded_.scene && name_ == scene.name && same(overrides, overrides_)) return loaded_;
+const LoadedScene& SceneShelf::load(const BenchRender& render) {
+  const RenderRequest request = request_of(render);
+  const SceneOverrides overrides = scene_overrides(request);
+  if (loaded_.scene && name_ == render.scene->name && same(overrides, overrides_)) return loaded_;
   loaded_ = {};
-  loaded_ = load_scene(scene.file, overrides);
-  name_ = scene.name;
+  loaded_ = load_scene(request);
+  name_ = render.scene->name;
   overrides_ = overrides;
   return loaded_;
 }
@@ -197,60 +196,42 @@ SettingList settings_of(const BenchRender& render) {
 }
 
 RoutePlan plan_of(const BenchRender& render) {
-  const RouteChoice& choice = render.integrator->routes;
-  RoutePlan plan = plan_of(choice, choice.integrator_or(kDefaultIntegrator));
-  const auto add = [&](const BenchEnergy& e) {
-    plan.aovs.push_back(parse_aov(e.name + "=" + e.expression));
-  };
-  for (const BenchEnergy& layer : render.scene->layers) add(layer);
-  if (render.with_energy)
-    for (const BenchEnergy& energy : render.scene->energy) add(energy);
-  return plan;
+  const RouteChoice routes = routes_of(render);
+  return plan_of(routes, routes.integrator_or(kDefaultIntegrator));
 }
 
-std::optional<BenchRendered> render_for_bench(const BenchRender& render, const Picture* reference,
+std::optional<BenchRendered> render_for_bench(const BenchRender& wanted, const Picture* reference,
                                               SceneShelf& shelf, SignalFlags& signals) {
-  const SettingList settings = settings_of(render);
-  const LoadedScene& loaded = shelf.load(*render.scene, settings);
-  const Scene& scene = *loaded.scene;
-  const RoutePlan plan = plan_of(render);
-  const IntegratorChoice choice =
-      choose_integrator(render.integrator->routes.integrator_or(kDefaultIntegrator),
-                        scene.integrator, scene.integrator_parameters, settings);
+  const LoadedScene& loaded = shelf.load(wanted);
   restart_memory_peak();
-  Preset preset = make_preset(plan, choice.options, scene);
-  check_memory({scene.film, preset.layout, *preset.routes, render.integrator->reject_outliers},
-               machine_memory(), false, render.scene->width > 0);
-  Film film(film_settings(scene.film), preset.layout);
-  if (render.integrator->reject_outliers)
-    film.reject_outliers(outlier_settings(*preset.routes, choice.options, *scene.filter));
+  Render render(request_of(wanted), loaded);
+  const Film& film = render.film();
   if (reference != nullptr) check_size(*reference, film);
 
   Stopwatch watch;
-  Curve curve(film, preset, reference, *render.scene);
-  RenderSession session(scene, preset, film, render_options(render));
-  session.use_clock([&] { return watch.seconds(); });
+  Curve curve(film, render.estimators(), reference, *wanted.scene);
+  render.use_clock([&] { return watch.seconds(); });
   if (reference != nullptr)
-    session.on_progress([&](const RenderProgress& progress) {
+    render.on_progress([&](const RenderProgress& progress) {
       watch.pause_for([&] { curve.pass_is_done(progress.passes_done, progress.seconds); });
     });
-  const RenderResult result = session.run(signals);
+  const RenderResult result = render.run(signals);
   if (result.reason == StopReason::kSignal) return std::nullopt;
 
   BenchRendered rendered;
   BenchRun& run = rendered.run;
   run.process_bytes = memory_peak();
-  run.integrator = render.integrator->name;
-  run.seed = render.integrator->seed;
-  run.options = settings_text(choice.options);
-  run.routes = routes_text(plan);
+  run.integrator = wanted.integrator->name;
+  run.seed = wanted.integrator->seed;
+  run.options = settings_text(render.integrator().settings);
+  run.routes = routes_text(render.plan());
   run.points = curve.finish(result.passes_done, result.seconds);
+  rendered.warnings = render.estimators().warnings;
   for (const std::vector<std::string>& warnings :
-       {loaded.warnings, choice.warnings, preset.warnings})
+       {loaded.warnings, render.integrator().warnings, rendered.warnings})
     run.notes.insert(run.notes.end(), warnings.begin(), warnings.end());
-  rendered.warnings = preset.warnings;
-  fill_run(result, film, render, reference, &run);
-  rendered.picture = film_picture(film, metadata_of(render, plan, run));
+  fill_run(result, film, wanted, reference, &run);
+  rendered.picture = film_picture(film, metadata_of(render.identity(), run));
   return rendered;
 }
 

@@ -1,26 +1,13 @@
 // One render of a suite: a run with its curve, or a reference. The time that measuring takes is not
-// counted. Who calls it: bench.cpp. It must not know what is kept in files.
+// counted. It must not know what is kept in files.
 #pragma once
 
 #include "bench/result.h"
 #include "film/image_io.h"
-#include "session/scene_loading.h"
+#include "session/render.h"
 #include "session/signals.h"
 
 namespace nephroid {
-
-/// The scenes of a suite as they are loaded: the last one stays, because most renders after each
-/// other are of the same scene.
-class SceneShelf {
- public:
-  /// The scene with the settings that matter while it is loaded. Throws SceneError and IoError.
-  const LoadedScene& load(const BenchScene& scene, const SettingList& settings);
-
- private:
-  std::string name_;
-  SceneOverrides overrides_;
-  LoadedScene loaded_;
-};
 
 /// What to render and for how long.
 struct BenchRender {
@@ -28,6 +15,19 @@ struct BenchRender {
   const BenchIntegrator* integrator = nullptr;
   BenchLimit limit;
   bool with_energy = false;  ///< measures the scene's shares of light
+};
+
+/// The scenes of a suite as they are loaded: the last one stays, because most renders after each
+/// other are of the same scene.
+class SceneShelf {
+ public:
+  /// The scene of a render, built with its settings. Throws SceneError and IoError.
+  const LoadedScene& load(const BenchRender& render);
+
+ private:
+  std::string name_;
+  SceneOverrides overrides_;
+  LoadedScene loaded_;
 };
 
 /// The settings of a render: the scene's of the suite, then the integrator's own.

@@ -8,7 +8,7 @@
 
 #include "bench/html_text.h"
 #include "bench/repeats.h"
-#include "session/compare.h"
+#include "image/compare.h"
 
 namespace nephroid {
 namespace {

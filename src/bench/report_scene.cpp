@@ -12,8 +12,8 @@
 #include "bench/report.h"
 #include "bench/svg_plot.h"
 #include "core/errors.h"
-#include "session/compare.h"
-#include "session/flip.h"
+#include "image/compare.h"
+#include "image/flip.h"
 
 namespace nephroid {
 namespace {

@@ -12,7 +12,7 @@
 #include "bench/experiment.h"
 #include "bench/suite_claims.h"
 #include "bench/suite_fields.h"
-#include "session/option_values.h"
+#include "session/settings/option_values.h"
 
 namespace nephroid {
 namespace {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "session/integrator_settings.h"
 #include "session/route_plan.h"
+#include "session/settings/integrator_settings.h"
 
 namespace nephroid {
 

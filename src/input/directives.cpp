@@ -19,7 +19,7 @@ namespace {
 /// What a directive's function works on.
 struct Reader {
   TokenStream& tokens;
-  SceneBuilder& builder;
+  DescriptionBuilder& builder;
   Diagnostics& diagnostics;
 
   std::string name(const char* what) { return std::string(tokens.expect_string(what).text); }
@@ -130,7 +130,7 @@ void read_texture(Reader& r, const SourceLocation& where) {
 
 /// Directives with a name instead of a type: MakeNamedMaterial "name" parameters ...
 void read_named(Reader& r, const SourceLocation& where,
-                void (SceneBuilder::*add)(const std::string&, DirectiveDescription)) {
+                void (DescriptionBuilder::*add)(const std::string&, DirectiveDescription)) {
   DirectiveDescription directive = r.typed(where);
   const std::string name = std::exchange(directive.type, std::string());
   if (name.empty()) throw SceneError(where, "the name is empty, expected one to refer to");
@@ -271,13 +271,14 @@ constexpr std::array kDirectives = {
         {"NamedMaterial", "\"name\"", "may stand before its MakeNamedMaterial"},
         Part::kWorld,
         [](Reader& r, const Place& p) { r.builder.use_named_material(r.name("a material"), p); }},
-    Directive{
-        {"MakeNamedMaterial", "\"name\" \"string type\" parameters", "see materials"},
-        Part::kWorld,
-        [](Reader& r, const Place& p) { read_named(r, p, &SceneBuilder::add_named_material); }},
+    Directive{{"MakeNamedMaterial", "\"name\" \"string type\" parameters", "see materials"},
+              Part::kWorld,
+              [](Reader& r, const Place& p) {
+                read_named(r, p, &DescriptionBuilder::add_named_material);
+              }},
     Directive{{"MakeNamedMedium", "\"name\" \"string type\" parameters", "see media"},
               Part::kBoth,
-              [](Reader& r, const Place& p) { read_named(r, p, &SceneBuilder::add_medium); }},
+              [](Reader& r, const Place& p) { read_named(r, p, &DescriptionBuilder::add_medium); }},
     Directive{{"Texture", "\"name\" \"float or spectrum\" \"class\" parameters", "see textures"},
               Part::kWorld,
               read_texture},
@@ -322,7 +323,7 @@ std::vector<FormatDirective> format_directives() {
   return std::vector<FormatDirective>(kDirectives.begin(), kDirectives.end());
 }
 
-SourceLocation read_directives(TokenStream& tokens, SceneBuilder& builder,
+SourceLocation read_directives(TokenStream& tokens, DescriptionBuilder& builder,
                                Diagnostics& diagnostics) {
   Reader reader{tokens, builder, diagnostics};
   for (;;) {

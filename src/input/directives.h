@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/errors.h"
-#include "input/scene_builder.h"
+#include "input/description_builder.h"
 #include "input/token_stream.h"
 
 namespace nephroid {
@@ -23,7 +23,7 @@ std::vector<FormatDirective> format_directives();
 
 /// Reads directives up to the end of the file (and of all it includes) and gives them to `builder`.
 /// Returns the place of the end. Throws SceneError.
-SourceLocation read_directives(TokenStream& tokens, SceneBuilder& builder,
+SourceLocation read_directives(TokenStream& tokens, DescriptionBuilder& builder,
                                Diagnostics& diagnostics);
 
 }  // namespace nephroid

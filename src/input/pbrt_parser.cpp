@@ -4,15 +4,15 @@
 
 #include <filesystem>
 
+#include "input/description_builder.h"
 #include "input/directives.h"
-#include "input/scene_builder.h"
 #include "input/token_stream.h"
 
 namespace nephroid {
 namespace {
 
 void parse(TokenStream& tokens, SceneDescription& scene, Diagnostics& diagnostics) {
-  SceneBuilder builder(scene, diagnostics);
+  DescriptionBuilder builder(scene, diagnostics);
   const SourceLocation end = read_directives(tokens, builder, diagnostics);
   builder.finish(end);
 }

@@ -1,4 +1,4 @@
-// Field by field.
+// Memory is added up by what takes it.
 #include "session/film_of_scene.h"
 
 #include <fmt/format.h>
@@ -122,26 +122,10 @@ float exposed_pixels(EstimatorKind kind, const IntegratorOptions& options,
 
 }  // namespace
 
-FilmSettings film_settings(const FilmDescription& description) {
-  FilmSettings settings;
-  settings.width = description.width;
-  settings.height = description.height;
-  settings.crop = {description.crop_x0, description.crop_y0, description.crop_x1,
-                   description.crop_y1};
-  settings.imaging_ratio = description.imaging_ratio;
-  settings.max_component = description.max_component;
-  settings.color_space = description.color_space;
-  settings.filename = description.filename;
-  settings.diagonal_mm = description.diagonal_mm;
-  settings.white_balance = description.white_balance;
-  settings.gbuffer = description.gbuffer != GBufferSpace::kNone;
-  return settings;
-}
-
 OutlierSettings outlier_settings(const Routes& routes, const IntegratorOptions& options,
-                                 const PixelFilter& filter) {
+                                 const PixelFilter& filter, const SceneSettings& of_scene) {
   OutlierSettings settings;
-  settings.neighbours = options.outlier_neighbours;
+  settings.neighbours = of_scene.outlier_neighbours;
   for (const RouteGroup& group : routes.groups())
     settings.exposed_pixels.push_back(exposed_pixels(group.estimator, options, filter));
   return settings;

@@ -1,25 +1,19 @@
-// From the scene's words about its film to the film itself, and to the name of the output.
-// Who calls it: apps and tests that render whole scenes.
+// The film of a render: how it rejects outliers, whether it fits the memory, the name of its file.
 #pragma once
 
 #include <string>
 
 #include "film/film.h"
 #include "integrator/estimator/estimator.h"
-#include "photon/photon.h"
 #include "route/routes.h"
 #include "scene/scene.h"
+#include "session/settings/integrator_settings.h"
 
 namespace nephroid {
 
-FilmSettings film_settings(const FilmDescription& description);
-
 /// How a film of these routes rejects outliers.
 OutlierSettings outlier_settings(const Routes& routes, const IntegratorOptions& options,
-                                 const PixelFilter& filter);
-
-/// Of a photon, and of its share of what finds it while that is made.
-inline constexpr size_t kBytesPerPhoton = 2 * sizeof(Photon);
+                                 const PixelFilter& filter, const SceneSettings& settings = {});
 
 /// What a render is about to take memory for.
 struct MemoryNeed {

@@ -18,9 +18,10 @@
 #include "film/exr_file.h"
 #include "film/film_output.h"
 #include "scene/scene.h"
-#include "session/choices_report.h"
-#include "session/fault_report.h"
-#include "session/noise.h"
+#include "session/checkpoint/film_metadata.h"
+#include "session/report/choices_report.h"
+#include "session/report/invalid_samples.h"
+#include "session/report/noise.h"
 
 namespace nephroid {
 namespace {
@@ -138,7 +139,7 @@ RenderResult RenderSession::run(SignalFlags& signals) {
   result.statistics = statistics();
   renew_error_text();
   result.error_text = error_text_;
-  result.faults = fault_report(scene_, film_);
+  result.faults = invalid_samples(scene_, film_);
   if (!options_.output.empty())
     write_last_picture(options_.keeps_state || *reason == StopReason::kSignal);
   return result;
@@ -328,39 +329,31 @@ std::string RenderSession::choices_text() const {
     choices += line + "\n";
   for (const std::string& note : options_.notes) choices += "note: " + note + "\n";
   if (error_text_) choices += *error_text_ + "\n";
-  for (const std::string& fault : fault_report(scene_, film_))
+  for (const std::string& fault : invalid_samples(scene_, film_))
     choices += "warning: " + fault + "\n";
   return choices;
 }
 
 Metadata RenderSession::picture_metadata() const {
-  Metadata metadata = options_.metadata;
   // Who renders nothing more has nothing to say that the picture does not say already.
   const bool rendered = passes_of_run() > 0;
-  for (auto& [key, value] : metadata)
-    if (key == kInstructionSetKey)
-      value = joined_instruction_sets(options_.begin_with.instruction_sets,
-                                      rendered ? value : std::string());
-  metadata.emplace_back("nephroid:seed", fmt::format("{}", options_.seed));
-  metadata.emplace_back("nephroid:passes", done_.text());
-  metadata.emplace_back("nephroid:seconds", fmt::format("{:.3f}", seconds_of_all_runs()));
-  if (last_pass_seconds_ > 0)
-    metadata.emplace_back("nephroid:last_pass_seconds", fmt::format("{:.6f}", last_pass_seconds_));
-  std::string history = options_.begin_with.history;
-  if (passes_of_run() > 0)
-    history += fmt::format("{} passes in {:.3f} s\n", passes_of_run(), elapsed());
-  metadata.emplace_back("nephroid:history", history);
-  if (const OutlierRejection* rejection = film_.rejection()) {
-    metadata.emplace_back("nephroid:outliers", "reject");
-    metadata.emplace_back("nephroid:outlier_estimates",
-                          fmt::format("{}", rejection->held_estimates()));
-  }
-  metadata.emplace_back("nephroid:choices",
-                        rendered ? choices_text() : options_.begin_with.choices);
-  const FilmLayout& layout = film_.layout();
-  for (size_t r = 0; r < layout.routes.size(); ++r)
-    metadata.emplace_back("nephroid:estimates:" + layout.routes[r],
-                          fmt::format("{}", film_.estimates(layout.groups[r])));
+  const Checkpoint& before = options_.begin_with;
+  RenderIdentity identity = options_.identity;
+  identity.set_film(film_, options_.seed);
+  identity.instruction_sets = joined_instruction_sets(
+      before.instruction_sets, rendered ? identity.instruction_sets : std::string());
+  Metadata metadata = identity.to_metadata();
+  add_film_metadata(film_, passes_are_independent(preset_), &metadata);
+  Checkpoint progress;
+  progress.passes = done_;
+  progress.seconds = seconds_of_all_runs();
+  progress.last_pass_seconds = last_pass_seconds_;
+  progress.history = before.history;
+  if (rendered)
+    progress.history += fmt::format("{} passes in {:.3f} s\n", passes_of_run(), elapsed());
+  add_progress(progress, &metadata);
+  metadata.emplace_back(kChoicesKey, rendered ? choices_text() : before.choices);
+  add_estimates(film_, &metadata);
   return metadata;
 }
 

@@ -12,8 +12,8 @@
 #include "film/film.h"
 #include "film/image_io.h"
 #include "integrator/presets/preset.h"
-#include "session/checkpoint.h"
-#include "session/noise.h"
+#include "session/checkpoint/checkpoint.h"
+#include "session/report/noise.h"
 #include "session/signals.h"
 
 namespace nephroid {
@@ -35,7 +35,7 @@ struct RenderOptions {
   Checkpoint begin_with;            ///< what film and estimators hold already
   float png_exposure = 1;
   std::vector<std::string> notes;  ///< of the choices that a picture tells
-  Metadata metadata;  ///< written first; the session adds passes, time, choices and estimates
+  RenderIdentity identity;         ///< what the picture tells; the session sets film and seed
 };
 
 enum class StopReason { kPasses, kTime, kNoise, kSignal };
@@ -60,7 +60,7 @@ struct RenderResult {
   double seconds = 0;  ///< rendering, with intermediate pictures, without the last; of this run
   std::optional<double> error;            ///< as estimated_error().total()
   std::optional<std::string> error_text;  ///< as error_report(); of consistent estimators alone
-  std::vector<std::string> faults;        ///< as fault_report()
+  std::vector<std::string> faults;        ///< as invalid_samples()
   /// As the preset's estimators: after the first pass (for where radii began) and after the last.
   std::vector<EstimatorStatistics> first_pass_statistics, statistics;
 };

@@ -5,7 +5,7 @@
 #include "core/parallel.h"
 #include "rendering.h"
 #include "session/film_of_scene.h"
-#include "session/noise.h"
+#include "session/report/noise.h"
 
 namespace nephroid {
 namespace {

@@ -5,6 +5,7 @@
 
 #include <numeric>
 
+#include "integrator/presets/integrator_table.h"
 #include "rendering.h"
 
 namespace nephroid {

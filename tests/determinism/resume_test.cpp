@@ -12,10 +12,10 @@
 #include "film/exr_file.h"
 #include "film/film_output.h"
 #include "rendering.h"
-#include "session/checkpoint.h"
-#include "session/film_metadata.h"
-#include "session/merge.h"
-#include "session/version.h"
+#include "session/checkpoint/checkpoint.h"
+#include "session/checkpoint/film_metadata.h"
+#include "session/checkpoint/merge_pictures.h"
+#include "session/checkpoint/version.h"
 #include "unit/film/scratch_directory.h"
 
 namespace nephroid {
@@ -41,10 +41,8 @@ struct OneRun {
     if (rejects)
       film.reject_outliers(
           {std::vector<float>(static_cast<size_t>(film.layout().group_count()), 1.0f), 8});
-    metadata = {{"nephroid:version", kVersion}, {"nephroid:seed", "5"}};
-    bool independent = true;
-    for (const auto& e : preset.estimators) independent &= e->capabilities().independent_passes;
-    add_film_metadata(film, independent, &metadata);
+    identity.version = kVersion;
+    identity.set_film(film, 5);
   }
   void render(uint32_t first, uint32_t last) {
     for (uint32_t pass = first; pass <= last; ++pass) {
@@ -54,19 +52,24 @@ struct OneRun {
     }
   }
   void go_on(const std::string& path) {
-    done = go_on_from(path, metadata, scene, preset, film).passes;
+    done = go_on_from(path, identity, scene, preset, film).passes;
   }
   void write(const std::string& path) {
-    Metadata all = metadata;
-    all.emplace_back("nephroid:passes", done.text());
     const RenderState state = state_of(scene, preset, film);
-    write_exr(path, film_picture(film, all), &state);
+    write_exr(path, film_picture(film, metadata()), &state);
+  }
+
+  Metadata metadata() const {
+    Metadata all = identity.to_metadata();
+    add_film_metadata(film, passes_are_independent(preset), &all);
+    all.emplace_back(kPassesKey, done.text());
+    return all;
   }
 
   const Scene& scene;
   Preset preset;
   Film film;
-  Metadata metadata;
+  RenderIdentity identity;
   PassRanges done;
 };
 
@@ -135,9 +138,7 @@ TEST_P(Resume, PicturesOfOtherPassesAddUp) {
   }
   const std::string sum = directory.file("sum.exr");
   OneRun whole(*scene, GetParam(), false);
-  bool independent = true;
-  for (const auto& e : whole.preset.estimators) independent &= e->capabilities().independent_passes;
-  if (!independent) {
+  if (!passes_are_independent(whole.preset)) {
     EXPECT_THROW(merge_pictures(parts, sum), UsageError);
     return;
   }
@@ -170,12 +171,12 @@ TEST(ResumeRefuses, ThePictureOfAnotherRender) {
   const ScratchDirectory directory;
   const std::string path = directory.file("picture.exr");
   OneRun run(*scene, "path", false);
-  run.metadata.emplace_back("nephroid:options", "max-depth=5 radius=1");
+  run.identity.options = "max-depth=5 radius=1";
   run.render(0, 0);
   run.write(path);
   OneRun other(*scene, "path", false);
-  other.metadata[1].second = "6";
-  other.metadata.emplace_back("nephroid:options", "max-depth=5 radius=2 alpha=1");
+  other.identity.seed = "6";
+  other.identity.options = "max-depth=5 radius=2 alpha=1";
   try {
     other.go_on(path);
     FAIL() << "went on";
@@ -185,7 +186,7 @@ TEST(ResumeRefuses, ThePictureOfAnotherRender) {
       EXPECT_NE(text.find(line), std::string::npos) << text;
     EXPECT_EQ(text.find("max-depth"), std::string::npos) << text;
   }
-  write_exr(path, film_picture(run.film, run.metadata));
+  write_exr(path, film_picture(run.film, run.metadata()));
   EXPECT_THROW(run.go_on(path), IoError);
 }
 

@@ -5,10 +5,10 @@
 #include "film/outlier_rejection.h"
 #include "fuzz/disk_file.h"
 #include "fuzz/targets.h"
-#include "session/checkpoint.h"
-#include "session/fault_report.h"
-#include "session/film_metadata.h"
-#include "session/picture_description.h"
+#include "session/checkpoint/checkpoint.h"
+#include "session/checkpoint/film_metadata.h"
+#include "session/checkpoint/picture_description.h"
+#include "session/report/invalid_samples.h"
 
 namespace nephroid::fuzz {
 namespace {
@@ -18,12 +18,12 @@ void read(const std::string& path) {
   const PassRanges passes = passes_of(file, "read it");
   if (PassRanges::parse(passes.text()) != passes) __builtin_trap();
   if (!passes.overlap(passes)) __builtin_trap();
-  seconds_of(file, "nephroid:seconds");
+  seconds_of(file, kSecondsKey);
   description_of_picture(path);
   Film film = film_of(file);
   passes_add_up(file);
   file.load(film.state());
-  fault_report(film);
+  invalid_samples(film);
 }
 
 /// What is held of outliers, which checksums protect in a file.

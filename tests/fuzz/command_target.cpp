@@ -5,9 +5,9 @@
 
 #include "core/errors.h"
 #include "fuzz/targets.h"
-#include "session/command_line.h"
-#include "session/integrator_settings.h"
-#include "session/pass_ranges.h"
+#include "options/command_line.h"
+#include "session/checkpoint/pass_ranges.h"
+#include "session/settings/integrator_settings.h"
 
 namespace nephroid::fuzz {
 

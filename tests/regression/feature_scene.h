@@ -12,7 +12,7 @@
 
 #include "film/film_output.h"
 #include "rendering.h"
-#include "session/integrator_settings.h"
+#include "session/settings/integrator_choice.h"
 #include "source_directory.h"
 
 namespace nephroid::testing_support {
@@ -43,7 +43,8 @@ inline std::unique_ptr<Scene> load_feature(const std::string& name) {
 
 /// The options that the scene asks for.
 inline IntegratorOptions feature_options(const Scene& scene, const std::string& integrator) {
-  return choose_integrator(integrator, scene.integrator, scene.integrator_parameters, {}).options;
+  return choose_integrator(integrator, scene.integrator, scene.integrator_parameters, {})
+      .settings.integrator;
 }
 
 /// All layers that the program would write, rendered by `path`.

@@ -25,7 +25,6 @@ struct IntegratorOptions {
   float radius = 0;              ///< 0: the default of the integrator
   int64_t photons_per_pass = 0;  ///< 0: chosen from the film's size
   float alpha = 2.0f / 3.0f;     ///< of [E1] and [E2]
-  SpecularBand specular_band;    ///< scenes are built with it, no estimator looks at it here
   /// Walks of `path` do not look at what is useful for its routes: the same seed gives the same
   /// paths whatever the routes are.
   bool blind_walks = false;
@@ -40,14 +39,10 @@ struct IntegratorOptions {
   int nearest_photons = 100;  ///< of an estimate from a photon map
   int64_t memory_photons =
       1 << 20;  ///< photons kept at once (96 bytes each); a larger pass runs in batches
-  /// Similar estimates that confirm one, for films that reject outliers; no integrator looks at it.
-  int outlier_neighbours = 8;
   // Of Metropolis light transport.
   float mutations = 0;       ///< a pixel and pass; 0: the default
   int64_t chain_length = 0;  ///< mutations of a chain; 0: the default
   float large_step = 0.1f;   ///< probability
-  /// Bytes for the pixels of image textures; scenes are loaded with it, no integrator looks at it.
-  int64_t texture_memory = int64_t{1} << 30;
 };
 
 }  // namespace nephroid

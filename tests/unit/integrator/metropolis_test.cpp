@@ -7,6 +7,7 @@
 
 #include "integrator/metropolis/multiplexed.h"
 #include "integrator/metropolis/primary_space.h"
+#include "integrator/presets/integrator_table.h"
 #include "rendering.h"
 
 namespace nephroid {

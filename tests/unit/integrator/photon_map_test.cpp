@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.h"
+#include "integrator/presets/integrator_table.h"
 #include "photon/photon.h"
 #include "rendering.h"
 #include "scene/camera/camera.h"
@@ -265,8 +266,9 @@ TEST(PhotonMap, BiasKeepsToItsBound) {
       LearningLoop map;
       for (uint32_t pass = 0; pass < 16; ++pass)
         map.render_pass(*preset.estimators[0], {seed, pass}, *scene, film);
-      radius = std::max(radius,
-                        footprint * static_cast<double>(preset.estimators[0]->statistics().radius_max_pixels));
+      radius = std::max(
+          radius,
+          footprint * static_cast<double>(preset.estimators[0]->statistics().radius_max_pixels));
       values.push_back(picture_mean(film) / truth - 1);
     }
     const Estimate bias = estimate_of(values);

@@ -1,13 +1,13 @@
 // What metadata of a picture are believed, and what merging refuses before it reads any state.
-#include "session/checkpoint.h"
+#include "session/checkpoint/checkpoint.h"
 
 #include <gtest/gtest.h>
 
 #include "core/errors.h"
 #include "film/exr_file.h"
-#include "session/merge.h"
-#include "session/picture_description.h"
-#include "session/version.h"
+#include "session/checkpoint/merge_pictures.h"
+#include "session/checkpoint/picture_description.h"
+#include "session/checkpoint/version.h"
 #include "unit/film/scratch_directory.h"
 
 namespace nephroid {

@@ -1,5 +1,5 @@
 // What a render says of its choices, from counts alone.
-#include "session/choices_report.h"
+#include "session/report/choices_report.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Names of outputs, films of scenes and hashes of files.
+// Names of outputs, the memory of a render, and how its film rejects outliers.
 #include "session/film_of_scene.h"
 
 #include <gtest/gtest.h>
@@ -32,29 +32,6 @@ TEST(FilmOfScene, DefaultOutputIsHereAndExr) {
   film.filename = "";
   EXPECT_EQ(default_output(film, "scenes/x.pbrt"), "x.exr");
   EXPECT_EQ(default_output(film, "scenes/x.pbrt.gz"), "x.exr");
-}
-
-TEST(FilmOfScene, SettingsAreTheScenes) {
-  FilmDescription description;
-  description.width = 20;
-  description.height = 10;
-  description.crop_x0 = 1;
-  description.crop_y0 = 2;
-  description.crop_x1 = 19;
-  description.crop_y1 = 8;
-  description.imaging_ratio = 2;
-  description.max_component = 5;
-  description.filename = "f.exr";
-  const FilmSettings settings = film_settings(description);
-  EXPECT_EQ(settings.width, 20);
-  EXPECT_EQ(settings.height, 10);
-  EXPECT_EQ(settings.crop.x0, 1);
-  EXPECT_EQ(settings.crop.y0, 2);
-  EXPECT_EQ(settings.crop.x1, 19);
-  EXPECT_EQ(settings.crop.y1, 8);
-  EXPECT_EQ(settings.imaging_ratio, 2);
-  EXPECT_EQ(settings.max_component, 5);
-  EXPECT_EQ(settings.filename, "f.exr");
 }
 
 constexpr uint64_t kMemory = uint64_t{64} << 30;
@@ -162,8 +139,10 @@ TEST(FilmOfScene, RejectionKnowsHowManyPixelsALightPathExposes) {
   const auto exposed = [&](const std::string& route, float radius, const PixelFilter& filter) {
     IntegratorOptions options;
     options.radius = radius;
-    options.outlier_neighbours = 11;
-    const OutlierSettings settings = outlier_settings(routes_of({route}), options, filter);
+    SceneSettings of_scene;
+    of_scene.outlier_neighbours = 11;
+    const OutlierSettings settings =
+        outlier_settings(routes_of({route}), options, filter, of_scene);
     EXPECT_EQ(settings.neighbours, 11);
     EXPECT_EQ(settings.exposed_pixels.size(), 1u);
     return settings.exposed_pixels.at(0);

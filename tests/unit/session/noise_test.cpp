@@ -1,5 +1,5 @@
 // The error that a film tells of, and how much of its light each route has.
-#include "session/noise.h"
+#include "session/report/noise.h"
 
 #include <gtest/gtest.h>
 

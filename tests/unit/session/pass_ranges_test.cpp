@@ -1,5 +1,5 @@
 // Ranges of passes: what they hold, how they join, what is missing, and their text.
-#include "session/pass_ranges.h"
+#include "session/checkpoint/pass_ranges.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 
 #include "core/errors.h"
 #include "film/state_file.h"
-#include "session/choices_report.h"
+#include "session/report/choices_report.h"
 #include "unit/film/scratch_directory.h"
 #include "unit/session/scripted_session.h"
 
@@ -270,7 +270,7 @@ TEST_F(SessionPictures, MetadataOfTheCallerAndTheSession) {
   const ScratchDirectory directory;
   RenderOptions options = options_in(directory);
   options.seed = 77;
-  options.metadata = {{"nephroid:scene_hash", "abc"}};
+  options.identity.scene_hash = "abc";
   run(options);
   const Metadata metadata = read_picture(options.output).metadata;
   const auto has = [&](const std::string& key, const std::string& value) {

@@ -1,0 +1,83 @@
+// Sentences from the counts of estimators and film.
+#include "apps/render_report.h"
+
+#include <fmt/format.h>
+
+#include "film/film_output.h"
+#include "session/report/choices_report.h"
+#include "session/report/noise.h"
+#include "session/report/short_number.h"
+
+namespace nephroid {
+namespace {
+
+const char* reason_text(StopReason reason) {
+  switch (reason) {
+    case StopReason::kPasses:
+      return "all passes done";
+    case StopReason::kTime:
+      return "time limit";
+    case StopReason::kNoise:
+      return "noise target met";
+    case StopReason::kSignal:
+      break;
+  }
+  return "stopped by a signal";
+}
+
+std::string summary(const RenderResult& result) {
+  uint64_t rays = 0;
+  for (const EstimatorStatistics& s : result.statistics) rays += s.rays;
+  std::string text = fmt::format("{} pass{} in {:.1f} s ({})", result.passes_of_run,
+                                 result.passes_of_run == 1 ? "" : "es", result.seconds,
+                                 reason_text(result.reason));
+  if (result.passes_done > result.passes_of_run)
+    text += fmt::format(", {} in all runs", result.passes_done);
+  if (rays > 0 && result.seconds > 0)
+    text += fmt::format(", {}rays/s", short_number(static_cast<double>(rays) / result.seconds));
+  if (result.error) text += fmt::format(", estimated error {:.3g}", *result.error);
+  return text + "\n";
+}
+
+double all_estimates(const Film& film) {
+  double count = 0;
+  for (int g = 0; g < film.layout().group_count(); ++g)
+    count += static_cast<double>(film.estimates(g)) * static_cast<double>(film.bounds().area());
+  return count;
+}
+
+std::string route_lines(const Film& film) {
+  const EnergyShares shares = energy_shares(film);
+  const auto line = [](const char* title, const std::vector<std::string>& names,
+                       const std::vector<double>& values) {
+    std::string text = title;
+    for (size_t i = 0; i < names.size(); ++i)
+      text += fmt::format("{} {} {:.3g} %", i == 0 ? "" : ",", names[i], 100 * values[i]);
+    return text + "\n";
+  };
+  std::string text = line("light by route:", film.layout().routes, shares.routes);
+  if (!shares.aovs.empty()) text += line("of it in layers:", film.layout().aovs, shares.aovs);
+  if (const OutlierRejection* rejection = film.rejection())
+    text += fmt::format(
+        "outliers: {} estimates of {}held, {:.3g} % of all light (layer 'outliers')\n",
+        rejection->held_estimates(), short_number(all_estimates(film)), 100 * shares.outliers);
+  return text;
+}
+
+}  // namespace
+
+std::string render_report(const RenderResult& result, const Film& film, const std::string& output,
+                          const std::vector<std::string>& notes) {
+  std::string text = summary(result);
+  for (const std::string& line :
+       choices_report(result.first_pass_statistics, result.statistics, result.passes_of_run))
+    text += line + "\n";
+  if (result.error_text) text += *result.error_text + "\n";
+  text += route_lines(film);
+  for (const std::string& fault : result.faults) text += fmt::format("warning: {}\n", fault);
+  for (const std::string& note : notes) text += fmt::format("note: {}\n", note);
+  text += fmt::format("wrote {} and {}\n", output, png_path_beside(output));
+  return text;
+}
+
+}  // namespace nephroid

@@ -1,0 +1,109 @@
+// The meaning of pbrt-v4 directives: turns them, one call each, into a SceneDescription.
+// Called by the directive parser. Keeps the graphics state and its stack, and refuses what pbrt-v4
+// refuses. Knows neither the syntax nor what any type of shape, material or light means.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "input/graphics_state.h"
+#include "input/scene_description.h"
+
+namespace nephroid {
+
+/// All functions that take a place throw SceneError there if the directive is wrong.
+class DescriptionBuilder {
+ public:
+  DescriptionBuilder(SceneDescription& scene, Diagnostics& diagnostics)
+      : scene_(scene), diagnostics_(diagnostics) {}
+
+  bool in_world() const { return in_world_; }
+  const std::string& color_space() const { return state_.color_space; }
+
+  // Transforms: `m` comes first, then what was current (m * ctm).
+  void concat_transform(const Mat44d& m, const char* directive, const SourceLocation& where);
+  void set_transform(const Mat44d& m, const SourceLocation& where);
+  void set_active_transforms(bool start, bool end);
+  void set_transform_times(double start, double end, const SourceLocation& where);
+  void name_coordinate_system(const std::string& name);
+  /// An unknown name is a warning only, as in pbrt-v4.
+  void use_coordinate_system(const std::string& name, const SourceLocation& where);
+
+  // The graphics state and its scopes.
+  void attribute_begin(const SourceLocation& where);
+  void attribute_end(const SourceLocation& where);
+  void set_defaults(const std::string& target, std::vector<Parameter> parameters,
+                    const SourceLocation& target_where);
+  void set_color_space(const std::string& name, const SourceLocation& name_where);
+  void reverse_orientation() { state_.reverse_orientation = !state_.reverse_orientation; }
+  void set_medium_interface(std::string inside, std::string outside);
+  void world_begin();
+  void object_begin(const std::string& name, const SourceLocation& where);
+  void object_end(const SourceLocation& where);
+  void object_instance(const std::string& name, const SourceLocation& where);
+  /// Around an imported file: nothing that it does to the graphics state or the coordinate systems
+  /// stays, and it closes what it opens.
+  void import_begin(const SourceLocation& where);
+  void import_end();
+
+  // Things; each directive has its explicit parameters, defaults are added here.
+  void add_option(Parameter option);
+  void set_camera(DirectiveDescription directive);
+  void set_film(DirectiveDescription directive);
+  void set_sampler(DirectiveDescription d) { set_once(scene_.sampler, std::move(d), "Sampler"); }
+  void set_pixel_filter(DirectiveDescription d) {
+    set_once(scene_.pixel_filter, std::move(d), "PixelFilter");
+  }
+  void set_integrator(DirectiveDescription d) {
+    set_once(scene_.integrator, std::move(d), "Integrator");
+  }
+  void set_accelerator(DirectiveDescription d) {
+    set_once(scene_.accelerator, std::move(d), "Accelerator");
+  }
+  void add_material(DirectiveDescription directive);
+  void use_named_material(const std::string& name, const SourceLocation& where);
+  /// The type comes from the parameter "string type".
+  void add_named_material(const std::string& name, DirectiveDescription directive);
+  void add_medium(const std::string& name, DirectiveDescription directive);
+  void add_texture(const std::string& name, const std::string& value_type,
+                   DirectiveDescription directive);
+  void add_light(DirectiveDescription directive);
+  void set_area_light(DirectiveDescription directive);
+  void add_shape(DirectiveDescription directive);
+
+  /// At the end of all files: everything must be closed and every name that is used defined.
+  void finish(const SourceLocation& end_of_file) const;
+
+ private:
+  struct Scope {
+    enum class Kind { kAttribute, kObject, kImport };
+    Kind kind;
+    SourceLocation where;
+    GraphicsState state;
+    std::map<std::string, TransformDescription> coordinate_systems;  // saved by imports only
+  };
+  using Names = std::map<std::string, SourceLocation>;
+
+  void set_once(std::optional<DirectiveDescription>& slot, DirectiveDescription directive,
+                const char* name);
+  void add_defaults(AttributeTarget target, ParameterSet& parameters) const;
+  void push_scope(Scope::Kind kind, const SourceLocation& where);
+  void pop_scope();
+  void check_nothing_open(size_t scopes) const;
+  MaterialReference material_of(const SourceLocation& shape_where);
+
+  SceneDescription& scene_;
+  Diagnostics& diagnostics_;
+  bool in_world_ = false;
+  GraphicsState state_;
+  std::vector<Scope> scopes_;
+  std::map<std::string, TransformDescription> coordinate_systems_;
+  Names material_names_, medium_names_, float_texture_names_, spectrum_texture_names_;
+  ObjectDescription* object_ = nullptr;  // the one being defined
+  bool warned_of_area_light_ = false;    // in the object being defined
+  int default_material_ = -1;
+};
+
+}  // namespace nephroid

@@ -1,0 +1,104 @@
+// Feeds the option table to CLI11. The only file that includes it.
+#include "options/command_line.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "core/errors.h"
+#include "options/scene_support.h"
+#include "session/checkpoint/version.h"
+
+namespace nephroid {
+namespace {
+
+void add_option(CLI::App& command, const OptionDescription& row, CommandLine& line) {
+  std::string names = row.name;
+  if (row.short_name[0] != '\0') names = std::string(row.short_name) + "," + names;
+  const auto apply = row.apply;
+  if (row.is_flag()) {
+    command.add_flag_callback(
+        names, [apply, &line] { apply(line, ""); }, row.help);
+    return;
+  }
+  const auto apply_all = [apply, &line](const std::vector<std::string>& values) {
+    for (const std::string& value : values) apply(line, value);
+  };
+  CLI::Option* option =
+      command.add_option_function<std::vector<std::string>>(names, apply_all, row.help);
+  // One value per use: without this a list would swallow the scene's name.
+  option->type_size(1)->allow_extra_args(row.is_positional() && row.repeatable);
+  option->expected(1, row.repeatable ? CLI::detail::expected_max_vector_size : 1);
+  if (row.is_required()) option->required();
+}
+
+void set_action(const std::string& command, CommandLine& line) {
+  if (command == "render") line.action = Action::kRender;
+  if (command == "merge") line.action = Action::kMerge;
+  if (command == "info") line.action = Action::kInfo;
+  if (command == "compare") line.action = Action::kCompare;
+  if (command == "routes") line.action = Action::kRoutes;
+  if (command == "bench") line.action = Action::kBench;
+}
+
+/// A first word that is neither an option nor a command is most likely a command misspelt.
+void check_command(const std::vector<std::string>& arguments) {
+  if (arguments.empty() || arguments[0].rfind('-', 0) == 0) return;
+  std::string known;
+  for (const CommandDescription& command : command_table()) {
+    if (arguments[0] == command.name) return;
+    known += fmt::format("{}{}", known.empty() ? "" : ", ", command.name);
+  }
+  throw UsageError(fmt::format("unknown command '{}', expected one of: {}", arguments[0], known));
+}
+
+CommandLine printing(const std::string& text) {
+  CommandLine line;
+  line.text = text;
+  return line;
+}
+
+}  // namespace
+
+CommandLine parse_command_line(const std::vector<std::string>& arguments) {
+  check_command(arguments);
+  CommandLine line;
+  CLI::App app;
+  bool options_page = false, scene_support_page = false;
+  app.name("nephroid");
+  app.set_version_flag("--version", kVersion);
+  app.add_flag("--options-markdown", options_page)->group("");
+  app.add_flag("--scene-support-markdown", scene_support_page)->group("");
+  app.require_subcommand(0, 1);
+  for (const CommandDescription& command : command_table()) {
+    CLI::App* sub = app.add_subcommand(command.name, command.help);
+    sub->callback([&line, name = std::string(command.name)] { set_action(name, line); });
+    for (const OptionDescription& row : option_table())
+      if (std::string(command.name) == row.command) add_option(*sub, row, line);
+  }
+
+  const auto chosen_command = [&app] {
+    const auto chosen = app.get_subcommands();
+    return chosen.empty() ? std::string() : chosen.front()->get_name();
+  };
+  try {
+    // CLI11 takes the arguments from the back.
+    app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+  } catch (const CLI::CallForHelp&) {
+    const std::string command = chosen_command();
+    return printing(command.empty() ? program_help() : command_help(command));
+  } catch (const CLI::CallForVersion&) {
+    return printing(fmt::format("nephroid {} ({})\n", kVersion, instruction_set()));
+  } catch (const CLI::ParseError& error) {
+    const std::string command = chosen_command();
+    throw UsageError(fmt::format("{} (see nephroid {}{}--help)", error.what(), command,
+                                 command.empty() ? "" : " "));
+  }
+  if (options_page) return printing(options_markdown());
+  if (scene_support_page) return printing(scene_support_markdown());
+  if (chosen_command().empty()) throw UsageError("no command given\n\n" + program_help());
+  return line;
+}
+
+}  // namespace nephroid

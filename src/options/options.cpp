@@ -1,0 +1,302 @@
+// The rows of the option table. A new option is one row here and its use in apps/.
+#include "options/options.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/errors.h"
+#include "input/spelling.h"
+#include "integrator/presets/integrator_table.h"
+#include "session/settings/option_values.h"
+
+namespace nephroid {
+namespace {
+
+constexpr double kAnyNumber = std::numeric_limits<double>::infinity();
+constexpr int kMostThreads = 4096;
+/// Libraries, tables and threads take half of it.
+constexpr uint64_t kLeastMemory = uint64_t{256} << 20;
+constexpr int kMostPilotPasses = 100000;
+constexpr int64_t kMostBenchRepeats = 1000;
+constexpr int64_t kMostBenchPasses = std::numeric_limits<uint32_t>::max() - 1;
+
+template <auto Command>
+void set_output(CommandLine& line, const std::string& text) {
+  const bool is_exr = text.size() > 4 && text.compare(text.size() - 4, 4, ".exr") == 0;
+  if (!is_exr)
+    throw UsageError("--output: '" + text +
+                     "' is not valid, expected a name that ends in .exr (a .png is written beside "
+                     "it)");
+  (line.*Command).output = text;
+}
+
+template <auto Command>
+void set_integrator(CommandLine& line, const std::string& text) {
+  const std::vector<std::string> names = integrator_names();
+  if (text != "scene" && std::find(names.begin(), names.end(), text) == names.end()) {
+    std::string known;
+    for (const std::string& name : names) known += name + ", ";
+    throw UsageError("--integrator: unknown integrator '" + text + "', expected one of: " + known +
+                     "scene" +
+                     (route_preset(text) ? " (it is a preset: --routes " + text + ")"
+                                         : did_you_mean(text, names)));
+  }
+  (line.*Command).routes.integrator = text;
+}
+
+void set_resolution(CommandLine& line, const std::string& text) {
+  const auto [width, height] = parse_resolution("--resolution", text);
+  line.render.overrides.width = width;
+  line.render.overrides.height = height;
+}
+
+void set_crop(CommandLine& line, const std::string& text) {
+  const auto crop = parse_crop("--crop", text);
+  line.render.overrides.has_crop = true;
+  std::copy(crop.begin(), crop.end(), line.render.overrides.crop);
+}
+
+template <auto Command>
+void add_setting(CommandLine& line, const std::string& text) {
+  (line.*Command).settings.push_back(parse_setting(text));
+}
+
+void set_outliers(CommandLine& line, const std::string& text) {
+  if (text != "reject" && text != "off")
+    throw UsageError("--outliers: '" + text + "' is not valid, expected reject or off");
+  line.render.reject_outliers = text == "reject";
+}
+
+template <auto Command>
+void set_routes(CommandLine& line, const std::string& text) {
+  (line.*Command).routes.preset_or_file = text;
+}
+template <auto Command>
+void add_route(CommandLine& line, const std::string& text) {
+  (line.*Command).routes.routes.push_back(parse_route(text));
+}
+template <auto Command>
+void add_aov(CommandLine& line, const std::string& text) {
+  (line.*Command).routes.aovs.push_back(parse_aov(text));
+}
+template <auto Command>
+void set_strict(CommandLine& line, const std::string&) {
+  (line.*Command).routes.strict = true;
+}
+
+constexpr const char* kIntegratorHelp =
+    "How light is found: path, sppm, mixed, bdpt, vcm, bpm, photonmap, ppm, pssmlt, mlt, "
+    "pointlights, forecast, doidge2012, or scene for the one that the scene names. Each is a "
+    "preset of routes: path is path-only, the others have the names of theirs.";
+constexpr const char* kRoutesHelp =
+    "Routes by the name of a preset (listed below) or from a file, one a line; instead of "
+    "--integrator.";
+constexpr const char* kRouteHelp =
+    "One route: a light path expression and the estimator that renders what matches it (path, "
+    "photons, sppm, lighttrace, photons+light, path+photons, bdpt, vcm, bpm, photonmap, ppm, "
+    "pssmlt, mlt, pointlights, forecast). The first route that matches a path owns it.";
+constexpr const char* kAovHelp =
+    "One more layer of the picture: the light of all paths that match, whichever route renders "
+    "them.";
+constexpr const char* kStrictHelp = "Overlapping routes are an error.";
+constexpr const char* kSettingHelp = "Set a number of the integrator; may be given several times.";
+
+void set_heat_map(CommandLine& line, const std::string& text) {
+  const bool is_png = text.size() > 4 && text.compare(text.size() - 4, 4, ".png") == 0;
+  if (!is_png)
+    throw UsageError("--heat: '" + text + "' is not valid, expected a name that ends in .png");
+  line.compare.heat_map = text;
+}
+
+void add_only(CommandLine& line, const std::string& text) {
+  for (size_t begin = 0; begin <= text.size();) {
+    const size_t comma = std::min(text.find(',', begin), text.size());
+    if (comma == begin)
+      throw UsageError("--only: '" + text + "' is not valid, expected names as in cup,room");
+    line.bench.only.push_back(text.substr(begin, comma - begin));
+    begin = comma + 1;
+  }
+}
+
+constexpr CommandDescription kCommands[] = {
+    {"render", "Render a scene to an EXR and a PNG."},
+    {"merge", "Add up pictures of different passes of one render."},
+    {"info", "Say what is in a scene, or what a picture is of and how far it has come."},
+    {"routes", "Say who renders which light, prove it, and measure it in a scene."},
+    {"compare", "Measure how far a picture is from a reference."},
+    {"bench", "Run a suite of integrators and scenes and write a report."},
+};
+
+constexpr OptionDescription kOptions[] = {
+    {"render", "SCENE", "", "", "", "", "", "A pbrt-v4 scene file, may be compressed (.gz).", false,
+     [](CommandLine& l, const std::string& t) { l.render.scene = t; }},
+    {"render", "--output", "-o", "OUT.exr", "",
+     "named after the scene's film, in the current directory", "Output",
+     "The picture with all its layers; a PNG is written beside it.", false,
+     set_output<&CommandLine::render>},
+    {"render", "--aov", "", "NAME=EXPR", "", "", "Output", kAovHelp, true,
+     add_aov<&CommandLine::render>},
+    {"render", "--resume", "", "", "", "", "Output",
+     "Go on from the picture that is there, by all runs together as one run would have rendered "
+     "it; start if none is there.",
+     false, [](CommandLine& l, const std::string&) { l.render.resume = true; }},
+    {"render", "--checkpoint", "", "TIME", "s, m or h", "60s", "Output",
+     "How often the picture is written while it is made, with all that is needed to go on from "
+     "it; less often where that would take more than 2 % of the time.",
+     false,
+     [](CommandLine& l, const std::string& t) {
+       l.render.checkpoint_interval = parse_duration("--checkpoint", t);
+     }},
+    {"render", "--strict", "", "", "", "", "Output",
+     "Exit status 1 if estimates were left out of the picture because they were infinite or no "
+     "numbers, or if sums reached their limit.", false,
+     [](CommandLine& l, const std::string&) { l.render.strict = true; }},
+    {"render", "--no-state", "", "", "", "", "Output",
+     "Leave the last picture without what a render needs to go on from it: a smaller file. Pictures "
+     "on the way, and that of a render that a signal stops, have it.", false,
+     [](CommandLine& l, const std::string&) { l.render.keeps_state = false; }},
+    {"render", "--quiet", "", "", "", "", "Output",
+     "Print nothing but errors, and what the picture is in danger of: that it cannot be written, what it is resumed from, "
+     "what it replaces.",
+     false, [](CommandLine& l, const std::string&) { l.render.quiet = true; }},
+    {"render", "--integrator", "", "NAME", "", "mixed", "Algorithm", kIntegratorHelp, false,
+     set_integrator<&CommandLine::render>},
+    {"render", "--routes", "", "PRESET|FILE", "", "those of the integrator", "Algorithm",
+     kRoutesHelp, false, set_routes<&CommandLine::render>},
+    {"render", "--route", "", "NAME=EXPR:ESTIMATOR", "", "", "Algorithm", kRouteHelp, true,
+     add_route<&CommandLine::render>},
+    {"render", "--strict-routes", "", "", "", "", "Algorithm", kStrictHelp, false,
+     set_strict<&CommandLine::render>},
+    {"render", "-D", "", "KEY=VALUE", "", "", "Algorithm", kSettingHelp, true,
+     add_setting<&CommandLine::render>},
+    {"render", "--outliers", "", "reject|off", "", "off", "Algorithm",
+     "reject keeps estimates that are isolated in position and brightness (fireflies) out of the "
+     "picture until others confirm them; the layer 'outliers' holds them.",
+     false, set_outliers},
+    {"render", "--seed", "", "S", "", "the scene's, else 0", "Algorithm",
+     "Another seed gives another, independent picture.", false,
+     [](CommandLine& l, const std::string& t) { l.render.seed = parse_seed("--seed", t); }},
+    {"render", "--passes", "", "N|A..B", "passes",
+     "the scene's pixel samples, if no other rule is given", "When to stop",
+     "Stop after N passes; A..B renders a range from 0, both ends included.", false,
+     [](CommandLine& l, const std::string& t) { l.render.passes = parse_passes("--passes", t); }},
+    {"render", "--time", "", "TIME", "s, m or h", "no limit", "When to stop",
+     "Stop at the end of the pass that ends nearest to this time (60s, 5m, 1h).", false,
+     [](CommandLine& l, const std::string& t) {
+       l.render.time_limit = parse_duration("--time", t);
+     }},
+    {"render", "--noise", "", "X", "relative error", "no target", "When to stop",
+     "Stop when the estimated error, the root of the mean of (stderr^2 + bias^2) / (value^2 + "
+     "0.01), is at or below X; sppm, ppm and photonmap cannot tell.",
+     false,
+     [](CommandLine& l, const std::string& t) {
+       l.render.noise_target = parse_number("--noise", t, 0, kAnyNumber, true);
+     }},
+    {"render", "--resolution", "", "WxH", "pixels", "the scene's", "Picture",
+     "Width and height of the full picture.", false, set_resolution},
+    {"render", "--crop", "", "x0,x1,y0,y1", "0 to 1", "the scene's", "Picture",
+     "Render a part: left, right, top and bottom as fractions of the full picture.", false,
+     set_crop},
+    {"render", "--threads", "-t", "N", "threads", "all of the machine", "Machine",
+     "Number of threads; the picture does not depend on it.", false,
+     [](CommandLine& l, const std::string& t) {
+       l.render.threads = static_cast<int>(parse_integer("--threads", t, 1, kMostThreads));
+     }},
+    {"render", "--memory", "", "SIZE", "bytes", "what the machine has", "Machine",
+     "Take no more memory than this (K, M, G: powers of 1024); a quarter of it at most is for "
+     "textures and a quarter for photons, unless -D says otherwise. A render that needs more is "
+     "refused before it starts.",
+     false,
+     [](CommandLine& l, const std::string& t) {
+       l.render.memory = static_cast<uint64_t>(parse_bytes("--memory", t));
+       if (l.render.memory < kLeastMemory)
+         throw UsageError("--memory: '" + t + "' is not valid, expected at least 256M");
+     }},
+    {"merge", "PICTURE", "", "", "", "", "",
+     "Pictures of one render, of disjoint passes (render --passes A..B), with their state.", true,
+     [](CommandLine& l, const std::string& t) { l.merge.inputs.push_back(t); }},
+    {"merge", "--output", "-o", "OUT.exr", "", "", "",
+     "Their sum, from which a render can go on; a PNG is written beside it.", false,
+     set_output<&CommandLine::merge>},
+    {"routes", "SCENE", "", "", "", "none", "",
+     "A scene: what of the routes can occur in it, and how its light divides among them.", false,
+     [](CommandLine& l, const std::string& t) { l.routes.scene = t; }},
+    {"routes", "--integrator", "", "NAME", "", "mixed", "Routes", kIntegratorHelp, false,
+     set_integrator<&CommandLine::routes>},
+    {"routes", "--routes", "", "PRESET|FILE", "", "those of the integrator", "Routes", kRoutesHelp,
+     false, set_routes<&CommandLine::routes>},
+    {"routes", "--route", "", "NAME=EXPR:ESTIMATOR", "", "", "Routes", kRouteHelp, true,
+     add_route<&CommandLine::routes>},
+    {"routes", "--aov", "", "NAME=EXPR", "", "", "Routes", kAovHelp, true,
+     add_aov<&CommandLine::routes>},
+    {"routes", "--strict-routes", "", "", "", "", "Routes", kStrictHelp, false,
+     set_strict<&CommandLine::routes>},
+    {"routes", "-D", "", "KEY=VALUE", "", "", "Pilot", kSettingHelp, true,
+     add_setting<&CommandLine::routes>},
+    {"routes", "--passes", "", "N", "passes", "8", "Pilot",
+     "Passes of the small picture that measures how the scene's light divides.", false,
+     [](CommandLine& l, const std::string& t) {
+       l.routes.passes = static_cast<uint32_t>(parse_integer("--passes", t, 1, kMostPilotPasses));
+     }},
+    {"info", "FILE", "", "", "", "", "",
+     "A pbrt-v4 scene file, may be compressed (.gz), or a picture that this program wrote.", false,
+     [](CommandLine& l, const std::string& t) { l.info.file = t; }},
+    {"compare", "REF", "", "", "", "", "", "The reference picture.", false,
+     [](CommandLine& l, const std::string& t) { l.compare.reference = t; }},
+    {"compare", "TEST", "", "", "", "", "", "The picture to measure, of the same size.", false,
+     [](CommandLine& l, const std::string& t) { l.compare.test = t; }},
+    {"compare", "--heat", "", "OUT.png", "", "none", "",
+     "Write the squared relative error of each pixel in false colours and print their scale.",
+     false, set_heat_map},
+    {"compare", "--subtract-reference-error", "", "", "", "", "",
+     "Take the reference's own error (its stderr channels) out of the squared errors.", false,
+     [](CommandLine& l, const std::string&) { l.compare.subtract_reference_error = true; }},
+    {"compare", "--exposure", "", "X", "", "1", "", "Exposure of both pictures for FLIP.", false,
+     [](CommandLine& l, const std::string& t) {
+       l.compare.exposure = static_cast<float>(parse_number("--exposure", t, 0, 1e6, true));
+     }},
+    {"bench", "SUITE", "", "", "", "", "", "A suite (docs/bench.md has the format).", false,
+     [](CommandLine& l, const std::string& t) { l.bench.suite = t; }},
+    {"bench", "--time", "", "TIME", "s, m or h", "the suite's", "",
+     "Every run ends with the pass that ends nearest to this time (60s, 5m, 1h).", false,
+     [](CommandLine& l, const std::string& t) {
+       l.bench.time_limit = parse_duration("--time", t);
+     }},
+    {"bench", "--passes", "", "N", "passes", "the suite's", "", "Every run has N passes.", false,
+     [](CommandLine& l, const std::string& t) {
+       l.bench.passes = static_cast<uint32_t>(parse_integer("--passes", t, 1, kMostBenchPasses));
+     }},
+    {"bench", "--repeat", "", "N", "renders", "the suite's, or 1", "",
+     "Every run is rendered so many times, with its seed and those that follow; errors are those "
+     "of all.",
+     false,
+     [](CommandLine& l, const std::string& t) {
+       l.bench.repeat = static_cast<uint32_t>(parse_integer("--repeat", t, 1, kMostBenchRepeats));
+     }},
+    {"bench", "--out", "", "DIR", "", "the suite's name and .bench, in the current directory", "",
+     "Directory of the report and of all results; runs that are there already are not repeated.",
+     false, [](CommandLine& l, const std::string& t) { l.bench.directory = t; }},
+    {"bench", "--only", "", "SCENE,...", "", "all", "", "Scenes of the suite, by name.", true,
+     add_only},
+    {"bench", "--threads", "-t", "N", "threads", "all of the machine", "",
+     "Number of threads; times depend on it, passes do not.", false,
+     [](CommandLine& l, const std::string& t) {
+       l.bench.threads = static_cast<int>(parse_integer("--threads", t, 1, kMostThreads));
+     }},
+    {"bench", "--strict-claims", "", "", "", "", "",
+     "Exit status 1 if a claim of the suite is not borne out.", false,
+     [](CommandLine& l, const std::string&) { l.bench.strict_claims = true; }},
+    {"bench", "--quiet", "", "", "", "", "", "Print nothing but errors.", false,
+     [](CommandLine& l, const std::string&) { l.bench.quiet = true; }},
+};
+
+}  // namespace
+
+std::span<const CommandDescription> command_table() {
+  return kCommands;
+}
+std::span<const OptionDescription> option_table() {
+  return kOptions;
+}
+
+}  // namespace nephroid

@@ -1,0 +1,105 @@
+#include "session/checkpoint/merge_pictures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/errors.h"
+#include "film/film_output.h"
+#include "session/checkpoint/checkpoint.h"
+#include "session/checkpoint/film_metadata.h"
+#include "session/checkpoint/version.h"
+#include "session/report/invalid_samples.h"
+
+namespace nephroid {
+namespace {
+
+constexpr const char* kPurpose = "merge it";
+
+/// A picture to be merged. There may be more of them than files may be open.
+struct Input {
+  std::string path;
+  PassRanges passes;
+};
+
+void warn_of_gaps(Merged& merged) {
+  constexpr size_t kMostNamed = 20;
+  size_t gaps = 0;
+  for (uint32_t pass = 0; const PassRange& range : merged.passes.ranges()) {
+    if (range.first > pass && ++gaps <= kMostNamed)
+      merged.warnings.push_back(
+          fmt::format("passes {}..{} are in none of the pictures", pass, range.first - 1));
+    pass = range.last + 1;
+  }
+  if (gaps > kMostNamed)
+    merged.warnings.push_back(
+        fmt::format("{} more ranges of passes are in none of them", gaps - kMostNamed));
+}
+
+}  // namespace
+
+Merged merge_pictures(const std::vector<std::string>& inputs, const std::string& output) {
+  std::vector<Input> files;
+  for (const std::string& path : inputs)
+    files.push_back({path, passes_of(StateFile(path), kPurpose)});
+  // The order of the arguments does not count.
+  std::ranges::sort(files, {}, [](const Input& i) { return i.passes.ranges()[0].first; });
+  const StateFile first(files[0].path);
+  RenderIdentity identity = RenderIdentity::from_metadata(first.metadata());
+  if (identity.version != kVersion)
+    throw UsageError(fmt::format("{}: cannot {}: it is of version {}, this program is {}",
+                                 first.path(), kPurpose,
+                                 identity.version.empty() ? "?" : identity.version, kVersion));
+  Merged merged;
+  std::string history, sets;
+  for (const Input& input : files) {
+    const StateFile file(input.path);
+    const PassRanges& passes = input.passes;
+    require_same_render(file, identity, "in " + first.path(), kPurpose);
+    const auto refuse = [&name = file.path()](const std::string& why) {
+      throw UsageError(name + ": cannot " + kPurpose + ": " + why);
+    };
+    if (value_of(file.metadata(), kOutliersKey) == "reject")
+      refuse("with --outliers reject passes depend on each other; --resume goes on with it");
+    if (!passes_add_up(file))
+      refuse("passes of this integrator cannot be added up; --resume goes on with it");
+    if (merged.passes.overlap(passes))
+      for (const Input& other : files)
+        if (const auto both = other.passes.overlap(passes); both && &other != &input)
+          refuse(fmt::format("{} has passes {}..{}, too", other.path, both->first, both->last));
+    merged.passes.add(passes);
+    merged.seconds += seconds_of(file, kSecondsKey);
+    history += value_of(file.metadata(), kHistoryKey);
+    if (const auto warning = warning_of_instruction_sets(file, identity, "in " + first.path()))
+      merged.warnings.push_back(*warning);
+    sets = joined_instruction_sets(sets, value_of(file.metadata(), kInstructionSetKey));
+  }
+  warn_of_gaps(merged);
+  Film sum = film_of(first);
+  for (const Input& input : files) {
+    StateFile file(input.path);
+    // A render that goes on may have written a newer one meanwhile.
+    if (passes_of(file, kPurpose) != input.passes)
+      throw IoError(input.path + ": cannot merge it: it changed while it was read");
+    Film film = film_of(first);
+    file.load(film.state());
+    sum.add(film);
+  }
+  identity.instruction_sets = sets;
+  Metadata metadata = identity.to_metadata();
+  metadata.emplace_back(kLayoutKey, value_of(first.metadata(), kLayoutKey));
+  Checkpoint progress;
+  progress.passes = merged.passes;
+  progress.seconds = merged.seconds;
+  progress.history = history;
+  add_progress(progress, &metadata);
+  std::string faults;
+  for (const std::string& fault : invalid_samples(sum)) faults += "warning: " + fault + "\n";
+  if (!faults.empty()) metadata.emplace_back(kChoicesKey, faults);
+  add_estimates(sum, &metadata);
+  const RenderState state = sum.state();
+  write_film(output, sum, std::move(metadata), 1, &state);
+  return merged;
+}
+
+}  // namespace nephroid

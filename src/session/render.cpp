@@ -1,0 +1,174 @@
+// The steps of a render, in order.
+#include "session/render.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "film/film_settings.h"
+#include "input/scene_files.h"
+#include "integrator/photon_mapping/ppm.h"
+#include "session/film_of_scene.h"
+#include "session/process_memory.h"
+#include "session/settings/unused_settings.h"
+
+namespace nephroid {
+namespace {
+
+using Warn = std::function<void(const std::string&)>;
+
+void warn_of(const std::vector<std::string>& warnings, const Warn& warn) {
+  if (warn)
+    for (const std::string& warning : warnings) warn(warning);
+}
+
+void check_fits_memory(const RenderRequest& request, const Scene& scene,
+                       const IntegratorOptions& options, const Preset& preset) {
+  MemoryNeed need{scene.film, preset.layout, *preset.routes};
+  need.rejects_outliers = request.reject_outliers;
+  need.hit_points = Ppm::hit_points(options, scene.samples_per_pixel);
+  need.photons = options.memory_photons;
+  need.held = memory_in_use();
+  need.textures = request.settings.scene.texture_memory / 4;
+  need.writes = !request.options.output.empty();
+  check_memory(need, request.memory > 0 ? request.memory : machine_memory(), request.memory > 0,
+               request.overrides.width > 0);
+}
+
+/// Warnings about routes whose outliers are not rejected.
+std::vector<std::string> rejection_warnings(const Routes& routes) {
+  std::vector<std::string> warnings;
+  const auto warn = [&](EstimatorKind kind, const char* what) {
+    if (std::ranges::any_of(routes.groups(),
+                            [&](const RouteGroup& group) { return group.estimator == kind; }))
+      warnings.push_back(std::string("--outliers reject: routes of ") + estimator_type(kind).name +
+                         what);
+  };
+  for (const EstimatorKind kind : {EstimatorKind::kSppm, EstimatorKind::kPpm})
+    warn(kind, " keep theirs, they have no estimates that could be held");
+  warn(EstimatorKind::kPhotonMap,
+       " show theirs after some passes, which read the same photons again and so confirm them");
+  return warnings;
+}
+
+RenderIdentity identity_of(const RenderRequest& request, const LoadedScene& loaded,
+                           const IntegratorChoice& choice, const RoutePlan& plan) {
+  RenderIdentity identity = RenderIdentity::of_this_program();
+  identity.scene = request.scene;
+  identity.scene_hash = fmt::format("{:016x}", loaded.description.files->hash());
+  identity.integrator = name_of(request.routes, choice.name);
+  identity.options = settings_text(choice.settings);
+  identity.routes = routes_text(plan);
+  identity.aovs = aovs_text(plan);
+  return identity;
+}
+
+/// A warning if the picture has passes beside the wanted range: they stay in it, and no picture of
+/// those can be merged with it.
+std::vector<std::string> warnings_of_passes_beyond(const RenderOptions& options) {
+  const PassRanges& done = options.begin_with.passes;
+  if (!options.last_pass || done.empty()) return {};
+  const uint32_t first = done.ranges().front().first, last = done.ranges().back().last;
+  if (first >= options.first_pass && last <= *options.last_pass) return {};
+  return {fmt::format("{} has passes {}, of which --passes {}..{} are wanted; the others stay",
+                      options.output, done.text(), options.first_pass, *options.last_pass)};
+}
+
+/// A warning if the output is a picture of this render that need not be rendered again.
+std::vector<std::string> warnings_of_replacing(const std::string& output,
+                                               const RenderIdentity& here) {
+  const PassRanges passes = passes_to_go_on_from(output, here);
+  if (passes.empty()) return {};
+  return {
+      fmt::format("{} has passes {} of this very render and will be replaced; --resume "
+                  "goes on with it",
+                  output, passes.text())};
+}
+
+/// Reads the state of an earlier run into film and estimators.
+void resume(RenderOptions& options, const Scene& scene, Preset& preset, Film& film,
+            const Warn& warn) {
+  options.begin_with = go_on_from(options.output, options.identity, scene, preset, film);
+  warn_of(options.begin_with.warnings, warn);
+  warn_of(warnings_of_passes_beyond(options), warn);
+}
+
+}  // namespace
+
+SceneOverrides scene_overrides(const RenderRequest& request) {
+  SceneOverrides overrides = request.overrides;
+  overrides.specular_band = request.settings.scene.specular_band;
+  overrides.texture_memory = request.settings.scene.texture_memory;
+  return overrides;
+}
+
+LoadedScene load_scene(const RenderRequest& request) {
+  return load_scene(request.scene, scene_overrides(request));
+}
+
+LoadedScene load_small_scene(const RenderRequest& request, int longest_side) {
+  return load_small_scene(request.scene, scene_overrides(request), longest_side);
+}
+
+IntegratorChoice choose_integrator(const RenderRequest& request, const Scene& scene) {
+  return choose_integrator(request.routes.integrator_or(kDefaultIntegrator), scene.integrator,
+                           scene.integrator_parameters, request.settings);
+}
+
+Render::Render(const RenderRequest& request, const LoadedScene& loaded, RenderWarnings warnings)
+    : warnings_(std::move(warnings)) {
+  const Scene& scene = *loaded.scene;
+  warn_of(loaded.warnings, warnings_.input);
+  choice_ = choose_integrator(request, scene);
+  plan_ = plan_of(request.routes, choice_.name);
+  warn_of(choice_.warnings, warnings_.input);
+
+  const IntegratorOptions& integrator = choice_.settings.integrator;
+  preset_ = make_preset(plan_, integrator, scene);
+  warn_of(preset_.warnings, warnings_.input);
+  warn_of(unused_settings(request.settings.given, *preset_.routes), warnings_.input);
+
+  check_fits_memory(request, scene, integrator, preset_);
+  film_.emplace(film_settings(scene.film), preset_.layout);
+  if (request.reject_outliers) {
+    film_->reject_outliers(
+        outlier_settings(*preset_.routes, integrator, *scene.filter, choice_.settings.scene));
+    warn_of(rejection_warnings(*preset_.routes), warnings_.input);
+  }
+
+  RenderOptions options = request.options;
+  options.seed = request.seed.value_or(scene.scene_seed);
+  options.notes = preset_.notes;
+  identity_ = identity_of(request, loaded, choice_, plan_);
+  identity_.set_film(*film_, options.seed);
+  options.identity = identity_;
+  if (!options.output.empty() && std::filesystem::exists(options.output)) {
+    if (request.resume)
+      resume(options, scene, preset_, *film_, warnings_.output);
+    else
+      warn_of(warnings_of_replacing(options.output, identity_), warnings_.output);
+  }
+
+  session_.emplace(scene, preset_, *film_, std::move(options));
+  if (warnings_.output) session_->on_warning(warnings_.output);
+}
+
+void Render::on_progress(std::function<void(const RenderProgress&)> callback) {
+  session_->on_progress(std::move(callback));
+}
+void Render::use_clock(std::function<double()> seconds) {
+  session_->use_clock(std::move(seconds));
+}
+
+RenderResult Render::run(SignalFlags& signals) {
+  return session_->run(signals);
+}
+
+std::vector<std::string> Render::notes() const {
+  std::vector<std::string> notes = preset_.notes;
+  notes.insert(notes.end(), choice_.notes.begin(), choice_.notes.end());
+  return notes;
+}
+
+}  // namespace nephroid

@@ -1,0 +1,83 @@
+// A render from its scene to its picture: prepare, run, write. The page to begin with; each step is
+// one call, in render.cpp. It must not know command lines, terminals or how estimators make light.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "session/render_session.h"
+#include "session/route_plan.h"
+#include "session/scene_loading.h"
+#include "session/settings/integrator_choice.h"
+
+namespace nephroid {
+
+/// What to render, by which routes and for how long.
+struct RenderRequest {
+  std::string scene;         ///< file name
+  SceneOverrides overrides;  ///< resolution and crop window; the rest comes from `settings`
+  RouteChoice routes;
+  RenderSettings settings;  ///< over the scene's Integrator line
+  bool reject_outliers = false;
+  uint64_t memory = 0;           ///< limit in bytes, 0: the memory of the machine
+  std::optional<uint64_t> seed;  ///< empty: the scene's
+  bool resume = false;           ///< continues the render saved in the output, if it is there
+  /// Stop rules and output. Render sets seed, begin_with, identity and notes.
+  RenderOptions options;
+};
+
+/// Warnings as they arise; either may be empty.
+struct RenderWarnings {
+  std::function<void(const std::string&)> input;   ///< about scene, routes and settings
+  std::function<void(const std::string&)> output;  ///< about the picture: resumed, replaced, failed
+};
+
+/// How the scene of a request differs from its file.
+SceneOverrides scene_overrides(const RenderRequest& request);
+/// The scene of a request. Throws SceneError and IoError.
+LoadedScene load_scene(const RenderRequest& request);
+/// The same with a picture whose longer side has at most `longest_side` pixels.
+LoadedScene load_small_scene(const RenderRequest& request, int longest_side);
+
+/// Integrator and settings of a request in a scene. Throws SceneError and UsageError.
+IntegratorChoice choose_integrator(const RenderRequest& request, const Scene& scene);
+
+/// A prepared render with its film.
+class Render {
+ public:
+  /// Prepares: routes, estimators, memory check, film, state of an earlier run. Keeps a reference
+  /// to the scene. Throws UsageError and SceneError for a request that cannot be rendered, IoError
+  /// for a picture that cannot be resumed or written.
+  Render(const RenderRequest& request, const LoadedScene& loaded, RenderWarnings warnings = {});
+  Render(const Render&) = delete;
+  Render& operator=(const Render&) = delete;
+
+  /// Called after every pass.
+  void on_progress(std::function<void(const RenderProgress&)> callback);
+  /// Seconds from any origin; the machine's steady clock unless set.
+  void use_clock(std::function<double()> seconds);
+
+  /// Renders until a rule or a signal stops it and writes the picture. Throws IoError.
+  RenderResult run(SignalFlags& signals);
+
+  const IntegratorChoice& integrator() const { return choice_; }
+  const RoutePlan& plan() const { return plan_; }
+  const Preset& estimators() const { return preset_; }
+  const Film& film() const { return *film_; }
+  const RenderIdentity& identity() const { return identity_; }
+  /// Notes for the report: routes that stay black, parameters of the scene that are not used.
+  std::vector<std::string> notes() const;
+
+ private:
+  RenderWarnings warnings_;
+  IntegratorChoice choice_;
+  RoutePlan plan_;
+  Preset preset_;
+  std::optional<Film> film_;
+  RenderIdentity identity_;
+  std::optional<RenderSession> session_;
+};
+
+}  // namespace nephroid

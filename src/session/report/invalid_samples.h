@@ -1,0 +1,19 @@
+// What a render left out, in sentences. Who calls it: the report and the session. It must not know
+// how a fault comes about.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "film/film.h"
+#include "scene/scene.h"
+
+namespace nephroid {
+
+/// A line for each route of which estimates were not finite, with how many, and the first pixel and
+/// what is seen there; and one if sums reached their limit. Empty if nothing was left out.
+std::vector<std::string> invalid_samples(const Scene& scene, const Film& film);
+/// The same where there is no scene to look at.
+std::vector<std::string> invalid_samples(const Film& film);
+
+}  // namespace nephroid

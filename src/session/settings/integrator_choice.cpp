@@ -1,0 +1,102 @@
+// Defaults, the scene's Integrator line, then -D.
+#include "session/settings/integrator_choice.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "integrator/presets/integrator_table.h"
+
+namespace nephroid {
+namespace {
+
+/// What the scene's Integrator line says. Radii of pbrt's sppm are in world units and chosen for
+/// its own photon counts: ours is chosen by the footprint, so theirs is only mentioned.
+void take_scene_parameters(const ParameterSet& parameters, bool follow_scene,
+                           IntegratorChoice* choice) {
+  constexpr int kAbsent = -1;
+  IntegratorOptions& options = choice->settings.integrator;
+  const bool depth_is_given = choice->settings.gives("max-depth");
+  const Parameter* depth = parameters.find("maxdepth");
+  const int max_depth = parameters.get_int("maxdepth", kAbsent);
+  if (depth != nullptr && max_depth < 0)
+    throw SceneError(depth->where,
+                     fmt::format("\"maxdepth\" is {}, expected at least 0", max_depth));
+  if (depth == nullptr && !depth_is_given)
+    choice->notes.push_back(
+        fmt::format("the scene gives no maxdepth: paths have up to {} scattering events, where "
+                    "pbrt-v4 stops at 5 (-D max-depth=5)",
+                    options.max_depth));
+  if (depth != nullptr && !depth_is_given) options.max_depth = max_depth;
+  if (parameters.find("radius") != nullptr)
+    choice->notes.push_back(
+        "the scene's photon radius in world units is not used: radii are chosen by the size of a "
+        "pixel (-D radius=PIXELS)");
+  const int photons = parameters.get_int("photonsperiteration", kAbsent);
+  if (photons > 0 && follow_scene && !choice->settings.gives("photons"))
+    options.photons_per_pass = photons;
+}
+
+/// The row of a pbrt-v4 integrator; empty if there is none of that name.
+std::optional<FormatType> pbrt_integrator(const std::string& name) {
+  for (const FormatType& type : scene_integrator_types())
+    if (name == type.name) return type;
+  return std::nullopt;
+}
+
+std::string pbrt_integrator_names() {
+  std::string names;
+  for (const FormatType& type : scene_integrator_types())
+    names += (names.empty() ? "" : ", ") + std::string(type.name);
+  return names;
+}
+
+/// The integrator that stands for the scene's own.
+std::string integrator_of_scene(const std::string& scene_integrator, const SourceLocation& where) {
+  // Without an Integrator line pbrt-v4 renders with volpath.
+  const std::string own = scene_integrator.empty() ? "volpath" : scene_integrator;
+  if (!pbrt_integrator(own))
+    throw SceneError(where, fmt::format("unknown integrator \"{}\", expected one of: {}", own,
+                                        pbrt_integrator_names()));
+  std::string name = integrator_for_scene_name(own);
+  if (name.empty())
+    throw UsageError(fmt::format(
+        "--integrator scene: there is no integrator that stands for the scene's '{}'", own));
+  return name;
+}
+
+/// Warns of what pbrt-v4 would not know; nothing depends on it.
+void warn_of_unknown_names(const std::string& scene_integrator, const ParameterSet& parameters,
+                           IntegratorChoice* choice) {
+  Diagnostics diagnostics;
+  const std::string own = scene_integrator.empty() ? "volpath" : scene_integrator;
+  const std::optional<FormatType> type = pbrt_integrator(own);
+  if (!type) {
+    diagnostics.warn(parameters.where, fmt::format("unknown integrator \"{}\", \"{}\" is used",
+                                                   scene_integrator, choice->name));
+  } else {
+    if (parameters.get_bool("regularize", false))
+      diagnostics.warn(parameters.find("regularize")->where,
+                       "\"regularize\" has no effect here: what it would hide, photons render");
+    parameters.report_unused("integrator \"" + own + "\"", *type, diagnostics);
+  }
+  for (const Warning& warning : diagnostics.warnings())
+    choice->warnings.push_back(located(warning.where, warning.message));
+}
+
+}  // namespace
+
+IntegratorChoice choose_integrator(const std::string& wanted, const std::string& scene_integrator,
+                                   const ParameterSet& scene_parameters,
+                                   const RenderSettings& settings) {
+  IntegratorChoice choice;
+  const bool follow_scene = wanted == "scene";
+  choice.name =
+      follow_scene ? integrator_of_scene(scene_integrator, scene_parameters.where) : wanted;
+  choice.settings = settings;
+  take_scene_parameters(scene_parameters, follow_scene, &choice);
+  warn_of_unknown_names(scene_integrator, scene_parameters, &choice);
+  return choice;
+}
+
+}  // namespace nephroid

@@ -1,0 +1,16 @@
+// Which of the user's -D keys change nothing with the routes of a render. It must not know what the
+// keys do.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "route/routes.h"
+
+namespace nephroid {
+
+/// A warning for each key that concerns only estimators which own no route here.
+std::vector<std::string> unused_settings(const std::vector<std::string>& keys,
+                                         const Routes& routes);
+
+}  // namespace nephroid

@@ -1,0 +1,162 @@
+// The measures against numbers worked out by hand, and the promises of the heat map's colours.
+#include "image/compare.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "core/errors.h"
+#include "unit/film/scratch_directory.h"
+
+namespace nephroid {
+namespace {
+
+/// One row of pixels.
+Picture picture_of(const std::vector<std::string>& channels, const std::vector<float>& pixels) {
+  Picture picture;
+  picture.channels = channels;
+  picture.pixels = pixels;
+  const int width = static_cast<int>(pixels.size() / channels.size());
+  picture.window = {0, 0, width, 1};
+  picture.full_width = width;
+  picture.full_height = 1;
+  return picture;
+}
+Picture rgb(const std::vector<float>& pixels) {
+  return picture_of({"R", "G", "B"}, pixels);
+}
+
+const std::vector<std::string> kWithError = {"R", "G", "B", "stderr.R", "stderr.G", "stderr.B"};
+
+TEST(Compare, HandComputed) {
+  const Picture reference = rgb({1, 1, 1, 0, 0, 0, 2, 2, 2});
+  const Picture test = rgb({2, 1, 1, 0.1f, 0, 0, 2, 2, 0});
+  const Comparison c = compare_pictures(reference, test, {});
+  // Squared differences 1, 0.01 and 4 over nine values.
+  EXPECT_NEAR(c.rmse, std::sqrt(5.01 / 9), 1e-7);
+  const double pixels[3] = {1 / 1.01 / 3, 0.01 / 0.01 / 3, 4 / 4.01 / 3};
+  EXPECT_NEAR(c.relmse, (pixels[0] + pixels[1] + pixels[2]) / 3, 1e-7);
+  // One pixel is dropped, the worst: the second is 1/3, the third a little less.
+  EXPECT_NEAR(c.relmse_trim, (pixels[0] + pixels[2]) / 2, 1e-7);
+  EXPECT_NEAR(c.mean.value, (2 + 1 + 1 + 0.1 + 2 + 2) / 9 - 1, 1e-7);
+  EXPECT_FALSE(c.mean.half_width.has_value());
+}
+
+TEST(Compare, TrimDropsOneInAThousand) {
+  std::vector<float> reference(3 * 3000, 1.0f), test = reference;
+  // Three pixels of 3000 may go: the fourth largest stays.
+  for (size_t i = 0; i < 4; ++i) test[3 * 700 * i] = 1 + 10 * static_cast<float>(i + 1);
+  const Comparison c = compare_pictures(rgb(reference), rgb(test), {});
+  EXPECT_NEAR(c.relmse_trim, 100 / 1.01 / 3 / 2997, 1e-9);
+}
+
+TEST(Compare, ChannelsByNameElseTheFirstThree) {
+  const Picture named = picture_of({"A", "B", "G", "R"}, {9, 3, 2, 1});
+  const Picture unnamed = picture_of({"x", "y", "z", "w"}, {1, 2, 3, 7});
+  EXPECT_EQ(compare_pictures(named, unnamed, {}).rmse, 0.0);
+  EXPECT_THROW(compare_pictures(named, picture_of({"Y"}, {1}), {}), UsageError);
+}
+
+TEST(Compare, SizesMustAgree) {
+  EXPECT_THROW(compare_pictures(rgb({1, 1, 1}), rgb({1, 1, 1, 1, 1, 1}), {}), UsageError);
+}
+
+TEST(Compare, NotFiniteIsHuge) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const Comparison c = compare_pictures(rgb({1, 1, 1}), rgb({nan, -kInfinity, 1}), {});
+  EXPECT_NEAR(c.rmse, std::sqrt((std::pow(1e6 - 1, 2) + std::pow(1e6 + 1, 2)) / 3), 1e-3);
+}
+
+TEST(Compare, DimMeanLeavesBrightPixelsOutAndPropagatesBothErrors) {
+  const Picture reference = picture_of(kWithError, {1, 2, 3, 0.1f, 0.1f, 0.2f,  //
+                                                    50, 1, 1, 9, 9, 9,          //
+                                                    2, 2, 2, 0, 0, 0.3f});
+  const Picture test = picture_of(kWithError, {1, 2, 4, 0.2f, 0.2f, 0.2f,  //
+                                               1, 1, 1, 9, 9, 9,           //
+                                               2, 3, 2, 0, 0.1f, 0});
+  const MeanRatio r = compare_pictures(reference, test, {}).dim_mean;
+  EXPECT_EQ(r.pixels, 2u);
+  const double ratio = 14.0 / 12.0;
+  EXPECT_NEAR(r.value, ratio - 1, 1e-12);
+  // Channels fully correlated, pixels independent: sums of stderr per pixel, squared.
+  const double test_variance = 0.6 * 0.6 + 0.1 * 0.1;
+  const double reference_variance = 0.4 * 0.4 + 0.3 * 0.3;
+  const double sigma = std::sqrt(test_variance + ratio * ratio * reference_variance) / 12.0;
+  ASSERT_TRUE(r.half_width.has_value());
+  EXPECT_NEAR(*r.half_width, 1.959964 * sigma, 1e-7);
+}
+
+TEST(Compare, DimMeanIntervalNeedsAnError) {
+  const Picture plain = rgb({1, 1, 1});
+  EXPECT_FALSE(compare_pictures(plain, plain, {}).dim_mean.half_width.has_value());
+  const Picture with = picture_of(kWithError, {1, 1, 1, 0.1f, 0.1f, 0.1f});
+  EXPECT_NEAR(*compare_pictures(plain, with, {}).dim_mean.half_width, 1.959964 * 0.3 / 3, 1e-6);
+  EXPECT_NEAR(*compare_pictures(with, plain, {}).dim_mean.half_width, 1.959964 * 0.3 / 3, 1e-6);
+}
+
+TEST(Compare, ReferenceErrorIsSubtracted) {
+  const Picture reference = picture_of(kWithError, {1, 1, 1, 0.1f, 0, 0, 0, 0, 0, 0, 0, 0.3f});
+  const Picture test = rgb({1.5f, 1, 1, 1, 0, 0});
+  CompareOptions subtract;
+  subtract.subtract_reference_error = true;
+  const Comparison c = compare_pictures(reference, test, subtract);
+  EXPECT_NEAR(c.rmse, std::sqrt((0.25 + 1 - 0.01 - 0.09) / 6), 1e-7);
+  const double first = (0.25 - 0.01) / 1.01 / 3, second = (1 - 0.09) / 0.01 / 3;
+  EXPECT_NEAR(c.relmse, (first + second) / 2, 1e-5);
+  EXPECT_NEAR(c.relmse_trim, first, 1e-7);
+  EXPECT_THROW(compare_pictures(test, test, subtract), UsageError);
+}
+
+double luminance(const HeatColor& c) {
+  const auto linear = [](uint8_t code) {
+    const double v = code / 255.0;
+    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+  };
+  return 0.2126 * linear(c.r) + 0.7152 * linear(c.g) + 0.0722 * linear(c.b);
+}
+
+TEST(Compare, DeviationsAreInUnitsOfBothErrors) {
+  const Picture reference =
+      picture_of(kWithError, {1, 1, 1, .3f, .3f, .3f, 2, 2, 2, 0, 0, 0, 3, 3, 3, 0, 0, 0});
+  // z of 2 in one channel, of 4 in one channel, and a pixel that is equal and has no error.
+  const Picture test =
+      picture_of(kWithError, {2, 1, 1, .4f, .4f, .4f, 2, 6, 2, 1, 1, 1, 3, 3, 3, 0, 0, 0});
+  const Comparison c = compare_pictures(reference, test, {});
+  ASSERT_TRUE(c.deviations);
+  EXPECT_NEAR(c.deviations->share_within, 2.0 / 3, 1e-12);
+  EXPECT_NEAR(c.deviations->rms, std::sqrt((4.0 + 16.0) / 9), 1e-6);
+  // Of nine values one is two and one four errors off.
+  EXPECT_NEAR(c.deviations->share_in_95, 7.0 / 9, 1e-12);
+  EXPECT_FALSE(compare_pictures(reference, rgb({1, 1, 1, 2, 2, 2, 3, 3, 3}), {}).deviations);
+}
+
+TEST(HeatMap, LargerErrorsAreLighter) {
+  double last = -1;
+  // Steps of an eighth of a decade are far more than the rounding of codes.
+  for (double exponent = -5; exponent <= 1.0001; exponent += 0.125) {
+    const double y = luminance(heat_color(std::pow(10.0, exponent)));
+    EXPECT_GT(y, last) << exponent;
+    last = y;
+  }
+  EXPECT_EQ(luminance(heat_color(0)), luminance(heat_color(kHeatMin)));
+  EXPECT_EQ(luminance(heat_color(1e9)), luminance(heat_color(kHeatMax)));
+}
+
+TEST(HeatMap, WritesOneColourAPixelAndItsScale) {
+  const ScratchDirectory directory;
+  const std::string path = directory.file("heat.png");
+  write_heat_map(path, rgb({1, 1, 1, 1, 1, 1}), rgb({1, 1, 1, 2, 2, 2}));
+  const Picture heat = read_picture(path);
+  ASSERT_EQ(heat.width(), 2);
+  const HeatColor none = heat_color(0), some = heat_color(1 / 1.01);
+  EXPECT_FLOAT_EQ(heat.pixels[0], static_cast<float>(none.r) / 255);
+  EXPECT_FLOAT_EQ(heat.pixels[3], static_cast<float>(some.r) / 255);
+  EXPECT_FLOAT_EQ(heat.pixels[4], static_cast<float>(some.g) / 255);
+  EXPECT_NE(heat_map_legend().find("0.001\n"), std::string::npos);
+  EXPECT_NE(heat_map_legend().find("10 or more\n"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace nephroid
