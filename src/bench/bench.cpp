@@ -253,7 +253,6 @@ void write_results(const BenchResults& results) {
   write("results.json", results_json(results));
   write("runs.csv", runs_csv(results));
   write("curves.csv", curves_csv(results));
-  if (!results.experiments.empty()) write("experiments.csv", experiments_csv(results));
   write("report.html", bench_report(results));
 }
 
@@ -276,12 +275,6 @@ BenchResults run_bench(const BenchSuite& suite, const BenchOptions& options, Sig
     if (bench.stopped()) break;
     results.scenes.push_back(bench.scene(*scene));
   }
-  // Scenes by name are scenes alone.
-  for (const std::string& name : suite.experiments)
-    if (options.only.empty() && !bench.stopped()) {
-      options.say("experiment " + name);
-      results.experiments.push_back(run_experiment(name));
-    }
   results.signal = signals.stop.load();
   results.verdicts = judge_claims(results);
   write_results(results);

@@ -47,9 +47,6 @@ std::string navigation(const BenchResults& results) {
   for (const BenchSceneResult& scene : results.scenes)
     html += fmt::format("<a href=\"#scene-{}\">{}</a>", scene.name,
                         html_escape(title_of(results, scene.name)));
-  for (const BenchExperiment& experiment : results.experiments)
-    html += fmt::format("<a href=\"#experiment-{}\">{}</a>", experiment.name,
-                        html_escape(experiment.title));
   return html + "<a href=\"#again\">How to repeat it</a></nav>\n";
 }
 
@@ -183,8 +180,6 @@ std::string bench_report(const BenchResults& results) {
                         results.failures(), results.failures() == 1 ? "" : "s");
   html += claims_section(results) + summary_section(results);
   for (const BenchSceneResult& scene : results.scenes) html += report_of_scene(results, scene);
-  for (const BenchExperiment& experiment : results.experiments)
-    html += report_of_experiment(experiment);
   return html + again_section(results) + "<script>" + kReportScript +
          "</script>\n</body>\n</html>\n";
 }

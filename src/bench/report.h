@@ -18,9 +18,6 @@ std::string rmse_text(const BenchRun& run);
 /// The part of the page about one scene.
 std::string report_of_scene(const BenchResults& results, const BenchSceneResult& scene);
 
-/// The part of the page about an experiment.
-std::string report_of_experiment(const BenchExperiment& experiment);
-
 /// A table row by row: cells are HTML, `best` marks some.
 struct ReportTable {
   struct Cell {

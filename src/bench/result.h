@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "bench/experiment.h"
 #include "bench/suite.h"
 
 namespace nephroid {
@@ -108,8 +107,7 @@ struct BenchResults {
   std::string directory;
   std::vector<BenchSceneResult> scenes;
   std::vector<BenchVerdict> verdicts;  ///< [claim]
-  std::vector<BenchExperiment> experiments;
-  int signal = 0;  ///< that stopped it, if one did
+  int signal = 0;                      ///< that stopped it, if one did
   int failures() const;
 };
 
@@ -119,11 +117,10 @@ std::optional<BenchRun> run_from_json(const std::string& text);
 std::string reference_to_json(const BenchReferenceResult& reference);
 std::optional<BenchReferenceResult> reference_from_json(const std::string& text);
 
-/// Everything as one JSON text, as CSV with a line for each run, as CSV with a line for each
-/// measured point of the first renders, and the points of experiments as CSV.
+/// Everything as one JSON text, as CSV with a line for each run, and as CSV with a line for each
+/// measured point of the first renders.
 std::string results_json(const BenchResults& results);
 std::string runs_csv(const BenchResults& results);
 std::string curves_csv(const BenchResults& results);
-std::string experiments_csv(const BenchResults& results);
 
 }  // namespace nephroid

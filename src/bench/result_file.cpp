@@ -149,28 +149,6 @@ std::string dump(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-Json experiments_json(const std::vector<BenchExperiment>& experiments) {
-  Json json = Json::array();
-  for (const BenchExperiment& experiment : experiments) {
-    Json parts = Json::array();
-    for (const ExperimentPart& part : experiment.parts) {
-      Json curves = Json::array();
-      for (const ExperimentCurve& curve : part.curves) {
-        Json points = Json::array();
-        for (const CurvePoint& p : curve.points)
-          points.push_back({{"passes", p.x}, {"error", p.y}});
-        curves.push_back({{"name", curve.name},
-                          {"slope", curve.slope},
-                          {"predicted", curve.predicted},
-                          {"points", std::move(points)}});
-      }
-      parts.push_back({{"title", part.title}, {"curves", std::move(curves)}});
-    }
-    json.push_back({{"name", experiment.name}, {"parts", std::move(parts)}});
-  }
-  return json;
-}
-
 const char* state_name(BenchVerdict::State state) {
   if (state == BenchVerdict::State::kHolds) return "holds";
   return state == BenchVerdict::State::kFails ? "fails" : "not measured";
@@ -252,8 +230,7 @@ std::string results_json(const BenchResults& results) {
                  {"date", m.date},
                  {"command", m.command}}},
                {"scenes", Json::array()},
-               {"claims", Json::array()},
-               {"experiments", experiments_json(results.experiments)}};
+               {"claims", Json::array()}};
   for (const BenchSceneResult& scene : results.scenes) {
     Json runs = Json::array();
     for (const BenchRun& run : scene.runs) {
@@ -313,18 +290,6 @@ std::string curves_csv(const BenchResults& results) {
         line("", p.errors);
         for (const auto& [name, errors] : p.layers) line(name, errors);
       }
-  return csv;
-}
-
-std::string experiments_csv(const BenchResults& results) {
-  std::string csv = "experiment,part,curve,passes,error,slope,predicted\n";
-  for (const BenchExperiment& experiment : results.experiments)
-    for (const ExperimentPart& part : experiment.parts)
-      for (const ExperimentCurve& curve : part.curves)
-        for (const CurvePoint& p : curve.points)
-          csv += fmt::format("{},{},{},{:g},{:.9g},{:.6g},{:.6g}\n", experiment.name,
-                             field(part.title), field(curve.name), p.x, p.y, curve.slope,
-                             curve.predicted);
   return csv;
 }
 

@@ -9,7 +9,6 @@
 #include <iterator>
 #include <limits>
 
-#include "bench/experiment.h"
 #include "bench/suite_claims.h"
 #include "bench/suite_fields.h"
 #include "session/option_values.h"
@@ -247,16 +246,6 @@ BenchScene scene_in(const JsonValue& value, const BenchSuite& suite) {
   return scene;
 }
 
-std::string experiment_in(const JsonValue& value) {
-  const std::string& name = text_of(value, "an item of \"experiments\"");
-  std::string known;
-  for (const std::string& experiment : experiment_names()) {
-    if (name == experiment) return name;
-    known += (known.empty() ? "" : ", ") + experiment;
-  }
-  fail_at(value.where, fmt::format("unknown experiment \"{}\", expected one of: {}", name, known));
-}
-
 /// The items of a list that must not be empty.
 const std::vector<JsonValue>& filled_list(const Fields& fields, const std::string& name) {
   const JsonValue& value = fields.required(name);
@@ -284,7 +273,7 @@ BenchSuite parse_suite(const std::string& text, const std::string& file) {
   const JsonValue root = parse_json(text, file);
   const Fields fields(root, "a suite",
                       {"name", "title", "description", "time", "passes", "repeat", "integrators",
-                       "scenes", "claims", "experiments"});
+                       "scenes", "claims"});
   BenchSuite suite;
   suite.file = file;
   suite.name = name_in(fields);
@@ -304,8 +293,6 @@ BenchSuite parse_suite(const std::string& text, const std::string& file) {
   }
   for (const JsonValue& item : fields.list("claims"))
     suite.claims.push_back(parse_claim(item, suite));
-  for (const JsonValue& item : fields.list("experiments"))
-    suite.experiments.push_back(experiment_in(item));
   return suite;
 }
 

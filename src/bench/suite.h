@@ -109,7 +109,6 @@ struct BenchSuite {
   std::vector<BenchIntegrator> integrators;
   std::vector<BenchScene> scenes;
   std::vector<BenchClaim> claims;
-  std::vector<std::string> experiments;  ///< names that experiment.h has
 
   /// Null if there is none of that name.
   const BenchIntegrator* find_integrator(const std::string& wanted) const;

@@ -48,8 +48,7 @@ constexpr const char* kWhole = R"({
      "scenes": ["cup"]},
     {"text": "e", "metric": "relmse", "smaller": "own", "than": "mixed", "layer": "seen",
      "scenes": ["cup"], "at": "time"}
-  ],
-  "experiments": ["line"]
+  ]
 })";
 
 TEST(Suite, EverythingIsUnderstood) {
@@ -80,7 +79,6 @@ TEST(Suite, EverythingIsUnderstood) {
   EXPECT_EQ(suite.scenes[1].reference.file, "dir/room.exr");
   EXPECT_EQ(suite.scenes[1].integrators.size(), 3u);
   EXPECT_EQ(cup.layers[0].expression, "C D L");
-  EXPECT_EQ(suite.experiments, std::vector<std::string>{"line"});
   ASSERT_EQ(suite.claims.size(), 5u);
   EXPECT_EQ(suite.claims[0].others.size(), 2u);
   EXPECT_EQ(suite.claims[1].form, BenchClaim::Form::kBetween);
@@ -160,7 +158,6 @@ TEST(Suite, ErrorsPointAtTheirPlace) {
        "\"layer\" does not fit"},
       {"\"metric\": \"rmse\", \"smaller\"", "\"metric\": \"slope\", \"smaller\"",
        "\"slope\", \"smaller\"", "slopes are not compared"},
-      {"\"line\"", "\"plane\"", "\"plane\"", "unknown experiment \"plane\", expected one of: line"},
       {"\"over\": \"emitted\"", "\"factor\": 2", "\"factor\": 2",
        "unknown key \"factor\" in a claim of this form"},
   };
