@@ -2,8 +2,9 @@
 # sources in its folder; a layer links only what stands before it.
 function(nephroid_layer name folder)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${folder}/*.cpp)
-  # A library of its own, see below.
-  list(REMOVE_ITEM sources ${CMAKE_SOURCE_DIR}/src/scene/pixel_filter.cpp)
+  # A library of its own and a program, see below.
+  list(REMOVE_ITEM sources ${CMAKE_SOURCE_DIR}/src/scene/pixel_filter.cpp
+                           ${CMAKE_SOURCE_DIR}/src/report_page/main.cpp)
   if(sources)
     add_library(nephroid_${name} STATIC ${sources})
     target_link_libraries(nephroid_${name} PUBLIC nephroid_flags ${ARGN})
@@ -53,6 +54,12 @@ nephroid_layer(photon photon nephroid_transport)
 nephroid_layer(integrator integrator nephroid_photon nephroid_film)
 nephroid_layer(session session nephroid_integrator)
 nephroid_layer(bench bench nephroid_session nlohmann_json::nlohmann_json)
+nephroid_layer(report_page report_page nephroid_bench)
+
+# Draws the results of `nephroid bench`. The renderer does not link the page.
+add_executable(nephroid-bench-report ${CMAKE_SOURCE_DIR}/src/report_page/main.cpp)
+target_link_libraries(nephroid-bench-report PRIVATE nephroid_report_page CLI11::CLI11)
+nephroid_precompiled(nephroid-bench-report nephroid_core)
 
 file(GLOB app_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/apps/*.cpp)
 if(app_sources)

@@ -11,7 +11,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SRC = ROOT / "src"
 LAYERS = ["core", "input", "scene", "route", "film", "transport", "photon", "integrator", "session",
-          "bench", "apps"]
+          "bench", "report_page", "apps"]
 # Within scene/, the folders that others build on come first; the files of scene/ itself come last. A few
 # headers of scene/ are vocabulary for the folders below it.
 SCENE = ["shape", "bsdf", "texture", "medium", "material", "light", "camera", ""]
@@ -23,7 +23,7 @@ LIBRARIES = {
     r"OpenEXR/": {"film"},
     r"OpenImageIO/": {"scene/texture", "scene/material", "film", "tests"},
     r"nanovdb/": {"scene/medium/nanovdb_grid.cpp"},
-    r"CLI/": {"session", "apps"},
+    r"CLI/": {"session", "apps", "report_page/main.cpp"},
     r"nlohmann/": {"bench", "session/film_metadata.cpp"},
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')

@@ -12,7 +12,6 @@
 #include "bench/kept_scenes.h"
 #include "bench/measure.h"
 #include "bench/render.h"
-#include "bench/report.h"
 #include "core/errors.h"
 #include "core/parallel.h"
 #include "film/atomic_file.h"
@@ -156,7 +155,12 @@ class Bench {
     const BenchRender render{&scene, &wanted.integrator, wanted.limit, true};
     const KeptFiles files = kept_files(options_.directory, "references", scene.name,
                                        reference_key(render, hash_of_scene(render)));
-    if (const auto kept = kept_reference(files, picture)) return kept;
+    const RouteChoice& routes = wanted.integrator.routes;
+    const std::string integrator = name_of(routes, routes.integrator);
+    if (auto kept = kept_reference(files, picture)) {
+      kept->integrator = integrator;
+      return kept;
+    }
     options_.say(fmt::format("{}: rendering the reference", scene.name));
     const auto rendered = render_for_bench(render, nullptr, shelf_, signals_);
     if (!rendered) return std::nullopt;
@@ -166,6 +170,7 @@ class Bench {
     result.picture = files.picture;
     result.key = hash_picture(*picture);
     result.rendered = true;
+    result.integrator = integrator;
     result.passes = rendered->run.end().passes;
     result.seconds = rendered->run.end().seconds;
     result.own_error = own_error(*picture);
@@ -253,7 +258,6 @@ void write_results(const BenchResults& results) {
   write("results.json", results_json(results));
   write("runs.csv", runs_csv(results));
   write("curves.csv", curves_csv(results));
-  write("report.html", bench_report(results));
 }
 
 }  // namespace
@@ -263,7 +267,7 @@ BenchResults run_bench(const BenchSuite& suite, const BenchOptions& options, Sig
   std::error_code error;
   std::filesystem::create_directories(options.directory, error);
   if (error) throw IoError(options.directory + ": cannot make the directory: " + error.message());
-  check_file_can_be_written((std::filesystem::path(options.directory) / "report.html").string());
+  check_file_can_be_written((std::filesystem::path(options.directory) / "results.json").string());
 
   BenchResults results;
   results.suite = suite;

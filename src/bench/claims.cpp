@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/figure_text.h"
 #include "bench/fit.h"
-#include "bench/html_text.h"
 #include "bench/repeats.h"
 
 namespace nephroid {

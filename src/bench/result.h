@@ -1,6 +1,6 @@
-// What a suite found out: runs with their curves, references, and how the claims fared. Runs are
-// kept as JSON, so that a second invocation need not repeat them. Who calls it: bench.h writes it,
-// claims, tables and report read it. It must not know how anything is rendered or drawn.
+// The results of a suite: runs with their curves, references, and how the claims fared. Runs are
+// kept as JSON, so that a second invocation need not repeat them, and results.json has all that the
+// page shows. It must not know how anything is rendered or drawn.
 #pragma once
 
 #include <cstdint>
@@ -62,9 +62,10 @@ struct BenchRun {
 };
 
 struct BenchReferenceResult {
-  std::string picture;    ///< file
-  std::string key;        ///< hash of the picture itself, 16 digits
-  bool rendered = false;  ///< by the suite, now or earlier
+  std::string picture;     ///< file
+  std::string key;         ///< hash of the picture itself, 16 digits
+  bool rendered = false;   ///< by the suite, now or earlier
+  std::string integrator;  ///< integrator or routes that rendered it, empty for a file
   bool kept = false;
   uint32_t passes = 0;
   double seconds = 0;
@@ -120,6 +121,9 @@ std::optional<BenchReferenceResult> reference_from_json(const std::string& text)
 /// Everything as one JSON text, as CSV with a line for each run, and as CSV with a line for each
 /// measured point of the first renders.
 std::string results_json(const BenchResults& results);
+/// What results_json wrote, read back; of the suite only what the page shows. `file` is where the
+/// text is from: pictures are looked for in its directory. Throws UsageError for any other text.
+BenchResults results_from_json(const std::string& text, const std::string& file);
 std::string runs_csv(const BenchResults& results);
 std::string curves_csv(const BenchResults& results);
 

@@ -9,7 +9,6 @@
 #include "bench/fit.h"
 #include "bench/measure.h"
 #include "bench/repeats.h"
-#include "bench/svg_plot.h"
 #include "core/errors.h"
 
 namespace nephroid {
@@ -254,18 +253,6 @@ TEST(ResultFiles, EveryCsvLineHasAllColumns) {
     for (size_t begin = 0; begin < csv.size(); begin = csv.find('\n', begin) + 1)
       EXPECT_EQ(commas(begin, csv.find('\n', begin)), columns) << csv.substr(begin, 80);
   }
-}
-
-TEST(Plot, TicksOfFewAndOfManyDecades) {
-  const auto labels = [](double low, double high) {
-    std::vector<double> values;
-    for (const LogTick& tick : log_ticks(low, high))
-      if (tick.labelled) values.push_back(tick.value);
-    return values;
-  };
-  EXPECT_EQ(labels(1, 1000), (std::vector<double>{1, 10, 100, 1000}));
-  EXPECT_EQ(labels(1.5, 25), (std::vector<double>{2, 5, 10, 20}));
-  EXPECT_EQ(labels(21, 49), (std::vector<double>{30, 40}));
 }
 
 TEST(Measure, ARegionHasThePixelsWhoseCentresItHas) {

@@ -1,13 +1,16 @@
 // The page around the scenes: head, claims, summary, how to repeat it.
-#include "bench/report.h"
+#include "report_page/page.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "bench/html_text.h"
+#include "bench/figure_text.h"
+#include "bench/kept.h"
 #include "bench/repeats.h"
+#include "core/errors.h"
+#include "report_page/html_text.h"
 #include "session/compare.h"
 
 namespace nephroid {
@@ -182,6 +185,12 @@ std::string bench_report(const BenchResults& results) {
   for (const BenchSceneResult& scene : results.scenes) html += report_of_scene(results, scene);
   return html + again_section(results) + "<script>" + kReportScript +
          "</script>\n</body>\n</html>\n";
+}
+
+void write_report(const std::string& results_file, const std::string& page_file) {
+  const auto text = text_of_file(results_file);
+  if (!text) throw IoError("'" + results_file + "' cannot be read");
+  write_text(page_file, bench_report(results_from_json(*text, results_file)));
 }
 
 }  // namespace nephroid

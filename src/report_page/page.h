@@ -1,5 +1,5 @@
 // The HTML page of a suite: one file that holds its pictures, plots, style and script.
-// Who calls it: bench.cpp. It must not know how anything was measured.
+// It must not know how anything was measured.
 #pragma once
 
 #include <string>
@@ -11,6 +11,10 @@ namespace nephroid {
 /// The page. Pictures are read from the files that the results name; one that cannot be read is
 /// replaced by a message.
 std::string bench_report(const BenchResults& results);
+
+/// Reads a results.json and writes its page. Throws IoError for a file that cannot be read or
+/// written, UsageError for one that has no results.
+void write_report(const std::string& results_file, const std::string& page_file);
 
 /// RMSE at the end, over all renders of the run, and between which it lies if there are several.
 std::string rmse_text(const BenchRun& run);

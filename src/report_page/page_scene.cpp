@@ -6,12 +6,13 @@
 #include <functional>
 #include <optional>
 
+#include "bench/figure_text.h"
 #include "bench/fit.h"
-#include "bench/html_text.h"
 #include "bench/repeats.h"
-#include "bench/report.h"
-#include "bench/svg_plot.h"
 #include "core/errors.h"
+#include "report_page/html_text.h"
+#include "report_page/page.h"
+#include "report_page/svg_plot.h"
 #include "session/compare.h"
 #include "session/flip.h"
 
@@ -269,12 +270,11 @@ std::string plots(const BenchResults& results, const std::vector<const BenchRun*
 
 std::string facts(const BenchScene& scene, const BenchSceneResult& result) {
   const BenchReferenceResult& r = result.reference;
-  const RouteChoice& routes = scene.reference.integrator.routes;
   std::string text =
       fmt::format("{}, {} × {} pixels. Reference: ", scene.file, result.width, result.height);
   if (r.rendered)
-    text += fmt::format("rendered with {}, {} passes in {}", name_of(routes, routes.integrator),
-                        r.passes, seconds_in_words(r.seconds));
+    text += fmt::format("rendered with {}, {} passes in {}", r.integrator, r.passes,
+                        seconds_in_words(r.seconds));
   else
     text += r.picture;
   if (r.own_error)
