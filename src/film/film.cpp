@@ -86,11 +86,6 @@ size_t Film::bytes_per_pixel(const FilmLayout& layout, bool gbuffer) {
          (gbuffer ? sizeof(SurfaceSums) + sizeof(uint64_t) : 0) + sizeof(uint64_t);  // depths
 }
 
-Rgb clamp_component(const Rgb& rgb, float limit) {
-  const float largest = std::max({std::abs(rgb.r), std::abs(rgb.g), std::abs(rgb.b)});
-  return largest > limit ? rgb * (limit / largest) : rgb;
-}
-
 const std::vector<int>& Film::parts_of(int group) const {
   return parts_of_group_[static_cast<size_t>(group)];
 }
@@ -379,12 +374,6 @@ SurfaceSample Film::surface(int x, int y) const {
   s.dzdx = std::abs(mean(11));
   s.dzdy = std::abs(mean(12));
   return s;
-}
-
-uint64_t Film::bad_values() const {
-  uint64_t count = 0;
-  for (const BadEstimates& bad : bad_) count += bad.count;
-  return count;
 }
 
 }  // namespace nephroid
