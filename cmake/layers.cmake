@@ -25,7 +25,7 @@ if(NOT NEPHROID_STD_THREADS)
   list(APPEND parallel_backend TBB::tbb)
 endif()
 
-nephroid_layer(core core Imath::Imath fmt::fmt ${parallel_backend})
+nephroid_layer(core core Imath::Imath fmt::fmt PkgConfig::xxHash ${parallel_backend})
 if(NEPHROID_STD_THREADS)
   target_compile_definitions(nephroid_core PUBLIC NEPHROID_STD_THREADS)
 endif()

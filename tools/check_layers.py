@@ -23,6 +23,7 @@ LIBRARIES = {
     r"OpenEXR/": {"film"},
     r"OpenImageIO/": {"scene/texture", "scene/material", "film", "tests"},
     r"nanovdb/": {"scene/medium/nanovdb_grid.cpp"},
+    r"xxhash": {"core/content_hash.cpp"},
     r"CLI/": {"session", "apps", "report_page/main.cpp"},
     r"nlohmann/": {"bench", "session/film_metadata.cpp"},
 }

@@ -21,8 +21,9 @@ inline constexpr const char* kPartPrefix = "state.";
 /// The last part: two words for each other one, by which damage is seen.
 inline constexpr const char* kChecksums = "checksums";
 /// In that part's header: hash_of_texts of the picture. Times differ from run to run, what is in
-/// the parts does not.
-inline constexpr const char* kTextsKey = "nephroid:texts";
+/// the parts does not. The key names the hash: a state without it is of an earlier build, and is
+/// not taken for a damaged one.
+inline constexpr const char* kTextsKey = "nephroid:texts.xxh3";
 /// How many words of a part are used.
 inline constexpr const char* kWordsKey = "nephroid:words";
 
