@@ -1,6 +1,7 @@
 #include "bench/bench.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <ctime>
@@ -49,16 +50,12 @@ BenchLimit limit_of(const BenchSuite& suite, const BenchScene& scene, const Benc
 }
 
 std::vector<const BenchScene*> chosen_scenes(const BenchSuite& suite, const BenchOptions& options) {
-  std::string known;
   std::vector<std::string> names;
-  for (const BenchScene& scene : suite.scenes) {
-    known += (known.empty() ? "" : ", ") + scene.name;
-    names.push_back(scene.name);
-  }
+  for (const BenchScene& scene : suite.scenes) names.push_back(scene.name);
   for (const std::string& name : options.only)
     if (suite.find_scene(name) == nullptr)
       throw UsageError(fmt::format("--only: the suite has no scene '{}', expected one of: {}{}",
-                                   name, known, did_you_mean(name, names)));
+                                   name, fmt::join(names, ", "), did_you_mean(name, names)));
   std::vector<const BenchScene*> chosen;
   for (const BenchScene& scene : suite.scenes) {
     if (!options.only.empty() &&

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <iterator>
 
 namespace nephroid {
 
@@ -12,18 +11,6 @@ std::string number_text(double value) {
   if (value < 0) return "−" + number_text(-value);
   if (value >= 1000 && value < 1e6) return fmt::format("{:.0f}", value);
   return fmt::format("{:.3g}", value);
-}
-
-std::string count_text(double value) {
-  constexpr const char* kUnits[] = {"", " k", " M", " G", " T"};
-  size_t unit = 0;
-  for (; std::abs(value) >= 999.5 && unit + 1 < std::size(kUnits); ++unit) value /= 1000;
-  return fmt::format("{:.3g}{}", value, kUnits[unit]);
-}
-
-std::string bytes_in_words(double value) {
-  const std::string text = count_text(value);
-  return text + (text.find(' ') == std::string::npos ? " B" : "B");
 }
 
 std::string seconds_in_words(double seconds) {

@@ -8,10 +8,6 @@ namespace nephroid {
 /// Three significant digits, or all before the point: "0.0123", "12345", "4.5e-07"; an em dash for
 /// what is not finite.
 std::string number_text(double value);
-/// "1.23 M", the unit by thousands; "0" for 0.
-std::string count_text(double value);
-/// "1.23 MB", by thousands.
-std::string bytes_in_words(double value);
 
 /// "12.3 ms", "4.56 s", "7.89 min", "1.23 h".
 std::string seconds_in_words(double seconds);

@@ -15,6 +15,7 @@
 #include "report_page/svg_plot.h"
 #include "session/compare.h"
 #include "session/flip.h"
+#include "session/short_number.h"
 
 namespace nephroid {
 namespace {
@@ -189,10 +190,10 @@ std::string error_table(const std::vector<const BenchRun*>& runs,
 }
 
 std::string bytes_or_dash(uint64_t bytes) {
-  return bytes == 0 ? "—" : bytes_in_words(static_cast<double>(bytes));
+  return bytes == 0 ? "—" : short_bytes(static_cast<double>(bytes));
 }
 std::string count_or_dash(uint64_t count) {
-  return count == 0 ? "—" : count_text(static_cast<double>(count));
+  return count == 0 ? "—" : short_number(static_cast<double>(count));
 }
 
 std::string work_table(const std::vector<const BenchRun*>& runs) {
@@ -206,7 +207,9 @@ std::string work_table(const std::vector<const BenchRun*>& runs) {
        {"whole program", [](const BenchRun& r) { return bytes_or_dash(r.process_bytes); }, {}},
        {"rays", [](const BenchRun& r) { return count_or_dash(r.rays); }, {}},
        {"rays per second",
-        [](const BenchRun& r) { return count_text(static_cast<double>(r.rays) / r.end().seconds); },
+        [](const BenchRun& r) {
+          return short_number(static_cast<double>(r.rays) / r.end().seconds);
+        },
         {}}});
 }
 
