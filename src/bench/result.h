@@ -121,8 +121,9 @@ std::optional<BenchReferenceResult> reference_from_json(const std::string& text)
 /// Everything as one JSON text, as CSV with a line for each run, and as CSV with a line for each
 /// measured point of the first renders.
 std::string results_json(const BenchResults& results);
-/// What results_json wrote, read back; of the suite only what the page shows. `file` is where the
-/// text is from: pictures are looked for in its directory. Throws UsageError for any other text.
+/// Reads the text of results_json; the suite in it has only the fields that the page shows.
+/// Pictures are looked for in the directory of `file`, which the text is from. Throws UsageError
+/// for any other text.
 BenchResults results_from_json(const std::string& text, const std::string& file);
 std::string runs_csv(const BenchResults& results);
 std::string curves_csv(const BenchResults& results);

@@ -1,7 +1,6 @@
-// How a state lies in a picture's file: the names of its parts and channels, the pixels of what is
-// not of pixels, and frames over memory. Who calls it: exr_file.cpp, which writes it, and
-// state_file.cpp, which reads it; nobody else, it has OpenEXR's types in it. It must not know what
-// a state means.
+// The layout of a state in a picture's file: names of parts and channels, windows of streams, and
+// frames over memory. Only exr_file.cpp and state_file.cpp include it, since it has OpenEXR's
+// types. It must not know what a state means.
 #pragma once
 
 #include <OpenEXR/ImfCompression.h>

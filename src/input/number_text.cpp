@@ -1,4 +1,4 @@
-// Numbers from text with std::from_chars, and what it leaves open.
+// Numbers from text with std::from_chars; values out of range become infinity or zero.
 #include "input/number_text.h"
 
 #include <algorithm>

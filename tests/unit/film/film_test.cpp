@@ -266,7 +266,7 @@ TEST(Film, AnEstimateWithOneBadPartIsLeftOutAsAWhole) {
   const Rgb bad[] = {{1, 1, 1}, {0, std::numeric_limits<float>::quiet_NaN(), 0}, {1, 1, 1}};
   film.add(0, 2, 1, bad);
   film.add_estimates(0, 1);
-  EXPECT_EQ(film.bad_estimates(0).count, 1u);
+  EXPECT_EQ(film.bad_estimates(2).count, 1u);
   EXPECT_EQ(film.value(2, 1).r, 0.0f);
   film.count_saturated(5);
   EXPECT_EQ(film.saturated_values(), 5u);
