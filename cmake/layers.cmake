@@ -9,8 +9,9 @@ function(nephroid_layer name folder)
     file(GLOB of_room CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${folder}/${room}/*.cpp)
     list(APPEND sources ${of_room})
   endforeach()
-  # A library of its own, see below.
-  list(REMOVE_ITEM sources ${CMAKE_SOURCE_DIR}/src/scene/pixel_filter.cpp)
+  # A library of its own and a program, see below.
+  list(REMOVE_ITEM sources ${CMAKE_SOURCE_DIR}/src/scene/pixel_filter.cpp
+                           ${CMAKE_SOURCE_DIR}/src/report_page/main.cpp)
   if(sources)
     add_library(nephroid_${name} STATIC ${sources})
     target_link_libraries(nephroid_${name} PUBLIC nephroid_flags ${layer_UNPARSED_ARGUMENTS})
@@ -31,7 +32,7 @@ if(NOT NEPHROID_STD_THREADS)
   list(APPEND parallel_backend TBB::tbb)
 endif()
 
-nephroid_layer(core core Imath::Imath fmt::fmt ${parallel_backend})
+nephroid_layer(core core Imath::Imath fmt::fmt PkgConfig::xxHash ${parallel_backend})
 if(NEPHROID_STD_THREADS)
   target_compile_definitions(nephroid_core PUBLIC NEPHROID_STD_THREADS)
 endif()
@@ -64,6 +65,12 @@ nephroid_layer(image image nephroid_film)
 nephroid_layer(session session nephroid_integrator ROOMS settings report checkpoint)
 nephroid_layer(options options nephroid_session)
 nephroid_layer(bench bench nephroid_options nephroid_image nlohmann_json::nlohmann_json)
+nephroid_layer(report_page report_page nephroid_bench)
+
+# Draws the results of `nephroid bench`. The renderer does not link the page.
+add_executable(nephroid-bench-report ${CMAKE_SOURCE_DIR}/src/report_page/main.cpp)
+target_link_libraries(nephroid-bench-report PRIVATE nephroid_report_page CLI11::CLI11)
+nephroid_precompiled(nephroid-bench-report nephroid_core)
 
 file(GLOB app_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/apps/*.cpp)
 if(app_sources)

@@ -11,7 +11,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SRC = ROOT / "src"
 LAYERS = ["core", "input", "scene", "route", "film", "transport", "photon", "integrator", "image",
-          "session", "options", "bench", "apps"]
+          "session", "options", "bench", "report_page", "apps"]
 # Layers with folders of their own, which are rooms: in this order each includes only from those to its
 # left. "" is the layer's own files.
 ROOMS = {
@@ -29,7 +29,8 @@ LIBRARIES = {
     r"OpenEXR/": {"film"},
     r"OpenImageIO/": {"scene/texture", "scene/material", "film", "tests"},
     r"nanovdb/": {"scene/medium/nanovdb_grid.cpp"},
-    r"CLI/": {"options"},
+    r"xxhash": {"core/content_hash.cpp"},
+    r"CLI/": {"options", "report_page/main.cpp"},
     r"nlohmann/": {"bench", "session/checkpoint/film_metadata.cpp"},
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')

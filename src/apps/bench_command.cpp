@@ -1,4 +1,4 @@
-// `nephroid bench`: a suite in, a report out.
+// `nephroid bench`: a suite in, its results out.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -43,7 +43,9 @@ void print_summary(const BenchResults& results) {
                                                               : "not measured";
     say(fmt::format("claim {}: {}\n", word, printable(results.suite.claims[i].text)));
   }
-  say(fmt::format("wrote {}/report.html\n", printable(results.directory)));
+  const std::string file = results.directory + "/results.json";
+  say(fmt::format("wrote {}; nephroid-bench-report {} draws the page\n", printable(file),
+                  printable(quoted(file))));
 }
 
 }  // namespace

@@ -29,9 +29,9 @@ std::string description(const RenderProgress& p) {
   text += " passes";
   if (p.seconds_left) text += fmt::format(", {} left", clock_text(*p.seconds_left));
   if (p.seconds > 0)
-    text += fmt::format(", {}rays/s", short_number(static_cast<double>(p.rays) / p.seconds));
+    text += fmt::format(", {} rays/s", short_number(static_cast<double>(p.rays) / p.seconds));
   if (p.photons_stored > 0)
-    text += fmt::format(", {}photons kept", short_number(static_cast<double>(p.photons_stored)));
+    text += fmt::format(", {} photons kept", short_number(static_cast<double>(p.photons_stored)));
   if (p.error) text += fmt::format(", error {:.3g}", *p.error);
   return text;
 }

@@ -34,7 +34,7 @@ std::string summary(const RenderResult& result) {
   if (result.passes_done > result.passes_of_run)
     text += fmt::format(", {} in all runs", result.passes_done);
   if (rays > 0 && result.seconds > 0)
-    text += fmt::format(", {}rays/s", short_number(static_cast<double>(rays) / result.seconds));
+    text += fmt::format(", {} rays/s", short_number(static_cast<double>(rays) / result.seconds));
   if (result.error) text += fmt::format(", estimated error {:.3g}", *result.error);
   return text + "\n";
 }
@@ -59,7 +59,7 @@ std::string route_lines(const Film& film) {
   if (!shares.aovs.empty()) text += line("of it in layers:", film.layout().aovs, shares.aovs);
   if (const OutlierRejection* rejection = film.rejection())
     text += fmt::format(
-        "outliers: {} estimates of {}held, {:.3g} % of all light (layer 'outliers')\n",
+        "outliers: {} estimates of {} held, {:.3g} % of all light (layer 'outliers')\n",
         rejection->held_estimates(), short_number(all_estimates(film)), 100 * shares.outliers);
   return text;
 }

@@ -1,6 +1,7 @@
 #include "bench/bench.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <ctime>
@@ -12,7 +13,6 @@
 #include "bench/kept_scenes.h"
 #include "bench/measure.h"
 #include "bench/render.h"
-#include "bench/report.h"
 #include "core/errors.h"
 #include "core/parallel.h"
 #include "film/atomic_file.h"
@@ -50,16 +50,12 @@ BenchLimit limit_of(const BenchSuite& suite, const BenchScene& scene, const Benc
 }
 
 std::vector<const BenchScene*> chosen_scenes(const BenchSuite& suite, const BenchOptions& options) {
-  std::string known;
   std::vector<std::string> names;
-  for (const BenchScene& scene : suite.scenes) {
-    known += (known.empty() ? "" : ", ") + scene.name;
-    names.push_back(scene.name);
-  }
+  for (const BenchScene& scene : suite.scenes) names.push_back(scene.name);
   for (const std::string& name : options.only)
     if (suite.find_scene(name) == nullptr)
       throw UsageError(fmt::format("--only: the suite has no scene '{}', expected one of: {}{}",
-                                   name, known, did_you_mean(name, names)));
+                                   name, fmt::join(names, ", "), did_you_mean(name, names)));
   std::vector<const BenchScene*> chosen;
   for (const BenchScene& scene : suite.scenes) {
     if (!options.only.empty() &&
@@ -156,7 +152,12 @@ class Bench {
     const BenchRender render{&scene, &wanted.integrator, wanted.limit, true};
     const KeptFiles files = kept_files(options_.directory, "references", scene.name,
                                        reference_key(render, hash_of_scene(render)));
-    if (const auto kept = kept_reference(files, picture)) return kept;
+    const RouteChoice& routes = wanted.integrator.routes;
+    const std::string integrator = name_of(routes, routes.integrator);
+    if (auto kept = kept_reference(files, picture)) {
+      kept->integrator = integrator;
+      return kept;
+    }
     options_.say(fmt::format("{}: rendering the reference", scene.name));
     const auto rendered = render_for_bench(render, nullptr, shelf_, signals_);
     if (!rendered) return std::nullopt;
@@ -166,6 +167,7 @@ class Bench {
     result.picture = files.picture;
     result.key = hash_picture(*picture);
     result.rendered = true;
+    result.integrator = integrator;
     result.passes = rendered->run.end().passes;
     result.seconds = rendered->run.end().seconds;
     result.own_error = own_error(*picture);
@@ -253,8 +255,6 @@ void write_results(const BenchResults& results) {
   write("results.json", results_json(results));
   write("runs.csv", runs_csv(results));
   write("curves.csv", curves_csv(results));
-  if (!results.experiments.empty()) write("experiments.csv", experiments_csv(results));
-  write("report.html", bench_report(results));
 }
 
 }  // namespace
@@ -264,7 +264,7 @@ BenchResults run_bench(const BenchSuite& suite, const BenchOptions& options, Sig
   std::error_code error;
   std::filesystem::create_directories(options.directory, error);
   if (error) throw IoError(options.directory + ": cannot make the directory: " + error.message());
-  check_file_can_be_written((std::filesystem::path(options.directory) / "report.html").string());
+  check_file_can_be_written((std::filesystem::path(options.directory) / "results.json").string());
 
   BenchResults results;
   results.suite = suite;
@@ -276,12 +276,6 @@ BenchResults run_bench(const BenchSuite& suite, const BenchOptions& options, Sig
     if (bench.stopped()) break;
     results.scenes.push_back(bench.scene(*scene));
   }
-  // Scenes by name are scenes alone.
-  for (const std::string& name : suite.experiments)
-    if (options.only.empty() && !bench.stopped()) {
-      options.say("experiment " + name);
-      results.experiments.push_back(run_experiment(name));
-    }
   results.signal = signals.stop.load();
   results.verdicts = judge_claims(results);
   write_results(results);

@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/figure_text.h"
 #include "bench/fit.h"
-#include "bench/html_text.h"
 #include "bench/repeats.h"
+#include "session/report/short_number.h"
 
 namespace nephroid {
 namespace {
@@ -96,7 +97,7 @@ std::optional<Pair> figures_of(const BenchRun& subject, const BenchRun& other,
   const char* unit = axis == BenchAxis::kTime     ? "s"
                      : axis == BenchAxis::kPasses ? "passes"
                                                   : "light paths";
-  return Pair{*a, *b, fmt::format(" at {} {}", count_text(x), unit)};
+  return Pair{*a, *b, fmt::format(" at {} {}", short_number(x), unit)};
 }
 
 /// A figure in the unit that it has.
@@ -105,11 +106,11 @@ std::string in_words(BenchMetric metric, double value) {
     case BenchMetric::kMemory:
     case BenchMetric::kPhotonMemory:
     case BenchMetric::kPixelMemory:
-      return bytes_in_words(value);
+      return short_bytes(value);
     case BenchMetric::kPhotons:
     case BenchMetric::kEmitted:
     case BenchMetric::kRays:
-      return count_text(value);
+      return short_number(value);
     default:
       return number_text(value);
   }

@@ -1,5 +1,5 @@
 // Straight lines through logarithms, and values between measured points.
-// Who calls it: claims.cpp and the report. It must not know where the points come from.
+// It must not know where the points come from.
 #pragma once
 
 #include <optional>

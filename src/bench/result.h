@@ -1,6 +1,6 @@
-// What a suite found out: runs with their curves, references, and how the claims fared. Runs are
-// kept as JSON, so that a second invocation need not repeat them. Who calls it: bench.h writes it,
-// claims, tables and report read it. It must not know how anything is rendered or drawn.
+// The results of a suite: runs with their curves, references, and how the claims fared. Runs are
+// kept as JSON, so that a second invocation need not repeat them, and results.json has all that the
+// page shows. It must not know how anything is rendered or drawn.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "bench/experiment.h"
 #include "bench/suite.h"
 
 namespace nephroid {
@@ -63,9 +62,10 @@ struct BenchRun {
 };
 
 struct BenchReferenceResult {
-  std::string picture;    ///< file
-  std::string key;        ///< hash of the picture itself, 16 digits
-  bool rendered = false;  ///< by the suite, now or earlier
+  std::string picture;     ///< file
+  std::string key;         ///< hash of the picture itself, 16 digits
+  bool rendered = false;   ///< by the suite, now or earlier
+  std::string integrator;  ///< integrator or routes that rendered it, empty for a file
   bool kept = false;
   uint32_t passes = 0;
   double seconds = 0;
@@ -108,8 +108,7 @@ struct BenchResults {
   std::string directory;
   std::vector<BenchSceneResult> scenes;
   std::vector<BenchVerdict> verdicts;  ///< [claim]
-  std::vector<BenchExperiment> experiments;
-  int signal = 0;  ///< that stopped it, if one did
+  int signal = 0;                      ///< that stopped it, if one did
   int failures() const;
 };
 
@@ -119,11 +118,14 @@ std::optional<BenchRun> run_from_json(const std::string& text);
 std::string reference_to_json(const BenchReferenceResult& reference);
 std::optional<BenchReferenceResult> reference_from_json(const std::string& text);
 
-/// Everything as one JSON text, as CSV with a line for each run, as CSV with a line for each
-/// measured point of the first renders, and the points of experiments as CSV.
+/// Everything as one JSON text, as CSV with a line for each run, and as CSV with a line for each
+/// measured point of the first renders.
 std::string results_json(const BenchResults& results);
+/// Reads the text of results_json; the suite in it has only the fields that the page shows.
+/// Pictures are looked for in the directory of `file`, which the text is from. Throws UsageError
+/// for any other text.
+BenchResults results_from_json(const std::string& text, const std::string& file);
 std::string runs_csv(const BenchResults& results);
 std::string curves_csv(const BenchResults& results);
-std::string experiments_csv(const BenchResults& results);
 
 }  // namespace nephroid

@@ -4,16 +4,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "bench/repeats.h"
 #include "bench/result.h"
+#include "core/errors.h"
 
 namespace nephroid {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+/// Version of results.json: another one is refused.
+constexpr int kResultsFormat = 2;
 
 Json errors_json(const BenchErrors& e) {
   return {{"rmse", e.rmse},
@@ -95,6 +101,8 @@ BenchRun run_of(const Json& json) {
   run.integrator = json.at("integrator");
   run.seed = json.at("seed");
   run.key = json.at("key");
+  run.failure = json.value("failure", "");
+  if (!run.failure.empty()) return run;
   run.picture = json.at("picture");
   run.routes = json.at("routes");
   run.options = json.at("options");
@@ -118,6 +126,7 @@ BenchRun run_of(const Json& json) {
 Json reference_json(const BenchReferenceResult& r) {
   Json json = {{"picture", r.picture}, {"key", r.key},         {"rendered", r.rendered},
                {"passes", r.passes},   {"seconds", r.seconds}, {"energy", shares_json(r.energy)}};
+  if (!r.integrator.empty()) json["integrator"] = r.integrator;
   if (r.own_error) json["own_error"] = *r.own_error;
   return json;
 }
@@ -130,6 +139,7 @@ BenchReferenceResult reference_of(const Json& json) {
   r.passes = json.at("passes");
   r.seconds = json.at("seconds");
   r.energy = shares_of(json.at("energy"));
+  r.integrator = json.value("integrator", "");
   if (json.contains("own_error")) r.own_error = figure_of(json.at("own_error"));
   return r;
 }
@@ -149,28 +159,6 @@ std::string dump(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-Json experiments_json(const std::vector<BenchExperiment>& experiments) {
-  Json json = Json::array();
-  for (const BenchExperiment& experiment : experiments) {
-    Json parts = Json::array();
-    for (const ExperimentPart& part : experiment.parts) {
-      Json curves = Json::array();
-      for (const ExperimentCurve& curve : part.curves) {
-        Json points = Json::array();
-        for (const CurvePoint& p : curve.points)
-          points.push_back({{"passes", p.x}, {"error", p.y}});
-        curves.push_back({{"name", curve.name},
-                          {"slope", curve.slope},
-                          {"predicted", curve.predicted},
-                          {"points", std::move(points)}});
-      }
-      parts.push_back({{"title", part.title}, {"curves", std::move(curves)}});
-    }
-    json.push_back({{"name", experiment.name}, {"parts", std::move(parts)}});
-  }
-  return json;
-}
-
 const char* state_name(BenchVerdict::State state) {
   if (state == BenchVerdict::State::kHolds) return "holds";
   return state == BenchVerdict::State::kFails ? "fails" : "not measured";
@@ -182,6 +170,86 @@ std::string field(const std::string& text) {
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
   return quoted + "\"";
+}
+
+BenchVerdict::State state_of(const std::string& name) {
+  using State = BenchVerdict::State;
+  for (const State state : {State::kHolds, State::kFails, State::kNotMeasured})
+    if (name == state_name(state)) return state;
+  throw UsageError("unknown state '" + name + "' of a claim");
+}
+
+/// A run of results.json, with its repetitions.
+BenchRun repeated_run_of(const Json& json) {
+  BenchRun run = run_of(json);
+  if (json.contains("again"))
+    for (const Json& again : json.at("again")) run.again.push_back(run_of(again));
+  const auto is_whole = [](const BenchRun& r) { return !r.failure.empty() || !r.points.empty(); };
+  if (!is_whole(run) || !std::all_of(run.again.begin(), run.again.end(), is_whole))
+    throw UsageError("a run of '" + run.integrator + "' has no points");
+  return run;
+}
+
+void read_scene(const Json& json, BenchResults* results) {
+  BenchScene shown;
+  shown.name = json.at("name");
+  shown.title = json.at("title");
+  shown.file = json.at("file");
+  shown.exposure = json.at("exposure");
+  BenchSceneResult scene;
+  scene.name = shown.name;
+  scene.failure = json.at("failure");
+  scene.width = json.at("width");
+  scene.height = json.at("height");
+  scene.reference = reference_of(json.at("reference"));
+  for (const Json& run : json.at("runs")) {
+    scene.runs.push_back(repeated_run_of(run));
+    if (results->suite.find_integrator(scene.runs.back().integrator) == nullptr)
+      throw UsageError("unknown integrator '" + scene.runs.back().integrator + "'");
+  }
+  results->suite.scenes.push_back(std::move(shown));
+  results->scenes.push_back(std::move(scene));
+}
+
+void read_claim(const Json& json, BenchResults* results) {
+  BenchClaim claim;
+  claim.text = json.at("text");
+  BenchVerdict verdict;
+  verdict.state = state_of(json.at("state"));
+  for (const Json& figure : json.at("figures")) {
+    verdict.figures.push_back({figure.at("scene"), figure.at("figure"), figure.at("holds")});
+    if (results->suite.find_scene(verdict.figures.back().scene) == nullptr)
+      throw UsageError("unknown scene '" + verdict.figures.back().scene + "'");
+  }
+  results->suite.claims.push_back(std::move(claim));
+  results->verdicts.push_back(std::move(verdict));
+}
+
+BenchResults results_of(const Json& json) {
+  if (json.at("format") != kResultsFormat)
+    throw UsageError("its format is " + json.at("format").dump() + ", expected " +
+                     std::to_string(kResultsFormat));
+  BenchResults results;
+  results.suite.name = json.at("suite");
+  results.suite.title = json.at("title");
+  results.suite.description = json.at("description");
+  results.directory = json.at("directory");
+  results.signal = json.at("signal");
+  const Json& m = json.at("machine");
+  results.machine = {m.at("version"), m.at("instruction_set"), m.at("processor"),
+                     m.at("date"),    m.at("threads"),         m.at("command")};
+  for (const Json& name : json.at("integrators"))
+    results.suite.integrators.emplace_back().name = name;
+  for (const Json& scene : json.at("scenes")) read_scene(scene, &results);
+  for (const Json& claim : json.at("claims")) read_claim(claim, &results);
+  return results;
+}
+
+/// A picture in the directory of results, wherever that is now.
+void follow(std::string* picture, const std::string& old_directory, const std::string& directory) {
+  if (picture->rfind(old_directory + "/", 0) == 0)
+    *picture =
+        (std::filesystem::path(directory) / picture->substr(old_directory.size() + 1)).string();
 }
 
 constexpr const char* kErrorColumns = "rmse,relmse,relmse_trim,mean_error,flip";
@@ -243,7 +311,13 @@ std::optional<BenchReferenceResult> reference_from_json(const std::string& text)
 
 std::string results_json(const BenchResults& results) {
   const BenchMachine& m = results.machine;
-  Json json = {{"suite", results.suite.name},
+  Json json = {{"format", kResultsFormat},
+               {"suite", results.suite.name},
+               {"title", results.suite.title},
+               {"description", results.suite.description},
+               {"directory", results.directory},
+               {"signal", results.signal},
+               {"integrators", Json::array()},
                {"machine",
                 {{"version", m.version},
                  {"instruction_set", m.instruction_set},
@@ -252,9 +326,11 @@ std::string results_json(const BenchResults& results) {
                  {"date", m.date},
                  {"command", m.command}}},
                {"scenes", Json::array()},
-               {"claims", Json::array()},
-               {"experiments", experiments_json(results.experiments)}};
+               {"claims", Json::array()}};
+  for (const BenchIntegrator& integrator : results.suite.integrators)
+    json["integrators"].push_back(integrator.name);
   for (const BenchSceneResult& scene : results.scenes) {
+    const BenchScene& in_suite = *results.suite.find_scene(scene.name);
     Json runs = Json::array();
     for (const BenchRun& run : scene.runs) {
       Json all = run_json(run);
@@ -266,6 +342,9 @@ std::string results_json(const BenchResults& results) {
       runs.push_back(std::move(all));
     }
     json["scenes"].push_back({{"name", scene.name},
+                              {"title", in_suite.title},
+                              {"file", in_suite.file},
+                              {"exposure", in_suite.exposure},
                               {"failure", scene.failure},
                               {"width", scene.width},
                               {"height", scene.height},
@@ -282,6 +361,28 @@ std::string results_json(const BenchResults& results) {
                               {"figures", std::move(figures)}});
   }
   return dump(json);
+}
+
+BenchResults results_from_json(const std::string& text, const std::string& file) {
+  BenchResults results;
+  try {
+    results = results_of(Json::parse(text));
+  } catch (const std::exception& error) {
+    throw UsageError(
+        fmt::format("{}: not the results of a suite: {}; expected a results.json of "
+                    "this version of nephroid bench",
+                    file, error.what()));
+  }
+  const std::string old_directory =
+      std::exchange(results.directory, std::filesystem::path(file).parent_path().string());
+  for (BenchSceneResult& scene : results.scenes) {
+    follow(&scene.reference.picture, old_directory, results.directory);
+    for (BenchRun& run : scene.runs) {
+      follow(&run.picture, old_directory, results.directory);
+      for (BenchRun& again : run.again) follow(&again.picture, old_directory, results.directory);
+    }
+  }
+  return results;
 }
 
 std::string runs_csv(const BenchResults& results) {
@@ -313,18 +414,6 @@ std::string curves_csv(const BenchResults& results) {
         line("", p.errors);
         for (const auto& [name, errors] : p.layers) line(name, errors);
       }
-  return csv;
-}
-
-std::string experiments_csv(const BenchResults& results) {
-  std::string csv = "experiment,part,curve,passes,error,slope,predicted\n";
-  for (const BenchExperiment& experiment : results.experiments)
-    for (const ExperimentPart& part : experiment.parts)
-      for (const ExperimentCurve& curve : part.curves)
-        for (const CurvePoint& p : curve.points)
-          csv += fmt::format("{},{},{},{:g},{:.9g},{:.6g},{:.6g}\n", experiment.name,
-                             field(part.title), field(curve.name), p.x, p.y, curve.slope,
-                             curve.predicted);
   return csv;
 }
 

@@ -9,15 +9,12 @@
 #include <iterator>
 #include <limits>
 
-#include "bench/experiment.h"
 #include "bench/suite_claims.h"
 #include "bench/suite_fields.h"
 #include "session/settings/option_values.h"
 
 namespace nephroid {
 namespace {
-
-using Kind = JsonValue::Kind;
 
 constexpr uint64_t kAnySeed = std::numeric_limits<uint64_t>::max();
 constexpr uint64_t kMostPasses = std::numeric_limits<uint32_t>::max() - 1;
@@ -32,31 +29,31 @@ std::string beside(const std::string& suite_file, const std::string& name) {
 
 /// A name that can be part of a file's name.
 std::string name_in(const Fields& fields) {
-  const JsonValue& value = fields.required("name");
+  const JsonValue value = fields.required("name");
   const std::string& name = text_of(value, "\"name\"");
   const auto is_good = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
            c == '_' || c == '+';
   };
   if (!name.empty() && std::all_of(name.begin(), name.end(), is_good)) return name;
-  fail_at(value.where,
-          fmt::format("\"{}\" is not valid as a name, expected letters, digits, -, _ and +", name));
+  value.fail(
+      fmt::format("\"{}\" is not valid as a name, expected letters, digits, -, _ and +", name));
 }
 
 template <class Named>
 void check_new_name(const std::vector<Named>& others, const Named& added, const JsonValue& value) {
   for (const Named& other : others)
     if (other.name == added.name)
-      fail_at(value.find("name")->where,
-              fmt::format("the name \"{}\" is taken, expected another one", added.name));
+      value.find("name")->fail(
+          fmt::format("the name \"{}\" is taken, expected another one", added.name));
 }
 
 BenchLimit limit_in(const Fields& fields) {
   BenchLimit limit;
   if (fields.has("time") && fields.has("passes"))
-    fail_at(fields.required("passes").where,
-            "\"time\" and \"passes\" both say when to stop, expected only one of them");
-  if (const JsonValue* time = fields.find("time"))
+    fields.required("passes").fail(
+        "\"time\" and \"passes\" both say when to stop, expected only one of them");
+  if (const std::optional<JsonValue> time = fields.find("time"))
     limit.seconds =
         read_at(*time, [&] { return parse_duration("\"time\"", text_of(*time, "\"time\"")); });
   limit.passes = static_cast<uint32_t>(fields.integer_or("passes", 0, 1, kMostPasses));
@@ -65,14 +62,16 @@ BenchLimit limit_in(const Fields& fields) {
 
 SettingList options_in(const Fields& fields) {
   SettingList settings;
-  const JsonValue* options = fields.find("options");
-  if (options == nullptr) return settings;
-  expect_kind(*options, Kind::kObject, "\"options\"");
-  for (const JsonMember& member : options->members) {
-    if (member.value.kind != Kind::kNumber)
-      text_of(member.value, fmt::format("option \"{}\"", member.key));
+  const std::optional<JsonValue> options = fields.find("options");
+  if (!options) return settings;
+  expect_type(*options, Json::value_t::object, "\"options\"");
+  for (const JsonMember& member : options->members()) {
+    const Json& json = member.value.json();
+    const std::string text = json.is_number()
+                                 ? json.dump()
+                                 : text_of(member.value, fmt::format("option \"{}\"", member.key));
     settings.push_back(
-        read_at(member.value, [&] { return parse_setting(member.key + "=" + member.value.text); }));
+        read_at(member.value, [&] { return parse_setting(member.key + "=" + text); }));
   }
   return settings;
 }
@@ -80,23 +79,24 @@ SettingList options_in(const Fields& fields) {
 /// Exactly one of "integrator", "routes" and "route".
 RouteChoice routes_in(const Fields& fields, const std::string& what, const std::string& file) {
   if (int{fields.has("integrator")} + int{fields.has("routes")} + int{fields.has("route")} != 1)
-    fail_at(fields.where(), fmt::format("{} needs exactly one of \"integrator\", \"routes\" and "
-                                        "\"route\"",
-                                        what));
+    fields.value().fail(
+        fmt::format("{} needs exactly one of \"integrator\", \"routes\" and "
+                    "\"route\"",
+                    what));
   RouteChoice choice;
   choice.integrator = fields.text_or("integrator", "");
   choice.preset_or_file = fields.text_or("routes", "");
   if (!choice.preset_or_file.empty() && !route_preset(choice.preset_or_file) &&
       std::filesystem::exists(beside(file, choice.preset_or_file)))
     choice.preset_or_file = beside(file, choice.preset_or_file);
-  if (const JsonValue* route = fields.find("route")) {
-    expect_kind(*route, Kind::kArray, "\"route\"");
-    for (const JsonValue& item : route->items)
+  if (const std::optional<JsonValue> route = fields.find("route")) {
+    expect_type(*route, Json::value_t::array, "\"route\"");
+    for (const JsonValue& item : route->items())
       choice.routes.push_back(read_at(item, [&] { return parse_route(text_of(item, "a route")); }));
-    if (route->items.empty()) fail_at(route->where, "\"route\" is empty, expected routes");
+    if (route->json().empty()) route->fail("\"route\" is empty, expected routes");
     return choice;
   }
-  const JsonValue& source = fields.required(fields.has("routes") ? "routes" : "integrator");
+  const JsonValue source = fields.required(fields.has("routes") ? "routes" : "integrator");
   read_at(source, [&] { return plan_of(choice, choice.integrator); });
   return choice;
 }
@@ -111,8 +111,8 @@ BenchIntegrator integrator_in(const JsonValue& value, const std::string& file) {
   result.seed = fields.integer_or("seed", 0, 0, kAnySeed);
   const std::string outliers = fields.text_or("outliers", "off");
   if (outliers != "off" && outliers != "reject")
-    fail_at(fields.required("outliers").where,
-            fmt::format("\"outliers\" is \"{}\", expected \"off\" or \"reject\"", outliers));
+    fields.required("outliers")
+        .fail(fmt::format("\"outliers\" is \"{}\", expected \"off\" or \"reject\"", outliers));
   result.reject_outliers = outliers == "reject";
   return result;
 }
@@ -123,8 +123,8 @@ BenchReference reference_in(const JsonValue& value, const std::string& file) {
       {"file", "integrator", "routes", "route", "options", "passes", "time", "seed"});
   BenchReference result;
   if (fields.has("file")) {
-    if (value.members.size() > 1)
-      fail_at(value.where, "a reference from a \"file\" is not rendered, expected no other key");
+    if (value.json().size() > 1)
+      value.fail("a reference from a \"file\" is not rendered, expected no other key");
     result.file = beside(file, fields.text("file"));
     return result;
   }
@@ -134,17 +134,17 @@ BenchReference reference_in(const JsonValue& value, const std::string& file) {
   result.integrator.seed = fields.integer_or("seed", kReferenceSeed, 0, kAnySeed);
   result.limit = limit_in(fields);
   if (!result.limit.is_set())
-    fail_at(value.where, "a reference that is rendered needs \"passes\" or \"time\"");
+    value.fail("a reference that is rendered needs \"passes\" or \"time\"");
   return result;
 }
 
 /// The expressions of "energy" or "layer".
 std::vector<BenchEnergy> expressions_in(const Fields& fields, const std::string& key) {
   std::vector<BenchEnergy> result;
-  const JsonValue* expressions = fields.find(key);
-  if (expressions == nullptr) return result;
-  expect_kind(*expressions, Kind::kObject, "\"" + key + "\"");
-  for (const JsonMember& member : expressions->members) {
+  const std::optional<JsonValue> expressions = fields.find(key);
+  if (!expressions) return result;
+  expect_type(*expressions, Json::value_t::object, "\"" + key + "\"");
+  for (const JsonMember& member : expressions->members()) {
     const std::string& expression = text_of(member.value, "an expression of \"" + key + "\"");
     read_at(member.value, [&] { return parse_aov(member.key + "=" + expression); });
     result.push_back({member.key, expression});
@@ -154,37 +154,38 @@ std::vector<BenchEnergy> expressions_in(const Fields& fields, const std::string&
 
 std::vector<BenchRegion> regions_in(const Fields& fields) {
   std::vector<BenchRegion> result;
-  const JsonValue* regions = fields.find("region");
-  if (regions == nullptr) return result;
-  expect_kind(*regions, Kind::kObject, "\"region\"");
-  for (const JsonMember& member : regions->members) {
-    expect_kind(member.value, Kind::kArray, "a region");
+  const std::optional<JsonValue> regions = fields.find("region");
+  if (!regions) return result;
+  expect_type(*regions, Json::value_t::object, "\"region\"");
+  for (const JsonMember& member : regions->members()) {
+    expect_type(member.value, Json::value_t::array, "a region");
     float side[4] = {};
-    bool good = member.value.items.size() == 4;
+    const std::vector<JsonValue> items = member.value.items();
+    bool good = items.size() == 4;
     for (size_t i = 0; good && i < 4; ++i)
-      side[i] = static_cast<float>(number_of(member.value.items[i], "a side of a region", 0, 1));
+      side[i] = static_cast<float>(number_of(items[i], "a side of a region", 0, 1));
     good = good && side[0] < side[1] && side[2] < side[3];
     if (!good)
-      fail_at(member.value.where, fmt::format("region \"{}\" is not valid, expected [x0, x1, y0, "
-                                              "y1] with 0 <= x0 < x1 <= 1 and 0 <= y0 < y1 <= 1",
-                                              member.key));
+      member.value.fail(
+          fmt::format("region \"{}\" is not valid, expected [x0, x1, y0, "
+                      "y1] with 0 <= x0 < x1 <= 1 and 0 <= y0 < y1 <= 1",
+                      member.key));
     result.push_back({member.key, side[0], side[1], side[2], side[3]});
   }
   return result;
 }
 
 void read_resolution(const Fields& fields, BenchScene* scene) {
-  const JsonValue* value = fields.find("resolution");
-  if (value == nullptr) return;
-  expect_kind(*value, Kind::kArray, "\"resolution\"");
-  if (value->items.size() != 2)
-    fail_at(value->where, "\"resolution\" is not valid, expected [width, height]");
+  const std::optional<JsonValue> value = fields.find("resolution");
+  if (!value) return;
+  expect_type(*value, Json::value_t::array, "\"resolution\"");
+  const std::vector<JsonValue> items = value->items();
+  if (items.size() != 2) value->fail("\"resolution\" is not valid, expected [width, height]");
   int* sides[] = {&scene->width, &scene->height};
   for (size_t i = 0; i < 2; ++i) {
-    const double side = number_of(value->items[i], "a side of \"resolution\"", 1, kLargestSide);
+    const double side = number_of(items[i], "a side of \"resolution\"", 1, kLargestSide);
     *sides[i] = static_cast<int>(side);
-    if (*sides[i] != side)
-      fail_at(value->items[i].where, "a side of \"resolution\" is not whole, expected pixels");
+    if (*sides[i] != side) items[i].fail("a side of \"resolution\" is not whole, expected pixels");
   }
 }
 
@@ -192,15 +193,15 @@ void read_resolution(const Fields& fields, BenchScene* scene) {
 /// other layers.
 void check_layers(const Fields& fields, const BenchSuite& suite, const BenchScene& scene) {
   const auto check = [&](const char* key, const BenchIntegrator& integrator) {
-    const JsonValue* expressions = fields.find(key);
-    if (expressions == nullptr) return;
+    const std::optional<JsonValue> expressions = fields.find(key);
+    if (!expressions) return;
     const RouteChoice& choice = integrator.routes;
     for (const RouteDefinition& route : plan_of(choice, choice.integrator).routes)
-      for (const JsonMember& member : expressions->members)
+      for (const JsonMember& member : expressions->members())
         if (member.key == route.name)
-          fail_at(member.where,
-                  fmt::format("the name \"{}\" is taken by a route of {}, expected another one",
-                              member.key, integrator.name));
+          member.value.fail(
+              fmt::format("the name \"{}\" is taken by a route of {}, expected another one",
+                          member.key, integrator.name));
   };
   const bool rendered = scene.reference.file.empty();
   if (rendered)
@@ -209,12 +210,11 @@ void check_layers(const Fields& fields, const BenchSuite& suite, const BenchScen
     check("layer", *suite.find_integrator(name));
     if (!rendered) check("energy", *suite.find_integrator(name));
   }
-  const JsonValue *energy = fields.find("energy"), *layers = fields.find("layer");
-  for (size_t i = 0; energy != nullptr && layers != nullptr && i < layers->members.size(); ++i)
-    if (energy->find(layers->members[i].key) != nullptr)
-      fail_at(layers->members[i].where,
-              fmt::format("the name \"{}\" is taken by \"energy\", expected another one",
-                          layers->members[i].key));
+  if (fields.has("energy") && fields.has("layer"))
+    for (const JsonMember& layer : fields.required("layer").members())
+      if (fields.required("energy").find(layer.key))
+        layer.value.fail(
+            fmt::format("the name \"{}\" is taken by \"energy\", expected another one", layer.key));
 }
 
 BenchScene scene_in(const JsonValue& value, const BenchSuite& suite) {
@@ -231,8 +231,7 @@ BenchScene scene_in(const JsonValue& value, const BenchSuite& suite) {
   for (const JsonValue& item : fields.list("integrators")) {
     const std::string& name = text_of(item, "an item of \"integrators\"");
     if (suite.find_integrator(name) == nullptr)
-      fail_at(item.where,
-              fmt::format("unknown integrator \"{}\", expected one of the suite's", name));
+      item.fail(fmt::format("unknown integrator \"{}\", expected one of the suite's", name));
     scene.integrators.push_back(name);
   }
   if (scene.integrators.empty())
@@ -247,23 +246,12 @@ BenchScene scene_in(const JsonValue& value, const BenchSuite& suite) {
   return scene;
 }
 
-std::string experiment_in(const JsonValue& value) {
-  const std::string& name = text_of(value, "an item of \"experiments\"");
-  std::string known;
-  for (const std::string& experiment : experiment_names()) {
-    if (name == experiment) return name;
-    known += (known.empty() ? "" : ", ") + experiment;
-  }
-  fail_at(value.where, fmt::format("unknown experiment \"{}\", expected one of: {}", name, known));
-}
-
 /// The items of a list that must not be empty.
-const std::vector<JsonValue>& filled_list(const Fields& fields, const std::string& name) {
-  const JsonValue& value = fields.required(name);
-  expect_kind(value, Kind::kArray, "\"" + name + "\"");
-  if (value.items.empty())
-    fail_at(value.where, fmt::format("\"{}\" is empty, expected at least one", name));
-  return value.items;
+std::vector<JsonValue> filled_list(const Fields& fields, const std::string& name) {
+  const JsonValue value = fields.required(name);
+  expect_type(value, Json::value_t::array, "\"" + name + "\"");
+  if (value.json().empty()) value.fail(fmt::format("\"{}\" is empty, expected at least one", name));
+  return value.items();
 }
 
 }  // namespace
@@ -281,10 +269,10 @@ const BenchScene* BenchSuite::find_scene(const std::string& wanted) const {
 }
 
 BenchSuite parse_suite(const std::string& text, const std::string& file) {
-  const JsonValue root = parse_json(text, file);
-  const Fields fields(root, "a suite",
+  const Json root = parse_json(text, file);
+  const Fields fields(JsonValue(root, file), "a suite",
                       {"name", "title", "description", "time", "passes", "repeat", "integrators",
-                       "scenes", "claims", "experiments"});
+                       "scenes", "claims"});
   BenchSuite suite;
   suite.file = file;
   suite.name = name_in(fields);
@@ -304,8 +292,6 @@ BenchSuite parse_suite(const std::string& text, const std::string& file) {
   }
   for (const JsonValue& item : fields.list("claims"))
     suite.claims.push_back(parse_claim(item, suite));
-  for (const JsonValue& item : fields.list("experiments"))
-    suite.experiments.push_back(experiment_in(item));
   return suite;
 }
 

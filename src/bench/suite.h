@@ -1,6 +1,5 @@
-// What a suite file says: integrators, scenes, references, and claims about how they compare
-// (docs/bench.md has the format). Who calls it: the command, bench.h and tests. It must not know
-// how anything is rendered or drawn.
+// The contents of a suite file: integrators, scenes, references, and claims about how they compare
+// (docs/bench.md has the format). It must not know how anything is rendered or drawn.
 #pragma once
 
 #include <cstdint>
@@ -109,7 +108,6 @@ struct BenchSuite {
   std::vector<BenchIntegrator> integrators;
   std::vector<BenchScene> scenes;
   std::vector<BenchClaim> claims;
-  std::vector<std::string> experiments;  ///< names that experiment.h has
 
   /// Null if there is none of that name.
   const BenchIntegrator* find_integrator(const std::string& wanted) const;

@@ -1,6 +1,7 @@
 #include "bench/suite_claims.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <limits>
@@ -43,12 +44,13 @@ constexpr AxisRow kAxes[] = {
 template <class Row, size_t kCount>
 const Row& row_of(const Row (&rows)[kCount], const JsonValue& value, const std::string& what) {
   const std::string& name = text_of(value, what);
-  std::string known;
+  std::vector<const char*> known;
   for (const Row& row : rows) {
     if (name == row.name) return row;
-    known += (known.empty() ? "" : ", ") + std::string(row.name);
+    known.push_back(row.name);
   }
-  fail_at(value.where, fmt::format("unknown {} \"{}\", expected one of: {}", what, name, known));
+  value.fail(
+      fmt::format("unknown {} \"{}\", expected one of: {}", what, name, fmt::join(known, ", ")));
 }
 
 bool is_error(BenchMetric metric) {
@@ -59,8 +61,7 @@ bool is_error(BenchMetric metric) {
 
 void check_integrator(const BenchSuite& suite, const std::string& name, const JsonValue& value) {
   if (suite.find_integrator(name) == nullptr)
-    fail_at(value.where,
-            fmt::format("unknown integrator \"{}\", expected one of the suite's", name));
+    value.fail(fmt::format("unknown integrator \"{}\", expected one of the suite's", name));
 }
 
 template <class Named>
@@ -77,19 +78,19 @@ bool runs(const BenchScene& scene, const std::string& integrator) {
 void read_form(const Fields& fields, BenchClaim* claim) {
   const int forms = int{fields.has("smaller")} + int{fields.has("same")} + int{fields.has("of")};
   if (forms != 1)
-    fail_at(fields.where(),
-            "a claim needs exactly one of \"smaller\" (with \"than\"), \"same\" (with \"as\") and "
-            "\"of\" (with \"between\")");
+    fields.value().fail(
+        "a claim needs exactly one of \"smaller\" (with \"than\"), \"same\" (with \"as\") and "
+        "\"of\" (with \"between\")");
   if (fields.has("of")) {
     claim->form = BenchClaim::Form::kBetween;
     claim->subject = fields.text("of");
-    const JsonValue& between = fields.required("between");
-    expect_kind(between, JsonValue::Kind::kArray, "\"between\"");
-    if (between.items.size() != 2)
-      fail_at(between.where, "\"between\" is not valid, expected [low, high]");
+    const JsonValue between = fields.required("between");
+    expect_type(between, Json::value_t::array, "\"between\"");
+    const std::vector<JsonValue> ends = between.items();
+    if (ends.size() != 2) between.fail("\"between\" is not valid, expected [low, high]");
     constexpr double kAny = std::numeric_limits<double>::infinity();
-    claim->low = number_of(between.items[0], "\"between\"", -kAny, kAny);
-    claim->high = number_of(between.items[1], "\"between\"", claim->low, kAny);
+    claim->low = number_of(ends[0], "\"between\"", -kAny, kAny);
+    claim->high = number_of(ends[1], "\"between\"", claim->low, kAny);
     return;
   }
   const bool smaller = fields.has("smaller");
@@ -114,46 +115,47 @@ std::vector<std::string> keys_for(const Fields& fields) {
 /// What must fit together.
 void check_claim(const Fields& fields, const BenchSuite& suite, const BenchClaim& claim) {
   for (const char* key : {"smaller", "same", "of", "than", "as"}) {
-    const JsonValue* value = fields.find(key);
-    if (value == nullptr) continue;
-    if (value->kind == JsonValue::Kind::kString) check_integrator(suite, value->text, *value);
-    for (const JsonValue& item : value->items) check_integrator(suite, item.text, item);
+    const std::optional<JsonValue> value = fields.find(key);
+    if (!value) continue;
+    if (value->json().is_string()) check_integrator(suite, text_of(*value, key), *value);
+    for (const JsonValue& item : value->items()) check_integrator(suite, text_of(item, key), item);
   }
   if (!claim.region.empty() && (!is_error(claim.metric) || claim.at_equal))
-    fail_at(fields.required("region").where,
-            "\"region\" does not fit, expected it with an error as metric and without \"at\"");
+    fields.required("region").fail(
+        "\"region\" does not fit, expected it with an error as metric and without \"at\"");
   if (!claim.layer.empty() &&
       ((!is_error(claim.metric) && claim.metric != BenchMetric::kSlope) || !claim.region.empty()))
-    fail_at(fields.required("layer").where,
-            "\"layer\" does not fit, expected it with an error or a slope as metric and without "
-            "\"region\"");
+    fields.required("layer").fail(
+        "\"layer\" does not fit, expected it with an error or a slope as metric and without "
+        "\"region\"");
   if (fields.has("over") && claim.metric != BenchMetric::kSlope)
-    fail_at(fields.required("over").where, "\"over\" does not fit, expected it with a slope only");
+    fields.required("over").fail("\"over\" does not fit, expected it with a slope only");
   // Slopes are negative: a factor would turn about what is claimed.
   if (claim.metric == BenchMetric::kSlope && claim.form != BenchClaim::Form::kBetween)
-    fail_at(fields.required("metric").where,
-            "slopes are not compared, expected \"of\" and \"between\" with the metric \"slope\"");
+    fields.required("metric").fail(
+        "slopes are not compared, expected \"of\" and \"between\" with the metric \"slope\"");
   if (claim.at_equal && (!is_error(claim.metric) || claim.form == BenchClaim::Form::kBetween))
-    fail_at(fields.required("at").where,
-            "\"at\" does not fit, expected it where errors of integrators are compared");
+    fields.required("at").fail(
+        "\"at\" does not fit, expected it where errors of integrators are compared");
   for (const JsonValue& item : fields.list("scenes")) {
-    const BenchScene* scene = suite.find_scene(item.text);
+    const std::string& name = text_of(item, "a scene");
+    const BenchScene* scene = suite.find_scene(name);
     if (scene == nullptr)
-      fail_at(item.where,
-              fmt::format("unknown scene \"{}\", expected one of the suite's", item.text));
+      item.fail(fmt::format("unknown scene \"{}\", expected one of the suite's", name));
     std::vector<std::string> needed = claim.others;
     needed.push_back(claim.subject);
-    for (const std::string& name : needed)
-      if (!runs(*scene, name))
-        fail_at(item.where, fmt::format("scene \"{}\" has no integrator \"{}\", expected a scene "
-                                        "that has all of the claim's",
-                                        item.text, name));
+    for (const std::string& integrator : needed)
+      if (!runs(*scene, integrator))
+        item.fail(
+            fmt::format("scene \"{}\" has no integrator \"{}\", expected a scene "
+                        "that has all of the claim's",
+                        name, integrator));
     if (!claim.region.empty() && !has(scene->regions, claim.region))
-      fail_at(item.where, fmt::format("scene \"{}\" has no region \"{}\", expected one that has",
-                                      item.text, claim.region));
+      item.fail(fmt::format("scene \"{}\" has no region \"{}\", expected one that has", name,
+                            claim.region));
     if (!claim.layer.empty() && !has(scene->layers, claim.layer))
-      fail_at(item.where, fmt::format("scene \"{}\" has no layer \"{}\", expected one that has",
-                                      item.text, claim.layer));
+      item.fail(fmt::format("scene \"{}\" has no layer \"{}\", expected one that has", name,
+                            claim.layer));
   }
 }
 
@@ -184,8 +186,10 @@ BenchClaim parse_claim(const JsonValue& value, const BenchSuite& suite) {
   claim.layer = fields.text_or("layer", "");
   for (const JsonValue& item : fields.list("scenes"))
     claim.scenes.push_back(text_of(item, "an item of \"scenes\""));
-  if (const JsonValue* over = fields.find("over")) claim.over = row_of(kAxes, *over, "axis").axis;
-  if (const JsonValue* at = fields.find("at")) claim.at_equal = row_of(kAxes, *at, "axis").axis;
+  if (const std::optional<JsonValue> over = fields.find("over"))
+    claim.over = row_of(kAxes, *over, "axis").axis;
+  if (const std::optional<JsonValue> at = fields.find("at"))
+    claim.at_equal = row_of(kAxes, *at, "axis").axis;
   check_claim(fields, suite, claim);
   return claim;
 }

@@ -1,9 +1,8 @@
-// The claims of a suite file.
-// Who calls it: suite.cpp. It must not know how claims are judged (claims.h).
+// The claims of a suite file. It must not know how claims are judged (claims.h).
 #pragma once
 
-#include "bench/json_text.h"
 #include "bench/suite.h"
+#include "bench/suite_fields.h"
 
 namespace nephroid {
 

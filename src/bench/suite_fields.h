@@ -1,30 +1,72 @@
-// Members of a JSON object by name and type: what is missing, unknown, of the wrong type or out of
-// range gets a message with its place. Who calls it: suite.cpp. It must not know what suites are.
+// Values of a suite file with their places, and members of objects by name and type: what is
+// missing, unknown, of the wrong type or out of range gets a message with a JSON pointer (RFC
+// 6901). It must not know what suites are.
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "bench/json_text.h"
+#include "core/errors.h"
 
 namespace nephroid {
 
-/// Throws UsageError unless the value is of a kind; `what` says what it is for.
-void expect_kind(const JsonValue& value, JsonValue::Kind kind, const std::string& what);
+using Json = nlohmann::ordered_json;
+
+struct JsonMember;
+
+/// A value and its place. The document must outlive it.
+class JsonValue {
+ public:
+  JsonValue(const Json& json, std::string file, Json::json_pointer where = Json::json_pointer())
+      : json_(&json), file_(std::move(file)), where_(std::move(where)) {}
+
+  const Json& json() const { return *json_; }
+  /// The items of an array; none for any other value.
+  std::vector<JsonValue> items() const;
+  /// The members of an object, in the order of the file; none for any other value.
+  std::vector<JsonMember> members() const;
+  std::optional<JsonValue> find(const std::string& key) const;
+
+  /// Throws UsageError "FILE: /scenes/2/resolution: MESSAGE".
+  [[noreturn]] void fail(const std::string& message) const;
+
+ private:
+  const Json* json_;
+  std::string file_;
+  Json::json_pointer where_;
+};
+
+struct JsonMember {
+  std::string key;
+  JsonValue value;
+};
+
+/// The document that a whole text stands for; `file` is its name in messages. Throws UsageError
+/// "FILE:LINE:COLUMN: what is wrong, what was expected", and for a key that an object has twice.
+Json parse_json(const std::string& text, const std::string& file);
+
+/// Throws UsageError unless the value is of a type; `what` says what it is for.
+void expect_type(const JsonValue& value, Json::value_t type, const std::string& what);
+/// The text of a string.
+const std::string& text_of(const JsonValue& value, const std::string& what);
+/// The number of a value in [low, high].
+double number_of(const JsonValue& value, const std::string& what, double low, double high);
 
 /// One object whose members have names from a list.
 class Fields {
  public:
   /// `what` is the object in messages ("a scene"). Throws UsageError if the value is no object or
   /// has a member with another name.
-  Fields(const JsonValue& value, std::string what, std::vector<std::string> names);
+  Fields(JsonValue value, std::string what, const std::vector<std::string>& names);
 
-  const SourceLocation& where() const { return value_.where; }
-  bool has(const std::string& name) const { return value_.find(name) != nullptr; }
+  const JsonValue& value() const { return value_; }
+  bool has(const std::string& name) const { return value_.json().contains(name); }
   /// The member; throws UsageError if it is not there.
-  const JsonValue& required(const std::string& name) const;
-  const JsonValue* find(const std::string& name) const { return value_.find(name); }
+  JsonValue required(const std::string& name) const;
+  std::optional<JsonValue> find(const std::string& name) const { return value_.find(name); }
 
   // Values of members, or what to take if they are not there. All throw UsageError for another
   // type, and numbers out of their range.
@@ -34,19 +76,14 @@ class Fields {
   uint64_t integer_or(const std::string& name, uint64_t otherwise, uint64_t low,
                       uint64_t high) const;
   /// The items of a list; none if it is not there.
-  const std::vector<JsonValue>& list(const std::string& name) const;
+  std::vector<JsonValue> list(const std::string& name) const;
   /// A list of strings, or one string in place of a list of one.
   std::vector<std::string> texts(const std::string& name) const;
 
  private:
-  const JsonValue& value_;
+  JsonValue value_;
   std::string what_;
 };
-
-/// The text of a string.
-const std::string& text_of(const JsonValue& value, const std::string& what);
-/// The number of a value in [low, high].
-double number_of(const JsonValue& value, const std::string& what, double low, double high);
 
 /// Runs `read`, which throws UsageErrors without a place, and puts the place of `value` in front.
 template <class Read>
@@ -54,7 +91,7 @@ auto read_at(const JsonValue& value, const Read& read) {
   try {
     return read();
   } catch (const UsageError& error) {
-    fail_at(value.where, error.what());
+    value.fail(error.what());
   }
 }
 

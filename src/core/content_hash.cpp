@@ -1,37 +1,30 @@
 #include "core/content_hash.h"
 
-#include <bit>
-#include <cstring>
+#include <xxhash.h>
+
+#include <new>
 
 namespace nephroid {
 
-static_assert(std::endian::native == std::endian::little);
+ContentHash::ContentHash() : state_(XXH3_createState()) {
+  if (!state_) throw std::bad_alloc();
+  XXH3_64bits_reset(state_.get());
+}
+
+void ContentHash::Free::operator()(XXH3_state_s* state) const {
+  XXH3_freeState(state);
+}
 
 void ContentHash::add(std::span<const std::byte> bytes) {
-  const auto add_byte = [&](std::byte byte) {
-    word_ |= std::to_integer<uint64_t>(byte) << (8 * (count_ % 8));
-    if (++count_ % 8 != 0) return;
-    add_word(word_);
-    word_ = 0;
-  };
-  while (!bytes.empty() && count_ % 8 != 0) {
-    add_byte(bytes[0]);
-    bytes = bytes.subspan(1);
-  }
-  for (; bytes.size() >= 8; bytes = bytes.subspan(8)) {
-    uint64_t word;
-    std::memcpy(&word, bytes.data(), 8);
-    add_word(word);
-    count_ += 8;
-  }
-  for (const std::byte byte : bytes) add_byte(byte);
+  XXH3_64bits_update(state_.get(), bytes.data(), bytes.size());
 }
 
 uint64_t ContentHash::value() const {
-  ContentHash ended = *this;
-  ended.add_word(word_);
-  ended.add_word(count_);
-  return ended.hash_;
+  return XXH3_64bits_digest(state_.get());
+}
+
+uint64_t hash_of(std::span<const std::byte> bytes) {
+  return XXH3_64bits(bytes.data(), bytes.size());
 }
 
 }  // namespace nephroid

@@ -145,9 +145,6 @@ inline float abs_cos_theta(const Vec3f& w) {
 inline float sin2_theta(const Vec3f& w) {
   return std::max(0.0f, 1.0f - w.z * w.z);
 }
-inline float tan2_theta(const Vec3f& w) {
-  return sin2_theta(w) / cos2_theta(w);
-}
 inline bool same_hemisphere(const Vec3f& a, const Vec3f& b) {
   return a.z * b.z > 0.0f;
 }
@@ -170,7 +167,6 @@ struct Transform {
   Transform(const Mat44d& matrix, const Mat44d& inv) : m(matrix), inverse(inv) {}
 
   Transform inverted() const { return {inverse, m}; }
-  bool is_identity() const { return m == Mat44d(); }
   /// True if the map turns a right-handed frame into a left-handed one.
   bool swaps_handedness() const {
     const double det = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -

@@ -31,17 +31,6 @@ SampledWavelengths SampledWavelengths::sample_visible(float u) {
   return s;
 }
 
-SampledWavelengths SampledWavelengths::sample_uniform(float u) {
-  SampledWavelengths s;
-  for (int i = 0; i < kSpectrumSamples; ++i) {
-    float ui = u + static_cast<float>(i) * (1.0f / kSpectrumSamples);
-    if (ui >= 1.0f) ui -= 1.0f;
-    s.lambda_.set(i, lerp(ui, kLambdaMin, kLambdaMax));
-  }
-  s.pdf_ = SampledSpectrum(1.0f / (kLambdaMax - kLambdaMin));
-  return s;
-}
-
 float SampledWavelengths::visible_pdf(float lambda) {
   if (!(lambda >= kLambdaMin && lambda <= kLambdaMax)) return 0.0f;
   const float c = std::cosh((lambda - kPeak) / kWidth);

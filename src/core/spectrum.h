@@ -65,11 +65,6 @@ class SampledSpectrum {
     for (int i = 1; i < kSpectrumSamples; ++i) m = std::max(m, v_[i]);
     return m;
   }
-  float min_component() const {
-    float m = v_[0];
-    for (int i = 1; i < kSpectrumSamples; ++i) m = std::min(m, v_[i]);
-    return m;
-  }
   float sum() const {
     float s = 0.0f;
     for (int i = 0; i < kSpectrumSamples; ++i) s += v_[i];
@@ -123,8 +118,6 @@ class SampledWavelengths {
   /// kSpectrumSamples wavelengths, equally spaced in the cumulative distribution of a density that
   /// follows the eye's sensitivity (pbrt-v4 section 4.5.4), rotated by u in [0,1).
   static SampledWavelengths sample_visible(float u);
-  /// The same with a uniform density over [kLambdaMin, kLambdaMax].
-  static SampledWavelengths sample_uniform(float u);
   /// Density of sample_visible at `lambda`, in 1/nm; zero outside [360, 830] nm.
   static float visible_pdf(float lambda);
 

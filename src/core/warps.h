@@ -38,16 +38,6 @@ inline Vec3f square_to_sphere(const Vec2f& u) {
   return {r * std::cos(phi), r * std::sin(phi), z};
 }
 
-/// Unit vector, uniform in the cone around +z with cos(theta) >= cos_max;
-/// density 1 / (2 pi (1 - cos_max)).
-inline Vec3f square_to_cone(const Vec2f& u, float cos_max) {
-  const float one_minus_z = u.x * (1.0f - cos_max);
-  const float z = 1.0f - one_minus_z;
-  const float r = safe_sqrt(one_minus_z * (2.0f - one_minus_z));
-  const float phi = 2.0f * kPi * u.y;
-  return {r * std::cos(phi), r * std::sin(phi), z};
-}
-
 /// Barycentric coordinates (b0, b1) uniform in a triangle, low distortion (Heitz 2019).
 inline Vec2f square_to_triangle(const Vec2f& u) {
   float b0 = u.x * 0.5f, b1 = u.y * 0.5f;

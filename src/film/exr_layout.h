@@ -1,7 +1,6 @@
-// How a state lies in a picture's file: the names of its parts and channels, the pixels of what is
-// not of pixels, and frames over memory. Who calls it: exr_file.cpp, which writes it, and
-// state_file.cpp, which reads it; nobody else, it has OpenEXR's types in it. It must not know what
-// a state means.
+// The layout of a state in a picture's file: names of parts and channels, windows of streams, and
+// frames over memory. Only exr_file.cpp and state_file.cpp include it, since it has OpenEXR's
+// types. It must not know what a state means.
 #pragma once
 
 #include <OpenEXR/ImfCompression.h>
@@ -21,8 +20,9 @@ inline constexpr const char* kPartPrefix = "state.";
 /// The last part: two words for each other one, by which damage is seen.
 inline constexpr const char* kChecksums = "checksums";
 /// In that part's header: hash_of_texts of the picture. Times differ from run to run, what is in
-/// the parts does not.
-inline constexpr const char* kTextsKey = "nephroid:texts";
+/// the parts does not. The key names the hash: a state without it is of an earlier build, and is
+/// not taken for a damaged one.
+inline constexpr const char* kTextsKey = "nephroid:texts.xxh3";
 /// How many words of a part are used.
 inline constexpr const char* kWordsKey = "nephroid:words";
 

@@ -65,11 +65,6 @@ size_t Film::bytes_per_pixel(const FilmLayout& layout, bool gbuffer) {
          (gbuffer ? sizeof(SurfaceSums) + sizeof(uint64_t) : 0) + sizeof(uint64_t);  // depths
 }
 
-Rgb clamp_component(const Rgb& rgb, float limit) {
-  const float largest = std::max({std::abs(rgb.r), std::abs(rgb.g), std::abs(rgb.b)});
-  return largest > limit ? rgb * (limit / largest) : rgb;
-}
-
 bool Film::add_parts(int group, size_t pixel, std::span<const Rgb> values) {
   const std::vector<int>& parts = parts_of(group);
   bool fits = true;
@@ -353,12 +348,6 @@ SurfaceSample Film::surface(int x, int y) const {
   s.dzdx = std::abs(mean(11));
   s.dzdy = std::abs(mean(12));
   return s;
-}
-
-uint64_t Film::bad_values() const {
-  uint64_t count = 0;
-  for (const BadEstimates& bad : bad_) count += bad.count;
-  return count;
 }
 
 }  // namespace nephroid

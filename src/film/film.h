@@ -35,10 +35,6 @@ struct SurfaceSample {
   float dzdx = 0, dzdy = 0;  ///< change of p.z from a pixel to its neighbour
 };
 
-/// The colour scaled so that no component is larger in magnitude than `limit`; hue and sign are
-/// kept.
-Rgb clamp_component(const Rgb& rgb, float limit);
-
 class Film {
  public:
   Film(const FilmSettings& settings, FilmLayout layout);
@@ -129,7 +125,6 @@ class Film {
 
   /// Estimates that were not finite; the route is that of the first part that was not.
   const BadEstimates& bad_estimates(int route) const { return bad_[static_cast<size_t>(route)]; }
-  uint64_t bad_values() const;
   /// Sums that reached their limit, and features and biases that were not finite.
   uint64_t saturated_values() const { return counts_.saturated; }
 

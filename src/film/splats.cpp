@@ -134,7 +134,7 @@ void SplatBuffer::finish(double scale, std::span<const Rgb> also) {
         };
         for (size_t i = 0; i < parts_; ++i)
           for (size_t c = 0; c < 3; ++c) total[c] += found(i, c);
-        // As clamp_component does it, for the total.
+        // Scaled so that no component of the total exceeds the limit; hue and sign are kept.
         const double largest =
             std::max({std::abs(total[0]), std::abs(total[1]), std::abs(total[2])});
         const double factor = largest > limit ? limit / largest : 1.0;

@@ -1,5 +1,5 @@
 // Reading a file in one go and unpacking gzip data (RFC 1952) with zlib. The output of unpacking
-// grows with what really comes out, never with what a header claims. Called through file_bytes.h.
+// grows with what really comes out, never with what a header claims.
 #include "input/file_bytes.h"
 
 #include <zlib.h>
@@ -69,6 +69,8 @@ struct EndInflate {
   void operator()(z_stream* stream) const { inflateEnd(stream); }
 };
 
+/// Not by gzread: it takes a descriptor and not bytes, passes on what is not packed, and has no
+/// error for an empty file.
 std::string unpack(const std::string& path, const std::string& packed, uint64_t max_unpacked) {
   z_stream stream{};
   if (inflateInit2(&stream, 16 + MAX_WBITS) != Z_OK) cannot_read(path, "zlib could not start");

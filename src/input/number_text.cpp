@@ -1,18 +1,39 @@
-// Numbers from text by way of fast_float and std::from_chars. Called through number_text.h.
+// Numbers from text with std::from_chars; values out of range become infinity or zero.
 #include "input/number_text.h"
 
-#include <fast_float/fast_float.h>
-
+#include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <limits>
 #include <system_error>
 
 namespace nephroid {
 namespace {
 
-/// Neither library takes a leading plus; "+-1" is still no number.
+/// std::from_chars takes no leading plus; "+-1" is still no number.
 std::string_view without_plus(std::string_view text) {
   if (text.size() > 1 && text[0] == '+' && text[1] != '-' && text[1] != '+') text.remove_prefix(1);
   return text;
+}
+
+/// The double next to a number that is too large or too small for one: infinity or zero. For such a
+/// number std::from_chars gives an error and no value.
+double nearest_double(std::string_view text) {
+  const size_t e = std::min(text.find_first_of("eE"), text.size());
+  const std::string_view digits = text.substr(0, e);
+  long long exponent = 0;
+  if (e < text.size()) {
+    const std::string_view power = without_plus(text.substr(e + 1));
+    const auto result = std::from_chars(power.data(), power.data() + power.size(), exponent);
+    // An exponent of 20 digits outweighs all digits before it.
+    if (result.ec == std::errc::result_out_of_range)
+      exponent = (power[0] == '-' ? -1 : 1) * (std::numeric_limits<long long>::max() / 2);
+  }
+  const auto place = [](size_t i) { return static_cast<long long>(i); };
+  const long long above_point =
+      place(std::min(digits.find('.'), digits.size())) - place(digits.find_first_of("123456789"));
+  const double size = exponent + above_point > 0 ? std::numeric_limits<double>::infinity() : 0.0;
+  return text[0] == '-' ? -size : size;
 }
 
 }  // namespace
@@ -21,10 +42,9 @@ std::optional<double> parse_number(std::string_view text) {
   text = without_plus(text);
   const char* end = text.data() + text.size();
   double value = 0;
-  const fast_float::from_chars_result result = fast_float::from_chars(text.data(), end, value);
-  // Out of range still sets the value: zero or infinity.
+  const std::from_chars_result result = std::from_chars(text.data(), end, value);
   if (result.ec == std::errc::invalid_argument || result.ptr != end) return std::nullopt;
-  return value;
+  return result.ec == std::errc() ? value : nearest_double(text);
 }
 
 std::optional<long long> parse_integer(std::string_view text) {

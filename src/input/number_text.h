@@ -1,6 +1,5 @@
 // Numbers as users and exporters write them: "-0", "1.", ".5", "1e-3", "+5".
-// Called by the scene parser and by the PLY reader. Locale-free (fast_float; Lemire 2021, "Number
-// parsing at a gigabyte per second"). Knows nothing of what a number is for.
+// No locale changes them. It must not know what a number is for.
 #pragma once
 
 #include <optional>

@@ -2,6 +2,7 @@
 #include "options/command_line.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -45,12 +46,11 @@ void set_action(const std::string& command, CommandLine& line) {
 /// A first word that is neither an option nor a command is most likely a command misspelt.
 void check_command(const std::vector<std::string>& arguments) {
   if (arguments.empty() || arguments[0].rfind('-', 0) == 0) return;
-  std::string known;
-  for (const CommandDescription& command : command_table()) {
-    if (arguments[0] == command.name) return;
-    known += fmt::format("{}{}", known.empty() ? "" : ", ", command.name);
-  }
-  throw UsageError(fmt::format("unknown command '{}', expected one of: {}", arguments[0], known));
+  std::vector<std::string> known;
+  for (const CommandDescription& command : command_table()) known.emplace_back(command.name);
+  if (std::find(known.begin(), known.end(), arguments[0]) != known.end()) return;
+  throw UsageError(fmt::format("unknown command '{}', expected one of: {}", arguments[0],
+                               fmt::join(known, ", ")));
 }
 
 CommandLine printing(const std::string& text) {

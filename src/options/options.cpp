@@ -124,7 +124,7 @@ constexpr CommandDescription kCommands[] = {
     {"info", "Say what is in a scene, or what a picture is of and how far it has come."},
     {"routes", "Say who renders which light, prove it, and measure it in a scene."},
     {"compare", "Measure how far a picture is from a reference."},
-    {"bench", "Run a suite of integrators and scenes and write a report."},
+    {"bench", "Run a suite of integrators and scenes and write its results."},
 };
 
 constexpr OptionDescription kOptions[] = {
@@ -274,7 +274,7 @@ constexpr OptionDescription kOptions[] = {
        l.bench.repeat = static_cast<uint32_t>(parse_integer("--repeat", t, 1, kMostBenchRepeats));
      }},
     {"bench", "--out", "", "DIR", "", "the suite's name and .bench, in the current directory", "",
-     "Directory of the report and of all results; runs that are there already are not repeated.",
+     "Directory of the results; runs that are there already are not repeated.",
      false, [](CommandLine& l, const std::string& t) { l.bench.directory = t; }},
     {"bench", "--only", "", "SCENE,...", "", "all", "", "Scenes of the suite, by name.", true,
      add_only},

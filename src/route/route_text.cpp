@@ -2,6 +2,9 @@
 // Who calls it: through route_set.h and route_text.h. It must not know automata.
 #include "route/route_text.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cctype>
 #include <iterator>
@@ -113,12 +116,11 @@ EstimatorKind read_estimator(const std::string& text, size_t colon,
   const Range range = trimmed(text, colon + 1, text.size());
   const std::string name = text.substr(range.begin, range.end - range.begin);
   std::vector<std::string> names;
-  std::string known;
   for (const EstimatorType& e : kEstimators) {
     if (name == e.name) return e.kind;
     names.emplace_back(e.name);
-    known += std::string(known.empty() ? "" : ", ") + e.name;
   }
+  const std::string known = fmt::format("{}", fmt::join(names, ", "));
   throw expression_error(source, range.begin,
                          name.empty() ? "expected an estimator behind ':', one of " + known
                                       : "unknown estimator '" + name + "', expected one of " +

@@ -17,6 +17,7 @@
 #include "integrator/photon_mapping/sppm.h"
 #include "integrator/photons/gather.h"
 #include "integrator/photons/merge_pass.h"
+#include "session/report/short_number.h"
 
 namespace nephroid {
 namespace {
@@ -79,13 +80,6 @@ size_t channels_of_picture(const FilmLayout& layout, bool gbuffer) {
   constexpr size_t kCommonChannels = 20, kGbufferChannels = 16;
   return 3 * (layout.routes.size() + layout.aovs.size()) + kCommonChannels +
          (gbuffer ? kGbufferChannels : 0);
-}
-
-std::string short_bytes(double bytes) {
-  constexpr double kMiB = 1 << 20, kGiB = 1 << 30;
-  return bytes >= 1000 * kGiB ? fmt::format("{:.0f} GiB", bytes / kGiB)
-         : bytes >= kGiB      ? fmt::format("{:.3g} GiB", bytes / kGiB)
-                              : fmt::format("{:.3g} MiB", bytes / kMiB);
 }
 
 /// a of [O2], the pixels that one light path exposes in a pass: a photon those within the first

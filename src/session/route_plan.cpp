@@ -2,6 +2,7 @@
 #include "session/route_plan.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <filesystem>
 #include <fstream>
@@ -39,15 +40,11 @@ std::vector<RouteDefinition> routes_of(const std::string& preset_or_file) {
   if (const auto preset = route_preset(preset_or_file)) return *preset;
   if (std::filesystem::is_regular_file(preset_or_file))
     return parse_route_file(read_file(preset_or_file), preset_or_file);
-  std::string known;
   std::vector<std::string> names;
-  for (const RoutePreset& preset : route_presets()) {
-    known += std::string(known.empty() ? "" : ", ") + preset.name;
-    names.emplace_back(preset.name);
-  }
+  for (const RoutePreset& preset : route_presets()) names.emplace_back(preset.name);
   throw UsageError(fmt::format(
       "--routes: '{}' is neither a preset nor a file, expected the name of a file or one of: {}{}",
-      preset_or_file, known, did_you_mean(preset_or_file, names)));
+      preset_or_file, fmt::join(names, ", "), did_you_mean(preset_or_file, names)));
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ void use(const MeasuredBrdf& brdf) {
     for (const TransportMode mode : {TransportMode::kRadiance, TransportMode::kImportance}) {
       for (const Vec3f& wi : directions) {
         const BsdfEval e = bsdf.eval(wo, wi, mode, EventClass::kGlossy, ClassMask::kAll);
-        good = good && e.f.is_finite() && e.f.min_component() >= 0.0f && e.pdf_w >= 0.0f;
+        good = good && e.f.is_finite() && (e.f * -1.0f).max_component() <= 0.0f && e.pdf_w >= 0.0f;
       }
       for (const Vec2f& u : {Vec2f(0, 0), Vec2f(0.3f, 0.8f), Vec2f(kOneMinusEpsilon, 0.5f)}) {
         const auto s = bsdf.sample(wo, 0, u, mode, ClassMask::kAll);

@@ -24,7 +24,7 @@ void add_photons(const EstimatorStatistics& first, const EstimatorStatistics& la
   if (last.photon_paths == 0) return;
   const double paths = static_cast<double>(last.photon_paths);
   lines.push_back(
-      fmt::format("photons: {}paths {}, {}photons kept in all, {:.3g} % of paths kept any",
+      fmt::format("photons: {} paths {}, {} photons kept in all, {:.3g} % of paths kept any",
                   short_number(last.photons_stay ? paths : paths / passes),
                   last.photons_stay ? "once" : "per pass",
                   short_number(static_cast<double>(last.photons_stored)),
@@ -39,7 +39,7 @@ void add_light_paths(const EstimatorStatistics& last, uint32_t passes,
                      std::vector<std::string>& lines) {
   if (last.light_paths == 0) return;
   lines.push_back(fmt::format(
-      "light paths: {}per pass, {}connections to the camera in all, {:.3g} % of paths had any",
+      "light paths: {} per pass, {} connections to the camera in all, {:.3g} % of paths had any",
       short_number(part(last.light_paths, passes)), short_number(static_cast<double>(last.splats)),
       100 * part(last.light_paths_useful, last.light_paths)));
 }

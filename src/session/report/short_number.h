@@ -5,7 +5,9 @@
 
 namespace nephroid {
 
-/// "1.23 M", three digits and the letter of the thousands; a space is last where there is none.
+/// "1.23 M": three digits and the letter of the thousands.
 std::string short_number(double value);
+/// "1.23 MiB": three digits and the unit by powers of 1024.
+std::string short_bytes(double bytes);
 
 }  // namespace nephroid

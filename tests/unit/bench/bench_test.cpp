@@ -1,5 +1,4 @@
-// Whole suites with pictures of a few pixels: what is rendered, what is kept, what goes wrong, and
-// what the page is like.
+// Whole suites with pictures of a few pixels: what is rendered, what is kept and what goes wrong.
 #include "bench/bench.h"
 
 #include <gtest/gtest.h>
@@ -64,7 +63,7 @@ TEST_F(BenchRuns, MeasuresEveryIntegrator) {
   EXPECT_GT(room.runs[1].photon_bytes, 0u);
   EXPECT_GT(room.runs[1].bytes, room.runs[1].photon_bytes);
   EXPECT_EQ(results.verdicts.at(0).state, BenchVerdict::State::kHolds);
-  for (const char* name : {"report.html", "results.json", "runs.csv", "curves.csv"})
+  for (const char* name : {"results.json", "runs.csv", "curves.csv"})
     EXPECT_FALSE(file(name).empty()) << name;
 }
 
@@ -93,7 +92,6 @@ TEST_F(BenchRuns, AReferenceMayTakeATime) {
   EXPECT_EQ(results.failures(), 0) << said_;
   EXPECT_GE(reference.passes, 1u);
   EXPECT_GT(reference.seconds, 0);
-  EXPECT_NE(file("report.html").find(" passes in "), std::string::npos);
   EXPECT_TRUE(run(suite).scenes.at(0).reference.kept);
 }
 
@@ -261,7 +259,7 @@ TEST_F(BenchRuns, ColoursAreComparedInTheirSpaceAndWarningsAreSaid) {
     });
   };
   EXPECT_TRUE(says(ball.notes, "shinyness"));
-  EXPECT_NE(file("report.html").find("shinyness"), std::string::npos);
+  EXPECT_NE(file("results.json").find("shinyness"), std::string::npos);
   const auto value = [&](const std::string& key) {
     for (const auto& [name, text] : picture.metadata)
       if (name == key) return text;
@@ -291,7 +289,7 @@ TEST_F(BenchRuns, AFailureDoesNotStopTheRest) {
   EXPECT_NE(results.scenes[3].failure.find("room.exr"), std::string::npos);
   EXPECT_EQ(results.failures(), 3);
   EXPECT_EQ(exit_status(results, false), 1);
-  EXPECT_NE(file("report.html").find("/nowhere/s.pbrt"), std::string::npos);
+  EXPECT_NE(file("results.json").find("/nowhere/s.pbrt"), std::string::npos);
 }
 
 TEST_F(BenchRuns, AReferenceOfAnotherSizeIsSaid) {
@@ -313,7 +311,7 @@ TEST_F(BenchRuns, ASignalStopsAndTheNextInvocationGoesOn) {
   const BenchResults stopped = run(small_suite());
   EXPECT_EQ(stopped.signal, SIGTERM);
   EXPECT_EQ(exit_status(stopped, false), 128 + SIGTERM);
-  EXPECT_NE(file("report.html").find("stopped before its end"), std::string::npos);
+  EXPECT_NE(file("results.json").find("\"signal\": 15"), std::string::npos);
   signals_.stop.store(0);
   EXPECT_EQ(exit_status(run(small_suite()), true), 0);
 }
@@ -334,44 +332,55 @@ TEST_F(BenchRuns, WrongUse) {
   EXPECT_THROW(run(endless), UsageError);
 }
 
-/// Names of tags that do not match, empty if all do. Style and script are skipped.
-std::string unbalanced(const std::string& html) {
-  std::vector<std::string> open;
-  for (size_t at = html.find('<'); at != std::string::npos; at = html.find('<', at + 1)) {
-    if (html[at + 1] == '!') continue;
-    const size_t end = html.find('>', at);
-    const bool closes = html[at + 1] == '/';
-    const size_t begin = at + (closes ? 2 : 1);
-    const std::string name = html.substr(begin, html.find_first_of(" \n/>", begin) - begin);
-    if (closes) {
-      if (open.empty() || open.back() != name) return name;
-      open.pop_back();
-    } else if (html[end - 1] != '/') {
-      open.push_back(name);
-      if (name == "style" || name == "script") at = html.find("</" + name, at) - 1;
-    }
-  }
-  return open.empty() ? "" : open.back();
+TEST_F(BenchRuns, ResultsAreReadBack) {
+  std::string suite = small_suite(R"(, {"name": "lost", "file": "/nowhere/s.pbrt",
+                                       "reference": {"integrator": "path", "passes": 1}})");
+  suite.insert(1, "\"repeat\": 2, ");
+  const BenchResults results = run(suite);
+  const std::string text = file("results.json");
+  EXPECT_EQ(text, results_json(results));
+  const BenchResults back = results_from_json(text, scratch_.file("out/results.json"));
+  EXPECT_EQ(results_json(back), text);
+  EXPECT_EQ(back.scenes.at(0).reference.integrator, "path");
+  // Results that were moved have their pictures with them; those of others stay where they were.
+  const BenchResults moved = results_from_json(text, "/elsewhere/results.json");
+  EXPECT_EQ(moved.scenes.at(0).runs.at(1).picture.rfind("/elsewhere/runs/room-mixed-", 0), 0u);
+  EXPECT_EQ(moved.scenes[0].runs[1].again.at(0).picture.rfind("/elsewhere/runs/", 0), 0u);
+  EXPECT_EQ(moved.scenes[0].reference.picture.rfind("/elsewhere/references/", 0), 0u);
 }
 
-TEST_F(BenchRuns, TheReportStandsByItself) {
+// Whatever is wrong, the message names the file and what it should have been.
+TEST_F(BenchRuns, OtherTextIsNoResults) {
   run(small_suite());
-  const std::string html = file("report.html");
-  EXPECT_EQ(unbalanced(html), "");
-  EXPECT_NE(html.find("<h1>Tiny &lt;suite&gt;</h1>"), std::string::npos);
-  EXPECT_NE(html.find("<p>Two &amp; three.</p>"), std::string::npos);
-  // Nothing is fetched: neither by tags nor by style.
-  for (const char* fetching : {"http:", "https:", "src=\"/", "@import", "url(", "<link"})
-    EXPECT_EQ(html.find(fetching), std::string::npos) << fetching;
-  for (size_t at = html.find("src=\""); at != std::string::npos; at = html.find("src=\"", at + 1))
-    EXPECT_EQ(html.compare(at, 26, "src=\"data:image/png;base64"), 0);
-  for (size_t at = html.find("href=\""); at != std::string::npos; at = html.find("href=\"", at + 1))
-    EXPECT_EQ(html[at + 6], '#');
-  // Reference, two runs and two error maps, and the two sides of the slider.
-  size_t pictures = 0;
-  for (size_t at = html.find("<img"); at != std::string::npos; at = html.find("<img", at + 1))
-    ++pictures;
-  EXPECT_EQ(pictures, 7u);
+  const std::string text = file("results.json");
+  const auto without = [&](const std::string& part, const std::string& instead) {
+    std::string wrong = text;
+    wrong.replace(wrong.find(part), part.size(), instead);
+    return wrong;
+  };
+  const std::string wrong_texts[] = {
+      "",
+      "[]",
+      "{}",
+      "null",
+      text.substr(0, text.size() / 2),
+      without("\"format\": 2", "\"format\": 1"),
+      without("\"title\": \"Tiny", "\"name\": \"Tiny"),
+      without("\"holds\"", "\"unknown\""),
+      without("\"integrator\": \"mixed\"", "\"integrator\": \"other\""),
+      without("\"scene\": \"room\"", "\"scene\": \"hall\""),
+      without("\"points\": [", "\"points\": [], \"more\": ["),
+  };
+  for (const std::string& wrong : wrong_texts) {
+    try {
+      results_from_json(wrong, "r.json");
+      ADD_FAILURE() << "accepted: " << wrong.substr(0, 200);
+    } catch (const UsageError& error) {
+      const std::string message = error.what();
+      EXPECT_EQ(message.rfind("r.json: not the results of a suite: ", 0), 0u) << message;
+      EXPECT_NE(message.find("; expected a results.json of"), std::string::npos) << message;
+    }
+  }
 }
 
 TEST(BenchSuites, TheExamplesAreUnderstood) {

@@ -9,7 +9,6 @@
 #include "bench/fit.h"
 #include "bench/measure.h"
 #include "bench/repeats.h"
-#include "bench/svg_plot.h"
 #include "core/errors.h"
 
 namespace nephroid {
@@ -161,32 +160,6 @@ TEST(Claims, TheReferencesOwnErrorIsTakenOut) {
             "own error −0.156 and 0.15");
 }
 
-// Whether the powers are right is the matter of the tests of line_experiment.h. With 16 seeds a fit
-// over five points has a standard error of about 0.06 for noise, and for the bias of 0.02.
-TEST(Experiments, TheLineHasCurvesAndSlopes) {
-  constexpr ExperimentEffort kEffort{16, 20000, 128};
-  const BenchExperiment line = run_experiment("line", kEffort);
-  ASSERT_EQ(line.parts.size(), 2u);
-  for (const ExperimentPart& part : line.parts)
-    for (const ExperimentCurve& curve : part.curves) {
-      ASSERT_EQ(curve.points.size(), 8u);
-      EXPECT_EQ(curve.points.back().x, 128);
-      EXPECT_LT(curve.points.back().y, curve.points.front().y);
-      EXPECT_NEAR(curve.slope, curve.predicted, 0.3) << part.title << ' ' << curve.name;
-    }
-  EXPECT_NEAR(line.parts[0].curves[0].predicted, -1.0 / 3, 1e-12);
-  EXPECT_NEAR(line.parts[1].curves[0].predicted, -2.0 / 3, 1e-12);
-  EXPECT_THROW(run_experiment("circle"), UsageError);
-  const ExperimentEffort little{2, 500, 16};
-  EXPECT_EQ(run_experiment("line", little).parts[0].curves[1].slope,
-            run_experiment("line", little).parts[0].curves[1].slope);
-  // A line for each point, below the head.
-  BenchResults results;
-  results.experiments = {line};
-  const std::string csv = experiments_csv(results);
-  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 8 * 6);
-}
-
 TEST(Claims, AMissingRunIsNotMeasured) {
   BenchResults results =
       made_up(R"({"text": "t", "metric": "rmse", "smaller": "fast", "than": "slow"})");
@@ -280,18 +253,6 @@ TEST(ResultFiles, EveryCsvLineHasAllColumns) {
     for (size_t begin = 0; begin < csv.size(); begin = csv.find('\n', begin) + 1)
       EXPECT_EQ(commas(begin, csv.find('\n', begin)), columns) << csv.substr(begin, 80);
   }
-}
-
-TEST(Plot, TicksOfFewAndOfManyDecades) {
-  const auto labels = [](double low, double high) {
-    std::vector<double> values;
-    for (const LogTick& tick : log_ticks(low, high))
-      if (tick.labelled) values.push_back(tick.value);
-    return values;
-  };
-  EXPECT_EQ(labels(1, 1000), (std::vector<double>{1, 10, 100, 1000}));
-  EXPECT_EQ(labels(1.5, 25), (std::vector<double>{2, 5, 10, 20}));
-  EXPECT_EQ(labels(21, 49), (std::vector<double>{30, 40}));
 }
 
 TEST(Measure, ARegionHasThePixelsWhoseCentresItHas) {

@@ -5,8 +5,9 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 
-#include "bench/json_text.h"
+#include "bench/suite_fields.h"
 #include "core/errors.h"
 #include "source_directory.h"
 
@@ -48,8 +49,7 @@ constexpr const char* kWhole = R"({
      "scenes": ["cup"]},
     {"text": "e", "metric": "relmse", "smaller": "own", "than": "mixed", "layer": "seen",
      "scenes": ["cup"], "at": "time"}
-  ],
-  "experiments": ["line"]
+  ]
 })";
 
 TEST(Suite, EverythingIsUnderstood) {
@@ -80,7 +80,6 @@ TEST(Suite, EverythingIsUnderstood) {
   EXPECT_EQ(suite.scenes[1].reference.file, "dir/room.exr");
   EXPECT_EQ(suite.scenes[1].integrators.size(), 3u);
   EXPECT_EQ(cup.layers[0].expression, "C D L");
-  EXPECT_EQ(suite.experiments, std::vector<std::string>{"line"});
   ASSERT_EQ(suite.claims.size(), 5u);
   EXPECT_EQ(suite.claims[0].others.size(), 2u);
   EXPECT_EQ(suite.claims[1].form, BenchClaim::Form::kBetween);
@@ -90,78 +89,74 @@ TEST(Suite, EverythingIsUnderstood) {
   EXPECT_EQ(suite.claims[4].layer, "seen");
 }
 
-/// A suite with a replaced part, and where a message about it should point.
+/// A suite with a replaced part, and the place that the message about it should name.
 struct WrongSuite {
   const char *old_part, *new_part;
-  const char* at;  ///< the text at the place, as it first occurs
+  const char* pointer;
   const char* message;
 };
 
-/// "dir/s.json:line:column: " of an offset.
-std::string place_in(const std::string& text, size_t offset) {
-  size_t line = 1, begin = 0;
-  for (size_t i = 0; i < offset; ++i)
-    if (text[i] == '\n') {
-      ++line;
-      begin = i + 1;
-    }
-  return "dir/s.json:" + std::to_string(line) + ":" + std::to_string(offset - begin + 1) + ": ";
-}
-
 TEST(Suite, ErrorsPointAtTheirPlace) {
   const WrongSuite cases[] = {
-      {"\"title\"", "\"titel\"", "\"titel\"", "unknown key \"titel\" in a suite, expected one of:"},
-      {"\"A suite\"", "[1]", "[1]", "\"title\" is a list, expected a string"},
-      {"\"1.5m\"", "\"soon\"", "\"soon\"", "\"time\": 'soon' is not valid, expected a duration"},
-      {"\"time\": \"1.5m\"", "\"passes\": 1.5", "1.5", "\"passes\" is 1.5, expected a whole"},
-      {"\"time\": \"1.5m\"", "\"time\": \"1s\", \"passes\": 11", "11",
+      {"\"title\"", "\"titel\"", "/titel", "unknown key \"titel\" in a suite, expected one of:"},
+      {"\"A suite\"", "[1]", "/title", "\"title\" is a list, expected a string"},
+      {"\"1.5m\"", "\"soon\"", "/time", "\"time\": 'soon' is not valid, expected a duration"},
+      {"\"time\": \"1.5m\"", "\"passes\": 1.5", "/passes", "\"passes\" is 1.5, expected a whole"},
+      {"\"time\": \"1.5m\"", "\"time\": \"1s\", \"passes\": 11", "/passes",
        "\"time\" and \"passes\" both say when to stop"},
-      {"\"small\"", "\"a/b\"", "\"a/b\"", "\"a/b\" is not valid as a name"},
-      {"0.7", "7", "7, \"rad", "-D alpha: '7' is not valid, expected"},
-      {"\"alpha\"", "\"alfa\"", "0.7", "-D: unknown key 'alfa', expected one"},
-      {"\"integrator\": \"mixed\"", "\"integrator\": \"magic\"", "\"magic\"", ""},
-      {"\"reject\"", "\"maybe\"", "\"maybe\"", "\"outliers\" is \"maybe\", expected"},
-      {"\"doidge2012\"", "\"nowhere\"", "\"nowhere\"", "--routes: 'nowhere' is neither a preset"},
-      {"\"own\", \"route\"", "\"split\", \"route\"", "\"split\", \"route\"",
+      {"\"small\"", "\"a/b\"", "/name", "\"a/b\" is not valid as a name"},
+      {"0.7", "7", "/integrators/0/options/alpha", "-D alpha: '7' is not valid, expected"},
+      {"\"alpha\"", "\"alfa\"", "/integrators/0/options/alfa",
+       "-D: unknown key 'alfa', expected one"},
+      {"\"integrator\": \"mixed\"", "\"integrator\": \"magic\"", "/integrators/0/integrator", ""},
+      {"\"reject\"", "\"maybe\"", "/integrators/0/outliers", "\"outliers\" is \"maybe\", expected"},
+      {"\"doidge2012\"", "\"nowhere\"", "/integrators/1/routes",
+       "--routes: 'nowhere' is neither a preset"},
+      {"\"own\", \"route\"", "\"split\", \"route\"", "/integrators/2/name",
        "the name \"split\" is taken"},
-      {"caustic = C", "caustic C", "\"caustic C", ""},
-      {", \"route\"", ", \"integrator\": \"path\", \"route\"", "{\"name\": \"own\"",
+      {"caustic = C", "caustic C", "/integrators/2/route/0", ""},
+      {", \"route\"", ", \"integrator\": \"path\", \"route\"", "/integrators/2",
        "an integrator needs exactly one of"},
-      {"[16, 9]", "[16, 9.5]", "9.5", "a side of \"resolution\" is not whole"},
-      {"[16, 9]", "[16]", "[16]", "\"resolution\" is not valid, expected [width, height]"},
-      {"\"passes\": 7, ", "", "{\"integrator\": \"path\"", "a reference that is rendered needs"},
-      {"[\"mixed\", \"own\"]", "[\"mixed\", \"mine\"]", "\"mine\"", "unknown integrator \"mine\""},
-      {"[0, 1, 0.5, 1]", "[0, 1, 1, 0.5]", "[0, 1, 1", "region \"floor\" is not valid"},
-      {"\"reference\": {\"file\": \"room.exr\"}", "\"title\": \"\"", "{\"name\": \"room\"",
+      {"[16, 9]", "[16, 9.5]", "/scenes/0/resolution/1", "a side of \"resolution\" is not whole"},
+      {"[16, 9]", "[16]", "/scenes/0/resolution",
+       "\"resolution\" is not valid, expected [width, height]"},
+      {"\"passes\": 7, ", "", "/scenes/0/reference", "a reference that is rendered needs"},
+      {"[\"mixed\", \"own\"]", "[\"mixed\", \"mine\"]", "/scenes/0/integrators/1",
+       "unknown integrator \"mine\""},
+      {"[0, 1, 0.5, 1]", "[0, 1, 1, 0.5]", "/scenes/0/region/floor",
+       "region \"floor\" is not valid"},
+      {"\"reference\": {\"file\": \"room.exr\"}", "\"title\": \"\"", "/scenes/1",
        "a scene has no \"reference\", expected one"},
-      {"\"room.exr\"}", "\"room.exr\", \"seed\": 3}", "{\"file\": \"room.exr\"",
+      {"\"room.exr\"}", "\"room.exr\", \"seed\": 3}", "/scenes/1/reference",
        "a reference from a \"file\" is not rendered"},
-      {"\"metric\": \"rmse\"", "\"metric\": \"beauty\"", "\"beauty\"",
+      {"\"metric\": \"rmse\"", "\"metric\": \"beauty\"", "/claims/0/metric",
        "unknown metric \"beauty\", expected one of: rmse, relmse"},
-      {"\"than\": [\"own\"", "\"than\": [\"owl\"", "\"owl\"", "unknown integrator \"owl\""},
-      {"\"smaller\": \"mixed\", ", "", "{\"text\": \"a\"", "a claim needs exactly one of"},
-      {"[-0.6, -0.2]", "[-0.2, -0.6]", "-0.6", "\"between\" is -0.6, expected a number from -0.2"},
-      {"\"same\": \"own\"", "\"same\": \"split\"", "\"cup\"]}",
+      {"\"than\": [\"own\"", "\"than\": [\"owl\"", "/claims/0/than/0",
+       "unknown integrator \"owl\""},
+      {"\"smaller\": \"mixed\", ", "", "/claims/0", "a claim needs exactly one of"},
+      {"[-0.6, -0.2]", "[-0.2, -0.6]", "/claims/1/between/1",
+       "\"between\" is -0.6, expected a number from -0.2"},
+      {"\"same\": \"own\"", "\"same\": \"split\"", "/claims/2/scenes/0",
        "scene \"cup\" has no integrator \"split\""},
-      {"\"region\": \"floor\",", "\"region\": \"roof\",", "\"cup\"]},\n    {\"text\": \"e\"",
+      {"\"region\": \"floor\",", "\"region\": \"roof\",", "/claims/3/scenes/0",
        "scene \"cup\" has no region \"roof\""},
-      {"\"metric\": \"flip\"", "\"metric\": \"memory\"", "\"floor\",", "\"region\" does not fit"},
+      {"\"metric\": \"flip\"", "\"metric\": \"memory\"", "/claims/3/region",
+       "\"region\" does not fit"},
       // Of a rendered reference, of the runs, and of the shares.
-      {"{\"caustic_light\"", "{\"diffuse\"", "\"diffuse\"",
+      {"{\"caustic_light\"", "{\"diffuse\"", "/scenes/0/energy/diffuse",
        "the name \"diffuse\" is taken by a route of reference, expected another one"},
-      {"{\"seen\"", "{\"caustic\"", "\"caustic\": \"C D L",
+      {"{\"seen\"", "{\"caustic\"", "/scenes/0/layer/caustic",
        "the name \"caustic\" is taken by a route of mixed"},
-      {"{\"seen\"", "{\"caustic_light\"", "\"caustic_light\": \"C D L",
+      {"{\"seen\"", "{\"caustic_light\"", "/scenes/0/layer/caustic_light",
        "the name \"caustic_light\" is taken by \"energy\""},
-      {"C D L", "C D (L", "\"C D (L", ""},
-      {"\"layer\": \"seen\"", "\"layer\": \"lost\"", "\"cup\"], \"at\"",
+      {"C D L", "C D (L", "/scenes/0/layer/seen", ""},
+      {"\"layer\": \"seen\"", "\"layer\": \"lost\"", "/claims/4/scenes/0",
        "scene \"cup\" has no layer \"lost\""},
-      {"\"metric\": \"relmse\", \"smaller\"", "\"metric\": \"rays\", \"smaller\"", "\"seen\",",
-       "\"layer\" does not fit"},
+      {"\"metric\": \"relmse\", \"smaller\"", "\"metric\": \"rays\", \"smaller\"",
+       "/claims/4/layer", "\"layer\" does not fit"},
       {"\"metric\": \"rmse\", \"smaller\"", "\"metric\": \"slope\", \"smaller\"",
-       "\"slope\", \"smaller\"", "slopes are not compared"},
-      {"\"line\"", "\"plane\"", "\"plane\"", "unknown experiment \"plane\", expected one of: line"},
-      {"\"over\": \"emitted\"", "\"factor\": 2", "\"factor\": 2",
+       "/claims/0/metric", "slopes are not compared"},
+      {"\"over\": \"emitted\"", "\"factor\": 2", "/claims/1/factor",
        "unknown key \"factor\" in a claim of this form"},
   };
   for (const WrongSuite& wrong : cases) {
@@ -169,16 +164,14 @@ TEST(Suite, ErrorsPointAtTheirPlace) {
     const size_t replaced = text.find(wrong.old_part);
     ASSERT_NE(replaced, std::string::npos) << wrong.old_part;
     text.replace(replaced, std::string(wrong.old_part).size(), wrong.new_part);
-    const size_t at = text.find(wrong.at);
-    ASSERT_NE(at, std::string::npos) << wrong.at;
-    const std::string expected = place_in(text, at) + wrong.message;
+    const std::string expected = std::string("dir/s.json: ") + wrong.pointer + ": " + wrong.message;
     const std::string error = error_of(text);
     EXPECT_EQ(error.substr(0, expected.size()), expected) << error;
   }
 }
 
 TEST(Suite, NotAnObject) {
-  EXPECT_EQ(error_of("[]"), "dir/s.json:1:1: a suite is a list, expected an object");
+  EXPECT_EQ(error_of("[]"), "dir/s.json: a suite is a list, expected an object");
   EXPECT_NE(error_of(R"({"name": "x", "integrators": []})").find("\"integrators\" is empty"),
             std::string::npos);
 }
@@ -187,13 +180,9 @@ TEST(Suite, MissingFile) {
   EXPECT_THROW(read_suite("/nowhere/suite.json"), IoError);
 }
 
-JsonValue json(const std::string& text) {
-  return parse_json(text, "f");
-}
-
 std::string json_error(const std::string& text) {
   try {
-    json(text);
+    parse_json(text, "f");
   } catch (const UsageError& error) {
     return error.what();
   }
@@ -202,33 +191,44 @@ std::string json_error(const std::string& text) {
 }
 
 TEST(JsonText, PlacesOfValues) {
-  const JsonValue root =
-      json("{\"a\\\\\": [1, -2.5e1,\n  true, null, \"q\\\"\\\\\"],\n \"b\": {}}");
-  ASSERT_EQ(root.members.size(), 2u);
-  EXPECT_EQ(root.members[0].key, "a\\");
-  EXPECT_EQ(root.members[0].where.column, 2);
-  const std::vector<JsonValue>& items = root.members[0].value.items;
-  ASSERT_EQ(items.size(), 5u);
-  const int places[5][2] = {{1, 10}, {1, 13}, {2, 3}, {2, 9}, {2, 15}};
-  for (size_t i = 0; i < 5; ++i) {
-    EXPECT_EQ(items[i].where.line, places[i][0]) << i;
-    EXPECT_EQ(items[i].where.column, places[i][1]) << i;
-  }
-  EXPECT_EQ(items[1].number, -25);
-  EXPECT_EQ(items[1].text, "-2.5e1");
-  EXPECT_EQ(items[4].text, "q\"\\");
-  EXPECT_EQ(root.members[1].value.where.line, 3);
-  EXPECT_EQ(json(" 12").where.column, 2);
-  EXPECT_EQ(json("12").text, "12");
+  const Json root = parse_json(R"({"a/b": [1, {"c~": true}], "d": "e"})", "f");
+  const std::vector<JsonMember> members = JsonValue(root, "f").members();
+  ASSERT_EQ(members.size(), 2u);
+  EXPECT_EQ(members[0].key, "a/b");
+  const std::vector<JsonValue> items = members[0].value.items();
+  ASSERT_EQ(items.size(), 2u);
+  const auto place = [](const JsonValue& value) {
+    try {
+      value.fail("wrong");
+    } catch (const UsageError& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_EQ(place(JsonValue(root, "f")), "f: wrong");
+  EXPECT_EQ(place(members[1].value), "f: /d: wrong");
+  EXPECT_EQ(place(items[0]), "f: /a~1b/0: wrong");
+  EXPECT_EQ(place(*items[1].find("c~")), "f: /a~1b/1/c~0: wrong");
+  EXPECT_FALSE(items[1].find("c"));
+  EXPECT_TRUE(members[1].value.items().empty());
 }
 
 TEST(JsonText, Errors) {
-  EXPECT_EQ(json_error("{\"a\": 1,\n \"a\": 2}").rfind("f:2:2: \"a\" is given twice", 0), 0u);
-  EXPECT_EQ(json_error("[1, 2").rfind("f:1:6: the file ends", 0), 0u) << json_error("[1, 2");
-  EXPECT_EQ(json_error("").rfind("f:1:1: the file ends", 0), 0u) << json_error("");
-  EXPECT_EQ(json_error("[1,\n x]").rfind("f:2:2: 'x' does not belong here", 0), 0u)
-      << json_error("[1,\n x]");
-  EXPECT_NE(json_error(std::string(100, '[')).find("nested too deeply"), std::string::npos);
+  const std::pair<const char*, const char*> cases[] = {
+      {"{\"a\": 1,\n \"a\": 2}", "f: \"a\" is given twice in an object, expected it once"},
+      {"[1, 2", "f:1:6: the file ends"},
+      {"", "f:1:1: the file ends"},
+      {"[1,\n x]", "f:2:2: 'x' does not belong here, expected JSON"},
+      {"[1,\n  2] 3", "f:2:6: '3' does not belong here"},
+      {"[\n\"a\n\"]", "f:2:3: '\n' does not belong here"},
+      {"[1e999]", "f: [json.exception.out_of_range.406] number overflow"},
+  };
+  for (const auto& [text, message] : cases) {
+    const std::string error = json_error(text);
+    EXPECT_EQ(error.rfind(message, 0), 0u) << error;
+  }
+  // The same key in other objects is none twice, and nothing is too deep.
+  EXPECT_EQ(parse_json("[{\"a\": {\"a\": 1}}, {\"a\": 2}]", "f").size(), 2u);
+  EXPECT_NE(json_error(std::string(1000000, '[')).find("the file ends"), std::string::npos);
 }
 
 TEST(OwnSuites, AreUnderstoodAndNameScenesThatAreThere) {

@@ -84,15 +84,6 @@ TEST(SampledWavelengths, VisibleSamplesFollowTheDensity) {
             threshold);
 }
 
-TEST(SampledWavelengths, UniformSamplesAreStratifiedAndInRange) {
-  const auto s = SampledWavelengths::sample_uniform(0.9f);
-  for (int i = 0; i < kSpectrumSamples; ++i) {
-    const double u = std::fmod(0.9 + i / double(kSpectrumSamples), 1.0);
-    EXPECT_NEAR(s.lambda(i), 360 + 470 * u, 1e-3);
-    EXPECT_FLOAT_EQ(s.pdf()[i], 1.0f / 470.0f);
-  }
-}
-
 TEST(SampledWavelengths, WavelengthsStayInRangeAtTheEndsOfU) {
   for (const float u : {0.0f, 0x1p-30f, kOneMinusEpsilon, 0.875f, 0.87499994f}) {
     const auto s = SampledWavelengths::sample_visible(u);

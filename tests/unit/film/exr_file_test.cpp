@@ -170,6 +170,19 @@ TEST(ExrFile, NoticesDamageOfTexts) {
   EXPECT_NE(error_of_load(path, loaded).find("metadata are damaged"), std::string::npos);
 }
 
+// Earlier builds had another hash under another key: their states are refused, and not as damaged.
+TEST(ExrFile, SaysThatAnEarlierBuildWroteIt) {
+  const ScratchDirectory directory;
+  const std::string path = directory.file("a.exr");
+  Memory saved(1), loaded(2);
+  const RenderState state = saved.state();
+  write_exr(path, some_picture(), &state);
+  replace_in(path, "nephroid:texts.xxh3", "nephroid:texts.fnv1");
+  const std::string error = error_of_load(path, loaded);
+  EXPECT_NE(error.find("it was written by an earlier build"), std::string::npos) << error;
+  EXPECT_EQ(error.find("damaged"), std::string::npos) << error;
+}
+
 // For parts of other kinds the library takes memory that nobody has looked at.
 TEST(ExrFile, ReadsNoPartsOfOtherKinds) {
   const ScratchDirectory directory;

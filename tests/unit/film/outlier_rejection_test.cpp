@@ -315,7 +315,7 @@ TEST(OutlierRejection, ValuesThatAreNotFiniteAreCountedAndLeftOut) {
   Film film = rejecting();
   add_one(film, 0, 7, 6, {1, INFINITY, 1});
   add_one(film, 0, 7, 6, {1, NAN, 1});
-  EXPECT_EQ(film.bad_values(), 2u);
+  EXPECT_EQ(film.bad_estimates(0).count, 2u);
   EXPECT_EQ(film.rejection()->held_estimates(), 0u);
 }
 

@@ -238,7 +238,7 @@ TEST(SplatBuffer, OutsideTheFilterTellsWhetherItCounts) {
   EXPECT_FLOAT_EQ(film.value(0, 0).r, 0.5f / 4 * 2 / 4);
   EXPECT_EQ(film.value(0, 10).r, 0.0f);
   EXPECT_EQ(film.value(8, 10).r, 0.0f);
-  EXPECT_EQ(film.bad_values(), 0u);
+  EXPECT_EQ(film.bad_estimates(0).count, 0u);
 }
 
 TEST(SplatBuffer, TheTotalOverThePartsIsHeld) {
@@ -267,7 +267,7 @@ TEST(SplatBuffer, BadSplatsAreCountedAndLeftOut) {
                splat_at(nan, 5.5f, {1, 1, 1}), splat_at(3.5f, 5.5f, {kInfinity, 0, 0}),
                splat_at(4.5f, 5.5f, {1e20f, 0, 0})},
               *box, {}, 1e-10);
-  EXPECT_EQ(film.bad_values(), 3u);
+  EXPECT_EQ(film.bad_estimates(0).count, 3u);
   EXPECT_EQ(film.saturated_values(), 1u);
   EXPECT_FLOAT_EQ(film.value(3, 5).g, 1e-10f);
 }

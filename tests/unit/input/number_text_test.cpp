@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 namespace nephroid {
 namespace {
@@ -47,6 +48,37 @@ TEST(NumberText, PassesOnWhatIsNotFinite) {
   EXPECT_TRUE(std::isinf(*parse_number("1e999")));
   EXPECT_TRUE(std::isinf(*parse_number("-inf")));
   EXPECT_TRUE(std::isnan(*parse_number("nan")));
+}
+
+// Whatever stands before the exponent, and however long that is.
+TEST(NumberText, RoundsWhatNoDoubleHolds) {
+  const std::string zeros(400, '0');
+  const std::string huge[] = {"1e309",
+                              "179769313486231580793e289",
+                              "1" + zeros,
+                              "1" + zeros + ".5",
+                              "0.001e400",
+                              "1" + zeros + "e-5",
+                              "1e99999999999999999999",
+                              "+1e+999"};
+  const std::string tiny[] = {"1e-400",
+                              "2e-324",
+                              "0." + zeros + "1",
+                              "1" + zeros + "e-800",
+                              "0." + zeros + "1e9",
+                              "1e-99999999999999999999",
+                              "1000E-999"};
+  for (const std::string& text : huge) {
+    EXPECT_EQ(parse_number(text), HUGE_VAL) << text;
+    if (text[0] != '+') {
+      EXPECT_EQ(parse_number("-" + text), -HUGE_VAL) << text;
+    }
+  }
+  for (const std::string& text : tiny) {
+    EXPECT_EQ(parse_number(text), 0.0) << text;
+    EXPECT_TRUE(std::signbit(*parse_number("-" + text))) << text;
+  }
+  EXPECT_FALSE(parse_number("1e999x"));
 }
 
 TEST(NumberText, ReadsIntegersOnly) {

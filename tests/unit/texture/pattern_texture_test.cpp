@@ -102,7 +102,7 @@ TEST(DirectionMixTexture, FollowsTheCosine) {
     EXPECT_NEAR(t.number("a")->eval(context), 10 * w + 20 * (1 - w), 1e-4f) << degrees;
     // The defaults are 0 where the surface faces the direction and 1 across it.
     const SampledSpectrum s =
-        t.spectrum("s")->eval(context, SampledWavelengths::sample_uniform(0.3f));
+        t.spectrum("s")->eval(context, SampledWavelengths::sample_visible(0.3f));
     EXPECT_NEAR(s.average(), 1 - w, 1e-5f) << degrees;
   }
 }

@@ -47,7 +47,7 @@ struct Textures {
               SpectrumKind kind = SpectrumKind::kAlbedo) const {
     TextureContext context;
     context.uv = {u, v};
-    return spectrum(name, kind)->eval(context, SampledWavelengths::sample_uniform(0.3f)).average();
+    return spectrum(name, kind)->eval(context, SampledWavelengths::sample_visible(0.3f)).average();
   }
   std::string warnings() const {
     std::string all;

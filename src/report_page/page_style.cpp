@@ -1,6 +1,6 @@
 // How the report looks and what its slider does. Plain CSS and a few lines of script; nothing is
 // loaded from anywhere.
-#include "bench/report.h"
+#include "report_page/page.h"
 
 namespace nephroid {
 

@@ -1,5 +1,5 @@
 // Curves in a plot with two logarithmic axes, as SVG that stands by itself inside a page.
-// Who calls it: the report. It must not know what the curves mean.
+// It must not know what the curves mean.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-#include "photon/line_experiment.h"
+#include "analytic/line_experiment.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,14 +1,17 @@
 // The page around the scenes: head, claims, summary, how to repeat it.
-#include "bench/report.h"
+#include "report_page/page.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "bench/html_text.h"
+#include "bench/figure_text.h"
+#include "bench/kept.h"
 #include "bench/repeats.h"
+#include "core/errors.h"
 #include "image/compare.h"
+#include "report_page/html_text.h"
 
 namespace nephroid {
 namespace {
@@ -47,9 +50,6 @@ std::string navigation(const BenchResults& results) {
   for (const BenchSceneResult& scene : results.scenes)
     html += fmt::format("<a href=\"#scene-{}\">{}</a>", scene.name,
                         html_escape(title_of(results, scene.name)));
-  for (const BenchExperiment& experiment : results.experiments)
-    html += fmt::format("<a href=\"#experiment-{}\">{}</a>", experiment.name,
-                        html_escape(experiment.title));
   return html + "<a href=\"#again\">How to repeat it</a></nav>\n";
 }
 
@@ -183,10 +183,14 @@ std::string bench_report(const BenchResults& results) {
                         results.failures(), results.failures() == 1 ? "" : "s");
   html += claims_section(results) + summary_section(results);
   for (const BenchSceneResult& scene : results.scenes) html += report_of_scene(results, scene);
-  for (const BenchExperiment& experiment : results.experiments)
-    html += report_of_experiment(experiment);
   return html + again_section(results) + "<script>" + kReportScript +
          "</script>\n</body>\n</html>\n";
+}
+
+void write_report(const std::string& results_file, const std::string& page_file) {
+  const auto text = text_of_file(results_file);
+  if (!text) throw IoError("'" + results_file + "' cannot be read");
+  write_text(page_file, bench_report(results_from_json(*text, results_file)));
 }
 
 }  // namespace nephroid

@@ -1,4 +1,4 @@
-#include "bench/svg_plot.h"
+#include "report_page/svg_plot.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "bench/html_text.h"
+#include "report_page/html_text.h"
 
 namespace nephroid {
 namespace {

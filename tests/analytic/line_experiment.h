@@ -1,7 +1,6 @@
-// The one-dimensional validation of Hachisuka & Jensen 2009: photons of a known density on a line,
-// regions that gather them from pass to pass by shared statistics [E1] and with the memoryless
-// radius [E2], and how far both are from the known mean. Equations [E3] of docs/estimators.md. Who
-// calls it: tests and the drawing of convergence. It must not know scenes or films.
+// The one-dimensional validation of Hachisuka & Jensen 2009, equations [E3] of docs/estimators.md:
+// photons of a known density fall on a line, and regions gather them from pass to pass with shared
+// statistics [E1] and with the memoryless radius [E2]. The errors are against the known mean.
 #pragma once
 
 #include <cstdint>

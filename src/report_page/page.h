@@ -1,5 +1,5 @@
 // The HTML page of a suite: one file that holds its pictures, plots, style and script.
-// Who calls it: bench.cpp. It must not know how anything was measured.
+// It must not know how anything was measured.
 #pragma once
 
 #include <string>
@@ -12,14 +12,15 @@ namespace nephroid {
 /// replaced by a message.
 std::string bench_report(const BenchResults& results);
 
+/// Reads a results.json and writes its page. Throws IoError for a file that cannot be read or
+/// written, UsageError for one that has no results.
+void write_report(const std::string& results_file, const std::string& page_file);
+
 /// RMSE at the end, over all renders of the run, and between which it lies if there are several.
 std::string rmse_text(const BenchRun& run);
 
 /// The part of the page about one scene.
 std::string report_of_scene(const BenchResults& results, const BenchSceneResult& scene);
-
-/// The part of the page about an experiment.
-std::string report_of_experiment(const BenchExperiment& experiment);
 
 /// A table row by row: cells are HTML, `best` marks some.
 struct ReportTable {

@@ -6,14 +6,16 @@
 #include <functional>
 #include <optional>
 
+#include "bench/figure_text.h"
 #include "bench/fit.h"
-#include "bench/html_text.h"
 #include "bench/repeats.h"
-#include "bench/report.h"
-#include "bench/svg_plot.h"
 #include "core/errors.h"
 #include "image/compare.h"
 #include "image/flip.h"
+#include "report_page/html_text.h"
+#include "report_page/page.h"
+#include "report_page/svg_plot.h"
+#include "session/report/short_number.h"
 
 namespace nephroid {
 namespace {
@@ -188,10 +190,10 @@ std::string error_table(const std::vector<const BenchRun*>& runs,
 }
 
 std::string bytes_or_dash(uint64_t bytes) {
-  return bytes == 0 ? "—" : bytes_in_words(static_cast<double>(bytes));
+  return bytes == 0 ? "—" : short_bytes(static_cast<double>(bytes));
 }
 std::string count_or_dash(uint64_t count) {
-  return count == 0 ? "—" : count_text(static_cast<double>(count));
+  return count == 0 ? "—" : short_number(static_cast<double>(count));
 }
 
 std::string work_table(const std::vector<const BenchRun*>& runs) {
@@ -205,7 +207,9 @@ std::string work_table(const std::vector<const BenchRun*>& runs) {
        {"whole program", [](const BenchRun& r) { return bytes_or_dash(r.process_bytes); }, {}},
        {"rays", [](const BenchRun& r) { return count_or_dash(r.rays); }, {}},
        {"rays per second",
-        [](const BenchRun& r) { return count_text(static_cast<double>(r.rays) / r.end().seconds); },
+        [](const BenchRun& r) {
+          return short_number(static_cast<double>(r.rays) / r.end().seconds);
+        },
         {}}});
 }
 
@@ -269,12 +273,11 @@ std::string plots(const BenchResults& results, const std::vector<const BenchRun*
 
 std::string facts(const BenchScene& scene, const BenchSceneResult& result) {
   const BenchReferenceResult& r = result.reference;
-  const RouteChoice& routes = scene.reference.integrator.routes;
   std::string text =
       fmt::format("{}, {} × {} pixels. Reference: ", scene.file, result.width, result.height);
   if (r.rendered)
-    text += fmt::format("rendered with {}, {} passes in {}", name_of(routes, routes.integrator),
-                        r.passes, seconds_in_words(r.seconds));
+    text += fmt::format("rendered with {}, {} passes in {}", r.integrator, r.passes,
+                        seconds_in_words(r.seconds));
   else
     text += r.picture;
   if (r.own_error)
