@@ -1,15 +1,17 @@
-// Renders small scenes for the tests that look at whole pictures: from a scene's text to a film,
-// without files, and statistics over independent seeds. Used by statistical, analytic, agreement
-// and determinism tests.
+// Renders small scenes for tests of whole pictures: from a scene's text to a film, without files,
+// and statistics over independent seeds, which are rendered in parallel.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "core/errors.h"
+#include "core/parallel.h"
 #include "film/film_settings.h"
 #include "input/pbrt_parser.h"
 #include "integrator/presets/integrator_table.h"
@@ -100,11 +102,28 @@ struct Plan : RoutePlan {
   Plan(const char* name) : RoutePlan(plan_named(name)) {}
 };
 
-/// Renders passes [first, first + count) of a scene.
+/// What each estimator of a plan has learned of a scene.
+using PlanLearned = std::vector<LearnedValues>;
+inline PlanLearned learn(const Scene& scene, const Plan& plan, const IntegratorOptions& options,
+                         uint64_t seed) {
+  const Preset preset = make_preset(plan, options, scene);
+  const FilmFormat format = film_for(scene, preset).format();
+  PlanLearned learned;
+  for (const auto& estimator : preset.estimators)
+    learned.push_back(LearningLoop().learn(*estimator, seed, scene, format));
+  return learned;
+}
+
+/// Renders passes [first, first + count) of a scene. With `learned`, estimators use that instead of
+/// learning anew, unless it would be part of their light.
 inline Film render(const Scene& scene, const Plan& plan, const IntegratorOptions& options,
-                   uint64_t seed, uint32_t count, uint32_t first = 0) {
+                   uint64_t seed, uint32_t count, uint32_t first = 0,
+                   const PlanLearned& learned = {}) {
   Preset preset = make_preset(plan, options, scene);
   Film film = film_for(scene, preset);
+  preset.learned.resize(preset.estimators.size());
+  for (size_t i = 0; i < learned.size(); ++i)
+    if (!preset.estimators[i]->capabilities().learned_is_light) preset.learned[i].use(learned[i]);
   for (uint32_t pass = first; pass < first + count; ++pass)
     preset.render_pass({seed, pass}, scene, film);
   return film;
@@ -154,17 +173,48 @@ inline std::vector<double> block_means(const Film& film, int across) {
   return means;
 }
 
-/// Block means over `seeds` independent renders.
+/// What is added to every seed of a statistical comparison: zero, or as NEPHROID_TEST_SEED (a whole
+/// number) says for `make test-nightly`. Numbers that differ give disjoint sets of seeds.
+inline uint64_t seed_offset() {
+  const char* text = std::getenv("NEPHROID_TEST_SEED");
+  return text ? std::strtoull(text, nullptr, 10) << 20 : 0;
+}
+
+/// Calls `values_of_seed` for `seeds` seeds in parallel. It must make estimators of its own,
+/// because they keep statistics. The result does not depend on the number of threads.
+inline SeedValues values_over_seeds(
+    int seeds, uint64_t first_seed,
+    const std::function<std::vector<double>(uint64_t seed)>& values_of_seed) {
+  std::vector<std::vector<double>> by_seed(static_cast<size_t>(seeds));
+  const uint64_t first = first_seed + seed_offset();
+  parallel_chunks(seeds, 1, [&](int64_t s, int64_t, int64_t) {
+    by_seed[static_cast<size_t>(s)] = values_of_seed(first + static_cast<uint64_t>(s));
+  });
+  SeedValues values(by_seed.front().size());
+  for (const std::vector<double>& of_seed : by_seed)
+    for (size_t i = 0; i < values.size(); ++i) values[i].push_back(of_seed[i]);
+  return values;
+}
+
+/// Means of all blocks for each seed.
+inline std::vector<double> mean_of_blocks(const SeedValues& blocks) {
+  std::vector<double> values(blocks[0].size(), 0.0);
+  for (const auto& block : blocks)
+    for (size_t s = 0; s < block.size(); ++s)
+      values[s] += block[s] / static_cast<double>(blocks.size());
+  return values;
+}
+
+/// Block means over `seeds` independent renders. All of them use what the first seed learns: an
+/// estimator is right whatever it has learned. tests/agreement/learning_test.cpp learns anew for
+/// each seed.
 inline SeedValues block_values(const Scene& scene, const Plan& plan,
                                const IntegratorOptions& options, int seeds, uint32_t passes,
                                uint64_t first_seed, int across = 1) {
-  SeedValues values(static_cast<size_t>(across) * static_cast<size_t>(across));
-  for (int s = 0; s < seeds; ++s) {
-    const std::vector<double> means = block_means(
-        render(scene, plan, options, first_seed + static_cast<uint64_t>(s), passes), across);
-    for (size_t i = 0; i < means.size(); ++i) values[i].push_back(means[i]);
-  }
-  return values;
+  const PlanLearned learned = learn(scene, plan, options, first_seed + seed_offset());
+  return values_over_seeds(seeds, first_seed, [&](uint64_t seed) {
+    return block_means(render(scene, plan, options, seed, passes, 0, learned), across);
+  });
 }
 
 /// IntegratorOptions::nearest_photons with which photon maps are read in a fixed radius, whose bias
@@ -175,16 +225,22 @@ inline constexpr int kAllPhotons = 1 << 30;
 /// renders of a seed share all random numbers, so what does not depend on the radius keeps its own
 /// noise only. Where nothing is merged, there is nothing to remove.
 inline SeedValues unbiased_block_values(const Scene& scene, const Plan& plan,
-                                        IntegratorOptions options, int seeds, uint32_t passes,
-                                        uint64_t first_seed, int across = 1) {
+                                        const IntegratorOptions& options, int seeds,
+                                        uint32_t passes, uint64_t first_seed, int across = 1) {
   if (!merges_photons(plan))
     return block_values(scene, plan, options, seeds, passes, first_seed, across);
-  const SeedValues large = block_values(scene, plan, options, seeds, passes, first_seed, across);
-  options.radius *= std::sqrt(0.5f);
-  SeedValues values = block_values(scene, plan, options, seeds, passes, first_seed, across);
-  for (size_t i = 0; i < values.size(); ++i)
-    for (size_t s = 0; s < values[i].size(); ++s) values[i][s] = 2 * values[i][s] - large[i][s];
-  return values;
+  IntegratorOptions smaller = options;
+  smaller.radius *= std::sqrt(0.5f);
+  const PlanLearned learned = learn(scene, plan, options, first_seed + seed_offset());
+  return values_over_seeds(seeds, first_seed, [&](uint64_t seed) {
+    const auto means = [&](const IntegratorOptions& own) {
+      return block_means(render(scene, plan, own, seed, passes, 0, learned), across);
+    };
+    const std::vector<double> large = means(options);
+    std::vector<double> values = means(smaller);
+    for (size_t i = 0; i < values.size(); ++i) values[i] = 2 * values[i] - large[i];
+    return values;
+  });
 }
 
 /// Picture means over `seeds` independent renders.

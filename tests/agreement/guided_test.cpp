@@ -63,29 +63,31 @@ TEST_P(Guided, PhotonsFindTheSameCausticWithLessNoise) {
   const Plan plan = plan_of(
       {"of-lights=C.*[DG]S+L:photons", "of-the-lit=C.*[DG]S+[DG]L:photons", "rest=.*:path"});
   struct Caustics {
-    SeedValues of_lights = SeedValues(kBlocks), of_the_lit = of_lights, all = of_lights;
+    SeedValues of_lights, of_the_lit, all;
   };
   const auto caustics = [&](bool guided, uint64_t first_seed) {
     options.guides_photons = guided;
-    Caustics values;
-    for (uint64_t s = 0; s < kSeeds; ++s) {
+    const SeedValues values = values_over_seeds(kSeeds, first_seed, [&](uint64_t seed) {
+      std::vector<double> sums(3 * kBlocks, 0.0);
       Preset preset = make_preset(plan, options, *scene);
       Film film = film_for(*scene, preset);
       for (uint32_t pass = 0; pass < kPasses; ++pass)
-        preset.render_pass({first_seed + s, pass}, *scene, film);
-      for (int b = 0; b < kBlocks; ++b) {
-        double sum[2] = {0, 0};
+        preset.render_pass({seed, pass}, *scene, film);
+      for (int b = 0; b < kBlocks; ++b)
         for (int route = 0; route < 2; ++route)
           for (int y = 0; y < 4; ++y)
-            for (int x = 0; x < 4; ++x)
-              sum[route] += static_cast<double>(
+            for (int x = 0; x < 4; ++x) {
+              const auto light = static_cast<double>(
                   film.route_value(route, b % kAcross * 4 + x, b / kAcross * 4 + y).g);
-        values.of_lights[static_cast<size_t>(b)].push_back(sum[0]);
-        values.of_the_lit[static_cast<size_t>(b)].push_back(sum[1]);
-        values.all[static_cast<size_t>(b)].push_back(sum[0] + sum[1]);
-      }
-    }
-    return values;
+              sums[static_cast<size_t>(route * kBlocks + b)] += light;
+              sums[static_cast<size_t>(2 * kBlocks + b)] += light;
+            }
+      return sums;
+    });
+    const auto part = [&](int i) {
+      return SeedValues(values.begin() + i * kBlocks, values.begin() + (i + 1) * kBlocks);
+    };
+    return Caustics{part(0), part(1), part(2)};
   };
   const Caustics guided = caustics(true, 1), own = caustics(false, 1000);
   double light = 0;
@@ -122,33 +124,33 @@ TEST_P(Guided, WalksAndPhotonsTogetherFindTheSamePicture) {
   const Preset preset = make_preset(plan_of(routes), options, *scene);
   const OwnedRoutes owned = owned_routes(*scene, routes);
   const auto values = [&](bool guided, uint64_t first_seed) {
-    SeedValues result(kAcross * kAcross);
     options.guides_photons = guided;
-    for (uint64_t s = 0; s < kSeeds; ++s) {
+    return values_over_seeds(kSeeds, first_seed, [&](uint64_t seed) {
       const auto means = [&](float radius) {
-        options.radius = radius;
+        IntegratorOptions own = options;
+        own.radius = radius;
         Film film = film_for(*scene, preset);
-        const PhotonGuide guide =
-            guide_caustic_photons(first_seed + s, *scene, film.format(), options).guide;
+        const PhotonGuide guide = guide_caustic_photons(seed, *scene, film.format(), own).guide;
         EXPECT_EQ(guide.starts.empty(), !guided);
         const SampleMap map(film.bounds(), 8), no_walks(film.bounds(), 0);
         EstimatorStatistics statistics;
         for (uint32_t i = 0; i < 4; ++i)
-          render({.key = {first_seed + s, i},
-                  .seed = first_seed + s,
+          render({.key = {seed, i},
+                  .seed = seed,
                   .scene = *scene,
                   .owned = owned,
-                  .options = options,
+                  .options = own,
                   .techniques = {.light_paths = 8192, .connects = false, .caustics_only = true},
                   .emission = guide.starts,
                   .light_paths_vary = true},
                  {.film = film, .samples = {map, no_walks}}, statistics);
         return block_means(film, kAcross);
       };
-      const std::vector<double> large = means(1), small = means(std::sqrt(0.5f));
-      for (size_t i = 0; i < large.size(); ++i) result[i].push_back(2 * small[i] - large[i]);
-    }
-    return result;
+      const std::vector<double> large = means(1);
+      std::vector<double> result = means(std::sqrt(0.5f));
+      for (size_t i = 0; i < large.size(); ++i) result[i] = 2 * result[i] - large[i];
+      return result;
+    });
   };
   const SeedValues guided = values(true, 1), own = values(false, 1000);
   for (size_t i = 0; i < own.size(); ++i) {

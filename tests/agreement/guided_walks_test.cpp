@@ -42,8 +42,7 @@ TEST_P(GuidedWalks, FindTheSamePictureWithLessNoise) {
   const Preset preset = make_preset(plan_of(routes), options, *scene);
   const OwnedRoutes owned = owned_routes(*scene, routes);
   const auto values = [&](bool guided, uint64_t first_seed) {
-    SeedValues result(kAcross * kAcross);
-    for (uint64_t s = first_seed; s < first_seed + kSeeds; ++s) {
+    return values_over_seeds(kSeeds, first_seed, [&](uint64_t s) {
       Film film = film_for(*scene, preset);
       EstimatorStatistics statistics;
       const auto pass_of = [&](uint32_t number) {
@@ -66,10 +65,8 @@ TEST_P(GuidedWalks, FindTheSamePictureWithLessNoise) {
                 .samples = {one, no_walks, 16},
                 .directions = guided ? guide : kNoRadiance},
                statistics);
-      const std::vector<double> means = block_means(film, kAcross);
-      for (size_t i = 0; i < means.size(); ++i) result[i].push_back(means[i]);
-    }
-    return result;
+      return block_means(film, kAcross);
+    });
   };
   const SeedValues guided = values(true, 1), own = values(false, 1000);
   double light = 0, of_guided = 0, of_own = 0;

@@ -15,14 +15,6 @@ using namespace testing_support;
 
 constexpr int kAcross = 3, kSeeds = 32, kSeedsOfRoutes = 16;
 
-std::vector<double> whole(const SeedValues& blocks) {
-  std::vector<double> values(blocks[0].size(), 0.0);
-  for (const auto& block : blocks)
-    for (size_t s = 0; s < block.size(); ++s)
-      values[s] += block[s] / static_cast<double>(blocks.size());
-  return values;
-}
-
 void expect_equal(const SeedValues& found, const SeedValues& reference, const std::string& what,
                   double noise_limit) {
   const double quantile = reference[0].size() >= kSeeds ? kT31 : kT15;
@@ -30,7 +22,7 @@ void expect_equal(const SeedValues& found, const SeedValues& reference, const st
     const Estimate a = estimate_of(found[i]), b = estimate_of(reference[i]);
     EXPECT_NEAR(a.mean, b.mean, quantile * std::hypot(a.error, b.error)) << what << ", block " << i;
   }
-  const Estimate a = estimate_of(whole(found)), b = estimate_of(whole(reference));
+  const Estimate a = estimate_of(mean_of_blocks(found)), b = estimate_of(mean_of_blocks(reference));
   const double error = std::hypot(a.error, b.error);
   std::printf(
       "%-52s %.5f against %.5f: off by %+.2f %%, standard error %.2f %% (%.2f %% and %.2f %%)\n",

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "rendering.h"
@@ -129,9 +130,9 @@ TEST_P(ChainPasses, HaveNoBias) {
   const auto passes_of_seed = static_cast<uint32_t>(std::max<int64_t>(
       400, 120000 / (GetParam().settings.bootstrap +
                      GetParam().settings.chains * GetParam().settings.mutations)));
-  std::vector<std::vector<double>> there(kCells), mirrored(kCells);
-  ChainStatistics statistics;
-  for (uint64_t seed = 0; seed < kSeeds; ++seed) {
+  std::atomic<uint64_t> paths{0}, large{0}, small{0};
+  const SeedValues values = values_over_seeds(kSeeds, 0, [&](uint64_t seed) {
+    ChainStatistics statistics;
     Film film = film_of_cells();
     SplatBuffer buffer(film, 0, filter);
     for (uint32_t pass = 0; pass < passes_of_seed; ++pass) {
@@ -139,28 +140,31 @@ TEST_P(ChainPasses, HaveNoBias) {
       buffer.finish(1);
       film.add_estimates(0, 1);
     }
-    for (int i = 0; i < kCells; ++i) {
-      const Rgb a = film.route_value(0, i, 0), b = film.route_value(1, i, 0);
-      there[static_cast<size_t>(i)].push_back((double{a.r} + double{a.g} + double{a.b}) / 3);
-      mirrored[static_cast<size_t>(i)].push_back((double{b.r} + double{b.g} + double{b.b}) / 3);
-    }
-  }
+    paths += statistics.paths;
+    large += statistics.large;
+    small += statistics.small;
+    std::vector<double> cells;
+    for (const int route : {0, 1})
+      for (int i = 0; i < kCells; ++i) {
+        const Rgb v = film.route_value(route, i, 0);
+        cells.push_back((double{v.r} + double{v.g} + double{v.b}) / 3);
+      }
+    return cells;
+  });
   for (int i = 0; i < kCells; ++i) {
     const Rgb cell = light_of_cell(i);
     const double expected = (double{cell.r} + double{cell.g} + double{cell.b}) / 3;
-    const Estimate a = estimate_of(there[static_cast<size_t>(i)]);
-    const Estimate b = estimate_of(mirrored[static_cast<size_t>(kCells - 1 - i)]);
+    const Estimate a = estimate_of(values[static_cast<size_t>(i)]);
+    const Estimate b = estimate_of(values[static_cast<size_t>(2 * kCells - 1 - i)]);
     EXPECT_NEAR(a.mean, expected, kT31 * a.error + 1e-6) << "cell " << i;
     EXPECT_NEAR(b.mean, expected / 2, kT31 * b.error + 1e-6) << "cell " << i;
     EXPECT_LE(a.error, 0.06 * expected) << "too noisy to tell";
   }
   const ChainSettings& s = GetParam().settings;
   const auto passes = static_cast<uint64_t>(kSeeds) * passes_of_seed;
-  EXPECT_EQ(statistics.paths, passes * static_cast<uint64_t>(s.bootstrap + s.chains * s.mutations));
-  EXPECT_EQ(statistics.large + statistics.small,
-            passes * static_cast<uint64_t>(s.chains * s.mutations));
-  EXPECT_NEAR(static_cast<double>(statistics.large) /
-                  static_cast<double>(statistics.large + statistics.small),
+  EXPECT_EQ(paths, passes * static_cast<uint64_t>(s.bootstrap + s.chains * s.mutations));
+  EXPECT_EQ(large + small, passes * static_cast<uint64_t>(s.chains * s.mutations));
+  EXPECT_NEAR(static_cast<double>(large) / static_cast<double>(large + small),
               static_cast<double>(s.large_step), 0.01);
 }
 

@@ -61,13 +61,14 @@ TEST_P(PairNumbers, OneSeedConverges) {
   constexpr uint32_t kPasses = 4096, kSeeds = 128, kSome = 16;
   // What is right, and how far one pass is off: from seeds that are independent.
   std::vector<double> mean(32, 0.0), square(32, 0.0);
-  for (uint64_t seed = 0; seed < kSeeds; ++seed) {
-    const std::vector<double> few = colors_of(render(*scene, plan, options, 100 + seed, kSome));
-    for (size_t i = 0; i < few.size(); ++i) {
-      mean[i] += few[i] / kSeeds;
-      square[i] += few[i] * few[i] / kSeeds;
+  const SeedValues few = values_over_seeds(kSeeds, 100, [&](uint64_t seed) {
+    return colors_of(render(*scene, plan, options, seed, kSome));
+  });
+  for (size_t i = 0; i < few.size(); ++i)
+    for (const double value : few[i]) {
+      mean[i] += value / kSeeds;
+      square[i] += value * value / kSeeds;
     }
-  }
   const std::vector<double> many = colors_of(render(*scene, plan, options, 1, kPasses));
   double error = 0, all = 0, expected = 0;
   for (size_t i = 0; i < many.size(); ++i) {

@@ -1,0 +1,71 @@
+// Estimators that learn find the right light when each render learns for itself: a picture that is
+// better where learning was lucky would be biased, however right each guide is by itself. Many
+// seeds on small films.
+#include <gtest/gtest.h>
+
+#include "rendering.h"
+
+namespace nephroid {
+namespace {
+
+using namespace testing_support;
+
+// A lamp, a glass ball with its caustic, and a wall that is lit by the floor.
+constexpr char kRoom[] = R"(
+  LookAt 0 3 -5  0 0.4 0  0 1 0
+  Camera "perspective" "float fov" 34
+  Film "rgb" "integer xresolution" 4 "integer yresolution" 4
+  PixelFilter "box"
+  WorldBegin
+  AttributeBegin
+    AreaLightSource "diffuse" "rgb L" [20 18 16]
+    Translate 0 4 0 Rotate 90 1 0 0 Shape "disk" "float radius" 0.4
+  AttributeEnd
+  Material "diffuse" "rgb reflectance" [0.6 0.5 0.4]
+  Shape "bilinearmesh" "point3 P" [-6 0 -6  6 0 -6  -6 0 6  6 0 6]
+  Shape "bilinearmesh" "point3 P" [-6 0 2  6 0 2  -6 4 2  6 4 2]
+  Material "dielectric" Translate 0.2 0.7 0 Shape "sphere" "float radius" 0.6
+)";
+constexpr int kSeeds = 256;
+/// Quantile of the normal distribution at a two-sided level of 1e-5.
+constexpr double kQuantile = 4.42;
+
+class Learning : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(Learning, AnewForEachSeedHasNoBias) {
+  const auto scene = scene_from_text(kRoom);
+  IntegratorOptions options;
+  options.max_depth = 5;
+  options.photons_per_pass = 1024;
+  options.radius = 0.25f;
+  const Plan plan(GetParam());
+  constexpr uint32_t kPasses = 3;  // the first one, and two that have learned from it
+  const auto render_seeds = [&](const IntegratorOptions& own) {
+    return values_over_seeds(kSeeds, 1000, [&](uint64_t seed) {
+      return block_means(render(*scene, plan, own, seed, kPasses), 2);
+    });
+  };
+  SeedValues found = render_seeds(options);
+  if (merges_photons(plan)) {
+    options.radius *= std::sqrt(0.5f);
+    const SeedValues smaller = render_seeds(options);
+    for (size_t i = 0; i < found.size(); ++i)
+      for (size_t s = 0; s < found[i].size(); ++s) found[i][s] = 2 * smaller[i][s] - found[i][s];
+  }
+  const SeedValues expected = block_values(*scene, "bdpt", options, kSeeds, 64, 1, 2);
+  for (size_t i = 0; i < found.size(); ++i) {
+    const Estimate a = estimate_of(found[i]), b = estimate_of(expected[i]);
+    const double error = std::hypot(a.error, b.error);
+    std::printf("%s, block %zu: %.5f against %.5f, %+.2f standard errors of %.2f %%\n", GetParam(),
+                i, a.mean, b.mean, (a.mean - b.mean) / error, 100 * error / b.mean);
+    EXPECT_NEAR(a.mean, b.mean, kQuantile * error) << "block " << i;
+    EXPECT_LT(error, 0.02 * b.mean) << "too noisy to tell";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Plans, Learning,
+                         ::testing::Values("mixed", "doidge2012", "forecast", "mlt", "pointlights"),
+                         [](const auto& test) { return test_name(test.param); });
+
+}  // namespace
+}  // namespace nephroid

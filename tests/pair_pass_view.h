@@ -1,0 +1,55 @@
+// A small scene and what it takes to render it by passes of path+photons.
+#pragma once
+
+#include "integrator/bidirectional/pair_pass.h"
+#include "owned_routes.h"
+#include "rendering.h"
+
+namespace nephroid::testing_support {
+
+inline constexpr char kPairView[] = R"(
+  LookAt 0 4 -2  0 0 0  0 1 0
+  Camera "perspective" "float fov" 40
+  Film "rgb" "integer xresolution" 12 "integer yresolution" 8
+  PixelFilter "box" "float xradius" 0.5 "float yradius" 0.5
+  WorldBegin
+  Material "diffuse" "rgb reflectance" [0.6 0.6 0.6]
+  Shape "bilinearmesh" "point3 P" [-4 0 -4  4 0 -4  -4 0 4  4 0 4]
+)";
+
+struct PairView {
+  explicit PairView(const std::string& world)
+      : scene(scene_from_text(kPairView + world)),
+        preset(make_preset(plan_of({"all=.*:path+photons"}), {}, *scene)),
+        owned(owned_routes(*scene, {"all=.*:path+photons"})) {}
+  PairPass pass_of(const PairTechniques& techniques, uint32_t number,
+                   const IntegratorOptions& options) const {
+    return {.key = {3, number},
+            .seed = 3,
+            .scene = *scene,
+            .owned = owned,
+            .options = options,
+            .techniques = techniques,
+            .light_paths_vary = true};
+  }
+  Film render(const PairTechniques& techniques, uint32_t number, const SampleMap& map,
+              uint32_t in_first_pass = 0) const {
+    Film film = film_for(*scene, preset);
+    EstimatorStatistics statistics;
+    const IntegratorOptions options;
+    nephroid::render(pass_of(techniques, number, options),
+                     {.film = film, .samples = {map, no_walks, in_first_pass}}, statistics);
+    return film;
+  }
+  std::unique_ptr<Scene> scene;
+  Preset preset;
+  OwnedRoutes owned;
+  PixelBounds bounds = film_for(*scene, preset).bounds();
+  SampleMap one_path{bounds}, no_walks{bounds, 0};
+};
+
+inline PairTechniques camera_paths_only() {
+  return {.light_paths = 0, .connects = false, .caustics_only = true};
+}
+
+}  // namespace nephroid::testing_support
