@@ -2,15 +2,26 @@
 BUILD := build/release
 NEPHROID := $(BUILD)/bin/nephroid
 
-.PHONY: demo test program build deps sanitize asan tsan fuzz format check clean
+.PHONY: demo test test-quick test-nightly program build deps sanitize asan tsan fuzz format check clean
 
 demo: program
 	@mkdir -p out
 	$(NEPHROID) render scenes/coffee-cup/scene.pbrt -o out/coffee-cup.exr --time 90s
 	@echo "The picture: $(CURDIR)/out/coffee-cup.png"
 
+# All tests, then what each suite took beside its budget (docs/testing.md).
 test: build check
-	ctest --test-dir $(BUILD) --output-on-failure -j $$(nproc)
+	@ctest --test-dir $(BUILD) --output-on-failure -j $$(nproc) --output-junit tests.xml; status=$$?; \
+	  tools/test_times $(BUILD)/tests.xml; exit $$status
+
+# What an edit needs: below 90 seconds once it is built.
+test-quick: build check
+	ctest --test-dir $(BUILD) --output-on-failure -j $$(nproc) -L quick
+
+# The statistical suites with the seeds of today.
+test-nightly: build
+	NEPHROID_TEST_SEED=$${NEPHROID_TEST_SEED:-$$(date +%Y%m%d)} \
+	  ctest --test-dir $(BUILD) --output-on-failure -j $$(nproc) -L nightly
 
 program: deps
 	@cmake --preset release >/dev/null
