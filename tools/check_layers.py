@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Holds the architecture: a file includes only from its own layer or from one to the left of it, each
-external library is included where it belongs, and files keep to the soft limit of length.
+"""Holds the architecture: a file includes only from its own layer and room or from those to the left of it,
+no headers include each other in a circle, each external library is included where it belongs, and files keep
+to 400 lines of 100 columns.
 
 Exit status 1 and one line per violation, `file:line: what`.
 """
@@ -33,6 +34,9 @@ LIBRARIES = {
     r"CLI/": {"options", "report_page/main.cpp"},
     r"nlohmann/": {"bench", "session/checkpoint/film_metadata.cpp"},
 }
+MAX_LINES, MAX_COLUMNS = 400, 100
+# Files that are tables of text or of data, which no one reads as code.
+TABLES = {"report_page/page_style.cpp", "options/scene_support.cpp"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 
@@ -50,8 +54,40 @@ def library_allowed(path, places):
     return any(path == p or path.startswith(p + "/") for p in places)
 
 
+def too_long(path, lines):
+    """Lines inside a raw string are the text of a file or of a page, not code."""
+    if path in TABLES:
+        return
+    if len(lines) > MAX_LINES:
+        yield f"src/{path}:{MAX_LINES + 1}: has {len(lines)} lines, expected {MAX_LINES} at most"
+    for number, line in enumerate(lines, 1):
+        if len(line) > MAX_COLUMNS:
+            yield f"src/{path}:{number}: has {len(line)} columns, expected {MAX_COLUMNS} at most"
+
+
+def circles(includes):
+    """One line for each circle of headers."""
+    done, stack = set(), []
+
+    def visit(header):
+        if header in stack:
+            yield " -> ".join(stack[stack.index(header):] + [header])
+            return
+        if header in done:
+            return
+        stack.append(header)
+        for other in sorted(includes.get(header, ())):
+            yield from visit(other)
+        stack.pop()
+        done.add(header)
+
+    for header in sorted(includes):
+        yield from visit(header)
+
+
 def main():
     problems = []
+    includes = {}
     for file in sorted(SRC.rglob("*")):
         if file.suffix not in (".h", ".cpp"):
             continue
@@ -60,7 +96,9 @@ def main():
         if own is None:
             problems.append(f"src/{path}:1: belongs to no layer")
             continue
-        for number, line in enumerate(file.read_text().splitlines(), 1):
+        lines = file.read_text().splitlines()
+        problems += too_long(path, lines)
+        for number, line in enumerate(lines, 1):
             match = INCLUDE.match(line)
             if not match:
                 continue
@@ -71,15 +109,18 @@ def main():
                         problems.append(f"src/{path}:{number}: <{name}> belongs in "
                                         + " or ".join(sorted(places)))
                 continue
+            if file.suffix == ".h":
+                includes.setdefault(path, set()).add(name)
             other = layer_of(name)
             if other is None or name in VOCABULARY:
                 continue
             if other > own:
                 problems.append(f"src/{path}:{number}: includes \"{name}\", which stands to its right")
+    problems += [f"headers include each other in a circle: {circle}" for circle in circles(includes)]
     for problem in problems:
         print(problem)
     if not problems:
-        print("layers: every include points to the left")
+        print("layers: every include points to the left, no circles, no file or line too long")
     return 1 if problems else 0
 
 

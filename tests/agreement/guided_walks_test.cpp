@@ -47,7 +47,7 @@ TEST_P(GuidedWalks, FindTheSamePictureWithLessNoise) {
       EstimatorStatistics statistics;
       const auto pass_of = [&](uint32_t number) {
         return PairPass{.key = {s, number},
-                        .seed = s,
+                        .seed = hash_combine(s, uint64_t{8}),
                         .scene = *scene,
                         .owned = owned,
                         .options = options,
