@@ -1,6 +1,6 @@
 # Tests: one executable per folder below tests/unit (named as the layer it tests) and one per other
-# kind of test. An executable is one ctest: to start one takes a third of a second, as long as most
-# test cases. Those with much to do are cut into shards, so that all cores have work to the end.
+# kind of test. An executable is one test of ctest, or one for each tier: starting it takes a third of
+# a second, as long as most test cases.
 find_package(GTest REQUIRED)
 # A sanitizer is slow: of the tests with most passes it sees one shard in so many, the one that
 # NEPHROID_SANITIZED_SHARD (modulo so many) says.
@@ -12,7 +12,6 @@ endif()
 set(sanitized_shards_agreement 24)
 set(sanitized_shards_statistical 24)
 set(sanitized_shards_analytic 12)
-set(sanitized_shards_unit_integrator 12)
 set(sanitizer_environment
     "ASAN_OPTIONS=detect_stack_use_after_return=1"
     "UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1"
@@ -23,16 +22,18 @@ if(NEPHROID_SANITIZE)
   set_source_files_properties(tests/routes/oracle_test.cpp tests/unit/options/scene_support_test.cpp
                               PROPERTIES COMPILE_OPTIONS -Wno-maybe-uninitialized)
 endif()
-# Tiers (docs/testing.md): the label `quick` is of all unit tests and of these parts of the others; the
-# rest of them is `full`. `nightly` are suites that may be given other seeds.
+# Tiers (docs/testing.md). The label `quick` has all unit tests and these parts of the other suites
+# (filters of GoogleTest); the label `full` has the rest, so that no test runs twice. Suites labelled
+# `nightly` compare random estimates and can run with other seeds.
 set(quick_routes "-Sets/BruteForce*")
 set(quick_statistical "*/glass_before_wall_*")
 set(quick_determinism "ResumeRefuses*:*/mixed:*/doidge2012")
 set(quick_regression "Bad*")
 set(full_only analytic agreement)
 set(nightly analytic agreement statistical)
-# These use all cores by themselves.
+# These render their seeds in parallel, so ctest starts nothing beside them.
 set(parallel analytic agreement statistical)
+cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
 
 add_library(test_source_directory STATIC tests/source_directory.cpp)
 target_link_libraries(test_source_directory PRIVATE nephroid_core GTest::gtest)
@@ -41,11 +42,11 @@ set_source_files_properties(tests/source_directory.cpp PROPERTIES
 # It compiles the headers for all tests: to reuse those of an executable would be to wait for it.
 nephroid_precompiled(test_source_directory test_source_directory <gtest/gtest.h>)
 
-# A tier of a suite as a test of ctest; an empty filter is all of it.
+# Adds a tier of a suite as a test of ctest; an empty filter takes the whole suite.
 function(nephroid_add_tier test suite tier filter)
   add_test(NAME ${test} COMMAND test_${suite})
   set(labels ${tier})
-  if(suite IN_LIST nightly AND tier STREQUAL "full")
+  if(suite IN_LIST nightly)
     list(APPEND labels nightly)
   endif()
   set_tests_properties(${test} PROPERTIES TIMEOUT 14400 LABELS "${labels}")
@@ -53,9 +54,9 @@ function(nephroid_add_tier test suite tier filter)
     set_tests_properties(${test} PROPERTIES ENVIRONMENT "GTEST_FILTER=${filter}")
   endif()
   if(suite IN_LIST parallel)
-    set_tests_properties(${test} PROPERTIES PROCESSORS 2)
+    set_tests_properties(${test} PROPERTIES PROCESSORS ${cores})
   endif()
-  # What takes longest begins first.
+  # The longest suites start first.
   if(tier STREQUAL "full")
     set_tests_properties(${test} PROPERTIES COST 100)
   endif()
@@ -85,7 +86,7 @@ function(nephroid_test folder)
   if(name IN_LIST full_only)
     nephroid_add_tier(${name} ${name} full "")
   elseif(quick_${name})
-    # Both tiers together are all of the suite: a filter that begins with "-" leaves out what it names.
+    # The filter of the full tier is the complement of the other; "-" in front excludes.
     if(quick_${name} MATCHES "^-(.*)")
       nephroid_add_tier(${name}_quick ${name} quick "${quick_${name}}")
       nephroid_add_tier(${name} ${name} full "${CMAKE_MATCH_1}")

@@ -29,7 +29,7 @@ void expect_equal(const SeedValues& found, const SeedValues& reference, const st
       what.c_str(), a.mean, b.mean, 100 * (a.mean / b.mean - 1), 100 * error / b.mean,
       100 * a.error / b.mean, 100 * b.error / b.mean);
   EXPECT_NEAR(a.mean, b.mean, quantile * error) << what << ", whole picture";
-  EXPECT_LT(error, noise_limit * b.mean) << what << " is too noisy to tell";
+  EXPECT_LT(error, max_error(noise_limit * b.mean)) << what << " is too noisy to tell";
 }
 
 IntegratorOptions options_for(const AgreementScene& description) {

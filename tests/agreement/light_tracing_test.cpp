@@ -128,7 +128,7 @@ TEST_P(LightTracingAgrees, WithPathTracing) {
   std::printf("%-28s off by %+.2f %%, standard error %.2f %%\n", GetParam().name,
               100 * difference / sum, 100 * std::sqrt(squared_error) / sum);
   EXPECT_NEAR(difference, 0, kT15 * std::sqrt(squared_error));
-  EXPECT_LT(std::sqrt(squared_error), 0.02 * sum) << "too noisy to tell";
+  EXPECT_LT(std::sqrt(squared_error), max_error(0.02 * sum)) << "too noisy to tell";
 
   // Light tracing does find it, and not path tracing in its place.
   const Film film = render(*scene, "light-only", options, 1, 1);

@@ -30,7 +30,7 @@ void expect_same(const SeedValues& found, const SeedValues& reference, double no
     std::printf("block %zu: off by %+.2f %%, standard error %.2f %%\n", i,
                 100 * (a.mean / b.mean - 1), 100 * error / b.mean);
     EXPECT_NEAR(a.mean, b.mean, kT15 * error) << "block " << i;
-    EXPECT_LT(error, noise_limit * b.mean) << "block " << i << " is too noisy to tell";
+    EXPECT_LT(error, max_error(noise_limit * b.mean)) << "block " << i << " is too noisy to tell";
   }
 }
 

@@ -158,7 +158,7 @@ TEST_P(ChainPasses, HaveNoBias) {
     const Estimate b = estimate_of(values[static_cast<size_t>(2 * kCells - 1 - i)]);
     EXPECT_NEAR(a.mean, expected, kT31 * a.error + 1e-6) << "cell " << i;
     EXPECT_NEAR(b.mean, expected / 2, kT31 * b.error + 1e-6) << "cell " << i;
-    EXPECT_LE(a.error, 0.06 * expected) << "too noisy to tell";
+    EXPECT_LE(a.error, max_error(0.06 * expected)) << "too noisy to tell";
   }
   const ChainSettings& s = GetParam().settings;
   const auto passes = static_cast<uint64_t>(kSeeds) * passes_of_seed;
