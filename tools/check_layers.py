@@ -12,8 +12,8 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 SRC = ROOT / "src"
 LAYERS = ["core", "input", "scene", "route", "film", "transport", "photon", "integrator", "image",
           "session", "options", "bench", "apps"]
-# Layers with folders of their own, which are rooms: in this order each includes only from those to its
-# left. "" is the layer's own files.
+# Layers with rooms, folders in their own: a room includes only from itself or from one to its left.
+# "" is the layer's own files.
 ROOMS = {
     "scene": ["shape", "bsdf", "texture", "medium", "material", "light", "camera", ""],
     "session": ["settings", "report", "checkpoint", ""],

@@ -1,6 +1,5 @@
 // What a suite file says: integrators, scenes, references, and claims about how they compare
-// (docs/bench.md has the format). Who calls it: the command, bench.h and tests. It must not know
-// how anything is rendered or drawn.
+// (docs/bench.md has the format). It must not know how anything is rendered or drawn.
 #pragma once
 
 #include <cstdint>

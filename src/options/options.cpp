@@ -151,12 +151,13 @@ constexpr OptionDescription kOptions[] = {
      "numbers, or if sums reached their limit.", false,
      [](CommandLine& l, const std::string&) { l.render.strict = true; }},
     {"render", "--no-state", "", "", "", "", "Output",
-     "Leave the last picture without what a render needs to go on from it: a smaller file. Pictures "
-     "on the way, and that of a render that a signal stops, have it.", false,
+     "Leave the last picture without what a render needs to go on from it: a smaller file. "
+     "Pictures on the way, and that of a render that a signal stops, have it.",
+     false,
      [](CommandLine& l, const std::string&) { l.render.keeps_state = false; }},
     {"render", "--quiet", "", "", "", "", "Output",
-     "Print nothing but errors, and what the picture is in danger of: that it cannot be written, what it is resumed from, "
-     "what it replaces.",
+     "Print nothing but errors, and what the picture is in danger of: that it cannot be written, "
+     "what it is resumed from, what it replaces.",
      false, [](CommandLine& l, const std::string&) { l.render.quiet = true; }},
     {"render", "--integrator", "", "NAME", "", "mixed", "Algorithm", kIntegratorHelp, false,
      set_integrator<&CommandLine::render>},
