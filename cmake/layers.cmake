@@ -1,7 +1,7 @@
 # The layers, in the order in which data flows through them. Each is a small static library of all
 # sources in its folder; a layer links only what stands before it:
-# nephroid_layer(NAME FOLDER LIBRARY... [ROOMS FOLDER...]). Rooms are folders in the layer's own, whose
-# sources go into the same library; tools/check_layers.py holds their order.
+# nephroid_layer(NAME FOLDER LIBRARY... [ROOMS FOLDER...]). Rooms are folders in the layer's own,
+# whose sources go into the same library; tools/check_layers.py holds their order.
 function(nephroid_layer name folder)
   cmake_parse_arguments(PARSE_ARGV 2 layer "" "" "ROOMS")
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${folder}/*.cpp)

@@ -1,5 +1,4 @@
 // The commands of the program, one file each. All return the exit status and throw Error.
-// Who calls it: main.cpp.
 #pragma once
 
 #include "options/options.h"

@@ -1,6 +1,6 @@
 // Errors and warnings on standard error. What they quote comes from files that may hold anything,
 // so control characters and bytes that are not UTF-8 are shown as \xNN: a terminal obeys none of
-// them. Who calls it: main.cpp and the commands. It must not know what the messages are about.
+// them. It must not know what the messages are about.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // How far a render is, on standard error: a bar that is drawn over itself on a terminal, else a
-// plain line now and then. Who calls it: render_command.cpp. It must not know scenes or estimators.
+// plain line now and then. It must not know scenes or estimators.
 #pragma once
 
 #include <cstdint>

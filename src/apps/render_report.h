@@ -1,5 +1,4 @@
 // The short report at the end of a render.
-// Who calls it: render_command.cpp.
 #pragma once
 
 #include <string>

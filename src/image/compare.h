@@ -1,6 +1,6 @@
-// How far a picture is from a reference: the numbers of `nephroid compare` and its heat map.
-// Works on linear RGB; values that are not finite count as 1e6, so that they show and do not
-// spread. Who calls it: apps and the agreement tests. It must not know films or scenes.
+// How far a picture is from a reference: the numbers of `nephroid compare` and its heat map. Works
+// on linear RGB; values that are not finite count as 1e6, so that they show and do not spread. It
+// must not know films or scenes.
 #pragma once
 
 #include <cstdint>

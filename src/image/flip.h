@@ -1,7 +1,7 @@
 // FLIP: how large the differences of two pictures appear to a viewer who flips between them, from 0
-// (none) to 1. Formulas [FL1] to [FL6] of docs/estimators.md. Who calls it: compare and the
-// benchmark. It must not know films or scenes. Paper: Andersson, Nilsson, Akenine-Möller,
-// Oskarsson, Åström, Fairchild, FLIP: A Difference Evaluator for Alternating Images, HPG 2020.
+// (none) to 1. Formulas [FL1] to [FL6] of docs/estimators.md. It must not know films or scenes.
+// Paper: Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström, Fairchild, FLIP: A Difference
+// Evaluator for Alternating Images, HPG 2020.
 #pragma once
 
 #include <vector>

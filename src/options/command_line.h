@@ -1,5 +1,4 @@
-// argv -> CommandLine, by the option table.
-// Who calls it: apps and tests. It must not know what commands do.
+// argv -> CommandLine, by the option table. It must not know what commands do.
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
 // The one table of the command line: every option with its value, unit, default and help. The
-// parser (command_line.h), --help and docs/options.md are all made from it. Who calls it:
-// command_line.cpp and tests. It must not know the parsing library.
+// parser (command_line.h), --help and docs/options.md are all made from it. It must not know the
+// parsing library.
 #pragma once
 
 #include <array>

@@ -1,6 +1,5 @@
 // docs/scene-support.md: what becomes of every name of the scene format, from the tables that the
-// loader itself uses. Who calls it: the command line (for tools/update_docs) and tests. It must not
-// know any name of the format.
+// loader itself uses. It must not know any name of the format.
 #pragma once
 
 #include <string>

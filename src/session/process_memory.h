@@ -1,5 +1,5 @@
-// The memory of this process and of the machine, as the system counts it.
-// Who calls it: the command render and the benchmark. It must not know what the memory is for.
+// The memory of this process and of the machine, as the system counts it. It must not know what the
+// memory is for.
 #pragma once
 
 #include <cstdint>

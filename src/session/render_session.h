@@ -1,6 +1,6 @@
 // The loop over passes: when to stop, when to write, what to say. The only place with a clock, and
-// no pixel depends on it: time decides how many passes there are, never what a pass computes. Who
-// calls it: apps and tests. It must not know how an estimator makes light.
+// no pixel depends on it: time decides how many passes there are, never what a pass computes. It
+// must not know how an estimator makes light.
 #pragma once
 
 #include <cstdint>

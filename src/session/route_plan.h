@@ -1,5 +1,5 @@
 // From what the command line says about routes to a plan: an integrator's routes, a preset, a file
-// of routes, or routes one by one. Who calls it: apps. It must not know scenes.
+// of routes, or routes one by one. It must not know scenes.
 #pragma once
 
 #include <string>

@@ -1,5 +1,4 @@
 // A scene from its file, with its warnings.
-// Who calls it: the commands that need a scene, and the benchmark.
 #pragma once
 
 #include <memory>

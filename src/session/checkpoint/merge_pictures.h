@@ -1,6 +1,6 @@
 // The pictures of several renders of disjoint passes as one: sums are exact, so adding them up in
-// any order is what one run would have made. Who calls it: the command merge. It must not know
-// scenes: what a film is stands in its picture.
+// any order is what one run would have made. It must not know scenes: what a film is stands in its
+// picture.
 #pragma once
 
 #include <string>

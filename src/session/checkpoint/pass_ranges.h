@@ -1,5 +1,5 @@
-// Which passes of a render have been done: ranges, both ends included. Who calls it: the session,
-// resuming and merging. It must not know what a pass is.
+// Which passes of a render have been done: ranges, both ends included. It must not know what a pass
+// is.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// What a picture that the program wrote is of, and how far it has come, in sentences.
-// Who calls it: the command info. It must not know scenes.
+// What a picture that the program wrote is of, and how far it has come, in sentences. It must not
+// know scenes.
 #pragma once
 
 #include <string>

@@ -1,6 +1,5 @@
 // What estimators chose and found, in sentences: photons, radii, where the rays went, their own
-// notes, and how far off they take themselves to be. Who calls it: the session, for the picture's
-// metadata, and the program, for the end of a render. It must not know clocks.
+// notes, and how far off they take themselves to be. It must not know clocks.
 #pragma once
 
 #include <optional>

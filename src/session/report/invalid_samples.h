@@ -1,5 +1,5 @@
-// What a render left out, in sentences. Who calls it: the report and the session. It must not know
-// how a fault comes about.
+// Samples that a render left out because they were not finite, in sentences. It must not know where
+// they come from.
 #pragma once
 
 #include <string>

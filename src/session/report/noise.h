@@ -1,5 +1,5 @@
-// Numbers about a whole film: how far off it is and how its light divides among the routes.
-// Who calls it: the render session and the report. It must not know passes or clocks.
+// Numbers about a whole film: how far off it is and how its light divides among the routes. It must
+// not know passes or clocks.
 #pragma once
 
 #include <cmath>

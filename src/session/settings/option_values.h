@@ -1,6 +1,6 @@
 // The texts that options take, as values: numbers, durations, ranges, sizes. Each parser takes the
 // whole text or throws UsageError with what was expected; `option` is the name that the message
-// begins with. Who calls it: options.cpp and integrator_settings.cpp.
+// begins with.
 #pragma once
 
 #include <array>

@@ -4,6 +4,7 @@
 // by tools/update_regression. It must not know the test's seeds but that they are small.
 #include <cstdio>
 
+#include "film/exr_file.h"
 #include "regression/feature_scene.h"
 
 namespace {

@@ -12,7 +12,8 @@ namespace nephroid {
 namespace {
 
 constexpr const char* kScene =
-    R"(Camera "perspective" "float fov" 20 Film "rgb" "integer xresolution" 6 "integer yresolution" 4
+    R"(Camera "perspective" "float fov" 20
+  Film "rgb" "integer xresolution" 6 "integer yresolution" 4
   Sampler "halton" "integer pixelsamples" 2 "integer seed" 9
   Integrator "volpath" "integer maxdepth" 4 "integer unheardof" 1
   WorldBegin LightSource "point" "point3 from" [0 0 -2] Translate 0 0 3 Shape "sphere")";

@@ -1,5 +1,4 @@
 // A session whose estimators do what the test says and whose clock the test turns.
-// Who includes it: the tests of the render loop.
 #pragma once
 
 #include <gtest/gtest.h>
