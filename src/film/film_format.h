@@ -1,5 +1,5 @@
-// What a film is, without its sums: size, crop, colours, and the parts into which its light is
-// divided. It must not know scenes or estimators.
+// The format of a film, without its sums: size, crop, colours, and the parts into which its light
+// is divided. It must not know scenes or estimators.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ struct PixelBounds {
   bool operator==(const PixelBounds&) const = default;
 };
 
-/// What a film is: taken from the scene's Film directive and the command line.
+/// Settings of a film, taken from the scene's Film directive and the command line.
 struct FilmSettings {
   int width = 1280, height = 720;   ///< full resolution
   PixelBounds crop;                 ///< rendered part, inside the resolution; empty: all of it
@@ -34,7 +34,7 @@ struct FilmSettings {
   bool gbuffer = false;                      ///< has the geometric layers, see SurfaceSample
 };
 
-/// What the sums of a film are for. The light is divided into parts, each of which belongs to one
+/// The parts of a film. The light is divided into parts, each of which belongs to one
 /// route and any number of AOVs; the routes that one estimator samples together are a group, with
 /// one count of estimates and one variance.
 struct FilmLayout {

@@ -1,8 +1,7 @@
 // Where light that leaves a rough surface is of use: at the smooth things by way of which earlier
 // light paths came to what the camera sees. They are kept as balls; as seen from a vertex these are
 // cones, and a share of the directions of light paths falls into them (docs/estimators.md, [G8]).
-// Immutable once made. Who calls it: learned_photons.cpp, which makes it, and photon_tracer.cpp. It
-// must not know routes, cameras or films.
+// Immutable once made. It must not know routes, cameras or films.
 #pragma once
 
 #include <array>

@@ -1,7 +1,5 @@
 // Where a light path starts: a light, a point and a direction, and what it carries from there
-// (docs/estimators.md, [P1] and [P4]).
-// Who calls it: photon_tracer.cpp, and the estimators with light paths of their own: light_tracing,
-// light_path, point_light_pool and forecast. It must not know routes, cameras or films.
+// (docs/estimators.md, [P1] and [P4]). It must not know routes, cameras or films.
 #pragma once
 
 #include <optional>

@@ -1,8 +1,7 @@
 // Where light paths are worth starting: spheres in the scene at which they are aimed, and how often
 // from which lights, found by looking at which earlier paths were of use. A share of all paths
 // starts as the lights themselves would have it, so that nothing is ever missed
-// (docs/estimators.md, section 20). Immutable once made. Who calls it: emission.cpp and the weights
-// of bidirectional estimators. It must not know routes, cameras or films.
+// (docs/estimators.md, section 20). Immutable once made. It must not know routes, cameras or films.
 // Papers: Grittmann et al. 2018, Vorba et al. 2014 for the idea of guided emission.
 #pragma once
 

@@ -1,7 +1,6 @@
 // Where caustics come from: places to which light came through specular surfaces, each with the
 // point of the caster that it came from; and, around any point, a density of directions towards
-// such points ([T1] and [T2] in docs/estimators.md). Who calls it: forecast.cpp.
-// It must not know routes, lights or BSDFs.
+// such points ([T1] and [T2] in docs/estimators.md). It must not know routes, lights or BSDFs.
 // Paper: Budge, Anderson & Joy 2008.
 #pragma once
 

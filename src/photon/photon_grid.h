@@ -1,8 +1,7 @@
 // Finds the photons around a point, all within a radius or the nearest ones. Photons are kept in
 // Morton order; cells of doubling size are runs of that order and found through one hash table a
 // level, so that radii over decades stay cheap. Full cell codes are compared, so that two cells
-// which share a bucket are never mistaken for each other. Who calls it: photon integrators. It must
-// not know BSDFs or films.
+// which share a bucket are never mistaken for each other. It must not know BSDFs or films.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // What was learned about the paths of photons: where they should start and where they should go
-// from rough surfaces. Who calls it: photon integrators, which learn it, and photon_tracer.cpp.
+// from rough surfaces.
 #pragma once
 
 #include "photon/caster_guide.h"

@@ -1,7 +1,7 @@
-// Shoots photons from the lights and keeps those that belong to an estimator's routes.
-// Photon number j of pass i depends on (seed, i, j) alone; chunks of numbers are traced on any
-// thread and joined in the order of their numbers (docs/architecture.md, section 5). Who calls it:
-// photon integrators. It must not know films or cameras.
+// Shoots photons from the lights and keeps those that belong to an estimator's routes. Photon
+// number j of pass i depends on (seed, i, j) alone; chunks of numbers are traced on any thread and
+// joined in the order of their numbers (docs/architecture.md, section 5). It must not know films or
+// cameras.
 #pragma once
 
 #include <functional>

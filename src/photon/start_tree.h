@@ -1,6 +1,6 @@
 // Useful starts of light paths, cut into crowds: a tree of cuts along the axes, of which those are
-// kept that make aiming at the crowds cheaper (docs/estimators.md, [G4]). Who calls it:
-// emission_guide.cpp and caster_guide.cpp. It must not know scenes and lights.
+// kept that make aiming at the crowds cheaper (docs/estimators.md, [G4]). It must not know scenes
+// and lights.
 #pragma once
 
 #include <span>

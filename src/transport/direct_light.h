@@ -1,7 +1,6 @@
 // Next-event estimation: light that reaches a vertex straight from a light that was chosen for it,
 // and the densities that multiple importance sampling compares (docs/estimators.md, [D1] to [D4]);
-// what gets along that and other straight lines.
-// Who calls it: integrators. It must not know routes or films.
+// what gets along that and other straight lines. It must not know routes or films.
 #pragma once
 
 #include "transport/random_walk.h"

@@ -1,7 +1,5 @@
 // A direction at a surface, chosen either by the BSDF or by a guide: the mixture, per class of the
-// event, and its density ([T3] in docs/estimators.md).
-// Who calls it: forecast.cpp, guided_walk.cpp, photon_tracer.cpp and caster_guide.cpp. It must not
-// know routes or lights.
+// event, and its density ([T3] in docs/estimators.md). It must not know routes or lights.
 #pragma once
 
 #include <optional>

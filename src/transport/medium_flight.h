@@ -1,8 +1,8 @@
 // How light crosses a medium between two surfaces: collisions sampled against a majorant (delta
 // tracking), null collisions kept as weights, and the spectral multiple importance sampling that
 // makes a path sampled for one wavelength count for all (Miller, Georgiev & Jarosz 2019; Wilkie et
-// al. 2014; pbrt-v4 chapters 11 and 14; docs/estimators.md, [V1] to [V6]).
-// Who calls it: the random walk and shadow rays. It must not know surfaces, routes or films.
+// al. 2014; pbrt-v4 chapters 11 and 14; docs/estimators.md, [V1] to [V6]). It must not know
+// surfaces, routes or films.
 #pragma once
 
 #include <optional>

@@ -1,7 +1,6 @@
 // The points of the Sobol' sequence behind a camera path and behind a light path that is connected
 // with it: which dimension each decision has, so that those that are integrated together are even
-// together (docs/estimators.md, section 25). Who calls it: whoever traces camera walks, and pairs
-// of them. It must not know what they are for.
+// together (docs/estimators.md, section 25). It must not know what they are for.
 #pragma once
 
 #include "core/sampler.h"

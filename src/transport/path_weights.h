@@ -1,8 +1,8 @@
 // Weights of the techniques that can find one path: it is cut in two anywhere, an eye side and a
 // light side, which are connected or merged. Each side carries two sums along, so that the weight
-// of a cut costs the same however long the path is (docs/estimators.md, [W1] to [W9]). Who calls
-// it: bidirectional estimators. It must not know scenes, routes or films.
-// Papers: Veach 1997, chapter 10; Georgiev et al. 2012, whose recursion this is in other terms.
+// of a cut costs the same however long the path is (docs/estimators.md, [W1] to [W9]). It must not
+// know scenes, routes or films. Papers: Veach 1997, chapter 10; Georgiev et al. 2012, whose
+// recursion this is in other terms.
 #pragma once
 
 #include "core/math.h"

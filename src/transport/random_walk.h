@@ -1,7 +1,7 @@
 // The one random walk through a scene, from the camera or from a light. It finds surfaces, makes
 // their BSDFs, crosses media, goes straight through what is not there, plays Russian roulette and
-// samples directions; what a vertex is for is the visitor's business. Who calls it: integrators and
-// the photon tracer. It must not know routes or films.
+// samples directions; what a vertex is for is the visitor's business. It must not know routes or
+// films.
 #pragma once
 
 #include <cassert>

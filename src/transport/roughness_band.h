@@ -1,8 +1,8 @@
 // Where S ends and G begins in a pass. A fixed threshold of roughness would move a caustic from one
 // route to another at one step of a slider; so the threshold is drawn for each pass from a band,
 // and a lobe inside of the band is S in a share of the passes that falls evenly from 1 to 0 (docs/
-// routes.md). All walks of a pass agree, so every path still has one owner. Who calls it:
-// integrators. It must not know routes.
+// routes.md). All walks of a pass agree, so every path still has one owner. It must not know
+// routes.
 #pragma once
 
 #include <cmath>

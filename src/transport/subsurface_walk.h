@@ -1,7 +1,7 @@
 // Where light that went into a subsurface material comes out again: a probe ray through the scene
-// collects the surfaces of that material, and one of them is chosen. Who calls it: the random walk,
-// after a `subsurface` event. It must not know profiles, routes or photons. Papers: King et al.,
-// BSSRDF Importance Sampling, SIGGRAPH Talks 2013; Chao 1982 (choice of one in a single pass).
+// collects the surfaces of that material, and one of them is chosen. It must not know profiles,
+// routes or photons. Papers: King et al., BSSRDF Importance Sampling, SIGGRAPH Talks 2013; Chao
+// 1982 (choice of one in a single pass).
 #pragma once
 
 #include <optional>

@@ -1,6 +1,5 @@
 // A walk between two vertices, the vertices and events that its visitors see, and where each of its
-// decisions finds random numbers. Who calls it: random_walk.h, which runs walks, and whoever looks
-// at them. It must not know how a walk goes on.
+// decisions finds random numbers. It must not know how a walk goes on.
 #pragma once
 
 #include "core/sampler.h"
@@ -116,8 +115,7 @@ struct WalkVertex {
       // What goes below here may come out on a curve.
       const bool may_become_hair =
           !subsurface_exit && contains(some, EventClass::kHair) && material.has_bssrdf();
-      return (some & ClassMask::kAll) |
-             (may_become_hair ? ClassMask::kDiffuse : ClassMask::kNone);
+      return (some & ClassMask::kAll) | (may_become_hair ? ClassMask::kDiffuse : ClassMask::kNone);
     }
     return contains(some, EventClass::kHair) ? ClassMask::kAll : ClassMask::kNone;
   }

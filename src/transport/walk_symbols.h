@@ -1,5 +1,4 @@
-// Events of walks as symbols of routes. Who calls it: the visitors of random walks. It must not
-// know estimators.
+// Events of walks as symbols of routes. It must not know estimators.
 #pragma once
 
 #include "route/scene_symbols.h"

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "integrator/bidirectional/pair_pass.h"
+#include "integrator/bidirectional/vertex_connection_merging.h"
 #include "lit_patch.h"
 #include "owned_routes.h"
 #include "rendering.h"
@@ -47,7 +48,7 @@ TEST_P(GuidedWalks, FindTheSamePictureWithLessNoise) {
       EstimatorStatistics statistics;
       const auto pass_of = [&](uint32_t number) {
         return PairPass{.key = {s, number},
-                        .seed = hash_combine(s, uint64_t{8}),
+                        .seed = hash_combine(s, kPathAndPhotonsNumber),
                         .scene = *scene,
                         .owned = owned,
                         .options = options,

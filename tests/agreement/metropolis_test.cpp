@@ -2,30 +2,13 @@
 // a chain, and in a crop.
 #include <gtest/gtest.h>
 
+#include "metropolis_scene.h"
 #include "rendering.h"
 
 namespace nephroid {
 namespace {
 
 using namespace testing_support;
-
-const std::string kHead = R"(
-  LookAt 0 3 -5  0 0.4 0  0 1 0
-  Camera "perspective" "float fov" 30
-  PixelFilter "mitchell"
-)";
-const std::string kFilm = R"(Film "rgb" "integer xresolution" 12 "integer yresolution" 12 )";
-const std::string kWorld = R"(
-  WorldBegin
-  AttributeBegin
-    AreaLightSource "diffuse" "rgb L" [10 9 8]
-    Translate 0 4 0 Rotate 90 1 0 0 Shape "disk" "float radius" 0.7
-  AttributeEnd
-  Material "diffuse" "rgb reflectance" [0.6 0.5 0.4]
-  Shape "bilinearmesh" "point3 P" [-6 0 -6  6 0 -6  -6 0 6  6 0 6]
-  Material "conductor" "float roughness" 0.2
-  Translate 0.3 0.5 0 Shape "sphere" "float radius" 0.5
-)";
 
 TEST(Metropolis, PassesOfAnySizeFindTheSamePicture) {
   // The least there can be: a mutation a chain, chains as long as the pass, large steps only.

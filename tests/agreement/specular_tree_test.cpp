@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "ball_in_a_medium.h"
-#include "integrator/path/specular_chain_pass.h"
 #include "integrator/path/path_visitor.h"
+#include "integrator/path/specular_chain_pass.h"
 #include "owned_routes.h"
 #include "rendering.h"
 #include "transport/camera_path.h"

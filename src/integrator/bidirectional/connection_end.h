@@ -1,6 +1,5 @@
 // What a vertex of one side scatters towards the other, event class by event class, with what the
-// weight of the connection needs. Who calls it: eye_path.cpp; light_path.cpp makes those of light
-// vertices. It must not know films.
+// weight of the connection needs. It must not know films.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // What the weights of an eye path's techniques need of its way so far ([W2] to [W11] in
 // docs/estimators.md). Where only caustics merge, the path does not know yet whether an S will
-// stand between its vertices and the light: it keeps the sums for both cases. Who calls it:
-// eye_path.cpp. It must not know places or routes.
+// stand between its vertices and the light: it keeps the sums for both cases. It must not know
+// places or routes.
 #pragma once
 
 #include "scene/bsdf/bsdf.h"

@@ -1,6 +1,6 @@
 // The light paths of a pass that leave photons, traced in batches that fit in memory; those that
-// the camera sees become splats on the way. Who calls it: pair_pass.cpp. It must not know films'
-// sums or what photons are merged with.
+// the camera sees become splats on the way. It must not know films' sums or what photons are merged
+// with.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
-// What each camera path of a pass found, kept until all batches of photons are through, to tell how
-// much samples vary. It must not know how paths are made.
+// The light of each camera path of a pass, kept until all batches of photons are merged, to measure
+// how much samples vary. It must not know how paths are made.
 #pragma once
 
 #include <span>
@@ -23,8 +23,7 @@ class MeasuredSamples {
   void add_light(size_t sample, float light) { samples_[sample].light += light; }
   void set_rays(size_t sample, uint64_t rays) { samples_[sample].rays = static_cast<float>(rays); }
   void scale_light(size_t sample, float factor) { samples_[sample].light *= factor; }
-  /// Light that all samples of a pixel find: splats of light paths, each times `share`, as on a
-  /// film with a box filter a pixel wide.
+  /// Splats of `light_paths` light paths, as light of all samples of the nearest pixel.
   void add_splats(std::span<const Splat> splats, float light_paths);
 
   /// Adds the samples of which each pixel has as many as `map` says.

@@ -19,7 +19,7 @@ constexpr uint64_t kEyeStream = 0x76636d65;   // "vcme"
 constexpr uint64_t kPairStream = 0x76636d70;  // "vcmp"
 constexpr int kRowsWithRecords = 64;
 
-/// What a row of pixels left.
+/// Records and counts of one row of pixels.
 struct Row {
   std::vector<RadianceRecord> records;
   uint64_t rays = 0, camera_paths = 0;

@@ -29,7 +29,7 @@ struct PairTechniques {
   }
 };
 
-/// What all that a pass does is made from.
+/// The inputs of a pass, whatever it is for.
 struct PairPass {
   PassKey key;
   uint64_t seed = 0;  ///< of the estimator's random numbers: those of one plan are independent
@@ -94,8 +94,8 @@ std::unique_ptr<PairFindings> render(const PairPass& pass, const PairRender& to,
 std::unique_ptr<PairFindings> measure(const PairPass& pass, const FilmFormat& film,
                                       const PairSamples& samples, const PairLearning& learning,
                                       EstimatorStatistics& statistics);
-/// Adds what camera paths find of specular chains to nothing, all else and what their pixels get
-/// from light paths to `variance`. Returns the number of records that they would leave.
+/// Adds the light of camera paths, without specular chains and with the splats of their pixel, to
+/// `variance`. Returns the number of radiance records that the paths would leave.
 size_t try_out(const PairPass& pass, const FilmFormat& film, const PairTrial& trial,
                SampleVariance& variance, EstimatorStatistics& statistics);
 

@@ -3,8 +3,8 @@
 // section 13). A technique (s,t) makes a path of s vertices of the light side, its start on the
 // light included, and t of the eye side, the lens included. To evaluate a pair: trace_light_path,
 // which finds t = 1 on its way, then trace_eye_path with what it left, which finds all others. One
-// technique alone: PairSettings::technique. Both are functions of the samplers' numbers alone.
-// Who calls it: bidirectional estimators. It must not know passes or films' sums.
+// technique alone: PairSettings::technique. Both are functions of the samplers' numbers alone. It
+// must not know passes or films' sums.
 #pragma once
 
 #include <memory>

@@ -1,6 +1,5 @@
 // What both sides of a pair of paths need at their vertices: the densities of events, factors of
-// lines, and how a light would have started there. Who calls it: light_path.cpp, eye_path.cpp. It
-// must not know routes.
+// lines, and how a light would have started there. It must not know routes.
 #pragma once
 
 #include "integrator/bidirectional/path_pair.h"

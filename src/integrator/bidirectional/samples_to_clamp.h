@@ -1,5 +1,5 @@
 // Samples of a film that clamps, whose photons come in batches: each waits for what all batches
-// find. Who calls it: pair_pass.cpp. It must not know photons.
+// find. It must not know photons.
 #pragma once
 
 #include <span>

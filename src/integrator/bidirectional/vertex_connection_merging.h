@@ -11,17 +11,20 @@ namespace nephroid {
 /// Light paths of a pass: one for each pixel, within bounds; they are shared or spare outside.
 int64_t default_light_paths(int64_t pixels);
 
+/// Numbers of the estimators of pairs in their seeds: those of one plan are independent of each
+/// other.
+inline constexpr uint64_t kVcmNumber = 6, kBpmNumber = 7, kPathAndPhotonsNumber = 8;
+
 class VertexConnectionMerging : public Estimator {
  public:
   VertexConnectionMerging(OwnedRoutes owned, const IntegratorOptions& options)
-      : VertexConnectionMerging(std::move(owned), options, true, 6) {}
+      : VertexConnectionMerging(std::move(owned), options, true, kVcmNumber) {}
   Capabilities capabilities() const override { return {}; }
   std::unique_ptr<PassFindings> render_pass(const PassKey& key, const Learned*, const Scene& scene,
                                             Film& film) override;
   EstimatorStatistics statistics() const override { return statistics_; }
 
  protected:
-  /// Estimators with other numbers are independent of each other.
   VertexConnectionMerging(OwnedRoutes owned, const IntegratorOptions& options, bool connects,
                           uint64_t number)
       : owned_(std::move(owned)), options_(options), connects_(connects), number_(number) {}
@@ -37,7 +40,7 @@ class VertexConnectionMerging : public Estimator {
 class BidirectionalPhotonMapping final : public VertexConnectionMerging {
  public:
   BidirectionalPhotonMapping(OwnedRoutes owned, const IntegratorOptions& options)
-      : VertexConnectionMerging(std::move(owned), options, false, 7) {}
+      : VertexConnectionMerging(std::move(owned), options, false, kBpmNumber) {}
 };
 
 }  // namespace nephroid

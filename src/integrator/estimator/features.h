@@ -1,6 +1,5 @@
 // What camera paths see first: albedo, normal and depth of every film, and the geometric layers of
-// a gbuffer film. Who calls it: path and path+photons, whose walks see it anyway, and presets
-// without these, by an estimator that does nothing else. It must not know routes or channels.
+// a gbuffer film. It must not know routes or channels.
 #pragma once
 
 #include "integrator/estimator/estimator.h"

@@ -1,5 +1,5 @@
-// What a camera path saw first, for the geometric layers of a gbuffer film.
-// Who calls it: features.h. It must not know channels or files.
+// What a camera path saw first, for the geometric layers of a gbuffer film. It must not know
+// channels or files.
 #pragma once
 
 #include "film/film.h"

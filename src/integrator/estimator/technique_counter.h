@@ -1,6 +1,6 @@
 // Counts, in the first passes, how much light each technique of an estimator found for each of its
 // routes. Rows of pixels count for themselves and are added in their order, so that threads do not
-// matter. Who calls it: estimators that combine techniques. It must not know walks.
+// matter. It must not know walks.
 #pragma once
 
 #include <span>

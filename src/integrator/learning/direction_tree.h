@@ -1,7 +1,6 @@
 // A density of directions: a quadtree over the square that the equal-area map makes of the sphere,
-// learned from single directions and what was found there ([Q2] and [Q3] in docs/estimators.md).
-// Who calls it: radiance_guide.cpp, which has one for each place, and guided_walk.cpp. It must
-// not know places. Paper: Mueller, Gross & Novak 2017.
+// learned from single directions and what was found there ([Q2] and [Q3] in docs/estimators.md). It
+// must not know places. Paper: Mueller, Gross & Novak 2017.
 #pragma once
 
 #include <cstdint>

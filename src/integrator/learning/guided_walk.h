@@ -1,7 +1,6 @@
 // What a camera walk does with directions that earlier walks found: it follows a guide where there
-// is one, and leaves records for the next ([Q1] and [Q5] in docs/estimators.md, section 23).
-// Who calls it: eye_path.cpp, and pair_pass.cpp for the records of a pass. It must not know routes
-// or how light is weighed.
+// is one, and leaves records for the next ([Q1] and [Q5] in docs/estimators.md, section 23). It
+// must not know routes or how light is weighed.
 #pragma once
 
 #include <optional>

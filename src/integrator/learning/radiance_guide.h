@@ -1,8 +1,7 @@
 // Where the light comes from that rough surfaces scatter to the eye, learned from earlier walks:
 // the scene is cut into boxes, surfaces that face different ways or are glossy apart, and each box
 // has a tree of directions and a share of the walks for which following it pays ([Q1] to [Q5] in
-// docs/estimators.md, section 23). Immutable once made. Who calls it: path+photons, for its walks.
-// It must not know routes, lights or films.
+// docs/estimators.md, section 23). Immutable once made. It must not know routes, lights or films.
 // Papers: Mueller, Gross & Novak 2017; Rath et al. 2020 for what is learned.
 #pragma once
 

@@ -1,6 +1,6 @@
 // What a first look from the camera tells about light paths before any is traced: where photons
-// would be seen, and which specular things stand where light could come from. Who calls it:
-// learned_photons.cpp. It must not know guides.
+// would be seen, and which specular things stand where light could come from. It must not know
+// guides.
 #pragma once
 
 #include <vector>

@@ -1,7 +1,7 @@
 // Where on the film chains should spend their time: a coarse picture of how bright the film is, so
 // that they visit what is dark as often as what is bright. Any importance gives the same picture on
-// average, with another noise. Who calls it: Metropolis estimators and their chains. It must not
-// know paths. Paper: Hoberock & Hart 2010; equation [Z6] of docs/estimators.md.
+// average, with another noise. It must not know paths. Paper: Hoberock & Hart 2010; equation [Z6]
+// of docs/estimators.md.
 #pragma once
 
 #include <span>

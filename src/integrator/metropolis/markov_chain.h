@@ -1,8 +1,7 @@
 // Metropolis light transport over any function from random numbers to light on the film: a pass
 // draws paths independently, starts chains at some of them, and adds up what both find. Each pass
-// is unbiased by itself. Who calls it: the estimators that chains explore. It must not know scenes,
-// routes or how paths are made. Papers: Veach & Guibas 1997; Kelemen et al. 2002; equations [Z2] to
-// [Z5] of docs/estimators.md.
+// is unbiased by itself. It must not know scenes, routes or how paths are made. Papers: Veach &
+// Guibas 1997; Kelemen et al. 2002; equations [Z2] to [Z5] of docs/estimators.md.
 #pragma once
 
 #include <functional>

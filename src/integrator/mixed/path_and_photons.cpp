@@ -12,8 +12,6 @@ namespace nephroid {
 
 namespace {
 
-/// Of the estimator's random numbers.
-constexpr uint64_t kNumber = 8;
 constexpr uint64_t kTrialStream = 0x747269616c;  // "trial"
 constexpr uint32_t kTrialPasses = 2;
 constexpr int64_t kMaxTrialPaths = 1 << 17;
@@ -57,7 +55,7 @@ class Trials {
     for (uint32_t i = 0; i < kTrialPasses; ++i) {
       const PassKey key{hash_combine(seed_, kTrialStream), i};
       records += try_out({.key = key,
-                          .seed = hash_combine(key.seed, kNumber),
+                          .seed = hash_combine(key.seed, kPathAndPhotonsNumber),
                           .scene = scene_,
                           .owned = owned_,
                           .options = options_,
@@ -208,7 +206,7 @@ PairPass PathAndPhotons::pass_of(const PassKey& key, const Scene& scene,
   const MixPlan& plan = learned.plan();
   const SampleMap& paths = key.pass > 0 ? learned.refinement()->samples.paths : plan.first_samples;
   PairPass pass{.key = key,
-                .seed = hash_combine(key.seed, kNumber),
+                .seed = hash_combine(key.seed, kPathAndPhotonsNumber),
                 .scene = scene,
                 .owned = owned_,
                 .options = options_,

@@ -1,6 +1,5 @@
 // One pass of walks from the camera, each pixel with wavelengths and a time of its own: the loop
-// over pixels that estimators which trace paths from the eye share.
-// Who calls it: path.cpp and forecast.cpp. It must not know what walks do.
+// over pixels that estimators which trace paths from the eye share. It must not know what walks do.
 #pragma once
 
 #include <vector>

@@ -1,7 +1,6 @@
 // What path tracing does at each vertex of a camera walk: light that the walk meets, next-event
-// estimation, and multiple importance sampling of the two (docs/estimators.md, section 2).
-// Who calls it: the estimators that trace paths from the eye, and the chains that explore the same
-// paths. It must not know films or where the path's random numbers come from.
+// estimation, and multiple importance sampling of the two (docs/estimators.md, section 2). It must
+// not know films or where the path's random numbers come from.
 #pragma once
 
 #include <array>

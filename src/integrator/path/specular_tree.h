@@ -1,8 +1,7 @@
 // Lights that the camera sees by way of smooth boundaries alone: both ways are followed at each of
 // them, as in Whitted 1980, where a walk would choose one ([S1] in docs/estimators.md). A lamp
-// mirrored in glass, seen by one path in a hundred, is then seen dimly by all of them.
-// Who calls it: visitors of camera walks, which leave this light to it. It must not know films
-// or pixels.
+// mirrored in glass, seen by one path in a hundred, is then seen dimly by all of them. It must not
+// know films or pixels.
 #pragma once
 
 #include <vector>

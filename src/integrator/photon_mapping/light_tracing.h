@@ -1,9 +1,8 @@
 // `lighttrace`: light paths whose vertices are connected to the camera, and the start points of
 // those on shapes as well. It finds what is seen directly of caustics, without any bias. A pass is
 // a function of the scene, the options and the pass key alone, so passes may be rendered anywhere
-// and added up. Who calls it: presets, and vertex_merging.cpp for a pass of
-// it. It must not know how photons are merged. Papers: Dutre, Lafortune, Willems 1993; Veach 1997,
-// chapters 5 and 10.
+// and added up. It must not know how photons are merged. Papers: Dutre, Lafortune, Willems 1993;
+// Veach 1997, chapters 5 and 10.
 #pragma once
 
 #include <functional>

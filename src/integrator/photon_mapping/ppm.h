@@ -1,8 +1,8 @@
 // `ppm`: progressive photon mapping, `sppm` whose camera walks stay. Each pixel has K hit points,
 // and each of them its own radius, count and flux: memory grows with anti-aliasing. A hit point is
 // walked to again in each pass by the same random numbers, with the wavelengths, time and roughness
-// threshold of the pass (ADR 17). Who calls it: presets. It must not know how a pass gathers.
-// Paper: Hachisuka, Ogaki & Jensen 2008.
+// threshold of the pass (ADR 17). It must not know how a pass gathers. Paper: Hachisuka, Ogaki &
+// Jensen 2008.
 #pragma once
 
 #include "integrator/photon_mapping/sppm.h"

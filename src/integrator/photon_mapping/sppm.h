@@ -1,7 +1,6 @@
 // `sppm`: stochastic progressive photon mapping as published [E1], for the photons of its own
 // routes. Each camera walk's region keeps a radius, a photon count and the flux of each part, so
-// the passes are a sequence. Who calls it: presets; ppm.h, whose walks stay. Papers: Hachisuka &
-// Jensen 2009; Hachisuka, Ogaki & Jensen 2008.
+// the passes are a sequence. Papers: Hachisuka & Jensen 2009; Hachisuka, Ogaki & Jensen 2008.
 #pragma once
 
 #include <array>

@@ -1,9 +1,9 @@
 // `photons+light`: the paths that the camera sees through S lobes, or through a medium, are merged;
 // those whose first event can be connected to the camera are found in two ways, by merging there
 // and by light tracing, weighed against each other by multiple importance sampling ([X1] in
-// docs/estimators.md). Merging is good while its radius is large, light tracing has no bias.
-// Who calls it: presets. It must not know how photons are traced. Papers: Georgiev, Krivanek,
-// Davidovic, Slusallek 2012; Hachisuka, Pantaleoni, Jensen 2012.
+// docs/estimators.md). Merging is good while its radius is large, light tracing has no bias. It
+// must not know how photons are traced. Papers: Georgiev, Krivanek, Davidovic, Slusallek 2012;
+// Hachisuka, Pantaleoni, Jensen 2012.
 #pragma once
 
 #include "integrator/estimator/estimator.h"

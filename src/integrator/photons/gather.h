@@ -1,6 +1,5 @@
 // The camera walks of a pass that gather photons: one or several for each pixel, rows on any
-// thread. Who calls it: merge_pass.cpp, sppm.cpp and photon_map.cpp, each with its own way to
-// merge. It must not know radii.
+// thread. It must not know radii.
 #pragma once
 
 #include <span>

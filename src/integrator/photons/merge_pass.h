@@ -1,6 +1,5 @@
 // One pass of density estimation: photons are traced in batches that fit in memory, and a camera
-// walk a pixel gathers them. Who calls it: photon_mapping.cpp and vertex_merging.cpp. It must not
-// know how radii shrink from pass to pass.
+// walk a pixel gathers them. It must not know how radii shrink from pass to pass.
 #pragma once
 
 #include <functional>

@@ -1,8 +1,6 @@
 // What the photon integrators share: the wavelengths, time, roughness threshold and photons of a
-// pass, and the camera walk that comes to every vertex where its routes may merge photons.
-// Who calls it: merge_pass.cpp, gather.h, sppm.cpp, photon_map.cpp, pair_pass.cpp,
-// point_lights.cpp, first_sight.cpp and learned_photons.cpp; light_tracing.cpp for the settings.
-// It must not know how radii shrink.
+// pass, and the camera walk that comes to every vertex where its routes may merge photons. It must
+// not know how radii shrink.
 #pragma once
 
 #include "integrator/estimator/estimator.h"

@@ -1,7 +1,7 @@
 // Virtual point lights of a pass: places on rough surfaces where light paths landed, with what
 // scatters there, so that camera walks can be connected to them (docs/estimators.md, section 18).
-// Who calls it: point_lights.cpp. It must not know films or cameras.
-// Papers: Keller 1997, Instant radiosity; Dammertz, Keller & Lensch 2010.
+// It must not know films or cameras. Papers: Keller 1997, Instant radiosity; Dammertz, Keller &
+// Lensch 2010.
 #pragma once
 
 #include <memory>
