@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "integrator/presets/estimator_table.h"
 #include "route/compile.h"
 #include "route/scene_symbols.h"
 
@@ -15,7 +16,8 @@ namespace nephroid::testing_support {
 inline OwnedRoutes owned_routes(const Scene& scene, const std::vector<std::string>& texts,
                                 size_t group = 0) {
   std::vector<RouteDefinition> definitions;
-  for (const std::string& text : texts) definitions.push_back(parse_route(text));
+  for (const std::string& text : texts)
+    definitions.push_back(parse_route(text, estimator_traits()));
   RouteCompilation compiled = compile_routes(definitions, {});
   OwnedRoutes owned;
   owned.symbols = std::make_shared<const SceneSymbols>(scene, compiled.routes.labels());

@@ -13,9 +13,12 @@
 
 #include "core/errors.h"
 #include "core/parallel.h"
+#include "estimators.h"
 #include "film/film_settings.h"
 #include "input/pbrt_parser.h"
+#include "integrator/photon_mapping/photon_map.h"
 #include "integrator/presets/integrator_table.h"
+#include "integrator/presets/route_presets.h"
 #include "scene/scene.h"
 #include "source_directory.h"
 
@@ -41,7 +44,8 @@ inline RoutePlan plan_named(const std::string& name) {
 inline RoutePlan plan_of(const std::vector<std::string>& routes,
                          const std::vector<std::string>& aovs = {}) {
   RoutePlan plan;
-  for (const std::string& route : routes) plan.routes.push_back(parse_route(route));
+  for (const std::string& route : routes)
+    plan.routes.push_back(parse_route(route, estimator_traits()));
   for (const std::string& aov : aovs) plan.aovs.push_back(parse_aov(aov));
   return plan;
 }
@@ -74,9 +78,7 @@ inline std::string test_name(std::string plan) {
 /// True if some photons of the plan are merged, which gives the picture the bias of a radius.
 inline bool merges_photons(const RoutePlan& plan) {
   return std::any_of(plan.routes.begin(), plan.routes.end(), [](const RouteDefinition& route) {
-    return estimator_type(route.estimator).merges || route.estimator == EstimatorKind::kVcm ||
-           route.estimator == EstimatorKind::kBpm ||
-           route.estimator == EstimatorKind::kPathAndPhotons;
+    return route.estimator->merges || is_one_of(route.estimator, {"vcm", "bpm", "path+photons"});
   });
 }
 
@@ -85,12 +87,12 @@ inline bool merges_photons(const RoutePlan& plan) {
 /// estimators. Plans without photon maps stay as they are.
 inline void use_whole_maps(const RoutePlan& plan, IntegratorOptions& options, uint32_t& passes) {
   if (std::none_of(plan.routes.begin(), plan.routes.end(), [](const RouteDefinition& route) {
-        return route.estimator == EstimatorKind::kPhotonMap;
+        return is_one_of(route.estimator, {"photonmap"});
       }))
     return;
   constexpr int kPasses = 16;
   const int count = static_cast<int>(passes);
-  options.map_photons = options.photons_per_pass * count;
+  options.edit<PhotonMapOptions>().map_photons = options.photons_per_pass * count;
   options.camera_samples_per_pass =
       (options.camera_samples_per_pass * count + kPasses - 1) / kPasses;
   passes = kPasses;
@@ -124,7 +126,8 @@ inline Film render(const Scene& scene, const Plan& plan, const IntegratorOptions
   Film film = film_for(scene, preset);
   preset.learned.resize(preset.estimators.size());
   for (size_t i = 0; i < learned.size(); ++i)
-    if (!preset.estimators[i]->capabilities().learned_is_light) preset.learned[i].use(learned[i]);
+    if (!preset.estimators[i]->descriptor().capabilities.learned_is_light)
+      preset.learned[i].use(learned[i]);
   for (uint32_t pass = first; pass < first + count; ++pass)
     preset.render_pass({seed, pass}, scene, film);
   return film;

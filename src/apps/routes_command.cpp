@@ -34,7 +34,7 @@ void print_routes(const RoutePlan& plan, const RouteCompilation& compiled) {
   for (size_t i = 0; i < plan.routes.size(); ++i) {
     const RouteDefinition& route = plan.routes[i];
     fmt::print("  {:{}}  {:{}}  {:13}  {}\n", route.name, name, route.expression, expression,
-               estimator_type(route.estimator).name,
+               route.estimator->name,
                compiled.examples[i].empty() ? std::string("(no path in it)")
                                             : "for example " + compiled.examples[i]);
   }

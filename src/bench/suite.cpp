@@ -11,7 +11,8 @@
 
 #include "bench/suite_claims.h"
 #include "bench/suite_fields.h"
-#include "session/settings/option_values.h"
+#include "input/option_values.h"
+#include "integrator/presets/route_presets.h"
 
 namespace nephroid {
 namespace {
@@ -92,7 +93,8 @@ RouteChoice routes_in(const Fields& fields, const std::string& what, const std::
   if (const std::optional<JsonValue> route = fields.find("route")) {
     expect_type(*route, Json::value_t::array, "\"route\"");
     for (const JsonValue& item : route->items())
-      choice.routes.push_back(read_at(item, [&] { return parse_route(text_of(item, "a route")); }));
+      choice.routes.push_back(
+          read_at(item, [&] { return parse_route(text_of(item, "a route"), estimator_traits()); }));
     if (route->json().empty()) route->fail("\"route\" is empty, expected routes");
     return choice;
   }

@@ -67,6 +67,7 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments) {
   CLI::App app;
   bool options_page = false, scene_support_page = false;
   app.name("nephroid");
+  app.set_help_all_flag("--help-all");
   app.set_version_flag("--version", kVersion);
   app.add_flag("--options-markdown", options_page)->group("");
   app.add_flag("--scene-support-markdown", scene_support_page)->group("");
@@ -88,6 +89,9 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments) {
   } catch (const CLI::CallForHelp&) {
     const std::string command = chosen_command();
     return printing(command.empty() ? program_help() : command_help(command));
+  } catch (const CLI::CallForAllHelp&) {
+    const std::string command = chosen_command();
+    return printing(command.empty() ? program_help_all() : command_help_all(command));
   } catch (const CLI::CallForVersion&) {
     return printing(fmt::format("nephroid {} ({})\n", kVersion, instruction_set()));
   } catch (const CLI::ParseError& error) {

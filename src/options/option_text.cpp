@@ -5,13 +5,17 @@
 #include <string>
 #include <vector>
 
+#include "integrator/presets/estimator_table.h"
+#include "integrator/presets/route_presets.h"
 #include "options/options.h"
 
 namespace nephroid {
 namespace {
 
 constexpr size_t kHelpWidth = 96;
-constexpr size_t kHelpColumn = 30;
+constexpr size_t kHelpColumn = 32;
+
+enum class Length { kOneLine, kAll };
 
 /// "-o, --output OUT.exr".
 std::string signature(const OptionDescription& option) {
@@ -55,6 +59,15 @@ std::string help_entry(const std::string& left, const std::string& text) {
     begin = end + 1;
   }
   return result + '\n';
+}
+
+/// What an option means: its first sentence, and its default if there is room; or all.
+std::string meaning(const std::string& help, const std::string& unit_and_default, Length length) {
+  if (length == Length::kAll) return help + unit_and_default;
+  const std::string first = help.substr(0, help.find(". "));
+  const std::string brief = first.ends_with('.') ? first : first + '.';
+  const bool has_room = kHelpColumn + brief.size() + unit_and_default.size() <= kHelpWidth;
+  return has_room ? brief + unit_and_default : brief;
 }
 
 std::vector<const OptionDescription*> options_of(const std::string& command) {
@@ -117,6 +130,7 @@ std::string program_help() {
   for (const CommandDescription& command : command_table())
     text += help_entry(command.name, command.help);
   text += "\nOptions:\n" + help_entry("-h, --help", "Print this, or the help of a command.") +
+          help_entry("--help-all", "Print all that a command can do.") +
           help_entry("--version", "Print the version.");
   text +=
       "\nExit status: 0 done, 1 render error, 2 wrong usage, 3 wrong scene, 4 input/output "
@@ -124,7 +138,10 @@ std::string program_help() {
   return text;
 }
 
-std::string command_help(const std::string& command) {
+namespace {
+
+/// Options, and keys of -D.
+std::string options_help(const std::string& command, Length length) {
   std::string text;
   for (const CommandDescription& row : command_table())
     if (command == row.name) text = fmt::format("{}\n\nUsage: {}\n\n", row.help, usage_of(command));
@@ -134,20 +151,50 @@ std::string command_help(const std::string& command) {
     text += fmt::format("\n{}:\n", group.empty() ? "Options" : group);
     for (const OptionDescription* option : options_of(command))
       if (!option->is_positional() && group == option->group)
-        text += help_entry(signature(*option),
-                           option->help + unit_and_default(option->unit, option->default_text));
+        text += help_entry(
+            signature(*option),
+            meaning(option->help, unit_and_default(option->unit, option->default_text), length));
   }
-  text += "\n" + help_entry("-h, --help", "Print this.");
   if (!takes_settings(command)) return text;
-  text += "\nKeys of -D:\n";
+  text += length == Length::kAll ? "\nKeys of -D:\n" : "\nKeys of -D, the most useful ones:\n";
   for (const IntegratorSetting& setting : integrator_settings())
-    text += help_entry(fmt::format("{}={}", setting.key, setting.value),
-                       setting.help + unit_and_default(setting.unit, setting.default_text));
+    if (length == Length::kAll || setting.is_for_everybody)
+      text += help_entry(
+          fmt::format("{}={}", setting.key, setting.value),
+          meaning(setting.help, unit_and_default(setting.unit, setting.default_text), length));
+  return text;
+}
+
+}  // namespace
+
+std::string command_help(const std::string& command) {
+  const bool has_more = takes_settings(command);
+  std::string text = options_help(command, has_more ? Length::kOneLine : Length::kAll);
+  text += "\n" + help_entry("-h, --help", "Print this.");
+  if (has_more)
+    text += help_entry("--help-all", takes_presets(command)
+                                         ? "Print all of it: details, -D keys, routes, estimators."
+                                         : "Print all of it: details and -D keys.");
+  return text;
+}
+
+std::string command_help_all(const std::string& command) {
+  std::string text = options_help(command, Length::kAll);
+  text += "\n" + help_entry("-h, --help", "Print the most important.") +
+          help_entry("--help-all", "Print this.");
   if (!takes_presets(command)) return text;
   text += "\nPresets of --routes:\n";
   for (const RoutePreset& preset : route_presets()) text += help_entry(preset.name, preset.help);
   text += "\nEstimators of --route:\n";
-  for (const EstimatorType& type : estimator_types()) text += help_entry(type.name, type.help);
+  for (const EstimatorTraits* estimator : estimator_traits())
+    text += help_entry(estimator->name, estimator->help);
+  return text;
+}
+
+std::string program_help_all() {
+  std::string text = program_help();
+  for (const CommandDescription& command : command_table())
+    text += fmt::format("\n--- {} ---\n\n{}", command.name, command_help_all(command.name));
   return text;
 }
 
@@ -175,8 +222,8 @@ std::string options_markdown() {
   for (const RoutePreset& preset : route_presets())
     text += fmt::format("| `{}` | {} |\n", preset.name, cell(preset.help));
   text += "\nEstimators of `--route`:\n\n| estimator | meaning |\n| --- | --- |\n";
-  for (const EstimatorType& type : estimator_types())
-    text += fmt::format("| `{}` | {} |\n", type.name, cell(type.help));
+  for (const EstimatorTraits* estimator : estimator_traits())
+    text += fmt::format("| `{}` | {} |\n", estimator->name, cell(estimator->help));
   text += "\n## Without a command\n\n`nephroid --help` and `nephroid --version`.\n";
   return text;
 }

@@ -1,13 +1,18 @@
 // The rows of the option table. A new option is one row here and its use in apps/.
 #include "options/options.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <limits>
 
 #include "core/errors.h"
+#include "input/option_values.h"
 #include "input/spelling.h"
+#include "integrator/presets/estimator_table.h"
 #include "integrator/presets/integrator_table.h"
-#include "session/settings/option_values.h"
+#include "integrator/presets/route_presets.h"
 
 namespace nephroid {
 namespace {
@@ -73,7 +78,7 @@ void set_routes(CommandLine& line, const std::string& text) {
 }
 template <auto Command>
 void add_route(CommandLine& line, const std::string& text) {
-  (line.*Command).routes.routes.push_back(parse_route(text));
+  (line.*Command).routes.routes.push_back(parse_route(text, estimator_traits()));
 }
 template <auto Command>
 void add_aov(CommandLine& line, const std::string& text) {
@@ -84,19 +89,29 @@ void set_strict(CommandLine& line, const std::string&) {
   (line.*Command).routes.strict = true;
 }
 
-constexpr const char* kIntegratorHelp =
-    "How light is found: path, sppm, mixed, bdpt, vcm, bpm, photonmap, ppm, pssmlt, mlt, "
-    "pointlights, forecast, doidge2012, or scene for the one that the scene names. Each is a "
-    "preset of routes: path is path-only, the others have the names of theirs.";
+/// "path, sppm, ..." as help lists names.
+std::string list_of(const std::vector<std::string>& names) {
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+std::vector<std::string> estimator_names() {
+  std::vector<std::string> names;
+  for (const EstimatorTraits* estimator : estimator_traits()) names.emplace_back(estimator->name);
+  return names;
+}
+
+const std::string kIntegratorHelp =
+    "How light is found: " + list_of(integrator_names()) +
+    ", or scene. Each stands for a preset of routes (path for path-only, the others for the one of "
+    "their name), scene for the integrator that the scene names.";
 constexpr const char* kRoutesHelp =
-    "Routes by the name of a preset (listed below) or from a file, one a line; instead of "
-    "--integrator.";
-constexpr const char* kRouteHelp =
-    "One route: a light path expression and the estimator that renders what matches it (path, "
-    "photons, sppm, lighttrace, photons+light, path+photons, bdpt, vcm, bpm, photonmap, ppm, "
-    "pssmlt, mlt, pointlights, forecast). The first route that matches a path owns it.";
+    "Routes by the name of a preset or from a file. A file has one route a line; it takes the "
+    "place of --integrator.";
+const std::string kRouteHelp =
+    "A route: which light, by which estimator. A light path expression and the estimator that "
+    "renders what matches it: " +
+    list_of(estimator_names()) + ". The first route that matches a path owns it.";
 constexpr const char* kAovHelp =
-    "One more layer of the picture: the light of all paths that match, whichever route renders "
+    "One more layer: the light of all paths that match. It does not matter which route renders "
     "them.";
 constexpr const char* kStrictHelp = "Overlapping routes are an error.";
 constexpr const char* kSettingHelp = "Set a number of the integrator; may be given several times.";
@@ -127,67 +142,69 @@ constexpr CommandDescription kCommands[] = {
     {"bench", "Run a suite of integrators and scenes and write its results."},
 };
 
-constexpr OptionDescription kOptions[] = {
+const OptionDescription kOptions[] = {
     {"render", "SCENE", "", "", "", "", "", "A pbrt-v4 scene file, may be compressed (.gz).", false,
      [](CommandLine& l, const std::string& t) { l.render.scene = t; }},
     {"render", "--output", "-o", "OUT.exr", "",
      "named after the scene's film, in the current directory", "Output",
-     "The picture with all its layers; a PNG is written beside it.", false,
+     "The picture with all its layers. A PNG is written beside it.", false,
      set_output<&CommandLine::render>},
     {"render", "--aov", "", "NAME=EXPR", "", "", "Output", kAovHelp, true,
      add_aov<&CommandLine::render>},
     {"render", "--resume", "", "", "", "", "Output",
-     "Go on from the picture that is there, by all runs together as one run would have rendered "
-     "it; start if none is there.",
+     "Go on from the picture that is there. It becomes what one run would have rendered; if none "
+     "is there, start.",
      false, [](CommandLine& l, const std::string&) { l.render.resume = true; }},
     {"render", "--checkpoint", "", "TIME", "s, m or h", "60s", "Output",
-     "How often the picture is written while it is made, with all that is needed to go on from "
-     "it; less often where that would take more than 2 % of the time.",
+     "How often the picture is written while it is made. It then has all that is needed to go on; "
+     "it is written less often where that would take more than 2 % of the time.",
      false,
      [](CommandLine& l, const std::string& t) {
        l.render.checkpoint_interval = parse_duration("--checkpoint", t);
      }},
     {"render", "--strict", "", "", "", "", "Output",
-     "Exit status 1 if estimates were left out of the picture because they were infinite or no "
-     "numbers, or if sums reached their limit.", false,
+     "Exit status 1 if light was left out of the picture. Estimates are left out that are infinite "
+     "or no numbers, and what goes beyond the limit of a sum.",
+     false,
      [](CommandLine& l, const std::string&) { l.render.strict = true; }},
     {"render", "--no-state", "", "", "", "", "Output",
-     "Leave the last picture without what a render needs to go on from it: a smaller file. "
-     "Pictures on the way, and that of a render that a signal stops, have it.", false,
+     "Leave out what --resume needs, for a smaller file. Pictures on the way, and that of a render "
+     "that a signal stops, have it.",
+     false,
      [](CommandLine& l, const std::string&) { l.render.keeps_state = false; }},
     {"render", "--quiet", "", "", "", "", "Output",
-     "Print nothing but errors, and what the picture is in danger of: that it cannot be written, "
-     "what it is resumed from, what it replaces.",
+     "Print errors and dangers only. Dangers are that the picture cannot be written, what it is "
+     "resumed from, what it replaces.",
      false, [](CommandLine& l, const std::string&) { l.render.quiet = true; }},
-    {"render", "--integrator", "", "NAME", "", "mixed", "Algorithm", kIntegratorHelp, false,
+    {"render", "--integrator", "", "NAME", "", "mixed", "Algorithm", kIntegratorHelp.c_str(), false,
      set_integrator<&CommandLine::render>},
     {"render", "--routes", "", "PRESET|FILE", "", "those of the integrator", "Algorithm",
      kRoutesHelp, false, set_routes<&CommandLine::render>},
-    {"render", "--route", "", "NAME=EXPR:ESTIMATOR", "", "", "Algorithm", kRouteHelp, true,
+    {"render", "--route", "", "NAME=EXPR:ESTIMATOR", "", "", "Algorithm", kRouteHelp.c_str(), true,
      add_route<&CommandLine::render>},
     {"render", "--strict-routes", "", "", "", "", "Algorithm", kStrictHelp, false,
      set_strict<&CommandLine::render>},
     {"render", "-D", "", "KEY=VALUE", "", "", "Algorithm", kSettingHelp, true,
      add_setting<&CommandLine::render>},
     {"render", "--outliers", "", "reject|off", "", "off", "Algorithm",
-     "reject keeps estimates that are isolated in position and brightness (fireflies) out of the "
-     "picture until others confirm them; the layer 'outliers' holds them.",
+     "reject keeps fireflies out of the picture. They are estimates isolated in position and "
+     "brightness; the layer 'outliers' holds them until others confirm them.",
      false, set_outliers},
     {"render", "--seed", "", "S", "", "the scene's, else 0", "Algorithm",
      "Another seed gives another, independent picture.", false,
      [](CommandLine& l, const std::string& t) { l.render.seed = parse_seed("--seed", t); }},
     {"render", "--passes", "", "N|A..B", "passes",
      "the scene's pixel samples, if no other rule is given", "When to stop",
-     "Stop after N passes; A..B renders a range from 0, both ends included.", false,
+     "Stop after N passes. A..B renders a range from 0, both ends included.", false,
      [](CommandLine& l, const std::string& t) { l.render.passes = parse_passes("--passes", t); }},
     {"render", "--time", "", "TIME", "s, m or h", "no limit", "When to stop",
-     "Stop at the end of the pass that ends nearest to this time (60s, 5m, 1h).", false,
+     "Stop after this time (60s, 5m, 1h). The pass that ends nearest to it is the last.", false,
      [](CommandLine& l, const std::string& t) {
        l.render.time_limit = parse_duration("--time", t);
      }},
     {"render", "--noise", "", "X", "relative error", "no target", "When to stop",
-     "Stop when the estimated error, the root of the mean of (stderr^2 + bias^2) / (value^2 + "
-     "0.01), is at or below X; sppm, ppm and photonmap cannot tell.",
+     "Stop at this estimated error. It is the root of the mean of (stderr^2 + bias^2) / (value^2 + "
+     "0.01); sppm, ppm and photonmap cannot tell it.",
      false,
      [](CommandLine& l, const std::string& t) {
        l.render.noise_target = parse_number("--noise", t, 0, kAnyNumber, true);
@@ -195,15 +212,15 @@ constexpr OptionDescription kOptions[] = {
     {"render", "--resolution", "", "WxH", "pixels", "the scene's", "Picture",
      "Width and height of the full picture.", false, set_resolution},
     {"render", "--crop", "", "x0,x1,y0,y1", "0 to 1", "the scene's", "Picture",
-     "Render a part: left, right, top and bottom as fractions of the full picture.", false,
+     "Render a part. Left, right, top and bottom are fractions of the full picture.", false,
      set_crop},
     {"render", "--threads", "-t", "N", "threads", "all of the machine", "Machine",
-     "Number of threads; the picture does not depend on it.", false,
+     "Number of threads. The picture does not depend on it.", false,
      [](CommandLine& l, const std::string& t) {
        l.render.threads = static_cast<int>(parse_integer("--threads", t, 1, kMostThreads));
      }},
     {"render", "--memory", "", "SIZE", "bytes", "what the machine has", "Machine",
-     "Take no more memory than this (K, M, G: powers of 1024); a quarter of it at most is for "
+     "Take no more memory than this (K, M, G: powers of 1024). A quarter of it at most is for "
      "textures and a quarter for photons, unless -D says otherwise. A render that needs more is "
      "refused before it starts.",
      false,
@@ -221,11 +238,11 @@ constexpr OptionDescription kOptions[] = {
     {"routes", "SCENE", "", "", "", "none", "",
      "A scene: what of the routes can occur in it, and how its light divides among them.", false,
      [](CommandLine& l, const std::string& t) { l.routes.scene = t; }},
-    {"routes", "--integrator", "", "NAME", "", "mixed", "Routes", kIntegratorHelp, false,
+    {"routes", "--integrator", "", "NAME", "", "mixed", "Routes", kIntegratorHelp.c_str(), false,
      set_integrator<&CommandLine::routes>},
     {"routes", "--routes", "", "PRESET|FILE", "", "those of the integrator", "Routes", kRoutesHelp,
      false, set_routes<&CommandLine::routes>},
-    {"routes", "--route", "", "NAME=EXPR:ESTIMATOR", "", "", "Routes", kRouteHelp, true,
+    {"routes", "--route", "", "NAME=EXPR:ESTIMATOR", "", "", "Routes", kRouteHelp.c_str(), true,
      add_route<&CommandLine::routes>},
     {"routes", "--aov", "", "NAME=EXPR", "", "", "Routes", kAovHelp, true,
      add_aov<&CommandLine::routes>},

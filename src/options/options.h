@@ -116,10 +116,13 @@ std::span<const CommandDescription> command_table();
 /// In the order in which help shows them.
 std::span<const OptionDescription> option_table();
 
-/// The program's own --help.
+/// The program's own --help and --help-all.
 std::string program_help();
-/// --help of one command of the table.
+std::string program_help_all();
+/// --help of one command of the table: what fits one screen.
 std::string command_help(const std::string& command);
+/// --help-all of one command of the table.
+std::string command_help_all(const std::string& command);
 /// docs/options.md.
 std::string options_markdown();
 

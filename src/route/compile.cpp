@@ -87,7 +87,7 @@ Nfa copy_all(const Trees& trees, std::span<const RouteDefinition> routes,
   nfa.add(trees.default_mark, {});
   for (size_t r = 0; r < routes.size(); ++r) {
     copies.marked_copy.push_back(-1);
-    if (!estimator_type(routes[r].estimator).merges) continue;
+    if (!routes[r].estimator->merges) continue;
     const bool has_marks = has_merge_mark(trees.routes[r]);
     copies.marked_copy[r] = has_marks ? static_cast<int>(nfa.copies()) : default_mark;
     if (has_marks) nfa.add(trees.routes[r], source_of(routes[r].source, routes[r].expression));

@@ -11,8 +11,7 @@
 namespace nephroid {
 
 bool can_reach(const RouteDefinition& route, LightKind light, bool touches_hair) {
-  return (light != LightKind::kMedium && !touches_hair) ||
-         !estimator_type(route.estimator).starts_at_lights;
+  return (light != LightKind::kMedium && !touches_hair) || !route.estimator->starts_at_lights;
 }
 
 int owner_of(const WordMatches& matches, std::span<const RouteDefinition> routes, LightKind light) {

@@ -19,26 +19,9 @@ using Kind = RouteFinding::Kind;
 
 constexpr size_t kMostNodes = size_t{1} << 18;
 
-// How far a word has come to two D or G in a row behind S and V only, where point lights connect.
-enum class PairOfRough : uint8_t { kNone, kFirst, kBoth, kNever };
-PairOfRough after(PairOfRough pair, EventClass c) {
-  if (pair == PairOfRough::kBoth || pair == PairOfRough::kNever) return pair;
-  const bool rough = contains(ClassMask::kRough, c);
-  if (pair == PairOfRough::kFirst) return rough ? PairOfRough::kBoth : PairOfRough::kNever;
-  return rough ? PairOfRough::kFirst : PairOfRough::kNone;
-}
-
-// What never-sampled words have in common, of the events read so far.
-struct Ends {
-  bool any = false, rough = false, first_specular = false, last_specular = false;
-  bool mergeable = false;   ///< a D or a G
-  bool rough_pair = false;  ///< two events in a row that are no S
-  PairOfRough pair = PairOfRough::kNone;
-  auto operator<=>(const Ends&) const = default;
-};
 struct PlainState {
   int state = 0;
-  Ends ends;
+  EventSummary events;
   auto operator<=>(const PlainState&) const = default;
 };
 // A plain state and the marked variants of the word that may still count: how many (up to 2) are in
@@ -128,8 +111,8 @@ class Prover {
   std::string owner_text(int route) const {
     return "route " + name(route) + " (" + estimator(route).name + ")";
   }
-  const EstimatorType& estimator(int route) const {
-    return estimator_type(in_.routes[static_cast<size_t>(route)].estimator);
+  const EstimatorTraits& estimator(int route) const {
+    return *in_.routes[static_cast<size_t>(route)].estimator;
   }
   int route_at(int state, int light) const {
     const int part = in_.parts.automaton.at(state, light);
@@ -178,17 +161,12 @@ class Prover {
     const Automaton& a = in_.parts.automaton;
     const WordSearch<PlainState> search(
         {a.start, {}}, events_, SIZE_MAX, [&](const PlainState& s, int e) -> PlainState {
-          const EventClass c = in_.classes.class_of_event(e);
-          const bool specular = c == EventClass::kSpecular;
-          return {a.after(s.state, e),
-                  {true, s.ends.rough || !specular, s.ends.any ? s.ends.first_specular : specular,
-                   specular, s.ends.mergeable || contains(ClassMask::kRough, c),
-                   s.ends.rough_pair || (s.ends.any && !s.ends.last_specular && !specular),
-                   after(s.ends.pair, c)}};
+          return {a.after(s.state, e), s.events.after(in_.classes.class_of_event(e))};
         });
     std::optional<std::string> hole, medium_hole, hair_hole;
     struct NeverSampled {
-      int rank = 0;
+      const char* why = nullptr;
+      bool has_events = false;  ///< paths with events are better witnesses
       std::string witness;
     };
     std::vector<NeverSampled> never(in_.routes.size());
@@ -210,9 +188,11 @@ class Prover {
         std::string& example = proof_.examples[static_cast<size_t>(route)];
         if (example.empty()) example = text(search.word(n), l);
         NeverSampled& best = never[static_cast<size_t>(route)];
-        const int rank =
-            never_sampled(in_.routes[static_cast<size_t>(route)].estimator, s.ends, light);
-        if (rank > best.rank) best = {rank, text(search.word(n), l)};
+        const char* why =
+            estimator(route).why_never_sampled({s.events, light, in_.camera_connects});
+        const bool has_events = s.events.count > 0;
+        if (why != nullptr && (best.why == nullptr || (has_events && !best.has_events)))
+          best = {why, has_events, text(search.word(n), l)};
       }
     if (hole)
       report(Kind::kHole, true,
@@ -229,9 +209,11 @@ class Prover {
                  ": expected one of path",
              *hair_hole);
     for (size_t r = 0; r < never.size(); ++r)
-      if (never[r].rank > 0)
+      if (never[r].why != nullptr)
         report(Kind::kNeverSampled, false,
-               never_sampled_text(static_cast<int>(r), never[r].witness), never[r].witness);
+               owner_text(static_cast<int>(r)) + " owns " + never[r].witness +
+                   ", which it cannot find (that light will be missing): " + never[r].why,
+               never[r].witness);
   }
 
   bool touches_hair(const std::vector<int>& word) const {
@@ -239,54 +221,10 @@ class Prover {
                        [&](int e) { return in_.classes.class_of_event(e) == EventClass::kHair; });
   }
 
-  // 0 if the estimator can make the word or no other can (that nobody sees a light at a point in a
-  // mirror is no fault of a route), else the more the better it serves as a witness.
-  int never_sampled(EstimatorKind estimator, const Ends& ends, LightKind light) const {
-    const bool is_hit = light != LightKind::kPoint && light != LightKind::kDistant;
-    const bool out_of_reach = !is_hit && ends.rough && ends.last_specular;
-    if (estimator == EstimatorKind::kPath || estimator == EstimatorKind::kForecast ||
-        estimator == EstimatorKind::kPrimarySpace)
-      return out_of_reach;
-    if (estimator == EstimatorKind::kPointLights)
-      return out_of_reach && ends.pair != PairOfRough::kBoth;
-    if (estimator == EstimatorKind::kLightTrace)
-      return ends.any ? 2 * (ends.first_specular && (ends.rough || is_hit))
-                      : light == LightKind::kEnvironment;
-    if (!is_cut_anywhere(estimator) || is_hit || !ends.rough || !ends.last_specular) return 0;
-    // With an S at the light's end, wherever a photon is merged it came by way of one.
-    const bool merges = estimator != EstimatorKind::kBidirectional &&
-                        estimator != EstimatorKind::kMetropolis && ends.mergeable;
-    const bool connects = estimator != EstimatorKind::kBpm &&
-                          estimator != EstimatorKind::kPathAndPhotons &&
-                          ((in_.camera_connects && !ends.first_specular) || ends.rough_pair);
-    return !merges && !connects;
-  }
-  static bool is_cut_anywhere(EstimatorKind estimator) {
-    return estimator == EstimatorKind::kBidirectional || estimator == EstimatorKind::kVcm ||
-           estimator == EstimatorKind::kBpm || estimator == EstimatorKind::kPathAndPhotons ||
-           estimator == EstimatorKind::kMetropolis;
-  }
-  std::string never_sampled_text(int route, const std::string& witness) const {
-    const std::string owns = owner_text(route) + " owns " + witness +
-                             ", which it cannot find (that light will be missing): ";
-    const EstimatorKind kind = in_.routes[static_cast<size_t>(route)].estimator;
-    if (kind == EstimatorKind::kLightTrace)
-      return owns + "only rough surfaces, media and emitting shapes can be connected to the camera";
-    const std::string start = owns + "no path meets a light at a point or in one direction, ";
-    if (kind == EstimatorKind::kBpm)
-      return start + "none is connected to it behind an S, and photons are merged at D and G only";
-    if (is_cut_anywhere(kind) && !in_.camera_connects)
-      return start +
-             "light paths are not connected to this camera, and wherever else it is cut in two, "
-             "there is an S";
-    if (is_cut_anywhere(kind)) return start + "and wherever it is cut in two, there is an S";
-    return start + "and only a rough S can be connected to it";
-  }
-
   // Words of routes that merge have exactly one vertex where they do.
   void look_at_merge_vertices() {
     if (std::none_of(in_.routes.begin(), in_.routes.end(),
-                     [](const RouteDefinition& r) { return estimator_type(r.estimator).merges; }))
+                     [](const RouteDefinition& r) { return r.estimator->merges; }))
       return;
     const Automaton& a = in_.parts.automaton;
     const WordSearch<MarkedState> search({a.start, {}}, events_, kMostNodes,

@@ -1,5 +1,4 @@
 // Reading routes and AOVs: NAME=EXPRESSION:ESTIMATOR.
-// Who calls it: through route_set.h and route_text.h. It must not know automata.
 #include "route/route_text.h"
 
 #include <fmt/format.h>
@@ -15,45 +14,6 @@
 
 namespace nephroid {
 namespace {
-
-constexpr EstimatorType kEstimators[] = {
-    {EstimatorKind::kPath, "path", "path tracing with next-event estimation, from the eye", false,
-     false, false},
-    {EstimatorKind::kPhotons, "photons",
-     "photons merged with a radius that shrinks from pass to pass", true, false, true},
-    {EstimatorKind::kSppm, "sppm",
-     "stochastic progressive photon mapping with a radius for each pixel", true, false, true},
-    {EstimatorKind::kLightTrace, "lighttrace",
-     "paths from the lights, each vertex of which is connected to the camera", false, true, true},
-    {EstimatorKind::kPhotonsAndLight, "photons+light",
-     "photons that are merged and connected to the camera, weighed against each other", true, true,
-     true},
-    {EstimatorKind::kBidirectional, "bdpt",
-     "bidirectional path tracing: paths from eye and lights, connected in all ways", false, false,
-     true},
-    {EstimatorKind::kVcm, "vcm",
-     "vertex connection and merging: bdpt, and photons merged at all vertices", false, false, true},
-    {EstimatorKind::kBpm, "bpm",
-     "bidirectional photon mapping: vcm without connections of two walks", false, false, true},
-    {EstimatorKind::kPathAndPhotons, "path+photons",
-     "path tracing, and photons merged where their light came by way of an S", false, false, true},
-    {EstimatorKind::kMetropolis, "mlt",
-     "bidirectional paths, one technique at a time, explored by Markov chains", false, false, true},
-    {EstimatorKind::kPrimarySpace, "pssmlt",
-     "path tracing from the eye, explored by Markov chains in the space of its random numbers",
-     false, false, false},
-    {EstimatorKind::kPhotonMap, "photonmap",
-     "a photon map that all passes read, by the nearest photons; passes add no photons", true,
-     false, true, true},
-    {EstimatorKind::kPpm, "ppm", "progressive photon mapping with hit points that stay", true,
-     false, true},
-    {EstimatorKind::kPointLights, "pointlights",
-     "path tracing that is connected to virtual point lights at its first rough surface", false,
-     false, true},
-    {EstimatorKind::kForecast, "forecast",
-     "path tracing that looks where photons foretold that a caustic comes from", false, false,
-     false},
-};
 
 // Names of the picture's own layers and channels, and of what is reserved for them.
 constexpr const char* kReservedNames[] = {
@@ -111,14 +71,14 @@ std::string read_expression(const std::string& text, size_t begin, size_t end,
   return expression;
 }
 
-EstimatorKind read_estimator(const std::string& text, size_t colon,
-                             const ExpressionSource& source) {
+const EstimatorTraits* read_estimator(const std::string& text, size_t colon, TraitsTable estimators,
+                                      const ExpressionSource& source) {
   const Range range = trimmed(text, colon + 1, text.size());
   const std::string name = text.substr(range.begin, range.end - range.begin);
   std::vector<std::string> names;
-  for (const EstimatorType& e : kEstimators) {
-    if (name == e.name) return e.kind;
-    names.emplace_back(e.name);
+  for (const EstimatorTraits* estimator : estimators) {
+    if (name == estimator->name) return estimator;
+    names.emplace_back(estimator->name);
   }
   const std::string known = fmt::format("{}", fmt::join(names, ", "));
   throw expression_error(source, range.begin,
@@ -128,15 +88,6 @@ EstimatorKind read_estimator(const std::string& text, size_t colon,
 }
 
 }  // namespace
-
-std::span<const EstimatorType> estimator_types() {
-  return kEstimators;
-}
-
-const EstimatorType& estimator_type(EstimatorKind kind) {
-  return *std::find_if(std::begin(kEstimators), std::end(kEstimators),
-                       [kind](const EstimatorType& e) { return e.kind == kind; });
-}
 
 void check_layer_name(const std::string& name, const ExpressionSource& source) {
   if (name.empty())
@@ -171,7 +122,8 @@ Expression parse_checked(const std::string& expression, const ExpressionSource& 
   return e;
 }
 
-RouteDefinition parse_route(const std::string& text, const std::string& where) {
+RouteDefinition parse_route(const std::string& text, TraitsTable estimators,
+                            const std::string& where) {
   RouteDefinition route;
   route.source = {where, text, 0};
   const size_t begin =
@@ -182,7 +134,7 @@ RouteDefinition parse_route(const std::string& text, const std::string& where) {
     throw expression_error(route.source, text.size(),
                            "expected ':' and an estimator behind the expression, as in "
                            "NAME=EXPRESSION:path");
-  route.estimator = read_estimator(text, colon, route.source);
+  route.estimator = read_estimator(text, colon, estimators, route.source);
   return route;
 }
 
@@ -199,7 +151,8 @@ AovDefinition parse_aov(const std::string& text, const std::string& where) {
   return aov;
 }
 
-std::vector<RouteDefinition> parse_route_file(const std::string& text, const std::string& file) {
+std::vector<RouteDefinition> parse_route_file(const std::string& text, TraitsTable estimators,
+                                              const std::string& file) {
   std::vector<RouteDefinition> routes;
   int number = 0;
   for (size_t begin = 0; begin < text.size();) {
@@ -211,7 +164,8 @@ std::vector<RouteDefinition> parse_route_file(const std::string& text, const std
     const Range range = trimmed(whole, 0, std::min(comment, whole.size()));
     if (range.begin == range.end) continue;
     // With its indentation, so that columns are those of the file.
-    routes.push_back(parse_route(whole.substr(0, range.end), file + ":" + std::to_string(number)));
+    routes.push_back(
+        parse_route(whole.substr(0, range.end), estimators, file + ":" + std::to_string(number)));
   }
   if (routes.empty())
     throw UsageError(file + ": expected routes, NAME=EXPRESSION:ESTIMATOR, one a line; found none");

@@ -26,9 +26,9 @@ Routes::Routes(std::vector<RouteDefinition> routes, std::vector<AovDefinition> a
       tables_(std::move(tables)) {
   std::vector<size_t> group_of;  // [route]
   for (size_t r = 0; r < definitions_.size(); ++r) {
-    const EstimatorKind estimator = definitions_[r].estimator;
+    const EstimatorTraits* estimator = definitions_[r].estimator;
     auto group = std::find_if(groups_.begin(), groups_.end(), [&](const RouteGroup& g) {
-      return g.estimator == estimator && !estimator_type(estimator).one_route_each;
+      return g.estimator == estimator && !estimator->one_route_each;
     });
     if (group == groups_.end()) group = groups_.insert(groups_.end(), {estimator, {}, {}});
     group->routes.push_back(static_cast<int>(r));

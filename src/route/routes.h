@@ -65,7 +65,7 @@ struct RouteTables {
 
 /// The routes that one estimator owns together; its walks ask with the number of the group.
 struct RouteGroup {
-  EstimatorKind estimator = EstimatorKind::kPath;
+  const EstimatorTraits* estimator = nullptr;
   std::vector<int> routes;
   std::vector<Part> parts;
 };

@@ -156,7 +156,7 @@ void Routes::find_useful_events(const SymbolSet& symbols) {
         [&](size_t s, EventSymbol e) -> bool { return may_merge[t.eye_next[column(s, e)]]; });
 
     // From the light.
-    const bool deposits = estimator_type(groups_[g].estimator).merges;
+    const bool deposits = groups_[g].estimator->merges;
     f.deposits = events.masks(t.light_states, ClassMask::kRough, [&](size_t light, EventSymbol e) {
       if (!deposits) return false;
       for (const EyeState eye : merged_states.at(e))
@@ -179,7 +179,7 @@ void Routes::find_useful_events(const SymbolSet& symbols) {
     f.useful_from_light = events.masks(
         t.light_states, kEveryClass,
         [&](size_t s, EventSymbol e) -> bool { return may_meet[t.light_next[column(s, e)]]; });
-    const bool connects = estimator_type(groups_[g].estimator).connects;
+    const bool connects = groups_[g].estimator->connects;
     f.connects = events.masks(t.light_states, kEveryClass, [&](size_t light, EventSymbol e) {
       return connects && owns(g, t.meet[t.eye_next[column(t.start, e)] * t.light_states + light]);
     });

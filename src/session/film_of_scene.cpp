@@ -8,54 +8,26 @@
 
 #include "core/errors.h"
 #include "film/exr_file.h"
-#include "film/splats.h"
-#include "integrator/bidirectional/bidirectional.h"
-#include "integrator/bidirectional/pair_pass.h"
-#include "integrator/mixed/path_and_photons.h"
-#include "integrator/photon_mapping/photon_map.h"
-#include "integrator/photon_mapping/ppm.h"
-#include "integrator/photon_mapping/sppm.h"
-#include "integrator/photons/gather.h"
-#include "integrator/photons/merge_pass.h"
+#include "integrator/presets/estimator_table.h"
+#include "photon/photon.h"
 #include "session/report/short_number.h"
 
 namespace nephroid {
 namespace {
 
-/// For each pixel.
-struct BytesOfEstimators {
-  size_t kept = 0;     ///< from pass to pass
-  size_t of_pass = 0;  ///< of the one that needs most; they render one after another
-};
-
-BytesOfEstimators bytes_of_estimators(const Routes& routes, int hit_points, bool clamps) {
-  size_t kept = 0, most = 0;
-  for (const RouteGroup& group : routes.groups()) {
-    const size_t parts = group.parts.size();
-    const EstimatorType& type = estimator_type(group.estimator);
-    const bool splats = type.connects || group.estimator == EstimatorKind::kMetropolis ||
-                        group.estimator == EstimatorKind::kPrimarySpace;
-    size_t pass = splats ? SplatBuffer::bytes_per_pixel(parts) : 0;
-    if (group.estimator == EstimatorKind::kSppm) {
-      kept += Sppm::bytes_kept(parts);
-      pass += Sppm::bytes_of_pass(parts);
-    } else if (group.estimator == EstimatorKind::kBidirectional) {
-      pass = Bidirectional::bytes_per_pixel(parts);
-    } else if (group.estimator == EstimatorKind::kVcm || group.estimator == EstimatorKind::kBpm) {
-      pass = pair_pass_bytes_per_pixel(parts, 0, clamps ? 1 : 0);
-    } else if (group.estimator == EstimatorKind::kPathAndPhotons) {
-      pass = PathAndPhotons::bytes_per_pixel(parts, clamps);
-    } else if (group.estimator == EstimatorKind::kPpm) {
-      kept += static_cast<size_t>(hit_points) * Ppm::bytes_kept(parts);
-      pass += static_cast<size_t>(hit_points) * Ppm::bytes_of_pass(parts);
-    } else if (group.estimator == EstimatorKind::kPhotonMap) {
-      pass += Gathered::bytes_per_walk(parts);
-    } else if (type.merges) {
-      pass += MergePass::bytes_per_pixel(parts);
-    }
-    most = std::max(most, pass);
+/// Of all estimators of a render; they render one after another.
+PixelBytes bytes_of_estimators(const MemoryNeed& need) {
+  PixelBytes all;
+  for (const RouteGroup& group : need.routes.groups()) {
+    const PixelBytes bytes =
+        descriptor_of(group).bytes_per_pixel({.parts = group.parts.size(),
+                                              .options = need.options,
+                                              .samples_per_pixel = need.samples_per_pixel,
+                                              .clamps = need.film.max_component < kInfinity});
+    all.kept += bytes.kept;
+    all.of_pass = std::max(all.of_pass, bytes.of_pass);
   }
-  return {kept, most};
+  return all;
 }
 
 size_t bytes_of_rejection(const Routes& routes) {
@@ -66,13 +38,8 @@ size_t bytes_of_rejection(const Routes& routes) {
 }
 
 bool keeps_photons(const Routes& routes) {
-  return std::ranges::any_of(routes.groups(), [](const RouteGroup& group) {
-    return estimator_type(group.estimator).merges ||
-           group.estimator == EstimatorKind::kPathAndPhotons ||
-           group.estimator == EstimatorKind::kVcm || group.estimator == EstimatorKind::kBpm ||
-           group.estimator == EstimatorKind::kForecast ||
-           group.estimator == EstimatorKind::kPointLights;
-  });
+  return std::ranges::any_of(
+      routes.groups(), [](const RouteGroup& group) { return descriptor_of(group).keeps_photons; });
 }
 
 /// Of a picture in memory, see film_output.cpp.
@@ -82,38 +49,6 @@ size_t channels_of_picture(const FilmLayout& layout, bool gbuffer) {
          (gbuffer ? kGbufferChannels : 0);
 }
 
-/// a of [O2], the pixels that one light path exposes in a pass: a photon those within the first
-/// merge radius, a splat those whose filter reaches it, a path from the eye its own.
-float exposed_pixels(EstimatorKind kind, const IntegratorOptions& options,
-                     const PixelFilter& filter) {
-  const auto within = [](float radius) { return std::max(1.0f, kPi * sqr(radius)); };
-  const float splatted = std::max(1.0f, 4 * filter.radius().x * filter.radius().y);
-  switch (kind) {
-    case EstimatorKind::kPhotons:
-    case EstimatorKind::kBpm:
-      return within(first_radius(options));
-    case EstimatorKind::kSppm:
-    case EstimatorKind::kPpm:
-      return within(Sppm::first_radius(options));
-    case EstimatorKind::kPhotonMap:
-      return within(PhotonMap::largest_radius(options));
-    case EstimatorKind::kPhotonsAndLight:
-    case EstimatorKind::kPathAndPhotons:
-    case EstimatorKind::kVcm:
-      return std::max(within(first_radius(options)), splatted);
-    case EstimatorKind::kLightTrace:
-    case EstimatorKind::kBidirectional:
-    case EstimatorKind::kMetropolis:
-    case EstimatorKind::kPrimarySpace:
-      return splatted;
-    case EstimatorKind::kPath:
-    case EstimatorKind::kPointLights:
-    case EstimatorKind::kForecast:
-      break;
-  }
-  return 1;
-}
-
 }  // namespace
 
 OutlierSettings outlier_settings(const Routes& routes, const IntegratorOptions& options,
@@ -121,7 +56,7 @@ OutlierSettings outlier_settings(const Routes& routes, const IntegratorOptions& 
   OutlierSettings settings;
   settings.neighbours = of_scene.outlier_neighbours;
   for (const RouteGroup& group : routes.groups())
-    settings.exposed_pixels.push_back(exposed_pixels(group.estimator, options, filter));
+    settings.exposed_pixels.push_back(descriptor_of(group).exposed_pixels(options, filter));
   return settings;
 }
 
@@ -134,8 +69,7 @@ void check_memory(const MemoryNeed& need, uint64_t limit, bool limit_is_an_optio
   // A copy of what is held is written.
   const size_t of_rejection = need.rejects_outliers ? bytes_of_rejection(need.routes) : 0;
   const size_t of_film = Film::bytes_per_pixel(need.layout, gbuffer);
-  const BytesOfEstimators of_estimators =
-      bytes_of_estimators(need.routes, need.hit_points, film.max_component < kInfinity);
+  const PixelBytes of_estimators = bytes_of_estimators(need);
   const size_t channels = channels_of_picture(need.layout, gbuffer);
   constexpr size_t kPngBytes = 3;
   const uint64_t of_encoder =
@@ -148,9 +82,9 @@ void check_memory(const MemoryNeed& need, uint64_t limit, bool limit_is_an_optio
       {"what is read already", static_cast<double>(need.held)},
       {"the film", of_pixels(of_film + of_rejection)},
       {"passes", of_pixels(of_estimators.kept + of_estimators.of_pass)},
-      {"photons", keeps_photons(need.routes)
-                      ? static_cast<double>(need.photons) * double{kBytesPerPhoton}
-                      : 0.0},
+      {"photons", keeps_photons(need.routes) ? static_cast<double>(need.options.memory_photons) *
+                                                   static_cast<double>(kBytesPerPhoton)
+                                             : 0.0},
       {"textures", static_cast<double>(need.textures)},
       {"writing the picture", need.writes
                                   ? of_pixels(sizeof(float) * channels + kPngBytes + of_rejection) +

@@ -20,9 +20,9 @@ struct MemoryNeed {
   const FilmDescription& film;
   const FilmLayout& layout;
   const Routes& routes;
+  const IntegratorOptions& options;
+  int samples_per_pixel = 1;  ///< as the scene has them
   bool rejects_outliers = false;
-  int hit_points = 0;     ///< of `ppm` in a pixel
-  int64_t photons = 0;    ///< kept at once, if routes need any
   uint64_t held = 0;      ///< bytes that the process holds already, the scene among them
   uint64_t textures = 0;  ///< bytes that may still be taken for them
   bool writes = false;    ///< a picture at the end

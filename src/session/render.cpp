@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include "film/film_settings.h"
 #include "input/scene_files.h"
-#include "integrator/photon_mapping/ppm.h"
 #include "session/film_of_scene.h"
 #include "session/process_memory.h"
 #include "session/settings/unused_settings.h"
@@ -25,10 +25,8 @@ void warn_of(const std::vector<std::string>& warnings, const Warn& warn) {
 
 void check_fits_memory(const RenderRequest& request, const Scene& scene,
                        const IntegratorOptions& options, const Preset& preset) {
-  MemoryNeed need{scene.film, preset.layout, *preset.routes};
+  MemoryNeed need{scene.film, preset.layout, *preset.routes, options, scene.samples_per_pixel};
   need.rejects_outliers = request.reject_outliers;
-  need.hit_points = Ppm::hit_points(options, scene.samples_per_pixel);
-  need.photons = options.memory_photons;
   need.held = memory_in_use();
   need.textures = request.settings.scene.texture_memory / 4;
   need.writes = !request.options.output.empty();
@@ -38,18 +36,14 @@ void check_fits_memory(const RenderRequest& request, const Scene& scene,
 
 /// Warnings about routes whose outliers are not rejected.
 std::vector<std::string> rejection_warnings(const Routes& routes) {
-  std::vector<std::string> warnings;
-  const auto warn = [&](EstimatorKind kind, const char* what) {
-    if (std::ranges::any_of(routes.groups(),
-                            [&](const RouteGroup& group) { return group.estimator == kind; }))
-      warnings.push_back(std::string("--outliers reject: routes of ") + estimator_type(kind).name +
-                         what);
-  };
-  for (const EstimatorKind kind : {EstimatorKind::kSppm, EstimatorKind::kPpm})
-    warn(kind, " keep theirs, they have no estimates that could be held");
-  warn(EstimatorKind::kPhotonMap,
-       " show theirs after some passes, which read the same photons again and so confirm them");
-  return warnings;
+  std::set<std::string> warnings;
+  for (const RouteGroup& group : routes.groups()) {
+    const EstimatorDescriptor& estimator = descriptor_of(group);
+    if (estimator.outlier_warning != nullptr)
+      warnings.insert(fmt::format("--outliers reject: routes of {} {}", estimator.traits.name,
+                                  estimator.outlier_warning));
+  }
+  return {warnings.begin(), warnings.end()};
 }
 
 RenderIdentity identity_of(const RenderRequest& request, const LoadedScene& loaded,

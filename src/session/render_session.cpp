@@ -53,7 +53,7 @@ void check_fits(const Preset& preset, const Film& film, const RenderOptions& opt
   const std::vector<PassRange>& before = options.begin_with.passes.ranges();
   const bool from_zero = before.empty() || (before.size() == 1 && before[0].first == 0);
   for (const auto& estimator : preset.estimators) {
-    const Capabilities capabilities = estimator->capabilities();
+    const Capabilities capabilities = estimator->descriptor().capabilities;
     if (!from_zero && !capabilities.independent_passes)
       throw UsageError(
           fmt::format("--resume: the passes of this integrator depend on each other, and the "
@@ -203,7 +203,7 @@ void RenderSession::renew_error_text() {
   error_text_pass_ = passes_done_;
   error_text_.reset();
   for (const auto& estimator : preset_.estimators)
-    if (!estimator->capabilities().consistent) return;
+    if (!estimator->descriptor().capabilities.consistent) return;
   error_text_ = error_report(film_);
 }
 

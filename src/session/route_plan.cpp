@@ -10,7 +10,9 @@
 
 #include "core/errors.h"
 #include "input/spelling.h"
+#include "integrator/presets/estimator_table.h"
 #include "integrator/presets/integrator_table.h"
+#include "integrator/presets/route_presets.h"
 
 namespace nephroid {
 namespace {
@@ -39,7 +41,7 @@ std::string read_file(const std::string& file) {
 std::vector<RouteDefinition> routes_of(const std::string& preset_or_file) {
   if (const auto preset = route_preset(preset_or_file)) return *preset;
   if (std::filesystem::is_regular_file(preset_or_file))
-    return parse_route_file(read_file(preset_or_file), preset_or_file);
+    return parse_route_file(read_file(preset_or_file), estimator_traits(), preset_or_file);
   std::vector<std::string> names;
   for (const RoutePreset& preset : route_presets()) names.emplace_back(preset.name);
   throw UsageError(fmt::format(
@@ -66,8 +68,7 @@ RoutePlan plan_of(const RouteChoice& choice, const std::string& integrator) {
 std::string routes_text(const RoutePlan& plan) {
   std::string text;
   for (const RouteDefinition& route : plan.routes)
-    text +=
-        route.name + " = " + route.expression + " : " + estimator_type(route.estimator).name + "\n";
+    text += route.name + " = " + route.expression + " : " + route.estimator->name + "\n";
   return text;
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "integrator/bidirectional/pair_pass.h"
+#include "integrator/learning/guiding_options.h"
 #include "integrator/learning/photon_guiding.h"
 #include "owned_routes.h"
 #include "rendering.h"
@@ -66,7 +67,7 @@ TEST_P(Guided, PhotonsFindTheSameCausticWithLessNoise) {
     SeedValues of_lights, of_the_lit, all;
   };
   const auto caustics = [&](bool guided, uint64_t first_seed) {
-    options.guides_photons = guided;
+    options.edit<GuidingOptions>().photons = guided;
     const SeedValues values = values_over_seeds(kSeeds, first_seed, [&](uint64_t seed) {
       std::vector<double> sums(3 * kBlocks, 0.0);
       Preset preset = make_preset(plan, options, *scene);
@@ -125,7 +126,7 @@ TEST_P(Guided, WalksAndPhotonsTogetherFindTheSamePicture) {
   const Preset preset = make_preset(plan_of(routes), options, *scene);
   const OwnedRoutes owned = owned_routes(*scene, routes);
   const auto values = [&](bool guided, uint64_t first_seed) {
-    options.guides_photons = guided;
+    options.edit<GuidingOptions>().photons = guided;
     return values_over_seeds(kSeeds, first_seed, [&](uint64_t seed) {
       const auto means = [&](float radius) {
         IntegratorOptions own = options;

@@ -2,6 +2,7 @@
 // flipped cameras must not change.
 #include <gtest/gtest.h>
 
+#include "integrator/metropolis/metropolis_options.h"
 #include "integrator/presets/integrator_table.h"
 #include "rendering.h"
 
@@ -152,7 +153,7 @@ TEST(Integrators, AFlippedScreenIsTheSamePictureTurned) {
   };
   IntegratorOptions options;
   options.photons_per_pass = 20000;
-  options.mutations = 128;  // blocks of a few percent of noise
+  options.edit<MetropolisOptions>().mutations = 128;  // blocks of a few percent of noise
   const auto straight = scene("[-1 1 -1 1]"), turned = scene("[1 -1 1 -1]");
   const std::vector<std::string> names = integrator_names();
   parallel_chunks(static_cast<int64_t>(names.size()), 1, [&](int64_t n, int64_t, int64_t) {

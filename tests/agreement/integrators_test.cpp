@@ -5,6 +5,9 @@
 
 #include "agreement/scene_assets.h"
 #include "agreement/scenes.h"
+#include "integrator/path/path_options.h"
+#include "integrator/photon_mapping/photon_map.h"
+#include "integrator/photon_mapping/ppm.h"
 #include "rendering.h"
 #include "scene/camera/camera.h"
 
@@ -38,8 +41,8 @@ IntegratorOptions options_for(const AgreementScene& description) {
   options.photons_per_pass = description.photons;
   options.radius = description.radius;
   options.camera_samples_per_pass = 1;
-  options.hit_points = 4;
-  options.nearest_photons = kAllPhotons;
+  options.edit<PpmOptions>().hit_points = 4;
+  options.edit<PhotonMapOptions>().nearest_photons = kAllPhotons;
   return options;
 }
 
@@ -64,7 +67,7 @@ TEST_P(Agreement, OfAllIntegrators) {
   options.camera_samples_per_pass = 8;  // what the path tracer adds to few passes must not be noisy
   for (const std::string integrator : {"mixed", "sppm", "bdpt"}) {
     if (integrator == description.reference) continue;
-    options.specular_trees = integrator == "bdpt";
+    options.edit<PathOptions>().specular_trees = integrator == "bdpt";
     expect_equal(unbiased_block_values(*scene, integrator, options, kSeeds, description.passes,
                                        first_seed, kAcross),
                  reference, std::string(description.name) + ", " + integrator, 0.01);

@@ -2,6 +2,7 @@
 // a chain, and in a crop.
 #include <gtest/gtest.h>
 
+#include "integrator/metropolis/metropolis_options.h"
 #include "metropolis_scene.h"
 #include "rendering.h"
 
@@ -24,9 +25,9 @@ TEST(Metropolis, PassesOfAnySizeFindTheSamePicture) {
   uint64_t seed = 100;
   for (const char* integrator : {"mlt", "pssmlt"})
     for (const Size& size : {Size{1, 1, 0.3f}, Size{8, 1 << 30, 0.02f}, Size{8, 16, 1.0f}}) {
-      options.mutations = size.mutations;
-      options.chain_length = size.chain_length;
-      options.large_step = size.large_step;
+      options.edit<MetropolisOptions>().mutations = size.mutations;
+      options.edit<MetropolisOptions>().chain_length = size.chain_length;
+      options.edit<MetropolisOptions>().large_step = size.large_step;
       const Estimate found = mean_over_seeds(*scene, integrator, options, 32, 8, seed += 100);
       const double error = std::hypot(found.error, expected.error);
       std::printf("%s, chains of %d: off by %+.2f %%, standard error %.2f %%\n", integrator,

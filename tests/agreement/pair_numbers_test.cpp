@@ -3,6 +3,7 @@
 // chose.
 #include <gtest/gtest.h>
 
+#include "integrator/bidirectional/technique_choice.h"
 #include "rendering.h"
 
 namespace nephroid {
@@ -57,7 +58,7 @@ TEST_P(PairNumbers, OneSeedConverges) {
   options.photons_per_pass = 1;
   options.radius = 1e-3f;
   // The technique that asks the light path alone what the other end of the path is.
-  options.technique = {2, 2, true, false};
+  options.edit<TechniqueChoice>() = {2, 2, true, false};
   constexpr uint32_t kPasses = 4096, kSeeds = 128, kSome = 16;
   // What is right, and how far one pass is off: from seeds that are independent.
   std::vector<double> mean(32, 0.0), square(32, 0.0);

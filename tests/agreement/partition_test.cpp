@@ -4,6 +4,10 @@
 // of roughness makes a caustic jump.
 #include <gtest/gtest.h>
 
+#include "integrator/metropolis/metropolis_options.h"
+#include "integrator/path/path_options.h"
+#include "integrator/photon_mapping/photon_map.h"
+#include "integrator/photon_mapping/ppm.h"
 #include "rendering.h"
 
 namespace nephroid {
@@ -107,7 +111,7 @@ Film render_routes(const Scene& scene, const std::vector<std::string>& routes,
 void expect_complements(const Scene& scene, const std::vector<std::string>& expressions) {
   IntegratorOptions options;
   options.max_depth = 8;
-  options.blind_walks = true;
+  options.edit<PathOptions>().blind_walks = true;
   std::vector<double> found(expressions.size()), total(expressions.size());
   for (const uint32_t pass : {0u, 1u, 5u}) {
     const Film all = render(scene, plan_of({"all=.*:path"}), options, 3, 1, pass);
@@ -190,10 +194,10 @@ IntegratorOptions options_of_owners() {
   options.photons_per_pass = 6144;
   options.camera_samples_per_pass = 8;
   options.radius = 0.6f;
-  options.hit_points = 4;
-  options.nearest_photons = kAllPhotons;
-  options.mutations = 256;
-  options.large_step = 0.5f;
+  options.edit<PpmOptions>().hit_points = 4;
+  options.edit<PhotonMapOptions>().nearest_photons = kAllPhotons;
+  options.edit<MetropolisOptions>().mutations = 256;
+  options.edit<MetropolisOptions>().large_step = 0.5f;
   return options;
 }
 

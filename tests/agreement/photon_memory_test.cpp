@@ -2,6 +2,7 @@
 // Cornell box with a glass sphere (Doidge et al. 2012 report about a tenth).
 #include <gtest/gtest.h>
 
+#include "integrator/learning/guiding_options.h"
 #include "rendering.h"
 
 namespace nephroid {
@@ -33,7 +34,8 @@ const char* const kBox = R"(
 uint64_t photons_stored(const Scene& scene, const std::string& plan) {
   IntegratorOptions options;
   options.photons_per_pass = 1 << 16;
-  options.guides_photons = false;  // all start as the lights have it, as in the paper
+  options.edit<GuidingOptions>().photons =
+      false;  // all start as the lights have it, as in the paper
   Preset preset = make_preset(plan_named(plan), options, scene);
   Film film = film_for(scene, preset);
   uint64_t stored = 0;

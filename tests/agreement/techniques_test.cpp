@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/parallel.h"
+#include "integrator/path/path_options.h"
 #include "rendering.h"
 
 namespace nephroid {
@@ -121,7 +122,7 @@ TEST(TechniquesOfTrees, AreNotLightsMetByWalks) {
   IntegratorOptions options;
   options.camera_samples_per_pass = 16;
   IntegratorOptions with_trees = options;
-  with_trees.specular_trees = true;
+  with_trees.edit<PathOptions>().specular_trees = true;
   const auto by_mirrors = [](const TechniqueLight& all) {
     return all[static_cast<size_t>(Technique::kMeetByMirrors)];
   };

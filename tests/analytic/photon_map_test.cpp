@@ -1,7 +1,10 @@
 // Photon maps and hit points where the light is known in closed form: the bound of the bias [N2], a
 // closed furnace, which has no bias, and a hit point that stays where it is.
+#include "integrator/photon_mapping/photon_map.h"
+
 #include <gtest/gtest.h>
 
+#include "integrator/photon_mapping/ppm.h"
 #include "rendering.h"
 #include "scene/camera/camera.h"
 
@@ -24,7 +27,7 @@ TEST(HitPoints, Stay) {
     Rotate -90 1 0 0 Shape "disk" "float radius" 0.5)");
   IntegratorOptions options;
   options.photons_per_pass = 4096;
-  options.hit_points = 1;
+  options.edit<PpmOptions>().hit_points = 1;
   options.radius = 0.05f;
   int dark = 0;
   for (uint64_t seed = 0; seed < 16; ++seed) {
@@ -55,9 +58,9 @@ TEST(PhotonMap, BiasKeepsToItsBound) {
   const double footprint = static_cast<double>(scene->camera->footprint().width(0.5f));
   const double truth = 0.5 / static_cast<double>(kPi);
   IntegratorOptions options;
-  options.map_photons = 1 << 16;
+  options.edit<PhotonMapOptions>().map_photons = 1 << 16;
   const auto look = [&](int nearest, double max_radius) {
-    options.nearest_photons = nearest;
+    options.edit<PhotonMapOptions>().nearest_photons = nearest;
     options.radius = static_cast<float>(max_radius / footprint);
     const Plan plan = plan_of({"all=C[DG].*:photonmap", "rest=.*:path"});
     const SeedValues values = values_over_seeds(32, 0, [&](uint64_t seed) {
@@ -104,7 +107,7 @@ TEST(PhotonMap, AClosedFurnaceIsFlat) {
     Shape "sphere" "float radius" 1)");
   IntegratorOptions options;
   options.max_depth = 4;
-  options.map_photons = 1 << 14;
+  options.edit<PhotonMapOptions>().map_photons = 1 << 14;
   options.photons_per_pass = 1 << 12;
   options.radius = 0.7f / scene->camera->footprint().width(1.0f);
   const double expected = 0.5 + 0.25 + 0.125 + 0.0625;
@@ -116,7 +119,7 @@ TEST(PhotonMap, AClosedFurnaceIsFlat) {
               {"all=C[DG].*:ppm", 0, 8}};
   for (const auto& row : rows) {
     options.camera_samples_per_pass = row.walks;  // few where each reads a tenth of all photons
-    options.nearest_photons = row.nearest;
+    options.edit<PhotonMapOptions>().nearest_photons = row.nearest;
     const SeedValues values = values_over_seeds(16, 0, [&](uint64_t seed) {
       Preset preset = make_preset(plan_of({row.route, "rest=.*:path"}), options, *scene);
       Film film = film_for(*scene, preset);

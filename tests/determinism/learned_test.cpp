@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "determinism/scene_of_all_kinds.h"
+#include "integrator/photon_mapping/photon_map.h"
 #include "rendering.h"
 #include "same_bits.h"
 
@@ -31,7 +32,7 @@ std::shared_ptr<const Learned> copied(const Estimator& estimator, const FilmForm
 TEST_P(LearnedBits, AValueThatWasWrittenAndReadGivesTheSamePasses) {
   const auto scene = scene_from_text(kScene);
   IntegratorOptions options;
-  options.map_photons = 1 << 14;
+  options.edit<PhotonMapOptions>().map_photons = 1 << 14;
   Preset whole = make_preset(plan_named(GetParam()), options, *scene),
          from_values = make_preset(plan_named(GetParam()), options, *scene);
   Film expected = film_for(*scene, whole), found = film_for(*scene, from_values);
@@ -50,7 +51,7 @@ TEST_P(LearnedBits, AValueThatWasWrittenAndReadGivesTheSamePasses) {
 TEST_P(LearnedBits, BytesThatAreCutOffAreRefused) {
   const auto scene = scene_from_text(kScene);
   IntegratorOptions options;
-  options.map_photons = 1 << 12;
+  options.edit<PhotonMapOptions>().map_photons = 1 << 12;
   Preset preset = make_preset(plan_named(GetParam()), options, *scene);
   const Film film = film_for(*scene, preset);
   preset.learned.resize(preset.estimators.size());

@@ -11,6 +11,7 @@
 #include "determinism/scene_of_all_kinds.h"
 #include "film/exr_file.h"
 #include "film/film_output.h"
+#include "integrator/photon_mapping/photon_map.h"
 #include "rendering.h"
 #include "session/checkpoint/checkpoint.h"
 #include "session/checkpoint/film_metadata.h"
@@ -28,7 +29,7 @@ constexpr uint32_t kPasses = 4;
 IntegratorOptions small_passes() {
   IntegratorOptions options;
   options.photons_per_pass = 5000;
-  options.map_photons = 20000;
+  options.edit<PhotonMapOptions>().map_photons = 20000;
   return options;
 }
 

@@ -1,6 +1,7 @@
 // Light path expressions and files of routes in hostile text, compiled and proved; see targets.h.
 #include "core/errors.h"
 #include "fuzz/targets.h"
+#include "integrator/presets/estimator_table.h"
 #include "route/compile.h"
 
 namespace nephroid::fuzz {
@@ -46,7 +47,8 @@ void routes(const std::string& bytes) {
     start = end;
   }
   try {
-    const std::vector<RouteDefinition> definitions = parse_route_file(file, "fuzz.routes");
+    const std::vector<RouteDefinition> definitions =
+        parse_route_file(file, estimator_traits(), "fuzz.routes");
     std::vector<AovDefinition> aovs;
     for (const std::string& line : aov_lines) aovs.push_back(parse_aov(line));
     const RouteCompilation compilation = compile_routes(definitions, aovs);

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.h"
+#include "estimators.h"
+#include "integrator/presets/route_presets.h"
 #include "routes/comparison.h"
 #include "routes/random_routes.h"
 
@@ -13,7 +15,7 @@ namespace nephroid::oracle {
 namespace {
 
 std::string option(const OracleRoute& route) {
-  return route.name + "=" + route.expression.text() + ":" + estimator_type(route.estimator).name;
+  return route.name + "=" + route.expression.text() + ":" + route.estimator->name;
 }
 
 std::string description(const OracleRoutes& set) {
@@ -27,7 +29,8 @@ std::string description(const OracleRoutes& set) {
 RouteCompilation compile(const OracleRoutes& set, const SymbolSet* symbols) {
   std::vector<RouteDefinition> routes;
   std::vector<AovDefinition> aovs;
-  for (const OracleRoute& route : set.routes()) routes.push_back(parse_route(option(route)));
+  for (const OracleRoute& route : set.routes())
+    routes.push_back(parse_route(option(route), estimator_traits()));
   for (const OracleRoute& aov : set.aovs())
     aovs.push_back(parse_aov(aov.name + "=" + aov.expression.text()));
   return compile_routes(routes, aovs, symbols);
@@ -145,8 +148,8 @@ TEST(Presets, Doidge2012) {
   compare_preset("doidge2012", {{"caustic",
                                  Tree::sequence({letters("C"), any(), letters("DG"), chain(),
                                                  maybe(letters("DG")), letters("L")}),
-                                 EstimatorKind::kPhotons},
-                                {"diffuse", any(), EstimatorKind::kPath}});
+                                 estimator_named("photons")},
+                                {"diffuse", any(), estimator_named("path")}});
 }
 
 TEST(Presets, DoidgeLast) {
@@ -156,8 +159,8 @@ TEST(Presets, DoidgeLast) {
       "doidge-last",
       {{"caustic",
         Tree::sequence({letters("C"), any(), merged, chain(), maybe(letters("DG")), letters("L")}),
-        EstimatorKind::kPhotons},
-       {"diffuse", any(), EstimatorKind::kPath}});
+        estimator_named("photons")},
+       {"diffuse", any(), estimator_named("path")}});
 }
 
 TEST(Presets, Split) {
@@ -165,12 +168,12 @@ TEST(Presets, Split) {
                  {{"caustic",
                    Tree::sequence({letters("C"), maybe(Tree::sequence({letters("DGV"), any()})),
                                    letters("DG"), chain(), maybe(letters("DG")), letters("L")}),
-                   EstimatorKind::kLightTrace},
+                   estimator_named("lighttrace")},
                   {"seen-caustic",
                    Tree::sequence({letters("C"), letters("S"), any(), letters("DG"), chain(),
                                    maybe(letters("DG")), letters("L")}),
-                   EstimatorKind::kPhotons},
-                  {"diffuse", any(), EstimatorKind::kPath}});
+                   estimator_named("photons")},
+                  {"diffuse", any(), estimator_named("path")}});
 }
 
 TEST(Presets, AllPhotons) {
@@ -179,8 +182,8 @@ TEST(Presets, AllPhotons) {
                     Tree::sequence({any(), letters("M")}),
                     Tree::sequence({any(), letters("H"), any(), letters("L")})});
   compare_preset("all-photons",
-                 {{"emission", Tree::sequence({letters("C"), emission}), EstimatorKind::kPath},
-                  {"photons", any(), EstimatorKind::kPhotons}});
+                 {{"emission", Tree::sequence({letters("C"), emission}), estimator_named("path")},
+                  {"photons", any(), estimator_named("photons")}});
 }
 
 TEST(Expressions, WithoutPathsAreRefused) {
@@ -194,10 +197,11 @@ TEST(Expressions, WithoutPathsAreRefused) {
     if (n % 4 == 1) tree = Tree::sequence({event, tree});
     if (n % 4 == 2) tree = Tree::sequence({tree, event});
     if (Machine(tree, alphabet, Atom::Marks::kIgnore).matches_any_path()) {
-      EXPECT_NO_THROW(parse_route("r=" + tree.text() + ":path")) << tree.text();
+      EXPECT_NO_THROW(parse_route("r=" + tree.text() + ":path", estimator_traits())) << tree.text();
     } else {
       ++refused;
-      EXPECT_THROW(parse_route("r=" + tree.text() + ":path"), UsageError) << tree.text();
+      EXPECT_THROW(parse_route("r=" + tree.text() + ":path", estimator_traits()), UsageError)
+          << tree.text();
     }
   }
   EXPECT_GE(refused, 300);

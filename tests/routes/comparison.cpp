@@ -182,7 +182,7 @@ void Comparison::check_useful(int route, Part part) {
   const size_t g = group_of(route), n = length();
   if (!routes_.owns(g, part)) fail("the part is not the group's");
   if (!set_.can_sample(route, path_, vertices_.size())) return;
-  const EstimatorKind estimator = set_.routes()[size_t(route)].estimator;
+  const EstimatorTraits* const estimator = set_.routes()[size_t(route)].estimator;
   if (walks_from_eye(estimator) && !(read_[n].useful[g] && routes_.ends(g, read_[n].eye)))
     fail("the camera walk ends too early");
   if (walks_from_eye(estimator)) return;

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "estimators.h"
 #include "route/compile.h"
 #include "routes/oracle_routes.h"
 
@@ -19,20 +20,18 @@ namespace nephroid::oracle {
 SymbolSet all_symbols(const Routes& routes, bool media);
 
 /// True if the estimator connects light walks to the camera.
-constexpr bool connects_lights(EstimatorKind kind) {
-  return kind == EstimatorKind::kLightTrace || kind == EstimatorKind::kPhotonsAndLight;
+inline bool connects_lights(const EstimatorTraits* kind) {
+  return is_one_of(kind, {"lighttrace", "photons+light"});
 }
 
 /// True if the estimator has the reach of path tracing from the eye.
-constexpr bool walks_from_eye(EstimatorKind kind) {
-  return kind == EstimatorKind::kPath || kind == EstimatorKind::kPrimarySpace;
+inline bool walks_from_eye(const EstimatorTraits* kind) {
+  return is_one_of(kind, {"path", "pssmlt"});
 }
 
 /// True if it makes a path of an eye's and a light's walk, cut anywhere.
-constexpr bool is_cut_anywhere(EstimatorKind kind) {
-  return kind == EstimatorKind::kBidirectional || kind == EstimatorKind::kVcm ||
-         kind == EstimatorKind::kBpm || kind == EstimatorKind::kPathAndPhotons ||
-         kind == EstimatorKind::kMetropolis;
+inline bool is_cut_anywhere(const EstimatorTraits* kind) {
+  return is_one_of(kind, {"bdpt", "vcm", "bpm", "path+photons", "mlt"});
 }
 
 class Comparison {

@@ -80,10 +80,10 @@ void Comparison::nothing_hopeless() {
         return routes_.owns(g, routes_.owner(EyeState(s), l));
       });
     };
-    const EstimatorKind estimator = routes_.groups()[g].estimator;
+    const EstimatorTraits* const estimator = routes_.groups()[g].estimator;
     const std::vector<bool> ending = closure(eyes, eye_next, ends_here);
     std::vector<bool> merging, depositing, connecting;
-    if (estimator_type(estimator).merges) {
+    if (estimator->merges) {
       merging = closure(eyes, eye_next, with_any(merges));
       depositing = closure(ends, light_next, with_any(deposits));
     }

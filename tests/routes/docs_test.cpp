@@ -8,6 +8,8 @@
 #include <sstream>
 
 #include "core/errors.h"
+#include "integrator/presets/estimator_table.h"
+#include "integrator/presets/route_presets.h"
 #include "route/compile.h"
 #include "routes/oracle_routes.h"
 #include "source_directory.h"
@@ -68,7 +70,7 @@ std::string read_options(const std::vector<std::string>& lines, Options& options
   std::string rest;
   for (const std::string& line : lines) {
     if (const auto route = value_of(line, "--route")) {
-      options.routes.push_back(parse_route(*route));
+      options.routes.push_back(parse_route(*route, estimator_traits()));
     } else if (const auto aov = value_of(line, "--aov")) {
       options.aovs.push_back(parse_aov(*aov));
     } else if (const auto preset = value_of(line, "--routes")) {
@@ -86,7 +88,7 @@ RouteCompilation compile_block(const Block& block) {
   Options options;
   const std::string file = read_options(block.lines, options);
   if (file.find_first_not_of(" \n") != std::string::npos)
-    for (const RouteDefinition& route : parse_route_file(file, "docs.routes"))
+    for (const RouteDefinition& route : parse_route_file(file, estimator_traits(), "docs.routes"))
       options.routes.push_back(route);
   return compile_routes(options.routes, options.aovs);
 }
@@ -223,9 +225,9 @@ TEST(Documentation, NamesAllPresetsAndEstimators) {
     for (const char* route : preset.routes)
       EXPECT_NE(line.find(in_table(route)), std::string::npos) << preset.name << ": " << route;
   }
-  for (const EstimatorType& estimator : estimator_types())
-    EXPECT_NE(text.find("\n| `" + std::string(estimator.name) + "` |"), std::string::npos)
-        << estimator.name;
+  for (const EstimatorTraits* estimator : estimator_traits())
+    EXPECT_NE(text.find("\n| `" + std::string(estimator->name) + "` |"), std::string::npos)
+        << estimator->name;
 }
 
 }  // namespace

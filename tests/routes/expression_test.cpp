@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "estimators.h"
 #include "routes/letters.h"
 
 namespace nephroid {
@@ -95,7 +96,7 @@ TEST(Expression, MistakesAreShownWithACaret) {
       {"R=CDL:path", 1, "pictures have already"},
   };
   for (const Mistake& m : mistakes)
-    expect_complaint(complaint([&] { parse_route(m.text); }), m, "--route");
+    expect_complaint(complaint([&] { parse_route(m.text, estimator_traits()); }), m, "--route");
 }
 
 TEST(Expression, MistakesInLayers) {
@@ -106,7 +107,8 @@ TEST(Expression, MistakesInLayers) {
 }
 
 TEST(Expression, ColumnsCountCharactersNotBytes) {
-  const std::string message = complaint([] { parse_route("a=C<..'gl\xc3\xa4s'>X:path"); });
+  const std::string message =
+      complaint([] { parse_route("a=C<..'gl\xc3\xa4s'>X:path", estimator_traits()); });
   EXPECT_NE(message.find("column 14: "), std::string::npos) << message;
   EXPECT_EQ(message.substr(message.rfind('\n')), "\n  " + std::string(13, ' ') + "^");
 }
@@ -119,25 +121,26 @@ TEST(Expression, NamesAreTakenOnce) {
 }
 
 TEST(Expression, FilesHaveLinesAndComments) {
-  const auto routes = parse_route_file(
-      "# the routes\n\n  glass = C <..'#1'>+ L : path  # seen\r\nrest=.*:photons", "my.routes");
+  const auto routes =
+      parse_route_file("# the routes\n\n  glass = C <..'#1'>+ L : path  # seen\r\nrest=.*:photons",
+                       estimator_traits(), "my.routes");
   ASSERT_EQ(routes.size(), 2u);
   EXPECT_EQ(routes[0].name, "glass");
   EXPECT_EQ(routes[0].expression, "C <..'#1'>+ L");
-  EXPECT_EQ(routes[1].estimator, EstimatorKind::kPhotons);
+  EXPECT_EQ(routes[1].estimator, estimator_named("photons"));
   EXPECT_EQ(routes[1].source.where, "my.routes:4");
   const std::string message =
-      complaint([] { parse_route_file("# none\na=C(L:path\n", "my.routes"); });
+      complaint([] { parse_route_file("# none\na=C(L:path\n", estimator_traits(), "my.routes"); });
   EXPECT_EQ(message.find("my.routes:2: column 6: "), 0u) << message;
-  const std::string indented =
-      complaint([] { parse_route_file("\n  \ta = C(L : path  # seen\n", "my.routes"); });
+  const std::string indented = complaint(
+      [] { parse_route_file("\n  \ta = C(L : path  # seen\n", estimator_traits(), "my.routes"); });
   EXPECT_EQ(indented.find("my.routes:2: column 11: "), 0u) << indented;
   EXPECT_EQ(indented.substr(indented.find('\n')), "\n    \ta = C(L : path\n    \t       ^");
-  EXPECT_NE(complaint([] { parse_route_file("# none\n", "my.routes"); }), "");
+  EXPECT_NE(complaint([] { parse_route_file("# none\n", estimator_traits(), "my.routes"); }), "");
 }
 
 TEST(Expression, LabelsMayHoldWhatElseHasAMeaning) {
-  const RouteDefinition route = parse_route("a=C<..'a:b [c] @'>*L:path");
+  const RouteDefinition route = parse_route("a=C<..'a:b [c] @'>*L:path", estimator_traits());
   const std::vector<RouteDefinition> routes{route};
   EXPECT_EQ(mentioned_labels(routes, {}), std::vector<std::string>{"a:b [c] @"});
 }
@@ -204,7 +207,8 @@ TEST(Expression, TooMuchIsRefusedAndNotWaitedFor) {
   for (const std::string text :
        {"a=C(((.{64}){64}){64})L:path", "a=C.*D.{40}L:path", "a=C.*(D.{12}L|S.{13}L|G.{14}L):path"})
     EXPECT_NE(complaint([&] { compiled({text}); }), "") << text;
-  EXPECT_NE(complaint([] { parse_route("a=" + std::string(1000, '(') + "C"); }), "");
+  EXPECT_NE(complaint([] { parse_route("a=" + std::string(1000, '(') + "C", estimator_traits()); }),
+            "");
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "integrator/presets/estimator_table.h"
+#include "integrator/presets/route_presets.h"
 #include "route/compile.h"
 
 namespace nephroid {
@@ -55,7 +57,7 @@ inline RouteCompilation compiled(const std::vector<std::string>& texts,
                                  const std::vector<std::string>& aovs = {},
                                  const SymbolSet* symbols = nullptr, bool camera_connects = true) {
   std::vector<RouteDefinition> routes;
-  for (const std::string& text : texts) routes.push_back(parse_route(text));
+  for (const std::string& text : texts) routes.push_back(parse_route(text, estimator_traits()));
   std::vector<AovDefinition> layers;
   for (const std::string& text : aovs) layers.push_back(parse_aov(text));
   return compile_routes(routes, layers, symbols, camera_connects);

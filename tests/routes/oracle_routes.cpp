@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "estimators.h"
+
 namespace nephroid::oracle {
 namespace {
 
@@ -145,7 +147,7 @@ OracleRoutes::OracleRoutes(std::vector<OracleRoute> routes, std::vector<OracleRo
   for (const OracleRoute& route : routes_) {
     plain_.emplace_back(route.expression, alphabet_, Atom::Marks::kIgnore);
     merging_.emplace_back();
-    if (estimator_type(route.estimator).merges)
+    if (route.estimator->merges)
       merging_.back().emplace(route.expression.has_marks() ? route.expression : first_rough_event(),
                               alphabet_, Atom::Marks::kObey);
   }
@@ -174,9 +176,9 @@ bool OracleRoutes::can_sample(int route, const Path& path, size_t merge_vertices
   const LightKind light = alphabet_.light_kind(path.light);
   const size_t n = path.events.size();
   if (type(route).merges) return merge_vertices == 1;
-  if (routes_[size_t(route)].estimator == EstimatorKind::kLightTrace)
+  if (is_one_of(routes_[size_t(route)].estimator, {"lighttrace"}))
     return n == 0 ? light == LightKind::kShape : !specular(kind_at(0));
-  if (routes_[size_t(route)].estimator == EstimatorKind::kPointLights) {
+  if (is_one_of(routes_[size_t(route)].estimator, {"pointlights"})) {
     // Found by connection if the first D or G is followed by another at once.
     const auto rough = [](EventKind k) {
       return class_of(k) == EventClass::kDiffuse || class_of(k) == EventClass::kGlossy;
@@ -186,13 +188,11 @@ bool OracleRoutes::can_sample(int route, const Path& path, size_t merge_vertices
     if (first + 1 < n && rough(kind_at(first + 1))) return true;
   }
   const bool no_area = light == LightKind::kPoint || light == LightKind::kDistant;
-  const EstimatorKind estimator = routes_[size_t(route)].estimator;
-  const bool connects = estimator == EstimatorKind::kBidirectional ||
-                        estimator == EstimatorKind::kVcm || estimator == EstimatorKind::kMetropolis;
+  const EstimatorTraits* const estimator = routes_[size_t(route)].estimator;
+  const bool connects = is_one_of(estimator, {"bdpt", "vcm", "mlt"});
   // Photons of path+photons have come by way of an S, as in all words that it cannot find
   // otherwise.
-  const bool merges = estimator == EstimatorKind::kVcm || estimator == EstimatorKind::kBpm ||
-                      estimator == EstimatorKind::kPathAndPhotons;
+  const bool merges = is_one_of(estimator, {"vcm", "bpm", "path+photons"});
   if (no_area && connects && n > 0 && !specular(kind_at(0))) return true;
   for (size_t i = 0; no_area && i < n; ++i) {
     const EventKind k = kind_at(i);

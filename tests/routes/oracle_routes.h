@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "estimators.h"
 #include "route/route_set.h"
 #include "routes/oracle.h"
 
@@ -16,7 +17,7 @@ namespace nephroid::oracle {
 struct OracleRoute {
   std::string name;
   Tree expression;
-  EstimatorKind estimator = EstimatorKind::kPath;
+  const EstimatorTraits* estimator = estimator_named("path");
 };
 
 /// Events, eye first, and a light, as indices into the alphabet's.
@@ -44,9 +45,7 @@ class OracleRoutes {
   const std::vector<OracleRoute>& routes() const { return routes_; }
   const std::vector<OracleRoute>& aovs() const { return aovs_; }
   const std::vector<std::string>& labels() const { return labels_; }
-  const EstimatorType& type(int route) const {
-    return estimator_type(routes_[size_t(route)].estimator);
-  }
+  const EstimatorTraits& type(int route) const { return *routes_[size_t(route)].estimator; }
 
   /// Machines that read words without marks, and those that find the merge vertices of a route:
   /// they read words with one mark. Routes whose estimators do not merge have none.

@@ -5,6 +5,7 @@
 
 #include <regex>
 
+#include "estimators.h"
 #include "routes/random_routes.h"
 
 namespace nephroid::oracle {
@@ -51,7 +52,7 @@ TEST(Oracle, KnowsThePaperCaustics) {
   const Tree tree = Tree::sequence(
       {letter("C"), Tree::repeat(Tree::choice({letter("S"), letter("D")}), 0, -1), letter("D"),
        Tree::repeat(letter("S"), 1, -1), Tree::repeat(letter("D"), 0, 1), letter("L")});
-  const OracleRoutes routes({{"caustic", tree, EstimatorKind::kPhotons}}, {}, {});
+  const OracleRoutes routes({{"caustic", tree, estimator_named("photons")}}, {}, {});
   OracleRoutes set = routes;
   const auto owned = [&](const char* word) {
     bool all = true, none = true;

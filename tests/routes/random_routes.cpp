@@ -5,6 +5,8 @@
 #include <iterator>
 #include <utility>
 
+#include "estimators.h"
+
 namespace nephroid::oracle {
 namespace {
 
@@ -124,25 +126,10 @@ Tree RandomRoutes::expression(bool marked) {
 }
 
 OracleRoutes RandomRoutes::set() {
-  static const EstimatorKind kKinds[] = {EstimatorKind::kPath,
-                                         EstimatorKind::kPath,
-                                         EstimatorKind::kPhotons,
-                                         EstimatorKind::kPhotons,
-                                         EstimatorKind::kSppm,
-                                         EstimatorKind::kLightTrace,
-                                         EstimatorKind::kLightTrace,
-                                         EstimatorKind::kPhotonsAndLight,
-                                         EstimatorKind::kBidirectional,
-                                         EstimatorKind::kVcm,
-                                         EstimatorKind::kBpm,
-                                         EstimatorKind::kMetropolis,
-                                         EstimatorKind::kPrimarySpace,
-                                         EstimatorKind::kPhotonMap,
-                                         EstimatorKind::kPhotonMap,
-                                         EstimatorKind::kPpm,
-                                         EstimatorKind::kPathAndPhotons,
-                                         EstimatorKind::kPointLights,
-                                         EstimatorKind::kForecast};
+  static constexpr const char* kEstimators[] = {
+      "path",          "path", "photons",      "photons",     "sppm",    "lighttrace", "lighttrace",
+      "photons+light", "bdpt", "vcm",          "bpm",         "mlt",     "pssmlt",     "photonmap",
+      "photonmap",     "ppm",  "path+photons", "pointlights", "forecast"};
   const Alphabet alphabet(static_cast<int>(labels_.size()));
   const auto possible = [&](bool marked) {
     for (;;) {
@@ -152,10 +139,11 @@ OracleRoutes RandomRoutes::set() {
   };
   std::vector<OracleRoute> routes, aovs;
   for (int n = 2 + below(4), i = 1; i <= n; ++i) {
-    const EstimatorKind kind = kKinds[below(static_cast<int>(std::size(kKinds)))];
-    Tree tree = possible(estimator_type(kind).merges && chance(45));
+    const EstimatorTraits* const kind =
+        estimator_named(kEstimators[below(static_cast<int>(std::size(kEstimators)))]);
+    Tree tree = possible(kind->merges && chance(45));
     // Half of the routes without a mark have a merge vertex in each path.
-    if (estimator_type(kind).merges && !tree.has_marks() && chance(50))
+    if (kind->merges && !tree.has_marks() && chance(50))
       tree = Tree::sequence({Tree::of(*atom_of("C", {})),
                              Tree::repeat(Tree::of(set_of("SV", false)), 0, -1),
                              Tree::of(set_of("DG", false)), events(1), Tree::of(light())});
@@ -164,9 +152,9 @@ OracleRoutes RandomRoutes::set() {
   }
   if (chance(85))
     routes.push_back(
-        {"rest", Tree::repeat(Tree::of(*atom_of(".", {})), 0, -1), EstimatorKind::kPath});
+        {"rest", Tree::repeat(Tree::of(*atom_of(".", {})), 0, -1), estimator_named("path")});
   for (int n = below(3), i = 1; i <= n; ++i)
-    aovs.push_back({"a" + std::to_string(i), possible(false), EstimatorKind::kPath});
+    aovs.push_back({"a" + std::to_string(i), possible(false), estimator_named("path")});
   return OracleRoutes(std::move(routes), std::move(aovs), labels_);
 }
 

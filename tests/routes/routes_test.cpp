@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "estimators.h"
 #include "routes/letters.h"
 
 namespace nephroid {
@@ -41,7 +42,7 @@ bool diffuse_by_table(const std::string& events) {
   return state == kNoDiffuse || state == kDiffuseLast;
 }
 
-size_t group_of(const Routes& routes, EstimatorKind estimator) {
+size_t group_of(const Routes& routes, const EstimatorTraits* estimator) {
   for (size_t g = 0; g < routes.groups().size(); ++g)
     if (routes.groups()[g].estimator == estimator) return g;
   return routes.groups().size();
@@ -85,7 +86,7 @@ TEST(Routes, ThePaperNeedsElevenStatesFromTheEyeAndFiveFromTheLight) {
 
 TEST(Routes, EachCausticWordIsMergedExactlyOnce) {
   const Routes routes = preset("doidge2012");
-  const size_t photons = group_of(routes, EstimatorKind::kPhotons);
+  const size_t photons = group_of(routes, estimator_named("photons"));
   for (const std::string& w : words(7, "SDGV")) {
     int merged = 0;
     for (size_t k = 0; k < w.size(); ++k) {
@@ -115,8 +116,8 @@ TEST(Routes, AMarkMovesTheMergeVertex) {
 
 TEST(Routes, UselessWalksEnd) {
   const Routes routes = preset("doidge2012");
-  const size_t photons = group_of(routes, EstimatorKind::kPhotons);
-  const size_t path = group_of(routes, EstimatorKind::kPath);
+  const size_t photons = group_of(routes, estimator_named("photons"));
+  const size_t path = group_of(routes, estimator_named("path"));
   constexpr ClassMask all = ClassMask::kEvery;
   // A photon that left two rough surfaces without a specular one is no caustic any more.
   const LightState once = read_from_light(routes, "D");
@@ -130,7 +131,7 @@ TEST(Routes, UselessWalksEnd) {
   for (const char* free : {"", "S", "DS", "DSD", "DD"})
     EXPECT_FALSE(routes.needs_specular(photons, read_from_light(routes, free))) << free;
   const Routes whole = preset("all-photons");
-  EXPECT_FALSE(whole.needs_specular(group_of(whole, EstimatorKind::kPhotons)));
+  EXPECT_FALSE(whole.needs_specular(group_of(whole, estimator_named("photons"))));
   // The camera walk of photons ends at its first D or G; that of path tracing may always count.
   EXPECT_EQ(routes.merges(photons, routes.start(), 0), ClassMask::kRough);
   EXPECT_EQ(routes.useful_before_merge(photons, routes.start(), 0),
@@ -149,25 +150,25 @@ TEST(Routes, UselessWalksEnd) {
 
 TEST(Routes, FewerEventsAreUsefulWhereFewerCanOccur) {
   const Routes routes = preset("all-photons");
-  const size_t path = group_of(routes, EstimatorKind::kPath);
+  const size_t path = group_of(routes, estimator_named("path"));
   EXPECT_TRUE(contains(routes.useful(path, read_from_eye(routes, "D"), 0), EventClass::kVolume));
   // Without glowing media no camera walk goes on behind the first D in vain.
   const Routes clear = routes.restricted_to(symbols_of("DS", {LightKind::kShape}));
   EXPECT_EQ(clear.useful(path, clear.start(), 0), ClassMask::kSpecular);
   EXPECT_EQ(clear.useful(path, read_from_eye(clear, "D"), 0), ClassMask::kNone);
-  const size_t photons = group_of(clear, EstimatorKind::kPhotons);
+  const size_t photons = group_of(clear, estimator_named("photons"));
   EXPECT_EQ(clear.merges(photons, clear.start(), 0), ClassMask::kDiffuse);
   EXPECT_EQ(clear.deposits(photons, read_from_light(clear, ""), 0), ClassMask::kDiffuse);
   // Without specular surfaces there are no caustics, so nothing is of use to them.
   const Routes dull = preset("doidge2012").restricted_to(symbols_of("DG", {LightKind::kShape}));
-  const size_t caustics = group_of(dull, EstimatorKind::kPhotons);
+  const size_t caustics = group_of(dull, estimator_named("photons"));
   EXPECT_EQ(dull.useful_before_merge(caustics, dull.start(), 0), ClassMask::kNone);
   EXPECT_EQ(dull.useful_before_deposit(caustics, read_from_light(dull, ""), 0), ClassMask::kNone);
 }
 
 TEST(Routes, LightTracingConnectsWhereTheFirstEventOfItsWordsAllows) {
   const Routes routes = preset("split");
-  const size_t group = group_of(routes, EstimatorKind::kLightTrace);
+  const size_t group = group_of(routes, estimator_named("lighttrace"));
   const LightState glass = read_from_light(routes, "S");
   // C D S L; not C S S L, and not C V S L, which has no D.
   EXPECT_EQ(routes.connects(group, glass, 0), ClassMask::kRough);
@@ -177,7 +178,7 @@ TEST(Routes, LightTracingConnectsWhereTheFirstEventOfItsWordsAllows) {
   EXPECT_EQ(routes.useful_before_connection(group, read_from_light(routes, "DD"), 0),
             ClassMask::kNone);
   // Photons are stored for words that begin with S only: at the D behind it.
-  const size_t photons = group_of(routes, EstimatorKind::kPhotons);
+  const size_t photons = group_of(routes, estimator_named("photons"));
   EXPECT_EQ(routes.deposits(photons, glass, 0), ClassMask::kRough);
   EXPECT_EQ(routes.merges(photons, routes.start(), 0), ClassMask::kNone);
   EXPECT_EQ(routes.merges(photons, read_from_eye(routes, "S"), 0), ClassMask::kRough);
@@ -212,7 +213,7 @@ TEST(Routes, RoutesOfOneEstimatorAreOneGroup) {
   const Routes routes =
       compiled({"a=CL:path", "b=CS+L:lighttrace", "c=CD+L:path", "rest=.*:lighttrace"}).routes;
   ASSERT_EQ(routes.groups().size(), 2u);
-  EXPECT_EQ(routes.groups()[0].estimator, EstimatorKind::kPath);
+  EXPECT_EQ(routes.groups()[0].estimator, estimator_named("path"));
   EXPECT_EQ(routes.groups()[0].routes, (std::vector<int>{0, 2}));
   EXPECT_EQ(routes.groups()[1].routes, (std::vector<int>{1, 3}));
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "input/pbrt_parser.h"
+#include "integrator/presets/estimator_table.h"
 #include "route/compile.h"
 
 namespace nephroid {
@@ -59,7 +60,7 @@ TEST(SceneSymbols, OnlyMaterialsThatShapesHaveScatter) {
 
 TEST(SceneSymbols, AnUnusedHairMaterialIsNoReasonToRefuseARoute) {
   const auto scene = scene_of(named("fur", "hair") + kSphere);
-  const std::vector<RouteDefinition> routes{parse_route("all=.*:lighttrace")};
+  const std::vector<RouteDefinition> routes{parse_route("all=.*:lighttrace", estimator_traits())};
   const SceneSymbols symbols(*scene, {});
   const RouteCompilation compiled = compile_routes(routes, {}, &symbols.present());
   for (const RouteFinding& finding : compiled.findings)

@@ -6,6 +6,9 @@
 #include <map>
 #include <set>
 
+#include "integrator/metropolis/metropolis_options.h"
+#include "integrator/photon_mapping/photon_map.h"
+#include "integrator/photon_mapping/ppm.h"
 #include "rendering.h"
 
 namespace nephroid {
@@ -133,10 +136,10 @@ TEST_P(Furnace, RadianceIsOne) {
   options.photons_per_pass =
       static_cast<int64_t>(furnace.photons * (mostly_photons ? 16384 : 8192));
   options.radius = 1.0f;
-  options.nearest_photons = kAllPhotons;
-  options.hit_points = 16;
-  options.mutations = 48;
-  options.large_step = 0.5f;
+  options.edit<PhotonMapOptions>().nearest_photons = kAllPhotons;
+  options.edit<PpmOptions>().hit_points = 16;
+  options.edit<MetropolisOptions>().mutations = 48;
+  options.edit<MetropolisOptions>().large_step = 0.5f;
   uint32_t passes = passes_of(plan);
   use_whole_maps(plan_named(plan), options, passes);
   const Estimate e = estimate_of(unbiased_block_values(*scene, plan, options, 16, passes, 1)[0]);
@@ -176,9 +179,9 @@ const char* const kScenesOfRoutes[] = {"glass_before_wall", "half_glass_half_dif
 
 std::vector<std::tuple<FurnaceScene, std::string>> furnace_rows() {
   std::vector<std::tuple<FurnaceScene, std::string>> rows;
-  std::set<std::set<EstimatorKind>> tested;
+  std::set<std::set<const EstimatorTraits*>> tested;
   for (const std::string& plan : plan_names()) {
-    std::set<EstimatorKind> estimators;
+    std::set<const EstimatorTraits*> estimators;
     for (const RouteDefinition& route : plan_named(plan).routes) estimators.insert(route.estimator);
     const bool first = tested.insert(estimators).second;
     for (const FurnaceScene& scene : kScenes)
@@ -190,7 +193,7 @@ std::vector<std::tuple<FurnaceScene, std::string>> furnace_rows() {
 }
 
 TEST(FurnaceRows, HaveEveryPlanInTheScenesOfRoutesAndEveryEstimatorInAll) {
-  std::set<EstimatorKind> everywhere;
+  std::set<const EstimatorTraits*> everywhere;
   std::map<std::string, size_t> scenes_of_plan;
   for (const auto& [scene, plan] : furnace_rows()) ++scenes_of_plan[plan];
   EXPECT_EQ(scenes_of_plan.size(), plan_names().size());
@@ -202,7 +205,7 @@ TEST(FurnaceRows, HaveEveryPlanInTheScenesOfRoutesAndEveryEstimatorInAll) {
   }
   for (const std::string& plan : plan_names())
     for (const RouteDefinition& route : plan_named(plan).routes)
-      EXPECT_TRUE(everywhere.contains(route.estimator)) << estimator_type(route.estimator).name;
+      EXPECT_TRUE(everywhere.contains(route.estimator)) << route.estimator->name;
 }
 
 INSTANTIATE_TEST_SUITE_P(AllRoutes, Furnace, ::testing::ValuesIn(furnace_rows()),

@@ -4,7 +4,11 @@
 
 #include "core/parallel.h"
 #include "integrator/bidirectional/path_pair.h"
+#include "integrator/bidirectional/technique_choice.h"
+#include "integrator/estimator/exposed_pixels.h"
+#include "integrator/estimator/reach.h"
 #include "integrator/estimator/technique_counter.h"
+#include "integrator/path/path_options.h"
 #include "transport/roughness_band.h"
 
 namespace nephroid {
@@ -122,7 +126,23 @@ class PairRound {
   std::vector<Rgb> values_;  ///< [pixel * parts + part]
 };
 
+constexpr const EstimatorSetting* kSettings[] = {&kTechniqueSetting, &kSpecularTreesSetting};
+
 }  // namespace
+
+const EstimatorDescriptor Bidirectional::kDescriptor = {
+    .traits = {.name = "bdpt",
+               .help = "bidirectional path tracing: paths from eye and lights, connected in all "
+                       "ways",
+               .starts_at_lights = true,
+               .why_never_sampled = out_of_reach_of_connections},
+    .settings = kSettings,
+    .bytes_per_pixel =
+        [](const FilmNeed& need) { return PixelBytes{.of_pass = bytes_per_pixel(need.parts)}; },
+    .exposed_pixels = [](const IntegratorOptions&,
+                         const PixelFilter& filter) { return splatted_pixels(filter); },
+    .make = make_estimator<Bidirectional>,
+};
 
 Bidirectional::Bidirectional(OwnedRoutes owned, const IntegratorOptions& options)
     : owned_(std::move(owned)), options_(options) {}
@@ -136,9 +156,9 @@ std::unique_ptr<PassFindings> Bidirectional::render_pass(const PassKey& key, con
   settings.specular_alpha = specular_alpha_of_pass(scene.specular_band, key);
   settings.max_depth = options_.max_depth;
   settings.light_paths = static_cast<double>(film.bounds().area());
-  settings.technique = options_.technique;
+  settings.technique = options_.own<TechniqueChoice>();
   const SpecularTree tree(scene, owned_, options_.max_depth);
-  settings.tree = options_.specular_trees ? &tree : nullptr;
+  settings.tree = options_.own<PathOptions>().specular_trees ? &tree : nullptr;
   SplatBuffer buffer(film, group, *scene.filter);
   const size_t parts = film.parts_of(group).size();
   statistics_.hold(0, static_cast<uint64_t>(film.bounds().area()) * bytes_per_pixel(parts));

@@ -12,7 +12,8 @@ namespace nephroid {
 class Bidirectional final : public Estimator {
  public:
   Bidirectional(OwnedRoutes owned, const IntegratorOptions& options);
-  Capabilities capabilities() const override { return {}; }
+  static const EstimatorDescriptor kDescriptor;
+  const EstimatorDescriptor& descriptor() const override { return kDescriptor; }
   std::unique_ptr<PassFindings> render_pass(const PassKey& key, const Learned*, const Scene& scene,
                                             Film& film) override;
   EstimatorStatistics statistics() const override { return statistics_; }

@@ -9,6 +9,7 @@
 #include "integrator/bidirectional/samples_to_clamp.h"
 #include "integrator/estimator/features.h"
 #include "integrator/estimator/technique_counter.h"
+#include "integrator/path/path_options.h"
 #include "integrator/photons/merge_pass.h"
 
 namespace nephroid {
@@ -68,13 +69,15 @@ class PairRendering {
         records_(to.records, static_cast<size_t>(format.bounds().area()) * most_,
                  to.records_per_path),
         tree_(pass.scene, pass.owned, pass.options.max_depth),
-        settings_{.scene = pass.scene,
-                  .owned = pass.owned,
-                  .technique = pass.technique,
-                  .guide = pass.emission,
-                  .radiance = camera.directions.guides() ? &camera.directions : nullptr,
-                  .tree = techniques_.separates_chains || pass.options.specular_trees ? &tree_
-                                                                                      : nullptr} {
+        settings_{
+            .scene = pass.scene,
+            .owned = pass.owned,
+            .technique = pass.technique,
+            .guide = pass.emission,
+            .radiance = camera.directions.guides() ? &camera.directions : nullptr,
+            .tree = techniques_.separates_chains || pass.options.own<PathOptions>().specular_trees
+                        ? &tree_
+                        : nullptr} {
     merging_.caustics_only = techniques_.caustics_only;
     merging_.photons = static_cast<double>(techniques_.light_paths);
     merging_.radius_pixels = radius_of_pass(pass.options, pass.key.pass);

@@ -8,6 +8,7 @@
 
 #include "film/splats.h"
 #include "integrator/bidirectional/measured_samples.h"
+#include "integrator/bidirectional/technique_choice.h"
 #include "integrator/estimator/estimator.h"
 #include "integrator/learning/guided_walk.h"
 #include "integrator/path/specular_chain_pass.h"

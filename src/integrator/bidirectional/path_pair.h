@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "film/part_sums.h"
+#include "integrator/bidirectional/technique_choice.h"
 #include "integrator/estimator/estimator.h"
 #include "integrator/estimator/features.h"
 #include "integrator/learning/radiance_guide.h"

@@ -2,7 +2,52 @@
 
 #include <algorithm>
 
+#include "integrator/estimator/exposed_pixels.h"
+#include "integrator/estimator/reach.h"
+#include "integrator/path/path_options.h"
+#include "integrator/photons/merge_pass.h"
+
 namespace nephroid {
+
+namespace {
+
+constexpr const EstimatorSetting* kSettings[] = {&kTechniqueSetting, &kSpecularTreesSetting};
+
+PixelBytes bytes_of(const FilmNeed& need) {
+  return {.of_pass = pair_pass_bytes_per_pixel(need.parts, 0, need.clamps ? 1 : 0)};
+}
+
+}  // namespace
+
+const EstimatorDescriptor VertexConnectionMerging::kDescriptor = {
+    .traits = {.name = "vcm",
+               .help = "vertex connection and merging: bdpt, and photons merged at all vertices",
+               .starts_at_lights = true,
+               .why_never_sampled = out_of_reach_of_both},
+    .settings = kSettings,
+    .merges_with_radius = true,
+    .keeps_photons = true,
+    .bytes_per_pixel = bytes_of,
+    .exposed_pixels =
+        [](const IntegratorOptions& options, const PixelFilter& filter) {
+          return std::max(pixels_within(first_radius(options)), splatted_pixels(filter));
+        },
+    .make = make_estimator<VertexConnectionMerging>,
+};
+
+const EstimatorDescriptor BidirectionalPhotonMapping::kDescriptor = {
+    .traits = {.name = "bpm",
+               .help = "bidirectional photon mapping: vcm without connections of two walks",
+               .starts_at_lights = true,
+               .why_never_sampled = out_of_reach_of_merging},
+    .settings = kSettings,
+    .merges_with_radius = true,
+    .keeps_photons = true,
+    .bytes_per_pixel = bytes_of,
+    .exposed_pixels = [](const IntegratorOptions& options,
+                         const PixelFilter&) { return pixels_within(first_radius(options)); },
+    .make = make_estimator<BidirectionalPhotonMapping>,
+};
 
 int64_t default_light_paths(int64_t pixels) {
   constexpr int64_t kMin = 1 << 12, kMax = 1 << 20;
@@ -17,7 +62,7 @@ std::unique_ptr<PassFindings> VertexConnectionMerging::render_pass(const PassKey
                 .scene = scene,
                 .owned = owned_,
                 .options = options_,
-                .technique = options_.technique};
+                .technique = options_.own<TechniqueChoice>()};
   pass.techniques.light_paths = options_.photons_per_pass > 0
                                     ? options_.photons_per_pass
                                     : default_light_paths(film.bounds().area());

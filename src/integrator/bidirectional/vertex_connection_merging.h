@@ -19,7 +19,8 @@ class VertexConnectionMerging : public Estimator {
  public:
   VertexConnectionMerging(OwnedRoutes owned, const IntegratorOptions& options)
       : VertexConnectionMerging(std::move(owned), options, true, kVcmNumber) {}
-  Capabilities capabilities() const override { return {}; }
+  static const EstimatorDescriptor kDescriptor;
+  const EstimatorDescriptor& descriptor() const override { return kDescriptor; }
   std::unique_ptr<PassFindings> render_pass(const PassKey& key, const Learned*, const Scene& scene,
                                             Film& film) override;
   EstimatorStatistics statistics() const override { return statistics_; }
@@ -41,6 +42,8 @@ class BidirectionalPhotonMapping final : public VertexConnectionMerging {
  public:
   BidirectionalPhotonMapping(OwnedRoutes owned, const IntegratorOptions& options)
       : VertexConnectionMerging(std::move(owned), options, false, kBpmNumber) {}
+  static const EstimatorDescriptor kDescriptor;
+  const EstimatorDescriptor& descriptor() const override { return kDescriptor; }
 };
 
 }  // namespace nephroid

@@ -7,25 +7,16 @@
 
 #include "core/sampler.h"
 #include "film/film.h"
+#include "integrator/estimator/estimator_descriptor.h"
 #include "integrator/estimator/estimator_statistics.h"
-#include "integrator/estimator/integrator_options.h"
 #include "integrator/estimator/learned.h"
 
 namespace nephroid {
 
-struct Capabilities {
-  bool independent_passes = true;  ///< passes may be rendered anywhere, in any order, and added up
-  bool per_pixel_state = false;    ///< keeps more than the film does (E1)
-  bool consistent = true;          ///< tends to the truth as passes are added; else an error stays
-  /// What it learns is part of its light and not a guide: pictures of two seeds that share it are
-  /// not independent.
-  bool learned_is_light = false;
-};
-
 class Estimator {
  public:
   virtual ~Estimator() = default;
-  virtual Capabilities capabilities() const = 0;
+  virtual const EstimatorDescriptor& descriptor() const = 0;
   /// True if its passes add what the camera sees first to the film's features.
   virtual bool records_features() const { return false; }
 

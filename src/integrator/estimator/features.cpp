@@ -59,6 +59,11 @@ void Features::add_to(Film& film, int x, int y, const Scene& scene, const Camera
   if (settings.gbuffer && depth_ > 0) film.add_surface(x, y, surface_sample(scene, path, surface_));
 }
 
+const EstimatorDescriptor& FeatureEstimator::descriptor() const {
+  static const EstimatorDescriptor kDescriptor{.traits = {.name = "features"}};
+  return kDescriptor;
+}
+
 std::unique_ptr<PassFindings> FeatureEstimator::render_pass(const PassKey& key, const Learned*,
                                                             const Scene& scene, Film& film) {
   const PixelBounds& b = film.bounds();

@@ -27,7 +27,7 @@ class Features {
 /// Adds features and no light: one sample of each pixel a pass.
 class FeatureEstimator : public Estimator {
  public:
-  Capabilities capabilities() const override { return {}; }
+  const EstimatorDescriptor& descriptor() const override;
   std::unique_ptr<PassFindings> render_pass(const PassKey& key, const Learned*, const Scene& scene,
                                             Film& film) override;
   EstimatorStatistics statistics() const override { return statistics_; }

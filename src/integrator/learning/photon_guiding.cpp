@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "integrator/learning/guiding_options.h"
 #include "integrator/learning/visible_points.h"
 #include "route/plan.h"
 
@@ -33,7 +34,7 @@ CasterGuide caster_guide(std::vector<UsefulStart> met, const CausticCasters& see
 GuidedPhotons guide_photons(uint64_t seed, const Scene& scene, const FilmFormat& film,
                             const OwnedRoutes& owned, const IntegratorOptions& options,
                             bool guides_scattering) {
-  if (!options.guides_photons || !photons_can_count(owned)) return {};
+  if (!options.own<GuidingOptions>().photons || !photons_can_count(owned)) return {};
   // Photons of learning are aimed from lights alone: how often they were of use is what
   // EmissionGuide asks for.
   GuidedPhotons learned;
@@ -69,13 +70,18 @@ GuidedPhotons guide_photons(uint64_t seed, const Scene& scene, const FilmFormat&
   return learned;
 }
 
+namespace {
+
+// Owners of routes that nobody renders: photons of the first are what is guided.
+constexpr EstimatorTraits kMerging{.name = "photons", .merges = true, .starts_at_lights = true},
+    kTheRest{.name = "path"};
+
+}  // namespace
+
 GuidedPhotons guide_caustic_photons(uint64_t seed, const Scene& scene, const FilmFormat& film,
                                     const IntegratorOptions& options) {
-  const CompiledPlan plan =
-      compile_plan({{{"caustic", "C.*[DG]S+[DG]?L", EstimatorKind::kPhotons, {}},
-                     {"rest", ".*", EstimatorKind::kPath, {}}},
-                    {}},
-                   scene);
+  const CompiledPlan plan = compile_plan(
+      {{{"caustic", "C.*[DG]S+[DG]?L", &kMerging, {}}, {"rest", ".*", &kTheRest, {}}}, {}}, scene);
   constexpr size_t kCaustics = 0;  // the group of the first route
   const auto routes = std::make_shared<const Routes>(plan.compilation.routes);
   return guide_photons(seed, scene, film, {routes, plan.symbols, kCaustics}, options, false);

@@ -5,6 +5,7 @@
 
 #include "integrator/estimator/estimator.h"
 #include "integrator/metropolis/markov_chain.h"
+#include "integrator/metropolis/metropolis_options.h"
 
 namespace nephroid {
 
@@ -26,7 +27,7 @@ class LearnedPilot final : public Learned {
 
 class MetropolisPasses {
  public:
-  explicit MetropolisPasses(const IntegratorOptions& options) : options_(options) {}
+  explicit MetropolisPasses(const MetropolisOptions& options) : options_(options) {}
 
   /// Adds a pass of a group's light to the film. `make` makes what chains explore.
   void render(const PassKey& key, const Scene& scene, int group, const ChainPilot& pilot,
@@ -36,7 +37,7 @@ class MetropolisPasses {
  private:
   ChainSettings settings_for(int64_t pixels) const;
 
-  IntegratorOptions options_;
+  MetropolisOptions options_;
   ChainStatistics counts_;
   uint64_t pixel_bytes_ = 0;  ///< of the sums of a pass
 };

@@ -5,6 +5,9 @@
 #include <utility>
 
 #include "integrator/bidirectional/path_pair.h"
+#include "integrator/estimator/exposed_pixels.h"
+#include "integrator/estimator/reach.h"
+#include "integrator/metropolis/metropolis_options.h"
 #include "transport/roughness_band.h"
 
 namespace nephroid {
@@ -165,8 +168,23 @@ KindChoice::Chosen KindChoice::choose(const Vec2f& u) const {
           static_cast<float>(length_.probability[length] * techniques_[length].probability[s])};
 }
 
+const EstimatorDescriptor Multiplexed::kDescriptor = {
+    .traits = {.name = "mlt",
+               .help = "bidirectional paths, one technique at a time, explored by Markov chains",
+               .starts_at_lights = true,
+               .why_never_sampled = out_of_reach_of_connections},
+    .settings = metropolis_settings(),
+    .bytes_per_pixel =
+        [](const FilmNeed& need) {
+          return PixelBytes{.of_pass = SplatBuffer::bytes_per_pixel(need.parts)};
+        },
+    .exposed_pixels = [](const IntegratorOptions&,
+                         const PixelFilter& filter) { return splatted_pixels(filter); },
+    .make = make_estimator<Multiplexed>,
+};
+
 Multiplexed::Multiplexed(OwnedRoutes owned, const IntegratorOptions& options)
-    : owned_(std::move(owned)), options_(options), passes_(options) {}
+    : owned_(std::move(owned)), options_(options), passes_(options.own<MetropolisOptions>()) {}
 
 namespace {
 

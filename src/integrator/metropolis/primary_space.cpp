@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "integrator/estimator/exposed_pixels.h"
+#include "integrator/estimator/reach.h"
+#include "integrator/metropolis/metropolis_options.h"
+#include "integrator/path/path_options.h"
 #include "integrator/path/path_visitor.h"
 #include "transport/camera_path.h"
 #include "transport/roughness_band.h"
@@ -41,7 +45,8 @@ class CameraPaths : public PathFunction {
     const SensorWeights weights = sensor_weights(
         lambda, *pass_.film.color_space, pass_.film.imaging_ratio, pass_.film.white_balance);
     light_.clear();
-    PathVisitor visitor(pass_.scene, pass_.owned, pass_.options.blind_walks, light_, nullptr);
+    PathVisitor visitor(pass_.scene, pass_.owned, pass_.options.own<PathOptions>().blind_walks,
+                        light_, nullptr);
     random_walk(pass_.scene, TransportMode::kRadiance, pass_.options.max_depth, path.walk, sampler,
                 visitor);
     found.rays += path.walk.rays + visitor.more_rays();
@@ -57,8 +62,23 @@ class CameraPaths : public PathFunction {
 
 }  // namespace
 
+const EstimatorDescriptor PrimarySpace::kDescriptor = {
+    .traits = {.name = "pssmlt",
+               .help = "path tracing from the eye, explored by Markov chains in the space of its "
+                       "random numbers",
+               .why_never_sampled = out_of_reach_of_eye_walks},
+    .settings = metropolis_settings(),
+    .bytes_per_pixel =
+        [](const FilmNeed& need) {
+          return PixelBytes{.of_pass = SplatBuffer::bytes_per_pixel(need.parts)};
+        },
+    .exposed_pixels = [](const IntegratorOptions&,
+                         const PixelFilter& filter) { return splatted_pixels(filter); },
+    .make = make_estimator<PrimarySpace>,
+};
+
 PrimarySpace::PrimarySpace(OwnedRoutes owned, const IntegratorOptions& options)
-    : owned_(std::move(owned)), options_(options), passes_(options) {}
+    : owned_(std::move(owned)), options_(options), passes_(options.own<MetropolisOptions>()) {}
 
 namespace {
 

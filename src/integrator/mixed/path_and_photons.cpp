@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "integrator/bidirectional/vertex_connection_merging.h"
+#include "integrator/estimator/reach.h"
+#include "integrator/learning/guiding_options.h"
 #include "integrator/mixed/learned_mix.h"
 #include "integrator/path/specular_tree.h"
 #include "integrator/photons/photon_pass.h"
@@ -12,6 +14,7 @@ namespace nephroid {
 
 namespace {
 
+constexpr const EstimatorSetting* kSettings[] = {&kGuideSetting, &kGuideWalksSetting};
 constexpr uint64_t kTrialStream = 0x747269616c;  // "trial"
 constexpr uint32_t kTrialPasses = 2;
 constexpr int64_t kMaxTrialPaths = 1 << 17;
@@ -46,8 +49,9 @@ class Trials {
   /// What a few passes that are thrown away tell of these techniques.
   Trial run(const PairTechniques& techniques, const EmissionGuide& emission) {
     SampleVariance variance(film_.bounds());
-    const PairTrial trial{.paths = tiles_,
-                          .counts_records = options_.guides_walks && !techniques.connects};
+    const PairTrial trial{
+        .paths = tiles_,
+        .counts_records = options_.own<GuidingOptions>().walks && !techniques.connects};
     const size_t stride =
         PassRecords::stride(static_cast<size_t>(film_.bounds().area()), trial.records_per_path);
     EstimatorStatistics counts;
@@ -128,6 +132,22 @@ const LearnedMix& as_mix(const Learned* learned) {
 }
 
 }  // namespace
+
+const EstimatorDescriptor PathAndPhotons::kDescriptor = {
+    .traits = {.name = "path+photons",
+               .help = "path tracing, and photons merged where their light came by way of an S",
+               .starts_at_lights = true,
+               .why_never_sampled = out_of_reach_of_merging},
+    .settings = kSettings,
+    .merges_with_radius = true,
+    .keeps_photons = true,
+    .bytes_per_pixel =
+        [](const FilmNeed& need) {
+          return PixelBytes{.of_pass = bytes_per_pixel(need.parts, need.clamps)};
+        },
+    .exposed_pixels = VertexConnectionMerging::kDescriptor.exposed_pixels,
+    .make = make_estimator<PathAndPhotons>,
+};
 
 PathAndPhotons::PathAndPhotons(OwnedRoutes owned, const IntegratorOptions& options)
     : owned_(std::move(owned)), options_(options) {
@@ -219,7 +239,7 @@ PairPass PathAndPhotons::pass_of(const PassKey& key, const Scene& scene,
 
 PairLearning PathAndPhotons::learning_of(const LearnedMix& learned) const {
   return {.measures_variance = !learned.plan().is_even,
-          .keeps_records = options_.guides_walks,
+          .keeps_records = options_.own<GuidingOptions>().walks,
           .records_per_path = learned.plan().records_per_path};
 }
 

@@ -17,7 +17,8 @@ class PathAndPhotons final : public Estimator {
   static constexpr int kFirstPassSamples = 8;
 
   PathAndPhotons(OwnedRoutes owned, const IntegratorOptions& options);
-  Capabilities capabilities() const override { return {}; }
+  static const EstimatorDescriptor kDescriptor;
+  const EstimatorDescriptor& descriptor() const override { return kDescriptor; }
   bool records_features() const override { return true; }
   /// Where photons start, and by trial passes which techniques to use and how many light paths.
   std::shared_ptr<const Learned> learn(const Scene& scene, const FilmFormat& film,

@@ -1,5 +1,7 @@
 #include "integrator/path/forecast.h"
 
+#include "integrator/estimator/reach.h"
+#include "integrator/path/path_options.h"
 #include "integrator/path/path_pass.h"
 #include "integrator/path/path_visitor.h"
 #include "photon/forecast_map.h"
@@ -155,7 +157,18 @@ void trace_round(const PassKey& key, int64_t photons, const Scene& scene, const 
   made.photon_paths += static_cast<uint64_t>(photons);
 }
 
+constexpr const EstimatorSetting* kSettings[] = {&kSpecularTreesSetting};
+
 }  // namespace
+
+const EstimatorDescriptor Forecast::kDescriptor = {
+    .traits = {.name = "forecast",
+               .help = "path tracing that looks where photons foretold that a caustic comes from",
+               .why_never_sampled = out_of_reach_of_eye_walks},
+    .settings = kSettings,
+    .keeps_photons = true,
+    .make = make_estimator<Forecast>,
+};
 
 Forecast::Forecast(OwnedRoutes owned, const IntegratorOptions& options)
     : owned_(std::move(owned)), options_(options) {}
@@ -185,9 +198,10 @@ std::unique_ptr<PassFindings> Forecast::render_pass(const PassKey& key, const Le
   const PathPass pass{key,    scene, film, owned_, std::max(1, options_.camera_samples_per_pass),
                       kStream};
   const SpecularTree tree(scene, owned_, options_.max_depth);
+  const bool sees_trees = options_.own<PathOptions>().specular_trees;
   statistics_.rays += trace_paths(pass, [&](int, int, CameraPath& path, const SensorWeights&,
                                             PathSampler& sampler, PartSums& light) {
-    ForecastVisitor visitor(scene, owned_, map, light, options_.specular_trees ? &tree : nullptr);
+    ForecastVisitor visitor(scene, owned_, map, light, sees_trees ? &tree : nullptr);
     if (path.camera_weight > 0)
       random_walk(scene, TransportMode::kRadiance, options_.max_depth, path.walk, sampler, visitor);
     return path.walk.rays + visitor.more_rays();

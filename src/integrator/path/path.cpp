@@ -1,5 +1,7 @@
 #include "integrator/path/path.h"
 
+#include "integrator/estimator/reach.h"
+#include "integrator/path/path_options.h"
 #include "integrator/path/path_pass.h"
 #include "integrator/path/path_visitor.h"
 
@@ -8,6 +10,7 @@ namespace nephroid {
 namespace {
 
 constexpr uint64_t kStream = 0x70617468;  // "path"
+constexpr const EstimatorSetting* kSettings[] = {&kSpecularTreesSetting};
 
 /// False if no path that the scene can have belongs to the group.
 bool owns_any_path(const OwnedRoutes& owned) {
@@ -20,6 +23,14 @@ bool owns_any_path(const OwnedRoutes& owned) {
 }
 
 }  // namespace
+
+const EstimatorDescriptor PathEstimator::kDescriptor = {
+    .traits = {.name = "path",
+               .help = "path tracing with next-event estimation, from the eye",
+               .why_never_sampled = out_of_reach_of_eye_walks},
+    .settings = kSettings,
+    .make = make_estimator<PathEstimator>,
+};
 
 PathEstimator::PathEstimator(OwnedRoutes owned, const IntegratorOptions& options)
     : owned_(std::move(owned)),
@@ -35,12 +46,13 @@ std::unique_ptr<PassFindings> PathEstimator::render_pass(const PassKey& key, con
   }
   const PathPass pass{key, scene, film, owned_, samples_per_pass_, kStream};
   const SpecularTree tree(scene, owned_, options_.max_depth);
+  const PathOptions& own = options_.own<PathOptions>();
   statistics_.rays += trace_paths(pass, [&](int x, int y, CameraPath& path,
                                             const SensorWeights& weights, PathSampler& sampler,
                                             PartSums& light) {
     Features features;
-    PathVisitor visitor(scene, owned_, options_.blind_walks, light, &features,
-                        options_.specular_trees ? &tree : nullptr);
+    PathVisitor visitor(scene, owned_, own.blind_walks, light, &features,
+                        own.specular_trees ? &tree : nullptr);
     if (path.camera_weight > 0)
       random_walk(scene, TransportMode::kRadiance, options_.max_depth, path.walk, sampler, visitor);
     features.add_to(film, x, y, scene, path, weights);

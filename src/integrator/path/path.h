@@ -12,7 +12,8 @@ class PathEstimator : public Estimator {
  public:
   PathEstimator(OwnedRoutes owned, const IntegratorOptions& options);
 
-  Capabilities capabilities() const override { return {}; }
+  static const EstimatorDescriptor kDescriptor;
+  const EstimatorDescriptor& descriptor() const override { return kDescriptor; }
   bool records_features() const override { return finds_something_; }
   std::unique_ptr<PassFindings> render_pass(const PassKey& key, const Learned*, const Scene& scene,
                                             Film& film) override;

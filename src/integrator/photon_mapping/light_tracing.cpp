@@ -6,6 +6,7 @@
 #include "core/parallel.h"
 #include "film/part_sums.h"
 #include "film/splats.h"
+#include "integrator/estimator/exposed_pixels.h"
 #include "integrator/photons/photon_pass.h"
 #include "photon/light_walk.h"
 #include "transport/camera_connection.h"
@@ -159,14 +160,32 @@ void trace_light_path(const LightPass& pass, uint64_t number, Chunk& out) {
   });
 }
 
+// Only what the camera sees through no S, or a shape that emits, can be connected to it.
+const char* unseen_by_camera(const PathSummary& path) {
+  const EventSummary& events = path.events;
+  const bool unseen = events.count > 0
+                          ? events.first_specular && (events.any_rough || path.light_can_be_hit())
+                          : path.light == LightKind::kEnvironment;
+  return unseen ? "only rough surfaces, media and emitting shapes can be connected to the camera"
+                : nullptr;
+}
+
 }  // namespace
 
-void require_connecting_camera(const Scene& scene) {
-  if (!scene.camera->connects())
-    throw UsageError(
-        "light tracing cannot find its way through the lenses of this camera, expected routes "
-        "without lighttrace and photons+light, or another camera");
-}
+const EstimatorDescriptor LightTracing::kDescriptor = {
+    .traits = {.name = "lighttrace",
+               .help = "paths from the lights, each vertex of which is connected to the camera",
+               .connects = true,
+               .starts_at_lights = true,
+               .why_never_sampled = unseen_by_camera},
+    .bytes_per_pixel =
+        [](const FilmNeed& need) {
+          return PixelBytes{.of_pass = SplatBuffer::bytes_per_pixel(need.parts)};
+        },
+    .exposed_pixels = [](const IntegratorOptions&,
+                         const PixelFilter& filter) { return splatted_pixels(filter); },
+    .make = make_estimator<LightTracing>,
+};
 
 LightTracing::LightTracing(OwnedRoutes owned, const IntegratorOptions& options)
     : owned_(std::move(owned)), options_(options) {}

@@ -15,10 +15,6 @@
 
 namespace nephroid {
 
-/// Throws UsageError if light paths cannot be connected to the scene's camera: asked once, when the
-/// estimators are made.
-void require_connecting_camera(const Scene& scene);
-
 /// A factor for a connection to the camera from a vertex; empty: 1.
 using ConnectionWeight = std::function<float(const CameraConnection&, const WalkVertex&)>;
 
@@ -34,7 +30,8 @@ class LightTracing : public Estimator {
  public:
   LightTracing(OwnedRoutes owned, const IntegratorOptions& options);
 
-  Capabilities capabilities() const override { return {}; }
+  static const EstimatorDescriptor kDescriptor;
+  const EstimatorDescriptor& descriptor() const override { return kDescriptor; }
   std::unique_ptr<PassFindings> render_pass(const PassKey& key, const Learned*, const Scene& scene,
                                             Film& film) override;
   EstimatorStatistics statistics() const override;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "input/option_values.h"
+#include "integrator/estimator/exposed_pixels.h"
 #include "integrator/photons/gather.h"
 #include "transport/path_points.h"
 
@@ -52,7 +54,58 @@ constexpr uint32_t kSets = 16;            // a power of two, over which waveleng
 /// Largest radius of an estimate, in footprints, if the user gave none.
 constexpr float kDefaultMaxRadius = 16.0f;
 
+const EstimatorSetting kMapPhotonsSetting = {
+    "map-photons",
+    "N",
+    "0",
+    "paths",
+    "Photon paths emitted for each map of photonmap, once; 0 emits those of 16 passes. When "
+    "memory-photons are stored, emission ends.",
+    [](IntegratorOptions& options, const std::string& text) {
+      options.edit<PhotonMapOptions>().map_photons = parse_integer("-D map-photons", text, 0);
+    },
+    [](const IntegratorOptions& options) {
+      return std::to_string(options.own<PhotonMapOptions>().map_photons);
+    }};
+
+const EstimatorSetting kNearestSetting = {
+    "nearest",
+    "N",
+    "100",
+    "photons",
+    "Photons of an estimate in photonmap: the nearest ones, within the radius of -D radius; at "
+    "least 2.",
+    [](IntegratorOptions& options, const std::string& text) {
+      options.edit<PhotonMapOptions>().nearest_photons = parse_int("-D nearest", text, 2);
+    },
+    [](const IntegratorOptions& options) {
+      return std::to_string(options.own<PhotonMapOptions>().nearest_photons);
+    }};
+
+constexpr const EstimatorSetting* kSettings[] = {&kMapPhotonsSetting, &kNearestSetting};
+
 }  // namespace
+
+const EstimatorDescriptor PhotonMap::kDescriptor = {
+    .traits = {.name = "photonmap",
+               .help = "a photon map that all passes read, by the nearest photons; passes add no "
+                       "photons",
+               .merges = true,
+               .starts_at_lights = true,
+               .one_route_each = true},
+    .capabilities = {.consistent = false, .learned_is_light = true},
+    .settings = kSettings,
+    .keeps_photons = true,
+    .bytes_per_pixel =
+        [](const FilmNeed& need) {
+          return PixelBytes{.of_pass = Gathered::bytes_per_walk(need.parts)};
+        },
+    .exposed_pixels = [](const IntegratorOptions& options,
+                         const PixelFilter&) { return pixels_within(largest_radius(options)); },
+    .outlier_warning =
+        "show theirs after some passes, which read the same photons again and so confirm them",
+    .make = make_estimator<PhotonMap>,
+};
 
 PhotonMap::PhotonMap(OwnedRoutes owned, const IntegratorOptions& options)
     : owned_(std::move(owned)),
@@ -73,8 +126,8 @@ std::shared_ptr<const Learned> PhotonMap::learn(const Scene& scene, const FilmFo
   std::vector<PhotonTraceSettings> sets;
   for (uint32_t s = 0; s < kSets; ++s) {
     sets.push_back(start_photon_pass({map_seed, s}, scene, film, options_).trace);
-    if (options_.map_photons > 0)
-      sets.back().photons_per_pass = (options_.map_photons - 1) / kSets + 1;
+    if (const int64_t asked = options_.own<PhotonMapOptions>().map_photons; asked > 0)
+      sets.back().photons_per_pass = (asked - 1) / kSets + 1;
   }
   PhotonMapTrace traced = trace_map(scene, owned_, sets, options_.memory_photons);
   const PhotonTrace& t = traced.trace;
@@ -138,6 +191,7 @@ void PhotonMap::read(const TracedMap& map, const PassKey& set, uint64_t walk_see
   Gathered gathered(static_cast<size_t>(b.area()), parts);
   statistics_.hold(map.grid.bytes(),
                    gathered.filter_weights.size() * Gathered::bytes_per_walk(parts));
+  const size_t nearest_photons = options_.own<PhotonMapOptions>().nearest_photons;
   gather(scene, b, owned_, options_.max_depth, pass, {{&pass.point, 1}, walk_seed}, gathered,
          [&](size_t pixel, const CameraPath&, const Walk& walk, MergePoint at,
              PartSums& sums) -> uint64_t {
@@ -145,8 +199,8 @@ void PhotonMap::read(const TracedMap& map, const PassKey& set, uint64_t walk_see
            if (!(footprint > 0.0f)) return 0;
            thread_local std::vector<PhotonGrid::Neighbour> scratch;
            at.throughput = at.throughput * static_cast<float>(1.0 / map.paths_of_set);
-           const NearestPhotons nearest{static_cast<size_t>(options_.nearest_photons),
-                                        options_.radius * footprint, static_cast<int>(set.pass)};
+           const NearestPhotons nearest{nearest_photons, options_.radius * footprint,
+                                        static_cast<int>(set.pass)};
            const NearestMerge merged =
                merge_nearest(map.grid, owned_, at, options_.max_depth, nearest, scratch, sums);
            RadiusRange& row = rows[pixel / width];

@@ -16,13 +16,17 @@ namespace nephroid {
 struct PhotonPass;
 struct TracedMap;
 
+struct PhotonMapOptions {
+  int64_t map_photons = 0;    ///< paths emitted for a map; 0: as many as 16 passes have
+  int nearest_photons = 100;  ///< of an estimate
+};
+
 class PhotonMap : public Estimator {
  public:
   PhotonMap(OwnedRoutes owned, const IntegratorOptions& options);
 
-  Capabilities capabilities() const override {
-    return {.consistent = false, .learned_is_light = true};
-  }
+  static const EstimatorDescriptor kDescriptor;
+  const EstimatorDescriptor& descriptor() const override { return kDescriptor; }
   std::shared_ptr<const Learned> learn(const Scene& scene, const FilmFormat& film,
                                        uint64_t seed) const override;
   std::shared_ptr<const Learned> read_learned(ByteReader& from, const FilmFormat&) const override;

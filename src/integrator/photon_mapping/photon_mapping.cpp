@@ -1,9 +1,34 @@
 #include "integrator/photon_mapping/photon_mapping.h"
 
+#include "integrator/estimator/exposed_pixels.h"
+#include "integrator/learning/guiding_options.h"
 #include "integrator/learning/photon_guiding.h"
 #include "integrator/photons/merge_pass.h"
 
 namespace nephroid {
+
+namespace {
+
+constexpr const EstimatorSetting* kSettings[] = {&kGuideSetting};
+
+}  // namespace
+
+const EstimatorDescriptor PhotonMapping::kDescriptor = {
+    .traits = {.name = "photons",
+               .help = "photons merged with a radius that shrinks from pass to pass",
+               .merges = true,
+               .starts_at_lights = true},
+    .settings = kSettings,
+    .merges_with_radius = true,
+    .keeps_photons = true,
+    .bytes_per_pixel =
+        [](const FilmNeed& need) {
+          return PixelBytes{.of_pass = MergePass::bytes_per_pixel(need.parts)};
+        },
+    .exposed_pixels = [](const IntegratorOptions& options,
+                         const PixelFilter&) { return pixels_within(first_radius(options)); },
+    .make = make_estimator<PhotonMapping>,
+};
 
 PhotonMapping::PhotonMapping(OwnedRoutes owned, const IntegratorOptions& options)
     : owned_(std::move(owned)), options_(options), photons_can_count_(photons_can_count(owned_)) {}

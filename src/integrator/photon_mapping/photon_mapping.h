@@ -13,7 +13,8 @@ class PhotonMapping : public Estimator {
  public:
   PhotonMapping(OwnedRoutes owned, const IntegratorOptions& options);
 
-  Capabilities capabilities() const override { return {}; }
+  static const EstimatorDescriptor kDescriptor;
+  const EstimatorDescriptor& descriptor() const override { return kDescriptor; }
   std::shared_ptr<const Learned> learn(const Scene& scene, const FilmFormat& film,
                                        uint64_t seed) const override;
   std::shared_ptr<const Learned> read_learned(ByteReader& from, const FilmFormat&) const override;

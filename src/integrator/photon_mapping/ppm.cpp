@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "input/option_values.h"
 #include "scene/scene.h"
 #include "transport/path_points.h"
 
@@ -11,11 +12,47 @@ namespace {
 
 constexpr int kFewest = 4, kMost = 16;
 
+const EstimatorSetting kHitPointsSetting = {
+    "hit-points",
+    "N",
+    "0",
+    "hit points",
+    "Hit points of a pixel in ppm, which stay from pass to pass: memory for smooth edges; 0 takes "
+    "the scene's samples per pixel, at least 4 and at most 16.",
+    [](IntegratorOptions& options, const std::string& text) {
+      options.edit<PpmOptions>().hit_points = parse_int("-D hit-points", text, 0);
+    },
+    [](const IntegratorOptions& options) {
+      return std::to_string(options.own<PpmOptions>().hit_points);
+    }};
+
+constexpr const EstimatorSetting* kSettings[] = {&kHitPointsSetting};
+
 }  // namespace
 
+const EstimatorDescriptor Ppm::kDescriptor = {
+    .traits = {.name = "ppm",
+               .help = "progressive photon mapping with hit points that stay",
+               .merges = true,
+               .starts_at_lights = true},
+    // What the hit points of a pixel do not see no pass will show.
+    .capabilities = {.independent_passes = false, .per_pixel_state = true, .consistent = false},
+    .settings = kSettings,
+    .keeps_photons = true,
+    .bytes_per_pixel =
+        [](const FilmNeed& need) {
+          const auto points = static_cast<size_t>(hit_points(need.options, need.samples_per_pixel));
+          return PixelBytes{.kept = points * bytes_kept(need.parts),
+                            .of_pass = points * bytes_of_pass(need.parts)};
+        },
+    .exposed_pixels = Sppm::kDescriptor.exposed_pixels,
+    .outlier_warning = kNoEstimatesToHold,
+    .make = make_estimator<Ppm>,
+};
+
 int Ppm::hit_points(const IntegratorOptions& options, int samples_per_pixel) {
-  return options.hit_points > 0 ? options.hit_points
-                                : std::clamp(samples_per_pixel, kFewest, kMost);
+  const int asked = options.own<PpmOptions>().hit_points;
+  return asked > 0 ? asked : std::clamp(samples_per_pixel, kFewest, kMost);
 }
 
 int Ppm::regions_per_pixel(const Scene& scene) const {

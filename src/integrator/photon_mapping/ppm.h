@@ -9,13 +9,15 @@
 
 namespace nephroid {
 
+struct PpmOptions {
+  int hit_points = 0;  ///< of a pixel; 0: chosen from the scene's samples
+};
+
 class Ppm : public Sppm {
  public:
   using Sppm::Sppm;
-  /// What the hit points of a pixel do not see no pass will show.
-  Capabilities capabilities() const override {
-    return {.independent_passes = false, .per_pixel_state = true, .consistent = false};
-  }
+  static const EstimatorDescriptor kDescriptor;
+  const EstimatorDescriptor& descriptor() const override { return kDescriptor; }
   EstimatorStatistics statistics() const override;
 
   /// K: the user's, or the scene's samples per pixel, but at least 4 and at most 16.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "integrator/estimator/exposed_pixels.h"
 #include "integrator/photons/gather.h"
 
 namespace nephroid {
@@ -13,6 +14,23 @@ constexpr uint64_t kStream = 0x7370706d;  // "sppm"
 constexpr float kDefaultRadius = 2.0f;
 
 }  // namespace
+
+const EstimatorDescriptor Sppm::kDescriptor = {
+    .traits = {.name = "sppm",
+               .help = "stochastic progressive photon mapping with a radius for each pixel",
+               .merges = true,
+               .starts_at_lights = true},
+    .capabilities = {.independent_passes = false, .per_pixel_state = true},
+    .keeps_photons = true,
+    .bytes_per_pixel =
+        [](const FilmNeed& need) {
+          return PixelBytes{.kept = bytes_kept(need.parts), .of_pass = bytes_of_pass(need.parts)};
+        },
+    .exposed_pixels = [](const IntegratorOptions& options,
+                         const PixelFilter&) { return pixels_within(first_radius(options)); },
+    .outlier_warning = kNoEstimatesToHold,
+    .make = make_estimator<Sppm>,
+};
 
 Sppm::Sppm(OwnedRoutes owned, const IntegratorOptions& options)
     : owned_(std::move(owned)), options_(options) {

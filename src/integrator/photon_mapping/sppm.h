@@ -18,14 +18,16 @@ class Sppm : public Estimator {
  public:
   Sppm(OwnedRoutes owned, const IntegratorOptions& options);
 
-  Capabilities capabilities() const override {
-    return {.independent_passes = false, .per_pixel_state = true};
-  }
+  static const EstimatorDescriptor kDescriptor;
+  const EstimatorDescriptor& descriptor() const override { return kDescriptor; }
   std::unique_ptr<PassFindings> render_pass(const PassKey& key, const Learned*, const Scene& scene,
                                             Film& film) override;
   EstimatorStatistics statistics() const override;
   void add_state(const Scene& scene, const Film& film, RenderState& state) override;
 
+  /// What rejection of outliers misses: for EstimatorDescriptor::outlier_warning.
+  static constexpr const char* kNoEstimatesToHold =
+      "keep theirs, they have no estimates that could be held";
   /// Of all regions, in footprints: the user's, or the default.
   static float first_radius(const IntegratorOptions& options);
 

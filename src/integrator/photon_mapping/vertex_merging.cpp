@@ -1,5 +1,6 @@
 #include "integrator/photon_mapping/vertex_merging.h"
 
+#include "integrator/estimator/exposed_pixels.h"
 #include "integrator/photon_mapping/light_tracing.h"
 #include "integrator/photons/merge_pass.h"
 
@@ -15,6 +16,27 @@ float merges_per_splat(const CameraConnection& line, const Vec3f& ng, float radi
 }
 
 }  // namespace
+
+const EstimatorDescriptor VertexMerging::kDescriptor = {
+    .traits = {.name = "photons+light",
+               .help = "photons that are merged and connected to the camera, weighed against each "
+                       "other",
+               .merges = true,
+               .connects = true,
+               .starts_at_lights = true},
+    .merges_with_radius = true,
+    .keeps_photons = true,
+    .bytes_per_pixel =
+        [](const FilmNeed& need) {
+          return PixelBytes{.of_pass = MergePass::bytes_per_pixel(need.parts) +
+                                       SplatBuffer::bytes_per_pixel(need.parts)};
+        },
+    .exposed_pixels =
+        [](const IntegratorOptions& options, const PixelFilter& filter) {
+          return std::max(pixels_within(first_radius(options)), splatted_pixels(filter));
+        },
+    .make = make_estimator<VertexMerging>,
+};
 
 VertexMerging::VertexMerging(OwnedRoutes owned, const IntegratorOptions& options)
     : owned_(std::move(owned)), options_(options), photons_can_count_(photons_can_count(owned_)) {}

@@ -15,7 +15,8 @@ class VertexMerging : public Estimator {
  public:
   VertexMerging(OwnedRoutes owned, const IntegratorOptions& options);
 
-  Capabilities capabilities() const override { return {}; }
+  static const EstimatorDescriptor kDescriptor;
+  const EstimatorDescriptor& descriptor() const override { return kDescriptor; }
   std::unique_ptr<PassFindings> render_pass(const PassKey& key, const Learned*, const Scene& scene,
                                             Film& film) override;
   EstimatorStatistics statistics() const override;

@@ -3,6 +3,7 @@
 #include "integrator/presets/integrator_table.h"
 
 #include "core/errors.h"
+#include "integrator/presets/route_presets.h"
 
 namespace nephroid {
 

@@ -4,59 +4,20 @@
 #include <algorithm>
 
 #include "core/errors.h"
-#include "integrator/bidirectional/bidirectional.h"
-#include "integrator/bidirectional/vertex_connection_merging.h"
 #include "integrator/estimator/features.h"
-#include "integrator/metropolis/multiplexed.h"
-#include "integrator/metropolis/primary_space.h"
-#include "integrator/mixed/path_and_photons.h"
-#include "integrator/path/forecast.h"
-#include "integrator/path/path.h"
-#include "integrator/photon_mapping/light_tracing.h"
-#include "integrator/photon_mapping/photon_map.h"
-#include "integrator/photon_mapping/photon_mapping.h"
-#include "integrator/photon_mapping/ppm.h"
-#include "integrator/photon_mapping/sppm.h"
-#include "integrator/photon_mapping/vertex_merging.h"
-#include "integrator/virtual_lights/point_lights.h"
 
 namespace nephroid {
 
 namespace {
 
-template <class T>
-std::unique_ptr<Estimator> make(OwnedRoutes owned, const IntegratorOptions& options) {
-  return std::make_unique<T>(std::move(owned), options);
+void require_connecting_camera(const Scene& scene) {
+  if (!scene.camera->connects())
+    throw UsageError(
+        "light tracing cannot find its way through the lenses of this camera, expected routes "
+        "without lighttrace and photons+light, or another camera");
 }
 
-struct Row {
-  EstimatorKind kind;
-  std::unique_ptr<Estimator> (*make)(OwnedRoutes, const IntegratorOptions&);
-};
-constexpr Row kTable[] = {{EstimatorKind::kPath, make<PathEstimator>},
-                          {EstimatorKind::kPhotons, make<PhotonMapping>},
-                          {EstimatorKind::kSppm, make<Sppm>},
-                          {EstimatorKind::kLightTrace, make<LightTracing>},
-                          {EstimatorKind::kPhotonsAndLight, make<VertexMerging>},
-                          {EstimatorKind::kBidirectional, make<Bidirectional>},
-                          {EstimatorKind::kVcm, make<VertexConnectionMerging>},
-                          {EstimatorKind::kBpm, make<BidirectionalPhotonMapping>},
-                          {EstimatorKind::kPathAndPhotons, make<PathAndPhotons>},
-                          {EstimatorKind::kMetropolis, make<Multiplexed>},
-                          {EstimatorKind::kPrimarySpace, make<PrimarySpace>},
-                          {EstimatorKind::kPhotonMap, make<PhotonMap>},
-                          {EstimatorKind::kPpm, make<Ppm>},
-                          {EstimatorKind::kPointLights, make<PointLights>},
-                          {EstimatorKind::kForecast, make<Forecast>}};
-
-/// Estimators of independent passes that merge.
-bool tells_bias(EstimatorKind kind) {
-  using enum EstimatorKind;
-  return kind == kPhotons || kind == kPhotonsAndLight || kind == kVcm || kind == kBpm ||
-         kind == kPathAndPhotons;
-}
-
-FilmLayout layout_of(const Routes& routes) {
+FilmLayout layout_of(const Routes& routes, EstimatorTable table) {
   FilmLayout layout;
   for (const RouteDefinition& route : routes.definitions()) layout.routes.push_back(route.name);
   for (const AovDefinition& aov : routes.aovs()) layout.aovs.push_back(aov.name);
@@ -65,7 +26,8 @@ FilmLayout layout_of(const Routes& routes) {
   for (size_t g = 0; g < routes.groups().size(); ++g)
     for (const int route : routes.groups()[g].routes)
       layout.groups[static_cast<size_t>(route)] = static_cast<int>(g);
-  for (const auto& group : routes.groups()) layout.merges.push_back(tells_bias(group.estimator));
+  for (const RouteGroup& group : routes.groups())
+    layout.merges.push_back(descriptor_of(group, table).merges_with_radius);
   return layout;
 }
 
@@ -77,17 +39,19 @@ std::string quoted_list(const std::vector<std::string>& names) {
 
 }  // namespace
 
-Preset make_preset(const RoutePlan& plan, const IntegratorOptions& options, const Scene& scene) {
+Preset make_preset(const RoutePlan& plan, const IntegratorOptions& options, const Scene& scene,
+                   EstimatorTable table) {
   CompiledPlan compiled = compile_plan(plan, scene);
   std::vector<std::string> warnings;
   for (const RouteFinding& finding : compiled.compilation.findings)
     if (!finding.is_error) warnings.push_back(finding.message);
-  Preset preset = make_preset(std::move(compiled), options, scene);
+  Preset preset = make_preset(std::move(compiled), options, scene, table);
   preset.warnings.insert(preset.warnings.begin(), warnings.begin(), warnings.end());
   return preset;
 }
 
-Preset make_preset(CompiledPlan compiled, const IntegratorOptions& options, const Scene& scene) {
+Preset make_preset(CompiledPlan compiled, const IntegratorOptions& options, const Scene& scene,
+                   EstimatorTable table) {
   const auto& symbols = compiled.symbols;
   Preset preset;
   if (!symbols->unknown_labels().empty())
@@ -104,20 +68,19 @@ Preset make_preset(CompiledPlan compiled, const IntegratorOptions& options, cons
   const std::vector<std::string>& examples = compiled.compilation.examples;
   for (size_t r = 0; r < examples.size(); ++r) {
     const RouteDefinition& route = compiled.compilation.routes.definitions()[r];
-    // Estimators of photons say it themselves.
-    if (examples[r].empty() && route.estimator == EstimatorKind::kPath)
+    // Those that start at lights say it themselves.
+    if (examples[r].empty() && !route.estimator->starts_at_lights)
       preset.notes.push_back("'" + route.name +
                              "' is black: no path that this scene can have belongs to it");
   }
   preset.routes = std::make_shared<const Routes>(
       checked_routes(std::move(compiled.compilation), compiled.strict));
-  preset.layout = layout_of(*preset.routes);
-  for (size_t g = 0; g < preset.routes->groups().size(); ++g)
-    for (const Row& row : kTable) {
-      if (row.kind != preset.routes->groups()[g].estimator) continue;
-      if (estimator_type(row.kind).connects) require_connecting_camera(scene);
-      preset.estimators.push_back(row.make({preset.routes, symbols, g}, options));
-    }
+  preset.layout = layout_of(*preset.routes, table);
+  for (size_t g = 0; g < preset.routes->groups().size(); ++g) {
+    const EstimatorDescriptor& row = descriptor_of(preset.routes->groups()[g], table);
+    if (row.traits.connects) require_connecting_camera(scene);
+    preset.estimators.push_back(row.make({preset.routes, symbols, g}, options));
+  }
   if (std::none_of(preset.estimators.begin(), preset.estimators.end(),
                    [](const auto& estimator) { return estimator->records_features(); }))
     preset.estimators.push_back(std::make_unique<FeatureEstimator>());

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "integrator/estimator/learning_loop.h"
+#include "integrator/presets/estimator_table.h"
 #include "route/plan.h"
 
 namespace nephroid {
@@ -27,9 +28,12 @@ struct Preset {
 };
 
 /// Estimators for the routes of a plan in a scene. Throws UsageError for an expression that is
-/// wrong, for routes that leave a path out, and for what an estimator cannot do in this scene.
-Preset make_preset(const RoutePlan& plan, const IntegratorOptions& options, const Scene& scene);
+/// wrong, for routes that leave a path out, and for what an estimator cannot do in this scene. The
+/// routes are of estimators of the table.
+Preset make_preset(const RoutePlan& plan, const IntegratorOptions& options, const Scene& scene,
+                   EstimatorTable table = estimator_table());
 /// The same of a plan that is compiled already; the warnings leave out what the proof found.
-Preset make_preset(CompiledPlan compiled, const IntegratorOptions& options, const Scene& scene);
+Preset make_preset(CompiledPlan compiled, const IntegratorOptions& options, const Scene& scene,
+                   EstimatorTable table = estimator_table());
 
 }  // namespace nephroid

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "core/parallel.h"
+#include "input/option_values.h"
+#include "integrator/estimator/reach.h"
 #include "integrator/path/path_visitor.h"
 #include "integrator/virtual_lights/point_light_pool.h"
 #include "transport/camera_connection.h"
@@ -20,7 +22,8 @@ constexpr int64_t kLearningPaths = 1024;
 constexpr int kConnectionDimensions = 1 << 20;  // beyond those of walks; they are random
 
 int connections_of(const IntegratorOptions& options) {
-  return options.point_lights > 0 ? options.point_lights : kDefaultConnections;
+  const int asked = options.own<PointLightsOptions>().connections;
+  return asked > 0 ? asked : kDefaultConnections;
 }
 
 /// Per area, that a walk which left `from` with the density `pdf_w` comes to `p` with normal `ng`.
@@ -159,12 +162,44 @@ class LearnedDensity final : public Learned {
   uint64_t rays_;
 };
 
+const EstimatorSetting kPointLightsSetting = {
+    "point-lights",
+    "N",
+    "0",
+    "connections",
+    "Virtual point lights that a camera path of pointlights is connected to, up to 1024; 0 lets "
+    "the integrator choose.",
+    [](IntegratorOptions& options, const std::string& text) {
+      options.edit<PointLightsOptions>().connections = parse_int("-D point-lights", text, 0, 1024);
+    },
+    [](const IntegratorOptions& options) {
+      return std::to_string(options.own<PointLightsOptions>().connections);
+    }};
+
+constexpr const EstimatorSetting* kSettings[] = {&kPointLightsSetting};
+
 }  // namespace
 
 float point_light_share(float density, float walk_pdf_a) {
   if (!(walk_pdf_a > density)) return density > 0.0f ? 1.0f : 0.0f;
   return density / walk_pdf_a;
 }
+
+const EstimatorDescriptor PointLights::kDescriptor = {
+    .traits = {.name = "pointlights",
+               .help = "path tracing that is connected to virtual point lights at its first rough "
+                       "surface",
+               .starts_at_lights = true,
+               .why_never_sampled =
+                   [](const PathSummary& path) {
+                     return path.events.first_pair == FirstRoughPair::kBoth
+                                ? nullptr
+                                : out_of_reach_of_eye_walks(path);
+                   }},
+    .settings = kSettings,
+    .keeps_photons = true,
+    .make = make_estimator<PointLights>,
+};
 
 PointLights::PointLights(OwnedRoutes owned, const IntegratorOptions& options)
     : owned_(std::move(owned)), options_(options) {}

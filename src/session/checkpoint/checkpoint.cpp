@@ -12,7 +12,7 @@ namespace nephroid {
 
 bool passes_are_independent(const Preset& preset) {
   return std::ranges::all_of(preset.estimators, [](const auto& estimator) {
-    return estimator->capabilities().independent_passes;
+    return estimator->descriptor().capabilities.independent_passes;
   });
 }
 

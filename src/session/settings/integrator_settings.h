@@ -1,14 +1,14 @@
-// The numbers of a render, each a key of -D: one table with default, unit and help. It must not
-// know scenes.
+// The numbers of a render, each a key of -D: one table with default, unit and help.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/errors.h"
-#include "integrator/estimator/estimator.h"
+#include "integrator/estimator/integrator_options.h"
 #include "photon/photon.h"
 #include "scene/scene.h"
 
@@ -37,12 +37,14 @@ struct IntegratorSetting {
   const char* unit;  ///< empty if it has none
   const char* help;
   /// Parses and stores; throws UsageError.
-  void (*apply)(RenderSettings& settings, const std::string& text);
+  std::function<void(RenderSettings& settings, const std::string& text)> apply;
   /// The stored value as metadata have it.
-  std::string (*print)(const RenderSettings& settings);
+  std::function<std::string(const RenderSettings& settings)> print;
+  bool is_for_everybody = false;  ///< --help shows it; --help-all shows all
 };
 
-/// The table of keys, in the order in which help shows them.
+/// The table of keys, in the order in which help shows them: those of all renders, then those of
+/// single estimators.
 std::span<const IntegratorSetting> integrator_settings();
 
 /// Keys and values of -D, in the order in which they were given; the last one of a key counts.

@@ -1,56 +1,37 @@
 #include "session/settings/unused_settings.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <optional>
+
+#include "integrator/presets/estimator_table.h"
 
 namespace nephroid {
 
 namespace {
 
-struct Concern {
-  const char* key;
-  std::vector<EstimatorKind> estimators;
-};
-
-const std::vector<Concern>& concerns() {
-  using enum EstimatorKind;
-  static const std::vector<Concern> table = {
-      {"technique", {kBidirectional, kVcm, kBpm}},
-      {"hit-points", {kPpm}},
-      {"map-photons", {kPhotonMap}},
-      {"nearest", {kPhotonMap}},
-      {"point-lights", {kPointLights}},
-      {"mutations", {kMetropolis, kPrimarySpace}},
-      {"chain-length", {kMetropolis, kPrimarySpace}},
-      {"large-step", {kMetropolis, kPrimarySpace}},
-      {"guide", {kPhotons, kPathAndPhotons}},
-      {"guide-walks", {kPathAndPhotons}},
-      {"specular-trees", {kPath, kForecast, kBidirectional, kVcm, kBpm}}};
-  return table;
+bool looks_at(const EstimatorDescriptor& estimator, const std::string& key) {
+  return std::ranges::any_of(estimator.settings,
+                             [&](const EstimatorSetting* setting) { return key == setting->key; });
 }
 
 }  // namespace
 
 std::vector<std::string> unused_settings(const std::vector<std::string>& keys,
                                          const Routes& routes) {
-  const auto renders = [&](EstimatorKind kind) {
-    return std::any_of(routes.groups().begin(), routes.groups().end(),
-                       [&](const RouteGroup& group) { return group.estimator == kind; });
-  };
   std::vector<std::string> warnings;
-  for (const std::string& key : keys)
-    for (const Concern& concern : concerns()) {
-      if (key != concern.key ||
-          std::any_of(concern.estimators.begin(), concern.estimators.end(), renders))
-        continue;
-      std::string names;
-      for (const EstimatorKind kind : concern.estimators)
-        names += (names.empty() ? "" : ", ") + std::string(estimator_type(kind).name);
-      warnings.push_back(
-          fmt::format("-D {} changes nothing here: no route is rendered by {}", key, names));
-    }
+  for (const std::string& key : keys) {
+    std::vector<std::string> names;
+    for (const EstimatorDescriptor* estimator : estimator_table())
+      if (looks_at(*estimator, key)) names.emplace_back(estimator->traits.name);
+    const bool is_used = std::ranges::any_of(routes.groups(), [&](const RouteGroup& group) {
+      return looks_at(descriptor_of(group), key);
+    });
+    if (!names.empty() && !is_used)
+      warnings.push_back(fmt::format("-D {} changes nothing here: no route is rendered by {}", key,
+                                     fmt::join(names, ", ")));
+  }
   return warnings;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "integrator/metropolis/metropolis_options.h"
 #include "integrator/metropolis/multiplexed.h"
 #include "integrator/metropolis/primary_space.h"
 #include "integrator/presets/integrator_table.h"
@@ -100,9 +101,9 @@ TEST(KindChoice, TriesWhatIsSeldomAndBrightMoreOftenThanItAddsLight) {
 TEST(Metropolis, CountsItsPathsAndSaysHowItWent) {
   for (const char* integrator : {"mlt", "pssmlt"}) {
     IntegratorOptions options;
-    options.mutations = 20;
-    options.chain_length = 100;
-    options.large_step = 0.25f;
+    options.edit<MetropolisOptions>().mutations = 20;
+    options.edit<MetropolisOptions>().chain_length = 100;
+    options.edit<MetropolisOptions>().large_step = 0.25f;
     const EstimatorStatistics s = statistics_of(kHead + kFilm + kWorld, integrator, options, 2);
     // 2880 mutations are 29 chains of 100, and a bootstrap of a quarter as many.
     EXPECT_EQ(s.camera_paths, 2u * (2900 + 725)) << integrator;

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "estimators.h"
 #include "integrator/learning/visible_points.h"
 #include "owned_routes.h"
 #include "photon/emission.h"
@@ -69,7 +70,7 @@ TEST(PhotonGuiding, FindsASmallThingThatChanceDoesNot) {
   const Preset preset = make_preset(Plan("doidge2012"), {}, *scene);
   const Film film = film_for(*scene, preset);
   size_t group = 0;
-  while (preset.routes->groups()[group].estimator != EstimatorKind::kPhotons) ++group;
+  while (preset.routes->groups()[group].estimator != estimator_named("photons")) ++group;
   const auto symbols = std::make_shared<const SceneSymbols>(*scene, std::vector<std::string>{});
   const GuidedPhotons learned =
       guide_photons(1, *scene, film.format(), {preset.routes, symbols, group}, {}, true);

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.h"
+#include "estimators.h"
+#include "integrator/photon_mapping/ppm.h"
 #include "integrator/presets/integrator_table.h"
 #include "photon/photon.h"
 #include "rendering.h"
@@ -41,7 +43,7 @@ std::vector<EstimatorStatistics> statistics_after(const Scene& scene, const Plan
 TEST(PhotonMap, IsTracedOnceAndEachRouteHasItsOwn) {
   const auto scene = scene_from_text(kRoom);
   IntegratorOptions options;
-  options.map_photons = 16 * 2048;
+  options.edit<PhotonMapOptions>().map_photons = 16 * 2048;
   for (const uint32_t passes : {1u, 5u, 20u}) {
     const auto statistics = statistics_after(*scene, "photonmap", options, passes);
     ASSERT_EQ(statistics.size(), 3u);
@@ -58,11 +60,11 @@ TEST(PhotonMap, IsTracedOnceAndEachRouteHasItsOwn) {
     EXPECT_EQ(statistics[2].photon_paths, 0u);
   }
   // As many as 16 passes have, if nobody says how many.
-  options.map_photons = 0;
+  options.edit<PhotonMapOptions>().map_photons = 0;
   options.photons_per_pass = 1024;
   EXPECT_EQ(statistics_after(*scene, "photonmap", options, 2)[1].photon_paths, 16u * 1024u);
   // Memory ends the emission.
-  options.map_photons = 1 << 20;
+  options.edit<PhotonMapOptions>().map_photons = 1 << 20;
   options.memory_photons = 5000;
   const auto small = statistics_after(*scene, "photonmap", options, 2)[1];
   EXPECT_LT(small.photon_paths, 100000u);
@@ -72,15 +74,15 @@ TEST(PhotonMap, IsTracedOnceAndEachRouteHasItsOwn) {
 TEST(PhotonMap, SaysThatPassesDoNotConverge) {
   const auto scene = scene_from_text(kRoom);
   const Preset preset = make_integrator("photonmap", {}, *scene);
-  EXPECT_FALSE(preset.estimators[0]->capabilities().consistent);
-  EXPECT_TRUE(preset.estimators[0]->capabilities().independent_passes);
-  EXPECT_TRUE(preset.estimators[2]->capabilities().consistent);
+  EXPECT_FALSE(preset.estimators[0]->descriptor().capabilities.consistent);
+  EXPECT_TRUE(preset.estimators[0]->descriptor().capabilities.independent_passes);
+  EXPECT_TRUE(preset.estimators[2]->descriptor().capabilities.consistent);
 }
 
 TEST(PhotonMap, APassDoesNotKnowWhichCameBefore) {
   const auto scene = scene_from_text(kRoom);
   IntegratorOptions options;
-  options.map_photons = 16 * 1024;
+  options.edit<PhotonMapOptions>().map_photons = 16 * 1024;
   const Plan plan = plan_of({"seen=C[DG].*:photonmap", "rest=.*:path"});
   const Film all = render(*scene, plan, options, 3, 3, 15);
   Film sum = render(*scene, plan, options, 3, 1, 15);
@@ -142,8 +144,8 @@ const std::string kEdge = R"(
 TEST(PhotonMap, EachSetSeesTheWholeOfAPixel) {
   const auto scene = scene_from_text(kEdge);
   IntegratorOptions options;
-  options.map_photons = 16 * 4096;
-  options.nearest_photons = kAllPhotons;
+  options.edit<PhotonMapOptions>().map_photons = 16 * 4096;
+  options.edit<PhotonMapOptions>().nearest_photons = kAllPhotons;
   options.radius = 0.25f;
   for (uint64_t seed = 0; seed < 3; ++seed) {
     Preset preset =
@@ -169,7 +171,7 @@ TEST(PhotonMap, EachSetSeesTheWholeOfAPixel) {
 TEST(PhotonMap, WalksDoNotRepeatWhenTheirNumberTakesMoreThan32Bits) {
   const auto scene = scene_from_text(kEdge);
   IntegratorOptions options;
-  options.map_photons = 16 * 256;
+  options.edit<PhotonMapOptions>().map_photons = 16 * 256;
   options.camera_samples_per_pass = 1 << 12;
   const Plan plan = plan_of({"all=C[DG].*:photonmap", "rest=.*:path"});
   // The walks of the second have the numbers 2^32 + k in their set.
@@ -184,7 +186,7 @@ TEST(HitPoints, MemoryGrowsWithThemAndNotWithPasses) {
   IntegratorOptions options;
   options.photons_per_pass = 4096;
   const auto kept = [&](const char* name, int hit_points, uint32_t passes) {
-    options.hit_points = hit_points;
+    options.edit<PpmOptions>().hit_points = hit_points;
     return statistics_after(*scene, name, options, passes)[1].pixel_bytes;
   };
   const uint64_t one = kept("ppm", 1, 1);
@@ -199,10 +201,10 @@ TEST(HitPoints, ConvergeOnlyIfWalksAreNew) {
   for (const bool stay : {false, true}) {
     const Preset preset = make_integrator(stay ? "ppm" : "sppm", {}, *scene);
     for (size_t i = 0; i < preset.estimators.size(); ++i) {
-      const Capabilities capabilities = preset.estimators[i]->capabilities();
-      const EstimatorKind kind = preset.routes->groups()[i].estimator;
-      EXPECT_EQ(capabilities.consistent, kind != EstimatorKind::kPpm);
-      EXPECT_EQ(capabilities.independent_passes, kind == EstimatorKind::kPath);
+      const Capabilities capabilities = preset.estimators[i]->descriptor().capabilities;
+      const EstimatorTraits* const kind = preset.routes->groups()[i].estimator;
+      EXPECT_EQ(capabilities.consistent, kind != estimator_named("ppm"));
+      EXPECT_EQ(capabilities.independent_passes, is_one_of(kind, {"path"}));
     }
   }
 }

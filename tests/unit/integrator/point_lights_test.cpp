@@ -155,7 +155,7 @@ TEST(PointLightPool, IsThinnedAlikeByAnyNumberOfThreads) {
 TEST(PointLights, FindTheSameLightInLittleMemory) {
   const auto scene = scene_from_text(kCorner);
   IntegratorOptions options;
-  options.point_lights = 64;
+  options.edit<PointLightsOptions>().connections = 64;
   std::vector<double> differences;
   for (uint64_t seed = 1; seed <= 24; ++seed) {
     options.memory_photons = 1 << 20;

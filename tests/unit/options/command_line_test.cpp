@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "core/errors.h"
+#include "integrator/presets/estimator_table.h"
 #include "integrator/presets/integrator_table.h"
 #include "session/checkpoint/version.h"
 #include "source_directory.h"
@@ -32,14 +33,6 @@ std::string usage_error(const std::string& text) {
   }
   ADD_FAILURE() << "accepted: " << text;
   return "";
-}
-
-std::string read_source_file(const std::string& name) {
-  std::ifstream file(testing_support::source_directory() + "/" + name);
-  EXPECT_TRUE(file) << name;
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
 }
 
 TEST(CommandLine, RenderDefaults) {
@@ -149,14 +142,41 @@ TEST(CommandLine, HelpAndVersion) {
   EXPECT_EQ(parse("-h").text, program_help());
   EXPECT_EQ(parse("render --help").text, command_help("render"));
   EXPECT_EQ(parse("compare -h").text, command_help("compare"));
+  EXPECT_EQ(parse("--help-all").text, program_help_all());
+  EXPECT_EQ(parse("render --help-all").text, command_help_all("render"));
   const CommandLine version = parse("--version");
   EXPECT_EQ(version.action, Action::kPrint);
   EXPECT_EQ(version.text.rfind(std::string("nephroid ") + kVersion, 0), 0u);
   EXPECT_EQ(parse("--options-markdown").text, options_markdown());
 }
 
+TEST(CommandLine, HelpFitsOneScreenAndHelpAllHasAllOfIt) {
+  for (const CommandDescription& command : command_table()) {
+    SCOPED_TRACE(command.name);
+    const std::string help = command_help(command.name), all = command_help_all(command.name);
+    EXPECT_LE(std::count(help.begin(), help.end(), '\n'), 50);
+    for (const OptionDescription& option : option_table())
+      if (option.command == std::string(command.name)) {
+        EXPECT_NE(help.find(option.name), std::string::npos) << option.name;
+        EXPECT_NE(all.find(option.name), std::string::npos) << option.name;
+      }
+  }
+  int for_everybody = 0;
+  for (const IntegratorSetting& setting : integrator_settings()) {
+    const std::string row = std::string("\n  ") + setting.key + "=";
+    EXPECT_NE(command_help_all("render").find(row), std::string::npos) << setting.key;
+    EXPECT_EQ(command_help("render").find(row) != std::string::npos, setting.is_for_everybody);
+    for_everybody += setting.is_for_everybody;
+  }
+  EXPECT_LE(for_everybody, 5);
+  for (const EstimatorTraits* estimator : estimator_traits())
+    EXPECT_NE(command_help_all("render").find(std::string("\n  ") + estimator->name + " "),
+              std::string::npos)
+        << estimator->name;
+}
+
 TEST(CommandLine, VersionIsThatOfTheBuild) {
-  const std::string cmake = read_source_file("CMakeLists.txt");
+  const std::string cmake = testing_support::read_source_file("CMakeLists.txt");
   EXPECT_NE(cmake.find(std::string("project(nephroid VERSION ") + kVersion + " "),
             std::string::npos);
 }
@@ -194,7 +214,7 @@ TEST(OptionTable, NamesTheIntegratorsThatThereAre) {
 }
 
 TEST(OptionTable, DocumentationIsCurrent) {
-  EXPECT_EQ(read_source_file("docs/options.md"), options_markdown())
+  EXPECT_EQ(testing_support::read_source_file("docs/options.md"), options_markdown())
       << "run tools/update_docs to make docs/options.md anew";
 }
 

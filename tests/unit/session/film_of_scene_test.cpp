@@ -9,6 +9,8 @@
 #include "core/errors.h"
 #include "film/film_output.h"
 #include "film/splats.h"
+#include "integrator/photon_mapping/ppm.h"
+#include "integrator/presets/estimator_table.h"
 #include "route/compile.h"
 #include "unit/film/scratch_directory.h"
 
@@ -17,7 +19,7 @@ namespace {
 
 Routes routes_of(const std::vector<std::string>& texts) {
   std::vector<RouteDefinition> routes;
-  for (const std::string& text : texts) routes.push_back(parse_route(text));
+  for (const std::string& text : texts) routes.push_back(parse_route(text, estimator_traits()));
   return compile_routes(routes, {}).routes;
 }
 
@@ -35,6 +37,12 @@ TEST(FilmOfScene, DefaultOutputIsHereAndExr) {
 }
 
 constexpr uint64_t kMemory = uint64_t{64} << 30;
+const IntegratorOptions kDefaults;
+const IntegratorOptions kNoPhotons = [] {
+  IntegratorOptions options;
+  options.memory_photons = 0;
+  return options;
+}();
 
 TEST(FilmOfScene, MemoryIsThatOfThePartsGroupsAndSplats) {
   // Just what a film of one route needs: anything more is refused.
@@ -49,12 +57,13 @@ TEST(FilmOfScene, MemoryIsThatOfThePartsGroupsAndSplats) {
   };
   const size_t film = Film::bytes_per_pixel(one, false);
   fill(film);
-  EXPECT_NO_THROW(check_memory({description, one, path}, kMemory, false, false));
+  EXPECT_NO_THROW(check_memory({description, one, path, kDefaults}, kMemory, false, false));
   FilmLayout two = one;
   two.parts.push_back({0, {}});
-  EXPECT_THROW(check_memory({description, two, path}, kMemory, false, true), UsageError);
+  EXPECT_THROW(check_memory({description, two, path, kDefaults}, kMemory, false, true), UsageError);
   description.gbuffer = GBufferSpace::kWorld;
-  EXPECT_THROW(check_memory({description, one, path}, kMemory, false, false), SceneError);
+  EXPECT_THROW(check_memory({description, one, path, kDefaults}, kMemory, false, false),
+               SceneError);
   description.gbuffer = GBufferSpace::kNone;
 
   // A splat is a sum of 48 bytes. A merging pass has a colour for each part, a filter weight and a
@@ -62,6 +71,8 @@ TEST(FilmOfScene, MemoryIsThatOfThePartsGroupsAndSplats) {
   // a filter weight, ppm the same for each of its hit points. A photon map is read without bias.
   // Estimators render one after another.
   constexpr int kHitPoints = 5;
+  IntegratorOptions options = kNoPhotons;
+  options.edit<PpmOptions>().hit_points = kHitPoints;
   const struct {
     std::vector<std::string> routes;
     size_t bytes;
@@ -77,7 +88,7 @@ TEST(FilmOfScene, MemoryIsThatOfThePartsGroupsAndSplats) {
     SCOPED_TRACE(row.routes.back());
     const Routes routes = routes_of(row.routes);
     fill(film + row.bytes);
-    const MemoryNeed need{description, one, routes, false, kHitPoints};
+    const MemoryNeed need{description, one, routes, options};
     EXPECT_NO_THROW(check_memory(need, kMemory, false, false));
     fill(film + row.bytes - 1);
     EXPECT_THROW(check_memory(need, kMemory, false, false), SceneError);
@@ -91,10 +102,9 @@ TEST(FilmOfScene, MemoryIsRefusedWithWhatItIsFor) {
   description.crop_x0 = description.crop_y0 = 0;
   description.crop_x1 = description.crop_y1 = 16;
   constexpr uint64_t kMiB = 1 << 20;
-  MemoryNeed need{description, one, photons};
+  MemoryNeed need{description, one, photons, kDefaults};
   need.held = 100 * kMiB;
   need.textures = 50 * kMiB;
-  need.photons = 1 << 20;
   need.writes = true;
   EXPECT_NO_THROW(check_memory(need, 1 << 30, true, false));
   try {
@@ -107,7 +117,7 @@ TEST(FilmOfScene, MemoryIsRefusedWithWhatItIsFor) {
       EXPECT_NE(what.find(part), std::string::npos) << part << " in " << what;
   }
   // Nobody keeps photons here.
-  EXPECT_NO_THROW(check_memory({description, one, path, false, 0, 1 << 20, 100 * kMiB, 50 * kMiB},
+  EXPECT_NO_THROW(check_memory({description, one, path, kDefaults, 1, false, 100 * kMiB, 50 * kMiB},
                                160 * kMiB, true, false));
 }
 
@@ -122,7 +132,8 @@ TEST(FilmOfScene, RejectionOfOutliersNeedsMemoryToo) {
   description.crop_x0 = description.crop_y0 = 0;
   description.crop_x1 = 1024;
   description.crop_y1 = static_cast<int>(memory / static_cast<double>(bytes) / 1024);
-  const MemoryNeed with{description, layout, routes, true}, without{description, layout, routes};
+  const MemoryNeed with{description, layout, routes, kNoPhotons, 1, true},
+      without{description, layout, routes, kNoPhotons};
   EXPECT_NO_THROW(check_memory(with, kMemory, false, false));
   description.crop_y1 = static_cast<int>(memory / static_cast<double>(bytes - 1) / 1024);
   EXPECT_THROW(check_memory(with, kMemory, false, false), SceneError);
@@ -168,13 +179,13 @@ TEST(FilmOfScene, RejectionKnowsHowManyPixelsALightPathExposes) {
               {"photons+light", 12, 9 * kPi, 12},
               {"path+photons", 12, 9 * kPi, 12},
               {"vcm", 12, 9 * kPi, 12}};
-  for (const EstimatorType& type : estimator_types()) {
-    SCOPED_TRACE(type.name);
+  for (const EstimatorTraits* estimator : estimator_traits()) {
+    SCOPED_TRACE(estimator->name);
     const auto row = std::find_if(std::begin(rows), std::end(rows), [&](const auto& r) {
-      return std::string(r.estimator) == type.name;
+      return std::string(r.estimator) == estimator->name;
     });
     ASSERT_NE(row, std::end(rows));
-    const std::string route = std::string("a=C.*DL:") + type.name;
+    const std::string route = std::string("a=C.*DL:") + estimator->name;
     EXPECT_FLOAT_EQ(exposed(route, 0, wide), row->by_default);
     EXPECT_FLOAT_EQ(exposed(route, 3, wide), row->with_three);
     EXPECT_FLOAT_EQ(exposed(route, 0.25f, wide), row->with_little);
@@ -196,7 +207,7 @@ TEST(FilmOfScene, NoRouteTakesTheNameOfALayerOfPictures) {
     for (const std::string& channel : film_picture(film, {}).channels) {
       const std::string layer = channel.substr(0, channel.find('.'));
       if (layer == "all") continue;
-      EXPECT_THROW(parse_route(layer + "=.*:path"), UsageError) << layer;
+      EXPECT_THROW(parse_route(layer + "=.*:path", estimator_traits()), UsageError) << layer;
     }
   }
 }

@@ -3,6 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include "integrator/bidirectional/technique_choice.h"
+#include "integrator/learning/guiding_options.h"
+#include "integrator/metropolis/metropolis_options.h"
+#include "integrator/path/path_options.h"
+#include "integrator/photon_mapping/photon_map.h"
+#include "integrator/photon_mapping/ppm.h"
+#include "integrator/virtual_lights/point_lights.h"
+
 namespace nephroid {
 namespace {
 
@@ -49,25 +57,24 @@ TEST(IntegratorSettings, EveryKeyIsStoredWhereItBelongs) {
   EXPECT_EQ(s.scene.specular_band.low, 0.2f);
   EXPECT_EQ(s.scene.specular_band.high, 0.2f);
   EXPECT_EQ(s.integrator.camera_samples_per_pass, 3);
-  EXPECT_EQ(s.integrator.point_lights, 5);
-  EXPECT_EQ(s.integrator.hit_points, 6);
-  EXPECT_EQ(s.integrator.map_photons, 5000);
-  EXPECT_EQ(s.integrator.nearest_photons, 40);
+  EXPECT_EQ(s.integrator.own<PointLightsOptions>().connections, 5);
+  EXPECT_EQ(s.integrator.own<PpmOptions>().hit_points, 6);
+  EXPECT_EQ(s.integrator.own<PhotonMapOptions>().map_photons, 5000);
+  EXPECT_EQ(s.integrator.own<PhotonMapOptions>().nearest_photons, 40);
   EXPECT_EQ(s.integrator.memory_photons, 99);
   EXPECT_EQ(s.scene.outlier_neighbours, 5);
-  EXPECT_EQ(s.integrator.mutations, 2.5f);
-  EXPECT_EQ(s.integrator.chain_length, 77);
-  EXPECT_EQ(s.integrator.large_step, 0.25f);
-  EXPECT_FALSE(s.integrator.guides_photons);
-  EXPECT_FALSE(s.integrator.guides_walks);
-  EXPECT_TRUE(s.integrator.specular_trees);
+  EXPECT_EQ(s.integrator.own<MetropolisOptions>().mutations, 2.5f);
+  EXPECT_EQ(s.integrator.own<MetropolisOptions>().chain_length, 77);
+  EXPECT_EQ(s.integrator.own<MetropolisOptions>().large_step, 0.25f);
+  EXPECT_FALSE(s.integrator.own<GuidingOptions>().photons);
+  EXPECT_FALSE(s.integrator.own<GuidingOptions>().walks);
+  EXPECT_TRUE(s.integrator.own<PathOptions>().specular_trees);
   EXPECT_EQ(s.scene.texture_memory, 1536u * 1024);
   EXPECT_EQ(settings_text(s),
-            "max-depth=7 radius=1.5 photons=1000 alpha=0.75 specular-alpha=0.2 camera-samples=3 "
-            "point-lights=5 technique=2,3,raw hit-points=6 map-photons=5000 nearest=40 "
-            "memory-photons=99 outlier-neighbours=5 mutations=2.5 chain-length=77 large-step=0.25 "
-            "guide=no guide-walks=no specular-trees=yes "
-            "texture-cache=1536K");
+            "max-depth=7 photons=1000 camera-samples=3 radius=1.5 specular-alpha=0.2 alpha=0.75 "
+            "memory-photons=99 outlier-neighbours=5 texture-cache=1536K specular-trees=yes "
+            "guide=no technique=2,3,raw guide-walks=no mutations=2.5 chain-length=77 "
+            "large-step=0.25 map-photons=5000 nearest=40 hit-points=6 point-lights=5");
 }
 
 TEST(IntegratorSettings, SpecularAlphaMayBeARange) {
@@ -91,7 +98,7 @@ TEST(IntegratorSettings, ATechniqueIsAPairOfNumbersOrMergesAlone) {
     RenderSettings s;
     apply_settings({parse_setting("technique=" + text)}, &s);
     EXPECT_NE(settings_text(s).find(" technique=" + text + " "), std::string::npos) << text;
-    return s.integrator.technique;
+    return s.integrator.own<TechniqueChoice>();
   };
   EXPECT_TRUE(choice("all").makes(0, 2) && choice("all").makes(5, 1) && choice("all").merges());
   EXPECT_TRUE(choice("1,*").makes(1, 4) && !choice("1,*").makes(2, 4));

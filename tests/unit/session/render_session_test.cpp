@@ -39,7 +39,7 @@ TEST_F(RenderSessionTest, RangeOfPasses) {
 }
 
 TEST_F(RenderSessionTest, RangeNeedsIndependentPasses) {
-  script_.capabilities.independent_passes = false;
+  script_.descriptor.capabilities.independent_passes = false;
   RenderOptions options;
   options.first_pass = 3;
   options.last_pass = 5;
@@ -149,7 +149,7 @@ TEST_F(RenderSessionTest, TheErrorAtTheEndIsThatOfThePicture) {
 }
 
 TEST_F(RenderSessionTest, NoiseTargetIsRefusedWithoutAnErrorEstimate) {
-  script_.capabilities.per_pixel_state = true;
+  script_.descriptor.capabilities.per_pixel_state = true;
   RenderOptions options;
   options.noise_target = 0.1;
   EXPECT_THROW(run(options), UsageError);

@@ -20,13 +20,13 @@ struct Script {
   double pass_seconds = 1;
   std::vector<PassKey> passes;                      ///< that were rendered
   std::function<void(const PassKey&)> during_pass;  ///< called in each
-  Capabilities capabilities;
+  EstimatorDescriptor descriptor{.traits = {.name = "fake"}};
 };
 
 class FakeEstimator : public Estimator {
  public:
   FakeEstimator(Script& script, int group) : script_(script), group_(group) {}
-  Capabilities capabilities() const override { return script_.capabilities; }
+  const EstimatorDescriptor& descriptor() const override { return script_.descriptor; }
   std::unique_ptr<PassFindings> render_pass(const PassKey& key, const Learned*, const Scene&,
                                             Film& film) override {
     script_.now += script_.pass_seconds;

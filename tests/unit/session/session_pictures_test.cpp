@@ -101,7 +101,7 @@ TEST_F(SessionPictures, GoesOnWhereEarlierRunsWere) {
   options.begin_with.last_pass_seconds = 1;
   EXPECT_EQ(run(options).passes_of_run, 0u);
   // Passes that depend on each other cannot fill a gap.
-  script_.capabilities.independent_passes = false;
+  script_.descriptor.capabilities.independent_passes = false;
   options.begin_with.passes = *PassRanges::parse("0..2,5..6");
   EXPECT_THROW(run(options), UsageError);
 }

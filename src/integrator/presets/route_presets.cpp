@@ -1,8 +1,8 @@
-// Sets of routes with a name.
-// Who calls it: through route_set.h. It must not know automata.
 // Papers: Doidge, Jones & Mora 2012; Jensen 1996 for caustics of lights only; Dammertz, Keller
 // & Lensch 2010; Budge, Anderson & Joy 2008.
-#include "route/route_set.h"
+#include "integrator/presets/route_presets.h"
+
+#include "integrator/presets/estimator_table.h"
 
 namespace nephroid {
 
@@ -81,7 +81,8 @@ std::optional<std::vector<RouteDefinition>> route_preset(const std::string& name
   for (const RoutePreset& preset : route_presets())
     if (name == preset.name) {
       std::vector<RouteDefinition> routes;
-      for (const char* text : preset.routes) routes.push_back(parse_route(text, "preset " + name));
+      for (const char* text : preset.routes)
+        routes.push_back(parse_route(text, estimator_traits(), "preset " + name));
       return routes;
     }
   return std::nullopt;

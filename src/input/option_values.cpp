@@ -1,5 +1,5 @@
 // All parsers end in from_chars, which knows no locale.
-#include "session/settings/option_values.h"
+#include "input/option_values.h"
 
 #include <fmt/format.h>
 
@@ -46,6 +46,24 @@ uint64_t parse_seed(const std::string& option, const std::string& text) {
   const auto value = number_of<uint64_t>(text);
   if (!value) fail(option, text, "a whole number from 0 to 18446744073709551615");
   return *value;
+}
+
+int parse_int(const std::string& option, const std::string& text, int low, int high) {
+  return static_cast<int>(parse_integer(option, text, low, high));
+}
+
+bool parse_yes_no(const std::string& option, const std::string& text) {
+  if (text != "yes" && text != "no") fail(option, text, "yes or no");
+  return text == "yes";
+}
+
+std::string yes_no_text(bool yes) {
+  return yes ? "yes" : "no";
+}
+
+float parse_float(const std::string& option, const std::string& text, double low, double high,
+                  bool low_is_open) {
+  return static_cast<float>(parse_number(option, text, low, high, low_is_open));
 }
 
 double parse_number(const std::string& option, const std::string& text, double low, double high,

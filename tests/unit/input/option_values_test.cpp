@@ -1,5 +1,5 @@
 // Texts of options that are understood, and those that must not be.
-#include "session/settings/option_values.h"
+#include "input/option_values.h"
 
 #include <gtest/gtest.h>
 

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -12,12 +13,19 @@ namespace nephroid {
 
 /// A whole number in [low, high].
 int64_t parse_integer(const std::string& option, const std::string& text, int64_t low,
-                      int64_t high);
+                      int64_t high = std::numeric_limits<int64_t>::max());
+int parse_int(const std::string& option, const std::string& text, int low,
+              int high = std::numeric_limits<int>::max());
 /// Any unsigned 64-bit number.
 uint64_t parse_seed(const std::string& option, const std::string& text);
+/// True for "yes", false for "no".
+bool parse_yes_no(const std::string& option, const std::string& text);
+std::string yes_no_text(bool yes);
 /// A finite number in [low, high], or in (low, high] if `low_is_open`.
 double parse_number(const std::string& option, const std::string& text, double low, double high,
                     bool low_is_open);
+float parse_float(const std::string& option, const std::string& text, double low, double high,
+                  bool low_is_open);
 /// "X" or "LOW..HIGH" with low <= X, LOW <= HIGH and all of them up to `high`; "X" is "X..X".
 std::pair<float, float> parse_range(const std::string& option, const std::string& text, float low,
                                     float high);

@@ -1,0 +1,79 @@
+// What the rest of the program knows of an estimator. Each has one, beside its class, and one row
+// in the table of estimators (integrator/presets/estimator_table.cpp); nothing else switches on
+// which estimator it has.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+
+#include "integrator/estimator/integrator_options.h"
+#include "route/estimator_traits.h"
+#include "route/scene_symbols.h"
+
+namespace nephroid {
+
+class Estimator;
+class PixelFilter;
+
+struct Capabilities {
+  bool independent_passes = true;  ///< passes may be rendered anywhere, in any order, and added up
+  bool per_pixel_state = false;    ///< keeps more than the film does (E1)
+  bool consistent = true;          ///< tends to the truth as passes are added; else an error stays
+  /// What it learns is part of its light and not a guide: pictures of two seeds that share it are
+  /// not independent.
+  bool learned_is_light = false;
+};
+
+/// A key of -D that only some estimators look at.
+struct EstimatorSetting {
+  const char* key;
+  const char* value;  ///< placeholder of the value in help: "N", "X"
+  const char* default_text;
+  const char* unit;  ///< empty if it has none
+  const char* help;
+  /// Parses and stores; throws UsageError.
+  void (*apply)(IntegratorOptions& options, const std::string& text);
+  /// The stored value as metadata have it.
+  std::string (*print)(const IntegratorOptions& options);
+};
+
+/// What the memory of an estimator depends on.
+struct FilmNeed {
+  size_t parts = 1;  ///< of the picture that are the estimator's
+  const IntegratorOptions& options;
+  int samples_per_pixel = 1;  ///< as the scene has them
+  bool clamps = false;        ///< the film has a maxcomponentvalue
+};
+
+/// Memory for each pixel.
+struct PixelBytes {
+  size_t kept = 0;     ///< from pass to pass
+  size_t of_pass = 0;  ///< while a pass is rendered
+};
+
+struct EstimatorDescriptor {
+  EstimatorTraits traits = {};
+  Capabilities capabilities = {};
+  std::span<const EstimatorSetting* const> settings = {};
+  bool merges_with_radius = false;  ///< its independent passes have the bias of a merge radius
+  bool keeps_photons = false;       ///< up to IntegratorOptions::memory_photons of them at once
+  PixelBytes (*bytes_per_pixel)(const FilmNeed& need) = [](const FilmNeed&) {
+    return PixelBytes{};
+  };
+  /// a of [O2], the pixels that one path exposes in a pass: of a path from the eye, its own.
+  float (*exposed_pixels)(const IntegratorOptions& options, const PixelFilter& filter) =
+      [](const IntegratorOptions&, const PixelFilter&) { return 1.0f; };
+  /// Why --outliers reject does not do all it should for its routes, in words that follow "routes
+  /// of NAME "; null if it does.
+  const char* outlier_warning = nullptr;
+  std::unique_ptr<Estimator> (*make)(OwnedRoutes owned, const IntegratorOptions& options) = nullptr;
+};
+
+/// For EstimatorDescriptor::make.
+template <class T>
+std::unique_ptr<Estimator> make_estimator(OwnedRoutes owned, const IntegratorOptions& options) {
+  return std::make_unique<T>(std::move(owned), options);
+}
+
+}  // namespace nephroid

@@ -1,0 +1,35 @@
+#include "integrator/learning/guiding_options.h"
+
+#include "input/option_values.h"
+
+namespace nephroid {
+
+const EstimatorSetting kGuideSetting = {
+    "guide",
+    "yes|no",
+    "yes",
+    "",
+    "Photons of `photons` and `path+photons` start where earlier ones were of use; those of "
+    "`photons` also go where these went from rough surfaces.",
+    [](IntegratorOptions& options, const std::string& text) {
+      options.edit<GuidingOptions>().photons = parse_yes_no("-D guide", text);
+    },
+    [](const IntegratorOptions& options) {
+      return yes_no_text(options.own<GuidingOptions>().photons);
+    }};
+
+const EstimatorSetting kGuideWalksSetting = {
+    "guide-walks",
+    "yes|no",
+    "yes",
+    "",
+    "Camera walks of `path+photons`, and so of `mixed`, go where those of the first pass found "
+    "light, where that pays.",
+    [](IntegratorOptions& options, const std::string& text) {
+      options.edit<GuidingOptions>().walks = parse_yes_no("-D guide-walks", text);
+    },
+    [](const IntegratorOptions& options) {
+      return yes_no_text(options.own<GuidingOptions>().walks);
+    }};
+
+}  // namespace nephroid

@@ -1,0 +1,17 @@
+// Options of Metropolis light transport.
+#pragma once
+
+#include "integrator/estimator/estimator_descriptor.h"
+
+namespace nephroid {
+
+struct MetropolisOptions {
+  float mutations = 0;       ///< a pixel and pass; 0: the default
+  int64_t chain_length = 0;  ///< mutations of a chain; 0: the default
+  float large_step = 0.1f;   ///< probability
+};
+
+/// -D mutations, -D chain-length and -D large-step.
+std::span<const EstimatorSetting* const> metropolis_settings();
+
+}  // namespace nephroid

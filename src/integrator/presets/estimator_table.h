@@ -1,0 +1,22 @@
+// The one table of estimators: all that routes can name.
+#pragma once
+
+#include <vector>
+
+#include "integrator/estimator/estimator_descriptor.h"
+#include "route/routes.h"
+
+namespace nephroid {
+
+/// In the order in which help lists them.
+using EstimatorTable = std::span<const EstimatorDescriptor* const>;
+EstimatorTable estimator_table();
+
+/// What routes need to know of the table's estimators.
+TraitsTable estimator_traits();
+
+/// The row of the table that is meant by a group of routes.
+const EstimatorDescriptor& descriptor_of(const RouteGroup& group,
+                                         EstimatorTable table = estimator_table());
+
+}  // namespace nephroid
