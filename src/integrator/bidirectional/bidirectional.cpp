@@ -46,17 +46,16 @@ class PairRound {
     const PixelBounds& b = film_.bounds();
     const int strip = std::max(1, kMostPixels / std::max(1, b.width()));
     for (int begin = b.y0; begin < b.y1; begin += strip) {
-      std::vector<Row> rows(static_cast<size_t>(std::min(strip, b.y1 - begin)));
-      parallel_chunks(static_cast<int64_t>(rows.size()), 1, [&](int64_t row, int64_t, int64_t) {
-        render_row(begin + static_cast<int>(row), rows[static_cast<size_t>(row)]);
-      });
       std::vector<Splat> splats;
-      for (const Row& row : rows) {
+      const auto trace_row = [&](Row& row, int64_t y, int64_t) {
+        render_row(begin + static_cast<int>(y), row);
+      };
+      ordered_reduce<Row>(std::min(strip, b.y1 - begin), 1, trace_row, [&](Row&& row) {
         splats.insert(splats.end(), row.splats.begin(), row.splats.end());
         statistics.rays += row.rays;
         statistics.light_paths_useful += row.useful;
         techniques_.add(row.techniques);
-      }
+      });
       techniques_.add_splats(splats, 1.0 / settings_.light_paths);
       buffer.add(splats);
       statistics.splats += splats.size();

@@ -265,8 +265,7 @@ void PointLights::render_sample(const PhotonPass& pass, float density, const Sce
                             point_lights_in_memory_of(options_.memory_photons));
   const PointLightsVisitor::Pass shared{pool, connections_of(options_), density,
                                         options_.max_depth};
-  std::vector<uint64_t> rays(static_cast<size_t>(b.height()), 0);
-  parallel_chunks(b.height(), 1, [&](int64_t row, int64_t, int64_t) {
+  const auto render_row = [&](uint64_t& rays, int64_t row, int64_t) {
     const int y = b.y0 + static_cast<int>(row);
     PartSums light(*owned_.routes, owned_.group);
     for (int x = b.x0; x < b.x1; ++x) {
@@ -280,12 +279,13 @@ void PointLights::render_sample(const PhotonPass& pass, float density, const Sce
       film.add(group, x, y,
                light.colors(pass.weights, path.camera_weight, film.settings().max_component,
                             path.filter_weight));
-      rays[static_cast<size_t>(row)] += path.walk.rays + visitor.more_rays();
+      rays += path.walk.rays + visitor.more_rays();
     }
-  });
+  };
+  ordered_reduce<uint64_t>(b.height(), 1, render_row,
+                           [&](uint64_t&& rays) { statistics_.rays += rays; });
   film.add_estimates(group, 1);
   statistics_.rays += pool.rays();
-  for (const uint64_t r : rays) statistics_.rays += r;
   statistics_.camera_paths += static_cast<uint64_t>(b.area());
   statistics_.photon_paths += static_cast<uint64_t>(pass.trace.photons_per_pass);
   statistics_.photon_paths_useful += pool.useful_paths();
