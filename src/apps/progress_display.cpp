@@ -19,8 +19,7 @@ constexpr int kBarWidth = 24;
 
 std::string bar(double fraction) {
   const int filled = std::clamp(static_cast<int>(std::lround(fraction * kBarWidth)), 0, kBarWidth);
-  return "[" + std::string(static_cast<size_t>(filled), '#') +
-         std::string(static_cast<size_t>(kBarWidth - filled), '-') + "]";
+  return "[" + std::string(filled, '#') + std::string(kBarWidth - filled, '-') + "]";
 }
 
 std::string description(const RenderProgress& p) {

@@ -17,7 +17,7 @@ Picture colors_of_film(const Film& film, std::optional<int> aov) {
   picture.window = b;
   picture.channels = {"R", "G", "B"};
   picture.color_space = film.settings().color_space;
-  picture.pixels.reserve(static_cast<size_t>(b.area()) * 3);
+  picture.pixels.reserve(b.area() * 3);
   for (int y = b.y0; y < b.y1; ++y)
     for (int x = b.x0; x < b.x1; ++x) {
       const Rgb value = aov ? film.aov_value(*aov, x, y) : film.value(x, y);
@@ -33,7 +33,7 @@ Picture layer_of(const Picture& picture, const std::string& layer) {
     if (channel < 0)
       throw UsageError("the reference has no layer '" + layer +
                        "', expected one that was rendered with --aov " + layer + "=EXPRESSION");
-    channels[c] = static_cast<size_t>(channel);
+    channels[c] = channel;
   }
   Picture result = picture;
   result.channels = {"R", "G", "B"};
@@ -57,7 +57,7 @@ Picture part_of(const Picture& picture, const BenchRegion& region) {
   part.window = {picture.window.x0 + x0, picture.window.y0 + y0, picture.window.x0 + x1,
                  picture.window.y0 + y1};
   part.pixels.clear();
-  const auto stride = static_cast<std::ptrdiff_t>(picture.channels.size());
+  const std::ptrdiff_t stride = picture.channels.size();
   for (int y = y0; y < y1; ++y) {
     const auto row = picture.pixels.begin() + stride * y * picture.width();
     part.pixels.insert(part.pixels.end(), row + stride * x0, row + stride * x1);
@@ -76,8 +76,8 @@ std::optional<double> own_error(const Picture& picture) {
   for (const char* name : {"stderr.R", "stderr.G", "stderr.B"}) {
     const int channel = picture.find_channel(name);
     if (channel < 0) return std::nullopt;
-    for (size_t i = static_cast<size_t>(channel); i < picture.pixels.size(); i += stride)
-      sum += static_cast<double>(picture.pixels[i]) * static_cast<double>(picture.pixels[i]);
+    for (size_t i = channel; i < picture.pixels.size(); i += stride)
+      sum += static_cast<double>(picture.pixels[i]) * picture.pixels[i];
   }
   return std::sqrt(sum / (3 * static_cast<double>(picture.width()) * picture.height()));
 }

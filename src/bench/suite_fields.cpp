@@ -30,7 +30,7 @@ const char* type_name(Json::value_t type) {
 
 /// "FILE:LINE:COLUMN" of a byte of a text.
 SourceLocation place_of(const std::string& text, size_t byte, const std::string& file) {
-  const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(byte, text.size()));
+  const auto end = text.begin() + std::min(byte, text.size());
   const auto line_begin = std::find(std::make_reverse_iterator(end), text.rend(), '\n').base();
   return {std::make_shared<const std::string>(file),
           static_cast<int>(std::count(text.begin(), end, '\n')) + 1,

@@ -70,8 +70,7 @@ SigmoidPolynomial interpolate(const TableView& table, const Rgb& rgb) {
 
   const size_t row = static_cast<size_t>(res) * 3, slab = row * res;
   const float* corner = table.coefficients.data() +
-                        (static_cast<size_t>(largest) * res + zi) * slab + yi * row +
-                        static_cast<size_t>(xi) * 3;
+                        (static_cast<size_t>(largest) * res + zi) * slab + yi * row + xi * 3;
   float c[3];
   for (int n = 0; n < 3; ++n) {
     const float* at = corner + n;

@@ -54,7 +54,7 @@ void MarkovSample::accept() {
     moves_.push_back(number_of_proposal_);
   }
   for (const Backup& b : backups_) {
-    Coordinate& c = coordinates_[static_cast<size_t>(b.stream)][static_cast<size_t>(b.dimension)];
+    Coordinate& c = coordinates_[b.stream][b.dimension];
     c.start = start_;
     c.moves = static_cast<uint32_t>(moves_.size());
   }
@@ -64,8 +64,7 @@ void MarkovSample::accept() {
 void MarkovSample::reject() {
   assert(open_);
   open_ = false;
-  for (const Backup& b : backups_)
-    coordinates_[static_cast<size_t>(b.stream)][static_cast<size_t>(b.dimension)] = b.coordinate;
+  for (const Backup& b : backups_) coordinates_[b.stream][b.dimension] = b.coordinate;
   backups_.clear();
 }
 
@@ -97,8 +96,8 @@ void MarkovSample::bring_up_to_date(Coordinate& c, int stream, int dimension) co
 }
 
 float MarkovSample::number(int stream, int dimension) {
-  std::vector<Coordinate>& all = coordinates_[static_cast<size_t>(stream)];
-  const auto d = static_cast<size_t>(dimension);
+  std::vector<Coordinate>& all = coordinates_[stream];
+  const size_t d = dimension;
   if (all.size() <= d) all.resize(d + d / 2 + 8);
   Coordinate& c = all[d];
   if (!open_) {

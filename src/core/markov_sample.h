@@ -39,7 +39,7 @@ class MarkovSample {
   void start(Origin origin, uint64_t seed);
 
   /// The numbers of the proposal, or, if there is none, of the current state.
-  PrimarySample& stream(int index) { return streams_[static_cast<size_t>(index)]; }
+  PrimarySample& stream(int index) { return streams_[index]; }
 
   /// Proposes a new state: with probability `large_step` all numbers anew, else all by small steps.
   /// Returns true for a large step. The last proposal has been accepted or rejected.

@@ -90,7 +90,7 @@ struct ThreadLimit::Impl {
 ThreadLimit::ThreadLimit(int threads) : impl_(std::make_unique<Impl>()) {
   if (threads > 0)
     impl_->control = std::make_unique<tbb::global_control>(
-        tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads));
+        tbb::global_control::max_allowed_parallelism, threads);
 }
 ThreadLimit::~ThreadLimit() = default;
 

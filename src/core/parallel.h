@@ -42,9 +42,9 @@ constexpr int64_t chunk_count(int64_t count, int64_t chunk_size) {
 /// results in the order of the chunks.
 template <class T, class Work>
 std::vector<T> chunk_results(int64_t count, int64_t chunk_size, Work&& work) {
-  std::vector<T> results(static_cast<size_t>(chunk_count(count, chunk_size)));
+  std::vector<T> results(chunk_count(count, chunk_size));
   parallel_chunks(count, chunk_size, [&](int64_t chunk, int64_t begin, int64_t end) {
-    work(results[static_cast<size_t>(chunk)], begin, end);
+    work(results[chunk], begin, end);
   });
   return results;
 }

@@ -26,7 +26,7 @@ const SobolDirections& sobol_directions() {
 SobolPoint::SobolPoint(uint32_t index, int dimensions, std::span<const uint8_t> order)
     : index_(index), dimensions_(dimensions) {
   const SobolDirections& directions = sobol_directions();
-  const size_t count = static_cast<size_t>(dimensions), dealt = std::min(order.size(), count);
+  const size_t count = dimensions, dealt = std::min(order.size(), count);
   std::fill_n(reversed_.begin(), count, 0u);
   for (uint32_t bit = 0; bit < 32; ++bit) {
     if (!((index >> bit) & 1u)) continue;

@@ -33,7 +33,7 @@ constexpr uint64_t hash_combine(uint64_t a, uint64_t b) {
 }
 template <class... Rest>
 constexpr uint64_t hash_combine(uint64_t a, uint64_t b, Rest... rest) {
-  return hash_combine(hash_combine(a, b), static_cast<uint64_t>(rest)...);
+  return hash_combine(hash_combine(a, b), rest...);
 }
 /// The upper 24 bits as a float in [0,1).
 constexpr float bits_to_unit_float(uint32_t bits) {
@@ -77,7 +77,7 @@ class SobolPoint {
   explicit SobolPoint(uint32_t index, int dimensions = kSobolDimensions,
                       std::span<const uint8_t> order = {});
   int dimensions() const { return dimensions_; }
-  uint32_t reversed(int dimension) const { return reversed_[static_cast<size_t>(dimension)]; }
+  uint32_t reversed(int dimension) const { return reversed_[dimension]; }
   uint32_t index() const { return index_; }
 
  private:
@@ -146,9 +146,8 @@ class PathSampler {
   /// A seed for random numbers without end that belong to this path and the current dimension.
   uint64_t stream_seed() const {
     if (primary_)
-      return hash_combine(std::bit_cast<uint32_t>(primary_->number(dimension_)),
-                          static_cast<uint64_t>(dimension_));
-    return hash_combine(seed_, index_, static_cast<uint64_t>(dimension_));
+      return hash_combine(std::bit_cast<uint32_t>(primary_->number(dimension_)), dimension_);
+    return hash_combine(seed_, index_, dimension_);
   }
   Vec2f get_2d() {
     if (point_ || primary_) {
@@ -165,7 +164,7 @@ class PathSampler {
 
  private:
   uint64_t hash_of(int dimension) const {
-    return mix_bits(seed_ + static_cast<uint64_t>(dimension) * 0x9e3779b97f4a7c15ull);
+    return mix_bits(seed_ + dimension * 0x9e3779b97f4a7c15ull);
   }
   /// Runs of 2^k indices from a multiple of 2^k on stay together.
   uint32_t shuffled_index(uint64_t hash) const {

@@ -37,9 +37,8 @@ Vector adapt(const Vector& xyz, const Vector& scale) {
 
 /// Cone responses of a white of luminance 1.
 Vector cones_of_white(const Xyz& white) {
-  const double y = static_cast<double>(white.y);
-  return times(kConesFromXyz,
-               {static_cast<double>(white.x) / y, 1.0, static_cast<double>(white.z) / y});
+  const double y = white.y;
+  return times(kConesFromXyz, {white.x / y, 1.0, white.z / y});
 }
 
 }  // namespace
@@ -52,9 +51,7 @@ ColorMatrix white_balance(const RgbColorSpace& space, float kelvin) {
   for (size_t c = 0; c < 3; ++c) {
     const Xyz unit =
         space.to_xyz({c == 0 ? 1.0f : 0.0f, c == 1 ? 1.0f : 0.0f, c == 2 ? 1.0f : 0.0f});
-    const Vector adapted = adapt(
-        {static_cast<double>(unit.x), static_cast<double>(unit.y), static_cast<double>(unit.z)},
-        scale);
+    const Vector adapted = adapt({unit.x, unit.y, unit.z}, scale);
     const Rgb column =
         space.from_xyz({static_cast<float>(adapted[0]), static_cast<float>(adapted[1]),
                         static_cast<float>(adapted[2])});

@@ -132,8 +132,8 @@ class TemporaryFile {
       if (written < 0 && errno == EINTR) continue;
       if (written < 0) fail(shown_, "write", errno);
       if (written == 0) fail(shown_, "write", ENOSPC);
-      bytes = bytes.subspan(static_cast<size_t>(written));
-      offset += static_cast<uint64_t>(written);
+      bytes = bytes.subspan(written);
+      offset += written;
     }
   }
   void rename_to(const fs::path& target) {

@@ -37,12 +37,12 @@ class AtomicOutput : public Imf::OStream {
   AtomicOutput(const std::string& path, AtomicFile& file) : OStream(path.c_str()), file_(file) {}
   void write(const char* data, int size) override {
     try {
-      file_.write(position_, std::as_bytes(std::span(data, static_cast<size_t>(size))));
+      file_.write(position_, std::as_bytes(std::span(data, size)));
     } catch (const IoError& error) {
       if (!error_) error_ = error;
       throw;
     }
-    position_ += static_cast<uint64_t>(size);
+    position_ += size;
   }
   uint64_t tellp() override { return position_; }
   void seekp(uint64_t position) override { position_ = position; }
@@ -101,7 +101,7 @@ struct Part {
 Part part_of_stream(std::string name, std::vector<uint32_t> words) {
   const size_t used = words.size();
   Part part{std::move(name), window_of_stream(used), 1, {}, std::move(words)};
-  part.owned.resize(static_cast<size_t>(part.window.area()));
+  part.owned.resize(part.window.area());
   part.bytes = std::as_bytes(std::span(part.owned).first(used));
   return part;
 }
@@ -146,20 +146,20 @@ std::vector<Part> parts_of(const RenderState& state, const PixelBounds& window) 
 /// what it sorts their bytes in.
 uint64_t bytes_of_rows(int width, size_t channels, size_t state_words) {
   constexpr uint64_t kRowsOfZip = 16, kCopies = 3;
-  return 4 * kCopies * static_cast<uint64_t>(width) * (kRowsOfZip * channels + state_words);
+  return 4 * kCopies * width * (kRowsOfZip * channels + state_words);
 }
 
 /// Two buffers for each; without any, the caller's thread encodes, with one.
 int encoder_threads(uint64_t bytes_of_buffer) {
   const uint64_t fit = kMostEncoderBytes / (2 * bytes_of_buffer);
-  return static_cast<int>(std::min<uint64_t>(fit, static_cast<uint64_t>(Imf::globalThreadCount())));
+  return static_cast<int>(std::min<uint64_t>(fit, Imf::globalThreadCount()));
 }
 
 }  // namespace
 
 uint64_t encoder_bytes(int width, size_t channels, size_t state_words) {
   const uint64_t each = bytes_of_rows(width, channels, state_words);
-  return std::max(each, 2 * each * static_cast<uint64_t>(encoder_threads(each)));
+  return std::max(each, 2 * each * encoder_threads(each));
 }
 
 void write_exr(const std::string& path, const Picture& picture, const RenderState* state) {

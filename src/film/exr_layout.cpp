@@ -19,7 +19,7 @@ static_assert(std::endian::native == std::endian::little);
 Imf::FrameBuffer frame_of(const PixelBounds& window, const std::vector<std::string>& channels,
                           Imf::PixelType type, const void* memory) {
   Imf::FrameBuffer frame;
-  const size_t item = 4 * channels.size(), row = item * static_cast<size_t>(window.width());
+  const size_t item = 4 * channels.size(), row = item * window.width();
   // Where the pixel (0, 0) would be.
   const auto origin = reinterpret_cast<intptr_t>(memory) - static_cast<intptr_t>(item) * window.x0 -
                       static_cast<intptr_t>(row) * window.y0;

@@ -33,20 +33,20 @@ Film::Film(const FilmSettings& settings, FilmLayout layout) : format_(settings, 
   parts_of_aov_.resize(this->layout().aovs.size());
   for (int g = 0; g < groups; ++g)
     for (const int i : parts_of(g)) {
-      const FilmLayout::Part& part = this->layout().parts[static_cast<size_t>(i)];
+      const FilmLayout::Part& part = this->layout().parts[i];
       all_parts_.push_back(i);
-      parts_of_route_[static_cast<size_t>(part.route)].push_back(i);
-      for (const int aov : part.aovs) parts_of_aov_[static_cast<size_t>(aov)].push_back(i);
+      parts_of_route_[part.route].push_back(i);
+      for (const int aov : part.aovs) parts_of_aov_[aov].push_back(i);
     }
 
-  const auto pixels = static_cast<size_t>(bounds().area());
+  const size_t pixels = bounds().area();
   sums_.assign(this->layout().parts.size(), std::vector<RgbSum>(pixels));
-  squares_.assign(static_cast<size_t>(groups), std::vector<RgbSum>(pixels));
-  estimates_.assign(static_cast<size_t>(groups), 0);
+  squares_.assign(groups, std::vector<RgbSum>(pixels));
+  estimates_.assign(groups, 0);
   for (int g = 0; g < groups; ++g) {
     if (!this->layout().group_merges(g)) continue;
-    biases_.resize(static_cast<size_t>(groups));
-    biases_[static_cast<size_t>(g)].resize(pixels);
+    biases_.resize(groups);
+    biases_[g].resize(pixels);
   }
   features_.resize(pixels);
   depths_.assign(pixels, 0);
@@ -58,9 +58,8 @@ Film::Film(const FilmSettings& settings, FilmLayout layout) : format_(settings, 
 }
 
 size_t Film::bytes_per_pixel(const FilmLayout& layout, bool gbuffer) {
-  const size_t sums = layout.parts.size() + static_cast<size_t>(layout.group_count());
-  const size_t merging =
-      static_cast<size_t>(std::count(layout.merges.begin(), layout.merges.end(), true));
+  const size_t sums = layout.parts.size() + layout.group_count();
+  const size_t merging = std::count(layout.merges.begin(), layout.merges.end(), true);
   return sums * sizeof(RgbSum) + merging * sizeof(Bias) + sizeof(Features) +
          (gbuffer ? sizeof(SurfaceSums) + sizeof(uint64_t) : 0) + sizeof(uint64_t);  // depths
 }
@@ -69,14 +68,14 @@ bool Film::add_parts(int group, size_t pixel, std::span<const Rgb> values) {
   const std::vector<int>& parts = parts_of(group);
   bool fits = true;
   for (size_t i = 0; i < parts.size(); ++i) {
-    RgbSum& sum = sums_[static_cast<size_t>(parts[i])][pixel];
+    RgbSum& sum = sums_[parts[i]][pixel];
     for (int c = 0; c < 3; ++c) fits &= sum.rgb[c].add(values[i][c]);
   }
   return fits;
 }
 
 bool Film::add_square(int group, size_t pixel, std::span<const Rgb> values) {
-  RgbSum& square = squares_[static_cast<size_t>(group)][pixel];
+  RgbSum& square = squares_[group][pixel];
   bool fits = true;
   for (int c = 0; c < 3; ++c) {
     double total = 0;
@@ -103,8 +102,8 @@ void Film::replace(int group, int x, int y, std::span<const Rgb> values) {
   assert(values.size() == parts_of(group).size());
   const size_t pixel = index(x, y);
   if (is_bad(group, x, y, values)) return;
-  for (const int part : parts_of(group)) sums_[static_cast<size_t>(part)][pixel] = {};
-  squares_[static_cast<size_t>(group)][pixel] = {};
+  for (const int part : parts_of(group)) sums_[part][pixel] = {};
+  squares_[group][pixel] = {};
   bool fits = add_parts(group, pixel, values);
   fits &= add_square(group, pixel, values);
   if (!fits) count_saturated(1);
@@ -112,27 +111,25 @@ void Film::replace(int group, int x, int y, std::span<const Rgb> values) {
 
 void Film::add_bias(int group, std::span<const float> of_pixels) {
   if (!layout().group_merges(group)) return;
-  std::vector<Bias>& biases = biases_[static_cast<size_t>(group)];
+  std::vector<Bias>& biases = biases_[group];
   assert(of_pixels.size() == biases.size());
-  parallel_chunks(static_cast<int64_t>(biases.size()), 1 << 14,
-                  [&](int64_t, int64_t begin, int64_t end) {
-                    for (int64_t i = begin; i < end; ++i) {
-                      const double b = double{of_pixels[static_cast<size_t>(i)]};
-                      if (!std::isfinite(b)) {
-                        count_saturated(1);
-                        continue;
-                      }
-                      Bias& bias = biases[static_cast<size_t>(i)];
-                      if (!(bias.sum.add(b) && bias.square.add(b * b))) count_saturated(1);
-                    }
-                  });
+  parallel_chunks(biases.size(), 1 << 14, [&](int64_t, int64_t begin, int64_t end) {
+    for (int64_t i = begin; i < end; ++i) {
+      const double b = double{of_pixels[i]};
+      if (!std::isfinite(b)) {
+        count_saturated(1);
+        continue;
+      }
+      Bias& bias = biases[i];
+      if (!(bias.sum.add(b) && bias.square.add(b * b))) count_saturated(1);
+    }
+  });
 }
 
 void Film::release(int group, size_t pixel, std::span<const RgbSum> held) {
   const std::vector<int>& parts = parts_of(group);
   bool fits = true;
-  for (size_t i = 0; i < parts.size(); ++i)
-    fits &= sums_[static_cast<size_t>(parts[i])][pixel].add(held[i]);
+  for (size_t i = 0; i < parts.size(); ++i) fits &= sums_[parts[i]][pixel].add(held[i]);
   if (!fits) count_saturated(1);
 }
 
@@ -145,7 +142,7 @@ void Film::reject_outliers(OutlierSettings settings) {
 void Film::finish_pass() {
   if (!outliers_) return;
   const PixelBounds& b = bounds();
-  std::vector<float> shown(static_cast<size_t>(b.area()));
+  std::vector<float> shown(b.area());
   parallel_chunks(b.height(), 16, [&](int64_t, int64_t begin, int64_t end) {
     for (int y = b.y0 + static_cast<int>(begin); y < b.y0 + static_cast<int>(end); ++y)
       for (int x = b.x0; x < b.x1; ++x)
@@ -158,17 +155,17 @@ void Film::finish_pass() {
 }
 
 void Film::add_estimates(int group, uint64_t count) {
-  estimates_[static_cast<size_t>(group)] += count;
+  estimates_[group] += count;
 }
 void Film::set_estimates(int group, uint64_t count) {
-  estimates_[static_cast<size_t>(group)] = count;
+  estimates_[group] = count;
 }
 uint64_t Film::estimates(int group) const {
-  return estimates_[static_cast<size_t>(group)];
+  return estimates_[group];
 }
 void Film::count_bad(int group, size_t part, const Vec2i& pixel) {
-  const auto route = layout().parts[static_cast<size_t>(parts_of(group)[part])].route;
-  BadEstimates& bad = bad_[static_cast<size_t>(route)];
+  const auto route = layout().parts[parts_of(group)[part]].route;
+  BadEstimates& bad = bad_[route];
   std::atomic_ref(bad.count).fetch_add(1, std::memory_order_relaxed);
   const PixelBounds& crop = bounds();
   if (pixel.x < crop.x0 || pixel.x >= crop.x1 || pixel.y < crop.y0 || pixel.y >= crop.y1) return;
@@ -226,12 +223,12 @@ Rgb Film::mean_of_parts(const std::vector<int>& parts, size_t pixel) const {
   double total[3] = {0, 0, 0};
   for (size_t begin = 0, end = 0; begin < parts.size(); begin = end) {
     const auto count_of = [&](size_t i) {
-      return estimates(layout().group_of(layout().parts[static_cast<size_t>(parts[i])]));
+      return estimates(layout().group_of(layout().parts[parts[i]]));
     };
     const uint64_t count = count_of(begin);
     FixedSum sum[3];
     for (end = begin; end < parts.size() && count_of(end) == count; ++end)
-      for (int c = 0; c < 3; ++c) sum[c].add(sums_[static_cast<size_t>(parts[end])][pixel].rgb[c]);
+      for (int c = 0; c < 3; ++c) sum[c].add(sums_[parts[end]][pixel].rgb[c]);
     if (count == 0) continue;
     for (int c = 0; c < 3; ++c) total[c] += sum[c].value() / static_cast<double>(count);
   }
@@ -239,10 +236,10 @@ Rgb Film::mean_of_parts(const std::vector<int>& parts, size_t pixel) const {
 }
 
 Rgb Film::route_value(int route, int x, int y) const {
-  return mean_of_parts(parts_of_route_[static_cast<size_t>(route)], index(x, y));
+  return mean_of_parts(parts_of_route_[route], index(x, y));
 }
 Rgb Film::aov_value(int aov, int x, int y) const {
-  return mean_of_parts(parts_of_aov_[static_cast<size_t>(aov)], index(x, y));
+  return mean_of_parts(parts_of_aov_[aov], index(x, y));
 }
 Rgb Film::value(int x, int y) const {
   return mean_of_parts(all_parts_, index(x, y));
@@ -264,8 +261,7 @@ std::array<double, 3> Film::error_squared(size_t group, size_t pixel) const {
   const RgbSum held = outliers_ ? outliers_->held(static_cast<int>(group), pixel) : RgbSum();
   for (size_t c = 0; c < 3; ++c) {
     FixedSum sum = held.rgb[c];
-    for (const int part : parts_of(static_cast<int>(group)))
-      sum.add(sums_[static_cast<size_t>(part)][pixel].rgb[c]);
+    for (const int part : parts_of(static_cast<int>(group))) sum.add(sums_[part][pixel].rgb[c]);
     squared[c] = variance_of_mean(sum, squares_[group][pixel].rgb[c], estimates_[group]);
   }
   return squared;
@@ -282,7 +278,7 @@ Rgb Film::standard_error(int x, int y) const {
 }
 
 Rgb Film::standard_error(int group, int x, int y) const {
-  const std::array<double, 3> squared = error_squared(static_cast<size_t>(group), index(x, y));
+  const std::array<double, 3> squared = error_squared(group, index(x, y));
   return to_rgb({std::sqrt(squared[0]), std::sqrt(squared[1]), std::sqrt(squared[2])});
 }
 

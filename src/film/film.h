@@ -124,7 +124,7 @@ class Film {
   void add(const Film& other);
 
   /// Estimates that were not finite; the route is that of the first part that was not.
-  const BadEstimates& bad_estimates(int route) const { return bad_[static_cast<size_t>(route)]; }
+  const BadEstimates& bad_estimates(int route) const { return bad_[route]; }
   /// Sums that reached their limit, and features and biases that were not finite.
   uint64_t saturated_values() const { return counts_.saturated; }
 

@@ -23,10 +23,9 @@ FilmFormat::FilmFormat(const FilmSettings& settings, FilmLayout layout)
     : settings_(settings), layout_(std::move(layout)) {
   if (settings_.crop.width() <= 0 || settings_.crop.height() <= 0)
     settings_.crop = {0, 0, settings_.width, settings_.height};
-  parts_of_group_.resize(static_cast<size_t>(layout_.group_count()));
+  parts_of_group_.resize(layout_.group_count());
   for (size_t i = 0; i < layout_.parts.size(); ++i)
-    parts_of_group_[static_cast<size_t>(layout_.group_of(layout_.parts[i]))].push_back(
-        static_cast<int>(i));
+    parts_of_group_[layout_.group_of(layout_.parts[i])].push_back(static_cast<int>(i));
 }
 
 }  // namespace nephroid

@@ -50,9 +50,9 @@ struct FilmLayout {
   /// One part and one group for each route, no AOVs.
   static FilmLayout of_routes(std::vector<std::string> names);
   int group_count() const;
-  int group_of(const Part& part) const { return groups[static_cast<size_t>(part.route)]; }
+  int group_of(const Part& part) const { return groups[part.route]; }
   bool group_merges(int group) const {
-    return static_cast<size_t>(group) < merges.size() && merges[static_cast<size_t>(group)];
+    return static_cast<size_t>(group) < merges.size() && merges[group];
   }
 };
 
@@ -66,9 +66,7 @@ class FilmFormat {
   const PixelBounds& bounds() const { return settings_.crop; }
   const FilmLayout& layout() const { return layout_; }
   /// Parts of a group's routes, in increasing order.
-  const std::vector<int>& parts_of(int group) const {
-    return parts_of_group_[static_cast<size_t>(group)];
-  }
+  const std::vector<int>& parts_of(int group) const { return parts_of_group_[group]; }
 
  private:
   FilmSettings settings_;

@@ -94,13 +94,13 @@ Picture film_picture(const Film& film, Metadata metadata) {
   picture.color_space = film.settings().color_space;
   picture.metadata = std::move(metadata);
   const size_t stride = picture.channels.size();
-  picture.pixels.resize(static_cast<size_t>(bounds.area()) * stride);
+  picture.pixels.resize(bounds.area() * stride);
   uint64_t samples = 0;
   for (int g = 0; g < film.layout().group_count(); ++g)
     samples = std::max(samples, film.estimates(g));
 
   for_each_row(film, [&](int y) {
-    const size_t row = static_cast<size_t>(y - bounds.y0) * static_cast<size_t>(bounds.width());
+    const size_t row = static_cast<size_t>(y - bounds.y0) * bounds.width();
     float* out = picture.pixels.data() + row * stride;
     for (int x = bounds.x0; x < bounds.x1; ++x) {
       out = put(out, film.value(x, y));
@@ -124,9 +124,9 @@ std::vector<uint8_t> film_srgb8(const Film& film, float exposure) {
   const PixelBounds& bounds = film.bounds();
   const RgbColorSpace* space = film.settings().color_space;
   const bool convert = space != nullptr && space->name() != "srgb";
-  std::vector<uint8_t> bytes(static_cast<size_t>(bounds.area()) * 3);
+  std::vector<uint8_t> bytes(bounds.area() * 3);
   for_each_row(film, [&](int y) {
-    const size_t row = static_cast<size_t>(y - bounds.y0) * static_cast<size_t>(bounds.width());
+    const size_t row = static_cast<size_t>(y - bounds.y0) * bounds.width();
     uint8_t* out = bytes.data() + row * 3;
     for (int x = bounds.x0; x < bounds.x1; ++x) {
       Rgb color = film.value(x, y);

@@ -35,33 +35,30 @@ RenderState Film::state() {
 void Film::add(const Film& other) {
   assert(!outliers_ && !other.outliers_ && other.sums_.size() == sums_.size() &&
          other.depths_.size() == depths_.size());
-  parallel_chunks(static_cast<int64_t>(depths_.size()), 1 << 14,
-                  [&](int64_t, int64_t b, int64_t e) {
-                    for (size_t i = static_cast<size_t>(b); i < static_cast<size_t>(e); ++i) {
-                      bool fits = true;
-                      for (size_t p = 0; p < sums_.size(); ++p)
-                        fits &= sums_[p][i].add(other.sums_[p][i]);
-                      for (size_t g = 0; g < squares_.size(); ++g)
-                        fits &= squares_[g][i].add(other.squares_[g][i]);
-                      for (size_t g = 0; g < biases_.size(); ++g) {
-                        if (biases_[g].empty()) continue;
-                        fits &= biases_[g][i].sum.add(other.biases_[g][i].sum);
-                        fits &= biases_[g][i].square.add(other.biases_[g][i].square);
-                      }
-                      for (int c = 0; c < 3; ++c) {
-                        fits &= features_[i].albedo[c].add(other.features_[i].albedo[c]);
-                        fits &= features_[i].normal[c].add(other.features_[i].normal[c]);
-                      }
-                      fits &= features_[i].depth.add(other.features_[i].depth);
-                      depths_[i] += other.depths_[i];
-                      if (!surfaces_.empty()) {
-                        for (size_t k = 0; k < surfaces_[i].size(); ++k)
-                          fits &= surfaces_[i][k].add(other.surfaces_[i][k]);
-                        surface_samples_[i] += other.surface_samples_[i];
-                      }
-                      if (!fits) count_saturated(1);
-                    }
-                  });
+  parallel_chunks(depths_.size(), 1 << 14, [&](int64_t, int64_t b, int64_t e) {
+    for (int64_t i = b; i < e; ++i) {
+      bool fits = true;
+      for (size_t p = 0; p < sums_.size(); ++p) fits &= sums_[p][i].add(other.sums_[p][i]);
+      for (size_t g = 0; g < squares_.size(); ++g) fits &= squares_[g][i].add(other.squares_[g][i]);
+      for (size_t g = 0; g < biases_.size(); ++g) {
+        if (biases_[g].empty()) continue;
+        fits &= biases_[g][i].sum.add(other.biases_[g][i].sum);
+        fits &= biases_[g][i].square.add(other.biases_[g][i].square);
+      }
+      for (int c = 0; c < 3; ++c) {
+        fits &= features_[i].albedo[c].add(other.features_[i].albedo[c]);
+        fits &= features_[i].normal[c].add(other.features_[i].normal[c]);
+      }
+      fits &= features_[i].depth.add(other.features_[i].depth);
+      depths_[i] += other.depths_[i];
+      if (!surfaces_.empty()) {
+        for (size_t k = 0; k < surfaces_[i].size(); ++k)
+          fits &= surfaces_[i][k].add(other.surfaces_[i][k]);
+        surface_samples_[i] += other.surface_samples_[i];
+      }
+      if (!fits) count_saturated(1);
+    }
+  });
   for (size_t g = 0; g < estimates_.size(); ++g) estimates_[g] += other.estimates_[g];
   counts_.feature_estimates += other.counts_.feature_estimates;
   for (size_t r = 0; r < bad_.size(); ++r) {

@@ -25,7 +25,7 @@ namespace {
 const RgbColorSpace* color_space_of(const OIIO::ImageSpec& spec) {
   const OIIO::ParamValue* found = spec.find_attribute("chromaticities");
   if (found == nullptr || found->type().basetype != OIIO::TypeDesc::FLOAT ||
-      found->type().basevalues() * static_cast<size_t>(found->nvalues()) != 8)
+      found->type().basevalues() * found->nvalues() != 8)
     return nullptr;
   return color_space_with(std::span(static_cast<const float*>(found->data()), 8));
 }
@@ -93,8 +93,7 @@ Picture read_picture(const std::string& path) {
   picture.color_space = color_space_of(spec);
   if (!is_possible_size(spec.image_bytes(true), path))
     throw IoError(path + ": cannot read: it claims more pixels than could be in it");
-  picture.pixels.resize(static_cast<size_t>(spec.image_pixels()) *
-                        static_cast<size_t>(spec.nchannels));
+  picture.pixels.resize(spec.image_pixels() * spec.nchannels);
   for (const OIIO::ParamValue& attribute : spec.extra_attribs)
     if (attribute.type() == OIIO::TypeDesc::STRING)
       picture.metadata.emplace_back(attribute.name().string(), attribute.get_string());
@@ -112,7 +111,7 @@ uint8_t encode_srgb8(float linear) {
 }
 
 void limit_image_threads(int threads) {
-  if (threads <= 0) threads = static_cast<int>(std::thread::hardware_concurrency());
+  if (threads <= 0) threads = std::thread::hardware_concurrency();
   threads = std::clamp(threads, 1, kMostImageThreads);
   Imf::setGlobalThreadCount(threads);
   OIIO::attribute("threads", threads);

@@ -42,8 +42,7 @@ OutlierRejection::OutlierRejection(int width, int height, std::vector<size_t> pa
     : width_(width), height_(height), parts_(std::move(parts)), settings_(std::move(settings)) {
   assert(settings_.exposed_pixels.size() == parts_.size());
   pixels_.resize(parts_.size());
-  for (std::vector<Pixel>& group : pixels_)
-    group.resize(static_cast<size_t>(width) * static_cast<size_t>(height));
+  for (std::vector<Pixel>& group : pixels_) group.resize(static_cast<size_t>(width) * height);
 }
 
 float OutlierRejection::brightness(const Rgb& color) {
@@ -55,9 +54,7 @@ void OutlierRejection::Pixel::remove(size_t slot, size_t parts) {
   const size_t last = --size;
   levels[slot] = levels[last];
   estimates[slot] = estimates[last];
-  if (slot != last)
-    std::copy_n(sums.begin() + static_cast<std::ptrdiff_t>(last * parts), parts,
-                sums.begin() + static_cast<std::ptrdiff_t>(slot * parts));
+  if (slot != last) std::copy_n(sums.begin() + last * parts, parts, sums.begin() + slot * parts);
   sums.resize(last * parts);
 }
 
@@ -68,17 +65,17 @@ bool OutlierRejection::hold(int group, size_t pixel, std::span<const Rgb> values
   const float bright = brightness(total);
   if (!(bright > 0.0f) || !(bright < kLargest)) return false;
   const int level = level_of(bright, kLevels);
-  Pixel& p = pixels_[static_cast<size_t>(group)][pixel];
-  uint8_t& count = p.counts[static_cast<size_t>(level)];
+  Pixel& p = pixels_[group][pixel];
+  uint8_t& count = p.counts[level];
   if (count < kMostCounted) ++count;
   if ((p.confirmed >> level & 1) != 0) return false;
 
-  const size_t parts = parts_[static_cast<size_t>(group)];
+  const size_t parts = parts_[group];
   const auto begin = p.levels.begin(), end = begin + p.size;
-  size_t slot = static_cast<size_t>(std::find(begin, end, level) - begin);
+  size_t slot = std::find(begin, end, level) - begin;
   if (slot == p.size) {
     if (p.size == kMostHeld) {
-      const auto darkest = static_cast<size_t>(std::min_element(begin, end) - begin);
+      const size_t darkest = std::min_element(begin, end) - begin;
       if (level < p.levels[darkest]) return false;
       release(group, pixel, p.parts_of(darkest, parts));
       p.remove(darkest, parts);
@@ -96,31 +93,29 @@ bool OutlierRejection::hold(int group, size_t pixel, std::span<const Rgb> values
 }
 
 OutlierRejection::Window OutlierRejection::window_around(size_t pixel) const {
-  const int x = static_cast<int>(pixel % static_cast<size_t>(width_));
-  const int y = static_cast<int>(pixel / static_cast<size_t>(width_));
+  const int x = static_cast<int>(pixel % width_);
+  const int y = static_cast<int>(pixel / width_);
   return {std::max(0, x - kWindowRadius), std::max(0, y - kWindowRadius),
           std::min(width_, x + kWindowRadius + 1), std::min(height_, y + kWindowRadius + 1)};
 }
 
 bool OutlierRejection::is_confirmed(int group, size_t pixel, int level, uint64_t estimates,
                                     std::span<const float> shown) const {
-  const auto g = static_cast<size_t>(group);
   const Window w = window_around(pixel);
-  const size_t first = static_cast<size_t>(std::max(0, level - 1));
-  const size_t last = static_cast<size_t>(std::min(kLevels - 1, level + 1));
+  const size_t first = std::max(0, level - 1);
+  const size_t last = std::min(kLevels - 1, level + 1);
   uint64_t similar = 0;
   double surroundings = 0;
   for (int y = w.y0; y < w.y1; ++y)
     for (int x = w.x0; x < w.x1; ++x) {
-      const size_t i =
-          static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x);
-      for (size_t l = first; l <= last; ++l) similar += pixels_[g][i].counts[l];
+      const size_t i = static_cast<size_t>(y) * width_ + x;
+      for (size_t l = first; l <= last; ++l) similar += pixels_[group][i].counts[l];
       surroundings += double{shown[i]};
     }
   surroundings /= w.area();
   // [O2]
   const double enough =
-      std::min(settings_.neighbours * std::max(1.0, double{settings_.exposed_pixels[g]}),
+      std::min(settings_.neighbours * std::max(1.0, double{settings_.exposed_pixels[group]}),
                w.area() * static_cast<double>(std::min(estimates, kMostCounted)) / 2);
   if (static_cast<double>(similar) >= enough) return true;
   // [O3]
@@ -130,11 +125,11 @@ bool OutlierRejection::is_confirmed(int group, size_t pixel, int level, uint64_t
 
 void OutlierRejection::finish_pass(int group, uint64_t estimates, std::span<const float> shown,
                                    const Release& release) {
-  std::vector<Pixel>& pixels = pixels_[static_cast<size_t>(group)];
-  const size_t parts = parts_[static_cast<size_t>(group)];
-  const auto width = static_cast<size_t>(width_);
+  std::vector<Pixel>& pixels = pixels_[group];
+  const size_t parts = parts_[group];
+  const size_t width = width_;
   parallel_chunks(height_, kRowsPerChunk, [&](int64_t, int64_t begin, int64_t end) {
-    for (size_t i = static_cast<size_t>(begin) * width; i < static_cast<size_t>(end) * width; ++i) {
+    for (size_t i = begin * width; i < end * width; ++i) {
       Pixel& p = pixels[i];
       for (size_t slot = 0; slot < p.size;) {
         const int level = p.levels[slot];
@@ -152,7 +147,7 @@ void OutlierRejection::finish_pass(int group, uint64_t estimates, std::span<cons
 
 RgbSum OutlierRejection::held(int group, size_t pixel) const {
   RgbSum sum;
-  for (const RgbSum& part : pixels_[static_cast<size_t>(group)][pixel].sums) sum.add(part);
+  for (const RgbSum& part : pixels_[group][pixel].sums) sum.add(part);
   return sum;
 }
 

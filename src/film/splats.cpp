@@ -45,7 +45,7 @@ Vec2i pixel_of(const Vec2f& film) {
 
 SplatBuffer::SplatBuffer(Film& film, int group, const PixelFilter& filter)
     : film_(film), group_(group), filter_(filter), parts_(film.parts_of(group).size()) {
-  sums_.resize(static_cast<size_t>(film.bounds().area()) * parts_);
+  sums_.resize(film.bounds().area() * parts_);
 }
 
 PixelBounds SplatBuffer::reached_by(const Vec2f& film) const {
@@ -66,8 +66,7 @@ void SplatBuffer::add(std::span<const Splat> splats) {
 
 std::vector<std::vector<uint32_t>> SplatBuffer::splats_by_strip(std::span<const Splat> splats) {
   const PixelBounds& crop = film_.bounds();
-  std::vector<std::vector<uint32_t>> strips(
-      static_cast<size_t>(chunk_count(crop.height(), kRowsPerStrip)));
+  std::vector<std::vector<uint32_t>> strips(chunk_count(crop.height(), kRowsPerStrip));
   for (size_t i = 0; i < splats.size(); ++i) {
     if (!is_usable(splats[i])) {
       film_.count_bad(group_, splats[i].part, pixel_of(splats[i].film));
@@ -75,8 +74,8 @@ std::vector<std::vector<uint32_t>> SplatBuffer::splats_by_strip(std::span<const 
     }
     const PixelBounds reached = reached_by(splats[i].film);
     if (reached.x0 >= reached.x1 || reached.y0 >= reached.y1) continue;
-    const auto last = static_cast<size_t>((reached.y1 - 1 - crop.y0) / kRowsPerStrip);
-    for (auto s = static_cast<size_t>((reached.y0 - crop.y0) / kRowsPerStrip); s <= last; ++s)
+    const int last = (reached.y1 - 1 - crop.y0) / kRowsPerStrip;
+    for (int s = (reached.y0 - crop.y0) / kRowsPerStrip; s <= last; ++s)
       strips[s].push_back(static_cast<uint32_t>(i));
   }
   return strips;
@@ -87,8 +86,7 @@ void SplatBuffer::add_batch(std::span<const Splat> splats) {
   const int top = film_.bounds().y0;
   std::vector<uint64_t> held(strips.size(), 0);
   parallel_chunks(
-      film_.bounds().height(), kRowsPerStrip, [&](int64_t strip, int64_t begin, int64_t end) {
-        const auto s = static_cast<size_t>(strip);
+      film_.bounds().height(), kRowsPerStrip, [&](int64_t s, int64_t begin, int64_t end) {
         for (const uint32_t i : strips[s])
           held[s] +=
               add_to_rows(splats[i], top + static_cast<int>(begin), top + static_cast<int>(end));
@@ -102,12 +100,12 @@ uint64_t SplatBuffer::add_to_rows(const Splat& splat, int y0, int y1) {
   const PixelBounds reached = reached_by(splat.film);
   uint64_t held = 0;
   for (int y = std::max(y0, reached.y0); y < std::min(y1, reached.y1); ++y) {
-    const size_t row = static_cast<size_t>(y - crop.y0) * static_cast<size_t>(crop.width());
+    const size_t row = static_cast<size_t>(y - crop.y0) * crop.width();
     const auto dy = static_cast<float>(double{splat.film.y} - y - 0.5);
     for (int x = reached.x0; x < reached.x1; ++x) {
       const auto dx = static_cast<float>(double{splat.film.x} - x - 0.5);
       const double weight = filter_.eval({dx, dy});
-      Sum& sum = sums_[(row + static_cast<size_t>(x - crop.x0)) * parts_ + splat.part];
+      Sum& sum = sums_[(row + (x - crop.x0)) * parts_ + splat.part];
       bool fits = true;
       for (int c = 0; c < 3; ++c) fits &= sum.rgb[c].add(weight * double{splat.value[c]});
       held += fits ? 0 : 1;
@@ -124,9 +122,8 @@ void SplatBuffer::finish(double scale, std::span<const Rgb> also) {
     std::vector<Rgb> values(parts_);
     for (int y = crop.y0 + static_cast<int>(begin); y < crop.y0 + static_cast<int>(end); ++y)
       for (int x = crop.x0; x < crop.x1; ++x) {
-        const size_t first = (static_cast<size_t>(y - crop.y0) * static_cast<size_t>(crop.width()) +
-                              static_cast<size_t>(x - crop.x0)) *
-                             parts_;
+        const size_t first =
+            (static_cast<size_t>(y - crop.y0) * crop.width() + (x - crop.x0)) * parts_;
         double total[3] = {0, 0, 0};
         const auto found = [&](size_t i, size_t c) {
           const double other = also.empty() ? 0.0 : double{also[first + i][static_cast<int>(c)]};

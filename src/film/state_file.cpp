@@ -61,7 +61,7 @@ struct StateFile::Input {
     if (place.words != 1 || place.total_words > most_words ||
         place.window.width() != wanted.width() || place.window.height() != wanted.height())
       fail("'" + name + "' has a size that it cannot have");
-    std::vector<uint32_t> words(static_cast<size_t>(wanted.area()));
+    std::vector<uint32_t> words(wanted.area());
     read(name, place, words.data());
     words.resize(place.total_words);
     return words;
@@ -157,7 +157,7 @@ void StateFile::load(const RenderState& state) {
   if (checksums.size() != 2 * found.size()) in.fail("its parts are not those of this render");
   for (size_t i = 0; i < found.size(); ++i)
     if (const auto words = words_of_hash(found[i]);
-        !std::equal(words.begin(), words.end(), checksums.begin() + static_cast<ptrdiff_t>(2 * i)))
+        !std::equal(words.begin(), words.end(), checksums.begin() + 2 * i))
       in.fail(fmt::format("'{}' is damaged", i < state.arrays.size()
                                                  ? state.arrays[i].name
                                                  : state.streams[i - state.arrays.size()].name));

@@ -35,7 +35,7 @@ std::vector<Triple> channels_named(const Picture& picture, const std::string& pr
   std::vector<Triple> result(picture.pixels.size() / stride);
   for (size_t p = 0; p < result.size(); ++p)
     for (size_t c = 0; c < 3; ++c)
-      result[p][c] = finite_or_huge(picture.pixels[p * stride + static_cast<size_t>(index[c])]);
+      result[p][c] = finite_or_huge(picture.pixels[p * stride + index[c]]);
   return result;
 }
 

@@ -26,11 +26,9 @@ struct Plane {
   int width = 0, height = 0;
   std::vector<double> values;
 
-  Plane(int w, int h) : width(w), height(h), values(static_cast<size_t>(w) * size_t(h)) {}
-  double& at(int x, int y) { return values[static_cast<size_t>(y) * size_t(width) + size_t(x)]; }
-  double at(int x, int y) const {
-    return values[static_cast<size_t>(y) * size_t(width) + size_t(x)];
-  }
+  Plane(int w, int h) : width(w), height(h), values(static_cast<size_t>(w) * h) {}
+  double& at(int x, int y) { return values[static_cast<size_t>(y) * width + x]; }
+  double at(int x, int y) const { return values[static_cast<size_t>(y) * width + x]; }
 };
 
 /// Weights at -r..r.
@@ -44,7 +42,7 @@ double sum_of(const Kernel& kernel) {
 template <class F>
 Kernel make_kernel(int radius, const F& f) {
   Kernel kernel;
-  for (int i = -radius; i <= radius; ++i) kernel.push_back(f(static_cast<double>(i)));
+  for (int i = -radius; i <= radius; ++i) kernel.push_back(f(i));
   return kernel;
 }
 
@@ -63,14 +61,13 @@ Plane filtered(const Plane& in, const Kernel& horizontal, const Kernel& vertical
   for_each_pixel(in.width, in.height, [&](int x, int y) {
     double sum = 0;
     for (int i = -rx; i <= rx; ++i)
-      sum += horizontal[static_cast<size_t>(i + rx)] * in.at(std::clamp(x + i, 0, in.width - 1), y);
+      sum += horizontal[i + rx] * in.at(std::clamp(x + i, 0, in.width - 1), y);
     rows.at(x, y) = sum;
   });
   for_each_pixel(in.width, in.height, [&](int x, int y) {
     double sum = 0;
     for (int i = -ry; i <= ry; ++i)
-      sum +=
-          vertical[static_cast<size_t>(i + ry)] * rows.at(x, std::clamp(y + i, 0, in.height - 1));
+      sum += vertical[i + ry] * rows.at(x, std::clamp(y + i, 0, in.height - 1));
     result.at(x, y) = sum;
   });
   return result;
@@ -239,7 +236,7 @@ std::vector<Rgb> display_colors(const Picture& picture, float exposure) {
   const int named[3] = {picture.find_channel("R"), picture.find_channel("G"),
                         picture.find_channel("B")};
   if (std::all_of(named, named + 3, [](int i) { return i >= 0; }))
-    std::transform(named, named + 3, index, [](int i) { return static_cast<size_t>(i); });
+    std::copy(named, named + 3, index);
   const RgbColorSpace* space = picture.color_space;
   const bool convert = space != nullptr && space->name() != "srgb";
   std::vector<Rgb> colors(picture.pixels.size() / stride);

@@ -149,7 +149,7 @@ void DescriptionBuilder::import_end() {
   const auto import = std::find_if(scopes_.rbegin(), scopes_.rend(), [](const Scope& scope) {
     return scope.kind == Scope::Kind::kImport;
   });
-  check_nothing_open(static_cast<size_t>(scopes_.rend() - import));
+  check_nothing_open(scopes_.rend() - import);
   coordinate_systems_ = std::move(scopes_.back().coordinate_systems);
   pop_scope();
 }
@@ -172,7 +172,7 @@ void DescriptionBuilder::set_defaults(const std::string& target, std::vector<Par
                          "\", expected \"shape\", \"light\", \"material\", \"medium\" or "
                          "\"texture\"");
   }
-  auto& defaults = state_.defaults[static_cast<size_t>(found - kAttributeTargets.begin())];
+  auto& defaults = state_.defaults[found - kAttributeTargets.begin()];
   for (Parameter& parameter : parameters) {
     // A default is for whatever understands it: it is never reported as unknown.
     parameter.used = true;

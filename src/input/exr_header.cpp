@@ -81,7 +81,7 @@ class Header {
   }
 
  private:
-  uint64_t position() { return static_cast<uint64_t>(file_.tellg()); }
+  uint64_t position() { return file_.tellg(); }
   uint32_t number() {
     std::array<char, 4> bytes{};
     file_.read(bytes.data(), bytes.size());
@@ -122,7 +122,7 @@ class Header {
     for (int64_t& c : corners) c = static_cast<int32_t>(number());
     const int64_t width = std::max<int64_t>(0, corners[2] - corners[0] + 1);
     const int64_t height = std::max<int64_t>(0, corners[3] - corners[1] + 1);
-    const auto pixels = static_cast<uint64_t>(width) * static_cast<uint64_t>(height);
+    const uint64_t pixels = static_cast<uint64_t>(width) * height;
     part_.window = {static_cast<uint64_t>(width), static_cast<uint64_t>(height)};
     // The library keeps blocks of whole rows.
     if (width > kWidest && static_cast<uint64_t>(width) > size_) return false;
@@ -137,7 +137,7 @@ class Header {
   }
 
   uint64_t rows_in_block() {
-    const auto compression = static_cast<size_t>(file_.get());
+    const size_t compression = file_.get();
     return compression < kRowsInBlock.size() ? kRowsInBlock[compression] : kMostRowsInBlock;
   }
 

@@ -47,7 +47,7 @@ std::string read_raw(const std::string& path) {
   size_t expected = kFirstGuess;
   if (std::filesystem::is_regular_file(status)) {
     const auto size = std::filesystem::file_size(path, ignored);
-    if (!ignored) expected = static_cast<size_t>(size) + 1;
+    if (!ignored) expected = size + 1;
   }
   std::string bytes;
   size_t used = 0;
@@ -81,8 +81,7 @@ std::string unpack(const std::string& path, const std::string& packed, uint64_t 
   size_t offset = 0;
   bool inside_member = true;  // even an empty gzip file has a header
   while (inside_member) {
-    const size_t feed =
-        std::min(packed.size() - offset, static_cast<size_t>(std::numeric_limits<uInt>::max()));
+    const size_t feed = std::min<size_t>(packed.size() - offset, std::numeric_limits<uInt>::max());
     stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data() + offset));
     stream.avail_in = static_cast<uInt>(feed);
     stream.next_out = reinterpret_cast<Bytef*>(chunk.get());

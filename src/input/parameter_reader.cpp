@@ -112,7 +112,7 @@ void check_count(const Parameter& parameter, const ParameterType& type) {
   const size_t numbers = parameter.numbers.size();
   if (numbers + parameter.strings.size() + parameter.bools.size() == 0)
     throw SceneError(parameter.where, title(parameter) + ", but no values");
-  if (numbers % static_cast<size_t>(type.numbers_per_item) != 0) {
+  if (numbers % type.numbers_per_item != 0) {
     throw SceneError(parameter.where, title(parameter) + " and " + std::to_string(numbers) +
                                           " numbers, expected a multiple of " +
                                           std::to_string(type.numbers_per_item));
@@ -172,7 +172,7 @@ std::vector<Parameter> read_parameters(TokenStream& tokens, const std::string& c
       if (parameters[i].name != parameter.name) continue;
       diagnostics.warn(parameter.where,
                        "parameter \"" + parameter.name + "\" is given twice, the last one counts");
-      parameters.erase(parameters.begin() + static_cast<std::ptrdiff_t>(i));
+      parameters.erase(parameters.begin() + i);
       break;
     }
     parameters.push_back(std::move(parameter));

@@ -91,7 +91,7 @@ class PlyReader {
   void skip(const PlyProperty& property) {
     const int64_t count = property.is_list ? source_.integer(property.count_type) : 1;
     if (count < 0) throw PlyBadValue{"property \"" + property.name + "\" has a negative length"};
-    source_.skip(property.type, static_cast<uint64_t>(count));
+    source_.skip(property.type, count);
   }
 
   void read_vertices(const PlyElement& element);
@@ -128,9 +128,9 @@ struct VertexLayout {
   bool assign(const PlyElement& element, std::initializer_list<const char*> names, int first) {
     for (const char* name : names) {
       const int found = element.find(name);
-      if (found < 0 || element.properties[static_cast<size_t>(found)].is_list) return false;
+      if (found < 0 || element.properties[found].is_list) return false;
     }
-    for (const char* name : names) slots[static_cast<size_t>(element.find(name))] = first++;
+    for (const char* name : names) slots[element.find(name)] = first++;
     return true;
   }
 };
@@ -138,7 +138,7 @@ struct VertexLayout {
 template <class Source>
 void PlyReader<Source>::read_vertices(const PlyElement& element) {
   const VertexLayout layout(element);
-  const size_t count = static_cast<size_t>(element.count);
+  const size_t count = element.count;
   mesh_.positions.reserve(count);
   if (layout.has_normals) mesh_.normals.reserve(count);
   if (layout.has_uvs) mesh_.uvs.reserve(count);
@@ -155,7 +155,7 @@ void PlyReader<Source>::read_vertices(const PlyElement& element) {
       const float value = static_cast<float>(source_.number(property.type));
       if (!std::isfinite(value))
         throw PlyBadValue{"\"" + property.name + "\" is not a finite float"};
-      row[static_cast<size_t>(layout.slots[i])] = value;
+      row[layout.slots[i]] = value;
     }
     mesh_.positions.emplace_back(row[kX], row[kY], row[kZ]);
     if (layout.has_normals) mesh_.normals.emplace_back(row[kNx], row[kNy], row[kNz]);
@@ -184,18 +184,18 @@ void PlyReader<Source>::read_faces(const PlyElement& element) {
   int corners = element.find("vertex_indices");
   if (corners < 0) corners = element.find("vertex_index");
   if (element.count == 0) return;
-  if (corners < 0 || !element.properties[static_cast<size_t>(corners)].is_list)
+  if (corners < 0 || !element.properties[corners].is_list)
     throw std::runtime_error("the element \"face\" has no list \"vertex_indices\"");
-  const size_t corners_at = static_cast<size_t>(corners);
+  const size_t corners_at = corners;
   if (!is_integer(element.properties[corners_at].type))
     throw std::runtime_error("the list \"vertex_indices\" is not of an integer type");
 
   const int tag = element.find("face_indices");
-  const bool has_tags = tag >= 0 && !element.properties[static_cast<size_t>(tag)].is_list &&
-                        is_integer(element.properties[static_cast<size_t>(tag)].type);
+  const bool has_tags =
+      tag >= 0 && !element.properties[tag].is_list && is_integer(element.properties[tag].type);
   const size_t tag_at = has_tags ? static_cast<size_t>(tag) : element.properties.size();
 
-  mesh_.triangles.reserve(3 * static_cast<size_t>(element.count));
+  mesh_.triangles.reserve(3 * element.count);
   for_each(element, [&] {
     const size_t quads_before = mesh_.quads.size();
     int64_t tag_value = 0;

@@ -57,7 +57,7 @@ class PlyBinarySource {
   void skip(PlyScalar type, uint64_t count) {
     const uint64_t bytes = count * size_of(type);
     expect(bytes);
-    bytes_.remove_prefix(static_cast<size_t>(bytes));
+    bytes_.remove_prefix(bytes);
   }
 
  private:

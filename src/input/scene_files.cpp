@@ -95,7 +95,7 @@ uint64_t hash_file(const std::string& path) {
   std::vector<char> block(1 << 16);
   while (file) {
     file.read(block.data(), static_cast<std::streamsize>(block.size()));
-    hash.add(std::as_bytes(std::span(block).first(static_cast<size_t>(file.gcount()))));
+    hash.add(std::as_bytes(std::span(block).first(file.gcount())));
   }
   if (file.bad()) throw IoError(path + ": cannot read: " + std::strerror(errno));
   return hash.value();

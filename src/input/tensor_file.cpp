@@ -88,7 +88,7 @@ TensorField read_field(const TensorFile& file, TableReader& table, std::string_v
     file.fail(what + " has the unknown type " + std::to_string(type) + ", expected 1 to " +
               std::to_string(std::size(kTypes) - 1));
   field.type = static_cast<TensorType>(type);
-  const std::string_view extents = table.take(static_cast<size_t>(dimensions * 8), what);
+  const std::string_view extents = table.take(dimensions * 8, what);
   for (size_t i = 0; i < extents.size(); i += 8)
     field.shape.push_back(little_endian(extents.substr(i, 8)));
 
@@ -97,7 +97,7 @@ TensorField read_field(const TensorFile& file, TableReader& table, std::string_v
   if (needed > present)
     file.fail("the file is too short for " + what + ", " + field.to_string() + " at offset " +
               std::to_string(offset) + ": it has " + std::to_string(bytes.size()) + " bytes");
-  if (needed > 0) field.bytes = bytes.substr(static_cast<size_t>(offset), needed);
+  if (needed > 0) field.bytes = bytes.substr(offset, needed);
   return field;
 }
 
@@ -137,7 +137,7 @@ TensorFile::TensorFile(std::string bytes, std::string name, SourceLocation wante
     const std::string nth =
         "field " + std::to_string(i + 1) + " of " + std::to_string(count) + " in the table";
     const uint64_t length = table.number(2, nth);
-    const std::string field_name(table.take(static_cast<size_t>(length), nth));
+    const std::string field_name(table.take(length, nth));
     TensorField field = read_field(*this, table, all, "field \"" + shown(field_name) + "\"");
     if (!fields_.emplace(field_name, std::move(field)).second)
       fail("field \"" + shown(field_name) + "\" stands twice");

@@ -76,7 +76,7 @@ std::optional<Mat44d> look_at_matrix(const Vec3d& eye, const Vec3d& target, cons
 Mat44d matrix_from_numbers(const std::array<double, 16>& numbers) {
   Mat44d m;
   for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j) m[i][j] = numbers[static_cast<size_t>(4 * i + j)];
+    for (int j = 0; j < 4; ++j) m[i][j] = numbers[4 * i + j];
   return m;
 }
 

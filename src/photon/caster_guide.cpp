@@ -43,7 +43,7 @@ float density_towards(const WalkVertex& v, ClassMask among, const Vec3f& wi, flo
 
 void CasterCones::add(const Vec3f& axis, float narrowness, float weight) {
   assert(count_ < kMost);
-  cones_[static_cast<size_t>(count_++)] = {axis, narrowness, weight};
+  cones_[count_++] = {axis, narrowness, weight};
   total_ += weight;
 }
 
@@ -69,7 +69,7 @@ Vec3f CasterCones::sample(float& uc, const Vec2f& u) const {
 float CasterCones::pdf_w(const Vec3f& w) const {
   float sum = 0;
   for (int i = 0; i < count_; ++i) {
-    const Cone& cone = cones_[static_cast<size_t>(i)];
+    const Cone& cone = cones_[i];
     if (cone.contains(w)) sum += cone.weight / (2 * kPi * cone.narrowness);
   }
   return sum / total_;

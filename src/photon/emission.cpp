@@ -68,7 +68,7 @@ std::optional<Emission> emit(const Scene& scene, const EmissionGuide& guide,
   const Vec2f u_direction = sampler.get_2d();
   const auto choice = guide.choose(scene, u_light);
   if (!choice) return std::nullopt;
-  const Light& light = *scene.lights[static_cast<size_t>(choice->light)];
+  const Light& light = *scene.lights[choice->light];
   std::optional<EmissionSample> e = light.sample_emission(u_position, u_direction, lambda);
   if (!e || !(e->pdf_a > 0.0f)) return std::nullopt;
   if (choice->target >= 0)
@@ -82,7 +82,7 @@ std::optional<Emission> emit(const Scene& scene, const EmissionGuide& guide,
   const float pmf = scene.light_sampler->pmf_by_power(choice->light);
   out.pdf_start = pmf * static_cast<float>(guide.gain(choice->light)) * e->pdf_a;
   if (!scene.light_media.empty()) {
-    const MediumInterface& media = scene.light_media[static_cast<size_t>(choice->light)];
+    const MediumInterface& media = scene.light_media[choice->light];
     out.medium = e->from_inside ? media.inside : media.outside;
   }
   // [G1]

@@ -151,8 +151,7 @@ std::vector<double> EmissionGuide::aims_at(const Scene& scene, std::span<const U
   const size_t targets = targets_.size();
   std::vector<double> aims(clusters_.size() * targets, 0);
   for (size_t i = 0; i < useful.size(); ++i)
-    aims[cluster_of(useful[i].light) * targets + static_cast<size_t>(target_of[i])] +=
-        double{useful[i].weight} / paths;
+    aims[cluster_of(useful[i].light) * targets + target_of[i]] += double{useful[i].weight} / paths;
   // [G3] The least variance has the density of a region in proportion to the root of the part of
   // it that is of use.
   for (size_t c = 0; c < clusters_.size(); ++c)
@@ -209,12 +208,11 @@ std::optional<EmissionGuide::Choice> EmissionGuide::choose(const Scene& scene, f
       std::min(std::upper_bound(cluster.cumulative.begin(), cluster.cumulative.end(), x),
                std::lower_bound(cluster.cumulative.begin(), cluster.cumulative.end(), cluster.pmf));
   const auto within = light - cluster.cumulative.begin();
-  return Choice{static_cast<int>(entry->cluster * cluster_size_ + static_cast<size_t>(within)),
-                entry->target};
+  return Choice{static_cast<int>(entry->cluster * cluster_size_ + within), entry->target};
 }
 
 std::optional<Vec3f> EmissionGuide::direction_to(int target, const Vec3f& p, const Vec2f& u) const {
-  const Target& t = targets_[static_cast<size_t>(target)];
+  const Target& t = targets_[target];
   const Vec3f way = t.center - p;
   const double d2 = length_squared(way), sine2 = double{sqr(t.radius)} / d2;
   if (!(sine2 < 1)) return std::nullopt;
@@ -230,7 +228,7 @@ std::optional<Vec3f> EmissionGuide::direction_to(int target, const Vec3f& p, con
 }
 
 Vec3f EmissionGuide::point_across(int target, const Vec3f& w, const Vec2f& u) const {
-  const Target& t = targets_[static_cast<size_t>(target)];
+  const Target& t = targets_[target];
   const Frame frame = Frame::from_z(w);
   const Vec2f disk = square_to_disk(u);
   return t.center + (frame.x * disk.x + frame.y * disk.y) * t.radius;
@@ -246,7 +244,7 @@ double EmissionGuide::gain(int light) const {
 double EmissionGuide::density(const Scene& scene, int light, const Vec3f& p, const Vec3f& w,
                               double own, int aimed_at) const {
   if (empty()) return own;
-  const Light& l = *scene.lights[static_cast<size_t>(light)];
+  const Light& l = *scene.lights[light];
   const bool across = l.is_infinite(), has_disk = across && l.emits_through_disk();
   const std::vector<double>& shares = clusters_[cluster_of(light)].shares;
   // Sums of their own for each lane, which a compiler makes one instruction of.

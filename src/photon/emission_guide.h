@@ -80,7 +80,7 @@ class EmissionGuide {
       archive(self.pmf, self.shares, self.cumulative);
     }
   };
-  size_t cluster_of(int light) const { return static_cast<size_t>(light) / cluster_size_; }
+  size_t cluster_of(int light) const { return light / cluster_size_; }
   void gather_lights(const Scene& scene);
   /// A ball around those first hits, which lie within `extent` of `center`, of starts of `paths`
   /// paths.

@@ -32,14 +32,14 @@ float gap_beside(std::span<const Vec3f> axes, size_t i) {
 
 void ForecastLobes::add(const Vec3f& axis, float width) {
   const float k = 1.0f / sqr(std::max(width, kNarrowest));
-  lobes_[static_cast<size_t>(count_++)] = {axis, k, k / (-2.0f * kPi * std::expm1(-2.0f * k))};
+  lobes_[count_++] = {axis, k, k / (-2.0f * kPi * std::expm1(-2.0f * k))};
 }
 
 Vec3f ForecastLobes::sample(float& uc, const Vec2f& u) const {
   const float scaled = uc * static_cast<float>(count_);
   const int i = std::min(static_cast<int>(scaled), count_ - 1);
   uc = scaled - static_cast<float>(i);
-  const Lobe& lobe = lobes_[static_cast<size_t>(i)];
+  const Lobe& lobe = lobes_[i];
   // 1 - cos(theta), kept apart from 1, which it may be close to.
   const float k = lobe.concentration;
   const float t = std::clamp(-std::log1p(u.x * std::expm1(-2.0f * k)) / k, 0.0f, 2.0f);
@@ -51,7 +51,7 @@ Vec3f ForecastLobes::sample(float& uc, const Vec2f& u) const {
 float ForecastLobes::pdf_w(const Vec3f& w) const {
   float sum = 0;
   for (int i = 0; i < count_; ++i) {
-    const Lobe& lobe = lobes_[static_cast<size_t>(i)];
+    const Lobe& lobe = lobes_[i];
     const float t = 0.5f * length_squared(w - lobe.axis);
     sum += lobe.norm * std::exp(-lobe.concentration * t);
   }
@@ -75,7 +75,7 @@ void ForecastMap::build(size_t begin, size_t end) {
   for (int a = 1; a < 3; ++a)
     if (high[a] - low[a] > high[axis] - low[axis]) axis = a;
   const size_t middle = begin + (end - begin) / 2;
-  const auto at = [&](size_t i) { return sights_.begin() + static_cast<std::ptrdiff_t>(i); };
+  const auto at = [&](size_t i) { return sights_.begin() + i; };
   std::nth_element(
       at(begin), at(middle), at(end),
       [axis](const CausticSight& a, const CausticSight& b) { return a.p[axis] < b.p[axis]; });
@@ -100,9 +100,9 @@ struct ForecastMap::Nearest {
   void offer(uint32_t sight, float distance_squared) {
     if (!(distance_squared < reach_squared())) return;
     const auto begin = found.begin();
-    if (count == found.size()) std::pop_heap(begin, begin + static_cast<std::ptrdiff_t>(count--));
+    if (count == found.size()) std::pop_heap(begin, begin + count--);
     found[count++] = {distance_squared, sight};
-    std::push_heap(begin, begin + static_cast<std::ptrdiff_t>(count));
+    std::push_heap(begin, begin + count);
   }
 };
 

@@ -27,7 +27,7 @@ std::array<size_t, PhotonGrid::kCoordinateBits + 1> count_cells(
   std::array<size_t, PhotonGrid::kCoordinateBits + 1> cells{};
   // First, of each shift, the neighbours that part company at the next finer one.
   for (size_t i = 1; i < codes.size(); ++i)
-    ++cells[static_cast<size_t>(std::bit_width(codes[i] ^ codes[i - 1]) + 2) / 3];
+    ++cells[(std::bit_width(codes[i] ^ codes[i - 1]) + 2) / 3];
   size_t boundaries = 0;
   for (size_t shift = cells.size(); shift-- > 0;)
     boundaries += std::exchange(cells[shift], boundaries + 1);
@@ -99,9 +99,8 @@ PhotonGrid::PhotonGrid(std::vector<Photon> photons) : photons_(std::move(photons
   // for all follows.
   const auto counts = count_cells(codes);
   int finest = 0;
-  while (finest < kCoordinateBits && counts[static_cast<size_t>(finest)] * 2 > codes.size())
-    ++finest;
-  std::vector<Cell> cells = finest_cells(finest, codes, counts[static_cast<size_t>(finest)]);
+  while (finest < kCoordinateBits && counts[finest] * 2 > codes.size()) ++finest;
+  std::vector<Cell> cells = finest_cells(finest, codes, counts[finest]);
   const size_t working = codes.size() * sizeof(uint64_t) + cells.size() * sizeof(Cell);
   for (int shift = finest; shift <= kCoordinateBits; ++shift) {
     add_level(shift, cells);

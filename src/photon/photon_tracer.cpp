@@ -117,9 +117,7 @@ struct Outcome {
 Outcome trace_photon(const Scene& scene, const OwnedRoutes& owned,
                      const PhotonTraceSettings& settings, int64_t j, std::vector<Photon>& photons) {
   const LightPathSequence sequence{hash_combine(settings.key.seed, kStream)};
-  const uint64_t number =
-      static_cast<uint64_t>(settings.key.pass) * static_cast<uint64_t>(settings.photons_per_pass) +
-      static_cast<uint64_t>(j);
+  const uint64_t number = uint64_t{settings.key.pass} * settings.photons_per_pass + j;
   const LightPathLaunch launch{scene, settings.guide->starts, settings.specular_alpha,
                                settings.max_events};
   Outcome outcome;
@@ -155,7 +153,7 @@ PhotonTrace trace_photons(const Scene& scene, const OwnedRoutes& owned,
         }
       });
   PhotonTrace trace;
-  trace.paths = static_cast<uint64_t>(end - begin);
+  trace.paths = end - begin;
   size_t total = 0;
   for (const Chunk& chunk : chunks) total += chunk.photons.size();
   trace.photons.reserve(total);
@@ -180,8 +178,7 @@ UsefulStarts trace_useful_starts(const Scene& scene, const OwnedRoutes& owned,
       if (std::none_of(photons.begin(), photons.end(), is_useful)) continue;
       chunk.starts.push_back(outcome.start);
       if (!outcome.caster ||
-          std::none_of(photons.begin() + static_cast<std::ptrdiff_t>(outcome.caster->first_photon),
-                       photons.end(), is_useful))
+          std::none_of(photons.begin() + outcome.caster->first_photon, photons.end(), is_useful))
         continue;
       chunk.casters.push_back(outcome.start);
       chunk.casters.back().first_hit = outcome.caster->p;
@@ -235,9 +232,9 @@ PhotonMapTrace trace_map(const Scene& scene, const OwnedRoutes& owned,
   std::vector<PhotonTrace> chunks(sets.size());
   while (map.paths_of_set < paths && !is_full(map.trace, limit)) {
     const int64_t begin = map.paths_of_set, end = std::min(begin + kPhotonChunk, paths);
-    parallel_chunks(static_cast<int64_t>(sets.size()), 1, [&](int64_t s, int64_t, int64_t) {
-      PhotonTrace& chunk = chunks[static_cast<size_t>(s)];
-      chunk = trace_photons(scene, owned, sets[static_cast<size_t>(s)], begin, end);
+    parallel_chunks(sets.size(), 1, [&](int64_t s, int64_t, int64_t) {
+      PhotonTrace& chunk = chunks[s];
+      chunk = trace_photons(scene, owned, sets[s], begin, end);
       for (Photon& photon : chunk.photons) photon.set = static_cast<uint8_t>(s);
     });
     for (PhotonTrace& chunk : chunks) append(std::move(chunk), map.trace);

@@ -10,7 +10,7 @@ namespace nephroid {
 /// (k + alpha)/(k + 1) over k = 1 .. i-1. In closed form Gamma(i + alpha) / (Gamma(1 + alpha) i!),
 /// so that any pass is as cheap as the first. (std::lgamma would write to the global `signgam`.)
 inline double memoryless_radius_squared(uint32_t pass, double alpha) {
-  const double i = static_cast<double>(pass) + 1.0;
+  const double i = pass + 1.0;
   int sign = 0;
   return std::exp(::lgamma_r(i + alpha, &sign) - ::lgamma_r(1.0 + alpha, &sign) -
                   ::lgamma_r(i + 1.0, &sign));

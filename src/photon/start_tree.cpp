@@ -58,11 +58,10 @@ class Splitter {
   }
 
   void sort(const Crowd& c, int axis) {
-    std::sort(order_.begin() + static_cast<std::ptrdiff_t>(c.begin),
-              order_.begin() + static_cast<std::ptrdiff_t>(c.end), [&](uint32_t a, uint32_t b) {
-                const float x = starts_[a].first_hit[axis], y = starts_[b].first_hit[axis];
-                return x != y ? x < y : a < b;
-              });
+    std::sort(order_.begin() + c.begin, order_.begin() + c.end, [&](uint32_t a, uint32_t b) {
+      const float x = starts_[a].first_hit[axis], y = starts_[b].first_hit[axis];
+      return x != y ? x < y : a < b;
+    });
   }
 
   /// The cut in two that costs least; leaves the starts in its order.

@@ -250,7 +250,7 @@ std::string plots(const BenchResults& results, const std::vector<const BenchRun*
   std::string legend = "<div class=\"legend\">";
   std::vector<size_t> styles;
   for (const BenchRun* run : runs) {
-    styles.push_back(static_cast<size_t>(results.suite.find_integrator(run->integrator) - &all[0]));
+    styles.push_back(results.suite.find_integrator(run->integrator) - &all[0]);
     legend += "<span>" + svg_line_sample(styles.back()) + html_escape(run->integrator) + "</span>";
   }
   const auto plot = [&](const std::string& title, const char* x, Over over,

@@ -115,8 +115,7 @@ void shape_bounds(const RTCBoundsFunctionArguments* args) {
 
 void moving_bounds(const RTCBoundsFunctionArguments* args) {
   const auto* moving = static_cast<const MovingInstance*>(args->geometryUserPtr);
-  write_bounds(moving->motion.step_bounds(moving->child_bounds, static_cast<int>(args->timeStep),
-                                          moving->segments),
+  write_bounds(moving->motion.step_bounds(moving->child_bounds, args->timeStep, moving->segments),
                args->bounds_o);
 }
 
@@ -328,7 +327,7 @@ uint32_t EmbreeScene::add_moving_instance(const EmbreeScene& child,
       {child.impl_->scene, child.impl_->reach, bounds, object_to_world, segments});
   const RTCGeometry geometry = rtcNewGeometry(impl_->device->device, RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserPrimitiveCount(geometry, 1);
-  rtcSetGeometryTimeStepCount(geometry, static_cast<unsigned>(segments) + 1);
+  rtcSetGeometryTimeStepCount(geometry, segments + 1);
   rtcSetGeometryUserData(geometry, &impl_->moving.back());
   rtcSetGeometryBoundsFunction(
       geometry, [](const RTCBoundsFunctionArguments* args) { moving_bounds(args); }, nullptr);

@@ -42,7 +42,7 @@ std::vector<FormatType> sampler_types() {
 SamplerDescription read_sampler(const std::optional<DirectiveDescription>& sampler, int seed,
                                 Diagnostics& diagnostics) {
   SamplerDescription result;
-  result.seed = static_cast<uint64_t>(seed);
+  result.seed = seed;
   if (!sampler) return result;
   const ParameterSet& p = sampler->parameters;
   const std::string& type = sampler->type;
@@ -63,7 +63,7 @@ SamplerDescription read_sampler(const std::optional<DirectiveDescription>& sampl
   if (x < 1 || y < 1 || x * y > std::numeric_limits<int>::max())
     throw SceneError(p.where, "the number of pixel samples must be at least 1 and fit 32 bits");
   result.samples_per_pixel = static_cast<int>(x * y);
-  result.seed = static_cast<uint64_t>(p.get_int("seed", seed));
+  result.seed = p.get_int("seed", seed);
   p.report_unused("sampler \"" + type + "\"", *row, diagnostics);
   return result;
 }

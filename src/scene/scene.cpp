@@ -31,8 +31,8 @@ void to_world(const Transform& t, SurfaceInteraction& s) {
   for (int j = 0; j < 3; ++j) {
     double carried = 0, rounded = std::abs(t.m[3][j]);
     for (int i = 0; i < 3; ++i) {
-      carried += std::abs(t.m[i][j]) * static_cast<double>(s.p_error[i]);
-      rounded += std::abs(t.m[i][j] * static_cast<double>(s.p[i]));
+      carried += std::abs(t.m[i][j]) * s.p_error[i];
+      rounded += std::abs(t.m[i][j] * s.p[i]);
     }
     error[j] = static_cast<float>(carried * (1 + gamma_bound(3)) + rounded * gamma_bound(9));
   }
@@ -118,7 +118,7 @@ Scene::Passage Scene::passage(const SurfaceInteraction& hit,
   const float a = hit.record->alpha
                       ? std::clamp(hit.record->alpha->eval(TextureContext(hit)), 0.0f, 1.0f)
                       : 1.0f;
-  const Material& m = *materials[static_cast<size_t>(hit.material)]->resolve(hit);
+  const Material& m = *materials[hit.material]->resolve(hit);
   Passage p;
   p.beside = SampledSpectrum(1.0f - a);
   if (a > 0.0f && m.transmits_straight()) {

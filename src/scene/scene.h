@@ -109,7 +109,7 @@ class Scene {
 
   /// The light of an emitting surface, else nullptr.
   const Light* area_light(const SurfaceInteraction& hit) const {
-    return hit.area_light < 0 ? nullptr : lights[static_cast<size_t>(hit.area_light)].get();
+    return hit.area_light < 0 ? nullptr : lights[hit.area_light].get();
   }
 
   SceneOptions options;

@@ -105,16 +105,15 @@ class SceneBuilder {
     std::vector<std::vector<ShapePtr>> made(runs.size());
     std::vector<std::exception_ptr> failed(runs.size());
     const DisplacementInputs displacement{textures_, scene_->options.displacement_edge_scale};
-    parallel_chunks(static_cast<int64_t>(runs.size()), 1, [&](int64_t i, int64_t, int64_t) {
-      const auto k = static_cast<size_t>(i);
+    parallel_chunks(runs.size(), 1, [&](int64_t i, int64_t, int64_t) {
       try {
-        made[k] = make_shapes(runs[k], *d_.files, diagnostics_, displacement);
+        made[i] = make_shapes(runs[i], *d_.files, diagnostics_, displacement);
       } catch (const std::bad_alloc&) {
-        const ShapeDescription& shape = runs[k][0];
-        failed[k] = std::make_exception_ptr(SceneError(
+        const ShapeDescription& shape = runs[i][0];
+        failed[i] = std::make_exception_ptr(SceneError(
             shape.where, "there is not enough memory while shape \"" + shape.type + "\" is read"));
       } catch (...) {
-        failed[k] = std::current_exception();
+        failed[i] = std::current_exception();
       }
     });
     // What moves is placed behind what stands still, each directive as a group of its own.
@@ -141,7 +140,7 @@ class SceneBuilder {
     ShapeRecord record;
     record.shape = shape;
     record.material = material_of(description);
-    const Material& material = *scene_->materials[static_cast<size_t>(record.material)];
+    const Material& material = *scene_->materials[record.material];
     record.alpha = textures_.float_texture(description.parameters, "alpha");
     if (record.alpha && record.alpha->constant() && *record.alpha->constant() >= 1.0f)
       record.alpha = nullptr;

@@ -33,7 +33,7 @@ std::vector<uint32_t> to_indices(const Context& c, const std::vector<int>& value
     if (values[i] < 0)
       throw SceneError(c.p.where, c.what() + ": index " + std::to_string(values[i]) +
                                       " is negative, expected 0 or more");
-    indices[i] = static_cast<uint32_t>(values[i]);
+    indices[i] = values[i];
   }
   return indices;
 }

@@ -45,8 +45,7 @@ uint64_t status_bytes(const std::string& key) {
 }  // namespace
 
 uint64_t machine_memory() {
-  uint64_t bytes = static_cast<uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
-                   static_cast<uint64_t>(::sysconf(_SC_PAGESIZE));
+  uint64_t bytes = static_cast<uint64_t>(::sysconf(_SC_PHYS_PAGES)) * ::sysconf(_SC_PAGESIZE);
   const auto obey = [&](const std::filesystem::path& file) {
     uint64_t limit = 0;  // "max" is no number
     if (std::ifstream(file) >> limit && limit > 0) bytes = std::min(bytes, limit);

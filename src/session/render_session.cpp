@@ -86,7 +86,7 @@ RenderSession::RenderSession(const Scene& scene, Preset& preset, Film& film, Ren
   if (options_.last_pass)
     passes_wanted_ = *options_.last_pass - options_.first_pass + 1;
   else if (!(options_.time_limit > 0) && !(options_.noise_target > 0))
-    passes_wanted_ = static_cast<uint32_t>(std::max(1, scene_.samples_per_pixel));
+    passes_wanted_ = std::max(1, scene_.samples_per_pixel);
   if (!options_.output.empty()) {
     check_file_can_be_written(options_.output);
     check_file_can_be_written(png_path_beside(options_.output));

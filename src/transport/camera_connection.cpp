@@ -16,12 +16,12 @@ std::optional<LensConnection> CameraView::connect(const Vec3f& p, const Vec2f& u
   if (!line) return std::nullopt;
   LensConnection e{*line, {}, 0};
   const auto add = [&](const Vec2f& film) {
-    if (reaches(film)) e.film[static_cast<size_t>(e.count++)] = film;
+    if (reaches(film)) e.film[e.count++] = film;
   };
   add(line->film);
   std::array<Vec2f, 3> repeats;
   const int count = camera_.repeats(line->film, repeats);
-  for (int i = 0; i < count; ++i) add(repeats[static_cast<size_t>(i)]);
+  for (int i = 0; i < count; ++i) add(repeats[i]);
   if (e.count == 0) return std::nullopt;
   return e;
 }

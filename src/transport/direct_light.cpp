@@ -8,7 +8,7 @@ std::optional<DirectSample> sample_direct(const Scene& scene, const Receiver& at
   const Vec2f u = sampler.get_2d();
   const std::optional<LightChoice> choice = scene.light_sampler->sample(at.p, at.ns, u_light);
   if (!choice) return std::nullopt;
-  const Light& light = *scene.lights[static_cast<size_t>(choice->light)];
+  const Light& light = *scene.lights[choice->light];
   const std::optional<LightSample> s = light.sample_towards(at.p, u, lambda);
   if (!s || !(s->pdf_w > 0.0f) || s->radiance.is_black()) return std::nullopt;
   DirectSample d;
@@ -130,13 +130,13 @@ SampledSpectrum attenuation_between(const Scene& scene, const Vec3f& from, const
 }
 
 float direct_pdf_w(const Scene& scene, const Walk& walk, const SurfaceInteraction& hit) {
-  const Light& light = *scene.lights[static_cast<size_t>(hit.area_light)];
+  const Light& light = *scene.lights[hit.area_light];
   return scene.light_sampler->pmf(walk.previous_p, walk.previous_ns, hit.area_light) *
          light.pdf_towards(walk.previous_p, walk.ray.d, hit.p, hit.ng);
 }
 
 float direct_pdf_w(const Scene& scene, const Walk& walk, int infinite_light) {
-  const Light& light = *scene.lights[static_cast<size_t>(infinite_light)];
+  const Light& light = *scene.lights[infinite_light];
   return scene.light_sampler->pmf(walk.previous_p, walk.previous_ns, infinite_light) *
          light.pdf_towards(walk.previous_p, walk.ray.d, Vec3f(0, 0, 0), Vec3f(0, 0, 0));
 }

@@ -156,7 +156,7 @@ constexpr std::array<uint8_t, kPairDimensions> kOrder = {
 }  // namespace
 
 int dimension_of(int d) {
-  return kOrder[static_cast<size_t>(d)];
+  return kOrder[d];
 }
 
 SobolPoint eye_point(uint32_t index, int dimensions) {

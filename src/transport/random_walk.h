@@ -128,7 +128,7 @@ class RandomWalk {
   }
 
   bool meet_surface() {
-    const Material& surface = *scene_.materials[static_cast<size_t>(hit_.material)];
+    const Material& surface = *scene_.materials[hit_.material];
     const Material* material = surface.resolve(hit_);
     hit_.coverage *= surface.presence(hit_);
     // A lamp shines whole also where a mix shows no surface.
@@ -252,7 +252,7 @@ class RandomWalk {
         find_subsurface_exit(scene_, hit_, material, *bssrdf, u_axis, u_probe, u_choice);
     if (!exit) return false;
     ++walk_.vertices;
-    walk_.rays += static_cast<uint64_t>(exit->rays);
+    walk_.rays += exit->rays;
     walk_.length += exit->surface.distance;
     walk_.throughput *= exit->weight;
     hit_ = exit->surface;

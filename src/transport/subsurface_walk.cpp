@@ -22,7 +22,7 @@ std::optional<SubsurfaceExit> find_subsurface_exit(const Scene& scene,
   for (int passages = 0; passages < kMaxStraightEvents && ray.t_max > 0.0f; ++passages) {
     ++exit.rays;
     if (!scene.intersect(ray, hit)) break;
-    if (scene.materials[static_cast<size_t>(hit.material)]->resolve(hit) == &material) {
+    if (scene.materials[hit.material]->resolve(hit) == &material) {
       // The n-th surface replaces the chosen one with probability 1/n; what is left of the random
       // number is as good as new.
       const float keep = 1.0f / static_cast<float>(++found);

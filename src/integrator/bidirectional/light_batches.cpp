@@ -17,11 +17,9 @@ constexpr int64_t kGroup = 32 * kChunk;
 
 LightPathCounts LightBatches::trace_path(int64_t j, std::vector<CameraSplat>& seen,
                                          std::vector<Photon>& photons) const {
-  const uint64_t number =
-      uint64_t{pass_.trace.key.pass} * static_cast<uint64_t>(config_.light_paths) +
-      static_cast<uint64_t>(j);
+  const uint64_t number = uint64_t{pass_.trace.key.pass} * config_.light_paths + j;
   LightPathSequence sequence{hash_combine(config_.seed, kLightStream), kLightPathDimensions};
-  if (config_.number_varies) sequence.variant = static_cast<uint64_t>(config_.light_paths);
+  if (config_.number_varies) sequence.variant = config_.light_paths;
   LightPathCounts counts;
   sequence.at(number, [&](PathSampler& sampler) {
     counts = trace_light_path(settings_, pass_.trace.lambda, pass_.u_time, sampler, nullptr, &seen,
@@ -41,8 +39,7 @@ void LightBatches::trace_chunk(int64_t begin, int64_t end, Chunk& chunk) const {
     chunk.useful += chunk.photons.size() > before;
     for (const CameraSplat& c : seen)
       for (int i = 0; i < c.seen.count; ++i)
-        chunk.splats.push_back({c.seen.film[static_cast<size_t>(i)],
-                                static_cast<uint8_t>(places_.place(c.part)),
+        chunk.splats.push_back({c.seen.film[i], static_cast<uint8_t>(places_.place(c.part)),
                                 pass_.weights.apply(c.value)});
   }
 }

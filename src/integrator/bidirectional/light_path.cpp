@@ -18,7 +18,7 @@ class LightVisitor : public LightWalkVisitor {
         path_(path),
         seen_(seen),
         photons_(photons) {
-    const Light& light = *settings.scene.lights[static_cast<size_t>(emission.light)];
+    const Light& light = *settings.scene.lights[emission.light];
     start_.p = light.is_area() ? emission.start.p : emission.ray.o;
     if (light.is_area()) start_.ng = emission.start.ng;
     if (settings.view) camera_.emplace(settings.scene, *settings.view, u_time);
@@ -91,7 +91,7 @@ class LightVisitor : public LightWalkVisitor {
 
   SideSums first_sums(const Walk& walk, const Vec3f& ns) const {
     const Scene& scene = settings_.scene;
-    const Light& light = *scene.lights[static_cast<size_t>(emission_.light)];
+    const Light& light = *scene.lights[emission_.light];
     const double chosen = scene.light_sampler->pmf(place_.p, ns, emission_.light);
     const Vec3f& w = walk.ray.d;
     const double direct =

@@ -17,7 +17,7 @@ class MeasuredSamples {
   };
   /// `most` samples of a pixel at most.
   MeasuredSamples(const FilmFormat& film, size_t most)
-      : film_(film), samples_(static_cast<size_t>(film.bounds().area()) * most), most_(most) {}
+      : film_(film), samples_(film.bounds().area() * most), most_(most) {}
 
   /// Sample number pixel * most + k. Light adds up over batches; rays are those of the first one.
   void add_light(size_t sample, float light) { samples_[sample].light += light; }

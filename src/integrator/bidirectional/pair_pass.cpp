@@ -65,9 +65,8 @@ class PairRendering {
                          : TechniqueCounter(format)),
         pass_(start_photon_pass(pass.key, pass.scene, format, pass.options)),
         view_(pass.scene, format.bounds()),
-        most_(static_cast<size_t>(camera.paths.most())),
-        records_(to.records, static_cast<size_t>(format.bounds().area()) * most_,
-                 to.records_per_path),
+        most_(camera.paths.most()),
+        records_(to.records, format.bounds().area() * most_, to.records_per_path),
         tree_(pass.scene, pass.owned, pass.options.max_depth),
         settings_{
             .scene = pass.scene,
@@ -89,7 +88,7 @@ class PairRendering {
     settings_.max_depth = pass.options.max_depth;
     settings_.light_paths = static_cast<double>(techniques_.light_paths);
     settings_.merging = &merging_;
-    const size_t pixels = static_cast<size_t>(format.bounds().area());
+    const size_t pixels = format.bounds().area();
     parts_ = format.parts_of(static_cast<int>(pass.owned.group)).size();
     values_.resize(pixels * parts_);
     if (to.film) bias_.resize(pixels);
@@ -97,8 +96,7 @@ class PairRendering {
     points_.resize(most_);
     for (int n = 1; n <= static_cast<int>(most_); ++n)
       if (camera.paths.has(n))
-        for (int k = 0; k < n; ++k)
-          points_[static_cast<size_t>(n - 1)].push_back(sample_points(n, k));
+        for (int k = 0; k < n; ++k) points_[n - 1].push_back(sample_points(n, k));
   }
 
   void run(EstimatorStatistics& statistics) {
@@ -141,7 +139,7 @@ class PairRendering {
       add_values();
     if (to_.film) to_.film->add_bias(static_cast<int>(in_.owned.group), bias_);
     counter_.add_to(statistics.techniques);
-    statistics.photon_paths += static_cast<uint64_t>(techniques_.light_paths);
+    statistics.photon_paths += techniques_.light_paths;
     statistics.radius_min_pixels = merging_.radius_pixels;
     if (statistics.radius_max_pixels == 0) statistics.radius_max_pixels = merging_.radius_pixels;
   }
@@ -151,14 +149,14 @@ class PairRendering {
   uint32_t first_index(int n) const {
     const uint32_t pass = in_.key.pass, first = camera_.in_first_pass;
     const uint32_t before = first > 0 && pass > 0 ? pass - 1 : pass;
-    return (pass > 0 ? first : 0) + before * static_cast<uint32_t>(n);
+    return (pass > 0 ? first : 0) + before * n;
   }
   /// The numbers of a pixel's sample `k` of `n` in this pass.
   struct SamplePoints {
     SobolPoint eye, light;
   };
   SamplePoints sample_points(int n, int k) const {
-    const uint32_t index = first_index(n) + static_cast<uint32_t>(k);
+    const uint32_t index = first_index(n) + k;
     return {eye_point(index, kEyePathDimensions),
             techniques_.connects ? light_point(index) : SobolPoint(index, 1)};
   }
@@ -174,16 +172,15 @@ class PairRendering {
 
   void trace_rows(int first, int count, EstimatorStatistics& statistics) {
     const PixelBounds& b = format_.bounds();
-    std::vector<Row> rows(static_cast<size_t>(count));
+    std::vector<Row> rows(count);
     parallel_chunks(count, 1, [&](int64_t row, int64_t, int64_t) {
       LightSubpath path;
       PartSums light(*in_.owned.routes, in_.owned.group);
-      rows[static_cast<size_t>(row)].techniques = counter_.start_row(light);
+      rows[row].techniques = counter_.start_row(light);
       const int y = b.y0 + first + static_cast<int>(row);
       for (int x = b.x0; x < b.x1; ++x) {
         const int samples = camera_.paths.at(x - b.x0, y - b.y0);
-        for (int k = 0; k < samples; ++k)
-          trace_sample(x, y, samples, k, path, light, rows[static_cast<size_t>(row)]);
+        for (int k = 0; k < samples; ++k) trace_sample(x, y, samples, k, path, light, rows[row]);
       }
     });
     for (Row& row : rows) {
@@ -198,9 +195,8 @@ class PairRendering {
   void trace_sample(int x, int y, int samples, int k, LightSubpath& path, PartSums& light,
                     Row& row) {
     const PixelBounds& b = format_.bounds();
-    const size_t pixel = static_cast<size_t>(y - b.y0) * static_cast<size_t>(b.width()) +
-                         static_cast<size_t>(x - b.x0);
-    const SamplePoints& points = points_[static_cast<size_t>(samples - 1)][static_cast<size_t>(k)];
+    const size_t pixel = static_cast<size_t>(y - b.y0) * b.width() + (x - b.x0);
+    const SamplePoints& points = points_[samples - 1][k];
     const uint64_t rays_before = row.rays;
     PathSampler sampler(points.eye, hash_combine(in_.seed, kEyeStream, x, y));
     CameraPath camera = start_merging_path(in_.scene, x, y, sampler, pass_);
@@ -228,7 +224,7 @@ class PairRendering {
     light.add_techniques_to(
         row.techniques, pass_.weights,
         static_cast<double>(camera.camera_weight) * camera.filter_weight * share);
-    const size_t sample = pixel * most_ + static_cast<size_t>(k);
+    const size_t sample = pixel * most_ + k;
     // What has to wait for other batches is clamped at the end.
     const bool waits = !clamped_.empty();
     const std::span<const Rgb> colors = light.colors(
@@ -238,7 +234,7 @@ class PairRendering {
         waits ? clamped_.sums(sample) : std::span(values_).subspan(pixel * parts_, parts_);
     for (size_t i = 0; i < parts_; ++i) sums[i] = sums[i] + colors[i];
     if (measured_) {
-      const double seen = static_cast<double>(total(colors));
+      const double seen = total(colors);
       measured_->add_light(sample, static_cast<float>(seen / (3.0 * share)));
       if (!settings_.merges_only) measured_->set_rays(sample, row.rays - rays_before);
     }

@@ -66,7 +66,7 @@ inline bool merges_at(const WalkVertex& v, EventClass c) {
 inline LightStart light_start(const PairSettings& settings, int light, const Place& from,
                               const Place& x, const Vec3f& w, double direct_w, bool asks_onward) {
   const Scene& scene = settings.scene;
-  const Light& l = *scene.lights[static_cast<size_t>(light)];
+  const Light& l = *scene.lights[light];
   const double chosen = scene.light_sampler->pmf_by_power(light);
   const EmissionDensity e = l.emission_pdf(from.ng, w);
   LightStart s;

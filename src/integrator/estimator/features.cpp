@@ -69,7 +69,7 @@ std::unique_ptr<PassFindings> FeatureEstimator::render_pass(const PassKey& key, 
   const PixelBounds& b = film.bounds();
   const FilmSettings& settings = film.settings();
   const SobolPoint point = eye_point(key.pass);
-  std::vector<uint64_t> rays(static_cast<size_t>(b.height()), 0);
+  std::vector<uint64_t> rays(b.height(), 0);
   parallel_chunks(b.height(), 1, [&](int64_t row, int64_t, int64_t) {
     const int y = b.y0 + static_cast<int>(row);
     for (int x = b.x0; x < b.x1; ++x) {
@@ -86,12 +86,12 @@ std::unique_ptr<PassFindings> FeatureEstimator::render_pass(const PassKey& key, 
       const SensorWeights weights = sensor_weights(path.walk.lambda, *settings.color_space,
                                                    settings.imaging_ratio, settings.white_balance);
       features.add_to(film, x, y, scene, path, weights);
-      rays[static_cast<size_t>(row)] += path.walk.rays;
+      rays[row] += path.walk.rays;
     }
   });
   film.add_feature_estimates(1);
   for (const uint64_t r : rays) statistics_.rays += r;
-  statistics_.camera_paths += static_cast<uint64_t>(b.area());
+  statistics_.camera_paths += b.area();
   return nullptr;
 }
 

@@ -20,8 +20,7 @@ class SampleMap {
   /// The same number for each pixel.
   explicit SampleMap(const PixelBounds& b, uint16_t samples = 1)
       : width_((b.width() + kTile - 1) / kTile),
-        counts_(static_cast<size_t>(width_) * static_cast<size_t>((b.height() + kTile - 1) / kTile),
-                samples) {}
+        counts_(static_cast<size_t>(width_) * ((b.height() + kTile - 1) / kTile), samples) {}
 
   /// `x` and `y` count from the corner of the crop.
   int at(int x, int y) const { return counts_[tile_of(x, y)]; }
@@ -29,10 +28,7 @@ class SampleMap {
   int fewest() const;
   bool has(int samples) const;  ///< some tile has this number
   double mean() const;
-  size_t tile_of(int x, int y) const {
-    return static_cast<size_t>(y / kTile) * static_cast<size_t>(width_) +
-           static_cast<size_t>(x / kTile);
-  }
+  size_t tile_of(int x, int y) const { return static_cast<size_t>(y / kTile) * width_ + x / kTile; }
   int width() const { return width_; }
   static void members(auto& self, auto& archive) { archive(self.width_, self.counts_); }
   std::vector<uint16_t>& counts() { return counts_; }
@@ -53,8 +49,7 @@ class SampleVariance {
  public:
   static constexpr size_t kBytesPerPixel = sizeof(Sums);
 
-  explicit SampleVariance(const PixelBounds& b)
-      : bounds_(b), sums_(static_cast<size_t>(b.area())) {}
+  explicit SampleVariance(const PixelBounds& b) : bounds_(b), sums_(b.area()) {}
   /// One sample that took `rays`; `pixel` counts row by row over the crop.
   void add(size_t pixel, double luminance, double rays) {
     add(pixel, luminance, rays, luminance * luminance);

@@ -48,8 +48,7 @@ void TechniqueCounter::add_to(std::vector<RouteTechniques>& all) const {
   const FilmLayout& layout = film_.layout();
   const std::vector<int>& parts = film_.parts_of(static_cast<int>(group_));
   for (size_t i = 0; i < parts.size(); ++i) {
-    const std::string& route =
-        layout.routes[static_cast<size_t>(layout.parts[static_cast<size_t>(parts[i])].route)];
+    const std::string& route = layout.routes[layout.parts[parts[i]].route];
     auto it = std::find_if(all.begin(), all.end(),
                            [&](const RouteTechniques& r) { return r.route == route; });
     if (it == all.end()) it = all.insert(it, {route, {}});

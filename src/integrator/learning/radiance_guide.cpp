@@ -90,7 +90,7 @@ Parts halves(std::span<RadianceRecord> records) {
   const auto before = [&parts](const RadianceRecord& a, const RadianceRecord& b) {
     return a.p[parts.axis] < b.p[parts.axis];
   };
-  const auto middle = records.begin() + static_cast<std::ptrdiff_t>(records.size() / 2);
+  const auto middle = records.begin() + records.size() / 2;
   std::nth_element(records.begin(), middle, records.end(), before);
   parts.cut = middle->p[parts.axis];
   if (!(parts.cut > bounds.min[parts.axis])) return parts;
@@ -157,8 +157,8 @@ RadianceGuide::RadianceGuide(std::vector<RadianceRecord> records) : boxes_(kSide
     if (begin != end) cut(side, std::span(begin, end), regions);
     begin = end;
   }
-  parallel_chunks(static_cast<int64_t>(regions.size()), 1, [&](int64_t i, int64_t, int64_t) {
-    Region& region = regions[static_cast<size_t>(i)];
+  parallel_chunks(regions.size(), 1, [&](int64_t i, int64_t, int64_t) {
+    Region& region = regions[i];
     region.settle(0, region.records);
   });
   size_t guided = 0;

@@ -30,8 +30,7 @@ struct SomePixels {
     parallel_chunks(rows, 1, [&](int64_t row, int64_t, int64_t) {
       const int y = bounds.y0 + static_cast<int>(row) * stride + shift_y;
       if (y >= bounds.y1) return;
-      for (int x = bounds.x0 + shift_x; x < bounds.x1; x += stride)
-        f(static_cast<size_t>(row), x, y);
+      for (int x = bounds.x0 + shift_x; x < bounds.x1; x += stride) f(row, x, y);
     });
   }
   PixelBounds bounds;
@@ -91,7 +90,7 @@ class CasterVisitor {
 template <class T, class Run>
 Found<T> walk_from(const Scene& scene, const SomePixels& pixels, const PhotonPass& pass,
                    const Run& run) {
-  std::vector<Found<T>> rows(static_cast<size_t>(pixels.rows));
+  std::vector<Found<T>> rows(pixels.rows);
   pixels.for_each([&](size_t row, int x, int y) {
     PathSampler sampler(pass.point, hash_combine(pass.trace.key.seed, kStream, x, y));
     CameraPath path = start_merging_path(scene, x, y, sampler, pass);

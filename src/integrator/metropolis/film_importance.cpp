@@ -24,7 +24,7 @@ FilmImportance::FilmImportance(const FilmArea& area) : area_(area) {
   const float side = std::max(std::max(size.x, size.y) / kMostCells, kPixelsPerCell);
   width_ = std::max(1, static_cast<int>(size.x / side));
   height_ = std::max(1, static_cast<int>(size.y / side));
-  found_.assign(static_cast<size_t>(width_) * static_cast<size_t>(height_), 0.0);
+  found_.assign(static_cast<size_t>(width_) * height_, 0.0);
   importance_.assign(found_.size(), 1.0);
 }
 
@@ -66,10 +66,7 @@ float FilmImportance::at(const Vec2f& film) const {
   };
   int x0, x1, y0, y1;
   const double fx = around(u.x, width_, x0, x1), fy = around(u.y, height_, y0, y1);
-  const auto value = [&](int x, int y) {
-    return importance_[static_cast<size_t>(y) * static_cast<size_t>(width_) +
-                       static_cast<size_t>(x)];
-  };
+  const auto value = [&](int x, int y) { return importance_[static_cast<size_t>(y) * width_ + x]; };
   return static_cast<float>((1 - fy) * ((1 - fx) * value(x0, y0) + fx * value(x1, y0)) +
                             fy * ((1 - fx) * value(x0, y1) + fx * value(x1, y1)));
 }

@@ -55,7 +55,7 @@ class FilmImportance {
 
  private:
   double& cell(std::vector<double>& cells, int x, int y) const {
-    return cells[static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x)];
+    return cells[static_cast<size_t>(y) * width_ + x];
   }
 
   FilmArea area_;

@@ -52,8 +52,7 @@ class ChainPass {
       : key_(key),
         settings_(settings),
         mutations_(static_cast<double>(settings.chains * settings.mutations)),
-        independent_(static_cast<double>(settings.bootstrap) +
-                     static_cast<double>(settings.large_step) * mutations_),
+        independent_(static_cast<double>(settings.bootstrap) + settings.large_step * mutations_),
         importance_(pilot.importance),
         balance_(pilot.balance > 0 ? pilot.balance : 1),
         make_(make),
@@ -66,10 +65,9 @@ class ChainPass {
     const int64_t at_once = std::max<int64_t>(1, kPathsAtOnce / settings_.mutations);
     for (int64_t first = 0; first < settings_.chains; first += at_once) {
       const int64_t count = std::min(at_once, settings_.chains - first);
-      std::vector<Chunk> chunks(static_cast<size_t>(count));
-      parallel_chunks(count, 1, [&](int64_t c, int64_t, int64_t) {
-        run_chain(first + c, chunks[static_cast<size_t>(c)]);
-      });
+      std::vector<Chunk> chunks(count);
+      parallel_chunks(count, 1,
+                      [&](int64_t c, int64_t, int64_t) { run_chain(first + c, chunks[c]); });
       take(chunks);
     }
   }
@@ -77,9 +75,8 @@ class ChainPass {
 
  private:
   MarkovSample::Origin bootstrap_numbers(int64_t path) const {
-    const auto paths = static_cast<uint64_t>(settings_.bootstrap);
-    return independent_numbers(key_.seed, kBootstrapStream,
-                               uint64_t{key_.pass} * paths + static_cast<uint64_t>(path));
+    const uint64_t paths = settings_.bootstrap;
+    return independent_numbers(key_.seed, kBootstrapStream, uint64_t{key_.pass} * paths + path);
   }
 
   /// [Z5]: adds light that was found `times` times.
@@ -91,12 +88,12 @@ class ChainPass {
   }
 
   void draw_bootstrap() {
-    targets_.resize(static_cast<size_t>(settings_.bootstrap));
+    targets_.resize(settings_.bootstrap);
     for (int64_t first = 0; first < settings_.bootstrap; first += kPathsAtOnce) {
       const int64_t count = std::min(kPathsAtOnce, settings_.bootstrap - first);
-      std::vector<Chunk> chunks(static_cast<size_t>(chunk_count(count, kPathsPerChunk)));
+      std::vector<Chunk> chunks(chunk_count(count, kPathsPerChunk));
       parallel_chunks(count, kPathsPerChunk, [&](int64_t c, int64_t begin, int64_t end) {
-        Chunk& out = chunks[static_cast<size_t>(c)];
+        Chunk& out = chunks[c];
         const std::unique_ptr<PathFunction> function = make_();
         FoundLight found;
         MarkovSample numbers(settings_.small_step);
@@ -105,12 +102,12 @@ class ChainPass {
           found.splats.clear();
           function->evaluate(numbers, found);
           const double target = found.target(importance_);
-          targets_[static_cast<size_t>(j)] = target;
+          targets_[j] = target;
           out.statistics.bootstrap_lit += target > 0;
           expose(found, target, 1, out);
         }
-        out.statistics.bootstrap += static_cast<uint64_t>(end - begin);
-        out.statistics.paths += static_cast<uint64_t>(end - begin);
+        out.statistics.bootstrap += end - begin;
+        out.statistics.paths += end - begin;
         out.statistics.rays += found.rays;
         out.bad = found.bad;
       });
@@ -123,8 +120,8 @@ class ChainPass {
   double choose_starts() {
     double total = 0;
     for (const double b : targets_) total += b;
-    const double offset = static_cast<double>(bits_to_unit_float(
-        static_cast<uint32_t>(hash_combine(key_.seed, kStartStream, key_.pass))));
+    const double offset =
+        bits_to_unit_float(static_cast<uint32_t>(hash_combine(key_.seed, kStartStream, key_.pass)));
     double sum = 0;
     size_t j = 0;
     for (int64_t c = 0; c < settings_.chains; ++c) {
@@ -135,13 +132,13 @@ class ChainPass {
       const double at =
           (static_cast<double>(c) + offset) / static_cast<double>(settings_.chains) * total;
       while (j + 1 < targets_.size() && sum + targets_[j] <= at) sum += targets_[j++];
-      starts_.push_back(static_cast<int64_t>(j));
+      starts_.push_back(j);
     }
     return total;
   }
 
   void run_chain(int64_t number, Chunk& out) const {
-    const int64_t start = starts_[static_cast<size_t>(number)];
+    const int64_t start = starts_[number];
     const std::unique_ptr<PathFunction> function = make_();
     MarkovChain chain(bootstrap_numbers(start),
                       hash_combine(key_.seed, kChainStream, key_.pass, number), settings_,
@@ -164,7 +161,7 @@ class ChainPass {
       (chain.is_large() ? s.large_accepted : s.small_accepted) += accepted;
     }
     expose(chain.current(), chain.target(), times, out);
-    s.paths += static_cast<uint64_t>(settings_.mutations);
+    s.paths += settings_.mutations;
     for (const FoundLight* found : {&chain.current(), &chain.proposed()}) {
       s.rays += found->rays;
       out.bad.insert(out.bad.end(), found->bad.begin(), found->bad.end());
@@ -212,8 +209,7 @@ void FoundLight::add(const Vec2f& film, size_t part, const Rgb& value) {
 
 double FoundLight::target(const FilmImportance& importance) const {
   double sum = 0;
-  for (const Splat& s : splats)
-    sum += brightness_of(s.value) * static_cast<double>(importance.at(s.film));
+  for (const Splat& s : splats) sum += brightness_of(s.value) * importance.at(s.film);
   return sum;
 }
 
@@ -271,18 +267,17 @@ bool MarkovChain::decide() {
 
 ChainPilot look_around(uint64_t seed, int64_t count, const FilmArea& area, size_t kinds,
                        const PathFunctionMaker& make) {
-  std::vector<std::vector<FoundLight>> chunks(
-      static_cast<size_t>(chunk_count(count, kPathsPerChunk)));
+  std::vector<std::vector<FoundLight>> chunks(chunk_count(count, kPathsPerChunk));
   parallel_chunks(count, kPathsPerChunk, [&](int64_t c, int64_t begin, int64_t end) {
     const std::unique_ptr<PathFunction> function = make();
     FoundLight found;
     MarkovSample numbers({});
     for (int64_t j = begin; j < end; ++j) {
-      numbers.start(independent_numbers(seed, kPilotStream, static_cast<uint64_t>(j)), 0);
+      numbers.start(independent_numbers(seed, kPilotStream, j), 0);
       found.splats.clear();
       found.bad.clear();  // counted in passes
       function->evaluate(numbers, found);
-      if (!found.splats.empty()) chunks[static_cast<size_t>(c)].push_back(found);
+      if (!found.splats.empty()) chunks[c].push_back(found);
     }
   });
   ChainPilot pilot{FilmImportance(area), std::vector<double>(kinds, 0.0), 0};

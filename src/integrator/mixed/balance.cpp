@@ -20,10 +20,10 @@ std::vector<double> smoothed(const std::vector<double>& values, int width) {
       for (int j = std::max(0, y - 1); j <= std::min(height - 1, y + 1); ++j)
         for (int i = std::max(0, x - 1); i <= std::min(width - 1, x + 1); ++i) {
           const double w = (i == x ? 2 : 1) * (j == y ? 2 : 1);
-          sum += w * values[static_cast<size_t>(j * width + i)];
+          sum += w * values[j * width + i];
           weights += w;
         }
-      out[static_cast<size_t>(y * width + x)] = sum / weights;
+      out[y * width + x] = sum / weights;
     }
   return out;
 }

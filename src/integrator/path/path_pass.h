@@ -38,10 +38,9 @@ uint64_t trace_paths(const PathPass& pass, Trace&& trace) {
   const PixelBounds& b = pass.film.bounds();
   const float specular_alpha = specular_alpha_of_pass(pass.scene.specular_band, pass.key);
   const int group = static_cast<int>(pass.owned.group);
-  std::vector<uint64_t> rays(static_cast<size_t>(b.height()), 0);
+  std::vector<uint64_t> rays(b.height(), 0);
   for (int k = 0; k < pass.samples; ++k) {
-    const uint64_t index =
-        uint64_t{pass.key.pass} * static_cast<uint64_t>(pass.samples) + static_cast<uint64_t>(k);
+    const uint64_t index = uint64_t{pass.key.pass} * pass.samples + k;
     const SobolPoint point = eye_point(static_cast<uint32_t>(index));
     parallel_chunks(b.height(), 1, [&](int64_t row, int64_t, int64_t) {
       const int y = b.y0 + static_cast<int>(row);
@@ -57,7 +56,7 @@ uint64_t trace_paths(const PathPass& pass, Trace&& trace) {
         path.walk.roulette_threshold = kCameraRouletteThreshold;
         light.clear();
         const SensorWeights weights = pass.weights_of(path);
-        rays[static_cast<size_t>(row)] += trace(x, y, path, weights, sampler, light);
+        rays[row] += trace(x, y, path, weights, sampler, light);
         pass.film.add(group, x, y,
                       light.colors(weights, path.camera_weight, pass.film.settings().max_component,
                                    path.filter_weight));

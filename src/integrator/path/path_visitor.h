@@ -49,7 +49,7 @@ class PathVisitorOf {
     for (const int i : scene_.light_sampler->infinite_lights()) {
       const Part part = routes_.owner(eye_, symbols_.light(i));
       if (!light_.owns(part)) continue;
-      const Light& light = *scene_.lights[static_cast<size_t>(i)];
+      const Light& light = *scene_.lights[i];
       const SampledSpectrum le =
           light.radiance_at_infinity(walk.previous_p, walk.ray.d, walk.lambda);
       if (le.is_black()) continue;

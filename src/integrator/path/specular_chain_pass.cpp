@@ -15,9 +15,9 @@ constexpr uint64_t kStream = 0x676c696e74;  // "glint"
 double rarity(const std::vector<SpecularTree::Light>& found) {
   double sum = 0, squares = 0;
   for (const SpecularTree::Light& l : found) {
-    const double value = static_cast<double>(l.value.average());
+    const double value = l.value.average();
     sum += value;
-    squares += value * value / static_cast<double>(l.chance);
+    squares += value * value / l.chance;
   }
   return sum > 0 ? squares / (sum * sum) : 0;
 }
@@ -33,16 +33,16 @@ uint64_t SpecularChainPass::render_points(
     uint64_t rays = 0;
     TechniqueCounter::Row techniques;
   };
-  std::vector<Row> rows(static_cast<size_t>(b.height()));
+  std::vector<Row> rows(b.height());
   parallel_chunks(b.height(), 1, [&](int64_t row, int64_t, int64_t) {
     const int y = static_cast<int>(row);
     PartSums light(*owned.routes, owned.group);
-    Row& of_row = rows[static_cast<size_t>(row)];
+    Row& of_row = rows[row];
     if (techniques) of_row.techniques = techniques->start_row(light);
     std::vector<SpecularTree::Light> found;
-    size_t pixel = static_cast<size_t>(row) * static_cast<size_t>(b.width());
+    size_t pixel = row * b.width();
     for (int x = 0; x < b.width(); ++x, ++pixel) {
-      const auto& of_pixel = points[static_cast<size_t>(walks.at(x, y))];
+      const auto& of_pixel = points[walks.at(x, y)];
       const float share = 1.0f / static_cast<float>(of_pixel.size());
       for (const SobolPoint& point : of_pixel) {
         PathSampler sampler(point, hash_combine(seed, kStream, b.x0 + x, b.y0 + y));

@@ -36,12 +36,10 @@ struct SpecularChainPass {
   /// first_index(n) + k of its pixel. Returns the number of rays.
   template <class FirstIndex>
   uint64_t render(std::span<Rgb> values, FirstIndex&& first_index) const {
-    std::vector<std::vector<SobolPoint>> points(static_cast<size_t>(walks.most()) + 1);
+    std::vector<std::vector<SobolPoint>> points(walks.most() + 1);
     for (int n = 1; n <= walks.most(); ++n)
       if (walks.has(n))
-        for (int k = 0; k < n; ++k)
-          points[static_cast<size_t>(n)].push_back(
-              eye_point(first_index(n) + static_cast<uint32_t>(k)));
+        for (int k = 0; k < n; ++k) points[n].push_back(eye_point(first_index(n) + k));
     return render_points(values, points);
   }
 

@@ -57,7 +57,7 @@ class SpecularTree::Visitor {
     for (const int i : tree_.scene_.light_sampler->infinite_lights()) {
       const Part part = routes_.owner(eye_, symbols_.light(i));
       if (!routes_.owns(group_, part)) continue;
-      const nephroid::Light& light = *tree_.scene_.lights[static_cast<size_t>(i)];
+      const nephroid::Light& light = *tree_.scene_.lights[i];
       add(walk, part, light.radiance_at_infinity(walk.previous_p, walk.ray.d, walk.lambda));
     }
   }

@@ -55,13 +55,12 @@ void gather(const Scene& scene, const PixelBounds& b, const OwnedRoutes& owned, 
   struct RowCounts {
     uint64_t rays = 0, found = 0;
   };
-  std::vector<RowCounts> rows(static_cast<size_t>(b.height()));
+  std::vector<RowCounts> rows(b.height());
   parallel_chunks(b.height(), 1, [&](int64_t row, int64_t, int64_t) {
     const int y = b.y0 + static_cast<int>(row);
     PartSums sums(*owned.routes, owned.group);
-    RowCounts& counts = rows[static_cast<size_t>(row)];
-    size_t number =
-        static_cast<size_t>(row) * static_cast<size_t>(b.width()) * numbers.points.size();
+    RowCounts& counts = rows[row];
+    size_t number = row * b.width() * numbers.points.size();
     for (int x = b.x0; x < b.x1; ++x)
       for (const SobolPoint& point : numbers.points) {
         PathSampler sampler(point, hash_combine(numbers.seed, x, y));

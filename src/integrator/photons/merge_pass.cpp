@@ -35,7 +35,7 @@ MergePass merge_pass(const PassKey& key, const Scene& scene, const Film& film,
   pass.trace.guide = &guide;
   const int64_t photons = pass.trace.photons_per_pass;
   const size_t parts = film.parts_of(static_cast<int>(owned.group)).size();
-  const size_t pixels = static_cast<size_t>(b.area());
+  const size_t pixels = b.area();
   Gathered gathered(pixels, parts);
   gathered.bias.resize(pixels);
 
@@ -61,7 +61,7 @@ MergePass merge_pass(const PassKey& key, const Scene& scene, const Film& film,
   }
   finish_estimates(gathered, film.settings().max_component);
   statistics.rays += gathered.rays;
-  statistics.camera_paths += static_cast<uint64_t>(b.area());
+  statistics.camera_paths += b.area();
   statistics.radius_min_pixels = radius_pixels;
   if (statistics.radius_max_pixels == 0) statistics.radius_max_pixels = radius_pixels;
   return {std::move(gathered.values), std::move(gathered.bias), gathered.found};

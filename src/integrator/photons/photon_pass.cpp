@@ -10,8 +10,7 @@ namespace {
 // Photons of a pass when the user gave no number: it grows with the picture, within bounds.
 int64_t default_photons_per_pass(int64_t pixels) {
   constexpr int64_t kMin = 1 << 16, kMax = 1 << 20;
-  return std::clamp<int64_t>(static_cast<int64_t>(std::bit_ceil(static_cast<uint64_t>(pixels))),
-                             kMin, kMax);
+  return std::clamp<int64_t>(std::bit_ceil(static_cast<uint64_t>(pixels)), kMin, kMax);
 }
 
 }  // namespace
@@ -75,8 +74,7 @@ std::string names_of_routes(const OwnedRoutes& owned) {
   const std::vector<int>& routes = owned.routes->groups()[owned.group].routes;
   std::string text = routes.size() == 1 ? "route" : "routes";
   for (size_t i = 0; i < routes.size(); ++i)
-    text += (i == 0 ? " '" : ", '") +
-            owned.routes->definitions()[static_cast<size_t>(routes[i])].name + "'";
+    text += (i == 0 ? " '" : ", '") + owned.routes->definitions()[routes[i]].name + "'";
   return text;
 }
 

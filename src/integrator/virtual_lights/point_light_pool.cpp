@@ -19,7 +19,7 @@ using Lights = std::vector<std::unique_ptr<PointLight>>;
 /// What lights are chosen by.
 double flux_of(const PointLight& light) {
   const SampledSpectrum& flux = light.flux;
-  return static_cast<double>(light.secondary_terminated ? flux[0] : flux.max_component());
+  return light.secondary_terminated ? flux[0] : flux.max_component();
 }
 
 void drop_black(Lights& lights) {
@@ -39,9 +39,7 @@ void thin(Lights& lights, int64_t most, float u) {
     const double flux = flux_of(*light);
     below += flux;
     int64_t count = 0;
-    for (; next < most && (static_cast<double>(next) + static_cast<double>(u)) * step < below;
-         ++next)
-      ++count;
+    for (; next < most && (static_cast<double>(next) + u) * step < below; ++next) ++count;
     if (count == 0) continue;
     light->flux *= static_cast<float>(static_cast<double>(count) * step / flux);
     kept.push_back(std::move(light));
@@ -55,7 +53,7 @@ class PointLightVisitor : public LightWalkVisitor {
   PointLightVisitor(const OwnedRoutes& owned, const Scene& scene, const Emission& emission,
                     int64_t most, uint64_t seed, Lights& out)
       : LightWalkVisitor(owned, emission),
-        delta_light_(scene.lights[static_cast<size_t>(emission.light)]->is_delta()),
+        delta_light_(scene.lights[emission.light]->is_delta()),
         flux_(emission.flux),
         most_(most),
         seed_(seed),
@@ -129,7 +127,7 @@ int64_t point_lights_in_memory_of(int64_t photons) {
 PointLightPool::PointLightPool(const Scene& scene, const OwnedRoutes& owned,
                                const PhotonTraceSettings& settings, int64_t most) {
   const int64_t paths = settings.photons_per_pass;
-  const uint64_t first = uint64_t{settings.key.pass} * static_cast<uint64_t>(paths);
+  const uint64_t first = uint64_t{settings.key.pass} * paths;
   // Whatever the paths of a group do, they leave no more than a quarter of what may be held. As
   // much is made free at a time, so that lights are drawn now and then and not after each group.
   const int64_t room = std::max<int64_t>(2, most / 4);
@@ -144,8 +142,7 @@ PointLightPool::PointLightPool(const Scene& scene, const OwnedRoutes& owned,
       Lights of_path;
       for (int64_t j = begin + b; j < begin + e; ++j) {
         of_path.clear();
-        chunk.rays +=
-            trace(scene, owned, settings, first + static_cast<uint64_t>(j), room, of_path);
+        chunk.rays += trace(scene, owned, settings, first + j, room, of_path);
         chunk.useful += !of_path.empty();
         std::move(of_path.begin(), of_path.end(), std::back_inserter(chunk.lights));
       }
@@ -173,10 +170,9 @@ void PointLightPool::add_up(int64_t paths) {
 
 ChosenLight PointLightPool::choose(int k, int count, float u) const {
   const double total = sums_.back();
-  const double at = (static_cast<double>(k) + static_cast<double>(u)) / count * total;
-  const size_t i = std::min(
-      static_cast<size_t>(std::upper_bound(sums_.begin(), sums_.end(), at) - sums_.begin()),
-      sums_.size() - 1);
+  const double at = (static_cast<double>(k) + u) / count * total;
+  const size_t i = std::min<size_t>(
+      std::upper_bound(sums_.begin(), sums_.end(), at) - sums_.begin(), sums_.size() - 1);
   const double flux = sums_[i] - (i > 0 ? sums_[i - 1] : 0.0);
   return {lights_[i].get(), static_cast<float>(total / (count * flux))};
 }

@@ -42,7 +42,7 @@ ParameterAxis::Place ParameterAxis::find(float value) const {
   if (!(value > values_.front())) return {};
   if (value >= values_.back()) return {values_.size() - 1, values_.size() - 1, 0.0f};
   const auto above = std::upper_bound(values_.begin(), values_.end(), value);
-  const size_t upper = static_cast<size_t>(above - values_.begin());
+  const size_t upper = above - values_.begin();
   const float from = values_[upper - 1];
   return {upper - 1, upper, (value - from) / (values_[upper] - from)};
 }
@@ -98,8 +98,7 @@ void BilinearWarp::add_grid(const float* values) {
 float BilinearWarp::mixed(const std::vector<float>& table, size_t stride, size_t index,
                           const GridMix& mix) {
   float sum = 0.0f;
-  for (size_t k = 0; k < static_cast<size_t>(mix.count); ++k)
-    sum += mix.weight[k] * table[mix.grid[k] * stride + index];
+  for (int k = 0; k < mix.count; ++k) sum += mix.weight[k] * table[mix.grid[k] * stride + index];
   return sum;
 }
 

@@ -32,8 +32,8 @@ struct GridMix {
 
   void add(size_t index, float w) {
     if (!(w > 0.0f)) return;
-    grid[static_cast<size_t>(count)] = index;
-    weight[static_cast<size_t>(count)] = w;
+    grid[count] = index;
+    weight[count] = w;
     ++count;
   }
 };

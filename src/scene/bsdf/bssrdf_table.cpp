@@ -87,20 +87,19 @@ BssrdfTable::BssrdfTable(float g, float eta)
   radii_[1] = 2.5e-3f;
   for (size_t i = 2; i < radii_.size(); ++i) radii_[i] = radii_[i - 1] * 1.2f;
   for (int i = 0; i < kAlbedos; ++i)
-    albedos_[static_cast<size_t>(i)] =
-        static_cast<float>(std::expm1(-8.0 * i / (kAlbedos - 1)) / std::expm1(-8.0));
+    albedos_[i] = static_cast<float>(std::expm1(-8.0 * i / (kAlbedos - 1)) / std::expm1(-8.0));
   for (int i = 0; i < kAlbedos; ++i) fill_row(i);
 }
 
 void BssrdfTable::fill_row(int albedo) {
-  const double a = albedos_[static_cast<size_t>(albedo)];
+  const double a = albedos_[albedo];
   for (int j = 0; j < kRadii; ++j) {
-    const double r = radii_[static_cast<size_t>(j)];
+    const double r = radii_[j];
     profile_[index(albedo, j)] = static_cast<float>(
         2.0 * kPiD * r *
         (beam_diffusion_single(a, g_, eta_, r) + beam_diffusion_multiple(a, g_, eta_, r)));
   }
-  effective_[static_cast<size_t>(albedo)] =
+  effective_[albedo] =
       spline_integrate(radii_, std::span(profile_).subspan(index(albedo, 0), kRadii),
                        std::span(cumulative_).subspan(index(albedo, 0), kRadii));
 }
@@ -128,18 +127,18 @@ std::optional<float> BssrdfTable::sample_radius(const SplineWeights& albedo, flo
     (cumulative(middle) <= target ? low : high) = middle;
   }
   const float rest = target - cumulative(low);
-  const float width = radii_[static_cast<size_t>(low) + 1] - radii_[static_cast<size_t>(low)];
+  const float width = radii_[low + 1] - radii_[low];
   // The four values around the interval, interpolated once.
   std::array<float, 4> values{};
   for (int k = 0; k < 4; ++k)
     if (low + k - 1 >= 0 && low + k - 1 < kRadii)
-      values[static_cast<size_t>(k)] = albedo.of([&](int a) { return profile(a, low + k - 1); });
-  const auto value = [&](int radius) { return values[static_cast<size_t>(radius - low + 1)]; };
+      values[k] = albedo.of([&](int a) { return profile(a, low + k - 1); });
+  const auto value = [&](int radius) { return values[radius - low + 1]; };
   const float t = solve_rising([&](float s) {
     return std::pair{spline_integral_at(radii_, low, s).of(value) - rest,
                      width * spline_value_at(radii_, low, s).of(value)};
   });
-  return radii_[static_cast<size_t>(low)] + t * width;
+  return radii_[low] + t * width;
 }
 
 std::shared_ptr<const BssrdfTable> BssrdfTableCache::find_or_make(float g, float eta) {

@@ -45,7 +45,7 @@ class BssrdfTable {
   float radial_density(const SplineWeights& albedo, float r) const;
   /// Interpolated effective albedo.
   float effective_albedo(const SplineWeights& albedo) const {
-    return albedo.of([this](int a) { return effective_[static_cast<size_t>(a)]; });
+    return albedo.of([this](int a) { return effective_[a]; });
   }
   /// A radius with density radial_density / effective_albedo, from u in [0,1). Empty if nothing
   /// leaves the medium.
@@ -57,7 +57,7 @@ class BssrdfTable {
 
  private:
   static size_t index(int albedo, int radius) {
-    return static_cast<size_t>(albedo) * kRadii + static_cast<size_t>(radius);
+    return static_cast<size_t>(albedo) * kRadii + radius;
   }
   void fill_row(int albedo);
 

@@ -22,7 +22,7 @@ HermiteBasis integral_basis(float t) {
 
 // The slopes are differences of values, so everything is a combination of values.
 SplineWeights combine(std::span<const float> x, int i, const HermiteBasis& b) {
-  const size_t k = static_cast<size_t>(i);
+  const size_t k = i;
   const float width = x[k + 1] - x[k];
   SplineWeights s;
   s.first = i - 1;
@@ -57,8 +57,7 @@ std::optional<int> spline_interval(std::span<const float> x, float at) {
 std::optional<SplineWeights> spline_value(std::span<const float> x, float at) {
   const std::optional<int> i = spline_interval(x, at);
   if (!i) return std::nullopt;
-  const size_t k = static_cast<size_t>(*i);
-  return spline_value_at(x, *i, (at - x[k]) / (x[k + 1] - x[k]));
+  return spline_value_at(x, *i, (at - x[*i]) / (x[*i + 1] - x[*i]));
 }
 
 SplineWeights spline_value_at(std::span<const float> x, int i, float t) {
@@ -66,9 +65,8 @@ SplineWeights spline_value_at(std::span<const float> x, int i, float t) {
 }
 
 SplineWeights spline_integral_at(std::span<const float> x, int i, float t) {
-  const size_t k = static_cast<size_t>(i);
   SplineWeights s = combine(x, i, integral_basis(t));
-  for (float& w : s.w) w *= x[k + 1] - x[k];
+  for (float& w : s.w) w *= x[i + 1] - x[i];
   return s;
 }
 
@@ -77,9 +75,7 @@ float spline_integrate(std::span<const float> x, std::span<const float> f,
   double sum = 0.0;
   cumulative[0] = 0.0f;
   for (size_t i = 0; i + 1 < x.size(); ++i) {
-    sum += spline_integral_at(x, static_cast<int>(i), 1.0f).of([&](int k) {
-      return f[static_cast<size_t>(k)];
-    });
+    sum += spline_integral_at(x, static_cast<int>(i), 1.0f).of([&](int k) { return f[k]; });
     cumulative[i + 1] = static_cast<float>(sum);
   }
   return cumulative[x.size() - 1];
@@ -89,8 +85,7 @@ float spline_invert(std::span<const float> x, std::span<const float> f, float va
   if (!(value > f.front())) return x.front();
   if (!(value < f.back())) return x.back();
   const int i = *spline_interval(f, value);
-  const size_t k = static_cast<size_t>(i);
-  const auto at = [&](int j) { return f[static_cast<size_t>(j)]; };
+  const auto at = [&](int j) { return f[j]; };
   const float t = solve_rising([&](float s) {
     // The derivative only steers the search, so that of the line through a small step will do.
     constexpr float kStep = 1e-3f;
@@ -98,7 +93,7 @@ float spline_invert(std::span<const float> x, std::span<const float> f, float va
     const float there = spline_value_at(x, i, s + kStep).of(at);
     return std::pair{here - value, (there - here) / kStep};
   });
-  return x[k] + t * (x[k + 1] - x[k]);
+  return x[i] + t * (x[i + 1] - x[i]);
 }
 
 }  // namespace nephroid

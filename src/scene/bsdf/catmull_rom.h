@@ -23,7 +23,7 @@ struct SplineWeights {
   float of(Value&& value) const {
     float sum = 0.0f;
     for (int j = 0; j < 4; ++j)
-      if (w[static_cast<size_t>(j)] != 0.0f) sum += w[static_cast<size_t>(j)] * value(first + j);
+      if (w[j] != 0.0f) sum += w[j] * value(first + j);
     return sum;
   }
 };

@@ -82,7 +82,7 @@ MeasuredBrdf::MeasuredBrdf(MeasuredTables t)
       double sum = 0.0;
       for (size_t n = 0; n < nodes; ++n) {
         spectra_[(g * nodes + n) * count + l] = from[n];
-        sum += static_cast<double>(from[n]);
+        sum += from[n];
       }
       means_[g * count + l] = static_cast<float>(sum / static_cast<double>(nodes));
     }
@@ -91,8 +91,7 @@ MeasuredBrdf::MeasuredBrdf(MeasuredTables t)
 
 WavelengthPlaces MeasuredBrdf::places(const SampledWavelengths& lambda) const {
   WavelengthPlaces places;
-  for (int i = 0; i < kSpectrumSamples; ++i)
-    places[static_cast<size_t>(i)] = wavelengths_.find(lambda.lambda(i));
+  for (int i = 0; i < kSpectrumSamples; ++i) places[i] = wavelengths_.find(lambda.lambda(i));
   return places;
 }
 
@@ -138,7 +137,7 @@ SampledSpectrum MeasuredBrdf::ratio(const View& view, const Vec2f& u,
   const GridCell cell(nodes_, u);
   const size_t width = nodes_.width, size = nodes_.grid_size(), count = wavelengths_.size();
   SampledSpectrum sum;
-  for (size_t k = 0; k < static_cast<size_t>(view.mix.count); ++k) {
+  for (int k = 0; k < view.mix.count; ++k) {
     for (size_t corner = 0; corner < 4; ++corner) {
       const size_t dx = corner & 1, dy = corner >> 1;
       const float weight =
@@ -147,7 +146,7 @@ SampledSpectrum MeasuredBrdf::ratio(const View& view, const Vec2f& u,
       const float* spectrum = &spectra_[node * count];
       SampledSpectrum here;
       for (int i = 0; i < kSpectrumSamples; ++i) {
-        const ParameterAxis::Place& place = places[static_cast<size_t>(i)];
+        const ParameterAxis::Place& place = places[i];
         here.set(i, lerp(place.t, spectrum[place.lower], spectrum[place.upper]));
       }
       sum += here * weight;
@@ -212,7 +211,7 @@ std::optional<MeasuredBrdf::Sample> MeasuredBrdf::sample(const Vec3f& wo, const 
 SampledSpectrum MeasuredBrdf::albedo(const Vec3f& wo, const WavelengthPlaces& places) const {
   const View view = view_from(wo);
   SampledSpectrum sum;
-  for (size_t k = 0; k < static_cast<size_t>(view.mix.count); ++k) {
+  for (int k = 0; k < view.mix.count; ++k) {
     const float* mean = &means_[view.mix.grid[k] * wavelengths_.size()];
     for (size_t i = 0; i < places.size(); ++i) {
       const int lane = static_cast<int>(i);

@@ -23,7 +23,7 @@ TabulatedBssrdf::TabulatedBssrdf(const Vec3f& p, const Vec3f& ns, const SampledS
       sigma_t_(sigma_a + sigma_s) {
   const SampledSpectrum albedo = safe_div(sigma_s, sigma_t_);
   for (int i = 0; i < wavelengths_; ++i) {
-    SplineWeights& weights = albedo_[static_cast<size_t>(i)];
+    SplineWeights& weights = albedo_[i];
     weights = table_->albedo_weights(albedo[i]);
     const std::optional<float> reach =
         sigma_t_[i] > 0.0f ? table_->sample_radius(weights, kReached) : std::nullopt;
@@ -35,7 +35,7 @@ TabulatedBssrdf::TabulatedBssrdf(const Vec3f& p, const Vec3f& ns, const SampledS
 
 float TabulatedBssrdf::profile(int i, float r) const {
   const float optical = r * sigma_t_[i];
-  const float density = table_->radial_density(albedo_[static_cast<size_t>(i)], optical);
+  const float density = table_->radial_density(albedo_[i], optical);
   if (!(density > 0.0f) || !(optical > 0.0f)) return 0.0f;
   return density / (2.0f * kPi * optical) * sqr(sigma_t_[i]);
 }
@@ -74,7 +74,7 @@ std::optional<BssrdfProbe> TabulatedBssrdf::sample_probe(float u_axis, const Vec
   const int i =
       std::min(static_cast<int>(u_wavelength * static_cast<float>(wavelengths_)), wavelengths_ - 1);
   if (!(reach_[i] > 0.0f)) return std::nullopt;
-  const std::optional<float> optical = table_->sample_radius(albedo_[static_cast<size_t>(i)], u.x);
+  const std::optional<float> optical = table_->sample_radius(albedo_[i], u.x);
   if (!optical) return std::nullopt;
   const float r = *optical / sigma_t_[i];
   if (!(r < reach_[i])) return std::nullopt;

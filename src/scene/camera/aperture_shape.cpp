@@ -76,7 +76,7 @@ ApertureShape::ApertureShape(const Image& image, const SourceLocation& where)
       if (!(value >= 0 && std::isfinite(value)))
         throw SceneError(where, "an aperture image must have no value below 0");
       values_.push_back(value);
-      sum += static_cast<double>(value);
+      sum += value;
       if (!(value > 0)) continue;
       // A pixel's light reaches as far as its neighbours' centres.
       const auto distance = [](int i, int size) {
@@ -84,7 +84,7 @@ ApertureShape::ApertureShape(const Image& image, const SourceLocation& where)
       };
       reach_ = std::max(reach_, std::hypot(distance(x, width_), distance(y, height_)));
     }
-  const double mean = sum / (static_cast<double>(width_) * static_cast<double>(height_));
+  const double mean = sum / (static_cast<double>(width_) * height_);
   if (!(mean > 0)) throw SceneError(where, "an aperture image must not be black");
   reach_ = std::min(reach_, std::sqrt(2.0));
   // A round stop covers pi/4 of its square.
@@ -98,8 +98,7 @@ float ApertureShape::at(double x, double y) const {
   const double dx = px - x0, dy = py - y0;
   const auto value = [&](int i, int j) {
     if (i < 0 || j < 0 || i >= width_ || j >= height_) return 0.0;
-    return static_cast<double>(
-        values_[static_cast<size_t>(j) * static_cast<size_t>(width_) + static_cast<size_t>(i)]);
+    return static_cast<double>(values_[static_cast<size_t>(j) * width_ + i]);
   };
   return static_cast<float>((1 - dy) * ((1 - dx) * value(x0, y0) + dx * value(x0 + 1, y0)) +
                             dy * ((1 - dx) * value(x0, y0 + 1) + dx * value(x0 + 1, y0 + 1)));

@@ -20,15 +20,15 @@ class RealisticCamera final : public Camera {
  public:
   RealisticCamera(const CameraPlacement& placement, const CameraFilm& film, LensSystem lenses)
       : Camera(placement), film_(film), lenses_(std::move(lenses)) {
-    const double aspect = static_cast<double>(film.height) / static_cast<double>(film.width);
-    half_diagonal_ = static_cast<double>(film.diagonal_mm) * kMillimetre / 2;
+    const double aspect = static_cast<double>(film.height) / film.width;
+    half_diagonal_ = film.diagonal_mm * kMillimetre / 2;
     width_ = 2 * half_diagonal_ / std::sqrt(1 + aspect * aspect);
     height_ = aspect * width_;
     parallel_chunks(kZones, 1, [&](int64_t zone, int64_t, int64_t) {
       const double inner = static_cast<double>(zone) * half_diagonal_ / kZones;
       // A wide pixel filter may look a little over the corner.
       const double outer = inner + half_diagonal_ / kZones * (zone + 1 == kZones ? 4 : 1);
-      pupils_[static_cast<size_t>(zone)] = lenses_.bound_exit_pupil(inner, outer);
+      pupils_[zone] = lenses_.bound_exit_pupil(inner, outer);
     });
     footprint_ = footprint_of_central_pixel(*this, film);
     // No ray through the middle of the pupil: the beam without the lens.
@@ -47,8 +47,8 @@ class RealisticCamera final : public Camera {
     const PupilBounds& pupil = pupils_[zone];
     if (pupil.empty()) return std::nullopt;
     // Pupils are known for film points on the x axis and turned to this one.
-    const double px = pupil.x0 + (pupil.x1 - pupil.x0) * static_cast<double>(u_lens.x);
-    const double py = pupil.y0 + (pupil.y1 - pupil.y0) * static_cast<double>(u_lens.y);
+    const double px = pupil.x0 + (pupil.x1 - pupil.x0) * u_lens.x;
+    const double py = pupil.y0 + (pupil.y1 - pupil.y0) * u_lens.y;
     const double sine = r > 0 ? y / r : 0, cosine = r > 0 ? x / r : 1;
     const double rear_z = lenses_.rear_z();
     const Vec3d from(x, y, 0), to(cosine * px - sine * py, sine * px + cosine * py, rear_z);
@@ -160,10 +160,10 @@ std::unique_ptr<Camera> make_realistic_camera(const CameraContext& c) {
   const std::string shape = p.get_string("aperture", "");
   const Parameter* named = p.find("aperture");
   LensSystem lenses(read_lens_table(c.files, c.files.path_of(file), p.find("lensfile")->where,
-                                    static_cast<double>(diameter), c.diagnostics),
+                                    diameter, c.diagnostics),
                     make_aperture_shape(shape, c.files, named ? named->where : p.where));
   // The height of the paraxial rays is pbrt-v4's, so that both agree on what is sharp.
-  if (!lenses.focus(static_cast<double>(distance), static_cast<double>(c.film.diagonal_mm) * 1e-6))
+  if (!lenses.focus(distance, c.film.diagonal_mm * 1e-6))
     throw SceneError(p.where,
                      "the lenses cannot be focused: \"focusdistance\" is too short for them, or "
                      "their aperture lets no light through along the axis");

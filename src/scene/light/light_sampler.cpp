@@ -141,7 +141,7 @@ std::optional<LightChoice> LightSampler::sample_by_power(float& u) const {
   if (!(d.total_power > 0.0)) return std::nullopt;
   const auto it =
       std::upper_bound(d.cumulative.begin(), d.cumulative.end(), static_cast<double>(u));
-  auto i = std::min(static_cast<size_t>(it - d.cumulative.begin()), d.cumulative.size() - 1);
+  auto i = std::min<size_t>(it - d.cumulative.begin(), d.cumulative.size() - 1);
   // The last lights may be black; u below 1 never means one of them.
   while (d.powers[i] == 0.0f) --i;
   const double lower = i > 0 ? d.cumulative[i - 1] : 0.0;

@@ -185,7 +185,7 @@ LightBounds LightTree::build(uint32_t node, std::vector<Item>& items, size_t beg
   if (end - begin == 1) {
     const Item& item = items[begin];
     nodes_[node].cluster = LightCluster(item.bounds);
-    nodes_[node].child = kLeaf | static_cast<uint32_t>(item.light);
+    nodes_[node].child = kLeaf | item.light;
     trails_[item.light] = {trail, true};
     return item.bounds;
   }
@@ -202,7 +202,7 @@ LightBounds LightTree::build(uint32_t node, std::vector<Item>& items, size_t beg
           std::stable_partition(items.begin() + begin, items.begin() + end, [&](const Item& item) {
             return bucket_of(centroid(item)[split.axis], split.low, split.high) <= split.bucket;
           });
-      middle = static_cast<size_t>(it - items.begin());
+      middle = it - items.begin();
     }
   }
   if (middle == begin || middle == end) middle = begin + (end - begin) / 2;

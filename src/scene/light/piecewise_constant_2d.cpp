@@ -27,7 +27,7 @@ void make_guide(const float* upper, int n, uint32_t* guide) {
   for (int k = 0; k < n; ++k) {
     const float begin = static_cast<float>(k) / static_cast<float>(n);
     while (i < n - 1 && upper[i] <= begin) ++i;
-    guide[k] = static_cast<uint32_t>(i);
+    guide[k] = i;
   }
 }
 
@@ -35,7 +35,7 @@ void make_guide(const float* upper, int n, uint32_t* guide) {
 /// position in it. The guide leaves one step on average.
 int find_interval(const float* upper, const uint32_t* guide, int n, float& u) {
   const int k = std::min(static_cast<int>(u * static_cast<float>(n)), n - 1);
-  int i = static_cast<int>(guide[k]);
+  int i = guide[k];
   while (i < n - 1 && upper[i] <= u) ++i;
   const float lower = i > 0 ? upper[i - 1] : 0.0f;
   u = std::clamp((u - lower) / (upper[i] - lower), 0.0f, kOneMinusEpsilon);

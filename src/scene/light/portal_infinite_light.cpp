@@ -109,7 +109,7 @@ class PortalInfiniteLight final : public Light {
         pixels_(static_cast<size_t>(size_) * size_) {
     const DirectionMap map(local_to_world);
     std::vector<float> weights(pixels_.size());
-    std::vector<double> through(static_cast<size_t>(size_), 0.0);
+    std::vector<double> through(size_, 0.0);
     parallel_chunks(size_, 8, [&](int64_t, int64_t begin, int64_t end) {
       for (int y = static_cast<int>(begin); y < end; ++y)
         for (int x = 0; x < size_; ++x) {
@@ -119,7 +119,7 @@ class PortalInfiniteLight final : public Light {
           pixels_[index(x, y)] = RgbEmission(sphere.color_space(), c);
           const double weight = positive_mean(c) * d.solid_angle;
           weights[index(x, y)] = static_cast<float>(weight);
-          through[static_cast<size_t>(y)] += weight * d.cosine;
+          through[y] += weight * d.cosine;
         }
     });
     double sum = 0.0;

@@ -8,7 +8,7 @@ namespace nephroid {
 namespace {
 
 double radians(float degrees) {
-  return static_cast<double>(degrees) * (3.14159265358979323846 / 180.0);
+  return degrees * (3.14159265358979323846 / 180.0);
 }
 
 /// Solves 2 x^3 - x^4 = u for x in [0,1]: the cumulative distribution of smoothstep. Newton's
@@ -114,7 +114,7 @@ class SpotLight final : public Light {
  private:
   /// Share of the full intensity in a unit local direction.
   float falloff(const Vec3f& local) const {
-    const double below = 1.0 - static_cast<double>(local.z) - inner_;
+    const double below = 1.0 - local.z - inner_;
     if (below <= 0.0) return 1.0f;
     if (below >= edge_) return 0.0f;
     const double x = 1.0 - below / edge_;

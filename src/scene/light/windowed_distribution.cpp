@@ -22,7 +22,7 @@ std::optional<Position> invert(const Integral& upto, double target, double x0, d
   // The cell sought lies in low..high.
   while (low < high) {
     const int middle = (low + high + 1) / 2;
-    if (upto(static_cast<double>(middle)) <= target)
+    if (upto(middle) <= target)
       low = middle;
     else
       high = middle - 1;
@@ -39,7 +39,7 @@ std::optional<Position> invert(const Integral& upto, double target, double x0, d
 
 WindowedDistribution::WindowedDistribution(std::vector<float> weights, int width, int height)
     : width_(width), height_(height), weights_(std::move(weights)) {
-  sums_.assign((static_cast<size_t>(width) + 1) * (static_cast<size_t>(height) + 1), 0.0);
+  sums_.assign((static_cast<size_t>(width) + 1) * (height + 1), 0.0);
   for (int y = 0; y < height_; ++y) {
     double row = 0.0;
     for (int x = 0; x < width_; ++x) {
@@ -79,11 +79,11 @@ std::optional<WindowedDistribution::Sample> WindowedDistribution::sample(
   const double total = mass(x0, y0, x1, y1);
   if (!(total > 0.0)) return std::nullopt;
   const auto up_to_x = [&](double x) { return mass(x0, y0, x, y1); };
-  const auto x = invert(up_to_x, static_cast<double>(u.x) * total, x0, x1, width_);
+  const auto x = invert(up_to_x, u.x * total, x0, x1, width_);
   if (!x) return std::nullopt;
   // Within a column of cells the distribution over y is the same everywhere.
   const auto up_to_y = [&](double y) { return mass(x->cell, y0, x->cell + 1.0, y); };
-  const auto y = invert(up_to_y, static_cast<double>(u.y) * up_to_y(y1), y0, y1, height_);
+  const auto y = invert(up_to_y, u.y * up_to_y(y1), y0, y1, height_);
   if (!y) return std::nullopt;
   Sample s;
   s.x = x->x / width_;

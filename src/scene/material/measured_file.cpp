@@ -30,8 +30,8 @@ class Fields {
                        " (counted from 0), expected " + std::to_string(extents[i]) +
                        " as the axes have");
     GridFamily family;
-    family.height = static_cast<size_t>(shape[extents.size()]);
-    family.width = static_cast<size_t>(shape[extents.size() + 1]);
+    family.height = shape[extents.size()];
+    family.width = shape[extents.size() + 1];
     if (family.height < 2 || family.width < 2)
       fail(name, "has grids of " + std::to_string(family.height) + " x " +
                      std::to_string(family.width) + ", expected at least 2 x 2");

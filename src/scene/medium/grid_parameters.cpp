@@ -11,7 +11,7 @@ namespace {
 std::optional<uint64_t> sample_count(const std::array<int, 3>& resolution) {
   uint64_t count = 1;
   for (const int n : resolution) {
-    count *= static_cast<uint64_t>(n);
+    count *= n;
     if (count > uint64_t{1} << 40) return std::nullopt;
   }
   return count;

@@ -24,7 +24,7 @@ class GridCheck {
  public:
   GridCheck(const NanoVdbBytes& bytes, std::string title, const SourceLocation& where)
       : begin_(reinterpret_cast<const char*>(bytes.data())),
-        size_(static_cast<int64_t>(bytes.size() * sizeof(NanoVdbBlock))),
+        size_(bytes.size() * sizeof(NanoVdbBlock)),
         title_(std::move(title)),
         where_(where) {}
 
@@ -89,7 +89,7 @@ void GridCheck::run() {
   const auto& grid = node<nanovdb::GridData>(begin_, 0);
   check_header(grid);
   const auto& tree = node<nanovdb::TreeData<3>>(&grid, sizeof(nanovdb::GridData));
-  const int64_t root_offset = static_cast<int64_t>(tree.mNodeOffset[3]);
+  const int64_t root_offset = tree.mNodeOffset[3];
   const uint32_t tiles = node<Root>(&tree, root_offset).data()->mTableSize;
   bytes_seen_ -= sizeof(Root);
   using Tile = Root::DataType::Tile;

@@ -306,7 +306,7 @@ void CurveShape::fill(uint32_t piece, const Vec2f& hit_uv, const Ray& ray, float
     // pbrt-v4's normals of flat curves point along the ray; those of cylinders turn from one edge
     // to the other.
     const Vec3d away = unit(left.cross(tangent)) * side * -1.0;
-    const double angle = type_ == CurveType::kCylinder ? (v - 0.5) * static_cast<double>(kPi) : 0.0;
+    const double angle = type_ == CurveType::kCylinder ? (v - 0.5) * kPi : 0.0;
     normal = away * std::cos(angle) + left * std::sin(angle);
     dpdv = left * std::cos(angle) - away * std::sin(angle);
   }

@@ -23,7 +23,7 @@ CurveSegment raised(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
 }  // namespace
 
 std::vector<CurveSegment> bezier_segments(const std::vector<Vec3f>& p, int degree) {
-  const auto step = static_cast<size_t>(degree);
+  const size_t step = degree;
   std::vector<CurveSegment> segments;
   if (p.size() < step + 1 || (p.size() - 1) % step != 0) return segments;
   for (size_t i = 0; i + step < p.size(); i += step)
@@ -33,7 +33,7 @@ std::vector<CurveSegment> bezier_segments(const std::vector<Vec3f>& p, int degre
 }
 
 std::vector<CurveSegment> bspline_segments(const std::vector<Vec3f>& p, int degree) {
-  const auto step = static_cast<size_t>(degree);
+  const size_t step = degree;
   std::vector<CurveSegment> segments;
   for (size_t i = 0; i + step < p.size(); ++i) {
     if (degree == 2) {

@@ -112,13 +112,12 @@ std::optional<MeshData> displace_mesh(MeshData mesh, const Displacement& displac
   if (mesh.normals.empty()) mesh.normals = vertex_normals(mesh);
   if (!Refinement(mesh, displacement, most_triangles).run()) return std::nullopt;
   constexpr int64_t kChunk = 4096;
-  parallel_chunks(static_cast<int64_t>(mesh.positions.size()), kChunk,
-                  [&](int64_t, int64_t begin, int64_t end) {
-                    for (auto i = static_cast<size_t>(begin); i < static_cast<size_t>(end); ++i) {
-                      Vec3f& p = mesh.positions[i];
-                      p += mesh.normals[i] * displacement.height(p, mesh.uvs[i]);
-                    }
-                  });
+  parallel_chunks(mesh.positions.size(), kChunk, [&](int64_t, int64_t begin, int64_t end) {
+    for (int64_t i = begin; i < end; ++i) {
+      Vec3f& p = mesh.positions[i];
+      p += mesh.normals[i] * displacement.height(p, mesh.uvs[i]);
+    }
+  });
   mesh.normals = vertex_normals(mesh);
   return mesh;
 }

@@ -39,8 +39,7 @@ MeshData join_rectangles(MeshData mesh) {
         continue;
       }
     }
-    rest.insert(rest.end(), t.begin() + static_cast<std::ptrdiff_t>(i),
-                t.begin() + static_cast<std::ptrdiff_t>(i + 3));
+    rest.insert(rest.end(), t.begin() + i, t.begin() + i + 3);
   }
   mesh.triangles = std::move(rest);
   return mesh;

@@ -108,8 +108,8 @@ size_t filter_faces(std::vector<uint32_t>& indices, size_t corners, std::vector<
   }
   indices.resize(kept * corners);
   if (!face_indices.empty())
-    face_indices.erase(face_indices.begin() + static_cast<std::ptrdiff_t>(first_face + kept),
-                       face_indices.begin() + static_cast<std::ptrdiff_t>(first_face + count));
+    face_indices.erase(face_indices.begin() + first_face + kept,
+                       face_indices.begin() + first_face + count);
   return count - kept;
 }
 
@@ -151,8 +151,7 @@ MeshData split_quads(MeshData mesh) {
   }
   mesh.quads.clear();
   if (!mesh.face_indices.empty()) {
-    std::vector<int> split(mesh.face_indices.begin(),
-                           mesh.face_indices.begin() + static_cast<std::ptrdiff_t>(triangles));
+    std::vector<int> split(mesh.face_indices.begin(), mesh.face_indices.begin() + triangles);
     for (size_t i = triangles; i < triangles + quads; ++i)
       split.insert(split.end(), 2, mesh.face_indices[i]);
     mesh.face_indices = std::move(split);
@@ -173,9 +172,8 @@ MeshData quads_of(const MeshData& mesh) {
   for (size_t i = 0; i + 4 <= out.quads.size(); i += 4)
     std::swap(out.quads[i + 2], out.quads[i + 3]);
   if (!out.face_indices.empty())
-    out.face_indices.erase(
-        out.face_indices.begin(),
-        out.face_indices.begin() + static_cast<std::ptrdiff_t>(mesh.triangles.size() / 3));
+    out.face_indices.erase(out.face_indices.begin(),
+                           out.face_indices.begin() + mesh.triangles.size() / 3);
   return out;
 }
 

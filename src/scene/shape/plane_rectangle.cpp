@@ -19,7 +19,7 @@ Vec3f error_of_patch(const BilinearPatch& patch) {
   for (int i = 0; i < 3; ++i) {
     const double magnitude = std::abs(patch.p00[i]) + std::abs(patch.p10[i]) +
                              std::abs(patch.p01[i]) + std::abs(patch.p11[i]);
-    error[i] = magnitude * 16.0 * 0x1p-53 + extent * static_cast<double>(gamma_bound(6));
+    error[i] = magnitude * 16.0 * 0x1p-53 + extent * gamma_bound(6);
   }
   return to_float(error * 0x1.00001p0);
 }

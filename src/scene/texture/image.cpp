@@ -50,7 +50,7 @@ float decode(const Image::Bytes& b, size_t i) {
   return b.table[b.values[i]];
 }
 float decode(const Image::Halves& h, size_t i) {
-  return static_cast<float>(h[i]);
+  return h[i];
 }
 float decode(const Image::Floats& f, size_t i) {
   return f[i];

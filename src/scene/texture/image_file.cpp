@@ -85,7 +85,7 @@ ImagePtr read_pixels(const ImageInputFile& file, const std::string& path,
       const auto v = read_values<uint16_t>(*file.input, wanted, type, path, wanted_by);
       Image::Halves h(v.size());
       std::transform(v.begin(), v.end(), h.begin(), [&file](uint16_t s) {
-        return Imath::half(file.encoding.decode(static_cast<float>(s) / 65535.0f));
+        return Imath::half(file.encoding.decode(s / 65535.0f));
       });
       const int n = drop_opaque_alpha<Imath::half>(h, wanted.size(), Imath::half(1.0f));
       return make(n, std::move(h));

@@ -61,7 +61,7 @@ Creator reader_of(const std::string& path, const SourceLocation& wanted_by) {
   if (!file) image_is_unreadable(path, std::strerror(errno), wanted_by);
   std::array<char, 8> bytes{};
   file.read(bytes.data(), bytes.size());
-  const std::string_view begin(bytes.data(), static_cast<size_t>(file.gcount()));
+  const std::string_view begin(bytes.data(), file.gcount());
   for (const Format& format : formats())
     if (std::ranges::any_of(format.beginnings, [&](auto b) { return begin.starts_with(b); }) ||
         (!format.suffix.empty() && has_suffix(path, std::string(format.suffix))))

@@ -30,7 +30,7 @@ Rgb marble_colour(float t) {
   const float position = t * static_cast<float>(kSegments);
   const int first = std::clamp(static_cast<int>(position), 0, kSegments - 1);
   const float u = position - static_cast<float>(first), v = 1.0f - u;
-  const Rgb* c = &kColours[static_cast<size_t>(first)];
+  const Rgb* c = &kColours[first];
   const Rgb sum =
       c[0] * (v * v * v) + c[1] * (3 * v * v * u) + c[2] * (3 * v * u * u) + c[3] * (u * u * u);
   return sum * kBrightness;

@@ -41,9 +41,9 @@ class Decoder {
   }
   float operator()(uint8_t v) const { return table_[v]; }
   float operator()(uint16_t v) const {
-    return static_cast<float>(Imath::half(encoding_.decode(static_cast<float>(v) / 65535.0f)));
+    return static_cast<float>(Imath::half(encoding_.decode(v / 65535.0f)));
   }
-  float operator()(Imath::half v) const { return static_cast<float>(v); }
+  float operator()(Imath::half v) const { return v; }
   float operator()(float v) const { return v; }
 
  private:
@@ -169,7 +169,7 @@ void TileCache::set_limit(uint64_t bytes) {
 uint64_t TileCache::memory() const {
   int64_t bytes = 0;
   impl_->cache->getattribute("stat:cache_memory_used", OIIO::TypeDesc::INT64, &bytes);
-  return static_cast<uint64_t>(bytes);
+  return bytes;
 }
 
 std::shared_ptr<const Image> TileCache::open(ImageInputFile& file, const std::string& path,

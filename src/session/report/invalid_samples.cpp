@@ -13,9 +13,8 @@ std::string seen_at(const Scene& scene, int x, int y) {
       {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f}, {0.5f, 0.5f}, 0.5f);
   SurfaceInteraction hit;
   if (!ray || !scene.intersect(ray->ray, hit)) return "nothing";
-  return fmt::format("material {} at ({:.4g} {:.4g} {:.4g})",
-                     scene.material_labels[static_cast<size_t>(hit.material)], hit.p.x, hit.p.y,
-                     hit.p.z);
+  return fmt::format("material {} at ({:.4g} {:.4g} {:.4g})", scene.material_labels[hit.material],
+                     hit.p.x, hit.p.y, hit.p.z);
 }
 
 std::vector<std::string> report(const Scene* scene, const Film& film) {
@@ -29,7 +28,7 @@ std::vector<std::string> report(const Scene* scene, const Film& film) {
     const PixelBounds& crop = film.bounds();
     // None, or from a file that is wrong.
     if (bad.first_pixel < static_cast<uint64_t>(crop.area())) {
-      const auto width = static_cast<uint64_t>(crop.width());
+      const uint64_t width = crop.width();
       const int x = crop.x0 + static_cast<int>(bad.first_pixel % width);
       const int y = crop.y0 + static_cast<int>(bad.first_pixel / width);
       line += fmt::format("; the first of their pixels is {},{}", x, y);

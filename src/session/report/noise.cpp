@@ -19,12 +19,12 @@ constexpr double kRelativeFloor = 0.01;
 template <class Term>
 double sum_over_pixels(const Film& film, const Term& term) {
   const PixelBounds& bounds = film.bounds();
-  std::vector<double> sums(static_cast<size_t>(chunk_count(bounds.height(), kRowsPerChunk)));
+  std::vector<double> sums(chunk_count(bounds.height(), kRowsPerChunk));
   parallel_chunks(bounds.height(), kRowsPerChunk, [&](int64_t chunk, int64_t begin, int64_t end) {
     double sum = 0;
     for (int64_t row = begin; row < end; ++row)
       for (int x = bounds.x0; x < bounds.x1; ++x) sum += term(x, bounds.y0 + static_cast<int>(row));
-    sums[static_cast<size_t>(chunk)] = sum;
+    sums[chunk] = sum;
   });
   return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
