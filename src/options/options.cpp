@@ -225,7 +225,7 @@ const OptionDescription kOptions[] = {
      "refused before it starts.",
      false,
      [](CommandLine& l, const std::string& t) {
-       l.render.memory = static_cast<uint64_t>(parse_bytes("--memory", t));
+       l.render.memory = parse_bytes("--memory", t);
        if (l.render.memory < kLeastMemory)
          throw UsageError("--memory: '" + t + "' is not valid, expected at least 256M");
      }},

@@ -23,14 +23,10 @@ struct Automaton {
   int start = 0, dead = 0;
 
   size_t states() const { return lights == 0 ? 0 : output.size() / lights; }
-  size_t cell(int state, int event) const {
-    return static_cast<size_t>(state) * events + static_cast<size_t>(event);
-  }
+  size_t cell(int state, int event) const { return static_cast<size_t>(state) * events + event; }
   int after(int state, int event) const { return next[cell(state, event)]; }
   int after_merge(int state, int event) const { return merge_next[cell(state, event)]; }
-  int at(int state, int light) const {
-    return output[static_cast<size_t>(state) * lights + static_cast<size_t>(light)];
-  }
+  int at(int state, int light) const { return output[static_cast<size_t>(state) * lights + light]; }
 };
 
 /// What matches a word: numbers of routes and AOVs in order.

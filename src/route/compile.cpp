@@ -129,8 +129,7 @@ RouteTables write_out(const Automaton& eye, const LightSide& light, const Symbol
   }
   for (const int l : classes.light_class)
     emitted.push_back(static_cast<uint16_t>(
-        l == SymbolClasses::kNone ? dead_light
-                                  : static_cast<size_t>(light.emitted[static_cast<size_t>(l)])));
+        l == SymbolClasses::kNone ? dead_light : static_cast<size_t>(light.emitted[l])));
   for (size_t s = 0; s < t.light_states; ++s)
     for (const int e : classes.event_class)
       light_next.push_back(static_cast<uint16_t>(

@@ -44,7 +44,7 @@ LightSide reverse(const Automaton& a) {
     for (int e = 0; e < static_cast<int>(a.events); ++e) {
       std::vector<Part> before(a.states());
       for (int s = 0; s < static_cast<int>(a.states()); ++s)
-        before[static_cast<size_t>(s)] = side.meet[state][static_cast<size_t>(a.after(s, e))];
+        before[s] = side.meet[state][a.after(s, e)];
       side.next.push_back(number(std::move(before)));
     }
   return side;

@@ -33,10 +33,10 @@ std::vector<int> equivalence_classes(const Automaton& a) {
     const int finer = number_rows(
         a.states(),
         [&](int s, std::vector<int>& row) {
-          row.push_back(block[static_cast<size_t>(s)]);
+          row.push_back(block[s]);
           for (int e = 0; e < events; ++e) {
-            row.push_back(block[static_cast<size_t>(a.after(s, e))]);
-            row.push_back(block[static_cast<size_t>(a.after_merge(s, e))]);
+            row.push_back(block[a.after(s, e)]);
+            row.push_back(block[a.after_merge(s, e)]);
           }
         },
         refined);
@@ -58,7 +58,7 @@ Automaton minimise(const Automaton& a) {
   std::vector<int> number(a.states(), kUnknown);
   std::vector<int> found;
   const auto number_of = [&](int state) {
-    int& n = number[static_cast<size_t>(block[static_cast<size_t>(state)])];
+    int& n = number[block[state]];
     if (n == kUnknown) {
       n = static_cast<int>(found.size());
       found.push_back(state);

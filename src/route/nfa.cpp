@@ -52,7 +52,7 @@ int Nfa::build_repetition(const Expression& e, int next, int copy, const Express
   if (e.most == Expression::kUnbounded) {
     first = new_state({kNone, kNone, next, copy}, source);
     const int again = build(body, first, copy, source);
-    states[static_cast<size_t>(first)].next = again;
+    states[first].next = again;
   } else {
     for (int i = e.least; i < e.most; ++i) {
       const int once_more = build(body, first, copy, source);
@@ -96,7 +96,7 @@ bool matches_some_path(const Expression& expression, const ExpressionSource& sou
     const auto [state, phase] = open.back();
     open.pop_back();
     if (state == nfa.accepts[0] && phase == kBehindLight) return true;
-    const Nfa::State& s = nfa.states[static_cast<size_t>(state)];
+    const Nfa::State& s = nfa.states[state];
     if (s.atom == Nfa::kNone) {
       visit(s.next, phase);
       visit(s.other, phase);

@@ -16,7 +16,7 @@ bool can_reach(const RouteDefinition& route, LightKind light, bool touches_hair)
 
 int owner_of(const WordMatches& matches, std::span<const RouteDefinition> routes, LightKind light) {
   for (const int r : matches.routes)
-    if (can_reach(routes[static_cast<size_t>(r)], light, matches.touches_hair)) return r;
+    if (can_reach(routes[r], light, matches.touches_hair)) return r;
   return kNoRoute;
 }
 
@@ -25,7 +25,7 @@ PartAutomaton divide_into_parts(const MatchAutomaton& m, const SymbolClasses& cl
   using Meaning = std::pair<int, std::vector<int>>;
   std::map<Meaning, int> numbers;
   const auto meaning_at = [&](int state, int light) -> const WordMatches& {
-    return m.matches[static_cast<size_t>(m.automaton.at(state, light))];
+    return m.matches[m.automaton.at(state, light)];
   };
   const int states = static_cast<int>(m.automaton.states());
   const int lights = static_cast<int>(m.automaton.lights);
@@ -54,8 +54,7 @@ PartAutomaton divide_into_parts(const MatchAutomaton& m, const SymbolClasses& cl
           owner != kNoRoute &&
           (!word.is_marked ||
            std::find(word.marked_by.begin(), word.marked_by.end(), owner) != word.marked_by.end());
-      divided.output[static_cast<size_t>(s * lights + l)] =
-          counts ? numbers.at({owner, word.aovs}) : int{kNoPart};
+      divided.output[s * lights + l] = counts ? numbers.at({owner, word.aovs}) : int{kNoPart};
     }
   result.automaton = minimise(divided);
   return result;

@@ -76,10 +76,10 @@ class Prover {
     symbols.assign(classes, 0);
     for (size_t s = 0; s < class_of.size(); ++s) {
       const int c = class_of[s];
-      if (c == SymbolClasses::kNone || known[static_cast<size_t>(c)]) continue;
+      if (c == SymbolClasses::kNone || known[c]) continue;
       if (present && (s >= present->size() || !(*present)[s])) continue;
-      known[static_cast<size_t>(c)] = true;
-      symbols[static_cast<size_t>(c)] = static_cast<uint16_t>(s);
+      known[c] = true;
+      symbols[c] = static_cast<uint16_t>(s);
       chosen.push_back(c);
     }
   }
@@ -100,23 +100,18 @@ class Prover {
   std::string text(const std::vector<int>& word, int light, const std::vector<uint16_t>& events,
                    const std::vector<uint16_t>& lights) const {
     std::string text = "C ";
-    for (const int e : word)
-      text += event_text(events[static_cast<size_t>(e)], in_.labels, full_events_) + " ";
-    return text + light_text(lights[static_cast<size_t>(light)], in_.labels, full_lights_);
+    for (const int e : word) text += event_text(events[e], in_.labels, full_events_) + " ";
+    return text + light_text(lights[light], in_.labels, full_lights_);
   }
-  std::string name(int route) const {
-    return "'" + in_.routes[static_cast<size_t>(route)].name + "'";
-  }
+  std::string name(int route) const { return "'" + in_.routes[route].name + "'"; }
   // "route 'caustic' (photons)"
   std::string owner_text(int route) const {
     return "route " + name(route) + " (" + estimator(route).name + ")";
   }
-  const EstimatorTraits& estimator(int route) const {
-    return *in_.routes[static_cast<size_t>(route)].estimator;
-  }
+  const EstimatorTraits& estimator(int route) const { return *in_.routes[route].estimator; }
   int route_at(int state, int light) const {
     const int part = in_.parts.automaton.at(state, light);
-    return part == kNoPart ? kNoRoute : in_.parts.parts[static_cast<size_t>(part)].route;
+    return part == kNoPart ? kNoRoute : in_.parts.parts[part].route;
   }
   void report(Kind kind, bool is_error, const std::string& message, const std::string& witness) {
     proof_.findings.push_back({kind, is_error, message, witness});
@@ -125,7 +120,7 @@ class Prover {
   // Of all words there are, whatever a scene has: a scene without glass makes no route wrong.
   void find_unreachable() {
     std::vector<bool> owns(in_.routes.size());
-    for (const PartMeaning& p : in_.parts.parts) owns[static_cast<size_t>(p.route)] = true;
+    for (const PartMeaning& p : in_.parts.parts) owns[p.route] = true;
     for (size_t r = 0; r < owns.size(); ++r)
       if (!owns[r]) report_unreachable(static_cast<int>(r));
   }
@@ -137,8 +132,7 @@ class Prover {
                                  [&](int s, int e) { return a.after(s, e); });
     for (size_t n = 0; n < search.nodes().size(); ++n)
       for (int l = 0; l < static_cast<int>(a.lights); ++l) {
-        const WordMatches& m =
-            in_.matches.matches[static_cast<size_t>(a.at(search.nodes()[n].state, l))];
+        const WordMatches& m = in_.matches.matches[a.at(search.nodes()[n].state, l)];
         const int owner = owner_of(m, in_.routes, in_.classes.kind_of_light(l));
         if (owner == kNoRoute || !std::binary_search(m.routes.begin(), m.routes.end(), route))
           continue;
@@ -183,11 +177,10 @@ class Prover {
           continue;
         }
         const int part = in_.parts.automaton.at(s.state, l);
-        for (const int aov : in_.parts.parts[static_cast<size_t>(part)].aovs)
-          proof_.aov_matches[static_cast<size_t>(aov)] = true;
-        std::string& example = proof_.examples[static_cast<size_t>(route)];
+        for (const int aov : in_.parts.parts[part].aovs) proof_.aov_matches[aov] = true;
+        std::string& example = proof_.examples[route];
         if (example.empty()) example = text(search.word(n), l);
-        NeverSampled& best = never[static_cast<size_t>(route)];
+        NeverSampled& best = never[route];
         const char* why =
             estimator(route).why_never_sampled({s.events, light, in_.camera_connects});
         const bool has_events = s.events.count > 0;
@@ -276,14 +269,11 @@ class Prover {
     const int last = static_cast<int>(in_.routes.size()) - 1;
     for (size_t n = 0; n < search.nodes().size(); ++n)
       for (const int l : lights_) {
-        const WordMatches& m =
-            in_.matches.matches[static_cast<size_t>(a.at(search.nodes()[n].state, l))];
+        const WordMatches& m = in_.matches.matches[a.at(search.nodes()[n].state, l)];
         const LightKind light = in_.classes.kind_of_light(l);
         const int owner = owner_of(m, in_.routes, light);
         for (const int r : m.routes) {
-          if (r <= owner || r == last ||
-              !can_reach(in_.routes[static_cast<size_t>(r)], light, m.touches_hair))
-            continue;
+          if (r <= owner || r == last || !can_reach(in_.routes[r], light, m.touches_hair)) continue;
           if (!reported.insert({owner, r}).second) continue;
           const std::string witness = text(search.word(n), l);
           report(Kind::kOverlap, false,

@@ -32,10 +32,10 @@ Routes::Routes(std::vector<RouteDefinition> routes, std::vector<AovDefinition> a
     });
     if (group == groups_.end()) group = groups_.insert(groups_.end(), {estimator, {}, {}});
     group->routes.push_back(static_cast<int>(r));
-    group_of.push_back(static_cast<size_t>(group - groups_.begin()));
+    group_of.push_back(group - groups_.begin());
   }
   for (size_t p = 0; p < parts_.size(); ++p) {
-    const size_t g = group_of[static_cast<size_t>(parts_[p].route)];
+    const size_t g = group_of[parts_[p].route];
     groups_[g].parts.push_back(static_cast<Part>(p));
     part_group_.push_back(static_cast<uint8_t>(g));
   }

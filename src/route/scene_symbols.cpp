@@ -44,7 +44,7 @@ MaterialsOfShapes materials_of_shapes(const Scene& scene) {
   MaterialsOfShapes result{std::vector<bool>(count), std::vector<bool>(count)};
   std::vector<bool> visited_on_surfaces(count), visited_on_curves(count);
   for_each_shape(scene, [&](const ShapeRecord& record) {
-    const Material& material = *scene.materials[static_cast<size_t>(record.material)];
+    const Material& material = *scene.materials[record.material];
     if (record.merges_photons)
       add_guises(material, visited_on_surfaces, result.on_surfaces);
     else

@@ -15,10 +15,10 @@ class SceneSymbols {
   /// `labels` as Routes::labels().
   SceneSymbols(const Scene& scene, const std::vector<std::string>& labels);
 
-  Label material(int index) const { return materials_[static_cast<size_t>(index)]; }
-  Label medium(int index) const { return media_[static_cast<size_t>(index)]; }
+  Label material(int index) const { return materials_[index]; }
+  Label medium(int index) const { return media_[index]; }
   /// Of Scene::lights.
-  LightSymbol light(int index) const { return lights_[static_cast<size_t>(index)]; }
+  LightSymbol light(int index) const { return lights_[index]; }
   /// Of the light that a medium emits.
   LightSymbol glow(int medium_index) const {
     return light_symbol(LightKind::kMedium, medium(medium_index));

@@ -52,15 +52,15 @@ class SubsetConstruction {
 
   // All places that can be reached from `state` without reading.
   void add_closure(int state, std::vector<int>& places) {
-    if (state == Nfa::kNone || stamps_[static_cast<size_t>(state)] == stamp_) return;
+    if (state == Nfa::kNone || stamps_[state] == stamp_) return;
     open_.push_back(state);
     while (!open_.empty()) {
       const int s = open_.back();
       open_.pop_back();
-      if (s == Nfa::kNone || stamps_[static_cast<size_t>(s)] == stamp_) continue;
-      stamps_[static_cast<size_t>(s)] = stamp_;
-      const Nfa::State& state_of_s = nfa_.states[static_cast<size_t>(s)];
-      const bool accepts = nfa_.accepts[static_cast<size_t>(state_of_s.copy)] == s;
+      if (s == Nfa::kNone || stamps_[s] == stamp_) continue;
+      stamps_[s] = stamp_;
+      const Nfa::State& state_of_s = nfa_.states[s];
+      const bool accepts = nfa_.accepts[state_of_s.copy] == s;
       if (state_of_s.atom != Nfa::kNone || accepts) {
         places.push_back(s);
       } else {
@@ -76,8 +76,8 @@ class SubsetConstruction {
     for (const int s : nfa_.starts) add_closure(s, before_eye.places);
     ++stamp_;
     for (const int s : before_eye.places) {
-      const Nfa::State& state = nfa_.states[static_cast<size_t>(s)];
-      if (state.atom != Nfa::kNone && classes_.reads_eye[static_cast<size_t>(state.atom)])
+      const Nfa::State& state = nfa_.states[s];
+      if (state.atom != Nfa::kNone && classes_.reads_eye[state.atom])
         add_closure(state.next, start.places);
     }
     std::sort(start.places.begin(), start.places.end());
@@ -89,7 +89,7 @@ class SubsetConstruction {
     Subset result{subset.is_marked || merge, subset.touches_hair || is_hair, {}};
     ++stamp_;
     for (const int s : subset.places) {
-      const Nfa::State& state = nfa_.states[static_cast<size_t>(s)];
+      const Nfa::State& state = nfa_.states[s];
       if (state.atom == Nfa::kNone) continue;
       const auto atom = static_cast<size_t>(state.atom);
       if (!classes_.reads_event[atom][event]) continue;
@@ -97,7 +97,7 @@ class SubsetConstruction {
       add_closure(state.next, result.places);
     }
     // Once there is a mark only what obeys it counts.
-    const auto obeys = [&](int s) { return obeys_marks(nfa_.states[static_cast<size_t>(s)].copy); };
+    const auto obeys = [&](int s) { return obeys_marks(nfa_.states[s].copy); };
     if (result.is_marked && std::none_of(result.places.begin(), result.places.end(), obeys))
       result = {true, false, {}};
     std::sort(result.places.begin(), result.places.end());
@@ -124,13 +124,13 @@ class SubsetConstruction {
     ++stamp_;
     std::vector<int> behind;
     for (const int s : subset.places) {
-      const Nfa::State& state = nfa_.states[static_cast<size_t>(s)];
-      if (state.atom != Nfa::kNone && classes_.reads_light[static_cast<size_t>(state.atom)][light])
+      const Nfa::State& state = nfa_.states[s];
+      if (state.atom != Nfa::kNone && classes_.reads_light[state.atom][light])
         add_closure(state.next, behind);
     }
     std::vector<bool> accepted(nfa_.copies());
     for (const int s : behind) {
-      const auto copy = static_cast<size_t>(nfa_.states[static_cast<size_t>(s)].copy);
+      const auto copy = static_cast<size_t>(nfa_.states[s].copy);
       if (nfa_.accepts[copy] == s) accepted[copy] = true;
     }
     WordMatches m;
@@ -139,7 +139,7 @@ class SubsetConstruction {
     for (size_t i = 0; i < copies_.routes; ++i) {
       if (accepted[i]) m.routes.push_back(static_cast<int>(i));
       const int marked = copies_.marked_copy[i];
-      if (subset.is_marked && marked >= 0 && accepted[static_cast<size_t>(marked)])
+      if (subset.is_marked && marked >= 0 && accepted[marked])
         m.marked_by.push_back(static_cast<int>(i));
     }
     for (size_t i = 0; i < copies_.aovs; ++i)

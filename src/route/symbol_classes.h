@@ -23,12 +23,8 @@ struct SymbolClasses {
   std::vector<std::vector<bool>> reads_light;  ///< [atom][class of lights]
   std::vector<bool> reads_eye;                 ///< [atom]
 
-  EventClass class_of_event(int c) const {
-    return class_of(kind_of(events[static_cast<size_t>(c)]));
-  }
-  LightKind kind_of_light(int c) const {
-    return nephroid::kind_of_light(lights[static_cast<size_t>(c)]);
-  }
+  EventClass class_of_event(int c) const { return class_of(kind_of(events[c])); }
+  LightKind kind_of_light(int c) const { return nephroid::kind_of_light(lights[c]); }
 };
 
 /// `labels[i]` is Label i + 1; all labels of the atoms are among them.

@@ -43,7 +43,7 @@ class EventColumns {
     for (size_t s = 0; s < states; ++s) {
       for (size_t c = 0; c < firsts_.size(); ++c) useful[c] = is_useful(s, firsts_[c]);
       for (size_t e = 0; e < column_of_.size(); ++e)
-        if (column_of_[e] >= 0 && useful[static_cast<size_t>(column_of_[e])]) {
+        if (column_of_[e] >= 0 && useful[column_of_[e]]) {
           ClassMask& mask = result[s * labels + e / 8];
           mask = mask | (mask_of(class_of(kind_of(static_cast<EventSymbol>(e)))) & among);
         }

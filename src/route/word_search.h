@@ -40,9 +40,8 @@ class WordSearch {
   /// The events of a shortest word to a node.
   std::vector<int> word(size_t node) const {
     std::vector<int> events;
-    for (int i = static_cast<int>(node); nodes_[static_cast<size_t>(i)].parent >= 0;
-         i = nodes_[static_cast<size_t>(i)].parent)
-      events.push_back(nodes_[static_cast<size_t>(i)].event);
+    for (int i = static_cast<int>(node); nodes_[i].parent >= 0; i = nodes_[i].parent)
+      events.push_back(nodes_[i].event);
     std::reverse(events.begin(), events.end());
     return events;
   }

@@ -40,7 +40,7 @@ class PairRound {
         light_point_(light_point(static_cast<uint32_t>(index))),
         techniques_(film.format(), settings.owned.group, key.pass),
         parts_(film.parts_of(static_cast<int>(settings.owned.group)).size()),
-        values_(static_cast<size_t>(film.bounds().area()) * parts_) {}
+        values_(film.bounds().area() * parts_) {}
 
   void render(SplatBuffer& buffer, EstimatorStatistics& statistics) {
     const PixelBounds& b = film_.bounds();
@@ -62,8 +62,8 @@ class PairRound {
     }
     buffer.finish(1.0 / settings_.light_paths, values_);
     techniques_.add_to(statistics.techniques);
-    statistics.camera_paths += static_cast<uint64_t>(b.area());
-    statistics.light_paths += static_cast<uint64_t>(b.area());
+    statistics.camera_paths += b.area();
+    statistics.light_paths += b.area();
   }
 
  private:
@@ -100,13 +100,12 @@ class PairRound {
     row.useful += !seen.empty();
     for (const CameraSplat& c : seen)
       for (int i = 0; i < c.seen.count; ++i)
-        row.splats.push_back({c.seen.film[static_cast<size_t>(i)],
-                              static_cast<uint8_t>(light.place(c.part)), weights.apply(c.value)});
+        row.splats.push_back(
+            {c.seen.film[i], static_cast<uint8_t>(light.place(c.part)), weights.apply(c.value)});
     if (settings_.technique.t == 1) return;
     row.rays += trace_eye_path(settings_, path, camera, eye, light);
     const PixelBounds& b = film_.bounds();
-    const size_t pixel = static_cast<size_t>(y - b.y0) * static_cast<size_t>(b.width()) +
-                         static_cast<size_t>(x - b.x0);
+    const size_t pixel = static_cast<size_t>(y - b.y0) * b.width() + (x - b.x0);
     const std::span<const Rgb> colors =
         light.colors(weights, camera.camera_weight, film.max_component, camera.filter_weight);
     light.add_techniques_to(row.techniques, weights,
@@ -160,11 +159,10 @@ std::unique_ptr<PassFindings> Bidirectional::render_pass(const PassKey& key, con
   settings.tree = options_.own<PathOptions>().specular_trees ? &tree : nullptr;
   SplatBuffer buffer(film, group, *scene.filter);
   const size_t parts = film.parts_of(group).size();
-  statistics_.hold(0, static_cast<uint64_t>(film.bounds().area()) * bytes_per_pixel(parts));
+  statistics_.hold(0, film.bounds().area() * bytes_per_pixel(parts));
   const int samples = std::max(1, options_.camera_samples_per_pass);
   for (int k = 0; k < samples; ++k) {
-    const uint64_t index =
-        uint64_t{key.pass} * static_cast<uint64_t>(samples) + static_cast<uint64_t>(k);
+    const uint64_t index = uint64_t{key.pass} * samples + k;
     PairRound(settings, key, index, film).render(buffer, statistics_);
     film.add_estimates(group, 1);
   }

@@ -172,24 +172,23 @@ class PairRendering {
 
   void trace_rows(int first, int count, EstimatorStatistics& statistics) {
     const PixelBounds& b = format_.bounds();
-    std::vector<Row> rows(count);
-    parallel_chunks(count, 1, [&](int64_t row, int64_t, int64_t) {
+    const auto trace_row = [&](Row& row, int64_t number, int64_t) {
       LightSubpath path;
       PartSums light(*in_.owned.routes, in_.owned.group);
-      rows[row].techniques = counter_.start_row(light);
-      const int y = b.y0 + first + static_cast<int>(row);
+      row.techniques = counter_.start_row(light);
+      const int y = b.y0 + first + static_cast<int>(number);
       for (int x = b.x0; x < b.x1; ++x) {
         const int samples = camera_.paths.at(x - b.x0, y - b.y0);
-        for (int k = 0; k < samples; ++k) trace_sample(x, y, samples, k, path, light, rows[row]);
+        for (int k = 0; k < samples; ++k) trace_sample(x, y, samples, k, path, light, row);
       }
-    });
-    for (Row& row : rows) {
+    };
+    ordered_reduce<Row>(count, 1, trace_row, [&](Row&& row) {
       statistics.rays += row.rays;
       if (settings_.merges_only) statistics.again_rays += row.rays;
       statistics.camera_paths += row.camera_paths;
       records_.take(row.records, settings_.merges_only);
       counter_.add(row.techniques);
-    }
+    });
   }
 
   void trace_sample(int x, int y, int samples, int k, LightSubpath& path, PartSums& light,

@@ -69,8 +69,7 @@ std::unique_ptr<PassFindings> FeatureEstimator::render_pass(const PassKey& key, 
   const PixelBounds& b = film.bounds();
   const FilmSettings& settings = film.settings();
   const SobolPoint point = eye_point(key.pass);
-  std::vector<uint64_t> rays(b.height(), 0);
-  parallel_chunks(b.height(), 1, [&](int64_t row, int64_t, int64_t) {
+  const auto trace_row = [&](uint64_t& rays, int64_t row, int64_t) {
     const int y = b.y0 + static_cast<int>(row);
     for (int x = b.x0; x < b.x1; ++x) {
       PathSampler sampler(point, hash_combine(key.seed, kStream, x, y));
@@ -86,11 +85,12 @@ std::unique_ptr<PassFindings> FeatureEstimator::render_pass(const PassKey& key, 
       const SensorWeights weights = sensor_weights(path.walk.lambda, *settings.color_space,
                                                    settings.imaging_ratio, settings.white_balance);
       features.add_to(film, x, y, scene, path, weights);
-      rays[row] += path.walk.rays;
+      rays += path.walk.rays;
     }
-  });
+  };
+  ordered_reduce<uint64_t>(b.height(), 1, trace_row,
+                           [&](uint64_t&& of_row) { statistics_.rays += of_row; });
   film.add_feature_estimates(1);
-  for (const uint64_t r : rays) statistics_.rays += r;
   statistics_.camera_paths += b.area();
   return nullptr;
 }

@@ -56,8 +56,7 @@ std::shared_ptr<const LearnedPilot> LearnedPilot::read(ByteReader& from) {
 void MetropolisPasses::render(const PassKey& key, const Scene& scene, int group,
                               const ChainPilot& pilot, const PathFunctionMaker& make, Film& film) {
   SplatBuffer buffer(film, group, *scene.filter);
-  pixel_bytes_ = static_cast<uint64_t>(film.bounds().area()) *
-                 SplatBuffer::bytes_per_pixel(film.parts_of(group).size());
+  pixel_bytes_ = film.bounds().area() * SplatBuffer::bytes_per_pixel(film.parts_of(group).size());
   render_chains(key, settings_for(film.bounds().area()), pilot, make, buffer, counts_);
   buffer.finish(1.0);
   film.add_estimates(group, 1);

@@ -70,8 +70,7 @@ class TechniquePaths : public PathFunction {
     found.rays += trace_light_path(pair_, lambda, u_time, light, nullptr, &seen_, nullptr).rays;
     for (const CameraSplat& c : seen_)
       for (int i = 0; i < c.seen.count; ++i)
-        found.add(c.seen.film[static_cast<size_t>(i)], light_.place(c.part),
-                  weights.apply(c.value) * factor);
+        found.add(c.seen.film[i], light_.place(c.part), weights.apply(c.value) * factor);
   }
 
   void connect(const SampledWavelengths& lambda, float u_time, PathSampler& eye, PathSampler& light,

@@ -28,7 +28,7 @@ constexpr double kRequiredGain = 1.6;
 SampleMap every_other_tile(const PixelBounds& b) {
   SampleMap map(b);
   for (size_t i = 0; i < map.counts().size(); ++i) {
-    const size_t w = static_cast<size_t>(map.width());
+    const size_t w = map.width();
     map.counts()[i] = (i / w + i % w) % 2 == 0;
   }
   return map;

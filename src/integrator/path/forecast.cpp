@@ -138,7 +138,7 @@ void trace_round(const PassKey& key, int64_t photons, const Scene& scene, const 
       .scene = scene, .specular_alpha = specular_alpha, .max_events = max_depth};
   const auto trace_chunk = [&](Chunk& chunk, int64_t begin, int64_t end) {
     for (int64_t j = first + begin; j < first + end; ++j)
-      sequence.at(static_cast<uint64_t>(j), [&](PathSampler& sampler) {
+      sequence.at(j, [&](PathSampler& sampler) {
         const LightPathMoment moment = sample_moment(scene, sampler);
         const size_t before = chunk.sights.size();
         launch_light_path(
@@ -154,7 +154,7 @@ void trace_round(const PassKey& key, int64_t photons, const Scene& scene, const 
     made.rays += chunk.rays;
     made.photon_paths_useful += chunk.useful;
   });
-  made.photon_paths += static_cast<uint64_t>(photons);
+  made.photon_paths += photons;
 }
 
 constexpr const EstimatorSetting* kSettings[] = {&kSpecularTreesSetting};
@@ -206,8 +206,7 @@ std::unique_ptr<PassFindings> Forecast::render_pass(const PassKey& key, const Le
       random_walk(scene, TransportMode::kRadiance, options_.max_depth, path.walk, sampler, visitor);
     return path.walk.rays + visitor.more_rays();
   });
-  statistics_.camera_paths +=
-      static_cast<uint64_t>(film.bounds().area()) * static_cast<uint64_t>(pass.samples);
+  statistics_.camera_paths += static_cast<uint64_t>(film.bounds().area()) * pass.samples;
   return nullptr;
 }
 

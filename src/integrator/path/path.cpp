@@ -59,7 +59,7 @@ std::unique_ptr<PassFindings> PathEstimator::render_pass(const PassKey& key, con
     return path.walk.rays + visitor.more_rays();
   });
   film.add_feature_estimates(samples_per_pass_);
-  statistics_.camera_paths += static_cast<uint64_t>(film.bounds().area()) * samples_per_pass_;
+  statistics_.camera_paths += film.bounds().area() * samples_per_pass_;
   return nullptr;
 }
 

@@ -38,11 +38,11 @@ uint64_t trace_paths(const PathPass& pass, Trace&& trace) {
   const PixelBounds& b = pass.film.bounds();
   const float specular_alpha = specular_alpha_of_pass(pass.scene.specular_band, pass.key);
   const int group = static_cast<int>(pass.owned.group);
-  std::vector<uint64_t> rays(b.height(), 0);
+  uint64_t all_rays = 0;
   for (int k = 0; k < pass.samples; ++k) {
     const uint64_t index = uint64_t{pass.key.pass} * pass.samples + k;
     const SobolPoint point = eye_point(static_cast<uint32_t>(index));
-    parallel_chunks(b.height(), 1, [&](int64_t row, int64_t, int64_t) {
+    const auto trace_row = [&](uint64_t& rays, int64_t row, int64_t) {
       const int y = b.y0 + static_cast<int>(row);
       PartSums light(*pass.owned.routes, pass.owned.group);
       for (int x = b.x0; x < b.x1; ++x) {
@@ -56,17 +56,17 @@ uint64_t trace_paths(const PathPass& pass, Trace&& trace) {
         path.walk.roulette_threshold = kCameraRouletteThreshold;
         light.clear();
         const SensorWeights weights = pass.weights_of(path);
-        rays[row] += trace(x, y, path, weights, sampler, light);
+        rays += trace(x, y, path, weights, sampler, light);
         pass.film.add(group, x, y,
                       light.colors(weights, path.camera_weight, pass.film.settings().max_component,
                                    path.filter_weight));
       }
-    });
+    };
+    ordered_reduce<uint64_t>(b.height(), 1, trace_row,
+                             [&](uint64_t&& of_row) { all_rays += of_row; });
     pass.film.add_estimates(group, 1);
   }
-  uint64_t sum = 0;
-  for (const uint64_t r : rays) sum += r;
-  return sum;
+  return all_rays;
 }
 
 }  // namespace nephroid

@@ -33,11 +33,9 @@ uint64_t SpecularChainPass::render_points(
     uint64_t rays = 0;
     TechniqueCounter::Row techniques;
   };
-  std::vector<Row> rows(b.height());
-  parallel_chunks(b.height(), 1, [&](int64_t row, int64_t, int64_t) {
+  const auto look_along_row = [&](Row& of_row, int64_t row, int64_t) {
     const int y = static_cast<int>(row);
     PartSums light(*owned.routes, owned.group);
-    Row& of_row = rows[row];
     if (techniques) of_row.techniques = techniques->start_row(light);
     std::vector<SpecularTree::Light> found;
     size_t pixel = row * b.width();
@@ -80,13 +78,13 @@ uint64_t SpecularChainPass::render_points(
         }
       }
     }
-  });
-  uint64_t sum = 0;
-  for (const Row& row : rows) {
-    sum += row.rays;
+  };
+  uint64_t all_rays = 0;
+  ordered_reduce<Row>(b.height(), 1, look_along_row, [&](Row&& row) {
+    all_rays += row.rays;
     if (techniques) techniques->add(row.techniques);
-  }
-  return sum;
+  });
+  return all_rays;
 }
 
 }  // namespace nephroid

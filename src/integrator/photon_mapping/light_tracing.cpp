@@ -74,12 +74,12 @@ class ConnectingVisitor : public LightWalkVisitor {
     const auto seen = pass_.view.connect(e.p, sampler.get_2d(), camera_.u_time());
     if (!seen) return;
     const Vec3f& w = seen->line.wi;
-    const Light& light = *pass_.scene.lights[static_cast<size_t>(emission.light)];
+    const Light& light = *pass_.scene.lights[emission.light];
     const SampledSpectrum radiance = light.radiance(e.p, e.ng, e.uv, w, walk.lambda);
     if (radiance.is_black()) return;
     const Medium* medium = nullptr;
     if (!pass_.scene.light_media.empty()) {
-      const MediumInterface& media = pass_.scene.light_media[static_cast<size_t>(emission.light)];
+      const MediumInterface& media = pass_.scene.light_media[emission.light];
       medium = dot(w, e.ng) > 0.0f ? media.outside : media.inside;
     }
     const SampledSpectrum through =
@@ -131,8 +131,7 @@ class ConnectingVisitor : public LightWalkVisitor {
         walk.lambda, *pass_.film.color_space, pass_.film.imaging_ratio, pass_.film.white_balance);
     const Rgb value = weights.apply(intensity) * (seen.line.film_density * seen.line.weight);
     for (int i = 0; i < seen.count; ++i)
-      out_.splats.push_back({seen.film[static_cast<size_t>(i)],
-                             static_cast<uint8_t>(pass_.places.place(part)), value});
+      out_.splats.push_back({seen.film[i], static_cast<uint8_t>(pass_.places.place(part)), value});
   }
 
   const LightPass& pass_;
@@ -205,12 +204,11 @@ int64_t light_pass(const PassKey& key, const Scene& scene, const Film& film,
                        settings.trace.specular_alpha,
                        options.max_depth,
                        weight};
-  const uint64_t first = uint64_t{key.pass} * static_cast<uint64_t>(pass.paths);
+  const uint64_t first = uint64_t{key.pass} * pass.paths;
   for (int64_t begin = 0; begin < pass.paths; begin += kGroup) {
     const int64_t count = std::min(kGroup, pass.paths - begin);
     const auto trace_chunk = [&](Chunk& chunk, int64_t b, int64_t e) {
-      for (int64_t j = b; j < e; ++j)
-        trace_light_path(pass, first + static_cast<uint64_t>(begin + j), chunk);
+      for (int64_t j = b; j < e; ++j) trace_light_path(pass, first + (begin + j), chunk);
     };
     std::vector<Splat> found;
     ordered_reduce<Chunk>(count, kChunk, trace_chunk, [&](Chunk&& chunk) {
@@ -221,7 +219,7 @@ int64_t light_pass(const PassKey& key, const Scene& scene, const Film& film,
     buffer.add(found);
     statistics.splats += found.size();
   }
-  statistics.light_paths += static_cast<uint64_t>(pass.paths);
+  statistics.light_paths += pass.paths;
   return pass.paths;
 }
 
@@ -229,8 +227,8 @@ std::unique_ptr<PassFindings> LightTracing::render_pass(const PassKey& key, cons
                                                         const Scene& scene, Film& film) {
   const int group = static_cast<int>(owned_.group);
   SplatBuffer buffer(film, group, *scene.filter);
-  statistics_.hold(0, static_cast<uint64_t>(film.bounds().area()) *
-                          SplatBuffer::bytes_per_pixel(film.parts_of(group).size()));
+  statistics_.hold(
+      0, film.bounds().area() * SplatBuffer::bytes_per_pixel(film.parts_of(group).size()));
   const int64_t paths = light_pass(key, scene, film, owned_, options_, {}, buffer, statistics_);
   buffer.finish(1.0 / static_cast<double>(paths));
   film.add_estimates(group, 1);

@@ -162,7 +162,7 @@ std::unique_ptr<PassFindings> PhotonMap::render_pass(const PassKey& key, const L
   // Walks have the wavelengths, time and threshold of the set that they read.
   const PassKey set{map.seed, key.pass % kSets};
   PhotonPass pass = start_photon_pass(set, scene, film.format(), options_);
-  std::vector<RadiusRange> rows(static_cast<size_t>(film.bounds().height()));
+  std::vector<RadiusRange> rows(film.bounds().height());
   for (uint32_t k = 0; k < walks_per_pass_; ++k) {
     // A set has a sequence of its own. Of one for all passes it would take every 16th point, which
     // lie in one strip of each pixel.
@@ -186,9 +186,9 @@ void PhotonMap::read(const TracedMap& map, const PassKey& set, uint64_t walk_see
                      std::span<RadiusRange> rows) {
   const int group = static_cast<int>(owned_.group);
   const PixelBounds& b = film.bounds();
-  const size_t width = static_cast<size_t>(b.width());
+  const size_t width = b.width();
   const size_t parts = film.parts_of(group).size();
-  Gathered gathered(static_cast<size_t>(b.area()), parts);
+  Gathered gathered(b.area(), parts);
   statistics_.hold(map.grid.bytes(),
                    gathered.filter_weights.size() * Gathered::bytes_per_walk(parts));
   const size_t nearest_photons = options_.own<PhotonMapOptions>().nearest_photons;

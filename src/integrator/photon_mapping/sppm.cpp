@@ -50,7 +50,7 @@ std::span<const SobolPoint> Sppm::points(const PhotonPass& pass, const Scene&) {
 }
 
 void Sppm::start_regions(const Scene& scene, size_t pixels, size_t parts) {
-  regions_in_pixel_ = static_cast<size_t>(regions_per_pixel(scene));
+  regions_in_pixel_ = regions_per_pixel(scene);
   regions_.resize(pixels * regions_in_pixel_);
   flux_.resize(regions_.size() * parts);
   footprint_.resize(regions_.size());
@@ -62,7 +62,7 @@ std::unique_ptr<PassFindings> Sppm::render_pass(const PassKey& key, const Learne
   const size_t parts = film.parts_of(static_cast<int>(owned_.group)).size();
   const PhotonPass pass = start_photon_pass(key, scene, film.format(), options_);
   const int64_t photons = pass.trace.photons_per_pass;
-  start_regions(scene, static_cast<size_t>(b.area()), parts);
+  start_regions(scene, b.area(), parts);
 
   // The radius stays until the pass is complete.
   Gathered gathered(regions_.size(), parts);
@@ -122,7 +122,7 @@ void Sppm::update(Gathered& gathered, std::span<const uint64_t> counts, Film& fi
       // What is no number would stay in the sum for ever: it is as if no photon had been found.
       const auto bad = std::ranges::find_if_not(estimate, &Rgb::is_finite);
       if (bad != estimate.end()) {
-        film.count_bad(group, static_cast<size_t>(bad - estimate.begin()), pixel);
+        film.count_bad(group, bad - estimate.begin(), pixel);
         std::ranges::fill(estimate, Rgb{});
       }
       const double found = bad == estimate.end() ? static_cast<double>(counts[i]) : 0.0;
@@ -133,7 +133,7 @@ void Sppm::update(Gathered& gathered, std::span<const uint64_t> counts, Film& fi
         std::array<double, 3>& tau = flux_[i * parts + k];
         const Rgb add = estimate[k] * gathered.filter_weights[i];
         for (int c = 0; c < 3; ++c) {
-          const size_t channel = static_cast<size_t>(c);
+          const size_t channel = c;
           tau[channel] = (tau[channel] + add[c]) * kept;
           sums[k][channel] += tau[channel] * scale;
         }
@@ -153,7 +153,7 @@ void Sppm::update(Gathered& gathered, std::span<const uint64_t> counts, Film& fi
 
 void Sppm::add_state(const Scene& scene, const Film& film, RenderState& state) {
   const size_t parts = film.parts_of(static_cast<int>(owned_.group)).size();
-  start_regions(scene, static_cast<size_t>(film.bounds().area()), parts);
+  start_regions(scene, film.bounds().area(), parts);
   const std::string name = "group." + std::to_string(owned_.group);
   state.add(name + ".regions", std::span(regions_), regions_in_pixel_);
   state.add(name + ".flux", std::span(flux_), regions_in_pixel_ * parts);

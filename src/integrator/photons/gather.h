@@ -55,11 +55,9 @@ void gather(const Scene& scene, const PixelBounds& b, const OwnedRoutes& owned, 
   struct RowCounts {
     uint64_t rays = 0, found = 0;
   };
-  std::vector<RowCounts> rows(b.height());
-  parallel_chunks(b.height(), 1, [&](int64_t row, int64_t, int64_t) {
+  const auto gather_row = [&](RowCounts& counts, int64_t row, int64_t) {
     const int y = b.y0 + static_cast<int>(row);
     PartSums sums(*owned.routes, owned.group);
-    RowCounts& counts = rows[row];
     size_t number = row * b.width() * numbers.points.size();
     for (int x = b.x0; x < b.x1; ++x)
       for (const SobolPoint& point : numbers.points) {
@@ -79,11 +77,11 @@ void gather(const Scene& scene, const PixelBounds& b, const OwnedRoutes& owned, 
         if (!into.bias.empty()) into.bias[number] += sums.bias(pass.weights) * path.camera_weight;
         into.filter_weights[number++] = path.filter_weight;
       }
+  };
+  ordered_reduce<RowCounts>(b.height(), 1, gather_row, [&](RowCounts&& of_row) {
+    into.rays += of_row.rays;
+    into.found += of_row.found;
   });
-  for (const RowCounts& row : rows) {
-    into.rays += row.rays;
-    into.found += row.found;
-  }
 }
 
 }  // namespace nephroid

@@ -24,8 +24,7 @@ FilmLayout layout_of(const Routes& routes, EstimatorTable table) {
   for (const PartMeaning& part : routes.parts()) layout.parts.push_back({part.route, part.aovs});
   layout.groups.resize(layout.routes.size());
   for (size_t g = 0; g < routes.groups().size(); ++g)
-    for (const int route : routes.groups()[g].routes)
-      layout.groups[static_cast<size_t>(route)] = static_cast<int>(g);
+    for (const int route : routes.groups()[g].routes) layout.groups[route] = static_cast<int>(g);
   for (const RouteGroup& group : routes.groups())
     layout.merges.push_back(descriptor_of(group, table).merges_with_radius);
   return layout;

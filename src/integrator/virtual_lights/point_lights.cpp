@@ -242,8 +242,7 @@ std::unique_ptr<PassFindings> PointLights::render_pass(const PassKey& key, const
   // classes of events are, the pass decides for all.
   const float specular_alpha = specular_alpha_of_pass(scene.specular_band, key);
   for (int k = 0; k < samples; ++k) {
-    const uint64_t index =
-        uint64_t{key.pass} * static_cast<uint64_t>(samples) + static_cast<uint64_t>(k);
+    const uint64_t index = uint64_t{key.pass} * samples + k;
     const uint64_t turn = index >> 32;
     const PassKey own{turn == 0 ? key.seed : hash_combine(key.seed, turn),
                       static_cast<uint32_t>(index)};
@@ -286,8 +285,8 @@ void PointLights::render_sample(const PhotonPass& pass, float density, const Sce
                            [&](uint64_t&& rays) { statistics_.rays += rays; });
   film.add_estimates(group, 1);
   statistics_.rays += pool.rays();
-  statistics_.camera_paths += static_cast<uint64_t>(b.area());
-  statistics_.photon_paths += static_cast<uint64_t>(pass.trace.photons_per_pass);
+  statistics_.camera_paths += b.area();
+  statistics_.photon_paths += pass.trace.photons_per_pass;
   statistics_.photon_paths_useful += pool.useful_paths();
   statistics_.photons_stored += pool.size();
   statistics_.hold(pool.bytes(), 0);

@@ -92,9 +92,7 @@ const IntegratorSetting kSettings[] = {
      [](RenderSettings& s, const std::string& t) {
        s.scene.texture_memory = parse_bytes("-D texture-cache", t);
      },
-     [](const RenderSettings& s) {
-       return bytes_text(static_cast<int64_t>(s.scene.texture_memory));
-     }},
+     [](const RenderSettings& s) { return bytes_text(s.scene.texture_memory); }},
 };
 
 /// The rows above and those of all estimators, each key once.
