@@ -20,7 +20,7 @@ inline constexpr char kPairView[] = R"(
 struct PairView {
   explicit PairView(const std::string& world)
       : scene(scene_from_text(kPairView + world)),
-        preset(make_preset(plan_of({"all=.*:path+photons"}), {}, *scene)),
+        set(make_estimators(plan_of({"all=.*:path+photons"}), {}, *scene)),
         owned(owned_routes(*scene, {"all=.*:path+photons"})) {}
   PairPass pass_of(const PairTechniques& techniques, uint32_t number,
                    const IntegratorOptions& options) const {
@@ -34,7 +34,7 @@ struct PairView {
   }
   Film render(const PairTechniques& techniques, uint32_t number, const SampleMap& map,
               uint32_t in_first_pass = 0) const {
-    Film film = film_for(*scene, preset);
+    Film film = film_for(*scene, set);
     EstimatorStatistics statistics;
     const IntegratorOptions options;
     nephroid::render(pass_of(techniques, number, options),
@@ -42,9 +42,9 @@ struct PairView {
     return film;
   }
   std::unique_ptr<Scene> scene;
-  Preset preset;
+  EstimatorSet set;
   OwnedRoutes owned;
-  PixelBounds bounds = film_for(*scene, preset).bounds();
+  PixelBounds bounds = film_for(*scene, set).bounds();
   SampleMap one_path{bounds}, no_walks{bounds, 0};
 };
 

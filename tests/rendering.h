@@ -31,7 +31,7 @@ inline std::unique_ptr<Scene> scene_from_text(const std::string& text) {
   return build_scene(d, {}, diagnostics);
 }
 
-inline Film film_for(const Scene& scene, const Preset& preset) {
+inline Film film_for(const Scene& scene, const EstimatorSet& preset) {
   return Film(film_settings(scene.film), preset.layout);
 }
 
@@ -109,7 +109,7 @@ struct Plan : RoutePlan {
 using PlanLearned = std::vector<LearnedValues>;
 inline PlanLearned learn(const Scene& scene, const Plan& plan, const IntegratorOptions& options,
                          uint64_t seed) {
-  const Preset preset = make_preset(plan, options, scene);
+  const EstimatorSet preset = make_estimators(plan, options, scene);
   const FilmFormat format = film_for(scene, preset).format();
   PlanLearned learned;
   for (const auto& estimator : preset.estimators)
@@ -122,7 +122,7 @@ inline PlanLearned learn(const Scene& scene, const Plan& plan, const IntegratorO
 inline Film render(const Scene& scene, const Plan& plan, const IntegratorOptions& options,
                    uint64_t seed, uint32_t count, uint32_t first = 0,
                    const PlanLearned& learned = {}) {
-  Preset preset = make_preset(plan, options, scene);
+  EstimatorSet preset = make_estimators(plan, options, scene);
   Film film = film_for(scene, preset);
   preset.learned.resize(preset.estimators.size());
   for (size_t i = 0; i < learned.size(); ++i)

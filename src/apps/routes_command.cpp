@@ -10,7 +10,7 @@
 #include "apps/messages.h"
 #include "core/errors.h"
 #include "film/film_settings.h"
-#include "integrator/presets/preset.h"
+#include "integrator/presets/estimator_set.h"
 #include "session/render.h"
 #include "session/report/choices_report.h"
 #include "session/report/noise.h"
@@ -99,11 +99,11 @@ bool print_proof(const RouteCompilation& compiled, bool strict) {
 /// A small picture of the scene, its light by route and by layer, and what the estimators say.
 void print_pilot(const RoutesCommand& command, const RoutePlan& plan, CompiledPlan compiled,
                  const IntegratorOptions& options, const Scene& scene) {
-  Preset preset = make_preset(std::move(compiled), options, scene);
-  for (const std::string& warning : preset.warnings) print_warning(warning);
-  Film film(film_settings(scene.film), preset.layout);
+  EstimatorSet set = make_estimators(std::move(compiled), options, scene);
+  for (const std::string& warning : set.warnings) print_warning(warning);
+  Film film(film_settings(scene.film), set.layout);
   for (uint32_t pass = 0; pass < command.passes; ++pass)
-    preset.render_pass({scene.scene_seed, pass}, scene, film);
+    set.render_pass({scene.scene_seed, pass}, scene, film);
   fmt::print("light of {} ({} passes at {} x {}):\n", command.scene, command.passes,
              scene.film.width, scene.film.height);
   const EnergyShares shares = energy_shares(film);
@@ -111,7 +111,7 @@ void print_pilot(const RoutesCommand& command, const RoutePlan& plan, CompiledPl
     fmt::print("  {:16} {:6.3g} %\n", plan.routes[i].name, 100 * shares.routes[i]);
   for (size_t i = 0; i < plan.aovs.size(); ++i)
     fmt::print("  {:16} {:6.3g} % (layer)\n", plan.aovs[i].name, 100 * shares.aovs[i]);
-  const std::vector<EstimatorStatistics> statistics = preset.statistics();
+  const std::vector<EstimatorStatistics> statistics = set.statistics();
   for (const std::string& line : technique_report(statistics)) fmt::print("{}\n", line);
   for (const EstimatorStatistics& s : statistics)
     for (const std::string& note : s.notes) fmt::print("note: {}\n", note);

@@ -57,8 +57,9 @@ Totals totals_of(const std::vector<EstimatorStatistics>& statistics) {
 /// Measures the film at passes that grow by a factor, and at the end.
 class Curve {
  public:
-  Curve(const Film& film, const Preset& preset, const Picture* reference, const BenchScene& scene)
-      : film_(film), preset_(preset), reference_(reference), scene_(scene) {
+  Curve(const Film& film, const EstimatorSet& set, const Picture* reference,
+        const BenchScene& scene)
+      : film_(film), set_(set), reference_(reference), scene_(scene) {
     // Runs have the layers in this order, and then those of shares.
     if (reference_ != nullptr)
       for (const BenchEnergy& layer : scene_.layers)
@@ -77,7 +78,7 @@ class Curve {
 
  private:
   void measure(uint32_t passes, double seconds) {
-    BenchPoint point{passes, seconds, totals_of(preset_.statistics()).emitted, {}, {}};
+    BenchPoint point{passes, seconds, totals_of(set_.statistics()).emitted, {}, {}};
     if (reference_ != nullptr)
       point.errors = measure_errors(*reference_, colors_of_film(film_), scene_.exposure);
     for (size_t i = 0; i < reference_layers_.size(); ++i)
@@ -89,7 +90,7 @@ class Curve {
   }
 
   const Film& film_;
-  const Preset& preset_;
+  const EstimatorSet& set_;
   const Picture* reference_;
   const BenchScene& scene_;
   std::vector<Picture> reference_layers_;

@@ -18,8 +18,8 @@ namespace nephroid {
 namespace {
 
 constexpr uint64_t kAnySeed = std::numeric_limits<uint64_t>::max();
-constexpr uint64_t kMostPasses = std::numeric_limits<uint32_t>::max() - 1;
-constexpr uint32_t kMostRepeats = 1000;
+constexpr uint64_t kMaxPasses = std::numeric_limits<uint32_t>::max() - 1;
+constexpr uint32_t kMaxRepeats = 1000;
 constexpr uint64_t kLargestSide = 65536;
 /// References are not made from the random numbers of what is measured against them.
 constexpr uint64_t kReferenceSeed = 12345;
@@ -57,7 +57,7 @@ BenchLimit limit_in(const Fields& fields) {
   if (const std::optional<JsonValue> time = fields.find("time"))
     limit.seconds =
         read_at(*time, [&] { return parse_duration("\"time\"", text_of(*time, "\"time\"")); });
-  limit.passes = static_cast<uint32_t>(fields.integer_or("passes", 0, 1, kMostPasses));
+  limit.passes = static_cast<uint32_t>(fields.integer_or("passes", 0, 1, kMaxPasses));
   return limit;
 }
 
@@ -281,7 +281,7 @@ BenchSuite parse_suite(const std::string& text, const std::string& file) {
   suite.title = fields.text_or("title", suite.name);
   suite.description = fields.text_or("description", "");
   suite.limit = limit_in(fields);
-  suite.repeat = static_cast<uint32_t>(fields.integer_or("repeat", 1, 1, kMostRepeats));
+  suite.repeat = static_cast<uint32_t>(fields.integer_or("repeat", 1, 1, kMaxRepeats));
   for (const JsonValue& item : filled_list(fields, "integrators")) {
     BenchIntegrator integrator = integrator_in(item, file);
     check_new_name(suite.integrators, integrator, item);

@@ -88,8 +88,8 @@ class ByteReader {
     uint64_t size = 0;
     read(size);
     // Each element has a byte at least.
-    constexpr uint64_t kLeastBytes = PlainBytes<T> ? sizeof(T) : 1;
-    if (size > left_.size() / kLeastBytes) damaged();
+    constexpr uint64_t kMinBytes = PlainBytes<T> ? sizeof(T) : 1;
+    if (size > left_.size() / kMinBytes) damaged();
     list.clear();
     if constexpr (PlainBytes<T>) {
       list.resize(size);

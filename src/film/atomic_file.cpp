@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostLinks = 40;
+constexpr int kMaxLinks = 40;
 
 [[noreturn]] void fail(const std::string& path, const std::string& what, int error) {
   throw IoError(path + ": cannot " + what + ": " + std::strerror(error));
@@ -36,7 +36,7 @@ fs::path resolved_target(const std::string& path) {
   // The file that a link names need not exist yet.
   for (int link = 0; fs::is_symlink(fs::symlink_status(target, error)); ++link) {
     const fs::path next = fs::read_symlink(target, error);
-    if (error || link == kMostLinks) throw IoError(path + ": cannot follow the link");
+    if (error || link == kMaxLinks) throw IoError(path + ": cannot follow the link");
     target = target.parent_path() / next;
   }
   const fs::file_status status = fs::status(target, error);

@@ -151,7 +151,7 @@ uint64_t bytes_of_rows(int width, size_t channels, size_t state_words) {
 
 /// Two buffers for each; without any, the caller's thread encodes, with one.
 int encoder_threads(uint64_t bytes_of_buffer) {
-  const uint64_t fit = kMostEncoderBytes / (2 * bytes_of_buffer);
+  const uint64_t fit = kMaxEncoderBytes / (2 * bytes_of_buffer);
   return static_cast<int>(std::min<uint64_t>(fit, Imf::globalThreadCount()));
 }
 

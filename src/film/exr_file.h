@@ -17,7 +17,7 @@ namespace nephroid {
 void write_exr(const std::string& path, const Picture& picture, const RenderState* state = nullptr);
 
 /// The most that the encoder may hold, unless a single buffer of rows is larger: then it has one.
-inline constexpr uint64_t kMostEncoderBytes = uint64_t{64} << 20;
+inline constexpr uint64_t kMaxEncoderBytes = uint64_t{64} << 20;
 /// What it holds while it writes a picture of this width and so many channels, with a state of so
 /// many words in a pixel, all parts together.
 uint64_t encoder_bytes(int width, size_t channels, size_t state_words);

@@ -112,7 +112,7 @@ uint8_t encode_srgb8(float linear) {
 
 void limit_image_threads(int threads) {
   if (threads <= 0) threads = std::thread::hardware_concurrency();
-  threads = std::clamp(threads, 1, kMostImageThreads);
+  threads = std::clamp(threads, 1, kMaxImageThreads);
   Imf::setGlobalThreadCount(threads);
   OIIO::attribute("threads", threads);
   OIIO::attribute("exr_threads", threads);

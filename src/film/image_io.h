@@ -51,7 +51,7 @@ Picture read_picture(const std::string& path);
 uint8_t encode_srgb8(float linear);
 
 /// Limits the threads that compress and decompress images; 0 means all of the machine. They are at
-/// most kMostImageThreads in any case.
+/// most kMaxImageThreads in any case.
 void limit_image_threads(int threads);
 
 }  // namespace nephroid

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kRowsPerChunk = 4;
 constexpr int kLevelOfOne = 32;
-constexpr uint64_t kMostCounted = 255;
+constexpr uint64_t kMaxCounted = 255;
 /// What is brighter goes to the picture, whose sums say when they reach their limit.
 constexpr float kLargest = 0x1p56f;
 /// [O3] An estimate that changes its pixel by no more than this share of what surrounds it, or is
@@ -67,14 +67,14 @@ bool OutlierRejection::hold(int group, size_t pixel, std::span<const Rgb> values
   const int level = level_of(bright, kLevels);
   Pixel& p = pixels_[group][pixel];
   uint8_t& count = p.counts[level];
-  if (count < kMostCounted) ++count;
+  if (count < kMaxCounted) ++count;
   if ((p.confirmed >> level & 1) != 0) return false;
 
   const size_t parts = parts_[group];
   const auto begin = p.levels.begin(), end = begin + p.size;
   size_t slot = std::find(begin, end, level) - begin;
   if (slot == p.size) {
-    if (p.size == kMostHeld) {
+    if (p.size == kMaxHeld) {
       const size_t darkest = std::min_element(begin, end) - begin;
       if (level < p.levels[darkest]) return false;
       release(group, pixel, p.parts_of(darkest, parts));
@@ -116,7 +116,7 @@ bool OutlierRejection::is_confirmed(int group, size_t pixel, int level, uint64_t
   // [O2]
   const double enough =
       std::min(settings_.neighbours * std::max(1.0, double{settings_.exposed_pixels[group]}),
-               w.area() * static_cast<double>(std::min(estimates, kMostCounted)) / 2);
+               w.area() * static_cast<double>(std::min(estimates, kMaxCounted)) / 2);
   if (static_cast<double>(similar) >= enough) return true;
   // [O3]
   const double limit = std::max(kModerate, kSmallShare * static_cast<double>(estimates));
@@ -164,7 +164,7 @@ size_t OutlierRejection::most_words() const {
   size_t words = 0;
   for (size_t g = 0; g < pixels_.size(); ++g)
     words +=
-        pixels_[g].size() * (2 + (sizeof(PixelHead) + kMostHeld * parts_[g] * sizeof(RgbSum)) / 4);
+        pixels_[g].size() * (2 + (sizeof(PixelHead) + kMaxHeld * parts_[g] * sizeof(RgbSum)) / 4);
   return words;
 }
 
@@ -194,8 +194,8 @@ void OutlierRejection::load(std::span<const uint32_t> words) {
       throw IoError("it has a pixel that is not there");
     Pixel& p = pixels_[place[0]][place[1]];
     take(static_cast<PixelHead*>(&p), sizeof(PixelHead));
-    if (p.size > kMostHeld || std::any_of(p.levels.begin(), p.levels.end(),
-                                          [](uint8_t level) { return level >= kLevels; }))
+    if (p.size > kMaxHeld || std::any_of(p.levels.begin(), p.levels.end(),
+                                         [](uint8_t level) { return level >= kLevels; }))
       throw IoError("a pixel holds more than it can");
     p.sums.resize(p.size * parts_[place[0]]);
     take(p.sums.data(), p.sums.size() * sizeof(RgbSum));

@@ -34,11 +34,11 @@ class OutlierRejection {
 
   /// Memory at most, for each pixel of a group with so many parts.
   static constexpr size_t bytes_per_pixel(size_t parts) {
-    return sizeof(Pixel) + kMostHeld * parts * sizeof(RgbSum);
+    return sizeof(Pixel) + kMaxHeld * parts * sizeof(RgbSum);
   }
 
   /// Counts an estimate and takes it, to be judged at the end of the pass. False if it need not
-  /// wait: the caller adds it to the picture. Where a pixel holds estimates of kMostHeld
+  /// wait: the caller adds it to the picture. Where a pixel holds estimates of kMaxHeld
   /// brightnesses already, the darkest are released. Pixels may be used by different threads.
   bool hold(int group, size_t pixel, std::span<const Rgb> values, const Release& release);
 
@@ -63,7 +63,7 @@ class OutlierRejection {
   static float brightness(const Rgb& color);
   int neighbours() const { return settings_.neighbours; }
 
-  static constexpr int kMostHeld = 4;      ///< brightnesses held for a pixel and group
+  static constexpr int kMaxHeld = 4;       ///< brightnesses held for a pixel and group
   static constexpr int kWindowRadius = 2;  ///< pixels: the window is 5 x 5
 
  private:
@@ -74,8 +74,8 @@ class OutlierRejection {
   struct PixelHead {
     std::array<uint8_t, kLevels> counts{};  ///< estimates of an octave, saturating
     uint64_t confirmed = 0;                 ///< octaves that need not wait any more, as bits
-    std::array<uint8_t, kMostHeld> levels{};
-    std::array<uint32_t, kMostHeld> estimates{};
+    std::array<uint8_t, kMaxHeld> levels{};
+    std::array<uint32_t, kMaxHeld> estimates{};
     uint32_t size = 0;
   };
   static_assert(std::has_unique_object_representations_v<PixelHead>);

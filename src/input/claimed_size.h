@@ -13,12 +13,12 @@ namespace nephroid {
 /// packed so well. Sizes that do no harm are always possible, and so are those of pipes and
 /// devices.
 inline bool is_possible_size(uint64_t claimed, const std::string& path) {
-  constexpr uint64_t kMostBytesPerByte = 1 << 16;
+  constexpr uint64_t kMaxBytesPerByte = 1 << 16;
   constexpr uint64_t kHarmless = uint64_t{64} << 20;
   if (claimed <= kHarmless) return true;
   std::error_code error;
   const uint64_t there = std::filesystem::file_size(path, error);
-  return error || claimed / kMostBytesPerByte <= there;
+  return error || claimed / kMaxBytesPerByte <= there;
 }
 
 }  // namespace nephroid

@@ -20,16 +20,16 @@ constexpr uint32_t kMagic = 20000630;
 constexpr uint32_t kManyParts = 0x1000;
 constexpr size_t kLongestName = 255;
 /// Nobody's picture is packed so well; a small one does no harm.
-constexpr uint64_t kMostPixelsPerByte = 1 << 16, kFewPixels = 1 << 24;
+constexpr uint64_t kMaxPixelsPerByte = 1 << 16, kFewPixels = 1 << 24;
 constexpr int64_t kWidest = 1 << 16;
 /// The same of the tiles or blocks of rows that the library makes room for before it reads the
 /// first.
-constexpr uint64_t kMostBufferBytesPerByte = 512, kFewBufferBytes = 1 << 30;
+constexpr uint64_t kMaxBufferBytesPerByte = 512, kFewBufferBytes = 1 << 30;
 constexpr uint64_t kBytesPerChunkOffset = 8;
 constexpr uint32_t kHalf = 1;  // a channel's type; the others have four bytes
 /// By the number of the compression: none, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A, DWAA, DWAB.
 constexpr std::array<uint64_t, 10> kRowsInBlock = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
-constexpr uint64_t kMostRowsInBlock = 256;
+constexpr uint64_t kMaxRowsInBlock = 256;
 
 constexpr int kChannelBytesAfterType = 12;
 struct FixedSize {
@@ -126,7 +126,7 @@ class Header {
     part_.window = {static_cast<uint64_t>(width), static_cast<uint64_t>(height)};
     // The library keeps blocks of whole rows.
     if (width > kWidest && static_cast<uint64_t>(width) > size_) return false;
-    return pixels <= kFewPixels || pixels / kMostPixelsPerByte <= size_;
+    return pixels <= kFewPixels || pixels / kMaxPixelsPerByte <= size_;
   }
 
   /// The library would make room for as many samples as the file claims.
@@ -138,7 +138,7 @@ class Header {
 
   uint64_t rows_in_block() {
     const size_t compression = file_.get();
-    return compression < kRowsInBlock.size() ? kRowsInBlock[compression] : kMostRowsInBlock;
+    return compression < kRowsInBlock.size() ? kRowsInBlock[compression] : kMaxRowsInBlock;
   }
 
   /// The tiles or blocks of rows of this part that the library holds at once, with all their
@@ -148,7 +148,7 @@ class Header {
       const double bytes = static_cast<double>(chunk.width) * static_cast<double>(chunk.height) *
                            static_cast<double>(buffers_ * part_.pixel_bytes);
       return bytes <=
-             static_cast<double>(std::max(kFewBufferBytes, size_ * kMostBufferBytesPerByte));
+             static_cast<double>(std::max(kFewBufferBytes, size_ * kMaxBufferBytesPerByte));
     };
     // A part that says how large its tiles are need not have any.
     if (!is_possible({part_.window.width, std::min(part_.window.height, part_.rows_in_block)}))
@@ -170,7 +170,7 @@ class Header {
     Extent window;
     std::optional<Extent> tile;
     uint64_t pixel_bytes = 0;
-    uint64_t rows_in_block = kMostRowsInBlock;
+    uint64_t rows_in_block = kMaxRowsInBlock;
   };
   std::ifstream file_;
   uint64_t size_, buffers_;

@@ -80,9 +80,9 @@ PlyElement read_element(HeaderLine& line, const PlyHeader& header) {
   const std::string_view count = line.word("the number of elements");
   const auto result = std::from_chars(count.data(), count.data() + count.size(), element.count);
   // The bound keeps sums of bytes far from overflowing; no file comes near it.
-  constexpr uint64_t kMostElements = uint64_t{1} << 40;
+  constexpr uint64_t kMaxElements = uint64_t{1} << 40;
   if (result.ec != std::errc() || result.ptr != count.data() + count.size() ||
-      element.count > kMostElements)
+      element.count > kMaxElements)
     line.fail("expected a number of elements, found \"" + std::string(count) + "\"");
   for (const PlyElement& other : header.elements) {
     if (other.name == element.name) line.fail("element \"" + element.name + "\" stands twice");

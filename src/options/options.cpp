@@ -18,12 +18,12 @@ namespace nephroid {
 namespace {
 
 constexpr double kAnyNumber = std::numeric_limits<double>::infinity();
-constexpr int kMostThreads = 4096;
+constexpr int kMaxThreads = 4096;
 /// Libraries, tables and threads take half of it.
-constexpr uint64_t kLeastMemory = uint64_t{256} << 20;
-constexpr int kMostPilotPasses = 100000;
-constexpr int64_t kMostBenchRepeats = 1000;
-constexpr int64_t kMostBenchPasses = std::numeric_limits<uint32_t>::max() - 1;
+constexpr uint64_t kMinMemory = uint64_t{256} << 20;
+constexpr int kMaxPilotPasses = 100000;
+constexpr int64_t kMaxBenchRepeats = 1000;
+constexpr int64_t kMaxBenchPasses = std::numeric_limits<uint32_t>::max() - 1;
 
 template <auto Command>
 void set_output(CommandLine& line, const std::string& text) {
@@ -217,7 +217,7 @@ const OptionDescription kOptions[] = {
     {"render", "--threads", "-t", "N", "threads", "all of the machine", "Machine",
      "Number of threads. The picture does not depend on it.", false,
      [](CommandLine& l, const std::string& t) {
-       l.render.threads = static_cast<int>(parse_integer("--threads", t, 1, kMostThreads));
+       l.render.threads = static_cast<int>(parse_integer("--threads", t, 1, kMaxThreads));
      }},
     {"render", "--memory", "", "SIZE", "bytes", "what the machine has", "Machine",
      "Take no more memory than this (K, M, G: powers of 1024). A quarter of it at most is for "
@@ -226,7 +226,7 @@ const OptionDescription kOptions[] = {
      false,
      [](CommandLine& l, const std::string& t) {
        l.render.memory = parse_bytes("--memory", t);
-       if (l.render.memory < kLeastMemory)
+       if (l.render.memory < kMinMemory)
          throw UsageError("--memory: '" + t + "' is not valid, expected at least 256M");
      }},
     {"merge", "PICTURE", "", "", "", "", "",
@@ -253,7 +253,7 @@ const OptionDescription kOptions[] = {
     {"routes", "--passes", "", "N", "passes", "8", "Pilot",
      "Passes of the small picture that measures how the scene's light divides.", false,
      [](CommandLine& l, const std::string& t) {
-       l.routes.passes = static_cast<uint32_t>(parse_integer("--passes", t, 1, kMostPilotPasses));
+       l.routes.passes = static_cast<uint32_t>(parse_integer("--passes", t, 1, kMaxPilotPasses));
      }},
     {"info", "FILE", "", "", "", "", "",
      "A pbrt-v4 scene file, may be compressed (.gz), or a picture that this program wrote.", false,
@@ -281,14 +281,14 @@ const OptionDescription kOptions[] = {
      }},
     {"bench", "--passes", "", "N", "passes", "the suite's", "", "Every run has N passes.", false,
      [](CommandLine& l, const std::string& t) {
-       l.bench.passes = static_cast<uint32_t>(parse_integer("--passes", t, 1, kMostBenchPasses));
+       l.bench.passes = static_cast<uint32_t>(parse_integer("--passes", t, 1, kMaxBenchPasses));
      }},
     {"bench", "--repeat", "", "N", "renders", "the suite's, or 1", "",
      "Every run is rendered so many times, with its seed and those that follow; errors are those "
      "of all.",
      false,
      [](CommandLine& l, const std::string& t) {
-       l.bench.repeat = static_cast<uint32_t>(parse_integer("--repeat", t, 1, kMostBenchRepeats));
+       l.bench.repeat = static_cast<uint32_t>(parse_integer("--repeat", t, 1, kMaxBenchRepeats));
      }},
     {"bench", "--out", "", "DIR", "", "the suite's name and .bench, in the current directory", "",
      "Directory of the results; runs that are there already are not repeated.",
@@ -298,7 +298,7 @@ const OptionDescription kOptions[] = {
     {"bench", "--threads", "-t", "N", "threads", "all of the machine", "",
      "Number of threads; times depend on it, passes do not.", false,
      [](CommandLine& l, const std::string& t) {
-       l.bench.threads = static_cast<int>(parse_integer("--threads", t, 1, kMostThreads));
+       l.bench.threads = static_cast<int>(parse_integer("--threads", t, 1, kMaxThreads));
      }},
     {"bench", "--strict-claims", "", "", "", "", "",
      "Exit status 1 if a claim of the suite is not borne out.", false,

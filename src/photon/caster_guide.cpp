@@ -10,20 +10,20 @@ namespace nephroid {
 
 namespace {
 
-constexpr size_t kMaxPlaces = CasterCones::kMost / 2;
+constexpr size_t kMaxPlaces = CasterCones::kMax / 2;
 /// [G8] How much less the insides of balls around several places, all together, are aimed at than
 /// that of a place.
 constexpr float kAround = 0.125f;
 /// Over the scene's radius.
 constexpr float kSmallest = 1e-4f;
 /// Of a ball that fills much of the sky as it is seen from a vertex, nothing is gained.
-constexpr float kMostSine2 = 0.9f;
+constexpr float kMaxSine2 = 0.9f;
 /// The least density that a BSDF is taken to have towards a ball that is partly in its reach.
-constexpr float kLeastDensity = 0.1f / kPi;
+constexpr float kMinDensity = 0.1f / kPi;
 /// A ball around the only place is worth having if it is so much wider.
 constexpr float kWider = 1.05f;
 /// Rounding is mended by then.
-constexpr int kMostTries = 64;
+constexpr int kMaxTries = 64;
 
 /// About the density with which light from wo is scattered to the local direction `wi`, a ball
 /// around which it sees under an angle of this squared sine; 0 if none is worth aiming there. A
@@ -32,17 +32,17 @@ float density_towards(const WalkVertex& v, ClassMask among, const Vec3f& wi, flo
   const bool same_side = wi.z * v.wo.z > 0.0f;
   if (!contains(guided_classes(v.bsdf, among), EventClass::kDiffuse)) {
     const float p = guided_pdf_w(v.bsdf, v.wo, wi, TransportMode::kImportance, among);
-    return p < kLeastDensity ? 0.0f : p;
+    return p < kMinDensity ? 0.0f : p;
   }
-  if (same_side || sqr(wi.z) < sine2) return std::max(abs_cos_theta(wi) * kInvPi, kLeastDensity);
+  if (same_side || sqr(wi.z) < sine2) return std::max(abs_cos_theta(wi) * kInvPi, kMinDensity);
   const float p = guided_pdf_w(v.bsdf, v.wo, wi, TransportMode::kImportance, among);
-  return p > 0.0f ? std::max(p, kLeastDensity) : 0.0f;
+  return p > 0.0f ? std::max(p, kMinDensity) : 0.0f;
 }
 
 }  // namespace
 
 void CasterCones::add(const Vec3f& axis, float narrowness, float weight) {
-  assert(count_ < kMost);
+  assert(count_ < kMax);
   cones_[count_++] = {axis, narrowness, weight};
   total_ += weight;
 }
@@ -57,7 +57,7 @@ Vec3f CasterCones::sample(float& uc, const Vec2f& u) const {
   // Rounding may put a direction outside: what seems to have come there by chance alone would weigh
   // thousands of times too much.
   float below = cone->narrowness * u.x;
-  for (int i = 0; i < kMostTries; ++i, below *= 0.75f) {
+  for (int i = 0; i < kMaxTries; ++i, below *= 0.75f) {
     const float sine = std::sqrt(below * (2 - below));
     const Vec3f w =
         normalize(frame.to_world(Vec3f(sine * std::cos(phi), sine * std::sin(phi), 1 - below)));
@@ -109,7 +109,7 @@ CasterCones CasterGuide::at(const WalkVertex& v, ClassMask among) const {
   for (const Ball& ball : balls_) {
     const Vec3f way = ball.center - v.surface.p;
     const float d2 = length_squared(way), sine2 = sqr(ball.radius) / d2;
-    if (!(sine2 < kMostSine2)) continue;
+    if (!(sine2 < kMaxSine2)) continue;
     const Vec3f axis = way / std::sqrt(d2);
     const float density = density_towards(v, among, v.to_local(axis), sine2);
     if (!(density > 0.0f)) continue;

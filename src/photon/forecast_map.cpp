@@ -13,7 +13,7 @@ namespace {
 constexpr float kNarrowest = 0.01f;
 // A lobe that is wider says little, and takes half of the samples for it.
 constexpr float kWidest = 0.5f;
-// Lobes overlap: each may be narrower than the reach of the sights that are asked.
+// Lobes overlap: each may be narrower than the reach of the records that are asked.
 constexpr float kWidthOfReach = 0.5f;
 
 /// Distance from the i-th of the axes to the second nearest other one; 0 if there are none.
@@ -58,27 +58,27 @@ float ForecastLobes::pdf_w(const Vec3f& w) const {
   return count_ > 0 ? sum / static_cast<float>(count_) : 0.0f;
 }
 
-ForecastMap::ForecastMap(std::vector<CausticSight> sights)
-    : sights_(std::move(sights)), axes_(sights_.size()) {
-  build(0, sights_.size());
+ForecastMap::ForecastMap(std::vector<CausticRecord> records)
+    : records_(std::move(records)), axes_(records_.size()) {
+  build(0, records_.size());
 }
 
 void ForecastMap::build(size_t begin, size_t end) {
   if (end - begin < 2) return;
-  Vec3f low = sights_[begin].p, high = low;
+  Vec3f low = records_[begin].p, high = low;
   for (size_t i = begin; i < end; ++i)
     for (int a = 0; a < 3; ++a) {
-      low[a] = std::min(low[a], sights_[i].p[a]);
-      high[a] = std::max(high[a], sights_[i].p[a]);
+      low[a] = std::min(low[a], records_[i].p[a]);
+      high[a] = std::max(high[a], records_[i].p[a]);
     }
   int axis = 0;
   for (int a = 1; a < 3; ++a)
     if (high[a] - low[a] > high[axis] - low[axis]) axis = a;
   const size_t middle = begin + (end - begin) / 2;
-  const auto at = [&](size_t i) { return sights_.begin() + i; };
+  const auto at = [&](size_t i) { return records_.begin() + i; };
   std::nth_element(
       at(begin), at(middle), at(end),
-      [axis](const CausticSight& a, const CausticSight& b) { return a.p[axis] < b.p[axis]; });
+      [axis](const CausticRecord& a, const CausticRecord& b) { return a.p[axis] < b.p[axis]; });
   axes_[middle] = static_cast<uint8_t>(axis);
   build(begin, middle);
   build(middle + 1, end);
@@ -87,21 +87,21 @@ void ForecastMap::build(size_t begin, size_t end) {
 struct ForecastMap::Nearest {
   struct Entry {
     float distance_squared;
-    uint32_t sight;
+    uint32_t record;
     bool operator<(const Entry& o) const { return distance_squared < o.distance_squared; }
   };
   Vec3f p;
-  std::array<Entry, ForecastLobes::kMost> found{};  ///< a heap, the furthest first
+  std::array<Entry, ForecastLobes::kMax> found{};  ///< a heap, the furthest first
   size_t count = 0;
 
   float reach_squared() const {
     return count < found.size() ? kInfinity : found[0].distance_squared;
   }
-  void offer(uint32_t sight, float distance_squared) {
+  void offer(uint32_t record, float distance_squared) {
     if (!(distance_squared < reach_squared())) return;
     const auto begin = found.begin();
     if (count == found.size()) std::pop_heap(begin, begin + count--);
-    found[count++] = {distance_squared, sight};
+    found[count++] = {distance_squared, record};
     std::push_heap(begin, begin + count);
   }
 };
@@ -110,12 +110,12 @@ void ForecastMap::search(size_t begin, size_t end, Nearest& nearest) const {
   if (begin >= end) return;
   const size_t middle = begin + (end - begin) / 2;
   const int axis = axes_[middle];
-  const float beyond = nearest.p[axis] - sights_[middle].p[axis];
+  const float beyond = nearest.p[axis] - records_[middle].p[axis];
   if (beyond < 0.0f)
     search(begin, middle, nearest);
   else
     search(middle + 1, end, nearest);
-  nearest.offer(static_cast<uint32_t>(middle), length_squared(sights_[middle].p - nearest.p));
+  nearest.offer(static_cast<uint32_t>(middle), length_squared(records_[middle].p - nearest.p));
   if (!(sqr(beyond) < nearest.reach_squared())) return;
   if (beyond < 0.0f)
     search(middle + 1, end, nearest);
@@ -128,13 +128,13 @@ ForecastLobes ForecastMap::lobes_at(const Vec3f& p) const {
   if (!foretells()) return lobes;
   Nearest nearest;
   nearest.p = p;
-  search(0, sights_.size(), nearest);
+  search(0, records_.size(), nearest);
   const float reach = std::sqrt(nearest.reach_squared());
-  std::array<Vec3f, ForecastLobes::kMost> axes;
-  std::array<float, ForecastLobes::kMost> widths;
+  std::array<Vec3f, ForecastLobes::kMax> axes;
+  std::array<float, ForecastLobes::kMax> widths;
   size_t count = 0;
   for (const Nearest::Entry& entry : nearest.found) {
-    const Vec3f way = sights_[entry.sight].caster - p;
+    const Vec3f way = records_[entry.record].caster - p;
     const float distance = length(way);
     if (!(reach < kWidest * distance)) continue;
     axes[count] = way / distance;

@@ -12,7 +12,7 @@
 namespace nephroid {
 
 /// A place where light of a caustic landed, and where on the caster it came from.
-struct CausticSight {
+struct CausticRecord {
   Vec3f p, caster;
   static void members(auto& self, auto& archive) { archive(self.p, self.caster); }
 };
@@ -20,11 +20,11 @@ struct CausticSight {
 /// A density of unit directions in world space: the mean of von Mises-Fisher lobes.
 class ForecastLobes {
  public:
-  static constexpr int kMost = 16;
+  static constexpr int kMax = 16;
 
   bool empty() const { return count_ == 0; }
   int count() const { return count_; }
-  /// Adds a lobe around the unit vector `axis` of about `width` radians. At most kMost.
+  /// Adds a lobe around the unit vector `axis` of about `width` radians. At most kMax.
   void add(const Vec3f& axis, float width);
   /// Of the directions that should follow it.
   float share() const { return empty() ? 0.0f : 0.5f; }
@@ -38,32 +38,32 @@ class ForecastLobes {
     Vec3f axis;
     float concentration = 0, norm = 0;
   };
-  std::array<Lobe, kMost> lobes_;
+  std::array<Lobe, kMax> lobes_;
   int count_ = 0;
 };
 
-/// A balanced tree of sights.
+/// A balanced tree of records.
 class ForecastMap {
  public:
   ForecastMap() = default;
-  explicit ForecastMap(std::vector<CausticSight> sights);
+  explicit ForecastMap(std::vector<CausticRecord> records);
 
-  size_t size() const { return sights_.size(); }
-  size_t bytes() const { return size() * (sizeof(sights_[0]) + sizeof(axes_[0])); }
-  /// False if there are too few sights to have K nearest ones: it then has no lobes anywhere.
-  bool foretells() const { return size() >= ForecastLobes::kMost; }
-  /// [T2]: a lobe towards the caster of each of the sights nearest to `p`, unless it would be wide;
-  /// none if it does not foretell.
+  size_t size() const { return records_.size(); }
+  size_t bytes() const { return size() * (sizeof(records_[0]) + sizeof(axes_[0])); }
+  /// False if there are too few records to have K nearest ones: it then has no lobes anywhere.
+  bool foretells() const { return size() >= ForecastLobes::kMax; }
+  /// [T2]: a lobe towards the caster of each of the records nearest to `p`, unless it would be
+  /// wide; none if it does not foretell.
   ForecastLobes lobes_at(const Vec3f& p) const;
-  static void members(auto& self, auto& archive) { archive(self.sights_, self.axes_); }
+  static void members(auto& self, auto& archive) { archive(self.records_, self.axes_); }
 
  private:
   struct Nearest;
   void build(size_t begin, size_t end);
   void search(size_t begin, size_t end, Nearest& nearest) const;
 
-  std::vector<CausticSight> sights_;  ///< the middle of each range divides it
-  std::vector<uint8_t> axes_;         ///< along which
+  std::vector<CausticRecord> records_;  ///< the middle of each range divides it
+  std::vector<uint8_t> axes_;           ///< along which
 };
 
 }  // namespace nephroid

@@ -16,7 +16,8 @@ struct Photon {
   uint8_t secondary_terminated = 0;
   uint8_t set = 0;      ///< of a map whose photons do not share one set of wavelengths
   uint16_t events = 0;  ///< scattering events before this vertex
-  float cut_here = 0, cuts_before = 0;  ///< SideSums, where other techniques find the path, too
+  float cut_here = 0,
+        cuts_before = 0;  ///< PartialMisWeights, where other techniques find the path, too
 
   static void members(auto& self, auto& archive) {
     archive(self.flux, self.p, self.wi, self.ng, self.state, self.secondary_terminated, self.set,

@@ -17,8 +17,8 @@
 namespace nephroid {
 namespace {
 
-constexpr size_t kMostLabels = 1000;
-constexpr size_t kMostTableBytes = size_t{64} << 20;
+constexpr size_t kMaxLabels = 1000;
+constexpr size_t kMaxTableBytes = size_t{64} << 20;
 
 // Where photons are merged in a route without '@': at the first D or G from the eye.
 constexpr const char* kDefaultMark = "C[SV]*[DG]@.*";
@@ -67,9 +67,9 @@ std::vector<std::string> labels_of(const Trees& trees) {
   std::vector<std::string> labels;
   for (const Expression& e : trees.routes) collect_labels(e, labels);
   for (const Expression& e : trees.aovs) collect_labels(e, labels);
-  if (labels.size() > kMostLabels)
+  if (labels.size() > kMaxLabels)
     throw UsageError("the routes mention " + std::to_string(labels.size()) +
-                     " labels, expected at most " + std::to_string(kMostLabels));
+                     " labels, expected at most " + std::to_string(kMaxLabels));
   return labels;
 }
 
@@ -104,7 +104,7 @@ RouteTables write_out(const Automaton& eye, const LightSide& light, const Symbol
   t.light_symbols = classes.light_class.size();
   t.start = static_cast<EyeState>(eye.start);
   const size_t cells = (2 * t.eye_states + t.light_states) * t.event_symbols;
-  if (2 * cells > kMostTableBytes)
+  if (2 * cells > kMaxTableBytes)
     throw UsageError("the routes are too complex: their tables would have " +
                      std::to_string(cells) + " entries, expected fewer labels or repetitions");
 

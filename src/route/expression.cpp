@@ -11,7 +11,7 @@
 namespace nephroid {
 namespace {
 
-constexpr int kMostRepetitions = 64;
+constexpr int kMaxRepetitions = 64;
 constexpr int kDeepestGroup = 64;
 
 constexpr unsigned bit(EventKind k) {
@@ -168,11 +168,11 @@ class Parser {
     const size_t begin = at_;
     int n = 0;
     for (; at_ < text_.size() && text_[at_] >= '0' && text_[at_] <= '9'; ++at_)
-      n = std::min(10 * n + (text_[at_] - '0'), kMostRepetitions + 1);
+      n = std::min(10 * n + (text_[at_] - '0'), kMaxRepetitions + 1);
     if (at_ == begin)
       fail("expected a number of repetitions, as in {2} or {1,3}, found " + found());
-    if (n > kMostRepetitions)
-      fail_at(begin, "expected at most " + std::to_string(kMostRepetitions) +
+    if (n > kMaxRepetitions)
+      fail_at(begin, "expected at most " + std::to_string(kMaxRepetitions) +
                          " repetitions; * has no limit");
     return n;
   }

@@ -12,8 +12,8 @@
 namespace nephroid {
 namespace {
 
-constexpr size_t kMostLightStates = 4096;
-constexpr size_t kMostBytes = size_t{64} << 20;
+constexpr size_t kMaxLightStates = 4096;
+constexpr size_t kMaxBytes = size_t{64} << 20;
 
 }  // namespace
 
@@ -25,7 +25,7 @@ LightSide reverse(const Automaton& a) {
                                                 static_cast<int>(known.size()));
     if (is_new) {
       side.meet.push_back(std::move(vector));
-      if (known.size() > kMostLightStates || known.size() * a.states() > kMostBytes)
+      if (known.size() > kMaxLightStates || known.size() * a.states() > kMaxBytes)
         throw UsageError(
             "the routes are too complex: read from the light their automaton has more "
             "than " +

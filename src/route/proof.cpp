@@ -17,7 +17,7 @@ namespace {
 
 using Kind = RouteFinding::Kind;
 
-constexpr size_t kMostNodes = size_t{1} << 18;
+constexpr size_t kMaxNodes = size_t{1} << 18;
 
 struct PlainState {
   int state = 0;
@@ -220,7 +220,7 @@ class Prover {
                      [](const RouteDefinition& r) { return r.estimator->merges; }))
       return;
     const Automaton& a = in_.parts.automaton;
-    const WordSearch<MarkedState> search({a.start, {}}, events_, kMostNodes,
+    const WordSearch<MarkedState> search({a.start, {}}, events_, kMaxNodes,
                                          [&](const MarkedState& s, int e) {
                                            MarkedState next{a.after(s.state, e), {}};
                                            const auto add = [&](int state, int count) {

@@ -11,8 +11,8 @@
 namespace nephroid {
 namespace {
 
-constexpr size_t kMostStates = 65535;
-constexpr size_t kMostPlaces = size_t{1} << 22;  // of all states together
+constexpr size_t kMaxStates = 65535;
+constexpr size_t kMaxPlaces = size_t{1} << 22;  // of all states together
 
 class SubsetConstruction {
  public:
@@ -111,7 +111,7 @@ class SubsetConstruction {
     if (is_new) {
       states_.push_back(at);
       places_ += places;
-      if (states_.size() > kMostStates || places_ > kMostPlaces)
+      if (states_.size() > kMaxStates || places_ > kMaxPlaces)
         throw UsageError("the routes are too complex: their automaton has more than " +
                          std::to_string(states_.size() - 1) +
                          " states, expected expressions with fewer counted repetitions");

@@ -10,7 +10,7 @@ namespace nephroid {
 namespace {
 
 /// Enough to make a geometry worth its overhead, and few enough to read a model in parallel.
-constexpr size_t kMostAlike = 4096;
+constexpr size_t kMaxAlike = 4096;
 
 const Parameter* parameter(const ShapeDescription& d, const char* name) {
   for (const Parameter& p : d.parameters.list)
@@ -115,7 +115,7 @@ size_t curves_alike(std::span<const ShapeDescription> descriptions) {
   const ShapeDescription& first = descriptions[0];
   size_t count = 1;
   if (!alike(first, first)) return count;
-  while (count < std::min(descriptions.size(), kMostAlike) && alike(first, descriptions[count]))
+  while (count < std::min(descriptions.size(), kMaxAlike) && alike(first, descriptions[count]))
     ++count;
   return count;
 }

@@ -119,7 +119,7 @@ MeshData displaced(const Context& c, MeshData data, const FloatTexture& height) 
     throw SceneError(c.p.where,
                      fmt::format("{}: \"displacement\" with edges of length {:g} makes more than "
                                  "{} triangles, expected a larger \"edgelength\"",
-                                 c.what(), displacement.edge_length, kMostDisplacedTriangles));
+                                 c.what(), displacement.edge_length, kMaxDisplacedTriangles));
   return std::move(*result);
 }
 

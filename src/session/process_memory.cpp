@@ -77,7 +77,7 @@ uint64_t bytes_of_stacks_to_come(int threads) {
   const uint64_t of_each =
       threads > 0 ? static_cast<uint64_t>(threads) : std::thread::hardware_concurrency();
   // Of rendering; of both libraries that read and write images; and this one.
-  const uint64_t of_images = std::min<uint64_t>(of_each, kMostImageThreads);
+  const uint64_t of_images = std::min<uint64_t>(of_each, kMaxImageThreads);
   const uint64_t in_all = of_each + 2 * of_images + 1, started = status_number("Threads:");
   return in_all <= started ? 0
                            : (is_known ? uint64_t{stack.rlim_cur} : kDefault) * (in_all - started);

@@ -24,8 +24,8 @@ void warn_of(const std::vector<std::string>& warnings, const Warn& warn) {
 }
 
 void check_fits_memory(const RenderRequest& request, const Scene& scene,
-                       const IntegratorOptions& options, const Preset& preset) {
-  MemoryNeed need{scene.film, preset.layout, *preset.routes, options, scene.samples_per_pixel};
+                       const IntegratorOptions& options, const EstimatorSet& set) {
+  MemoryNeed need{scene.film, set.layout, *set.routes, options, scene.samples_per_pixel};
   need.rejects_outliers = request.reject_outliers;
   need.held = memory_in_use();
   need.textures = request.settings.scene.texture_memory / 4;
@@ -81,9 +81,9 @@ std::vector<std::string> warnings_of_replacing(const std::string& output,
 }
 
 /// Reads the state of an earlier run into film and estimators.
-void resume(RenderOptions& options, const Scene& scene, Preset& preset, Film& film,
+void resume(RenderOptions& options, const Scene& scene, EstimatorSet& set, Film& film,
             const Warn& warn) {
-  options.begin_with = go_on_from(options.output, options.identity, scene, preset, film);
+  options.begin_with = go_on_from(options.output, options.identity, scene, set, film);
   warn_of(options.begin_with.warnings, warn);
   warn_of(warnings_of_passes_beyond(options), warn);
 }
@@ -119,32 +119,32 @@ Render::Render(const RenderRequest& request, const LoadedScene& loaded, RenderWa
   warn_of(choice_.warnings, warnings_.input);
 
   const IntegratorOptions& integrator = choice_.settings.integrator;
-  preset_ = make_preset(plan_, integrator, scene);
-  warn_of(preset_.warnings, warnings_.input);
-  warn_of(unused_settings(request.settings.given, *preset_.routes), warnings_.input);
+  set_ = make_estimators(plan_, integrator, scene);
+  warn_of(set_.warnings, warnings_.input);
+  warn_of(unused_settings(request.settings.given, *set_.routes), warnings_.input);
 
-  check_fits_memory(request, scene, integrator, preset_);
-  film_.emplace(film_settings(scene.film), preset_.layout);
+  check_fits_memory(request, scene, integrator, set_);
+  film_.emplace(film_settings(scene.film), set_.layout);
   if (request.reject_outliers) {
     film_->reject_outliers(
-        outlier_settings(*preset_.routes, integrator, *scene.filter, choice_.settings.scene));
-    warn_of(rejection_warnings(*preset_.routes), warnings_.input);
+        outlier_settings(*set_.routes, integrator, *scene.filter, choice_.settings.scene));
+    warn_of(rejection_warnings(*set_.routes), warnings_.input);
   }
 
   RenderOptions options = request.options;
   options.seed = request.seed.value_or(scene.scene_seed);
-  options.notes = preset_.notes;
+  options.notes = set_.notes;
   identity_ = identity_of(request, loaded, choice_, plan_);
   identity_.set_film(*film_, options.seed);
   options.identity = identity_;
   if (!options.output.empty() && std::filesystem::exists(options.output)) {
     if (request.resume)
-      resume(options, scene, preset_, *film_, warnings_.output);
+      resume(options, scene, set_, *film_, warnings_.output);
     else
       warn_of(warnings_of_replacing(options.output, identity_), warnings_.output);
   }
 
-  session_.emplace(scene, preset_, *film_, std::move(options));
+  session_.emplace(scene, set_, *film_, std::move(options));
   if (warnings_.output) session_->on_warning(warnings_.output);
 }
 
@@ -160,7 +160,7 @@ RenderResult Render::run(SignalFlags& signals) {
 }
 
 std::vector<std::string> Render::notes() const {
-  std::vector<std::string> notes = preset_.notes;
+  std::vector<std::string> notes = set_.notes;
   notes.insert(notes.end(), choice_.notes.begin(), choice_.notes.end());
   return notes;
 }

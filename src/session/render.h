@@ -64,7 +64,7 @@ class Render {
 
   const IntegratorChoice& integrator() const { return choice_; }
   const RoutePlan& plan() const { return plan_; }
-  const Preset& estimators() const { return preset_; }
+  const EstimatorSet& estimators() const { return set_; }
   const Film& film() const { return *film_; }
   const RenderIdentity& identity() const { return identity_; }
   /// Notes for the report: routes that stay black, parameters of the scene that are not used.
@@ -74,7 +74,7 @@ class Render {
   RenderWarnings warnings_;
   IntegratorChoice choice_;
   RoutePlan plan_;
-  Preset preset_;
+  EstimatorSet set_;
   std::optional<Film> film_;
   RenderIdentity identity_;
   std::optional<RenderSession> session_;

@@ -31,7 +31,7 @@ namespace {
 constexpr double kIdlePerWork = 50;
 constexpr double kErrorInterval = 1;  ///< s between estimates for progress, at least
 /// A spread of fewer passes says too little to stop on.
-constexpr uint32_t kFewestPassesForNoise = 4;
+constexpr uint32_t kMinPassesForNoise = 4;
 
 double steady_seconds() {
   const auto now = std::chrono::steady_clock::now().time_since_epoch();
@@ -42,7 +42,7 @@ double steady_seconds() {
   throw IoError(path + ": cannot write: there is not enough memory");
 }
 
-void check_fits(const Preset& preset, const Film& film, const RenderOptions& options) {
+void check_fits(const EstimatorSet& set, const Film& film, const RenderOptions& options) {
   if (options.last_pass && *options.last_pass < options.first_pass)
     throw UsageError("--passes: the range ends before it begins");
   if (options.first_pass > 0 && film.rejection() != nullptr)
@@ -52,7 +52,7 @@ void check_fits(const Preset& preset, const Film& film, const RenderOptions& opt
                     options.first_pass));
   const std::vector<PassRange>& before = options.begin_with.passes.ranges();
   const bool from_zero = before.empty() || (before.size() == 1 && before[0].first == 0);
-  for (const auto& estimator : preset.estimators) {
+  for (const auto& estimator : set.estimators) {
     const Capabilities capabilities = estimator->descriptor().capabilities;
     if (!from_zero && !capabilities.independent_passes)
       throw UsageError(
@@ -73,13 +73,10 @@ void check_fits(const Preset& preset, const Film& film, const RenderOptions& opt
 
 }  // namespace
 
-RenderSession::RenderSession(const Scene& scene, Preset& preset, Film& film, RenderOptions options)
-    : scene_(scene),
-      preset_(preset),
-      film_(film),
-      options_(std::move(options)),
-      clock_(steady_seconds) {
-  check_fits(preset_, film_, options_);
+RenderSession::RenderSession(const Scene& scene, EstimatorSet& set, Film& film,
+                             RenderOptions options)
+    : scene_(scene), set_(set), film_(film), options_(std::move(options)), clock_(steady_seconds) {
+  check_fits(set_, film_, options_);
   done_ = options_.begin_with.passes;
   passes_before_ = passes_done_ = static_cast<uint32_t>(done_.count());
   last_pass_seconds_ = options_.begin_with.last_pass_seconds;
@@ -157,7 +154,7 @@ std::optional<uint32_t> RenderSession::next_pass() const {
 void RenderSession::render_one_pass() {
   const double begin = clock_();
   const PassKey key{options_.seed, *next_pass()};
-  preset_.render_pass(key, scene_, film_);
+  set_.render_pass(key, scene_, film_);
   film_.finish_pass();
   done_.add(key.pass);
   ++passes_done_;
@@ -165,14 +162,14 @@ void RenderSession::render_one_pass() {
 }
 
 std::vector<EstimatorStatistics> RenderSession::statistics() const {
-  return preset_.statistics();
+  return set_.statistics();
 }
 
 /// A pass that would end further behind the time limit than this one ends before it is not begun.
 std::optional<StopReason> RenderSession::reason_to_stop(const SignalFlags& signals) const {
   if (!next_pass()) return StopReason::kPasses;
   if (options_.noise_target > 0 && error_pass_ == passes_done_ &&
-      passes_done_ >= kFewestPassesForNoise && error_ && error_->total() <= options_.noise_target)
+      passes_done_ >= kMinPassesForNoise && error_ && error_->total() <= options_.noise_target)
     return StopReason::kNoise;
   if (options_.time_limit > 0 &&
       seconds_of_all_runs() + last_pass_seconds_ / 2 >= options_.time_limit)
@@ -185,7 +182,7 @@ std::optional<StopReason> RenderSession::reason_to_stop(const SignalFlags& signa
 /// say in where the render stops. Without one the estimate is for display and follows the clock.
 bool RenderSession::error_check_is_due() const {
   if (options_.noise_target > 0)
-    return passes_done_ >= kFewestPassesForNoise &&
+    return passes_done_ >= kMinPassesForNoise &&
            passes_done_ % std::max(1u, std::bit_floor(passes_done_) / 16) == 0;
   return shows_error() && elapsed() >= next_error_seconds_;
 }
@@ -202,7 +199,7 @@ void RenderSession::renew_error_text() {
   if (error_text_pass_ == passes_done_) return;
   error_text_pass_ = passes_done_;
   error_text_.reset();
-  for (const auto& estimator : preset_.estimators)
+  for (const auto& estimator : set_.estimators)
     if (!estimator->descriptor().capabilities.consistent) return;
   error_text_ = error_report(film_);
 }
@@ -313,7 +310,7 @@ void RenderSession::write_png() {
 void RenderSession::write_exr_file(const std::string& path, bool with_state) {
   renew_error_text();
   std::optional<RenderState> state;
-  if (with_state) state = state_of(scene_, preset_, film_);
+  if (with_state) state = state_of(scene_, set_, film_);
   try {
     write_exr(path, film_picture(film_, picture_metadata()), state ? &*state : nullptr);
   } catch (const std::bad_alloc&) {
@@ -343,7 +340,7 @@ Metadata RenderSession::picture_metadata() const {
   identity.instruction_sets = joined_instruction_sets(
       before.instruction_sets, rendered ? identity.instruction_sets : std::string());
   Metadata metadata = identity.to_metadata();
-  add_film_metadata(film_, passes_are_independent(preset_), &metadata);
+  add_film_metadata(film_, passes_are_independent(set_), &metadata);
   Checkpoint progress;
   progress.passes = done_;
   progress.seconds = seconds_of_all_runs();

@@ -11,7 +11,7 @@
 
 #include "film/film.h"
 #include "film/image_io.h"
-#include "integrator/presets/preset.h"
+#include "integrator/presets/estimator_set.h"
 #include "session/checkpoint/checkpoint.h"
 #include "session/report/noise.h"
 #include "session/signals.h"
@@ -69,7 +69,7 @@ class RenderSession {
  public:
   /// Keeps references to all three. The film has the preset's layout. Throws UsageError if the
   /// options do not fit the preset, IoError if the output cannot be written.
-  RenderSession(const Scene& scene, Preset& preset, Film& film, RenderOptions options);
+  RenderSession(const Scene& scene, EstimatorSet& set, Film& film, RenderOptions options);
 
   /// Called after every pass.
   void on_progress(std::function<void(const RenderProgress&)> callback);
@@ -110,7 +110,7 @@ class RenderSession {
   Metadata picture_metadata() const;
 
   const Scene& scene_;
-  Preset& preset_;
+  EstimatorSet& set_;
   Film& film_;
   RenderOptions options_;
   std::optional<uint32_t> passes_wanted_;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "integrator/presets/preset.h"
+#include "integrator/presets/estimator_set.h"
 
 namespace nephroid {
 

@@ -17,7 +17,7 @@ inline double heuristic(double ratio) {
 
 /// What the techniques that cut the path at or before vertex x_i of a side add up to, relative to
 /// the one that connects x_i with the other side, up to the factors that are known only then.
-struct SideSums {
+struct PartialMisWeights {
   double here = 0;    ///< [W3]: the cut between x_{i-1} and x_i
   double before = 0;  ///< [W4]: all cuts before that one
   /// True if there are none: what the other side would have done counts for nothing.
@@ -39,7 +39,7 @@ struct LineFactors {
 
 /// Sums of what a side hands over to its next vertex: those at its last one and the event there.
 struct SideEnd {
-  SideSums sums;
+  PartialMisWeights sums;
   EventDensity event;
   double merge = 0;  ///< [W8], 0 if the event is none at which paths merge
 
@@ -48,9 +48,9 @@ struct SideEnd {
     return sums.before > 0 || (event.finite && sums.here + merge > 0);
   }
   /// The sums at the next vertex, b of `line`. [W3] and [W4]
-  SideSums next(const LineFactors& line) const {
+  PartialMisWeights next(const LineFactors& line) const {
     const double forward = heuristic(event.forward * line.at_b);
-    SideSums s;
+    PartialMisWeights s;
     if (!(forward > 0)) return s;
     s.here = event.finite ? 1 / forward : 0;
     s.before = heuristic(line.at_a) / forward *
@@ -62,7 +62,8 @@ struct SideEnd {
 /// [W2] All cuts at or before a vertex: `arriving` is the density per area with which the other
 /// side would come to it, `back` the density per steradian with which it would then go on
 /// backwards, `merge` as in SideEnd.
-inline double cuts_before(const SideSums& sums, double arriving, double back, double merge) {
+inline double cuts_before(const PartialMisWeights& sums, double arriving, double back,
+                          double merge) {
   return heuristic(arriving) * (sums.here + merge + heuristic(back) * sums.before);
 }
 
@@ -75,9 +76,9 @@ struct LightStart {
   LineFactors line;   ///< from the light (a) to x (b)
 
   /// [W5] The sums at x as the first vertex of a light side.
-  SideSums first() const {
+  PartialMisWeights first() const {
     const double forward = heuristic(onward * line.at_b);
-    SideSums s;
+    PartialMisWeights s;
     if (!(forward > 0) || !(start > 0)) return s;
     s.here = heuristic(direct / start) / forward;
     s.before = hit ? heuristic(line.at_a / start) / forward : 0;
@@ -87,8 +88,8 @@ struct LightStart {
 
 /// [W6] Weight of next-event estimation at x, which an eye side has come to with `sums`: `towards`
 /// and `back` are the densities of its event there, towards the light and back.
-inline double weight_of_direct(const LightStart& light, const SideSums& sums, double towards,
-                               double back, double merge) {
+inline double weight_of_direct(const LightStart& light, const PartialMisWeights& sums,
+                               double towards, double back, double merge) {
   if (!(light.direct > 0)) return 0;
   const double hit = light.hit ? heuristic(towards * light.line.at_a / light.direct) : 0;
   return 1 / (1 + hit +
@@ -98,7 +99,7 @@ inline double weight_of_direct(const LightStart& light, const SideSums& sums, do
 
 /// [W7] Weight of an eye side that ends on the light; `sums` are those at the light's point as a
 /// vertex of the eye side.
-inline double weight_of_hit(const LightStart& light, const SideSums& sums) {
+inline double weight_of_hit(const LightStart& light, const PartialMisWeights& sums) {
   return 1 / (1 + heuristic(light.direct) * sums.here +
               heuristic(light.start) * heuristic(light.onward) * sums.before);
 }
@@ -106,8 +107,8 @@ inline double weight_of_hit(const LightStart& light, const SideSums& sums) {
 /// [W11] Weight of a merge of an eye side and a light side that both came to one place. `back_eye`
 /// is the density with which its event goes back along the eye side, `back_light` along the light
 /// side; `merge` as in SideEnd, not 0.
-inline double weight_of_merge(const SideSums& eye, double back_eye, const SideSums& light,
-                              double back_light, double merge) {
+inline double weight_of_merge(const PartialMisWeights& eye, double back_eye,
+                              const PartialMisWeights& light, double back_light, double merge) {
   return 1 / (1 + (eye.here + heuristic(back_eye) * eye.before + light.here +
                    heuristic(back_light) * light.before) /
                       merge);

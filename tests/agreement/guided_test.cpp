@@ -70,10 +70,9 @@ TEST_P(Guided, PhotonsFindTheSameCausticWithLessNoise) {
     options.edit<GuidingOptions>().photons = guided;
     const SeedValues values = values_over_seeds(kSeeds, first_seed, [&](uint64_t seed) {
       std::vector<double> sums(3 * kBlocks, 0.0);
-      Preset preset = make_preset(plan, options, *scene);
-      Film film = film_for(*scene, preset);
-      for (uint32_t pass = 0; pass < kPasses; ++pass)
-        preset.render_pass({seed, pass}, *scene, film);
+      EstimatorSet set = make_estimators(plan, options, *scene);
+      Film film = film_for(*scene, set);
+      for (uint32_t pass = 0; pass < kPasses; ++pass) set.render_pass({seed, pass}, *scene, film);
       for (int b = 0; b < kBlocks; ++b)
         for (int route = 0; route < 2; ++route)
           for (int y = 0; y < 4; ++y)
@@ -123,7 +122,7 @@ TEST_P(Guided, WalksAndPhotonsTogetherFindTheSamePicture) {
   options.radius = 1;
   options.max_depth = 6;
   const std::vector<std::string> routes = {"all=.*:path+photons"};
-  const Preset preset = make_preset(plan_of(routes), options, *scene);
+  const EstimatorSet set = make_estimators(plan_of(routes), options, *scene);
   const OwnedRoutes owned = owned_routes(*scene, routes);
   const auto values = [&](bool guided, uint64_t first_seed) {
     options.edit<GuidingOptions>().photons = guided;
@@ -131,7 +130,7 @@ TEST_P(Guided, WalksAndPhotonsTogetherFindTheSamePicture) {
       const auto means = [&](float radius) {
         IntegratorOptions own = options;
         own.radius = radius;
-        Film film = film_for(*scene, preset);
+        Film film = film_for(*scene, set);
         const PhotonGuide guide = guide_caustic_photons(seed, *scene, film.format(), own).guide;
         EXPECT_EQ(guide.starts.empty(), !guided);
         const SampleMap map(film.bounds(), 8), no_walks(film.bounds(), 0);

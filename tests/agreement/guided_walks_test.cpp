@@ -40,11 +40,11 @@ TEST_P(GuidedWalks, FindTheSamePictureWithLessNoise) {
   IntegratorOptions options;
   options.max_depth = 6;
   const std::vector<std::string> routes = {"all=.*:path+photons"};
-  const Preset preset = make_preset(plan_of(routes), options, *scene);
+  const EstimatorSet set = make_estimators(plan_of(routes), options, *scene);
   const OwnedRoutes owned = owned_routes(*scene, routes);
   const auto values = [&](bool guided, uint64_t first_seed) {
     return values_over_seeds(kSeeds, first_seed, [&](uint64_t s) {
-      Film film = film_for(*scene, preset);
+      Film film = film_for(*scene, set);
       EstimatorStatistics statistics;
       const auto pass_of = [&](uint32_t number) {
         return PairPass{.key = {s, number},

@@ -33,11 +33,11 @@ const std::string kGlass =
 EstimatorStatistics statistics_after(const std::string& text, const std::string& integrator,
                                      const IntegratorOptions& options, uint32_t passes) {
   const auto scene = scene_from_text(text);
-  Preset preset = make_integrator(integrator, options, *scene);
-  Film film = film_for(*scene, preset);
+  EstimatorSet set = make_integrator(integrator, options, *scene);
+  Film film = film_for(*scene, set);
   EstimatorStatistics sum;
-  for (uint32_t pass = 0; pass < passes; ++pass) preset.render_pass({1, pass}, *scene, film);
-  for (const EstimatorStatistics& s : preset.statistics()) {
+  for (uint32_t pass = 0; pass < passes; ++pass) set.render_pass({1, pass}, *scene, film);
+  for (const EstimatorStatistics& s : set.statistics()) {
     sum.rays += s.rays;
     sum.photon_paths += s.photon_paths;
     sum.photons_stored += s.photons_stored;

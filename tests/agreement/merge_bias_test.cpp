@@ -34,10 +34,10 @@ Sums sums_of(const Scene& scene, const std::string& plan, float radius_pixels) {
   options.radius = radius_pixels;
   options.photons_per_pass = 1 << 16;
   options.max_depth = 4;
-  Preset preset =
-      make_preset(plan_of({"bare=C[SV]*(L|.*M):path", "all=.*:" + plan}), options, scene);
-  Film film = film_for(scene, preset);
-  for (uint32_t pass = 0; pass < 16; ++pass) preset.render_pass({1, pass}, scene, film);
+  EstimatorSet set =
+      make_estimators(plan_of({"bare=C[SV]*(L|.*M):path", "all=.*:" + plan}), options, scene);
+  Film film = film_for(scene, set);
+  for (uint32_t pass = 0; pass < 16; ++pass) set.render_pass({1, pass}, scene, film);
   EXPECT_TRUE(film.has_bias());
   Sums sums;
   for (int y = 0; y < 8; ++y)
@@ -73,8 +73,8 @@ INSTANTIATE_TEST_SUITE_P(Estimators, MergeBias,
 // What does not merge has no such layer.
 TEST(MergeBiasOfFilms, IsOfMergesAlone) {
   const auto scene = scene_from_text(kView);
-  Preset preset = make_preset(plan_of({"all=.*:path"}), {}, *scene);
-  const Film film = film_for(*scene, preset);
+  EstimatorSet set = make_estimators(plan_of({"all=.*:path"}), {}, *scene);
+  const Film film = film_for(*scene, set);
   EXPECT_FALSE(film.has_bias());
   EXPECT_EQ(film.bias(0, 0), 0.0f);
 }

@@ -41,11 +41,11 @@ IntegratorOptions options_of_test() {
 
 Film render_rejecting(const Scene& scene, const Plan& plan, uint64_t seed, uint32_t passes) {
   const IntegratorOptions options = options_of_test();
-  Preset preset = make_preset(plan, options, scene);
-  Film film = film_for(scene, preset);
-  film.reject_outliers(outlier_settings(*preset.routes, options, *scene.filter));
+  EstimatorSet set = make_estimators(plan, options, scene);
+  Film film = film_for(scene, set);
+  film.reject_outliers(outlier_settings(*set.routes, options, *scene.filter));
   for (uint32_t pass = 0; pass < passes; ++pass) {
-    preset.render_pass({seed, pass}, scene, film);
+    set.render_pass({seed, pass}, scene, film);
     film.finish_pass();
   }
   return film;

@@ -19,7 +19,7 @@ Mean mean_of(const PairView& view, const PairTechniques& techniques, uint32_t pa
   Mean mean;
   double squares = 0;
   for (uint32_t i = 0; i < passes; ++i) {
-    Film film = film_for(*view.scene, view.preset);
+    Film film = film_for(*view.scene, view.set);
     EstimatorStatistics statistics;
     render(view.pass_of(techniques, i, options),
            {.film = film, .samples = {view.one_path, view.no_walks}}, statistics);

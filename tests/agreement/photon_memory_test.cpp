@@ -36,11 +36,11 @@ uint64_t photons_stored(const Scene& scene, const std::string& plan) {
   options.photons_per_pass = 1 << 16;
   options.edit<GuidingOptions>().photons =
       false;  // all start as the lights have it, as in the paper
-  Preset preset = make_preset(plan_named(plan), options, scene);
-  Film film = film_for(scene, preset);
+  EstimatorSet set = make_estimators(plan_named(plan), options, scene);
+  Film film = film_for(scene, set);
   uint64_t stored = 0;
-  preset.render_pass({1, 0}, scene, film);
-  for (const EstimatorStatistics& s : preset.statistics()) stored += s.photons_stored;
+  set.render_pass({1, 0}, scene, film);
+  for (const EstimatorStatistics& s : set.statistics()) stored += s.photons_stored;
   return stored;
 }
 

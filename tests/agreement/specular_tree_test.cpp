@@ -103,8 +103,8 @@ TEST(SpecularTree, FindsWhatWalksFindWithLessNoise) {
 TEST(SpecularChainPass, FindsTheLightBehindDeltaLobes) {
   const auto scene = scene_from_text(ball(kClear, R"(Material "dielectric" "float eta" 2)"));
   const OwnedRoutes owned = owned_routes(*scene, {"of=CS+L:photons+light", "rest=.*:path"});
-  const Preset preset = make_preset(plan_named("path"), {}, *scene);
-  const Film film = film_for(*scene, preset);
+  const EstimatorSet set = make_estimators(plan_named("path"), {}, *scene);
+  const Film film = film_for(*scene, set);
   const PixelBounds& b = film.bounds();
   const SpecularTree tree(*scene, owned, 20);
   constexpr int kWalks = 32, kPasses = 64;

@@ -41,12 +41,12 @@ class Techniques : public testing::TestWithParam<std::string> {};
 
 void expect_sums(const std::string& plan, const IntegratorOptions& options) {
   const auto scene = scene_from_text(kScene);
-  Preset preset = make_preset(Plan(plan), options, *scene);
-  Film film = film_for(*scene, preset);
+  EstimatorSet set = make_estimators(Plan(plan), options, *scene);
+  Film film = film_for(*scene, set);
   constexpr uint32_t kPasses = 3;
-  for (uint32_t pass = 0; pass < kPasses; ++pass) preset.render_pass({5, pass}, *scene, film);
+  for (uint32_t pass = 0; pass < kPasses; ++pass) set.render_pass({5, pass}, *scene, film);
   int told = 0;
-  for (const EstimatorStatistics& s : preset.statistics())
+  for (const EstimatorStatistics& s : set.statistics())
     for (const RouteTechniques& r : s.techniques) {
       const auto& names = film.layout().routes;
       const auto route =
@@ -76,11 +76,11 @@ TEST_P(Techniques, AddUpToTheLightOfTheirRoutes) {
 // In all routes together every technique has something to say.
 TEST_P(Techniques, AreTheOnesThatTheEstimatorHas) {
   const auto scene = scene_from_text(kScene);
-  Preset preset = make_preset(Plan(GetParam()), {}, *scene);
-  Film film = film_for(*scene, preset);
-  preset.render_pass({5, 0}, *scene, film);
+  EstimatorSet set = make_estimators(Plan(GetParam()), {}, *scene);
+  Film film = film_for(*scene, set);
+  set.render_pass({5, 0}, *scene, film);
   TechniqueLight all{};
-  for (const RouteTechniques& r : preset.statistics().back().techniques)
+  for (const RouteTechniques& r : set.statistics().back().techniques)
     for (size_t t = 0; t < kTechniqueCount; ++t) all[t] += r.light[t];
   const auto found = [&](Technique t) { return all[static_cast<size_t>(t)] > 1e-6; };
   const bool connects = GetParam() == "bdpt" || GetParam() == "vcm";
@@ -94,11 +94,11 @@ TEST_P(Techniques, AreTheOnesThatTheEstimatorHas) {
 TechniqueLight light_of_pass(const std::string& plan, const IntegratorOptions& options,
                              uint32_t pass) {
   const auto scene = scene_from_text(kScene);
-  Preset preset = make_preset(Plan(plan), options, *scene);
-  Film film = film_for(*scene, preset);
-  preset.render_pass({5, pass}, *scene, film);
+  EstimatorSet set = make_estimators(Plan(plan), options, *scene);
+  Film film = film_for(*scene, set);
+  set.render_pass({5, pass}, *scene, film);
   TechniqueLight all{};
-  for (const RouteTechniques& r : preset.statistics().back().techniques)
+  for (const RouteTechniques& r : set.statistics().back().techniques)
     for (size_t t = 0; t < kTechniqueCount; ++t) all[t] += r.light[t];
   return all;
 }

@@ -14,11 +14,11 @@ constexpr int kSeeds = 16, kAcross = 2;
 
 /// What the default integrator says of its first passes.
 std::string notes_of(const Scene& scene, const IntegratorOptions& options) {
-  Preset preset = make_preset(plan_named("mixed"), options, scene);
-  Film film = film_for(scene, preset);
+  EstimatorSet set = make_estimators(plan_named("mixed"), options, scene);
+  Film film = film_for(scene, set);
   std::string notes;
-  for (const uint32_t pass : {0u, 1u}) preset.render_pass({1, pass}, scene, film);
-  for (const EstimatorStatistics& s : preset.statistics())
+  for (const uint32_t pass : {0u, 1u}) set.render_pass({1, pass}, scene, film);
+  for (const EstimatorStatistics& s : set.statistics())
     for (const std::string& note : s.notes) notes += note + "\n";
   return notes;
 }

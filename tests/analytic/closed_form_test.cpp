@@ -85,7 +85,7 @@ TEST(ClosedForm, DiskAboveAFloor) {
   const auto scene = scene_from_text(text);
   IntegratorOptions options = many_photons();
   options.radius = 150;
-  Preset mixed = make_integrator("mixed", options, *scene);
+  EstimatorSet mixed = make_integrator("mixed", options, *scene);
   Film film = film_for(*scene, mixed);
   for (uint32_t pass = 0; pass < 8; ++pass) mixed.render_pass({1, pass}, *scene, film);
   uint64_t emitted = 0, stored = 0;

@@ -64,13 +64,12 @@ TEST(PhotonMap, BiasKeepsToItsBound) {
     options.radius = static_cast<float>(max_radius / footprint);
     const Plan plan = plan_of({"all=C[DG].*:photonmap", "rest=.*:path"});
     const SeedValues values = values_over_seeds(32, 0, [&](uint64_t seed) {
-      Preset preset = make_preset(plan, options, *scene);
-      Film film = film_for(*scene, preset);
+      EstimatorSet set = make_estimators(plan, options, *scene);
+      Film film = film_for(*scene, set);
       LearningLoop map;
       for (uint32_t pass = 0; pass < 16; ++pass)
-        map.render_pass(*preset.estimators[0], {seed, pass}, *scene, film);
-      const double pixels =
-          static_cast<double>(preset.estimators[0]->statistics().radius_max_pixels);
+        map.render_pass(*set.estimators[0], {seed, pass}, *scene, film);
+      const double pixels = static_cast<double>(set.estimators[0]->statistics().radius_max_pixels);
       return std::vector<double>{picture_mean(film) / truth - 1, footprint * pixels};
     });
     const Estimate bias = estimate_of(values[0]);
@@ -121,11 +120,11 @@ TEST(PhotonMap, AClosedFurnaceIsFlat) {
     options.camera_samples_per_pass = row.walks;  // few where each reads a tenth of all photons
     options.edit<PhotonMapOptions>().nearest_photons = row.nearest;
     const SeedValues values = values_over_seeds(16, 0, [&](uint64_t seed) {
-      Preset preset = make_preset(plan_of({row.route, "rest=.*:path"}), options, *scene);
-      Film film = film_for(*scene, preset);
+      EstimatorSet set = make_estimators(plan_of({row.route, "rest=.*:path"}), options, *scene);
+      Film film = film_for(*scene, set);
       LearningLoop map;
       for (uint32_t pass = 0; pass < 16; ++pass)
-        map.render_pass(*preset.estimators[0], {seed, pass}, *scene, film);
+        map.render_pass(*set.estimators[0], {seed, pass}, *scene, film);
       return block_means(film, 2);
     });
     for (const std::vector<double>& block : values) {

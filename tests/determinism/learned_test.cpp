@@ -33,8 +33,8 @@ TEST_P(LearnedBits, AValueThatWasWrittenAndReadGivesTheSamePasses) {
   const auto scene = scene_from_text(kScene);
   IntegratorOptions options;
   options.edit<PhotonMapOptions>().map_photons = 1 << 14;
-  Preset whole = make_preset(plan_named(GetParam()), options, *scene),
-         from_values = make_preset(plan_named(GetParam()), options, *scene);
+  EstimatorSet whole = make_estimators(plan_named(GetParam()), options, *scene),
+               from_values = make_estimators(plan_named(GetParam()), options, *scene);
   Film expected = film_for(*scene, whole), found = film_for(*scene, from_values);
   for (const uint32_t pass : {0u, 1u}) whole.render_pass({5, pass}, *scene, expected);
   const FilmFormat& format = expected.format();
@@ -52,11 +52,11 @@ TEST_P(LearnedBits, BytesThatAreCutOffAreRefused) {
   const auto scene = scene_from_text(kScene);
   IntegratorOptions options;
   options.edit<PhotonMapOptions>().map_photons = 1 << 12;
-  Preset preset = make_preset(plan_named(GetParam()), options, *scene);
-  const Film film = film_for(*scene, preset);
-  preset.learned.resize(preset.estimators.size());
-  for (size_t i = 0; i < preset.estimators.size(); ++i) {
-    const Estimator& estimator = *preset.estimators[i];
+  EstimatorSet set = make_estimators(plan_named(GetParam()), options, *scene);
+  const Film film = film_for(*scene, set);
+  set.learned.resize(set.estimators.size());
+  for (size_t i = 0; i < set.estimators.size(); ++i) {
+    const Estimator& estimator = *set.estimators[i];
     const auto value = estimator.learn(*scene, film.format(), 5);
     if (!value) continue;
     ByteWriter written;

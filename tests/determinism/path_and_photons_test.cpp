@@ -49,10 +49,10 @@ Rendered render_parts(const std::string& text, const std::vector<std::vector<uin
   const auto scene = scene_from_text(text);
   Rendered result;
   for (const std::vector<uint32_t>& part : parts) {
-    Preset preset = make_preset(plan_named("mixed"), options, *scene);
-    if (result.film.empty()) result.film.push_back(film_for(*scene, preset));
-    for (const uint32_t pass : part) preset.render_pass({5, pass}, *scene, result.film[0]);
-    for (const EstimatorStatistics& s : preset.statistics())
+    EstimatorSet set = make_estimators(plan_named("mixed"), options, *scene);
+    if (result.film.empty()) result.film.push_back(film_for(*scene, set));
+    for (const uint32_t pass : part) set.render_pass({5, pass}, *scene, result.film[0]);
+    for (const EstimatorStatistics& s : set.statistics())
       for (const std::string& note : s.notes) result.notes.push_back(note);
   }
   return result;
@@ -113,8 +113,8 @@ TEST(PathAndPhotons, LearnsTheSameHoweverFewPhotonsFitInMemory) {
 
 TEST(PathAndPhotons, LearnsAnewForEachSeed) {
   const auto scene = scene_from_text(kScene);
-  Preset both = make_preset(plan_named("mixed"), {}, *scene),
-         one = make_preset(plan_named("mixed"), {}, *scene);
+  EstimatorSet both = make_estimators(plan_named("mixed"), {}, *scene),
+               one = make_estimators(plan_named("mixed"), {}, *scene);
   Film a = film_for(*scene, one), b = film_for(*scene, both), other = film_for(*scene, both);
   one.render_pass({6, 1}, *scene, a);
   both.render_pass({5, 1}, *scene, other);

@@ -37,8 +37,8 @@ IntegratorOptions small_passes() {
 struct OneRun {
   OneRun(const Scene& of_scene, const std::string& plan, bool rejects)
       : scene(of_scene),
-        preset(make_preset(plan_named(plan), small_passes(), scene)),
-        film(film_for(scene, preset)) {
+        set(make_estimators(plan_named(plan), small_passes(), scene)),
+        film(film_for(scene, set)) {
     if (rejects)
       film.reject_outliers(
           {std::vector<float>(static_cast<size_t>(film.layout().group_count()), 1.0f), 8});
@@ -47,28 +47,28 @@ struct OneRun {
   }
   void render(uint32_t first, uint32_t last) {
     for (uint32_t pass = first; pass <= last; ++pass) {
-      preset.render_pass({5, pass}, scene, film);
+      set.render_pass({5, pass}, scene, film);
       film.finish_pass();
       done.add(pass);
     }
   }
   void go_on(const std::string& path) {
-    done = go_on_from(path, identity, scene, preset, film).passes;
+    done = go_on_from(path, identity, scene, set, film).passes;
   }
   void write(const std::string& path) {
-    const RenderState state = state_of(scene, preset, film);
+    const RenderState state = state_of(scene, set, film);
     write_exr(path, film_picture(film, metadata()), &state);
   }
 
   Metadata metadata() const {
     Metadata all = identity.to_metadata();
-    add_film_metadata(film, passes_are_independent(preset), &all);
+    add_film_metadata(film, passes_are_independent(set), &all);
     all.emplace_back(kPassesKey, done.text());
     return all;
   }
 
   const Scene& scene;
-  Preset preset;
+  EstimatorSet set;
   Film film;
   RenderIdentity identity;
   PassRanges done;
@@ -118,8 +118,8 @@ TEST_P(Resume, EndsWithTheBitsOfOneRun) {
       OneRun last(*scene, GetParam(), rejects);
       last.go_on(path);
       EXPECT_EQ(last.done.text(), "0..3");
-      expect_same_state(state_of(*scene, last.preset, last.film),
-                        state_of(*scene, whole.preset, whole.film),
+      expect_same_state(state_of(*scene, last.set, last.film),
+                        state_of(*scene, whole.set, whole.film),
                         std::to_string(ends.size()) + " runs");
     }
     // The rest of the presets does not depend on what the film does with estimates.
@@ -139,7 +139,7 @@ TEST_P(Resume, PicturesOfOtherPassesAddUp) {
   }
   const std::string sum = directory.file("sum.exr");
   OneRun whole(*scene, GetParam(), false);
-  if (!passes_are_independent(whole.preset)) {
+  if (!passes_are_independent(whole.set)) {
     EXPECT_THROW(merge_pictures(parts, sum), UsageError);
     return;
   }

@@ -51,10 +51,10 @@ TEST_P(Determinism, AnyOrderOfIndependentPasses) {
   const auto scene = scene_from_text(kScene);
   IntegratorOptions options;
   options.photons_per_pass = 20000;
-  Preset forwards = make_preset(plan_named(GetParam()), options, *scene);
+  EstimatorSet forwards = make_estimators(plan_named(GetParam()), options, *scene);
   for (const auto& e : forwards.estimators)
     if (!e->descriptor().capabilities.independent_passes) GTEST_SKIP() << "passes are a sequence";
-  Preset backwards = make_preset(plan_named(GetParam()), options, *scene);
+  EstimatorSet backwards = make_estimators(plan_named(GetParam()), options, *scene);
   Film a = film_for(*scene, forwards), b = film_for(*scene, backwards);
   for (uint32_t pass = 0; pass < 4; ++pass) {
     forwards.render_pass({5, pass}, *scene, a);
@@ -69,8 +69,8 @@ TEST_P(Determinism, BatchesOfPhotonsLoseNothing) {
   IntegratorOptions whole, batched;
   whole.photons_per_pass = batched.photons_per_pass = 100000;
   batched.memory_photons = 1;  // as few photons at once as there can be
-  const Preset preset = make_preset(plan_named(GetParam()), whole, *scene);
-  for (const RouteGroup& group : preset.routes->groups())
+  const EstimatorSet set = make_estimators(plan_named(GetParam()), whole, *scene);
+  for (const RouteGroup& group : set.routes->groups())
     if (is_one_of(group.estimator, {"photonmap"}))
       GTEST_SKIP() << "memory ends a map; it has no batches";
   const Film a = render(*scene, GetParam(), whole, 5, 1),

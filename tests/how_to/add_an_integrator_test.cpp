@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "how_to/direct_lighting.h"
-#include "integrator/presets/preset.h"
+#include "integrator/presets/estimator_set.h"
 #include "rendering.h"
 
 namespace nephroid {
@@ -60,10 +60,10 @@ TEST(AddAnIntegrator, TheExampleRendersWhatPathTracingDoes) {
   const auto means = [&](const std::string& estimator, uint64_t first_seed) {
     return values_over_seeds(32, first_seed, [&](uint64_t seed) {
       const auto table = longer_table();
-      Preset preset = make_preset(plan_with_direct({"direct=C[DG]?L:" + estimator, "rest=.*:path"}),
-                                  {}, *scene, table);
-      Film film = film_for(*scene, preset);
-      for (uint32_t pass = 0; pass < 16; ++pass) preset.render_pass({seed, pass}, *scene, film);
+      EstimatorSet set = make_estimators(
+          plan_with_direct({"direct=C[DG]?L:" + estimator, "rest=.*:path"}), {}, *scene, table);
+      Film film = film_for(*scene, set);
+      for (uint32_t pass = 0; pass < 16; ++pass) set.render_pass({seed, pass}, *scene, film);
       std::vector<double> blocks;
       const PixelBounds& b = film.bounds();
       for (int block = 0; block < 6; ++block) {
@@ -88,7 +88,7 @@ TEST(AddAnIntegrator, TheExampleSaysWhatItCannotFind) {
   const auto scene = world();
   const auto table = longer_table();
   const auto warnings_of = [&](const std::vector<std::string>& routes) {
-    return make_preset(plan_with_direct(routes), {}, *scene, table).warnings;
+    return make_estimators(plan_with_direct(routes), {}, *scene, table).warnings;
   };
   EXPECT_TRUE(warnings_of({"direct=C[DG]?L:direct", "rest=.*:path"}).empty());
   const auto of_mirrors = warnings_of({"direct=C.?L:direct", "rest=.*:path"});

@@ -17,8 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kMostSeconds = 10;
-constexpr uint64_t kMostMemory = uint64_t{1} << 30;
+constexpr double kMaxSeconds = 10;
+constexpr uint64_t kMaxMemory = uint64_t{1} << 30;
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool kIsSlowAndLarge = true;
 #else
@@ -69,8 +69,8 @@ TEST(HostileScenes, GiveAPictureOrALocatedMessage) {
     EXPECT_FALSE(run.hung);
     EXPECT_EQ(run.signal, 0) << run.errors;
     if (!kIsSlowAndLarge) {
-      EXPECT_LT(run.seconds, kMostSeconds);
-      EXPECT_LT(run.peak_memory, kMostMemory);
+      EXPECT_LT(run.seconds, kMaxSeconds);
+      EXPECT_LT(run.peak_memory, kMaxMemory);
     }
     const std::string wanted = expected[name];
     if (wanted == "picture") {

@@ -19,7 +19,7 @@ constexpr uint64_t kEyeStream = 0x62647065;    // "bdpe"
 constexpr uint64_t kLightStream = 0x6264706c;  // "bdpl"
 
 /// Splats are added in strips of rows of at most this many pixels, or of one row.
-constexpr int kMostPixels = 1 << 16;
+constexpr int kMaxPixels = 1 << 16;
 
 /// What a row of pixels found.
 struct Row {
@@ -44,7 +44,7 @@ class PairRound {
 
   void render(SplatBuffer& buffer, EstimatorStatistics& statistics) {
     const PixelBounds& b = film_.bounds();
-    const int strip = std::max(1, kMostPixels / std::max(1, b.width()));
+    const int strip = std::max(1, kMaxPixels / std::max(1, b.width()));
     for (int begin = b.y0; begin < b.y1; begin += strip) {
       std::vector<Splat> splats;
       const auto trace_row = [&](Row& row, int64_t y, int64_t) {

@@ -334,7 +334,7 @@ class EyeVisitor {
   Place last_, place_;
   Vec3f entry_wo_{0, 0, 1};
   bool first_ = true;  ///< no event but delta lobes so far
-  EyeSums sums_;
+  EyePartialWeights sums_;
   const WalkVertex* surface_ = nullptr;
   const MediumVertex* medium_ = nullptr;
   SpecularRoot root_;

@@ -9,11 +9,12 @@
 
 namespace nephroid {
 
-class EyeSums {
+class EyePartialWeights {
  public:
   /// `connects`: light paths are connected to more than lights. `caustics_only`: merges count where
   /// an S follows.
-  EyeSums(bool connects, bool caustics_only) : connects_(connects), caustics_only_(caustics_only) {}
+  EyePartialWeights(bool connects, bool caustics_only)
+      : connects_(connects), caustics_only_(caustics_only) {}
 
   /// [W9] At the first vertex: `cut` is what the connection to the camera counts.
   void arrive_first(double cut) {
@@ -29,7 +30,7 @@ class EyeSums {
   /// [W10] The way under the surface is one step: what was at its entry counts here. `density` is
   /// that of the way back out of the entry.
   void come_out(double density) {
-    for (SideSums* s : {&all_, &plain_}) {
+    for (PartialMisWeights* s : {&all_, &plain_}) {
       s->here += heuristic(density) * s->before;
       s->before = 0;
     }
@@ -50,20 +51,20 @@ class EyeSums {
     return before_light && caustics_only_ && c != EventClass::kSpecular;
   }
   /// At the vertex, for a cut behind such an event.
-  const SideSums& behind(EventClass c, bool before_light) const {
+  const PartialMisWeights& behind(EventClass c, bool before_light) const {
     return is_plain(c, before_light) ? plain_ : all_;
   }
   /// At the vertex, whatever follows.
-  const SideSums& all() const { return all_; }
+  const PartialMisWeights& all() const { return all_; }
   /// What stands before the light, if nothing but it follows.
   const SideEnd& end_to_light() const { return caustics_only_ ? plain_end_ : end_; }
 
  private:
   const bool connects_, caustics_only_;
-  SideSums all_;
+  PartialMisWeights all_;
   SideEnd end_;
   /// The same where only caustics merge, should no S follow: vertices merge that an S has followed.
-  SideSums plain_;
+  PartialMisWeights plain_;
   SideEnd plain_end_;
 };
 

@@ -89,7 +89,7 @@ class LightVisitor : public LightWalkVisitor {
     if (!is_first_ && !settings_.connects()) sums_.here = 0;
   }
 
-  SideSums first_sums(const Walk& walk, const Vec3f& ns) const {
+  PartialMisWeights first_sums(const Walk& walk, const Vec3f& ns) const {
     const Scene& scene = settings_.scene;
     const Light& light = *scene.lights[emission_.light];
     const double chosen = scene.light_sampler->pmf(place_.p, ns, emission_.light);
@@ -200,7 +200,7 @@ class LightVisitor : public LightWalkVisitor {
   Vec3f entry_wo_{0, 0, 1};
   bool is_first_ = true;
   bool after_specular_ = false;  ///< the light has come by way of an S
-  SideSums sums_;
+  PartialMisWeights sums_;
   SideEnd end_;
   const WalkVertex* surface_ = nullptr;
   const MediumVertex* medium_ = nullptr;

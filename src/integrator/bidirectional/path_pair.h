@@ -85,7 +85,7 @@ struct LightVertex {
   float specular_alpha = 0;
   LightState state = 0;  ///< of the light side, this vertex excluded
   int events = 0;        ///< before this vertex
-  SideSums sums;
+  PartialMisWeights sums;
   double merge = 0;  ///< [W8] of D and G here, seen by way of another finite event
 
   /// Its BSDF, made anew the first time it is asked for; null in a medium.

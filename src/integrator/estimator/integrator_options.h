@@ -14,10 +14,10 @@ namespace nephroid {
 struct IntegratorOptions {
   int max_depth = 100;  ///< scattering events of the whole path, camera and light side together
   /// Pixel footprints of the first merge radius.
-  float radius = 0;                 ///< 0: the default of the integrator
-  int64_t photons_per_pass = 0;     ///< 0: chosen from the film's size
-  float alpha = 2.0f / 3.0f;        ///< of [E1] and [E2]
-  int camera_samples_per_pass = 0;  ///< 0: the default of the integrator
+  float radius = 0;                  ///< 0: the default of the integrator
+  int64_t photons_per_pass = 0;      ///< 0: chosen from the film's size
+  float shrink_alpha = 2.0f / 3.0f;  ///< of merge radii, in [E1] and [E2]
+  int camera_samples_per_pass = 0;   ///< 0: the default of the integrator
   int64_t memory_photons =
       1 << 20;  ///< photons kept at once (96 bytes each); a larger pass runs in batches
 

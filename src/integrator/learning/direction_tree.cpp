@@ -11,7 +11,7 @@ namespace nephroid {
 
 namespace {
 
-constexpr int kMostCuts = 20;
+constexpr int kMaxCuts = 20;
 /// A quarter is cut if it has so many directions and so much of the mass.
 constexpr size_t kToCut = 32;
 constexpr double kMassToCut = 0.02;
@@ -56,7 +56,7 @@ class TreeMaker {
     double total = 0;
     for (size_t i = 0; i < quarters.size(); ++i) {
       double mass = std::sqrt(sum_of(quarters[i]) * area / 4);
-      if (mass > least_ && quarters[i].size() >= kToCut && cuts < kMostCuts) {
+      if (mass > least_ && quarters[i].size() >= kToCut && cuts < kMaxCuts) {
         nodes_[index].child[i] = static_cast<uint32_t>(nodes_.size() - root_);
         mass = add(quarters[i], area / 4, cuts + 1);
       }

@@ -14,7 +14,7 @@ namespace {
 constexpr uint8_t kSides = 12;
 /// Boxes with more records are cut without a look.
 constexpr size_t kManyRecords = 1 << 16;
-constexpr size_t kFewestRecords = 1 << 8;
+constexpr size_t kMinRecords = 1 << 8;
 constexpr float kShares[] = {0.25f, 0.5f, 0.75f};
 /// A guide has to be better by this factor: second moments do not see how evenly the points of a
 /// pixel fill the directions of the BSDF, which is lost where half of them go elsewhere.
@@ -51,7 +51,7 @@ Judgement judge(std::span<const RadianceRecord> records) {
   // Each half says what following the tree of the other one would do.
   Judgement best;
   std::array<double, std::size(kShares)> guided{};
-  const bool few = records.size() < kFewestRecords;
+  const bool few = records.size() < kMinRecords;
   for (size_t half = 0; half < 2; ++half) {
     std::vector<DirectionTree::Node> nodes;
     if (!few) append_direction_tree(moments(records, half, 2), nodes);
@@ -112,7 +112,7 @@ struct RadianceGuide::Region {
   /// Returns the second moment of what the records find.
   double settle(uint32_t at, std::span<RadianceRecord> inside) {
     const Judgement whole = judge(inside);
-    if (inside.size() >= 2 * kFewestRecords) {
+    if (inside.size() >= 2 * kMinRecords) {
       const Parts parts = halves(inside);
       const size_t boxes_before = boxes.size(), nodes_before = nodes.size(), before = guided;
       const uint32_t next = static_cast<uint32_t>(boxes.size());

@@ -7,7 +7,7 @@ namespace nephroid {
 
 namespace {
 
-constexpr int kMostCells = 16;       ///< along the longer side
+constexpr int kMaxCells = 16;        ///< along the longer side
 constexpr float kPixelsPerCell = 4;  ///< at least
 /// What is darker than this share of the mean is as important as what is as dark.
 constexpr double kDarkest = 0.05;
@@ -21,7 +21,7 @@ FilmArea::FilmArea(const PixelBounds& crop, const PixelFilter& filter)
 
 FilmImportance::FilmImportance(const FilmArea& area) : area_(area) {
   const Vec2f size = area.size();
-  const float side = std::max(std::max(size.x, size.y) / kMostCells, kPixelsPerCell);
+  const float side = std::max(std::max(size.x, size.y) / kMaxCells, kPixelsPerCell);
   width_ = std::max(1, static_cast<int>(size.x / side));
   height_ = std::max(1, static_cast<int>(size.y / side));
   found_.assign(static_cast<size_t>(width_) * height_, 0.0);

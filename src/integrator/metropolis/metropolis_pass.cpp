@@ -12,12 +12,12 @@ namespace nephroid {
 namespace {
 
 constexpr float kPilotPathsPerPixel = 16;
-constexpr float kFewestPilotPaths = 1 << 11, kMostPilotPaths = 1 << 16;
+constexpr float kMinPilotPaths = 1 << 11, kMaxPilotPaths = 1 << 16;
 // Defaults, measured: docs/adr/0018-chains-restart.md.
 constexpr double kMutationsPerPixel = 16;
-constexpr int64_t kFewestMutations = 1024;
+constexpr int64_t kMinMutations = 1024;
 constexpr int64_t kChainLength = 8192;
-constexpr int64_t kFewestChains = 16;
+constexpr int64_t kMinChains = 16;
 /// Of the mutations.
 constexpr double kBootstrapShare = 0.25;
 
@@ -26,12 +26,11 @@ constexpr double kBootstrapShare = 0.25;
 ChainSettings MetropolisPasses::settings_for(int64_t pixels) const {
   const double per_pixel = options_.mutations > 0 ? double{options_.mutations} : kMutationsPerPixel;
   const int64_t mutations =
-      std::max(kFewestMutations, static_cast<int64_t>(per_pixel * static_cast<double>(pixels)));
+      std::max(kMinMutations, static_cast<int64_t>(per_pixel * static_cast<double>(pixels)));
   ChainSettings settings;
   settings.large_step = options_.large_step;
-  settings.mutations = options_.chain_length > 0
-                           ? std::min(options_.chain_length, mutations)
-                           : std::min(kChainLength, mutations / kFewestChains);
+  settings.mutations = options_.chain_length > 0 ? std::min(options_.chain_length, mutations)
+                                                 : std::min(kChainLength, mutations / kMinChains);
   settings.chains = chunk_count(mutations, settings.mutations);
   settings.bootstrap = static_cast<int64_t>(
       kBootstrapShare * static_cast<double>(settings.chains * settings.mutations));
@@ -41,8 +40,7 @@ ChainSettings MetropolisPasses::settings_for(int64_t pixels) const {
 std::shared_ptr<const LearnedPilot> LearnedPilot::learn(uint64_t seed, const FilmArea& area,
                                                         size_t kinds,
                                                         const PathFunctionMaker& make) {
-  const float paths =
-      std::clamp(kPilotPathsPerPixel * area.area(), kFewestPilotPaths, kMostPilotPaths);
+  const float paths = std::clamp(kPilotPathsPerPixel * area.area(), kMinPilotPaths, kMaxPilotPaths);
   return std::make_shared<const LearnedPilot>(
       look_around(seed, static_cast<int64_t>(paths), area, kinds, make));
 }

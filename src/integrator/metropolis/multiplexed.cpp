@@ -24,7 +24,7 @@ constexpr double kNextLength = 0.85;
 constexpr double kGuessedLength = 0.25, kGuessedTechnique = 0.5;
 /// Longer paths than these have a light of which no picture shows anything; they are not left out
 /// but share what is left.
-constexpr int kMostLengths = 1000;
+constexpr int kMaxLengths = 1000;
 
 /// What the paths of a pass share.
 struct Pass {
@@ -115,7 +115,7 @@ size_t KindChoice::Table::choose(float u) const {
 }
 
 KindChoice::KindChoice(int max_length) : KindChoice() {
-  const int lengths = std::min(max_length, kMostLengths - 1) + 1;
+  const int lengths = std::min(max_length, kMaxLengths - 1) + 1;
   std::vector<double> weights;
   double weight = 1;
   size_t kinds = 0;

@@ -14,18 +14,19 @@ namespace {
 
 constexpr uint64_t kStream = 0x666f7265;    // "fore"
 constexpr uint64_t kLearning = 0x63617374;  // "cast"
-// Photons are traced in rounds until there are enough sights, or no more is to be hoped for.
+// Photons are traced in rounds until there are enough records, or no more is to be hoped for.
 constexpr int64_t kPhotonsOfRound = 1 << 16;
-constexpr size_t kEnoughSights = 1 << 15;
-constexpr int kMostRounds = 16;
+constexpr size_t kEnoughRecords = 1 << 15;
+constexpr int kMaxRounds = 16;
 constexpr int64_t kChunk = 1024;
 
 /// Notes where light lands that came from a light through nothing but what is specular. What came
 /// by way of other surfaces is left out: a walk in its direction would end on these, not on a
 /// light.
-class SightVisitor : public LightWalkVisitor {
+class CausticRecordVisitor : public LightWalkVisitor {
  public:
-  SightVisitor(const OwnedRoutes& owned, const Emission& emission, std::vector<CausticSight>& out)
+  CausticRecordVisitor(const OwnedRoutes& owned, const Emission& emission,
+                       std::vector<CausticRecord>& out)
       : LightWalkVisitor(owned, emission), out_(out) {}
 
   bool scatters_in(const Medium&) const { return false; }
@@ -41,7 +42,7 @@ class SightVisitor : public LightWalkVisitor {
   }
 
  private:
-  std::vector<CausticSight>& out_;
+  std::vector<CausticRecord>& out_;
   bool after_specular_ = false;
 };
 
@@ -114,23 +115,23 @@ void LearnedForecast::add_to(EstimatorStatistics& s) const {
   s.photons_stored += map().size();
   s.hold(map().bytes(), 0);
   const std::string of_all = " of " + std::to_string(made_.photon_paths) + " photon paths ";
-  const std::string sights = std::to_string(map().size()) + " sights" + of_all;
+  const std::string records = std::to_string(map().size()) + " records" + of_all;
   const std::string as_path = " a caustic: its paths are traced as by path";
   if (map().foretells())
-    s.notes.push_back(sights + "foretell caustics; passes add none");
+    s.notes.push_back(records + "foretell caustics; passes add none");
   else if (map().size() > 0)
-    s.notes.push_back(sights + "are too few to foretell" + as_path);
+    s.notes.push_back(records + "are too few to foretell" + as_path);
   else
     s.notes.push_back("none" + of_all + "foretold" + as_path);
 }
 
 /// Traces the photons of a round and adds what they saw.
 void trace_round(const PassKey& key, int64_t photons, const Scene& scene, const OwnedRoutes& owned,
-                 int max_depth, std::vector<CausticSight>& sights, Forecasting& made) {
+                 int max_depth, std::vector<CausticRecord>& records, Forecasting& made) {
   const int64_t first = static_cast<int64_t>(key.pass) * photons;
   const float specular_alpha = specular_alpha_of_pass(scene.specular_band, {key.seed, 0});
   struct Chunk {
-    std::vector<CausticSight> sights;
+    std::vector<CausticRecord> records;
     uint64_t rays = 0, useful = 0;
   };
   const LightPathSequence sequence{key.seed};
@@ -140,17 +141,19 @@ void trace_round(const PassKey& key, int64_t photons, const Scene& scene, const 
     for (int64_t j = first + begin; j < first + end; ++j)
       sequence.at(j, [&](PathSampler& sampler) {
         const LightPathMoment moment = sample_moment(scene, sampler);
-        const size_t before = chunk.sights.size();
+        const size_t before = chunk.records.size();
         launch_light_path(
             launch, moment.lambda, scene.camera->motion_time(moment.u_time), sampler,
             kLightPathStartDimensions,
-            [&](const Emission& emission) { return SightVisitor(owned, emission, chunk.sights); },
-            [&](const SightVisitor&, const Walk& walk) { chunk.rays += walk.rays; });
-        chunk.useful += chunk.sights.size() > before;
+            [&](const Emission& emission) {
+              return CausticRecordVisitor(owned, emission, chunk.records);
+            },
+            [&](const CausticRecordVisitor&, const Walk& walk) { chunk.rays += walk.rays; });
+        chunk.useful += chunk.records.size() > before;
       });
   };
   ordered_reduce<Chunk>(photons, kChunk, trace_chunk, [&](Chunk&& chunk) {
-    sights.insert(sights.end(), chunk.sights.begin(), chunk.sights.end());
+    records.insert(records.end(), chunk.records.begin(), chunk.records.end());
     made.rays += chunk.rays;
     made.photon_paths_useful += chunk.useful;
   });
@@ -176,13 +179,13 @@ Forecast::Forecast(OwnedRoutes owned, const IntegratorOptions& options)
 std::shared_ptr<const Learned> Forecast::learn(const Scene& scene, const FilmFormat&,
                                                uint64_t seed) const {
   Forecasting made;
-  std::vector<CausticSight> sights;
+  std::vector<CausticRecord> records;
   const bool asked = options_.photons_per_pass > 0;
   const int64_t photons = asked ? options_.photons_per_pass : kPhotonsOfRound;
-  for (int k = 0; k < (asked ? 1 : kMostRounds) && sights.size() < kEnoughSights; ++k)
+  for (int k = 0; k < (asked ? 1 : kMaxRounds) && records.size() < kEnoughRecords; ++k)
     trace_round({hash_combine(seed, kLearning), static_cast<uint32_t>(k)}, photons, scene, owned_,
-                options_.max_depth, sights, made);
-  made.map = ForecastMap(std::move(sights));
+                options_.max_depth, records, made);
+  made.map = ForecastMap(std::move(records));
   return std::make_shared<LearnedForecast>(std::move(made));
 }
 

@@ -11,7 +11,7 @@ namespace {
 /// A branch that carries less goes one way only, and roulette is played on it.
 constexpr float kWindow = 1.0f / 8;
 /// Branches of branches: bounds the tree where nothing is lost along the way.
-constexpr int kMostBranchings = 16;
+constexpr int kMaxBranchings = 16;
 
 bool owns_light_behind_specular(const OwnedRoutes& owned) {
   const Routes& routes = *owned.routes;
@@ -79,7 +79,7 @@ class SpecularTree::Visitor {
   void medium_vertex(const Walk&, const MediumVertex&, PathSampler&) {}
 
   bool branches(const Walk& walk) const {
-    return branchings_ < kMostBranchings && walk.carried() >= kWindow;
+    return branchings_ < kMaxBranchings && walk.carried() >= kWindow;
   }
   void branch(const Walk& way, const WalkEvent& event, PathSampler& sampler) {
     Visitor visitor(tree_, routes_.next(eye_, symbol_of(symbols_, event)), branchings_ + 1, found_);

@@ -10,7 +10,7 @@ namespace nephroid {
 
 namespace {
 
-constexpr int kFewest = 4, kMost = 16;
+constexpr int kMin = 4, kMax = 16;
 
 const EstimatorSetting kHitPointsSetting = {
     "hit-points",
@@ -52,7 +52,7 @@ const EstimatorDescriptor Ppm::kDescriptor = {
 
 int Ppm::hit_points(const IntegratorOptions& options, int samples_per_pixel) {
   const int asked = options.own<PpmOptions>().hit_points;
-  return asked > 0 ? asked : std::clamp(samples_per_pixel, kFewest, kMost);
+  return asked > 0 ? asked : std::clamp(samples_per_pixel, kMin, kMax);
 }
 
 int Ppm::regions_per_pixel(const Scene& scene) const {

@@ -126,7 +126,7 @@ void Sppm::update(Gathered& gathered, std::span<const uint64_t> counts, Film& fi
         std::ranges::fill(estimate, Rgb{});
       }
       const double found = bad == estimate.end() ? static_cast<double>(counts[i]) : 0.0;
-      const double kept = region.update(found, options_.alpha);
+      const double kept = region.update(found, options_.shrink_alpha);
       const double scale = 1.0 / (totals_.emitted * static_cast<double>(kPi) *
                                   region.radius_squared * static_cast<double>(regions_in_pixel_));
       for (size_t k = 0; k < parts; ++k) {

@@ -19,7 +19,7 @@ float first_radius(const IntegratorOptions& options) {
 
 float radius_of_pass(const IntegratorOptions& options, uint32_t pass) {
   return first_radius(options) *
-         static_cast<float>(std::sqrt(memoryless_radius_squared(pass, options.alpha)));
+         static_cast<float>(std::sqrt(memoryless_radius_squared(pass, options.shrink_alpha)));
 }
 
 size_t MergePass::bytes_per_pixel(size_t parts) {

@@ -121,9 +121,9 @@ RoutePlan plan_of_integrator(const std::string& name) {
   throw UsageError("integrator \"" + name + "\" is unknown, expected one of " + expected);
 }
 
-Preset make_integrator(const std::string& name, const IntegratorOptions& options,
-                       const Scene& scene) {
-  return make_preset(plan_of_integrator(name), options, scene);
+EstimatorSet make_integrator(const std::string& name, const IntegratorOptions& options,
+                             const Scene& scene) {
+  return make_estimators(plan_of_integrator(name), options, scene);
 }
 
 }  // namespace nephroid

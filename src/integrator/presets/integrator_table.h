@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "input/format_rows.h"
-#include "integrator/presets/preset.h"
+#include "integrator/presets/estimator_set.h"
 
 namespace nephroid {
 
@@ -18,8 +18,8 @@ std::vector<FormatType> scene_integrator_types();
 
 /// The plan that an integrator's name stands for. Throws UsageError for an unknown name.
 RoutePlan plan_of_integrator(const std::string& name);
-/// make_preset of the plan that a name stands for.
-Preset make_integrator(const std::string& name, const IntegratorOptions& options,
-                       const Scene& scene);
+/// make_estimators of the plan that a name stands for.
+EstimatorSet make_integrator(const std::string& name, const IntegratorOptions& options,
+                             const Scene& scene);
 
 }  // namespace nephroid

@@ -8,9 +8,9 @@ namespace {
 
 /// Cosines below this count as it: f times the cosine stays what the table says, and both stay
 /// finite.
-constexpr float kLeastCosine = 1e-6f;
+constexpr float kMinCosine = 1e-6f;
 /// Projected areas below this are no surface.
-constexpr float kLeastArea = 1e-6f;
+constexpr float kMinArea = 1e-6f;
 
 /// Polar angle of a unit vector, exact next to the pole.
 float polar_angle(const Vec3f& w) {
@@ -40,7 +40,7 @@ constexpr float kPole = 3.2e-3f;
 /// at x, at least kPole, mirrors with that cosine.
 float directions_per_square(float x, float cos_facet) {
   const float normals = 2.0f * sqr(kPi) * x * std::sin(polar_from_square(x));
-  return 4.0f * std::max(cos_facet, kLeastCosine) * normals;
+  return 4.0f * std::max(cos_facet, kMinCosine) * normals;
 }
 
 }  // namespace
@@ -156,9 +156,9 @@ SampledSpectrum MeasuredBrdf::ratio(const View& view, const Vec2f& u,
 }
 
 float MeasuredBrdf::factor(const View& view, const Vec2f& facet, float cos_i) const {
-  const float c = std::max(cos_i, kLeastCosine);
+  const float c = std::max(cos_i, kMinCosine);
   if (!values_are_ratios_) return 1.0f / c;
-  if (!(view.area > kLeastArea)) return 0.0f;
+  if (!(view.area > kMinArea)) return 0.0f;
   return std::max(0.0f, facets_(facet)) / (4.0f * view.area * c);
 }
 

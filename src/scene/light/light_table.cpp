@@ -95,8 +95,8 @@ std::vector<LightPtr> make_lights(const SceneDescription& description, Diagnosti
                        "light \"" + d.type + "\" is too far away, expected coordinates up to 1e17");
     // A wanted power over that of an image that is nearly black, for one. That of infinite lights
     // grows with the scene.
-    constexpr float kMostPower = 1e30f;
-    if (!(lights.back()->power() <= kMostPower))
+    constexpr float kMaxPower = 1e30f;
+    if (!(lights.back()->power() <= kMaxPower))
       throw SceneError(d.where, "light \"" + d.type +
                                     "\" is too bright for floating-point numbers, expected a power "
                                     "up to 1e30");

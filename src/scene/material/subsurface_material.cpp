@@ -18,7 +18,7 @@ constexpr Rgb kDefaultSigmaA{0.0011f, 0.0024f, 0.014f};
 constexpr Rgb kDefaultSigmaS{2.55f, 3.21f, 3.77f};
 
 // Indices for which the fitted moments of the Fresnel term are sane.
-constexpr float kLeastEta = 0.4f, kMostEta = 2.5f;
+constexpr float kMinEta = 0.4f, kMaxEta = 2.5f;
 
 SpectrumInput rgb_constant(const Rgb& rgb) {
   return SpectrumInput(
@@ -43,7 +43,7 @@ class SubsurfaceMaterial final : public SurfaceMaterial {
         band_(c.settings.specular_band),
         scale_(d.parameters.get_float("scale", 1.0f)) {
     float g = checked(d.parameters, "g", 0.0f, -1.0f, 1.0f);
-    const float eta = checked(d.parameters, "eta", 1.33f, kLeastEta, kMostEta);
+    const float eta = checked(d.parameters, "eta", 1.33f, kMinEta, kMaxEta);
     if (read_medium(d, c) && g != 0.0f) {
       c.diagnostics.warn(d.parameters.find("g")->where,
                          "\"g\" is ignored with a named medium, whose coefficients are reduced");

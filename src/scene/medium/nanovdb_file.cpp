@@ -14,7 +14,7 @@ constexpr uint64_t kMagic = 0x304244566f6e614e;  // "NanoVDB0", little endian
 constexpr uint32_t kMajorVersion = 32;
 constexpr size_t kHeaderBytes = 16, kGridHeaderBytes = 176;
 /// More than any file can pack into a byte: the limit of deflate is 1032.
-constexpr uint64_t kMostUnpackedPerByte = 1100;
+constexpr uint64_t kMaxUnpackedPerByte = 1100;
 
 enum class Codec : uint16_t { kNone = 0, kZip = 1 };
 
@@ -74,7 +74,7 @@ NanoVdbBytes unpack(Reader& reader, const GridEntry& entry, Codec codec) {
     data += 8;
   }
   const bool fits = codec == Codec::kNone ? entry.grid_bytes == packed
-                                          : entry.grid_bytes / kMostUnpackedPerByte <= packed;
+                                          : entry.grid_bytes / kMaxUnpackedPerByte <= packed;
   if (!fits) reader.fail("is broken: the sizes of grid \"" + entry.name + "\" do not agree");
   if (entry.grid_bytes % sizeof(NanoVdbBlock) != 0)
     reader.fail("is broken: grid \"" + entry.name + "\" ends within a block of 32 bytes");

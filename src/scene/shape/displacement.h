@@ -12,7 +12,7 @@
 namespace nephroid {
 
 /// Triangles that a displaced mesh may have.
-inline constexpr size_t kMostDisplacedTriangles = 100'000'000;
+inline constexpr size_t kMaxDisplacedTriangles = 100'000'000;
 
 struct Displacement {
   float edge_length = 1;      ///< all edges become shorter than this, in world space
@@ -26,6 +26,6 @@ struct Displacement {
 /// indices good. Empty if it would get more than `most_triangles` triangles, more vertices, or
 /// edges of infinite length.
 std::optional<MeshData> displace_mesh(MeshData mesh, const Displacement& displacement,
-                                      size_t most_triangles = kMostDisplacedTriangles);
+                                      size_t most_triangles = kMaxDisplacedTriangles);
 
 }  // namespace nephroid

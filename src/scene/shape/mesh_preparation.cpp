@@ -40,14 +40,14 @@ class MeshChecker {
     if (!mesh_.face_indices.empty() && mesh_.face_indices.size() != faces)
       fail("has " + std::to_string(mesh_.face_indices.size()) + " face indices, expected " +
            std::to_string(faces) + ", one per face");
-    if (faces > kMostFaces)
+    if (faces > kMaxFaces)
       fail("has " + std::to_string(faces) + " faces, expected at most " +
-           std::to_string(kMostFaces) + " in one shape");
+           std::to_string(kMaxFaces) + " in one shape");
   }
 
  private:
   /// The ray tracer numbers the primitives of a shape in 32 bits.
-  static constexpr size_t kMostFaces = 0xfffffffeu;
+  static constexpr size_t kMaxFaces = 0xfffffffeu;
 
   [[noreturn]] void fail(const std::string& message) const {
     throw SceneError(where_, what_ + " " + message);

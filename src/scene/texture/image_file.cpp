@@ -164,8 +164,8 @@ ImagePtr ImageCache::load(const std::string& path, std::optional<ColorEncoding> 
     whole_ += image->memory();
   }
   // OpenImageIO aborts when threads together hold more than ten times the limit.
-  constexpr uint64_t kFewestTileBytes = 1 << 20;
-  if (tiles_) tiles_->set_limit(std::max(limit_ / 4, kFewestTileBytes));
+  constexpr uint64_t kMinTileBytes = 1 << 20;
+  if (tiles_) tiles_->set_limit(std::max(limit_ / 4, kMinTileBytes));
   return image;
 }
 

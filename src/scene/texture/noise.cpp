@@ -130,14 +130,14 @@ float turbulence(const Vec3f& p, const NoiseFootprint& footprint, float roughnes
 }
 
 NoiseParameters read_noise_parameters(const ParameterSet& parameters) {
-  constexpr int kMostOctaves = 64;
+  constexpr int kMaxOctaves = 64;
   NoiseParameters n;
   n.octaves = parameters.get_int("octaves", n.octaves);
   n.roughness = parameters.get_float("roughness", n.roughness);
-  if (n.octaves < 0 || n.octaves > kMostOctaves)
+  if (n.octaves < 0 || n.octaves > kMaxOctaves)
     throw SceneError(parameters.find("octaves")->where,
                      "\"octaves\" is " + std::to_string(n.octaves) + ", expected 0 to " +
-                         std::to_string(kMostOctaves));
+                         std::to_string(kMaxOctaves));
   return n;
 }
 

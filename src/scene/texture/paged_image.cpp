@@ -20,7 +20,7 @@ namespace {
 
 constexpr int kTileSide = 64;
 /// Channels of a pixel, and pixels of a block, that are fetched at once.
-constexpr int kMostChannels = 4, kMostPixels = 4;
+constexpr int kMaxChannels = 4, kMaxPixels = 4;
 
 /// The channels of a file from the first that is wanted to the last.
 struct ChannelRun {
@@ -120,7 +120,7 @@ class PagedPixels final : public PixelSource {
   void fetch(int x, int y, int width, int height, float* values) const override {
     with_type(type_, [&](auto example) {
       using T = decltype(example);
-      std::array<T, kMostPixels * kMostChannels> stored;
+      std::array<T, kMaxPixels * kMaxChannels> stored;
       if (!cache_->get_pixels(handle_, nullptr, 0, 0, x_ + x, x_ + x + width, y_ + y,
                               y_ + y + height, z_, z_ + 1, run_.begin, run_.end,
                               type_to_read(type_), stored.data(), OIIO::AutoStride,
@@ -174,7 +174,7 @@ uint64_t TileCache::memory() const {
 
 std::shared_ptr<const Image> TileCache::open(ImageInputFile& file, const std::string& path,
                                              const SourceLocation& wanted_by) {
-  if (run_of(file.channels).length() > kMostChannels) return nullptr;
+  if (run_of(file.channels).length() > kMaxChannels) return nullptr;
   if (file.channels.size() == 4) {
     const Decoder decode(file.type, file.encoding);
     const bool opaque = with_type(file.type, [&](auto example) {
@@ -190,7 +190,7 @@ std::shared_ptr<const Image> TileCache::open(ImageInputFile& file, const std::st
   auto pixels =
       std::make_shared<PagedPixels>(shared_from_this(), cache, handle, file, path, wanted_by);
   // A file that ends before its header says so is found now, not in the middle of a render.
-  std::array<float, kMostChannels> corner;
+  std::array<float, kMaxChannels> corner;
   pixels->fetch(0, 0, 1, 1, corner.data());
   pixels->fetch(file.spec.width - 1, file.spec.height - 1, 1, 1, corner.data());
   return std::make_shared<Image>(file.spec.width, file.spec.height,

@@ -26,7 +26,7 @@ struct TextureCost {
 /// More overflow the stack, or, with a texture that mixes the one before it with itself and so on,
 /// never come to an end.
 constexpr int kDeepest = 256;
-constexpr double kMostLooks = 10000;
+constexpr double kMaxLooks = 10000;
 
 /// A texture that is made when somebody first asks for it.
 template <class Ptr>
@@ -148,9 +148,9 @@ struct TextureLibrary::Impl final : TextureScope {
     auto texture = make(d);
     const TextureCost cost = texture->constant() ? TextureCost() : in_progress_.back();
     check_depth(d, cost.depth);
-    if (cost.looks > kMostLooks)
+    if (cost.looks > kMaxLooks)
       throw SceneError(d.where, "texture \"" + d.name + "\" is made of more than " +
-                                    std::to_string(static_cast<int>(kMostLooks)) +
+                                    std::to_string(static_cast<int>(kMaxLooks)) +
                                     " textures, each counted as often as it is used, expected "
                                     "fewer");
     // It may be one of its parts, times 1.

@@ -10,15 +10,15 @@
 
 namespace nephroid {
 
-bool passes_are_independent(const Preset& preset) {
-  return std::ranges::all_of(preset.estimators, [](const auto& estimator) {
+bool passes_are_independent(const EstimatorSet& set) {
+  return std::ranges::all_of(set.estimators, [](const auto& estimator) {
     return estimator->descriptor().capabilities.independent_passes;
   });
 }
 
-RenderState state_of(const Scene& scene, Preset& preset, Film& film) {
+RenderState state_of(const Scene& scene, EstimatorSet& set, Film& film) {
   RenderState state = film.state();
-  for (const auto& estimator : preset.estimators) estimator->add_state(scene, film, state);
+  for (const auto& estimator : set.estimators) estimator->add_state(scene, film, state);
   return state;
 }
 
@@ -91,12 +91,12 @@ PassRanges passes_to_go_on_from(const std::string& path, const RenderIdentity& h
 }
 
 Checkpoint go_on_from(const std::string& path, const RenderIdentity& here, const Scene& scene,
-                      Preset& preset, Film& film) try {
+                      EstimatorSet& set, Film& film) try {
   const std::string purpose = "go on from it";
   StateFile file(path);
   const PassRanges passes = passes_of(file, purpose);
   require_same_render(file, here, "here", purpose);
-  file.load(state_of(scene, preset, film));
+  file.load(state_of(scene, set, film));
   const Metadata& metadata = file.metadata();
   Checkpoint checkpoint{passes,
                         seconds_of(file, kSecondsKey),

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "film/state_file.h"
-#include "integrator/presets/preset.h"
+#include "integrator/presets/estimator_set.h"
 #include "session/checkpoint/pass_ranges.h"
 #include "session/checkpoint/render_identity.h"
 
@@ -25,10 +25,10 @@ struct Checkpoint {
 };
 
 /// True if the passes of all estimators are independent, so that they can be added up.
-bool passes_are_independent(const Preset& preset);
+bool passes_are_independent(const EstimatorSet& set);
 
 /// All that a render keeps, as it lies in memory: of the film and of the estimators.
-RenderState state_of(const Scene& scene, Preset& preset, Film& film);
+RenderState state_of(const Scene& scene, EstimatorSet& set, Film& film);
 
 /// The passes that a picture with state has. Throws IoError, "cannot `purpose`", without state.
 PassRanges passes_of(const StateFile& file, const std::string& purpose);
@@ -57,6 +57,6 @@ PassRanges passes_to_go_on_from(const std::string& path, const RenderIdentity& h
 /// Reads the state of a file into film and estimators. Throws UsageError if it is the picture of
 /// another render, with all that differs, and IoError if it has no state or cannot be read.
 Checkpoint go_on_from(const std::string& path, const RenderIdentity& here, const Scene& scene,
-                      Preset& preset, Film& film);
+                      EstimatorSet& set, Film& film);
 
 }  // namespace nephroid

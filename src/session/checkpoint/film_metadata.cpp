@@ -12,7 +12,7 @@ namespace {
 using Json = nlohmann::json;
 
 /// Runs of equal bytes are as long as 128.
-constexpr double kMostBytesPerByte = 128;
+constexpr double kMaxBytesPerByte = 128;
 
 Json layout_of(const StateFile& file) {
   return Json::parse(value_of(file.metadata(), kLayoutKey));
@@ -68,7 +68,7 @@ Film film_of(const StateFile& file) {
     if (!fits) throw std::runtime_error("bad layout");
     const double bytes = static_cast<double>(settings.crop.area()) *
                          static_cast<double>(Film::bytes_per_pixel(layout, settings.gbuffer));
-    if (bytes > kMostBytesPerByte * static_cast<double>(file.size()))
+    if (bytes > kMaxBytesPerByte * static_cast<double>(file.size()))
       throw std::runtime_error("bad window");
     return Film(settings, std::move(layout));
   } catch (const std::bad_alloc&) {

@@ -23,17 +23,17 @@ struct Input {
 };
 
 void warn_of_gaps(Merged& merged) {
-  constexpr size_t kMostNamed = 20;
+  constexpr size_t kMaxNamed = 20;
   size_t gaps = 0;
   for (uint32_t pass = 0; const PassRange& range : merged.passes.ranges()) {
-    if (range.first > pass && ++gaps <= kMostNamed)
+    if (range.first > pass && ++gaps <= kMaxNamed)
       merged.warnings.push_back(
           fmt::format("passes {}..{} are in none of the pictures", pass, range.first - 1));
     pass = range.last + 1;
   }
-  if (gaps > kMostNamed)
+  if (gaps > kMaxNamed)
     merged.warnings.push_back(
-        fmt::format("{} more ranges of passes are in none of them", gaps - kMostNamed));
+        fmt::format("{} more ranges of passes are in none of them", gaps - kMaxNamed));
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace nephroid {
 namespace {
 
 /// Shares of techniques below this are not worth saying.
-constexpr double kLeastShare = 1e-4;
+constexpr double kMinShare = 1e-4;
 
 double part(uint64_t some, uint64_t all) {
   return static_cast<double>(some) / static_cast<double>(all);
@@ -65,7 +65,7 @@ std::vector<std::string> technique_report(const std::vector<EstimatorStatistics>
       for (const double light : r.light) all += light;
       if (!(all > 0)) continue;
       for (size_t t = 0; t < kTechniqueCount; ++t)
-        if (r.light[t] >= kLeastShare * all)
+        if (r.light[t] >= kMinShare * all)
           found.push_back({r.light[t], technique_name(static_cast<Technique>(t))});
       std::stable_sort(found.begin(), found.end(),
                        [](const auto& a, const auto& b) { return a.first > b.first; });

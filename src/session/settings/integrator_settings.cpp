@@ -68,9 +68,9 @@ const IntegratorSetting kSettings[] = {
     {"alpha", "X", "0.6666667", "",
      "How fast the merge radius shrinks, above 0 to 1: 1 keeps it, smaller values shrink faster.",
      [](RenderSettings& s, const std::string& t) {
-       s.integrator.alpha = parse_float("-D alpha", t, 0, 1, true);
+       s.integrator.shrink_alpha = parse_float("-D alpha", t, 0, 1, true);
      },
-     [](const RenderSettings& s) { return fmt::format("{}", s.integrator.alpha); }},
+     [](const RenderSettings& s) { return fmt::format("{}", s.integrator.shrink_alpha); }},
     {"memory-photons", "N", "1048576", "photons",
      "Photons kept at once; a pass with more runs in batches, a map with more ends, and "
      "pointlights "

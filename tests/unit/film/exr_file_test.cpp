@@ -208,8 +208,8 @@ TEST(ExrFile, TheEncoderHoldsNoMoreThanItMay) {
   EXPECT_EQ(encoder_bytes(100, kChannels, kWords), 8 * two) << "all";
   EXPECT_EQ(encoder_bytes(1000, kChannels, kWords), 3 * 10 * two) << "some";
   EXPECT_EQ(encoder_bytes(10000, kChannels, kWords), 100 * two / 2) << "the caller's, one buffer";
-  EXPECT_LE(30 * two, kMostEncoderBytes);
-  EXPECT_GT(40 * two, kMostEncoderBytes);
+  EXPECT_LE(30 * two, kMaxEncoderBytes);
+  EXPECT_GT(40 * two, kMaxEncoderBytes);
   limit_image_threads(0);
 }
 

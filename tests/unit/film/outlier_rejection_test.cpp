@@ -293,12 +293,12 @@ TEST(OutlierRejection, APixelHoldsSoManyBrightnessesOnly) {
     if (i < 2) sum += value;
     if (i >= 2) brightest += value;
   }
-  EXPECT_EQ(film.rejection()->held_estimates(), uint64_t{OutlierRejection::kMostHeld});
+  EXPECT_EQ(film.rejection()->held_estimates(), uint64_t{OutlierRejection::kMaxHeld});
   EXPECT_EQ(film.value(7, 6).r, before + sum);
   EXPECT_EQ(film.outliers(7, 6).r, brightest);
   // What is darker than all that is held does not wait either.
   add_one(film, 0, 7, 6, grey(32));
-  EXPECT_EQ(film.rejection()->held_estimates(), uint64_t{OutlierRejection::kMostHeld});
+  EXPECT_EQ(film.rejection()->held_estimates(), uint64_t{OutlierRejection::kMaxHeld});
   EXPECT_EQ(film.value(7, 6).r, before + sum + 32);
 }
 

@@ -13,14 +13,14 @@ namespace {
 constexpr LineFactors kLine{0.7, 1.3};
 constexpr EventDensity kEvent{0.4, 0.9, true};
 
-TEST(EyeSums, AreThoseOfOneSideWhereAllMerges) {
+TEST(EyePartialWeights, AreThoseOfOneSideWhereAllMerges) {
   std::mt19937 engine(5);
   const auto number = [&] {
     return std::exp(std::ldexp(6.0 * static_cast<double>(engine()), -32) - 3);
   };
   for (const bool connects : {true, false}) {
-    EyeSums eye(connects, false);
-    SideSums side{connects ? 0.3 : 0.0, 0};
+    EyePartialWeights eye(connects, false);
+    PartialMisWeights side{connects ? 0.3 : 0.0, 0};
     eye.arrive_first(side.here);
     for (int i = 0; i < 8; ++i) {
       EXPECT_EQ(eye.all().here, side.here);
@@ -39,8 +39,8 @@ TEST(EyeSums, AreThoseOfOneSideWhereAllMerges) {
   }
 }
 
-TEST(EyeSums, CountMergesOnlyBehindAnS) {
-  EyeSums eye(false, true);
+TEST(EyePartialWeights, CountMergesOnlyBehindAnS) {
+  EyePartialWeights eye(false, true);
   eye.arrive_first(0);
   for (const EventClass c : {EventClass::kDiffuse, EventClass::kGlossy, EventClass::kVolume}) {
     EXPECT_TRUE(eye.is_plain(c, true));
@@ -70,7 +70,7 @@ TEST(EyeSums, CountMergesOnlyBehindAnS) {
   EXPECT_GT(eye.behind(EventClass::kDiffuse, true).before, 0);
 }
 
-TEST(EyeSums, SayWhetherThereIsAnythingBefore) {
+TEST(EyePartialWeights, SayWhetherThereIsAnythingBefore) {
   for (const double here : {0.0, 0.5})
     for (const double before : {0.0, 0.5})
       for (const double merge : {0.0, 0.5})
@@ -80,12 +80,12 @@ TEST(EyeSums, SayWhetherThereIsAnythingBefore) {
         }
 }
 
-TEST(EyeSums, TakeTheWayUnderASurfaceAsOneStep) {
-  EyeSums eye(true, true);
+TEST(EyePartialWeights, TakeTheWayUnderASurfaceAsOneStep) {
+  EyePartialWeights eye(true, true);
   eye.arrive_first(0.25);
   eye.leave(kEvent, 2.5, EventClass::kDiffuse);
   eye.arrive(kLine);
-  const SideSums at_entry = eye.all();
+  const PartialMisWeights at_entry = eye.all();
   eye.come_out(3);
   EXPECT_EQ(eye.all().here, at_entry.here + heuristic(3) * at_entry.before);
   EXPECT_EQ(eye.all().before, 0);

@@ -36,10 +36,10 @@ EstimatorStatistics statistics_after(const Scene& scene, const std::vector<std::
                                      const std::vector<PassKey>& passes, int64_t photons = 8192) {
   IntegratorOptions options;
   options.photons_per_pass = photons;
-  Preset preset = make_preset(plan_of(routes), options, scene);
-  Film film = film_for(scene, preset);
-  for (const PassKey& pass : passes) preset.render_pass(pass, scene, film);
-  return preset.statistics().front();
+  EstimatorSet set = make_estimators(plan_of(routes), options, scene);
+  Film film = film_for(scene, set);
+  for (const PassKey& pass : passes) set.render_pass(pass, scene, film);
+  return set.statistics().front();
 }
 
 TEST(Forecast, IsLearnedOnce) {
@@ -58,16 +58,16 @@ TEST(Forecast, IsLearnedOnce) {
   EXPECT_EQ(later.photons_stored, first.photons_stored);
 }
 
-// What is said of sights is of those that are there, and only if they change directions.
+// What is said of records is of those that are there, and only if they change directions.
 TEST(Forecast, SaysWhatItsSightsAreGoodFor) {
   const auto scene = scene_from_text(mirror_and_lamp(false));
   const std::vector<std::string> routes = {"all=.*:forecast"};
   const EstimatorStatistics few = statistics_after(*scene, routes, {{1, 0}}, 128);
   ASSERT_GT(few.photons_stored, 0u);
-  ASSERT_LT(few.photons_stored, static_cast<uint64_t>(ForecastLobes::kMost));
+  ASSERT_LT(few.photons_stored, static_cast<uint64_t>(ForecastLobes::kMax));
   ASSERT_EQ(few.notes.size(), 1u);
   EXPECT_EQ(few.notes[0], std::to_string(few.photons_stored) +
-                              " sights of 128 photon paths are too few to foretell a caustic: its "
+                              " records of 128 photon paths are too few to foretell a caustic: its "
                               "paths are traced as by path");
   const EstimatorStatistics other = statistics_after(*scene, routes, {{2, 0}});
   const EstimatorStatistics both = statistics_after(*scene, routes, {{1, 0}, {2, 0}});
@@ -88,23 +88,23 @@ TEST(Forecast, KnowsOnlyWhatComesFromLights) {
   EXPECT_NE(s.notes[0].find("none of 8192"), std::string::npos);
 }
 
-// Photons are traced in rounds until there are sights enough for a map, or it is clear that there
+// Photons are traced in rounds until there are records enough for a map, or it is clear that there
 // are hardly any.
 TEST(Forecast, LearnsInRoundsForAsLongAsSightsAreFew) {
-  constexpr uint64_t kRound = 1 << 16, kEnough = 1 << 15, kMost = 16 * kRound;
+  constexpr uint64_t kRound = 1 << 16, kEnough = 1 << 15, kMax = 16 * kRound;
   const std::vector<std::string> routes = {"caustic=C.*[DG]S+L:forecast", "rest=.*:path"};
   const auto many = scene_from_text(mirror_and_lamp(false));
   const EstimatorStatistics enough = statistics_after(*many, routes, {{1, 0}}, 0);
   EXPECT_EQ(enough.photon_paths % kRound, 0u);
   EXPECT_GT(enough.photon_paths, kRound) << "one round is not enough";
-  EXPECT_LT(enough.photon_paths, kMost);
+  EXPECT_LT(enough.photon_paths, kMax);
   EXPECT_GE(enough.photons_stored, kEnough);
   const double rounds = static_cast<double>(enough.photon_paths / kRound);
   EXPECT_LT(static_cast<double>(enough.photons_stored) * (rounds - 1) / rounds, kEnough)
       << "it stops as soon as it can";
   const auto none = scene_from_text(mirror_and_lamp(true));
   const EstimatorStatistics few = statistics_after(*none, routes, {{1, 0}}, 0);
-  EXPECT_EQ(few.photon_paths, kMost);
+  EXPECT_EQ(few.photon_paths, kMax);
   EXPECT_EQ(few.photons_stored, 0u);
 }
 

@@ -12,9 +12,9 @@ using namespace testing_support;
 TEST(Integrators, AreFoundByName) {
   const auto scene = scene_from_text(R"(WorldBegin LightSource "point")");
   for (const std::string& name : integrator_names()) {
-    const Preset preset = make_integrator(name, {}, *scene);
-    EXPECT_FALSE(preset.estimators.empty()) << name;
-    EXPECT_FALSE(preset.layout.routes.empty()) << name;
+    const EstimatorSet set = make_integrator(name, {}, *scene);
+    EXPECT_FALSE(set.estimators.empty()) << name;
+    EXPECT_FALSE(set.layout.routes.empty()) << name;
   }
   EXPECT_THROW(make_integrator("metropolis", {}, *scene), UsageError);
   EXPECT_EQ(integrator_for_scene_name("volpath"), "path");

@@ -18,9 +18,9 @@ namespace {
 using namespace testing_support;
 
 // The number of the one of a preset's estimators that chains explore.
-size_t chains_of(const Preset& preset) {
-  for (size_t i = 0; i < preset.estimators.size(); ++i) {
-    const Estimator* e = preset.estimators[i].get();
+size_t chains_of(const EstimatorSet& set) {
+  for (size_t i = 0; i < set.estimators.size(); ++i) {
+    const Estimator* e = set.estimators[i].get();
     if (dynamic_cast<const Multiplexed*>(e) || dynamic_cast<const PrimarySpace*>(e)) return i;
   }
   throw std::logic_error("no chains");
@@ -29,10 +29,10 @@ size_t chains_of(const Preset& preset) {
 EstimatorStatistics statistics_of(const std::string& text, const std::string& integrator,
                                   const IntegratorOptions& options, uint32_t passes) {
   const auto scene = scene_from_text(text);
-  Preset preset = make_integrator(integrator, options, *scene);
-  Film film = film_for(*scene, preset);
-  for (uint32_t pass = 0; pass < passes; ++pass) preset.render_pass({1, pass}, *scene, film);
-  return preset.statistics()[chains_of(preset)];
+  EstimatorSet set = make_integrator(integrator, options, *scene);
+  Film film = film_for(*scene, set);
+  for (uint32_t pass = 0; pass < passes; ++pass) set.render_pass({1, pass}, *scene, film);
+  return set.statistics()[chains_of(set)];
 }
 
 /// How often each kind is chosen, of evenly spread numbers, is what the choice says.

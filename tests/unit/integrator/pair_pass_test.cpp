@@ -61,7 +61,7 @@ TEST(PairPass, TellsTheSameVarianceInBatches) {
   PairTechniques pass = camera_paths_only();
   pass.light_paths = 100000;
   const SampleMap map(view.bounds, 4);
-  const FilmFormat format = film_for(*view.scene, view.preset).format();
+  const FilmFormat format = film_for(*view.scene, view.set).format();
   const auto variance = [&](int64_t memory) {
     IntegratorOptions options;
     options.memory_photons = memory;

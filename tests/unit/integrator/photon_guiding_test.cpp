@@ -34,8 +34,8 @@ const std::string kMirrorBehindTheEye = R"(
 
 std::vector<Vec3f> casters_of(const std::string& text, const IntegratorOptions& options = {}) {
   const auto scene = scene_from_text(text);
-  const Preset preset = make_preset(Plan("doidge2012"), options, *scene);
-  const Film film = film_for(*scene, preset);
+  const EstimatorSet set = make_estimators(Plan("doidge2012"), options, *scene);
+  const Film film = film_for(*scene, set);
   const PhotonPass pass = start_photon_pass({1, 0}, *scene, film.format(), options);
   return caustic_casters(*scene, film.format(), pass, options).points;
 }
@@ -67,13 +67,13 @@ TEST(PhotonGuiding, FindsASmallThingThatChanceDoesNot) {
   // Of all directions, 6 in a million are those in which the lamp shines on the glass: a tenth of
   // a path of the 16384 of a round.
   const auto scene = scene_from_text(kView + kGlass);
-  const Preset preset = make_preset(Plan("doidge2012"), {}, *scene);
-  const Film film = film_for(*scene, preset);
+  const EstimatorSet set = make_estimators(Plan("doidge2012"), {}, *scene);
+  const Film film = film_for(*scene, set);
   size_t group = 0;
-  while (preset.routes->groups()[group].estimator != estimator_named("photons")) ++group;
+  while (set.routes->groups()[group].estimator != estimator_named("photons")) ++group;
   const auto symbols = std::make_shared<const SceneSymbols>(*scene, std::vector<std::string>{});
   const GuidedPhotons learned =
-      guide_photons(1, *scene, film.format(), {preset.routes, symbols, group}, {}, true);
+      guide_photons(1, *scene, film.format(), {set.routes, symbols, group}, {}, true);
   const EmissionGuide& guide = learned.guide.starts;
   EXPECT_GT(learned.rays, 3u << 14);
   ASSERT_FALSE(guide.empty());
@@ -103,7 +103,7 @@ TEST(PhotonGuiding, AimFromTheFloorAtTheGlass) {
   const auto scene = scene_from_text(text);
   const OwnedRoutes owned =
       owned_routes(*scene, {"of-the-lit=C.*[DG]S+[DG]L:photons", "rest=.*:path"});
-  const Film film = film_for(*scene, make_preset(Plan("doidge2012"), {}, *scene));
+  const Film film = film_for(*scene, make_estimators(Plan("doidge2012"), {}, *scene));
   const PhotonGuide guide = guide_photons(1, *scene, film.format(), owned, {}, true).guide;
   ASSERT_FALSE(guide.casters.empty());
   const PhotonGuide from_lights_alone{guide.starts, {}};

@@ -34,10 +34,10 @@ const std::string kRoom = R"(
 std::vector<EstimatorStatistics> statistics_after(const Scene& scene, const Plan& plan,
                                                   const IntegratorOptions& options,
                                                   uint32_t passes) {
-  Preset preset = make_preset(plan, options, scene);
-  Film film = film_for(scene, preset);
-  for (uint32_t pass = 0; pass < passes; ++pass) preset.render_pass({1, pass}, scene, film);
-  return preset.statistics();
+  EstimatorSet set = make_estimators(plan, options, scene);
+  Film film = film_for(scene, set);
+  for (uint32_t pass = 0; pass < passes; ++pass) set.render_pass({1, pass}, scene, film);
+  return set.statistics();
 }
 
 TEST(PhotonMap, IsTracedOnceAndEachRouteHasItsOwn) {
@@ -73,10 +73,10 @@ TEST(PhotonMap, IsTracedOnceAndEachRouteHasItsOwn) {
 
 TEST(PhotonMap, SaysThatPassesDoNotConverge) {
   const auto scene = scene_from_text(kRoom);
-  const Preset preset = make_integrator("photonmap", {}, *scene);
-  EXPECT_FALSE(preset.estimators[0]->descriptor().capabilities.consistent);
-  EXPECT_TRUE(preset.estimators[0]->descriptor().capabilities.independent_passes);
-  EXPECT_TRUE(preset.estimators[2]->descriptor().capabilities.consistent);
+  const EstimatorSet set = make_integrator("photonmap", {}, *scene);
+  EXPECT_FALSE(set.estimators[0]->descriptor().capabilities.consistent);
+  EXPECT_TRUE(set.estimators[0]->descriptor().capabilities.independent_passes);
+  EXPECT_TRUE(set.estimators[2]->descriptor().capabilities.consistent);
 }
 
 TEST(PhotonMap, APassDoesNotKnowWhichCameBefore) {
@@ -148,15 +148,15 @@ TEST(PhotonMap, EachSetSeesTheWholeOfAPixel) {
   options.edit<PhotonMapOptions>().nearest_photons = kAllPhotons;
   options.radius = 0.25f;
   for (uint64_t seed = 0; seed < 3; ++seed) {
-    Preset preset =
-        make_preset(plan_of({"all=C[DG].*:photonmap", "rest=.*:path"}), options, *scene);
+    EstimatorSet set =
+        make_estimators(plan_of({"all=C[DG].*:photonmap", "rest=.*:path"}), options, *scene);
     LearningLoop map;
     std::vector<double> sets;
     double mean = 0;
-    for (uint32_t set = 0; set < 16; ++set) {
-      Film film = film_for(*scene, preset);
+    for (uint32_t k = 0; k < 16; ++k) {
+      Film film = film_for(*scene, set);
       for (uint32_t round = 0; round < 64; ++round)
-        map.render_pass(*preset.estimators[0], {seed, set + 16 * round}, *scene, film);
+        map.render_pass(*set.estimators[0], {seed, k + 16 * round}, *scene, film);
       sets.push_back(picture_mean(film));
       mean += sets.back() / 16;
     }
@@ -199,10 +199,10 @@ TEST(HitPoints, MemoryGrowsWithThemAndNotWithPasses) {
 TEST(HitPoints, ConvergeOnlyIfWalksAreNew) {
   const auto scene = scene_from_text(kRoom);
   for (const bool stay : {false, true}) {
-    const Preset preset = make_integrator(stay ? "ppm" : "sppm", {}, *scene);
-    for (size_t i = 0; i < preset.estimators.size(); ++i) {
-      const Capabilities capabilities = preset.estimators[i]->descriptor().capabilities;
-      const EstimatorTraits* const kind = preset.routes->groups()[i].estimator;
+    const EstimatorSet set = make_integrator(stay ? "ppm" : "sppm", {}, *scene);
+    for (size_t i = 0; i < set.estimators.size(); ++i) {
+      const Capabilities capabilities = set.estimators[i]->descriptor().capabilities;
+      const EstimatorTraits* const kind = set.routes->groups()[i].estimator;
       EXPECT_EQ(capabilities.consistent, kind != estimator_named("ppm"));
       EXPECT_EQ(capabilities.independent_passes, is_one_of(kind, {"path"}));
     }

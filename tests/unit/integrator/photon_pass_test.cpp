@@ -17,8 +17,8 @@ TEST(PhotonPass, HasAllWavelengthsAtAllTimes) {
   constexpr uint32_t kPasses = 16;
   const auto scene = scene_from_text(R"(Film "rgb" "integer xresolution" 4 "integer yresolution" 4
     WorldBegin LightSource "point" Shape "sphere")");
-  const Preset preset = make_preset(Plan("sppm"), {}, *scene);
-  const Film film = film_for(*scene, preset);
+  const EstimatorSet set = make_estimators(Plan("sppm"), {}, *scene);
+  const Film film = film_for(*scene, set);
   for (const uint64_t seed : {1, 2, 3})
     for (const uint32_t first : {0u, 16u, 1600u}) {
       std::vector<std::pair<float, float>> moments;  // the first wavelength grows with its number

@@ -101,14 +101,14 @@ std::pair<double, double> fluxes(const PointLightPool& pool) {
 TEST(PointLightPool, KeepsTheFluxOfThoseThatItCannotHold) {
   const auto scene = scene_from_text(kCorner);
   const OwnedRoutes owned = owned_routes(*scene, kAllByPointLights);
-  constexpr int64_t kMost = 64;
+  constexpr int64_t kMax = 64;
   std::vector<double> lost;
   for (uint32_t pass = 0; pass < 400; ++pass) {
     const PointLightPool full(*scene, owned, settings_of(pass, 256), 1 << 20);
-    const PointLightPool few(*scene, owned, settings_of(pass, 256), kMost);
-    ASSERT_GT(full.size(), 2 * static_cast<size_t>(kMost));
-    ASSERT_LE(few.size(), static_cast<size_t>(kMost));
-    EXPECT_LE(few.bytes() * full.size(), full.bytes() * kMost * 5 / 4);
+    const PointLightPool few(*scene, owned, settings_of(pass, 256), kMax);
+    ASSERT_GT(full.size(), 2 * static_cast<size_t>(kMax));
+    ASSERT_LE(few.size(), static_cast<size_t>(kMax));
+    EXPECT_LE(few.bytes() * full.size(), full.bytes() * kMax * 5 / 4);
     EXPECT_EQ(few.useful_paths(), full.useful_paths());
     const auto [left_of_full, all_of_full] = fluxes(full);
     const auto [left_of_few, all_of_few] = fluxes(few);
@@ -161,11 +161,11 @@ TEST(PointLights, FindTheSameLightInLittleMemory) {
     options.memory_photons = 1 << 20;
     const double full = picture_mean(render(*scene, plan_of(kAllByPointLights), options, seed, 1));
     options.memory_photons = 1;
-    Preset preset = make_preset(plan_of(kAllByPointLights), options, *scene);
-    Film film = film_for(*scene, preset);
-    preset.render_pass({seed, 0}, *scene, film);
-    EXPECT_LE(preset.statistics().front().photons_stored, 1024u);
-    EXPECT_LT(preset.statistics().front().photon_bytes, 4u << 20);
+    EstimatorSet set = make_estimators(plan_of(kAllByPointLights), options, *scene);
+    Film film = film_for(*scene, set);
+    set.render_pass({seed, 0}, *scene, film);
+    EXPECT_LE(set.statistics().front().photons_stored, 1024u);
+    EXPECT_LT(set.statistics().front().photon_bytes, 4u << 20);
     differences.push_back(picture_mean(film) / full - 1);
   }
   const Estimate e = estimate_of(differences);

@@ -1,5 +1,5 @@
 // Directions that photons foretold: the lobes and the mixture are densities, what is sampled
-// follows them, and a map looks towards the casters of the nearest sights.
+// follows them, and a map looks towards the casters of the nearest records.
 #include "transport/guided_direction.h"
 
 #include <gtest/gtest.h>
@@ -206,35 +206,35 @@ TEST(GuidedDirection, WithoutAForecastIsTheBsdf) {
 
 TEST(ForecastMap, LooksTowardsTheCastersOfTheNearest) {
   TestRandom random(4);
-  std::vector<CausticSight> sights;
+  std::vector<CausticRecord> records;
   const Vec3f left(-3, 0, 2), right(3, 0, 2);
   for (int i = 0; i < 1000; ++i) {
     const Vec2f u = random.next2();
     const Vec3f p(8 * u.x - 4, u.y, 0);
-    sights.push_back({p, p.x < 0 ? left : right});
+    records.push_back({p, p.x < 0 ? left : right});
   }
-  const ForecastMap map(sights);
+  const ForecastMap map(records);
   for (int i = 0; i < 100; ++i) {
     const Vec2f u = random.next2();
     const Vec3f p(8 * u.x - 4, u.y, 0.05f);
-    std::vector<CausticSight> by_distance = sights;
+    std::vector<CausticRecord> by_distance = records;
     std::sort(by_distance.begin(), by_distance.end(), [&](const auto& a, const auto& b) {
       return length_squared(a.p - p) < length_squared(b.p - p);
     });
-    by_distance.resize(ForecastLobes::kMost);
+    by_distance.resize(ForecastLobes::kMax);
     const float reach = length(by_distance.back().p - p);
     ForecastLobes expected;
-    for (const CausticSight& sight : by_distance) {
-      const float distance = length(sight.caster - p);
-      const Vec3f axis = (sight.caster - p) / distance;
+    for (const CausticRecord& record : by_distance) {
+      const float distance = length(record.caster - p);
+      const Vec3f axis = (record.caster - p) / distance;
       std::vector<float> gaps;  // the first is to the axis itself
-      for (const CausticSight& other : by_distance)
+      for (const CausticRecord& other : by_distance)
         gaps.push_back(length(normalize(other.caster - p) - axis));
       std::sort(gaps.begin(), gaps.end());
       expected.add(axis, std::max(0.5f * reach / distance, std::min(gaps[2], 0.5f)));
     }
     const ForecastLobes found = map.lobes_at(p);
-    ASSERT_EQ(found.count(), ForecastLobes::kMost);
+    ASSERT_EQ(found.count(), ForecastLobes::kMax);
     for (const Vec3f& w : {normalize(left - p), normalize(right - p), Vec3f(0, 0, 1)})
       EXPECT_NEAR(found.pdf_w(w), expected.pdf_w(w), 1e-4f * (1 + expected.pdf_w(w)));
   }
@@ -242,15 +242,15 @@ TEST(ForecastMap, LooksTowardsTheCastersOfTheNearest) {
 
 TEST(ForecastMap, SaysNothingWhereItKnowsNothing) {
   EXPECT_TRUE(ForecastMap().lobes_at({0, 0, 0}).empty());
-  const CausticSight sight{{0, 0, 0}, {0, 0, 1}};
+  const CausticRecord record{{0, 0, 0}, {0, 0, 1}};
   for (const size_t count : {size_t{1}, size_t{15}, size_t{16}}) {
-    const ForecastMap few(std::vector<CausticSight>(count, sight));
+    const ForecastMap few(std::vector<CausticRecord>(count, record));
     EXPECT_EQ(few.foretells(), count == 16);
     EXPECT_EQ(few.lobes_at({0.1f, 0, 0}).empty(), !few.foretells()) << count;
   }
-  const ForecastMap map(std::vector<CausticSight>(100, sight));
+  const ForecastMap map(std::vector<CausticRecord>(100, record));
   EXPECT_FALSE(map.lobes_at({0.1f, 0, 0}).empty());
-  EXPECT_TRUE(map.lobes_at({50, 0, 0}).empty()) << "all sights are far away";
+  EXPECT_TRUE(map.lobes_at({50, 0, 0}).empty()) << "all records are far away";
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ TEST(IntegratorSettings, WhatDiffersHasAnotherText) {
   }
   RenderSettings said;
   apply_settings({parse_setting("alpha=0.6666667")}, &said);
-  EXPECT_EQ(said.integrator.alpha, IntegratorOptions().alpha);
+  EXPECT_EQ(said.integrator.shrink_alpha, IntegratorOptions().shrink_alpha);
 }
 
 TEST(IntegratorSettings, EveryKeyIsStoredWhereItBelongs) {
@@ -53,7 +53,7 @@ TEST(IntegratorSettings, EveryKeyIsStoredWhereItBelongs) {
   EXPECT_EQ(s.integrator.max_depth, 7);
   EXPECT_EQ(s.integrator.radius, 1.5f);
   EXPECT_EQ(s.integrator.photons_per_pass, 1000);
-  EXPECT_EQ(s.integrator.alpha, 0.75f);
+  EXPECT_EQ(s.integrator.shrink_alpha, 0.75f);
   EXPECT_EQ(s.scene.specular_band.low, 0.2f);
   EXPECT_EQ(s.scene.specular_band.high, 0.2f);
   EXPECT_EQ(s.integrator.camera_samples_per_pass, 3);

@@ -75,9 +75,9 @@ TEST_F(RenderSessionTest, OutliersAreJudgedAfterEveryPass) {
 
 TEST_F(RenderSessionTest, EveryEstimatorRendersEveryPassInOrder) {
   Script second;
-  preset_.layout = FilmLayout::of_routes({"diffuse", "caustic"});
-  preset_.estimators.push_back(std::make_unique<FakeEstimator>(second, 1));
-  film_ = std::make_unique<Film>(film_->settings(), preset_.layout);
+  set_.layout = FilmLayout::of_routes({"diffuse", "caustic"});
+  set_.estimators.push_back(std::make_unique<FakeEstimator>(second, 1));
+  film_ = std::make_unique<Film>(film_->settings(), set_.layout);
   std::vector<std::string> order;
   script_.during_pass = [&](const PassKey& key) {
     order.push_back("a" + std::to_string(key.pass));
@@ -131,7 +131,7 @@ TEST_F(RenderSessionTest, NoiseTargetDoesNotDependOnTheClock) {
   RenderOptions options;
   options.noise_target = 0.1;
   const uint32_t slow = run(options).passes_done;
-  film_ = std::make_unique<Film>(film_->settings(), preset_.layout);
+  film_ = std::make_unique<Film>(film_->settings(), set_.layout);
   script_.pass_seconds = 1e-4;
   EXPECT_EQ(run(options).passes_done, slow);
 }

@@ -59,16 +59,16 @@ class FakeEstimator : public Estimator {
 class ScriptedSession : public testing::Test {
  protected:
   ScriptedSession() {
-    preset_.layout = FilmLayout::of_routes({"diffuse"});
-    preset_.estimators.push_back(std::make_unique<FakeEstimator>(script_, 0));
+    set_.layout = FilmLayout::of_routes({"diffuse"});
+    set_.estimators.push_back(std::make_unique<FakeEstimator>(script_, 0));
     FilmSettings settings;
     settings.width = 5;
     settings.height = 3;
-    film_ = std::make_unique<Film>(settings, preset_.layout);
+    film_ = std::make_unique<Film>(settings, set_.layout);
     scene_.samples_per_pixel = 6;
   }
   RenderResult run(const RenderOptions& options) {
-    RenderSession session(scene_, preset_, *film_, options);
+    RenderSession session(scene_, set_, *film_, options);
     session.use_clock([this] { return script_.now; });
     session.on_progress([this](const RenderProgress& progress) { progress_.push_back(progress); });
     session.on_warning([this](const std::string& warning) { warnings_.push_back(warning); });
@@ -76,7 +76,7 @@ class ScriptedSession : public testing::Test {
   }
 
   Script script_;
-  Preset preset_;
+  EstimatorSet set_;
   Scene scene_;
   std::unique_ptr<Film> film_;
   SignalFlags signals_;

@@ -152,7 +152,7 @@ TEST_F(SessionPictures, WritingStretchesItsIntervalToItsCost) {
   script_.pass_seconds = 0.5;
   int writes = 0;
   std::filesystem::file_time_type last{};
-  RenderSession session(scene_, preset_, *film_, options);
+  RenderSession session(scene_, set_, *film_, options);
   session.use_clock([&] {
     const bool exists = std::filesystem::exists(options.output);
     const auto time = exists ? std::filesystem::last_write_time(options.output)
@@ -292,9 +292,9 @@ TEST_F(SessionPictures, MetadataOfTheCallerAndTheSession) {
 
 TEST_F(SessionPictures, RoutesOfOneGroupHaveItsEstimates) {
   const ScratchDirectory directory;
-  preset_.layout.routes = {"diffuse", "none", "caustic"};
-  preset_.layout.groups = {0, 1, 0};  // nobody renders group 1
-  film_ = std::make_unique<Film>(film_->settings(), preset_.layout);
+  set_.layout.routes = {"diffuse", "none", "caustic"};
+  set_.layout.groups = {0, 1, 0};  // nobody renders group 1
+  film_ = std::make_unique<Film>(film_->settings(), set_.layout);
   const RenderOptions options = options_in(directory);
   run(options);
   const Metadata metadata = read_picture(options.output).metadata;

@@ -14,7 +14,8 @@ using namespace testing_support;
 std::vector<std::string> warnings(const SettingList& settings, const Plan& plan) {
   const auto scene = scene_from_text(R"(Film "rgb" "integer xresolution" 4 "integer yresolution" 4
     WorldBegin LightSource "point" Shape "sphere")");
-  return unused_settings(render_settings(settings).given, *make_preset(plan, {}, *scene).routes);
+  return unused_settings(render_settings(settings).given,
+                         *make_estimators(plan, {}, *scene).routes);
 }
 
 TEST(UnusedSettings, AreSaid) {

@@ -104,7 +104,7 @@ double recursive_weight(const RandomPath& p, const Technique& technique) {
   const auto line = [&](int i) { return p.lines[static_cast<size_t>(i)]; };
   const auto merge = [&](int i) { return heuristic(p.merge[static_cast<size_t>(i)]); };
   const int n = p.k + 1;
-  std::vector<SideSums> eye(static_cast<size_t>(n) + 1), light(eye.size());
+  std::vector<PartialMisWeights> eye(static_cast<size_t>(n) + 1), light(eye.size());
   eye[1].here = heuristic(p.light_paths / p.camera);
   for (int i = 1; i < n; ++i)
     eye[static_cast<size_t>(i) + 1] =
@@ -115,14 +115,14 @@ double recursive_weight(const RandomPath& p, const Technique& technique) {
         SideEnd{light[static_cast<size_t>(i)], turned(i), merge(i)}.next(
             {line(i - 1).at_b, line(i - 1).at_a});
   const int i = technique.at;
-  const SideSums& z = eye[static_cast<size_t>(i)];
+  const PartialMisWeights& z = eye[static_cast<size_t>(i)];
   switch (technique.kind) {
     case Technique::kHit:
       return weight_of_hit(p.light, z);
     case Technique::kDirect:
       return weight_of_direct(p.light, z, event(i).forward, event(i).back, merge(i));
     case Technique::kConnect: {
-      const SideSums& y = light[static_cast<size_t>(i) + 1];
+      const PartialMisWeights& y = light[static_cast<size_t>(i) + 1];
       return 1 /
              (1 +
               cuts_before(y, event(i).forward * line(i).at_b, event(i + 1).forward, merge(i + 1)) +
@@ -132,7 +132,7 @@ double recursive_weight(const RandomPath& p, const Technique& technique) {
       return 1 / (1 + cuts_before(light[1], p.camera, event(1).forward, merge(1)) /
                           heuristic(p.light_paths));
     case Technique::kMerge: {
-      const SideSums& y = light[static_cast<size_t>(i)];
+      const PartialMisWeights& y = light[static_cast<size_t>(i)];
       return weight_of_merge(z, event(i).back, y, event(i).forward, merge(i));
     }
   }

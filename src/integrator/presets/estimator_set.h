@@ -13,7 +13,7 @@ namespace nephroid {
 
 /// Estimators and the film that they fill; estimator i samples the film's group i (one more, if
 /// there is one, its features).
-struct Preset {
+struct EstimatorSet {
   FilmLayout layout;
   std::vector<std::unique_ptr<Estimator>> estimators;
   std::vector<LearningLoop> learned;  ///< by the estimator of the same number
@@ -30,10 +30,10 @@ struct Preset {
 /// Estimators for the routes of a plan in a scene. Throws UsageError for an expression that is
 /// wrong, for routes that leave a path out, and for what an estimator cannot do in this scene. The
 /// routes are of estimators of the table.
-Preset make_preset(const RoutePlan& plan, const IntegratorOptions& options, const Scene& scene,
-                   EstimatorTable table = estimator_table());
+EstimatorSet make_estimators(const RoutePlan& plan, const IntegratorOptions& options,
+                             const Scene& scene, EstimatorTable table = estimator_table());
 /// The same of a plan that is compiled already; the warnings leave out what the proof found.
-Preset make_preset(CompiledPlan compiled, const IntegratorOptions& options, const Scene& scene,
-                   EstimatorTable table = estimator_table());
+EstimatorSet make_estimators(CompiledPlan compiled, const IntegratorOptions& options,
+                             const Scene& scene, EstimatorTable table = estimator_table());
 
 }  // namespace nephroid

@@ -1,5 +1,5 @@
 // A plan of routes and a scene -> the estimators that render them and the layout of their film.
-#include "integrator/presets/preset.h"
+#include "integrator/presets/estimator_set.h"
 
 #include <algorithm>
 
@@ -38,61 +38,61 @@ std::string quoted_list(const std::vector<std::string>& names) {
 
 }  // namespace
 
-Preset make_preset(const RoutePlan& plan, const IntegratorOptions& options, const Scene& scene,
-                   EstimatorTable table) {
+EstimatorSet make_estimators(const RoutePlan& plan, const IntegratorOptions& options,
+                             const Scene& scene, EstimatorTable table) {
   CompiledPlan compiled = compile_plan(plan, scene);
   std::vector<std::string> warnings;
   for (const RouteFinding& finding : compiled.compilation.findings)
     if (!finding.is_error) warnings.push_back(finding.message);
-  Preset preset = make_preset(std::move(compiled), options, scene, table);
-  preset.warnings.insert(preset.warnings.begin(), warnings.begin(), warnings.end());
-  return preset;
+  EstimatorSet set = make_estimators(std::move(compiled), options, scene, table);
+  set.warnings.insert(set.warnings.begin(), warnings.begin(), warnings.end());
+  return set;
 }
 
-Preset make_preset(CompiledPlan compiled, const IntegratorOptions& options, const Scene& scene,
-                   EstimatorTable table) {
+EstimatorSet make_estimators(CompiledPlan compiled, const IntegratorOptions& options,
+                             const Scene& scene, EstimatorTable table) {
   const auto& symbols = compiled.symbols;
-  Preset preset;
+  EstimatorSet set;
   if (!symbols->unknown_labels().empty())
-    preset.warnings.push_back(
+    set.warnings.push_back(
         "nothing in the scene is called " + quoted_list(symbols->unknown_labels()) +
         (symbols->unknown_is_mix() ? "; a mix goes by the labels of its materials" : "") +
         " (`nephroid info SCENE` lists the labels)");
   for (size_t i = 0; i < compiled.compilation.aov_matches.size(); ++i)
     if (!compiled.compilation.aov_matches[i])
-      preset.warnings.push_back("layer '" + compiled.compilation.routes.aovs()[i].name +
-                                "' will be black: no path that this scene can have matches '" +
-                                compiled.compilation.routes.aovs()[i].expression +
-                                "' (lights are named in <L.'...'>, materials in <..'...'>)");
+      set.warnings.push_back("layer '" + compiled.compilation.routes.aovs()[i].name +
+                             "' will be black: no path that this scene can have matches '" +
+                             compiled.compilation.routes.aovs()[i].expression +
+                             "' (lights are named in <L.'...'>, materials in <..'...'>)");
   const std::vector<std::string>& examples = compiled.compilation.examples;
   for (size_t r = 0; r < examples.size(); ++r) {
     const RouteDefinition& route = compiled.compilation.routes.definitions()[r];
     // Those that start at lights say it themselves.
     if (examples[r].empty() && !route.estimator->starts_at_lights)
-      preset.notes.push_back("'" + route.name +
-                             "' is black: no path that this scene can have belongs to it");
+      set.notes.push_back("'" + route.name +
+                          "' is black: no path that this scene can have belongs to it");
   }
-  preset.routes = std::make_shared<const Routes>(
+  set.routes = std::make_shared<const Routes>(
       checked_routes(std::move(compiled.compilation), compiled.strict));
-  preset.layout = layout_of(*preset.routes, table);
-  for (size_t g = 0; g < preset.routes->groups().size(); ++g) {
-    const EstimatorDescriptor& row = descriptor_of(preset.routes->groups()[g], table);
+  set.layout = layout_of(*set.routes, table);
+  for (size_t g = 0; g < set.routes->groups().size(); ++g) {
+    const EstimatorDescriptor& row = descriptor_of(set.routes->groups()[g], table);
     if (row.traits.connects) require_connecting_camera(scene);
-    preset.estimators.push_back(row.make({preset.routes, symbols, g}, options));
+    set.estimators.push_back(row.make({set.routes, symbols, g}, options));
   }
-  if (std::none_of(preset.estimators.begin(), preset.estimators.end(),
+  if (std::none_of(set.estimators.begin(), set.estimators.end(),
                    [](const auto& estimator) { return estimator->records_features(); }))
-    preset.estimators.push_back(std::make_unique<FeatureEstimator>());
-  return preset;
+    set.estimators.push_back(std::make_unique<FeatureEstimator>());
+  return set;
 }
 
-void Preset::render_pass(const PassKey& key, const Scene& scene, Film& film) {
+void EstimatorSet::render_pass(const PassKey& key, const Scene& scene, Film& film) {
   learned.resize(estimators.size());
   for (size_t i = 0; i < estimators.size(); ++i)
     learned[i].render_pass(*estimators[i], key, scene, film);
 }
 
-std::vector<EstimatorStatistics> Preset::statistics() const {
+std::vector<EstimatorStatistics> EstimatorSet::statistics() const {
   std::vector<EstimatorStatistics> all;
   for (size_t i = 0; i < estimators.size(); ++i) {
     all.push_back(estimators[i]->statistics());
