@@ -2,7 +2,8 @@
 BUILD := build/release
 NEPHROID := $(BUILD)/bin/nephroid
 
-.PHONY: demo test test-quick test-nightly program build deps sanitize asan tsan fuzz format check clean
+.PHONY: demo test test-quick test-nightly program build deps sanitize asan tsan fuzz format check-format \
+  check clean
 
 demo: program
 	@mkdir -p out
@@ -41,7 +42,7 @@ build: deps
 deps:
 	@tools/install_deps
 
-# What needs no build: layers, and documentation that is generated.
+# Layers. Needs no build.
 check:
 	@python3 tools/check_layers.py
 
@@ -77,7 +78,12 @@ fuzz: deps
 	done
 
 format:
-	clang-format -i $$(git ls-files '*.h' '*.cpp')
+	@tools/install_deps checks
+	@tools/format
+
+check-format:
+	@tools/install_deps checks
+	@tools/format --check
 
 clean:
 	rm -rf build out
