@@ -2,7 +2,8 @@
 BUILD := build/release
 NEPHROID := $(BUILD)/bin/nephroid
 
-.PHONY: demo test test-quick test-nightly program build deps sanitize asan tsan fuzz format check clean
+.PHONY: demo test test-quick test-nightly program build deps deps-clang clang sanitize asan tsan fuzz format check-format \
+  check clean
 
 demo: program
 	@mkdir -p out
@@ -41,9 +42,20 @@ build: deps
 deps:
 	@tools/install_deps
 
-# What needs no build: layers, and documentation that is generated.
+deps-clang:
+	@tools/install_deps clang
+
+# Layers. Needs no build.
 check:
 	@python3 tools/check_layers.py
+
+# Compiles everything with clang, whose warnings are errors, too; not optimised, with assertions. Of what it has
+# compiled the program alone is run, for one small pass.
+clang: deps-clang
+	@cmake --preset clang >/dev/null
+	@cmake --build --preset clang
+	build/clang/bin/nephroid render scenes/coffee-cup/scene.pbrt --passes 1 --resolution 60x40 --quiet --no-state \
+	  -o build/clang/smoke.exr
 
 # All tests (of those with most passes one in 24, the next ones with SHARD=1 ...) under address,
 # undefined behaviour and thread sanitizers; or those that TESTS names ("unit_core unit_input").
@@ -58,11 +70,11 @@ asan tsan: deps
 	ctest --test-dir build/$@ --output-on-failure -j $$(nproc) \
 	  $(if $(TESTS),-R '^($(subst $(empty) $(empty),|,$(strip $(TESTS))))$$')
 
-# Each fuzzer for FUZZ_TIME seconds (docs/reliability.md); needs clang. What they learn stays in
+# Each fuzzer for FUZZ_TIME seconds (docs/reliability.md), by clang. What they learn stays in
 # build/fuzz/corpus, what they find in build/fuzz/found. OpenImageIO loses the text of an error of libpng.
 FUZZ_TIME ?= 1200
 FUZZ_TARGETS ?= scene ply bsdf routes image environment nanovdb checkpoint command
-fuzz: deps
+fuzz: deps-clang
 	@cmake --preset fuzz >/dev/null
 	@cmake --build --preset fuzz
 	@for target in $(FUZZ_TARGETS); do \
@@ -77,7 +89,12 @@ fuzz: deps
 	done
 
 format:
-	clang-format -i $$(git ls-files '*.h' '*.cpp')
+	@tools/install_deps checks
+	@tools/format
+
+check-format:
+	@tools/install_deps checks
+	@tools/format --check
 
 clean:
 	rm -rf build out

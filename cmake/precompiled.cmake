@@ -13,6 +13,11 @@ if(NEPHROID_PRECOMPILED AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
                          -Wno-array-bounds)
 endif()
 
+# Without times in them, clang's precompiled headers are the same in every build, and so a compiler cache knows them.
+if(NEPHROID_PRECOMPILED AND CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+  target_compile_options(nephroid_flags INTERFACE "SHELL:-Xclang -fno-pch-timestamp")
+endif()
+
 # TARGET takes the headers that FROM has compiled; a target that is its own source compiles them, and
 # those of the further arguments. Both need the same compiler flags.
 function(nephroid_precompiled target from)

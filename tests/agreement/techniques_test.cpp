@@ -80,7 +80,8 @@ TEST_P(Techniques, AreTheOnesThatTheEstimatorHas) {
   Film film = film_for(*scene, set);
   set.render_pass({5, 0}, *scene, film);
   TechniqueLight all{};
-  for (const RouteTechniques& r : set.statistics().back().techniques)
+  const auto statistics = set.statistics();
+  for (const RouteTechniques& r : statistics.back().techniques)
     for (size_t t = 0; t < kTechniqueCount; ++t) all[t] += r.light[t];
   const auto found = [&](Technique t) { return all[static_cast<size_t>(t)] > 1e-6; };
   const bool connects = GetParam() == "bdpt" || GetParam() == "vcm";
@@ -98,7 +99,8 @@ TechniqueLight light_of_pass(const std::string& plan, const IntegratorOptions& o
   Film film = film_for(*scene, set);
   set.render_pass({5, pass}, *scene, film);
   TechniqueLight all{};
-  for (const RouteTechniques& r : set.statistics().back().techniques)
+  const auto statistics = set.statistics();
+  for (const RouteTechniques& r : statistics.back().techniques)
     for (size_t t = 0; t < kTechniqueCount; ++t) all[t] += r.light[t];
   return all;
 }

@@ -159,7 +159,7 @@ double weighted_mean(const Image& image, const Rgb& weights) {
 }
 
 struct UniformOrImage {
-  Emission emission;
+  EmissionColor emission;
   ImagePtr image;
   double luminance = 1.0;  ///< mean luminance of the image, in units of its illuminant
 };

@@ -56,7 +56,7 @@ class DistantLight final : public Light {
 
 LightPtr make_distant_light(const LightDescription& description, const LightScope& scope) {
   const ParameterSet& p = description.parameters;
-  const Emission e = read_emission(p, "L", scope.files, scope.color_space);
+  const EmissionColor e = read_emission(p, "L", scope.files, scope.color_space);
   const Vec3f from = p.get_point3("from").value_or(Vec3f(0.0f));
   const Vec3f to = p.get_point3("to").value_or(Vec3f(0, 0, 1));
   if (from == to)

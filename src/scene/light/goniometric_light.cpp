@@ -60,7 +60,7 @@ class GoniometricLight final : public PointEmitter {
 
 LightPtr make_goniometric_light(const LightDescription& description, const LightScope& scope) {
   const ParameterSet& p = description.parameters;
-  const Emission e = read_emission(p, "I", scope.files, scope.color_space);
+  const EmissionColor e = read_emission(p, "I", scope.files, scope.color_space);
   int size = 1;
   std::vector<float> diagram = {1.0f};
   if (p.get_string("filename", "").empty()) {

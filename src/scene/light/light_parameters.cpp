@@ -44,9 +44,9 @@ double illuminance_of(const Image& image) {
 
 }  // namespace
 
-Emission read_emission(const ParameterSet& parameters, const std::string& name, SceneFiles& files,
-                       const std::string& color_space) {
-  Emission e;
+EmissionColor read_emission(const ParameterSet& parameters, const std::string& name,
+                            SceneFiles& files, const std::string& color_space) {
+  EmissionColor e;
   const Parameter* colour = parameters.find(name);
   if (colour)
     e.spectrum = spectrum_from_parameter(*colour, SpectrumKind::kIlluminant, files);

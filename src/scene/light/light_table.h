@@ -44,15 +44,15 @@ LightPtr make_projection_light(const LightDescription&, const LightScope&);
 LightPtr make_goniometric_light(const LightDescription&, const LightScope&);
 
 /// The colour of a light and the factor that makes it photometric.
-struct Emission {
+struct EmissionColor {
   SpectrumPtr spectrum;
   float scale = 1;  ///< "scale" over the spectrum's luminance: radiance is scale * spectrum
 };
 
 /// The parameter `name` as emission, the illuminant of the colour space if absent. Throws
 /// SceneError for colours and scales that are negative or not finite.
-Emission read_emission(const ParameterSet& parameters, const std::string& name, SceneFiles& files,
-                       const std::string& color_space);
+EmissionColor read_emission(const ParameterSet& parameters, const std::string& name,
+                            SceneFiles& files, const std::string& color_space);
 
 /// "scale" over the luminance of the illuminant of an image's colour space. Throws SceneError for
 /// scales that are negative, not finite or enormous.

@@ -65,7 +65,7 @@ class PointLight final : public Light {
 
 LightPtr make_point_light(const LightDescription& description, const LightScope& scope) {
   const ParameterSet& p = description.parameters;
-  const Emission e = read_emission(p, "I", scope.files, scope.color_space);
+  const EmissionColor e = read_emission(p, "I", scope.files, scope.color_space);
   const float power = p.get_float("power", -1.0f);
   const float scale = power > 0.0f ? e.scale * power / (4.0f * kPi) : e.scale;
   const Transform to_world(description.transform.start);

@@ -253,7 +253,7 @@ Portal read_portal(const ParameterSet& p) {
 /// given as one loses the shape of its spectrum, and its luminance counts.
 ImagePtr image_of_colour(const ParameterSet& p, const LightScope& scope) {
   const Parameter* colour = p.find("L");
-  const Emission e = read_emission(p, "L", scope.files, scope.color_space);
+  const EmissionColor e = read_emission(p, "L", scope.files, scope.color_space);
   if (colour && colour->type != "rgb")
     scope.diagnostics.warn(colour->where,
                            "\"L\" of an infinite light with a portal is converted to rgb");

@@ -140,7 +140,7 @@ Transform look_frame(const Vec3f& from, const Vec3f& to) {
 
 LightPtr make_spot_light(const LightDescription& description, const LightScope& scope) {
   const ParameterSet& p = description.parameters;
-  const Emission e = read_emission(p, "I", scope.files, scope.color_space);
+  const EmissionColor e = read_emission(p, "I", scope.files, scope.color_space);
   const float cone = p.get_float("coneangle", 30.0f);
   const float delta = p.get_float("conedeltaangle", 5.0f);
   if (!(cone >= 0.0f && cone <= 180.0f))

@@ -60,7 +60,7 @@ LightPtr make_infinite_light(const LightDescription& description, const LightSco
   if (!p.get_point3s("portal").empty()) return make_portal_infinite_light(description, scope);
   if (!p.get_string("filename", "").empty()) return make_image_infinite_light(description, scope);
 
-  const Emission e = read_emission(p, "L", scope.files, scope.color_space);
+  const EmissionColor e = read_emission(p, "L", scope.files, scope.color_space);
   const float illuminance = p.get_float("illuminance", -1.0f);
   const float scale = illuminance > 0.0f ? e.scale * illuminance / kPi : e.scale;
   return std::make_unique<UniformInfiniteLight>(EmissionSpectrum(*e.spectrum, scale));

@@ -117,9 +117,11 @@ TEST(GuidedDirection, IsADensityThatSamplesFollow) {
       {dielectric_case(1.5f, 0.3f, 0.3f), TransportMode::kImportance},
       {conductor_case(0, 0)}};
   int questions = 0;
-  for (const auto& [description, mode, among] : asked) {
+  for (const Question& question : asked) {
+    const TransportMode mode = question.mode;
+    const ClassMask among = question.among;
     BsdfArena arena;
-    const Bsdf& bsdf = *description.make(arena);
+    const Bsdf& bsdf = *question.bsdf.make(arena);
     const Vec3f wo = direction_at(40);
     const GuidedDirection mixture(bsdf, shading, wo, mode, among, lobes);
     for (const EventClass c : kSurfaceClasses) {
@@ -140,14 +142,14 @@ TEST(GuidedDirection, IsADensityThatSamplesFollow) {
         }
         cells.add(s->wi);
         const BsdfEval e = bsdf.eval(wo, s->wi, mode, c, among);
-        ASSERT_NEAR(s->pdf_w, pdf(s->wi), 1e-3f * s->pdf_w) << description.name;
-        ASSERT_NEAR(gain, s->pdf_w / e.pdf_w, 2e-3f * gain) << description.name;
-        ASSERT_NEAR(s->f[0], e.f[0], 1e-3f * e.f[0] + 1e-6f) << description.name;
+        ASSERT_NEAR(s->pdf_w, pdf(s->wi), 1e-3f * s->pdf_w) << question.bsdf.name;
+        ASSERT_NEAR(gain, s->pdf_w / e.pdf_w, 2e-3f * gain) << question.bsdf.name;
+        ASSERT_NEAR(s->f[0], e.f[0], 1e-3f * e.f[0] + 1e-6f) << question.bsdf.name;
       }
       EXPECT_GT(
           cells.p_value([&](const Vec3f& w) { return static_cast<double>(pdf(w)); }, kSamples),
           kLevel / 8)
-          << description.name << ", class " << static_cast<int>(c);
+          << question.bsdf.name << ", class " << static_cast<int>(c);
     }
   }
   EXPECT_GE(questions, 7);
