@@ -49,8 +49,8 @@ deps-clang:
 check:
 	@python3 tools/check_layers.py
 
-# Compiles everything with clang, whose warnings are errors, too; not optimised, with assertions. Of what it has
-# compiled the program alone is run, for one small pass.
+# Compiles everything with clang, whose warnings are errors, too; not optimised, with assertions. Runs only the program,
+# for one small pass.
 clang: deps-clang
 	@cmake --preset clang >/dev/null
 	@cmake --build --preset clang

@@ -78,7 +78,9 @@ inline std::string test_name(std::string plan) {
 /// True if some photons of the plan are merged, which gives the picture the bias of a radius.
 inline bool merges_photons(const RoutePlan& plan) {
   return std::any_of(plan.routes.begin(), plan.routes.end(), [](const RouteDefinition& route) {
-    return route.estimator->merges || is_one_of(route.estimator, {"vcm", "bpm", "path+photons"});
+    return route.estimator->merges ||
+           descriptor_of({.estimator = route.estimator, .routes = {}, .parts = {}})
+               .merges_with_radius;
   });
 }
 

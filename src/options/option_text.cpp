@@ -172,16 +172,14 @@ std::string command_help(const std::string& command) {
   std::string text = options_help(command, has_more ? Length::kOneLine : Length::kAll);
   text += "\n" + help_entry("-h, --help", "Print this.");
   if (has_more)
-    text += help_entry("--help-all", takes_presets(command)
-                                         ? "Print all of it: details, -D keys, routes, estimators."
-                                         : "Print all of it: details and -D keys.");
+    text += help_entry("--help-all", "Print every option, -D key, preset and estimator.");
   return text;
 }
 
 std::string command_help_all(const std::string& command) {
   std::string text = options_help(command, Length::kAll);
-  text += "\n" + help_entry("-h, --help", "Print the most important.") +
-          help_entry("--help-all", "Print this.");
+  text +=
+      "\n" + help_entry("-h, --help", "Print a summary.") + help_entry("--help-all", "Print this.");
   if (!takes_presets(command)) return text;
   text += "\nPresets of --routes:\n";
   for (const RoutePreset& preset : route_presets()) text += help_entry(preset.name, preset.help);
@@ -224,7 +222,9 @@ std::string options_markdown() {
   text += "\nEstimators of `--route`:\n\n| estimator | meaning |\n| --- | --- |\n";
   for (const EstimatorTraits* estimator : estimator_traits())
     text += fmt::format("| `{}` | {} |\n", estimator->name, cell(estimator->help));
-  text += "\n## Without a command\n\n`nephroid --help` and `nephroid --version`.\n";
+  text +=
+      "\n## Without a command\n\n`nephroid --help`, `nephroid --help-all` and `nephroid "
+      "--version`.\n";
   return text;
 }
 

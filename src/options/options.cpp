@@ -100,14 +100,15 @@ std::vector<std::string> estimator_names() {
 }
 
 const std::string kIntegratorHelp =
-    "How light is found: " + list_of(integrator_names()) +
-    ", or scene. Each stands for a preset of routes (path for path-only, the others for the one of "
-    "their name), scene for the integrator that the scene names.";
+    "Rendering algorithm: " + list_of(integrator_names()) +
+    ", or scene (the one named in the scene file). Each is a preset of routes: path is path-only, "
+    "the others have the names of theirs.";
 constexpr const char* kRoutesHelp =
-    "Routes by the name of a preset or from a file. A file has one route a line; it takes the "
-    "place of --integrator.";
+    "Routes by the name of a preset or from a file. A file has one route a line. Replaces "
+    "--integrator.";
 const std::string kRouteHelp =
-    "A route: which light, by which estimator. A light path expression and the estimator that "
+    "A route: which light, by which estimator. It is a light path expression and the estimator "
+    "that "
     "renders what matches it: " +
     list_of(estimator_names()) + ". The first route that matches a path owns it.";
 constexpr const char* kAovHelp =
@@ -136,7 +137,7 @@ void add_only(CommandLine& line, const std::string& text) {
 constexpr CommandDescription kCommands[] = {
     {"render", "Render a scene to an EXR and a PNG."},
     {"merge", "Add up pictures of different passes of one render."},
-    {"info", "Say what is in a scene, or what a picture is of and how far it has come."},
+    {"info", "Describe a scene file, or the render stored in a picture."},
     {"routes", "Say who renders which light, prove it, and measure it in a scene."},
     {"compare", "Measure how far a picture is from a reference."},
     {"bench", "Run a suite of integrators and scenes and write its results."},
@@ -152,8 +153,8 @@ const OptionDescription kOptions[] = {
     {"render", "--aov", "", "NAME=EXPR", "", "", "Output", kAovHelp, true,
      add_aov<&CommandLine::render>},
     {"render", "--resume", "", "", "", "", "Output",
-     "Go on from the picture that is there. It becomes what one run would have rendered; if none "
-     "is there, start.",
+     "Continue the render saved in the output file, or start it if there is none. The result has "
+     "the bits of an uninterrupted run.",
      false, [](CommandLine& l, const std::string&) { l.render.resume = true; }},
     {"render", "--checkpoint", "", "TIME", "s, m or h", "60s", "Output",
      "How often the picture is written while it is made. It then has all that is needed to go on; "
@@ -163,8 +164,8 @@ const OptionDescription kOptions[] = {
        l.render.checkpoint_interval = parse_duration("--checkpoint", t);
      }},
     {"render", "--strict", "", "", "", "", "Output",
-     "Exit status 1 if light was left out of the picture. Estimates are left out that are infinite "
-     "or no numbers, and what goes beyond the limit of a sum.",
+     "Exit status 1 if samples were left out. That happens to infinite and NaN samples, and to "
+     "sums beyond their range.",
      false,
      [](CommandLine& l, const std::string&) { l.render.strict = true; }},
     {"render", "--no-state", "", "", "", "", "Output",
@@ -173,8 +174,7 @@ const OptionDescription kOptions[] = {
      false,
      [](CommandLine& l, const std::string&) { l.render.keeps_state = false; }},
     {"render", "--quiet", "", "", "", "", "Output",
-     "Print errors and dangers only. Dangers are that the picture cannot be written, what it is "
-     "resumed from, what it replaces.",
+     "Print only errors, and warnings about the output file.",
      false, [](CommandLine& l, const std::string&) { l.render.quiet = true; }},
     {"render", "--integrator", "", "NAME", "", "mixed", "Algorithm", kIntegratorHelp.c_str(), false,
      set_integrator<&CommandLine::render>},
@@ -203,8 +203,8 @@ const OptionDescription kOptions[] = {
        l.render.time_limit = parse_duration("--time", t);
      }},
     {"render", "--noise", "", "X", "relative error", "no target", "When to stop",
-     "Stop at this estimated error. It is the root of the mean of (stderr^2 + bias^2) / (value^2 + "
-     "0.01); sppm, ppm and photonmap cannot tell it.",
+     "Stop when the estimated relative error is at most X. It is the root of the mean of (stderr^2 "
+     "+ bias^2) / (value^2 + 0.01); not every algorithm can tell it (docs/integrators.md).",
      false,
      [](CommandLine& l, const std::string& t) {
        l.render.noise_target = parse_number("--noise", t, 0, kAnyNumber, true);

@@ -18,9 +18,10 @@ struct EstimatorTraits {
   const char* name = "";  ///< as routes write it: "path", "photons+light"
   const char* help = "";  ///< one sentence
   bool merges = false;    ///< each of its paths has exactly one vertex with a merge
-  bool connects = false;  ///< light paths are connected to the camera
-  bool starts_at_lights =
-      false;                    ///< light that a medium emits or that touches hair is out of reach
+  /// Its light walks follow Routes::connects: it needs a camera that they can be connected to.
+  bool connects = false;
+  /// Light that a medium emits or that touches hair is out of its reach.
+  bool starts_at_lights = false;
   bool one_route_each = false;  ///< each of its routes is a group of its own
   /// Why it can never sample such a path, in words that follow "which it cannot find: "; null if it
   /// can, or if no estimator can.

@@ -194,12 +194,12 @@ class Prover {
     if (medium_hole)
       report(Kind::kHole, true,
              "no route that can reach light from media matches " + *medium_hole +
-                 ": expected one of path",
+                 ": expected one whose estimator starts at the eye",
              *medium_hole);
     if (hair_hole)
       report(Kind::kHole, true,
              "no route that can follow light from hair matches " + *hair_hole +
-                 ": expected one of path",
+                 ": expected one whose estimator starts at the eye",
              *hair_hole);
     for (size_t r = 0; r < never.size(); ++r)
       if (never[r].why != nullptr)

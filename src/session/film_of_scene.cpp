@@ -9,7 +9,6 @@
 #include "core/errors.h"
 #include "film/exr_file.h"
 #include "integrator/presets/estimator_table.h"
-#include "photon/photon.h"
 #include "session/report/short_number.h"
 
 namespace nephroid {

@@ -4,7 +4,6 @@
 #include <string>
 
 #include "film/film.h"
-#include "integrator/estimator/estimator.h"
 #include "route/routes.h"
 #include "scene/scene.h"
 #include "session/settings/integrator_settings.h"

@@ -61,14 +61,14 @@ struct RenderResult {
   std::optional<double> error;            ///< as estimated_error().total()
   std::optional<std::string> error_text;  ///< as error_report(); of consistent estimators alone
   std::vector<std::string> faults;        ///< as invalid_samples()
-  /// As the preset's estimators: after the first pass (for where radii began) and after the last.
+  /// As those of the estimators: after the first pass (for where radii began) and after the last.
   std::vector<EstimatorStatistics> first_pass_statistics, statistics;
 };
 
 class RenderSession {
  public:
-  /// Keeps references to all three. The film has the preset's layout. Throws UsageError if the
-  /// options do not fit the preset, IoError if the output cannot be written.
+  /// Keeps references to all three. The film has the set's layout. Throws UsageError if the
+  /// options do not fit the estimators, IoError if the output cannot be written.
   RenderSession(const Scene& scene, EstimatorSet& set, Film& film, RenderOptions options);
 
   /// Called after every pass.

@@ -16,7 +16,8 @@ inline double heuristic(double ratio) {
 }
 
 /// What the techniques that cut the path at or before vertex x_i of a side add up to, relative to
-/// the one that connects x_i with the other side, up to the factors that are known only then.
+/// the one that connects x_i with the other side, up to the factors that are known only then. In
+/// the terms of Georgiev et al. 2012: `here` is dVCM, `before` is dVC, what merging adds is dVM.
 struct PartialMisWeights {
   double here = 0;    ///< [W3]: the cut between x_{i-1} and x_i
   double before = 0;  ///< [W4]: all cuts before that one

@@ -1,5 +1,7 @@
 #include "how_to/direct_lighting.h"
 
+#include <algorithm>
+
 #include "integrator/path/path_pass.h"
 #include "transport/direct_light.h"
 #include "transport/walk_symbols.h"
@@ -77,7 +79,7 @@ const char* why_never_sampled(const PathSummary& path) {
 
 }  // namespace
 
-const EstimatorDescriptor DirectLighting::kDescriptor = {
+constinit const EstimatorDescriptor DirectLighting::kDescriptor = {
     .traits = {.name = "direct",
                .help = "light from lamps, scattered by one rough surface at most",
                .why_never_sampled = why_never_sampled},
@@ -87,15 +89,17 @@ const EstimatorDescriptor DirectLighting::kDescriptor = {
 std::unique_ptr<PassFindings> DirectLighting::render_pass(const PassKey& key, const Learned*,
                                                           const Scene& scene, Film& film) {
   constexpr uint64_t kStream = 0x646972656374;  // "direct": random numbers of its own
-  const PathPass pass{key, scene, film, owned_, 1, kStream};
+  const PathPass pass{key,    scene, film, owned_, std::max(1, options_.camera_samples_per_pass),
+                      kStream};
   statistics_.rays += trace_paths(pass, [&](int, int, CameraPath& path, const SensorWeights&,
                                             PathSampler& sampler, PartSums& light) {
     FirstVertex visitor(scene, owned_, light);
     if (path.camera_weight > 0)
-      random_walk(scene, TransportMode::kRadiance, 1, path.walk, sampler, visitor);
+      random_walk(scene, TransportMode::kRadiance, std::min(1, options_.max_depth), path.walk,
+                  sampler, visitor);
     return path.walk.rays + visitor.shadow_rays;
   });
-  statistics_.camera_paths += film.bounds().area();
+  statistics_.camera_paths += film.bounds().area() * pass.samples;
   return nullptr;
 }
 

@@ -10,13 +10,15 @@ class DirectLighting final : public Estimator {
   static const EstimatorDescriptor kDescriptor;
   const EstimatorDescriptor& descriptor() const override { return kDescriptor; }
 
-  DirectLighting(OwnedRoutes owned, const IntegratorOptions&) : owned_(std::move(owned)) {}
+  DirectLighting(OwnedRoutes owned, const IntegratorOptions& options)
+      : owned_(std::move(owned)), options_(options) {}
   std::unique_ptr<PassFindings> render_pass(const PassKey& key, const Learned*, const Scene& scene,
                                             Film& film) override;
   EstimatorStatistics statistics() const override { return statistics_; }
 
  private:
   OwnedRoutes owned_;
+  IntegratorOptions options_;
   EstimatorStatistics statistics_;
 };
 

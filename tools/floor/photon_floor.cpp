@@ -16,6 +16,7 @@
 
 #include "core/parallel.h"
 #include "core/sampler.h"
+#include "integrator/presets/estimator_table.h"
 #include "photon/photon_grid.h"
 #include "photon/photon_tracer.h"
 #include "route/compile.h"
@@ -44,7 +45,8 @@ double least_seconds(const auto& f) {
 
 /// Every photon of the scene, as `sppm` wants them.
 OwnedRoutes all_photons(const Scene& scene) {
-  const std::vector<RouteDefinition> routes = {parse_route("photons=.*:photons")};
+  const std::vector<RouteDefinition> routes = {
+      parse_route("photons=.*:photons", estimator_traits())};
   RouteCompilation compiled = compile_routes(routes, {});
   OwnedRoutes owned;
   owned.symbols = std::make_shared<const SceneSymbols>(scene, compiled.routes.labels());

@@ -128,7 +128,7 @@ constexpr const EstimatorSetting* kSettings[] = {&kTechniqueSetting, &kSpecularT
 
 }  // namespace
 
-const EstimatorDescriptor Bidirectional::kDescriptor = {
+constinit const EstimatorDescriptor Bidirectional::kDescriptor = {
     .traits = {.name = "bdpt",
                .help = "bidirectional path tracing: paths from eye and lights, connected in all "
                        "ways",
@@ -136,9 +136,10 @@ const EstimatorDescriptor Bidirectional::kDescriptor = {
                .why_never_sampled = out_of_reach_of_connections},
     .settings = kSettings,
     .bytes_per_pixel =
-        [](const FilmNeed& need) { return PixelBytes{.of_pass = bytes_per_pixel(need.parts)}; },
-    .exposed_pixels = [](const IntegratorOptions&,
-                         const PixelFilter& filter) { return splatted_pixels(filter); },
+        [](const PixelMemoryInput& need) {
+          return PixelBytes{.of_pass = bytes_per_pixel(need.parts)};
+        },
+    .exposed_pixels = pixels_of_splats,
     .make = make_estimator<Bidirectional>,
 };
 

@@ -47,9 +47,9 @@ const EstimatorSetting kTechniqueSetting = {
     "S,T",
     "all",
     "",
-    "Of bdpt, vcm and bpm: only paths of S vertices from the light, its start included, and T "
-    "from the eye, the lens included (* for any number), or merged ones; with ,raw behind it "
-    "unweighed, as if there were no other technique.",
+    "One technique alone. S vertices from the light, its start included, and T from the eye, the "
+    "lens included (* for any number), or merged; with ,raw behind it without weights, as if there "
+    "were no other technique.",
     [](IntegratorOptions& options, const std::string& text) {
       options.edit<TechniqueChoice>() = parse_technique(text);
     },

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "integrator/estimator/exposed_pixels.h"
 #include "integrator/estimator/reach.h"
 #include "integrator/path/path_options.h"
 #include "integrator/photons/merge_pass.h"
@@ -13,13 +12,13 @@ namespace {
 
 constexpr const EstimatorSetting* kSettings[] = {&kTechniqueSetting, &kSpecularTreesSetting};
 
-PixelBytes bytes_of(const FilmNeed& need) {
+PixelBytes bytes_of(const PixelMemoryInput& need) {
   return {.of_pass = pair_pass_bytes_per_pixel(need.parts, 0, need.clamps ? 1 : 0)};
 }
 
 }  // namespace
 
-const EstimatorDescriptor VertexConnectionMerging::kDescriptor = {
+constinit const EstimatorDescriptor VertexConnectionMerging::kDescriptor = {
     .traits = {.name = "vcm",
                .help = "vertex connection and merging: bdpt, and photons merged at all vertices",
                .starts_at_lights = true,
@@ -28,14 +27,11 @@ const EstimatorDescriptor VertexConnectionMerging::kDescriptor = {
     .merges_with_radius = true,
     .keeps_photons = true,
     .bytes_per_pixel = bytes_of,
-    .exposed_pixels =
-        [](const IntegratorOptions& options, const PixelFilter& filter) {
-          return std::max(pixels_within(first_radius(options)), splatted_pixels(filter));
-        },
+    .exposed_pixels = pixels_of_merging_and_splats,
     .make = make_estimator<VertexConnectionMerging>,
 };
 
-const EstimatorDescriptor BidirectionalPhotonMapping::kDescriptor = {
+constinit const EstimatorDescriptor BidirectionalPhotonMapping::kDescriptor = {
     .traits = {.name = "bpm",
                .help = "bidirectional photon mapping: vcm without connections of two walks",
                .starts_at_lights = true,
@@ -44,8 +40,7 @@ const EstimatorDescriptor BidirectionalPhotonMapping::kDescriptor = {
     .merges_with_radius = true,
     .keeps_photons = true,
     .bytes_per_pixel = bytes_of,
-    .exposed_pixels = [](const IntegratorOptions& options,
-                         const PixelFilter&) { return pixels_within(first_radius(options)); },
+    .exposed_pixels = pixels_of_merging,
     .make = make_estimator<BidirectionalPhotonMapping>,
 };
 

@@ -38,9 +38,9 @@ struct EstimatorSetting {
   std::string (*print)(const IntegratorOptions& options);
 };
 
-/// What the memory of an estimator depends on.
-struct FilmNeed {
-  size_t parts = 1;  ///< of the picture that are the estimator's
+/// What the memory of an estimator for each pixel depends on.
+struct PixelMemoryInput {
+  size_t parts = 1;  ///< parts of the picture owned by the estimator
   const IntegratorOptions& options;
   int samples_per_pixel = 1;  ///< as the scene has them
   bool clamps = false;        ///< the film has a maxcomponentvalue
@@ -48,8 +48,8 @@ struct FilmNeed {
 
 /// Memory for each pixel.
 struct PixelBytes {
-  size_t kept = 0;     ///< from pass to pass
-  size_t of_pass = 0;  ///< while a pass is rendered
+  size_t kept = 0;     ///< bytes kept between passes
+  size_t of_pass = 0;  ///< bytes while a pass is rendered
 };
 
 struct EstimatorDescriptor {
@@ -57,8 +57,8 @@ struct EstimatorDescriptor {
   Capabilities capabilities = {};
   std::span<const EstimatorSetting* const> settings = {};
   bool merges_with_radius = false;  ///< its independent passes have the bias of a merge radius
-  bool keeps_photons = false;       ///< up to IntegratorOptions::memory_photons of them at once
-  PixelBytes (*bytes_per_pixel)(const FilmNeed& need) = [](const FilmNeed&) {
+  bool keeps_photons = false;       ///< it takes memory for IntegratorOptions::memory_photons
+  PixelBytes (*bytes_per_pixel)(const PixelMemoryInput& need) = [](const PixelMemoryInput&) {
     return PixelBytes{};
   };
   /// a of [O2], the pixels that one path exposes in a pass: of a path from the eye, its own.

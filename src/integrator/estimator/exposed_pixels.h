@@ -4,17 +4,22 @@
 #include <algorithm>
 
 #include "core/math.h"
+#include "integrator/estimator/integrator_options.h"
 #include "scene/pixel_filter.h"
 
 namespace nephroid {
 
-/// Of a photon: those within a merge radius in footprints.
+/// Pixels within a merge radius, which is in footprints.
 inline float pixels_within(float radius) {
   return std::max(1.0f, kPi * sqr(radius));
 }
-/// Of a splat: those whose filter reaches it.
+/// Pixels whose filter a splat reaches.
 inline float splatted_pixels(const PixelFilter& filter) {
   return std::max(1.0f, 4 * filter.radius().x * filter.radius().y);
+}
+/// The same as EstimatorDescriptor::exposed_pixels, of estimators that splat.
+inline float pixels_of_splats(const IntegratorOptions&, const PixelFilter& filter) {
+  return splatted_pixels(filter);
 }
 
 }  // namespace nephroid

@@ -9,14 +9,14 @@
 
 namespace nephroid {
 
-/// Options that all estimators share, and those that one or a few have of their own: structs that
-/// stand beside their classes, such as PpmOptions.
+/// Options that most estimators share (where photons are traced or merged, all of them do), and
+/// those of one or a few: structs beside their classes, such as PpmOptions.
 struct IntegratorOptions {
   int max_depth = 100;  ///< scattering events of the whole path, camera and light side together
   /// Pixel footprints of the first merge radius.
   float radius = 0;                  ///< 0: the default of the integrator
   int64_t photons_per_pass = 0;      ///< 0: chosen from the film's size
-  float shrink_alpha = 2.0f / 3.0f;  ///< of merge radii, in [E1] and [E2]
+  float shrink_alpha = 2.0f / 3.0f;  ///< exponent α of [E1] and [E2]
   int camera_samples_per_pass = 0;   ///< 0: the default of the integrator
   int64_t memory_photons =
       1 << 20;  ///< photons kept at once (96 bytes each); a larger pass runs in batches

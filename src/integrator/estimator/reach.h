@@ -5,13 +5,14 @@
 
 namespace nephroid {
 
-/// Of walks from the eye with next-event estimation.
+/// Each returns the reason why a path cannot be sampled, or null: by eye walks with next-event
+/// estimation;
 const char* out_of_reach_of_eye_walks(const PathSummary& path);
-/// Of eye and light subpaths that are connected wherever both have a vertex that is no S.
+/// by eye and light subpaths that are connected wherever two vertices in a row are no S;
 const char* out_of_reach_of_connections(const PathSummary& path);
-/// Of eye subpaths with next-event estimation whose D and G vertices gather photons.
+/// by eye subpaths with next-event estimation that gather photons at D and G;
 const char* out_of_reach_of_merging(const PathSummary& path);
-/// Of connections and merging together.
+/// by connections and merging together.
 const char* out_of_reach_of_both(const PathSummary& path);
 
 }  // namespace nephroid

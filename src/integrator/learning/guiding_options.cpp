@@ -9,8 +9,8 @@ const EstimatorSetting kGuideSetting = {
     "yes|no",
     "yes",
     "",
-    "Photons of `photons` and `path+photons` start where earlier ones were of use; those of "
-    "`photons` also go where these went from rough surfaces.",
+    "Photons start, and with `photons` leave rough surfaces, in directions that were useful to "
+    "earlier ones.",
     [](IntegratorOptions& options, const std::string& text) {
       options.edit<GuidingOptions>().photons = parse_yes_no("-D guide", text);
     },
@@ -23,8 +23,7 @@ const EstimatorSetting kGuideWalksSetting = {
     "yes|no",
     "yes",
     "",
-    "Camera walks of `path+photons`, and so of `mixed`, go where those of the first pass found "
-    "light, where that pays.",
+    "Camera walks prefer directions in which the first pass found light, where that pays.",
     [](IntegratorOptions& options, const std::string& text) {
       options.edit<GuidingOptions>().walks = parse_yes_no("-D guide-walks", text);
     },

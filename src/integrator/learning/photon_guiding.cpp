@@ -72,7 +72,7 @@ GuidedPhotons guide_photons(uint64_t seed, const Scene& scene, const FilmFormat&
 
 namespace {
 
-// Owners of routes that nobody renders: photons of the first are what is guided.
+// Stand-in estimators, which render nothing: only photons of the first route are guided.
 constexpr EstimatorTraits kMerging{.name = "photons", .merges = true, .starts_at_lights = true},
     kTheRest{.name = "path"};
 

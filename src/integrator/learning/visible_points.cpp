@@ -10,7 +10,7 @@ namespace nephroid {
 
 namespace {
 
-constexpr uint64_t kStream = 0x7369676874;  // "record"
+constexpr uint64_t kStream = 0x7369676874;  // "sight"
 /// Camera walks, about.
 constexpr int kWalks = 1 << 13;
 /// Rough vertices of a walk that looks for casters.

@@ -7,14 +7,13 @@
 #include "input/option_values.h"
 
 namespace nephroid {
-namespace {
 
 const EstimatorSetting kMutationsSetting = {
     "mutations",
     "X",
     "0",
     "mutations",
-    "Of Metropolis light transport, per pixel and pass; 0 chooses.",
+    "Mutations per pixel and pass. 0 chooses.",
     [](IntegratorOptions& options, const std::string& text) {
       options.edit<MetropolisOptions>().mutations =
           parse_float("-D mutations", text, 0, std::numeric_limits<float>::max(), false);
@@ -28,7 +27,7 @@ const EstimatorSetting kChainLengthSetting = {
     "N",
     "0",
     "mutations",
-    "After how many mutations a Markov chain gives way to a new one; 0 chooses.",
+    "Mutations after which a Markov chain gives way to a new one. 0 chooses.",
     [](IntegratorOptions& options, const std::string& text) {
       options.edit<MetropolisOptions>().chain_length = parse_integer("-D chain-length", text, 0);
     },
@@ -41,20 +40,12 @@ const EstimatorSetting kLargeStepSetting = {
     "X",
     "0.1",
     "",
-    "Probability of a mutation that forgets the path it comes from, above 0 to 1.",
+    "Probability of a large step, which forgets the current path. Above 0 to 1.",
     [](IntegratorOptions& options, const std::string& text) {
       options.edit<MetropolisOptions>().large_step = parse_float("-D large-step", text, 0, 1, true);
     },
     [](const IntegratorOptions& options) {
       return fmt::format("{}", options.own<MetropolisOptions>().large_step);
     }};
-
-}  // namespace
-
-std::span<const EstimatorSetting* const> metropolis_settings() {
-  static constexpr const EstimatorSetting* kSettings[] = {&kMutationsSetting, &kChainLengthSetting,
-                                                          &kLargeStepSetting};
-  return kSettings;
-}
 
 }  // namespace nephroid

@@ -11,7 +11,8 @@ struct MetropolisOptions {
   float large_step = 0.1f;   ///< probability
 };
 
-/// -D mutations, -D chain-length and -D large-step.
-std::span<const EstimatorSetting* const> metropolis_settings();
+extern const EstimatorSetting kMutationsSetting, kChainLengthSetting, kLargeStepSetting;
+inline constexpr const EstimatorSetting* kMetropolisSettings[] = {
+    &kMutationsSetting, &kChainLengthSetting, &kLargeStepSetting};
 
 }  // namespace nephroid

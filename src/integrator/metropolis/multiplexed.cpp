@@ -167,18 +167,17 @@ KindChoice::Chosen KindChoice::choose(const Vec2f& u) const {
           static_cast<float>(length_.probability[length] * techniques_[length].probability[s])};
 }
 
-const EstimatorDescriptor Multiplexed::kDescriptor = {
+constinit const EstimatorDescriptor Multiplexed::kDescriptor = {
     .traits = {.name = "mlt",
                .help = "bidirectional paths, one technique at a time, explored by Markov chains",
                .starts_at_lights = true,
                .why_never_sampled = out_of_reach_of_connections},
-    .settings = metropolis_settings(),
+    .settings = kMetropolisSettings,
     .bytes_per_pixel =
-        [](const FilmNeed& need) {
+        [](const PixelMemoryInput& need) {
           return PixelBytes{.of_pass = SplatBuffer::bytes_per_pixel(need.parts)};
         },
-    .exposed_pixels = [](const IntegratorOptions&,
-                         const PixelFilter& filter) { return splatted_pixels(filter); },
+    .exposed_pixels = pixels_of_splats,
     .make = make_estimator<Multiplexed>,
 };
 

@@ -62,18 +62,17 @@ class CameraPaths : public PathFunction {
 
 }  // namespace
 
-const EstimatorDescriptor PrimarySpace::kDescriptor = {
+constinit const EstimatorDescriptor PrimarySpace::kDescriptor = {
     .traits = {.name = "pssmlt",
                .help = "path tracing from the eye, explored by Markov chains in the space of its "
                        "random numbers",
                .why_never_sampled = out_of_reach_of_eye_walks},
-    .settings = metropolis_settings(),
+    .settings = kMetropolisSettings,
     .bytes_per_pixel =
-        [](const FilmNeed& need) {
+        [](const PixelMemoryInput& need) {
           return PixelBytes{.of_pass = SplatBuffer::bytes_per_pixel(need.parts)};
         },
-    .exposed_pixels = [](const IntegratorOptions&,
-                         const PixelFilter& filter) { return splatted_pixels(filter); },
+    .exposed_pixels = pixels_of_splats,
     .make = make_estimator<PrimarySpace>,
 };
 

@@ -8,6 +8,7 @@
 #include "integrator/learning/guiding_options.h"
 #include "integrator/mixed/learned_mix.h"
 #include "integrator/path/specular_tree.h"
+#include "integrator/photons/merge_pass.h"
 #include "integrator/photons/photon_pass.h"
 
 namespace nephroid {
@@ -133,7 +134,7 @@ const LearnedMix& as_mix(const Learned* learned) {
 
 }  // namespace
 
-const EstimatorDescriptor PathAndPhotons::kDescriptor = {
+constinit const EstimatorDescriptor PathAndPhotons::kDescriptor = {
     .traits = {.name = "path+photons",
                .help = "path tracing, and photons merged where their light came by way of an S",
                .starts_at_lights = true,
@@ -142,10 +143,10 @@ const EstimatorDescriptor PathAndPhotons::kDescriptor = {
     .merges_with_radius = true,
     .keeps_photons = true,
     .bytes_per_pixel =
-        [](const FilmNeed& need) {
+        [](const PixelMemoryInput& need) {
           return PixelBytes{.of_pass = bytes_per_pixel(need.parts, need.clamps)};
         },
-    .exposed_pixels = VertexConnectionMerging::kDescriptor.exposed_pixels,
+    .exposed_pixels = pixels_of_merging_and_splats,
     .make = make_estimator<PathAndPhotons>,
 };
 

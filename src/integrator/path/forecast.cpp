@@ -164,7 +164,7 @@ constexpr const EstimatorSetting* kSettings[] = {&kSpecularTreesSetting};
 
 }  // namespace
 
-const EstimatorDescriptor Forecast::kDescriptor = {
+constinit const EstimatorDescriptor Forecast::kDescriptor = {
     .traits = {.name = "forecast",
                .help = "path tracing that looks where photons foretold that a caustic comes from",
                .why_never_sampled = out_of_reach_of_eye_walks},

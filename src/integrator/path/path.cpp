@@ -24,7 +24,7 @@ bool owns_any_path(const OwnedRoutes& owned) {
 
 }  // namespace
 
-const EstimatorDescriptor PathEstimator::kDescriptor = {
+constinit const EstimatorDescriptor PathEstimator::kDescriptor = {
     .traits = {.name = "path",
                .help = "path tracing with next-event estimation, from the eye",
                .why_never_sampled = out_of_reach_of_eye_walks},

@@ -9,9 +9,8 @@ const EstimatorSetting kSpecularTreesSetting = {
     "yes|no",
     "no",
     "",
-    "Camera walks of routes of `path`, `forecast`, `bdpt`, `vcm` and `bpm` follow both ways at "
-    "smooth glass to lights behind it: worth it where small lamps show in much glass. "
-    "(`path+photons`, and so `mixed`, looks for them as it sees fit.)",
+    "Camera walks follow both ways at smooth glass to lights behind it. Worth it where small lamps "
+    "show in much glass; `mixed` does it by itself where it pays.",
     [](IntegratorOptions& options, const std::string& text) {
       options.edit<PathOptions>().specular_trees = parse_yes_no("-D specular-trees", text);
     },

@@ -171,18 +171,17 @@ const char* unseen_by_camera(const PathSummary& path) {
 
 }  // namespace
 
-const EstimatorDescriptor LightTracing::kDescriptor = {
+constinit const EstimatorDescriptor LightTracing::kDescriptor = {
     .traits = {.name = "lighttrace",
                .help = "paths from the lights, each vertex of which is connected to the camera",
                .connects = true,
                .starts_at_lights = true,
                .why_never_sampled = unseen_by_camera},
     .bytes_per_pixel =
-        [](const FilmNeed& need) {
+        [](const PixelMemoryInput& need) {
           return PixelBytes{.of_pass = SplatBuffer::bytes_per_pixel(need.parts)};
         },
-    .exposed_pixels = [](const IntegratorOptions&,
-                         const PixelFilter& filter) { return splatted_pixels(filter); },
+    .exposed_pixels = pixels_of_splats,
     .make = make_estimator<LightTracing>,
 };
 

@@ -59,8 +59,8 @@ const EstimatorSetting kMapPhotonsSetting = {
     "N",
     "0",
     "paths",
-    "Photon paths emitted for each map of photonmap, once; 0 emits those of 16 passes. When "
-    "memory-photons are stored, emission ends.",
+    "Photon paths emitted for each map, once. 0 emits those of 16 passes; emission ends when "
+    "memory-photons are stored.",
     [](IntegratorOptions& options, const std::string& text) {
       options.edit<PhotonMapOptions>().map_photons = parse_integer("-D map-photons", text, 0);
     },
@@ -73,8 +73,7 @@ const EstimatorSetting kNearestSetting = {
     "N",
     "100",
     "photons",
-    "Photons of an estimate in photonmap: the nearest ones, within the radius of -D radius; at "
-    "least 2.",
+    "Photons per estimate. They are the nearest ones within -D radius; at least 2.",
     [](IntegratorOptions& options, const std::string& text) {
       options.edit<PhotonMapOptions>().nearest_photons = parse_int("-D nearest", text, 2);
     },
@@ -86,7 +85,7 @@ constexpr const EstimatorSetting* kSettings[] = {&kMapPhotonsSetting, &kNearestS
 
 }  // namespace
 
-const EstimatorDescriptor PhotonMap::kDescriptor = {
+constinit const EstimatorDescriptor PhotonMap::kDescriptor = {
     .traits = {.name = "photonmap",
                .help = "a photon map that all passes read, by the nearest photons; passes add no "
                        "photons",
@@ -97,7 +96,7 @@ const EstimatorDescriptor PhotonMap::kDescriptor = {
     .settings = kSettings,
     .keeps_photons = true,
     .bytes_per_pixel =
-        [](const FilmNeed& need) {
+        [](const PixelMemoryInput& need) {
           return PixelBytes{.of_pass = Gathered::bytes_per_walk(need.parts)};
         },
     .exposed_pixels = [](const IntegratorOptions& options,

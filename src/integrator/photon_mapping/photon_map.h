@@ -18,7 +18,7 @@ struct TracedMap;
 
 struct PhotonMapOptions {
   int64_t map_photons = 0;    ///< paths emitted for a map; 0: as many as 16 passes have
-  int nearest_photons = 100;  ///< of an estimate
+  int nearest_photons = 100;  ///< photons per estimate
 };
 
 class PhotonMap : public Estimator {

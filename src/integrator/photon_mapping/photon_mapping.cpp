@@ -1,6 +1,5 @@
 #include "integrator/photon_mapping/photon_mapping.h"
 
-#include "integrator/estimator/exposed_pixels.h"
 #include "integrator/learning/guiding_options.h"
 #include "integrator/learning/photon_guiding.h"
 #include "integrator/photons/merge_pass.h"
@@ -13,7 +12,7 @@ constexpr const EstimatorSetting* kSettings[] = {&kGuideSetting};
 
 }  // namespace
 
-const EstimatorDescriptor PhotonMapping::kDescriptor = {
+constinit const EstimatorDescriptor PhotonMapping::kDescriptor = {
     .traits = {.name = "photons",
                .help = "photons merged with a radius that shrinks from pass to pass",
                .merges = true,
@@ -22,11 +21,10 @@ const EstimatorDescriptor PhotonMapping::kDescriptor = {
     .merges_with_radius = true,
     .keeps_photons = true,
     .bytes_per_pixel =
-        [](const FilmNeed& need) {
+        [](const PixelMemoryInput& need) {
           return PixelBytes{.of_pass = MergePass::bytes_per_pixel(need.parts)};
         },
-    .exposed_pixels = [](const IntegratorOptions& options,
-                         const PixelFilter&) { return pixels_within(first_radius(options)); },
+    .exposed_pixels = pixels_of_merging,
     .make = make_estimator<PhotonMapping>,
 };
 

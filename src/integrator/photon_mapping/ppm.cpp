@@ -17,8 +17,8 @@ const EstimatorSetting kHitPointsSetting = {
     "N",
     "0",
     "hit points",
-    "Hit points of a pixel in ppm, which stay from pass to pass: memory for smooth edges; 0 takes "
-    "the scene's samples per pixel, at least 4 and at most 16.",
+    "Hit points of a pixel, which stay from pass to pass. More of them take memory and make edges "
+    "smoother; 0 takes the scene's samples per pixel, at least 4 and at most 16.",
     [](IntegratorOptions& options, const std::string& text) {
       options.edit<PpmOptions>().hit_points = parse_int("-D hit-points", text, 0);
     },
@@ -30,22 +30,22 @@ constexpr const EstimatorSetting* kSettings[] = {&kHitPointsSetting};
 
 }  // namespace
 
-const EstimatorDescriptor Ppm::kDescriptor = {
+constinit const EstimatorDescriptor Ppm::kDescriptor = {
     .traits = {.name = "ppm",
                .help = "progressive photon mapping with hit points that stay",
                .merges = true,
                .starts_at_lights = true},
-    // What the hit points of a pixel do not see no pass will show.
+    // Light outside the hit points of a pixel is never found.
     .capabilities = {.independent_passes = false, .per_pixel_state = true, .consistent = false},
     .settings = kSettings,
     .keeps_photons = true,
     .bytes_per_pixel =
-        [](const FilmNeed& need) {
+        [](const PixelMemoryInput& need) {
           const auto points = static_cast<size_t>(hit_points(need.options, need.samples_per_pixel));
           return PixelBytes{.kept = points * bytes_kept(need.parts),
                             .of_pass = points * bytes_of_pass(need.parts)};
         },
-    .exposed_pixels = Sppm::kDescriptor.exposed_pixels,
+    .exposed_pixels = pixels_of_first_radius,
     .outlier_warning = kNoEstimatesToHold,
     .make = make_estimator<Ppm>,
 };

@@ -15,7 +15,7 @@ constexpr float kDefaultRadius = 2.0f;
 
 }  // namespace
 
-const EstimatorDescriptor Sppm::kDescriptor = {
+constinit const EstimatorDescriptor Sppm::kDescriptor = {
     .traits = {.name = "sppm",
                .help = "stochastic progressive photon mapping with a radius for each pixel",
                .merges = true,
@@ -23,11 +23,10 @@ const EstimatorDescriptor Sppm::kDescriptor = {
     .capabilities = {.independent_passes = false, .per_pixel_state = true},
     .keeps_photons = true,
     .bytes_per_pixel =
-        [](const FilmNeed& need) {
+        [](const PixelMemoryInput& need) {
           return PixelBytes{.kept = bytes_kept(need.parts), .of_pass = bytes_of_pass(need.parts)};
         },
-    .exposed_pixels = [](const IntegratorOptions& options,
-                         const PixelFilter&) { return pixels_within(first_radius(options)); },
+    .exposed_pixels = pixels_of_first_radius,
     .outlier_warning = kNoEstimatesToHold,
     .make = make_estimator<Sppm>,
 };
@@ -43,6 +42,10 @@ float Sppm::first_radius(const IntegratorOptions& options) {
 
 size_t Sppm::bytes_of_pass(size_t parts) {
   return Gathered::bytes_per_walk(parts) + sizeof(uint64_t);
+}
+
+float Sppm::pixels_of_first_radius(const IntegratorOptions& options, const PixelFilter&) {
+  return pixels_within(first_radius(options));
 }
 
 std::span<const SobolPoint> Sppm::points(const PhotonPass& pass, const Scene&) {

@@ -30,6 +30,8 @@ class Sppm : public Estimator {
       "keep theirs, they have no estimates that could be held";
   /// Of all regions, in footprints: the user's, or the default.
   static float first_radius(const IntegratorOptions& options);
+  /// For EstimatorDescriptor::exposed_pixels.
+  static float pixels_of_first_radius(const IntegratorOptions& options, const PixelFilter&);
 
   /// Memory of a region from pass to pass, and what a pass needs beside it.
   static constexpr size_t bytes_kept(size_t parts) {

@@ -1,6 +1,5 @@
 #include "integrator/photon_mapping/vertex_merging.h"
 
-#include "integrator/estimator/exposed_pixels.h"
 #include "integrator/photon_mapping/light_tracing.h"
 #include "integrator/photons/merge_pass.h"
 
@@ -17,7 +16,7 @@ float merges_per_splat(const CameraConnection& line, const Vec3f& ng, float radi
 
 }  // namespace
 
-const EstimatorDescriptor VertexMerging::kDescriptor = {
+constinit const EstimatorDescriptor VertexMerging::kDescriptor = {
     .traits = {.name = "photons+light",
                .help = "photons that are merged and connected to the camera, weighed against each "
                        "other",
@@ -27,14 +26,11 @@ const EstimatorDescriptor VertexMerging::kDescriptor = {
     .merges_with_radius = true,
     .keeps_photons = true,
     .bytes_per_pixel =
-        [](const FilmNeed& need) {
+        [](const PixelMemoryInput& need) {
           return PixelBytes{.of_pass = MergePass::bytes_per_pixel(need.parts) +
                                        SplatBuffer::bytes_per_pixel(need.parts)};
         },
-    .exposed_pixels =
-        [](const IntegratorOptions& options, const PixelFilter& filter) {
-          return std::max(pixels_within(first_radius(options)), splatted_pixels(filter));
-        },
+    .exposed_pixels = pixels_of_merging_and_splats,
     .make = make_estimator<VertexMerging>,
 };
 

@@ -1,5 +1,6 @@
 #include "integrator/photons/merge_pass.h"
 
+#include "integrator/estimator/exposed_pixels.h"
 #include "integrator/photons/gather.h"
 #include "photon/radius_schedule.h"
 
@@ -15,6 +16,14 @@ constexpr float kDefaultRadius = 1.5f;
 
 float first_radius(const IntegratorOptions& options) {
   return options.radius > 0 ? options.radius : kDefaultRadius;
+}
+
+float pixels_of_merging(const IntegratorOptions& options, const PixelFilter&) {
+  return pixels_within(first_radius(options));
+}
+
+float pixels_of_merging_and_splats(const IntegratorOptions& options, const PixelFilter& filter) {
+  return std::max(pixels_within(first_radius(options)), splatted_pixels(filter));
 }
 
 float radius_of_pass(const IntegratorOptions& options, uint32_t pass) {

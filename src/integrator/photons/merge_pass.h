@@ -30,6 +30,10 @@ MergePass merge_pass(const PassKey& key, const Scene& scene, const Film& film,
 
 /// First merge radius in footprints: the user's, or the default.
 float first_radius(const IntegratorOptions& options);
+/// For EstimatorDescriptor::exposed_pixels: pixels within that radius, and the same where light
+/// paths are splatted as well.
+float pixels_of_merging(const IntegratorOptions& options, const PixelFilter& filter);
+float pixels_of_merging_and_splats(const IntegratorOptions& options, const PixelFilter& filter);
 /// The radius of a pass by [E2], in footprints.
 float radius_of_pass(const IntegratorOptions& options, uint32_t pass);
 

@@ -1,6 +1,9 @@
 // A plan of routes and a scene -> the estimators that render them and the layout of their film.
 #include "integrator/presets/estimator_set.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
 #include "core/errors.h"
@@ -10,11 +13,15 @@ namespace nephroid {
 
 namespace {
 
-void require_connecting_camera(const Scene& scene) {
-  if (!scene.camera->connects())
-    throw UsageError(
-        "light tracing cannot find its way through the lenses of this camera, expected routes "
-        "without lighttrace and photons+light, or another camera");
+void require_connecting_camera(const Scene& scene, EstimatorTable table) {
+  if (scene.camera->connects()) return;
+  std::vector<std::string> names;
+  for (const EstimatorDescriptor* row : table)
+    if (row->traits.connects) names.emplace_back(row->traits.name);
+  throw UsageError(
+      fmt::format("light tracing cannot find its way through the lenses of this camera, expected "
+                  "routes without {}, or another camera",
+                  fmt::join(names, " and ")));
 }
 
 FilmLayout layout_of(const Routes& routes, EstimatorTable table) {
@@ -67,8 +74,8 @@ EstimatorSet make_estimators(CompiledPlan compiled, const IntegratorOptions& opt
   const std::vector<std::string>& examples = compiled.compilation.examples;
   for (size_t r = 0; r < examples.size(); ++r) {
     const RouteDefinition& route = compiled.compilation.routes.definitions()[r];
-    // Those that start at lights say it themselves.
-    if (examples[r].empty() && !route.estimator->starts_at_lights)
+    // Estimators that merge say it themselves.
+    if (examples[r].empty() && !route.estimator->merges)
       set.notes.push_back("'" + route.name +
                           "' is black: no path that this scene can have belongs to it");
   }
@@ -77,7 +84,7 @@ EstimatorSet make_estimators(CompiledPlan compiled, const IntegratorOptions& opt
   set.layout = layout_of(*set.routes, table);
   for (size_t g = 0; g < set.routes->groups().size(); ++g) {
     const EstimatorDescriptor& row = descriptor_of(set.routes->groups()[g], table);
-    if (row.traits.connects) require_connecting_camera(scene);
+    if (row.traits.connects) require_connecting_camera(scene, table);
     set.estimators.push_back(row.make({set.routes, symbols, g}, options));
   }
   if (std::none_of(set.estimators.begin(), set.estimators.end(),

@@ -1,6 +1,7 @@
 #include "integrator/presets/estimator_table.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "integrator/bidirectional/bidirectional.h"
 #include "integrator/bidirectional/vertex_connection_merging.h"
@@ -50,8 +51,11 @@ TraitsTable estimator_traits() {
 }
 
 const EstimatorDescriptor& descriptor_of(const RouteGroup& group, EstimatorTable table) {
-  return **std::ranges::find_if(
-      table, [&](const EstimatorDescriptor* row) { return &row->traits == group.estimator; });
+  const auto row = std::ranges::find_if(
+      table, [&](const EstimatorDescriptor* d) { return &d->traits == group.estimator; });
+  if (row == table.end())
+    throw std::logic_error(std::string("estimator ") + group.estimator->name + " has no row");
+  return **row;
 }
 
 }  // namespace nephroid

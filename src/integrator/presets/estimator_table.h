@@ -15,7 +15,7 @@ EstimatorTable estimator_table();
 /// What routes need to know of the table's estimators.
 TraitsTable estimator_traits();
 
-/// The row of the table that is meant by a group of routes.
+/// The row of a group of routes. Throws std::logic_error if its estimator is not in the table.
 const EstimatorDescriptor& descriptor_of(const RouteGroup& group,
                                          EstimatorTable table = estimator_table());
 

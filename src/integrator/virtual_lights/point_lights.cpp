@@ -167,8 +167,8 @@ const EstimatorSetting kPointLightsSetting = {
     "N",
     "0",
     "connections",
-    "Virtual point lights that a camera path of pointlights is connected to, up to 1024; 0 lets "
-    "the integrator choose.",
+    "Virtual point lights that a camera path is connected to. Up to 1024; 0 lets the integrator "
+    "choose.",
     [](IntegratorOptions& options, const std::string& text) {
       options.edit<PointLightsOptions>().connections = parse_int("-D point-lights", text, 0, 1024);
     },
@@ -185,7 +185,7 @@ float point_light_share(float density, float walk_pdf_a) {
   return density / walk_pdf_a;
 }
 
-const EstimatorDescriptor PointLights::kDescriptor = {
+constinit const EstimatorDescriptor PointLights::kDescriptor = {
     .traits = {.name = "pointlights",
                .help = "path tracing that is connected to virtual point lights at its first rough "
                        "surface",

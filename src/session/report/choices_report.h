@@ -10,7 +10,7 @@
 
 namespace nephroid {
 
-/// Lines, without ends, for all estimators of a preset: their statistics after the first pass and
+/// Lines, without ends, for all estimators of a render: their statistics after the first pass and
 /// after the last of `passes`.
 std::vector<std::string> choices_report(const std::vector<EstimatorStatistics>& first,
                                         const std::vector<EstimatorStatistics>& last,

@@ -2,9 +2,12 @@
 #include "session/settings/integrator_settings.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <limits>
+#include <set>
+#include <stdexcept>
 
 #include "input/option_values.h"
 #include "integrator/presets/estimator_table.h"
@@ -16,8 +19,7 @@ constexpr float kMaxFloat = std::numeric_limits<float>::max();
 
 constexpr bool kForEverybody = true;
 
-// Those of single estimators stand beside them. The first are for everybody, the rest for whom
-// the defaults do not suit.
+// --help shows the first five; settings of single estimators are in their descriptors.
 const IntegratorSetting kSettings[] = {
     {"max-depth", "N", "100, or the scene's maxdepth", "",
      "Scattering events of a whole path, from the camera to the light.",
@@ -95,21 +97,31 @@ const IntegratorSetting kSettings[] = {
      [](const RenderSettings& s) { return bytes_text(s.scene.texture_memory); }},
 };
 
-/// The rows above and those of all estimators, each key once.
+/// "For path, forecast, bdpt.", the estimators that have a setting.
+std::string owners_of(const EstimatorSetting& setting) {
+  std::vector<std::string> names;
+  for (const EstimatorDescriptor* estimator : estimator_table())
+    if (std::ranges::find(estimator->settings, &setting) != estimator->settings.end())
+      names.emplace_back(estimator->traits.name);
+  return fmt::format("For {}.", fmt::join(names, ", "));
+}
+
+/// The rows above and those of all estimators, each once.
 std::vector<IntegratorSetting> all_settings() {
   std::vector<IntegratorSetting> all(std::begin(kSettings), std::end(kSettings));
-  const auto is_known = [&](const EstimatorSetting& setting) {
-    return std::ranges::any_of(all, [&](const IntegratorSetting& row) {
-      return std::string_view(row.key) == setting.key;
-    });
-  };
+  std::set<const EstimatorSetting*> seen;
   for (const EstimatorDescriptor* estimator : estimator_table())
     for (const EstimatorSetting* own : estimator->settings)
-      if (!is_known(*own))
+      if (seen.insert(own).second) {
+        if (std::ranges::any_of(all,
+                                [&](const auto& row) { return row.key == std::string(own->key); }))
+          throw std::logic_error(std::string("two settings are called ") + own->key);
         all.push_back(
-            {own->key, own->value, own->default_text, own->unit, own->help,
+            {own->key, own->value, own->default_text, own->unit,
+             std::string(own->help) + " " + owners_of(*own),
              [own](RenderSettings& s, const std::string& text) { own->apply(s.integrator, text); },
              [own](const RenderSettings& s) { return own->print(s.integrator); }});
+      }
   return all;
 }
 

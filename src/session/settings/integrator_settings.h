@@ -35,7 +35,7 @@ struct IntegratorSetting {
   const char* value;  ///< placeholder of the value in help: "N", "X"
   const char* default_text;
   const char* unit;  ///< empty if it has none
-  const char* help;
+  std::string help;
   /// Parses and stores; throws UsageError.
   std::function<void(RenderSettings& settings, const std::string& text)> apply;
   /// The stored value as metadata have it.
