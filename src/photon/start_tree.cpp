@@ -1,6 +1,7 @@
 #include "photon/start_tree.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -15,90 +16,141 @@ constexpr size_t kFewStarts = 8;
 /// What a crowd more costs, over the cost of all starts together, so that there are few.
 constexpr double kPrice = 0.003;
 
-class Splitter {
+/// All cuts in two, down to the smallest parts. Starts are sorted once along each axis; a cut keeps
+/// their order in both parts, so a level of the tree takes linear time (as in builders of k-d
+/// trees, Wald & Havran 2006).
+class CutTree {
  public:
-  Splitter(std::span<const UsefulStart> starts, std::vector<uint32_t>& order)
-      : starts_(starts), order_(order) {}
+  /// `order` becomes that of the leaves, from left to right.
+  CutTree(std::span<const UsefulStart> starts, std::vector<uint32_t>& order)
+      : starts_(starts), order_(order), is_below_(starts.size()), other_(starts.size()) {
+    for (int axis = 0; axis < 3; ++axis) {
+      by_axis_[axis] = order;
+      std::sort(by_axis_[axis].begin(), by_axis_[axis].end(), [&](uint32_t i, uint32_t j) {
+        const float x = starts_[i].first_hit[axis], y = starts_[j].first_hit[axis];
+        return x != y ? x < y : i < j;
+      });
+    }
+    build(crowd(order, 0, order.size()), 0, order);
+  }
 
   struct Split {
     std::vector<Crowd> leaves, inner;
     double cost = 0;
   };
-
-  Crowd crowd(size_t begin, size_t end) const {
-    Crowd c{begin, end, {}, 0};
-    for (size_t i = begin; i < end; ++i) add(c, i);
-    return c;
-  }
-
+  const Crowd& all() const { return nodes_.front().crowd; }
   /// From the leaves upwards, parts are kept where they cost less than the whole.
-  Split best_split(const Crowd& c, double price, int depth) {
-    Split whole{{c}, {}, c.cost() + price};
-    if (depth == kMaxDepth || c.end - c.begin < 2 * kFewStarts) return whole;
-    const size_t middle = cut(c);
-    Split parts = best_split(crowd(c.begin, middle), price, depth + 1);
-    const Split others = best_split(crowd(middle, c.end), price, depth + 1);
+  Split best_split(double price, size_t node = 0) const {
+    const Node& n = nodes_[node];
+    Split whole{{n.crowd}, {}, n.crowd.cost() + price};
+    if (n.parts[0] == 0) return whole;
+    Split parts = best_split(price, n.parts[0]);
+    const Split others = best_split(price, n.parts[1]);
     parts.cost += others.cost;
     if (parts.cost >= whole.cost) return whole;
     parts.leaves.insert(parts.leaves.end(), others.leaves.begin(), others.leaves.end());
     parts.inner.insert(parts.inner.end(), others.inner.begin(), others.inner.end());
-    parts.inner.push_back(c);
+    parts.inner.push_back(n.crowd);
     return parts;
   }
 
  private:
-  void add(Crowd& c, size_t i) const {
-    const UsefulStart& start = starts_[order_[i]];
-    c.bounds.extendBy(start.first_hit);
-    c.weight += double{start.weight};
+  struct Node {
+    Crowd crowd;
+    size_t parts[2] = {0, 0};  ///< 0: not cut
+  };
+  struct Cut {
+    int axis = -1;
+    size_t middle = 0;
+    double cost = 0;
+  };
+
+  void add(Crowd& c, uint32_t start) const {
+    c.bounds.extendBy(starts_[start].first_hit);
+    c.weight += double{starts_[start].weight};
   }
-  double grown(Crowd& c, size_t i) const {
-    add(c, i);
+  double grown(Crowd& c, uint32_t start) const {
+    add(c, start);
     return c.cost();
   }
-
-  void sort(const Crowd& c, int axis) {
-    std::sort(order_.begin() + c.begin, order_.begin() + c.end, [&](uint32_t a, uint32_t b) {
-      const float x = starts_[a].first_hit[axis], y = starts_[b].first_hit[axis];
-      return x != y ? x < y : a < b;
-    });
+  Crowd crowd(const std::vector<uint32_t>& order, size_t begin, size_t end) const {
+    Crowd c{begin, end, {}, 0};
+    for (size_t i = begin; i < end; ++i) add(c, order[i]);
+    return c;
   }
 
-  /// The cut in two that costs least; leaves the starts in its order.
-  size_t cut(const Crowd& c) {
-    struct {
-      int axis = -1;
-      size_t middle = 0;
-      double cost = 0;
-    } best;
-    std::vector<double> below(c.end - c.begin);
+  /// The node of a crowd, whose starts stand in `order` as they stood when it was cut off.
+  size_t build(const Crowd& c, int depth, const std::vector<uint32_t>& order) {
+    const size_t node = nodes_.size();
+    nodes_.push_back({c});
+    if (depth == kMaxDepth || c.end - c.begin < 2 * kFewStarts) {
+      if (&order != &order_)
+        std::copy(order.begin() + c.begin, order.begin() + c.end, order_.begin() + c.begin);
+      return node;
+    }
+    const Cut cut = best_cut(c);
+    divide(c, cut);
+    const std::vector<uint32_t>& sorted = by_axis_[cut.axis];
+    const Crowd below = crowd(sorted, c.begin, cut.middle),
+                above = crowd(sorted, cut.middle, c.end);
+    const size_t left = build(below, depth + 1, sorted);
+    const size_t right = build(above, depth + 1, sorted);
+    nodes_[node].parts[0] = left;
+    nodes_[node].parts[1] = right;
+    return node;
+  }
+
+  /// The one that costs least.
+  Cut best_cut(const Crowd& c) {
+    Cut best;
+    cost_below_.resize(c.end - c.begin);
     for (int axis = 0; axis < 3; ++axis) {
-      sort(c, axis);
+      const uint32_t* sorted = by_axis_[axis].data() + c.begin;
       Crowd side;
-      for (size_t i = 0; i < below.size(); ++i) below[i] = grown(side, c.begin + i);
+      for (size_t i = 0; i < cost_below_.size(); ++i) cost_below_[i] = grown(side, sorted[i]);
       side = {};
-      for (size_t i = below.size() - 1; i > 0; --i) {
-        const double cost = below[i - 1] + grown(side, c.begin + i);
+      for (size_t i = cost_below_.size() - 1; i > 0; --i) {
+        const double cost = cost_below_[i - 1] + grown(side, sorted[i]);
         if (best.axis < 0 || cost < best.cost) best = {axis, c.begin + i, cost};
       }
     }
-    sort(c, best.axis);
-    return best.middle;
+    return best;
+  }
+
+  /// Moves the starts below the cut before the others, along each axis in the order they had.
+  void divide(const Crowd& c, const Cut& cut) {
+    for (size_t i = c.begin; i < c.end; ++i) is_below_[by_axis_[cut.axis][i]] = i < cut.middle;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (axis == cut.axis) continue;
+      size_t below = c.begin, above = 0;
+      for (size_t i = c.begin; i < c.end; ++i) {
+        const uint32_t start = by_axis_[axis][i];
+        if (is_below_[start])
+          by_axis_[axis][below++] = start;
+        else
+          other_[above++] = start;
+      }
+      std::copy(other_.begin(), other_.begin() + above, by_axis_[axis].begin() + below);
+    }
   }
 
   std::span<const UsefulStart> starts_;
   std::vector<uint32_t>& order_;
+  std::array<std::vector<uint32_t>, 3> by_axis_;
+  std::vector<uint8_t> is_below_;   ///< [start]: at the last cut
+  std::vector<uint32_t> other_;     ///< scratch of divide()
+  std::vector<double> cost_below_;  ///< scratch of best_cut()
+  std::vector<Node> nodes_;
 };
 
 }  // namespace
 
 StartTree::StartTree(std::span<const UsefulStart> starts, size_t most) : order_(starts.size()) {
   std::iota(order_.begin(), order_.end(), uint32_t{0});
-  Splitter splitter(starts, order_);
-  const Crowd all = splitter.crowd(0, order_.size());
+  const CutTree cuts(starts, order_);
   // Dearer until there are few enough.
   for (double price = kPrice;; price *= 2) {
-    Splitter::Split split = splitter.best_split(all, price * all.cost(), 0);
+    CutTree::Split split = cuts.best_split(price * cuts.all().cost());
     if (split.leaves.size() > most) continue;
     leaves_ = std::move(split.leaves);
     inner_ = std::move(split.inner);

@@ -36,15 +36,27 @@ struct LearningPlan {
   uint32_t passes;  ///< the first one, and two at least that have learned from it
 };
 
+IntegratorOptions options_of_all() {
+  IntegratorOptions options;
+  options.max_depth = 5;
+  options.photons_per_pass = 1024;
+  options.radius = 0.25f;
+  return options;
+}
+
+/// By an estimator that learns nothing; one for all plans.
+const SeedValues& right_values() {
+  static const SeedValues values =
+      block_values(*scene_from_text(kRoom), "bdpt", options_of_all(), kSeeds, 64, 1, 2);
+  return values;
+}
+
 class Learning : public ::testing::TestWithParam<LearningPlan> {};
 
 TEST_P(Learning, AnewForEachSeedHasNoBias) {
   const Plan& plan = GetParam().plan;
   const auto scene = scene_from_text(kRoom);
-  IntegratorOptions options;
-  options.max_depth = 5;
-  options.photons_per_pass = 1024;
-  options.radius = 0.25f;
+  const IntegratorOptions options = options_of_all();
   const SeedValues found = values_over_seeds(kSeeds, 1000, [&](uint64_t seed) {
     const PlanLearned learned = learn(*scene, plan, options, seed);
     const auto means = [&](float radius) {
@@ -59,7 +71,7 @@ TEST_P(Learning, AnewForEachSeedHasNoBias) {
     for (size_t i = 0; i < values.size(); ++i) values[i] = 2 * smaller[i] - values[i];
     return values;
   });
-  const SeedValues expected = block_values(*scene, "bdpt", options, kSeeds, 64, 1, 2);
+  const SeedValues& expected = right_values();
   for (size_t i = 0; i < found.size(); ++i) {
     const Estimate a = estimate_of(found[i]), b = estimate_of(expected[i]);
     const double error = std::hypot(a.error, b.error);

@@ -28,7 +28,9 @@ struct Pass {
 class CameraPaths : public PathFunction {
  public:
   explicit CameraPaths(const Pass& pass)
-      : pass_(pass), light_(*pass.owned.routes, pass.owned.group) {}
+      : pass_(pass),
+        is_blind_(pass.options.own<PathOptions>().blind_walks),
+        light_(*pass.owned.routes, pass.owned.group) {}
 
   void evaluate(MarkovSample& numbers, FoundLight& found) override {
     PathSampler sampler(numbers.stream(0));
@@ -45,8 +47,7 @@ class CameraPaths : public PathFunction {
     const SensorWeights weights = sensor_weights(
         lambda, *pass_.film.color_space, pass_.film.imaging_ratio, pass_.film.white_balance);
     light_.clear();
-    PathVisitor visitor(pass_.scene, pass_.owned, pass_.options.own<PathOptions>().blind_walks,
-                        light_, nullptr);
+    PathVisitor visitor(pass_.scene, pass_.owned, is_blind_, light_, nullptr);
     random_walk(pass_.scene, TransportMode::kRadiance, pass_.options.max_depth, path.walk, sampler,
                 visitor);
     found.rays += path.walk.rays + visitor.more_rays();
@@ -57,6 +58,7 @@ class CameraPaths : public PathFunction {
 
  private:
   const Pass& pass_;
+  const bool is_blind_;
   PartSums light_;
 };
 
