@@ -6,15 +6,15 @@
 namespace nephroid {
 
 std::optional<double> log_slope(const std::vector<CurvePoint>& points) {
-  constexpr size_t kMin = 3;
+  constexpr size_t kMinPoints = 3;
   std::vector<CurvePoint> logs;
   for (const CurvePoint& p : points)
     if (p.x > 0 && p.y > 0) logs.push_back({std::log(p.x), std::log(p.y)});
-  if (logs.size() < kMin) return std::nullopt;
+  if (logs.size() < kMinPoints) return std::nullopt;
   // Half of the run, with room for rounding.
   const double from = logs.back().x - std::log(2.0) - 1e-9;
   size_t begin = 0;
-  while (begin + kMin < logs.size() && logs[begin].x < from) ++begin;
+  while (begin + kMinPoints < logs.size() && logs[begin].x < from) ++begin;
 
   const double n = static_cast<double>(logs.size() - begin);
   double mean_x = 0, mean_y = 0, xx = 0, xy = 0;

@@ -89,12 +89,12 @@ std::pair<float, float> parse_range(const std::string& option, const std::string
 }
 
 int64_t parse_bytes(const std::string& option, const std::string& text) {
-  constexpr double kMax = double(int64_t{1} << 40);
+  constexpr double kMaxBytes = double(int64_t{1} << 40);
   const size_t unit = text.empty() ? std::string::npos : std::string("KMG").find(text.back());
   const auto number =
       number_of<double>(unit == std::string::npos ? text : text.substr(0, text.size() - 1));
   const double factor = unit == std::string::npos ? 1.0 : std::ldexp(1.0, 10 * (int(unit) + 1));
-  if (number && *number >= 0 && *number * factor <= kMax)
+  if (number && *number >= 0 && *number * factor <= kMaxBytes)
     return static_cast<int64_t>(*number * factor);
   fail(option, text, "a number of bytes from 0 to 1024G, such as 4096, 64K, 512M or 1.5G");
 }
@@ -127,16 +127,16 @@ double parse_duration(const std::string& option, const std::string& text) {
 std::pair<uint32_t, uint32_t> parse_passes(const std::string& option, const std::string& text) {
   const char* expected = "a number of passes N, or a range A..B from 0, both ends included";
   // The last value is left free: passes are counted in 32 bits.
-  constexpr uint32_t kMax = std::numeric_limits<uint32_t>::max() - 1;
+  constexpr uint32_t kMaxPasses = std::numeric_limits<uint32_t>::max() - 1;
   const size_t dots = text.find("..");
   if (dots == std::string::npos) {
     const auto count = number_of<uint32_t>(text);
-    if (!count || *count == 0 || *count > kMax) fail(option, text, expected);
+    if (!count || *count == 0 || *count > kMaxPasses) fail(option, text, expected);
     return {0, *count - 1};
   }
   const auto first = number_of<uint32_t>(text.substr(0, dots));
   const auto last = number_of<uint32_t>(text.substr(dots + 2));
-  if (!first || !last || *first > *last || *last >= kMax) fail(option, text, expected);
+  if (!first || !last || *first > *last || *last >= kMaxPasses) fail(option, text, expected);
   return {*first, *last};
 }
 

@@ -220,12 +220,12 @@ void PlyReader<Source>::read_faces(const PlyElement& element) {
 MeshData read_mesh(std::string_view bytes) {
   const PlyHeader header = read_ply_header(bytes);
   const std::string_view body = bytes.substr(header.size);
-  constexpr bool kLittle = std::endian::native == std::endian::little;
+  constexpr bool kIsLittleEndian = std::endian::native == std::endian::little;
   switch (header.format) {
     case PlyHeader::Format::kLittleEndian:
-      return PlyReader<PlyBinarySource<!kLittle>>(header, body).read();
+      return PlyReader<PlyBinarySource<!kIsLittleEndian>>(header, body).read();
     case PlyHeader::Format::kBigEndian:
-      return PlyReader<PlyBinarySource<kLittle>>(header, body).read();
+      return PlyReader<PlyBinarySource<kIsLittleEndian>>(header, body).read();
     default:
       return PlyReader<PlyTextSource>(header, body).read();
   }

@@ -10,10 +10,10 @@ namespace nephroid {
 
 namespace {
 
-constexpr size_t kMaxPlaces = CasterCones::kMax / 2;
+constexpr size_t kMaxPlaces = CasterCones::kMaxCones / 2;
 /// [G8] How much less the insides of balls around several places, all together, are aimed at than
 /// that of a place.
-constexpr float kAround = 0.125f;
+constexpr float kShareAround = 0.125f;
 /// Over the scene's radius.
 constexpr float kSmallest = 1e-4f;
 /// Of a ball that fills much of the sky as it is seen from a vertex, nothing is gained.
@@ -42,7 +42,7 @@ float density_towards(const WalkVertex& v, ClassMask among, const Vec3f& wi, flo
 }  // namespace
 
 void CasterCones::add(const Vec3f& axis, float narrowness, float weight) {
-  assert(count_ < kMax);
+  assert(count_ < kMaxCones);
   cones_[count_++] = {axis, narrowness, weight};
   total_ += weight;
 }
@@ -94,10 +94,10 @@ CasterGuide::CasterGuide(std::span<const UsefulStart> met, float scene_radius) {
   for (const StartTree::Crowd& leaf : tree.leaves()) add(leaf, farthest_of(leaf), 1);
   places_ = balls_.size();
   for (const StartTree::Crowd& crowd : tree.inner())
-    add(crowd, crowd.half_diagonal(), kAround / static_cast<float>(tree.inner().size()));
+    add(crowd, crowd.half_diagonal(), kShareAround / static_cast<float>(tree.inner().size()));
   const StartTree::Crowd& only = tree.leaves()[0];
   if (tree.inner().empty() && only.half_diagonal() > kWider * farthest_of(only))
-    add(only, only.half_diagonal(), kAround);
+    add(only, only.half_diagonal(), kShareAround);
 }
 
 CasterCones CasterGuide::at(const WalkVertex& v, ClassMask among) const {

@@ -16,7 +16,7 @@ namespace nephroid {
 /// The directions from a vertex to the casters: a `Guide` of GuidedDirection.
 class CasterCones {
  public:
-  static constexpr int kMax = 16;
+  static constexpr int kMaxCones = 16;
   /// Of the directions, those into cones.
   static constexpr float kShare = 0.5f;
 
@@ -28,8 +28,8 @@ class CasterCones {
   /// cone, however narrow that is.
   float pdf_w(const Vec3f& w) const;
 
-  /// One more cone, of kMax at most, `weight` times as likely as one of weight 1. `narrowness` is
-  /// one minus the cosine of its half angle, above 0 and at most 1.
+  /// One more cone, of kMaxCones at most, `weight` times as likely as one of weight 1. `narrowness`
+  /// is one minus the cosine of its half angle, above 0 and at most 1.
   void add(const Vec3f& axis, float narrowness, float weight);
 
  private:
@@ -40,7 +40,7 @@ class CasterCones {
     /// One minus the cosine is small for narrow cones.
     bool contains(const Vec3f& w) const { return 0.5f * length_squared(w - axis) <= narrowness; }
   };
-  std::array<Cone, kMax> cones_;
+  std::array<Cone, kMaxCones> cones_;
   int count_ = 0;
   float total_ = 0;  ///< of the weights
 };

@@ -12,11 +12,11 @@ namespace nephroid {
 namespace {
 
 /// So many starts say how wide the place is in which they lie.
-constexpr float kTelling = 8;
+constexpr float kMinStartsOfExtent = 8;
 /// Targets are so much wider than the starts in them.
-constexpr float kRoom = 1.05f;
+constexpr float kTargetSlack = 1.05f;
 /// [G7] Of the paths that are aimed at a ball, those at the balls around it instead.
-constexpr double kAround = 0.125;
+constexpr double kShareAround = 0.125;
 /// What makes a ball worth having around the only one.
 constexpr float kWider = 1.05f;
 /// Targets that density() looks at together.
@@ -77,9 +77,9 @@ EmissionGuide::EmissionGuide(const Scene& scene, std::span<const UsefulStart> us
     for (size_t c = 0; c < clusters_.size(); ++c) {
       const double aim = aims[c * places_ + k];
       double* const of_cluster = &all[c * targets_.size()];
-      of_cluster[k] += around.empty() ? aim : (1 - kAround) * aim;
+      of_cluster[k] += around.empty() ? aim : (1 - kShareAround) * aim;
       for (const size_t i : around)
-        of_cluster[i] += kAround * aim / static_cast<double>(around.size());
+        of_cluster[i] += kShareAround * aim / static_cast<double>(around.size());
     }
   }
   share_out(all);
@@ -97,8 +97,8 @@ EmissionGuide::EmissionGuide(const Scene& scene, std::span<const Vec3f> casters)
   std::vector<double> seen;  // of each target, how many
   for (const StartTree::Crowd& leaf : tree.leaves()) {
     seen.push_back(leaf.weight);
-    targets_.push_back(
-        {leaf.center(), std::max(kRoom * leaf.half_diagonal(), kSmallest * scene.sphere.radius)});
+    targets_.push_back({leaf.center(), std::max(kTargetSlack * leaf.half_diagonal(),
+                                                kSmallest * scene.sphere.radius)});
   }
   places_ = targets_.size();
   // [G6] Targets as they are seen, lights as they shine there.
@@ -129,10 +129,10 @@ EmissionGuide::Target EmissionGuide::target_around(const Scene& scene, const Vec
     const double part = std::min(1.0, found[c] / (paths * clusters_[c].pmf));
     if (all) needed = std::max(needed, *all * std::sqrt(part));
   }
-  const float slack = kRoom + 0.5f / std::sqrt(count);
-  return {center,
-          std::max({extent * slack, static_cast<float>(needed) * std::min(1.0f, kTelling / count),
-                    kSmallest * scene.sphere.radius})};
+  const float slack = kTargetSlack + 0.5f / std::sqrt(count);
+  return {center, std::max({extent * slack,
+                            static_cast<float>(needed) * std::min(1.0f, kMinStartsOfExtent / count),
+                            kSmallest * scene.sphere.radius})};
 }
 
 void EmissionGuide::gather_lights(const Scene& scene) {

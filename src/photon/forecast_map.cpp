@@ -91,7 +91,7 @@ struct ForecastMap::Nearest {
     bool operator<(const Entry& o) const { return distance_squared < o.distance_squared; }
   };
   Vec3f p;
-  std::array<Entry, ForecastLobes::kMax> found{};  ///< a heap, the furthest first
+  std::array<Entry, ForecastLobes::kMaxLobes> found{};  ///< a heap, the furthest first
   size_t count = 0;
 
   float reach_squared() const {
@@ -130,8 +130,8 @@ ForecastLobes ForecastMap::lobes_at(const Vec3f& p) const {
   nearest.p = p;
   search(0, records_.size(), nearest);
   const float reach = std::sqrt(nearest.reach_squared());
-  std::array<Vec3f, ForecastLobes::kMax> axes;
-  std::array<float, ForecastLobes::kMax> widths;
+  std::array<Vec3f, ForecastLobes::kMaxLobes> axes;
+  std::array<float, ForecastLobes::kMaxLobes> widths;
   size_t count = 0;
   for (const Nearest::Entry& entry : nearest.found) {
     const Vec3f way = records_[entry.record].caster - p;

@@ -20,11 +20,11 @@ struct CausticRecord {
 /// A density of unit directions in world space: the mean of von Mises-Fisher lobes.
 class ForecastLobes {
  public:
-  static constexpr int kMax = 16;
+  static constexpr int kMaxLobes = 16;
 
   bool empty() const { return count_ == 0; }
   int count() const { return count_; }
-  /// Adds a lobe around the unit vector `axis` of about `width` radians. At most kMax.
+  /// Adds a lobe around the unit vector `axis` of about `width` radians. At most kMaxLobes.
   void add(const Vec3f& axis, float width);
   /// Of the directions that should follow it.
   float share() const { return empty() ? 0.0f : 0.5f; }
@@ -38,7 +38,7 @@ class ForecastLobes {
     Vec3f axis;
     float concentration = 0, norm = 0;
   };
-  std::array<Lobe, kMax> lobes_;
+  std::array<Lobe, kMaxLobes> lobes_;
   int count_ = 0;
 };
 
@@ -51,7 +51,7 @@ class ForecastMap {
   size_t size() const { return records_.size(); }
   size_t bytes() const { return size() * (sizeof(records_[0]) + sizeof(axes_[0])); }
   /// False if there are too few records to have K nearest ones: it then has no lobes anywhere.
-  bool foretells() const { return size() >= ForecastLobes::kMax; }
+  bool foretells() const { return size() >= ForecastLobes::kMaxLobes; }
   /// [T2]: a lobe towards the caster of each of the records nearest to `p`, unless it would be
   /// wide; none if it does not foretell.
   ForecastLobes lobes_at(const Vec3f& p) const;

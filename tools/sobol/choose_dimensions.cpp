@@ -25,7 +25,7 @@ constexpr int kVertices = 11, kVerticesOfLight = 5;
 /// Where roulette is worth a dimension before the vertices behind have theirs.
 constexpr int kVerticesOfRoulette = 3;
 /// One poor run must not hide what the others are like.
-constexpr double kMostRatio = 20;
+constexpr double kMaxRatio = 20;
 
 using Decision = std::vector<int>;  ///< its dimensions
 
@@ -98,7 +98,7 @@ Table pairs(const Decision& with, Pool pool) {
     const double good = with.empty() ? run.best_pair() : nth(all, 0.005);
     for (int a = pool.begin; a < pool.end; ++a)
       for (int b = a + 1; b < pool.end; ++b)
-        sum[a][b] += std::min(t[a][b] / good, kMostRatio) / static_cast<double>(runs().size());
+        sum[a][b] += std::min(t[a][b] / good, kMaxRatio) / static_cast<double>(runs().size());
   }
   return sum;
 }
@@ -117,7 +117,7 @@ std::array<double, kDimensions> singles(const Decision& with, Pool pool) {
     const double good = nth(t, 0.03);
     for (size_t d = 0; d < t.size(); ++d)
       sum[static_cast<size_t>(pool.begin) + d] +=
-          std::min(t[d] / good, kMostRatio) / static_cast<double>(runs().size());
+          std::min(t[d] / good, kMaxRatio) / static_cast<double>(runs().size());
   }
   return sum;
 }

@@ -48,7 +48,7 @@ void LightBatches::trace_chunk(int64_t begin, int64_t end, Chunk& chunk) const {
 /// after them: growing by and by would take twice as much.
 void LightBatches::reserve(std::vector<Photon>& photons, std::span<const Chunk> chunks,
                            int64_t batch_begin) const {
-  constexpr double kRoom = 1.02;
+  constexpr double kMemorySlack = 1.02;
   size_t needed = photons.size();
   for (const Chunk& chunk : chunks) needed += chunk.photons.size();
   if (needed <= photons.capacity()) return;
@@ -56,7 +56,7 @@ void LightBatches::reserve(std::vector<Photon>& photons, std::span<const Chunk> 
   const double all = of_path * static_cast<double>(config_.light_paths - batch_begin);
   // The group that fills the memory is taken as a whole.
   const double most = static_cast<double>(config_.memory_photons) + of_path * kGroup;
-  photons.reserve(std::max(needed, static_cast<size_t>(kRoom * std::min(all, most))));
+  photons.reserve(std::max(needed, static_cast<size_t>(kMemorySlack * std::min(all, most))));
 }
 
 std::vector<Photon> LightBatches::next(const std::function<void(std::span<const Splat>)>& expose,

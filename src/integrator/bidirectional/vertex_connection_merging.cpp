@@ -45,8 +45,8 @@ constinit const EstimatorDescriptor BidirectionalPhotonMapping::kDescriptor = {
 };
 
 int64_t default_light_paths(int64_t pixels) {
-  constexpr int64_t kMin = 1 << 12, kMax = 1 << 20;
-  return std::clamp(pixels, kMin, kMax);
+  constexpr int64_t kMinPaths = 1 << 12, kMaxPaths = 1 << 20;
+  return std::clamp(pixels, kMinPaths, kMaxPaths);
 }
 
 std::unique_ptr<PassFindings> VertexConnectionMerging::render_pass(const PassKey& key,

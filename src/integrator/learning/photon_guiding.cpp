@@ -14,7 +14,7 @@ constexpr uint64_t kStream = 0x6c6561726e;  // "learn"
 constexpr uint32_t kRounds = 3;
 /// Paths of a round; more in rounds after one that found little.
 constexpr int64_t kPaths = 1 << 14, kMaxPaths = 1 << 18;
-constexpr size_t kLittle = 256;
+constexpr size_t kFewUsefulStarts = 256;
 constexpr size_t kFewCasters = 16;
 
 /// Of those that photons have met and, while these are too few to tell how large a thing is, of
@@ -63,7 +63,7 @@ GuidedPhotons guide_photons(uint64_t seed, const Scene& scene, const FilmFormat&
     learned.rays += visible.rays + found.rays;
     all_paths += paths;
     guide.starts = EmissionGuide(scene, useful, static_cast<double>(all_paths));
-    if (useful.size() < kLittle) paths = std::min(4 * paths, kMaxPaths);
+    if (useful.size() < kFewUsefulStarts) paths = std::min(4 * paths, kMaxPaths);
   }
   if (guides_scattering && owned.routes->needs_specular(owned.group))
     guide.casters = caster_guide(std::move(met), seen, scene);

@@ -8,7 +8,7 @@ namespace nephroid {
 namespace {
 
 /// Light paths of a pass.
-constexpr double kMin = 1 << 10, kMax = 1 << 20;
+constexpr double kMinLightPaths = 1 << 10, kMaxLightPaths = 1 << 20;
 
 /// Each tile with its neighbours: the variance of a few passes is a rough guess.
 std::vector<double> smoothed(const std::vector<double>& values, int width) {
@@ -137,12 +137,12 @@ double Balance::light_paths_of_camera_path() const {
 }
 
 double Balance::max_light_paths() const {
-  return std::clamp(kMaxPhotons / std::max(photons_of_path, 1e-9), kMin, kMax);
+  return std::clamp(kMaxPhotons / std::max(photons_of_path, 1e-9), kMinLightPaths, kMaxLightPaths);
 }
 
 int64_t Balance::light_paths(double camera_paths) const {
   return static_cast<int64_t>(
-      std::clamp(camera_paths * light_paths_of_camera_path(), kMin, max_light_paths()));
+      std::clamp(camera_paths * light_paths_of_camera_path(), kMinLightPaths, max_light_paths()));
 }
 
 double Balance::inverse_efficiency() const {

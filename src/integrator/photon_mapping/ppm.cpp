@@ -10,7 +10,7 @@ namespace nephroid {
 
 namespace {
 
-constexpr int kMin = 4, kMax = 16;
+constexpr int kMinHitPoints = 4, kMaxHitPoints = 16;
 
 const EstimatorSetting kHitPointsSetting = {
     "hit-points",
@@ -52,7 +52,7 @@ constinit const EstimatorDescriptor Ppm::kDescriptor = {
 
 int Ppm::hit_points(const IntegratorOptions& options, int samples_per_pixel) {
   const int asked = options.own<PpmOptions>().hit_points;
-  return asked > 0 ? asked : std::clamp(samples_per_pixel, kMin, kMax);
+  return asked > 0 ? asked : std::clamp(samples_per_pixel, kMinHitPoints, kMaxHitPoints);
 }
 
 int Ppm::regions_per_pixel(const Scene& scene) const {

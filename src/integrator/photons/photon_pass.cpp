@@ -9,8 +9,9 @@ namespace {
 
 // Photons of a pass when the user gave no number: it grows with the picture, within bounds.
 int64_t default_photons_per_pass(int64_t pixels) {
-  constexpr int64_t kMin = 1 << 16, kMax = 1 << 20;
-  return std::clamp<int64_t>(std::bit_ceil(static_cast<uint64_t>(pixels)), kMin, kMax);
+  constexpr int64_t kMinPhotons = 1 << 16, kMaxPhotons = 1 << 20;
+  return std::clamp<int64_t>(std::bit_ceil(static_cast<uint64_t>(pixels)), kMinPhotons,
+                             kMaxPhotons);
 }
 
 }  // namespace

@@ -119,9 +119,9 @@ uint64_t trace(const Scene& scene, const OwnedRoutes& owned, const PhotonTraceSe
 }  // namespace
 
 int64_t point_lights_in_memory_of(int64_t photons) {
-  constexpr double kSize = sizeof(PointLight), kMin = 1024;
+  constexpr double kSize = sizeof(PointLight), kMinLights = 1024;
   return static_cast<int64_t>(
-      std::max(kMin, static_cast<double>(photons) * sizeof(Photon) / kSize));
+      std::max(kMinLights, static_cast<double>(photons) * sizeof(Photon) / kSize));
 }
 
 PointLightPool::PointLightPool(const Scene& scene, const OwnedRoutes& owned,

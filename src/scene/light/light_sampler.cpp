@@ -35,8 +35,8 @@ struct LightSampler::Impl {
     for (int i = 0; i < static_cast<int>(lights.size()); ++i) {
       const float power = lights[i]->power();
       // An infinite light in an enormous scene may have more than there are numbers.
-      constexpr float kMax = std::numeric_limits<float>::max();
-      powers.push_back(power > 0.0f ? std::min(power, kMax) : 0.0f);
+      constexpr float kMaxPower = std::numeric_limits<float>::max();
+      powers.push_back(power > 0.0f ? std::min(power, kMaxPower) : 0.0f);
       const auto bounds = lights[i]->bounds();
       if (!bounds)
         infinite.push_back(i);

@@ -28,14 +28,14 @@ const IntegratorSetting kSettings[] = {
      },
      [](const RenderSettings& s) { return fmt::format("{}", s.integrator.max_depth); },
      kForEverybody},
-    {"photons", "N", "0", "paths",
+    {"photons", "N", "0, chosen", "paths",
      "Photon paths emitted per pass. 0 chooses by the size of the film.",
      [](RenderSettings& s, const std::string& t) {
        s.integrator.photons_per_pass = parse_integer("-D photons", t, 0);
      },
      [](const RenderSettings& s) { return fmt::format("{}", s.integrator.photons_per_pass); },
      kForEverybody},
-    {"camera-samples", "N", "0", "samples",
+    {"camera-samples", "N", "0, chosen", "samples",
      "Camera paths per pixel and pass. Up to 65535; 0 lets the integrator choose. In `mixed` also "
      "walks for lamps behind glass.",
      [](RenderSettings& s, const std::string& t) {
@@ -45,7 +45,7 @@ const IntegratorSetting kSettings[] = {
        return fmt::format("{}", s.integrator.camera_samples_per_pass);
      },
      kForEverybody},
-    {"radius", "X", "0", "pixels",
+    {"radius", "X", "0, chosen", "pixels",
      "Merge radius of the first pass. It is in footprints of a pixel; 0 lets the integrator "
      "choose.",
      [](RenderSettings& s, const std::string& t) {

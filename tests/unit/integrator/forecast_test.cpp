@@ -64,7 +64,7 @@ TEST(Forecast, SaysWhatItsSightsAreGoodFor) {
   const std::vector<std::string> routes = {"all=.*:forecast"};
   const EstimatorStatistics few = statistics_after(*scene, routes, {{1, 0}}, 128);
   ASSERT_GT(few.photons_stored, 0u);
-  ASSERT_LT(few.photons_stored, static_cast<uint64_t>(ForecastLobes::kMax));
+  ASSERT_LT(few.photons_stored, static_cast<uint64_t>(ForecastLobes::kMaxLobes));
   ASSERT_EQ(few.notes.size(), 1u);
   EXPECT_EQ(few.notes[0], std::to_string(few.photons_stored) +
                               " records of 128 photon paths are too few to foretell a caustic: its "

@@ -223,7 +223,7 @@ TEST(ForecastMap, LooksTowardsTheCastersOfTheNearest) {
     std::sort(by_distance.begin(), by_distance.end(), [&](const auto& a, const auto& b) {
       return length_squared(a.p - p) < length_squared(b.p - p);
     });
-    by_distance.resize(ForecastLobes::kMax);
+    by_distance.resize(ForecastLobes::kMaxLobes);
     const float reach = length(by_distance.back().p - p);
     ForecastLobes expected;
     for (const CausticRecord& record : by_distance) {
@@ -236,7 +236,7 @@ TEST(ForecastMap, LooksTowardsTheCastersOfTheNearest) {
       expected.add(axis, std::max(0.5f * reach / distance, std::min(gaps[2], 0.5f)));
     }
     const ForecastLobes found = map.lobes_at(p);
-    ASSERT_EQ(found.count(), ForecastLobes::kMax);
+    ASSERT_EQ(found.count(), ForecastLobes::kMaxLobes);
     for (const Vec3f& w : {normalize(left - p), normalize(right - p), Vec3f(0, 0, 1)})
       EXPECT_NEAR(found.pdf_w(w), expected.pdf_w(w), 1e-4f * (1 + expected.pdf_w(w)));
   }
