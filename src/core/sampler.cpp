@@ -1,6 +1,7 @@
 #include "core/sampler.h"
 
 #include <algorithm>
+#include <bit>
 #include <boost/random/sobol.hpp>
 
 namespace nephroid {
@@ -27,12 +28,17 @@ SobolPoint::SobolPoint(uint32_t index, int dimensions, std::span<const uint8_t> 
     : index_(index), dimensions_(dimensions) {
   const SobolDirections& directions = sobol_directions();
   const size_t count = dimensions, dealt = std::min(order.size(), count);
-  std::fill_n(reversed_.begin(), count, 0u);
-  for (uint32_t bit = 0; bit < 32; ++bit) {
-    if (!((index >> bit) & 1u)) continue;
-    for (size_t d = 0; d < dealt; ++d) reversed_[d] ^= directions[bit][order[d]];
-    for (size_t d = dealt; d < count; ++d) reversed_[d] ^= directions[bit][d];
+  size_t needed = count;
+  for (size_t d = 0; d < dealt; ++d) needed = std::max(needed, size_t{order[d]} + 1);
+  // In the order of the sequence first, so that a compiler makes few instructions of it.
+  std::array<uint32_t, kSobolDimensions> in_sequence;
+  std::fill_n(in_sequence.begin(), needed, 0u);
+  for (uint32_t bits = index; bits != 0; bits &= bits - 1) {
+    const auto& of_bit = directions[std::countr_zero(bits)];
+    for (size_t d = 0; d < needed; ++d) in_sequence[d] ^= of_bit[d];
   }
+  for (size_t d = 0; d < dealt; ++d) reversed_[d] = in_sequence[order[d]];
+  for (size_t d = dealt; d < count; ++d) reversed_[d] = in_sequence[d];
 }
 
 }  // namespace nephroid
