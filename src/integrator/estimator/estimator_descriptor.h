@@ -1,4 +1,4 @@
-// What the rest of the program knows of an estimator. Each has one, beside its class, and one row
+// Describes an estimator to the rest of the program. Each has one, beside its class, and one row
 // in the table of estimators (integrator/presets/estimator_table.cpp); nothing else switches on
 // which estimator it has.
 #pragma once
@@ -20,8 +20,8 @@ struct Capabilities {
   bool independent_passes = true;  ///< passes may be rendered anywhere, in any order, and added up
   bool per_pixel_state = false;    ///< keeps more than the film does (E1)
   bool consistent = true;          ///< tends to the truth as passes are added; else an error stays
-  /// What it learns is part of its light and not a guide: pictures of two seeds that share it are
-  /// not independent.
+  /// The learned value carries light, as a photon map does: pictures of two seeds that share it
+  /// are not independent.
   bool learned_is_light = false;
 };
 
@@ -38,7 +38,7 @@ struct EstimatorSetting {
   std::string (*print)(const IntegratorOptions& options);
 };
 
-/// What the memory of an estimator for each pixel depends on.
+/// Input of EstimatorDescriptor::bytes_per_pixel.
 struct PixelMemoryInput {
   size_t parts = 1;  ///< parts of the picture owned by the estimator
   const IntegratorOptions& options;

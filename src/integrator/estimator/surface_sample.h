@@ -1,4 +1,4 @@
-// What a camera path saw first, for the geometric layers of a gbuffer film. It must not know
+// The first surface of a camera path, for the geometric layers of a gbuffer film. It must not know
 // channels or files.
 #pragma once
 

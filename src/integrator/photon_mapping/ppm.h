@@ -10,7 +10,7 @@
 namespace nephroid {
 
 struct PpmOptions {
-  int hit_points = 0;  ///< of a pixel; 0: chosen from the scene's samples
+  int hit_points = 0;  ///< per pixel; 0: as many as samples, within 4 to 16
 };
 
 class Ppm : public Sppm {

@@ -25,7 +25,7 @@ class Sppm : public Estimator {
   EstimatorStatistics statistics() const override;
   void add_state(const Scene& scene, const Film& film, RenderState& state) override;
 
-  /// What rejection of outliers misses: for EstimatorDescriptor::outlier_warning.
+  /// The text of EstimatorDescriptor::outlier_warning.
   static constexpr const char* kNoEstimatesToHold =
       "keep theirs, they have no estimates that could be held";
   /// Of all regions, in footprints: the user's, or the default.

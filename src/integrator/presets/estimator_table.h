@@ -12,7 +12,7 @@ namespace nephroid {
 using EstimatorTable = std::span<const EstimatorDescriptor* const>;
 EstimatorTable estimator_table();
 
-/// What routes need to know of the table's estimators.
+/// The traits of all rows, as parse_route takes them.
 TraitsTable estimator_traits();
 
 /// The row of a group of routes. Throws std::logic_error if its estimator is not in the table.
