@@ -1,8 +1,8 @@
 #include "photon/emission_guide.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstring>
 
 #include "core/warps.h"
 #include "photon/start_tree.h"
@@ -21,6 +21,10 @@ constexpr double kShareAround = 0.125;
 constexpr float kWider = 1.05f;
 /// Targets that density() looks at together.
 constexpr size_t kLanes = 8;
+using FloatLanes = float __attribute__((vector_size(kLanes * sizeof(float))));
+using IntLanes = int32_t __attribute__((vector_size(kLanes * sizeof(int32_t))));
+using DoubleLanes = double __attribute__((vector_size(kLanes * sizeof(double))));
+using LongLanes = int64_t __attribute__((vector_size(kLanes * sizeof(int64_t))));
 /// Over the scene's radius.
 constexpr float kSmallest = 1e-4f;
 
@@ -32,6 +36,13 @@ std::optional<double> radius_of_all(const Scene& scene, const Light& light, cons
   if (!bounds) return std::nullopt;
   const Vec3f middle = (bounds->bounds.min + bounds->bounds.max) * 0.5f;
   return 2 * std::max(double{length(center - middle)}, 1e-15);
+}
+
+template <typename Lanes>
+Lanes lanes_at(const auto& values, size_t first) {
+  Lanes lanes;
+  std::memcpy(&lanes, &values[first], sizeof lanes);
+  return lanes;
 }
 
 double part_through(const Scene& scene, const Light& light, const EmissionGuide::Target& target) {
@@ -245,29 +256,40 @@ double EmissionGuide::density(const Scene& scene, int light, const Vec3f& p, con
                               double own, int aimed_at) const {
   if (empty()) return own;
   const Light& l = *scene.lights[light];
-  const bool across = l.is_infinite(), has_disk = across && l.emits_through_disk();
+  const bool across = l.is_infinite(), owns_all = across && !l.emits_through_disk();
   const std::vector<double>& shares = clusters_[cluster_of(light)].shares;
-  // Sums of their own for each lane, which a compiler makes one instruction of.
-  std::array<double, kLanes> sums{};
-  for (size_t first = 0; first < shares.size(); first += kLanes)
-    for (size_t lane = 0; lane < kLanes; ++lane) {
-      const size_t k = first + lane;
-      const Vec3f way(lanes_.x[k] - p.x, lanes_.y[k] - p.y, lanes_.z[k] - p.z);
-      const float along = way.x * w.x + way.y * w.y + way.z * w.z;
-      const Vec3f aside(way.x - w.x * along, way.y - w.y * along, way.z - w.z * along);
-      const float aside2 = aside.x * aside.x + aside.y * aside.y + aside.z * aside.z;
-      const float r2 = lanes_.radius2[k];
-      const double radius2 = double{r2}, d2 = double{way.x * way.x + way.y * way.y + way.z * way.z};
-      const bool is_aimed = static_cast<int>(k) == aimed_at;
-      const bool hits = is_aimed || (aside2 <= r2 && (across || along >= 0));
-      const double sine2 = radius2 / d2;
-      const double cone = (1 + std::sqrt(std::max(0.0, 1 - sine2))) / (2 * double{kPi} * sine2);
-      const double aimed = across ? 1 / (double{kPi} * radius2) : cone;
-      const bool is_own = across ? !has_disk : d2 <= radius2;  // from inside of a target
-      sums[lane] += shares[k] * (is_own ? own : hits ? aimed : 0.0);
-    }
+  const DoubleLanes all_own = own - DoubleLanes{};
+  DoubleLanes sums{};
+  for (size_t first = 0; first < shares.size(); first += kLanes) {
+    const FloatLanes x = lanes_at<FloatLanes>(lanes_.x, first) - p.x;
+    const FloatLanes y = lanes_at<FloatLanes>(lanes_.y, first) - p.y;
+    const FloatLanes z = lanes_at<FloatLanes>(lanes_.z, first) - p.z;
+    const FloatLanes r2 = lanes_at<FloatLanes>(lanes_.radius2, first);
+    const FloatLanes along = x * w.x + y * w.y + z * w.z;
+    const FloatLanes aside_x = x - w.x * along, aside_y = y - w.y * along,
+                     aside_z = z - w.z * along;
+    const FloatLanes aside2 = aside_x * aside_x + aside_y * aside_y + aside_z * aside_z;
+    const DoubleLanes radius2 = __builtin_convertvector(r2, DoubleLanes);
+    const DoubleLanes d2 = __builtin_convertvector(x * x + y * y + z * z, DoubleLanes);
+    IntLanes hits = aside2 <= r2;
+    if (!across) hits &= along >= 0;
+    if (aimed_at >= 0 && static_cast<size_t>(aimed_at) / kLanes == first / kLanes)
+      hits[aimed_at % kLanes] = -1;
+    const DoubleLanes sine2 = radius2 / d2;
+    DoubleLanes cosine = 1 - sine2;
+    cosine = cosine > 0 ? cosine : DoubleLanes{};
+    for (size_t lane = 0; lane < kLanes; ++lane) cosine[lane] = std::sqrt(cosine[lane]);
+    const DoubleLanes cone = (1 + cosine) / (2 * double{kPi} * sine2);
+    const DoubleLanes aimed = across ? 1 / (double{kPi} * radius2) : cone;
+    DoubleLanes densities = __builtin_convertvector(hits, LongLanes) ? aimed : DoubleLanes{};
+    if (owns_all)
+      densities = all_own;
+    else if (!across)  // from inside of a target
+      densities = d2 <= radius2 ? all_own : densities;
+    sums += lanes_at<DoubleLanes>(shares, first) * densities;
+  }
   double sum = 0;
-  for (const double part : sums) sum += part;
+  for (size_t lane = 0; lane < kLanes; ++lane) sum += sums[lane];
   return kDefensive * own + (1 - kDefensive) * sum;
 }
 

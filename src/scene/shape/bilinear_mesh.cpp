@@ -88,6 +88,8 @@ class BilinearMesh final : public Shape {
     return {to_double(p[v[0]]), to_double(p[v[1]]), to_double(p[v[2]]), to_double(p[v[3]])};
   }
   Vec3d outside_normal(uint32_t primitive, const BilinearPatch&, double u, double v) const;
+  /// The same, from the normal along dpdu x dpdv, which a flipped mesh turned around already.
+  Vec3d turned_outside(uint32_t primitive, const Vec3d& n, float u, float v) const;
   void fill_texture_frame(uint32_t primitive, const Vec2f& uv, SurfaceInteraction& out) const;
   PlaneRectangle plane(uint32_t primitive) const;  ///< of a patch that is a rectangle
   Vec2f texture_point(uint32_t primitive, const Vec2f& uv) const;
@@ -162,11 +164,13 @@ std::optional<ShapeHit> BilinearMesh::intersect(uint32_t primitive, const Ray& r
 
 Vec3d BilinearMesh::outside_normal(uint32_t primitive, const BilinearPatch& shape, double u,
                                    double v) const {
-  Vec3d n = unit_cross(shape, u, v);
-  if (flip_) n = -n;
+  const Vec3d n = unit_cross(shape, u, v);
+  return turned_outside(primitive, flip_ ? -n : n, static_cast<float>(u), static_cast<float>(v));
+}
+
+Vec3d BilinearMesh::turned_outside(uint32_t primitive, const Vec3d& n, float u, float v) const {
   if (data_.normals.empty()) return n;
-  const Vec3f ns =
-      blend(data_.normals, corners(primitive), static_cast<float>(u), static_cast<float>(v));
+  const Vec3f ns = blend(data_.normals, corners(primitive), u, v);
   return n.dot(to_double(ns)) < 0.0 ? -n : n;
 }
 
@@ -207,16 +211,18 @@ void BilinearMesh::fill(uint32_t primitive, const Vec2f& hit_uv, const Ray&, flo
   out.dpdv = to_float(pv);
 
   const Vec3d before = unit_cross(shape, u, v) * (flip_ ? -1.0 : 1.0);
-  out.ng = to_float(outside_normal(primitive, shape, u, v));
+  out.ng = to_float(turned_outside(primitive, before, hit_uv.x, hit_uv.y));
   Vec3f ns(0, 0, 0);
   if (!data_.normals.empty()) ns = blend(data_.normals, corner, hit_uv.x, hit_uv.y);
   const bool has_normal = max_component(abs(ns)) > 0.0f;
   if (has_normal) {
     out.dndu = blend_by_u(data_.normals, corner, hit_uv.y);
     out.dndv = blend_by_v(data_.normals, corner, hit_uv.x);
+  } else if (const Vec3d twist = shape.d2pduv(); twist == Vec3d(0, 0, 0)) {
+    out.dndu = out.dndv = Vec3f(0, 0, 0);
   } else {
     // The normal is dpdu x dpdv divided by its length; only the mixed second derivative exists.
-    const Vec3d n = pu.cross(pv), twist = shape.d2pduv();
+    const Vec3d n = pu.cross(pv);
     const double l2 = n.dot(n);
     const auto derivative = [&](const Vec3d& dn) {
       if (!(l2 > 0.0)) return Vec3f(0, 0, 0);

@@ -125,10 +125,7 @@ std::optional<ShapeHit> Quadric::intersect(uint32_t, const Ray& ray, float t_min
   for (int i = 0; i < found.count; ++i) {
     const float t = static_cast<float>(found.t[i]);
     if (!(t > t_min && t < ray.t_max)) continue;
-    const Vec3d p = project(o + d * found.t[i]);
-    if (!contains(p)) continue;
-    const Vec2d uv = uv_of(p);
-    return ShapeHit{t, Vec2f(static_cast<float>(uv.x), static_cast<float>(uv.y))};
+    if (contains(project(o + d * found.t[i]))) return ShapeHit{.t = t};
   }
   return std::nullopt;
 }
@@ -140,7 +137,8 @@ void Quadric::fill(uint32_t, const Vec2f& hit_uv, const Ray& ray, float t,
   const Roots found = roots(o, d);
   Vec3d p;
   if (found.count == 0) {
-    p = point_at(Vec2d(hit_uv.x, hit_uv.y));
+    // A ray that grazes may miss here what it met in another arithmetic.
+    p = ray.d == Vec3f(0) ? point_at(Vec2d(hit_uv.x, hit_uv.y)) : project(o + d * double{t});
   } else {
     const bool second =
         found.count == 2 && std::abs(found.t[1] - t) < std::abs(found.t[0] - double(t));

@@ -12,7 +12,9 @@ class Quadric : public Shape {
  public:
   uint32_t primitive_count() const final { return 1; }
   Bounds3f bounds(uint32_t) const final { return bounds_; }
+  /// Leaves the hit's uv at 0: fill() meets the surface again, and most hits are never filled.
   std::optional<ShapeHit> intersect(uint32_t, const Ray& ray, float t_min) const final;
+  /// `hit_uv` counts only with a ray that has no direction: it is the point then.
   void fill(uint32_t, const Vec2f& hit_uv, const Ray& ray, float t,
             SurfaceInteraction& out) const final;
   float area(uint32_t) const final;

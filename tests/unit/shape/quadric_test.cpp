@@ -243,7 +243,7 @@ TEST(Quadrics, FirstHitIsTheOneFoundBySmallSteps) {
     SurfaceInteraction s;
     shape->fill(0, hit->uv, ray, hit->t, s);
     EXPECT_LT(length(s.p - (ray.o + ray.d * hit->t)), 2e-6f * (1 + hit->t));
-    EXPECT_LT(length(s.p - surface_at(*shape, 0, hit->uv).p), 2e-6f);
+    EXPECT_LT(length(s.p - surface_at(*shape, 0, s.uv).p), 2e-6f);
     EXPECT_TRUE(shape->bounds(0).intersects(s.p));
     ray.t_max = hit->t * 0.999f;
     EXPECT_FALSE(shape->intersect(0, ray, 0.0f));
