@@ -214,6 +214,7 @@ std::optional<BenchRendered> render_for_bench(const BenchRender& wanted, const P
   render.use_clock([&] { return watch.seconds(); });
   if (reference != nullptr)
     render.on_progress([&](const RenderProgress& progress) {
+      if (progress.within_pass) return;
       watch.pause_for([&] { curve.pass_is_done(progress.passes_done, progress.seconds); });
     });
   const RenderResult result = render.run(signals);

@@ -65,20 +65,21 @@ int thread_count() {
   return n > 0 ? n : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
-void parallel_chunks(int64_t count, int64_t chunk_size,
-                     const std::function<void(int64_t, int64_t, int64_t)>& body) {
-  const int64_t chunks = chunk_count(count, chunk_size);
-  std::atomic<int64_t> next{0};
-  const auto work = [&] {
-    const FlushToZero scope;
-    for (int64_t c = next++; c < chunks; c = next++)
-      body(c, c * chunk_size, std::min(count, (c + 1) * chunk_size));
-  };
+namespace {
+
+/// Runs `work` on so many threads, of which the caller's is one.
+void on_threads(int64_t count, const std::function<void()>& work) {
   std::vector<std::thread> threads;
-  const int64_t n = std::min<int64_t>(thread_count(), chunks);
-  for (int64_t i = 1; i < n; ++i) threads.emplace_back(work);
+  for (int64_t i = 1; i < count; ++i) threads.emplace_back(work);
   work();
   for (std::thread& t : threads) t.join();
+}
+
+}  // namespace
+
+void parallel_chunks(int64_t count, int64_t chunk_size,
+                     const std::function<void(int64_t, int64_t, int64_t)>& body) {
+  parallel_chunks(unwatched, count, chunk_size, body);
 }
 
 #else
@@ -99,9 +100,30 @@ int thread_count() {
       tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
 }
 
+namespace {
+
+/// Runs `loop` where there is room for all threads: the implicit arena has one slot per core.
+template <class Loop>
+void in_arena(Loop&& loop) {
+  if (thread_count() > tbb::this_task_arena::max_concurrency())
+    tbb::task_arena(thread_count()).execute(loop);
+  else
+    loop();
+}
+
+void on_threads(int64_t count, const std::function<void()>& work) {
+  in_arena([&] {
+    tbb::parallel_for(
+        tbb::blocked_range<int64_t>(0, count, 1),
+        [&](const tbb::blocked_range<int64_t>&) { work(); }, tbb::simple_partitioner());
+  });
+}
+
+}  // namespace
+
 void parallel_chunks(int64_t count, int64_t chunk_size,
                      const std::function<void(int64_t, int64_t, int64_t)>& body) {
-  const auto loop = [&] {
+  in_arena([&] {
     tbb::parallel_for(
         tbb::blocked_range<int64_t>(0, chunk_count(count, chunk_size), 1),
         [&](const tbb::blocked_range<int64_t>& range) {
@@ -110,14 +132,27 @@ void parallel_chunks(int64_t count, int64_t chunk_size,
             body(c, c * chunk_size, std::min(count, (c + 1) * chunk_size));
         },
         tbb::simple_partitioner());
-  };
-  // The implicit arena has one slot per core; more threads than that need an arena of their own.
-  if (thread_count() > tbb::this_task_arena::max_concurrency())
-    tbb::task_arena(thread_count()).execute(loop);
-  else
-    loop();
+  });
 }
 
 #endif
+
+void parallel_chunks(PassControl& control, int64_t count, int64_t chunk_size,
+                     const std::function<void(int64_t, int64_t, int64_t)>& body) {
+  const int64_t chunks = chunk_count(count, chunk_size);
+  std::atomic<int64_t> next{0};
+  const auto work = [&] {
+    const FlushToZero scope;
+    do {
+      const int64_t c = next++;
+      if (c >= chunks) return;
+      body(c, c * chunk_size, std::min(count, (c + 1) * chunk_size));
+    } while (!control.is_wanted());
+  };
+  while (next < chunks) {
+    on_threads(std::min<int64_t>(thread_count(), chunks - next), work);
+    if (next < chunks) control.attend();
+  }
+}
 
 }  // namespace nephroid

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/pass_control.h"
+
 namespace nephroid {
 
 /// Number of threads that parallel loops use.
@@ -33,6 +35,11 @@ class ThreadLimit {
 void parallel_chunks(int64_t count, int64_t chunk_size,
                      const std::function<void(int64_t chunk, int64_t begin, int64_t end)>& body);
 
+/// The same, in about their order, with `control` asked before each chunk; at least one chunk is
+/// done between two calls of attend(). Throws what attend() throws: no chunk is half done then.
+void parallel_chunks(PassControl& control, int64_t count, int64_t chunk_size,
+                     const std::function<void(int64_t chunk, int64_t begin, int64_t end)>& body);
+
 /// Number of chunks of such a loop.
 constexpr int64_t chunk_count(int64_t count, int64_t chunk_size) {
   return (count + chunk_size - 1) / chunk_size;
@@ -41,9 +48,9 @@ constexpr int64_t chunk_count(int64_t count, int64_t chunk_size) {
 /// Runs work(result, begin, end) for the same chunks, each with a T of its own, and returns the
 /// results in the order of the chunks.
 template <class T, class Work>
-std::vector<T> chunk_results(int64_t count, int64_t chunk_size, Work&& work) {
+std::vector<T> chunk_results(PassControl& control, int64_t count, int64_t chunk_size, Work&& work) {
   std::vector<T> results(chunk_count(count, chunk_size));
-  parallel_chunks(count, chunk_size, [&](int64_t chunk, int64_t begin, int64_t end) {
+  parallel_chunks(control, count, chunk_size, [&](int64_t chunk, int64_t begin, int64_t end) {
     work(results[chunk], begin, end);
   });
   return results;
@@ -52,8 +59,9 @@ std::vector<T> chunk_results(int64_t count, int64_t chunk_size, Work&& work) {
 /// The same, and then calls append(T&&) with each result, in order, on this thread: what is
 /// appended does not depend on the number of threads.
 template <class T, class Work, class Append>
-void ordered_reduce(int64_t count, int64_t chunk_size, Work&& work, Append&& append) {
-  for (T& result : chunk_results<T>(count, chunk_size, std::forward<Work>(work)))
+void ordered_reduce(PassControl& control, int64_t count, int64_t chunk_size, Work&& work,
+                    Append&& append) {
+  for (T& result : chunk_results<T>(control, count, chunk_size, std::forward<Work>(work)))
     append(std::move(result));
 }
 

@@ -27,7 +27,8 @@ double variance_of_mean(const FixedSum& sum, const FixedSum& square, uint64_t n)
 
 }  // namespace
 
-Film::Film(const FilmSettings& settings, FilmLayout layout) : format_(settings, std::move(layout)) {
+Film::Film(const FilmSettings& settings, FilmLayout layout)
+    : format_(settings, std::move(layout)), slices_(bounds()) {
   const int groups = this->layout().group_count();
   parts_of_route_.resize(this->layout().routes.size());
   parts_of_aov_.resize(this->layout().aovs.size());
@@ -42,7 +43,8 @@ Film::Film(const FilmSettings& settings, FilmLayout layout) : format_(settings, 
   const size_t pixels = bounds().area();
   sums_.assign(this->layout().parts.size(), std::vector<RgbSum>(pixels));
   squares_.assign(groups, std::vector<RgbSum>(pixels));
-  estimates_.assign(groups, 0);
+  estimates_.assign(groups + 1, 0);
+  open_.assign(groups + 1, OpenPass{std::vector<uint32_t>(slices_.count(), 0)});
   for (int g = 0; g < groups; ++g) {
     if (!this->layout().group_merges(g)) continue;
     biases_.resize(groups);
@@ -111,19 +113,20 @@ void Film::replace(int group, int x, int y, std::span<const Rgb> values) {
 
 void Film::add_bias(int group, std::span<const float> of_pixels) {
   if (!layout().group_merges(group)) return;
-  std::vector<Bias>& biases = biases_[group];
-  assert(of_pixels.size() == biases.size());
-  parallel_chunks(biases.size(), 1 << 14, [&](int64_t, int64_t begin, int64_t end) {
-    for (int64_t i = begin; i < end; ++i) {
-      const double b = double{of_pixels[i]};
-      if (!std::isfinite(b)) {
-        count_saturated(1);
-        continue;
-      }
-      Bias& bias = biases[i];
-      if (!(bias.sum.add(b) && bias.square.add(b * b))) count_saturated(1);
-    }
+  assert(of_pixels.size() == biases_[group].size());
+  parallel_chunks(of_pixels.size(), 1 << 14, [&](int64_t, int64_t begin, int64_t end) {
+    for (int64_t i = begin; i < end; ++i) add_bias_of(group, i, of_pixels[i]);
   });
+}
+
+void Film::add_bias(int group, int x, int y, float bias) {
+  if (layout().group_merges(group)) add_bias_of(group, index(x, y), bias);
+}
+
+void Film::add_bias_of(int group, size_t pixel, float value) {
+  const double b = double{value};
+  Bias& bias = biases_[group][pixel];
+  if (!std::isfinite(b) || !(bias.sum.add(b) && bias.square.add(b * b))) count_saturated(1);
 }
 
 void Film::release(int group, size_t pixel, std::span<const RgbSum> held) {
@@ -156,9 +159,31 @@ void Film::finish_pass() {
 
 void Film::add_estimates(int group, uint64_t count) {
   estimates_[group] += count;
+  OpenPass& open = open_[group];
+  if (open.slices > 0) open = OpenPass{std::vector<uint32_t>(slices_.count(), 0)};
 }
 void Film::set_estimates(int group, uint64_t count) {
   estimates_[group] = count;
+}
+void Film::finish_slice(int group, size_t slice, uint64_t count) {
+  OpenPass& open = open_[group];
+  open.done[slice] = 1;
+  std::atomic_ref(open.estimates).store(count, std::memory_order_relaxed);
+  std::atomic_ref(open.slices).fetch_add(1, std::memory_order_relaxed);
+}
+bool Film::has_open_pass() const {
+  return std::ranges::any_of(
+      open_, [](const OpenPass& open) { return open.slices > 0 || open.is_whole != 0; });
+}
+void Film::close_pass() {
+  for (OpenPass& open : open_) open.is_whole = 0;
+}
+uint64_t Film::count_of_slice(size_t group, size_t pixel) const {
+  const OpenPass& open = open_[group];
+  const size_t w = bounds().width();
+  const size_t slice = slices_.slice_of(bounds().x0 + static_cast<int>(pixel % w),
+                                        bounds().y0 + static_cast<int>(pixel / w));
+  return open.done[slice] != 0 ? open.estimates : 0;
 }
 uint64_t Film::estimates(int group) const {
   return estimates_[group];
@@ -176,7 +201,7 @@ void Film::count_bad(int group, size_t part, const Vec2i& pixel) {
 }
 
 void Film::count_saturated(uint64_t sums) {
-  std::atomic_ref(counts_.saturated).fetch_add(sums, std::memory_order_relaxed);
+  std::atomic_ref(saturated_).fetch_add(sums, std::memory_order_relaxed);
 }
 
 bool Film::is_bad(int group, int x, int y, std::span<const Rgb> values) {
@@ -204,7 +229,7 @@ void Film::add_features(int x, int y, const Rgb& albedo, const Vec3f& normal, fl
   if (!fits) count_saturated(1);
 }
 void Film::add_feature_estimates(uint64_t count) {
-  counts_.feature_estimates += count;
+  add_estimates(layout().group_count(), count);
 }
 
 void Film::add_surface(int x, int y, const SurfaceSample& s) {
@@ -222,12 +247,12 @@ void Film::add_surface(int x, int y, const SurfaceSample& s) {
 Rgb Film::mean_of_parts(const std::vector<int>& parts, size_t pixel) const {
   double total[3] = {0, 0, 0};
   for (size_t begin = 0, end = 0; begin < parts.size(); begin = end) {
-    const auto count_of = [&](size_t i) {
-      return estimates(layout().group_of(layout().parts[parts[i]]));
+    const auto count_at = [&](size_t i) {
+      return count_of(layout().group_of(layout().parts[parts[i]]), pixel);
     };
-    const uint64_t count = count_of(begin);
+    const uint64_t count = count_at(begin);
     FixedSum sum[3];
-    for (end = begin; end < parts.size() && count_of(end) == count; ++end)
+    for (end = begin; end < parts.size() && count_at(end) == count; ++end)
       for (int c = 0; c < 3; ++c) sum[c].add(sums_[parts[end]][pixel].rgb[c]);
     if (count == 0) continue;
     for (int c = 0; c < 3; ++c) total[c] += sum[c].value() / static_cast<double>(count);
@@ -245,24 +270,46 @@ Rgb Film::value(int x, int y) const {
   return mean_of_parts(all_parts_, index(x, y));
 }
 
+size_t Film::nearest_reached(size_t group, size_t pixel) const {
+  const size_t w = bounds().width();
+  size_t found = pixel;
+  for (int level = slices_.levels(); level > 0 && count_of(group, found) == 0; --level) {
+    const size_t spacing = slices_.spacing(level - 1);
+    found = pixel / w / spacing * spacing * w + pixel % w / spacing * spacing;
+  }
+  return found;
+}
+
+Rgb Film::preview_value(int x, int y) const {
+  if (!has_open_pass()) return value(x, y);
+  double total[3] = {0, 0, 0};
+  for (int g = 0; g < layout().group_count(); ++g) {
+    const Rgb mean = mean_of_parts(parts_of(g), nearest_reached(g, index(x, y)));
+    for (int c = 0; c < 3; ++c) total[c] += double{mean[c]};
+  }
+  return to_rgb(total);
+}
+
 Rgb Film::outliers(int x, int y) const {
   double total[3] = {0, 0, 0};
   for (int g = 0; outliers_ && g < layout().group_count(); ++g) {
-    if (estimates(g) == 0) continue;
+    const uint64_t count = estimates(g, x, y);
+    if (count == 0) continue;
     const RgbSum held = outliers_->held(g, index(x, y));
-    for (int c = 0; c < 3; ++c) total[c] += held.rgb[c].value() / static_cast<double>(estimates(g));
+    for (int c = 0; c < 3; ++c) total[c] += held.rgb[c].value() / static_cast<double>(count);
   }
   return to_rgb(total);
 }
 
 std::array<double, 3> Film::error_squared(size_t group, size_t pixel) const {
   std::array<double, 3> squared{};
-  if (estimates_[group] < 2) return squared;
+  const uint64_t count = count_of(group, pixel);
+  if (count < 2) return squared;
   const RgbSum held = outliers_ ? outliers_->held(static_cast<int>(group), pixel) : RgbSum();
   for (size_t c = 0; c < 3; ++c) {
     FixedSum sum = held.rgb[c];
     for (const int part : parts_of(static_cast<int>(group))) sum.add(sums_[part][pixel].rgb[c]);
-    squared[c] = variance_of_mean(sum, squares_[group][pixel].rgb[c], estimates_[group]);
+    squared[c] = variance_of_mean(sum, squares_[group][pixel].rgb[c], count);
   }
   return squared;
 }
@@ -285,27 +332,28 @@ Rgb Film::standard_error(int group, int x, int y) const {
 float Film::bias(int x, int y) const {
   double sum = 0;
   for (size_t g = 0; g < biases_.size(); ++g)
-    if (!biases_[g].empty() && estimates_[g] > 0)
-      sum += biases_[g][index(x, y)].sum.value() / static_cast<double>(estimates_[g]);
+    if (const uint64_t count = count_of(g, index(x, y)); !biases_[g].empty() && count > 0)
+      sum += biases_[g][index(x, y)].sum.value() / static_cast<double>(count);
   return static_cast<float>(sum);
 }
 
 float Film::bias_error(int x, int y) const {
   double sum = 0;
   for (size_t g = 0; g < biases_.size(); ++g) {
-    if (biases_[g].empty() || estimates_[g] < 2) continue;
+    const uint64_t count = count_of(g, index(x, y));
+    if (biases_[g].empty() || count < 2) continue;
     const Bias& bias = biases_[g][index(x, y)];
-    sum += variance_of_mean(bias.sum, bias.square, estimates_[g]);
+    sum += variance_of_mean(bias.sum, bias.square, count);
   }
   return static_cast<float>(std::sqrt(sum));
 }
 
 Rgb Film::albedo(int x, int y) const {
-  if (counts_.feature_estimates == 0) return {};
+  const uint64_t count = estimates(layout().group_count(), x, y);
+  if (count == 0) return {};
   const Features& features = features_[index(x, y)];
   double mean[3];
-  for (int c = 0; c < 3; ++c)
-    mean[c] = features.albedo[c].value() / static_cast<double>(counts_.feature_estimates);
+  for (int c = 0; c < 3; ++c) mean[c] = features.albedo[c].value() / static_cast<double>(count);
   return to_rgb(mean);
 }
 

@@ -16,6 +16,7 @@
 #include "film/film_format.h"
 #include "film/fixed_sum.h"
 #include "film/outlier_rejection.h"
+#include "film/pixel_slices.h"
 #include "film/render_state.h"
 
 namespace nephroid {
@@ -60,10 +61,41 @@ class Film {
   /// and B), row by row over the crop, once for each estimate; forgotten unless the layout has the
   /// group merge.
   void add_bias(int group, std::span<const float> of_pixels);
-  /// Says that `count` more estimates per pixel were added to a group.
+  void add_bias(int group, int x, int y, float bias);
+  /// Says that `count` more estimates per pixel were added to a group, those of slices included.
   void add_estimates(int group, uint64_t count);
   void set_estimates(int group, uint64_t count);
   uint64_t estimates(int group) const;
+
+  /// The order in which passes reach the pixels.
+  const PixelSlices& slices() const { return slices_; }
+  /// Says that `count` more estimates of each pixel of a slice were added to a group, in a pass
+  /// that add_estimates() ends. Slices on any number of threads, each once in a pass; `count` is
+  /// that of all slices.
+  void finish_slice(int group, size_t slice, uint64_t count);
+  bool has_slice(int group, size_t slice) const { return open_[group].done[slice] != 0; }
+  /// The same for features.
+  void finish_feature_slice(size_t slice, uint64_t count) {
+    finish_slice(layout().group_count(), slice, count);
+  }
+  /// Notes that a group has all of a pass that others have not, until close_pass().
+  void note_whole(int group) { open_[group].is_whole = 1; }
+  bool is_whole(int group) const { return open_[group].is_whole != 0; }
+  /// All groups have the pass.
+  void close_pass();
+  /// True if a group has some slices of a pass.
+  bool is_open(int group) const { return open_[group].slices > 0; }
+  /// True if there is a pass of which a group, or the features, has something and another has not.
+  bool has_open_pass() const;
+  /// How much a group has of that pass, 0..1.
+  double fraction_of_pass(int group) const {
+    return is_whole(group)
+               ? 1
+               : static_cast<double>(open_[group].slices) / static_cast<double>(slices_.count());
+  }
+  /// Estimates of a pixel by a group.
+  uint64_t estimates(int group, int x, int y) const { return count_of(group, index(x, y)); }
+
   /// Counts an estimate that was left out before it came here, of parts_of(group)[part] and, if it
   /// is inside the crop, of a pixel; or sums that reached their limit. Any number of threads.
   void count_bad(int group, size_t part, const Vec2i& pixel);
@@ -90,6 +122,9 @@ class Film {
   Rgb route_value(int route, int x, int y) const;
   Rgb aov_value(int aov, int x, int y) const;
   Rgb value(int x, int y) const;
+  /// value(), for showing a pass that is not whole: what a group has not reached yet it takes from
+  /// the nearest pixel of a wider lattice. Black where there is none.
+  Rgb preview_value(int x, int y) const;
   /// What is held of all routes: value() + outliers() is the picture without rejection, up to one
   /// rounding; the sums behind them add up to it exactly. Black without rejection.
   Rgb outliers(int x, int y) const;
@@ -126,7 +161,7 @@ class Film {
   /// Estimates that were not finite; the route is that of the first part that was not.
   const BadEstimates& bad_estimates(int route) const { return bad_[route]; }
   /// Sums that reached their limit, and features and biases that were not finite.
-  uint64_t saturated_values() const { return counts_.saturated; }
+  uint64_t saturated_values() const { return saturated_; }
 
  private:
   struct Bias {
@@ -144,11 +179,19 @@ class Film {
   /// to the group. False if a sum reached its limit.
   bool add_parts(int group, size_t pixel, std::span<const Rgb> values);
   bool add_square(int group, size_t pixel, std::span<const Rgb> values);
+  void add_bias_of(int group, size_t pixel, float bias);
   /// Adds what was held to the parts of a group.
   void release(int group, size_t pixel, std::span<const RgbSum> parts);
   /// Counts an estimate with a value that is not finite. False if it has none.
   bool is_bad(int group, int x, int y, std::span<const Rgb> values);
   Rgb mean_of_parts(const std::vector<int>& parts, size_t pixel) const;
+  /// Estimates of a pixel by a group; the features are one group more.
+  uint64_t count_of(size_t group, size_t pixel) const {
+    return estimates_[group] + (open_[group].slices > 0 ? count_of_slice(group, pixel) : 0);
+  }
+  uint64_t count_of_slice(size_t group, size_t pixel) const;
+  /// The pixel itself or the nearest one of a wider lattice that the group has reached.
+  size_t nearest_reached(size_t group, size_t pixel) const;
   /// Squared standard errors of a group's estimates.
   std::array<double, 3> error_squared(size_t group, size_t pixel) const;
 
@@ -158,19 +201,24 @@ class Film {
   std::vector<int> all_parts_;
   std::vector<std::vector<RgbSum>> sums_;     ///< [part][pixel]
   std::vector<std::vector<RgbSum>> squares_;  ///< [group][pixel], of an estimate's sum over parts
-  std::vector<uint64_t> estimates_;           ///< [group]
-  std::vector<std::vector<Bias>> biases_;     ///< [group][pixel], of groups that merge; or empty
+  std::vector<uint64_t> estimates_;           ///< [group], and of features
+  /// Of the pass that is not whole.
+  struct OpenPass {
+    std::vector<uint32_t> done;  ///< [slice] 0 or 1
+    uint64_t is_whole = 0;       ///< 1: all are done, and counted in estimates_
+    uint64_t slices = 0;         ///< how many are done
+    uint64_t estimates = 0;      ///< of each of their pixels
+  };
+  PixelSlices slices_;
+  std::vector<OpenPass> open_;             ///< [group], and of features
+  std::vector<std::vector<Bias>> biases_;  ///< [group][pixel], of groups that merge; or empty
   std::optional<OutlierRejection> outliers_;
   std::vector<Features> features_;
   std::vector<uint64_t> depths_;           ///< [pixel], feature samples that hit something
   std::vector<SurfaceSums> surfaces_;      ///< empty without geometric layers
   std::vector<uint64_t> surface_samples_;  ///< [pixel], of these
   std::vector<BadEstimates> bad_;          ///< [route]
-  struct Counts {
-    uint64_t feature_estimates = 0;
-    uint64_t saturated = 0;
-  };
-  Counts counts_;
+  uint64_t saturated_ = 0;
 };
 
 }  // namespace nephroid

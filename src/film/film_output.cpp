@@ -95,14 +95,13 @@ Picture film_picture(const Film& film, Metadata metadata) {
   picture.metadata = std::move(metadata);
   const size_t stride = picture.channels.size();
   picture.pixels.resize(bounds.area() * stride);
-  uint64_t samples = 0;
-  for (int g = 0; g < film.layout().group_count(); ++g)
-    samples = std::max(samples, film.estimates(g));
-
   for_each_row(film, [&](int y) {
     const size_t row = static_cast<size_t>(y - bounds.y0) * bounds.width();
     float* out = picture.pixels.data() + row * stride;
     for (int x = bounds.x0; x < bounds.x1; ++x) {
+      uint64_t samples = 0;
+      for (int g = 0; g < film.layout().group_count(); ++g)
+        samples = std::max(samples, film.estimates(g, x, y));
       out = put(out, film.value(x, y));
       for (int r = 0; r < routes; ++r) out = put(out, film.route_value(r, x, y));
       for (int a = 0; a < aovs; ++a) out = put(out, film.aov_value(a, x, y));
@@ -129,7 +128,7 @@ std::vector<uint8_t> film_srgb8(const Film& film, float exposure) {
     const size_t row = static_cast<size_t>(y - bounds.y0) * bounds.width();
     uint8_t* out = bytes.data() + row * 3;
     for (int x = bounds.x0; x < bounds.x1; ++x) {
-      Rgb color = film.value(x, y);
+      Rgb color = film.preview_value(x, y);
       if (convert) color = RgbColorSpace::srgb().from_xyz(space->to_xyz(color));
       for (int c = 0; c < 3; ++c) *out++ = encode_srgb8(color[c] * exposure);
     }

@@ -24,7 +24,13 @@ RenderState Film::state() {
   }
   state.add("film.bad", std::span(bad_));
   state.add("film.estimates", std::span(estimates_));
-  state.add("film.counts", std::span(&counts_, 1));
+  state.add("film.saturated", std::span(&saturated_, 1));
+  for (size_t g = 0; g < open_.size(); ++g) {
+    state.add(numbered("film.open.slices.", g), std::span(open_[g].done));
+    state.add(numbered("film.open.whole.", g), std::span(&open_[g].is_whole, 1));
+    state.add(numbered("film.open.count.", g), std::span(&open_[g].slices, 1));
+    state.add(numbered("film.open.estimates.", g), std::span(&open_[g].estimates, 1));
+  }
   if (outliers_)
     state.streams.push_back({"film.outliers", outliers_->most_words(),
                              [this] { return outliers_->save(); },
@@ -33,6 +39,7 @@ RenderState Film::state() {
 }
 
 void Film::add(const Film& other) {
+  assert(!has_open_pass() && !other.has_open_pass());
   assert(!outliers_ && !other.outliers_ && other.sums_.size() == sums_.size() &&
          other.depths_.size() == depths_.size());
   parallel_chunks(depths_.size(), 1 << 14, [&](int64_t, int64_t b, int64_t e) {
@@ -60,12 +67,11 @@ void Film::add(const Film& other) {
     }
   });
   for (size_t g = 0; g < estimates_.size(); ++g) estimates_[g] += other.estimates_[g];
-  counts_.feature_estimates += other.counts_.feature_estimates;
   for (size_t r = 0; r < bad_.size(); ++r) {
     bad_[r].count += other.bad_[r].count;
     bad_[r].first_pixel = std::min(bad_[r].first_pixel, other.bad_[r].first_pixel);
   }
-  counts_.saturated += other.counts_.saturated;
+  saturated_ += other.saturated_;
 }
 
 }  // namespace nephroid

@@ -143,8 +143,8 @@ PhotonTrace trace_photons(const Scene& scene, const OwnedRoutes& owned,
     std::vector<Photon> photons;
     uint64_t useful = 0, specular = 0, rays = 0;
   };
-  std::vector<Chunk> chunks =
-      chunk_results<Chunk>(end - begin, kPhotonChunk, [&](Chunk& chunk, int64_t b, int64_t e) {
+  std::vector<Chunk> chunks = chunk_results<Chunk>(
+      *settings.control, end - begin, kPhotonChunk, [&](Chunk& chunk, int64_t b, int64_t e) {
         for (int64_t j = begin + b; j < begin + e; ++j) {
           const Outcome outcome = trace_photon(scene, owned, settings, j, chunk.photons);
           chunk.useful += outcome.useful;
@@ -185,11 +185,12 @@ UsefulStarts trace_useful_starts(const Scene& scene, const OwnedRoutes& owned,
     }
   };
   UsefulStarts all;
-  ordered_reduce<UsefulStarts>(end - begin, kPhotonChunk, trace_chunk, [&](UsefulStarts&& chunk) {
-    all.starts.insert(all.starts.end(), chunk.starts.begin(), chunk.starts.end());
-    all.casters.insert(all.casters.end(), chunk.casters.begin(), chunk.casters.end());
-    all.rays += chunk.rays;
-  });
+  ordered_reduce<UsefulStarts>(
+      *settings.control, end - begin, kPhotonChunk, trace_chunk, [&](UsefulStarts&& chunk) {
+        all.starts.insert(all.starts.end(), chunk.starts.begin(), chunk.starts.end());
+        all.casters.insert(all.casters.end(), chunk.casters.begin(), chunk.casters.end());
+        all.rays += chunk.rays;
+      });
   return all;
 }
 

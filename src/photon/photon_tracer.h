@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "core/pass_control.h"
 #include "photon/photon.h"
 #include "photon/photon_guide.h"
 #include "route/scene_symbols.h"
@@ -31,6 +32,7 @@ struct PhotonTraceSettings {
   float specular_alpha = 0;  ///< of the pass
   int max_events = 0;        ///< of the whole path: a photon lands with fewer than these
   const PhotonGuide* guide = &kUnguidedPhotons;
+  PassControl* control = &unwatched;  ///< asked between chunks of photons
 };
 
 /// Traces photons begin <= j < end of the pass and stores one at every surface with a finite lobe

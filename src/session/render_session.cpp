@@ -29,17 +29,15 @@ namespace {
 /// Work that is not rendering (writing, estimating the error for display) waits this many times as
 /// long as it took last time, so that it costs less than 2 % of the time.
 constexpr double kIdlePerWork = 50;
-constexpr double kErrorInterval = 1;  ///< s between estimates for progress, at least
+constexpr double kErrorInterval = 1;       ///< s between estimates for progress, at least
+constexpr double kProgressInterval = 0.2;  ///< s, within passes
+constexpr double kShortestWait = 0.02;     ///< s, until a pass is looked in on again
 /// A spread of fewer passes says too little to stop on.
 constexpr uint32_t kMinPassesForNoise = 4;
 
 double steady_seconds() {
   const auto now = std::chrono::steady_clock::now().time_since_epoch();
   return std::chrono::duration<double>(now).count();
-}
-
-[[noreturn]] void lacks_memory(const std::string& path) {
-  throw IoError(path + ": cannot write: there is not enough memory");
 }
 
 void check_fits(const EstimatorSet& set, const Film& film, const RenderOptions& options) {
@@ -50,6 +48,10 @@ void check_fits(const EstimatorSet& set, const Film& film, const RenderOptions& 
         fmt::format("--passes {}..: with --outliers reject what a pass shows depends on the passes "
                     "before it, expected a range from 0",
                     options.first_pass));
+  if (const auto open = options.begin_with.open_pass;
+      open && (*open < options.first_pass || (options.last_pass && *open > *options.last_pass)))
+    throw UsageError(fmt::format(
+        "--resume: pass {} of the picture is not whole, expected --passes with it", *open));
   const std::vector<PassRange>& before = options.begin_with.passes.ranges();
   const bool from_zero = before.empty() || (before.size() == 1 && before[0].first == 0);
   for (const auto& estimator : set.estimators) {
@@ -79,7 +81,8 @@ RenderSession::RenderSession(const Scene& scene, EstimatorSet& set, Film& film,
   check_fits(set_, film_, options_);
   done_ = options_.begin_with.passes;
   passes_before_ = passes_done_ = static_cast<uint32_t>(done_.count());
-  last_pass_seconds_ = options_.begin_with.last_pass_seconds;
+  open_pass_ = options_.begin_with.open_pass;
+  fraction_before_ = fraction_of_pass();
   if (options_.last_pass)
     passes_wanted_ = *options_.last_pass - options_.first_pass + 1;
   else if (!(options_.time_limit > 0) && !(options_.noise_target > 0))
@@ -105,28 +108,33 @@ RenderResult RenderSession::run(SignalFlags& signals) {
   error_text_pass_ = error_pass_ = 0;
   error_.reset();
   next_error_seconds_ = 0;
-  next_preview_seconds_ = options_.preview_interval;
+  next_preview_seconds_ = std::min(options_.first_preview, options_.preview_interval);
   next_checkpoint_seconds_ = options_.checkpoint_interval;
   RenderResult result;
   std::optional<StopReason> reason;
-  if (!done_.empty()) {
+  if (!done_.empty() && !open_pass_) {
     // It may have come as far as was wished for.
     if (options_.noise_target > 0 && error_check_is_due()) renew_error();
     reason = reason_to_stop(signals);
     if (reason) first_pass_statistics_ = statistics();
   }
   while (!reason) {
-    render_one_pass();
+    if (!render_one_pass(signals)) {
+      reason = *reason_to_end_pass(signals);
+      break;
+    }
     if (passes_of_run() == 1) first_pass_statistics_ = statistics();
     if (error_check_is_due()) renew_error();
     reason = reason_to_stop(signals);
-    report_progress();
+    report_progress(false);
     if (!reason) write_if_due(signals);
   }
+  if (first_pass_statistics_.empty()) first_pass_statistics_ = statistics();
 
   result.reason = *reason;
   result.signal = *reason == StopReason::kSignal ? signals.stop.load() : 0;
   result.passes_done = passes_done_;
+  result.has_unfinished_pass = film_.has_open_pass();
   result.passes_of_run = passes_of_run();
   result.seconds = elapsed();
   // What the clock let stand is of an earlier picture.
@@ -137,12 +145,14 @@ RenderResult RenderSession::run(SignalFlags& signals) {
   renew_error_text();
   result.error_text = error_text_;
   result.faults = invalid_samples(scene_, film_);
-  if (!options_.output.empty())
+  // A signal may come before there is anything to write.
+  if (!options_.output.empty() && (passes_done_ > 0 || film_.has_open_pass()))
     write_last_picture(options_.keeps_state || *reason == StopReason::kSignal);
   return result;
 }
 
 std::optional<uint32_t> RenderSession::next_pass() const {
+  if (open_pass_) return open_pass_;
   const uint32_t pass = done_.first_missing(options_.first_pass);
   constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();  // --passes cannot name it
   if (pass == kNone || (options_.last_pass && pass > *options_.last_pass) ||
@@ -151,28 +161,65 @@ std::optional<uint32_t> RenderSession::next_pass() const {
   return pass;
 }
 
-void RenderSession::render_one_pass() {
+bool RenderSession::render_one_pass(SignalFlags& signals) {
   const double begin = clock_();
   const PassKey key{options_.seed, *next_pass()};
-  set_.render_pass(key, scene_, film_);
+  PassWatch watch(signals, clock_, [&] { look_in(signals, watch); });
+  watch.wake_at(begin);
+  open_pass_ = key.pass;
+  try {
+    set_.render_pass(key, scene_, film_, watch);
+  } catch (const PassStopped&) {
+    return false;
+  }
+  open_pass_.reset();
+  fraction_before_ = 0;
   film_.finish_pass();
   done_.add(key.pass);
   ++passes_done_;
-  last_pass_seconds_ = clock_() - begin;
+  return true;
+}
+
+std::optional<StopReason> RenderSession::reason_to_end_pass(const SignalFlags& signals) const {
+  if (signals.stop.load() != 0) return StopReason::kSignal;
+  // Before there is a picture, a time limit waits for it.
+  const bool has_light = passes_done_ > 0 || film_.has_open_pass();
+  if (options_.time_limit > 0 && has_light && seconds_of_all_runs() >= options_.time_limit)
+    return StopReason::kTime;
+  return std::nullopt;
+}
+
+void RenderSession::look_in(SignalFlags& signals, PassWatch& watch) {
+  if (reason_to_end_pass(signals)) throw PassStopped{};
+  if (passes_done_ > 0 || film_.has_open_pass()) write_if_due(signals);
+  if (elapsed() >= next_progress_seconds_) {
+    report_progress(true);
+    next_progress_seconds_ = elapsed() + kProgressInterval;
+  }
+  double wake = next_progress_seconds_;
+  if (options_.time_limit > 0)
+    wake = std::min(wake, std::max(options_.time_limit - options_.begin_with.seconds,
+                                   elapsed() + kShortestWait));
+  watch.wake_at(start_ + wake);
+}
+
+double RenderSession::fraction_of_pass() const {
+  double done = 0;
+  const int groups = film_.layout().group_count();
+  for (int g = 0; g < groups; ++g) done += film_.fraction_of_pass(g);
+  return groups > 0 ? done / groups : 0;
 }
 
 std::vector<EstimatorStatistics> RenderSession::statistics() const {
   return set_.statistics();
 }
 
-/// A pass that would end further behind the time limit than this one ends before it is not begun.
 std::optional<StopReason> RenderSession::reason_to_stop(const SignalFlags& signals) const {
   if (!next_pass()) return StopReason::kPasses;
   if (options_.noise_target > 0 && error_pass_ == passes_done_ &&
       passes_done_ >= kMinPassesForNoise && error_ && error_->total() <= options_.noise_target)
     return StopReason::kNoise;
-  if (options_.time_limit > 0 &&
-      seconds_of_all_runs() + last_pass_seconds_ / 2 >= options_.time_limit)
+  if (options_.time_limit > 0 && seconds_of_all_runs() >= options_.time_limit)
     return StopReason::kTime;
   if (signals.stop.load() != 0) return StopReason::kSignal;
   return std::nullopt;
@@ -216,18 +263,21 @@ std::optional<double> RenderSession::seconds_left(double seconds) const {
   const auto at_most = [&](double candidate) {
     left = std::max(0.0, left ? std::min(*left, candidate) : candidate);
   };
-  const double per_pass = seconds / passes_of_run();
-  if (passes_wanted_)
-    at_most(per_pass * (static_cast<double>(*passes_wanted_) - passes_done_of_wanted()));
+  const double part = open_pass_ ? fraction_of_pass() : 0;
+  const double passes = passes_of_run() + part - fraction_before_;
+  const double per_pass = passes > 0 ? seconds / passes : kInfinity;
+  if (passes_wanted_ && passes > 0)
+    at_most(per_pass * (static_cast<double>(*passes_wanted_) - passes_done_of_wanted() - part));
   if (options_.time_limit > 0) at_most(options_.time_limit - options_.begin_with.seconds - seconds);
-  if (options_.noise_target > 0 && error_ && error_->total() > 0)
+  if (options_.noise_target > 0 && error_ && error_->total() > 0 && passes > 0)
     at_most(per_pass * (error_pass_ * passes_to(*error_, options_.noise_target) - passes_done_));
   return left;
 }
 
-void RenderSession::report_progress() {
+void RenderSession::report_progress(bool within_pass) {
   if (!progress_) return;
   RenderProgress progress;
+  progress.within_pass = within_pass;
   progress.passes_done = passes_done_of_wanted();
   progress.passes_wanted = passes_wanted_;
   progress.seconds = elapsed();
@@ -264,94 +314,6 @@ double RenderSession::write_now(double interval, const std::function<void()>& wr
   }
   const double cost = clock_() - begin;
   return elapsed() + std::max(interval, kIdlePerWork * cost);
-}
-
-void RenderSession::write_last_picture(bool with_state) {
-  namespace fs = std::filesystem;
-  try {
-    write_exr_file(options_.output, with_state);
-  } catch (const IoError& error) {
-    // A directory of its own: nobody else can have put a link there.
-    const std::string random_letters(6, 'X');  // that mkdtemp puts in their place
-    std::string directory =
-        (fs::path(options_.rescue_directory) / ("nephroid-" + random_letters)).string();
-    const auto lost = [&] {
-      return IoError(
-          fmt::format("{}; nor into '{}': what was rendered since it was last written is lost",
-                      error.what(), options_.rescue_directory));
-    };
-    if (options_.rescue_directory.empty() || ::mkdtemp(directory.data()) == nullptr) throw lost();
-    const fs::path rescue = fs::path(directory) / fs::path(options_.output).filename();
-    try {
-      write_exr_file(rescue.string(), with_state);
-    } catch (const IoError&) {
-      std::error_code ignored;
-      fs::remove_all(directory, ignored);
-      throw lost();
-    }
-    throw IoError(fmt::format("{}; the picture is in {}", error.what(), rescue.string()));
-  }
-  write_png();
-}
-
-void RenderSession::write_picture() {
-  write_exr_file(options_.output, true);
-  write_png();
-}
-
-void RenderSession::write_png() {
-  try {
-    write_preview(options_.output, film_, options_.png_exposure);
-  } catch (const std::bad_alloc&) {
-    lacks_memory(png_path_beside(options_.output));
-  }
-}
-
-void RenderSession::write_exr_file(const std::string& path, bool with_state) {
-  renew_error_text();
-  std::optional<RenderState> state;
-  if (with_state) state = state_of(scene_, set_, film_);
-  try {
-    write_exr(path, film_picture(film_, picture_metadata()), state ? &*state : nullptr);
-  } catch (const std::bad_alloc&) {
-    lacks_memory(path);
-  }
-}
-
-/// What the program chose, and what is wrong with the picture, a line each.
-std::string RenderSession::choices_text() const {
-  std::string choices;
-  for (const std::string& line :
-       choices_report(first_pass_statistics_, statistics(), passes_of_run()))
-    choices += line + "\n";
-  for (const std::string& note : options_.notes) choices += "note: " + note + "\n";
-  if (error_text_) choices += *error_text_ + "\n";
-  for (const std::string& fault : invalid_samples(scene_, film_))
-    choices += "warning: " + fault + "\n";
-  return choices;
-}
-
-Metadata RenderSession::picture_metadata() const {
-  // Who renders nothing more has nothing to say that the picture does not say already.
-  const bool rendered = passes_of_run() > 0;
-  const Checkpoint& before = options_.begin_with;
-  RenderIdentity identity = options_.identity;
-  identity.set_film(film_, options_.seed);
-  identity.instruction_sets = joined_instruction_sets(
-      before.instruction_sets, rendered ? identity.instruction_sets : std::string());
-  Metadata metadata = identity.to_metadata();
-  add_film_metadata(film_, passes_are_independent(set_), &metadata);
-  Checkpoint progress;
-  progress.passes = done_;
-  progress.seconds = seconds_of_all_runs();
-  progress.last_pass_seconds = last_pass_seconds_;
-  progress.history = before.history;
-  if (rendered)
-    progress.history += fmt::format("{} passes in {:.3f} s\n", passes_of_run(), elapsed());
-  add_progress(progress, &metadata);
-  metadata.emplace_back(kChoicesKey, rendered ? choices_text() : before.choices);
-  add_estimates(film_, &metadata);
-  return metadata;
 }
 
 }  // namespace nephroid

@@ -13,6 +13,7 @@
 #include "film/image_io.h"
 #include "integrator/presets/estimator_set.h"
 #include "session/checkpoint/checkpoint.h"
+#include "session/pass_watch.h"
 #include "session/report/noise.h"
 #include "session/signals.h"
 
@@ -29,6 +30,7 @@ struct RenderOptions {
   uint64_t seed = 0;
   std::string output;               ///< EXR, a PNG is written beside it; empty: nothing is written
   std::string rescue_directory;     ///< for the last picture if it cannot be written; empty: none
+  double first_preview = 0.5;       ///< s until the first intermediate PNG, if there is light
   double preview_interval = 5;      ///< s between intermediate PNGs, at least
   double checkpoint_interval = 60;  ///< s between intermediate EXRs, at least
   bool keeps_state = true;          ///< EXRs hold what is needed to go on
@@ -40,9 +42,10 @@ struct RenderOptions {
 
 enum class StopReason { kPasses, kTime, kNoise, kSignal };
 
-/// Where a render stands after a pass.
+/// Where a render stands, after a pass or within one.
 struct RenderProgress {
-  uint32_t passes_done = 0;
+  uint32_t passes_done = 0;               ///< whole ones
+  bool within_pass = false;               ///< called while a pass is rendered
   std::optional<uint32_t> passes_wanted;  ///< empty if only time or error stop it
   double seconds = 0;
   std::optional<double> seconds_left;  ///< by the rule that will be met first, as it looks now
@@ -54,9 +57,10 @@ struct RenderProgress {
 
 struct RenderResult {
   StopReason reason = StopReason::kPasses;
-  int signal = 0;              ///< that stopped it, if one did
-  uint32_t passes_done = 0;    ///< in all runs
-  uint32_t passes_of_run = 0;  ///< in this one
+  int signal = 0;                    ///< that stopped it, if one did
+  uint32_t passes_done = 0;          ///< in all runs, whole ones
+  bool has_unfinished_pass = false;  ///< pixels have more estimates than these, some of them
+  uint32_t passes_of_run = 0;        ///< in this one
   double seconds = 0;  ///< rendering, with intermediate pictures, without the last; of this run
   std::optional<double> error;            ///< as estimated_error().total()
   std::optional<std::string> error_text;  ///< as error_report(); of consistent estimators alone
@@ -71,11 +75,11 @@ class RenderSession {
   /// options do not fit the estimators, IoError if the output cannot be written.
   RenderSession(const Scene& scene, EstimatorSet& set, Film& film, RenderOptions options);
 
-  /// Called after every pass.
+  /// Called after every pass, and a few times a second within passes.
   void on_progress(std::function<void(const RenderProgress&)> callback);
   /// Called when an intermediate picture could not be written; rendering goes on.
   void on_warning(std::function<void(const std::string&)> callback);
-  /// Seconds from any origin; the machine's steady clock unless set.
+  /// Seconds from any origin; the machine's steady clock unless set. Called by any thread.
   void use_clock(std::function<double()> seconds);
 
   /// Renders until a rule or a signal stops it and writes the picture. Throws IoError if the last
@@ -90,12 +94,19 @@ class RenderSession {
   uint32_t passes_of_run() const { return passes_done_ - passes_before_; }
   bool shows_error() const { return progress_ && options_.show_error; }
   bool error_check_is_due() const;
-  void render_one_pass();
+  /// False if it was ended before it was whole.
+  bool render_one_pass(SignalFlags& signals);
+  /// Called within a pass. Throws PassStopped to end it.
+  void look_in(SignalFlags& signals, PassWatch& watch);
+  /// What stops the render within a pass.
+  std::optional<StopReason> reason_to_end_pass(const SignalFlags& signals) const;
+  /// How much of the pass that is not whole is done, 0..1.
+  double fraction_of_pass() const;
   std::vector<EstimatorStatistics> statistics() const;
   void renew_error();
   /// Makes error_text_ that of the passes so far.
   void renew_error_text();
-  void report_progress();
+  void report_progress(bool within_pass);
   void write_if_due(SignalFlags& signals);
   void write_picture();
   /// The picture without its PNG.
@@ -122,7 +133,8 @@ class RenderSession {
   std::vector<EstimatorStatistics> first_pass_statistics_;
   PassRanges done_;
   uint32_t passes_before_ = 0, passes_done_ = 0;  ///< before this run, and by now
-  double last_pass_seconds_ = 0;
+  std::optional<uint32_t> open_pass_;             ///< begun and not whole
+  double fraction_before_ = 0;                    ///< of the open pass, done in other runs
   std::optional<EstimatedError> error_;
   uint32_t error_pass_ = 0;  ///< passes done when error_ was estimated
   /// The line of error_report(), empty where an estimator knows only a part of its error.
@@ -130,6 +142,7 @@ class RenderSession {
   uint32_t error_text_pass_ = 0;   ///< passes done when it was made
   double next_error_seconds_ = 0;  ///< of the estimates for progress alone
   double next_preview_seconds_ = 0, next_checkpoint_seconds_ = 0;
+  double next_progress_seconds_ = 0;  ///< within a pass
 };
 
 }  // namespace nephroid

@@ -32,7 +32,7 @@ auto action_of(int signal) {
 /// An answer that cannot be written changes nothing.
 void answer() {
   constexpr std::string_view kText =
-      "\nnephroid: stopping after this pass; one more interrupt stops at once\n";
+      "\nnephroid: stopping and writing the picture; one more interrupt stops at once\n";
   const int error = errno;
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kText.data(), kText.size());
   errno = error;

@@ -26,7 +26,7 @@ class SignalListener {
   SignalListener(const SignalListener&) = delete;
   SignalListener& operator=(const SignalListener&) = delete;
 
-  /// If wished, the first SIGINT is answered on standard error: a pass may take long.
+  /// If wished, the first SIGINT is answered on standard error: to write a picture may take long.
   void note_stops(bool answer_interrupts = false);
   SignalFlags& flags() const;
 };

@@ -120,7 +120,8 @@ TEST(SpecularChainPass, FindsTheLightBehindDeltaLobes) {
   const size_t parts = owned.routes->groups()[0].parts.size();
   std::vector<Rgb> values(static_cast<size_t>(b.area()) * parts);
   for (uint32_t i = 0; i < kPasses; ++i)
-    EXPECT_GT(pass.render(values, [i](int n) { return i * static_cast<uint32_t>(n); }), 64u * 32);
+    EXPECT_GT(pass.render(values, pass.points([i](int n) { return i * static_cast<uint32_t>(n); })),
+              64u * 32);
   double sum = 0;
   for (const Rgb& v : values) sum += static_cast<double>(v.r + v.g + v.b) / 3;
   const Estimate walks = look(*scene, owned, false, false);

@@ -57,7 +57,7 @@ TEST_P(LearnedBits, BytesThatAreCutOffAreRefused) {
   set.learned.resize(set.estimators.size());
   for (size_t i = 0; i < set.estimators.size(); ++i) {
     const Estimator& estimator = *set.estimators[i];
-    const auto value = estimator.learn(*scene, film.format(), 5);
+    const auto value = estimator.learn(*scene, film.format(), 5, unwatched);
     if (!value) continue;
     ByteWriter written;
     value->write(written);

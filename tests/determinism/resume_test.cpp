@@ -1,6 +1,6 @@
-// A render that is interrupted after any pass and goes on from its picture, any number of times,
-// ends with the bits of one that was not; and so does the sum of pictures of disjoint passes, in
-// any order. For all integrators and all presets of routes.
+// A render that is interrupted after any pass or within one and goes on from its picture, any
+// number of times, ends with the bits of one that was not; and so does the sum of pictures of
+// disjoint passes, in any order. For all integrators and all presets of routes.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -33,6 +33,19 @@ IntegratorOptions small_passes() {
   return options;
 }
 
+/// Ends a pass when it is looked in on for the last of so many times.
+class StopAt final : public PassControl {
+ public:
+  explicit StopAt(int looks) : looks_(looks) {}
+  bool is_wanted() const noexcept override { return true; }
+  void attend() override {
+    if (--looks_ <= 0) throw PassStopped{};
+  }
+
+ private:
+  int looks_;
+};
+
 /// A run of the program: it begins with what film and estimators are when they are new.
 struct OneRun {
   OneRun(const Scene& of_scene, const std::string& plan, bool rejects)
@@ -52,8 +65,25 @@ struct OneRun {
       done.add(pass);
     }
   }
+  /// Renders up to a pass. False if the control ended it before.
+  bool render_watched(uint32_t last, PassControl& control) {
+    for (uint32_t pass = open.value_or(done.first_missing(0)); pass <= last; ++pass) {
+      open = pass;
+      try {
+        set.render_pass({5, pass}, scene, film, control);
+      } catch (const PassStopped&) {
+        return false;
+      }
+      open.reset();
+      film.finish_pass();
+      done.add(pass);
+    }
+    return true;
+  }
   void go_on(const std::string& path) {
-    done = go_on_from(path, identity, scene, set, film).passes;
+    const Checkpoint checkpoint = go_on_from(path, identity, scene, set, film);
+    done = checkpoint.passes;
+    open = checkpoint.open_pass;
   }
   void write(const std::string& path) {
     const RenderState state = state_of(scene, set, film);
@@ -64,6 +94,7 @@ struct OneRun {
     Metadata all = identity.to_metadata();
     add_film_metadata(film, passes_are_independent(set), &all);
     all.emplace_back(kPassesKey, done.text());
+    if (open) all.emplace_back(kOpenPassKey, std::to_string(*open));
     return all;
   }
 
@@ -72,6 +103,7 @@ struct OneRun {
   Film film;
   RenderIdentity identity;
   PassRanges done;
+  std::optional<uint32_t> open;
 };
 
 /// One of the plans with a film that keeps positions and the like as well.
@@ -125,6 +157,34 @@ TEST_P(Resume, EndsWithTheBitsOfOneRun) {
     // The rest of the presets does not depend on what the film does with estimates.
     if (GetParam() != "path") break;
   }
+}
+
+TEST_P(Resume, WithinPassesEndsWithTheBitsOfOneRun) {
+  constexpr uint32_t kLast = 2;
+  const auto scene = scene_for(GetParam());
+  const ScratchDirectory directory;
+  const std::string path = directory.file("picture.exr");
+  OneRun whole(*scene, GetParam(), GetParam() == "path");
+  whole.render(0, kLast);
+  // More and more looks, so that it ends whatever part of a pass is lost with a stop.
+  int stops = 0, within = 0;
+  for (int looks = 1, growth = 3;; looks += growth, ++growth) {
+    OneRun run(*scene, GetParam(), GetParam() == "path");
+    if (stops > 0) run.go_on(path);
+    StopAt control(looks);
+    const bool is_done = run.render_watched(kLast, control);
+    run.write(path);
+    if (is_done) break;
+    ++stops;
+    within += run.film.has_open_pass();
+  }
+  EXPECT_GE(stops, 3);
+  OneRun last(*scene, GetParam(), GetParam() == "path");
+  last.go_on(path);
+  EXPECT_EQ(last.done.text(), "0..2");
+  EXPECT_FALSE(last.open);
+  expect_same_state(state_of(*scene, last.set, last.film), state_of(*scene, whole.set, whole.film),
+                    std::to_string(stops) + " stops, " + std::to_string(within) + " within a pass");
 }
 
 TEST_P(Resume, PicturesOfOtherPassesAddUp) {

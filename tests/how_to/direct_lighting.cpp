@@ -87,10 +87,11 @@ constinit const EstimatorDescriptor DirectLighting::kDescriptor = {
 };
 
 std::unique_ptr<PassFindings> DirectLighting::render_pass(const PassKey& key, const Learned*,
-                                                          const Scene& scene, Film& film) {
+                                                          const Scene& scene, Film& film,
+                                                          PassControl& control) {
   constexpr uint64_t kStream = 0x646972656374;  // "direct": random numbers of its own
-  const PathPass pass{key,    scene, film, owned_, std::max(1, options_.camera_samples_per_pass),
-                      kStream};
+  const PathPass pass{key,     scene,  film, owned_, std::max(1, options_.camera_samples_per_pass),
+                      kStream, control};
   statistics_.rays += trace_paths(pass, [&](int, int, CameraPath& path, const SensorWeights&,
                                             PathSampler& sampler, PartSums& light) {
     FirstVertex visitor(scene, owned_, light);

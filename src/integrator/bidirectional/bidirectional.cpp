@@ -42,7 +42,7 @@ class PairRound {
         parts_(film.parts_of(static_cast<int>(settings.owned.group)).size()),
         values_(film.bounds().area() * parts_) {}
 
-  void render(SplatBuffer& buffer, EstimatorStatistics& statistics) {
+  void render(SplatBuffer& buffer, EstimatorStatistics& statistics, PassControl& control) {
     const PixelBounds& b = film_.bounds();
     const int strip = std::max(1, kMaxPixels / std::max(1, b.width()));
     for (int begin = b.y0; begin < b.y1; begin += strip) {
@@ -50,7 +50,7 @@ class PairRound {
       const auto trace_row = [&](Row& row, int64_t y, int64_t) {
         render_row(begin + static_cast<int>(y), row);
       };
-      ordered_reduce<Row>(std::min(strip, b.y1 - begin), 1, trace_row, [&](Row&& row) {
+      ordered_reduce<Row>(control, std::min(strip, b.y1 - begin), 1, trace_row, [&](Row&& row) {
         splats.insert(splats.end(), row.splats.begin(), row.splats.end());
         statistics.rays += row.rays;
         statistics.light_paths_useful += row.useful;
@@ -147,7 +147,8 @@ Bidirectional::Bidirectional(OwnedRoutes owned, const IntegratorOptions& options
     : owned_(std::move(owned)), options_(options) {}
 
 std::unique_ptr<PassFindings> Bidirectional::render_pass(const PassKey& key, const Learned*,
-                                                         const Scene& scene, Film& film) {
+                                                         const Scene& scene, Film& film,
+                                                         PassControl& control) {
   const int group = static_cast<int>(owned_.group);
   const CameraView view(scene, film.bounds());
   PairSettings settings{scene, owned_};
@@ -164,7 +165,8 @@ std::unique_ptr<PassFindings> Bidirectional::render_pass(const PassKey& key, con
   const int samples = std::max(1, options_.camera_samples_per_pass);
   for (int k = 0; k < samples; ++k) {
     const uint64_t index = uint64_t{key.pass} * samples + k;
-    PairRound(settings, key, index, film).render(buffer, statistics_);
+    // What the first samples add to the film cannot be taken back.
+    PairRound(settings, key, index, film).render(buffer, statistics_, k == 0 ? control : unwatched);
     film.add_estimates(group, 1);
   }
   return nullptr;

@@ -66,7 +66,7 @@ std::vector<Photon> LightBatches::next(const std::function<void(std::span<const 
   while (!empty() && static_cast<int64_t>(photons.size()) < config_.memory_photons) {
     const int64_t count = std::min(kGroup, config_.light_paths - begin_);
     std::vector<Chunk> chunks = chunk_results<Chunk>(
-        count, kChunk,
+        *pass_.trace.control, count, kChunk,
         [&](Chunk& chunk, int64_t b, int64_t e) { trace_chunk(begin_ + b, begin_ + e, chunk); });
     begin_ += count;
     reserve(photons, chunks, batch_begin);

@@ -1,37 +1,17 @@
 #include "integrator/bidirectional/pair_pass.h"
 
-#include <cmath>
+#include <numeric>
 #include <vector>
 
-#include "core/parallel.h"
-#include "integrator/bidirectional/light_batches.h"
-#include "integrator/bidirectional/path_pair.h"
+#include "integrator/bidirectional/pair_sampler.h"
 #include "integrator/bidirectional/samples_to_clamp.h"
-#include "integrator/estimator/features.h"
-#include "integrator/estimator/technique_counter.h"
-#include "integrator/path/path_options.h"
-#include "integrator/photons/merge_pass.h"
+#include "integrator/estimator/slice_loop.h"
 
 namespace nephroid {
 
 namespace {
 
-constexpr uint64_t kEyeStream = 0x76636d65;   // "vcme"
-constexpr uint64_t kPairStream = 0x76636d70;  // "vcmp"
-constexpr int kRowsWithRecords = 64;
-
-/// Records and counts of one row of pixels.
-struct Row {
-  std::vector<RadianceRecord> records;
-  uint64_t rays = 0, camera_paths = 0;
-  TechniqueCounter::Row techniques;
-};
-
-float total(std::span<const Rgb> colors) {
-  float sum = 0;
-  for (const Rgb& color : colors) sum += color.r + color.g + color.b;
-  return sum;
-}
+constexpr size_t kSlicesWithRecords = 512;
 
 /// Where what a pass finds goes: any of these may be asked for, and not all of them are.
 struct Destinations {
@@ -44,234 +24,243 @@ struct Destinations {
   double records_per_path = PassRecords::kMaxPerPath;
 };
 
-/// How camera paths are made.
-struct CameraSide {
-  const SampleMap& paths;
-  const SampleMap* chains = nullptr;  ///< null: nobody looks for specular chains if they are apart
-  uint32_t in_first_pass = 0;
-  const RadianceGuide& directions = kNoRadiance;
-};
-
 class PairRendering {
  public:
   PairRendering(const PairPass& pass, const FilmFormat& format, const CameraSide& camera,
                 const Destinations& to)
-      : in_(pass),
-        techniques_(pass.techniques),
-        camera_(camera),
-        to_(to),
-        format_(format),
-        counter_(to.film ? TechniqueCounter(format, pass.owned.group, pass.key.pass)
-                         : TechniqueCounter(format)),
-        pass_(start_photon_pass(pass.key, pass.scene, format, pass.options)),
-        view_(pass.scene, format.bounds()),
-        most_(camera.paths.most()),
-        records_(to.records, format.bounds().area() * most_, to.records_per_path),
-        tree_(pass.scene, pass.owned, pass.options.max_depth),
-        settings_{
-            .scene = pass.scene,
-            .owned = pass.owned,
-            .technique = pass.technique,
-            .guide = pass.emission,
-            .radiance = camera.directions.guides() ? &camera.directions : nullptr,
-            .tree = techniques_.separates_chains || pass.options.own<PathOptions>().specular_trees
-                        ? &tree_
-                        : nullptr} {
-    merging_.caustics_only = techniques_.caustics_only;
-    merging_.photons = static_cast<double>(techniques_.light_paths);
-    merging_.radius_pixels = radius_of_pass(pass.options, pass.key.pass);
-    merging_.footprint = pass_.footprint;
-    merging_.eye = pass.scene.camera->camera_to_world(pass_.trace.time).point(Vec3f(0, 0, 0));
-    merging_.connects = techniques_.connects;
-    settings_.view = pass.scene.camera->connects() && merging_.connects ? &view_ : nullptr;
-    settings_.specular_alpha = pass_.trace.specular_alpha;
-    settings_.max_depth = pass.options.max_depth;
-    settings_.light_paths = static_cast<double>(techniques_.light_paths);
-    settings_.merging = &merging_;
-    const size_t pixels = format.bounds().area();
-    parts_ = format.parts_of(static_cast<int>(pass.owned.group)).size();
-    values_.resize(pixels * parts_);
-    if (to.film) bias_.resize(pixels);
-    if (to.paths) measured_.emplace(format, most_);
-    points_.resize(most_);
-    for (int n = 1; n <= static_cast<int>(most_); ++n)
-      if (camera.paths.has(n))
-        for (int k = 0; k < n; ++k) points_[n - 1].push_back(sample_points(n, k));
-  }
+      : s_(pass, format, camera, to.film, to.records, to.records_per_path), to_(to) {}
 
   void run(EstimatorStatistics& statistics) {
     std::optional<SplatBuffer> buffer;
-    if (to_.film && merging_.connects)
-      buffer.emplace(*to_.film, static_cast<int>(in_.owned.group), *in_.scene.filter);
-    LightBatches batches({.light_paths = techniques_.light_paths,
-                          .memory_photons = in_.options.memory_photons,
-                          .seed = in_.seed,
-                          .number_varies = in_.light_paths_vary},
-                         pass_, settings_);
+    if (to_.film && s_.merging.connects)
+      buffer.emplace(*to_.film, static_cast<int>(s_.in.owned.group), *s_.in.scene.filter);
     const auto add_splats = [&](std::span<const Splat> splats) {
-      counter_.add_splats(splats, 1.0 / static_cast<double>(techniques_.light_paths));
+      s_.counter.add_splats(splats, 1.0 / static_cast<double>(s_.techniques.light_paths));
       if (buffer)
         buffer->add(splats);
-      else if (measured_ && to_.measures_splats)
-        measured_->add_splats(splats, static_cast<float>(techniques_.light_paths));
+      else if (to_.paths && to_.measures_splats)
+        measured().add_splats(splats, static_cast<float>(s_.techniques.light_paths));
     };
-    do {
-      std::vector<Photon> photons = batches.next(add_splats, statistics);
-      if (clamps() && clamped_.empty() && !batches.empty())
-        clamped_.resize(values_.size() / parts_ * most_, parts_);
+    LightBatches batches({.light_paths = s_.techniques.light_paths,
+                          .memory_photons = s_.in.options.memory_photons,
+                          .seed = s_.in.seed,
+                          .number_varies = s_.in.light_paths_vary},
+                         s_.photons, s_.settings);
+    std::vector<Photon> photons = batches.next(add_splats, statistics);
+    if (batches.empty() && !s_.merging.connects) {
       const PhotonGrid grid(std::move(photons));
-      merging_.grid = &grid;
-      trace_eye_paths(statistics);
-      statistics.hold(grid.bytes() + records_.bytes() + camera_.directions.bytes(),
-                      values_.size() / parts_ *
-                          pair_pass_bytes_per_pixel(parts_, measured_ ? most_ : 0,
-                                                    clamped_.empty() ? 0 : most_));
-      if (techniques_.separates_chains && camera_.chains && !settings_.merges_only)
-        look_for_chains(statistics);
-      merging_.grid = nullptr;
-      settings_.merges_only = true;
-    } while (!batches.empty());
-    if (!clamped_.empty()) clamp_samples();
-    if (measured_) measured_->add_to(*to_.paths, camera_.paths);
-    if (buffer)
-      buffer->finish(1.0 / static_cast<double>(techniques_.light_paths), values_);
-    else if (to_.film)
-      add_values();
-    if (to_.film) to_.film->add_bias(static_cast<int>(in_.owned.group), bias_);
-    counter_.add_to(statistics.techniques);
-    statistics.photon_paths += techniques_.light_paths;
-    statistics.radius_min_pixels = merging_.radius_pixels;
-    if (statistics.radius_max_pixels == 0) statistics.radius_max_pixels = merging_.radius_pixels;
+      s_.merging.grid = &grid;
+      render_pixels(statistics);
+      statistics.hold(
+          grid.bytes() + s_.records.bytes() + s_.camera.directions.bytes(),
+          to_.paths ? s_.format.bounds().area() * 3 * SampleVariance::kBytesPerPixel : 0);
+    } else {
+      make_room();
+      render_batch(std::move(photons), batches.empty(), statistics);
+      while (!batches.empty()) {
+        photons = batches.next(add_splats, statistics);
+        render_batch(std::move(photons), batches.empty(), statistics);
+      }
+      finish_batches(buffer ? &*buffer : nullptr);
+    }
+    s_.merging.grid = nullptr;
+    s_.counter.add_to(statistics.techniques);
+    statistics.photon_paths += s_.techniques.light_paths;
+    statistics.radius_min_pixels = s_.merging.radius_pixels;
+    if (statistics.radius_max_pixels == 0) statistics.radius_max_pixels = s_.merging.radius_pixels;
   }
 
  private:
-  /// Number of a pixel's first sample of `n` in this pass.
-  uint32_t first_index(int n) const {
-    const uint32_t pass = in_.key.pass, first = camera_.in_first_pass;
-    const uint32_t before = first > 0 && pass > 0 ? pass - 1 : pass;
-    return (pass > 0 ? first : 0) + before * n;
+  /// All photons of the pass are in the grid and nothing comes from elsewhere: a pixel is complete
+  /// once its paths are traced.
+  void render_pixels(EstimatorStatistics& statistics) {
+    const int group = static_cast<int>(s_.in.owned.group);
+    const PixelSlices all_slices(s_.format.bounds());
+    std::optional<SlicesOfPass> of_film;
+    std::vector<size_t> slices(all_slices.count());
+    std::iota(slices.begin(), slices.end(), size_t{0});
+    if (to_.film) {
+      of_film.emplace(*to_.film, group, 1, to_.adds_features ? 1 : 0);
+      slices = of_film->missing();
+    }
+    std::optional<SpecularChainPass> chains;
+    SpecularChainPass::Points chain_points;
+    if (s_.techniques.separates_chains && s_.camera.chains) {
+      chains.emplace(chain_pass());
+      chain_points = chains->points([this](int n) { return s_.first_index(n); });
+    }
+    const auto render_slice = [&](PairRow& row, size_t slice) {
+      PairSampler::Worker worker{{}, PartSums(*s_.in.owned.routes, s_.in.owned.group), row};
+      row.techniques = s_.counter.start_row(worker.light);
+      worker.sees = sees(slice);
+      std::optional<SpecularChainPass::Walker> walker;
+      if (chains) walker.emplace(*chains);
+      std::vector<Rgb> values(s_.parts);
+      const PixelSlices::Run run = all_slices.at(slice);
+      for (int i = 0; i < run.count; ++i) {
+        const int x = run.x + i * run.step;
+        std::ranges::fill(values, Rgb{});
+        float bias = 0;
+        render_pixel(x, run.y, worker, {values, bias});
+        if (chains)
+          chains->look(x - s_.format.bounds().x0, run.y - s_.format.bounds().y0, chain_points,
+                       values, *walker);
+        if (!to_.film) continue;
+        to_.film->add(group, x, run.y, values);
+        to_.film->add_bias(group, x, run.y, bias);
+      }
+      if (walker) {
+        row.rays += walker->rays;
+        for (size_t p = 0; p < row.techniques.size(); ++p)
+          for (size_t t = 0; t < kTechniqueCount; ++t)
+            row.techniques[p][t] += walker->techniques[p][t];
+      }
+      if (of_film) of_film->finish(slice);
+    };
+    for_each_slice_with_records(slices, render_slice, statistics);
+    if (of_film) of_film->finish_pass();
   }
-  /// The numbers of a pixel's sample `k` of `n` in this pass.
-  struct SamplePoints {
-    SobolPoint eye, light;
-  };
-  SamplePoints sample_points(int n, int k) const {
-    const uint32_t index = first_index(n) + k;
-    return {eye_point(index, kEyePathDimensions),
-            techniques_.connects ? light_point(index) : SobolPoint(index, 1)};
+
+  /// The camera paths of a pixel.
+  void render_pixel(int x, int y, PairSampler::Worker& worker,
+                    const PairSampler::SampleSums& sums) {
+    const PixelBounds& b = s_.format.bounds();
+    const int samples = s_.camera.paths.at(x - b.x0, y - b.y0);
+    for (int k = 0; k < samples; ++k) {
+      const PairSampler::SampleLight found = s_.trace(x, y, samples, k, worker, sums);
+      if (to_.paths) to_.paths->add(s_.pixel_of(x, y), found.mean, static_cast<double>(found.rays));
+    }
+  }
+
+  /// Room for what waits for other batches and for splats.
+  void make_room() {
+    values_.resize(s_.format.bounds().area() * s_.parts);
+    if (to_.film) bias_.resize(s_.format.bounds().area());
+    if (to_.paths) measured();
+  }
+  MeasuredSamples& measured() {
+    if (!measured_) measured_.emplace(s_.format, s_.most);
+    return *measured_;
+  }
+
+  /// One batch of photons for all pixels.
+  void render_batch(std::vector<Photon> photons, bool is_last, EstimatorStatistics& statistics) {
+    if (clamps() && clamped_.empty() && !is_last && !s_.settings.merges_only)
+      clamped_.resize(s_.format.bounds().area() * s_.most, s_.parts);
+    const PhotonGrid grid(std::move(photons));
+    s_.merging.grid = &grid;
+    trace_eye_paths(statistics);
+    statistics.hold(
+        grid.bytes() + s_.records.bytes() + s_.camera.directions.bytes(),
+        s_.format.bounds().area() * pair_pass_bytes_per_pixel(s_.parts, measured_ ? s_.most : 0,
+                                                              clamped_.empty() ? 0 : s_.most));
+    if (s_.techniques.separates_chains && s_.camera.chains && !s_.settings.merges_only) {
+      const SpecularChainPass pass = chain_pass();
+      statistics.rays +=
+          pass.render(values_, pass.points([this](int n) { return s_.first_index(n); }));
+    }
+    s_.settings.merges_only = true;
+  }
+
+  void finish_batches(SplatBuffer* buffer) {
+    if (!clamped_.empty()) clamp_samples();
+    if (measured_) measured_->add_to(*to_.paths, s_.camera.paths);
+    if (!to_.film) return;
+    if (buffer)
+      buffer->finish(1.0 / static_cast<double>(s_.techniques.light_paths), values_);
+    else
+      add_values();
+    const int group = static_cast<int>(s_.in.owned.group);
+    to_.film->add_bias(group, bias_);
+    to_.film->add_estimates(group, 1);
+    if (to_.adds_features) to_.film->add_feature_estimates(1);
   }
 
   void trace_eye_paths(EstimatorStatistics& statistics) {
-    const int height = format_.bounds().height();
-    // The records of some rows at a time are held twice.
-    const int at_once = to_.records ? kRowsWithRecords : height;
-    for (int first = 0; first < height; first += at_once)
-      trace_rows(first, std::min(at_once, height - first), statistics);
-    if (to_.film && to_.adds_features && !settings_.merges_only) to_.film->add_feature_estimates(1);
-  }
-
-  void trace_rows(int first, int count, EstimatorStatistics& statistics) {
-    const PixelBounds& b = format_.bounds();
-    const auto trace_row = [&](Row& row, int64_t number, int64_t) {
-      LightSubpath path;
-      PartSums light(*in_.owned.routes, in_.owned.group);
-      row.techniques = counter_.start_row(light);
-      const int y = b.y0 + first + static_cast<int>(number);
-      for (int x = b.x0; x < b.x1; ++x) {
-        const int samples = camera_.paths.at(x - b.x0, y - b.y0);
-        for (int k = 0; k < samples; ++k) trace_sample(x, y, samples, k, path, light, row);
+    const PixelSlices slices(s_.format.bounds());
+    std::vector<size_t> all(slices.count());
+    std::iota(all.begin(), all.end(), size_t{0});
+    const auto trace_slice = [&](PairRow& row, size_t slice) {
+      PairSampler::Worker worker{{}, PartSums(*s_.in.owned.routes, s_.in.owned.group), row};
+      row.techniques = s_.counter.start_row(worker.light);
+      worker.sees = sees(slice);
+      const PixelSlices::Run run = slices.at(slice);
+      for (int i = 0; i < run.count; ++i) {
+        const int x = run.x + i * run.step;
+        const int samples =
+            s_.camera.paths.at(x - s_.format.bounds().x0, run.y - s_.format.bounds().y0);
+        for (int k = 0; k < samples; ++k) trace_waiting(x, run.y, samples, k, worker);
       }
+      if (worker.sees) to_.film->finish_feature_slice(slice, 1);
     };
-    ordered_reduce<Row>(count, 1, trace_row, [&](Row&& row) {
-      statistics.rays += row.rays;
-      if (settings_.merges_only) statistics.again_rays += row.rays;
-      statistics.camera_paths += row.camera_paths;
-      records_.take(row.records, settings_.merges_only);
-      counter_.add(row.techniques);
-    });
+    for_each_slice_with_records(all, trace_slice, statistics);
   }
 
-  void trace_sample(int x, int y, int samples, int k, LightSubpath& path, PartSums& light,
-                    Row& row) {
-    const PixelBounds& b = format_.bounds();
-    const size_t pixel = static_cast<size_t>(y - b.y0) * b.width() + (x - b.x0);
-    const SamplePoints& points = points_[samples - 1][k];
-    const uint64_t rays_before = row.rays;
-    PathSampler sampler(points.eye, hash_combine(in_.seed, kEyeStream, x, y));
-    CameraPath camera = start_merging_path(in_.scene, x, y, sampler, pass_);
-    camera.walk.roulette_threshold = techniques_.roulette_threshold;
-    if (merging_.connects && !settings_.merges_only) {
-      // A light path of its own: those that are merged run through one sequence, of which a pixel
-      // would see the same part in all passes.
-      PathSampler own(points.light, hash_combine(in_.seed, kPairStream, x, y));
-      row.rays += trace_light_path(settings_, pass_.trace.lambda, pass_.u_time, own, &path, nullptr,
-                                   nullptr, kEyePathDimensions)
-                      .rays;
+  /// True if camera paths add what they see: the film may have it already, of a pass that was
+  /// ended.
+  bool sees(size_t slice) const {
+    return to_.adds_features && !s_.settings.merges_only &&
+           !to_.film->has_slice(s_.format.layout().group_count(), slice);
+  }
+
+  /// The records of some slices at a time are held twice.
+  template <class Work>
+  void for_each_slice_with_records(std::span<const size_t> slices, const Work& work,
+                                   EstimatorStatistics& statistics) {
+    const size_t at_once = to_.records ? kSlicesWithRecords : slices.size();
+    while (!slices.empty()) {
+      const std::span<const size_t> some = slices.first(std::min(at_once, slices.size()));
+      for_each_slice<PairRow>(s_.in.control, some, work, [&](PairRow&& row) {
+        statistics.rays += row.rays;
+        if (s_.settings.merges_only) statistics.again_rays += row.rays;
+        statistics.camera_paths += row.camera_paths;
+        s_.records.take(row.records, s_.settings.merges_only);
+        s_.counter.add(row.techniques);
+      });
+      slices = slices.subspan(some.size());
     }
-    light.clear();
-    Features features;
-    const bool sees = to_.film && to_.adds_features && !settings_.merges_only && k == 0;
-    row.rays += trace_eye_path(settings_, path, camera, sampler, light,
-                               {.features = sees ? &features : nullptr,
-                                .records = records_.of_path(pixel, k, row.records),
-                                .leaves = leaves_at(x - b.x0, y - b.y0)});
-    if (sees) features.add_to(*to_.film, x, y, in_.scene, camera, pass_.weights);
-    const float share = 1.0f / static_cast<float>(samples);
-    if (to_.film)
-      bias_[pixel] +=
-          light.bias(pass_.weights) * camera.camera_weight * camera.filter_weight * share;
-    light.add_techniques_to(
-        row.techniques, pass_.weights,
-        static_cast<double>(camera.camera_weight) * camera.filter_weight * share);
-    const size_t sample = pixel * most_ + k;
-    // What has to wait for other batches is clamped at the end.
+  }
+
+  /// A sample whose pixel is complete only once all batches are merged.
+  void trace_waiting(int x, int y, int samples, int k, PairSampler::Worker& worker) {
+    const size_t pixel = s_.pixel_of(x, y), sample = pixel * s_.most + k;
     const bool waits = !clamped_.empty();
-    const std::span<const Rgb> colors = light.colors(
-        pass_.weights, camera.camera_weight, waits ? kInfinity : format_.settings().max_component,
-        camera.filter_weight * share);
-    const std::span<Rgb> sums =
-        waits ? clamped_.sums(sample) : std::span(values_).subspan(pixel * parts_, parts_);
-    for (size_t i = 0; i < parts_; ++i) sums[i] = sums[i] + colors[i];
+    float unused = 0;
+    const PairSampler::SampleLight found = s_.trace(
+        x, y, samples, k, worker,
+        {waits ? clamped_.sums(sample) : std::span(values_).subspan(pixel * s_.parts, s_.parts),
+         to_.film ? bias_[pixel] : unused, waits});
     if (measured_) {
-      const double seen = total(colors);
-      measured_->add_light(sample, static_cast<float>(seen / (3.0 * share)));
-      if (!settings_.merges_only) measured_->set_rays(sample, row.rays - rays_before);
+      measured_->add_light(sample, found.mean);
+      if (!s_.settings.merges_only) measured_->set_rays(sample, found.rays);
     }
-    if (settings_.merges_only) return;
-    ++row.camera_paths;
-    if (waits) clamped_.weights[sample] = std::abs(camera.filter_weight) * share;
+    if (waits && !s_.settings.merges_only) clamped_.weights[sample] = found.weight;
   }
 
-  SpecularRoot::Leaves leaves_at(int x, int y) const {
-    if (!techniques_.separates_chains) return SpecularRoot::Leaves::kBranches;
-    return camera_.chains && camera_.chains->at(x, y) == 0 ? SpecularRoot::Leaves::kNothing
-                                                           : SpecularRoot::Leaves::kAll;
+  SpecularChainPass chain_pass() {
+    return {.scene = s_.in.scene,
+            .film = s_.format,
+            .owned = s_.in.owned,
+            .tree = s_.tree,
+            .walks = *s_.camera.chains,
+            .seed = s_.in.seed,
+            .specular_alpha = s_.settings.specular_alpha,
+            .measured = to_.chains,
+            .techniques = &s_.counter,
+            .control = s_.in.control};
   }
 
-  void look_for_chains(EstimatorStatistics& statistics) {
-    const SpecularChainPass pass{.scene = in_.scene,
-                                 .film = format_,
-                                 .owned = in_.owned,
-                                 .tree = tree_,
-                                 .walks = *camera_.chains,
-                                 .seed = in_.seed,
-                                 .specular_alpha = settings_.specular_alpha,
-                                 .measured = to_.chains,
-                                 .techniques = &counter_};
-    statistics.rays += pass.render(values_, [this](int n) { return first_index(n); });
-  }
-
-  bool clamps() const { return format_.settings().max_component < kInfinity; }
+  bool clamps() const { return s_.format.settings().max_component < kInfinity; }
 
   /// Each sample is clamped before the filter's weight, and its light is what is left.
   void clamp_samples() {
     for (size_t sample = 0; sample < clamped_.weights.size(); ++sample) {
       const std::span<Rgb> sums = clamped_.sums(sample);
-      const float before = total(sums);
-      PartSums::clamp_total(sums, format_.settings().max_component * clamped_.weights[sample]);
-      if (measured_ && before != 0) measured_->scale_light(sample, total(sums) / before);
-      for (size_t i = 0; i < parts_; ++i) {
-        Rgb& value = values_[sample / most_ * parts_ + i];
+      const float before = total_of(sums);
+      PartSums::clamp_total(sums, s_.format.settings().max_component * clamped_.weights[sample]);
+      if (measured_ && before != 0) measured_->scale_light(sample, total_of(sums) / before);
+      for (size_t i = 0; i < s_.parts; ++i) {
+        Rgb& value = values_[sample / s_.most * s_.parts + i];
         value = value + sums[i];
       }
     }
@@ -279,29 +268,16 @@ class PairRendering {
 
   /// Without splats the values are all there is.
   void add_values() {
-    const PixelBounds& b = format_.bounds();
-    const int group = static_cast<int>(in_.owned.group);
+    const PixelBounds& b = s_.format.bounds();
+    const int group = static_cast<int>(s_.in.owned.group);
     size_t first = 0;
     for (int y = b.y0; y < b.y1; ++y)
-      for (int x = b.x0; x < b.x1; ++x, first += parts_)
-        to_.film->add(group, x, y, std::span(values_).subspan(first, parts_));
+      for (int x = b.x0; x < b.x1; ++x, first += s_.parts)
+        to_.film->add(group, x, y, std::span(values_).subspan(first, s_.parts));
   }
 
-  const PairPass& in_;
-  const PairTechniques& techniques_;
-  const CameraSide& camera_;
+  PairSampler s_;
   const Destinations& to_;
-  const FilmFormat& format_;
-  TechniqueCounter counter_;
-  const PhotonPass pass_;
-  const CameraView view_;
-  const size_t most_;  ///< camera paths of a pixel
-  PairMerging merging_;
-  PassRecords records_;
-  const SpecularTree tree_;
-  PairSettings settings_;
-  std::vector<std::vector<SamplePoints>> points_;  ///< [samples of a pixel - 1][sample]
-  size_t parts_ = 1;
   std::vector<Rgb> values_;  ///< [pixel * parts + part]
   std::vector<float> bias_;  ///< [pixel], [E4]
   std::optional<MeasuredSamples> measured_;
@@ -341,7 +317,6 @@ void render_to(const PairRender& to, const PairPass& pass, Destinations destinat
   const CameraSide camera{to.samples.paths, &to.samples.chains, to.samples.in_first_pass,
                           to.directions};
   PairRendering(pass, to.film.format(), camera, destinations).run(statistics);
-  to.film.add_estimates(static_cast<int>(pass.owned.group), 1);
 }
 
 }  // namespace
@@ -354,9 +329,11 @@ std::unique_ptr<PairFindings> render(const PairPass& pass, const PairRender& to,
                                      const PairLearning& learning,
                                      EstimatorStatistics& statistics) {
   Destinations destinations;
+  // What is left of a pass tells only of that part.
+  const bool is_whole = !to.film.is_open(static_cast<int>(pass.owned.group));
   auto found = findings(pass, to.film.format(), to.samples, learning, destinations);
   render_to(to, pass, destinations, statistics);
-  return found;
+  return is_whole ? std::move(found) : nullptr;
 }
 
 std::unique_ptr<PairFindings> measure(const PairPass& pass, const FilmFormat& film,

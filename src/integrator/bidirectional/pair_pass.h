@@ -44,6 +44,7 @@ struct PairPass {
   bool light_paths_vary = false;
   /// One technique of the estimator alone.
   TechniqueChoice technique{};
+  PassControl& control = unwatched;
 };
 
 /// How often each pixel is sampled.
@@ -88,7 +89,7 @@ struct PairTrial {
 
 /// Adds a pass to the film, the number of estimates included.
 void render(const PairPass& pass, const PairRender& to, EstimatorStatistics& statistics);
-/// The same, and returns what was measured.
+/// The same, and returns what was measured; null if only the rest of a pass was rendered.
 std::unique_ptr<PairFindings> render(const PairPass& pass, const PairRender& to,
                                      const PairLearning& learning, EstimatorStatistics& statistics);
 /// Measures the same pass for no film.

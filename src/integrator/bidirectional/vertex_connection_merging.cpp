@@ -51,13 +51,15 @@ int64_t default_light_paths(int64_t pixels) {
 
 std::unique_ptr<PassFindings> VertexConnectionMerging::render_pass(const PassKey& key,
                                                                    const Learned*,
-                                                                   const Scene& scene, Film& film) {
+                                                                   const Scene& scene, Film& film,
+                                                                   PassControl& control) {
   PairPass pass{.key = key,
                 .seed = hash_combine(key.seed, number_),
                 .scene = scene,
                 .owned = owned_,
                 .options = options_,
-                .technique = options_.own<TechniqueChoice>()};
+                .technique = options_.own<TechniqueChoice>(),
+                .control = control};
   pass.techniques.light_paths = options_.photons_per_pass > 0
                                     ? options_.photons_per_pass
                                     : default_light_paths(film.bounds().area());

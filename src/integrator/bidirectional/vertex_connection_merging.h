@@ -22,7 +22,7 @@ class VertexConnectionMerging : public Estimator {
   static const EstimatorDescriptor kDescriptor;
   const EstimatorDescriptor& descriptor() const override { return kDescriptor; }
   std::unique_ptr<PassFindings> render_pass(const PassKey& key, const Learned*, const Scene& scene,
-                                            Film& film) override;
+                                            Film& film, PassControl& control) override;
   EstimatorStatistics statistics() const override { return statistics_; }
 
  protected:

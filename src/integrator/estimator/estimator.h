@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "core/pass_control.h"
 #include "core/sampler.h"
 #include "film/film.h"
 #include "integrator/estimator/estimator_descriptor.h"
@@ -22,8 +23,8 @@ class Estimator {
 
   /// What the first pass needs to know of the scene: a function of the scene, the film's format,
   /// the estimator's options and the seed. Null if that is nothing.
-  virtual std::shared_ptr<const Learned> learn(const Scene&, const FilmFormat&,
-                                               uint64_t /*seed*/) const {
+  virtual std::shared_ptr<const Learned> learn(const Scene&, const FilmFormat&, uint64_t /*seed*/,
+                                               PassControl&) const {
     return nullptr;
   }
   /// What all later passes need to know, a function of the same. `before` is what learn() returned
@@ -31,7 +32,7 @@ class Estimator {
   /// and is traced again, for no film.
   virtual std::shared_ptr<const Learned> learn_from_first_pass(
       std::shared_ptr<const Learned> before, std::unique_ptr<PassFindings> /*found*/, const Scene&,
-      const FilmFormat&, uint64_t /*seed*/) const {
+      const FilmFormat&, uint64_t /*seed*/, PassControl&) const {
     return before;
   }
   /// The value that `write` wrote of one that learn() or learn_from_first_pass() returned. Throws
@@ -43,8 +44,12 @@ class Estimator {
   /// Adds pass `key.pass` to the film, estimate counts included. It depends on nothing but the
   /// arguments and what add_state() adds; `learned` is the value for this pass and may have been
   /// learned with another seed. Returns what learn_from_first_pass() asks for, or null.
+  /// `control` may end the pass (PassStopped): the film then has the pixels of those slices that
+  /// are done (Film::finish_slice), or nothing of the pass. Slices that the film has already, of a
+  /// pass that was ended, are not rendered again, and what they found is not returned.
   virtual std::unique_ptr<PassFindings> render_pass(const PassKey& key, const Learned* learned,
-                                                    const Scene& scene, Film& film) = 0;
+                                                    const Scene& scene, Film& film,
+                                                    PassControl& control) = 0;
   /// Counts of the passes that were rendered here; what learning took is not in them.
   virtual EstimatorStatistics statistics() const = 0;
   /// Adds what it keeps from pass to pass beside the film, so that it can go on from there; nothing

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/parallel.h"
+#include "integrator/estimator/slice_loop.h"
 #include "transport/path_points.h"
 
 namespace nephroid {
@@ -65,13 +65,14 @@ const EstimatorDescriptor& FeatureEstimator::descriptor() const {
 }
 
 std::unique_ptr<PassFindings> FeatureEstimator::render_pass(const PassKey& key, const Learned*,
-                                                            const Scene& scene, Film& film) {
-  const PixelBounds& b = film.bounds();
+                                                            const Scene& scene, Film& film,
+                                                            PassControl& control) {
   const FilmSettings& settings = film.settings();
   const SobolPoint point = eye_point(key.pass);
-  const auto trace_row = [&](uint64_t& rays, int64_t row, int64_t) {
-    const int y = b.y0 + static_cast<int>(row);
-    for (int x = b.x0; x < b.x1; ++x) {
+  const auto trace_slice = [&](uint64_t& rays, const PixelSlices::Run& run) {
+    const int y = run.y;
+    for (int i = 0; i < run.count; ++i) {
+      const int x = run.x + i * run.step;
       PathSampler sampler(point, hash_combine(key.seed, kStream, x, y));
       sampler.start_dimension(dimensions::kWavelength);
       const SampledWavelengths lambda =
@@ -88,10 +89,9 @@ std::unique_ptr<PassFindings> FeatureEstimator::render_pass(const PassKey& key, 
       rays += path.walk.rays;
     }
   };
-  ordered_reduce<uint64_t>(b.height(), 1, trace_row,
-                           [&](uint64_t&& of_row) { statistics_.rays += of_row; });
-  film.add_feature_estimates(1);
-  statistics_.camera_paths += b.area();
+  SlicesOfPass{.film = film, .group = film.layout().group_count()}.render<uint64_t>(
+      control, trace_slice, [&](uint64_t&& rays) { statistics_.rays += rays; });
+  statistics_.camera_paths += film.bounds().area();
   return nullptr;
 }
 

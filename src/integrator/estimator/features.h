@@ -29,7 +29,7 @@ class FeatureEstimator : public Estimator {
  public:
   const EstimatorDescriptor& descriptor() const override;
   std::unique_ptr<PassFindings> render_pass(const PassKey& key, const Learned*, const Scene& scene,
-                                            Film& film) override;
+                                            Film& film, PassControl& control) override;
   EstimatorStatistics statistics() const override { return statistics_; }
 
  private:

@@ -12,10 +12,11 @@ namespace nephroid {
 class LearningLoop {
  public:
   /// Renders a pass after learning what it needs and has not been learned yet.
-  void render_pass(Estimator& estimator, const PassKey& key, const Scene& scene, Film& film);
+  void render_pass(Estimator& estimator, const PassKey& key, const Scene& scene, Film& film,
+                   PassControl& control = unwatched);
   /// Both values for a seed, whichever passes have been rendered.
   const LearnedValues& learn(const Estimator& estimator, uint64_t seed, const Scene& scene,
-                             const FilmFormat& format);
+                             const FilmFormat& format, PassControl& control = unwatched);
   /// From now on passes of all seeds use these values, learned of the same scene, format and
   /// options.
   void use(const LearnedValues& values);
@@ -24,7 +25,7 @@ class LearningLoop {
 
  private:
   void start(const Estimator& estimator, uint64_t seed, const Scene& scene,
-             const FilmFormat& format);
+             const FilmFormat& format, PassControl& control);
 
   LearnedValues values_;
   std::unique_ptr<PassFindings> found_;  ///< by pass 0, until it is learned from

@@ -33,7 +33,7 @@ CasterGuide caster_guide(std::vector<UsefulStart> met, const CausticCasters& see
 
 GuidedPhotons guide_photons(uint64_t seed, const Scene& scene, const FilmFormat& film,
                             const OwnedRoutes& owned, const IntegratorOptions& options,
-                            bool guides_scattering) {
+                            bool guides_scattering, PassControl& control) {
   if (!options.own<GuidingOptions>().photons || !photons_can_count(owned)) return {};
   // Photons of learning are aimed from lights alone: how often they were of use is what
   // EmissionGuide asks for.
@@ -46,7 +46,7 @@ GuidedPhotons guide_photons(uint64_t seed, const Scene& scene, const FilmFormat&
     IntegratorOptions of_round = options;
     of_round.photons_per_pass = paths;
     PhotonPass pass =
-        start_photon_pass({hash_combine(seed, kStream), round}, scene, film, of_round);
+        start_photon_pass({hash_combine(seed, kStream), round}, scene, film, of_round, control);
     // What stands in the way of light, the camera can tell before any has met it.
     if (round == 0) {
       seen = caustic_casters(scene, film, pass, of_round);
@@ -79,12 +79,13 @@ constexpr EstimatorTraits kMerging{.name = "photons", .merges = true, .starts_at
 }  // namespace
 
 GuidedPhotons guide_caustic_photons(uint64_t seed, const Scene& scene, const FilmFormat& film,
-                                    const IntegratorOptions& options) {
+                                    const IntegratorOptions& options, PassControl& control) {
   const CompiledPlan plan = compile_plan(
       {{{"caustic", "C.*[DG]S+[DG]?L", &kMerging, {}}, {"rest", ".*", &kTheRest, {}}}, {}}, scene);
   constexpr size_t kCaustics = 0;  // the group of the first route
   const auto routes = std::make_shared<const Routes>(plan.compilation.routes);
-  return guide_photons(seed, scene, film, {routes, plan.symbols, kCaustics}, options, false);
+  return guide_photons(seed, scene, film, {routes, plan.symbols, kCaustics}, options, false,
+                       control);
 }
 
 void LearnedPhotons::add_to(EstimatorStatistics& statistics) const {

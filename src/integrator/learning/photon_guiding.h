@@ -25,12 +25,13 @@ struct GuidedPhotons {
 /// for it.
 GuidedPhotons guide_photons(uint64_t seed, const Scene& scene, const FilmFormat& film,
                             const OwnedRoutes& owned, const IntegratorOptions& options,
-                            bool guides_scattering);
+                            bool guides_scattering, PassControl& control = unwatched);
 
 /// The same where photons start, for an estimator of other routes whose photons are of use where
 /// those of a route of caustics would be.
 GuidedPhotons guide_caustic_photons(uint64_t seed, const Scene& scene, const FilmFormat& film,
-                                    const IntegratorOptions& options);
+                                    const IntegratorOptions& options,
+                                    PassControl& control = unwatched);
 
 /// The same as what an estimator has learned.
 class LearnedPhotons final : public Learned {

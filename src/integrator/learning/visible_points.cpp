@@ -26,8 +26,8 @@ struct SomePixels {
   }
   /// Calls f(row, x, y), rows in parallel.
   template <class F>
-  void for_each(const F& f) const {
-    parallel_chunks(rows, 1, [&](int64_t row, int64_t, int64_t) {
+  void for_each(PassControl& control, const F& f) const {
+    parallel_chunks(control, rows, 1, [&](int64_t row, int64_t, int64_t) {
       const int y = bounds.y0 + static_cast<int>(row) * stride + shift_y;
       if (y >= bounds.y1) return;
       for (int x = bounds.x0 + shift_x; x < bounds.x1; x += stride) f(row, x, y);
@@ -91,7 +91,7 @@ template <class T, class Run>
 Found<T> walk_from(const Scene& scene, const SomePixels& pixels, const PhotonPass& pass,
                    const Run& run) {
   std::vector<Found<T>> rows(pixels.rows);
-  pixels.for_each([&](size_t row, int x, int y) {
+  pixels.for_each(*pass.trace.control, [&](size_t row, int x, int y) {
     PathSampler sampler(pass.point, hash_combine(pass.trace.key.seed, kStream, x, y));
     CameraPath path = start_merging_path(scene, x, y, sampler, pass);
     if (!(path.camera_weight > 0)) return;

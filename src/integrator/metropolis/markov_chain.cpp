@@ -48,7 +48,7 @@ struct Chunk {
 class ChainPass {
  public:
   ChainPass(const PassKey& key, const ChainSettings& settings, const ChainPilot& pilot,
-            const PathFunctionMaker& make, SplatBuffer& buffer)
+            const PathFunctionMaker& make, SplatBuffer& buffer, PassControl& control)
       : key_(key),
         settings_(settings),
         mutations_(static_cast<double>(settings.chains * settings.mutations)),
@@ -56,7 +56,8 @@ class ChainPass {
         importance_(pilot.importance),
         balance_(pilot.balance > 0 ? pilot.balance : 1),
         make_(make),
-        buffer_(buffer) {}
+        buffer_(buffer),
+        control_(control) {}
 
   void run() {
     draw_bootstrap();
@@ -66,7 +67,7 @@ class ChainPass {
     for (int64_t first = 0; first < settings_.chains; first += at_once) {
       const int64_t count = std::min(at_once, settings_.chains - first);
       std::vector<Chunk> chunks(count);
-      parallel_chunks(count, 1,
+      parallel_chunks(control_, count, 1,
                       [&](int64_t c, int64_t, int64_t) { run_chain(first + c, chunks[c]); });
       take(chunks);
     }
@@ -92,7 +93,7 @@ class ChainPass {
     for (int64_t first = 0; first < settings_.bootstrap; first += kPathsAtOnce) {
       const int64_t count = std::min(kPathsAtOnce, settings_.bootstrap - first);
       std::vector<Chunk> chunks(chunk_count(count, kPathsPerChunk));
-      parallel_chunks(count, kPathsPerChunk, [&](int64_t c, int64_t begin, int64_t end) {
+      parallel_chunks(control_, count, kPathsPerChunk, [&](int64_t c, int64_t begin, int64_t end) {
         Chunk& out = chunks[c];
         const std::unique_ptr<PathFunction> function = make_();
         FoundLight found;
@@ -187,6 +188,7 @@ class ChainPass {
   const double balance_;
   const PathFunctionMaker& make_;
   SplatBuffer& buffer_;
+  PassControl& control_;
   std::vector<double> targets_;  ///< of the bootstrap
   std::vector<int64_t> starts_;  ///< of the chains, among the bootstrap
   double ratio_ = 0;             ///< mean target of the bootstrap over the balance
@@ -266,9 +268,9 @@ bool MarkovChain::decide() {
 }
 
 ChainPilot look_around(uint64_t seed, int64_t count, const FilmArea& area, size_t kinds,
-                       const PathFunctionMaker& make) {
+                       const PathFunctionMaker& make, PassControl& control) {
   std::vector<std::vector<FoundLight>> chunks(chunk_count(count, kPathsPerChunk));
-  parallel_chunks(count, kPathsPerChunk, [&](int64_t c, int64_t begin, int64_t end) {
+  parallel_chunks(control, count, kPathsPerChunk, [&](int64_t c, int64_t begin, int64_t end) {
     const std::unique_ptr<PathFunction> function = make();
     FoundLight found;
     MarkovSample numbers({});
@@ -295,9 +297,9 @@ ChainPilot look_around(uint64_t seed, int64_t count, const FilmArea& area, size_
 }
 
 void render_chains(const PassKey& key, const ChainSettings& settings, const ChainPilot& pilot,
-                   const PathFunctionMaker& make, SplatBuffer& buffer,
-                   ChainStatistics& statistics) {
-  ChainPass pass(key, settings, pilot, make, buffer);
+                   const PathFunctionMaker& make, SplatBuffer& buffer, ChainStatistics& statistics,
+                   PassControl& control) {
+  ChainPass pass(key, settings, pilot, make, buffer, control);
   pass.run();
   statistics.add(pass.statistics());
 }

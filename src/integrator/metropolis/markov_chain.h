@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/markov_sample.h"
+#include "core/pass_control.h"
 #include "film/splats.h"
 #include "integrator/metropolis/film_importance.h"
 
@@ -104,10 +105,11 @@ struct ChainStatistics {
 
 /// Learns from `count` paths: a function of the seed.
 ChainPilot look_around(uint64_t seed, int64_t count, const FilmArea& area, size_t kinds,
-                       const PathFunctionMaker& make);
+                       const PathFunctionMaker& make, PassControl& control = unwatched);
 
 /// Adds all that the paths of a pass find to `buffer`, to be finished with the scale 1.
 void render_chains(const PassKey& key, const ChainSettings& settings, const ChainPilot& pilot,
-                   const PathFunctionMaker& make, SplatBuffer& buffer, ChainStatistics& statistics);
+                   const PathFunctionMaker& make, SplatBuffer& buffer, ChainStatistics& statistics,
+                   PassControl& control = unwatched);
 
 }  // namespace nephroid

@@ -38,11 +38,11 @@ ChainSettings MetropolisPasses::settings_for(int64_t pixels) const {
 }
 
 std::shared_ptr<const LearnedPilot> LearnedPilot::learn(uint64_t seed, const FilmArea& area,
-                                                        size_t kinds,
-                                                        const PathFunctionMaker& make) {
+                                                        size_t kinds, const PathFunctionMaker& make,
+                                                        PassControl& control) {
   const float paths = std::clamp(kPilotPathsPerPixel * area.area(), kMinPilotPaths, kMaxPilotPaths);
   return std::make_shared<const LearnedPilot>(
-      look_around(seed, static_cast<int64_t>(paths), area, kinds, make));
+      look_around(seed, static_cast<int64_t>(paths), area, kinds, make, control));
 }
 
 std::shared_ptr<const LearnedPilot> LearnedPilot::read(ByteReader& from) {
@@ -52,10 +52,11 @@ std::shared_ptr<const LearnedPilot> LearnedPilot::read(ByteReader& from) {
 }
 
 void MetropolisPasses::render(const PassKey& key, const Scene& scene, int group,
-                              const ChainPilot& pilot, const PathFunctionMaker& make, Film& film) {
+                              const ChainPilot& pilot, const PathFunctionMaker& make, Film& film,
+                              PassControl& control) {
   SplatBuffer buffer(film, group, *scene.filter);
   pixel_bytes_ = film.bounds().area() * SplatBuffer::bytes_per_pixel(film.parts_of(group).size());
-  render_chains(key, settings_for(film.bounds().area()), pilot, make, buffer, counts_);
+  render_chains(key, settings_for(film.bounds().area()), pilot, make, buffer, counts_, control);
   buffer.finish(1.0);
   film.add_estimates(group, 1);
 }

@@ -15,7 +15,8 @@ class LearnedPilot final : public Learned {
   explicit LearnedPilot(ChainPilot pilot) : pilot_(std::move(pilot)) {}
   /// Traces them with `make`.
   static std::shared_ptr<const LearnedPilot> learn(uint64_t seed, const FilmArea& area,
-                                                   size_t kinds, const PathFunctionMaker& make);
+                                                   size_t kinds, const PathFunctionMaker& make,
+                                                   PassControl& control);
   static std::shared_ptr<const LearnedPilot> read(ByteReader& from);
   const ChainPilot& pilot() const { return pilot_; }
   void write(ByteWriter& to) const override { to(pilot_); }
@@ -31,7 +32,7 @@ class MetropolisPasses {
 
   /// Adds a pass of a group's light to the film. `make` makes what chains explore.
   void render(const PassKey& key, const Scene& scene, int group, const ChainPilot& pilot,
-              const PathFunctionMaker& make, Film& film);
+              const PathFunctionMaker& make, Film& film, PassControl& control);
   EstimatorStatistics statistics() const;
 
  private:

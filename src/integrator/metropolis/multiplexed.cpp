@@ -208,11 +208,11 @@ PathFunctionMaker maker_of(const Pass& pass) {
 }  // namespace
 
 std::shared_ptr<const Learned> Multiplexed::learn(const Scene& scene, const FilmFormat& film,
-                                                  uint64_t seed) const {
+                                                  uint64_t seed, PassControl& control) const {
   const CameraView view(scene, film.bounds());
   // Its threshold is that of pass 0, whichever pass asks.
   const Pass pass = start_pass(scene, owned_, film, options_, view, {seed, 0});
-  return LearnedPilot::learn(seed, pass.area, pass.kinds.kinds(), maker_of(pass));
+  return LearnedPilot::learn(seed, pass.area, pass.kinds.kinds(), maker_of(pass), control);
 }
 
 std::shared_ptr<const Learned> Multiplexed::read_learned(ByteReader& from,
@@ -221,12 +221,13 @@ std::shared_ptr<const Learned> Multiplexed::read_learned(ByteReader& from,
 }
 
 std::unique_ptr<PassFindings> Multiplexed::render_pass(const PassKey& key, const Learned* learned,
-                                                       const Scene& scene, Film& film) {
+                                                       const Scene& scene, Film& film,
+                                                       PassControl& control) {
   const ChainPilot& pilot = static_cast<const LearnedPilot*>(learned)->pilot();
   const CameraView view(scene, film.bounds());
   Pass pass = start_pass(scene, owned_, film.format(), options_, view, key);
   pass.kinds = KindChoice(pass.kinds, pilot.kinds);
-  passes_.render(key, scene, static_cast<int>(owned_.group), pilot, maker_of(pass), film);
+  passes_.render(key, scene, static_cast<int>(owned_.group), pilot, maker_of(pass), film, control);
   return nullptr;
 }
 

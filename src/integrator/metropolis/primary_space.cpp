@@ -90,7 +90,7 @@ PathFunctionMaker maker_of(const Pass& pass) {
 }  // namespace
 
 std::shared_ptr<const Learned> PrimarySpace::learn(const Scene& scene, const FilmFormat& film,
-                                                   uint64_t seed) const {
+                                                   uint64_t seed, PassControl& control) const {
   // Its threshold is that of pass 0, whichever pass asks.
   const Pass pass{scene,
                   owned_,
@@ -98,7 +98,7 @@ std::shared_ptr<const Learned> PrimarySpace::learn(const Scene& scene, const Fil
                   film.settings(),
                   FilmArea(film.bounds(), *scene.filter),
                   specular_alpha_of_pass(scene.specular_band, {seed, 0})};
-  return LearnedPilot::learn(seed, pass.area, 1, maker_of(pass));
+  return LearnedPilot::learn(seed, pass.area, 1, maker_of(pass), control);
 }
 
 std::shared_ptr<const Learned> PrimarySpace::read_learned(ByteReader& from,
@@ -107,7 +107,8 @@ std::shared_ptr<const Learned> PrimarySpace::read_learned(ByteReader& from,
 }
 
 std::unique_ptr<PassFindings> PrimarySpace::render_pass(const PassKey& key, const Learned* learned,
-                                                        const Scene& scene, Film& film) {
+                                                        const Scene& scene, Film& film,
+                                                        PassControl& control) {
   const Pass pass{scene,
                   owned_,
                   options_,
@@ -115,7 +116,7 @@ std::unique_ptr<PassFindings> PrimarySpace::render_pass(const PassKey& key, cons
                   FilmArea(film.bounds(), *scene.filter),
                   specular_alpha_of_pass(scene.specular_band, key)};
   passes_.render(key, scene, static_cast<int>(owned_.group),
-                 static_cast<const LearnedPilot*>(learned)->pilot(), maker_of(pass), film);
+                 static_cast<const LearnedPilot*>(learned)->pilot(), maker_of(pass), film, control);
   return nullptr;
 }
 

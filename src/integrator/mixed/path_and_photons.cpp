@@ -39,12 +39,13 @@ SampleMap every_other_tile(const PixelBounds& b) {
 class Trials {
  public:
   Trials(uint64_t seed, const Scene& scene, const FilmFormat& film, const OwnedRoutes& owned,
-         const IntegratorOptions& options)
+         const IntegratorOptions& options, PassControl& control)
       : seed_(seed),
         scene_(scene),
         film_(film),
         owned_(owned),
         options_(options),
+        control_(control),
         tiles_(every_other_tile(film.bounds())) {}
 
   /// What a few passes that are thrown away tell of these techniques.
@@ -66,7 +67,8 @@ class Trials {
                           .options = options_,
                           .techniques = techniques,
                           .emission = emission,
-                          .light_paths_vary = true},
+                          .light_paths_vary = true,
+                          .control = control_},
                          film_, trial, variance, counts);
     }
     costs_.rays += counts.rays;
@@ -110,6 +112,7 @@ class Trials {
   const FilmFormat& film_;
   const OwnedRoutes& owned_;
   const IntegratorOptions& options_;
+  PassControl& control_;
   const SampleMap tiles_;
   EstimatorStatistics costs_;
 };
@@ -161,7 +164,7 @@ PathAndPhotons::PathAndPhotons(OwnedRoutes owned, const IntegratorOptions& optio
 }
 
 std::shared_ptr<const Learned> PathAndPhotons::learn(const Scene& scene, const FilmFormat& film,
-                                                     uint64_t seed) const {
+                                                     uint64_t seed, PassControl& control) const {
   const int64_t pixels = film.bounds().area();
   const int asked = options_.camera_samples_per_pass;
   MixPlan plan;
@@ -169,7 +172,7 @@ std::shared_ptr<const Learned> PathAndPhotons::learn(const Scene& scene, const F
       SampleMap(film.bounds(), static_cast<uint16_t>(asked > 0 ? asked : kFirstPassSamples));
   plan.is_even = asked > 0;
   plan.lacks_specular = !has_specular_events(owned_);
-  plan.photons = guide_caustic_photons(seed, scene, film, options_);
+  plan.photons = guide_caustic_photons(seed, scene, film, options_, control);
   const EmissionGuide& emission = plan.photons.guide.starts;
   PairTechniques& chosen = plan.techniques;
   chosen = {
@@ -178,7 +181,7 @@ std::shared_ptr<const Learned> PathAndPhotons::learn(const Scene& scene, const F
       .caustics_only = true,
       .separates_chains = SpecularTree(scene, owned_, options_.max_depth).finds_something(),
       .roulette_threshold = kCameraRouletteThreshold};
-  Trials trials(seed, scene, film, owned_, options_);
+  Trials trials(seed, scene, film, owned_, options_, control);
   Trial many = trials.run(chosen, emission);
   Balance balance(many);
   if (chosen.light_paths > 0) {
@@ -222,8 +225,8 @@ std::shared_ptr<const Learned> PathAndPhotons::learn(const Scene& scene, const F
   return std::make_shared<const LearnedMix>(std::move(plan));
 }
 
-PairPass PathAndPhotons::pass_of(const PassKey& key, const Scene& scene,
-                                 const LearnedMix& learned) const {
+PairPass PathAndPhotons::pass_of(const PassKey& key, const Scene& scene, const LearnedMix& learned,
+                                 PassControl& control) const {
   const MixPlan& plan = learned.plan();
   const SampleMap& paths = key.pass > 0 ? learned.refinement()->samples.paths : plan.first_samples;
   PairPass pass{.key = key,
@@ -233,7 +236,8 @@ PairPass PathAndPhotons::pass_of(const PassKey& key, const Scene& scene,
                 .options = options_,
                 .techniques = plan.techniques,
                 .emission = plan.techniques.connects ? kUnguided : plan.photons.guide.starts,
-                .light_paths_vary = true};
+                .light_paths_vary = true,
+                .control = control};
   pass.techniques.light_paths = plan.light_paths(paths.mean());
   return pass;
 }
@@ -246,15 +250,15 @@ PairLearning PathAndPhotons::learning_of(const LearnedMix& learned) const {
 
 std::shared_ptr<const Learned> PathAndPhotons::learn_from_first_pass(
     std::shared_ptr<const Learned> before, std::unique_ptr<PassFindings> found, const Scene& scene,
-    const FilmFormat& film, uint64_t seed) const {
+    const FilmFormat& film, uint64_t seed, PassControl& control) const {
   const LearnedMix& mix = as_mix(before.get());
   MixPlan plan = mix.plan();
   const PairLearning learning = learning_of(mix);
   const bool learns = learning.measures_variance || learning.keeps_records;
   if (!found && learns) {
     EstimatorStatistics counts;
-    found = measure(pass_of({seed, 0}, scene, mix), film, {plan.first_samples, plan.first_samples},
-                    learning, counts);
+    found = measure(pass_of({seed, 0}, scene, mix, control), film,
+                    {plan.first_samples, plan.first_samples}, learning, counts);
     plan.rays += counts.rays;
   }
   MixRefinement refinement{{plan.first_samples, plan.first_samples}, {}};
@@ -282,10 +286,11 @@ std::shared_ptr<const Learned> PathAndPhotons::read_learned(ByteReader& from,
 
 std::unique_ptr<PassFindings> PathAndPhotons::render_pass(const PassKey& key,
                                                           const Learned* learned,
-                                                          const Scene& scene, Film& film) {
+                                                          const Scene& scene, Film& film,
+                                                          PassControl& control) {
   const LearnedMix& mix = as_mix(learned);
   const MixPlan& plan = mix.plan();
-  const PairPass pass = pass_of(key, scene, mix);
+  const PairPass pass = pass_of(key, scene, mix, control);
   if (key.pass == 0) {
     const PairRender to{
         .film = film, .samples = {plan.first_samples, plan.first_samples}, .adds_features = true};

@@ -21,16 +21,18 @@ class PathAndPhotons final : public Estimator {
   const EstimatorDescriptor& descriptor() const override { return kDescriptor; }
   bool records_features() const override { return true; }
   /// Where photons start, and by trial passes which techniques to use and how many light paths.
-  std::shared_ptr<const Learned> learn(const Scene& scene, const FilmFormat& film,
-                                       uint64_t seed) const override;
+  std::shared_ptr<const Learned> learn(const Scene& scene, const FilmFormat& film, uint64_t seed,
+                                       PassControl& control) const override;
   /// How many camera paths each tile has, and where these go.
   std::shared_ptr<const Learned> learn_from_first_pass(std::shared_ptr<const Learned> before,
                                                        std::unique_ptr<PassFindings> found,
                                                        const Scene& scene, const FilmFormat& film,
-                                                       uint64_t seed) const override;
+                                                       uint64_t seed,
+                                                       PassControl& control) const override;
   std::shared_ptr<const Learned> read_learned(ByteReader& from, const FilmFormat&) const override;
   std::unique_ptr<PassFindings> render_pass(const PassKey& key, const Learned* learned,
-                                            const Scene& scene, Film& film) override;
+                                            const Scene& scene, Film& film,
+                                            PassControl& control) override;
   EstimatorStatistics statistics() const override { return statistics_; }
   /// What the pass that takes most has for each pixel, the first one.
   static size_t bytes_per_pixel(size_t parts, bool clamps) {
@@ -38,7 +40,8 @@ class PathAndPhotons final : public Estimator {
   }
 
  private:
-  PairPass pass_of(const PassKey& key, const Scene& scene, const LearnedMix& learned) const;
+  PairPass pass_of(const PassKey& key, const Scene& scene, const LearnedMix& learned,
+                   PassControl& control) const;
   PairLearning learning_of(const LearnedMix& learned) const;
 
   OwnedRoutes owned_;

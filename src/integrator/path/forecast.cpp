@@ -127,7 +127,8 @@ void LearnedForecast::add_to(EstimatorStatistics& s) const {
 
 /// Traces the photons of a round and adds what they saw.
 void trace_round(const PassKey& key, int64_t photons, const Scene& scene, const OwnedRoutes& owned,
-                 int max_depth, std::vector<CausticRecord>& records, Forecasting& made) {
+                 int max_depth, std::vector<CausticRecord>& records, Forecasting& made,
+                 PassControl& control) {
   const int64_t first = static_cast<int64_t>(key.pass) * photons;
   const float specular_alpha = specular_alpha_of_pass(scene.specular_band, {key.seed, 0});
   struct Chunk {
@@ -152,7 +153,7 @@ void trace_round(const PassKey& key, int64_t photons, const Scene& scene, const 
         chunk.useful += chunk.records.size() > before;
       });
   };
-  ordered_reduce<Chunk>(photons, kChunk, trace_chunk, [&](Chunk&& chunk) {
+  ordered_reduce<Chunk>(control, photons, kChunk, trace_chunk, [&](Chunk&& chunk) {
     records.insert(records.end(), chunk.records.begin(), chunk.records.end());
     made.rays += chunk.rays;
     made.photon_paths_useful += chunk.useful;
@@ -176,15 +177,15 @@ constinit const EstimatorDescriptor Forecast::kDescriptor = {
 Forecast::Forecast(OwnedRoutes owned, const IntegratorOptions& options)
     : owned_(std::move(owned)), options_(options) {}
 
-std::shared_ptr<const Learned> Forecast::learn(const Scene& scene, const FilmFormat&,
-                                               uint64_t seed) const {
+std::shared_ptr<const Learned> Forecast::learn(const Scene& scene, const FilmFormat&, uint64_t seed,
+                                               PassControl& control) const {
   Forecasting made;
   std::vector<CausticRecord> records;
   const bool asked = options_.photons_per_pass > 0;
   const int64_t photons = asked ? options_.photons_per_pass : kPhotonsOfRound;
   for (int k = 0; k < (asked ? 1 : kMaxRounds) && records.size() < kEnoughRecords; ++k)
     trace_round({hash_combine(seed, kLearning), static_cast<uint32_t>(k)}, photons, scene, owned_,
-                options_.max_depth, records, made);
+                options_.max_depth, records, made, control);
   made.map = ForecastMap(std::move(records));
   return std::make_shared<LearnedForecast>(std::move(made));
 }
@@ -196,10 +197,11 @@ std::shared_ptr<const Learned> Forecast::read_learned(ByteReader& from, const Fi
 }
 
 std::unique_ptr<PassFindings> Forecast::render_pass(const PassKey& key, const Learned* learned,
-                                                    const Scene& scene, Film& film) {
+                                                    const Scene& scene, Film& film,
+                                                    PassControl& control) {
   const ForecastMap& map = static_cast<const LearnedForecast*>(learned)->map();
-  const PathPass pass{key,    scene, film, owned_, std::max(1, options_.camera_samples_per_pass),
-                      kStream};
+  const PathPass pass{key,     scene,  film, owned_, std::max(1, options_.camera_samples_per_pass),
+                      kStream, control};
   const SpecularTree tree(scene, owned_, options_.max_depth);
   const bool sees_trees = options_.own<PathOptions>().specular_trees;
   statistics_.rays += trace_paths(pass, [&](int, int, CameraPath& path, const SensorWeights&,

@@ -39,12 +39,13 @@ PathEstimator::PathEstimator(OwnedRoutes owned, const IntegratorOptions& options
       finds_something_(owns_any_path(owned_)) {}
 
 std::unique_ptr<PassFindings> PathEstimator::render_pass(const PassKey& key, const Learned*,
-                                                         const Scene& scene, Film& film) {
+                                                         const Scene& scene, Film& film,
+                                                         PassControl& control) {
   if (!finds_something_) {
     film.add_estimates(static_cast<int>(owned_.group), 1);
     return nullptr;
   }
-  const PathPass pass{key, scene, film, owned_, samples_per_pass_, kStream};
+  const PathPass pass{key, scene, film, owned_, samples_per_pass_, kStream, control, true};
   const SpecularTree tree(scene, owned_, options_.max_depth);
   const PathOptions& own = options_.own<PathOptions>();
   statistics_.rays += trace_paths(pass, [&](int x, int y, CameraPath& path,
@@ -58,7 +59,6 @@ std::unique_ptr<PassFindings> PathEstimator::render_pass(const PassKey& key, con
     features.add_to(film, x, y, scene, path, weights);
     return path.walk.rays + visitor.more_rays();
   });
-  film.add_feature_estimates(samples_per_pass_);
   statistics_.camera_paths += film.bounds().area() * samples_per_pass_;
   return nullptr;
 }

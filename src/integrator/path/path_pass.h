@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "core/parallel.h"
 #include "film/part_sums.h"
 #include "integrator/estimator/estimator.h"
+#include "integrator/estimator/slice_loop.h"
 #include "route/scene_symbols.h"
 #include "transport/camera_path.h"
 #include "transport/path_points.h"
@@ -22,6 +22,8 @@ struct PathPass {
   const OwnedRoutes& owned;
   int samples = 1;      ///< of each pixel
   uint64_t stream = 0;  ///< of random numbers
+  PassControl& control;
+  bool adds_features = false;  ///< a trace adds those of its sample
 
   SensorWeights weights_of(const CameraPath& path) const {
     const FilmSettings& settings = film.settings();
@@ -35,37 +37,45 @@ struct PathPass {
 /// the light, are of the wavelengths that the path starts with. Returns all rays.
 template <class Trace>
 uint64_t trace_paths(const PathPass& pass, Trace&& trace) {
-  const PixelBounds& b = pass.film.bounds();
   const float specular_alpha = specular_alpha_of_pass(pass.scene.specular_band, pass.key);
   const int group = static_cast<int>(pass.owned.group);
+  const uint64_t first = uint64_t{pass.key.pass} * pass.samples;
+  std::vector<SobolPoint> points;
+  for (int k = 0; k < pass.samples; ++k)
+    points.push_back(eye_point(static_cast<uint32_t>(first + k)));
+  const auto trace_sample = [&](int x, int y, int k, PartSums& light) {
+    const uint64_t turn = (first + k) >> 32;
+    PathSampler sampler(points[k], hash_combine(pass.key.seed, pass.stream, x, y, turn));
+    sampler.start_dimension(dimensions::kWavelength);
+    const SampledWavelengths lambda =
+        SampledWavelengths::sample_visible(wavelength_number(pass.scene, sampler.get_1d()));
+    sampler.start_dimension(dimensions::kTime);
+    CameraPath path = start_camera_path(pass.scene, x, y, sampler, lambda, sampler.get_1d());
+    path.walk.specular_alpha = specular_alpha;
+    path.walk.roulette_threshold = kCameraRouletteThreshold;
+    light.clear();
+    const SensorWeights weights = pass.weights_of(path);
+    const uint64_t rays = trace(x, y, path, weights, sampler, light);
+    pass.film.add(group, x, y,
+                  light.colors(weights, path.camera_weight, pass.film.settings().max_component,
+                               path.filter_weight));
+    return rays;
+  };
+  const uint64_t samples = pass.samples;
+  const SlicesOfPass slices{.film = pass.film,
+                            .group = group,
+                            .estimates = samples,
+                            .feature_estimates = pass.adds_features ? samples : 0};
   uint64_t all_rays = 0;
-  for (int k = 0; k < pass.samples; ++k) {
-    const uint64_t index = uint64_t{pass.key.pass} * pass.samples + k;
-    const SobolPoint point = eye_point(static_cast<uint32_t>(index));
-    const auto trace_row = [&](uint64_t& rays, int64_t row, int64_t) {
-      const int y = b.y0 + static_cast<int>(row);
-      PartSums light(*pass.owned.routes, pass.owned.group);
-      for (int x = b.x0; x < b.x1; ++x) {
-        PathSampler sampler(point, hash_combine(pass.key.seed, pass.stream, x, y, index >> 32));
-        sampler.start_dimension(dimensions::kWavelength);
-        const SampledWavelengths lambda =
-            SampledWavelengths::sample_visible(wavelength_number(pass.scene, sampler.get_1d()));
-        sampler.start_dimension(dimensions::kTime);
-        CameraPath path = start_camera_path(pass.scene, x, y, sampler, lambda, sampler.get_1d());
-        path.walk.specular_alpha = specular_alpha;
-        path.walk.roulette_threshold = kCameraRouletteThreshold;
-        light.clear();
-        const SensorWeights weights = pass.weights_of(path);
-        rays += trace(x, y, path, weights, sampler, light);
-        pass.film.add(group, x, y,
-                      light.colors(weights, path.camera_weight, pass.film.settings().max_component,
-                                   path.filter_weight));
-      }
-    };
-    ordered_reduce<uint64_t>(b.height(), 1, trace_row,
-                             [&](uint64_t&& of_row) { all_rays += of_row; });
-    pass.film.add_estimates(group, 1);
-  }
+  slices.render<uint64_t>(
+      pass.control,
+      [&](uint64_t& rays, const PixelSlices::Run& run) {
+        PartSums light(*pass.owned.routes, pass.owned.group);
+        for (int i = 0; i < run.count; ++i)
+          for (int k = 0; k < pass.samples; ++k)
+            rays += trace_sample(run.x + i * run.step, run.y, k, light);
+      },
+      [&](uint64_t&& rays) { all_rays += rays; });
   return all_rays;
 }
 

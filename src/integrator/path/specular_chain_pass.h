@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "film/film.h"
+#include "film/part_sums.h"
 #include "integrator/estimator/sample_map.h"
 #include "integrator/estimator/technique_counter.h"
 #include "integrator/path/specular_tree.h"
@@ -31,22 +32,31 @@ struct SpecularChainPass {
   float specular_alpha = 0;                ///< of the pass
   ChainVariance* measured = nullptr;       ///< measures what each walk finds; null: nobody asks
   TechniqueCounter* techniques = nullptr;  ///< where what was found is counted
+  PassControl& control = unwatched;
 
-  /// Adds each pixel's estimate to values[pixel * parts + part]. Walk k of n has the number
-  /// first_index(n) + k of its pixel. Returns the number of rays.
+  /// Numbers of the walks of a pixel that has n, [n][walk].
+  using Points = std::vector<std::vector<SobolPoint>>;
+  /// Walk k of n has the number first_index(n) + k of its pixel.
   template <class FirstIndex>
-  uint64_t render(std::span<Rgb> values, FirstIndex&& first_index) const {
-    std::vector<std::vector<SobolPoint>> points(walks.most() + 1);
+  Points points(FirstIndex&& first_index) const {
+    Points all(walks.most() + 1);
     for (int n = 1; n <= walks.most(); ++n)
       if (walks.has(n))
-        for (int k = 0; k < n; ++k) points[n].push_back(eye_point(first_index(n) + k));
-    return render_points(values, points);
+        for (int k = 0; k < n; ++k) all[n].push_back(eye_point(first_index(n) + k));
+    return all;
   }
-
- private:
-  /// `points[n]`: of the walks of a pixel that has n.
-  uint64_t render_points(std::span<Rgb> values,
-                         const std::vector<std::vector<SobolPoint>>& points) const;
+  /// What walks need that follow each other on one thread.
+  struct Walker {
+    explicit Walker(const SpecularChainPass& pass);
+    PartSums light;
+    TechniqueCounter::Row techniques;
+    std::vector<SpecularTree::Light> found;
+    uint64_t rays = 0;
+  };
+  /// Adds the estimate of a pixel, counted from the corner of the crop, to values[part].
+  void look(int x, int y, const Points& points, std::span<Rgb> values, Walker& walker) const;
+  /// Adds the estimates of all pixels to values[pixel * parts + part]. Returns the number of rays.
+  uint64_t render(std::span<Rgb> values, const Points& points) const;
 };
 
 }  // namespace nephroid

@@ -191,8 +191,8 @@ LightTracing::LightTracing(OwnedRoutes owned, const IntegratorOptions& options)
 int64_t light_pass(const PassKey& key, const Scene& scene, const Film& film,
                    const OwnedRoutes& owned, const IntegratorOptions& options,
                    const ConnectionWeight& weight, SplatBuffer& buffer,
-                   EstimatorStatistics& statistics) {
-  const PhotonPass settings = start_photon_pass(key, scene, film.format(), options);
+                   EstimatorStatistics& statistics, PassControl& control) {
+  const PhotonPass settings = start_photon_pass(key, scene, film.format(), options, control);
   const LightPass pass{scene,
                        owned,
                        film.settings(),
@@ -210,7 +210,7 @@ int64_t light_pass(const PassKey& key, const Scene& scene, const Film& film,
       for (int64_t j = b; j < e; ++j) trace_light_path(pass, first + (begin + j), chunk);
     };
     std::vector<Splat> found;
-    ordered_reduce<Chunk>(count, kChunk, trace_chunk, [&](Chunk&& chunk) {
+    ordered_reduce<Chunk>(control, count, kChunk, trace_chunk, [&](Chunk&& chunk) {
       found.insert(found.end(), chunk.splats.begin(), chunk.splats.end());
       statistics.rays += chunk.rays;
       statistics.light_paths_useful += chunk.useful;
@@ -223,12 +223,14 @@ int64_t light_pass(const PassKey& key, const Scene& scene, const Film& film,
 }
 
 std::unique_ptr<PassFindings> LightTracing::render_pass(const PassKey& key, const Learned*,
-                                                        const Scene& scene, Film& film) {
+                                                        const Scene& scene, Film& film,
+                                                        PassControl& control) {
   const int group = static_cast<int>(owned_.group);
   SplatBuffer buffer(film, group, *scene.filter);
   statistics_.hold(
       0, film.bounds().area() * SplatBuffer::bytes_per_pixel(film.parts_of(group).size()));
-  const int64_t paths = light_pass(key, scene, film, owned_, options_, {}, buffer, statistics_);
+  const int64_t paths =
+      light_pass(key, scene, film, owned_, options_, {}, buffer, statistics_, control);
   buffer.finish(1.0 / static_cast<double>(paths));
   film.add_estimates(group, 1);
   return nullptr;

@@ -24,7 +24,7 @@ using ConnectionWeight = std::function<float(const CameraConnection&, const Walk
 int64_t light_pass(const PassKey& key, const Scene& scene, const Film& film,
                    const OwnedRoutes& owned, const IntegratorOptions& options,
                    const ConnectionWeight& weight, SplatBuffer& buffer,
-                   EstimatorStatistics& statistics);
+                   EstimatorStatistics& statistics, PassControl& control);
 
 class LightTracing : public Estimator {
  public:
@@ -33,7 +33,7 @@ class LightTracing : public Estimator {
   static const EstimatorDescriptor kDescriptor;
   const EstimatorDescriptor& descriptor() const override { return kDescriptor; }
   std::unique_ptr<PassFindings> render_pass(const PassKey& key, const Learned*, const Scene& scene,
-                                            Film& film) override;
+                                            Film& film, PassControl& control) override;
   EstimatorStatistics statistics() const override;
 
  private:

@@ -119,12 +119,12 @@ float PhotonMap::largest_radius(const IntegratorOptions& options) {
 }
 
 std::shared_ptr<const Learned> PhotonMap::learn(const Scene& scene, const FilmFormat& film,
-                                                uint64_t seed) const {
+                                                uint64_t seed, PassControl& control) const {
   if (!photons_can_count_) return nullptr;
   const uint64_t map_seed = seed_of_map(seed);
   std::vector<PhotonTraceSettings> sets;
   for (uint32_t s = 0; s < kSets; ++s) {
-    sets.push_back(start_photon_pass({map_seed, s}, scene, film, options_).trace);
+    sets.push_back(start_photon_pass({map_seed, s}, scene, film, options_, control).trace);
     if (const int64_t asked = options_.own<PhotonMapOptions>().map_photons; asked > 0)
       sets.back().photons_per_pass = (asked - 1) / kSets + 1;
   }
@@ -154,22 +154,29 @@ uint64_t PhotonMap::seed_of_map(uint64_t seed) const {
 }
 
 std::unique_ptr<PassFindings> PhotonMap::render_pass(const PassKey& key, const Learned* learned,
-                                                     const Scene& scene, Film& film) {
-  film.add_estimates(static_cast<int>(owned_.group), walks_per_pass_);
-  if (!photons_can_count_) return nullptr;
+                                                     const Scene& scene, Film& film,
+                                                     PassControl& control) {
+  const int group = static_cast<int>(owned_.group);
+  if (!photons_can_count_) {
+    film.add_estimates(group, walks_per_pass_);
+    return nullptr;
+  }
   const TracedMap& map = static_cast<const LearnedMap*>(learned)->map();
   // Walks have the wavelengths, time and threshold of the set that they read.
   const PassKey set{map.seed, key.pass % kSets};
-  PhotonPass pass = start_photon_pass(set, scene, film.format(), options_);
+  PhotonPass pass = start_photon_pass(set, scene, film.format(), options_, control);
   std::vector<RadiusRange> rows(film.bounds().height());
   for (uint32_t k = 0; k < walks_per_pass_; ++k) {
     // A set has a sequence of its own. Of one for all passes it would take every 16th point, which
     // lie in one strip of each pixel.
     const uint64_t index = uint64_t{key.pass / kSets} * walks_per_pass_ + k;
     pass.point = eye_point(static_cast<uint32_t>(index));
+    // What the first walks add to the film cannot be taken back.
+    if (k > 0) pass.trace.control = &unwatched;
     read(map, set, hash_combine(seed_of_map(key.seed), kStream, set.pass, index >> 32), pass, scene,
          film, rows);
   }
+  film.add_estimates(group, walks_per_pass_);
   RadiusRange all;
   for (const RadiusRange& row : rows) {
     all.smallest = std::min(all.smallest, row.smallest);

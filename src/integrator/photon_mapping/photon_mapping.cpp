@@ -32,8 +32,9 @@ PhotonMapping::PhotonMapping(OwnedRoutes owned, const IntegratorOptions& options
     : owned_(std::move(owned)), options_(options), photons_can_count_(photons_can_count(owned_)) {}
 
 std::shared_ptr<const Learned> PhotonMapping::learn(const Scene& scene, const FilmFormat& film,
-                                                    uint64_t seed) const {
-  return std::make_shared<LearnedPhotons>(guide_photons(seed, scene, film, owned_, options_, true));
+                                                    uint64_t seed, PassControl& control) const {
+  return std::make_shared<LearnedPhotons>(
+      guide_photons(seed, scene, film, owned_, options_, true, control));
 }
 
 std::shared_ptr<const Learned> PhotonMapping::read_learned(ByteReader& from,
@@ -44,19 +45,23 @@ std::shared_ptr<const Learned> PhotonMapping::read_learned(ByteReader& from,
 }
 
 std::unique_ptr<PassFindings> PhotonMapping::render_pass(const PassKey& key, const Learned* learned,
-                                                         const Scene& scene, Film& film) {
+                                                         const Scene& scene, Film& film,
+                                                         PassControl& control) {
   const int group = static_cast<int>(owned_.group);
-  film.add_estimates(group, 1);
-  if (!photons_can_count_) return nullptr;
+  if (!photons_can_count_) {
+    film.add_estimates(group, 1);
+    return nullptr;
+  }
   const PhotonGuide& guide = static_cast<const LearnedPhotons*>(learned)->guide();
   const MergePass pass = merge_pass(key, scene, film, owned_, options_, guide,
-                                    radius_of_pass(options_, key.pass), {}, statistics_);
+                                    radius_of_pass(options_, key.pass), {}, statistics_, control);
   const PixelBounds& b = film.bounds();
   const size_t parts = film.parts_of(group).size();
   const Rgb* estimate = pass.values.data();
   for (int y = b.y0; y < b.y1; ++y)
     for (int x = b.x0; x < b.x1; ++x, estimate += parts) film.add(group, x, y, {estimate, parts});
   film.add_bias(group, pass.bias);
+  film.add_estimates(group, 1);
   found_ += pass.found;
   return nullptr;
 }

@@ -60,10 +60,11 @@ void Sppm::start_regions(const Scene& scene, size_t pixels, size_t parts) {
 }
 
 std::unique_ptr<PassFindings> Sppm::render_pass(const PassKey& key, const Learned*,
-                                                const Scene& scene, Film& film) {
+                                                const Scene& scene, Film& film,
+                                                PassControl& control) {
   const PixelBounds& b = film.bounds();
   const size_t parts = film.parts_of(static_cast<int>(owned_.group)).size();
-  const PhotonPass pass = start_photon_pass(key, scene, film.format(), options_);
+  const PhotonPass pass = start_photon_pass(key, scene, film.format(), options_, control);
   const int64_t photons = pass.trace.photons_per_pass;
   start_regions(scene, b.area(), parts);
 

@@ -21,7 +21,7 @@ class Sppm : public Estimator {
   static const EstimatorDescriptor kDescriptor;
   const EstimatorDescriptor& descriptor() const override { return kDescriptor; }
   std::unique_ptr<PassFindings> render_pass(const PassKey& key, const Learned*, const Scene& scene,
-                                            Film& film) override;
+                                            Film& film, PassControl& control) override;
   EstimatorStatistics statistics() const override;
   void add_state(const Scene& scene, const Film& film, RenderState& state) override;
 

@@ -38,10 +38,13 @@ VertexMerging::VertexMerging(OwnedRoutes owned, const IntegratorOptions& options
     : owned_(std::move(owned)), options_(options), photons_can_count_(photons_can_count(owned_)) {}
 
 std::unique_ptr<PassFindings> VertexMerging::render_pass(const PassKey& key, const Learned*,
-                                                         const Scene& scene, Film& film) {
+                                                         const Scene& scene, Film& film,
+                                                         PassControl& control) {
   const int group = static_cast<int>(owned_.group);
-  film.add_estimates(group, 1);
-  if (!photons_can_count_) return nullptr;
+  if (!photons_can_count_) {
+    film.add_estimates(group, 1);
+    return nullptr;
+  }
   const float radius_pixels = radius_of_pass(options_, key.pass);
   const PixelFootprint footprint = scene.camera->footprint();
 
@@ -55,7 +58,7 @@ std::unique_ptr<PassFindings> VertexMerging::render_pass(const PassKey& key, con
     return m / (1.0f + m);
   };
   const MergePass merged = merge_pass(key, scene, film, owned_, options_, kUnguidedPhotons,
-                                      radius_pixels, merge_weight, statistics_);
+                                      radius_pixels, merge_weight, statistics_, control);
   found_ += merged.found;
   const ConnectionWeight splat_weight = [&](const CameraConnection& line, const WalkVertex& v) {
     const float radius = radius_pixels * footprint.width(line.distance);
@@ -68,9 +71,10 @@ std::unique_ptr<PassFindings> VertexMerging::render_pass(const PassKey& key, con
       (MergePass::bytes_per_pixel(parts) + SplatBuffer::bytes_per_pixel(parts));
   statistics_.hold(0, of_splats);
   const int64_t paths =
-      light_pass(key, scene, film, owned_, options_, splat_weight, buffer, statistics_);
+      light_pass(key, scene, film, owned_, options_, splat_weight, buffer, statistics_, control);
   buffer.finish(1.0 / static_cast<double>(paths), merged.values);
   film.add_bias(group, merged.bias);
+  film.add_estimates(group, 1);
   return nullptr;
 }
 

@@ -78,10 +78,11 @@ void gather(const Scene& scene, const PixelBounds& b, const OwnedRoutes& owned, 
         into.filter_weights[number++] = path.filter_weight;
       }
   };
-  ordered_reduce<RowCounts>(b.height(), 1, gather_row, [&](RowCounts&& of_row) {
-    into.rays += of_row.rays;
-    into.found += of_row.found;
-  });
+  ordered_reduce<RowCounts>(*pass.trace.control, b.height(), 1, gather_row,
+                            [&](RowCounts&& of_row) {
+                              into.rays += of_row.rays;
+                              into.found += of_row.found;
+                            });
 }
 
 }  // namespace nephroid

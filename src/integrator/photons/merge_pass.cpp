@@ -38,9 +38,9 @@ size_t MergePass::bytes_per_pixel(size_t parts) {
 MergePass merge_pass(const PassKey& key, const Scene& scene, const Film& film,
                      const OwnedRoutes& owned, const IntegratorOptions& options,
                      const PhotonGuide& guide, float radius_pixels, const MergeWeight& weight,
-                     EstimatorStatistics& statistics) {
+                     EstimatorStatistics& statistics, PassControl& control) {
   const PixelBounds& b = film.bounds();
-  PhotonPass pass = start_photon_pass(key, scene, film.format(), options);
+  PhotonPass pass = start_photon_pass(key, scene, film.format(), options, control);
   pass.trace.guide = &guide;
   const int64_t photons = pass.trace.photons_per_pass;
   const size_t parts = film.parts_of(static_cast<int>(owned.group)).size();

@@ -26,7 +26,7 @@ struct MergePass {
 MergePass merge_pass(const PassKey& key, const Scene& scene, const Film& film,
                      const OwnedRoutes& owned, const IntegratorOptions& options,
                      const PhotonGuide& guide, float radius_pixels, const MergeWeight& weight,
-                     EstimatorStatistics& statistics);
+                     EstimatorStatistics& statistics, PassControl& control);
 
 /// First merge radius in footprints: the user's, or the default.
 float first_radius(const IntegratorOptions& options);

@@ -17,7 +17,7 @@ int64_t default_photons_per_pass(int64_t pixels) {
 }  // namespace
 
 PhotonPass start_photon_pass(const PassKey& key, const Scene& scene, const FilmFormat& film,
-                             const IntegratorOptions& options) {
+                             const IntegratorOptions& options, PassControl& control) {
   PhotonPass pass{{}, {}, scene.camera->footprint(), 0, eye_point(key.pass)};
   // Any run of passes covers wavelengths and times evenly, and both together, so that a thing that
   // moves has all its colours everywhere; and in an order that has nothing to do with that of the
@@ -25,6 +25,7 @@ PhotonPass start_photon_pass(const PassKey& key, const Scene& scene, const FilmF
   constexpr uint64_t kStream = 0x70617373;  // "pass"
   PathSampler sampler(PaddedPoint{key.pass}, hash_combine(key.seed, kStream));
   pass.trace.key = key;
+  pass.trace.control = &control;
   const Vec2f u = sampler.get_2d();
   pass.trace.lambda = SampledWavelengths::sample_visible(wavelength_number(scene, u.x));
   pass.u_time = u.y;

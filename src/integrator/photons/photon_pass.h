@@ -22,7 +22,7 @@ struct PhotonPass {
   SobolPoint point;  ///< of the camera walks
 };
 PhotonPass start_photon_pass(const PassKey& key, const Scene& scene, const FilmFormat& film,
-                             const IntegratorOptions& options);
+                             const IntegratorOptions& options, PassControl& control = unwatched);
 
 /// Starts the camera walk of a pixel, with the wavelengths, time and threshold of the pass.
 inline CameraPath start_merging_path(const Scene& scene, int x, int y, PathSampler& sampler,

@@ -93,10 +93,16 @@ EstimatorSet make_estimators(CompiledPlan compiled, const IntegratorOptions& opt
   return set;
 }
 
-void EstimatorSet::render_pass(const PassKey& key, const Scene& scene, Film& film) {
+void EstimatorSet::render_pass(const PassKey& key, const Scene& scene, Film& film,
+                               PassControl& control) {
   learned.resize(estimators.size());
-  for (size_t i = 0; i < estimators.size(); ++i)
-    learned[i].render_pass(*estimators[i], key, scene, film);
+  for (size_t i = 0; i < estimators.size(); ++i) {
+    const int group = static_cast<int>(i);
+    if (film.is_whole(group)) continue;
+    learned[i].render_pass(*estimators[i], key, scene, film, control);
+    film.note_whole(group);
+  }
+  film.close_pass();
 }
 
 std::vector<EstimatorStatistics> EstimatorSet::statistics() const {

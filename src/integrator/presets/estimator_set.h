@@ -22,7 +22,9 @@ struct EstimatorSet {
   std::vector<std::string> notes;     ///< why routes are black that no photon could find
 
   /// Adds a pass of all estimators to the film; what they have to learn for it is learned first.
-  void render_pass(const PassKey& key, const Scene& scene, Film& film);
+  /// `control` may end it with PassStopped; the same pass then goes on where it ended.
+  void render_pass(const PassKey& key, const Scene& scene, Film& film,
+                   PassControl& control = unwatched);
   /// Of each estimator, learning included.
   std::vector<EstimatorStatistics> statistics() const;
 };

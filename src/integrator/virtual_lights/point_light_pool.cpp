@@ -147,7 +147,7 @@ PointLightPool::PointLightPool(const Scene& scene, const OwnedRoutes& owned,
         std::move(of_path.begin(), of_path.end(), std::back_inserter(chunk.lights));
       }
     };
-    ordered_reduce<Chunk>(count, kChunk, trace_chunk, [&](Chunk&& chunk) {
+    ordered_reduce<Chunk>(*settings.control, count, kChunk, trace_chunk, [&](Chunk&& chunk) {
       rays_ += chunk.rays;
       useful_paths_ += chunk.useful;
       std::move(chunk.lights.begin(), chunk.lights.end(), std::back_inserter(lights_));

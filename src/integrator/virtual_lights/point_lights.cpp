@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "core/parallel.h"
 #include "input/option_values.h"
 #include "integrator/estimator/reach.h"
+#include "integrator/estimator/slice_loop.h"
 #include "integrator/path/path_visitor.h"
 #include "integrator/virtual_lights/point_light_pool.h"
 #include "transport/camera_connection.h"
@@ -205,8 +205,9 @@ PointLights::PointLights(OwnedRoutes owned, const IntegratorOptions& options)
     : owned_(std::move(owned)), options_(options) {}
 
 std::shared_ptr<const Learned> PointLights::learn(const Scene& scene, const FilmFormat& film,
-                                                  uint64_t seed) const {
-  PhotonPass pass = start_photon_pass({hash_combine(seed, kLearning), 0}, scene, film, options_);
+                                                  uint64_t seed, PassControl& control) const {
+  PhotonPass pass =
+      start_photon_pass({hash_combine(seed, kLearning), 0}, scene, film, options_, control);
   pass.trace.photons_per_pass = kLearningPaths;
   const PointLightPool pool(scene, owned_, pass.trace,
                             point_lights_in_memory_of(options_.memory_photons));
@@ -235,18 +236,21 @@ std::shared_ptr<const Learned> PointLights::read_learned(ByteReader& from,
 }
 
 std::unique_ptr<PassFindings> PointLights::render_pass(const PassKey& key, const Learned* learned,
-                                                       const Scene& scene, Film& film) {
+                                                       const Scene& scene, Film& film,
+                                                       PassControl& control) {
   const float density = static_cast<const LearnedDensity*>(learned)->density();
   const int samples = std::max(1, options_.camera_samples_per_pass);
   // Each sample of the pixels has wavelengths, a time and point lights of its own; what the
   // classes of events are, the pass decides for all.
   const float specular_alpha = specular_alpha_of_pass(scene.specular_band, key);
   for (int k = 0; k < samples; ++k) {
+    // What the first samples add to the film cannot be taken back.
+    PassControl& of_sample = k == 0 ? control : unwatched;
     const uint64_t index = uint64_t{key.pass} * samples + k;
     const uint64_t turn = index >> 32;
     const PassKey own{turn == 0 ? key.seed : hash_combine(key.seed, turn),
                       static_cast<uint32_t>(index)};
-    PhotonPass pass = start_photon_pass(own, scene, film.format(), options_);
+    PhotonPass pass = start_photon_pass(own, scene, film.format(), options_, of_sample);
     pass.trace.specular_alpha = specular_alpha;
     pass.trace.photons_per_pass =
         std::max<int64_t>(1, connections_of(options_) * kPathsPerConnection / samples);
@@ -264,10 +268,10 @@ void PointLights::render_sample(const PhotonPass& pass, float density, const Sce
                             point_lights_in_memory_of(options_.memory_photons));
   const PointLightsVisitor::Pass shared{pool, connections_of(options_), density,
                                         options_.max_depth};
-  const auto render_row = [&](uint64_t& rays, int64_t row, int64_t) {
-    const int y = b.y0 + static_cast<int>(row);
+  const auto render_slice = [&](uint64_t& rays, const PixelSlices::Run& run) {
     PartSums light(*owned_.routes, owned_.group);
-    for (int x = b.x0; x < b.x1; ++x) {
+    for (int i = 0; i < run.count; ++i) {
+      const int x = run.x + i * run.step, y = run.y;
       PathSampler sampler(pass.point, hash_combine(key.seed, kStream, x, y));
       CameraPath path = start_merging_path(scene, x, y, sampler, pass);
       light.clear();
@@ -281,9 +285,8 @@ void PointLights::render_sample(const PhotonPass& pass, float density, const Sce
       rays += path.walk.rays + visitor.more_rays();
     }
   };
-  ordered_reduce<uint64_t>(b.height(), 1, render_row,
-                           [&](uint64_t&& rays) { statistics_.rays += rays; });
-  film.add_estimates(group, 1);
+  SlicesOfPass{.film = film, .group = group}.render<uint64_t>(
+      *pass.trace.control, render_slice, [&](uint64_t&& rays) { statistics_.rays += rays; });
   statistics_.rays += pool.rays();
   statistics_.camera_paths += b.area();
   statistics_.photon_paths += pass.trace.photons_per_pass;

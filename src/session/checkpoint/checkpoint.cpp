@@ -28,8 +28,20 @@ PassRanges passes_of(const StateFile& file, const std::string& purpose) {
     throw IoError(refusal +
                   "it has no state, expected a picture that was rendered without --no-state");
   const auto passes = PassRanges::parse(value_of(file.metadata(), kPassesKey));
-  if (!passes || passes->empty()) throw IoError(refusal + "it does not say which passes it has");
+  if (!passes || (passes->empty() && !open_pass_of(file)))
+    throw IoError(refusal + "it does not say which passes it has");
   return *passes;
+}
+
+std::optional<uint32_t> open_pass_of(const StateFile& file) {
+  const std::string text = value_of(file.metadata(), kOpenPassKey);
+  if (text.empty()) return std::nullopt;
+  uint32_t pass = 0;
+  const char* const end = text.data() + text.size();
+  const auto [after, error] = std::from_chars(text.data(), end, pass);
+  if (error != std::errc() || after != end)
+    throw IoError(fmt::format("{}: '{}' of {} is no pass", file.path(), text, kOpenPassKey));
+  return pass;
 }
 
 double seconds_of(const StateFile& file, const std::string& key) {
@@ -64,9 +76,9 @@ std::optional<std::string> warning_of_instruction_sets(const StateFile& file,
 
 void add_progress(const Checkpoint& progress, Metadata* metadata) {
   metadata->emplace_back(kPassesKey, progress.passes.text());
+  if (progress.open_pass)
+    metadata->emplace_back(kOpenPassKey, fmt::format("{}", *progress.open_pass));
   metadata->emplace_back(kSecondsKey, fmt::format("{:.3f}", progress.seconds));
-  if (progress.last_pass_seconds > 0)
-    metadata->emplace_back(kLastPassSecondsKey, fmt::format("{:.6f}", progress.last_pass_seconds));
   metadata->emplace_back(kHistoryKey, progress.history);
 }
 
@@ -99,8 +111,8 @@ Checkpoint go_on_from(const std::string& path, const RenderIdentity& here, const
   file.load(state_of(scene, set, film));
   const Metadata& metadata = file.metadata();
   Checkpoint checkpoint{passes,
+                        open_pass_of(file),
                         seconds_of(file, kSecondsKey),
-                        seconds_of(file, kLastPassSecondsKey),
                         value_of(metadata, kHistoryKey),
                         value_of(metadata, kChoicesKey),
                         value_of(metadata, kInstructionSetKey),

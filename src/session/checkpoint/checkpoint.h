@@ -15,11 +15,11 @@ namespace nephroid {
 
 /// What has been rendered before.
 struct Checkpoint {
-  PassRanges passes;
-  double seconds = 0;  ///< of rendering, all runs together
-  double last_pass_seconds = 0;
-  std::string history;  ///< a line for each run
-  std::string choices;  ///< the report of the last run
+  PassRanges passes;                  ///< whole ones
+  std::optional<uint32_t> open_pass;  ///< begun and not whole
+  double seconds = 0;                 ///< of rendering, all runs together
+  std::string history;                ///< a line for each run
+  std::string choices;                ///< the report of the last run
   std::string instruction_sets;
   std::vector<std::string> warnings;
 };
@@ -30,8 +30,11 @@ bool passes_are_independent(const EstimatorSet& set);
 /// All that a render keeps, as it lies in memory: of the film and of the estimators.
 RenderState state_of(const Scene& scene, EstimatorSet& set, Film& film);
 
-/// The passes that a picture with state has. Throws IoError, "cannot `purpose`", without state.
+/// The whole passes that a picture with state has. Throws IoError, "cannot `purpose`", without
+/// state.
 PassRanges passes_of(const StateFile& file, const std::string& purpose);
+/// The pass of which it has a part. Throws IoError for what is no pass.
+std::optional<uint32_t> open_pass_of(const StateFile& file);
 
 /// A time in the metadata, 0 if it is not there. Throws IoError for what is no time.
 double seconds_of(const StateFile& file, const std::string& key);

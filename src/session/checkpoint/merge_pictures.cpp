@@ -43,7 +43,8 @@ Merged merge_pictures(const std::vector<std::string>& inputs, const std::string&
   for (const std::string& path : inputs)
     files.push_back({path, passes_of(StateFile(path), kPurpose)});
   // The order of the arguments does not count.
-  std::ranges::sort(files, {}, [](const Input& i) { return i.passes.ranges()[0].first; });
+  std::ranges::sort(
+      files, {}, [](const Input& i) { return i.passes.empty() ? 0 : i.passes.ranges()[0].first; });
   const StateFile first(files[0].path);
   RenderIdentity identity = RenderIdentity::from_metadata(first.metadata());
   if (identity.version != kVersion)
@@ -59,6 +60,8 @@ Merged merge_pictures(const std::vector<std::string>& inputs, const std::string&
     const auto refuse = [&name = file.path()](const std::string& why) {
       throw UsageError(name + ": cannot " + kPurpose + ": " + why);
     };
+    if (const auto open = open_pass_of(file))
+      refuse(fmt::format("its pass {} is not whole; --resume goes on with it", *open));
     if (value_of(file.metadata(), kOutliersKey) == "reject")
       refuse("with --outliers reject passes depend on each other; --resume goes on with it");
     if (!passes_add_up(file))

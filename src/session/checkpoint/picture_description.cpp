@@ -17,8 +17,10 @@ namespace {
 std::string state_line(const StateFile& file) {
   if (!file.has_state()) return "none: it cannot be resumed or merged";
   const PassRanges passes = passes_of(file, "describe it");
+  const std::optional<uint32_t> open = open_pass_of(file);
   return fmt::format(
-      "{} passes ({}), {}", passes.count(), passes.text(),
+      "{} passes ({}){}, {}", passes.count(), passes.text(),
+      open ? fmt::format(" and a part of pass {}", *open) : "",
       passes_add_up(file) ? "to be resumed or merged" : "to be resumed; they depend on each other");
 }
 

@@ -31,8 +31,8 @@ inline constexpr const char* kSeedKey = "nephroid:seed";
 inline constexpr const char* kLayoutKey = "nephroid:layout";
 // Of the progress (checkpoint.h).
 inline constexpr const char* kPassesKey = "nephroid:passes";
+inline constexpr const char* kOpenPassKey = "nephroid:unfinished_pass";
 inline constexpr const char* kSecondsKey = "nephroid:seconds";
-inline constexpr const char* kLastPassSecondsKey = "nephroid:last_pass_seconds";
 inline constexpr const char* kHistoryKey = "nephroid:history";
 inline constexpr const char* kChoicesKey = "nephroid:choices";
 inline constexpr const char* kOutlierEstimatesKey = "nephroid:outlier_estimates";

@@ -36,7 +36,7 @@ TEST(Checkpoint, TimesAreFiniteAndNotNegative) {
   }
   write(path, {{"nephroid:seconds", "12.5"}});
   EXPECT_EQ(seconds_of(StateFile(path), "nephroid:seconds"), 12.5);
-  EXPECT_EQ(seconds_of(StateFile(path), "nephroid:last_pass_seconds"), 0);
+  EXPECT_EQ(seconds_of(StateFile(path), "nephroid:no_such_seconds"), 0);
 }
 
 TEST(PictureDescription, SaysWhatThePictureIsOf) {

@@ -90,19 +90,58 @@ TEST_F(RenderSessionTest, EveryEstimatorRendersEveryPassInOrder) {
   EXPECT_EQ(result.statistics.size(), 2u);
 }
 
-TEST_F(RenderSessionTest, TimeLimitStopsAtTheNearestPass) {
+TEST_F(RenderSessionTest, TimeLimitEndsAPass) {
   RenderOptions options;
   script_.pass_seconds = 1;
-  options.time_limit = 10.4;  // 10 is nearer than 11
+  script_.looks = 8;
+  options.time_limit = 10.4;
   const RenderResult result = run(options);
   EXPECT_EQ(result.reason, StopReason::kTime);
   EXPECT_EQ(result.passes_done, 10u);
+  EXPECT_EQ(result.seconds, 10.5);  // the first look after it
 }
 
 TEST_F(RenderSessionTest, TimeLimitBelowOnePassRendersOne) {
   RenderOptions options;
+  script_.looks = 8;
   options.time_limit = 0.01;
-  EXPECT_EQ(run(options).passes_done, 1u);
+  const RenderResult result = run(options);
+  EXPECT_EQ(result.passes_done, 1u);
+  EXPECT_EQ(result.seconds, 1);
+}
+
+TEST_F(RenderSessionTest, ASignalEndsAPass) {
+  script_.looks = 8;
+  script_.during_look = [&](const PassKey& key, int look) {
+    if (key.pass == 2 && look == 3) signals_.stop = 15;
+  };
+  const RenderResult result = run({});
+  EXPECT_EQ(result.reason, StopReason::kSignal);
+  EXPECT_EQ(result.passes_done, 2u);
+  EXPECT_EQ(result.seconds, 2.5);
+}
+
+TEST_F(RenderSessionTest, ASignalBeforeThereIsLightWritesNothing) {
+  const ScratchDirectory directory;
+  RenderOptions options;
+  options.output = directory.file("out.exr");
+  script_.looks = 8;
+  signals_.stop = 2;
+  const RenderResult result = run(options);
+  EXPECT_EQ(result.reason, StopReason::kSignal);
+  EXPECT_EQ(result.passes_done, 0u);
+  EXPECT_FALSE(std::filesystem::exists(options.output));
+}
+
+TEST_F(RenderSessionTest, APassThatWasBegunIsGoneOnWith) {
+  RenderOptions options;
+  options.begin_with.passes = *PassRanges::parse("0..1");
+  options.begin_with.open_pass = 2;
+  options.last_pass = 3;
+  EXPECT_EQ(run(options).passes_done, 4u);
+  EXPECT_EQ(script_.passes[0].pass, 2u);
+  options.last_pass = 1;
+  EXPECT_THROW(run(options), UsageError);
 }
 
 TEST_F(RenderSessionTest, FirstRuleMetWins) {
@@ -182,7 +221,7 @@ TEST_F(RenderSessionTest, ProgressCountsAndForetells) {
   options.last_pass = 9;
   options.time_limit = 8.4;
   run(options);
-  ASSERT_EQ(progress_.size(), 8u);
+  ASSERT_EQ(progress_.size(), 9u);
   const RenderProgress& p = progress_[3];
   EXPECT_EQ(p.passes_done, 4u);
   EXPECT_EQ(*p.passes_wanted, 10u);

@@ -18,8 +18,10 @@ namespace nephroid::testing_support {
 struct Script {
   double now = 0;
   double pass_seconds = 1;
-  std::vector<PassKey> passes;                      ///< that were rendered
+  int looks = 0;                                    ///< control is asked so often in a pass
+  std::vector<PassKey> passes;                      ///< that were begun
   std::function<void(const PassKey&)> during_pass;  ///< called in each
+  std::function<void(const PassKey&, int look)> during_look;
   EstimatorDescriptor descriptor{.traits = {.name = "fake"}};
 };
 
@@ -28,9 +30,14 @@ class FakeEstimator : public Estimator {
   FakeEstimator(Script& script, int group) : script_(script), group_(group) {}
   const EstimatorDescriptor& descriptor() const override { return script_.descriptor; }
   std::unique_ptr<PassFindings> render_pass(const PassKey& key, const Learned*, const Scene&,
-                                            Film& film) override {
-    script_.now += script_.pass_seconds;
+                                            Film& film, PassControl& control) override {
     script_.passes.push_back(key);
+    for (int look = 0; look < script_.looks; ++look) {
+      script_.now += script_.pass_seconds / script_.looks;
+      if (script_.during_look) script_.during_look(key, look);
+      if (control.is_wanted()) control.attend();
+    }
+    if (script_.looks == 0) script_.now += script_.pass_seconds;
     if (script_.during_pass) script_.during_pass(key);
     // 0, 2, 0, 2 ...: mean 1 and deviation 1 in every pixel.
     const float value = key.pass % 2 == 0 ? 0.0f : 2.0f;
@@ -70,7 +77,9 @@ class ScriptedSession : public testing::Test {
   RenderResult run(const RenderOptions& options) {
     RenderSession session(scene_, set_, *film_, options);
     session.use_clock([this] { return script_.now; });
-    session.on_progress([this](const RenderProgress& progress) { progress_.push_back(progress); });
+    session.on_progress([this](const RenderProgress& progress) {
+      if (!progress.within_pass) progress_.push_back(progress);
+    });
     session.on_warning([this](const std::string& warning) { warnings_.push_back(warning); });
     return session.run(signals_);
   }

@@ -47,7 +47,8 @@ TEST_F(SignalsDeathTest, TheFirstInterruptIsAnswered) {
     std::raise(signal);
     std::raise(SIGINT);
   };
-  EXPECT_EXIT(twice(SIGINT, true), testing::KilledBySignal(SIGINT), "stopping after this pass");
+  EXPECT_EXIT(twice(SIGINT, true), testing::KilledBySignal(SIGINT),
+              "stopping and writing the picture");
   EXPECT_EXIT(twice(SIGINT, false), testing::KilledBySignal(SIGINT), "^$");
   EXPECT_EXIT(twice(SIGTERM, true), testing::KilledBySignal(SIGINT), "^$");
 }

@@ -1,0 +1,50 @@
+// The pixels of a crop in the order in which a pass reaches them, coarse to fine: first those of a
+// wide lattice, then those that halve its spacing, until all are reached. A slice is a run of
+// pixels of one row that one thread renders at a time. It must not know what is rendered.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "film/film_format.h"
+
+namespace nephroid {
+
+class PixelSlices {
+ public:
+  /// Of the first lattice, whatever the size of the crop.
+  static constexpr int kMaxFirstPixels = 16384;
+  static constexpr int kMaxPixelsOfSlice = 256;
+
+  explicit PixelSlices(const PixelBounds& crop);
+
+  size_t count() const { return rows_.empty() ? 0 : rows_.back().end; }
+
+  /// Pixels x, x + step, ... of row y, `count` of them; full-resolution coordinates.
+  struct Run {
+    int x = 0, y = 0, step = 1, count = 0;
+  };
+  Run at(size_t slice) const;
+  /// The slice of a pixel of the crop.
+  size_t slice_of(int x, int y) const;
+  /// The number of slices that make up the first `levels` lattices; at least 1 level.
+  size_t count_of_levels(int levels) const;
+  int levels() const { return levels_; }
+  /// Spacing of the lattice after the first `levels` are done.
+  int spacing(int levels) const { return 1 << (levels_ - levels); }
+
+ private:
+  /// The slices of a row that belong to one level.
+  struct Row {
+    int y = 0, x = 0, step = 1, pixels = 0;  ///< from the crop's corner
+    size_t begin = 0, end = 0;               ///< slices
+  };
+  size_t row_of(int level, int y) const { return first_row_[level] + (y >> (levels_ - 1 - level)); }
+
+  PixelBounds crop_;
+  int levels_ = 1;
+  std::vector<Row> rows_;
+  std::vector<size_t> first_row_;  ///< [level] in rows_
+};
+
+}  // namespace nephroid

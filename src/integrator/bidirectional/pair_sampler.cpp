@@ -1,0 +1,117 @@
+#include "integrator/bidirectional/pair_sampler.h"
+
+#include <cmath>
+
+#include "integrator/estimator/features.h"
+#include "integrator/path/path_options.h"
+#include "integrator/photons/merge_pass.h"
+
+namespace nephroid {
+
+namespace {
+
+constexpr uint64_t kEyeStream = 0x76636d65;   // "vcme"
+constexpr uint64_t kPairStream = 0x76636d70;  // "vcmp"
+
+}  // namespace
+
+PairSampler::PairSampler(const PairPass& pass, const FilmFormat& of_film, const CameraSide& side,
+                         Film* to, std::vector<RadianceRecord>* all_records,
+                         double records_per_path)
+    : in(pass),
+      techniques(pass.techniques),
+      camera(side),
+      format(of_film),
+      film(to),
+      counter(to != nullptr ? TechniqueCounter(of_film, pass.owned.group, pass.key.pass)
+                            : TechniqueCounter(of_film)),
+      photons(start_photon_pass(pass.key, pass.scene, of_film, pass.options, pass.control)),
+      most(side.paths.most()),
+      records(all_records, of_film.bounds().area() * most, records_per_path),
+      tree(pass.scene, pass.owned, pass.options.max_depth),
+      settings{.scene = pass.scene,
+               .owned = pass.owned,
+               .technique = pass.technique,
+               .guide = pass.emission,
+               .radiance = side.directions.guides() ? &side.directions : nullptr,
+               .tree = techniques.separates_chains || pass.options.own<PathOptions>().specular_trees
+                           ? &tree
+                           : nullptr},
+      view_(pass.scene, of_film.bounds()) {
+  merging.caustics_only = techniques.caustics_only;
+  merging.photons = static_cast<double>(techniques.light_paths);
+  merging.radius_pixels = radius_of_pass(pass.options, pass.key.pass);
+  merging.footprint = photons.footprint;
+  merging.eye = pass.scene.camera->camera_to_world(photons.trace.time).point(Vec3f(0, 0, 0));
+  merging.connects = techniques.connects;
+  settings.view = pass.scene.camera->connects() && merging.connects ? &view_ : nullptr;
+  settings.specular_alpha = photons.trace.specular_alpha;
+  settings.max_depth = pass.options.max_depth;
+  settings.light_paths = static_cast<double>(techniques.light_paths);
+  settings.merging = &merging;
+  parts = format.parts_of(static_cast<int>(pass.owned.group)).size();
+  points_.resize(most);
+  for (int n = 1; n <= static_cast<int>(most); ++n)
+    if (camera.paths.has(n))
+      for (int k = 0; k < n; ++k) points_[n - 1].push_back(sample_points(n, k));
+}
+
+uint32_t PairSampler::first_index(int n) const {
+  const uint32_t pass = in.key.pass, first = camera.in_first_pass;
+  const uint32_t before = first > 0 && pass > 0 ? pass - 1 : pass;
+  return (pass > 0 ? first : 0) + before * n;
+}
+
+PairSampler::SamplePoints PairSampler::sample_points(int n, int k) const {
+  const uint32_t index = first_index(n) + k;
+  return {eye_point(index, kEyePathDimensions),
+          techniques.connects ? light_point(index) : SobolPoint(index, 1)};
+}
+
+SpecularRoot::Leaves PairSampler::leaves_at(int x, int y) const {
+  if (!techniques.separates_chains) return SpecularRoot::Leaves::kBranches;
+  return camera.chains && camera.chains->at(x, y) == 0 ? SpecularRoot::Leaves::kNothing
+                                                       : SpecularRoot::Leaves::kAll;
+}
+
+PairSampler::SampleLight PairSampler::trace(int x, int y, int samples, int k, Worker& worker,
+                                            const SampleSums& sums) {
+  const PixelBounds& b = format.bounds();
+  const SamplePoints& points = points_[samples - 1][k];
+  PairRow& row = worker.row;
+  PartSums& light = worker.light;
+  const uint64_t rays_before = row.rays;
+  PathSampler sampler(points.eye, hash_combine(in.seed, kEyeStream, x, y));
+  CameraPath path = start_merging_path(in.scene, x, y, sampler, photons);
+  path.walk.roulette_threshold = techniques.roulette_threshold;
+  if (merging.connects && !settings.merges_only) {
+    // A light path of its own: those that are merged run through one sequence, of which a pixel
+    // would see the same part in all passes.
+    PathSampler own(points.light, hash_combine(in.seed, kPairStream, x, y));
+    row.rays += trace_light_path(settings, photons.trace.lambda, photons.u_time, own, &worker.path,
+                                 nullptr, nullptr, kEyePathDimensions)
+                    .rays;
+  }
+  light.clear();
+  Features features;
+  const bool sees = worker.sees && k == 0;
+  row.rays += trace_eye_path(settings, worker.path, path, sampler, light,
+                             {.features = sees ? &features : nullptr,
+                              .records = records.of_path(pixel_of(x, y), k, row.records),
+                              .leaves = leaves_at(x - b.x0, y - b.y0)});
+  if (sees) features.add_to(*film, x, y, in.scene, path, photons.weights);
+  const float share = 1.0f / static_cast<float>(samples);
+  sums.bias += light.bias(photons.weights) * path.camera_weight * path.filter_weight * share;
+  light.add_techniques_to(row.techniques, photons.weights,
+                          static_cast<double>(path.camera_weight) * path.filter_weight * share);
+  const std::span<const Rgb> colors = light.colors(
+      photons.weights, path.camera_weight, sums.waits ? kInfinity : format.settings().max_component,
+      path.filter_weight * share);
+  for (size_t i = 0; i < parts; ++i) sums.values[i] = sums.values[i] + colors[i];
+  if (!settings.merges_only) ++row.camera_paths;
+  const double seen = total_of(colors);
+  return {static_cast<float>(seen / (3.0 * share)), row.rays - rays_before,
+          std::abs(path.filter_weight) * share};
+}
+
+}  // namespace nephroid

@@ -1,0 +1,114 @@
+// How a session writes its pictures, and what they say of it.
+#include <fmt/format.h>
+#include <stdlib.h>
+
+#include <filesystem>
+#include <new>
+
+#include "core/errors.h"
+#include "film/exr_file.h"
+#include "film/film_output.h"
+#include "session/checkpoint/film_metadata.h"
+#include "session/render_session.h"
+#include "session/report/choices_report.h"
+#include "session/report/invalid_samples.h"
+
+namespace nephroid {
+namespace {
+
+[[noreturn]] void lacks_memory(const std::string& path) {
+  throw IoError(path + ": cannot write: there is not enough memory");
+}
+
+}  // namespace
+
+void RenderSession::write_last_picture(bool with_state) {
+  namespace fs = std::filesystem;
+  try {
+    write_exr_file(options_.output, with_state);
+  } catch (const IoError& error) {
+    // A directory of its own: nobody else can have put a link there.
+    const std::string random_letters(6, 'X');  // that mkdtemp puts in their place
+    std::string directory =
+        (fs::path(options_.rescue_directory) / ("nephroid-" + random_letters)).string();
+    const auto lost = [&] {
+      return IoError(
+          fmt::format("{}; nor into '{}': what was rendered since it was last written is lost",
+                      error.what(), options_.rescue_directory));
+    };
+    if (options_.rescue_directory.empty() || ::mkdtemp(directory.data()) == nullptr) throw lost();
+    const fs::path rescue = fs::path(directory) / fs::path(options_.output).filename();
+    try {
+      write_exr_file(rescue.string(), with_state);
+    } catch (const IoError&) {
+      std::error_code ignored;
+      fs::remove_all(directory, ignored);
+      throw lost();
+    }
+    throw IoError(fmt::format("{}; the picture is in {}", error.what(), rescue.string()));
+  }
+  write_png();
+}
+
+void RenderSession::write_picture() {
+  write_exr_file(options_.output, true);
+  write_png();
+}
+
+void RenderSession::write_png() {
+  try {
+    write_preview(options_.output, film_, options_.png_exposure);
+  } catch (const std::bad_alloc&) {
+    lacks_memory(png_path_beside(options_.output));
+  }
+}
+
+void RenderSession::write_exr_file(const std::string& path, bool with_state) {
+  renew_error_text();
+  std::optional<RenderState> state;
+  if (with_state) state = state_of(scene_, set_, film_);
+  try {
+    write_exr(path, film_picture(film_, picture_metadata()), state ? &*state : nullptr);
+  } catch (const std::bad_alloc&) {
+    lacks_memory(path);
+  }
+}
+
+/// What the program chose, and what is wrong with the picture, a line each.
+std::string RenderSession::choices_text() const {
+  std::string choices;
+  for (const std::string& line :
+       choices_report(first_pass_statistics_, statistics(), passes_of_run()))
+    choices += line + "\n";
+  for (const std::string& note : options_.notes) choices += "note: " + note + "\n";
+  if (error_text_) choices += *error_text_ + "\n";
+  for (const std::string& fault : invalid_samples(scene_, film_))
+    choices += "warning: " + fault + "\n";
+  return choices;
+}
+
+Metadata RenderSession::picture_metadata() const {
+  // Who renders nothing more has nothing to say that the picture does not say already.
+  const bool rendered = passes_of_run() > 0 || open_pass_;
+  const Checkpoint& before = options_.begin_with;
+  RenderIdentity identity = options_.identity;
+  identity.set_film(film_, options_.seed);
+  identity.instruction_sets = joined_instruction_sets(
+      before.instruction_sets, rendered ? identity.instruction_sets : std::string());
+  Metadata metadata = identity.to_metadata();
+  add_film_metadata(film_, passes_are_independent(set_), &metadata);
+  Checkpoint progress;
+  progress.passes = done_;
+  if (film_.has_open_pass()) progress.open_pass = open_pass_;
+  progress.seconds = seconds_of_all_runs();
+  progress.history = before.history;
+  if (rendered)
+    progress.history += fmt::format("{} passes{} in {:.3f} s\n", passes_of_run(),
+                                    open_pass_ ? " and a part of one" : "", elapsed());
+  add_progress(progress, &metadata);
+  metadata.emplace_back(kChoicesKey, rendered ? choices_text() : before.choices);
+  add_estimates(film_, &metadata);
+  return metadata;
+}
+
+}  // namespace nephroid
