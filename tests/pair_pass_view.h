@@ -32,13 +32,12 @@ struct PairView {
             .techniques = techniques,
             .light_paths_vary = true};
   }
-  Film render(const PairTechniques& techniques, uint32_t number, const SampleMap& map,
-              uint32_t in_first_pass = 0) const {
+  Film render(const PairTechniques& techniques, uint32_t number, const SampleMap& map) const {
     Film film = film_for(*scene, set);
     EstimatorStatistics statistics;
     const IntegratorOptions options;
     nephroid::render(pass_of(techniques, number, options),
-                     {.film = film, .samples = {map, no_walks, in_first_pass}}, statistics);
+                     {.film = film, .samples = {map, no_walks}}, statistics);
     return film;
   }
   std::unique_ptr<Scene> scene;

@@ -108,7 +108,7 @@ struct Plan : RoutePlan {
 };
 
 /// What each estimator of a plan has learned of a scene.
-using PlanLearned = std::vector<LearnedValues>;
+using PlanLearned = std::vector<std::shared_ptr<const Learned>>;
 inline PlanLearned learn(const Scene& scene, const Plan& plan, const IntegratorOptions& options,
                          uint64_t seed) {
   const EstimatorSet preset = make_estimators(plan, options, scene);

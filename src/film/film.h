@@ -87,6 +87,8 @@ class Film {
   bool is_open(int group) const { return open_[group].slices > 0; }
   /// True if there is a pass of which a group, or the features, has something and another has not.
   bool has_open_pass() const;
+  /// True if every group has estimates of all pixels of the first lattice.
+  bool can_be_shown() const;
   /// How much a group has of that pass, 0..1.
   double fraction_of_pass(int group) const {
     return is_whole(group)

@@ -48,6 +48,15 @@ size_t PixelSlices::slice_of(int x, int y) const {
   return row.begin + (x - row.x) / row.step / kMaxPixelsOfSlice;
 }
 
+int64_t PixelSlices::first_pixels() const {
+  int64_t pixels = 0;
+  for (const Row& row : rows_) {
+    if (row.end > count_of_levels(1)) break;
+    pixels += row.pixels;
+  }
+  return pixels;
+}
+
 size_t PixelSlices::count_of_levels(int levels) const {
   return levels < levels_ ? rows_[first_row_[levels]].begin : count();
 }

@@ -30,6 +30,8 @@ class PixelSlices {
   /// The number of slices that make up the first `levels` lattices; at least 1 level.
   size_t count_of_levels(int levels) const;
   int levels() const { return levels_; }
+  /// Pixels of the first lattice.
+  int64_t first_pixels() const;
   /// Spacing of the lattice after the first `levels` are done.
   int spacing(int levels) const { return 1 << (levels_ - levels); }
 

@@ -198,7 +198,7 @@ const OptionDescription kOptions[] = {
      "Stop after N passes. A..B renders a range from 0, both ends included.", false,
      [](CommandLine& l, const std::string& t) { l.render.passes = parse_passes("--passes", t); }},
     {"render", "--time", "", "TIME", "s, m or h", "no limit", "When to stop",
-     "Stop after this time (60s, 5m, 1h). The pass that ends nearest to it is the last.", false,
+     "Stop after this time (60s, 5m, 1h). If there is no picture by then it waits for one.", false,
      [](CommandLine& l, const std::string& t) {
        l.render.time_limit = parse_duration("--time", t);
      }},
@@ -275,7 +275,7 @@ const OptionDescription kOptions[] = {
     {"bench", "SUITE", "", "", "", "", "", "A suite (docs/bench.md has the format).", false,
      [](CommandLine& l, const std::string& t) { l.bench.suite = t; }},
     {"bench", "--time", "", "TIME", "s, m or h", "the suite's", "",
-     "Every run ends with the pass that ends nearest to this time (60s, 5m, 1h).", false,
+     "Every run ends after this time (60s, 5m, 1h).", false,
      [](CommandLine& l, const std::string& t) {
        l.bench.time_limit = parse_duration("--time", t);
      }},

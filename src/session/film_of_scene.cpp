@@ -51,11 +51,12 @@ size_t channels_of_picture(const FilmLayout& layout, bool gbuffer) {
 }  // namespace
 
 OutlierSettings outlier_settings(const Routes& routes, const IntegratorOptions& options,
-                                 const PixelFilter& filter, const SceneSettings& of_scene) {
+                                 const PixelFilter& filter, int64_t pixels,
+                                 const SceneSettings& of_scene) {
   OutlierSettings settings;
   settings.neighbours = of_scene.outlier_neighbours;
   for (const RouteGroup& group : routes.groups())
-    settings.exposed_pixels.push_back(descriptor_of(group).exposed_pixels(options, filter));
+    settings.exposed_pixels.push_back(descriptor_of(group).exposed_pixels(options, filter, pixels));
   return settings;
 }
 

@@ -12,7 +12,8 @@ namespace nephroid {
 
 /// How a film of these routes rejects outliers.
 OutlierSettings outlier_settings(const Routes& routes, const IntegratorOptions& options,
-                                 const PixelFilter& filter, const SceneSettings& settings = {});
+                                 const PixelFilter& filter, int64_t pixels,
+                                 const SceneSettings& settings = {});
 
 /// What a render is about to take memory for.
 struct MemoryNeed {

@@ -126,8 +126,8 @@ Render::Render(const RenderRequest& request, const LoadedScene& loaded, RenderWa
   check_fits_memory(request, scene, integrator, set_);
   film_.emplace(film_settings(scene.film), set_.layout);
   if (request.reject_outliers) {
-    film_->reject_outliers(
-        outlier_settings(*set_.routes, integrator, *scene.filter, choice_.settings.scene));
+    film_->reject_outliers(outlier_settings(*set_.routes, integrator, *scene.filter,
+                                            film_->bounds().area(), choice_.settings.scene));
     warn_of(rejection_warnings(*set_.routes), warnings_.input);
   }
 

@@ -183,7 +183,7 @@ bool RenderSession::render_one_pass(SignalFlags& signals) {
 std::optional<StopReason> RenderSession::reason_to_end_pass(const SignalFlags& signals) const {
   if (signals.stop.load() != 0) return StopReason::kSignal;
   // Before there is a picture, a time limit waits for it.
-  const bool has_light = passes_done_ > 0 || film_.has_open_pass();
+  const bool has_light = film_.can_be_shown();
   if (options_.time_limit > 0 && has_light && seconds_of_all_runs() >= options_.time_limit)
     return StopReason::kTime;
   return std::nullopt;
@@ -191,7 +191,7 @@ std::optional<StopReason> RenderSession::reason_to_end_pass(const SignalFlags& s
 
 void RenderSession::look_in(SignalFlags& signals, PassWatch& watch) {
   if (reason_to_end_pass(signals)) throw PassStopped{};
-  if (passes_done_ > 0 || film_.has_open_pass()) write_if_due(signals);
+  if (film_.can_be_shown()) write_if_due(signals);
   if (elapsed() >= next_progress_seconds_) {
     report_progress(true);
     next_progress_seconds_ = elapsed() + kProgressInterval;

@@ -56,16 +56,15 @@ TEST_P(GuidedWalks, FindTheSamePictureWithLessNoise) {
                         .light_paths_vary = true};
       };
       const SampleMap first(film.bounds(), 16), one(film.bounds()), no_walks(film.bounds(), 0);
-      const auto found = measure(pass_of(0), film.format(), {first, no_walks},
-                                 {.measures_variance = false}, statistics);
-      const RadianceGuide guide(std::move(found->records));
+      auto found = measure(pass_of(0), film.format(), {first, no_walks},
+                           {.measures_variance = false}, statistics);
+      const RadianceGuide guide(std::move(found.records));
       EXPECT_TRUE(guide.guides()) << s;
       for (uint32_t i = 1; i <= kPasses; ++i)
-        render(pass_of(i),
-               {.film = film,
-                .samples = {one, no_walks, 16},
-                .directions = guided ? guide : kNoRadiance},
-               statistics);
+        render(
+            pass_of(15 + i),
+            {.film = film, .samples = {one, no_walks}, .directions = guided ? guide : kNoRadiance},
+            statistics);
       return block_means(film, kAcross);
     });
   };

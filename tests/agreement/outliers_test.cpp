@@ -43,7 +43,7 @@ Film render_rejecting(const Scene& scene, const Plan& plan, uint64_t seed, uint3
   const IntegratorOptions options = options_of_test();
   EstimatorSet set = make_estimators(plan, options, scene);
   Film film = film_for(scene, set);
-  film.reject_outliers(outlier_settings(*set.routes, options, *scene.filter));
+  film.reject_outliers(outlier_settings(*set.routes, options, *scene.filter, film.bounds().area()));
   for (uint32_t pass = 0; pass < passes; ++pass) {
     set.render_pass({seed, pass}, scene, film);
     film.finish_pass();

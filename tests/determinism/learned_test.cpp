@@ -40,9 +40,8 @@ TEST_P(LearnedBits, AValueThatWasWrittenAndReadGivesTheSamePasses) {
   const FilmFormat& format = expected.format();
   for (size_t i = 0; i < whole.estimators.size(); ++i) {
     const Estimator& estimator = *whole.estimators[i];
-    const LearnedValues& values = whole.learned[i].learn(estimator, 5, *scene, format);
-    from_values.learned.emplace_back().use({copied(estimator, format, values.before_passes),
-                                            copied(estimator, format, values.after_first_pass)});
+    const auto& value = whole.learned[i].learn(estimator, 5, *scene, format);
+    from_values.learned.emplace_back().use(copied(estimator, format, value));
   }
   for (const uint32_t pass : {0u, 1u}) from_values.render_pass({5, pass}, *scene, found);
   expect_same_bits(found, expected, GetParam());

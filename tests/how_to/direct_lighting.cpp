@@ -86,9 +86,8 @@ constinit const EstimatorDescriptor DirectLighting::kDescriptor = {
     .make = make_estimator<DirectLighting>,
 };
 
-std::unique_ptr<PassFindings> DirectLighting::render_pass(const PassKey& key, const Learned*,
-                                                          const Scene& scene, Film& film,
-                                                          PassControl& control) {
+void DirectLighting::render_pass(const PassKey& key, const Learned*, const Scene& scene, Film& film,
+                                 PassControl& control) {
   constexpr uint64_t kStream = 0x646972656374;  // "direct": random numbers of its own
   const PathPass pass{key,     scene,  film, owned_, std::max(1, options_.camera_samples_per_pass),
                       kStream, control};
@@ -101,7 +100,6 @@ std::unique_ptr<PassFindings> DirectLighting::render_pass(const PassKey& key, co
     return path.walk.rays + visitor.shadow_rays;
   });
   statistics_.camera_paths += film.bounds().area() * pass.samples;
-  return nullptr;
 }
 
 }  // namespace nephroid

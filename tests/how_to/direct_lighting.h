@@ -12,8 +12,8 @@ class DirectLighting final : public Estimator {
 
   DirectLighting(OwnedRoutes owned, const IntegratorOptions& options)
       : owned_(std::move(owned)), options_(options) {}
-  std::unique_ptr<PassFindings> render_pass(const PassKey& key, const Learned*, const Scene& scene,
-                                            Film& film, PassControl& control) override;
+  void render_pass(const PassKey& key, const Learned*, const Scene& scene, Film& film,
+                   PassControl& control) override;
   EstimatorStatistics statistics() const override { return statistics_; }
 
  private:

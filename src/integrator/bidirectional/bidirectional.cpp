@@ -146,9 +146,8 @@ constinit const EstimatorDescriptor Bidirectional::kDescriptor = {
 Bidirectional::Bidirectional(OwnedRoutes owned, const IntegratorOptions& options)
     : owned_(std::move(owned)), options_(options) {}
 
-std::unique_ptr<PassFindings> Bidirectional::render_pass(const PassKey& key, const Learned*,
-                                                         const Scene& scene, Film& film,
-                                                         PassControl& control) {
+void Bidirectional::render_pass(const PassKey& key, const Learned*, const Scene& scene, Film& film,
+                                PassControl& control) {
   const int group = static_cast<int>(owned_.group);
   const CameraView view(scene, film.bounds());
   PairSettings settings{scene, owned_};
@@ -169,7 +168,6 @@ std::unique_ptr<PassFindings> Bidirectional::render_pass(const PassKey& key, con
     PairRound(settings, key, index, film).render(buffer, statistics_, k == 0 ? control : unwatched);
     film.add_estimates(group, 1);
   }
-  return nullptr;
 }
 
 }  // namespace nephroid

@@ -14,8 +14,8 @@ class Bidirectional final : public Estimator {
   Bidirectional(OwnedRoutes owned, const IntegratorOptions& options);
   static const EstimatorDescriptor kDescriptor;
   const EstimatorDescriptor& descriptor() const override { return kDescriptor; }
-  std::unique_ptr<PassFindings> render_pass(const PassKey& key, const Learned*, const Scene& scene,
-                                            Film& film, PassControl& control) override;
+  void render_pass(const PassKey& key, const Learned*, const Scene& scene, Film& film,
+                   PassControl& control) override;
   EstimatorStatistics statistics() const override { return statistics_; }
 
   /// What a pass takes for each pixel.

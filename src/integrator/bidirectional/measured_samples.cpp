@@ -18,12 +18,13 @@ void MeasuredSamples::add_splats(std::span<const Splat> splats, float light_path
 
 void MeasuredSamples::add_to(SampleVariance& variance, const SampleMap& map) const {
   const PixelBounds& b = film_.bounds();
-  size_t pixel = 0;
-  for (int y = 0; y < b.height(); ++y)
-    for (int x = 0; x < b.width(); ++x, ++pixel)
+  const int spacing = PixelSlices(b).spacing(1);
+  for (int y = 0; y < b.height(); y += spacing)
+    for (int x = 0; x < b.width(); x += spacing)
       for (int k = 0; k < map.at(x, y); ++k) {
+        const size_t pixel = static_cast<size_t>(y) * b.width() + x;
         const Sample& sample = samples_[pixel * most_ + k];
-        variance.add(pixel, sample.light + (splatted_.empty() ? 0.0 : splatted_[pixel]),
+        variance.add(x, y, sample.light + (splatted_.empty() ? 0.0 : splatted_[pixel]),
                      sample.rays);
       }
 }

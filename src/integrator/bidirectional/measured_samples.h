@@ -26,7 +26,7 @@ class MeasuredSamples {
   /// Splats of `light_paths` light paths, as light of all samples of the nearest pixel.
   void add_splats(std::span<const Splat> splats, float light_paths);
 
-  /// Adds the samples of which each pixel has as many as `map` says.
+  /// Adds the samples of which each pixel of the first lattice has as many as `map` says.
   void add_to(SampleVariance& variance, const SampleMap& map) const;
 
  private:

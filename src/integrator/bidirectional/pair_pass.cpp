@@ -53,7 +53,7 @@ class PairRendering {
       render_pixels(statistics);
       statistics.hold(
           grid.bytes() + s_.records.bytes() + s_.camera.directions.bytes(),
-          to_.paths ? s_.format.bounds().area() * 3 * SampleVariance::kBytesPerPixel : 0);
+          to_.paths ? PixelSlices::kMaxFirstPixels * 3 * SampleVariance::kBytesPerPixel : 0);
     } else {
       make_room();
       render_batch(std::move(photons), batches.empty(), statistics);
@@ -77,8 +77,7 @@ class PairRendering {
     const int group = static_cast<int>(s_.in.owned.group);
     const PixelSlices all_slices(s_.format.bounds());
     std::optional<SlicesOfPass> of_film;
-    std::vector<size_t> slices(all_slices.count());
-    std::iota(slices.begin(), slices.end(), size_t{0});
+    std::vector<size_t> slices = wanted_slices(all_slices);
     if (to_.film) {
       of_film.emplace(*to_.film, group, 1, to_.adds_features ? 1 : 0);
       slices = of_film->missing();
@@ -128,7 +127,8 @@ class PairRendering {
     const int samples = s_.camera.paths.at(x - b.x0, y - b.y0);
     for (int k = 0; k < samples; ++k) {
       const PairSampler::SampleLight found = s_.trace(x, y, samples, k, worker, sums);
-      if (to_.paths) to_.paths->add(s_.pixel_of(x, y), found.mean, static_cast<double>(found.rays));
+      if (to_.paths)
+        to_.paths->add(x - b.x0, y - b.y0, found.mean, static_cast<double>(found.rays));
     }
   }
 
@@ -178,8 +178,7 @@ class PairRendering {
 
   void trace_eye_paths(EstimatorStatistics& statistics) {
     const PixelSlices slices(s_.format.bounds());
-    std::vector<size_t> all(slices.count());
-    std::iota(all.begin(), all.end(), size_t{0});
+    const std::vector<size_t> wanted = wanted_slices(slices);
     const auto trace_slice = [&](PairRow& row, size_t slice) {
       PairSampler::Worker worker{{}, PartSums(*s_.in.owned.routes, s_.in.owned.group), row};
       row.techniques = s_.counter.start_row(worker.light);
@@ -193,7 +192,14 @@ class PairRendering {
       }
       if (worker.sees) to_.film->finish_feature_slice(slice, 1);
     };
-    for_each_slice_with_records(all, trace_slice, statistics);
+    for_each_slice_with_records(wanted, trace_slice, statistics);
+  }
+
+  /// All of a film; to learn, the first lattice.
+  std::vector<size_t> wanted_slices(const PixelSlices& of_film) const {
+    std::vector<size_t> slices(to_.film ? of_film.count() : of_film.count_of_levels(1));
+    std::iota(slices.begin(), slices.end(), size_t{0});
+    return slices;
   }
 
   /// True if camera paths add what they see: the film may have it already, of a pass that was
@@ -288,61 +294,40 @@ class PairRendering {
 /// Makes room for the records of the pass: growing by and by would take twice as much.
 void reserve(std::vector<RadianceRecord>& records, const SampleMap& paths, const FilmFormat& film,
              double per_path) {
-  const double all = paths.mean() * static_cast<double>(film.bounds().area());
+  const double all = paths.mean() * static_cast<double>(PixelSlices(film.bounds()).first_pixels());
   records.reserve(std::min(PassRecords::kMax, static_cast<size_t>(all * 1.1 * per_path) + 64));
 }
 
-/// Room for what is to be measured, and `to` with it.
-std::unique_ptr<PairFindings> findings(const PairPass& pass, const FilmFormat& film,
-                                       const PairSamples& samples, const PairLearning& learning,
-                                       Destinations& to) {
-  auto found = std::make_unique<PairFindings>();
+/// Room for what is to be measured.
+PairFindings findings(const FilmFormat& film, const PairSamples& samples,
+                      const PairLearning& learning) {
+  PairFindings found;
   if (learning.keeps_records) {
-    reserve(found->records, samples.paths, film, learning.records_per_path);
-    to.records = &found->records;
-    to.records_per_path = learning.records_per_path;
+    reserve(found.records, samples.paths, film, learning.records_per_path);
   }
-  if (learning.measures_variance) {
-    PairFindings::Variance& variance = found->variance.emplace(film.bounds());
-    to.paths = &variance.paths;
-    if (pass.techniques.separates_chains) to.chains = &variance.chains;
-  }
+  if (learning.measures_variance)
+    found.variance.emplace(film.bounds(), PixelSlices(film.bounds()).spacing(1));
   return found;
-}
-
-void render_to(const PairRender& to, const PairPass& pass, Destinations destinations,
-               EstimatorStatistics& statistics) {
-  destinations.film = &to.film;
-  destinations.adds_features = to.adds_features;
-  const CameraSide camera{to.samples.paths, &to.samples.chains, to.samples.in_first_pass,
-                          to.directions};
-  PairRendering(pass, to.film.format(), camera, destinations).run(statistics);
 }
 
 }  // namespace
 
 void render(const PairPass& pass, const PairRender& to, EstimatorStatistics& statistics) {
-  render_to(to, pass, {}, statistics);
+  const Destinations destinations{.film = &to.film, .adds_features = to.adds_features};
+  const CameraSide camera{to.samples.paths, &to.samples.chains, to.directions};
+  PairRendering(pass, to.film.format(), camera, destinations).run(statistics);
 }
 
-std::unique_ptr<PairFindings> render(const PairPass& pass, const PairRender& to,
-                                     const PairLearning& learning,
-                                     EstimatorStatistics& statistics) {
-  Destinations destinations;
-  // What is left of a pass tells only of that part.
-  const bool is_whole = !to.film.is_open(static_cast<int>(pass.owned.group));
-  auto found = findings(pass, to.film.format(), to.samples, learning, destinations);
-  render_to(to, pass, destinations, statistics);
-  return is_whole ? std::move(found) : nullptr;
-}
-
-std::unique_ptr<PairFindings> measure(const PairPass& pass, const FilmFormat& film,
-                                      const PairSamples& samples, const PairLearning& learning,
-                                      EstimatorStatistics& statistics) {
-  Destinations destinations;
-  auto found = findings(pass, film, samples, learning, destinations);
-  const CameraSide camera{samples.paths, &samples.chains, samples.in_first_pass};
-  PairRendering(pass, film, camera, destinations).run(statistics);
+PairFindings measure(const PairPass& pass, const FilmFormat& film, const PairSamples& samples,
+                     const PairLearning& learning, EstimatorStatistics& statistics) {
+  PairFindings found = findings(film, samples, learning);
+  Destinations destinations{.records_per_path = learning.records_per_path};
+  if (found.variance) {
+    destinations.paths = &found.variance->paths;
+    if (pass.techniques.separates_chains) destinations.chains = &found.variance->chains;
+  }
+  if (learning.keeps_records) destinations.records = &found.records;
+  PairRendering(pass, film, {samples.paths, &samples.chains}, destinations).run(statistics);
   return found;
 }
 
@@ -361,7 +346,6 @@ size_t try_out(const PairPass& pass, const FilmFormat& film, const PairTrial& tr
 size_t pair_pass_bytes_per_pixel(size_t parts, size_t measured_samples, size_t clamped_samples) {
   return SplatBuffer::bytes_per_pixel(parts) + parts * sizeof(Rgb) + sizeof(float) +
          measured_samples * sizeof(MeasuredSamples::Sample) +
-         (measured_samples > 0 ? 3 * SampleVariance::kBytesPerPixel : 0) +
          clamped_samples * (parts * sizeof(Rgb) + sizeof(float));
 }
 

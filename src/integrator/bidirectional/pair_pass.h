@@ -44,6 +44,7 @@ struct PairPass {
   bool light_paths_vary = false;
   /// One technique of the estimator alone.
   TechniqueChoice technique{};
+  float radius_scale = 1;  ///< times the radius of the pass
   PassControl& control = unwatched;
 };
 
@@ -51,9 +52,6 @@ struct PairPass {
 struct PairSamples {
   const SampleMap& paths;   ///< camera paths
   const SampleMap& chains;  ///< walks for specular chains; 0: camera paths find them
-  /// Camera paths that each pixel has had before pass 1, whatever `paths` says: the numbers of the
-  /// later ones follow on.
-  uint32_t in_first_pass = 0;
 };
 
 /// A pass whose light goes to a film.
@@ -64,15 +62,15 @@ struct PairRender {
   const RadianceGuide& directions = kNoRadiance;  ///< of camera paths
 };
 
-/// A pass that is measured so that later ones can be better.
+/// A pass over the first lattice of a film that is measured so that others can be better.
 struct PairLearning {
   bool measures_variance = true;
   bool keeps_records = true;  ///< of the light behind the vertices of camera paths
   double records_per_path = PassRecords::kMaxPerPath;  ///< expected, in the mean
 };
-struct PairFindings final : PassFindings {
+struct PairFindings {
   struct Variance {
-    explicit Variance(const PixelBounds& b) : paths(b), chains(b) {}
+    Variance(const PixelBounds& b, int spacing) : paths(b, spacing), chains(b, spacing) {}
     SampleVariance paths;
     ChainVariance chains;
   };
@@ -80,7 +78,8 @@ struct PairFindings final : PassFindings {
   std::vector<RadianceRecord> records;
 };
 
-/// A pass that tells how good its techniques are, and whose light is thrown away.
+/// A pass over the first lattice that tells how good its techniques are, and whose light is thrown
+/// away.
 struct PairTrial {
   const SampleMap& paths;  ///< camera paths of each pixel
   bool counts_records = false;
@@ -89,13 +88,9 @@ struct PairTrial {
 
 /// Adds a pass to the film, the number of estimates included.
 void render(const PairPass& pass, const PairRender& to, EstimatorStatistics& statistics);
-/// The same, and returns what was measured; null if only the rest of a pass was rendered.
-std::unique_ptr<PairFindings> render(const PairPass& pass, const PairRender& to,
-                                     const PairLearning& learning, EstimatorStatistics& statistics);
-/// Measures the same pass for no film.
-std::unique_ptr<PairFindings> measure(const PairPass& pass, const FilmFormat& film,
-                                      const PairSamples& samples, const PairLearning& learning,
-                                      EstimatorStatistics& statistics);
+/// Measures a pass for no film.
+PairFindings measure(const PairPass& pass, const FilmFormat& film, const PairSamples& samples,
+                     const PairLearning& learning, EstimatorStatistics& statistics);
 /// Adds the light of camera paths, without specular chains and with the splats of their pixel, to
 /// `variance`. Returns the number of radiance records that the paths would leave.
 size_t try_out(const PairPass& pass, const FilmFormat& film, const PairTrial& trial,

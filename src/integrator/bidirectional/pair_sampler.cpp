@@ -13,6 +13,11 @@ namespace {
 constexpr uint64_t kEyeStream = 0x76636d65;   // "vcme"
 constexpr uint64_t kPairStream = 0x76636d70;  // "vcmp"
 
+/// All of a film; to learn, the first lattice.
+size_t pixels_of(const FilmFormat& format, const Film* film) {
+  return film != nullptr ? format.bounds().area() : PixelSlices(format.bounds()).first_pixels();
+}
+
 }  // namespace
 
 PairSampler::PairSampler(const PairPass& pass, const FilmFormat& of_film, const CameraSide& side,
@@ -27,7 +32,7 @@ PairSampler::PairSampler(const PairPass& pass, const FilmFormat& of_film, const 
                             : TechniqueCounter(of_film)),
       photons(start_photon_pass(pass.key, pass.scene, of_film, pass.options, pass.control)),
       most(side.paths.most()),
-      records(all_records, of_film.bounds().area() * most, records_per_path),
+      records(all_records, pixels_of(of_film, to) * most, records_per_path),
       tree(pass.scene, pass.owned, pass.options.max_depth),
       settings{.scene = pass.scene,
                .owned = pass.owned,
@@ -40,7 +45,7 @@ PairSampler::PairSampler(const PairPass& pass, const FilmFormat& of_film, const 
       view_(pass.scene, of_film.bounds()) {
   merging.caustics_only = techniques.caustics_only;
   merging.photons = static_cast<double>(techniques.light_paths);
-  merging.radius_pixels = radius_of_pass(pass.options, pass.key.pass);
+  merging.radius_pixels = pass.radius_scale * radius_of_pass(pass.options, pass.key.pass);
   merging.footprint = photons.footprint;
   merging.eye = pass.scene.camera->camera_to_world(photons.trace.time).point(Vec3f(0, 0, 0));
   merging.connects = techniques.connects;
@@ -57,9 +62,7 @@ PairSampler::PairSampler(const PairPass& pass, const FilmFormat& of_film, const 
 }
 
 uint32_t PairSampler::first_index(int n) const {
-  const uint32_t pass = in.key.pass, first = camera.in_first_pass;
-  const uint32_t before = first > 0 && pass > 0 ? pass - 1 : pass;
-  return (pass > 0 ? first : 0) + before * n;
+  return in.key.pass * n;
 }
 
 PairSampler::SamplePoints PairSampler::sample_points(int n, int k) const {

@@ -15,7 +15,6 @@ namespace nephroid {
 struct CameraSide {
   const SampleMap& paths;
   const SampleMap* chains = nullptr;  ///< null: nobody looks for specular chains if they are apart
-  uint32_t in_first_pass = 0;
   const RadianceGuide& directions = kNoRadiance;
 };
 

@@ -49,10 +49,8 @@ int64_t default_light_paths(int64_t pixels) {
   return std::clamp(pixels, kMinPaths, kMaxPaths);
 }
 
-std::unique_ptr<PassFindings> VertexConnectionMerging::render_pass(const PassKey& key,
-                                                                   const Learned*,
-                                                                   const Scene& scene, Film& film,
-                                                                   PassControl& control) {
+void VertexConnectionMerging::render_pass(const PassKey& key, const Learned*, const Scene& scene,
+                                          Film& film, PassControl& control) {
   PairPass pass{.key = key,
                 .seed = hash_combine(key.seed, number_),
                 .scene = scene,
@@ -66,7 +64,6 @@ std::unique_ptr<PassFindings> VertexConnectionMerging::render_pass(const PassKey
   pass.techniques.connects = connects_;
   const SampleMap one_path(film.bounds()), no_walks(film.bounds(), 0);
   render(pass, {.film = film, .samples = {one_path, no_walks}}, statistics_);
-  return nullptr;
 }
 
 }  // namespace nephroid

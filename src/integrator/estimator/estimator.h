@@ -21,35 +21,25 @@ class Estimator {
   /// True if its passes add what the camera sees first to the film's features.
   virtual bool records_features() const { return false; }
 
-  /// What the first pass needs to know of the scene: a function of the scene, the film's format,
+  /// What passes need to know of the scene: a function of the scene, the film's format,
   /// the estimator's options and the seed. Null if that is nothing.
   virtual std::shared_ptr<const Learned> learn(const Scene&, const FilmFormat&, uint64_t /*seed*/,
                                                PassControl&) const {
     return nullptr;
   }
-  /// What all later passes need to know, a function of the same. `before` is what learn() returned
-  /// and `found` what render_pass() returned for pass 0; null where pass 0 was rendered elsewhere,
-  /// and is traced again, for no film.
-  virtual std::shared_ptr<const Learned> learn_from_first_pass(
-      std::shared_ptr<const Learned> before, std::unique_ptr<PassFindings> /*found*/, const Scene&,
-      const FilmFormat&, uint64_t /*seed*/, PassControl&) const {
-    return before;
-  }
-  /// The value that `write` wrote of one that learn() or learn_from_first_pass() returned. Throws
-  /// IoError if it is damaged.
+  /// The value that `write` wrote of one that learn() returned. Throws IoError if it is damaged.
   virtual std::shared_ptr<const Learned> read_learned(ByteReader&, const FilmFormat&) const {
     return nullptr;
   }
 
   /// Adds pass `key.pass` to the film, estimate counts included. It depends on nothing but the
   /// arguments and what add_state() adds; `learned` is the value for this pass and may have been
-  /// learned with another seed. Returns what learn_from_first_pass() asks for, or null.
+  /// learned with another seed.
   /// `control` may end the pass (PassStopped): the film then has the pixels of those slices that
   /// are done (Film::finish_slice), or nothing of the pass. Slices that the film has already, of a
   /// pass that was ended, are not rendered again, and what they found is not returned.
-  virtual std::unique_ptr<PassFindings> render_pass(const PassKey& key, const Learned* learned,
-                                                    const Scene& scene, Film& film,
-                                                    PassControl& control) = 0;
+  virtual void render_pass(const PassKey& key, const Learned* learned, const Scene& scene,
+                           Film& film, PassControl& control) = 0;
   /// Counts of the passes that were rendered here; what learning took is not in them.
   virtual EstimatorStatistics statistics() const = 0;
   /// Adds what it keeps from pass to pass beside the film, so that it can go on from there; nothing

@@ -61,9 +61,11 @@ struct EstimatorDescriptor {
   PixelBytes (*bytes_per_pixel)(const PixelMemoryInput& need) = [](const PixelMemoryInput&) {
     return PixelBytes{};
   };
-  /// a of [O2], the pixels that one path exposes in a pass: of a path from the eye, its own.
-  float (*exposed_pixels)(const IntegratorOptions& options, const PixelFilter& filter) =
-      [](const IntegratorOptions&, const PixelFilter&) { return 1.0f; };
+  /// a of [O2], the pixels that one path exposes in a pass, of a film of `pixels`: of a path from
+  /// the eye, its own.
+  float (*exposed_pixels)(const IntegratorOptions& options, const PixelFilter& filter,
+                          int64_t pixels) = [](const IntegratorOptions&, const PixelFilter&,
+                                               int64_t) { return 1.0f; };
   /// Why --outliers reject does not do all it should for its routes, in words that follow "routes
   /// of NAME "; null if it does.
   const char* outlier_warning = nullptr;

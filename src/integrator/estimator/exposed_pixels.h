@@ -18,7 +18,7 @@ inline float splatted_pixels(const PixelFilter& filter) {
   return std::max(1.0f, 4 * filter.radius().x * filter.radius().y);
 }
 /// The same as EstimatorDescriptor::exposed_pixels, of estimators that splat.
-inline float pixels_of_splats(const IntegratorOptions&, const PixelFilter& filter) {
+inline float pixels_of_splats(const IntegratorOptions&, const PixelFilter& filter, int64_t) {
   return splatted_pixels(filter);
 }
 

@@ -64,9 +64,8 @@ const EstimatorDescriptor& FeatureEstimator::descriptor() const {
   return kDescriptor;
 }
 
-std::unique_ptr<PassFindings> FeatureEstimator::render_pass(const PassKey& key, const Learned*,
-                                                            const Scene& scene, Film& film,
-                                                            PassControl& control) {
+void FeatureEstimator::render_pass(const PassKey& key, const Learned*, const Scene& scene,
+                                   Film& film, PassControl& control) {
   const FilmSettings& settings = film.settings();
   const SobolPoint point = eye_point(key.pass);
   const auto trace_slice = [&](uint64_t& rays, const PixelSlices::Run& run) {
@@ -92,7 +91,6 @@ std::unique_ptr<PassFindings> FeatureEstimator::render_pass(const PassKey& key, 
   SlicesOfPass{.film = film, .group = film.layout().group_count()}.render<uint64_t>(
       control, trace_slice, [&](uint64_t&& rays) { statistics_.rays += rays; });
   statistics_.camera_paths += film.bounds().area();
-  return nullptr;
 }
 
 }  // namespace nephroid

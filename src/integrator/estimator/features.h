@@ -28,8 +28,8 @@ class Features {
 class FeatureEstimator : public Estimator {
  public:
   const EstimatorDescriptor& descriptor() const override;
-  std::unique_ptr<PassFindings> render_pass(const PassKey& key, const Learned*, const Scene& scene,
-                                            Film& film, PassControl& control) override;
+  void render_pass(const PassKey& key, const Learned*, const Scene& scene, Film& film,
+                   PassControl& control) override;
   EstimatorStatistics statistics() const override { return statistics_; }
 
  private:

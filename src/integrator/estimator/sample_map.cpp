@@ -24,7 +24,7 @@ double SampleMap::mean() const {
 }
 
 SampleVariance::ByTile SampleVariance::by_tile(const SampleVariance* others) const {
-  const SampleMap tiles(bounds_);
+  const SampleMap tiles(bounds_, 1, spacing_);
   const ByTile other = others ? others->by_tile() : ByTile{};
   ByTile out;
   out.variance.assign(tiles.counts().size(), 0);
@@ -33,8 +33,8 @@ SampleVariance::ByTile SampleVariance::by_tile(const SampleVariance* others) con
   std::vector<double> pixels(out.variance);
   double all_light = 0, all_pixels = 0;
   size_t i = 0;
-  for (int y = 0; y < bounds_.height(); ++y)
-    for (int x = 0; x < bounds_.width(); ++x) {
+  for (int y = 0; y < bounds_.height(); y += spacing_)
+    for (int x = 0; x < bounds_.width(); x += spacing_) {
       const Sums& s = sums_[i++];
       if (s.samples < 2) continue;
       const size_t tile = tiles.tile_of(x, y);

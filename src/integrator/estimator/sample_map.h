@@ -9,18 +9,21 @@
 
 namespace nephroid {
 
-/// How many walks of one kind each pixel has in a pass, the same for all pixels of a tile.
+/// How many walks of one kind each pixel has in a pass, the same for all pixels of a tile. Tiles
+/// are as large as makes them hold some pixels of the lattice that is learned from.
 class SampleMap {
  public:
-  static constexpr int kTile = 4, kMax = 8, kMaxChainWalks = 32;
+  static constexpr int kTile = 4;  ///< pixels of the lattice across a tile
+  static constexpr int kMax = 8, kMaxChainWalks = 32;
   static constexpr double kMaxMean = 2.5;  ///< of maps that are shared out
 
   /// To be read into.
   SampleMap() = default;
-  /// The same number for each pixel.
-  explicit SampleMap(const PixelBounds& b, uint16_t samples = 1)
-      : width_((b.width() + kTile - 1) / kTile),
-        counts_(static_cast<size_t>(width_) * ((b.height() + kTile - 1) / kTile), samples) {}
+  /// The same number for each pixel; `spacing` is that of the lattice.
+  explicit SampleMap(const PixelBounds& b, uint16_t samples = 1, int spacing = 1)
+      : tile_(kTile * spacing),
+        width_((b.width() + tile_ - 1) / tile_),
+        counts_(static_cast<size_t>(width_) * ((b.height() + tile_ - 1) / tile_), samples) {}
 
   /// `x` and `y` count from the corner of the crop.
   int at(int x, int y) const { return counts_[tile_of(x, y)]; }
@@ -28,18 +31,19 @@ class SampleMap {
   int fewest() const;
   bool has(int samples) const;  ///< some tile has this number
   double mean() const;
-  size_t tile_of(int x, int y) const { return static_cast<size_t>(y / kTile) * width_ + x / kTile; }
+  size_t tile_of(int x, int y) const { return static_cast<size_t>(y / tile_) * width_ + x / tile_; }
   int width() const { return width_; }
-  static void members(auto& self, auto& archive) { archive(self.width_, self.counts_); }
+  static void members(auto& self, auto& archive) { archive(self.tile_, self.width_, self.counts_); }
   std::vector<uint16_t>& counts() { return counts_; }
   const std::vector<uint16_t>& counts() const { return counts_; }
 
  private:
+  int tile_ = kTile;  ///< pixels across
   int width_ = 0;
   std::vector<uint16_t> counts_;  ///< [tile]
 };
 
-/// What several samples of each pixel found; each pixel has one writer at a time.
+/// What several samples of each pixel of a lattice found; each pixel has one writer at a time.
 class SampleVariance {
   struct Sums {
     double light = 0, square = 0, rays = 0;
@@ -47,16 +51,20 @@ class SampleVariance {
   };
 
  public:
-  static constexpr size_t kBytesPerPixel = sizeof(Sums);
+  static constexpr size_t kBytesPerPixel = sizeof(Sums);  ///< of the lattice
 
-  explicit SampleVariance(const PixelBounds& b) : bounds_(b), sums_(b.area()) {}
-  /// One sample that took `rays`; `pixel` counts row by row over the crop.
-  void add(size_t pixel, double luminance, double rays) {
-    add(pixel, luminance, rays, luminance * luminance);
+  explicit SampleVariance(const PixelBounds& b, int spacing = 1)
+      : bounds_(b),
+        spacing_(spacing),
+        width_((b.width() + spacing - 1) / spacing),
+        sums_(static_cast<size_t>(width_) * ((b.height() + spacing - 1) / spacing)) {}
+  /// One sample that took `rays`, of a pixel of the lattice, counted from the corner of the crop.
+  void add(int x, int y, double luminance, double rays) {
+    add(x, y, luminance, rays, luminance * luminance);
   }
   /// The same for samples whose mean square is known better.
-  void add(size_t pixel, double luminance, double rays, double square) {
-    Sums& s = sums_[pixel];
+  void add(int x, int y, double luminance, double rays, double square) {
+    Sums& s = sums_[static_cast<size_t>(y / spacing_) * width_ + x / spacing_];
     s.rays += rays;
     s.light += luminance;
     s.square += square;
@@ -73,7 +81,8 @@ class SampleVariance {
 
  private:
   PixelBounds bounds_;
-  std::vector<Sums> sums_;
+  int spacing_, width_;
+  std::vector<Sums> sums_;  ///< [pixel of the lattice]
 };
 
 }  // namespace nephroid

@@ -23,7 +23,7 @@ const EstimatorSetting kGuideWalksSetting = {
     "yes|no",
     "yes",
     "",
-    "Camera walks prefer directions in which the first pass found light, where that pays.",
+    "Camera walks prefer directions in which light was found, where that pays.",
     [](IntegratorOptions& options, const std::string& text) {
       options.edit<GuidingOptions>().walks = parse_yes_no("-D guide-walks", text);
     },

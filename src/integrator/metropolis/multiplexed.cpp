@@ -220,15 +220,13 @@ std::shared_ptr<const Learned> Multiplexed::read_learned(ByteReader& from,
   return LearnedPilot::read(from);
 }
 
-std::unique_ptr<PassFindings> Multiplexed::render_pass(const PassKey& key, const Learned* learned,
-                                                       const Scene& scene, Film& film,
-                                                       PassControl& control) {
+void Multiplexed::render_pass(const PassKey& key, const Learned* learned, const Scene& scene,
+                              Film& film, PassControl& control) {
   const ChainPilot& pilot = static_cast<const LearnedPilot*>(learned)->pilot();
   const CameraView view(scene, film.bounds());
   Pass pass = start_pass(scene, owned_, film.format(), options_, view, key);
   pass.kinds = KindChoice(pass.kinds, pilot.kinds);
   passes_.render(key, scene, static_cast<int>(owned_.group), pilot, maker_of(pass), film, control);
-  return nullptr;
 }
 
 }  // namespace nephroid

@@ -106,9 +106,8 @@ std::shared_ptr<const Learned> PrimarySpace::read_learned(ByteReader& from,
   return LearnedPilot::read(from);
 }
 
-std::unique_ptr<PassFindings> PrimarySpace::render_pass(const PassKey& key, const Learned* learned,
-                                                        const Scene& scene, Film& film,
-                                                        PassControl& control) {
+void PrimarySpace::render_pass(const PassKey& key, const Learned* learned, const Scene& scene,
+                               Film& film, PassControl& control) {
   const Pass pass{scene,
                   owned_,
                   options_,
@@ -117,7 +116,6 @@ std::unique_ptr<PassFindings> PrimarySpace::render_pass(const PassKey& key, cons
                   specular_alpha_of_pass(scene.specular_band, key)};
   passes_.render(key, scene, static_cast<int>(owned_.group),
                  static_cast<const LearnedPilot*>(learned)->pilot(), maker_of(pass), film, control);
-  return nullptr;
 }
 
 }  // namespace nephroid

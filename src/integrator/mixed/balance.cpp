@@ -8,7 +8,7 @@ namespace nephroid {
 namespace {
 
 /// Light paths of a pass.
-constexpr double kMinLightPaths = 1 << 10, kMaxLightPaths = 1 << 20;
+constexpr double kMinLightPaths = 1 << 10, kMaxLightPaths = 1 << 22;
 
 /// Each tile with its neighbours: the variance of a few passes is a rough guess.
 std::vector<double> smoothed(const std::vector<double>& values, int width) {
@@ -70,9 +70,9 @@ double winsorized_mean(std::vector<double> tiles) {
   return sum / static_cast<double>(tiles.size());
 }
 
-SampleAllocation allocate_samples(const PixelBounds& bounds, const TileStatistics& tiles,
-                                  bool chains_apart, double max_mean) {
-  SampleAllocation shares{SampleMap(bounds), SampleMap(bounds, 0)};
+SampleAllocation allocate_samples(const PixelBounds& bounds, int spacing,
+                                  const TileStatistics& tiles, bool chains_apart, double max_mean) {
+  SampleAllocation shares{SampleMap(bounds, 1, spacing), SampleMap(bounds, 0, spacing)};
   const int width = shares.paths.width();
   const OfTiles paths(tiles.paths, width), chains(tiles.chains, width), choice(tiles.choice, width);
   std::vector<double> lit = lit_roots(paths);
@@ -133,11 +133,12 @@ Balance Balance::with_camera_paths_of(const Trial& trial) const {
 
 double Balance::light_paths_of_camera_path() const {
   if (!(cost_of_light > 0) || !(variance_of_camera > 0)) return 0;
-  return std::sqrt(variance_of_light * cost_of_camera / (variance_of_camera * cost_of_light));
+  return scale *
+         std::sqrt(variance_of_light * cost_of_camera / (variance_of_camera * cost_of_light));
 }
 
 double Balance::max_light_paths() const {
-  return std::clamp(kMaxPhotons / std::max(photons_of_path, 1e-9), kMinLightPaths, kMaxLightPaths);
+  return std::clamp(max_photons / std::max(photons_of_path, 1e-9), kMinLightPaths, kMaxLightPaths);
 }
 
 int64_t Balance::light_paths(double camera_paths) const {
@@ -146,7 +147,7 @@ int64_t Balance::light_paths(double camera_paths) const {
 }
 
 double Balance::inverse_efficiency() const {
-  const double paths = static_cast<double>(light_paths(1));
+  const double paths = static_cast<double>(light_paths(1)) / scale;
   return (variance_of_camera + variance_of_light / paths) *
          (cost_of_camera + cost_of_light * paths);
 }

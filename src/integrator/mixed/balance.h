@@ -25,10 +25,11 @@ struct TileStatistics {
 /// [A2] Allocates samples so that the error falls fastest: walks of either kind as the root of
 /// variance over cost, and each tile in the cheaper of both ways; or all chains by walks of their
 /// own. `max_mean` camera paths a pixel in the mean at most, 1 or more.
-SampleAllocation allocate_samples(const PixelBounds& bounds, const TileStatistics& tiles,
-                                  bool chains_apart = false, double max_mean = SampleMap::kMaxMean);
+SampleAllocation allocate_samples(const PixelBounds& bounds, int spacing,
+                                  const TileStatistics& tiles, bool chains_apart = false,
+                                  double max_mean = SampleMap::kMaxMean);
 
-/// What trial passes told.
+/// What trial passes over a lattice of pixels told, as if the lattice were the film.
 struct Trial {
   double variance = 0;        ///< of one pass
   double cost_of_camera = 0;  ///< of the camera paths of one pass
@@ -51,20 +52,21 @@ double winsorized_mean(std::vector<double> tiles);
 /// variance times cost, and that of one camera path; from a trial with many light paths and one
 /// with few.
 struct Balance {
-  static constexpr double kMaxPhotons = 1 << 18;  ///< that a pass keeps, about
+  double max_photons = 1 << 18;  ///< that a pass keeps, about
+  double scale = 1;              ///< pixels of the film over those of the lattice
   double variance_of_camera = 0, variance_of_light = 0, cost_of_camera = 0, cost_of_light = 0;
   double photons_of_path = 0;  ///< that one light path leaves
   Balance(const Trial& many, const Trial& few);
   /// To be read into.
   Balance() = default;
   static void members(auto& self, auto& archive) {
-    archive(self.variance_of_camera, self.variance_of_light, self.cost_of_camera,
-            self.cost_of_light, self.photons_of_path);
+    archive(self.max_photons, self.scale, self.variance_of_camera, self.variance_of_light,
+            self.cost_of_camera, self.cost_of_light, self.photons_of_path);
   }
   /// For passes without light paths.
   explicit Balance(const Trial& trial)
       : variance_of_camera(trial.variance), cost_of_camera(trial.cost_of_camera) {}
-  /// The best number, as far as it leaves no more than kMaxPhotons.
+  /// The best number, as far as it leaves no more than max_photons.
   int64_t light_paths(double camera_paths) const;
   /// Camera paths of each pixel beside which the best number of light paths is not too many.
   double max_camera_paths() const { return max_light_paths() / light_paths_of_camera_path(); }

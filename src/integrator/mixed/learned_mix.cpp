@@ -22,20 +22,19 @@ void LearnedMix::add_to(EstimatorStatistics& s) const {
         "Russian roulette begins at an eighth of what a camera path started with: trial passes "
         "were better for it");
   if (!techniques.connects) plan_.photons.add_notes(s);
-  if (!refinement_) return;
-  if (refinement_->directions.guides())
+  if (plan_.directions.guides())
     s.notes.push_back(
-        fmt::format("camera paths guided by the first pass at {:.3g} % of the rough surfaces that "
+        fmt::format("camera paths guided at {:.3g} % of the rough surfaces that "
                     "they met",
-                    100 * refinement_->directions.guided()));
+                    100 * plan_.directions.guided()));
   if (plan_.is_even) return;
   const auto note = [&s](const SampleMap& map, const char* what) {
     s.notes.push_back(fmt::format("{:.3g} {} a pixel and pass, {} to {} by tile", map.mean(), what,
                                   map.fewest(), map.most()));
   };
-  note(refinement_->samples.paths, "camera paths");
-  if (techniques.separates_chains && refinement_->samples.chains.most() > 0)
-    note(refinement_->samples.chains, "walks for lights behind smooth glass and mirrors");
+  note(plan_.samples.paths, "camera paths");
+  if (techniques.separates_chains && plan_.samples.chains.most() > 0)
+    note(plan_.samples.chains, "walks for lights behind smooth glass and mirrors");
 }
 
 }  // namespace nephroid

@@ -16,18 +16,48 @@ namespace nephroid {
 namespace {
 
 constexpr const EstimatorSetting* kSettings[] = {&kGuideSetting, &kGuideWalksSetting};
-constexpr uint64_t kTrialStream = 0x747269616c;  // "trial"
+constexpr uint64_t kTrialStream = 0x747269616c;        // "trial"
+constexpr uint64_t kMeasureStream = 0x6d656173757265;  // "measure"
 constexpr uint32_t kTrialPasses = 2;
-constexpr int64_t kMaxTrialPaths = 1 << 17;
+constexpr int64_t kMaxTrialPaths = 1 << 15;
 /// Light paths of a trial with few of them are this part of those with many.
 constexpr int64_t kFewer = 8;
 /// Connecting has to be better by this factor: two passes are a rough guess, and do not see that
 /// camera paths alone, whose points fill the gaps of earlier ones, gain more from passes to come.
 constexpr double kRequiredGain = 1.6;
 
+/// Camera paths of each pixel of the lattice in the pass that is measured.
+constexpr int kMeasuredSamples = 8;
+constexpr double kMinPhotonBytes = 64 << 20, kPhotonBytesPerPixel = 64;
+/// Those that are held at once by default, with room for chance.
+constexpr double kMaxPhotons = 0.95 * (1 << 20);
+/// With its place in the grid.
+constexpr double kBytesOfPhoton = sizeof(Photon) + sizeof(Vec3f) + 24;
+
+/// Photons of a pass for a film of so many pixels.
+double max_photons(const FilmFormat& film) {
+  const double bytes =
+      std::max(kMinPhotonBytes, kPhotonBytesPerPixel * static_cast<double>(film.bounds().area()));
+  return std::min(kMaxPhotons, bytes / kBytesOfPhoton);
+}
+
+/// The radius with the least error for the photons of some seconds has a size in the world, so that
+/// it has the more pixels the more of them the picture has; edges are as sharp as its pixels. From
+/// water-caustic at 128 and 512 pixels, pool and coffee-cup. Times the radius that is best for a
+/// thumbnail; 1 where the user says a radius, and where everything is merged, not caustics alone.
+float radius_scale(const IntegratorOptions& options, bool caustics_only, int64_t pixels) {
+  const double over_thumbnail = static_cast<double>(pixels) / PixelSlices::kMaxFirstPixels;
+  if (options.radius > 0 || !caustics_only) return 1;
+  return static_cast<float>(std::pow(std::max(1.0, over_thumbnail), 0.3));
+}
+
+int spacing_of(const FilmFormat& film) {
+  return PixelSlices(film.bounds()).spacing(1);
+}
+
 /// One path for each pixel of every other tile.
-SampleMap every_other_tile(const PixelBounds& b) {
-  SampleMap map(b);
+SampleMap every_other_tile(const FilmFormat& film) {
+  SampleMap map(film.bounds(), 1, spacing_of(film));
   for (size_t i = 0; i < map.counts().size(); ++i) {
     const size_t w = map.width();
     map.counts()[i] = (i / w + i % w) % 2 == 0;
@@ -46,16 +76,16 @@ class Trials {
         owned_(owned),
         options_(options),
         control_(control),
-        tiles_(every_other_tile(film.bounds())) {}
+        tiles_(every_other_tile(film)) {}
 
   /// What a few passes that are thrown away tell of these techniques.
   Trial run(const PairTechniques& techniques, const EmissionGuide& emission) {
-    SampleVariance variance(film_.bounds());
+    SampleVariance variance(film_.bounds(), spacing_of(film_));
     const PairTrial trial{
         .paths = tiles_,
         .counts_records = options_.own<GuidingOptions>().walks && !techniques.connects};
     const size_t stride =
-        PassRecords::stride(static_cast<size_t>(film_.bounds().area()), trial.records_per_path);
+        PassRecords::stride(PixelSlices(film_.bounds()).first_pixels(), trial.records_per_path);
     EstimatorStatistics counts;
     size_t records = 0;
     for (uint32_t i = 0; i < kTrialPasses; ++i) {
@@ -68,6 +98,7 @@ class Trials {
                           .techniques = techniques,
                           .emission = emission,
                           .light_paths_vary = true,
+                          .radius_scale = static_cast<float>(spacing_of(film_)),
                           .control = control_},
                          film_, trial, variance, counts);
     }
@@ -93,7 +124,7 @@ class Trials {
     const double samples = static_cast<double>(counts.camera_paths);
     const double camera_rays =
         static_cast<double>(counts.rays - counts.light_rays - counts.again_rays) / samples *
-        static_cast<double>(film_.bounds().area());
+        static_cast<double>(PixelSlices(film_.bounds()).first_pixels());
     return {.variance = winsorized_mean(std::move(tiles)),
             .cost_of_camera = camera_rays,
             .cost_of_light = static_cast<double>(counts.light_rays) / kTrialPasses,
@@ -123,16 +154,13 @@ SampleAllocation allocation(const PairFindings::Variance& v, const MixPlan& plan
                           ? std::clamp(plan.balance->max_camera_paths(), 1.0, SampleMap::kMaxMean)
                           : SampleMap::kMaxMean;
   if (!plan.techniques.separates_chains)
-    return allocate_samples(film.bounds(), {v.paths.by_tile(), {}, {}}, false, most);
+    return allocate_samples(film.bounds(), spacing_of(film), {v.paths.by_tile(), {}, {}}, false,
+                            most);
   // Where the film clamps, what a tile converges to depends on who finds its bright light.
-  return allocate_samples(film.bounds(),
+  return allocate_samples(film.bounds(), spacing_of(film),
                           {v.paths.by_tile(&v.chains.walks), v.chains.walks.by_tile(&v.paths),
                            v.chains.choice.by_tile(&v.paths)},
                           film.settings().max_component < kInfinity, most);
-}
-
-const LearnedMix& as_mix(const Learned* learned) {
-  return *static_cast<const LearnedMix*>(learned);
 }
 
 }  // namespace
@@ -149,38 +177,36 @@ constinit const EstimatorDescriptor PathAndPhotons::kDescriptor = {
         [](const PixelMemoryInput& need) {
           return PixelBytes{.of_pass = bytes_per_pixel(need.parts, need.clamps)};
         },
-    .exposed_pixels = pixels_of_merging_and_splats,
+    .exposed_pixels =
+        [](const IntegratorOptions& options, const PixelFilter& filter, int64_t pixels) {
+          IntegratorOptions wide = options;
+          wide.radius = first_radius(options) * radius_scale(options, true, pixels);
+          return pixels_of_merging_and_splats(wide, filter, pixels);
+        },
     .make = make_estimator<PathAndPhotons>,
 };
 
 PathAndPhotons::PathAndPhotons(OwnedRoutes owned, const IntegratorOptions& options)
-    : owned_(std::move(owned)), options_(options) {
-  // Where the number of light paths is chosen here, a pass leaves about kMaxPhotons; what is more
-  // comes in batches.
-  constexpr double kMemorySlack = 1.1;
-  if (options_.photons_per_pass == 0)
-    options_.memory_photons = std::min(options_.memory_photons,
-                                       static_cast<int64_t>(kMemorySlack * Balance::kMaxPhotons));
-}
+    : owned_(std::move(owned)), options_(options) {}
 
 std::shared_ptr<const Learned> PathAndPhotons::learn(const Scene& scene, const FilmFormat& film,
                                                      uint64_t seed, PassControl& control) const {
-  const int64_t pixels = film.bounds().area();
+  // The lattice stands for a film: with wider merges it has as much noise as the film with as many
+  // light paths for each pixel.
+  const int64_t pixels = PixelSlices(film.bounds()).first_pixels();
+  const double scale = static_cast<double>(film.bounds().area()) / static_cast<double>(pixels);
   const int asked = options_.camera_samples_per_pass;
   MixPlan plan;
-  plan.first_samples =
-      SampleMap(film.bounds(), static_cast<uint16_t>(asked > 0 ? asked : kFirstPassSamples));
   plan.is_even = asked > 0;
   plan.lacks_specular = !has_specular_events(owned_);
   plan.photons = guide_caustic_photons(seed, scene, film, options_, control);
   const EmissionGuide& emission = plan.photons.guide.starts;
   PairTechniques& chosen = plan.techniques;
-  chosen = {
-      .light_paths = plan.lacks_specular ? 0 : std::clamp<int64_t>(pixels, 1 << 14, kMaxTrialPaths),
-      .connects = false,
-      .caustics_only = true,
-      .separates_chains = SpecularTree(scene, owned_, options_.max_depth).finds_something(),
-      .roulette_threshold = kCameraRouletteThreshold};
+  chosen = {.light_paths = plan.lacks_specular ? 0 : std::max<int64_t>(pixels, 1 << 14),
+            .connects = false,
+            .caustics_only = true,
+            .separates_chains = SpecularTree(scene, owned_, options_.max_depth).finds_something(),
+            .roulette_threshold = kCameraRouletteThreshold};
   Trials trials(seed, scene, film, owned_, options_, control);
   Trial many = trials.run(chosen, emission);
   Balance balance(many);
@@ -199,116 +225,87 @@ std::shared_ptr<const Learned> PathAndPhotons::learn(const Scene& scene, const F
     balance = other;
     many = longer;
   }
+  balance.max_photons = max_photons(film);
+  balance.scale = scale;
+  // What photons vary by goes with the area in which they are merged.
+  balance.variance_of_light /= double{sqr(radius_scale(options_, true, film.bounds().area()))};
   if (chosen.light_paths > 0) plan.balance = balance;
-  plan.records_per_path = std::clamp(1.1 * many.records, 0.25, double{PassRecords::kMaxPerPath});
-  const PairTechniques connecting{
-      .light_paths = std::min(default_light_paths(pixels), kMaxTrialPaths),
-      .separates_chains = chosen.separates_chains};
+  double records_per_path = std::clamp(1.1 * many.records, 0.25, double{PassRecords::kMaxPerPath});
+  const PairTechniques connecting{.light_paths = default_light_paths(pixels),
+                                  .separates_chains = chosen.separates_chains};
   Trial connected = trials.run(connecting, kUnguided);
   balance.variance_of_camera += many.min_variance_of_unseen(connected);
   connected.variance += connected.min_variance_of_unseen(many);
   if (kRequiredGain * connected.inverse_efficiency() < balance.inverse_efficiency()) {
     chosen = connecting;
     chosen.light_paths =
-        std::min(default_light_paths(pixels),
-                 static_cast<int64_t>(Balance::kMaxPhotons / std::max(connected.photons, 0.1)));
+        std::min(default_light_paths(film.bounds().area()),
+                 static_cast<int64_t>(max_photons(film) / std::max(connected.photons, 0.1)));
     plan.balance.reset();
-    plan.records_per_path = PassRecords::kMaxPerPath;
+    records_per_path = PassRecords::kMaxPerPath;
   }
   if (options_.photons_per_pass > 0) {
     chosen.light_paths = options_.photons_per_pass;
     plan.balance.reset();
   }
-  plan.rays = trials.costs().rays;
-  plan.photon_bytes = trials.costs().photon_bytes;
-  plan.pixel_bytes = trials.costs().pixel_bytes;
+  EstimatorStatistics costs = trials.costs();
+  SampleMap measured(film.bounds(), kMeasuredSamples, spacing_of(film));
+  plan.samples = {SampleMap(film.bounds(), static_cast<uint16_t>(std::max(asked, 1))),
+                  SampleMap(film.bounds(), static_cast<uint16_t>(std::max(asked, 1)))};
+  const PairLearning learning{.measures_variance = !plan.is_even,
+                              .keeps_records = options_.own<GuidingOptions>().walks,
+                              .records_per_path = records_per_path};
+  if (learning.measures_variance || learning.keeps_records) {
+    const PassKey key{hash_combine(seed, kMeasureStream), 0};
+    PairPass pass = pass_of(key, scene, film, plan, control);
+    pass.techniques.light_paths = std::min<int64_t>(pass.techniques.light_paths, kMaxTrialPaths);
+    pass.radius_scale *= static_cast<float>(spacing_of(film));
+    PairFindings found = measure(pass, film, {measured, measured}, learning, costs);
+    if (found.variance) plan.samples = allocation(*found.variance, plan, film);
+    const size_t record_bytes = found.records.capacity() * sizeof(RadianceRecord);
+    plan.directions = RadianceGuide(std::move(found.records));
+    // To sort the records takes half as much again.
+    costs.hold(record_bytes + record_bytes / 2 + plan.directions.bytes(), 0);
+  }
+  plan.rays = costs.rays;
+  plan.photon_bytes = costs.photon_bytes;
+  plan.pixel_bytes = costs.pixel_bytes;
   return std::make_shared<const LearnedMix>(std::move(plan));
 }
 
-PairPass PathAndPhotons::pass_of(const PassKey& key, const Scene& scene, const LearnedMix& learned,
-                                 PassControl& control) const {
-  const MixPlan& plan = learned.plan();
-  const SampleMap& paths = key.pass > 0 ? learned.refinement()->samples.paths : plan.first_samples;
-  PairPass pass{.key = key,
-                .seed = hash_combine(key.seed, kPathAndPhotonsNumber),
-                .scene = scene,
-                .owned = owned_,
-                .options = options_,
-                .techniques = plan.techniques,
-                .emission = plan.techniques.connects ? kUnguided : plan.photons.guide.starts,
-                .light_paths_vary = true,
-                .control = control};
-  pass.techniques.light_paths = plan.light_paths(paths.mean());
+PairPass PathAndPhotons::pass_of(const PassKey& key, const Scene& scene, const FilmFormat& film,
+                                 const MixPlan& plan, PassControl& control) const {
+  PairPass pass{
+      .key = key,
+      .seed = hash_combine(key.seed, kPathAndPhotonsNumber),
+      .scene = scene,
+      .owned = owned_,
+      .options = options_,
+      .techniques = plan.techniques,
+      .emission = plan.techniques.connects ? kUnguided : plan.photons.guide.starts,
+      .light_paths_vary = true,
+      .radius_scale = radius_scale(options_, plan.techniques.caustics_only, film.bounds().area()),
+      .control = control};
+  pass.techniques.light_paths = plan.light_paths();
   return pass;
-}
-
-PairLearning PathAndPhotons::learning_of(const LearnedMix& learned) const {
-  return {.measures_variance = !learned.plan().is_even,
-          .keeps_records = options_.own<GuidingOptions>().walks,
-          .records_per_path = learned.plan().records_per_path};
-}
-
-std::shared_ptr<const Learned> PathAndPhotons::learn_from_first_pass(
-    std::shared_ptr<const Learned> before, std::unique_ptr<PassFindings> found, const Scene& scene,
-    const FilmFormat& film, uint64_t seed, PassControl& control) const {
-  const LearnedMix& mix = as_mix(before.get());
-  MixPlan plan = mix.plan();
-  const PairLearning learning = learning_of(mix);
-  const bool learns = learning.measures_variance || learning.keeps_records;
-  if (!found && learns) {
-    EstimatorStatistics counts;
-    found = measure(pass_of({seed, 0}, scene, mix, control), film,
-                    {plan.first_samples, plan.first_samples}, learning, counts);
-    plan.rays += counts.rays;
-  }
-  MixRefinement refinement{{plan.first_samples, plan.first_samples}, {}};
-  if (auto* of_pass = static_cast<PairFindings*>(found.get())) {
-    EstimatorStatistics memory;
-    memory.hold(plan.photon_bytes, plan.pixel_bytes);
-    const size_t record_bytes = of_pass->records.capacity() * sizeof(RadianceRecord);
-    refinement.directions = RadianceGuide(std::move(of_pass->records));
-    // To sort the records takes half as much again.
-    memory.hold(record_bytes + record_bytes / 2 + refinement.directions.bytes(), 0);
-    plan.photon_bytes = memory.photon_bytes;
-    plan.pixel_bytes = memory.pixel_bytes;
-    if (of_pass->variance) refinement.samples = allocation(*of_pass->variance, plan, film);
-  }
-  return std::make_shared<const LearnedMix>(std::move(plan), std::move(refinement));
 }
 
 std::shared_ptr<const Learned> PathAndPhotons::read_learned(ByteReader& from,
                                                             const FilmFormat&) const {
   MixPlan plan;
-  std::optional<MixRefinement> refinement;
-  from(plan, refinement);
-  return std::make_shared<const LearnedMix>(std::move(plan), std::move(refinement));
+  from(plan);
+  return std::make_shared<const LearnedMix>(std::move(plan));
 }
 
-std::unique_ptr<PassFindings> PathAndPhotons::render_pass(const PassKey& key,
-                                                          const Learned* learned,
-                                                          const Scene& scene, Film& film,
-                                                          PassControl& control) {
-  const LearnedMix& mix = as_mix(learned);
-  const MixPlan& plan = mix.plan();
-  const PairPass pass = pass_of(key, scene, mix, control);
-  if (key.pass == 0) {
-    const PairRender to{
-        .film = film, .samples = {plan.first_samples, plan.first_samples}, .adds_features = true};
-    const PairLearning learning = learning_of(mix);
-    if (learning.measures_variance || learning.keeps_records)
-      return render(pass, to, learning, statistics_);
-    render(pass, to, statistics_);
-    return nullptr;
-  }
-  const MixRefinement& refined = *mix.refinement();
-  render(pass,
+void PathAndPhotons::render_pass(const PassKey& key, const Learned* learned, const Scene& scene,
+                                 Film& film, PassControl& control) {
+  const MixPlan& plan = static_cast<const LearnedMix*>(learned)->plan();
+  render(pass_of(key, scene, film.format(), plan, control),
          {.film = film,
-          .samples = {refined.samples.paths, refined.samples.chains,
-                      static_cast<uint32_t>(plan.first_samples.at(0, 0))},
+          .samples = {plan.samples.paths, plan.samples.chains},
           .adds_features = true,
-          .directions = refined.directions},
+          .directions = plan.directions},
          statistics_);
-  return nullptr;
 }
 
 }  // namespace nephroid

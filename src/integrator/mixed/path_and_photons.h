@@ -9,40 +9,30 @@
 
 namespace nephroid {
 
-class LearnedMix;
+struct MixPlan;
 
 class PathAndPhotons final : public Estimator {
  public:
-  /// Camera paths of each pixel in the first pass, from whose variance the others learn.
-  static constexpr int kFirstPassSamples = 8;
-
   PathAndPhotons(OwnedRoutes owned, const IntegratorOptions& options);
   static const EstimatorDescriptor kDescriptor;
   const EstimatorDescriptor& descriptor() const override { return kDescriptor; }
   bool records_features() const override { return true; }
-  /// Where photons start, and by trial passes which techniques to use and how many light paths.
+  /// Where photons start, by trial passes which techniques to use and how many light paths, and
+  /// from a pass that is measured how many camera paths each tile has and where they go. All of it
+  /// looks at a lattice of pixels, as many whatever the size of the film.
   std::shared_ptr<const Learned> learn(const Scene& scene, const FilmFormat& film, uint64_t seed,
                                        PassControl& control) const override;
-  /// How many camera paths each tile has, and where these go.
-  std::shared_ptr<const Learned> learn_from_first_pass(std::shared_ptr<const Learned> before,
-                                                       std::unique_ptr<PassFindings> found,
-                                                       const Scene& scene, const FilmFormat& film,
-                                                       uint64_t seed,
-                                                       PassControl& control) const override;
   std::shared_ptr<const Learned> read_learned(ByteReader& from, const FilmFormat&) const override;
-  std::unique_ptr<PassFindings> render_pass(const PassKey& key, const Learned* learned,
-                                            const Scene& scene, Film& film,
-                                            PassControl& control) override;
+  void render_pass(const PassKey& key, const Learned* learned, const Scene& scene, Film& film,
+                   PassControl& control) override;
   EstimatorStatistics statistics() const override { return statistics_; }
-  /// What the pass that takes most has for each pixel, the first one.
   static size_t bytes_per_pixel(size_t parts, bool clamps) {
-    return pair_pass_bytes_per_pixel(parts, kFirstPassSamples, clamps ? kFirstPassSamples : 0);
+    return pair_pass_bytes_per_pixel(parts, 1, clamps ? 1 : 0);
   }
 
  private:
-  PairPass pass_of(const PassKey& key, const Scene& scene, const LearnedMix& learned,
-                   PassControl& control) const;
-  PairLearning learning_of(const LearnedMix& learned) const;
+  PairPass pass_of(const PassKey& key, const Scene& scene, const FilmFormat& film,
+                   const MixPlan& plan, PassControl& control) const;
 
   OwnedRoutes owned_;
   IntegratorOptions options_;

@@ -196,9 +196,8 @@ std::shared_ptr<const Learned> Forecast::read_learned(ByteReader& from, const Fi
   return std::make_shared<LearnedForecast>(std::move(made));
 }
 
-std::unique_ptr<PassFindings> Forecast::render_pass(const PassKey& key, const Learned* learned,
-                                                    const Scene& scene, Film& film,
-                                                    PassControl& control) {
+void Forecast::render_pass(const PassKey& key, const Learned* learned, const Scene& scene,
+                           Film& film, PassControl& control) {
   const ForecastMap& map = static_cast<const LearnedForecast*>(learned)->map();
   const PathPass pass{key,     scene,  film, owned_, std::max(1, options_.camera_samples_per_pass),
                       kStream, control};
@@ -212,7 +211,6 @@ std::unique_ptr<PassFindings> Forecast::render_pass(const PassKey& key, const Le
     return path.walk.rays + visitor.more_rays();
   });
   statistics_.camera_paths += static_cast<uint64_t>(film.bounds().area()) * pass.samples;
-  return nullptr;
 }
 
 EstimatorStatistics Forecast::statistics() const {

@@ -38,12 +38,11 @@ PathEstimator::PathEstimator(OwnedRoutes owned, const IntegratorOptions& options
       samples_per_pass_(std::max(1, options.camera_samples_per_pass)),
       finds_something_(owns_any_path(owned_)) {}
 
-std::unique_ptr<PassFindings> PathEstimator::render_pass(const PassKey& key, const Learned*,
-                                                         const Scene& scene, Film& film,
-                                                         PassControl& control) {
+void PathEstimator::render_pass(const PassKey& key, const Learned*, const Scene& scene, Film& film,
+                                PassControl& control) {
   if (!finds_something_) {
     film.add_estimates(static_cast<int>(owned_.group), 1);
-    return nullptr;
+    return;
   }
   const PathPass pass{key, scene, film, owned_, samples_per_pass_, kStream, control, true};
   const SpecularTree tree(scene, owned_, options_.max_depth);
@@ -60,7 +59,6 @@ std::unique_ptr<PassFindings> PathEstimator::render_pass(const PassKey& key, con
     return path.walk.rays + visitor.more_rays();
   });
   statistics_.camera_paths += film.bounds().area() * samples_per_pass_;
-  return nullptr;
 }
 
 }  // namespace nephroid

@@ -64,9 +64,8 @@ void SpecularChainPass::look(int x, int y, const Points& points, std::span<Rgb> 
       }
     }
     if (measured) {
-      const size_t pixel = static_cast<size_t>(y) * b.width() + x;
-      measured->walks.add(pixel, seen, static_cast<double>(took));
-      measured->choice.add(pixel, seen, 0, seen * seen * rarity(walker.found));
+      measured->walks.add(x, y, seen, static_cast<double>(took));
+      measured->choice.add(x, y, seen, 0, seen * seen * rarity(walker.found));
     }
   }
 }

@@ -17,7 +17,8 @@ namespace nephroid {
 
 /// How much the light of specular chains varies.
 struct ChainVariance {
-  explicit ChainVariance(const PixelBounds& b) : walks(b), choice(b) {}
+  explicit ChainVariance(const PixelBounds& b, int spacing = 1)
+      : walks(b, spacing), choice(b, spacing) {}
   SampleVariance walks;   ///< of the walks of a SpecularChainPass
   SampleVariance choice;  ///< of camera paths that choose one way at each boundary, as far as known
 };

@@ -222,9 +222,8 @@ int64_t light_pass(const PassKey& key, const Scene& scene, const Film& film,
   return pass.paths;
 }
 
-std::unique_ptr<PassFindings> LightTracing::render_pass(const PassKey& key, const Learned*,
-                                                        const Scene& scene, Film& film,
-                                                        PassControl& control) {
+void LightTracing::render_pass(const PassKey& key, const Learned*, const Scene& scene, Film& film,
+                               PassControl& control) {
   const int group = static_cast<int>(owned_.group);
   SplatBuffer buffer(film, group, *scene.filter);
   statistics_.hold(
@@ -233,7 +232,6 @@ std::unique_ptr<PassFindings> LightTracing::render_pass(const PassKey& key, cons
       light_pass(key, scene, film, owned_, options_, {}, buffer, statistics_, control);
   buffer.finish(1.0 / static_cast<double>(paths));
   film.add_estimates(group, 1);
-  return nullptr;
 }
 
 EstimatorStatistics LightTracing::statistics() const {

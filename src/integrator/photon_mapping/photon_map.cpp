@@ -99,8 +99,8 @@ constinit const EstimatorDescriptor PhotonMap::kDescriptor = {
         [](const PixelMemoryInput& need) {
           return PixelBytes{.of_pass = Gathered::bytes_per_walk(need.parts)};
         },
-    .exposed_pixels = [](const IntegratorOptions& options,
-                         const PixelFilter&) { return pixels_within(largest_radius(options)); },
+    .exposed_pixels = [](const IntegratorOptions& options, const PixelFilter&,
+                         int64_t) { return pixels_within(largest_radius(options)); },
     .outlier_warning =
         "show theirs after some passes, which read the same photons again and so confirm them",
     .make = make_estimator<PhotonMap>,
@@ -153,13 +153,12 @@ uint64_t PhotonMap::seed_of_map(uint64_t seed) const {
   return hash_combine(seed, kStream, owned_.group);
 }
 
-std::unique_ptr<PassFindings> PhotonMap::render_pass(const PassKey& key, const Learned* learned,
-                                                     const Scene& scene, Film& film,
-                                                     PassControl& control) {
+void PhotonMap::render_pass(const PassKey& key, const Learned* learned, const Scene& scene,
+                            Film& film, PassControl& control) {
   const int group = static_cast<int>(owned_.group);
   if (!photons_can_count_) {
     film.add_estimates(group, walks_per_pass_);
-    return nullptr;
+    return;
   }
   const TracedMap& map = static_cast<const LearnedMap*>(learned)->map();
   // Walks have the wavelengths, time and threshold of the set that they read.
@@ -184,7 +183,6 @@ std::unique_ptr<PassFindings> PhotonMap::render_pass(const PassKey& key, const L
   }
   statistics_.radius_min_pixels = all.largest > 0 ? all.smallest : 0;
   statistics_.radius_max_pixels = all.largest;
-  return nullptr;
 }
 
 void PhotonMap::read(const TracedMap& map, const PassKey& set, uint64_t walk_seed,

@@ -44,13 +44,12 @@ std::shared_ptr<const Learned> PhotonMapping::read_learned(ByteReader& from,
   return std::make_shared<LearnedPhotons>(std::move(photons));
 }
 
-std::unique_ptr<PassFindings> PhotonMapping::render_pass(const PassKey& key, const Learned* learned,
-                                                         const Scene& scene, Film& film,
-                                                         PassControl& control) {
+void PhotonMapping::render_pass(const PassKey& key, const Learned* learned, const Scene& scene,
+                                Film& film, PassControl& control) {
   const int group = static_cast<int>(owned_.group);
   if (!photons_can_count_) {
     film.add_estimates(group, 1);
-    return nullptr;
+    return;
   }
   const PhotonGuide& guide = static_cast<const LearnedPhotons*>(learned)->guide();
   const MergePass pass = merge_pass(key, scene, film, owned_, options_, guide,
@@ -63,7 +62,6 @@ std::unique_ptr<PassFindings> PhotonMapping::render_pass(const PassKey& key, con
   film.add_bias(group, pass.bias);
   film.add_estimates(group, 1);
   found_ += pass.found;
-  return nullptr;
 }
 
 EstimatorStatistics PhotonMapping::statistics() const {

@@ -44,7 +44,7 @@ size_t Sppm::bytes_of_pass(size_t parts) {
   return Gathered::bytes_per_walk(parts) + sizeof(uint64_t);
 }
 
-float Sppm::pixels_of_first_radius(const IntegratorOptions& options, const PixelFilter&) {
+float Sppm::pixels_of_first_radius(const IntegratorOptions& options, const PixelFilter&, int64_t) {
   return pixels_within(first_radius(options));
 }
 
@@ -59,9 +59,8 @@ void Sppm::start_regions(const Scene& scene, size_t pixels, size_t parts) {
   footprint_.resize(regions_.size());
 }
 
-std::unique_ptr<PassFindings> Sppm::render_pass(const PassKey& key, const Learned*,
-                                                const Scene& scene, Film& film,
-                                                PassControl& control) {
+void Sppm::render_pass(const PassKey& key, const Learned*, const Scene& scene, Film& film,
+                       PassControl& control) {
   const PixelBounds& b = film.bounds();
   const size_t parts = film.parts_of(static_cast<int>(owned_.group)).size();
   const PhotonPass pass = start_photon_pass(key, scene, film.format(), options_, control);
@@ -97,7 +96,6 @@ std::unique_ptr<PassFindings> Sppm::render_pass(const PassKey& key, const Learne
   totals_.found += gathered.found;
   statistics_.camera_paths += regions_.size();
   update(gathered, counts, film, static_cast<double>(photons));
-  return nullptr;
 }
 
 void Sppm::update(Gathered& gathered, std::span<const uint64_t> counts, Film& film,

@@ -20,8 +20,8 @@ class Sppm : public Estimator {
 
   static const EstimatorDescriptor kDescriptor;
   const EstimatorDescriptor& descriptor() const override { return kDescriptor; }
-  std::unique_ptr<PassFindings> render_pass(const PassKey& key, const Learned*, const Scene& scene,
-                                            Film& film, PassControl& control) override;
+  void render_pass(const PassKey& key, const Learned*, const Scene& scene, Film& film,
+                   PassControl& control) override;
   EstimatorStatistics statistics() const override;
   void add_state(const Scene& scene, const Film& film, RenderState& state) override;
 
@@ -31,7 +31,8 @@ class Sppm : public Estimator {
   /// Of all regions, in footprints: the user's, or the default.
   static float first_radius(const IntegratorOptions& options);
   /// For EstimatorDescriptor::exposed_pixels.
-  static float pixels_of_first_radius(const IntegratorOptions& options, const PixelFilter&);
+  static float pixels_of_first_radius(const IntegratorOptions& options, const PixelFilter&,
+                                      int64_t);
 
   /// Memory of a region from pass to pass, and what a pass needs beside it.
   static constexpr size_t bytes_kept(size_t parts) {

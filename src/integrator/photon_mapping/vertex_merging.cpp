@@ -37,13 +37,12 @@ constinit const EstimatorDescriptor VertexMerging::kDescriptor = {
 VertexMerging::VertexMerging(OwnedRoutes owned, const IntegratorOptions& options)
     : owned_(std::move(owned)), options_(options), photons_can_count_(photons_can_count(owned_)) {}
 
-std::unique_ptr<PassFindings> VertexMerging::render_pass(const PassKey& key, const Learned*,
-                                                         const Scene& scene, Film& film,
-                                                         PassControl& control) {
+void VertexMerging::render_pass(const PassKey& key, const Learned*, const Scene& scene, Film& film,
+                                PassControl& control) {
   const int group = static_cast<int>(owned_.group);
   if (!photons_can_count_) {
     film.add_estimates(group, 1);
-    return nullptr;
+    return;
   }
   const float radius_pixels = radius_of_pass(options_, key.pass);
   const PixelFootprint footprint = scene.camera->footprint();
@@ -75,7 +74,6 @@ std::unique_ptr<PassFindings> VertexMerging::render_pass(const PassKey& key, con
   buffer.finish(1.0 / static_cast<double>(paths), merged.values);
   film.add_bias(group, merged.bias);
   film.add_estimates(group, 1);
-  return nullptr;
 }
 
 EstimatorStatistics VertexMerging::statistics() const {

@@ -17,8 +17,8 @@ class VertexMerging : public Estimator {
 
   static const EstimatorDescriptor kDescriptor;
   const EstimatorDescriptor& descriptor() const override { return kDescriptor; }
-  std::unique_ptr<PassFindings> render_pass(const PassKey& key, const Learned*, const Scene& scene,
-                                            Film& film, PassControl& control) override;
+  void render_pass(const PassKey& key, const Learned*, const Scene& scene, Film& film,
+                   PassControl& control) override;
   EstimatorStatistics statistics() const override;
 
  private:

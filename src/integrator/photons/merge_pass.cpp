@@ -18,11 +18,12 @@ float first_radius(const IntegratorOptions& options) {
   return options.radius > 0 ? options.radius : kDefaultRadius;
 }
 
-float pixels_of_merging(const IntegratorOptions& options, const PixelFilter&) {
+float pixels_of_merging(const IntegratorOptions& options, const PixelFilter&, int64_t) {
   return pixels_within(first_radius(options));
 }
 
-float pixels_of_merging_and_splats(const IntegratorOptions& options, const PixelFilter& filter) {
+float pixels_of_merging_and_splats(const IntegratorOptions& options, const PixelFilter& filter,
+                                   int64_t) {
   return std::max(pixels_within(first_radius(options)), splatted_pixels(filter));
 }
 

@@ -32,8 +32,9 @@ MergePass merge_pass(const PassKey& key, const Scene& scene, const Film& film,
 float first_radius(const IntegratorOptions& options);
 /// For EstimatorDescriptor::exposed_pixels: pixels within that radius, and the same where light
 /// paths are splatted as well.
-float pixels_of_merging(const IntegratorOptions& options, const PixelFilter& filter);
-float pixels_of_merging_and_splats(const IntegratorOptions& options, const PixelFilter& filter);
+float pixels_of_merging(const IntegratorOptions& options, const PixelFilter& filter, int64_t);
+float pixels_of_merging_and_splats(const IntegratorOptions& options, const PixelFilter& filter,
+                                   int64_t);
 /// The radius of a pass by [E2], in footprints.
 float radius_of_pass(const IntegratorOptions& options, uint32_t pass);
 

@@ -235,9 +235,8 @@ std::shared_ptr<const Learned> PointLights::read_learned(ByteReader& from,
   return std::make_shared<LearnedDensity>(density, rays);
 }
 
-std::unique_ptr<PassFindings> PointLights::render_pass(const PassKey& key, const Learned* learned,
-                                                       const Scene& scene, Film& film,
-                                                       PassControl& control) {
+void PointLights::render_pass(const PassKey& key, const Learned* learned, const Scene& scene,
+                              Film& film, PassControl& control) {
   const float density = static_cast<const LearnedDensity*>(learned)->density();
   const int samples = std::max(1, options_.camera_samples_per_pass);
   // Each sample of the pixels has wavelengths, a time and point lights of its own; what the
@@ -256,7 +255,6 @@ std::unique_ptr<PassFindings> PointLights::render_pass(const PassKey& key, const
         std::max<int64_t>(1, connections_of(options_) * kPathsPerConnection / samples);
     render_sample(pass, density, scene, film);
   }
-  return nullptr;
 }
 
 void PointLights::render_sample(const PhotonPass& pass, float density, const Scene& scene,

@@ -23,9 +23,8 @@ class PointLights : public Estimator {
   std::shared_ptr<const Learned> learn(const Scene& scene, const FilmFormat& film, uint64_t seed,
                                        PassControl& control) const override;
   std::shared_ptr<const Learned> read_learned(ByteReader& from, const FilmFormat&) const override;
-  std::unique_ptr<PassFindings> render_pass(const PassKey& key, const Learned* learned,
-                                            const Scene& scene, Film& film,
-                                            PassControl& control) override;
+  void render_pass(const PassKey& key, const Learned* learned, const Scene& scene, Film& film,
+                   PassControl& control) override;
   EstimatorStatistics statistics() const override { return statistics_; }
 
  private:

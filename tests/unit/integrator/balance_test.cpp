@@ -36,13 +36,12 @@ TEST(SampleVariance, IsTheVarianceOverTheBrightnessOfATile) {
   // those of the third have one and tell nothing.
   for (int y = 0; y < kTile; ++y)
     for (int x = 0; x < 3 * kTile; ++x) {
-      const size_t pixel = static_cast<size_t>(y * 3 * kTile + x);
       if (x < kTile)
-        for (const double v : {2, 4, 8, 10}) spread.add(pixel, v, v + 1);
+        for (const double v : {2, 4, 8, 10}) spread.add(x, y, v, v + 1);
       else if (x < 2 * kTile)
-        for (const double v : {30, 60, 90}) spread.add(pixel, v, 5);
+        for (const double v : {30, 60, 90}) spread.add(x, y, v, 5);
       else
-        spread.add(pixel, 1000, 9);
+        spread.add(x, y, 1000, 9);
     }
   const SampleVariance::ByTile found = spread.by_tile();
   const double floor = 0.1 * (6 + 60) / 2;
@@ -55,8 +54,9 @@ TEST(SampleVariance, IsTheVarianceOverTheBrightnessOfATile) {
 
   // Light beside it makes the same spread less noisy.
   SampleVariance beside(b);
-  for (size_t pixel = 0; pixel < static_cast<size_t>(b.area()); ++pixel)
-    for (const double v : {10, 20}) beside.add(pixel, v, 1, 500);
+  for (int y = 0; y < b.height(); ++y)
+    for (int x = 0; x < b.width(); ++x)
+      for (const double v : {10, 20}) beside.add(x, y, v, 1, 500);
   const double all = 0.1 * ((6 + 60) / 2.0 + 15);
   EXPECT_NEAR(spread.by_tile(&beside).variance[0], (16 + 4 + 4 + 16) / 3.0 / (6 + 15 + all), 1e-12);
   EXPECT_NEAR(beside.by_tile().variance[2], (1000 - 15 * 30) / (15 * 1.1), 1e-12);
@@ -73,7 +73,7 @@ struct Blocks {
           spread.variance.push_back(variance);
           spread.cost.push_back(cost);
         }
-    const SampleMap map = allocate_samples(tiles(across, kHeight), {spread, {}, {}}).paths;
+    const SampleMap map = allocate_samples(tiles(across, kHeight), 1, {spread, {}, {}}).paths;
     for (size_t i = 0; i < variance_and_cost.size(); ++i) {
       const size_t middle = static_cast<size_t>(across) + kWidth * i + kWidth / 2;
       samples.push_back(map.counts()[middle]);
@@ -148,14 +148,14 @@ TEST(AllocateSamples, LooksForChainsWhereThatIsCheaper) {
         tiles_found.choice.variance.push_back(b.choice);
         tiles_found.choice.cost.push_back(0);
       }
-  const SampleAllocation shares = allocate_samples(tiles(across, kSide), tiles_found);
+  const SampleAllocation shares = allocate_samples(tiles(across, kSide), 1, tiles_found);
   for (size_t i = 0; i < blocks.size(); ++i) {
     const size_t middle = static_cast<size_t>(across) * 2 + kSide * i + kSide / 2;
     EXPECT_EQ(shares.paths.counts()[middle], blocks[i].expected_paths) << i;
     EXPECT_EQ(shares.chains.counts()[middle], blocks[i].expected_chains) << i;
   }
   // As films that clamp want it.
-  EXPECT_GE(allocate_samples(tiles(across, kSide), tiles_found, true).chains.fewest(), 1);
+  EXPECT_GE(allocate_samples(tiles(across, kSide), 1, tiles_found, true).chains.fewest(), 1);
 }
 
 TEST(AllocateSamples, HasFewPathsAPass) {
@@ -173,7 +173,7 @@ TEST(AllocateSamples, HasFewPathsAPass) {
   double last = 0;
   for (const double most : {1.0, 2.0, 3.0}) {
     const double mean =
-        allocate_samples({0, 0, 24 * 4, 4}, {spread, {}, {}}, false, most).paths.mean();
+        allocate_samples({0, 0, 24 * 4, 4}, 1, {spread, {}, {}}, false, most).paths.mean();
     EXPECT_LE(mean, most);
     EXPECT_GT(mean, last);
     last = mean;
@@ -254,13 +254,49 @@ TEST(Balance, KeepsAsManyPhotonsAsMemoryIsFor) {
   for (const double photons : {0.01, 4.0}) {
     many.photons = photons;
     const Balance balance(many, m.trial(1 << 13));
-    const double most = std::min(Balance::kMaxPhotons / photons, 1048576.0);
+    const double most = std::min(balance.max_photons / photons, 4194304.0);
     EXPECT_EQ(balance.light_paths(100), static_cast<int64_t>(most));
     const double camera = balance.max_camera_paths();
     EXPECT_NEAR(static_cast<double>(balance.light_paths(camera)), most, 2);
     EXPECT_NEAR(static_cast<double>(balance.light_paths(camera / 2)), most / 2, 2);
     EXPECT_NEAR(camera, most / static_cast<double>(best), 1e-3 * camera);
   }
+}
+
+// A lattice that stands for a larger film: as many light paths for each pixel, at the same
+// efficiency.
+TEST(Balance, GrowsWithTheFilm) {
+  const Model m{0.2, 500, 1e5, 4};
+  Trial many = m.trial(1 << 14);
+  many.photons = 4;
+  const Balance lattice(many, m.trial(1 << 11));
+  Balance film = lattice;
+  film.scale = 16;
+  film.max_photons = 16 * lattice.max_photons;
+  EXPECT_NEAR(static_cast<double>(film.light_paths(2)),
+              16 * static_cast<double>(lattice.light_paths(2)), 16);
+  EXPECT_NEAR(film.inverse_efficiency(), lattice.inverse_efficiency(),
+              1e-3 * lattice.inverse_efficiency());
+  EXPECT_NEAR(film.max_camera_paths(), lattice.max_camera_paths(),
+              1e-6 * lattice.max_camera_paths());
+}
+
+TEST(SampleMap, HasLargerTilesWhereItIsLearnedFromFewerPixels) {
+  const PixelBounds b{0, 0, 100, 40};
+  SampleMap map(b, 1, 3);
+  ASSERT_EQ(map.counts().size(), 9u * 4u);
+  map.counts()[map.tile_of(13, 12)] = 5;
+  EXPECT_EQ(map.at(12, 12), 5);
+  EXPECT_EQ(map.at(23, 23), 5);
+  EXPECT_EQ(map.at(24, 12), 1);
+  SampleVariance spread(b, 3);
+  for (int y = 0; y < 40; y += 3)
+    for (int x = 0; x < 100; x += 3)
+      for (const double v : {1, 3}) spread.add(x, y, x < 50 ? v : 2 * v, 7);
+  const SampleVariance::ByTile found = spread.by_tile();
+  ASSERT_EQ(found.variance.size(), map.counts().size());
+  EXPECT_NEAR(found.cost[map.tile_of(0, 0)], 7, 1e-12);
+  EXPECT_NEAR(found.light[map.tile_of(99, 39)], 4, 1e-12);
 }
 
 TEST(Balance, KeepsItsBoundsWhateverTrialsSay) {
@@ -275,7 +311,7 @@ TEST(Balance, KeepsItsBoundsWhateverTrialsSay) {
   // Noise that falls faster than can be leaves the camera paths some.
   Trial unlucky = steady.trial(1 << 13);
   unlucky.variance = 1e6;
-  EXPECT_EQ(Balance(steady.trial(1 << 16), unlucky).light_paths(8), 1 << 20);
+  EXPECT_EQ(Balance(steady.trial(1 << 16), unlucky).light_paths(8), 1 << 22);
   // Light paths that cost nothing.
   EXPECT_EQ(Balance(Model{0.2, 500, 1e5, 0}.trial(1 << 16), Model{0.2, 500, 1e5, 0}.trial(1 << 13))
                 .light_paths(1),

@@ -153,7 +153,7 @@ TEST(FilmOfScene, RejectionKnowsHowManyPixelsALightPathExposes) {
     SceneSettings of_scene;
     of_scene.outlier_neighbours = 11;
     const OutlierSettings settings =
-        outlier_settings(routes_of({route}), options, filter, of_scene);
+        outlier_settings(routes_of({route}), options, filter, 1, of_scene);
     EXPECT_EQ(settings.neighbours, 11);
     EXPECT_EQ(settings.exposed_pixels.size(), 1u);
     return settings.exposed_pixels.at(0);
@@ -192,7 +192,7 @@ TEST(FilmOfScene, RejectionKnowsHowManyPixelsALightPathExposes) {
     EXPECT_FLOAT_EQ(exposed(route, 0.25f, narrow), 1);
   }
   const OutlierSettings both =
-      outlier_settings(routes_of({"a=C.*DL:lighttrace", "b=.*:path"}), {}, wide);
+      outlier_settings(routes_of({"a=C.*DL:lighttrace", "b=.*:path"}), {}, wide, 1);
   EXPECT_EQ(both.exposed_pixels, (std::vector<float>{12, 1}));
 }
 

@@ -29,8 +29,8 @@ class FakeEstimator : public Estimator {
  public:
   FakeEstimator(Script& script, int group) : script_(script), group_(group) {}
   const EstimatorDescriptor& descriptor() const override { return script_.descriptor; }
-  std::unique_ptr<PassFindings> render_pass(const PassKey& key, const Learned*, const Scene&,
-                                            Film& film, PassControl& control) override {
+  void render_pass(const PassKey& key, const Learned*, const Scene&, Film& film,
+                   PassControl& control) override {
     script_.passes.push_back(key);
     for (int look = 0; look < script_.looks; ++look) {
       script_.now += script_.pass_seconds / script_.looks;
@@ -52,7 +52,6 @@ class FakeEstimator : public Estimator {
     statistics_.photons_stored += 10;
     statistics_.radius_max_pixels = 8.0f / static_cast<float>(key.pass + 1);
     statistics_.radius_min_pixels = statistics_.radius_max_pixels;
-    return nullptr;
   }
   EstimatorStatistics statistics() const override { return statistics_; }
 

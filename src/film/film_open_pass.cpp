@@ -1,0 +1,56 @@
+// What a film knows of a pass that is not whole, and how it shows it.
+#include <algorithm>
+#include <atomic>
+
+#include "film/film.h"
+
+namespace nephroid {
+
+void Film::finish_slice(int group, size_t slice, uint64_t count) {
+  OpenPass& open = open_[group];
+  open.done[slice] = 1;
+  std::atomic_ref(open.estimates).store(count, std::memory_order_relaxed);
+  std::atomic_ref(open.slices).fetch_add(1, std::memory_order_relaxed);
+}
+bool Film::has_open_pass() const {
+  return std::ranges::any_of(
+      open_, [](const OpenPass& open) { return open.slices > 0 || open.is_whole != 0; });
+}
+bool Film::can_be_shown() const {
+  const size_t first = slices_.count_of_levels(1);
+  for (int g = 0; g < layout().group_count(); ++g)
+    if (estimates(g) == 0 && std::ranges::count(std::span(open_[g].done).first(first), 0u) > 0)
+      return false;
+  return true;
+}
+void Film::close_pass() {
+  for (OpenPass& open : open_) open.is_whole = 0;
+}
+uint64_t Film::count_of_slice(size_t group, size_t pixel) const {
+  const OpenPass& open = open_[group];
+  const size_t w = bounds().width();
+  const size_t slice = slices_.slice_of(bounds().x0 + static_cast<int>(pixel % w),
+                                        bounds().y0 + static_cast<int>(pixel / w));
+  return open.done[slice] != 0 ? open.estimates : 0;
+}
+size_t Film::nearest_reached(size_t group, size_t pixel) const {
+  const size_t w = bounds().width();
+  size_t found = pixel;
+  for (int level = slices_.levels(); level > 0 && count_of(group, found) == 0; --level) {
+    const size_t spacing = slices_.spacing(level - 1);
+    found = pixel / w / spacing * spacing * w + pixel % w / spacing * spacing;
+  }
+  return found;
+}
+
+Rgb Film::preview_value(int x, int y) const {
+  if (!has_open_pass()) return value(x, y);
+  double total[3] = {0, 0, 0};
+  for (int g = 0; g < layout().group_count(); ++g) {
+    const Rgb mean = mean_of_parts(parts_of(g), nearest_reached(g, index(x, y)));
+    for (int c = 0; c < 3; ++c) total[c] += double{mean[c]};
+  }
+  return {static_cast<float>(total[0]), static_cast<float>(total[1]), static_cast<float>(total[2])};
+}
+
+}  // namespace nephroid
