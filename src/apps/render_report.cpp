@@ -33,6 +33,11 @@ std::string summary(const RenderResult& result) {
                                  reason_text(result.reason));
   if (result.passes_done > result.passes_of_run)
     text += fmt::format(", {} in all runs", result.passes_done);
+  if (result.has_unfinished_pass)
+    text +=
+        result.passes_done > 0
+            ? ", and a part of the next"
+            : ", and a part of the first: pixels that it has not reached are as their neighbours";
   if (rays > 0 && result.seconds > 0)
     text += fmt::format(", {} rays/s", short_number(static_cast<double>(rays) / result.seconds));
   if (result.error) text += fmt::format(", estimated error {:.3g}", *result.error);

@@ -227,13 +227,14 @@ void Film::add_surface(int x, int y, const SurfaceSample& s) {
 Rgb Film::mean_of_parts(const std::vector<int>& parts, size_t pixel) const {
   double total[3] = {0, 0, 0};
   for (size_t begin = 0, end = 0; begin < parts.size(); begin = end) {
-    const auto count_at = [&](size_t i) {
-      return count_of(layout().group_of(layout().parts[parts[i]]), pixel);
-    };
-    const uint64_t count = count_at(begin);
+    const auto group_of = [&](size_t i) { return layout().group_of(layout().parts[parts[i]]); };
+    const size_t at = nearest_reached(group_of(begin), pixel);
+    const uint64_t count = count_of(group_of(begin), at);
     FixedSum sum[3];
-    for (end = begin; end < parts.size() && count_at(end) == count; ++end)
-      for (int c = 0; c < 3; ++c) sum[c].add(sums_[parts[end]][pixel].rgb[c]);
+    for (end = begin; end < parts.size() && count_of(group_of(end), at) == count &&
+                      nearest_reached(group_of(end), pixel) == at;
+         ++end)
+      for (int c = 0; c < 3; ++c) sum[c].add(sums_[parts[end]][at].rgb[c]);
     if (count == 0) continue;
     for (int c = 0; c < 3; ++c) total[c] += sum[c].value() / static_cast<double>(count);
   }
@@ -309,16 +310,17 @@ float Film::bias_error(int x, int y) const {
 }
 
 Rgb Film::albedo(int x, int y) const {
-  const uint64_t count = estimates(layout().group_count(), x, y);
+  const size_t group = layout().group_count(), pixel = nearest_reached(group, index(x, y));
+  const uint64_t count = count_of(group, pixel);
   if (count == 0) return {};
-  const Features& features = features_[index(x, y)];
+  const Features& features = features_[pixel];
   double mean[3];
   for (int c = 0; c < 3; ++c) mean[c] = features.albedo[c].value() / static_cast<double>(count);
   return to_rgb(mean);
 }
 
 Vec3f Film::normal(int x, int y) const {
-  const Features& features = features_[index(x, y)];
+  const Features& features = features_[nearest_reached(layout().group_count(), index(x, y))];
   const double n[3] = {features.normal[0].value(), features.normal[1].value(),
                        features.normal[2].value()};
   const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
@@ -328,7 +330,7 @@ Vec3f Film::normal(int x, int y) const {
 }
 
 float Film::depth(int x, int y) const {
-  const size_t pixel = index(x, y);
+  const size_t pixel = nearest_reached(layout().group_count(), index(x, y));
   if (depths_[pixel] == 0) return 0;
   return static_cast<float>(features_[pixel].depth.value() / static_cast<double>(depths_[pixel]));
 }

@@ -87,6 +87,8 @@ class Film {
   bool is_open(int group) const { return open_[group].slices > 0; }
   /// True if there is a pass of which a group, or the features, has something and another has not.
   bool has_open_pass() const;
+  /// True if some light is there.
+  bool has_light() const;
   /// True if every group has estimates of all pixels of the first lattice.
   bool can_be_shown() const;
   /// How much a group has of that pass, 0..1.
@@ -120,13 +122,11 @@ class Film {
   void add_surface(int x, int y, const SurfaceSample& sample);
 
   /// Mean of a route, of an AOV, and of the sum of all routes, each from its parts' accumulators
-  /// and rounded once.
+  /// and rounded once. Where a group has not reached the pixel yet it is that of the nearest pixel
+  /// of a wider lattice, in its first pass.
   Rgb route_value(int route, int x, int y) const;
   Rgb aov_value(int aov, int x, int y) const;
   Rgb value(int x, int y) const;
-  /// value(), for showing a pass that is not whole: what a group has not reached yet it takes from
-  /// the nearest pixel of a wider lattice. Black where there is none.
-  Rgb preview_value(int x, int y) const;
   /// What is held of all routes: value() + outliers() is the picture without rejection, up to one
   /// rounding; the sums behind them add up to it exactly. Black without rejection.
   Rgb outliers(int x, int y) const;
@@ -193,7 +193,11 @@ class Film {
   }
   uint64_t count_of_slice(size_t group, size_t pixel) const;
   /// The pixel itself or the nearest one of a wider lattice that the group has reached.
-  size_t nearest_reached(size_t group, size_t pixel) const;
+  size_t nearest_reached(size_t group, size_t pixel) const {
+    return estimates_[group] > 0 || open_[group].slices == 0 ? pixel
+                                                             : nearest_of_lattices(group, pixel);
+  }
+  size_t nearest_of_lattices(size_t group, size_t pixel) const;
   /// Squared standard errors of a group's estimates.
   std::array<double, 3> error_squared(size_t group, size_t pixel) const;
 

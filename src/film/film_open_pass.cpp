@@ -16,6 +16,13 @@ bool Film::has_open_pass() const {
   return std::ranges::any_of(
       open_, [](const OpenPass& open) { return open.slices > 0 || open.is_whole != 0; });
 }
+bool Film::has_light() const {
+  for (const std::vector<RgbSum>& part : sums_)
+    for (const RgbSum& sum : part)
+      for (const FixedSum& component : sum.rgb)
+        if (component.bits != 0) return true;
+  return false;
+}
 bool Film::can_be_shown() const {
   const size_t first = slices_.count_of_levels(1);
   for (int g = 0; g < layout().group_count(); ++g)
@@ -33,7 +40,7 @@ uint64_t Film::count_of_slice(size_t group, size_t pixel) const {
                                         bounds().y0 + static_cast<int>(pixel / w));
   return open.done[slice] != 0 ? open.estimates : 0;
 }
-size_t Film::nearest_reached(size_t group, size_t pixel) const {
+size_t Film::nearest_of_lattices(size_t group, size_t pixel) const {
   const size_t w = bounds().width();
   size_t found = pixel;
   for (int level = slices_.levels(); level > 0 && count_of(group, found) == 0; --level) {
@@ -41,16 +48,6 @@ size_t Film::nearest_reached(size_t group, size_t pixel) const {
     found = pixel / w / spacing * spacing * w + pixel % w / spacing * spacing;
   }
   return found;
-}
-
-Rgb Film::preview_value(int x, int y) const {
-  if (!has_open_pass()) return value(x, y);
-  double total[3] = {0, 0, 0};
-  for (int g = 0; g < layout().group_count(); ++g) {
-    const Rgb mean = mean_of_parts(parts_of(g), nearest_reached(g, index(x, y)));
-    for (int c = 0; c < 3; ++c) total[c] += double{mean[c]};
-  }
-  return {static_cast<float>(total[0]), static_cast<float>(total[1]), static_cast<float>(total[2])};
 }
 
 }  // namespace nephroid

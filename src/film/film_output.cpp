@@ -128,7 +128,7 @@ std::vector<uint8_t> film_srgb8(const Film& film, float exposure) {
     const size_t row = static_cast<size_t>(y - bounds.y0) * bounds.width();
     uint8_t* out = bytes.data() + row * 3;
     for (int x = bounds.x0; x < bounds.x1; ++x) {
-      Rgb color = film.preview_value(x, y);
+      Rgb color = film.value(x, y);
       if (convert) color = RgbColorSpace::srgb().from_xyz(space->to_xyz(color));
       for (int c = 0; c < 3; ++c) *out++ = encode_srgb8(color[c] * exposure);
     }

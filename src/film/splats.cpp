@@ -69,7 +69,7 @@ std::vector<std::vector<uint32_t>> SplatBuffer::splats_by_strip(std::span<const 
   std::vector<std::vector<uint32_t>> strips(chunk_count(crop.height(), kRowsPerStrip));
   for (size_t i = 0; i < splats.size(); ++i) {
     if (!is_usable(splats[i])) {
-      film_.count_bad(group_, splats[i].part, pixel_of(splats[i].film));
+      bad_.push_back({splats[i].part, pixel_of(splats[i].film)});
       continue;
     }
     const PixelBounds reached = reached_by(splats[i].film);
@@ -91,7 +91,7 @@ void SplatBuffer::add_batch(std::span<const Splat> splats) {
           held[s] +=
               add_to_rows(splats[i], top + static_cast<int>(begin), top + static_cast<int>(end));
       });
-  film_.count_saturated(std::accumulate(held.begin(), held.end(), uint64_t{0}));
+  saturated_ += std::accumulate(held.begin(), held.end(), uint64_t{0});
 }
 
 uint64_t SplatBuffer::add_to_rows(const Splat& splat, int y0, int y1) {
@@ -116,6 +116,10 @@ uint64_t SplatBuffer::add_to_rows(const Splat& splat, int y0, int y1) {
 
 void SplatBuffer::finish(double scale, std::span<const Rgb> also) {
   if (parts_ == 0) return;
+  for (const BadSplat& splat : bad_) film_.count_bad(group_, splat.part, splat.pixel);
+  film_.count_saturated(saturated_);
+  bad_.clear();
+  saturated_ = 0;
   const PixelBounds& crop = film_.bounds();
   const double limit = film_.settings().max_component;
   parallel_chunks(crop.height(), kRowsPerStrip, [&](int64_t, int64_t begin, int64_t end) {

@@ -30,8 +30,9 @@ class SplatBuffer {
 
   /// Adds every splat to the pixels around it, times the filter normalised by its integral: over
   /// all pixels the weights add up to 1 on average. Any number of calls, in any order, add up to
-  /// the same bits. A splat with a value that is not finite, or at NaN, is counted as one of the
-  /// film's bad values and left out; one outside of every pixel's filter is not of this film.
+  /// the same bits. A splat with a value that is not finite, or at NaN, is left out and, when the
+  /// pass ends, counted as one of the film's bad values; one outside of every pixel's filter is not
+  /// of this film.
   void add(std::span<const Splat> splats);
 
   /// Ends the pass: adds to the film, for each pixel, one estimate of the group: the sums times
@@ -60,6 +61,12 @@ class SplatBuffer {
   const PixelFilter& filter_;
   size_t parts_;
   std::vector<Sum> sums_;  ///< [pixel][part]
+  struct BadSplat {
+    uint8_t part = 0;
+    Vec2i pixel;
+  };
+  std::vector<BadSplat> bad_;  ///< the film knows nothing of a pass that is not whole
+  uint64_t saturated_ = 0;
 };
 
 }  // namespace nephroid

@@ -233,9 +233,11 @@ PhotonMapTrace trace_map(const Scene& scene, const OwnedRoutes& owned,
   std::vector<PhotonTrace> chunks(sets.size());
   while (map.paths_of_set < paths && !is_full(map.trace, limit)) {
     const int64_t begin = map.paths_of_set, end = std::min(begin + kPhotonChunk, paths);
-    parallel_chunks(sets.size(), 1, [&](int64_t s, int64_t, int64_t) {
+    parallel_chunks(*sets[0].control, sets.size(), 1, [&](int64_t s, int64_t, int64_t) {
+      PhotonTraceSettings unwatched_set = sets[s];
+      unwatched_set.control = &unwatched;
       PhotonTrace& chunk = chunks[s];
-      chunk = trace_photons(scene, owned, sets[s], begin, end);
+      chunk = trace_photons(scene, owned, unwatched_set, begin, end);
       for (Photon& photon : chunk.photons) photon.set = static_cast<uint8_t>(s);
     });
     for (PhotonTrace& chunk : chunks) append(std::move(chunk), map.trace);

@@ -1,7 +1,10 @@
 #include "scene/film_description.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "core/errors.h"
 #include "core/white_balance.h"
 #include "input/spelling.h"
 
@@ -39,8 +42,12 @@ void set_crop(FilmDescription& film, const ParameterSet& p, const SceneOverrides
       throw SceneError(p.where, "\"cropwindow\" expects 4 values (x0 x1 y0 y1)");
     from_unit(window[0], window[1], window[2], window[3]);
   }
-  if (film.crop_x0 >= film.crop_x1 || film.crop_y0 >= film.crop_y1)
-    throw SceneError(p.where, "the crop window contains no pixel");
+  if (film.crop_x0 < film.crop_x1 && film.crop_y0 < film.crop_y1) return;
+  if (overrides.has_crop)
+    throw UsageError(
+        fmt::format("--crop: the window contains no pixel of {} x {}, expected a larger one",
+                    film.width, film.height));
+  throw SceneError(p.where, "the crop window contains no pixel");
 }
 
 constexpr FormatParameter kFilm[] = {

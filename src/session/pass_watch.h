@@ -17,10 +17,13 @@ class PassWatch final : public PassControl {
       : signals_(signals), now_(std::move(now)), attend_(std::move(attend)) {}
   /// The time from which on attend() is called.
   void wake_at(double seconds) { wake_.store(seconds, std::memory_order_relaxed); }
+  /// Whether a request to write is a reason to call it; not at first.
+  void answer_writes(bool answers) { answers_writes_.store(answers, std::memory_order_relaxed); }
 
   bool is_wanted() const noexcept override {
     return signals_.stop.load(std::memory_order_relaxed) != 0 ||
-           signals_.write.load(std::memory_order_relaxed) ||
+           (answers_writes_.load(std::memory_order_relaxed) &&
+            signals_.write.load(std::memory_order_relaxed)) ||
            now_() >= wake_.load(std::memory_order_relaxed);
   }
   void attend() override { attend_(); }
@@ -30,6 +33,7 @@ class PassWatch final : public PassControl {
   const std::function<double()> now_;
   const std::function<void()> attend_;
   std::atomic<double> wake_{0};
+  std::atomic<bool> answers_writes_{false};
 };
 
 }  // namespace nephroid

@@ -126,8 +126,9 @@ Render::Render(const RenderRequest& request, const LoadedScene& loaded, RenderWa
   check_fits_memory(request, scene, integrator, set_);
   film_.emplace(film_settings(scene.film), set_.layout);
   if (request.reject_outliers) {
-    film_->reject_outliers(outlier_settings(*set_.routes, integrator, *scene.filter,
-                                            film_->bounds().area(), choice_.settings.scene));
+    film_->reject_outliers(outlier_settings(
+        *set_.routes, integrator, *scene.filter,
+        int64_t{film_->settings().width} * film_->settings().height, choice_.settings.scene));
     warn_of(rejection_warnings(*set_.routes), warnings_.input);
   }
 
@@ -137,12 +138,14 @@ Render::Render(const RenderRequest& request, const LoadedScene& loaded, RenderWa
   identity_ = identity_of(request, loaded, choice_, plan_);
   identity_.set_film(*film_, options.seed);
   options.identity = identity_;
-  if (!options.output.empty() && std::filesystem::exists(options.output)) {
-    if (request.resume)
-      resume(options, scene, set_, *film_, warnings_.output);
-    else
-      warn_of(warnings_of_replacing(options.output, identity_), warnings_.output);
-  }
+  const bool exists = !options.output.empty() && std::filesystem::exists(options.output);
+  if (request.resume && exists)
+    resume(options, scene, set_, *film_, warnings_.output);
+  else if (request.resume)
+    warn_of({fmt::format("--resume: there is no {}, the render starts anew", options.output)},
+            warnings_.output);
+  else if (exists)
+    warn_of(warnings_of_replacing(options.output, identity_), warnings_.output);
 
   session_.emplace(scene, set_, *film_, std::move(options));
   if (warnings_.output) session_->on_warning(warnings_.output);

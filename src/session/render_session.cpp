@@ -48,10 +48,6 @@ void check_fits(const EstimatorSet& set, const Film& film, const RenderOptions& 
         fmt::format("--passes {}..: with --outliers reject what a pass shows depends on the passes "
                     "before it, expected a range from 0",
                     options.first_pass));
-  if (const auto open = options.begin_with.open_pass;
-      open && (*open < options.first_pass || (options.last_pass && *open > *options.last_pass)))
-    throw UsageError(fmt::format(
-        "--resume: pass {} of the picture is not whole, expected --passes with it", *open));
   const std::vector<PassRange>& before = options.begin_with.passes.ranges();
   const bool from_zero = before.empty() || (before.size() == 1 && before[0].first == 0);
   for (const auto& estimator : set.estimators) {
@@ -87,6 +83,9 @@ RenderSession::RenderSession(const Scene& scene, EstimatorSet& set, Film& film,
     passes_wanted_ = *options_.last_pass - options_.first_pass + 1;
   else if (!(options_.time_limit > 0) && !(options_.noise_target > 0))
     passes_wanted_ = std::max(1, scene_.samples_per_pixel);
+  if (open_pass_ && !is_wanted(*open_pass_) && next_pass())
+    throw UsageError(fmt::format(
+        "--resume: pass {} of the picture is not whole, expected --passes with it", *open_pass_));
   if (!options_.output.empty()) {
     check_file_can_be_written(options_.output);
     check_file_can_be_written(png_path_beside(options_.output));
@@ -112,7 +111,7 @@ RenderResult RenderSession::run(SignalFlags& signals) {
   next_checkpoint_seconds_ = options_.checkpoint_interval;
   RenderResult result;
   std::optional<StopReason> reason;
-  if (!done_.empty() && !open_pass_) {
+  if (!done_.empty() && (!open_pass_ || !is_wanted(*open_pass_))) {
     // It may have come as far as was wished for.
     if (options_.noise_target > 0 && error_check_is_due()) renew_error();
     reason = reason_to_stop(signals);
@@ -146,19 +145,21 @@ RenderResult RenderSession::run(SignalFlags& signals) {
   result.error_text = error_text_;
   result.faults = invalid_samples(scene_, film_);
   // A signal may come before there is anything to write.
-  if (!options_.output.empty() && (passes_done_ > 0 || film_.has_open_pass()))
+  if (!options_.output.empty() && (passes_done_ > 0 || film_.has_light()))
     write_last_picture(options_.keeps_state || *reason == StopReason::kSignal);
   return result;
 }
 
 std::optional<uint32_t> RenderSession::next_pass() const {
-  if (open_pass_) return open_pass_;
+  if (open_pass_ && is_wanted(*open_pass_)) return open_pass_;
   const uint32_t pass = done_.first_missing(options_.first_pass);
   constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();  // --passes cannot name it
-  if (pass == kNone || (options_.last_pass && pass > *options_.last_pass) ||
-      (passes_wanted_ && pass - options_.first_pass >= *passes_wanted_))
-    return std::nullopt;
-  return pass;
+  return pass != kNone && is_wanted(pass) ? std::optional(pass) : std::nullopt;
+}
+
+bool RenderSession::is_wanted(uint32_t pass) const {
+  return pass >= options_.first_pass && (!options_.last_pass || pass <= *options_.last_pass) &&
+         (!passes_wanted_ || pass - options_.first_pass < *passes_wanted_);
 }
 
 bool RenderSession::render_one_pass(SignalFlags& signals) {
@@ -173,7 +174,6 @@ bool RenderSession::render_one_pass(SignalFlags& signals) {
     return false;
   }
   open_pass_.reset();
-  fraction_before_ = 0;
   film_.finish_pass();
   done_.add(key.pass);
   ++passes_done_;
@@ -191,16 +191,19 @@ std::optional<StopReason> RenderSession::reason_to_end_pass(const SignalFlags& s
 
 void RenderSession::look_in(SignalFlags& signals, PassWatch& watch) {
   if (reason_to_end_pass(signals)) throw PassStopped{};
-  if (film_.can_be_shown()) write_if_due(signals);
-  if (elapsed() >= next_progress_seconds_) {
+  const bool can_write = film_.can_be_shown();
+  if (can_write) write_if_due(signals);
+  watch.answer_writes(can_write);
+  if (progress_ && elapsed() >= next_progress_seconds_) {
     report_progress(true);
     next_progress_seconds_ = elapsed() + kProgressInterval;
   }
-  double wake = next_progress_seconds_;
+  double wake = progress_ ? next_progress_seconds_ : kInfinity;
+  if (!options_.output.empty())
+    wake = std::min({wake, next_preview_seconds_, next_checkpoint_seconds_});
   if (options_.time_limit > 0)
-    wake = std::min(wake, std::max(options_.time_limit - options_.begin_with.seconds,
-                                   elapsed() + kShortestWait));
-  watch.wake_at(start_ + wake);
+    wake = std::min(wake, options_.time_limit - options_.begin_with.seconds);
+  watch.wake_at(start_ + std::max(wake, elapsed() + kShortestWait));
 }
 
 double RenderSession::fraction_of_pass() const {
@@ -243,7 +246,7 @@ void RenderSession::renew_error() {
 }
 
 void RenderSession::renew_error_text() {
-  if (error_text_pass_ == passes_done_) return;
+  if (error_text_pass_ == passes_done_ && !open_pass_) return;
   error_text_pass_ = passes_done_;
   error_text_.reset();
   for (const auto& estimator : set_.estimators)

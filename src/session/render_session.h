@@ -91,6 +91,8 @@ class RenderSession {
   double elapsed() const { return clock_() - start_; }
   double seconds_of_all_runs() const { return options_.begin_with.seconds + elapsed(); }
   std::optional<uint32_t> next_pass() const;
+  /// True if a pass is of the range that is wanted.
+  bool is_wanted(uint32_t pass) const;
   uint32_t passes_of_run() const { return passes_done_ - passes_before_; }
   bool shows_error() const { return progress_ && options_.show_error; }
   bool error_check_is_due() const;

@@ -80,6 +80,10 @@ std::string RenderSession::choices_text() const {
   for (const std::string& line :
        choices_report(first_pass_statistics_, statistics(), passes_of_run()))
     choices += line + "\n";
+  if (film_.has_open_pass() && passes_done_ == 0)
+    choices +=
+        "note: the first pass is not whole: pixels that it has not reached are as their "
+        "neighbours\n";
   for (const std::string& note : options_.notes) choices += "note: " + note + "\n";
   if (error_text_) choices += *error_text_ + "\n";
   for (const std::string& fault : invalid_samples(scene_, film_))
@@ -104,7 +108,7 @@ Metadata RenderSession::picture_metadata() const {
   progress.history = before.history;
   if (rendered)
     progress.history += fmt::format("{} passes{} in {:.3f} s\n", passes_of_run(),
-                                    open_pass_ ? " and a part of one" : "", elapsed());
+                                    film_.has_open_pass() ? " and a part of one" : "", elapsed());
   add_progress(progress, &metadata);
   metadata.emplace_back(kChoicesKey, rendered ? choices_text() : before.choices);
   add_estimates(film_, &metadata);

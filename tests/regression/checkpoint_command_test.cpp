@@ -53,6 +53,17 @@ TEST_F(CheckpointCommand, WhatIsResumedIsOneRun) {
   }
 }
 
+TEST_F(CheckpointCommand, ResumingNothingIsSaid) {
+  expect_said(render("new", {"--passes", "1", "--resume", "--quiet"}),
+              "there is no new.exr, the render starts anew");
+  EXPECT_EQ(render("new", {"--passes", "2", "--resume", "--quiet"}).errors, "");
+}
+
+TEST_F(CheckpointCommand, ACropWithoutPixelsIsThatOfTheCommandLine) {
+  expect_said(render("a", {"--crop", "0.34,0.35,0.1,0.2"}, kUsage),
+              "--crop: the window contains no pixel of");
+}
+
 TEST_F(CheckpointCommand, WhatIsReplacedIsSaid) {
   const std::string said = "a.exr has passes 0..2 of this very render and will be replaced";
   EXPECT_EQ(render("a", {"--passes", "3"}).errors.find("replaced"), std::string::npos);

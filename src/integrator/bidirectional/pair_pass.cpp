@@ -39,7 +39,7 @@ class PairRendering {
       if (buffer)
         buffer->add(splats);
       else if (to_.paths && to_.measures_splats)
-        measured().add_splats(splats, static_cast<float>(s_.techniques.light_paths));
+        measured().add_splats(splats, static_cast<float>(s_.settings.light_paths));
     };
     LightBatches batches({.light_paths = s_.techniques.light_paths,
                           .memory_photons = s_.in.options.memory_photons,
@@ -237,8 +237,9 @@ class PairRendering {
         {waits ? clamped_.sums(sample) : std::span(values_).subspan(pixel * s_.parts, s_.parts),
          to_.film ? bias_[pixel] : unused, waits});
     if (measured_) {
-      measured_->add_light(sample, found.mean);
-      if (!s_.settings.merges_only) measured_->set_rays(sample, found.rays);
+      const size_t measured = measured_->sample(x, y, k);
+      measured_->add_light(measured, found.mean);
+      if (!s_.settings.merges_only) measured_->set_rays(measured, found.rays);
     }
     if (waits && !s_.settings.merges_only) clamped_.weights[sample] = found.weight;
   }
@@ -260,13 +261,19 @@ class PairRendering {
 
   /// Each sample is clamped before the filter's weight, and its light is what is left.
   void clamp_samples() {
+    const PixelBounds& b = s_.format.bounds();
     for (size_t sample = 0; sample < clamped_.weights.size(); ++sample) {
       const std::span<Rgb> sums = clamped_.sums(sample);
       const float before = total_of(sums);
       PartSums::clamp_total(sums, s_.format.settings().max_component * clamped_.weights[sample]);
-      if (measured_ && before != 0) measured_->scale_light(sample, total_of(sums) / before);
+      const size_t pixel = sample / s_.most;
+      if (measured_ && before != 0)
+        measured_->scale_light(measured_->sample(b.x0 + static_cast<int>(pixel % b.width()),
+                                                 b.y0 + static_cast<int>(pixel / b.width()),
+                                                 static_cast<int>(sample % s_.most)),
+                               total_of(sums) / before);
       for (size_t i = 0; i < s_.parts; ++i) {
-        Rgb& value = values_[sample / s_.most * s_.parts + i];
+        Rgb& value = values_[pixel * s_.parts + i];
         value = value + sums[i];
       }
     }

@@ -45,6 +45,9 @@ struct PairPass {
   /// One technique of the estimator alone.
   TechniqueChoice technique{};
   float radius_scale = 1;  ///< times the radius of the pass
+  /// Of a pass over the first lattice that stands for a film: its pixels are so many pixels wide,
+  /// photons are merged as far, and splats spread over as much.
+  int spacing = 1;
   PassControl& control = unwatched;
 };
 

@@ -45,14 +45,15 @@ PairSampler::PairSampler(const PairPass& pass, const FilmFormat& of_film, const 
       view_(pass.scene, of_film.bounds()) {
   merging.caustics_only = techniques.caustics_only;
   merging.photons = static_cast<double>(techniques.light_paths);
-  merging.radius_pixels = pass.radius_scale * radius_of_pass(pass.options, pass.key.pass);
+  merging.radius_pixels = pass.radius_scale * static_cast<float>(pass.spacing) *
+                          radius_of_pass(pass.options, pass.key.pass);
   merging.footprint = photons.footprint;
   merging.eye = pass.scene.camera->camera_to_world(photons.trace.time).point(Vec3f(0, 0, 0));
   merging.connects = techniques.connects;
   settings.view = pass.scene.camera->connects() && merging.connects ? &view_ : nullptr;
   settings.specular_alpha = photons.trace.specular_alpha;
   settings.max_depth = pass.options.max_depth;
-  settings.light_paths = static_cast<double>(techniques.light_paths);
+  settings.light_paths = static_cast<double>(techniques.light_paths) * sqr(pass.spacing);
   settings.merging = &merging;
   parts = format.parts_of(static_cast<int>(pass.owned.group)).size();
   points_.resize(most);

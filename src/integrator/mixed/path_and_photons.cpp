@@ -19,7 +19,7 @@ constexpr const EstimatorSetting* kSettings[] = {&kGuideSetting, &kGuideWalksSet
 constexpr uint64_t kTrialStream = 0x747269616c;        // "trial"
 constexpr uint64_t kMeasureStream = 0x6d656173757265;  // "measure"
 constexpr uint32_t kTrialPasses = 2;
-constexpr int64_t kMaxTrialPaths = 1 << 15;
+constexpr int64_t kMaxMeasuredPaths = 1 << 15;
 /// Light paths of a trial with few of them are this part of those with many.
 constexpr int64_t kFewer = 8;
 /// Connecting has to be better by this factor: two passes are a rough guess, and do not see that
@@ -49,6 +49,11 @@ float radius_scale(const IntegratorOptions& options, bool caustics_only, int64_t
   const double over_thumbnail = static_cast<double>(pixels) / PixelSlices::kMaxFirstPixels;
   if (options.radius > 0 || !caustics_only) return 1;
   return static_cast<float>(std::pow(std::max(1.0, over_thumbnail), 0.3));
+}
+
+/// Pixels of the picture of which the film may be a crop.
+int64_t full_size(const FilmFormat& film) {
+  return int64_t{film.settings().width} * film.settings().height;
 }
 
 int spacing_of(const FilmFormat& film) {
@@ -98,7 +103,7 @@ class Trials {
                           .techniques = techniques,
                           .emission = emission,
                           .light_paths_vary = true,
-                          .radius_scale = static_cast<float>(spacing_of(film_)),
+                          .spacing = spacing_of(film_),
                           .control = control_},
                          film_, trial, variance, counts);
     }
@@ -175,7 +180,8 @@ constinit const EstimatorDescriptor PathAndPhotons::kDescriptor = {
     .keeps_photons = true,
     .bytes_per_pixel =
         [](const PixelMemoryInput& need) {
-          return PixelBytes{.of_pass = bytes_per_pixel(need.parts, need.clamps)};
+          return PixelBytes{.of_pass = bytes_per_pixel(need.parts, need.clamps,
+                                                       need.options.camera_samples_per_pass)};
         },
     .exposed_pixels =
         [](const IntegratorOptions& options, const PixelFilter& filter, int64_t pixels) {
@@ -228,7 +234,7 @@ std::shared_ptr<const Learned> PathAndPhotons::learn(const Scene& scene, const F
   balance.max_photons = max_photons(film);
   balance.scale = scale;
   // What photons vary by goes with the area in which they are merged.
-  balance.variance_of_light /= double{sqr(radius_scale(options_, true, film.bounds().area()))};
+  balance.variance_of_light /= double{sqr(radius_scale(options_, true, full_size(film)))};
   if (chosen.light_paths > 0) plan.balance = balance;
   double records_per_path = std::clamp(1.1 * many.records, 0.25, double{PassRecords::kMaxPerPath});
   const PairTechniques connecting{.light_paths = default_light_paths(pixels),
@@ -258,8 +264,8 @@ std::shared_ptr<const Learned> PathAndPhotons::learn(const Scene& scene, const F
   if (learning.measures_variance || learning.keeps_records) {
     const PassKey key{hash_combine(seed, kMeasureStream), 0};
     PairPass pass = pass_of(key, scene, film, plan, control);
-    pass.techniques.light_paths = std::min<int64_t>(pass.techniques.light_paths, kMaxTrialPaths);
-    pass.radius_scale *= static_cast<float>(spacing_of(film));
+    pass.techniques.light_paths = std::min<int64_t>(pass.techniques.light_paths, kMaxMeasuredPaths);
+    pass.spacing = spacing_of(film);
     PairFindings found = measure(pass, film, {measured, measured}, learning, costs);
     if (found.variance) plan.samples = allocation(*found.variance, plan, film);
     const size_t record_bytes = found.records.capacity() * sizeof(RadianceRecord);
@@ -284,7 +290,7 @@ PairPass PathAndPhotons::pass_of(const PassKey& key, const Scene& scene, const F
       .techniques = plan.techniques,
       .emission = plan.techniques.connects ? kUnguided : plan.photons.guide.starts,
       .light_paths_vary = true,
-      .radius_scale = radius_scale(options_, plan.techniques.caustics_only, film.bounds().area()),
+      .radius_scale = radius_scale(options_, plan.techniques.caustics_only, full_size(film)),
       .control = control};
   pass.techniques.light_paths = plan.light_paths();
   return pass;

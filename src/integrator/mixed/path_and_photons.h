@@ -26,8 +26,10 @@ class PathAndPhotons final : public Estimator {
   void render_pass(const PassKey& key, const Learned* learned, const Scene& scene, Film& film,
                    PassControl& control) override;
   EstimatorStatistics statistics() const override { return statistics_; }
-  static size_t bytes_per_pixel(size_t parts, bool clamps) {
-    return pair_pass_bytes_per_pixel(parts, 1, clamps ? 1 : 0);
+  /// `samples`: those that the user asks for, or 0.
+  static size_t bytes_per_pixel(size_t parts, bool clamps, int samples) {
+    const size_t most = std::max<size_t>(SampleMap::kMax, samples);
+    return pair_pass_bytes_per_pixel(parts, 0, clamps ? most : 0);
   }
 
  private:

@@ -82,7 +82,7 @@ Merged merge_pictures(const std::vector<std::string>& inputs, const std::string&
   for (const Input& input : files) {
     StateFile file(input.path);
     // A render that goes on may have written a newer one meanwhile.
-    if (passes_of(file, kPurpose) != input.passes)
+    if (passes_of(file, kPurpose) != input.passes || open_pass_of(file))
       throw IoError(input.path + ": cannot merge it: it changed while it was read");
     Film film = film_of(first);
     file.load(film.state());

@@ -83,8 +83,11 @@ std::vector<std::string> choices_report(const std::vector<EstimatorStatistics>& 
                                         uint32_t passes) {
   std::vector<std::string> lines;
   for (size_t i = 0; i < last.size(); ++i) {
-    add_photons(first[i], last[i], passes, lines);
-    add_light_paths(last[i], passes, lines);
+    // Within the first pass there is nothing of it yet, and nothing to be said of passes.
+    if (i < first.size() && passes > 0) {
+      add_photons(first[i], last[i], passes, lines);
+      add_light_paths(last[i], passes, lines);
+    }
     add_rays(last[i], lines);
   }
   for (std::string& line : technique_report(last)) lines.push_back(std::move(line));

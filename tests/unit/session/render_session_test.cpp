@@ -140,7 +140,11 @@ TEST_F(RenderSessionTest, APassThatWasBegunIsGoneOnWith) {
   options.last_pass = 3;
   EXPECT_EQ(run(options).passes_done, 4u);
   EXPECT_EQ(script_.passes[0].pass, 2u);
+  // What was asked for is there; what is beyond it may stay as it is.
   options.last_pass = 1;
+  EXPECT_EQ(run(options).passes_of_run, 0u);
+  // One pass at a time.
+  options.begin_with.passes = *PassRanges::parse("0");
   EXPECT_THROW(run(options), UsageError);
 }
 
