@@ -79,7 +79,7 @@ class PairRendering {
     std::optional<SlicesOfPass> of_film;
     std::vector<size_t> slices = wanted_slices(all_slices);
     if (to_.film) {
-      of_film.emplace(*to_.film, group, 1, to_.adds_features ? 1 : 0);
+      of_film.emplace(SlicesOfPass{*to_.film, group, 1, to_.adds_features ? uint64_t{1} : 0});
       slices = of_film->missing();
     }
     std::optional<SpecularChainPass> chains;
