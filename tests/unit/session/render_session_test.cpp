@@ -144,7 +144,7 @@ TEST_F(RenderSessionTest, APassThatWasBegunIsGoneOnWith) {
   options.last_pass = 1;
   EXPECT_EQ(run(options).passes_of_run, 0u);
   // One pass at a time.
-  options.begin_with.passes = *PassRanges::parse("0");
+  options.begin_with.passes = *PassRanges::parse("0..0");
   EXPECT_THROW(run(options), UsageError);
 }
 
