@@ -1,10 +1,10 @@
-// Who watches a pass while it is rendered: between the chunks of its loops they may look at what is
-// done by then, or end it. It must not know films or clocks.
+// Lets somebody else look at a pass while it is rendered, or end it, between two chunks of a loop.
+// It must not know films or clocks.
 #pragma once
 
 namespace nephroid {
 
-/// What attend() throws to end a pass early. Not an error: whatever is done by then stays.
+/// Thrown by attend() to end a pass early. It is not an error, and finished chunks are kept.
 struct PassStopped {};
 
 class PassControl {

@@ -208,12 +208,12 @@ class Film {
   std::vector<std::vector<RgbSum>> sums_;     ///< [part][pixel]
   std::vector<std::vector<RgbSum>> squares_;  ///< [group][pixel], of an estimate's sum over parts
   std::vector<uint64_t> estimates_;           ///< [group], and of features
-  /// Of the pass that is not whole.
+  /// Progress of one group in an unfinished pass.
   struct OpenPass {
     std::vector<uint32_t> done;  ///< [slice] 0 or 1
-    uint64_t is_whole = 0;       ///< 1: all are done, and counted in estimates_
-    uint64_t slices = 0;         ///< how many are done
-    uint64_t estimates = 0;      ///< of each of their pixels
+    uint64_t is_whole = 0;       ///< 1: all slices are done and counted in estimates_
+    uint64_t slices = 0;         ///< number of slices done
+    uint64_t estimates = 0;      ///< estimates per pixel in those slices
   };
   PixelSlices slices_;
   std::vector<OpenPass> open_;             ///< [group], and of features

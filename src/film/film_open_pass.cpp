@@ -1,4 +1,4 @@
-// What a film knows of a pass that is not whole, and how it shows it.
+// Bookkeeping for an unfinished pass: which slices are done, and which pixels stand in for others.
 #include <algorithm>
 #include <atomic>
 

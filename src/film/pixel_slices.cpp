@@ -16,7 +16,7 @@ PixelSlices::PixelSlices(const PixelBounds& crop) : crop_(crop) {
     const int spacing = 1 << (levels_ - 1 - level);
     first_row_.push_back(rows_.size());
     for (int y = 0; y < height; y += spacing) {
-      // Of rows that the lattice before had, it had every other pixel.
+      // Rows of the previous lattice already have every other pixel.
       const bool is_old = level > 0 && y % (2 * spacing) == 0;
       Row row{.y = y, .x = is_old ? spacing : 0, .step = is_old ? 2 * spacing : spacing};
       row.pixels = std::max(0, points(width - row.x, row.step));

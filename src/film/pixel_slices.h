@@ -12,7 +12,7 @@ namespace nephroid {
 
 class PixelSlices {
  public:
-  /// Of the first lattice, whatever the size of the crop.
+  /// Largest number of pixels in the first lattice.
   static constexpr int kMaxFirstPixels = 16384;
   static constexpr int kMaxPixelsOfSlice = 256;
 

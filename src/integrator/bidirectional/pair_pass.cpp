@@ -13,6 +13,12 @@ namespace {
 
 constexpr size_t kSlicesWithRecords = 512;
 
+/// For the pixels of the first lattice, of which `samples` each wait for other batches.
+size_t bytes_of_measuring(size_t samples) {
+  return PixelSlices::kMaxFirstPixels *
+         (3 * SampleVariance::kBytesPerPixel + samples * sizeof(MeasuredSamples::Sample));
+}
+
 /// Where what a pass finds goes: any of these may be asked for, and not all of them are.
 struct Destinations {
   Film* film = nullptr;
@@ -51,9 +57,8 @@ class PairRendering {
       const PhotonGrid grid(std::move(photons));
       s_.merging.grid = &grid;
       render_pixels(statistics);
-      statistics.hold(
-          grid.bytes() + s_.records.bytes() + s_.camera.directions.bytes(),
-          to_.paths ? PixelSlices::kMaxFirstPixels * 3 * SampleVariance::kBytesPerPixel : 0);
+      statistics.hold(grid.bytes() + s_.records.bytes() + s_.camera.directions.bytes(),
+                      to_.paths ? bytes_of_measuring(0) : 0);
     } else {
       make_room();
       render_batch(std::move(photons), batches.empty(), statistics);
@@ -150,10 +155,10 @@ class PairRendering {
     const PhotonGrid grid(std::move(photons));
     s_.merging.grid = &grid;
     trace_eye_paths(statistics);
-    statistics.hold(
-        grid.bytes() + s_.records.bytes() + s_.camera.directions.bytes(),
-        s_.format.bounds().area() * pair_pass_bytes_per_pixel(s_.parts, measured_ ? s_.most : 0,
-                                                              clamped_.empty() ? 0 : s_.most));
+    statistics.hold(grid.bytes() + s_.records.bytes() + s_.camera.directions.bytes(),
+                    s_.format.bounds().area() *
+                            pair_pass_bytes_per_pixel(s_.parts, clamped_.empty() ? 0 : s_.most) +
+                        (measured_ ? bytes_of_measuring(s_.most) : 0));
     if (s_.techniques.separates_chains && s_.camera.chains && !s_.settings.merges_only) {
       const SpecularChainPass pass = chain_pass();
       statistics.rays +=
@@ -350,9 +355,8 @@ size_t try_out(const PairPass& pass, const FilmFormat& film, const PairTrial& tr
   return records.size();
 }
 
-size_t pair_pass_bytes_per_pixel(size_t parts, size_t measured_samples, size_t clamped_samples) {
+size_t pair_pass_bytes_per_pixel(size_t parts, size_t clamped_samples) {
   return SplatBuffer::bytes_per_pixel(parts) + parts * sizeof(Rgb) + sizeof(float) +
-         measured_samples * sizeof(MeasuredSamples::Sample) +
          clamped_samples * (parts * sizeof(Rgb) + sizeof(float));
 }
 

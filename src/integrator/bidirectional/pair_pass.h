@@ -99,8 +99,7 @@ PairFindings measure(const PairPass& pass, const FilmFormat& film, const PairSam
 size_t try_out(const PairPass& pass, const FilmFormat& film, const PairTrial& trial,
                SampleVariance& variance, EstimatorStatistics& statistics);
 
-/// Memory of a pass for each pixel, of which `measured_samples` samples at most are measured, and
-/// `clamped_samples` at most are clamped.
-size_t pair_pass_bytes_per_pixel(size_t parts, size_t measured_samples, size_t clamped_samples);
+/// Memory of a pass for each pixel, of which `clamped_samples` samples at most are clamped.
+size_t pair_pass_bytes_per_pixel(size_t parts, size_t clamped_samples);
 
 }  // namespace nephroid

@@ -13,7 +13,7 @@ namespace {
 constexpr const EstimatorSetting* kSettings[] = {&kTechniqueSetting, &kSpecularTreesSetting};
 
 PixelBytes bytes_of(const PixelMemoryInput& need) {
-  return {.of_pass = pair_pass_bytes_per_pixel(need.parts, 0, need.clamps ? 1 : 0)};
+  return {.of_pass = pair_pass_bytes_per_pixel(need.parts, need.clamps ? 1 : 0)};
 }
 
 }  // namespace

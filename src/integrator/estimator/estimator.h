@@ -37,7 +37,7 @@ class Estimator {
   /// learned with another seed.
   /// `control` may end the pass (PassStopped): the film then has the pixels of those slices that
   /// are done (Film::finish_slice), or nothing of the pass. Slices that the film has already, of a
-  /// pass that was ended, are not rendered again, and what they found is not returned.
+  /// pass that was ended, are not rendered again.
   virtual void render_pass(const PassKey& key, const Learned* learned, const Scene& scene,
                            Film& film, PassControl& control) = 0;
   /// Counts of the passes that were rendered here; what learning took is not in them.

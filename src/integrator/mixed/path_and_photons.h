@@ -29,7 +29,7 @@ class PathAndPhotons final : public Estimator {
   /// `samples`: those that the user asks for, or 0.
   static size_t bytes_per_pixel(size_t parts, bool clamps, int samples) {
     const size_t most = std::max<size_t>(SampleMap::kMax, samples);
-    return pair_pass_bytes_per_pixel(parts, 0, clamps ? most : 0);
+    return pair_pass_bytes_per_pixel(parts, clamps ? most : 0);
   }
 
  private:
