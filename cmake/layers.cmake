@@ -55,7 +55,7 @@ nephroid_precompiled(nephroid_filter nephroid_core)
 nephroid_layer(scene scene nephroid_shape nephroid_material nephroid_light nephroid_camera
                nephroid_medium nephroid_filter embree)
 nephroid_layer(route route nephroid_scene)
-nephroid_layer(film film nephroid_filter PkgConfig::OpenImageIO ${OPENEXR_LIBRARY})
+nephroid_layer(film film nephroid_filter PkgConfig::OpenImageIO PkgConfig::zstd ${OPENEXR_LIBRARY})
 nephroid_layer(transport transport nephroid_scene nephroid_route)
 nephroid_layer(photon photon nephroid_transport)
 nephroid_layer(integrator integrator nephroid_photon nephroid_film

@@ -15,7 +15,7 @@ int run_merge(const MergeCommand& command) {
     throw UsageError("merge: no --output given, expected a name that ends in .exr");
   check_file_can_be_written(command.output);
   check_file_can_be_written(png_path_beside(command.output));
-  const Merged merged = merge_pictures(command.inputs, command.output);
+  const Merged merged = merge_pictures(command.inputs, command.output, command.layer_precision);
   for (const std::string& warning : merged.warnings) print_warning(warning);
   fmt::print("{} passes ({}), rendered in {:.1f} s; wrote {} and {}\n", merged.passes.count(),
              merged.passes.text(), merged.seconds, command.output, png_path_beside(command.output));

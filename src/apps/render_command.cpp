@@ -39,6 +39,7 @@ RenderRequest request_of(const RenderCommand& command) {
   options.output = command.output;
   options.checkpoint_interval = command.checkpoint_interval;
   options.keeps_state = command.keeps_state;
+  options.layer_precision = command.layer_precision;
   std::error_code no_temporary_directory;
   options.rescue_directory = std::filesystem::temp_directory_path(no_temporary_directory).string();
   return request;

@@ -1,5 +1,5 @@
-// A file is written through AtomicFile, row by row from the memory of its owners: a state is as
-// large as the film, and a copy of it would be twice the memory.
+// A file is written through AtomicFile, some rows at a time: a picture of all layers in memory
+// would be a quarter of the film.
 #include "film/exr_file.h"
 
 #include <OpenEXR/ImfChannelList.h>
@@ -7,24 +7,21 @@
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfIO.h>
-#include <OpenEXR/ImfMultiPartOutputFile.h>
-#include <OpenEXR/ImfOutputPart.h>
-#include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfThreading.h>
-#include <fmt/format.h>
+#include <half.h>
 
 #include <algorithm>
-#include <cstring>
+#include <cmath>
 #include <new>
 #include <optional>
 
-#include "core/content_hash.h"
 #include "core/errors.h"
+#include "core/parallel.h"
 #include "film/atomic_file.h"
 #include "film/chromaticities.h"
-#include "film/exr_layout.h"
 
 namespace nephroid {
 
@@ -56,139 +53,136 @@ class AtomicOutput : public Imf::OStream {
   std::optional<IoError> error_;
 };
 
-Imath::Box2i box_of(const PixelBounds& b) {
-  return {{b.x0, b.y0}, {b.x1 - 1, b.y1 - 1}};
+/// Rows of a block of ZIP, and blocks that are in memory at a time.
+constexpr int kRowsOfBlock = 16, kBlocksAtOnce = 4;
+
+uint64_t bytes_of_block(int width, size_t channels) {
+  return sizeof(float) * kRowsOfBlock * static_cast<uint64_t>(width) * channels;
 }
 
-/// What the parts of a file must agree on, and a part's own place in it.
-Imf::Header header_of(const Picture& picture, const PixelBounds& window, const std::string& name,
-                      Imf::Compression compression) {
-  Imf::Header header({{0, 0}, {picture.full_width - 1, picture.full_height - 1}}, box_of(window),
-                     1.0f, {0, 0}, 1.0f, Imf::INCREASING_Y, compression);
-  header.setType(Imf::SCANLINEIMAGE);
-  header.setName(name);
-  const RgbColorSpace* space = picture.color_space;
+int rows_at_once(int width, size_t channels) {
+  const bool fit = kBlocksAtOnce * bytes_of_block(width, channels) <= kMaxEncoderBytes / 2;
+  return fit ? kBlocksAtOnce * kRowsOfBlock : kRowsOfBlock;
+}
+
+/// Threads of the library, for each of which it has two blocks, packed, unpacked and sorted; 0: the
+/// caller's own.
+int encoder_threads(int width, size_t channels) {
+  const uint64_t of_thread = 2 * 3 * bytes_of_block(width, channels);
+  const auto fit = static_cast<int>(
+      std::min<uint64_t>(kBlocksAtOnce, kMaxEncoderBytes / 2 / std::max<uint64_t>(1, of_thread)));
+  return std::min(fit, Imf::globalThreadCount());
+}
+
+/// Of 1 to 9: more takes longer and hardly makes pictures with noise smaller.
+constexpr int kZipLevel = 2;
+
+Imf::Header header_of(const PictureHead& head, const std::vector<bool>& is_half) {
+  const PixelBounds& w = head.window;
+  Imf::Header header({{0, 0}, {head.full_width - 1, head.full_height - 1}},
+                     {{w.x0, w.y0}, {w.x1 - 1, w.y1 - 1}}, 1.0f, {0, 0}, 1.0f, Imf::INCREASING_Y,
+                     Imf::ZIP_COMPRESSION);
+  header.zipCompressionLevel() = kZipLevel;
+  const RgbColorSpace* space = head.color_space;
   if (space != nullptr && space->name() != "srgb") {
     const auto c = chromaticities(*space);
     Imf::addChromaticities(header, {{c[0], c[1]}, {c[2], c[3]}, {c[4], c[5]}, {c[6], c[7]}});
   }
-  return header;
-}
-
-Imf::Header picture_header(const Picture& picture) {
-  Imf::Header header = header_of(picture, picture.window, "picture", Imf::ZIP_COMPRESSION);
-  for (const std::string& channel : picture.channels)
-    header.channels().insert(channel, Imf::Channel(Imf::FLOAT));
+  for (size_t i = 0; i < head.channels.size(); ++i)
+    header.channels().insert(head.channels[i], Imf::Channel(is_half[i] ? Imf::HALF : Imf::FLOAT));
   // A picture that was read may bring what the file says for itself, its compression for one.
-  for (const auto& [key, value] : picture.metadata)
+  for (const auto& [key, value] : head.metadata)
     if (header.find(key) == header.end()) header.insert(key, Imf::StringAttribute(value));
   return header;
 }
 
-/// A part of the state: `words` in each of `window`'s pixels.
-struct Part {
-  std::string name;
-  PixelBounds window;
-  size_t words = 1;
-  std::span<const std::byte> bytes;  ///< what is used of it
-  std::vector<uint32_t> owned;       ///< all of it, if nobody else has it
-  const void* memory() const {
-    if (!owned.empty()) return owned.data();
-    return bytes.data();
+/// Some rows as they are encoded: the channels one after another, each row by row.
+class Strip {
+ public:
+  Strip(const PictureHead& head, const std::vector<bool>& is_half)
+      : head_(head),
+        is_half_(is_half),
+        width_(head.width()),
+        rows_(rows_at_once(head.width(), is_half.size())) {
+    size_t bytes = 0;
+    for (const bool half : is_half) {
+      offsets_.push_back(bytes);
+      bytes += size_t{half ? 2u : 4u} * width_ * rows_;
+    }
+    bytes_.resize(bytes);
+    largest_.resize(rows_ * channels());
   }
+  size_t channels() const { return is_half_.size(); }
+  /// That it has room for.
+  int rows() const { return rows_; }
+
+  /// Makes the rows [y0, y0 + rows), and widens `largest` of each channel.
+  void fill(const FillRow& fill_row, int y0, int rows, std::vector<float>& largest) {
+    std::ranges::fill(largest_, 0.0f);
+    parallel_chunks(rows, kRowsOfBlock, [&](int64_t, int64_t begin, int64_t end) {
+      std::vector<float> row(channels() * width_);
+      for (int64_t r = begin; r < end; ++r) {
+        fill_row(y0 + static_cast<int>(r), row.data());
+        for (size_t c = 0; c < channels(); ++c) put(row, static_cast<size_t>(r), c);
+      }
+    });
+    for (size_t i = 0; i < largest_.size(); ++i)
+      largest[i % channels()] = std::max(largest[i % channels()], largest_[i]);
+  }
+  Imf::FrameBuffer frame(int y0) const {
+    Imf::FrameBuffer frame;
+    for (size_t c = 0; c < channels(); ++c) {
+      const auto size = static_cast<intptr_t>(is_half_[c] ? 2 : 4), row = size * width_;
+      // Where the pixel (0, 0) would be.
+      const auto origin = reinterpret_cast<intptr_t>(bytes_.data() + offsets_[c]) -
+                          size * head_.window.x0 - row * y0;
+      frame.insert(head_.channels[c], Imf::Slice(is_half_[c] ? Imf::HALF : Imf::FLOAT,
+                                                 reinterpret_cast<char*>(origin), size, row));
+    }
+    return frame;
+  }
+
+ private:
+  void put(const std::vector<float>& row, size_t r, size_t c) {
+    float largest = 0;
+    const auto copy = [&]<class T>(T* out) {
+      for (int x = 0; x < width_; ++x) {
+        const float value = row[x * channels() + c];
+        largest = std::max(largest, std::abs(value));
+        out[x] = T(value);
+      }
+    };
+    std::byte* const memory = bytes_.data() + offsets_[c];
+    if (is_half_[c])
+      copy(reinterpret_cast<half*>(memory) + r * width_);
+    else
+      copy(reinterpret_cast<float*>(memory) + r * width_);
+    largest_[r * channels() + c] = largest;
+  }
+  const PictureHead& head_;
+  const std::vector<bool>& is_half_;
+  int width_, rows_;
+  std::vector<size_t> offsets_;  ///< [channel]
+  std::vector<std::byte> bytes_;
+  std::vector<float> largest_;  ///< [row][channel], magnitudes
 };
 
-Part part_of_stream(std::string name, std::vector<uint32_t> words) {
-  const size_t used = words.size();
-  Part part{std::move(name), window_of_stream(used), 1, {}, std::move(words)};
-  part.owned.resize(part.window.area());
-  part.bytes = std::as_bytes(std::span(part.owned).first(used));
-  return part;
-}
-
-bool is_of_pixels(const RenderState::Array& array, const PixelBounds& window) {
-  return array.items() == static_cast<size_t>(window.area());
-}
-
-std::vector<uint32_t> words_of(std::span<const std::byte> bytes) {
-  std::vector<uint32_t> words(bytes.size() / 4);
-  std::memcpy(words.data(), bytes.data(), 4 * words.size());
-  return words;
-}
-
-Imf::Header part_header(const Picture& picture, const Part& part) {
-  Imf::Header header = header_of(picture, part.window, kPartPrefix + part.name, kStateCompression);
-  for (const std::string& channel : channels_of_words(part.words))
-    header.channels().insert(channel, Imf::Channel(Imf::UINT));
-  header.insert(kWordsKey, Imf::StringAttribute(std::to_string(part.bytes.size() / 4)));
-  return header;
-}
-
-std::vector<Part> parts_of(const RenderState& state, const PixelBounds& window) {
-  std::vector<Part> parts;
-  for (const RenderState::Array& array : state.arrays)
-    if (is_of_pixels(array, window))
-      parts.push_back({array.name, window, array.words, array.bytes, {}});
-    else
-      parts.push_back(part_of_stream(array.name, words_of(array.bytes)));
-  for (const RenderState::Stream& stream : state.streams)
-    parts.push_back(part_of_stream(stream.name, stream.save()));
-  std::vector<uint32_t> checksums;
-  for (const Part& part : parts) {
-    const auto words = words_of_hash(hash_of(part.bytes));
-    checksums.insert(checksums.end(), words.begin(), words.end());
-  }
-  parts.push_back(part_of_stream(kChecksums, std::move(checksums)));
-  return parts;
-}
-
-/// What the encoder makes room for, for each buffer: rows of all parts, packed and unpacked, and
-/// what it sorts their bytes in.
-uint64_t bytes_of_rows(int width, size_t channels, size_t state_words) {
-  constexpr uint64_t kRowsOfZip = 16, kCopies = 3;
-  return 4 * kCopies * width * (kRowsOfZip * channels + state_words);
-}
-
-/// Two buffers for each; without any, the caller's thread encodes, with one.
-int encoder_threads(uint64_t bytes_of_buffer) {
-  const uint64_t fit = kMaxEncoderBytes / (2 * bytes_of_buffer);
-  return static_cast<int>(std::min<uint64_t>(fit, Imf::globalThreadCount()));
-}
-
-}  // namespace
-
-uint64_t encoder_bytes(int width, size_t channels, size_t state_words) {
-  const uint64_t each = bytes_of_rows(width, channels, state_words);
-  return std::max(each, 2 * each * encoder_threads(each));
-}
-
-void write_exr(const std::string& path, const Picture& picture, const RenderState* state) {
-  AtomicFile file(path);
+/// Writes the file but does not let it take its name. The magnitudes of each channel's largest
+/// value.
+std::vector<float> encode(const std::string& path, AtomicFile& file, const PictureHead& head,
+                          const std::vector<bool>& is_half, const FillRow& fill) {
   AtomicOutput output(path, file);
-  std::vector<Part> parts;
-  if (state) parts = parts_of(*state, picture.window);
+  std::vector<float> largest(head.channels.size(), 0.0f);
   try {
-    std::vector<Imf::Header> headers{picture_header(picture)};
-    for (const Part& part : parts) headers.push_back(part_header(picture, part));
-    if (state) headers.back().insert(kTextsKey, Imf::StringAttribute(hash_of_texts(headers[0])));
-    size_t state_words = 0;
-    for (const Part& part : parts) state_words += part.words;
-    Imf::MultiPartOutputFile out(
-        output, headers.data(), static_cast<int>(headers.size()), false,
-        encoder_threads(
-            bytes_of_rows(picture.window.width(), picture.channels.size(), state_words)));
-    const auto write = [&](size_t i, const Imf::FrameBuffer& frame, const PixelBounds& window) {
-      Imf::OutputPart part(out, static_cast<int>(i));
-      part.setFrameBuffer(frame);
-      part.writePixels(window.height());
-    };
-    write(0, frame_of(picture.window, picture.channels, Imf::FLOAT, picture.pixels.data()),
-          picture.window);
-    for (size_t i = 0; i < parts.size(); ++i)
-      write(i + 1,
-            frame_of(parts[i].window, channels_of_words(parts[i].words), Imf::UINT,
-                     parts[i].memory()),
-            parts[i].window);
+    Imf::OutputFile out(output, header_of(head, is_half),
+                        encoder_threads(head.width(), head.channels.size()));
+    Strip strip(head, is_half);
+    for (int y = head.window.y0; y < head.window.y1; y += strip.rows()) {
+      const int rows = std::min(strip.rows(), head.window.y1 - y);
+      strip.fill(fill, y, rows, largest);
+      out.setFrameBuffer(strip.frame(y));
+      out.writePixels(rows);
+    }
   } catch (const std::bad_alloc&) {
     output.throw_if_failed();
     throw;
@@ -197,7 +191,56 @@ void write_exr(const std::string& path, const Picture& picture, const RenderStat
     throw IoError(path + ": cannot encode: " + error.what());
   }
   output.throw_if_failed();
-  file.commit();
+  return largest;
+}
+
+std::string layer_of(const std::string& channel) {
+  const size_t dot = channel.rfind('.');
+  return dot == std::string::npos ? std::string() : channel.substr(0, dot);
+}
+
+/// False if the values of a layer are no 16-bit floats, or would lose digits as such.
+bool fits_half(float largest) {
+  return largest == 0 || (largest >= HALF_NRM_MIN && largest <= HALF_MAX);
+}
+
+}  // namespace
+
+uint64_t encoder_bytes(int width, size_t channels) {
+  const int blocks = rows_at_once(width, channels) / kRowsOfBlock;
+  // The strip, a row for each thread that fills it, and what the library holds.
+  const int of_library = 3 * std::max(1, 2 * encoder_threads(width, channels));
+  return static_cast<uint64_t>(2 * blocks + of_library) * bytes_of_block(width, channels);
+}
+
+void write_exr(const std::string& path, const PictureHead& head,
+               const std::vector<bool>& may_be_half, const FillRow& fill) {
+  std::vector<bool> is_half = may_be_half;
+  for (;;) {
+    AtomicFile file(path);
+    const std::vector<float> largest = encode(path, file, head, is_half, fill);
+    // Rare, and known only now: a lamp of a radiance beyond 65504 in view, a picture that is dark.
+    bool again = false;
+    for (size_t c = 0; c < is_half.size(); ++c) {
+      if (!may_be_half[c]) continue;
+      float of_layer = 0;
+      for (size_t k = 0; k < is_half.size(); ++k)
+        if (layer_of(head.channels[k]) == layer_of(head.channels[c]))
+          of_layer = std::max(of_layer, largest[k]);
+      const bool fits = fits_half(of_layer);
+      again |= !fits && is_half[c];
+      is_half[c] = fits;
+    }
+    if (!again) return file.commit();
+  }
+}
+
+void write_exr(const std::string& path, const Picture& picture) {
+  const size_t row = static_cast<size_t>(picture.width()) * picture.channels.size();
+  write_exr(path, picture, std::vector<bool>(picture.channels.size(), false),
+            [&](int y, float* out) {
+              std::copy_n(picture.pixels.begin() + (y - picture.window.y0) * row, row, out);
+            });
 }
 
 }  // namespace nephroid

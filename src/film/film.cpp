@@ -41,20 +41,20 @@ Film::Film(const FilmSettings& settings, FilmLayout layout)
     }
 
   const size_t pixels = bounds().area();
-  sums_.assign(this->layout().parts.size(), std::vector<RgbSum>(pixels));
-  squares_.assign(groups, std::vector<RgbSum>(pixels));
+  for (size_t p = 0; p < this->layout().parts.size(); ++p) sums_.emplace_back(pixels);
+  for (int g = 0; g < groups; ++g) squares_.emplace_back(pixels);
   estimates_.assign(groups + 1, 0);
   open_.assign(groups + 1, OpenPass{std::vector<uint32_t>(slices_.count(), 0)});
   for (int g = 0; g < groups; ++g) {
     if (!this->layout().group_merges(g)) continue;
     biases_.resize(groups);
-    biases_[g].resize(pixels);
+    biases_[g] = ZeroedArray<Bias>(pixels);
   }
-  features_.resize(pixels);
-  depths_.assign(pixels, 0);
+  features_ = ZeroedArray<Features>(pixels);
+  depths_ = ZeroedArray<uint64_t>(pixels);
   if (this->settings().gbuffer) {
-    surfaces_.resize(pixels);
-    surface_samples_.assign(pixels, 0);
+    surfaces_ = ZeroedArray<SurfaceSums>(pixels);
+    surface_samples_ = ZeroedArray<uint64_t>(pixels);
   }
   bad_.resize(this->layout().routes.size());
 }

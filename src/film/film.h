@@ -13,6 +13,7 @@
 
 #include "core/color.h"
 #include "core/math.h"
+#include "core/zeroed_array.h"
 #include "film/film_format.h"
 #include "film/fixed_sum.h"
 #include "film/outlier_rejection.h"
@@ -170,7 +171,8 @@ class Film {
     FixedSum sum, square;
   };
   struct Features {
-    FixedSum albedo[3], normal[3], depth;
+    UnitSum albedo[3], normal[3];
+    FixedSum depth;
   };
   /// Sums of p, n, ns, uv, dzdx and dzdy.
   using SurfaceSums = std::array<FixedSum, 13>;
@@ -205,8 +207,8 @@ class Film {
   // Lists of parts, each ordered by group.
   std::vector<std::vector<int>> parts_of_route_, parts_of_aov_;
   std::vector<int> all_parts_;
-  std::vector<std::vector<RgbSum>> sums_;     ///< [part][pixel]
-  std::vector<std::vector<RgbSum>> squares_;  ///< [group][pixel], of an estimate's sum over parts
+  std::vector<ZeroedArray<RgbSum>> sums_;     ///< [part][pixel]
+  std::vector<ZeroedArray<RgbSum>> squares_;  ///< [group][pixel], of an estimate's sum over parts
   std::vector<uint64_t> estimates_;           ///< [group], and of features
   /// Progress of one group in an unfinished pass.
   struct OpenPass {
@@ -217,12 +219,12 @@ class Film {
   };
   PixelSlices slices_;
   std::vector<OpenPass> open_;             ///< [group], and of features
-  std::vector<std::vector<Bias>> biases_;  ///< [group][pixel], of groups that merge; or empty
+  std::vector<ZeroedArray<Bias>> biases_;  ///< [group][pixel], of groups that merge; or empty
   std::optional<OutlierRejection> outliers_;
-  std::vector<Features> features_;
-  std::vector<uint64_t> depths_;           ///< [pixel], feature samples that hit something
-  std::vector<SurfaceSums> surfaces_;      ///< empty without geometric layers
-  std::vector<uint64_t> surface_samples_;  ///< [pixel], of these
+  ZeroedArray<Features> features_;
+  ZeroedArray<uint64_t> depths_;           ///< [pixel], feature samples that hit something
+  ZeroedArray<SurfaceSums> surfaces_;      ///< empty without geometric layers
+  ZeroedArray<uint64_t> surface_samples_;  ///< [pixel], of these
   std::vector<BadEstimates> bad_;          ///< [route]
   uint64_t saturated_ = 0;
 };

@@ -17,7 +17,7 @@ bool Film::has_open_pass() const {
       open_, [](const OpenPass& open) { return open.slices > 0 || open.is_whole != 0; });
 }
 bool Film::has_light() const {
-  for (const std::vector<RgbSum>& part : sums_)
+  for (const ZeroedArray<RgbSum>& part : sums_)
     for (const RgbSum& sum : part)
       for (const FixedSum& component : sum.rgb)
         if (component.bits != 0) return true;

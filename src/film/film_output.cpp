@@ -1,9 +1,10 @@
-// The layers of the output file, filled row by row. Rows are independent, so they are filled in
-// parallel.
+// The layers of the output file, row by row.
 #include "film/film_output.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
+#include <string_view>
 #include <utility>
 
 #include "core/parallel.h"
@@ -72,6 +73,16 @@ float* put_gbuffer(float* out, const Film& film, int x, int y, uint64_t samples)
   return out;
 }
 
+/// The picture itself, and what is measured in units of the scene or counted, need all digits.
+bool may_be_in_half(const std::string& channel) {
+  static constexpr std::array<std::string_view, 4> kLayersInFloat = {"", "P", "Variance",
+                                                                     "RelativeVariance"};
+  const size_t dot = channel.rfind('.');
+  const std::string_view layer =
+      dot == std::string::npos ? std::string_view() : std::string_view(channel).substr(0, dot);
+  return std::ranges::find(kLayersInFloat, layer) == kLayersInFloat.end();
+}
+
 /// Calls body(y) for each row of the film, rows in parallel.
 template <class Body>
 void for_each_row(const Film& film, const Body& body) {
@@ -82,41 +93,57 @@ void for_each_row(const Film& film, const Body& body) {
 
 }  // namespace
 
-Picture film_picture(const Film& film, Metadata metadata) {
-  const PixelBounds& bounds = film.bounds();
+PictureHead film_head(const Film& film, Metadata metadata) {
+  PictureHead head;
+  head.full_width = film.settings().width;
+  head.full_height = film.settings().height;
+  head.window = film.bounds();
+  head.channels = channel_names(film);
+  head.color_space = film.settings().color_space;
+  head.metadata = std::move(metadata);
+  return head;
+}
+
+void film_row(const Film& film, int y, float* out) {
   const int routes = static_cast<int>(film.layout().routes.size());
   const int aovs = static_cast<int>(film.layout().aovs.size());
-  Picture picture;
-  picture.full_width = film.settings().width;
-  picture.full_height = film.settings().height;
-  picture.window = bounds;
-  picture.channels = channel_names(film);
-  picture.color_space = film.settings().color_space;
-  picture.metadata = std::move(metadata);
-  const size_t stride = picture.channels.size();
-  picture.pixels.resize(bounds.area() * stride);
+  for (int x = film.bounds().x0; x < film.bounds().x1; ++x) {
+    uint64_t samples = 0;
+    for (int g = 0; g < film.layout().group_count(); ++g)
+      samples = std::max(samples, film.estimates(g, x, y));
+    out = put(out, film.value(x, y));
+    for (int r = 0; r < routes; ++r) out = put(out, film.route_value(r, x, y));
+    for (int a = 0; a < aovs; ++a) out = put(out, film.aov_value(a, x, y));
+    if (film.rejection() != nullptr) out = put(out, film.outliers(x, y));
+    out = put(out, film.albedo(x, y));
+    const bool gbuffer = film.settings().gbuffer;
+    out = put(out, gbuffer ? film.surface(x, y).n : film.normal(x, y));
+    if (gbuffer) out = put_gbuffer(out, film, x, y, samples);
+    *out++ = film.depth(x, y);
+    out = put(out, film.standard_error(x, y));
+    if (film.has_bias()) *out++ = film.bias(x, y);
+    *out++ = static_cast<float>(samples);
+  }
+}
+
+Picture film_picture(const Film& film, Metadata metadata) {
+  Picture picture{film_head(film, std::move(metadata)), {}};
+  const size_t row = picture.channels.size() * static_cast<size_t>(picture.width());
+  picture.pixels.resize(row * static_cast<size_t>(picture.height()));
   for_each_row(film, [&](int y) {
-    const size_t row = static_cast<size_t>(y - bounds.y0) * bounds.width();
-    float* out = picture.pixels.data() + row * stride;
-    for (int x = bounds.x0; x < bounds.x1; ++x) {
-      uint64_t samples = 0;
-      for (int g = 0; g < film.layout().group_count(); ++g)
-        samples = std::max(samples, film.estimates(g, x, y));
-      out = put(out, film.value(x, y));
-      for (int r = 0; r < routes; ++r) out = put(out, film.route_value(r, x, y));
-      for (int a = 0; a < aovs; ++a) out = put(out, film.aov_value(a, x, y));
-      if (film.rejection() != nullptr) out = put(out, film.outliers(x, y));
-      out = put(out, film.albedo(x, y));
-      const bool gbuffer = film.settings().gbuffer;
-      out = put(out, gbuffer ? film.surface(x, y).n : film.normal(x, y));
-      if (gbuffer) out = put_gbuffer(out, film, x, y, samples);
-      *out++ = film.depth(x, y);
-      out = put(out, film.standard_error(x, y));
-      if (film.has_bias()) *out++ = film.bias(x, y);
-      *out++ = static_cast<float>(samples);
-    }
+    film_row(film, y, picture.pixels.data() + row * static_cast<size_t>(y - picture.window.y0));
   });
   return picture;
+}
+
+void write_film_exr(const std::string& path, const Film& film, Metadata metadata,
+                    LayerPrecision precision) {
+  const PictureHead head = film_head(film, std::move(metadata));
+  std::vector<bool> may_be_half(head.channels.size(), false);
+  if (precision == LayerPrecision::kHalf)
+    for (size_t i = 0; i < may_be_half.size(); ++i)
+      may_be_half[i] = may_be_in_half(head.channels[i]);
+  write_exr(path, head, may_be_half, [&](int y, float* row) { film_row(film, y, row); });
 }
 
 std::vector<uint8_t> film_srgb8(const Film& film, float exposure) {
@@ -137,8 +164,8 @@ std::vector<uint8_t> film_srgb8(const Film& film, float exposure) {
 }
 
 void write_film(const std::string& path, const Film& film, Metadata metadata, float exposure,
-                const RenderState* state) {
-  write_exr(path, film_picture(film, std::move(metadata)), state);
+                LayerPrecision precision) {
+  write_film_exr(path, film, std::move(metadata), precision);
   write_preview(path, film, exposure);
 }
 

@@ -20,10 +20,16 @@ Picture film_picture(const Film& film, Metadata metadata);
 /// The film's R G B times `exposure`, in sRGB primaries and transfer, interleaved bytes.
 std::vector<uint8_t> film_srgb8(const Film& film, float exposure);
 
-/// Writes the picture as EXR to `path`, with the state of its render if there is one, and its PNG
-/// to png_path_beside(path). Throws IoError.
+/// Layers beside R G B, Z and samples are written as 16-bit floats where these hold them, which
+/// halves a file, or all in 32 bits.
+enum class LayerPrecision { kHalf, kFloat };
+
+/// Writes the picture as EXR to `path`. Makes it row by row. Throws IoError.
+void write_film_exr(const std::string& path, const Film& film, Metadata metadata,
+                    LayerPrecision precision = LayerPrecision::kHalf);
+/// The same, and its PNG to png_path_beside(path).
 void write_film(const std::string& path, const Film& film, Metadata metadata, float exposure,
-                const RenderState* state = nullptr);
+                LayerPrecision precision = LayerPrecision::kHalf);
 /// The PNG alone.
 void write_preview(const std::string& path, const Film& film, float exposure);
 

@@ -10,17 +10,16 @@ namespace nephroid {
 RenderState Film::state() {
   RenderState state;
   const auto numbered = [](const char* name, size_t i) { return name + std::to_string(i); };
-  for (size_t i = 0; i < sums_.size(); ++i)
-    state.add(numbered("film.sum.", i), std::span(sums_[i]));
+  for (size_t i = 0; i < sums_.size(); ++i) state.add(numbered("film.sum.", i), sums_[i].items());
   for (size_t g = 0; g < squares_.size(); ++g)
-    state.add(numbered("film.square.", g), std::span(squares_[g]));
+    state.add(numbered("film.square.", g), squares_[g].items());
   for (size_t g = 0; g < biases_.size(); ++g)
-    if (!biases_[g].empty()) state.add(numbered("film.bias.", g), std::span(biases_[g]));
-  state.add("film.features", std::span(features_));
-  state.add("film.depths", std::span(depths_));
+    if (!biases_[g].empty()) state.add(numbered("film.bias.", g), biases_[g].items());
+  state.add("film.features", features_.items());
+  state.add("film.depths", depths_.items());
   if (!surfaces_.empty()) {
-    state.add("film.surfaces", std::span(surfaces_));
-    state.add("film.surface_samples", std::span(surface_samples_));
+    state.add("film.surfaces", surfaces_.items());
+    state.add("film.surface_samples", surface_samples_.items());
   }
   state.add("film.bad", std::span(bad_));
   state.add("film.estimates", std::span(estimates_));

@@ -3,9 +3,11 @@
 // cancel.
 #include "film/fixed_sum.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace nephroid {
 namespace {
@@ -63,6 +65,30 @@ bool FixedSum::add(double x) {
 
 bool FixedSum::add(const FixedSum& other) {
   return add_saturating(&bits, other.bits);
+}
+
+bool UnitSum::add(float x) {
+  constexpr double kStepsOfOne = 0x1p40, kLargest = 0x1p22;
+  if (!std::isfinite(x)) return false;
+  // Exact but for the rounding to a step.
+  const double held = std::clamp(double{x}, -kLargest, kLargest);
+  return add(UnitSum{std::llrint(held * kStepsOfOne)}) && held == double{x};
+}
+
+bool UnitSum::add(const UnitSum& other) {
+  constexpr int64_t kMost = std::numeric_limits<int64_t>::max();
+  int64_t result = 0;
+  const bool overflow = __builtin_add_overflow(bits, other.bits, &result);
+  if (overflow || result < -kMost) {
+    bits = other.bits < 0 ? -kMost : kMost;
+    return false;
+  }
+  bits = result;
+  return true;
+}
+
+double UnitSum::value() const {
+  return static_cast<double>(bits) * 0x1p-40;
 }
 
 double FixedSum::value() const {

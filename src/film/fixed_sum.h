@@ -3,6 +3,8 @@
 // outlier rejection. It must not know pixels.
 #pragma once
 
+#include <cstdint>
+
 namespace nephroid {
 
 /// Signed 128-bit fixed point with 64 fractional bits; saturates instead of wrapping.
@@ -13,6 +15,16 @@ struct FixedSum {
   /// is then unchanged, or at the limit).
   bool add(double x);
   bool add(const FixedSum& other);
+  double value() const;
+};
+
+/// The sum of numbers of about 1, of albedos and normals: 64-bit fixed point with 40 fractional
+/// bits, half as large. Saturates after 2^23 of them.
+struct UnitSum {
+  int64_t bits = 0;
+  /// As FixedSum::add.
+  bool add(float x);
+  bool add(const UnitSum& other);
   double value() const;
 };
 

@@ -50,7 +50,33 @@ std::vector<unsigned char> encoded(const std::string& path, const char* format,
 OIIO::ImageSpec png_spec(int width, int height) {
   OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");
+  // Of 1 to 9: previews are written often, and noise does not compress.
+  spec.attribute("png:compressionLevel", 3);
   return spec;
+}
+
+std::unique_ptr<OIIO::ImageInput> open_picture(const std::string& path) {
+  if (const std::string fault = fault_of_exr_header(path); !fault.empty())
+    throw IoError(path + ": cannot read: " + fault);
+  auto in = OIIO::ImageInput::open(path);
+  if (!in) {
+    const std::string reason = OIIO::geterror();
+    throw IoError(path + ": cannot read: " + (reason.empty() ? "unknown format" : reason));
+  }
+  return in;
+}
+
+PictureHead head_of(const OIIO::ImageSpec& spec) {
+  PictureHead head;
+  head.full_width = spec.full_width;
+  head.full_height = spec.full_height;
+  head.window = {spec.x, spec.y, spec.x + spec.width, spec.y + spec.height};
+  head.channels = spec.channelnames;
+  head.color_space = color_space_of(spec);
+  for (const OIIO::ParamValue& attribute : spec.extra_attribs)
+    if (attribute.type() == OIIO::TypeDesc::STRING)
+      head.metadata.emplace_back(attribute.name().string(), attribute.get_string());
+  return head;
 }
 
 }  // namespace
@@ -76,27 +102,17 @@ std::vector<uint8_t> encode_png(int width, int height, const std::vector<uint8_t
   return encoded("a PNG", "png", png_spec(width, height), OIIO::TypeDesc::UINT8, rgb.data());
 }
 
+PictureHead read_picture_head(const std::string& path) {
+  return head_of(open_picture(path)->spec());
+}
+
 Picture read_picture(const std::string& path) {
-  if (const std::string fault = fault_of_exr_header(path); !fault.empty())
-    throw IoError(path + ": cannot read: " + fault);
-  const auto in = OIIO::ImageInput::open(path);
-  if (!in) {
-    const std::string reason = OIIO::geterror();
-    throw IoError(path + ": cannot read: " + (reason.empty() ? "unknown format" : reason));
-  }
+  const auto in = open_picture(path);
   const OIIO::ImageSpec& spec = in->spec();
-  Picture picture;
-  picture.full_width = spec.full_width;
-  picture.full_height = spec.full_height;
-  picture.window = {spec.x, spec.y, spec.x + spec.width, spec.y + spec.height};
-  picture.channels = spec.channelnames;
-  picture.color_space = color_space_of(spec);
+  Picture picture{head_of(spec), {}};
   if (!is_possible_size(spec.image_bytes(true), path))
     throw IoError(path + ": cannot read: it claims more pixels than could be in it");
   picture.pixels.resize(spec.image_pixels() * spec.nchannels);
-  for (const OIIO::ParamValue& attribute : spec.extra_attribs)
-    if (attribute.type() == OIIO::TypeDesc::STRING)
-      picture.metadata.emplace_back(attribute.name().string(), attribute.get_string());
   if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, picture.pixels.data()))
     throw IoError(path + ": cannot read: " + in->geterror());
   return picture;

@@ -19,19 +19,22 @@ using Metadata = std::vector<std::pair<std::string, std::string>>;
 /// Of the first such key; empty if there is none.
 std::string value_of(const Metadata& metadata, const std::string& key);
 
-/// Named channels of floats, interleaved, rows from the top; `window` is the part of the full
-/// picture that the pixels are.
-struct Picture {
+/// All of a picture but its pixels; `window` is the part of the full picture that they are.
+struct PictureHead {
   int full_width = 0, full_height = 0;
   PixelBounds window;
   std::vector<std::string> channels;
-  std::vector<float> pixels;
   /// Written as the file's chromaticities unless it is null or sRGB.
   const RgbColorSpace* color_space = nullptr;
   Metadata metadata;
 
   int width() const { return window.width(); }
   int height() const { return window.height(); }
+};
+
+/// Named channels of floats, interleaved, rows from the top.
+struct Picture : PictureHead {
+  std::vector<float> pixels;
   /// Index of a channel by its exact name, -1 if it is not there.
   int find_channel(const std::string& name) const;
 };
@@ -42,6 +45,9 @@ void write_png(const std::string& path, int width, int height, const std::vector
 
 /// The bytes of such a PNG file. Throws IoError.
 std::vector<uint8_t> encode_png(int width, int height, const std::vector<uint8_t>& rgb);
+
+/// Window, channels and metadata of the first image of a file of any format. Throws IoError.
+PictureHead read_picture_head(const std::string& path);
 
 /// Reads the first image of a file of any format, as floats without any conversion of colour, with
 /// string metadata and the colour space that the file's chromaticities tell of. Throws IoError.

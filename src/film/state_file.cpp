@@ -1,110 +1,187 @@
+// Blocks are packed and unpacked by all threads, some at a time, and written and read in order.
 // Nothing is taken for granted: a file may be damaged, or made to do harm.
 #include "film/state_file.h"
 
-#include <OpenEXR/ImfChannelList.h>
-#include <OpenEXR/ImfFrameBuffer.h>
-#include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfInputPart.h>
-#include <OpenEXR/ImfMultiPartInputFile.h>
-#include <OpenEXR/ImfStringAttribute.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
+#include <array>
+#include <atomic>
 #include <cstring>
 #include <filesystem>
-#include <map>
+#include <fstream>
 
 #include "core/content_hash.h"
 #include "core/errors.h"
-#include "film/exr_layout.h"
-#include "input/exr_header.h"
+#include "core/parallel.h"
+#include "film/atomic_file.h"
+#include "film/packed_blocks.h"
+#include "film/state_index.h"
 
 namespace nephroid {
+namespace {
+
+constexpr std::array<char, 8> kBegin = {'N', 'E', 'P', 'H', 'S', 'T', 'A', 1};
+
+/// The last bytes of a file.
+struct Footer {
+  uint64_t index_offset = 0, index_bytes = 0, index_hash = 0;
+  std::array<char, 8> end = kBegin;
+};
+
+/// Blocks in memory at a time.
+constexpr size_t kBlocksAtOnce = 16;
+using Blocks = std::array<PackedBlock, kBlocksAtOnce>;
+
+/// Bytes of a block of a section, within those of the section.
+struct Extent {
+  size_t offset = 0, size = 0;
+};
+Extent extent_of_block(const StateIndex::Section& section, size_t block) {
+  const size_t offset = block * section.block_bytes();
+  return {offset, std::min<size_t>(section.block_bytes(), section.bytes - offset)};
+}
+
+/// Calls body(i) for each of `count` on all threads.
+template <class Body>
+void for_each_of(size_t count, const Body& body) {
+  parallel_chunks(static_cast<int64_t>(count), 1, [&](int64_t, int64_t begin, int64_t end) {
+    for (int64_t i = begin; i < end; ++i) body(static_cast<size_t>(i));
+  });
+}
+
+class Output {
+ public:
+  explicit Output(const std::string& path) : file_(path) {
+    write(std::as_bytes(std::span(kBegin)));
+  }
+
+  StateIndex::Section write_section(const std::string& name, size_t words,
+                                    std::span<const std::byte> bytes) {
+    StateIndex::Section section{
+        name, static_cast<uint32_t>(words), bytes.size(), hash_of(bytes), offset_, {}};
+    const size_t blocks = section.block_count();
+    for (size_t first = 0; first < blocks; first += kBlocksAtOnce) {
+      const size_t count = std::min(kBlocksAtOnce, blocks - first);
+      for_each_of(count, [&](size_t i) {
+        const Extent extent = extent_of_block(section, first + i);
+        pack_block(bytes.subspan(extent.offset, extent.size), section.stride(), blocks_[i]);
+      });
+      for (size_t i = 0; i < count; ++i) {
+        section.blocks.push_back(static_cast<uint32_t>(blocks_[i].packed.size()));
+        write(blocks_[i].packed);
+      }
+    }
+    return section;
+  }
+  void finish(const StateIndex& index) {
+    const std::vector<std::byte> bytes = index.to_bytes();
+    const Footer footer{offset_, bytes.size(), hash_of(bytes)};
+    write(bytes);
+    write(std::as_bytes(std::span(&footer, 1)));
+    file_.commit();
+  }
+
+ private:
+  void write(std::span<const std::byte> bytes) {
+    file_.write(offset_, bytes);
+    offset_ += bytes.size();
+  }
+  AtomicFile file_;
+  uint64_t offset_ = 0;
+  Blocks blocks_;
+};
+
+}  // namespace
+
+std::string state_path_beside(const std::string& picture_path) {
+  return std::filesystem::path(picture_path).replace_extension(".state").string();
+}
+
+void write_state(const std::string& path, const StateHead& head, const RenderState& state) {
+  Output out(path);
+  StateIndex index{head.resolution, head.window, head.metadata, {}};
+  for (const RenderState::Array& array : state.arrays)
+    index.sections.push_back(out.write_section(array.name, array.words, array.bytes));
+  for (const RenderState::Stream& stream : state.streams) {
+    const std::vector<uint32_t> words = stream.save();
+    index.sections.push_back(out.write_section(stream.name, 1, std::as_bytes(std::span(words))));
+  }
+  out.finish(index);
+}
 
 struct StateFile::Input {
   std::string path;
   uint64_t bytes = 0;
-  std::unique_ptr<Imf::MultiPartInputFile> file;
-  struct Place {
-    int part = 0;
-    PixelBounds window;
-    size_t words = 0;        ///< of a pixel
-    size_t total_words = 0;  ///< as the file claims
-  };
-  std::map<std::string, Place> parts;
+  std::ifstream file;
+  StateIndex index;
+  Blocks blocks;
 
   [[noreturn]] void fail(const std::string& what) const {
     throw IoError(path + ": cannot read its state: " + what);
   }
-  const Place& find(const std::string& name) const {
-    const auto found = parts.find(name);
-    if (found == parts.end()) fail("'" + name + "' is missing");
-    return found->second;
+  void read(uint64_t offset, std::span<std::byte> into) {
+    file.seekg(static_cast<std::streamoff>(offset));
+    file.read(reinterpret_cast<char*>(into.data()), static_cast<std::streamsize>(into.size()));
+    if (!file) fail("the file is shorter than it says");
   }
-
-  /// Reads a part into memory that has room for all of it.
-  void read(const std::string& name, const Place& place, void* memory) const {
+  void open(const std::string& name) {
+    path = name;
+    file.open(path, std::ios::binary);
+    std::error_code error;
+    bytes = std::filesystem::file_size(path, error);
+    if (!file || error) throw IoError(path + ": cannot read");
+    std::array<char, 8> begin{};
+    if (bytes < sizeof(begin) + sizeof(Footer)) fail("it is no state of a render, or damaged");
+    read(0, std::as_writable_bytes(std::span(begin)));
+    if (!std::equal(begin.begin(), begin.end() - 1, kBegin.begin()))
+      fail("it is no state of a render, or damaged");
+    if (begin.back() != kBegin.back()) fail("another version of this program wrote it");
+    Footer footer;
+    read(bytes - sizeof(footer), std::as_writable_bytes(std::span(&footer, 1)));
+    const uint64_t before_footer = bytes - sizeof(footer);
+    if (footer.end != kBegin || footer.index_bytes > before_footer ||
+        footer.index_offset != before_footer - footer.index_bytes)
+      fail("it is not whole");
+    std::vector<std::byte> of_index(footer.index_bytes);
+    read(footer.index_offset, of_index);
+    if (hash_of(of_index) != footer.index_hash) fail("its index is damaged");
     try {
-      Imf::InputPart part(*file, place.part);
-      part.setFrameBuffer(
-          frame_of(place.window, channels_of_words(place.words), Imf::UINT, memory));
-      part.readPixels(place.window.y0, place.window.y1 - 1);
-    } catch (const std::exception& error) {
-      fail(fmt::format("'{}' cannot be read: {}", name, error.what()));
+      index = StateIndex::from_bytes(of_index, footer.index_offset);
+    } catch (const IoError& error_of_index) {
+      fail(error_of_index.what());
     }
   }
 
-  std::vector<uint32_t> read_stream(const std::string& name, size_t most_words) const {
-    const Place& place = find(name);
-    const PixelBounds wanted = window_of_stream(std::min(place.total_words, most_words));
-    if (place.words != 1 || place.total_words > most_words ||
-        place.window.width() != wanted.width() || place.window.height() != wanted.height())
-      fail("'" + name + "' has a size that it cannot have");
-    std::vector<uint32_t> words(wanted.area());
-    read(name, place, words.data());
-    words.resize(place.total_words);
-    return words;
+  const StateIndex::Section& find(const std::string& name) const {
+    const auto found = std::ranges::find(index.sections, name, &StateIndex::Section::name);
+    if (found == index.sections.end()) fail("'" + name + "' is missing");
+    return *found;
+  }
+  /// Reads all blocks of a section into memory of its size.
+  void read_section(const StateIndex::Section& section, std::span<std::byte> into) {
+    uint64_t offset = section.offset;
+    std::atomic<bool> is_whole = true;
+    for (size_t first = 0; first < section.blocks.size(); first += kBlocksAtOnce) {
+      const size_t count = std::min(kBlocksAtOnce, section.blocks.size() - first);
+      for (size_t i = 0; i < count; ++i) {
+        std::vector<std::byte>& packed = blocks[i].packed;
+        packed.resize(section.blocks[first + i]);
+        read(offset, packed);
+        offset += packed.size();
+      }
+      for_each_of(count, [&](size_t i) {
+        const Extent extent = extent_of_block(section, first + i);
+        if (!unpack_block(blocks[i], section.stride(), into.subspan(extent.offset, extent.size)))
+          is_whole = false;
+      });
+    }
+    if (!is_whole || hash_of(into) != section.hash) fail("'" + section.name + "' is damaged");
   }
 };
 
 StateFile::StateFile(const std::string& path) : input_(std::make_unique<Input>()) {
-  Input& in = *input_;
-  in.path = path;
-  // Runs of equal bytes are unpacked as fast as they are read, and every thread would have buffers.
-  constexpr int kThreads = 0;
-  if (const std::string fault = fault_of_exr_header(path, kThreads); !fault.empty())
-    throw IoError(path + ": cannot read: " + fault);
-  try {
-    in.bytes = std::filesystem::file_size(path);
-    in.file = std::make_unique<Imf::MultiPartInputFile>(path.c_str(), kThreads);
-    const Imf::Header& first = in.file->header(0);
-    for (auto a = first.begin(); a != first.end(); ++a)
-      if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&a.attribute()))
-        metadata_.emplace_back(a.name(), text->value());
-    const std::string prefix = kPartPrefix;
-    for (int i = 1; i < in.file->parts(); ++i) {
-      const Imf::Header& header = in.file->header(i);
-      const auto* words = header.findTypedAttribute<Imf::StringAttribute>(kWordsKey);
-      if (!words || !header.hasName() || !header.name().starts_with(prefix)) continue;
-      if (!is_of_state(header))
-        throw IoError(fmt::format("'{}' is no part of this program's", header.name()));
-      const Imath::Box2i& box = header.dataWindow();
-      Input::Place place{i, {box.min.x, box.min.y, box.max.x + 1, box.max.y + 1}, 0, 0};
-      for (auto c = header.channels().begin(); c != header.channels().end(); ++c) ++place.words;
-      const std::string& text = words->value();
-      std::from_chars(text.data(), text.data() + text.size(), place.total_words);
-      in.parts[header.name().substr(prefix.size())] = place;
-    }
-  } catch (const std::exception& error) {
-    throw IoError(path + ": cannot read: " + error.what());
-  }
-  const auto checksums = in.parts.find(kChecksums);
-  if (checksums == in.parts.end()) return;  // there is no state, or it cannot be loaded
-  const auto* texts =
-      in.file->header(checksums->second.part).findTypedAttribute<Imf::StringAttribute>(kTextsKey);
-  if (!texts) in.fail("it was written by an earlier build of this program");
-  if (texts->value() != hash_of_texts(in.file->header(0))) in.fail("its metadata are damaged");
+  input_->open(path);
 }
 
 StateFile::~StateFile() = default;
@@ -115,57 +192,49 @@ const std::string& StateFile::path() const {
   return input_->path;
 }
 
+const Metadata& StateFile::metadata() const {
+  return input_->index.metadata;
+}
+
 Vec2i StateFile::resolution() const {
-  const Imath::Box2i& box = input_->file->header(0).displayWindow();
-  return {box.max.x - box.min.x + 1, box.max.y - box.min.y + 1};
+  return input_->index.resolution;
 }
 
 PixelBounds StateFile::window() const {
-  const Imath::Box2i& box = input_->file->header(0).dataWindow();
-  return {box.min.x, box.min.y, box.max.x + 1, box.max.y + 1};
+  return input_->index.window;
 }
 
 uint64_t StateFile::size() const {
   return input_->bytes;
 }
 
-bool StateFile::has_state() const {
-  return !input_->parts.empty();
-}
-
 void StateFile::load(const RenderState& state) {
-  const Input& in = *input_;
-  std::vector<uint64_t> found;
+  Input& in = *input_;
+  if (in.index.sections.size() != state.arrays.size() + state.streams.size())
+    for (const StateIndex::Section& section : in.index.sections) {
+      const auto has_name = [&](const auto& item) { return item.name == section.name; };
+      if (std::ranges::none_of(state.arrays, has_name) &&
+          std::ranges::none_of(state.streams, has_name))
+        in.fail("'" + section.name + "' is not of this render");
+    }
   for (const RenderState::Array& array : state.arrays) {
-    const Input::Place& place = in.find(array.name);
-    if (place.total_words * 4 != array.bytes.size())
+    const StateIndex::Section& section = in.find(array.name);
+    if (section.bytes != array.bytes.size() || section.words != array.words)
       in.fail("'" + array.name + "' has a size that it cannot have");
-    if (place.words == array.words && static_cast<size_t>(place.window.area()) == array.items()) {
-      in.read(array.name, place, array.bytes.data());
-    } else {
-      const std::vector<uint32_t> words = in.read_stream(array.name, array.bytes.size() / 4);
-      std::memcpy(array.bytes.data(), words.data(), array.bytes.size());
-    }
-    found.push_back(hash_of(array.bytes));
+    in.read_section(section, array.bytes);
   }
-  std::vector<std::vector<uint32_t>> streams;
   for (const RenderState::Stream& stream : state.streams) {
-    streams.push_back(in.read_stream(stream.name, stream.most_words));
-    found.push_back(hash_of(std::as_bytes(std::span(streams.back()))));
-  }
-  const std::vector<uint32_t> checksums = in.read_stream(kChecksums, 2 * found.size());
-  if (checksums.size() != 2 * found.size()) in.fail("its parts are not those of this render");
-  for (size_t i = 0; i < found.size(); ++i)
-    if (const auto words = words_of_hash(found[i]);
-        !std::equal(words.begin(), words.end(), checksums.begin() + 2 * i))
-      in.fail(fmt::format("'{}' is damaged", i < state.arrays.size()
-                                                 ? state.arrays[i].name
-                                                 : state.streams[i - state.arrays.size()].name));
-  for (size_t i = 0; i < streams.size(); ++i) try {
-      state.streams[i].load(streams[i]);
+    const StateIndex::Section& section = in.find(stream.name);
+    if (section.words != 1 || section.bytes > 4 * stream.most_words)
+      in.fail("'" + stream.name + "' has a size that it cannot have");
+    std::vector<uint32_t> words(section.bytes / 4);
+    in.read_section(section, std::as_writable_bytes(std::span(words)));
+    try {
+      stream.load(words);
     } catch (const IoError& error) {
-      in.fail(fmt::format("'{}': {}", state.streams[i].name, error.what()));
+      in.fail(fmt::format("'{}': {}", stream.name, error.what()));
     }
+  }
 }
 
 }  // namespace nephroid

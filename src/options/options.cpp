@@ -26,6 +26,11 @@ constexpr int64_t kMaxBenchRepeats = 1000;
 constexpr int64_t kMaxBenchPasses = std::numeric_limits<uint32_t>::max() - 1;
 
 template <auto Command>
+void set_float(CommandLine& line, const std::string&) {
+  (line.*Command).layer_precision = LayerPrecision::kFloat;
+}
+
+template <auto Command>
 void set_output(CommandLine& line, const std::string& text) {
   const bool is_exr = text.size() > 4 && text.compare(text.size() - 4, 4, ".exr") == 0;
   if (!is_exr)
@@ -114,6 +119,9 @@ const std::string kRouteHelp =
 constexpr const char* kAovHelp =
     "One more layer: the light of all paths that match. It does not matter which route renders "
     "them.";
+constexpr const char* kFloatHelp =
+    "All layers in 32-bit floats. Otherwise R, G, B, Z, positions and variances are, and other "
+    "layers are in 16 bits unless these do not hold their values.";
 constexpr const char* kStrictHelp = "Overlapping routes are an error.";
 constexpr const char* kSettingHelp = "Set a number of the integrator; may be given several times.";
 
@@ -153,12 +161,12 @@ const OptionDescription kOptions[] = {
     {"render", "--aov", "", "NAME=EXPR", "", "", "Output", kAovHelp, true,
      add_aov<&CommandLine::render>},
     {"render", "--resume", "", "", "", "", "Output",
-     "Continue the render saved in the output file, or start it if there is none. The result has "
-     "the bits of an uninterrupted run.",
+     "Go on with the render of OUT.state, or start it. The result has the bits of an uninterrupted "
+     "run.",
      false, [](CommandLine& l, const std::string&) { l.render.resume = true; }},
     {"render", "--checkpoint", "", "TIME", "s, m or h", "60s", "Output",
-     "How often the picture is written while it is made. It then has all that is needed to go on; "
-     "it is written less often where that would take more than 2 % of the time.",
+     "How often the picture and its state, OUT.state, are written while it is made. It is less "
+     "often where that would take more than 2 % of the time.",
      false,
      [](CommandLine& l, const std::string& t) {
        l.render.checkpoint_interval = parse_duration("--checkpoint", t);
@@ -169,10 +177,12 @@ const OptionDescription kOptions[] = {
      false,
      [](CommandLine& l, const std::string&) { l.render.strict = true; }},
     {"render", "--no-state", "", "", "", "", "Output",
-     "Leave out what --resume needs, for a smaller file. Pictures on the way, and that of a render "
-     "that a signal stops, have it.",
+     "Leave no OUT.state beside the last picture. --resume and merge need it; pictures on the way, "
+     "and that of a render that a signal stops, have one.",
      false,
      [](CommandLine& l, const std::string&) { l.render.keeps_state = false; }},
+    {"render", "--float", "", "", "", "", "Output", kFloatHelp, false,
+     set_float<&CommandLine::render>},
     {"render", "--quiet", "", "", "", "", "Output",
      "Print only errors, and warnings about the output file.",
      false, [](CommandLine& l, const std::string&) { l.render.quiet = true; }},
@@ -230,11 +240,13 @@ const OptionDescription kOptions[] = {
          throw UsageError("--memory: '" + t + "' is not valid, expected at least 256M");
      }},
     {"merge", "PICTURE", "", "", "", "", "",
-     "Pictures of one render, of disjoint passes (render --passes A..B), with their state.", true,
+     "Pictures of one render, of disjoint passes (render --passes A..B), or their states, which "
+     "must be beside them.", true,
      [](CommandLine& l, const std::string& t) { l.merge.inputs.push_back(t); }},
     {"merge", "--output", "-o", "OUT.exr", "", "", "",
-     "Their sum, from which a render can go on; a PNG is written beside it.", false,
+     "Their sum, from which a render can go on; its state and a PNG are written beside it.", false,
      set_output<&CommandLine::merge>},
+    {"merge", "--float", "", "", "", "", "", kFloatHelp, false, set_float<&CommandLine::merge>},
     {"routes", "SCENE", "", "", "", "none", "",
      "A scene: what of the routes can occur in it, and how its light divides among them.", false,
      [](CommandLine& l, const std::string& t) { l.routes.scene = t; }},

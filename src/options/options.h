@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "film/film_output.h"
 #include "scene/scene.h"
 #include "session/route_plan.h"
 #include "session/settings/integrator_settings.h"
@@ -32,6 +33,7 @@ struct RenderCommand {
   bool resume = false;
   double checkpoint_interval = 60;  ///< s
   bool keeps_state = true;
+  LayerPrecision layer_precision = LayerPrecision::kHalf;
   bool strict = false;
   bool quiet = false;
 };
@@ -52,6 +54,7 @@ struct RoutesCommand {
 struct MergeCommand {
   std::vector<std::string> inputs;
   std::string output;
+  LayerPrecision layer_precision = LayerPrecision::kHalf;
 };
 
 struct CompareCommand {

@@ -72,8 +72,7 @@ void check_memory(const MemoryNeed& need, uint64_t limit, bool limit_is_an_optio
   const PixelBytes of_estimators = bytes_of_estimators(need);
   const size_t channels = channels_of_picture(need.layout, gbuffer);
   constexpr size_t kPngBytes = 3;
-  const uint64_t of_encoder =
-      encoder_bytes(width, channels, (of_film + of_estimators.kept) / sizeof(uint32_t));
+  const uint64_t of_encoder = encoder_bytes(width, channels);
   const auto of_pixels = [&](size_t bytes) { return pixels * static_cast<double>(bytes); };
   const struct {
     const char* what;
@@ -86,10 +85,8 @@ void check_memory(const MemoryNeed& need, uint64_t limit, bool limit_is_an_optio
                                                    static_cast<double>(kBytesPerPhoton)
                                              : 0.0},
       {"textures", static_cast<double>(need.textures)},
-      {"writing the picture", need.writes
-                                  ? of_pixels(sizeof(float) * channels + kPngBytes + of_rejection) +
-                                        static_cast<double>(of_encoder)
-                                  : 0.0},
+      {"writing the picture",
+       need.writes ? of_pixels(kPngBytes + of_rejection) + static_cast<double>(of_encoder) : 0.0},
   };
   double total = 0;
   std::string list;

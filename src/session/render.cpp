@@ -69,17 +69,6 @@ std::vector<std::string> warnings_of_passes_beyond(const RenderOptions& options)
                       options.output, done.text(), options.first_pass, *options.last_pass)};
 }
 
-/// A warning if the output is a picture of this render that need not be rendered again.
-std::vector<std::string> warnings_of_replacing(const std::string& output,
-                                               const RenderIdentity& here) {
-  const PassRanges passes = passes_to_go_on_from(output, here);
-  if (passes.empty()) return {};
-  return {
-      fmt::format("{} has passes {} of this very render and will be replaced; --resume "
-                  "goes on with it",
-                  output, passes.text())};
-}
-
 /// Reads the state of an earlier run into film and estimators.
 void resume(RenderOptions& options, const Scene& scene, EstimatorSet& set, Film& film,
             const Warn& warn) {
@@ -138,14 +127,15 @@ Render::Render(const RenderRequest& request, const LoadedScene& loaded, RenderWa
   identity_ = identity_of(request, loaded, choice_, plan_);
   identity_.set_film(*film_, options.seed);
   options.identity = identity_;
-  const bool exists = !options.output.empty() && std::filesystem::exists(options.output);
-  if (request.resume && exists)
+  const std::string& output = options.output;
+  if (request.resume &&
+      (std::filesystem::exists(output) || std::filesystem::exists(state_path_beside(output))))
     resume(options, scene, set_, *film_, warnings_.output);
   else if (request.resume)
-    warn_of({fmt::format("--resume: there is no {}, the render starts anew", options.output)},
+    warn_of({fmt::format("--resume: there is no {}, the render starts anew", output)},
             warnings_.output);
-  else if (exists)
-    warn_of(warnings_of_replacing(options.output, identity_), warnings_.output);
+  else if (const auto warning = warning_of_replacing(output, identity_))
+    warn_of({*warning}, warnings_.output);
 
   session_.emplace(scene, set_, *film_, std::move(options));
   if (warnings_.output) session_->on_warning(warnings_.output);

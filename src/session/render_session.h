@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "film/film.h"
+#include "film/film_output.h"
 #include "film/image_io.h"
 #include "integrator/presets/estimator_set.h"
 #include "session/checkpoint/checkpoint.h"
@@ -33,8 +34,9 @@ struct RenderOptions {
   double first_preview = 0.5;       ///< s until the first intermediate PNG, if there is light
   double preview_interval = 5;      ///< s between intermediate PNGs, at least
   double checkpoint_interval = 60;  ///< s between intermediate EXRs, at least
-  bool keeps_state = true;          ///< EXRs hold what is needed to go on
-  Checkpoint begin_with;            ///< what film and estimators hold already
+  bool keeps_state = true;          ///< a state is left beside the last picture
+  LayerPrecision layer_precision = LayerPrecision::kHalf;
+  Checkpoint begin_with;  ///< what film and estimators hold already
   float png_exposure = 1;
   std::vector<std::string> notes;  ///< of the choices that a picture tells
   RenderIdentity identity;         ///< what the picture tells; the session sets film and seed
@@ -111,8 +113,11 @@ class RenderSession {
   void report_progress(bool within_pass);
   void write_if_due(SignalFlags& signals);
   void write_picture();
-  /// The picture without its PNG.
+  /// The picture without its PNG, and its state; without one, that of an intermediate picture goes.
   void write_exr_file(const std::string& path, bool with_state);
+  /// Before the first of them: gives the picture and state of another render, if they are there,
+  /// the name previous_path().
+  void keep_previous();
   void write_png();
   void write_last_picture(bool with_state);
   /// Writes, says what went wrong, and returns when to do it again.
@@ -120,7 +125,7 @@ class RenderSession {
   uint32_t passes_done_of_wanted() const;
   std::optional<double> seconds_left(double seconds) const;
   std::string choices_text() const;
-  Metadata picture_metadata() const;
+  Metadata state_metadata() const;
 
   const Scene& scene_;
   EstimatorSet& set_;
@@ -145,6 +150,7 @@ class RenderSession {
   double next_error_seconds_ = 0;  ///< of the estimates for progress alone
   double next_preview_seconds_ = 0, next_checkpoint_seconds_ = 0;
   double next_progress_seconds_ = 0;  ///< within a pass
+  bool has_written_ = false;          ///< a picture
 };
 
 }  // namespace nephroid

@@ -65,13 +65,39 @@ void RenderSession::write_png() {
 
 void RenderSession::write_exr_file(const std::string& path, bool with_state) {
   renew_error_text();
-  std::optional<RenderState> state;
-  if (with_state) state = state_of(scene_, set_, film_);
+  const Metadata metadata = state_metadata();
+  const std::string state_path = state_path_beside(path);
+  if (path == options_.output) keep_previous();
   try {
-    write_exr(path, film_picture(film_, picture_metadata()), state ? &*state : nullptr);
+    // The state first: the picture can be made from it, not the other way round.
+    if (with_state)
+      write_state(state_path,
+                  {{film_.settings().width, film_.settings().height}, film_.bounds(), metadata},
+                  state_of(scene_, set_, film_));
+    write_film_exr(path, film_, picture_metadata_of(metadata), options_.layer_precision);
   } catch (const std::bad_alloc&) {
     lacks_memory(path);
   }
+  // That of an intermediate picture of this render.
+  std::error_code ignored;
+  if (!with_state) std::filesystem::remove(state_path, ignored);
+}
+
+void RenderSession::keep_previous() {
+  namespace fs = std::filesystem;
+  const Checkpoint& before = options_.begin_with;
+  if (has_written_ || !before.passes.empty() || before.open_pass) return;
+  const std::string state = state_path_beside(options_.output);
+  if (fs::exists(state)) {
+    const std::string kept = previous_path(options_.output);
+    std::error_code error, ignored;
+    if (fs::exists(options_.output)) fs::rename(options_.output, kept, error);
+    if (!error) fs::rename(state, state_path_beside(kept), error);
+    if (error)
+      throw IoError(
+          fmt::format("{}: cannot be kept as {}: {}", options_.output, kept, error.message()));
+  }
+  has_written_ = true;
 }
 
 /// What the program chose, and what is wrong with the picture, a line each.
@@ -91,7 +117,7 @@ std::string RenderSession::choices_text() const {
   return choices;
 }
 
-Metadata RenderSession::picture_metadata() const {
+Metadata RenderSession::state_metadata() const {
   // Who renders nothing more has nothing to say that the picture does not say already.
   const bool rendered = passes_of_run() > 0 || open_pass_;
   const Checkpoint& before = options_.begin_with;

@@ -86,8 +86,9 @@ struct OneRun {
     open = checkpoint.open_pass;
   }
   void write(const std::string& path) {
-    const RenderState state = state_of(scene, set, film);
-    write_exr(path, film_picture(film, metadata()), &state);
+    write_state(state_path_beside(path),
+                {{film.settings().width, film.settings().height}, film.bounds(), metadata()},
+                state_of(scene, set, film));
   }
 
   Metadata metadata() const {
@@ -205,7 +206,7 @@ TEST_P(Resume, PicturesOfOtherPassesAddUp) {
   }
   whole.render(0, kPasses - 1);
   for (int order = 0; order < 3; ++order) {
-    EXPECT_EQ(merge_pictures(parts, sum).passes.text(), "0..3");
+    EXPECT_EQ(merge_pictures(parts, sum, LayerPrecision::kFloat).passes.text(), "0..3");
     OneRun merged(*scene, GetParam(), false);
     merged.go_on(sum);
     expect_same_state(merged.film.state(), whole.film.state(), "merged");
@@ -247,7 +248,7 @@ TEST(ResumeRefuses, ThePictureOfAnotherRender) {
       EXPECT_NE(text.find(line), std::string::npos) << text;
     EXPECT_EQ(text.find("max-depth"), std::string::npos) << text;
   }
-  write_exr(path, film_picture(run.film, run.metadata()));
+  std::filesystem::remove(state_path_beside(path));
   EXPECT_THROW(run.go_on(path), IoError);
 }
 

@@ -65,7 +65,9 @@ TEST_F(CheckpointCommand, ACropWithoutPixelsIsThatOfTheCommandLine) {
 }
 
 TEST_F(CheckpointCommand, WhatIsReplacedIsSaid) {
-  const std::string said = "a.exr has passes 0..2 of this very render and will be replaced";
+  const std::string said =
+      "a.exr has passes 0..2 of this very render, with which --resume goes on; it is kept as "
+      "a.previous.exr";
   EXPECT_EQ(render("a", {"--passes", "3"}).errors.find("replaced"), std::string::npos);
   expect_said(render("a", {"--passes", "1", "--quiet"}), said);
   render("a", {"--passes", "3", "--resume"});
@@ -100,7 +102,7 @@ TEST_F(CheckpointCommand, AnotherRenderIsRefusedWithWhatDiffers) {
 
 TEST_F(CheckpointCommand, NoStateLeavesAPictureAlone) {
   render("a", {"--passes", "1", "--no-state"});
-  expect_said(render("a", {"--passes", "2", "--resume"}, kInputOutput), "it has no state");
+  expect_said(render("a", {"--passes", "2", "--resume"}, kInputOutput), "there is no a.state");
 }
 
 TEST_F(CheckpointCommand, ANoiseTargetThatIsMetIsMet) {

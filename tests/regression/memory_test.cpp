@@ -73,7 +73,7 @@ TEST(MemoryLimitOption, ManyThreadsAndWidePicturesAreCounted) {
   for (const char* threads : {"1", "24"})
     for (const char* resolution : {"420x420", "560x560", "620x620", "12000x30", "20000x16"})
       status(threads, "256M", resolution);
-  EXPECT_EQ(status("24", "256M", "800x800"), kUsage);
+  EXPECT_EQ(status("24", "256M", "1000x1000"), kUsage);
 }
 
 TEST(MemoryLimitOption, TooLittleForTheProgramItselfIsSaid) {

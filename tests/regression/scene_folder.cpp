@@ -59,7 +59,7 @@ void SceneFolder::expect_picture(const std::vector<std::string>& warnings,
   const ProgramRun run = render(std::move(more));
   expect_ended(run, 0);
   for (const std::string& warning : warnings) expect_line(run, "nephroid: warning: " + warning);
-  names.insert({"picture.exr", "picture.png"});
+  names.insert({"picture.exr", "picture.png", "picture.state"});
   EXPECT_EQ(names_in(directory_.path()), names);
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 
 #include "core/errors.h"
 
@@ -22,14 +23,21 @@ RenderState state_of(const Scene& scene, EstimatorSet& set, Film& film) {
   return state;
 }
 
+StateFile open_state(const std::string& path, const std::string& purpose) {
+  const std::string state = state_path_beside(path);
+  if (!std::filesystem::exists(state))
+    throw IoError(
+        fmt::format("{}: cannot {}: there is no {}; a render writes it unless --no-state "
+                    "is given",
+                    path, purpose, state));
+  return StateFile(state);
+}
+
 PassRanges passes_of(const StateFile& file, const std::string& purpose) {
-  const std::string refusal = file.path() + ": cannot " + purpose + ": ";
-  if (!file.has_state())
-    throw IoError(refusal +
-                  "it has no state, expected a picture that was rendered without --no-state");
   const auto passes = PassRanges::parse(value_of(file.metadata(), kPassesKey));
   if (!passes || (passes->empty() && !open_pass_of(file)))
-    throw IoError(refusal + "it does not say which passes it has");
+    throw IoError(
+        fmt::format("{}: cannot {}: it does not say which passes it has", file.path(), purpose));
   return *passes;
 }
 
@@ -59,8 +67,8 @@ void require_same_render(const StateFile& file, const RenderIdentity& other,
                          const std::string& name, const std::string& purpose) {
   const auto found = RenderIdentity::from_metadata(file.metadata()).differences(other, name);
   if (found.empty()) return;
-  throw UsageError(fmt::format("{}: cannot {}: it is the picture of another render:\n  {}",
-                               file.path(), purpose, fmt::join(found, "\n  ")));
+  throw UsageError(fmt::format("{}: cannot {}: it is of another render:\n  {}", file.path(),
+                               purpose, fmt::join(found, "\n  ")));
 }
 
 std::optional<std::string> warning_of_instruction_sets(const StateFile& file,
@@ -91,21 +99,35 @@ void add_estimates(const Film& film, Metadata* metadata) {
                            fmt::format("{}", film.estimates(layout.groups[r])));
 }
 
-PassRanges passes_to_go_on_from(const std::string& path, const RenderIdentity& here) {
+std::string previous_path(const std::string& picture_path) {
+  const std::filesystem::path path(picture_path);
+  return std::filesystem::path(path)
+      .replace_extension(".previous" + path.extension().string())
+      .string();
+}
+
+std::optional<std::string> warning_of_replacing(const std::string& output,
+                                                const RenderIdentity& here) {
+  if (output.empty() || !std::filesystem::exists(state_path_beside(output))) return std::nullopt;
+  const std::string kept = previous_path(output);
+  std::string what = "a state that cannot be read";
   try {
-    const StateFile file(path);
-    const RenderIdentity there = RenderIdentity::from_metadata(file.metadata());
-    if (file.has_state() && there.differences(here, "here").empty())
-      return passes_of(file, "go on from it");
+    const StateFile file = open_state(output, "read it");
+    const PassRanges passes = passes_of(file, "read it");
+    const bool is_same =
+        RenderIdentity::from_metadata(file.metadata()).differences(here, "here").empty();
+    what = fmt::format(
+        "{} of {} render{}", passes.empty() ? "a part of a pass" : "passes " + passes.text(),
+        is_same ? "this very" : "another", is_same ? ", with which --resume goes on" : "");
   } catch (const IoError&) {
   }
-  return {};
+  return fmt::format("{} has {}; it is kept as {}", output, what, kept);
 }
 
 Checkpoint go_on_from(const std::string& path, const RenderIdentity& here, const Scene& scene,
                       EstimatorSet& set, Film& film) try {
   const std::string purpose = "go on from it";
-  StateFile file(path);
+  StateFile file = open_state(path, purpose);
   const PassRanges passes = passes_of(file, purpose);
   require_same_render(file, here, "here", purpose);
   file.load(state_of(scene, set, film));

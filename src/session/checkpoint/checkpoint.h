@@ -1,5 +1,5 @@
-// The picture of a render as its checkpoint: the progress that a run leaves in the EXR, and how
-// another run resumes from it. It must not know when pictures are written.
+// The checkpoint of a render: the state file beside its picture, and how another run resumes from
+// it. It must not know when it is written.
 #pragma once
 
 #include <optional>
@@ -30,8 +30,15 @@ bool passes_are_independent(const EstimatorSet& set);
 /// All that a render keeps, as it lies in memory: of the film and of the estimators.
 RenderState state_of(const Scene& scene, EstimatorSet& set, Film& film);
 
-/// The whole passes that a picture with state has. Throws IoError, "cannot `purpose`", without
-/// state.
+/// The state of a picture, whose name or the state's own is `path`. Throws IoError, "cannot
+/// `purpose`", if it is not there.
+StateFile open_state(const std::string& path, const std::string& purpose);
+
+/// "a/b.exr" -> "a/b.previous.exr": what a picture with state becomes before another render takes
+/// its name.
+std::string previous_path(const std::string& picture_path);
+
+/// The whole passes that a state has. Throws IoError, "cannot `purpose`", if it does not say so.
 PassRanges passes_of(const StateFile& file, const std::string& purpose);
 /// The pass of which it has a part. Throws IoError for what is no pass.
 std::optional<uint32_t> open_pass_of(const StateFile& file);
@@ -39,7 +46,7 @@ std::optional<uint32_t> open_pass_of(const StateFile& file);
 /// A time in the metadata, 0 if it is not there. Throws IoError for what is no time.
 double seconds_of(const StateFile& file, const std::string& key);
 
-/// Throws UsageError, "cannot `purpose`", with all differences, unless the file is a picture of the
+/// Throws UsageError, "cannot `purpose`", with all differences, unless the file is of the
 /// render `other`, which the message calls `name`, "here" for example.
 void require_same_render(const StateFile& file, const RenderIdentity& other,
                          const std::string& name, const std::string& purpose);
@@ -54,11 +61,13 @@ void add_progress(const Checkpoint& progress, Metadata* metadata);
 /// Metadata of the film's estimates, of each route and of rejected outliers.
 void add_estimates(const Film& film, Metadata* metadata);
 
-/// The passes of a picture that the render `here` could resume from; empty if there are none.
-PassRanges passes_to_go_on_from(const std::string& path, const RenderIdentity& here);
+/// What a new render `here` is about to replace at its output, as a sentence; empty if there is no
+/// state.
+std::optional<std::string> warning_of_replacing(const std::string& output,
+                                                const RenderIdentity& here);
 
-/// Reads the state of a file into film and estimators. Throws UsageError if it is the picture of
-/// another render, with all that differs, and IoError if it has no state or cannot be read.
+/// Reads the state of a picture into film and estimators. Throws UsageError if it is of another
+/// render, with all that differs, and IoError if it has none or it cannot be read.
 Checkpoint go_on_from(const std::string& path, const RenderIdentity& here, const Scene& scene,
                       EstimatorSet& set, Film& film);
 

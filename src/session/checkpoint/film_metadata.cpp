@@ -11,8 +11,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Runs of equal bytes are as long as 128.
-constexpr double kMaxBytesPerByte = 128;
+/// A block of zeros is not packed better than that.
+constexpr double kMaxBytesPerByte = 20000;
 
 Json layout_of(const StateFile& file) {
   return Json::parse(value_of(file.metadata(), kLayoutKey));
@@ -39,6 +39,11 @@ void add_film_metadata(const Film& film, bool passes_add_up, Metadata* metadata)
                      {"parts", parts},
                      {"passes_add_up", passes_add_up && film.rejection() == nullptr}};
   metadata->emplace_back(kLayoutKey, json.dump());
+}
+
+Metadata picture_metadata_of(Metadata metadata) {
+  std::erase_if(metadata, [](const auto& entry) { return entry.first == kLayoutKey; });
+  return metadata;
 }
 
 Film film_of(const StateFile& file) {

@@ -38,14 +38,15 @@ void warn_of_gaps(Merged& merged) {
 
 }  // namespace
 
-Merged merge_pictures(const std::vector<std::string>& inputs, const std::string& output) {
+Merged merge_pictures(const std::vector<std::string>& inputs, const std::string& output,
+                      LayerPrecision precision) {
   std::vector<Input> files;
   for (const std::string& path : inputs)
-    files.push_back({path, passes_of(StateFile(path), kPurpose)});
+    files.push_back({path, passes_of(open_state(path, kPurpose), kPurpose)});
   // The order of the arguments does not count.
   std::ranges::sort(
       files, {}, [](const Input& i) { return i.passes.empty() ? 0 : i.passes.ranges()[0].first; });
-  const StateFile first(files[0].path);
+  const StateFile first = open_state(files[0].path, kPurpose);
   RenderIdentity identity = RenderIdentity::from_metadata(first.metadata());
   if (identity.version != kVersion)
     throw UsageError(fmt::format("{}: cannot {}: it is of version {}, this program is {}",
@@ -54,7 +55,7 @@ Merged merge_pictures(const std::vector<std::string>& inputs, const std::string&
   Merged merged;
   std::string history, sets;
   for (const Input& input : files) {
-    const StateFile file(input.path);
+    const StateFile file = open_state(input.path, kPurpose);
     const PassRanges& passes = input.passes;
     require_same_render(file, identity, "in " + first.path(), kPurpose);
     const auto refuse = [&name = file.path()](const std::string& why) {
@@ -80,7 +81,7 @@ Merged merge_pictures(const std::vector<std::string>& inputs, const std::string&
   warn_of_gaps(merged);
   Film sum = film_of(first);
   for (const Input& input : files) {
-    StateFile file(input.path);
+    StateFile file = open_state(input.path, kPurpose);
     // A render that goes on may have written a newer one meanwhile.
     if (passes_of(file, kPurpose) != input.passes || open_pass_of(file))
       throw IoError(input.path + ": cannot merge it: it changed while it was read");
@@ -100,8 +101,9 @@ Merged merge_pictures(const std::vector<std::string>& inputs, const std::string&
   for (const std::string& fault : invalid_samples(sum)) faults += "warning: " + fault + "\n";
   if (!faults.empty()) metadata.emplace_back(kChoicesKey, faults);
   add_estimates(sum, &metadata);
-  const RenderState state = sum.state();
-  write_film(output, sum, std::move(metadata), 1, &state);
+  write_state(state_path_beside(output), {first.resolution(), first.window(), metadata},
+              sum.state());
+  write_film(output, sum, picture_metadata_of(metadata), 1, precision);
   return merged;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "film/film_output.h"
 #include "session/checkpoint/pass_ranges.h"
 
 namespace nephroid {
@@ -19,6 +20,7 @@ struct Merged {
 /// Adds up the pictures, each with its state, and writes the sum with its state to `output`. Throws
 /// UsageError for pictures of different renders, for passes that two of them have, and for renders
 /// whose passes do not add up; IoError for files that cannot be read or written.
-Merged merge_pictures(const std::vector<std::string>& inputs, const std::string& output);
+Merged merge_pictures(const std::vector<std::string>& inputs, const std::string& output,
+                      LayerPrecision precision = LayerPrecision::kHalf);
 
 }  // namespace nephroid

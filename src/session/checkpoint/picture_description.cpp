@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <fstream>
+#include <span>
 #include <string_view>
 
 #include "session/checkpoint/checkpoint.h"
@@ -15,13 +17,20 @@ namespace nephroid {
 namespace {
 
 std::string state_line(const StateFile& file) {
-  if (!file.has_state()) return "none: it cannot be resumed or merged";
   const PassRanges passes = passes_of(file, "describe it");
   const std::optional<uint32_t> open = open_pass_of(file);
   return fmt::format(
       "{} passes ({}){}, {}", passes.count(), passes.text(),
       open ? fmt::format(" and a part of pass {}", *open) : "",
       passes_add_up(file) ? "to be resumed or merged" : "to be resumed; they depend on each other");
+}
+
+/// Of the state beside a picture.
+std::string state_line_beside(const std::string& path) {
+  const std::string state = state_path_beside(path);
+  if (!std::filesystem::exists(state))
+    return fmt::format("none, there is no {}: it cannot be resumed or merged", state);
+  return fmt::format("{}: {}", state, state_line(StateFile(state)));
 }
 
 /// "name: text", or its lines below the name.
@@ -36,27 +45,52 @@ std::string entry(std::string_view name, const std::string& text) {
   return lines;
 }
 
+std::string heading(const std::string& what, const std::string& path, const Vec2i& full,
+                    const PixelBounds& window) {
+  std::string text = fmt::format("{}: {}\nresolution: {}x{}\n", what, path, full.x, full.y);
+  if (window != PixelBounds{0, 0, full.x, full.y})
+    text +=
+        fmt::format("crop: x {} to {}, y {} to {}\n", window.x0, window.x1, window.y0, window.y1);
+  return text;
+}
+
+std::string entries(const Metadata& metadata) {
+  std::string text;
+  for (const auto& [key, value] : metadata)
+    if (key.starts_with(kKeyPrefix) && key != kLayoutKey)
+      text += entry(std::string_view(key).substr(kKeyPrefix.size()), value);
+  return text;
+}
+
+/// The first bytes of a file; zeros where it has none.
+std::array<char, 7> begin_of(const std::string& path) {
+  std::array<char, 7> begin{};
+  std::ifstream(path, std::ios::binary).read(begin.data(), begin.size());
+  return begin;
+}
+
+bool is_state(const std::string& path) {
+  constexpr std::array<char, 7> kMagic = {'N', 'E', 'P', 'H', 'S', 'T', 'A'};
+  return begin_of(path) == kMagic;
+}
+
 }  // namespace
 
 bool is_picture(const std::string& path) {
   constexpr std::array<char, 4> kMagic = {0x76, 0x2f, 0x31, 0x01};
-  std::array<char, 4> first{};
-  return std::ifstream(path, std::ios::binary).read(first.data(), first.size()) && first == kMagic;
+  const auto begin = begin_of(path);
+  return is_state(path) || std::ranges::equal(kMagic, std::span(begin).first(4));
 }
 
 std::string description_of_picture(const std::string& path) {
-  const StateFile file(path);
-  const Vec2i full = file.resolution();
-  const PixelBounds window = file.window();
-  std::string text = fmt::format("picture: {}\nresolution: {}x{}\n", path, full.x, full.y);
-  if (window != PixelBounds{0, 0, full.x, full.y})
-    text +=
-        fmt::format("crop: x {} to {}, y {} to {}\n", window.x0, window.x1, window.y0, window.y1);
-  text += fmt::format("state: {}\n", state_line(file));
-  for (const auto& [key, value] : file.metadata())
-    if (key.starts_with(kKeyPrefix) && key != kLayoutKey)
-      text += entry(std::string_view(key).substr(kKeyPrefix.size()), value);
-  return text;
+  if (is_state(path)) {
+    const StateFile file(path);
+    return heading("state", path, file.resolution(), file.window()) +
+           fmt::format("state: {}\n", state_line(file)) + entries(file.metadata());
+  }
+  const PictureHead head = read_picture_head(path);
+  return heading("picture", path, {head.full_width, head.full_height}, head.window) +
+         fmt::format("state: {}\n", state_line_beside(path)) + entries(head.metadata);
 }
 
 }  // namespace nephroid

@@ -6,7 +6,7 @@
 
 namespace nephroid {
 
-/// True for files that begin as OpenEXR files do.
+/// True for files that begin as OpenEXR files or states of a render do.
 bool is_picture(const std::string& path);
 
 /// A line for the file, its pixels and its passes, and whether a render can go on from it; then all

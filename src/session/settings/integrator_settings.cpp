@@ -53,7 +53,7 @@ const IntegratorSetting kSettings[] = {
      },
      [](const RenderSettings& s) { return fmt::format("{}", s.integrator.radius); }, kForEverybody},
     {"specular-alpha", "X|LOW..HIGH", "0.035..0.07", "",
-     "Roughness up to which a lobe is specular (S), above it glossy (G). It is the microfacet "
+     "Roughness up to which a lobe is specular (S), not glossy (G). It is the microfacet "
      "alpha "
      "after remapping, the larger of both directions; within a range the passes differ, so that "
      "nothing jumps as roughness grows.",

@@ -77,7 +77,7 @@ TEST(FilmOutput, ExrHoldsEveryLayerBitForBit) {
   const ScratchDirectory directory;
   const std::string path = directory.file("out.exr");
   const Film film = filled_film(cropped());
-  write_film(path, film, {}, 1);
+  write_film(path, film, {}, 1, LayerPrecision::kFloat);
   const Picture picture = read_picture(path);
   ASSERT_GE(picture.channels.size(), 3u);
   EXPECT_EQ(picture.channels[0], "R");
@@ -98,6 +98,24 @@ TEST(FilmOutput, ExrHoldsEveryLayerBitForBit) {
       EXPECT_EQ(pixel(picture, x, y, "samples"), 3.0f);
     }
   EXPECT_GT(film.standard_error(4, 4).r, 0.0f);
+}
+
+TEST(FilmOutput, LayersBesideThePictureAreInHalfPrecision) {
+  const ScratchDirectory directory;
+  const std::string path = directory.file("out.exr");
+  Film film(cropped(), FilmLayout::of_routes({"all"}));
+  add_one(film, 0, 4, 3, {1 / 3.0f, 2 / 3.0f, 1});
+  film.add_features(4, 3, {1 / 3.0f, 0, 0}, {0, 0, 1}, 1000.1f);
+  film.add_estimates(0, 1);
+  film.add_feature_estimates(1);
+  write_film(path, film, {}, 1);
+  const Picture picture = read_picture(path);
+  expect_rgb(picture, 4, 3, "", {1 / 3.0f, 2 / 3.0f, 1});
+  EXPECT_EQ(pixel(picture, 4, 3, "Z"), 1000.1f);
+  for (const char* channel : {"all.R", "albedo.R"}) {
+    EXPECT_NE(pixel(picture, 4, 3, channel), 1 / 3.0f) << channel;
+    EXPECT_NEAR(pixel(picture, 4, 3, channel), 1 / 3.0f, 1e-4) << channel;
+  }
 }
 
 TEST(FilmOutput, WhatIsHeldHasALayer) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "core/errors.h"
 #include "film/exr_file.h"
 #include "session/checkpoint/merge_pictures.h"
@@ -21,10 +23,11 @@ void write(const std::string& path, const Metadata& metadata) {
   picture.channels = {"R", "G", "B"};
   picture.pixels.resize(6);
   picture.metadata = metadata;
+  write_exr(path, picture);
   std::vector<uint64_t> sums(2);
   RenderState state;
   state.add("sums", std::span(sums));
-  write_exr(path, picture, &state);
+  write_state(state_path_beside(path), {{2, 1}, picture.window, metadata}, state);
 }
 
 TEST(Checkpoint, TimesAreFiniteAndNotNegative) {
@@ -32,11 +35,11 @@ TEST(Checkpoint, TimesAreFiniteAndNotNegative) {
   const std::string path = directory.file("a.exr");
   for (const std::string text : {"nan", "inf", "-1", "1e999", "abc", "1x", " 1", "0x10"}) {
     write(path, {{"nephroid:seconds", text}});
-    EXPECT_THROW(seconds_of(StateFile(path), "nephroid:seconds"), IoError) << text;
+    EXPECT_THROW(seconds_of(open_state(path, "read it"), "nephroid:seconds"), IoError) << text;
   }
   write(path, {{"nephroid:seconds", "12.5"}});
-  EXPECT_EQ(seconds_of(StateFile(path), "nephroid:seconds"), 12.5);
-  EXPECT_EQ(seconds_of(StateFile(path), "nephroid:no_such_seconds"), 0);
+  EXPECT_EQ(seconds_of(open_state(path, "read it"), "nephroid:seconds"), 12.5);
+  EXPECT_EQ(seconds_of(open_state(path, "read it"), "nephroid:no_such_seconds"), 0);
 }
 
 TEST(PictureDescription, SaysWhatThePictureIsOf) {
@@ -46,10 +49,17 @@ TEST(PictureDescription, SaysWhatThePictureIsOf) {
                {"nephroid:layout", "{\"passes_add_up\":true}"},
                {"nephroid:history", "2 passes in 1.000 s\n6 passes in 3.000 s\n"}});
   EXPECT_TRUE(is_picture(path));
-  EXPECT_EQ(description_of_picture(path),
-            "picture: " + path +
-                "\nresolution: 2x1\nstate: 8 passes (0..1,4..9), to be resumed or merged\n"
-                "history:\n  2 passes in 1.000 s\n  6 passes in 3.000 s\npasses: 0..1,4..9\n");
+  const std::string state = directory.file("a.state");
+  const std::string passes = "8 passes (0..1,4..9), to be resumed or merged\n";
+  const std::string history = "history:\n  2 passes in 1.000 s\n  6 passes in 3.000 s\n";
+  const std::string ranges = "passes: 0..1,4..9\n";
+  EXPECT_EQ(description_of_picture(path), "picture: " + path + "\nresolution: 2x1\nstate: " +
+                                              state + ": " + passes + history + ranges);
+  EXPECT_EQ(description_of_picture(state),
+            "state: " + state + "\nresolution: 2x1\nstate: " + passes + ranges + history);
+  EXPECT_TRUE(is_picture(state));
+  std::filesystem::remove(state);
+  EXPECT_NE(description_of_picture(path).find("none, there is no " + state), std::string::npos);
   EXPECT_FALSE(is_picture(directory.file("none.exr")));
   EXPECT_FALSE(is_picture(directory.path()));
 }

@@ -213,10 +213,11 @@ TEST(FilmOfScene, NoRouteTakesTheNameOfALayerOfPictures) {
 }
 
 TEST(FilmOfScene, TheFilmsMemoryIsCountedInFull) {
-  // 16 bytes a sum, three sums for each part and each group, features and a counter.
+  // 16 bytes a sum, three sums for each part and each group, features (six of 8 bytes, and
+  // depth) and a counter.
   FilmLayout layout = FilmLayout::of_routes({"a", "b"});
   const size_t two = Film::bytes_per_pixel(layout, false);
-  EXPECT_GE(two, 4u * 48 + 112 + 8);
+  EXPECT_GE(two, 4u * 48 + 6 * 8 + 16 + 8);
   layout.parts.push_back({1, {}});
   EXPECT_EQ(Film::bytes_per_pixel(layout, false), two + 48);
   layout.groups[1] = 0;

@@ -98,7 +98,7 @@ TEST_F(RenderPage, ResumesWithTheBitsOfOneRun) {
   request_.resume = false;
   render();
   ASSERT_EQ(about_output_.size(), 2u);
-  EXPECT_NE(about_output_[1].find("will be replaced"), std::string::npos) << about_output_[1];
+  EXPECT_NE(about_output_[1].find("it is kept as"), std::string::npos) << about_output_[1];
 }
 
 TEST_F(RenderPage, RefusesAnotherRenderAndTooLittleMemory) {

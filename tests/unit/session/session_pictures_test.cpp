@@ -110,7 +110,7 @@ TEST_F(SessionPictures, OnlyTheLastPictureIsLeftWithoutState) {
   options.keeps_state = false;
   options.checkpoint_interval = 2;
   options.last_pass = 3;
-  const auto has_state = [&] { return StateFile(options.output).has_state(); };
+  const auto has_state = [&] { return std::filesystem::exists(directory.file("out.state")); };
   script_.during_pass = [&](const PassKey& key) {
     if (key.pass >= 2) {
       EXPECT_TRUE(has_state());
@@ -123,6 +123,26 @@ TEST_F(SessionPictures, OnlyTheLastPictureIsLeftWithoutState) {
   };
   EXPECT_EQ(run(options).reason, StopReason::kSignal);
   EXPECT_TRUE(has_state());
+}
+
+// One generation of what another render left.
+TEST_F(SessionPictures, PictureAndStateOfAnotherRenderAreKept) {
+  const ScratchDirectory directory;
+  RenderOptions options = options_in(directory);
+  const std::string kept = directory.file("out.previous.exr");
+  options.last_pass = 3;
+  run(options);
+  EXPECT_FALSE(std::filesystem::exists(kept));
+  options.last_pass = 1;
+  options.checkpoint_interval = 1;
+  run(options);
+  EXPECT_EQ(passes_in(kept), "0..3") << "not the intermediate picture of the second render";
+  EXPECT_EQ(passes_in(options.output), "0..1");
+  EXPECT_EQ(passes_of(open_state(kept, "read it"), "read it").text(), "0..3");
+  options.begin_with.passes = *PassRanges::parse("0..1");
+  options.last_pass = 2;
+  run(options);
+  EXPECT_EQ(passes_in(kept), "0..3") << "who goes on replaces only what it goes on from";
 }
 
 TEST_F(SessionPictures, PictureOnDemand) {
@@ -218,7 +238,7 @@ TEST_F(SessionPictures, TheLastPictureIsRescuedWhereItsDirectoryVanished) {
   const std::string message = io_error_of([&] { run(options); });
   const size_t said = message.find("the picture is in ");
   ASSERT_NE(said, std::string::npos) << message;
-  EXPECT_EQ(message.find(options.output), 0u) << message;
+  EXPECT_EQ(message.find(state_path_beside(options.output)), 0u) << message;
   EXPECT_EQ(passes_in(message.substr(said + 18)), "0..5");
   EXPECT_EQ(script_.passes.size(), 6u);  // it went on
   EXPECT_FALSE(warnings_.empty());
@@ -234,7 +254,7 @@ TEST_F(SessionPictures, WhatCannotBeRescuedIsTheFirstError) {
     std::filesystem::remove_all(directory.file("pictures"));
   };
   const std::string message = io_error_of([&] { run(options); });
-  EXPECT_EQ(message.find(options.output), 0u) << message;
+  EXPECT_EQ(message.find(state_path_beside(options.output)), 0u) << message;
   EXPECT_EQ(message.find("the picture is in"), std::string::npos);
 }
 

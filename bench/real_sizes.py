@@ -1,0 +1,193 @@
+#!/usr/bin/python3
+"""Error times CPU seconds of integrators at the sizes people render, and the references for it.
+
+  bench/real_sizes.py references --scenes DIR --references OUT [--only NAME ...] [--seconds 300]
+  bench/real_sizes.py measure --scenes DIR --references DIR [--only NAME ...] [--integrator mixed ...]
+                              [--time 10 60] [--seeds 3] --results FILE.json
+  bench/real_sizes.py table --results FILE.json
+
+--scenes is the folder of the scenes that others made (DIR/NAME/scene.pbrt); those of this project are found by themselves,
+scenes without files are left out. A reference is the mean of two independent renders of --seconds each; its layer `stderr`
+comes from their difference, so that `nephroid compare --subtract-reference-error` can take the reference's own error out.
+`measure` renders what FILE.json does not hold yet and adds it, so it can be stopped and started again; `table` prints the
+medians over seeds in Markdown. Needs the Python modules of OpenImageIO and NumPy (python3-openimageio, python3-numpy).
+"""
+import argparse
+import json
+import os
+import pathlib
+import re
+import statistics
+import subprocess
+import sys
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+PROGRAM = ROOT / "build/release/bin/nephroid"
+INTEGRATORS = ["mixed", "path", "doidge2012", "sppm", "vcm", "bdpt"]
+
+# Scenes, their size here, and what renders their reference: `path` where it finds all light, else `mixed` with a first
+# radius of one pixel. The last five are the interiors where `mixed` is compared with `path` alone.
+MERGING = ["--integrator", "mixed", "-D", "radius=1"]
+PATHS = ["--integrator", "path"]
+SUITE = {
+    "water-caustic": ("512x512", ["--integrator", "sppm", "-D", "radius=1.5"]),
+    "glass-of-water": ("912x512", MERGING),
+    "veach-bidir": ("512x512", MERGING),
+    "coffee": ("400x500", PATHS),
+    "staircase2": ("512x512", PATHS),
+    "pool": ("960x540", MERGING),
+    "coffee-cup": ("800x600", MERGING),
+    "cut-gems": ("720x512", MERGING),
+    "hall": ("750x500", MERGING),
+    "cornell-box": ("512x512", PATHS),
+    "material-testball": ("640x360", PATHS),
+}
+
+
+def scene_file(scenes, name):
+    for folder in (ROOT / "scenes", scenes):
+        if folder and (folder / name / "scene.pbrt").exists():
+            return folder / name / "scene.pbrt"
+    return None
+
+
+def chosen(args):
+    for name, (size, reference) in SUITE.items():
+        scene = scene_file(args.scenes, name)
+        if scene and (not args.only or name in args.only):
+            yield name, scene, size, reference
+
+
+def run(arguments):
+    """(output, CPU seconds) of a program that must end well."""
+    before = os.times()
+    result = subprocess.run([str(a) for a in arguments], capture_output=True, text=True)
+    after = os.times()
+    if result.returncode != 0:
+        sys.exit(f"{' '.join(map(str, arguments))}\n{result.stderr}")
+    cpu = after.children_user - before.children_user + after.children_system - before.children_system
+    return result.stdout, cpu
+
+
+def render(scene, out, size, options):
+    _, cpu = run([PROGRAM, "render", scene, "-o", out, "--resolution", size, "--quiet", "--no-state", *options])
+    return cpu
+
+
+def make_references(args):
+    import numpy
+    import OpenImageIO as oiio
+
+    def colors(path):
+        picture = oiio.ImageBuf(str(path))
+        names = list(picture.spec().channelnames)
+        pixels = numpy.asarray(picture.get_pixels(oiio.FLOAT))
+        return pixels[..., [names.index(c) for c in "RGB"]]
+
+    args.references.mkdir(parents=True, exist_ok=True)
+    for name, scene, size, recipe in chosen(args):
+        target = args.references / f"{name}.exr"
+        if target.exists():
+            continue
+        halves = []
+        for half in range(2):
+            out = args.references / f"{name}-half{half}.exr"
+            if not out.exists():
+                render(scene, out, size, [*recipe, "--seed", str(1000 + half), "--time", f"{args.seconds}s"])
+            halves.append(colors(out))
+        mean = (halves[0] + halves[1]) / 2
+        error = abs(halves[0] - halves[1]) / 2
+        height, width = mean.shape[:2]
+        spec = oiio.ImageSpec(width, height, 6, oiio.HALF)
+        spec.channelnames = ("R", "G", "B", "stderr.R", "stderr.G", "stderr.B")
+        spec.attribute("compression", "zip")
+        picture = oiio.ImageBuf(spec)
+        picture.set_pixels(oiio.ROI(), numpy.concatenate([mean, error], axis=2).clip(0, 65504).astype(numpy.float32))
+        picture.write(str(target))
+        own = numpy.sort((error**2 / (mean**2 + 0.01)).mean(axis=2).ravel())
+        kept = own[:len(own) - len(own) // 1000]
+        print(f"{name}: own relMSE {own.mean():.2g}, trimmed {kept.mean():.2g}", flush=True)
+
+
+def measure(args):
+    results = json.loads(args.results.read_text()) if args.results.exists() else []
+    done = {(r["scene"], r["integrator"], r["time"], r["seed"]) for r in results}
+    revision = subprocess.run(["git", "-C", ROOT, "describe", "--always", "--dirty"],
+                              capture_output=True, text=True).stdout.strip()
+    out = args.results.with_suffix(".exr")
+    for seed in range(args.seeds):
+        for name, scene, size, _ in chosen(args):
+            reference = args.references / f"{name}.exr"
+            if not reference.exists():
+                continue
+            for integrator in args.integrator:
+                for seconds in args.time:
+                    if (name, integrator, seconds, seed) in done:
+                        continue
+                    cpu = render(scene, out, size, ["--integrator", integrator, "--seed", str(seed),
+                                                    "--time", f"{seconds}s"])
+                    text, _ = run([PROGRAM, "compare", reference, out, "--subtract-reference-error"])
+                    figure = {k: float(v) for k, v in re.findall(r"(\w+)=([-+\d.einfa]+)", text)}
+                    results.append({"scene": name, "size": size, "integrator": integrator, "time": seconds,
+                                    "seed": seed, "cpu": round(cpu, 2), "relmse": figure["relmse"],
+                                    "relmse_trim": figure["relmse_trim"], "revision": revision,
+                                    "day": time.strftime("%Y-%m-%d")})
+                    args.results.write_text("[\n" + ",\n".join(map(json.dumps, results)) + "\n]\n")
+                    print(f"{name} {integrator} {seconds} s, seed {seed}: "
+                          f"{figure['relmse_trim'] * cpu:.3g} ({figure['relmse'] * cpu:.3g})", flush=True)
+    out.unlink(missing_ok=True)
+
+
+def table(args):
+    results = json.loads(args.results.read_text())
+    cells = {}
+    for r in results:
+        cells.setdefault((r["scene"], r["time"], r["integrator"]), []).append(r)
+    shown = [i for i in INTEGRATORS if any(key[2] == i for key in cells)]
+    print("| scene | seconds | " + " | ".join(shown) + " | mixed / best other |")
+    print("| --- " * (len(shown) + 3) + "|")
+    for name in SUITE:
+        for seconds in sorted({key[1] for key in cells if key[0] == name}):
+            row, trimmed, whole = [], {}, {}
+            for integrator in shown:
+                runs = cells.get((name, seconds, integrator))
+                if not runs:
+                    row.append("")
+                    continue
+                trimmed[integrator] = statistics.median(r["relmse_trim"] * r["cpu"] for r in runs)
+                whole[integrator] = statistics.median(r["relmse"] * r["cpu"] for r in runs)
+                row.append(f"{trimmed[integrator]:.2g} ({whole[integrator]:.2g})")
+            ratio = ""
+            others = [i for i in trimmed if i != "mixed"]
+            if "mixed" in trimmed and others:
+                ratio = "{:.2f} ({:.2f})".format(
+                    trimmed["mixed"] / min(trimmed[i] for i in others), whole["mixed"] / min(whole[i] for i in others))
+            size = next(r["size"] for r in results if r["scene"] == name)
+            print(f"| {name} {size} | {seconds} | " + " | ".join(row) + f" | {ratio} |")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    commands = parser.add_subparsers(dest="command", required=True)
+    for name, function in (("references", make_references), ("measure", measure), ("table", table)):
+        command = commands.add_parser(name)
+        command.set_defaults(function=function)
+        if name != "table":
+            command.add_argument("--scenes", type=pathlib.Path)
+            command.add_argument("--references", type=pathlib.Path, required=True)
+            command.add_argument("--only", nargs="+", default=[])
+        if name == "references":
+            command.add_argument("--seconds", type=int, default=300)
+        else:
+            command.add_argument("--results", type=pathlib.Path, required=True)
+        if name == "measure":
+            command.add_argument("--integrator", nargs="+", default=INTEGRATORS)
+            command.add_argument("--time", nargs="+", type=int, default=[10, 60])
+            command.add_argument("--seeds", type=int, default=3)
+    args = parser.parse_args()
+    args.function(args)
+
+
+if __name__ == "__main__":
+    main()

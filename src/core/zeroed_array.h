@@ -1,0 +1,59 @@
+// A large array of zeros that takes memory only where something is written to it.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdlib>
+#include <memory>
+#include <new>
+#include <span>
+#include <type_traits>
+
+namespace nephroid {
+
+/// Asks the system for pages of 2 MB, so that there are few of them to be backed: each that is read
+/// before it is written to is a page of zeros first, and to replace that all threads must stop.
+void prefer_huge_pages(void* memory, size_t bytes);
+
+/// A fixed number of items, at first all bits zero. The system backs its pages when they are first
+/// written to, so what stays zero costs nothing, and nobody waits for it to be cleared.
+template <class T>
+class ZeroedArray {
+  static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
+  static_assert(alignof(T) <= alignof(std::max_align_t));
+
+ public:
+  ZeroedArray() = default;
+  /// Throws std::bad_alloc.
+  explicit ZeroedArray(size_t size)
+      : items_(static_cast<T*>(std::calloc(size, sizeof(T)))), size_(size) {
+    if (size > 0 && !items_) throw std::bad_alloc();
+    prefer_huge_pages(items_.get(), size * sizeof(T));
+  }
+
+  ZeroedArray(ZeroedArray&&) noexcept = default;
+  ZeroedArray& operator=(ZeroedArray&&) noexcept = default;
+  ZeroedArray(const ZeroedArray& other) : ZeroedArray(other.size_) {
+    std::copy(other.begin(), other.end(), begin());
+  }
+  ZeroedArray& operator=(const ZeroedArray& other) { return *this = ZeroedArray(other); }
+
+  size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  T& operator[](size_t i) { return items_.get()[i]; }
+  const T& operator[](size_t i) const { return items_.get()[i]; }
+  T* begin() { return items_.get(); }
+  T* end() { return items_.get() + size_; }
+  const T* begin() const { return items_.get(); }
+  const T* end() const { return items_.get() + size_; }
+  std::span<T> items() { return {items_.get(), size_}; }
+
+ private:
+  struct Free {
+    void operator()(T* items) const { std::free(items); }
+  };
+  std::unique_ptr<T[], Free> items_;
+  size_t size_ = 0;
+};
+
+}  // namespace nephroid

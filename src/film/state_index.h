@@ -1,0 +1,43 @@
+// The index at the end of a state file: what the file is of, and where each section lies. Who calls
+// it: state_file.cpp. It must not know what the sections mean.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "film/film_format.h"
+#include "film/image_io.h"
+
+namespace nephroid {
+
+struct StateIndex {
+  struct Section {
+    std::string name;
+    uint32_t words = 1;            ///< 32-bit words of an item
+    uint64_t bytes = 0;            ///< unpacked
+    uint64_t hash = 0;             ///< of the unpacked bytes
+    uint64_t offset = 0;           ///< of its first block in the file; the others follow
+    std::vector<uint32_t> blocks;  ///< packed size of each
+
+    size_t stride() const { return size_t{4} * words; }
+    /// Unpacked size of all blocks but the last, which has the rest.
+    size_t block_bytes() const;
+    /// Number of blocks that so many bytes have.
+    size_t block_count() const;
+  };
+
+  Vec2i resolution{0, 0};  ///< of the full picture
+  PixelBounds window;      ///< pixels of it that there are
+  Metadata metadata;
+  std::vector<Section> sections;
+
+  std::vector<std::byte> to_bytes() const;
+  /// Throws IoError, without the file's name, for what to_bytes does not write and for blocks that
+  /// do not lie within the first `file_bytes` of the file.
+  static StateIndex from_bytes(std::span<const std::byte> bytes, uint64_t file_bytes);
+};
+
+}  // namespace nephroid
