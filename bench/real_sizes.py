@@ -102,9 +102,11 @@ def make_references(args):
         spec = oiio.ImageSpec(width, height, 6, oiio.HALF)
         spec.channelnames = ("R", "G", "B", "stderr.R", "stderr.G", "stderr.B")
         spec.attribute("compression", "zip")
-        picture = oiio.ImageBuf(spec)
-        picture.set_pixels(oiio.ROI(), numpy.concatenate([mean, error], axis=2).clip(0, 65504).astype(numpy.float32))
-        picture.write(str(target))
+        layers = numpy.concatenate([mean, error], axis=2).clip(0, 65504).astype(numpy.float32)
+        out = oiio.ImageOutput.create(str(target))
+        if not (out and out.open(str(target), spec) and out.write_image(numpy.ascontiguousarray(layers))):
+            sys.exit(f"{target}: {oiio.geterror()}")
+        out.close()
         own = numpy.sort((error**2 / (mean**2 + 0.01)).mean(axis=2).ravel())
         kept = own[:len(own) - len(own) // 1000]
         print(f"{name}: own relMSE {own.mean():.2g}, trimmed {kept.mean():.2g}", flush=True)
