@@ -122,9 +122,9 @@ class LightWalkVisitor {
   Photon photon_at(const Walk& walk, const WalkVertex& v, const SampledSpectrum& flux) const {
     Photon photon;
     photon.p = v.surface.p;
-    photon.wi = v.surface.wo;
-    photon.ng = v.surface.ng;
-    photon.flux = flux * walk.throughput / v.surface.coverage;
+    photon.wi = PackedDirection(v.surface.wo);
+    photon.ng = PackedDirection(v.surface.ng);
+    photon.flux = PackedSpectrum(flux * walk.throughput / v.surface.coverage);
     photon.state = state_;
     photon.secondary_terminated = walk.lambda.secondary_terminated();
     photon.events = static_cast<uint16_t>(walk.events);

@@ -17,9 +17,9 @@ bool add(const PhotonMerger& merger, const MergePoint& at, const Photon& photon,
   return merger.each_event(photon, [&](const MergeEvent& event) {
     // A path that lost its secondary wavelengths, on either side or on both, stands for all of them
     // once.
-    const SampledSpectrum value =
-        whole_spectrum(at.throughput * (event.bsdf.f * event.cosine) * photon.flux * weight,
-                       at.secondary_terminated || photon.secondary_terminated);
+    const SampledSpectrum value = whole_spectrum(
+        at.throughput * (event.bsdf.f * event.cosine) * photon.flux.unpacked() * weight,
+        at.secondary_terminated || photon.secondary_terminated);
     sums.add(event.part, value);
     sums.add_bias(value * bias);
   });
@@ -28,14 +28,16 @@ bool add(const PhotonMerger& merger, const MergePoint& at, const Photon& photon,
 }  // namespace
 
 std::optional<PhotonArrival> arrival_at(const WalkVertex& vertex, const Photon& photon) {
-  if (abs_dot(photon.ng, vertex.surface.ng) < kMergeMinNormalCosine) return std::nullopt;
+  const Vec3f ng = photon.ng.unpacked();
+  if (abs_dot(ng, vertex.surface.ng) < kMergeMinNormalCosine) return std::nullopt;
   // The side on which the photon arrived on its own surface, the normals brought to agree, tells
   // reflection from transmission: on a curved surface its direction alone may lie below the visible
   // point's tangent plane.
-  const float agree = dot(photon.ng, vertex.surface.ng) < 0.0f ? -1.0f : 1.0f;
-  const float arrives = dot(photon.wi, photon.ng) * agree;
+  const float agree = dot(ng, vertex.surface.ng) < 0.0f ? -1.0f : 1.0f;
+  const Vec3f wi = photon.wi.unpacked();
+  const float arrives = dot(wi, ng) * agree;
   if (!(std::abs(arrives) > 0.0f)) return std::nullopt;
-  PhotonArrival arrival{vertex.to_local(photon.wi), std::abs(arrives)};
+  PhotonArrival arrival{vertex.to_local(wi), std::abs(arrives)};
   if (arrival.wi.z * arrives < 0.0f) arrival.wi.z = -arrival.wi.z;
   return arrival;
 }

@@ -360,8 +360,9 @@ void EyeVisitor::merge(const Walk& walk, const WalkVertex& v, ClassMask among) {
     merger->each_event(photon, [&](const MergeEvent& event) {
       double weight = 1;
       if (settings_.technique.weighted) {
-        const double towards =
-            v.subsurface_exit ? subsurface_density(photon.ng, photon.wi) : double{event.bsdf.pdf_w};
+        const double towards = v.subsurface_exit
+                                   ? subsurface_density(photon.ng.unpacked(), photon.wi.unpacked())
+                                   : double{event.bsdf.pdf_w};
         const double back =
             v.subsurface_exit || !sums_.asks_back()
                 ? 0.0
@@ -370,7 +371,7 @@ void EyeVisitor::merge(const Walk& walk, const WalkVertex& v, ClassMask among) {
             weight_of_merge(sums_.all(), back, {photon.cut_here, photon.cuts_before}, towards, own);
       }
       add(event.part, walk, Technique::kMerge,
-          walk.throughput * event.bsdf.f * photon.flux *
+          walk.throughput * event.bsdf.f * photon.flux.unpacked() *
               (event.cosine * scale * static_cast<float>(weight)),
           photon.secondary_terminated, bias_factor(d2, radius));
     });

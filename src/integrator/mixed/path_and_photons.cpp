@@ -28,7 +28,7 @@ constexpr double kRequiredGain = 1.6;
 
 /// Camera paths of each pixel of the lattice in the pass that is measured.
 constexpr int kMeasuredSamples = 8;
-constexpr double kMinPhotonBytes = 64 << 20, kPhotonBytesPerPixel = 64;
+constexpr double kMinPhotonBytes = 44 << 20, kPhotonBytesPerPixel = 44;
 /// Those that are held at once by default, with room for chance.
 constexpr double kMaxPhotons = 0.95 * (1 << 20);
 /// With its place in the grid.

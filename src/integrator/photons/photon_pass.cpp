@@ -1,5 +1,9 @@
 #include "integrator/photons/photon_pass.h"
 
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
 #include "transport/path_points.h"
 #include "transport/roughness_band.h"
 
@@ -16,17 +20,29 @@ int64_t default_photons_per_pass(int64_t pixels) {
 
 }  // namespace
 
+Vec2f hero_and_time_of_pass(const PassKey& key) {
+  constexpr int kShift = std::countr_zero(static_cast<unsigned>(kSpectrumSamples));
+  static_assert(1 << kShift == kSpectrumSamples);
+  constexpr uint64_t kStream = 0x70617373;  // "pass"
+  const uint64_t of_order = hash_combine(key.seed, kStream, 0);
+  const uint64_t of_places = hash_combine(key.seed, kStream, 1);
+  // In an order that has nothing to do with that of the camera walks, of which a pixel would else
+  // see each time at one place only. Runs of 2^k passes from a multiple of 2^k on stay together.
+  const uint32_t index =
+      owen_scramble_reversed(reverse_bits(key.pass), static_cast<uint32_t>(of_order));
+  const uint32_t reversed = reverse_bits(index);
+  return {bits_to_unit_float((reversed ^ (reversed >> kShift)) ^
+                             static_cast<uint32_t>(of_places >> 32)),
+          bits_to_unit_float(owen_scramble_reversed(sobol_second_reversed(index),
+                                                    static_cast<uint32_t>(of_places)))};
+}
+
 PhotonPass start_photon_pass(const PassKey& key, const Scene& scene, const FilmFormat& film,
                              const IntegratorOptions& options, PassControl& control) {
   PhotonPass pass{{}, {}, scene.camera->footprint(), 0, eye_point(key.pass)};
-  // Any run of passes covers wavelengths and times evenly, and both together, so that a thing that
-  // moves has all its colours everywhere; and in an order that has nothing to do with that of the
-  // camera walks, of which a pixel would else see each time at one place only.
-  constexpr uint64_t kStream = 0x70617373;  // "pass"
-  PathSampler sampler(PaddedPoint{key.pass}, hash_combine(key.seed, kStream));
   pass.trace.key = key;
   pass.trace.control = &control;
-  const Vec2f u = sampler.get_2d();
+  const Vec2f u = hero_and_time_of_pass(key);
   pass.trace.lambda = SampledWavelengths::sample_visible(wavelength_number(scene, u.x));
   pass.u_time = u.y;
   pass.trace.time = scene.camera->motion_time(pass.u_time);

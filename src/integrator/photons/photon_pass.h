@@ -12,6 +12,12 @@
 
 namespace nephroid {
 
+/// The numbers in [0,1) of which a pass has its wavelengths (sample_visible) and its time. 2^k
+/// passes, of which the first is a multiple of that, have both in all of 2^k intervals, and both
+/// together, so that a thing that moves has all its colours everywhere; and they have 2^k times as
+/// many wavelengths as one, evenly spaced ([P5] of docs/estimators.md).
+Vec2f hero_and_time_of_pass(const PassKey& key);
+
 /// What all photons and camera walks of a pass share. Wavelengths and time are stratified over
 /// passes.
 struct PhotonPass {

@@ -14,10 +14,11 @@ namespace {
 constexpr float kReflectance = 0.6f, kTransmittance = 0.3f, kRadius = 0.1f;
 constexpr int kAnyDepth = 100;
 
+// As a photon keeps it.
 SampledSpectrum ramp() {
   SampledSpectrum s;
   for (int i = 0; i < kSpectrumSamples; ++i) s.set(i, 1.0f + static_cast<float>(i));
-  return s;
+  return PackedSpectrum(s).unpacked();
 }
 
 const Scene& one_material() {
@@ -98,9 +99,9 @@ LightState straight_from(const OwnedRoutes& owned) {
 Photon photon_from(const Vec3f& wi) {
   Photon photon;
   photon.p = Vec3f(0.02f, 0.03f, 0);
-  photon.wi = normalize(wi);
-  photon.ng = Vec3f(0, 0, 1);
-  photon.flux = ramp();
+  photon.wi = PackedDirection(wi);
+  photon.ng = PackedDirection(Vec3f(0, 0, 1));
+  photon.flux = PackedSpectrum(ramp());
   photon.state = straight_from(all_photons());
   return photon;
 }
@@ -130,14 +131,14 @@ TEST(Merge, PhotonsBeyondTheRadiusDoNotCount) {
 TEST(Merge, PhotonsOfAWallDoNotCountOnTheFloor) {
   const VisiblePoint point;
   Photon wall = photon_from({0.7f, 0, 0.7f});
-  wall.ng = Vec3f(1, 0, 0);
+  wall.ng = PackedDirection(Vec3f(1, 0, 0));
   Photon steep = wall;
-  steep.ng = normalize(Vec3f(1, 0, 0.9f));  // 48 degrees
+  steep.ng = PackedDirection(normalize(Vec3f(1, 0, 0.9f)));  // 48 degrees
   const Merged none = point.merge({wall, steep});
   EXPECT_EQ(none.found, 0u);
   EXPECT_TRUE(none.reflected.is_black());
   Photon slanted = wall;
-  slanted.ng = normalize(Vec3f(0.5f, 0, 1));  // 27 degrees: the same bent surface
+  slanted.ng = PackedDirection(normalize(Vec3f(0.5f, 0, 1)));  // 27 degrees: the same bent surface
   EXPECT_EQ(point.merge({wall, slanted}).found, 1u);
 }
 
@@ -146,16 +147,17 @@ TEST(Merge, ThePhotonsOwnCosineIsTheDensityOfItsLanding) {
   // place.
   const VisiblePoint point;
   Photon bent = photon_from({0.6f, 0, 0.8f});
-  bent.ng = normalize(Vec3f(0.4f, 0, 1));
+  bent.ng = PackedDirection(normalize(Vec3f(0.4f, 0, 1)));
   const Merged m = point.merge({bent});
-  const float share = dot(bent.wi, point.surface.ng) / dot(bent.wi, bent.ng);
+  const float share =
+      dot(bent.wi.unpacked(), point.surface.ng) / dot(bent.wi.unpacked(), bent.ng.unpacked());
   expect_spectrum(m.reflected, ramp() * (kReflectance * kInvPi * share), "bent surface");
 }
 
 TEST(Merge, ANormalThatPointsTheOtherWayIsTheSameSurface) {
   const VisiblePoint point;
   Photon flipped = photon_from({0.5f, 0.3f, 0.4f});
-  flipped.ng = Vec3f(0, 0, -1);
+  flipped.ng = PackedDirection(Vec3f(0, 0, -1));
   const Merged m = point.merge({flipped});
   EXPECT_EQ(m.found, 1u);
   expect_spectrum(m.reflected, ramp() * (kReflectance * kInvPi), "flipped");
@@ -165,7 +167,7 @@ TEST(Merge, TheSideOfArrivalSelectsReflectionOrTransmission) {
   VisiblePoint point;
   for (const float normal : {1.0f, -1.0f}) {
     Photon above = photon_from({0.2f, 0.3f, 0.9f}), below = photon_from({0.2f, 0.3f, -0.9f});
-    above.ng = below.ng = Vec3f(0, 0, normal);
+    above.ng = below.ng = PackedDirection(Vec3f(0, 0, normal));
     point.translucent = true;
     expect_spectrum(point.merge({above}).reflected, ramp() * (kReflectance * kInvPi), "above");
     expect_spectrum(point.merge({below}).reflected, ramp() * (kTransmittance * kInvPi), "below");
@@ -265,7 +267,7 @@ TEST(MergeNearest, OtherSetsChooseTheRadiusAndNoMore) {
     photons[i].p = Vec3f(0.01f * static_cast<float>(i + 1), 0, 0);
   photons[0].set = 5;
   // One that does not count at all, for its normal, does not choose the radius either.
-  photons[1].ng = Vec3f(1, 0, 0);
+  photons[1].ng = PackedDirection(Vec3f(1, 0, 0));
   float radius = 0;
   const Merged m = point.merge_near(photons, 3, 0.1f, &radius);
   EXPECT_EQ(m.found, 3u);

@@ -157,7 +157,7 @@ TEST(PhotonTracer, AFloorReceivesWhatTheLampSendsThere) {
   for (const Photon& photon : trace.photons) {
     EXPECT_NEAR(photon.p.y, 0, 1e-5f);
     EXPECT_EQ(photon.events, 0);
-    sum += photon.flux;
+    sum += photon.flux.unpacked();
   }
   EXPECT_EQ(trace.useful_paths, trace.photons.size());
   EXPECT_NEAR(static_cast<double>(trace.photons.size()) / kPhotons, share, 0.005 * share);
@@ -185,7 +185,7 @@ TEST(PhotonTracer, RouletteKeepsTheMean) {
   std::vector<double> counts(6, 0.0);
   for (const Photon& photon : trace.photons) {
     ASSERT_LT(photon.events, 6);
-    sums[photon.events] += photon.flux / static_cast<float>(kPhotons);
+    sums[photon.events] += photon.flux.unpacked() / static_cast<float>(kPhotons);
     counts[photon.events] += 1;
   }
   EXPECT_EQ(counts[0], kPhotons);
@@ -217,7 +217,8 @@ TEST(PhotonTracer, APartlyPresentSheetStoresTheLightThatItShows) {
                                        alpha);
     double sum = 0;
     for (const Photon& photon : trace_all(*scene, settings(1)).photons)
-      if (std::abs(photon.p.y - height) < 1e-3f) sum += static_cast<double>(photon.flux[0]);
+      if (std::abs(photon.p.y - height) < 1e-3f)
+        sum += static_cast<double>(photon.flux.unpacked()[0]);
     return sum;
   };
   const double solid = flux("", 1);
