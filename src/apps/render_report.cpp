@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "film/film_output.h"
+#include "film/state_file.h"
 #include "session/report/choices_report.h"
 #include "session/report/noise.h"
 #include "session/report/short_number.h"
@@ -81,7 +84,12 @@ std::string render_report(const RenderResult& result, const Film& film, const st
   text += route_lines(film);
   for (const std::string& fault : result.faults) text += fmt::format("warning: {}\n", fault);
   for (const std::string& note : notes) text += fmt::format("note: {}\n", note);
-  text += fmt::format("wrote {} and {}\n", output, png_path_beside(output));
+  const std::string state = state_path_beside(output);
+  if (std::filesystem::exists(state))
+    text += fmt::format("wrote {}, {} and {}, with which --resume and merge go on\n", output,
+                        png_path_beside(output), state);
+  else
+    text += fmt::format("wrote {} and {}\n", output, png_path_beside(output));
   return text;
 }
 

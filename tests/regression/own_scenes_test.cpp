@@ -43,9 +43,9 @@ TEST(OwnScenes, AreReadWithoutAWarning) {
 TEST(OwnScenes, GiveAPicture) {
   const testing::TemporaryDirectory folder;
   for (const std::string& scene : own_scenes()) {
-    const ProgramRun run = run_program(
-        folder.path(),
-        {"render", scene, "-o", "picture.exr", "--resolution", "12x9", "--passes", "1", "--quiet"});
+    const ProgramRun run =
+        run_program(folder.path(), {"render", scene, "-o", "picture.exr", "--resolution", "12x9",
+                                    "--passes", "1", "--quiet", "--no-state"});
     EXPECT_EQ(run.status, 0) << scene;
     EXPECT_EQ(run.errors, "") << scene;
     EXPECT_TRUE(fs::remove(folder.path("picture.exr"))) << scene;

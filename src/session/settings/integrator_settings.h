@@ -61,8 +61,9 @@ void apply_settings(const SettingList& settings, RenderSettings* target);
 /// have a quarter of it each at most, unless the list says otherwise.
 RenderSettings render_settings(const SettingList& list, uint64_t memory = 0);
 
-/// Bytes of a photon and of its share of the grid while that is built.
-inline constexpr size_t kBytesPerPhoton = 2 * sizeof(Photon);
+/// Bytes of a photon, of its copy in the list of a chunk, and of its share of the grid while that
+/// is built (two codes, two places, a position).
+inline constexpr size_t kBytesPerPhoton = 2 * sizeof(Photon) + 48;
 
 /// "max-depth=100 radius=0 ...", every key.
 std::string settings_text(const RenderSettings& settings);
