@@ -27,7 +27,7 @@ PROGRAM = ROOT / "build/release/bin/nephroid"
 INTEGRATORS = ["mixed", "path", "doidge2012", "sppm", "vcm", "bdpt"]
 
 # Scenes, their size here, and what renders their reference: `path` where it finds all light, else `mixed` with a first
-# radius of one pixel. The last five are the interiors where `mixed` is compared with `path` alone.
+# radius of one pixel. The last two are interiors without caustics, where `mixed` must keep up with `path`.
 MERGING = ["--integrator", "mixed", "-D", "radius=1"]
 PATHS = ["--integrator", "path"]
 SUITE = {
