@@ -1,4 +1,4 @@
-// What the system offers; where it has nothing of the kind, nothing is lost but time.
+// madvise() where the system has it; elsewhere it does nothing, which only costs time.
 #include "core/zeroed_array.h"
 
 #include <sys/mman.h>

@@ -1,5 +1,5 @@
-// Blocks of a state as they are written: the bytes of equal place in all items together, then
-// compressed by Zstandard. Who calls it: state_file.cpp. It must not know what the items mean.
+// Compresses blocks of a state: shuffles bytes (first byte of every item, then the second, ...),
+// then Zstandard. It must not know what the items mean.
 #pragma once
 
 #include <cstddef>

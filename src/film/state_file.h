@@ -1,6 +1,6 @@
-// The state of a render as a file of its own beside the picture: all that it needs to go on, or to
-// be added to the passes of others. Sections of compressed blocks, and at the end an index with a
-// checksum of each. Who calls it: the session and merge. It must not know what the state means.
+// Writes and reads state files: everything a render needs to resume or to be merged. A file has
+// sections of compressed blocks, and at the end an index with a checksum for each section. It must
+// not know what the state means.
 #pragma once
 
 #include <memory>
@@ -14,15 +14,15 @@ namespace nephroid {
 /// "a/b.exr" -> "a/b.state"; the name of a state is its own.
 std::string state_path_beside(const std::string& picture_path);
 
-/// What a state file says beside the state.
+/// Description of the picture that a state belongs to.
 struct StateHead {
-  Vec2i resolution{0, 0};  ///< of the full picture
-  PixelBounds window;      ///< pixels of it that there are
+  Vec2i resolution{0, 0};  ///< full picture, in pixels
+  PixelBounds window;      ///< rendered part
   Metadata metadata;
 };
 
-/// Writes the state. Takes some 10 MB whatever its size. Throws IoError; see atomic_file.h for what
-/// then remains.
+/// Writes the state with about 10 MB of buffers, whatever its size. Throws IoError; see
+/// atomic_file.h for what then remains.
 void write_state(const std::string& path, const StateHead& head, const RenderState& state);
 
 /// A state that write_state wrote. All throw IoError, which names the file.

@@ -1,5 +1,5 @@
-// The index at the end of a state file: what the file is of, and where each section lies. Who calls
-// it: state_file.cpp. It must not know what the sections mean.
+// The index at the end of a state file: which picture it belongs to, and where each section is. It
+// must not know what the sections mean.
 #pragma once
 
 #include <cstddef>
@@ -29,8 +29,8 @@ struct StateIndex {
     size_t block_count() const;
   };
 
-  Vec2i resolution{0, 0};  ///< of the full picture
-  PixelBounds window;      ///< pixels of it that there are
+  Vec2i resolution{0, 0};  ///< full picture, in pixels
+  PixelBounds window;      ///< rendered part
   Metadata metadata;
   std::vector<Section> sections;
 
