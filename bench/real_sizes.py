@@ -16,14 +16,13 @@ import argparse
 import json
 import os
 import pathlib
-import re
 import statistics
 import subprocess
 import sys
 import time
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
-PROGRAM = ROOT / "build/release/bin/nephroid"
+from validate import PROGRAM, ROOT, compare, run
+
 INTEGRATORS = ["mixed", "path", "doidge2012", "sppm", "vcm", "bdpt"]
 
 # Scenes, their size here, and what renders their reference: `path` where it finds all light, else `mixed` with a first
@@ -59,20 +58,12 @@ def chosen(args):
             yield name, scene, size, reference
 
 
-def run(arguments):
-    """(output, CPU seconds) of a program that must end well."""
-    before = os.times()
-    result = subprocess.run([str(a) for a in arguments], capture_output=True, text=True)
-    after = os.times()
-    if result.returncode != 0:
-        sys.exit(f"{' '.join(map(str, arguments))}\n{result.stderr}")
-    cpu = after.children_user - before.children_user + after.children_system - before.children_system
-    return result.stdout, cpu
-
-
 def render(scene, out, size, options):
-    _, cpu = run([PROGRAM, "render", scene, "-o", out, "--resolution", size, "--quiet", "--no-state", *options])
-    return cpu
+    """CPU seconds of a render."""
+    before = os.times()
+    run([PROGRAM, "render", scene, "-o", out, "--resolution", size, "--quiet", "--no-state", *options])
+    after = os.times()
+    return after.children_user - before.children_user + after.children_system - before.children_system
 
 
 def make_references(args):
@@ -129,8 +120,7 @@ def measure(args):
                         continue
                     cpu = render(scene, out, size, ["--integrator", integrator, "--seed", str(seed),
                                                     "--time", f"{seconds}s"])
-                    text, _ = run([PROGRAM, "compare", reference, out, "--subtract-reference-error"])
-                    figure = {k: float(v) for k, v in re.findall(r"(\w+)=([-+\d.einfa]+)", text)}
+                    _, figure = compare(reference, out)
                     results.append({"scene": name, "size": size, "integrator": integrator, "time": seconds,
                                     "seed": seed, "cpu": round(cpu, 2), "relmse": figure["relmse"],
                                     "relmse_trim": figure["relmse_trim"], "revision": revision,

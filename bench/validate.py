@@ -36,6 +36,12 @@ def run(arguments):
     return result.stdout
 
 
+def compare(reference, picture):
+    """What `nephroid compare` prints, and its figures by name, without the reference's own error."""
+    text = run([PROGRAM, "compare", reference, picture, "--subtract-reference-error"])
+    return text, {k: float(v) for k, v in re.findall(r"(\w+)=([-+\d.einfa]+)", text)}
+
+
 def measure(scene, reference, integrator, stop, out):
     """(seconds, {name: figure}) of one render."""
     width, height = exr_size(reference)
@@ -43,8 +49,7 @@ def measure(scene, reference, integrator, stop, out):
     run([PROGRAM, "render", scene, "-o", out, "--integrator", integrator,
          "--resolution", f"{width}x{height}", "--quiet", *stop])
     seconds = time.monotonic() - started
-    text = run([PROGRAM, "compare", reference, out, "--subtract-reference-error"])
-    figures = {k: float(v) for k, v in re.findall(r"(\w+)=([-+\d.einfa]+)", text)}
+    text, figures = compare(reference, out)
     dim = re.search(r"mean_rel below 10: (\S+)(?: \+- (\S+))?", text)
     if dim:
         figures["dim"] = float(dim.group(1))
