@@ -76,7 +76,7 @@ std::vector<Vec3f> places(const PhotonGrid& grid, float radius) {
     const Photon& photon = grid.photons()[i * grid.size() / kQueries];
     const float angle = static_cast<float>(bits >> 40) * 0x1p-24f * 2 * kPi;
     Vec3f s, t;
-    coordinate_system(photon.ng, &s, &t);
+    coordinate_system(photon.ng.unpacked(), &s, &t);
     all.push_back(photon.p + (s * std::cos(angle) + t * std::sin(angle)) * (0.5f * radius));
   }
   return all;
@@ -93,7 +93,7 @@ Gather measure_gather(const PhotonGrid& grid, size_t wanted) {
   SampledSpectrum sum;
   const double seconds = least_seconds([&] {
     for (const Vec3f& p : where)
-      grid.query(p, radius, [&](const Photon& photon, float) { sum += photon.flux; });
+      grid.query(p, radius, [&](const Photon& photon, float) { sum += photon.flux.unpacked(); });
   });
   // Runs of photons that follow each other in memory.
   struct Run {
@@ -121,7 +121,7 @@ Gather measure_gather(const PhotonGrid& grid, size_t wanted) {
       for (uint32_t r = first_run[q]; r < first_run[q + 1]; ++r)
         for (uint32_t i = runs[r].begin; i < runs[r].end; ++i) {
           const Vec3f d = photons[i].p - where[q];
-          if (dot(d, d) <= radius * radius) bare_sum += photons[i].flux;
+          if (dot(d, d) <= radius * radius) bare_sum += photons[i].flux.unpacked();
         }
   });
   // The same photons in the same order: the same sum to the last bit, which also keeps the loops.
