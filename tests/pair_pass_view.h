@@ -2,6 +2,7 @@
 #pragma once
 
 #include "integrator/bidirectional/pair_pass.h"
+#include "integrator/photons/merge_pass.h"
 #include "owned_routes.h"
 #include "rendering.h"
 
@@ -30,6 +31,7 @@ struct PairView {
             .owned = owned,
             .options = options,
             .techniques = techniques,
+            .radius_pixels = radius_of_pass(options, 0, number),
             .light_paths_vary = true};
   }
   Film render(const PairTechniques& techniques, uint32_t number, const SampleMap& map) const {

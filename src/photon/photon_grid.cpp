@@ -34,6 +34,16 @@ std::array<size_t, PhotonGrid::kCoordinateBits + 1> count_cells(
   return cells;
 }
 
+/// Photons in the cell of 2^shift quanta of a photon, in the mean; `codes` are sorted.
+size_t mean_neighbours(int shift, const std::vector<uint64_t>& codes) {
+  size_t pairs = 0;
+  for (size_t begin = 0, end = 0; begin < codes.size(); begin = end) {
+    while (end < codes.size() && (codes[end] ^ codes[begin]) >> (3 * shift) == 0) ++end;
+    pairs += (end - begin) * (end - begin);
+  }
+  return pairs / codes.size();
+}
+
 /// Puts photon order[i] in place i, without memory for another set of them. Spoils `order`. A
 /// second index runs ahead along the cycle and fetches what is moved next: the places are far from
 /// each other.
@@ -100,6 +110,11 @@ PhotonGrid::PhotonGrid(std::vector<Photon> photons) : photons_(std::move(photons
   const auto counts = count_cells(codes);
   int finest = 0;
   while (finest < kCoordinateBits && counts[finest] * 2 > codes.size()) ++finest;
+  // Photons in clusters have many more neighbours than that. Where there are so few of them that
+  // memory does not matter, their cells are smaller.
+  constexpr size_t kFew = 1 << 17, kMaxNeighbours = 6;
+  if (codes.size() <= kFew)
+    while (finest > 0 && mean_neighbours(finest, codes) > kMaxNeighbours) --finest;
   std::vector<Cell> cells = finest_cells(finest, codes, counts[finest]);
   const size_t working = codes.size() * sizeof(uint64_t) + cells.size() * sizeof(Cell);
   for (int shift = finest; shift <= kCoordinateBits; ++shift) {

@@ -115,9 +115,9 @@ Render::Render(const RenderRequest& request, const LoadedScene& loaded, RenderWa
   check_fits_memory(request, scene, integrator, set_);
   film_.emplace(film_settings(scene.film), set_.layout);
   if (request.reject_outliers) {
-    film_->reject_outliers(outlier_settings(
-        *set_.routes, integrator, *scene.filter,
-        int64_t{film_->settings().width} * film_->settings().height, choice_.settings.scene));
+    film_->reject_outliers(outlier_settings(*set_.routes, integrator, *scene.filter,
+                                            film_->format().picture_pixels(),
+                                            choice_.settings.scene));
     warn_of(rejection_warnings(*set_.routes), warnings_.input);
   }
 

@@ -33,6 +33,8 @@ namespace nephroid {
 ///   void branch(const Walk&, const WalkEvent&, PathSampler&)  each, ready to be followed, before
 ///                                           the walk itself goes one of them; not on curves
 ///   static constexpr bool kEndsAtBranches   true: the walk itself ends there
+///   float survival(const WalkVertex&)       the chance that the walk goes on here, asked before
+///                                           `vertex`; 1: no roulette
 /// `mode` tells which quantity the throughput carries. In kImportance it includes the correction
 /// for shading normals (Veach 1997, section 5.3).
 template <class Visitor>
@@ -154,6 +156,7 @@ class RandomWalk {
     const int dimension = walk_.vertex_dimension();
     sampler_.start_dimension(dimension + dimensions::kLight);
     if (!spent) {
+      if (!survives(vertex)) return false;
       vertex.letters = visitor_.useful(vertex);
       visitor_.vertex(walk_, vertex, sampler_);
     }
@@ -191,6 +194,20 @@ class RandomWalk {
     if (s->subsurface) return come_out_again(material, vertex.merges);
     if (!contains(among, s->event)) return false;
     return end_of_event(leave(walk_, vertex, *s, wi), dimension);
+  }
+
+  /// Russian roulette that the visitor may ask for.
+  bool survives(const WalkVertex& vertex) {
+    if constexpr (requires { visitor_.survival(vertex); }) {
+      const float survival = visitor_.survival(vertex);
+      if (survival >= 1.0f) return true;
+      constexpr uint64_t kStream = 0x73757276;  // "surv"
+      const uint64_t bits = hash_combine(sampler_.stream_seed(), kStream);
+      if (!(bits_to_unit_float(static_cast<uint32_t>(bits >> 32)) < survival)) return false;
+      walk_.throughput /= survival;
+      walk_.eta_scale *= survival;
+    }
+    return true;
   }
 
   /// Sends a walk off along a sample, whose direction is `wi` in the world.

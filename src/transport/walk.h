@@ -44,8 +44,8 @@ struct Walk {
   int vertices = 0;  ///< places at which something was decided
   int events = 0;    ///< scattering events so far
   float length = 0;  ///< path length from the start
-  /// Product of eta^2 over refractions, and of how much more often a guide chose directions than
-  /// the BSDF would have: what roulette leaves out.
+  /// Product of eta^2 over refractions, of how much more often a guide chose directions than the
+  /// BSDF would have, and of the chances that the visitor gave it: what roulette leaves out.
   float eta_scale = 1;
   // The last scattering event; before the first one the values of the start.
   bool delta = true;  ///< a delta lobe or the camera: no other technique could make this ray

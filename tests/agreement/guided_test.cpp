@@ -5,6 +5,7 @@
 #include "integrator/bidirectional/pair_pass.h"
 #include "integrator/learning/guiding_options.h"
 #include "integrator/learning/photon_guiding.h"
+#include "integrator/photons/merge_pass.h"
 #include "owned_routes.h"
 #include "rendering.h"
 
@@ -142,6 +143,7 @@ TEST_P(Guided, WalksAndPhotonsTogetherFindTheSamePicture) {
                   .owned = owned,
                   .options = own,
                   .techniques = {.light_paths = 8192, .connects = false, .caustics_only = true},
+                  .radius_pixels = radius_of_pass(own, 0, i),
                   .emission = guide.starts,
                   .light_paths_vary = true},
                  {.film = film, .samples = {map, no_walks}}, statistics);

@@ -1,5 +1,5 @@
-// Where trials of the default integrator tell that light paths should be connected, its picture is
-// still that of the others.
+// Where trials of the default integrator tell that photons of all light should be merged, its
+// picture is still that of the others.
 #include <gtest/gtest.h>
 
 #include "lamp_in_a_tube.h"
@@ -34,13 +34,13 @@ void expect_same(const SeedValues& found, const SeedValues& reference, double no
   }
 }
 
-TEST(Trials, ThatConnectFindTheSamePicture) {
+TEST(Trials, ThatMergeAllLightFindTheSamePicture) {
   const auto scene = scene_from_text(lamp_in_a_tube(
       R"(LookAt 0 1.4 -4  0 1.7 3  0 1 0 Camera "perspective" "float fov" 16)", 16));  // the wall
   IntegratorOptions options;
   options.max_depth = 6;
   const std::string notes = notes_of(*scene, options);
-  EXPECT_NE(notes.find("connected and merged everywhere"), std::string::npos) << notes;
+  EXPECT_NE(notes.find("photons of all light"), std::string::npos) << notes;
   expect_same(unbiased_block_values(*scene, "mixed", options, kSeeds, 16, 100, kAcross),
               block_values(*scene, "bdpt", options, kSeeds, 32, 1, kAcross), 0.02);
 }

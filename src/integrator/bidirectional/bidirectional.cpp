@@ -103,7 +103,7 @@ class PairRound {
         row.splats.push_back(
             {c.seen.film[i], static_cast<uint8_t>(light.place(c.part)), weights.apply(c.value)});
     if (settings_.technique.t == 1) return;
-    row.rays += trace_eye_path(settings_, path, camera, eye, light);
+    row.rays += trace_eye_path(settings_, path, camera, eye, light).rays;
     const PixelBounds& b = film_.bounds();
     const size_t pixel = static_cast<size_t>(y - b.y0) * b.width() + (x - b.x0);
     const std::span<const Rgb> colors =

@@ -1,7 +1,7 @@
-// The eye side of a pair: hits of lights, next-event estimation, and connections to and merges with
-// light paths.
+// The eye side of a pair: hits of lights, next-event estimation, connections and merges.
 #include "integrator/bidirectional/connection_end.h"
 #include "integrator/bidirectional/eye_weights.h"
+#include "integrator/bidirectional/merge_roulette.h"
 #include "integrator/bidirectional/path_pair_geometry.h"
 #include "integrator/learning/guided_walk.h"
 #include "photon/merge.h"
@@ -25,6 +25,8 @@ class EyeVisitor {
         camera_(camera),
         light_(light),
         features_(extras.features),
+        roulette_(extras.merged, extras.counts_merged,
+                  settings.merging ? settings.merging->photons_for_one : 1),
         guided_(settings.radiance, extras.records),
         eye_(routes_.start()),
         sums_(settings.connects(), settings.merging && settings.merging->caustics_only),
@@ -78,10 +80,15 @@ class EyeVisitor {
                     EventClass::kVolume);
   }
   bool looks_under_surfaces() const { return false; }
+  /// [W12]
+  float survival(const WalkVertex& v) {
+    return v.bsdf.finite_classes() == ClassMask::kNone ? 1.0f : roulette_.survival();
+  }
 
   void vertex(const Walk& walk, const WalkVertex& v, PathSampler& sampler) {
     if (v.subsurface_exit) {
       sums_.come_out(subsurface_density(place_.ng, entry_wo_));
+      roulette_.come_out();
       place_ = {v.surface.p, v.surface.ng};
     } else {
       arrive({v.surface.p, v.surface.ng});
@@ -122,6 +129,7 @@ class EyeVisitor {
 
   bool scatter(const Walk& walk, const WalkEvent& event) {
     root_.scatter(walk, event.letter);
+    roulette_.leave(event.letter, first_ && settings_.merges_all_light());
     EventDensity density;
     double merge = 0;
     if (surface_) {
@@ -137,13 +145,13 @@ class EyeVisitor {
     last_ = place_;
     first_ = first_ && !density.finite;
     eye_ = routes_.next(eye_, symbol_of(symbols_, event));
-    return true;
+    return first_ || !roulette_.counts();
   }
 
-  /// The walk is over. Returns the rays that it has not counted.
-  uint64_t finish() {
+  /// The walk is over.
+  EyePathCounts finish() {
     guided_.finish();
-    return rays_;
+    return {camera_.walk.rays + rays_, roulette_.merged()};
   }
 
  private:
@@ -167,17 +175,8 @@ class EyeVisitor {
     if (camera_.walk.events > 0)
       sums_.arrive(line_between(last_, place_));
     else
-      sums_.arrive_first(cut_at_camera());
+      sums_.arrive_first(cut_at_camera(settings_, camera_, place_));
   }
-  /// [W9] Light paths that are connected to the camera find the first vertex, too.
-  double cut_at_camera() const {
-    if (!settings_.view || !settings_.connects()) return 0;
-    const auto line = settings_.scene.camera->connect(place_.p, camera_.u_lens, camera_.u_time);
-    if (!line) return 0;
-    const double density = line->film_density * cosine_at(place_, line->wi);
-    return density > 0 ? heuristic(settings_.light_paths / density) : 0;
-  }
-
   double merge_weight(EventClass c) const {
     return settings_.merging && merges_at(*surface_, c)
                ? settings_.merging->weight_at(place_.p, first_)
@@ -249,7 +248,6 @@ class EyeVisitor {
     }
   }
 
-  /// Class of the event of arm `i`.
   static EventClass class_of(const EyeEnd& z, size_t i) {
     return z.medium ? EventClass::kVolume : kSurfaceClasses[i];
   }
@@ -329,6 +327,7 @@ class EyeVisitor {
   const CameraPath& camera_;
   PartSums& light_;
   Features* features_;
+  MergeRoulette roulette_;
   GuidedWalk guided_;
   EyeState eye_;
   Place last_, place_;
@@ -354,6 +353,8 @@ void EyeVisitor::merge(const Walk& walk, const WalkVertex& v, ClassMask among) {
   const double own = merging.weight_at(place_.p, first_);
   const float scale = 1.0f / (static_cast<float>(merging.photons) * kPi * sqr(radius));
   merging.grid->query(place_.p, radius, [&](const Photon& photon, float d2) {
+    roulette_.merge();
+    if (roulette_.counts()) return;
     if (!merger)
       merger.emplace(settings_.owned, at, settings_.max_depth,
                      [&](EventSymbol event) { return routes_.next(eye_, event); });
@@ -380,9 +381,10 @@ void EyeVisitor::merge(const Walk& walk, const WalkVertex& v, ClassMask among) {
 
 }  // namespace
 
-uint64_t trace_eye_path(const PairSettings& settings, const LightSubpath& path, CameraPath& camera,
-                        PathSampler& sampler, PartSums& light, const EyePathExtras& extras) {
-  if (!(camera.camera_weight > 0)) return 0;
+EyePathCounts trace_eye_path(const PairSettings& settings, const LightSubpath& path,
+                             CameraPath& camera, PathSampler& sampler, PartSums& light,
+                             const EyePathExtras& extras) {
+  if (!(camera.camera_weight > 0)) return {};
   camera.walk.specular_alpha = settings.specular_alpha;
   camera.walk.per_wavelength = true;
   EyeVisitor visitor(settings, path, camera, light, extras);
@@ -392,7 +394,7 @@ uint64_t trace_eye_path(const PairSettings& settings, const LightSubpath& path, 
   const int most = one.t < 0 ? settings.max_depth
                              : std::clamp(one.t - (one.s == 0 ? 2 : 1), 0, settings.max_depth);
   random_walk(settings.scene, TransportMode::kRadiance, most, camera.walk, sampler, visitor);
-  return camera.walk.rays + visitor.finish();
+  return visitor.finish();
 }
 
 }  // namespace nephroid

@@ -24,7 +24,6 @@ struct Destinations {
   Film* film = nullptr;
   bool adds_features = false;
   SampleVariance* paths = nullptr;
-  bool measures_splats = false;  ///< as light of the camera paths of their pixel
   ChainVariance* chains = nullptr;
   std::vector<RadianceRecord>* records = nullptr;
   double records_per_path = PassRecords::kMaxPerPath;
@@ -42,18 +41,19 @@ class PairRendering {
       buffer.emplace(*to_.film, static_cast<int>(s_.in.owned.group), *s_.in.scene.filter);
     const auto add_splats = [&](std::span<const Splat> splats) {
       s_.counter.add_splats(splats, 1.0 / static_cast<double>(s_.techniques.light_paths));
-      if (buffer)
-        buffer->add(splats);
-      else if (to_.paths && to_.measures_splats)
-        measured().add_splats(splats, static_cast<float>(s_.settings.light_paths));
+      if (buffer) buffer->add(splats);
     };
-    LightBatches batches({.light_paths = s_.techniques.light_paths,
-                          .memory_photons = s_.in.options.memory_photons,
-                          .seed = s_.in.seed,
-                          .number_varies = s_.in.light_paths_vary},
-                         s_.photons, s_.settings);
-    std::vector<Photon> photons = batches.next(add_splats, statistics);
-    if (batches.empty() && !s_.merging.connects) {
+    std::optional<LightBatches> batches;
+    const auto start_batches = [&] {
+      batches.emplace(LightBatches::Config{.light_paths = s_.techniques.light_paths,
+                                           .memory_photons = s_.in.options.memory_photons,
+                                           .seed = s_.in.seed,
+                                           .number_varies = s_.in.light_paths_vary},
+                      s_.photons, s_.settings);
+    };
+    start_batches();
+    std::vector<Photon> photons = batches->next(add_splats, statistics);
+    if (batches->empty() && !s_.merging.connects) {
       const PhotonGrid grid(std::move(photons));
       s_.merging.grid = &grid;
       render_pixels(statistics);
@@ -61,10 +61,22 @@ class PairRendering {
                       to_.paths ? bytes_of_measuring(0) : 0);
     } else {
       make_room();
-      render_batch(std::move(photons), batches.empty(), statistics);
-      while (!batches.empty()) {
-        photons = batches.next(add_splats, statistics);
-        render_batch(std::move(photons), batches.empty(), statistics);
+      if (batches->empty() || !s_.merging.merges_all_light()) {
+        render_batch(std::move(photons), batches->empty(), statistics);
+      } else {
+        // Walks end by the photons of all batches: these are traced twice.
+        merged_.resize(s_.format.bounds().area() * s_.most);
+        count_merged(std::move(photons), statistics);
+        while (!batches->empty()) count_merged(batches->next(add_splats, statistics), statistics);
+        start_batches();
+      }
+      while (!batches->empty()) {
+        EstimatorStatistics again;
+        photons = merged_.empty() ? batches->next(add_splats, statistics)
+                                  : batches->next([](std::span<const Splat>) {}, again);
+        statistics.rays += again.rays;
+        statistics.again_rays += again.rays;
+        render_batch(std::move(photons), batches->empty(), statistics);
       }
       finish_batches(buffer ? &*buffer : nullptr);
     }
@@ -76,8 +88,7 @@ class PairRendering {
   }
 
  private:
-  /// All photons of the pass are in the grid and nothing comes from elsewhere: a pixel is complete
-  /// once its paths are traced.
+  /// All photons are in the grid: a pixel is complete once its paths are traced.
   void render_pixels(EstimatorStatistics& statistics) {
     const int group = static_cast<int>(s_.in.owned.group);
     const PixelSlices all_slices(s_.format.bounds());
@@ -132,8 +143,7 @@ class PairRendering {
     const int samples = s_.camera.paths.at(x - b.x0, y - b.y0);
     for (int k = 0; k < samples; ++k) {
       const PairSampler::SampleLight found = s_.trace(x, y, samples, k, worker, sums);
-      if (to_.paths)
-        to_.paths->add(x - b.x0, y - b.y0, found.mean, static_cast<double>(found.rays));
+      if (to_.paths) to_.paths->add(x - b.x0, y - b.y0, found.mean, found.cost());
     }
   }
 
@@ -141,11 +151,7 @@ class PairRendering {
   void make_room() {
     values_.resize(s_.format.bounds().area() * s_.parts);
     if (to_.film) bias_.resize(s_.format.bounds().area());
-    if (to_.paths) measured();
-  }
-  MeasuredSamples& measured() {
-    if (!measured_) measured_.emplace(s_.format, s_.most);
-    return *measured_;
+    if (to_.paths) measured_.emplace(s_.format, s_.most);
   }
 
   /// One batch of photons for all pixels.
@@ -155,10 +161,12 @@ class PairRendering {
     const PhotonGrid grid(std::move(photons));
     s_.merging.grid = &grid;
     trace_eye_paths(statistics);
-    statistics.hold(grid.bytes() + s_.records.bytes() + s_.camera.directions.bytes(),
-                    s_.format.bounds().area() *
-                            pair_pass_bytes_per_pixel(s_.parts, clamped_.empty() ? 0 : s_.most) +
-                        (measured_ ? bytes_of_measuring(s_.most) : 0));
+    statistics.hold(
+        grid.bytes() + s_.records.bytes() + s_.camera.directions.bytes(),
+        s_.format.bounds().area() * pair_pass_bytes_per_pixel(
+                                        s_.parts, merged_.empty() && clamped_.empty() ? 0 : s_.most,
+                                        !clamped_.empty(), s_.merging.connects) +
+            (measured_ ? bytes_of_measuring(s_.most) : 0));
     if (s_.techniques.separates_chains && s_.camera.chains && !s_.settings.merges_only) {
       const SpecularChainPass pass = chain_pass();
       statistics.rays +=
@@ -183,21 +191,48 @@ class PairRendering {
 
   void trace_eye_paths(EstimatorStatistics& statistics) {
     const PixelSlices slices(s_.format.bounds());
-    const std::vector<size_t> wanted = wanted_slices(slices);
     const auto trace_slice = [&](PairRow& row, size_t slice) {
       PairSampler::Worker worker{{}, PartSums(*s_.in.owned.routes, s_.in.owned.group), row};
       row.techniques = s_.counter.start_row(worker.light);
       worker.sees = sees(slice);
-      const PixelSlices::Run run = slices.at(slice);
-      for (int i = 0; i < run.count; ++i) {
-        const int x = run.x + i * run.step;
-        const int samples =
-            s_.camera.paths.at(x - s_.format.bounds().x0, run.y - s_.format.bounds().y0);
-        for (int k = 0; k < samples; ++k) trace_waiting(x, run.y, samples, k, worker);
-      }
+      for_each_sample(slices.at(slice), [&](int x, int y, int samples, int k) {
+        trace_waiting(x, y, samples, k, worker);
+      });
       if (worker.sees) to_.film->finish_feature_slice(slice, 1);
     };
-    for_each_slice_with_records(wanted, trace_slice, statistics);
+    for_each_slice_with_records(wanted_slices(slices), trace_slice, statistics);
+  }
+
+  /// Adds the photons of a batch to those of each sample.
+  void count_merged(std::vector<Photon> photons, EstimatorStatistics& statistics) {
+    const PhotonGrid grid(std::move(photons));
+    s_.merging.grid = &grid;
+    s_.settings.merges_only = true;
+    const PixelSlices slices(s_.format.bounds());
+    const auto count_slice = [&](PairRow& row, size_t slice) {
+      PairSampler::Worker worker{{}, PartSums(*s_.in.owned.routes, s_.in.owned.group), row};
+      for_each_sample(slices.at(slice), [&](int x, int y, int samples, int k) {
+        s_.count_merged(x, y, samples, k, worker, merged_[s_.pixel_of(x, y) * s_.most + k]);
+      });
+    };
+    for_each_slice<PairRow>(s_.in.control, wanted_slices(slices), count_slice, [&](PairRow&& row) {
+      statistics.rays += row.rays;
+      statistics.again_rays += row.rays;
+    });
+    statistics.hold(grid.bytes(), merged_.size() * sizeof(uint32_t));
+    s_.merging.grid = nullptr;
+    s_.settings.merges_only = false;
+  }
+
+  /// Calls `trace(x, y, samples of the pixel, k)`.
+  template <class Trace>
+  void for_each_sample(const PixelSlices::Run& run, const Trace& trace) const {
+    for (int i = 0; i < run.count; ++i) {
+      const int x = run.x + i * run.step;
+      const int samples =
+          s_.camera.paths.at(x - s_.format.bounds().x0, run.y - s_.format.bounds().y0);
+      for (int k = 0; k < samples; ++k) trace(x, run.y, samples, k);
+    }
   }
 
   /// All of a film; to learn, the first lattice.
@@ -207,8 +242,7 @@ class PairRendering {
     return slices;
   }
 
-  /// True if camera paths add what they see: the film may have it already, of a pass that was
-  /// ended.
+  /// True if camera paths add what they see and no pass that was ended has added it.
   bool sees(size_t slice) const {
     return to_.adds_features && !s_.settings.merges_only &&
            !to_.film->has_slice(s_.format.layout().group_count(), slice);
@@ -225,6 +259,7 @@ class PairRendering {
         statistics.rays += row.rays;
         if (s_.settings.merges_only) statistics.again_rays += row.rays;
         statistics.camera_paths += row.camera_paths;
+        statistics.photons_merged += row.merged;
         s_.records.take(row.records, s_.settings.merges_only);
         s_.counter.add(row.techniques);
       });
@@ -240,11 +275,13 @@ class PairRendering {
     const PairSampler::SampleLight found = s_.trace(
         x, y, samples, k, worker,
         {waits ? clamped_.sums(sample) : std::span(values_).subspan(pixel * s_.parts, s_.parts),
-         to_.film ? bias_[pixel] : unused, waits});
+         to_.film ? bias_[pixel] : unused, waits},
+        merged_.empty() ? nullptr : &merged_[sample]);
     if (measured_) {
       const size_t measured = measured_->sample(x, y, k);
       measured_->add_light(measured, found.mean);
-      if (!s_.settings.merges_only) measured_->set_rays(measured, found.rays);
+      measured_->add_cost(measured,
+                          s_.settings.merges_only ? found.cost_of_merges() : found.cost());
     }
     if (waits && !s_.settings.merges_only) clamped_.weights[sample] = found.weight;
   }
@@ -299,24 +336,23 @@ class PairRendering {
   std::vector<Rgb> values_;  ///< [pixel * parts + part]
   std::vector<float> bias_;  ///< [pixel], [E4]
   std::optional<MeasuredSamples> measured_;
+  /// [pixel * most samples + sample] photons of all batches; empty if there is one batch.
+  std::vector<uint32_t> merged_;
   /// Empty unless the film clamps and photons come in batches; [pixel * most samples + sample].
   SamplesToClamp clamped_;
 };
-
-/// Makes room for the records of the pass: growing by and by would take twice as much.
-void reserve(std::vector<RadianceRecord>& records, const SampleMap& paths, const FilmFormat& film,
-             double per_path) {
-  const double all = paths.mean() * static_cast<double>(PixelSlices(film.bounds()).first_pixels());
-  records.reserve(std::min(PassRecords::kMax, static_cast<size_t>(all * 1.1 * per_path) + 64));
-}
 
 /// Room for what is to be measured.
 PairFindings findings(const FilmFormat& film, const PairSamples& samples,
                       const PairLearning& learning) {
   PairFindings found;
-  if (learning.keeps_records) {
-    reserve(found.records, samples.paths, film, learning.records_per_path);
-  }
+  // Growing by and by would take twice as much.
+  if (learning.keeps_records)
+    found.records.reserve(std::min(
+        PassRecords::kMax,
+        static_cast<size_t>(samples.paths.mean() * 1.1 * learning.records_per_path *
+                            static_cast<double>(PixelSlices(film.bounds()).first_pixels())) +
+            64));
   if (learning.measures_variance)
     found.variance.emplace(film.bounds(), PixelSlices(film.bounds()).spacing(1));
   return found;
@@ -346,7 +382,7 @@ PairFindings measure(const PairPass& pass, const FilmFormat& film, const PairSam
 size_t try_out(const PairPass& pass, const FilmFormat& film, const PairTrial& trial,
                SampleVariance& variance, EstimatorStatistics& statistics) {
   std::vector<RadianceRecord> records;
-  Destinations destinations{.paths = &variance, .measures_splats = true};
+  Destinations destinations{.paths = &variance};
   if (trial.counts_records) {
     destinations.records = &records;
     destinations.records_per_path = trial.records_per_path;
@@ -355,9 +391,10 @@ size_t try_out(const PairPass& pass, const FilmFormat& film, const PairTrial& tr
   return records.size();
 }
 
-size_t pair_pass_bytes_per_pixel(size_t parts, size_t clamped_samples) {
-  return SplatBuffer::bytes_per_pixel(parts) + parts * sizeof(Rgb) + sizeof(float) +
-         clamped_samples * (parts * sizeof(Rgb) + sizeof(float));
+size_t pair_pass_bytes_per_pixel(size_t parts, size_t samples, bool clamps, bool splats) {
+  return (splats ? SplatBuffer::bytes_per_pixel(parts) : 0) + parts * sizeof(Rgb) + sizeof(float) +
+         samples * sizeof(uint32_t) +
+         (clamps ? samples * (parts * sizeof(Rgb) + sizeof(float)) : 0);
 }
 
 }  // namespace nephroid

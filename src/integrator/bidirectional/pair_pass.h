@@ -17,6 +17,9 @@
 
 namespace nephroid {
 
+/// What it takes to merge a photon, in rays; measured on water-caustic and veach-bidir.
+inline constexpr double kCostOfMerge = 0.13;
+
 /// The techniques of a pass, among which trial passes choose.
 struct PairTechniques {
   int64_t light_paths = 1;        ///< that leave photons; 0: nothing is merged
@@ -38,16 +41,16 @@ struct PairPass {
   const OwnedRoutes& owned;
   const IntegratorOptions& options;
   PairTechniques techniques{};
+  float radius_pixels = 1;    ///< in which photons are merged, in footprints
+  float photons_for_one = 1;  ///< PairMerging
   const EmissionGuide& emission = kUnguided;
   /// Estimators whose passes differ in their number of light paths: each number has a sequence of
   /// random numbers of its own.
   bool light_paths_vary = false;
+  /// The samples of a pixel do not fill each other's gaps, so that their spread is that of one.
+  bool independent_samples = false;
   /// One technique of the estimator alone.
   TechniqueChoice technique{};
-  float radius_scale = 1;  ///< times the radius of the pass
-  /// Of a pass over the first lattice that stands for a film: its pixels are so many pixels wide,
-  /// photons are merged as far, and splats spread over as much.
-  int spacing = 1;
   PassControl& control = unwatched;
 };
 
@@ -81,8 +84,8 @@ struct PairFindings {
   std::vector<RadianceRecord> records;
 };
 
-/// A pass over the first lattice that tells how good its techniques are, and whose light is thrown
-/// away.
+/// A pass without splats over the first lattice that tells how good its techniques are, and whose
+/// light is thrown away.
 struct PairTrial {
   const SampleMap& paths;  ///< camera paths of each pixel
   bool counts_records = false;
@@ -94,12 +97,12 @@ void render(const PairPass& pass, const PairRender& to, EstimatorStatistics& sta
 /// Measures a pass for no film.
 PairFindings measure(const PairPass& pass, const FilmFormat& film, const PairSamples& samples,
                      const PairLearning& learning, EstimatorStatistics& statistics);
-/// Adds the light of camera paths, without specular chains and with the splats of their pixel, to
-/// `variance`. Returns the number of radiance records that the paths would leave.
+/// Adds the light of camera paths, without specular chains, to `variance`. Returns the number of
+/// radiance records that the paths would leave.
 size_t try_out(const PairPass& pass, const FilmFormat& film, const PairTrial& trial,
                SampleVariance& variance, EstimatorStatistics& statistics);
 
-/// Memory of a pass for each pixel, of which `clamped_samples` samples at most are clamped.
-size_t pair_pass_bytes_per_pixel(size_t parts, size_t clamped_samples);
+/// Memory of a pass for each pixel that has so many samples at most.
+size_t pair_pass_bytes_per_pixel(size_t parts, size_t samples, bool clamps, bool splats);
 
 }  // namespace nephroid

@@ -45,15 +45,15 @@ PairSampler::PairSampler(const PairPass& pass, const FilmFormat& of_film, const 
       view_(pass.scene, of_film.bounds()) {
   merging.caustics_only = techniques.caustics_only;
   merging.photons = static_cast<double>(techniques.light_paths);
-  merging.radius_pixels = pass.radius_scale * static_cast<float>(pass.spacing) *
-                          radius_of_pass(pass.options, pass.key.pass);
+  merging.radius_pixels = pass.radius_pixels;
+  merging.photons_for_one = pass.photons_for_one;
   merging.footprint = photons.footprint;
   merging.eye = pass.scene.camera->camera_to_world(photons.trace.time).point(Vec3f(0, 0, 0));
   merging.connects = techniques.connects;
   settings.view = pass.scene.camera->connects() && merging.connects ? &view_ : nullptr;
   settings.specular_alpha = photons.trace.specular_alpha;
   settings.max_depth = pass.options.max_depth;
-  settings.light_paths = static_cast<double>(techniques.light_paths) * sqr(pass.spacing);
+  settings.light_paths = static_cast<double>(techniques.light_paths);
   settings.merging = &merging;
   parts = format.parts_of(static_cast<int>(pass.owned.group)).size();
   points_.resize(most);
@@ -78,16 +78,35 @@ SpecularRoot::Leaves PairSampler::leaves_at(int x, int y) const {
                                                        : SpecularRoot::Leaves::kAll;
 }
 
+uint64_t PairSampler::seed_of(int x, int y, int k) const {
+  const uint64_t of_pixel = hash_combine(in.seed, kEyeStream, x, y);
+  return in.independent_samples ? hash_combine(of_pixel, k) : of_pixel;
+}
+
+CameraPath PairSampler::start(int x, int y, PathSampler& sampler) const {
+  CameraPath path = start_merging_path(in.scene, x, y, sampler, photons);
+  path.walk.roulette_threshold = techniques.roulette_threshold;
+  return path;
+}
+
+void PairSampler::count_merged(int x, int y, int samples, int k, Worker& worker, uint32_t& merged) {
+  PathSampler sampler(points_[samples - 1][k].eye, seed_of(x, y, k));
+  CameraPath path = start(x, y, sampler);
+  worker.light.clear();
+  worker.row.rays += trace_eye_path(settings, worker.path, path, sampler, worker.light,
+                                    {.merged = &merged, .counts_merged = true})
+                         .rays;
+}
+
 PairSampler::SampleLight PairSampler::trace(int x, int y, int samples, int k, Worker& worker,
-                                            const SampleSums& sums) {
+                                            const SampleSums& sums, uint32_t* merged) {
   const PixelBounds& b = format.bounds();
   const SamplePoints& points = points_[samples - 1][k];
   PairRow& row = worker.row;
   PartSums& light = worker.light;
   const uint64_t rays_before = row.rays;
-  PathSampler sampler(points.eye, hash_combine(in.seed, kEyeStream, x, y));
-  CameraPath path = start_merging_path(in.scene, x, y, sampler, photons);
-  path.walk.roulette_threshold = techniques.roulette_threshold;
+  PathSampler sampler(points.eye, seed_of(x, y, k));
+  CameraPath path = start(x, y, sampler);
   if (merging.connects && !settings.merges_only) {
     // A light path of its own: those that are merged run through one sequence, of which a pixel
     // would see the same part in all passes.
@@ -99,10 +118,14 @@ PairSampler::SampleLight PairSampler::trace(int x, int y, int samples, int k, Wo
   light.clear();
   Features features;
   const bool sees = worker.sees && k == 0;
-  row.rays += trace_eye_path(settings, worker.path, path, sampler, light,
-                             {.features = sees ? &features : nullptr,
-                              .records = records.of_path(pixel_of(x, y), k, row.records),
-                              .leaves = leaves_at(x - b.x0, y - b.y0)});
+  const EyePathCounts counts =
+      trace_eye_path(settings, worker.path, path, sampler, light,
+                     {.features = sees ? &features : nullptr,
+                      .records = records.of_path(pixel_of(x, y), k, row.records),
+                      .leaves = leaves_at(x - b.x0, y - b.y0),
+                      .merged = merged});
+  row.rays += counts.rays;
+  row.merged += counts.merged;
   if (sees) features.add_to(*film, x, y, in.scene, path, photons.weights);
   const float share = 1.0f / static_cast<float>(samples);
   sums.bias += light.bias(photons.weights) * path.camera_weight * path.filter_weight * share;
@@ -114,7 +137,7 @@ PairSampler::SampleLight PairSampler::trace(int x, int y, int samples, int k, Wo
   for (size_t i = 0; i < parts; ++i) sums.values[i] = sums.values[i] + colors[i];
   if (!settings.merges_only) ++row.camera_paths;
   const double seen = total_of(colors);
-  return {static_cast<float>(seen / (3.0 * share)), row.rays - rays_before,
+  return {static_cast<float>(seen / (3.0 * share)), row.rays - rays_before, counts.merged,
           std::abs(path.filter_weight) * share};
 }
 

@@ -28,7 +28,7 @@ inline float total_of(std::span<const Rgb> colors) {
 /// Records and counts of a slice of pixels.
 struct PairRow {
   std::vector<RadianceRecord> records;
-  uint64_t rays = 0, camera_paths = 0;
+  uint64_t rays = 0, merged = 0, camera_paths = 0;
   TechniqueCounter::Row techniques;
 };
 
@@ -60,12 +60,17 @@ class PairSampler {
   /// What a sample found.
   struct SampleLight {
     float mean = 0;  ///< of the components, as if the pixel had no other sample
-    uint64_t rays = 0;
+    uint64_t rays = 0, merged = 0;
+    double cost_of_merges() const { return kCostOfMerge * static_cast<double>(merged); }
+    double cost() const { return static_cast<double>(rays) + cost_of_merges(); }  ///< in rays
     float weight = 0;  ///< of its light in the pixel
   };
 
-  /// Where nothing waits the sample is clamped as it is.
-  SampleLight trace(int x, int y, int samples, int k, Worker& worker, const SampleSums& sums);
+  /// Where nothing waits the sample is clamped as it is. `merged`: EyePathExtras.
+  SampleLight trace(int x, int y, int samples, int k, Worker& worker, const SampleSums& sums,
+                    uint32_t* merged = nullptr);
+  /// Adds the photons of a batch to `merged`.
+  void count_merged(int x, int y, int samples, int k, Worker& worker, uint32_t& merged);
   size_t pixel_of(int x, int y) const {
     const PixelBounds& b = format.bounds();
     return static_cast<size_t>(y - b.y0) * b.width() + (x - b.x0);
@@ -92,6 +97,8 @@ class PairSampler {
   };
   SamplePoints sample_points(int n, int k) const;
   SpecularRoot::Leaves leaves_at(int x, int y) const;
+  uint64_t seed_of(int x, int y, int k) const;
+  CameraPath start(int x, int y, PathSampler& sampler) const;
 
   const CameraView view_;
   std::vector<std::vector<SamplePoints>> points_;  ///< [samples of a pixel - 1][sample]

@@ -33,17 +33,21 @@ struct PairMerging {
   double photons = 1;                ///< light paths that they come from
   float radius_pixels = 0;
   PixelFootprint footprint;
-  Vec3f eye{0, 0, 0};    ///< where distances count from
+  Vec3f eye{0, 0, 0};  ///< where distances count from
+  /// Where a small radius stands for a wider one: how many photons that would merge for one.
+  float photons_for_one = 1;
   bool connects = true;  ///< false: only lights are connected
   /// Merges only photons whose light came by way of an S: what walks find well is left to them.
   bool caustics_only = false;
 
+  bool merges_all_light() const { return !caustics_only && photons > 0; }
   float radius_at(const Vec3f& p) const { return radius_pixels * footprint.width(length(p - eye)); }
   /// `first`: no event between the eye and `p` but delta lobes, so that every photon is a sample of
   /// its own. Else all photons share the way there, which counts once.
   double weight_at(const Vec3f& p, bool first) const {
     if (!(photons > 0)) return 0;
-    return heuristic((first ? photons : 1) * kPi * sqr(static_cast<double>(radius_at(p))));
+    return heuristic((first ? photons : 1) * photons_for_one * kPi *
+                     sqr(static_cast<double>(radius_at(p))));
   }
 };
 
@@ -68,6 +72,7 @@ struct PairSettings {
   }
 
   bool connects() const { return !merging || merging->connects; }
+  bool merges_all_light() const { return merging && merging->merges_all_light(); }
 };
 
 /// A vertex at which a light path can be connected: all that is needed to evaluate it later.
@@ -139,12 +144,22 @@ struct EyePathExtras {
   Features* features = nullptr;                    ///< what it sees first goes there
   std::vector<RadianceRecord>* records = nullptr;  ///< what it finds behind its vertices goes there
   SpecularRoot::Leaves leaves = SpecularRoot::Leaves::kBranches;  ///< to trees, if there is one
+  /// Where photons come in batches: how many of all of them it merges where it leaves its first
+  /// rough vertex by a D ([W12]).
+  uint32_t* merged = nullptr;
+  bool counts_merged = false;  ///< adds those of a batch there and finds no light
+};
+
+/// What tracing an eye path took.
+struct EyePathCounts {
+  uint64_t rays = 0, merged = 0;  ///< rays, and photons within the merge radius
 };
 
 /// Runs the eye path that `camera` starts and adds the light of all techniques with t > 1 to
 /// `light`, before the camera's weight. Its wavelengths, where not all are kept, are dealt with:
-/// the sums are those of the wavelengths that it started with. Returns the number of rays.
-uint64_t trace_eye_path(const PairSettings& settings, const LightSubpath& path, CameraPath& camera,
-                        PathSampler& sampler, PartSums& light, const EyePathExtras& extras = {});
+/// the sums are those of the wavelengths that it started with.
+EyePathCounts trace_eye_path(const PairSettings& settings, const LightSubpath& path,
+                             CameraPath& camera, PathSampler& sampler, PartSums& light,
+                             const EyePathExtras& extras = {});
 
 }  // namespace nephroid

@@ -54,6 +54,16 @@ inline EventDensity density_of_walk(const Walk& walk, const WalkVertex& v, const
   return d;
 }
 
+/// [W9] Light paths that are connected to the camera find the first vertex of an eye path, too.
+inline double cut_at_camera(const PairSettings& settings, const CameraPath& camera,
+                            const Place& first) {
+  if (!settings.view || !settings.connects()) return 0;
+  const auto line = settings.scene.camera->connect(first.p, camera.u_lens, camera.u_time);
+  if (!line) return 0;
+  const double density = line->film_density * cosine_at(first, line->wi);
+  return density > 0 ? heuristic(settings.light_paths / density) : 0;
+}
+
 /// True if paths may merge at an event of class `c` here.
 inline bool merges_at(const WalkVertex& v, EventClass c) {
   return v.merges && contains(ClassMask::kRough, c);

@@ -12,8 +12,9 @@ namespace {
 
 constexpr const EstimatorSetting* kSettings[] = {&kTechniqueSetting, &kSpecularTreesSetting};
 
+template <bool kConnects>
 PixelBytes bytes_of(const PixelMemoryInput& need) {
-  return {.of_pass = pair_pass_bytes_per_pixel(need.parts, need.clamps ? 1 : 0)};
+  return {.of_pass = pair_pass_bytes_per_pixel(need.parts, 1, need.clamps, kConnects)};
 }
 
 }  // namespace
@@ -26,7 +27,7 @@ constinit const EstimatorDescriptor VertexConnectionMerging::kDescriptor = {
     .settings = kSettings,
     .merges_with_radius = true,
     .keeps_photons = true,
-    .bytes_per_pixel = bytes_of,
+    .bytes_per_pixel = bytes_of<true>,
     .exposed_pixels = pixels_of_merging_and_splats,
     .make = make_estimator<VertexConnectionMerging>,
 };
@@ -39,7 +40,7 @@ constinit const EstimatorDescriptor BidirectionalPhotonMapping::kDescriptor = {
     .settings = kSettings,
     .merges_with_radius = true,
     .keeps_photons = true,
-    .bytes_per_pixel = bytes_of,
+    .bytes_per_pixel = bytes_of<false>,
     .exposed_pixels = pixels_of_merging,
     .make = make_estimator<BidirectionalPhotonMapping>,
 };
@@ -62,6 +63,7 @@ void VertexConnectionMerging::render_pass(const PassKey& key, const Learned*, co
                                     ? options_.photons_per_pass
                                     : default_light_paths(film.bounds().area());
   pass.techniques.connects = connects_;
+  pass.radius_pixels = radius_of_pass(options_, film.format().picture_pixels(), key.pass);
   const SampleMap one_path(film.bounds()), no_walks(film.bounds(), 0);
   render(pass, {.film = film, .samples = {one_path, no_walks}}, statistics_);
 }

@@ -23,13 +23,22 @@ double SampleMap::mean() const {
   return sum / static_cast<double>(counts_.size());
 }
 
+void SampleVariance::add(const SampleVariance& other) {
+  for (size_t i = 0; i < sums_.size(); ++i) {
+    sums_[i].light += other.sums_[i].light;
+    sums_[i].square += other.sums_[i].square;
+    sums_[i].rays += other.sums_[i].rays;
+    sums_[i].samples += other.sums_[i].samples;
+  }
+}
+
 SampleVariance::ByTile SampleVariance::by_tile(const SampleVariance* others) const {
   const SampleMap tiles(bounds_, 1, spacing_);
   const ByTile other = others ? others->by_tile() : ByTile{};
   ByTile out;
   out.variance.assign(tiles.counts().size(), 0);
   out.cost = out.variance;
-  out.light = out.variance;
+  out.light = out.brightness = out.variance;
   std::vector<double> pixels(out.variance);
   double all_light = 0, all_pixels = 0;
   size_t i = 0;
@@ -53,6 +62,7 @@ SampleVariance::ByTile SampleVariance::by_tile(const SampleVariance* others) con
     if (!(pixels[t] > 0)) continue;
     out.light[t] /= pixels[t];
     const double brightness = out.light[t] + (others ? other.light[t] : 0) + floor;
+    out.brightness[t] = brightness;
     out.variance[t] = brightness > 0 ? out.variance[t] / (pixels[t] * brightness) : 0;
     out.cost[t] /= pixels[t];
   }

@@ -70,11 +70,14 @@ class SampleVariance {
     s.square += square;
     ++s.samples;
   }
+  /// The samples of another one of the same lattice count, too.
+  void add(const SampleVariance& other);
   /// Zero where no pixel has two samples.
   struct ByTile {
-    std::vector<double> variance;  ///< [tile] of a sample, over the brightness, [A1]
-    std::vector<double> light;     ///< [tile] mean magnitude
-    std::vector<double> cost;      ///< [tile] of a sample, in rays
+    std::vector<double> variance;    ///< [tile] of a sample, over the brightness, [A1]
+    std::vector<double> brightness;  ///< [tile] that it is over
+    std::vector<double> light;       ///< [tile] mean magnitude
+    std::vector<double> cost;        ///< [tile] of a sample, in rays
   };
   /// The light of `others`, in the same pixels, counts as brightness of the tiles, too.
   ByTile by_tile(const SampleVariance* others = nullptr) const;

@@ -117,7 +117,8 @@ VisiblePoints visible_points(const Scene& scene, const FilmFormat& film, const O
   };
   Found<Photon> all = walk_from<Photon>(scene, pixels, pass, run);
   // Wide enough to leave no gaps between the walks, and to reach as far as a merge.
-  const float radius = std::max(2.0f * static_cast<float>(pixels.stride), first_radius(options));
+  const float radius = std::max(2.0f * static_cast<float>(pixels.stride),
+                                first_radius(options, film.picture_pixels()));
   const Vec3f eye = scene.camera->camera_to_world(pass.trace.time).point(Vec3f(0, 0, 0));
   return {PhotonGrid(std::move(all.points)), pass.footprint, eye, radius, all.rays};
 }

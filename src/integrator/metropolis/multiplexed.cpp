@@ -85,7 +85,7 @@ class TechniquePaths : public PathFunction {
       if (path_.size() == 0) return;
     }
     light_.clear();
-    found.rays += trace_eye_path(pair_, path_, camera, eye, light_);
+    found.rays += trace_eye_path(pair_, path_, camera, eye, light_).rays;
     const std::span<const Rgb> colors =
         light_.colors(weights, camera.camera_weight * pass_.area.area() * factor, kInfinity, 1.0f);
     for (size_t part = 0; part < colors.size(); ++part) found.add(film, part, colors[part]);

@@ -109,26 +109,13 @@ double Trial::min_variance_of_unseen(const Trial& other) const {
   return unseen > 0 ? samples * unseen * unseen / (1.1 * other.light) : 0;
 }
 
-Balance::Balance(const Trial& many, const Trial& few) {
+Balance::Balance(const Trial& trial)
+    : variance_of_camera(std::max(trial.variance_of_camera, 0.05 * trial.variance_of_light)),
+      cost_of_camera(trial.cost_of_camera),
+      photons_of_path(trial.photons) {
   // V(N) = v + b/N.
-  const double b =
-      std::max(0.0, (few.variance - many.variance) / (1 / few.light_paths - 1 / many.light_paths));
-  variance_of_light = b;
-  cost_of_light = many.cost_of_light / many.light_paths;
-  photons_of_path = many.photons;
-  take_camera_paths(many);
-}
-
-void Balance::take_camera_paths(const Trial& trial) {
-  const double b = trial.light_paths > 0 ? variance_of_light / trial.light_paths : 0;
-  variance_of_camera = std::max(0.05 * trial.variance, trial.variance - b);
-  cost_of_camera = trial.cost_of_camera;
-}
-
-Balance Balance::with_camera_paths_of(const Trial& trial) const {
-  Balance other = *this;
-  other.take_camera_paths(trial);
-  return other;
+  variance_of_light = trial.variance_of_light * trial.light_paths;
+  if (trial.light_paths > 0) cost_of_light = trial.cost_of_light / trial.light_paths;
 }
 
 double Balance::light_paths_of_camera_path() const {

@@ -31,51 +31,44 @@ SampleAllocation allocate_samples(const PixelBounds& bounds, int spacing,
 
 /// What trial passes over a lattice of pixels told, as if the lattice were the film.
 struct Trial {
-  double variance = 0;        ///< of one pass
-  double cost_of_camera = 0;  ///< of the camera paths of one pass
-  double cost_of_light = 0;   ///< of all its light paths
-  double light_paths = 0;     ///< of one pass
-  double light = 0;           ///< mean of the picture
-  double error = 0;           ///< standard error of that mean
-  double samples = 0;         ///< camera paths that it is a mean of
-  double records = 0;         ///< that a camera path leaves in the mean
-  double photons = 0;         ///< that a light path leaves in the mean
+  double variance_of_camera = 0;  ///< of one camera path, given the photons
+  double variance_of_light = 0;   ///< of a pass, by its photons
+  double cost_of_camera = 0;      ///< of one camera path for each pixel
+  double cost_of_light = 0;       ///< of all light paths of a pass, and of merging their photons
+  double light_paths = 0;         ///< of one pass
+  double light = 0;               ///< mean of the picture
+  double error = 0;               ///< standard error of that mean
+  double samples = 0;             ///< camera paths that it is a mean of
+  double records = 0;             ///< that a camera path leaves in the mean
+  double photons = 0;             ///< that a light path leaves in the mean
   /// [A4] The least variance that light can have which another trial has seen and this one has not.
   double min_variance_of_unseen(const Trial& other) const;
-  double inverse_efficiency() const { return variance * (cost_of_camera + cost_of_light); }
 };
 
 /// The mean of some tiles without the few that stand out: what one lucky path did says little.
 double winsorized_mean(std::vector<double> tiles);
 
 /// [A3] The number of light paths with which a pass of `camera_paths` for each pixel has the least
-/// variance times cost, and that of one camera path; from a trial with many light paths and one
-/// with few.
+/// variance times cost, and that of one camera path.
 struct Balance {
   double max_photons = 1 << 18;  ///< that a pass keeps, about
   double scale = 1;              ///< pixels of the film over those of the lattice
   double variance_of_camera = 0, variance_of_light = 0, cost_of_camera = 0, cost_of_light = 0;
   double photons_of_path = 0;  ///< that one light path leaves
-  Balance(const Trial& many, const Trial& few);
+  explicit Balance(const Trial& trial);
   /// To be read into.
   Balance() = default;
   static void members(auto& self, auto& archive) {
     archive(self.max_photons, self.scale, self.variance_of_camera, self.variance_of_light,
             self.cost_of_camera, self.cost_of_light, self.photons_of_path);
   }
-  /// For passes without light paths.
-  explicit Balance(const Trial& trial)
-      : variance_of_camera(trial.variance), cost_of_camera(trial.cost_of_camera) {}
   /// The best number, as far as it leaves no more than max_photons.
   int64_t light_paths(double camera_paths) const;
   /// Camera paths of each pixel beside which the best number of light paths is not too many.
   double max_camera_paths() const { return max_light_paths() / light_paths_of_camera_path(); }
   double inverse_efficiency() const;
-  /// That of the same light paths beside the camera paths of another trial.
-  Balance with_camera_paths_of(const Trial& trial) const;
 
  private:
-  void take_camera_paths(const Trial& trial);
   double max_light_paths() const;
   double light_paths_of_camera_path() const;
 };

@@ -11,17 +11,17 @@ void LearnedMix::add_to(EstimatorStatistics& s) const {
   s.learning_rays += plan_.rays + plan_.photons.rays;
   s.hold(plan_.photon_bytes, plan_.pixel_bytes);
   const PairTechniques& techniques = plan_.techniques;
-  if (techniques.connects)
+  if (!techniques.caustics_only)
     s.notes.push_back(
-        "trial passes were better with light paths connected and merged everywhere than with "
-        "caustic photons alone");
+        "trial passes were better with photons of all light than with those of "
+        "caustics alone");
   else
     explain_missing_caustics(plan_.lacks_specular, s);
   if (techniques.roulette_threshold == kPatientRouletteThreshold)
     s.notes.push_back(
         "Russian roulette begins at an eighth of what a camera path started with: trial passes "
         "were better for it");
-  if (!techniques.connects) plan_.photons.add_notes(s);
+  if (techniques.caustics_only) plan_.photons.add_notes(s);
   if (plan_.directions.guides())
     s.notes.push_back(
         fmt::format("camera paths guided at {:.3g} % of the rough surfaces that "

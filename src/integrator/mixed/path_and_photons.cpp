@@ -18,13 +18,12 @@ namespace {
 constexpr const EstimatorSetting* kSettings[] = {&kGuideSetting, &kGuideWalksSetting};
 constexpr uint64_t kTrialStream = 0x747269616c;        // "trial"
 constexpr uint64_t kMeasureStream = 0x6d656173757265;  // "measure"
-constexpr uint32_t kTrialPasses = 2;
-constexpr int64_t kMaxMeasuredPaths = 1 << 15;
-/// Light paths of a trial with few of them are this part of those with many.
-constexpr int64_t kFewer = 8;
-/// Connecting has to be better by this factor: two passes are a rough guess, and do not see that
-/// camera paths alone, whose points fill the gaps of earlier ones, gain more from passes to come.
-constexpr double kRequiredGain = 1.6;
+/// Passes of a trial, and camera paths of a pixel in each.
+constexpr uint32_t kTrialPasses = 2, kTrialSamples = 2;
+/// Merging all photons has to be better by this factor: two passes are a rough guess, and do not
+/// see that camera paths alone, whose points fill the gaps of earlier ones, gain more from passes
+/// to come, nor the bias of what is merged.
+constexpr double kRequiredGain = 1.25;
 
 /// Camera paths of each pixel of the lattice in the pass that is measured.
 constexpr int kMeasuredSamples = 8;
@@ -41,34 +40,26 @@ double max_photons(const FilmFormat& film) {
   return std::min(kMaxPhotons, bytes / kBytesOfPhoton);
 }
 
-/// The radius with the least error for the photons of some seconds has a size in the world, so that
-/// it has the more pixels the more of them the picture has; edges are as sharp as its pixels. From
-/// water-caustic at 128 and 512 pixels, pool and coffee-cup. Times the radius that is best for a
-/// thumbnail; 1 where the user says a radius, and where everything is merged, not caustics alone.
-float radius_scale(const IntegratorOptions& options, bool caustics_only, int64_t pixels) {
-  const double over_thumbnail = static_cast<double>(pixels) / PixelSlices::kMaxFirstPixels;
-  if (options.radius > 0 || !caustics_only) return 1;
-  return static_cast<float>(std::pow(std::max(1.0, over_thumbnail), 0.3));
-}
-
-/// Pixels of the picture of which the film may be a crop.
-int64_t full_size(const FilmFormat& film) {
-  return int64_t{film.settings().width} * film.settings().height;
-}
-
 int spacing_of(const FilmFormat& film) {
   return PixelSlices(film.bounds()).spacing(1);
 }
 
-/// One path for each pixel of every other tile.
+/// Some paths for each pixel of every other tile.
 SampleMap every_other_tile(const FilmFormat& film) {
   SampleMap map(film.bounds(), 1, spacing_of(film));
   for (size_t i = 0; i < map.counts().size(); ++i) {
     const size_t w = map.width();
-    map.counts()[i] = (i / w + i % w) % 2 == 0;
+    map.counts()[i] = (i / w + i % w) % 2 == 0 ? kTrialSamples : 0;
   }
   return map;
 }
+
+/// Techniques, and how good they are.
+struct Candidate {
+  PairTechniques techniques;
+  Trial trial;
+  Balance balance;
+};
 
 /// Runs trial passes and counts what they cost.
 class Trials {
@@ -84,58 +75,100 @@ class Trials {
         tiles_(every_other_tile(film)) {}
 
   /// What a few passes that are thrown away tell of these techniques.
-  Trial run(const PairTechniques& techniques, const EmissionGuide& emission) {
-    SampleVariance variance(film_.bounds(), spacing_of(film_));
-    const PairTrial trial{
-        .paths = tiles_,
-        .counts_records = options_.own<GuidingOptions>().walks && !techniques.connects};
+  Candidate run(const PairTechniques& techniques, const EmissionGuide& emission) {
+    const PairTrial trial{.paths = tiles_, .counts_records = options_.own<GuidingOptions>().walks};
     const size_t stride =
         PassRecords::stride(PixelSlices(film_.bounds()).first_pixels(), trial.records_per_path);
     EstimatorStatistics counts;
     size_t records = 0;
+    Spread spread{SampleVariance(film_.bounds(), spacing_of(film_)), {}};
     for (uint32_t i = 0; i < kTrialPasses; ++i) {
-      const PassKey key{hash_combine(seed_, kTrialStream), i};
-      records += try_out({.key = key,
-                          .seed = hash_combine(key.seed, kPathAndPhotonsNumber),
-                          .scene = scene_,
-                          .owned = owned_,
-                          .options = options_,
-                          .techniques = techniques,
-                          .emission = emission,
-                          .light_paths_vary = true,
-                          .spacing = spacing_of(film_),
-                          .control = control_},
-                         film_, trial, variance, counts);
+      SampleVariance of_pass(film_.bounds(), spacing_of(film_));
+      // Both have the same wavelengths and moment, which are no noise of photons.
+      const PassKey key{hash_combine(seed_, kTrialStream), 0};
+      records += try_out(
+          {.key = key,
+           .seed = hash_combine(key.seed, kPathAndPhotonsNumber, i),
+           .scene = scene_,
+           .owned = owned_,
+           .options = options_,
+           .techniques = techniques,
+           .radius_pixels = static_cast<float>(spacing_of(film_)) * radius_of_pass(options_, 0, 0),
+           .photons_for_one = photons_for_one(),
+           .emission = emission,
+           .light_paths_vary = true,
+           .independent_samples = true,
+           .control = control_},
+          film_, trial, of_pass, counts);
+      spread.all.add(of_pass);
+      const SampleVariance::ByTile tiles = of_pass.by_tile();
+      spread.within.resize(tiles.variance.size());
+      for (size_t t = 0; t < tiles.variance.size(); ++t)
+        spread.within[t] += tiles.variance[t] * tiles.brightness[t] / kTrialPasses;
     }
     costs_.rays += counts.rays;
     costs_.hold(counts.photon_bytes, counts.pixel_bytes);
-    return judge(variance.by_tile(), counts, techniques, static_cast<double>(records * stride));
+    const Trial found = trial_of(spread, counts, techniques, static_cast<double>(records * stride));
+    Balance balance(found);
+    balance.max_photons = max_photons(film_);
+    balance.scale = static_cast<double>(film_.bounds().area()) /
+                    static_cast<double>(PixelSlices(film_.bounds()).first_pixels());
+    // What photons vary by goes with the area in which they are merged.
+    balance.variance_of_light /= photons_for_one();
+    return {techniques, found, balance};
   }
 
   const EstimatorStatistics& costs() const { return costs_; }
 
  private:
-  Trial judge(const SampleVariance::ByTile& found, const EstimatorStatistics& counts,
-              const PairTechniques& techniques, double records) const {
-    std::vector<double> tiles;
-    double light = 0, variance = 0;
+  /// Photons that are merged in the film for one in a trial, whose radius is that of a small
+  /// picture.
+  float photons_for_one() const {
+    return options_.radius > 0 ? 1.0f : sqr(radius_growth(film_.picture_pixels()));
+  }
+  struct Spread {
+    SampleVariance all;          ///< of all passes
+    std::vector<double> within;  ///< [tile] variance of samples that share their photons
+  };
+  /// [A6]
+  Trial trial_of(const Spread& spread, const EstimatorStatistics& counts,
+                 const PairTechniques& techniques, double records) const {
+    constexpr double kSame = static_cast<double>(kTrialSamples - 1) /
+                             static_cast<double>(kTrialSamples * kTrialPasses - 1);
+    const SampleVariance::ByTile found = spread.all.by_tile();
+    std::vector<double> all, within;
+    double light = 0, raw_all = 0, raw_within = 0;
     for (size_t i = 0; i < found.variance.size(); ++i) {
       if (tiles_.counts()[i] == 0) continue;
-      tiles.push_back(found.variance[i]);
+      const double brightness = found.brightness[i];
+      all.push_back(found.variance[i]);
+      within.push_back(brightness > 0 ? spread.within[i] / brightness : 0);
       light += found.light[i];
-      variance += found.variance[i] * found.light[i];
+      raw_all += found.variance[i] * brightness;
+      raw_within += spread.within[i];
     }
-    const double count = static_cast<double>(std::max<size_t>(1, tiles.size()));
+    const double tiles = static_cast<double>(std::max<size_t>(1, all.size()));
     const double samples = static_cast<double>(counts.camera_paths);
+    const double passes = samples / static_cast<double>(PixelSlices(film_.bounds()).first_pixels());
     const double camera_rays =
-        static_cast<double>(counts.rays - counts.light_rays - counts.again_rays) / samples *
-        static_cast<double>(PixelSlices(film_.bounds()).first_pixels());
-    return {.variance = winsorized_mean(std::move(tiles)),
+        static_cast<double>(counts.rays - counts.light_rays - counts.again_rays) / passes;
+    const double merges =
+        kCostOfMerge * photons_for_one() * static_cast<double>(counts.photons_merged) / passes;
+    const double variance = winsorized_mean(std::move(all)),
+                 variance_of_camera = winsorized_mean(std::move(within));
+    // Neighbours share photons, too.
+    const double sharing =
+        kTrialSamples * std::max(1.0, kPi * sqr(double{first_radius(options_, 0)}));
+    const double error_squared =
+        (raw_within + std::max(0.0, raw_all - raw_within) / (1 - kSame) * sharing) / tiles /
+        samples;
+    return {.variance_of_camera = variance_of_camera,
+            .variance_of_light = std::max(0.0, variance - variance_of_camera) / (1 - kSame),
             .cost_of_camera = camera_rays,
-            .cost_of_light = static_cast<double>(counts.light_rays) / kTrialPasses,
+            .cost_of_light = static_cast<double>(counts.light_rays) / kTrialPasses + merges,
             .light_paths = static_cast<double>(techniques.light_paths),
-            .light = light / count,
-            .error = std::sqrt(variance / count / samples),
+            .light = light / tiles,
+            .error = std::sqrt(error_squared),
             .samples = samples,
             .records = records / samples,
             .photons = counts.photon_paths > 0 ? static_cast<double>(counts.photons_stored) /
@@ -183,12 +216,7 @@ constinit const EstimatorDescriptor PathAndPhotons::kDescriptor = {
           return PixelBytes{.of_pass = bytes_per_pixel(need.parts, need.clamps,
                                                        need.options.camera_samples_per_pass)};
         },
-    .exposed_pixels =
-        [](const IntegratorOptions& options, const PixelFilter& filter, int64_t pixels) {
-          IntegratorOptions wide = options;
-          wide.radius = first_radius(options) * radius_scale(options, true, pixels);
-          return pixels_of_merging_and_splats(wide, filter, pixels);
-        },
+    .exposed_pixels = pixels_of_merging,
     .make = make_estimator<PathAndPhotons>,
 };
 
@@ -200,56 +228,42 @@ std::shared_ptr<const Learned> PathAndPhotons::learn(const Scene& scene, const F
   // The lattice stands for a film: with wider merges it has as much noise as the film with as many
   // light paths for each pixel.
   const int64_t pixels = PixelSlices(film.bounds()).first_pixels();
-  const double scale = static_cast<double>(film.bounds().area()) / static_cast<double>(pixels);
   const int asked = options_.camera_samples_per_pass;
   MixPlan plan;
   plan.is_even = asked > 0;
   plan.lacks_specular = !has_specular_events(owned_);
   plan.photons = guide_caustic_photons(seed, scene, film, options_, control);
-  const EmissionGuide& emission = plan.photons.guide.starts;
-  PairTechniques& chosen = plan.techniques;
-  chosen = {.light_paths = plan.lacks_specular ? 0 : std::max<int64_t>(pixels, 1 << 14),
-            .connects = false,
-            .caustics_only = true,
-            .separates_chains = SpecularTree(scene, owned_, options_.max_depth).finds_something(),
-            .roulette_threshold = kCameraRouletteThreshold};
+  const bool separates_chains = SpecularTree(scene, owned_, options_.max_depth).finds_something();
   Trials trials(seed, scene, film, owned_, options_, control);
-  Trial many = trials.run(chosen, emission);
-  Balance balance(many);
-  if (chosen.light_paths > 0) {
-    PairTechniques fewer = chosen;
-    fewer.light_paths = chosen.light_paths / kFewer;
-    balance = Balance(many, trials.run(fewer, emission));
-  }
+  const int64_t light_paths = std::max<int64_t>(pixels, 1 << 14);
+  Candidate caustics = trials.run({.light_paths = plan.lacks_specular ? 0 : light_paths,
+                                   .connects = false,
+                                   .caustics_only = true,
+                                   .separates_chains = separates_chains,
+                                   .roulette_threshold = kCameraRouletteThreshold},
+                                  plan.photons.guide.starts);
   // [A5]
-  PairTechniques patient = chosen;
+  PairTechniques patient = caustics.techniques;
   patient.roulette_threshold = kPatientRouletteThreshold;
-  const Trial longer = trials.run(patient, emission);
-  if (const Balance other = balance.with_camera_paths_of(longer);
-      other.inverse_efficiency() < balance.inverse_efficiency()) {
-    chosen = patient;
-    balance = other;
-    many = longer;
-  }
-  balance.max_photons = max_photons(film);
-  balance.scale = scale;
-  // What photons vary by goes with the area in which they are merged.
-  balance.variance_of_light /= double{sqr(radius_scale(options_, true, full_size(film)))};
-  if (chosen.light_paths > 0) plan.balance = balance;
-  double records_per_path = std::clamp(1.1 * many.records, 0.25, double{PassRecords::kMaxPerPath});
-  const PairTechniques connecting{.light_paths = default_light_paths(pixels),
-                                  .separates_chains = chosen.separates_chains};
-  Trial connected = trials.run(connecting, kUnguided);
-  balance.variance_of_camera += many.min_variance_of_unseen(connected);
-  connected.variance += connected.min_variance_of_unseen(many);
-  if (kRequiredGain * connected.inverse_efficiency() < balance.inverse_efficiency()) {
-    chosen = connecting;
-    chosen.light_paths =
-        std::min(default_light_paths(film.bounds().area()),
-                 static_cast<int64_t>(max_photons(film) / std::max(connected.photons, 0.1)));
-    plan.balance.reset();
-    records_per_path = PassRecords::kMaxPerPath;
-  }
+  if (Candidate longer = trials.run(patient, plan.photons.guide.starts);
+      longer.balance.inverse_efficiency() < caustics.balance.inverse_efficiency())
+    caustics = longer;
+  Candidate all = trials.run({.light_paths = light_paths,
+                              .connects = false,
+                              .separates_chains = separates_chains,
+                              .roulette_threshold = kCameraRouletteThreshold},
+                             kUnguided);
+  // Photons of all light see all that the others do, but lose light at edges.
+  caustics.balance.variance_of_camera += caustics.trial.min_variance_of_unseen(all.trial);
+  const Candidate& best =
+      kRequiredGain * all.balance.inverse_efficiency() < caustics.balance.inverse_efficiency()
+          ? all
+          : caustics;
+  PairTechniques& chosen = plan.techniques;
+  chosen = best.techniques;
+  if (chosen.light_paths > 0) plan.balance = best.balance;
+  const double records_per_path =
+      std::clamp(1.1 * best.trial.records, 0.25, double{PassRecords::kMaxPerPath});
   if (options_.photons_per_pass > 0) {
     chosen.light_paths = options_.photons_per_pass;
     plan.balance.reset();
@@ -264,8 +278,11 @@ std::shared_ptr<const Learned> PathAndPhotons::learn(const Scene& scene, const F
   if (learning.measures_variance || learning.keeps_records) {
     const PassKey key{hash_combine(seed, kMeasureStream), 0};
     PairPass pass = pass_of(key, scene, film, plan, control);
-    pass.techniques.light_paths = std::min<int64_t>(pass.techniques.light_paths, kMaxMeasuredPaths);
-    pass.spacing = spacing_of(film);
+    // As many for each pixel of the lattice as the film has for its own.
+    pass.techniques.light_paths = static_cast<int64_t>(
+        std::ceil(static_cast<double>(pass.techniques.light_paths) * static_cast<double>(pixels) /
+                  static_cast<double>(film.bounds().area())));
+    pass.radius_pixels *= static_cast<float>(spacing_of(film));
     PairFindings found = measure(pass, film, {measured, measured}, learning, costs);
     if (found.variance) plan.samples = allocation(*found.variance, plan, film);
     const size_t record_bytes = found.records.capacity() * sizeof(RadianceRecord);
@@ -281,17 +298,16 @@ std::shared_ptr<const Learned> PathAndPhotons::learn(const Scene& scene, const F
 
 PairPass PathAndPhotons::pass_of(const PassKey& key, const Scene& scene, const FilmFormat& film,
                                  const MixPlan& plan, PassControl& control) const {
-  PairPass pass{
-      .key = key,
-      .seed = hash_combine(key.seed, kPathAndPhotonsNumber),
-      .scene = scene,
-      .owned = owned_,
-      .options = options_,
-      .techniques = plan.techniques,
-      .emission = plan.techniques.connects ? kUnguided : plan.photons.guide.starts,
-      .light_paths_vary = true,
-      .radius_scale = radius_scale(options_, plan.techniques.caustics_only, full_size(film)),
-      .control = control};
+  PairPass pass{.key = key,
+                .seed = hash_combine(key.seed, kPathAndPhotonsNumber),
+                .scene = scene,
+                .owned = owned_,
+                .options = options_,
+                .techniques = plan.techniques,
+                .radius_pixels = radius_of_pass(options_, film.picture_pixels(), key.pass),
+                .emission = plan.techniques.caustics_only ? plan.photons.guide.starts : kUnguided,
+                .light_paths_vary = true,
+                .control = control};
   pass.techniques.light_paths = plan.light_paths();
   return pass;
 }

@@ -1,8 +1,8 @@
 // `path+photons`: one walk from the eye that finds everything path tracing finds, and whose
 // caustics are photons as well, each weighed against the other; where trial passes show that it is
-// worth its time, light paths are connected and merged everywhere, too (docs/estimators.md,
-// sections 20 to 23). Papers: Doidge, Jones & Mora 2012, whose future work this is; Georgiev et al.
-// 2012 for weights; Grittmann et al. 2022 for choosing techniques by efficiency.
+// worth its time, all other light is photons, too (docs/estimators.md, sections 20 to 23). Papers:
+// Doidge, Jones & Mora 2012, whose future work this is; Georgiev et al. 2012 for weights; Grittmann
+// et al. 2022 for choosing techniques by efficiency.
 #pragma once
 
 #include "integrator/bidirectional/pair_pass.h"
@@ -29,7 +29,7 @@ class PathAndPhotons final : public Estimator {
   /// `samples`: those that the user asks for, or 0.
   static size_t bytes_per_pixel(size_t parts, bool clamps, int samples) {
     const size_t most = std::max<size_t>(SampleMap::kMax, samples);
-    return pair_pass_bytes_per_pixel(parts, clamps ? most : 0);
+    return pair_pass_bytes_per_pixel(parts, most, clamps, false);
   }
 
  private:

@@ -52,8 +52,9 @@ void PhotonMapping::render_pass(const PassKey& key, const Learned* learned, cons
     return;
   }
   const PhotonGuide& guide = static_cast<const LearnedPhotons*>(learned)->guide();
-  const MergePass pass = merge_pass(key, scene, film, owned_, options_, guide,
-                                    radius_of_pass(options_, key.pass), {}, statistics_, control);
+  const MergePass pass = merge_pass(
+      key, scene, film, owned_, options_, guide,
+      radius_of_pass(options_, film.format().picture_pixels(), key.pass), {}, statistics_, control);
   const PixelBounds& b = film.bounds();
   const size_t parts = film.parts_of(group).size();
   const Rgb* estimate = pass.values.data();

@@ -5,6 +5,7 @@
 
 #include "integrator/estimator/exposed_pixels.h"
 #include "integrator/photons/gather.h"
+#include "integrator/photons/merge_pass.h"
 
 namespace nephroid {
 
@@ -32,20 +33,19 @@ constinit const EstimatorDescriptor Sppm::kDescriptor = {
 };
 
 Sppm::Sppm(OwnedRoutes owned, const IntegratorOptions& options)
-    : owned_(std::move(owned)), options_(options) {
-  options_.radius = first_radius(options_);
-}
+    : owned_(std::move(owned)), options_(options) {}
 
-float Sppm::first_radius(const IntegratorOptions& options) {
-  return options.radius > 0 ? options.radius : kDefaultRadius;
+float Sppm::first_radius(const IntegratorOptions& options, int64_t pixels) {
+  return options.radius > 0 ? options.radius : kDefaultRadius * radius_growth(pixels);
 }
 
 size_t Sppm::bytes_of_pass(size_t parts) {
   return Gathered::bytes_per_walk(parts) + sizeof(uint64_t);
 }
 
-float Sppm::pixels_of_first_radius(const IntegratorOptions& options, const PixelFilter&, int64_t) {
-  return pixels_within(first_radius(options));
+float Sppm::pixels_of_first_radius(const IntegratorOptions& options, const PixelFilter&,
+                                   int64_t pixels) {
+  return pixels_within(first_radius(options, pixels));
 }
 
 std::span<const SobolPoint> Sppm::points(const PhotonPass& pass, const Scene&) {
@@ -65,6 +65,7 @@ void Sppm::render_pass(const PassKey& key, const Learned*, const Scene& scene, F
   const size_t parts = film.parts_of(static_cast<int>(owned_.group)).size();
   const PhotonPass pass = start_photon_pass(key, scene, film.format(), options_, control);
   const int64_t photons = pass.trace.photons_per_pass;
+  const double first = first_radius(options_, film.format().picture_pixels());
   start_regions(scene, b.area(), parts);
 
   // The radius stays until the pass is complete.
@@ -82,7 +83,7 @@ void Sppm::render_pass(const PassKey& key, const Learned*, const Scene& scene, F
           const float width = pass.footprint.width(walk.length);
           SharedStatistics& region = regions_[i];
           if (!(region.radius_squared > 0)) {
-            region.radius_squared = sqr(static_cast<double>(options_.radius) * width);
+            region.radius_squared = sqr(first * width);
             footprint_[i] = width;
           }
           const uint64_t found =

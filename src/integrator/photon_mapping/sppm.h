@@ -28,11 +28,11 @@ class Sppm : public Estimator {
   /// The text of EstimatorDescriptor::outlier_warning.
   static constexpr const char* kNoEstimatesToHold =
       "keep theirs, they have no estimates that could be held";
-  /// Of all regions, in footprints: the user's, or the default.
-  static float first_radius(const IntegratorOptions& options);
+  /// Of all regions of a picture of so many pixels, in footprints: the user's, or the default.
+  static float first_radius(const IntegratorOptions& options, int64_t pixels);
   /// For EstimatorDescriptor::exposed_pixels.
   static float pixels_of_first_radius(const IntegratorOptions& options, const PixelFilter&,
-                                      int64_t);
+                                      int64_t pixels);
 
   /// Memory of a region from pass to pass, and what a pass needs beside it.
   static constexpr size_t bytes_kept(size_t parts) {

@@ -44,7 +44,7 @@ void VertexMerging::render_pass(const PassKey& key, const Learned*, const Scene&
     film.add_estimates(group, 1);
     return;
   }
-  const float radius_pixels = radius_of_pass(options_, key.pass);
+  const float radius_pixels = radius_of_pass(options_, film.format().picture_pixels(), key.pass);
   const PixelFootprint footprint = scene.camera->footprint();
 
   const MergeWeight merge_weight = [&](const CameraPath& path, const MergePoint& at, float radius) {

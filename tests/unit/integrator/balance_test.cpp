@@ -62,6 +62,22 @@ TEST(SampleVariance, IsTheVarianceOverTheBrightnessOfATile) {
   EXPECT_NEAR(beside.by_tile().variance[2], (1000 - 15 * 30) / (15 * 1.1), 1e-12);
 }
 
+// [A6] needs the spread of the samples of two passes and of both together.
+TEST(SampleVariance, AddsUp) {
+  const PixelBounds b = tiles(2, 1);
+  SampleVariance first(b), second(b), both(b);
+  for (int y = 0; y < b.height(); ++y)
+    for (int x = 0; x < b.width(); ++x)
+      for (int k = 0; k < 4; ++k) {
+        const double light = (x * 7 + y * 3 + k * 5) % 11 + 1, rays = x + k;
+        (k < 2 ? first : second).add(x, y, light, rays);
+        both.add(x, y, light, rays);
+      }
+  first.add(second);
+  EXPECT_EQ(first.by_tile().variance, both.by_tile().variance);
+  EXPECT_EQ(first.by_tile().cost, both.by_tile().cost);
+}
+
 /// Blocks of tiles side by side, wide enough to have tiles none of whose neighbours differ.
 struct Blocks {
   static constexpr int kWidth = 5, kHeight = 3;
@@ -214,14 +230,14 @@ struct Model {
   double expense(double camera, double light) const {
     return variance(camera, light) * cost(camera, light);
   }
-  Trial trial(double light) const { return {variance(1, light), c, d * light, light}; }
+  Trial trial(double light) const { return {a, light > 0 ? b / light : 0, c, d * light, light}; }
 };
 
 // [A3]
 TEST(Balance, FindsTheBestNumberOfLightPaths) {
   for (const Model& m : {Model{0.2, 500, 1e5, 4}, Model{0.01, 2000, 4e5, 9}, Model{1, 3e4, 1e6, 2}})
     for (const double camera : {1.0, 2.6, 8.0}) {
-      const Balance balance(m.trial(1 << 16), m.trial(1 << 13));
+      const Balance balance(m.trial(1 << 16));
       const double found = static_cast<double>(balance.light_paths(camera));
       double best = 1024;
       for (double n = 1024; n <= 1 << 20; n *= 1.001)
@@ -233,27 +249,13 @@ TEST(Balance, FindsTheBestNumberOfLightPaths) {
     }
 }
 
-TEST(Balance, TellsWhatOtherCameraPathsWouldMakeOfIt) {
-  const Model here{0.2, 500, 1e5, 4}, longer{0.1, 500, 1.5e5, 4}, alone{0.2, 0, 1e5, 0},
-      lone{0.3, 0, 2e5, 0};
-  const Balance balance(here.trial(1 << 16), here.trial(1 << 13));
-  const Balance expected(longer.trial(1 << 16), longer.trial(1 << 13));
-  const Balance other = balance.with_camera_paths_of(longer.trial(1 << 16));
-  EXPECT_NEAR(other.inverse_efficiency(), expected.inverse_efficiency(),
-              1e-6 * expected.inverse_efficiency());
-  EXPECT_EQ(other.light_paths(3), expected.light_paths(3));
-  EXPECT_LT(other.inverse_efficiency(), balance.inverse_efficiency());
-  EXPECT_NEAR(Balance(alone.trial(0)).with_camera_paths_of(lone.trial(0)).inverse_efficiency(), 6e4,
-              1e-6);
-}
-
 TEST(Balance, KeepsAsManyPhotonsAsMemoryIsFor) {
   const Model m{0.2, 5e4, 1e6, 4};
   Trial many = m.trial(1 << 16);
-  const int64_t best = Balance(many, m.trial(1 << 13)).light_paths(1);
+  const int64_t best = Balance(many).light_paths(1);
   for (const double photons : {0.01, 4.0}) {
     many.photons = photons;
-    const Balance balance(many, m.trial(1 << 13));
+    const Balance balance(many);
     const double most = std::min(balance.max_photons / photons, 4194304.0);
     EXPECT_EQ(balance.light_paths(100), static_cast<int64_t>(most));
     const double camera = balance.max_camera_paths();
@@ -269,7 +271,7 @@ TEST(Balance, GrowsWithTheFilm) {
   const Model m{0.2, 500, 1e5, 4};
   Trial many = m.trial(1 << 14);
   many.photons = 4;
-  const Balance lattice(many, m.trial(1 << 11));
+  const Balance lattice(many);
   Balance film = lattice;
   film.scale = 16;
   film.max_photons = 16 * lattice.max_photons;
@@ -300,22 +302,15 @@ TEST(SampleMap, HasLargerTilesWhereItIsLearnedFromFewerPixels) {
 }
 
 TEST(Balance, KeepsItsBoundsWhateverTrialsSay) {
-  const Model steady{0.2, 500, 1e5, 4};
-  // Light paths that bring no noise, or fewer of which seem to bring less, are as few as can be.
-  EXPECT_EQ(Balance(Model{0.2, 0, 1e5, 4}.trial(1 << 16), Model{0.2, 0, 1e5, 4}.trial(1 << 13))
-                .light_paths(1),
-            1024);
-  Trial lucky = steady.trial(1 << 13);
-  lucky.variance = 0.1;
-  EXPECT_EQ(Balance(steady.trial(1 << 16), lucky).light_paths(1), 1024);
-  // Noise that falls faster than can be leaves the camera paths some.
-  Trial unlucky = steady.trial(1 << 13);
-  unlucky.variance = 1e6;
-  EXPECT_EQ(Balance(steady.trial(1 << 16), unlucky).light_paths(8), 1 << 22);
-  // Light paths that cost nothing.
-  EXPECT_EQ(Balance(Model{0.2, 500, 1e5, 0}.trial(1 << 16), Model{0.2, 500, 1e5, 0}.trial(1 << 13))
-                .light_paths(1),
-            1024);
+  // Light paths that bring no noise are as few as can be, and so are those that cost nothing.
+  EXPECT_EQ(Balance(Model{0.2, 0, 1e5, 4}.trial(1 << 16)).light_paths(1), 1024);
+  EXPECT_EQ(Balance(Model{0.2, 500, 1e5, 0}.trial(1 << 16)).light_paths(1), 1024);
+  // Camera paths that bring none leave the light paths some.
+  const Balance still(Model{0, 500, 1e5, 4}.trial(1 << 16));
+  EXPECT_LT(still.light_paths(1), 1 << 22);
+  EXPECT_EQ(still.light_paths(1e3), 1 << 22);
+  // Passes without light paths.
+  EXPECT_NEAR(Balance(Model{0.3, 0, 2e5, 0}.trial(0)).inverse_efficiency(), 6e4, 1e-6);
 }
 
 }  // namespace

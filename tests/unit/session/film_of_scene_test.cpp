@@ -172,12 +172,12 @@ TEST(FilmOfScene, RejectionKnowsHowManyPixelsALightPathExposes) {
               {"ppm", 4 * kPi, 9 * kPi, 1},
               {"photonmap", 256 * kPi, 9 * kPi, 1},
               {"bpm", 2.25f * kPi, 9 * kPi, 1},
+              {"path+photons", 2.25f * kPi, 9 * kPi, 1},
               {"lighttrace", 12, 12, 12},
               {"bdpt", 12, 12, 12},
               {"mlt", 12, 12, 12},
               {"pssmlt", 12, 12, 12},
               {"photons+light", 12, 9 * kPi, 12},
-              {"path+photons", 12, 9 * kPi, 12},
               {"vcm", 12, 9 * kPi, 12}};
   for (const EstimatorTraits* estimator : estimator_traits()) {
     SCOPED_TRACE(estimator->name);
