@@ -71,7 +71,7 @@ double winsorized_mean(std::vector<double> tiles) {
 }
 
 SampleAllocation allocate_samples(const PixelBounds& bounds, int spacing,
-                                  const TileStatistics& tiles, bool chains_apart, double max_mean) {
+                                  const TileStatistics& tiles, double max_mean) {
   SampleAllocation shares{SampleMap(bounds, 1, spacing), SampleMap(bounds, 0, spacing)};
   const int width = shares.paths.width();
   const OfTiles paths(tiles.paths, width), chains(tiles.chains, width), choice(tiles.choice, width);
@@ -94,9 +94,8 @@ SampleAllocation allocate_samples(const PixelBounds& bounds, int spacing,
       // What no walk has seen in the mirrors and the glass of a tile may still be there, and
       // bright.
       const bool unseen = chains.variance[i] <= 0 && chains.cost[i] > 1;
-      const bool apart =
-          chains_apart || unseen ||
-          alone.inverse_efficiency + of_chains.inverse_efficiency < all.inverse_efficiency;
+      const bool apart = unseen || alone.inverse_efficiency + of_chains.inverse_efficiency <
+                                       all.inverse_efficiency;
       if (!apart) shares.paths.counts()[i] = all.samples;
       shares.chains.counts()[i] = apart ? of_chains.samples : 0;
     }

@@ -23,10 +23,10 @@ struct TileStatistics {
 };
 
 /// [A2] Allocates samples so that the error falls fastest: walks of either kind as the root of
-/// variance over cost, and each tile in the cheaper of both ways; or all chains by walks of their
-/// own. `max_mean` camera paths a pixel in the mean at most, 1 or more.
+/// variance over cost, and each tile in the cheaper of both ways. `max_mean` camera paths a pixel
+/// in the mean at most, 1 or more.
 SampleAllocation allocate_samples(const PixelBounds& bounds, int spacing,
-                                  const TileStatistics& tiles, bool chains_apart = false,
+                                  const TileStatistics& tiles,
                                   double max_mean = SampleMap::kMaxMean);
 
 /// What trial passes over a lattice of pixels told, as if the lattice were the film.

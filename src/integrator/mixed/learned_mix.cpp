@@ -13,9 +13,8 @@ void LearnedMix::add_to(EstimatorStatistics& s) const {
   const PairTechniques& techniques = plan_.techniques;
   if (!techniques.caustics_only)
     s.notes.push_back(
-        "trial passes were better with photons of all light than with those of "
-        "caustics alone");
-  else
+        "trial passes were better with photons of all light than with those of caustics alone");
+  if (techniques.caustics_only || !plan_.lacks_specular)
     explain_missing_caustics(plan_.lacks_specular, s);
   if (techniques.roulette_threshold == kPatientRouletteThreshold)
     s.notes.push_back(

@@ -192,13 +192,11 @@ SampleAllocation allocation(const PairFindings::Variance& v, const MixPlan& plan
                           ? std::clamp(plan.balance->max_camera_paths(), 1.0, SampleMap::kMaxMean)
                           : SampleMap::kMaxMean;
   if (!plan.techniques.separates_chains)
-    return allocate_samples(film.bounds(), spacing_of(film), {v.paths.by_tile(), {}, {}}, false,
-                            most);
-  // Where the film clamps, what a tile converges to depends on who finds its bright light.
+    return allocate_samples(film.bounds(), spacing_of(film), {v.paths.by_tile(), {}, {}}, most);
   return allocate_samples(film.bounds(), spacing_of(film),
                           {v.paths.by_tile(&v.chains.walks), v.chains.walks.by_tile(&v.paths),
                            v.chains.choice.by_tile(&v.paths)},
-                          film.settings().max_component < kInfinity, most);
+                          most);
 }
 
 }  // namespace
@@ -231,9 +229,11 @@ std::shared_ptr<const Learned> PathAndPhotons::learn(const Scene& scene, const F
   const int asked = options_.camera_samples_per_pass;
   MixPlan plan;
   plan.is_even = asked > 0;
-  plan.lacks_specular = !has_specular_events(owned_);
+  plan.lacks_specular = !has_events(owned_, EventClass::kSpecular);
   plan.photons = guide_caustic_photons(seed, scene, film, options_, control);
-  const bool separates_chains = SpecularTree(scene, owned_, options_.max_depth).finds_something();
+  // Where the film clamps, a limit of its samples holds for all of their light.
+  const bool separates_chains = film.settings().max_component == kInfinity &&
+                                SpecularTree(scene, owned_, options_.max_depth).finds_something();
   Trials trials(seed, scene, film, owned_, options_, control);
   const int64_t light_paths = std::max<int64_t>(pixels, 1 << 14);
   Candidate caustics = trials.run({.light_paths = plan.lacks_specular ? 0 : light_paths,
@@ -255,10 +255,11 @@ std::shared_ptr<const Learned> PathAndPhotons::learn(const Scene& scene, const F
                              kUnguided);
   // Photons of all light see all that the others do, but lose light at edges.
   caustics.balance.variance_of_camera += caustics.trial.min_variance_of_unseen(all.trial);
-  const Candidate& best =
-      kRequiredGain * all.balance.inverse_efficiency() < caustics.balance.inverse_efficiency()
-          ? all
-          : caustics;
+  // What lies under hair is too finely shadowed to be blurred.
+  const bool merges_all =
+      !has_events(owned_, EventClass::kHair) &&
+      kRequiredGain * all.balance.inverse_efficiency() < caustics.balance.inverse_efficiency();
+  const Candidate& best = merges_all ? all : caustics;
   PairTechniques& chosen = plan.techniques;
   chosen = best.techniques;
   if (chosen.light_paths > 0) plan.balance = best.balance;

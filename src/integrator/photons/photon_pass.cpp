@@ -80,11 +80,10 @@ bool deposits_at_once(const OwnedRoutes& owned) {
 
 }  // namespace
 
-bool has_specular_events(const OwnedRoutes& owned) {
+bool has_events(const OwnedRoutes& owned, EventClass letter) {
   const std::vector<bool>& events = owned.symbols->present().events;
   for (size_t e = 0; e < events.size(); ++e)
-    if (events[e] && class_of(kind_of(static_cast<EventSymbol>(e))) == EventClass::kSpecular)
-      return true;
+    if (events[e] && class_of(kind_of(static_cast<EventSymbol>(e))) == letter) return true;
   return false;
 }
 
@@ -131,13 +130,13 @@ void explain_lost_paths(EstimatorStatistics& s) {
 void explain_missing_caustics(bool lacks_specular, EstimatorStatistics& s) {
   if (lacks_specular)
     s.notes.push_back(kNothingSpecular);
-  else if (s.photon_paths > 0 && s.photon_paths_useful == 0)
+  else if (s.photon_paths > 0 && (s.photon_paths_useful == 0 || s.photon_paths_specular == 0))
     explain_lost_paths(s);
 }
 
 void explain_darkness(const OwnedRoutes& owned, uint64_t found, EstimatorStatistics& s) {
   if (!photons_can_count(owned)) {
-    s.notes.push_back(has_specular_events(owned)
+    s.notes.push_back(has_events(owned, EventClass::kSpecular)
                           ? "no path that this scene can have belongs to " +
                                 names_of_routes(owned) + ", and no photons were traced for it"
                           : std::string(kNothingSpecular));

@@ -45,8 +45,8 @@ bool photons_can_count(const OwnedRoutes& owned);
 /// "route 'a'", "routes 'a', 'b'": those of the group.
 std::string names_of_routes(const OwnedRoutes& owned);
 
-/// True if the scene has lobes of class S.
-bool has_specular_events(const OwnedRoutes& owned);
+/// True if paths of the scene can have events of this class.
+bool has_events(const OwnedRoutes& owned, EventClass letter);
 
 /// Adds what one batch of photons did to the counts.
 void count_photons(const PhotonTrace& trace, EstimatorStatistics& statistics);
@@ -54,8 +54,8 @@ void count_photons(const PhotonTrace& trace, EstimatorStatistics& statistics);
 /// Says why there is no light from photons, if there is none; `found` is how many were merged.
 void explain_darkness(const OwnedRoutes& owned, uint64_t found, EstimatorStatistics& statistics);
 
-/// The same for photons of caustics alone, from the paths that were traced and how many were of
-/// use.
+/// The same for caustics of the default integrator, from the paths that were traced and how many
+/// were of use.
 void explain_missing_caustics(bool lacks_specular, EstimatorStatistics& statistics);
 
 /// Calls `merge(walk, merge_point)` at each vertex of the walk where photons may be merged.

@@ -170,8 +170,6 @@ TEST(AllocateSamples, LooksForChainsWhereThatIsCheaper) {
     EXPECT_EQ(shares.paths.counts()[middle], blocks[i].expected_paths) << i;
     EXPECT_EQ(shares.chains.counts()[middle], blocks[i].expected_chains) << i;
   }
-  // As films that clamp want it.
-  EXPECT_GE(allocate_samples(tiles(across, kSide), 1, tiles_found, true).chains.fewest(), 1);
 }
 
 TEST(AllocateSamples, HasFewPathsAPass) {
@@ -188,8 +186,7 @@ TEST(AllocateSamples, HasFewPathsAPass) {
   spread.light.assign(24, 1);
   double last = 0;
   for (const double most : {1.0, 2.0, 3.0}) {
-    const double mean =
-        allocate_samples({0, 0, 24 * 4, 4}, 1, {spread, {}, {}}, false, most).paths.mean();
+    const double mean = allocate_samples({0, 0, 24 * 4, 4}, 1, {spread, {}, {}}, most).paths.mean();
     EXPECT_LE(mean, most);
     EXPECT_GT(mean, last);
     last = mean;

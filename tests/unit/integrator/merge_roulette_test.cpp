@@ -1,0 +1,78 @@
+// [W12], how eye paths end behind merged photons, and [E5], how far they merge.
+#include "integrator/bidirectional/merge_roulette.h"
+
+#include <gtest/gtest.h>
+
+#include "integrator/photons/merge_pass.h"
+
+namespace nephroid {
+namespace {
+
+void merge(MergeRoulette& path, int photons) {
+  for (int i = 0; i < photons; ++i) path.merge();
+}
+
+TEST(MergeRoulette, GoesOnTheLessTheMorePhotonsWereMerged) {
+  for (const auto& [photons, expected] :
+       {std::pair{0, 1.0f}, {1, 1.0f}, {5, 0.2f}, {500, 0.0625f}}) {
+    MergeRoulette path(nullptr, false, 1);
+    merge(path, photons);
+    path.leave(EventClass::kDiffuse, true);
+    EXPECT_FLOAT_EQ(path.survival(), expected) << photons;
+    EXPECT_EQ(path.survival(), 1) << "once";
+    EXPECT_EQ(path.merged(), static_cast<uint64_t>(photons));
+  }
+}
+
+TEST(MergeRoulette, IsPlayedBehindTheFirstRoughVertexOnly) {
+  MergeRoulette glossy(nullptr, false, 1);
+  merge(glossy, 8);
+  glossy.leave(EventClass::kGlossy, true);
+  EXPECT_EQ(glossy.survival(), 1) << "what a glossy lobe reflects is in no photons";
+  merge(glossy, 8);
+  glossy.leave(EventClass::kDiffuse, false);
+  EXPECT_EQ(glossy.survival(), 1) << "photons count once behind a rough event";
+
+  // Light on its way out from under a surface is that of the place where it comes out.
+  MergeRoulette under(nullptr, false, 1);
+  merge(under, 8);
+  under.come_out();
+  merge(under, 4);
+  under.leave(EventClass::kDiffuse, true);
+  EXPECT_FLOAT_EQ(under.survival(), 0.25f);
+}
+
+TEST(MergeRoulette, CountsThePhotonsOfAllBatches) {
+  uint32_t all = 0;
+  for (const int photons : {3, 0, 7}) {
+    MergeRoulette path(&all, true, 1);
+    merge(path, photons);
+    path.leave(EventClass::kDiffuse, true);
+  }
+  EXPECT_EQ(all, 10u);
+  MergeRoulette path(&all, false, 1);
+  merge(path, 3);
+  path.leave(EventClass::kDiffuse, true);
+  EXPECT_FLOAT_EQ(path.survival(), 0.1f);
+  EXPECT_EQ(all, 10u);
+}
+
+TEST(MergeRoulette, LetsAPhotonStandForSeveral) {
+  MergeRoulette path(nullptr, false, 2.5f);
+  merge(path, 2);
+  path.leave(EventClass::kDiffuse, true);
+  EXPECT_FLOAT_EQ(path.survival(), 0.2f);
+}
+
+TEST(FirstRadius, GrowsWithThePicture) {
+  IntegratorOptions options;
+  EXPECT_FLOAT_EQ(first_radius(options, 100), 1.5f);
+  EXPECT_FLOAT_EQ(first_radius(options, 128 * 128), 1.5f);
+  EXPECT_NEAR(first_radius(options, 512 * 512), 3.446f, 1e-3f);
+  EXPECT_NEAR(first_radius(options, 1920 * 1080), 6.41f, 1e-2f);
+  options.radius = 0.7f;
+  EXPECT_FLOAT_EQ(first_radius(options, 512 * 512), 0.7f);
+}
+
+}  // namespace
+}  // namespace nephroid
