@@ -23,7 +23,7 @@ import time
 
 from validate import PROGRAM, ROOT, compare, run
 
-INTEGRATORS = ["mixed", "path", "doidge2012", "sppm", "vcm", "bdpt"]
+INTEGRATORS = ["mixed", "path", "doidge2012", "sppm", "vcm", "bpm", "bdpt"]
 
 # Scenes, their size here, and what renders their reference: `path` where it finds all light, else `mixed` with a first
 # radius of one pixel. The last two are interiors without caustics, where `mixed` must keep up with `path`.
