@@ -2,7 +2,7 @@
 #pragma once
 
 #include "integrator/bidirectional/pair_pass.h"
-#include "integrator/photons/merge_pass.h"
+#include "integrator/photons/merge_radius.h"
 #include "owned_routes.h"
 #include "rendering.h"
 

@@ -64,7 +64,7 @@ class FilmFormat {
 
   const FilmSettings& settings() const { return settings_; }
   const PixelBounds& bounds() const { return settings_.crop; }
-  /// Of the whole picture, of which the film may be a crop.
+  /// Pixels of the uncropped picture.
   int64_t picture_pixels() const { return int64_t{settings_.width} * settings_.height; }
   const FilmLayout& layout() const { return layout_; }
   /// Parts of a group's routes, in increasing order.

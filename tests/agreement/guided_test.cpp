@@ -5,7 +5,7 @@
 #include "integrator/bidirectional/pair_pass.h"
 #include "integrator/learning/guiding_options.h"
 #include "integrator/learning/photon_guiding.h"
-#include "integrator/photons/merge_pass.h"
+#include "integrator/photons/merge_radius.h"
 #include "owned_routes.h"
 #include "rendering.h"
 

@@ -27,6 +27,8 @@ struct EyeEnd {
   const MediumVertex* medium = nullptr;
   ClassMask among = ClassMask::kNone;  ///< finite classes of use; of a surface
   Receiver receiver;
+  /// Class of the event of arm `i`.
+  EventClass class_of(size_t i) const { return medium ? EventClass::kVolume : kSurfaceClasses[i]; }
 };
 
 /// The events at a light vertex towards the unit direction `w`; false if there is none.

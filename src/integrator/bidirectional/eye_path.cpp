@@ -80,6 +80,7 @@ class EyeVisitor {
                     EventClass::kVolume);
   }
   bool looks_under_surfaces() const { return false; }
+
   /// [W12]
   float survival(const WalkVertex& v) {
     return v.bsdf.finite_classes() == ClassMask::kNone ? 1.0f : roulette_.survival();
@@ -177,6 +178,7 @@ class EyeVisitor {
     else
       sums_.arrive_first(cut_at_camera(settings_, camera_, place_));
   }
+
   double merge_weight(EventClass c) const {
     return settings_.merging && merges_at(*surface_, c)
                ? settings_.merging->weight_at(place_.p, first_)
@@ -242,19 +244,16 @@ class EyeVisitor {
       traced = true;
       double weight = 1;
       if (settings_.technique.weighted)
-        weight = weight_of_direct(start, sums_.behind(class_of(z, i), true), arm.density.forward,
+        weight = weight_of_direct(start, sums_.behind(z.class_of(i), true), arm.density.forward,
                                   arm.density.back, arm.merge);
       add(part, z.walk, Technique::kSampleLight, arriving * arm.f * static_cast<float>(weight));
     }
   }
 
-  static EventClass class_of(const EyeEnd& z, size_t i) {
-    return z.medium ? EventClass::kVolume : kSurfaceClasses[i];
-  }
   /// True if light paths might have come here from the light, by one of the events.
   bool others_cut(const EyeEnd& z, const Arms& arms) const {
     for (size_t i = 0; i < arms.size(); ++i)
-      if (arms[i].used && (arms[i].merge > 0 || !sums_.behind(class_of(z, i), true).empty()))
+      if (arms[i].used && (arms[i].merge > 0 || !sums_.behind(z.class_of(i), true).empty()))
         return true;
     return false;
   }

@@ -40,7 +40,7 @@ class MergeRoulette {
     return std::clamp(1 / std::max(merged, 1.0f), kLeast, 1.0f);
   }
   bool counts() const { return counts_; }
-  uint64_t merged() const { return all_; }  ///< by the whole path
+  uint64_t merged() const { return all_; }  ///< photons, so far
 
  private:
   uint32_t* const of_batches_;

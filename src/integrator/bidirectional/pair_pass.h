@@ -17,7 +17,7 @@
 
 namespace nephroid {
 
-/// What it takes to merge a photon, in rays; measured on water-caustic and veach-bidir.
+/// Cost of merging a photon, in rays: 70 to 120 ns where a ray takes 700.
 inline constexpr double kCostOfMerge = 0.13;
 
 /// The techniques of a pass, among which trial passes choose.
@@ -41,7 +41,7 @@ struct PairPass {
   const OwnedRoutes& owned;
   const IntegratorOptions& options;
   PairTechniques techniques{};
-  float radius_pixels = 1;    ///< in which photons are merged, in footprints
+  float radius_pixels = 1;    ///< merge radius, in footprints
   float photons_for_one = 1;  ///< PairMerging
   const EmissionGuide& emission = kUnguided;
   /// Estimators whose passes differ in their number of light paths: each number has a sequence of

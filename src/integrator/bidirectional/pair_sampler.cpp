@@ -4,7 +4,6 @@
 
 #include "integrator/estimator/features.h"
 #include "integrator/path/path_options.h"
-#include "integrator/photons/merge_pass.h"
 
 namespace nephroid {
 

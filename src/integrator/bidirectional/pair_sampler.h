@@ -62,7 +62,9 @@ class PairSampler {
     float mean = 0;  ///< of the components, as if the pixel had no other sample
     uint64_t rays = 0, merged = 0;
     double cost_of_merges() const { return kCostOfMerge * static_cast<double>(merged); }
-    double cost() const { return static_cast<double>(rays) + cost_of_merges(); }  ///< in rays
+    double cost() const {
+      return static_cast<double>(rays) + cost_of_merges();
+    }                  ///< total, in rays
     float weight = 0;  ///< of its light in the pixel
   };
 

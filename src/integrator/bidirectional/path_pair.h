@@ -124,7 +124,7 @@ struct CameraSplat {
   SampledSpectrum value;
 };
 
-/// What tracing a light path took.
+/// Work done by a light path.
 struct LightPathCounts {
   uint64_t rays = 0;
   bool specular = false;  ///< it had an S event
@@ -150,7 +150,7 @@ struct EyePathExtras {
   bool counts_merged = false;  ///< adds those of a batch there and finds no light
 };
 
-/// What tracing an eye path took.
+/// Work done by an eye path.
 struct EyePathCounts {
   uint64_t rays = 0, merged = 0;  ///< rays, and photons within the merge radius
 };

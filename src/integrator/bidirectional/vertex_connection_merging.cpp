@@ -4,7 +4,7 @@
 
 #include "integrator/estimator/reach.h"
 #include "integrator/path/path_options.h"
-#include "integrator/photons/merge_pass.h"
+#include "integrator/photons/merge_radius.h"
 
 namespace nephroid {
 

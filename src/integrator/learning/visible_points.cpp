@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "core/parallel.h"
-#include "integrator/photons/merge_pass.h"
+#include "integrator/photons/merge_radius.h"
 
 namespace nephroid {
 

@@ -9,7 +9,9 @@
 
 namespace nephroid {
 
+struct Candidate;
 struct MixPlan;
+class Trials;
 
 class PathAndPhotons final : public Estimator {
  public:
@@ -33,6 +35,9 @@ class PathAndPhotons final : public Estimator {
   }
 
  private:
+  /// The techniques that trials find best, with their number of light paths.
+  Candidate best_of(Trials& trials, const Scene& scene, const FilmFormat& film,
+                    const MixPlan& plan) const;
   PairPass pass_of(const PassKey& key, const Scene& scene, const FilmFormat& film,
                    const MixPlan& plan, PassControl& control) const;
 

@@ -3,6 +3,7 @@
 #include "integrator/learning/guiding_options.h"
 #include "integrator/learning/photon_guiding.h"
 #include "integrator/photons/merge_pass.h"
+#include "integrator/photons/merge_radius.h"
 
 namespace nephroid {
 

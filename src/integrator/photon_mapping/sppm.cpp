@@ -5,7 +5,7 @@
 
 #include "integrator/estimator/exposed_pixels.h"
 #include "integrator/photons/gather.h"
-#include "integrator/photons/merge_pass.h"
+#include "integrator/photons/merge_radius.h"
 
 namespace nephroid {
 

@@ -2,6 +2,7 @@
 
 #include "integrator/photon_mapping/light_tracing.h"
 #include "integrator/photons/merge_pass.h"
+#include "integrator/photons/merge_radius.h"
 
 namespace nephroid {
 

@@ -1,10 +1,6 @@
 #include "integrator/photons/merge_pass.h"
 
-#include <cmath>
-
-#include "integrator/estimator/exposed_pixels.h"
 #include "integrator/photons/gather.h"
-#include "photon/radius_schedule.h"
 
 namespace nephroid {
 
@@ -12,33 +8,7 @@ namespace {
 
 constexpr uint64_t kStream = 0x6d65726765;  // "merge"
 
-constexpr float kDefaultRadius = 1.5f;
-
 }  // namespace
-
-float radius_growth(int64_t pixels) {
-  const double over_thumbnail =
-      static_cast<double>(pixels) / static_cast<double>(PixelSlices::kMaxFirstPixels);
-  return static_cast<float>(std::pow(std::max(1.0, over_thumbnail), 0.3));
-}
-
-float first_radius(const IntegratorOptions& options, int64_t pixels) {
-  return options.radius > 0 ? options.radius : kDefaultRadius * radius_growth(pixels);
-}
-
-float pixels_of_merging(const IntegratorOptions& options, const PixelFilter&, int64_t pixels) {
-  return pixels_within(first_radius(options, pixels));
-}
-
-float pixels_of_merging_and_splats(const IntegratorOptions& options, const PixelFilter& filter,
-                                   int64_t pixels) {
-  return std::max(pixels_within(first_radius(options, pixels)), splatted_pixels(filter));
-}
-
-float radius_of_pass(const IntegratorOptions& options, int64_t pixels, uint32_t pass) {
-  return first_radius(options, pixels) *
-         static_cast<float>(std::sqrt(memoryless_radius_squared(pass, options.shrink_alpha)));
-}
 
 size_t MergePass::bytes_per_pixel(size_t parts) {
   return Gathered::bytes_per_walk(parts) + sizeof(float);

@@ -28,18 +28,4 @@ MergePass merge_pass(const PassKey& key, const Scene& scene, const Film& film,
                      const PhotonGuide& guide, float radius_pixels, const MergeWeight& weight,
                      EstimatorStatistics& statistics, PassControl& control);
 
-/// First merge radius in footprints, of a picture of so many pixels (FilmFormat::picture_pixels):
-/// the user's, or one that grows with the picture ([E5]).
-float first_radius(const IntegratorOptions& options, int64_t pixels);
-/// How much wider the first radius is than that of a small picture.
-float radius_growth(int64_t pixels);
-/// For EstimatorDescriptor::exposed_pixels: pixels within that radius, and the same where light
-/// paths are splatted as well.
-float pixels_of_merging(const IntegratorOptions& options, const PixelFilter& filter,
-                        int64_t pixels);
-float pixels_of_merging_and_splats(const IntegratorOptions& options, const PixelFilter& filter,
-                                   int64_t pixels);
-/// The radius of a pass by [E2], in footprints.
-float radius_of_pass(const IntegratorOptions& options, int64_t pixels, uint32_t pass);
-
 }  // namespace nephroid

@@ -1,9 +1,7 @@
-// [W12], how eye paths end behind merged photons, and [E5], how far they merge.
+// [W12], how eye paths end behind merged photons.
 #include "integrator/bidirectional/merge_roulette.h"
 
 #include <gtest/gtest.h>
-
-#include "integrator/photons/merge_pass.h"
 
 namespace nephroid {
 namespace {
@@ -62,16 +60,6 @@ TEST(MergeRoulette, LetsAPhotonStandForSeveral) {
   merge(path, 2);
   path.leave(EventClass::kDiffuse, true);
   EXPECT_FLOAT_EQ(path.survival(), 0.2f);
-}
-
-TEST(FirstRadius, GrowsWithThePicture) {
-  IntegratorOptions options;
-  EXPECT_FLOAT_EQ(first_radius(options, 100), 1.5f);
-  EXPECT_FLOAT_EQ(first_radius(options, 128 * 128), 1.5f);
-  EXPECT_NEAR(first_radius(options, 512 * 512), 3.446f, 1e-3f);
-  EXPECT_NEAR(first_radius(options, 1920 * 1080), 6.41f, 1e-2f);
-  options.radius = 0.7f;
-  EXPECT_FLOAT_EQ(first_radius(options, 512 * 512), 0.7f);
 }
 
 }  // namespace

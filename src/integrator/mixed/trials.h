@@ -1,0 +1,59 @@
+// Trial passes of `path+photons` over the first lattice of a film: how noisy and how expensive a
+// choice of techniques is (docs/estimators.md, section 21). It must not know which choice is made.
+#pragma once
+
+#include <span>
+
+#include "integrator/bidirectional/pair_pass.h"
+#include "integrator/mixed/balance.h"
+
+namespace nephroid {
+
+/// [A6] The noise of one camera path of a pass, split by what causes it, in units of [A1].
+struct TrialNoise {
+  double of_camera = 0;   ///< given the photons
+  double of_photons = 0;  ///< by the photons, which all paths of the pass share
+  double light = 0;       ///< mean of the picture
+  /// The same two, not divided by brightness: variances of a pixel, in units of light squared.
+  double variance_of_camera = 0, variance_of_photons = 0;
+};
+/// From passes that share nothing but their wavelengths and moment, each with `samples` independent
+/// camera paths, at least 2, in the pixels of the tiles where `tiles` is not 0.
+TrialNoise split_noise(std::span<const SampleVariance> passes, const SampleMap& tiles, int samples);
+
+/// A choice of techniques, and how good it is.
+struct Candidate {
+  PairTechniques techniques;
+  Trial trial;
+  Balance balance;  ///< of passes of the film
+};
+
+/// Keeps references to what it is given.
+class Trials {
+ public:
+  Trials(uint64_t seed, const Scene& scene, const FilmFormat& film, const OwnedRoutes& owned,
+         const IntegratorOptions& options, PassControl& control);
+
+  /// Runs trial passes, whose light is thrown away.
+  Candidate run(const PairTechniques& techniques, const EmissionGuide& emission);
+  /// Rays and memory of all trials.
+  const EstimatorStatistics& costs() const { return costs_; }
+
+ private:
+  float photons_for_one() const;
+  Trial trial_of(const TrialNoise& noise, const EstimatorStatistics& counts,
+                 const PairTechniques& techniques, double records) const;
+
+  const uint64_t seed_;
+  const Scene& scene_;
+  const FilmFormat& film_;
+  const OwnedRoutes& owned_;
+  const IntegratorOptions& options_;
+  PassControl& control_;
+  const int spacing_;    ///< of the lattice, in pixels
+  const double pixels_;  ///< of the lattice
+  const SampleMap tiles_;
+  EstimatorStatistics costs_;
+};
+
+}  // namespace nephroid

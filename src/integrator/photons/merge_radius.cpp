@@ -1,0 +1,43 @@
+#include "integrator/photons/merge_radius.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "film/pixel_slices.h"
+#include "integrator/estimator/exposed_pixels.h"
+#include "photon/radius_schedule.h"
+
+namespace nephroid {
+
+namespace {
+
+/// In a picture of at most PixelSlices::kMaxFirstPixels pixels.
+constexpr float kDefaultRadius = 1.5f;
+
+}  // namespace
+
+float radius_growth(int64_t pixels) {
+  const double over_thumbnail =
+      static_cast<double>(pixels) / static_cast<double>(PixelSlices::kMaxFirstPixels);
+  return static_cast<float>(std::pow(std::max(1.0, over_thumbnail), 0.3));
+}
+
+float first_radius(const IntegratorOptions& options, int64_t pixels) {
+  return options.radius > 0 ? options.radius : kDefaultRadius * radius_growth(pixels);
+}
+
+float pixels_of_merging(const IntegratorOptions& options, const PixelFilter&, int64_t pixels) {
+  return pixels_within(first_radius(options, pixels));
+}
+
+float pixels_of_merging_and_splats(const IntegratorOptions& options, const PixelFilter& filter,
+                                   int64_t pixels) {
+  return std::max(pixels_within(first_radius(options, pixels)), splatted_pixels(filter));
+}
+
+float radius_of_pass(const IntegratorOptions& options, int64_t pixels, uint32_t pass) {
+  return first_radius(options, pixels) *
+         static_cast<float>(std::sqrt(memoryless_radius_squared(pass, options.shrink_alpha)));
+}
+
+}  // namespace nephroid

@@ -1,0 +1,69 @@
+// [A6], which noise is of the camera and which of the photons, against noise that is made here.
+#include "integrator/mixed/trials.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <random>
+
+namespace nephroid {
+namespace {
+
+constexpr int kSamples = 2;
+const PixelBounds kBounds{0, 0, 256, 256};
+
+/// Samples of two passes: `light(pass, pixel, sample)`.
+TrialNoise noise_of(const std::function<double(int, int, int)>& light) {
+  std::vector<SampleVariance> passes(2, SampleVariance(kBounds));
+  for (int pass = 0; pass < 2; ++pass)
+    for (int y = 0; y < kBounds.y1; ++y)
+      for (int x = 0; x < kBounds.x1; ++x)
+        for (int k = 0; k < kSamples; ++k)
+          passes[pass].add(x, y, light(pass, y * kBounds.x1 + x, k), 1);
+  return split_noise(passes, SampleMap(kBounds), kSamples);
+}
+
+TEST(SplitNoise, TellsTheNoiseThatSamplesShare) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  for (const auto& variances : {std::pair{1.0, 0.0}, {0.0, 1.0}, {0.5, 2.0}, {2.0, 0.5}}) {
+    const double camera = variances.first, photons = variances.second;
+    // All samples of a pixel and pass have the same photons.
+    std::vector<double> shared(2 * kBounds.area());
+    for (double& v : shared) v = normal(random);
+    const TrialNoise noise = noise_of([&](int pass, int pixel, int) {
+      return 10 + std::sqrt(photons) * shared[pass * kBounds.area() + pixel] +
+             std::sqrt(camera) * normal(random);
+    });
+    EXPECT_NEAR(noise.light, 10, 0.05);
+    EXPECT_NEAR(noise.variance_of_camera, camera, 0.03);
+    EXPECT_NEAR(noise.variance_of_photons, photons, 0.05);
+    // Over the mean of a tile and a tenth of the picture's.
+    EXPECT_NEAR(noise.of_camera, camera / 11, 0.003);
+    EXPECT_NEAR(noise.of_photons, photons / 11, 0.005);
+  }
+}
+
+TEST(SplitNoise, DoesNotBlamePhotonsForFireflies) {
+  // Each in one sample of a pixel, and far brighter than all else in its tile.
+  const TrialNoise noise = noise_of([](int pass, int pixel, int k) {
+    return pixel % 1009 == 0 && pass == pixel / 1009 % 2 && k == 0 ? 1e4 : 1e-3;
+  });
+  EXPECT_GT(noise.of_camera, 0);
+  EXPECT_LT(noise.of_photons, 1e-6 * noise.of_camera);
+}
+
+TEST(SplitNoise, LooksAtTheTilesThatHaveSamples) {
+  std::vector<SampleVariance> passes(2, SampleVariance(kBounds));
+  SampleMap tiles(kBounds, 0);
+  tiles.counts()[0] = kSamples;
+  for (SampleVariance& pass : passes)
+    for (const double v : {2.0, 4.0}) pass.add(0, 0, v, 1);
+  const TrialNoise noise = split_noise(passes, tiles, kSamples);
+  EXPECT_DOUBLE_EQ(noise.light, 3);
+  EXPECT_DOUBLE_EQ(noise.variance_of_camera, 2);
+  EXPECT_DOUBLE_EQ(noise.variance_of_photons, 0);
+}
+
+}  // namespace
+}  // namespace nephroid
