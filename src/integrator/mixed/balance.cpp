@@ -128,8 +128,9 @@ double Balance::max_light_paths() const {
 }
 
 int64_t Balance::light_paths(double camera_paths) const {
-  return static_cast<int64_t>(
-      std::clamp(camera_paths * light_paths_of_camera_path(), kMinLightPaths, max_light_paths()));
+  const double most = max_light_paths();
+  return static_cast<int64_t>(std::clamp(camera_paths * light_paths_of_camera_path(),
+                                         std::clamp(min_light_paths, kMinLightPaths, most), most));
 }
 
 double Balance::inverse_efficiency() const {

@@ -52,6 +52,7 @@ double winsorized_mean(std::vector<double> tiles);
 /// variance times cost, and that of one camera path.
 struct Balance {
   double max_photons = 1 << 18;  ///< that a pass keeps, about
+  double min_light_paths = 0;    ///< unless they leave more photons than that
   double scale = 1;              ///< pixels of the film over those of the lattice
   double variance_of_camera = 0, variance_of_light = 0, cost_of_camera = 0, cost_of_light = 0;
   double photons_of_path = 0;  ///< that one light path leaves
@@ -59,10 +60,10 @@ struct Balance {
   /// To be read into.
   Balance() = default;
   static void members(auto& self, auto& archive) {
-    archive(self.max_photons, self.scale, self.variance_of_camera, self.variance_of_light,
-            self.cost_of_camera, self.cost_of_light, self.photons_of_path);
+    archive(self.max_photons, self.min_light_paths, self.scale, self.variance_of_camera,
+            self.variance_of_light, self.cost_of_camera, self.cost_of_light, self.photons_of_path);
   }
-  /// The best number, as far as it leaves no more than max_photons.
+  /// The best number between min_light_paths and what leaves max_photons.
   int64_t light_paths(double camera_paths) const;
   /// Camera paths of each pixel beside which the best number of light paths is not too many.
   double max_camera_paths() const { return max_light_paths() / light_paths_of_camera_path(); }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "integrator/bidirectional/vertex_connection_merging.h"
+#include "integrator/estimator/exposed_pixels.h"
 #include "integrator/estimator/reach.h"
 #include "integrator/learning/guiding_options.h"
 #include "integrator/mixed/learned_mix.h"
@@ -57,7 +58,10 @@ constinit const EstimatorDescriptor PathAndPhotons::kDescriptor = {
           return PixelBytes{.of_pass = bytes_per_pixel(need.parts, need.clamps,
                                                        need.options.camera_samples_per_pass)};
         },
-    .exposed_pixels = pixels_of_merging,
+    .exposed_pixels =
+        [](const IntegratorOptions& options, const PixelFilter&, int64_t pixels) {
+          return pixels_within(first_radius_of_film(PairTechniques{}, options, pixels));
+        },
     .make = make_estimator<PathAndPhotons>,
 };
 
@@ -77,19 +81,24 @@ Candidate PathAndPhotons::best_of(Trials& trials, const Scene& scene, const Film
   const Candidate all = trials.run(techniques, kUnguided);
   techniques.caustics_only = true;
   if (plan.lacks_specular) techniques.light_paths = 0;
-  Candidate caustics = trials.run(techniques, plan.photons.guide.starts);
+  const auto inverse_efficiency = [&all](Candidate of) {
+    // All photons find whatever those of caustics find, though they lose light at edges.
+    of.balance.variance_of_camera += of.trial.min_variance_of_unseen(all.trial);
+    return of.balance.inverse_efficiency();
+  };
+  const Candidate caustics = trials.run(techniques, plan.photons.guide.starts);
+  // Fine shadows under hair would be blurred.
+  if (!has_events(owned_, EventClass::kHair) &&
+      kRequiredGain * all.balance.inverse_efficiency() < inverse_efficiency(caustics)) {
+    Candidate chosen = all;
+    // Camera paths are short, and see few of these lights.
+    chosen.techniques.separates_chains = false;
+    return chosen;
+  }
   // [A5]
   techniques.roulette_threshold = kPatientRouletteThreshold;
-  if (Candidate patient = trials.run(techniques, plan.photons.guide.starts);
-      patient.balance.inverse_efficiency() < caustics.balance.inverse_efficiency())
-    caustics = patient;
-  // Fine shadows under hair would be blurred.
-  if (has_events(owned_, EventClass::kHair)) return caustics;
-  // All photons find whatever those of caustics find, though they lose light at edges.
-  caustics.balance.variance_of_camera += caustics.trial.min_variance_of_unseen(all.trial);
-  return kRequiredGain * all.balance.inverse_efficiency() < caustics.balance.inverse_efficiency()
-             ? all
-             : caustics;
+  const Candidate patient = trials.run(techniques, plan.photons.guide.starts);
+  return inverse_efficiency(patient) < inverse_efficiency(caustics) ? patient : caustics;
 }
 
 std::shared_ptr<const Learned> PathAndPhotons::learn(const Scene& scene, const FilmFormat& film,
@@ -97,7 +106,6 @@ std::shared_ptr<const Learned> PathAndPhotons::learn(const Scene& scene, const F
   const int64_t pixels = PixelSlices(film.bounds()).first_pixels();
   const int asked = options_.camera_samples_per_pass;
   MixPlan plan;
-  plan.is_even = asked > 0;
   plan.lacks_specular = !has_events(owned_, EventClass::kSpecular);
   plan.photons = guide_caustic_photons(seed, scene, film, options_, control);
   Trials trials(seed, scene, film, owned_, options_, control);
@@ -105,6 +113,8 @@ std::shared_ptr<const Learned> PathAndPhotons::learn(const Scene& scene, const F
   PairTechniques& chosen = plan.techniques;
   chosen = best.techniques;
   if (chosen.light_paths > 0) plan.balance = best.balance;
+  // What one camera path finds in photons of all light is as noisy as another, and it ends soon.
+  plan.is_even = asked > 0 || !chosen.caustics_only;
   const double records_per_path =
       std::clamp(1.1 * best.trial.records, 0.25, double{PassRecords::kMaxPerPath});
   if (options_.photons_per_pass > 0) {
@@ -115,9 +125,10 @@ std::shared_ptr<const Learned> PathAndPhotons::learn(const Scene& scene, const F
   SampleMap measured(film.bounds(), kMeasuredSamples, spacing_of(film));
   plan.samples = {SampleMap(film.bounds(), static_cast<uint16_t>(std::max(asked, 1))),
                   SampleMap(film.bounds(), static_cast<uint16_t>(std::max(asked, 1)))};
-  const PairLearning learning{.measures_variance = !plan.is_even,
-                              .keeps_records = options_.own<GuidingOptions>().walks,
-                              .records_per_path = records_per_path};
+  const PairLearning learning{
+      .measures_variance = !plan.is_even,
+      .keeps_records = chosen.caustics_only && options_.own<GuidingOptions>().walks,
+      .records_per_path = records_per_path};
   if (learning.measures_variance || learning.keeps_records) {
     const PassKey key{hash_combine(seed, kMeasureStream), 0};
     PairPass pass = pass_of(key, scene, film, plan, control);
@@ -141,16 +152,18 @@ std::shared_ptr<const Learned> PathAndPhotons::learn(const Scene& scene, const F
 
 PairPass PathAndPhotons::pass_of(const PassKey& key, const Scene& scene, const FilmFormat& film,
                                  const MixPlan& plan, PassControl& control) const {
-  PairPass pass{.key = key,
-                .seed = hash_combine(key.seed, kPathAndPhotonsNumber),
-                .scene = scene,
-                .owned = owned_,
-                .options = options_,
-                .techniques = plan.techniques,
-                .radius_pixels = radius_of_pass(options_, film.picture_pixels(), key.pass),
-                .emission = plan.techniques.caustics_only ? plan.photons.guide.starts : kUnguided,
-                .light_paths_vary = true,
-                .control = control};
+  PairPass pass{
+      .key = key,
+      .seed = hash_combine(key.seed, kPathAndPhotonsNumber),
+      .scene = scene,
+      .owned = owned_,
+      .options = options_,
+      .techniques = plan.techniques,
+      .radius_pixels = first_radius_of_film(plan.techniques, options_, film.picture_pixels()) *
+                       shrinkage(options_, key.pass),
+      .emission = plan.techniques.caustics_only ? plan.photons.guide.starts : kUnguided,
+      .light_paths_vary = true,
+      .control = control};
   pass.techniques.light_paths = plan.light_paths();
   return pass;
 }

@@ -16,11 +16,18 @@ constexpr uint64_t kTrialStream = 0x747269616c;  // "trial"
 /// Passes of a trial, and camera paths of a pixel in each.
 constexpr uint32_t kTrialPasses = 2, kTrialSamples = 2;
 
-constexpr double kMinPhotonBytes = 44 << 20, kPhotonBytesPerPixel = 44;
+constexpr double kMinPhotonBytes = 96 << 20, kPhotonBytesPerPixel = 44;
 /// Those that are held at once by default, with room for chance.
 constexpr double kMaxPhotons = 0.95 * (1 << 20);
 /// With its place in the grid.
 constexpr double kBytesOfPhoton = sizeof(Photon) + sizeof(Vec3f) + 24;
+
+/// First merge radius where photons of all light are merged, over that of photons of caustics.
+constexpr float kRadiusOfAllLight = 4.0f / 3;
+
+float widening(const PairTechniques& techniques, const IntegratorOptions& options) {
+  return techniques.caustics_only || options.radius > 0 ? 1.0f : kRadiusOfAllLight;
+}
 
 /// Photons of a pass for a film of so many pixels.
 double max_photons(const FilmFormat& film) {
@@ -40,6 +47,11 @@ SampleMap every_other_tile(const FilmFormat& film) {
 }
 
 }  // namespace
+
+float first_radius_of_film(const PairTechniques& techniques, const IntegratorOptions& options,
+                           int64_t pixels) {
+  return first_radius(options, pixels) * widening(techniques, options);
+}
 
 TrialNoise split_noise(std::span<const SampleVariance> passes, const SampleMap& tiles,
                        int samples) {
@@ -109,7 +121,7 @@ Candidate Trials::run(const PairTechniques& techniques, const EmissionGuide& emi
                  .techniques = techniques,
                  // So the lattice is as noisy as the film with as many light paths per pixel.
                  .radius_pixels = static_cast<float>(spacing_) * radius_of_pass(options_, 0, 0),
-                 .photons_for_one = photons_for_one(),
+                 .photons_for_one = photons_for_one(techniques),
                  .emission = emission,
                  .light_paths_vary = true,
                  .independent_samples = true,
@@ -125,14 +137,19 @@ Candidate Trials::run(const PairTechniques& techniques, const EmissionGuide& emi
   balance.max_photons = max_photons(film_);
   balance.scale = static_cast<double>(film_.bounds().area()) / pixels_;
   // The noise of photons is inversely proportional to the area in which they are merged.
-  balance.variance_of_light /= photons_for_one();
+  balance.variance_of_light /= photons_for_one(techniques);
+  // With more photons the camera's noise falls, too, which one trial does not tell.
+  if (!techniques.caustics_only)
+    balance.min_light_paths = static_cast<double>(film_.bounds().area());
   return {techniques, found, balance};
 }
 
 /// How many photons a pass of the film merges for one of a trial, whose radius is that of a small
 /// picture.
-float Trials::photons_for_one() const {
-  return options_.radius > 0 ? 1.0f : sqr(radius_growth(film_.picture_pixels()));
+float Trials::photons_for_one(const PairTechniques& techniques) const {
+  return options_.radius > 0
+             ? 1.0f
+             : sqr(radius_growth(film_.picture_pixels()) * widening(techniques, options_));
 }
 
 Trial Trials::trial_of(const TrialNoise& noise, const EstimatorStatistics& counts,
@@ -142,7 +159,7 @@ Trial Trials::trial_of(const TrialNoise& noise, const EstimatorStatistics& count
   const double camera_rays =
       static_cast<double>(counts.rays - counts.light_rays - counts.again_rays);
   const double merges =
-      kCostOfMerge * photons_for_one() * static_cast<double>(counts.photons_merged);
+      kCostOfMerge * photons_for_one(techniques) * static_cast<double>(counts.photons_merged);
   // Samples of a pass share photons with each other, and with those of neighbouring pixels.
   const double sharing =
       kTrialSamples * std::max(1.0, kPi * sqr(double{first_radius(options_, 0)}));

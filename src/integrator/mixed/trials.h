@@ -21,6 +21,11 @@ struct TrialNoise {
 /// camera paths, at least 2, in the pixels of the tiles where `tiles` is not 0.
 TrialNoise split_noise(std::span<const SampleVariance> passes, const SampleMap& tiles, int samples);
 
+/// The first merge radius in a picture of so many pixels, in pixels: wider where photons of all
+/// light are merged, most of which is smooth.
+float first_radius_of_film(const PairTechniques& techniques, const IntegratorOptions& options,
+                           int64_t pixels);
+
 /// A choice of techniques, and how good it is.
 struct Candidate {
   PairTechniques techniques;
@@ -40,7 +45,7 @@ class Trials {
   const EstimatorStatistics& costs() const { return costs_; }
 
  private:
-  float photons_for_one() const;
+  float photons_for_one(const PairTechniques& techniques) const;
   Trial trial_of(const TrialNoise& noise, const EstimatorStatistics& counts,
                  const PairTechniques& techniques, double records) const;
 

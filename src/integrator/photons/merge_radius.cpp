@@ -36,8 +36,11 @@ float pixels_of_merging_and_splats(const IntegratorOptions& options, const Pixel
 }
 
 float radius_of_pass(const IntegratorOptions& options, int64_t pixels, uint32_t pass) {
-  return first_radius(options, pixels) *
-         static_cast<float>(std::sqrt(memoryless_radius_squared(pass, options.shrink_alpha)));
+  return first_radius(options, pixels) * shrinkage(options, pass);
+}
+
+float shrinkage(const IntegratorOptions& options, uint32_t pass) {
+  return static_cast<float>(std::sqrt(memoryless_radius_squared(pass, options.shrink_alpha)));
 }
 
 }  // namespace nephroid

@@ -16,6 +16,8 @@ float radius_growth(int64_t pixels);
 float first_radius(const IntegratorOptions& options, int64_t pixels);
 /// [E2] Radius of a pass.
 float radius_of_pass(const IntegratorOptions& options, int64_t pixels, uint32_t pass);
+/// The radius of a pass over that of the first.
+float shrinkage(const IntegratorOptions& options, uint32_t pass);
 
 /// For EstimatorDescriptor::exposed_pixels: pixels within the first radius, and the same where
 /// light paths are splatted as well.
