@@ -19,6 +19,7 @@
 #include "film/film_output.h"
 #include "scene/scene.h"
 #include "session/checkpoint/film_metadata.h"
+#include "session/quick_look.h"
 #include "session/report/choices_report.h"
 #include "session/report/invalid_samples.h"
 #include "session/report/noise.h"
@@ -110,6 +111,7 @@ RenderResult RenderSession::run(SignalFlags& signals) {
   next_preview_seconds_ = std::min(options_.first_preview, options_.preview_interval);
   next_checkpoint_seconds_ = options_.checkpoint_interval;
   RenderResult result;
+  take_quick_look(signals);
   std::optional<StopReason> reason;
   if (!done_.empty() && (!open_pass_ || !is_wanted(*open_pass_))) {
     // It may have come as far as was wished for.
@@ -306,6 +308,20 @@ void RenderSession::write_if_due(SignalFlags& signals) {
   } else if (elapsed() >= next_preview_seconds_) {
     next_preview_seconds_ = write_now(options_.preview_interval, [this] { write_png(); });
   }
+}
+
+void RenderSession::take_quick_look(const SignalFlags& signals) {
+  if (!options_.quick_look || options_.output.empty() || !done_.empty() || open_pass_ ||
+      !is_worth_a_quick_look(set_, film_.format()))
+    return;
+  write_now(0, [&] {
+    nephroid::take_quick_look({.scene = scene_,
+                               .options = *options_.quick_look,
+                               .seed = options_.seed,
+                               .output = options_.output,
+                               .exposure = options_.png_exposure},
+                              signals, clock_);
+  });
 }
 
 double RenderSession::write_now(double interval, const std::function<void()>& write) {

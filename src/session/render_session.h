@@ -38,6 +38,8 @@ struct RenderOptions {
   LayerPrecision layer_precision = LayerPrecision::kHalf;
   Checkpoint begin_with;  ///< what film and estimators hold already
   float png_exposure = 1;
+  /// Settings for a first PNG by path tracing, before the first pass; empty: there is none.
+  std::optional<IntegratorOptions> quick_look;
   std::vector<std::string> notes;  ///< of the choices that a picture tells
   RenderIdentity identity;         ///< what the picture tells; the session sets film and seed
 };
@@ -112,6 +114,8 @@ class RenderSession {
   void renew_error_text();
   void report_progress(bool within_pass);
   void write_if_due(SignalFlags& signals);
+  /// If a PNG is wanted and there is none yet.
+  void take_quick_look(const SignalFlags& signals);
   void write_picture();
   /// The picture without its PNG, and its state; without one, that of an intermediate picture goes.
   void write_exr_file(const std::string& path, bool with_state);

@@ -172,7 +172,7 @@ TEST(FilmOfScene, RejectionKnowsHowManyPixelsALightPathExposes) {
               {"ppm", 4 * kPi, 9 * kPi, 1},
               {"photonmap", 256 * kPi, 9 * kPi, 1},
               {"bpm", 2.25f * kPi, 9 * kPi, 1},
-              {"path+photons", 2.25f * kPi, 9 * kPi, 1},
+              {"path+photons", 4 * kPi, 9 * kPi, 1},
               {"lighttrace", 12, 12, 12},
               {"bdpt", 12, 12, 12},
               {"mlt", 12, 12, 12},

@@ -1,0 +1,80 @@
+// The first picture by path tracing: when it is taken, and what it shows.
+#include "session/quick_look.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <filesystem>
+
+#include "film/film_output.h"
+#include "film/film_settings.h"
+#include "film/image_io.h"
+#include "rendering.h"
+#include "unit/film/scratch_directory.h"
+
+namespace nephroid {
+namespace {
+
+using namespace testing_support;
+
+std::string lit_floor(int width, int height) {
+  return fmt::format(R"(
+    LookAt 0 2 -4  0 0 0  0 1 0 Camera "perspective" "float fov" 40
+    Film "rgb" "integer xresolution" {} "integer yresolution" {}
+    WorldBegin
+    LightSource "infinite" "rgb L" [1 1 1]
+    Material "diffuse" "rgb reflectance" [0.5 0.5 0.5]
+    Shape "bilinearmesh" "point3 P" [-9 0 -9  9 0 -9  -9 0 9  9 0 9])",
+                     width, height);
+}
+
+FilmFormat format_for(const Scene& scene, const EstimatorSet& set) {
+  return Film(film_settings(scene.film), set.layout).format();
+}
+
+TEST(QuickLook, IsForLargePicturesOfAlgorithmsThatStartAtLights) {
+  const auto large = scene_from_text(lit_floor(512, 300)),
+             small = scene_from_text(lit_floor(64, 64));
+  for (const auto& [name, expected] :
+       {std::pair{"mixed", true}, {"sppm", true}, {"bdpt", true}, {"path", false}}) {
+    const EstimatorSet set = make_estimators(plan_named(name), {}, *large);
+    EXPECT_EQ(is_worth_a_quick_look(set, format_for(*large, set)), expected) << name;
+    const EstimatorSet of_small = make_estimators(plan_named(name), {}, *small);
+    EXPECT_FALSE(is_worth_a_quick_look(of_small, format_for(*small, of_small))) << name;
+  }
+}
+
+TEST(QuickLook, ShowsTheScene) {
+  const ScratchDirectory directory;
+  const auto scene = scene_from_text(lit_floor(512, 300));
+  const IntegratorOptions options;
+  const SignalFlags signals;
+  double seconds = 0;
+  const QuickLook look{*scene, options, 1, directory.file("out.exr"), 1};
+  take_quick_look(look, signals, [&] { return seconds; });
+  const std::string png = png_path_beside(look.output);
+  ASSERT_TRUE(std::filesystem::exists(png));
+  EXPECT_FALSE(std::filesystem::exists(look.output)) << "a look is no picture to go on with";
+  // The floor's 0.5 in sRGB is 0.735.
+  const Picture shown = read_picture(png);
+  double sum = 0;
+  size_t count = 0;
+  for (size_t i = shown.pixels.size() / 2; i < shown.pixels.size(); ++i, ++count)
+    sum += shown.pixels[i];
+  EXPECT_NEAR(sum / static_cast<double>(count), 0.735, 0.02);
+}
+
+TEST(QuickLook, IsGivenUpAtASignal) {
+  const ScratchDirectory directory;
+  const auto scene = scene_from_text(lit_floor(512, 300));
+  const IntegratorOptions options;
+  SignalFlags signals;
+  signals.stop = SIGINT;
+  const QuickLook look{*scene, options, 1, directory.file("out.exr"), 1};
+  take_quick_look(look, signals, [] { return 0.0; });
+  EXPECT_FALSE(std::filesystem::exists(png_path_beside(look.output)));
+}
+
+}  // namespace
+}  // namespace nephroid
