@@ -85,7 +85,7 @@ TEST_P(Learning, AnewForEachSeedHasNoBias) {
 
 INSTANTIATE_TEST_SUITE_P(
     Plans, Learning,
-    ::testing::Values(LearningPlan{"mixed", "mixed", 3}, LearningPlan{"photons", "doidge2012", 8},
+    ::testing::Values(LearningPlan{"mixed", "mixed", 6}, LearningPlan{"photons", "doidge2012", 8},
                       LearningPlan{"forecast", "forecast", 64}, LearningPlan{"mlt", "mlt", 64},
                       LearningPlan{"pointlights",
                                    plan_of({"all=C[SV]*[DG].*:pointlights", "rest=.*:path"}), 8}),

@@ -26,10 +26,11 @@ struct PairTechniques {
   bool connects = true;           ///< false: nothing is connected but lights
   bool caustics_only = false;     ///< merges only photons whose light came by way of an S
   bool separates_chains = false;  ///< specular chains are for walks of their own
+  bool follows_chains = false;    ///< camera paths follow them: SpecularRoot::Leaves::kBranches
   float roulette_threshold = 1;   ///< of camera paths
   static void members(auto& self, auto& archive) {
     archive(self.light_paths, self.connects, self.caustics_only, self.separates_chains,
-            self.roulette_threshold);
+            self.follows_chains, self.roulette_threshold);
   }
 };
 

@@ -38,7 +38,8 @@ PairSampler::PairSampler(const PairPass& pass, const FilmFormat& of_film, const 
                .technique = pass.technique,
                .guide = pass.emission,
                .radiance = side.directions.guides() ? &side.directions : nullptr,
-               .tree = techniques.separates_chains || pass.options.own<PathOptions>().specular_trees
+               .tree = techniques.separates_chains || techniques.follows_chains ||
+                               pass.options.own<PathOptions>().specular_trees
                            ? &tree
                            : nullptr},
       view_(pass.scene, of_film.bounds()) {

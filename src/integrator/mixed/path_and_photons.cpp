@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "integrator/bidirectional/vertex_connection_merging.h"
 #include "integrator/estimator/exposed_pixels.h"
@@ -90,9 +91,9 @@ Candidate PathAndPhotons::best_of(Trials& trials, const Scene& scene, const Film
   // Fine shadows under hair would be blurred.
   if (!has_events(owned_, EventClass::kHair) &&
       kRequiredGain * all.balance.inverse_efficiency() < inverse_efficiency(caustics)) {
+    // Walks of their own for every pixel would cost more than these short camera paths.
     Candidate chosen = all;
-    // Camera paths are short, and see few of these lights.
-    chosen.techniques.separates_chains = false;
+    chosen.techniques.follows_chains = std::exchange(chosen.techniques.separates_chains, false);
     return chosen;
   }
   // [A5]
