@@ -17,7 +17,7 @@ constexpr double kMaxSeconds = 1, kSecondsBetweenLooks = 0.01;
 }  // namespace
 
 bool is_worth_a_quick_look(const EstimatorSet& set, const FilmFormat& film) {
-  return film.picture_pixels() >= kMinPixels && film.bounds().area() >= kMinPixels &&
+  return film.bounds().area() >= kMinPixels &&
          std::ranges::any_of(set.estimators, [](const auto& estimator) {
            return estimator->descriptor().traits.starts_at_lights;
          });
@@ -26,7 +26,7 @@ bool is_worth_a_quick_look(const EstimatorSet& set, const FilmFormat& film) {
 void take_quick_look(const QuickLook& look, const SignalFlags& signals,
                      const std::function<double()>& now) {
   IntegratorOptions options;
-  options.max_depth = look.options.max_depth;
+  options.max_depth = look.max_depth;
   EstimatorSet set = make_estimators(plan_of_integrator("path"), options, look.scene);
   Film film(film_settings(look.scene.film), set.layout);
   const double begin = now();

@@ -5,16 +5,15 @@
 #include <functional>
 #include <string>
 
-#include "integrator/estimator/integrator_options.h"
 #include "integrator/presets/estimator_set.h"
 #include "session/signals.h"
 
 namespace nephroid {
 
-/// What a quick look needs to know.
+/// A scene to look at, and where to put what is seen.
 struct QuickLook {
   const Scene& scene;
-  const IntegratorOptions& options;  ///< of which only the depth counts
+  int max_depth = 100;  ///< scattering events of a path
   uint64_t seed = 0;
   std::string output;  ///< the EXR beside which the PNG goes
   float exposure = 1;

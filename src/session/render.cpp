@@ -124,7 +124,7 @@ Render::Render(const RenderRequest& request, const LoadedScene& loaded, RenderWa
   RenderOptions options = request.options;
   options.seed = request.seed.value_or(scene.scene_seed);
   options.notes = set_.notes;
-  options.quick_look = integrator;
+  options.quick_look_depth = integrator.max_depth;
   identity_ = identity_of(request, loaded, choice_, plan_);
   identity_.set_film(*film_, options.seed);
   options.identity = identity_;

@@ -311,12 +311,12 @@ void RenderSession::write_if_due(SignalFlags& signals) {
 }
 
 void RenderSession::take_quick_look(const SignalFlags& signals) {
-  if (!options_.quick_look || options_.output.empty() || !done_.empty() || open_pass_ ||
+  if (options_.quick_look_depth == 0 || options_.output.empty() || !done_.empty() || open_pass_ ||
       !is_worth_a_quick_look(set_, film_.format()))
     return;
   write_now(0, [&] {
     nephroid::take_quick_look({.scene = scene_,
-                               .options = *options_.quick_look,
+                               .max_depth = options_.quick_look_depth,
                                .seed = options_.seed,
                                .output = options_.output,
                                .exposure = options_.png_exposure},

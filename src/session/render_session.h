@@ -38,8 +38,8 @@ struct RenderOptions {
   LayerPrecision layer_precision = LayerPrecision::kHalf;
   Checkpoint begin_with;  ///< what film and estimators hold already
   float png_exposure = 1;
-  /// Settings for a first PNG by path tracing, before the first pass; empty: there is none.
-  std::optional<IntegratorOptions> quick_look;
+  /// Depth of the paths of a first PNG, before the first pass (quick_look.h); 0: there is none.
+  int quick_look_depth = 0;
   std::vector<std::string> notes;  ///< of the choices that a picture tells
   RenderIdentity identity;         ///< what the picture tells; the session sets film and seed
 };

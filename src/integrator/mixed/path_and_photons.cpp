@@ -114,7 +114,7 @@ std::shared_ptr<const Learned> PathAndPhotons::learn(const Scene& scene, const F
   PairTechniques& chosen = plan.techniques;
   chosen = best.techniques;
   if (chosen.light_paths > 0) plan.balance = best.balance;
-  // What one camera path finds in photons of all light is as noisy as another, and it ends soon.
+  // With photons of all light, a second camera path gains little or nothing (ADR 31).
   plan.is_even = asked > 0 || !chosen.caustics_only;
   const double records_per_path =
       std::clamp(1.1 * best.trial.records, 0.25, double{PassRecords::kMaxPerPath});

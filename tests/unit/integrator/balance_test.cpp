@@ -262,6 +262,20 @@ TEST(Balance, KeepsAsManyPhotonsAsMemoryIsFor) {
   }
 }
 
+TEST(Balance, HasAFewestNumberOfLightPathsUnlessTheyLeaveTooManyPhotons) {
+  const Model m{0.2, 500, 1e5, 4};
+  Trial trial = m.trial(1 << 14);
+  trial.photons = 4;
+  Balance balance(trial);
+  const int64_t best = balance.light_paths(1);
+  balance.min_light_paths = 3.0 * static_cast<double>(best);
+  EXPECT_EQ(balance.light_paths(1), 3 * best);
+  balance.min_light_paths = 0.5 * static_cast<double>(best);
+  EXPECT_EQ(balance.light_paths(1), best);
+  balance.min_light_paths = 1e9;
+  EXPECT_EQ(balance.light_paths(1), static_cast<int64_t>(balance.max_photons / 4));
+}
+
 // A lattice that stands for a larger film: as many light paths for each pixel, at the same
 // efficiency.
 TEST(Balance, GrowsWithTheFilm) {

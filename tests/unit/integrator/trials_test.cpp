@@ -65,5 +65,15 @@ TEST(SplitNoise, LooksAtTheTilesThatHaveSamples) {
   EXPECT_DOUBLE_EQ(noise.variance_of_photons, 0);
 }
 
+TEST(Trials, PhotonsOfAllLightAreMergedFurther) {
+  IntegratorOptions options;
+  PairTechniques all, caustics;
+  caustics.caustics_only = true;
+  EXPECT_FLOAT_EQ(first_radius_of_film(caustics, options, 0), 1.5f);
+  EXPECT_FLOAT_EQ(first_radius_of_film(all, options, 0), 2);
+  options.radius = 3;
+  EXPECT_FLOAT_EQ(first_radius_of_film(all, options, 0), 3) << "unless the user says how far";
+}
+
 }  // namespace
 }  // namespace nephroid

@@ -48,10 +48,9 @@ TEST(QuickLook, IsForLargePicturesOfAlgorithmsThatStartAtLights) {
 TEST(QuickLook, ShowsTheScene) {
   const ScratchDirectory directory;
   const auto scene = scene_from_text(lit_floor(512, 300));
-  const IntegratorOptions options;
   const SignalFlags signals;
   double seconds = 0;
-  const QuickLook look{*scene, options, 1, directory.file("out.exr"), 1};
+  const QuickLook look{*scene, 5, 1, directory.file("out.exr"), 1};
   take_quick_look(look, signals, [&] { return seconds; });
   const std::string png = png_path_beside(look.output);
   ASSERT_TRUE(std::filesystem::exists(png));
@@ -68,10 +67,9 @@ TEST(QuickLook, ShowsTheScene) {
 TEST(QuickLook, IsGivenUpAtASignal) {
   const ScratchDirectory directory;
   const auto scene = scene_from_text(lit_floor(512, 300));
-  const IntegratorOptions options;
   SignalFlags signals;
   signals.stop = SIGINT;
-  const QuickLook look{*scene, options, 1, directory.file("out.exr"), 1};
+  const QuickLook look{*scene, 5, 1, directory.file("out.exr"), 1};
   take_quick_look(look, signals, [] { return 0.0; });
   EXPECT_FALSE(std::filesystem::exists(png_path_beside(look.output)));
 }
