@@ -22,7 +22,10 @@ constexpr float kLargest = 0x1p56f;
 /// [O3] An estimate that changes its pixel by no more than this share of what surrounds it, or is
 /// not brighter than this many times that, is no outlier.
 constexpr double kSmallShare = 0.25;
-constexpr double kModerate = 4;
+constexpr double kModerate = 6;
+/// [O2] So many times the neighbours confirm an estimate in the wide window: light that is sampled
+/// rarely over a whole region, as that of a lamp seldom chosen, and no single dot.
+constexpr double kWideNeighbours = 2;
 
 void put(std::vector<uint32_t>& words, const void* data, size_t bytes) {
   if (bytes == 0) return;
@@ -92,35 +95,44 @@ bool OutlierRejection::hold(int group, size_t pixel, std::span<const Rgb> values
   return true;
 }
 
-OutlierRejection::Window OutlierRejection::window_around(size_t pixel) const {
+OutlierRejection::Window OutlierRejection::window_around(size_t pixel, int radius) const {
   const int x = static_cast<int>(pixel % width_);
   const int y = static_cast<int>(pixel / width_);
-  return {std::max(0, x - kWindowRadius), std::max(0, y - kWindowRadius),
-          std::min(width_, x + kWindowRadius + 1), std::min(height_, y + kWindowRadius + 1)};
+  return {std::max(0, x - radius), std::max(0, y - radius), std::min(width_, x + radius + 1),
+          std::min(height_, y + radius + 1)};
+}
+
+uint64_t OutlierRejection::similar_in(const Window& w, int group, int level) const {
+  const size_t first = std::max(0, level - 1);
+  const size_t last = std::min(kLevels - 1, level + 1);
+  uint64_t similar = 0;
+  for (int y = w.y0; y < w.y1; ++y)
+    for (int x = w.x0; x < w.x1; ++x)
+      for (size_t l = first; l <= last; ++l)
+        similar += pixels_[group][static_cast<size_t>(y) * width_ + x].counts[l];
+  return similar;
 }
 
 bool OutlierRejection::is_confirmed(int group, size_t pixel, int level, uint64_t estimates,
                                     std::span<const float> shown) const {
-  const Window w = window_around(pixel);
-  const size_t first = std::max(0, level - 1);
-  const size_t last = std::min(kLevels - 1, level + 1);
-  uint64_t similar = 0;
+  // [O3]
+  const Window w = window_around(pixel, kWindowRadius);
   double surroundings = 0;
   for (int y = w.y0; y < w.y1; ++y)
-    for (int x = w.x0; x < w.x1; ++x) {
-      const size_t i = static_cast<size_t>(y) * width_ + x;
-      for (size_t l = first; l <= last; ++l) similar += pixels_[group][i].counts[l];
-      surroundings += double{shown[i]};
-    }
+    for (int x = w.x0; x < w.x1; ++x)
+      surroundings += double{shown[static_cast<size_t>(y) * width_ + x]};
   surroundings /= w.area();
-  // [O2]
-  const double enough =
-      std::min(settings_.neighbours * std::max(1.0, double{settings_.exposed_pixels[group]}),
-               w.area() * static_cast<double>(std::min(estimates, kMaxCounted)) / 2);
-  if (static_cast<double>(similar) >= enough) return true;
-  // [O3]
   const double limit = std::max(kModerate, kSmallShare * static_cast<double>(estimates));
-  return std::ldexp(1.0, level + 1 - kLevelOfOne) <= limit * surroundings;
+  if (std::ldexp(1.0, level + 1 - kLevelOfOne) <= limit * surroundings) return true;
+  // [O2]
+  const double light_paths =
+      settings_.neighbours * std::max(1.0, double{settings_.exposed_pixels[group]});
+  const auto confirms = [&](const Window& window, double enough) {
+    const auto all = static_cast<double>(std::min(estimates, kMaxCounted)) * window.area();
+    return static_cast<double>(similar_in(window, group, level)) >= std::min(enough, all / 2);
+  };
+  return confirms(w, light_paths) ||
+         confirms(window_around(pixel, kWideWindowRadius), kWideNeighbours * light_paths);
 }
 
 void OutlierRejection::finish_pass(int group, uint64_t estimates, std::span<const float> shown,

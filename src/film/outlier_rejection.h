@@ -64,7 +64,8 @@ class OutlierRejection {
   int neighbours() const { return settings_.neighbours; }
 
   static constexpr int kMaxHeld = 4;       ///< brightnesses held for a pixel and group
-  static constexpr int kWindowRadius = 2;  ///< pixels: the window is 5 x 5
+  static constexpr int kWindowRadius = 2;      ///< pixels: the window is 5 x 5
+  static constexpr int kWideWindowRadius = 8;  ///< the wide one is 17 x 17
 
  private:
   /// Octaves of brightness, 2^-32 to 2^31; what lies outside is at the ends.
@@ -92,7 +93,9 @@ class OutlierRejection {
     int x0, y0, x1, y1;
     int area() const { return (x1 - x0) * (y1 - y0); }
   };
-  Window window_around(size_t pixel) const;
+  Window window_around(size_t pixel, int radius) const;
+  /// Estimates within an octave of `level`.
+  uint64_t similar_in(const Window& window, int group, int level) const;
   bool is_confirmed(int group, size_t pixel, int level, uint64_t estimates,
                     std::span<const float> shown) const;
 

@@ -119,6 +119,9 @@ class DiffuseAreaLight final : public Light {
     b.power = kPi * area_ * mean_radiance();
     b.cos_theta_e = 0.0f;
     b.two_sided = emission_->two_sided;
+    if (const auto point = shape_->sample_area(primitive_, {0.5f, 0.5f});
+        point && b.is_flat() && !b.two_sided)
+      b.depth = dot(b.axis, b.center() - point->p);
     return b;
   }
 

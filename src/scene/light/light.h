@@ -3,6 +3,7 @@
 // Who calls it: transport and photon. It must not know routes or integrators.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -61,6 +62,13 @@ struct LightBounds {
   float power = 0;
   float cos_theta_o = -1, cos_theta_e = 0;
   bool two_sided = false;
+  /// Of flat lights: how far their plane lies below the centre of the bounds, along the axis.
+  /// What is farther below gets no light. Infinite for lights that are not flat.
+  float depth = std::numeric_limits<float>::infinity();
+
+  Vec3f center() const { return (bounds.min + bounds.max) * 0.5f; }
+  /// Whether all normals are the axis but for so much that a plane still tells what lies behind.
+  bool is_flat() const { return cos_theta_o > 0.99999f; }
 };
 
 struct SceneSphere {

@@ -12,6 +12,10 @@ constexpr int kBuckets = 12;
 /// Below this depth the halves have equal numbers of lights, so that no way is longer than 64.
 constexpr int kUnbalancedDepth = 40;
 
+/// Behind the plane of flat lights is what lies lower than this share of the distance: far more than
+/// their normals differ (LightBounds::is_flat) and than rounding.
+constexpr float kTiltOfFlatLights = 0.01f;
+
 /// cos(max(0, a - b)) and sin(max(0, a - b)) of angles in [0, pi].
 float cos_sub_clamped(float sin_a, float cos_a, float sin_b, float cos_b) {
   return cos_a > cos_b ? 1.0f : cos_a * cos_b + sin_a * sin_b;
@@ -134,22 +138,31 @@ LightBounds union_of(const LightBounds& a, const LightBounds& b) {
   u.cos_theta_e = std::min(a.cos_theta_e, b.cos_theta_e);
   u.power = a.power + b.power;
   u.two_sided = a.two_sided || b.two_sided;
+  if (u.is_flat())
+    for (const LightBounds* part : {&a, &b}) {
+      const float depth = part->depth + dot(u.axis, u.center() - part->center());
+      u.depth = part == &a ? depth : std::max(u.depth, depth);
+    }
   return u;
 }
 
 LightCluster::LightCluster(const LightBounds& b)
-    : center((b.bounds.min + b.bounds.max) * 0.5f),
+    : center(b.center()),
       radius2(0.25f * length_squared(b.bounds.max - b.bounds.min)),
       axis(b.axis),
       power(b.power),
       cos_o(b.cos_theta_o),
       sin_o(safe_sqrt(1.0f - b.cos_theta_o * b.cos_theta_o)),
       cos_e(b.cos_theta_e),
-      two_sided(b.two_sided ? 1 : 0) {}
+      two_sided(b.two_sided ? 1 : 0),
+      depth(b.depth) {}
 
 float LightCluster::importance(const Vec3f& p, const Vec3f& n) const {
   const Vec3f d = p - center;
   const float d2 = length_squared(d);
+  // How far p is in front of the plane of flat lights, which neither box nor sphere show.
+  const float height = dot(axis, d) + depth;
+  if (height < -kTiltOfFlatLights * std::sqrt(d2 + radius2)) return 0.0f;
   if (d2 <= radius2) return radius2 > 0.0f ? power / radius2 : 0.0f;
   const Vec3f w = d * (1.0f / std::sqrt(d2));
   float cos_w = dot(axis, w);
@@ -161,8 +174,9 @@ float LightCluster::importance(const Vec3f& p, const Vec3f& n) const {
   // Least angle between a normal of the cluster and a direction from it to p.
   const float cos_x = cos_sub_clamped(sin_w, cos_w, sin_o, cos_o);
   const float sin_x = sin_sub_clamped(sin_w, cos_w, sin_o, cos_o);
-  const float cos_p = cos_sub_clamped(sin_x, cos_x, sin_b, cos_b);
+  float cos_p = cos_sub_clamped(sin_x, cos_x, sin_b, cos_b);
   if (cos_p <= cos_e) return 0.0f;
+  cos_p = std::min(cos_p, height / std::sqrt(d2));
   // Lamps that emit backwards too have a negative cosine here, but not no light.
   float value = power * std::max(cos_p, 0.01f) / d2;
   if (n.x != 0.0f || n.y != 0.0f || n.z != 0.0f) {

@@ -20,6 +20,7 @@ struct LightCluster {
   float power = 0;
   float cos_o = -1, sin_o = 0, cos_e = 0;
   uint32_t two_sided = 0;
+  float depth = std::numeric_limits<float>::infinity();
 
   LightCluster() = default;
   explicit LightCluster(const LightBounds& bounds);

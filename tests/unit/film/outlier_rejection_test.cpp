@@ -140,6 +140,28 @@ TEST(OutlierRejection, WhatIsConfirmedReturns) {
   });
 }
 
+TEST(OutlierRejection, WhatIsRareInAWholeRegionIsShown) {
+  // The only light of a region comes in one estimate of fifty, as that of a lamp seldom chosen.
+  FilmSettings settings;
+  settings.width = settings.height = 48;
+  settings.crop = {0, 0, 48, 48};
+  Film film(settings, FilmLayout::of_routes({"all"}));
+  film.reject_outliers({{1.0f}, 8});
+  uint64_t bright = 0;
+  for (uint64_t pass = 0; pass < 8; ++pass) {
+    for_each_pixel(film, [&](int x, int y) {
+      const bool hit = random_number(hash_combine(pass, static_cast<uint64_t>(x),
+                                                  static_cast<uint64_t>(y))) < 0.02f;
+      add_one(film, 0, x, y, grey(hit ? 50.0f : 0.0f));
+      bright += hit ? 1 : 0;
+    });
+    film.add_estimates(0, 1);
+    film.finish_pass();
+  }
+  EXPECT_GT(bright, 300u);
+  EXPECT_EQ(film.rejection()->held_estimates(), 0u);
+}
+
 TEST(OutlierRejection, OneAfterAnotherInOnePixelIsConfirmedToo) {
   Film film = rejecting();
   for (uint64_t pass = 0; pass < 8; ++pass) {

@@ -178,6 +178,35 @@ TEST(LightSampler, NearAndBrightLightsComeFirst) {
   EXPECT_LT(sampler.pmf({500, 0, 1}, {0, 0, 0}, 0), 0.01f);
 }
 
+TEST(LightSampler, NothingIsSpentOnWindowsSeenFromBehind) {
+  // The sphere around a large window reaches far behind it; its light does not. Straight and
+  // tilted, far from the origin, of one pane or of eight.
+  const Vec3f tilted = normalize(Vec3f(1, 2, 3)), side = normalize(cross(tilted, Vec3f(0, 0, 1)));
+  const std::pair<Vec3f, Vec3f> frames[] = {{{0, 0, 1}, {1, 0, 0}}, {tilted, side}};
+  for (const auto& frame : frames)
+    for (const int panes : {1, 8}) {
+      const Vec3f normal = frame.first, along = frame.second, across = cross(normal, along);
+      const auto at = [&](float x, float y, float z) {
+        return Vec3f(100, 2000, 30) + along * x + across * y + normal * z;
+      };
+      std::vector<LightPtr> lights;
+      for (int i = 0; i < panes; ++i) {
+        const auto x0 = -20 + 40 * static_cast<float>(i) / static_cast<float>(panes);
+        const auto x1 = -20 + 40 * static_cast<float>(i + 1) / static_cast<float>(panes);
+        MeshData m;
+        m.positions = {at(x0, -20, 0), at(x1, -20, 0), at(x0, 20, 0), at(x1, 20, 0)};
+        m.quads = {0, 1, 2, 3};
+        lights.push_back(area_light_of("", make_bilinear_mesh(m, false)));
+      }
+      const int lamp = panes;
+      lights.push_back(std::make_unique<FakeLight>(at(60, 10, -30), 1e-3f));
+      const LightSampler sampler(lights);
+      EXPECT_EQ(sampler.pmf(at(-5, 8, -1), {0, 0, 0}, lamp), 1.0f) << panes;
+      EXPECT_EQ(sampler.pmf(at(40, 0, -2), {0, 0, 0}, lamp), 1.0f) << panes;
+      EXPECT_LT(sampler.pmf(at(-5, 8, 1), {0, 0, 0}, lamp), 0.01f) << panes;
+    }
+}
+
 TEST(LightSampler, ChoicesDoNotDependOnTheUnitOfLength) {
   std::vector<LightPtr> lights[2];
   const float unit = 1.0f / 8192;
