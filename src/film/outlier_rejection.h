@@ -63,7 +63,7 @@ class OutlierRejection {
   static float brightness(const Rgb& color);
   int neighbours() const { return settings_.neighbours; }
 
-  static constexpr int kMaxHeld = 4;       ///< brightnesses held for a pixel and group
+  static constexpr int kMaxHeld = 4;           ///< brightnesses held for a pixel and group
   static constexpr int kWindowRadius = 2;      ///< pixels: the window is 5 x 5
   static constexpr int kWideWindowRadius = 8;  ///< the wide one is 17 x 17
 

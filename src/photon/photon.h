@@ -16,12 +16,13 @@ struct Photon {
   uint8_t secondary_terminated = 0;
   uint8_t set = 0;      ///< of a map whose photons do not share one set of wavelengths
   uint16_t events = 0;  ///< scattering events before this vertex
-  float cut_here = 0,
-        cuts_before = 0;  ///< PartialMisWeights, where other techniques find the path, too
+  /// PartialMisWeights, where other techniques find the path, too. They are squares of areas:
+  /// their roots stay in the range of a float in any unit of length.
+  float root_of_cut_here = 0, root_of_cuts_before = 0;
 
   static void members(auto& self, auto& archive) {
     archive(self.flux, self.p, self.wi, self.ng, self.state, self.secondary_terminated, self.set,
-            self.events, self.cut_here, self.cuts_before);
+            self.events, self.root_of_cut_here, self.root_of_cuts_before);
   }
 };
 

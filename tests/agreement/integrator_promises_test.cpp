@@ -2,6 +2,9 @@
 // flipped cameras must not change.
 #include <gtest/gtest.h>
 
+#include <iomanip>
+#include <sstream>
+
 #include "integrator/metropolis/metropolis_options.h"
 #include "integrator/presets/integrator_table.h"
 #include "rendering.h"
@@ -191,6 +194,33 @@ TEST(Integrators, ALimitBoundsEveryPixel) {
             largest = std::max(largest, film.route_value(static_cast<int>(r), x, y)[c]);
     EXPECT_LE(largest, 0.05f * (1 + 1e-5f)) << integrator;
     EXPECT_GT(largest, 0.02f) << integrator << ": the limit does not bite";
+  }
+}
+
+TEST(Integrators, GiveOnePictureInAllUnitsOfLength) {
+  // By powers of two, so all numbers but densities have the same digits.
+  const auto mean_at = [](int exponent, const char* integrator) {
+    const auto number = [&](double x) {
+      std::ostringstream text;
+      text << std::setprecision(17) << std::ldexp(x, exponent);
+      return text.str();
+    };
+    const std::string unit = number(1);
+    const auto scene =
+        scene_from_text("LookAt 0 " + number(3) + " " + number(-5) + "  0 0 0  0 1 0\n" + R"(
+        Camera "perspective" "float fov" 30
+        Film "rgb" "integer xresolution" 16 "integer yresolution" 16
+        PixelFilter "box"
+        WorldBegin Scale )" +
+                        unit + " " + unit + " " + unit + "\n" + kLampAndFloor + kGlass);
+    IntegratorOptions options;
+    options.photons_per_pass = 4000;
+    return block_means(render(*scene, integrator, options, 1, 4), 1)[0];
+  };
+  for (const char* integrator : {"path", "sppm", "bdpt", "vcm", "bpm", "mixed"}) {
+    const double mean = mean_at(0, integrator);
+    EXPECT_NEAR(mean_at(30, integrator), mean, 1e-3 * mean) << integrator;
+    EXPECT_NEAR(mean_at(-25, integrator), mean, 1e-3 * mean) << integrator;
   }
 }
 

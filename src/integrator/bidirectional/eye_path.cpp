@@ -367,8 +367,10 @@ void EyeVisitor::merge(const Walk& walk, const WalkVertex& v, ClassMask among) {
             v.subsurface_exit || !sums_.asks_back()
                 ? 0.0
                 : event_density(v.bsdf, event.wi, v.wo, TransportMode::kImportance, event.letter);
-        weight =
-            weight_of_merge(sums_.all(), back, {photon.cut_here, photon.cuts_before}, towards, own);
+        weight = weight_of_merge(
+            sums_.all(), back,
+            {sqr(double{photon.root_of_cut_here}), sqr(double{photon.root_of_cuts_before})},
+            towards, own);
       }
       add(event.part, walk, Technique::kMerge,
           walk.throughput * event.bsdf.f * photon.flux.unpacked() *

@@ -1,4 +1,6 @@
 // The light side of a pair: its vertices, and those that the camera sees.
+#include <cmath>
+
 #include "integrator/bidirectional/connection_end.h"
 #include "integrator/bidirectional/path_pair_geometry.h"
 #include "photon/light_walk.h"
@@ -134,8 +136,8 @@ class LightVisitor : public LightWalkVisitor {
         }))
       return;
     Photon photon = photon_at(walk, v, emission_.flux);
-    photon.cut_here = static_cast<float>(sums_.here);
-    photon.cuts_before = static_cast<float>(sums_.before);
+    photon.root_of_cut_here = static_cast<float>(std::sqrt(sums_.here));
+    photon.root_of_cuts_before = static_cast<float>(std::sqrt(sums_.before));
     photons_->push_back(photon);
   }
 

@@ -12,8 +12,8 @@ constexpr int kBuckets = 12;
 /// Below this depth the halves have equal numbers of lights, so that no way is longer than 64.
 constexpr int kUnbalancedDepth = 40;
 
-/// Behind the plane of flat lights is what lies lower than this share of the distance: far more than
-/// their normals differ (LightBounds::is_flat) and than rounding.
+/// Behind the plane of flat lights is what lies lower than this share of the distance: far more
+/// than their normals differ (LightBounds::is_flat) and than rounding.
 constexpr float kTiltOfFlatLights = 0.01f;
 
 /// cos(max(0, a - b)) and sin(max(0, a - b)) of angles in [0, pi].

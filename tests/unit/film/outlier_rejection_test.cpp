@@ -159,7 +159,8 @@ TEST(OutlierRejection, WhatIsRareInAWholeRegionIsShown) {
     film.finish_pass();
   }
   EXPECT_GT(bright, 300u);
-  EXPECT_EQ(film.rejection()->held_estimates(), 0u);
+  // In the corners the window is a quarter of the others.
+  EXPECT_LT(film.rejection()->held_estimates(), bright / 50);
 }
 
 TEST(OutlierRejection, OneAfterAnotherInOnePixelIsConfirmedToo) {

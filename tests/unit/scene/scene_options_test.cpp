@@ -31,6 +31,24 @@ std::string error_of(const std::string& text) {
   return "no error";
 }
 
+TEST(SceneSize, ScenesTooSmallForSinglePrecisionAreRefused) {
+  const auto scene = [](const std::string& radius) {
+    return "LookAt 0 0 1 0 0 0 0 1 0\nWorldBegin\nShape \"sphere\" \"float radius\" " + radius +
+           "\nAttributeBegin AttributeEnd";
+  };
+  Diagnostics diagnostics;
+  const auto build_text = [&](const std::string& text) {
+    build_scene(parse_pbrt_string(text, "test.pbrt", ".", diagnostics), {}, diagnostics);
+  };
+  EXPECT_NO_THROW(build_text(scene("1e-7")));
+  try {
+    build_text(scene("1e-9"));
+    ADD_FAILURE() << "no error";
+  } catch (const SceneError& error) {
+    EXPECT_NE(std::string(error.what()).find("smaller than 1e-8 units"), std::string::npos);
+  }
+}
+
 TEST(SceneOptions, Defaults) {
   const Built b = build("");
   EXPECT_TRUE(b.scene->options.pixel_jitter && b.scene->options.wavelength_jitter);
