@@ -49,6 +49,9 @@ constexpr const char* kTail = R"(
 - Filtered image lookups (trilinear, EWA) are bilinear on the finest level.
 - `radius` of an sppm integrator is in world units and is ignored: the first radius comes from the
   pixel's footprint.
+- Mirroring a sphere, disk, cylinder or curve mirrors its outside, as it does for meshes and instances.
+  In pbrt-v4 a transform that swaps handedness turns their normals around where rays meet them, but not
+  where lamps are sampled.
 - Alpha strictly between 0 and 1 on area lights is applied once (pbrt-v4: twice where a ray that a BSDF
   chose hits the light).
 - Cameras, shapes and instances move. Shapes that emit light, lights, media and textures stand at the

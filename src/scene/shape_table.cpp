@@ -21,7 +21,7 @@ struct Context {
   SceneFiles& files;
   Diagnostics& diagnostics;
   Transform transform;
-  bool flip;  ///< ReverseOrientation xor a transform that swaps handedness
+  bool flip;  ///< of meshes: ReverseOrientation xor a transform that swaps handedness
   const DisplacementInputs& displacement;
 
   std::string what() const { return "shape \"" + description.type + "\""; }
