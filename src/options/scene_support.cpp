@@ -153,7 +153,9 @@ std::vector<FormatKind> format_kinds() {
       {"Accelerators", "Accelerator", "Nothing is taken of it.", accelerator_types()},
       {"Shapes", "Shape",
        "All move, and may stand in objects. A transform may swap handedness. Meshes are checked: "
-       "indices out of range are errors, faces without area are removed with a warning.",
+       "indices out of range are errors, faces without area are removed with a warning; so are "
+       "normals that are not finite, in whose place the faces have their own. Faces of PLY files "
+       "with 5 to 16384 vertices are cut into triangles.",
        shape_types()},
       {"Materials", "Material",
        "Letters are those of the routes (docs/routes.md), per scattering event: S specular, G "
