@@ -52,6 +52,8 @@ constexpr const char* kTail = R"(
 - Mirroring a sphere, disk, cylinder or curve mirrors its outside, as it does for meshes and instances.
   In pbrt-v4 a transform that swaps handedness turns their normals around where rays meet them, but not
   where lamps are sampled.
+- Infinite lights take latitude-longitude maps, too: +z is at the top and u = phi / (2 pi), as
+  pbrt-v4's `imgtool makeequiarea` takes them, whose results look the same.
 - Alpha strictly between 0 and 1 on area lights is applied once (pbrt-v4: twice where a ray that a BSDF
   chose hits the light).
 - Cameras, shapes and instances move. Shapes that emit light, lights, media and textures stand at the
