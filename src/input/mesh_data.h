@@ -23,8 +23,11 @@ struct MeshData {
 };
 
 /// Reads an ascii, binary_little_endian or binary_big_endian PLY file (".gz" is unpacked): vertex
-/// x,y,z, optional nx,ny,nz and u,v (also s,t and texture_u, texture_v); faces with 3 or 4 indices,
-/// larger ones as an error. Throws IoError or SceneError naming the file; a file shorter than its
+/// x,y,z, optional nx,ny,nz and u,v (also s,t and texture_u, texture_v); faces with 3 or 4 indices.
+/// Faces with 5 to kMaxPolygonCorners are cut into triangles, behind the triangles of the file;
+/// those with fewer than 3 distinct ones become triangles without area. Normals may be other than
+/// finite; positions and texture coordinates are finite: those of vertices that no face uses become
+/// 0, others are an error. Throws IoError or SceneError naming the file; a file shorter than its
 /// header says is an error and nothing is allocated on the header's word alone.
 MeshData read_ply(SceneFiles& files, const std::string& path, const SourceLocation& wanted_by);
 

@@ -2,6 +2,7 @@
 // Called through mesh_data.h. What the header claims is compared with the size of the file before
 // anything is allocated for it. Knows nothing of rendering.
 // Format: G. Turk, "The PLY Polygon File Format", 1994.
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -14,6 +15,7 @@
 #include "input/mesh_data.h"
 #include "input/ply_header.h"
 #include "input/ply_source.h"
+#include "input/polygon_triangles.h"
 
 namespace nephroid {
 namespace {
@@ -41,6 +43,8 @@ class PlyReader {
         });
       }
     }
+    check_values();
+    for (const Polygon& polygon : polygons_) add_polygon(polygon);
     mesh_.face_indices = std::move(triangle_tags_);
     mesh_.face_indices.insert(mesh_.face_indices.end(), quad_tags_.begin(), quad_tags_.end());
     return std::move(mesh_);
@@ -94,15 +98,31 @@ class PlyReader {
     source_.skip(property.type, count);
   }
 
+  /// A face with other than three or four corners. The file may give its vertices later.
+  struct Polygon {
+    std::vector<uint32_t> corners;
+    std::optional<int> tag;
+  };
+  /// A coordinate that is no number, of a vertex that a face may use.
+  struct BadValue {
+    size_t vertex;
+    const PlyProperty* property;
+  };
+
   void read_vertices(const PlyElement& element);
   void read_faces(const PlyElement& element);
-  void read_indices(const PlyProperty& property);
+  /// The corners of a face with three or four go to the mesh, those of others to `polygon`.
+  void read_indices(const PlyProperty& property, Polygon* polygon);
+  void check_values();
+  void add_polygon(const Polygon& polygon);
 
   const PlyHeader& header_;
   Source source_;
   uint64_t vertex_count_ = 0;
   MeshData mesh_;
   std::vector<int> triangle_tags_, quad_tags_;  // face_indices of either kind
+  std::vector<Polygon> polygons_;
+  std::vector<BadValue> bad_values_;
 };
 
 /// Where the value of a vertex property goes in a row of eight floats.
@@ -153,8 +173,9 @@ void PlyReader<Source>::read_vertices(const PlyElement& element) {
         continue;
       }
       const float value = static_cast<float>(source_.number(property.type));
-      if (!std::isfinite(value))
-        throw PlyBadValue{"\"" + property.name + "\" is not a finite float"};
+      const bool is_normal = layout.slots[i] >= kNx && layout.slots[i] <= kNz;
+      if (!std::isfinite(value) && !is_normal)
+        bad_values_.push_back({mesh_.positions.size(), &property});
       row[layout.slots[i]] = value;
     }
     mesh_.positions.emplace_back(row[kX], row[kY], row[kZ]);
@@ -164,11 +185,14 @@ void PlyReader<Source>::read_vertices(const PlyElement& element) {
 }
 
 template <class Source>
-void PlyReader<Source>::read_indices(const PlyProperty& property) {
+void PlyReader<Source>::read_indices(const PlyProperty& property, Polygon* polygon) {
   const int64_t corners = source_.integer(property.count_type);
-  if (corners != 3 && corners != 4)
-    throw PlyBadValue{"it has " + std::to_string(corners) + " vertices, expected 3 or 4"};
-  std::vector<uint32_t>& indices = corners == 3 ? mesh_.triangles : mesh_.quads;
+  if (corners < 0 || corners > static_cast<int64_t>(kMaxPolygonCorners))
+    throw PlyBadValue{"it has " + std::to_string(corners) + " vertices, expected at most " +
+                      std::to_string(kMaxPolygonCorners)};
+  std::vector<uint32_t>& indices = corners == 3   ? mesh_.triangles
+                                   : corners == 4 ? mesh_.quads
+                                                  : polygon->corners;
   for (int64_t i = 0; i < corners; ++i) {
     const int64_t index = source_.integer(property.type);
     if (index < 0 || static_cast<uint64_t>(index) >= vertex_count_)
@@ -177,6 +201,49 @@ void PlyReader<Source>::read_indices(const PlyProperty& property) {
                         " vertices"};
     indices.push_back(static_cast<uint32_t>(index));
   }
+}
+
+/// Refuses positions and texture coordinates of faces that are not finite; those of vertices that
+/// no face uses become 0.
+template <class Source>
+void PlyReader<Source>::check_values() {
+  if (bad_values_.empty()) return;
+  std::vector<bool> used(mesh_.positions.size());
+  for (const uint32_t v : mesh_.triangles) used[v] = true;
+  for (const uint32_t v : mesh_.quads) used[v] = true;
+  for (const Polygon& polygon : polygons_)
+    for (const uint32_t v : polygon.corners) used[v] = true;
+  for (const BadValue& bad : bad_values_) {
+    if (used[bad.vertex])
+      throw std::runtime_error("vertex " + std::to_string(bad.vertex) + " (counted from 0): \"" +
+                               bad.property->name + "\" is not a finite float");
+    mesh_.positions[bad.vertex] = Vec3f(0, 0, 0);
+    if (!mesh_.uvs.empty()) mesh_.uvs[bad.vertex] = Vec2f(0, 0);
+  }
+}
+
+/// Cuts a face into triangles. One with fewer than three distinct vertices becomes a triangle
+/// without area, which whoever checks the mesh removes and counts.
+template <class Source>
+void PlyReader<Source>::add_polygon(const Polygon& polygon) {
+  std::vector<uint32_t> ring = polygon.corners;
+  ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
+  while (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
+  std::vector<uint32_t> distinct = ring;
+  std::sort(distinct.begin(), distinct.end());
+  distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+  const size_t before = mesh_.triangles.size();
+  if (distinct.size() >= 3) {
+    std::vector<Vec3f> corners;
+    for (const uint32_t v : ring) corners.push_back(mesh_.positions[v]);
+    for (const uint32_t corner : triangulate_polygon(corners))
+      mesh_.triangles.push_back(ring[corner]);
+  } else if (!mesh_.positions.empty()) {
+    mesh_.triangles.insert(mesh_.triangles.end(), 3, ring.empty() ? 0 : ring[0]);
+  }
+  if (polygon.tag)
+    triangle_tags_.insert(triangle_tags_.end(), (mesh_.triangles.size() - before) / 3,
+                          *polygon.tag);
 }
 
 template <class Source>
@@ -197,23 +264,30 @@ void PlyReader<Source>::read_faces(const PlyElement& element) {
 
   mesh_.triangles.reserve(3 * element.count);
   for_each(element, [&] {
-    const size_t quads_before = mesh_.quads.size();
+    const size_t triangles_before = mesh_.triangles.size(), quads_before = mesh_.quads.size();
+    Polygon polygon;
     int64_t tag_value = 0;
     for (size_t i = 0; i < element.properties.size(); ++i) {
       const PlyProperty& property = element.properties[i];
       if (i == corners_at) {
-        read_indices(property);
+        read_indices(property, &polygon);
       } else if (i == tag_at) {
         tag_value = source_.integer(property.type);
       } else {
         skip(property);
       }
     }
-    if (!has_tags) return;
     if (tag_value < std::numeric_limits<int>::min() || tag_value > std::numeric_limits<int>::max())
       throw PlyBadValue{"face index " + std::to_string(tag_value) + " does not fit 32 bits"};
-    (mesh_.quads.size() > quads_before ? quad_tags_ : triangle_tags_)
-        .push_back(static_cast<int>(tag_value));
+    const int tag_of_face = static_cast<int>(tag_value);
+    if (mesh_.quads.size() > quads_before) {
+      if (has_tags) quad_tags_.push_back(tag_of_face);
+    } else if (mesh_.triangles.size() > triangles_before) {
+      if (has_tags) triangle_tags_.push_back(tag_of_face);
+    } else {
+      if (has_tags) polygon.tag = tag_of_face;
+      polygons_.push_back(std::move(polygon));
+    }
   });
 }
 

@@ -49,6 +49,11 @@ constexpr const char* kTail = R"(
 - Filtered image lookups (trilinear, EWA) are bilinear on the finest level.
 - `radius` of an sppm integrator is in world units and is ignored: the first radius comes from the
   pixel's footprint.
+- Mirroring a sphere, disk, cylinder or curve mirrors its outside, as it does for meshes and instances.
+  In pbrt-v4 a transform that swaps handedness turns their normals around where rays meet them, but not
+  where lamps are sampled.
+- Infinite lights take latitude-longitude maps, too: +z is at the top and u = phi / (2 pi), as
+  pbrt-v4's `imgtool makeequiarea` takes them, whose results look the same.
 - Alpha strictly between 0 and 1 on area lights is applied once (pbrt-v4: twice where a ray that a BSDF
   chose hits the light).
 - Cameras, shapes and instances move. Shapes that emit light, lights, media and textures stand at the
@@ -150,7 +155,9 @@ std::vector<FormatKind> format_kinds() {
       {"Accelerators", "Accelerator", "Nothing is taken of it.", accelerator_types()},
       {"Shapes", "Shape",
        "All move, and may stand in objects. A transform may swap handedness. Meshes are checked: "
-       "indices out of range are errors, faces without area are removed with a warning.",
+       "indices out of range are errors, faces without area are removed with a warning; so are "
+       "normals that are not finite, in whose place the faces have their own. Faces of PLY files "
+       "with 5 to 16384 vertices are cut into triangles.",
        shape_types()},
       {"Materials", "Material",
        "Letters are those of the routes (docs/routes.md), per scattering event: S specular, G "

@@ -9,8 +9,8 @@ namespace nephroid {
 struct ShapeRecord;
 
 /// World space throughout. `ng` and the shading frame's z point to the outside of the shape,
-/// whatever side the ray came from (pbrt-v4: flipped by ReverseOrientation xor handedness, and to
-/// the side of the shading normals where a mesh has them).
+/// whatever side the ray came from (flipped by ReverseOrientation, and to the side of the shading
+/// normals where a mesh has them). dpdu x dpdv points inwards where a transform swaps handedness.
 struct SurfaceInteraction {
   Vec3f p;
   Vec3f p_error;  ///< absolute bound per axis

@@ -21,7 +21,7 @@ struct Context {
   SceneFiles& files;
   Diagnostics& diagnostics;
   Transform transform;
-  bool flip;  ///< ReverseOrientation xor a transform that swaps handedness
+  bool flip;  ///< of meshes: ReverseOrientation xor a transform that swaps handedness
   const DisplacementInputs& displacement;
 
   std::string what() const { return "shape \"" + description.type + "\""; }
@@ -41,6 +41,7 @@ std::vector<uint32_t> to_indices(const Context& c, const std::vector<int>& value
 // Meshes end here: brought to world space, checked, with room behind the positions for the 16-byte
 // loads of the ray tracer.
 std::vector<ShapePtr> finish_mesh(const Context& c, MeshData data) {
+  zero_bad_normals(data, c.p.where, c.what(), c.diagnostics);
   if (c.description.reverse_orientation) reverse_normals(data);
   transform_mesh(data, c.transform);
   validate_mesh(data, c.p.where, c.what(), c.diagnostics);
@@ -127,6 +128,7 @@ std::vector<ShapePtr> ply_mesh(const Context& c) {
   const std::string name = c.p.get_string("filename", "");
   if (name.empty()) throw SceneError(c.p.where, c.what() + " has no \"string filename\"");
   MeshData data = read_ply(c.files, c.files.path_of(name), c.p.where);
+  zero_bad_normals(data, c.p.where, c.what(), c.diagnostics);
   if (const FloatTexturePtr height = c.displacement.textures.float_texture(c.p, "displacement"))
     data = displaced(c, std::move(data), *height);
   return finish_mesh(c, std::move(data));

@@ -186,8 +186,8 @@ TEST(BadImage, IsLocated) {
       "7:35: image \"a.pfm\" says that it has 20000 x 20000 pixels of 3 channels, which "
       "cannot be in so small a file");
   expect_image_error("LightSource \"infinite\" \"string filename\" \"a.pfm\"\n", "a.pfm",
-                     "PF\n2 1\n-1.0\n" + std::string(24, '\0'),
-                     "7:24: the image of an infinite light is 2 x 1, expected a square");
+                     "PF\n3 1\n-1.0\n" + std::string(36, '\0'),
+                     "7:24: the image of an infinite light is 3 x 1, expected a square");
   // The smallest normal float, little-endian.
   const std::string faint = "Pf\n1 1\n-1.0\n" + std::string("\0\0\x80\0", 4);
   const std::string sky = "LightSource \"infinite\" \"string filename\" \"a.pfm\" ";

@@ -1,14 +1,13 @@
-// The infinite light with an image: an equal-area octahedral map of the sphere, constant within
-// each pixel, so that the density in proportion to the pixels' mean values is exact. Light sampling
-// takes only what is brighter than the average: the rest is found well by BSDF sampling, which it
-// is weighed against (Karlik et al. 2019, "MIS compensation"). Photons start in proportion to the
-// whole.
+// The infinite light with an image: a map of the sphere (sphere_map.h), constant within each pixel,
+// so that the density in proportion to the pixels' mean values is exact. Light sampling takes only
+// what is brighter than the average: the rest is found well by BSDF sampling, which it is weighed
+// against (Karlik et al. 2019, "MIS compensation"). Photons start in proportion to the whole.
 #include "core/parallel.h"
 #include "scene/light/direction_map.h"
-#include "scene/light/equal_area_map.h"
 #include "scene/light/infinite_emission.h"
 #include "scene/light/light_table.h"
 #include "scene/light/piecewise_constant_2d.h"
+#include "scene/light/sphere_map.h"
 
 namespace nephroid {
 
@@ -17,23 +16,29 @@ namespace {
 class ImageInfiniteLight final : public Light {
  public:
   ImageInfiniteLight(const Image& image, const Transform& local_to_world, float scale)
-      : size_(image.width()),
+      : sphere_map_(image.width(), image.height()),
         map_(local_to_world),
         illuminant_(image.color_space().illuminant(), scale),
-        pixels_(static_cast<size_t>(size_) * size_) {
+        pixels_(static_cast<size_t>(image.width()) * image.height()) {
+    const int width = sphere_map_.width(), height = sphere_map_.height();
+    // What a pixel emits: its value times its solid angle, in units of the mean solid angle.
     std::vector<float> weights(pixels_.size());
-    parallel_chunks(size_, 8, [&](int64_t, int64_t begin, int64_t end) {
+    parallel_chunks(height, 8, [&](int64_t, int64_t begin, int64_t end) {
       for (int y = static_cast<int>(begin); y < end; ++y)
-        for (int x = 0; x < size_; ++x) {
+        for (int x = 0; x < width; ++x) {
           const Rgb c = image.texel(x, y, WrapMode::kClamp);
           pixels_[index(x, y)] = RgbEmission(image.color_space(), c);
-          weights[index(x, y)] = positive_mean(c);
+          weights[index(x, y)] = positive_mean(c) * sphere_map_.relative_solid_angle(y);
         }
     });
-    distribution_ = PiecewiseConstant2D(weights, size_, size_);
+    distribution_ = PiecewiseConstant2D(weights, width, height);
     const float mean = static_cast<float>(distribution_.mean());
-    for (float& w : weights) w = std::max(0.0f, w - mean);
-    direct_ = PiecewiseConstant2D(std::move(weights), size_, size_);
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        float& w = weights[index(x, y)];
+        w = std::max(0.0f, w - mean * sphere_map_.relative_solid_angle(y));
+      }
+    direct_ = PiecewiseConstant2D(std::move(weights), width, height);
     if (!(direct_.mean() > 1e-3 * distribution_.mean())) direct_ = distribution_;
   }
 
@@ -55,13 +60,13 @@ class ImageInfiniteLight final : public Light {
 
   float pdf_towards(const Vec3f&, const Vec3f& wi, const Vec3f&, const Vec3f&) const override {
     const Vec3f local = map_.to_local(wi);
-    const Vec2i pixel = pixel_of(local);
-    return direct_.pdf(pixel.x, pixel.y) * kInv4Pi / map_.jacobian(local);
+    const Vec2i pixel = sphere_map_.pixel(local);
+    return density(direct_.pdf(pixel.x, pixel.y), pixel.y, local);
   }
 
   SampledSpectrum radiance_at_infinity(const Vec3f&, const Vec3f& w,
                                        const SampledWavelengths& lambda) const override {
-    const Vec2i pixel = pixel_of(map_.to_local(w));
+    const Vec2i pixel = sphere_map_.pixel(map_.to_local(w));
     return pixel_radiance(index(pixel.x, pixel.y), lambda);
   }
 
@@ -75,9 +80,8 @@ class ImageInfiniteLight final : public Light {
 
   EmissionDensity emission_pdf(const Vec3f&, const Vec3f& w) const override {
     const Vec3f local = map_.to_local(-w);
-    const Vec2i pixel = pixel_of(local);
-    return {disk_pdf_a(sphere_),
-            distribution_.pdf(pixel.x, pixel.y) * kInv4Pi / map_.jacobian(local)};
+    const Vec2i pixel = sphere_map_.pixel(local);
+    return {disk_pdf_a(sphere_), density(distribution_.pdf(pixel.x, pixel.y), pixel.y, local)};
   }
 
   float power() const override {
@@ -95,12 +99,11 @@ class ImageInfiniteLight final : public Light {
     size_t pixel = 0;
   };
 
-  size_t index(int x, int y) const { return static_cast<size_t>(y) * size_ + x; }
+  size_t index(int x, int y) const { return static_cast<size_t>(y) * sphere_map_.width() + x; }
 
-  Vec2i pixel_of(const Vec3f& local) const {
-    const Vec2f st = equal_area_sphere_to_square(local) * static_cast<float>(size_);
-    return {std::clamp(static_cast<int>(st.x), 0, size_ - 1),
-            std::clamp(static_cast<int>(st.y), 0, size_ - 1)};
+  /// pdf_w in the world from the density per area of the unit square in a pixel of `row`.
+  float density(float pdf_square, int row, const Vec3f& local) const {
+    return pdf_square * kInv4Pi / (map_.jacobian(local) * sphere_map_.relative_solid_angle(row));
   }
 
   SampledSpectrum pixel_radiance(size_t pixel, const SampledWavelengths& lambda) const {
@@ -111,14 +114,14 @@ class ImageInfiniteLight final : public Light {
                                             const Vec2f& u) const {
     const auto sample = distribution.sample(u);
     if (!sample) return std::nullopt;
-    const Vec3f local = equal_area_square_to_sphere(sample->point);
-    const float pdf_w = sample->pdf * kInv4Pi / map_.jacobian(local);
+    const Vec3f local = sphere_map_.direction(sample->point);
+    const float pdf_w = density(sample->pdf, sample->y, local);
     // It underflows where another pixel is brighter by 30 orders of magnitude.
     if (!(pdf_w > 0.0f)) return std::nullopt;
     return Direction{map_.to_world(local), pdf_w, index(sample->x, sample->y)};
   }
 
-  int size_;
+  SphereMap sphere_map_;
   DirectionMap map_;
   EmissionSpectrum illuminant_;  ///< times all scales
   std::vector<RgbEmission> pixels_;
@@ -134,7 +137,7 @@ LightPtr make_image_infinite_light(const LightDescription& description, const Li
   if (const Parameter* colour = p.find("L"))
     throw SceneError(colour->where,
                      "an infinite light has both \"L\" and \"filename\", expected one of them");
-  const ImagePtr image = read_sphere_image(p, scope.files, "an infinite light");
+  const ImagePtr image = read_environment_image(p, scope.files);
   const float scale = sphere_emission_scale(p, *image);
   return std::make_unique<ImageInfiniteLight>(*image, Transform(description.transform.start),
                                               scale);

@@ -1,7 +1,7 @@
 // What the parameters of all lights have in common: colour, photometric scale, image. See
 // light_table.h.
-#include "scene/light/equal_area_map.h"
 #include "scene/light/light_table.h"
+#include "scene/light/sphere_map.h"
 
 namespace nephroid {
 
@@ -24,17 +24,19 @@ SpectrumPtr illuminant_of(const std::string& color_space) {
   return {std::shared_ptr<const void>(), &(space ? *space : RgbColorSpace::srgb()).illuminant()};
 }
 
-/// Illuminance of the map on the side of its +z, in units of its illuminant.
+/// Illuminance of the map on the side of its +z, in units of its illuminant and of the mean solid
+/// angle of a pixel.
 double illuminance_of(const Image& image) {
   const Rgb luminance = luminance_weights(image.color_space());
-  const int n = image.width();
-  const float step = 1.0f / static_cast<float>(n);
+  const SphereMap map(image.width(), image.height());
+  const float step_x = 1.0f / static_cast<float>(image.width());
+  const float step_y = 1.0f / static_cast<float>(image.height());
   double sum = 0.0;
-  for (int y = 0; y < n; ++y)
-    for (int x = 0; x < n; ++x) {
-      const Vec2f centre((static_cast<float>(x) + 0.5f) * step,
-                         (static_cast<float>(y) + 0.5f) * step);
-      const float cosine = equal_area_square_to_sphere(centre).z;
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x) {
+      const Vec2f centre((static_cast<float>(x) + 0.5f) * step_x,
+                         (static_cast<float>(y) + 0.5f) * step_y);
+      const float cosine = map.direction(centre).z * map.relative_solid_angle(y);
       if (cosine <= 0.0f) continue;
       const Rgb c = image.texel(x, y, WrapMode::kClamp);
       sum += (c.r * luminance.r + c.g * luminance.g + c.b * luminance.b) * cosine;
@@ -105,12 +107,23 @@ ImagePtr read_sphere_image(const ParameterSet& parameters, SceneFiles& files,
   return image;
 }
 
+ImagePtr read_environment_image(const ParameterSet& parameters, SceneFiles& files) {
+  ImagePtr image = read_light_image(parameters, files);
+  if (image->width() != image->height() && image->width() != 2 * image->height())
+    throw SceneError(parameters.find("filename")->where,
+                     "the image of an infinite light is " + std::to_string(image->width()) + " x " +
+                         std::to_string(image->height()) +
+                         ", expected a square (an equal-area octahedral map) or twice the width of "
+                         "the height (a latitude-longitude map)");
+  return image;
+}
+
 float sphere_emission_scale(const ParameterSet& parameters, const Image& image) {
   const float scale = image_emission_scale(parameters, image.color_space());
   const float illuminance = parameters.get_float("illuminance", -1.0f);
   if (!(illuminance > 0.0f)) return scale;
-  // The factor is pbrt-v4's, which gives each of the n^2 pixels 2 pi / n^2 of solid angle.
-  const double per_pixel = 2.0 * kPi / (static_cast<double>(image.width()) * image.width());
+  // The factor is pbrt-v4's, which gives the n pixels 2 pi / n of solid angle in the mean.
+  const double per_pixel = 2.0 * kPi / (static_cast<double>(image.width()) * image.height());
   return scale_to(*parameters.find("illuminance"), illuminance, illuminance_of(image) * per_pixel,
                   scale);
 }

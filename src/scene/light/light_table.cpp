@@ -28,7 +28,10 @@ constexpr FormatParameter kInfinite[] = {
     {"spectrum", "L", "illuminant of the colour space", "radiance",
      "with \"filename\" an error, with \"filename\" and \"portal\" ignored with a warning; with "
      "\"portal\" alone what is not rgb is converted to rgb with a warning"},
-    {"string", "filename", "none", "", "a square image: an equal-area octahedral map"},
+    {"string", "filename", "none", "",
+     "an equal-area octahedral map (square), or, not in pbrt-v4, a latitude-longitude map (twice "
+     "as "
+     "wide as high, +z at the top, phi from +x at the left)"},
     {"point3[4]", "portal", "none", "scene units",
      "a rectangle in world space, anything else is an error"},
 };

@@ -71,6 +71,9 @@ ImagePtr read_light_image(const ParameterSet& parameters, SceneFiles& files);
 ImagePtr read_sphere_image(const ParameterSet& parameters, SceneFiles& files,
                            const std::string& of_what);
 
+/// The same for an infinite light, whose map (sphere_map.h) may also be twice as wide as high.
+ImagePtr read_environment_image(const ParameterSet& parameters, SceneFiles& files);
+
 /// image_emission_scale for a map of the sphere, times what its "illuminance" asks for.
 float sphere_emission_scale(const ParameterSet& parameters, const Image& image);
 

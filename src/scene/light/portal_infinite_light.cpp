@@ -6,9 +6,9 @@
 
 #include "core/parallel.h"
 #include "scene/light/direction_map.h"
-#include "scene/light/equal_area_map.h"
 #include "scene/light/infinite_emission.h"
 #include "scene/light/light_table.h"
+#include "scene/light/sphere_map.h"
 #include "scene/light/windowed_distribution.h"
 
 namespace nephroid {
@@ -103,19 +103,19 @@ class PortalInfiniteLight final : public Light {
  public:
   PortalInfiniteLight(const Image& sphere, const Transform& local_to_world, const Portal& portal,
                       float scale)
-      : size_(sphere.width() == 1 ? kColourSize : sphere.width()),
+      : size_(sphere.width() == 1 ? kColourSize : sphere.height()),
         portal_(portal),
         illuminant_(sphere.color_space().illuminant(), scale),
         pixels_(static_cast<size_t>(size_) * size_) {
     const DirectionMap map(local_to_world);
+    const SphereMap sphere_map(sphere.width(), sphere.height());
     std::vector<float> weights(pixels_.size());
     std::vector<double> through(size_, 0.0);
     parallel_chunks(size_, 8, [&](int64_t, int64_t begin, int64_t end) {
       for (int y = static_cast<int>(begin); y < end; ++y)
         for (int x = 0; x < size_; ++x) {
           const Portal::Direction d = portal_.direction((x + 0.5) / size_, (y + 0.5) / size_);
-          const Rgb c = sphere.bilinear(equal_area_sphere_to_square(map.to_local(d.w)),
-                                        WrapMode::kOctahedralSphere);
+          const Rgb c = sphere_map.bilinear(sphere, map.to_local(d.w));
           pixels_[index(x, y)] = RgbEmission(sphere.color_space(), c);
           const double weight = positive_mean(c) * d.solid_angle;
           weights[index(x, y)] = static_cast<float>(weight);
@@ -273,7 +273,7 @@ LightPtr make_portal_infinite_light(const LightDescription& description, const L
     scope.diagnostics.warn(
         colour->where, "\"L\" of an infinite light with a portal and a \"filename\" is ignored");
   const ImagePtr image =
-      has_file ? read_sphere_image(p, scope.files, "an infinite light") : image_of_colour(p, scope);
+      has_file ? read_environment_image(p, scope.files) : image_of_colour(p, scope);
   return std::make_unique<PortalInfiniteLight>(*image, Transform(description.transform.start),
                                                portal, sphere_emission_scale(p, *image));
 }

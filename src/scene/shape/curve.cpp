@@ -96,10 +96,7 @@ struct CurveShape::Search {
 
 CurveShape::CurveShape(const Transform& object_to_world, bool reverse_orientation, CurveType type,
                        const std::vector<CurveSegment>& segments)
-    : type_(type),
-      flip_(reverse_orientation != object_to_world.swaps_handedness()),
-      to_world_(object_to_world),
-      error_scale_(0.0f) {
+    : type_(type), flip_(reverse_orientation), to_world_(object_to_world), error_scale_(0.0f) {
   const double scale = similarity_scale(object_to_world.m);
   baked_ = scale > 0.0;
   mirrored_ = baked_ && object_to_world.swaps_handedness();

@@ -137,6 +137,29 @@ void validate_mesh(MeshData& mesh, const SourceLocation& where, const std::strin
                                 " faces have no area and were removed");
 }
 
+void zero_bad_normals(MeshData& mesh, const SourceLocation& where, const std::string& what,
+                      Diagnostics& diagnostics) {
+  std::vector<bool> bad(mesh.normals.size());
+  bool any = false;
+  for (size_t i = 0; i < bad.size(); ++i) {
+    if (all_finite(mesh.normals[i])) continue;
+    mesh.normals[i] = Vec3f(0, 0, 0);
+    any = bad[i] = true;
+  }
+  if (!any) return;
+  size_t used = 0;
+  for (const auto* indices : {&mesh.triangles, &mesh.quads})
+    for (const uint32_t v : *indices)
+      if (v < bad.size() && bad[v]) {
+        bad[v] = false;
+        ++used;
+      }
+  if (used > 0)
+    diagnostics.warn(where, what + ": " + std::to_string(used) + " of " +
+                                std::to_string(mesh.normals.size()) +
+                                " normals are not finite, the faces' own are used there");
+}
+
 void reverse_normals(MeshData& mesh) {
   for (Vec3f& n : mesh.normals) n = -n;
 }

@@ -18,6 +18,11 @@ namespace nephroid {
 void validate_mesh(MeshData& mesh, const SourceLocation& where, const std::string& what,
                    Diagnostics& diagnostics);
 
+/// Normals that are not finite become 0, which leaves a face its own normal there; one warning
+/// counts those of vertices that a face uses. Indices out of range are left to validate_mesh.
+void zero_bad_normals(MeshData& mesh, const SourceLocation& where, const std::string& what,
+                      Diagnostics& diagnostics);
+
 /// Turns the normals around: pbrt does so with the normals of a mesh under ReverseOrientation,
 /// before it asks which side the faces show.
 void reverse_normals(MeshData& mesh);

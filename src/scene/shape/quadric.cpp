@@ -55,7 +55,7 @@ double positive_angle(double y, double x) {
 Quadric::Quadric(const Transform& object_to_world, bool reverse_orientation)
     : to_world_(object_to_world.m),
       to_object_(object_to_world.inverse),
-      flip_(reverse_orientation != object_to_world.swaps_handedness()),
+      flip_(reverse_orientation),
       similarity_(keeps_angles(object_to_world.m)),
       determinant_(std::abs(determinant3(object_to_world.m))) {
   for (int j = 0; j < 3; ++j) {

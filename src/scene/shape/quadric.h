@@ -33,8 +33,8 @@ class Quadric : public Shape {
   };
   using Vec2d = Imath::V2d;
 
-  /// The outside is where dpdu x dpdv points in object space, turned around by reverse_orientation
-  /// xor a transform that swaps handedness (as pbrt-v4 has it).
+  /// The outside is where dpdu x dpdv points in object space, turned around by
+  /// reverse_orientation. A transform that swaps handedness keeps it: normals are mapped as such.
   Quadric(const Transform& object_to_world, bool reverse_orientation);
   /// To be called by the constructors of subclasses: sets the bounds to those of the cylinder
   /// around the object's z axis, intersected with those of the ball of radius `ball` if it is above

@@ -84,10 +84,11 @@ class Shape {
 };
 using ShapePtr = std::shared_ptr<const Shape>;
 
-/// An indexed triangle mesh in world space. `flip` reverses the outside (pbrt's ReverseOrientation
-/// xor a transform that swaps handedness); where the mesh has normals they decide instead, and the
-/// caller has turned them around for ReverseOrientation (reverse_normals in mesh_preparation.h).
-/// Throws std::invalid_argument if an index is out of range.
+/// An indexed triangle mesh in world space. `flip` reverses the outside that the winding in world
+/// space gives (ReverseOrientation xor a transform that swaps handedness, hence winding); where the
+/// mesh has normals they decide instead, and the caller has turned them around for
+/// ReverseOrientation (reverse_normals in mesh_preparation.h). Throws std::invalid_argument if an
+/// index is out of range.
 class TriangleMesh : public Shape {
  public:
   TriangleMesh(MeshData data, bool flip);
@@ -112,7 +113,7 @@ class TriangleMesh : public Shape {
 /// Quadrics keep their transform: they are intersected in object space in double. Any affine map
 /// will do; sample_area is uniform in object space, its pdf_a is right for the world-space point.
 /// The outside is where dpdu x dpdv points in object space (away from the axis or centre, up for
-/// disks), turned around by reverse_orientation xor swapped handedness.
+/// disks), turned around by reverse_orientation; mirroring the shape mirrors its outside.
 ShapePtr make_sphere(const Transform& object_to_world, bool reverse_orientation, float radius,
                      float z_min, float z_max, float phi_max_degrees);
 ShapePtr make_disk(const Transform& object_to_world, bool reverse_orientation, float height,

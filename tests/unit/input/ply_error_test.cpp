@@ -50,11 +50,19 @@ class PlyErrorTest : public ::testing::Test {
   TemporaryDirectory directory_;
 };
 
-TEST_F(PlyErrorTest, FacesNeedThreeOrFourVertices) {
-  EXPECT_EQ(error_of_face({0, 1, 2, 0, 1}),
-            "face 0 (counted from 0): it has 5 vertices, expected 3 or 4");
-  EXPECT_EQ(error_of_face({0, 1}), "face 0 (counted from 0): it has 2 vertices, expected 3 or 4");
-  EXPECT_EQ(error_of_face({}), "face 0 (counted from 0): it has 0 vertices, expected 3 or 4");
+TEST_F(PlyErrorTest, FacesHaveAtMostSoManyVertices) {
+  const std::string list = "int int";
+  EXPECT_EQ(error_of_face(std::vector<double>(16385, 0.0), list),
+            "face 0 (counted from 0): it has 16385 vertices, expected at most 16384");
+  const std::string start = "ply\nformat ascii 1.0\n" + kVertices +
+                            "element face 1\nproperty list int int vertex_indices\nend_header\n"
+                            "0 0 0 1 0 0 1 1 0 ";
+  EXPECT_EQ(error_in(start + "-1 0 0"),
+            "face 0 (counted from 0): it has -1 vertices, expected at most 16384");
+  EXPECT_EQ(error_in(start + "2000000000 0 0"),
+            "face 0 (counted from 0): it has 2000000000 vertices, expected at most 16384");
+  EXPECT_EQ(error_of_face({0, 1, 2, 0, 3}),
+            "face 0 (counted from 0): vertex index 3 is out of range, the file has 3 vertices");
 }
 
 TEST_F(PlyErrorTest, IndicesMustBeInRange) {

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
+#include <limits>
 
 #include "input/mesh_data.h"
 #include "unit/input/gzip_bytes.h"
@@ -55,6 +57,85 @@ void expect_square(const MeshData& mesh) {
 
 TEST_P(PlyTest, ReadsTrianglesAndQuads) {
   expect_square(read(square(GetParam())));
+}
+
+/// Six vertices with normals and texture coordinates; `faces` are lists of corners with a tag.
+std::string hexagon(PlyEncoding encoding,
+                    const std::vector<std::pair<std::vector<int>, int>>& faces) {
+  PlyBytes ply(encoding);
+  ply.header(
+      "element vertex 6\nproperty float x\nproperty float y\nproperty float z\n"
+      "property float nx\nproperty float ny\nproperty float nz\nproperty float u\n"
+      "property float v\nelement face " +
+      std::to_string(faces.size()) +
+      "\nproperty list uchar int vertex_indices\nproperty int face_indices\n");
+  // An L: its corner 3 is concave.
+  for (const auto& [x, y] : {std::pair(0, 0), {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}) {
+    ply.add("float", x).add("float", y).add("float", 0);
+    ply.add("float", 0).add("float", 0).add("float", 1);
+    ply.add("float", x).add("float", y);
+  }
+  for (const auto& face : faces) {
+    ply.add("uchar", static_cast<double>(face.first.size()));
+    for (const int corner : face.first) ply.add("int", corner);
+    ply.add("int", face.second);
+  }
+  return ply.bytes();
+}
+
+TEST_P(PlyTest, CutsLargeFacesIntoTriangles) {
+  const MeshData mesh = read(
+      hexagon(GetParam(),
+              {{{0, 1, 2, 3, 4, 5}, 7}, {{0, 1, 2}, 8}, {{0, 1, 2, 3}, 9}, {{5, 4, 3, 3}, 10}}));
+  // Triangles of the file come first, quads stay what they are, even those with three corners.
+  ASSERT_EQ(mesh.triangles.size(), 3u * 5);
+  EXPECT_EQ(Indices(mesh.triangles.begin(), mesh.triangles.begin() + 3), Indices({0, 1, 2}));
+  EXPECT_EQ(mesh.quads, Indices({0, 1, 2, 3, 5, 4, 3, 3}));
+  EXPECT_EQ(mesh.face_indices, std::vector<int>({8, 7, 7, 7, 7, 9, 10}));
+  EXPECT_EQ(mesh.positions.size(), 6u);
+  EXPECT_EQ(mesh.normals.size(), 6u);
+  EXPECT_EQ(mesh.uvs[3], Vec2f(1, 1));
+  double area = 0;
+  for (size_t i = 3; i < mesh.triangles.size(); i += 3) {
+    const Vec3f& a = mesh.positions[mesh.triangles[i]];
+    const Vec3f n =
+        cross(mesh.positions[mesh.triangles[i + 1]] - a, mesh.positions[mesh.triangles[i + 2]] - a);
+    EXPECT_GT(n.z, 0.0f);
+    area += n.z / 2;
+  }
+  EXPECT_NEAR(area, 3.0, 1e-6);
+}
+
+TEST_P(PlyTest, FacesWithFewerThanThreeDistinctVerticesHaveNoArea) {
+  const MeshData mesh = read(hexagon(GetParam(), {{{0, 1, 2}, 1},
+                                                  {{}, 2},
+                                                  {{4}, 3},
+                                                  {{3, 4}, 4},
+                                                  {{3, 4, 3, 4, 3}, 5},
+                                                  {{0, 0, 1, 1, 2, 0}, 6}}));
+  EXPECT_EQ(mesh.triangles, Indices({0, 1, 2, 0, 0, 0, 4, 4, 4, 3, 3, 3, 3, 3, 3, 0, 1, 2}));
+  EXPECT_EQ(mesh.face_indices, std::vector<int>({1, 2, 3, 4, 5, 6}));
+}
+
+TEST_P(PlyTest, ValuesOfVerticesThatNoFaceUsesDoNotMatter) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  PlyBytes ply(GetParam());
+  ply.header(
+      "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+      "property float nx\nproperty float ny\nproperty float nz\nproperty float u\n"
+      "property float v\nelement face 1\nproperty list uchar int vertex_indices\n");
+  for (int i = 0; i < 3; ++i)
+    for (const double value :
+         {i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, 0.0, nan, 0.0, 0.0, 0.5, 0.5})
+      ply.add("float", value);
+  for (int i = 0; i < 8; ++i) ply.add("float", i == 1 ? HUGE_VAL : nan);
+  ply.add("uchar", 3).add("int", 0).add("int", 1).add("int", 2);
+  const MeshData mesh = read(ply.bytes());
+  EXPECT_EQ(mesh.positions.at(3), Vec3f(0, 0, 0));
+  EXPECT_EQ(mesh.uvs.at(3), Vec2f(0, 0));
+  EXPECT_EQ(mesh.uvs.at(2), Vec2f(0.5f, 0.5f));
+  // Normals are left to whoever checks the mesh.
+  EXPECT_TRUE(std::isnan(mesh.normals.at(0).x));
 }
 
 TEST_P(PlyTest, UnpacksGzip) {

@@ -252,7 +252,7 @@ TEST_F(ImageInfiniteLight, IlluminanceIsThatOfTheUpperHalf) {
 }
 
 TEST_F(ImageInfiniteLight, RefusesImagesThatAreNoMaps) {
-  write_square(scratch.file("wide.exr"), 2, std::vector<float>(6, 1.0f));
+  write_square(scratch.file("wide.exr"), 3, std::vector<float>(9, 1.0f));
   write_square(scratch.file("hot.exr"), 1, {kInfinity, 1, 1});
   for (const char* file : {"wide.exr", "hot.exr"}) {
     try {

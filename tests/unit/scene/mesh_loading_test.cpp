@@ -90,6 +90,35 @@ TEST_F(MeshLoading, DisplacementSaysWhatIsMissing) {
             "no error");
 }
 
+TEST_F(MeshLoading, FaultsOfFilesAreCountedOnce) {
+  std::ofstream(scratch.file("a.ply"))
+      << "ply\nformat ascii 1.0\nelement vertex 7\nproperty float x\nproperty float y\n"
+         "property float z\nproperty float nx\nproperty float ny\nproperty float nz\n"
+         "element face 4\nproperty list uchar int vertex_indices\nend_header\n"
+         "0 0 0 nan nan nan\n2 0 0 nan nan nan\n2 1 0 nan nan nan\n1 1 0 nan nan nan\n"
+         "1 2 0 nan nan nan\n0 2 0 nan nan nan\nnan nan inf nan nan nan\n"
+         "6 0 1 2 3 4 5\n5 0 1 0 1 0\n2 0 1\n0\n";
+  const auto scene = load(
+      "Camera \"perspective\" WorldBegin LightSource \"infinite\"\n"
+      "Shape \"plymesh\" \"string filename\" \"a.ply\"");
+  EXPECT_EQ(warnings(),
+            "shape \"plymesh\": 6 of 7 normals are not finite, the faces' own are used there\n"
+            "shape \"plymesh\": 3 of 7 faces have no area and were removed\n");
+  // The L is met where it is, with its own normal.
+  for (const Vec2f& at : {Vec2f(0.5f, 0.5f), Vec2f(1.9f, 0.9f), Vec2f(0.1f, 1.9f),
+                          Vec2f(1.1f, 1.1f), Vec2f(1.9f, 1.9f)}) {
+    Ray ray;
+    ray.o = Vec3f(at.x, at.y, 5);
+    ray.d = Vec3f(0, 0, -1);
+    SurfaceInteraction hit;
+    const bool inside = at.x < 1 || at.y < 1;
+    ASSERT_EQ(scene->intersect(ray, hit), inside) << at;
+    if (!inside) continue;
+    EXPECT_EQ(hit.ng, Vec3f(0, 0, 1));
+    EXPECT_EQ(hit.shading.z, Vec3f(0, 0, 1));
+  }
+}
+
 TEST_F(MeshLoading, AThousandInstancesShareTheirMesh) {
   write_square("a.ply", true);
   std::string text =

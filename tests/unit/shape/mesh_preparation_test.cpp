@@ -92,6 +92,36 @@ TEST(MeshPreparation, FacesWithoutAreaAreRemovedAndCounted) {
   EXPECT_TRUE(none.warnings().empty());
 }
 
+TEST(MeshPreparation, NormalsThatAreNotFiniteLeaveTheFacesTheirOwn) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  MeshData mesh = square_and_triangle();
+  mesh.positions.push_back({9, 9, 9});  // no face uses it
+  mesh.normals.assign(6, Vec3f(0, 0.6f, 0.8f));
+  for (const size_t i : {1u, 2u, 4u, 5u}) mesh.normals[i] = Vec3f(0, nan, kInfinity);
+  Diagnostics diagnostics;
+  zero_bad_normals(mesh, kWhere, "mesh", diagnostics);
+  ASSERT_EQ(diagnostics.warnings().size(), 1u);
+  EXPECT_EQ(diagnostics.warnings()[0].where.line, 12);
+  EXPECT_NE(diagnostics.warnings()[0].message.find("3 of 6 normals are not finite"),
+            std::string::npos);
+  for (const size_t i : {1u, 2u, 4u, 5u}) EXPECT_EQ(mesh.normals[i], Vec3f(0, 0, 0));
+  EXPECT_EQ(mesh.normals[0], Vec3f(0, 0.6f, 0.8f));
+  // The triangle 1 4 2 is left with none.
+  SurfaceInteraction hit;
+  TriangleMesh(triangles_of(mesh), false).fill(0, {0.3f, 0.3f}, Ray(), 0, hit);
+  EXPECT_EQ(hit.ng, Vec3f(0, 0, 1));
+  EXPECT_EQ(hit.shading.z, Vec3f(0, 0, 1));
+
+  Diagnostics none;
+  mesh = square_and_triangle();
+  mesh.positions.push_back({9, 9, 9});
+  mesh.normals.assign(6, Vec3f(0, 0, 1));
+  mesh.normals[5].x = nan;
+  zero_bad_normals(mesh, kWhere, "mesh", none);
+  EXPECT_TRUE(none.warnings().empty());
+  EXPECT_EQ(mesh.normals[5], Vec3f(0, 0, 0));
+}
+
 TEST(MeshPreparation, QuadsBecomeTrianglesOrPatches) {
   const MeshData split = split_quads(square_and_triangle());
   EXPECT_EQ(split.triangles, (std::vector<uint32_t>{1, 4, 2, 0, 1, 2, 0, 2, 3}));
