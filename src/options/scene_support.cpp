@@ -38,8 +38,8 @@ Names that the format does not have are errors where a picture makes no sense wi
 shapes, materials ...) and warnings elsewhere (parameters, options; errors with `--strict`), with the name
 that was probably meant. Names of pbrt-v3 are upgraded, with one warning for the whole scene, where the
 meaning is the same (`matte`, `glass`, `metal`, `mirror`, `float st`, `mapname` ...: `src/input/pbrt_v3.cpp`
-has the table); else the error names the pbrt-v4 way. A parameter that has no effect together with the others is warned of, too. Values of a wrong type
-or out of range are errors.
+has the table); else the error names the pbrt-v4 way. A parameter that has no effect together with the
+others is warned of, too. Values of a wrong type or out of range are errors.
 
 )";
 
