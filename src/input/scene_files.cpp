@@ -85,8 +85,10 @@ std::string SceneFiles::counted_name(const std::string& path) const {
 }
 
 std::string directory_of_scene(const std::string& scene) {
-  if (scene == kStandardInput || is_stream(scene)) return ".";
-  return std::filesystem::path(scene).parent_path().string();
+  const std::string parent = std::filesystem::path(scene).parent_path().string();
+  // /dev/stdin may be a file.
+  const bool is_device = parent == "/dev" || parent == "/dev/fd" || parent == "/proc/self/fd";
+  return scene == kStandardInput || is_device || is_stream(scene) ? "." : parent;
 }
 
 uint64_t hash_file(const std::string& path) {

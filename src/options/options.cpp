@@ -153,7 +153,7 @@ constexpr CommandDescription kCommands[] = {
 
 const OptionDescription kOptions[] = {
     {"render", "SCENE", "", "", "", "", "",
-     "A pbrt-v4 scene file, may be compressed (.gz); - is standard input.", false,
+     "A pbrt-v4 scene file (also .gz), or - for standard input.", false,
      [](CommandLine& l, const std::string& t) { l.render.scene = t; }},
     {"render", "--output", "-o", "OUT.exr", "",
      "named after the scene's film, in the current directory", "Output",
@@ -173,8 +173,9 @@ const OptionDescription kOptions[] = {
        l.render.checkpoint_interval = parse_duration("--checkpoint", t);
      }},
     {"render", "--strict", "", "", "", "", "Output",
-     "Unknown names in the scene are errors; exit status 1 if samples were left out. Those are "
-     "infinite and NaN samples, and sums beyond their range.",
+     "Exit status 3 for unknown names, 1 for samples left out. Unknown parameters, options and "
+     "such of the scene end the program before it renders; left out are infinite and NaN samples, "
+     "and sums beyond their range.",
      false,
      [](CommandLine& l, const std::string&) { l.render.strict = true; }},
     {"render", "--no-state", "", "", "", "", "Output",

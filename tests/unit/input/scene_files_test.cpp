@@ -21,7 +21,8 @@ TEST(SceneFiles, NamesAreRelativeToTheDirectory) {
 TEST(SceneFiles, NamesInPipesCountFromTheCurrentDirectory) {
   EXPECT_EQ(directory_of_scene("a/b.pbrt"), "a");
   EXPECT_EQ(directory_of_scene("-"), ".");
-  EXPECT_EQ(directory_of_scene("/dev/null"), ".");
+  EXPECT_EQ(directory_of_scene("/dev/stdin"), ".") << "a file, if one is redirected";
+  EXPECT_EQ(directory_of_scene("/dev/fd/3"), ".");
 }
 
 /// Hash of a scene of two files in a directory, read in one order or the other.

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "core/errors.h"
@@ -86,7 +87,7 @@ TEST_F(RenderPage, StrictRefusesUnknownNamesBeforeItRenders) {
     EXPECT_EQ(error.status(), ExitStatus::kScene);
     EXPECT_EQ(std::string(error.what()),
               request_.scene +
-                  ":4:46: unknown parameter \"unheardof\" of integrator \"volpath\", ignored\n"
+                  ":4:45: unknown parameter \"unheardof\" of integrator \"volpath\", ignored\n"
                   "--strict: 1 unknown name in the scene, expected names of pbrt-v4");
   }
   std::ofstream(request_.scene)
@@ -99,9 +100,10 @@ TEST_F(RenderPage, StrictRefusesUnknownNamesBeforeItRenders) {
   about_input_.clear();
   Render(request_, wrong, warnings_);
   ASSERT_GE(about_input_.size(), 4u);
-  EXPECT_NE(about_input_[1].find("\"image\" of light \"infinite\", did you mean \"filename\"?"),
-            std::string::npos)
-      << about_input_[1];
+  EXPECT_TRUE(std::ranges::any_of(about_input_, [](const std::string& text) {
+    return text.find("\"image\" of light \"infinite\", did you mean \"filename\"?") !=
+           std::string::npos;
+  }));
 }
 
 TEST_F(RenderPage, WhatIsKeptIsSaidInOneLine) {
