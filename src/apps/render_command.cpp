@@ -29,6 +29,7 @@ RenderRequest request_of(const RenderCommand& command) {
   request.memory = command.memory;
   request.seed = command.seed;
   request.resume = command.resume;
+  request.strict = command.strict;
   RenderOptions& options = request.options;
   if (command.passes) {
     options.first_pass = command.passes->first;

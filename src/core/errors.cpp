@@ -18,9 +18,17 @@ SceneError::SceneError(SourceLocation where, const std::string& message)
     : Error(ExitStatus::kScene, located(where, message)), where_(std::move(where)) {}
 
 void Diagnostics::warn(SourceLocation where, std::string message) {
+  add({std::move(where), std::move(message), false});
+}
+
+void Diagnostics::warn_of_unknown_name(SourceLocation where, std::string message) {
+  add({std::move(where), std::move(message), true});
+}
+
+void Diagnostics::add(Warning warning) {
   const std::lock_guard lock(mutex_);
-  if (known_.insert(located(where, message)).second)
-    warnings_.push_back({std::move(where), std::move(message)});
+  if (known_.insert(located(warning.where, warning.message)).second)
+    warnings_.push_back(std::move(warning));
 }
 
 std::vector<Warning> Diagnostics::warnings() const {

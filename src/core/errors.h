@@ -61,6 +61,7 @@ class UsageError : public Error {
 struct Warning {
   SourceLocation where;
   std::string message;
+  bool is_unknown_name = false;  ///< of a parameter or an option: --strict makes it an error
 };
 
 /// Collects warnings while a scene is loaded; may be called from several threads.
@@ -68,9 +69,13 @@ struct Warning {
 class Diagnostics {
  public:
   void warn(SourceLocation where, std::string message);
+  /// Warns of a name that the format does not have, and that is ignored.
+  void warn_of_unknown_name(SourceLocation where, std::string message);
   std::vector<Warning> warnings() const;
 
  private:
+  void add(Warning warning);
+
   mutable std::mutex mutex_;
   std::vector<Warning> warnings_;
   std::unordered_set<std::string> known_;  ///< the located texts of warnings_

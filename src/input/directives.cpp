@@ -10,6 +10,7 @@
 
 #include "input/option_directive.h"
 #include "input/parameter_reader.h"
+#include "input/pbrt_v3.h"
 #include "input/spelling.h"
 #include "input/transform_directives.h"
 
@@ -20,18 +21,22 @@ namespace {
 struct Reader {
   TokenStream& tokens;
   DescriptionBuilder& builder;
+  V3Upgrade& v3;
   Diagnostics& diagnostics;
 
   std::string name(const char* what) { return std::string(tokens.expect_string(what).text); }
   std::vector<Parameter> parameters() {
-    return read_parameters(tokens, builder.color_space(), diagnostics);
+    std::vector<Parameter> list = read_parameters(tokens, builder.color_space(), diagnostics);
+    v3.upgrade_colours(list);
+    return list;
   }
-  /// "type" parameters ...
-  DirectiveDescription typed(const SourceLocation& where) {
+  /// "type" parameters ...; `of` is the name of the directive.
+  DirectiveDescription typed(const char* of, const SourceLocation& where) {
     DirectiveDescription directive;
     directive.type = name("a type");
     directive.where = directive.parameters.where = where;
     directive.parameters.list = parameters();
+    v3.upgrade(of, directive);
     return directive;
   }
   double number(const char* directive) {
@@ -120,19 +125,25 @@ void read_medium_interface(Reader& r, const SourceLocation&) {
 void read_texture(Reader& r, const SourceLocation& where) {
   const std::string name = r.name("a texture name");
   const Token& type_token = r.tokens.expect_string("a texture type");
-  const std::string value_type(type_token.text);
+  const std::string value_type =
+      r.v3.texture_values(std::string(type_token.text), type_token.where());
   if (value_type != "float" && value_type != "spectrum") {
     throw SceneError(type_token.where(), "unknown texture type " + describe(type_token) +
                                              ", expected \"float\" or \"spectrum\"");
   }
-  r.builder.add_texture(name, value_type, r.typed(where));
+  DirectiveDescription texture = r.typed("Texture", where);
+  r.v3.upgrade_texture(value_type, texture);
+  r.builder.add_texture(name, value_type, std::move(texture));
 }
 
 /// Directives with a name instead of a type: MakeNamedMaterial "name" parameters ...
-void read_named(Reader& r, const SourceLocation& where,
+void read_named(Reader& r, const char* of, const SourceLocation& where,
                 void (DescriptionBuilder::*add)(const std::string&, DirectiveDescription)) {
-  DirectiveDescription directive = r.typed(where);
-  const std::string name = std::exchange(directive.type, std::string());
+  DirectiveDescription directive;
+  const std::string name = r.name("a name");
+  directive.where = directive.parameters.where = where;
+  directive.parameters.list = r.parameters();
+  r.v3.upgrade(of, directive);
   if (name.empty()) throw SceneError(where, "the name is empty, expected one to refer to");
   (r.builder.*add)(name, std::move(directive));
 }
@@ -144,9 +155,19 @@ void read_include(Reader& r, const SourceLocation&) {
 void read_import(Reader& r, const SourceLocation& where) {
   r.tokens.enter(r.tokens.expect_string("a file name"));
   r.builder.import_begin(where);
-  read_directives(r.tokens, r.builder, r.diagnostics);
+  read_directives(r.tokens, r.builder, r.v3, r.diagnostics);
   r.builder.import_end();
   r.tokens.leave();
+}
+
+/// pbrt-v3's end of a scene; it allows another frame behind it.
+void read_world_end(Reader& r, const SourceLocation& where) {
+  if (!r.builder.in_world()) throw SceneError(where, "WorldEnd without WorldBegin");
+  r.v3.note(where, "WorldEnd is not needed");
+  const Token& token = r.tokens.peek();
+  if (token.kind != Token::Kind::kEnd)
+    throw SceneError(token.where(),
+                     "expected the end of the scene behind WorldEnd, found " + describe(token));
 }
 
 using Place = SourceLocation;
@@ -211,22 +232,25 @@ constexpr std::array kDirectives = {
     Directive{{"Camera", "\"type\" parameters",
                "see cameras; a perspective camera at the origin with a warning if there is none"},
               Part::kOptions,
-              [](Reader& r, const Place& p) { r.builder.set_camera(r.typed(p)); }},
+              [](Reader& r, const Place& p) { r.builder.set_camera(r.typed("Camera", p)); }},
     Directive{{"Film", "\"type\" parameters", "see films"},
               Part::kOptions,
-              [](Reader& r, const Place& p) { r.builder.set_film(r.typed(p)); }},
+              [](Reader& r, const Place& p) { r.builder.set_film(r.typed("Film", p)); }},
     Directive{{"Sampler", "\"type\" parameters", "see samplers"},
               Part::kOptions,
-              [](Reader& r, const Place& p) { r.builder.set_sampler(r.typed(p)); }},
-    Directive{{"PixelFilter", "\"type\" parameters", "see pixel filters"},
-              Part::kOptions,
-              [](Reader& r, const Place& p) { r.builder.set_pixel_filter(r.typed(p)); }},
-    Directive{{"Integrator", "\"type\" parameters", "see integrators"},
-              Part::kOptions,
-              [](Reader& r, const Place& p) { r.builder.set_integrator(r.typed(p)); }},
-    Directive{{"Accelerator", "\"type\" parameters", "see accelerators"},
-              Part::kOptions,
-              [](Reader& r, const Place& p) { r.builder.set_accelerator(r.typed(p)); }},
+              [](Reader& r, const Place& p) { r.builder.set_sampler(r.typed("Sampler", p)); }},
+    Directive{
+        {"PixelFilter", "\"type\" parameters", "see pixel filters"},
+        Part::kOptions,
+        [](Reader& r, const Place& p) { r.builder.set_pixel_filter(r.typed("PixelFilter", p)); }},
+    Directive{
+        {"Integrator", "\"type\" parameters", "see integrators"},
+        Part::kOptions,
+        [](Reader& r, const Place& p) { r.builder.set_integrator(r.typed("Integrator", p)); }},
+    Directive{
+        {"Accelerator", "\"type\" parameters", "see accelerators"},
+        Part::kOptions,
+        [](Reader& r, const Place& p) { r.builder.set_accelerator(r.typed("Accelerator", p)); }},
     Directive{{"WorldBegin", "", ""},
               Part::kOptions,
               [](Reader& r, const Place&) { r.builder.world_begin(); }},
@@ -266,7 +290,7 @@ constexpr std::array kDirectives = {
 
     Directive{{"Material", "\"type\" parameters", "see materials; diffuse if there is none"},
               Part::kWorld,
-              [](Reader& r, const Place& p) { r.builder.add_material(r.typed(p)); }},
+              [](Reader& r, const Place& p) { r.builder.add_material(r.typed("Material", p)); }},
     Directive{
         {"NamedMaterial", "\"name\"", "may stand before its MakeNamedMaterial"},
         Part::kWorld,
@@ -274,32 +298,31 @@ constexpr std::array kDirectives = {
     Directive{{"MakeNamedMaterial", "\"name\" \"string type\" parameters", "see materials"},
               Part::kWorld,
               [](Reader& r, const Place& p) {
-                read_named(r, p, &DescriptionBuilder::add_named_material);
+                read_named(r, "Material", p, &DescriptionBuilder::add_named_material);
               }},
     Directive{{"MakeNamedMedium", "\"name\" \"string type\" parameters", "see media"},
               Part::kBoth,
-              [](Reader& r, const Place& p) { read_named(r, p, &DescriptionBuilder::add_medium); }},
+              [](Reader& r, const Place& p) {
+                read_named(r, "MakeNamedMedium", p, &DescriptionBuilder::add_medium);
+              }},
     Directive{{"Texture", "\"name\" \"float or spectrum\" \"class\" parameters", "see textures"},
               Part::kWorld,
               read_texture},
     Directive{{"LightSource", "\"type\" parameters", "see lights"},
               Part::kWorld,
-              [](Reader& r, const Place& p) { r.builder.add_light(r.typed(p)); }},
+              [](Reader& r, const Place& p) { r.builder.add_light(r.typed("LightSource", p)); }},
     Directive{
         {"AreaLightSource", "\"type\" parameters", "see area lights; of the shapes that follow"},
         Part::kWorld,
-        [](Reader& r, const Place& p) { r.builder.set_area_light(r.typed(p)); }},
+        [](Reader& r, const Place& p) { r.builder.set_area_light(r.typed("AreaLightSource", p)); }},
     Directive{{"Shape", "\"type\" parameters", "see shapes"},
               Part::kWorld,
-              [](Reader& r, const Place& p) { r.builder.add_shape(r.typed(p)); }},
+              [](Reader& r, const Place& p) { r.builder.add_shape(r.typed("Shape", p)); }},
 };
 
 [[noreturn]] void unknown_directive(const Token& token) {
   if (token.kind != Token::Kind::kWord)
     throw SceneError(token.where(), "expected a directive, found " + describe(token));
-  if (token.text == "WorldEnd")
-    throw SceneError(token.where(),
-                     "pbrt-v4 scenes have no WorldEnd, expected the end of the file");
   std::vector<std::string> names;
   for (const Directive& directive : kDirectives) names.emplace_back(directive.name);
   throw SceneError(token.where(),
@@ -323,18 +346,22 @@ std::vector<FormatDirective> format_directives() {
   return std::vector<FormatDirective>(kDirectives.begin(), kDirectives.end());
 }
 
-SourceLocation read_directives(TokenStream& tokens, DescriptionBuilder& builder,
+SourceLocation read_directives(TokenStream& tokens, DescriptionBuilder& builder, V3Upgrade& v3,
                                Diagnostics& diagnostics) {
-  Reader reader{tokens, builder, diagnostics};
+  Reader reader{tokens, builder, v3, diagnostics};
   for (;;) {
     const Token& token = tokens.next();
     const SourceLocation where = token.where();
     if (token.kind == Token::Kind::kEnd) return where;
+    if (token.kind == Token::Kind::kWord && token.text == "WorldEnd") {
+      read_world_end(reader, where);
+      continue;
+    }
+    if (token.kind != Token::Kind::kWord) unknown_directive(token);
+    const std::string_view name = v3.directive_name(token.text, where);
     const Directive* const directive =
-        token.kind == Token::Kind::kWord
-            ? std::find_if(kDirectives.begin(), kDirectives.end(),
-                           [&](const Directive& known) { return token.text == known.name; })
-            : kDirectives.end();
+        std::find_if(kDirectives.begin(), kDirectives.end(),
+                     [&](const Directive& known) { return name == known.name; });
     if (directive == kDirectives.end()) unknown_directive(token);
     check_part(*directive, builder.in_world(), where);
     directive->read(reader, where);

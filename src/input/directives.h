@@ -7,6 +7,7 @@
 
 #include "core/errors.h"
 #include "input/description_builder.h"
+#include "input/pbrt_v3.h"
 #include "input/token_stream.h"
 
 namespace nephroid {
@@ -21,9 +22,9 @@ struct FormatDirective {
 /// All directives of the format; all are rendered.
 std::vector<FormatDirective> format_directives();
 
-/// Reads directives up to the end of the file (and of all it includes) and gives them to `builder`.
-/// Returns the place of the end. Throws SceneError.
-SourceLocation read_directives(TokenStream& tokens, DescriptionBuilder& builder,
+/// Reads directives up to the end of the file (and of all it includes) and gives them, upgraded by
+/// `v3`, to `builder`. Returns the place of the end. Throws SceneError.
+SourceLocation read_directives(TokenStream& tokens, DescriptionBuilder& builder, V3Upgrade& v3,
                                Diagnostics& diagnostics);
 
 }  // namespace nephroid

@@ -31,6 +31,24 @@ struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
 
+/// All that comes; `expected` bytes are asked for first.
+std::string read_all(std::FILE& file, const std::string& path, size_t expected) {
+  std::string bytes;
+  size_t used = 0;
+  for (;;) {
+    if (used == bytes.size())
+      bytes.resize(used == 0 ? expected : used + std::max(used / 2, kChunk));
+    const size_t got = std::fread(bytes.data() + used, 1, bytes.size() - used, &file);
+    used += got;
+    if (used < bytes.size()) {
+      if (std::ferror(&file)) cannot_read(path, reason_of(errno));
+      if (std::feof(&file)) break;
+    }
+  }
+  bytes.resize(used);
+  return bytes;
+}
+
 std::string read_raw(const std::string& path) {
   std::error_code ignored;
   const std::filesystem::file_status status = std::filesystem::status(path, ignored);
@@ -39,30 +57,20 @@ std::string read_raw(const std::string& path) {
   if (std::filesystem::is_block_file(status) ||
       (std::filesystem::is_character_file(status) && path != "/dev/null" && path != "/dev/stdin"))
     cannot_read(path, "it is a device");
-  errno = 0;
-  const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
-  if (!file) cannot_read(path, reason_of(errno));
-
   // The size is a hint only: pipes have none, and files may grow or shrink while they are read.
   size_t expected = kFirstGuess;
   if (std::filesystem::is_regular_file(status)) {
     const auto size = std::filesystem::file_size(path, ignored);
     if (!ignored) expected = size + 1;
   }
-  std::string bytes;
-  size_t used = 0;
-  for (;;) {
-    if (used == bytes.size())
-      bytes.resize(used == 0 ? expected : used + std::max(used / 2, kChunk));
-    const size_t got = std::fread(bytes.data() + used, 1, bytes.size() - used, file.get());
-    used += got;
-    if (used < bytes.size()) {
-      if (std::ferror(file.get())) cannot_read(path, reason_of(errno));
-      if (std::feof(file.get())) break;
-    }
-  }
-  bytes.resize(used);
-  return bytes;
+  errno = 0;
+  const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
+  if (!file) cannot_read(path, reason_of(errno));
+  return read_all(*file, path, expected);
+}
+
+bool is_gzip(const std::string& bytes) {
+  return bytes.starts_with("\x1f\x8b");
 }
 
 struct EndInflate {
@@ -124,8 +132,22 @@ bool has_suffix(const std::string& path, const std::string& suffix) {
 }
 
 std::string read_file_bytes(const std::string& path, uint64_t max_unpacked) {
+  const bool streams = is_stream(path);
   std::string bytes = read_raw(path);
-  return has_suffix(path, ".gz") ? unpack(path, bytes, max_unpacked) : bytes;
+  const bool packed = streams ? is_gzip(bytes) : has_suffix(path, ".gz");
+  return packed ? unpack(path, bytes, max_unpacked) : bytes;
+}
+
+std::string read_standard_input(uint64_t max_unpacked) {
+  const std::string name = "standard input";
+  std::string bytes = read_all(*stdin, name, kFirstGuess);
+  return is_gzip(bytes) ? unpack(name, bytes, max_unpacked) : bytes;
+}
+
+bool is_stream(const std::string& path) {
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  return std::filesystem::is_other(status);
 }
 
 }  // namespace nephroid

@@ -14,9 +14,17 @@ namespace nephroid {
 /// The most bytes that a packed file may unpack to.
 inline constexpr uint64_t kMaxUnpackedBytes = uint64_t{8} << 30;
 
-/// The bytes of a file; a name that ends in ".gz" is unpacked, to at most `max_unpacked` bytes.
+/// The bytes of a file; a name that ends in ".gz" is unpacked, to at most `max_unpacked` bytes, and
+/// so is gzip data from a pipe.
 /// Throws IoError naming the file and the reason.
 std::string read_file_bytes(const std::string& path, uint64_t max_unpacked = kMaxUnpackedBytes);
+
+/// The bytes of standard input, unpacked if they are gzip data. Throws IoError.
+std::string read_standard_input(uint64_t max_unpacked = kMaxUnpackedBytes);
+
+/// True for pipes, terminals and other devices, which can be read only once and stand in no
+/// directory of their own; false for what is not there.
+bool is_stream(const std::string& path);
 
 /// Says that a file cannot be read: throws a SceneError at the place that names the file, or an
 /// IoError if no scene does.

@@ -29,7 +29,7 @@ void refuse_type(const std::string& kind, const std::string& name,
       throw SceneError(where, kind + " \"" + name + "\" is not rendered: " + type.note + expected);
     known.emplace_back(type.name);
   }
-  const std::string meant = did_you_mean(name, known);
+  const std::string meant = did_you_mean(name, known, kind);
   throw SceneError(where,
                    "unknown " + kind + " \"" + name + "\"" + (meant.empty() ? expected : meant));
 }

@@ -71,8 +71,8 @@ std::optional<Parameter> read_option(TokenStream& tokens, Diagnostics& diagnosti
   if (known == std::end(kOptions)) {
     std::vector<std::string> names;
     for (const FormatParameter& candidate : kOptions) names.emplace_back(candidate.name);
-    diagnostics.warn(option.where,
-                     "unknown option \"" + option.name + "\"" + did_you_mean(option.name, names));
+    diagnostics.warn_of_unknown_name(
+        option.where, "unknown option \"" + option.name + "\"" + did_you_mean(option.name, names));
     skip_values(tokens, option.where);
     return std::nullopt;
   }

@@ -195,8 +195,8 @@ void ParameterSet::report_unused(const std::string& of_what, const FormatType& t
     for (const FormatParameters& some : type.parameters)
       for (const FormatParameter& p : some) names.emplace_back(p.name);
     const std::string meant = did_you_mean(parameter.name, names);
-    diagnostics.warn(parameter.where,
-                     "unknown " + named + (meant.empty() ? std::string(", ignored") : meant));
+    diagnostics.warn_of_unknown_name(
+        parameter.where, "unknown " + named + (meant.empty() ? std::string(", ignored") : meant));
   }
 }
 

@@ -21,6 +21,8 @@ constexpr std::array kTypes = {
     ParameterType{"normal", "normal", Values::kNumbers, 3},
     ParameterType{"normal3", "normal", Values::kNumbers, 3},
     ParameterType{"rgb", "rgb", Values::kNumbers, 3},
+    // pbrt-v3's name, which pbrt_v3.h replaces.
+    ParameterType{"color", "color", Values::kNumbers, 3},
     ParameterType{"blackbody", "blackbody", Values::kNumbers, 1},
     // Numbers of a spectrum are pairs of a wavelength and a value.
     ParameterType{"spectrum", "spectrum", Values::kSpectrum, 2},
@@ -40,7 +42,8 @@ const ParameterType* find_parameter_type(std::string_view spelling) {
 std::string list_of_parameter_types() {
   std::string list;
   for (const ParameterType& type : kTypes) {
-    if (std::string_view(type.spelling) != type.name) continue;
+    const std::string_view name = type.name;
+    if (type.spelling != name || name == "color") continue;
     list += (list.empty() ? "" : ", ") + std::string(type.name);
   }
   return list;

@@ -2,8 +2,6 @@
 // and the scene builder together. Called through pbrt_parser.h.
 #include "input/pbrt_parser.h"
 
-#include <filesystem>
-
 #include "input/description_builder.h"
 #include "input/directives.h"
 #include "input/token_stream.h"
@@ -13,16 +11,18 @@ namespace {
 
 void parse(TokenStream& tokens, SceneDescription& scene, Diagnostics& diagnostics) {
   DescriptionBuilder builder(scene, diagnostics);
-  const SourceLocation end = read_directives(tokens, builder, diagnostics);
+  V3Upgrade v3;
+  const SourceLocation end = read_directives(tokens, builder, v3, diagnostics);
   builder.finish(end);
+  v3.report(diagnostics);
 }
 
 }  // namespace
 
 SceneDescription parse_pbrt_file(const std::string& path, Diagnostics& diagnostics) {
   SceneDescription scene;
-  scene.file = path;
-  scene.files = std::make_shared<SceneFiles>(std::filesystem::path(path).parent_path().string());
+  scene.file = shown_name(path);
+  scene.files = std::make_shared<SceneFiles>(directory_of_scene(path));
   TokenStream tokens(*scene.files);
   tokens.open_scene(path);
   parse(tokens, scene, diagnostics);

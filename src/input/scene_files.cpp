@@ -28,7 +28,8 @@ std::string SceneFiles::path_of(const std::string& name) const {
 
 std::string SceneFiles::read(const std::string& path) {
   try {
-    std::string bytes = read_file_bytes(path);
+    std::string bytes =
+        path == kStandardInput && path == top_ ? read_standard_input() : read_file_bytes(path);
     const uint64_t hash = hash_of(std::as_bytes(std::span(bytes)));
     const std::lock_guard lock(mutex_);
     read_[counted_name(path)] = hash;
@@ -83,13 +84,16 @@ std::string SceneFiles::counted_name(const std::string& path) const {
   return absolute(path).lexically_relative(absolute(directory_)).string();
 }
 
+std::string directory_of_scene(const std::string& scene) {
+  const std::string parent = std::filesystem::path(scene).parent_path().string();
+  // /dev/stdin may be a file.
+  const bool is_device = parent == "/dev" || parent == "/dev/fd" || parent == "/proc/self/fd";
+  return scene == kStandardInput || is_device || is_stream(scene) ? "." : parent;
+}
+
 uint64_t hash_file(const std::string& path) {
   ContentHash hash;
-  std::error_code ignored;
-  const auto kind = std::filesystem::status(path, ignored).type();
-  if (kind == std::filesystem::file_type::fifo || kind == std::filesystem::file_type::character ||
-      kind == std::filesystem::file_type::block)
-    return hash.value();
+  if (is_stream(path)) return hash.value();
   std::ifstream file(path, std::ios::binary);
   if (!file) throw IoError(path + ": cannot read: " + std::strerror(errno));
   std::vector<char> block(1 << 16);

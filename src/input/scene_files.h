@@ -12,6 +12,9 @@
 
 namespace nephroid {
 
+/// The name of a scene that is read from standard input; within scenes it is a name as any other.
+inline constexpr const char* kStandardInput = "-";
+
 /// May be asked from several threads.
 class SceneFiles {
  public:
@@ -46,6 +49,10 @@ class SceneFiles {
   mutable std::mutex mutex_;
   std::map<std::string, uint64_t> read_;  ///< hash of the content by counted_name
 };
+
+/// The directory that names in a scene are relative to: the scene's own, the current one for
+/// standard input and pipes.
+std::string directory_of_scene(const std::string& scene);
 
 /// ContentHash of a file's bytes, of none for pipes and devices, which can be read only once or
 /// never end. Throws IoError if it cannot be read.

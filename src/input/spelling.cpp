@@ -1,9 +1,12 @@
-// The nearest name by edit distance (Levenshtein 1966). Called through spelling.h.
+// Other names, then the nearest name by edit distance (Levenshtein 1966). Called through
+// spelling.h.
 #include "input/spelling.h"
 
 #include <algorithm>
 #include <cctype>
 #include <numeric>
+
+#include "input/other_names.h"
 
 namespace nephroid {
 namespace {
@@ -31,7 +34,10 @@ size_t edit_distance(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates) {
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates,
+                         std::string_view kind) {
+  const std::string other = other_name(word, candidates, kind);
+  if (!other.empty()) return ", did you mean " + other + "?";
   // A third of the letters may be wrong; very long words are no typing errors of ours.
   constexpr size_t kLongestWord = 64;
   if (word.empty() || word.size() > kLongestWord) return {};

@@ -8,8 +8,10 @@
 
 namespace nephroid {
 
-/// `, did you mean "X"?` for the candidate nearest to `word` (edit distance, letter case ignored),
-/// or nothing if none is near. The first of equally near candidates wins.
-std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates);
+/// `, did you mean "X"?` for the candidate that `word` is another name of (other_names.h; `kind` is
+/// what is named, "light" for example), else for the nearest one (edit distance, letter case
+/// ignored), or nothing if none is near. The first of equally near candidates wins.
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates,
+                         std::string_view kind = {});
 
 }  // namespace nephroid

@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "input/foreign_file.h"
 #include "input/number_text.h"
 
 namespace nephroid {
@@ -22,9 +23,13 @@ std::string canonical(const std::string& path) {
 
 void TokenStream::open_scene(const std::string& path) {
   files_of_scene_.set_top(path);
-  files_.push_back({std::make_unique<Tokenizer>(std::make_shared<const std::string>(path),
-                                                files_of_scene_.read(path)),
-                    path, canonical(path), true});
+  const std::string shown = shown_name(path);
+  const auto name = std::make_shared<const std::string>(shown);
+  std::string text = files_of_scene_.read(path);
+  if (const std::string error = foreign_file_error(text, path); !error.empty())
+    throw SceneError({name, 1, 1}, error);
+  files_.push_back(
+      {std::make_unique<Tokenizer>(name, std::move(text)), shown, canonical(path), true});
 }
 
 void TokenStream::open_text(const std::string& text, const std::string& name) {
@@ -58,6 +63,8 @@ void TokenStream::push(const Token& file_name, bool is_scope) {
   } catch (const IoError& error) {
     throw SceneError(file_name.where(), error.what());
   }
+  if (const std::string error = foreign_file_error(text, file.shown_path); !error.empty())
+    throw SceneError(file_name.where(), "\"" + file.shown_path + "\": " + error);
   file.tokenizer = std::make_unique<Tokenizer>(std::make_shared<const std::string>(file.shown_path),
                                                std::move(text));
   files_.push_back(std::move(file));
@@ -109,6 +116,10 @@ const Token& TokenStream::expect_string(const std::string& what) {
     throw SceneError(token.where(),
                      "expected " + what + " as a string in quotes, found " + describe(token));
   return token;
+}
+
+std::string shown_name(const std::string& scene) {
+  return scene == kStandardInput ? "<stdin>" : scene;
 }
 
 std::string describe(const Token& token) {

@@ -63,6 +63,9 @@ class TokenStream {
   bool has_ahead_ = false;
 };
 
+/// How a scene is called in messages: its path, or "<stdin>".
+std::string shown_name(const std::string& scene);
+
 /// How a token reads in a message: the word or string in quotes, or "the end of the file".
 std::string describe(const Token& token);
 

@@ -152,7 +152,8 @@ constexpr CommandDescription kCommands[] = {
 };
 
 const OptionDescription kOptions[] = {
-    {"render", "SCENE", "", "", "", "", "", "A pbrt-v4 scene file, may be compressed (.gz).", false,
+    {"render", "SCENE", "", "", "", "", "",
+     "A pbrt-v4 scene file (also .gz), or - for standard input.", false,
      [](CommandLine& l, const std::string& t) { l.render.scene = t; }},
     {"render", "--output", "-o", "OUT.exr", "",
      "named after the scene's film, in the current directory", "Output",
@@ -172,8 +173,9 @@ const OptionDescription kOptions[] = {
        l.render.checkpoint_interval = parse_duration("--checkpoint", t);
      }},
     {"render", "--strict", "", "", "", "", "Output",
-     "Exit status 1 if samples were left out. That happens to infinite and NaN samples, and to "
-     "sums beyond their range.",
+     "Exit status 3 for unknown names, 1 for samples left out. Unknown parameters, options and "
+     "such of the scene end the program before it renders; left out are infinite and NaN samples, "
+     "and sums beyond their range.",
      false,
      [](CommandLine& l, const std::string&) { l.render.strict = true; }},
     {"render", "--no-state", "", "", "", "", "Output",
@@ -248,7 +250,8 @@ const OptionDescription kOptions[] = {
      set_output<&CommandLine::merge>},
     {"merge", "--float", "", "", "", "", "", kFloatHelp, false, set_float<&CommandLine::merge>},
     {"routes", "SCENE", "", "", "", "none", "",
-     "A scene: what of the routes can occur in it, and how its light divides among them.", false,
+     "A scene, - for standard input: what of the routes can occur in it, and how its light divides "
+     "among them.", false,
      [](CommandLine& l, const std::string& t) { l.routes.scene = t; }},
     {"routes", "--integrator", "", "NAME", "", "mixed", "Routes", kIntegratorHelp.c_str(), false,
      set_integrator<&CommandLine::routes>},
@@ -268,7 +271,8 @@ const OptionDescription kOptions[] = {
        l.routes.passes = static_cast<uint32_t>(parse_integer("--passes", t, 1, kMaxPilotPasses));
      }},
     {"info", "FILE", "", "", "", "", "",
-     "A pbrt-v4 scene file, may be compressed (.gz), or a picture that this program wrote.", false,
+     "A pbrt-v4 scene file, may be compressed (.gz), - for standard input, or a picture that this "
+     "program wrote.", false,
      [](CommandLine& l, const std::string& t) { l.info.file = t; }},
     {"compare", "REF", "", "", "", "", "", "The reference picture.", false,
      [](CommandLine& l, const std::string& t) { l.compare.reference = t; }},

@@ -35,9 +35,11 @@ All of the format is read. Each name of it is
 - **refused**: an error with its place.
 
 Names that the format does not have are errors where a picture makes no sense without them (types of
-shapes, materials ...) and warnings elsewhere (parameters, options), with the name that was probably
-meant. A parameter that has no effect together with the others is warned of, too. Values of a wrong type
-or out of range are errors.
+shapes, materials ...) and warnings elsewhere (parameters, options; errors with `--strict`), with the name
+that was probably meant. Names of pbrt-v3 are upgraded, with one warning for the whole scene, where the
+meaning is the same (`matte`, `glass`, `metal`, `mirror`, `float st`, `mapname` ...: `src/input/pbrt_v3.cpp`
+has the table); else the error names the pbrt-v4 way. A parameter that has no effect together with the
+others is warned of, too. Values of a wrong type or out of range are errors.
 
 )";
 

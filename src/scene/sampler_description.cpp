@@ -51,9 +51,9 @@ SamplerDescription read_sampler(const std::optional<DirectiveDescription>& sampl
     std::vector<std::string> names;
     for (const FormatType& known : kTable) names.emplace_back(known.name);
     const std::string meant = did_you_mean(type, names);
-    diagnostics.warn(p.where,
-                     "unknown sampler \"" + type + "\"" +
-                         (meant.empty() ? ", only its number of samples is taken" : meant));
+    diagnostics.warn_of_unknown_name(
+        p.where, "unknown sampler \"" + type + "\"" +
+                     (meant.empty() ? ", only its number of samples is taken" : meant));
     row = find_row(kTable, "zsobol");
   }
   const bool stratified = type == "stratified";

@@ -87,8 +87,9 @@ void check_accelerator(const SceneDescription& description, Diagnostics& diagnos
   }
   std::vector<std::string> names;
   for (const FormatType& known : kAccelerators) names.emplace_back(known.name);
-  diagnostics.warn(description.accelerator->where,
-                   "unknown accelerator \"" + type + "\"" + did_you_mean(type, names));
+  diagnostics.warn_of_unknown_name(
+      description.accelerator->where,
+      "unknown accelerator \"" + type + "\"" + did_you_mean(type, names));
 }
 
 }  // namespace nephroid

@@ -8,6 +8,8 @@
 
 #include "core/errors.h"
 #include "film/exr_file.h"
+#include "input/file_bytes.h"
+#include "input/scene_files.h"
 #include "integrator/presets/estimator_table.h"
 #include "session/report/short_number.h"
 
@@ -110,7 +112,8 @@ void check_memory(const MemoryNeed& need, uint64_t limit, bool limit_is_an_optio
 std::string default_output(const FilmDescription& film, const std::string& scene_file) {
   std::filesystem::path stem = std::filesystem::path(film.filename).stem();
   if (stem.empty()) {
-    stem = std::filesystem::path(scene_file).filename();
+    const bool is_file = scene_file != kStandardInput && !is_stream(scene_file);
+    stem = is_file ? std::filesystem::path(scene_file).filename() : "nephroid";
     if (stem.extension() == ".gz") stem = stem.stem();
     stem = stem.stem();
   }

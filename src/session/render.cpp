@@ -2,6 +2,7 @@
 #include "session/render.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -69,6 +70,16 @@ std::vector<std::string> warnings_of_passes_beyond(const RenderOptions& options)
                       options.output, done.text(), options.first_pass, *options.last_pass)};
 }
 
+/// A line for each name of the scene that the format does not have.
+void refuse_unknown_names(const LoadedScene& loaded, const IntegratorChoice& choice) {
+  std::vector<std::string> names = loaded.unknown_names;
+  names.insert(names.end(), choice.unknown_names.begin(), choice.unknown_names.end());
+  if (names.empty()) return;
+  throw SceneError(
+      {}, fmt::format("{}\n--strict: {} unknown {} in the scene, expected names of pbrt-v4",
+                      fmt::join(names, "\n"), names.size(), names.size() == 1 ? "name" : "names"));
+}
+
 /// Reads the state of an earlier run into film and estimators.
 void resume(RenderOptions& options, const Scene& scene, EstimatorSet& set, Film& film,
             const Warn& warn) {
@@ -102,8 +113,9 @@ IntegratorChoice choose_integrator(const RenderRequest& request, const Scene& sc
 Render::Render(const RenderRequest& request, const LoadedScene& loaded, RenderWarnings warnings)
     : warnings_(std::move(warnings)) {
   const Scene& scene = *loaded.scene;
-  warn_of(loaded.warnings, warnings_.input);
   choice_ = choose_integrator(request, scene);
+  if (request.strict) refuse_unknown_names(loaded, choice_);
+  warn_of(loaded.warnings, warnings_.input);
   plan_ = plan_of(request.routes, choice_.name);
   warn_of(choice_.warnings, warnings_.input);
 
@@ -133,7 +145,8 @@ Render::Render(const RenderRequest& request, const LoadedScene& loaded, RenderWa
       (std::filesystem::exists(output) || std::filesystem::exists(state_path_beside(output))))
     resume(options, scene, set_, *film_, warnings_.output);
   else if (request.resume)
-    warn_of({fmt::format("--resume: there is no {}, the render starts anew", output)},
+    warn_of({fmt::format("--resume: there is no {} and no state of it, the render starts anew",
+                         output)},
             warnings_.output);
   else if (const auto warning = warning_of_replacing(output, identity_))
     warn_of({*warning}, warnings_.output);

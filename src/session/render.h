@@ -24,6 +24,7 @@ struct RenderRequest {
   uint64_t memory = 0;           ///< limit in bytes, 0: the memory of the machine
   std::optional<uint64_t> seed;  ///< empty: the scene's
   bool resume = false;           ///< continues the render saved in the output, if it is there
+  bool strict = false;           ///< names that the format does not have are errors
   /// Stop rules and output. Render sets seed, begin_with, identity and notes.
   RenderOptions options;
 };

@@ -315,6 +315,7 @@ void RenderSession::take_quick_look(const SignalFlags& signals) {
       !is_worth_a_quick_look(set_, film_.format()))
     return;
   write_now(0, [&] {
+    keep_previous();
     nephroid::take_quick_look({.scene = scene_,
                                .max_depth = options_.quick_look_depth,
                                .seed = options_.seed,

@@ -119,8 +119,8 @@ class RenderSession {
   void write_picture();
   /// The picture without its PNG, and its state; without one, that of an intermediate picture goes.
   void write_exr_file(const std::string& path, bool with_state);
-  /// Before the first of them: gives the picture and state of another render, if they are there,
-  /// the name previous_path().
+  /// Before the first of them and before the first PNG: what another render has left, if anything,
+  /// takes the names of files_to_keep().
   void keep_previous();
   void write_png();
   void write_last_picture(bool with_state);
@@ -154,7 +154,7 @@ class RenderSession {
   double next_error_seconds_ = 0;  ///< of the estimates for progress alone
   double next_preview_seconds_ = 0, next_checkpoint_seconds_ = 0;
   double next_progress_seconds_ = 0;  ///< within a pass
-  bool has_written_ = false;          ///< a picture
+  bool has_written_ = false;          ///< a picture or a PNG
 };
 
 }  // namespace nephroid

@@ -16,8 +16,10 @@ LoadedScene build(SceneDescription description, const SceneOverrides& overrides,
   LoadedScene loaded;
   loaded.description = std::move(description);
   loaded.scene = build_scene(loaded.description, overrides, diagnostics);
-  for (const Warning& warning : diagnostics.warnings())
+  for (const Warning& warning : diagnostics.warnings()) {
     loaded.warnings.push_back(located(warning.where, warning.message));
+    if (warning.is_unknown_name) loaded.unknown_names.push_back(loaded.warnings.back());
+  }
   return loaded;
 }
 

@@ -13,7 +13,8 @@ namespace nephroid {
 struct LoadedScene {
   SceneDescription description;
   std::unique_ptr<Scene> scene;
-  std::vector<std::string> warnings;  ///< "file:line:column: message"
+  std::vector<std::string> warnings;       ///< "file:line:column: message"
+  std::vector<std::string> unknown_names;  ///< those of them about names that the format lacks
 };
 
 /// Throws SceneError and IoError.

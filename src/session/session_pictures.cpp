@@ -56,6 +56,7 @@ void RenderSession::write_picture() {
 }
 
 void RenderSession::write_png() {
+  keep_previous();
   try {
     write_preview(options_.output, film_, options_.png_exposure);
   } catch (const std::bad_alloc&) {
@@ -84,18 +85,14 @@ void RenderSession::write_exr_file(const std::string& path, bool with_state) {
 }
 
 void RenderSession::keep_previous() {
-  namespace fs = std::filesystem;
   const Checkpoint& before = options_.begin_with;
   if (has_written_ || !before.passes.empty() || before.open_pass) return;
-  const std::string state = state_path_beside(options_.output);
-  if (fs::exists(state)) {
-    const std::string kept = previous_path(options_.output);
-    std::error_code error, ignored;
-    if (fs::exists(options_.output)) fs::rename(options_.output, kept, error);
-    if (!error) fs::rename(state, state_path_beside(kept), error);
+  for (const KeptFile& file : files_to_keep(options_.output)) {
+    std::error_code error;
+    std::filesystem::rename(file.path, file.kept, error);
     if (error)
       throw IoError(
-          fmt::format("{}: cannot be kept as {}: {}", options_.output, kept, error.message()));
+          fmt::format("{}: cannot be kept as {}: {}", file.path, file.kept, error.message()));
   }
   has_written_ = true;
 }

@@ -22,14 +22,15 @@ namespace {
 constexpr std::chrono::seconds kPatience(60);
 
 /// Starts the program with standard error going to `errors`; returns its process id.
-pid_t start(const std::string& folder, const std::vector<std::string>& arguments, int errors) {
+pid_t start(const std::string& folder, const std::vector<std::string>& arguments,
+            const std::string& input, int errors) {
   std::vector<char*> argv = {const_cast<char*>("nephroid")};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, input.c_str(), O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_adddup2(&actions, errors, STDERR_FILENO);
   pid_t child = 0;
@@ -66,12 +67,13 @@ bool read_all(int descriptor, pid_t process, std::string* text, uint64_t* peak_m
 
 }  // namespace
 
-ProgramRun run_program(const std::string& folder, const std::vector<std::string>& arguments) {
+ProgramRun run_program(const std::string& folder, const std::vector<std::string>& arguments,
+                       const std::string& input) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
   ProgramRun run;
   const auto begin = std::chrono::steady_clock::now();
-  const pid_t child = start(folder, arguments, ends[1]);
+  const pid_t child = start(folder, arguments, input, ends[1]);
   close(ends[1]);
   run.hung = !read_all(ends[0], child, &run.errors, &run.peak_memory);
   close(ends[0]);

@@ -18,9 +18,10 @@ struct ProgramRun {
   uint64_t peak_memory = 0;  ///< bytes, as seen a hundred times a second
 };
 
-/// Runs the program with these arguments in `folder`; its standard input is empty. Throws
-/// std::runtime_error if it cannot be started.
-ProgramRun run_program(const std::string& folder, const std::vector<std::string>& arguments);
+/// Runs the program with these arguments in `folder`; its standard input is a file, as seen from
+/// there, or empty. Throws std::runtime_error if it cannot be started.
+ProgramRun run_program(const std::string& folder, const std::vector<std::string>& arguments,
+                       const std::string& input = "/dev/null");
 
 /// Names of everything in a folder, hidden files too.
 std::set<std::string> names_in(const std::string& folder);

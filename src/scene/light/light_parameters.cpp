@@ -103,7 +103,8 @@ ImagePtr read_sphere_image(const ParameterSet& parameters, SceneFiles& files,
     throw SceneError(parameters.find("filename")->where,
                      "the image of " + of_what + " is " + std::to_string(image->width()) + " x " +
                          std::to_string(image->height()) +
-                         ", expected a square: an equal-area octahedral map");
+                         ", expected a square: an equal-area octahedral map, as pbrt-v4's "
+                         "\"imgtool makeequiarea\" makes of one by latitude and longitude");
   return image;
 }
 

@@ -4,6 +4,7 @@
 
 #include "input/file_bytes.h"
 #include "input/number_text.h"
+#include "input/spelling.h"
 #include "scene/texture/image_file.h"
 #include "scene/texture/texture.h"
 
@@ -86,6 +87,12 @@ std::vector<double> numbers_of_file(SceneFiles& files, const std::string& path,
   return numbers;
 }
 
+std::string known_spectra() {
+  std::string list;
+  for (const std::string& name : named_spectra()) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
 SpectrumPtr named_or_file(const Parameter& p, SpectrumKind kind, SceneFiles& files) {
   if (p.strings.size() != 1)
     throw SceneError(
@@ -97,8 +104,11 @@ SpectrumPtr named_or_file(const Parameter& p, SpectrumKind kind, SceneFiles& fil
     return pairs_spectrum(numbers_of_file(files, path, p.where), kind, p.where,
                           "spectrum file \"" + path + "\"");
   } catch (const IoError& e) {
-    file_is_unreadable(p.where,
-                       "\"" + name + "\" is not the name of a known spectrum, and " + e.what());
+    const std::string meant = did_you_mean(name, named_spectra());
+    file_is_unreadable(
+        p.where, "\"" + name + "\" is not the name of a known spectrum" +
+                     (meant.empty() ? ", expected a file or one of " + known_spectra() : meant) +
+                     " (" + e.what() + ")");
   }
 }
 

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "core/errors.h"
+#include "film/film_output.h"
 
 namespace nephroid {
 
@@ -99,17 +100,33 @@ void add_estimates(const Film& film, Metadata* metadata) {
                            fmt::format("{}", film.estimates(layout.groups[r])));
 }
 
-std::string previous_path(const std::string& picture_path) {
-  const std::filesystem::path path(picture_path);
-  return std::filesystem::path(path)
-      .replace_extension(".previous" + path.extension().string())
-      .string();
+std::vector<KeptFile> files_to_keep(const std::string& output) {
+  if (output.empty()) return {};
+  const auto kept_name = [](const std::string& name) {
+    const std::filesystem::path path(name);
+    return std::filesystem::path(path)
+        .replace_extension(".previous" + path.extension().string())
+        .string();
+  };
+  const std::string png = png_path_beside(output);
+  std::vector<KeptFile> files;
+  std::error_code ignored;
+  for (const std::string& path : {output, state_path_beside(output), png})
+    if (std::filesystem::exists(path, ignored)) files.push_back({path, kept_name(path)});
+  const bool is_png_alone = files.size() == 1 && files[0].path == png;
+  if (is_png_alone && std::filesystem::exists(files[0].kept, ignored)) files.clear();
+  return files;
 }
 
 std::optional<std::string> warning_of_replacing(const std::string& output,
                                                 const RenderIdentity& here) {
-  if (output.empty() || !std::filesystem::exists(state_path_beside(output))) return std::nullopt;
-  const std::string kept = previous_path(output);
+  const std::vector<KeptFile> files = files_to_keep(output);
+  if (files.empty()) return std::nullopt;
+  std::string kept = files[0].kept;
+  for (size_t i = 1; i < files.size(); ++i) kept += (i == 1 ? ", with " : " and ") + files[i].kept;
+  const std::string state = state_path_beside(output);
+  if (std::ranges::none_of(files, [&](const KeptFile& file) { return file.path == state; }))
+    return fmt::format("{} is there already; it is kept as {}", files[0].path, kept);
   std::string what = "a state that cannot be read";
   try {
     const StateFile file = open_state(output, "read it");

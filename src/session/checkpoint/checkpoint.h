@@ -34,9 +34,14 @@ RenderState state_of(const Scene& scene, EstimatorSet& set, Film& film);
 /// `purpose`", if it is not there.
 StateFile open_state(const std::string& path, const std::string& purpose);
 
-/// "a/b.exr" -> "a/b.previous.exr": what a picture with state becomes before another render takes
-/// its name.
-std::string previous_path(const std::string& picture_path);
+/// A file that a new render is about to replace, and the name under which it is kept.
+struct KeptFile {
+  std::string path, kept;
+};
+/// Picture, state and PNG, those that are there: "a/b.exr" is kept as "a/b.previous.exr". A PNG
+/// alone, as a render leaves it that ends before its first picture, is kept if there is no earlier
+/// one to lose.
+std::vector<KeptFile> files_to_keep(const std::string& output);
 
 /// The whole passes that a state has. Throws IoError, "cannot `purpose`", if it does not say so.
 PassRanges passes_of(const StateFile& file, const std::string& purpose);
@@ -61,8 +66,8 @@ void add_progress(const Checkpoint& progress, Metadata* metadata);
 /// Metadata of the film's estimates, of each route and of rejected outliers.
 void add_estimates(const Film& film, Metadata* metadata);
 
-/// What a new render `here` is about to replace at its output, as a sentence; empty if there is no
-/// state.
+/// What a new render `here` is about to replace at its output, and where it is kept, as a sentence;
+/// empty if nothing is there.
 std::optional<std::string> warning_of_replacing(const std::string& output,
                                                 const RenderIdentity& here);
 

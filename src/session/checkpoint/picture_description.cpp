@@ -10,6 +10,8 @@
 #include <span>
 #include <string_view>
 
+#include "input/file_bytes.h"
+#include "input/scene_files.h"
 #include "session/checkpoint/checkpoint.h"
 #include "session/checkpoint/film_metadata.h"
 
@@ -77,6 +79,8 @@ bool is_state(const std::string& path) {
 }  // namespace
 
 bool is_picture(const std::string& path) {
+  // What is read of a pipe is gone.
+  if (path == kStandardInput || is_stream(path)) return false;
   constexpr std::array<char, 4> kMagic = {0x76, 0x2f, 0x31, 0x01};
   const auto begin = begin_of(path);
   return is_state(path) || std::ranges::equal(kMagic, std::span(begin).first(4));

@@ -72,16 +72,19 @@ void warn_of_unknown_names(const std::string& scene_integrator, const ParameterS
   const std::string own = scene_integrator.empty() ? "volpath" : scene_integrator;
   const std::optional<FormatType> type = pbrt_integrator(own);
   if (!type) {
-    diagnostics.warn(parameters.where, fmt::format("unknown integrator \"{}\", \"{}\" is used",
-                                                   scene_integrator, choice->name));
+    diagnostics.warn_of_unknown_name(
+        parameters.where,
+        fmt::format("unknown integrator \"{}\", \"{}\" is used", scene_integrator, choice->name));
   } else {
     if (parameters.get_bool("regularize", false))
       diagnostics.warn(parameters.find("regularize")->where,
                        "\"regularize\" has no effect here: what it would hide, photons render");
     parameters.report_unused("integrator \"" + own + "\"", *type, diagnostics);
   }
-  for (const Warning& warning : diagnostics.warnings())
+  for (const Warning& warning : diagnostics.warnings()) {
     choice->warnings.push_back(located(warning.where, warning.message));
+    if (warning.is_unknown_name) choice->unknown_names.push_back(choice->warnings.back());
+  }
 }
 
 }  // namespace

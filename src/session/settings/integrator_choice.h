@@ -19,6 +19,7 @@ struct IntegratorChoice {
   RenderSettings settings;
   std::vector<std::string> notes;     ///< parameters of the scene that are not used, for the report
   std::vector<std::string> warnings;  ///< errors in them: "file:line:column: message"
+  std::vector<std::string> unknown_names;  ///< those of them about names that the format lacks
 };
 
 /// `wanted` is an integrator's name, or "scene" for the one that stands for the scene's own. Throws

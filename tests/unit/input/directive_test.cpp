@@ -73,8 +73,9 @@ TEST(Directives, UnknownOnesGetASuggestion) {
   EXPECT_EQ(parse_error("camera"),
             "t.pbrt:1:1: unknown directive \"camera\", did you mean \"Camera\"?");
   EXPECT_EQ(parse_error("Xyzzy"), "t.pbrt:1:1: unknown directive \"Xyzzy\"");
-  EXPECT_EQ(parse_error("WorldBegin WorldEnd"),
-            "t.pbrt:1:12: pbrt-v4 scenes have no WorldEnd, expected the end of the file");
+  EXPECT_EQ(parse_error("WorldEnd"), "t.pbrt:1:1: WorldEnd without WorldBegin");
+  EXPECT_EQ(parse_error("WorldBegin WorldEnd Film \"rgb\""),
+            "t.pbrt:1:21: expected the end of the scene behind WorldEnd, found \"Film\"");
   EXPECT_EQ(parse_error("\"float a\" 1"), "t.pbrt:1:1: expected a directive, found \"float a\"");
   EXPECT_EQ(parse_error("WorldBegin ]"), "t.pbrt:1:12: expected a directive, found ']'");
   EXPECT_EQ(parse_error("WorldBegin 5"), "t.pbrt:1:12: unknown directive \"5\"");
@@ -85,8 +86,8 @@ TEST(Directives, ArgumentsAreChecked) {
             "t.pbrt:1:6: expected a type as a string in quotes, found \"rgb\"");
   EXPECT_EQ(parse_error("Film"),
             "t.pbrt:1:5: expected a type as a string in quotes, found the end of the file");
-  EXPECT_EQ(parse_error("WorldBegin Texture \"a\" \"color\" \"imagemap\""),
-            "t.pbrt:1:24: unknown texture type \"color\", expected \"float\" or \"spectrum\"");
+  EXPECT_EQ(parse_error("WorldBegin Texture \"a\" \"colour\" \"imagemap\""),
+            "t.pbrt:1:24: unknown texture type \"colour\", expected \"float\" or \"spectrum\"");
   EXPECT_EQ(parse_error("ColorSpace \"sRGBB\""),
             "t.pbrt:1:12: unknown color space \"sRGBB\", expected \"srgb\", \"rec2020\", "
             "\"aces2065-1\" or \"dci-p3\"");

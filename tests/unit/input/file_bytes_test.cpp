@@ -2,6 +2,10 @@
 #include "input/file_bytes.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <fstream>
+#include <thread>
 
 #include "unit/input/gzip_bytes.h"
 #include "unit/input/parse_text.h"
@@ -47,6 +51,20 @@ TEST(FileBytes, RefusesToUnpackTooMuch) {
   EXPECT_EQ(read_file_bytes(path, 5000).size(), 5000u);
   EXPECT_EQ(error_of([&] { read_file_bytes(path, 4999); }),
             "cannot read \"" + path + "\": it unpacks to more than 4999 bytes");
+}
+
+TEST(FileBytes, PipesAreReadAndUnpackedByTheirContent) {
+  const TemporaryDirectory directory;
+  const std::string pipe = directory.path("pipe");
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_TRUE(is_stream(pipe));
+  EXPECT_FALSE(is_stream(directory.write("file", "a")));
+  EXPECT_FALSE(is_stream(directory.path("absent")));
+  for (const std::string& bytes : {std::string("Shape"), gzip("Shape")}) {
+    std::thread writer([&] { std::ofstream(pipe, std::ios::binary) << bytes; });
+    EXPECT_EQ(read_file_bytes(pipe), "Shape");
+    writer.join();
+  }
 }
 
 TEST(FileBytes, NamesTheFileAndTheReason) {

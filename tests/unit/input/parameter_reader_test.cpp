@@ -114,8 +114,6 @@ TEST(ParameterReader, RefusesBadDeclarations) {
       "spectrum, bool, string, texture";
   EXPECT_EQ(error_in(" \"colour a\" 1"),
             "f:1:2: parameter \"a\" has the unknown type \"colour\", " + list);
-  EXPECT_EQ(error_in("\"color a\" [1 1 1]"),
-            "f:1:1: parameter \"a\" has the unknown type \"color\", " + list);
   EXPECT_EQ(error_in("\"float\" 1"),
             "f:1:1: \"float\" declares no parameter, expected \"type name\"");
   EXPECT_EQ(error_in("\"\" 1"), "f:1:1: \"\" declares no parameter, expected \"type name\"");

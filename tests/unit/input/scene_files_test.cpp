@@ -18,6 +18,13 @@ TEST(SceneFiles, NamesAreRelativeToTheDirectory) {
   EXPECT_EQ(SceneFiles("").directory(), ".");
 }
 
+TEST(SceneFiles, NamesInPipesCountFromTheCurrentDirectory) {
+  EXPECT_EQ(directory_of_scene("a/b.pbrt"), "a");
+  EXPECT_EQ(directory_of_scene("-"), ".");
+  EXPECT_EQ(directory_of_scene("/dev/stdin"), ".") << "a file, if one is redirected";
+  EXPECT_EQ(directory_of_scene("/dev/fd/3"), ".");
+}
+
 /// Hash of a scene of two files in a directory, read in one order or the other.
 uint64_t hash_of_scene(const TemporaryDirectory& directory, const std::string& top,
                        const std::string& mesh, bool mesh_first = false) {

@@ -20,6 +20,24 @@ TEST(Spelling, IsSilentWhenNothingIsNear) {
   EXPECT_EQ(did_you_mean(std::string(1000, 'a'), {std::string(1000, 'a')}), "");
 }
 
+TEST(Spelling, KnowsWhatOthersCallThings) {
+  const std::vector<std::string> materials = {"diffuse", "dielectric", "conductor", "coateddiffuse",
+                                              "measured"};
+  EXPECT_EQ(did_you_mean("Glass", materials), ", did you mean \"dielectric\"?");
+  EXPECT_EQ(did_you_mean("metal", materials), ", did you mean \"conductor\"?");
+  EXPECT_EQ(did_you_mean("principled", materials),
+            ", did you mean \"coateddiffuse\", \"conductor\" or \"dielectric\"?");
+  EXPECT_EQ(did_you_mean("ior", {"roughness", "eta"}), ", did you mean \"eta\"?");
+  EXPECT_EQ(did_you_mean("st", {"S", "uv"}), ", did you mean \"uv\"?");
+  EXPECT_EQ(did_you_mean("mapname", {"filename", "name"}), ", did you mean \"filename\"?");
+  EXPECT_EQ(did_you_mean("gold", {"metal-Ag-eta", "metal-Au-eta", "metal-Au-k"}),
+            ", did you mean \"metal-Au-eta\" or \"metal-Au-k\"?");
+  EXPECT_EQ(did_you_mean("area", {"point"}, "light"),
+            ", did you mean AreaLightSource \"diffuse\" before a Shape?");
+  EXPECT_EQ(did_you_mean("area", {"point"}, "film"), "");
+  EXPECT_EQ(did_you_mean("glass", {"film"}), "") << "only what the candidates have";
+}
+
 TEST(Spelling, TakesTheFirstOfEquals) {
   EXPECT_EQ(did_you_mean("metal", {"metalA", "metalB"}), ", did you mean \"metalA\"?");
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "core/errors.h"
@@ -74,6 +75,51 @@ TEST_F(RenderPage, WarnsOfTheInput) {
   EXPECT_NE(about_input_[0].find("unheardof"), std::string::npos) << about_input_[0];
   EXPECT_NE(about_input_[1].find("-D hit-points"), std::string::npos) << about_input_[1];
   EXPECT_TRUE(about_output_.empty());
+}
+
+TEST_F(RenderPage, StrictRefusesUnknownNamesBeforeItRenders) {
+  const LoadedScene loaded = load_scene(request_);
+  request_.strict = true;
+  try {
+    Render render(request_, loaded, warnings_);
+    FAIL() << "the Integrator line has an unknown parameter";
+  } catch (const SceneError& error) {
+    EXPECT_EQ(error.status(), ExitStatus::kScene);
+    EXPECT_EQ(std::string(error.what()),
+              request_.scene +
+                  ":4:45: unknown parameter \"unheardof\" of integrator \"volpath\", ignored\n"
+                  "--strict: 1 unknown name in the scene, expected names of pbrt-v4");
+  }
+  std::ofstream(request_.scene)
+      << "Option \"sed\" 1\nWorldBegin\nLightSource \"infinite\" \"string image\" \"a\"\n"
+         "Material \"diffuse\" \"rgb Kd\" [1 1 1]\nShape \"sphere\" \"float radus\" 1";
+  const LoadedScene wrong = load_scene(request_);
+  EXPECT_EQ(wrong.unknown_names.size(), 4u);
+  EXPECT_THROW(Render(request_, wrong, warnings_), SceneError);
+  request_.strict = false;
+  about_input_.clear();
+  Render(request_, wrong, warnings_);
+  ASSERT_GE(about_input_.size(), 4u);
+  EXPECT_TRUE(std::ranges::any_of(about_input_, [](const std::string& text) {
+    return text.find("\"image\" of light \"infinite\", did you mean \"filename\"?") !=
+           std::string::npos;
+  }));
+}
+
+TEST_F(RenderPage, WhatIsKeptIsSaidInOneLine) {
+  request_.options.output = directory_.file("out.exr");
+  request_.resume = true;
+  request_.options.last_pass = 0;
+  render();
+  ASSERT_EQ(about_output_.size(), 1u);
+  EXPECT_NE(about_output_[0].find("and no state of it, the render starts anew"), std::string::npos);
+  request_.resume = false;
+  render();
+  ASSERT_EQ(about_output_.size(), 2u);
+  for (const char* const name : {"out.previous.exr", "out.previous.state", "out.previous.png"}) {
+    EXPECT_NE(about_output_[1].find(name), std::string::npos) << about_output_[1];
+    EXPECT_TRUE(std::filesystem::exists(directory_.file(name))) << name;
+  }
 }
 
 TEST_F(RenderPage, ResumesWithTheBitsOfOneRun) {

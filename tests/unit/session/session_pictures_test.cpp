@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 
 #include "core/errors.h"
 #include "film/state_file.h"
@@ -19,6 +21,12 @@ using SessionPictures = testing_support::ScriptedSession;
 std::string passes_in(const std::string& path) {
   if (!std::filesystem::exists(path)) return "";
   return value_of(read_picture(path).metadata, "nephroid:passes");
+}
+
+std::string contents(const std::string& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
 }
 
 /// A render whose picture goes to the directory, written before the end only if it is asked for.
@@ -130,19 +138,46 @@ TEST_F(SessionPictures, PictureAndStateOfAnotherRenderAreKept) {
   const ScratchDirectory directory;
   RenderOptions options = options_in(directory);
   const std::string kept = directory.file("out.previous.exr");
+  const std::string kept_png = directory.file("out.previous.png");
   options.last_pass = 3;
   run(options);
   EXPECT_FALSE(std::filesystem::exists(kept));
+  const std::string png = contents(directory.file("out.png"));
   options.last_pass = 1;
   options.checkpoint_interval = 1;
   run(options);
   EXPECT_EQ(passes_in(kept), "0..3") << "not the intermediate picture of the second render";
   EXPECT_EQ(passes_in(options.output), "0..1");
   EXPECT_EQ(passes_of(open_state(kept, "read it"), "read it").text(), "0..3");
+  EXPECT_EQ(contents(kept_png), png) << "not an intermediate one";
   options.begin_with.passes = *PassRanges::parse("0..1");
   options.last_pass = 2;
   run(options);
   EXPECT_EQ(passes_in(kept), "0..3") << "who goes on replaces only what it goes on from";
+}
+
+// Whatever it is of: a picture without state, or no picture of this program at all.
+TEST_F(SessionPictures, WhatHasNoStateIsKeptToo) {
+  const ScratchDirectory directory;
+  RenderOptions options = options_in(directory);
+  options.last_pass = 0;
+  std::ofstream(directory.file("out.exr")) << "somebody's picture";
+  std::ofstream(directory.file("out.png")) << "its PNG";
+  run(options);
+  EXPECT_EQ(contents(directory.file("out.previous.exr")), "somebody's picture");
+  EXPECT_EQ(contents(directory.file("out.previous.png")), "its PNG");
+  EXPECT_EQ(passes_in(options.output), "0..0");
+}
+
+// A render that ends before its first picture leaves a PNG, which is not worth an older one.
+TEST_F(SessionPictures, APngAloneReplacesNoKeptOne) {
+  const ScratchDirectory directory;
+  const std::string output = directory.file("out.exr");
+  std::ofstream(directory.file("out.png")) << "PNG";
+  ASSERT_EQ(files_to_keep(output).size(), 1u);
+  EXPECT_EQ(files_to_keep(output)[0].kept, directory.file("out.previous.png"));
+  std::ofstream(directory.file("out.previous.png")) << "older PNG";
+  EXPECT_TRUE(files_to_keep(output).empty());
 }
 
 TEST_F(SessionPictures, PictureOnDemand) {
