@@ -38,11 +38,11 @@ float SampledWavelengths::visible_pdf(float lambda) {
 }
 
 void SampledWavelengths::terminate_secondary() {
-  if (terminated_) return;
-  const float hero = pdf_[0] / kSpectrumSamples;
+  if (secondary_terminated()) return;
+  const float hero = pdf_[hero_] / kSpectrumSamples;
   pdf_ = SampledSpectrum();
-  pdf_.set(0, hero);
-  terminated_ = true;
+  pdf_.set(hero_, hero);
+  left_ = hero_;
 }
 
 }  // namespace nephroid

@@ -111,8 +111,12 @@ inline SampledSpectrum safe_div(const SampledSpectrum& a, const SampledSpectrum&
   return r;
 }
 
-/// The wavelengths of one path (nm) and the density with which each was chosen (1/nm).
-/// lambda(0) is the hero: the one that survives where wavelengths part, as in a prism.
+/// Stands for all wavelengths of a path where one of them is meant otherwise.
+inline constexpr int kAllWavelengths = -1;
+
+/// The wavelengths of one path (nm) and the density with which each was chosen (1/nm). One of them
+/// is the hero, the first if nothing else is said: the one that survives where wavelengths part, as
+/// in a prism.
 class SampledWavelengths {
  public:
   /// kSpectrumSamples wavelengths, equally spaced in the cumulative distribution of a density that
@@ -126,16 +130,29 @@ class SampledWavelengths {
   /// Zero for wavelengths that were dropped.
   const SampledSpectrum& pdf() const { return pdf_; }
 
-  /// Keeps the hero only, whose density then accounts for the choice: pdf(0) is divided by the
-  /// number of wavelengths, so the mean over all of them (sum / kSpectrumSamples) stays an unbiased
+  /// The same wavelengths in the same order with hero number `hero`, below kSpectrumSamples. None
+  /// was dropped yet. Paths that share their wavelengths have heroes of their own, so that all
+  /// colours of a prism are in the picture of one pass.
+  SampledWavelengths with_hero(int hero) const {
+    SampledWavelengths s = *this;
+    s.hero_ = hero;
+    return s;
+  }
+  float hero() const { return lambda_[hero_]; }
+
+  /// Keeps the hero only, whose density then accounts for the choice: it is divided by the number
+  /// of wavelengths, so the mean over all of them (sum / kSpectrumSamples) stays an unbiased
   /// estimate. A second call changes nothing.
   void terminate_secondary();
-  bool secondary_terminated() const { return terminated_; }
+  bool secondary_terminated() const { return left_ != kAllWavelengths; }
+  /// The hero's number if it is the only wavelength left, else kAllWavelengths.
+  int left() const { return left_; }
 
  private:
   SampledSpectrum lambda_;
   SampledSpectrum pdf_;
-  bool terminated_ = false;
+  int hero_ = 0;
+  int left_ = kAllWavelengths;
 };
 
 }  // namespace nephroid

@@ -51,6 +51,14 @@ struct LightPathMoment {
   float u_time = 0;  ///< as cameras take it
 };
 
+/// The wavelengths of a pass for light path `number`, with a hero that has nothing to do with those
+/// of other paths nor with where it starts.
+inline SampledWavelengths with_own_hero(const SampledWavelengths& lambda, uint64_t seed,
+                                        uint64_t number) {
+  constexpr uint64_t kStream = 0x6865726f6c;  // "herol"
+  return lambda.with_hero(static_cast<int>(hash_combine(seed, kStream, number) % kSpectrumSamples));
+}
+
 /// Draws them for a path that shares neither with any other.
 inline LightPathMoment sample_moment(const Scene& scene, PathSampler& sampler) {
   sampler.start_dimension(kEmissionDimensions);
@@ -126,7 +134,7 @@ class LightWalkVisitor {
     photon.ng = PackedDirection(v.surface.ng);
     photon.flux = PackedSpectrum(flux * walk.throughput / v.surface.coverage);
     photon.state = state_;
-    photon.secondary_terminated = walk.lambda.secondary_terminated();
+    photon.left = static_cast<int8_t>(walk.lambda.left());
     photon.events = static_cast<uint16_t>(walk.events);
     return photon;
   }

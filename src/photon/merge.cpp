@@ -14,12 +14,11 @@ PhotonMerger merger_at(const OwnedRoutes& owned, const MergePoint& at, int max_d
 /// their bias. True if it counts.
 bool add(const PhotonMerger& merger, const MergePoint& at, const Photon& photon, float weight,
          float bias, PartSums& sums) {
+  if (are_apart(at.left, photon.left)) return false;
   return merger.each_event(photon, [&](const MergeEvent& event) {
-    // A path that lost its secondary wavelengths, on either side or on both, stands for all of them
-    // once.
-    const SampledSpectrum value = whole_spectrum(
-        at.throughput * (event.bsdf.f * event.cosine) * photon.flux.unpacked() * weight,
-        at.secondary_terminated || photon.secondary_terminated);
+    const SampledSpectrum value = merged_spectrum(
+        at.throughput * (event.bsdf.f * event.cosine) * photon.flux.unpacked() * weight, at.left,
+        photon.left);
     sums.add(event.part, value);
     sums.add_bias(value * bias);
   });
@@ -58,7 +57,10 @@ NearestMerge merge_nearest(const PhotonGrid& grid, const OwnedRoutes& owned, con
   const PhotonMerger merger = merger_at(owned, at, max_depth);
   grid.nearest(
       at.vertex.surface.p, nearest.max_radius, nearest.wanted,
-      [&](const Photon& photon) { return merger.each_event(photon, [](const MergeEvent&) {}); },
+      [&](const Photon& photon) {
+        return !are_apart(at.left, photon.left) &&
+               merger.each_event(photon, [](const MergeEvent&) {});
+      },
       scratch);
   NearestMerge result{static_cast<uint32_t>(scratch.size()), nearest.max_radius};
   if (scratch.size() == nearest.wanted) result.radius = std::sqrt(scratch.back().distance_squared);

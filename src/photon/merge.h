@@ -29,7 +29,7 @@ struct MergePoint {
   ClassMask classes = ClassMask::kNone;  ///< that have finite lobes here and may merge
   int events = 0;                        ///< of the eye side, this vertex included
   SampledSpectrum throughput;            ///< of the walk up to here
-  bool secondary_terminated = false;     ///< the walk kept only its hero wavelength
+  int left = kAllWavelengths;            ///< or the hero's number, if the walk kept no other
 };
 
 /// How a photon arrives at a visible point.
@@ -99,8 +99,9 @@ class PhotonMerger {
 
 /// Adds throughput * sum of f * flux to the parts that own the photons' paths, to be divided by
 /// (N pi r^2); returns how many photons counted. What belongs to other routes or makes the path
-/// longer than `max_depth` events is passed over. A path that kept only the hero wavelength, on
-/// either side, adds to lane 0 alone, times the number of wavelengths. The sums' bias [E4] is
+/// longer than `max_depth` events is passed over. A path that kept only one wavelength, on
+/// either side, adds to that one alone, times the number of wavelengths; two sides that kept
+/// different ones make no path. The sums' bias [E4] is
 /// divided like the light.
 uint32_t merge_photons(const PhotonGrid& grid, const OwnedRoutes& owned, const MergePoint& at,
                        int max_depth, float radius, PartSums& sums);

@@ -7,22 +7,21 @@
 namespace nephroid {
 
 struct Photon {
-  PackedSpectrum flux;  ///< at the pass's wavelengths; of a photon that dropped its secondary
-                        ///< wavelengths only the hero's is meaningful
+  PackedSpectrum flux;  ///< at the pass's wavelengths; where one is left the others mean nothing
   Vec3f p{0, 0, 0};
-  PackedDirection wi;    ///< back along the photon's path
-  PackedDirection ng;    ///< geometric normal of the surface
-  LightState state = 0;  ///< of the light side, this vertex excluded
-  uint8_t secondary_terminated = 0;
-  uint8_t set = 0;      ///< of a map whose photons do not share one set of wavelengths
-  uint16_t events = 0;  ///< scattering events before this vertex
+  PackedDirection wi;             ///< back along the photon's path
+  PackedDirection ng;             ///< geometric normal of the surface
+  LightState state = 0;           ///< of the light side, this vertex excluded
+  int8_t left = kAllWavelengths;  ///< or the number of the only wavelength that was not dropped
+  uint8_t set = 0;                ///< of a map whose photons do not share one set of wavelengths
+  uint16_t events = 0;            ///< scattering events before this vertex
   /// PartialMisWeights, where other techniques find the path, too. They are squares of areas:
   /// their roots stay in the range of a float in any unit of length.
   float root_of_cut_here = 0, root_of_cuts_before = 0;
 
   static void members(auto& self, auto& archive) {
-    archive(self.flux, self.p, self.wi, self.ng, self.state, self.secondary_terminated, self.set,
-            self.events, self.root_of_cut_here, self.root_of_cuts_before);
+    archive(self.flux, self.p, self.wi, self.ng, self.state, self.left, self.set, self.events,
+            self.root_of_cut_here, self.root_of_cuts_before);
   }
 };
 

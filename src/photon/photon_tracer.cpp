@@ -123,7 +123,8 @@ Outcome trace_photon(const Scene& scene, const OwnedRoutes& owned,
   Outcome outcome;
   sequence.at(number, [&](PathSampler& sampler) {
     launch_light_path(
-        launch, settings.lambda, settings.time, sampler, kEmissionDimensions,
+        launch, with_own_hero(settings.lambda, settings.key.seed, number), settings.time, sampler,
+        kEmissionDimensions,
         [&](const Emission& emission) {
           return PhotonVisitor(owned, settings.guide->casters, emission, photons);
         },

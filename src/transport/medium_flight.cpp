@@ -174,10 +174,12 @@ std::optional<Collision> fly(const Medium& medium, const Ray& ray, float t_max,
 std::optional<Collision> fly_per_wavelength(const Medium& medium, const Ray& ray, float t_max,
                                             const SampledWavelengths& lambda, FlightRandom& random,
                                             SampledSpectrum& throughput) {
-  const bool hero_only = lambda.secondary_terminated();
-  const auto mean = [&](const SampledSpectrum& s) { return hero_only ? s[0] : s.average(); };
+  const int left = lambda.left();
+  const auto mean = [&](const SampledSpectrum& s) {
+    return left != kAllWavelengths ? s[left] : s.average();
+  };
   const auto rate_of = [&](const SampledSpectrum& s) {
-    return hero_only ? s[0] : s.max_component();
+    return left != kAllWavelengths ? s[left] : s.max_component();
   };
   const auto end = [&] {
     throughput = SampledSpectrum(0.0f);

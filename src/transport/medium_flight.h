@@ -41,9 +41,9 @@ struct SpectralDensity {
   float u_mean = 1, l_mean = 1;
   bool plain = true;  ///< no choice depended on the wavelength yet: all ones
   void take_means(const SampledWavelengths& lambda) {
-    const bool hero_only = lambda.secondary_terminated();
-    u_mean = hero_only ? u[0] : u.average();
-    l_mean = hero_only ? l[0] : l.average();
+    const int left = lambda.left();
+    u_mean = left != kAllWavelengths ? u[left] : u.average();
+    l_mean = left != kAllWavelengths ? l[left] : l.average();
   }
 };
 

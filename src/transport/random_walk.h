@@ -87,9 +87,9 @@ class RandomWalk {
       const SampledSpectrum through = attenuation(medium, walk_.ray, distance, walk_.lambda,
                                                   flight_random_, glows ? &emitted : nullptr);
       if (glows)
-        visitor_.medium_emission(medium,
-                                 whole_spectrum(walk_.throughput * emitted / walk_.density.u_mean,
-                                                walk_.lambda.secondary_terminated()));
+        visitor_.medium_emission(
+            medium,
+            whole_spectrum(walk_.throughput * emitted / walk_.density.u_mean, walk_.lambda.left()));
       walk_.throughput *= through;
       return std::nullopt;
     }
@@ -100,9 +100,7 @@ class RandomWalk {
         fly(medium, walk_.ray, distance, walk_.lambda, flight_random_, walk_.throughput,
             walk_.density, emitted);
     walk_.density.take_means(walk_.lambda);
-    if (glows)
-      visitor_.medium_emission(medium,
-                               whole_spectrum(emitted, walk_.lambda.secondary_terminated()));
+    if (glows) visitor_.medium_emission(medium, whole_spectrum(emitted, walk_.lambda.left()));
     return collision;
   }
 

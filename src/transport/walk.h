@@ -66,13 +66,30 @@ struct Walk {
   float carried() const { return throughput.max_component() * eta_scale / density.u_mean; }
 };
 
-/// [M2] A value at all wavelengths of a path that shares them with others and may have kept its
-/// hero only, whose value then stands for all.
-inline SampledSpectrum whole_spectrum(const SampledSpectrum& value, bool hero_only) {
-  if (!hero_only) return value;
+/// A value at all wavelengths of a path that shares them with others and may have kept its hero
+/// only, number `left`, whose value then stands for all.
+inline SampledSpectrum whole_spectrum(const SampledSpectrum& value, int left) {
+  if (left == kAllWavelengths) return value;
   SampledSpectrum hero;
-  hero.set(0, value[0] * kSpectrumSamples);
+  hero.set(left, value[left] * kSpectrumSamples);
   return hero;
+}
+/// What is left of a path of two sides that have the same hero.
+inline int left_of_both(int a, int b) {
+  return a != kAllWavelengths ? a : b;
+}
+
+/// Two sides whose heroes were chosen one without the other, and which kept different ones: they
+/// make no path.
+inline bool are_apart(int a, int b) {
+  return a != b && a != kAllWavelengths && b != kAllWavelengths;
+}
+/// [M2] The value of a path of two such sides that are not apart. Where both kept their hero they
+/// have met by a chance of one in kSpectrumSamples.
+inline SampledSpectrum merged_spectrum(const SampledSpectrum& value, int a, int b) {
+  if (a == kAllWavelengths || b == kAllWavelengths)
+    return whole_spectrum(value, left_of_both(a, b));
+  return whole_spectrum(value, a) * static_cast<float>(kSpectrumSamples);
 }
 
 /// The medium on the side of a surface to which `w` (world) points, for light that was in

@@ -61,7 +61,7 @@ class FirstVertex {
   void add(const Walk& walk, EyeState eye, LightSymbol light, const SampledSpectrum& value) {
     const Part part = routes_.owner(eye, light);
     if (light_.owns(part))
-      light_.add(part, whole_spectrum(walk.throughput * value, walk.lambda.secondary_terminated()));
+      light_.add(part, whole_spectrum(walk.throughput * value, walk.lambda.left()));
   }
 
   const Scene& scene_;

@@ -163,9 +163,11 @@ class EyeVisitor {
     return settings_.technique.weighted && walk.events > 0;
   }
   void add(Part part, const Walk& walk, Technique technique, const SampledSpectrum& value,
-           bool hero_only = false, float bias = 0) {
-    const SampledSpectrum whole =
-        whole_spectrum(value, hero_only || walk.lambda.secondary_terminated());
+           int left_of_light = kAllWavelengths) {
+    add_whole(part, technique,
+              whole_spectrum(value, left_of_both(walk.lambda.left(), left_of_light)));
+  }
+  void add_whole(Part part, Technique technique, const SampledSpectrum& whole, float bias = 0) {
     guided_.add(whole);
     light_.add(part, whole, technique);
     if (bias != 0) light_.add_bias(whole * bias);
@@ -292,7 +294,6 @@ class EyeVisitor {
       return;
     const Place at_y{y.surface.p, y.in_medium ? Vec3f(0, 0, 0) : y.surface.ng};
     const LineFactors line = line_between(place_, at_y);
-    const bool hero_only = y.lambda.secondary_terminated();
     SampledSpectrum arriving;
     bool traced = false;
     for (const Arm& a : eye_arms) {
@@ -311,7 +312,7 @@ class EyeVisitor {
               (1 + cuts_before(y.sums, a.density.forward * line.at_b, b.density.back, b.merge) +
                cuts_before(sums_.all(), b.density.forward * line.at_a, a.density.back, a.merge));
         add(part, z.walk, Technique::kConnect, arriving * a.f * b.f * static_cast<float>(weight),
-            hero_only);
+            y.lambda.left());
       }
     }
   }
@@ -345,13 +346,13 @@ void EyeVisitor::merge(const Walk& walk, const WalkVertex& v, ClassMask among) {
   const ClassMask classes = among & ClassMask::kRough;
   const float radius = merging.radius_at(place_.p);
   if (!v.merges || classes == ClassMask::kNone || !(radius > 0.0f)) return;
-  const MergePoint at{
-      v, eye_, classes, walk.events + 1, walk.throughput, walk.lambda.secondary_terminated()};
+  const MergePoint at{v, eye_, classes, walk.events + 1, walk.throughput, walk.lambda.left()};
   // Made for the first photon: most vertices have none.
   std::optional<PhotonMerger> merger;
   const double own = merging.weight_at(place_.p, first_);
   const float scale = 1.0f / (static_cast<float>(merging.photons) * kPi * sqr(radius));
   merging.grid->query(place_.p, radius, [&](const Photon& photon, float d2) {
+    if (are_apart(at.left, photon.left)) return;
     roulette_.merge();
     if (roulette_.counts()) return;
     if (!merger)
@@ -372,10 +373,11 @@ void EyeVisitor::merge(const Walk& walk, const WalkVertex& v, ClassMask among) {
             {sqr(double{photon.root_of_cut_here}), sqr(double{photon.root_of_cuts_before})},
             towards, own);
       }
-      add(event.part, walk, Technique::kMerge,
-          walk.throughput * event.bsdf.f * photon.flux.unpacked() *
-              (event.cosine * scale * static_cast<float>(weight)),
-          photon.secondary_terminated, bias_factor(d2, radius));
+      add_whole(event.part, Technique::kMerge,
+                merged_spectrum(walk.throughput * event.bsdf.f * photon.flux.unpacked() *
+                                    (event.cosine * scale * static_cast<float>(weight)),
+                                at.left, photon.left),
+                bias_factor(d2, radius));
     });
   });
 }

@@ -22,8 +22,8 @@ LightPathCounts LightBatches::trace_path(int64_t j, std::vector<CameraSplat>& se
   if (config_.number_varies) sequence.variant = config_.light_paths;
   LightPathCounts counts;
   sequence.at(number, [&](PathSampler& sampler) {
-    counts = trace_light_path(settings_, pass_.trace.lambda, pass_.u_time, sampler, nullptr, &seen,
-                              &photons);
+    counts = trace_light_path(settings_, with_own_hero(pass_.trace.lambda, config_.seed, number),
+                              pass_.u_time, sampler, nullptr, &seen, &photons);
   });
   return counts;
 }

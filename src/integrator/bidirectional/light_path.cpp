@@ -188,7 +188,7 @@ class LightVisitor : public LightWalkVisitor {
     const SampledSpectrum value = emission_.flux * walk.throughput * share *
                                   (factor * seen.line.film_density * seen.line.weight);
     if (value.is_black()) return;
-    seen_->push_back({seen, part, whole_spectrum(value, walk.lambda.secondary_terminated())});
+    seen_->push_back({seen, part, whole_spectrum(value, walk.lambda.left())});
   }
 
   const PairSettings& settings_;

@@ -83,15 +83,15 @@ uint64_t PairSampler::seed_of(int x, int y, int k) const {
   return in.independent_samples ? hash_combine(of_pixel, k) : of_pixel;
 }
 
-CameraPath PairSampler::start(int x, int y, PathSampler& sampler) const {
-  CameraPath path = start_merging_path(in.scene, x, y, sampler, photons);
+CameraPath PairSampler::start(int x, int y, int k, PathSampler& sampler) const {
+  CameraPath path = start_merging_path(in.scene, x, y, sampler, photons, k);
   path.walk.roulette_threshold = techniques.roulette_threshold;
   return path;
 }
 
 void PairSampler::count_merged(int x, int y, int samples, int k, Worker& worker, uint32_t& merged) {
   PathSampler sampler(points_[samples - 1][k].eye, seed_of(x, y, k));
-  CameraPath path = start(x, y, sampler);
+  CameraPath path = start(x, y, k, sampler);
   worker.light.clear();
   worker.row.rays += trace_eye_path(settings, worker.path, path, sampler, worker.light,
                                     {.merged = &merged, .counts_merged = true})
@@ -106,12 +106,12 @@ PairSampler::SampleLight PairSampler::trace(int x, int y, int samples, int k, Wo
   PartSums& light = worker.light;
   const uint64_t rays_before = row.rays;
   PathSampler sampler(points.eye, seed_of(x, y, k));
-  CameraPath path = start(x, y, sampler);
+  CameraPath path = start(x, y, k, sampler);
   if (merging.connects && !settings.merges_only) {
     // A light path of its own: those that are merged run through one sequence, of which a pixel
     // would see the same part in all passes.
     PathSampler own(points.light, hash_combine(in.seed, kPairStream, x, y));
-    row.rays += trace_light_path(settings, photons.trace.lambda, photons.u_time, own, &worker.path,
+    row.rays += trace_light_path(settings, path.walk.lambda, photons.u_time, own, &worker.path,
                                  nullptr, nullptr, kEyePathDimensions)
                     .rays;
   }

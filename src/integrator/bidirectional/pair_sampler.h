@@ -100,7 +100,7 @@ class PairSampler {
   SamplePoints sample_points(int n, int k) const;
   SpecularRoot::Leaves leaves_at(int x, int y) const;
   uint64_t seed_of(int x, int y, int k) const;
-  CameraPath start(int x, int y, PathSampler& sampler) const;
+  CameraPath start(int x, int y, int k, PathSampler& sampler) const;
 
   const CameraView view_;
   std::vector<std::vector<SamplePoints>> points_;  ///< [samples of a pixel - 1][sample]

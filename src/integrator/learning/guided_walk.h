@@ -24,8 +24,7 @@ class GuidedWalk {
 
   /// The walk has come to a surface.
   void arrive(const Walk& walk) {
-    if (records_)
-      carried_ = whole_spectrum(walk.throughput, walk.lambda.secondary_terminated()).average();
+    if (records_) carried_ = whole_spectrum(walk.throughput, walk.lambda.left()).average();
   }
   /// Light was found, by whatever technique.
   void add(const SampledSpectrum& light) {

@@ -128,7 +128,7 @@ class PathVisitorOf {
 
  protected:
   void add(const Walk& walk, Part part, const SampledSpectrum& value) {
-    light_.add(part, whole_spectrum(value, walk.lambda.secondary_terminated()));
+    light_.add(part, whole_spectrum(value, walk.lambda.left()));
   }
 
   const Scene& scene_;

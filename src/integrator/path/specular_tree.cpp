@@ -100,7 +100,7 @@ class SpecularTree::Visitor {
   void add(const Walk& walk, Part part, const SampledSpectrum& radiance) {
     if (walk.events == 0 || radiance.is_black()) return;
     found_.push_back({part, walk.throughput * radiance * (1.0f / walk.density.u_mean),
-                      walk.lambda.secondary_terminated(), std::min(1.0f, walk.carried())});
+                      walk.lambda.left(), std::min(1.0f, walk.carried())});
   }
 
   const SpecularTree& tree_;

@@ -23,14 +23,14 @@ class SpecularTree {
   struct Light {
     Part part = kNoPart;  ///< one that the group owns
     SampledSpectrum value;
-    bool hero_only = false;  ///< the branch kept its hero wavelength only
+    int left = kAllWavelengths;  ///< or the hero's number, if the branch kept no other wavelength
     /// With which a walk that chooses one way each time, and ends where it is absorbed, had come
     /// there.
     float chance = 1;
 
     /// `sums` are of the wavelengths that the walk started with.
     void add_to(PartSums& sums) const {
-      sums.add(part, whole_spectrum(value, hero_only), Technique::kMeetByMirrors);
+      sums.add(part, whole_spectrum(value, left), Technique::kMeetByMirrors);
     }
   };
 

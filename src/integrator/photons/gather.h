@@ -60,9 +60,9 @@ void gather(const Scene& scene, const PixelBounds& b, const OwnedRoutes& owned, 
     PartSums sums(*owned.routes, owned.group);
     size_t number = row * b.width() * numbers.points.size();
     for (int x = b.x0; x < b.x1; ++x)
-      for (const SobolPoint& point : numbers.points) {
-        PathSampler sampler(point, hash_combine(numbers.seed, x, y));
-        CameraPath path = start_merging_path(scene, x, y, sampler, pass);
+      for (size_t k = 0; k < numbers.points.size(); ++k) {
+        PathSampler sampler(numbers.points[k], hash_combine(numbers.seed, x, y));
+        CameraPath path = start_merging_path(scene, x, y, sampler, pass, static_cast<int>(k));
         sums.clear();
         auto merge_here = [&](const Walk& walk, const MergePoint& at) {
           counts.found += merge(number, path, walk, at, sums);

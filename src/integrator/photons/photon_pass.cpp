@@ -39,7 +39,13 @@ Vec2f hero_and_time_of_pass(const PassKey& key) {
 
 PhotonPass start_photon_pass(const PassKey& key, const Scene& scene, const FilmFormat& film,
                              const IntegratorOptions& options, PassControl& control) {
-  PhotonPass pass{{}, {}, scene.camera->footprint(), 0, eye_point(key.pass)};
+  constexpr uint64_t kHeroes = 0x6865726f;  // "hero"
+  PhotonPass pass{.trace = {},
+                  .weights = {},
+                  .footprint = scene.camera->footprint(),
+                  .u_time = 0,
+                  .first_hero = static_cast<uint32_t>(hash_combine(key.seed, kHeroes, key.pass)),
+                  .point = eye_point(key.pass)};
   pass.trace.key = key;
   pass.trace.control = &control;
   const Vec2f u = hero_and_time_of_pass(key);

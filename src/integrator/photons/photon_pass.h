@@ -24,16 +24,21 @@ struct PhotonPass {
   PhotonTraceSettings trace;  ///< with the pass's wavelengths, time and number of photons
   SensorWeights weights;
   PixelFootprint footprint;
-  float u_time = 0;  ///< of the camera walks; trace.time is the same moment
-  SobolPoint point;  ///< of the camera walks
+  float u_time = 0;         ///< of the camera walks; trace.time is the same moment
+  uint32_t first_hero = 0;  ///< of the camera walks: the one of pixel (0, 0)
+  SobolPoint point;         ///< of the camera walks
 };
 PhotonPass start_photon_pass(const PassKey& key, const Scene& scene, const FilmFormat& film,
                              const IntegratorOptions& options, PassControl& control = unwatched);
 
-/// Starts the camera walk of a pixel, with the wavelengths, time and threshold of the pass.
+/// Starts camera walk number `sample` of a pixel in the pass, with the wavelengths, time and
+/// threshold of the pass and a hero of its own: neighbours have all of them.
 inline CameraPath start_merging_path(const Scene& scene, int x, int y, PathSampler& sampler,
-                                     const PhotonPass& pass) {
-  CameraPath path = start_camera_path(scene, x, y, sampler, pass.trace.lambda, pass.u_time);
+                                     const PhotonPass& pass, int sample = 0) {
+  const uint32_t hero = pass.first_hero + x + 3 * y + 5 * sample;
+  CameraPath path = start_camera_path(
+      scene, x, y, sampler, pass.trace.lambda.with_hero(static_cast<int>(hero % kSpectrumSamples)),
+      pass.u_time);
   path.walk.specular_alpha = pass.trace.specular_alpha;
   path.walk.per_wavelength = true;
   return path;
@@ -86,8 +91,8 @@ class MergeWalkVisitor {
     const ClassMask classes =
         routes_.merges(group_, eye_, label_at(symbols_, v)) & v.bsdf.finite_classes();
     if (classes == ClassMask::kNone) return;
-    merge_(walk, MergePoint{v, eye_, classes, walk.events + 1, walk.throughput,
-                            walk.lambda.secondary_terminated()});
+    merge_(walk,
+           MergePoint{v, eye_, classes, walk.events + 1, walk.throughput, walk.lambda.left()});
   }
   bool scatter(const Walk&, const WalkEvent& event) {
     eye_ = routes_.next(eye_, symbol_of(symbols_, event));

@@ -19,7 +19,7 @@ using Lights = std::vector<std::unique_ptr<PointLight>>;
 /// What lights are chosen by.
 double flux_of(const PointLight& light) {
   const SampledSpectrum& flux = light.flux;
-  return light.secondary_terminated ? flux[0] : flux.max_component();
+  return light.left != kAllWavelengths ? flux[light.left] : flux.max_component();
 }
 
 void drop_black(Lights& lights) {
@@ -73,7 +73,7 @@ class PointLightVisitor : public LightWalkVisitor {
     light->only_from_light = only_from_light_;
     SampledWavelengths lambda = walk.lambda;
     light->bsdf = v.material.make_bsdf(light->surface, lambda, walk.specular_alpha, light->arena);
-    light->secondary_terminated = lambda.secondary_terminated();
+    light->left = lambda.left();
     if (!light->bsdf) return;
     if (static_cast<int64_t>(out_.size()) == most_) thin(out_, most_ / 2, number_of(walk.events));
     out_.push_back(std::move(light));
@@ -106,7 +106,8 @@ uint64_t trace(const Scene& scene, const OwnedRoutes& owned, const PhotonTraceSe
   uint64_t rays = 0;
   sequence.at(number, [&](PathSampler& sampler) {
     launch_light_path(
-        launch, settings.lambda, settings.time, sampler, kEmissionDimensions,
+        launch, with_own_hero(settings.lambda, settings.key.seed, number), settings.time, sampler,
+        kEmissionDimensions,
         [&](const Emission& emission) {
           return PointLightVisitor(owned, scene, emission, most,
                                    hash_combine(settings.key.seed, number), out);

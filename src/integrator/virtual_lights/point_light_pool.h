@@ -22,7 +22,7 @@ struct PointLight {
   int events = 0;                  ///< scattering events before this vertex
   /// The light path began with a delta light and a delta lobe: no walk from the eye finds it.
   bool only_from_light = false;
-  bool secondary_terminated = false;
+  int left = kAllWavelengths;  ///< or the hero's number, if it kept no other wavelength
   const Bsdf* bsdf = nullptr;  ///< in `arena`
   BsdfArena arena;
 

@@ -94,6 +94,7 @@ class PointLightsVisitor : public PathVisitorOf<PointLightsVisitor> {
                const ChosenLight& chosen, const PathSampler& sampler) {
     const PointLight& y = *chosen.light;
     if (walk.events + y.events + 2 > pass_.max_depth) return;
+    if (are_apart(walk.lambda.left(), y.left)) return;
     const Vec3f way = y.surface.p - x.surface.p;
     const float d2 = dot(way, way);
     if (!(d2 > 0.0f)) return;
@@ -126,8 +127,7 @@ class PointLightsVisitor : public PathVisitorOf<PointLightsVisitor> {
         traced = true;
         if (arriving.is_black()) return;
         const SampledSpectrum found = arriving * at_x.f * at_y.f * (geometry * share);
-        light_.add(part, whole_spectrum(
-                             found, y.secondary_terminated || walk.lambda.secondary_terminated()));
+        light_.add(part, merged_spectrum(found, walk.lambda.left(), y.left));
       }
     }
   }

@@ -14,15 +14,15 @@ constexpr float kReached = 0.999f;
 }  // namespace
 
 TabulatedBssrdf::TabulatedBssrdf(const Vec3f& p, const Vec3f& ns, const SampledSpectrum& sigma_a,
-                                 const SampledSpectrum& sigma_s, const BssrdfTable* table,
-                                 int wavelengths)
+                                 const SampledSpectrum& sigma_s, const BssrdfTable* table, int left)
     : p_(p),
       frame_(Frame::from_z(ns)),
       table_(table),
-      wavelengths_(wavelengths),
+      first_(left == kAllWavelengths ? 0 : left),
+      wavelengths_(left == kAllWavelengths ? kSpectrumSamples : 1),
       sigma_t_(sigma_a + sigma_s) {
   const SampledSpectrum albedo = safe_div(sigma_s, sigma_t_);
-  for (int i = 0; i < wavelengths_; ++i) {
+  for (int i = first_; i < first_ + wavelengths_; ++i) {
     SplineWeights& weights = albedo_[i];
     weights = table_->albedo_weights(albedo[i]);
     const std::optional<float> reach =
@@ -47,7 +47,7 @@ float TabulatedBssrdf::pdf_r(int i, float r) const {
 SampledSpectrum TabulatedBssrdf::sp(const Vec3f& p) const {
   const float r = length(p - p_);
   SampledSpectrum s;
-  for (int i = 0; i < wavelengths_; ++i) s.set(i, profile(i, r));
+  for (int i = first_; i < first_ + wavelengths_; ++i) s.set(i, profile(i, r));
   return s;
 }
 
@@ -57,7 +57,7 @@ float TabulatedBssrdf::pdf_a(const Vec3f& p, const Vec3f& ng) const {
   const float r = length(d);
   const float across[3] = {std::hypot(d.y, d.z), std::hypot(d.z, d.x), std::hypot(d.x, d.y)};
   float sum = 0.0f;
-  for (int i = 0; i < wavelengths_; ++i) {
+  for (int i = first_; i < first_ + wavelengths_; ++i) {
     // Probes are chords of a sphere.
     if (r >= reach_[i]) continue;
     for (int axis = 0; axis < 3; ++axis)
@@ -71,8 +71,8 @@ std::optional<BssrdfProbe> TabulatedBssrdf::sample_probe(float u_axis, const Vec
   float below = 0.0f;
   while (axis < 2 && u_axis >= below + kAxisShare[axis]) below += kAxisShare[axis++];
   const float u_wavelength = (u_axis - below) / kAxisShare[axis];
-  const int i =
-      std::min(static_cast<int>(u_wavelength * static_cast<float>(wavelengths_)), wavelengths_ - 1);
+  const int i = first_ + std::min(static_cast<int>(u_wavelength * static_cast<float>(wavelengths_)),
+                                  wavelengths_ - 1);
   if (!(reach_[i] > 0.0f)) return std::nullopt;
   const std::optional<float> optical = table_->sample_radius(albedo_[i], u.x);
   if (!optical) return std::nullopt;

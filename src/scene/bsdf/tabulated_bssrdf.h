@@ -12,10 +12,10 @@ namespace nephroid {
 class TabulatedBssrdf final : public Bssrdf {
  public:
   /// Around `p` with unit shading normal `ns`, world space. `sigma_a` and `sigma_s` per length in
-  /// the scene's units, not negative. `table` outlives the object. Only the first `wavelengths` of
-  /// a path count (1 after the others were dropped).
+  /// the scene's units, not negative. `table` outlives the object. Only wavelength number `left`
+  /// of a path counts, or all do (kAllWavelengths).
   TabulatedBssrdf(const Vec3f& p, const Vec3f& ns, const SampledSpectrum& sigma_a,
-                  const SampledSpectrum& sigma_s, const BssrdfTable* table, int wavelengths);
+                  const SampledSpectrum& sigma_s, const BssrdfTable* table, int left);
 
   std::optional<BssrdfProbe> sample_probe(float u_axis, const Vec2f& u) const override;
   SampledSpectrum sp(const Vec3f& p) const override;
@@ -34,7 +34,7 @@ class TabulatedBssrdf final : public Bssrdf {
   Vec3f p_;
   Frame frame_;
   const BssrdfTable* table_;
-  int wavelengths_;
+  int first_, wavelengths_;  ///< of a path that count, one behind the other
   SampledSpectrum sigma_t_, effective_albedo_, reach_;
   std::array<SplineWeights, kSpectrumSamples> albedo_;
 };

@@ -61,7 +61,7 @@ IndexInput::IndexInput(const ParameterSet& parameters, const std::string& name, 
 
 float IndexInput::at_hero(SampledWavelengths& lambda) const {
   if (constant_) return *constant_;
-  const float eta = (*spectrum_)(lambda.lambda(0));
+  const float eta = (*spectrum_)(lambda.hero());
   lambda.terminate_secondary();
   return eta == 0.0f || eta == 1.0f ? 1.0f + 1e-6f : eta;
 }

@@ -74,7 +74,7 @@ class SubsurfaceMaterial final : public SurfaceMaterial {
       sigma_s = positive(sigma_s_.at(point, lambda) * scale_);
     }
     return arena.make<TabulatedBssrdf>(point.p, point.shading.z, sigma_a, sigma_s, table_.get(),
-                                       lambda.secondary_terminated() ? 1 : kSpectrumSamples);
+                                       lambda.left());
   }
   bool has_bssrdf() const override { return true; }
   ClassMask possible_classes() const override {

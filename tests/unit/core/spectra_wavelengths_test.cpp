@@ -106,6 +106,23 @@ TEST(SampledWavelengths, TerminatingTwiceIsTerminatingOnce) {
   for (int i = 1; i < kSpectrumSamples; ++i) EXPECT_EQ(s.pdf()[i], 0.0f);
 }
 
+TEST(SampledWavelengths, AnyOneCanBeTheHero) {
+  const auto all = SampledWavelengths::sample_visible(0.4f);
+  EXPECT_EQ(all.left(), kAllWavelengths);
+  EXPECT_EQ(all.hero(), all.lambda(0));
+  for (int number = 0; number < kSpectrumSamples; ++number) {
+    SampledWavelengths s = all.with_hero(number);
+    EXPECT_EQ(s.hero(), all.lambda(number));
+    EXPECT_EQ(s.left(), kAllWavelengths);
+    s.terminate_secondary();
+    EXPECT_EQ(s.left(), number);
+    for (int i = 0; i < kSpectrumSamples; ++i) {
+      EXPECT_EQ(s.lambda(i), all.lambda(i));
+      EXPECT_FLOAT_EQ(s.pdf()[i], i == number ? all.pdf()[i] / kSpectrumSamples : 0.0f);
+    }
+  }
+}
+
 TEST(SampledWavelengths, TerminatingKeepsTheMean) {
   // The integral of f over wavelength, estimated with all wavelengths and with the hero alone.
   const auto f = [](float lambda) { return 1.0f + std::sin(lambda * 0.02f); };

@@ -90,11 +90,13 @@ TEST(SubsurfaceMaterial, ReflectanceAndFreePathAreInverted) {
 
 TEST(SubsurfaceMaterial, DroppedWavelengthsAreLeftOut) {
   const Made milk("");
-  SampledWavelengths hero = test_wavelengths();
-  hero.terminate_secondary();
-  const SampledSpectrum alone = profile_of(milk, kR, hero);
-  EXPECT_FLOAT_EQ(alone[0], profile_of(milk, kR)[0]);
-  EXPECT_EQ(alone[1], 0.0f);
+  for (const int number : {0, 5}) {
+    SampledWavelengths hero = test_wavelengths().with_hero(number);
+    hero.terminate_secondary();
+    const SampledSpectrum alone = profile_of(milk, kR, hero);
+    EXPECT_FLOAT_EQ(alone[number], profile_of(milk, kR)[number]);
+    EXPECT_EQ(alone[1], 0.0f);
+  }
 }
 
 TEST(SubsurfaceMaterial, BoundaryHasTheRoughnessOfTheFormat) {

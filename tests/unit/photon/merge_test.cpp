@@ -57,13 +57,13 @@ struct VisiblePoint {
     surface.shading = Frame::from_z_and_tangent(surface.ng, Vec3f(1, 0, 0));
   }
   Merged merge(const std::vector<Photon>& photons, const OwnedRoutes& owned, int eye_events = 1,
-               int max_depth = kAnyDepth, bool eye_terminated = false) const {
+               int max_depth = kAnyDepth, int eye_left = kAllWavelengths) const {
     const Bsdf& bsdf = translucent ? static_cast<const Bsdf&>(both) : reflecting;
     const WalkVertex vertex{surface, *one_material().materials.back(), bsdf,
                             surface.shading.to_local(wo), ClassMask::kDiffuse};
     PartSums sums(*owned.routes, owned.group);
     const MergePoint at{vertex,     owned.routes->start(), ClassMask::kRough,
-                        eye_events, SampledSpectrum(1.0f), eye_terminated};
+                        eye_events, SampledSpectrum(1.0f), eye_left};
     Merged merged;
     merged.found = merge_photons(PhotonGrid(photons), owned, at, max_depth, kRadius, sums);
     for (const SampledSpectrum& sum : sums.sums()) merged.reflected += sum;
@@ -86,8 +86,8 @@ struct VisiblePoint {
     return merged;
   }
   // All light belongs to one route.
-  Merged merge(const std::vector<Photon>& photons, bool eye_terminated = false) const {
-    return merge(photons, all_photons(), 1, kAnyDepth, eye_terminated);
+  Merged merge(const std::vector<Photon>& photons, int eye_left = kAllWavelengths) const {
+    return merge(photons, all_photons(), 1, kAnyDepth, eye_left);
   }
 };
 
@@ -177,23 +177,33 @@ TEST(Merge, TheSideOfArrivalSelectsReflectionOrTransmission) {
   }
 }
 
-TEST(Merge, TheHeroStandsForAllWavelengthsOnce) {
+TEST(Merge, WhatIsLeftStandsForAllWavelengths) {
   const VisiblePoint point;
-  Photon whole = photon_from({0, 0, 1}), hero = whole;
-  hero.secondary_terminated = 1;
-  SampledSpectrum expected_hero;
-  expected_hero.set(0, ramp()[0] * kReflectance * kInvPi * kSpectrumSamples);
+  // Over all pairs of heroes the mean is that of all wavelengths.
+  SampledSpectrum mean_one_dropped, mean_both_dropped;
   const SampledSpectrum expected_whole = ramp() * (kReflectance * kInvPi);
-
-  for (const bool eye : {false, true})
-    for (const bool photon : {false, true}) {
-      const Merged m = point.merge({photon ? hero : whole}, eye);
-      expect_spectrum(m.reflected, eye || photon ? expected_hero : expected_whole,
-                      std::string("eye ") + (eye ? "dropped" : "kept") + ", photon " +
-                          (photon ? "dropped" : "kept"));
+  const Photon whole = photon_from({0, 0, 1});
+  expect_spectrum(point.merge({whole}).reflected, expected_whole, "none dropped");
+  constexpr float kShare = 1.0f / kSpectrumSamples;
+  for (int a = 0; a < kSpectrumSamples; ++a) {
+    Photon hero = whole;
+    hero.left = static_cast<int8_t>(a);
+    SampledSpectrum expected;
+    expected.set(a, expected_whole[a] * kSpectrumSamples);
+    const Merged of_photon = point.merge({hero});
+    expect_spectrum(of_photon.reflected, expected, "the photon's");
+    expect_spectrum(point.merge({whole}, a).reflected, expected, "the eye's");
+    expect_spectrum(point.merge({whole, hero}).reflected, expected_whole + expected, "one of each");
+    mean_one_dropped = mean_one_dropped + of_photon.reflected * kShare;
+    for (int b = 0; b < kSpectrumSamples; ++b) {
+      const Merged both = point.merge({hero}, b);
+      EXPECT_EQ(both.found, a == b ? 1u : 0u);
+      EXPECT_EQ(both.reflected.is_black(), a != b);
+      mean_both_dropped = mean_both_dropped + both.reflected * (kShare * kShare);
     }
-  expect_spectrum(point.merge({whole, hero}).reflected, expected_whole + expected_hero,
-                  "one of each");
+  }
+  expect_spectrum(mean_one_dropped, expected_whole, "one dropped");
+  expect_spectrum(mean_both_dropped, expected_whole, "both dropped");
 }
 
 TEST(Merge, TheDepthLimitCountsTheEventsOfBothSides) {

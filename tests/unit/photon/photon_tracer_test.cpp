@@ -42,7 +42,7 @@ PhotonTrace trace_all(const Scene& scene, const PhotonTraceSettings& s) {
 
 bool same(const Photon& a, const Photon& b) {
   return a.p == b.p && a.wi == b.wi && a.ng == b.ng && a.flux == b.flux && a.state == b.state &&
-         a.secondary_terminated == b.secondary_terminated && a.events == b.events;
+         a.left == b.left && a.events == b.events;
 }
 
 void expect_same(const std::vector<Photon>& a, const std::vector<Photon>& b) {
