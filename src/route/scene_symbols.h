@@ -4,11 +4,20 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "route/routes.h"
 #include "scene/scene.h"
 
 namespace nephroid {
+
+/// A material on some shape whose lobes may be of class G.
+struct GlossyMaterial {
+  std::string name;            ///< its label and where it stands: "dielectric1 (FILE:LINE:COLUMN)"
+  std::optional<float> alpha;  ///< as Material::facet_alpha
+};
 
 class SceneSymbols {
  public:
@@ -26,6 +35,10 @@ class SceneSymbols {
 
   /// What can occur in this scene: a conservative answer.
   const SymbolSet& present() const { return present_; }
+  /// Materials that may be glossy, smoothest first.
+  const std::vector<GlossyMaterial>& glossy_materials() const { return glossy_; }
+  /// The band of thresholds at and below which microfacets are of class S.
+  const SpecularBand& specular_band() const { return specular_band_; }
   /// Labels that nothing in the scene goes by: a warning.
   const std::vector<std::string>& unknown_labels() const { return unknown_; }
   /// True if a label is unknown only because a mix goes by those of its materials.
@@ -39,6 +52,8 @@ class SceneSymbols {
   SymbolSet present_;
   std::vector<std::string> unknown_;
   bool unknown_is_mix_ = false;
+  std::vector<GlossyMaterial> glossy_;
+  SpecularBand specular_band_;
 };
 
 /// What an estimator needs to know of routes: all of them, their symbols in the scene, and which

@@ -33,6 +33,7 @@ class SceneBuilder {
     scene_->materials = make_materials(
         d_, textures_, {overrides.specular_band, scene_->options.force_diffuse}, diagnostics);
     scene_->material_labels = material_labels(d_);
+    for (const MaterialDescription& m : d_.materials) scene_->material_places.push_back(m.where);
     for (size_t i = 0; i < d_.materials.size(); ++i)
       if (!d_.materials[i].name.empty())
         material_index_[d_.materials[i].name] = static_cast<int>(i);
@@ -57,6 +58,7 @@ class SceneBuilder {
       const Medium* around = medium_named(d_.lights[i].medium, d_.lights[i].where);
       scene_->light_media.push_back({around, around});
       scene_->light_labels.push_back(light_labels_.light(i));
+      scene_->light_places.push_back(d_.lights[i].where);
     }
   }
 
@@ -173,6 +175,7 @@ class SceneBuilder {
       scene_->lights.push_back(std::move(light));
       scene_->light_media.push_back(record.media);
       scene_->light_labels.push_back(light_labels_.area_light(*description.area_light));
+      scene_->light_places.push_back(description.area_light->where);
     }
   }
 
