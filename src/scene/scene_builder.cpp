@@ -7,6 +7,7 @@
 #include "core/parallel.h"
 #include "scene/camera/camera.h"
 #include "scene/film_description.h"
+#include "scene/inside_out.h"
 #include "scene/pixel_filter.h"
 #include "scene/sampler_description.h"
 #include "scene/scene.h"
@@ -154,6 +155,7 @@ class SceneBuilder {
     if (contains(material.possible_classes(), EventClass::kSpecular))
       scene_->has_specular_material = true;
     record.merges_photons = shape->merges_photons();
+    inside_out_.add(description, record, material, group);
     group.accelerator->add_shape(shape, passing ? kMaskPassing : kMaskOpaque);
     scene_->primitive_count += shape->primitive_count();
     ++scene_->shape_count;
@@ -241,6 +243,8 @@ class SceneBuilder {
     if (!(scene_->sphere.radius > 0)) scene_->sphere.radius = 1;
     for (const LightPtr& light : scene_->lights) light->set_scene_sphere(scene_->sphere);
     scene_->light_sampler = std::make_unique<LightSampler>(scene_->lights);
+    inside_out_.report(scene_->top, scene_->camera->camera_to_world(0.0f).point(Vec3f(0, 0, 0)),
+                       diagnostics_);
     const SourceLocation file{std::make_shared<const std::string>(d_.file), 0, 0};
     if (scene_->shape_count == 0) diagnostics_.warn(file, "the scene has no shapes");
     if (scene_->lights.empty())
@@ -254,6 +258,7 @@ class SceneBuilder {
   Diagnostics& diagnostics_;
   TextureLibrary textures_;
   LightLabels light_labels_;
+  InsideOutCheck inside_out_;
   std::unique_ptr<Scene> scene_;
   std::shared_ptr<EmbreeDevice> device_;
   std::map<std::string, int> material_index_;
