@@ -2,6 +2,7 @@
 #pragma once
 
 #include "photon/packed_values.h"
+#include "route/lamp.h"
 #include "route/routes.h"
 
 namespace nephroid {
@@ -16,6 +17,7 @@ struct Photon {
   uint8_t secondary_terminated = 0;
   uint8_t set = 0;      ///< of a map whose photons do not share one set of wavelengths
   uint16_t events = 0;  ///< scattering events before this vertex
+  Lamp lamp = 0;        ///< that it comes from; not kept in files
   float cut_here = 0,
         cuts_before = 0;  ///< PartialMisWeights, where other techniques find the path, too
 

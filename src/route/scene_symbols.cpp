@@ -3,6 +3,7 @@
 #include "route/scene_symbols.h"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "scene/shown_materials.h"
@@ -44,6 +45,7 @@ SceneSymbols::SceneSymbols(const Scene& scene, const std::vector<std::string>& l
   }
   specular_band_ = scene.specular_band;
   find_surface_events(scene);
+  find_lamps(scene);
   for (size_t i = 0; i < scene.media.size(); ++i) {
     const Medium& medium = *scene.media[i];
     const Label label = number(scene.medium_labels, i);
@@ -63,6 +65,26 @@ SceneSymbols::SceneSymbols(const Scene& scene, const std::vector<std::string>& l
     unknown_.push_back(labels[i]);
     unknown_is_mix_ = unknown_is_mix_ || called_mix[i];
   }
+}
+
+Lamp SceneSymbols::new_lamp(const std::string& name) {
+  if (lamp_names_.size() == kMaxLamps)
+    lamp_names_.back() = "other lights";
+  else
+    lamp_names_.push_back(name);
+  return static_cast<Lamp>(lamp_names_.size() - 1);
+}
+
+void SceneSymbols::find_lamps(const Scene& scene) {
+  std::map<std::string, Lamp> by_label;
+  for (size_t i = 0; i < scene.lights.size(); ++i) {
+    const auto known = by_label.find(scene.light_labels[i]);
+    lamps_.push_back(known != by_label.end() ? known->second : new_lamp(name_of_light(scene, i)));
+    by_label.emplace(scene.light_labels[i], lamps_.back());
+  }
+  for (size_t i = 0; i < scene.media.size(); ++i)
+    lamps_of_media_.push_back(scene.media[i]->is_emissive() ? new_lamp(scene.medium_labels[i])
+                                                            : Lamp{0});
 }
 
 void SceneSymbols::find_surface_events(const Scene& scene) {

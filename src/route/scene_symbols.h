@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "route/lamp.h"
 #include "route/routes.h"
 #include "scene/scene.h"
 
@@ -33,6 +34,13 @@ class SceneSymbols {
     return light_symbol(LightKind::kMedium, medium(medium_index));
   }
 
+  /// What lights are told apart by in reports: those of one label are one lamp. Of Scene::lights.
+  Lamp lamp(int light) const { return lamps_[light]; }
+  /// Of the light that a medium emits.
+  Lamp lamp_of_medium(int medium_index) const { return lamps_of_media_[medium_index]; }
+  /// [lamp]: label and place; the last of kMaxLamps is all that do not fit.
+  const std::vector<std::string>& lamp_names() const { return lamp_names_; }
+
   /// What can occur in this scene: a conservative answer.
   const SymbolSet& present() const { return present_; }
   /// Materials that may be glossy, smoothest first.
@@ -46,9 +54,13 @@ class SceneSymbols {
 
  private:
   void find_surface_events(const Scene& scene);
+  void find_lamps(const Scene& scene);
+  Lamp new_lamp(const std::string& name);
 
   std::vector<Label> materials_, media_;
   std::vector<LightSymbol> lights_;
+  std::vector<Lamp> lamps_, lamps_of_media_;
+  std::vector<std::string> lamp_names_;
   SymbolSet present_;
   std::vector<std::string> unknown_;
   bool unknown_is_mix_ = false;

@@ -38,9 +38,8 @@ class EyeVisitor {
     for (const int i : scene.light_sampler->infinite_lights()) {
       const Part part = routes_.owner(eye_, symbols_.light(i));
       if (!light_.owns(part)) continue;
-      const Light& light = *scene.lights[i];
       const SampledSpectrum le =
-          light.radiance_at_infinity(walk.previous_p, walk.ray.d, walk.lambda);
+          scene.lights[i]->radiance_at_infinity(walk.previous_p, walk.ray.d, walk.lambda);
       if (le.is_black()) continue;
       double weight = 1;
       if (weighs_hit(walk)) {
@@ -49,7 +48,8 @@ class EyeVisitor {
                                              direct_pdf_w(scene, walk, i), end.has_cuts_before());
         weight = weight_of_hit(start, end.next({start.line.at_b, 1}));
       }
-      add(part, walk, Technique::kMeetLight, walk.throughput * le * static_cast<float>(weight));
+      add(part, symbols_.lamp(i), walk, Technique::kMeetLight,
+          walk.throughput * le * static_cast<float>(weight));
     }
   }
 
@@ -67,7 +67,8 @@ class EyeVisitor {
                       direct_pdf_w(settings_.scene, walk, hit), end.has_cuts_before());
       weight = weight_of_hit(start, end.next({start.line.at_b, start.line.at_a}));
     }
-    add(part, walk, Technique::kMeetLight, walk.throughput * le * static_cast<float>(weight));
+    add(part, symbols_.lamp(hit.area_light), walk, Technique::kMeetLight,
+        walk.throughput * le * static_cast<float>(weight));
   }
 
   void medium_emission(const Medium&, const SampledSpectrum&) {}
@@ -162,12 +163,12 @@ class EyeVisitor {
   bool weighs_hit(const Walk& walk) const {
     return settings_.technique.weighted && walk.events > 0;
   }
-  void add(Part part, const Walk& walk, Technique technique, const SampledSpectrum& value,
-           bool hero_only = false, float bias = 0) {
+  void add(Part part, Lamp lamp, const Walk& walk, Technique technique,
+           const SampledSpectrum& value, bool hero_only = false, float bias = 0) {
     const SampledSpectrum whole =
         whole_spectrum(value, hero_only || walk.lambda.secondary_terminated());
     guided_.add(whole);
-    light_.add(part, whole, technique);
+    light_.add(part, lamp, whole, technique);
     if (bias != 0) light_.add_bias(whole * bias);
   }
 
@@ -227,14 +228,13 @@ class EyeVisitor {
     if (!d) return;
     Arms arms;
     if (!arms_of_eye(z, d->wi_world, true, arms)) return;
-    const LightSymbol symbol = symbols_.light(d->light);
     SampledSpectrum arriving;
     LightStart start;
     bool traced = false;
     for (size_t i = 0; i < arms.size(); ++i) {
       const Arm& arm = arms[i];
       if (!arm.used) continue;
-      const Part part = routes_.owner(arm.eye, symbol);
+      const Part part = routes_.owner(arm.eye, symbols_.light(d->light));
       if (!light_.owns(part)) continue;
       if (!traced) {
         arriving = z.walk.throughput * d->radiance * shadow(*d, z.walk, sampler);
@@ -246,7 +246,8 @@ class EyeVisitor {
       if (settings_.technique.weighted)
         weight = weight_of_direct(start, sums_.behind(z.class_of(i), true), arm.density.forward,
                                   arm.density.back, arm.merge);
-      add(part, z.walk, Technique::kSampleLight, arriving * arm.f * static_cast<float>(weight));
+      add(part, symbols_.lamp(d->light), z.walk, Technique::kSampleLight,
+          arriving * arm.f * static_cast<float>(weight));
     }
   }
 
@@ -260,6 +261,7 @@ class EyeVisitor {
 
   SampledSpectrum shadow(const DirectSample& d, const Walk& walk, const PathSampler& sampler) {
     ++rays_;
+    light_.count_ray_to(symbols_.lamp(d.light));
     return attenuation_to_light(settings_.scene, d, walk.lambda, sampler);
   }
 
@@ -292,7 +294,6 @@ class EyeVisitor {
       return;
     const Place at_y{y.surface.p, y.in_medium ? Vec3f(0, 0, 0) : y.surface.ng};
     const LineFactors line = line_between(place_, at_y);
-    const bool hero_only = y.lambda.secondary_terminated();
     SampledSpectrum arriving;
     bool traced = false;
     for (const Arm& a : eye_arms) {
@@ -310,8 +311,8 @@ class EyeVisitor {
               1 /
               (1 + cuts_before(y.sums, a.density.forward * line.at_b, b.density.back, b.merge) +
                cuts_before(sums_.all(), b.density.forward * line.at_a, a.density.back, a.merge));
-        add(part, z.walk, Technique::kConnect, arriving * a.f * b.f * static_cast<float>(weight),
-            hero_only);
+        add(part, y.lamp, z.walk, Technique::kConnect,
+            arriving * a.f * b.f * static_cast<float>(weight), y.lambda.secondary_terminated());
       }
     }
   }
@@ -370,7 +371,7 @@ void EyeVisitor::merge(const Walk& walk, const WalkVertex& v, ClassMask among) {
         weight =
             weight_of_merge(sums_.all(), back, {photon.cut_here, photon.cuts_before}, towards, own);
       }
-      add(event.part, walk, Technique::kMerge,
+      add(event.part, photon.lamp, walk, Technique::kMerge,
           walk.throughput * event.bsdf.f * photon.flux.unpacked() *
               (event.cosine * scale * static_cast<float>(weight)),
           photon.secondary_terminated, bias_factor(d2, radius));

@@ -68,7 +68,9 @@ constinit const EstimatorDescriptor PathAndPhotons::kDescriptor = {
 };
 
 PathAndPhotons::PathAndPhotons(OwnedRoutes owned, const IntegratorOptions& options)
-    : owned_(std::move(owned)), options_(options) {}
+    : owned_(std::move(owned)), options_(options) {
+  statistics_.tells_lamps = true;
+}
 
 Candidate PathAndPhotons::best_of(Trials& trials, const Scene& scene, const FilmFormat& film,
                                   const MixPlan& plan) const {
