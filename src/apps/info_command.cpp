@@ -101,6 +101,14 @@ void print_labels(const char* kind, const std::vector<std::string>& labels) {
   fmt::print("labels of {}: {}\n", kind, text.empty() ? "none" : text);
 }
 
+const char* caustics_of(const Scene& scene) {
+  if (scene.has_specular_material) return "some specular: caustics are possible";
+  for (const MaterialPtr& material : scene.materials)
+    if (contains(material->possible_classes(), EventClass::kGlossy))
+      return "none specular, some glossy: caustics are a part of the diffuse light";
+  return "none specular or glossy: there can be no caustics";
+}
+
 void print_integrator(const Scene& scene) {
   const std::string& own = scene.integrator;
   const std::string here = integrator_for_scene_name(own.empty() ? "volpath" : own);
@@ -125,9 +133,7 @@ int run_info(const InfoCommand& command) {
                                                        : std::string("perspective (default)"));
   print_integrator(scene);
   print_geometry(scene);
-  fmt::print("materials: {}, {}\n", scene.materials.size(),
-             scene.has_specular_material ? "some specular: caustics are possible"
-                                         : "none specular: there can be no caustics");
+  fmt::print("materials: {}, {}\n", scene.materials.size(), caustics_of(scene));
   print_lights(scene);
   print_labels("lights", scene.light_labels);
   print_labels("materials", labels_of_materials(loaded.description, scene));

@@ -11,6 +11,7 @@
 
 #include "core/color.h"
 #include "film/film.h"
+#include "film/lamp_light.h"
 #include "film/technique_light.h"
 #include "route/routes.h"
 
@@ -51,11 +52,36 @@ class PartSums {
         if (std::isfinite(found)) light[i][t] += found;
       }
   }
+  /// From now on it is kept which of so many lamps gave how much.
+  void tell_lamps_apart(size_t lamps) { lamp_rays_.assign(lamps, 0); }
+  void add(Part part, Lamp lamp, const SampledSpectrum& value) {
+    add(part, value);
+    add_of_lamp(lamp, value);
+  }
+  void add(Part part, Lamp lamp, const SampledSpectrum& value, Technique technique) {
+    add(part, value, technique);
+    add_of_lamp(lamp, value);
+  }
+  /// A shadow ray to a lamp.
+  void count_ray_to(Lamp lamp) {
+    if (!lamp_rays_.empty()) ++lamp_rays_[lamp];
+  }
+  /// [lamp], since they are told apart.
+  std::span<const uint32_t> lamp_rays() const { return lamp_rays_; }
+  /// As add_techniques_to, `light` is as large as the number of lamps.
+  void add_lamps_to(std::span<double> light, const SensorWeights& weights, double factor) const {
+    for (const OfLamp& l : of_lamps_) {
+      const Rgb color = weights.apply(l.value);
+      const double found = factor * (static_cast<double>(color.r) + color.g + color.b);
+      if (std::isfinite(found)) light[l.lamp] += found;
+    }
+  }
   /// What the values are off by in the mean, estimated; of all parts together.
   void add_bias(const SampledSpectrum& value) { bias_ += value; }
   void clear() {
     for (SampledSpectrum& sum : sums_) sum = SampledSpectrum();
     for (auto& sums : of_techniques_) sums.fill(SampledSpectrum());
+    of_lamps_.clear();
     bias_ = SampledSpectrum();
   }
   std::span<const SampledSpectrum> sums() const { return sums_; }
@@ -88,10 +114,22 @@ class PartSums {
   }
 
  private:
+  void add_of_lamp(Lamp lamp, const SampledSpectrum& value) {
+    if (lamp_rays_.empty()) return;
+    if (of_lamps_.empty() || of_lamps_.back().lamp != lamp) of_lamps_.push_back({lamp, {}});
+    of_lamps_.back().value += value;
+  }
+
   static constexpr uint8_t kNotOwned = 255;
   std::array<uint8_t, 256> place_;
   std::vector<SampledSpectrum> sums_;
   std::vector<std::array<SampledSpectrum, kTechniqueCount>> of_techniques_;  ///< empty: untold
+  struct OfLamp {
+    Lamp lamp;
+    SampledSpectrum value;
+  };
+  std::vector<OfLamp> of_lamps_;     ///< since the last clear()
+  std::vector<uint32_t> lamp_rays_;  ///< [lamp]; empty: untold
   SampledSpectrum bias_;
   std::vector<Rgb> colors_;
 };

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "film/film.h"
+#include "film/lamp_light.h"
 #include "scene/pixel_filter.h"
 
 namespace nephroid {
@@ -20,6 +21,7 @@ struct Splat {
   Vec2f film{0, 0};
   uint8_t part = 0;  ///< index into parts_of(group), not a part of the film's layout
   Rgb value;
+  Lamp lamp = 0;
 };
 
 /// What one group's splats of one pass add up to.

@@ -103,6 +103,7 @@ class LightWalkVisitor {
       : routes_(*owned.routes),
         symbols_(*owned.symbols),
         group_(owned.group),
+        lamp_(symbols_.lamp(emission.light)),
         state_(routes_.emitted(symbols_.light(emission.light))) {}
 
   void escape(const Walk&) {}
@@ -135,6 +136,7 @@ class LightWalkVisitor {
     photon.flux = PackedSpectrum(flux * walk.throughput / v.surface.coverage);
     photon.state = state_;
     photon.left = static_cast<int8_t>(walk.lambda.left());
+    photon.lamp = lamp_;
     photon.events = static_cast<uint16_t>(walk.events);
     return photon;
   }
@@ -154,6 +156,7 @@ class LightWalkVisitor {
   const Routes& routes_;
   const SceneSymbols& symbols_;
   const size_t group_;
+  const Lamp lamp_;
   LightState state_;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "photon/packed_values.h"
+#include "route/lamp.h"
 #include "route/routes.h"
 
 namespace nephroid {
@@ -15,6 +16,7 @@ struct Photon {
   int8_t left = kAllWavelengths;  ///< or the number of the only wavelength that was not dropped
   uint8_t set = 0;                ///< of a map whose photons do not share one set of wavelengths
   uint16_t events = 0;            ///< scattering events before this vertex
+  Lamp lamp = 0;                  ///< that it comes from; not kept in files
   /// PartialMisWeights, where other techniques find the path, too. They are squares of areas:
   /// their roots stay in the range of a float in any unit of length.
   float root_of_cut_here = 0, root_of_cuts_before = 0;

@@ -3,7 +3,10 @@
 #include "route/scene_symbols.h"
 
 #include <algorithm>
+#include <map>
 #include <utility>
+
+#include "scene/shown_materials.h"
 
 namespace nephroid {
 namespace {
@@ -12,45 +15,6 @@ LightKind kind_of_light(const Light& light) {
   if (light.is_area()) return LightKind::kShape;
   if (light.is_infinite()) return light.is_delta() ? LightKind::kDistant : LightKind::kEnvironment;
   return LightKind::kPoint;
-}
-
-// Calls visit(record) for each shape, also of objects that stand nowhere.
-template <class Visit>
-void for_each_shape(const Scene& scene, const Visit& visit) {
-  const auto each = [&](const ShapeGroup& group) {
-    for (const ShapeRecord& record : group.records) visit(record);
-  };
-  each(scene.top);
-  for (const auto& group : scene.groups) each(*group);
-  for (const auto& group : scene.moving_shapes) each(*group);
-}
-
-// Adds to `found`, by index, the materials that may stand for `material` at a point.
-void add_guises(const Material& material, std::vector<bool>& visited, std::vector<bool>& found) {
-  const auto index = static_cast<size_t>(material.index());
-  if (visited[index]) return;
-  visited[index] = true;
-  if (!material.is_mix()) found[index] = true;
-  for (const MaterialPtr& choice : material.choices()) add_guises(*choice, visited, found);
-}
-
-// Which of a scene's materials scatter, by what they are on.
-struct MaterialsOfShapes {
-  std::vector<bool> on_surfaces;  ///< [material]: some shape where photons can be merged has it
-  std::vector<bool> on_curves;    ///< [material]: some other shape has it
-};
-MaterialsOfShapes materials_of_shapes(const Scene& scene) {
-  const size_t count = scene.materials.size();
-  MaterialsOfShapes result{std::vector<bool>(count), std::vector<bool>(count)};
-  std::vector<bool> visited_on_surfaces(count), visited_on_curves(count);
-  for_each_shape(scene, [&](const ShapeRecord& record) {
-    const Material& material = *scene.materials[record.material];
-    if (record.merges_photons)
-      add_guises(material, visited_on_surfaces, result.on_surfaces);
-    else
-      add_guises(material, visited_on_curves, result.on_curves);
-  });
-  return result;
 }
 
 // 0 if no expression mentions names[i].
@@ -79,7 +43,9 @@ SceneSymbols::SceneSymbols(const Scene& scene, const std::vector<std::string>& l
     materials_.push_back(label);
     if (label > 0) (scene.materials[i]->is_mix() ? called_mix : known)[label - 1u] = true;
   }
+  specular_band_ = scene.specular_band;
   find_surface_events(scene);
+  find_lamps(scene);
   for (size_t i = 0; i < scene.media.size(); ++i) {
     const Medium& medium = *scene.media[i];
     const Label label = number(scene.medium_labels, i);
@@ -101,6 +67,26 @@ SceneSymbols::SceneSymbols(const Scene& scene, const std::vector<std::string>& l
   }
 }
 
+Lamp SceneSymbols::new_lamp(const std::string& name) {
+  if (lamp_names_.size() == kMaxLamps)
+    lamp_names_.back() = "other lights";
+  else
+    lamp_names_.push_back(name);
+  return static_cast<Lamp>(lamp_names_.size() - 1);
+}
+
+void SceneSymbols::find_lamps(const Scene& scene) {
+  std::map<std::string, Lamp> by_label;
+  for (size_t i = 0; i < scene.lights.size(); ++i) {
+    const auto known = by_label.find(scene.light_labels[i]);
+    lamps_.push_back(known != by_label.end() ? known->second : new_lamp(name_of_light(scene, i)));
+    by_label.emplace(scene.light_labels[i], lamps_.back());
+  }
+  for (size_t i = 0; i < scene.media.size(); ++i)
+    lamps_of_media_.push_back(scene.media[i]->is_emissive() ? new_lamp(scene.medium_labels[i])
+                                                            : Lamp{0});
+}
+
 void SceneSymbols::find_surface_events(const Scene& scene) {
   const MaterialsOfShapes shapes = materials_of_shapes(scene);
   for (size_t i = 0; i < scene.materials.size(); ++i) {
@@ -114,7 +100,13 @@ void SceneSymbols::find_surface_events(const Scene& scene) {
       for (const bool transmitted : {false, true})
         if (contains(material.possible_classes(), c))
           present_.events[event_symbol(c, transmitted, materials_[i])] = true;
+    if (contains(material.possible_classes(), EventClass::kGlossy))
+      glossy_.push_back({name_of_material(scene, i), material.facet_alpha()});
   }
+  std::stable_sort(glossy_.begin(), glossy_.end(),
+                   [](const GlossyMaterial& a, const GlossyMaterial& b) {
+                     return a.alpha.value_or(kInfinity) < b.alpha.value_or(kInfinity);
+                   });
 }
 
 }  // namespace nephroid

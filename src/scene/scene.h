@@ -126,6 +126,8 @@ class Scene {
   std::vector<std::string> material_labels;  ///< [material index]
   std::vector<std::string> medium_labels;    ///< [medium index]
   std::vector<std::string> light_labels;  ///< [light]; the lights of one AreaLightSource share it
+  std::vector<SourceLocation> material_places;  ///< [material index]
+  std::vector<SourceLocation> light_places;     ///< [light]
   std::vector<MediumPtr> media;
   const Medium* camera_medium = nullptr;
   std::unique_ptr<LightSampler> light_sampler;

@@ -7,6 +7,7 @@
 #include "core/parallel.h"
 #include "scene/camera/camera.h"
 #include "scene/film_description.h"
+#include "scene/inside_out.h"
 #include "scene/pixel_filter.h"
 #include "scene/sampler_description.h"
 #include "scene/scene.h"
@@ -33,6 +34,7 @@ class SceneBuilder {
     scene_->materials = make_materials(
         d_, textures_, {overrides.specular_band, scene_->options.force_diffuse}, diagnostics);
     scene_->material_labels = material_labels(d_);
+    for (const MaterialDescription& m : d_.materials) scene_->material_places.push_back(m.where);
     for (size_t i = 0; i < d_.materials.size(); ++i)
       if (!d_.materials[i].name.empty())
         material_index_[d_.materials[i].name] = static_cast<int>(i);
@@ -57,6 +59,7 @@ class SceneBuilder {
       const Medium* around = medium_named(d_.lights[i].medium, d_.lights[i].where);
       scene_->light_media.push_back({around, around});
       scene_->light_labels.push_back(light_labels_.light(i));
+      scene_->light_places.push_back(d_.lights[i].where);
     }
   }
 
@@ -152,6 +155,7 @@ class SceneBuilder {
     if (contains(material.possible_classes(), EventClass::kSpecular))
       scene_->has_specular_material = true;
     record.merges_photons = shape->merges_photons();
+    inside_out_.add(description, record, material, group);
     group.accelerator->add_shape(shape, passing ? kMaskPassing : kMaskOpaque);
     scene_->primitive_count += shape->primitive_count();
     ++scene_->shape_count;
@@ -173,6 +177,7 @@ class SceneBuilder {
       scene_->lights.push_back(std::move(light));
       scene_->light_media.push_back(record.media);
       scene_->light_labels.push_back(light_labels_.area_light(*description.area_light));
+      scene_->light_places.push_back(description.area_light->where);
     }
   }
 
@@ -256,6 +261,8 @@ class SceneBuilder {
     check_size(file);
     for (const LightPtr& light : scene_->lights) light->set_scene_sphere(scene_->sphere);
     scene_->light_sampler = std::make_unique<LightSampler>(scene_->lights);
+    inside_out_.report(scene_->top, scene_->camera->camera_to_world(0.0f).point(Vec3f(0, 0, 0)),
+                       diagnostics_);
     if (scene_->shape_count == 0) diagnostics_.warn(file, "the scene has no shapes");
     if (scene_->lights.empty())
       diagnostics_.warn(file, "the scene has no light, the picture will be black");
@@ -268,6 +275,7 @@ class SceneBuilder {
   Diagnostics& diagnostics_;
   TextureLibrary textures_;
   LightLabels light_labels_;
+  InsideOutCheck inside_out_;
   std::unique_ptr<Scene> scene_;
   std::shared_ptr<EmbreeDevice> device_;
   std::map<std::string, int> material_index_;

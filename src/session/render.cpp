@@ -12,6 +12,7 @@
 #include "input/scene_files.h"
 #include "session/film_of_scene.h"
 #include "session/process_memory.h"
+#include "session/settings/short_paths.h"
 #include "session/settings/unused_settings.h"
 
 namespace nephroid {
@@ -119,6 +120,9 @@ Render::Render(const RenderRequest& request, const LoadedScene& loaded, RenderWa
   plan_ = plan_of(request.routes, choice_.name);
   warn_of(choice_.warnings, warnings_.input);
 
+  for (std::string& note : notes_of_short_paths(scene, choice_.settings))
+    choice_.notes.push_back(std::move(note));
+
   const IntegratorOptions& integrator = choice_.settings.integrator;
   set_ = make_estimators(plan_, integrator, scene);
   warn_of(set_.warnings, warnings_.input);
@@ -135,7 +139,7 @@ Render::Render(const RenderRequest& request, const LoadedScene& loaded, RenderWa
 
   RenderOptions options = request.options;
   options.seed = request.seed.value_or(scene.scene_seed);
-  options.notes = set_.notes;
+  options.notes = notes();
   options.quick_look_depth = integrator.max_depth;
   identity_ = identity_of(request, loaded, choice_, plan_);
   identity_.set_film(*film_, options.seed);

@@ -22,6 +22,7 @@
 #include "session/quick_look.h"
 #include "session/report/choices_report.h"
 #include "session/report/invalid_samples.h"
+#include "session/report/lamp_report.h"
 #include "session/report/noise.h"
 
 namespace nephroid {
@@ -140,7 +141,7 @@ RenderResult RenderSession::run(SignalFlags& signals) {
   result.seconds = elapsed();
   // What the clock let stand is of an earlier picture.
   if ((options_.noise_target > 0 || shows_error()) && error_pass_ != passes_done_) renew_error();
-  if (error_) result.error = error_->total();
+  if (error_ && !is_black_) result.error = error_->total();
   result.first_pass_statistics = first_pass_statistics_;
   result.statistics = statistics();
   renew_error_text();
@@ -242,6 +243,7 @@ bool RenderSession::error_check_is_due() const {
 void RenderSession::renew_error() {
   const double begin = clock_();
   error_ = estimated_error(film_);
+  is_black_ = is_black(film_);
   error_pass_ = passes_done_;
   const double cost = clock_() - begin;
   next_error_seconds_ = elapsed() + std::max(kErrorInterval, kIdlePerWork * cost);
@@ -251,6 +253,10 @@ void RenderSession::renew_error_text() {
   if (error_text_pass_ == passes_done_ && !open_pass_) return;
   error_text_pass_ = passes_done_;
   error_text_.reset();
+  if (passes_done_ > 0 && is_black(film_)) {
+    error_text_ = black_picture_report(statistics());
+    return;
+  }
   for (const auto& estimator : set_.estimators)
     if (!estimator->descriptor().capabilities.consistent) return;
   error_text_ = error_report(film_);
@@ -287,7 +293,7 @@ void RenderSession::report_progress(bool within_pass) {
   progress.passes_wanted = passes_wanted_;
   progress.seconds = elapsed();
   progress.seconds_left = seconds_left(progress.seconds);
-  if (error_) progress.error = error_->total();
+  if (error_ && !is_black_) progress.error = error_->total();
   if (progress.seconds_left) {
     const double total = progress.seconds + *progress.seconds_left;
     progress.fraction = total > 0 ? progress.seconds / total : 1;

@@ -66,9 +66,10 @@ struct RenderResult {
   bool has_unfinished_pass = false;  ///< pixels have more estimates than these, some of them
   uint32_t passes_of_run = 0;        ///< in this one
   double seconds = 0;  ///< rendering, with intermediate pictures, without the last; of this run
-  std::optional<double> error;            ///< as estimated_error().total()
-  std::optional<std::string> error_text;  ///< as error_report(); of consistent estimators alone
-  std::vector<std::string> faults;        ///< as invalid_samples()
+  std::optional<double> error;  ///< as estimated_error().total(); empty of a black picture
+  /// As error_report(), of consistent estimators alone; of a black picture black_picture_report().
+  std::optional<std::string> error_text;
+  std::vector<std::string> faults;  ///< as invalid_samples()
   /// As those of the estimators: after the first pass (for where radii began) and after the last.
   std::vector<EstimatorStatistics> first_pass_statistics, statistics;
 };
@@ -147,6 +148,7 @@ class RenderSession {
   std::optional<uint32_t> open_pass_;             ///< begun and not whole
   double fraction_before_ = 0;                    ///< of the open pass, done in other runs
   std::optional<EstimatedError> error_;
+  bool is_black_ = false;    ///< then error_, which is 0, is not told
   uint32_t error_pass_ = 0;  ///< passes done when error_ was estimated
   /// The line of error_report(), empty where an estimator knows only a part of its error.
   std::optional<std::string> error_text_;

@@ -6,6 +6,7 @@
 #include "integrator/bidirectional/path_pair.h"
 #include "integrator/bidirectional/technique_choice.h"
 #include "integrator/estimator/exposed_pixels.h"
+#include "integrator/estimator/lamp_counter.h"
 #include "integrator/estimator/reach.h"
 #include "integrator/estimator/technique_counter.h"
 #include "integrator/path/path_options.h"
@@ -39,6 +40,7 @@ class PairRound {
         eye_point_(eye_point(static_cast<uint32_t>(index), kEyePathDimensions)),
         light_point_(light_point(static_cast<uint32_t>(index))),
         techniques_(film.format(), settings.owned.group, key.pass),
+        lamps_(*settings.owned.symbols, key.pass),
         parts_(film.parts_of(static_cast<int>(settings.owned.group)).size()),
         values_(film.bounds().area() * parts_) {}
 
@@ -57,11 +59,13 @@ class PairRound {
         techniques_.add(row.techniques);
       });
       techniques_.add_splats(splats, 1.0 / settings_.light_paths);
+      lamps_.add_splats(splats, film_.format(), 1.0 / settings_.light_paths);
       buffer.add(splats);
       statistics.splats += splats.size();
     }
     buffer.finish(1.0 / settings_.light_paths, values_);
     techniques_.add_to(statistics.techniques);
+    lamps_.add_to(statistics);
     statistics.camera_paths += b.area();
     statistics.light_paths += b.area();
   }
@@ -73,15 +77,16 @@ class PairRound {
     std::vector<CameraSplat> seen;
     PartSums light(*settings_.owned.routes, settings_.owned.group);
     row.techniques = techniques_.start_row(light);
+    LampCounter::Slice lamps(&lamps_, light);
     for (int x = b.x0; x < b.x1; ++x) {
       seen.clear();
       light.clear();
-      render_pixel(x, y, path, seen, light, row);
+      render_pixel(x, y, path, seen, light, lamps, row);
     }
   }
 
   void render_pixel(int x, int y, LightSubpath& path, std::vector<CameraSplat>& seen,
-                    PartSums& light, Row& row) {
+                    PartSums& light, LampCounter::Slice& lamps, Row& row) {
     const Scene& scene = settings_.scene;
     const FilmSettings& film = film_.settings();
     PathSampler eye(eye_point_, hash_combine(key_.seed, kEyeStream, x, y, index_ >> 32));
@@ -100,16 +105,17 @@ class PairRound {
     row.useful += !seen.empty();
     for (const CameraSplat& c : seen)
       for (int i = 0; i < c.seen.count; ++i)
-        row.splats.push_back(
-            {c.seen.film[i], static_cast<uint8_t>(light.place(c.part)), weights.apply(c.value)});
+        row.splats.push_back({c.seen.film[i], static_cast<uint8_t>(light.place(c.part)),
+                              weights.apply(c.value), c.lamp});
     if (settings_.technique.t == 1) return;
     row.rays += trace_eye_path(settings_, path, camera, eye, light).rays;
     const PixelBounds& b = film_.bounds();
     const size_t pixel = static_cast<size_t>(y - b.y0) * b.width() + (x - b.x0);
     const std::span<const Rgb> colors =
         light.colors(weights, camera.camera_weight, film.max_component, camera.filter_weight);
-    light.add_techniques_to(row.techniques, weights,
-                            static_cast<double>(camera.camera_weight) * camera.filter_weight);
+    const double factor = static_cast<double>(camera.camera_weight) * camera.filter_weight;
+    light.add_techniques_to(row.techniques, weights, factor);
+    lamps.take(weights, factor);
     std::copy(colors.begin(), colors.end(),
               values_.begin() + static_cast<std::ptrdiff_t>(pixel * parts_));
   }
@@ -120,6 +126,7 @@ class PairRound {
   Film& film_;
   const SobolPoint eye_point_, light_point_;
   TechniqueCounter techniques_;
+  LampCounter lamps_;
   const size_t parts_;
   std::vector<Rgb> values_;  ///< [pixel * parts + part]
 };
@@ -144,7 +151,9 @@ constinit const EstimatorDescriptor Bidirectional::kDescriptor = {
 };
 
 Bidirectional::Bidirectional(OwnedRoutes owned, const IntegratorOptions& options)
-    : owned_(std::move(owned)), options_(options) {}
+    : owned_(std::move(owned)), options_(options) {
+  statistics_.tells_lamps = true;
+}
 
 void Bidirectional::render_pass(const PassKey& key, const Learned*, const Scene& scene, Film& film,
                                 PassControl& control) {

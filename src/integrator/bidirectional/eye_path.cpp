@@ -38,9 +38,8 @@ class EyeVisitor {
     for (const int i : scene.light_sampler->infinite_lights()) {
       const Part part = routes_.owner(eye_, symbols_.light(i));
       if (!light_.owns(part)) continue;
-      const Light& light = *scene.lights[i];
       const SampledSpectrum le =
-          light.radiance_at_infinity(walk.previous_p, walk.ray.d, walk.lambda);
+          scene.lights[i]->radiance_at_infinity(walk.previous_p, walk.ray.d, walk.lambda);
       if (le.is_black()) continue;
       double weight = 1;
       if (weighs_hit(walk)) {
@@ -49,7 +48,8 @@ class EyeVisitor {
                                              direct_pdf_w(scene, walk, i), end.has_cuts_before());
         weight = weight_of_hit(start, end.next({start.line.at_b, 1}));
       }
-      add(part, walk, Technique::kMeetLight, walk.throughput * le * static_cast<float>(weight));
+      add(part, symbols_.lamp(i), walk, Technique::kMeetLight,
+          walk.throughput * le * static_cast<float>(weight));
     }
   }
 
@@ -67,7 +67,8 @@ class EyeVisitor {
                       direct_pdf_w(settings_.scene, walk, hit), end.has_cuts_before());
       weight = weight_of_hit(start, end.next({start.line.at_b, start.line.at_a}));
     }
-    add(part, walk, Technique::kMeetLight, walk.throughput * le * static_cast<float>(weight));
+    add(part, symbols_.lamp(hit.area_light), walk, Technique::kMeetLight,
+        walk.throughput * le * static_cast<float>(weight));
   }
 
   void medium_emission(const Medium&, const SampledSpectrum&) {}
@@ -162,14 +163,15 @@ class EyeVisitor {
   bool weighs_hit(const Walk& walk) const {
     return settings_.technique.weighted && walk.events > 0;
   }
-  void add(Part part, const Walk& walk, Technique technique, const SampledSpectrum& value,
-           int left_of_light = kAllWavelengths) {
-    add_whole(part, technique,
+  void add(Part part, Lamp lamp, const Walk& walk, Technique technique,
+           const SampledSpectrum& value, int left_of_light = kAllWavelengths) {
+    add_whole(part, lamp, technique,
               whole_spectrum(value, left_of_both(walk.lambda.left(), left_of_light)));
   }
-  void add_whole(Part part, Technique technique, const SampledSpectrum& whole, float bias = 0) {
+  void add_whole(Part part, Lamp lamp, Technique technique, const SampledSpectrum& whole,
+                 float bias = 0) {
     guided_.add(whole);
-    light_.add(part, whole, technique);
+    light_.add(part, lamp, whole, technique);
     if (bias != 0) light_.add_bias(whole * bias);
   }
 
@@ -229,14 +231,13 @@ class EyeVisitor {
     if (!d) return;
     Arms arms;
     if (!arms_of_eye(z, d->wi_world, true, arms)) return;
-    const LightSymbol symbol = symbols_.light(d->light);
     SampledSpectrum arriving;
     LightStart start;
     bool traced = false;
     for (size_t i = 0; i < arms.size(); ++i) {
       const Arm& arm = arms[i];
       if (!arm.used) continue;
-      const Part part = routes_.owner(arm.eye, symbol);
+      const Part part = routes_.owner(arm.eye, symbols_.light(d->light));
       if (!light_.owns(part)) continue;
       if (!traced) {
         arriving = z.walk.throughput * d->radiance * shadow(*d, z.walk, sampler);
@@ -248,7 +249,8 @@ class EyeVisitor {
       if (settings_.technique.weighted)
         weight = weight_of_direct(start, sums_.behind(z.class_of(i), true), arm.density.forward,
                                   arm.density.back, arm.merge);
-      add(part, z.walk, Technique::kSampleLight, arriving * arm.f * static_cast<float>(weight));
+      add(part, symbols_.lamp(d->light), z.walk, Technique::kSampleLight,
+          arriving * arm.f * static_cast<float>(weight));
     }
   }
 
@@ -262,6 +264,7 @@ class EyeVisitor {
 
   SampledSpectrum shadow(const DirectSample& d, const Walk& walk, const PathSampler& sampler) {
     ++rays_;
+    light_.count_ray_to(symbols_.lamp(d.light));
     return attenuation_to_light(settings_.scene, d, walk.lambda, sampler);
   }
 
@@ -311,8 +314,8 @@ class EyeVisitor {
               1 /
               (1 + cuts_before(y.sums, a.density.forward * line.at_b, b.density.back, b.merge) +
                cuts_before(sums_.all(), b.density.forward * line.at_a, a.density.back, a.merge));
-        add(part, z.walk, Technique::kConnect, arriving * a.f * b.f * static_cast<float>(weight),
-            y.lambda.left());
+        add(part, y.lamp, z.walk, Technique::kConnect,
+            arriving * a.f * b.f * static_cast<float>(weight), y.lambda.left());
       }
     }
   }
@@ -373,7 +376,7 @@ void EyeVisitor::merge(const Walk& walk, const WalkVertex& v, ClassMask among) {
             {sqr(double{photon.root_of_cut_here}), sqr(double{photon.root_of_cuts_before})},
             towards, own);
       }
-      add_whole(event.part, Technique::kMerge,
+      add_whole(event.part, photon.lamp, Technique::kMerge,
                 merged_spectrum(walk.throughput * event.bsdf.f * photon.flux.unpacked() *
                                     (event.cosine * scale * static_cast<float>(weight)),
                                 at.left, photon.left),

@@ -40,7 +40,7 @@ void LightBatches::trace_chunk(int64_t begin, int64_t end, Chunk& chunk) const {
     for (const CameraSplat& c : seen)
       for (int i = 0; i < c.seen.count; ++i)
         chunk.splats.push_back({c.seen.film[i], static_cast<uint8_t>(places_.place(c.part)),
-                                pass_.weights.apply(c.value)});
+                                pass_.weights.apply(c.value), c.lamp});
   }
 }
 

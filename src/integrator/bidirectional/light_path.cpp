@@ -124,6 +124,7 @@ class LightVisitor : public LightWalkVisitor {
     y.lambda = walk.lambda;
     y.specular_alpha = walk.specular_alpha;
     y.state = state_;
+    y.lamp = lamp_;
     y.events = walk.events;
     y.sums = sums_;
     y.merge = merges_here() ? settings_.merging->weight_at(merge_place_, false) : 0;
@@ -188,7 +189,7 @@ class LightVisitor : public LightWalkVisitor {
     const SampledSpectrum value = emission_.flux * walk.throughput * share *
                                   (factor * seen.line.film_density * seen.line.weight);
     if (value.is_black()) return;
-    seen_->push_back({seen, part, whole_spectrum(value, walk.lambda.left())});
+    seen_->push_back({seen, part, lamp_, whole_spectrum(value, walk.lambda.left())});
   }
 
   const PairSettings& settings_;

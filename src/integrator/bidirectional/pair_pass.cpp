@@ -40,7 +40,9 @@ class PairRendering {
     if (to_.film && s_.merging.connects)
       buffer.emplace(*to_.film, static_cast<int>(s_.in.owned.group), *s_.in.scene.filter);
     const auto add_splats = [&](std::span<const Splat> splats) {
-      s_.counter.add_splats(splats, 1.0 / static_cast<double>(s_.techniques.light_paths));
+      const double share = 1.0 / static_cast<double>(s_.techniques.light_paths);
+      s_.counter.add_splats(splats, share);
+      s_.lamps.add_splats(splats, s_.format, share);
       if (buffer) buffer->add(splats);
     };
     std::optional<LightBatches> batches;
@@ -82,6 +84,7 @@ class PairRendering {
     }
     s_.merging.grid = nullptr;
     s_.counter.add_to(statistics.techniques);
+    s_.lamps.add_to(statistics);
     statistics.photon_paths += s_.techniques.light_paths;
     statistics.radius_min_pixels = s_.merging.radius_pixels;
     if (statistics.radius_max_pixels == 0) statistics.radius_max_pixels = s_.merging.radius_pixels;
@@ -105,8 +108,7 @@ class PairRendering {
       chain_points = chains->points([this](int n) { return s_.first_index(n); });
     }
     const auto render_slice = [&](PairRow& row, size_t slice) {
-      PairSampler::Worker worker{{}, PartSums(*s_.in.owned.routes, s_.in.owned.group), row};
-      row.techniques = s_.counter.start_row(worker.light);
+      PairSampler::Worker worker(s_, row);
       worker.sees = sees(slice);
       std::optional<SpecularChainPass::Walker> walker;
       if (chains) walker.emplace(*chains);
@@ -126,9 +128,7 @@ class PairRendering {
       }
       if (walker) {
         row.rays += walker->rays;
-        for (size_t p = 0; p < row.techniques.size(); ++p)
-          for (size_t t = 0; t < kTechniqueCount; ++t)
-            row.techniques[p][t] += walker->techniques[p][t];
+        TechniqueCounter::join(walker->techniques, row.techniques);
       }
       if (of_film) of_film->finish(slice);
     };
@@ -192,8 +192,7 @@ class PairRendering {
   void trace_eye_paths(EstimatorStatistics& statistics) {
     const PixelSlices slices(s_.format.bounds());
     const auto trace_slice = [&](PairRow& row, size_t slice) {
-      PairSampler::Worker worker{{}, PartSums(*s_.in.owned.routes, s_.in.owned.group), row};
-      row.techniques = s_.counter.start_row(worker.light);
+      PairSampler::Worker worker(s_, row);
       worker.sees = sees(slice);
       for_each_sample(slices.at(slice), [&](int x, int y, int samples, int k) {
         trace_waiting(x, y, samples, k, worker);
@@ -210,7 +209,7 @@ class PairRendering {
     s_.settings.merges_only = true;
     const PixelSlices slices(s_.format.bounds());
     const auto count_slice = [&](PairRow& row, size_t slice) {
-      PairSampler::Worker worker{{}, PartSums(*s_.in.owned.routes, s_.in.owned.group), row};
+      PairSampler::Worker worker(s_, row);
       for_each_sample(slices.at(slice), [&](int x, int y, int samples, int k) {
         s_.count_merged(x, y, samples, k, worker, merged_[s_.pixel_of(x, y) * s_.most + k]);
       });
@@ -296,6 +295,7 @@ class PairRendering {
             .specular_alpha = s_.settings.specular_alpha,
             .measured = to_.chains,
             .techniques = &s_.counter,
+            .lamps = &s_.lamps,
             .control = s_.in.control};
   }
 

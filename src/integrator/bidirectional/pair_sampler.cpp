@@ -29,6 +29,7 @@ PairSampler::PairSampler(const PairPass& pass, const FilmFormat& of_film, const 
       film(to),
       counter(to != nullptr ? TechniqueCounter(of_film, pass.owned.group, pass.key.pass)
                             : TechniqueCounter(of_film)),
+      lamps(*pass.owned.symbols, pass.key.pass, to != nullptr),
       photons(start_photon_pass(pass.key, pass.scene, of_film, pass.options, pass.control)),
       most(side.paths.most()),
       records(all_records, pixels_of(of_film, to) * most, records_per_path),
@@ -60,6 +61,13 @@ PairSampler::PairSampler(const PairPass& pass, const FilmFormat& of_film, const 
   for (int n = 1; n <= static_cast<int>(most); ++n)
     if (camera.paths.has(n))
       for (int k = 0; k < n; ++k) points_[n - 1].push_back(sample_points(n, k));
+}
+
+PairSampler::Worker::Worker(const PairSampler& sampler, PairRow& of_row)
+    : light(*sampler.in.owned.routes, sampler.in.owned.group),
+      row(of_row),
+      lamps(&sampler.lamps, light) {
+  row.techniques = sampler.counter.start_row(light);
 }
 
 uint32_t PairSampler::first_index(int n) const {
@@ -129,8 +137,9 @@ PairSampler::SampleLight PairSampler::trace(int x, int y, int samples, int k, Wo
   if (sees) features.add_to(*film, x, y, in.scene, path, photons.weights);
   const float share = 1.0f / static_cast<float>(samples);
   sums.bias += light.bias(photons.weights) * path.camera_weight * path.filter_weight * share;
-  light.add_techniques_to(row.techniques, photons.weights,
-                          static_cast<double>(path.camera_weight) * path.filter_weight * share);
+  const double factor = static_cast<double>(path.camera_weight) * path.filter_weight * share;
+  light.add_techniques_to(row.techniques, photons.weights, factor);
+  worker.lamps.take(photons.weights, factor);
   const std::span<const Rgb> colors = light.colors(
       photons.weights, path.camera_weight, sums.waits ? kInfinity : format.settings().max_component,
       path.filter_weight * share);

@@ -7,6 +7,7 @@
 #include "integrator/bidirectional/light_batches.h"
 #include "integrator/bidirectional/pair_pass.h"
 #include "integrator/bidirectional/path_pair.h"
+#include "integrator/estimator/lamp_counter.h"
 #include "integrator/estimator/technique_counter.h"
 
 namespace nephroid {
@@ -49,7 +50,9 @@ class PairSampler {
     LightSubpath path;
     PartSums light;
     PairRow& row;
+    LampCounter::Slice lamps;
     bool sees = false;  ///< adds features to the film
+    Worker(const PairSampler& sampler, PairRow& of_row);
   };
   /// Where the light of a sample goes.
   struct SampleSums {
@@ -84,6 +87,7 @@ class PairSampler {
   const FilmFormat& format;
   Film* const film;
   TechniqueCounter counter;
+  mutable LampCounter lamps;
   const PhotonPass photons;
   const size_t most;  ///< camera paths of a pixel
   PassRecords records;

@@ -89,6 +89,7 @@ struct LightVertex {
   SampledWavelengths lambda;
   float specular_alpha = 0;
   LightState state = 0;  ///< of the light side, this vertex excluded
+  Lamp lamp = 0;         ///< where the path started
   int events = 0;        ///< before this vertex
   PartialMisWeights sums;
   double merge = 0;  ///< [W8] of D and G here, seen by way of another finite event
@@ -121,6 +122,7 @@ class LightSubpath {
 struct CameraSplat {
   LensConnection seen;
   Part part = kNoPart;  ///< one that the group owns
+  Lamp lamp = 0;
   SampledSpectrum value;
 };
 

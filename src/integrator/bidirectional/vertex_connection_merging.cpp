@@ -52,6 +52,7 @@ int64_t default_light_paths(int64_t pixels) {
 
 void VertexConnectionMerging::render_pass(const PassKey& key, const Learned*, const Scene& scene,
                                           Film& film, PassControl& control) {
+  statistics_.tells_lamps = true;
   PairPass pass{.key = key,
                 .seed = hash_combine(key.seed, number_),
                 .scene = scene,

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "film/lamp_light.h"
 #include "film/technique_light.h"
 
 namespace nephroid {
@@ -34,6 +35,11 @@ struct EstimatorStatistics {
   /// Of pairs of paths (`bdpt`, `vcm`, `bpm`, `path+photons`): what each technique found in passes
   /// 0 to 7. Samples count before they are clamped.
   std::vector<RouteTechniques> techniques;
+  /// Light by lamp in those passes of 0 to 7 that were counted; of estimators that tell lamps
+  /// apart.
+  std::vector<LampLight> lamps;
+  uint32_t lamp_passes = 0;
+  bool tells_lamps = false;        ///< or finds no light at all
   std::vector<std::string> notes;  ///< sentences for the report, e.g. why a route is black
 
   /// Counts memory that is held at the same time.

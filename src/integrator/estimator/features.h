@@ -30,7 +30,11 @@ class FeatureEstimator : public Estimator {
   const EstimatorDescriptor& descriptor() const override;
   void render_pass(const PassKey& key, const Learned*, const Scene& scene, Film& film,
                    PassControl& control) override;
-  EstimatorStatistics statistics() const override { return statistics_; }
+  EstimatorStatistics statistics() const override {
+    EstimatorStatistics s = statistics_;
+    s.tells_lamps = true;
+    return s;
+  }
 
  private:
   EstimatorStatistics statistics_;

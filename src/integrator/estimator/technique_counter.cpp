@@ -26,9 +26,9 @@ TechniqueCounter::Row TechniqueCounter::start_row(PartSums& light) const {
   return Row(parts_.size());
 }
 
-void TechniqueCounter::add(const Row& row) {
+void TechniqueCounter::join(const Row& row, Row& into) {
   for (size_t i = 0; i < row.size(); ++i)
-    for (size_t t = 0; t < kTechniqueCount; ++t) parts_[i][t] += row[i][t];
+    for (size_t t = 0; t < kTechniqueCount; ++t) into[i][t] += row[i][t];
 }
 
 void TechniqueCounter::add_splats(std::span<const Splat> splats, double share) {

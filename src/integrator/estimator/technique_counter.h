@@ -23,7 +23,8 @@ class TechniqueCounter {
 
   /// What a row of pixels counts in, with sums that tell techniques apart if it does.
   Row start_row(PartSums& light) const;
-  void add(const Row& row);
+  void add(const Row& row) { join(row, parts_); }
+  static void join(const Row& row, Row& into);
   /// Each counts `share` times; those beside the film do not, nor what is not finite.
   void add_splats(std::span<const Splat> splats, double share);
   /// Joins the parts of each route and adds them to what other passes found.

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "integrator/photons/photon_pass.h"
-
 namespace nephroid {
 
 void LearnedMix::add_to(EstimatorStatistics& s) const {
@@ -14,8 +12,6 @@ void LearnedMix::add_to(EstimatorStatistics& s) const {
   if (!techniques.caustics_only)
     s.notes.push_back(
         "trial passes were better with photons of all light than with those of caustics alone");
-  if (techniques.caustics_only || !plan_.lacks_specular)
-    explain_missing_caustics(plan_.lacks_specular, s);
   if (techniques.roulette_threshold == kPatientRouletteThreshold)
     s.notes.push_back(
         "Russian roulette begins at an eighth of what a camera path started with: trial passes "

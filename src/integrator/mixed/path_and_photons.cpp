@@ -12,6 +12,7 @@
 #include "integrator/mixed/trials.h"
 #include "integrator/path/specular_tree.h"
 #include "integrator/photons/merge_radius.h"
+#include "integrator/photons/missing_caustics.h"
 #include "integrator/photons/photon_pass.h"
 
 namespace nephroid {
@@ -67,7 +68,9 @@ constinit const EstimatorDescriptor PathAndPhotons::kDescriptor = {
 };
 
 PathAndPhotons::PathAndPhotons(OwnedRoutes owned, const IntegratorOptions& options)
-    : owned_(std::move(owned)), options_(options) {}
+    : owned_(std::move(owned)), options_(options) {
+  statistics_.tells_lamps = true;
+}
 
 Candidate PathAndPhotons::best_of(Trials& trials, const Scene& scene, const FilmFormat& film,
                                   const MixPlan& plan) const {
@@ -179,12 +182,20 @@ std::shared_ptr<const Learned> PathAndPhotons::read_learned(ByteReader& from,
 void PathAndPhotons::render_pass(const PassKey& key, const Learned* learned, const Scene& scene,
                                  Film& film, PassControl& control) {
   const MixPlan& plan = static_cast<const LearnedMix*>(learned)->plan();
+  merges_all_light_ = !plan.techniques.caustics_only;
   render(pass_of(key, scene, film.format(), plan, control),
          {.film = film,
           .samples = {plan.samples.paths, plan.samples.chains},
           .adds_features = true,
           .directions = plan.directions},
          statistics_);
+}
+
+EstimatorStatistics PathAndPhotons::statistics() const {
+  EstimatorStatistics s = statistics_;
+  explain_missing_caustics(owned_, s);
+  explain_glossy_caustics(owned_, !merges_all_light_, s);
+  return s;
 }
 
 }  // namespace nephroid

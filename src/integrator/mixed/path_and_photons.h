@@ -27,7 +27,7 @@ class PathAndPhotons final : public Estimator {
   std::shared_ptr<const Learned> read_learned(ByteReader& from, const FilmFormat&) const override;
   void render_pass(const PassKey& key, const Learned* learned, const Scene& scene, Film& film,
                    PassControl& control) override;
-  EstimatorStatistics statistics() const override { return statistics_; }
+  EstimatorStatistics statistics() const override;
   /// `samples`: those that the user asks for, or 0.
   static size_t bytes_per_pixel(size_t parts, bool clamps, int samples) {
     const size_t most = std::max<size_t>(SampleMap::kMax, samples);
@@ -43,6 +43,7 @@ class PathAndPhotons final : public Estimator {
 
   OwnedRoutes owned_;
   IntegratorOptions options_;
+  bool merges_all_light_ = false;  ///< in the last pass
   EstimatorStatistics statistics_;
 };
 

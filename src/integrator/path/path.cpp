@@ -36,7 +36,9 @@ PathEstimator::PathEstimator(OwnedRoutes owned, const IntegratorOptions& options
     : owned_(std::move(owned)),
       options_(options),
       samples_per_pass_(std::max(1, options.camera_samples_per_pass)),
-      finds_something_(owns_any_path(owned_)) {}
+      finds_something_(owns_any_path(owned_)) {
+  statistics_.tells_lamps = true;
+}
 
 void PathEstimator::render_pass(const PassKey& key, const Learned*, const Scene& scene, Film& film,
                                 PassControl& control) {
@@ -44,7 +46,8 @@ void PathEstimator::render_pass(const PassKey& key, const Learned*, const Scene&
     film.add_estimates(static_cast<int>(owned_.group), 1);
     return;
   }
-  const PathPass pass{key, scene, film, owned_, samples_per_pass_, kStream, control, true};
+  LampCounter lamps(*owned_.symbols, key.pass);
+  const PathPass pass{key, scene, film, owned_, samples_per_pass_, kStream, control, true, &lamps};
   const SpecularTree tree(scene, owned_, options_.max_depth);
   const PathOptions& own = options_.own<PathOptions>();
   statistics_.rays += trace_paths(pass, [&](int x, int y, CameraPath& path,
@@ -58,6 +61,7 @@ void PathEstimator::render_pass(const PassKey& key, const Learned*, const Scene&
     features.add_to(film, x, y, scene, path, weights);
     return path.walk.rays + visitor.more_rays();
   });
+  lamps.add_to(statistics_);
   statistics_.camera_paths += film.bounds().area() * samples_per_pass_;
 }
 

@@ -6,6 +6,7 @@
 
 #include "film/part_sums.h"
 #include "integrator/estimator/estimator.h"
+#include "integrator/estimator/lamp_counter.h"
 #include "integrator/estimator/slice_loop.h"
 #include "route/scene_symbols.h"
 #include "transport/camera_path.h"
@@ -23,7 +24,8 @@ struct PathPass {
   int samples = 1;      ///< of each pixel
   uint64_t stream = 0;  ///< of random numbers
   PassControl& control;
-  bool adds_features = false;  ///< a trace adds those of its sample
+  bool adds_features = false;    ///< a trace adds those of its sample
+  LampCounter* lamps = nullptr;  ///< null: lamps are not told apart
 
   SensorWeights weights_of(const CameraPath& path) const {
     const FilmSettings& settings = film.settings();
@@ -43,7 +45,7 @@ uint64_t trace_paths(const PathPass& pass, Trace&& trace) {
   std::vector<SobolPoint> points;
   for (int k = 0; k < pass.samples; ++k)
     points.push_back(eye_point(static_cast<uint32_t>(first + k)));
-  const auto trace_sample = [&](int x, int y, int k, PartSums& light) {
+  const auto trace_sample = [&](int x, int y, int k, PartSums& light, LampCounter::Slice& lamps) {
     const uint64_t turn = (first + k) >> 32;
     PathSampler sampler(points[k], hash_combine(pass.key.seed, pass.stream, x, y, turn));
     sampler.start_dimension(dimensions::kWavelength);
@@ -56,6 +58,8 @@ uint64_t trace_paths(const PathPass& pass, Trace&& trace) {
     light.clear();
     const SensorWeights weights = pass.weights_of(path);
     const uint64_t rays = trace(x, y, path, weights, sampler, light);
+    lamps.take(weights,
+               static_cast<double>(path.camera_weight) * path.filter_weight / pass.samples);
     pass.film.add(group, x, y,
                   light.colors(weights, path.camera_weight, pass.film.settings().max_component,
                                path.filter_weight));
@@ -71,9 +75,10 @@ uint64_t trace_paths(const PathPass& pass, Trace&& trace) {
       pass.control,
       [&](uint64_t& rays, const PixelSlices::Run& run) {
         PartSums light(*pass.owned.routes, pass.owned.group);
+        LampCounter::Slice lamps(pass.lamps, light);
         for (int i = 0; i < run.count; ++i)
           for (int k = 0; k < pass.samples; ++k)
-            rays += trace_sample(run.x + i * run.step, run.y, k, light);
+            rays += trace_sample(run.x + i * run.step, run.y, k, light, lamps);
       },
       [&](uint64_t&& rays) { all_rays += rays; });
   return all_rays;

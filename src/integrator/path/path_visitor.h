@@ -53,7 +53,7 @@ class PathVisitorOf {
       const SampledSpectrum le =
           light.radiance_at_infinity(walk.previous_p, walk.ray.d, walk.lambda);
       if (le.is_black()) continue;
-      add(walk, part,
+      add(walk, part, symbols_.lamp(i),
           walk.throughput * le *
               (walk.delta ? 1.0f / walk.density.u_mean
                           : weight_of_hit(walk, direct_pdf_w(scene_, walk, i))) *
@@ -67,7 +67,7 @@ class PathVisitorOf {
     if (!light_.owns(part)) return;
     const SampledSpectrum le = light.radiance(hit.p, hit.ng, hit.uv, hit.wo, walk.lambda);
     if (le.is_black()) return;
-    add(walk, part,
+    add(walk, part, symbols_.lamp(hit.area_light),
         walk.throughput * le *
             (walk.delta ? 1.0f / walk.density.u_mean
                         : weight_of_hit(walk, direct_pdf_w(scene_, walk, hit))) *
@@ -76,7 +76,7 @@ class PathVisitorOf {
 
   void medium_emission(const Medium& medium, const SampledSpectrum& radiance) {
     const Part part = routes_.owner(eye_, symbols_.glow(medium.index()));
-    if (light_.owns(part)) light_.add(part, radiance);
+    if (light_.owns(part)) light_.add(part, symbols_.lamp_of_medium(medium.index()), radiance);
   }
 
   ClassMask useful(const WalkVertex& v) const {
@@ -105,7 +105,7 @@ class PathVisitorOf {
     const ShadowFlight shadow = shadow_of(walk, *d, sampler);
     if (shadow.transmittance.is_black()) return;
     const float phase = v.phase.eval(v.wo, d->wi_world);
-    add(walk, part,
+    add(walk, part, symbols_.lamp(d->light),
         walk.throughput * d->radiance * shadow.transmittance *
             (phase * weight_of_direct(walk, *d, shadow, phase)) *
             self().share_after(EventClass::kVolume));
@@ -127,8 +127,8 @@ class PathVisitorOf {
   uint64_t more_rays() const { return shadow_rays_ + tree_rays_; }
 
  protected:
-  void add(const Walk& walk, Part part, const SampledSpectrum& value) {
-    light_.add(part, whole_spectrum(value, walk.lambda.left()));
+  void add(const Walk& walk, Part part, Lamp lamp, const SampledSpectrum& value) {
+    light_.add(part, lamp, whole_spectrum(value, walk.lambda.left()));
   }
 
   const Scene& scene_;
@@ -159,6 +159,7 @@ class PathVisitorOf {
   // Walks whose choices do not depend on the wavelength ask for light in the same way.
   ShadowFlight shadow_of(const Walk& walk, const DirectSample& direct, const PathSampler& sampler) {
     ++shadow_rays_;
+    light_.count_ray_to(symbols_.lamp(direct.light));
     if (!walk.per_wavelength) return trace_shadow(scene_, direct, walk.lambda, sampler);
     ShadowFlight flight;
     flight.transmittance = attenuation_to_light(scene_, direct, walk.lambda, sampler);
@@ -209,7 +210,7 @@ class PathVisitorOf {
       if (evals[i].f.is_black()) continue;
       const EventClass c = kSurfaceClasses[i];
       const float walk_pdf = self().density(v, wi, c, among, evals[i].pdf_w);
-      add(walk, parts[i],
+      add(walk, parts[i], symbols_.lamp(d->light),
           arriving * evals[i].f *
               (weight_of_direct(walk, *d, shadow, walk_pdf) * self().share_after(c)));
     }

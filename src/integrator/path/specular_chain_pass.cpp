@@ -24,7 +24,7 @@ double rarity(const std::vector<SpecularTree::Light>& found) {
 }  // namespace
 
 SpecularChainPass::Walker::Walker(const SpecularChainPass& pass)
-    : light(*pass.owned.routes, pass.owned.group) {
+    : light(*pass.owned.routes, pass.owned.group), lamps(pass.lamps, light) {
   if (pass.techniques) techniques = pass.techniques->start_row(light);
 }
 
@@ -56,8 +56,9 @@ void SpecularChainPass::look(int x, int y, const Points& points, std::span<Rgb> 
                                                    settings.imaging_ratio, settings.white_balance);
       const std::span<const Rgb> colors =
           light.colors(weights, path.camera_weight, settings.max_component, path.filter_weight);
-      light.add_techniques_to(walker.techniques, weights,
-                              static_cast<double>(path.camera_weight) * path.filter_weight * share);
+      const double factor = static_cast<double>(path.camera_weight) * path.filter_weight * share;
+      light.add_techniques_to(walker.techniques, weights, factor);
+      walker.lamps.take(weights, factor);
       for (size_t i = 0; i < values.size(); ++i) {
         values[i] = values[i] + colors[i] * share;
         seen += static_cast<double>(colors[i].r + colors[i].g + colors[i].b) / 3;

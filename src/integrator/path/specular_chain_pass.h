@@ -8,6 +8,7 @@
 
 #include "film/film.h"
 #include "film/part_sums.h"
+#include "integrator/estimator/lamp_counter.h"
 #include "integrator/estimator/sample_map.h"
 #include "integrator/estimator/technique_counter.h"
 #include "integrator/path/specular_tree.h"
@@ -33,6 +34,7 @@ struct SpecularChainPass {
   float specular_alpha = 0;                ///< of the pass
   ChainVariance* measured = nullptr;       ///< measures what each walk finds; null: nobody asks
   TechniqueCounter* techniques = nullptr;  ///< where what was found is counted
+  LampCounter* lamps = nullptr;            ///< the same by lamp
   PassControl& control = unwatched;
 
   /// Numbers of the walks of a pixel that has n, [n][walk].
@@ -51,6 +53,7 @@ struct SpecularChainPass {
     explicit Walker(const SpecularChainPass& pass);
     PartSums light;
     TechniqueCounter::Row techniques;
+    LampCounter::Slice lamps;
     std::vector<SpecularTree::Light> found;
     uint64_t rays = 0;
   };

@@ -58,14 +58,16 @@ class SpecularTree::Visitor {
       const Part part = routes_.owner(eye_, symbols_.light(i));
       if (!routes_.owns(group_, part)) continue;
       const nephroid::Light& light = *tree_.scene_.lights[i];
-      add(walk, part, light.radiance_at_infinity(walk.previous_p, walk.ray.d, walk.lambda));
+      add(walk, part, symbols_.lamp(i),
+          light.radiance_at_infinity(walk.previous_p, walk.ray.d, walk.lambda));
     }
   }
 
   void emitter(const Walk& walk, const SurfaceInteraction& hit, const nephroid::Light& light) {
     const Part part = routes_.owner(eye_, symbols_.light(hit.area_light));
     if (!routes_.owns(group_, part)) return;
-    add(walk, part, light.radiance(hit.p, hit.ng, hit.uv, hit.wo, walk.lambda));
+    add(walk, part, symbols_.lamp(hit.area_light),
+        light.radiance(hit.p, hit.ng, hit.uv, hit.wo, walk.lambda));
   }
 
   void medium_emission(const Medium&, const SampledSpectrum&) {}
@@ -97,9 +99,9 @@ class SpecularTree::Visitor {
   }
 
  private:
-  void add(const Walk& walk, Part part, const SampledSpectrum& radiance) {
+  void add(const Walk& walk, Part part, Lamp lamp, const SampledSpectrum& radiance) {
     if (walk.events == 0 || radiance.is_black()) return;
-    found_.push_back({part, walk.throughput * radiance * (1.0f / walk.density.u_mean),
+    found_.push_back({part, lamp, walk.throughput * radiance * (1.0f / walk.density.u_mean),
                       walk.lambda.left(), std::min(1.0f, walk.carried())});
   }
 

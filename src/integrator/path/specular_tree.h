@@ -22,6 +22,7 @@ class SpecularTree {
 
   struct Light {
     Part part = kNoPart;  ///< one that the group owns
+    Lamp lamp = 0;
     SampledSpectrum value;
     int left = kAllWavelengths;  ///< or the hero's number, if the branch kept no other wavelength
     /// With which a walk that chooses one way each time, and ends where it is absorbed, had come
@@ -30,7 +31,7 @@ class SpecularTree {
 
     /// `sums` are of the wavelengths that the walk started with.
     void add_to(PartSums& sums) const {
-      sums.add(part, whole_spectrum(value, left), Technique::kMeetByMirrors);
+      sums.add(part, lamp, whole_spectrum(value, left), Technique::kMeetByMirrors);
     }
   };
 

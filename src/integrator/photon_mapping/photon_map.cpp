@@ -5,6 +5,7 @@
 #include "input/option_values.h"
 #include "integrator/estimator/exposed_pixels.h"
 #include "integrator/photons/gather.h"
+#include "integrator/photons/missing_caustics.h"
 #include "transport/path_points.h"
 
 namespace nephroid {

@@ -4,6 +4,7 @@
 #include "integrator/learning/photon_guiding.h"
 #include "integrator/photons/merge_pass.h"
 #include "integrator/photons/merge_radius.h"
+#include "integrator/photons/missing_caustics.h"
 
 namespace nephroid {
 

@@ -6,6 +6,7 @@
 #include "integrator/estimator/exposed_pixels.h"
 #include "integrator/photons/gather.h"
 #include "integrator/photons/merge_radius.h"
+#include "integrator/photons/missing_caustics.h"
 
 namespace nephroid {
 

@@ -3,6 +3,7 @@
 #include "integrator/photon_mapping/light_tracing.h"
 #include "integrator/photons/merge_pass.h"
 #include "integrator/photons/merge_radius.h"
+#include "integrator/photons/missing_caustics.h"
 
 namespace nephroid {
 

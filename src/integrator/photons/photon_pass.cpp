@@ -78,13 +78,13 @@ bool any_emitted(const OwnedRoutes& owned, What&& what) {
   return false;
 }
 
+}  // namespace
+
 bool deposits_at_once(const OwnedRoutes& owned) {
   return any_emitted(owned, [&](LightState light, Label label) {
     return owned.routes->deposits(owned.group, light, label);
   });
 }
-
-}  // namespace
 
 bool has_events(const OwnedRoutes& owned, EventClass letter) {
   const std::vector<bool>& events = owned.symbols->present().events;
@@ -113,50 +113,6 @@ void count_photons(const PhotonTrace& trace, EstimatorStatistics& statistics) {
   statistics.photon_paths_specular += trace.specular_paths;
   statistics.photons_stored += trace.photons.size();
   statistics.rays += trace.rays;
-}
-
-namespace {
-
-const char* const kNothingSpecular =
-    "no material of the scene has a specular lobe (microfacets of an alpha above that of -D "
-    "specular-alpha are glossy): there are no caustics, and no photons were needed";
-
-void explain_lost_paths(EstimatorStatistics& s) {
-  const std::string of_all = " of " + std::to_string(s.photon_paths) + " photon paths ";
-  if (s.photon_paths_specular == 0)
-    s.notes.push_back("0" + of_all + "met a specular surface");
-  else
-    s.notes.push_back(std::to_string(s.photon_paths_specular) + of_all +
-                      "met a specular surface, none reached a diffuse one behind it within the "
-                      "depth of paths (-D max-depth)");
-}
-
-}  // namespace
-
-void explain_missing_caustics(bool lacks_specular, EstimatorStatistics& s) {
-  if (lacks_specular)
-    s.notes.push_back(kNothingSpecular);
-  else if (s.photon_paths > 0 && (s.photon_paths_useful == 0 || s.photon_paths_specular == 0))
-    explain_lost_paths(s);
-}
-
-void explain_darkness(const OwnedRoutes& owned, uint64_t found, EstimatorStatistics& s) {
-  if (!photons_can_count(owned)) {
-    s.notes.push_back(has_events(owned, EventClass::kSpecular)
-                          ? "no path that this scene can have belongs to " +
-                                names_of_routes(owned) + ", and no photons were traced for it"
-                          : std::string(kNothingSpecular));
-    return;
-  }
-  if (found > 0 || s.photon_paths == 0) return;
-  if (s.photons_stored > 0)
-    s.notes.push_back(std::to_string(s.photons_stored) +
-                      " photons were stored, none near a point that the camera sees");
-  else if (deposits_at_once(owned))
-    s.notes.push_back("none of " + std::to_string(s.photon_paths) +
-                      " photon paths met a surface at which its route merges");
-  else
-    explain_lost_paths(s);
 }
 
 }  // namespace nephroid

@@ -47,6 +47,9 @@ inline CameraPath start_merging_path(const Scene& scene, int x, int y, PathSampl
 /// False if no photon that can occur in the scene belongs to the group.
 bool photons_can_count(const OwnedRoutes& owned);
 
+/// True if a photon may be stored where its path first meets a surface.
+bool deposits_at_once(const OwnedRoutes& owned);
+
 /// "route 'a'", "routes 'a', 'b'": those of the group.
 std::string names_of_routes(const OwnedRoutes& owned);
 
@@ -55,13 +58,6 @@ bool has_events(const OwnedRoutes& owned, EventClass letter);
 
 /// Adds what one batch of photons did to the counts.
 void count_photons(const PhotonTrace& trace, EstimatorStatistics& statistics);
-
-/// Says why there is no light from photons, if there is none; `found` is how many were merged.
-void explain_darkness(const OwnedRoutes& owned, uint64_t found, EstimatorStatistics& statistics);
-
-/// The same for caustics of the default integrator, from the paths that were traced and how many
-/// were of use.
-void explain_missing_caustics(bool lacks_specular, EstimatorStatistics& statistics);
 
 /// Calls `merge(walk, merge_point)` at each vertex of the walk where photons may be merged.
 template <class Merge>

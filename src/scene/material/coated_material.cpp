@@ -59,6 +59,9 @@ class CoatInput {
   ClassMask possible_classes(const SpecularBand& band) const {
     return eta_.constant() == 1.0f ? ClassMask::kNone : roughness_.possible_classes(band);
   }
+  std::optional<float> facet_alpha() const {
+    return eta_.constant() == 1.0f ? std::nullopt : roughness_.constant_alpha();
+  }
 
  private:
   static float positive(float thickness) {
@@ -93,6 +96,7 @@ class CoatedDiffuseMaterial final : public SurfaceMaterial {
   ClassMask possible_classes() const override {
     return ClassMask::kDiffuse | coat_.possible_classes(band_);
   }
+  std::optional<float> facet_alpha() const override { return coat_.facet_alpha(); }
 
  private:
   CoatInput coat_;
@@ -123,6 +127,10 @@ class CoatedConductorMaterial final : public SurfaceMaterial {
     // A medium between coat and metal scatters to all sides, whatever their roughness.
     const ClassMask medium = coat_.may_scatter() ? ClassMask::kDiffuse : ClassMask::kNone;
     return coat_.possible_classes(band_) | roughness_.possible_classes(band_) | medium;
+  }
+  std::optional<float> facet_alpha() const override {
+    const std::optional<float> coat = coat_.facet_alpha(), metal = roughness_.constant_alpha();
+    return coat && metal ? std::min(*coat, *metal) : coat ? coat : metal;
   }
 
  private:

@@ -23,6 +23,7 @@ class ConductorMaterial final : public SurfaceMaterial {
     return arena.make<ConductorBsdf>(surface, specular_alpha);
   }
   ClassMask possible_classes() const override { return roughness_.possible_classes(band_); }
+  std::optional<float> facet_alpha() const override { return roughness_.constant_alpha(); }
 
  private:
   MetalInput metal_;

@@ -21,6 +21,9 @@ class DielectricMaterial final : public SurfaceMaterial {
     const DielectricInterface boundary{eta_.at_hero(lambda), roughness_.at(point)};
     return arena.make<DielectricBsdf>(boundary, specular_alpha);
   }
+  std::optional<float> refractive_index() const override {
+    return transmits_straight() ? std::nullopt : std::optional(eta_.at_550_nm());
+  }
   bool transmits_straight() const override { return eta_.constant() == 1.0f; }
   SampledSpectrum straight_transmittance(const SurfaceInteraction&,
                                          const SampledWavelengths&) const override {
@@ -28,6 +31,9 @@ class DielectricMaterial final : public SurfaceMaterial {
   }
   ClassMask possible_classes() const override {
     return transmits_straight() ? ClassMask::kNone : roughness_.possible_classes(band_);
+  }
+  std::optional<float> facet_alpha() const override {
+    return transmits_straight() ? std::nullopt : roughness_.constant_alpha();
   }
 
  private:

@@ -61,6 +61,10 @@ class RoughnessInput {
     return constant_ ? *constant_ : facets(u_.at(point), v_.at(point));
   }
   std::optional<TrowbridgeReitz> constant() const { return constant_; }
+  /// The larger alpha, if it is the same everywhere.
+  std::optional<float> constant_alpha() const {
+    return constant_ ? std::optional(constant_->max_alpha()) : std::nullopt;
+  }
   /// Classes that a lobe with this roughness may have, whatever the threshold in the band.
   ClassMask possible_classes(const SpecularBand& band) const;
 
@@ -84,6 +88,7 @@ class IndexInput {
   /// The index at the hero wavelength; the others are dropped if it varies. Never 0, and exactly 1
   /// (no boundary at all) only if it is 1 for all wavelengths.
   float at_hero(SampledWavelengths& lambda) const;
+  float at_550_nm() const { return constant_ ? *constant_ : (*spectrum_)(550.0f); }
   /// The index at each wavelength, none of them 0.
   SampledSpectrum at(const SampledWavelengths& lambda) const;
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -61,6 +62,10 @@ class Material {
   virtual void bump(SurfaceInteraction&) const {}
   virtual bool has_bump() const { return false; }
 
+  /// Of what is inside over what is outside, at 550 nm; empty if no light is refracted.
+  virtual std::optional<float> refractive_index() const { return std::nullopt; }
+  /// True if light passes by way of events of class S or G, in and out again of a closed body.
+  bool refracts() const { return refractive_index().has_value(); }
   /// True for "interface" (no surface at all).
   virtual bool is_interface() const { return false; }
   /// True if light may pass straight through without a letter (thin dielectrics): shadow rays then
@@ -76,6 +81,9 @@ class Material {
   /// Classes that any lobe of this material may have at any point and with any threshold in the
   /// band (a conservative answer: what paths can occur, "why is there no caustic").
   virtual ClassMask possible_classes() const = 0;
+  /// The larger alpha of its microfacets, of two layers that of the smoother; empty if there are
+  /// none or they vary.
+  virtual std::optional<float> facet_alpha() const { return std::nullopt; }
 
  private:
   int index_ = -1;

@@ -81,6 +81,9 @@ class SubsurfaceMaterial final : public SurfaceMaterial {
     if (table_->eta() == 1.0f) return ClassMask::kDiffuse;
     return ClassMask::kDiffuse | roughness_.possible_classes(band_);
   }
+  std::optional<float> facet_alpha() const override {
+    return table_->eta() == 1.0f ? std::nullopt : roughness_.constant_alpha();
+  }
 
  private:
   static SampledSpectrum positive(const SampledSpectrum& s) { return clamp(s, 0.0f, kInfinity); }

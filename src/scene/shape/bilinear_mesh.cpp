@@ -5,6 +5,7 @@
 #include <string>
 
 #include "scene/shape/bilinear_patch.h"
+#include "scene/shape/closed_mesh.h"
 #include "scene/shape/plane_rectangle.h"
 #include "scene/shape/shape.h"
 #include "scene/shape/solid_angle.h"
@@ -68,6 +69,7 @@ class BilinearMesh final : public Shape {
                                             const Vec2f&) const override;
   float pdf_towards(uint32_t, const Vec3f& from, const Vec3f& p, const Vec3f& ng) const override;
   void normal_bounds(uint32_t, Vec3f* axis, float* cos_half_angle) const override;
+  bool is_inside_out() const override;
   std::optional<PlaneRectangle> rectangle(uint32_t primitive) const override {
     if (!is_rectangle_[primitive] || !has_one_normal(primitive)) return std::nullopt;
     return plane(primitive);
@@ -135,6 +137,17 @@ BilinearMesh::BilinearMesh(MeshData data, bool flip) : data_(std::move(data)), f
     is_rectangle_[i] = patch(static_cast<uint32_t>(i)).is_rectangle();
     rectangles_ += is_rectangle_[i];
   }
+}
+
+bool BilinearMesh::is_inside_out() const {
+  return is_closed_inside_out(data_.positions, primitive_count(), [this](size_t face) {
+    const auto primitive = static_cast<uint32_t>(face);
+    const BilinearPatch shape = patch(primitive);
+    const uint32_t* v = corners(primitive);
+    if (outside_normal(primitive, shape, 0.5, 0.5).dot(shape.cross(0.5, 0.5)) < 0.0)
+      return OutsideRing{{v[0], v[2], v[3], v[1]}};
+    return OutsideRing{{v[0], v[1], v[3], v[2]}};
+  });
 }
 
 PlaneRectangle BilinearMesh::plane(uint32_t primitive) const {

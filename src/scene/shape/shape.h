@@ -61,6 +61,10 @@ class Shape {
   /// then trace them itself; its (u, v) are those of intersect(). nullptr otherwise.
   virtual const MeshData* flat_quads() const { return nullptr; }
 
+  /// True of a closed surface whose outside points into what it encloses. May take as long as to
+  /// sort the edges.
+  virtual bool is_inside_out() const { return false; }
+
   /// False where photons cannot be merged whatever the material: curves are narrow, and turn their
   /// surface towards each ray.
   virtual bool merges_photons() const { return true; }
@@ -103,6 +107,7 @@ class TriangleMesh : public Shape {
                                             const Vec2f&) const override;
   float pdf_towards(uint32_t, const Vec3f& from, const Vec3f& p, const Vec3f& ng) const override;
   void normal_bounds(uint32_t, Vec3f* axis, float* cos_half_angle) const override;
+  bool is_inside_out() const override;
   const MeshData& data() const { return data_; }
 
  private:

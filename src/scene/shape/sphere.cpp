@@ -41,6 +41,7 @@ class Sphere final : public Quadric {
     *axis = Vec3f(0, 0, 1);
     *cos_half_angle = -1.0f;
   }
+  bool is_inside_out() const override { return whole_ && flip(); }
 
  private:
   Roots roots(const Vec3d& o, const Vec3d& d) const override;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/warps.h"
+#include "scene/shape/closed_mesh.h"
 #include "scene/shape/shape.h"
 #include "scene/shape/solid_angle.h"
 #include "scene/shape/spherical_triangle.h"
@@ -300,6 +301,18 @@ void TriangleMesh::normal_bounds(uint32_t primitive, Vec3f* axis, float* cos_hal
   if (data_.normals.empty()) return;
   for (int i = 0; i < 3; ++i)
     if (dot(*axis, data_.normals[v[i]]) < 0.0f) *cos_half_angle = -1.0f;
+}
+
+bool TriangleMesh::is_inside_out() const {
+  return is_closed_inside_out(data_.positions, primitive_count(), [this](size_t face) {
+    const Corners c = corners_of(data_, static_cast<uint32_t>(face));
+    const uint32_t* v = &data_.triangles[3 * face];
+    Vec3f unused;
+    const Weights center{1.0f / 3, 1.0f / 3, 1.0f / 3};
+    const Vec3f outside = outside_normal(data_, flip_, c, v, center, &unused);
+    if (dot(outside, unit_normal(c)) < 0.0f) return OutsideRing{{v[0], v[2], v[1], v[1]}};
+    return OutsideRing{{v[0], v[1], v[2], v[2]}};
+  });
 }
 
 }  // namespace nephroid

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "session/report/lamp_report.h"
 #include "session/report/noise.h"
 #include "session/report/short_number.h"
 
@@ -91,6 +92,7 @@ std::vector<std::string> choices_report(const std::vector<EstimatorStatistics>& 
     add_rays(last[i], lines);
   }
   for (std::string& line : technique_report(last)) lines.push_back(std::move(line));
+  for (std::string& line : lamp_report(last)) lines.push_back(std::move(line));
   for (const EstimatorStatistics& s : last)
     for (const std::string& note : s.notes) lines.push_back("note: " + note);
   return lines;

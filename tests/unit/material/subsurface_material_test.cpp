@@ -52,7 +52,7 @@ constexpr float kR = 0.4f;
 void expect_medium(const Made& made, const BssrdfTable& table, float sigma_a, float sigma_s) {
   EXPECT_TRUE(made.diagnostics.warnings().empty());
   const TabulatedBssrdf expected({0, 0, 0}, {0, 0, 1}, SampledSpectrum(sigma_a),
-                                 SampledSpectrum(sigma_s), &table, kSpectrumSamples);
+                                 SampledSpectrum(sigma_s), &table, kAllWavelengths);
   const SampledSpectrum found = profile_of(made, kR);
   for (int i = 0; i < kSpectrumSamples; ++i)
     EXPECT_NEAR(found[i], expected.profile(i, kR), 1e-4f * found[i]);

@@ -122,6 +122,24 @@ TEST_F(RenderPage, WhatIsKeptIsSaidInOneLine) {
   }
 }
 
+TEST_F(RenderPage, ABlackPictureHasNoError) {
+  std::ofstream(request_.scene) << R"(Camera "perspective"
+    Film "rgb" "integer xresolution" 6 "integer yresolution" 4
+    WorldBegin Translate 0 0 6 Shape "sphere" "float radius" 0.5 LightSource "point"
+    Translate 0 0 -3 Shape "sphere")";
+  request_.options.last_pass = 3;
+  for (const char* integrator : {"path", "mixed"}) {
+    request_.routes.integrator = integrator;
+    render();
+    EXPECT_FALSE(result_.error.has_value());
+    ASSERT_TRUE(result_.error_text.has_value());
+    EXPECT_EQ(result_.error_text->find("the picture is black, so that no error can be estimated"),
+              0u)
+        << *result_.error_text;
+  }
+  EXPECT_NE(result_.error_text->find("point1"), std::string::npos) << *result_.error_text;
+}
+
 TEST_F(RenderPage, ResumesWithTheBitsOfOneRun) {
   const Rgb whole = render();
   request_.options.output = directory_.file("out.exr");

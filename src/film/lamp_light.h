@@ -1,0 +1,17 @@
+// How much light of each lamp was found, for reports. It must not know walks or scenes.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "route/lamp.h"
+
+namespace nephroid {
+
+struct LampLight {
+  std::string name;
+  double light = 0;   ///< in units that are the same for all lamps
+  uint64_t rays = 0;  ///< shadow rays to it, blocked or not
+};
+
+}  // namespace nephroid

@@ -1,0 +1,61 @@
+#include "scene/inside_out.h"
+
+#include <algorithm>
+
+namespace nephroid {
+namespace {
+
+Bounds3f bounds_of(const Shape& shape) {
+  Bounds3f bounds;
+  for (uint32_t i = 0; i < shape.primitive_count(); ++i) bounds.extendBy(shape.bounds(i));
+  return bounds;
+}
+
+std::string message_of(const ShapeDescription& description) {
+  const std::string cause = description.reverse_orientation ? "because of ReverseOrientation"
+                            : Transform(description.transform.start).swaps_handedness()
+                                ? "because its transform mirrors it"
+                                : "by its normals or the order of its vertices";
+  return "this \"" + description.type + "\" of dielectric is inside out " + cause +
+         ": it is rendered as a bubble of air in glass, expected an outside that points away from "
+         "what it encloses";
+}
+
+bool is_inside(const Bounds3f& a, const Bounds3f& b) {
+  return b.intersects(a.min) && b.intersects(a.max);
+}
+
+}  // namespace
+
+void InsideOutCheck::add(const ShapeDescription& description, const ShapeRecord& record,
+                         const Material& material, const ShapeGroup& group) {
+  const std::optional<float> index = material.refractive_index();
+  if (!index) return;
+  const bool inside_out = *index > 1 && !record.alpha && record.media.outside == nullptr &&
+                          record.shape->is_inside_out();
+  bodies_.push_back({description.where, inside_out ? message_of(description) : std::string(),
+                     bounds_of(*record.shape), &group});
+}
+
+bool InsideOutCheck::may_be_wanted(const Body& body, const ShapeGroup& top,
+                                   const Vec3f& eye) const {
+  if (body.group == &top && body.bounds.intersects(eye)) return true;
+  // A bubble lies in other glass, which may be a surface of water that is not closed.
+  return std::any_of(bodies_.begin(), bodies_.end(), [&](const Body& other) {
+    if (&other == &body) return false;
+    if (other.group != body.group) return true;
+    const Vec3f size = other.bounds.size();
+    const bool is_flat = std::min({size.x, size.y, size.z}) <= 0.0f;
+    return is_flat ||
+           (other.bounds.intersects(body.bounds) && !is_inside(other.bounds, body.bounds));
+  });
+}
+
+void InsideOutCheck::report(const ShapeGroup& top, const Vec3f& eye,
+                            Diagnostics& diagnostics) const {
+  for (const Body& body : bodies_)
+    if (!body.message.empty() && !may_be_wanted(body, top, eye))
+      diagnostics.warn(body.where, body.message);
+}
+
+}  // namespace nephroid

@@ -1,0 +1,64 @@
+#include "session/settings/short_paths.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "scene/shown_materials.h"
+
+namespace nephroid {
+namespace {
+
+/// In and out of a closed body; one more to see a lit surface behind it, or to light one.
+constexpr int kEventsThroughGlass = 2;
+/// At a mirror; one more to see a lit surface in it.
+constexpr int kEventsAtMirror = 1;
+
+/// The first material that is on a shape and for which `is_wanted`.
+template <class IsWanted>
+std::optional<size_t> first_material(const Scene& scene, const IsWanted& is_wanted) {
+  const MaterialsOfShapes shown = materials_of_shapes(scene);
+  for (size_t i = 0; i < scene.materials.size(); ++i)
+    if ((shown.on_surfaces[i] || shown.on_curves[i]) && is_wanted(*scene.materials[i])) return i;
+  return std::nullopt;
+}
+
+/// True of metal and thin glass.
+bool mirrors_only(const Material& material) {
+  const ClassMask classes = material.possible_classes();
+  return !material.refracts() && !contains(classes, EventClass::kDiffuse) &&
+         (contains(classes, EventClass::kSpecular) || contains(classes, EventClass::kGlossy));
+}
+
+}  // namespace
+
+std::vector<std::string> notes_of_short_paths(const Scene& scene, const RenderSettings& settings) {
+  const int depth = settings.integrator.max_depth;
+  const std::string ends =
+      fmt::format("{}{} ends paths",
+                  settings.gives("max-depth") ? "-D max-depth=" : "the scene's maxdepth ", depth);
+  if (depth == 0) return {ends + " at the first surface: nothing but lights is seen"};
+  std::vector<std::string> notes;
+  if (depth <= kEventsThroughGlass) {
+    const auto glass =
+        first_material(scene, [](const Material& material) { return material.refracts(); });
+    if (glass)
+      notes.push_back(fmt::format(
+          "{} {} {}: {} scattering events are needed to see through it and for its caustics, {}",
+          ends, depth < kEventsThroughGlass ? "inside" : "behind", name_of_material(scene, *glass),
+          kEventsThroughGlass + 1,
+          depth < kEventsThroughGlass ? "so that it looks black but for lights in it"
+                                      : "so that only lights are seen through it"));
+  }
+  if (depth <= kEventsAtMirror) {
+    const auto mirror = first_material(scene, mirrors_only);
+    if (mirror)
+      notes.push_back(fmt::format(
+          "{} at {}: {} scattering events are needed to see what it mirrors, so that only lights "
+          "are seen in it",
+          ends, name_of_material(scene, *mirror), kEventsAtMirror + 1));
+  }
+  return notes;
+}
+
+}  // namespace nephroid
