@@ -12,9 +12,8 @@ Bounds3f bounds_of(const Shape& shape) {
 }
 
 std::string message_of(const ShapeDescription& description) {
-  const std::string cause = description.reverse_orientation ? "because of ReverseOrientation"
-                            : Transform(description.transform.start).swaps_handedness()
-                                ? "because its transform mirrors it"
+  const std::string cause = description.reverse_orientation
+                                ? "because of ReverseOrientation"
                                 : "by its normals or the order of its vertices";
   return "this \"" + description.type + "\" of dielectric is inside out " + cause +
          ": it is rendered as a bubble of air in glass, expected an outside that points away from "
