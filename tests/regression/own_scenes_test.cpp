@@ -49,6 +49,7 @@ TEST(OwnScenes, GiveAPicture) {
     EXPECT_EQ(run.status, 0) << scene;
     EXPECT_EQ(run.errors, "") << scene;
     EXPECT_TRUE(fs::remove(folder.path("picture.exr"))) << scene;
+    EXPECT_TRUE(fs::remove(folder.path("picture.png"))) << scene;
   }
 }
 

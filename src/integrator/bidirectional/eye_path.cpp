@@ -362,20 +362,8 @@ void EyeVisitor::merge(const Walk& walk, const WalkVertex& v, ClassMask among) {
       merger.emplace(settings_.owned, at, settings_.max_depth,
                      [&](EventSymbol event) { return routes_.next(eye_, event); });
     merger->each_event(photon, [&](const MergeEvent& event) {
-      double weight = 1;
-      if (settings_.technique.weighted) {
-        const double towards = v.subsurface_exit
-                                   ? subsurface_density(photon.ng.unpacked(), photon.wi.unpacked())
-                                   : double{event.bsdf.pdf_w};
-        const double back =
-            v.subsurface_exit || !sums_.asks_back()
-                ? 0.0
-                : event_density(v.bsdf, event.wi, v.wo, TransportMode::kImportance, event.letter);
-        weight = weight_of_merge(
-            sums_.all(), back,
-            {sqr(double{photon.root_of_cut_here}), sqr(double{photon.root_of_cuts_before})},
-            towards, own);
-      }
+      const double weight =
+          settings_.technique.weighted ? weight_of_merge(sums_, v, photon, event, own) : 1;
       add_whole(event.part, photon.lamp, Technique::kMerge,
                 merged_spectrum(walk.throughput * event.bsdf.f * photon.flux.unpacked() *
                                     (event.cosine * scale * static_cast<float>(weight)),

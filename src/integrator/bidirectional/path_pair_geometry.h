@@ -2,7 +2,9 @@
 // lines, and how a light would have started there. It must not know routes.
 #pragma once
 
+#include "integrator/bidirectional/eye_weights.h"
 #include "integrator/bidirectional/path_pair.h"
+#include "photon/merge.h"
 #include "transport/direct_light.h"
 
 namespace nephroid {
@@ -99,6 +101,23 @@ inline LightStart light_start(const PairSettings& settings, const DirectSample& 
                               const Receiver& at, const Place& x, bool asks_onward) {
   const double direct = d.delta ? settings.scene.light_sampler->pmf(at.p, at.ns, d.light) : d.pdf_w;
   return light_start(settings, d.light, {d.p, d.ng}, x, -d.wi_world, direct, asks_onward);
+}
+
+/// [W11] Weight of the merge of an eye path, of these sums at vertex `v`, with a photon; `own` is
+/// that of merging there.
+inline double weight_of_merge(const EyePartialWeights& sums, const WalkVertex& v,
+                              const Photon& photon, const MergeEvent& event, double own) {
+  const double towards = v.subsurface_exit
+                             ? subsurface_density(photon.ng.unpacked(), photon.wi.unpacked())
+                             : double{event.bsdf.pdf_w};
+  const double back =
+      v.subsurface_exit || !sums.asks_back()
+          ? 0.0
+          : event_density(v.bsdf, event.wi, v.wo, TransportMode::kImportance, event.letter);
+  return weight_of_merge(
+      sums.all(), back,
+      {sqr(double{photon.root_of_cut_here}), sqr(double{photon.root_of_cuts_before})}, towards,
+      own);
 }
 
 }  // namespace nephroid
