@@ -6,6 +6,7 @@
 #include "core/errors.h"
 #include "film/atomic_file.h"
 #include "film/film_output.h"
+#include "film/state_file.h"
 #include "session/checkpoint/merge_pictures.h"
 
 namespace nephroid {
@@ -17,8 +18,9 @@ int run_merge(const MergeCommand& command) {
   check_file_can_be_written(png_path_beside(command.output));
   const Merged merged = merge_pictures(command.inputs, command.output, command.layer_precision);
   for (const std::string& warning : merged.warnings) print_warning(warning);
-  fmt::print("{} passes ({}), rendered in {:.1f} s; wrote {} and {}\n", merged.passes.count(),
-             merged.passes.text(), merged.seconds, command.output, png_path_beside(command.output));
+  fmt::print("{} passes ({}), rendered in {:.1f} s; wrote {}, {} and {}\n", merged.passes.count(),
+             merged.passes.text(), merged.seconds, command.output, png_path_beside(command.output),
+             state_path_beside(command.output));
   return static_cast<int>(ExitStatus::kDone);
 }
 

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-
 #include "film/film_output.h"
 #include "film/state_file.h"
 #include "session/report/choices_report.h"
@@ -43,6 +41,9 @@ std::string summary(const RenderResult& result) {
             : ", and a part of the first: pixels that it has not reached are as their neighbours";
   if (rays > 0 && result.seconds > 0)
     text += fmt::format(", {} rays/s", short_number(static_cast<double>(rays) / result.seconds));
+  if (result.passes_of_run == 0 && !result.has_unfinished_pass && result.passes_done > 0)
+    text += result.reason == StopReason::kTime ? "; --time counts all runs: a longer one goes on"
+                                               : "; more --passes go on";
   if (result.error) text += fmt::format(", estimated error {:.3g}", *result.error);
   return text + "\n";
 }
@@ -76,6 +77,9 @@ std::string route_lines(const Film& film) {
 
 std::string render_report(const RenderResult& result, const Film& film, const std::string& output,
                           const std::vector<std::string>& notes) {
+  if (!result.has_picture)
+    return fmt::format("{} before the first pixels were rendered: there is no {}\n",
+                       reason_text(result.reason), output);
   std::string text = summary(result);
   for (const std::string& line :
        choices_report(result.first_pass_statistics, result.statistics, result.passes_of_run))
@@ -84,10 +88,12 @@ std::string render_report(const RenderResult& result, const Film& film, const st
   text += route_lines(film);
   for (const std::string& fault : result.faults) text += fmt::format("warning: {}\n", fault);
   for (const std::string& note : notes) text += fmt::format("note: {}\n", note);
-  const std::string state = state_path_beside(output);
-  if (std::filesystem::exists(state))
-    text += fmt::format("wrote {}, {} and {}, with which --resume and merge go on\n", output,
-                        png_path_beside(output), state);
+  if (result.has_state)
+    text +=
+        fmt::format("wrote {}, {} and {}, with which {}\n", output, png_path_beside(output),
+                    state_path_beside(output),
+                    result.has_unfinished_pass ? "--resume goes on (merge takes whole passes only)"
+                                               : "--resume and merge go on");
   else
     text += fmt::format("wrote {} and {}\n", output, png_path_beside(output));
   return text;

@@ -147,6 +147,13 @@ class SampledWavelengths {
   bool secondary_terminated() const { return left_ != kAllWavelengths; }
   /// The hero's number if it is the only wavelength left, else kAllWavelengths.
   int left() const { return left_; }
+  /// A value without what it is at wavelengths that were dropped.
+  SampledSpectrum of_left(const SampledSpectrum& s) const {
+    if (left_ == kAllWavelengths) return s;
+    SampledSpectrum hero;
+    hero.set(left_, s[left_]);
+    return hero;
+  }
 
  private:
   SampledSpectrum lambda_;

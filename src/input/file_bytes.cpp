@@ -31,7 +31,7 @@ struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
 
-/// All that comes; `expected` bytes are asked for first.
+/// All that comes; `expected` bytes are asked for first. Pipes may never end.
 std::string read_all(std::FILE& file, const std::string& path, size_t expected) {
   std::string bytes;
   size_t used = 0;
@@ -40,6 +40,8 @@ std::string read_all(std::FILE& file, const std::string& path, size_t expected) 
       bytes.resize(used == 0 ? expected : used + std::max(used / 2, kChunk));
     const size_t got = std::fread(bytes.data() + used, 1, bytes.size() - used, &file);
     used += got;
+    if (used > std::max<uint64_t>(expected, kMaxUnpackedBytes))
+      cannot_read(path, "it does not end within " + std::to_string(kMaxUnpackedBytes) + " bytes");
     if (used < bytes.size()) {
       if (std::ferror(&file)) cannot_read(path, reason_of(errno));
       if (std::feof(&file)) break;

@@ -134,7 +134,7 @@ std::string program_help() {
           help_entry("--version", "Print the version.");
   text +=
       "\nExit status: 0 done, 1 render error, 2 wrong usage, 3 wrong scene, 4 input/output "
-      "error,\n128+N stopped by signal N after the picture was written.\n";
+      "error,\n128+N stopped by signal N, what was rendered was written.\n";
   return text;
 }
 

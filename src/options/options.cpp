@@ -173,9 +173,9 @@ const OptionDescription kOptions[] = {
        l.render.checkpoint_interval = parse_duration("--checkpoint", t);
      }},
     {"render", "--strict", "", "", "", "", "Output",
-     "Exit status 3 for unknown names, 1 for samples left out. Unknown parameters, options and "
-     "such of the scene end the program before it renders; left out are infinite and NaN samples, "
-     "and sums beyond their range.",
+     "Exit status 3 for unknown names, 1 for samples left out. A scene with unknown parameters, "
+     "options and the like is not rendered; samples are left out if they are infinite or NaN, or "
+     "their sums beyond their range.",
      false,
      [](CommandLine& l, const std::string&) { l.render.strict = true; }},
     {"render", "--no-state", "", "", "", "", "Output",
@@ -210,7 +210,9 @@ const OptionDescription kOptions[] = {
      "Stop after N passes. A..B renders a range from 0, both ends included.", false,
      [](CommandLine& l, const std::string& t) { l.render.passes = parse_passes("--passes", t); }},
     {"render", "--time", "", "TIME", "s, m or h", "no limit", "When to stop",
-     "Stop after this time (60s, 5m, 1h). If there is no picture by then it waits for one.", false,
+     "Stop after this time, of all runs (60s, 5m, 1h). If there is no picture by then it waits for "
+     "one.",
+     false,
      [](CommandLine& l, const std::string& t) {
        l.render.time_limit = parse_duration("--time", t);
      }},

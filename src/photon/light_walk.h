@@ -135,7 +135,7 @@ class LightWalkVisitor {
     photon.ng = PackedDirection(v.surface.ng);
     photon.flux = PackedSpectrum(flux * walk.throughput / v.surface.coverage);
     photon.state = state_;
-    photon.left = static_cast<int8_t>(walk.lambda.left());
+    photon.left = static_cast<int8_t>(v.left);
     photon.lamp = lamp_;
     photon.events = static_cast<uint16_t>(walk.events);
     return photon;

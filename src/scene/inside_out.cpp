@@ -1,6 +1,7 @@
 #include "scene/inside_out.h"
 
 #include <algorithm>
+#include <string>
 
 namespace nephroid {
 namespace {
@@ -52,9 +53,19 @@ bool InsideOutCheck::may_be_wanted(const Body& body, const ShapeGroup& top,
 
 void InsideOutCheck::report(const ShapeGroup& top, const Vec3f& eye,
                             Diagnostics& diagnostics) const {
+  // Each is compared with all others; a scene of so many has its reasons.
+  constexpr size_t kMost = 4096;
+  if (bodies_.size() > kMost) return;
+  const Body* first = nullptr;
+  size_t count = 0;
   for (const Body& body : bodies_)
-    if (!body.message.empty() && !may_be_wanted(body, top, eye))
-      diagnostics.warn(body.where, body.message);
+    if (!body.message.empty() && !may_be_wanted(body, top, eye)) {
+      if (count++ == 0) first = &body;
+    }
+  if (first == nullptr) return;
+  diagnostics.warn(first->where,
+                   count == 1 ? first->message
+                              : first->message + "; so are " + std::to_string(count - 1) + " more");
 }
 
 }  // namespace nephroid

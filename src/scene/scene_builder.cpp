@@ -232,14 +232,15 @@ class SceneBuilder {
   void check_size(const SourceLocation& file) const {
     constexpr float kSmallest = 1e-8f, kLargest = 1e12f;
     if (scene_->shape_count > 0 && scene_->sphere.radius < kSmallest)
-      throw SceneError(file,
-                       "the whole scene is smaller than 1e-8 units, expected a larger one: "
-                       "give its lengths in a smaller unit, or put a Scale before the camera "
-                       "and after WorldBegin");
+      throw SceneError(
+          file,
+          "the radius of the scene is smaller than 1e-8 units, expected more: give its "
+          "lengths in a smaller unit, or put a Scale before the camera and after "
+          "WorldBegin");
     if (scene_->sphere.radius > kLargest)
       diagnostics_.warn(file,
-                        "the scene is larger than 1e12 units: in so large a scene 0.4 % of "
-                        "the light were missing");
+                        "the radius of the scene is larger than 1e12 units, expected less: "
+                        "about 0.4 % of the light is lost");
   }
 
   // The origin of pbrt-v4's rendering space: the camera in the middle of its motion.

@@ -115,8 +115,8 @@ Render::Render(const RenderRequest& request, const LoadedScene& loaded, RenderWa
     : warnings_(std::move(warnings)) {
   const Scene& scene = *loaded.scene;
   choice_ = choose_integrator(request, scene);
-  if (request.strict) refuse_unknown_names(loaded, choice_);
   warn_of(loaded.warnings, warnings_.input);
+  if (request.strict) refuse_unknown_names(loaded, choice_);
   plan_ = plan_of(request.routes, choice_.name);
   warn_of(choice_.warnings, warnings_.input);
 

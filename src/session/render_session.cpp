@@ -17,6 +17,7 @@
 #include "film/atomic_file.h"
 #include "film/exr_file.h"
 #include "film/film_output.h"
+#include "film/state_file.h"
 #include "scene/scene.h"
 #include "session/checkpoint/film_metadata.h"
 #include "session/quick_look.h"
@@ -148,8 +149,13 @@ RenderResult RenderSession::run(SignalFlags& signals) {
   result.error_text = error_text_;
   result.faults = invalid_samples(scene_, film_);
   // A signal may come before there is anything to write.
-  if (!options_.output.empty() && (passes_done_ > 0 || film_.has_light()))
-    write_last_picture(options_.keeps_state || *reason == StopReason::kSignal);
+  result.has_picture = passes_done_ > 0 || film_.has_light();
+  result.has_state = result.has_picture && (options_.keeps_state || *reason == StopReason::kSignal);
+  if (!options_.output.empty() && result.has_picture) {
+    write_last_picture(result.has_state);
+    // It is left out where memory lacks, with a warning.
+    result.has_state &= std::filesystem::exists(state_path_beside(options_.output));
+  }
   return result;
 }
 

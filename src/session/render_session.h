@@ -64,6 +64,8 @@ struct RenderResult {
   int signal = 0;                    ///< that stopped it, if one did
   uint32_t passes_done = 0;          ///< in all runs, whole ones
   bool has_unfinished_pass = false;  ///< pixels have more estimates than these, some of them
+  bool has_picture = false;          ///< there is light to be shown; else nothing was written
+  bool has_state = false;            ///< the picture has its state beside it
   uint32_t passes_of_run = 0;        ///< in this one
   double seconds = 0;  ///< rendering, with intermediate pictures, without the last; of this run
   std::optional<double> error;  ///< as estimated_error().total(); empty of a black picture

@@ -87,13 +87,7 @@ void RenderSession::write_exr_file(const std::string& path, bool with_state) {
 void RenderSession::keep_previous() {
   const Checkpoint& before = options_.begin_with;
   if (has_written_ || !before.passes.empty() || before.open_pass) return;
-  for (const KeptFile& file : files_to_keep(options_.output)) {
-    std::error_code error;
-    std::filesystem::rename(file.path, file.kept, error);
-    if (error)
-      throw IoError(
-          fmt::format("{}: cannot be kept as {}: {}", file.path, file.kept, error.message()));
-  }
+  keep_files(options_.output);
   has_written_ = true;
 }
 

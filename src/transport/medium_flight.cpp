@@ -1,5 +1,6 @@
 #include "transport/medium_flight.h"
 
+#include <cassert>
 #include <cmath>
 
 namespace nephroid {
@@ -115,7 +116,14 @@ std::optional<Collision> fly(const Medium& medium, const Ray& ray, float t_max,
                              const SampledWavelengths& lambda, FlightRandom& random,
                              SampledSpectrum& throughput, SpectralDensity& density,
                              SampledSpectrum& emitted) {
+  assert(lambda.hero() == lambda.lambda(0));
   density.plain = false;
+  // What was dropped must not end the walk by growing beyond all numbers.
+  const auto keep_left = [&] {
+    throughput = lambda.of_left(throughput);
+    density.u = lambda.of_left(density.u);
+    density.l = lambda.of_left(density.l);
+  };
   // [V1]: everything that is relative to the hero's density of the way since the last collision.
   SampledSpectrum depth;
   const auto passed = [&](const SampledSpectrum& sigma, float step) {
@@ -145,6 +153,7 @@ std::optional<Collision> fly(const Medium& medium, const Ray& ray, float t_max,
     if (uniform || random.next() < p_real) {  // [V2]
       throughput *= t * m.sigma_s / sigma_t[0];
       density.u *= t * sigma_t / sigma_t[0];
+      keep_left();
       if (!throughput.is_finite() || !density.u.is_finite()) throughput = SampledSpectrum(0.0f);
       return Collision{steps.t(), m.phase};
     }
@@ -152,6 +161,7 @@ std::optional<Collision> fly(const Medium& medium, const Ray& ray, float t_max,
     throughput *= t * sigma_n / sigma_n[0];
     density.u *= t * sigma_n / sigma_n[0];
     density.l *= t * majorant / sigma_n[0];
+    keep_left();
     if (throughput.is_black() || !throughput.is_finite() || !density.u.is_finite()) {
       throughput = SampledSpectrum(0.0f);
       return std::nullopt;
@@ -167,6 +177,7 @@ std::optional<Collision> fly(const Medium& medium, const Ray& ray, float t_max,
   throughput *= t;
   density.u *= t;
   if (!uniform) density.l *= t;
+  keep_left();
   if (!throughput.is_finite() || !density.u.is_finite()) throughput = SampledSpectrum(0.0f);
   return std::nullopt;
 }

@@ -57,6 +57,8 @@ class RandomWalk {
  private:
   /// One flight and what stands at its end. False: the walk is over.
   bool step() {
+    // Where media choose by the hero, what the others carry would grow without bounds.
+    if (walk_.per_wavelength) walk_.throughput = walk_.lambda.of_left(walk_.throughput);
     ++walk_.rays;
     const bool found = scene_.intersect(walk_.ray, hit_);
     if (walk_.medium) {
@@ -139,14 +141,20 @@ class RandomWalk {
     if (spent && !material->transmits_straight()) return false;
     if (material->has_bump()) material->bump(hit_);
     arena_.clear();
+    const int left = walk_.lambda.left();
     const Bsdf* bsdf = material->make_bsdf(hit_, walk_.lambda, walk_.specular_alpha, arena_);
     if (!bsdf) return false;
     if (walk_.lambda.secondary_terminated()) walk_.density.take_means(walk_.lambda);
     const bool mergeable = hit_.record->merges_photons;
-    return scatter_at_surface({hit_, *material, *bsdf, hit_.shading.to_local(hit_.wo),
-                               mergeable ? surface.merging_classes() : ClassMask::kNone,
-                               material != &surface, mergeable && material->merges_photons()},
-                              spent);
+    WalkVertex vertex{hit_,
+                      *material,
+                      *bsdf,
+                      hit_.shading.to_local(hit_.wo),
+                      mergeable ? surface.merging_classes() : ClassMask::kNone,
+                      material != &surface,
+                      mergeable && material->merges_photons()};
+    vertex.left = left;
+    return scatter_at_surface(vertex, spent);
   }
 
   bool scatter_at_surface(WalkVertex vertex, bool spent) {

@@ -116,6 +116,9 @@ struct WalkVertex {
   bool merges = true;
   /// Light that went under the surface elsewhere comes out here: a walk leaves, it does not arrive.
   bool subsurface_exit = false;
+  /// The hero's number if the walk had no other wavelength when it arrived; the material may have
+  /// dropped them since.
+  int left = kAllWavelengths;
   /// Letters of events from which the walk's path can go on: its visitor's answer to `useful`.
   ClassMask letters = ClassMask::kNone;
 

@@ -197,7 +197,7 @@ TEST(Integrators, ALimitBoundsEveryPixel) {
   }
 }
 
-TEST(Integrators, OnePassHasAllColoursOfAPrism) {
+TEST(Integrators, AFewPassesHaveAllColoursOfAPrism) {
   // Grey light through a ball of flint glass is grey, whatever wavelengths the pass has; paths that
   // the ball bends have one of them each.
   const auto scene = scene_from_text(R"(
@@ -227,6 +227,49 @@ TEST(Integrators, OnePassHasAllColoursOfAPrism) {
     // With one hero for all paths of a pass: 10 to 30 %.
     EXPECT_LT(std::sqrt(squares / (2 * kSeeds)), 0.03) << integrator;
   }
+}
+
+TEST(Integrators, WhatWasDroppedDoesNotHideTheHero) {
+  // Blue fog behind flint glass: a red hero flies as red does, and what it carried at the blue
+  // wavelengths that the glass dropped would grow with every collision.
+  const auto scene = scene_from_text(R"(
+    LookAt 0 1.2 -1.5  0 0 0  0 1 0
+    Camera "perspective" "float fov" 60
+    Film "rgb" "integer xresolution" 8 "integer yresolution" 6
+    PixelFilter "box"
+    WorldBegin
+    MakeNamedMedium "fog" "string type" "homogeneous" "rgb sigma_s" [10 20 120]
+      "rgb sigma_a" [0 0 0]
+    AttributeBegin
+      AreaLightSource "diffuse" "rgb L" [300 300 300]
+      Translate 0 3.2 0 Shape "sphere" "float radius" 0.1
+    AttributeEnd
+    AttributeBegin
+      Material "dielectric" "spectrum eta" "glass-F11"
+      Translate 0 3.2 0 Shape "sphere" "float radius" 0.4
+    AttributeEnd
+    AttributeBegin
+      MediumInterface "fog" "" Material "interface"
+      Translate 0 2 0 Scale 4 0.4 4
+      Shape "trianglemesh"
+        "point3 P" [-1 -1 -1 1 -1 -1 -1 1 -1 1 1 -1 -1 -1 1 1 -1 1 -1 1 1 1 1 1]
+        "integer indices" [0 2 1 1 2 3 4 5 6 5 7 6 0 1 4 1 5 4 2 6 3 3 6 7 0 4 2 2 4 6 1 3 5 3 7 5]
+    AttributeEnd
+    Material "diffuse" "rgb reflectance" [0.5 0.5 0.5]
+    Shape "bilinearmesh" "point3 P" [-4 0 -4  4 0 -4  -4 0 4  4 0 4]
+  )");
+  IntegratorOptions options;
+  options.photons_per_pass = 20000;
+  const auto red_of = [&](const char* integrator, uint32_t passes) {
+    const Film film = render(*scene, integrator, options, 3, passes);
+    double sum = 0;
+    for (int y = 0; y < 6; ++y)
+      for (int x = 0; x < 8; ++x) sum += film.value(x, y).r;
+    return sum;
+  };
+  const double expected = red_of("path", 4096);
+  for (const char* integrator : {"sppm", "bpm"})
+    EXPECT_NEAR(red_of(integrator, 16), expected, 0.25 * expected) << integrator;
 }
 
 TEST(Integrators, GiveOnePictureInAllUnitsOfLength) {

@@ -44,7 +44,7 @@ PhotonPass start_photon_pass(const PassKey& key, const Scene& scene, const FilmF
                   .weights = {},
                   .footprint = scene.camera->footprint(),
                   .u_time = 0,
-                  .first_hero = static_cast<uint32_t>(hash_combine(key.seed, kHeroes, key.pass)),
+                  .first_hero = static_cast<uint32_t>(hash_combine(key.seed, kHeroes)),
                   .point = eye_point(key.pass)};
   pass.trace.key = key;
   pass.trace.control = &control;

@@ -100,14 +100,20 @@ void add_estimates(const Film& film, Metadata* metadata) {
                            fmt::format("{}", film.estimates(layout.groups[r])));
 }
 
+namespace {
+
+/// "a/b.exr" -> "a/b.previous.exr".
+std::string kept_name(const std::string& name) {
+  const std::filesystem::path path(name);
+  return std::filesystem::path(path)
+      .replace_extension(".previous" + path.extension().string())
+      .string();
+}
+
+}  // namespace
+
 std::vector<KeptFile> files_to_keep(const std::string& output) {
   if (output.empty()) return {};
-  const auto kept_name = [](const std::string& name) {
-    const std::filesystem::path path(name);
-    return std::filesystem::path(path)
-        .replace_extension(".previous" + path.extension().string())
-        .string();
-  };
   const std::string png = png_path_beside(output);
   std::vector<KeptFile> files;
   std::error_code ignored;
@@ -118,15 +124,34 @@ std::vector<KeptFile> files_to_keep(const std::string& output) {
   return files;
 }
 
+void keep_files(const std::string& output) {
+  const std::vector<KeptFile> files = files_to_keep(output);
+  std::error_code error;
+  // What was kept before is of another render, all of it.
+  if (!files.empty())
+    for (const std::string& path : {output, state_path_beside(output), png_path_beside(output)})
+      std::filesystem::remove(kept_name(path), error);
+  for (const KeptFile& file : files) {
+    std::filesystem::rename(file.path, file.kept, error);
+    if (error)
+      throw IoError(
+          fmt::format("{}: cannot be kept as {}: {}", file.path, file.kept, error.message()));
+  }
+}
+
 std::optional<std::string> warning_of_replacing(const std::string& output,
                                                 const RenderIdentity& here) {
   const std::vector<KeptFile> files = files_to_keep(output);
   if (files.empty()) return std::nullopt;
+  std::error_code ignored;
+  const bool replaces_older = std::ranges::any_of(
+      files, [&](const KeptFile& file) { return std::filesystem::exists(file.kept, ignored); });
   std::string kept = files[0].kept;
   for (size_t i = 1; i < files.size(); ++i) kept += (i == 1 ? ", with " : " and ") + files[i].kept;
+  const char* const older = replaces_older ? ", in place of what was kept before" : "";
   const std::string state = state_path_beside(output);
   if (std::ranges::none_of(files, [&](const KeptFile& file) { return file.path == state; }))
-    return fmt::format("{} is there already; it is kept as {}", files[0].path, kept);
+    return fmt::format("{} is there already; it is kept as {}{}", files[0].path, kept, older);
   std::string what = "a state that cannot be read";
   try {
     const StateFile file = open_state(output, "read it");
@@ -135,10 +160,10 @@ std::optional<std::string> warning_of_replacing(const std::string& output,
         RenderIdentity::from_metadata(file.metadata()).differences(here, "here").empty();
     what = fmt::format(
         "{} of {} render{}", passes.empty() ? "a part of a pass" : "passes " + passes.text(),
-        is_same ? "this very" : "another", is_same ? ", with which --resume goes on" : "");
+        is_same ? "this very" : "another", is_same ? ", with which --resume would go on" : "");
   } catch (const IoError&) {
   }
-  return fmt::format("{} has {}; it is kept as {}", output, what, kept);
+  return fmt::format("{} has {}; it is kept as {}{}", output, what, kept, older);
 }
 
 Checkpoint go_on_from(const std::string& path, const RenderIdentity& here, const Scene& scene,

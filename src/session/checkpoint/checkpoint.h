@@ -42,6 +42,8 @@ struct KeptFile {
 /// alone, as a render leaves it that ends before its first picture, is kept if there is no earlier
 /// one to lose.
 std::vector<KeptFile> files_to_keep(const std::string& output);
+/// Gives them the names under which they are kept. Throws IoError.
+void keep_files(const std::string& output);
 
 /// The whole passes that a state has. Throws IoError, "cannot `purpose`", if it does not say so.
 PassRanges passes_of(const StateFile& file, const std::string& purpose);

@@ -101,6 +101,9 @@ Merged merge_pictures(const std::vector<std::string>& inputs, const std::string&
   for (const std::string& fault : invalid_samples(sum)) faults += "warning: " + fault + "\n";
   if (!faults.empty()) metadata.emplace_back(kChoicesKey, faults);
   add_estimates(sum, &metadata);
+  if (auto warning = warning_of_replacing(output, identity))
+    merged.warnings.push_back(std::move(*warning));
+  keep_files(output);
   write_state(state_path_beside(output), {first.resolution(), first.window(), metadata},
               sum.state());
   write_film(output, sum, picture_metadata_of(metadata), 1, precision);

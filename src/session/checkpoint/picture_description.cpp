@@ -21,10 +21,12 @@ namespace {
 std::string state_line(const StateFile& file) {
   const PassRanges passes = passes_of(file, "describe it");
   const std::optional<uint32_t> open = open_pass_of(file);
-  return fmt::format(
-      "{} passes ({}){}, {}", passes.count(), passes.text(),
-      open ? fmt::format(" and a part of pass {}", *open) : "",
-      passes_add_up(file) ? "to be resumed or merged" : "to be resumed; they depend on each other");
+  const char* const use = !passes_add_up(file) ? "to be resumed; they depend on each other"
+                          : open               ? "to be resumed (only whole passes can be merged)"
+                                               : "to be resumed or merged";
+  if (passes.empty() && open) return fmt::format("a part of pass {}, {}", *open, use);
+  return fmt::format("{} pass{} ({}){}, {}", passes.count(), passes.count() == 1 ? "" : "es",
+                     passes.text(), open ? fmt::format(" and a part of pass {}", *open) : "", use);
 }
 
 /// Of the state beside a picture.

@@ -55,6 +55,11 @@ class Differences {
 
   void compare(const std::string& what, const std::string& there, const std::string& here) {
     if (there == here) return;
+    if (what == "scene_hash") {
+      sentences_.push_back(fmt::format(
+          "the scene, or a file that it reads, is another one ({}, {} {})", there, name_, here));
+      return;
+    }
     const auto shown = [](const std::string& value) { return value.empty() ? "nothing" : value; };
     sentences_.push_back(fmt::format("{} {}, {} {}", what, shown(there), name_, shown(here)));
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "session/report/short_number.h"
 
@@ -13,11 +14,11 @@ namespace {
 /// Lights that are named; the rest is summed up.
 constexpr size_t kMaxNamed = 5, kMaxNamedDark = 3;
 
-/// Of all estimators; empty if some of them does not tell lights apart, or none did so yet.
-std::vector<LampLight> lamps_of(const std::vector<EstimatorStatistics>& statistics) {
+/// Of all estimators; nothing if some of them does not tell lights apart.
+std::optional<std::vector<LampLight>> lamps_of(const std::vector<EstimatorStatistics>& statistics) {
   std::vector<LampLight> all;
   for (const EstimatorStatistics& s : statistics) {
-    if (!s.tells_lamps) return {};
+    if (!s.tells_lamps) return std::nullopt;
     if (s.lamps.empty()) continue;
     if (all.empty()) {
       all = s.lamps;
@@ -61,13 +62,16 @@ std::string reason_of(uint64_t rays, const char* it) {
         "all {} shadow rays to {}, from what the camera sees directly or by bounces, were blocked, "
         "and no other path found light",
         short_number(static_cast<double>(rays)), it);
-  return fmt::format("no shadow ray went to {}, since what camera paths met is out of reach", it);
+  return fmt::format(
+      "no shadow ray went to {}: it is dark or dim, or shines away from all that camera paths met, "
+      "or these were only smooth surfaces, or none, or their depth ends before",
+      it);
 }
 
 }  // namespace
 
 std::vector<std::string> lamp_report(const std::vector<EstimatorStatistics>& statistics) {
-  std::vector<LampLight> lamps = lamps_of(statistics);
+  std::vector<LampLight> lamps = lamps_of(statistics).value_or(std::vector<LampLight>());
   const double total = total_of(lamps);
   if (!(total > 0)) return {};
   std::stable_sort(lamps.begin(), lamps.end(),
@@ -98,7 +102,9 @@ bool is_black(const Film& film) {
 
 std::string black_picture_report(const std::vector<EstimatorStatistics>& statistics) {
   const std::string start = "the picture is black, so that no error can be estimated";
-  const std::vector<LampLight> lamps = lamps_of(statistics);
+  const auto told = lamps_of(statistics);
+  if (!told) return start;
+  const std::vector<LampLight>& lamps = *told;
   if (std::any_of(statistics.begin(), statistics.end(),
                   [](const EstimatorStatistics& s) { return s.lamp_passes > 0; }) &&
       lamps.empty())
