@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace nephroid {
 namespace v3 {
@@ -128,7 +129,9 @@ void upgrade_filter(const std::string& type, Parameters& list) {
   if (type != "gaussian") return;
   const auto alpha = v3::take(list, "alpha");
   const std::optional<double> value = alpha ? v3::grey_value(*alpha) : std::nullopt;
-  if (value && *value > 0) v3::add_float(list, "sigma", 1 / std::sqrt(2 * *value), alpha->where);
+  if (value && !(*value > 0))
+    no_equal(*alpha, "PixelFilter \"gaussian\"", "\"float sigma\", 1 / sqrt(2 alpha)");
+  if (value) v3::add_float(list, "sigma", 1 / std::sqrt(2 * *value), alpha->where);
 }
 
 /// The factor that the "scale" of a light is multiplied by.
@@ -143,9 +146,9 @@ double take_grey_factor(Parameters& list, const char* name, const std::string& o
 }
 
 /// The emission of blackbodies had a factor as their second number.
-double take_blackbody_factor(Parameters& list, const char* name) {
+std::optional<double> take_blackbody_factor(Parameters& list, const char* name) {
   Parameter* const colour = v3::find(list, name);
-  if (!colour || colour->type != "blackbody" || colour->numbers.size() != 2) return 1;
+  if (!colour || colour->type != "blackbody" || colour->numbers.size() != 2) return std::nullopt;
   const double factor = colour->numbers[1];
   colour->numbers.pop_back();
   return factor;
@@ -154,8 +157,9 @@ double take_blackbody_factor(Parameters& list, const char* name) {
 /// True if it changed anything.
 bool upgrade_emission(const std::string& type, Parameters& list, const SourceLocation& where) {
   const std::string of_what = "light " + in_quotes(type);
-  double factor = take_blackbody_factor(list, "L") * take_blackbody_factor(list, "I");
-  bool changed = factor != 1;
+  const auto of_l = take_blackbody_factor(list, "L"), of_i = take_blackbody_factor(list, "I");
+  double factor = of_l.value_or(1) * of_i.value_or(1);
+  bool changed = of_l || of_i;
   if (v3::find(list, "mapname") && (type == "infinite" || type == "projection")) {
     const char* const colour = type == "infinite" ? "L" : "I";
     changed |= v3::find(list, colour) != nullptr;

@@ -78,7 +78,8 @@ bool drop_fixed(const std::string& type, Parameters& list, const SourceLocation&
     dropped |= found.has_value();
     if (found ? v3::grey_value(*found) == row.value : row.is_default) continue;
     no_equal(found ? found->where : where, type,
-             ", and its \"" + std::string(row.parameter) + "\" has no equal in pbrt-v4");
+             ", and its \"" + std::string(row.parameter) + "\"" +
+                 (found ? "" : ", which it has by default,") + " has no equal in pbrt-v4");
   }
   return dropped;
 }

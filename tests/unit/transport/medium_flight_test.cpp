@@ -183,19 +183,21 @@ TEST(FlightPerWavelength, TheMeanNeverGrows) {
 }
 
 TEST(FlightPerWavelength, TheHeroAloneIsDeltaTracked) {
-  SampledWavelengths lambda = kLambda;
-  lambda.terminate_secondary();
-  // Without absorption nothing is lost, whatever the other wavelengths would have met.
-  const TestMedium medium(SampledSpectrum(), kScattered, true);
-  Measured measured;
-  FlightRandom random(-1.0f, 17);
-  for (int n = 0; n < 50000; ++n) {
-    SampledSpectrum throughput(1.0f);
-    const auto c = fly_per_wavelength(medium, kRay, kEnd, lambda, random, throughput);
-    ASSERT_NEAR(throughput[0], 1.0f, 1e-4f);
-    measured.add(c, double(throughput[0]));
+  for (const int hero : {0, 5}) {
+    SampledWavelengths lambda = kLambda.with_hero(hero);
+    lambda.terminate_secondary();
+    // Without absorption nothing is lost, whatever the other wavelengths would have met.
+    const TestMedium medium(SampledSpectrum(), kScattered, true);
+    Measured measured;
+    FlightRandom random(-1.0f, 17);
+    for (int n = 0; n < 50000; ++n) {
+      SampledSpectrum throughput(1.0f);
+      const auto c = fly_per_wavelength(medium, kRay, kEnd, lambda, random, throughput);
+      ASSERT_NEAR(throughput[hero], 1.0f, 1e-4f);
+      measured.add(c, double(throughput[hero]));
+    }
+    expect_agree(measured, quadrature(medium, hero), hero);
   }
-  expect_agree(measured, quadrature(medium, 0), 0);
 }
 
 // A medium that only absorbs and is denser than any number of collisions.
