@@ -66,13 +66,30 @@ TEST_F(CheckpointCommand, ACropWithoutPixelsIsThatOfTheCommandLine) {
 
 TEST_F(CheckpointCommand, WhatIsReplacedIsSaid) {
   const std::string said =
-      "a.exr has passes 0..2 of this very render, with which --resume goes on; it is kept as "
+      "a.exr has passes 0..2 of this very render, with which --resume would go on; it is kept as "
       "a.previous.exr";
-  EXPECT_EQ(render("a", {"--passes", "3"}).errors.find("replaced"), std::string::npos);
+  EXPECT_EQ(render("a", {"--passes", "3"}).errors.find("is kept"), std::string::npos);
   expect_said(render("a", {"--passes", "1", "--quiet"}), said);
   render("a", {"--passes", "3", "--resume"});
-  EXPECT_EQ(render("a", {"--passes", "1", "--seed", "5"}).errors.find("replaced"),
-            std::string::npos);
+  expect_said(render("a", {"--passes", "1", "--seed", "5"}),
+              "a.exr has passes 0..2 of another render; it is kept as a.previous.exr, with "
+              "a.previous.state and a.previous.png, in place of what was kept before");
+  // Of a picture without a state no older state is kept.
+  render("a", {"--passes", "1", "--no-state"});
+  render("a", {"--passes", "1"});
+  EXPECT_TRUE(std::filesystem::exists(folder_.path("a.previous.exr")));
+  EXPECT_FALSE(std::filesystem::exists(folder_.path("a.previous.state")));
+}
+
+TEST_F(CheckpointCommand, MergingKeepsWhatItReplaces) {
+  render("a", {"--passes", "0..0"});
+  render("b", {"--passes", "1..1"});
+  render("c", {"--passes", "3", "--seed", "7"});
+  const ProgramRun merged = run_program(folder_.path(), {"merge", "a.exr", "b.exr", "-o", "c.exr"});
+  EXPECT_EQ(merged.status, 0) << merged.errors;
+  expect_said(merged, "c.exr has passes 0..2 of another render; it is kept as c.previous.exr");
+  EXPECT_EQ(value_of(picture("c.previous").metadata, "nephroid:passes"), "0..2");
+  EXPECT_EQ(value_of(picture("c").metadata, "nephroid:passes"), "0..1");
 }
 
 TEST_F(CheckpointCommand, WhatIsMergedIsOneRun) {
@@ -97,7 +114,7 @@ TEST_F(CheckpointCommand, AnotherRenderIsRefusedWithWhatDiffers) {
   SceneFolder other;
   other.render({"--passes", "1"});
   other.write("scene.pbrt", kHead + kTriangle + "# the same to look at, another file\n");
-  expect_said(other.render({"--passes", "2", "--resume"}), "scene_hash ");
+  expect_said(other.render({"--passes", "2", "--resume"}), "the scene, or a file that it reads");
 }
 
 TEST_F(CheckpointCommand, NoStateLeavesAPictureAlone) {
