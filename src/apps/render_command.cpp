@@ -91,13 +91,16 @@ int run_render(const RenderCommand& command) {
 
   ProgressDisplay display;
   Render render(request, loaded, warnings_of(command, display));
-  if (!command.quiet)
+  if (!command.quiet) {
+    // Known before the first ray: after an hour it is late to hear that maxdepth is too small.
+    for (const std::string& note : render.notes()) say("note: " + note + "\n");
     render.on_progress([&](const RenderProgress& progress) { display.show(progress); });
+  }
   signals.note_stops(!command.quiet);
   const RenderResult result = render.run(signals.flags());
   if (!command.quiet) {
     display.clear();
-    say(render_report(result, render.film(), request.options.output, render.notes()));
+    say(render_report(result, render.film(), request.options.output));
   }
   return exit_status(command, result);
 }

@@ -75,8 +75,7 @@ std::string route_lines(const Film& film) {
 
 }  // namespace
 
-std::string render_report(const RenderResult& result, const Film& film, const std::string& output,
-                          const std::vector<std::string>& notes) {
+std::string render_report(const RenderResult& result, const Film& film, const std::string& output) {
   if (!result.has_picture)
     return fmt::format("{} before the first pixels were rendered: there is no {}\n",
                        reason_text(result.reason), output);
@@ -87,7 +86,6 @@ std::string render_report(const RenderResult& result, const Film& film, const st
   if (result.error_text) text += *result.error_text + "\n";
   text += route_lines(film);
   for (const std::string& fault : result.faults) text += fmt::format("warning: {}\n", fault);
-  for (const std::string& note : notes) text += fmt::format("note: {}\n", note);
   if (result.has_state)
     text +=
         fmt::format("wrote {}, {} and {}, with which {}\n", output, png_path_beside(output),

@@ -10,8 +10,7 @@
 namespace nephroid {
 
 /// Time, passes, rays, photons, radii, the share of each route and everything worth knowing about
-/// what was not rendered. `notes` come before those of the estimators.
-std::string render_report(const RenderResult& result, const Film& film, const std::string& output,
-                          const std::vector<std::string>& notes);
+/// what was not rendered.
+std::string render_report(const RenderResult& result, const Film& film, const std::string& output);
 
 }  // namespace nephroid
