@@ -61,7 +61,8 @@ class UsageError : public Error {
 struct Warning {
   SourceLocation where;
   std::string message;
-  bool is_unknown_name = false;  ///< of a parameter or an option: --strict makes it an error
+  bool is_unknown_name =
+      false;  ///< the scene uses a name that nobody knows: an error with --strict
 };
 
 /// Collects warnings while a scene is loaded; may be called from several threads.

@@ -10,7 +10,7 @@ namespace nephroid {
 
 struct LampLight {
   std::string name;
-  double light = 0;   ///< in units that are the same for all lamps
+  double light = 0;   ///< summed luminance; only ratios between lamps mean something
   uint64_t rays = 0;  ///< shadow rays to it, blocked or not
 };
 

@@ -102,7 +102,7 @@ constexpr OtherName kOtherNames[] = {
     {"d65", {"stdillum-D65"}},
 };
 
-/// What is another directive.
+/// What is not a type of that kind here but a directive or another shape.
 struct Advice {
   const char* kind;
   const char* written;

@@ -1,4 +1,4 @@
-// What people write, from other renderers or from daily speech, and what it is called in pbrt-v4.
+// Names from other renderers and everyday words, with the names that pbrt-v4 has for the same.
 // One table, asked by did_you_mean where an unknown name is reported.
 #pragma once
 

@@ -52,7 +52,7 @@ constexpr FixedRow kFixed[] = {
     {"kdsubsurface", "Kt", 1, true},
 };
 
-/// What belongs to a highlight that is not there.
+/// Parameters of a highlight: of no use in a material whose "Ks" is 0.
 constexpr const char* kOfHighlights[] = {"roughness",      "uroughness", "vroughness",
                                          "remaproughness", "index",      "eta"};
 

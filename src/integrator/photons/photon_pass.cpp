@@ -20,7 +20,7 @@ int64_t default_photons_per_pass(int64_t pixels) {
 
 }  // namespace
 
-Vec2f hero_and_time_of_pass(const PassKey& key) {
+Vec2f wavelengths_and_time_of_pass(const PassKey& key) {
   constexpr int kShift = std::countr_zero(static_cast<unsigned>(kSpectrumSamples));
   static_assert(1 << kShift == kSpectrumSamples);
   constexpr uint64_t kStream = 0x70617373;  // "pass"
@@ -48,7 +48,7 @@ PhotonPass start_photon_pass(const PassKey& key, const Scene& scene, const FilmF
                   .point = eye_point(key.pass)};
   pass.trace.key = key;
   pass.trace.control = &control;
-  const Vec2f u = hero_and_time_of_pass(key);
+  const Vec2f u = wavelengths_and_time_of_pass(key);
   pass.trace.lambda = SampledWavelengths::sample_visible(wavelength_number(scene, u.x));
   pass.u_time = u.y;
   pass.trace.time = scene.camera->motion_time(pass.u_time);

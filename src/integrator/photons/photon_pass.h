@@ -16,7 +16,7 @@ namespace nephroid {
 /// passes, of which the first is a multiple of that, have both in all of 2^k intervals, and both
 /// together, so that a thing that moves has all its colours everywhere; and they have 2^k times as
 /// many wavelengths as one, evenly spaced ([P5] of docs/estimators.md).
-Vec2f hero_and_time_of_pass(const PassKey& key);
+Vec2f wavelengths_and_time_of_pass(const PassKey& key);
 
 /// What all photons and camera walks of a pass share. Wavelengths and time are stratified over
 /// passes.

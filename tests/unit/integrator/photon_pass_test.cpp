@@ -36,7 +36,7 @@ TEST(PhotonPass, HasAllWavelengthsAtAllTimes) {
 
 // [P5]: the colour of what does not disperse hangs on the places of wavelengths in their intervals,
 // that behind a prism on the heroes.
-TEST(HeroOfPass, PlacesAreEvenlySpacedAndHeroesInAllIntervals) {
+TEST(WavelengthsOfPass, PlacesAreEvenlySpacedAndHeroesInAllIntervals) {
   for (const uint64_t seed : {1, 2, 3})
     for (const uint32_t count : {2u, 4u, 8u, 16u, 64u, 256u})
       for (const uint32_t block : {0u, 1u, 5u, 77u}) {
@@ -44,7 +44,7 @@ TEST(HeroOfPass, PlacesAreEvenlySpacedAndHeroesInAllIntervals) {
         std::vector<double> places;
         std::set<int> intervals;
         for (uint32_t pass = block * count; pass < (block + 1) * count; ++pass) {
-          const double hero = double{hero_and_time_of_pass({seed, pass}).x};
+          const double hero = double{wavelengths_and_time_of_pass({seed, pass}).x};
           const double place = hero * kSpectrumSamples;
           places.push_back(place - std::floor(place));
           intervals.insert(static_cast<int>(hero * count));
@@ -56,9 +56,10 @@ TEST(HeroOfPass, PlacesAreEvenlySpacedAndHeroesInAllIntervals) {
       }
 }
 
-TEST(HeroOfPass, HasNoPlaceThatItPrefers) {
+TEST(WavelengthsOfPass, HasNoPlaceThatItPrefers) {
   double sum = 0;
-  for (uint64_t seed = 0; seed < 1000; ++seed) sum += double{hero_and_time_of_pass({seed, 3}).x};
+  for (uint64_t seed = 0; seed < 1000; ++seed)
+    sum += double{wavelengths_and_time_of_pass({seed, 3}).x};
   EXPECT_NEAR(sum / 1000, 0.5, 0.04);
 }
 
