@@ -132,8 +132,9 @@ TEST(PbrtV3, NamedMaterialsAndMixtures) {
 
 TEST(PbrtV3, MaterialsThatAreNotTheSameAreRefusedWithThePbrtV4Way) {
   EXPECT_EQ(parse_error("WorldBegin\nMaterial \"plastic\""),
-            "t.pbrt:2:1: material \"plastic\" is pbrt-v3's, and its \"Ks\" has no equal in "
-            "pbrt-v4, expected Material \"coateddiffuse\" with \"reflectance\" and \"roughness\", "
+            "t.pbrt:2:1: material \"plastic\" is pbrt-v3's, and its \"Ks\", which it has by "
+            "default, has no equal in pbrt-v4, expected Material \"coateddiffuse\" with "
+            "\"reflectance\" and \"roughness\", "
             "or \"Ks\" 0");
   EXPECT_EQ(parse_error("WorldBegin\nMaterial \"matte\" \"float sigma\" 20"),
             "t.pbrt:2:18: material \"matte\" is pbrt-v3's, and its \"sigma\" has no equal in "
