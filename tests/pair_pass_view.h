@@ -50,7 +50,7 @@ struct PairView {
 };
 
 inline PairTechniques camera_paths_only() {
-  return {.light_paths = 0, .connects = false, .caustics_only = true};
+  return {.light_paths = 0, .connects = false, .casters = ClassMask::kSpecular};
 }
 
 }  // namespace nephroid::testing_support

@@ -132,7 +132,8 @@ TEST_P(Guided, WalksAndPhotonsTogetherFindTheSamePicture) {
         IntegratorOptions own = options;
         own.radius = radius;
         Film film = film_for(*scene, set);
-        const PhotonGuide guide = guide_caustic_photons(seed, *scene, film.format(), own).guide;
+        const PhotonGuide guide =
+            guide_caustic_photons(seed, *scene, film.format(), own, ClassMask::kSpecular).guide;
         EXPECT_EQ(guide.starts.empty(), !guided);
         const SampleMap map(film.bounds(), 8), no_walks(film.bounds(), 0);
         EstimatorStatistics statistics;
@@ -142,7 +143,9 @@ TEST_P(Guided, WalksAndPhotonsTogetherFindTheSamePicture) {
                   .scene = *scene,
                   .owned = owned,
                   .options = own,
-                  .techniques = {.light_paths = 8192, .connects = false, .caustics_only = true},
+                  .techniques = {.light_paths = 8192,
+                                 .connects = false,
+                                 .casters = ClassMask::kSpecular},
                   .radius_pixels = radius_of_pass(own, 0, i),
                   .emission = guide.starts,
                   .light_paths_vary = true},

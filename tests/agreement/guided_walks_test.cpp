@@ -47,13 +47,14 @@ TEST_P(GuidedWalks, FindTheSamePictureWithLessNoise) {
       Film film = film_for(*scene, set);
       EstimatorStatistics statistics;
       const auto pass_of = [&](uint32_t number) {
-        return PairPass{.key = {s, number},
-                        .seed = hash_combine(s, kPathAndPhotonsNumber),
-                        .scene = *scene,
-                        .owned = owned,
-                        .options = options,
-                        .techniques = {.light_paths = 0, .connects = false, .caustics_only = true},
-                        .light_paths_vary = true};
+        return PairPass{
+            .key = {s, number},
+            .seed = hash_combine(s, kPathAndPhotonsNumber),
+            .scene = *scene,
+            .owned = owned,
+            .options = options,
+            .techniques = {.light_paths = 0, .connects = false, .casters = ClassMask::kSpecular},
+            .light_paths_vary = true};
       };
       const SampleMap first(film.bounds(), 16), one(film.bounds()), no_walks(film.bounds(), 0);
       auto found = measure(pass_of(0), film.format(), {first, no_walks},

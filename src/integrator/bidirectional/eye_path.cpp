@@ -29,7 +29,7 @@ class EyeVisitor {
                   settings.merging ? settings.merging->photons_for_one : 1),
         guided_(settings.radiance, extras.records),
         eye_(routes_.start()),
-        sums_(settings.connects(), settings.merging && settings.merging->caustics_only),
+        sums_(settings.connects(), settings.merging ? settings.merging->casters : ClassMask::kNone),
         root_(settings.has_trees() ? settings.tree : nullptr, extras.leaves) {}
 
   void escape(const Walk& walk) {
@@ -184,7 +184,7 @@ class EyeVisitor {
   }
 
   double merge_weight(EventClass c) const {
-    return settings_.merging && merges_at(*surface_, c)
+    return settings_.merging && settings_.merging->merges_at(*surface_, c)
                ? settings_.merging->weight_at(place_.p, first_)
                : 0;
   }
@@ -219,7 +219,7 @@ class EyeVisitor {
         arm.density.forward = subsurface_density(v.surface.ng, w);
       else if (sums_.behind(c, before_light).before > 0)
         arm.density.back = event_density(v.bsdf, wi, v.wo, TransportMode::kImportance, c);
-      arm.merge = sums_.is_plain(c, before_light) ? 0 : merge_weight(c);
+      arm.merge = sums_.merges_here(before_light) ? merge_weight(c) : 0;
       arm.eye = routes_.next(eye_, symbol_at(symbols_, v, c, wi));
     }
     return any;
@@ -346,7 +346,7 @@ class EyeVisitor {
 /// [W11] Photons around the vertex.
 void EyeVisitor::merge(const Walk& walk, const WalkVertex& v, ClassMask among) {
   const PairMerging& merging = *settings_.merging;
-  const ClassMask classes = among & ClassMask::kRough;
+  const ClassMask classes = among & merging.receivers();
   const float radius = merging.radius_at(place_.p);
   if (!v.merges || classes == ClassMask::kNone || !(radius > 0.0f)) return;
   const MergePoint at{v, eye_, classes, walk.events + 1, walk.throughput, walk.lambda.left()};

@@ -1,7 +1,7 @@
 // What the weights of an eye path's techniques need of its way so far ([W2] to [W11] in
-// docs/estimators.md). Where only caustics merge, the path does not know yet whether an S will
-// stand between its vertices and the light: it keeps the sums for both cases. It must not know
-// places or routes.
+// docs/estimators.md). Where only caustics merge, the path does not know yet whether a
+// caster will stand between its vertices and the light: it keeps the sums for both cases. It must
+// not know places or routes.
 #pragma once
 
 #include "scene/bsdf/bsdf.h"
@@ -11,10 +11,9 @@ namespace nephroid {
 
 class EyePartialWeights {
  public:
-  /// `connects`: light paths are connected to more than lights. `caustics_only`: merges count where
-  /// an S follows.
-  EyePartialWeights(bool connects, bool caustics_only)
-      : connects_(connects), caustics_only_(caustics_only) {}
+  /// `connects`: light paths are connected to more than lights. `casters`: merges count where an
+  /// event of one of these classes follows; kNone: anywhere.
+  EyePartialWeights(bool connects, ClassMask casters) : connects_(connects), casters_(casters) {}
 
   /// [W9] At the first vertex: `cut` is what the connection to the camera counts.
   void arrive_first(double cut) {
@@ -41,29 +40,31 @@ class EyePartialWeights {
   /// The walk leaves by an event of the letter; `merge` is [W8] of it.
   void leave(const EventDensity& event, double merge, EventClass letter) {
     end_ = {all_, event, merge};
-    // An S behind them lets all vertices so far merge.
-    plain_end_ = {letter == EventClass::kSpecular ? all_ : plain_, event, 0};
+    // A caster behind them lets all vertices so far merge, but not its own.
+    plain_end_ = {contains(casters_, letter) ? all_ : plain_, event, 0};
   }
 
-  /// True if no merge counts where an event of class `c` at the vertex is followed by a light
-  /// (`before_light`; else by a vertex of the light's side), because it is not the S that it takes.
-  bool is_plain(EventClass c, bool before_light) const {
-    return before_light && caustics_only_ && c != EventClass::kSpecular;
-  }
-  /// At the vertex, for a cut behind such an event.
+  /// True if a merge at the vertex counts where a light (`before_light`) or else a vertex of the
+  /// light's side follows, which a caster may stand behind.
+  bool merges_here(bool before_light) const { return !before_light || merges_all_light(); }
+  /// At the vertex, for a cut behind an event of class `c` that is followed likewise.
   const PartialMisWeights& behind(EventClass c, bool before_light) const {
-    return is_plain(c, before_light) ? plain_ : all_;
+    return merges_here(before_light) || contains(casters_, c) ? all_ : plain_;
   }
   /// At the vertex, whatever follows.
   const PartialMisWeights& all() const { return all_; }
   /// What stands before the light, if nothing but it follows.
-  const SideEnd& end_to_light() const { return caustics_only_ ? plain_end_ : end_; }
+  const SideEnd& end_to_light() const { return merges_all_light() ? end_ : plain_end_; }
 
  private:
-  const bool connects_, caustics_only_;
+  bool merges_all_light() const { return casters_ == ClassMask::kNone; }
+
+  const bool connects_;
+  const ClassMask casters_;
   PartialMisWeights all_;
   SideEnd end_;
-  /// The same where only caustics merge, should no S follow: vertices merge that an S has followed.
+  /// The same where only caustics merge, should no caster follow: those vertices merge that one has
+  /// followed.
   PartialMisWeights plain_;
   SideEnd plain_end_;
 };

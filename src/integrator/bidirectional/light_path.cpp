@@ -74,6 +74,7 @@ class LightVisitor : public LightWalkVisitor {
       end_.merge = 0;
     }
     after_specular_ |= event.letter == EventClass::kSpecular;
+    after_caster_ |= settings_.merging && contains(settings_.merging->casters, event.letter);
     last_ = place_;
     is_first_ = false;
     state_ = routes_.light_next(state_, symbol_of(symbols_, event));
@@ -111,10 +112,12 @@ class LightVisitor : public LightWalkVisitor {
   /// Between the eye and vertices of the light's side there is the one that is connected, unless it
   /// is connected to the camera itself.
   double merge_weight(const WalkVertex& v, EventClass c, bool first) const {
-    return merges_here() && merges_at(v, c) ? settings_.merging->weight_at(merge_place_, first) : 0;
+    return merges_here() && settings_.merging->merges_at(v, c)
+               ? settings_.merging->weight_at(merge_place_, first)
+               : 0;
   }
-  bool merges_here() const {
-    return settings_.merging && (after_specular_ || !settings_.merging->caustics_only);
+  bool merges_here() const {  // where the class of the event allows it
+    return settings_.merging && (after_caster_ || settings_.merging->casters == ClassMask::kNone);
   }
 
   LightVertex& store(const Walk& walk, ClassMask classes) {
@@ -133,7 +136,7 @@ class LightVisitor : public LightWalkVisitor {
 
   void deposit(const Walk& walk, const WalkVertex& v) {
     if (!merges_here() || v.subsurface_exit || !may_be_met(v, [&](Label label) {
-          return routes_.useful_from_light(group_, state_, label) & ClassMask::kRough;
+          return routes_.useful_from_light(group_, state_, label) & settings_.merging->receivers();
         }))
       return;
     Photon photon = photon_at(walk, v, emission_.flux);
@@ -202,7 +205,8 @@ class LightVisitor : public LightWalkVisitor {
   Vec3f merge_place_{0, 0, 0};  ///< where the eye side would merge
   Vec3f entry_wo_{0, 0, 1};
   bool is_first_ = true;
-  bool after_specular_ = false;  ///< the light has come by way of an S
+  /// The light has come by way of an S, and of an event without which it would not be merged.
+  bool after_specular_ = false, after_caster_ = false;
   PartialMisWeights sums_;
   SideEnd end_;
   const WalkVertex* surface_ = nullptr;

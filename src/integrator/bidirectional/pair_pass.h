@@ -22,14 +22,16 @@ inline constexpr double kCostOfMerge = 0.13;
 
 /// The techniques of a pass, among which trial passes choose.
 struct PairTechniques {
-  int64_t light_paths = 1;        ///< that leave photons; 0: nothing is merged
-  bool connects = true;           ///< false: nothing is connected but lights
-  bool caustics_only = false;     ///< merges only photons whose light came by way of an S
+  int64_t light_paths = 1;  ///< that leave photons; 0: nothing is merged
+  bool connects = true;     ///< false: nothing is connected but lights
+  /// Merges only photons whose light came by way of an event of one of these classes; kNone: all.
+  ClassMask casters = ClassMask::kNone;
   bool separates_chains = false;  ///< specular chains are for walks of their own
   bool follows_chains = false;    ///< camera paths follow them: SpecularRoot::Leaves::kBranches
   float roulette_threshold = 1;   ///< of camera paths
+  bool merges_all_light() const { return casters == ClassMask::kNone; }
   static void members(auto& self, auto& archive) {
-    archive(self.light_paths, self.connects, self.caustics_only, self.separates_chains,
+    archive(self.light_paths, self.connects, self.casters, self.separates_chains,
             self.follows_chains, self.roulette_threshold);
   }
 };

@@ -37,10 +37,19 @@ struct PairMerging {
   /// Where a small radius stands for a wider one: how many photons that would merge for one.
   float photons_for_one = 1;
   bool connects = true;  ///< false: only lights are connected
-  /// Merges only photons whose light came by way of an S: what walks find well is left to them.
-  bool caustics_only = false;
+  /// Merges only photons whose light came by way of an event of one of these classes, what walks
+  /// find well is left to them; kNone: all photons.
+  ClassMask casters = ClassMask::kNone;
 
-  bool merges_all_light() const { return !caustics_only && photons > 0; }
+  bool merges_all_light() const { return casters == ClassMask::kNone && photons > 0; }
+  /// Classes of the events at which photons are merged. What one G throws onto another is smooth
+  /// enough for walks, and lobes are too narrow for the few photons around a point.
+  ClassMask receivers() const {
+    return contains(casters, EventClass::kGlossy) ? ClassMask::kDiffuse : ClassMask::kRough;
+  }
+  bool merges_at(const WalkVertex& v, EventClass c) const {
+    return v.merges && contains(receivers(), c);
+  }
   float radius_at(const Vec3f& p) const { return radius_pixels * footprint.width(length(p - eye)); }
   /// `first`: no event between the eye and `p` but delta lobes, so that every photon is a sample of
   /// its own. Else all photons share the way there, which counts once.

@@ -66,11 +66,6 @@ inline double cut_at_camera(const PairSettings& settings, const CameraPath& came
   return density > 0 ? heuristic(settings.light_paths / density) : 0;
 }
 
-/// True if paths may merge at an event of class `c` here.
-inline bool merges_at(const WalkVertex& v, EventClass c) {
-  return v.merges && contains(ClassMask::kRough, c);
-}
-
 /// How light number `light` starts paths towards the vertex `x` in unit direction `w`. `from` is
 /// its point; not used for infinite lights. `direct_w` is the density of next-event estimation at
 /// x, per steradian; of lights that no walk can hit, the probability of choosing the light ([W5]).

@@ -79,9 +79,12 @@ constexpr EstimatorTraits kMerging{.name = "photons", .merges = true, .starts_at
 }  // namespace
 
 GuidedPhotons guide_caustic_photons(uint64_t seed, const Scene& scene, const FilmFormat& film,
-                                    const IntegratorOptions& options, PassControl& control) {
-  const CompiledPlan plan = compile_plan(
-      {{{"caustic", "C.*[DG]S+[DG]?L", &kMerging, {}}, {"rest", ".*", &kTheRest, {}}}, {}}, scene);
+                                    const IntegratorOptions& options, ClassMask casters,
+                                    PassControl& control) {
+  // A G that catches the caustic of another one is left out: it is seldom noisy.
+  const char* route = contains(casters, EventClass::kGlossy) ? "C.*D[GS]+D?L" : "C.*[DG]S+[DG]?L";
+  const CompiledPlan plan =
+      compile_plan({{{"caustic", route, &kMerging, {}}, {"rest", ".*", &kTheRest, {}}}, {}}, scene);
   constexpr size_t kCaustics = 0;  // the group of the first route
   const auto routes = std::make_shared<const Routes>(plan.compilation.routes);
   return guide_photons(seed, scene, film, {routes, plan.symbols, kCaustics}, options, false,

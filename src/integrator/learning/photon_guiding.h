@@ -28,9 +28,10 @@ GuidedPhotons guide_photons(uint64_t seed, const Scene& scene, const FilmFormat&
                             bool guides_scattering, PassControl& control = unwatched);
 
 /// The same where photons start, for an estimator of other routes whose photons are of use where
-/// those of a route of caustics would be.
+/// those of a route of caustics would be. `casters`: what throws these, kSpecular or that and
+/// kGlossy.
 GuidedPhotons guide_caustic_photons(uint64_t seed, const Scene& scene, const FilmFormat& film,
-                                    const IntegratorOptions& options,
+                                    const IntegratorOptions& options, ClassMask casters,
                                     PassControl& control = unwatched);
 
 /// The same as what an estimator has learned.

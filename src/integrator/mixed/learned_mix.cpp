@@ -9,14 +9,17 @@ void LearnedMix::add_to(EstimatorStatistics& s) const {
   s.learning_rays += plan_.rays + plan_.photons.rays;
   s.hold(plan_.photon_bytes, plan_.pixel_bytes);
   const PairTechniques& techniques = plan_.techniques;
-  if (!techniques.caustics_only)
+  if (techniques.merges_all_light())
     s.notes.push_back(
         "trial passes were better with photons of all light than with those of caustics alone");
   if (techniques.roulette_threshold == kPatientRouletteThreshold)
     s.notes.push_back(
         "Russian roulette begins at an eighth of what a camera path started with: trial passes "
         "were better for it");
-  if (techniques.caustics_only) plan_.photons.add_notes(s);
+  if (contains(techniques.casters, EventClass::kGlossy))
+    s.notes.push_back(
+        "trial passes were better with photons of the caustics of glossy materials, too");
+  if (!techniques.merges_all_light()) plan_.photons.add_notes(s);
   if (plan_.directions.guides())
     s.notes.push_back(
         fmt::format("camera paths guided at {:.3g} % of the rough surfaces that "

@@ -18,7 +18,6 @@ struct MixPlan {
   SampleAllocation samples;
   RadianceGuide directions;
   bool is_even = false;                        ///< each pixel has as many camera paths
-  bool lacks_specular = false;                 ///< the scene has no lobe of class S
   uint64_t rays = 0;                           ///< that learning took, but for those of `photons`
   uint64_t photon_bytes = 0, pixel_bytes = 0;  ///< memory that it took
 
@@ -27,7 +26,7 @@ struct MixPlan {
   }
   static void members(auto& self, auto& archive) {
     archive(self.photons, self.techniques, self.balance, self.samples, self.directions,
-            self.is_even, self.lacks_specular, self.rays, self.photon_bytes, self.pixel_bytes);
+            self.is_even, self.rays, self.photon_bytes, self.pixel_bytes);
   }
 };
 

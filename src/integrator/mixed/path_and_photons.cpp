@@ -49,7 +49,7 @@ SampleAllocation allocation(const PairFindings::Variance& v, const MixPlan& plan
 
 constinit const EstimatorDescriptor PathAndPhotons::kDescriptor = {
     .traits = {.name = "path+photons",
-               .help = "path tracing, and photons merged where their light came by way of an S",
+               .help = "path tracing, and photons of caustics, each weighed against the other",
                .starts_at_lights = true,
                .why_never_sampled = out_of_reach_of_merging},
     .settings = kSettings,
@@ -72,8 +72,9 @@ PathAndPhotons::PathAndPhotons(OwnedRoutes owned, const IntegratorOptions& optio
   statistics_.tells_lamps = true;
 }
 
-Candidate PathAndPhotons::best_of(Trials& trials, const Scene& scene, const FilmFormat& film,
-                                  const MixPlan& plan) const {
+PathAndPhotons::Choice PathAndPhotons::best_of(
+    Trials& trials, const Scene& scene, const FilmFormat& film,
+    const std::function<GuidedPhotons(ClassMask)>& photons_of) const {
   PairTechniques techniques{
       .light_paths = std::max<int64_t>(PixelSlices(film.bounds()).first_pixels(), 1 << 14),
       .connects = false,
@@ -83,26 +84,50 @@ Candidate PathAndPhotons::best_of(Trials& trials, const Scene& scene, const Film
                           SpecularTree(scene, owned_, options_.max_depth).finds_something(),
       .roulette_threshold = kCameraRouletteThreshold};
   const Candidate all = trials.run(techniques, kUnguided);
-  techniques.caustics_only = true;
-  if (plan.lacks_specular) techniques.light_paths = 0;
   const auto inverse_efficiency = [&all](Candidate of) {
     // All photons find whatever those of caustics find, though they lose light at edges.
     of.balance.variance_of_camera += of.trial.min_variance_of_unseen(all.trial);
     return of.balance.inverse_efficiency();
   };
-  const Candidate caustics = trials.run(techniques, plan.photons.guide.starts);
+  const auto try_caustics = [&](ClassMask casters) {
+    Choice choice;
+    choice.photons = photons_of(casters);
+    techniques.casters = casters;
+    choice.candidate = trials.run(techniques, choice.photons.guide.starts);
+    return choice;
+  };
+  const int64_t light_paths = techniques.light_paths;
+  if (!has_events(owned_, EventClass::kSpecular)) techniques.light_paths = 0;
+  Choice caustics = try_caustics(ClassMask::kSpecular);
+  // Some of all photons leave camera paths no less noise than all of them.
+  if (has_events(owned_, EventClass::kGlossy) &&
+      kRequiredGain * all.balance.variance_of_camera <
+          caustics.candidate.balance.variance_of_camera) {
+    techniques.light_paths = light_paths;
+    Choice with_glossy = try_caustics(ClassMask::kSpecular | ClassMask::kGlossy);
+    const bool pays = kRequiredGain * inverse_efficiency(with_glossy.candidate) <
+                      inverse_efficiency(caustics.candidate);
+    (pays ? with_glossy : caustics).photons.rays += (pays ? caustics : with_glossy).photons.rays;
+    if (pays) caustics = std::move(with_glossy);
+  }
   // Fine shadows under hair would be blurred.
   if (!has_events(owned_, EventClass::kHair) &&
-      kRequiredGain * all.balance.inverse_efficiency() < inverse_efficiency(caustics)) {
+      kRequiredGain * all.balance.inverse_efficiency() < inverse_efficiency(caustics.candidate)) {
     // Walks of their own for every pixel would cost more than these short camera paths.
-    Candidate chosen = all;
-    chosen.techniques.follows_chains = std::exchange(chosen.techniques.separates_chains, false);
+    Choice chosen;
+    chosen.candidate = all;
+    chosen.photons.rays = caustics.photons.rays;
+    PairTechniques& own = chosen.candidate.techniques;
+    own.follows_chains = std::exchange(own.separates_chains, false);
     return chosen;
   }
   // [A5]
+  techniques = caustics.candidate.techniques;
   techniques.roulette_threshold = kPatientRouletteThreshold;
-  const Candidate patient = trials.run(techniques, plan.photons.guide.starts);
-  return inverse_efficiency(patient) < inverse_efficiency(caustics) ? patient : caustics;
+  const Candidate patient = trials.run(techniques, caustics.photons.guide.starts);
+  if (inverse_efficiency(patient) < inverse_efficiency(caustics.candidate))
+    caustics.candidate = patient;
+  return caustics;
 }
 
 std::shared_ptr<const Learned> PathAndPhotons::learn(const Scene& scene, const FilmFormat& film,
@@ -110,15 +135,17 @@ std::shared_ptr<const Learned> PathAndPhotons::learn(const Scene& scene, const F
   const int64_t pixels = PixelSlices(film.bounds()).first_pixels();
   const int asked = options_.camera_samples_per_pass;
   MixPlan plan;
-  plan.lacks_specular = !has_events(owned_, EventClass::kSpecular);
-  plan.photons = guide_caustic_photons(seed, scene, film, options_, control);
   Trials trials(seed, scene, film, owned_, options_, control);
-  const Candidate best = best_of(trials, scene, film, plan);
+  Choice choice = best_of(trials, scene, film, [&](ClassMask casters) {
+    return guide_caustic_photons(seed, scene, film, options_, casters, control);
+  });
+  plan.photons = std::move(choice.photons);
+  const Candidate& best = choice.candidate;
   PairTechniques& chosen = plan.techniques;
   chosen = best.techniques;
   if (chosen.light_paths > 0) plan.balance = best.balance;
   // With photons of all light, a second camera path gains little or nothing (ADR 31).
-  plan.is_even = asked > 0 || !chosen.caustics_only;
+  plan.is_even = asked > 0 || chosen.merges_all_light();
   const double records_per_path =
       std::clamp(1.1 * best.trial.records, 0.25, double{PassRecords::kMaxPerPath});
   if (options_.photons_per_pass > 0) {
@@ -131,7 +158,7 @@ std::shared_ptr<const Learned> PathAndPhotons::learn(const Scene& scene, const F
                   SampleMap(film.bounds(), static_cast<uint16_t>(std::max(asked, 1)))};
   const PairLearning learning{
       .measures_variance = !plan.is_even,
-      .keeps_records = chosen.caustics_only && options_.own<GuidingOptions>().walks,
+      .keeps_records = !chosen.merges_all_light() && options_.own<GuidingOptions>().walks,
       .records_per_path = records_per_path};
   if (learning.measures_variance || learning.keeps_records) {
     const PassKey key{hash_combine(seed, kMeasureStream), 0};
@@ -165,7 +192,7 @@ PairPass PathAndPhotons::pass_of(const PassKey& key, const Scene& scene, const F
       .techniques = plan.techniques,
       .radius_pixels = first_radius_of_film(plan.techniques, options_, film.picture_pixels()) *
                        shrinkage(options_, key.pass),
-      .emission = plan.techniques.caustics_only ? plan.photons.guide.starts : kUnguided,
+      .emission = plan.photons.guide.starts,
       .light_paths_vary = true,
       .control = control};
   pass.techniques.light_paths = plan.light_paths();
@@ -182,7 +209,7 @@ std::shared_ptr<const Learned> PathAndPhotons::read_learned(ByteReader& from,
 void PathAndPhotons::render_pass(const PassKey& key, const Learned* learned, const Scene& scene,
                                  Film& film, PassControl& control) {
   const MixPlan& plan = static_cast<const LearnedMix*>(learned)->plan();
-  merges_all_light_ = !plan.techniques.caustics_only;
+  leaves_glossy_ = plan.techniques.casters == ClassMask::kSpecular;
   render(pass_of(key, scene, film.format(), plan, control),
          {.film = film,
           .samples = {plan.samples.paths, plan.samples.chains},
@@ -194,7 +221,7 @@ void PathAndPhotons::render_pass(const PassKey& key, const Learned* learned, con
 EstimatorStatistics PathAndPhotons::statistics() const {
   EstimatorStatistics s = statistics_;
   explain_missing_caustics(owned_, s);
-  explain_glossy_caustics(owned_, !merges_all_light_, s);
+  explain_glossy_caustics(owned_, leaves_glossy_, s);
   return s;
 }
 

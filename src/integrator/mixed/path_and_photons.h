@@ -1,17 +1,20 @@
 // `path+photons`: one walk from the eye that finds everything path tracing finds, and whose
 // caustics are photons as well, each weighed against the other; where trial passes show that it is
-// worth its time, all other light is photons, too (docs/estimators.md, sections 20 to 23). Papers:
+// worth their time, the caustics of glossy materials are, too, or all light (docs/estimators.md,
+// sections 20 to 23). Papers:
 // Doidge, Jones & Mora 2012, whose future work this is; Georgiev et al. 2012 for weights; Grittmann
 // et al. 2022 for choosing techniques by efficiency.
 #pragma once
 
+#include <functional>
+
 #include "integrator/bidirectional/pair_pass.h"
+#include "integrator/learning/photon_guiding.h"
+#include "integrator/mixed/trials.h"
 
 namespace nephroid {
 
-struct Candidate;
 struct MixPlan;
-class Trials;
 
 class PathAndPhotons final : public Estimator {
  public:
@@ -35,15 +38,20 @@ class PathAndPhotons final : public Estimator {
   }
 
  private:
-  /// The techniques that trials find best, with their number of light paths.
-  Candidate best_of(Trials& trials, const Scene& scene, const FilmFormat& film,
-                    const MixPlan& plan) const;
+  /// Techniques with their number of light paths, and where these start.
+  struct Choice {
+    Candidate candidate;
+    GuidedPhotons photons;
+  };
+  /// What trials find best. `photons_of(casters)`: where photons of caustics start.
+  Choice best_of(Trials& trials, const Scene& scene, const FilmFormat& film,
+                 const std::function<GuidedPhotons(ClassMask)>& photons_of) const;
   PairPass pass_of(const PassKey& key, const Scene& scene, const FilmFormat& film,
                    const MixPlan& plan, PassControl& control) const;
 
   OwnedRoutes owned_;
   IntegratorOptions options_;
-  bool merges_all_light_ = false;  ///< in the last pass
+  bool leaves_glossy_ = false;  ///< to path tracing: the caustics of glossy materials, last pass
   EstimatorStatistics statistics_;
 };
 

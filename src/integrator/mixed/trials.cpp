@@ -26,7 +26,7 @@ constexpr double kBytesOfPhoton = sizeof(Photon) + sizeof(Vec3f) + 24;
 constexpr float kRadiusOfAllLight = 4.0f / 3;
 
 float widening(const PairTechniques& techniques, const IntegratorOptions& options) {
-  return techniques.caustics_only || options.radius > 0 ? 1.0f : kRadiusOfAllLight;
+  return techniques.merges_all_light() && !(options.radius > 0) ? kRadiusOfAllLight : 1.0f;
 }
 
 /// Photons of a pass for a film of so many pixels.
@@ -139,7 +139,7 @@ Candidate Trials::run(const PairTechniques& techniques, const EmissionGuide& emi
   // The noise of photons is inversely proportional to the area in which they are merged.
   balance.variance_of_light /= photons_for_one(techniques);
   // With more photons the camera's noise falls, too, which one trial does not tell.
-  if (!techniques.caustics_only)
+  if (techniques.merges_all_light())
     balance.min_light_paths = static_cast<double>(film_.bounds().area());
   return {techniques, found, balance};
 }

@@ -1,4 +1,4 @@
-// The sums of an eye path with and without merges that only an S makes possible, against the
+// The sums of an eye path with and without merges that only a caster makes possible, against the
 // recursion of one side (path_weights_test.cpp compares that with brute force).
 #include "integrator/bidirectional/eye_weights.h"
 
@@ -19,7 +19,7 @@ TEST(EyePartialWeights, AreThoseOfOneSideWhereAllMerges) {
     return std::exp(std::ldexp(6.0 * static_cast<double>(engine()), -32) - 3);
   };
   for (const bool connects : {true, false}) {
-    EyePartialWeights eye(connects, false);
+    EyePartialWeights eye(connects, ClassMask::kNone);
     PartialMisWeights side{connects ? 0.3 : 0.0, 0};
     eye.arrive_first(side.here);
     for (int i = 0; i < 8; ++i) {
@@ -39,31 +39,43 @@ TEST(EyePartialWeights, AreThoseOfOneSideWhereAllMerges) {
   }
 }
 
-TEST(EyePartialWeights, CountMergesOnlyBehindAnS) {
-  EyePartialWeights eye(false, true);
+// Casters are S alone, or G as well, which is finite and has a merge of its own.
+class Casters : public testing::TestWithParam<EventClass> {
+ protected:
+  const EventClass caster = GetParam();
+  const bool is_glossy = caster == EventClass::kGlossy;
+  EyePartialWeights eye{false, ClassMask::kSpecular | mask_of(caster)};
+};
+INSTANTIATE_TEST_SUITE_P(EyePartialWeights, Casters,
+                         testing::Values(EventClass::kSpecular, EventClass::kGlossy));
+
+TEST_P(Casters, LetVerticesBeforeThemMerge) {
   eye.arrive_first(0);
-  for (const EventClass c : {EventClass::kDiffuse, EventClass::kGlossy, EventClass::kVolume}) {
-    EXPECT_TRUE(eye.is_plain(c, true));
-    EXPECT_FALSE(eye.is_plain(c, false)) << "what follows on the light's side may be an S";
-  }
-  EXPECT_FALSE(eye.is_plain(EventClass::kSpecular, true));
-  // D, D: no merge could have found a light here, but one at either would if an S came.
+  EXPECT_FALSE(eye.merges_here(true));
+  EXPECT_TRUE(eye.merges_here(false)) << "what follows on the light's side may be a caster";
+  // D, D: no merge could have found a light here, but one at either would if a caster came.
   for (int i = 0; i < 2; ++i) {
     eye.leave(kEvent, 2.5, EventClass::kDiffuse);
     EXPECT_FALSE(eye.end_to_light().has_cuts_before());
     eye.arrive(kLine);
     EXPECT_TRUE(eye.asks_back());
-    EXPECT_TRUE(eye.behind(EventClass::kDiffuse, true).empty());
-    EXPECT_GT(eye.behind(EventClass::kSpecular, true).before, 0);
+    for (const EventClass c : {EventClass::kDiffuse, EventClass::kVolume})
+      EXPECT_TRUE(eye.behind(c, true).empty());
+    EXPECT_EQ(eye.behind(EventClass::kGlossy, true).empty(), !is_glossy);
+    EXPECT_GT(eye.behind(caster, true).before, 0);
     EXPECT_GT(eye.behind(EventClass::kDiffuse, false).before, 0);
   }
-  // The S.
-  eye.leave({}, 0, EventClass::kSpecular);
+  // The caster: the vertices before it merge now, its own only if another one follows.
+  const PartialMisWeights at_caster = eye.all();
+  const EventDensity event = is_glossy ? kEvent : EventDensity{};
+  const double merge = is_glossy ? 2.5 : 0;
+  eye.leave(event, merge, caster);
   EXPECT_TRUE(eye.end_to_light().has_cuts_before());
   eye.arrive(kLine);
-  EXPECT_GT(eye.all().before, 0);
-  EXPECT_EQ(eye.behind(EventClass::kDiffuse, true).before, eye.all().before);
-  // A D behind it merges for itself only if another S comes.
+  EXPECT_EQ(eye.all().before, (SideEnd{at_caster, event, merge}.next(kLine).before));
+  EXPECT_EQ(eye.behind(EventClass::kDiffuse, true).before,
+            (SideEnd{at_caster, event, 0}.next(kLine).before));
+  // A D behind it merges for itself only if another caster comes.
   eye.leave(kEvent, 2.5, EventClass::kDiffuse);
   eye.arrive(kLine);
   EXPECT_GT(eye.all().before, eye.behind(EventClass::kDiffuse, true).before);
@@ -81,7 +93,7 @@ TEST(EyePartialWeights, SayWhetherThereIsAnythingBefore) {
 }
 
 TEST(EyePartialWeights, TakeTheWayUnderASurfaceAsOneStep) {
-  EyePartialWeights eye(true, true);
+  EyePartialWeights eye(true, ClassMask::kSpecular);
   eye.arrive_first(0.25);
   eye.leave(kEvent, 2.5, EventClass::kDiffuse);
   eye.arrive(kLine);

@@ -68,7 +68,7 @@ TEST(SplitNoise, LooksAtTheTilesThatHaveSamples) {
 TEST(Trials, PhotonsOfAllLightAreMergedFurther) {
   IntegratorOptions options;
   PairTechniques all, caustics;
-  caustics.caustics_only = true;
+  caustics.casters = ClassMask::kSpecular;
   EXPECT_FLOAT_EQ(first_radius_of_film(caustics, options, 0), 1.5f);
   EXPECT_FLOAT_EQ(first_radius_of_film(all, options, 0), 2);
   options.radius = 3;

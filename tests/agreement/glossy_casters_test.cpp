@@ -1,0 +1,108 @@
+// Caustics of glossy materials: walks whose photons are merged behind an S or G find the picture
+// that walks alone find, whatever the roughness.
+
+#include <cmath>
+
+#include "pair_pass_view.h"
+
+namespace nephroid {
+namespace {
+
+using namespace testing_support;
+
+constexpr int kSeeds = 16, kAcross = 2;
+constexpr float kRadius = 0.5f;  // pixels
+constexpr ClassMask kGlossyToo = ClassMask::kSpecular | ClassMask::kGlossy;
+
+struct Casters {
+  const char* name;
+  const char* alpha;
+  const char* lamp;
+};
+constexpr const char* kPoint = R"(LightSource "point" "rgb I" [9 8 7] "point3 from" [1 3 0.5])";
+// And a mirror, whose caustic of a point walks do not find.
+constexpr const char* kDisk = R"(
+  AttributeBegin Translate 1 3 0.5 Rotate 90 1 0 0
+  AreaLightSource "diffuse" "rgb L" [20 18 16] "bool twosided" true
+  Shape "disk" "float radius" 0.3 AttributeEnd
+  Material "conductor"
+  Shape "bilinearmesh" "point3 P" [-1 0.2 0.9  0.5 0.2 0.9  -1 0.7 0.9  0.5 0.7 0.9])";
+const Casters kCasters[] = {{"frosted_glass_and_a_disk", "0.1", kDisk},
+                            {"rough_glass", "0.3", kPoint},
+                            {"rough_glass_and_a_disk", "0.3", kDisk},
+                            {"rougher_glass_and_a_disk", "0.5", kDisk}};
+
+/// Above the floor, so that no light is merged beyond an edge: a ball of the glass and a
+/// sheet of rough metal.
+std::string world(const Casters& casters) {
+  return std::string(casters.lamp) + "\n" +
+         "Material \"dielectric\" \"float eta\" 1.5 \"bool remaproughness\" false "
+         "\"float roughness\" " +
+         casters.alpha + R"(
+    AttributeBegin Translate -0.5 0.5 0 Shape "sphere" "float radius" 0.4 AttributeEnd
+    Material "conductor" "rgb reflectance" [0.9 0.7 0.4] "bool remaproughness" false
+      "float roughness" 0.15
+    Shape "bilinearmesh" "point3 P" [0.8 0.2 0.9  1.2 0.2 -0.5  0.8 0.8 0.9  1.2 0.8 -0.5])";
+}
+
+class GlossyCasters : public ::testing::TestWithParam<Casters> {
+ protected:
+  const PairView view{world(GetParam())};
+
+  /// Block means of four passes in pictures with other seeds.
+  SeedValues pictures(const PairTechniques& techniques, uint64_t first_seed, int samples) const {
+    return values_over_seeds(kSeeds, first_seed, [&](uint64_t seed) {
+      // Without the part of the bias that grows as the squared radius.
+      std::vector<double> values = means(techniques, seed, samples, kRadius);
+      if (techniques.light_paths == 0) return values;
+      const std::vector<double> narrow =
+          means(techniques, seed, samples, kRadius * std::sqrt(0.5f));
+      for (size_t i = 0; i < values.size(); ++i) values[i] = 2 * narrow[i] - values[i];
+      return values;
+    });
+  }
+
+ private:
+  std::vector<double> means(const PairTechniques& techniques, uint64_t seed, int samples,
+                            float radius) const {
+    IntegratorOptions options;
+    options.max_depth = 8;
+    Film film = film_for(*view.scene, view.set);
+    const SampleMap map(film.bounds(), static_cast<uint16_t>(samples));
+    EstimatorStatistics statistics;
+    for (uint32_t i = 0; i < 4; ++i) {
+      PairPass pass = view.pass_of(techniques, i, options);
+      pass.key = {seed, i};
+      pass.seed = seed;
+      pass.radius_pixels = radius;
+      render(pass, {.film = film, .samples = {map, view.no_walks}}, statistics);
+    }
+    return block_means(film, kAcross);
+  }
+};
+
+TEST_P(GlossyCasters, PhotonsAndWalksFindWhatWalksAloneFind) {
+  const SeedValues photons =
+      pictures({.light_paths = 16384, .connects = false, .casters = kGlossyToo}, 1, 64);
+  const SeedValues walks = pictures(camera_paths_only(), 1000, 256);
+  double of_photons = 0, of_walks = 0;
+  for (size_t i = 0; i < walks.size(); ++i) {
+    const Estimate a = estimate_of(photons[i]), b = estimate_of(walks[i]);
+    const double error = std::hypot(a.error, b.error);
+    std::printf("%s, block %zu: %.5f against %.5f, %+.2f standard errors of %.2f %%\n",
+                GetParam().name, i, a.mean, b.mean, (a.mean - b.mean) / error,
+                100 * error / b.mean);
+    EXPECT_NEAR(a.mean, b.mean, kT15 * error) << "block " << i;
+    EXPECT_LT(error, max_error(0.02 * b.mean)) << "too noisy to tell";
+    of_photons += sqr(a.error);
+    of_walks += sqr(b.error);
+  }
+  std::printf("%s: variance of a quarter of the walks with photons over that without: %.2f\n",
+              GetParam().name, of_photons / of_walks);
+}
+
+INSTANTIATE_TEST_SUITE_P(Roughness, GlossyCasters, ::testing::ValuesIn(kCasters),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+}  // namespace
+}  // namespace nephroid
