@@ -1,5 +1,6 @@
 // Caustics of glossy materials: walks whose photons are merged behind an S or G find the picture
 // that walks alone find, whatever the roughness.
+#include <gtest/gtest.h>
 
 #include <cmath>
 
