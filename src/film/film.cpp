@@ -228,13 +228,18 @@ Rgb Film::mean_of_parts(const std::vector<int>& parts, size_t pixel) const {
   double total[3] = {0, 0, 0};
   for (size_t begin = 0, end = 0; begin < parts.size(); begin = end) {
     const auto group_of = [&](size_t i) { return layout().group_of(layout().parts[parts[i]]); };
-    const size_t at = nearest_reached(group_of(begin), pixel);
-    const uint64_t count = count_of(group_of(begin), at);
+    int group = group_of(begin);
+    const size_t at = nearest_reached(group, pixel);
+    const uint64_t count = count_of(group, at);
+    const auto counts_likewise = [&](int other) {
+      return other == group ||
+             (count_of(other, at) == count && nearest_reached(other, pixel) == at);
+    };
     FixedSum sum[3];
-    for (end = begin; end < parts.size() && count_of(group_of(end), at) == count &&
-                      nearest_reached(group_of(end), pixel) == at;
-         ++end)
+    for (end = begin; end < parts.size() && counts_likewise(group_of(end)); ++end) {
+      group = group_of(end);
       for (int c = 0; c < 3; ++c) sum[c].add(sums_[parts[end]][at].rgb[c]);
+    }
     if (count == 0) continue;
     for (int c = 0; c < 3; ++c) total[c] += sum[c].value() / static_cast<double>(count);
   }

@@ -35,17 +35,19 @@ void Film::close_pass() {
 }
 uint64_t Film::count_of_slice(size_t group, size_t pixel) const {
   const OpenPass& open = open_[group];
-  const size_t w = bounds().width();
-  const size_t slice = slices_.slice_of(bounds().x0 + static_cast<int>(pixel % w),
-                                        bounds().y0 + static_cast<int>(pixel / w));
+  // Read for every layer of a picture: 32 bits are divided much faster than 64.
+  const auto p = static_cast<uint32_t>(pixel), w = static_cast<uint32_t>(bounds().width());
+  const size_t slice = slices_.slice_of(bounds().x0 + static_cast<int>(p % w),
+                                        bounds().y0 + static_cast<int>(p / w));
   return open.done[slice] != 0 ? open.estimates : 0;
 }
 size_t Film::nearest_of_lattices(size_t group, size_t pixel) const {
-  const size_t w = bounds().width();
+  if (count_of(group, pixel) > 0) return pixel;
+  const size_t w = bounds().width(), x = pixel % w, y = pixel / w;
   size_t found = pixel;
   for (int level = slices_.levels(); level > 0 && count_of(group, found) == 0; --level) {
-    const size_t spacing = slices_.spacing(level - 1);
-    found = pixel / w / spacing * spacing * w + pixel % w / spacing * spacing;
+    const size_t mask = ~(static_cast<size_t>(slices_.spacing(level - 1)) - 1);
+    found = (y & mask) * w + (x & mask);
   }
   return found;
 }

@@ -18,8 +18,8 @@ PixelSlices::PixelSlices(const PixelBounds& crop) : crop_(crop) {
     for (int y = 0; y < height; y += spacing) {
       // Rows of the previous lattice already have every other pixel.
       const bool is_old = level > 0 && y % (2 * spacing) == 0;
-      Row row{.y = y, .x = is_old ? spacing : 0, .step = is_old ? 2 * spacing : spacing};
-      row.pixels = std::max(0, points(width - row.x, row.step));
+      Row row{.y = y, .x = is_old ? spacing : 0, .log2_step = levels_ - 1 - level + is_old};
+      row.pixels = std::max(0, points(width - row.x, row.step()));
       row.begin = slices;
       slices += points(row.pixels, kMaxPixelsOfSlice);
       row.end = slices;
@@ -32,9 +32,9 @@ PixelSlices::Run PixelSlices::at(size_t slice) const {
   const auto row = std::upper_bound(rows_.begin(), rows_.end(), slice,
                                     [](size_t s, const Row& r) { return s < r.end; });
   const int first = static_cast<int>(slice - row->begin) * kMaxPixelsOfSlice;
-  return {.x = crop_.x0 + row->x + first * row->step,
+  return {.x = crop_.x0 + row->x + first * row->step(),
           .y = crop_.y0 + row->y,
-          .step = row->step,
+          .step = row->step(),
           .count = std::min(kMaxPixelsOfSlice, row->pixels - first)};
 }
 
@@ -45,7 +45,7 @@ size_t PixelSlices::slice_of(int x, int y) const {
   const int zeros = std::countr_zero(static_cast<unsigned>(x | y | 1 << (levels_ - 1)));
   const int level = levels_ - 1 - zeros;
   const Row& row = rows_[row_of(level, y)];
-  return row.begin + (x - row.x) / row.step / kMaxPixelsOfSlice;
+  return row.begin + ((x - row.x) >> row.log2_step) / kMaxPixelsOfSlice;
 }
 
 int64_t PixelSlices::first_pixels() const {

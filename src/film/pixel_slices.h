@@ -38,8 +38,10 @@ class PixelSlices {
  private:
   /// The slices of a row that belong to one level.
   struct Row {
-    int y = 0, x = 0, step = 1, pixels = 0;  ///< from the crop's corner
-    size_t begin = 0, end = 0;               ///< slices
+    int y = 0, x = 0;  ///< from the crop's corner
+    int log2_step = 0, pixels = 0;
+    size_t begin = 0, end = 0;  ///< slices
+    int step() const { return 1 << log2_step; }
   };
   size_t row_of(int level, int y) const { return first_row_[level] + (y >> (levels_ - 1 - level)); }
 
