@@ -4,9 +4,9 @@
 #include "apps/commands.h"
 #include "apps/messages.h"
 #include "core/errors.h"
-#include "film/atomic_file.h"
 #include "film/film_output.h"
 #include "film/state_file.h"
+#include "session/checkpoint/checkpoint.h"
 #include "session/checkpoint/merge_pictures.h"
 
 namespace nephroid {
@@ -14,8 +14,7 @@ namespace nephroid {
 int run_merge(const MergeCommand& command) {
   if (command.output.empty())
     throw UsageError("merge: no --output given, expected a name that ends in .exr");
-  check_file_can_be_written(command.output);
-  check_file_can_be_written(png_path_beside(command.output));
+  check_picture_can_be_written(command.output);
   const Merged merged = merge_pictures(command.inputs, command.output, command.layer_precision);
   for (const std::string& warning : merged.warnings) print_warning(warning);
   fmt::print("{} passes ({}), rendered in {:.1f} s; wrote {}, {} and {}\n", merged.passes.count(),

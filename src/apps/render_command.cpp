@@ -8,7 +8,6 @@
 #include "apps/progress_display.h"
 #include "apps/render_report.h"
 #include "core/parallel.h"
-#include "film/atomic_file.h"
 #include "film/film_output.h"
 #include "session/film_of_scene.h"
 #include "session/process_memory.h"
@@ -64,13 +63,6 @@ int exit_status(const RenderCommand& command, const RenderResult& result) {
   return static_cast<int>(ExitStatus::kRender);
 }
 
-/// Scene files take long to read, so this comes before.
-void check_can_be_written(const std::string& output) {
-  if (output.empty()) return;
-  check_file_can_be_written(output);
-  check_file_can_be_written(png_path_beside(output));
-}
-
 }  // namespace
 
 int run_render(const RenderCommand& command) {
@@ -78,7 +70,8 @@ int run_render(const RenderCommand& command) {
   SignalListener signals;
   const ThreadLimit threads(command.threads);
   limit_image_threads(command.threads);
-  check_can_be_written(command.output);
+  // Scene files take long to read, so this comes before.
+  if (!command.output.empty()) check_picture_can_be_written(command.output);
   RenderRequest request = request_of(command);
 
   const uint64_t memory = command.memory > 0 ? command.memory : machine_memory();

@@ -8,6 +8,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -30,7 +31,12 @@ struct RenderState {
     std::function<std::vector<uint32_t>()> save;
     /// Throws IoError if they make no sense; the message says what, not where.
     std::function<void(std::span<const uint32_t>)> load;
+    /// What it holds can be made anew: a file may lack it, and whoever has no use for it passes
+    /// over it. All such names begin with the prefix, and no others.
+    bool is_optional() const { return is_optional(name); }
+    static bool is_optional(std::string_view name) { return name.starts_with(kOptionalPrefix); }
   };
+  static constexpr std::string_view kOptionalPrefix = "optional.";
 
   std::vector<Array> arrays;
   std::vector<Stream> streams;

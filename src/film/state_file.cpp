@@ -153,9 +153,14 @@ struct StateFile::Input {
     }
   }
 
-  const StateIndex::Section& find(const std::string& name) const {
+  /// Null if it is not there.
+  const StateIndex::Section* find(const std::string& name) const {
     const auto found = std::ranges::find(index.sections, name, &StateIndex::Section::name);
-    if (found == index.sections.end()) fail("'" + name + "' is missing");
+    return found == index.sections.end() ? nullptr : &*found;
+  }
+  const StateIndex::Section& at(const std::string& name) const {
+    const StateIndex::Section* found = find(name);
+    if (!found) fail("'" + name + "' is missing");
     return *found;
   }
   /// Reads all blocks of a section into memory of its size.
@@ -214,17 +219,19 @@ void StateFile::load(const RenderState& state) {
     for (const StateIndex::Section& section : in.index.sections) {
       const auto has_name = [&](const auto& item) { return item.name == section.name; };
       if (std::ranges::none_of(state.arrays, has_name) &&
-          std::ranges::none_of(state.streams, has_name))
+          std::ranges::none_of(state.streams, has_name) &&
+          !RenderState::Stream::is_optional(section.name))
         in.fail("'" + section.name + "' is not of this render");
     }
   for (const RenderState::Array& array : state.arrays) {
-    const StateIndex::Section& section = in.find(array.name);
+    const StateIndex::Section& section = in.at(array.name);
     if (section.bytes != array.bytes.size() || section.words != array.words)
       in.fail("'" + array.name + "' has a size that it cannot have");
     in.read_section(section, array.bytes);
   }
   for (const RenderState::Stream& stream : state.streams) {
-    const StateIndex::Section& section = in.find(stream.name);
+    if (stream.is_optional() && !in.find(stream.name)) continue;
+    const StateIndex::Section& section = in.at(stream.name);
     if (section.words != 1 || section.bytes > 4 * stream.most_words)
       in.fail("'" + stream.name + "' has a size that it cannot have");
     std::vector<uint32_t> words(section.bytes / 4);

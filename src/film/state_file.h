@@ -41,7 +41,7 @@ class StateFile {
   /// Bytes of the file.
   uint64_t size() const;
   /// Reads all arrays and streams, each of which must be in the file with the size that it has
-  /// here, and be whole.
+  /// here, and be whole; streams that are optional may not be there.
   void load(const RenderState& state);
 
  private:

@@ -14,7 +14,6 @@
 #include <utility>
 
 #include "core/errors.h"
-#include "film/atomic_file.h"
 #include "film/exr_file.h"
 #include "film/film_output.h"
 #include "film/state_file.h"
@@ -89,10 +88,7 @@ RenderSession::RenderSession(const Scene& scene, EstimatorSet& set, Film& film,
   if (open_pass_ && !is_wanted(*open_pass_) && next_pass())
     throw UsageError(fmt::format(
         "--resume: pass {} of the picture is not whole, expected --passes with it", *open_pass_));
-  if (!options_.output.empty()) {
-    check_file_can_be_written(options_.output);
-    check_file_can_be_written(png_path_beside(options_.output));
-  }
+  if (!options_.output.empty()) check_picture_can_be_written(options_.output);
 }
 
 void RenderSession::on_progress(std::function<void(const RenderProgress&)> callback) {

@@ -7,6 +7,7 @@
 #include "integrator/photon_mapping/photon_map.h"
 #include "rendering.h"
 #include "same_bits.h"
+#include "session/checkpoint/checkpoint.h"
 
 namespace nephroid {
 namespace {
@@ -65,6 +66,35 @@ TEST_P(LearnedBits, BytesThatAreCutOffAreRefused) {
       ByteReader reader(bytes.first(kept));
       EXPECT_THROW(estimator.read_learned(reader, film.format()), IoError) << kept;
     }
+  }
+}
+
+TEST_P(LearnedBits, AStateHoldsWhatIsLearnedAndNothingIsLearnedAgain) {
+  const auto scene = scene_from_text(kScene);
+  IntegratorOptions options;
+  options.edit<PhotonMapOptions>().map_photons = 1 << 12;
+  EstimatorSet set = make_estimators(plan_named(GetParam()), options, *scene),
+               other = make_estimators(plan_named(GetParam()), options, *scene);
+  Film film = film_for(*scene, set), of_other = film_for(*scene, other);
+  set.render_pass({5, 0}, *scene, film);
+  const RenderState state = state_of(*scene, set, film), to = state_of(*scene, other, of_other);
+  for (size_t i = 0; i < state.streams.size(); ++i) {
+    if (!state.streams[i].is_optional()) continue;
+    const std::vector<uint32_t> words = state.streams[i].save();
+    to.streams[i].load(words);
+    EXPECT_EQ(to.streams[i].save(), words);
+    if (words.empty()) continue;
+    for (const size_t kept : {size_t{1}, words.size() / 2, words.size() - 1})
+      EXPECT_THROW(to.streams[i].load(std::span(words).first(kept)), IoError) << kept;
+    to.streams[i].load(words);
+  }
+  set.render_pass({5, 1}, *scene, film);
+  other.render_pass({5, 1}, *scene, of_other);
+  for (size_t i = 0; i < set.estimators.size(); ++i) {
+    if (set.estimators[i]->descriptor().capabilities.learned_is_light) continue;
+    EXPECT_EQ(set.learned[i].learn(*set.estimators[i], 5, *scene, film.format()) == nullptr,
+              other.learned[i].learn(*other.estimators[i], 5, *scene, film.format()) == nullptr);
+    EXPECT_EQ(other.statistics()[i].learning_rays, 0u) << "learned again";
   }
 }
 

@@ -1,5 +1,6 @@
 #include "integrator/estimator/learning_loop.h"
 
+#include <cstring>
 #include <utility>
 
 namespace nephroid {
@@ -11,6 +12,7 @@ const std::shared_ptr<const Learned>& LearningLoop::learn(const Estimator& estim
   if (for_all_seeds_ || seed_ == seed) return value_;
   value_ = estimator.learn(scene, format, seed, control);
   seed_ = seed;
+  was_read_ = false;
   return value_;
 }
 
@@ -25,8 +27,45 @@ void LearningLoop::use(std::shared_ptr<const Learned> value) {
   for_all_seeds_ = true;
 }
 
+void LearningLoop::add_state(const Estimator& estimator, const FilmFormat& format, std::string name,
+                             RenderState& state) {
+  // A damaged file must not ask for all memory; what is larger is learned again.
+  constexpr size_t kMostWords = size_t{64} << 18;
+  const auto save = [this]() -> std::vector<uint32_t> {
+    if (!value_ || !seed_) return {};
+    ByteWriter to;
+    to(*seed_);
+    value_->write(to);
+    const std::vector<std::byte>& bytes = to.bytes();
+    std::vector<uint32_t> words(1 + (bytes.size() + 3) / 4);
+    if (words.size() > kMostWords) return {};
+    words[0] = static_cast<uint32_t>(bytes.size());
+    std::memcpy(words.data() + 1, bytes.data(), bytes.size());
+    return words;
+  };
+  const auto load = [this, &estimator, &format](std::span<const uint32_t> words) {
+    if (words.empty()) return;
+    const std::span<const std::byte> bytes = std::as_bytes(words.subspan(1));
+    if (words[0] > bytes.size() || words[0] + 4 <= bytes.size())
+      throw IoError("its length makes no sense");
+    ByteReader from(bytes.first(words[0]));
+    uint64_t seed = 0;
+    from(seed);
+    value_ = estimator.read_learned(from, format);
+    if (!from.at_end()) throw IoError("there is more than what was learned");
+    seed_ = seed;
+    was_read_ = true;
+  };
+  state.streams.push_back({std::move(name), kMostWords, save, load});
+}
+
 void LearningLoop::add_to(EstimatorStatistics& statistics) const {
-  if (value_) value_->add_to(statistics);
+  if (!value_) return;
+  const uint64_t rays = statistics.rays, learning_rays = statistics.learning_rays;
+  value_->add_to(statistics);
+  if (!was_read_) return;
+  statistics.rays = rays;
+  statistics.learning_rays = learning_rays;
 }
 
 }  // namespace nephroid

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
+#include "film/render_state.h"
 #include "integrator/estimator/estimator.h"
 
 namespace nephroid {
@@ -20,13 +22,17 @@ class LearningLoop {
                                               PassControl& control = unwatched);
   /// From now on passes of all seeds use this value, learned of the same scene, format and options.
   void use(std::shared_ptr<const Learned> value);
-  /// Adds the costs and findings of what is learned by now.
+  /// Adds what is learned by now to a state, under the name, or reads it from there.
+  void add_state(const Estimator& estimator, const FilmFormat& format, std::string name,
+                 RenderState& state);
+  /// Adds the findings of what is learned by now, and the costs unless it was read.
   void add_to(EstimatorStatistics& statistics) const;
 
  private:
   std::shared_ptr<const Learned> value_;
   std::optional<uint64_t> seed_;  ///< empty: nothing is learned
   bool for_all_seeds_ = false;    ///< the value was handed in
+  bool was_read_ = false;
 };
 
 }  // namespace nephroid

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "core/errors.h"
+#include "film/atomic_file.h"
 #include "film/film_output.h"
 
 namespace nephroid {
@@ -20,7 +21,15 @@ bool passes_are_independent(const EstimatorSet& set) {
 
 RenderState state_of(const Scene& scene, EstimatorSet& set, Film& film) {
   RenderState state = film.state();
-  for (const auto& estimator : set.estimators) estimator->add_state(scene, film, state);
+  set.learned.resize(set.estimators.size());
+  for (size_t i = 0; i < set.estimators.size(); ++i) {
+    Estimator& estimator = *set.estimators[i];
+    estimator.add_state(scene, film, state);
+    // A photon map is large and soon made again.
+    if (!estimator.descriptor().capabilities.learned_is_light)
+      set.learned[i].add_state(estimator, film.format(),
+                               fmt::format("{}learned.{}", RenderState::kOptionalPrefix, i), state);
+  }
   return state;
 }
 
@@ -111,6 +120,11 @@ std::string kept_name(const std::string& name) {
 }
 
 }  // namespace
+
+void check_picture_can_be_written(const std::string& output) {
+  for (const std::string& path : {output, png_path_beside(output), state_path_beside(output)})
+    check_file_can_be_written(path);
+}
 
 std::vector<KeptFile> files_to_keep(const std::string& output) {
   if (output.empty()) return {};

@@ -34,6 +34,10 @@ RenderState state_of(const Scene& scene, EstimatorSet& set, Film& film);
 /// `purpose`", if it is not there.
 StateFile open_state(const std::string& path, const std::string& purpose);
 
+/// Throws IoError if picture, PNG or state cannot be written. Removes what processes of this
+/// machine have left of them when they were killed.
+void check_picture_can_be_written(const std::string& output);
+
 /// A file that a new render is about to replace, and the name under which it is kept.
 struct KeptFile {
   std::string path, kept;
