@@ -26,7 +26,7 @@ from validate import PROGRAM, ROOT, compare, run
 INTEGRATORS = ["mixed", "path", "doidge2012", "sppm", "vcm", "bpm", "bdpt"]
 
 # Scenes, their size here, and what renders their reference: `path` where it finds all light, else `mixed` with a first
-# radius of one pixel. The last two are interiors without caustics, where `mixed` must keep up with `path`.
+# radius of one pixel. The last four are scenes without caustics, where `mixed` must keep up with `path`.
 MERGING = ["--integrator", "mixed", "-D", "radius=1"]
 PATHS = ["--integrator", "path"]
 SUITE = {
@@ -41,6 +41,8 @@ SUITE = {
     "hall": ("750x500", MERGING),
     "cornell-box": ("512x512", PATHS),
     "material-testball": ("640x360", PATHS),
+    "daylight-room": ("600x400", ["--integrator", "bdpt"]),
+    "door-ajar": ("600x400", ["--integrator", "bdpt"]),
 }
 
 
