@@ -1,6 +1,6 @@
 // Names of pbrt-v3 in a scene, upgraded to pbrt-v4 as `pbrt --upgrade` does where the meaning is
-// the same. What has no equal is a SceneError that names the pbrt-v4 way. The table is in
-// pbrt_v3.cpp; materials, which need arithmetic, are in pbrt_v3_materials.cpp.
+// the same. A name without an equal in pbrt-v4 is a SceneError, which says what to write instead.
+// The table is in pbrt_v3.cpp; materials, which need arithmetic, are in pbrt_v3_materials.cpp.
 #pragma once
 
 #include <optional>
