@@ -46,9 +46,19 @@ std::string world(const Casters& casters) {
     Shape "bilinearmesh" "point3 P" [0.8 0.2 0.9  1.2 0.2 -0.5  0.8 0.8 0.9  1.2 0.8 -0.5])";
 }
 
-class GlossyCasters : public ::testing::TestWithParam<Casters> {
- protected:
-  const PairView view{world(GetParam())};
+/// A smooth ball over a sheet of rough metal: its caustic of a point is photons' alone.
+const char* const kCausticOnMetal = R"(
+  LightSource "point" "rgb I" [9 8 7] "point3 from" [1 3 0.5]
+  Material "conductor" "rgb reflectance" [0.9 0.7 0.4] "bool remaproughness" false
+    "float roughness" 0.4
+  Shape "bilinearmesh" "point3 P" [-1.5 0.1 -1  1 0.1 -1  -1.5 0.1 1  1 0.1 1]
+  Material "dielectric" "float eta" 1.5
+  AttributeBegin Translate 0 0.7 0 Shape "sphere" "float radius" 0.4 AttributeEnd
+  Material "dielectric" "float eta" 1.5 "bool remaproughness" false "float roughness" 0.3
+  AttributeBegin Translate -1 0.6 0 Shape "sphere" "float radius" 0.3 AttributeEnd)";
+
+struct Pictures {
+  const PairView view;
 
   /// Block means of four passes in pictures with other seeds.
   SeedValues pictures(const PairTechniques& techniques, uint64_t first_seed, int samples) const {
@@ -63,7 +73,6 @@ class GlossyCasters : public ::testing::TestWithParam<Casters> {
     });
   }
 
- private:
   std::vector<double> means(const PairTechniques& techniques, uint64_t seed, int samples,
                             float radius) const {
     IntegratorOptions options;
@@ -82,28 +91,37 @@ class GlossyCasters : public ::testing::TestWithParam<Casters> {
   }
 };
 
-TEST_P(GlossyCasters, PhotonsAndWalksFindWhatWalksAloneFind) {
-  const SeedValues photons =
-      pictures({.light_paths = 16384, .connects = false, .casters = kGlossyToo}, 1, 64);
-  const SeedValues walks = pictures(camera_paths_only(), 1000, 256);
-  double of_photons = 0, of_walks = 0;
-  for (size_t i = 0; i < walks.size(); ++i) {
-    const Estimate a = estimate_of(photons[i]), b = estimate_of(walks[i]);
+void expect_equal(const SeedValues& found, const SeedValues& expected, const char* name) {
+  for (size_t i = 0; i < expected.size(); ++i) {
+    const Estimate a = estimate_of(found[i]), b = estimate_of(expected[i]);
     const double error = std::hypot(a.error, b.error);
-    std::printf("%s, block %zu: %.5f against %.5f, %+.2f standard errors of %.2f %%\n",
-                GetParam().name, i, a.mean, b.mean, (a.mean - b.mean) / error,
-                100 * error / b.mean);
+    std::printf("%s, block %zu: %.5f against %.5f, %+.2f standard errors of %.2f %%\n", name, i,
+                a.mean, b.mean, (a.mean - b.mean) / error, 100 * error / b.mean);
     EXPECT_NEAR(a.mean, b.mean, kT15 * error) << "block " << i;
     EXPECT_LT(error, max_error(0.02 * b.mean)) << "too noisy to tell";
-    of_photons += sqr(a.error);
-    of_walks += sqr(b.error);
   }
-  std::printf("%s: variance of a quarter of the walks with photons over that without: %.2f\n",
-              GetParam().name, of_photons / of_walks);
+}
+
+PairTechniques merging(ClassMask casters) {
+  return {.light_paths = 16384, .connects = false, .casters = casters};
+}
+
+class GlossyCasters : public ::testing::TestWithParam<Casters> {};
+
+TEST_P(GlossyCasters, PhotonsAndWalksFindWhatWalksAloneFind) {
+  const Pictures of{PairView(world(GetParam()))};
+  expect_equal(of.pictures(merging(kGlossyToo), 1, 64), of.pictures(camera_paths_only(), 1000, 256),
+               GetParam().name);
 }
 
 INSTANTIATE_TEST_SUITE_P(Roughness, GlossyCasters, ::testing::ValuesIn(kCasters),
                          [](const auto& test) { return std::string(test.param.name); });
+
+TEST(SpecularCasters, ThrowCausticsOntoMetalWhicheverCastersCount) {
+  const Pictures of{PairView(kCausticOnMetal)};
+  expect_equal(of.pictures(merging(kGlossyToo), 1, 64),
+               of.pictures(merging(ClassMask::kSpecular), 1000, 64), "metal");
+}
 
 }  // namespace
 }  // namespace nephroid

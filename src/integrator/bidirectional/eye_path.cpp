@@ -29,7 +29,7 @@ class EyeVisitor {
                   settings.merging ? settings.merging->photons_for_one : 1),
         guided_(settings.radiance, extras.records),
         eye_(routes_.start()),
-        sums_(settings.connects(), settings.merging ? settings.merging->casters : ClassMask::kNone),
+        sums_(settings.connects(), settings.merging ? settings.merging->rule : CasterRule()),
         root_(settings.has_trees() ? settings.tree : nullptr, extras.leaves) {}
 
   void escape(const Walk& walk) {
@@ -184,14 +184,15 @@ class EyeVisitor {
   }
 
   double merge_weight(EventClass c) const {
-    return settings_.merging && settings_.merging->merges_at(*surface_, c)
+    return settings_.merging && surface_->merges && contains(ClassMask::kRough, c)
                ? settings_.merging->weight_at(place_.p, first_)
                : 0;
   }
 
   /// The events at an eye vertex towards the unit direction `w`, of a light or else of a vertex of
-  /// the light's side; false if there is none of use.
-  bool arms_of_eye(const EyeEnd& z, const Vec3f& w, bool before_light, Arms& arms) const {
+  /// the light's side (which are connected only where all light is merged, so that no caster is
+  /// asked for); false if there is none of use.
+  bool arms_of_eye(const EyeEnd& z, const Vec3f& w, Arms& arms) const {
     if (z.medium) {
       Arm& arm = arms[0];
       const double p = z.medium->phase.eval(z.medium->wo, w);
@@ -217,9 +218,9 @@ class EyeVisitor {
       arm.density = {e.pdf_w, 0, true};
       if (v.subsurface_exit)
         arm.density.forward = subsurface_density(v.surface.ng, w);
-      else if (sums_.behind(c, before_light).before > 0)
+      else if (sums_.at_cut(c, Caster::kNone).before > 0)
         arm.density.back = event_density(v.bsdf, wi, v.wo, TransportMode::kImportance, c);
-      arm.merge = sums_.merges_here(before_light) ? merge_weight(c) : 0;
+      arm.merge = sums_.merges(c, Caster::kNone) ? merge_weight(c) : 0;
       arm.eye = routes_.next(eye_, symbol_at(symbols_, v, c, wi));
     }
     return any;
@@ -230,7 +231,7 @@ class EyeVisitor {
     const auto d = sample_direct(settings_.scene, z.receiver, z.walk.lambda, sampler);
     if (!d) return;
     Arms arms;
-    if (!arms_of_eye(z, d->wi_world, true, arms)) return;
+    if (!arms_of_eye(z, d->wi_world, arms)) return;
     SampledSpectrum arriving;
     LightStart start;
     bool traced = false;
@@ -247,8 +248,8 @@ class EyeVisitor {
       traced = true;
       double weight = 1;
       if (settings_.technique.weighted)
-        weight = weight_of_direct(start, sums_.behind(z.class_of(i), true), arm.density.forward,
-                                  arm.density.back, arm.merge);
+        weight = weight_of_direct(start, sums_.at_cut(z.class_of(i), Caster::kNone),
+                                  arm.density.forward, arm.density.back, arm.merge);
       add(part, symbols_.lamp(d->light), z.walk, Technique::kSampleLight,
           arriving * arm.f * static_cast<float>(weight));
     }
@@ -257,7 +258,8 @@ class EyeVisitor {
   /// True if light paths might have come here from the light, by one of the events.
   bool others_cut(const EyeEnd& z, const Arms& arms) const {
     for (size_t i = 0; i < arms.size(); ++i)
-      if (arms[i].used && (arms[i].merge > 0 || !sums_.behind(z.class_of(i), true).empty()))
+      if (arms[i].used &&
+          (arms[i].merge > 0 || !sums_.at_cut(z.class_of(i), Caster::kNone).empty()))
         return true;
     return false;
   }
@@ -293,7 +295,7 @@ class EyeVisitor {
     if (!(d2 > 0.0f)) return;
     const Vec3f w = way / std::sqrt(d2);
     Arms eye_arms, light_arms;
-    if (!arms_of_eye(z, w, false, eye_arms) || !arms_of_light(routes_, symbols_, y, -w, light_arms))
+    if (!arms_of_eye(z, w, eye_arms) || !arms_of_light(routes_, symbols_, y, -w, light_arms))
       return;
     const Place at_y{y.surface.p, y.in_medium ? Vec3f(0, 0, 0) : y.surface.ng};
     const LineFactors line = line_between(place_, at_y);
@@ -313,7 +315,7 @@ class EyeVisitor {
           weight =
               1 /
               (1 + cuts_before(y.sums, a.density.forward * line.at_b, b.density.back, b.merge) +
-               cuts_before(sums_.all(), b.density.forward * line.at_a, a.density.back, a.merge));
+               cuts_before(sums_.most(), b.density.forward * line.at_a, a.density.back, a.merge));
         add(part, y.lamp, z.walk, Technique::kConnect,
             arriving * a.f * b.f * static_cast<float>(weight), y.lambda.left());
       }
@@ -346,7 +348,7 @@ class EyeVisitor {
 /// [W11] Photons around the vertex.
 void EyeVisitor::merge(const Walk& walk, const WalkVertex& v, ClassMask among) {
   const PairMerging& merging = *settings_.merging;
-  const ClassMask classes = among & merging.receivers();
+  const ClassMask classes = among & ClassMask::kRough;
   const float radius = merging.radius_at(place_.p);
   if (!v.merges || classes == ClassMask::kNone || !(radius > 0.0f)) return;
   const MergePoint at{v, eye_, classes, walk.events + 1, walk.throughput, walk.lambda.left()};
@@ -362,6 +364,7 @@ void EyeVisitor::merge(const Walk& walk, const WalkVertex& v, ClassMask among) {
       merger.emplace(settings_.owned, at, settings_.max_depth,
                      [&](EventSymbol event) { return routes_.next(eye_, event); });
     merger->each_event(photon, [&](const MergeEvent& event) {
+      if (!sums_.merges(event.letter, photon.caster)) return;
       const double weight =
           settings_.technique.weighted ? weight_of_merge(sums_, v, photon, event, own) : 1;
       add_whole(event.part, photon.lamp, Technique::kMerge,

@@ -16,6 +16,7 @@ class LightVisitor : public LightWalkVisitor {
                LightSubpath* path, std::vector<CameraSplat>* seen, std::vector<Photon>* photons)
       : LightWalkVisitor(settings.owned, emission),
         settings_(settings),
+        rule_(settings.merging ? settings.merging->rule : CasterRule()),
         emission_(emission),
         path_(path),
         seen_(seen),
@@ -74,7 +75,7 @@ class LightVisitor : public LightWalkVisitor {
       end_.merge = 0;
     }
     after_specular_ |= event.letter == EventClass::kSpecular;
-    after_caster_ |= settings_.merging && contains(settings_.merging->casters, event.letter);
+    caster_ = rule_.with(event.letter, caster_);
     last_ = place_;
     is_first_ = false;
     state_ = routes_.light_next(state_, symbol_of(symbols_, event));
@@ -112,12 +113,9 @@ class LightVisitor : public LightWalkVisitor {
   /// Between the eye and vertices of the light's side there is the one that is connected, unless it
   /// is connected to the camera itself.
   double merge_weight(const WalkVertex& v, EventClass c, bool first) const {
-    return merges_here() && settings_.merging->merges_at(v, c)
+    return settings_.merging && v.merges && contains(rule_.receivers(caster_), c)
                ? settings_.merging->weight_at(merge_place_, first)
                : 0;
-  }
-  bool merges_here() const {  // where the class of the event allows it
-    return settings_.merging && (after_caster_ || settings_.merging->casters == ClassMask::kNone);
   }
 
   LightVertex& store(const Walk& walk, ClassMask classes) {
@@ -130,16 +128,18 @@ class LightVisitor : public LightWalkVisitor {
     y.lamp = lamp_;
     y.events = walk.events;
     y.sums = sums_;
-    y.merge = merges_here() ? settings_.merging->weight_at(merge_place_, false) : 0;
+    // Connected only where all light is merged.
+    y.merge = settings_.merging ? settings_.merging->weight_at(merge_place_, false) : 0;
     return y;
   }
 
   void deposit(const Walk& walk, const WalkVertex& v) {
-    if (!merges_here() || v.subsurface_exit || !may_be_met(v, [&](Label label) {
-          return routes_.useful_from_light(group_, state_, label) & settings_.merging->receivers();
+    if (v.subsurface_exit || !may_be_met(v, [&](Label label) {
+          return routes_.useful_from_light(group_, state_, label) & rule_.receivers(caster_);
         }))
       return;
     Photon photon = photon_at(walk, v, emission_.flux);
+    photon.caster = caster_;
     photon.root_of_cut_here = static_cast<float>(std::sqrt(sums_.here));
     photon.root_of_cuts_before = static_cast<float>(std::sqrt(sums_.before));
     photons_->push_back(photon);
@@ -196,6 +196,7 @@ class LightVisitor : public LightWalkVisitor {
   }
 
   const PairSettings& settings_;
+  const CasterRule rule_;
   const Emission& emission_;
   std::optional<CameraConnector> camera_;  ///< empty if paths are not connected to the camera
   LightSubpath* path_;
@@ -205,8 +206,8 @@ class LightVisitor : public LightWalkVisitor {
   Vec3f merge_place_{0, 0, 0};  ///< where the eye side would merge
   Vec3f entry_wo_{0, 0, 1};
   bool is_first_ = true;
-  /// The light has come by way of an S, and of an event without which it would not be merged.
-  bool after_specular_ = false, after_caster_ = false;
+  bool after_specular_ = false;  ///< the light has come by way of an S
+  Caster caster_ = Caster::kNone;
   PartialMisWeights sums_;
   SideEnd end_;
   const WalkVertex* surface_ = nullptr;

@@ -24,7 +24,8 @@ inline constexpr double kCostOfMerge = 0.13;
 struct PairTechniques {
   int64_t light_paths = 1;  ///< that leave photons; 0: nothing is merged
   bool connects = true;     ///< false: nothing is connected but lights
-  /// Merges only photons whose light came by way of an event of one of these classes; kNone: all.
+  /// Merges only photons whose light came by way of an event of one of these classes (CasterRule);
+  /// kNone: all, and nothing but lights may be connected otherwise.
   ClassMask casters = ClassMask::kNone;
   bool separates_chains = false;  ///< specular chains are for walks of their own
   bool follows_chains = false;    ///< camera paths follow them: SpecularRoot::Leaves::kBranches

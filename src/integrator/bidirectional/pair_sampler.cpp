@@ -44,7 +44,8 @@ PairSampler::PairSampler(const PairPass& pass, const FilmFormat& of_film, const 
                            ? &tree
                            : nullptr},
       view_(pass.scene, of_film.bounds()) {
-  merging.casters = techniques.casters;
+  merging.rule = CasterRule(techniques.casters);
+  assert(!techniques.connects || techniques.merges_all_light());
   merging.photons = static_cast<double>(techniques.light_paths);
   merging.radius_pixels = pass.radius_pixels;
   merging.photons_for_one = pass.photons_for_one;

@@ -21,6 +21,7 @@
 #include "route/scene_symbols.h"
 #include "transport/camera_connection.h"
 #include "transport/camera_path.h"
+#include "transport/casters.h"
 #include "transport/path_points.h"
 #include "transport/path_weights.h"
 
@@ -37,19 +38,10 @@ struct PairMerging {
   /// Where a small radius stands for a wider one: how many photons that would merge for one.
   float photons_for_one = 1;
   bool connects = true;  ///< false: only lights are connected
-  /// Merges only photons whose light came by way of an event of one of these classes, what walks
-  /// find well is left to them; kNone: all photons.
-  ClassMask casters = ClassMask::kNone;
+  /// Where not all photons are merged, what walks find well is left to them.
+  CasterRule rule;
 
-  bool merges_all_light() const { return casters == ClassMask::kNone && photons > 0; }
-  /// Classes of the events at which photons are merged. What one G throws onto another is smooth
-  /// enough for walks, and lobes are too narrow for the few photons around a point.
-  ClassMask receivers() const {
-    return contains(casters, EventClass::kGlossy) ? ClassMask::kDiffuse : ClassMask::kRough;
-  }
-  bool merges_at(const WalkVertex& v, EventClass c) const {
-    return v.merges && contains(receivers(), c);
-  }
+  bool merges_all_light() const { return rule.merges_all_light() && photons > 0; }
   float radius_at(const Vec3f& p) const { return radius_pixels * footprint.width(length(p - eye)); }
   /// `first`: no event between the eye and `p` but delta lobes, so that every photon is a sample of
   /// its own. Else all photons share the way there, which counts once.

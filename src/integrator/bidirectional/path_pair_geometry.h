@@ -110,7 +110,7 @@ inline double weight_of_merge(const EyePartialWeights& sums, const WalkVertex& v
           ? 0.0
           : event_density(v.bsdf, event.wi, v.wo, TransportMode::kImportance, event.letter);
   return weight_of_merge(
-      sums.all(), back,
+      sums.at_cut(event.letter, photon.caster), back,
       {sqr(double{photon.root_of_cut_here}), sqr(double{photon.root_of_cuts_before})}, towards,
       own);
 }

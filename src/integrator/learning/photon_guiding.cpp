@@ -81,8 +81,8 @@ constexpr EstimatorTraits kMerging{.name = "photons", .merges = true, .starts_at
 GuidedPhotons guide_caustic_photons(uint64_t seed, const Scene& scene, const FilmFormat& film,
                                     const IntegratorOptions& options, ClassMask casters,
                                     PassControl& control) {
-  // A G that catches the caustic of another one is left out: it is seldom noisy.
-  const char* route = contains(casters, EventClass::kGlossy) ? "C.*D[GS]+D?L" : "C.*[DG]S+[DG]?L";
+  const char* route =
+      contains(casters, EventClass::kGlossy) ? "C.*(D[GS]+D?|[DG]S+[DG]?)L" : "C.*[DG]S+[DG]?L";
   const CompiledPlan plan =
       compile_plan({{{"caustic", route, &kMerging, {}}, {"rest", ".*", &kTheRest, {}}}, {}}, scene);
   constexpr size_t kCaustics = 0;  // the group of the first route

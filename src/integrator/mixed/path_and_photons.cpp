@@ -102,7 +102,8 @@ PathAndPhotons::Choice PathAndPhotons::best_of(
   // Some of all photons leave camera paths no less noise than all of them.
   if (has_events(owned_, EventClass::kGlossy) &&
       kRequiredGain * all.balance.variance_of_camera <
-          caustics.candidate.balance.variance_of_camera) {
+          caustics.candidate.balance.variance_of_camera +
+              caustics.candidate.trial.min_variance_of_unseen(all.trial)) {
     techniques.light_paths = light_paths;
     Choice with_glossy = try_caustics(ClassMask::kSpecular | ClassMask::kGlossy);
     const bool pays = kRequiredGain * inverse_efficiency(with_glossy.candidate) <

@@ -6,6 +6,9 @@
 
 #include <cmath>
 #include <random>
+#include <string>
+#include <string_view>
+#include <tuple>
 
 namespace nephroid {
 namespace {
@@ -19,15 +22,15 @@ TEST(EyePartialWeights, AreThoseOfOneSideWhereAllMerges) {
     return std::exp(std::ldexp(6.0 * static_cast<double>(engine()), -32) - 3);
   };
   for (const bool connects : {true, false}) {
-    EyePartialWeights eye(connects, ClassMask::kNone);
+    EyePartialWeights eye(connects, CasterRule());
     PartialMisWeights side{connects ? 0.3 : 0.0, 0};
     eye.arrive_first(side.here);
     for (int i = 0; i < 8; ++i) {
-      EXPECT_EQ(eye.all().here, side.here);
-      EXPECT_EQ(eye.all().before, side.before);
+      EXPECT_EQ(eye.most().here, side.here);
+      EXPECT_EQ(eye.most().before, side.before);
       EXPECT_EQ(eye.asks_back(), side.before > 0);
-      for (const bool before_light : {true, false})
-        EXPECT_EQ(&eye.behind(EventClass::kDiffuse, before_light), &eye.all());
+      EXPECT_EQ(&eye.at_cut(EventClass::kDiffuse, Caster::kNone), &eye.most());
+      EXPECT_TRUE(eye.merges(EventClass::kGlossy, Caster::kNone));
       const SideEnd end{side, {number(), number(), true}, number()};
       eye.leave(end.event, end.merge, EventClass::kGlossy);
       const LineFactors line{number(), number()};
@@ -39,47 +42,53 @@ TEST(EyePartialWeights, AreThoseOfOneSideWhereAllMerges) {
   }
 }
 
-// Casters are S alone, or G as well, which is finite and has a merge of its own.
-class Casters : public testing::TestWithParam<EventClass> {
- protected:
-  const EventClass caster = GetParam();
-  const bool is_glossy = caster == EventClass::kGlossy;
-  EyePartialWeights eye{false, ClassMask::kSpecular | mask_of(caster)};
-};
-INSTANTIATE_TEST_SUITE_P(EyePartialWeights, Casters,
-                         testing::Values(EventClass::kSpecular, EventClass::kGlossy));
+// Against the rule itself: a merge at a D needs a caster behind it, one at a G an S; casters are S
+// alone, or G as well.
+class Casters : public testing::TestWithParam<std::tuple<bool, std::string>> {};
+INSTANTIATE_TEST_SUITE_P(
+    EyePartialWeights, Casters,
+    testing::Combine(testing::Bool(), testing::Values("DD", "DS", "DG", "GS", "GG", "DGD", "DSD",
+                                                      "GSGD", "DDGSGD", "GDSDG", "DVGGDSD")));
 
 TEST_P(Casters, LetVerticesBeforeThemMerge) {
+  const auto& [with_glossy, letters] = GetParam();
+  const auto class_of = [](char c) {
+    return static_cast<EventClass>(std::string_view("DGSV").find(c));
+  };
+  EyePartialWeights eye(false, CasterRule(with_glossy ? ClassMask::kSpecular | ClassMask::kGlossy
+                                                      : ClassMask::kSpecular));
   eye.arrive_first(0);
-  EXPECT_FALSE(eye.merges_here(true));
-  EXPECT_TRUE(eye.merges_here(false)) << "what follows on the light's side may be a caster";
-  // D, D: no merge could have found a light here, but one at either would if a caster came.
-  for (int i = 0; i < 2; ++i) {
-    eye.leave(kEvent, 2.5, EventClass::kDiffuse);
-    EXPECT_FALSE(eye.end_to_light().has_cuts_before());
+  // What stands behind the last vertex: nothing but the light, a G, or an S.
+  const std::string behind[] = {"", "G", "S"};
+  const auto merges = [&](size_t i, const std::string& word) {
+    const bool s = word.find('S', i + 1) != std::string::npos;
+    const bool g = with_glossy && word.find('G', i + 1) != std::string::npos;
+    return word[i] == 'D' ? s || g : word[i] == 'G' && s;
+  };
+  for (size_t n = 0; n < letters.size(); ++n) {
+    const std::string word = letters.substr(0, n + 1);
+    const bool is_delta = letters[n] == 'S';
+    for (size_t b = 0; b < kCasters; ++b) {
+      if (b == 1 && !with_glossy) continue;
+      const std::string whole = word + behind[b];
+      PartialMisWeights side;
+      for (size_t i = 0; i < n; ++i) {
+        const EventDensity event = letters[i] == 'S' ? EventDensity{} : kEvent;
+        side = SideEnd{side, event, merges(i, whole) ? 2.5 : 0}.next(kLine);
+        side.here = 0;
+      }
+      const auto caster = static_cast<Caster>(b);
+      EXPECT_EQ(eye.at_cut(class_of(letters[n]), caster).before, side.before) << whole;
+      EXPECT_EQ(eye.merges(class_of(letters[n]), caster), merges(n, whole)) << whole;
+    }
+    eye.leave(is_delta ? EventDensity{} : kEvent, 2.5, class_of(letters[n]));
+    EXPECT_EQ(eye.end_to_light().next(kLine).before > 0, [&] {
+      for (size_t i = 0; i <= n; ++i)
+        if (merges(i, word)) return true;
+      return false;
+    }()) << word;
     eye.arrive(kLine);
-    EXPECT_TRUE(eye.asks_back());
-    for (const EventClass c : {EventClass::kDiffuse, EventClass::kVolume})
-      EXPECT_TRUE(eye.behind(c, true).empty());
-    EXPECT_EQ(eye.behind(EventClass::kGlossy, true).empty(), !is_glossy);
-    EXPECT_GT(eye.behind(caster, true).before, 0);
-    EXPECT_GT(eye.behind(EventClass::kDiffuse, false).before, 0);
   }
-  // The caster: the vertices before it merge now, its own only if another one follows.
-  const PartialMisWeights at_caster = eye.all();
-  const EventDensity event = is_glossy ? kEvent : EventDensity{};
-  const double merge = is_glossy ? 2.5 : 0;
-  eye.leave(event, merge, caster);
-  EXPECT_TRUE(eye.end_to_light().has_cuts_before());
-  eye.arrive(kLine);
-  EXPECT_EQ(eye.all().before, (SideEnd{at_caster, event, merge}.next(kLine).before));
-  EXPECT_EQ(eye.behind(EventClass::kDiffuse, true).before,
-            (SideEnd{at_caster, event, 0}.next(kLine).before));
-  // A D behind it merges for itself only if another caster comes.
-  eye.leave(kEvent, 2.5, EventClass::kDiffuse);
-  eye.arrive(kLine);
-  EXPECT_GT(eye.all().before, eye.behind(EventClass::kDiffuse, true).before);
-  EXPECT_GT(eye.behind(EventClass::kDiffuse, true).before, 0);
 }
 
 TEST(EyePartialWeights, SayWhetherThereIsAnythingBefore) {
@@ -93,14 +102,14 @@ TEST(EyePartialWeights, SayWhetherThereIsAnythingBefore) {
 }
 
 TEST(EyePartialWeights, TakeTheWayUnderASurfaceAsOneStep) {
-  EyePartialWeights eye(true, ClassMask::kSpecular);
+  EyePartialWeights eye(false, CasterRule(ClassMask::kSpecular));
   eye.arrive_first(0.25);
   eye.leave(kEvent, 2.5, EventClass::kDiffuse);
   eye.arrive(kLine);
-  const PartialMisWeights at_entry = eye.all();
+  const PartialMisWeights at_entry = eye.most();
   eye.come_out(3);
-  EXPECT_EQ(eye.all().here, at_entry.here + heuristic(3) * at_entry.before);
-  EXPECT_EQ(eye.all().before, 0);
+  EXPECT_EQ(eye.most().here, at_entry.here + heuristic(3) * at_entry.before);
+  EXPECT_EQ(eye.most().before, 0);
 }
 
 }  // namespace
