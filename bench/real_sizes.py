@@ -25,8 +25,8 @@ from validate import PROGRAM, ROOT, compare, run
 
 INTEGRATORS = ["mixed", "path", "doidge2012", "sppm", "vcm", "bpm", "bdpt"]
 
-# Scenes, their size here, and what renders their reference: `path` where it finds all light, else `mixed` with a first
-# radius of one pixel. The last four are scenes without caustics, where `mixed` must keep up with `path`.
+# Scenes, their size here, and what renders their reference: `path` or `bdpt` where they find all light well, else an
+# integrator that merges with a small first radius. The last four are scenes without caustics, where `mixed` must keep up with `path`.
 MERGING = ["--integrator", "mixed", "-D", "radius=1"]
 PATHS = ["--integrator", "path"]
 SUITE = {

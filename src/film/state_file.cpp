@@ -163,6 +163,18 @@ struct StateFile::Input {
     if (!found) fail("'" + name + "' is missing");
     return *found;
   }
+  void read_stream(const RenderState::Stream& stream) {
+    const StateIndex::Section& section = at(stream.name);
+    if (section.words != 1 || section.bytes > 4 * stream.most_words)
+      fail("'" + stream.name + "' has a size that it cannot have");
+    std::vector<uint32_t> words(section.bytes / 4);
+    read_section(section, std::as_writable_bytes(std::span(words)));
+    try {
+      stream.load(words);
+    } catch (const IoError& error) {
+      fail(fmt::format("'{}': {}", stream.name, error.what()));
+    }
+  }
   /// Reads all blocks of a section into memory of its size.
   void read_section(const StateIndex::Section& section, std::span<std::byte> into) {
     uint64_t offset = section.offset;
@@ -213,7 +225,7 @@ uint64_t StateFile::size() const {
   return input_->bytes;
 }
 
-void StateFile::load(const RenderState& state) {
+std::vector<std::string> StateFile::load(const RenderState& state) {
   Input& in = *input_;
   if (in.index.sections.size() != state.arrays.size() + state.streams.size())
     for (const StateIndex::Section& section : in.index.sections) {
@@ -229,19 +241,17 @@ void StateFile::load(const RenderState& state) {
       in.fail("'" + array.name + "' has a size that it cannot have");
     in.read_section(section, array.bytes);
   }
+  std::vector<std::string> passed_over;
   for (const RenderState::Stream& stream : state.streams) {
     if (stream.is_optional() && !in.find(stream.name)) continue;
-    const StateIndex::Section& section = in.at(stream.name);
-    if (section.words != 1 || section.bytes > 4 * stream.most_words)
-      in.fail("'" + stream.name + "' has a size that it cannot have");
-    std::vector<uint32_t> words(section.bytes / 4);
-    in.read_section(section, std::as_writable_bytes(std::span(words)));
     try {
-      stream.load(words);
+      in.read_stream(stream);
     } catch (const IoError& error) {
-      in.fail(fmt::format("'{}': {}", stream.name, error.what()));
+      if (!stream.is_optional()) throw;
+      passed_over.emplace_back(error.what());
     }
   }
+  return passed_over;
 }
 
 }  // namespace nephroid

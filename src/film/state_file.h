@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "film/image_io.h"
 #include "film/render_state.h"
@@ -41,8 +42,9 @@ class StateFile {
   /// Bytes of the file.
   uint64_t size() const;
   /// Reads all arrays and streams, each of which must be in the file with the size that it has
-  /// here, and be whole; streams that are optional may not be there.
-  void load(const RenderState& state);
+  /// here, and be whole. Streams that are optional may be missing; of those that cannot be read the
+  /// reasons are returned, each with the file's name.
+  std::vector<std::string> load(const RenderState& state);
 
  private:
   struct Input;

@@ -5,6 +5,15 @@
 
 namespace nephroid {
 
+namespace {
+
+// A damaged file must not ask for all memory; what is larger is learned again.
+constexpr size_t kMostWords = size_t{64} << 18;
+// Of the values of all estimators: one more wherever the members of any are changed.
+constexpr uint32_t kLayout = 1;
+
+}  // namespace
+
 const std::shared_ptr<const Learned>& LearningLoop::learn(const Estimator& estimator, uint64_t seed,
                                                           const Scene& scene,
                                                           const FilmFormat& format,
@@ -29,12 +38,10 @@ void LearningLoop::use(std::shared_ptr<const Learned> value) {
 
 void LearningLoop::add_state(const Estimator& estimator, const FilmFormat& format, std::string name,
                              RenderState& state) {
-  // A damaged file must not ask for all memory; what is larger is learned again.
-  constexpr size_t kMostWords = size_t{64} << 18;
   const auto save = [this]() -> std::vector<uint32_t> {
     if (!value_ || !seed_) return {};
     ByteWriter to;
-    to(*seed_);
+    to(kLayout, *seed_);
     value_->write(to);
     const std::vector<std::byte>& bytes = to.bytes();
     std::vector<uint32_t> words(1 + (bytes.size() + 3) / 4);
@@ -49,10 +56,14 @@ void LearningLoop::add_state(const Estimator& estimator, const FilmFormat& forma
     if (words[0] > bytes.size() || words[0] + 4 <= bytes.size())
       throw IoError("its length makes no sense");
     ByteReader from(bytes.first(words[0]));
+    uint32_t layout = 0;
     uint64_t seed = 0;
+    from(layout);
+    if (layout != kLayout) throw IoError("another build has learned it");
     from(seed);
-    value_ = estimator.read_learned(from, format);
-    if (!from.at_end()) throw IoError("there is more than what was learned");
+    auto value = estimator.read_learned(from, format);
+    if (!value || !from.at_end()) throw IoError("there is more than what was learned");
+    value_ = std::move(value);
     seed_ = seed;
     was_read_ = true;
   };

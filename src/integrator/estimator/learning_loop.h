@@ -25,7 +25,7 @@ class LearningLoop {
   /// Adds what is learned by now to a state, under the name, or reads it from there.
   void add_state(const Estimator& estimator, const FilmFormat& format, std::string name,
                  RenderState& state);
-  /// Adds the findings of what is learned by now, and the costs unless it was read.
+  /// Adds the findings of what is learned by now, and its costs, without rays if it was read.
   void add_to(EstimatorStatistics& statistics) const;
 
  private:

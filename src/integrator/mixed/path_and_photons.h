@@ -1,6 +1,6 @@
 // `path+photons`: one walk from the eye that finds everything path tracing finds, and whose
 // caustics are photons as well, each weighed against the other; where trial passes show that it is
-// worth their time, the caustics of glossy materials are, too, or all light (docs/estimators.md,
+// worth its time, the caustics of glossy materials are, too, or all light (docs/estimators.md,
 // sections 20 to 23). Papers:
 // Doidge, Jones & Mora 2012, whose future work this is; Georgiev et al. 2012 for weights; Grittmann
 // et al. 2022 for choosing techniques by efficiency.
@@ -51,7 +51,7 @@ class PathAndPhotons final : public Estimator {
 
   OwnedRoutes owned_;
   IntegratorOptions options_;
-  bool leaves_glossy_ = false;  ///< to path tracing: the caustics of glossy materials, last pass
+  bool leaves_glossy_ = true;  ///< to path tracing: the caustics of glossy materials, last pass
   EstimatorStatistics statistics_;
 };
 

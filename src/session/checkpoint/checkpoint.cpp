@@ -186,7 +186,7 @@ Checkpoint go_on_from(const std::string& path, const RenderIdentity& here, const
   StateFile file = open_state(path, purpose);
   const PassRanges passes = passes_of(file, purpose);
   require_same_render(file, here, "here", purpose);
-  file.load(state_of(scene, set, film));
+  const std::vector<std::string> passed_over = file.load(state_of(scene, set, film));
   const Metadata& metadata = file.metadata();
   Checkpoint checkpoint{passes,
                         open_pass_of(file),
@@ -195,6 +195,8 @@ Checkpoint go_on_from(const std::string& path, const RenderIdentity& here, const
                         value_of(metadata, kChoicesKey),
                         value_of(metadata, kInstructionSetKey),
                         {}};
+  for (const std::string& reason : passed_over)
+    checkpoint.warnings.push_back(reason + "; it is made anew");
   if (auto warning = warning_of_instruction_sets(file, here, "here"))
     checkpoint.warnings.push_back(std::move(*warning));
   return checkpoint;

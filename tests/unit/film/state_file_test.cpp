@@ -118,6 +118,30 @@ TEST(StateFile, SaysWhatDoesNotFit) {
   EXPECT_NE(error_of_load(path, other).find("'more' is not of this render"), std::string::npos);
 }
 
+TEST(StateFile, WhatIsOptionalMayBeMissingUnknownOrUnreadable) {
+  const ScratchDirectory directory;
+  const std::string path = directory.file("a.state");
+  Memory saved(1), loaded(2);
+  const auto with_optional = [](RenderState state, bool refuses) {
+    state.streams.push_back({"optional.x", 10,
+                             [] {
+                               return std::vector<uint32_t>{1, 2};
+                             },
+                             [refuses](std::span<const uint32_t>) {
+                               if (refuses) throw IoError("it makes no sense");
+                             }});
+    return state;
+  };
+  write_state(path, some_head(), saved.state());
+  EXPECT_TRUE(StateFile(path).load(with_optional(loaded.state(), false)).empty()) << "missing";
+  EXPECT_TRUE(saved == loaded);
+  write_state(path, some_head(), with_optional(saved.state(), false));
+  EXPECT_TRUE(StateFile(path).load(loaded.state()).empty()) << "unknown";
+  EXPECT_EQ(StateFile(path).load(with_optional(loaded.state(), true)),
+            std::vector<std::string>{path + ": cannot read its state: 'optional.x': it makes no "
+                                            "sense"});
+}
+
 // Wherever a bit falls or the file ends: that is said, or nothing that is loaded has changed.
 TEST(StateFile, NoticesDamage) {
   const ScratchDirectory directory;
