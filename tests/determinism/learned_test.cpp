@@ -93,7 +93,7 @@ TEST_P(LearnedBits, BytesThatAreDamagedAreRefusedOrDoNoHarm) {
   const auto scene = scene_from_text(text);
   IntegratorOptions options;
   // But for one whose number of photons is learned, few.
-  options.photons_per_pass = GetParam() == "path+photons" ? 0 : 1 << 8;
+  options.photons_per_pass = GetParam() == "mixed" ? 0 : 1 << 12;
   options.edit<MetropolisOptions>().mutations = 1;
   EstimatorSet set = make_estimators(plan_named(GetParam()), options, *scene);
   Film film = film_for(*scene, set);
