@@ -1,6 +1,8 @@
 // Values as bytes and back, for what is kept beside a picture. Numbers stand as they lie in memory,
 // lists after their length. A type takes part by a static function that names its members once:
 //   static void members(auto& self, auto& archive) { archive(self.a, self.b); }
+// If it has a public `bool is_sound() const`, too, this is asked of what was read: it knows what
+// can be used without harm.
 #pragma once
 
 #include <cstddef>
@@ -63,8 +65,13 @@ class ByteWriter {
   std::vector<std::byte> bytes_;
 };
 
-/// Reads what a ByteWriter wrote. Throws IoError where the bytes end too early or a list claims to
-/// be longer than they are.
+/// Throws IoError unless what was read makes sense.
+inline void expect_sound(bool is_sound) {
+  if (!is_sound) throw IoError("stored values are damaged: they make no sense");
+}
+
+/// Reads what a ByteWriter wrote. Throws IoError where the bytes end too early, a list claims to be
+/// longer than they are, or a value is not sound.
 class ByteReader {
  public:
   explicit ByteReader(std::span<const std::byte> bytes) : left_(bytes) {}
@@ -77,10 +84,13 @@ class ByteReader {
  private:
   template <class T>
   void read(T& value) {
-    if constexpr (PlainBytes<T>) {
+    if constexpr (std::is_same_v<T, bool>) {
+      value = flag();
+    } else if constexpr (PlainBytes<T>) {
       take(&value, sizeof(T));
     } else {
       T::members(value, *this);
+      if constexpr (requires { value.is_sound(); }) expect_sound(value.is_sound());
     }
   }
   template <class T>
@@ -104,10 +114,15 @@ class ByteReader {
   }
   template <class T>
   void read(std::optional<T>& value) {
-    uint8_t has_value = 0;
-    read(has_value);
     value.reset();
-    if (has_value) read(value.emplace());
+    if (flag()) read(value.emplace());
+  }
+  /// Any other byte would be neither true nor false.
+  bool flag() {
+    uint8_t byte = 0;
+    read(byte);
+    expect_sound(byte <= 1);
+    return byte == 1;
   }
   void take(void* data, size_t size) {
     if (size > left_.size()) damaged();

@@ -114,7 +114,9 @@ CasterCones CasterGuide::at(const WalkVertex& v, ClassMask among) const {
     const float density = density_towards(v, among, v.to_local(axis), sine2);
     if (!(density > 0.0f)) continue;
     const float narrowness = sine2 / (1 + std::sqrt(1 - sine2));
-    cones.add(axis, narrowness, ball.use * density * narrowness);
+    const float weight = ball.use * density * narrowness;
+    // So far away that there is nothing to choose.
+    if (weight > 0.0f) cones.add(axis, narrowness, weight);
   }
   return cones;
 }

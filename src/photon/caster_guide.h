@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "photon/sound_places.h"
 #include "photon/start_tree.h"
 #include "transport/walk.h"
 
@@ -56,12 +57,17 @@ class CasterGuide {
   bool empty() const { return balls_.empty(); }
   size_t places() const { return places_; }
   static void members(auto& self, auto& archive) { archive(self.balls_, self.places_); }
+  bool is_sound() const {
+    return balls_.size() <= CasterCones::kMaxCones && places_ <= balls_.size();
+  }
 
   struct Ball {
     Vec3f center{0, 0, 0};
     float radius = 0;
     float use = 0;  ///< [G8], over that of other balls
     static void members(auto& self, auto& archive) { archive(self.center, self.radius, self.use); }
+    bool is_sound() const { return is_sound_ball(center, radius) && use > 0 && use <= kMaxUse; }
+    static constexpr float kMaxUse = 1e30f;  ///< times any density it is still finite
   };
   std::span<const Ball> balls() const { return balls_; }
 

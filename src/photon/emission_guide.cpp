@@ -178,16 +178,23 @@ double EmissionGuide::part_of_all(const Scene& scene, size_t cluster, const Targ
          part_through(scene, *scene.lights[cluster * cluster_size_], target);
 }
 
-void EmissionGuide::share_out(std::span<const double> aims) {
-  const size_t targets = targets_.size(), padded = (targets + kLanes - 1) / kLanes * kLanes;
+EmissionGuide::Lanes EmissionGuide::lanes_of(std::span<const Target> targets) {
+  Lanes lanes;
+  const size_t padded = (targets.size() + kLanes - 1) / kLanes * kLanes;
   for (size_t k = 0; k < padded; ++k) {
-    const Target t = k < targets ? targets_[k] : Target();
-    lanes_.x.push_back(t.center.x);
-    lanes_.y.push_back(t.center.y);
-    lanes_.z.push_back(t.center.z);
-    lanes_.radius2.push_back(k < targets ? sqr(t.radius) : -1.0f);
+    const Target t = k < targets.size() ? targets[k] : Target();
+    lanes.x.push_back(t.center.x);
+    lanes.y.push_back(t.center.y);
+    lanes.z.push_back(t.center.z);
+    lanes.radius2.push_back(k < targets.size() ? sqr(t.radius) : -1.0f);
   }
-  for (Cluster& cluster : clusters_) cluster.shares.assign(padded, 0);
+  return lanes;
+}
+
+void EmissionGuide::share_out(std::span<const double> aims) {
+  const size_t targets = targets_.size();
+  lanes_ = lanes_of(targets_);
+  for (Cluster& cluster : clusters_) cluster.shares.assign(lanes_.x.size(), 0);
   double total = 0, sum = 0;
   for (const double aim : aims) total += aim;
   for (size_t c = 0; c < clusters_.size(); ++c)
@@ -198,6 +205,45 @@ void EmissionGuide::share_out(std::span<const double> aims) {
       entries_.push_back({static_cast<uint32_t>(c), static_cast<int>(k), sum});
       clusters_[c].shares[k] = p / clusters_[c].pmf;
     }
+}
+
+bool EmissionGuide::Cluster::is_sound() const {
+  const auto is_amount = [](double x) { return x >= 0 && std::isfinite(x); };
+  // choose() finds `pmf` among the sums.
+  return std::ranges::all_of(shares, is_amount) && std::ranges::all_of(cumulative, is_amount) &&
+         std::ranges::is_sorted(cumulative) && !cumulative.empty() && cumulative.back() == pmf;
+}
+
+bool EmissionGuide::has_sound_entries() const {
+  double sum = 0;
+  for (const Entry& e : entries_) {
+    if (e.cluster >= clusters_.size() || !(clusters_[e.cluster].pmf > 0) || e.target < 0 ||
+        static_cast<size_t>(e.target) >= targets_.size() || !(e.cumulative >= sum))
+      return false;
+    sum = e.cumulative;
+  }
+  return sum > 0 && std::isfinite(sum);
+}
+
+bool EmissionGuide::is_sound() const {
+  if (!std::isfinite(share_unaimed_) || places_ > targets_.size()) return false;
+  // One that guides nothing reads nothing else.
+  if (empty()) return true;
+  return targets_.size() <= kMaxTargets && lanes_ == lanes_of(targets_) &&
+         std::ranges::all_of(
+             clusters_, [&](const Cluster& c) { return c.shares.size() == lanes_.x.size(); }) &&
+         has_sound_entries();
+}
+
+bool EmissionGuide::fits(size_t lights) const {
+  if (empty()) return true;
+  if (cluster_size_ == 0) return false;
+  for (const Cluster& cluster : clusters_) {
+    const size_t held = std::min(lights, cluster_size_);
+    if (cluster.cumulative.size() != held) return false;
+    lights -= held;
+  }
+  return lights == 0;
 }
 
 std::optional<EmissionGuide::Choice> EmissionGuide::choose(const Scene& scene, float u) const {

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "photon/sound_places.h"
 #include "photon/start_tree.h"
 #include "scene/scene.h"
 
@@ -34,11 +35,15 @@ class EmissionGuide {
     archive(self.targets_, self.lanes_, self.places_, self.share_unaimed_, self.clusters_,
             self.cluster_size_, self.entries_);
   }
+  bool is_sound() const;
+  /// Has a place for each light of a scene that has so many.
+  bool fits(size_t lights) const;
 
   struct Target {
     Vec3f center{0, 0, 0};
     float radius = 0;
     static void members(auto& self, auto& archive) { archive(self.center, self.radius); }
+    bool is_sound() const { return is_sound_ball(center, radius); }
   };
   std::span<const Target> targets() const { return targets_; }
   /// How many places it aims at. Their targets come first, then those around several or all.
@@ -79,6 +84,7 @@ class EmissionGuide {
     static void members(auto& self, auto& archive) {
       archive(self.pmf, self.shares, self.cumulative);
     }
+    bool is_sound() const;
   };
   size_t cluster_of(int light) const { return light / cluster_size_; }
   void gather_lights(const Scene& scene);
@@ -94,6 +100,7 @@ class EmissionGuide {
   /// The part of what all lights emit that goes from a cluster through a target, roughly.
   double part_of_all(const Scene& scene, size_t cluster, const Target& target) const;
   void share_out(std::span<const double> aims);
+  bool has_sound_entries() const;
 
   /// The targets once more, as density() reads them: several at a time, the last ones empty.
   struct Lanes {
@@ -101,7 +108,10 @@ class EmissionGuide {
     static void members(auto& self, auto& archive) {
       archive(self.x, self.y, self.z, self.radius2);
     }
+    bool operator==(const Lanes&) const = default;
   };
+
+  static Lanes lanes_of(std::span<const Target> targets);
 
   std::vector<Target> targets_;
   Lanes lanes_;

@@ -84,6 +84,11 @@ void ForecastMap::build(size_t begin, size_t end) {
   build(middle + 1, end);
 }
 
+bool ForecastMap::is_sound() const {
+  return axes_.size() == records_.size() &&
+         std::ranges::all_of(axes_, [](uint8_t axis) { return axis < 3; });
+}
+
 struct ForecastMap::Nearest {
   struct Entry {
     float distance_squared;

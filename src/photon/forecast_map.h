@@ -7,7 +7,7 @@
 #include <array>
 #include <vector>
 
-#include "core/math.h"
+#include "photon/sound_places.h"
 
 namespace nephroid {
 
@@ -15,6 +15,7 @@ namespace nephroid {
 struct CausticRecord {
   Vec3f p, caster;
   static void members(auto& self, auto& archive) { archive(self.p, self.caster); }
+  bool is_sound() const { return is_sound_place(p) && is_sound_place(caster); }
 };
 
 /// A density of unit directions in world space: the mean of von Mises-Fisher lobes.
@@ -56,6 +57,7 @@ class ForecastMap {
   /// wide; none if it does not foretell.
   ForecastLobes lobes_at(const Vec3f& p) const;
   static void members(auto& self, auto& archive) { archive(self.records_, self.axes_); }
+  bool is_sound() const;
 
  private:
   struct Nearest;

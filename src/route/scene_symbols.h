@@ -29,6 +29,7 @@ class SceneSymbols {
   Label medium(int index) const { return media_[index]; }
   /// Of Scene::lights.
   LightSymbol light(int index) const { return lights_[index]; }
+  size_t lights() const { return lights_.size(); }
   /// Of the light that a medium emits.
   LightSymbol glow(int medium_index) const {
     return light_symbol(LightKind::kMedium, medium(medium_index));

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "determinism/scene_of_all_kinds.h"
+#include "integrator/metropolis/metropolis_options.h"
 #include "integrator/photon_mapping/photon_map.h"
 #include "rendering.h"
 #include "same_bits.h"
@@ -66,6 +67,49 @@ TEST_P(LearnedBits, BytesThatAreCutOffAreRefused) {
       ByteReader reader(bytes.first(kept));
       EXPECT_THROW(estimator.read_learned(reader, film.format()), IoError) << kept;
     }
+  }
+}
+
+/// The same bytes, read and used for a pass. False if they are refused.
+bool can_be_used(EstimatorSet& set, size_t number, std::span<const std::byte> bytes,
+                 const Scene& scene, Film& film) {
+  Estimator& estimator = *set.estimators[number];
+  ByteReader reader(bytes);
+  try {
+    const auto value = estimator.read_learned(reader, film.format());
+    estimator.render_pass({5, 0}, value.get(), scene, film, unwatched);
+    EstimatorStatistics statistics;
+    value->add_to(statistics);
+  } catch (const IoError&) {
+    return false;
+  }
+  return true;
+}
+
+TEST_P(LearnedBits, BytesThatAreDamagedAreRefusedOrDoNoHarm) {
+  std::string text = kScene;
+  const std::string size = "xresolution\" 24 \"integer yresolution\" 20";
+  text.replace(text.find(size), size.size(), "xresolution\" 6 \"integer yresolution\" 5");
+  const auto scene = scene_from_text(text);
+  IntegratorOptions options;
+  // But for one whose number of photons is learned, few.
+  options.photons_per_pass = GetParam() == "mixed" ? 0 : 1 << 12;
+  options.edit<MetropolisOptions>().mutations = 1;
+  EstimatorSet set = make_estimators(plan_named(GetParam()), options, *scene);
+  Film film = film_for(*scene, set);
+  for (size_t i = 0; i < set.estimators.size(); ++i) {
+    if (set.estimators[i]->descriptor().capabilities.learned_is_light) continue;
+    const auto value = set.estimators[i]->learn(*scene, film.format(), 5, unwatched);
+    if (!value) continue;
+    ByteWriter written;
+    value->write(written);
+    EXPECT_TRUE(can_be_used(set, i, written.bytes(), *scene, film));
+    for (size_t at = 0; at < written.bytes().size(); at += 1 + written.bytes().size() / 60)
+      for (const std::byte damage : {std::byte{0xff}, std::byte{0}}) {
+        std::vector<std::byte> bytes = written.bytes();
+        bytes[at] = damage;
+        can_be_used(set, i, bytes, *scene, film);
+      }
   }
 }
 

@@ -35,6 +35,13 @@ struct PairTechniques {
     archive(self.light_paths, self.connects, self.casters, self.separates_chains,
             self.follows_chains, self.roulette_threshold);
   }
+  bool is_sound() const {
+    const bool merges_caustics =
+        casters == ClassMask::kSpecular || casters == (ClassMask::kSpecular | ClassMask::kGlossy);
+    return light_paths >= 0 && (merges_all_light() || (merges_caustics && !connects)) &&
+           !(separates_chains && follows_chains) && roulette_threshold > 0 &&
+           roulette_threshold <= 1;
+  }
 };
 
 /// The inputs of a pass, whatever it is for.

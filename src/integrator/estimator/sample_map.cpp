@@ -23,6 +23,15 @@ double SampleMap::mean() const {
   return sum / static_cast<double>(counts_.size());
 }
 
+bool SampleMap::has_tiles_of(const SampleMap& other) const {
+  return tile_ == other.tile_ && width_ == other.width_ && counts_.size() == other.counts_.size();
+}
+
+bool SampleMap::is_sound(const PixelBounds& b, int spacing, int min, int max) const {
+  return (has_tiles_of(SampleMap(b)) || has_tiles_of(SampleMap(b, 1, spacing))) &&
+         fewest() >= min && most() <= max;
+}
+
 void SampleVariance::add(const SampleVariance& other) {
   for (size_t i = 0; i < sums_.size(); ++i) {
     sums_[i].light += other.sums_[i].light;

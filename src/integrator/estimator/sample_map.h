@@ -34,10 +34,15 @@ class SampleMap {
   size_t tile_of(int x, int y) const { return static_cast<size_t>(y / tile_) * width_ + x / tile_; }
   int width() const { return width_; }
   static void members(auto& self, auto& archive) { archive(self.tile_, self.width_, self.counts_); }
+  /// Has the tiles of a film, those of a lattice of that spacing or of all pixels, and `min` to
+  /// `max` in each.
+  bool is_sound(const PixelBounds& b, int spacing, int min, int max) const;
   std::vector<uint16_t>& counts() { return counts_; }
   const std::vector<uint16_t>& counts() const { return counts_; }
 
  private:
+  bool has_tiles_of(const SampleMap& other) const;
+
   int tile_ = kTile;  ///< pixels across
   int width_ = 0;
   std::vector<uint16_t> counts_;  ///< [tile]

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 
 #include "scene/light/equal_area_map.h"
 
@@ -78,6 +77,18 @@ void append_direction_tree(std::vector<DirectionMoment> found,
                            std::vector<DirectionTree::Node>& nodes) {
   const double sum = sum_of(found);
   if (sum > 0) TreeMaker(nodes, sum).add(found, 1, 0);
+}
+
+bool DirectionTree::Node::is_sound() const {
+  const float sum = mass[0] + mass[1] + mass[2] + mass[3];
+  return std::ranges::all_of(mass, [](float m) { return m >= 0; }) && sum > 0 && std::isfinite(sum);
+}
+
+bool is_sound_tree(std::span<const DirectionTree::Node> nodes) {
+  for (size_t i = 0; i < nodes.size(); ++i)
+    for (const uint32_t child : nodes[i].child)
+      if (child != 0 && (child <= i || child >= nodes.size())) return false;
+  return !nodes.empty();
 }
 
 Vec3f DirectionTree::sample(float&, const Vec2f& u) const {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/math.h"
@@ -17,6 +18,8 @@ class DirectionTree {
     float mass[4] = {};      ///< of the quarters; bit 0 is the half along x, bit 1 along y
     uint32_t child[4] = {};  ///< counted from the root; 0: none
     static void members(auto& self, auto& archive) { archive(self.mass, self.child); }
+    /// Has something to choose among.
+    bool is_sound() const;
   };
 
   /// Has no directions.
@@ -49,5 +52,8 @@ struct DirectionMoment {
 /// found.
 void append_direction_tree(std::vector<DirectionMoment> found,
                            std::vector<DirectionTree::Node>& nodes);
+
+/// True if walks down a tree of these nodes, the root first, stay among them and come to an end.
+bool is_sound_tree(std::span<const DirectionTree::Node> nodes);
 
 }  // namespace nephroid

@@ -203,6 +203,29 @@ size_t RadianceGuide::bytes() const {
   return boxes_.size() * sizeof(Box) + nodes_.size() * sizeof(DirectionTree::Node);
 }
 
+bool RadianceGuide::is_sound() const {
+  if (!(guided_ >= 0 && guided_ <= 1)) return false;
+  if (boxes_.empty()) return guided_ == 0 && nodes_.empty();
+  if (boxes_.size() < kSides) return false;
+  std::vector<size_t> roots;
+  for (size_t i = 0; i < boxes_.size(); ++i) {
+    const Box& box = boxes_[i];
+    // Parts come after the whole.
+    if (box.axis >= 0 && (box.next <= i || size_t{box.next} + 1 >= boxes_.size())) return false;
+    if (box.axis < 0 && box.share > 0) roots.push_back(box.next);
+  }
+  // One tree follows the other.
+  std::ranges::sort(roots);
+  roots.push_back(nodes_.size());
+  if (roots.front() != 0) return false;
+  const std::span nodes(nodes_);
+  for (size_t i = 0; i + 1 < roots.size(); ++i)
+    if (roots[i + 1] > nodes_.size() ||
+        !is_sound_tree(nodes.subspan(roots[i], roots[i + 1] - roots[i])))
+      return false;
+  return true;
+}
+
 DirectionTree RadianceGuide::at(const Vec3f& p, const Vec3f& n, bool glossy) const {
   if (!guides()) return {};
   const Box* box = &boxes_[side_of(n, glossy)];

@@ -5,6 +5,7 @@
 // Papers: Mueller, Gross & Novak 2017; Rath et al. 2020 for what is learned.
 #pragma once
 
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -43,6 +44,7 @@ class RadianceGuide {
   static void members(auto& self, auto& archive) {
     archive(self.boxes_, self.nodes_, self.guided_);
   }
+  bool is_sound() const;
 
  private:
   /// A box of the cut scene.
@@ -53,6 +55,9 @@ class RadianceGuide {
     uint32_t next = 0;  ///< of inner ones the lower part, the upper one follows; of leaves the root
     static void members(auto& self, auto& archive) {
       archive(self.axis, self.cut, self.share, self.next);
+    }
+    bool is_sound() const {
+      return axis >= -1 && axis < 3 && std::isfinite(cut) && share >= 0 && share < 1;
     }
   };
   struct Region;

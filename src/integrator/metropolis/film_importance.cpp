@@ -19,6 +19,11 @@ FilmArea::FilmArea(const PixelBounds& crop, const PixelFilter& filter)
       size_(Vec2f(static_cast<float>(crop.width()), static_cast<float>(crop.height())) +
             filter.radius() * 2.0f) {}
 
+bool FilmArea::is_sound() const {
+  return std::isfinite(low_.x) && std::isfinite(low_.y) && size_.x >= 1 && size_.y >= 1 &&
+         std::isfinite(size_.x) && std::isfinite(size_.y);
+}
+
 FilmImportance::FilmImportance(const FilmArea& area) : area_(area) {
   const Vec2f size = area.size();
   const float side = std::max(std::max(size.x, size.y) / kMaxCells, kPixelsPerCell);
@@ -53,6 +58,14 @@ void FilmImportance::learn() {
         }
       cell(importance_, x, y) = 1 / (sum / weights / mean + kDarkest);
     }
+}
+
+bool FilmImportance::is_sound() const {
+  const FilmImportance empty(area_);
+  return width_ == empty.width_ && height_ == empty.height_ &&
+         found_.size() == empty.found_.size() && importance_.size() == found_.size() &&
+         std::ranges::all_of(found_, [](double x) { return std::isfinite(x); }) &&
+         std::ranges::all_of(importance_, [](double x) { return x > 0 && x <= 1 / kDarkest; });
 }
 
 float FilmImportance::at(const Vec2f& film) const {

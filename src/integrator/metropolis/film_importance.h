@@ -29,6 +29,8 @@ class FilmArea {
   /// In pixels.
   float area() const { return size_.x * size_.y; }
   static void members(auto& self, auto& archive) { archive(self.low_, self.size_); }
+  /// Has a size to divide by.
+  bool is_sound() const;
 
  private:
   friend class FilmImportance;
@@ -52,6 +54,7 @@ class FilmImportance {
   static void members(auto& self, auto& archive) {
     archive(self.area_, self.width_, self.height_, self.found_, self.importance_);
   }
+  bool is_sound() const;
 
  private:
   double& cell(std::vector<double>& cells, int x, int y) const {

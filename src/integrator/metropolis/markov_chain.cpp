@@ -215,6 +215,11 @@ double FoundLight::target(const FilmImportance& importance) const {
   return sum;
 }
 
+bool ChainPilot::is_sound() const {
+  const auto is_mean = [](double x) { return x >= 0 && std::isfinite(x); };
+  return std::ranges::all_of(kinds, is_mean) && is_mean(balance);
+}
+
 double brightness_of(const Rgb& color) {
   return (std::abs(double{color.r}) + std::abs(double{color.g}) + std::abs(double{color.b})) / 3;
 }

@@ -60,6 +60,7 @@ struct ChainPilot {
   static void members(auto& self, auto& archive) {
     archive(self.importance, self.kinds, self.balance);
   }
+  bool is_sound() const;
 };
 
 /// One chain, step by step.

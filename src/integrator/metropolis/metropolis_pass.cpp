@@ -45,9 +45,10 @@ std::shared_ptr<const LearnedPilot> LearnedPilot::learn(uint64_t seed, const Fil
       look_around(seed, static_cast<int64_t>(paths), area, kinds, make, control));
 }
 
-std::shared_ptr<const LearnedPilot> LearnedPilot::read(ByteReader& from) {
+std::shared_ptr<const LearnedPilot> LearnedPilot::read(ByteReader& from, size_t kinds) {
   ChainPilot pilot;
   from(pilot);
+  expect_sound(pilot.kinds.size() == kinds);
   return std::make_shared<const LearnedPilot>(std::move(pilot));
 }
 

@@ -17,7 +17,8 @@ class LearnedPilot final : public Learned {
   static std::shared_ptr<const LearnedPilot> learn(uint64_t seed, const FilmArea& area,
                                                    size_t kinds, const PathFunctionMaker& make,
                                                    PassControl& control);
-  static std::shared_ptr<const LearnedPilot> read(ByteReader& from);
+  /// Of so many kinds of paths.
+  static std::shared_ptr<const LearnedPilot> read(ByteReader& from, size_t kinds);
   const ChainPilot& pilot() const { return pilot_; }
   void write(ByteWriter& to) const override { to(pilot_); }
   void add_to(EstimatorStatistics&) const override {}

@@ -217,7 +217,7 @@ std::shared_ptr<const Learned> Multiplexed::learn(const Scene& scene, const Film
 
 std::shared_ptr<const Learned> Multiplexed::read_learned(ByteReader& from,
                                                          const FilmFormat&) const {
-  return LearnedPilot::read(from);
+  return LearnedPilot::read(from, KindChoice(options_.max_depth).kinds());
 }
 
 void Multiplexed::render_pass(const PassKey& key, const Learned* learned, const Scene& scene,

@@ -103,7 +103,7 @@ std::shared_ptr<const Learned> PrimarySpace::learn(const Scene& scene, const Fil
 
 std::shared_ptr<const Learned> PrimarySpace::read_learned(ByteReader& from,
                                                           const FilmFormat&) const {
-  return LearnedPilot::read(from);
+  return LearnedPilot::read(from, 1);
 }
 
 void PrimarySpace::render_pass(const PassKey& key, const Learned* learned, const Scene& scene,

@@ -7,9 +7,6 @@ namespace nephroid {
 
 namespace {
 
-/// Light paths of a pass.
-constexpr double kMinLightPaths = 1 << 10, kMaxLightPaths = 1 << 22;
-
 /// Each tile with its neighbours: the variance of a few passes is a rough guess.
 std::vector<double> smoothed(const std::vector<double>& values, int width) {
   const int height = static_cast<int>(values.size()) / width;
@@ -115,6 +112,14 @@ Balance::Balance(const Trial& trial)
   // V(N) = v + b/N.
   variance_of_light = trial.variance_of_light * trial.light_paths;
   if (trial.light_paths > 0) cost_of_light = trial.cost_of_light / trial.light_paths;
+}
+
+bool Balance::is_sound() const {
+  const auto is_amount = [](double x) { return x >= 0 && std::isfinite(x); };
+  return is_amount(max_photons) && is_amount(min_light_paths) && scale > 0 && is_amount(scale) &&
+         is_amount(variance_of_camera) && is_amount(variance_of_light) &&
+         is_amount(cost_of_camera) && is_amount(cost_of_light) && is_amount(photons_of_path) &&
+         is_amount(light_paths_of_camera_path());
 }
 
 double Balance::light_paths_of_camera_path() const {

@@ -48,6 +48,9 @@ struct Trial {
 /// The mean of some tiles without the few that stand out: what one lucky path did says little.
 double winsorized_mean(std::vector<double> tiles);
 
+/// Light paths of a pass.
+inline constexpr double kMinLightPaths = 1 << 10, kMaxLightPaths = 1 << 22;
+
 /// [A3] The number of light paths with which a pass of `camera_paths` for each pixel has the least
 /// variance times cost, and that of one camera path.
 struct Balance {
@@ -63,6 +66,7 @@ struct Balance {
     archive(self.max_photons, self.min_light_paths, self.scale, self.variance_of_camera,
             self.variance_of_light, self.cost_of_camera, self.cost_of_light, self.photons_of_path);
   }
+  bool is_sound() const;
   /// The best number between min_light_paths and what leaves max_photons.
   int64_t light_paths(double camera_paths) const;
   /// Camera paths of each pixel beside which the best number of light paths is not too many.

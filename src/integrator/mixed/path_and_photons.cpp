@@ -201,9 +201,19 @@ PairPass PathAndPhotons::pass_of(const PassKey& key, const Scene& scene, const F
 }
 
 std::shared_ptr<const Learned> PathAndPhotons::read_learned(ByteReader& from,
-                                                            const FilmFormat&) const {
+                                                            const FilmFormat& film) const {
   MixPlan plan;
   from(plan);
+  const int64_t photons = options_.photons_per_pass, light_paths = plan.techniques.light_paths;
+  expect_sound(photons > 0 ? light_paths == photons && !plan.balance
+                           : static_cast<double>(light_paths) <= kMaxLightPaths);
+  const int asked = options_.camera_samples_per_pass;
+  const auto fits = [&](const SampleMap& map, int min, int max) {
+    return map.is_sound(film.bounds(), spacing_of(film), min, std::max(max, asked));
+  };
+  expect_sound(fits(plan.samples.paths, 1, SampleMap::kMax) &&
+               fits(plan.samples.chains, 0, SampleMap::kMaxChainWalks));
+  expect_sound(plan.photons.guide.starts.fits(owned_.symbols->lights()));
   return std::make_shared<const LearnedMix>(std::move(plan));
 }
 

@@ -43,6 +43,7 @@ std::shared_ptr<const Learned> PhotonMapping::read_learned(ByteReader& from,
                                                            const FilmFormat&) const {
   GuidedPhotons photons;
   from(photons);
+  expect_sound(photons.guide.starts.fits(owned_.symbols->lights()));
   return std::make_shared<LearnedPhotons>(std::move(photons));
 }
 

@@ -232,6 +232,7 @@ std::shared_ptr<const Learned> PointLights::read_learned(ByteReader& from,
   float density = 0;
   uint64_t rays = 0;
   from(density, rays);
+  expect_sound(density >= 0);
   return std::make_shared<LearnedDensity>(density, rays);
 }
 
