@@ -26,7 +26,7 @@ from validate import PROGRAM, ROOT, compare, run
 INTEGRATORS = ["mixed", "path", "doidge2012", "sppm", "vcm", "bpm", "bdpt"]
 
 # Scenes, their size here, and what renders their reference: `path` or `bdpt` where they find all light well, else an
-# integrator that merges with a small first radius. The last four are scenes without caustics, where `mixed` must keep up with `path`.
+# integrator that merges with a small first radius. The last four have no caustics: there `mixed` must keep up with `path`.
 MERGING = ["--integrator", "mixed", "-D", "radius=1"]
 PATHS = ["--integrator", "path"]
 SUITE = {
