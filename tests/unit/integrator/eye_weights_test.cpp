@@ -51,7 +51,8 @@ INSTANTIATE_TEST_SUITE_P(
                                                       "GSGD", "DDGSGD", "GDSDG", "DVGGDSD")));
 
 TEST_P(Casters, LetVerticesBeforeThemMerge) {
-  const auto& [with_glossy, letters] = GetParam();
+  const bool with_glossy = std::get<0>(GetParam());
+  const std::string letters = std::get<1>(GetParam());
   const auto class_of = [](char c) {
     return static_cast<EventClass>(std::string_view("DGSV").find(c));
   };
