@@ -31,8 +31,8 @@ struct RenderState {
     std::function<std::vector<uint32_t>()> save;
     /// Throws IoError if they make no sense; the message says what, not where.
     std::function<void(std::span<const uint32_t>)> load;
-    /// What it holds can be made anew: a file may lack it, and whoever has no use for it passes
-    /// over it. All such names begin with the prefix, and no others.
+    /// True for values that can be computed again, so a file need not have them and a reader may
+    /// skip them. Their names begin with kOptionalPrefix.
     bool is_optional() const { return is_optional(name); }
     static bool is_optional(std::string_view name) { return name.starts_with(kOptionalPrefix); }
   };

@@ -102,7 +102,7 @@ constexpr OtherName kOtherNames[] = {
     {"d65", {"stdillum-D65"}},
 };
 
-/// What is not a type of that kind here but a directive or another shape.
+/// What to write for a name that is a type elsewhere and a directive or another shape here.
 struct Advice {
   const char* kind;
   const char* written;

@@ -18,7 +18,7 @@ struct Photon {
   uint8_t set = 0;                ///< of a map whose photons do not share one set of wavelengths
   uint16_t events = 0;            ///< scattering events before this vertex
   Lamp lamp = 0;                  ///< that it comes from; not kept in files
-  Caster caster = Caster::kNone;  ///< by way of which it came, where that matters; not in files
+  Caster caster = Caster::kNone;  ///< the smoothest one it passed (CasterRule); not kept in files
   /// PartialMisWeights, where other techniques find the path, too. They are squares of areas:
   /// their roots stay in the range of a float in any unit of length.
   float root_of_cut_here = 0, root_of_cuts_before = 0;

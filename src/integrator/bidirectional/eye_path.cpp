@@ -138,7 +138,7 @@ class EyeVisitor {
       guided_.leave(walk, *surface_, event);
       density = density_of_walk(walk, *surface_, event, TransportMode::kRadiance,
                                 surface_->useful_classes(), sums_.asks_back());
-      merge = merge_weight(event.letter);
+      merge = merge_weight();
     } else {
       const double p = medium_->phase.eval(medium_->wo, walk.ray.d);
       density = {p, p, true};
@@ -183,10 +183,10 @@ class EyeVisitor {
       sums_.arrive_first(cut_at_camera(settings_, camera_, place_));
   }
 
-  double merge_weight(EventClass c) const {
-    return settings_.merging && surface_->merges && contains(ClassMask::kRough, c)
-               ? settings_.merging->weight_at(place_.p, first_)
-               : 0;
+  /// [W8], if the class of the event merges.
+  double merge_weight() const {
+    return settings_.merging && surface_->merges ? settings_.merging->weight_at(place_.p, first_)
+                                                 : 0;
   }
 
   /// The events at an eye vertex towards the unit direction `w`, of a light or else of a vertex of
@@ -220,7 +220,7 @@ class EyeVisitor {
         arm.density.forward = subsurface_density(v.surface.ng, w);
       else if (sums_.at_cut(c, Caster::kNone).before > 0)
         arm.density.back = event_density(v.bsdf, wi, v.wo, TransportMode::kImportance, c);
-      arm.merge = sums_.merges(c, Caster::kNone) ? merge_weight(c) : 0;
+      arm.merge = sums_.merges(c, Caster::kNone) ? merge_weight() : 0;
       arm.eye = routes_.next(eye_, symbol_at(symbols_, v, c, wi));
     }
     return any;

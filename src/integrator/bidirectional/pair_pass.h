@@ -22,10 +22,10 @@ inline constexpr double kCostOfMerge = 0.13;
 
 /// The techniques of a pass, among which trial passes choose.
 struct PairTechniques {
-  int64_t light_paths = 1;  ///< that leave photons; 0: nothing is merged
-  bool connects = true;     ///< false: nothing is connected but lights
-  /// Merges only photons whose light came by way of an event of one of these classes (CasterRule);
-  /// kNone: all, and nothing but lights may be connected otherwise.
+  int64_t light_paths = 1;  ///< number of light paths that leave photons; 0: no photons
+  bool connects = true;     ///< false: camera paths are connected to lights only
+  /// Only photons that passed an event of one of these classes are merged (CasterRule); kNone: all
+  /// photons are. If not kNone, `connects` must be false.
   ClassMask casters = ClassMask::kNone;
   bool separates_chains = false;  ///< specular chains are for walks of their own
   bool follows_chains = false;    ///< camera paths follow them: SpecularRoot::Leaves::kBranches

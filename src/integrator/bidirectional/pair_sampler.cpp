@@ -1,5 +1,6 @@
 #include "integrator/bidirectional/pair_sampler.h"
 
+#include <cassert>
 #include <cmath>
 
 #include "integrator/estimator/features.h"

@@ -9,7 +9,7 @@ namespace {
 
 // A damaged file must not ask for all memory; what is larger is learned again.
 constexpr size_t kMostWords = size_t{64} << 18;
-// Of the values of all estimators: one more wherever the members of any are changed.
+// Version of the bytes that estimators write: increase it when the members of any value change.
 constexpr uint32_t kLayout = 1;
 
 }  // namespace

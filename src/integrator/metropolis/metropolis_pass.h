@@ -17,7 +17,7 @@ class LearnedPilot final : public Learned {
   static std::shared_ptr<const LearnedPilot> learn(uint64_t seed, const FilmArea& area,
                                                    size_t kinds, const PathFunctionMaker& make,
                                                    PassControl& control);
-  /// Of so many kinds of paths.
+  /// Reads a value learned for `kinds` kinds of paths. Throws IoError if it is damaged.
   static std::shared_ptr<const LearnedPilot> read(ByteReader& from, size_t kinds);
   const ChainPilot& pilot() const { return pilot_; }
   void write(ByteWriter& to) const override { to(pilot_); }

@@ -1,9 +1,8 @@
 // `path+photons`: one walk from the eye that finds everything path tracing finds, and whose
-// caustics are photons as well, each weighed against the other; where trial passes show that it is
-// worth its time, the caustics of glossy materials are, too, or all light (docs/estimators.md,
-// sections 20 to 23). Papers:
-// Doidge, Jones & Mora 2012, whose future work this is; Georgiev et al. 2012 for weights; Grittmann
-// et al. 2022 for choosing techniques by efficiency.
+// caustics are photons as well, each weighed against the other. If trial passes show that it pays,
+// photons also render the caustics of glossy materials, or all light (docs/estimators.md, sections
+// 20 to 23). Papers: Doidge, Jones & Mora 2012, whose future work this is; Georgiev et al. 2012 for
+// weights; Grittmann et al. 2022 for choosing techniques by efficiency.
 #pragma once
 
 #include <functional>
@@ -43,7 +42,8 @@ class PathAndPhotons final : public Estimator {
     Candidate candidate;
     GuidedPhotons photons;
   };
-  /// What trials find best. `photons_of(casters)`: where photons of caustics start.
+  /// Runs the trials and returns the best choice. `photons_of(casters)` learns where photons of the
+  /// caustics of these casters should start.
   Choice best_of(Trials& trials, const Scene& scene, const FilmFormat& film,
                  const std::function<GuidedPhotons(ClassMask)>& photons_of) const;
   PairPass pass_of(const PassKey& key, const Scene& scene, const FilmFormat& film,

@@ -141,7 +141,7 @@ std::vector<KeptFile> files_to_keep(const std::string& output) {
 void keep_files(const std::string& output) {
   const std::vector<KeptFile> files = files_to_keep(output);
   std::error_code error;
-  // What was kept before is of another render, all of it.
+  // Files kept earlier belong to an older render: do not mix them with these.
   if (!files.empty())
     for (const std::string& path : {output, state_path_beside(output), png_path_beside(output)})
       std::filesystem::remove(kept_name(path), error);
