@@ -149,6 +149,12 @@ class PathSampler {
       return hash_combine(std::bit_cast<uint32_t>(primary_->number(dimension_)), dimension_);
     return hash_combine(seed_, index_, dimension_);
   }
+  /// Numbers without end that belong to this path and a dimension, each decision evenly spread over
+  /// the points of this sampler's sequence.
+  PathSampler stream(int dimension) const {
+    return {PaddedPoint{index_}, primary_ ? std::bit_cast<uint32_t>(primary_->number(dimension))
+                                          : hash_combine(seed_, dimension)};
+  }
   Vec2f get_2d() {
     if (point_ || primary_) {
       const float x = get_1d();

@@ -1,5 +1,6 @@
-// [E4] What merging says of its own bias against what it is: the difference to a much
-// smaller radius, in the light of a point light, which falls off around the middle.
+// The bias of merging. [E4] What it says of its own bias against what it is: the difference to a
+// much smaller radius, in the light of a point light, which falls off around the middle. [W13]
+// Things that are narrower than the radius are not too dark.
 #include <gtest/gtest.h>
 
 #include "rendering.h"
@@ -77,6 +78,35 @@ TEST(MergeBiasOfFilms, IsOfMergesAlone) {
   const Film film = film_for(*scene, set);
   EXPECT_FALSE(film.has_bias());
   EXPECT_EQ(film.bias(0, 0), 0.0f);
+}
+
+// Slats far above a floor, with gaps as wide as they are, all of it narrower than the radius.
+constexpr char kSlats[] = R"(
+  LookAt 0 3 0  0 0 0  0 0 1
+  Camera "perspective" "float fov" 10
+  Film "rgb" "integer xresolution" 16 "integer yresolution" 16
+  PixelFilter "box" "float xradius" 0.5 "float yradius" 0.5
+  WorldBegin
+  LightSource "infinite" "rgb L" [1 1 1]
+  Material "diffuse" "rgb reflectance" [0.5 0.5 0.5]
+)";
+
+TEST(NarrowThings, AreAsBrightAsByPathTracing) {
+  std::string text = kSlats;
+  for (int i = -6; i < 6; ++i) {
+    const std::string x0 = std::to_string(0.05 * i), x1 = std::to_string(0.05 * i + 0.025);
+    text += "Shape \"bilinearmesh\" \"point3 P\" [" + x0 + " 0 -1 " + x1 + " 0 -1 " + x0 + " 0 1 " +
+            x1 + " 0 1]\n";
+  }
+  text += "Shape \"bilinearmesh\" \"point3 P\" [-2 -1 -2  2 -1 -2  -2 -1 2  2 -1 2]\n";
+  const auto scene = scene_from_text(text);
+  IntegratorOptions options;
+  options.radius = 4;
+  options.photons_per_pass = 1 << 16;
+  options.max_depth = 6;
+  const double path = picture_mean(render(*scene, "path", options, 3, 512));
+  const double merged = picture_mean(render(*scene, "bpm", options, 3, 32));
+  EXPECT_NEAR(merged, path, 0.02 * path);
 }
 
 }  // namespace

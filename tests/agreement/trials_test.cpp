@@ -41,7 +41,7 @@ TEST(Trials, ThatMergeAllLightFindTheSamePicture) {
   options.max_depth = 6;
   const std::string notes = notes_of(*scene, options);
   EXPECT_NE(notes.find("photons of all light"), std::string::npos) << notes;
-  expect_same(unbiased_block_values(*scene, "mixed", options, kSeeds, 16, 100, kAcross),
+  expect_same(unbiased_block_values(*scene, "mixed", options, kSeeds, 24, 100, kAcross),
               block_values(*scene, "bdpt", options, kSeeds, 32, 1, kAcross), 0.02);
 }
 

@@ -4,6 +4,7 @@
 #include "integrator/bidirectional/merge_roulette.h"
 #include "integrator/bidirectional/path_pair_geometry.h"
 #include "integrator/learning/guided_walk.h"
+#include "photon/disc_area.h"
 #include "photon/merge.h"
 #include "transport/walk_symbols.h"
 
@@ -105,7 +106,7 @@ class EyeVisitor {
     next_event(end, sampler);
     if (settings_.connects() && !settings_.merges_only) connect(end, sampler);
     if (settings_.merging && settings_.merging->grid && settings_.technique.merges())
-      merge(walk, v, among);
+      merge(walk, v, among, sampler);
   }
 
   void medium_vertex(const Walk& walk, const MediumVertex& v, PathSampler& sampler) {
@@ -153,7 +154,7 @@ class EyeVisitor {
   /// The walk is over.
   EyePathCounts finish() {
     guided_.finish();
-    return {camera_.walk.rays + rays_, roulette_.merged()};
+    return {camera_.walk.rays + rays_, probes_, roulette_.merged()};
   }
 
  private:
@@ -322,7 +323,7 @@ class EyeVisitor {
     }
   }
 
-  void merge(const Walk& walk, const WalkVertex& v, ClassMask among);
+  void merge(const Walk& walk, const WalkVertex& v, ClassMask among, const PathSampler& sampler);
 
   const PairSettings& settings_;
   const Routes& routes_;
@@ -342,11 +343,12 @@ class EyeVisitor {
   const WalkVertex* surface_ = nullptr;
   const MediumVertex* medium_ = nullptr;
   SpecularRoot root_;
-  uint64_t rays_ = 0;
+  uint64_t rays_ = 0, probes_ = 0;
 };
 
-/// [W11] Photons around the vertex.
-void EyeVisitor::merge(const Walk& walk, const WalkVertex& v, ClassMask among) {
+/// [W11], [W13] Photons around the vertex.
+void EyeVisitor::merge(const Walk& walk, const WalkVertex& v, ClassMask among,
+                       const PathSampler& sampler) {
   const PairMerging& merging = *settings_.merging;
   const ClassMask classes = among & ClassMask::kRough;
   const float radius = merging.radius_at(place_.p);
@@ -355,14 +357,22 @@ void EyeVisitor::merge(const Walk& walk, const WalkVertex& v, ClassMask among) {
   // Made for the first photon: most vertices have none.
   std::optional<PhotonMerger> merger;
   const double own = merging.weight_at(place_.p, first_);
-  const float scale = 1.0f / (static_cast<float>(merging.photons) * kPi * sqr(radius));
+  float scale = 1.0f / (static_cast<float>(merging.photons) * kPi * sqr(radius));
   merging.grid->query(place_.p, radius, [&](const Photon& photon, float d2) {
     if (are_apart(at.left, photon.left)) return;
     roulette_.merge();
     if (roulette_.counts()) return;
-    if (!merger)
+    if (!merger) {
       merger.emplace(settings_.owned, at, settings_.max_depth,
                      [&](EventSymbol event) { return routes_.next(eye_, event); });
+      // Behind other rough events merges have little weight, and so has what they lose.
+      if (first_) {
+        const DiscProbes disc =
+            probe_disc(settings_.scene, v.surface, radius, sampler.stream(walk.vertex_dimension()));
+        probes_ += disc.rays;
+        scale *= disc.inverse_cover;
+      }
+    }
     merger->each_event(photon, [&](const MergeEvent& event) {
       if (!sums_.merges(event.letter, photon.caster)) return;
       const double weight =

@@ -77,7 +77,7 @@ class PairRendering {
         photons = merged_.empty() ? batches->next(add_splats, statistics)
                                   : batches->next([](std::span<const Splat>) {}, again);
         statistics.rays += again.rays;
-        statistics.again_rays += again.rays;
+        statistics.batch_rays += again.rays;
         render_batch(std::move(photons), batches->empty(), statistics);
       }
       finish_batches(buffer ? &*buffer : nullptr);
@@ -216,7 +216,7 @@ class PairRendering {
     };
     for_each_slice<PairRow>(s_.in.control, wanted_slices(slices), count_slice, [&](PairRow&& row) {
       statistics.rays += row.rays;
-      statistics.again_rays += row.rays;
+      statistics.batch_rays += row.rays;
     });
     statistics.hold(grid.bytes(), merged_.size() * sizeof(uint32_t));
     s_.merging.grid = nullptr;
@@ -255,8 +255,8 @@ class PairRendering {
     while (!slices.empty()) {
       const std::span<const size_t> some = slices.first(std::min(at_once, slices.size()));
       for_each_slice<PairRow>(s_.in.control, some, work, [&](PairRow&& row) {
-        statistics.rays += row.rays;
-        if (s_.settings.merges_only) statistics.again_rays += row.rays;
+        statistics.rays += row.rays + row.probes;
+        statistics.batch_rays += row.probes + (s_.settings.merges_only ? row.rays : 0);
         statistics.camera_paths += row.camera_paths;
         statistics.photons_merged += row.merged;
         s_.records.take(row.records, s_.settings.merges_only);

@@ -135,6 +135,7 @@ PairSampler::SampleLight PairSampler::trace(int x, int y, int samples, int k, Wo
                       .leaves = leaves_at(x - b.x0, y - b.y0),
                       .merged = merged});
   row.rays += counts.rays;
+  row.probes += counts.probes;
   row.merged += counts.merged;
   if (sees) features.add_to(*film, x, y, in.scene, path, photons.weights);
   const float share = 1.0f / static_cast<float>(samples);

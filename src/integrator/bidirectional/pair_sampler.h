@@ -29,7 +29,8 @@ inline float total_of(std::span<const Rgb> colors) {
 /// Records and counts of a slice of pixels.
 struct PairRow {
   std::vector<RadianceRecord> records;
-  uint64_t rays = 0, merged = 0, camera_paths = 0;
+  uint64_t rays = 0, probes = 0;  ///< EyePathCounts
+  uint64_t merged = 0, camera_paths = 0;
   TechniqueCounter::Row techniques;
 };
 

@@ -155,7 +155,9 @@ struct EyePathExtras {
 
 /// Work done by an eye path.
 struct EyePathCounts {
-  uint64_t rays = 0, merged = 0;  ///< rays, and photons within the merge radius
+  uint64_t rays = 0;    ///< but for probes
+  uint64_t probes = 0;  ///< rays, of the discs in which photons were merged
+  uint64_t merged = 0;  ///< photons within the merge radius
 };
 
 /// Runs the eye path that `camera` starts and adds the light of all techniques with t > 1 to

@@ -16,7 +16,9 @@ struct EstimatorStatistics {
   uint64_t rays = 0;        ///< closest-hit and shadow queries
   uint64_t light_rays = 0;  ///< of these, of paths that all pixels share, where they are told apart
   uint64_t learning_rays = 0;  ///< of these, before the first pass and beside passes, to learn
-  uint64_t again_rays = 0;     ///< of these, of paths retraced for each batch of photons
+  /// Of these, what depends on how photons are split into batches: paths retraced for each, and
+  /// probes of the discs in which they are merged.
+  uint64_t batch_rays = 0;
   uint64_t camera_paths = 0;
   uint64_t photons_merged = 0;  ///< by these, of estimators of pairs of paths
   bool photons_stay = false;    ///< traced once, for all passes

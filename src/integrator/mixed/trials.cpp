@@ -157,7 +157,7 @@ Trial Trials::trial_of(const TrialNoise& noise, const EstimatorStatistics& count
   const double samples = static_cast<double>(counts.camera_paths);
   const double paths_per_pixel = samples / pixels_;
   const double camera_rays =
-      static_cast<double>(counts.rays - counts.light_rays - counts.again_rays);
+      static_cast<double>(counts.rays - counts.light_rays - counts.batch_rays);
   const double merges =
       kCostOfMerge * photons_for_one(techniques) * static_cast<double>(counts.photons_merged);
   // Samples of a pass share photons with each other, and with those of neighbouring pixels.
