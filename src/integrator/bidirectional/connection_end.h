@@ -31,6 +31,17 @@ struct EyeEnd {
   EventClass class_of(size_t i) const { return medium ? EventClass::kVolume : kSurfaceClasses[i]; }
 };
 
+/// What gets along the line between the two, `w` from the eye's to the light's.
+inline SampledSpectrum attenuation_between(const Scene& scene, const EyeEnd& z,
+                                           const LightVertex& y, const Vec3f& w,
+                                           const PathSampler& sampler) {
+  return attenuation_between(
+      scene, z.surface ? z.surface->surface.spawn_origin(w) : z.medium->p,
+      y.in_medium ? y.surface.p : y.surface.spawn_origin(-w), z.walk.ray.time,
+      z.surface ? medium_towards(z.surface->surface, w, z.walk.medium) : z.walk.medium,
+      z.walk.lambda, sampler);
+}
+
 /// The events at a light vertex towards the unit direction `w`; false if there is none.
 bool arms_of_light(const Routes& routes, const SceneSymbols& symbols, const LightVertex& y,
                    const Vec3f& w, Arms& arms);

@@ -271,17 +271,6 @@ class EyeVisitor {
     return attenuation_to_light(settings_.scene, d, walk.lambda, sampler);
   }
 
-  /// What gets along the line between the two vertices, `w` from the eye's to the light's.
-  SampledSpectrum between(const EyeEnd& z, const LightVertex& y, const Vec3f& w,
-                          const PathSampler& sampler) {
-    ++rays_;
-    return attenuation_between(
-        settings_.scene, z.surface ? z.surface->surface.spawn_origin(w) : z.medium->p,
-        y.in_medium ? y.surface.p : y.surface.spawn_origin(-w), z.walk.ray.time,
-        z.surface ? medium_towards(z.surface->surface, w, z.walk.medium) : z.walk.medium,
-        z.walk.lambda, sampler);
-  }
-
   void connect(const EyeEnd& z, const PathSampler& sampler) {
     for (size_t i = 0; i < path_.size(); ++i) {
       const LightVertex& y = path_[i];
@@ -308,7 +297,11 @@ class EyeVisitor {
         if (!b.used) continue;
         const Part part = routes_.meet(a.eye, b.light);
         if (!light_.owns(part)) continue;
-        if (!traced) arriving = z.walk.throughput * y.flux * between(z, y, w, sampler) / d2;
+        if (!traced) {
+          ++rays_;
+          arriving = z.walk.throughput * y.flux *
+                     attenuation_between(settings_.scene, z, y, w, sampler) / d2;
+        }
         traced = true;
         if (arriving.is_black()) return;
         double weight = 1;
