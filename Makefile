@@ -3,7 +3,7 @@ BUILD := build/release
 NEPHROID := $(BUILD)/bin/nephroid
 
 .PHONY: demo test test-quick test-nightly program build deps deps-clang clang sanitize asan tsan fuzz format check-format \
-  check clean
+  check docs clean
 
 demo: program
 	@mkdir -p out
@@ -45,9 +45,18 @@ deps:
 deps-clang:
 	@tools/install_deps clang
 
-# Layers. Needs no build.
+# Layers, and the links and generated pages of the documentation. Needs no build.
 check:
 	@python3 tools/check_layers.py
+	@python3 tools/check_docs.py
+	@python3 tools/list_messages.py --check
+
+# The documentation as a site, with a reference from the headers: build/site/index.html. Needs no build of the program.
+docs:
+	@tools/install_deps docs
+	@sphinx-build -q -c docs/site docs build/site
+	@doxygen docs/site/Doxyfile
+	@echo "The documentation: $(CURDIR)/build/site/index.html, for developers: $(CURDIR)/build/site/reference/index.html"
 
 # Compiles everything with clang, whose warnings are errors, too; not optimised, with assertions. Runs only the program,
 # for one small pass.

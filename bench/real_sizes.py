@@ -10,7 +10,7 @@
 scenes without files are left out. A reference is the mean of two independent renders of --seconds each; its layer `stderr`
 comes from their difference, so that `nephroid compare --subtract-reference-error` can take the reference's own error out.
 `measure` renders what FILE.json does not hold yet and adds it, so it can be stopped and started again; `table` prints the
-medians over seeds in Markdown. Needs the Python modules of OpenImageIO and NumPy (python3-openimageio, python3-numpy).
+medians over seeds as a page of Markdown (docs/measurements/real-sizes.md). Needs the Python modules of OpenImageIO and NumPy (python3-openimageio, python3-numpy).
 """
 import argparse
 import json
@@ -105,6 +105,13 @@ def make_references(args):
         print(f"{name}: own relMSE {own.mean():.2g}, trimmed {kept.mean():.2g}", flush=True)
 
 
+def machine():
+    for line in pathlib.Path("/proc/cpuinfo").read_text().split("\n"):
+        if line.startswith("model name"):
+            return f"{os.cpu_count()} cores of {line.partition(':')[2].strip()}"
+    return f"{os.cpu_count()} cores"
+
+
 def measure(args):
     results = json.loads(args.results.read_text()) if args.results.exists() else []
     done = {(r["scene"], r["integrator"], r["time"], r["seed"]) for r in results}
@@ -126,39 +133,53 @@ def measure(args):
                     results.append({"scene": name, "size": size, "integrator": integrator, "time": seconds,
                                     "seed": seed, "cpu": round(cpu, 2), "relmse": figure["relmse"],
                                     "relmse_trim": figure["relmse_trim"], "revision": revision,
-                                    "day": time.strftime("%Y-%m-%d")})
+                                    "machine": machine(), "day": time.strftime("%Y-%m-%d")})
                     args.results.write_text("[\n" + ",\n".join(map(json.dumps, results)) + "\n]\n")
                     print(f"{name} {integrator} {seconds} s, seed {seed}: "
                           f"{figure['relmse_trim'] * cpu:.3g} ({figure['relmse'] * cpu:.3g})", flush=True)
     out.unlink(missing_ok=True)
 
 
+def ratio(figures):
+    """`mixed` over the best of the others."""
+    others = [value for integrator, value in figures.items() if integrator != "mixed"]
+    return f"{figures['mixed'] / min(others):.2f}" if "mixed" in figures and others else ""
+
+
 def table(args):
     results = json.loads(args.results.read_text())
-    cells = {}
+    runs = {}
     for r in results:
-        cells.setdefault((r["scene"], r["time"], r["integrator"]), []).append(r)
-    shown = [i for i in INTEGRATORS if any(key[2] == i for key in cells)]
-    print("| scene | seconds | " + " | ".join(shown) + " | mixed / best other |")
-    print("| --- " * (len(shown) + 3) + "|")
-    for name in SUITE:
-        for seconds in sorted({key[1] for key in cells if key[0] == name}):
-            row, trimmed, whole = [], {}, {}
+        runs.setdefault((r["time"], r["scene"], r["integrator"]), []).append(r)
+
+    def all_of(key):
+        return ", ".join(sorted({str(r[key]) for r in results}))
+
+    print(f"""# Error times CPU seconds at the sizes people render
+
+Written by `bench/real_sizes.py table`; the pictures are made by its commands `references` and `measure`.
+
+Revision {all_of("revision")}, {all_of("day")}, on {all_of("machine")}.
+
+A figure is relMSE, without the worst 0.1 % of pixels and without the reference's own error, times CPU seconds; in brackets of all pixels.
+It is the median of the seeds. The last column is `mixed` over the best of the others.""")
+    for seconds in sorted({r["time"] for r in results}):
+        shown = [i for i in INTEGRATORS if any(key[0] == seconds and key[2] == i for key in runs)]
+        seeds = {r["seed"] for r in results if r["time"] == seconds}
+        print(f"\n## After {seconds} s, {len(seeds)} seed{'s' if len(seeds) > 1 else ''}\n")
+        print("| scene | " + " | ".join(shown) + " | mixed / best other |")
+        print("| --- " * (len(shown) + 2) + "|")
+        for name in SUITE:
+            row, trimmed, whole, size = [], {}, {}, ""
             for integrator in shown:
-                runs = cells.get((name, seconds, integrator))
-                if not runs:
-                    row.append("")
-                    continue
-                trimmed[integrator] = statistics.median(r["relmse_trim"] * r["cpu"] for r in runs)
-                whole[integrator] = statistics.median(r["relmse"] * r["cpu"] for r in runs)
-                row.append(f"{trimmed[integrator]:.2g} ({whole[integrator]:.2g})")
-            ratio = ""
-            others = [i for i in trimmed if i != "mixed"]
-            if "mixed" in trimmed and others:
-                ratio = "{:.2f} ({:.2f})".format(
-                    trimmed["mixed"] / min(trimmed[i] for i in others), whole["mixed"] / min(whole[i] for i in others))
-            size = next(r["size"] for r in results if r["scene"] == name)
-            print(f"| {name} {size} | {seconds} | " + " | ".join(row) + f" | {ratio} |")
+                of_cell = runs.get((seconds, name, integrator), [])
+                if of_cell:
+                    size = of_cell[0]["size"]
+                    trimmed[integrator] = statistics.median(r["relmse_trim"] * r["cpu"] for r in of_cell)
+                    whole[integrator] = statistics.median(r["relmse"] * r["cpu"] for r in of_cell)
+                row.append(f"{trimmed[integrator]:.2g} ({whole[integrator]:.2g})" if of_cell else "")
+            if size:
+                print(f"| {name} {size} | " + " | ".join(row) + f" | {ratio(trimmed)} ({ratio(whole)}) |")
 
 
 def main():

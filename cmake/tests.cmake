@@ -123,6 +123,11 @@ nephroid_test(unit/bench nephroid_bench)
 nephroid_test(unit/report_page nephroid_report_page)
 nephroid_test(routes nephroid_integrator)
 nephroid_test(how_to nephroid_integrator)
+# What the pages tell a reader to do, small and quick.
+file(GLOB how_to_pages CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/docs/how-to/*.md)
+add_test(NAME how_to_pages
+  COMMAND ${CMAKE_SOURCE_DIR}/tests/how_to/run_pages.py $<TARGET_FILE:nephroid> ${how_to_pages})
+set_tests_properties(how_to_pages PROPERTIES LABELS full)
 nephroid_test(statistical nephroid_integrator)
 nephroid_test(analytic nephroid_integrator)
 nephroid_test(agreement nephroid_session nephroid_image)

@@ -1,8 +1,7 @@
-// Values as bytes and back, for what is kept beside a picture. Numbers stand as they lie in memory,
-// lists after their length. A type takes part by a static function that names its members once:
+// Serializes values to bytes, for data stored beside a picture. Numbers are stored as in memory,
+// lists after their length. A type lists its members in a static function:
 //   static void members(auto& self, auto& archive) { archive(self.a, self.b); }
-// If it has a public `bool is_sound() const`, too, this is asked of what was read: it knows what
-// can be used without harm.
+// If it has a public `bool is_sound() const`, values that were read must pass this check.
 #pragma once
 
 #include <cstddef>
@@ -65,12 +64,12 @@ class ByteWriter {
   std::vector<std::byte> bytes_;
 };
 
-/// Throws IoError unless what was read makes sense.
+/// Throws IoError unless the value that was read is sound.
 inline void expect_sound(bool is_sound) {
   if (!is_sound) throw IoError("stored values are damaged: they make no sense");
 }
 
-/// Reads what a ByteWriter wrote. Throws IoError where the bytes end too early, a list claims to be
+/// Reads the bytes of a ByteWriter. Throws IoError if the bytes end too early, a list claims to be
 /// longer than they are, or a value is not sound.
 class ByteReader {
  public:
@@ -97,7 +96,7 @@ class ByteReader {
   void read(std::vector<T>& list) {
     uint64_t size = 0;
     read(size);
-    // Each element has a byte at least.
+    // Each element has at least one byte.
     constexpr uint64_t kMinBytes = PlainBytes<T> ? sizeof(T) : 1;
     if (size > left_.size() / kMinBytes) damaged();
     list.clear();
@@ -117,7 +116,7 @@ class ByteReader {
     value.reset();
     if (flag()) read(value.emplace());
   }
-  /// Any other byte would be neither true nor false.
+  /// Reads a bool, whose byte must be 0 or 1.
   bool flag() {
     uint8_t byte = 0;
     read(byte);

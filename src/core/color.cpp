@@ -1,6 +1,6 @@
-// The matching curves, the sigmoid polynomials and the film sensor. All of it runs once or more per
-// path, so the eight wavelengths are handled side by side.
-// Who calls it: see color.h. It must not know colour spaces beyond their sensor curves.
+// The matching curves, the sigmoid polynomials and the film sensor. All of it runs at least once
+// per path, so the eight wavelengths are processed together. It must not know colour spaces beyond
+// their sensor curves.
 #include "core/color.h"
 
 #include <algorithm>

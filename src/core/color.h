@@ -1,6 +1,5 @@
 // Tristimulus colour: XYZ, rgb colour spaces, the coefficients that turn rgb into spectra, and the
-// film sensor's view of a sampled spectrum.
-// Who calls it: spectra, textures, film. It must not know pixels or files.
+// film sensor's response to a sampled spectrum. It must not know pixels or files.
 #pragma once
 
 #include <array>
@@ -44,8 +43,8 @@ struct SigmoidPolynomial {
 
 class Spectrum;
 
-/// One of pbrt-v4's spaces. Immutable; get one from find(). The coefficient tables of all spaces
-/// but sRGB are made at first use (thread-safe).
+/// One of pbrt-v4's spaces. Immutable; get one from find(). The coefficient tables are made at
+/// first use (thread-safe), except that of sRGB.
 class RgbColorSpace {
  public:
   /// "srgb", "dci-p3", "rec2020", "aces2065-1"; nullptr for any other name.
@@ -79,17 +78,17 @@ class RgbColorSpace {
 Xyz cie_xyz(float lambda);
 inline constexpr float kCieYIntegral = 106.856895f;
 
-/// The film's view of radiance: rgb = sum over wavelengths of L * weight, where the weight holds
-/// the sensor curve, the wavelength's density, the imaging ratio (exposure time * ISO / 100) and
-/// the conversion to the output space. Made once per path or, for photons, once per pass.
+/// The film's response to radiance: rgb = sum over wavelengths of L * weight. A weight combines the
+/// sensor curve, the wavelength's density, the imaging ratio (exposure time * ISO / 100) and the
+/// conversion to the output space. Made once per path or, for photons, once per pass.
 struct SensorWeights {
   std::array<SampledSpectrum, 3> rgb;
   Rgb apply(const SampledSpectrum& radiance) const {
     return {(radiance * rgb[0]).sum(), (radiance * rgb[1]).sum(), (radiance * rgb[2]).sum()};
   }
 };
-/// Weights of the CIE 1931 sensor, seen in `space`, after `balance` if there is one. Dropped
-/// wavelengths have weight 0.
+/// Weights of the CIE 1931 sensor in `space`, after the white balance `balance` if there is one.
+/// Dropped wavelengths have weight 0.
 SensorWeights sensor_weights(const SampledWavelengths& lambda, const RgbColorSpace& space,
                              float imaging_ratio,
                              const std::optional<ColorMatrix>& balance = std::nullopt);

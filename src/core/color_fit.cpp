@@ -1,6 +1,6 @@
 // Levenberg-Marquardt in CIELAB with the analytic Jacobian, warm-started along the brightness axis.
 // Sums run over eight fixed lanes in double, so that every instruction set finds the same table.
-// Who calls it: see color_fit.h. Paper: Jakob & Hanika 2019, section 4.
+// Paper: Jakob & Hanika 2019, section 4.
 #include "core/color_fit.h"
 
 #include <algorithm>
@@ -15,13 +15,13 @@ namespace {
 using Vec3 = std::array<double, 3>;
 constexpr int kLanes = 8;
 using Lanes = double __attribute__((vector_size(kLanes * sizeof(double))));
-// A reflectance is smooth enough to be summed at these many wavelengths instead of 471: four times
-// faster, and the error is below that of single precision but for the sharpest edges.
+// A reflectance is smooth enough to be summed at 128 wavelengths instead of 471. That is four times
+// faster, and the error is below single precision except at the sharpest edges.
 constexpr int kBlocks = 16;
 constexpr int kQuadrature = kBlocks * kLanes;
 
 constexpr double kFirst = 360.0, kRange = 470.0;  // nm
-// The square of an error of 3e-4 units of CIELAB, a few thousandths of what an eye can tell.
+// The square of an error of 3e-4 CIELAB units, a few thousandths of a visible difference.
 constexpr double kGoodEnough = 1e-7;
 constexpr int kMaxIterations = 30;
 // Colours at the border of what a reflectance can do (black, white, pure hues) have their best fit
@@ -209,9 +209,9 @@ std::array<float, 3> in_nanometres(const Vec3& c) {
           static_cast<float>(c[2] - c[1] * shift + c[0] * shift * shift)};
 }
 
-/// All colours with the same largest component and the same ratio j/(res-1). Each column starts in
-/// the middle, where the problem is tame, and follows the solution up and down: the next start is
-/// extrapolated from the last two solutions.
+/// Fits all colours with the same largest component and the same ratio j/(res-1). Each column
+/// starts in the middle, where the problem is easy, and follows the solution up and down. The next
+/// start is extrapolated from the last two solutions.
 void fit_row(const Fitter& fitter, int max_component, int j, SigmoidTable& table) {
   const int res = table.resolution;
   const int start = res / 5;

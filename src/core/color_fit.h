@@ -1,7 +1,7 @@
-// Fits the sigmoid polynomials that stand for rgb colours (Jakob & Hanika 2019, "A Low-Dimensional
-// Function Space for Efficient Spectral Upsampling"): the table that colour spaces interpolate.
-// Who calls it: the table generator at build time (sRGB) and color_space.cpp at first use (others).
-// It must not know where the curves come from; it depends on nothing but the standard library.
+// Fits the table of sigmoid polynomials from which colour spaces interpolate: at build time for
+// sRGB, at first use for others. Depends on the standard library only; it must not know where the
+// curves come from. Paper: Jakob & Hanika 2019, "A Low-Dimensional Function Space for Efficient
+// Spectral Upsampling".
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 namespace nephroid {
 
 inline constexpr int kTableNodes = 471;  ///< 360, 361, ..., 830 nm
-/// Resolution of every table, that of pbrt-v4; docs/adr/0002-rgb-spectra.md has the errors.
+/// Resolution of every table, as in pbrt-v4; docs/adr/0002-rgb-spectra.md has the errors.
 inline constexpr int kTableResolution = 64;
 
 using Matrix3d = std::array<std::array<double, 3>, 3>;
@@ -34,17 +34,17 @@ Matrix3d xyz_from_rgb(const RgbPrimaries& primaries, const std::array<double, 3>
 /// Inverse of a regular matrix.
 Matrix3d inverse(const Matrix3d& m);
 
-/// coefficients[3*(((max*res + k)*res + j)*res + i) + n] is coefficient n for the colour whose
-/// largest component, number `max`, is nodes[k]; the next one (cyclically) is i/(res-1) and the one
-/// after that j/(res-1) of it.
+/// coefficients[3*(((max*res + k)*res + j)*res + i) + n] is coefficient n of a colour. Its largest
+/// component, of index `max`, is nodes[k]. The next one (cyclically) is i/(res-1) of it, and the
+/// one after that j/(res-1).
 struct SigmoidTable {
   int resolution = 0;
   std::vector<float> nodes;
   std::vector<float> coefficients;
 };
 
-/// The largest components at which a table of `resolution` has entries, from 0 to 1, dense at both
-/// ends where the polynomials change fastest.
+/// The nodes of a table of `resolution`, from 0 to 1, dense at both ends, where the polynomials
+/// change fastest.
 std::vector<float> sigmoid_nodes(int resolution);
 
 /// Fits a table on `threads` threads; the result does not depend on their number.

@@ -1,6 +1,6 @@
 // The four rgb colour spaces: matrices from primaries and white point, and the coefficient tables.
-// The table of sRGB is linked in, the others are fitted when first asked for.
-// Who calls it: see color.h. Paper: Jakob & Hanika 2019; table layout in color_fit.h.
+// The table of sRGB is linked in, the others are fitted at first use. Paper: Jakob & Hanika 2019;
+// table layout in color_fit.h.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -42,7 +42,7 @@ std::array<std::array<float, 3>, 3> to_float(const Matrix3d& m) {
   return result;
 }
 
-/// Clamped to [0,1]; 0 for what is not a number, or so dark that its inverse is none.
+/// Clamps to [0,1]. NaN, and values too dark to be inverted, become 0.
 float unit(float x) {
   constexpr float kDarkest = 1e-20f;
   return x > kDarkest ? std::min(x, 1.0f) : 0.0f;

@@ -1,5 +1,4 @@
-// A number that stands for bytes (XXH3, 64 bits), to tell whether two files are the same or one is
-// damaged. It does not keep anybody from making two files with the same number.
+// A 64-bit content hash (XXH3), to compare files and to detect damage. It is not cryptographic.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +10,7 @@ struct XXH3_state_s;
 
 namespace nephroid {
 
-/// The hash of bytes that come in pieces; where these are cut does not change it.
+/// The hash of bytes added in pieces of any size.
 class ContentHash {
  public:
   ContentHash();

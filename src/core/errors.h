@@ -1,6 +1,6 @@
-// What can go wrong, as types: each error knows the exit status that it stands for, and errors and
-// warnings about a scene know the place in the user's file. Thrown while loading and writing, and
-// by a texture that is read while rendering and has become unreadable.
+// Error types: each error has an exit status; errors and warnings about a scene have a location in
+// the user's file. Thrown while loading and writing, and by a texture that becomes unreadable while
+// rendering.
 #pragma once
 
 #include <memory>
@@ -13,13 +13,13 @@
 
 namespace nephroid {
 
-/// A place in a text that a user wrote. Line and column count from 1; 0 means unknown.
+/// A location in a user's text. Line and column count from 1; 0 means unknown.
 struct SourceLocation {
   std::shared_ptr<const std::string> file;
   int line = 0;
   int column = 0;
 
-  /// "file:line:column", without the parts that are unknown; empty if nothing is known.
+  /// "file:line:column", without the unknown parts; empty if all are unknown.
   std::string to_string() const;
 };
 
@@ -61,8 +61,7 @@ class UsageError : public Error {
 struct Warning {
   SourceLocation where;
   std::string message;
-  bool is_unknown_name =
-      false;  ///< the scene uses a name that nobody knows: an error with --strict
+  bool is_unknown_name = false;  ///< true if the scene uses an unknown name: an error with --strict
 };
 
 /// Collects warnings while a scene is loaded; may be called from several threads.
@@ -70,7 +69,7 @@ struct Warning {
 class Diagnostics {
  public:
   void warn(SourceLocation where, std::string message);
-  /// Warns of a name that the format does not have, and that is ignored.
+  /// Warns of a name that the format does not have; it is ignored.
   void warn_of_unknown_name(SourceLocation where, std::string message);
   std::vector<Warning> warnings() const;
 
@@ -82,7 +81,7 @@ class Diagnostics {
   std::unordered_set<std::string> known_;  ///< the located texts of warnings_
 };
 
-/// "file:line:column: message", or just the message if the place is unknown.
+/// "file:line:column: message", or just the message if the location is unknown.
 std::string located(const SourceLocation& where, const std::string& message);
 
 }  // namespace nephroid

@@ -89,8 +89,8 @@ void MarkovSample::bring_up_to_date(Coordinate& c, int stream, int dimension) co
     c.start = start_;
     c.moves = 0;
   }
-  // Each step is made once, now or never, so that nothing costs more than moving every number at
-  // every proposal would.
+  // Each step is made at most once, so this never costs more than moving every number at every
+  // proposal.
   for (; c.moves < moves_.size(); ++c.moves)
     c.value = after_small_step(c.value, step_, bits(moves_[c.moves], stream, dimension));
 }

@@ -1,8 +1,7 @@
-// Vectors, matrices, frames and transforms: the geometry that every layer shares.
-// Types are Imath's, so that images, meshes and libraries exchange them without copying.
-// Matrices follow Imath: a point is a row vector, p' = p * M, so the sixteen numbers of a pbrt
-// "Transform" directive are the matrix in memory order and "A then B" is A * B.
-// Knows nothing of rays hitting things, of light or of files.
+// Vectors, matrices, frames and transforms. Types are Imath's, so that libraries exchange them
+// without copying. A point is a row vector, p' = p * M: the sixteen numbers of a pbrt "Transform"
+// directive are the matrix in memory order, and "A then B" is A * B. It must not know
+// intersections, light or files.
 #pragma once
 
 #include <ImathBox.h>
@@ -56,7 +55,7 @@ inline float dot(const Vec3f& a, const Vec3f& b) {
 inline float abs_dot(const Vec3f& a, const Vec3f& b) {
   return std::abs(dot(a, b));
 }
-/// Cross product with the products taken in double, so that nearly parallel vectors keep digits.
+/// Cross product computed in double, so that nearly parallel vectors keep digits.
 inline Vec3f cross(const Vec3f& a, const Vec3f& b) {
   const double ax = a.x, ay = a.y, az = a.z, bx = b.x, by = b.y, bz = b.z;
   return {static_cast<float>(ay * bz - az * by), static_cast<float>(az * bx - ax * bz),
@@ -80,7 +79,7 @@ inline Vec3f normalize(const Vec3f& v) {
 inline Vec3d to_double(const Vec3f& v) {
   return {v.x, v.y, v.z};
 }
-/// Rounded, each component once.
+/// Rounds each component once.
 inline Vec3f to_float(const Vec3d& v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
@@ -153,13 +152,13 @@ struct Ray {
   Vec3f o;
   Vec3f d;  ///< need not be unit length; t is in units of it
   float t_max = kInfinity;
-  float time = 0.0f;  ///< 0..1 from the start to the end transforms of what moves (TransformTimes)
+  float time = 0.0f;  ///< 0..1, from the start to the end of motion (TransformTimes)
 };
 
 /// An affine (or, for cameras, projective) map with its inverse, row-vector convention.
 struct Transform {
   Mat44d m;        ///< identity unless set
-  Mat44d inverse;  ///< of m
+  Mat44d inverse;  ///< inverse of m
 
   Transform() = default;
   /// The caller has checked that `matrix` is invertible (see is_invertible).
@@ -214,8 +213,8 @@ inline bool is_invertible(const Mat44d& m) {
   return det != 0.0 && std::isfinite(det) && std::isfinite(1.0 / det);
 }
 
-/// Ray origin moved off the surface along the geometric normal `ng` to the side of `w`, by just
-/// more than the absolute error bound `p_error` of `p` per axis (pbrt-v4 section 6.8.6).
+/// Ray origin offset along the geometric normal `ng` to the side of `w` (pbrt-v4 section 6.8.6).
+/// The offset just exceeds `p_error`, the absolute error bound of `p` per axis.
 inline Vec3f offset_ray_origin(const Vec3f& p, const Vec3f& p_error, const Vec3f& ng,
                                const Vec3f& w) {
   const float d = dot(abs(ng), p_error);

@@ -7,13 +7,13 @@ namespace {
 
 constexpr double kPiDouble = 3.14159265358979323846;
 constexpr double kFar = std::numeric_limits<double>::infinity();
-/// The path of a point turned by this angle leaves its chord by half a percent of the radius.
+/// Rotation by which the path of a point leaves its chord by half a percent of the radius.
 constexpr double kStraightAngle = kPiDouble / 16;
 
-/// The orthogonal factor of the upper 3x3 of `linear`, the nearest rotation (or mirrored rotation),
-/// by the Newton iteration R <- (R + R^-T) / 2 (Higham 1986), which converges quadratically.
+/// The orthogonal factor of the upper 3x3 of `linear`: the nearest rotation, possibly mirrored. The
+/// Newton iteration R <- (R + R^-T) / 2 (Higham 1986) converges quadratically.
 Mat44d orthogonal_factor(const Mat44d& linear) {
-  // Units do not matter to the factor, but do to the number of iterations.
+  // The scale does not change the factor, but the number of iterations.
   const double scale = std::cbrt(std::abs(linear.determinant()));
   Mat44d r = linear;
   for (int i = 0; i < 3; ++i)
@@ -32,8 +32,8 @@ Mat44d orthogonal_factor(const Mat44d& linear) {
   return r;
 }
 
-/// The unit quaternion of a rotation matrix (row vectors); the largest component first, so that
-/// none is divided by a small one (Shepperd 1978).
+/// The unit quaternion of a rotation matrix (row vectors). The largest component comes first, so
+/// that none is divided by a small one (Shepperd 1978).
 void quaternion_of(const Mat44d& r, double q[4]) {
   const double trace = r[0][0] + r[1][1] + r[2][2];
   int largest = 3;
@@ -74,9 +74,9 @@ double dot4(const double a[4], const double b[4]) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
 }
 
-/// True if the second rotation has to change its sign for the way between them to be the short one.
-/// A half turn has two short ways; pbrt-v4 gets a cosine that is a rounding error below zero from
-/// "Rotate 180" about a coordinate axis, and so turns clockwise about it.
+/// True if the second quaternion must change its sign to interpolate the short way. A half turn has
+/// two short ways. For "Rotate 180" about a coordinate axis, pbrt-v4's cosine is a rounding error
+/// below zero, so it turns clockwise; this does the same.
 bool is_long_way(const double from[4], const double to[4]) {
   const double cosine = dot4(from, to);
   constexpr double kHalfTurn = 1e-9;
@@ -102,7 +102,7 @@ Vec3d corner_of(const Bounds3f& box, int corner) {
           corner & 4 ? box.max.z : box.min.z};
 }
 
-/// To float, outwards, with room for the rounding of those who interpolate boxes.
+/// Rounds outwards to float, with room for the rounding of interpolated boxes.
 Bounds3f rounded_outwards(const Vec3d& low, const Vec3d& high) {
   Bounds3f box;
   for (int i = 0; i < 3; ++i) {
@@ -122,7 +122,7 @@ MotionTransform::Decomposition MotionTransform::decompose(const Mat44d& m, const
   for (int i = 0; i < 3; ++i) linear[i][3] = linear[3][i] = 0;
   linear[3][3] = 1;
   Mat44d r = orthogonal_factor(linear);
-  // What mirrors is left to the stretch: quaternions cannot.
+  // The stretch takes the mirroring, which quaternions cannot represent.
   if (linear.determinant() < 0)
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) r[i][j] = -r[i][j];
@@ -177,9 +177,9 @@ Transform MotionTransform::at(float time) const {
   return Transform(matrix_at(time));
 }
 
-/// How far the path of a point may leave its chord within `duration`: at most duration^2 / 8 times
-/// the largest acceleration. With v(t) = s(t) R(t), s linear and R turning by w in unit time,
-/// |v''| <= w^2 |s| + 2 w |s'|.
+/// Upper bound of the distance between a point's path and its chord within `duration`: duration^2 /
+/// 8 times the largest acceleration. With v(t) = s(t) R(t), s linear and R turning by w in unit
+/// time, |v''| <= w^2 |s| + 2 w |s'|.
 double MotionTransform::bend(const Vec3d& from_pivot, double duration) const {
   const double w = 2 * moving_->half_angle;
   const Vec3d s0 = times_linear(from_pivot, moving_->from.stretch);
@@ -188,7 +188,7 @@ double MotionTransform::bend(const Vec3d& from_pivot, double duration) const {
   return duration * duration / 8 * (w * w * farthest + 2 * w * (s1 - s0).length());
 }
 
-/// Extends low..high by `box` at a time, grown by what its corners may bend within `duration`.
+/// Extends low..high by `box` at `time`, grown by the bend of its corners within `duration`.
 void MotionTransform::add_moment(const Bounds3f& box, double time, double duration, Vec3d& low,
                                  Vec3d& high) const {
   const Mat44d m = !moving_ || time <= 0 ? start_.m : time >= 1 ? moving_->end.m : matrix_at(time);

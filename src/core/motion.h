@@ -1,6 +1,6 @@
-// A transform that moves: two keyframes, interpolated as pbrt does, the matrices decomposed into
-// translation, rotation and stretch (Shoemake & Duff 1992). Time runs from 0 (start) to 1 (end).
-// Who calls it: instances and cameras. It must not know shutters or scene files.
+// An animated transform: two keyframes at times 0 and 1, interpolated as in pbrt by decomposition
+// into translation, rotation and stretch (Shoemake & Duff 1992). It must not know shutters or scene
+// files.
 #pragma once
 
 #include <memory>
@@ -12,29 +12,29 @@ namespace nephroid {
 class MotionTransform {
  public:
   MotionTransform() = default;
-  /// Both affine and invertible; equal ones do not move. `pivot`, in the space that is transformed,
-  /// is the point whose path is a straight line at constant speed, as rotations turn about it.
+  /// Both matrices are affine and invertible; equal ones do not move. Rotations turn about `pivot`,
+  /// in the untransformed space, so its path is a straight line at constant speed.
   MotionTransform(const Mat44d& start, const Mat44d& end, const Vec3d& pivot = Vec3d(0, 0, 0));
   explicit MotionTransform(const Mat44d& fixed) : start_(fixed) {}
 
   bool moves() const { return moving_ != nullptr; }
-  /// The transform at time in [0,1]; exactly the keyframes at 0 and 1 (and before and after). Costs
-  /// a matrix inversion when it moves. If one keyframe mirrors and the other does not, the motion
-  /// passes through a flat picture, and the inverse there is of no use.
+  /// The transform at time in [0,1]; exactly the keyframes at and outside of 0 and 1. Costs a
+  /// matrix inversion if it moves. If only one keyframe mirrors, the motion passes through a
+  /// singular matrix without a usable inverse.
   Transform at(float time) const;
   /// A box around the path of `box` over [time0, time1], conservative: rotations are bounded by
   /// their arcs. Empty if `box` is.
   Bounds3f bounds(const Bounds3f& box, float time0, float time1) const;
 
-  /// Into how many equal pieces the motion should be cut for its path to be nearly straight in
-  /// each: 1..16, by the angle of the rotation.
+  /// Number of equal pieces, 1 to 16, in which the motion is nearly straight, by the angle of the
+  /// rotation.
   int segments() const;
-  /// A box at time step/segments such that the boxes of two neighbouring steps, interpolated
-  /// linearly, contain `box` at all times in between.
+  /// A box at time step/segments. The boxes of two neighbouring steps, interpolated linearly,
+  /// contain `box` at all times in between.
   Bounds3f step_bounds(const Bounds3f& box, int step, int segments) const;
 
  private:
-  /// One keyframe about the pivot: v -> v * stretch * rotation + where the pivot goes.
+  /// One keyframe about the pivot: v -> v * stretch * rotation + pivot_image.
   struct Decomposition {
     Vec3d pivot_image{0, 0, 0};
     double rotation[4] = {0, 0, 0, 1};  ///< unit quaternion x y z w
@@ -44,7 +44,7 @@ class MotionTransform {
     Transform end;
     Vec3d pivot{0, 0, 0};
     Decomposition from, to;
-    double half_angle = 0;  ///< between the quaternions: half the rotation, 0..pi/2
+    double half_angle = 0;  ///< angle between the quaternions: half the rotation, 0..pi/2
   };
   static Decomposition decompose(const Mat44d& m, const Vec3d& pivot);
   Mat44d matrix_at(double time) const;

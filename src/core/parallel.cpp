@@ -21,8 +21,8 @@ namespace nephroid {
 
 namespace {
 
-// Denormal numbers become zero while one of these lives: a hundred times faster where they turn up,
-// and the same on every thread. The caller's mode is put back, whoever runs the chunk.
+// Flushes denormal numbers to zero within a scope: a hundred times faster where they occur, and the
+// same on every thread. The caller's mode is restored.
 class FlushToZero {
  public:
 #if defined(__SSE__)
@@ -67,7 +67,7 @@ int thread_count() {
 
 namespace {
 
-/// Runs `work` on so many threads, of which the caller's is one.
+/// Runs `work` on `count` threads, including the caller's.
 void on_threads(int64_t count, const std::function<void()>& work) {
   std::vector<std::thread> threads;
   for (int64_t i = 1; i < count; ++i) threads.emplace_back(work);
@@ -102,7 +102,7 @@ int thread_count() {
 
 namespace {
 
-/// Runs `loop` where there is room for all threads: the implicit arena has one slot per core.
+/// Runs `loop` in an arena with room for all threads: the implicit one has a slot per core.
 template <class Loop>
 void in_arena(Loop&& loop) {
   if (thread_count() > tbb::this_task_arena::max_concurrency())

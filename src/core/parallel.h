@@ -1,6 +1,6 @@
-// Loops over ranges on several threads. The chunks of a loop depend on its arguments alone, never
-// on the number of threads, so that results which are kept per chunk are the same on any machine.
-// The .cpp is the only file that includes a threading library.
+// Parallel loops over ranges. The chunks of a loop depend on its arguments alone, never on the
+// number of threads, so results per chunk are the same on any machine. The .cpp is the only file
+// that includes a threading library.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace nephroid {
 /// Number of threads that parallel loops use.
 int thread_count();
 
-/// Limits the threads of parallel loops for as long as it lives; 0 means all of the machine.
+/// Limits the threads of parallel loops during its lifetime; 0: one per core.
 class ThreadLimit {
  public:
   explicit ThreadLimit(int threads);
@@ -35,8 +35,8 @@ class ThreadLimit {
 void parallel_chunks(int64_t count, int64_t chunk_size,
                      const std::function<void(int64_t chunk, int64_t begin, int64_t end)>& body);
 
-/// The same, in about their order, with `control` asked before each chunk; at least one chunk is
-/// done between two calls of attend(). Throws what attend() throws: no chunk is half done then.
+/// The same, roughly in order. `control` is asked between chunks; at least one chunk is done
+/// between two calls of attend(). Passes on exceptions of attend(); no chunk is unfinished then.
 void parallel_chunks(PassControl& control, int64_t count, int64_t chunk_size,
                      const std::function<void(int64_t chunk, int64_t begin, int64_t end)>& body);
 
@@ -45,8 +45,8 @@ constexpr int64_t chunk_count(int64_t count, int64_t chunk_size) {
   return (count + chunk_size - 1) / chunk_size;
 }
 
-/// Runs work(result, begin, end) for the same chunks, each with a T of its own, and returns the
-/// results in the order of the chunks.
+/// Runs work(result, begin, end) for the same chunks, each with its own T. Returns the results in
+/// the order of the chunks.
 template <class T, class Work>
 std::vector<T> chunk_results(PassControl& control, int64_t count, int64_t chunk_size, Work&& work) {
   std::vector<T> results(chunk_count(count, chunk_size));
@@ -56,8 +56,8 @@ std::vector<T> chunk_results(PassControl& control, int64_t count, int64_t chunk_
   return results;
 }
 
-/// The same, and then calls append(T&&) with each result, in order, on this thread: what is
-/// appended does not depend on the number of threads.
+/// The same, then calls append(T&&) with each result, in order, on this thread. So the result does
+/// not depend on the number of threads.
 template <class T, class Work, class Append>
 void ordered_reduce(PassControl& control, int64_t count, int64_t chunk_size, Work&& work,
                     Append&& append) {

@@ -1,5 +1,5 @@
-// Lets somebody else look at a pass while it is rendered, or end it, between two chunks of a loop.
-// It must not know films or clocks.
+// Lets a caller inspect or end a pass between two chunks of a loop. It must not know films or
+// clocks.
 #pragma once
 
 namespace nephroid {
@@ -10,13 +10,13 @@ struct PassStopped {};
 class PassControl {
  public:
   virtual ~PassControl() = default;
-  /// True if attend() is to be called soon. Asked between chunks by any thread.
+  /// True if attend() should be called soon. Asked between chunks by any thread.
   virtual bool is_wanted() const noexcept = 0;
-  /// Called by the thread that runs the loop while no chunk of it runs. May throw PassStopped.
+  /// Called by the loop's thread while no chunk runs. May throw PassStopped.
   virtual void attend() = 0;
 };
 
-/// Nobody watches.
+/// Never wants to attend.
 class Unwatched final : public PassControl {
  public:
   bool is_wanted() const noexcept override { return false; }

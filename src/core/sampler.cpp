@@ -6,9 +6,8 @@
 
 namespace nephroid {
 
-// The library yields the sequence in Gray code order without its first point, so the point whose
-// Gray code is the single bit k stands at index 2^(k+1) - 1 and is the direction number of that
-// bit.
+// The library yields the sequence in Gray code order, without its first point. So the point whose
+// Gray code is the single bit k has index 2^(k+1) - 1 and is the direction number of that bit.
 static SobolDirections make_directions() {
   SobolDirections directions{};
   boost::random::sobol_engine<uint32_t, 32> engine(kSobolDimensions);
@@ -30,7 +29,7 @@ SobolPoint::SobolPoint(uint32_t index, int dimensions, std::span<const uint8_t> 
   const size_t count = dimensions, dealt = std::min(order.size(), count);
   size_t needed = count;
   for (size_t d = 0; d < dealt; ++d) needed = std::max(needed, size_t{order[d]} + 1);
-  // In the order of the sequence first, so that a compiler makes few instructions of it.
+  // First in the order of the sequence, which compilers vectorize.
   std::array<uint32_t, kSobolDimensions> in_sequence;
   std::fill_n(in_sequence.begin(), needed, 0u);
   for (uint32_t bits = index; bits != 0; bits &= bits - 1) {

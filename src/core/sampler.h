@@ -1,10 +1,10 @@
-// Random numbers as functions: of the pass key, a stream, an index and a dimension, and of nothing
-// else. No generator outlives a path and none belongs to a thread (docs/architecture.md, section
-// 5).
+// Random numbers as pure functions of the pass key, a stream, an index and a dimension. No
+// generator outlives a path, and none belongs to a thread (docs/architecture.md, section 5).
 #pragma once
 
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cstdint>
 #include <span>
 
@@ -48,9 +48,9 @@ constexpr uint32_t reverse_bits(uint32_t v) {
   return ((v & 0x55555555u) << 1) | ((v >> 1) & 0x55555555u);
 }
 
-/// Owen's nested uniform scramble of a number in [0,1) whose bits are given in reverse order (least
-/// significant first), as the hash of Laine & Karras 2011 in Burley's form (JCGT 2020): each bit is
-/// flipped by a hash of the bits above it.
+/// Owen's nested uniform scramble of a number in [0,1), given with its bits reversed. It flips each
+/// bit by a hash of the bits above it: the hash of Laine & Karras 2011 in Burley's form (JCGT
+/// 2020).
 constexpr uint32_t owen_scramble_reversed(uint32_t reversed, uint32_t seed) {
   uint32_t v = reversed;
   v ^= v * 0x3d20adeau;
@@ -61,7 +61,7 @@ constexpr uint32_t owen_scramble_reversed(uint32_t reversed, uint32_t seed) {
   return reverse_bits(v);
 }
 
-/// Dimensions of the Sobol' sequence that are used; beyond them a path is random, not stratified.
+/// Number of Sobol' dimensions in use; beyond them a path is random, not stratified.
 inline constexpr int kSobolDimensions = 256;
 
 /// Direction numbers (Joe & Kuo 2008), bits reversed, as [bit of the index][dimension].
@@ -72,8 +72,8 @@ const SobolDirections& sobol_directions();
 /// pass; every pixel scrambles it in its own way.
 class SobolPoint {
  public:
-  /// With fewer `dimensions` it is made faster; those beyond are random. The first ones are those
-  /// of the sequence that `order` says, the others follow as they are.
+  /// With fewer `dimensions` it is made faster; those beyond are random. `order` assigns dimensions
+  /// of the sequence to the first decisions, the others keep their own.
   explicit SobolPoint(uint32_t index, int dimensions = kSobolDimensions,
                       std::span<const uint8_t> order = {});
   int dimensions() const { return dimensions_; }
@@ -86,18 +86,17 @@ class SobolPoint {
   std::array<uint32_t, kSobolDimensions> reversed_;  ///< the first dimensions_ of them
 };
 
-/// A point whose decisions each have two dimensions that are evenly spread over any run of 2^k
-/// points from a multiple of 2^k on, in an order that has nothing to do with that of other
-/// decisions (padding, after Kollig & Keller 2002 and Burley 2020). For what few points have to
-/// cover in two dimensions: many pairs of high dimensions of one Sobol' sequence are functions of
-/// each other for the first 16 points. Camera paths do better with SobolPoint, whose many
-/// dimensions are even together.
+/// A padded point (Kollig & Keller 2002, Burley 2020): each decision has two dimensions, which are
+/// stratified over any run of 2^k points from a multiple of 2^k on, independently of other
+/// decisions. For few points in two dimensions: many pairs of high Sobol' dimensions are functions
+/// of each other for the first 16 points. Camera paths do better with SobolPoint, whose dimensions
+/// are stratified together.
 struct PaddedPoint {
   uint32_t index = 0;
 };
 
 /// The second dimension of the Sobol' sequence at `index`, bits reversed; the first one is the
-/// index itself. Bit i is the parity of the bits of the index at positions that contain i's.
+/// index itself. Bit i is the parity of the index bits at the positions that include all bits of i.
 constexpr uint32_t sobol_second_reversed(uint32_t index) {
   index ^= (index >> 1) & 0x55555555u;
   index ^= (index >> 2) & 0x33333333u;
@@ -106,18 +105,18 @@ constexpr uint32_t sobol_second_reversed(uint32_t index) {
   return index ^ ((index >> 16) & 0x0000ffffu);
 }
 
-/// Numbers in [0,1) that are chosen elsewhere, one for each dimension: the state of a Markov chain
+/// Numbers in [0,1), one per dimension, that come from elsewhere: the state of a Markov chain
 /// (Kelemen et al. 2002).
 class PrimarySample {
  public:
   virtual ~PrimarySample() = default;
-  /// The same number whenever the same dimension is asked for.
+  /// The same number whenever the same dimension is requested.
   virtual float number(int dimension) = 0;
 };
 
-/// The random numbers of one path: dimension after dimension of a scrambled Sobol' point, of a
-/// padded point or of a primary sample. A value depends on the point's index, the seed and the
-/// dimension alone, and of a padded point on whether it is one of two.
+/// The random numbers of one path: the dimensions of a scrambled Sobol' point, a padded point or a
+/// primary sample, in order. A value depends only on the point's index, the seed and the dimension
+/// and, for a padded point, on whether it is read by get_1d() or get_2d().
 class PathSampler {
  public:
   /// `point` outlives the sampler.
@@ -129,7 +128,7 @@ class PathSampler {
   /// `primary` outlives the sampler.
   explicit PathSampler(PrimarySample& primary) : primary_(&primary) {}
 
-  /// Jumps to a dimension, so that each decision along a path keeps its own whatever came before.
+  /// Jumps to a dimension, so that each decision along a path has its own whatever came before.
   void start_dimension(int dimension) { dimension_ = dimension; }
   int dimension() const { return dimension_; }
 
@@ -143,17 +142,17 @@ class PathSampler {
       return bits_to_unit_float(owen_scramble_reversed(point_->reversed(d), scramble));
     return bits_to_unit_float(static_cast<uint32_t>(hash_combine(h, index_) >> 32));
   }
-  /// A seed for random numbers without end that belong to this path and the current dimension.
+  /// A seed for any number of random numbers of this path and the current dimension.
   uint64_t stream_seed() const {
     if (primary_)
       return hash_combine(std::bit_cast<uint32_t>(primary_->number(dimension_)), dimension_);
     return hash_combine(seed_, index_, dimension_);
   }
-  /// Numbers without end that belong to this path and a dimension, each decision evenly spread over
-  /// the points of this sampler's sequence.
+  /// Any number of numbers that belong to this path and a dimension, each decision evenly spread
+  /// over the points of the sequence. Not for a PrimarySample.
   PathSampler stream(int dimension) const {
-    return {PaddedPoint{index_}, primary_ ? std::bit_cast<uint32_t>(primary_->number(dimension))
-                                          : hash_combine(seed_, dimension)};
+    assert(!primary_);
+    return {PaddedPoint{index_}, hash_combine(seed_, dimension)};
   }
   Vec2f get_2d() {
     if (point_ || primary_) {
@@ -172,13 +171,13 @@ class PathSampler {
   uint64_t hash_of(int dimension) const {
     return mix_bits(seed_ + dimension * 0x9e3779b97f4a7c15ull);
   }
-  /// Runs of 2^k indices from a multiple of 2^k on stay together.
+  /// Shuffles indices; runs of 2^k indices from a multiple of 2^k on stay together.
   uint32_t shuffled_index(uint64_t hash) const {
     return owen_scramble_reversed(reversed_index_, static_cast<uint32_t>(hash));
   }
 
   const SobolPoint* point_ = nullptr;
-  PrimarySample* primary_ = nullptr;  ///< instead of a point
+  PrimarySample* primary_ = nullptr;  ///< used instead of a point if not null
   uint64_t seed_ = 0;
   uint32_t index_ = 0, reversed_index_ = 0;
   int dimension_ = 0;

@@ -1,6 +1,5 @@
-// Spectra that need no measured data - constant, points on a line, black body - and the integrals
-// against the eye's sensitivity that give a spectrum its luminance and colour.
-// Who calls it: see spectra.h. It must not know colour spaces.
+// Spectra without measured data (constant, piecewise linear, black body), and the integrals that
+// give a spectrum its luminance and colour. It must not know colour spaces.
 #include "core/spectra.h"
 
 #include <algorithm>
@@ -68,8 +67,8 @@ class PiecewiseLinearSpectrum final : public Spectrum {
   std::array<std::uint32_t, kTableNodes> start_{};
 };
 
-/// Planck's law relative to its peak. With r = peak wavelength / wavelength it is
-/// r^5 (e^x - 1) / (e^(x r) - 1), x being the solution of x = 5 (1 - e^-x).
+/// Planck's law relative to its peak: r^5 (e^x - 1) / (e^(x r) - 1), where r = peak wavelength /
+/// wavelength and x solves x = 5 (1 - e^-x).
 class BlackbodySpectrum final : public Spectrum {
  public:
   explicit BlackbodySpectrum(float kelvin) : peak_(kWien / kelvin) {}

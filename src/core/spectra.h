@@ -1,6 +1,5 @@
-// Spectra as functions of wavelength: constants, tables, black bodies, and rgb colours turned into
-// smooth spectra by the sigmoid polynomials of Jakob & Hanika 2019. Immutable and shared.
-// Who calls it: textures, materials, lights, film. It must not know files or scenes.
+// Spectra as functions of wavelength: constants, tables, black bodies, and rgb colours as smooth
+// spectra (Jakob & Hanika 2019). Immutable and shared. It must not know files or scenes.
 #pragma once
 
 #include <memory>
@@ -25,8 +24,8 @@ class Spectrum {
   virtual float max_value() const = 0;
   /// True if the value is the same at every wavelength.
   virtual bool is_constant() const { return false; }
-  /// The spectrum that spectrum_to_photometric measures: this one, except that an rgb emission
-  /// answers the illuminant of its colour space, so that scaling by it keeps the rgb value.
+  /// The spectrum that spectrum_to_photometric measures: this one or, for an rgb emission, the
+  /// illuminant of its colour space, so that scaling by it keeps the rgb value.
   virtual const Spectrum& photometric_reference() const { return *this; }
 };
 using SpectrumPtr = std::shared_ptr<const Spectrum>;
@@ -37,10 +36,10 @@ SpectrumPtr piecewise_linear_spectrum(std::vector<float> lambda, std::vector<flo
 /// Planck's law at `kelvin`, scaled so that its maximum is 1.
 /// Black (0 everywhere) unless `kelvin` is positive.
 SpectrumPtr blackbody_spectrum(float kelvin);
-/// The same at the wavelengths of a path, for temperatures that are met while rendering.
+/// The same at the wavelengths of a path, for temperatures that are only known while rendering.
 SampledSpectrum sample_blackbody(float kelvin, const SampledWavelengths& lambda);
-/// CIE daylight of a correlated colour temperature; below 4000 K, where the series is not defined,
-/// a black body. The scale is arbitrary: only the colour counts.
+/// CIE daylight of a correlated colour temperature, or a black body below 4000 K, where the series
+/// is not defined. The scale is arbitrary.
 SpectrumPtr daylight_spectrum(float kelvin);
 
 /// Reflectance of an rgb colour; components are clamped to [0,1].
@@ -56,9 +55,8 @@ SpectrumPtr named_spectrum(std::string_view name);
 /// All names that named_spectrum knows, sorted.
 std::vector<std::string> named_spectra();
 
-/// Integral of `s` times the CIE y-bar curve over wavelength (nm), not divided by anything; for an
-/// rgb emission that of its illuminant, see photometric_reference().
-/// Emission divided by this has luminance 1 (pbrt-v4's SpectrumToPhotometric).
+/// Integral of photometric_reference() times the CIE y-bar curve over wavelength (nm), not
+/// normalised. Emission divided by it has luminance 1 (pbrt-v4's SpectrumToPhotometric).
 float spectrum_to_photometric(const Spectrum& s);
 /// XYZ of `s` normalised so that the equal-energy spectrum of value 1 has Y = 1.
 Xyz spectrum_to_xyz(const Spectrum& s);

@@ -1,5 +1,4 @@
-// Reads the directory of the tables that the linker has put into the program.
-// Who calls it: see spectra_data.h. The bytes come from tools/tables/embedded_tables.cpp.
+// Reads the directory of the embedded tables. The bytes come from tools/tables/embedded_tables.cpp.
 #include "core/spectra_data.h"
 
 #include <cstring>

@@ -1,6 +1,6 @@
-// The measured spectra and the sRGB coefficients that are linked into the program, by name. The
-// file is written by tools/tables/make_tables.cpp, which includes this header for the layout. Who
-// calls it: spectra_*.cpp and color*.cpp. It must not know what the tables mean.
+// The measured spectra and the sRGB coefficients that are linked into the program, by name. Their
+// file is written by tools/tables/make_tables.cpp, which includes this header for the layout. It
+// must not know what the tables mean.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ struct DataTable {
 ///   "srgb-nodes", "srgb"    SigmoidTable::nodes and ::coefficients of sRGB under D65
 std::vector<DataTable> data_tables();
 
-/// The table `name`; std::logic_error if there is none, because that is a fault of the build.
+/// The table `name`. Throws std::logic_error if there is none: a fault of the build.
 DataTable data_table(std::string_view name);
 
 /// Layout of the file: a DataHeader, `count` DataEntry, then floats at the given offsets from the

@@ -1,6 +1,5 @@
-// A spectrum given by one value per nanometre, looked up at the nearest one, as pbrt-v4's lights
-// do: no interpolation and no search. Who calls it: spectra*.cpp and color*.cpp. It must not know
-// where the values come from.
+// A spectrum with one value per nanometre, looked up at the nearest one as in pbrt-v4's lights: no
+// interpolation and no search. It must not know where the values come from.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// The measured spectra of data/spectra under the names of pbrt-v4's scene format, and daylight.
-// Who calls it: see spectra.h. It must not know what the spectra are used for.
+// The measured spectra of data/spectra by their pbrt-v4 names, and daylight. It must not know what
+// the spectra are used for.
 #include <functional>
 #include <map>
 #include <string>

@@ -1,6 +1,5 @@
-// Spectra that stand for rgb colours: reflectances, scaled reflectances and emissions. Grey colours
-// need no polynomial, their reflectance is the same at every wavelength.
-// Who calls it: see spectra.h. It must not know how the coefficients were found.
+// Spectra of rgb colours: reflectances, scaled reflectances and emissions. Grey colours are
+// constant and need no polynomial. It must not know how the coefficients were found.
 #include <algorithm>
 #include <memory>
 #include <utility>
@@ -26,7 +25,7 @@ class ScaledSigmoidSpectrum final : public Spectrum {
   SigmoidPolynomial polynomial_;
 };
 
-/// A scaled reflectance times the illuminant of a colour space, which lives as long as the program.
+/// A scaled reflectance times the illuminant of a colour space, which has static lifetime.
 class EmissionSpectrum final : public Spectrum {
  public:
   EmissionSpectrum(SpectrumPtr reflectance, const Spectrum& illuminant)

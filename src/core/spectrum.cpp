@@ -1,7 +1,6 @@
-// How the wavelengths of a path are chosen. The density 1/cosh^2 is close to the eye's sensitivity
-// and has an inverse cumulative distribution in closed form (Radziszewski et al. 2009; pbrt-v4
-// section 4.5.4, whose constants these are).
-// Who calls it: whoever starts a path. It must not know what the wavelengths are used for.
+// Samples the wavelengths of a path. The density 1/cosh^2 is close to the eye's sensitivity and has
+// a closed-form inverse cumulative distribution (Radziszewski et al. 2009; constants of pbrt-v4
+// section 4.5.4). It must not know what the wavelengths are used for.
 #include "core/spectrum.h"
 
 #include <cmath>

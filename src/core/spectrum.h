@@ -1,6 +1,6 @@
-// Radiometric values at a handful of wavelengths, carried along a path together with the
-// wavelengths themselves (hero wavelength sampling, Wilkie et al. 2014; pbrt-v4 chapter 4).
-// Who calls it: everything that carries light. It must not know where spectra come from.
+// Radiometric values at a few wavelengths, carried along a path together with the wavelengths (hero
+// wavelength sampling, Wilkie et al. 2014; pbrt-v4 chapter 4). It must not know where spectra come
+// from.
 #pragma once
 
 #include <algorithm>
@@ -80,7 +80,7 @@ class SampledSpectrum {
     }
   }
 
-  /// fn applied to each value.
+  /// Applies fn to each value.
   template <class F>
   SampledSpectrum map(F&& fn) const {
     SampledSpectrum r;
@@ -111,12 +111,11 @@ inline SampledSpectrum safe_div(const SampledSpectrum& a, const SampledSpectrum&
   return r;
 }
 
-/// Stands for all wavelengths of a path where one of them is meant otherwise.
+/// Means all wavelengths of a path, where else the index of one is given.
 inline constexpr int kAllWavelengths = -1;
 
-/// The wavelengths of one path (nm) and the density with which each was chosen (1/nm). One of them
-/// is the hero, the first if nothing else is said: the one that survives where wavelengths part, as
-/// in a prism.
+/// The wavelengths of one path (nm) and the density of each (1/nm). One of them is the hero, by
+/// default the first: it survives where wavelengths separate, as in a prism.
 class SampledWavelengths {
  public:
   /// kSpectrumSamples wavelengths, equally spaced in the cumulative distribution of a density that
@@ -130,9 +129,9 @@ class SampledWavelengths {
   /// Zero for wavelengths that were dropped.
   const SampledSpectrum& pdf() const { return pdf_; }
 
-  /// The same wavelengths in the same order with hero number `hero`, below kSpectrumSamples. None
-  /// was dropped yet. Paths that share their wavelengths have heroes of their own, so that all
-  /// colours of a prism are in the picture of one pass.
+  /// The same wavelengths with another hero, of index `hero`; none may have been dropped yet. Paths
+  /// that share their wavelengths have different heroes, so that one pass shows all colours of a
+  /// prism.
   SampledWavelengths with_hero(int hero) const {
     SampledWavelengths s = *this;
     s.hero_ = hero;
@@ -140,14 +139,13 @@ class SampledWavelengths {
   }
   float hero() const { return lambda_[hero_]; }
 
-  /// Keeps the hero only, whose density then accounts for the choice: it is divided by the number
-  /// of wavelengths, so the mean over all of them (sum / kSpectrumSamples) stays an unbiased
-  /// estimate. A second call changes nothing.
+  /// Keeps the hero only. Its density is divided by kSpectrumSamples, so the mean over all
+  /// wavelengths (sum / kSpectrumSamples) stays unbiased. A second call has no effect.
   void terminate_secondary();
   bool secondary_terminated() const { return left_ != kAllWavelengths; }
-  /// The hero's number if it is the only wavelength left, else kAllWavelengths.
+  /// Index of the hero if it is the only wavelength left, else kAllWavelengths.
   int left() const { return left_; }
-  /// A value without what it is at wavelengths that were dropped.
+  /// The value with zeros at dropped wavelengths.
   SampledSpectrum of_left(const SampledSpectrum& s) const {
     if (left_ == kAllWavelengths) return s;
     SampledSpectrum hero;

@@ -1,5 +1,5 @@
-// Maps from the unit square to the distributions that everything samples from, with their
-// densities. All are continuous or nearly so, so that stratified points stay stratified.
+// Maps from the unit square to common distributions, with their densities. All are continuous or
+// nearly so, so that stratified points stay stratified.
 #pragma once
 
 #include "core/math.h"

@@ -1,4 +1,4 @@
-// The matrix of white_balance.h, in double until the end.
+// All arithmetic is in double until the end.
 #include "core/white_balance.h"
 
 #include "core/spectra.h"

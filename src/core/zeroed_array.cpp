@@ -1,4 +1,4 @@
-// madvise() where the system has it; elsewhere it does nothing, which only costs time.
+// Uses madvise() if the system has it. Elsewhere it does nothing, which only costs time.
 #include "core/zeroed_array.h"
 
 #include <sys/mman.h>

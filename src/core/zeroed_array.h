@@ -1,4 +1,4 @@
-// A large array of zeros that takes memory only where something is written to it.
+// A large array of zeros that takes memory only where it is written to.
 #pragma once
 
 #include <algorithm>
@@ -11,12 +11,12 @@
 
 namespace nephroid {
 
-/// Asks the system for pages of 2 MB, so that there are few of them to be backed: each that is read
-/// before it is written to is a page of zeros first, and to replace that all threads must stop.
+/// Asks the system for pages of 2 MB, so that few of them must be backed. A page that is read
+/// before it is written to is first a shared page of zeros, and replacing that stops all threads.
 void prefer_huge_pages(void* memory, size_t bytes);
 
-/// A fixed number of items, at first all bits zero. The system backs its pages when they are first
-/// written to, so what stays zero costs nothing, and nobody waits for it to be cleared.
+/// A fixed number of items, initially all bits zero. The system backs pages when they are first
+/// written to, so zeros cost neither memory nor time.
 template <class T>
 class ZeroedArray {
   static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);

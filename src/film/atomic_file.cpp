@@ -1,5 +1,4 @@
-// Temporary file, fsync, rename, fsync of the directory: the POSIX recipe, with the errors of each
-// step.
+// The POSIX recipe: temporary file, fsync, rename, fsync of the directory.
 #include "film/atomic_file.h"
 
 #include <fcntl.h>
@@ -28,12 +27,12 @@ constexpr int kMaxLinks = 40;
   throw IoError(path + ": cannot " + what + ": " + std::strerror(error));
 }
 
-/// The file that `path` stands for, after links, if something can be written there.
+/// The target of `path` with links resolved. Throws IoError if it cannot be a regular file.
 fs::path resolved_target(const std::string& path) {
   if (path.empty()) throw IoError("cannot write a file without a name");
   std::error_code error;
   fs::path target(path);
-  // The file that a link names need not exist yet.
+  // The target of a link need not exist yet.
   for (int link = 0; fs::is_symlink(fs::symlink_status(target, error)); ++link) {
     const fs::path next = fs::read_symlink(target, error);
     if (error || link == kMaxLinks) throw IoError(path + ": cannot follow the link");
@@ -51,8 +50,7 @@ fs::path directory_of(const fs::path& target) {
   return parent.empty() ? fs::path(".") : parent;
 }
 
-/// What the names of temporary files for a target begin with on this machine; the process's number
-/// and another one follow.
+/// Name prefix of a target's temporary files on this machine. The process id and a counter follow.
 std::string temporary_stem(const fs::path& target) {
   char host[65] = {};
   ::gethostname(host, sizeof host - 1);
@@ -60,8 +58,8 @@ std::string temporary_stem(const fs::path& target) {
          std::string(host, ::strnlen(host, 32)) + "@";
 }
 
-/// Whether somebody writes to a temporary file; empty where the file system has no locks. (To ask
-/// for a shared lock a file need not be open for writing, which matters on NFS.)
+/// True if a process still writes to a temporary file. Empty if the file system has no locks. (A
+/// shared lock does not require a file open for writing, which matters on NFS.)
 std::optional<bool> is_held(const fs::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return std::nullopt;
@@ -74,9 +72,8 @@ std::optional<bool> is_held(const fs::path& path) {
   return held;
 }
 
-/// Whether a process that wrote to the temporary file is no more. Its number alone does not tell:
-/// one of an earlier start of the machine may have had ours, and those of another container we do
-/// not see.
+/// True if the process that wrote to the temporary file has ended. Its id alone does not tell: it
+/// may be reused after a restart, and ids of other containers are not visible.
 bool is_abandoned(const fs::path& path, pid_t process) {
   const bool is_ours = process == ::getpid();
   if (!is_ours && (::kill(process, 0) == 0 || errno != ESRCH)) return false;
@@ -84,7 +81,7 @@ bool is_abandoned(const fs::path& path, pid_t process) {
   return held ? !*held : !is_ours;
 }
 
-/// Removes what processes that were killed while they wrote to the target have left.
+/// Removes temporary files of the target whose processes were killed.
 void remove_leftovers(const fs::path& target) {
   const std::string stem = temporary_stem(target);
   std::error_code error;
@@ -100,10 +97,10 @@ void remove_leftovers(const fs::path& target) {
   }
 }
 
-/// An open file beside the target that vanishes unless it is renamed.
+/// An open file beside the target, removed at the end unless it was renamed.
 class TemporaryFile {
  public:
-  /// `shown` is the name that messages use: the user knows nothing of temporary files.
+  /// `shown` is the name for messages: users do not know temporary files.
   TemporaryFile(const fs::path& target, const std::string& shown) : shown_(shown) {
     const fs::path directory = directory_of(target);
     const std::string stem = temporary_stem(target) + std::to_string(::getpid());
@@ -113,7 +110,7 @@ class TemporaryFile {
       if (descriptor_ >= 0 || errno != EEXIST) break;
     }
     if (descriptor_ < 0) fail(shown_, "write into its directory", errno);
-    // For is_abandoned.
+    // Checked by is_abandoned.
     ::flock(descriptor_, LOCK_EX | LOCK_NB);
   }
   ~TemporaryFile() {
@@ -147,8 +144,7 @@ class TemporaryFile {
   }
 
  private:
-  /// The rename has happened; some file systems refuse to flush a directory, which is no loss of
-  /// ours.
+  /// Errors are ignored: the rename is done, and some file systems cannot flush a directory.
   static void flush_directory(const fs::path& directory) {
     const int descriptor = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (descriptor < 0) return;

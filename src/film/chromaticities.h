@@ -1,4 +1,4 @@
-// Colour spaces as EXR files tell of them. Who calls it: exr_file.cpp and image_io.cpp.
+// The chromaticities by which EXR files describe colour spaces.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@ namespace nephroid {
 /// x and y of red, green, blue and white.
 std::array<float, 8> chromaticities(const RgbColorSpace& space);
 
-/// The space that has these, 8 of them, up to rounding; null if it is none that we know.
+/// The colour space with these 8 chromaticities, up to rounding; null if it is unknown.
 const RgbColorSpace* color_space_with(std::span<const float> chromaticities);
 
 }  // namespace nephroid

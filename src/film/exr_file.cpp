@@ -1,5 +1,5 @@
-// A file is written through AtomicFile, some rows at a time: a picture of all layers in memory
-// would be a quarter of the film.
+// A file is written through AtomicFile, a few rows at a time: all layers in memory would take a
+// quarter of the film's size.
 #include "film/exr_file.h"
 
 #include <OpenEXR/ImfChannelList.h>
@@ -27,8 +27,8 @@ namespace nephroid {
 
 namespace {
 
-/// Where the encoder's bytes go. It writes its tables of offsets where nobody sees an exception, so
-/// the first error is kept.
+/// The encoder's output. The encoder swallows exceptions while it writes its offset tables, so the
+/// first error is kept.
 class AtomicOutput : public Imf::OStream {
  public:
   AtomicOutput(const std::string& path, AtomicFile& file) : OStream(path.c_str()), file_(file) {}
@@ -53,7 +53,7 @@ class AtomicOutput : public Imf::OStream {
   std::optional<IoError> error_;
 };
 
-/// Rows of a block of ZIP, and blocks that are in memory at a time.
+/// Rows of a ZIP block, and number of blocks in memory.
 constexpr int kRowsOfBlock = 16, kBlocksAtOnce = 4;
 
 uint64_t bytes_of_block(int width, size_t channels) {
@@ -65,8 +65,8 @@ int rows_at_once(int width, size_t channels) {
   return fit ? kBlocksAtOnce * kRowsOfBlock : kRowsOfBlock;
 }
 
-/// Threads of the library, for each of which it has two blocks, packed, unpacked and sorted; 0: the
-/// caller's own.
+/// Threads of the library; 0: the calling thread. For each thread it keeps two blocks, packed,
+/// unpacked and sorted.
 int encoder_threads(int width, size_t channels) {
   const uint64_t of_thread = 2 * 3 * bytes_of_block(width, channels);
   const auto fit = static_cast<int>(
@@ -74,7 +74,7 @@ int encoder_threads(int width, size_t channels) {
   return std::min(fit, Imf::globalThreadCount());
 }
 
-/// Of 1 to 9: more takes longer and hardly makes pictures with noise smaller.
+/// Compression level, 1 to 9. Higher ones take longer and hardly shrink noisy pictures.
 constexpr int kZipLevel = 2;
 
 Imf::Header header_of(const PictureHead& head, const std::vector<bool>& is_half) {
@@ -90,13 +90,13 @@ Imf::Header header_of(const PictureHead& head, const std::vector<bool>& is_half)
   }
   for (size_t i = 0; i < head.channels.size(); ++i)
     header.channels().insert(head.channels[i], Imf::Channel(is_half[i] ? Imf::HALF : Imf::FLOAT));
-  // A picture that was read may bring what the file says for itself, its compression for one.
+  // Metadata of a picture that was read may repeat attributes of the file, such as its compression.
   for (const auto& [key, value] : head.metadata)
     if (header.find(key) == header.end()) header.insert(key, Imf::StringAttribute(value));
   return header;
 }
 
-/// Some rows as they are encoded: the channels one after another, each row by row.
+/// Rows in the encoder's layout: channel by channel, each row by row.
 class Strip {
  public:
   Strip(const PictureHead& head, const std::vector<bool>& is_half)
@@ -113,10 +113,10 @@ class Strip {
     largest_.resize(rows_ * channels());
   }
   size_t channels() const { return is_half_.size(); }
-  /// That it has room for.
+  /// Capacity in rows.
   int rows() const { return rows_; }
 
-  /// Makes the rows [y0, y0 + rows), and widens `largest` of each channel.
+  /// Fills the rows [y0, y0 + rows) and updates each channel's `largest` magnitude.
   void fill(const FillRow& fill_row, int y0, int rows, std::vector<float>& largest) {
     std::ranges::fill(largest_, 0.0f);
     parallel_chunks(rows, kRowsOfBlock, [&](int64_t, int64_t begin, int64_t end) {
@@ -133,7 +133,7 @@ class Strip {
     Imf::FrameBuffer frame;
     for (size_t c = 0; c < channels(); ++c) {
       const auto size = static_cast<intptr_t>(is_half_[c] ? 2 : 4), row = size * width_;
-      // Where the pixel (0, 0) would be.
+      // The address that pixel (0, 0) would have.
       const auto origin = reinterpret_cast<intptr_t>(bytes_.data() + offsets_[c]) -
                           size * head_.window.x0 - row * y0;
       frame.insert(head_.channels[c], Imf::Slice(is_half_[c] ? Imf::HALF : Imf::FLOAT,
@@ -167,8 +167,7 @@ class Strip {
   std::vector<float> largest_;  ///< [row][channel], magnitudes
 };
 
-/// Writes the file but does not let it take its name. The magnitudes of each channel's largest
-/// value.
+/// Writes the file without committing it. Returns the largest magnitude of each channel.
 std::vector<float> encode(const std::string& path, AtomicFile& file, const PictureHead& head,
                           const std::vector<bool>& is_half, const FillRow& fill) {
   AtomicOutput output(path, file);
@@ -199,7 +198,7 @@ std::string layer_of(const std::string& channel) {
   return dot == std::string::npos ? std::string() : channel.substr(0, dot);
 }
 
-/// False if the values of a layer are no 16-bit floats, or would lose digits as such.
+/// False if a layer's values exceed the range of 16-bit floats or would lose digits.
 bool fits_half(float largest) {
   return largest == 0 || (largest >= HALF_NRM_MIN && largest <= HALF_MAX);
 }
@@ -208,7 +207,7 @@ bool fits_half(float largest) {
 
 uint64_t encoder_bytes(int width, size_t channels) {
   const int blocks = rows_at_once(width, channels) / kRowsOfBlock;
-  // The strip, a row for each thread that fills it, and what the library holds.
+  // The strip, a row for each thread that fills it, and the library's buffers.
   const int of_library = 3 * std::max(1, 2 * encoder_threads(width, channels));
   return static_cast<uint64_t>(2 * blocks + of_library) * bytes_of_block(width, channels);
 }
@@ -219,7 +218,7 @@ void write_exr(const std::string& path, const PictureHead& head,
   for (;;) {
     AtomicFile file(path);
     const std::vector<float> largest = encode(path, file, head, is_half, fill);
-    // Rare, and known only now: a lamp of a radiance beyond 65504 in view, a picture that is dark.
+    // Known only now, and rare: a lamp in view with a radiance above 65504, or a very dark picture.
     bool again = false;
     for (size_t c = 0; c < is_half.size(); ++c) {
       if (!may_be_half[c]) continue;

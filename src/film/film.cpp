@@ -1,4 +1,3 @@
-// What film.h declares: adding, and the statistics that are read off the sums.
 // All arithmetic between the accumulators and the returned floats is in double.
 #include "film/film.h"
 
@@ -223,7 +222,7 @@ void Film::add_surface(int x, int y, const SurfaceSample& s) {
   ++surface_samples_[pixel];
 }
 
-/// [F1]: accumulators of parts with one count of estimates are added exactly before the division.
+/// [F1]: sums of parts with the same count of estimates are added exactly before the division.
 Rgb Film::mean_of_parts(const std::vector<int>& parts, size_t pixel) const {
   double total[3] = {0, 0, 0};
   for (size_t begin = 0, end = 0; begin < parts.size(); begin = end) {

@@ -1,5 +1,5 @@
-// The format of a film, without its sums: size, crop, colours, and the parts into which its light
-// is divided. It must not know scenes or estimators.
+// The format of a film without its sums: size, crop, colours, and the parts of its light. It must
+// not know scenes or estimators.
 #pragma once
 
 #include <cstdint>
@@ -28,15 +28,15 @@ struct FilmSettings {
   float imaging_ratio = 1;          ///< exposure time * ISO / 100
   float max_component = kInfinity;  ///< samples are scaled down to this in their largest component
   const RgbColorSpace* color_space = nullptr;
-  std::string filename;  ///< as the scene names its output
+  std::string filename;  ///< the scene's name for its output
   float diagonal_mm = 35;
   std::optional<ColorMatrix> white_balance;  ///< applied to every sample
-  bool gbuffer = false;                      ///< has the geometric layers, see SurfaceSample
+  bool gbuffer = false;                      ///< with geometric layers, see SurfaceSample
 };
 
-/// The parts of a film. The light is divided into parts, each of which belongs to one
-/// route and any number of AOVs; the routes that one estimator samples together are a group, with
-/// one count of estimates and one variance.
+/// The parts of a film. Each part of the light belongs to one route and any number of AOVs. The
+/// routes that one estimator samples together are a group, with one count of estimates and one
+/// variance.
 struct FilmLayout {
   struct Part {
     int route = 0;
@@ -45,7 +45,7 @@ struct FilmLayout {
   std::vector<std::string> routes, aovs;  ///< names of layers
   std::vector<Part> parts;
   std::vector<int> groups;   ///< [route]: its group, numbered from 0 without a gap
-  std::vector<bool> merges;  ///< [group]: its estimates come with their bias; none if shorter
+  std::vector<bool> merges;  ///< [group]: true if it estimates its bias; false past the end
 
   /// One part and one group for each route, no AOVs.
   static FilmLayout of_routes(std::vector<std::string> names);
@@ -56,7 +56,7 @@ struct FilmLayout {
   }
 };
 
-/// Settings and layout together: all that an estimator needs to know of a film to learn for it.
+/// Settings and layout: the part of a film that an estimator needs for learning.
 class FilmFormat {
  public:
   /// An empty crop becomes the whole picture.

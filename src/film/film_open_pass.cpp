@@ -1,4 +1,4 @@
-// Bookkeeping for an unfinished pass: which slices are done, and which pixels stand in for others.
+// Bookkeeping of an unfinished pass: the finished slices, and the pixels that stand in for others.
 #include <algorithm>
 #include <atomic>
 
@@ -35,7 +35,7 @@ void Film::close_pass() {
 }
 uint64_t Film::count_of_slice(size_t group, size_t pixel) const {
   const OpenPass& open = open_[group];
-  // Read for every layer of a picture: 32 bits are divided much faster than 64.
+  // Called for every layer of a picture: 32-bit divisions are much faster than 64-bit ones.
   const auto p = static_cast<uint32_t>(pixel), w = static_cast<uint32_t>(bounds().width());
   const size_t slice = slices_.slice_of(bounds().x0 + static_cast<int>(p % w),
                                         bounds().y0 + static_cast<int>(p / w));

@@ -57,14 +57,14 @@ float* put(float* out, const Rgb& color) {
   return out + 3;
 }
 
-/// The layers that pbrt-v4's gbuffer film has beside the common ones; `samples` is the number of
-/// estimates behind a pixel.
+/// Writes the further layers of pbrt-v4's gbuffer film; `samples` is the pixel's number of
+/// estimates.
 float* put_gbuffer(float* out, const Film& film, int x, int y, uint64_t samples) {
   const SurfaceSample s = film.surface(x, y);
   out = put(out, s.p);
   out = put(out, s.ns);
   for (const float value : {s.uv.x, s.uv.y, s.dzdx, s.dzdy}) *out++ = value;
-  // Of a single sample, and over the mean.
+  // Variance of a single sample, and the same over the mean.
   const Rgb error = film.standard_error(x, y), mean = film.value(x, y);
   const float n = static_cast<float>(samples);
   const Rgb variance{error.r * error.r * n, error.g * error.g * n, error.b * error.b * n};
@@ -73,7 +73,7 @@ float* put_gbuffer(float* out, const Film& film, int x, int y, uint64_t samples)
   return out;
 }
 
-/// The picture itself, and what is measured in units of the scene or counted, need all digits.
+/// False for layers that need all digits: the picture, scene units, variances and counts.
 bool may_be_in_half(const std::string& channel) {
   static constexpr std::array<std::string_view, 4> kLayersInFloat = {"", "P", "Variance",
                                                                      "RelativeVariance"};

@@ -1,4 +1,3 @@
-// Field by field.
 #include "film/film_settings.h"
 
 namespace nephroid {

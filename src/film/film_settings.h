@@ -1,4 +1,4 @@
-// From the scene's description of its film to the film's settings.
+// Converts the scene's film description to the film's settings.
 #pragma once
 
 #include "film/film.h"

@@ -1,4 +1,4 @@
-// What a film keeps, as a RenderState, and the sum of two films.
+// The film as a RenderState, and the sum of two films.
 #include <algorithm>
 #include <cassert>
 

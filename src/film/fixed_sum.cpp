@@ -1,6 +1,5 @@
-// The exact accumulator of the film: double -> 128-bit fixed point, rounded to the nearest step
-// once. All shifts are of unsigned magnitudes, so that nothing here is undefined and x and -x
-// cancel.
+// Converts doubles to 128-bit fixed point, rounded once to the nearest step. All shifts are of
+// unsigned magnitudes: nothing is undefined, and x and -x cancel.
 #include "film/fixed_sum.h"
 
 #include <algorithm>
@@ -15,7 +14,7 @@ namespace {
 using Bits = FixedSum::Bits;
 __extension__ using Magnitude = unsigned __int128;
 
-/// The limits are symmetric: -kLimit has a negative that exists.
+/// The limits are symmetric, so that -kLimit can be negated.
 constexpr Bits kLimit = static_cast<Bits>(~Magnitude{0} >> 1);
 /// Exponent field of a double whose mantissa counts steps of 2^-64: 1075 (bias and mantissa) - 64.
 constexpr int kExponentOfOneStep = 1011;
@@ -31,7 +30,7 @@ uint64_t shift_right_rounded(uint64_t mantissa, int shift) {
   return quotient + (up ? 1 : 0);
 }
 
-/// sum + term, held at the limits. False if it had to be held.
+/// Adds `term`, saturating at the limits. False if it saturated.
 bool add_saturating(Bits* sum, Bits term) {
   Bits result = 0;
   const bool overflow = __builtin_add_overflow(*sum, term, &result);
@@ -70,7 +69,7 @@ bool FixedSum::add(const FixedSum& other) {
 bool UnitSum::add(float x) {
   constexpr double kStepsOfOne = 0x1p40, kLargest = 0x1p22;
   if (!std::isfinite(x)) return false;
-  // Exact but for the rounding to a step.
+  // Exact except for the rounding to a step.
   const double held = std::clamp(double{x}, -kLargest, kLargest);
   return add(UnitSum{std::llrint(held * kStepsOfOne)}) && held == double{x};
 }

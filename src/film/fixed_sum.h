@@ -1,6 +1,5 @@
-// The exact accumulator of the film: 128-bit fixed point with steps of 2^-64, so that adding
-// commutes and taking away gives back the bits that were there. Who calls it: film, splats and
-// outlier rejection. It must not know pixels.
+// The exact accumulator of the film: 128-bit fixed point with steps of 2^-64, so that additions
+// commute and can be undone exactly. It must not know pixels.
 #pragma once
 
 #include <cstdint>
@@ -11,15 +10,15 @@ namespace nephroid {
 struct FixedSum {
   __extension__ using Bits = __int128;
   Bits bits = 0;
-  /// Adds x rounded to the nearest step. False if it was not finite or the sum saturated (the sum
-  /// is then unchanged, or at the limit).
+  /// Adds x, rounded to the nearest step. False if x is not finite (the sum is unchanged) or the
+  /// sum saturated (it is at the limit).
   bool add(double x);
   bool add(const FixedSum& other);
   double value() const;
 };
 
-/// The sum of numbers of about 1, of albedos and normals: 64-bit fixed point with 40 fractional
-/// bits, half as large. Saturates after 2^23 of them.
+/// A sum of numbers of about 1, such as albedos and normals: 64-bit fixed point with 40 fractional
+/// bits, half as large as FixedSum. Saturates after 2^23 of them.
 struct UnitSum {
   int64_t bits = 0;
   /// As FixedSum::add.
@@ -28,7 +27,7 @@ struct UnitSum {
   double value() const;
 };
 
-/// The sum of colours.
+/// A sum of colours.
 struct RgbSum {
   FixedSum rgb[3];
   /// False if a component saturated.

@@ -1,5 +1,5 @@
-// A PNG is encoded in memory first and then written as one file, so that every error of the disk is
-// seen by us (an encoder's own stream may swallow those of its last buffer).
+// A PNG is encoded in memory and then written as one file, so that every disk error is noticed: an
+// encoder's own stream may swallow those of its last buffer.
 #include "film/image_io.h"
 
 #include <OpenEXR/ImfThreading.h>
@@ -21,7 +21,7 @@
 namespace nephroid {
 namespace {
 
-/// The space whose chromaticities a file has; null if it has none, or those of another.
+/// The colour space with the file's chromaticities; null if it has none or they are unknown.
 const RgbColorSpace* color_space_of(const OIIO::ImageSpec& spec) {
   const OIIO::ParamValue* found = spec.find_attribute("chromaticities");
   if (found == nullptr || found->type().basetype != OIIO::TypeDesc::FLOAT ||
@@ -30,7 +30,7 @@ const RgbColorSpace* color_space_of(const OIIO::ImageSpec& spec) {
   return color_space_with(std::span(static_cast<const float*>(found->data()), 8));
 }
 
-/// What the plugin for `format` makes of a picture; `path` is its name in messages.
+/// The picture encoded by the plugin for `format`; `path` is its name in messages.
 std::vector<unsigned char> encoded(const std::string& path, const char* format,
                                    const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
                                    const void* pixels) {
@@ -50,7 +50,7 @@ std::vector<unsigned char> encoded(const std::string& path, const char* format,
 OIIO::ImageSpec png_spec(int width, int height) {
   OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");
-  // Of 1 to 9: previews are written often, and noise does not compress.
+  // A low level of 1 to 9: previews are written often, and noise does not compress.
   spec.attribute("png:compressionLevel", 3);
   return spec;
 }

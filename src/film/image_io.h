@@ -1,6 +1,5 @@
-// Pictures as files: 8-bit PNG, and reading any format back; exr_file.h writes EXR. Its .cpp is
-// where the layer meets OpenImageIO. Who calls it: film_output.h and
-// the session. It must not know films, routes or scenes.
+// Writes 8-bit PNG and reads pictures of any format by OpenImageIO; exr_file.h writes EXR. It must
+// not know films, routes or scenes.
 #pragma once
 
 #include <cstdint>
@@ -16,15 +15,15 @@ namespace nephroid {
 /// Key and value, in the order in which they are written.
 using Metadata = std::vector<std::pair<std::string, std::string>>;
 
-/// Of the first such key; empty if there is none.
+/// Value of the first entry with this key; empty if there is none.
 std::string value_of(const Metadata& metadata, const std::string& key);
 
-/// All of a picture but its pixels; `window` is the part of the full picture that they are.
+/// A picture without its pixels; `window` is their part of the full picture.
 struct PictureHead {
   int full_width = 0, full_height = 0;
   PixelBounds window;
   std::vector<std::string> channels;
-  /// Written as the file's chromaticities unless it is null or sRGB.
+  /// Written as the file's chromaticities, unless null or sRGB.
   const RgbColorSpace* color_space = nullptr;
   Metadata metadata;
 
@@ -35,12 +34,12 @@ struct PictureHead {
 /// Named channels of floats, interleaved, rows from the top.
 struct Picture : PictureHead {
   std::vector<float> pixels;
-  /// Index of a channel by its exact name, -1 if it is not there.
+  /// Index of the channel with this exact name, -1 if there is none.
   int find_channel(const std::string& name) const;
 };
 
-/// Writes interleaved 8-bit sRGB, three bytes a pixel. Throws IoError; see atomic_file.h for what
-/// then remains.
+/// Writes interleaved 8-bit sRGB, three bytes a pixel. Throws IoError; the old file then remains
+/// (atomic_file.h).
 void write_png(const std::string& path, int width, int height, const std::vector<uint8_t>& rgb);
 
 /// The bytes of such a PNG file. Throws IoError.
@@ -49,15 +48,15 @@ std::vector<uint8_t> encode_png(int width, int height, const std::vector<uint8_t
 /// Window, channels and metadata of the first image of a file of any format. Throws IoError.
 PictureHead read_picture_head(const std::string& path);
 
-/// Reads the first image of a file of any format, as floats without any conversion of colour, with
-/// string metadata and the colour space that the file's chromaticities tell of. Throws IoError.
+/// Reads the first image of a file of any format as floats, without colour conversion, with its
+/// string metadata and the colour space of its chromaticities. Throws IoError.
 Picture read_picture(const std::string& path);
 
 /// Linear [0,1] to the sRGB code value, clamped and rounded; NaN becomes 0.
 uint8_t encode_srgb8(float linear);
 
-/// Limits the threads that compress and decompress images; 0 means all of the machine. They are at
-/// most kMaxImageThreads in any case.
+/// Limits the threads that compress and decompress images, to at most kMaxImageThreads. 0: one per
+/// core.
 void limit_image_threads(int threads);
 
 }  // namespace nephroid

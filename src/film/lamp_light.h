@@ -1,4 +1,4 @@
-// How much light of each lamp was found, for reports. It must not know walks or scenes.
+// Light found per lamp, for reports. It must not know walks or scenes.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace nephroid {
 
 struct LampLight {
   std::string name;
-  double light = 0;   ///< summed luminance; only ratios between lamps mean something
+  double light = 0;   ///< summed luminance; only ratios between lamps are meaningful
   uint64_t rays = 0;  ///< shadow rays to it, blocked or not
 };
 

@@ -1,5 +1,5 @@
-// An estimate waits with all others of its pixel and octave; they are judged together, after the
-// pass, when the counts of all pixels stand still. So no decision depends on threads.
+// Held estimates of one pixel and octave are judged together after the pass, when all counts are
+// final. So no decision depends on threads.
 #include "film/outlier_rejection.h"
 
 #include <algorithm>
@@ -17,14 +17,14 @@ namespace {
 constexpr int kRowsPerChunk = 4;
 constexpr int kLevelOfOne = 32;
 constexpr uint64_t kMaxCounted = 255;
-/// What is brighter goes to the picture, whose sums say when they reach their limit.
+/// Brighter estimates are not held: the film's sums report when they saturate.
 constexpr float kLargest = 0x1p56f;
-/// [O3] An estimate that changes its pixel by no more than this share of what surrounds it, or is
-/// not brighter than this many times that, is no outlier.
+/// [O3] An estimate is no outlier if it changes its pixel by at most kSmallShare of the mean around
+/// it, or if it is at most kModerate times as bright as that mean.
 constexpr double kSmallShare = 0.25;
 constexpr double kModerate = 6;
-/// [O2] So many times the neighbours confirm an estimate in the wide window: light that is sampled
-/// rarely over a whole region, as that of a lamp seldom chosen, and no single dot.
+/// [O2] Factor of the neighbours that confirm an estimate in the wide window. It confirms light
+/// that is sampled rarely over a whole region, as of a lamp that is rarely chosen.
 constexpr double kWideNeighbours = 2;
 
 void put(std::vector<uint32_t>& words, const void* data, size_t bytes) {
@@ -52,7 +52,7 @@ float OutlierRejection::brightness(const Rgb& color) {
   return std::max({std::abs(color.r), std::abs(color.g), std::abs(color.b)});
 }
 
-/// The last slot takes the place of the one that goes.
+/// Moves the last slot into the removed one.
 void OutlierRejection::Pixel::remove(size_t slot, size_t parts) {
   const size_t last = --size;
   levels[slot] = levels[last];
@@ -171,7 +171,7 @@ uint64_t OutlierRejection::held_estimates() const {
   return count;
 }
 
-// Of each pixel of each group: its number, the fixed part, what it holds.
+// For each pixel of each group: group and pixel index, PixelHead, held sums.
 size_t OutlierRejection::most_words() const {
   size_t words = 0;
   for (size_t g = 0; g < pixels_.size(); ++g)

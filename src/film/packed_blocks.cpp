@@ -1,4 +1,4 @@
-// Shuffle and compression, each in one pass over a block that fits the cache.
+// Shuffle and compression each make one pass over a block, which fits the cache.
 #include "film/packed_blocks.h"
 
 #include <zstd.h>
@@ -9,7 +9,7 @@
 namespace nephroid {
 namespace {
 
-/// Noise does not compress: the fastest level finds all zeros, and slower ones hardly more.
+/// The fastest level: noise does not compress, and slower levels gain little.
 constexpr int kLevel = 1;
 
 }  // namespace
@@ -33,7 +33,7 @@ bool unpack_block(PackedBlock& block, size_t stride, std::span<std::byte> items)
   planes.resize(items.size());
   const size_t size = ZSTD_decompress(planes.data(), planes.size(), packed.data(), packed.size());
   if (ZSTD_isError(size) || size != items.size()) return false;
-  // Memory that has never been written to stays so: a film's zeros take none.
+  // Zeros are not written to memory that is zero: untouched pages of a film take no memory.
   const auto is_zero = [](std::byte b) { return b == std::byte{0}; };
   if (std::ranges::all_of(planes, is_zero) && std::ranges::all_of(items, is_zero)) return true;
   const size_t count = items.size() / stride;

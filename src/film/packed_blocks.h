@@ -8,17 +8,17 @@
 
 namespace nephroid {
 
-/// A block on its way, whose memory serves the next one, too.
+/// A block while it is packed or unpacked; its memory is reused for the next one.
 struct PackedBlock {
   std::vector<std::byte> packed;
-  std::vector<std::byte> planes;  ///< the bytes of equal place together, before or after packing
+  std::vector<std::byte> planes;  ///< shuffled bytes, before packing or after unpacking
 };
 
-/// Packs items of `stride` bytes each. Sums differ in their middle bytes and hardly anywhere else,
-/// which compresses best where bytes of equal place are neighbours (the shuffle of Blosc).
+/// Packs items of `stride` bytes each. Sums differ mostly in their middle bytes, so they compress
+/// best if bytes of equal position are neighbours (the shuffle of Blosc).
 void pack_block(std::span<const std::byte> items, size_t stride, PackedBlock& block);
 
-/// Fills `items`; false if what is packed is no block of exactly so many bytes.
+/// Unpacks a block into `items`. False if it is not a block of exactly this size.
 bool unpack_block(PackedBlock& block, size_t stride, std::span<std::byte> items);
 
 }  // namespace nephroid

@@ -1,6 +1,5 @@
-// What one estimate of a pixel found for each part of an estimator's routes, before it becomes
-// colour. Who calls it: integrators and the merging of photons, which add, and integrators, which
-// pass the colours on to the film. It must not know walks or scenes.
+// One estimate of a pixel: spectra by part of an estimator's routes, before they become colours. It
+// must not know walks or scenes.
 #pragma once
 
 #include <array>
@@ -28,7 +27,7 @@ class PartSums {
 
   /// True if the group owns this part; false for kNoPart.
   bool owns(Part part) const { return place_[part] != kNotOwned; }
-  /// Place of an owned part among those of the group, as Film::add counts them.
+  /// Index of an owned part within its group, as in Film::add.
   size_t place(Part part) const { return place_[part]; }
   void add(Part part, const SampledSpectrum& value) {
     assert(of_techniques_.empty());
@@ -39,10 +38,10 @@ class PartSums {
     if (!of_techniques_.empty())
       of_techniques_[place_[part]][static_cast<size_t>(technique)] += value;
   }
-  /// From now on it is kept which technique added what.
+  /// Turns on sums per technique.
   void tell_techniques_apart() { of_techniques_.resize(sums_.size()); }
-  /// Adds what each of them found to `light` (as large as the parts), as the sum of a colour's
-  /// components times `factor`; nothing of what is not finite, as the film.
+  /// Adds each technique's light to `light`, by part, as the sum of a colour's components times
+  /// `factor`. Values that are not finite are left out, as in the film.
   void add_techniques_to(std::span<TechniqueLight> light, const SensorWeights& weights,
                          double factor) const {
     for (size_t i = 0; i < of_techniques_.size(); ++i)
@@ -52,7 +51,7 @@ class PartSums {
         if (std::isfinite(found)) light[i][t] += found;
       }
   }
-  /// From now on it is kept which of so many lamps gave how much.
+  /// Turns on sums per lamp, for this number of lamps.
   void tell_lamps_apart(size_t lamps) { lamp_rays_.assign(lamps, 0); }
   void add(Part part, Lamp lamp, const SampledSpectrum& value) {
     add(part, value);
@@ -62,13 +61,13 @@ class PartSums {
     add(part, value, technique);
     add_of_lamp(lamp, value);
   }
-  /// A shadow ray to a lamp.
+  /// Counts a shadow ray to a lamp.
   void count_ray_to(Lamp lamp) {
     if (!lamp_rays_.empty()) ++lamp_rays_[lamp];
   }
-  /// [lamp], since they are told apart.
+  /// [lamp]: shadow rays; empty unless sums per lamp are on.
   std::span<const uint32_t> lamp_rays() const { return lamp_rays_; }
-  /// As add_techniques_to, `light` is as large as the number of lamps.
+  /// As add_techniques_to, with `light` by lamp.
   void add_lamps_to(std::span<double> light, const SensorWeights& weights, double factor) const {
     for (const OfLamp& l : of_lamps_) {
       const Rgb color = weights.apply(l.value);
@@ -76,7 +75,7 @@ class PartSums {
       if (std::isfinite(found)) light[l.lamp] += found;
     }
   }
-  /// What the values are off by in the mean, estimated; of all parts together.
+  /// Adds to the estimated bias [E4] of all parts together.
   void add_bias(const SampledSpectrum& value) { bias_ += value; }
   void clear() {
     for (SampledSpectrum& sum : sums_) sum = SampledSpectrum();
@@ -92,8 +91,8 @@ class PartSums {
     return (color.r + color.g + color.b) / 3.0f;
   }
 
-  /// The sums as colours, times `factor`, all scaled alike so that their total keeps to
-  /// `max_component`, and then times `filter_weight`. Valid until the next call.
+  /// The sums as colours times `factor`, clamped together to `max_component`, then times
+  /// `filter_weight`. Valid until the next call.
   std::span<const Rgb> colors(const SensorWeights& weights, float factor, float max_component,
                               float filter_weight) {
     for (size_t i = 0; i < sums_.size(); ++i) colors_[i] = weights.apply(sums_[i]) * factor;
@@ -102,8 +101,8 @@ class PartSums {
     return colors_;
   }
 
-  /// Scales all colours alike so that no component of their total is larger in magnitude than
-  /// `limit`.
+  /// Scales all colours by one factor, so that no component of their total exceeds `limit` in
+  /// magnitude.
   static void clamp_total(std::span<Rgb> colors, float limit) {
     if (!(limit < kInfinity)) return;
     Rgb total;
@@ -123,13 +122,13 @@ class PartSums {
   static constexpr uint8_t kNotOwned = 255;
   std::array<uint8_t, 256> place_;
   std::vector<SampledSpectrum> sums_;
-  std::vector<std::array<SampledSpectrum, kTechniqueCount>> of_techniques_;  ///< empty: untold
+  std::vector<std::array<SampledSpectrum, kTechniqueCount>> of_techniques_;  ///< empty: off
   struct OfLamp {
     Lamp lamp;
     SampledSpectrum value;
   };
-  std::vector<OfLamp> of_lamps_;     ///< since the last clear()
-  std::vector<uint32_t> lamp_rays_;  ///< [lamp]; empty: untold
+  std::vector<OfLamp> of_lamps_;     ///< light per lamp since the last clear()
+  std::vector<uint32_t> lamp_rays_;  ///< [lamp]; empty: off
   SampledSpectrum bias_;
   std::vector<Rgb> colors_;
 };

@@ -41,7 +41,7 @@ PixelSlices::Run PixelSlices::at(size_t slice) const {
 size_t PixelSlices::slice_of(int x, int y) const {
   x -= crop_.x0;
   y -= crop_.y0;
-  // The first lattice that has the pixel is the widest that divides both coordinates.
+  // The first lattice with the pixel is the widest one whose spacing divides both coordinates.
   const int zeros = std::countr_zero(static_cast<unsigned>(x | y | 1 << (levels_ - 1)));
   const int level = levels_ - 1 - zeros;
   const Row& row = rows_[row_of(level, y)];

@@ -1,6 +1,6 @@
-// The pixels of a crop in the order in which a pass reaches them, coarse to fine: first those of a
-// wide lattice, then those that halve its spacing, until all are reached. A slice is a run of
-// pixels of one row that one thread renders at a time. It must not know what is rendered.
+// The order of a crop's pixels in a pass, coarse to fine: first a wide lattice, then lattices of
+// half the spacing, until all pixels are reached. A slice is a run of pixels in one row, rendered
+// by one thread. It must not know what is rendered.
 #pragma once
 
 #include <cstddef>
@@ -27,10 +27,10 @@ class PixelSlices {
   Run at(size_t slice) const;
   /// The slice of a pixel of the crop.
   size_t slice_of(int x, int y) const;
-  /// The number of slices that make up the first `levels` lattices; at least 1 level.
+  /// Number of slices in the first `levels` lattices; `levels` is at least 1.
   size_t count_of_levels(int levels) const;
   int levels() const { return levels_; }
-  /// Pixels of the first lattice.
+  /// Number of pixels in the first lattice.
   int64_t first_pixels() const;
   /// Spacing of the lattice after the first `levels` are done.
   int spacing(int levels) const { return 1 << (levels_ - levels); }
@@ -38,9 +38,9 @@ class PixelSlices {
  private:
   /// The slices of a row that belong to one level.
   struct Row {
-    int y = 0, x = 0;  ///< from the crop's corner
+    int y = 0, x = 0;  ///< offset from the crop's corner
     int log2_step = 0, pixels = 0;
-    size_t begin = 0, end = 0;  ///< slices
+    size_t begin = 0, end = 0;  ///< range of slices
     int step() const { return 1 << log2_step; }
   };
   size_t row_of(int level, int y) const { return first_row_[level] + (y >> (levels_ - 1 - level)); }
@@ -48,7 +48,7 @@ class PixelSlices {
   PixelBounds crop_;
   int levels_ = 1;
   std::vector<Row> rows_;
-  std::vector<size_t> first_row_;  ///< [level] in rows_
+  std::vector<size_t> first_row_;  ///< [level]: index into rows_
 };
 
 }  // namespace nephroid

@@ -1,4 +1,4 @@
-// Splats are sorted into strips of rows and each strip is summed by one task. A splat that reaches
+// Splats are sorted into strips of rows, and each strip is summed by one task. A splat that reaches
 // two strips is in both lists.
 #include "film/splats.h"
 
@@ -13,11 +13,11 @@ namespace nephroid {
 namespace {
 
 constexpr int kRowsPerStrip = 16;
-/// Bounds the memory of the lists.
+/// Splats in a batch: bounds the memory of the lists.
 constexpr size_t kSplatsPerBatch = size_t{1} << 20;
 
-/// The whole numbers i in [lowest, highest) with -radius <= x - (i + 1/2) < radius, as a half-open
-/// range: a point on the border of two boxes belongs to one of them.
+/// The integers i in [lowest, highest) with -radius <= x - (i + 1/2) < radius, as a half-open
+/// range. So a point on the border of two boxes belongs to one of them.
 struct Range {
   int begin, end;
 };
@@ -33,7 +33,7 @@ bool is_usable(const Splat& splat) {
   return splat.value.is_finite() && !std::isnan(splat.film.x) && !std::isnan(splat.film.y);
 }
 
-/// A pixel that no film has, if the point is at NaN or far away.
+/// The pixel of a film point; outside of every film if the point is NaN or far away.
 Vec2i pixel_of(const Vec2f& film) {
   const auto coordinate = [](float x) {
     return std::abs(x) < 1e9f ? static_cast<int>(std::floor(x)) : -1;

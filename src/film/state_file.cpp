@@ -1,5 +1,5 @@
-// Blocks are packed and unpacked by all threads, some at a time, and written and read in order.
-// Nothing is taken for granted: a file may be damaged, or made to do harm.
+// Blocks are packed and unpacked in parallel, a few at a time, and written and read in order. Files
+// are not trusted: they may be damaged or malicious.
 #include "film/state_file.h"
 
 #include <fmt/format.h>
@@ -29,11 +29,11 @@ struct Footer {
   std::array<char, 8> end = kBegin;
 };
 
-/// Blocks in memory at a time.
+/// Number of blocks in memory.
 constexpr size_t kBlocksAtOnce = 16;
 using Blocks = std::array<PackedBlock, kBlocksAtOnce>;
 
-/// Bytes of a block of a section, within those of the section.
+/// The byte range of a block within its section.
 struct Extent {
   size_t offset = 0, size = 0;
 };
@@ -42,7 +42,7 @@ Extent extent_of_block(const StateIndex::Section& section, size_t block) {
   return {offset, std::min<size_t>(section.block_bytes(), section.bytes - offset)};
 }
 
-/// Calls body(i) for each of `count` on all threads.
+/// Calls body(i) for each i < count in parallel.
 template <class Body>
 void for_each_of(size_t count, const Body& body) {
   parallel_chunks(static_cast<int64_t>(count), 1, [&](int64_t, int64_t begin, int64_t end) {
@@ -153,7 +153,7 @@ struct StateFile::Input {
     }
   }
 
-  /// Null if it is not there.
+  /// Null if the section is missing.
   const StateIndex::Section* find(const std::string& name) const {
     const auto found = std::ranges::find(index.sections, name, &StateIndex::Section::name);
     return found == index.sections.end() ? nullptr : &*found;

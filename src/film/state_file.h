@@ -12,7 +12,7 @@
 
 namespace nephroid {
 
-/// "a/b.exr" -> "a/b.state"; the name of a state is its own.
+/// "a/b.exr" -> "a/b.state"; the name of a state file stays.
 std::string state_path_beside(const std::string& picture_path);
 
 /// Description of the picture that a state belongs to.
@@ -22,11 +22,11 @@ struct StateHead {
   Metadata metadata;
 };
 
-/// Writes the state with about 10 MB of buffers, whatever its size. Throws IoError; see
-/// atomic_file.h for what then remains.
+/// Writes the state with about 10 MB of buffers, whatever its size. Throws IoError; the old file
+/// then remains (atomic_file.h).
 void write_state(const std::string& path, const StateHead& head, const RenderState& state);
 
-/// A state that write_state wrote. All throw IoError, which names the file.
+/// Reads a file of write_state. All functions throw IoError with the file's name.
 class StateFile {
  public:
   /// Reads the index.
@@ -41,9 +41,9 @@ class StateFile {
   PixelBounds window() const;
   /// Bytes of the file.
   uint64_t size() const;
-  /// Reads all arrays and streams, each of which must be in the file with the size that it has
-  /// here, and be whole. Streams that are optional may be missing; of those that cannot be read the
-  /// reasons are returned, each with the file's name.
+  /// Reads all arrays and streams. Each must be in the file, undamaged and with the size it has
+  /// here. Optional streams may be missing. Returns an error, with the file's name, for each
+  /// optional stream that cannot be read.
   std::vector<std::string> load(const RenderState& state);
 
  private:

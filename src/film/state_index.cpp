@@ -1,4 +1,4 @@
-// Numbers are little-endian as in memory, texts have their length before them.
+// Numbers are little-endian, as in memory; texts are preceded by their length.
 #include "film/state_index.h"
 
 #include <algorithm>
@@ -12,9 +12,9 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little);
 
-/// Unpacked; small enough for the cache, large enough to be worth a thread.
+/// Unpacked size of a block: it fits the cache and is large enough for a thread.
 constexpr size_t kBlockBytes = 256 << 10;
-/// An item of a section, at most.
+/// Largest item of a section.
 constexpr uint32_t kMaxWords = 4096;
 
 class Writer {
@@ -49,7 +49,7 @@ class Reader {
     const auto bytes = take(number<uint32_t>());
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
   }
-  /// A number of things, each of which takes at least `least` bytes of what is left.
+  /// A count of items, each of which takes at least `least` of the remaining bytes.
   size_t count(size_t least) {
     const size_t count = number<uint32_t>();
     if (count > bytes_.size() / least) damaged();

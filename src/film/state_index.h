@@ -1,5 +1,5 @@
-// The index at the end of a state file: which picture it belongs to, and where each section is. It
-// must not know what the sections mean.
+// The index at the end of a state file: its picture and the location of each section. It must not
+// know what the sections mean.
 #pragma once
 
 #include <cstddef>
@@ -16,16 +16,16 @@ namespace nephroid {
 struct StateIndex {
   struct Section {
     std::string name;
-    uint32_t words = 1;            ///< 32-bit words of an item
-    uint64_t bytes = 0;            ///< unpacked
-    uint64_t hash = 0;             ///< of the unpacked bytes
-    uint64_t offset = 0;           ///< of its first block in the file; the others follow
-    std::vector<uint32_t> blocks;  ///< packed size of each
+    uint32_t words = 1;            ///< 32-bit words per item
+    uint64_t bytes = 0;            ///< unpacked size
+    uint64_t hash = 0;             ///< hash of the unpacked bytes
+    uint64_t offset = 0;           ///< offset of its first block in the file; the others follow
+    std::vector<uint32_t> blocks;  ///< [block]: packed size
 
     size_t stride() const { return size_t{4} * words; }
-    /// Unpacked size of all blocks but the last, which has the rest.
+    /// Unpacked size of each block; the last one has the rest.
     size_t block_bytes() const;
-    /// Number of blocks that so many bytes have.
+    /// Number of blocks.
     size_t block_count() const;
   };
 
@@ -35,8 +35,8 @@ struct StateIndex {
   std::vector<Section> sections;
 
   std::vector<std::byte> to_bytes() const;
-  /// Throws IoError, without the file's name, for what to_bytes does not write and for blocks that
-  /// do not lie within the first `file_bytes` of the file.
+  /// Throws IoError, without the file's name, for invalid bytes and for blocks outside of the first
+  /// `file_bytes` of the file.
   static StateIndex from_bytes(std::span<const std::byte> bytes, uint64_t file_bytes);
 };
 

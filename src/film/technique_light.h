@@ -1,5 +1,4 @@
-// How much light each technique found, for reports: which of the ways to make a path carried a
-// route. Who calls it: integrators that combine several. It must not know walks or scenes.
+// Light found per sampling technique, for reports. It must not know walks or scenes.
 #pragma once
 
 #include <array>
@@ -11,16 +10,16 @@
 namespace nephroid {
 
 enum class Technique : uint8_t {
-  kMeetLight,     ///< a camera path met a light
+  kMeetLight,     ///< BSDF sampling: a camera path hit a light
   kSampleLight,   ///< next-event estimation
-  kConnect,       ///< a vertex of a light path
-  kMerge,         ///< photons
-  kMeetCamera,    ///< a light path was connected to the camera
-  kMeetByMirrors  ///< both ways at each smooth boundary, to lights behind nothing but these
+  kConnect,       ///< connection with a vertex of a light path
+  kMerge,         ///< merging with photons
+  kMeetCamera,    ///< light tracing: a light path connected to the camera
+  kMeetByMirrors  ///< delta paths: both ways at each smooth boundary, up to a light
 };
 inline constexpr size_t kTechniqueCount = 6;
 
-/// As a report names what it found.
+/// The technique's name in reports.
 constexpr const char* technique_name(Technique technique) {
   switch (technique) {
     case Technique::kMeetLight:
@@ -39,10 +38,10 @@ constexpr const char* technique_name(Technique technique) {
   return "";
 }
 
-/// Weighed light, in units that are the same for all.
+/// [technique]: weighted light, in the same units for all.
 using TechniqueLight = std::array<double, kTechniqueCount>;
 
-/// Of the paths of a route.
+/// The light of a route's paths by technique.
 struct RouteTechniques {
   std::string route;
   TechniqueLight light{};

@@ -11,23 +11,22 @@ namespace nephroid {
 namespace {
 
 constexpr size_t kMaxPlaces = CasterCones::kMaxCones / 2;
-/// [G8] How much less the insides of balls around several places, all together, are aimed at than
-/// that of a place.
+/// [G8] Weight of all balls that enclose several places together, over that of one place's ball.
 constexpr float kShareAround = 0.125f;
-/// Over the scene's radius.
+/// Smallest radius of a ball, over the scene's radius.
 constexpr float kSmallest = 1e-4f;
-/// Of a ball that fills much of the sky as it is seen from a vertex, nothing is gained.
+/// A ball that covers much of a vertex's sky is no use to guide to.
 constexpr float kMaxSine2 = 0.9f;
-/// The least density that a BSDF is taken to have towards a ball that is partly in its reach.
+/// Lower bound of a BSDF's density towards a ball that is partly in its reach.
 constexpr float kMinDensity = 0.1f / kPi;
-/// A ball around the only place is worth having if it is so much wider.
+/// A single place gets a second ball if that one is wider by this factor.
 constexpr float kWider = 1.05f;
-/// Rounding is mended by then.
+/// Attempts until a sampled direction is inside of its cone in spite of rounding.
 constexpr int kMaxTries = 64;
 
-/// About the density with which light from wo is scattered to the local direction `wi`, a ball
-/// around which it sees under an angle of this squared sine; 0 if none is worth aiming there. A
-/// guess will do, and asking a BSDF of many layers takes long: only where it decides.
+/// Approximate BSDF density from `v.wo` to the local direction `wi` of a ball, whose half angle has
+/// this squared sine. 0 if the ball is not worth guiding to. Layered BSDFs are slow, so they are
+/// evaluated only where that decides.
 float density_towards(const WalkVertex& v, ClassMask among, const Vec3f& wi, float sine2) {
   const bool same_side = wi.z * v.wo.z > 0.0f;
   if (!contains(guided_classes(v.bsdf, among), EventClass::kDiffuse)) {
@@ -54,8 +53,8 @@ Vec3f CasterCones::sample(float& uc, const Vec2f& u) const {
   uc = std::clamp(left / cone->weight, 0.0f, kOneMinusEpsilon);
   const Frame frame = Frame::from_z(cone->axis);
   const float phi = 2 * kPi * u.y;
-  // Rounding may put a direction outside: what seems to have come there by chance alone would weigh
-  // thousands of times too much.
+  // Rounding may put a direction outside of the cone. pdf_w() would then leave the cone out, and
+  // the sample would weigh thousands of times too much.
   float below = cone->narrowness * u.x;
   for (int i = 0; i < kMaxTries; ++i, below *= 0.75f) {
     const float sine = std::sqrt(below * (2 - below));
@@ -79,7 +78,7 @@ CasterGuide::CasterGuide(std::span<const UsefulStart> met, float scene_radius) {
   if (met.empty()) return;
   const StartTree tree(met, kMaxPlaces);
   const auto add = [&](const StartTree::Crowd& crowd, float extent, float share) {
-    // Room for what has not been found, most where little has.
+    // Room for points not found yet, most where few have been.
     const float room = 1.05f + 0.5f / std::sqrt(static_cast<float>(crowd.end - crowd.begin));
     const float radius = std::max(extent * room, kSmallest * scene_radius);
     balls_.push_back(
@@ -102,7 +101,7 @@ CasterGuide::CasterGuide(std::span<const UsefulStart> met, float scene_radius) {
 
 CasterCones CasterGuide::at(const WalkVertex& v, ClassMask among) const {
   CasterCones cones;
-  // What goes below a surface is no direction.
+  // Subsurface scattering has no direction to guide.
   if (!v.merges || (v.material.has_bssrdf() && !v.subsurface_exit) ||
       guided_classes(v.bsdf, among) == ClassMask::kNone)
     return cones;
@@ -115,7 +114,7 @@ CasterCones CasterGuide::at(const WalkVertex& v, ClassMask among) const {
     if (!(density > 0.0f)) continue;
     const float narrowness = sine2 / (1 + std::sqrt(1 - sine2));
     const float weight = ball.use * density * narrowness;
-    // So far away that there is nothing to choose.
+    // The weight of a ball very far away underflows to 0.
     if (weight > 0.0f) cones.add(axis, narrowness, weight);
   }
   return cones;

@@ -8,8 +8,8 @@ namespace nephroid {
 
 namespace {
 
-/// The way to the path's origin from outside of the scene ([P4] in docs/estimators.md), where it
-/// starts in `emission.medium`.
+/// Multiplies the flux by the transmittance from outside of the scene to the path's origin ([P4] in
+/// docs/estimators.md). The way starts in `emission.medium`.
 void come_from_behind(const Scene& scene, const SampledWavelengths& lambda,
                       const PathSampler& sampler, Emission& emission) {
   Ray way = emission.ray;
@@ -18,7 +18,7 @@ void come_from_behind(const Scene& scene, const SampledWavelengths& lambda,
   emission.flux *= attenuation_along(scene, way, emission.medium, lambda, sampler);
 }
 
-/// What the medium around the scene leaves of light from infinity until it reaches `ray`.
+/// Transmittance of the medium around the scene, from infinity to the ray's origin.
 SampledSpectrum arrival(const Medium& medium, const Ray& ray, const SampledWavelengths& lambda,
                         const PathSampler& sampler) {
   Ray back = ray;
@@ -27,7 +27,7 @@ SampledSpectrum arrival(const Medium& medium, const Ray& ray, const SampledWavel
   return attenuation(medium, back, kInfinity, lambda, random, nullptr);
 }
 
-/// What a light at a point emits in a direction, per steradian.
+/// Intensity of a point light in a direction, per steradian.
 SampledSpectrum intensity(const Light& light, const Vec3f& p, const Vec3f& w,
                           const SampledWavelengths& lambda) {
   // Far enough for the direction to survive rounding.
@@ -36,7 +36,8 @@ SampledSpectrum intensity(const Light& light, const Vec3f& p, const Vec3f& w,
   return seen ? seen->radiance * sqr(distance) : SampledSpectrum();
 }
 
-/// Points a start at a target of the guide; densities become those of the light's own for it.
+/// Guides a start to a target. The densities become those with which the light itself would sample
+/// the new start.
 void aim(const Scene& scene, const Light& light, const EmissionGuide& guide, int target,
          const Vec2f& u_position, const Vec2f& u_direction, const SampledWavelengths& lambda,
          EmissionSample& e) {
@@ -92,7 +93,7 @@ std::optional<Emission> emit(const Scene& scene, const EmissionGuide& guide,
                                       e->ray.d, own, choice->target);
   out.weight = static_cast<float>(own / guided);
   out.flux = e->radiance * (e->cos_theta / static_cast<float>(pmf * others * guided));
-  // Shadow rays cross all of the medium as well.
+  // As next-event estimation does: its shadow rays cross all of the medium.
   if (light.is_infinite() && out.medium) {
     Ray start = out.ray;
     if (e->from_behind)

@@ -1,5 +1,5 @@
-// Where a light path starts: a light, a point and a direction, and what it carries from there
-// (docs/estimators.md, [P1] and [P4]). It must not know routes, cameras or films.
+// The start of a light path: light, point, direction and flux (docs/estimators.md, [P1] and [P4]).
+// It must not know routes, cameras or films.
 #pragma once
 
 #include <optional>
@@ -9,21 +9,21 @@
 
 namespace nephroid {
 
-/// Random numbers that emit() uses, from the sampler's current dimension on: light 1, position 2,
+/// Random numbers of emit(), from the sampler's current dimension on: light 1, position 2,
 /// direction 2.
 inline constexpr int kEmissionDimensions = 5;
 
 struct Emission {
   int light = 0;                   ///< index into Scene::lights
-  Ray ray;                         ///< of unit direction, off the light already
-  const Medium* medium = nullptr;  ///< around the ray's origin
-  SampledSpectrum flux;            ///< of one light path: divide by the number emitted
-  EmissionSample start;            ///< what the light said
-  float pdf_start = 0;             ///< of the light and the start point, 1/area
-  float weight = 1;                ///< density of the lights' own start over that of this one
+  Ray ray;                         ///< unit direction; the origin is offset from the light
+  const Medium* medium = nullptr;  ///< medium around the ray's origin
+  SampledSpectrum flux;            ///< flux of one light path: divide by the number emitted
+  EmissionSample start;            ///< the light's own sample
+  float pdf_start = 0;             ///< density of the light and the start point, 1/area
+  float weight = 1;                ///< unguided density of this start over its guided density
 };
 
-/// The start of one light path, as the guide has it. Empty if the light gives nothing here.
+/// Samples the start of one light path with the guide. Empty if the light emits nothing there.
 std::optional<Emission> emit(const Scene& scene, const EmissionGuide& guide,
                              const SampledWavelengths& lambda, float time, PathSampler& sampler);
 

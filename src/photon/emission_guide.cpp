@@ -11,25 +11,25 @@ namespace nephroid {
 
 namespace {
 
-/// So many starts say how wide the place is in which they lie.
+/// [G5] Starts that suffice to tell the extent of a place.
 constexpr float kMinStartsOfExtent = 8;
-/// Targets are so much wider than the starts in them.
+/// Radius of a target over the extent of its starts.
 constexpr float kTargetSlack = 1.05f;
-/// [G7] Of the paths that are aimed at a ball, those at the balls around it instead.
+/// [G7] Share of a ball's paths that goes to the balls around it instead.
 constexpr double kShareAround = 0.125;
-/// What makes a ball worth having around the only one.
+/// A single ball gets a second one around it if that is wider by this factor.
 constexpr float kWider = 1.05f;
-/// Targets that density() looks at together.
+/// Targets that density() evaluates together.
 constexpr size_t kLanes = 8;
 using FloatLanes = float __attribute__((vector_size(kLanes * sizeof(float))));
 using IntLanes = int32_t __attribute__((vector_size(kLanes * sizeof(int32_t))));
 using DoubleLanes = double __attribute__((vector_size(kLanes * sizeof(double))));
 using LongLanes = int64_t __attribute__((vector_size(kLanes * sizeof(int64_t))));
-/// Over the scene's radius.
+/// Smallest radius of a target, over the scene's radius.
 constexpr float kSmallest = 1e-4f;
 
-/// The part of what a light emits that goes through a target is about the square of its radius over
-/// this length. Empty where a light has no place.
+/// The share of a light's emission that passes through a target is about the square of the target's
+/// radius over this length. Empty for a light without a place.
 std::optional<double> radius_of_all(const Scene& scene, const Light& light, const Vec3f& center) {
   if (light.is_infinite()) return double{scene.sphere.radius};
   const auto bounds = light.bounds();
@@ -75,7 +75,7 @@ EmissionGuide::EmissionGuide(const Scene& scene, std::span<const UsefulStart> us
                          tree.starts_of(crowd), paths);
   };
   std::vector<StartTree::Crowd> wider = tree.inner();
-  // Two balls that are as good as one would be two about whose edges rounding has a say.
+  // Near-identical balls are not kept: rounding would decide which of them a path hits.
   if (wider.empty() && target_of_box(tree.leaves()[0]).radius > kWider * targets_[0].radius)
     wider = tree.leaves();
   for (const StartTree::Crowd& crowd : wider) targets_.push_back(target_of_box(crowd));
@@ -99,20 +99,20 @@ EmissionGuide::EmissionGuide(const Scene& scene, std::span<const UsefulStart> us
 EmissionGuide::EmissionGuide(const Scene& scene, std::span<const Vec3f> casters) {
   if (casters.empty() || scene.lights.empty()) return;
   gather_lights(scene);
-  // Black lights shine nowhere.
+  // All lights are black.
   if (std::none_of(clusters_.begin(), clusters_.end(), [](const Cluster& c) { return c.pmf > 0; }))
     return;
   std::vector<UsefulStart> starts(casters.size());
   for (size_t i = 0; i < casters.size(); ++i) starts[i].first_hit = casters[i];
   const StartTree tree(starts, kMaxPlaces);
-  std::vector<double> seen;  // of each target, how many
+  std::vector<double> seen;  // number of casters, by target
   for (const StartTree::Crowd& leaf : tree.leaves()) {
     seen.push_back(leaf.weight);
     targets_.push_back({leaf.center(), std::max(kTargetSlack * leaf.half_diagonal(),
                                                 kSmallest * scene.sphere.radius)});
   }
   places_ = targets_.size();
-  // [G6] Targets as they are seen, lights as they shine there.
+  // [G6] Targets count by the casters seen there, lights by how much reaches them.
   std::vector<double> aims(clusters_.size() * targets_.size());
   for (size_t k = 0; k < targets_.size(); ++k) {
     double all = 0;
@@ -129,8 +129,8 @@ EmissionGuide::Target EmissionGuide::target_around(const Scene& scene, const Vec
                                                    std::span<const uint32_t> which,
                                                    double paths) const {
   const float count = static_cast<float>(which.size());
-  // [G5] Room for what the starts have not found, most where they are few: as much as the part of
-  // the light needs that they stand for.
+  // [G5] Room for points not found yet, most where starts are few: the ball then lets as much light
+  // through as the starts stand for.
   std::vector<double> found(clusters_.size(), 0);
   for (const uint32_t i : which) found[cluster_of(useful[i].light)] += double{useful[i].weight};
   double needed = 0;
@@ -163,8 +163,8 @@ std::vector<double> EmissionGuide::aims_at(const Scene& scene, std::span<const U
   std::vector<double> aims(clusters_.size() * targets, 0);
   for (size_t i = 0; i < useful.size(); ++i)
     aims[cluster_of(useful[i].light) * targets + target_of[i]] += double{useful[i].weight} / paths;
-  // [G3] The least variance has the density of a region in proportion to the root of the part of
-  // it that is of use.
+  // [G3] The variance is least if the density in a region is proportional to the square root of the
+  // region's useful part.
   for (size_t c = 0; c < clusters_.size(); ++c)
     for (size_t k = 0; k < targets; ++k) {
       double& aim = aims[c * targets + k];
@@ -209,7 +209,7 @@ void EmissionGuide::share_out(std::span<const double> aims) {
 
 bool EmissionGuide::Cluster::is_sound() const {
   const auto is_amount = [](double x) { return x >= 0 && std::isfinite(x); };
-  // choose() finds `pmf` among the sums.
+  // choose() searches the sums for `pmf`.
   return std::ranges::all_of(shares, is_amount) && std::ranges::all_of(cumulative, is_amount) &&
          std::ranges::is_sorted(cumulative) && !cumulative.empty() && cumulative.back() == pmf;
 }
@@ -227,7 +227,7 @@ bool EmissionGuide::has_sound_entries() const {
 
 bool EmissionGuide::is_sound() const {
   if (!std::isfinite(share_unaimed_) || places_ > targets_.size()) return false;
-  // One that guides nothing reads nothing else.
+  // The other members are not read then.
   if (empty()) return true;
   return targets_.size() <= kMaxTargets && lanes_ == lanes_of(targets_) &&
          std::ranges::all_of(
@@ -260,7 +260,7 @@ std::optional<EmissionGuide::Choice> EmissionGuide::choose(const Scene& scene, f
   const double below = entry == entries_.begin() ? 0 : std::prev(entry)->cumulative;
   const Cluster& cluster = clusters_[entry->cluster];
   const double x = (v - below) / (entry->cumulative - below) * cluster.pmf;
-  // Where rounding goes past the last one that shines, it is meant all the same.
+  // If rounding goes past the last light that is not black, that light is chosen.
   const auto light =
       std::min(std::upper_bound(cluster.cumulative.begin(), cluster.cumulative.end(), x),
                std::lower_bound(cluster.cumulative.begin(), cluster.cumulative.end(), cluster.pmf));
@@ -273,7 +273,7 @@ std::optional<Vec3f> EmissionGuide::direction_to(int target, const Vec3f& p, con
   const Vec3f way = t.center - p;
   const double d2 = length_squared(way), sine2 = double{sqr(t.radius)} / d2;
   if (!(sine2 < 1)) return std::nullopt;
-  // One minus the cosine, which is small for targets far away.
+  // One minus the cosine: the cosine itself would round to 1 for targets far away.
   const double most = sine2 / (1 + std::sqrt(1 - sine2));
   const double below = most * u.x;
   const double sine = std::sqrt(below * (2 - below));

@@ -1,8 +1,7 @@
-// Where light paths are worth starting: spheres in the scene at which they are aimed, and how often
-// from which lights, found by looking at which earlier paths were of use. A share of all paths
-// starts as the lights themselves would have it, so that nothing is ever missed
-// (docs/estimators.md, section 20). Immutable once made. It must not know routes, cameras or films.
-// Papers: Grittmann et al. 2018, Vorba et al. 2014 for the idea of guided emission.
+// Guided emission: targets (spheres) learned from useful light paths, and how often each light aims
+// at each. A fixed share of the paths is not guided, so that nothing is missed (docs/estimators.md,
+// section 20). Immutable once made. It must not know routes, cameras or films.
+// Papers: Vorba et al. 2014, Grittmann et al. 2018.
 #pragma once
 
 #include <optional>
@@ -17,16 +16,15 @@ namespace nephroid {
 
 class EmissionGuide {
  public:
-  /// Share of the paths that start as the lights would have it.
+  /// Share of the paths that are not guided.
   static constexpr double kDefensive = 0.125;
   static constexpr int kMaxPlaces = 32, kMaxTargets = 2 * kMaxPlaces, kMaxClusters = 256;
 
-  /// Guides nothing: all paths start as the lights would have it.
+  /// Guides nothing.
   EmissionGuide() = default;
-  /// Aims as much at each place among these points as the lights shine there; guides nothing if
-  /// there are none.
+  /// Targets around these points, [G6]. Guides nothing if there are none.
   EmissionGuide(const Scene& scene, std::span<const Vec3f> casters);
-  /// Learns from useful starts of `paths` paths; guides nothing if there are none.
+  /// Learns from the useful starts of `paths` paths. Guides nothing if there are none.
   EmissionGuide(const Scene& scene, std::span<const UsefulStart> useful, double paths);
 
   bool empty() const { return targets_.empty(); }
@@ -36,7 +34,7 @@ class EmissionGuide {
             self.cluster_size_, self.entries_);
   }
   bool is_sound() const;
-  /// Has a place for each light of a scene that has so many.
+  /// True if the guide was made for a scene with this many lights.
   bool fits(size_t lights) const;
 
   struct Target {
@@ -46,41 +44,39 @@ class EmissionGuide {
     bool is_sound() const { return is_sound_ball(center, radius); }
   };
   std::span<const Target> targets() const { return targets_; }
-  /// How many places it aims at. Their targets come first, then those around several or all.
+  /// Number of places. Their targets come first, then those that enclose several places.
   size_t places() const { return places_; }
-  /// The part of all paths that would have been of use had they started as the lights have it, as
-  /// far as those that were traced can tell.
+  /// Estimated share of useful paths without guiding.
   double share_unaimed() const { return share_unaimed_; }
 
   struct Choice {
     int light = 0;
-    int target = -1;  ///< -1: as the light would have it
+    int target = -1;  ///< -1: not guided
   };
-  /// A light and what to aim at, from a number in [0,1). Empty if all lights are black.
+  /// Chooses a light and a target by a number in [0,1). Empty if all lights are black.
   std::optional<Choice> choose(const Scene& scene, float u) const;
 
   /// The unit direction from `p` into a target's cone; empty if `p` is inside the target.
   std::optional<Vec3f> direction_to(int target, const Vec3f& p, const Vec2f& u) const;
-  /// A point of the disk across unit `w` that hides the target.
+  /// A point on the disk around the target, perpendicular to the unit vector `w`.
   Vec3f point_across(int target, const Vec3f& w, const Vec2f& u) const;
 
-  /// What takes the place of a light's own density of direction `w` at `p` (per steradian) or, for
-  /// a light whose paths start on the scene's disk, of the ray through `p` along `w` (per area):
-  /// times pmf_by_power() and the density of what is not guided it is the density of a start. What
-  /// was aimed at target `aimed_at` counts as inside of it, on whichever side of a small one's edge
-  /// rounding has put it: a path that nothing but chance seems to have sent there would weigh
-  /// millions of times too much.
+  /// The bracket of [G1]. It replaces `own`, the light's own density: of direction `w` at `p`, per
+  /// steradian, or of the ray through `p` along `w`, per area, if paths start on the scene's disk.
+  /// Times pmf_by_power() and the density of the unguided coordinate it is the density of a start.
+  /// A start guided to target `aimed_at` counts as inside of it, even if rounding puts it outside.
+  /// Otherwise its path would weigh millions of times too much.
   double density(const Scene& scene, int light, const Vec3f& p, const Vec3f& w, double own,
                  int aimed_at = -1) const;
-  /// Probability of a light over pmf_by_power().
+  /// Probability of a light with the guide, over pmf_by_power().
   double gain(int light) const;
 
  private:
   struct Cluster {
-    double pmf = 0;  ///< of its lights, by power
-    /// Probability of each target with the cluster over that of the cluster; as long as `lanes_`.
+    double pmf = 0;  ///< probability of its lights, by power
+    /// Probability of each target together with the cluster, over `pmf`; as long as `lanes_`.
     std::vector<double> shares;
-    std::vector<double> cumulative;  ///< of its lights, by power
+    std::vector<double> cumulative;  ///< running sums of the lights' probabilities, by power
     static void members(auto& self, auto& archive) {
       archive(self.pmf, self.shares, self.cumulative);
     }
@@ -88,21 +84,20 @@ class EmissionGuide {
   };
   size_t cluster_of(int light) const { return light / cluster_size_; }
   void gather_lights(const Scene& scene);
-  /// A ball around those first hits, which lie within `extent` of `center`, of starts of `paths`
-  /// paths.
+  /// [G5] A ball around the first hits of the starts `which`, found with `paths` paths. All of them
+  /// lie within `extent` of `center`.
   Target target_around(const Scene& scene, const Vec3f& center, float extent,
                        std::span<const UsefulStart> useful, std::span<const uint32_t> which,
                        double paths) const;
-  /// How often to aim from each cluster at each of the targets, up to a factor, as [cluster *
-  /// targets + target].
+  /// [G3] Unnormalized shares of the pairs of cluster and target, as [cluster * targets + target].
   std::vector<double> aims_at(const Scene& scene, std::span<const UsefulStart> useful,
                               std::span<const int> target_of, double paths) const;
-  /// The part of what all lights emit that goes from a cluster through a target, roughly.
+  /// Approximate part of all emitted light that goes from a cluster through a target, A_lk.
   double part_of_all(const Scene& scene, size_t cluster, const Target& target) const;
   void share_out(std::span<const double> aims);
   bool has_sound_entries() const;
 
-  /// The targets once more, as density() reads them: several at a time, the last ones empty.
+  /// The targets in the layout of density(), padded with empty ones to whole lanes.
   struct Lanes {
     std::vector<float> x, y, z, radius2;
     static void members(auto& self, auto& archive) {

@@ -1,4 +1,4 @@
-// A tree of k-nearest queries whose nodes are the middles of ranges, and lobes by [T1].
+// An implicit k-d tree whose nodes are the middles of ranges, and the lobes of [T1].
 #include "photon/forecast_map.h"
 
 #include <algorithm>
@@ -9,11 +9,11 @@ namespace nephroid {
 
 namespace {
 
-// No lobe is narrower: the caster is rarely known better, and single precision still is exact.
+// Narrowest lobe: the caster is rarely known better, and single precision is still exact.
 constexpr float kNarrowest = 0.01f;
-// A lobe that is wider says little, and takes half of the samples for it.
+// Widest lobe: a wider one would say little and still take half of the samples.
 constexpr float kWidest = 0.5f;
-// Lobes overlap: each may be narrower than the reach of the records that are asked.
+// Lobes overlap, so each may be narrower than the distance to the furthest record suggests.
 constexpr float kWidthOfReach = 0.5f;
 
 /// Distance from the i-th of the axes to the second nearest other one; 0 if there are none.
@@ -40,7 +40,7 @@ Vec3f ForecastLobes::sample(float& uc, const Vec2f& u) const {
   const int i = std::min(static_cast<int>(scaled), count_ - 1);
   uc = scaled - static_cast<float>(i);
   const Lobe& lobe = lobes_[i];
-  // 1 - cos(theta), kept apart from 1, which it may be close to.
+  // 1 - cos(theta), since cos(theta) may round to 1.
   const float k = lobe.concentration;
   const float t = std::clamp(-std::log1p(u.x * std::expm1(-2.0f * k)) / k, 0.0f, 2.0f);
   const float sine = safe_sqrt(t * (2.0f - t)), phi = 2.0f * kPi * u.y;

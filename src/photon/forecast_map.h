@@ -1,6 +1,6 @@
-// Where caustics come from: places to which light came through specular surfaces, each with the
-// point of the caster that it came from; and, around any point, a density of directions towards
-// such points ([T1] and [T2] in docs/estimators.md). It must not know routes, lights or BSDFs.
+// Caustic records: points that light reached through a caster, each with its point on the caster.
+// From them, a density of directions towards casters at any point ([T1], [T2] in
+// docs/estimators.md). It must not know routes, lights or BSDFs.
 // Paper: Budge, Anderson & Joy 2008.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace nephroid {
 
-/// A place where light of a caustic landed, and where on the caster it came from.
+/// A point on which a caustic fell, and the point on the caster from which it came.
 struct CausticRecord {
   Vec3f p, caster;
   static void members(auto& self, auto& archive) { archive(self.p, self.caster); }
@@ -27,11 +27,11 @@ class ForecastLobes {
   int count() const { return count_; }
   /// Adds a lobe around the unit vector `axis` of about `width` radians. At most kMaxLobes.
   void add(const Vec3f& axis, float width);
-  /// Of the directions that should follow it.
+  /// Share of the directions that should be sampled from the lobes.
   float share() const { return empty() ? 0.0f : 0.5f; }
-  /// A direction of a lobe that `uc` chooses, from numbers in [0,1); `uc` becomes another.
+  /// Samples a direction from numbers in [0,1). `uc` chooses the lobe and is rescaled to [0,1).
   Vec3f sample(float& uc, const Vec2f& u) const;
-  /// Density of directions whose lobe was chosen evenly, per steradian.
+  /// Density of sample(), per steradian.
   float pdf_w(const Vec3f& w) const;
 
  private:
@@ -43,7 +43,7 @@ class ForecastLobes {
   int count_ = 0;
 };
 
-/// A balanced tree of records.
+/// A balanced k-d tree of records.
 class ForecastMap {
  public:
   ForecastMap() = default;
@@ -51,10 +51,10 @@ class ForecastMap {
 
   size_t size() const { return records_.size(); }
   size_t bytes() const { return size() * (sizeof(records_[0]) + sizeof(axes_[0])); }
-  /// False if there are too few records to have K nearest ones: it then has no lobes anywhere.
+  /// False if there are fewer records than K of [T2]: the map then has no lobes.
   bool foretells() const { return size() >= ForecastLobes::kMaxLobes; }
-  /// [T2]: a lobe towards the caster of each of the records nearest to `p`, unless it would be
-  /// wide; none if it does not foretell.
+  /// [T2]: a lobe towards the caster of each of the records nearest to `p`, except the wide ones.
+  /// Empty if foretells() is false.
   ForecastLobes lobes_at(const Vec3f& p) const;
   static void members(auto& self, auto& archive) { archive(self.records_, self.axes_); }
   bool is_sound() const;
@@ -64,8 +64,8 @@ class ForecastMap {
   void build(size_t begin, size_t end);
   void search(size_t begin, size_t end, Nearest& nearest) const;
 
-  std::vector<CausticRecord> records_;  ///< the middle of each range divides it
-  std::vector<uint8_t> axes_;           ///< along which
+  std::vector<CausticRecord> records_;  ///< ranges, each split at its middle record
+  std::vector<uint8_t> axes_;           ///< split axis of each record's range
 };
 
 }  // namespace nephroid

@@ -1,6 +1,5 @@
-// What all paths from the lights have in common: their random numbers, how one sets out and is
-// walked, the photon that it leaves at a vertex, and a visitor that knows what its routes can use
-// and passes by all else. It must not know films or what cameras see.
+// Common parts of all light paths: random numbers, emission and walk, the photon stored at a
+// vertex, and a visitor that follows the routes of a group. It must not know films or cameras.
 #pragma once
 
 #include "photon/emission.h"
@@ -10,23 +9,22 @@
 
 namespace nephroid {
 
-/// Stratified dimensions of a light path that has a point of its own: points are made for each, so
-/// later vertices are random.
+/// Stratified dimensions of a light path that has its own Sobol' point; later ones are random.
 inline constexpr int kLightPathPointDimensions = 48;
 
-/// Random numbers of the start of a path with a moment of its own, from dimension 0 on: emit()'s,
-/// wavelengths 1 and time 1.
+/// Random numbers of the start of a path with its own wavelengths and time, from dimension 0 on:
+/// emit()'s, wavelengths 1 and time 1.
 inline constexpr int kLightPathStartDimensions = kEmissionDimensions + 2;
 
-/// The light paths of all passes as one sequence of numbers. The seed of their random numbers
-/// changes when the 32 bits of a Sobol' index are used up.
+/// Numbers the light paths of all passes in one sequence. The seed changes when the 32 bits of a
+/// Sobol' index are used up.
 struct LightPathSequence {
   uint64_t seed = 0;
-  int dimensions = kLightPathPointDimensions;  ///< stratified ones
-  /// Sequences of one seed that differ in this are independent.
+  int dimensions = kLightPathPointDimensions;  ///< number of stratified dimensions
+  /// Sequences of one seed with different variants are independent.
   std::optional<uint64_t> variant{};
 
-  /// Calls f(sampler) with the random numbers of a path.
+  /// Calls f(sampler) with the random numbers of path `number`.
   template <class F>
   void at(uint64_t number, F&& f) const {
     const SobolPoint point(static_cast<uint32_t>(number), dimensions);
@@ -37,7 +35,7 @@ struct LightPathSequence {
   }
 };
 
-/// What the light paths of a pass share.
+/// Settings that the light paths of a pass share.
 struct LightPathLaunch {
   const Scene& scene;
   const EmissionGuide& guide = kUnguided;
@@ -45,21 +43,21 @@ struct LightPathLaunch {
   int max_events = 0;
 };
 
-/// The wavelengths and the moment of a light path.
+/// The wavelengths and the time of a light path.
 struct LightPathMoment {
   SampledWavelengths lambda;
-  float u_time = 0;  ///< as cameras take it
+  float u_time = 0;  ///< in [0,1), as cameras take it
 };
 
-/// The wavelengths of a pass for light path `number`, with a hero that has nothing to do with those
-/// of other paths nor with where it starts.
+/// [P6] The wavelengths of a pass, with the hero of light path `number`: a hash, independent of the
+/// other paths and of where the path starts.
 inline SampledWavelengths with_own_hero(const SampledWavelengths& lambda, uint64_t seed,
                                         uint64_t number) {
   constexpr uint64_t kStream = 0x6865726f6c;  // "herol"
   return lambda.with_hero(static_cast<int>(hash_combine(seed, kStream, number) % kSpectrumSamples));
 }
 
-/// Draws them for a path that shares neither with any other.
+/// Samples wavelengths and time for a path that shares neither with other paths.
 inline LightPathMoment sample_moment(const Scene& scene, PathSampler& sampler) {
   sampler.start_dimension(kEmissionDimensions);
   LightPathMoment moment;
@@ -69,11 +67,11 @@ inline LightPathMoment sample_moment(const Scene& scene, PathSampler& sampler) {
   return moment;
 }
 
-/// Emits a light path and walks it, its wavelengths right each by itself. Numbers of the emission
-/// begin at the sampler's dimension, those of vertices at `first_vertex_dimension`.
-/// make_visitor(emission) makes what looks at it; if that has `start(walk, emission, sampler)`, it
-/// is called before the walk. finish(visitor, walk) is called behind it; not if no light is
-/// emitted.
+/// Emits a light path and walks it; its estimate is right for each wavelength by itself. Emission
+/// takes random numbers from the sampler's dimension on, vertices from `first_vertex_dimension` on.
+/// make_visitor(emission) makes the visitor of the walk. The visitor's `start(walk, emission,
+/// sampler)`, if it has one, is called before the walk, finish(visitor, walk) after it. Neither is
+/// called if no light is emitted.
 template <class MakeVisitor, class Finish>
 void launch_light_path(const LightPathLaunch& launch, const SampledWavelengths& lambda, float time,
                        PathSampler& sampler, int first_vertex_dimension, MakeVisitor&& make_visitor,
@@ -95,8 +93,8 @@ void launch_light_path(const LightPathLaunch& launch, const SampledWavelengths& 
   finish(visitor, walk);
 }
 
-/// Carries the state of the light side of a group's paths along. A class that is made of it adds
-/// `vertex`, and hides what it does otherwise.
+/// Tracks the light-side state of a group's paths. A derived class adds `vertex` and hides whatever
+/// it does differently.
 class LightWalkVisitor {
  public:
   LightWalkVisitor(const OwnedRoutes& owned, const Emission& emission)
@@ -111,7 +109,7 @@ class LightWalkVisitor {
   void medium_emission(const Medium&, const SampledSpectrum&) {}
   void medium_vertex(const Walk&, const MediumVertex&, PathSampler&) {}
 
-  /// Classes of events from which a word of the group can go on to the eye.
+  /// Event classes after which a path of the group can still reach the eye.
   ClassMask useful(const WalkVertex& v) const {
     return routes_.useful_from_light(group_, state_, label_at(symbols_, v));
   }
@@ -127,7 +125,7 @@ class LightWalkVisitor {
   }
 
  protected:
-  /// The photon that the path leaves at a vertex, of a path that was emitted with `flux`.
+  /// The photon that a path emitted with `flux` stores at a vertex.
   Photon photon_at(const Walk& walk, const WalkVertex& v, const SampledSpectrum& flux) const {
     Photon photon;
     photon.p = v.surface.p;
@@ -140,8 +138,8 @@ class LightWalkVisitor {
     photon.events = static_cast<uint16_t>(walk.events);
     return photon;
   }
-  /// True if an eye path may meet here a class among `classes_of(label)`. Where a mix chooses among
-  /// materials, whoever looks here may see another one.
+  /// True if an eye path may have an event of a class in `classes_of(label)` here. At a mix of
+  /// materials the eye path may choose another one, so all labels count.
   template <class ClassesOf>
   bool may_be_met(const WalkVertex& v, ClassesOf&& classes_of) const {
     ClassMask any = ClassMask::kNone;

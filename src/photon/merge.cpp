@@ -4,14 +4,14 @@ namespace nephroid {
 
 namespace {
 
-/// The photons at a point where the routes of the group merge.
+/// The merger of a point at which the routes of the group merge.
 PhotonMerger merger_at(const OwnedRoutes& owned, const MergePoint& at, int max_depth) {
   return PhotonMerger(owned, at, max_depth,
                       [&](EventSymbol event) { return owned.routes->merge(at.eye, event); });
 }
 
 /// Adds throughput * f * flux * weight to the parts of the photon's paths, and that times `bias` to
-/// their bias. True if it counts.
+/// their bias. True if the photon counts.
 bool add(const PhotonMerger& merger, const MergePoint& at, const Photon& photon, float weight,
          float bias, PartSums& sums) {
   if (are_apart(at.left, photon.left)) return false;
@@ -29,9 +29,9 @@ bool add(const PhotonMerger& merger, const MergePoint& at, const Photon& photon,
 std::optional<PhotonArrival> arrival_at(const WalkVertex& vertex, const Photon& photon) {
   const Vec3f ng = photon.ng.unpacked();
   if (abs_dot(ng, vertex.surface.ng) < kMergeMinNormalCosine) return std::nullopt;
-  // The side on which the photon arrived on its own surface, the normals brought to agree, tells
-  // reflection from transmission: on a curved surface its direction alone may lie below the visible
-  // point's tangent plane.
+  // The side of its own surface on which the photon arrived tells reflection from transmission,
+  // with both normals oriented alike. Its direction alone may lie below the visible point's tangent
+  // plane if the surface is curved.
   const float agree = dot(ng, vertex.surface.ng) < 0.0f ? -1.0f : 1.0f;
   const Vec3f wi = photon.wi.unpacked();
   const float arrives = dot(wi, ng) * agree;
@@ -65,7 +65,7 @@ NearestMerge merge_nearest(const PhotonGrid& grid, const OwnedRoutes& owned, con
   NearestMerge result{static_cast<uint32_t>(scratch.size()), nearest.max_radius};
   if (scratch.size() == nearest.wanted) result.radius = std::sqrt(scratch.back().distance_squared);
   if (!(result.radius > 0.0f)) return result;
-  // [N1] the cone, whose integral over the disk is 1.
+  // [N1] A cone kernel whose integral over the disk is 1.
   const float top = 3.0f / (kPi * sqr(result.radius));
   for (const PhotonGrid::Neighbour& neighbour : scratch) {
     const Photon& photon = grid.photons()[neighbour.index];

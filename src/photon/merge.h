@@ -1,6 +1,6 @@
-// Density estimation at one visible point: what the photons around it reflect towards the eye
-// (docs/estimators.md, [M1] and [M2]; by the nearest photons [N1]). It must not know films, passes
-// or how other techniques are weighed against it.
+// Density estimation at a visible point: light that nearby photons reflect towards the eye
+// (docs/estimators.md, [M1] and [M2]; nearest photons: [N1]). It must not know films, passes or the
+// MIS weights of other techniques.
 #pragma once
 
 #include <array>
@@ -12,12 +12,11 @@
 
 namespace nephroid {
 
-/// Photons whose surface is tilted against the visible point's by more than this do not count: they
-/// lie on another wall.
+/// Least |cosine| between the normals of photon and visible point: below it the photon lies on
+/// another wall and does not count.
 inline constexpr float kMergeMinNormalCosine = 0.7f;
 
-/// [E4] What a merge within `radius` adds to the estimate of its bias, over what it adds to the
-/// light.
+/// [E4] A photon's term in the bias estimate, over its term in the light.
 inline float bias_factor(float distance_squared, float radius) {
   return 2 * distance_squared < radius * radius ? -2.0f : 2.0f;
 }
@@ -25,36 +24,34 @@ inline float bias_factor(float distance_squared, float radius) {
 /// A point at which a camera walk gathers.
 struct MergePoint {
   const WalkVertex& vertex;
-  EyeState eye = 0;                      ///< of the eye side, this vertex excluded
-  ClassMask classes = ClassMask::kNone;  ///< that have finite lobes here and may merge
-  int events = 0;                        ///< of the eye side, this vertex included
-  SampledSpectrum throughput;            ///< of the walk up to here
-  int left = kAllWavelengths;            ///< or the hero's number, if the walk kept no other
+  EyeState eye = 0;                      ///< state of the eye side, this vertex excluded
+  ClassMask classes = ClassMask::kNone;  ///< classes with finite lobes here that may merge
+  int events = 0;                        ///< events of the eye side, this vertex included
+  SampledSpectrum throughput;            ///< throughput of the walk up to here
+  int left = kAllWavelengths;  ///< index of the hero, if the walk kept no other wavelength
 };
 
-/// How a photon arrives at a visible point.
+/// The direction from which a photon arrives at a visible point.
 struct PhotonArrival {
-  Vec3f wi;  ///< local, on the side on which the photon arrived on its own surface
+  Vec3f wi;  ///< local, on the side of the surface on which the photon arrived
   float cos_geometric = 0;
 };
 /// Empty if the photon lies on another wall.
 std::optional<PhotonArrival> arrival_at(const WalkVertex& vertex, const Photon& photon);
 
-/// An event of the eye path by which a photon makes a path of the group.
+/// An event of the eye path that joins a photon to a path of the group.
 struct MergeEvent {
   Part part = kNoPart;
   EventClass letter = EventClass::kDiffuse;
   Vec3f wi;          ///< local
   BsdfEval bsdf;     ///< never black
-  float cosine = 0;  ///< the visible point's over the photon's own: a photon lies on its surface
-                     ///< with the density of its own cosine, shading normals weigh it as path
-                     ///< tracing would
+  float cosine = 0;  ///< |w_i·n_s| / |w_i·n_p| of [M1]
 };
 
-/// The photons at one visible point, one after another.
+/// Joins the photons around one visible point to it, one by one.
 class PhotonMerger {
  public:
-  /// `next(event symbol)`: the eye state behind an event here.
+  /// `next(event symbol)` is the eye state after an event here.
   template <class Next>
   PhotonMerger(const OwnedRoutes& owned, const MergePoint& at, int max_depth, Next&& next)
       : routes_(*owned.routes), group_(owned.group), at_(at), max_depth_(max_depth) {
@@ -64,8 +61,8 @@ class PhotonMerger {
         states_[static_cast<size_t>(c)][transmitted] = next(event_symbol(c, transmitted, label));
   }
 
-  /// Calls reflects(MergeEvent) for each class in which the photon makes a path of the group that
-  /// is not too long. Returns true if there was one.
+  /// Calls reflects(MergeEvent) for each class whose event makes a path of the group that is not
+  /// too long. Returns true if there was one.
   template <class Reflects>
   bool each_event(const Photon& photon, Reflects&& reflects) const {
     const WalkVertex& vertex = at_.vertex;
@@ -93,33 +90,32 @@ class PhotonMerger {
   const size_t group_;
   const MergePoint& at_;
   const int max_depth_;
-  /// Eye states behind this vertex, by class and side.
+  /// Eye states after this vertex, by class and side.
   std::array<std::array<EyeState, 2>, std::size(kSurfaceClasses)> states_{};
 };
 
-/// Adds throughput * sum of f * flux to the parts that own the photons' paths, to be divided by
-/// (N pi r^2); returns how many photons counted. What belongs to other routes or makes the path
-/// longer than `max_depth` events is passed over. A path that kept only one wavelength, on
-/// either side, adds to that one alone, times the number of wavelengths; two sides that kept
-/// different ones make no path. The sums' bias [E4] is
-/// divided like the light.
+/// [M1] Adds throughput * sum of f * flux to the parts that own the photons' paths, to be divided
+/// by (N pi r^2). The sums' bias [E4] is divided likewise. Returns the number of photons that
+/// counted. Paths of other routes and paths longer than `max_depth` events are left out.
+/// [M2] A path that kept one wavelength on either side adds to that one alone, times the number of
+/// wavelengths. Two sides that kept different ones make no path.
 uint32_t merge_photons(const PhotonGrid& grid, const OwnedRoutes& owned, const MergePoint& at,
                        int max_depth, float radius, PartSums& sums);
 
-/// How the nearest photons of a map are read.
+/// A query for the nearest photons of a map.
 struct NearestPhotons {
-  size_t wanted = 0;     ///< photons, at least 2
+  size_t wanted = 0;     ///< number of photons, at least 2
   float max_radius = 0;  ///< world units
-  int set = 0;           ///< of the wavelengths of the eye's walk: others only choose the radius
+  int set = 0;           ///< set of the eye walk's wavelengths; others only choose the radius
 };
-/// What was read.
+/// The result of a NearestPhotons query.
 struct NearestMerge {
   uint32_t found = 0;  ///< photons that counted, of all sets
-  float radius = 0;    ///< of the estimate, world units
+  float radius = 0;    ///< radius of the estimate, world units
 };
 
-/// Adds the estimate [N1] of what the photons of the set reflect to the parts that own their paths,
-/// to be divided by the number of paths of the set. `scratch` is overwritten.
+/// Adds the estimate [N1] from the photons of the set to the parts that own their paths, to be
+/// divided by the set's number of paths. `scratch` is overwritten.
 NearestMerge merge_nearest(const PhotonGrid& grid, const OwnedRoutes& owned, const MergePoint& at,
                            int max_depth, const NearestPhotons& nearest,
                            std::vector<PhotonGrid::Neighbour>& scratch, PartSums& sums);

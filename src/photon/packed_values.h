@@ -1,5 +1,5 @@
-// Spectra and directions as photons keep them: in half of the memory or less, so that more photons
-// fit and fewer bytes are moved where they are merged. It must not know photons.
+// Packed spectra and directions: half of the memory or less, so that more photons fit and merging
+// moves fewer bytes. It must not know photons.
 #pragma once
 
 #include <array>
@@ -11,8 +11,8 @@
 
 namespace nephroid {
 
-/// A spectrum of one scale and 16 bits for each wavelength: off by at most 1/131070 of the largest
-/// value, on average by nothing. For values that are not negative; what is not finite stays so.
+/// A spectrum as one scale and 16 bits per wavelength. The error is unbiased and at most 1/131070
+/// of the largest value. Values must not be negative; a spectrum that is not finite stays so.
 class PackedSpectrum {
  public:
   PackedSpectrum() = default;
@@ -47,8 +47,8 @@ class PackedSpectrum {
   float scale_ = 0;
 };
 
-/// A unit vector in two numbers of 16 bits, the octahedral map of Meyer et al. 2010 (oct32 of
-/// Cigolle et al. 2014): off by less than 7e-5 radians.
+/// A unit vector in two 16-bit numbers, the octahedral map of Meyer et al. 2010 (oct32 of Cigolle
+/// et al. 2014). The error is less than 7e-5 radians.
 class PackedDirection {
  public:
   PackedDirection() = default;

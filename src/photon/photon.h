@@ -1,4 +1,4 @@
-// What is stored where a photon lands.
+// The record stored where a photon lands.
 #pragma once
 
 #include "photon/packed_values.h"
@@ -9,18 +9,18 @@
 namespace nephroid {
 
 struct Photon {
-  PackedSpectrum flux;  ///< at the pass's wavelengths; where one is left the others mean nothing
+  PackedSpectrum flux;  ///< at the pass's wavelengths; only [left] is valid if one is left
   Vec3f p{0, 0, 0};
-  PackedDirection wi;             ///< back along the photon's path
+  PackedDirection wi;             ///< direction back along the photon's path
   PackedDirection ng;             ///< geometric normal of the surface
-  LightState state = 0;           ///< of the light side, this vertex excluded
-  int8_t left = kAllWavelengths;  ///< or the number of the only wavelength that was not dropped
-  uint8_t set = 0;                ///< of a map whose photons do not share one set of wavelengths
+  LightState state = 0;           ///< state of the light side, this vertex excluded
+  int8_t left = kAllWavelengths;  ///< index of the only wavelength left, if others were dropped
+  uint8_t set = 0;                ///< set of wavelengths, in a map with several sets
   uint16_t events = 0;            ///< scattering events before this vertex
-  Lamp lamp = 0;                  ///< that it comes from; not kept in files
-  Caster caster = Caster::kNone;  ///< the smoothest one it passed (CasterRule); not kept in files
-  /// PartialMisWeights, where other techniques find the path, too. They are squares of areas:
-  /// their roots stay in the range of a float in any unit of length.
+  Lamp lamp = 0;                  ///< lamp that emitted it; not kept in files
+  Caster caster = Caster::kNone;  ///< smoothest caster it passed (CasterRule); not kept in files
+  /// PartialMisWeights, if other techniques find the path, too. These are squares of areas; their
+  /// roots stay in the range of a float in any unit of length.
   float root_of_cut_here = 0, root_of_cuts_before = 0;
 
   static void members(auto& self, auto& archive) {

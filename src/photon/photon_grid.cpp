@@ -21,11 +21,11 @@ uint64_t spread_bits(uint64_t v) {
   return (v | (v << 2)) & 0x1249249249249249ull;
 }
 
-/// How many cells of 2^shift quanta have a photon, for each shift; `codes` are sorted.
+/// Number of cells of 2^shift quanta with a photon, for each shift; `codes` are sorted.
 std::array<size_t, PhotonGrid::kCoordinateBits + 1> count_cells(
     const std::vector<uint64_t>& codes) {
   std::array<size_t, PhotonGrid::kCoordinateBits + 1> cells{};
-  // First, of each shift, the neighbours that part company at the next finer one.
+  // First count, for each shift, the neighbours that the next finer one separates.
   for (size_t i = 1; i < codes.size(); ++i)
     ++cells[(std::bit_width(codes[i] ^ codes[i - 1]) + 2) / 3];
   size_t boundaries = 0;
@@ -34,7 +34,7 @@ std::array<size_t, PhotonGrid::kCoordinateBits + 1> count_cells(
   return cells;
 }
 
-/// Photons in the cell of 2^shift quanta of a photon, in the mean; `codes` are sorted.
+/// Mean number of photons in the cell of 2^shift quanta around a photon; `codes` are sorted.
 size_t mean_neighbours(int shift, const std::vector<uint64_t>& codes) {
   size_t pairs = 0;
   for (size_t begin = 0, end = 0; begin < codes.size(); begin = end) {
@@ -44,9 +44,8 @@ size_t mean_neighbours(int shift, const std::vector<uint64_t>& codes) {
   return pairs / codes.size();
 }
 
-/// Puts photon order[i] in place i, without memory for another set of them. Spoils `order`. A
-/// second index runs ahead along the cycle and fetches what is moved next: the places are far from
-/// each other.
+/// Moves photon order[i] to place i, in place. Overwrites `order`. The places are far apart, so a
+/// second index runs ahead along the cycle and prefetches the photons to be moved next.
 void take_in_order(std::vector<Photon>& photons, std::vector<uint32_t>& order) {
   constexpr int kAhead = 12;
   for (uint32_t first = 0; first < order.size(); ++first) {
@@ -99,19 +98,18 @@ PhotonGrid::PhotonGrid(std::vector<Photon> photons) : photons_(std::move(photons
   const float extent = max_component(max_ - min_);
   const float magnitude = std::max(max_component(abs(min_)), max_component(abs(max_)));
   slack_ = magnitude * 2 * kMachineEpsilon;
-  // Photons that all lie in one point still need a cell of some size.
+  // If all photons lie at one point, a cell still needs a size.
   quantum_ = std::max({extent, magnitude * 1e-6f, std::numeric_limits<float>::min() * 1e8f}) /
              static_cast<float>(kMaxCoordinate);
   quanta_ = 1.0f / quantum_;
   const std::vector<uint64_t> codes = sort();
 
-  // The smallest cells that are worth having hold a few photons each; every doubling up to one cell
-  // for all follows.
+  // The finest cells hold a few photons each. Each level doubles the size, up to a single cell.
   const auto counts = count_cells(codes);
   int finest = 0;
   while (finest < kCoordinateBits && counts[finest] * 2 > codes.size()) ++finest;
-  // Photons in clusters have many more neighbours than that. Where there are so few of them that
-  // memory does not matter, their cells are smaller.
+  // Clustered photons have many more neighbours than that. If there are so few photons that memory
+  // does not matter, their cells are smaller.
   constexpr size_t kFew = 1 << 17, kMaxNeighbours = 6;
   if (codes.size() <= kFew)
     while (finest > 0 && mean_neighbours(finest, codes) > kMaxNeighbours) --finest;
@@ -201,9 +199,8 @@ void PhotonGrid::add_level(int shift, const std::vector<Cell>& cells) {
   levels_.push_back(std::move(level));
 }
 
-// A query reaches into two cells in each direction at most. The level is first guessed by size,
-// then the cells themselves say whether that holds, whatever was rounded. The last one has a single
-// cell.
+// The level is first guessed by size, then the cells themselves are checked, which rounding cannot
+// mislead. The last level has a single cell.
 const PhotonGrid::Level& PhotonGrid::level_for(float reach, const uint32_t (&lo)[3],
                                                const uint32_t (&hi)[3]) const {
   size_t i = 0;
@@ -228,9 +225,9 @@ void PhotonGrid::find_runs(const Vec3f& center, float radius, Runs& runs) const 
   }
   const Level& level = level_for(reach, lo, hi);
   struct Axis {
-    uint64_t code[2];  ///< of the lower and the upper cell
-    float d2[2];       ///< square of the least distance to them along this axis
-    int count;         ///< 1 if they are the same
+    uint64_t code[2];  ///< codes of the lower and the upper cell
+    float d2[2];       ///< squared least distances to them along this axis
+    int count;         ///< 1 if they are the same cell
   } axes[3];
   for (int i = 0; i < 3; ++i) {
     const uint32_t first = lo[i] >> level.shift, second = hi[i] >> level.shift;

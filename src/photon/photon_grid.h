@@ -1,7 +1,7 @@
-// Finds the photons around a point, all within a radius or the nearest ones. Photons are kept in
-// Morton order; cells of doubling size are runs of that order and found through one hash table a
-// level, so that radii over decades stay cheap. Full cell codes are compared, so that two cells
-// which share a bucket are never mistaken for each other. It must not know BSDFs or films.
+// Finds the photons around a point: all within a radius, or the nearest ones. Photons are in Morton
+// order. Each level has cells of twice the size, which are runs of that order, and a hash table
+// with full cell codes; so queries of any radius are cheap and buckets never mix cells. It must not
+// know BSDFs or films.
 #pragma once
 
 #include <algorithm>
@@ -21,8 +21,7 @@ class PhotonGrid {
 
   size_t size() const { return photons_.size(); }
   const std::vector<Photon>& photons() const { return photons_; }
-  /// Memory of the photons and of what finds them, the most that was held, while it was made or
-  /// since.
+  /// Peak memory of the photons and the grid, construction included.
   size_t bytes() const { return bytes_; }
 
   /// Calls found(photon, distance_squared) for every photon with |photon.p - center| <= radius, in
@@ -33,7 +32,7 @@ class PhotonGrid {
     const float r2 = radius * radius;
     Runs runs;
     find_runs(center, radius, runs);
-    // Those that are near are collected without a branch for each, then used.
+    // Near photons are first collected without branches, then passed on.
     uint32_t near[kCollected];
     float distances[kCollected];
     for (int k = 0; k < runs.count; ++k) {
@@ -52,23 +51,23 @@ class PhotonGrid {
     }
   }
 
-  /// A photon that nearest() found.
+  /// A photon found by nearest().
   struct Neighbour {
     float distance_squared = 0;
     uint32_t index = 0;  ///< into photons()
     friend auto operator<=>(const Neighbour&, const Neighbour&) = default;
   };
 
-  /// Puts into `found` the `wanted` nearest photons for which counts(photon), or all of them that
-  /// lie within max_radius if they are fewer, nearest first; of equally near ones the first of
-  /// photons() is the nearest. counts() may be asked for a photon more than once.
+  /// Puts into `found` the `wanted` nearest photons within max_radius for which counts(photon) is
+  /// true, or all of them if they are fewer. They are sorted by distance, then by their place in
+  /// photons(). counts() may be called more than once for a photon.
   template <class F>
   void nearest(const Vec3f& center, float max_radius, size_t wanted, F&& counts,
                std::vector<Neighbour>& found) const {
     found.clear();
     if (photons_.empty() || wanted == 0 || !(max_radius > 0.0f)) return;
-    // The smallest cells hold a few photons each: the first disk is one of them. On a surface the
-    // next one, of the area that the photons so far suggest, holds a few more than are wanted.
+    // The first disk is about as large as a finest cell, which holds a few photons. The next one's
+    // area follows from the photons found so far; on a surface it holds a few more than are wanted.
     float radius = max_radius;
     if (wanted < photons_.size())
       radius = std::min(0.5f * std::ldexp(quantum_, levels_.front().shift), max_radius);
@@ -102,7 +101,7 @@ class PhotonGrid {
     uint64_t code = 0;
     uint32_t begin = 0, end = 0;  ///< empty if equal
   };
-  /// Photons of the cells that a query reaches into: two in each direction at most.
+  /// Photon ranges of the cells that a query reaches into: at most two along each axis.
   struct Runs {
     int count = 0;
     uint32_t begin[8], end[8];
@@ -118,23 +117,23 @@ class PhotonGrid {
 
   uint32_t quantize(float x, int axis) const;
   void find_runs(const Vec3f& center, float radius, Runs& runs) const;
-  /// Sorts the photons and returns their codes.
+  /// Sorts the photons and returns their Morton codes.
   std::vector<uint64_t> sort();
-  /// The cells of 2^shift quanta in the order of their codes; there are `count`.
+  /// The `count` cells of 2^shift quanta, in the order of their codes.
   static std::vector<Cell> finest_cells(int shift, const std::vector<uint64_t>& codes,
                                         size_t count);
-  /// Makes of them the cells of twice the size.
+  /// Joins cells into cells of twice the size.
   static void join_cells(std::vector<Cell>& cells);
   void add_level(int shift, const std::vector<Cell>& cells);
-  /// For a query between these quanta.
+  /// The level on which a query between these quanta covers at most two cells along each axis.
   const Level& level_for(float reach, const uint32_t (&lo)[3], const uint32_t (&hi)[3]) const;
 
   std::vector<Photon> photons_;
   std::vector<Vec3f> positions_;
   Vec3f min_, max_;
   float quantum_ = 1;  ///< size of the smallest cell
-  float quanta_ = 1;   ///< a unit of length in quanta
-  float slack_ = 0;    ///< rounding of positions, far from the origin
+  float quanta_ = 1;   ///< 1 / quantum_
+  float slack_ = 0;    ///< rounding error of positions far from the origin
   std::vector<Level> levels_;
   size_t bytes_ = 0;
 };

@@ -1,5 +1,4 @@
-// What was learned about the paths of photons: where they should start and where they should go
-// from rough surfaces.
+// The learned guides of photon paths: for emission, and for directions from rough surfaces.
 #pragma once
 
 #include "photon/caster_guide.h"

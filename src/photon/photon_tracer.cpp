@@ -42,7 +42,7 @@ class PhotonVisitor : public LightWalkVisitor {
     ++stored_;
   }
 
-  /// A direction that is chosen more often carries less for it; roulette must not undo that.
+  /// A guided direction carries less because it is chosen more often; roulette must not undo that.
   std::optional<BsdfSample> sample_direction(Walk& walk, const WalkVertex& v, float uc,
                                              const Vec2f& u, ClassMask among) const {
     CasterCones cones;
@@ -71,9 +71,9 @@ class PhotonVisitor : public LightWalkVisitor {
 
   bool useful() const { return stored_ > 0; }
   bool specular() const { return specular_; }
-  /// Of a useful path.
+  /// The path's start; valid for a useful path.
   const UsefulStart& start() const { return start_; }
-  /// Where the path met an S that it needed behind a rough vertex, and what it left from then on.
+  /// Where the path met an S that it needed behind a rough vertex, and its first photon after that.
   struct Caster {
     Vec3f p;
     size_t first_photon = 0;
@@ -85,7 +85,7 @@ class PhotonVisitor : public LightWalkVisitor {
     start_.first_hit = p;
     is_met_ = true;
   }
-  /// True if light that leaves `v` by a D or G is of use only where it meets an S.
+  /// True if light that leaves `v` by a D or G is useful only if it meets an S.
   bool leaves_for_specular(const WalkVertex& v) const {
     for (const EventClass c : {EventClass::kDiffuse, EventClass::kGlossy})
       for (const bool transmitted : {false, true})
@@ -105,7 +105,7 @@ class PhotonVisitor : public LightWalkVisitor {
   std::optional<Caster> caster_;
 };
 
-/// What became of one light path.
+/// The outcome of one light path.
 struct Outcome {
   bool useful = false, specular = false;
   uint64_t rays = 0;
@@ -113,7 +113,7 @@ struct Outcome {
   std::optional<PhotonVisitor::Caster> caster;
 };
 
-/// Photon number `j` of the pass; what it leaves goes to `photons`.
+/// Traces light path `j` of the pass and adds its photons to `photons`.
 Outcome trace_photon(const Scene& scene, const OwnedRoutes& owned,
                      const PhotonTraceSettings& settings, int64_t j, std::vector<Photon>& photons) {
   const LightPathSequence sequence{hash_combine(settings.key.seed, kStream)};
@@ -197,7 +197,7 @@ UsefulStarts trace_useful_starts(const Scene& scene, const OwnedRoutes& owned,
 
 namespace {
 
-/// Adds another trace behind the first.
+/// Appends a trace to another.
 void append(PhotonTrace&& more, PhotonTrace& to) {
   if (to.photons.empty())
     to.photons = std::move(more.photons);

@@ -1,4 +1,4 @@
-// How the merge radius shrinks over passes: equations [E1] and [E2] of docs/estimators.md.
+// Shrinking merge radii: equations [E1] and [E2] of docs/estimators.md.
 #pragma once
 
 #include <cmath>
@@ -6,9 +6,9 @@
 
 namespace nephroid {
 
-/// [E2] Knaus & Zwicker 2011: r(i)^2 / r(1)^2 for pass i = `pass` + 1, that is the product of
-/// (k + alpha)/(k + 1) over k = 1 .. i-1. In closed form Gamma(i + alpha) / (Gamma(1 + alpha) i!),
-/// so that any pass is as cheap as the first. (std::lgamma would write to the global `signgam`.)
+/// [E2] Knaus & Zwicker 2011: r(i)^2 / r(1)^2 for pass i = `pass` + 1, the product of
+/// (k + alpha)/(k + 1) over k = 1 .. i-1. The closed form Gamma(i + alpha) / (Gamma(1 + alpha) i!)
+/// makes any pass as cheap as the first. (std::lgamma would write to the global `signgam`.)
 inline double memoryless_radius_squared(uint32_t pass, double alpha) {
   const double i = pass + 1.0;
   int sign = 0;
@@ -16,13 +16,13 @@ inline double memoryless_radius_squared(uint32_t pass, double alpha) {
                   ::lgamma_r(i + 1.0, &sign));
 }
 
-/// [E1] Hachisuka & Jensen 2009: what a pixel's region shares over passes, but for the flux tau.
+/// [E1] Hachisuka & Jensen 2009: shared statistics of a pixel's region, except for the flux tau.
 struct SharedStatistics {
   double radius_squared = 0;  ///< 0: no visible point yet
   double count = 0;           ///< N
 
-  /// One pass found `found` photons: shrinks the radius and returns R'^2 / R^2, by which the flux
-  /// tau + phi is multiplied.
+  /// Shrinks the radius after a pass that found `found` photons (M). Returns R'^2 / R^2, the factor
+  /// of the flux tau + phi.
   double update(double found, double alpha) {
     if (!(found > 0)) return 1.0;
     const double kept = count + alpha * found;

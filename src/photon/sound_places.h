@@ -1,12 +1,12 @@
-// Whether places that were read can be used: distances between them, and their squares, have to be
-// numbers. It must not know what is there.
+// Checks places that were read from a file: squared distances between them must be finite. It must
+// not know what the places are for.
 #pragma once
 
 #include "core/math.h"
 
 namespace nephroid {
 
-/// No scene is so large, and none so small that what is learned of it is as small as the inverse.
+/// Bound of coordinates and radii; its inverse bounds radii from below. No scene comes near either.
 inline constexpr float kLargestLength = 1e18f;
 
 inline bool is_sound_place(const Vec3f& p) {

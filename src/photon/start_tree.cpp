@@ -13,15 +13,14 @@ using Crowd = StartTree::Crowd;
 
 constexpr int kMaxDepth = 10;
 constexpr size_t kFewStarts = 8;
-/// What a crowd more costs, over the cost of all starts together, so that there are few.
+/// Price of each crowd, over the cost of all starts in one; it keeps the crowds few.
 constexpr double kPrice = 0.003;
 
-/// All cuts in two, down to the smallest parts. Starts are sorted once along each axis; a cut keeps
-/// their order in both parts, so a level of the tree takes linear time (as in builders of k-d
-/// trees, Wald & Havran 2006).
+/// All cuts in two, down to the smallest parts. Starts are sorted once along each axis, and a cut
+/// keeps their order in both parts. So a level of the tree takes linear time (Wald & Havran 2006).
 class CutTree {
  public:
-  /// `order` becomes that of the leaves, from left to right.
+  /// Rearranges `order` to that of the leaves, from left to right.
   CutTree(std::span<const UsefulStart> starts, std::vector<uint32_t>& order)
       : starts_(starts), order_(order), is_below_(starts.size()), other_(starts.size()) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -39,7 +38,7 @@ class CutTree {
     double cost = 0;
   };
   const Crowd& all() const { return nodes_.front().crowd; }
-  /// From the leaves upwards, parts are kept where they cost less than the whole.
+  /// Keeps two parts instead of their whole where they cost less, from the leaves upwards.
   Split best_split(double price, size_t node = 0) const {
     const Node& n = nodes_[node];
     Split whole{{n.crowd}, {}, n.crowd.cost() + price};
@@ -79,7 +78,7 @@ class CutTree {
     return c;
   }
 
-  /// The node of a crowd, whose starts stand in `order` as they stood when it was cut off.
+  /// Builds the node of a crowd; `order` has its starts as the cut above left them.
   size_t build(const Crowd& c, int depth, const std::vector<uint32_t>& order) {
     const size_t node = nodes_.size();
     nodes_.push_back({c});
@@ -100,7 +99,7 @@ class CutTree {
     return node;
   }
 
-  /// The one that costs least.
+  /// The cut of least cost along any axis.
   Cut best_cut(const Crowd& c) {
     Cut best;
     cost_below_.resize(c.end - c.begin);
@@ -117,7 +116,7 @@ class CutTree {
     return best;
   }
 
-  /// Moves the starts below the cut before the others, along each axis in the order they had.
+  /// Moves the starts below the cut before the others, in a stable order along each axis.
   void divide(const Crowd& c, const Cut& cut) {
     for (size_t i = c.begin; i < c.end; ++i) is_below_[by_axis_[cut.axis][i]] = i < cut.middle;
     for (int axis = 0; axis < 3; ++axis) {
@@ -137,7 +136,7 @@ class CutTree {
   std::span<const UsefulStart> starts_;
   std::vector<uint32_t>& order_;
   std::array<std::vector<uint32_t>, 3> by_axis_;
-  std::vector<uint8_t> is_below_;   ///< [start]: at the last cut
+  std::vector<uint8_t> is_below_;   ///< [start]: side of the last cut
   std::vector<uint32_t> other_;     ///< scratch of divide()
   std::vector<double> cost_below_;  ///< scratch of best_cut()
   std::vector<Node> nodes_;
@@ -148,7 +147,7 @@ class CutTree {
 StartTree::StartTree(std::span<const UsefulStart> starts, size_t most) : order_(starts.size()) {
   std::iota(order_.begin(), order_.end(), uint32_t{0});
   const CutTree cuts(starts, order_);
-  // Dearer until there are few enough.
+  // The price is doubled until there are few enough leaves.
   for (double price = kPrice;; price *= 2) {
     CutTree::Split split = cuts.best_split(price * cuts.all().cost());
     if (split.leaves.size() > most) continue;

@@ -1,6 +1,5 @@
-// Useful starts of light paths, cut into crowds: a tree of cuts along the axes, of which those are
-// kept that make aiming at the crowds cheaper (docs/estimators.md, [G4]). It must not know scenes
-// and lights.
+// Divides useful starts of light paths into crowds, by axis-aligned cuts that lower the cost [G4]
+// of guiding paths to them (docs/estimators.md). It must not know scenes and lights.
 #pragma once
 
 #include <span>
@@ -10,30 +9,29 @@
 
 namespace nephroid {
 
-/// The start of a light path that was of use.
+/// The start of a useful light path.
 struct UsefulStart {
   int light = 0;
   Vec3f first_hit{0, 0, 0};  ///< where the path first met something
-  float weight = 1;          ///< density of the lights' own starts over that of its making
+  float weight = 1;          ///< unguided density of the start over its guided density
 };
 
 class StartTree {
  public:
-  /// Some of the starts, [begin, end) of an order of them.
+  /// A crowd: the starts [begin, end) of the tree's order.
   struct Crowd {
     size_t begin = 0, end = 0;
-    Bounds3f bounds;    ///< of their first hits
-    double weight = 0;  ///< of all of them
+    Bounds3f bounds;    ///< bounds of their first hits
+    double weight = 0;  ///< sum of their weights
 
-    /// [G4] The square of the sum over all crowds is the variance, up to a factor, if paths are
-    /// aimed at each as [G3] has it.
+    /// [G4] Its squared sum over all crowds is proportional to the variance under the shares [G3].
     double cost() const { return std::sqrt(weight * length_squared(bounds.max - bounds.min)); }
     Vec3f center() const { return (bounds.min + bounds.max) * 0.5f; }
     float half_diagonal() const { return 0.5f * length(bounds.max - bounds.min); }
     bool contains(const Crowd& other) const { return begin <= other.begin && other.end <= end; }
   };
 
-  /// Of at least one start; the tree has `most` leaves at most and keeps no reference.
+  /// Needs at least one start. The tree has at most `most` leaves and keeps no reference.
   StartTree(std::span<const UsefulStart> starts, size_t most);
 
   const std::vector<Crowd>& leaves() const { return leaves_; }

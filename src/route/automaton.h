@@ -1,6 +1,5 @@
-// Deterministic automata over classes of symbols: subset construction over all expressions of a set
-// of routes at once, and minimisation.
-// Who calls it: the compiler and the proof. It must not know scenes.
+// Deterministic automata over symbol classes: one subset construction over all expressions of a set
+// of routes, and minimisation. It must not know scenes.
 #pragma once
 
 #include <compare>
@@ -14,12 +13,12 @@
 
 namespace nephroid {
 
-/// Has read C and events, some of which may be marked as the vertex where photons are merged. The
-/// state `dead` cannot be left and belongs to no route.
+/// Reads words from C on. An event may be marked as the merge vertex. The state `dead` cannot be
+/// left and belongs to no route.
 struct Automaton {
-  size_t events = 0, lights = 0;      ///< classes
-  std::vector<int> next, merge_next;  ///< [state][class of events]
-  std::vector<int> output;            ///< [state][class of lights], of the word that ends there
+  size_t events = 0, lights = 0;      ///< numbers of classes
+  std::vector<int> next, merge_next;  ///< [state][event class]
+  std::vector<int> output;            ///< [state][light class], output of the word that ends there
   int start = 0, dead = 0;
 
   size_t states() const { return lights == 0 ? 0 : output.size() / lights; }
@@ -29,7 +28,7 @@ struct Automaton {
   int at(int state, int light) const { return output[static_cast<size_t>(state) * lights + light]; }
 };
 
-/// What matches a word: numbers of routes and AOVs in order.
+/// The routes and AOVs that match a word, by their sorted numbers.
 struct WordMatches {
   std::vector<int> routes, aovs;
   bool is_marked = false;
@@ -38,18 +37,18 @@ struct WordMatches {
   auto operator<=>(const WordMatches&) const = default;
 };
 
-/// Outputs are indices of `matches`; all states are reached.
+/// An automaton whose outputs are indices of `matches`; all its states are reachable.
 struct MatchAutomaton {
   Automaton automaton;
   std::vector<WordMatches> matches;
 };
 
-/// The copies of the automaton of all expressions.
+/// The copies of expressions in the nondeterministic automaton.
 struct ExpressionCopies {
   size_t routes = 0, aovs = 0;
   std::vector<int> marked_copy;  ///< [route]: the copy that obeys marks, or -1
-  /// Copies of routes, then of AOVs, ignore marks: a marked event is read as the event. The others
-  /// read marked events where the expression has a mark, and nowhere else.
+  /// The first copies, of routes and then AOVs, ignore marks: they read a marked event as the
+  /// event. The others read marked events only where the expression has a mark.
   size_t first_marked() const { return routes + aovs; }
 };
 
@@ -57,8 +56,8 @@ struct ExpressionCopies {
 MatchAutomaton determinise(const Nfa& nfa, const SymbolClasses& classes,
                            const ExpressionCopies& copies);
 
-/// The smallest automaton with the same outputs; its states are numbered in the order in which a
-/// search in breadth from the start finds them.
+/// The smallest automaton with the same outputs; its states are in breadth-first order from the
+/// start.
 Automaton minimise(const Automaton& automaton);
 
 }  // namespace nephroid

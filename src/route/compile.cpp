@@ -1,6 +1,5 @@
-// The way from expressions to tables, on one page: trees, one nondeterministic automaton with each
-// route once without and once with its marks, subsets, parts, reversal, tables, proof.
-// Who calls it: through compile.h.
+// The pipeline from expressions to tables: trees, a nondeterministic automaton with each route once
+// without and once with its marks, subset construction, parts, reversal, tables, proof.
 #include "route/compile.h"
 
 #include <algorithm>
@@ -20,7 +19,7 @@ namespace {
 constexpr size_t kMaxLabels = 1000;
 constexpr size_t kMaxTableBytes = size_t{64} << 20;
 
-// Where photons are merged in a route without '@': at the first D or G from the eye.
+// The merge vertex of a route without '@': the first D or G from the eye.
 constexpr const char* kDefaultMark = "C[SV]*[DG]@.*";
 
 struct Trees {
@@ -73,7 +72,7 @@ std::vector<std::string> labels_of(const Trees& trees) {
   return labels;
 }
 
-// All expressions side by side; `trees` must outlive the result.
+// One automaton with all expressions; `trees` must outlive the result.
 Nfa copy_all(const Trees& trees, std::span<const RouteDefinition> routes,
              std::span<const AovDefinition> aovs, ExpressionCopies& copies) {
   Nfa nfa;
@@ -95,7 +94,7 @@ Nfa copy_all(const Trees& trees, std::span<const RouteDefinition> routes,
   return nfa;
 }
 
-// Columns of numbers that are no symbol are as if no route matched.
+// Columns of numbers that are no symbol match no route.
 RouteTables write_out(const Automaton& eye, const LightSide& light, const SymbolClasses& classes) {
   RouteTables t;
   t.eye_states = eye.states();

@@ -1,7 +1,6 @@
-// Light path expressions -> Routes: parse, nondeterministic automata for each route with and
-// without its merge marker, one deterministic automaton over all of them, minimised, and its
-// reversal for the light side; and the proof that every word has exactly one owner.
-// Who calls it: the integrator table, session, `nephroid routes`, tests. It must not know scenes.
+// Compiles light path expressions to Routes: one minimal deterministic automaton over all routes
+// and its reversal for the light side. Proves that every path has exactly one owner. It must not
+// know scenes.
 #pragma once
 
 #include <span>
@@ -12,7 +11,7 @@
 
 namespace nephroid {
 
-/// What the proof found, in words, with a shortest path as witness ("C D S L").
+/// A finding of the proof, with a shortest path as its witness ("C D S L").
 struct RouteFinding {
   enum class Kind {
     kOverlap,           ///< warning: two routes match, neither of them the last
@@ -28,26 +27,26 @@ struct RouteFinding {
   std::string witness;
 };
 
-/// Everything compile_routes found out.
+/// The result of compile_routes.
 struct RouteCompilation {
   Routes routes;
   std::vector<RouteFinding> findings;  ///< errors first, then overlaps
   std::vector<std::string>
-      examples;                   ///< [route]: a shortest path that it owns, "C D S L", "" if none
+      examples;                   ///< [route]: its shortest path, "C D S L", or "" if it owns none
   std::vector<bool> aov_matches;  ///< [AOV]: some path lies in it
 };
 
-/// Compiles and proves. A scene's symbols may be given so that findings are about paths that it can
-/// have and only its events are useful; without them all symbols count but light from media, which
-/// is only proved if a scene has it. Throws UsageError with column and caret for an expression that
-/// is wrong, and for routes that are too many or too complex. Findings do not throw.
-/// `camera_connects`: light paths can be connected to the camera (Camera::connects).
+/// Compiles and proves. With a scene's `symbols`, findings are about paths that the scene can have,
+/// and only its events are useful. Without them all symbols count except light from media and hair.
+/// Throws UsageError for a wrong expression, with column and caret, and for routes that are too
+/// many or too complex. Findings do not throw. `camera_connects`: light paths can be connected to
+/// the camera (Camera::connects).
 RouteCompilation compile_routes(std::span<const RouteDefinition> routes,
                                 std::span<const AovDefinition> aovs,
                                 const SymbolSet* symbols = nullptr, bool camera_connects = true);
 
-/// The routes of a compilation without errors; throws UsageError with the first error (under
-/// `strict` the first overlap, too).
+/// The routes of a compilation. Throws UsageError with the first error or, if `strict`, the first
+/// overlap.
 Routes checked_routes(RouteCompilation compilation, bool strict);
 
 /// All labels that the expressions mention, in the order of Routes::labels().

@@ -1,6 +1,6 @@
-// What routes need to know of an estimator: its name, where it merges and connects, and which paths
-// it can never sample. The estimators themselves stand further right; compilers of routes get their
-// traits as arguments.
+// The traits of an estimator that routes need: its name, where it merges and connects, and which
+// paths it can never sample. It must not know the estimators: the compiler gets traits as
+// arguments.
 #pragma once
 
 #include <span>
@@ -15,16 +15,16 @@ constexpr const char* samples_every_path(const PathSummary&) {
 }
 
 struct EstimatorTraits {
-  const char* name = "";  ///< as routes write it: "path", "photons+light"
+  const char* name = "";  ///< name in routes: "path", "photons+light"
   const char* help = "";  ///< one sentence
   bool merges = false;    ///< each of its paths has exactly one vertex with a merge
-  /// Its light walks follow Routes::connects: it needs a camera that they can be connected to.
+  /// True if it connects light walks to the camera, by Routes::connects.
   bool connects = false;
-  /// Light that a medium emits or that touches hair is out of its reach.
+  /// True if its paths start at lights: it cannot reach light from media or via hair.
   bool starts_at_lights = false;
   bool one_route_each = false;  ///< each of its routes is a group of its own
-  /// Why it can never sample such a path, in words that follow "which it cannot find: "; null if it
-  /// can, or if no estimator can.
+  /// The reason why it can never sample such a path, as a phrase after "which it cannot find: ".
+  /// Null if it can sample it, or if no estimator can.
   const char* (*why_never_sampled)(const PathSummary& path) = samples_every_path;
 };
 

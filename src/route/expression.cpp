@@ -1,6 +1,5 @@
-// Recursive descent over light path expressions; each function reads what its name says and leaves
-// at_ behind it. Messages say what was expected and what is there instead.
-// Who calls it: through expression.h. It must not know automata or scenes.
+// A recursive descent parser of light path expressions: each function reads the part in its name
+// and leaves at_ after it. It must not know automata or scenes.
 #include "route/expression.h"
 
 #include <algorithm>
@@ -50,7 +49,7 @@ unsigned class_bits(char letter) {
 unsigned side_bits(char letter) {
   return letter == 'R' ? kR : letter == 'T' ? kT : 0;
 }
-// Events without a side.
+// Bits of events without a side.
 unsigned sideless_bits(char letter) {
   return letter == 'V' ? kV : letter == 'H' ? kH : 0;
 }
@@ -191,7 +190,7 @@ class Parser {
     if (skip_spaces() == '@') fail("expected one '@' here, found two");
     return e;
   }
-  // Kinds of events of some label that an atom may match.
+  // Kinds of events that an atom may match with some label.
   static unsigned possible_events(const ExpressionAtom& atom) {
     unsigned events = 0;
     for (const SymbolPattern& p : atom.any_of)
@@ -207,7 +206,7 @@ class Parser {
       a.any_of.push_back(bracket());
     } else if (c == '.') {
       ++at_;
-      a.negated = true;  // of nothing: any symbol
+      a.negated = true;  // any symbol: the negation of the empty set
     } else {
       a.any_of.push_back(letter("a letter, a set or a group"));
     }
@@ -318,7 +317,7 @@ class Parser {
     ++at_;
     return all;
   }
-  // True at what may be the first letter of a label that has lost its quotes.
+  // True if at_ may be the first letter of a label without its quotes.
   bool begins_label() const {
     return at_ < text_.size() && std::isalpha(static_cast<unsigned char>(text_[at_])) != 0;
   }

@@ -1,5 +1,4 @@
-// Light path expressions as trees: what parse_expression makes of their text (docs/routes.md).
-// Who calls it: the compiler, and whoever reads a route. It must not know automata or scenes.
+// Light path expressions as syntax trees (docs/routes.md). It must not know automata or scenes.
 #pragma once
 
 #include <string>
@@ -10,8 +9,8 @@
 
 namespace nephroid {
 
-/// Some symbols: events of some kinds, lights of some kinds, perhaps the eye; all with one label if
-/// one is given.
+/// A set of symbols: events and lights of some kinds, or the eye. If a label is given, only symbols
+/// with this label.
 struct SymbolPattern {
   unsigned events = 0;  ///< bits of EventKind
   unsigned lights = 0;  ///< bits of LightKind
@@ -19,7 +18,7 @@ struct SymbolPattern {
   std::string label;  ///< empty: any
 };
 
-/// One place in an expression: a symbol that one of the patterns has, or none of them if `negated`.
+/// One place in an expression: a symbol in one of the patterns or, if `negated`, in none of them.
 struct ExpressionAtom {
   std::vector<SymbolPattern> any_of;
   bool negated = false;
@@ -32,17 +31,18 @@ struct Expression {
 
   Kind kind = Kind::kAtom;
   ExpressionAtom atom;
-  std::vector<Expression> parts;  ///< of a sequence or a choice; what is repeated
-  int least = 1, most = 1;        ///< of a repetition
+  std::vector<Expression> parts;  ///< parts of a sequence or a choice, or the repeated part
+  int least = 1, most = 1;        ///< bounds of a repetition
 };
 
 /// True if any place is marked with @.
 bool has_merge_mark(const Expression& e);
 
-/// Adds labels that `labels` does not have yet, in the order of the text.
+/// Appends the expression's labels that `labels` does not have yet, in the order of the text.
 void collect_labels(const Expression& e, std::vector<std::string>& labels);
 
-/// `expression` stands at source.column of source.text. Throws UsageError with column and caret.
+/// Parses `expression`, which is at source.column of source.text. Throws UsageError with column and
+/// caret.
 Expression parse_expression(const std::string& expression, const ExpressionSource& source);
 
 }  // namespace nephroid

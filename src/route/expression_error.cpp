@@ -1,5 +1,3 @@
-// Located messages about routes; columns are in characters so that the caret stands where it
-// should. Who calls it: through expression_error.h.
 #include "route/expression_error.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
-// Lights as reports tell them apart. Who counts their light: integrators, by SceneSymbols::lamp. It
-// must not know scenes.
+// Lamps: lights as reports distinguish them. It must not know scenes.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +6,8 @@
 
 namespace nephroid {
 
-/// Number of a lamp: a light directive, or all of one name. The last of kMaxLamps stands for all
-/// that do not fit.
+/// Index of a lamp: one light directive, or all with one label. The last of kMaxLamps stands for
+/// all that do not fit.
 using Lamp = uint16_t;
 inline constexpr size_t kMaxLamps = 4096;
 

@@ -1,6 +1,5 @@
-// f_l(s) is the part of the word that ends in eye state s with light l; behind one more event e,
-// f_{e w}(s) = f_w(next(s, e)). The vectors that so arise are the states.
-// Who calls it: through light_side.h.
+// f_l(s) is the part of the word that ends in eye state s with light l. With one more event e,
+// f_{e w}(s) = f_w(next(s, e)). The vectors f are the light states.
 #include "route/light_side.h"
 
 #include <string>
@@ -19,7 +18,7 @@ constexpr size_t kMaxBytes = size_t{64} << 20;
 
 LightSide reverse(const Automaton& a) {
   LightSide side;
-  std::unordered_map<std::string, int> known;  // by the bytes of the vector
+  std::unordered_map<std::string, int> known;  // keys: the bytes of the vectors
   const auto number = [&](std::vector<Part> vector) {
     const auto [at, is_new] = known.try_emplace(std::string(vector.begin(), vector.end()),
                                                 static_cast<int>(known.size()));

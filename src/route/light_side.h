@@ -1,5 +1,5 @@
-// Reverse determinisation: what the light side of a path, read from the light, says about every eye
-// side. Who calls it: the compiler. It must not know expressions.
+// Reverse determinisation: an automaton that reads the light side of a path from the light. It must
+// not know expressions.
 #pragma once
 
 #include <vector>
@@ -9,12 +9,12 @@
 
 namespace nephroid {
 
-/// States are vectors over eye states: the part of the word that an eye side makes with this light
-/// side. Two light sides with the same vector are the same state.
+/// A light state is a vector over eye states: the part that each eye side makes with this light
+/// side. Light sides with equal vectors are one state.
 struct LightSide {
   std::vector<std::vector<Part>> meet;  ///< [light state][eye state]
-  std::vector<int> emitted;             ///< [class of lights]
-  std::vector<int> next;                ///< [light state][class of events]
+  std::vector<int> emitted;             ///< [light class]
+  std::vector<int> next;                ///< [light state][event class]
 };
 
 /// `automaton` has parts as outputs. Throws UsageError if there are too many states.

@@ -1,5 +1,4 @@
-// Minimisation by refining the partition of states until successors agree (Moore 1956).
-// Who calls it: through automaton.h.
+// Minimisation: refines the partition of states until successors agree (Moore 1956).
 #include <map>
 
 #include "route/automaton.h"
@@ -53,7 +52,7 @@ Automaton minimise(const Automaton& a) {
   Automaton m;
   m.events = a.events;
   m.lights = a.lights;
-  // Blocks in the order of a search in breadth; each is read off its first state found.
+  // Blocks in breadth-first order; each is read from its first state found.
   constexpr int kUnknown = -1;
   std::vector<int> number(a.states(), kUnknown);
   std::vector<int> found;

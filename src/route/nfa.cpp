@@ -1,5 +1,5 @@
-// Built from the end: each piece is given the state that follows it.
-// Who calls it: through nfa.h. Paper: Thompson, Regular expression search algorithm, CACM 1968.
+// Builds from the end: each piece gets the state that follows it.
+// Paper: Thompson, Regular expression search algorithm, CACM 1968.
 #include "route/nfa.h"
 
 #include <utility>
@@ -80,7 +80,7 @@ bool matches_some_path(const Expression& expression, const ExpressionSource& sou
       if (bit) return true;
     return false;
   };
-  // A state is met before the eye was read, behind it, or behind a light.
+  // Each state can be reached before the eye is read, after it, or after a light.
   enum Phase { kBeforeEye, kBehindEye, kBehindLight, kPhases };
   std::vector<bool> known(nfa.states.size() * kPhases);
   std::vector<std::pair<int, int>> open;

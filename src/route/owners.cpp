@@ -1,5 +1,4 @@
-// The first route that matches owns a word. Parts are numbered in the order of routes, then AOVs.
-// Who calls it: through owners.h.
+// Parts are numbered in the order of routes, then AOVs.
 #include "route/owners.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// From what matches a word to who owns it and to the part of the picture that it lies in.
-// Who calls it: the compiler and the proof. It must not know tables.
+// The owner of a word and the part of the picture it belongs to, by the routes and AOVs that match.
+// It must not know tables.
 #pragma once
 
 #include <span>
@@ -12,15 +12,15 @@ namespace nephroid {
 
 inline constexpr int kNoRoute = -1;
 
-/// True if the route's estimator can make such light at all. What starts at lights cannot start in
-/// a medium, and cannot pass hair: its scattering is known for walks from the eye only (ADR 9).
+/// True if the route's estimator can reach such light. One that starts at lights can neither start
+/// in a medium nor pass hair, whose scattering is known only for walks from the eye (ADR 9).
 bool can_reach(const RouteDefinition& route, LightKind light, bool touches_hair);
 
-/// The first of the routes that match a word and can reach its light, or kNoRoute.
+/// The first route that matches a word and can reach its light, or kNoRoute.
 int owner_of(const WordMatches& matches, std::span<const RouteDefinition> routes, LightKind light);
 
-/// An automaton whose outputs are parts: those of words without a mark, and of marked words if
-/// their owner merges exactly there; else kNoPart.
+/// An automaton whose outputs are parts. A marked word has a part only if its owner merges exactly
+/// at the mark; else it has kNoPart.
 struct PartAutomaton {
   Automaton automaton;  ///< minimal
   std::vector<PartMeaning> parts;

@@ -1,4 +1,4 @@
-// A path in the few facts that decide which sampling techniques can make it.
+// A summary of a path: the facts that decide which sampling techniques can find it.
 #pragma once
 
 #include <compare>
@@ -7,13 +7,13 @@
 
 namespace nephroid {
 
-/// How far a path has come to two D or G in a row with only S and V before them: there, virtual
-/// point lights are connected.
+/// Progress towards two D or G in a row with only S and V before them: virtual point lights are
+/// connected there.
 enum class FirstRoughPair : uint8_t { kNone, kFirst, kBoth, kNever };
 
 /// The events of a path, eye first.
 struct EventSummary {
-  int count = 0;             ///< 2 stands for two and more
+  int count = 0;             ///< number of events; 2 stands for two or more
   bool any_rough = false;    ///< an event that is no S
   bool any_surface = false;  ///< a D or a G
   bool any_volume = false;   ///< a V
@@ -31,12 +31,12 @@ struct PathSummary {
   LightKind light = LightKind::kShape;
   bool camera_connects = true;  ///< light paths can be connected to the camera
 
-  /// A walk can meet the light.
+  /// True if a walk can hit the light.
   bool light_can_be_hit() const {
     return light != LightKind::kPoint && light != LightKind::kDistant;
   }
-  /// Neither can the light be hit, nor can the last vertex be connected to it. False for paths of S
-  /// alone, which nobody sees.
+  /// True if the light can neither be hit nor connected to the last vertex. False for paths with S
+  /// events only, which no technique finds.
   bool ends_out_of_reach() const {
     return !light_can_be_hit() && events.any_rough && events.last_specular;
   }

@@ -1,5 +1,5 @@
-// The routes by which a picture is made, and the same compiled for a scene and proved.
-// It must not know estimators' insides.
+// The routes of a picture, and the same routes compiled and proved for a scene. It must not know
+// estimators.
 #pragma once
 
 #include <memory>
@@ -10,11 +10,11 @@
 
 namespace nephroid {
 
-/// The routes by which a picture is made.
+/// The routes and AOVs of a picture.
 struct RoutePlan {
   std::vector<RouteDefinition> routes;
   std::vector<AovDefinition> aovs;
-  bool strict = false;  ///< overlaps are errors
+  bool strict = false;  ///< true: overlaps are errors
 };
 
 struct CompiledPlan {
@@ -23,7 +23,8 @@ struct CompiledPlan {
   bool strict = false;
 };
 
-/// Throws UsageError for an expression that is wrong; what the proof found is in the compilation.
+/// Compiles a plan for a scene. Throws UsageError for a wrong expression. Findings of the proof are
+/// in the compilation.
 CompiledPlan compile_plan(const RoutePlan& plan, const Scene& scene);
 
 }  // namespace nephroid

@@ -1,5 +1,4 @@
-// Each question is a search in breadth over words; the first word found is the witness.
-// Who calls it: through proof.h.
+// Each question is a breadth-first search over words; the first word found is the witness.
 #include "route/proof.h"
 
 #include <algorithm>
@@ -24,8 +23,8 @@ struct PlainState {
   EventSummary events;
   auto operator<=>(const PlainState&) const = default;
 };
-// A plain state and the marked variants of the word that may still count: how many (up to 2) are in
-// which state.
+// The state of the unmarked word, and of its marked variants that may still count: their number (up
+// to 2), by state.
 struct MarkedState {
   int state = 0;
   std::map<int, int> variants;
@@ -68,7 +67,7 @@ class Prover {
   }
 
  private:
-  // Classes that can occur, and for each the first symbol that can.
+  // The classes that can occur, and the first possible symbol of each.
   static void choose_representatives(const std::vector<int>& class_of,
                                      const std::vector<bool>* present, size_t classes,
                                      std::vector<int>& chosen, std::vector<uint16_t>& symbols) {
@@ -83,7 +82,7 @@ class Prover {
       chosen.push_back(c);
     }
   }
-  // True if some expression tells apart what the short notation does not.
+  // True if an expression distinguishes lights that the short notation does not.
   bool lights_need_detail() const {
     if (in_.classes.lights.size() > kLightKinds) return true;
     for (const std::vector<bool>& reads : in_.classes.reads_light)
@@ -96,7 +95,7 @@ class Prover {
   std::string text(const std::vector<int>& word, int light) const {
     return text(word, light, event_symbols_, light_symbols_);
   }
-  // Classes as the symbols given for them.
+  // The word with its classes written as the given symbols.
   std::string text(const std::vector<int>& word, int light, const std::vector<uint16_t>& events,
                    const std::vector<uint16_t>& lights) const {
     std::string text = "C ";
@@ -117,7 +116,7 @@ class Prover {
     proof_.findings.push_back({kind, is_error, message, witness});
   }
 
-  // Of all words there are, whatever a scene has: a scene without glass makes no route wrong.
+  // Looks at all words, not only those of the scene: a scene without glass makes no route wrong.
   void find_unreachable() {
     std::vector<bool> owns(in_.routes.size());
     for (const PartMeaning& p : in_.parts.parts) owns[p.route] = true;
@@ -150,7 +149,7 @@ class Prover {
            "");
   }
 
-  // Holes, examples and what is never sampled.
+  // Finds holes, examples and paths that are never sampled.
   void look_at_plain_words() {
     const Automaton& a = in_.parts.automaton;
     const WordSearch<PlainState> search(
@@ -214,7 +213,7 @@ class Prover {
                        [&](int e) { return in_.classes.class_of_event(e) == EventClass::kHair; });
   }
 
-  // Words of routes that merge have exactly one vertex where they do.
+  // Checks that each path of a route that merges has exactly one merge vertex.
   void look_at_merge_vertices() {
     if (std::none_of(in_.routes.begin(), in_.routes.end(),
                      [](const RouteDefinition& r) { return r.estimator->merges; }))
@@ -286,8 +285,8 @@ class Prover {
 
   const ProofInput& in_;
   std::vector<int> events_, lights_;                     ///< classes that can occur
-  std::vector<uint16_t> event_symbols_, light_symbols_;  ///< [class]: one that can occur
-  bool full_events_ = false, full_lights_ = false;       ///< whether words need sides and labels
+  std::vector<uint16_t> event_symbols_, light_symbols_;  ///< [class]: a symbol that can occur
+  bool full_events_ = false, full_lights_ = false;       ///< true if words need sides and labels
   Proof proof_;
 };
 

@@ -1,6 +1,5 @@
-// The proof that every path is rendered once: what can be decided on the automata, with a shortest
-// path as witness for each fault.
-// Who calls it: compile_routes. It must not know tables or scenes.
+// The proof that every path is rendered exactly once, decided on the automata. Each fault has a
+// shortest path as witness. It must not know tables or scenes.
 #pragma once
 
 #include <span>
@@ -18,17 +17,17 @@ struct ProofInput {
   const SymbolClasses& classes;
   const MatchAutomaton& matches;
   const PartAutomaton& parts;
-  const SymbolSet* symbols;  ///< null: all, but no light from media
+  const SymbolSet* symbols;  ///< null: all symbols except light from media and hair
   bool camera_connects;      ///< light paths can be connected to the camera
 };
 
 struct Proof {
   std::vector<RouteFinding> findings;  ///< errors first
-  std::vector<std::string> examples;   ///< [route]: empty if it owns no path of these symbols
-  std::vector<bool> aov_matches;       ///< [AOV]: any path of these symbols
+  std::vector<std::string> examples;   ///< [route]: a path of these symbols; empty if it owns none
+  std::vector<bool> aov_matches;       ///< [AOV]: true if it matches a path of these symbols
 };
 
-/// Throws UsageError if there are too many cases to look at.
+/// Throws UsageError if there are too many cases.
 Proof prove(const ProofInput& input);
 
 }  // namespace nephroid

@@ -1,5 +1,5 @@
-// A set of routes as the user wrote it: names, light path expressions and the estimators that own
-// them. The first route that matches a path owns it. Grammar: docs/routes.md.
+// Routes and AOVs as the user wrote them: names, light path expressions and estimators. The first
+// route that matches a path owns it (docs/routes.md).
 #pragma once
 
 #include <optional>
@@ -11,8 +11,8 @@
 
 namespace nephroid {
 
-/// Where an expression stands, for messages: the text as the user wrote it and the column (from 0)
-/// at which the expression begins in it.
+/// The location of an expression, for messages: the user's text, and the expression's first column
+/// in it (from 0).
 struct ExpressionSource {
   std::string where;  ///< "--route", "--aov", "preset doidge2012" or "FILE:LINE"
   std::string text;
@@ -22,25 +22,24 @@ struct ExpressionSource {
 struct RouteDefinition {
   std::string name;  ///< also the name of its layer in the picture
   std::string expression;
-  const EstimatorTraits* estimator = nullptr;  ///< who renders its paths
+  const EstimatorTraits* estimator = nullptr;  ///< renders its paths
   ExpressionSource source;
 };
 
-/// A layer of the picture: the light of all paths that match, whoever renders them.
+/// A layer of the picture with the light of all matching paths, whichever estimator renders them.
 struct AovDefinition {
   std::string name;
   std::string expression;
   ExpressionSource source;
 };
 
-/// "NAME=EXPRESSION:ESTIMATOR" with one of `estimators`, which must outlive the route, and
-/// "NAME=EXPRESSION". Throw UsageError with column, caret and what was expected; the expression
-/// itself is checked too.
+/// Parse and check "NAME=EXPRESSION:ESTIMATOR" and "NAME=EXPRESSION". The estimator is one of
+/// `estimators`, which must outlive the route. Throw UsageError with column and caret.
 RouteDefinition parse_route(const std::string& text, TraitsTable estimators,
                             const std::string& where = "--route");
 AovDefinition parse_aov(const std::string& text, const std::string& where = "--aov");
 
-/// One route a line, # begins a comment. `file` is for messages: "FILE:LINE: ...". Throws
+/// Parses a file with one route a line; # begins a comment. `file` is its name for messages. Throws
 /// UsageError.
 std::vector<RouteDefinition> parse_route_file(const std::string& text, TraitsTable estimators,
                                               const std::string& file);

@@ -1,4 +1,4 @@
-// Reading routes and AOVs: NAME=EXPRESSION:ESTIMATOR.
+// Parses routes and AOVs: NAME=EXPRESSION:ESTIMATOR.
 #include "route/route_text.h"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@
 namespace nephroid {
 namespace {
 
-// Names of the picture's own layers and channels, and of what is reserved for them.
+// Names of the picture's own layers and channels, present or reserved.
 constexpr const char* kReservedNames[] = {
     "R",        "G",      "B",      "A",      "Z",       "N",        "P",
     "Ns",       "u",      "v",      "Y",      "RY",      "BY",       "dzdx",
@@ -27,7 +27,7 @@ bool is_space(char c) {
   return c == ' ' || c == '\t' || c == '\r';
 }
 
-// Half-open range of a text, without the spaces at its ends.
+// A half-open range of a text.
 struct Range {
   size_t begin = 0, end = 0;
 };
@@ -37,8 +37,8 @@ Range trimmed(const std::string& text, size_t begin, size_t end) {
   return {begin, end};
 }
 
-// Place of the first `c` from `begin` that is in no label, or npos. An apostrophe that nothing
-// closes hides what follows.
+// Position of the first `c` from `begin` on that is not in a label, or npos. An apostrophe without
+// a partner hides the rest of the text.
 size_t find_outside_labels(const std::string& text, char c, size_t begin) {
   bool in_label = false;
   for (size_t i = begin; i < text.size(); ++i) {
@@ -48,7 +48,7 @@ size_t find_outside_labels(const std::string& text, char c, size_t begin) {
   return std::string::npos;
 }
 
-// "NAME=" of a route or an AOV, "a route" or "an AOV"; returns where the expression begins.
+// Reads "NAME=" and returns where the expression begins. `what` is "a route" or "an AOV".
 size_t read_name(const std::string& text, const char* what, const char* form, std::string& name,
                  ExpressionSource& source) {
   const size_t equals = text.find('=');
@@ -163,7 +163,7 @@ std::vector<RouteDefinition> parse_route_file(const std::string& text, TraitsTab
     const size_t comment = find_outside_labels(whole, '#', 0);
     const Range range = trimmed(whole, 0, std::min(comment, whole.size()));
     if (range.begin == range.end) continue;
-    // With its indentation, so that columns are those of the file.
+    // The indentation is kept, so that columns are those of the file.
     routes.push_back(
         parse_route(whole.substr(0, range.end), estimators, file + ":" + std::to_string(number)));
   }

@@ -1,5 +1,5 @@
-// Checks of single routes and AOVs that the reader of their text and the compiler share.
-// Who calls it: route_text.cpp and compile.cpp. It must not know automata.
+// Checks of single routes and AOVs, shared by the parser of their text and the compiler. It must
+// not know automata.
 #pragma once
 
 #include <string>
@@ -8,13 +8,13 @@
 
 namespace nephroid {
 
-/// Throws UsageError if `name` is no name for a layer of the picture.
+/// Throws UsageError if `name` is not a valid layer name.
 void check_layer_name(const std::string& name, const ExpressionSource& source);
 
-/// Where to point at in messages about a definition, also one that was not read from a text.
+/// The location of a definition for messages, also if it was not read from a text.
 ExpressionSource source_of(const ExpressionSource& source, const std::string& expression);
 
-/// Parses, and throws UsageError too if the expression can match no path at all.
+/// Parses an expression. Throws UsageError also if it can match no path.
 Expression parse_checked(const std::string& expression, const ExpressionSource& source);
 
 }  // namespace nephroid

@@ -1,5 +1,5 @@
-// The tables of compiled routes and the groups of routes that an estimator owns.
-// Who calls it: through routes.h. It must not know expressions.
+// The tables of compiled routes and the groups of routes by estimator. It must not know
+// expressions.
 #include "route/routes.h"
 
 #include <algorithm>

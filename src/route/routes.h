@@ -1,8 +1,6 @@
-// Who renders which light: the one place that decides it (docs/routes.md).
-// A path is a word of events and a light, eye first. All routes are compiled into one automaton of
-// dense tables (compile.h): camera walks read words from the left, light walks from the right, and
-// where they meet a table names the owner, so every word has exactly one. Who calls it: integrators
-// and the photon tracer. It must not know scenes or estimators.
+// Compiled routes: decide which estimator renders a path, a word of events and a light, eye first
+// (docs/routes.md). Camera walks read words from the left, light walks from the right; where they
+// meet, a table names the owner. It must not know scenes or estimators.
 // Paper: Doidge et al. 2012, whose two sub-spaces are the preset doidge2012.
 #pragma once
 
@@ -15,10 +13,9 @@
 
 namespace nephroid {
 
-/// Of the automaton that has read C e1 ... ek.
+/// The automaton's state after reading C e1 ... ek.
 using EyeState = uint16_t;
-/// Of the automaton that has read the light and the events from it towards the eye: all words with
-/// such an end are alike to every eye state.
+/// The reversed automaton's state after reading the light and the events from it towards the eye.
 using LightState = uint16_t;
 
 /// A part of the picture: the words with the same owner that lie in the same AOVs. Each part is a
@@ -26,7 +23,7 @@ using LightState = uint16_t;
 using Part = uint8_t;
 inline constexpr Part kNoPart = 255;
 
-/// What the parts mean: in order of Part.
+/// The route and the AOVs of a part.
 struct PartMeaning {
   int route = 0;
   std::vector<int> aovs;
@@ -38,7 +35,7 @@ struct SymbolSet {
   std::vector<bool> lights;  ///< [LightSymbol]
 };
 
-/// A table of numbers below 65536, in bytes where they fit.
+/// A table of numbers below 65536, stored as bytes if they fit.
 class NumberTable {
  public:
   NumberTable() = default;
@@ -51,11 +48,11 @@ class NumberTable {
   std::vector<uint16_t> wide_;
 };
 
-/// What the compiler makes; rows are states, columns symbols (8 to a label).
+/// The compiled tables: rows are states, columns are symbols (8 per label).
 struct RouteTables {
   size_t eye_states = 0, light_states = 0, event_symbols = 0, light_symbols = 0;
   NumberTable eye_next;     ///< [eye][event]
-  NumberTable merge_next;   ///< [eye][event]: the event is the vertex where photons are merged
+  NumberTable merge_next;   ///< [eye][event], where the event is the merge vertex
   std::vector<Part> owner;  ///< [eye][light]
   NumberTable emitted;      ///< [light symbol] -> LightState
   NumberTable light_next;   ///< [light state][event]
@@ -63,7 +60,7 @@ struct RouteTables {
   EyeState start = 0;
 };
 
-/// The routes that one estimator owns together; its walks ask with the number of the group.
+/// The routes that one estimator samples together. Its walks use the index of the group.
 struct RouteGroup {
   const EstimatorTraits* estimator = nullptr;
   std::vector<int> routes;
@@ -72,7 +69,7 @@ struct RouteGroup {
 
 class Routes {
  public:
-  /// By compile_routes.
+  /// Called by compile_routes.
   Routes(std::vector<RouteDefinition> routes, std::vector<AovDefinition> aovs,
          std::vector<PartMeaning> parts, std::vector<std::string> labels, RouteTables tables);
 
@@ -86,11 +83,11 @@ class Routes {
   /// Label of a name: 0 if no expression mentions it.
   Label label(const std::string& name) const;
 
-  /// The same routes where only these symbols can occur: fewer events are useful.
+  /// The same routes for a scene with these symbols only: fewer events are useful.
   Routes restricted_to(const SymbolSet& symbols) const;
 
   EyeState start() const { return tables_.start; }
-  /// After one more event, seen from the eye.
+  /// State after one more event, seen from the eye.
   EyeState next(EyeState eye, EventSymbol e) const {
     return tables_.eye_next[eye * tables_.event_symbols + e];
   }
@@ -106,13 +103,13 @@ class Routes {
 
   /// State of a light walk before its first event.
   LightState emitted(LightSymbol light) const { return tables_.emitted[light]; }
-  /// After one more event, seen from the light.
+  /// State after one more event, seen from the light.
   LightState light_next(LightState state, EventSymbol e) const {
     return tables_.light_next[state * tables_.event_symbols + e];
   }
-  /// Owner of the word whose eye side, the vertex where they meet included, is in `eye` and whose
-  /// light side, that vertex excluded, is in `light`. With an eye state from merge(): kNoPart
-  /// unless the owner merges exactly here.
+  /// Owner of the word with the eye side `eye`, the vertex where they meet included, and the light
+  /// side `light`, that vertex excluded. With an eye state from merge() it is kNoPart unless the
+  /// owner merges exactly here.
   Part meet(EyeState eye, LightState light) const {
     return tables_.meet[eye * tables_.light_states + light];
   }
@@ -120,8 +117,8 @@ class Routes {
   /// True if the part belongs to the group (false for kNoPart).
   bool owns(size_t group, Part part) const { return part != kNoPart && part_group_[part] == group; }
 
-  // What is of use to the walks of a group, among the symbols that can occur. Masks are of classes,
-  // kVolume included; a class is in it if one of its sides is useful.
+  // Useful events of a group's walks, among the symbols that can occur. Masks have event classes,
+  // kVolume included; a class is set if one of its sides is useful.
 
   /// True if some word that ends at a light here belongs to the group.
   bool ends(size_t group, EyeState eye) const { return flags_[group].ends[eye]; }
@@ -141,12 +138,12 @@ class Routes {
   ClassMask deposits(size_t group, LightState light, Label label) const {
     return flags_[group].deposits[light * label_count() + label];
   }
-  /// Events after which a light walk may still be deposited, at that group's merge vertices.
+  /// Events after which a light walk may still store a photon, at the group's merge vertices.
   ClassMask useful_before_deposit(size_t group, LightState light, Label label) const {
     return flags_[group].useful_before_deposit[light * label_count() + label];
   }
-  /// True if a light walk in this state is of use to the group's photons only where it meets an S
-  /// next; for the group, if there is such a state.
+  /// True if a light walk in this state is useful to the group's photons only if an S comes next.
+  /// Without a state: true if any state is such.
   bool needs_specular(size_t group, LightState light) const {
     return flags_[group].needs_specular[light];
   }
@@ -154,8 +151,8 @@ class Routes {
     const std::vector<bool>& states = flags_[group].needs_specular;
     return std::find(states.begin(), states.end(), true) != states.end();
   }
-  /// Events after which a light walk may still be the light's end of a word of the group, wherever
-  /// it is cut in two.
+  /// Events after which a light walk may still be the light side of a word of the group, cut
+  /// anywhere.
   ClassMask useful_from_light(size_t group, LightState light, Label label) const {
     return flags_[group].useful_from_light[light * label_count() + label];
   }
@@ -177,7 +174,7 @@ class Routes {
   };
   size_t label_count() const { return labels_.size() + 1; }
   void find_useful_events(const SymbolSet& symbols);
-  /// [light state]: some eye state that is reached makes a word of the group with it.
+  /// [light state]: true if a reachable eye state makes a word of the group with it.
   std::vector<bool> states_that_meet(size_t group, const std::vector<bool>& reached) const;
 
   std::vector<RouteDefinition> definitions_;

@@ -1,5 +1,3 @@
-// Labels of a scene as numbers, and which symbols its materials, media and lights can give.
-// Who calls it: through scene_symbols.h. It must not know walks.
 #include "route/scene_symbols.h"
 
 #include <algorithm>

@@ -1,6 +1,5 @@
-// Which symbols the materials, media and lights of a scene are: the bridge between a scene and the
-// automaton. Who calls it: integrators (symbols of events and lights) and the compiler's callers
-// (what can occur in a scene). It must not know walks.
+// The symbols of a scene's materials, media and lights: the bridge between scene and automaton. It
+// must not know walks.
 #pragma once
 
 #include <memory>
@@ -16,8 +15,8 @@ namespace nephroid {
 
 /// A material on some shape whose lobes may be of class G.
 struct GlossyMaterial {
-  std::string name;            ///< its label and where it stands: "dielectric1 (FILE:LINE:COLUMN)"
-  std::optional<float> alpha;  ///< as Material::facet_alpha
+  std::string name;            ///< label and location: "dielectric1 (FILE:LINE:COLUMN)"
+  std::optional<float> alpha;  ///< Material::facet_alpha
 };
 
 class SceneSymbols {
@@ -27,30 +26,30 @@ class SceneSymbols {
 
   Label material(int index) const { return materials_[index]; }
   Label medium(int index) const { return media_[index]; }
-  /// Of Scene::lights.
+  /// Symbol of a light, by its index in Scene::lights.
   LightSymbol light(int index) const { return lights_[index]; }
   size_t lights() const { return lights_.size(); }
-  /// Of the light that a medium emits.
+  /// Symbol of the light that a medium emits.
   LightSymbol glow(int medium_index) const {
     return light_symbol(LightKind::kMedium, medium(medium_index));
   }
 
-  /// What lights are told apart by in reports: those of one label are one lamp. Of Scene::lights.
+  /// Lamp of a light, by its index in Scene::lights. Lights of one label are one lamp.
   Lamp lamp(int light) const { return lamps_[light]; }
-  /// Of the light that a medium emits.
+  /// Lamp of the light that a medium emits.
   Lamp lamp_of_medium(int medium_index) const { return lamps_of_media_[medium_index]; }
-  /// [lamp]: label and place; the last of kMaxLamps is all that do not fit.
+  /// [lamp]: label and location.
   const std::vector<std::string>& lamp_names() const { return lamp_names_; }
 
-  /// What can occur in this scene: a conservative answer.
+  /// The symbols that can occur in this scene, conservatively.
   const SymbolSet& present() const { return present_; }
   /// Materials that may be glossy, smoothest first.
   const std::vector<GlossyMaterial>& glossy_materials() const { return glossy_; }
-  /// The band of thresholds at and below which microfacets are of class S.
+  /// The band of thresholds up to which microfacets are S.
   const SpecularBand& specular_band() const { return specular_band_; }
-  /// Labels that nothing in the scene goes by: a warning.
+  /// Labels of expressions that nothing in the scene has.
   const std::vector<std::string>& unknown_labels() const { return unknown_; }
-  /// True if a label is unknown only because a mix goes by those of its materials.
+  /// True if an unknown label belongs to a mix: paths have the labels of its materials instead.
   bool unknown_is_mix() const { return unknown_is_mix_; }
 
  private:
@@ -69,9 +68,8 @@ class SceneSymbols {
   SpecularBand specular_band_;
 };
 
-/// What an estimator needs to know of routes: all of them, their symbols in the scene, and which
-/// group of them it owns. Parts are numbered in the film as here, a group's index is the same in
-/// both.
+/// The routes of an estimator: all routes, the scene's symbols, and the estimator's group. The film
+/// numbers parts and groups in the same way.
 struct OwnedRoutes {
   std::shared_ptr<const Routes> routes;
   std::shared_ptr<const SceneSymbols> symbols;

@@ -1,6 +1,5 @@
-// Subset construction (Rabin & Scott 1959) over the automata of all routes and AOVs, with and
-// without their marks. A state is a set of places in expressions, and whether a mark and whether
-// hair was read. Who calls it: through automaton.h.
+// Subset construction (Rabin & Scott 1959) over all routes and AOVs, with and without their marks.
+// A state is a set of places in expressions, with two flags: a mark was read, hair was read.
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -12,7 +11,7 @@ namespace nephroid {
 namespace {
 
 constexpr size_t kMaxStates = 65535;
-constexpr size_t kMaxPlaces = size_t{1} << 22;  // of all states together
+constexpr size_t kMaxPlaces = size_t{1} << 22;  // in all states together
 
 class SubsetConstruction {
  public:
@@ -50,7 +49,7 @@ class SubsetConstruction {
 
   bool obeys_marks(int copy) const { return static_cast<size_t>(copy) >= copies_.first_marked(); }
 
-  // All places that can be reached from `state` without reading.
+  // Adds all places that can be reached from `state` without reading.
   void add_closure(int state, std::vector<int>& places) {
     if (state == Nfa::kNone || stamps_[state] == stamp_) return;
     open_.push_back(state);
@@ -96,7 +95,7 @@ class SubsetConstruction {
       if (obeys_marks(state.copy) && nfa_.atoms[atom]->merges != merge) continue;
       add_closure(state.next, result.places);
     }
-    // Once there is a mark only what obeys it counts.
+    // After a mark only copies that obey marks count.
     const auto obeys = [&](int s) { return obeys_marks(nfa_.states[s].copy); };
     if (result.is_marked && std::none_of(result.places.begin(), result.places.end(), obeys))
       result = {true, false, {}};
@@ -119,7 +118,7 @@ class SubsetConstruction {
     return at->second;
   }
 
-  // What matches the word that ends behind `subset` with a light.
+  // The index of the matches of the word that ends after `subset` with a light.
   int output(const Subset& subset, size_t light) {
     ++stamp_;
     std::vector<int> behind;

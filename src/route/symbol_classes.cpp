@@ -1,5 +1,5 @@
-// Which symbols each atom reads (one with a mark only D and G), and the coarsest partition of the
-// symbols that respects it. Who calls it: through symbol_classes.h.
+// The symbols that each atom reads (only D and G if it has a mark), and the coarsest partition of
+// the symbols that respects them.
 #include "route/symbol_classes.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace nephroid {
 namespace {
 
-// An atom with labels as numbers.
+// A pattern with its label as a number.
 struct NumberedPattern {
   SymbolPattern pattern;
   int label = -1;  ///< -1: any

@@ -1,8 +1,6 @@
 // The alphabet of light path expressions as small integers. A path is a word C e1 e2 ... en l: its
-// events, eye first, and the light that it ends on. What an expression can tell apart is the class
-// of an event, on which side of the surface it leaves, the label of its material, the kind of the
-// light and the light's label (docs/routes.md).
-// Who calls it: everything that follows or compiles routes. It must not know expressions.
+// events, eye first, and its light. An event has a class, a side and a label, a light has a kind
+// and a label (docs/routes.md). It must not know expressions.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +9,7 @@
 
 namespace nephroid {
 
-/// Labels that no expression mentions are all the same to it: label 0. The others count from 1.
+/// Label of a material, medium or light, counted from 1; 0 if no expression mentions its name.
 using Label = uint16_t;
 
 /// Kind of an event: the low three bits of an EventSymbol. V and H have no side.
@@ -44,9 +42,8 @@ constexpr bool is_transmission(EventKind kind) {
   return kind == EventKind::kDT || kind == EventKind::kGT || kind == EventKind::kST;
 }
 
-/// Kinds of lights. L is any of them, O an emissive shape, B an infinite light (an environment or a
-/// distant one), M a medium that glows. The others are at a point: no walk can hit them, nor those
-/// in one direction.
+/// Kinds of lights. L is any of them, O an emissive shape, B an infinite light (environment or
+/// distant), M an emissive medium. Walks cannot hit point and distant lights.
 enum class LightKind : uint8_t { kShape, kEnvironment, kDistant, kPoint, kMedium };
 inline constexpr int kLightKinds = 5;
 

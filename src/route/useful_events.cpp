@@ -1,6 +1,5 @@
-// Which events are of use to the walks of a group of routes: backward reachability over the tables
-// of both directions, among the symbols that can occur.
-// Who calls it: Routes, when it is made and when it is restricted. It must not know expressions.
+// The useful events of a group's walks: backward reachability over the tables of both directions,
+// among the symbols that can occur. It must not know expressions.
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -10,8 +9,8 @@
 namespace nephroid {
 namespace {
 
-/// The events that can occur. Those whose columns are alike in every table are one column, of which
-/// the first stands for all.
+/// The events that can occur. Events with equal columns in every table share one, and the first of
+/// them stands for all.
 class EventColumns {
  public:
   EventColumns(const RouteTables& t, const SymbolSet& symbols) : column_of_(t.event_symbols, -1) {
@@ -33,8 +32,8 @@ class EventColumns {
   }
   const std::vector<EventSymbol>& firsts() const { return firsts_; }
 
-  /// [state][label]: classes of the events that can occur for which `is_useful(state, first of its
-  /// column)`; classes outside of `among` are left out.
+  /// [state][label]: classes, within `among`, of the possible events with `is_useful(state, first
+  /// of its column)`.
   template <class IsUseful>
   std::vector<ClassMask> masks(size_t states, ClassMask among, IsUseful is_useful) const {
     const size_t labels = column_of_.size() / 8;
@@ -51,7 +50,7 @@ class EventColumns {
     return result;
   }
 
-  /// States from which one that is in `goals` can be reached, `next` given; itself included.
+  /// States from which a state in `goals` can be reached by `next`; the goals included.
   std::vector<bool> leading_to(std::vector<bool> goals, const NumberTable& next,
                                size_t event_symbols) const {
     std::vector<std::vector<size_t>> before(goals.size());
@@ -72,7 +71,7 @@ class EventColumns {
     return goals;
   }
 
-  /// Eye states that camera walks can come to.
+  /// Eye states that camera walks can reach.
   std::vector<bool> reached_from(EyeState start, const RouteTables& t) const {
     std::vector<bool> reached(t.eye_states);
     std::vector<size_t> open{start};
@@ -94,7 +93,7 @@ class EventColumns {
   std::vector<EventSymbol> firsts_;
 };
 
-// States that have any class in any label's mask.
+// States with a class in the mask of any label.
 std::vector<bool> any_class(const std::vector<ClassMask>& masks, size_t states) {
   std::vector<bool> any(states);
   for (size_t i = 0; i < masks.size(); ++i)
@@ -121,7 +120,7 @@ void Routes::find_useful_events(const SymbolSet& symbols) {
   const std::vector<bool> reached = events.reached_from(t.start, t);
   const auto column = [&](size_t state, EventSymbol e) { return state * t.event_symbols + e; };
 
-  // For each event the distinct states behind a merge that camera walks can come to.
+  // For each event, the distinct states after a merge that camera walks can reach.
   std::map<EventSymbol, std::vector<EyeState>> merged_states;
   for (const EventSymbol e : events.firsts()) {
     std::vector<EyeState>& to = merged_states[e];

@@ -1,5 +1,5 @@
-// Search in breadth over the words of an automaton, so that what is found first has a shortest
-// word. Who calls it: the proof. It must not know what is looked for.
+// Breadth-first search over the words of an automaton: the first word found is a shortest one. It
+// must not know the goal of the search.
 #pragma once
 
 #include <algorithm>
@@ -10,18 +10,18 @@
 
 namespace nephroid {
 
-/// All (state, memory) that words lead to, in the order of their lengths. `State` needs an order.
+/// All states that words lead to, in the order of word length. `State` must have an ordering.
 template <class State>
 class WordSearch {
  public:
   struct Node {
     State state;
     int parent = -1;
-    int event = -1;  ///< that led here from the parent
+    int event = -1;  ///< event from the parent to here
   };
 
-  /// `step(state, event)` is the state behind one more event. Stops with is_complete() false when
-  /// there are `most` nodes.
+  /// `step(state, event)` is the state after one more event. Stops at `most` nodes; is_complete()
+  /// is then false.
   template <class Step>
   WordSearch(State start, std::span<const int> events, size_t most, Step step) {
     add(std::move(start), -1, -1);

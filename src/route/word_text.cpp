@@ -1,5 +1,3 @@
-// Words in the notation of the expressions.
-// Who calls it: through compile.h and word_text.h.
 #include "route/word_text.h"
 
 #include "route/compile.h"

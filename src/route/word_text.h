@@ -1,5 +1,4 @@
-// One symbol in the notation of the expressions.
-// Who calls it: word_text and the proof, which says as much as the expressions can tell apart.
+// Symbols in the notation of the expressions.
 #pragma once
 
 #include <span>

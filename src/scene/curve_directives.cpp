@@ -1,4 +1,4 @@
-// Reading of curve directives; see curve_directives.h. Parameters and defaults as pbrt-v4.
+// Reads curve directives; see curve_directives.h. Parameters and defaults as in pbrt-v4.
 #include "scene/curve_directives.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@ namespace nephroid {
 
 namespace {
 
-/// Enough to make a geometry worth its overhead, and few enough to read a model in parallel.
+/// Large enough to amortise a geometry's overhead, small enough to read a model in parallel.
 constexpr size_t kMaxAlike = 4096;
 
 const Parameter* parameter(const ShapeDescription& d, const char* name) {
@@ -71,7 +71,7 @@ std::vector<CurveSegment> segments_of(const ParameterSet& p) {
   return segments;
 }
 
-// Widths run linearly over the whole curve, from one end of the directive's points to the other.
+// Widths are linear over the whole curve, from one end of the directive's points to the other.
 void set_widths(const ParameterSet& p, std::vector<CurveSegment>& segments) {
   const float width = p.get_float("width", 1.0f);
   const float ends[] = {p.get_float("width0", width), p.get_float("width1", width)};

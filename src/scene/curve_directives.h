@@ -1,6 +1,6 @@
-// From "curve" directives to one shape. Hair comes as a hundred thousand directives of one curve
-// each: neighbours that differ in nothing but their points and widths are made into one geometry.
-// Who calls it: the shape table. It must not know materials or lights.
+// Makes shapes from "curve" directives. Hair comes as a hundred thousand directives of one curve
+// each: adjacent ones that differ only in points and widths are joined into one geometry. It must
+// not know materials or lights.
 #pragma once
 
 #include <span>
@@ -10,11 +10,11 @@
 
 namespace nephroid {
 
-/// How many directives from the first on are made into one shape: 1 unless they are curves alike.
+/// Number of directives, from the first on, that form one shape: 1 unless they are similar curves.
 size_t curves_alike(std::span<const ShapeDescription> descriptions);
 
-/// The curves of one or more directives that are alike, mapped by `transform`. Null after a warning
-/// if they have no length or no width. Throws SceneError.
+/// The curves of one or more similar directives, mapped by `transform`. Null after a warning if
+/// they have no length or no width. Throws SceneError.
 ShapePtr make_curves(std::span<const ShapeDescription> alike, const Transform& transform,
                      Diagnostics& diagnostics);
 

@@ -12,9 +12,9 @@
 
 namespace nephroid {
 
-/// No cache of 128 MiB for subdivision surfaces, which are meshes here before Embree sees them.
+/// No cache of 128 MiB for subdivision surfaces, which become meshes before Embree sees them.
 #ifdef NEPHROID_STD_THREADS
-/// Its own threads would confuse ThreadSanitizer, which does not see their locks.
+/// Embree's own threads would confuse ThreadSanitizer, which does not see their locks.
 constexpr const char* kEmbreeConfig = "tessellation_cache_size=0,threads=1";
 #else
 constexpr const char* kEmbreeConfig = "tessellation_cache_size=0";
@@ -48,15 +48,15 @@ namespace {
 
 constexpr float kEmbreeReach = 1e18f;
 
-/// False for coordinates beyond `reach` and for NaNs, at which Embree would abort the program.
+/// False for coordinates beyond `reach` and for NaNs, for which Embree would abort the program.
 bool can_trace(const Ray& ray, float reach) {
   for (int i = 0; i < 3; ++i)
     if (!(std::abs(ray.o[i]) <= reach && std::abs(ray.d[i]) <= reach)) return false;
   return ray.t_max >= 0.0f;
 }
 
-/// What the callback of a moving instance knows: Embree's own instances move linearly between their
-/// time steps, which is not what pbrt's do.
+/// User data of a moving instance's callbacks. Embree's own instances move linearly between their
+/// time steps; pbrt's do not.
 struct MovingInstance {
   RTCScene child;
   float child_reach;
@@ -65,10 +65,10 @@ struct MovingInstance {
   int segments;
 };
 
-/// Goes with every query. Embree's hits have room for one instance; where a moving instance stands
-/// within another, the hit holds the inner one, marked with kInner, and this holds the outer one.
+/// Passed along with every query. Embree's hits hold a single instance. If a moving instance lies
+/// within another, the hit holds the inner one, marked with kInner, and this the outer one.
 struct TraceContext {
-  RTCIntersectContext embree;  ///< first, so that callbacks get from it to the rest
+  RTCIntersectContext embree;  ///< first member, so that callbacks can cast to TraceContext
   uint32_t outer;
 
   TraceContext() : outer(EmbreeHit::kNoInstance) { rtcInitIntersectContext(&embree); }
@@ -82,8 +82,8 @@ struct EmbreeScene::Impl {
   RTCScene scene = nullptr;
   std::vector<ShapePtr> shapes;
   std::deque<MovingInstance> moving;  ///< Embree keeps pointers to them
-  /// Largest coordinate that a ray may have here, also after it was brought to the space of a still
-  /// instance. Moving ones look for themselves.
+  /// Largest coordinate that a ray can have here, also after transforms to the space of still
+  /// instances. Moving instances check their own.
   float reach = kEmbreeReach;
 };
 
@@ -149,7 +149,7 @@ void shape_occluded(const RTCOccludedFunctionNArguments* args) {
   if (shape->intersect(args->primID, ray_of(*ray), ray->tnear)) ray->tfar = -kInfinity;
 }
 
-// Ribbons are traced at their full width; what they do not show of it to the ray is dropped here.
+// Ribbons are traced at their full width; hits outside of the visible width are rejected here.
 void ribbon_filter(const RTCFilterFunctionNArguments* args) {
   if (!args->valid[0]) return;
   const auto* shape = static_cast<const CurveShape*>(args->geometryUserPtr);
@@ -158,9 +158,9 @@ void ribbon_filter(const RTCFilterFunctionNArguments* args) {
   if (!shape->is_hit(hit->primID, hit->u, ray)) args->valid[0] = 0;
 }
 
-// Ribbons that face the ray; the buffers are shared with the shape. Embree does not see a curve
-// that is nearer to the origin of the ray than the curve is wide, so that rays do not meet what
-// they leave: they start about as far away anyhow.
+// Ribbons that face the ray; the buffers are shared with the shape. Embree skips curves closer to
+// the ray's origin than their width, so that rays do not hit the curve they leave: they start about
+// that far away.
 RTCGeometry curve_geometry(RTCDevice device, const CurveShape& curves) {
   const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_FLAT_BEZIER_CURVE);
   const std::vector<CurveShape::Vertex>& vertices = curves.vertices();
@@ -196,8 +196,8 @@ RTCRay rtc_ray(const Ray& ray, unsigned mask) {
   return r;
 }
 
-/// Brings a ray to the space of the instance at the ray's time. False where that cannot be traced:
-/// the instance is too small, too far away or flat at that time, and is not seen.
+/// Transforms a ray to the instance's space at the ray's time. False if it cannot be traced: the
+/// instance is too small, too far away or flat at that time, and is not visible.
 bool enter_space(const MovingInstance& moving, const RTCRay& r, RTCRay& inside) {
   const Ray local = object_space_ray(moving.motion.at(r.time), ray_of(r));
   inside = rtc_ray(local, r.mask);
@@ -205,8 +205,8 @@ bool enter_space(const MovingInstance& moving, const RTCRay& r, RTCRay& inside) 
   return can_trace(local, moving.child_reach);
 }
 
-/// Marks the hits of a child as those of this geometry, within the instance in force if there is
-/// one. Returns that one.
+/// Marks hits of a child as hits of this geometry, within the current instance if there is one.
+/// Returns that instance.
 uint32_t enter_instance(TraceContext& context, uint32_t geometry) {
   const uint32_t outer = context.embree.instID[0];
   context.embree.instID[0] = outer == EmbreeHit::kNoInstance ? geometry : geometry | kInner;
@@ -249,7 +249,7 @@ uint32_t EmbreeScene::add_shape(ShapePtr shape, unsigned mask) {
   const RTCDevice device = impl_->device->device;
   RTCGeometry geometry;
   if (const auto* mesh = dynamic_cast<const TriangleMesh*>(shape.get())) {
-    // The buffers are shared; the builder of the mesh left room for Embree's 16-byte reads.
+    // The buffers are shared; the mesh builder left room for Embree's 16-byte reads.
     const MeshData& data = mesh->data();
     geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
@@ -270,7 +270,7 @@ uint32_t EmbreeScene::add_shape(ShapePtr shape, unsigned mask) {
                                 4 * sizeof(uint32_t), flat->quads.size() / 4));
     impl_->device->check("adding a shape");
     std::copy(flat->positions.begin(), flat->positions.end(), vertices);
-    // From patch order to the ring that Embree wants.
+    // From patch order to Embree's ring order.
     for (size_t i = 0; i < flat->quads.size(); i += 4) {
       const uint32_t ring[] = {flat->quads[i], flat->quads[i + 1], flat->quads[i + 3],
                                flat->quads[i + 2]};
@@ -308,7 +308,7 @@ uint32_t EmbreeScene::add_instance(const EmbreeScene& child, const Transform& ob
   const uint32_t id = rtcAttachGeometry(impl_->scene, geometry);
   rtcReleaseGeometry(geometry);
   impl_->device->check("adding an instance");
-  // |o'| <= reach |M^-1| + |t|, per axis, has to stay below the reach of the instance.
+  // o'| <= reach |M^-1| + |t|, per axis, must stay below the reach of the instance.
   const Mat44d& inverse = object_to_world.inverse;
   for (int j = 0; j < 3; ++j) {
     const double stretch =
@@ -382,7 +382,7 @@ Bounds3f EmbreeScene::bounds() const {
   Bounds3f all;
   if (b.lower_x <= b.upper_x)
     all = Bounds3f({b.lower_x, b.lower_y, b.lower_z}, {b.upper_x, b.upper_y, b.upper_z});
-  // Embree interpolates the boxes of what moves, so that only both ends count.
+  // Embree interpolates the boxes of moving geometry, so only both ends count.
   for (const MovingInstance& moving : impl_->moving)
     all.extendBy(moving.motion.bounds(moving.child_bounds, 0.0f, 1.0f));
   return all;

@@ -1,6 +1,5 @@
-// Ray tracing: a bounding hierarchy over shapes and instances of other hierarchies.
-// The .cpp is the only file that includes Embree (Wald et al. 2014).
-// Who calls it: Scene and the scene builder. It must not know materials or lights.
+// Ray tracing: a bounding hierarchy over shapes and instances of other hierarchies. The .cpp is the
+// only file that includes Embree (Wald et al. 2014). It must not know materials or lights.
 #pragma once
 
 #include <memory>
@@ -11,27 +10,26 @@
 
 namespace nephroid {
 
-/// What a ray met, in the numbers of the hierarchy: geometries are numbered from 0 in the order in
-/// which they were added.
+/// A hit, in the numbering of the hierarchy: geometries are numbered from 0 in the order in which
+/// they were added.
 struct EmbreeHit {
   float t = 0;
   Vec2f uv;
-  uint32_t geometry = 0;  ///< in the top level, or in the instanced hierarchy
+  uint32_t geometry = 0;  ///< number in the top level, or in the instanced hierarchy
   uint32_t primitive = 0;
   uint32_t instance = kNoInstance;  ///< geometry number of the instance in the top level
-  /// Geometry number of the moving instance within the instanced hierarchy, if `geometry` is a
-  /// number in that one's.
+  /// Geometry number of the moving instance within the instanced hierarchy, if the hit lies in it.
   uint32_t inner = kNoInstance;
   static constexpr uint32_t kNoInstance = 0xffffffffu;
 };
 
-/// Rays ask for geometry whose mask shares a bit with theirs.
+/// A ray hits only geometry whose mask shares a bit with its own.
 inline constexpr unsigned kMaskOpaque = 1;
-inline constexpr unsigned kMaskPassing = 2;  ///< may let light straight through
+inline constexpr unsigned kMaskPassing = 2;  ///< can let light straight through
 inline constexpr unsigned kMaskAll = 3;
 
-/// The ray in the space of an instance at the ray's time, as the hierarchy traces it there where
-/// the instance moves; t stays what it is.
+/// The ray in the space of an instance at the ray's time; t is unchanged. The hierarchy uses the
+/// same function for moving instances.
 inline Ray object_space_ray(const Transform& object_to_world, const Ray& ray) {
   const Transform world_to_object = object_to_world.inverted();
   Ray local = ray;
@@ -55,8 +53,8 @@ class EmbreeScene {
   uint32_t add_shape(ShapePtr shape, unsigned mask);
   /// `child` has been committed and outlives this scene.
   uint32_t add_instance(const EmbreeScene& child, const Transform& object_to_world, unsigned mask);
-  /// The same for one that moves with the time of the ray. A child may hold moving instances of
-  /// hierarchies that hold none.
+  /// Like add_instance, for instances that move with the ray's time. A child can hold moving
+  /// instances of hierarchies that hold none.
   uint32_t add_moving_instance(const EmbreeScene& child, const MotionTransform& object_to_world,
                                unsigned mask);
   /// Builds the hierarchy. Throws Error if memory runs out.
@@ -64,7 +62,7 @@ class EmbreeScene {
 
   std::optional<EmbreeHit> intersect(const Ray& ray, unsigned mask) const;
   bool occluded(const Ray& ray, unsigned mask) const;
-  /// World bounds over all times; empty if there is nothing.
+  /// World bounds over all times; empty if there is no geometry.
   Bounds3f bounds() const;
 
  private:

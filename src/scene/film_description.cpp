@@ -12,7 +12,7 @@ namespace nephroid {
 
 namespace {
 
-// The crop window in pixels: given by the command line, in pixels, or in the unit square.
+// The crop window in pixels: from the command line, in pixels, or in the unit square.
 void set_crop(FilmDescription& film, const ParameterSet& p, const SceneOverrides& overrides) {
   const auto from_unit = [&](float x0, float x1, float y0, float y1) {
     const auto pixel = [](float u, int size) {
@@ -105,8 +105,8 @@ constexpr const char* kMeasuredSensors[] = {
     "nikon_d850",     "sony_ilce_6400",     "sony_ilce_7m3",      "sony_ilce_7rm3",
     "sony_ilce_9"};
 
-// A measured sensor sees grey under its white as bright as cie1931 does, and is balanced for 6500 K
-// unless the scene says otherwise: what is lost is its rendition of colours.
+// A measured sensor is approximated by cie1931: grey under its white gets the same brightness, and
+// the balance is 6500 K unless the scene sets it. Its colour rendition is lost.
 void set_sensor(FilmDescription& film, const ParameterSet& p, Diagnostics& diagnostics) {
   const std::string sensor = p.get_string("sensor", "cie1931");
   float kelvin = p.get_float("whitebalance", 0.0f);
@@ -147,8 +147,8 @@ FilmDescription make_film_description(const SceneDescription& description,
                                   std::to_string(film.height) + " must lie in 1..65536");
   set_crop(film, p, overrides);
 
-  // Exposure: the shutter stands in the Camera directive, the rest in the Film (pbrt-v4
-  // section 5.4).
+  // Exposure: the shutter is set in the Camera directive, the rest in the Film (pbrt-v4 section
+  // 5.4).
   float exposure = 1;
   if (description.camera) {
     const ParameterSet& c = description.camera->parameters;

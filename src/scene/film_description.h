@@ -1,4 +1,4 @@
-// The Film directive and what the command line changes of it.
+// The Film directive, with the overrides of the command line.
 #pragma once
 
 #include "input/format_rows.h"
@@ -9,7 +9,7 @@ namespace nephroid {
 /// All types of the format.
 std::vector<FormatType> film_types();
 
-/// pbrt-v4's film parameters: resolution, crop, exposure, colour space, file name. Throws
+/// Reads pbrt-v4's film parameters: resolution, crop, exposure, colour space, file name. Throws
 /// SceneError.
 FilmDescription make_film_description(const SceneDescription& description,
                                       const SceneOverrides& overrides, Diagnostics& diagnostics);

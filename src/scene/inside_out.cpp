@@ -40,7 +40,7 @@ void InsideOutCheck::add(const ShapeDescription& description, const ShapeRecord&
 bool InsideOutCheck::may_be_wanted(const Body& body, const ShapeGroup& top,
                                    const Vec3f& eye) const {
   if (body.group == &top && body.bounds.intersects(eye)) return true;
-  // A bubble lies in other glass, which may be a surface of water that is not closed.
+  // A bubble lies in other glass, which can be an open surface of water.
   return std::any_of(bodies_.begin(), bodies_.end(), [&](const Body& other) {
     if (&other == &body) return false;
     if (other.group != body.group) return true;
@@ -53,7 +53,7 @@ bool InsideOutCheck::may_be_wanted(const Body& body, const ShapeGroup& top,
 
 void InsideOutCheck::report(const ShapeGroup& top, const Vec3f& eye,
                             Diagnostics& diagnostics) const {
-  // Each is compared with all others; a scene of so many has its reasons.
+  // Pairwise comparison, too slow for more; such large scenes are taken to be intended.
   constexpr size_t kMost = 4096;
   if (bodies_.size() > kMost) return;
   const Body* first = nullptr;

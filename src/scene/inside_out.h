@@ -1,5 +1,5 @@
-// Warns of glass whose outside is its inside: it renders as a bubble of air in glass. Where that
-// may be wanted, nothing is said. It must not know rays.
+// Warns of inside-out glass, which renders as a bubble of air in glass; silent where that can be
+// intended. It must not know rays.
 #pragma once
 
 #include <vector>
@@ -11,14 +11,14 @@ namespace nephroid {
 
 class InsideOutCheck {
  public:
-  /// A shape of the scene; shapes of one group share a space.
+  /// Adds a shape of the scene. Shapes of one group share a space.
   void add(const ShapeDescription& description, const ShapeRecord& record, const Material& material,
            const ShapeGroup& group);
-  /// `eye`: where the camera stands.
+  /// `eye`: position of the camera.
   void report(const ShapeGroup& top, const Vec3f& eye, Diagnostics& diagnostics) const;
 
  private:
-  /// A shape that refracts.
+  /// A refractive shape.
   struct Body {
     SourceLocation where;
     std::string message;  ///< empty if it is not inside out

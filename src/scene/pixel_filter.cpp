@@ -84,8 +84,8 @@ PixelFilter::PixelFilter(float (*function)(float, float, const Parameters&), Vec
     axis.parameters = i == 0 ? parameters_x : parameters_y;
     axis.integral = 0;
     axis.cdf.assign(kCells + 1, 0.0f);
-    // A cell's probability is its mean |f| plus a little, so that a cell in which the function
-    // changes its sign is still sampled everywhere.
+    // A cell's probability is its mean |f| plus a small amount, so that cells in which the function
+    // changes sign are sampled everywhere.
     double total = 0, integral = 0, peak = 0;
     std::vector<double> mass(kCells);
     constexpr int kPoints = 32;
@@ -128,7 +128,7 @@ bool PixelFilter::can_be_sampled() const {
 
 PixelFilter::Sample PixelFilter::sample(const Vec2f& u) const {
   Sample s;
-  // The box is the most used filter and needs no table.
+  // The box is the most common filter and needs no table.
   if (axes_[0].function == box) {
     s.offset = {axes_[0].radius * (2 * u.x - 1), axes_[1].radius * (2 * u.y - 1)};
     return s;

@@ -1,6 +1,6 @@
-// The Sampler directive: how many samples and which seed. Where the points lie is the program's own
-// choice (core/sampler.h), so all types of the format mean the same.
-// Who calls it: the scene builder. It must not know how samples are drawn.
+// The Sampler directive: number of samples and seed. The program chooses the sample points itself
+// (core/sampler.h), so all types of the format mean the same. It must not know how samples are
+// drawn.
 #pragma once
 
 #include "input/format_rows.h"
@@ -15,8 +15,8 @@ struct SamplerDescription {
 /// All types of the format.
 std::vector<FormatType> sampler_types();
 
-/// What `sampler` says; pbrt-v4's defaults where it does not, `seed` where it gives none. Warns of
-/// an unknown type; throws SceneError for a number of samples that cannot be.
+/// Reads `sampler`, with pbrt-v4's defaults, and `seed` where it has none. Warns of an unknown
+/// type. Throws SceneError for an invalid number of samples.
 SamplerDescription read_sampler(const std::optional<DirectiveDescription>& sampler, int seed,
                                 Diagnostics& diagnostics);
 

@@ -13,7 +13,7 @@ Scene::~Scene() = default;
 
 namespace {
 
-// Alpha tests are decided by a hash of the ray, as in pbrt-v4: the same ray always sees the same.
+// As in pbrt-v4 a hash of the ray decides alpha tests, so the same ray always sees the same.
 float ray_hash(const Ray& ray) {
   uint64_t h = 0;
   for (int i = 0; i < 3; ++i) {
@@ -23,9 +23,9 @@ float ray_hash(const Ray& ray) {
   return bits_to_unit_float(static_cast<uint32_t>(h >> 32));
 }
 
-// Brings an interaction of an instanced shape to world space. The error grows by the rounding of
-// the transformed point, and of the rays that will be brought to object space from there; the
-// absolute values of the matrix bound both.
+// Transforms an interaction of an instanced shape to world space. The error grows by the rounding
+// of the transformed point and of later rays transformed back to object space. The matrix's
+// absolute values bound both.
 void to_world(const Transform& t, SurfaceInteraction& s) {
   Vec3f error;
   for (int j = 0; j < 3; ++j) {
@@ -54,7 +54,7 @@ void to_world(const Transform& t, SurfaceInteraction& s) {
 bool Scene::intersect_masked(const Ray& ray, unsigned mask, SurfaceInteraction& hit) const {
   const std::optional<EmbreeHit> found = top.accelerator->intersect(ray, mask);
   if (!found) return false;
-  // Down to the group that was hit, the ray with it, and back up again.
+  // Transforms the ray down to the group that was hit, and the hit back up.
   const ShapeGroup* group = &top;
   Ray local = ray;
   std::optional<Transform> placed[2];
@@ -131,7 +131,7 @@ Scene::Passage Scene::passage(const SurfaceInteraction& hit,
 SampledSpectrum Scene::transmittance(const Ray& shadow_ray,
                                      const SampledWavelengths& lambda) const {
   if (blocked(shadow_ray)) return SampledSpectrum(0.0f);
-  // What lets light through is crossed surface by surface, each with its weight.
+  // Crosses the transparent surfaces one by one, each with its weight.
   SampledSpectrum weight(1.0f);
   Ray rest = shadow_ray;
   SurfaceInteraction hit;

@@ -1,5 +1,5 @@
-// The immutable, traceable world: what integrators see of a scene.
-// Built once by build_scene from a SceneDescription; read by any number of threads.
+// The immutable, traceable scene, as integrators see it. Built once by build_scene from a
+// SceneDescription; read by any number of threads.
 #pragma once
 
 #include <memory>
@@ -19,24 +19,24 @@ namespace nephroid {
 class Camera;
 class PixelFilter;
 
-/// Coordinate system of the geometric layers of a film; kNone: it has none.
+/// Coordinate system of a film's geometric layers; kNone: the film has no such layers.
 enum class GBufferSpace { kNone, kCamera, kWorld };
 
-/// The film as the scene's Film directive and the command line describe it.
+/// The film as described by the scene's Film directive and the command line.
 struct FilmDescription {
   int width = 1280, height = 720;
   int crop_x0 = 0, crop_y0 = 0, crop_x1 = 1280, crop_y1 = 720;  ///< pixels, half open
   float imaging_ratio = 1;                                      ///< exposure time * ISO / 100
-  float max_component = kInfinity;                              ///< of a sample's rgb
+  float max_component = kInfinity;                              ///< maximum rgb of a sample
   const RgbColorSpace* color_space = nullptr;
   std::optional<ColorMatrix> white_balance;
   GBufferSpace gbuffer = GBufferSpace::kNone;
   std::string filename;
-  float diagonal_mm = 35;  ///< of the film that a realistic camera exposes
-  SourceLocation where;    ///< of the Film directive, if there is one
+  float diagonal_mm = 35;  ///< diagonal of a realistic camera's film
+  SourceLocation where;    ///< location of the Film directive, if there is one
 };
 
-/// What the command line may change of a scene.
+/// Settings of the command line that override the scene.
 struct SceneOverrides {
   int width = 0, height = 0;  ///< 0: as in the file
   bool has_crop = false;
@@ -52,33 +52,33 @@ struct MediumInterface {
   bool is_transition() const { return inside != outside; }
 };
 
-/// A shape with what belongs to it. Emitting shapes have one light per primitive, in a row.
+/// A shape and its attributes. Emitting shapes have one light per primitive, numbered in sequence.
 struct ShapeRecord {
   ShapePtr shape;
   int material = 0;
   int first_light = -1;
-  FloatTexturePtr alpha;       ///< null where the shape is solid
-  bool merges_photons = true;  ///< of the shape; its material may refuse as well
-  MediumInterface media;       ///< rays that leave the surface change to these if they differ
+  FloatTexturePtr alpha;       ///< null if the shape is opaque
+  bool merges_photons = true;  ///< whether the shape allows it; its material can also refuse
+  MediumInterface media;       ///< media of leaving rays, if they differ
 };
 
 struct ShapeGroup;
 
 struct InstanceRecord {
   const ShapeGroup* group = nullptr;
-  MotionTransform object_to_world;  ///< "world" is the space of the group that it stands in
+  MotionTransform object_to_world;  ///< "world" is the space of the group that holds the instance
 };
 
 /// Shapes that are placed as a whole: the top level, the shapes of an object definition, or those
-/// of a directive under an animated transform, in the space before that transform.
+/// of an animated directive, in the space before its transform.
 struct ShapeGroup {
   std::vector<ShapeRecord> records;  ///< index = geometry number in the hierarchy
-  /// Geometry numbers follow those of the records. Outside of the top level, moving shapes only.
+  /// Their geometry numbers follow those of the records. Below the top level: moving shapes only.
   std::vector<InstanceRecord> instances;
   std::unique_ptr<EmbreeScene> accelerator;
 };
 
-/// Crossings of surfaces that let light straight through after which a ray is given up as trapped.
+/// Maximum number of straight-through events before a ray counts as trapped.
 inline constexpr int kMaxStraightEvents = 1000;
 
 class Scene {
@@ -86,24 +86,23 @@ class Scene {
   Scene();
   ~Scene();
 
-  /// Closest surface along the ray that is there (alpha-tested; interfaces are reported, the walk
-  /// goes through them). False if the ray leaves the scene.
+  /// Closest surface along the ray, after alpha tests. Interfaces are reported; the walk passes
+  /// through them. False if the ray leaves the scene.
   bool intersect(const Ray& ray, SurfaceInteraction& hit) const;
 
-  /// Share of light that gets through a shadow ray up to its t_max: 0 if something stands in
-  /// between, else the product of the weights of what lets light straight through.
+  /// Transmittance of surfaces along a shadow ray up to its t_max: 0 if it is blocked, else the
+  /// product of the weights of the surfaces that it crosses.
   SampledSpectrum transmittance(const Ray& shadow_ray, const SampledWavelengths& lambda) const;
 
-  /// True if something opaque stands in the way of a shadow ray.
+  /// True if an opaque surface blocks a shadow ray.
   bool blocked(const Ray& shadow_ray) const;
-  /// The first surface on a ray that may let light straight through, whatever opaque things there
-  /// are.
+  /// The first surface on a ray that can let light straight through, ignoring opaque surfaces.
   bool intersect_passing(const Ray& ray, SurfaceInteraction& hit) const;
-  /// How light goes straight on at a surface that intersect_passing has found: across it, or beside
-  /// it where alpha says that it is not there. The sum of both is the weight.
+  /// Light that continues straight at a surface found by intersect_passing: across it, or beside it
+  /// where alpha makes it absent. The weight is the sum of both.
   struct Passage {
     SampledSpectrum across, beside;
-    float across_share = 0;  ///< a good probability for choosing `across`, 0 or 1 if only one is
+    float across_share = 0;  ///< suggested probability of `across`; 0 or 1 if only one is possible
   };
   Passage passage(const SurfaceInteraction& hit, const SampledWavelengths& lambda) const;
 
@@ -119,10 +118,9 @@ class Scene {
   std::unique_ptr<PixelFilter> filter;
   std::vector<MaterialPtr> materials;
   std::vector<LightPtr> lights;
-  std::vector<MediumInterface> light_media;  ///< around each light; of an area light, its shape's
-  // What light path expressions call things: names of the file; what has none there is called after
-  // its type and number ("dielectric2", "infinite1", "diffuse3": counted by type, from 1, in file
-  // order).
+  std::vector<MediumInterface> light_media;  ///< around each light; for area lights, their shape's
+  // Labels in light path expressions: the file's names. Unnamed things get type and number
+  // ("dielectric2", "infinite1", "diffuse3"), counted per type from 1 in file order.
   std::vector<std::string> material_labels;  ///< [material index]
   std::vector<std::string> medium_labels;    ///< [medium index]
   std::vector<std::string> light_labels;  ///< [light]; the lights of one AreaLightSource share it
@@ -132,26 +130,26 @@ class Scene {
   const Medium* camera_medium = nullptr;
   std::unique_ptr<LightSampler> light_sampler;
   SceneSphere sphere;
-  int samples_per_pixel = 16;  ///< of the scene's Sampler line
+  int samples_per_pixel = 16;  ///< number in the scene's Sampler line
   uint64_t scene_seed = 0;
-  std::string integrator;  ///< type of the scene's Integrator line, empty if absent
+  std::string integrator;  ///< type in the scene's Integrator line, empty if absent
   ParameterSet integrator_parameters;
 
   ShapeGroup top;
-  std::vector<std::unique_ptr<ShapeGroup>> groups;         ///< of object definitions
-  std::vector<std::unique_ptr<ShapeGroup>> moving_shapes;  ///< of animated Shape directives
-  bool has_passing_shapes = false;  ///< any shape that lets light straight through
-  /// True if any shape's material may scatter in class S: without one there are no caustics.
+  std::vector<std::unique_ptr<ShapeGroup>> groups;         ///< groups of object definitions
+  std::vector<std::unique_ptr<ShapeGroup>> moving_shapes;  ///< groups of animated Shape directives
+  bool has_passing_shapes = false;  ///< whether any shape lets light straight through
+  /// True if any shape's material can scatter in class S: without one there are no caustics.
   bool has_specular_material = false;
-  uint64_t primitive_count = 0;  ///< without instancing
+  uint64_t primitive_count = 0;  ///< counted without instancing
   uint64_t shape_count = 0;
-  uint64_t instance_count = 0;  ///< of object definitions
+  uint64_t instance_count = 0;  ///< number of instances of object definitions
 
  private:
   bool intersect_masked(const Ray& ray, unsigned mask, SurfaceInteraction& hit) const;
 };
 
-/// Throws SceneError or IoError; warnings go to `diagnostics`.
+/// Throws SceneError or IoError. Warnings go to `diagnostics`.
 std::unique_ptr<Scene> build_scene(const SceneDescription& description,
                                    const SceneOverrides& overrides, Diagnostics& diagnostics);
 

@@ -1,4 +1,4 @@
-// SceneDescription -> Scene, on one page: textures, materials, lights, shapes, instances, camera,
+// Builds a Scene from a SceneDescription: textures, materials, lights, shapes, instances, camera,
 // film.
 #include <exception>
 #include <map>
@@ -97,8 +97,8 @@ class SceneBuilder {
                                                "MakeNamedMaterial");
   }
 
-  // Reading and building meshes takes the time, so it is done for all shapes at once; everything
-  // that has an order (geometry numbers, lights) follows in the order of the file.
+  // Reading and building meshes takes most of the time and runs in parallel over all shapes.
+  // Everything with an order (geometry numbers, lights) follows in file order.
   void build_group(const std::vector<ShapeDescription>& shapes, ShapeGroup& group) {
     group.accelerator = std::make_unique<EmbreeScene>(device_);
     std::vector<std::span<const ShapeDescription>> runs;
@@ -119,7 +119,7 @@ class SceneBuilder {
         failed[i] = std::current_exception();
       }
     });
-    // What moves is placed behind what stands still, each directive as a group of its own.
+    // Moving shapes are placed after the still ones, each directive as a group of its own.
     std::vector<std::pair<const ShapeDescription*, const ShapeGroup*>> moving;
     for (size_t i = 0; i < runs.size(); ++i) {
       if (failed[i]) std::rethrow_exception(failed[i]);
@@ -197,7 +197,7 @@ class SceneBuilder {
     ++scene_->instance_count;
   }
 
-  // Puts a finished group into another one that is not finished yet.
+  // Places a finished group in another one that is still being built.
   static void place(const SourceLocation& where, const ShapeGroup& group,
                     const MotionTransform& motion, ShapeGroup& into) {
     const EmbreeScene& child = *group.accelerator;
@@ -226,9 +226,9 @@ class SceneBuilder {
                        "up to 1e17");
   }
 
-  // In smaller scenes densities of paths and what the ray tracer multiplies leave the range of
-  // single precision, and pictures are wrong: too dark by path tracing, many times too bright where
-  // photons are merged.
+  // In smaller scenes path densities and the ray tracer's products leave the range of single
+  // precision. Images are then wrong: too dark by path tracing, many times too bright by photon
+  // merging.
   void check_size(const SourceLocation& file) const {
     constexpr float kSmallest = 1e-8f, kLargest = 1e12f;
     if (scene_->shape_count > 0 && scene_->sphere.radius < kSmallest)
@@ -281,7 +281,7 @@ class SceneBuilder {
   std::shared_ptr<EmbreeDevice> device_;
   std::map<std::string, int> material_index_;
   std::map<std::string, size_t> medium_index_;
-  Vec3d instance_pivot_{0, 0, 0};  ///< of instances that move
+  Vec3d instance_pivot_{0, 0, 0};  ///< pivot of moving instances
 };
 
 }  // namespace

@@ -9,10 +9,10 @@
 namespace nephroid {
 namespace {
 
-/// Gives numbers to what has no name.
+/// Numbers unnamed things.
 class Numbering {
  public:
-  /// `names` are those that the file gives.
+  /// `names`: the names given in the file.
   explicit Numbering(std::set<std::string> names) : names_(std::move(names)) {}
 
   std::string label(const std::string& name, const std::string& type) {

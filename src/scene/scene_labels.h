@@ -1,7 +1,6 @@
-// What light path expressions call the materials, media and lights of a scene: the name that the
-// file gives, else the type and a number. Numbers count what has no name, per type, from 1, in file
-// order; a number whose label is somebody's name is left out. Who calls it: the scene builder. It
-// must not know expressions.
+// Labels of materials, media and lights in light path expressions: the file's name, else type and
+// number. Unnamed things are numbered per type, from 1, in file order; numbers whose label is
+// another thing's name are skipped. It must not know expressions.
 #pragma once
 
 #include <map>
@@ -13,29 +12,30 @@
 
 namespace nephroid {
 
-/// In the order of description.materials, used or not. The material of shapes that have none is
-/// called after its type as well; the type "" counts as "interface".
+/// Labels of description.materials in their order, used or not. The default material is also
+/// labelled by its type. The type "" counts as "interface".
 std::vector<std::string> material_labels(const SceneDescription& description);
 
-/// In the order of description.media: their names.
+/// Labels of description.media in their order: their names.
 std::vector<std::string> medium_labels(const SceneDescription& description);
 
-/// Labels of lights. The `"string name"` of a light need not be its own: lights of the same name
-/// are one to an expression. Throws SceneError if a "name" is no string.
+/// Labels of lights. The "string name" of a light need not be unique: expressions treat lights with
+/// the same name as one. Throws SceneError if a "name" is no string.
 class LightLabels {
  public:
   explicit LightLabels(const SceneDescription& description);
 
-  /// Of description.lights[index].
+  /// Label of description.lights[index].
   const std::string& light(size_t index) const { return lights_[index]; }
-  /// Of an AreaLightSource that some shape of the description has. One without a name is counted
-  /// where the first such shape stands.
+  /// Label of an AreaLightSource used by a shape of the description. An unnamed one is numbered at
+  /// its first such shape.
   const std::string& area_light(const DirectiveDescription& directive) const {
     return area_lights_.at(place(directive));
   }
 
  private:
-  /// The same directive may belong to many shapes. A file that is included twice has two texts.
+  /// Key of a directive that many shapes can share. Each inclusion of a file has its own `file`
+  /// object.
   using Place = std::tuple<const std::string*, int, int>;
   static Place place(const DirectiveDescription& directive) {
     return {directive.where.file.get(), directive.where.line, directive.where.column};

@@ -11,8 +11,8 @@ bool is_on(const Parameter& option) {
   return !option.bools.empty() && option.bools[0];
 }
 
-// pbrt-v4 decomposes the matrices of moving instances in its rendering space, so that their
-// rotations turn about the origin of that. Nothing else here depends on it.
+// pbrt-v4 decomposes the matrices of moving instances in its rendering space, so that they rotate
+// about its origin. Nothing else here depends on that space.
 void take_coordinate_system(const Parameter& option, SceneOptions& options) {
   const std::string& name = option.strings[0];
   if (name != "camera" && name != "cameraworld" && name != "world")
@@ -21,7 +21,7 @@ void take_coordinate_system(const Parameter& option, SceneOptions& options) {
   options.turn_about_camera = name != "world";
 }
 
-/// What the options do that change pictures; the names of all are in input/option_directive.cpp.
+/// Options that change images; input/option_directive.cpp has the names of all options.
 struct Row {
   const char* name;
   void (*take)(const Parameter&, SceneOptions&);

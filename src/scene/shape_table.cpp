@@ -16,12 +16,12 @@ namespace {
 
 struct Context {
   std::span<const ShapeDescription> alike;
-  const ShapeDescription& description;  ///< the first of them
+  const ShapeDescription& description;  ///< the first directive
   const ParameterSet& p;
   SceneFiles& files;
   Diagnostics& diagnostics;
   Transform transform;
-  bool flip;  ///< of meshes: ReverseOrientation xor a transform that swaps handedness
+  bool flip;  ///< for meshes: ReverseOrientation xor a transform that swaps handedness
   const DisplacementInputs& displacement;
 
   std::string what() const { return "shape \"" + description.type + "\""; }
@@ -38,14 +38,14 @@ std::vector<uint32_t> to_indices(const Context& c, const std::vector<int>& value
   return indices;
 }
 
-// Meshes end here: brought to world space, checked, with room behind the positions for the 16-byte
-// loads of the ray tracer.
+// Final step of meshes: transformed to world space, checked, with padding after the positions for
+// the ray tracer's 16-byte loads.
 std::vector<ShapePtr> finish_mesh(const Context& c, MeshData data) {
   zero_bad_normals(data, c.p.where, c.what(), c.diagnostics);
   if (c.description.reverse_orientation) reverse_normals(data);
   transform_mesh(data, c.transform);
   validate_mesh(data, c.p.where, c.what(), c.diagnostics);
-  // A lamp's "power" counts for each of its primitives, so those must stay what they are.
+  // A light's "power" counts per primitive, so those primitives must stay as they are.
   if (c.description.area_light && !c.description.area_light->parameters.find("power"))
     data = join_rectangles(std::move(data));
   std::vector<ShapePtr> shapes;
@@ -94,10 +94,10 @@ std::vector<ShapePtr> triangle_mesh(const Context& c) {
   return finish_mesh(c, std::move(data));
 }
 
-// As in pbrt-v4 the texture is asked at points in object space, before they move.
+// As in pbrt-v4 the texture is evaluated at object-space points before displacement.
 MeshData displaced(const Context& c, MeshData data, const FloatTexture& height) {
   Displacement displacement;
-  // Earlier versions of pbrt-v4 had another name for the length.
+  // Earlier versions of pbrt-v4 used another name for this length.
   const char* name = c.p.find("displacement.edgelength") ? "displacement.edgelength" : "edgelength";
   displacement.edge_length = c.p.get_float(name, 1.0f) * c.displacement.edge_scale;
   if (!(displacement.edge_length > 0))
@@ -177,7 +177,7 @@ float positive(const Context& c, const char* name, float fallback) {
   return v;
 }
 
-// Spheres, disks and cylinders end here: of a piece that has no area nothing is kept.
+// Final step of spheres, disks and cylinders: pieces without area are dropped.
 std::vector<ShapePtr> finish_quadric(const Context& c, ShapePtr shape) {
   const Bounds3f bounds = shape->bounds(0);
   if (!is_in_reach(bounds.min) || !is_in_reach(bounds.max))

@@ -3,7 +3,7 @@
 namespace nephroid {
 namespace {
 
-/// Calls visit(record) for each shape, also of objects that stand nowhere.
+/// Calls visit(record) for each shape, including those of objects that are never placed.
 template <class Visit>
 void for_each_shape(const Scene& scene, const Visit& visit) {
   const auto each = [&](const ShapeGroup& group) {
@@ -14,7 +14,7 @@ void for_each_shape(const Scene& scene, const Visit& visit) {
   for (const auto& group : scene.moving_shapes) each(*group);
 }
 
-/// Adds to `found`, by index, the materials that may stand for `material` at a point.
+/// Adds to `found`, by index, the materials that `material` can resolve to.
 void add_guises(const Material& material, std::vector<bool>& visited, std::vector<bool>& found) {
   const auto index = static_cast<size_t>(material.index());
   if (visited[index]) return;

@@ -1,4 +1,4 @@
-// Which materials of a scene its shapes have, and what messages call them. It must not know what
+// The materials used by a scene's shapes, and their names in messages. It must not know how
 // materials scatter.
 #pragma once
 
@@ -9,16 +9,16 @@
 
 namespace nephroid {
 
-/// The materials that scatter, by what they are on. A mix shows those that it chooses among.
+/// The scattering materials by the kind of shape that uses them. A mix counts as its choices.
 struct MaterialsOfShapes {
-  std::vector<bool> on_surfaces;  ///< [material]: some shape where photons can be merged has it
-  std::vector<bool> on_curves;    ///< [material]: some other shape has it
+  std::vector<bool> on_surfaces;  ///< [material]: used by a shape on which photons can be merged
+  std::vector<bool> on_curves;    ///< [material]: used by another shape
 };
 MaterialsOfShapes materials_of_shapes(const Scene& scene);
 
-/// "glass (FILE:LINE:COLUMN)": its label, and its place if that is known.
+/// "glass (FILE:LINE:COLUMN)": the label, and the location if it is known.
 std::string name_of_material(const Scene& scene, size_t index);
-/// The same of a light.
+/// The same for a light.
 std::string name_of_light(const Scene& scene, size_t index);
 
 }  // namespace nephroid

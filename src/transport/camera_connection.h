@@ -1,6 +1,6 @@
-// From a vertex of a light path to the camera (light tracing, t = 1): the points of the picture
-// that a straight line to the lens exposes, and what gets along it. It must not know how
-// other techniques are weighed against this one.
+// Connects a vertex of a light path to the camera (light tracing, t = 1): the film points that the
+// line to the lens exposes, and the transmittance along it. It must not know the MIS weights of
+// other techniques.
 #pragma once
 
 #include <array>
@@ -14,14 +14,14 @@
 
 namespace nephroid {
 
-/// A connection and the film points that it exposes: several where the picture closes upon itself.
+/// A connection and the film points that it exposes: several if the picture wraps around.
 struct LensConnection {
   CameraConnection line;
   std::array<Vec2f, 4> film;
   int count = 0;
 };
 
-/// What a film sees of the scene through its camera. Refers to both.
+/// The part of the scene that a film sees through its camera. Refers to the scene's camera.
 class CameraView {
  public:
   CameraView(const Scene& scene, const PixelBounds& crop);
@@ -35,44 +35,44 @@ class CameraView {
     return film.x > low_.x && film.x < high_.x && film.y > low_.y && film.y < high_.y;
   }
   const Camera& camera_;
-  Vec2f low_, high_;  ///< of film points that matter
+  Vec2f low_, high_;  ///< bounds of the film points that pixel filters reach
 };
 
-/// Share of light that gets from `origin`, already off its surface and in `medium`, to the lens,
+/// Transmittance from `origin`, in `medium` and already offset from its surface, to the lens. It is
 /// right for each wavelength by itself. Random numbers come from the sampler's current dimension.
 SampledSpectrum attenuation_to_camera(const Scene& scene, const Vec3f& origin, float time,
                                       const Medium* medium, const CameraConnection& line,
                                       const SampledWavelengths& lambda, const PathSampler& sampler);
 
-/// The cosine of a light path's vertex towards the unit direction `w` (world), whose local form is
-/// `wo` on the other side, with Veach's correction for shading normals ([P2] in docs/estimators.md;
-/// Veach 1997, section 5.3). Where light comes out from under the surface it has been brought there
-/// by area. Infinite or not a number at grazing angles.
+/// Cosine at a light path's vertex towards the unit direction `w` (world), with the correction for
+/// shading normals ([P2] in docs/estimators.md; Veach 1997, section 5.3). `wo` is the local
+/// direction back along the path. A subsurface exit has no cosine of arrival. The result may be
+/// infinite or NaN at grazing angles.
 inline float light_side_cosine(const SurfaceInteraction& surface, const Vec3f& wo, const Vec3f& w,
                                bool subsurface_exit) {
   return abs_dot(w, surface.ng) *
          (subsurface_exit ? 1.0f : abs_cos_theta(wo) / abs_dot(surface.wo, surface.ng));
 }
 
-/// Light that a surface vertex of a light path scatters to the lens in one class of events.
+/// Light that a surface vertex of a light path scatters to the lens by one event class.
 struct CameraEvent {
   const LensConnection& seen;
   Part part = kNoPart;
   EventClass letter = EventClass::kDiffuse;
   Vec3f wi;                 ///< local, towards the lens
-  SampledSpectrum f;        ///< of the BSDF
-  SampledSpectrum through;  ///< share of light that gets to the lens
+  SampledSpectrum f;        ///< BSDF value
+  SampledSpectrum through;  ///< transmittance to the lens
   float cosine = 0;         ///< light_side_cosine
 };
 
-/// Connects light paths of a moment to the camera, and counts the rays that this takes.
+/// Connects light paths of one time to the camera, and counts the rays.
 class CameraConnector {
  public:
   CameraConnector(const Scene& scene, const CameraView& view, float u_time)
       : scene_(scene), view_(view), u_time_(u_time) {}
 
-  /// Calls found(CameraEvent) for each of the finite `classes` at a surface in which light gets to
-  /// the lens and makes a path of a part, as `part_of(class, wi)` says; kNoPart is passed over.
+  /// Calls found(CameraEvent) for each of the finite `classes` by which a surface scatters light to
+  /// the lens. `part_of(class, wi)` names the part of the path; kNoPart is skipped.
   template <class PartOf, class Found>
   void connect(const Walk& walk, const WalkVertex& v, ClassMask classes, PathSampler& sampler,
                PartOf&& part_of, Found&& found) {
@@ -108,7 +108,7 @@ class CameraConnector {
     found(*seen, through, v.phase.eval(v.wo, seen->line.wi));
   }
 
-  /// Share of light that gets from `origin`, in `medium`, to the lens.
+  /// Transmittance from `origin`, in `medium`, to the lens.
   SampledSpectrum arrives(const LensConnection& seen, const Vec3f& origin, const Walk& walk,
                           const Medium* medium, const PathSampler& sampler) {
     ++rays_;

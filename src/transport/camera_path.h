@@ -11,22 +11,23 @@ namespace nephroid {
 
 struct CameraPath {
   Walk walk;
-  Vec2f film, u_lens;  ///< as Camera::generate_ray takes them
+  Vec2f film, u_lens;  ///< arguments of Camera::generate_ray
   float u_time = 0;
   float filter_weight = 1;  ///< may be negative
-  /// Of all light along the path; 0 if the lens lets nothing through: there is then no walk, and
-  /// the sample is black. It stays out of the walk, so that roulette does not see it.
+  /// The camera's weight of all light along the path. 0 if the lens lets nothing through: then
+  /// there is no walk, and the sample is black. It stays out of the throughput, where roulette
+  /// would see it.
   float camera_weight = 0;
 };
 
-/// The number in [0,1) that chooses a path's wavelengths, or a pass's; `u` unless the scene wants
-/// all of them to be the same.
+/// The number in [0,1) that chooses the wavelengths of a path or a pass: `u`, or 0.5 if the scene
+/// turns wavelength jitter off.
 inline float wavelength_number(const Scene& scene, float u) {
   return scene.options.wavelength_jitter ? u : 0.5f;
 }
 
-/// Starts a path through the place `film`, in pixels. `lambda` is the path's, or the pass's where
-/// it is shared; `u_time`, in [0,1), likewise.
+/// Starts a path through the film point `film`, in pixels. `lambda` and `u_time`, in [0,1), belong
+/// to the path, or to the pass if paths share them.
 inline CameraPath start_camera_path(const Scene& scene, const Vec2f& film, PathSampler& sampler,
                                     const SampledWavelengths& lambda, float u_time) {
   CameraPath path;
@@ -44,7 +45,7 @@ inline CameraPath start_camera_path(const Scene& scene, const Vec2f& film, PathS
   return path;
 }
 
-/// Starts a path through a place of pixel (x, y)'s filter.
+/// Starts a path through a point sampled from the filter of pixel (x, y).
 inline CameraPath start_camera_path(const Scene& scene, int x, int y, PathSampler& sampler,
                                     const SampledWavelengths& lambda, float u_time) {
   sampler.start_dimension(dimensions::kFilm);

@@ -1,7 +1,7 @@
-// Behind which events photons are merged: everywhere, or only where the light has come by way of a
-// caster, which is an S or, if wished, an S or G. A merge at a D needs any caster between it and
-// the light, one at a G needs an S: what one G throws onto another walks find, and few photons lie
-// within a lobe. Both sides of a path must agree on this. It must not know photons or weights.
+// Where photons are merged: everywhere, or only if light arrived by way of a caster, an S or, as an
+// option, a G. A merge at a D needs any caster between it and the light, one at a G needs an S.
+// (Camera walks find light from G to G, and few photons lie within a G lobe.) Both sides of a path
+// must agree on this. It must not know photons or weights.
 #pragma once
 
 #include <algorithm>
@@ -16,20 +16,20 @@ inline constexpr size_t kCasters = 3;
 
 class CasterRule {
  public:
-  /// `casters`: kSpecular, or that and kGlossy; kNone: photons are merged everywhere.
+  /// `casters`: kSpecular, or kSpecular and kGlossy, or kNone to merge photons everywhere.
   explicit CasterRule(ClassMask casters = ClassMask::kNone) : casters_(casters) {}
 
   bool merges_all_light() const { return casters_ == ClassMask::kNone; }
-  /// What an event is between a vertex and the light.
+  /// The caster that an event between a vertex and the light is.
   Caster caster_of(EventClass letter) const {
     if (!contains(casters_, letter)) return Caster::kNone;
     return letter == EventClass::kSpecular ? Caster::kSpecular : Caster::kGlossy;
   }
-  /// The smoothest one, with that of an event in front of `behind`.
+  /// The smoother one of `behind` and an event in front of it.
   Caster with(EventClass letter, Caster behind) const {
     return std::max(caster_of(letter), behind);
   }
-  /// Classes of events that merge where `behind` stands between them and the light.
+  /// Event classes that merge if `behind` is the smoothest caster between them and the light.
   ClassMask receivers(Caster behind) const {
     if (merges_all_light() || behind == Caster::kSpecular) return ClassMask::kRough;
     return behind == Caster::kGlossy ? ClassMask::kDiffuse : ClassMask::kNone;

@@ -20,8 +20,8 @@ std::optional<DirectSample> sample_direct(const Scene& scene, const Receiver& at
   d.p = s->p;
   d.ng = s->ng;
   d.medium = at.surface ? medium_towards(*at.surface, s->wi, at.medium) : at.medium;
-  // Both ends leave their surfaces by their own error bounds; the tiny margin keeps the ray from
-  // reaching the emitter itself.
+  // Both ends are offset by their own error bounds. The margin on t_max keeps the ray from reaching
+  // the emitter itself.
   d.shadow_ray.o = at.surface ? at.surface->spawn_origin(s->wi) : at.p;
   d.shadow_ray.time = at.time;
   if (s->infinite) {
@@ -37,9 +37,9 @@ std::optional<DirectSample> sample_direct(const Scene& scene, const Receiver& at
 
 namespace {
 
-// Along an unblocked ray of unit direction, piece by piece from one surface that lets light through
-// to the next. `piece(medium, ray, t_max)` gives the share that a medium lets through; `medium`
-// ends as the one around the end of the ray.
+// Transmittance along an unblocked ray of unit direction, piece by piece between the surfaces that
+// let light through. `piece(medium, ray, t_max)` is the transmittance of a medium; `medium` becomes
+// the one around the end of the ray.
 template <class Piece>
 SampledSpectrum follow(const Scene& scene, Ray rest, const Medium*& medium,
                        const SampledWavelengths& lambda, FlightRandom& random, Piece&& piece) {
@@ -50,7 +50,7 @@ SampledSpectrum follow(const Scene& scene, Ray rest, const Medium*& medium,
     if (medium) through *= piece(*medium, rest, found ? hit.distance : rest.t_max);
     if (!found || through.is_black()) return through;
     if (passages >= kMaxStraightEvents) return SampledSpectrum(0.0f);
-    // What passes beside the surface (alpha) stays in its medium, as walks do.
+    // Light that passes by alpha stays in its medium, as walks do.
     const Scene::Passage passage = scene.passage(hit, lambda);
     const bool crosses = passage.across_share > 0.0f && random.next() < passage.across_share;
     through *= crosses ? passage.across / passage.across_share
@@ -63,7 +63,7 @@ SampledSpectrum follow(const Scene& scene, Ray rest, const Medium*& medium,
   return through;
 }
 
-/// The shadow ray with a direction of unit length.
+/// The shadow ray, rescaled to a direction of unit length.
 Ray unit_shadow_ray(const DirectSample& direct) {
   Ray ray = direct.shadow_ray;
   const float unit = length(ray.d);

@@ -1,18 +1,18 @@
-// Next-event estimation: light that reaches a vertex straight from a light that was chosen for it,
-// and the densities that multiple importance sampling compares (docs/estimators.md, [D1] to [D4]);
-// what gets along that and other straight lines. It must not know routes or films.
+// Next-event estimation: samples a light for a vertex, and gives the densities for multiple
+// importance sampling (docs/estimators.md, [D1] to [D4]). Also the transmittance along straight
+// lines. It must not know routes or films.
 #pragma once
 
 #include "transport/random_walk.h"
 
 namespace nephroid {
 
-/// A vertex that asks for light.
+/// A vertex that receives light.
 struct Receiver {
   Vec3f p;
   Vec3f ns;                                     ///< shading normal, null in a medium
   const SurfaceInteraction* surface = nullptr;  ///< null in a medium
-  const Medium* medium = nullptr;               ///< around the walk that came here
+  const Medium* medium = nullptr;               ///< medium through which the walk arrived
   float time = 0;
 
   static Receiver of(const SurfaceInteraction& s, const Medium* medium) {
@@ -28,26 +28,25 @@ struct DirectSample {
   int light = 0;             ///< index of the light
   SampledSpectrum radiance;  ///< arriving unoccluded, divided by pdf_w
   Vec3f wi_world;            ///< unit, towards the light
-  float pdf_w = 0;           ///< of choosing the light and the direction
+  float pdf_w = 0;           ///< density of the light and the direction, per steradian
   bool delta = false;        ///< no walk can hit the light
   Vec3f p, ng;               ///< point and outside normal of the light, null if it has none
   Ray shadow_ray;
-  const Medium* medium = nullptr;  ///< in which the shadow ray starts
+  const Medium* medium = nullptr;  ///< medium at the start of the shadow ray
 };
 
-/// Chooses a light and a point on it. Empty if nothing can arrive.
+/// Samples a light and a point on it. Empty if no light can arrive.
 std::optional<DirectSample> sample_direct(const Scene& scene, const Receiver& at,
                                           const SampledWavelengths& lambda, PathSampler& sampler);
 
-/// What arrives of a light sample through everything on its way, media included, and how likely
-/// either technique is to find it there ([V5]). Random numbers come from the sampler's current
-/// dimension.
+/// Transmittance from a vertex to its light sample, media included, with the densities of both
+/// techniques ([V5]). Random numbers come from the sampler's current dimension.
 ShadowFlight trace_shadow(const Scene& scene, const DirectSample& direct,
                           const SampledWavelengths& lambda, const PathSampler& sampler);
 
-/// What gets along a ray of unit direction through everything on its way, without any density that
-/// depends on the wavelength: for photons. `medium` is the one around the origin, and becomes the
-/// one around the end.
+/// Transmittance along a ray of unit direction, media included. No density depends on the
+/// wavelength, as photons need it. `medium` is the one around the origin and becomes the one around
+/// the end.
 SampledSpectrum attenuation_along(const Scene& scene, const Ray& ray, const Medium*& medium,
                                   const SampledWavelengths& lambda, const PathSampler& sampler);
 
@@ -55,8 +54,8 @@ SampledSpectrum attenuation_along(const Scene& scene, const Ray& ray, const Medi
 SampledSpectrum attenuation_to_light(const Scene& scene, const DirectSample& direct,
                                      const SampledWavelengths& lambda, const PathSampler& sampler);
 
-/// The same between two points, off their surfaces already; `medium` is the one at `from`. Black if
-/// they are one.
+/// The same between two points, already offset from their surfaces; `medium` is the one at `from`.
+/// Black if the points coincide.
 SampledSpectrum attenuation_between(const Scene& scene, const Vec3f& from, const Vec3f& to,
                                     float time, const Medium* medium,
                                     const SampledWavelengths& lambda, const PathSampler& sampler);

@@ -1,5 +1,5 @@
-// A direction at a surface, chosen either by the BSDF or by a guide: the mixture, per class of the
-// event, and its density ([T3] in docs/estimators.md). It must not know routes or lights.
+// Samples a direction at a surface from a mixture of BSDF and guide, per event class ([T3] in
+// docs/estimators.md). It must not know routes or lights.
 #pragma once
 
 #include <optional>
@@ -9,11 +9,11 @@
 
 namespace nephroid {
 
-/// Classes whose directions a guide may choose: those of finite lobes of class D and G.
+/// Classes whose directions a guide may sample: D and G with finite lobes.
 inline ClassMask guided_classes(const Bsdf& bsdf, ClassMask among) {
   return bsdf.finite_classes() & among & ClassMask::kRough;
 }
-/// p_R of [T3]: density with which the BSDF finds the local direction `wi` by one of these.
+/// p_R of [T3]: the BSDF's density of the local direction `wi` in these classes.
 inline float guided_pdf_w(const Bsdf& bsdf, const Vec3f& wo, const Vec3f& wi, TransportMode mode,
                           ClassMask among) {
   const ClassMask guided = guided_classes(bsdf, among);
@@ -26,9 +26,9 @@ inline float guided_pdf_w(const Bsdf& bsdf, const Vec3f& wo, const Vec3f& wi, Tr
 /// The mixture at one vertex. Only finite lobes of class D and G are guided; with an empty guide it
 /// is the BSDF alone. A `Guide`, ForecastLobes, DirectionTree or CasterCones, has
 ///   bool empty() const
-///   float share() const                          of the directions that follow it, below 1
-///   Vec3f sample(float& uc, const Vec2f&) const  a unit direction, world; what it uses of `uc` is
-///                                                taken out of it
+///   float share() const                          share of directions from the guide, below 1
+///   Vec3f sample(float& uc, const Vec2f&) const  a unit direction, world; `uc` is rescaled to the
+///                                                part that is left of it
 ///   float pdf_w(const Vec3f&) const
 template <class Guide>
 class GuidedDirection {
@@ -45,8 +45,7 @@ class GuidedDirection {
         guide_(guide),
         share_(guide.empty() || guided_ == ClassMask::kNone ? 0.0f : guide.share()) {}
 
-  /// As Bsdf::sample, with the density of the mixture. `gain` becomes that density over the
-  /// BSDF's alone.
+  /// As Bsdf::sample, with the density of the mixture. `gain` becomes that density over the BSDF's.
   std::optional<BsdfSample> sample(float uc, const Vec2f& u, float& gain) const {
     if (uc < share_) return sample_guide(uc / share_, u, gain);
     std::optional<BsdfSample> s =
@@ -59,8 +58,8 @@ class GuidedDirection {
     return s;
   }
 
-  /// Density with which sample() finds the local direction `wi` in class `c`, whose density by the
-  /// BSDF alone is `bsdf_pdf_w`; delta lobes left out.
+  /// Density of sample() for the local direction `wi` in class `c`, without delta lobes.
+  /// `bsdf_pdf_w` is the BSDF's own density.
   float pdf_w(const Vec3f& wi, EventClass c, float bsdf_pdf_w) const {
     return mixed_pdf_w(wi, shading_.to_world(wi), c, bsdf_pdf_w);
   }
@@ -72,12 +71,12 @@ class GuidedDirection {
     const float guide_pdf_w = guide_.pdf_w(world);
     if (!(guide_pdf_w > 0.0f)) return pdf;
     const float all = guided_pdf_w(bsdf_, wo_, wi, mode_, among_);
-    // Rounding may let a BSDF sample what it then says it cannot.
+    // Rounding may let a BSDF sample a direction whose density it then evaluates to 0.
     if (all > 0.0f) pdf += share_ * guide_pdf_w * (bsdf_pdf_w / all);
     return pdf;
   }
 
-  /// The number that chose the guide chooses the class with what is left of it.
+  /// Samples the guide; the rest of `uc` chooses the class.
   std::optional<BsdfSample> sample_guide(float uc, const Vec2f& u, float& gain) const {
     const Vec3f world = guide_.sample(uc, u), wi = shading_.to_local(world);
     float left = uc * guided_pdf_w(bsdf_, wo_, wi, mode_, among_);
@@ -90,7 +89,8 @@ class GuidedDirection {
         s.emplace();
         s->f = e.f;
         s->wi = wi;
-        // The guide knows the direction that it gave; one that rounding has turned it might not.
+        // The guide's density is that of its own direction: one turned by rounding might lie
+        // outside.
         s->pdf_w = mixed_pdf_w(wi, world, c, e.pdf_w);
         gain = s->pdf_w / e.pdf_w;
         s->eta = bsdf_.eta_between(wo_, wi);
@@ -109,7 +109,7 @@ class GuidedDirection {
   const TransportMode mode_;
   const ClassMask among_, guided_;
   const Guide& guide_;
-  const float share_;  ///< of the guide
+  const float share_;  ///< share of directions from the guide
 };
 
 }  // namespace nephroid

@@ -24,14 +24,14 @@ SampledSpectrum extinction(const MediumProperties& m) {
   return m.sigma_a + m.sigma_s;
 }
 
-// Distances to the next tentative collision, at the rate of one majorant after the other; the
-// optical depth that is left over at the end of a piece is used up in the next.
+// Samples the distances to tentative collisions, majorant by majorant. Optical depth left over at
+// the end of a piece is used in the next one.
 class Steps {
  public:
   Steps(MajorantIterator pieces, FlightRandom& random) : pieces_(pieces), random_(random) {}
 
-  /// Moves to the next tentative collision, exponentially distributed with rate(sigma_maj).
-  /// `passed(sigma_maj, length)` is called for every bit of the way. False: the end was reached.
+  /// Moves to the next tentative collision, exponentially distributed with rate(sigma_maj). Calls
+  /// `passed(sigma_maj, length)` for every piece of the way. False: the end was reached.
   template <class Rate, class Passed>
   bool next(Rate&& rate, Passed&& passed) {
     if (++collisions_ > kMaxCollisions) return false;
@@ -56,7 +56,7 @@ class Steps {
     }
   }
   float t() const { return t_; }
-  /// True if the flight was given up; nothing gets through then.
+  /// True if the flight was given up; its transmittance is then 0.
   bool given_up() const { return collisions_ > kMaxCollisions; }
   const SampledSpectrum& majorant() const { return piece_->sigma_maj; }
 
@@ -65,12 +65,12 @@ class Steps {
   FlightRandom& random_;
   std::optional<MajorantSegment> piece_;
   float t_ = 0;
-  /// A bound for media that are absurdly dense somewhere along the way.
+  /// A bound for absurdly dense media.
   static constexpr int kMaxCollisions = 1 << 20;
   int collisions_ = 0;
 };
 
-// What hardly arrives is left to a few rays that carry more: false if this is not one of them.
+// Russian roulette on rays that carry little. False if the ray ends.
 bool survives(SampledSpectrum& through, float carried, FlightRandom& random) {
   constexpr float kThin = 0.05f, kSurvive = 0.25f;
   if (!(carried > 0.0f) || !through.is_finite()) return false;
@@ -91,7 +91,7 @@ SampledSpectrum attenuation(const Medium& medium, const Ray& ray, float t_max,
   if (const auto sigma = medium.uniform_extinction(lambda)) {
     const SampledSpectrum through = beer(*sigma, t_max);
     if (emitted && medium.is_emissive()) {
-      // Absorbed share times what is emitted per absorption; scattering takes its part of the rest.
+      // Emission of the absorbed share of the extinction.
       const MediumProperties m = medium.at(ray.o, lambda);
       for (int i = 0; i < kSpectrumSamples; ++i)
         if ((*sigma)[i] > 0.0f)
@@ -118,13 +118,13 @@ std::optional<Collision> fly(const Medium& medium, const Ray& ray, float t_max,
                              SampledSpectrum& emitted) {
   assert(lambda.hero() == lambda.lambda(0));
   density.plain = false;
-  // What was dropped must not end the walk by growing beyond all numbers.
+  // Dropped wavelengths are cleared: they could overflow and end the walk.
   const auto keep_left = [&] {
     throughput = lambda.of_left(throughput);
     density.u = lambda.of_left(density.u);
     density.l = lambda.of_left(density.l);
   };
-  // [V1]: everything that is relative to the hero's density of the way since the last collision.
+  // [V1]: T, relative to the hero, over the way since the last tentative collision.
   SampledSpectrum depth;
   const auto passed = [&](const SampledSpectrum& sigma, float step) {
     for (int i = 0; i < kSpectrumSamples; ++i)
@@ -171,7 +171,7 @@ std::optional<Collision> fly(const Medium& medium, const Ray& ray, float t_max,
     throughput = SampledSpectrum(0.0f);
     return std::nullopt;
   }
-  // The shadow ray would have crossed a uniform medium with certainty, others as the walk did.
+  // A shadow ray crosses a uniform medium in closed form, others as the walk does.
   if (uniform) density.l *= std::exp(depth[0]);
   const SampledSpectrum t = relative();
   throughput *= t;

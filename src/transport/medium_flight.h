@@ -1,8 +1,7 @@
-// How light crosses a medium between two surfaces: collisions sampled against a majorant (delta
-// tracking), null collisions kept as weights, and the spectral multiple importance sampling that
-// makes a path sampled for one wavelength count for all (Miller, Georgiev & Jarosz 2019; Wilkie et
-// al. 2014; pbrt-v4 chapters 11 and 14; docs/estimators.md, [V1] to [V6]). It must not know
-// surfaces, routes or films.
+// Flights through a medium: delta tracking with null collisions as weights, and spectral multiple
+// importance sampling (docs/estimators.md, [V1] to [V6]). It must not know surfaces, routes or
+// films.
+// Papers: Miller, Georgiev & Jarosz 2019, Wilkie et al. 2014, pbrt-v4 chapters 11 and 14.
 #pragma once
 
 #include <optional>
@@ -12,8 +11,7 @@
 
 namespace nephroid {
 
-/// Random numbers of one flight: the first is stratified, the others, as many as it takes, come
-/// from a hash.
+/// Random numbers of one flight: the first is stratified, all others come from a hash.
 class FlightRandom {
  public:
   FlightRandom() = default;
@@ -33,11 +31,11 @@ class FlightRandom {
   uint64_t state_ = 0;
 };
 
-/// The random choices of a path so far, as densities per wavelength over the density with which
-/// they were made (for the hero wavelength). All ones where no choice depended on the wavelength.
+/// Densities of a path's random choices per wavelength, over the density for the hero wavelength
+/// with which they were made: r_u and r_l of [V1].
 struct SpectralDensity {
-  SampledSpectrum u{1.0f};  ///< of the walk itself
-  SampledSpectrum l{1.0f};  ///< had the last flight been a shadow ray
+  SampledSpectrum u{1.0f};  ///< r_u, the walk itself
+  SampledSpectrum l{1.0f};  ///< r_l, with a shadow ray as the last flight
   float u_mean = 1, l_mean = 1;
   bool plain = true;  ///< no choice depended on the wavelength yet: all ones
   void take_means(const SampledWavelengths& lambda) {
@@ -47,46 +45,44 @@ struct SpectralDensity {
   }
 };
 
-/// Share of light that gets through a medium from the origin of a ray of unit direction to t_max,
-/// without scattering: in closed form where the extinction is uniform, else an unbiased estimate
-/// by ratio tracking with one majorant for all wavelengths. `emitted`, if given, receives the
-/// radiance that the piece sends back to the origin.
+/// Transmittance of a medium from the origin of a ray of unit direction to t_max. It has a closed
+/// form if the extinction is uniform; else ratio tracking uses one majorant for all wavelengths.
+/// `emitted`, if given, receives the radiance that the piece emits towards the origin.
 SampledSpectrum attenuation(const Medium& medium, const Ray& ray, float t_max,
                             const SampledWavelengths& lambda, FlightRandom& random,
                             SampledSpectrum* emitted);
 
-/// Where a flight that may scatter ended.
+/// A real collision that ended a flight.
 struct Collision {
   float t = 0;
   HenyeyGreenstein phase;
 };
 
-/// A flight of a walk through a medium that may scatter. `throughput` and `density` are brought up
-/// to date; `emitted` receives what the medium emits towards the origin on the way, the throughput
-/// and the spectral weights included. Empty: the flight reached t_max. A throughput that is black
-/// ends the walk.
+/// A walk's flight through a medium that may scatter. Updates `throughput` and `density`. `emitted`
+/// receives the medium's emission towards the origin, with throughput and spectral weights. Empty
+/// if the flight reached t_max. A black throughput ends the walk.
 std::optional<Collision> fly(const Medium& medium, const Ray& ray, float t_max,
                              const SampledWavelengths& lambda, FlightRandom& random,
                              SampledSpectrum& throughput, SpectralDensity& density,
                              SampledSpectrum& emitted);
 
-/// The same for walks whose choices must not depend on which wavelength is the hero, because two of
-/// them meet that share their wavelengths: each wavelength's throughput is an unbiased estimate by
-/// itself, no density goes with it [V6]. Nothing of what the medium emits is seen.
+/// [V6] The same for two walks that share their wavelengths and are multiplied, so that no choice
+/// may depend on the hero. The throughput is unbiased at each wavelength by itself, without a
+/// density. Emission of the medium is not seen.
 std::optional<Collision> fly_per_wavelength(const Medium& medium, const Ray& ray, float t_max,
                                             const SampledWavelengths& lambda, FlightRandom& random,
                                             SampledSpectrum& throughput);
 
-/// What a shadow ray finds in a medium: the share that gets through and how likely that is for
-/// either technique, relative to the density with which it was sampled.
+/// The result of a shadow ray: its transmittance and both techniques' densities, over the density
+/// with which it was sampled ([V5]).
 struct ShadowFlight {
   SampledSpectrum transmittance{1.0f};
-  SampledSpectrum u{1.0f};  ///< had a walk gone this way
-  SampledSpectrum l{1.0f};  ///< of the shadow ray itself
+  SampledSpectrum u{1.0f};  ///< r_u, a walk along the same way
+  SampledSpectrum l{1.0f};  ///< r_l, the shadow ray itself
   bool plain = true;        ///< u and l are ones
 };
 
-/// Multiplies one more piece onto `flight`.
+/// Multiplies `flight` by one more piece of the way.
 void cross(const Medium& medium, const Ray& ray, float t_max, const SampledWavelengths& lambda,
            FlightRandom& random, ShadowFlight& flight);
 

@@ -1,7 +1,6 @@
-// The one random walk through a scene, from the camera or from a light. It finds surfaces, makes
-// their BSDFs, crosses media, goes straight through what is not there, plays Russian roulette and
-// samples directions; what a vertex is for is the visitor's business. It must not know routes or
-// films.
+// The random walk through a scene, from the camera or from a light. It finds surfaces, makes BSDFs,
+// crosses media, handles straight-through events, plays Russian roulette and samples directions. A
+// visitor uses its vertices. It must not know routes or films.
 #pragma once
 
 #include <cassert>
@@ -11,31 +10,31 @@
 
 namespace nephroid {
 
-/// Runs the walk until it leaves, ends or has `max_events` events. The visitor has
-///   ClassMask useful(const WalkVertex&)    letters that its path may have here: asked once for a
-///                                  vertex, and then its `letters`
-///   bool scatters_in(const Medium&)        its path may have a V here
-///   bool looks_under_surfaces()    it wants to see where subsurface light comes out even if D is
-///                                  not among the letters
-///   void escape(const Walk&)                         the ray left the scene
-///   void emitter(const Walk&, const SurfaceInteraction&, const Light&)  it met a light
-///   void medium_emission(const Medium&, const SampledSpectrum&)  its light, fully weighed, of the
-///                                   wavelengths that the walk started with
-///   void vertex(const Walk&, const WalkVertex&, PathSampler&)         a surface
+/// Runs the walk until it escapes, ends or has `max_events` events. The visitor has
+///   ClassMask useful(const WalkVertex&)     letters that its path may have here; called once per
+///                                           vertex, for WalkVertex::letters
+///   bool scatters_in(const Medium&)         true if its path may have a V here
+///   bool looks_under_surfaces()             true to follow subsurface light to its exit even if D
+///                                           is not among the letters
+///   void escape(const Walk&)                the ray left the scene
+///   void emitter(const Walk&, const SurfaceInteraction&, const Light&)  the walk hit a light
+///   void medium_emission(const Medium&, const SampledSpectrum&)  emission of a medium, fully
+///                                           weighed, at the walk's first wavelengths
+///   void vertex(const Walk&, const WalkVertex&, PathSampler&)           a surface
 ///   void medium_vertex(const Walk&, const MediumVertex&, PathSampler&)  a collision in a medium
-///   bool scatter(const Walk&, const WalkEvent&)      an event was sampled; false: stop
+///   bool scatter(const Walk&, const WalkEvent&)  an event was sampled; false: stop
 /// and may have
 ///   std::optional<BsdfSample> sample_direction(Walk&, const WalkVertex&, float uc,
-///       const Vec2f& u, ClassMask among)    in place of Bsdf::sample. If the density that it says
-///                                           is not that of what it does, it takes the ratio out
-///                                           of the throughput; in eta_scale roulette overlooks it
-///   bool branches(const Walk&)              it wants both ways of a smooth boundary here, and gets
-///   void branch(const Walk&, const WalkEvent&, PathSampler&)  each, ready to be followed, before
-///                                           the walk itself goes one of them; not on curves
+///       const Vec2f& u, ClassMask among)    replaces Bsdf::sample. If its pdf_w is not the density
+///                                           it samples with, it divides the throughput by the
+///                                           ratio; eta_scale hides that from roulette
+///   bool branches(const Walk&)              true to follow both ways of a smooth boundary
+///   void branch(const Walk&, const WalkEvent&, PathSampler&)  called for both, before the walk
+///                                           goes on with one of them; not on curves
 ///   static constexpr bool kEndsAtBranches   true: the walk itself ends there
-///   float survival(const WalkVertex&)       the chance that the walk goes on here, asked before
-///                                           `vertex`; 1: no roulette
-/// `mode` tells which quantity the throughput carries. In kImportance it includes the correction
+///   float survival(const WalkVertex&)       survival probability here, asked before `vertex`;
+///                                           1: no roulette
+/// `mode` is the quantity that the throughput carries. In kImportance it includes the correction
 /// for shading normals (Veach 1997, section 5.3).
 template <class Visitor>
 class RandomWalk {
@@ -55,9 +54,9 @@ class RandomWalk {
   }
 
  private:
-  /// One flight and what stands at its end. False: the walk is over.
+  /// One flight and the vertex at its end. False: the walk is over.
   bool step() {
-    // Where media choose by the hero, what the others carry would grow without bounds.
+    // Dropped wavelengths are cleared: media no longer choose by them, and they could overflow.
     if (walk_.per_wavelength) walk_.throughput = walk_.lambda.of_left(walk_.throughput);
     ++walk_.rays;
     const bool found = scene_.intersect(walk_.ray, hit_);
@@ -76,7 +75,7 @@ class RandomWalk {
 
   std::optional<Collision> cross_medium(float distance) {
     const Medium& medium = *walk_.medium;
-    // One sequence of numbers for the whole way from vertex to vertex, through however many media.
+    // One sequence of random numbers from vertex to vertex, through any number of media.
     if (flight_vertex_ != walk_.vertices) {
       flight_vertex_ = walk_.vertices;
       sampler_.start_dimension(walk_.vertex_dimension() + dimensions::kFlight);
@@ -133,10 +132,10 @@ class RandomWalk {
     const Material& surface = *scene_.materials[hit_.material];
     const Material* material = surface.resolve(hit_);
     hit_.coverage *= surface.presence(hit_);
-    // A lamp shines whole also where a mix shows no surface.
+    // An area light emits fully, also where a mix shows no surface.
     if (const Light* light = scene_.area_light(hit_)) visitor_.emitter(walk_, hit_, *light);
     if (material->is_interface()) return go_straight_through();
-    // Without an event left, the walk may still go straight through what adds none.
+    // A walk without an event left may still go straight through.
     const bool spent = walk_.events >= max_events_;
     if (spent && !material->transmits_straight()) return false;
     if (material->has_bump()) material->bump(hit_);
@@ -202,7 +201,7 @@ class RandomWalk {
     return end_of_event(leave(walk_, vertex, *s, wi), dimension);
   }
 
-  /// Russian roulette that the visitor may ask for.
+  /// Russian roulette of the visitor, if it has any.
   bool survives(const WalkVertex& vertex) {
     if constexpr (requires { visitor_.survival(vertex); }) {
       const float survival = visitor_.survival(vertex);
@@ -216,7 +215,7 @@ class RandomWalk {
     return true;
   }
 
-  /// Sends a walk off along a sample, whose direction is `wi` in the world.
+  /// Sends a walk off along a sample with the world direction `wi`.
   WalkEvent leave(Walk& walk, const WalkVertex& vertex, const BsdfSample& s,
                   const Vec3f& wi) const {
     if (s.transmitted && mode_ == TransportMode::kRadiance) walk.eta_scale *= sqr(s.eta);
@@ -234,8 +233,8 @@ class RandomWalk {
     return event;
   }
 
-  /// Gives the visitor both ways of a smooth boundary, each with all that goes there. False if
-  /// there are not two.
+  /// Gives the visitor both ways of a smooth boundary, each with its full share of the light. False
+  /// if there are not two.
   bool branch(const WalkVertex& vertex) {
     assert(mode_ == TransportMode::kRadiance);
     if (vertex.letter(EventClass::kSpecular) != EventClass::kSpecular) return false;
@@ -252,7 +251,7 @@ class RandomWalk {
     return true;
   }
 
-  /// The visitor may choose directions itself.
+  /// Samples by the visitor's sample_direction if it has one, else by the BSDF.
   std::optional<BsdfSample> sample_direction(const WalkVertex& vertex, float uc, const Vec2f& u,
                                              ClassMask among) {
     if constexpr (requires { visitor_.sample_direction(walk_, vertex, uc, u, among); })
@@ -261,8 +260,7 @@ class RandomWalk {
       return vertex.bsdf.sample(vertex.wo, uc, u, mode_, among);
   }
 
-  /// The second half of a subsurface event, at another point of the surface: a vertex of its own,
-  /// but one event with the first.
+  /// The exit of a subsurface event at another point: a new vertex, but the same event.
   bool come_out_again(const Material& material, bool entry_merges) {
     const Bssrdf* bssrdf = material.make_bssrdf(hit_, walk_.lambda, arena_);
     if (!bssrdf) return false;
@@ -281,13 +279,13 @@ class RandomWalk {
     hit_ = exit->surface;
     const Bsdf* bsdf = bssrdf->exit_bsdf(arena_);
     if (!bsdf) return false;
-    // The same letter from both sides: H if either end lies on a curve.
+    // Both sides of a path must see the same letter: H if either end lies on a curve.
     const bool merges = entry_merges && hit_.record->merges_photons;
     return scatter_at_surface(
         {hit_, material, *bsdf, Vec3f(0, 0, 1), ClassMask::kNone, false, merges, true}, false);
   }
 
-  /// Goes on behind a surface that is not there.
+  /// Straight-through event: goes on behind the surface.
   bool go_straight_through() {
     if (++walk_.straight_events > kMaxStraightEvents) return false;
     walk_.ray.o = hit_.spawn_origin(walk_.ray.d);
@@ -304,8 +302,7 @@ class RandomWalk {
     walk.density.l_mean = walk.density.u_mean;
   }
 
-  /// Counts the event, asks the visitor and plays roulette on what the walk still carries; the
-  /// change of radiance inside glass is no loss.
+  /// Counts the event, asks the visitor and plays roulette on Walk::carried().
   bool end_of_event(const WalkEvent& event, int dimension) {
     count_event(walk_);
     if (!visitor_.scatter(walk_, event)) return false;

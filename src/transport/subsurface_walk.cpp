@@ -1,4 +1,3 @@
-// The probe ray; see subsurface_walk.h.
 #include "transport/subsurface_walk.h"
 
 namespace nephroid {
@@ -23,8 +22,8 @@ std::optional<SubsurfaceExit> find_subsurface_exit(const Scene& scene,
     ++exit.rays;
     if (!scene.intersect(ray, hit)) break;
     if (scene.materials[hit.material]->resolve(hit) == &material) {
-      // The n-th surface replaces the chosen one with probability 1/n; what is left of the random
-      // number is as good as new.
+      // Reservoir sampling: the n-th surface replaces the chosen one with probability 1/n. The
+      // random number is rescaled.
       const float keep = 1.0f / static_cast<float>(++found);
       if (u_choice < keep) {
         exit.surface = hit;

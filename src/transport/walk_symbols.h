@@ -1,4 +1,4 @@
-// Events of walks as symbols of routes. It must not know estimators.
+// Translates events of walks to symbols of routes. It must not know estimators.
 #pragma once
 
 #include "route/scene_symbols.h"

@@ -19,17 +19,17 @@ namespace {
 constexpr uint64_t kEyeStream = 0x62647065;    // "bdpe"
 constexpr uint64_t kLightStream = 0x6264706c;  // "bdpl"
 
-/// Splats are added in strips of rows of at most this many pixels, or of one row.
+/// Limit of pixels per strip of rows, or one row. Splats are added once per strip.
 constexpr int kMaxPixels = 1 << 16;
 
-/// What a row of pixels found.
+/// Splats and counts of a row of pixels.
 struct Row {
   std::vector<Splat> splats;
   uint64_t rays = 0, useful = 0;
   TechniqueCounter::Row techniques;
 };
 
-/// One sample of each pixel.
+/// Renders one sample of each pixel.
 class PairRound {
  public:
   PairRound(const PairSettings& settings, const PassKey& key, uint64_t index, Film& film)
@@ -173,7 +173,7 @@ void Bidirectional::render_pass(const PassKey& key, const Learned*, const Scene&
   const int samples = std::max(1, options_.camera_samples_per_pass);
   for (int k = 0; k < samples; ++k) {
     const uint64_t index = uint64_t{key.pass} * samples + k;
-    // What the first samples add to the film cannot be taken back.
+    // Light that is on the film cannot be removed, so only the first sample may be stopped.
     PairRound(settings, key, index, film).render(buffer, statistics_, k == 0 ? control : unwatched);
     film.add_estimates(group, 1);
   }

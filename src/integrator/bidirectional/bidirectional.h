@@ -1,5 +1,5 @@
-// Bidirectional path tracing: for each camera path of a pixel a light path, and all ways to connect
-// the two. Light paths that the camera sees expose pixels all over the film.
+// `bdpt`, bidirectional path tracing: each camera path has a light path of its own, and the two are
+// connected in all ways. Light paths are also splatted onto the film.
 // Papers: Lafortune & Willems 1993; Veach & Guibas 1994; Veach 1997, chapter 10.
 #pragma once
 
@@ -18,7 +18,7 @@ class Bidirectional final : public Estimator {
                    PassControl& control) override;
   EstimatorStatistics statistics() const override { return statistics_; }
 
-  /// What a pass takes for each pixel.
+  /// Memory of a pass per pixel.
   static constexpr size_t bytes_per_pixel(size_t parts) {
     return SplatBuffer::bytes_per_pixel(parts) + parts * sizeof(Rgb);
   }

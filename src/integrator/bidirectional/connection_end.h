@@ -1,5 +1,5 @@
-// What a vertex of one side scatters towards the other, event class by event class, with what the
-// weight of the connection needs. It must not know films.
+// BSDF evaluation at the two ends of a connection, per event class, with the terms of its MIS
+// weight. It must not know films.
 #pragma once
 
 #include <array>
@@ -9,29 +9,29 @@
 
 namespace nephroid {
 
-/// One event of a word.
+/// The event of one class at a connection end.
 struct Arm {
-  SampledSpectrum f;  ///< the cosine included
+  SampledSpectrum f;  ///< BSDF or phase function times the cosine
   EventDensity density;
-  double merge = 0;
-  EyeState eye = 0;      ///< behind the event, of eye sides
-  LightState light = 0;  ///< behind the event, of light sides
+  double merge = 0;      ///< m of [W8]
+  EyeState eye = 0;      ///< eye side: state behind the event
+  LightState light = 0;  ///< light side: state behind the event
   bool used = false;
 };
 using Arms = std::array<Arm, std::size(kSurfaceClasses)>;
 
-/// A vertex of the eye side where it may be connected, of either kind.
+/// The eye's end of a connection, on a surface or in a medium.
 struct EyeEnd {
   const Walk& walk;
   const WalkVertex* surface = nullptr;
   const MediumVertex* medium = nullptr;
-  ClassMask among = ClassMask::kNone;  ///< finite classes of use; of a surface
+  ClassMask among = ClassMask::kNone;  ///< on a surface: finite classes of use
   Receiver receiver;
-  /// Class of the event of arm `i`.
+  /// Event class of arm `i`.
   EventClass class_of(size_t i) const { return medium ? EventClass::kVolume : kSurfaceClasses[i]; }
 };
 
-/// What gets along the line between the two, `w` from the eye's to the light's.
+/// Transmittance between the two ends; `w` is the unit direction from the eye's to the light's.
 inline SampledSpectrum attenuation_between(const Scene& scene, const EyeEnd& z,
                                            const LightVertex& y, const Vec3f& w,
                                            const PathSampler& sampler) {
@@ -42,7 +42,7 @@ inline SampledSpectrum attenuation_between(const Scene& scene, const EyeEnd& z,
       z.walk.lambda, sampler);
 }
 
-/// The events at a light vertex towards the unit direction `w`; false if there is none.
+/// Evaluates the events at a light vertex towards the unit direction `w`. False if there is none.
 bool arms_of_light(const Routes& routes, const SceneSymbols& symbols, const LightVertex& y,
                    const Vec3f& w, Arms& arms);
 

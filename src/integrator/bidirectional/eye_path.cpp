@@ -1,4 +1,4 @@
-// The eye side of a pair: hits of lights, next-event estimation, connections and merges.
+// The eye side of a pair: lights hit, next-event estimation, connections and merges.
 #include "integrator/bidirectional/connection_end.h"
 #include "integrator/bidirectional/eye_weights.h"
 #include "integrator/bidirectional/merge_roulette.h"
@@ -83,7 +83,7 @@ class EyeVisitor {
   }
   bool looks_under_surfaces() const { return false; }
 
-  /// [W12]
+  /// Survival probability q of [W12].
   float survival(const WalkVertex& v) {
     return v.bsdf.finite_classes() == ClassMask::kNone ? 1.0f : roulette_.survival();
   }
@@ -119,12 +119,12 @@ class EyeVisitor {
   }
 
   bool branches(const Walk&) const { return root_.branches(); }
-  // No other technique finds this light.
+  // No other technique finds this light, so it needs no weight.
   void branch(const Walk& way, const WalkEvent& event, PathSampler& sampler) {
     rays_ += root_.branch(way, routes_.next(eye_, symbol_of(symbols_, event)), sampler, light_);
   }
 
-  /// Weights know the density of the BSDF alone, as all techniques do ([Q5]).
+  /// MIS weights use the BSDF's density alone, as all techniques do ([Q5]).
   std::optional<BsdfSample> sample_direction(Walk& walk, const WalkVertex& v, float uc,
                                              const Vec2f& u, ClassMask among) const {
     return guided_.sample_direction(walk, v, uc, u, among);
@@ -151,7 +151,7 @@ class EyeVisitor {
     return first_ || !roulette_.counts();
   }
 
-  /// The walk is over.
+  /// Call when the walk has ended.
   EyePathCounts finish() {
     guided_.finish();
     return {camera_.walk.rays + rays_, probes_, roulette_.merged()};
@@ -184,15 +184,15 @@ class EyeVisitor {
       sums_.arrive_first(cut_at_camera(settings_, camera_, place_));
   }
 
-  /// [W8], if the class of the event merges.
+  /// m of [W8], for an event of a class that merges.
   double merge_weight() const {
     return settings_.merging && surface_->merges ? settings_.merging->weight_at(place_.p, first_)
                                                  : 0;
   }
 
-  /// The events at an eye vertex towards the unit direction `w`, of a light or else of a vertex of
-  /// the light's side (which are connected only where all light is merged, so that no caster is
-  /// asked for); false if there is none of use.
+  /// Evaluates the events at an eye vertex towards the unit direction `w` of a light or a light
+  /// vertex. False if none is of use. Casters do not matter: paths are connected to light vertices
+  /// only if all light is merged.
   bool arms_of_eye(const EyeEnd& z, const Vec3f& w, Arms& arms) const {
     if (z.medium) {
       Arm& arm = arms[0];
@@ -256,7 +256,7 @@ class EyeVisitor {
     }
   }
 
-  /// True if light paths might have come here from the light, by one of the events.
+  /// True if light paths could also have come here from the light, by one of the events.
   bool others_cut(const EyeEnd& z, const Arms& arms) const {
     for (size_t i = 0; i < arms.size(); ++i)
       if (arms[i].used &&
@@ -331,7 +331,7 @@ class EyeVisitor {
   EyeState eye_;
   Place last_, place_;
   Vec3f entry_wo_{0, 0, 1};
-  bool first_ = true;  ///< no event but delta lobes so far
+  bool first_ = true;  ///< only delta lobes so far
   EyePartialWeights sums_;
   const WalkVertex* surface_ = nullptr;
   const MediumVertex* medium_ = nullptr;
@@ -339,7 +339,7 @@ class EyeVisitor {
   uint64_t rays_ = 0, probes_ = 0;
 };
 
-/// [W11], [W13] Photons around the vertex.
+/// [W11], [W13] Merges the photons around the vertex.
 void EyeVisitor::merge(const Walk& walk, const WalkVertex& v, ClassMask among,
                        const PathSampler& sampler) {
   const PairMerging& merging = *settings_.merging;
@@ -347,8 +347,9 @@ void EyeVisitor::merge(const Walk& walk, const WalkVertex& v, ClassMask among,
   const float radius = merging.radius_at(place_.p);
   if (!v.merges || classes == ClassMask::kNone || !(radius > 0.0f)) return;
   const MergePoint at{v, eye_, classes, walk.events + 1, walk.throughput, walk.lambda.left()};
-  // Made for the first photon: most vertices have none.
+  // Made at the first photon: most vertices have none.
   std::optional<PhotonMerger> merger;
+  DiscProbes disc;
   const double own = merging.weight_at(place_.p, first_);
   float scale = 1.0f / (static_cast<float>(merging.photons) * kPi * sqr(radius));
   merging.grid->query(place_.p, radius, [&](const Photon& photon, float d2) {
@@ -358,13 +359,12 @@ void EyeVisitor::merge(const Walk& walk, const WalkVertex& v, ClassMask among,
     if (!merger) {
       merger.emplace(settings_.owned, at, settings_.max_depth,
                      [&](EventSymbol event) { return routes_.next(eye_, event); });
-      // Behind other rough events merges have little weight, and so has what they lose.
-      if (first_) {
-        const DiscProbes disc =
+      // Behind other rough events merges have little weight.
+      if (first_)
+        disc =
             probe_disc(settings_.scene, v.surface, radius, sampler.stream(walk.vertex_dimension()));
-        probes_ += disc.rays;
-        scale *= disc.inverse_cover;
-      }
+      probes_ += disc.rays;
+      scale *= disc.inverse_cover;
     }
     merger->each_event(photon, [&](const MergeEvent& event) {
       if (!sums_.merges(event.letter, photon.caster)) return;
@@ -374,7 +374,7 @@ void EyeVisitor::merge(const Walk& walk, const WalkVertex& v, ClassMask among,
                 merged_spectrum(walk.throughput * event.bsdf.f * photon.flux.unpacked() *
                                     (event.cosine * scale * static_cast<float>(weight)),
                                 at.left, photon.left),
-                bias_factor(d2, radius));
+                bias_factor(d2, radius) + disc.bias_offset);
     });
   });
 }
@@ -388,8 +388,8 @@ EyePathCounts trace_eye_path(const PairSettings& settings, const LightSubpath& p
   camera.walk.specular_alpha = settings.specular_alpha;
   camera.walk.per_wavelength = true;
   EyeVisitor visitor(settings, path, camera, light, extras);
-  // A technique with t vertices of the eye side, the lens one of them, needs no more, and no event
-  // where it meets a light.
+  // A technique with t eye vertices, the lens included, needs no more of them, and no event where
+  // the path hits a light.
   const TechniqueChoice& one = settings.technique;
   const int most = one.t < 0 ? settings.max_depth
                              : std::clamp(one.t - (one.s == 0 ? 2 : 1), 0, settings.max_depth);

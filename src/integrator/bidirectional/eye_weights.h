@@ -1,7 +1,6 @@
-// What the weights of an eye path's techniques need of its way so far ([W2] to [W11] in
-// docs/estimators.md). Where only caustics merge, the path does not know yet which caster will
-// stand between its vertices and the light, if any: it keeps sums for each case. It must not know
-// places or routes.
+// Partial MIS weights along an eye path ([W2] to [W11] in docs/estimators.md). If only caustics are
+// merged, the path does not know yet which caster will stand between its vertices and the light, so
+// it keeps sums for each case. It must not know places or routes.
 #pragma once
 
 #include <array>
@@ -13,20 +12,20 @@ namespace nephroid {
 
 class EyePartialWeights {
  public:
-  /// `connects`: light paths are connected to more than lights, and all light is merged.
+  /// `connects`: eye vertices are connected to light vertices, and all light is merged.
   EyePartialWeights(bool connects, CasterRule rule) : connects_(connects), rule_(rule) {}
 
-  /// [W9] At the first vertex: `cut` is what the connection to the camera counts.
+  /// [W9] Starts the sums at the first vertex; `cut` is the term of the connection to the camera.
   void arrive_first(double cut) { sums_.fill({cut, 0}); }
-  /// At the next vertex, over the line to it.
+  /// Moves the sums to the next vertex, over the line to it.
   void arrive(const LineFactors& line) {
     for_each_case([&](size_t behind) {
       sums_[behind] = ends_[behind].next(line);
       if (!connects_) sums_[behind].here = 0;
     });
   }
-  /// [W10] The way under the surface is one step: what was at its entry counts here. `density` is
-  /// that of the way back out of the entry.
+  /// [W10] Moves the sums from the entry under the surface to the exit; both are one vertex.
+  /// `density` is that of the way back out of the entry.
   void come_out(double density) {
     for (PartialMisWeights& s : sums_) {
       s.here += heuristic(density) * s.before;
@@ -34,9 +33,9 @@ class EyePartialWeights {
     }
   }
 
-  /// True if the density back of the event here has something to be multiplied with.
+  /// True if the sums need the event's density back.
   bool asks_back() const { return most().before > 0; }
-  /// The walk leaves by an event of the letter; `merge` is [W8] of it, if it counts.
+  /// Records the event by which the walk leaves; `merge` is its m of [W8], used if it may merge.
   void leave(const EventDensity& event, double merge, EventClass letter) {
     for_each_case([&](size_t behind) {
       const auto caster = static_cast<Caster>(behind);
@@ -45,22 +44,22 @@ class EyePartialWeights {
     });
   }
 
-  /// At the vertex, for a cut behind an event of class `c`, behind which `behind` is the smoothest
-  /// caster.
+  /// The sums at the vertex for a cut behind an event of class `c`; `behind` is the smoothest
+  /// caster behind the event.
   const PartialMisWeights& at_cut(EventClass c, Caster behind) const {
     return rule_.merges_all_light() ? most() : sums_[static_cast<size_t>(rule_.with(c, behind))];
   }
-  /// True if a merge at an event of class `c` counts there.
+  /// True if paths merge at an event of class `c` in this case.
   bool merges(EventClass c, Caster behind) const { return contains(rule_.receivers(behind), c); }
-  /// At the vertex, where the most merges count.
+  /// The sums at the vertex for the case with the most merges.
   const PartialMisWeights& most() const { return sums_[kMost]; }
-  /// What stands before the light, if nothing but it follows.
+  /// The last vertex before the light, if the walk hits a light next.
   const SideEnd& end_to_light() const { return ends_[rule_.merges_all_light() ? kMost : 0]; }
 
  private:
   static constexpr size_t kMost = static_cast<size_t>(Caster::kSpecular);
 
-  /// The cases that differ.
+  /// Calls `f` for each case that differs.
   template <class F>
   void for_each_case(const F& f) {
     if (!rule_.merges_all_light()) {
@@ -73,7 +72,7 @@ class EyePartialWeights {
 
   const bool connects_;
   const CasterRule rule_;
-  /// By the smoothest caster behind: the sums at the vertex, and what the walk left with.
+  /// [smoothest caster behind] the sums at the vertex, and the last vertex that the walk left.
   std::array<PartialMisWeights, kCasters> sums_;
   std::array<SideEnd, kCasters> ends_;
 };

@@ -44,8 +44,8 @@ void LightBatches::trace_chunk(int64_t begin, int64_t end, Chunk& chunk) const {
   }
 }
 
-/// Makes room for the photons of the chunks and for those that are to be expected of the batch
-/// after them: growing by and by would take twice as much.
+/// Reserves memory for the photons of the chunks and those expected in the rest of the batch. Step
+/// by step, growth would take twice as much.
 void LightBatches::reserve(std::vector<Photon>& photons, std::span<const Chunk> chunks,
                            int64_t batch_begin) const {
   constexpr double kMemorySlack = 1.02;
@@ -54,7 +54,7 @@ void LightBatches::reserve(std::vector<Photon>& photons, std::span<const Chunk> 
   if (needed <= photons.capacity()) return;
   const double of_path = static_cast<double>(needed) / static_cast<double>(begin_ - batch_begin);
   const double all = of_path * static_cast<double>(config_.light_paths - batch_begin);
-  // The group that fills the memory is taken as a whole.
+  // The group that exceeds the limit is kept as a whole.
   const double most = static_cast<double>(config_.memory_photons) + of_path * kGroup;
   photons.reserve(std::max(needed, static_cast<size_t>(kMemorySlack * std::min(all, most))));
 }

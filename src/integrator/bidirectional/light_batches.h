@@ -1,6 +1,6 @@
-// The light paths of a pass that leave photons, traced in batches that fit in memory; those that
-// the camera sees become splats on the way. It must not know films' sums or what photons are merged
-// with.
+// The light paths of a pass that leave photons, traced in batches that fit in memory. Their
+// connections to the camera become splats. It must not know the film's sums or what photons are
+// merged with.
 #pragma once
 
 #include <functional>
@@ -13,13 +13,13 @@
 
 namespace nephroid {
 
-/// Keeps references to all that it is given but the numbers.
+/// Keeps references to the pass and the settings.
 class LightBatches {
  public:
   struct Config {
-    int64_t light_paths = 0;     ///< of the pass, all batches together
-    int64_t memory_photons = 0;  ///< a batch is full when it has as many
-    uint64_t seed = 0;           ///< of the random numbers of all passes
+    int64_t light_paths = 0;     ///< light paths of the pass, in all batches together
+    int64_t memory_photons = 0;  ///< number of photons at which a batch is full
+    uint64_t seed = 0;           ///< seed of all passes
     /// Passes differ in their number of light paths: each number has a sequence of its own.
     bool number_varies = false;
   };
@@ -31,8 +31,8 @@ class LightBatches {
 
   /// True once all light paths are traced.
   bool empty() const { return begin_ >= config_.light_paths; }
-  /// The photons of the next batch; `expose` is called with splats, a few times, in order. Adds to
-  /// the counts.
+  /// Traces the next batch and returns its photons. Calls `expose` with splats, a few times, in
+  /// order. Adds to the counts.
   std::vector<Photon> next(const std::function<void(std::span<const Splat>)>& expose,
                            EstimatorStatistics& statistics);
 
@@ -42,7 +42,7 @@ class LightBatches {
     std::vector<Splat> splats;
     uint64_t rays = 0, useful = 0, specular = 0;
   };
-  /// Light path `j` of the pass.
+  /// Traces light path `j` of the pass.
   LightPathCounts trace_path(int64_t j, std::vector<CameraSplat>& seen,
                              std::vector<Photon>& photons) const;
   void trace_chunk(int64_t begin, int64_t end, Chunk& chunk) const;
@@ -53,7 +53,7 @@ class LightBatches {
   const PhotonPass& pass_;
   const PairSettings& settings_;
   const PartSums places_;
-  int64_t begin_ = 0;  ///< of what is left
+  int64_t begin_ = 0;  ///< number of the next light path
 };
 
 }  // namespace nephroid

@@ -1,4 +1,4 @@
-// The light side of a pair: its vertices, and those that the camera sees.
+// The light side of a pair: its vertices, its photons and its connections to the camera.
 #include <cmath>
 
 #include "integrator/bidirectional/connection_end.h"
@@ -9,7 +9,7 @@ namespace nephroid {
 
 namespace {
 
-// Walks from a light, carries its sums along and stores what can be connected.
+// Follows a walk from a light with its partial MIS weights; stores vertices, photons and splats.
 class LightVisitor : public LightWalkVisitor {
  public:
   LightVisitor(const PairSettings& settings, const Emission& emission, float u_time,
@@ -103,15 +103,15 @@ class LightVisitor : public LightWalkVisitor {
     return light_start(settings_, emission_.light, start_, place_, w, direct, true).first();
   }
 
-  /// [W10] The way under the surface is one step: what was at its entry counts here.
+  /// [W10] Moves the sums from the entry under the surface to the exit; both are one vertex.
   void come_out(const WalkVertex& v) {
     sums_.here += heuristic(subsurface_density(place_.ng, entry_wo_)) * sums_.before;
     sums_.before = 0;
     place_ = {v.surface.p, v.surface.ng};
   }
 
-  /// Between the eye and vertices of the light's side there is the one that is connected, unless it
-  /// is connected to the camera itself.
+  /// m of [W8]. `first` is true only for connections to the camera: otherwise a connected eye
+  /// vertex lies between the eye and this one.
   double merge_weight(const WalkVertex& v, EventClass c, bool first) const {
     return settings_.merging && v.merges && contains(rule_.receivers(caster_), c)
                ? settings_.merging->weight_at(merge_place_, first)
@@ -128,7 +128,7 @@ class LightVisitor : public LightWalkVisitor {
     y.lamp = lamp_;
     y.events = walk.events;
     y.sums = sums_;
-    // Connected only where all light is merged.
+    // No caster is asked for: light vertices are connected only if all light is merged.
     y.merge = settings_.merging ? settings_.merging->weight_at(merge_place_, false) : 0;
     return y;
   }
@@ -148,7 +148,7 @@ class LightVisitor : public LightWalkVisitor {
   bool makes_connection(const Walk& walk) const {
     return settings_.view && settings_.connects() && settings_.technique.makes(walk.events + 2, 1);
   }
-  /// [W9] `density` of the camera's walks at the vertex, in pixels over area, towards `back`.
+  /// [W9] `density` is E_1, camera walks per area at the vertex; `back` is g of the event there.
   float weight_of_connection(double density, double back, double merge) const {
     if (!settings_.technique.weighted) return 1.0f;
     return static_cast<float>(
@@ -198,15 +198,15 @@ class LightVisitor : public LightWalkVisitor {
   const PairSettings& settings_;
   const CasterRule rule_;
   const Emission& emission_;
-  std::optional<CameraConnector> camera_;  ///< empty if paths are not connected to the camera
+  std::optional<CameraConnector> camera_;  ///< empty: no connections to the camera
   LightSubpath* path_;
   std::vector<CameraSplat>* seen_;
   std::vector<Photon>* photons_;
   Place start_, last_, place_;
-  Vec3f merge_place_{0, 0, 0};  ///< where the eye side would merge
+  Vec3f merge_place_{0, 0, 0};  ///< place where the eye side would merge
   Vec3f entry_wo_{0, 0, 1};
   bool is_first_ = true;
-  bool after_specular_ = false;  ///< the light has come by way of an S
+  bool after_specular_ = false;  ///< the path has had an S event
   Caster caster_ = Caster::kNone;
   PartialMisWeights sums_;
   SideEnd end_;
@@ -284,7 +284,7 @@ LightPathCounts trace_light_path(const PairSettings& settings, const SampledWave
                                  int first_dimension) {
   if (path) path->clear();
   sampler.start_dimension(first_dimension);
-  // A technique with s vertices of the light side, the light itself one of them, needs no more.
+  // A technique with s light vertices, the light itself included, needs no more of them.
   const int most = settings.technique.s < 0
                        ? settings.max_depth
                        : std::clamp(settings.technique.s - 1, 0, settings.max_depth);

@@ -1,5 +1,5 @@
-// The light of each camera path of a pass, kept until all batches of photons are merged, to measure
-// how much samples vary. It must not know how paths are made.
+// Light and cost of each camera path of a pass, kept until all batches of photons are merged, to
+// measure the variance of samples. It must not know how paths are made.
 #pragma once
 
 #include <vector>
@@ -13,17 +13,17 @@ class MeasuredSamples {
   struct Sample {
     float light = 0, cost = 0;
   };
-  /// Of the pixels of the first lattice of a film, `most` samples of each at most.
+  /// Room for at most `most` samples of each pixel of the film's first lattice.
   MeasuredSamples(const FilmFormat& film, size_t most);
 
-  /// The number of sample `k` of a pixel of the lattice.
+  /// Index of sample `k` of a pixel of the lattice.
   size_t sample(int x, int y, int k) const { return pixel_of(x, y) * most_ + k; }
   /// Light and cost add up over batches.
   void add_light(size_t sample, float light) { samples_[sample].light += light; }
   void add_cost(size_t sample, double rays) { samples_[sample].cost += static_cast<float>(rays); }
   void scale_light(size_t sample, float factor) { samples_[sample].light *= factor; }
 
-  /// Adds the samples of which each pixel has as many as `map` says.
+  /// Adds all samples; `map` gives their number per pixel.
   void add_to(SampleVariance& variance, const SampleMap& map) const;
 
  private:

@@ -13,13 +13,13 @@ namespace {
 
 constexpr size_t kSlicesWithRecords = 512;
 
-/// For the pixels of the first lattice, of which `samples` each wait for other batches.
+/// Bytes for the pixels of the first lattice, each with `samples` that wait for other batches.
 size_t bytes_of_measuring(size_t samples) {
   return PixelSlices::kMaxFirstPixels *
          (3 * SampleVariance::kBytesPerPixel + samples * sizeof(MeasuredSamples::Sample));
 }
 
-/// Where what a pass finds goes: any of these may be asked for, and not all of them are.
+/// Destinations of a pass's results; null: not wanted.
 struct Destinations {
   Film* film = nullptr;
   bool adds_features = false;
@@ -66,7 +66,7 @@ class PairRendering {
       if (batches->empty() || !s_.merging.merges_all_light()) {
         render_batch(std::move(photons), batches->empty(), statistics);
       } else {
-        // Walks end by the photons of all batches: these are traced twice.
+        // Roulette needs the photons of all batches ([W12]), so these are traced twice.
         merged_.resize(s_.format.bounds().area() * s_.most);
         count_merged(std::move(photons), statistics);
         while (!batches->empty()) count_merged(batches->next(add_splats, statistics), statistics);
@@ -91,7 +91,7 @@ class PairRendering {
   }
 
  private:
-  /// All photons are in the grid: a pixel is complete once its paths are traced.
+  /// Renders pixels with all photons in the grid: a pixel is complete once its paths are traced.
   void render_pixels(EstimatorStatistics& statistics) {
     const int group = static_cast<int>(s_.in.owned.group);
     const PixelSlices all_slices(s_.format.bounds());
@@ -136,7 +136,7 @@ class PairRendering {
     if (of_film) of_film->finish_pass();
   }
 
-  /// The camera paths of a pixel.
+  /// Traces the camera paths of a pixel.
   void render_pixel(int x, int y, PairSampler::Worker& worker,
                     const PairSampler::SampleSums& sums) {
     const PixelBounds& b = s_.format.bounds();
@@ -147,14 +147,14 @@ class PairRendering {
     }
   }
 
-  /// Room for what waits for other batches and for splats.
+  /// Allocates memory for values that wait for other batches and for splats.
   void make_room() {
     values_.resize(s_.format.bounds().area() * s_.parts);
     if (to_.film) bias_.resize(s_.format.bounds().area());
     if (to_.paths) measured_.emplace(s_.format, s_.most);
   }
 
-  /// One batch of photons for all pixels.
+  /// Merges one batch of photons in all pixels.
   void render_batch(std::vector<Photon> photons, bool is_last, EstimatorStatistics& statistics) {
     if (clamps() && clamped_.empty() && !is_last && !s_.settings.merges_only)
       clamped_.resize(s_.format.bounds().area() * s_.most, s_.parts);
@@ -202,7 +202,7 @@ class PairRendering {
     for_each_slice_with_records(wanted_slices(slices), trace_slice, statistics);
   }
 
-  /// Adds the photons of a batch to those of each sample.
+  /// Counts the photons of a batch that each sample merges, for [W12].
   void count_merged(std::vector<Photon> photons, EstimatorStatistics& statistics) {
     const PhotonGrid grid(std::move(photons));
     s_.merging.grid = &grid;
@@ -234,20 +234,20 @@ class PairRendering {
     }
   }
 
-  /// All of a film; to learn, the first lattice.
+  /// All slices of the film; without a film those of the first lattice.
   std::vector<size_t> wanted_slices(const PixelSlices& of_film) const {
     std::vector<size_t> slices(to_.film ? of_film.count() : of_film.count_of_levels(1));
     std::iota(slices.begin(), slices.end(), size_t{0});
     return slices;
   }
 
-  /// True if camera paths add what they see and no pass that was ended has added it.
+  /// True if camera paths add features and a stopped pass has not added them before.
   bool sees(size_t slice) const {
     return to_.adds_features && !s_.settings.merges_only &&
            !to_.film->has_slice(s_.format.layout().group_count(), slice);
   }
 
-  /// The records of some slices at a time are held twice.
+  /// Runs slices in groups: records are held twice, but only those of one group at a time.
   template <class Work>
   void for_each_slice_with_records(std::span<const size_t> slices, const Work& work,
                                    EstimatorStatistics& statistics) {
@@ -266,7 +266,7 @@ class PairRendering {
     }
   }
 
-  /// A sample whose pixel is complete only once all batches are merged.
+  /// Traces a sample whose pixel is complete only once all batches are merged.
   void trace_waiting(int x, int y, int samples, int k, PairSampler::Worker& worker) {
     const size_t pixel = s_.pixel_of(x, y), sample = pixel * s_.most + k;
     const bool waits = !clamped_.empty();
@@ -301,7 +301,7 @@ class PairRendering {
 
   bool clamps() const { return s_.format.settings().max_component < kInfinity; }
 
-  /// Each sample is clamped before the filter's weight, and its light is what is left.
+  /// Clamps each sample before the filter's weight and scales its measured light accordingly.
   void clamp_samples() {
     const PixelBounds& b = s_.format.bounds();
     for (size_t sample = 0; sample < clamped_.weights.size(); ++sample) {
@@ -321,7 +321,7 @@ class PairRendering {
     }
   }
 
-  /// Without splats the values are all there is.
+  /// Adds the values to the film if there are no splats.
   void add_values() {
     const PixelBounds& b = s_.format.bounds();
     const int group = static_cast<int>(s_.in.owned.group);
@@ -334,19 +334,19 @@ class PairRendering {
   PairSampler s_;
   const Destinations& to_;
   std::vector<Rgb> values_;  ///< [pixel * parts + part]
-  std::vector<float> bias_;  ///< [pixel], [E4]
+  std::vector<float> bias_;  ///< [pixel] bias of [E4]
   std::optional<MeasuredSamples> measured_;
-  /// [pixel * most samples + sample] photons of all batches; empty if there is one batch.
+  /// [pixel * most + sample] photons merged from all batches; empty if there is one batch.
   std::vector<uint32_t> merged_;
-  /// Empty unless the film clamps and photons come in batches; [pixel * most samples + sample].
+  /// [pixel * most + sample]; empty unless the film clamps and photons come in batches.
   SamplesToClamp clamped_;
 };
 
-/// Room for what is to be measured.
+/// Allocates the findings.
 PairFindings findings(const FilmFormat& film, const PairSamples& samples,
                       const PairLearning& learning) {
   PairFindings found;
-  // Growing by and by would take twice as much.
+  // Step by step, growth would take twice as much memory.
   if (learning.keeps_records)
     found.records.reserve(std::min(
         PassRecords::kMax,

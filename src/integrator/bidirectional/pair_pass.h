@@ -1,7 +1,6 @@
-// One pass of an estimator that pairs eye paths with light paths: photons are traced and merged,
-// and where the pass connects, another set of light paths, one for each camera path, is connected
-// to it. Wavelengths and time are the pass's; nothing is kept but photons, in batches that fit in
-// memory. It must not know passes before it, or what becomes of what it measures.
+// One pass of an estimator of path pairs: photons are traced in batches that fit in memory and
+// merged. If the pass connects, each camera path is also connected to a light path of its own. All
+// paths share wavelengths and time. It must not know earlier passes or the use of what it measures.
 #pragma once
 
 #include <optional>
@@ -17,19 +16,19 @@
 
 namespace nephroid {
 
-/// Cost of merging a photon, in rays: 70 to 120 ns where a ray takes 700.
+/// Cost of merging a photon, in rays: 70 to 120 ns over the 700 ns of a ray.
 inline constexpr double kCostOfMerge = 0.13;
 
 /// The techniques of a pass, among which trial passes choose.
 struct PairTechniques {
   int64_t light_paths = 1;  ///< number of light paths that leave photons; 0: no photons
   bool connects = true;     ///< false: camera paths are connected to lights only
-  /// Only photons that passed an event of one of these classes are merged (CasterRule); kNone: all
-  /// photons are. If not kNone, `connects` must be false.
+  /// Classes of casters: only photons that had such an event are merged (CasterRule). kNone: all
+  /// photons are merged. If not kNone, `connects` must be false.
   ClassMask casters = ClassMask::kNone;
-  bool separates_chains = false;  ///< specular chains are for walks of their own
-  bool follows_chains = false;    ///< camera paths follow them: SpecularRoot::Leaves::kBranches
-  float roulette_threshold = 1;   ///< of camera paths
+  bool separates_chains = false;  ///< walks of their own look for specular chains
+  bool follows_chains = false;    ///< camera paths grow specular trees (Leaves::kBranches)
+  float roulette_threshold = 1;   ///< Russian roulette threshold of camera paths
   bool merges_all_light() const { return casters == ClassMask::kNone; }
   static void members(auto& self, auto& archive) {
     archive(self.light_paths, self.connects, self.casters, self.separates_chains,
@@ -44,46 +43,46 @@ struct PairTechniques {
   }
 };
 
-/// The inputs of a pass, whatever it is for.
+/// The inputs of every kind of pass.
 struct PairPass {
   PassKey key;
-  uint64_t seed = 0;  ///< of the estimator's random numbers: those of one plan are independent
+  uint64_t seed = 0;  ///< the estimator's seed; estimators of one plan have different ones
   const Scene& scene;
   const OwnedRoutes& owned;
   const IntegratorOptions& options;
   PairTechniques techniques{};
-  float radius_pixels = 1;    ///< merge radius, in footprints
-  float photons_for_one = 1;  ///< PairMerging
+  float radius_pixels = 1;    ///< merge radius in footprints
+  float photons_for_one = 1;  ///< as in PairMerging
   const EmissionGuide& emission = kUnguided;
-  /// Estimators whose passes differ in their number of light paths: each number has a sequence of
+  /// The estimator's passes differ in their number of light paths: each number has a sequence of
   /// random numbers of its own.
   bool light_paths_vary = false;
-  /// The samples of a pixel do not fill each other's gaps, so that their spread is that of one.
+  /// The samples of a pixel are independent, not stratified, so their variance is that of one.
   bool independent_samples = false;
-  /// One technique of the estimator alone.
+  /// Techniques to render: all, or one alone.
   TechniqueChoice technique{};
   PassControl& control = unwatched;
 };
 
-/// How often each pixel is sampled.
+/// Number of samples of each pixel.
 struct PairSamples {
-  const SampleMap& paths;   ///< camera paths
-  const SampleMap& chains;  ///< walks for specular chains; 0: camera paths find them
+  const SampleMap& paths;   ///< camera paths per pixel
+  const SampleMap& chains;  ///< walks for specular chains per pixel; 0: camera paths find them
 };
 
-/// A pass whose light goes to a film.
+/// Options of a pass whose light goes to a film.
 struct PairRender {
   Film& film;
   PairSamples samples;
-  bool adds_features = false;  ///< camera paths add what they see first to the film's features
-  const RadianceGuide& directions = kNoRadiance;  ///< of camera paths
+  bool adds_features = false;                     ///< camera paths record the film's features
+  const RadianceGuide& directions = kNoRadiance;  ///< guide of camera paths
 };
 
-/// A pass over the first lattice of a film that is measured so that others can be better.
+/// Options of a measured pass over the first lattice of a film, from which later passes learn.
 struct PairLearning {
   bool measures_variance = true;
-  bool keeps_records = true;  ///< of the light behind the vertices of camera paths
-  double records_per_path = PassRecords::kMaxPerPath;  ///< expected, in the mean
+  bool keeps_records = true;  ///< keeps records of the light behind vertices of camera paths
+  double records_per_path = PassRecords::kMaxPerPath;  ///< expected mean of records per path
 };
 struct PairFindings {
   struct Variance {
@@ -95,17 +94,17 @@ struct PairFindings {
   std::vector<RadianceRecord> records;
 };
 
-/// A pass without splats over the first lattice that tells how good its techniques are, and whose
-/// light is thrown away.
+/// Options of a trial: a pass over the first lattice, without splats, that measures how good its
+/// techniques are. Its light is thrown away.
 struct PairTrial {
-  const SampleMap& paths;  ///< camera paths of each pixel
+  const SampleMap& paths;  ///< camera paths per pixel
   bool counts_records = false;
   double records_per_path = PassRecords::kMaxPerPath;
 };
 
 /// Adds a pass to the film, the number of estimates included.
 void render(const PairPass& pass, const PairRender& to, EstimatorStatistics& statistics);
-/// Measures a pass for no film.
+/// Measures a pass without adding it to a film.
 PairFindings measure(const PairPass& pass, const FilmFormat& film, const PairSamples& samples,
                      const PairLearning& learning, EstimatorStatistics& statistics);
 /// Adds the light of camera paths, without specular chains, to `variance`. Returns the number of
@@ -113,7 +112,7 @@ PairFindings measure(const PairPass& pass, const FilmFormat& film, const PairSam
 size_t try_out(const PairPass& pass, const FilmFormat& film, const PairTrial& trial,
                SampleVariance& variance, EstimatorStatistics& statistics);
 
-/// Memory of a pass for each pixel that has so many samples at most.
+/// Memory of a pass per pixel, with at most so many samples.
 size_t pair_pass_bytes_per_pixel(size_t parts, size_t samples, bool clamps, bool splats);
 
 }  // namespace nephroid

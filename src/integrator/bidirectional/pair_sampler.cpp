@@ -13,7 +13,7 @@ namespace {
 constexpr uint64_t kEyeStream = 0x76636d65;   // "vcme"
 constexpr uint64_t kPairStream = 0x76636d70;  // "vcmp"
 
-/// All of a film; to learn, the first lattice.
+/// Number of pixels: all of the film; without a film those of the first lattice.
 size_t pixels_of(const FilmFormat& format, const Film* film) {
   return film != nullptr ? format.bounds().area() : PixelSlices(format.bounds()).first_pixels();
 }
@@ -118,7 +118,7 @@ PairSampler::SampleLight PairSampler::trace(int x, int y, int samples, int k, Wo
   PathSampler sampler(points.eye, seed_of(x, y, k));
   CameraPath path = start(x, y, k, sampler);
   if (merging.connects && !settings.merges_only) {
-    // A light path of its own: those that are merged run through one sequence, of which a pixel
+    // A light path of its own: those that leave photons run through one sequence, of which a pixel
     // would see the same part in all passes.
     PathSampler own(points.light, hash_combine(in.seed, kPairStream, x, y));
     row.rays += trace_light_path(settings, path.walk.lambda, photons.u_time, own, &worker.path,

@@ -1,6 +1,6 @@
-// How a pass of pairs traces one sample of a pixel: its camera path, the light path that goes with
-// it where the pass connects, and the photons that are merged. It must not know in which order
-// pixels are sampled, or when they are complete.
+// Traces one sample of a pixel in a pass of path pairs: its camera path, its light path if the pass
+// connects, and the photons merged. It must not know in which order pixels are sampled, or when
+// they are complete.
 #pragma once
 
 #include "film/part_sums.h"
@@ -12,14 +12,14 @@
 
 namespace nephroid {
 
-/// How many camera paths there are, and where they go.
+/// Number and guide of camera paths.
 struct CameraSide {
   const SampleMap& paths;
-  const SampleMap* chains = nullptr;  ///< null: nobody looks for specular chains if they are apart
+  const SampleMap* chains = nullptr;  ///< null: separated specular chains are not rendered
   const RadianceGuide& directions = kNoRadiance;
 };
 
-/// The sum of the components.
+/// The sum of all components.
 inline float total_of(std::span<const Rgb> colors) {
   float sum = 0;
   for (const Rgb& color : colors) sum += color.r + color.g + color.b;
@@ -29,53 +29,54 @@ inline float total_of(std::span<const Rgb> colors) {
 /// Records and counts of a slice of pixels.
 struct PairRow {
   std::vector<RadianceRecord> records;
-  uint64_t rays = 0, probes = 0;  ///< EyePathCounts
+  uint64_t rays = 0, probes = 0;  ///< as in EyePathCounts
   uint64_t merged = 0, camera_paths = 0;
   TechniqueCounter::Row techniques;
 };
 
-/// What all samples of a pass share.
+/// Settings shared by all samples of a pass, and the way to trace one.
 class PairSampler {
  public:
-  /// `film` is where the light goes, or null; records of camera paths go to `all_records`, or null.
+  /// `film` receives the light and `all_records` the records of camera paths; either may be null.
   PairSampler(const PairPass& pass, const FilmFormat& format, const CameraSide& camera, Film* film,
               std::vector<RadianceRecord>* all_records, double records_per_path);
   PairSampler(const PairSampler&) = delete;
   PairSampler& operator=(const PairSampler&) = delete;
 
-  /// Number of a pixel's first sample of `n` in this pass.
+  /// Sobol' index of the first of a pixel's `n` samples in this pass.
   uint32_t first_index(int n) const;
 
-  /// What one thread works with.
+  /// State of one thread.
   struct Worker {
     LightSubpath path;
     PartSums light;
     PairRow& row;
     LampCounter::Slice lamps;
-    bool sees = false;  ///< adds features to the film
+    bool sees = false;  ///< its paths add features to the film
     Worker(const PairSampler& sampler, PairRow& of_row);
   };
-  /// Where the light of a sample goes.
+  /// Sums that receive the light of a sample.
   struct SampleSums {
-    std::span<Rgb> values;  ///< [part], of the pixel, or of the sample alone if it waits
-    float& bias;            ///< of the pixel
-    bool waits = false;     ///< for other batches, and is clamped at the end
+    std::span<Rgb> values;  ///< [part] sums of the pixel, or of the sample alone if it waits
+    float& bias;            ///< bias of the pixel
+    bool waits = false;     ///< the sample waits for other batches and is clamped at the end
   };
-  /// What a sample found.
+  /// Light and cost of a sample.
   struct SampleLight {
-    float mean = 0;  ///< of the components, as if the pixel had no other sample
+    float mean = 0;  ///< mean of the components, as if it were the pixel's only sample
     uint64_t rays = 0, merged = 0;
     double cost_of_merges() const { return kCostOfMerge * static_cast<double>(merged); }
     double cost() const {
       return static_cast<double>(rays) + cost_of_merges();
-    }                  ///< total, in rays
-    float weight = 0;  ///< of its light in the pixel
+    }                  ///< total cost in rays
+    float weight = 0;  ///< magnitude of the filter's weight, times the sample's share
   };
 
-  /// Where nothing waits the sample is clamped as it is. `merged`: EyePathExtras.
+  /// Traces sample `k` of a pixel's `samples`. A sample that does not wait is clamped at once.
+  /// `merged` is that of EyePathExtras.
   SampleLight trace(int x, int y, int samples, int k, Worker& worker, const SampleSums& sums,
                     uint32_t* merged = nullptr);
-  /// Adds the photons of a batch to `merged`.
+  /// Adds the number of photons of a batch that the sample merges to `merged`.
   void count_merged(int x, int y, int samples, int k, Worker& worker, uint32_t& merged);
   size_t pixel_of(int x, int y) const {
     const PixelBounds& b = format.bounds();
@@ -90,7 +91,7 @@ class PairSampler {
   TechniqueCounter counter;
   mutable LampCounter lamps;
   const PhotonPass photons;
-  const size_t most;  ///< camera paths of a pixel
+  const size_t most;  ///< largest number of camera paths of a pixel
   PassRecords records;
   const SpecularTree tree;
   PairMerging merging;
@@ -98,7 +99,7 @@ class PairSampler {
   size_t parts = 1;
 
  private:
-  /// The numbers of a pixel's sample `k` of `n` in this pass.
+  /// Sobol' points of a pixel's sample.
   struct SamplePoints {
     SobolPoint eye, light;
   };
@@ -108,7 +109,7 @@ class PairSampler {
   CameraPath start(int x, int y, int k, PathSampler& sampler) const;
 
   const CameraView view_;
-  std::vector<std::vector<SamplePoints>> points_;  ///< [samples of a pixel - 1][sample]
+  std::vector<std::vector<SamplePoints>> points_;  ///< [samples of the pixel - 1][sample]
 };
 
 }  // namespace nephroid

@@ -1,5 +1,5 @@
-// What both sides of a pair of paths need at their vertices: the densities of events, factors of
-// lines, and how a light would have started there. It must not know routes.
+// Densities and geometry that both sides of a pair need at their vertices: densities of events,
+// factors of lines, and densities of a light's start. It must not know routes.
 #pragma once
 
 #include "integrator/bidirectional/eye_weights.h"
@@ -14,7 +14,7 @@ struct Place {
   Vec3f p{0, 0, 0}, ng{0, 0, 0};
 };
 
-/// |cos| of a unit direction with the surface, 1 where there is none.
+/// |cos| of a unit direction with the surface normal; 1 if there is no surface.
 inline double cosine_at(const Place& at, const Vec3f& w) {
   return length_squared(at.ng) > 0 ? abs_dot(at.ng, w) : 1.0;
 }
@@ -27,19 +27,18 @@ inline LineFactors line_between(const Place& a, const Place& b) {
   return {cosine_at(a, w) / d2, cosine_at(b, w) / d2};
 }
 
-/// Density of an event of class `c` from `wo` to `wi`, local, among all classes.
+/// Density of an event of class `c` from `wo` to `wi` (local), chosen among all classes.
 inline double event_density(const Bsdf& bsdf, const Vec3f& wo, const Vec3f& wi, TransportMode mode,
                             EventClass c) {
   return bsdf.eval(wo, wi, mode, c, ClassMask::kAll).pdf_w;
 }
-/// Where light comes out from under a surface, and where it went in, the cosine alone counts
-/// ([W10]).
+/// Density of a direction at the entry or exit of a way under a surface ([W10]).
 inline double subsurface_density(const Vec3f& ng, const Vec3f& w) {
   return abs_dot(ng, w) * kInvPi;
 }
 
-/// The event of the letter that a walk has just sampled at a surface, by choosing `among` these
-/// classes. Without `asks_back`, where sums have nothing to multiply it with, `back` is 0.
+/// Densities of the event that a walk has just sampled at a surface, choosing `among` these
+/// classes. Without `asks_back`, if sums do not need it, `back` is 0.
 inline EventDensity density_of_walk(const Walk& walk, const WalkVertex& v, const WalkEvent& event,
                                     TransportMode mode, ClassMask among, bool asks_back) {
   if (v.subsurface_exit) return {subsurface_density(v.surface.ng, walk.ray.d), 0, true};
@@ -56,7 +55,7 @@ inline EventDensity density_of_walk(const Walk& walk, const WalkVertex& v, const
   return d;
 }
 
-/// [W9] Light paths that are connected to the camera find the first vertex of an eye path, too.
+/// M_1 of [W9]: light paths connected to the camera also find the first vertex of an eye path.
 inline double cut_at_camera(const PairSettings& settings, const CameraPath& camera,
                             const Place& first) {
   if (!settings.view || !settings.connects()) return 0;
@@ -66,10 +65,10 @@ inline double cut_at_camera(const PairSettings& settings, const CameraPath& came
   return density > 0 ? heuristic(settings.light_paths / density) : 0;
 }
 
-/// How light number `light` starts paths towards the vertex `x` in unit direction `w`. `from` is
-/// its point; not used for infinite lights. `direct_w` is the density of next-event estimation at
-/// x, per steradian; of lights that no walk can hit, the probability of choosing the light ([W5]).
-/// Without `asks_onward`, where sums have nothing to multiply it with, `onward` is 0.
+/// Densities with which light number `light` starts a path to the vertex `x` in unit direction `w`.
+/// `from` is the point on the light, unused for infinite lights. `direct_w` is the density of
+/// next-event estimation at x per steradian; for lights that no walk can hit, the probability of
+/// choosing the light ([W5]). Without `asks_onward`, if sums do not need it, `onward` is 0.
 inline LightStart light_start(const PairSettings& settings, int light, const Place& from,
                               const Place& x, const Vec3f& w, double direct_w, bool asks_onward) {
   const Scene& scene = settings.scene;
@@ -91,15 +90,15 @@ inline LightStart light_start(const PairSettings& settings, int light, const Pla
   }
   return s;
 }
-/// The same for light that next-event estimation found from the vertex `x`, a receiver `at`.
+/// The same for light found by next-event estimation at the vertex `x`, with the receiver `at`.
 inline LightStart light_start(const PairSettings& settings, const DirectSample& d,
                               const Receiver& at, const Place& x, bool asks_onward) {
   const double direct = d.delta ? settings.scene.light_sampler->pmf(at.p, at.ns, d.light) : d.pdf_w;
   return light_start(settings, d.light, {d.p, d.ng}, x, -d.wi_world, direct, asks_onward);
 }
 
-/// [W11] Weight of the merge of an eye path, of these sums at vertex `v`, with a photon; `own` is
-/// that of merging there.
+/// [W11] Weight of merging an eye path with a photon; `sums` are those at its vertex `v`, `own` is
+/// m of [W8] there.
 inline double weight_of_merge(const EyePartialWeights& sums, const WalkVertex& v,
                               const Photon& photon, const MergeEvent& event, double own) {
   const double towards = v.subsurface_exit

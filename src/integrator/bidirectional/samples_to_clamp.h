@@ -1,5 +1,5 @@
-// Samples of a film that clamps, whose photons come in batches: each waits for what all batches
-// find. It must not know photons.
+// Samples of a film that clamps, with photons in batches: each sample is clamped once all batches
+// are merged. It must not know photons.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// Which techniques of a bidirectional estimator are made: all, or one alone.
+// The choice of techniques of a bidirectional estimator: all, or one alone.
 #pragma once
 
 #include "integrator/estimator/estimator_descriptor.h"
@@ -6,9 +6,9 @@
 namespace nephroid {
 
 struct TechniqueChoice {
-  int s = -1, t = -1;    ///< vertices of the light and of the eye side; -1: any number
-  bool connects = true;  ///< false: merges alone
-  bool weighted = true;  ///< false: each as if there were no other
+  int s = -1, t = -1;    ///< number of light and of eye vertices; -1: any
+  bool connects = true;  ///< false: merging alone
+  bool weighted = true;  ///< false: each technique as if there were no other
   bool makes(int light_vertices, int eye_vertices) const {
     return connects && (s < 0 || s == light_vertices) && (t < 0 || t == eye_vertices);
   }

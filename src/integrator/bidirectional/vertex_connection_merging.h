@@ -1,6 +1,6 @@
-// Vertex connection and merging: everything that bidirectional path tracing does, and eye paths are
-// merged with the vertices of all light paths of the pass as well. `bpm`, bidirectional photon
-// mapping, is the same with nothing connected but lights.
+// `vcm`, vertex connection and merging: bidirectional path tracing whose eye paths also merge the
+// photons of all light paths of the pass. `bpm`, bidirectional photon mapping: `vcm` that connects
+// eye vertices to lights only.
 // Papers: Georgiev et al. 2012; Hachisuka, Pantaleoni & Jensen 2012; Vorba 2011.
 #pragma once
 
@@ -8,11 +8,11 @@
 
 namespace nephroid {
 
-/// Light paths of a pass: one for each pixel, within bounds; they are shared or spare outside.
+/// Default number of light paths of a pass: one per pixel, within bounds.
 int64_t default_light_paths(int64_t pixels);
 
-/// Numbers of the estimators of pairs in their seeds: those of one plan are independent of each
-/// other.
+/// Numbers that go into the seeds of the estimators of path pairs, so that those of one plan are
+/// independent.
 inline constexpr uint64_t kVcmNumber = 6, kBpmNumber = 7, kPathAndPhotonsNumber = 8;
 
 class VertexConnectionMerging : public Estimator {

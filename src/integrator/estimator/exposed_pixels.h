@@ -1,4 +1,4 @@
-// How many pixels one path exposes, for EstimatorDescriptor.
+// Number of pixels that one path exposes, for EstimatorDescriptor.
 #pragma once
 
 #include <algorithm>
@@ -9,15 +9,15 @@
 
 namespace nephroid {
 
-/// Pixels within a merge radius, which is in footprints.
+/// Number of pixels within a merge radius given in footprints.
 inline float pixels_within(float radius) {
   return std::max(1.0f, kPi * sqr(radius));
 }
-/// Pixels whose filter a splat reaches.
+/// Number of pixels whose filter a splat reaches.
 inline float splatted_pixels(const PixelFilter& filter) {
   return std::max(1.0f, 4 * filter.radius().x * filter.radius().y);
 }
-/// The same as EstimatorDescriptor::exposed_pixels, of estimators that splat.
+/// EstimatorDescriptor::exposed_pixels of estimators that splat.
 inline float pixels_of_splats(const IntegratorOptions&, const PixelFilter& filter, int64_t) {
   return splatted_pixels(filter);
 }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr uint64_t kStream = 0x66656174;  // "feat"
 
-// The film's response to a flat spectrum of 1, on average over the wavelengths of a path.
+// The film's response to a flat spectrum of 1, averaged over the wavelengths of a path.
 Rgb response_to_white(const FilmSettings& settings) {
   const Rgb white = settings.color_space->from_xyz({1, 1, 1});
   const Rgb seen = settings.white_balance ? *settings.white_balance * white : white;
@@ -22,7 +22,7 @@ Rgb of_white(const Rgb& rgb, const Rgb& white) {
   return {rgb.r / white.r, rgb.g / white.g, rgb.b / white.b};
 }
 
-// Ends at the first surface that does not let the walk straight through.
+// Ends at the first surface that is no straight-through event.
 class FirstVertexVisitor {
  public:
   explicit FirstVertexVisitor(Features& features) : features_(features) {}

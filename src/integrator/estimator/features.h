@@ -1,5 +1,5 @@
-// What camera paths see first: albedo, normal and depth of every film, and the geometric layers of
-// a gbuffer film. It must not know routes or channels.
+// Features at the first vertex of camera paths: albedo, normal and depth for every film, and the
+// geometric layers of a gbuffer film. It must not know routes or channels.
 #pragma once
 
 #include "integrator/estimator/estimator.h"
@@ -8,23 +8,23 @@
 
 namespace nephroid {
 
-/// The first surface of one camera path.
+/// The features of one camera path.
 class Features {
  public:
-  /// Called at every vertex; the first one counts.
+  /// Records the first vertex; later calls do nothing.
   void record(const Walk& walk, const WalkVertex& v);
-  /// Adds one sample of a pixel to the film's features. `weights` are of the path's wavelengths.
+  /// Adds one sample of a pixel to the film's features. `weights` belong to the path's wavelengths.
   void add_to(Film& film, int x, int y, const Scene& scene, const CameraPath& path,
               const SensorWeights& weights) const;
 
  private:
   SampledSpectrum albedo_;
   Vec3f normal_{0, 0, 0};
-  float depth_ = 0;  ///< 0: nothing was seen
+  float depth_ = 0;  ///< 0: no surface seen
   FirstSurface surface_;
 };
 
-/// Adds features and no light: one sample of each pixel a pass.
+/// Adds features and no light: one sample per pixel and pass.
 class FeatureEstimator : public Estimator {
  public:
   const EstimatorDescriptor& descriptor() const override;

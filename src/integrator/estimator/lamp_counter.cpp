@@ -6,7 +6,7 @@ namespace nephroid {
 
 namespace {
 
-/// As many as of techniques: later passes are not slowed down.
+/// As in TechniqueCounter: later passes are not slowed down.
 constexpr uint32_t kCountedPasses = 8;
 
 }  // namespace

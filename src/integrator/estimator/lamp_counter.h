@@ -1,6 +1,5 @@
-// Counts, in the first passes, how much light of each lamp an estimator found. Slices of pixels
-// count for themselves and are added exactly, so that threads do not matter. It must not know
-// walks.
+// Counts the light of each lamp that an estimator finds in the first passes. Each slice of pixels
+// counts by itself. Sums are exact, so threads do not matter. It must not know walks.
 #pragma once
 
 #include <mutex>
@@ -17,22 +16,22 @@ namespace nephroid {
 
 class LampCounter {
  public:
-  /// Of pass number `pass`; without `counts` of none.
+  /// Counts in pass number `pass` if `counts` and the pass is among the first.
   LampCounter(const SceneSymbols& symbols, uint32_t pass, bool counts = true);
   LampCounter(const LampCounter&) = delete;
   LampCounter& operator=(const LampCounter&) = delete;
 
   bool counts() const { return counts_; }
 
-  /// What one thread counts, added when it ends. `counter` may be null.
+  /// The counts of one thread, added to the counter on destruction. `counter` may be null.
   class Slice {
    public:
-    /// `light` tells lamps apart from now on, if the counter counts.
+    /// Lets `light` tell lamps apart from now on, if the counter counts.
     Slice(LampCounter* counter, PartSums& light);
     Slice(const Slice&) = delete;
     Slice& operator=(const Slice&) = delete;
     ~Slice();
-    /// What a sample found, as the sum of a colour's components times `factor`.
+    /// Takes the light of a sample, as the sum of a colour's components times `factor`.
     void take(const SensorWeights& weights, double factor);
 
    private:
@@ -41,9 +40,9 @@ class LampCounter {
     std::vector<double> found_;  ///< [lamp]
   };
 
-  /// Each counts `share` times; those beside the film do not, nor what is not finite.
+  /// Each splat counts `share` times. Splats beside the film and non-finite values do not count.
   void add_splats(std::span<const Splat> splats, const FilmFormat& film, double share);
-  /// Adds them to what other passes found.
+  /// Adds the counts to those of other passes.
   void add_to(EstimatorStatistics& statistics) const;
 
  private:

@@ -1,5 +1,5 @@
-// What an estimator finds out about a scene before its passes: a value that does not change once it
-// is made. A pass is a function of the pass key, the scene and this.
+// The immutable value that an estimator learns from a scene before its passes. A pass is a function
+// of the pass key, the scene and this value.
 #pragma once
 
 #include <memory>
@@ -12,9 +12,9 @@ namespace nephroid {
 class Learned {
  public:
   virtual ~Learned() = default;
-  /// All that passes depend on; Estimator::read_learned makes an equal value of it.
+  /// Writes all that passes depend on. Estimator::read_learned makes an equal value from it.
   virtual void write(ByteWriter& to) const = 0;
-  /// Adds what learning cost, the memory that the value takes, and what was found, in words.
+  /// Adds the cost of learning, the memory of the value, and the findings as sentences.
   virtual void add_to(EstimatorStatistics& statistics) const = 0;
 };
 

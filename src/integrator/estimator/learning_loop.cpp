@@ -7,9 +7,9 @@ namespace nephroid {
 
 namespace {
 
-// A damaged file must not ask for all memory; what is larger is learned again.
+// A damaged file must not claim all memory. A larger value is not saved but learned again.
 constexpr size_t kMostWords = size_t{64} << 18;
-// Version of the bytes that estimators write: increase it when the members of any value change.
+// Version of the bytes that estimators write. Increase it when the members of any value change.
 constexpr uint32_t kLayout = 1;
 
 }  // namespace

@@ -30,7 +30,7 @@ const char* out_of_reach_of_connections(const PathSummary& path) {
 }
 
 const char* out_of_reach_of_merging(const PathSummary& path) {
-  // With an S at the light's end, wherever a photon is merged it came by way of one.
+  // With an S at the light's end, every merged photon came by way of an S.
   return path.ends_out_of_reach() && !path.events.any_surface
              ? "no path meets a light at a point or in one direction, none is connected to it "
                "behind an S, and photons are merged at D and G only"

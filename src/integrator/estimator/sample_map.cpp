@@ -64,8 +64,8 @@ SampleVariance::ByTile SampleVariance::by_tile(const SampleVariance* others) con
       ++pixels[tile];
       ++all_pixels;
     }
-  // Between the absolute error, which forgets the shadows, and the relative one, which forgets
-  // the lights.
+  // A compromise between the absolute error, which neglects dark pixels, and the relative error,
+  // which neglects bright ones.
   const double floor = 0.1 * all_light / std::max(1.0, all_pixels);
   for (size_t t = 0; t < out.variance.size(); ++t) {
     if (!(pixels[t] > 0)) continue;

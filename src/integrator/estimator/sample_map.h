@@ -1,5 +1,5 @@
-// How many samples each part of the picture has, and how much samples vary there. It must not know
-// how samples are made or why they are allocated as they are.
+// Number and variance of samples in each tile of the picture. It must not know how samples are made
+// or why they are allocated as they are.
 #pragma once
 
 #include <cstdint>
@@ -9,17 +9,17 @@
 
 namespace nephroid {
 
-/// How many walks of one kind each pixel has in a pass, the same for all pixels of a tile. Tiles
-/// are as large as makes them hold some pixels of the lattice that is learned from.
+/// Number of walks of one kind per pixel and pass, the same for all pixels of a tile. A tile is
+/// kTile pixels wide on the lattice that is learned from.
 class SampleMap {
  public:
   static constexpr int kTile = 4;  ///< pixels of the lattice across a tile
   static constexpr int kMax = 8, kMaxChainWalks = 32;
-  static constexpr double kMaxMean = 2.5;  ///< of maps that are shared out
+  static constexpr double kMaxMean = 2.5;  ///< mean limit of allocated maps
 
-  /// To be read into.
+  /// A value to be read into.
   SampleMap() = default;
-  /// The same number for each pixel; `spacing` is that of the lattice.
+  /// The same number for each pixel; `spacing` is the lattice's.
   explicit SampleMap(const PixelBounds& b, uint16_t samples = 1, int spacing = 1)
       : tile_(kTile * spacing),
         width_((b.width() + tile_ - 1) / tile_),
@@ -29,13 +29,13 @@ class SampleMap {
   int at(int x, int y) const { return counts_[tile_of(x, y)]; }
   int most() const;
   int fewest() const;
-  bool has(int samples) const;  ///< some tile has this number
+  bool has(int samples) const;  ///< whether some tile has this number
   double mean() const;
   size_t tile_of(int x, int y) const { return static_cast<size_t>(y / tile_) * width_ + x / tile_; }
   int width() const { return width_; }
   static void members(auto& self, auto& archive) { archive(self.tile_, self.width_, self.counts_); }
-  /// Has the tiles of a film, those of a lattice of that spacing or of all pixels, and `min` to
-  /// `max` in each.
+  /// True if the tiles fit the film, for a lattice of that spacing or of all pixels, and each count
+  /// is in [min, max].
   bool is_sound(const PixelBounds& b, int spacing, int min, int max) const;
   std::vector<uint16_t>& counts() { return counts_; }
   const std::vector<uint16_t>& counts() const { return counts_; }
@@ -43,12 +43,12 @@ class SampleMap {
  private:
   bool has_tiles_of(const SampleMap& other) const;
 
-  int tile_ = kTile;  ///< pixels across
+  int tile_ = kTile;  ///< pixels across a tile
   int width_ = 0;
   std::vector<uint16_t> counts_;  ///< [tile]
 };
 
-/// What several samples of each pixel of a lattice found; each pixel has one writer at a time.
+/// Variance among the samples of each pixel of a lattice; each pixel has one writer at a time.
 class SampleVariance {
   struct Sums {
     double light = 0, square = 0, rays = 0;
@@ -56,18 +56,18 @@ class SampleVariance {
   };
 
  public:
-  static constexpr size_t kBytesPerPixel = sizeof(Sums);  ///< of the lattice
+  static constexpr size_t kBytesPerPixel = sizeof(Sums);  ///< bytes per pixel of the lattice
 
   explicit SampleVariance(const PixelBounds& b, int spacing = 1)
       : bounds_(b),
         spacing_(spacing),
         width_((b.width() + spacing - 1) / spacing),
         sums_(static_cast<size_t>(width_) * ((b.height() + spacing - 1) / spacing)) {}
-  /// One sample that took `rays`, of a pixel of the lattice, counted from the corner of the crop.
+  /// Adds a sample that took `rays` at a pixel of the lattice, counted from the crop's corner.
   void add(int x, int y, double luminance, double rays) {
     add(x, y, luminance, rays, luminance * luminance);
   }
-  /// The same for samples whose mean square is known better.
+  /// The same for samples with a better estimate of their square.
   void add(int x, int y, double luminance, double rays, double square) {
     Sums& s = sums_[static_cast<size_t>(y / spacing_) * width_ + x / spacing_];
     s.rays += rays;
@@ -75,16 +75,16 @@ class SampleVariance {
     s.square += square;
     ++s.samples;
   }
-  /// The samples of another one of the same lattice count, too.
+  /// Adds the samples of another object on the same lattice.
   void add(const SampleVariance& other);
-  /// Zero where no pixel has two samples.
+  /// Means per tile; zero where no pixel has two samples.
   struct ByTile {
-    std::vector<double> variance;    ///< [tile] of a sample, over the brightness, [A1]
-    std::vector<double> brightness;  ///< [tile] that it is over
-    std::vector<double> light;       ///< [tile] mean magnitude
-    std::vector<double> cost;        ///< [tile] of a sample, in rays
+    std::vector<double> variance;    ///< [tile] variance of a sample over `brightness`, [A1]
+    std::vector<double> brightness;  ///< [tile] the divisor of `variance`
+    std::vector<double> light;       ///< [tile] mean magnitude of the light
+    std::vector<double> cost;        ///< [tile] rays per sample
   };
-  /// The light of `others`, in the same pixels, counts as brightness of the tiles, too.
+  /// Counts the light of `others` in the same pixels towards the brightness.
   ByTile by_tile(const SampleVariance* others = nullptr) const;
 
  private:

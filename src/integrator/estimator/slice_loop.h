@@ -1,5 +1,5 @@
-// The loop over the pixels of a pass whose pixels are complete one by one: in slices, coarse to
-// fine, on any thread. It must not know what is done at a pixel.
+// The loop over the pixels of a pass in slices, coarse to fine, on any thread, for passes that
+// finish one pixel after another. It must not know what is done at a pixel.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@
 namespace nephroid {
 
 /// Runs work(result, slice) for each of `slices` and calls append(result) for all in their order.
-/// Throws PassStopped, after what was done by then was appended.
+/// Throws PassStopped, after it has appended the results so far.
 template <class Result, class Work, class Append>
 void for_each_slice(PassControl& control, std::span<const size_t> slices, Work&& work,
                     Append&& append) {
@@ -29,14 +29,14 @@ void for_each_slice(PassControl& control, std::span<const size_t> slices, Work&&
   append_all();
 }
 
-/// What a pass adds to the film, slice by slice.
+/// Adds a pass to the film, slice by slice.
 struct SlicesOfPass {
   Film& film;
   int group = 0;                   ///< layout().group_count() for features alone
-  uint64_t estimates = 1;          ///< of a pixel
-  uint64_t feature_estimates = 0;  ///< that go with them
+  uint64_t estimates = 1;          ///< estimates per pixel
+  uint64_t feature_estimates = 0;  ///< feature estimates per pixel
 
-  /// Those that the film does not have, in order.
+  /// The slices that the film does not have, in order.
   std::vector<size_t> missing() const {
     std::vector<size_t> slices;
     for (size_t s = 0; s < film.slices().count(); ++s)
@@ -51,7 +51,7 @@ struct SlicesOfPass {
     film.add_estimates(group, estimates);
     if (feature_estimates > 0) film.add_feature_estimates(feature_estimates);
   }
-  /// All of that: work(result, run of pixels) for each missing slice, append(result) in order.
+  /// Runs the pass: work(result, run of pixels) for each missing slice, append(result) in order.
   template <class Result, class Work, class Append>
   void render(PassControl& control, Work&& work, Append&& append) const {
     const auto work_on = [&](Result& result, size_t slice) {

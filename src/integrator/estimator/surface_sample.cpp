@@ -1,4 +1,3 @@
-// See surface_sample.h.
 #include "integrator/estimator/surface_sample.h"
 
 namespace nephroid {
@@ -18,7 +17,7 @@ SurfaceSample surface_sample(const Scene& scene, const CameraPath& path,
       scene.options.pixel_jitter
           ? std::max(0.125f, 1.0f / std::sqrt(static_cast<float>(scene.samples_per_pixel)))
           : 1.0f;
-  // Where the neighbours' rays meet the tangent plane.
+  // Depths at which the neighbours' rays meet the tangent plane.
   const auto depth_difference = [&](const Vec2f& offset) {
     const std::optional<CameraRay> c =
         camera.generate_ray(path.film + offset * step, path.u_lens, path.u_time);

@@ -8,15 +8,15 @@
 
 namespace nephroid {
 
-/// The first surface of a path, world space; normals as the shape has them.
+/// The first surface of a path in world space, with the shape's own normals.
 struct FirstSurface {
   Vec3f p, ng, ns, wo;
   Vec2f uv;
 };
 
-/// The same in the coordinate system that the scene's film asks for, normals towards the viewer.
-/// Depth differences are those of the plane of the surface between the path's film point and ones a
-/// sample's distance away, as pbrt-v4 takes it: 1/sqrt(samples) pixels, at least 1/8.
+/// The surface in the coordinate system of the scene's film, normals towards the viewer. Depth
+/// differences are taken on the tangent plane, between the path's film point and film points a
+/// sample's distance away: 1/sqrt(samples) pixels, at least 1/8, as in pbrt-v4.
 SurfaceSample surface_sample(const Scene& scene, const CameraPath& path, const FirstSurface& first);
 
 }  // namespace nephroid

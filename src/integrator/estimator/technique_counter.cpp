@@ -7,7 +7,7 @@ namespace nephroid {
 
 namespace {
 
-/// The first passes are enough to tell, and later ones are not slowed down.
+/// The first passes suffice, and later ones are not slowed down.
 constexpr uint32_t kCountedPasses = 8;
 
 double total(const Rgb& color) {

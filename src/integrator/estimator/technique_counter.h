@@ -1,6 +1,6 @@
-// Counts, in the first passes, how much light each technique of an estimator found for each of its
-// routes. Rows of pixels count for themselves and are added in their order, so that threads do not
-// matter. It must not know walks.
+// Counts the light that each technique of an estimator finds for each of its routes in the first
+// passes. Rows of pixels count by themselves and are added in order, so threads do not matter. It
+// must not know walks.
 #pragma once
 
 #include <span>
@@ -16,18 +16,18 @@ class TechniqueCounter {
  public:
   using Row = std::vector<TechniqueLight>;  ///< [part]; empty where nothing is counted
 
-  /// Of pass number `pass` of a group of the film.
+  /// Counts in pass number `pass` of a group of the film.
   TechniqueCounter(const FilmFormat& film, size_t group, uint32_t pass);
   /// Counts nothing.
   explicit TechniqueCounter(const FilmFormat& film) : film_(film) {}
 
-  /// What a row of pixels counts in, with sums that tell techniques apart if it does.
+  /// Counts for a row of pixels; lets `light` tell techniques apart if they are counted.
   Row start_row(PartSums& light) const;
   void add(const Row& row) { join(row, parts_); }
   static void join(const Row& row, Row& into);
-  /// Each counts `share` times; those beside the film do not, nor what is not finite.
+  /// Each splat counts `share` times. Splats beside the film and non-finite values do not count.
   void add_splats(std::span<const Splat> splats, double share);
-  /// Joins the parts of each route and adds them to what other passes found.
+  /// Adds the counts, summed over the parts of each route, to those of other passes.
   void add_to(std::vector<RouteTechniques>& all) const;
 
  private:

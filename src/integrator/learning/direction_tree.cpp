@@ -11,11 +11,11 @@ namespace nephroid {
 namespace {
 
 constexpr int kMaxCuts = 20;
-/// A quarter is cut if it has so many directions and so much of the mass.
+/// A quarter is cut if it has at least this many directions and more than this share of the mass.
 constexpr size_t kToCut = 32;
 constexpr double kMassToCut = 0.02;
 
-/// Quarter of the unit square in which a point lies; the point becomes one of the quarter.
+/// Quarter of the unit square that contains a point; maps the point to coordinates of the quarter.
 size_t quarter_of(Vec2f& p) {
   p = p * 2.0f;
   const bool right = p.x >= 1.0f, upper = p.y >= 1.0f;
@@ -24,7 +24,7 @@ size_t quarter_of(Vec2f& p) {
   return (right ? 1 : 0) + (upper ? 2 : 0);
 }
 
-/// Takes the choice between two masses out of `x`. True for the second.
+/// Chooses between two masses by `x` and rescales it for reuse. True for the second.
 bool choose(float& x, float first, float second) {
   const float p = first / (first + second);
   const bool chosen = x >= p;
@@ -43,7 +43,7 @@ class TreeMaker {
   TreeMaker(std::vector<DirectionTree::Node>& nodes, double sum)
       : nodes_(nodes), root_(nodes.size()), least_(kMassToCut * std::sqrt(sum)) {}
 
-  /// Returns the mass of the new node.
+  /// Appends a node with its children and returns its mass.
   double add(std::span<const DirectionMoment> found, double area, int cuts) {
     const size_t index = nodes_.size();
     nodes_.emplace_back();

@@ -17,9 +17,9 @@ bool is_glossy(const WalkVertex& v) {
   return contains(v.bsdf.finite_classes(), EventClass::kGlossy);
 }
 
-/// True if a guide may choose directions among events of the letters.
+/// True if a guide may choose directions for events of these letters.
 bool has_choice(const WalkVertex& v, ClassMask letters) {
-  // What goes below a surface is no direction.
+  // An event that goes below the surface has no direction to choose.
   if (v.material.has_bssrdf() && !v.subsurface_exit) return false;
   return v.merges && guided_classes(v.bsdf, v.classes_of(letters)) != ClassMask::kNone;
 }
@@ -46,7 +46,7 @@ void GuidedWalk::record(const Walk& walk, const WalkVertex& v, const WalkEvent& 
   if (!has_choice(v, v.letters) || !(carried_ > 0) ||
       records_->size() - first_record_ >= PassRecords::kMaxPerPath)
     return;
-  // [Q2] asks for the density of all lobes that the guide has a say in.
+  // [Q2] needs p_R, the density over all lobes that the guide may choose for.
   const bool chosen = contains(ClassMask::kRough, event.letter) && !walk.delta;
   const float pdf_w = chosen ? guided_pdf_w(v.bsdf, v.wo, v.to_local(walk.ray.d),
                                             TransportMode::kRadiance, v.useful_classes())

@@ -1,4 +1,4 @@
-// Whether photons and camera walks learn where to go.
+// Options of guiding for photons and camera walks.
 #pragma once
 
 #include "integrator/estimator/estimator_descriptor.h"
@@ -6,8 +6,8 @@
 namespace nephroid {
 
 struct GuidingOptions {
-  bool photons = true;  ///< photons start and go where earlier ones were of use
-  bool walks = true;    ///< camera walks go where earlier ones found light
+  bool photons = true;  ///< guide photons to where earlier ones were useful
+  bool walks = true;    ///< guide camera walks to where earlier ones found light
 };
 
 /// -D guide and -D guide-walks.

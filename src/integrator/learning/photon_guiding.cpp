@@ -12,13 +12,13 @@ namespace {
 
 constexpr uint64_t kStream = 0x6c6561726e;  // "learn"
 constexpr uint32_t kRounds = 3;
-/// Paths of a round; more in rounds after one that found little.
+/// Photon paths per round. A round that found little is followed by a larger one.
 constexpr int64_t kPaths = 1 << 14, kMaxPaths = 1 << 18;
 constexpr size_t kFewUsefulStarts = 256;
 constexpr size_t kFewCasters = 16;
 
-/// Of those that photons have met and, while these are too few to tell how large a thing is, of
-/// those that the camera has seen.
+/// A guide to the casters that photons have met. If these are too few to tell a caster's size, the
+/// casters seen by the camera count as well.
 CasterGuide caster_guide(std::vector<UsefulStart> met, const CausticCasters& seen,
                          const Scene& scene) {
   if (met.size() < kFewCasters)
@@ -35,8 +35,7 @@ GuidedPhotons guide_photons(uint64_t seed, const Scene& scene, const FilmFormat&
                             const OwnedRoutes& owned, const IntegratorOptions& options,
                             bool guides_scattering, PassControl& control) {
   if (!options.own<GuidingOptions>().photons || !photons_can_count(owned)) return {};
-  // Photons of learning are aimed from lights alone: how often they were of use is what
-  // EmissionGuide asks for.
+  // Photons of learning are guided at emission alone: EmissionGuide asks how often they are useful.
   GuidedPhotons learned;
   PhotonGuide& guide = learned.guide;
   CausticCasters seen;
@@ -47,7 +46,7 @@ GuidedPhotons guide_photons(uint64_t seed, const Scene& scene, const FilmFormat&
     of_round.photons_per_pass = paths;
     PhotonPass pass =
         start_photon_pass({hash_combine(seed, kStream), round}, scene, film, of_round, control);
-    // What stands in the way of light, the camera can tell before any has met it.
+    // The camera finds casters before any photon has met one.
     if (round == 0) {
       seen = caustic_casters(scene, film, pass, of_round);
       guide.starts = EmissionGuide(scene, seen.points);
@@ -72,7 +71,7 @@ GuidedPhotons guide_photons(uint64_t seed, const Scene& scene, const FilmFormat&
 
 namespace {
 
-// Stand-in estimators, which render nothing: only photons of the first route are guided.
+// Stand-ins for estimators: they render nothing, and only photons of the first route are guided.
 constexpr EstimatorTraits kMerging{.name = "photons", .merges = true, .starts_at_lights = true},
     kTheRest{.name = "path"};
 

@@ -1,7 +1,6 @@
-// Learns where the photons of an estimator should start and where they should go from rough
-// surfaces: what the camera sees through its routes is scattered over the scene as points, photons
-// are traced in a few rounds, and the paths of those that land near such a point make the guide,
-// each round with what the rounds before have learned (docs/estimators.md, section 20).
+// Learns a guide for photon emission, and for photons that leave rough surfaces. Camera walks leave
+// visible points, photons are traced in a few rounds, and paths that land near a visible point make
+// the guide. Each round uses the guide of the rounds before (docs/estimators.md, section 20).
 #pragma once
 
 #include "integrator/estimator/estimator.h"
@@ -10,31 +9,31 @@
 
 namespace nephroid {
 
-/// What photon guiding has learned.
+/// The learned guide and its cost.
 struct GuidedPhotons {
   PhotonGuide guide;
-  uint64_t rays = 0;  ///< that learning took
+  uint64_t rays = 0;  ///< rays of learning
 
-  /// What was learned, in words.
+  /// Adds the findings as sentences.
   void add_notes(EstimatorStatistics& statistics) const;
   static void members(auto& self, auto& archive) { archive(self.guide, self.rays); }
 };
 
-/// A function of its arguments. With `guides_scattering` photons are guided from rough surfaces,
-/// too (ADR 25); else where they start alone. Guides nothing where options or routes have no use
-/// for it.
+/// Learns the guide, a function of the arguments. With `guides_scattering` photons are also guided
+/// when they leave rough surfaces (ADR 25), else at emission only. Guides nothing if the options
+/// forbid it or the routes need no photons.
 GuidedPhotons guide_photons(uint64_t seed, const Scene& scene, const FilmFormat& film,
                             const OwnedRoutes& owned, const IntegratorOptions& options,
                             bool guides_scattering, PassControl& control = unwatched);
 
-/// The same where photons start, for an estimator of other routes whose photons are of use where
-/// those of a route of caustics would be. `casters`: what throws these, kSpecular or that and
-/// kGlossy.
+/// The same at emission only, for an estimator of any routes: photons count as useful where those
+/// of a route of caustics would be. `casters` are the classes of their casters: kSpecular, or
+/// kSpecular and kGlossy.
 GuidedPhotons guide_caustic_photons(uint64_t seed, const Scene& scene, const FilmFormat& film,
                                     const IntegratorOptions& options, ClassMask casters,
                                     PassControl& control = unwatched);
 
-/// The same as what an estimator has learned.
+/// GuidedPhotons as an estimator's learned value.
 class LearnedPhotons final : public Learned {
  public:
   explicit LearnedPhotons(GuidedPhotons photons) : photons_(std::move(photons)) {}

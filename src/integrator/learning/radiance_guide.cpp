@@ -12,14 +12,14 @@ namespace nephroid {
 namespace {
 
 constexpr uint8_t kSides = 12;
-/// Boxes with more records are cut without a look.
+/// Boxes with more records are cut without a judgement.
 constexpr size_t kManyRecords = 1 << 16;
 constexpr size_t kMinRecords = 1 << 8;
 constexpr float kShares[] = {0.25f, 0.5f, 0.75f};
-/// A guide has to be better by this factor: second moments do not see how evenly the points of a
-/// pixel fill the directions of the BSDF, which is lost where half of them go elsewhere.
+/// Required gain of a guide over the BSDF. Second moments do not see the even distribution of a
+/// pixel's samples over the BSDF's directions, which guiding destroys.
 constexpr double kWorthIt = 0.7;
-/// So have the parts of a box, since the best of several guesses is a lucky one.
+/// Required gain of cutting a box: the best of several estimates tends to be a lucky one.
 constexpr double kWorthCutting = 0.95;
 
 uint8_t side_of(const Vec3f& n, bool glossy) {
@@ -29,7 +29,7 @@ uint8_t side_of(const Vec3f& n, bool glossy) {
   return static_cast<uint8_t>((glossy ? 6 : 0) + 2 * axis + (n[axis] < 0 ? 1 : 0));
 }
 
-/// [Q2] of every `step`th record.
+/// m of [Q2] for every `step`th record.
 std::vector<DirectionMoment> moments(std::span<const RadianceRecord> records, size_t first,
                                      size_t step) {
   std::vector<DirectionMoment> out;
@@ -41,14 +41,14 @@ std::vector<DirectionMoment> moments(std::span<const RadianceRecord> records, si
   return out;
 }
 
-/// How a box would do as a whole.
+/// The best guide of a box without cutting it.
 struct Judgement {
   float share = 0;
-  double moment = 0;  ///< the second moment of what its records find, [Q4]
+  double moment = 0;  ///< M(share) of [Q4]
 };
 
 Judgement judge(std::span<const RadianceRecord> records) {
-  // Each half says what following the tree of the other one would do.
+  // Each half judges the tree of the other half.
   Judgement best;
   std::array<double, std::size(kShares)> guided{};
   const bool few = records.size() < kMinRecords;
@@ -61,7 +61,7 @@ Judgement judge(std::span<const RadianceRecord> records) {
       const double square = sqr(double{r.found});
       if (square == 0) continue;
       best.moment += square;
-      // Other lobes lose what the guide takes.
+      // A ratio of 0: other lobes lose the samples that the guide takes.
       const double ratio =
           nodes.empty() || !(r.pdf_w > 0) ? 0.0 : double{tree.pdf_w(r.square)} / double{r.pdf_w};
       for (size_t s = 0; s < guided.size(); ++s)
@@ -80,8 +80,8 @@ struct Parts {
   std::span<RadianceRecord> lower, upper;
 };
 
-/// Halves of the records along the longest side of the box around them; the lower part is empty if
-/// they lie at one point.
+/// Halves of the records along the longest side of their bounding box. Both are empty if they
+/// cannot be separated.
 Parts halves(std::span<RadianceRecord> records) {
   Bounds3f bounds;
   for (const RadianceRecord& r : records) bounds.extendBy(r.p);
@@ -101,15 +101,15 @@ Parts halves(std::span<RadianceRecord> records) {
 
 }  // namespace
 
-/// A box that is looked at: cut where that is better, a tree for each part.
+/// A box that is judged by itself: it is cut where that pays, with a tree for each part.
 struct RadianceGuide::Region {
   uint32_t box = 0;
   std::span<RadianceRecord> records;
   std::vector<Box> boxes{1};
   std::vector<DirectionTree::Node> nodes;
-  size_t guided = 0;  ///< records
+  size_t guided = 0;  ///< records in boxes that guide
 
-  /// Returns the second moment of what the records find.
+  /// Makes box `at` from the records inside and returns its second moment [Q4].
   double settle(uint32_t at, std::span<RadianceRecord> inside) {
     const Judgement whole = judge(inside);
     if (inside.size() >= 2 * kMinRecords) {
@@ -210,11 +210,11 @@ bool RadianceGuide::is_sound() const {
   std::vector<size_t> roots;
   for (size_t i = 0; i < boxes_.size(); ++i) {
     const Box& box = boxes_[i];
-    // Parts come after the whole.
+    // The parts of a box come after the box.
     if (box.axis >= 0 && (box.next <= i || size_t{box.next} + 1 >= boxes_.size())) return false;
     if (box.axis < 0 && box.share > 0) roots.push_back(box.next);
   }
-  // One tree follows the other.
+  // Trees follow each other without gaps.
   std::ranges::sort(roots);
   roots.push_back(nodes_.size());
   if (roots.front() != 0) return false;

@@ -11,12 +11,12 @@ namespace nephroid {
 namespace {
 
 constexpr uint64_t kStream = 0x7369676874;  // "sight"
-/// Camera walks, about.
+/// Approximate limit of camera walks.
 constexpr int kWalks = 1 << 13;
-/// Rough vertices of a walk that looks for casters.
+/// Largest number of rough vertices of a walk that looks for casters.
 constexpr int kRoughVertices = 3;
 
-/// Some pixels of a film, evenly spread, in rows; others in each pass.
+/// Some pixels of a film, evenly spread, in rows. They differ from pass to pass.
 struct SomePixels {
   SomePixels(const PixelBounds& b, uint32_t pass) : bounds(b) {
     while (b.area() / (int64_t{stride} * stride) > kWalks) ++stride;
@@ -37,7 +37,7 @@ struct SomePixels {
   int stride = 1, rows = 0, shift_x = 0, shift_y = 0;
 };
 
-/// What the walks of a row of pixels, or of all, found.
+/// Points found by the walks of one row of pixels, or of all rows.
 template <class T>
 struct Found {
   std::vector<T> points;
@@ -53,7 +53,7 @@ Found<T> joined(const std::vector<Found<T>>& rows) {
   return all;
 }
 
-/// Notes where runs of specular events end that began behind a rough vertex.
+/// Records the last vertices of runs of specular events that began behind a rough vertex.
 class CasterVisitor {
  public:
   explicit CasterVisitor(std::vector<Vec3f>& casters) : casters_(casters) {}
@@ -86,7 +86,7 @@ class CasterVisitor {
   int rough_ = 0;
 };
 
-/// Starts a camera path at some pixels of the film; `run(path, sampler, points of the row)` walks.
+/// Starts a camera path at some pixels; `run(path, sampler, points of the row)` runs its walk.
 template <class T, class Run>
 Found<T> walk_from(const Scene& scene, const SomePixels& pixels, const PhotonPass& pass,
                    const Run& run) {
@@ -116,7 +116,7 @@ VisiblePoints visible_points(const Scene& scene, const FilmFormat& film, const O
     random_walk(scene, TransportMode::kRadiance, options.max_depth, path.walk, sampler, visitor);
   };
   Found<Photon> all = walk_from<Photon>(scene, pixels, pass, run);
-  // Wide enough to leave no gaps between the walks, and to reach as far as a merge.
+  // Wide enough to leave no gaps between walks and to cover a merge radius.
   const float radius = std::max(2.0f * static_cast<float>(pixels.stride),
                                 first_radius(options, film.picture_pixels()));
   const Vec3f eye = scene.camera->camera_to_world(pass.trace.time).point(Vec3f(0, 0, 0));

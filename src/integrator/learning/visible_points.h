@@ -1,6 +1,5 @@
-// What a first look from the camera tells about light paths before any is traced: where photons
-// would be seen, and which specular things stand where light could come from. It must not know
-// guides.
+// Camera walks before any photon is traced: visible points, near which photons are useful, and
+// casters, specular objects between rough surfaces and light. It must not know guides.
 #pragma once
 
 #include <vector>
@@ -10,13 +9,13 @@
 
 namespace nephroid {
 
-/// What the camera sees: points on surfaces, as photons, and how far around one light counts.
+/// Visible points, stored as photons, and the radius around them in which light counts as seen.
 struct VisiblePoints {
   PhotonGrid grid;
   PixelFootprint footprint;
   Vec3f eye{0, 0, 0};
   float radius_pixels = 0;
-  uint64_t rays = 0;  ///< that it took
+  uint64_t rays = 0;  ///< rays of the camera walks
 
   /// True if light that arrives at `p` (world) would be seen.
   bool has_near(const Vec3f& p) const {
@@ -27,17 +26,17 @@ struct VisiblePoints {
   }
 };
 
-/// Points where camera walks of the pass would merge photons of the group, of about 2^13 walks.
+/// Points where about 2^13 camera walks of the pass would merge photons of the group.
 VisiblePoints visible_points(const Scene& scene, const FilmFormat& film, const OwnedRoutes& owned,
                              const PhotonPass& pass, const IntegratorOptions& options);
 
 struct CausticCasters {
   std::vector<Vec3f> points;
-  uint64_t rays = 0;  ///< that it took
+  uint64_t rays = 0;  ///< rays of the camera walks
 };
-/// Points (world) at which light that reaches a rough vertex of a camera path by way of specular
-/// ones may have met the first of these: the last vertices of runs of S behind a D, G or V, of
-/// paths of as many walks with at most three such vertices.
+/// World points at which light would first meet a caster on its way to a rough vertex. They are the
+/// last vertices of runs of S behind a D, G or V, from about 2^13 camera walks with at most three
+/// such vertices.
 CausticCasters caustic_casters(const Scene& scene, const FilmFormat& film, const PhotonPass& pass,
                                const IntegratorOptions& options);
 

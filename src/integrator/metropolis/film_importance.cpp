@@ -7,9 +7,9 @@ namespace nephroid {
 
 namespace {
 
-constexpr int kMaxCells = 16;        ///< along the longer side
-constexpr float kPixelsPerCell = 4;  ///< at least
-/// What is darker than this share of the mean is as important as what is as dark.
+constexpr int kMaxCells = 16;        ///< largest number of cells along the longer side
+constexpr float kPixelsPerCell = 4;  ///< smallest side of a cell in pixels
+/// Offset in [Z6], as a share of the mean brightness; limits the importance of dark cells.
 constexpr double kDarkest = 0.05;
 
 }  // namespace
@@ -45,7 +45,7 @@ void FilmImportance::learn() {
   double mean = 0;
   for (const double b : found_) mean += b / static_cast<double>(found_.size());
   if (!(mean > 0) || !std::isfinite(mean)) return;
-  // Each cell with its neighbours: few paths were recorded.
+  // Smooth each cell with its neighbours, since few paths were recorded.
   for (int y = 0; y < height_; ++y)
     for (int x = 0; x < width_; ++x) {
       double sum = 0, weights = 0;

@@ -1,7 +1,6 @@
-// Where on the film chains should spend their time: a coarse picture of how bright the film is, so
-// that they visit what is dark as often as what is bright. Any importance gives the same picture on
-// average, with another noise. It must not know paths. Paper: Hoberock & Hart 2010; equation [Z6]
-// of docs/estimators.md.
+// The importance of film places for Markov chains, from a coarse picture of the film's brightness:
+// chains visit dark places as often as bright ones. Any importance gives the same mean with another
+// noise. It must not know paths. Paper: Hoberock & Hart 2010; [Z6] in docs/estimators.md.
 #pragma once
 
 #include <span>
@@ -13,23 +12,22 @@
 
 namespace nephroid {
 
-/// The places from which something of the crop can be seen: the crop, and around it the filter's
-/// radius.
+/// The film places that contribute to the crop: the crop, extended by the filter's radius.
 class FilmArea {
  public:
   FilmArea(const PixelBounds& crop, const PixelFilter& filter);
-  /// Evenly distributed over the area.
+  /// Maps [0,1)^2 evenly to the area.
   Vec2f place(const Vec2f& u) const { return low_ + Vec2f(u.x * size_.x, u.y * size_.y); }
-  /// The inverse of place; outside of [0,1)^2 beyond the area.
+  /// The inverse of place(); outside of [0,1)^2 beyond the area.
   Vec2f unit(const Vec2f& place) const {
     return {(place.x - low_.x) / size_.x, (place.y - low_.y) / size_.y};
   }
   /// Width and height in pixels.
   Vec2f size() const { return size_; }
-  /// In pixels.
+  /// Area in pixels.
   float area() const { return size_.x * size_.y; }
   static void members(auto& self, auto& archive) { archive(self.low_, self.size_); }
-  /// Has a size to divide by.
+  /// True if the place is finite and the size at least one pixel.
   bool is_sound() const;
 
  private:
@@ -40,16 +38,16 @@ class FilmArea {
 
 class FilmImportance {
  public:
-  /// To be read into.
+  /// A value to be read into.
   FilmImportance() = default;
-  /// 1 everywhere.
+  /// Importance 1 everywhere.
   explicit FilmImportance(const FilmArea& area);
 
-  /// What a few paths found: adds brightness at a place.
+  /// Adds brightness that a path found at a place.
   void record(const Vec2f& film, double brightness);
-  /// Makes the importance of what was recorded: about 1 over the brightness around a place.
+  /// [Z6] Computes the importance from the records: about 1 over the brightness around a place.
   void learn();
-  /// Positive.
+  /// The importance of a place; positive.
   float at(const Vec2f& film) const;
   static void members(auto& self, auto& archive) {
     archive(self.area_, self.width_, self.height_, self.found_, self.importance_);
@@ -62,7 +60,7 @@ class FilmImportance {
   }
 
   FilmArea area_;
-  int width_ = 1, height_ = 1;  ///< cells
+  int width_ = 1, height_ = 1;  ///< size in cells
   std::vector<double> found_, importance_;
 };
 

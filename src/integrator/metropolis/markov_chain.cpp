@@ -19,17 +19,17 @@ constexpr uint64_t kStartStream = 0x7374617274;    // "start"
 /// Dimensions of each stream that are stratified over the independent paths of all passes.
 constexpr int kStratified = 24;
 constexpr int64_t kPathsPerChunk = 1024;
-/// Paths whose light is kept at once.
+/// Limit of paths whose light is kept at once.
 constexpr int64_t kPathsAtOnce = int64_t{1} << 18;
 
-/// The numbers of independent path `number`, counted over all passes: one scrambled Sobol' sequence
-/// whose first dimensions the streams share.
+/// The numbers of independent path `number`, counted over all passes: a point of one scrambled
+/// Sobol' sequence, whose first dimensions are divided among the streams.
 MarkovSample::Origin independent_numbers(uint64_t seed, uint64_t stream, uint64_t number) {
   const auto point = std::make_shared<SobolPoint>(static_cast<uint32_t>(number),
                                                   kStratified * MarkovSample::kStreams);
   const uint64_t path_seed = hash_combine(seed, stream, number >> 32);
   return [point, path_seed](int stream_of_numbers, int dimension) {
-    // Later dimensions are beyond those of the point, where numbers are random.
+    // Later dimensions are beyond those of the point, so their numbers are random.
     constexpr int kBeyond = 1 << 24;
     PathSampler sampler(*point, path_seed);
     sampler.start_dimension(dimension < kStratified
@@ -44,7 +44,7 @@ struct Chunk {
   ChainStatistics statistics;
 };
 
-/// One pass.
+/// Renders one pass.
 class ChainPass {
  public:
   ChainPass(const PassKey& key, const ChainSettings& settings, const ChainPilot& pilot,
@@ -80,7 +80,7 @@ class ChainPass {
     return independent_numbers(key_.seed, kBootstrapStream, uint64_t{key_.pass} * paths + path);
   }
 
-  /// [Z5]: adds light that was found `times` times.
+  /// [Z5] Adds light that counts `times` times.
   void expose(const FoundLight& found, double target, double times, Chunk& out) const {
     if (!(times > 0)) return;
     const double scale = times / (independent_ + mutations_ * target / balance_);
@@ -116,8 +116,8 @@ class ChainPass {
     }
   }
 
-  /// Chooses a bootstrap path for each chain, in proportion to the target (systematic sampling);
-  /// any at all if all are black. Returns the sum of the targets.
+  /// Chooses a bootstrap path for each chain, in proportion to the target (systematic sampling).
+  /// If all are black, the choice is arbitrary. Returns the sum of the targets.
   double choose_starts() {
     double total = 0;
     for (const double b : targets_) total += b;
@@ -145,7 +145,7 @@ class ChainPass {
                       hash_combine(key_.seed, kChainStream, key_.pass, number), settings_,
                       importance_, *function);
     ChainStatistics& s = out.statistics;
-    double times = 0;  // of the current state
+    double times = 0;  // weight of the current state
     for (int64_t i = 0; i < settings_.mutations; ++i) {
       chain.propose();
       const double acceptance = chain.acceptance();
@@ -153,7 +153,7 @@ class ChainPass {
       const double times_proposed = acceptance * ratio_ + (chain.is_large() ? 1 : 0);
       const bool accepted = chain.decide();
       if (accepted) {
-        expose(chain.proposed(), chain.proposed_target(), times, out);  // what was current
+        expose(chain.proposed(), chain.proposed_target(), times, out);  // the former current state
         times = times_proposed;
       } else {
         expose(chain.proposed(), chain.proposed_target(), times_proposed, out);
@@ -174,7 +174,7 @@ class ChainPass {
     for (const Chunk& chunk : chunks) {
       splats.insert(splats.end(), chunk.splats.begin(), chunk.splats.end());
       statistics_.add(chunk.statistics);
-      buffer_.add(chunk.bad);  // to be counted
+      buffer_.add(chunk.bad);  // the buffer counts non-finite splats
     }
     buffer_.add(splats);
     statistics_.splats += splats.size();
@@ -182,16 +182,16 @@ class ChainPass {
 
   const PassKey key_;
   const ChainSettings& settings_;
-  const double mutations_;    ///< of all chains
-  const double independent_;  ///< paths drawn independently: bootstrap and, on average, large steps
+  const double mutations_;    ///< M, mutations of all chains
+  const double independent_;  ///< n, mean number of independent paths: bootstrap and large steps
   const FilmImportance& importance_;
   const double balance_;
   const PathFunctionMaker& make_;
   SplatBuffer& buffer_;
   PassControl& control_;
-  std::vector<double> targets_;  ///< of the bootstrap
-  std::vector<int64_t> starts_;  ///< of the chains, among the bootstrap
-  double ratio_ = 0;             ///< mean target of the bootstrap over the balance
+  std::vector<double> targets_;  ///< [bootstrap path]
+  std::vector<int64_t> starts_;  ///< [chain] index of its bootstrap path
+  double ratio_ = 0;             ///< b̂/b of [Z5]: mean bootstrap target over the balance
   ChainStatistics statistics_;
 };
 
@@ -200,7 +200,7 @@ class ChainPass {
 void FoundLight::add(const Vec2f& film, size_t part, const Rgb& value) {
   const float sum = value.r + value.g + value.b;
   if (!std::isfinite(sum)) {
-    // Components that are finite may have a sum that is not.
+    // Finite components may have a non-finite sum.
     const float nan = std::numeric_limits<float>::quiet_NaN();
     bad.push_back({film, static_cast<uint8_t>(part), {nan, nan, nan}});
     return;
@@ -282,7 +282,7 @@ ChainPilot look_around(uint64_t seed, int64_t count, const FilmArea& area, size_
     for (int64_t j = begin; j < end; ++j) {
       numbers.start(independent_numbers(seed, kPilotStream, j), 0);
       found.splats.clear();
-      found.bad.clear();  // counted in passes
+      found.bad.clear();  // passes count them
       function->evaluate(numbers, found);
       if (!found.splats.empty()) chunks[c].push_back(found);
     }

@@ -1,7 +1,7 @@
-// Metropolis light transport over any function from random numbers to light on the film: a pass
-// draws paths independently, starts chains at some of them, and adds up what both find. Each pass
-// is unbiased by itself. It must not know scenes, routes or how paths are made. Papers: Veach &
-// Guibas 1997; Kelemen et al. 2002; equations [Z2] to [Z5] of docs/estimators.md.
+// Metropolis light transport over any function from random numbers to light on the film ([Z2] to
+// [Z5] in docs/estimators.md). A pass draws independent paths, starts chains at some of them and
+// adds up the light of both, without bias. It must not know scenes, routes or how paths are made.
+// Papers: Veach & Guibas 1997; Kelemen et al. 2002.
 #pragma once
 
 #include <functional>
@@ -18,43 +18,43 @@ namespace nephroid {
 /// The light that one set of random numbers brings to the film.
 struct FoundLight {
   std::vector<Splat> splats;
-  size_t kind = 0;         ///< which of a function's kinds of paths it is, for the pilot
-  uint64_t rays = 0;       ///< counted over all calls
-  std::vector<Splat> bad;  ///< values that were not finite, over all calls
+  size_t kind = 0;         ///< kind of the path, for the pilot
+  uint64_t rays = 0;       ///< rays of all calls
+  std::vector<Splat> bad;  ///< non-finite values of all calls
 
-  /// Adds what a part of the film receives, per number in the unit cube; black adds nothing.
+  /// Adds a splat to a part: its share of f(u), per volume of the unit cube. Black adds nothing.
   void add(const Vec2f& film, size_t part, const Rgb& value);
-  /// [Z2]: what chains are in proportion to: how bright all of it is, times how important the film
-  /// is there. Positive unless all is black.
+  /// g of [Z2], the target of chains: brightness of all splats times importance of their places.
+  /// Positive unless all are black.
   double target(const FilmImportance& importance) const;
 };
 /// The mean of the magnitudes of a colour's components.
 double brightness_of(const Rgb& color);
 
-/// What chains explore. Equal numbers give equal light.
+/// The function f(u) that chains explore. Equal numbers give equal light.
 class PathFunction {
  public:
   virtual ~PathFunction() = default;
-  /// Adds to `found`, whose splats are empty.
+  /// Adds the light to `found`, which has no splats yet.
   virtual void evaluate(MarkovSample& numbers, FoundLight& found) = 0;
 };
-/// Makes one for each task, so that it may keep memory of its own.
+/// Makes a function for each task, so that it may have memory of its own.
 using PathFunctionMaker = std::function<std::unique_ptr<PathFunction>()>;
 
 struct ChainSettings {
-  int64_t bootstrap = 0;  ///< paths drawn independently, from some of which chains start
+  int64_t bootstrap = 0;  ///< independent paths, at some of which chains start
   int64_t chains = 0;
-  int64_t mutations = 0;    ///< of each chain
-  float large_step = 0.3f;  ///< probability of a mutation to propose numbers that are all new
+  int64_t mutations = 0;    ///< mutations per chain
+  float large_step = 0.3f;  ///< p_L, probability that a mutation proposes all numbers anew
   SmallStep small_step;
 };
 
-/// What a few paths that no pass draws tell about all of them.
+/// Findings of a few pilot paths that no pass draws.
 struct ChainPilot {
   FilmImportance importance;
-  std::vector<double> kinds;  ///< what paths of each kind add to the mean squared target
-  /// [Z5]: the target at which chains are as good as independent paths, its mean. The picture is
-  /// right for any positive one that does not depend on the pass.
+  std::vector<double> kinds;  ///< [kind] contribution to the mean squared target
+  /// b of [Z5], the mean target. The picture is unbiased for any positive value that does not
+  /// depend on the pass.
   double balance = 1;
 
   static void members(auto& self, auto& archive) {
@@ -66,16 +66,16 @@ struct ChainPilot {
 /// One chain, step by step.
 class MarkovChain {
  public:
-  /// `origin` are the numbers of the first state; all later ones are a function of `seed`.
+  /// `origin` gives the numbers of the first state; later ones are a function of `seed`.
   MarkovChain(MarkovSample::Origin origin, uint64_t seed, const ChainSettings& settings,
               const FilmImportance& importance, PathFunction& function);
 
   /// Draws the next proposal and evaluates it.
   void propose();
   bool is_large() const { return large_; }
-  /// [Z3]: the probability with which decide() accepts the proposal.
+  /// a of [Z3], the probability that decide() accepts the proposal.
   double acceptance() const;
-  /// True if the proposal is now the current state.
+  /// Accepts or rejects the proposal; true if it is now the current state.
   bool decide();
   const FoundLight& current() const { return states_[now_]; }
   const FoundLight& proposed() const { return states_[1 - now_]; }
@@ -104,11 +104,11 @@ struct ChainStatistics {
   void add(const ChainStatistics& o);
 };
 
-/// Learns from `count` paths: a function of the seed.
+/// Runs a pilot of `count` paths; the result is a function of the seed.
 ChainPilot look_around(uint64_t seed, int64_t count, const FilmArea& area, size_t kinds,
                        const PathFunctionMaker& make, PassControl& control = unwatched);
 
-/// Adds all that the paths of a pass find to `buffer`, to be finished with the scale 1.
+/// Adds the light of all paths of a pass to `buffer`, which must be finished with scale 1.
 void render_chains(const PassKey& key, const ChainSettings& settings, const ChainPilot& pilot,
                    const PathFunctionMaker& make, SplatBuffer& buffer, ChainStatistics& statistics,
                    PassControl& control = unwatched);

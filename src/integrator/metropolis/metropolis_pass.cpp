@@ -18,7 +18,7 @@ constexpr double kMutationsPerPixel = 16;
 constexpr int64_t kMinMutations = 1024;
 constexpr int64_t kChainLength = 8192;
 constexpr int64_t kMinChains = 16;
-/// Of the mutations.
+/// Bootstrap paths over mutations.
 constexpr double kBootstrapShare = 0.25;
 
 }  // namespace

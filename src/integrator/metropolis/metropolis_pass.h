@@ -1,6 +1,5 @@
-// What the Metropolis estimators share: how large a pass is, the pilot that says how chains and
-// independent paths are balanced, the film that paths are spread over, and the report.
-// It must not know how paths are made.
+// Common parts of the Metropolis estimators: the size of a pass, the pilot that balances chains
+// and independent paths, and the report. It must not know how paths are made.
 #pragma once
 
 #include "integrator/estimator/estimator.h"
@@ -9,11 +8,11 @@
 
 namespace nephroid {
 
-/// What a few paths tell of a scene before the first pass.
+/// The pilot of a scene as an estimator's learned value.
 class LearnedPilot final : public Learned {
  public:
   explicit LearnedPilot(ChainPilot pilot) : pilot_(std::move(pilot)) {}
-  /// Traces them with `make`.
+  /// Runs the pilot with functions of `make`.
   static std::shared_ptr<const LearnedPilot> learn(uint64_t seed, const FilmArea& area,
                                                    size_t kinds, const PathFunctionMaker& make,
                                                    PassControl& control);
@@ -31,7 +30,7 @@ class MetropolisPasses {
  public:
   explicit MetropolisPasses(const MetropolisOptions& options) : options_(options) {}
 
-  /// Adds a pass of a group's light to the film. `make` makes what chains explore.
+  /// Adds a pass of a group's light to the film. `make` makes the function that chains explore.
   void render(const PassKey& key, const Scene& scene, int group, const ChainPilot& pilot,
               const PathFunctionMaker& make, Film& film, PassControl& control);
   EstimatorStatistics statistics() const;
@@ -41,7 +40,7 @@ class MetropolisPasses {
 
   MetropolisOptions options_;
   ChainStatistics counts_;
-  uint64_t pixel_bytes_ = 0;  ///< of the sums of a pass
+  uint64_t pixel_bytes_ = 0;  ///< memory of the sums of a pass
 };
 
 }  // namespace nephroid

@@ -14,19 +14,18 @@ namespace nephroid {
 
 namespace {
 
-// Streams of numbers.
+// Streams of random numbers.
 constexpr int kEye = 0, kLight = 1, kTechnique = 2;
 
-/// The guess: each length is tried so often relative to the one before.
+/// P_0 of [Z8]: probability of each length over that of the one before.
 constexpr double kNextLength = 0.85;
-/// Shares of the guess once kinds have been looked at: a path is at most four times as bright as by
-/// the guess for its length, twice for its technique.
+/// a of [Z8], the guess's shares after the pilot. They bound the weight of a path: at most four
+/// times that of the guess by its length, twice by its technique.
 constexpr double kGuessedLength = 0.25, kGuessedTechnique = 0.5;
-/// Longer paths than these have a light of which no picture shows anything; they are not left out
-/// but share what is left.
+/// Number of path lengths; the light of longer paths is invisible.
 constexpr int kMaxLengths = 1000;
 
-/// What the paths of a pass share.
+/// Settings shared by the paths of a pass.
 struct Pass {
   PairSettings pair;
   const FilmSettings& film;
@@ -34,7 +33,7 @@ struct Pass {
   KindChoice kinds;
 };
 
-/// One path by one technique.
+/// [Z7] Makes one path by one technique.
 class TechniquePaths : public PathFunction {
  public:
   explicit TechniquePaths(const Pass& pass)
@@ -121,7 +120,7 @@ KindChoice::KindChoice(int max_length) : KindChoice() {
   size_t kinds = 0;
   for (int length = 0; length < lengths; ++length) {
     weights.push_back(std::exchange(weight, weight * kNextLength));
-    // Light is seen directly in one way only; else s + t = length + 2 has length + 2.
+    // Light seen directly has one technique; all other lengths have length + 2 (s + t).
     const size_t techniques = length == 0 ? 1 : static_cast<size_t>(length) + 2;
     techniques_.emplace_back(std::vector<double>(techniques, 1.0));
     first_kind_.push_back(kinds);
@@ -186,7 +185,7 @@ Multiplexed::Multiplexed(OwnedRoutes owned, const IntegratorOptions& options)
 
 namespace {
 
-/// What paths share in a pass; `kinds` are those of the guess.
+/// Settings of a pass, with the kinds of the guess.
 Pass start_pass(const Scene& scene, const OwnedRoutes& owned, const FilmFormat& film,
                 const IntegratorOptions& options, const CameraView& view, const PassKey& key) {
   Pass pass{{scene, owned},
@@ -195,7 +194,7 @@ Pass start_pass(const Scene& scene, const OwnedRoutes& owned, const FilmFormat& 
             KindChoice(options.max_depth)};
   pass.pair.view = scene.camera->connects() ? &view : nullptr;
   pass.pair.max_depth = options.max_depth;
-  // One light path and one place of the film for each path that is tried.
+  // N of [W9]: each path has one light path and one place of the film.
   pass.pair.light_paths = static_cast<double>(pass.area.area());
   pass.pair.specular_alpha = specular_alpha_of_pass(scene.specular_band, key);
   return pass;
@@ -210,7 +209,7 @@ PathFunctionMaker maker_of(const Pass& pass) {
 std::shared_ptr<const Learned> Multiplexed::learn(const Scene& scene, const FilmFormat& film,
                                                   uint64_t seed, PassControl& control) const {
   const CameraView view(scene, film.bounds());
-  // Its threshold is that of pass 0, whichever pass asks.
+  // The pilot has the roughness threshold of pass 0, whichever pass needs it.
   const Pass pass = start_pass(scene, owned_, film, options_, view, {seed, 0});
   return LearnedPilot::learn(seed, pass.area, pass.kinds.kinds(), maker_of(pass), control);
 }

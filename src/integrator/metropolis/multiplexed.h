@@ -1,8 +1,7 @@
-// `mlt`: Markov chains that choose one technique of bidirectional path tracing for each path, so
-// that they stay with the techniques that are good where they are (Hachisuka, Kaplanyan &
-// Dachsbacher 2014). A pass is a function of the scene, the options and the pass key, and unbiased
-// by itself (docs/estimators.md, [Z7]). It must not know how pairs of paths
-// are connected or chains are run.
+// `mlt`, multiplexed Metropolis light transport: Markov chains over bidirectional paths, one
+// technique per path, so that chains favour good techniques ([Z7] in docs/estimators.md). Passes
+// are independent and unbiased. It must not know how path pairs are connected or chains are run.
+// Paper: Hachisuka, Kaplanyan & Dachsbacher 2014.
 #pragma once
 
 #include "integrator/estimator/estimator.h"
@@ -11,26 +10,26 @@
 
 namespace nephroid {
 
-/// How often paths of each kind are tried: of each length, in scattering events, by each technique.
+/// Probabilities of path kinds. A kind is a length, in scattering events, and a technique.
 class KindChoice {
  public:
   struct Chosen {
     int length;
-    int s;              ///< vertices of the light side
-    size_t kind;        ///< counted over lengths and techniques
-    float probability;  ///< of this kind
+    int s;              ///< light vertices
+    size_t kind;        ///< index over lengths and techniques
+    float probability;  ///< probability of this kind
   };
-  /// By a guess.
+  /// P_0 of [Z8], a guess.
   explicit KindChoice(int max_length);
-  /// [Z8]: by the mean of the squared target of each kind where `guess` chose;
-  /// the guess keeps a share, so that no kind is left out.
+  /// P of [Z8], from the mean squared target of each kind where `guess` chose. The guess keeps a
+  /// share, so that no kind is left out.
   KindChoice(const KindChoice& guess, std::span<const double> mean_squares);
   Chosen choose(const Vec2f& u) const;
   size_t lengths() const { return techniques_.size(); }
   size_t kinds() const { return first_kind_.back(); }
 
  private:
-  /// One of a few, with probabilities in proportion to weights.
+  /// A discrete distribution in proportion to weights.
   struct Table {
     std::vector<double> probability, cdf;
     explicit Table(std::vector<double> weights);
@@ -39,8 +38,8 @@ class KindChoice {
   KindChoice() : length_({1.0}) {}
 
   Table length_;
-  std::vector<Table> techniques_;   ///< of each length
-  std::vector<size_t> first_kind_;  ///< of each length, and one behind the last
+  std::vector<Table> techniques_;   ///< [length]
+  std::vector<size_t> first_kind_;  ///< [length] index of its first kind; last: number of kinds
 };
 
 class Multiplexed : public Estimator {

@@ -15,7 +15,7 @@ namespace nephroid {
 
 namespace {
 
-/// What the paths of a pass share.
+/// Settings shared by the paths of a pass.
 struct Pass {
   const Scene& scene;
   const OwnedRoutes& owned;
@@ -91,7 +91,7 @@ PathFunctionMaker maker_of(const Pass& pass) {
 
 std::shared_ptr<const Learned> PrimarySpace::learn(const Scene& scene, const FilmFormat& film,
                                                    uint64_t seed, PassControl& control) const {
-  // Its threshold is that of pass 0, whichever pass asks.
+  // The pilot has the roughness threshold of pass 0, whichever pass needs it.
   const Pass pass{scene,
                   owned_,
                   options_,

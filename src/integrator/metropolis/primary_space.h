@@ -1,7 +1,6 @@
 // `pssmlt`: path tracing whose random numbers are explored by Markov chains, so that bright paths
-// which are hard to find lead to others like them (Kelemen et al. 2002). A pass is a function of
-// the scene, the options and the pass key, and unbiased by itself (docs/estimators.md, section 15).
-// It must not know how chains are run.
+// which are hard to find lead to similar ones (docs/estimators.md, section 15). Passes are
+// independent and unbiased. It must not know how chains are run. Paper: Kelemen et al. 2002.
 #pragma once
 
 #include "integrator/estimator/estimator.h"

@@ -7,7 +7,7 @@ namespace nephroid {
 
 namespace {
 
-/// Each tile with its neighbours: the variance of a few passes is a rough guess.
+/// Smooths each tile with its neighbours, since a few passes estimate variance roughly.
 std::vector<double> smoothed(const std::vector<double>& values, int width) {
   const int height = static_cast<int>(values.size()) / width;
   std::vector<double> out(values.size());
@@ -25,7 +25,7 @@ std::vector<double> smoothed(const std::vector<double>& values, int width) {
   return out;
 }
 
-/// Variance and cost of a sample; nothing where there are no samples.
+/// Smoothed variance and cost of a sample by tile; empty if there are no samples.
 struct OfTiles {
   std::vector<double> variance, cost;
   OfTiles(const SampleVariance::ByTile& tiles, int width)
@@ -35,7 +35,7 @@ struct OfTiles {
   }
 };
 
-/// Of the tiles that are not black beside the brightest.
+/// sqrt(variance / cost) of the tiles that are not black compared with the largest value.
 std::vector<double> lit_roots(const OfTiles& tiles) {
   std::vector<double> roots;
   for (size_t i = 0; i < tiles.cost.size(); ++i) roots.push_back(tiles.samples_wanted(i));
@@ -44,8 +44,8 @@ std::vector<double> lit_roots(const OfTiles& tiles) {
   return roots;
 }
 
-/// So many samples that one more is worth `unit`^2 rays of variance, and what the tile then costs
-/// in variance and in rays that are worth as much.
+/// [A2], [S2] Samples of a tile: sqrt(variance / cost) / unit, and the resulting sum of variance
+/// and unit² times rays.
 struct Allocation {
   uint16_t samples;
   double inverse_efficiency;
@@ -75,10 +75,10 @@ SampleAllocation allocate_samples(const PixelBounds& bounds, int spacing,
   std::vector<double> lit = lit_roots(paths);
   if (lit.empty()) lit = lit_roots(chains);
   if (lit.empty()) return shares;
-  // The quietest of the tiles that have light have one path a pass.
+  // [A2] The lit tile at the 5th percentile of noise has one path per pass, others in proportion.
   std::sort(lit.begin(), lit.end());
-  // Fewer have one where that would be many paths a pass: what all pixels of a pass share, its
-  // wavelengths above all, is averaged over passes alone.
+  // The mean of paths is limited: wavelengths and other values that all pixels of a pass share are
+  // averaged over passes alone, and many paths per pass are few passes.
   for (double unit = lit[lit.size() / 20];; unit *= 1.1) {
     for (size_t i = 0; i < paths.cost.size(); ++i) {
       const double v = paths.variance[i], c = paths.cost[i];
@@ -88,8 +88,8 @@ SampleAllocation allocate_samples(const PixelBounds& bounds, int spacing,
       const Allocation all(v + choice.variance[i], c, unit, SampleMap::kMax);
       const Allocation of_chains(chains.variance[i], chains.cost[i], unit,
                                  SampleMap::kMaxChainWalks);
-      // What no walk has seen in the mirrors and the glass of a tile may still be there, and
-      // bright.
+      // Behind mirrors or glass of the tile there may still be a bright light that no walk has
+      // seen.
       const bool unseen = chains.variance[i] <= 0 && chains.cost[i] > 1;
       const bool apart = unseen || alone.inverse_efficiency + of_chains.inverse_efficiency <
                                        all.inverse_efficiency;
@@ -109,7 +109,7 @@ Balance::Balance(const Trial& trial)
     : variance_of_camera(std::max(trial.variance_of_camera, 0.05 * trial.variance_of_light)),
       cost_of_camera(trial.cost_of_camera),
       photons_of_path(trial.photons) {
-  // V(N) = v + b/N.
+  // b of V(N) = v + b/N [A3].
   variance_of_light = trial.variance_of_light * trial.light_paths;
   if (trial.light_paths > 0) cost_of_light = trial.cost_of_light / trial.light_paths;
 }

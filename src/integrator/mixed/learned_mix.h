@@ -1,4 +1,4 @@
-// What `path+photons` learns. It must not know how it is learned.
+// The learned value of `path+photons`. It must not know how it is learned.
 #pragma once
 
 #include <optional>
@@ -9,17 +9,17 @@
 
 namespace nephroid {
 
-/// Where the emission of photons is guided to, the techniques of all passes, and where their camera
-/// paths go.
+/// The plan of all passes: guide of photon emission, techniques, allocation of samples, and guide
+/// of camera paths.
 struct MixPlan {
   GuidedPhotons photons;
-  PairTechniques techniques;       ///< light paths: the number where it is the same in all passes
-  std::optional<Balance> balance;  ///< that number otherwise
+  PairTechniques techniques;       ///< techniques; their light_paths counts if there is no balance
+  std::optional<Balance> balance;  ///< gives the number of light paths
   SampleAllocation samples;
   RadianceGuide directions;
-  bool is_even = false;                        ///< each pixel has as many camera paths
-  uint64_t rays = 0;                           ///< that learning took, but for those of `photons`
-  uint64_t photon_bytes = 0, pixel_bytes = 0;  ///< memory that it took
+  bool is_even = false;                        ///< all pixels have equally many camera paths
+  uint64_t rays = 0;                           ///< rays of learning without those of `photons`
+  uint64_t photon_bytes = 0, pixel_bytes = 0;  ///< memory of learning
 
   int64_t light_paths() const {
     return balance ? balance->light_paths(samples.paths.mean()) : techniques.light_paths;

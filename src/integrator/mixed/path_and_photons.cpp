@@ -21,12 +21,11 @@ namespace {
 
 constexpr const EstimatorSetting* kSettings[] = {&kGuideSetting, &kGuideWalksSetting};
 constexpr uint64_t kMeasureStream = 0x6d656173757265;  // "measure"
-/// Merging all photons has to be better by this factor: two passes are a rough guess, and do not
-/// see that camera paths alone, whose points fill the gaps of earlier ones, gain more from passes
-/// to come, nor the bias of what is merged.
+/// Required gain of merging more photons. Two passes are a rough estimate: they see neither the
+/// bias of merging nor the gain of camera paths from stratification over later passes.
 constexpr double kRequiredGain = 1.25;
 
-/// Camera paths of each pixel of the lattice in the pass that is measured.
+/// Camera paths per pixel of the lattice in the measured pass.
 constexpr int kMeasuredSamples = 8;
 int spacing_of(const FilmFormat& film) {
   return PixelSlices(film.bounds()).spacing(1);
@@ -78,14 +77,13 @@ PathAndPhotons::Choice PathAndPhotons::best_of(
   PairTechniques techniques{
       .light_paths = std::max<int64_t>(PixelSlices(film.bounds()).first_pixels(), 1 << 14),
       .connects = false,
-      // Where the film clamps, a limit of its samples holds for all of their
-      // light.
+      // If the film clamps, the limit of a sample must hold for all of its light.
       .separates_chains = film.settings().max_component == kInfinity &&
                           SpecularTree(scene, owned_, options_.max_depth).finds_something(),
       .roulette_threshold = kCameraRouletteThreshold};
   const Candidate all = trials.run(techniques, kUnguided);
   const auto inverse_efficiency = [&all](Candidate of) {
-    // All photons find whatever those of caustics find, though they lose light at edges.
+    // Photons of all light find all that caustic photons find, though they lose light at edges.
     of.balance.variance_of_camera += of.trial.min_variance_of_unseen(all.trial);
     return of.balance.inverse_efficiency();
   };
@@ -99,7 +97,7 @@ PathAndPhotons::Choice PathAndPhotons::best_of(
   const int64_t light_paths = techniques.light_paths;
   if (!has_events(owned_, EventClass::kSpecular)) techniques.light_paths = 0;
   Choice caustics = try_caustics(ClassMask::kSpecular);
-  // Some of all photons leave camera paths no less noise than all of them.
+  // A part of the photons cannot leave camera paths less noise than all photons do.
   if (has_events(owned_, EventClass::kGlossy) &&
       kRequiredGain * all.balance.variance_of_camera <
           caustics.candidate.balance.variance_of_camera +
@@ -111,10 +109,10 @@ PathAndPhotons::Choice PathAndPhotons::best_of(
     (pays ? with_glossy : caustics).photons.rays += (pays ? caustics : with_glossy).photons.rays;
     if (pays) caustics = std::move(with_glossy);
   }
-  // Fine shadows under hair would be blurred.
+  // Merging all light would blur the fine shadows of hair.
   if (!has_events(owned_, EventClass::kHair) &&
       kRequiredGain * all.balance.inverse_efficiency() < inverse_efficiency(caustics.candidate)) {
-    // Walks of their own for every pixel would cost more than these short camera paths.
+    // Separate walks for specular chains would cost more than these short camera paths.
     Choice chosen;
     chosen.candidate = all;
     chosen.photons.rays = caustics.photons.rays;
@@ -164,7 +162,7 @@ std::shared_ptr<const Learned> PathAndPhotons::learn(const Scene& scene, const F
   if (learning.measures_variance || learning.keeps_records) {
     const PassKey key{hash_combine(seed, kMeasureStream), 0};
     PairPass pass = pass_of(key, scene, film, plan, control);
-    // As many for each pixel of the lattice as the film has for its own.
+    // As many light paths per pixel of the lattice as the film has per pixel.
     pass.techniques.light_paths = static_cast<int64_t>(
         std::ceil(static_cast<double>(pass.techniques.light_paths) * static_cast<double>(pixels) /
                   static_cast<double>(film.bounds().area())));
@@ -173,7 +171,7 @@ std::shared_ptr<const Learned> PathAndPhotons::learn(const Scene& scene, const F
     if (found.variance) plan.samples = allocation(*found.variance, plan, film);
     const size_t record_bytes = found.records.capacity() * sizeof(RadianceRecord);
     plan.directions = RadianceGuide(std::move(found.records));
-    // To sort the records takes half as much again.
+    // Sorting the records takes half their memory in addition.
     costs.hold(record_bytes + record_bytes / 2 + plan.directions.bytes(), 0);
   }
   plan.rays = costs.rays;

@@ -1,7 +1,6 @@
-// `path+photons`: one walk from the eye that finds everything path tracing finds, and whose
-// caustics are photons as well, each weighed against the other. If trial passes show that it pays,
-// photons also render the caustics of glossy materials, or all light (docs/estimators.md, sections
-// 20 to 23). Papers: Doidge, Jones & Mora 2012, whose future work this is; Georgiev et al. 2012 for
+// `path+photons`: path tracing and caustic photons, combined by MIS. If trial passes show that it
+// pays, photons also render caustics of glossy materials, or all light (docs/estimators.md,
+// sections 20 to 23). Papers: Doidge, Jones & Mora 2012 (its future work); Georgiev et al. 2012 for
 // weights; Grittmann et al. 2022 for choosing techniques by efficiency.
 #pragma once
 
@@ -21,29 +20,29 @@ class PathAndPhotons final : public Estimator {
   static const EstimatorDescriptor kDescriptor;
   const EstimatorDescriptor& descriptor() const override { return kDescriptor; }
   bool records_features() const override { return true; }
-  /// Where photons start, by trial passes which techniques to use and how many light paths, and
-  /// from a pass that is measured how many camera paths each tile has and where they go. All of it
-  /// looks at a lattice of pixels, as many whatever the size of the film.
+  /// Learns the guide of photon emission. Trial passes then choose the techniques and the number of
+  /// light paths; a measured pass gives camera paths per tile and their guide. All passes cover a
+  /// lattice of pixels whose size does not grow with the film.
   std::shared_ptr<const Learned> learn(const Scene& scene, const FilmFormat& film, uint64_t seed,
                                        PassControl& control) const override;
   std::shared_ptr<const Learned> read_learned(ByteReader& from, const FilmFormat&) const override;
   void render_pass(const PassKey& key, const Learned* learned, const Scene& scene, Film& film,
                    PassControl& control) override;
   EstimatorStatistics statistics() const override;
-  /// `samples`: those that the user asks for, or 0.
+  /// Memory of a pass per pixel; `samples` is the user's number of samples, or 0.
   static size_t bytes_per_pixel(size_t parts, bool clamps, int samples) {
     const size_t most = std::max<size_t>(SampleMap::kMax, samples);
     return pair_pass_bytes_per_pixel(parts, most, clamps, false);
   }
 
  private:
-  /// Techniques with their number of light paths, and where these start.
+  /// Techniques with their number of light paths and the guide of photon emission.
   struct Choice {
     Candidate candidate;
     GuidedPhotons photons;
   };
-  /// Runs the trials and returns the best choice. `photons_of(casters)` learns where photons of the
-  /// caustics of these casters should start.
+  /// Runs the trials and returns the best choice. `photons_of(casters)` learns the emission guide
+  /// for photons of the caustics of these casters.
   Choice best_of(Trials& trials, const Scene& scene, const FilmFormat& film,
                  const std::function<GuidedPhotons(ClassMask)>& photons_of) const;
   PairPass pass_of(const PassKey& key, const Scene& scene, const FilmFormat& film,
@@ -51,7 +50,7 @@ class PathAndPhotons final : public Estimator {
 
   OwnedRoutes owned_;
   IntegratorOptions options_;
-  bool leaves_glossy_ = true;  ///< to path tracing: the caustics of glossy materials, last pass
+  bool leaves_glossy_ = true;  ///< glossy caustics were left to path tracing in the last pass
   EstimatorStatistics statistics_;
 };
 

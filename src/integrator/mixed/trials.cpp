@@ -13,30 +13,30 @@ namespace nephroid {
 namespace {
 
 constexpr uint64_t kTrialStream = 0x747269616c;  // "trial"
-/// Passes of a trial, and camera paths of a pixel in each.
+/// Passes per trial, and camera paths per pixel and pass.
 constexpr uint32_t kTrialPasses = 2, kTrialSamples = 2;
 
 constexpr double kMinPhotonBytes = 96 << 20, kPhotonBytesPerPixel = 44;
-/// Those that are held at once by default, with room for chance.
+/// The default of memory_photons, with a margin for random variation.
 constexpr double kMaxPhotons = 0.95 * (1 << 20);
-/// With its place in the grid.
+/// Bytes per photon, its entry in the grid included.
 constexpr double kBytesOfPhoton = sizeof(Photon) + sizeof(Vec3f) + 24;
 
-/// First merge radius where photons of all light are merged, over that of photons of caustics.
+/// First merge radius for photons of all light over that for caustic photons.
 constexpr float kRadiusOfAllLight = 4.0f / 3;
 
 float widening(const PairTechniques& techniques, const IntegratorOptions& options) {
   return techniques.merges_all_light() && !(options.radius > 0) ? kRadiusOfAllLight : 1.0f;
 }
 
-/// Photons of a pass for a film of so many pixels.
+/// Limit of photons per pass for a film.
 double max_photons(const FilmFormat& film) {
   const double bytes =
       std::max(kMinPhotonBytes, kPhotonBytesPerPixel * static_cast<double>(film.bounds().area()));
   return std::min(kMaxPhotons, bytes / kBytesOfPhoton);
 }
 
-/// kTrialSamples for each pixel of every other tile.
+/// kTrialSamples per pixel in every other tile, none elsewhere.
 SampleMap every_other_tile(const FilmFormat& film) {
   SampleMap map(film.bounds(), 1, PixelSlices(film.bounds()).spacing(1));
   for (size_t i = 0; i < map.counts().size(); ++i) {
@@ -55,7 +55,7 @@ float first_radius_of_film(const PairTechniques& techniques, const IntegratorOpt
 
 TrialNoise split_noise(std::span<const SampleVariance> passes, const SampleMap& tiles,
                        int samples) {
-  // Of all pairs of samples, those that share their photons.
+  // Share of sample pairs that have photons in common.
   const double sharing =
       (samples - 1) / (static_cast<double>(samples) * static_cast<double>(passes.size()) - 1);
   SampleVariance sum = passes.front();
@@ -107,8 +107,7 @@ Candidate Trials::run(const PairTechniques& techniques, const EmissionGuide& emi
   const PairTrial trial{.paths = tiles_, .counts_records = options_.own<GuidingOptions>().walks};
   EstimatorStatistics counts;
   size_t records = 0;
-  // Passes differ by their random numbers alone: the noise of wavelengths and moments is not asked
-  // for.
+  // Passes differ by their random numbers alone: noise of wavelengths and time must not count.
   const PassKey key{hash_combine(seed_, kTrialStream), 0};
   std::vector<SampleVariance> passes(kTrialPasses, SampleVariance(film_.bounds(), spacing_));
   for (uint32_t i = 0; i < kTrialPasses; ++i)
@@ -119,7 +118,7 @@ Candidate Trials::run(const PairTechniques& techniques, const EmissionGuide& emi
                  .owned = owned_,
                  .options = options_,
                  .techniques = techniques,
-                 // So the lattice is as noisy as the film with as many light paths per pixel.
+                 // Makes the lattice as noisy as the film with as many light paths per pixel.
                  .radius_pixels = static_cast<float>(spacing_) * radius_of_pass(options_, 0, 0),
                  .photons_for_one = photons_for_one(techniques),
                  .emission = emission,
@@ -136,15 +135,15 @@ Candidate Trials::run(const PairTechniques& techniques, const EmissionGuide& emi
   Balance balance(found);
   balance.max_photons = max_photons(film_);
   balance.scale = static_cast<double>(film_.bounds().area()) / pixels_;
-  // The noise of photons is inversely proportional to the area in which they are merged.
+  // The variance due to photons is inversely proportional to the merge area.
   balance.variance_of_light /= photons_for_one(techniques);
-  // With more photons the camera's noise falls, too, which one trial does not tell.
+  // More photons also reduce the variance of camera paths, which one trial does not show.
   if (techniques.merges_all_light())
     balance.min_light_paths = static_cast<double>(film_.bounds().area());
   return {techniques, found, balance};
 }
 
-/// How many photons a pass of the film merges for one of a trial, whose radius is that of a small
+/// Photons that a pass of the film merges for each one of a trial, whose radius is that of a small
 /// picture.
 float Trials::photons_for_one(const PairTechniques& techniques) const {
   return options_.radius > 0
@@ -160,7 +159,7 @@ Trial Trials::trial_of(const TrialNoise& noise, const EstimatorStatistics& count
       static_cast<double>(counts.rays - counts.light_rays - counts.batch_rays);
   const double merges =
       kCostOfMerge * photons_for_one(techniques) * static_cast<double>(counts.photons_merged);
-  // Samples of a pass share photons with each other, and with those of neighbouring pixels.
+  // Samples of a pass share photons with each other and with neighbouring pixels.
   const double sharing =
       kTrialSamples * std::max(1.0, kPi * sqr(double{first_radius(options_, 0)}));
   return {.variance_of_camera = noise.of_camera,

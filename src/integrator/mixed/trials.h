@@ -1,5 +1,5 @@
-// Trial passes of `path+photons` over the first lattice of a film: how noisy and how expensive a
-// choice of techniques is (docs/estimators.md, section 21). It must not know which choice is made.
+// Trial passes of `path+photons` over the first lattice of a film: variance and cost of a choice of
+// techniques (docs/estimators.md, section 21). It must not know which choice is made.
 #pragma once
 
 #include <span>
@@ -9,37 +9,37 @@
 
 namespace nephroid {
 
-/// [A6] The noise of one camera path of a pass, split by what causes it, in units of [A1].
+/// [A6] The variance of one camera path of a pass by cause, in units of [A1].
 struct TrialNoise {
-  double of_camera = 0;   ///< given the photons
-  double of_photons = 0;  ///< by the photons, which all paths of the pass share
+  double of_camera = 0;   ///< variance given the photons
+  double of_photons = 0;  ///< variance due to the photons, which all paths of the pass share
   double light = 0;       ///< mean of the picture
   /// The same two, not divided by brightness: variances of a pixel, in units of light squared.
   double variance_of_camera = 0, variance_of_photons = 0;
 };
-/// From passes that share nothing but their wavelengths and moment, each with `samples` independent
-/// camera paths, at least 2, in the pixels of the tiles where `tiles` is not 0.
+/// Computes it from passes that share nothing but wavelengths and time. Each has `samples` (at
+/// least 2) independent camera paths per pixel in the tiles where `tiles` is not 0.
 TrialNoise split_noise(std::span<const SampleVariance> passes, const SampleMap& tiles, int samples);
 
-/// The first merge radius in a picture of so many pixels, in pixels: wider where photons of all
-/// light are merged, most of which is smooth.
+/// The first merge radius, in footprints, in a picture of so many pixels. It is wider if photons of
+/// all light are merged, most of which is smooth.
 float first_radius_of_film(const PairTechniques& techniques, const IntegratorOptions& options,
                            int64_t pixels);
 
-/// A choice of techniques, and how good it is.
+/// A choice of techniques and its trial results.
 struct Candidate {
   PairTechniques techniques;
   Trial trial;
-  Balance balance;  ///< of passes of the film
+  Balance balance;  ///< balance for passes of the film
 };
 
-/// Keeps references to what it is given.
+/// Keeps references to its arguments.
 class Trials {
  public:
   Trials(uint64_t seed, const Scene& scene, const FilmFormat& film, const OwnedRoutes& owned,
          const IntegratorOptions& options, PassControl& control);
 
-  /// Runs trial passes, whose light is thrown away.
+  /// Runs trial passes; their light is thrown away.
   Candidate run(const PairTechniques& techniques, const EmissionGuide& emission);
   /// Rays and memory of all trials.
   const EstimatorStatistics& costs() const { return costs_; }
@@ -55,8 +55,8 @@ class Trials {
   const OwnedRoutes& owned_;
   const IntegratorOptions& options_;
   PassControl& control_;
-  const int spacing_;    ///< of the lattice, in pixels
-  const double pixels_;  ///< of the lattice
+  const int spacing_;    ///< spacing of the lattice in pixels
+  const double pixels_;  ///< pixels of the lattice
   const SampleMap tiles_;
   EstimatorStatistics costs_;
 };

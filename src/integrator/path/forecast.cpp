@@ -14,15 +14,14 @@ namespace {
 
 constexpr uint64_t kStream = 0x666f7265;    // "fore"
 constexpr uint64_t kLearning = 0x63617374;  // "cast"
-// Photons are traced in rounds until there are enough records, or no more is to be hoped for.
+// Photons are traced in rounds until there are enough records, or kMaxRounds are done.
 constexpr int64_t kPhotonsOfRound = 1 << 16;
 constexpr size_t kEnoughRecords = 1 << 15;
 constexpr int kMaxRounds = 16;
 constexpr int64_t kChunk = 1024;
 
-/// Notes where light lands that came from a light through nothing but what is specular. What came
-/// by way of other surfaces is left out: a walk in its direction would end on these, not on a
-/// light.
+/// Records caustic photons: those whose events so far were all S, at least one. Photons that came
+/// by way of other surfaces are left out: a walk in their direction would end on these surfaces.
 class CausticRecordVisitor : public LightWalkVisitor {
  public:
   CausticRecordVisitor(const OwnedRoutes& owned, const Emission& emission,
@@ -46,7 +45,7 @@ class CausticRecordVisitor : public LightWalkVisitor {
   bool after_specular_ = false;
 };
 
-/// Path tracing whose directions follow the forecast.
+/// Path tracing guided by the forecast ([T3]).
 class ForecastVisitor : public PathVisitorOf<ForecastVisitor> {
  public:
   ForecastVisitor(const Scene& scene, const OwnedRoutes& owned, const ForecastMap& map,
@@ -64,7 +63,7 @@ class ForecastVisitor : public PathVisitorOf<ForecastVisitor> {
     return mixture(v, among).pdf_w(wi, c, bsdf_pdf_w);
   }
 
-  // A direction that is chosen more often carries less for it; roulette must not undo that.
+  // A guided direction is chosen more often and carries less; roulette must not undo that.
   std::optional<BsdfSample> sample_direction(Walk& walk, const WalkVertex& v, float uc,
                                              const Vec2f& u, ClassMask among) const {
     float gain = 1;
@@ -84,10 +83,10 @@ class ForecastVisitor : public PathVisitorOf<ForecastVisitor> {
   }
 
   const ForecastMap& map_;
-  ForecastLobes lobes_;  ///< of the vertex at hand
+  ForecastLobes lobes_;  ///< lobes at the current vertex
 };
 
-/// The map, and what it took to make it.
+/// The map and its cost.
 struct Forecasting {
   ForecastMap map;
   uint64_t photon_paths = 0, photon_paths_useful = 0, rays = 0;
@@ -125,7 +124,7 @@ void LearnedForecast::add_to(EstimatorStatistics& s) const {
     s.notes.push_back("none" + of_all + "foretold" + as_path);
 }
 
-/// Traces the photons of a round and adds what they saw.
+/// Traces the photons of one round and appends their records.
 void trace_round(const PassKey& key, int64_t photons, const Scene& scene, const OwnedRoutes& owned,
                  int max_depth, std::vector<CausticRecord>& records, Forecasting& made,
                  PassControl& control) {

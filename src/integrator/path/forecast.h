@@ -1,8 +1,6 @@
-// `forecast`: path tracing that knows where caustics come from. Photons are traced once, before
-// the first pass; at each rough vertex a walk chooses between its BSDF and directions towards the
-// casters that photons near by came from, by a mixture whose density is known ([T3] in
-// docs/estimators.md), so it finds the same light as path tracing, with no bias. What is learned
-// is a function of the scene, the options and the seed, a pass of these and its number.
+// `forecast`: path tracing guided by photons towards the casters of caustics. Photons are traced
+// once, before the first pass. At rough vertices a walk samples a mixture of its BSDF and
+// directions to the casters of nearby photons ([T3] in docs/estimators.md), without bias.
 // Paper: Budge, Anderson & Joy 2008.
 #pragma once
 

@@ -12,7 +12,7 @@ namespace {
 constexpr uint64_t kStream = 0x70617468;  // "path"
 constexpr const EstimatorSetting* kSettings[] = {&kSpecularTreesSetting};
 
-/// False if no path that the scene can have belongs to the group.
+/// True if the group owns some path that is possible in the scene.
 bool owns_any_path(const OwnedRoutes& owned) {
   const Routes& routes = *owned.routes;
   if (routes.ends(owned.group, routes.start())) return true;

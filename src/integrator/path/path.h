@@ -1,6 +1,6 @@
-// `path`: unidirectional path tracing with next-event estimation, for the words of the routes that
-// it owns. Each technique's share is weighed per class of the sampled lobe, so that a path which
-// belongs to another route is left out by both techniques alike (docs/estimators.md, section 2).
+// `path`: path tracing with next-event estimation, for the paths that its routes own. MIS weights
+// are per class of the sampled lobe, so both techniques leave out the same paths of other routes
+// (docs/estimators.md, section 2).
 #pragma once
 
 #include "integrator/estimator/estimator.h"
@@ -23,7 +23,7 @@ class PathEstimator : public Estimator {
   OwnedRoutes owned_;
   IntegratorOptions options_;
   int samples_per_pass_;
-  bool finds_something_;  ///< some path that the scene can have is the group's
+  bool finds_something_;  ///< the group owns some path that is possible in the scene
   EstimatorStatistics statistics_;
 };
 

@@ -1,4 +1,4 @@
-// Options of walks from the eye.
+// Options of camera walks.
 #pragma once
 
 #include "integrator/estimator/estimator_descriptor.h"
@@ -6,9 +6,9 @@
 namespace nephroid {
 
 struct PathOptions {
-  bool specular_trees = false;  ///< walks of one way each look for lights both ways
-  /// Walks of `path` do not look at what is useful for its routes: the same seed gives the same
-  /// paths whatever the routes are.
+  bool specular_trees = false;  ///< camera walks grow specular trees ([S1])
+  /// Walks of `path` ignore which events are useful to its routes: the same seed gives the same
+  /// paths for all routes.
   bool blind_walks = false;
 };
 

@@ -1,5 +1,5 @@
-// One pass of walks from the camera, each pixel with wavelengths and a time of its own: the loop
-// over pixels that estimators which trace paths from the eye share. It must not know what walks do.
+// One pass of camera walks: the loop over pixels, shared by estimators that trace paths from the
+// eye. Each sample has its own wavelengths and time. It must not know what walks do.
 #pragma once
 
 #include <vector>
@@ -15,16 +15,16 @@
 
 namespace nephroid {
 
-/// What the walks of a pass share.
+/// Settings shared by the walks of a pass.
 struct PathPass {
   const PassKey& key;
   const Scene& scene;
   Film& film;
   const OwnedRoutes& owned;
-  int samples = 1;      ///< of each pixel
-  uint64_t stream = 0;  ///< of random numbers
+  int samples = 1;      ///< samples per pixel
+  uint64_t stream = 0;  ///< stream of random numbers
   PassControl& control;
-  bool adds_features = false;    ///< a trace adds those of its sample
+  bool adds_features = false;    ///< `trace` adds the features of its sample
   LampCounter* lamps = nullptr;  ///< null: lamps are not told apart
 
   SensorWeights weights_of(const CameraPath& path) const {
@@ -35,8 +35,8 @@ struct PathPass {
 };
 
 /// Calls trace(x, y, CameraPath&, const SensorWeights&, PathSampler&, PartSums&) -> rays for each
-/// sample of each pixel and adds the light that it finds to the film. The weights, and with them
-/// the light, are of the wavelengths that the path starts with. Returns all rays.
+/// sample of each pixel and adds the light that it finds to the film. Weights and light belong to
+/// the wavelengths that the path starts with. Returns the number of rays.
 template <class Trace>
 uint64_t trace_paths(const PathPass& pass, Trace&& trace) {
   const float specular_alpha = specular_alpha_of_pass(pass.scene.specular_band, pass.key);

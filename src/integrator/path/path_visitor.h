@@ -1,6 +1,6 @@
-// What path tracing does at each vertex of a camera walk: light that the walk meets, next-event
-// estimation, and multiple importance sampling of the two (docs/estimators.md, section 2). It must
-// not know films or where the path's random numbers come from.
+// Path tracing at each vertex of a camera walk: lights hit, next-event estimation, and multiple
+// importance sampling of the two (docs/estimators.md, section 2). It must not know films or where
+// the path's random numbers come from.
 #pragma once
 
 #include <array>
@@ -14,18 +14,18 @@
 
 namespace nephroid {
 
-/// Collects the light of one camera path. `Self`, the class that is made of this one, may hide
-///   float share() const                  by which all is multiplied that the walk meets
+/// Collects the light of one camera path. `Self`, the derived class, may hide
+///   float share() const                  factor for lights that the walk hits
 ///   float share_after(EventClass) const  the same behind an event of this class at this vertex
 ///   float density(const WalkVertex&, const Vec3f& wi, EventClass, ClassMask among, float) const
-///                                        P_c p_c of the walk towards wi; the last is the BSDF's
+///                                        P_c p_c of the walk towards wi; last: that of the BSDF
 template <class Self>
 class PathVisitorOf {
  public:
   static constexpr bool kEndsAtBranches = false;
 
-  /// With `blind`, walks do not look at what is useful for the routes: any routes see the same
-  /// paths. `features` are of no interest if null, and no `tree` is grown.
+  /// With `blind`, walks ignore which events are useful to the routes, so all routes see the same
+  /// paths. Null `features`: none are recorded. Null `tree`: none is grown.
   PathVisitorOf(const Scene& scene, const OwnedRoutes& owned, bool blind, PartSums& light,
                 Features* features, const SpecularTree* tree = nullptr)
       : scene_(scene),
@@ -123,7 +123,7 @@ class PathVisitorOf {
     return true;
   }
 
-  /// Rays that the walk does not count.
+  /// Rays that the walk itself does not count.
   uint64_t more_rays() const { return shadow_rays_ + tree_rays_; }
 
  protected:
@@ -144,7 +144,7 @@ class PathVisitorOf {
  private:
   const Self& self() const { return static_cast<const Self&>(*this); }
 
-  /// True if an event of one of the classes may be followed by light that belongs to the group.
+  /// True if the group may own a light right behind an event of one of the classes.
   bool may_end_after_any(const WalkVertex& v, ClassMask finite) const {
     const Label label = label_at(symbols_, v);
     for (const EventClass c : kSurfaceClasses) {
@@ -156,7 +156,7 @@ class PathVisitorOf {
     return false;
   }
 
-  // Walks whose choices do not depend on the wavelength ask for light in the same way.
+  // A walk whose choices do not depend on the hero wavelength needs a shadow ray of the same kind.
   ShadowFlight shadow_of(const Walk& walk, const DirectSample& direct, const PathSampler& sampler) {
     ++shadow_rays_;
     light_.count_ray_to(symbols_.lamp(direct.light));
@@ -166,7 +166,7 @@ class PathVisitorOf {
     return flight;
   }
 
-  // Weights of the two techniques that find a light, the spectral average included ([D3], [V5]).
+  // MIS weights of the two techniques, the spectral average included ([D3], [V5]).
   static float weight_of_hit(const Walk& walk, float direct_pdf) {
     const SpectralDensity& d = walk.density;
     return power_heuristic(walk.pdf_w * d.u_mean, direct_pdf * d.l_mean) / d.u_mean;
@@ -220,7 +220,7 @@ class PathVisitorOf {
   uint64_t tree_rays_ = 0;
 };
 
-/// Path tracing as it is.
+/// Plain path tracing.
 class PathVisitor : public PathVisitorOf<PathVisitor> {
  public:
   using PathVisitorOf::PathVisitorOf;

@@ -9,8 +9,8 @@ namespace {
 
 constexpr uint64_t kStream = 0x676c696e74;  // "glint"
 
-/// The square of the lights, each found as often as chance has it and then as bright as that is
-/// rare, over the square of their sum.
+/// Σ value² / chance over (Σ value)²: the second moment of a walk that finds each light with its
+/// chance, over the square of its mean.
 double rarity(const std::vector<SpecularTree::Light>& found) {
   double sum = 0, squares = 0;
   for (const SpecularTree::Light& l : found) {

@@ -1,6 +1,6 @@
-// One pass of walks for specular chains: lights behind delta lobes alone, which a pass of pairs may
-// leave to others. As many walks for each pixel as a map says, with wavelengths and times that no
-// other walk shares, because they have no photons in common. It must not know films' sums.
+// One pass of walks for specular chains: lights behind delta lobes alone, which a pass of path
+// pairs may leave to it. A map gives the walks per pixel. Each walk has wavelengths and a time of
+// its own, since it needs no photons. It must not know the film's sums.
 #pragma once
 
 #include <span>
@@ -16,12 +16,12 @@
 
 namespace nephroid {
 
-/// How much the light of specular chains varies.
+/// Variance of the light of specular chains.
 struct ChainVariance {
   explicit ChainVariance(const PixelBounds& b, int spacing = 1)
       : walks(b, spacing), choice(b, spacing) {}
-  SampleVariance walks;   ///< of the walks of a SpecularChainPass
-  SampleVariance choice;  ///< of camera paths that choose one way at each boundary, as far as known
+  SampleVariance walks;   ///< variance of the walks of a SpecularChainPass: v_g of [S2]
+  SampleVariance choice;  ///< predicted variance of camera paths that choose one way: v_p of [S2]
 };
 
 struct SpecularChainPass {
@@ -29,17 +29,17 @@ struct SpecularChainPass {
   const FilmFormat& film;
   const OwnedRoutes& owned;
   const SpecularTree& tree;
-  const SampleMap& walks;                  ///< of each pixel; may be 0
-  uint64_t seed = 0;                       ///< of the estimator
-  float specular_alpha = 0;                ///< of the pass
-  ChainVariance* measured = nullptr;       ///< measures what each walk finds; null: nobody asks
-  TechniqueCounter* techniques = nullptr;  ///< where what was found is counted
-  LampCounter* lamps = nullptr;            ///< the same by lamp
+  const SampleMap& walks;                  ///< walks per pixel; may be 0
+  uint64_t seed = 0;                       ///< the estimator's seed
+  float specular_alpha = 0;                ///< roughness threshold of the pass
+  ChainVariance* measured = nullptr;       ///< collects the variance of walks; null: not measured
+  TechniqueCounter* techniques = nullptr;  ///< counts the light found
+  LampCounter* lamps = nullptr;            ///< counts it by lamp
   PassControl& control = unwatched;
 
-  /// Numbers of the walks of a pixel that has n, [n][walk].
+  /// Sobol' points of the walks of a pixel with n walks, [n][walk].
   using Points = std::vector<std::vector<SobolPoint>>;
-  /// Walk k of n has the number first_index(n) + k of its pixel.
+  /// Walk k of a pixel with n walks has Sobol' index first_index(n) + k.
   template <class FirstIndex>
   Points points(FirstIndex&& first_index) const {
     Points all(walks.most() + 1);
@@ -48,7 +48,7 @@ struct SpecularChainPass {
         for (int k = 0; k < n; ++k) all[n].push_back(eye_point(first_index(n) + k));
     return all;
   }
-  /// What walks need that follow each other on one thread.
+  /// State of consecutive walks on one thread.
   struct Walker {
     explicit Walker(const SpecularChainPass& pass);
     PartSums light;
@@ -57,7 +57,7 @@ struct SpecularChainPass {
     std::vector<SpecularTree::Light> found;
     uint64_t rays = 0;
   };
-  /// Adds the estimate of a pixel, counted from the corner of the crop, to values[part].
+  /// Adds the estimate of a pixel, counted from the crop's corner, to values[part].
   void look(int x, int y, const Points& points, std::span<Rgb> values, Walker& walker) const;
   /// Adds the estimates of all pixels to values[pixel * parts + part]. Returns the number of rays.
   uint64_t render(std::span<Rgb> values, const Points& points) const;

@@ -8,9 +8,9 @@ namespace nephroid {
 
 namespace {
 
-/// A branch that carries less goes one way only, and roulette is played on it.
+/// A branch that carries less than this Russian roulette threshold goes one way only.
 constexpr float kWindow = 1.0f / 8;
-/// Branches of branches: bounds the tree where nothing is lost along the way.
+/// Limit of nested branchings; bounds the tree where nothing absorbs.
 constexpr int kMaxBranchings = 16;
 
 bool owns_light_behind_specular(const OwnedRoutes& owned) {
@@ -38,7 +38,7 @@ bool owns_light_behind_specular(const OwnedRoutes& owned) {
 
 }  // namespace
 
-/// One branch.
+/// Follows one branch.
 class SpecularTree::Visitor {
  public:
   static constexpr bool kEndsAtBranches = true;

@@ -16,22 +16,22 @@ namespace nephroid {
 
 namespace {
 
-// Dimensions between those of a light path's start and those of its vertices.
+// Dimensions between those of the path's start and those of its vertices.
 constexpr int kStartLens = kLightPathStartDimensions;  // 2
 constexpr int kFirstVertex = kStartLens + 2;
 constexpr uint64_t kStream = 0x6c69676874;  // "light"
 
-/// Light paths are traced in chunks of this many, and their splats added in groups of chunks.
+/// Light paths per chunk. Splats are added to the buffer once per group of chunks.
 constexpr int64_t kChunk = 1024;
 constexpr int64_t kGroup = 64 * kChunk;
 
-/// What the light paths of a pass share.
+/// Settings shared by the light paths of a pass.
 struct LightPass {
   const Scene& scene;
   const OwnedRoutes& owned;
   const FilmSettings& film;
   const CameraView view;
-  const PartSums places;  ///< tells which parts are owned, and their places
+  const PartSums places;  ///< owned parts and their places
   PassKey key;
   int64_t paths = 0;
   float specular_alpha = 0;
@@ -65,7 +65,7 @@ class ConnectingVisitor : public LightWalkVisitor {
   }
   bool looks_under_surfaces() const { return true; }
 
-  /// The start point itself: the word `C l`.
+  /// Connects the start point itself: the word `C L`.
   void start(const Walk& walk, const Emission& emission, PathSampler& sampler) {
     sampler.start_dimension(kStartLens);
     const EmissionSample& e = emission.start;
@@ -122,7 +122,7 @@ class ConnectingVisitor : public LightWalkVisitor {
   bool is_seen() const { return is_seen_; }
 
  private:
-  /// Flux per solid angle that goes to the lens becomes light on the film.
+  /// Splats the intensity (flux per solid angle) that goes to the lens.
   void splat(const LensConnection& seen, Part part, const SampledSpectrum& intensity,
              const Walk& walk) {
     if (intensity.is_black()) return;
@@ -159,7 +159,7 @@ void trace_light_path(const LightPass& pass, uint64_t number, Chunk& out) {
   });
 }
 
-// Only what the camera sees through no S, or a shape that emits, can be connected to it.
+// Only paths that the camera sees through no S, and emitting shapes, can be connected to it.
 const char* unseen_by_camera(const PathSummary& path) {
   const EventSummary& events = path.events;
   const bool unseen = events.count > 0

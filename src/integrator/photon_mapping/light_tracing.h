@@ -1,7 +1,6 @@
-// `lighttrace`: light paths whose vertices are connected to the camera, and the start points of
-// those on shapes as well. It finds what is seen directly of caustics, without any bias. A pass is
-// a function of the scene, the options and the pass key alone, so passes may be rendered anywhere
-// and added up. It must not know how photons are merged. Papers: Dutre, Lafortune, Willems 1993;
+// `lighttrace`: light tracing (t = 1). Each vertex of a light path, and its start on a shape, is
+// connected to the camera ([K4]). It finds directly visible caustics without bias; passes are
+// independent. It must not know how photons are merged. Papers: Dutre, Lafortune, Willems 1993;
 // Veach 1997, chapters 5 and 10.
 #pragma once
 
@@ -15,12 +14,12 @@
 
 namespace nephroid {
 
-/// A factor for a connection to the camera from a vertex; empty: 1.
+/// Factor of a connection from a vertex to the camera. Empty: 1.
 using ConnectionWeight = std::function<float(const CameraConnection&, const WalkVertex&)>;
 
-/// Traces the light paths of a pass and adds what they expose, not yet divided by their number, to
-/// `buffer`; returns that number and adds to `statistics`. With a weight, only what could as well
-/// be merged at the vertex that the camera sees is connected.
+/// Traces the light paths of a pass and adds their splats to `buffer`, not yet divided by the
+/// number of paths. Returns that number and adds to `statistics`. With a weight, only paths are
+/// connected that could also be merged at the vertex seen by the camera.
 int64_t light_pass(const PassKey& key, const Scene& scene, const Film& film,
                    const OwnedRoutes& owned, const IntegratorOptions& options,
                    const ConnectionWeight& weight, SplatBuffer& buffer,

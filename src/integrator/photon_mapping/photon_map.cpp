@@ -10,10 +10,10 @@
 
 namespace nephroid {
 
-/// The photons of all sets, and what it took to trace them.
+/// The photons of all sets and the cost of tracing them.
 struct TracedMap {
   PhotonGrid grid{{}};
-  uint64_t seed = 0;  ///< of its random numbers
+  uint64_t seed = 0;  ///< seed of the map's random numbers
   double paths_of_set = 0;
   uint64_t paths = 0, useful_paths = 0, specular_paths = 0, rays = 0;
 };
@@ -33,7 +33,7 @@ class LearnedMap final : public Learned {
 
  private:
   TracedMap map_;
-  std::string routes_;  ///< their names
+  std::string routes_;  ///< names of the routes
 };
 
 void LearnedMap::add_to(EstimatorStatistics& s) const {
@@ -51,8 +51,8 @@ void LearnedMap::add_to(EstimatorStatistics& s) const {
 }
 
 constexpr uint64_t kStream = 0x706d6170;  // "pmap"
-constexpr uint32_t kSets = 16;            // a power of two, over which wavelengths are stratified
-/// Largest radius of an estimate, in footprints, if the user gave none.
+constexpr uint32_t kSets = 16;            // a power of two, to stratify wavelengths over sets
+/// Default of the largest radius of an estimate, in footprints.
 constexpr float kDefaultMaxRadius = 16.0f;
 
 const EstimatorSetting kMapPhotonsSetting = {
@@ -162,16 +162,16 @@ void PhotonMap::render_pass(const PassKey& key, const Learned* learned, const Sc
     return;
   }
   const TracedMap& map = static_cast<const LearnedMap*>(learned)->map();
-  // Walks have the wavelengths, time and threshold of the set that they read.
+  // Walks have the wavelengths, time and roughness threshold of the set that they read.
   const PassKey set{map.seed, key.pass % kSets};
   PhotonPass pass = start_photon_pass(set, scene, film.format(), options_, control);
   std::vector<RadiusRange> rows(film.bounds().height());
   for (uint32_t k = 0; k < walks_per_pass_; ++k) {
-    // A set has a sequence of its own. Of one for all passes it would take every 16th point, which
-    // lie in one strip of each pixel.
+    // Each set has a sequence of its own. From a sequence for all passes it would take every 16th
+    // point, and these lie in one strip of each pixel.
     const uint64_t index = uint64_t{key.pass / kSets} * walks_per_pass_ + k;
     pass.point = eye_point(static_cast<uint32_t>(index));
-    // What the first walks add to the film cannot be taken back.
+    // Light that is on the film cannot be removed, so only the first walks may be stopped.
     if (k > 0) pass.trace.control = &unwatched;
     read(map, set, hash_combine(seed_of_map(key.seed), kStream, set.pass, index >> 32), pass, scene,
          film, rows);

@@ -1,9 +1,7 @@
-// `photonmap`: a photon map of its route, traced once and read by all passes, each estimate made of
-// the nearest photons. The map's photons lie in 16 sets, each with the wavelengths, time and
-// roughness threshold of one photon pass; pass p walks with those of set p mod 16, so 16 passes
-// read the whole map once and further passes smooth edges, lenses and gather rays, but not the
-// light itself. It must not know how photons are found. Papers: Jensen 1996,
-// 2001.
+// `photonmap`: a photon map of its route, traced once and read by all passes ([N1]). Its photons
+// lie in 16 sets; pass p reads set p mod 16 and shares its wavelengths, time and roughness
+// threshold. Passes after the 16th smooth edges, lenses and gather rays, not the light itself. It
+// must not know how photons are found. Papers: Jensen 1996, 2001.
 #pragma once
 
 #include <span>
@@ -17,7 +15,7 @@ struct PhotonPass;
 struct TracedMap;
 
 struct PhotonMapOptions {
-  int64_t map_photons = 0;    ///< paths emitted for a map; 0: as many as 16 passes have
+  int64_t map_photons = 0;    ///< photon paths per map; 0: as many as 16 passes emit
   int nearest_photons = 100;  ///< photons per estimate
 };
 
@@ -34,25 +32,24 @@ class PhotonMap : public Estimator {
                    PassControl& control) override;
   EstimatorStatistics statistics() const override;
 
-  /// Of an estimate, in footprints: the user's, or the default.
+  /// Largest radius of an estimate in footprints: the user's, or the default.
   static float largest_radius(const IntegratorOptions& options);
 
  private:
-  /// Smallest and largest radius of a row's estimates in footprints.
+  /// Smallest and largest radius among a row's estimates, in footprints.
   struct RadiusRange {
     float smallest = kInfinity, largest = 0;
   };
-  /// One walk of each pixel, by the random numbers of `walk_seed`, which reads the photons of a
-  /// set.
+  /// Runs one walk per pixel, with random numbers of `walk_seed`, that reads the photons of a set.
   void read(const TracedMap& map, const PassKey& set, uint64_t walk_seed, const PhotonPass& pass,
             const Scene& scene, Film& film, std::span<RadiusRange> rows);
-  /// Each map has random numbers of its own.
+  /// The seed of the map's own random numbers.
   uint64_t seed_of_map(uint64_t seed) const;
 
   OwnedRoutes owned_;
   IntegratorOptions options_;
   bool photons_can_count_;
-  uint32_t walks_per_pass_;  ///< of a pixel
+  uint32_t walks_per_pass_;  ///< walks per pixel and pass
   uint64_t found_ = 0;       ///< photons merged
   EstimatorStatistics statistics_;
 };

@@ -1,6 +1,5 @@
-// `photons`: stochastic progressive photon mapping with the memoryless radius [E2], storing only
-// the photons of its own routes. A pass is a function of the scene, the options and the pass key
-// alone, so passes may be rendered anywhere and added up. It must not know how a pass gathers.
+// `photons`: stochastic progressive photon mapping with the memoryless radius [E2] that stores only
+// the photons of its own routes. Passes are independent. It must not know how a pass gathers.
 // Papers: Hachisuka & Jensen 2009; Knaus & Zwicker 2011; Doidge et al. 2012.
 #pragma once
 

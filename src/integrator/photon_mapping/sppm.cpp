@@ -69,7 +69,7 @@ void Sppm::render_pass(const PassKey& key, const Learned*, const Scene& scene, F
   const double first = first_radius(options_, film.format().picture_pixels());
   start_regions(scene, b.area(), parts);
 
-  // The radius stays until the pass is complete.
+  // The radius is constant until the pass is complete.
   Gathered gathered(regions_.size(), parts);
   std::vector<uint64_t> counts(regions_.size());
   for (int64_t begin = 0; begin < photons;) {
@@ -117,13 +117,12 @@ void Sppm::update(Gathered& gathered, std::span<const uint64_t> counts, Film& fi
     for (size_t i = first; i < first + regions_in_pixel_; ++i) {
       SharedStatistics& region = regions_[i];
       if (!(region.radius_squared > 0)) continue;
-      // A pass's estimate is clamped as a sample of other integrators is, then weighed by the
-      // filter.
+      // A pass's estimate is clamped like samples of other integrators, then weighed by the filter.
       const double area_of_pass = photons * static_cast<double>(kPi) * region.radius_squared;
       const std::span<Rgb> estimate = gathered.of_walk(i);
       PartSums::clamp_total(estimate,
                             film.settings().max_component * static_cast<float>(area_of_pass));
-      // What is no number would stay in the sum for ever: it is as if no photon had been found.
+      // A non-finite value would stay in the sum for ever; count it as if no photon was found.
       const auto bad = std::ranges::find_if_not(estimate, &Rgb::is_finite);
       if (bad != estimate.end()) {
         film.count_bad(group, bad - estimate.begin(), pixel);

@@ -9,9 +9,8 @@ namespace nephroid {
 
 namespace {
 
-/// [X1] How many photons merging expects from a light path that lands at a point, for each splat
-/// that connecting expects: the chance that a pixel's walk comes within the radius of it, over 1.
-/// Both techniques trace the same number of light paths.
+/// m of [X1]: the expected number of camera walks, one per pixel, within the radius of the point
+/// where a light path lands. Light tracing finds that path once, and traces as many light paths.
 float merges_per_splat(const CameraConnection& line, const Vec3f& ng, float radius) {
   return kPi * sqr(radius) * line.film_density * abs_dot(ng, line.wi);
 }
@@ -50,8 +49,8 @@ void VertexMerging::render_pass(const PassKey& key, const Learned*, const Scene&
   const PixelFootprint footprint = scene.camera->footprint();
 
   const MergeWeight merge_weight = [&](const CameraPath& path, const MergePoint& at, float radius) {
-    // Below a surface the two techniques would be weighed at the two ends of the way: merging
-    // alone.
+    // Below a surface the two techniques would be weighed at two different points (entry and exit):
+    // merging alone finds these paths.
     if (at.events > 1 || at.vertex.subsurface_exit) return 1.0f;
     const auto line = scene.camera->connect(at.vertex.surface.p, path.u_lens, path.u_time);
     if (!line) return 1.0f;

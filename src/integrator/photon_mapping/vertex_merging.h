@@ -1,7 +1,5 @@
-// `photons+light`: the paths that the camera sees through S lobes, or through a medium, are merged;
-// those whose first event can be connected to the camera are found in two ways, by merging there
-// and by light tracing, weighed against each other by multiple importance sampling ([X1] in
-// docs/estimators.md). Merging is good while its radius is large, light tracing has no bias. It
+// `photons+light`: paths whose first event can be connected to the camera are found by merging and
+// by light tracing, combined by MIS ([X1] in docs/estimators.md); all others by merging alone. It
 // must not know how photons are traced. Papers: Georgiev, Krivanek, Davidovic, Slusallek 2012;
 // Hachisuka, Pantaleoni, Jensen 2012.
 #pragma once

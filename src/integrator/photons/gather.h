@@ -1,5 +1,5 @@
-// The camera walks of a pass that gather photons: one or several for each pixel, rows on any
-// thread. It must not know radii.
+// The camera walks of a pass that gather photons: one or several per pixel, rows on any thread. It
+// must not know radii.
 #pragma once
 
 #include <span>
@@ -10,15 +10,15 @@
 
 namespace nephroid {
 
-/// What walks found, collected over the batches of a pass.
+/// Light gathered by camera walks, summed over the batches of a pass.
 struct Gathered {
   std::vector<Rgb> values;            ///< [walk * parts + part], with the camera's weight
   std::vector<float> filter_weights;  ///< [walk]
-  std::vector<float> bias;            ///< [walk], mean of the components, as the values; or empty
-  uint64_t rays = 0, found = 0;       ///< found: photons merged
+  std::vector<float> bias;       ///< [walk] bias of the values, mean of R, G and B; may be empty
+  uint64_t rays = 0, found = 0;  ///< found: photons merged
 
   Gathered(size_t walks, size_t parts) : values(walks * parts), filter_weights(walks, 1.0f) {}
-  /// Without bias.
+  /// Bytes per walk without bias.
   static constexpr size_t bytes_per_walk(size_t parts) {
     return parts * sizeof(Rgb) + sizeof(float);
   }
@@ -29,8 +29,8 @@ struct Gathered {
   }
 };
 
-/// Makes each walk's colours an estimate of its pixel: clamped to `max_component` as a sample of
-/// other integrators is, then weighed by the filter.
+/// Turns each walk's colours into an estimate of its pixel: clamped to `max_component` like samples
+/// of other integrators, then weighed by the filter.
 inline void finish_estimates(Gathered& gathered, float max_component) {
   for (size_t walk = 0; walk < gathered.filter_weights.size(); ++walk) {
     const std::span<Rgb> estimate = gathered.of_walk(walk);
@@ -40,15 +40,15 @@ inline void finish_estimates(Gathered& gathered, float max_component) {
   }
 }
 
-/// The random numbers of the walks: walk k of a pixel takes points[k], scrambled for the pixel.
+/// Random numbers of the walks: walk k of a pixel takes points[k], scrambled for the pixel.
 struct GatherNumbers {
   std::span<const SobolPoint> points;
   uint64_t seed = 0;
 };
 
-/// Walks through all pixels. Walk k of pixel p, counted row by row over the crop, has the number
-/// p * points.size() + k. `merge(walk number, camera path, walk, merge point, sums)` is called at
-/// each vertex where the group merges and returns how many photons it found. Adds to `into`.
+/// Runs the walks of all pixels and adds to `into`. Walk k of pixel p, counted row by row over the
+/// crop, has the number p * points.size() + k. `merge(walk number, camera path, walk, merge point,
+/// sums)` is called at each vertex where the group merges; it returns the number of photons found.
 template <class Merge>
 void gather(const Scene& scene, const PixelBounds& b, const OwnedRoutes& owned, int max_depth,
             const PhotonPass& pass, const GatherNumbers& numbers, Gathered& into, Merge&& merge) {

@@ -27,8 +27,7 @@ MergePass merge_pass(const PassKey& key, const Scene& scene, const Film& film,
   Gathered gathered(pixels, parts);
   gathered.bias.resize(pixels);
 
-  // A pixel's estimate is summed over the batches; its walk and its filter weight are the same in
-  // all of them.
+  // A pixel's estimate is summed over the batches; its walk and filter weight are the same in all.
   for (int64_t begin = 0; begin < photons;) {
     PhotonTrace trace = trace_batch(scene, owned, pass.trace, options.memory_photons, begin);
     count_photons(trace, statistics);

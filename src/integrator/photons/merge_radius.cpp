@@ -11,7 +11,7 @@ namespace nephroid {
 
 namespace {
 
-/// In a picture of at most PixelSlices::kMaxFirstPixels pixels.
+/// r_0 of [E5], the first radius in a picture of at most PixelSlices::kMaxFirstPixels pixels.
 constexpr float kDefaultRadius = 1.5f;
 
 }  // namespace

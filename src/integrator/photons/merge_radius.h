@@ -1,5 +1,5 @@
-// How far photons are merged, in pixel footprints: the first radius, and that of each pass of the
-// estimators without memory. It must not know photons.
+// The merge radius in pixel footprints: the first one, and that of each pass of estimators without
+// memory. It must not know photons.
 #pragma once
 
 #include <cstdint>
@@ -9,18 +9,18 @@
 
 namespace nephroid {
 
-/// [E5] How much wider the first radius is than that of a small picture; `pixels` are those of the
-/// uncropped picture, here and below.
+/// [E5] The first radius over that of a small picture. `pixels` counts the uncropped picture, here
+/// and below.
 float radius_growth(int64_t pixels);
-/// First radius: the user's, or else the default, which grows with the picture.
+/// First radius: the user's, or the default, which grows with the picture.
 float first_radius(const IntegratorOptions& options, int64_t pixels);
 /// [E2] Radius of a pass.
 float radius_of_pass(const IntegratorOptions& options, int64_t pixels, uint32_t pass);
-/// The radius of a pass over that of the first.
+/// The radius of a pass over the first radius.
 float shrinkage(const IntegratorOptions& options, uint32_t pass);
 
-/// For EstimatorDescriptor::exposed_pixels: pixels within the first radius, and the same where
-/// light paths are splatted as well.
+/// For EstimatorDescriptor::exposed_pixels: the number of pixels within the first radius. The
+/// second function serves estimators that also splat light paths.
 float pixels_of_merging(const IntegratorOptions& options, const PixelFilter& filter,
                         int64_t pixels);
 float pixels_of_merging_and_splats(const IntegratorOptions& options, const PixelFilter& filter,

@@ -24,7 +24,7 @@ std::string list_of_glossy(const std::vector<GlossyMaterial>& materials) {
   return text;
 }
 
-/// `where`: what part of the picture these caustics are in.
+/// `where` says which part of the picture shows these caustics.
 std::string note_on_glossy(const OwnedRoutes& owned, const std::string& where) {
   const SceneSymbols& symbols = *owned.symbols;
   const bool one = symbols.glossy_materials().size() == 1;

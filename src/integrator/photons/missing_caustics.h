@@ -1,5 +1,5 @@
-// Notes for the report: why no photon brought light, and where the caustics of glossy materials
-// are. Of counts and symbols alone; it must not know walks.
+// Notes for the report: why photons brought no light, and where the caustics of glossy materials
+// are. They follow from counts and symbols alone; it must not know walks.
 #pragma once
 
 #include "integrator/estimator/estimator_statistics.h"
@@ -7,15 +7,15 @@
 
 namespace nephroid {
 
-/// Says why there is no light from photons, if there is none; `found` is how many were merged.
+/// Says why photons brought no light, if they brought none; `found` photons were merged.
 void explain_darkness(const OwnedRoutes& owned, uint64_t found, EstimatorStatistics& statistics);
 
-/// The same for caustics of the default integrator, from the paths that were traced and how many
-/// were of use. Of a scene without specular materials nothing is said.
+/// The same for caustics of the default integrator, from its counts of traced and useful paths.
+/// Adds nothing if the scene has no specular materials.
 void explain_missing_caustics(const OwnedRoutes& owned, EstimatorStatistics& statistics);
 
-/// Of a scene without specular materials: where the caustics of its glossy ones are.
-/// `by_path_tracing`: no photons were traced.
+/// Says which light the caustics of glossy materials belong to, if the scene has no specular
+/// materials. `by_path_tracing`: no photons were traced.
 void explain_glossy_caustics(const OwnedRoutes& owned, bool by_path_tracing,
                              EstimatorStatistics& statistics);
 

@@ -11,7 +11,7 @@ namespace nephroid {
 
 namespace {
 
-// Photons of a pass when the user gave no number: it grows with the picture, within bounds.
+// Default number of photons per pass; it grows with the picture, within bounds.
 int64_t default_photons_per_pass(int64_t pixels) {
   constexpr int64_t kMinPhotons = 1 << 16, kMaxPhotons = 1 << 20;
   return std::clamp<int64_t>(std::bit_ceil(static_cast<uint64_t>(pixels)), kMinPhotons,
@@ -26,8 +26,8 @@ Vec2f wavelengths_and_time_of_pass(const PassKey& key) {
   constexpr uint64_t kStream = 0x70617373;  // "pass"
   const uint64_t of_order = hash_combine(key.seed, kStream, 0);
   const uint64_t of_places = hash_combine(key.seed, kStream, 1);
-  // In an order that has nothing to do with that of the camera walks, of which a pixel would else
-  // see each time at one place only. Runs of 2^k passes from a multiple of 2^k on stay together.
+  // The order must be independent of the camera walks' order, or a pixel would see each time at one
+  // place only. Runs of 2^k passes that start at a multiple of 2^k stay together.
   const uint32_t index =
       owen_scramble_reversed(reverse_bits(key.pass), static_cast<uint32_t>(of_order));
   const uint32_t reversed = reverse_bits(index);
@@ -64,7 +64,7 @@ PhotonPass start_photon_pass(const PassKey& key, const Scene& scene, const FilmF
 
 namespace {
 
-/// True if `what(light state, label)` is not empty for a light and a label of the scene.
+/// True if `what(light state, label)` is not empty for some light and label of the scene.
 template <class What>
 bool any_emitted(const OwnedRoutes& owned, What&& what) {
   const Routes& routes = *owned.routes;

@@ -1,6 +1,6 @@
-// What the photon integrators share: the wavelengths, time, roughness threshold and photons of a
-// pass, and the camera walk that comes to every vertex where its routes may merge photons. It must
-// not know how radii shrink.
+// Common parts of the photon estimators: wavelengths, time, roughness threshold and photons of a
+// pass, and the camera walk to every vertex where its routes may merge photons. It must not know
+// how radii shrink.
 #pragma once
 
 #include "integrator/estimator/estimator.h"
@@ -12,27 +12,27 @@
 
 namespace nephroid {
 
-/// The numbers in [0,1) of which a pass has its wavelengths (sample_visible) and its time. 2^k
-/// passes, of which the first is a multiple of that, have both in all of 2^k intervals, and both
-/// together, so that a thing that moves has all its colours everywhere; and they have 2^k times as
-/// many wavelengths as one, evenly spaced ([P5] of docs/estimators.md).
+/// Numbers in [0,1) for the wavelengths (sample_visible) and the time of a pass. 2^k passes from a
+/// multiple of 2^k on are stratified in each of the two and jointly, so a moving object has all its
+/// colours everywhere. They have 2^k times the wavelengths of one pass, evenly spaced ([P5] of
+/// docs/estimators.md).
 Vec2f wavelengths_and_time_of_pass(const PassKey& key);
 
-/// What all photons and camera walks of a pass share. Wavelengths and time are stratified over
-/// passes.
+/// Settings shared by all photons and camera walks of a pass. Wavelengths and time are stratified
+/// over passes.
 struct PhotonPass {
   PhotonTraceSettings trace;  ///< with the pass's wavelengths, time and number of photons
   SensorWeights weights;
   PixelFootprint footprint;
-  float u_time = 0;         ///< of the camera walks; trace.time is the same moment
-  uint32_t first_hero = 0;  ///< of the camera walks: the one of pixel (0, 0)
-  SobolPoint point;         ///< of the camera walks
+  float u_time = 0;         ///< time of the camera walks in [0,1); trace.time is the same moment
+  uint32_t first_hero = 0;  ///< h of [P6], the hero wavelength of pixel (0, 0)
+  SobolPoint point;         ///< Sobol' point of the camera walks
 };
 PhotonPass start_photon_pass(const PassKey& key, const Scene& scene, const FilmFormat& film,
                              const IntegratorOptions& options, PassControl& control = unwatched);
 
-/// Starts camera walk number `sample` of a pixel in the pass, with the wavelengths, time and
-/// threshold of the pass and a hero of its own: neighbours have all of them.
+/// Starts camera walk number `sample` of a pixel, with the wavelengths, time and roughness
+/// threshold of the pass. The hero differs between neighbouring pixels ([P6]).
 inline CameraPath start_merging_path(const Scene& scene, int x, int y, PathSampler& sampler,
                                      const PhotonPass& pass, int sample = 0) {
   const uint32_t hero = pass.first_hero + x + 3 * y + 5 * sample;
@@ -44,19 +44,19 @@ inline CameraPath start_merging_path(const Scene& scene, int x, int y, PathSampl
   return path;
 }
 
-/// False if no photon that can occur in the scene belongs to the group.
+/// True if the group may own photons that are possible in the scene.
 bool photons_can_count(const OwnedRoutes& owned);
 
-/// True if a photon may be stored where its path first meets a surface.
+/// True if a photon may be stored at the first surface of its path.
 bool deposits_at_once(const OwnedRoutes& owned);
 
-/// "route 'a'", "routes 'a', 'b'": those of the group.
+/// The group's routes, as "route 'a'" or "routes 'a', 'b'".
 std::string names_of_routes(const OwnedRoutes& owned);
 
 /// True if paths of the scene can have events of this class.
 bool has_events(const OwnedRoutes& owned, EventClass letter);
 
-/// Adds what one batch of photons did to the counts.
+/// Adds the counts of one batch of photons.
 void count_photons(const PhotonTrace& trace, EstimatorStatistics& statistics);
 
 /// Calls `merge(walk, merge_point)` at each vertex of the walk where photons may be merged.

@@ -1,4 +1,3 @@
-// A plan of routes and a scene -> the estimators that render them and the layout of their film.
 #include "integrator/presets/estimator_set.h"
 
 #include <fmt/format.h>
@@ -74,7 +73,7 @@ EstimatorSet make_estimators(CompiledPlan compiled, const IntegratorOptions& opt
   const std::vector<std::string>& examples = compiled.compilation.examples;
   for (size_t r = 0; r < examples.size(); ++r) {
     const RouteDefinition& route = compiled.compilation.routes.definitions()[r];
-    // Estimators that merge say it themselves.
+    // Estimators that merge report this themselves.
     if (examples[r].empty() && !route.estimator->merges)
       set.notes.push_back("'" + route.name +
                           "' is black: no path that this scene can have belongs to it");

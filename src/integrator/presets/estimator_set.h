@@ -1,4 +1,4 @@
-// A plan of routes and a scene -> the estimators that render them and the layout of their film.
+// Makes the estimators of a plan of routes in a scene, and the layout of their film.
 #pragma once
 
 #include <memory>
@@ -11,30 +11,30 @@
 
 namespace nephroid {
 
-/// Estimators and the film that they fill; estimator i samples the film's group i (one more, if
-/// there is one, its features).
+/// Estimators and the film that they fill. Estimator i samples the film's group i; one more, if
+/// there is one, records features.
 struct EstimatorSet {
   FilmLayout layout;
   std::vector<std::unique_ptr<Estimator>> estimators;
-  std::vector<LearningLoop> learned;  ///< by the estimator of the same number
+  std::vector<LearningLoop> learned;  ///< [estimator]
   std::shared_ptr<const Routes> routes;
-  std::vector<std::string> warnings;  ///< about the routes: overlaps, paths that are never found
-  std::vector<std::string> notes;     ///< why routes are black that no photon could find
+  std::vector<std::string> warnings;  ///< warnings about routes: overlaps, paths never found
+  std::vector<std::string> notes;     ///< routes that are black because no path belongs to them
 
-  /// Adds a pass of all estimators to the film; what they have to learn for it is learned first.
-  /// `control` may end it with PassStopped; the same pass then goes on where it ended.
+  /// Adds a pass of all estimators to the film; they learn first if needed. `control` may stop it
+  /// with PassStopped; a second call continues the same pass.
   void render_pass(const PassKey& key, const Scene& scene, Film& film,
                    PassControl& control = unwatched);
-  /// Of each estimator, learning included.
+  /// Statistics of each estimator, learning included.
   std::vector<EstimatorStatistics> statistics() const;
 };
 
-/// Estimators for the routes of a plan in a scene. Throws UsageError for an expression that is
-/// wrong, for routes that leave a path out, and for what an estimator cannot do in this scene. The
-/// routes are of estimators of the table.
+/// Makes the estimators for the routes of a plan in a scene. Throws UsageError for an invalid
+/// expression, routes that leave a path out, or an estimator that cannot work in this scene. The
+/// routes must name estimators of the table.
 EstimatorSet make_estimators(const RoutePlan& plan, const IntegratorOptions& options,
                              const Scene& scene, EstimatorTable table = estimator_table());
-/// The same of a plan that is compiled already; the warnings leave out what the proof found.
+/// The same for a compiled plan; the warnings do not repeat the findings of the proof.
 EstimatorSet make_estimators(CompiledPlan compiled, const IntegratorOptions& options,
                              const Scene& scene, EstimatorTable table = estimator_table());
 

@@ -1,4 +1,4 @@
-// The one table of estimators: all that routes can name.
+// The table of all estimators that routes can name.
 #pragma once
 
 #include <vector>
@@ -8,11 +8,11 @@
 
 namespace nephroid {
 
-/// In the order in which help lists them.
+/// Rows in the order of the help text.
 using EstimatorTable = std::span<const EstimatorDescriptor* const>;
 EstimatorTable estimator_table();
 
-/// The traits of all rows, as parse_route takes them.
+/// The traits of all rows, for parse_route.
 TraitsTable estimator_traits();
 
 /// The row of a group of routes. Throws std::logic_error if its estimator is not in the table.

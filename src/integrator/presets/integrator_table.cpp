@@ -1,5 +1,5 @@
-// The one table of integrators: name -> preset of routes; and what stands for those of the scene
-// format.
+// The table of integrators: names with their route presets, and the substitutes for the scene
+// format's integrators.
 #include "integrator/presets/integrator_table.h"
 
 #include "core/errors.h"
@@ -11,7 +11,7 @@ namespace {
 
 struct Row {
   const char* name;
-  const char* preset;  ///< of the routes
+  const char* preset;  ///< name of the route preset
 };
 constexpr Row kTable[] = {{"mixed", "mixed"},
                           {"path", "path-only"},
@@ -69,8 +69,8 @@ constexpr FormatParameter kFunction[] = {
     {"string", "imagefilename", "none", "", "of pbrt-v4's method", Support::kNotNeeded},
 };
 
-// The format's integrators and what stands for them here. The refused ones are errors only where
-// the scene's integrator is asked for.
+// The format's integrators and their substitutes. The refused ones are errors only if the scene's
+// integrator is asked for.
 struct SceneRow : FormatType {
   const char* own_name;
 };

@@ -1,4 +1,4 @@
-// Sets of routes that have a name. Their expressions: docs/routes.md.
+// Route presets: named sets of routes (docs/routes.md).
 #pragma once
 
 #include <optional>
@@ -13,11 +13,11 @@ namespace nephroid {
 struct RoutePreset {
   const char* name;
   const char* help;
-  std::vector<const char*> routes;  ///< as parse_route reads them
+  std::vector<const char*> routes;  ///< routes in the syntax of parse_route
 };
-/// doidge2012, classic, split, all-photons, path-only, sppm, ...
+/// All presets: doidge2012, classic, split, all-photons, path-only, sppm, ...
 std::span<const RoutePreset> route_presets();
-/// Empty if there is none of that name.
+/// The routes of a preset; empty if the name is unknown.
 std::optional<std::vector<RouteDefinition>> route_preset(const std::string& name);
 
 }  // namespace nephroid

@@ -16,7 +16,7 @@ constexpr int64_t kChunk = 4;               // groups are small
 
 using Lights = std::vector<std::unique_ptr<PointLight>>;
 
-/// What lights are chosen by.
+/// The flux by which lights are chosen.
 double flux_of(const PointLight& light) {
   const SampledSpectrum& flux = light.flux;
   return light.left != kAllWavelengths ? flux[light.left] : flux.max_component();
@@ -26,7 +26,7 @@ void drop_black(Lights& lights) {
   std::erase_if(lights, [](const auto& light) { return !(flux_of(*light) > 0.0); });
 }
 
-/// [L5] Keeps `most` of the lights or fewer, by systematic sampling with the number u in [0,1).
+/// [L5] Keeps at most `most` lights, by systematic sampling with the number u in [0,1).
 void thin(Lights& lights, int64_t most, float u) {
   drop_black(lights);
   double total = 0;
@@ -49,7 +49,7 @@ void thin(Lights& lights, int64_t most, float u) {
 
 class PointLightVisitor : public LightWalkVisitor {
  public:
-  /// Leaves no more than `most` lights of the path in `out`; `seed` is the path's own.
+  /// Leaves at most `most` lights of the path in `out`; `seed` is the path's own.
   PointLightVisitor(const OwnedRoutes& owned, const Scene& scene, const Emission& emission,
                     int64_t most, uint64_t seed, Lights& out)
       : LightWalkVisitor(owned, emission),
@@ -97,7 +97,7 @@ class PointLightVisitor : public LightWalkVisitor {
   bool only_from_light_ = false;
 };
 
-/// Traces light path `number`, returns its rays and leaves up to `most` lights in `out`.
+/// Traces light path `number`, leaves at most `most` lights in `out` and returns the rays.
 uint64_t trace(const Scene& scene, const OwnedRoutes& owned, const PhotonTraceSettings& settings,
                uint64_t number, int64_t most, Lights& out) {
   const LightPathSequence sequence{hash_combine(settings.key.seed, kStream)};
@@ -129,8 +129,8 @@ PointLightPool::PointLightPool(const Scene& scene, const OwnedRoutes& owned,
                                const PhotonTraceSettings& settings, int64_t most) {
   const int64_t paths = settings.photons_per_pass;
   const uint64_t first = uint64_t{settings.key.pass} * paths;
-  // Whatever the paths of a group do, they leave no more than a quarter of what may be held. As
-  // much is made free at a time, so that lights are drawn now and then and not after each group.
+  // The paths of a group leave at most a quarter of `most` lights. Thinning frees as many, so it
+  // runs now and then, not after each group.
   const int64_t room = std::max<int64_t>(2, most / 4);
   const int64_t of_group = std::max<int64_t>(1, room / std::max(1, settings.max_events));
   struct Chunk {

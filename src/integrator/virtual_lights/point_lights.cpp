@@ -15,26 +15,26 @@ namespace nephroid {
 namespace {
 
 constexpr uint64_t kStream = 0x706f696e74;   // "point"
-constexpr uint64_t kLearning = 0x70ea2;      // of the seed of the learning set
-constexpr int kDefaultConnections = 32;      // of a pixel and pass
-constexpr int64_t kPathsPerConnection = 64;  // light paths of a pass, over all of its samples
+constexpr uint64_t kLearning = 0x70ea2;      // stream of the learning set
+constexpr int kDefaultConnections = 32;      // connections per pixel and pass
+constexpr int64_t kPathsPerConnection = 64;  // light paths per connection, over a pass's samples
 constexpr int64_t kLearningPaths = 1024;
-constexpr int kConnectionDimensions = 1 << 20;  // beyond those of walks; they are random
+constexpr int kConnectionDimensions = 1 << 20;  // beyond the walks' dimensions; numbers are random
 
 int connections_of(const IntegratorOptions& options) {
   const int asked = options.own<PointLightsOptions>().connections;
   return asked > 0 ? asked : kDefaultConnections;
 }
 
-/// Per area, that a walk which left `from` with the density `pdf_w` comes to `p` with normal `ng`.
+/// p_A of [L1]: density per area at `p` (normal `ng`) of a walk that left `from` with `pdf_w`.
 float density_per_area(const Vec3f& from, float pdf_w, const Vec3f& p, const Vec3f& ng) {
   const Vec3f way = p - from;
   const float d2 = dot(way, way);
   return pdf_w * std::abs(dot(way, ng)) / (d2 * std::sqrt(d2));
 }
 
-/// Path tracing that leaves to point lights what is theirs of the way from the first rough vertex
-/// to a rough vertex that follows at once.
+/// Path tracing that leaves point lights their share of the light between its first rough vertex
+/// and a rough vertex that follows at once.
 class PointLightsVisitor : public PathVisitorOf<PointLightsVisitor> {
  public:
   struct Pass {
@@ -52,7 +52,7 @@ class PointLightsVisitor : public PathVisitorOf<PointLightsVisitor> {
   float share_after(EventClass c) const { return share_ * (is_rough(c) ? rough_share_ : 1.0f); }
 
   void vertex(const Walk& walk, const WalkVertex& v, PathSampler& sampler) {
-    // What goes under a surface comes out where no point light is.
+    // No point light is at the exit of a path that went under a surface.
     rough_share_ = 1.0f;
     if (stage_ == Stage::kFirstRough && v.merges && !v.subsurface_exit)
       rough_share_ =
@@ -89,7 +89,7 @@ class PointLightsVisitor : public PathVisitorOf<PointLightsVisitor> {
     }
   }
 
-  // [L2], for each class at both ends.
+  // [L2], for each pair of classes c at x and d at y.
   void connect(const Walk& walk, const WalkVertex& x, ClassMask classes, ClassMask among,
                const ChosenLight& chosen, const PathSampler& sampler) {
     const PointLight& y = *chosen.light;
@@ -142,11 +142,11 @@ class PointLightsVisitor : public PathVisitorOf<PointLightsVisitor> {
 
   const Pass& pass_;
   Stage stage_ = Stage::kBefore;
-  float share_ = 1;        ///< that point lights leave of the path so far
-  float rough_share_ = 1;  ///< the same of an event of class D or G at this vertex
+  float share_ = 1;        ///< 1 - s of [L2]: the walk's share of the path so far
+  float rough_share_ = 1;  ///< the walk's share for an event of class D or G at this vertex
 };
 
-/// [L3] How densely point lights are to lie.
+/// ρ of [L3], the density of point lights per area.
 class LearnedDensity final : public Learned {
  public:
   LearnedDensity(float density, uint64_t rays) : density_(density), rays_(rays) {}
@@ -240,11 +240,11 @@ void PointLights::render_pass(const PassKey& key, const Learned* learned, const 
                               Film& film, PassControl& control) {
   const float density = static_cast<const LearnedDensity*>(learned)->density();
   const int samples = std::max(1, options_.camera_samples_per_pass);
-  // Each sample of the pixels has wavelengths, a time and point lights of its own; what the
-  // classes of events are, the pass decides for all.
+  // Each sample of the pixels has its own wavelengths, time and point lights. The roughness
+  // threshold is the pass's.
   const float specular_alpha = specular_alpha_of_pass(scene.specular_band, key);
   for (int k = 0; k < samples; ++k) {
-    // What the first samples add to the film cannot be taken back.
+    // Light that is on the film cannot be removed, so only the first sample may be stopped.
     PassControl& of_sample = k == 0 ? control : unwatched;
     const uint64_t index = uint64_t{key.pass} * samples + k;
     const uint64_t turn = index >> 32;

@@ -1,8 +1,6 @@
-// `pointlights`: light that goes from one rough surface to another is found twice: at the first
-// rough vertex of a camera walk, connected to virtual point lights, and by the walk itself, which
-// goes on as path tracing does. A weight leaves to the walk what a point light that is too near
-// would make a spot of ([L1] to [L4] in docs/estimators.md), so nothing is clamped away. A pass is
-// a function of the scene, the options and the pass key alone.
+// `pointlights`: path tracing whose first rough vertex is also connected to virtual point lights.
+// Weights leave to the walk the light of point lights that are too near, which would be spots ([L1]
+// to [L4] in docs/estimators.md), so nothing is clamped. Passes are independent.
 // Papers: Kollig & Keller 2004; Dammertz, Keller & Lensch 2010.
 #pragma once
 
@@ -11,7 +9,7 @@
 namespace nephroid {
 
 struct PointLightsOptions {
-  int connections = 0;  ///< of a pixel and pass; 0: the default
+  int connections = 0;  ///< connections per pixel and pass; 0: the default
 };
 
 class PointLights : public Estimator {
@@ -28,7 +26,7 @@ class PointLights : public Estimator {
   EstimatorStatistics statistics() const override { return statistics_; }
 
  private:
-  /// One walk of each pixel, with point lights and wavelengths that they share.
+  /// Renders one walk per pixel; all share point lights and wavelengths.
   void render_sample(const PhotonPass& pass, float density, const Scene& scene, Film& film);
 
   OwnedRoutes owned_;
@@ -36,9 +34,8 @@ class PointLights : public Estimator {
   EstimatorStatistics statistics_;
 };
 
-/// [L1]: share of the light from y to x that point lights find, where a walk at x finds y with the
-/// density `walk_pdf_a` per area and point lights lie with `density` per area. The walk finds the
-/// rest.
+/// s of [L1], the point lights' share of the light from y to x; the walk finds the rest.
+/// `walk_pdf_a` is the density p_A with which the walk comes from x to y, `density` is ρ.
 float point_light_share(float density, float walk_pdf_a);
 
 }  // namespace nephroid

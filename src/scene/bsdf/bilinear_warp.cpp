@@ -5,7 +5,7 @@ namespace nephroid {
 namespace {
 
 /// Share s of [0,1] over which a linear function from a to b (at 1) integrates to `area`. Written
-/// without the difference of large numbers of the textbook's root.
+/// without the cancellation of the textbook's root.
 float invert_linear(float a, float b, float area) {
   const float root = a + safe_sqrt(a * a + 2.0f * area * (b - a));
   return root > 0.0f ? std::clamp(2.0f * area / root, 0.0f, 1.0f) : 0.0f;
@@ -14,7 +14,7 @@ float integral_of_linear(float a, float b, float s) {
   return s * (a + 0.5f * s * (b - a));
 }
 
-/// The last index in [0, size - 2] whose value is below `target`; values do not fall.
+/// The last index in [0, size - 2] whose value is below `target`. Values are non-decreasing.
 template <class Value>
 size_t last_below(size_t size, float target, const Value& value) {
   size_t low = 0, high = size - 1;
@@ -106,7 +106,7 @@ BilinearWarp::Point BilinearWarp::sample(const Vec2f& u, const GridMix& mix) con
   const size_t width = density_.width, height = density_.height, size = density_.grid_size();
   const float columns = static_cast<float>(width - 1), rows = static_cast<float>(height - 1);
 
-  // The row, and the place between it and the next.
+  // The row, and the position between it and the next.
   const auto marginal = [&](size_t y) { return mixed(marginal_, height, y, mix); };
   const size_t row = last_below(height, u.y, marginal);
   const auto whole_row = [&](size_t y) {
@@ -115,7 +115,7 @@ BilinearWarp::Point BilinearWarp::sample(const Vec2f& u, const GridMix& mix) con
   const float r0 = whole_row(row), r1 = whole_row(row + 1);
   const float t = invert_linear(r0, r1, std::max(0.0f, u.y - marginal(row)) * rows);
 
-  // The column in the mean of both rows.
+  // The column in the interpolation of both rows.
   const auto between_rows = [&](const std::vector<float>& table, size_t x) {
     return lerp(t, mixed(table, size, row * width + x, mix),
                 mixed(table, size, (row + 1) * width + x, mix));

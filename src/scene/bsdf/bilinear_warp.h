@@ -1,9 +1,7 @@
 // Bilinear functions on the unit square, given at the nodes of a regular grid: their values, and
-// maps that distribute uniform points in proportion to them (a marginal over rows, then a
-// conditional over columns). A family of grids stands for a function of further parameters: what
-// lies between them is a weighted mean, of values, densities and distribution functions alike.
-// Who calls it: measured.cpp. It must not know what the square stands for.
-// Paper: Dupuy & Jakob 2018.
+// warps that sample points in proportion to them (row marginal, then column conditional). Grids of
+// a family are interpolated: values, densities and distribution functions alike are weighted means.
+// It must not know what the square stands for. Paper: Dupuy & Jakob 2018.
 #pragma once
 
 #include <array>
@@ -38,24 +36,24 @@ struct GridMix {
   }
 };
 
-/// A point of the square as a cell of the grid and a place in it.
+/// A point of the square as a grid cell and a position in the cell.
 struct GridCell {
-  size_t x = 0, y = 0;  ///< of the lower corner
-  float s = 0, t = 0;   ///< in [0,1] along x and y
+  size_t x = 0, y = 0;  ///< grid indices of the cell's lower corner
+  float s = 0, t = 0;   ///< position in the cell along x and y, in [0,1]
 
   GridCell(const GridFamily& family, const Vec2f& p);
 };
 
-/// Sorted numbers between which a parameter is interpolated; beyond both ends the end counts.
+/// Sorted nodes between which a parameter is interpolated, clamped to the first and the last.
 class ParameterAxis {
  public:
   struct Place {
-    size_t lower = 0, upper = 0;  ///< the same at an end
-    float t = 0;                  ///< share of the upper one, in [0,1)
+    size_t lower = 0, upper = 0;  ///< neighbouring nodes, equal if clamped
+    float t = 0;                  ///< weight of the upper node, in [0,1)
   };
 
   ParameterAxis() = default;
-  /// At least one value, strictly increasing.
+  /// `values`: at least one, strictly increasing.
   explicit ParameterAxis(std::vector<float> values) : values_(std::move(values)) {}
   size_t size() const { return values_.size(); }
   float front() const { return values_.front(); }
@@ -66,7 +64,7 @@ class ParameterAxis {
   std::vector<float> values_;
 };
 
-/// Values of a single grid.
+/// The bilinear function of a single grid.
 class BilinearFunction {
  public:
   BilinearFunction() = default;
@@ -78,7 +76,7 @@ class BilinearFunction {
   GridFamily grid_;
 };
 
-/// Densities on the unit square, one a grid, and the maps from uniform points to them.
+/// Densities on the unit square, one per grid, and the warps from uniform points to them.
 class BilinearWarp {
  public:
   struct Point {
@@ -87,26 +85,26 @@ class BilinearWarp {
   };
 
   BilinearWarp() = default;
-  /// Each grid is scaled to the integral 1. Negative values count as 0; a grid of zeros stands for
+  /// Each grid is normalised to integrate to 1. Negative values count as 0. A grid of zeros becomes
   /// the uniform density.
   explicit BilinearWarp(GridFamily family);
 
-  /// The point of the density that belongs to the uniform point u in [0,1]^2.
+  /// Warps the uniform point u in [0,1]^2 to the density.
   Point sample(const Vec2f& u, const GridMix& mix) const;
-  /// The inverse: the uniform point that sample() takes to p, with the density at p.
+  /// Inverse of sample(): the uniform point that it warps to p, with the density at p.
   Point invert(const Vec2f& p, const GridMix& mix) const;
-  /// The density at p alone.
+  /// The density at p.
   float density(const Vec2f& p, const GridMix& mix) const;
 
  private:
-  /// Weighted mean over the grids of entry `index` of tables that have `stride` entries a grid.
+  /// Weighted mean over the grids of entry `index` in tables with `stride` entries per grid.
   static float mixed(const std::vector<float>& table, size_t stride, size_t index,
                      const GridMix& mix);
   void add_grid(const float* values);
 
   GridFamily density_;
-  std::vector<float> row_integral_;  ///< of the density along a row, up to each node
-  std::vector<float> marginal_;      ///< integral of whole rows over y, up to each row
+  std::vector<float> row_integral_;  ///< running integral along a row, up to each node
+  std::vector<float> marginal_;      ///< running integral of whole rows over y, up to each row
 };
 
 }  // namespace nephroid

@@ -10,13 +10,13 @@ namespace {
 constexpr double kPiD = 3.14159265358979323846;
 constexpr int kDepths = 100;
 
-/// Depth of the i-th of kDepths samples of exponential attenuation with extinction 1.
+/// Depth of the i-th of kDepths samples of exponential transmittance with extinction 1.
 double sampled_depth(int i) {
   return -std::log(1.0 - (i + 0.5) / kDepths);
 }
 
-/// Henyey-Greenstein with the cosine between the directions back to where light came from and
-/// where it goes to, 1/sr.
+/// Henyey-Greenstein, 1/sr; `cosine` is between the directions towards where light came from and
+/// where it goes.
 double phase(double cosine, double g) {
   const double d = 1.0 + g * g + 2.0 * g * cosine;
   return (1.0 - g * g) / (4.0 * kPiD * d * std::sqrt(d));
@@ -40,7 +40,8 @@ double beam_diffusion_single(double albedo, double g, double eta, double r) {
 }
 
 double beam_diffusion_multiple(double albedo, double g, double eta, double r) {
-  // Similarity theory: scattering of mean cosine g is isotropic scattering, 1-g times as strong.
+  // Similarity theory: scattering of mean cosine g acts as isotropic scattering 1-g times as
+  // strong.
   const double absorption = 1.0 - albedo, scattering = albedo * (1.0 - g);
   const double extinction = absorption + scattering;
   if (!(scattering > 0.0)) return 0.0;
@@ -48,7 +49,7 @@ double beam_diffusion_multiple(double albedo, double g, double eta, double r) {
   // Grosjean's diffusion coefficient.
   const double diffusion = (2.0 * absorption + scattering) / (3.0 * extinction * extinction);
   const double transport = std::sqrt(absorption / diffusion);
-  // The mirror plane of the dipole, and the weights of fluence and of its gradient in the exitance.
+  // The dipole's mirror plane, and the weights of fluence and of its gradient in the exitance.
   const double m1 = fresnel_moment_1(eta), m2 = fresnel_moment_2(eta);
   const double mirror = -2.0 * diffusion * (1.0 + 3.0 * m2) / (1.0 - 2.0 * m1);
   const double of_fluence = 0.25 * (1.0 - 2.0 * m1), of_gradient = 0.5 * (1.0 - 3.0 * m2);
@@ -67,7 +68,7 @@ double beam_diffusion_multiple(double albedo, double g, double eta, double r) {
          z_virtual * (1.0 + transport * d_virtual) * e_virtual /
              (d_virtual * d_virtual * d_virtual)) /
         (4.0 * kPiD);
-    // Near the beam diffusion is too bright; an empirical factor takes that back.
+    // Beam diffusion is too bright near the beam; this empirical factor corrects it.
     const double near = 1.0 - std::exp(-2.0 * extinction * (d_real + z_real));
     sum += near * (fluence * of_fluence + gradient * of_gradient);
   }
@@ -128,7 +129,7 @@ std::optional<float> BssrdfTable::sample_radius(const SplineWeights& albedo, flo
   }
   const float rest = target - cumulative(low);
   const float width = radii_[low + 1] - radii_[low];
-  // The four values around the interval, interpolated once.
+  // Cumulative values at the four nodes around the interval, interpolated once.
   std::array<float, 4> values{};
   for (int k = 0; k < 4; ++k)
     if (low + k - 1 >= 0 && low + k - 1 < kRadii)

@@ -1,9 +1,7 @@
 // Radial profiles of light that enters a flat half space of scattering medium at one point and
-// leaves it again, for all albedos of single scattering: photon beam diffusion for light scattered
-// more than once, an exact integral for light scattered once. Lengths are in mean free paths. Who
-// calls it: the subsurface material makes a table per (g, eta), TabulatedBssrdf reads it. It must
-// not know wavelengths or units. Paper: Habel, Christensen & Jarosz, Photon Beam Diffusion, EGSR
-// 2013; the sampling of radii and albedos is pbrt-v4's.
+// leaves it at another, for all albedos. Lengths are in mean free paths. It must not know
+// wavelengths or units. Papers: Habel, Christensen & Jarosz, Photon Beam Diffusion, EGSR 2013
+// (multiple scattering; single scattering is exact); pbrt-v4 (sampling of radii and albedos).
 #pragma once
 
 #include <map>
@@ -16,10 +14,9 @@
 
 namespace nephroid {
 
-/// Radiant exitance at distance r (> 0 or 0) of a normally incident beam of unit power: light
-/// scattered once, and more than once. `albedo` in [0,1] with extinction 1, `g` in (-1,1) is the
-/// mean cosine of scattering, `eta` the index of the medium over that outside. Per area, in units
-/// of the mean free path.
+/// Radiant exitance, per area, at distance r >= 0 from a normally incident beam of unit power:
+/// light scattered once, and more than once. The extinction is 1, `albedo` in [0,1]. `g` in (-1,1)
+/// is the mean cosine of scattering, `eta` the index of the medium over that outside.
 double beam_diffusion_single(double albedo, double g, double eta, double r);
 double beam_diffusion_multiple(double albedo, double g, double eta, double r);
 
@@ -33,24 +30,25 @@ class BssrdfTable {
   float eta() const { return eta_; }
   std::span<const float> albedos() const { return albedos_; }
   std::span<const float> radii() const { return radii_; }
-  /// 2 pi r times the profile at a sample of albedo and radius.
+  /// 2 pi r times the profile at an albedo node and a radius node.
   float profile(int albedo, int radius) const { return profile_[index(albedo, radius)]; }
-  /// Integral of the profile over the plane: the albedo that the medium seems to have from outside,
-  /// boundary not counted. One for each of albedos(), ascending.
+  /// Integral of the profile over the plane: the albedo as seen from outside, without the boundary.
+  /// One value per entry of albedos(), ascending.
   std::span<const float> effective_albedos() const { return effective_; }
 
-  /// How to interpolate between albedos. `albedo` in [0,1].
+  /// Interpolation weights between the albedo nodes. `albedo` in [0,1].
   SplineWeights albedo_weights(float albedo) const;
-  /// Interpolated 2 pi r times the profile; may be slightly below 0. 0 beyond the last radius.
+  /// Interpolated 2 pi r times the profile; can be slightly below 0. It is 0 beyond the last
+  /// radius.
   float radial_density(const SplineWeights& albedo, float r) const;
   /// Interpolated effective albedo.
   float effective_albedo(const SplineWeights& albedo) const {
     return albedo.of([this](int a) { return effective_[a]; });
   }
-  /// A radius with density radial_density / effective_albedo, from u in [0,1). Empty if nothing
-  /// leaves the medium.
+  /// Samples a radius with density radial_density / effective_albedo, from u in [0,1). Empty if no
+  /// light leaves the medium.
   std::optional<float> sample_radius(const SplineWeights& albedo, float u) const;
-  /// The single-scattering albedo whose effective albedo this is; 0 or 1 if there is none.
+  /// The single-scattering albedo with this effective albedo, clamped to [0,1].
   float invert_effective_albedo(float effective) const {
     return spline_invert(albedos_, effective_, effective);
   }
@@ -65,7 +63,7 @@ class BssrdfTable {
   std::vector<float> albedos_, radii_, profile_, cumulative_, effective_;
 };
 
-/// Tables shared by the materials with the same medium.
+/// Tables shared by materials with the same medium.
 class BssrdfTableCache {
  public:
   std::shared_ptr<const BssrdfTable> find_or_make(float g, float eta);

@@ -4,7 +4,7 @@
 namespace nephroid {
 namespace {
 
-// Shares of an interval's two values and of its two slopes (times its width).
+// Weights of an interval's two values and of its two slopes (times its width).
 struct HermiteBasis {
   float f0, f1, d0, d1;
 };
@@ -20,7 +20,7 @@ HermiteBasis integral_basis(float t) {
           0.25f * t4 - t3 * (1.0f / 3.0f)};
 }
 
-// The slopes are differences of values, so everything is a combination of values.
+// Slopes are differences of values, so everything is a combination of values.
 SplineWeights combine(std::span<const float> x, int i, const HermiteBasis& b) {
   const size_t k = i;
   const float width = x[k + 1] - x[k];
@@ -87,7 +87,7 @@ float spline_invert(std::span<const float> x, std::span<const float> f, float va
   const int i = *spline_interval(f, value);
   const auto at = [&](int j) { return f[j]; };
   const float t = solve_rising([&](float s) {
-    // The derivative only steers the search, so that of the line through a small step will do.
+    // The derivative only steers the search, so a finite difference will do.
     constexpr float kStep = 1e-3f;
     const float here = spline_value_at(x, i, s).of(at);
     const float there = spline_value_at(x, i, s + kStep).of(at);

@@ -1,7 +1,7 @@
-// Catmull-Rom splines through points that need not be equally spaced: values, integrals and their
-// inverses. The slope at a point is that of the line between its neighbours; at either end that of
-// the first or last interval. Who calls it: the tables of subsurface profiles. It must not know
-// what is tabulated. Source: Catmull & Rom 1974; pbrt-v4 section A.5 for the slopes at the ends.
+// Catmull-Rom splines through unequally spaced points: values, integrals and their inverses. The
+// slope at a point is that of the line between its neighbours, at the ends that of the first or
+// last interval. It must not know what is tabulated. Sources: Catmull & Rom 1974; pbrt-v4 section
+// A.5 (slopes at the ends).
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace nephroid {
 
-/// A linear combination of four neighbouring values; those with weight 0 may not exist.
+/// A linear combination of four neighbouring values. Those with weight 0 may not exist.
 struct SplineWeights {
   int first = 0;
   std::array<float, 4> w{};
@@ -28,15 +28,15 @@ struct SplineWeights {
   }
 };
 
-/// Index of the interval of the ascending points `x` that holds `at`, the last one at its end.
-/// Empty outside of the points, and for NaN.
+/// Index of the interval of the ascending points `x` that holds `at`; the last point belongs to the
+/// last interval. Empty outside of the points, and for NaN.
 std::optional<int> spline_interval(std::span<const float> x, float at);
 
 /// Weights of the spline's value at `at`. Empty outside of the points.
 std::optional<SplineWeights> spline_value(std::span<const float> x, float at);
 
-/// Weights of the value, and of the integral from the interval's start, at the share t in [0,1] of
-/// interval `i`.
+/// Weights of the value at the share t in [0,1] of interval `i`, and of the integral from the
+/// interval's start to there.
 SplineWeights spline_value_at(std::span<const float> x, int i, float t);
 SplineWeights spline_integral_at(std::span<const float> x, int i, float t);
 
@@ -44,12 +44,12 @@ SplineWeights spline_integral_at(std::span<const float> x, int i, float t);
 float spline_integrate(std::span<const float> x, std::span<const float> f,
                        std::span<float> cumulative);
 
-/// Where the spline through the ascending values `f` has the value `value`; the first or the last
-/// point if it lies below or above all of them.
+/// The x at which the spline through the ascending values `f` equals `value`, clamped to the first
+/// and the last point.
 float spline_invert(std::span<const float> x, std::span<const float> f, float value);
 
-/// Root in [0,1] of a function that does not fall and starts at or below zero, to float precision:
-/// Newton's steps, halved intervals where they lead astray. `eval(t)` returns value and derivative.
+/// Root in [0,1] of a non-decreasing function that is at most 0 at 0, to float precision: Newton's
+/// method, with bisection where a step leads astray. `eval(t)` returns value and derivative.
 template <class Eval>
 float solve_rising(Eval&& eval) {
   float low = 0.0f, high = 1.0f, t = 0.5f;

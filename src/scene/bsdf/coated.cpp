@@ -6,7 +6,7 @@
 namespace nephroid {
 namespace {
 
-/// Cosine inside the coat of light that enters at cosine c (1e-3 at the least).
+/// Cosine inside the coat for light that enters at cosine c (clamped to at least 1e-3).
 float cos_inside(float c, float eta) {
   return safe_sqrt(std::max(1e-6f, 1.0f - (1.0f - c * c) / sqr(eta)));
 }
@@ -68,7 +68,7 @@ typename CoatedBsdf<Base>::Shares CoatedBsdf<Base>::shares(const Vec3f& wo, Clas
   if (contains(classes() & among, coat_class_) && (coat_.boundary.eta != 1.0f || all_smooth_))
     coat_energy = all_smooth_ ? r + base : r;
   if (base_has_finite_ && contains(among, base_class_))
-    // Facets and mediums may return light where the smooth estimate sees none.
+    // Facets and media can return light where the smooth estimate sees none.
     base_energy = std::max(all_smooth_ ? 0.0f : base, 0.05f);
   const float sum = coat_energy + base_energy;
   if (!(sum > 0.0f)) return {};
@@ -92,8 +92,8 @@ typename CoatedBsdf<Base>::Shares CoatedBsdf<Base>::shares(const Vec3f& wo, Clas
 template <class Base>
 TrowbridgeReitz CoatedBsdf<Base>::widened(const Vec3f& wo) const {
   if constexpr (kMetal<Base>) {
-    // Slopes of the base and, by how much refraction turns light, of the coat's two crossings add
-    // up as variances; a half vector inside looks steeper from outside.
+    // Slope variances add up: those of the base and, scaled by how much refraction turns light,
+    // those of the coat's two crossings. A half vector inside looks steeper from outside.
     const float eta = coat_.boundary.eta;
     const float turn = 0.5f * sqr(1.0f - 1.0f / eta);
     const TrowbridgeReitz& coat = coat_.boundary.facets;
@@ -144,8 +144,8 @@ BsdfEval CoatedBsdf<Base>::eval(const Vec3f& wo, const Vec3f& wi, TransportMode 
 
 template <class Base>
 SampledSpectrum CoatedBsdf<Base>::mirrored_by_base(const Vec3f& wo) const {
-  // Light crosses, meets the base k times with k - 1 reflections below the coat, and leaves: the
-  // factors of radiance at the two crossings cancel.
+  // Light enters, is reflected by the base k times and by the coat k - 1 times, and leaves. The
+  // radiance factors of the two crossings cancel.
   const float eta = coat_.boundary.eta;
   if (1.0f - wo.z * wo.z >= sqr(eta)) return {};
   const float r = coat_.boundary.fresnel(wo);
@@ -192,7 +192,7 @@ std::optional<BsdfSample> CoatedBsdf<Base>::sample(const Vec3f& wo_any, float uc
   if (!(s.wi.z > 0.0f)) return std::nullopt;
   if (!s.delta) {
     const BsdfEval e = eval_above(wo, s.wi, mode, s.event, p);
-    s.f = e.f;  // may be black: an estimate, not the end of the walk's possibilities
+    s.f = e.f;  // can be black: it is an estimate, and the walk goes on
     s.pdf_w = e.pdf_w;
   }
   if (!(s.pdf_w > 0.0f)) return std::nullopt;

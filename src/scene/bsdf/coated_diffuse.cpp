@@ -10,10 +10,10 @@ float gap(float thickness, float c) {
   return c > 0.0f ? std::exp(-thickness / c) : 0.0f;
 }
 
-/// Mean over the facets seen from `w` of the flux that `part` of a rough boundary sends on, times
-/// the gap along the new direction if `through_gap`. Midpoints of a grid, turned by `turn` about
-/// the normal; the second variable runs as 1-(1-y)^2, which flattens the singular tail of the
-/// facets.
+/// Mean flux that `part` of a rough boundary sends on, over the facets seen from `w`; times the
+/// transmittance of the gap along the new direction if `through_gap`. Midpoints of a grid, turned
+/// by `turn` about the normal. The second variable runs as 1-(1-y)^2, which flattens the singular
+/// tail of the facets.
 float facet_mean(const DielectricInterface& boundary, const Vec3f& w, BoundaryPart part,
                  float thickness, bool through_gap, int steps, float turn) {
   double sum = 0.0;
@@ -38,7 +38,7 @@ Vec3f direction(float c) {
 CoatTable::CoatTable(const DielectricInterface& boundary, float thickness, int max_depth)
     : boundary_(boundary), thickness_(thickness), base_bounces_(max_depth / 2 + max_depth % 2) {
   if (!boundary_.smooth()) fill_rough_tables();
-  // Both are integrals over the cosine with weight 2c; the smooth coat is cheap, so it gets more
+  // Both are integrals over the cosine with weight 2c. The smooth coat is cheap, so it gets more
   // points for the kink at the critical angle.
   const int steps = boundary_.smooth() ? 2048 : 128;
   double inner = 0.0, diffuse = 0.0;
@@ -111,7 +111,7 @@ CoatedDiffuseBsdf::CoatedDiffuseBsdf(const CoatTable* table, const SampledSpectr
 
 CoatedDiffuseBsdf::Shares CoatedDiffuseBsdf::shares(float cos_o, float tau_o,
                                                     ClassMask among) const {
-  // In proportion to the energy of each, so that the weight of a sample hardly varies.
+  // In proportion to each lobe's energy, so that the weight of a sample hardly varies.
   Shares p;
   if (has_coat_lobe_ && contains(among, coat_class_)) p.coat = table_->reflection(cos_o);
   if (contains(among, EventClass::kDiffuse)) p.base = base_energy_ * tau_o;

@@ -1,9 +1,7 @@
-// A Lambertian base under a dielectric coat whose gap absorbs but does not scatter. Because the
-// base forgets where light came from, the walk between the two has a closed form:
+// A Lambertian base under a dielectric coat whose gap only absorbs: layered_walk.h in closed form.
 //   f(wo, wi) = rho/pi * tau(wo) tau(wi) / eta^2 * sum_{k<K} (rho R)^k
-// tau: flux through the coat and the gap to the base; R: what the coat returns of the base's
-// diffuse light, gap included; K: how often the walk of layered_walk.h can meet the base. Who calls
-// it: the coateddiffuse material, when the coat is the same everywhere. It must not know textures.
+// tau: flux through coat and gap to the base. R: share of the base's diffuse light that the coat
+// returns, gap included. K: most meetings with the base. It must not know textures.
 #pragma once
 
 #include <array>
@@ -32,7 +30,7 @@ class CoatTable {
  private:
   static constexpr int kNodes = 64;
   float smooth_transmission(float c) const;
-  /// Values at equal steps of the square root of the cosine, where they bend least.
+  /// Values at equal steps of the square root of the cosine, where curvature is least.
   using Table = std::array<float, kNodes + 1>;
   static float look_up(const Table& table, float c);
   void fill_rough_tables();
@@ -67,14 +65,14 @@ class CoatedDiffuseBsdf final : public Bsdf {
   struct Shares {
     float coat = 0, base = 0;
   };
-  /// Probabilities of the two lobes; they sum to 1, or are both 0 if nothing is left.
+  /// Probabilities of the two lobes; they sum to 1, or are both 0 if `among` has neither.
   Shares shares(float cos_o, float tau_o, ClassMask among) const;
   BsdfEval eval_above(const Vec3f& wo, const Vec3f& wi, TransportMode mode, EventClass c,
                       const Shares& p, float tau_o) const;
 
   const CoatTable* table_;
   SampledSpectrum base_;  ///< rho / (pi eta^2) * bounces
-  float base_energy_;     ///< pi * largest of base_ * diffuse transmission
+  float base_energy_;     ///< pi * maximum of base_ * diffuse transmission
   EventClass coat_class_;
   bool has_coat_lobe_, coat_is_delta_;
 };

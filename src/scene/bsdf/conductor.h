@@ -1,7 +1,6 @@
 // Reflection by metals: a mirror or rough facets, tinted by the complex Fresnel term. Class S if
-// smooth or not rougher than the threshold, else G.
-// Who calls it: materials, and coated surfaces whose base is a metal. It must not know textures.
-// Paper: Walter et al. 2007; Heitz 2014 for the shadowing term.
+// smooth or at most as rough as the threshold, else G. It must not know textures. Papers: Walter et
+// al. 2007; Heitz 2014 (shadowing).
 #pragma once
 
 #include "scene/bsdf/bsdf.h"
@@ -28,9 +27,10 @@ struct ConductorSurface {
 
   bool smooth() const { return facets.smooth(); }
   SampledSpectrum fresnel(float cos_i) const { return fresnel_conductor(cos_i, eta, k); }
-  /// f without cosine and pdf_w of sample(); black if smooth or on different sides.
+  /// f without cosine, and pdf_w of sample(). Black if smooth, or if wo and wi are on different
+  /// sides.
   Value evaluate(const Vec3f& wo, const Vec3f& wi) const;
-  /// Empty if the chosen facet sends the light into the surface.
+  /// Empty if the sampled facet reflects into the surface.
   std::optional<Sample> sample(const Vec3f& wo, const Vec2f& u) const;
 };
 

@@ -4,7 +4,7 @@
 namespace nephroid {
 namespace {
 
-/// Probability with which sample() reflects at a facet of reflectance r.
+/// Probability that sample() reflects at a facet of reflectance r.
 float reflection_share(float r, BoundaryPart part) {
   if (part == BoundaryPart::kReflection) return 1.0f;
   return part == BoundaryPart::kTransmission ? 0.0f : r;
@@ -137,8 +137,7 @@ std::optional<BsdfSample> DielectricBsdf::sample(const Vec3f& wo, float uc, cons
 std::optional<std::array<BsdfSample, 2>> DielectricBsdf::delta_pair(const Vec3f& wo,
                                                                     TransportMode mode) const {
   if (!boundary_.smooth() || boundary_.eta == 1.0f) return std::nullopt;
-  // The smallest number of sample() reflects, the largest refracts, unless one of them has no
-  // share.
+  // uc = 0 reflects and the largest uc refracts, unless one of them has probability 0.
   const auto a = sample(wo, 0.0f, Vec2f(0, 0), mode, ClassMask::kSpecular);
   const auto b = sample(wo, kOneMinusEpsilon, Vec2f(0, 0), mode, ClassMask::kSpecular);
   if (!a || !b || a->transmitted == b->transmitted) return std::nullopt;

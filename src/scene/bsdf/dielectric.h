@@ -1,8 +1,7 @@
-// Boundaries between transparent media: smooth or rough, reflecting and refracting; and thin panes,
-// whose transmission goes straight through. Values do not depend on the wavelength: with dispersion
-// the material keeps one wavelength and its index.
-// Who calls it: materials, and coated surfaces. It must not know textures or media.
-// Paper: Walter et al. 2007 (generalised half vector, Jacobians).
+// Boundaries between transparent media, smooth or rough, which reflect and refract; and thin panes,
+// which transmit straight through. Values do not depend on the wavelength: with dispersion the
+// material keeps one wavelength and its index. It must not know textures or media. Paper: Walter et
+// al. 2007 (generalised half vector, Jacobians).
 #pragma once
 
 #include "scene/bsdf/bsdf.h"
@@ -11,7 +10,7 @@
 
 namespace nephroid {
 
-/// Which of the two things that a boundary does are asked for.
+/// The requested part of a boundary's scattering.
 enum class BoundaryPart : uint8_t { kReflection, kTransmission, kBoth };
 
 /// A boundary; `eta` is the index below over the index above.
@@ -26,7 +25,7 @@ struct DielectricInterface {
   struct Sample {
     Vec3f wi;
     float weight = 0;  ///< f * |cos| / pdf_w
-    float pdf_w = 0;   ///< for a smooth boundary the discrete probability
+    float pdf_w = 0;   ///< a discrete probability if the boundary is smooth
     float eta = 1;     ///< index at wi over index at wo
     bool transmitted = false;
   };
@@ -37,23 +36,23 @@ struct DielectricInterface {
   EventClass event_class(float specular_alpha) const {
     return smooth() ? EventClass::kSpecular : facets.event_class(specular_alpha);
   }
-  /// Share of flux reflected at the side of w by a smooth boundary.
+  /// Share of flux that a smooth boundary reflects on the side of w.
   float fresnel(const Vec3f& w) const { return eta == 1.0f ? 0.0f : fresnel_dielectric(w.z, eta); }
   /// Index at wi over index at wo.
   float eta_between(const Vec3f& wo, const Vec3f& wi) const {
     if ((wo.z > 0.0f) == (wi.z > 0.0f)) return 1.0f;
     return wo.z > 0.0f ? eta : 1.0f / eta;
   }
-  /// f from wi to wo and the density of sample(wo, ..., part); zero if smooth.
+  /// f from wi to wo, and the density of sample(wo, ..., part); zero if smooth.
   Value evaluate(const Vec3f& wo, const Vec3f& wi, TransportMode mode, BoundaryPart part) const;
-  /// A direction of `part`, chosen by the Fresnel term if both are asked for. Empty if the light
-  /// does not get away (shadowed facets, total reflection when only transmission is asked for).
+  /// Samples a direction of `part`; kBoth chooses by the Fresnel term. Empty if the light does not
+  /// get away: shadowed facets, or total reflection when only transmission is requested.
   std::optional<Sample> sample(const Vec3f& wo, float uc, const Vec2f& u, TransportMode mode,
                                BoundaryPart part) const;
 };
 
 /// Both lobes have the same class, S or G by roughness. With eta = 1 the boundary does nothing:
-/// light goes straight through, which is no event, whatever `among` is.
+/// light goes straight through, which is no event, whatever `among` holds.
 class DielectricBsdf final : public Bsdf {
  public:
   DielectricBsdf(const DielectricInterface& boundary, float specular_alpha)
@@ -79,14 +78,14 @@ class DielectricBsdf final : public Bsdf {
   EventClass class_;
 };
 
-/// A pane of two parallel boundaries, all reflections between them added up. Its reflection is a
-/// delta lobe of class S; its transmission goes straight through, is no event, and can be sampled
-/// whatever `among` is. No direction depends on the wavelength, so `eta` is a spectrum.
+/// A pane of two parallel boundaries, with all reflections between them summed. Reflection is a
+/// delta lobe of class S. Transmission goes straight through: it is no event, and is sampled
+/// whatever `among` holds. No direction depends on the wavelength, so `eta` is a spectrum.
 class ThinDielectricBsdf final : public Bsdf {
  public:
   explicit ThinDielectricBsdf(const SampledSpectrum& eta) : eta_(eta) {}
 
-  /// Share of flux reflected by the pane for light at cosine `cos_i` (absolute value is taken).
+  /// Share of flux that the pane reflects at cosine `cos_i`, whose absolute value is taken.
   static SampledSpectrum pane_reflectance(float cos_i, const SampledSpectrum& eta);
 
   ClassMask classes() const override { return ClassMask::kSpecular; }

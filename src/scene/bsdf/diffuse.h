@@ -1,5 +1,5 @@
-// Lambertian reflection, and Lambertian reflection with Lambertian transmission. Class D.
-// Who calls it: materials, and coated surfaces whose base is diffuse. It must not know textures.
+// Lambertian reflection, and Lambertian reflection with Lambertian transmission. Class D. It must
+// not know textures.
 #pragma once
 
 #include "core/warps.h"
@@ -7,7 +7,7 @@
 
 namespace nephroid {
 
-/// Reflects the same radiance to all directions of the side that wo is on.
+/// Reflects the same radiance in all directions on wo's side.
 class DiffuseBsdf final : public Bsdf {
  public:
   explicit DiffuseBsdf(const SampledSpectrum& reflectance) : reflectance_(reflectance) {}
@@ -39,8 +39,8 @@ class DiffuseBsdf final : public Bsdf {
   SampledSpectrum reflectance_;
 };
 
-/// Reflects to one side and transmits to the other, both Lambertian. No refraction, so radiance and
-/// importance are the same.
+/// Reflects to one side and transmits to the other, both Lambertian. There is no refraction, so
+/// radiance and importance are the same.
 class DiffuseTransmissionBsdf final : public Bsdf {
  public:
   DiffuseTransmissionBsdf(const SampledSpectrum& reflectance, const SampledSpectrum& transmittance)
@@ -83,7 +83,7 @@ class DiffuseTransmissionBsdf final : public Bsdf {
   bool has_lobes_ = false;
 };
 
-/// A Lambertian surface as the base of a coat: seen from above only.
+/// A Lambertian surface as the base of a coat, seen from above only.
 struct LambertSurface {
   SampledSpectrum reflectance;
 

@@ -1,15 +1,14 @@
 // Fresnel reflectance of dielectrics and conductors for unpolarised light, and refraction and
-// reflection of directions.
-// Who calls it: the BSDFs of this folder. It must not know roughness or layers.
-// Formulas: Born & Wolf, Principles of Optics; pbrt-v4 section 9.3 for the conventions of signs.
+// reflection of directions. It must not know roughness or layers. Sources: Born & Wolf, Principles
+// of Optics; pbrt-v4 section 9.3 (sign conventions).
 #pragma once
 
 #include "core/spectrum.h"
 
 namespace nephroid {
 
-/// Share of flux that a smooth boundary reflects; `eta` is the index below over the index above.
-/// `cos_i` in [-1,1] is measured from the normal above: a negative one means light from below.
+/// Share of flux that a smooth boundary reflects. `eta` is the index below over the index above.
+/// `cos_i` in [-1,1] is measured from the normal above: negative for light from below.
 inline float fresnel_dielectric(float cos_i, float eta) {
   cos_i = std::clamp(cos_i, -1.0f, 1.0f);
   if (cos_i < 0.0f) {
@@ -51,9 +50,9 @@ inline Vec3f reflect_about(const Vec3f& w, const Vec3f& m) {
   return m * (2.0f * dot(w, m)) - w;
 }
 
-/// Direction on the other side of a facet `m` for light along `w` (pointing away from the surface).
-/// `eta` is the index on the side opposite to m over the one on m's side; `eta_path` becomes the
-/// index at the result over the index at w. False if all light is reflected.
+/// Refracts `w`, which points away from the surface, at a facet `m`. `eta` is the index on the side
+/// opposite to m over the one on m's side. `eta_path` becomes the index at the result over the
+/// index at w. False for total reflection.
 inline bool refract_about(const Vec3f& w, Vec3f m, float eta, Vec3f* result, float* eta_path) {
   float cos_i = dot(w, m);
   if (cos_i < 0.0f) {

@@ -1,13 +1,12 @@
-// Moments of the Fresnel reflectance over a hemisphere, as polynomials in the index. With n = `eta`
-// they are those of light inside a medium of index n that meets its boundary with vacuum (n < 1:
-// light outside of a medium of index 1/n). Who calls it: subsurface profiles and their exit lobe.
-// It must not know either. Fits: d'Eon & Irving, A Quantized-Diffusion Model for Rendering
-// Translucent Materials, 2011; good to about 1e-3 for n from 0.5 to 2.
+// Moments of the Fresnel reflectance over a hemisphere, for light inside a medium of index `eta` at
+// its boundary with vacuum (eta < 1: light outside a medium of index 1/eta). It must not know
+// profiles or lobes. Fits: d'Eon & Irving, A Quantized-Diffusion Model for Rendering Translucent
+// Materials, 2011; good to about 1e-3 for eta from 0.5 to 2.
 #pragma once
 
 namespace nephroid {
 
-/// Integral of F(cos) cos over cos from 0 to 1: half of the share of diffuse light reflected.
+/// Integral of F(cos) cos over cos in [0,1]: half the reflectance for diffuse light.
 constexpr double fresnel_moment_1(double eta) {
   const auto p = [eta](double a, double b, double c, double d, double e, double f) {
     return a + eta * (b + eta * (c + eta * (d + eta * (e + eta * f))));

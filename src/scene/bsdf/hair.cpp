@@ -1,7 +1,7 @@
-// Value, density and sampling of hair; see hair.h.
-// Each lobe is a product A_p M_p N_p: attenuation inside the fibre, a distribution along it
-// (longitudinal, d'Eon et al. 2011, a von Mises-Fisher distribution on the sphere seen along one
-// axis) and one around it (azimuthal, a logistic cut off at +-pi, Chiang et al. 2016).
+// Value, density and sampling of hair; see hair.h. Each lobe is a product A_p M_p N_p:
+// transmittance inside the fibre, a longitudinal density (d'Eon et al. 2011: von Mises-Fisher on
+// the sphere, seen along one axis) and an azimuthal one (Chiang et al. 2016: a logistic cut off at
+// +-pi).
 #include "scene/bsdf/hair.h"
 
 #include "scene/bsdf/fresnel.h"
@@ -28,7 +28,7 @@ float log_i0_scaled(float x) {
 }
 
 /// M_p: density of sin(theta_i), the same for all azimuths. The exponent (cos(theta_i + theta_o) -
-/// 1) / v is written as a sum of squares, which keeps its digits for narrow lobes.
+/// 1) / v is written as a sum of squares, which keeps precision for narrow lobes.
 float longitudinal(float cos_i, float sin_i, float cos_o, float sin_o, float v) {
   const float exponent = -0.5f * (sqr(cos_i - cos_o) + sqr(sin_i + sin_o)) / v;
   return std::exp(exponent + log_i0_scaled(cos_i * cos_o / v)) / (v * -std::expm1(-2.0f / v));
@@ -41,12 +41,12 @@ float trimmed_logistic(float x, float s) {
 }
 
 float sample_trimmed_logistic(float u, float s) {
-  const float low = 1.0f / (1.0f + std::exp(kPi / s));  // of the whole logistic below -pi
+  const float low = 1.0f / (1.0f + std::exp(kPi / s));  // mass of the full logistic below -pi
   const float x = -s * std::log(1.0f / (low + u * (1.0f - 2.0f * low)) - 1.0f);
   return std::clamp(x, -kPi, kPi);
 }
 
-/// The angle in [-pi, pi].
+/// The angle wrapped into [-pi, pi].
 float wrapped(float angle) {
   return std::clamp(angle - kTwoPi * std::round(angle / kTwoPi), -kPi, kPi);
 }
@@ -84,8 +84,8 @@ HairBsdf::Outgoing HairBsdf::outgoing(const Vec3f& wo) const {
   o.cos_theta = std::sqrt(wo.y * wo.y + wo.z * wo.z);
   o.phi = std::atan2(wo.z, wo.y);
 
-  // The path inside: refraction along the fibre, and across it with the index that the inclined
-  // cross section has (Marschner et al. 2003).
+  // The path inside: refraction along the fibre, and across it with the index of the inclined cross
+  // section (Marschner et al. 2003).
   const float cos_theta_t = safe_sqrt(1.0f - sqr(o.sin_theta / eta_));
   const float eta_across = safe_sqrt(sqr(eta_) - sqr(o.sin_theta));  // times cos theta_o
   const float sin_gamma_t =
@@ -128,7 +128,7 @@ BsdfEval HairBsdf::eval(const Outgoing& o, const Vec3f& wi) const {
     e.f += o.attenuation[p] * value;
     e.pdf_w += o.pdf_p[p] * value;
   }
-  // The cosine that transport multiplies with is none of the fibre's.
+  // The cosine that transport multiplies by is not part of the fibre model.
   e.f /= std::max(abs_cos_theta(wi), 1e-30f);
   return e;
 }
@@ -148,7 +148,7 @@ std::optional<BsdfSample> HairBsdf::sample(const Vec3f& wo, float uc, const Vec2
   if (!(o.pdf_p[p] > 0.0f)) return std::nullopt;
   uc = std::clamp(uc / o.pdf_p[p], 0.0f, kOneMinusEpsilon);
 
-  // M_p: a direction around the mirrored one, from which only its longitude is kept.
+  // M_p: a direction around the mirrored one, of which only the longitude is kept.
   const float v = shape_.v[p];
   const float cos_cone = std::clamp(
       1.0f + v * std::log(std::max(1e-37f, u.x + (1.0f - u.x) * std::exp(-2.0f / v))), -1.0f, 1.0f);

@@ -1,9 +1,7 @@
 // The random walk between a dielectric coat and an opaque base, with or without a scattering medium
-// in the gap: one unbiased estimate of what the two do together, given both directions.
-// Who calls it: CoatedBsdf, and tests as the reference of the closed form in coated_diffuse.h. It
-// must not know classes, materials or textures. Paper: Guo, Hasan, Zhao 2018, in the position-free
-// form of pbrt-v4 section 14.3; the gap, the largest depth and the medium mean what they mean
-// there.
+// in the gap: an unbiased estimate of their joint value for two given directions. It must not know
+// classes, materials or textures. Papers: Guo, Hasan & Zhao 2018; pbrt-v4 section 14.3
+// (position-free form; gap, largest depth and medium mean the same).
 #pragma once
 
 #include "core/sampler.h"
@@ -12,25 +10,25 @@
 
 namespace nephroid {
 
-/// A dielectric layer on top of something.
+/// A dielectric layer above a base.
 struct Coat {
   DielectricInterface boundary;
-  float thickness = 0.01f;  ///< in mean free paths
-  SampledSpectrum albedo;   ///< of the medium in the gap; black: it only absorbs
+  float thickness = 0.01f;  ///< thickness of the gap, in mean free paths
+  SampledSpectrum albedo;   ///< albedo of the medium in the gap; black: it only absorbs
   float g = 0;              ///< Henyey-Greenstein asymmetry of the medium
-  int max_depth = 10;       ///< largest number of steps of the walk
+  int max_depth = 10;       ///< maximum number of steps of the walk
   int walks = 1;            ///< walks per evaluation
-  bool scatters = false;    ///< albedo is not black
-  uint64_t seed = 0;        ///< of the random walks; differs from point to point and path to path
+  bool scatters = false;    ///< whether albedo is not black
+  uint64_t seed = 0;        ///< seed of the random walks, different for each point and path
 
-  /// Share of light that crosses a distance `dz` (in depth) along w.
+  /// Transmittance over a depth difference `dz` along w.
   static float transmittance(float dz, const Vec3f& w) {
     return std::abs(dz) > 0.0f ? std::exp(-std::abs(dz / w.z)) : 1.0f;
   }
 };
 
-/// Random numbers of one walk: a function of the coat's seed and the directions, so that the same
-/// question has the same answer, and other points and paths ask other questions.
+/// Random numbers of one walk, a function of the coat's seed and the directions. The same
+/// evaluation gives the same answer; other points and paths get other numbers.
 class WalkRandom {
  public:
   WalkRandom(uint64_t seed, const Vec3f& a, const Vec3f& b)
@@ -52,8 +50,8 @@ class WalkRandom {
   uint64_t state_;
 };
 
-/// Density (pdf_w and phase function in one) of scattering by an angle of cosine `c` between the
-/// two directions of travel.
+/// Density of scattering (pdf_w and phase function in one); `c` is the cosine between the two
+/// directions of travel.
 inline float henyey_greenstein(float c, float g) {
   const float denominator = 1.0f + g * g - 2.0f * g * c;
   return kInv4Pi * (1.0f - g * g) / std::max(denominator * safe_sqrt(denominator), 1e-12f);
@@ -70,8 +68,8 @@ inline Vec3f sample_henyey_greenstein(const Vec3f& w, float g, const Vec2f& u) {
   return normalize(Frame::from_z(w).to_world(Vec3f(r * std::cos(phi), r * std::sin(phi), c)));
 }
 
-/// One walk. z = 0 is the base, z = thickness the coat; directions are those of travel seen from
-/// wo.
+/// One walk. The base is at z = 0, the coat at z = thickness. Directions are directions of travel,
+/// starting from wo.
 template <class Base>
 class LayeredWalk {
  public:
@@ -83,7 +81,7 @@ class LayeredWalk {
         adjoint_(mode == TransportMode::kRadiance ? TransportMode::kImportance
                                                   : TransportMode::kRadiance) {}
 
-  /// Estimate of f(wo, wi) of all that entered the coat; wo and wi above.
+  /// Estimate of f(wo, wi) for all light that entered the coat; wo and wi above.
   SampledSpectrum run(const Vec3f& wo, WalkRandom& random) {
     sum_ = SampledSpectrum();
     const auto entry = at_coat(wo, mode_, BoundaryPart::kTransmission, random);
@@ -130,9 +128,9 @@ class LayeredWalk {
     return coat_.boundary.sample(w, uc, random.next2(), mode, part);
   }
 
-  /// f of the crossing from w_ to wi, and the density with which the presampled crossing would have
-  /// been this one: seen backwards, because that is how it is sampled. (pbrt-v4 weighs with the
-  /// density of the forward direction, which makes its rough coats a few per cent too bright.)
+  /// f of the crossing from w_ to wi, and the density of the presampled crossing. The density is
+  /// that of the backward direction, in which the crossing is sampled. (pbrt-v4 uses the forward
+  /// density, which makes its rough coats a few per cent too bright.)
   DielectricInterface::Value leave_along_w() const {
     return coat_.boundary.evaluate(wi_, -w_, adjoint_, BoundaryPart::kTransmission);
   }
@@ -145,8 +143,8 @@ class LayeredWalk {
     return !beta_.is_black();
   }
 
-  /// Connects to wi by the presampled crossing and by a sampled direction, weighed against each
-  /// other unless the boundary that would have to be hit is smooth and leaves no choice.
+  /// Connects to wi by the presampled crossing and by a sampled direction, combined by MIS. A
+  /// smooth boundary cannot be hit by chance, so the other technique then gets all the weight.
   bool scatter_at_base(WalkRandom& random) {
     const Vec3f back = -w_;
     if (!base_.smooth()) {
@@ -185,7 +183,7 @@ class LayeredWalk {
     }
   }
 
-  /// With two mirrors no later vertex can see the exit: adds the light that goes from the medium
+  /// With two mirrors no later vertex can see the exit. Adds the light that goes from the medium
   /// down to the base, or up to the coat and back, any number of times, and then out.
   void connect_by_mirrors(float z, const Vec3f& out) {
     const Vec3f down(out.x, out.y, -out.z);
@@ -214,7 +212,7 @@ class LayeredWalk {
 };
 
 /// f(wo, wi) of everything but the coat's own reflection; both directions above. Random numbers
-/// come from the directions.
+/// derive from the directions.
 template <class Base>
 SampledSpectrum layered_base_value(const Coat& coat, const Base& base, const Vec3f& wo,
                                    const Vec3f& wi, TransportMode mode) {

@@ -6,10 +6,10 @@
 namespace nephroid {
 namespace {
 
-/// Cosines below this count as it: f times the cosine stays what the table says, and both stay
+/// Cosines are clamped to at least this: f times cosine keeps the table's value, and both stay
 /// finite.
 constexpr float kMinCosine = 1e-6f;
-/// Projected areas below this are no surface.
+/// Smaller projected areas count as no surface.
 constexpr float kMinArea = 1e-6f;
 
 /// Polar angle of a unit vector, exact next to the pole.
@@ -23,7 +23,7 @@ float square_from_polar(float theta) {
 float polar_from_square(float x) {
   return x * x * (0.5f * kPi);
 }
-/// Into [0,1), whatever turn the azimuth is in.
+/// Maps any azimuth into [0,1).
 float square_from_azimuth(float phi) {
   const float y = (phi + kPi) * kInv2Pi;
   return y - std::floor(y);
@@ -32,12 +32,12 @@ float azimuth_from_square(float y) {
   return (2.0f * y - 1.0f) * kPi;
 }
 
-/// Next to the pole the density of normals is that of this distance from it, where it is still
-/// finite and not zero: 1.6e-5 radians.
+/// Facet normals closer to the pole than this (1.6e-5 radians) use the density at this distance,
+/// where it is still finite and not zero.
 constexpr float kPole = 3.2e-3f;
 
 /// [R2] Solid angle of directions per area of the square of facet normals, for light that a facet
-/// at x, at least kPole, mirrors with that cosine.
+/// at x >= kPole mirrors at cosine `cos_facet`.
 float directions_per_square(float x, float cos_facet) {
   const float normals = 2.0f * sqr(kPi) * x * std::sin(polar_from_square(x));
   return 4.0f * std::max(cos_facet, kMinCosine) * normals;
@@ -45,11 +45,11 @@ float directions_per_square(float x, float cos_facet) {
 
 }  // namespace
 
-/// An outgoing direction, turned or mirrored into the range of azimuths that was measured.
+/// An outgoing direction, turned or mirrored into the measured range of azimuths.
 struct MeasuredBrdf::View {
   Vec3f w;
-  float flip_x = 1, flip_y = 1;  ///< what was done to it
-  float phi = 0;                 ///< that facets are counted from; 0 unless isotropic
+  float flip_x = 1, flip_y = 1;  ///< signs that `w` and the original direction differ by
+  float phi = 0;                 ///< azimuth that facets are relative to; 0 unless isotropic
   float area = 0;                ///< projected area of the facets
   GridMix mix;
 
@@ -71,7 +71,7 @@ MeasuredBrdf::MeasuredBrdf(MeasuredTables t)
       luminance_(std::move(t.luminance)) {
   nodes_.width = t.spectra.width;
   nodes_.height = t.spectra.height;
-  // All wavelengths of a node side by side, since they are looked up together.
+  // All wavelengths of a node are stored side by side, since they are looked up together.
   const size_t nodes = nodes_.grid_size(), count = wavelengths_.size();
   const size_t grids = phi_.size() * theta_.size();
   spectra_.resize(t.spectra.values.size());
@@ -99,8 +99,8 @@ MeasuredBrdf::View MeasuredBrdf::view_from(const Vec3f& wo) const {
   View view;
   float phi = std::atan2(wo.y, wo.x);
   if (symmetry_ > 1) {
-    // Half a turn, and for four-fold symmetry also a mirror, lead to the azimuths of the table:
-    // the first of them that lies inside it, or else the nearest.
+    // Half a turn, and for four-fold symmetry also a mirror, map the direction to the table's
+    // azimuths: the first image inside the table is taken, or else the nearest.
     float nearest = kInfinity;
     for (const Vec2f& flip : {Vec2f(1, 1), Vec2f(-1, -1), Vec2f(1, -1), Vec2f(-1, 1)}) {
       if (symmetry_ == 2 && flip.x != flip.y) continue;
@@ -126,7 +126,7 @@ MeasuredBrdf::View MeasuredBrdf::view_from(const Vec3f& wo) const {
   return view;
 }
 
-/// The facet normal m on the unit square, kept off the pole.
+/// The facet normal m on the unit square, clamped off the pole.
 Vec2f MeasuredBrdf::facet_at(const View& view, const Vec3f& m) const {
   return {std::max(kPole, square_from_polar(polar_angle(m))),
           square_from_azimuth(std::atan2(m.y, m.x) - view.phi)};

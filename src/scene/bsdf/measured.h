@@ -1,9 +1,7 @@
-// Reflection that was measured, in the adaptive parametrisation of its authors: a warp whose
-// density is about that of the visible facets takes the unit square to half vectors, and on that
-// square the tabulated values are smooth. Class G whatever the file: nothing in it says how narrow
-// the lobe is, and values of measured mirrors would be the instrument's, not the surface's.
-// Who calls it: the material "measured". It must not know files.
-// Paper: Dupuy & Jakob 2018; equations [R1] to [R3] of docs/estimators.md.
+// Measured reflection (Dupuy & Jakob 2018; [R1] to [R3] of docs/estimators.md). A warp by visible
+// facets maps the unit square to half vectors, so values on the square are smooth. Always class G:
+// the file does not tell how narrow the lobe is, and a measured mirror would show the instrument.
+// It must not know files.
 #pragma once
 
 #include "scene/bsdf/bilinear_warp.h"
@@ -11,41 +9,41 @@
 
 namespace nephroid {
 
-/// What a file holds. Directions are polar angles and azimuths in radians; grids lie on the square
-/// (sqrt(2 theta / pi), (phi + pi) / (2 pi)) of facet normals or directions, or, for the last two,
-/// on the square that the facet warp maps to facet normals. All numbers are finite and at most
+/// Contents of a file. Directions are polar angles and azimuths in radians. Grids lie on the square
+/// (sqrt(2 theta / pi), (phi + pi) / (2 pi)) of facet normals or directions. The last two lie on
+/// the square that the facet warp maps to facet normals. All numbers are finite and at most
 /// MeasuredBrdf::kLargest.
 struct MeasuredTables {
-  std::vector<float> phi, theta;   ///< of the outgoing direction, increasing; grids [phi][theta]
+  std::vector<float> phi, theta;   ///< outgoing direction, increasing; grids [phi][theta]
   std::vector<float> wavelengths;  ///< nm, increasing
   GridFamily facets;               ///< density of facet normals, one grid
-  GridFamily projected_area;       ///< of the facets, seen from a direction, one grid
-  GridFamily visible_facets;       ///< density over the square of normals, per outgoing direction
-  GridFamily luminance;            ///< density of samples, per outgoing direction
+  GridFamily projected_area;       ///< projected area of the facets by direction, one grid
+  GridFamily visible_facets;       ///< density over the square of normals, by outgoing direction
+  GridFamily luminance;            ///< density of samples, by outgoing direction
   GridFamily spectra;  ///< f cos / pdf_w of visible facets, grids [phi][theta][wavelength]
-  bool values_are_ratios = true;  ///< else `spectra` has f cos itself
+  bool values_are_ratios = true;  ///< false: `spectra` holds f cos itself
 };
 
-/// The wavelengths of a path among those of a file.
+/// A path's wavelengths located among those of a file.
 using WavelengthPlaces = std::array<ParameterAxis::Place, kSpectrumSamples>;
 
-/// One measured surface, shared by all points that have it. Nothing changes after construction.
+/// One measured surface, shared by all points that have it. Constant after construction.
 class MeasuredBrdf {
  public:
-  static constexpr float kLargest = 1e9f;  ///< of any number in the tables
+  static constexpr float kLargest = 1e9f;  ///< bound of all numbers in the tables
 
   explicit MeasuredBrdf(MeasuredTables tables);
 
   WavelengthPlaces places(const SampledWavelengths& lambda) const;
-  /// f without cosine, for light from wi that leaves towards wo, both unit and above, and the
-  /// density pdf_w with which sample(wo, ...) finds wi.
+  /// f without cosine for light from wi that leaves towards wo, both unit and above; and the
+  /// density pdf_w with which sample(wo, ...) returns wi.
   BsdfEval evaluate(const Vec3f& wo, const Vec3f& wi, const WavelengthPlaces& places) const;
   struct Sample {
     SampledSpectrum f;
     Vec3f wi;
     float pdf_w = 0;
   };
-  /// A direction for an outgoing one above; empty if the chosen facet sends the light below.
+  /// Samples wi for a wo above. Empty if the sampled facet reflects below.
   std::optional<Sample> sample(const Vec3f& wo, const Vec2f& u,
                                const WavelengthPlaces& places) const;
   /// Approximate reflectance: the mean of the tabulated ratios.
@@ -60,18 +58,18 @@ class MeasuredBrdf {
 
   ParameterAxis phi_, theta_, wavelengths_;
   bool isotropic_, values_are_ratios_;
-  int symmetry_;  ///< how often the range of azimuths goes into a turn: 1, 2 or 4
+  int symmetry_;  ///< number of measured azimuth ranges in a full turn: 1, 2 or 4
   BilinearFunction facets_, projected_area_;
   BilinearWarp visible_facets_, luminance_;
-  GridFamily nodes_;            ///< size of the grids of spectra; no values
+  GridFamily nodes_;            ///< size of the spectra's grids, without values
   std::vector<float> spectra_;  ///< [phi][theta][y][x][wavelength]
   std::vector<float> means_;    ///< [phi][theta][wavelength]
 };
 
-/// Reflects on both sides of the surface alike (turned by half a turn). Measured values need not be
-/// reciprocal; both modes use the value that the eye's direction has as the outgoing one. A walk
-/// from a light, for which the tables do not quite say where that value is large, takes a share of
-/// its directions by the cosine alone.
+/// Reflects on both sides alike (rotated by half a turn). Measured values need not be reciprocal:
+/// both modes use the value with the camera's direction as the outgoing one. For walks from a light
+/// the tables predict that value only roughly, so they also sample a share of directions by the
+/// cosine.
 class MeasuredBsdf final : public Bsdf {
  public:
   /// `brdf` outlives the object.
@@ -89,7 +87,7 @@ class MeasuredBsdf final : public Bsdf {
   }
 
  private:
-  /// Share of the directions that are sampled from the tables.
+  /// Share of directions sampled from the tables.
   static float share_of_tables(TransportMode mode);
   BsdfEval eval_above(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const;
 

@@ -1,9 +1,7 @@
-// The Trowbridge-Reitz (GGX) distribution of facets, height-correlated Smith shadowing, and exact
-// sampling of the facets that are visible from a direction. Written with s(w) = sqrt(z^2 + ax^2 x^2
-// + ay^2 y^2), in which the Smith terms have no division by a cosine and stay exact at grazing
-// angles: G1(w) = 2z/(z+s), G2(o,i) = 2 zo zi/(so zi + si zo). Who calls it: the rough BSDFs of
-// this folder. It must not know Fresnel terms or lobes. Papers: Heitz 2014 and 2018; Dupuy &
-// Benyoub 2023 (sampling by spherical caps).
+// The Trowbridge-Reitz (GGX) distribution, height-correlated Smith shadowing, and exact sampling of
+// visible normals. With s(w) = sqrt(z^2 + ax^2 x^2 + ay^2 y^2) the Smith terms divide by no cosine
+// and stay exact at grazing angles: G1(w) = 2z/(z+s), G2(o,i) = 2 zo zi/(so zi + si zo). It must
+// not know Fresnel terms or lobes. Papers: Heitz 2014, 2018; Dupuy & Benyoub 2023.
 #pragma once
 
 #include "core/math.h"
@@ -15,7 +13,7 @@ class TrowbridgeReitz {
  public:
   /// Perfectly smooth.
   TrowbridgeReitz() = default;
-  /// As pbrt-v4: smooth if both are below 1e-3, else neither is below 1e-4.
+  /// Like pbrt-v4: smooth if both are below 1e-3; else both are clamped to at least 1e-4.
   TrowbridgeReitz(float alpha_x, float alpha_y)
       : smooth_(std::max(alpha_x, alpha_y) < 1e-3f),
         alpha_x_(smooth_ ? alpha_x : std::max(alpha_x, 1e-4f)),
@@ -28,8 +26,7 @@ class TrowbridgeReitz {
   float alpha_y() const { return alpha_y_; }
   float max_alpha() const { return std::max(alpha_x_, alpha_y_); }
 
-  /// Class of a lobe with this roughness: S if smooth or not rougher than `specular_alpha`, else
-  /// G.
+  /// Class of a lobe with this roughness: S if smooth or at most `specular_alpha`, else G.
   EventClass event_class(float specular_alpha) const {
     return smooth_ || max_alpha() <= specular_alpha ? EventClass::kSpecular : EventClass::kGlossy;
   }
@@ -48,16 +45,16 @@ class TrowbridgeReitz {
   static float g2_over_4zz(float so, float zo, float si, float zi) {
     return 0.5f / (so * zi + si * zo);
   }
-  /// Density pdf_w of the facets visible from w (either side of the surface), at m.
+  /// Density pdf_w of visible facets at m, seen from w on either side of the surface.
   float visible_pdf_w(const Vec3f& w, const Vec3f& m) const {
     return 2.0f * d(m) * abs_dot(w, m) / (std::abs(w.z) + s(w));
   }
-  /// Density pdf_w of the reflection of w about a visible facet; m is the facet.
+  /// Density pdf_w of the reflection of w about a visible facet m.
   float reflection_pdf_w(const Vec3f& w, const Vec3f& m) const {
     return 0.5f * d(m) / (std::abs(w.z) + s(w));
   }
 
-  /// A facet normal (z >= 0) visible from w, with density visible_pdf_w.
+  /// Samples a facet normal (z >= 0) visible from w, with density visible_pdf_w.
   Vec3f sample_visible(const Vec3f& w, const Vec2f& u) const {
     // In the space where the facets are a hemisphere, the visible normal halves the angle between
     // the direction and a uniform point of the spherical cap z > -cos.

@@ -1,16 +1,16 @@
-// How light that was scattered below a surface leaves it: evenly inside, then through a smooth
-// boundary, scaled so that all of it gets out. Class D. Who calls it: TabulatedBssrdf, for the
-// point where the light leaves. It must not know profiles. Source: pbrt-v4's NormalizedFresnelBxDF;
-// the scale is that of Jensen et al. 2001 as a moment of the Fresnel term (d'Eon & Irving 2011).
+// The lobe by which light scattered below a surface leaves it: isotropic inside, then through a
+// smooth boundary, scaled so that all of it leaves. Class D. It must not know profiles. Sources:
+// pbrt-v4's NormalizedFresnelBxDF; Jensen et al. 2001 for the scale, written as a Fresnel moment
+// (d'Eon & Irving 2011).
 #pragma once
 
 #include "scene/bsdf/bsdf.h"
 
 namespace nephroid {
 
-/// f = (1 - F(wi)) / (c pi) for wo and wi above, c the mean of 1 - F over a hemisphere; in
-/// kRadiance mode times eta^2. It depends on the newly sampled direction only: wo is the surface's
-/// normal, since what came before is no direction but a place.
+/// f = (1 - F(wi)) / (c pi) for wo and wi above, c the mean of 1 - F over a hemisphere; times eta^2
+/// in kRadiance mode. It depends on the sampled direction only: wo is the surface normal, because
+/// the path arrived by a subsurface step, not along a direction.
 class NormalizedFresnelBsdf final : public Bsdf {
  public:
   /// `eta` is the index below over the index above.

@@ -1,7 +1,7 @@
 // The separable profile around one point, read from a table at each wavelength's extinction and
-// albedo, and probes that find where its light leaves. Who calls it: the subsurface material makes
-// one per vertex, the walk asks it. It must not know shapes. Papers: Habel et al. 2013 (profile);
-// King et al., BSSRDF Importance Sampling, SIGGRAPH Talks 2013 (probes along three axes).
+// albedo, and the probes that find where light leaves. It must not know shapes. Papers: Habel et
+// al. 2013 (profile); King et al., BSSRDF Importance Sampling, SIGGRAPH Talks 2013 (probes along
+// three axes).
 #pragma once
 
 #include "scene/bsdf/bssrdf.h"
@@ -11,9 +11,9 @@ namespace nephroid {
 
 class TabulatedBssrdf final : public Bssrdf {
  public:
-  /// Around `p` with unit shading normal `ns`, world space. `sigma_a` and `sigma_s` per length in
-  /// the scene's units, not negative. `table` outlives the object. Only wavelength number `left`
-  /// of a path counts, or all do (kAllWavelengths).
+  /// Profile around `p` with unit shading normal `ns`, world space. `sigma_a` and `sigma_s` are per
+  /// length in the scene's units, not negative. `table` outlives the object. Only wavelength number
+  /// `left` of a path counts, or all do (kAllWavelengths).
   TabulatedBssrdf(const Vec3f& p, const Vec3f& ns, const SampledSpectrum& sigma_a,
                   const SampledSpectrum& sigma_s, const BssrdfTable* table, int left);
 
@@ -24,17 +24,17 @@ class TabulatedBssrdf final : public Bssrdf {
 
   /// Sp at distance r at wavelength i, per area.
   float profile(int i, float r) const;
-  /// Density of the radii of that wavelength's probes per area of the plane across them.
+  /// Density of the probe radii of wavelength i, per area of the plane perpendicular to the probe.
   float pdf_r(int i, float r) const;
-  /// Radius beyond which that wavelength's probes do not reach: all but 1/1000 of the profile lies
-  /// within. 0 if nothing leaves.
+  /// Largest probe radius of wavelength i: all but 1/1000 of the profile lies within. 0 if no light
+  /// leaves.
   float reach(int i) const { return reach_[i]; }
 
  private:
   Vec3f p_;
   Frame frame_;
   const BssrdfTable* table_;
-  int first_, wavelengths_;  ///< of a path that count, one behind the other
+  int first_, wavelengths_;  ///< first index and number of the path's wavelengths in use
   SampledSpectrum sigma_t_, effective_albedo_, reach_;
   std::array<SplineWeights, kSpectrumSamples> albedo_;
 };

@@ -1,5 +1,4 @@
-// Stops as small images, looked up between the centres of four pixels: the format's built-in shapes
-// and files; see aperture_shape.h.
+// Aperture shapes as small bilinear images: built-in shapes and files; see aperture_shape.h.
 #include "scene/camera/aperture_shape.h"
 
 #include <vector>
@@ -38,7 +37,7 @@ Image draw_polygon(const std::vector<Vec2f>& polygon) {
   return draw([&](const Vec2f& p) { return is_inside(polygon, p) ? 1.0f : 0.0f; });
 }
 
-/// Corners at the given radii in turn, the first one at `angle` (radians from +x).
+/// Corners alternating between two radii, the first one at `angle` (radians from +x).
 std::vector<Vec2f> corners(int count, float angle, float even_radius, float odd_radius) {
   std::vector<Vec2f> polygon;
   for (int i = 0; i < count; ++i) {
@@ -58,7 +57,7 @@ std::optional<Image> built_in_shape(const std::string& name) {
     return draw(
         [](const Vec2f& p) { return std::abs(p.x) < 0.5f && std::abs(p.y) < 0.5f ? 1.0f : 0.0f; });
   if (name == "pentagon") return draw_polygon(corners(5, kPi / 2, 0.8f, 0.8f));
-  // Five points; the notches lie where the lines between the points cross.
+  // Five points; the notches lie at the intersections of the lines between the points.
   if (name == "star")
     return draw_polygon(corners(10, 0, std::cos(0.4f * kPi) / std::cos(0.2f * kPi), 1.0f));
   return std::nullopt;
@@ -78,7 +77,7 @@ ApertureShape::ApertureShape(const Image& image, const SourceLocation& where)
       values_.push_back(value);
       sum += value;
       if (!(value > 0)) continue;
-      // A pixel's light reaches as far as its neighbours' centres.
+      // By interpolation a pixel's light reaches its neighbours' centres.
       const auto distance = [](int i, int size) {
         return (std::abs(2.0 * (i + 0.5) - size) + 2) / size;
       };

@@ -1,5 +1,4 @@
-// What all cameras share: the shutter, the way into world space and the measure of a pixel's beam.
-// Declared in camera.h.
+// Code that all cameras share: shutter, world space and a pixel's footprint; see camera.h.
 #include "scene/camera/camera.h"
 
 namespace nephroid {

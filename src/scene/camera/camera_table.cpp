@@ -1,4 +1,4 @@
-// The table of camera types and what the loader does for all of them; see camera_table.h.
+// The table of camera types, and loading code common to all; see camera_table.h.
 #include "scene/camera/camera_table.h"
 
 #include <vector>
@@ -65,8 +65,8 @@ CameraPlacement placement_of(const SceneDescription& scene) {
   return placement;
 }
 
-/// Each number may be fine alone and the camera still so far away, or its screen so large, that
-/// floating-point numbers do not hold its rays.
+/// Each parameter can be valid alone while the camera is so far away, or its screen so large, that
+/// floating-point numbers cannot represent its rays.
 void check_rays(const Camera& camera, const CameraFilm& film, const SourceLocation& where) {
   const float w = static_cast<float>(film.width), h = static_cast<float>(film.height);
   for (const Vec2f& at :

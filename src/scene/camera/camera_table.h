@@ -1,6 +1,5 @@
-// The table of camera types: the scene format's name and the function that makes one.
-// Who calls it: make_camera, and tests that iterate over all types. A new camera is one new file
-// and one row. It must not know what the cameras do.
+// The table of camera types: the scene format's name and the function that makes one. A new camera
+// is one new file and one row. It must not know what the cameras do.
 #pragma once
 
 #include <memory>
@@ -12,9 +11,9 @@
 
 namespace nephroid {
 
-/// What a factory may use.
+/// Input of a factory.
 struct CameraContext {
-  const ParameterSet& parameters;  ///< of the Camera directive
+  const ParameterSet& parameters;  ///< parameters of the Camera directive
   CameraPlacement placement;
   CameraFilm film;
   SceneFiles& files;
@@ -25,7 +24,7 @@ struct CameraRow : FormatType {
   std::unique_ptr<Camera> (*make)(const CameraContext&);
 };
 
-/// All types of the format.
+/// All camera types of the format.
 std::span<const CameraRow> camera_table();
 std::vector<FormatType> camera_types();
 

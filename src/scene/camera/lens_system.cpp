@@ -14,15 +14,15 @@ Vec3d unit(const Vec3d& v) {
   return v / v.length();
 }
 
-/// Where a ray meets the part of a sphere around (0, 0, centre) that is the surface: its first
-/// crossing if `first`, else its second. Empty if it misses or the point lies behind.
+/// Intersection of a ray with the part of a sphere around (0, 0, centre) that is the surface: the
+/// first crossing if `first`, else the second. Empty if the ray misses or the point lies behind.
 std::optional<Vec3d> meet_sphere(const LensRay& ray, double centre, double radius, bool first) {
   const Vec3d o(ray.o.x, ray.o.y, ray.o.z - centre);
   const double a = ray.d.dot(ray.d), b = o.dot(ray.d), c = o.dot(o) - radius * radius;
   const double discriminant = b * b - a * c;
   if (discriminant < 0) return std::nullopt;
   const double root = std::sqrt(discriminant);
-  // The sum that does not cancel gives one root, the product of both the other.
+  // The sum without cancellation gives one root, the product of both roots the other.
   const double q = b < 0 ? -b + root : -b - root;
   double t0 = q / a, t1 = q == 0 ? 0 : c / q;
   if (t0 > t1) std::swap(t0, t1);
@@ -31,7 +31,7 @@ std::optional<Vec3d> meet_sphere(const LensRay& ray, double centre, double radiu
   return ray.o + ray.d * t;
 }
 
-/// `d` (unit) behind a surface with normal `n` (unit, against d); empty if it is reflected totally.
+/// Refracts `d` (unit) at a surface with normal `n` (unit, against d). Empty for total reflection.
 std::optional<Vec3d> refract(const Vec3d& d, const Vec3d& n, double eta_from, double eta_to) {
   const double eta = eta_from / eta_to, cosine = -d.dot(n);
   const double k = 1 - eta * eta * (1 - cosine * cosine);
@@ -39,8 +39,8 @@ std::optional<Vec3d> refract(const Vec3d& d, const Vec3d& n, double eta_from, do
   return d * eta + n * (eta * cosine - std::sqrt(k));
 }
 
-/// Through one surface whose vertex lies at z. False if it is blocked. Tables write 0 for the air
-/// around a stop.
+/// Traces through one surface whose vertex lies at z. False if the ray is blocked. Tables write 0
+/// for the air around a stop.
 bool pass(const LensSurface& surface, double z, double eta_from, double eta_to, double reach,
           LensRay* ray) {
   const bool is_stop = surface.radius == 0;
@@ -49,7 +49,7 @@ bool pass(const LensSurface& surface, double z, double eta_from, double eta_to, 
     if (!(t >= 0)) return false;
     ray->o += ray->d * t;
   } else {
-    // The vertex is the far side of a sphere that bulges the way the ray goes.
+    // The vertex is the far side of a sphere that bulges along the ray.
     const std::optional<Vec3d> hit = meet_sphere(*ray, z - surface.radius, surface.radius,
                                                  (ray->d.z > 0) != (surface.radius > 0));
     if (!hit) return false;
@@ -121,9 +121,9 @@ std::optional<LensRay> LensSystem::trace_from_scene(const LensRay& start) const 
 }
 
 bool LensSystem::focus(double distance, double x) {
-  // Principal planes and focal points of both sides, from a ray parallel to the axis: where the
-  // leaving ray has its height, and where it meets the axis. z grows towards the film here, as in
-  // the thick-lens formula of the book.
+  // Principal planes and focal points of both sides, from a ray parallel to the axis: the point of
+  // the leaving ray at its original height, and its intersection with the axis. Here z grows
+  // towards the film, as in the thick-lens formula of the book.
   const LensRay from_scene{{x, 0, front_z() + 1}, {0, 0, -1}};
   const LensRay from_film{{x, 0, rear_z() - 1}, {0, 0, 1}};
   const std::optional<LensRay> to_film = trace_from_scene(from_scene);
@@ -148,8 +148,8 @@ PupilBounds LensSystem::bound_exit_pupil(double x0, double x1) const {
   constexpr int kFilmPoints = 5, kGrid = 96, kFinestGrid = 384, kRefinements = 2;
   const double r = 1.5 * rear_radius();
   PupilBounds outer{-r, -r, r, r};
-  // The box of all grid points of `outer` that let light through, widened by two grid cells: one
-  // for what lies between the points, one for corners of the pupil that are sharper than that.
+  // The box of all grid points of `outer` through which light passes, widened by two grid cells:
+  // one for the space between points, one for sharper corners of the pupil.
   const auto box_of_passing = [&](int grid) {
     PupilBounds box{kInfinity, kInfinity, -kInfinity, -kInfinity};
     const double dx = (outer.x1 - outer.x0) / (grid - 1), dy = (outer.y1 - outer.y0) / (grid - 1);
@@ -170,7 +170,7 @@ PupilBounds LensSystem::bound_exit_pupil(double x0, double x1) const {
     return PupilBounds{box.x0 - 2 * dx, box.y0 - 2 * dy, box.x1 + 2 * dx, box.y1 + 2 * dy};
   };
   PupilBounds box = box_of_passing(kGrid);
-  // A pupil smaller than the cells is looked for with finer ones before it is given up.
+  // A pupil smaller than the cells is searched with finer ones first.
   for (int grid = 4 * kGrid; box.empty() && grid <= kFinestGrid; grid *= 4)
     box = box_of_passing(grid);
   if (box.empty()) return {};

@@ -1,6 +1,5 @@
-// The perspective and the orthographic camera, with a thin lens. They differ in how a film point
-// becomes a camera ray; all else is common (pbrt-v4 sections 5.2 and 5.3).
-// Who calls it: the table. It must not know lens systems.
+// The perspective and the orthographic camera, with a thin lens. They differ only in how a film
+// point becomes a camera ray (pbrt-v4 sections 5.2 and 5.3). It must not know lens systems.
 #include "core/warps.h"
 #include "scene/camera/camera_table.h"
 
@@ -40,8 +39,8 @@ class ProjectiveCamera final : public Camera {
       d = normalize(Vec3f(sx * s_.tan_half_fov, sy * s_.tan_half_fov, 1));
     else
       o = Vec3f(sx, sy, 0);
-    // A thin lens: all rays of a film point meet on the plane of focus. The lens lies around the
-    // optical axis, as pbrt-v4 has it, even if the film points of an orthographic camera do not.
+    // Thin lens: all rays of a film point meet on the plane of focus. As in pbrt-v4 the lens lies
+    // around the optical axis, even if an orthographic camera's film points do not.
     if (s_.lens_radius > 0) {
       const Vec2f lens = square_to_disk(u_lens) * s_.lens_radius;
       const Vec3f focus = o + d * (s_.focal_distance / d.z);
@@ -60,14 +59,14 @@ class ProjectiveCamera final : public Camera {
     const Vec3f lens(disk.x * s_.lens_radius, disk.y * s_.lens_radius, 0);
     const std::optional<Sight> sight = see(p, lens, u_time);
     if (!sight || !(sight->v.z > 0)) return std::nullopt;
-    // All rays of a film point meet where the central one has gone as far as the plane of focus;
-    // the screen is the plane z = 1, or for an orthographic camera that of focus.
+    // All rays of a film point meet where the central one crosses the plane of focus. The screen is
+    // the plane z = 1, or for an orthographic camera the plane of focus.
     const float slope_x = sight->v.x / sight->v.z, slope_y = sight->v.y / sight->v.z;
     const float screen_z = s_.perspective ? 1.0f : s_.focal_distance;
     const float to_screen = screen_z / s_.focal_distance;
     const float zoom = s_.perspective ? 1 / s_.tan_half_fov : 1.0f;
-    // Solid angles of world space become camera_volume / |v|^3 times as large in camera space, and
-    // areas of the screen are screen_z^2 / cos^3 as large as their solid angles.
+    // From world to camera space solid angles scale by camera_volume / |v|^3. An area of the screen
+    // is screen_z^2 / cos^3 times its solid angle.
     return connection(*sight, (slope_x * screen_z + lens.x * to_screen) * zoom,
                       (slope_y * screen_z + lens.y * to_screen) * zoom,
                       sqr(zoom * screen_z) * sight->camera_volume /
@@ -75,7 +74,7 @@ class ProjectiveCamera final : public Camera {
   }
 
  private:
-  /// Without a lens an orthographic camera looks along z from every point of its screen.
+  /// Without a lens, an orthographic camera looks along z from every point of its screen.
   std::optional<CameraConnection> connect_in_parallel(const Vec3f& p, float u_time) const {
     const Transform to_world = camera_to_world(motion_time(u_time));
     const Vec3f at = to_world.inverted().point(p);
@@ -86,8 +85,8 @@ class ProjectiveCamera final : public Camera {
     return connection(*sight, at.x, at.y, sight->camera_volume * stretch);
   }
 
-  /// The connection that meets the screen at (sx, sy), where an area perpendicular to it covers
-  /// `screen_area` as much.
+  /// The connection through the screen point (sx, sy). `screen_area` is the screen area per unit
+  /// area perpendicular to the connection.
   std::optional<CameraConnection> connection(const Sight& sight, float sx, float sy,
                                              float screen_area) const {
     CameraConnection c;

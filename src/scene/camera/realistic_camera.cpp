@@ -1,6 +1,6 @@
 // The realistic camera: rays from a film of physical size through a measured lens system, with the
-// radiometry of the light that reaches the film (pbrt-v4 section 5.4; Kolb, Mitchell & Hanrahan
-// 1995). Who calls it: the table. It must not know shapes of apertures beyond their names.
+// radiometry of the film. It knows aperture shapes only by name. Sources: Kolb, Mitchell & Hanrahan
+// 1995; pbrt-v4 section 5.4.
 #include <array>
 
 #include "core/parallel.h"
@@ -26,12 +26,12 @@ class RealisticCamera final : public Camera {
     height_ = aspect * width_;
     parallel_chunks(kZones, 1, [&](int64_t zone, int64_t, int64_t) {
       const double inner = static_cast<double>(zone) * half_diagonal_ / kZones;
-      // A wide pixel filter may look a little over the corner.
+      // A wide pixel filter can reach a little beyond the corner.
       const double outer = inner + half_diagonal_ / kZones * (zone + 1 == kZones ? 4 : 1);
       pupils_[zone] = lenses_.bound_exit_pupil(inner, outer);
     });
     footprint_ = footprint_of_central_pixel(*this, film);
-    // No ray through the middle of the pupil: the beam without the lens.
+    // No ray through the middle of the pupil: use the beam without the lens.
     if (!(footprint_.spread > 0))
       footprint_.spread = static_cast<float>(width_ / film.width / lenses_.rear_z());
   }
@@ -46,7 +46,7 @@ class RealisticCamera final : public Camera {
         std::min<size_t>(kZones - 1, static_cast<size_t>(r / half_diagonal_ * kZones));
     const PupilBounds& pupil = pupils_[zone];
     if (pupil.empty()) return std::nullopt;
-    // Pupils are known for film points on the x axis and turned to this one.
+    // Pupils are stored for film points on the x axis and rotated to this one.
     const double px = pupil.x0 + (pupil.x1 - pupil.x0) * u_lens.x;
     const double py = pupil.y0 + (pupil.y1 - pupil.y0) * u_lens.y;
     const double sine = r > 0 ? y / r : 0, cosine = r > 0 ? x / r : 1;
@@ -64,8 +64,8 @@ class RealisticCamera final : public Camera {
 
   PixelFootprint footprint() const override { return footprint_; }
 
-  // The point of the rear lens from which a world point is seen by a given film point, or the other
-  // way round, is only found by a search.
+  // Not supported: the rear lens point that joins a world point and a film point can only be found
+  // by search.
   std::optional<CameraConnection> connect(const Vec3f&, const Vec2f&, float) const override {
     return std::nullopt;
   }
@@ -76,12 +76,12 @@ class RealisticCamera final : public Camera {
 
   CameraFilm film_;
   LensSystem lenses_;
-  double half_diagonal_ = 0, width_ = 0, height_ = 0;  ///< of the film, m
+  double half_diagonal_ = 0, width_ = 0, height_ = 0;  ///< film size, m
   std::array<PupilBounds, kZones> pupils_;
   PixelFootprint footprint_;
 };
 
-/// Numbers of a lens table: separated by spaces, "#" starts a comment.
+/// Numbers of a lens table, separated by spaces; "#" starts a comment.
 std::vector<double> read_numbers(SceneFiles& files, const std::string& path,
                                  const SourceLocation& named_by) {
   std::string text;
@@ -116,7 +116,7 @@ std::vector<double> read_numbers(SceneFiles& files, const std::string& path,
   return numbers;
 }
 
-/// The table's rows in metres; stops get the diameter that the scene asks for, at most their own.
+/// The table's rows in metres. Stops get the diameter requested by the scene, at most their own.
 std::vector<LensSurface> read_lens_table(SceneFiles& files, const std::string& path,
                                          const SourceLocation& named_by, double stop_diameter_mm,
                                          Diagnostics& diagnostics) {
@@ -162,7 +162,7 @@ std::unique_ptr<Camera> make_realistic_camera(const CameraContext& c) {
   LensSystem lenses(read_lens_table(c.files, c.files.path_of(file), p.find("lensfile")->where,
                                     diameter, c.diagnostics),
                     make_aperture_shape(shape, c.files, named ? named->where : p.where));
-  // The height of the paraxial rays is pbrt-v4's, so that both agree on what is sharp.
+  // The height of the paraxial rays is pbrt-v4's, so that both focus alike.
   if (!lenses.focus(distance, c.film.diagonal_mm * 1e-6))
     throw SceneError(p.where,
                      "the lenses cannot be focused: \"focusdistance\" is too short for them, or "

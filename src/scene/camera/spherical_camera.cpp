@@ -1,6 +1,5 @@
 // The spherical camera: the film shows all directions around a point, by latitude and longitude or
-// by Clarberg's equal-area map (pbrt-v4 section 5.3.1).
-// Who calls it: the table. It must not know images.
+// by Clarberg's equal-area map (pbrt-v4 section 5.3.1). It must not know images.
 #include "scene/camera/camera_table.h"
 #include "scene/light/equal_area_map.h"
 
@@ -9,8 +8,8 @@ namespace {
 
 enum class SphereMapping { kEqualArea, kEquirectangular };
 
-/// A point that a wide pixel filter has moved over an edge of the octahedral square, brought back
-/// to where the sphere goes on.
+/// Wraps a point that a wide pixel filter moved over an edge of the octahedral square back to its
+/// place on the sphere.
 Vec2f wrap_octahedral(Vec2f uv) {
   for (int axis = 0; axis < 2; ++axis) {
     if (uv[axis] >= 0 && uv[axis] <= 1) continue;
@@ -51,7 +50,7 @@ class SphericalCamera final : public Camera {
     const Vec3f v = normalize(sight->v);
     const Vec3f d(v.x, v.z, v.y);
     Vec2f uv;
-    float density;  // of uv over the solid angle in camera space
+    float density;  // density of uv over the solid angle in camera space
     if (mapping_ == SphereMapping::kEquirectangular) {
       const float sine = std::hypot(d.x, d.y);
       const float phi = std::atan2(d.y, d.x);
@@ -74,12 +73,12 @@ class SphericalCamera final : public Camera {
     return c;
   }
 
-  // The inverse of what generate_ray does with points that lie outside.
+  // The inverse of how generate_ray wraps points outside.
   int repeats(const Vec2f& film, std::span<Vec2f, 3> out) const override {
     const float w = static_cast<float>(film_.width), h = static_cast<float>(film_.height);
     const float side = film.x < w / 2 ? 1.0f : -1.0f;
     if (mapping_ == SphereMapping::kEquirectangular) {
-      // Around the sphere; over the pole, where half a turn away the meridian goes on.
+      // Around the sphere; over the pole the meridian continues half a turn away.
       const float y = film.y < h / 2 ? -film.y : 2 * h - film.y;
       out[0] = Vec2f(film.x + side * w, film.y);
       out[1] = Vec2f(film.x + side * w / 2, y);

@@ -1,5 +1,5 @@
-// The diffuse area light: a primitive of a shape that emits the same radiance in all directions on
-// its outside, or on both sides; uniform, or from an image over the shape's uv.
+// The diffuse area light: a primitive that emits the same radiance in all directions of its
+// outside, or of both sides. The radiance is uniform, or an image over the shape's uv.
 #include "core/warps.h"
 #include "scene/light/light_table.h"
 #include "scene/shape/plane_rectangle.h"
@@ -8,14 +8,14 @@ namespace nephroid {
 
 namespace {
 
-/// What the lights of one shape share.
+/// Emission shared by the lights of one shape.
 struct AreaEmission {
-  EmissionSpectrum radiance;  ///< of an image: the illuminant, times all scales
+  EmissionSpectrum radiance;  ///< radiance, or for an image its illuminant; times all scales
   ImagePtr image;             ///< null if uniform
   float image_mean = 1;       ///< mean of all values of the image
   bool two_sided = false;
-  FloatTexturePtr alpha;   ///< null if the surface is there everywhere
-  bool invisible = false;  ///< alpha is 0 everywhere: a lamp that nobody can see or hit
+  FloatTexturePtr alpha;   ///< null if the surface is opaque everywhere
+  bool invisible = false;  ///< alpha is 0 everywhere: no ray can see or hit the light
 
   SampledSpectrum at(const Vec2f& uv, const SampledWavelengths& lambda) const {
     if (!image) return radiance.sample(lambda);
@@ -76,7 +76,7 @@ class DiffuseAreaLight final : public Light {
                                                 const SampledWavelengths& lambda) const override {
     const auto point = shape_->sample_area(primitive_, u_position);
     if (!point || !(point->pdf > 0.0f)) return std::nullopt;
-    // The first half of the square is the outside, if both sides emit.
+    // If both sides emit, the first half of the square is the outside.
     Vec2f u = u_direction;
     float side = 1.0f;
     if (emission_->two_sided) {
@@ -132,7 +132,7 @@ class DiffuseAreaLight final : public Light {
   float mean_radiance() const {
     return emission_->radiance.mean() * emission_->image_mean * scale_;
   }
-  /// Probability with which the surface is there: what a walk that hits it has tested already.
+  /// Probability that the surface is opaque here. A walk that hits it has tested this already.
   float coverage(const ShapeSample& point) const {
     if (!emission_->alpha) return 1.0f;
     TextureContext context;
@@ -144,13 +144,13 @@ class DiffuseAreaLight final : public Light {
 
   std::shared_ptr<const AreaEmission> emission_;
   ShapePtr shape_;
-  std::optional<PlaneRectangle> rectangle_;  ///< the primitive, if it is one and nobody asks for uv
+  std::optional<PlaneRectangle> rectangle_;  ///< the primitive, if a rectangle without use of uv
   uint32_t primitive_;
-  float scale_;  ///< from "power", by this primitive's area
+  float scale_;  ///< scale for "power", by this primitive's area
   float area_;
 };
 
-/// Mean of r, g and b over an image, each times its weight; negative values count as 0.
+/// Mean of r, g and b over an image, weighted; negative values count as 0.
 double weighted_mean(const Image& image, const Rgb& weights) {
   double sum = 0.0;
   for (int y = 0; y < image.height(); ++y)
@@ -195,7 +195,7 @@ std::vector<LightPtr> make_area_lights(const DirectiveDescription& description, 
   const UniformOrImage e = read_area_emission(description, files);
   const bool two_sided = p.get_bool("twosided", false);
   const float power = p.get_float("power", -1.0f);
-  light_name(p);  // for scene_labels.h
+  light_name(p);  // throws if "name" is no string; scene_labels.h uses it
   p.report_unused("area light \"" + description.type + "\"", type, diagnostics);
 
   const std::optional<float> opacity = alpha ? alpha->constant() : 1.0f;
@@ -216,7 +216,7 @@ std::vector<LightPtr> make_area_lights(const DirectiveDescription& description, 
   for (uint32_t i = 0; i < count; ++i) {
     float scale = 1.0f;
     if (power > 0.0f) {
-      // Watts (lumens) of a light whose luminance is 1.
+      // Watts (lumens) of this light at luminance 1.
       const double one = e.luminance * (two_sided ? 2.0 : 1.0) * shape->area(i) * kPi;
       scale = scale_to(*p.find("power"), power, one, 1.0f);
     }

@@ -10,7 +10,7 @@ DirectionMap::DirectionMap(const Transform& local_to_world)
   };
   const Vec3d x = row(0), y = row(1), z = row(2);
   determinant_ = std::abs(x.dot(y.cross(z)));
-  // Rows of equal length at right angles: a rotation, a mirror or a uniform scale.
+  // Orthogonal rows of equal length: a rotation, a mirror or a uniform scale.
   const double l2 = x.dot(x);
   const double worst = std::max({std::abs(y.dot(y) - l2), std::abs(z.dot(z) - l2),
                                  std::abs(x.dot(y)), std::abs(y.dot(z)), std::abs(z.dot(x))});

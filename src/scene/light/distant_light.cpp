@@ -1,4 +1,4 @@
-// The distant light: parallel light from one direction, as of a sun without extent.
+// The distant light: parallel light from one direction, like a sun without extent.
 #include "core/warps.h"
 #include "scene/light/infinite_emission.h"
 #include "scene/light/light_table.h"
@@ -9,7 +9,7 @@ namespace {
 
 class DistantLight final : public Light {
  public:
-  /// `to_light` is the unit direction against which the light travels.
+  /// `to_light` is the unit direction towards the light.
   DistantLight(const Vec3f& to_light, const EmissionSpectrum& irradiance)
       : to_light_(to_light), irradiance_(irradiance) {}
 
@@ -48,7 +48,7 @@ class DistantLight final : public Light {
 
  private:
   Vec3f to_light_;
-  EmissionSpectrum irradiance_;  ///< on a surface that faces the light
+  EmissionSpectrum irradiance_;  ///< irradiance on a surface that faces the light
   SceneSphere sphere_;
 };
 

@@ -1,5 +1,5 @@
 // Emission of a light as a table over wavelength: the spectrum of the scene file times all scales.
-// Who calls it: the lights of this folder. It must not know where light goes.
+// It must not know where light goes.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace nephroid {
 
-/// scale * spectrum by 1 nm; a lookup takes the nearest nanometre, as pbrt-v4 does.
+/// scale * spectrum in steps of 1 nm. A lookup takes the nearest nanometre, as pbrt-v4 does.
 class EmissionSpectrum {
  public:
   EmissionSpectrum(const Spectrum& spectrum, float scale);
@@ -22,7 +22,7 @@ class EmissionSpectrum {
     }
     return s;
   }
-  /// Mean over wavelengths as paths choose them (SampledWavelengths::visible_pdf).
+  /// Mean over wavelengths by their sampling density (SampledWavelengths::visible_pdf).
   float mean() const { return mean_; }
 
  private:
@@ -31,8 +31,8 @@ class EmissionSpectrum {
   float mean_ = 0.0f;
 };
 
-/// A colour of an image as emission: a polynomial of at most about 1, a scale, and the illuminant
-/// of the colour space, which the caller multiplies in.
+/// The emission of an image colour: a polynomial of at most about 1, and a scale. The caller
+/// multiplies by the illuminant of the colour space.
 struct RgbEmission {
   SigmoidPolynomial shape;
   float scale = 0.0f;

@@ -17,7 +17,7 @@ Vec3f equal_area_square_to_sphere(const Vec2f& square) {
 
 Vec2f equal_area_sphere_to_square(const Vec3f& direction) {
   const float x = std::abs(direction.x), y = std::abs(direction.y), z = std::abs(direction.z);
-  // sqrt(1 - |z|), from x and y where z is near 1 and the difference would lose its digits.
+  // sqrt(1 - |z|), computed from x and y where z is near 1 and the difference would cancel.
   const float ring2 = x * x + y * y;
   const float r = std::sqrt(ring2 < 0.5f ? ring2 / (1.0f + z) : std::max(0.0f, 1.0f - z));
   const float phi = (x == 0.0f && y == 0.0f) ? 0.0f : std::atan2(y, x) * (2.0f * kInvPi);

@@ -1,5 +1,5 @@
 // The goniometric light: a point whose intensity over directions is a measured diagram, an
-// equal-area octahedral map of the sphere, constant within each pixel. Directions are sampled in
+// equal-area octahedral map that is constant within each pixel. Directions are sampled in
 // proportion to it.
 #include "scene/light/equal_area_map.h"
 #include "scene/light/light_table.h"
@@ -83,7 +83,7 @@ LightPtr make_goniometric_light(const LightDescription& description, const Light
     const double per_intensity = 4.0 * kPi * sum / static_cast<double>(diagram.size());
     scale = scale_to(*p.find("power"), power, per_intensity, scale);
   }
-  // The map's pole is y of the light's frame.
+  // The map's pole is the y axis of the light's frame.
   const Transform swap_y_and_z(Mat44d(1, 0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 1));
   return std::make_unique<GoniometricLight>(swap_y_and_z * Transform(description.transform.start),
                                             EmissionSpectrum(*e.spectrum, scale),

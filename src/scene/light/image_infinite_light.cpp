@@ -1,7 +1,7 @@
 // The infinite light with an image: a map of the sphere (sphere_map.h), constant within each pixel,
-// so that the density in proportion to the pixels' mean values is exact. Light sampling takes only
-// what is brighter than the average: the rest is found well by BSDF sampling, which it is weighed
-// against (Karlik et al. 2019, "MIS compensation"). Photons start in proportion to the whole.
+// so its density by pixel means is exact. Next-event estimation samples only radiance above the
+// average and leaves the rest to BSDF sampling (MIS compensation: Karlik et al. 2019). Photons
+// start in proportion to the whole radiance.
 #include "core/parallel.h"
 #include "scene/light/direction_map.h"
 #include "scene/light/infinite_emission.h"
@@ -21,7 +21,7 @@ class ImageInfiniteLight final : public Light {
         illuminant_(image.color_space().illuminant(), scale),
         pixels_(static_cast<size_t>(image.width()) * image.height()) {
     const int width = sphere_map_.width(), height = sphere_map_.height();
-    // What a pixel emits: its value times its solid angle, in units of the mean solid angle.
+    // Emission of a pixel: its value times its solid angle, in units of the mean solid angle.
     std::vector<float> weights(pixels_.size());
     parallel_chunks(height, 8, [&](int64_t, int64_t begin, int64_t end) {
       for (int y = static_cast<int>(begin); y < end; ++y)
@@ -85,7 +85,7 @@ class ImageInfiniteLight final : public Light {
   }
 
   float power() const override {
-    // Either of the first two may be enormous and the other tiny.
+    // In this order, since either of the first two can be enormous and the other tiny.
     return illuminant_.mean() * static_cast<float>(distribution_.mean()) * 4.0f * kPi * kPi *
            sqr(sphere_.radius);
   }
@@ -101,7 +101,7 @@ class ImageInfiniteLight final : public Light {
 
   size_t index(int x, int y) const { return static_cast<size_t>(y) * sphere_map_.width() + x; }
 
-  /// pdf_w in the world from the density per area of the unit square in a pixel of `row`.
+  /// pdf_w in the world from the density per area of the unit square, in a pixel of `row`.
   float density(float pdf_square, int row, const Vec3f& local) const {
     return pdf_square * kInv4Pi / (map_.jacobian(local) * sphere_map_.relative_solid_angle(row));
   }
@@ -116,16 +116,16 @@ class ImageInfiniteLight final : public Light {
     if (!sample) return std::nullopt;
     const Vec3f local = sphere_map_.direction(sample->point);
     const float pdf_w = density(sample->pdf, sample->y, local);
-    // It underflows where another pixel is brighter by 30 orders of magnitude.
+    // pdf_w underflows where another pixel is brighter by 30 orders of magnitude.
     if (!(pdf_w > 0.0f)) return std::nullopt;
     return Direction{map_.to_world(local), pdf_w, index(sample->x, sample->y)};
   }
 
   SphereMap sphere_map_;
   DirectionMap map_;
-  EmissionSpectrum illuminant_;  ///< times all scales
+  EmissionSpectrum illuminant_;  ///< illuminant of the image, times all scales
   std::vector<RgbEmission> pixels_;
-  PiecewiseConstant2D distribution_;  ///< by radiance
+  PiecewiseConstant2D distribution_;  ///< in proportion to radiance
   PiecewiseConstant2D direct_;        ///< by radiance above the average, for next-event estimation
   SceneSphere sphere_;
 };

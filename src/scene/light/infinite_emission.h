@@ -1,6 +1,5 @@
-// How light from outside enters the scene: through a disk that faces its direction, as wide as the
-// scene's bounding sphere and just outside of it.
-// Who calls it: distant and infinite lights. It must not know their radiance.
+// Emission from infinitely far lights: through a disk that faces the direction, as wide as the
+// scene's bounding sphere and just outside of it. It must not know the lights' radiance.
 #pragma once
 
 #include "core/warps.h"
@@ -8,17 +7,17 @@
 
 namespace nephroid {
 
-/// A point outside of the scene, seen from `from` in unit direction `wi`.
+/// A point outside of the scene, in unit direction `wi` from `from`.
 inline Vec3f point_outside(const Vec3f& from, const Vec3f& wi, const SceneSphere& sphere) {
   return from + wi * (2.0f * sphere.radius);
 }
 
-/// Density of the origin of such a ray on the disk, 1/area.
+/// Density of the ray's origin on the disk, 1/area.
 inline float disk_pdf_a(const SceneSphere& sphere) {
   return 1.0f / (kPi * sqr(sphere.radius));
 }
 
-/// A ray into the scene along unit `w`, which was chosen with `pdf_w`.
+/// A ray into the scene along unit `w`, which was sampled with density `pdf_w`.
 inline EmissionSample emission_through_disk(const Vec3f& w, float pdf_w,
                                             const SampledSpectrum& radiance,
                                             const Vec2f& u_position, const SceneSphere& sphere) {

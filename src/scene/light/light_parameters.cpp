@@ -1,5 +1,4 @@
-// What the parameters of all lights have in common: colour, photometric scale, image. See
-// light_table.h.
+// Parameters common to all lights: colour, photometric scale, image; see light_table.h.
 #include "scene/light/light_table.h"
 #include "scene/light/sphere_map.h"
 
@@ -15,7 +14,7 @@ float read_scale(const ParameterSet& parameters) {
   return scale;
 }
 
-/// Beyond it, products of a light's factor with spectra and pixels leave the range of floats.
+/// Larger scales make products with spectra and pixels overflow floats.
 constexpr float kLargestScale = 1e30f;
 
 /// The illuminant of a colour space; the spaces live as long as the program.
@@ -24,8 +23,8 @@ SpectrumPtr illuminant_of(const std::string& color_space) {
   return {std::shared_ptr<const void>(), &(space ? *space : RgbColorSpace::srgb()).illuminant()};
 }
 
-/// Illuminance of the map on the side of its +z, in units of its illuminant and of the mean solid
-/// angle of a pixel.
+/// Illuminance by the map's +z hemisphere, in units of its illuminant and of a pixel's mean solid
+/// angle.
 double illuminance_of(const Image& image) {
   const Rgb luminance = luminance_weights(image.color_space());
   const SphereMap map(image.width(), image.height());
@@ -53,7 +52,7 @@ EmissionColor read_emission(const ParameterSet& parameters, const std::string& n
   if (colour)
     e.spectrum = spectrum_from_parameter(*colour, SpectrumKind::kIlluminant, files);
   else
-    // The parameters of a directive share the colour space that was in force at it.
+    // All parameters of a directive share the colour space that was set when it was read.
     e.spectrum =
         illuminant_of(parameters.list.empty() ? color_space : parameters.list.front().color_space);
   const float luminance = spectrum_to_photometric(*e.spectrum);
@@ -86,7 +85,7 @@ ImagePtr read_light_image(const ParameterSet& parameters, SceneFiles& files) {
   const Parameter& p = *parameters.find("filename");
   const std::string path = files.counted_path_of(parameters.get_string("filename", ""));
   ImagePtr image = read_image(path, std::nullopt, p.where);
-  // What a light sends into the scene is larger by its area.
+  // Limit with room for the light's area, which multiplies the radiance.
   constexpr float kBrightest = 1e30f;
   if (const float largest = image->largest_value(); !(largest <= kBrightest))
     throw SceneError(p.where,
@@ -123,7 +122,7 @@ float sphere_emission_scale(const ParameterSet& parameters, const Image& image) 
   const float scale = image_emission_scale(parameters, image.color_space());
   const float illuminance = parameters.get_float("illuminance", -1.0f);
   if (!(illuminance > 0.0f)) return scale;
-  // The factor is pbrt-v4's, which gives the n pixels 2 pi / n of solid angle in the mean.
+  // The factor is pbrt-v4's, which assigns each of the n pixels 2 pi / n of solid angle on average.
   const double per_pixel = 2.0 * kPi / (static_cast<double>(image.width()) * image.height());
   return scale_to(*parameters.find("illuminance"), illuminance, illuminance_of(image) * per_pixel,
                   scale);

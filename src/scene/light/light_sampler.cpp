@@ -1,5 +1,5 @@
-// Choice of a light: a share for each infinite light, a light tree (or, for a handful, their
-// importances themselves) for the others; and a choice by power. See light_sampler.h.
+// Choice of a light: a share for each infinite light, and a light tree (or, for a handful, their
+// importances) for the others; and the choice by power. See light_sampler.h.
 #include "scene/light/light_sampler.h"
 
 #include <algorithm>
@@ -14,10 +14,10 @@ namespace nephroid {
 
 namespace {
 
-/// Up to so many lights their importances are compared one by one.
+/// Up to this number of lights, importances are compared one by one.
 constexpr int kFew = 4;
 
-/// u with the digits that a float lacks filled from a hash, so that choices among very many lights
+/// u with the bits that a float lacks filled from a hash, so that choices among very many lights
 /// keep their probabilities.
 double refine(float u, const Vec3f& p) {
   const uint64_t bits = hash_combine(std::bit_cast<uint32_t>(u), std::bit_cast<uint32_t>(p.x),
@@ -34,7 +34,7 @@ struct LightSampler::Impl {
     powers.reserve(lights.size());
     for (int i = 0; i < static_cast<int>(lights.size()); ++i) {
       const float power = lights[i]->power();
-      // An infinite light in an enormous scene may have more than there are numbers.
+      // In an enormous scene the power of an infinite light can overflow.
       constexpr float kMaxPower = std::numeric_limits<float>::max();
       powers.push_back(power > 0.0f ? std::min(power, kMaxPower) : 0.0f);
       const auto bounds = lights[i]->bounds();
@@ -67,7 +67,7 @@ struct LightSampler::Impl {
     total_power = total;
   }
 
-  /// Importances of the few lights and their sum.
+  /// Importances of the few lights, and their sum.
   std::pair<std::array<double, kFew>, double> few_importances(const Vec3f& p,
                                                               const Vec3f& n) const {
     std::array<double, kFew> w{};
@@ -78,12 +78,12 @@ struct LightSampler::Impl {
 
   std::vector<int> infinite;
   std::vector<bool> is_infinite;
-  double infinite_share = 0.0;  ///< of each infinite light
-  double bounded_share = 0.0;   ///< of all others together
+  double infinite_share = 0.0;  ///< probability of each infinite light
+  double bounded_share = 0.0;   ///< probability of all bounded lights together
   std::array<LightCluster, kFew> few;
   std::array<int, kFew> few_lights{};
   int few_count = 0;
-  std::unique_ptr<LightTree> tree;  ///< if there are more than a few
+  std::unique_ptr<LightTree> tree;  ///< null if there are only a few lights
   std::vector<float> powers;
   std::vector<double> cumulative;  ///< distribution by power, upper ends
   double total_power = 0.0;
@@ -142,7 +142,7 @@ std::optional<LightChoice> LightSampler::sample_by_power(float& u) const {
   const auto it =
       std::upper_bound(d.cumulative.begin(), d.cumulative.end(), static_cast<double>(u));
   auto i = std::min<size_t>(it - d.cumulative.begin(), d.cumulative.size() - 1);
-  // The last lights may be black; u below 1 never means one of them.
+  // The last lights can be black; u below 1 never selects one of them.
   while (d.powers[i] == 0.0f) --i;
   const double lower = i > 0 ? d.cumulative[i - 1] : 0.0;
   u = std::clamp(static_cast<float>((u - lower) / (d.cumulative[i] - lower)), 0.0f,

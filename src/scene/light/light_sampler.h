@@ -1,5 +1,5 @@
-// Chooses a light for a receiving point (light tree with a share for infinite lights) or for
-// emitting a photon (by power).
+// Chooses a light: for a receiving point by a light tree with a share for infinite lights, or for
+// emitting a photon by power.
 #pragma once
 
 #include <optional>
@@ -20,13 +20,14 @@ class LightSampler {
   ~LightSampler();
   LightSampler(LightSampler&&) noexcept;
 
-  /// A light for point `p` with unit normal `n` (null vector: no normal); empty if none can matter.
+  /// Samples a light for point `p` with unit normal `n` (null: no normal). Empty if no light can
+  /// contribute.
   std::optional<LightChoice> sample(const Vec3f& p, const Vec3f& n, float u) const;
-  /// Probability with which sample() returns `light` at this point.
+  /// Probability that sample() returns `light` at this point.
   float pmf(const Vec3f& p, const Vec3f& n, int light) const;
 
-  /// A light in proportion to its power; empty if all are black. `u` is rescaled to [0,1) for
-  /// reuse.
+  /// Samples a light in proportion to its power. Empty if all are black. `u` is rescaled to [0,1)
+  /// for reuse.
   std::optional<LightChoice> sample_by_power(float& u) const;
   float pmf_by_power(int light) const;
 

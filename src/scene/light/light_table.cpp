@@ -91,13 +91,13 @@ std::vector<LightPtr> make_lights(const SceneDescription& description, Diagnosti
     if (d.transform.is_animated())
       diagnostics.warn(d.where, "a light source cannot move, the start of its motion is used");
     lights.push_back(row.make(d, scope));
-    light_name(d.parameters);  // for scene_labels.h
+    light_name(d.parameters);  // throws if "name" is no string; scene_labels.h uses it
     const auto bounds = lights.back()->bounds();
     if (bounds && !(is_in_reach(bounds->bounds.min) && is_in_reach(bounds->bounds.max)))
       throw SceneError(d.where,
                        "light \"" + d.type + "\" is too far away, expected coordinates up to 1e17");
-    // A wanted power over that of an image that is nearly black, for one. That of infinite lights
-    // grows with the scene.
+    // Powers overflow, for example, when "power" is divided by that of an almost black image. The
+    // power of infinite lights grows with the scene.
     constexpr float kMaxPower = 1e30f;
     if (!(lights.back()->power() <= kMaxPower))
       throw SceneError(d.where, "light \"" + d.type +

@@ -1,6 +1,5 @@
-// The table of light types: the scene format's name -> how to make one. A new light is one file
-// with its maker and one row in light_table.cpp. Who calls it: make_lights. The makers must not
-// know the rest of the scene.
+// The table of light types: the scene format's name and its maker. A new light is one file with its
+// maker and one row in light_table.cpp. The makers must not know the rest of the scene.
 #pragma once
 
 #include "input/format_rows.h"
@@ -10,32 +9,32 @@
 
 namespace nephroid {
 
-/// What a maker may know of the scene around its directive.
+/// The parts of the scene that a maker needs besides its directive.
 struct LightScope {
   SceneFiles& files;
-  const std::string& color_space;  ///< of lights that name no colour
+  const std::string& color_space;  ///< colour space of lights that name no colour
   Diagnostics& diagnostics;
 };
 
-/// All types of LightSource, and those of AreaLightSource.
+/// All types of LightSource and of AreaLightSource.
 std::vector<FormatType> light_types();
 std::vector<FormatType> area_light_types();
-/// The row of the directive's area light; throws SceneError if there is none.
+/// The row of the directive's area light. Throws SceneError if there is none.
 const FormatType& area_light_type(const DirectiveDescription&);
 
-/// "name", by which light path expressions know a light (scene_labels.h); empty if it has none.
-/// Throws SceneError if it is no string.
+/// The parameter "name", the light's name in light path expressions (scene_labels.h). Empty if
+/// there is none. Throws SceneError if it is no string.
 inline std::string light_name(const ParameterSet& parameters) {
   return parameters.get_string("name", "");
 }
 
 using LightMaker = LightPtr (*)(const LightDescription&, const LightScope&);
 
-// The makers, one a file.
+// The makers, one per file.
 LightPtr make_point_light(const LightDescription&, const LightScope&);
 LightPtr make_spot_light(const LightDescription&, const LightScope&);
 LightPtr make_distant_light(const LightDescription&, const LightScope&);
-/// Uniform, or one of the two below if there is a "filename" or a "portal".
+/// Uniform; or one of the two below if there is a "filename" or a "portal".
 LightPtr make_infinite_light(const LightDescription&, const LightScope&);
 LightPtr make_image_infinite_light(const LightDescription&, const LightScope&);
 /// An infinite light with a "portal".
@@ -43,13 +42,13 @@ LightPtr make_portal_infinite_light(const LightDescription&, const LightScope&);
 LightPtr make_projection_light(const LightDescription&, const LightScope&);
 LightPtr make_goniometric_light(const LightDescription&, const LightScope&);
 
-/// The colour of a light and the factor that makes it photometric.
+/// The spectrum of a light and its photometric scale.
 struct EmissionColor {
   SpectrumPtr spectrum;
-  float scale = 1;  ///< "scale" over the spectrum's luminance: radiance is scale * spectrum
+  float scale = 1;  ///< "scale" over the spectrum's luminance; the radiance is scale * spectrum
 };
 
-/// The parameter `name` as emission, the illuminant of the colour space if absent. Throws
+/// Reads the parameter `name` as emission, by default the illuminant of the colour space. Throws
 /// SceneError for colours and scales that are negative or not finite.
 EmissionColor read_emission(const ParameterSet& parameters, const std::string& name,
                             SceneFiles& files, const std::string& color_space);
@@ -58,23 +57,22 @@ EmissionColor read_emission(const ParameterSet& parameters, const std::string& n
 /// scales that are negative, not finite or enormous.
 float image_emission_scale(const ParameterSet& parameters, const RgbColorSpace& space);
 
-/// `scale` times what it takes for a light to have `value`, as the parameter `wanted` asks, where
-/// it has `unscaled`; 0 if that is 0. Throws SceneError if floating-point numbers do not reach so
-/// far.
+/// `scale` times the factor that brings a light from `unscaled` to the `value` that the parameter
+/// `wanted` asks for; 0 if `unscaled` is 0. Throws SceneError if the result overflows.
 float scale_to(const Parameter& wanted, float value, double unscaled, float scale);
 
-/// The image named by "filename"; throws SceneError if it has infinite, NaN or enormous values.
+/// The image named by "filename". Throws SceneError if it has infinite, NaN or enormous values.
 ImagePtr read_light_image(const ParameterSet& parameters, SceneFiles& files);
 
-/// The same for an equal-area octahedral map of the sphere; throws SceneError if it is not square.
-/// `of_what` is the light in the error's words.
+/// Reads an equal-area octahedral map of the sphere. Throws SceneError if it is not square.
+/// `of_what` names the light in the error.
 ImagePtr read_sphere_image(const ParameterSet& parameters, SceneFiles& files,
                            const std::string& of_what);
 
-/// The same for an infinite light, whose map (sphere_map.h) may also be twice as wide as high.
+/// Reads the map of an infinite light (sphere_map.h), which can also be twice as wide as high.
 ImagePtr read_environment_image(const ParameterSet& parameters, SceneFiles& files);
 
-/// image_emission_scale for a map of the sphere, times what its "illuminance" asks for.
+/// image_emission_scale for a map of the sphere, times the factor for its "illuminance".
 float sphere_emission_scale(const ParameterSet& parameters, const Image& image);
 
 /// Mean of r, g and b; negative values, which cannot be emitted, count as 0.

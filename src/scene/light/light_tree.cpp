@@ -9,11 +9,11 @@ namespace nephroid {
 namespace {
 
 constexpr int kBuckets = 12;
-/// Below this depth the halves have equal numbers of lights, so that no way is longer than 64.
+/// Below this depth halves have equal numbers of lights, so that no path is longer than 64.
 constexpr int kUnbalancedDepth = 40;
 
-/// Behind the plane of flat lights is what lies lower than this share of the distance: far more
-/// than their normals differ (LightBounds::is_flat) and than rounding.
+/// A point is behind the plane of flat lights if it is lower than this share of the distance: far
+/// more than rounding and the differences of normals (LightBounds::is_flat).
 constexpr float kTiltOfFlatLights = 0.01f;
 
 /// cos(max(0, a - b)) and sin(max(0, a - b)) of angles in [0, pi].
@@ -28,7 +28,7 @@ double safe_acos(double c) {
   return std::acos(std::clamp(c, -1.0, 1.0));
 }
 
-/// The measure of directions into which a cone of normals emits, weighted by the cosine beyond the
+/// The measure of directions into which a cone of normals emits, cosine-weighted outside of the
 /// cone (Conty Estevez & Kulla 2018, equation 1).
 double orientation_measure(double cos_o, double cos_e) {
   const double pi = 3.14159265358979323846;
@@ -38,11 +38,11 @@ double orientation_measure(double cos_o, double cos_e) {
          pi / 2.0 * (2.0 * w * sin_o - std::cos(o - 2.0 * w) - 2.0 * o * sin_o + cos_o);
 }
 
-/// Cost of a group of lights that becomes a child (equation 2); `stretch` punishes thin boxes.
+/// Cost of a group of lights that becomes a child (equation 2); `stretch` penalises thin boxes.
 double group_cost(const LightBounds& b, double stretch) {
   if (!(b.power > 0.0f)) return 0.0;
   const Vec3f d = b.bounds.max - b.bounds.min;
-  // The area of the box, and something of its diagonal so that lights in a row are told apart.
+  // The area of the box, plus a part of its squared diagonal to distinguish lights in a row.
   const double area = 2.0 * (static_cast<double>(d.x) * d.y + static_cast<double>(d.y) * d.z +
                              static_cast<double>(d.z) * d.x) +
                       0.1 * (static_cast<double>(d.x) * d.x + static_cast<double>(d.y) * d.y +
@@ -60,12 +60,12 @@ int bucket_of(float position, float low, float high) {
 }
 
 struct Split {
-  int axis = -1;  ///< -1: none is possible
+  int axis = -1;  ///< -1: no split is possible
   int bucket = 0;
   float low = 0, high = 0;
 };
 
-/// The best of the planes between buckets along all three axes.
+/// The best of the planes between buckets, over all three axes.
 Split best_split(const std::vector<LightTree::Item>& items, size_t begin, size_t end,
                  const Bounds3f& bounds, const Bounds3f& centers) {
   Split best;
@@ -116,7 +116,7 @@ Cone union_of_cones(const Vec3f& axis_a, float cos_a, const Vec3f& axis_b, float
   if (std::min(between + half_a, pi) <= half_b) return {b, cos_b};
   const double half = 0.5 * (half_a + between + half_b);
   if (half >= pi || normal.length() < 1e-12) return {a, -1.0};
-  // a turned towards b within their plane.
+  // Axis a rotated towards b in their plane.
   const double turn = half - half_a;
   const Vec3d side = normal.normalized().cross(a);
   return {(a * std::cos(turn) + side * std::sin(turn)).normalized(), std::cos(half)};
@@ -160,7 +160,7 @@ LightCluster::LightCluster(const LightBounds& b)
 float LightCluster::importance(const Vec3f& p, const Vec3f& n) const {
   const Vec3f d = p - center;
   const float d2 = length_squared(d);
-  // How far p is in front of the plane of flat lights, which neither box nor sphere show.
+  // Height of p above the plane of flat lights, which neither box nor sphere represent.
   const float height = dot(axis, d) + depth;
   if (height < -kTiltOfFlatLights * std::sqrt(d2 + radius2)) return 0.0f;
   if (d2 <= radius2) return radius2 > 0.0f ? power / radius2 : 0.0f;
@@ -168,16 +168,16 @@ float LightCluster::importance(const Vec3f& p, const Vec3f& n) const {
   float cos_w = dot(axis, w);
   if (two_sided) cos_w = std::abs(cos_w);
   const float sin_w = safe_sqrt(1.0f - cos_w * cos_w);
-  // Half angle of the sphere as seen from p.
+  // Half angle of the sphere seen from p.
   const float sin2_b = radius2 / d2;
   const float sin_b = std::sqrt(sin2_b), cos_b = safe_sqrt(1.0f - sin2_b);
-  // Least angle between a normal of the cluster and a direction from it to p.
+  // Smallest angle between a normal of the cluster and a direction from it to p.
   const float cos_x = cos_sub_clamped(sin_w, cos_w, sin_o, cos_o);
   const float sin_x = sin_sub_clamped(sin_w, cos_w, sin_o, cos_o);
   float cos_p = cos_sub_clamped(sin_x, cos_x, sin_b, cos_b);
   if (cos_p <= cos_e) return 0.0f;
   cos_p = std::min(cos_p, height / std::sqrt(d2));
-  // Lamps that emit backwards too have a negative cosine here, but not no light.
+  // Lights that also emit backwards have a negative cosine here but still contribute.
   float value = power * std::max(cos_p, 0.01f) / d2;
   if (n.x != 0.0f || n.y != 0.0f || n.z != 0.0f) {
     const float cos_i = abs_dot(w, n), sin_i = safe_sqrt(1.0f - cos_i * cos_i);

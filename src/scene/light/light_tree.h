@@ -1,7 +1,7 @@
-// A binary tree over the lights that have bounds; choosing one for a receiving point costs the
-// depth of the tree. (Conty Estevez & Kulla 2018, "Importance Sampling of Many Lights with Adaptive
-// Tree Splitting"; without the splitting, as in pbrt-v4 section 12.6.3.) Who calls it:
-// LightSampler. It must not know lights, only their bounds.
+// A binary tree over the bounded lights: choosing a light for a receiving point costs the depth of
+// the tree. It must not know lights, only their bounds. Paper: Conty Estevez & Kulla 2018,
+// Importance Sampling of Many Lights with Adaptive Tree Splitting; without splitting, as in pbrt-v4
+// section 12.6.3.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,9 @@
 
 namespace nephroid {
 
-/// What a node needs of its lights, ready for importance(): one of them or all below an inner node.
+/// Lights of a node, ready for importance(): one light, or all below an inner node.
 struct LightCluster {
-  Vec3f center{0, 0, 0};  ///< of the sphere around the bounding box
+  Vec3f center{0, 0, 0};  ///< centre of the sphere around the bounding box
   float radius2 = 0;
   Vec3f axis{0, 0, 1};
   float power = 0;
@@ -24,7 +24,7 @@ struct LightCluster {
 
   LightCluster() = default;
   explicit LightCluster(const LightBounds& bounds);
-  /// An estimate of what arrives at `p` with unit normal `n` (null: none), never 0 where light
+  /// Estimates the light that arrives at `p` with unit normal `n` (null: none). Never 0 where light
   /// arrives.
   float importance(const Vec3f& p, const Vec3f& n) const;
 };
@@ -44,28 +44,28 @@ class LightTree {
   LightTree(std::vector<Item> items, int light_count);
 
   bool empty() const { return nodes_.empty(); }
-  /// A light for `u` in [0,1), with `probability` times the probability of the choice. Empty if no
-  /// light can matter.
+  /// Samples a light by `u` in [0,1). Its probability is multiplied by `probability`. Empty if no
+  /// light can contribute.
   std::optional<Choice> sample(const Vec3f& p, const Vec3f& n, double u, double probability) const;
   /// The probability of that choice; 0 for lights that are not in the tree.
   double pmf(const Vec3f& p, const Vec3f& n, int light, double probability) const;
-  /// Inner nodes on the longest way down.
+  /// Number of inner nodes on the longest path.
   int depth() const { return depth_; }
 
  private:
   static constexpr uint32_t kLeaf = 0x80000000u;
   struct Node {
     LightCluster cluster;
-    uint32_t child = 0;  ///< first of two neighbours; or kLeaf | index of the light
+    uint32_t child = 0;  ///< first of two adjacent children; or kLeaf | index of the light
   };
   struct Trail {
-    uint64_t bits = 0;  ///< turns on the way down, the first in the lowest bit
+    uint64_t bits = 0;  ///< turns on the path down, the first in the lowest bit
     bool present = false;
   };
 
   LightBounds build(uint32_t node, std::vector<Item>& items, size_t begin, size_t end,
                     uint64_t trail, int depth);
-  /// Probability of the first child; negative if neither can matter.
+  /// Probability of the first child; negative if neither child can contribute.
   double first_probability(const Node& node, const Vec3f& p, const Vec3f& n) const;
 
   std::vector<Node> nodes_;
@@ -73,7 +73,7 @@ class LightTree {
   int depth_ = 0;
 };
 
-/// Bounds of two groups of lights together. A group without power does not count.
+/// Joint bounds of two groups of lights. A group without power is ignored.
 LightBounds union_of(const LightBounds& a, const LightBounds& b);
 
 }  // namespace nephroid

@@ -21,7 +21,7 @@ double cumulate(const In* values, int n, float* out) {
   return total;
 }
 
-/// For each n-th of [0,1) the first interval that reaches into it: where a search may start.
+/// For each of n equal steps of [0,1): the first interval that overlaps it, where a search starts.
 void make_guide(const float* upper, int n, uint32_t* guide) {
   int i = 0;
   for (int k = 0; k < n; ++k) {
@@ -31,8 +31,8 @@ void make_guide(const float* upper, int n, uint32_t* guide) {
   }
 }
 
-/// The interval of a cumulative distribution that holds u, never an empty one; u becomes the
-/// position in it. The guide leaves one step on average.
+/// The non-empty interval of a cumulative distribution that holds u. u becomes the position in it.
+/// The guide leaves one search step on average.
 int find_interval(const float* upper, const uint32_t* guide, int n, float& u) {
   const int k = std::min(static_cast<int>(u * static_cast<float>(n)), n - 1);
   int i = guide[k];
@@ -62,7 +62,7 @@ PiecewiseConstant2D::PiecewiseConstant2D(std::vector<float> weights, int width, 
     make_guide(&cells_[first], width_, &cell_guide_[first]);
   }
   mean_ = total / (static_cast<double>(width_) * height_);
-  // Of less the inverse is beyond a float.
+  // The inverse of a smaller mean overflows a float.
   if (mean_ < std::numeric_limits<float>::min()) mean_ = 0.0;
   inverse_mean_ = mean_ > 0.0 ? static_cast<float>(1.0 / mean_) : 0.0f;
 }

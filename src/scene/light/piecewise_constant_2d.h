@@ -1,5 +1,5 @@
-// A density on the unit square that is constant in each cell of a grid, sampled row first.
-// Who calls it: image infinite lights. It must not know images.
+// A density on the unit square that is constant in each cell of a grid, sampled row first. It must
+// not know images.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ class PiecewiseConstant2D {
   };
 
   PiecewiseConstant2D() = default;
-  /// `weights` are non-negative, row by row. If their mean is smaller than any normal float they
+  /// `weights` are non-negative, row by row. If their mean is below the smallest normal float, they
   /// count as zero.
   PiecewiseConstant2D(std::vector<float> weights, int width, int height);
 
@@ -37,7 +37,7 @@ class PiecewiseConstant2D {
   std::vector<float> weights_;
   std::vector<float> rows_;   ///< cumulative distribution of the rows, upper ends
   std::vector<float> cells_;  ///< cumulative distributions within the rows, upper ends
-  std::vector<uint32_t> row_guide_, cell_guide_;  ///< where to start looking, by u
+  std::vector<uint32_t> row_guide_, cell_guide_;  ///< start of the search for each u
   double mean_ = 0.0;
   float inverse_mean_ = 0.0f;
 };

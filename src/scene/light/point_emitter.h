@@ -1,6 +1,5 @@
-// What lights have in common that emit from one point with an intensity that depends on direction:
-// everything but that intensity and how directions are chosen by it.
-// Who calls it: projection and goniometric lights. It must not know images.
+// Base class of lights that emit from one point with an intensity that depends on direction.
+// Derived classes provide that intensity and its sampling. It must not know images.
 #pragma once
 
 #include "scene/light/direction_map.h"
@@ -39,20 +38,20 @@ class PointEmitter : public Light {
   std::optional<LightBounds> bounds() const final { return bounds_; }
 
  protected:
-  /// `bounds_.bounds` is the point; the rest of `bounds_` says that light goes everywhere.
+  /// Sets the point of `bounds_.bounds`. The rest of `bounds_` says that light goes everywhere.
   explicit PointEmitter(const Transform& local_to_world)
       : p_(local_to_world.point(Vec3f(0.0f))), map_(local_to_world) {
     bounds_.bounds = Bounds3f(p_);
   }
 
-  /// Power per solid angle into unit direction `local`.
+  /// Power per solid angle in the unit direction `local`.
   virtual SampledSpectrum intensity(const Vec3f& local, const SampledWavelengths&) const = 0;
 
   /// Density of the directions of sample_emission in the local frame, 1/sr.
   virtual float direction_pdf(const Vec3f& local) const = 0;
 
-  /// A ray in unit direction `local`, which was chosen with density `pdf_w` in the local frame;
-  /// empty if the density underflows, where other directions are brighter by 30 orders of
+  /// A ray in unit direction `local`, which was sampled with density `pdf_w` in the local frame.
+  /// Empty if the density underflows, where other directions are brighter by 30 orders of
   /// magnitude.
   std::optional<EmissionSample> emission(const Vec3f& local, float pdf_w,
                                          const SampledSpectrum& radiance) const {

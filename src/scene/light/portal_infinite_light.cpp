@@ -1,7 +1,7 @@
-// The infinite light that is seen through a portal only: a rectangle such as a window, for rooms
-// that a map of the whole sky would light mostly from behind their walls. The map is drawn once
-// more in coordinates in which the portal is a rectangle from every point, and sampled within it.
-// (Bitterli, Novak & Jarosz 2015, "Portal-masked environment map sampling".)
+// The infinite light with a portal, a rectangle such as a window: in rooms, most samples of a whole
+// sky would hit the outside of the walls. The map is resampled in coordinates in which the portal
+// is a rectangle from every point, and sampled within it. Paper: Bitterli, Novak & Jarosz 2015,
+// Portal-Masked Environment Map Sampling.
 #include <array>
 
 #include "core/parallel.h"
@@ -17,15 +17,14 @@ namespace {
 
 constexpr double kPiDouble = 3.14159265358979323846;
 
-/// The rectangle and the rectified coordinates (u, v) of directions through it, outwards: the
-/// angles of the direction with the portal's normal z, projected to the planes of x and z and of y
-/// and z, from 0 at -90 degrees to 1 at 90 degrees.
+/// The rectangle, and the rectified coordinates (u, v) of outward directions through it. They are
+/// the direction's angles with the portal's normal z, projected to the xz and yz planes, from 0 at
+/// -90 degrees to 1 at 90 degrees.
 class Portal {
  public:
   using Window = WindowedDistribution::Window;
 
-  /// `corners` of a rectangle, in order; their sense decides which side is outside: where
-  /// (c3 - c0) x (c1 - c0) points.
+  /// `corners` of a rectangle, in order. Outside is where (c3 - c0) x (c1 - c0) points.
   explicit Portal(const std::array<Vec3f, 4>& corners)
       : origin_(corners[0]),
         opposite_(corners[2]),
@@ -39,14 +38,14 @@ class Portal {
   /// A point of the rectangle; `u` in [0,1]^2.
   Vec3f point(const Vec2f& u) const { return Vec3f(origin_ + side_x_ * u.x + side_y_ * u.y); }
 
-  /// Cosine of a direction with the portal's normal.
+  /// Cosine between a direction and the portal's normal.
   double cosine(const Vec3f& w) const { return z_.dot(Vec3d(w)); }
 
   struct Rectified {
     double u = 0, v = 0;
-    double solid_angle = 0;  ///< per area in (u, v), [P3]
+    double solid_angle = 0;  ///< solid angle per area in (u, v), [P3]
   };
-  /// Empty for directions that do not lead out. `w` need not be of unit length.
+  /// Empty for directions that do not lead outwards. `world` need not be of unit length.
   std::optional<Rectified> rectified(const Vec3d& world) const {
     const Vec3d w(x_.dot(world), y_.dot(world), z_.dot(world));
     if (!(w.z > 0.0)) return std::nullopt;
@@ -70,7 +69,7 @@ class Portal {
     return d;
   }
 
-  /// What of the map is seen from `p`: empty outside.
+  /// The part of the map visible from `p`. Empty if `p` is outside.
   std::optional<Window> window(const Vec3f& p) const {
     const auto a = rectified(origin_ - Vec3d(p)), b = rectified(opposite_ - Vec3d(p));
     if (!a || !b) return std::nullopt;
@@ -84,7 +83,7 @@ class Portal {
     r.u = std::clamp(a / kPiDouble + 0.5, 0.0, 1.0);
     r.v = std::clamp(b / kPiDouble + 0.5, 0.0, 1.0);
     const double ca = std::cos(a), cb = std::cos(b);
-    // The length of the vector (sin a cos b, cos a sin b, cos a cos b).
+    // Squared length of the vector (sin a cos b, cos a sin b, cos a cos b).
     const double l2 = sqr(std::sin(a) * cb) + sqr(ca);
     r.solid_angle = sqr(kPiDouble) * ca * cb / (l2 * std::sqrt(l2));
     return r;
@@ -191,13 +190,12 @@ class PortalInfiniteLight final : public Light {
 
  private:
   struct Direction {
-    Vec3f w;  ///< outwards
+    Vec3f w;  ///< pointing outwards
     float pdf_w = 0;
     size_t pixel = 0;
   };
 
-  /// Of the map of a single colour, which looks the same at any size and is sampled better in
-  /// parts.
+  /// Map size for a single colour, which looks the same at any size and is sampled better in parts.
   static constexpr int kColourSize = 64;
 
   size_t index(int x, int y) const { return static_cast<size_t>(y) * size_ + x; }
@@ -213,21 +211,21 @@ class PortalInfiniteLight final : public Light {
     const Portal::Direction d = portal_.direction(s->x, s->y);
     if (!(d.solid_angle > 0.0)) return std::nullopt;
     const auto pdf_w = static_cast<float>(s->pdf / d.solid_angle);
-    // It underflows where another pixel is brighter by 30 orders of magnitude.
+    // pdf_w underflows where another pixel is brighter by 30 orders of magnitude.
     if (!(pdf_w > 0.0f)) return std::nullopt;
     return Direction{d.w, pdf_w, index(s->column, s->row)};
   }
 
   int size_;
   Portal portal_;
-  EmissionSpectrum illuminant_;      ///< times all scales
-  std::vector<RgbEmission> pixels_;  ///< rectified
+  EmissionSpectrum illuminant_;      ///< illuminant of the image, times all scales
+  std::vector<RgbEmission> pixels_;  ///< the rectified map
   WindowedDistribution distribution_;
-  float flux_ = 0.0f;  ///< through the portal
+  float flux_ = 0.0f;  ///< flux through the portal
   SceneSphere sphere_;
 };
 
-/// The four corners, which the scene gives in world space whatever its transform. Throws
+/// Reads the four corners, which are in world space whatever the light's transform. Throws
 /// SceneError if they are no rectangle.
 Portal read_portal(const ParameterSet& p) {
   const std::vector<Vec3f> c = p.get_point3s("portal");
@@ -249,8 +247,8 @@ Portal read_portal(const ParameterSet& p) {
   return Portal({c[0], c[1], c[2], c[3]});
 }
 
-/// One pixel of a colour without "filename": as in pbrt-v4 an sRGB colour, so that what is not
-/// given as one loses the shape of its spectrum, and its luminance counts.
+/// One pixel of a colour without "filename". As in pbrt-v4 it becomes an sRGB colour: other spectra
+/// lose their shape and keep their luminance.
 ImagePtr image_of_colour(const ParameterSet& p, const LightScope& scope) {
   const Parameter* colour = p.find("L");
   const EmissionColor e = read_emission(p, "L", scope.files, scope.color_space);

@@ -1,6 +1,5 @@
-// The projection light: a slide projector, a point whose intensity is an image seen in perspective
-// along +z, constant within each pixel. Directions are sampled in proportion to the power of the
-// pixels.
+// The projection light: a slide projector, a point whose intensity is a perspective image along +z,
+// constant within each pixel. Directions are sampled in proportion to the pixels' power.
 #include "scene/light/light_table.h"
 #include "scene/light/piecewise_constant_2d.h"
 #include "scene/light/point_emitter.h"
@@ -9,7 +8,7 @@ namespace nephroid {
 
 namespace {
 
-/// The image as a rectangle in the plane z = 1; x runs as in the image, y too (downwards).
+/// The image as a rectangle in the plane z = 1. x and y (downwards) run as in the image.
 struct Slide {
   int width = 1, height = 1;
   float half_x = 1, half_y = 1;
@@ -26,7 +25,7 @@ struct Slide {
   Vec3f point(float u, float v) const {
     return {(2.0f * u - 1.0f) * half_x, (2.0f * v - 1.0f) * half_y, 1.0f};
   }
-  /// Solid angle over area in the plane, at a point of it: the cube of the cosine.
+  /// Solid angle per area in the plane, at a point of it: the cube of the cosine.
   static double solid_angle_per_area(const Vec3f& on_plane) {
     const double r2 =
         1.0 + sqr(static_cast<double>(on_plane.x)) + sqr(static_cast<double>(on_plane.y));
@@ -59,7 +58,7 @@ class ProjectionLight final : public PointEmitter {
     bounds_.power = kPi * illuminant_.mean() * static_cast<float>(sum / pixels);
     if (map_.keeps_angles()) {
       bounds_.axis = map_.to_world(Vec3f(0, 0, 1));
-      // Up to the corners, and a little more for rounding.
+      // Up to the corners, with a margin for rounding.
       bounds_.cos_theta_o = normalize(slide.point(1.0f, 1.0f)).z;
       bounds_.cos_theta_e = 0.9999f;
     }
@@ -91,7 +90,7 @@ class ProjectionLight final : public PointEmitter {
     const double per_area = Slide::solid_angle_per_area(local / local.z);
     return static_cast<float>(distribution_.pdf(at->x, at->y) / (slide_.area() * per_area));
   }
-  /// Empty where the picture does not reach.
+  /// The pixel in direction `local`. Empty outside of the image.
   std::optional<Vec2i> pixel_towards(const Vec3f& local) const {
     if (local.z < kNearest) return std::nullopt;
     const float u = 0.5f + 0.5f * local.x / (local.z * slide_.half_x);
@@ -106,16 +105,16 @@ class ProjectionLight final : public PointEmitter {
            illuminant_.sample(lambda);
   }
 
-  /// Cosine below which nothing is emitted: directions almost in the plane of the lens.
+  /// Smallest emitted cosine: excludes directions almost in the plane of the lens.
   static constexpr float kNearest = 1e-3f;
 
   Slide slide_;
-  EmissionSpectrum illuminant_;  ///< times all scales
+  EmissionSpectrum illuminant_;  ///< illuminant of the image, times all scales
   std::vector<RgbEmission> pixels_;
-  PiecewiseConstant2D distribution_;  ///< over the image, by power
+  PiecewiseConstant2D distribution_;  ///< density over the image, by power
 };
 
-/// Lumens of a light whose luminous intensity is the image's luminance.
+/// Lumens of the light if its luminous intensity is the image's luminance.
 double lumens(const Image& image, const Slide& slide) {
   const Rgb weights = luminance_weights(image.color_space());
   double sum = 0.0;

@@ -24,7 +24,7 @@ SphereMap::SphereMap(int width, int height)
   if (is_octahedral_) return;
   below_.resize(static_cast<size_t>(height) + 1);
   for (int y = 0; y <= height; ++y) {
-    // Near the lower pole by its own angle, which keeps the digits of small pixels there.
+    // Below the equator by the angle from the lower pole, which keeps precision for small pixels.
     const bool lower = 2 * y > height;
     const double half = std::sin(0.5 * kPiDouble * (lower ? height - y : y) / height);
     below_[y] = lower ? 1.0 - half * half : half * half;
@@ -59,7 +59,7 @@ Rgb SphereMap::bilinear(const Image& image, const Vec3f& w) const {
   Rgb sum{0, 0, 0};
   for (int i = 0; i < 4; ++i) {
     int xi = x0 + (i & 1) + width_, yi = y0 + (i >> 1);
-    // Beyond a pole the map goes on half a turn away.
+    // Beyond a pole the map continues half a turn away.
     if (yi < 0 || yi >= height_) {
       yi = yi < 0 ? 0 : height_ - 1;
       xi += width_ / 2;

@@ -1,4 +1,4 @@
-// The spot light: a point that emits into a cone with a smooth edge, smoothstep in the cosine.
+// The spot light: a point that emits into a cone with a smooth edge, a smoothstep in the cosine.
 // Directions are sampled in proportion to the intensity.
 #include "scene/light/direction_map.h"
 #include "scene/light/light_table.h"
@@ -11,8 +11,8 @@ double radians(float degrees) {
   return degrees * (3.14159265358979323846 / 180.0);
 }
 
-/// Solves 2 x^3 - x^4 = u for x in [0,1]: the cumulative distribution of smoothstep. Newton's
-/// method inside of a shrinking bracket.
+/// Solves 2 x^3 - x^4 = u for x in [0,1]: the inverse cumulative distribution of smoothstep.
+/// Newton's method inside a shrinking bracket.
 double invert_smoothstep_cdf(double u) {
   double low = 0.0, high = 1.0, x = std::cbrt(0.5 * u);
   for (int i = 0; i < 20; ++i) {
@@ -31,7 +31,7 @@ class SpotLight final : public Light {
   SpotLight(const Transform& local_to_world, const EmissionSpectrum& intensity, float end_angle,
             float start_angle)
       : p_(local_to_world.point(Vec3f(0.0f))), map_(local_to_world), intensity_(intensity) {
-    // 1 - cos as 2 sin^2 of the half: narrow cones keep their digits.
+    // 1 - cos as 2 sin^2 of the half angle, which keeps precision for narrow cones.
     const double start = 2.0 * sqr(std::sin(0.5 * radians(start_angle)));
     const double end = 2.0 * sqr(std::sin(0.5 * radians(end_angle)));
     inner_ = start;
@@ -40,11 +40,11 @@ class SpotLight final : public Light {
     bounds_.axis = map_.to_world(Vec3f(0, 0, 1));
     bounds_.power = kPi * intensity_.mean();
     bounds_.cos_theta_o = static_cast<float>(1.0 - start);
-    // A little more than the edge, for the rounding of angles near 0.
+    // Slightly wider than the edge, for the rounding of angles near 0.
     bounds_.cos_theta_e = std::min(
         static_cast<float>(std::cos(radians(end_angle) - radians(std::abs(start_angle)))), 0.9999f);
     if (!map_.keeps_angles()) {
-      // Under a transform that bends angles nothing simple bounds the cone.
+      // Under a transform that changes angles the cone has no simple bound.
       bounds_.cos_theta_o = -1.0f;
       bounds_.cos_theta_e = 0.0f;
     }
@@ -76,7 +76,7 @@ class SpotLight final : public Light {
                                                 const SampledWavelengths& lambda) const override {
     const double total = inner_ + 0.5 * edge_;
     if (!(total > 0.0)) return std::nullopt;
-    // One minus the cosine: the uniform cone first, then the edge from its inner side outwards.
+    // 1 - cos: first the uniform cone, then the edge from its inner side outwards.
     const double u = u_direction.x * total;
     double below = u, f = 1.0;
     if (u >= inner_) {
@@ -112,7 +112,7 @@ class SpotLight final : public Light {
   std::optional<LightBounds> bounds() const override { return bounds_; }
 
  private:
-  /// Share of the full intensity in a unit local direction.
+  /// Share of the full intensity in unit local direction `local`.
   float falloff(const Vec3f& local) const {
     const double below = 1.0 - local.z - inner_;
     if (below <= 0.0) return 1.0f;
@@ -125,11 +125,11 @@ class SpotLight final : public Light {
   DirectionMap map_;
   EmissionSpectrum intensity_;
   LightBounds bounds_;
-  double inner_ = 0.0;  ///< 1 - cos of the angle at which the edge begins
+  double inner_ = 0.0;  ///< 1 - cos of the angle where the edge begins
   double edge_ = 0.0;   ///< width of the edge in the cosine
 };
 
-/// The frame at `from` that looks at `to`, row vectors.
+/// The frame at `from` that looks towards `to`, row vectors.
 Transform look_frame(const Vec3f& from, const Vec3f& to) {
   const Frame f = Frame::from_z(normalize(to - from));
   return Transform(Mat44d(f.x.x, f.x.y, f.x.z, 0, f.y.x, f.y.y, f.y.z, 0, f.z.x, f.z.y, f.z.z, 0,

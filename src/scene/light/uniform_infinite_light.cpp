@@ -1,5 +1,5 @@
-// The infinite light that is the same in all directions, and the choice between it, an image
-// and a portal.
+// The infinite light that is equal in all directions, and the choice between it, an image and a
+// portal.
 #include "scene/light/infinite_emission.h"
 #include "scene/light/light_table.h"
 

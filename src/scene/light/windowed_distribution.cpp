@@ -12,14 +12,14 @@ struct Position {
   int cell = 0;
 };
 
-/// Where in [x0, x1] (in cells) a distribution that is linear within each cell reaches `target`;
-/// `upto(x)` is its integral from x0 to x. Bisection over the borders of cells.
+/// The position in [x0, x1] (in cells) where a distribution that is linear within each cell reaches
+/// `target`; `upto(x)` is its integral from x0 to x. Bisection over cell borders.
 template <class Integral>
 std::optional<Position> invert(const Integral& upto, double target, double x0, double x1,
                                int cells) {
   int low = std::min(static_cast<int>(x0), cells - 1);
   int high = std::min(static_cast<int>(x1), cells - 1);
-  // The cell sought lies in low..high.
+  // The cell lies in low..high.
   while (low < high) {
     const int middle = (low + high + 1) / 2;
     if (upto(middle) <= target)

@@ -1,6 +1,5 @@
-// The materials "coateddiffuse" and "coatedconductor".
-// Who calls it: the table. It must not know how layers are evaluated; it only picks the closed form
-// when the coat is the same everywhere and does not scatter.
+// The materials "coateddiffuse" and "coatedconductor". They only choose the closed form where the
+// coat is the same everywhere and does not scatter; they must not know how layers are evaluated.
 #include <bit>
 
 #include "core/sampler.h"
@@ -12,7 +11,7 @@
 namespace nephroid {
 namespace {
 
-/// Everything of a coat but its base; parameter names of the boundary start with `prefix`.
+/// A coat without its base. Parameter names of the boundary start with `prefix`.
 class CoatInput {
  public:
   CoatInput(const MaterialDescription& d, const MaterialContext& c, const std::string& prefix)
@@ -43,7 +42,7 @@ class CoatInput {
     return coat;
   }
 
-  /// The table of the closed form, or nullptr if the coat varies, is anisotropic or scatters.
+  /// The table of the closed form. Null if the coat varies, is anisotropic or scatters.
   std::shared_ptr<const CoatTable> table(CoatTableCache& cache) const {
     const auto facets = roughness_.constant();
     if (!albedo_.is_black() || !eta_.constant() || !thickness_.constant() || !facets ||
@@ -53,9 +52,9 @@ class CoatInput {
                               max_depth_);
   }
 
-  /// True unless the gap is known to absorb only.
+  /// False if the gap is known to only absorb.
   bool may_scatter() const { return !albedo_.is_black(); }
-  /// Of what only the coat reflects.
+  /// Classes of the coat's own reflection.
   ClassMask possible_classes(const SpecularBand& band) const {
     return eta_.constant() == 1.0f ? ClassMask::kNone : roughness_.possible_classes(band);
   }
@@ -124,7 +123,7 @@ class CoatedConductorMaterial final : public SurfaceMaterial {
     return arena.make<CoatedBsdf<ConductorSurface>>(coat, metal, specular_alpha);
   }
   ClassMask possible_classes() const override {
-    // A medium between coat and metal scatters to all sides, whatever their roughness.
+    // A medium between coat and metal scatters in all directions, whatever the roughnesses.
     const ClassMask medium = coat_.may_scatter() ? ClassMask::kDiffuse : ClassMask::kNone;
     return coat_.possible_classes(band_) | roughness_.possible_classes(band_) | medium;
   }

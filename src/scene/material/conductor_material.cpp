@@ -1,5 +1,5 @@
-// The material "conductor", and how any metal's index is read (metal_input.h).
-// Who calls it: the table. It must not know coats.
+// The material "conductor", and the reading of a metal's index (metal_input.h). It must not know
+// coats.
 #include "scene/bsdf/conductor.h"
 #include "scene/material/metal_input.h"
 #include "scene/material/surface_material.h"

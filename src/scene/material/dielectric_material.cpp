@@ -1,6 +1,6 @@
-// The materials "dielectric" and "thindielectric". A dielectric whose index depends on the
-// wavelength keeps the hero wavelength only; a thin pane bends nothing and keeps all. Who calls it:
-// the table. It must not know participating media.
+// The materials "dielectric" and "thindielectric". With dispersion a dielectric keeps only the hero
+// wavelength; a thin pane does not bend light and keeps all. They must not know participating
+// media.
 #include "scene/bsdf/dielectric.h"
 #include "scene/material/inputs.h"
 #include "scene/material/surface_material.h"

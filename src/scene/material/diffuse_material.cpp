@@ -1,5 +1,4 @@
-// The materials "diffuse" and "diffusetransmission".
-// Who calls it: the table. It must not know how textures are stored.
+// The materials "diffuse" and "diffusetransmission". They must not know how textures are stored.
 #include "scene/bsdf/diffuse.h"
 #include "scene/material/inputs.h"
 #include "scene/material/surface_material.h"

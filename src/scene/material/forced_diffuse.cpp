@@ -1,4 +1,4 @@
-// See forced_diffuse.h. The hash keeps a BSDF a function of its arguments: no generator in here.
+// See forced_diffuse.h. A hash instead of a generator keeps the BSDF a function of its arguments.
 #include "scene/material/forced_diffuse.h"
 
 #include <bit>

@@ -1,15 +1,14 @@
-// The option "forcediffuse": every surface is Lambertian with the reflectance that its own material
-// has for the direction from which it is seen, reflection and transmission together.
-// Who calls it: the table of materials. It must not know which material it stands for.
+// The option "forcediffuse": every surface becomes Lambertian, with the reflectance of its own
+// material in the viewing direction, reflection and transmission together. It must not know the
+// material that it replaces.
 #pragma once
 
 #include "scene/material/material.h"
 
 namespace nephroid {
 
-/// The Lambertian stand-in for a material that is neither an interface nor a mix. Its reflectance
-/// is an estimate from a few samples, drawn by a hash of the point, the direction and the
-/// wavelength.
+/// The Lambertian replacement of a material that is neither an interface nor a mix. Its reflectance
+/// is an estimate from a few samples, drawn by a hash of point, direction and wavelength.
 std::shared_ptr<Material> force_diffuse(MaterialPtr material);
 
 }  // namespace nephroid

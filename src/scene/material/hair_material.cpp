@@ -1,6 +1,6 @@
-// The material "hair": a fibre coloured by its absorption, by the colour that many fibres together
-// should have, or by its pigments. Who calls it: the table. It must not know curves.
-// Colours: Chiang et al. 2016 (the fit from reflectance), d'Eon et al. 2011 (the pigments).
+// The material "hair": a fibre coloured by absorption, by the reflectance of many fibres together,
+// or by pigments. It must not know curves. Papers: Chiang et al. 2016 (fit from reflectance); d'Eon
+// et al. 2011 (pigments).
 #include "scene/bsdf/hair.h"
 #include "scene/material/inputs.h"
 #include "scene/material/table.h"
@@ -8,21 +8,21 @@
 namespace nephroid {
 namespace {
 
-/// The narrowest lobes that are rendered, as in pbrt-v4.
+/// The smallest rendered roughness, as in pbrt-v4.
 constexpr float kSmallestBeta = 0.01f;
 
-/// Absorption per concentration, as linear sRGB that is turned into a spectrum.
+/// Absorption by pigment concentrations, as linear sRGB converted to a spectrum.
 SpectrumPtr pigment_absorption(float eumelanin, float pheomelanin) {
   return rgb_unbounded_spectrum(RgbColorSpace::srgb(), Rgb{0.419f, 0.697f, 1.37f} * eumelanin +
                                                            Rgb{0.187f, 0.4f, 1.05f} * pheomelanin);
 }
 
-/// Absorption of fibres that let a mass of hair have `reflectance`, for a roughness beta_n.
+/// Absorption of fibres that together reflect `reflectance`, at roughness beta_n.
 SampledSpectrum absorption_of(const SampledSpectrum& reflectance, float beta_n) {
   const float b = beta_n;
   const float scale =
       5.969f + b * (-0.215f + b * (2.532f + b * (-10.73f + b * (5.574f + b * 0.245f))));
-  // Black absorbs much, not infinitely much.
+  // Black absorbs strongly, not infinitely.
   return reflectance.map(
       [scale](float c) { return sqr(std::log(std::clamp(c, 1e-20f, 1.0f)) / scale); });
 }
@@ -60,7 +60,7 @@ class HairMaterial final : public Material {
   bool merges_photons() const override { return false; }
 
  private:
-  // One of sigma_a, reflectance (also called color) and pigments, in this order.
+  // One of sigma_a, reflectance (also called color) and pigments; the first that is given.
   void read_color(const MaterialDescription& d, const MaterialContext& c) {
     const ParameterSet& p = d.parameters;
     const char* const names[] = {"sigma_a", "reflectance", "color", "eumelanin", "pheomelanin"};
@@ -101,7 +101,7 @@ class HairMaterial final : public Material {
   }
 
   FloatInput eta_, beta_m_, beta_n_, tilt_;
-  SpectrumInput sigma_a_, reflectance_;  ///< at most one is set; if none, the pigments count
+  SpectrumInput sigma_a_, reflectance_;  ///< at most one is set; if none, the pigments apply
   FloatInput eumelanin_, pheomelanin_;
 };
 

@@ -1,4 +1,4 @@
-// Reading of the inputs of materials; see inputs.h.
+// Reads the inputs of materials; see inputs.h.
 #include "scene/material/inputs.h"
 
 namespace nephroid {

@@ -1,7 +1,5 @@
-// The inputs of materials: textures that remember whether they are the same everywhere, so that
-// constant ones cost nothing per point; roughness and refractive indices in the scene format's
-// words. Who calls it: the materials of this folder. It must not know what lobes are made of the
-// values.
+// Inputs of materials: textures (constant ones cost nothing per point), roughness and refractive
+// index, read from the scene format's parameters. It must not know the lobes made from the values.
 #pragma once
 
 #include "scene/bsdf/microfacet.h"
@@ -9,7 +7,7 @@
 
 namespace nephroid {
 
-/// A float that may vary over the surface.
+/// A float that can vary over the surface.
 class FloatInput {
  public:
   FloatInput() = default;
@@ -26,7 +24,7 @@ class FloatInput {
   std::optional<float> constant_;
 };
 
-/// A spectrum that may vary over the surface.
+/// A spectrum that can vary over the surface.
 class SpectrumInput {
  public:
   SpectrumInput() = default;
@@ -37,7 +35,7 @@ class SpectrumInput {
   SampledSpectrum at(const SurfaceInteraction& point, const SampledWavelengths& lambda) const {
     return constant_ ? constant_->sample(lambda) : texture_->eval(TextureContext(point), lambda);
   }
-  /// True if the value is zero everywhere.
+  /// True if the value is known to be zero everywhere.
   bool is_black() const { return constant_ && !(constant_->max_value() > 0.0f); }
 
  private:
@@ -45,15 +43,15 @@ class SpectrumInput {
   SpectrumPtr constant_;
 };
 
-/// `name` of the parameters as a spectrum texture, else the constant `fallback`.
+/// Reads the parameter `name` as a spectrum texture, by default the constant `fallback`.
 SpectrumInput read_spectrum(const TextureLibrary& textures, const ParameterSet& parameters,
                             const std::string& name, SpectrumKind kind, float fallback);
 
-/// Two roughnesses that become the alphas of facets.
+/// Two roughnesses that become microfacet alphas.
 class RoughnessInput {
  public:
   RoughnessInput() = default;
-  /// Reads <prefix>uroughness and <prefix>vroughness, each else <prefix>roughness, else 0.
+  /// Reads <prefix>uroughness and <prefix>vroughness; each defaults to <prefix>roughness, then 0.
   RoughnessInput(const TextureLibrary& textures, const ParameterSet& parameters,
                  const std::string& prefix, bool remap);
 
@@ -65,7 +63,7 @@ class RoughnessInput {
   std::optional<float> constant_alpha() const {
     return constant_ ? std::optional(constant_->max_alpha()) : std::nullopt;
   }
-  /// Classes that a lobe with this roughness may have, whatever the threshold in the band.
+  /// Classes that a lobe with this roughness can have, for any threshold in the band.
   ClassMask possible_classes(const SpecularBand& band) const;
 
  private:
@@ -80,13 +78,13 @@ class RoughnessInput {
 class IndexInput {
  public:
   IndexInput() = default;
-  /// Reads `name` (number, rgb, spectrum), else 1.5. Throws SceneError for anything else.
+  /// Reads `name` (number, rgb, spectrum), by default 1.5. Throws SceneError for anything else.
   IndexInput(const ParameterSet& parameters, const std::string& name, SceneFiles& files);
 
-  /// The index if it is the same for all wavelengths.
+  /// The index, if it is the same at all wavelengths.
   std::optional<float> constant() const { return constant_; }
-  /// The index at the hero wavelength; the others are dropped if it varies. Never 0, and exactly 1
-  /// (no boundary at all) only if it is 1 for all wavelengths.
+  /// The index at the hero wavelength. If it varies, the other wavelengths are terminated. Never 0,
+  /// and exactly 1 (no boundary at all) only if it is 1 at all wavelengths.
   float at_hero(SampledWavelengths& lambda) const;
   float at_550_nm() const { return constant_ ? *constant_ : (*spectrum_)(550.0f); }
   /// The index at each wavelength, none of them 0.

@@ -1,4 +1,4 @@
-// Checks of the fields of a measured reflection; see measured_file.h.
+// Checks the fields of a measured reflection; see measured_file.h.
 #include "scene/material/measured_file.h"
 
 #include <cmath>
@@ -6,7 +6,7 @@
 namespace nephroid {
 namespace {
 
-/// Takes arrays out of a file and refuses those whose shape or numbers are of no use.
+/// Reads arrays from a file and rejects those with an unusable shape or numbers.
 class Fields {
  public:
   explicit Fields(const TensorFile& file) : file_(file) {}
@@ -20,7 +20,7 @@ class Fields {
         fail(name, "does not increase at number " + std::to_string(i) + " (counted from 0)");
     return values;
   }
-  /// Grids of any size with these extents in front.
+  /// Grids of any size, one per combination of `extents`.
   GridFamily grids(const char* name, const std::vector<size_t>& extents) const {
     const std::vector<uint64_t>& shape =
         file_.require(name, TensorType::kFloat32, extents.size() + 2).shape;
@@ -61,8 +61,8 @@ class Fields {
   const TensorFile& file_;
 };
 
-/// More than two azimuths tell that the surface is anisotropic: they must span a whole turn, or the
-/// half or quarter of one that symmetry makes a whole.
+/// More than two azimuths mean an anisotropic surface. They must span a full turn, or the half or
+/// quarter that symmetry completes.
 void check_azimuths(const Fields& fields, const std::vector<float>& phi) {
   if (phi.size() <= 2) return;
   const float parts = std::rint(2.0f * kPi / (phi.back() - phi.front()));

@@ -1,6 +1,6 @@
-// From a file of measured reflection to a MeasuredBrdf, and the surfaces that were read already.
-// Who calls it: the material "measured". It must not know lobes or textures.
-// Format: the ".bsdf" files of Dupuy & Jakob 2018, as pbrt-v4 reads them.
+// Reads a file of measured reflection into a MeasuredBrdf, and caches the surfaces that were read.
+// It must not know lobes or textures. Format: the ".bsdf" files of Dupuy & Jakob 2018, as pbrt-v4
+// reads them.
 #pragma once
 
 #include <map>
@@ -12,14 +12,14 @@
 
 namespace nephroid {
 
-/// The surface that a file describes. Throws SceneError that names the file, the field and what
-/// was expected, if one is missing or its type, shape or numbers do not fit.
+/// The surface that a file describes. Throws SceneError with the file, the field and what was
+/// expected, if a field is missing or its type, shape or numbers are wrong.
 MeasuredBrdf measured_brdf_from(const TensorFile& file);
 
-/// Surfaces by file, shared by all materials that name the same one.
+/// Surfaces by file, shared by all materials that name the same file.
 class MeasuredCache {
  public:
-  /// Throws as TensorFile::read and measured_brdf_from.
+  /// Throws the errors of TensorFile::read and measured_brdf_from.
   std::shared_ptr<const MeasuredBrdf> get(SceneFiles& files, const std::string& path,
                                           const SourceLocation& wanted_by);
 

@@ -1,5 +1,4 @@
-// The material "measured": reflection from a file.
-// Who calls it: the table. It must not know the format of the file.
+// The material "measured": reflection from a file. It must not know the file format.
 #include "scene/material/measured_file.h"
 #include "scene/material/surface_material.h"
 #include "scene/texture/image_file.h"

@@ -1,5 +1,5 @@
-// The materials "mix", which is one of two others at each point, and "interface", which is nothing.
-// Who calls it: the table. It must not know what it mixes.
+// The materials "mix", which is one of two others at each point, and "interface", which is no
+// surface. It must not know the materials that it mixes.
 #include <algorithm>
 #include <bit>
 #include <string>
@@ -73,8 +73,8 @@ class MixMaterial final : public Material {
 
   FloatInput amount_;
   MaterialPtr materials_[2];
-  int depth_ = 1;  ///< of mixtures in each other
-  uint64_t salt_;  ///< keeps the choices of nested mixes apart
+  int depth_ = 1;  ///< nesting depth of mixes
+  uint64_t salt_;  ///< decorrelates the choices of nested mixes
 };
 
 class InterfaceMaterial final : public Material {

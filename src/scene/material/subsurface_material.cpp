@@ -1,6 +1,5 @@
-// The material "subsurface": a medium below a smooth or rough boundary, described by its scattering
-// coefficients or by the colour that it shows. Who calls it: the table. It must not know how light
-// finds its way out.
+// The material "subsurface": a medium below a smooth or rough boundary, described by scattering
+// coefficients or by its visible colour. It must not know how light finds its way out.
 #include <fmt/format.h>
 
 #include "input/spelling.h"
@@ -13,11 +12,11 @@
 namespace nephroid {
 namespace {
 
-// Whole milk of Jensen et al. 2001, per mm: what pbrt-v4 takes if nothing is said.
+// Whole milk of Jensen et al. 2001, per mm: pbrt-v4's default.
 constexpr Rgb kDefaultSigmaA{0.0011f, 0.0024f, 0.014f};
 constexpr Rgb kDefaultSigmaS{2.55f, 3.21f, 3.77f};
 
-// Indices for which the fitted moments of the Fresnel term are sane.
+// Indices for which the fitted moments of the Fresnel term are valid.
 constexpr float kMinEta = 0.4f, kMaxEta = 2.5f;
 
 SpectrumInput rgb_constant(const Rgb& rgb) {
@@ -25,7 +24,7 @@ SpectrumInput rgb_constant(const Rgb& rgb) {
       constant_spectrum_texture(rgb_unbounded_spectrum(RgbColorSpace::srgb(), rgb)));
 }
 
-/// A float that the table needs: above `least` and below `most`.
+/// Reads a float that the table needs: above `least` and below `most`.
 float checked(const ParameterSet& parameters, const char* name, float fallback, float least,
               float most) {
   const float value = parameters.get_float(name, fallback);
@@ -88,7 +87,7 @@ class SubsurfaceMaterial final : public SurfaceMaterial {
  private:
   static SampledSpectrum positive(const SampledSpectrum& s) { return clamp(s, 0.0f, kInfinity); }
 
-  /// Reads the medium in one of its four ways. True if it is a named one.
+  /// Reads the medium in one of its four ways. True if it is a named medium.
   bool read_medium(const MaterialDescription& d, const MaterialContext& c) {
     const std::string name = d.parameters.get_string("name", "");
     if (!name.empty()) {

@@ -4,7 +4,7 @@
 namespace nephroid {
 namespace {
 
-/// Step of the finite differences in uv when nothing is known of the size of a pixel.
+/// Finite difference step in uv if the size of a pixel is unknown.
 constexpr float kBumpStep = 0.0005f;
 
 struct Tangents {
@@ -62,7 +62,7 @@ void SurfaceMaterial::bump(SurfaceInteraction& s) const {
   if (!has_bump()) return;
   const Tangents t = normal_map_ ? normal_mapped(s, *normal_map_) : bumped(s, *displacement_);
   const Vec3f n = normalize(cross(t.dpdu, t.dpdv));
-  // A surface without a usable parametrisation has nothing to tilt.
+  // Without a usable parametrisation the surface keeps its frame.
   if (!is_finite(n) || !(length_squared(n) > 0.5f)) return;
   s.shading = Frame::from_z_and_tangent(face_forward(n, s.ng), t.dpdu);
   s.shading_dpdu = t.dpdu;

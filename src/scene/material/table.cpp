@@ -1,4 +1,4 @@
-// The table of material types, and the one loop that makes all materials of a scene; see table.h.
+// The table of material types, and the loop that makes all materials of a scene; see table.h.
 #include "scene/material/table.h"
 
 #include "scene/material/forced_diffuse.h"
@@ -131,7 +131,7 @@ constexpr MaterialRow kTable[] = {
     {{"", {}, "the same as interface"}, make_interface},
 };
 
-/// Makes materials in any order: a mix asks for others that may stand later in the file.
+/// Makes materials in any order: a mix can name materials that come later in the file.
 class Maker {
  public:
   Maker(const SceneDescription& description, const TextureLibrary& textures,
@@ -190,7 +190,7 @@ class Maker {
     if (found == by_name_.end())
       throw SceneError(where, "there is no material named \"" + name +
                                   "\", expected the name of a MakeNamedMaterial");
-    // A mixture may name what has not been made yet.
+    // A mix can name a material that has not been made yet.
     if (being_made_ > kDeepestMixture && state_[found->second] == State::kToDo)
       refuse_deep_mixture(where);
     return make(found->second);
@@ -202,7 +202,7 @@ class Maker {
   Diagnostics& diagnostics_;
   std::vector<MaterialPtr> materials_;
   std::vector<State> state_;
-  int being_made_ = 0;  ///< materials that wait for each other
+  int being_made_ = 0;  ///< nesting depth of materials under construction
   std::map<std::string, size_t> by_name_;
   CoatTableCache coat_tables_;
   BssrdfTableCache bssrdf_tables_;

@@ -1,6 +1,5 @@
-// The table of material types: the scene format's name and the function that makes one.
-// Who calls it: make_materials, and tests that iterate over all types. A new material is one new
-// file and one row. It must not know what the materials do.
+// The table of material types: the scene format's name and the function that makes one. A new
+// material is one new file and one row. It must not know what the materials do.
 #pragma once
 
 #include <functional>
@@ -15,7 +14,7 @@
 
 namespace nephroid {
 
-/// Tables of coats, shared by the materials with the same coat.
+/// Coat tables, shared by materials with the same coat.
 class CoatTableCache {
  public:
   std::shared_ptr<const CoatTable> find_or_make(const DielectricInterface& boundary,
@@ -27,33 +26,33 @@ class CoatTableCache {
 
 class MeasuredCache;
 
-/// What a factory may use.
+/// Input of a factory.
 struct MaterialContext {
   const TextureLibrary& textures;
   MaterialSettings settings;
   Diagnostics& diagnostics;
   SceneFiles& files;
-  uint64_t index = 0;  ///< of the material that is being made
-  /// A named material; throws SceneError at the place given if there is none.
+  uint64_t index = 0;  ///< index of the material under construction
+  /// Finds a named material. Throws SceneError at the given location if there is none.
   std::function<MaterialPtr(const std::string&, const SourceLocation&)> named;
   CoatTableCache* coat_tables = nullptr;
   BssrdfTableCache* bssrdf_tables = nullptr;
   MeasuredCache* measured_files = nullptr;
 };
 
-/// Mixtures may be this deep in each other: what asks both materials of each asks a power of two of
-/// them, and recurses.
+/// Maximum nesting depth of mixes. Code that visits both materials of each recurses and visits up
+/// to a power of two of them.
 inline constexpr int kDeepestMixture = 16;
 [[noreturn]] void refuse_deep_mixture(const SourceLocation& where);
 
-/// A material that has no place in a scene yet.
+/// A material that is not part of a scene yet.
 using NewMaterial = std::shared_ptr<Material>;
 
 struct MaterialRow : FormatType {
   NewMaterial (*make)(const MaterialDescription&, const MaterialContext&);
 };
 
-/// All types of the format.
+/// All material types of the format.
 std::span<const MaterialRow> material_table();
 std::vector<FormatType> material_types();
 

@@ -1,5 +1,5 @@
-// A cloud out of octaves of noise, dense below and wispy above ("cloud"), as pbrt-v4's CloudMedium
-// defines it. Who calls it: the table of media. It must not know rays beyond its box.
+// A procedural cloud of noise octaves, dense below and wispy above ("cloud"), as defined by
+// pbrt-v4's CloudMedium. It must not know rays outside its box.
 #include "scene/medium/medium_space.h"
 #include "scene/medium/medium_table.h"
 #include "scene/texture/noise.h"
@@ -8,8 +8,8 @@ namespace nephroid {
 
 namespace {
 
-/// Forward differences of the noise along the axes, over a step that is part of pbrt-v4's
-/// definition of the cloud.
+/// Forward differences of the noise along the axes. The step is part of pbrt-v4's definition of the
+/// cloud.
 Vec3f noise_slope(const Vec3f& p) {
   constexpr float kStep = 0.01f;
   const float here = noise(p);
@@ -21,12 +21,12 @@ Vec3f noise_slope(const Vec3f& p) {
 struct CloudShape {
   float density = 1, wispiness = 1, frequency = 5;
 
-  /// Density in [0, 1] at a point of medium space.
+  /// Density in [0,1] at a point of medium space.
   float at(const Vec3f& p) const;
 };
 
 float CloudShape::at(const Vec3f& p) const {
-  // The ratio of octaves is just not 2, so that their lattices do not meet.
+  // The ratio of octaves is slightly off 2, so that their lattices do not coincide.
   constexpr float kFiner = 1.99f;
   Vec3f q = p * frequency;
   if (wispiness > 0.0f) {
@@ -43,7 +43,7 @@ float CloudShape::at(const Vec3f& p) const {
     weight *= 0.5f;
     scale *= kFiner;
   }
-  // Thinner with height, and filled below.
+  // Thinner with height, filled below.
   const float body = std::clamp((1.0f - p.y) * 4.5f * density * sum, 0.0f, 1.0f);
   return std::clamp(body + 2.0f * std::max(0.0f, 0.5f - p.y), 0.0f, 1.0f);
 }
@@ -61,7 +61,7 @@ class CloudMedium final : public Medium {
 
   MediumProperties at(const Vec3f& p, const SampledWavelengths& lambda) const override {
     const Vec3d m = space_.to_medium(p);
-    // Numbers that have left the range of float are no place in a cloud.
+    // Overflowed coordinates lie outside of the cloud.
     const Vec3f q(static_cast<float>(m.x), static_cast<float>(m.y), static_cast<float>(m.z));
     const float density = is_finite(q * shape_.frequency * 20.0f) ? shape_.at(q) : 0.0f;
     return {extinction_.sigma_a.sample(lambda) * density,
@@ -78,7 +78,7 @@ class CloudMedium final : public Medium {
 
  private:
   MediumSpace space_;
-  Extinction extinction_;  ///< at density 1, the largest
+  Extinction extinction_;  ///< extinction at density 1, the maximum
   HenyeyGreenstein phase_;
   CloudShape shape_;
   bool absorbing_;
@@ -90,7 +90,7 @@ NewMedium make_cloud_medium(const MediumDescription& description, const MediumSc
   const ParameterSet& p = description.parameters;
   const CloudShape shape{p.get_float("density", 1.0f), p.get_float("wispiness", 1.0f),
                          p.get_float("frequency", 5.0f)};
-  // pbrt-v4 has no "scale" here.
+  // Without "scale", which this medium does not have in pbrt-v4.
   return std::make_shared<CloudMedium>(read_medium_box(description),
                                        read_extinction(p, 1.0f, scope.files), read_phase(p), shape);
 }

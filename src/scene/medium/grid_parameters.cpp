@@ -1,4 +1,4 @@
-// Parameters of media on regular grids, see grid_parameters.h.
+// Parameters of media on regular grids; see grid_parameters.h.
 #include "scene/medium/grid_parameters.h"
 
 #include <optional>
@@ -7,7 +7,7 @@ namespace nephroid {
 
 namespace {
 
-/// nx*ny*nz; empty beyond 2^40, which no array of a scene file reaches.
+/// nx*ny*nz. Empty beyond 2^40, which no array of a scene file reaches.
 std::optional<uint64_t> sample_count(const std::array<int, 3>& resolution) {
   uint64_t count = 1;
   for (const int n : resolution) {

@@ -1,5 +1,4 @@
-// A medium that is the same everywhere. pbrt-v4 section 11.4.1.
-// Who calls it: the table of media. It must not know where its borders are.
+// A medium that is the same everywhere (pbrt-v4 section 11.4.1). It must not know its boundaries.
 #include "input/spelling.h"
 #include "scene/medium/medium_table.h"
 #include "scene/medium/scattering_presets.h"
@@ -33,13 +32,13 @@ class HomogeneousMedium final : public Medium {
 
  private:
   Extinction extinction_;
-  DenseSpectrum le_;  ///< times "Lescale", over the luminance of "Le"
+  DenseSpectrum le_;  ///< "Le" times "Lescale", over the luminance of "Le"
   HenyeyGreenstein phase_;
   bool emissive_, absorbing_;
 };
 
-/// The coefficients of a "preset", which wins over "sigma_a" and "sigma_s"; they are sRGB whatever
-/// the colour space in force.
+/// The coefficients of a "preset", which overrides "sigma_a" and "sigma_s". They are sRGB, whatever
+/// the current colour space.
 Extinction preset_extinction(const std::string& name, const SourceLocation& where, float scale) {
   const auto preset = scattering_preset(name);
   if (!preset)

@@ -1,5 +1,5 @@
-// The walk through a grid of majorants (Amanatides & Woo 1987, "A Fast Voxel Traversal Algorithm").
-// Who calls it: media, see medium.h. It must not know what the majorants bound.
+// Walks through a grid of majorants; see medium.h. It must not know what the majorants bound.
+// Paper: Amanatides & Woo 1987, A Fast Voxel Traversal Algorithm.
 #include "scene/medium/medium.h"
 
 namespace nephroid {
@@ -21,7 +21,7 @@ MajorantIterator::MajorantIterator(const Vec3d& o, const Vec3d& d, float t_min, 
 }
 
 void MajorantIterator::set_crossing(int axis, bool moves) {
-  // From the cell's number and not by adding up, so that errors do not grow along the way.
+  // Computed from the cell's number, not accumulated, so that errors do not grow along the ray.
   const double wall = cell_[axis] + (step_[axis] > 0 ? 1 : 0);
   const double t = (wall - origin_[axis] * resolution_[axis]) * per_cell_[axis];
   next_crossing_[axis] = moves ? t : std::numeric_limits<double>::infinity();
@@ -34,7 +34,7 @@ std::optional<MajorantSegment> MajorantIterator::next() {
     t_ = t_end_;
     return segment;
   }
-  // Skips cells that the ray only touches and joins neighbours with the same majorant.
+  // Skips cells that the ray only touches, and joins neighbours with the same majorant.
   float scale = scale_here();
   for (;;) {
     const double* c = next_crossing_;

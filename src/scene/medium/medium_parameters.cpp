@@ -1,4 +1,4 @@
-// Parameters that several media share: coefficients, factors, the phase function. See
+// Parameters that several media share: coefficients, factors, the phase function; see
 // medium_table.h.
 #include "scene/medium/medium_table.h"
 

@@ -1,11 +1,11 @@
-// The box of a medium, see medium_space.h.
+// The box of a medium; see medium_space.h.
 #include "scene/medium/medium_space.h"
 
 namespace nephroid {
 
 namespace {
 
-/// Box to unit cube, row-vector convention.
+/// Maps the box to the unit cube, row-vector convention.
 Mat44d cube_from_medium(const Vec3d& p_min, const Vec3d& p_max) {
   Mat44d m;
   for (int i = 0; i < 3; ++i) {

@@ -1,4 +1,4 @@
-// Medium types by name, see medium_table.h.
+// Medium types by name; see medium_table.h.
 #include "scene/medium/medium_table.h"
 
 namespace nephroid {

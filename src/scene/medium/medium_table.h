@@ -1,6 +1,6 @@
-// The table of medium types: the scene format's name -> how to make one, and what the parameters of
-// several types have in common. A new medium is one file with its maker and one row in
-// medium_table.cpp. Who calls it: make_media. The makers must not know the rest of the scene.
+// The table of medium types (the scene format's name and its maker), and parameters that several
+// types share. A new medium is one file with its maker and one row in medium_table.cpp. The makers
+// must not know the rest of the scene.
 #pragma once
 
 #include "core/spectra_dense.h"
@@ -10,7 +10,7 @@
 
 namespace nephroid {
 
-/// What a maker may know of the scene around its directive.
+/// The parts of the scene that a maker needs besides its directive.
 struct MediumScope {
   SceneFiles& files;
 };
@@ -18,11 +18,11 @@ struct MediumScope {
 /// All types of the format.
 std::vector<FormatType> medium_types();
 
-/// A medium that has no place in a scene yet.
+/// A medium that is not part of a scene yet.
 using NewMedium = std::shared_ptr<Medium>;
 using MediumMaker = NewMedium (*)(const MediumDescription&, const MediumScope&);
 
-// The makers, one a file. They throw SceneError for bad parameters.
+// The makers, one per file. They throw SceneError for bad parameters.
 NewMedium make_homogeneous_medium(const MediumDescription&, const MediumScope&);
 NewMedium make_uniform_grid_medium(const MediumDescription&, const MediumScope&);
 NewMedium make_rgb_grid_medium(const MediumDescription&, const MediumScope&);
@@ -34,26 +34,26 @@ NewMedium make_nanovdb_medium(const MediumDescription&, const MediumScope&);
 struct Extinction {
   DenseSpectrum sigma_a, sigma_s;
 };
-/// "sigma_a" and "sigma_s" times `scale`, each 1 where absent.
+/// Reads "sigma_a" and "sigma_s" times `scale`, each 1 by default.
 Extinction read_extinction(const ParameterSet& parameters, float scale, SceneFiles& files);
 
-/// `spectrum` times `scale` as a table; throws SceneError at `where` if it is negative anywhere or
-/// leaves the range of float.
+/// `spectrum` times `scale` as a table. Throws SceneError at `where` if it is negative anywhere or
+/// overflows.
 DenseSpectrum dense_spectrum(const Spectrum& spectrum, float scale, const SourceLocation& where,
                              const std::string& name);
 
-/// "Le" times `scale` over the luminance of "Le", as radiance; black if absent or black.
+/// Reads "Le" times `scale` over the luminance of "Le", as radiance. Black if absent or black.
 DenseSpectrum read_emission(const ParameterSet& parameters, float scale, SceneFiles& files);
 
-/// A float that is finite and not negative.
+/// Reads a float that is finite and not negative.
 float read_factor(const ParameterSet& parameters, const std::string& name, float fallback);
 
-/// "scale", by which coefficients are multiplied: 1 if absent.
+/// Reads "scale", the factor of the coefficients, 1 by default.
 inline float read_scale(const ParameterSet& parameters) {
   return read_factor(parameters, "scale", 1.0f);
 }
 
-/// "g" as a phase function; throws SceneError outside [-1, 1].
+/// Reads "g" as a phase function. Throws SceneError outside [-1, 1].
 HenyeyGreenstein read_phase(const ParameterSet& parameters);
 
 }  // namespace nephroid

@@ -1,4 +1,4 @@
-// The container of .nvdb files, see nanovdb_file.h.
+// The container of .nvdb files; see nanovdb_file.h.
 #include "scene/medium/nanovdb_file.h"
 
 #include <zlib.h>
@@ -13,12 +13,12 @@ namespace {
 constexpr uint64_t kMagic = 0x304244566f6e614e;  // "NanoVDB0", little endian
 constexpr uint32_t kMajorVersion = 32;
 constexpr size_t kHeaderBytes = 16, kGridHeaderBytes = 176;
-/// More than any file can pack into a byte: the limit of deflate is 1032.
+/// Bound of the unpacked bytes per packed byte: the limit of deflate is 1032.
 constexpr uint64_t kMaxUnpackedPerByte = 1100;
 
 enum class Codec : uint16_t { kNone = 0, kZip = 1 };
 
-/// The bytes of a file from front to back.
+/// Reads the bytes of a file from front to back.
 class Reader {
  public:
   Reader(const std::string& file, const std::string& path, const SourceLocation& where)
@@ -49,7 +49,7 @@ T number_at(const char* p) {
   return value;
 }
 
-/// What the header of one grid says.
+/// Header fields of one grid.
 struct GridEntry {
   uint64_t grid_bytes, file_bytes;
   std::string name;
@@ -68,7 +68,7 @@ NanoVdbBytes unpack(Reader& reader, const GridEntry& entry, Codec codec) {
   const char* data = reader.take(entry.file_bytes);
   uint64_t packed = entry.file_bytes;
   if (codec == Codec::kZip) {
-    // A count of bytes stands before them.
+    // The packed data start with their byte count.
     if (packed < 8 || number_at<uint64_t>(data) > packed - 8) reader.fail("is broken");
     packed = number_at<uint64_t>(data);
     data += 8;

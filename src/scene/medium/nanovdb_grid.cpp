@@ -1,4 +1,4 @@
-// Sparse grids of NanoVDB files, see nanovdb_grid.h.
+// Sparse grids of NanoVDB files; see nanovdb_grid.h.
 #include "scene/medium/nanovdb_grid.h"
 
 #include <nanovdb/NanoVDB.h>
@@ -11,7 +11,7 @@ namespace nephroid {
 
 namespace {
 
-/// Of a coordinate or an entry of a transform, so that products of them are finite.
+/// Bound of coordinates and transform entries, so that their products are finite.
 constexpr double kLargest = 1e30;
 
 using Root = nanovdb::NanoRoot<float>;
@@ -19,7 +19,7 @@ using Upper = nanovdb::NanoUpper<float>;
 using Lower = nanovdb::NanoLower<float>;
 using Leaf = nanovdb::NanoLeaf<float>;
 
-/// Walks through all nodes of a grid while checking where they are.
+/// Visits all nodes of a grid and checks where they lie.
 class GridCheck {
  public:
   GridCheck(const NanoVdbBytes& bytes, std::string title, const SourceLocation& where)
@@ -32,13 +32,13 @@ class GridCheck {
 
  private:
   [[noreturn]] void fail(const std::string& what) const { throw SceneError(where_, title_ + what); }
-  /// The node `offset` bytes behind `from`, if all of it lies in the grid.
+  /// The node `offset` bytes after `from`. Fails unless all of it lies in the grid.
   template <class Node>
   const Node& node(const void* from, int64_t offset, int64_t bytes = sizeof(Node)) {
     const int64_t at = reinterpret_cast<const char*>(from) - begin_;
     const bool inside = offset <= size_ - at && offset >= -at && bytes <= size_ - at - offset;
     if (!inside || (at + offset) % 32 != 0) fail(" is broken: a node lies outside of it");
-    // A node that is reached twice could make the walk very long.
+    // Nodes that are reached twice could make the walk very long.
     bytes_seen_ += bytes;
     if (bytes_seen_ > size_) fail(" is broken: nodes overlap");
     return *reinterpret_cast<const Node*>(begin_ + at + offset);
@@ -197,7 +197,7 @@ float NanoVdbGrid::lookup(const Vec3d& index) const {
   int first[3];
   float t[3];
   for (int i = 0; i < 3; ++i) {
-    // Also false for NaN, and before numbers leave the range of int.
+    // Also fails for NaN, and before values leave the range of int.
     if (!(std::abs(index[i]) < 1e9)) return background();
     const double floor = std::floor(index[i]);
     first[i] = static_cast<int>(floor);

@@ -1,7 +1,6 @@
-// A sparse grid of floats from a NanoVDB file, checked when read: every node lies inside the grid's
-// bytes and every value is finite, so that looking up needs no checks.
-// Who calls it: nanovdb_medium.cpp. Its .cpp is the only file that includes NanoVDB. It must not
-// know what the values mean.
+// A sparse grid of floats from a NanoVDB file, validated when read: all nodes lie inside the grid's
+// bytes and all values are finite, so lookups need no checks. Its .cpp is the only file that
+// includes NanoVDB. It must not know what the values mean.
 #pragma once
 
 #include <functional>
@@ -15,27 +14,27 @@ namespace nephroid {
 
 class NanoVdbGrid {
  public:
-  /// The grid `name` of a file with the bytes `file`; null if there is none of that name. Throws
-  /// SceneError at `where` that names `path` if the file is broken or the grid is no fog volume of
+  /// Reads the grid `name` of a file with the bytes `file`. Null if there is no such grid. Throws
+  /// SceneError at `where`, naming `path`, if the file is broken or the grid is not a fog volume of
   /// floats.
   static std::unique_ptr<NanoVdbGrid> read(const std::string& file, const std::string& name,
                                            const std::string& path, const SourceLocation& where);
   ~NanoVdbGrid();
 
-  /// Index space to the file's world, which is medium space.
+  /// Index space to the file's world space, which is medium space.
   const Mat44d& medium_from_index() const;
-  /// The box of the active voxels in medium space, as the file says; it has a volume.
+  /// The box of the active voxels in medium space, as stored in the file; its volume is not zero.
   const Vec3d& medium_min() const;
   const Vec3d& medium_max() const;
 
-  /// The value at a point of index space, trilinear between the voxels' integer positions.
+  /// The value at a point of index space, trilinear between voxels at integer positions.
   float lookup(const Vec3d& index) const;
-  /// The value where nothing is stored.
+  /// The value where no voxel is stored.
   float background() const;
 
   using BoxVisitor =
       std::function<void(const Imath::V3i& first, const Imath::V3i& last, float value)>;
-  /// Calls `visit` with boxes of voxels, both ends included, that have one value above `least`.
+  /// Calls `visit` with boxes of voxels, both ends included, whose single value is above `least`.
   void visit_values_above(float least, const BoxVisitor& visit) const;
 
  private:

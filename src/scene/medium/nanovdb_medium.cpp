@@ -1,5 +1,5 @@
-// A medium with density and temperature from a NanoVDB file ("nanovdb"). pbrt-v4 section 11.4.4.
-// Who calls it: the table of media. It must not know how the file stores its grids.
+// A medium with density and temperature from a NanoVDB file ("nanovdb"; pbrt-v4 section 11.4.4). It
+// must not know how the file stores its grids.
 #include "input/file_bytes.h"
 #include "scene/medium/grid_parameters.h"
 #include "scene/medium/medium_table.h"
@@ -20,7 +20,7 @@ Vec3d map_point(const Mat44d& m, const Vec3d& p) {
           p.x * m[0][2] + p.y * m[1][2] + p.z * m[2][2] + m[3][2]};
 }
 
-/// A grid and the way into its index space.
+/// A grid and the map into its index space.
 struct PlacedGrid {
   GridPtr grid;
   Mat44d index_from_medium;
@@ -43,7 +43,8 @@ struct MediumBounds {
   }
 };
 
-/// The cells that a value of a voxel reaches: those that meet the box one voxel around it.
+/// Adds each voxel's value to the cells it affects: those that overlap its box widened by one
+/// voxel.
 class MajorantBuilder {
  public:
   MajorantBuilder(const NanoVdbGrid& grid, const MediumBounds& bounds)
@@ -66,7 +67,7 @@ class MajorantBuilder {
 
  private:
   static constexpr float kRounding = 1.00001f;
-  /// In cells: covers rays from as far as a few hundred widths of the box.
+  /// Margin in cells, enough for rays from a few hundred box widths away.
   static constexpr double kMargin = 0.01;
 
   void add(const Imath::V3i& first, const Imath::V3i& last, float value) {
@@ -137,12 +138,12 @@ class NanoVdbMedium final : public Medium {
 
  private:
   MediumSpace space_;
-  Extinction extinction_;  ///< at density 1
+  Extinction extinction_;  ///< extinction at density 1
   HenyeyGreenstein phase_;
-  PlacedGrid density_, temperature_;  ///< the grid of temperatures may be null
+  PlacedGrid density_, temperature_;  ///< the temperature grid can be null
   float le_scale_;
   TemperatureMap kelvin_;
-  MajorantGrid majorants_;  ///< of density
+  MajorantGrid majorants_;  ///< majorants of density
   bool absorbing_, emissive_;
 };
 

@@ -1,7 +1,6 @@
-// The phase function of Henyey & Greenstein 1941 about the axis of its peak: with a = |g| and
-// x = 1 - cos(angle to the peak) it is (1 - a^2) / (4 pi ((1 - a)^2 + 2 a x)^(3/2)), a form that
-// keeps its digits at the peak of any g.
-// Who calls it: see phase_function.h. It must not know rays or routes.
+// The phase function of Henyey & Greenstein 1941 about the axis of its peak; see phase_function.h.
+// With a = |g| and x = 1 - cos(angle to the peak) it is
+// (1 - a^2) / (4 pi ((1 - a)^2 + 2 a x)^(3/2)), which keeps precision at the peak for all g.
 #include "scene/medium/phase_function.h"
 
 namespace nephroid {
@@ -19,7 +18,7 @@ float HenyeyGreenstein::eval(const Vec3f& wo, const Vec3f& wi) const {
 }
 
 PhaseSample HenyeyGreenstein::sample(const Vec3f& wo, const Vec2f& u) const {
-  // Inversion of the distribution function with v = 1 at the peak:
+  // Inverse of the distribution function, with v = 1 at the peak:
   // x = 2 (1 - a)^2 (1 - v) (1 + a v) / (1 - a + 2 a v)^2. It needs no special case at a = 0.
   const float a = std::abs(g_);
   const float v = g_ < 0.0f ? u.x : 1.0f - u.x;

@@ -1,5 +1,5 @@
-// A medium with absorption, scattering and emission as colours on a regular grid ("rgbgrid").
-// pbrt-v4 section 11.4.3. Who calls it: the table of media. It must not know rays beyond its box.
+// A medium with absorption, scattering and emission as colours on a regular grid ("rgbgrid";
+// pbrt-v4 section 11.4.3). It must not know rays outside its box.
 #include "core/color.h"
 #include "scene/medium/grid_parameters.h"
 #include "scene/medium/medium_table.h"
@@ -8,8 +8,8 @@ namespace nephroid {
 
 namespace {
 
-/// A colour of the grid as a spectrum: a polynomial of at most about 1 and a scale. Samples are
-/// turned into spectra first and interpolated then, as in pbrt-v4.
+/// A colour of the grid as a spectrum: a polynomial of at most about 1, and a scale. As in pbrt-v4
+/// samples become spectra first and are then interpolated.
 struct ColorSample {
   SigmoidPolynomial shape;
   float scale = 0.0f;
@@ -94,7 +94,7 @@ class RgbGridMedium final : public Medium {
   float scale_;
   HenyeyGreenstein phase_;
   ColorEmission emission_;
-  MajorantGrid majorants_;  ///< of extinction, the largest over wavelengths
+  MajorantGrid majorants_;  ///< majorants of extinction, the largest over wavelengths
   bool absorbing_, emissive_;
 };
 
@@ -104,7 +104,7 @@ const RgbColorSpace& space_of(const Parameter& p) {
   return *space;
 }
 
-/// The grid `name`; empty if absent.
+/// Reads the grid `name`. Empty if absent.
 std::optional<ColorGrid> read_colors(const MediumDescription& d, const std::string& name) {
   const Parameter* p = d.parameters.find(name);
   if (!p) return std::nullopt;
@@ -118,7 +118,7 @@ std::optional<ColorGrid> read_colors(const MediumDescription& d, const std::stri
     float c[3];
     for (int k = 0; k < 3; ++k) {
       const double v = p->numbers[3 * i + k];
-      // The scale below is twice the largest component.
+      // The scale below is twice the largest component and must not overflow.
       if (!(v >= 0.0 && v < 1e38))
         throw SceneError(p->where, "colour " + std::to_string(i) + " of \"" + name +
                                        "\" is negative or too large, expected values from 0 to "

@@ -1,7 +1,6 @@
-// Samples on a regular grid over the unit cube, sample (x, y, z) of n at ((x, y, z) + 1/2) / n,
-// joined by trilinear interpolation; beyond the outermost samples the values fall to 0, as in
-// pbrt-v4's SampledGrid. With it the grid of bounds that media hand to MajorantIterator.
-// Who calls it: the media with grids. It must not know what the samples mean.
+// Samples on a regular grid over the unit cube, with trilinear interpolation: sample (x, y, z) of n
+// lies at ((x, y, z) + 1/2) / n. Beyond the outermost samples values fall to 0, as in pbrt-v4's
+// SampledGrid. Also the majorant grid for MajorantIterator. It must not know what the samples mean.
 #pragma once
 
 #include <array>
@@ -16,14 +15,14 @@ namespace nephroid {
 template <class T>
 class SampledGrid {
  public:
-  /// `values` has resolution[0] * resolution[1] * resolution[2] of them, x running fastest.
+  /// `values` holds resolution[0] * resolution[1] * resolution[2] samples, x running fastest.
   SampledGrid(std::vector<T> values, const std::array<int, 3>& resolution)
       : values_(std::move(values)), n_(resolution) {}
 
   const std::vector<T>& values() const { return values_; }
 
-  /// The interpolated value at a point of the cube. `convert` maps a sample to what is
-  /// interpolated, a type with + and * float whose default is zero.
+  /// The interpolated value at a point of the cube. `convert` maps a sample to the interpolated
+  /// type, which needs + and * float and a default of zero.
   template <class F>
   auto lookup(const Vec3f& p, F&& convert) const {
     using Value = decltype(convert(values_[0]));
@@ -31,7 +30,7 @@ class SampledGrid {
     int first[3];
     float t[3];
     for (int i = 0; i < 3; ++i) {
-      // Also false for NaN, and before numbers leave the range of int.
+      // Also fails for NaN, and before values leave the range of int.
       if (!(p[i] > -1.0f && p[i] < 2.0f)) return sum;
       const float s = p[i] * static_cast<float>(n_[i]) - 0.5f;
       const float floor = std::floor(s);
@@ -53,8 +52,8 @@ class SampledGrid {
     return sum;
   }
 
-  /// An upper bound of the interpolated values over the box [lo, hi] of the cube, `measure` mapping
-  /// samples to numbers that are not negative.
+  /// An upper bound of the interpolated values over the box [lo, hi] of the cube. `measure` maps
+  /// samples to non-negative numbers.
   template <class F>
   float max_value(const Vec3f& lo, const Vec3f& hi, F&& measure) const {
     int a[3], b[3];
@@ -79,18 +78,18 @@ class SampledGrid {
   std::array<int, 3> n_;
 };
 
-/// Bounds of a quantity over the cells of a grid over the unit cube.
+/// Upper bounds of a quantity in the cells of a grid over the unit cube.
 struct MajorantGrid {
   std::array<int, 3> resolution{};
   std::vector<float> scales;  ///< cell (x, y, z) at x + nx (y + ny z)
 
-  /// `bound(lo, hi)` tells the most that the quantity can be over a box of the cube. Boxes are a
-  /// little larger than the cells, so that the rounded points of a ray lie in them.
+  /// `bound(lo, hi)` returns the maximum of the quantity over a box of the cube. Boxes are slightly
+  /// larger than the cells, so that the rounded points of a ray lie inside.
   template <class F>
   static MajorantGrid over_cells(const std::array<int, 3>& resolution, F&& bound) {
-    // Covers rays from as far as a few hundred widths of the box.
+    // Enough for rays from a few hundred box widths away.
     constexpr float kMargin = 1e-4f;
-    // Interpolation and the polynomials of colours can exceed the largest sample by rounding.
+    // By rounding, interpolation and colour polynomials can exceed the largest sample.
     constexpr float kRounding = 1.00001f;
     MajorantGrid grid{resolution, {}};
     for (int z = 0; z < resolution[2]; ++z)

@@ -1,4 +1,4 @@
-// The table of measured substances, see scattering_presets.h: reduced scattering, then absorption.
+// The table of measured substances: reduced scattering, then absorption; see scattering_presets.h.
 #include "scene/medium/scattering_presets.h"
 
 namespace nephroid {

@@ -1,7 +1,7 @@
-// Measured scattering coefficients of milk, skin, juices ... by pbrt-v4's names: Jensen, Marschner,
-// Levoy & Hanrahan 2001, "A Practical Model for Subsurface Light Transport", and Narasimhan, Gupta,
-// Donner, Ramamoorthi, Nayar & Jensen 2006, "Acquiring Scattering Properties of Participating Media
-// by Dilution". Who calls it: media and subsurface materials. It must not know what uses them.
+// Measured scattering coefficients of milk, skin, juices and others, by pbrt-v4's names. It must
+// not know what uses them. Papers: Jensen et al. 2001, A Practical Model for Subsurface Light
+// Transport; Narasimhan et al. 2006, Acquiring Scattering Properties of Participating Media by
+// Dilution.
 #pragma once
 
 #include <optional>
@@ -13,13 +13,13 @@
 
 namespace nephroid {
 
-/// Coefficients in 1/mm as linear sRGB. The scattering coefficient is the reduced one, which stands
-/// for the true one times 1 - g: it belongs to an isotropic phase function.
+/// Coefficients in 1/mm as linear sRGB. Scattering is the reduced coefficient, the true one times 1
+/// - g, which belongs to an isotropic phase function.
 struct ScatteringPreset {
   Rgb sigma_s, sigma_a;
 };
 
-/// The coefficients of a substance; empty for a name that the table does not have.
+/// The coefficients of a substance. Empty for a name that is not in the table.
 std::optional<ScatteringPreset> scattering_preset(std::string_view name);
 
 /// All names, in the order of the papers, for messages.

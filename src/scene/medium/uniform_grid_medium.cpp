@@ -1,5 +1,5 @@
-// A medium with density and emission given on a regular grid ("uniformgrid"). pbrt-v4 section
-// 11.4.2. Who calls it: the table of media. It must not know rays beyond its box.
+// A medium with density and emission on a regular grid ("uniformgrid"; pbrt-v4 section 11.4.2). It
+// must not know rays outside its box.
 #include "scene/medium/grid_parameters.h"
 #include "scene/medium/medium_table.h"
 
@@ -13,11 +13,11 @@ float identity(float x) {
   return x;
 }
 
-/// What the grid emits per unit of absorption.
+/// Emission of the grid per unit of absorption.
 struct GridEmission {
-  FloatGrid scale;                       ///< "Lescale", for "Le" over its luminance
+  FloatGrid scale;                       ///< "Lescale", over the luminance of "Le"
   DenseSpectrum le;                      ///< "Le"
-  std::optional<FloatGrid> temperature;  ///< of black bodies, instead of `le`
+  std::optional<FloatGrid> temperature;  ///< black-body temperatures, instead of `le`
   TemperatureMap kelvin;
   bool any = false;
 };
@@ -71,11 +71,11 @@ class UniformGridMedium final : public Medium {
   }
 
   MediumSpace space_;
-  Extinction extinction_;  ///< at density 1
+  Extinction extinction_;  ///< extinction at density 1
   HenyeyGreenstein phase_;
   FloatGrid density_;
   GridEmission emission_;
-  MajorantGrid majorants_;  ///< of density
+  MajorantGrid majorants_;  ///< majorants of density
   bool absorbing_;
 };
 

@@ -1,6 +1,6 @@
-// Meshes of bilinear patches: hit points, texture frames, and points for light sampling.
-// Called through make_bilinear_mesh; the geometry of one patch is in bilinear_patch.h.
-// Frames, orientation and the choice of sampling method follow pbrt-v4, section 6.6.
+// Meshes of bilinear patches: hits, texture frames and light sampling. The geometry of one patch is
+// in bilinear_patch.h. Frames, orientation and choice of sampling method follow pbrt-v4, section
+// 6.6.
 #include <stdexcept>
 #include <string>
 
@@ -13,14 +13,14 @@
 namespace nephroid {
 namespace {
 
-/// A number in [0,1] with density proportional to the line from a to b, and the inverse cdf's input
-/// u.
+/// Samples [0,1] with density proportional to the line from a to b; u is the input of the inverse
+/// cdf.
 double sample_linear(double u, double a, double b) {
   if (!(a + b > 0.0)) return u;
   return std::min(1.0, u * (a + b) / (a + std::sqrt((1.0 - u) * a * a + u * b * b)));
 }
 
-/// The area elements at the corners: the bilinear density that area sampling uses.
+/// Area elements at the corners, whose bilinear interpolation is the density of area sampling.
 struct CornerWeights {
   double w00, w10, w01, w11;
 
@@ -39,11 +39,11 @@ struct CornerWeights {
   }
 };
 
-/// v turned by the smallest rotation that takes the unit vector `from` to the unit vector `to`.
+/// Rotates v by the smallest rotation that takes the unit vector `from` to the unit vector `to`.
 Vec3d rotate_from_to(const Vec3d& from, const Vec3d& to, const Vec3d& v) {
   const Vec3d axis = from.cross(to);
   const double cosine = from.dot(to);
-  // Opposite vectors: half a turn around anything orthogonal, here what v has of that plane.
+  // Opposite vectors: half a turn around an orthogonal axis, here v's component in that plane.
   if (cosine < -1.0 + 1e-12) return v - from * (2.0 * from.dot(v));
   const Vec3d moved = axis.cross(v);
   return v + moved + axis.cross(moved) / (1.0 + cosine);
@@ -77,7 +77,7 @@ class BilinearMesh final : public Shape {
 
  private:
   const uint32_t* corners(uint32_t primitive) const { return &data_.quads[4 * size_t{primitive}]; }
-  /// No vertex normals, or all the same.
+  /// True if there are no vertex normals, or if they are all equal.
   bool has_one_normal(uint32_t primitive) const {
     if (data_.normals.empty()) return true;
     const uint32_t* v = corners(primitive);
@@ -90,17 +90,17 @@ class BilinearMesh final : public Shape {
     return {to_double(p[v[0]]), to_double(p[v[1]]), to_double(p[v[2]]), to_double(p[v[3]])};
   }
   Vec3d outside_normal(uint32_t primitive, const BilinearPatch&, double u, double v) const;
-  /// The same, from the normal along dpdu x dpdv, which a flipped mesh turned around already.
+  /// The same, from the normal along dpdu x dpdv, already reversed for a flipped mesh.
   Vec3d turned_outside(uint32_t primitive, const Vec3d& n, float u, float v) const;
   void fill_texture_frame(uint32_t primitive, const Vec2f& uv, SurfaceInteraction& out) const;
-  PlaneRectangle plane(uint32_t primitive) const;  ///< of a patch that is a rectangle
+  PlaneRectangle plane(uint32_t primitive) const;  ///< only for a patch that is a rectangle
   Vec2f texture_point(uint32_t primitive, const Vec2f& uv) const;
   ShapeSample of_mesh(uint32_t primitive, ShapeSample) const;
 
   MeshData data_;
   bool flip_;
   std::vector<bool> is_rectangle_;  ///< per patch
-  uint32_t rectangles_ = 0;         ///< how many there are
+  uint32_t rectangles_ = 0;         ///< number of rectangles
 };
 
 template <class T>
@@ -117,7 +117,7 @@ T blend_by_v(const std::vector<T>& values, const uint32_t* v, float s) {
   return (values[v[2]] - values[v[0]]) * (1.0f - s) + (values[v[3]] - values[v[1]]) * s;
 }
 
-/// The unit normal along dpdu x dpdv; that of the centre where the patch is pinched.
+/// The unit normal along dpdu x dpdv, or that of the centre where the patch is degenerate.
 Vec3d unit_cross(const BilinearPatch& patch, double u, double v) {
   Vec3d n = patch.cross(u, v);
   if (!(n.dot(n) > 0.0)) n = patch.cross(0.5, 0.5);
@@ -187,8 +187,8 @@ Vec3d BilinearMesh::turned_outside(uint32_t primitive, const Vec3d& n, float u, 
   return n.dot(to_double(ns)) < 0.0 ? -n : n;
 }
 
-/// Carries the derivatives by the patch's own (u,v) over to its texture coordinates, as pbrt-v4
-/// does it: exact where each texture axis follows one axis of the patch.
+/// Converts the derivatives by the patch's own (u,v) to texture coordinates, as in pbrt-v4. Exact
+/// if each texture axis follows one axis of the patch.
 void BilinearMesh::fill_texture_frame(uint32_t primitive, const Vec2f& uv,
                                       SurfaceInteraction& out) const {
   const uint32_t* v = corners(primitive);
@@ -201,7 +201,7 @@ void BilinearMesh::fill_texture_frame(uint32_t primitive, const Vec2f& uv,
   Vec3f dpdt = out.dpdu * dudt + out.dpdv * dvdt;
   const Vec3f turned = cross(dpds, dpdt);
   if (max_component(abs(turned)) > 0.0f) {
-    // The texture's handedness must not turn the surface around.
+    // The texture's handedness must not flip the surface.
     if (dot(cross(out.dpdu, out.dpdv), turned) < 0.0f) dpdt = -dpdt;
     out.dpdu = dpds;
     out.dpdv = dpdt;
@@ -234,7 +234,7 @@ void BilinearMesh::fill(uint32_t primitive, const Vec2f& hit_uv, const Ray&, flo
   } else if (const Vec3d twist = shape.d2pduv(); twist == Vec3d(0, 0, 0)) {
     out.dndu = out.dndv = Vec3f(0, 0, 0);
   } else {
-    // The normal is dpdu x dpdv divided by its length; only the mixed second derivative exists.
+    // The normal is dpdu x dpdv normalised; the only second derivative is the mixed one.
     const Vec3d n = pu.cross(pv);
     const double l2 = n.dot(n);
     const auto derivative = [&](const Vec3d& dn) {
@@ -262,7 +262,7 @@ Vec2f BilinearMesh::texture_point(uint32_t primitive, const Vec2f& uv) const {
   return data_.uvs.empty() ? uv : blend(data_.uvs, corners(primitive), uv.x, uv.y);
 }
 
-/// A sample of the patch alone with the mesh's normal and texture coordinates.
+/// Adds the mesh's normal and texture coordinates to a sample of the patch.
 ShapeSample BilinearMesh::of_mesh(uint32_t primitive, ShapeSample s) const {
   if (!has_one_normal(primitive))
     s.ng = to_float(outside_normal(primitive, patch(primitive), s.uv.x, s.uv.y));
@@ -298,8 +298,8 @@ float BilinearMesh::pdf_towards(uint32_t primitive, const Vec3f& from, const Vec
                                 const Vec3f& ng) const {
   if (is_rectangle_[primitive]) return plane(primitive).pdf_towards(from, p, ng);
   const BilinearPatch shape = patch(primitive);
-  // (u,v) of p: where the line along the normal meets the patch nearest to it. A point at the rim
-  // may miss by rounding; then the nearest corner's density is as good.
+  // (u,v) of p: the nearest intersection of the line along the normal with the patch. At the rim it
+  // can miss by rounding; the nearest corner's density then serves.
   const BilinearPatch::Hits found = shape.hits(to_double(p), to_double(ng));
   double nearest = std::numeric_limits<double>::infinity(), u = 0.0, v = 0.0;
   for (int i = 0; i < found.count; ++i)
@@ -325,7 +325,7 @@ float BilinearMesh::pdf_towards(uint32_t primitive, const Vec3f& from, const Vec
 }
 
 void BilinearMesh::normal_bounds(uint32_t primitive, Vec3f* axis, float* cos_half_angle) const {
-  // The normal before normalisation is affine in u and v, so those of the corners span the cone.
+  // The unnormalised normal is affine in u and v, so the corners' normals span the cone.
   const BilinearPatch shape = patch(primitive);
   Vec3d n[4], sum(0, 0, 0);
   for (int i = 0; i < 4; ++i) {

@@ -1,20 +1,18 @@
-// Ray hits, area and the test for a rectangle of one bilinear patch.
-// Called by bilinear_mesh.cpp; pure geometry.
-// Reshetov 2019.
+// Intersection, area and rectangle test of one bilinear patch (Reshetov 2019).
 #include "scene/shape/bilinear_patch.h"
 
 namespace nephroid {
 namespace {
 
-/// Hits this little beyond an edge, in u or v, still count: two patches that share an edge must not
-/// leave a gap between them.
+/// Hits this far beyond an edge, in u or v, still count, so that patches with a common edge leave
+/// no gap.
 constexpr double kEdgeTolerance = 1e-10;
 
 bool in_unit_interval(double x) {
   return x >= -kEdgeTolerance && x <= 1.0 + kEdgeTolerance;
 }
 
-/// The real roots of a x^2 + b x + c, without cancellation; a may be 0.
+/// The real roots of a x^2 + b x + c, without cancellation; a can be 0.
 int quadratic_roots(double a, double b, double c, double x[2]) {
   const double discriminant = b * b - 4.0 * a * c;
   if (discriminant < 0.0) return 0;
@@ -41,7 +39,7 @@ BilinearPatch::Hits BilinearPatch::hits(const Vec3d& o, const Vec3d& d) const {
   for (int i = 0; i < count; ++i) {
     if (!in_unit_interval(roots[i])) continue;
     const double u = std::clamp(roots[i], 0.0, 1.0);
-    // Closest points of the line and of the ruling.
+    // Closest points of the line and the ruling.
     const Vec3d start = q00 * (1.0 - u) + q10 * u;
     const Vec3d ruling = q01 * (1.0 - u) + q11 * u - start;
     const Vec3d n = d.cross(ruling);
@@ -56,7 +54,7 @@ BilinearPatch::Hits BilinearPatch::hits(const Vec3d& o, const Vec3d& d) const {
 }
 
 double BilinearPatch::area() const {
-  // Gauss-Legendre with three nodes on cells; exact for parallelograms and plane convex patches.
+  // Three-point Gauss-Legendre on cells; exact for parallelograms and plane convex patches.
   constexpr int kCells = 8;
   constexpr double kNode = 0.77459666924148337704;  // sqrt(3/5)
   constexpr double kNodes[3] = {0.5 - 0.5 * kNode, 0.5, 0.5 + 0.5 * kNode};
@@ -74,7 +72,7 @@ bool BilinearPatch::is_rectangle() const {
   const Vec3d n = cross(0.0, 0.0);
   if (!(n.length() > 0.0)) return false;
   if (std::abs((p11 - p00).normalized().dot(n.normalized())) > 1e-5) return false;
-  // A parallelogram with equal diagonals: all corners are as far from the centre.
+  // A parallelogram with equal diagonals: all corners are equally far from the centre.
   const Vec3d center = (p00 + p10 + p01 + p11) * 0.25;
   const double d2 = (p00 - center).dot(p00 - center);
   for (const Vec3d& p : {p10, p01, p11})

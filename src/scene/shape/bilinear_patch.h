@@ -1,7 +1,6 @@
-// One bilinear patch p(u,v) over four corners as pure geometry, in double.
-// Who calls it: bilinear_mesh.cpp and plane_rectangle.cpp. It must not know meshes, normals or
-// texture coordinates. Intersection: A. Reshetov, "Cool Patches: A Geometric Approach to
-// Ray/Bilinear Patch Intersections", Ray Tracing Gems, 2019.
+// One bilinear patch p(u,v) over four corners as pure geometry, in double. It must not know meshes,
+// normals or texture coordinates. Intersection: Reshetov, Cool Patches: A Geometric Approach to
+// Ray/Bilinear Patch Intersections, Ray Tracing Gems, 2019.
 #pragma once
 
 #include "core/math.h"
@@ -28,11 +27,11 @@ struct BilinearPatch {
   /// dpdu x dpdv; its length is the area element. Affine in u and v.
   Vec3d cross(double u, double v) const { return dpdu(v).cross(dpdv(u)); }
 
-  /// Where the line o + t d meets the patch, for t of either sign, unordered.
+  /// Intersections of the line o + t d with the patch, for t of either sign, unordered.
   Hits hits(const Vec3d& o, const Vec3d& d) const;
   double area() const;
-  /// True if the corners are those of a plane rectangle, up to the rounding of float corners
-  /// (tolerances as pbrt-v4).
+  /// True if the corners form a plane rectangle, up to the rounding of float corners (pbrt-v4's
+  /// tolerances).
   bool is_rectangle() const;
 };
 

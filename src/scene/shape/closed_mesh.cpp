@@ -13,7 +13,7 @@ using Edge = std::pair<uint32_t, uint32_t>;
 /// Six times the volume, positive if the outside points away from it.
 double signed_volume(const std::vector<Vec3f>& positions, size_t faces,
                      const std::function<OutsideRing(size_t)>& ring_of) {
-  // Relative to a vertex, so that a mesh far from the origin keeps its digits.
+  // Relative to a vertex, so that meshes far from the origin keep precision.
   const Vec3d origin = to_double(positions.front());
   double volume = 0;
   for (size_t f = 0; f < faces; ++f) {
@@ -25,7 +25,7 @@ double signed_volume(const std::vector<Vec3f>& positions, size_t faces,
   return volume;
 }
 
-/// [vertex]: the first vertex at the same place.
+/// For each vertex the first vertex at the same position.
 std::vector<uint32_t> welded(const std::vector<Vec3f>& positions) {
   std::vector<uint32_t> order(positions.size()), first(positions.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -61,7 +61,7 @@ bool is_closed(const std::vector<Vec3f>& positions, size_t faces,
 
 bool is_closed_inside_out(const std::vector<Vec3f>& positions, size_t faces,
                           const std::function<OutsideRing(size_t)>& ring_of) {
-  // Most meshes are turned the right way, and the sum is cheap.
+  // The cheap test first, since most meshes have the correct orientation.
   return faces > 0 && signed_volume(positions, faces, ring_of) < 0 &&
          is_closed(positions, faces, ring_of);
 }

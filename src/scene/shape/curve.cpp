@@ -1,7 +1,6 @@
-// Pieces of curves: making, meeting and describing them; see curve.h.
-// Called through Shape. Everything is done in the space of the ray: its direction is the third
-// axis, and the curve is looked at in the plane across it (Nakamaru & Ohno 2002; pbrt-v4
-// section 6.7).
+// Pieces of curves: construction, intersection and hit attributes; see curve.h. Works in the space
+// of the ray: its direction is the third axis, and the curve is projected to the plane
+// perpendicular to it (Nakamaru & Ohno 2002; pbrt-v4 section 6.7).
 #include "scene/shape/curve.h"
 
 #include <algorithm>
@@ -18,12 +17,12 @@ Vec3d unit(const Vec3d& v) {
   const double l = v.length();
   return l > 0.0 ? v / l : v;
 }
-/// Some unit vector across a unit vector.
+/// A unit vector perpendicular to a unit vector.
 Vec3d across(const Vec3d& d) {
   return unit(std::abs(d.x) < 0.6 ? d.cross(Vec3d(1, 0, 0)) : d.cross(Vec3d(0, 1, 0)));
 }
 
-/// The polar form of the curve: its value at (u,u,u), its control points at mixed arguments.
+/// The polar form of the curve: (u,u,u) gives its value, mixed arguments give control points.
 Vec3d polar(const Bezier& p, double a, double b, double c) {
   const Vec3d q0 = mix(p[0], p[1], a), q1 = mix(p[1], p[2], a), q2 = mix(p[2], p[3], a);
   return mix(mix(q0, q1, b), mix(q1, q2, b), c);
@@ -38,15 +37,15 @@ Vec3d second_derivative(const Bezier& p, double s) {
   return mix(p[0] - p[1] * 2.0 + p[2], p[1] - p[2] * 2.0 + p[3], s) * 6.0;
 }
 
-/// Number of equal parts of which each chord is within `tolerance` of the curve: the distance is at
-/// most 1/8 of the second derivative, which is largest at an end.
+/// Number of equal parts whose chords are within `tolerance` of the curve. The distance is at most
+/// 1/8 of the second derivative, which is largest at an end.
 double parts_needed(const Bezier& p, double tolerance) {
   const double bend =
       std::max(second_derivative(p, 0.0).length(), second_derivative(p, 1.0).length());
   return tolerance > 0.0 ? std::sqrt(bend / (8.0 * tolerance)) : kInfinity;
 }
 
-/// The scale of a map that keeps angles, else 0.
+/// The scale of a similarity transform, else 0.
 double similarity_scale(const Mat44d& m) {
   const Vec3d rows[3] = {
       {m[0][0], m[0][1], m[0][2]}, {m[1][0], m[1][1], m[1][2]}, {m[2][0], m[2][1], m[2][2]}};
@@ -66,7 +65,7 @@ Vec3d apply(const Mat44d& m, const Vec3d& v, double w) {
 
 }  // namespace
 
-/// A ray in the space of the points: x, y and the unit direction d are a right-handed frame.
+/// A ray in the space of the points. x, y and the unit direction d form a right-handed frame.
 struct CurveShape::Line {
   Vec3d o, d, x, y;
   double per_t;  ///< length per unit of the ray's t
@@ -81,12 +80,12 @@ struct CurveShape::Line {
 };
 
 struct CurveShape::Nearest {
-  double s = -1.0;       ///< parameter of the piece; negative if there is none
-  Vec3d p{0, 0, 0};      ///< in the space of the line
+  double s = -1.0;       ///< parameter of the piece; negative if there is no point
+  Vec3d p{0, 0, 0};      ///< in the line's frame
   double z = kInfinity;  ///< depth along the line
 };
 
-/// Part of a piece, in the space of the line, with what is left to divide it.
+/// Part of a piece in the line's frame, with the number of divisions left.
 struct CurveShape::Search {
   uint32_t piece;
   Bezier points;
@@ -187,7 +186,7 @@ Vec3d CurveShape::ribbon_normal(uint32_t piece, double s) const {
   const Vec3d a = to_double(ends_[piece].normal0), b = to_double(ends_[piece].normal1);
   const double u = ranges_[piece].u0 + s * (ranges_[piece].u1 - ranges_[piece].u0);
   const double angle = std::atan2(a.cross(b).length(), a.dot(b)), sine = std::sin(angle);
-  // Normals that agree, or that are opposite so that there is no shortest way between them.
+  // Equal normals; or opposite ones, which have no shortest rotation between them.
   if (!(sine > 1e-6)) return a;
   return a * (std::sin((1.0 - u) * angle) / sine) + b * (std::sin(u * angle) / sine);
 }
@@ -201,7 +200,7 @@ double CurveShape::seen_width(uint32_t piece, double s, const Line& line) const 
 
 CurveShape::Nearest CurveShape::refine(uint32_t piece, double s, const Line& line) const {
   const Bezier c = line.to_plane(points_of(piece));
-  // Newton's method for the distance in the plane; where that is no minimum, a step along the
+  // Newton's method for the distance in the plane. Where that has no minimum, steps along the
   // tangent.
   for (int i = 0; i < 4; ++i) {
     const Vec3d p = polar(c, s, s, s), d1 = derivative(c, s), d2 = second_derivative(c, s);
@@ -282,8 +281,8 @@ void CurveShape::fill(uint32_t piece, const Vec2f& hit_uv, const Ray& ray, float
   if (!(dpdu.length2() > 0.0)) dpdu = line.x;
   dpdu /= range.u1 - range.u0;
 
-  // In object space v grows to the left of the curve as seen along the ray, along d x dpdu; a map
-  // that mirrors turns that around.
+  // In object space v grows to the left of the curve as seen along the ray, along d x dpdu. A
+  // mirroring transform reverses this.
   const double side = mirrored_ ? -1.0 : 1.0;
   Vec3d left = line.d.cross(dpdu);
   left = left.length2() > 0.0 ? unit(left) * side : line.y;

@@ -1,5 +1,5 @@
-// Bezier and b-spline curves of degree 2 and 3 as cubic Bezier segments; see curve.h. A segment's
-// control points are values of the curve's polar form (Ramshaw 1987). It must not know widths.
+// Bezier and b-spline curves of degree 2 and 3 as cubic Bezier segments; see curve.h. Control
+// points are values of the curve's polar form (Ramshaw 1987). It must not know widths.
 #include "scene/shape/curve.h"
 
 namespace nephroid {
@@ -15,7 +15,7 @@ CurveSegment cubic(const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& 
   return s;
 }
 
-/// The same parabola as a cubic.
+/// The same parabola as a cubic (degree elevation).
 CurveSegment raised(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
   return cubic(a, mix(a, b, 2.0f / 3.0f), mix(b, c, 1.0f / 3.0f), c);
 }
@@ -41,7 +41,7 @@ std::vector<CurveSegment> bspline_segments(const std::vector<Vec3f>& p, int degr
           raised(mix(p[i], p[i + 1], 0.5f), p[i + 1], mix(p[i + 1], p[i + 2], 0.5f)));
       continue;
     }
-    // Thirds of the sides, and the middles between them.
+    // Points at thirds of the sides, and the midpoints between them.
     const Vec3f before = mix(p[i], p[i + 1], 2.0f / 3.0f), a = mix(p[i + 1], p[i + 2], 1.0f / 3.0f);
     const Vec3f b = mix(p[i + 1], p[i + 2], 2.0f / 3.0f),
                 after = mix(p[i + 2], p[i + 3], 1.0f / 3.0f);

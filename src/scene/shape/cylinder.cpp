@@ -1,5 +1,5 @@
-// Open cylinders around the object's z axis, whole or a sector.
-// Called through make_cylinder. Parametrization as pbrt-v4, section 6.3.
+// Open cylinders around the object's z axis, whole or a sector. Parametrization: pbrt-v4, section
+// 6.3.
 #include "scene/shape/quadric.h"
 
 namespace nephroid {
@@ -29,7 +29,7 @@ class Cylinder final : public Quadric {
     const double a = d.x * d.x + d.y * d.y;
     if (!(a > 0.0)) return {};
     const double nearest = -(o.x * d.x + o.y * d.y) / a;
-    // Distance of the ray from the axis, from the cross product: no cancellation far away.
+    // Distance of the ray from the axis by the cross product, without cancellation far away.
     const double to_axis = std::abs(o.x * d.y - o.y * d.x) / std::sqrt(a);
     const double discriminant = (r_ - to_axis) * (r_ + to_axis);
     if (discriminant < 0.0) return {};

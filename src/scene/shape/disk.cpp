@@ -1,6 +1,5 @@
-// Disks, rings and sectors of them, at a height above the object's xy plane.
-// Called through make_disk. Under an affine map a disk stays uniform, so its areas are exact.
-// Parametrization as pbrt-v4, section 6.4.
+// Disks, rings and sectors, at a height above the object's xy plane. Area sampling stays uniform
+// under affine maps, so areas are exact. Parametrization: pbrt-v4, section 6.4.
 #include "core/warps.h"
 #include "scene/shape/quadric.h"
 
@@ -45,7 +44,7 @@ class Disk final : public Quadric {
   }
   Vec3d normal_of(const Vec3d&) const override { return {0, 0, 1}; }
   Derivatives derivatives_at(const Vec3d& p) const override {
-    // At the centre phi is arbitrary; a small circle instead of a point keeps dpdu a direction.
+    // At the centre phi is arbitrary; a minimal radius keeps dpdu a direction.
     const double rho = std::hypot(p.x, p.y);
     const double cos_phi = rho > 0.0 ? p.x / rho : 1.0, sin_phi = rho > 0.0 ? p.y / rho : 0.0;
     Derivatives by;

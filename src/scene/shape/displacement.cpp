@@ -1,4 +1,4 @@
-// Bisection of longest edges with shared midpoints, then heights and normals. See displacement.h.
+// Longest-edge bisection with shared midpoints, then heights and normals; see displacement.h.
 #include "scene/shape/displacement.h"
 
 #include <array>
@@ -34,7 +34,7 @@ class Refinement {
         longest_(displacement.edge_length),
         most_(most_triangles) {}
 
-  /// Replaces all triangles; false if there would be too many.
+  /// Replaces all triangles. False if there would be too many.
   bool run() {
     const std::vector<uint32_t> coarse = std::move(mesh_.triangles);
     const std::vector<int> coarse_tags = std::move(mesh_.face_indices);
@@ -69,7 +69,7 @@ class Refinement {
         mesh_.triangles.insert(mesh_.triangles.end(), v.begin(), v.end());
         continue;
       }
-      // The longest edge comes first; of edges as long as each other the later one.
+      // Rotates the longest edge to the front; the later one of equal edges.
       Corners w = {v[2], v[0], v[1]};
       if (d01 > d12 && d01 > d20) w = v;
       if (d12 >= d01 && d12 > d20) w = {v[1], v[2], v[0]};
@@ -82,7 +82,7 @@ class Refinement {
     return true;
   }
 
-  /// The vertex in the middle of an edge, the same one from both of its sides.
+  /// The vertex in the middle of an edge, shared by the triangles on both sides.
   uint32_t midpoint(uint32_t a, uint32_t b) {
     const uint64_t edge = (uint64_t{std::min(a, b)} << 32) | std::max(a, b);
     const auto [found, is_new] =

@@ -1,6 +1,5 @@
-// Displacement of meshes: refined until all edges are short, then moved along their normals.
-// Who calls it: the table of shapes, for PLY meshes with a "displacement". It must not know
-// textures. Refinement by bisection of longest edges (M. C. Rivara 1984), as pbrt-v4 does it.
+// Displacement of meshes: refined until all edges are short, then moved along their normals. It
+// must not know textures. Refinement: longest-edge bisection (Rivara 1984), as in pbrt-v4.
 #pragma once
 
 #include <functional>
@@ -11,20 +10,19 @@
 
 namespace nephroid {
 
-/// Triangles that a displaced mesh may have.
+/// Maximum number of triangles of a displaced mesh.
 inline constexpr size_t kMaxDisplacedTriangles = 100'000'000;
 
 struct Displacement {
-  float edge_length = 1;      ///< all edges become shorter than this, in world space
-  Transform object_to_world;  ///< for the lengths of edges
-  /// How far the surface moves along its unit normal at a point, in object space.
+  float edge_length = 1;      ///< upper bound of edge lengths in world space
+  Transform object_to_world;  ///< transform in which edge lengths are measured
+  /// Distance by which the surface moves along its unit normal at a point, in object space.
   std::function<float(const Vec3f& p, const Vec2f& uv)> height;
 };
 
-/// The displaced mesh: triangles only (quads are cut into two), with new normals, the sum of those
-/// of the faces around a vertex. The mesh has texture coordinates, its positions are finite and its
-/// indices good. Empty if it would get more than `most_triangles` triangles, more vertices, or
-/// edges of infinite length.
+/// The displaced mesh: triangles only (quads are split), with new normals, the sum of the face
+/// normals around a vertex. The input has texture coordinates, finite positions and valid indices.
+/// Empty if the result would exceed `most_triangles` triangles or vertices, or has infinite edges.
 std::optional<MeshData> displace_mesh(MeshData mesh, const Displacement& displacement,
                                       size_t most_triangles = kMaxDisplacedTriangles);
 

@@ -4,7 +4,7 @@ namespace nephroid {
 
 namespace {
 
-// Relative to the size of the rectangle: what rounding in a file of six digits leaves.
+// Relative to the size of the rectangle: allows for rounding in files with six digits.
 constexpr float kTolerance = 2e-5f;
 
 bool is_rectangle(const MeshData& mesh, const uint32_t v[4]) {

@@ -1,7 +1,6 @@
-// Loop subdivision: each level cuts a triangle in four; at the end all vertices move to the limit
-// surface and get its normals.
-// Who calls it: the scene builder, for "loopsubdiv". Pure geometry, in double until the end.
-// C. Loop 1987; boundary rules and tangents as Hoppe et al. 1994 and pbrt's loopsubdiv.
+// Loop subdivision: each level splits a triangle into four; at the end all vertices move to the
+// limit surface and get its normals. Pure geometry, in double until the end. Papers: Loop 1987;
+// Hoppe et al. 1994 (boundary rules and tangents, as in pbrt's loopsubdiv).
 #include <stdexcept>
 #include <string>
 
@@ -23,9 +22,9 @@ uint32_t previous_in_face(uint32_t h) {
 
 struct SubdivisionMesh {
   std::vector<Vec3d> positions;
-  std::vector<uint32_t> corners;   ///< per half-edge: the vertex where it starts
-  std::vector<uint32_t> twins;     ///< per half-edge: the opposite one or kNone at a boundary
-  std::vector<uint32_t> outgoing;  ///< per vertex: a half-edge that starts there; at a boundary the
+  std::vector<uint32_t> corners;   ///< start vertex of each half-edge
+  std::vector<uint32_t> twins;     ///< opposite of each half-edge, or kNone at a boundary
+  std::vector<uint32_t> outgoing;  ///< one half-edge that starts at each vertex; at a boundary the
                                    ///< one without a twin
   uint32_t start(uint32_t h) const { return corners[h]; }
   uint32_t end(uint32_t h) const { return corners[next_in_face(h)]; }
@@ -40,7 +39,8 @@ std::string edge_name(uint32_t a, uint32_t b) {
   return "the edge from vertex " + std::to_string(a) + " to vertex " + std::to_string(b);
 }
 
-/// Finds twins and outgoing half-edges from the corners; throws on what is no oriented manifold.
+/// Finds twins and outgoing half-edges from the corners. Throws unless the faces are an oriented
+/// manifold.
 void connect(SubdivisionMesh& mesh) {
   struct Directed {
     uint32_t low, high, half_edge;
@@ -83,7 +83,7 @@ void connect(SubdivisionMesh& mesh) {
   }
 }
 
-/// The neighbours of a vertex, counter-clockwise around the side that the faces show; at a boundary
+/// The neighbours of a vertex, counter-clockwise seen from the front of the faces; at a boundary
 /// from one end of it to the other.
 void one_ring(const SubdivisionMesh& mesh, uint32_t vertex, std::vector<uint32_t>& ring) {
   ring.clear();
@@ -100,7 +100,8 @@ void one_ring(const SubdivisionMesh& mesh, uint32_t vertex, std::vector<uint32_t
   } while (h != first);
 }
 
-/// A vertex where two fans of faces touch has no one-ring; only the input can have one.
+/// Throws if two fans of faces touch in a vertex, which then has no one-ring. Only the input can
+/// have such vertices.
 void check_fans(const SubdivisionMesh& mesh) {
   std::vector<uint32_t> faces(mesh.positions.size(), 0), ring;
   for (const uint32_t vertex : mesh.corners) ++faces[vertex];
@@ -121,7 +122,7 @@ double limit_weight(size_t valence) {
   return 1.0 / (static_cast<double>(valence) + 3.0 / (8.0 * neighbour_weight(valence)));
 }
 
-/// The vertex, moved towards its neighbours: all of them inside, the two along the boundary there.
+/// The vertex moved towards its neighbours: all of them, or at a boundary the two along it.
 Vec3d smoothed(const SubdivisionMesh& mesh, uint32_t vertex, const std::vector<uint32_t>& ring,
                double inside_weight, double boundary_weight) {
   const Vec3d& p = mesh.positions[vertex];
@@ -159,8 +160,8 @@ SubdivisionMesh subdivide_once(const SubdivisionMesh& mesh) {
     on_edge[h] = static_cast<uint32_t>(finer.positions.size());
     finer.positions.push_back(edge_point(mesh, h));
   }
-  // A child keeps the corner of its parent at the same place in the list, because triangles without
-  // texture coordinates get them by that place.
+  // A child keeps its parent's corner at the same place in the list, because triangles without
+  // texture coordinates get default ones by corner.
   finer.corners.reserve(4 * mesh.corners.size());
   for (uint32_t h = 0; h < mesh.corners.size(); h += 3) {
     const uint32_t v0 = mesh.corners[h], v1 = mesh.corners[h + 1], v2 = mesh.corners[h + 2];
@@ -172,8 +173,8 @@ SubdivisionMesh subdivide_once(const SubdivisionMesh& mesh) {
   return finer;
 }
 
-/// A normal of the limit surface, not normalised. With faces that are counter-clockwise it points
-/// away from the viewer, as pbrt's does.
+/// A normal of the limit surface, not normalised. For counter-clockwise faces it points away from
+/// the viewer, as in pbrt.
 Vec3d limit_normal(const SubdivisionMesh& mesh, uint32_t vertex,
                    const std::vector<uint32_t>& ring) {
   const size_t n = ring.size();
@@ -203,12 +204,12 @@ Vec3d limit_normal(const SubdivisionMesh& mesh, uint32_t vertex,
   return s.cross(t);
 }
 
-/// The mesh without vertices that no face uses.
+/// The mesh without unused vertices.
 SubdivisionMesh checked_input(const std::vector<Vec3f>& positions,
                               const std::vector<uint32_t>& triangles, int levels) {
   if (triangles.size() % 3 != 0)
     fail(std::to_string(triangles.size()) + " indices, expected a multiple of 3");
-  // All half-edges must have a number below kNone.
+  // All half-edge numbers must be below kNone.
   uint64_t half_edges = triangles.size();
   if (levels < 0) fail("level " + std::to_string(levels) + ", expected 0 or more");
   for (int i = 0; i < levels && half_edges > 0; ++i) {
@@ -263,7 +264,7 @@ MeshData loop_subdivide(const std::vector<Vec3f>& positions, const std::vector<u
   MeshData out;
   for (size_t i = 0; i < mesh.positions.size(); ++i) {
     const Vec3d& p = mesh.positions[i];
-    // One factor for all, because their lengths weigh them where they are interpolated.
+    // One factor for all, because relative lengths weigh them in interpolation.
     const Vec3d n = longest > 0.0 ? normals[i] / longest : Vec3d(0, 0, 0);
     out.positions.emplace_back(static_cast<float>(p.x), static_cast<float>(p.y),
                                static_cast<float>(p.z));

@@ -1,5 +1,4 @@
-// Checks of meshes, transforms, and the way of quads. Called by the scene builder.
-// It must not know what the mesh is for.
+// Checks of meshes, transforms, and the handling of quads. It must not know what the mesh is for.
 #include "scene/shape/mesh_preparation.h"
 
 #include <fmt/format.h>
@@ -20,7 +19,7 @@ bool all_finite(const V& v) {
   return true;
 }
 
-/// The checks of one mesh, which share where it stood and how it is called.
+/// The checks of one mesh, with its location and name for messages.
 class MeshChecker {
  public:
   MeshChecker(const MeshData& mesh, const SourceLocation& where, const std::string& what)
@@ -46,7 +45,7 @@ class MeshChecker {
   }
 
  private:
-  /// The ray tracer numbers the primitives of a shape in 32 bits.
+  /// The ray tracer's limit: it numbers the primitives of a shape in 32 bits.
   static constexpr size_t kMaxFaces = 0xfffffffeu;
 
   [[noreturn]] void fail(const std::string& message) const {
@@ -91,7 +90,7 @@ bool has_area(const Vec3f& p0, const Vec3f& p1, const Vec3f& p2) {
   return n.dot(n) > 0.0;
 }
 
-/// Keeps the faces for which keep(face) holds; returns how many there were to lose.
+/// Keeps the faces for which keep(face) holds. Returns the number of removed faces.
 template <class Keep>
 size_t filter_faces(std::vector<uint32_t>& indices, size_t corners, std::vector<int>& face_indices,
                     size_t first_face, Keep keep) {
@@ -204,8 +203,8 @@ void transform_mesh(MeshData& data, const Transform& object_to_world) {
   for (Vec3f& p : data.positions) p = object_to_world.point(p);
   for (Vec3f& t : data.tangents) t = object_to_world.vector(t);
   if (data.normals.empty()) return;
-  // Not normalised one by one, because they are interpolated as they are; but by one factor for
-  // all, so that a map that keeps angles keeps lengths, too.
+  // Scaled by one common factor, not normalised: interpolation uses relative lengths, and a
+  // similarity transform keeps lengths.
   const Mat44d& m = object_to_world.m;
   const Vec3d a(m[0][0], m[0][1], m[0][2]), b(m[1][0], m[1][1], m[1][2]);
   const double determinant = std::abs(a.cross(b).dot(Vec3d(m[2][0], m[2][1], m[2][2])));

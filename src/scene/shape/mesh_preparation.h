@@ -1,5 +1,5 @@
-// What is done to a mesh between the file and the shape: it is checked, and its quads are cut or
-// kept. Who calls it: the scene builder. It must not know how meshes are traced or sampled.
+// Preparation of a mesh between file and shape: it is checked, and its quads are split or kept. It
+// must not know how meshes are traced or sampled.
 #pragma once
 
 #include <string>
@@ -9,32 +9,31 @@
 
 namespace nephroid {
 
-/// Throws SceneError if an index is out of range, a position, normal or texture coordinate is not
-/// finite, a position is out of reach (kLargestCoordinate), an array does not fit the number of
-/// vertices or faces, or a face is incomplete. Faces without area are removed (with their
-/// face_indices), with one warning that counts them; `what` names the mesh in messages. Quads may
-/// be in ring or in patch order. face_indices, if there are any, count the triangles first and then
-/// the quads.
+/// Throws SceneError for indices out of range, positions, normals or texture coordinates that are
+/// not finite, and positions out of reach (kLargestCoordinate). Also for incomplete faces, and
+/// arrays that do not match the number of vertices or faces. Faces without area are removed (with
+/// their face_indices), and one warning counts them. `what` names the mesh in messages. Quads can
+/// be in ring or in patch order. face_indices, if any, list the triangles first and then the quads.
 void validate_mesh(MeshData& mesh, const SourceLocation& where, const std::string& what,
                    Diagnostics& diagnostics);
 
-/// Normals that are not finite become 0, which leaves a face its own normal there; one warning
-/// counts those of vertices that a face uses. Indices out of range are left to validate_mesh.
+/// Sets normals that are not finite to 0, so that a face uses its own normal there. One warning
+/// counts those of used vertices. Indices out of range are left to validate_mesh.
 void zero_bad_normals(MeshData& mesh, const SourceLocation& where, const std::string& what,
                       Diagnostics& diagnostics);
 
-/// Turns the normals around: pbrt does so with the normals of a mesh under ReverseOrientation,
-/// before it asks which side the faces show.
+/// Reverses the normals. pbrt does this under ReverseOrientation, before normals decide which side
+/// of the faces is outside.
 void reverse_normals(MeshData& mesh);
 
-/// The mesh with each quad (ring order) cut into two triangles behind the triangles it had.
+/// Splits each quad (ring order) into two triangles, appended to the existing triangles.
 MeshData split_quads(MeshData mesh);
 
-/// The triangles of the mesh alone, with their face_indices.
+/// The triangles of the mesh only, with their face_indices.
 MeshData triangles_of(const MeshData& mesh);
 
-/// The quads of the mesh alone, from the ring order v0 v1 v2 v3 of PLY files into the patch order
-/// p00 p10 p01 p11 = v0 v1 v3 v2 that make_bilinear_mesh wants (as pbrt-v4 does).
+/// The quads of the mesh only. As in pbrt-v4, the ring order v0 v1 v2 v3 of PLY files becomes the
+/// patch order p00 p10 p01 p11 = v0 v1 v3 v2 of make_bilinear_mesh.
 MeshData quads_of(const MeshData& mesh);
 
 }  // namespace nephroid

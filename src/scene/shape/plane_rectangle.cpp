@@ -6,7 +6,7 @@ namespace nephroid {
 
 namespace {
 
-/// Rectangles that cover less are sampled by area (pbrt-v4).
+/// Rectangles with a smaller solid angle are sampled by area (pbrt-v4).
 constexpr double kMinSphericalArea = 1e-4;
 
 }  // namespace

@@ -1,6 +1,5 @@
-// A plane rectangle as lamps ask for it: points of it uniform by solid angle or by area, from data
-// that lie side by side. Who calls it: the meshes of bilinear patches, and area lights,
-// which keep their own. It must not know meshes.
+// A plane rectangle for light sampling: points uniform by solid angle or by area. Area lights keep
+// their own copy, so that the data are contiguous in memory. It must not know meshes.
 #pragma once
 
 #include <optional>
@@ -11,21 +10,21 @@
 
 namespace nephroid {
 
-/// The part of a point's error that is the same all over the patch: what was lost in double, and
-/// the extent, which stands for the rounding of a distance to the patch, also along axes on which
-/// all coordinates are zero; flat patches are traced in float.
+/// The part of a point's error that is constant over the patch: double rounding, and a share of the
+/// extent. The latter covers rounded distances to the patch, since flat patches are traced in
+/// float, also along axes on which all coordinates are zero.
 Vec3f error_of_patch(const BilinearPatch& patch);
 
-/// The point `q` of a patch, rounded to float, with all of its error.
+/// Rounds the patch point `q` to float and sets its full error.
 void set_patch_point(const Vec3d& q, const Vec3f& patch_error, Vec3f* p, Vec3f* p_error);
 
 class PlaneRectangle {
  public:
-  /// Of a patch that is_rectangle(), with the unit normal of its outside at the centre.
+  /// Made from a patch that is_rectangle(), with the unit outside normal at its centre.
   PlaneRectangle(const BilinearPatch& patch, const Vec3f& normal);
 
-  /// As of Shape. (u, v) of a sample are those of the patch. Densities are those of a true
-  /// rectangle, from which the patch differs by 1e-4 at most.
+  /// Same as in Shape. (u, v) of a sample are the patch's. Densities are those of an exact
+  /// rectangle, from which the patch differs by at most 1e-4.
   ShapeSample sample_area(const Vec2f& u) const;
   std::optional<ShapeSample> sample_towards(const Vec3f& from, const Vec2f& u) const;
   float pdf_towards(const Vec3f& from, const Vec3f& p, const Vec3f& ng) const;
@@ -34,7 +33,7 @@ class PlaneRectangle {
   ShapeSample sample_at(const Vec2f& uv, double pdf) const;
 
   RectangleFrame frame_;
-  Vec3f p00_, p10_, p01_, p11_;  ///< of the patch, whose points are those of hits
+  Vec3f p00_, p10_, p01_, p11_;  ///< corners of the patch; samples lie on the patch, like hits
   Vec3f error_, normal_;
   double area_;
 };

@@ -1,6 +1,6 @@
-// Transforms, error bounds, areas and area sampling of the shapes that live in object space.
-// Called through Shape; knows the surface only through the virtual functions of quadric.h.
-// Error bounds: pbrt-v4 section 6.8, for double arithmetic rounded once to float.
+// Transforms, error bounds, areas and area sampling of quadrics. It knows the surface only through
+// the virtual functions of quadric.h. Error bounds: pbrt-v4 section 6.8, for double arithmetic
+// rounded once to float.
 #include "scene/shape/quadric.h"
 
 #include "scene/shape/solid_angle.h"
@@ -19,7 +19,7 @@ Vec3d transform_vector(const Mat44d& m, const Vec3d& v) {
 Vec3d transform_point(const Mat44d& m, const Vec3d& p) {
   return transform_vector(m, p) + Vec3d(m[3][0], m[3][1], m[3][2]);
 }
-/// v times the transposed 3x3 part: with the inverse matrix, the map of normals.
+/// v times the transposed 3x3 part; with the inverse matrix this maps normals.
 Vec3d transform_transposed(const Mat44d& m, const Vec3d& v) {
   return {v.x * m[0][0] + v.y * m[0][1] + v.z * m[0][2],
           v.x * m[1][0] + v.y * m[1][1] + v.z * m[1][2],
@@ -34,7 +34,7 @@ double determinant3(const Mat44d& m) {
   return a.cross(b).dot(Vec3d(m[2][0], m[2][1], m[2][2]));
 }
 
-/// True if the map keeps all angles, up to the rounding of the file's numbers.
+/// True if the map keeps all angles, up to rounding in the file.
 bool keeps_angles(const Mat44d& m) {
   Vec3d axis[3];
   for (int i = 0; i < 3; ++i) axis[i] = Vec3d(m[i][0], m[i][1], m[i][2]);
@@ -83,7 +83,7 @@ void Quadric::set_bounds(double radius, double z_min, double z_max, double ball)
       low = std::max(low, -whole);
       high = std::min(high, whole);
     }
-    // Rounded outwards by more than the double arithmetic may have lost.
+    // Rounded outwards, by more than the error of the double arithmetic.
     bounds_.min[axis] = std::nextafter(static_cast<float>(center + low), -kInfinity);
     bounds_.max[axis] = std::nextafter(static_cast<float>(center + high), kInfinity);
   }
@@ -107,7 +107,7 @@ Vec3d Quadric::normal_to_object(const Vec3f& n) const {
 
 Vec3f Quadric::world_point(const Vec3d& p, Vec3f* error) const {
   const Vec3d world = transform_point(to_world_, p);
-  // One rounding to float, plus what the two transforms and the intersection lost in double.
+  // One rounding to float, plus the double rounding of the two transforms and the intersection.
   constexpr double kFloatRounding = 0x1.0001p-24, kDoubleRounding = 32.0 * 0x1p-53;
   for (int j = 0; j < 3; ++j) {
     const double in_double = std::abs(world.x) * error_scale_[0][j] +
@@ -132,12 +132,12 @@ std::optional<ShapeHit> Quadric::intersect(uint32_t, const Ray& ray, float t_min
 
 void Quadric::fill(uint32_t, const Vec2f& hit_uv, const Ray& ray, float t,
                    SurfaceInteraction& out) const {
-  // The ray is met again in double: float t and uv would move the point along a large surface.
+  // Intersects again in double: float t and uv would move the point along a large surface.
   const Vec3d o = to_object(ray.o), d = vector_to_object(to_double(ray.d));
   const Roots found = roots(o, d);
   Vec3d p;
   if (found.count == 0) {
-    // A ray that grazes may miss here what it met in another arithmetic.
+    // By rounding, a grazing ray can miss here.
     p = ray.d == Vec3f(0) ? point_at(Vec2d(hit_uv.x, hit_uv.y)) : project(o + d * double{t});
   } else {
     const bool second =
@@ -152,7 +152,7 @@ void Quadric::fill(uint32_t, const Vec2f& hit_uv, const Ray& ray, float t,
   const Derivatives by = derivatives_at(p);
   out.dpdu = to_float(transform_vector(to_world_, by.dpdu));
   out.dpdv = to_float(transform_vector(to_world_, by.dpdv));
-  // n' = N n / |N n| with N the inverse transpose; its derivative loses the part along n'.
+  // n' = N n / |N n|, N the inverse transpose; its derivative has no component along n'.
   const Vec3d scaled = transform_transposed(to_object_, normal_of(p));
   const double scale = (flip_ ? -1.0 : 1.0) / std::sqrt(scaled.dot(scaled));
   const Vec3d n = scaled * scale;
@@ -170,8 +170,8 @@ void Quadric::fill(uint32_t, const Vec2f& hit_uv, const Ray& ray, float t,
 
 float Quadric::area(uint32_t) const {
   if (similarity_) return static_cast<float>(local_area() * std::pow(determinant_, 2.0 / 3.0));
-  // Gauss-Legendre on a grid of cells over (u,v); exact for disks, and to about 1e-5 for stretches
-  // up to 1:20. Asked for once per light.
+  // Gauss-Legendre on a grid of cells over (u,v): exact for disks, good to about 1e-5 for stretches
+  // up to 1:20. Called once per light.
   constexpr int kCells = 24;
   constexpr double kNode = 0.77459666924148337704;  // sqrt(3/5)
   constexpr double kNodes[3] = {0.5 - 0.5 * kNode, 0.5, 0.5 + 0.5 * kNode};

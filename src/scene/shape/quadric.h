@@ -1,7 +1,6 @@
-// What spheres, disks and cylinders share: one primitive with a transform, intersected and
-// differentiated in object space in double, reported in world space with error bounds.
-// Who calls it: sphere.cpp, disk.cpp, cylinder.cpp, which say only what their surface is. It must
-// not know which surfaces there are.
+// Base class of spheres, disks and cylinders: one primitive with a transform, intersected and
+// differentiated in object space in double, reported in world space with error bounds. Derived
+// classes define the surface; it must not know which there are.
 #pragma once
 
 #include "scene/shape/shape.h"
@@ -12,9 +11,9 @@ class Quadric : public Shape {
  public:
   uint32_t primitive_count() const final { return 1; }
   Bounds3f bounds(uint32_t) const final { return bounds_; }
-  /// Leaves the hit's uv at 0: fill() meets the surface again, and most hits are never filled.
+  /// Leaves the hit's uv at 0: fill() intersects again, and most hits are never filled.
   std::optional<ShapeHit> intersect(uint32_t, const Ray& ray, float t_min) const final;
-  /// `hit_uv` counts only with a ray that has no direction: it is the point then.
+  /// `hit_uv` is used only with a ray without direction: it is then the point.
   void fill(uint32_t, const Vec2f& hit_uv, const Ray& ray, float t,
             SurfaceInteraction& out) const final;
   float area(uint32_t) const final;
@@ -33,20 +32,19 @@ class Quadric : public Shape {
   };
   using Vec2d = Imath::V2d;
 
-  /// The outside is where dpdu x dpdv points in object space, turned around by
-  /// reverse_orientation. A transform that swaps handedness keeps it: normals are mapped as such.
+  /// The outside is where dpdu x dpdv points in object space, reversed by reverse_orientation. A
+  /// transform that swaps handedness does not change it: it is mapped like a normal.
   Quadric(const Transform& object_to_world, bool reverse_orientation);
-  /// To be called by the constructors of subclasses: sets the bounds to those of the cylinder
-  /// around the object's z axis, intersected with those of the ball of radius `ball` if it is above
-  /// 0.
+  /// Called by the constructors of derived classes. Sets the bounds to those of the cylinder around
+  /// the object's z axis, intersected with those of a ball of radius `ball` if that is positive.
   void set_bounds(double radius, double z_min, double z_max, double ball);
 
   // The surface in object space.
-  /// Where the ray meets the whole surface, before it is cut by z and phi limits.
+  /// Intersections of the ray with the whole surface, before clipping by z and phi.
   virtual Roots roots(const Vec3d& o, const Vec3d& d) const = 0;
-  /// The point of the whole surface that belongs to a nearly correct one.
+  /// Projects an approximate point onto the whole surface.
   virtual Vec3d project(const Vec3d& p) const = 0;
-  /// True if a point of the whole surface is inside the limits.
+  /// True if a point of the whole surface is within the z and phi limits.
   virtual bool contains(const Vec3d& p) const = 0;
   virtual Vec3d point_at(const Vec2d& uv) const = 0;
   virtual Vec2d uv_of(const Vec3d& p) const = 0;
@@ -59,15 +57,18 @@ class Quadric : public Shape {
 
   Vec3d to_object(const Vec3f& world_point) const;
   Vec3d vector_to_object(const Vec3d& world_vector) const;
-  /// Unit outside normal in object space from the one in world space.
+  /// Object-space unit outside normal from the world-space one.
   Vec3d normal_to_object(const Vec3f& world_normal) const;
   Vec3f world_normal(const Vec3d& object_normal) const;
   ShapeSample sample_of(const Vec3d& object_point, float pdf) const;
   /// World-space pdf_a of a uniform sample of the object-space surface, from the normal alone: the
-  /// transform stretches an area by |det M| |M^-T n|.
+  /// transform scales an area by |det M| |M^-T n|.
   float pdf_a(const Vec3f& ng) const;
   bool is_similarity() const { return similarity_; }
-  double inverse_determinant() const { return 1.0 / determinant_; }  ///< of the 3x3 part, unsigned
+  double inverse_determinant() const {
+    return 1.0 / determinant_;
+  }  ///< absolute value, of the 3x3
+     ///< part
   bool flip() const { return flip_; }
 
  private:

@@ -1,5 +1,5 @@
-// Densities over area and over directions: the one place where shapes turn one into the other.
-// Who calls it: the shapes of this folder. It must not know any particular shape.
+// Conversion of densities between area and solid angle, for all shapes. It must not know any
+// particular shape.
 #pragma once
 
 #include <optional>
@@ -8,8 +8,8 @@
 
 namespace nephroid {
 
-/// pdf_w at `from` of a point `p` with unit normal `ng` that was chosen with density pdf_a;
-/// 0 where the surface is seen edge-on or `p` is `from`.
+/// pdf_w at `from` of a point `p` with unit normal `ng` that was sampled with density pdf_a; 0 if
+/// the surface is seen edge-on or `p` equals `from`.
 inline float area_to_solid_angle(float pdf_a, const Vec3f& from, const Vec3f& p, const Vec3f& ng) {
   const Vec3d d(double(p.x) - from.x, double(p.y) - from.y, double(p.z) - from.z);
   const double projected = std::abs(d.x * ng.x + d.y * ng.y + d.z * ng.z);
@@ -19,7 +19,7 @@ inline float area_to_solid_angle(float pdf_a, const Vec3f& from, const Vec3f& p,
   return pdf_w < double(std::numeric_limits<float>::max()) ? static_cast<float>(pdf_w) : 0.0f;
 }
 
-/// A sample with pdf_a as one with pdf_w at `from`; empty if that density is 0.
+/// Converts a sample with pdf_a to one with pdf_w at `from`. Empty if that density is 0.
 inline std::optional<ShapeSample> seen_from(std::optional<ShapeSample> by_area, const Vec3f& from) {
   if (!by_area) return std::nullopt;
   by_area->pdf = area_to_solid_angle(by_area->pdf, from, by_area->p, by_area->ng);

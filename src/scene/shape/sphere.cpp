@@ -1,7 +1,6 @@
-// Spheres, whole or cut by z and phi, under any affine transform.
-// Called through make_sphere; whole ones are sampled by solid angle from outside, ellipsoids too:
-// the cone is taken in object space and its density carried over to world directions.
-// Parametrization as pbrt-v4, section 6.2.
+// Spheres, whole or clipped by z and phi, under any affine transform. From outside, whole spheres
+// and ellipsoids are sampled by solid angle: by the cone in object space, with its density
+// converted to world directions. Parametrization: pbrt-v4, section 6.2.
 #include "scene/shape/quadric.h"
 #include "scene/shape/solid_angle.h"
 
@@ -10,7 +9,7 @@ namespace {
 
 constexpr double kTwoPi = 2.0 * 3.14159265358979323846;
 
-/// The cone from a point at distance D from the centre that touches a sphere of radius r.
+/// The tangent cone of a sphere of radius r from a point at distance D from its centre.
 struct TangentCone {
   double distance, one_minus_cos_max;
   TangentCone(double r, double d) : distance(d) {
@@ -76,7 +75,7 @@ class Sphere final : public Quadric {
     return {rho * std::cos(phi), rho * std::sin(phi), z};
   }
   bool sees_cone(const Vec3d& o) const { return whole_ && o.dot(o) > r_ * r_; }
-  /// Turns a density over object-space directions into one over world-space ones.
+  /// Converts a density over object-space directions to one over world-space directions.
   float world_pdf_w(double pdf, const Vec3f& from, const Vec3f& p) const;
 
   double r_, z_min_, z_max_, phi_max_;
@@ -97,7 +96,7 @@ Quadric::Roots Sphere::roots(const Vec3d& o, const Vec3d& d) const {
 }
 
 Quadric::Derivatives Sphere::derivatives_at(const Vec3d& p) const {
-  // At the poles phi is arbitrary; a small circle instead of a point keeps dpdu a direction.
+  // At the poles phi is arbitrary; a minimal radius keeps dpdu a direction.
   const double rho = std::hypot(p.x, p.y);
   const double cos_phi = rho > 0.0 ? p.x / rho : 1.0, sin_phi = rho > 0.0 ? p.y / rho : 0.0;
   const double around = std::max(rho, 1e-5 * r_);
@@ -126,7 +125,7 @@ std::optional<ShapeSample> Sphere::sample_towards(uint32_t primitive, const Vec3
   const double one_minus_cos = u.x * cone.one_minus_cos_max;
   const double cos_theta = 1.0 - one_minus_cos;
   const double sin2_theta = one_minus_cos * (2.0 - one_minus_cos);
-  // The near one of the two points at that angle, by its position along and across the axis.
+  // The nearer of the two points at that angle, by its position along and across the axis.
   const double half = std::sqrt(std::max(0.0, r_ * r_ - sqr(cone.distance) * sin2_theta));
   const double t = cone.distance * cos_theta - half;
   const double across = t * std::sqrt(sin2_theta), along = t * cos_theta - cone.distance;
@@ -149,7 +148,7 @@ float Sphere::pdf_towards(uint32_t primitive, const Vec3f& from, const Vec3f& p,
                           const Vec3f& ng) const {
   const Vec3d o = to_object(from);
   if (!sees_cone(o)) return Quadric::pdf_towards(primitive, from, p, ng);
-  // Only the side that faces `from` is ever sampled; the margin covers rounding at the rim.
+  // Only the side that faces `from` is sampled; the margin covers rounding at the rim.
   const double distance = std::sqrt(o.dot(o));
   const double height = normal_to_object(ng).dot(o) * (flip() ? -1.0 : 1.0);
   if (height < r_ - 1e-4 * distance) return 0.0f;

@@ -1,7 +1,5 @@
-// Solid angle and area-preserving parametrization of a rectangle seen from a point.
-// Called by plane_rectangle.cpp; the angles of the spherical rectangle are taken with atan2 instead
-// of acos, which keeps their digits when the rectangle is seen at a grazing angle. Urena, Fajardo,
-// King 2013.
+// Solid angle and area-preserving parametrization of a rectangle seen from a point (Urena, Fajardo
+// & King 2013). Inner angles use atan2 instead of acos, which keeps precision at grazing angles.
 #include "scene/shape/spherical_rectangle.h"
 
 namespace nephroid {
@@ -27,8 +25,8 @@ SphericalRectangle::SphericalRectangle(const Vec3d& from, const RectangleFrame& 
   z0_ = -std::abs(d.dot(r.z));
   if (z0_ == 0.0) return;
 
-  // The four inner angles of the spherical rectangle; their excess over 2 pi is the solid angle.
-  // Angles are added by multiplying complex numbers, so that one arc tangent is enough.
+  // The solid angle is the sum of the four inner angles minus 2 pi. Angles are added by multiplying
+  // complex numbers, so one arc tangent is enough.
   const auto sine = [this](double px, double py) {
     return -z0_ * std::sqrt(px * px + py * py + z0_ * z0_);
   };
@@ -38,8 +36,8 @@ SphericalRectangle::SphericalRectangle(const Vec3d& from, const RectangleFrame& 
   start_re_ = c2 * c3 - s2 * s3;
   start_im_ = c2 * s3 + s2 * c3;
   solid_angle_ = argument(re01 * start_re_ - im01 * start_im_, re01 * start_im_ + im01 * start_re_);
-  // More than a hemisphere's half is seen only from above the rectangle; elsewhere such a value is
-  // a tiny negative one, rounded, that went once around.
+  // Only points above the rectangle see more than half of a hemisphere. Elsewhere such a value is a
+  // slightly negative angle that wrapped around.
   const bool above = x0_ < 0.0 && x1_ > 0.0 && y0_ < 0.0 && y1_ > 0.0;
   if (!above && solid_angle_ > 0.5 * kTwoPi) solid_angle_ = 0.0;
 }
@@ -48,13 +46,13 @@ Vec2f SphericalRectangle::sample(const Vec2f& u) const {
   const double z2 = z0_ * z0_;
   const double b0 = -y0_ / std::sqrt(y0_ * y0_ + z2);
   const double b1 = y1_ / std::sqrt(y1_ * y1_ + z2);
-  // Cosine and sine of the angle less the start's argument, each times the start's modulus.
+  // Cosine and sine of the angle minus the start's argument, each times the start's modulus.
   const double angle = u.x * solid_angle_;
   const double cosine = std::cos(angle), sine = std::sin(angle);
   const double modulus = std::sqrt(start_re_ * start_re_ + start_im_ * start_im_);
   const double f = ((cosine * start_re_ + sine * start_im_) * b0 - b1 * modulus) /
                    (sine * start_re_ - cosine * start_im_);
-  // c / sqrt(1 - c^2) where c = 1 / sqrt(f^2 + b0^2) with the sign of f.
+  // c / sqrt(1 - c^2), where c = 1 / sqrt(f^2 + b0^2) with the sign of f.
   const double reach = std::sqrt(std::max(1e-300, f * f + b0 * b0 - 1.0));
   const double x = std::clamp(std::copysign(-z0_ / reach, f), x0_, x1_);
 

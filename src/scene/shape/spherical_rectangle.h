@@ -1,14 +1,13 @@
-// The part of the unit sphere around a point that a rectangle in space covers: its solid angle and
-// uniform points in it. Who calls it: plane_rectangle.cpp. It must not know meshes.
-// C. Urena, M. Fajardo, A. King, "An Area-Preserving Parametrization for Spherical Rectangles",
-// EGSR 2013.
+// The part of the unit sphere around a point that a rectangle covers: its solid angle and uniform
+// points in it. It must not know meshes. Paper: Urena, Fajardo & King, An Area-Preserving
+// Parametrization for Spherical Rectangles, EGSR 2013.
 #pragma once
 
 #include "core/math.h"
 
 namespace nephroid {
 
-/// A rectangle's own axes, made once for each.
+/// The axes of a rectangle, computed once per rectangle.
 struct RectangleFrame {
   Vec3d corner, x, y, z;  ///< unit axes, x and y along the edges that leave the corner
   double length_x = 0, length_y = 0;
@@ -27,9 +26,9 @@ class SphericalRectangle {
   /// The rectangle as seen from the point `from`.
   SphericalRectangle(const Vec3d& from, const RectangleFrame& rectangle);
 
-  /// In steradians, 0..2 pi; 0 if the rectangle is seen edge-on.
+  /// In steradians, 0 to 2 pi; 0 if the rectangle is seen edge-on.
   double solid_angle() const { return solid_angle_; }
-  /// The point of the rectangle, in fractions of the edges, that is uniform in solid angle.
+  /// Samples a point uniform in solid angle, in fractions of the rectangle's edges.
   Vec2f sample(const Vec2f& u) const;
 
  private:

@@ -1,6 +1,6 @@
-// The triangle that a triangle in space covers on the unit sphere around a point: its solid angle
-// and uniform directions in it (van Oosterom & Strackee 1983; Arvo 1995). Who calls it:
-// TriangleMesh. In double, so that solid angles down to 1e-6 sr lose nothing.
+// The spherical triangle that a triangle covers on the unit sphere around a point: its solid angle
+// and uniform directions in it. In double, so that solid angles down to 1e-6 sr keep precision.
+// Papers: van Oosterom & Strackee 1983; Arvo 1995.
 #pragma once
 
 #include "core/math.h"
@@ -9,12 +9,12 @@ namespace nephroid {
 
 class SphericalTriangle {
  public:
-  /// The corners as seen from the centre of the sphere, of any length but zero.
+  /// The corners relative to the centre of the sphere, of any length but zero.
   SphericalTriangle(const Vec3d& a, const Vec3d& b, const Vec3d& c);
 
-  /// In steradians, 0..2 pi; NaN if the centre is one of the corners.
+  /// In steradians, 0 to 2 pi; NaN if the centre is one of the corners.
   double solid_angle() const { return solid_angle_; }
-  /// A unit direction, uniform in solid angle. Only for triangles with a solid angle above 0.
+  /// Samples a unit direction, uniform in solid angle, which must be above 0.
   Vec3d sample(const Vec2f& u) const;
 
  private:

@@ -1,7 +1,6 @@
-// Triangle meshes: what a hit point looks like, areas, and points for light sampling.
-// Embree finds the hits; intersect() is the plain reference that tests compare it with. fill() runs
-// once per ray and is kept short for meshes without normals and tangents.
-// Orientation, texture frame and error bound follow pbrt-v4 (sections 6.5 and 6.8).
+// Triangle meshes: hit attributes, areas and light sampling. Embree finds the hits; intersect() is
+// the reference of the tests. fill() runs once per ray and has a short path for meshes without
+// normals and tangents. Orientation, texture frame and error bound: pbrt-v4, sections 6.5 and 6.8.
 #include <stdexcept>
 #include <string>
 
@@ -14,7 +13,7 @@
 namespace nephroid {
 namespace {
 
-/// Outside of these solid angles, sampling by area is as good and keeps more digits (pbrt-v4).
+/// Outside of these solid angles sampling by area is as good and more precise (pbrt-v4).
 constexpr double kMinSphericalArea = 3e-4, kMaxSphericalArea = 6.22;
 
 struct Corners {
@@ -35,7 +34,7 @@ T interpolate(const std::vector<T>& values, const uint32_t* v, const Weights& b)
   return values[v[0]] * b.b0 + values[v[1]] * b.b1 + values[v[2]] * b.b2;
 }
 
-/// Twice the area times the normal; in double, where the edges of floats are exact or nearly so.
+/// Twice the area times the normal, in double, where differences of floats are (almost) exact.
 Vec3d edge_cross(const Corners& c) {
   const Vec3d p0 = to_double(c.p0);
   return (to_double(c.p1) - p0).cross(to_double(c.p2) - p0);
@@ -51,19 +50,19 @@ inline Vec3f unit_normal(const Corners& c) {
 void set_point(const Corners& c, const Weights& b, Vec3f* p, Vec3f* p_error) {
   const Vec3f q0 = c.p0 * b.b0, q1 = c.p1 * b.b1, q2 = c.p2 * b.b2;
   *p = q0 + q1 + q2;
-  // Besides the rounding of p itself: the ray tracer's distances to the plane are rounded in
-  // proportion to the size of the triangle, also along axes on which all coordinates are zero.
+  // Beyond the rounding of p itself: the ray tracer's plane distances have rounding errors
+  // proportional to the triangle's size, also along axes on which all coordinates are zero.
   const float extent = std::max(max_component(abs(c.p1 - c.p0)), max_component(abs(c.p2 - c.p0)));
   *p_error = (abs(q0) + abs(q1) + abs(q2)) * gamma_bound(7) + Vec3f(extent * gamma_bound(6));
 }
 
-/// How texture coordinates run over a triangle: the differences to corner 2 and their determinant.
+/// Texture coordinates over a triangle: differences to corner 2, and their determinant.
 struct TextureEdges {
   Vec2f d02, d12;
   double determinant;
   bool degenerate() const { return std::abs(determinant) < 1e-9; }
 
-  /// Derivatives by u and v of a quantity from its differences to corner 2.
+  /// Derivatives by u and v of a quantity with these differences to corner 2.
   void derivatives(const Vec3f& q02, const Vec3f& q12, Vec3f* by_u, Vec3f* by_v) const {
     const double inverse = 1.0 / determinant;
     const Vec3d a = to_double(q02), b = to_double(q12);
@@ -88,12 +87,12 @@ TextureEdges texture_edges(const MeshData& mesh, const uint32_t* v) {
 }
 
 Vec2f texture_point(const MeshData& mesh, const uint32_t* v, const Weights& b) {
-  // Without coordinates the corners have (0,0), (1,0), (1,1).
+  // Default texture coordinates of the corners: (0,0), (1,0), (1,1).
   if (mesh.uvs.empty()) return {b.b1 + b.b2, b.b2};
   return interpolate(mesh.uvs, v, b);
 }
 
-/// The geometric normal towards the outside. `ns` gets the interpolated normal, not normalised, or
+/// The geometric normal towards the outside. `ns` gets the interpolated normal, not normalised;
 /// null if the mesh has none or they cancel.
 inline Vec3f outside_normal(const MeshData& mesh, bool flip, const Corners& c, const uint32_t* v,
                             const Weights& b, Vec3f* ns) {
@@ -103,8 +102,8 @@ inline Vec3f outside_normal(const MeshData& mesh, bool flip, const Corners& c, c
   return dot(n, *ns) < 0.0f ? -n : n;
 }
 
-/// Normal and frames of a triangle that has nothing but its corners: the short way, because most
-/// hits take it.
+/// Normal and frames of a triangle without vertex attributes: the short path, since most hits take
+/// it.
 void fill_plain(const Corners& c, bool flip, SurfaceInteraction& out) {
   out.dpdu = out.shading_dpdu = c.p1 - c.p0;
   out.dpdv = out.shading_dpdv = c.p2 - c.p1;
@@ -122,7 +121,7 @@ void fill_plain(const Corners& c, bool flip, SurfaceInteraction& out) {
   out.shading.y = to_float(z.cross(x));
 }
 
-/// Replaces the geometric shading frame by the one of the mesh's normals and tangents.
+/// Replaces the geometric shading frame by that of the mesh's normals and tangents.
 void fill_shading(const MeshData& mesh, const uint32_t* v, const Weights& b, const Vec3f& normal,
                   const TextureEdges& texture, SurfaceInteraction& out) {
   const bool has_normal = max_component(abs(normal)) > 0.0f;
@@ -253,7 +252,7 @@ bool sampled_by_direction(const SphericalTriangle& triangle) {
   return triangle.solid_angle() >= kMinSphericalArea && triangle.solid_angle() <= kMaxSphericalArea;
 }
 
-/// Where the direction w from `from`, which points into the triangle, meets it.
+/// Intersection of the direction w from `from`, which points into the triangle.
 Weights weights_along(const Corners& c, const Vec3f& from, const Vec3d& w) {
   const Vec3d p0 = to_double(c.p0), e1 = to_double(c.p1) - p0, e2 = to_double(c.p2) - p0;
   const Vec3d o = to_double(from) - p0, side = w.cross(e2);
@@ -297,7 +296,7 @@ void TriangleMesh::normal_bounds(uint32_t primitive, Vec3f* axis, float* cos_hal
   Vec3f ns;
   *axis = outside_normal(data_, flip_, corners_of(data_, primitive), v, third, &ns);
   *cos_half_angle = 1.0f;
-  // Corner normals on both sides of the plane: the outside changes within the triangle.
+  // Corner normals on both sides of the plane: the outside varies within the triangle.
   if (data_.normals.empty()) return;
   for (int i = 0; i < 3; ++i)
     if (dot(*axis, data_.normals[v[i]]) < 0.0f) *cos_half_angle = -1.0f;

@@ -1,5 +1,5 @@
-// Texture class "bilerp": four values at the corners of the unit square of (s,t), bilinear between
-// them and beyond.
+// Texture class "bilerp": four values at the corners of the unit square of (s,t), with bilinear
+// interpolation, also outside of the square.
 #include <array>
 
 #include "scene/texture/texture_mapping.h"

@@ -1,4 +1,4 @@
-// Texture class "checkerboard" in two or three dimensions, evaluated at points: the filter over a
+// Texture class "checkerboard" in two or three dimensions, evaluated at points: filtering over a
 // pixel is left to the pixel's samples.
 #include "scene/texture/texture_mapping.h"
 #include "scene/texture/texture_table.h"
@@ -7,8 +7,8 @@ namespace nephroid {
 
 namespace {
 
-/// Which of the two textures covers a point: squares (cubes) of unit size, the one from the origin
-/// towards positive coordinates is of the first texture.
+/// Selects the texture of a point. Squares (cubes) have unit size; the one that starts at the
+/// origin towards positive coordinates has the first texture.
 class Board {
  public:
   explicit Board(const TextureDescription& description)
@@ -30,7 +30,7 @@ class Board {
   }
 
  private:
-  /// Whether the cell of a coordinate has an odd number; no integer to overflow.
+  /// Whether the number of a coordinate's cell is odd; in float, so that nothing overflows.
   static bool odd(float v) {
     const float cell = std::floor(v);
     return cell - 2.0f * std::floor(cell * 0.5f) != 0.0f;

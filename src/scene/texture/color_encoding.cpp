@@ -1,4 +1,4 @@
-// Decoding of stored image values, see color_encoding.h. The sRGB curve is that of IEC 61966-2-1.
+// Decoding of stored image values; see color_encoding.h. The sRGB curve is that of IEC 61966-2-1.
 #include "scene/texture/color_encoding.h"
 
 #include <cmath>

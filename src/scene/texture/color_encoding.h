@@ -1,6 +1,5 @@
-// How stored numbers of an image stand for linear values: linear, sRGB or a power law.
-// Who calls it: the image reader and the image texture, which gets the encoding's name from a
-// scene. It must not know files.
+// Conversion of an image's stored numbers to linear values: linear, sRGB or a power law. It must
+// not know files.
 #pragma once
 
 #include <array>
@@ -13,11 +12,11 @@ namespace nephroid {
 struct ColorEncoding {
   enum class Kind { kLinear, kSrgb, kGamma };
   Kind kind = Kind::kLinear;
-  float gamma = 1.0f;  ///< of kGamma: linear = stored^gamma
+  float gamma = 1.0f;  ///< exponent of kGamma: linear = stored^gamma
 
   static ColorEncoding linear() { return {}; }
   static ColorEncoding srgb() { return {Kind::kSrgb, 1.0f}; }
-  /// "linear", "sRGB" or "gamma X" with X > 0; empty for anything else.
+  /// Parses "linear", "sRGB" or "gamma X" with X > 0. Empty for anything else.
   static std::optional<ColorEncoding> parse(const std::string& name);
 
   /// Linear value of a stored one in [0,1].

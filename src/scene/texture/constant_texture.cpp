@@ -1,4 +1,4 @@
-// Texture class "constant", and the constants that stand for plain parameter values.
+// Texture class "constant", and constant textures for plain parameter values.
 #include "scene/texture/texture_table.h"
 
 namespace nephroid {

@@ -1,5 +1,5 @@
 // Texture class "directionmix": the first texture where the surface faces a direction or its
-// opposite, the second where it stands across, and between them by the cosine.
+// opposite, the second where it is perpendicular, mixed by the cosine.
 #include "scene/texture/texture_table.h"
 
 namespace nephroid {
@@ -11,7 +11,7 @@ class FacingWeight {
  public:
   explicit FacingWeight(const TextureDescription& description) {
     const ParameterSet& p = description.parameters;
-    // A texture does not move: of an animated transform the start is used.
+    // Textures do not move: an animated transform is used at its start.
     const Vec3f dir = p.get_vector3("dir").value_or(Vec3f(0, 1, 0));
     direction_ = normalize(Transform(description.transform.start).vector(dir));
     if (!is_finite(direction_) || !(max_component(abs(direction_)) > 0.0f))
@@ -33,7 +33,7 @@ class DirectionMixFloatTexture final : public FloatTexture {
       : weight_(weight), facing_(std::move(facing)), across_(std::move(across)) {}
   float eval(const TextureContext& context) const override {
     const float w = weight_(context);
-    // A texture of weight 0 is not looked at: it may be dear or not finite.
+    // A texture of weight 0 is not evaluated: it can be expensive or not finite.
     if (w == 0.0f) return across_->eval(context);
     if (w == 1.0f) return facing_->eval(context);
     return lerp(w, across_->eval(context), facing_->eval(context));

@@ -1,5 +1,5 @@
 // Texture class "dots": a disc of radius 0.35 in about half of the unit cells around the integer
-// points of (s,t), moved a little within its cell. Noise decides which and where.
+// points of (s,t), shifted within its cell. Noise decides which cells and how far.
 #include "scene/texture/noise.h"
 #include "scene/texture/texture_mapping.h"
 #include "scene/texture/texture_table.h"
@@ -9,7 +9,7 @@ namespace nephroid {
 namespace {
 
 constexpr float kRadius = 0.35f;
-/// So far that the disc still lies in its cell.
+/// Largest shift that keeps the disc in its cell.
 constexpr float kLargestShift = 0.5f - kRadius;
 
 float plane_noise(float x, float y) {
@@ -24,8 +24,8 @@ bool is_in_dot(const Vec2f& st) {
   return ds * ds + dt * dt < kRadius * kRadius;
 }
 
-/// What is seen in the dots and between them. In pbrt-v4 the discs show the parameter "outside"
-/// and the rest shows "inside"; a scene is to look the same here.
+/// Parameters of the dots and of the rest. They look swapped, but in pbrt-v4 the discs show
+/// "outside" and the rest "inside", and scenes must look the same here.
 constexpr const char* kOfDots = "outside";
 constexpr const char* kOfRest = "inside";
 constexpr float kDefaultOfDots = 0.0f, kDefaultOfRest = 1.0f;

@@ -1,5 +1,5 @@
-// Texture classes of noise alone: "fbm" (a sum of octaves), "wrinkled" (a sum of their absolute
-// values) and "windy" (waves whose height follows a coarser noise). Float values only.
+// Pure noise textures, float only: "fbm" (a sum of octaves), "wrinkled" (a sum of their absolute
+// values) and "windy" (waves whose height follows a coarser noise).
 #include "scene/texture/noise.h"
 #include "scene/texture/texture_mapping.h"
 #include "scene/texture/texture_table.h"

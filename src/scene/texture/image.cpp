@@ -1,4 +1,4 @@
-// Lookups in images: wrapping of pixel coordinates, nearest and bilinear values. See image.h.
+// Lookups in images: wrapping of pixel coordinates, nearest and bilinear values; see image.h.
 #include "scene/texture/image.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ int modulo(int a, int b) {
   return r < 0 ? r + b : r;
 }
 
-/// Moves a pixel into the image; false if it is outside of an image with a black surround.
+/// Wraps a pixel into the image. False if it lies in a black surround.
 bool wrap_pixel(int& x, int& y, int width, int height, WrapMode wrap) {
   if (x >= 0 && x < width && y >= 0 && y < height) return true;
   switch (wrap) {
@@ -27,7 +27,7 @@ bool wrap_pixel(int& x, int& y, int width, int height, WrapMode wrap) {
     case WrapMode::kBlack:
       return false;
     case WrapMode::kOctahedralSphere:
-      // Beyond an edge the sphere goes on at the point of the same edge mirrored at its middle.
+      // Beyond an edge the sphere continues at the point mirrored about the middle of that edge.
       if (x < 0 || x >= width) {
         x = std::clamp(x < 0 ? -1 - x : 2 * width - 1 - x, 0, width - 1);
         y = height - 1 - y;
@@ -62,7 +62,7 @@ struct Footprint {
   std::array<float, 4> weight{};
 };
 Footprint bilinear_footprint(const Vec2f& st, int width, int height, WrapMode wrap) {
-  // A period is taken off first, so that the weights keep their digits far away from the origin.
+  // Subtracts the period first, so that weights keep precision far from the origin.
   Vec2f p = st;
   if (wrap == WrapMode::kRepeat) p = {p.x - std::floor(p.x), p.y - std::floor(p.y)};
   const float x = p.x * static_cast<float>(width) - 0.5f;
@@ -81,7 +81,7 @@ Footprint bilinear_footprint(const Vec2f& st, int width, int height, WrapMode wr
   return f;
 }
 
-/// The pixels of a footprint, fetched.
+/// The fetched pixels of a footprint.
 struct Fetched {
   std::array<float, 16> values;
 };
@@ -97,7 +97,7 @@ float weighted(const Values& values, const Footprint& f, int channels, int chann
   return sum;
 }
 
-/// Fetches the pixels of a footprint, by one call if they make a block, and numbers them anew.
+/// Fetches the pixels of a footprint, in one call if they form a block, and renumbers them.
 Fetched fetch(const PixelSource& source, Footprint& f, int width, int channels) {
   Fetched fetched;
   const auto x = [&](size_t i) { return static_cast<int>(f.pixel[i] % width); };
@@ -113,7 +113,7 @@ Fetched fetch(const PixelSource& source, Footprint& f, int width, int channels) 
   return fetched;
 }
 
-/// compute(values) with the values that the footprint's pixel numbers are good for.
+/// Calls compute(values) with the array that the footprint's pixel numbers index.
 template <class Compute>
 auto with_values(const Image::Pixels& pixels, Footprint& f, int width, int channels,
                  const Compute& compute) {
@@ -141,7 +141,7 @@ Image::Image(int width, int height, int channels, Pixels pixels, const RgbColorS
       space_(&space) {}
 
 size_t Image::memory() const {
-  constexpr size_t kBytes[] = {1, 2, 4, 0};  // per value, in the order of the variant
+  constexpr size_t kBytes[] = {1, 2, 4, 0};  // bytes per value, in the order of the variant
   return static_cast<size_t>(width_) * height_ * channels_ * kBytes[pixels_.index()];
 }
 

@@ -1,6 +1,5 @@
-// An image as textures and lights look it up: linear values of 1, 3 or 4 channels, kept as bytes
-// with a table, as half or as float numbers, or fetched from somewhere. Row 0 is the top row. Who
-// calls it: image textures and image lights. It must not know files or scenes.
+// An image for lookups: linear values of 1, 3 or 4 channels, stored as bytes with a table, as half
+// or float numbers, or fetched on demand. Row 0 is the top row. It must not know files or scenes.
 #pragma once
 
 #include <half.h>
@@ -17,13 +16,13 @@
 
 namespace nephroid {
 
-/// What lies outside of the image. kOctahedralSphere continues an equal-area octahedral map over
-/// the edges of the sphere that it shows.
+/// Lookups outside of the image. kOctahedralSphere continues an equal-area octahedral map across
+/// the edges of its sphere.
 enum class WrapMode { kRepeat, kBlack, kClamp, kOctahedralSphere };
-/// "repeat", "black", "clamp", "octahedralsphere"; empty for anything else.
+/// Parses "repeat", "black", "clamp" or "octahedralsphere". Empty for anything else.
 std::optional<WrapMode> parse_wrap_mode(std::string_view name);
 
-/// Pixels that are not in memory. Any number of threads may ask.
+/// Pixels that are not in memory. Safe to use from any number of threads.
 class PixelSource {
  public:
   virtual ~PixelSource() = default;
@@ -44,7 +43,7 @@ class Image {
   using Pixels = std::variant<Bytes, Halves, Floats, Source>;
 
   /// `pixels` holds, or fetches, width * height * channels values, row by row from the top,
-  /// channels interleaved; channels is 1 (grey), 3 (rgb) or 4 (rgb and alpha that is not 1
+  /// channels interleaved. `channels` is 1 (grey), 3 (rgb) or 4 (rgb and an alpha that is not 1
   /// everywhere).
   Image(int width, int height, int channels, Pixels pixels, const RgbColorSpace& space);
 
@@ -54,21 +53,21 @@ class Image {
   const RgbColorSpace& color_space() const { return *space_; }
   /// Bytes that the pixels occupy in memory: 0 if they are fetched.
   size_t memory() const;
-  /// The largest magnitude of a value; infinite if one is infinite or NaN.
+  /// The largest magnitude of all values; infinite if one is infinite or NaN.
   float largest_value() const;
 
   /// Linear value of one channel of a pixel inside the image.
   float value(int x, int y, int channel) const;
-  /// Colour of a pixel that may lie outside; grey images answer three equal values.
+  /// Colour of a pixel, which can lie outside; three equal values for grey images.
   Rgb texel(int x, int y, WrapMode wrap) const;
-  /// Colour of the pixel that contains `st`; (0,0) is the upper left corner of the image, (1,1) the
+  /// Colour of the pixel that contains `st`. (0,0) is the upper left corner of the image, (1,1) the
   /// lower right one.
   Rgb nearest(const Vec2f& st, WrapMode wrap) const;
-  /// Colour between the centres of the four nearest pixels.
+  /// Colour interpolated between the centres of the four nearest pixels.
   Rgb bilinear(const Vec2f& st, WrapMode wrap) const;
 
-  /// The same as one number. The nearest pixel answers its first channel (as pbrt-v4's filter
-  /// "point" does), the bilinear lookup grey, else alpha if there is one, else the mean of r, g and
+  /// The same as one number. The nearest pixel gives its first channel (like pbrt-v4's filter
+  /// "point"). The bilinear lookup gives grey, else alpha if there is one, else the mean of r, g,
   /// b.
   float nearest_float(const Vec2f& st, WrapMode wrap) const;
   float bilinear_float(const Vec2f& st, WrapMode wrap) const;

@@ -1,4 +1,4 @@
-// Reads whole image files, and decides which are better left in their files. See image_file.h.
+// Reads whole image files, and decides which are paged instead; see image_file.h.
 #include "scene/texture/image_file.h"
 
 #include <fmt/format.h>
@@ -25,7 +25,7 @@ std::vector<T> read_values(OIIO::ImageInput& input, const std::vector<int>& want
                            const SourceLocation& wanted_by) {
   const OIIO::ImageSpec& spec = input.spec();
   const size_t pixels = static_cast<size_t>(spec.width) * spec.height;
-  // Not filled with zeros: a header may claim more than the file has, or than there is memory.
+  // Uninitialised: a header can claim more than the file has, or more than fits in memory.
   const std::unique_ptr<T[]> all(new (std::nothrow) T[pixels * spec.nchannels]);
   if (!all) throw std::bad_alloc();
   if (!input.read_image(0, 0, 0, spec.nchannels, type, all.get()))
@@ -37,7 +37,7 @@ std::vector<T> read_values(OIIO::ImageInput& input, const std::vector<int>& want
   return kept;
 }
 
-/// Drops a fourth channel that is `one` everywhere; returns the number of channels left.
+/// Drops a fourth channel that is `one` everywhere. Returns the number of channels left.
 template <class T>
 int drop_opaque_alpha(std::vector<T>& values, size_t channels, T one) {
   if (channels != 4) return static_cast<int>(channels);
@@ -103,7 +103,7 @@ ImagePtr read_pixels(const ImageInputFile& file, const std::string& path,
   }
 }
 
-/// All pixels of an opened file.
+/// Reads all pixels of an opened file.
 ImagePtr read_whole(const ImageInputFile& file, const std::string& path,
                     const SourceLocation& wanted_by) {
   try {
@@ -137,15 +137,16 @@ ImagePtr ImageCache::get(const std::string& path, std::optional<ColorEncoding> e
 }
 
 namespace {
-/// To unpack so much again for a few pixels would look like a program that hangs.
+/// Images without parts are paged up to this size: unpacking more from the front for a few pixels
+/// is slow enough to look like a hang.
 constexpr uint64_t kSlowFromTheFront = uint64_t{256} << 20;
 }  // namespace
 
 ImagePtr ImageCache::load(const std::string& path, std::optional<ColorEncoding> encoding,
                           const SourceLocation& wanted_by) {
   ImageInputFile file = open_image(path, encoding, wanted_by);
-  // A quarter of the limit is kept for the tiles of images that turn out not to fit, and no more is
-  // given to them: it is counted before the render begins.
+  // A quarter of the limit is reserved for tiles of images that do not fit. They get no more, since
+  // memory is budgeted before the render begins.
   const uint64_t for_whole = limit_ - limit_ / 4;
   ImagePtr image;
   if (file.memory() > std::max(for_whole, kSlowFromTheFront) && !file.has_parts())
@@ -163,7 +164,7 @@ ImagePtr ImageCache::load(const std::string& path, std::optional<ColorEncoding> 
     image = read_whole(file, path, wanted_by);
     whole_ += image->memory();
   }
-  // OpenImageIO aborts when threads together hold more than ten times the limit.
+  // Minimum, because OpenImageIO aborts when threads together hold ten times the limit.
   constexpr uint64_t kMinTileBytes = 1 << 20;
   if (tiles_) tiles_->set_limit(std::max(limit_ / 4, kMinTileBytes));
   return image;

@@ -1,6 +1,5 @@
-// Image files -> Image, read whole or tile by tile. OpenImageIO shows in image_input.h only.
-// Who calls it: the texture library (through ImageCache) and lights with images.
-// It must not know what an image is used for.
+// Reads image files as Image, whole or tile by tile. It must not know what an image is used for.
+// OpenImageIO appears in image_input.h only.
 #pragma once
 
 #include <map>
@@ -17,41 +16,41 @@ namespace nephroid {
 
 using ImagePtr = std::shared_ptr<const Image>;
 
-/// Reads EXR, PNG, JPEG, HDR, PFM, TGA, TIFF and BMP files, which are known by their first bytes
-/// (TGA by its name). As in pbrt-v4, only PNG files obey `encoding` (sRGB if empty); other integer
-/// formats are sRGB and floating-point ones linear. Bytes stay bytes, 16-bit values become half. An
-/// image of two channels is grey; one of more needs channels R, G and B. Throws SceneError at
-/// `wanted_by` if the file cannot be read (IoError if no scene names it) or is no image of one of
-/// these kinds.
+/// Reads EXR, PNG, JPEG, HDR, PFM, TGA, TIFF and BMP files, detected by their first bytes (TGA by
+/// name). As in pbrt-v4, only PNG files use `encoding` (sRGB if empty); other integer formats are
+/// sRGB, floating-point ones linear. Bytes stay bytes, 16-bit values become half. Two channels make
+/// a grey image; more than two must include R, G and B. Throws SceneError at `wanted_by` (IoError
+/// if no scene names the file) if the file cannot be read or has another format.
 ImagePtr read_image(const std::string& path, std::optional<ColorEncoding> encoding,
                     const SourceLocation& wanted_by);
-/// The same with the numbers as they are stored, integers from 0 to 1, whatever the format.
+/// The same without decoding: stored numbers, integers mapped to [0,1], for all formats.
 ImagePtr read_stored_image(const std::string& path, const SourceLocation& wanted_by);
 
-/// Says that an image cannot be read, with OpenImageIO's reason in one line: file_is_unreadable.
+/// Throws the error of an unreadable image (file_is_unreadable), with OpenImageIO's reason in one
+/// line.
 [[noreturn]] void image_is_unreadable(const std::string& path, std::string reason,
                                       const SourceLocation& wanted_by);
 
-/// True if read_image asks for the encoding of this file.
+/// True if read_image uses the encoding for this file.
 bool image_obeys_encoding(const std::string& path);
 
-/// Bytes that the images of a scene's textures may take if nobody says otherwise.
+/// Default limit of the bytes used by a scene's texture images.
 inline constexpr uint64_t kDefaultTextureMemory = uint64_t{1} << 30;
 
 class TileCache;
 
-/// The images of a scene's textures, by path and encoding. Images are read whole, in the order in
-/// which they are asked for, as long as all of them fit three quarters of the limit; the others
-/// stay in their files and share what is left for the tiles that are looked at (paged_image.h). The
-/// pixels are the same either way.
+/// The images of a scene's textures, by path and encoding. Images are read whole, in order of
+/// request, while all of them fit three quarters of the limit. The others are paged from their
+/// files and share the rest of the limit for tiles (paged_image.h). The pixels are the same either
+/// way.
 class ImageCache {
  public:
   explicit ImageCache(uint64_t limit = kDefaultTextureMemory);
   ~ImageCache();
-  /// Throws as read_image.
+  /// Throws the errors of read_image.
   ImagePtr get(const std::string& path, std::optional<ColorEncoding> encoding,
                const SourceLocation& wanted_by);
-  /// Bytes that pixels take now, for all images that came from here.
+  /// Bytes that all images of this cache use now.
   uint64_t memory() const;
 
  private:
@@ -59,7 +58,7 @@ class ImageCache {
                 const SourceLocation& wanted_by);
 
   uint64_t limit_;
-  uint64_t whole_ = 0;  ///< bytes of images that were read whole
+  uint64_t whole_ = 0;  ///< bytes of the images that were read whole
   std::shared_ptr<TileCache> tiles_;
   std::map<std::pair<std::string, std::optional<ColorEncoding>>, ImagePtr> images_;
 };

@@ -1,4 +1,4 @@
-// Opens image files with OpenImageIO and says what is in them, see image_input.h.
+// Opens image files with OpenImageIO and describes their content; see image_input.h.
 #include "scene/texture/image_input.h"
 
 #include <fmt/format.h>
@@ -25,13 +25,13 @@ namespace {
 using Creator = OIIO::ImageInput::Creator;
 
 struct Format {
-  std::vector<std::string_view> beginnings;  ///< of a file: any of them
-  std::string_view suffix;                   ///< of its name, if the content does not tell
+  std::vector<std::string_view> beginnings;  ///< any of these bytes starts the file
+  std::string_view suffix;                   ///< file name suffix, if the content does not tell
   Creator create;
 };
 
-/// OpenImageIO knows many more, films among them: the fewer readers a hostile file can choose from,
-/// the better.
+/// Only these readers of OpenImageIO's many (films among them): fewer can be attacked by a hostile
+/// file.
 std::span<const Format> formats() {
   using namespace std::string_view_literals;
   static const Format kFormats[] = {
@@ -51,7 +51,7 @@ std::span<const Format> formats() {
   return kFormats;
 }
 
-/// Throws as open_image if the file cannot be read or is of no known format.
+/// Throws like open_image if the file cannot be read or has no known format.
 Creator reader_of(const std::string& path, const SourceLocation& wanted_by) {
   std::error_code ignored;
   const std::filesystem::file_status status = std::filesystem::status(path, ignored);
@@ -70,7 +70,7 @@ Creator reader_of(const std::string& path, const SourceLocation& wanted_by) {
                       wanted_by);
 }
 
-/// Which channels of the file the image keeps: indices of grey, of rgb or of rgba.
+/// Indices of the file's channels that the image keeps: grey, rgb or rgba.
 std::vector<int> wanted_channels(const OIIO::ImageSpec& spec, const std::string& path,
                                  const SourceLocation& wanted_by) {
   if (spec.nchannels <= 2) return {0};
@@ -82,7 +82,7 @@ std::vector<int> wanted_channels(const OIIO::ImageSpec& spec, const std::string&
   return {r, g, b, a};
 }
 
-/// The space whose primaries an EXR file names; sRGB for files that name none or unknown ones.
+/// The colour space whose primaries an EXR file names; sRGB if it names none or unknown ones.
 const RgbColorSpace& color_space_of(const OIIO::ImageSpec& spec) {
   struct Row {
     const char* name;
@@ -119,7 +119,7 @@ bool ImageInputFile::has_parts() const {
 ImageInputFile open_image(const std::string& path, std::optional<ColorEncoding> encoding,
                           const SourceLocation& wanted_by) {
   ImageInputFile file;
-  // Alpha is a number of its own here: colours must not come multiplied by it.
+  // Alpha is separate data here, so colours must not be premultiplied.
   OIIO::ImageSpec wish;
   wish.attribute("oiio:UnassociatedAlpha", 1);
   file.create = reader_of(path, wanted_by);

@@ -1,6 +1,5 @@
-// Texture class "imagemap". Filters "bilinear", "trilinear" and "ewa" are evaluated as bilinear
-// lookups of the full image: without ray footprints their limit is the same, and the pixel's
-// samples filter.
+// Texture class "imagemap". Filters "bilinear", "trilinear" and "ewa" are all bilinear lookups of
+// the full image: without ray footprints their limit is the same, and the pixel's samples filter.
 #include "scene/texture/texture_mapping.h"
 #include "scene/texture/texture_table.h"
 
@@ -8,7 +7,7 @@ namespace nephroid {
 
 namespace {
 
-/// All that float and spectrum image textures have in common.
+/// Code shared by float and spectrum image textures.
 class ImageLookup {
  public:
   ImageLookup(const TextureDescription& description, TextureScope& scope) : mapping_(description) {
@@ -59,7 +58,7 @@ class ImageLookup {
   }
 
  private:
-  /// The encoding that the scene asks for, if it does.
+  /// The encoding requested by the scene, if any.
   static std::optional<ColorEncoding> encoding(const ParameterSet& p, const std::string& file,
                                                TextureScope& scope) {
     const std::string name = p.get_string("encoding", "");
@@ -74,7 +73,7 @@ class ImageLookup {
                                         "\" is read as sRGB if it is of integers, else as linear");
     return std::nullopt;
   }
-  /// Images have their first row on top, v runs upwards.
+  /// Images have their first row on top; v runs upwards.
   Vec2f position(const TextureContext& context) const {
     const Vec2f st = mapping_.map(context);
     return {st.x, 1.0f - st.y};
@@ -109,7 +108,7 @@ class ImageSpectrumTexture final : public SpectrumTexture {
     const Rgb c = lookup_.colour(context);
     const RgbColorSpace& space = lookup_.color_space();
     if (kind_ == SpectrumKind::kAlbedo) return space.polynomial(c).sample(lambda);
-    // An unbounded colour is a reflectance of at most 1/2 times a number.
+    // An unbounded colour is represented as a reflectance of at most 1/2 times a scale.
     const float scale = 2.0f * std::max({c.r, c.g, c.b});
     if (!(scale > 0.0f)) return SampledSpectrum();
     const SampledSpectrum s = space.polynomial(c * (1.0f / scale)).sample(lambda) * scale;

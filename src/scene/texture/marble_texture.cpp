@@ -1,5 +1,5 @@
-// Texture class "marble": layers across the texture's y axis, disturbed by noise and coloured by a
-// spline. A reflectance, whatever it is used for; spectrum values only.
+// Texture class "marble": layers across the texture's y axis, perturbed by noise and coloured by a
+// spline. Always a reflectance; spectrum values only.
 #include <algorithm>
 #include <array>
 
@@ -11,7 +11,7 @@ namespace nephroid {
 
 namespace {
 
-/// Control points of the colours of pbrt-v4's marble; each four in a row make a Bezier segment.
+/// Control points of pbrt-v4's marble colours; each four successive points form a Bezier segment.
 constexpr std::array<Rgb, 9> kColours = {{{.58f, .58f, .6f},
                                           {.58f, .58f, .6f},
                                           {.58f, .58f, .6f},
@@ -23,8 +23,8 @@ constexpr std::array<Rgb, 9> kColours = {{{.58f, .58f, .6f},
                                           {.58f, .58f, .6f}}};
 constexpr float kBrightness = 1.5f;
 
-/// The colour at t in [0,1]. Segments begin one control point apart, not three: the curve has
-/// steps, and so has pbrt-v4's.
+/// The colour at t in [0,1]. Segments start one control point apart, not three, so the curve has
+/// steps, as in pbrt-v4.
 Rgb marble_colour(float t) {
   constexpr int kSegments = static_cast<int>(kColours.size()) - 3;
   const float position = t * static_cast<float>(kSegments);

@@ -11,7 +11,7 @@ class MixedFloatTexture final : public FloatTexture {
       : first_(std::move(first)), second_(std::move(second)), amount_(std::move(amount)) {}
   float eval(const TextureContext& context) const override {
     const float t = amount_->eval(context);
-    // A texture of weight 0 is not looked at: it may be dear or not finite.
+    // A texture of weight 0 is not evaluated: it can be expensive or not finite.
     if (t == 0.0f) return first_->eval(context);
     if (t == 1.0f) return second_->eval(context);
     return lerp(t, first_->eval(context), second_->eval(context));

@@ -1,4 +1,4 @@
-// Perlin's permutation and gradients, see noise.h. Each octave is one lookup of eight gradients.
+// Perlin's permutation and gradients; see noise.h. Each octave is one lookup of eight gradients.
 #include "scene/texture/noise.h"
 
 #include <algorithm>
@@ -27,17 +27,17 @@ constexpr std::array<uint8_t, 256> kPermutation = {
     115, 121, 50,  45,  127, 4,   150, 254, 138, 236, 205, 93,  222, 114, 67,  29,  24,  72,  243,
     141, 128, 195, 78,  66,  215, 61,  156, 180};
 
-/// How much finer an octave is than the one before: just not 2, so that their lattices do not meet.
+/// Frequency ratio of octaves, slightly off 2, so that their lattices do not coincide.
 constexpr float kLacunarity = 1.99f;
-/// Mean of |noise|, about.
+/// Approximate mean of |noise|.
 constexpr float kMeanMagnitude = 0.2f;
 
 unsigned permuted(unsigned i) {
   return kPermutation[i & 255u];
 }
 
-/// The gradient of a lattice point, one of the twelve from a cube's centre to its edges (four of
-/// them twice), times the offset from there.
+/// The gradient of a lattice point times the offset from there. It is one of the twelve vectors
+/// from a cube's centre to its edges; four of them occur twice.
 float gradient_times(unsigned x, unsigned y, unsigned z, float dx, float dy, float dz) {
   const unsigned h = permuted(permuted(permuted(x) + y) + z) & 15u;
   const float u = h < 8 || h == 12 || h == 13 ? dx : dy;
@@ -50,13 +50,12 @@ float fade(float t) {
   return t * t * t * (t * (t * 6.0f - 15.0f) + 10.0f);
 }
 
-/// Cell number, modulo 256, and offset in it of one coordinate.
+/// Number of a coordinate's cell, modulo 256, and offset in the cell.
 struct Cell {
   unsigned index;
   float offset;
   explicit Cell(float coordinate) {
-    // Beyond 2^30 a float has no digits behind the point: what is taken off changes nothing but
-    // the cell.
+    // Beyond 2^30 floats have no fractional part: fmod changes only the cell.
     const float v = std::fmod(coordinate, 1073741824.0f);
     const float below = std::floor(v);
     index = static_cast<unsigned>(static_cast<int>(below)) & 255u;
@@ -64,7 +63,7 @@ struct Cell {
   }
 };
 
-/// How many octaves the footprint leaves, not whole: the last one counts in part.
+/// Number of octaves that the footprint resolves; its fraction is the weight of the last one.
 float octaves_left(const NoiseFootprint& f, int octaves) {
   const float squared = std::max(dot(f.dpdx, f.dpdx), dot(f.dpdy, f.dpdy));
   return std::clamp(-1.0f - 0.5f * std::log2(squared), 0.0f, static_cast<float>(octaves));
@@ -117,8 +116,8 @@ float turbulence(const Vec3f& p, const NoiseFootprint& footprint, float roughnes
     frequency *= kLacunarity;
     strength *= roughness;
   }
-  // The octave behind the last whole one counts as its mean where it is faded out, and, as in
-  // pbrt-v4, once more among those that are left out: pictures would differ by a constant.
+  // As in pbrt-v4 the octave after the last whole one counts as its mean where it is faded out, and
+  // again in the loop below. Images would otherwise differ by a constant.
   const float share = share_of_last(count - static_cast<float>(whole));
   const float last = share == 0.0f ? 0.0f : std::abs(noise(p * frequency));
   sum += strength * lerp(share, kMeanMagnitude, last);

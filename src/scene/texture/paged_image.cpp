@@ -1,5 +1,5 @@
-// Tiles come from OpenImageIO's ImageCache; files that have none are cut into tiles by it.
-// See paged_image.h.
+// Tiles come from OpenImageIO's ImageCache, which splits untiled files into tiles; see
+// paged_image.h.
 #include "scene/texture/paged_image.h"
 
 #include <OpenImageIO/imagecache.h>
@@ -19,10 +19,10 @@ struct TileCache::Impl {
 namespace {
 
 constexpr int kTileSide = 64;
-/// Channels of a pixel, and pixels of a block, that are fetched at once.
+/// Maximum channels of a pixel and pixels of a block in one fetch.
 constexpr int kMaxChannels = 4, kMaxPixels = 4;
 
-/// The channels of a file from the first that is wanted to the last.
+/// The range of a file's channels from the first wanted one to the last.
 struct ChannelRun {
   int begin, end;
   int length() const { return end - begin; }
@@ -33,7 +33,7 @@ ChannelRun run_of(const std::vector<int>& channels) {
   return {*low, *high + 1};
 }
 
-/// What read_image makes of one stored value.
+/// Decodes one stored value, exactly like read_image.
 class Decoder {
  public:
   Decoder(StoredType type, const ColorEncoding& encoding) : encoding_(encoding) {
@@ -51,7 +51,7 @@ class Decoder {
   std::array<float, 256> table_{};
 };
 
-/// Calls f with a value of the C++ type that stands for `type`.
+/// Calls f with a value of the C++ type for `type`.
 template <class F>
 auto with_type(StoredType type, F&& f) {
   switch (type) {
@@ -66,7 +66,7 @@ auto with_type(StoredType type, F&& f) {
   }
 }
 
-/// True if a stored alpha counts as 1: bytes do so by their number, as the alpha of whole images.
+/// True if a stored alpha counts as 1. Bytes are compared undecoded, as in images read whole.
 bool is_one(uint8_t v, const Decoder&) {
   return v == 255;
 }
@@ -75,7 +75,7 @@ bool is_one(T v, const Decoder& decode) {
   return decode(v) == 1.0f;
 }
 
-/// True if a channel is 1 everywhere; reads the file in strips.
+/// True if a channel is 1 everywhere. Reads the file in strips.
 template <class T>
 bool is_opaque(const ImageInputFile& file, int channel, const Decoder& decode,
                const std::string& path, const SourceLocation& wanted_by) {
@@ -136,7 +136,7 @@ class PagedPixels final : public PixelSource {
   std::shared_ptr<TileCache> owner_;
   OIIO::ImageCache* cache_;
   OIIO::ImageCache::ImageHandle* handle_;
-  int x_, y_, z_;  ///< of the first pixel in the file's own count
+  int x_, y_, z_;  ///< coordinates of the first pixel in the file's numbering
   std::vector<int> channels_;
   ChannelRun run_;
   StoredType type_;
@@ -189,7 +189,7 @@ std::shared_ptr<const Image> TileCache::open(ImageInputFile& file, const std::st
   if (!handle || !cache->good(handle)) image_is_unreadable(path, cache->geterror(), wanted_by);
   auto pixels =
       std::make_shared<PagedPixels>(shared_from_this(), cache, handle, file, path, wanted_by);
-  // A file that ends before its header says so is found now, not in the middle of a render.
+  // Detects truncated files now, not in the middle of a render.
   std::array<float, kMaxChannels> corner;
   pixels->fetch(0, 0, 1, 1, corner.data());
   pixels->fetch(file.spec.width - 1, file.spec.height - 1, 1, 1, corner.data());

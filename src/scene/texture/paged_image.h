@@ -1,6 +1,5 @@
-// Images that stay in their files: tiles are read when somebody looks at them, and forgotten when
-// the memory for all tiles is used up. The pixels are those of read_image, bit for bit.
-// Who calls it: the cache of images in image_file.cpp. It must not know textures.
+// Images that stay in their files: tiles are read on demand and evicted when the tile memory is
+// used up. The pixels are those of read_image, bit for bit. It must not know textures.
 #pragma once
 
 #include <memory>
@@ -13,7 +12,7 @@ namespace nephroid {
 
 struct ImageInputFile;
 
-/// The tiles of any number of images, read by any number of threads.
+/// Tiles of any number of images, used by any number of threads.
 class TileCache : public std::enable_shared_from_this<TileCache> {
  public:
   static std::shared_ptr<TileCache> make();
@@ -21,14 +20,14 @@ class TileCache : public std::enable_shared_from_this<TileCache> {
   TileCache(const TileCache&) = delete;
   TileCache& operator=(const TileCache&) = delete;
 
-  /// Bytes that all tiles together may take; fewer than 1 MiB count as 1 MiB.
+  /// Limit of the bytes of all tiles together, at least 1 MiB.
   void set_limit(uint64_t bytes);
-  /// Bytes that the tiles take now.
+  /// Bytes that the tiles use now.
   uint64_t memory() const;
 
-  /// The image of an opened file, which is read once here if it has an alpha channel that may turn
-  /// out to be 1 everywhere. Null if its channels lie too far apart. Tiles that cannot be read
-  /// later throw as read_image does. The image keeps the cache alive.
+  /// The image of an opened file. If it has an alpha channel, it is read once to find out whether
+  /// alpha is 1 everywhere. Null if its channels are too far apart. Tiles that cannot be read later
+  /// throw like read_image. The image keeps the cache alive.
   std::shared_ptr<const Image> open(ImageInputFile& file, const std::string& path,
                                     const SourceLocation& wanted_by);
 

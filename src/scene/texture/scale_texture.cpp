@@ -1,6 +1,6 @@
 // Texture class "scale": a texture times a float texture. As in pbrt-v4, a constant scale of an
-// image multiplies the stored values, so it comes before "invert" and before reflectances are
-// clamped to 1.
+// image multiplies the stored values, so it precedes "invert" and the clamping of reflectances to
+// 1.
 #include "scene/texture/texture_table.h"
 
 namespace nephroid {
@@ -42,7 +42,7 @@ FloatTexturePtr make_float_scale(const TextureDescription& description, TextureS
   const FloatTexturePtr scale = scope.float_texture(description.parameters, "scale", 1.0f);
   if (texture->constant() && scale->constant())
     return constant_float_texture(*texture->constant() * *scale->constant());
-  // In this class the two factors may stand the other way round, too.
+  // For floats, the two factors can also be swapped.
   for (const auto& [image, factor] : {std::pair(texture, scale), std::pair(scale, texture)}) {
     if (!factor->constant()) continue;
     if (*factor->constant() == 1.0f) return image;

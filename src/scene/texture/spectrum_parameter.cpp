@@ -1,5 +1,5 @@
-// Parameters of a scene as spectra: rgb, wavelength-value pairs, named spectra, spectrum files and
-// black bodies, with the checks of pbrt-v4.
+// Scene parameters as spectra: rgb, wavelength-value pairs, named spectra, spectrum files and black
+// bodies, with pbrt-v4's checks.
 #include <cmath>
 
 #include "input/file_bytes.h"
@@ -42,7 +42,7 @@ SpectrumPtr rgb_spectrum(const Parameter& p, SpectrumKind kind) {
   return rgb_illuminant_spectrum(*space, rgb);
 }
 
-/// `source` names where the numbers stood, for messages.
+/// `source` is the origin of the numbers, for messages.
 SpectrumPtr pairs_spectrum(const std::vector<double>& numbers, SpectrumKind kind,
                            const SourceLocation& where, const std::string& source) {
   if (numbers.size() < 2 || numbers.size() % 2 != 0)

@@ -1,5 +1,5 @@
-// Textures: float or spectrum values that vary over a surface. One family a file.
-// Who calls it: materials, lights, alpha tests. It must not know BSDFs.
+// Textures: float or spectrum values that vary over a surface. One family per file. It must not
+// know BSDFs.
 #pragma once
 
 #include <map>
@@ -13,7 +13,7 @@
 
 namespace nephroid {
 
-/// What a texture may look at.
+/// Input of a texture lookup.
 struct TextureContext {
   Vec3f p{0, 0, 0};  ///< world
   Vec3f n{0, 0, 0};  ///< unit geometric normal, world
@@ -33,8 +33,8 @@ class FloatTexture {
   virtual float eval(const TextureContext& context) const = 0;
   /// The value, if it is the same everywhere.
   virtual std::optional<float> constant() const { return std::nullopt; }
-  /// The texture with its stored values multiplied before anything else is done to them, or null
-  /// for textures that store none.
+  /// The texture with its stored values multiplied before any other operation. Null for textures
+  /// that store none.
   virtual std::shared_ptr<const FloatTexture> with_values_times(float) const { return nullptr; }
 };
 using FloatTexturePtr = std::shared_ptr<const FloatTexture>;
@@ -46,12 +46,12 @@ class SpectrumTexture {
                                const SampledWavelengths& lambda) const = 0;
   /// The spectrum, if it is the same everywhere.
   virtual SpectrumPtr constant() const { return nullptr; }
-  /// As for FloatTexture.
+  /// Same as FloatTexture::with_values_times.
   virtual std::shared_ptr<const SpectrumTexture> with_values_times(float) const { return nullptr; }
 };
 using SpectrumTexturePtr = std::shared_ptr<const SpectrumTexture>;
 
-/// How an rgb value becomes a spectrum (pbrt-v4's SpectrumType).
+/// Conversion of an rgb value to a spectrum (pbrt-v4's SpectrumType).
 enum class SpectrumKind { kAlbedo, kUnbounded, kIlluminant };
 
 FloatTexturePtr constant_float_texture(float value);
@@ -64,19 +64,19 @@ SpectrumPtr spectrum_from_parameter(const Parameter& parameter, SpectrumKind kin
 /// The named textures of a scene. A spectrum texture exists in three kinds, made on demand.
 class TextureLibrary {
  public:
-  /// Makes every texture of the description; throws SceneError for unknown classes, undefined
-  /// names, cycles, unreadable images and what is not rendered yet. `image_memory` bounds the bytes
-  /// that the pixels of images take.
+  /// Makes all textures of the description. Throws SceneError for unknown classes, undefined names,
+  /// cycles, unreadable images and unsupported features. `image_memory` bounds the bytes of image
+  /// pixels.
   TextureLibrary(const SceneDescription& description, Diagnostics& diagnostics,
                  uint64_t image_memory = kDefaultTextureMemory);
   ~TextureLibrary();
 
-  /// The parameter `name`, which may be a number or a "texture" reference; nullptr if absent.
+  /// The parameter `name`, a number or a "texture" reference; nullptr if absent.
   FloatTexturePtr float_texture(const ParameterSet& parameters, const std::string& name) const;
-  /// The same, `fallback` if absent.
+  /// The same, by default the constant `fallback`.
   FloatTexturePtr float_texture(const ParameterSet& parameters, const std::string& name,
                                 float fallback) const;
-  /// The parameter `name` as rgb, spectrum or texture; nullptr if absent.
+  /// The parameter `name`, an rgb, spectrum or texture; nullptr if absent.
   SpectrumTexturePtr spectrum_texture(const ParameterSet& parameters, const std::string& name,
                                       SpectrumKind kind) const;
 

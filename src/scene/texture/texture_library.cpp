@@ -1,4 +1,4 @@
-// The named textures of a scene: made once, in dependency order, found by name. See texture.h.
+// The named textures of a scene: made once, in dependency order, found by name; see texture.h.
 #include <algorithm>
 #include <array>
 #include <exception>
@@ -13,30 +13,30 @@ namespace {
 constexpr SpectrumKind kKinds[] = {SpectrumKind::kAlbedo, SpectrumKind::kUnbounded,
                                    SpectrumKind::kIlluminant};
 
-/// What one look at a texture asks for, at most.
+/// Upper bound of the cost of one texture lookup.
 struct TextureCost {
-  int depth = 1;     ///< textures in each other, which recurse
-  double looks = 1;  ///< at textures in all; those that are used twice count twice
+  int depth = 1;     ///< nesting depth of textures, which recurse
+  double looks = 1;  ///< total number of lookups; textures that are used twice count twice
 
   void add(const TextureCost& part) {
     depth = std::max(depth, part.depth + 1);
     looks += part.looks;
   }
 };
-/// More overflow the stack, or, with a texture that mixes the one before it with itself and so on,
-/// never come to an end.
+/// Deeper nesting overflows the stack. The number of lookups can grow exponentially, for example if
+/// each texture mixes the one before it with itself.
 constexpr int kDeepest = 256;
 constexpr double kMaxLooks = 10000;
 
-/// A texture that is made when somebody first asks for it.
+/// A texture that is made when it is first requested.
 template <class Ptr>
 struct Slot {
   const TextureDescription* description = nullptr;
   bool in_progress = false;
   Ptr texture;
-  std::exception_ptr error;  ///< why it could not be made
+  std::exception_ptr error;  ///< error of a failed attempt to make it
 
-  /// The texture; `where` is the parameter that asks.
+  /// Gets the texture; `where` is the location of the parameter that asks.
   template <class Make>
   const Ptr& get(const SourceLocation& where, Make&& make) {
     if (in_progress)
@@ -84,9 +84,9 @@ struct TextureLibrary::Impl final : TextureScope {
       for (auto& slot : spectra_[t.name]) slot.description = &t;
   }
 
-  /// Makes a texture now, so that a faulty one is found even if nothing uses it. An rgb above 1 is
-  /// no reflectance but may be an emission, a value below 0 is no emission: such an error waits
-  /// until somebody asks for that kind.
+  /// Makes a texture now, so that errors are found even if nothing uses it. Errors of a single kind
+  /// wait until that kind is requested: an rgb above 1 is a valid emission but no reflectance, a
+  /// value below 0 no emission.
   void make_all_kinds(const TextureDescription& t) {
     if (t.value_type == "float") {
       find_float(t.name, t.where);
@@ -127,7 +127,7 @@ struct TextureLibrary::Impl final : TextureScope {
                [&](const TextureDescription& d) { return make_spectrum_texture(d, kind, *this); });
   }
 
-  /// The slot's texture, which adds its cost to the one that is being made and asks for it.
+  /// The slot's texture. Its cost is added to the texture under construction that asks for it.
   template <class Ptr, class Make>
   const Ptr& get(Slot<Ptr>& slot, const SourceLocation& where, Make&& make) {
     const Ptr& texture =
@@ -136,7 +136,7 @@ struct TextureLibrary::Impl final : TextureScope {
     return texture;
   }
 
-  /// Makes a texture; throws SceneError at its directive if a look at it would ask for too much.
+  /// Makes a texture. Throws SceneError at its directive if a lookup would cost too much.
   template <class Make>
   auto make_bounded(const TextureDescription& d, Make&& make) {
     struct InProgress {
@@ -153,7 +153,7 @@ struct TextureLibrary::Impl final : TextureScope {
                                     std::to_string(static_cast<int>(kMaxLooks)) +
                                     " textures, each counted as often as it is used, expected "
                                     "fewer");
-    // It may be one of its parts, times 1.
+    // It can be one of its own parts, for example if scaled by 1.
     costs_.try_emplace(texture.get(), cost);
     return texture;
   }
@@ -166,7 +166,7 @@ struct TextureLibrary::Impl final : TextureScope {
                                     std::to_string(kDeepest) + " deep, expected fewer");
   }
 
-  /// The only string of a texture reference.
+  /// The single string of a texture reference.
   static const std::string& reference(const Parameter& p) {
     if (p.strings.size() != 1)
       throw SceneError(p.where, "\"texture " + p.name + "\" needs the name of one texture");
@@ -209,8 +209,8 @@ struct TextureLibrary::Impl final : TextureScope {
   ImageCache images_;
   std::map<std::string, Slot<FloatTexturePtr>> floats_;
   std::map<std::string, std::array<Slot<SpectrumTexturePtr>, 3>> spectra_;
-  std::vector<TextureCost> in_progress_;      ///< of textures that are being made, parts last
-  std::map<const void*, TextureCost> costs_;  ///< by texture; those in the slots are kept
+  std::vector<TextureCost> in_progress_;      ///< textures under construction, innermost last
+  std::map<const void*, TextureCost> costs_;  ///< by texture; the textures in the slots stay alive
 };
 
 TextureLibrary::TextureLibrary(const SceneDescription& description, Diagnostics& diagnostics,

@@ -1,11 +1,11 @@
-// The mappings from points to texture coordinates, see texture_mapping.h (pbrt-v4 section 10.2).
+// The mappings from points to texture coordinates; see texture_mapping.h (pbrt-v4 section 10.2).
 #include "scene/texture/texture_mapping.h"
 
 namespace nephroid {
 
 namespace {
 
-/// A texture does not move: of an animated transform the start is used.
+/// Textures do not move: an animated transform is used at its start.
 Transform world_to_texture(const TextureDescription& description) {
   return Transform(description.transform.start).inverted();
 }

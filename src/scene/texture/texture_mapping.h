@@ -1,6 +1,6 @@
-// Where on a texture a point of a surface lies: pbrt-v4's mappings uv, spherical, cylindrical,
-// planar and, for three dimensions, the point in the texture's own frame. Who calls it: textures of
-// this folder. It must not know what a texture does with the coordinates.
+// Texture coordinates of a surface point: pbrt-v4's mappings uv, spherical, cylindrical, planar
+// and, for three dimensions, the point in the texture's frame. It must not know what a texture does
+// with the coordinates.
 #pragma once
 
 #include "scene/texture/noise.h"
@@ -8,7 +8,7 @@
 
 namespace nephroid {
 
-/// (s, t) of a point, by the parameters "mapping", "uscale", "vscale", "udelta", "vdelta", "v1",
+/// (s, t) of a point, by the parameters "mapping", "uscale", "vscale", "udelta", "vdelta", "v1" and
 /// "v2".
 class TextureMapping2D {
  public:
@@ -24,12 +24,12 @@ class TextureMapping2D {
   Transform world_to_texture_;
 };
 
-/// The point in the frame that was in force at the Texture directive.
+/// The point in the coordinate frame at the Texture directive.
 class TextureMapping3D {
  public:
   explicit TextureMapping3D(const TextureDescription& description);
   Vec3f map(const TextureContext& context) const { return world_to_texture_.point(context.p); }
-  /// What a lookup stands for, in the same frame.
+  /// Footprint of a lookup, in the same frame.
   NoiseFootprint footprint(const TextureContext& context) const {
     return {world_to_texture_.vector(context.dpdx), world_to_texture_.vector(context.dpdy)};
   }

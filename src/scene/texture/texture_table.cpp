@@ -1,4 +1,4 @@
-// Texture classes by name, see texture_table.h.
+// Texture classes by name; see texture_table.h.
 #include "scene/texture/texture_table.h"
 
 namespace nephroid {
@@ -65,7 +65,7 @@ constexpr FormatParameter kPtex[] = {
     {"float", "scale", "1"},
 };
 
-/// A class lacks one of the makers if it has values of one kind only.
+/// A class with values of one kind only lacks one of the makers.
 struct Row : FormatType {
   FloatTextureMaker make_float;
   SpectrumTextureMaker make_spectrum;

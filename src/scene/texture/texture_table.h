@@ -1,6 +1,6 @@
-// The table of texture classes: the scene format's name -> how to make one. A new class is one file
-// with its two makers and one row in texture_table.cpp.
-// Who calls it: the texture library. The makers must not know the library, only TextureScope.
+// The table of texture classes: the scene format's name and its makers. A new class is one file
+// with its two makers and one row in texture_table.cpp. The makers must not know the library, only
+// TextureScope.
 #pragma once
 
 #include <string>
@@ -11,14 +11,14 @@
 
 namespace nephroid {
 
-/// What a maker may ask of the scene around it: other textures, images, where files are.
+/// The parts of the scene that a maker can use: other textures, images, file locations.
 class TextureScope {
  public:
   virtual ~TextureScope() = default;
-  /// The parameter `name` as number or texture, `fallback` if absent.
+  /// The parameter `name`, a number or a texture; by default the constant `fallback`.
   virtual FloatTexturePtr float_texture(const ParameterSet& parameters, const std::string& name,
                                         float fallback) = 0;
-  /// The parameter `name` as colour or texture, the constant `fallback` if absent.
+  /// The parameter `name`, a colour or a texture; by default the constant `fallback`.
   virtual SpectrumTexturePtr spectrum_texture(const ParameterSet& parameters,
                                               const std::string& name, SpectrumKind kind,
                                               float fallback) = 0;
@@ -33,16 +33,16 @@ using SpectrumTextureMaker = SpectrumTexturePtr (*)(const TextureDescription&, S
 
 /// All classes of the format, with their parameters.
 std::vector<FormatType> texture_types();
-/// The class of that name; null if there is none.
+/// The class with that name. Null if there is none.
 const FormatType* find_texture_type(const std::string& name);
 
-/// Makes a texture of the description's class; throws SceneError at the directive if there is no
-/// such class or if it is not rendered yet.
+/// Makes a texture of the description's class. Throws SceneError at the directive if the class does
+/// not exist or is not supported yet.
 FloatTexturePtr make_float_texture(const TextureDescription& description, TextureScope& scope);
 SpectrumTexturePtr make_spectrum_texture(const TextureDescription& description, SpectrumKind kind,
                                          TextureScope& scope);
 
-// The makers, one pair a file.
+// The makers, one pair per file.
 FloatTexturePtr make_float_constant(const TextureDescription&, TextureScope&);
 SpectrumTexturePtr make_spectrum_constant(const TextureDescription&, SpectrumKind, TextureScope&);
 FloatTexturePtr make_float_scale(const TextureDescription&, TextureScope&);

@@ -69,6 +69,26 @@ TEST(PaddedPoint, EachDecisionIsANetOverAnyRunOfSamples) {
         }
 }
 
+// Of the streams that the paths of a pixel have at one dimension.
+TEST(PathSampler, StreamsAreEvenlySpreadOverThePoints) {
+  for (const int dimension : {0, 3, 300}) {
+    std::set<int> first, second;
+    for (uint32_t i = 0; i < 16; ++i) {
+      const SobolPoint point(32 + i);
+      PathSampler stream = PathSampler(point, 5).stream(dimension);
+      const Vec2f u = stream.get_2d(), v = stream.get_2d();
+      first.insert(static_cast<int>(u.x * 4) * 4 + static_cast<int>(u.y * 4));
+      second.insert(static_cast<int>(v.x * 4) * 4 + static_cast<int>(v.y * 4));
+    }
+    EXPECT_EQ(first.size(), 16u);
+    EXPECT_EQ(second.size(), 16u);
+  }
+  const SobolPoint point(3);
+  const PathSampler of_pixel(point, 5), of_another(point, 6);
+  EXPECT_NE(of_pixel.stream(2).get_1d(), of_pixel.stream(3).get_1d());
+  EXPECT_NE(of_pixel.stream(2).get_1d(), of_another.stream(2).get_1d());
+}
+
 TEST(PaddedPoint, DecisionsHaveNothingToDoWithEachOther) {
   // Pairs of numbers of two decisions, over sixteen samples of many pixels: each of 4 x 4 cells
   // gets its share, and within a pixel as many cells are hit as by chance. Sobol' dimensions 2 and

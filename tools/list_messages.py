@@ -1,0 +1,88 @@
+#!/usr/bin/env python3
+"""Writes docs/messages.md: every message of the program, from the sources. `--check` compares instead and fails if the
+page is not what the sources say.
+
+A message is what an error is thrown with, a warning or a note is made of. Values are shown as an ellipsis.
+"""
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+PAGE = ROOT / "docs/messages.md"
+CALL = re.compile(
+    r"throw (\w*Error)\(|\b(fail|fail_at|wrong|refuse)\(|[.>](warn|warn_of_unknown_name)\(|notes\.(?:push|emplace)_back\(")
+TOKEN = re.compile(r'R"(\w*)\((.*?)\)\1"|"((?:\\.|[^"\\])*)"|\'(?:\\.|[^\'\\])*\'|//[^\n]*|[()]|[^()"\'/]+|/', re.S)
+KINDS = {
+    "UsageError": "The command line", "SceneError": "Scene files", "IoError": "Files", "Error": "Rendering",
+    "warn": "Warnings", "note": "Notes of the report",
+}
+
+
+def literals(text, start):
+    """The string literals of the call whose bracket ends at `start`, as one message; values are an ellipsis."""
+    depth, parts, value = 1, [], False
+    for token in TOKEN.finditer(text, start):
+        t = token[0]
+        if t == "(":
+            depth += 1
+        elif t == ")":
+            depth -= 1
+            if depth == 0:
+                break
+        elif t.startswith("//") or t.startswith("'"):
+            continue
+        elif token[2] is not None or token[3] is not None:
+            piece = token[2] if token[2] is not None else token[3].replace('\\"', '"').replace("\\n", " ").replace("\\\\", "\\")
+            if value and parts:
+                parts.append("…")
+            parts.append(piece)
+            value = False
+        elif "+" in t and re.search(r"\w", t):
+            value = True
+    message = "".join(parts) + ("…" if value and parts else "")
+    message = re.sub(r"\{\{|\}\}", "'", re.sub(r"\{[^{}]*\}", "…", message))
+    return re.sub(r"\s+", " ", message).strip(" :")
+
+
+def messages():
+    found = {}
+    for path in sorted((ROOT / "src").rglob("*")):
+        if path.suffix not in (".cpp", ".h"):
+            continue
+        text = path.read_text(encoding="utf-8")
+        for call in CALL.finditer(text):
+            message = literals(text, call.end())
+            if len(re.findall(r"[a-z]{2,}", message)) < 2:
+                continue
+            kind = call[1] or ("warn" if call[3] else "SceneError" if call[2] else "note")
+            layer = path.relative_to(ROOT / "src").parts[0]
+            if call[2] and layer in ("options", "apps", "route"):
+                kind = "UsageError"
+            found.setdefault(KINDS.get(kind, KINDS["Error"]), {}).setdefault(message, path.relative_to(ROOT).as_posix())
+    return found
+
+
+def page():
+    found = messages()
+    lines = ["# Messages", "",
+             "Every message of the program, written by `tools/list_messages.py`; `…` stands for a name or a number. A message says what "
+             "is wrong, and then what was expected. Errors in scene files begin with `file:line:column`.", ""]
+    for kind in dict.fromkeys(KINDS.values()):
+        if kind not in found:
+            continue
+        lines += [f"## {kind}", "", "| message | source |", "| --- | --- |"]
+        for message, source in sorted(found[kind].items(), key=lambda item: item[0].lower().lstrip("… '\"-:")):
+            text = message.replace("|", "\\|").replace("<", "&lt;").replace("`", "'").replace("*", "\\*").replace("[", "\\[")
+            lines.append(f"| {text} | [{source.split('/', 1)[1]}](../{source}) |")
+        lines.append("")
+    return "\n".join(lines)
+
+
+if __name__ == "__main__":
+    text = page()
+    if "--check" in sys.argv[1:]:
+        if not PAGE.exists() or PAGE.read_text(encoding="utf-8") != text:
+            sys.exit("docs/messages.md: is not what the sources say; run tools/list_messages.py")
+    else:
+        PAGE.write_text(text, encoding="utf-8")
