@@ -1,4 +1,4 @@
-// A ball that fills most of the picture, with a lamp and a sky that its glass shows.
+// A ball that fills most of the picture; its glass shows a lamp and a sky.
 #pragma once
 
 #include <string>
@@ -25,7 +25,7 @@ inline const std::string kMilky =
 
 inline const std::string kSphere = R"( Shape "sphere" "float radius" 1)";
 
-/// The scene with that ball: the medium inside, its material and its shape.
+/// The scene with a ball of this inner medium, material and shape.
 inline std::string ball(const std::string& medium, const std::string& material,
                         const std::string& shape = kSphere) {
   std::string text = kBall;

@@ -1,4 +1,4 @@
-// Estimators by their names.
+// Looks up estimators by name.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// A room in which walks from the camera hardly ever find the lamp: it stands in a tube and lights
-// the ceiling above. Used by agreement and determinism tests of what trials choose.
+// A room in which camera paths rarely find the lamp: it stands in a tube and lights the ceiling
+// above. Trials then choose to merge photons of all light.
 #pragma once
 
 #include <string>

@@ -1,13 +1,11 @@
-// A room that a spot lights by a patch of a wall alone: walks from the camera gain by learning
-// where it is. Used by agreement and determinism tests of guided walks.
+// A room lit only by a spot-lit patch of a wall, so that guiding camera paths pays off.
 #pragma once
 
 #include <string>
 
 namespace nephroid::testing_support {
 
-/// The text of the scene, with `pixels` on each side; `ball` is the material of a ball on the
-/// floor.
+/// The scene's text, with `pixels` on each side. `ball` is the material of a ball on the floor.
 inline std::string lit_patch(const std::string& ball, int pixels) {
   const std::string side = std::to_string(pixels);
   return R"(

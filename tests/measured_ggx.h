@@ -1,6 +1,5 @@
-// A known reflection, written down as if it had been measured: the facets of Trowbridge and Reitz
-// with a tint, tabulated in the parametrisation of Dupuy & Jakob 2018; and the bytes of the file
-// that would hold it. Who calls it: tests of the measured reflection, its file and its material.
+// A synthetic "measurement": tables of a tinted Trowbridge-Reitz surface in the parametrisation of
+// Dupuy & Jakob 2018, and the bytes of its file.
 #pragma once
 
 #include <bit>
@@ -16,7 +15,7 @@ namespace nephroid::testing_measured {
 struct GgxSurface {
   float alpha_x = 0.3f, alpha_y = 0.3f;
   size_t azimuths = 1;  ///< more than two if anisotropic
-  int symmetry = 1;     ///< the azimuths span a turn, or this part of it
+  int symmetry = 1;     ///< the azimuths span one turn divided by this
   size_t polar = 12;    ///< polar angles of the outgoing direction
   size_t normals = 64;  ///< nodes of the facet tables along each side
   size_t nodes = 24;    ///< nodes of the spectra along each side
@@ -25,7 +24,7 @@ struct GgxSurface {
   TrowbridgeReitz facets() const { return {alpha_x, alpha_y}; }
   /// Reflectance of a facet: rises linearly with the wavelength (nm).
   static float tint(float lambda) { return 0.2f + 0.6f * (lambda - 360.0f) / 470.0f; }
-  /// f without cosine, both directions above.
+  /// f without the cosine; both directions are above the surface.
   float f(const Vec3f& wo, const Vec3f& wi, float lambda) const {
     const TrowbridgeReitz t = facets();
     return tint(lambda) * t.d(normalize(wo + wi)) *
@@ -82,7 +81,7 @@ inline MeasuredTables tables_of(const GgxSurface& surface) {
     for (const float theta : t.theta) {
       const Vec3f wo = polar_direction(theta, phi);
       const float turn = isotropic ? phi : 0.0f;
-      // Density over the square: what is seen of the facets, times [R2].
+      // Density over the square: visible facets times [R2].
       const GridFamily seen = tabulate(surface.normals, surface.normals, [&](float x, float y) {
         const Vec3f m = normal_at(x, y, turn);
         return facets.d(m) * std::max(0.0f, dot(wo, m)) * x * std::sin(0.5f * kPi * x * x);

@@ -1,5 +1,5 @@
-// A small scene for Markov chains: a lamp, a floor and a metal ball, in three parts so that tests
-// can put another film between them.
+// A small scene for Markov chains: a lamp, a floor and a metal ball. It has three parts, so that
+// tests can exchange the film.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Routes for tests that call the photon layer directly.
+// Compiles routes for tests that call integrator passes directly.
 #pragma once
 
 #include <memory>
@@ -11,8 +11,8 @@
 
 namespace nephroid::testing_support {
 
-/// The routes of these texts (as of --route) in a scene; what the proof finds is not looked at.
-/// `group` counts the estimators in the order in which the texts name them.
+/// The routes of these texts (as for --route) in a scene, whatever the proof finds. `group` counts
+/// estimators in the order in which the texts name them.
 inline OwnedRoutes owned_routes(const Scene& scene, const std::vector<std::string>& texts,
                                 size_t group = 0) {
   std::vector<RouteDefinition> definitions;

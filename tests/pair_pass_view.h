@@ -1,4 +1,4 @@
-// A small scene and what it takes to render it by passes of path+photons.
+// A small scene, and all that renders it by passes of path+photons.
 #pragma once
 
 #include "integrator/bidirectional/pair_pass.h"

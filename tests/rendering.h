@@ -1,5 +1,5 @@
-// Renders small scenes for tests of whole pictures: from a scene's text to a film, without files,
-// and statistics over independent seeds, which are rendered in parallel.
+// Renders small scenes for tests of whole pictures, from a scene's text to a film, without files.
+// Also computes statistics over independent seeds, rendered in parallel.
 #pragma once
 
 #include <algorithm>
@@ -35,7 +35,7 @@ inline Film film_for(const Scene& scene, const EstimatorSet& preset) {
   return Film(film_settings(scene.film), preset.layout);
 }
 
-/// The routes of an integrator or of a preset of routes.
+/// The routes of an integrator or a preset.
 inline RoutePlan plan_named(const std::string& name) {
   if (auto routes = route_preset(name)) return {*std::move(routes), {}, false};
   return plan_of_integrator(name);
@@ -50,8 +50,8 @@ inline RoutePlan plan_of(const std::vector<std::string>& routes,
   return plan;
 }
 
-/// All names that plan_named() knows, but only one for each set of routes: the integrators, and the
-/// presets that none of them stands for.
+/// One name that plan_named() knows for each set of routes: all integrators, and the presets that
+/// equal none of them.
 inline std::vector<std::string> plan_names() {
   const auto same = [](const RouteDefinition& a, const RouteDefinition& b) {
     return a.expression == b.expression && a.estimator == b.estimator;
@@ -69,13 +69,13 @@ inline std::vector<std::string> plan_names() {
   return names;
 }
 
-/// A plan's name as part of a test's.
+/// A plan's name as part of a test's name.
 inline std::string test_name(std::string plan) {
   std::replace(plan.begin(), plan.end(), '-', '_');
   return plan;
 }
 
-/// True if some photons of the plan are merged, which gives the picture the bias of a radius.
+/// True if some photons of the plan are merged, which biases the picture.
 inline bool merges_photons(const RoutePlan& plan) {
   return std::any_of(plan.routes.begin(), plan.routes.end(), [](const RouteDefinition& route) {
     return route.estimator->merges ||
@@ -84,9 +84,9 @@ inline bool merges_photons(const RoutePlan& plan) {
   });
 }
 
-/// A photon map is traced as a whole for its first pass, and it takes 16 passes to read all of it:
-/// with those, the map needs no more photons, nor the eye more walks, than `passes` passes of other
-/// estimators. Plans without photon maps stay as they are.
+/// The first pass traces a whole photon map, and 16 passes read all of it. Chooses map_photons,
+/// camera samples and passes so that the map takes no more photons and camera paths than `passes`
+/// passes of other estimators. Plans without photon maps are left unchanged.
 inline void use_whole_maps(const RoutePlan& plan, IntegratorOptions& options, uint32_t& passes) {
   if (std::none_of(plan.routes.begin(), plan.routes.end(), [](const RouteDefinition& route) {
         return is_one_of(route.estimator, {"photonmap"});
@@ -100,14 +100,14 @@ inline void use_whole_maps(const RoutePlan& plan, IntegratorOptions& options, ui
   passes = kPasses;
 }
 
-/// A plan or the name of one.
+/// A plan, or a plan's name.
 struct Plan : RoutePlan {
   Plan(const RoutePlan& plan) : RoutePlan(plan) {}
   Plan(const std::string& name) : RoutePlan(plan_named(name)) {}
   Plan(const char* name) : RoutePlan(plan_named(name)) {}
 };
 
-/// What each estimator of a plan has learned of a scene.
+/// Learned values of a plan's estimators, for one scene.
 using PlanLearned = std::vector<std::shared_ptr<const Learned>>;
 inline PlanLearned learn(const Scene& scene, const Plan& plan, const IntegratorOptions& options,
                          uint64_t seed) {
@@ -119,8 +119,8 @@ inline PlanLearned learn(const Scene& scene, const Plan& plan, const IntegratorO
   return learned;
 }
 
-/// Renders passes [first, first + count) of a scene. With `learned`, estimators use that instead of
-/// learning anew, unless it would be part of their light.
+/// Renders passes [first, first + count) of a scene. Estimators use `learned` if it is given,
+/// instead of learning anew, unless what they learn is part of their light.
 inline Film render(const Scene& scene, const Plan& plan, const IntegratorOptions& options,
                    uint64_t seed, uint32_t count, uint32_t first = 0,
                    const PlanLearned& learned = {}) {
@@ -135,7 +135,7 @@ inline Film render(const Scene& scene, const Plan& plan, const IntegratorOptions
   return film;
 }
 
-/// Mean over the picture of the luminance-like sum of channels / 3.
+/// Mean of (R + G + B) / 3 over the picture.
 inline double picture_mean(const Film& film) {
   double sum = 0;
   const PixelBounds& b = film.bounds();
@@ -164,8 +164,8 @@ inline Estimate estimate_of(const std::vector<double>& values) {
 /// Values of independent renders, as [part][seed].
 using SeedValues = std::vector<std::vector<double>>;
 
-/// Means of `across` x `across` equal blocks of the picture, row by row. The size must be a
-/// multiple.
+/// Means of `across` x `across` equal blocks of the picture, row by row. Width and height must be
+/// multiples of `across`.
 inline std::vector<double> block_means(const Film& film, int across) {
   const PixelBounds& b = film.bounds();
   std::vector<double> means(static_cast<size_t>(across) * static_cast<size_t>(across), 0.0);
@@ -179,26 +179,26 @@ inline std::vector<double> block_means(const Film& film, int across) {
   return means;
 }
 
-/// What is added to every seed of a statistical comparison: zero, or as NEPHROID_TEST_SEED (a whole
-/// number) says for `make test-nightly`. Numbers that differ give disjoint sets of seeds.
+/// Added to every seed of a statistical comparison: zero, or set by NEPHROID_TEST_SEED (an integer)
+/// for `make test-nightly`. Different values give disjoint sets of seeds.
 inline uint64_t seed_offset() {
   const char* text = std::getenv("NEPHROID_TEST_SEED");
   return text ? std::strtoull(text, nullptr, 10) << 20 : 0;
 }
 
-/// True in `make test`. Limits of noise are chosen for the fixed seeds and hold for these alone:
-/// with others, a few rare and bright paths can double the standard error of 16 seeds.
+/// True in `make test`. Noise limits hold only for the fixed seeds: with others, a few rare bright
+/// paths can double the standard error of 16 seeds.
 inline bool fixed_seeds() {
   return seed_offset() == 0;
 }
 
-/// The limit of a standard error above which a comparison is too noisy to tell.
+/// The standard error above which a comparison is too noisy.
 inline double max_error(double limit) {
   return fixed_seeds() ? limit : std::numeric_limits<double>::infinity();
 }
 
-/// Calls `values_of_seed` for `seeds` seeds in parallel. It must make estimators of its own,
-/// because they keep statistics. The result does not depend on the number of threads.
+/// Calls `values_of_seed` for `seeds` seeds in parallel. It must make its own estimators, which
+/// hold statistics. The result does not depend on the number of threads.
 inline SeedValues values_over_seeds(
     int seeds, uint64_t first_seed,
     const std::function<std::vector<double>(uint64_t seed)>& values_of_seed) {
@@ -222,9 +222,8 @@ inline std::vector<double> mean_of_blocks(const SeedValues& blocks) {
   return values;
 }
 
-/// Block means over `seeds` independent renders. All of them use what the first seed learns: an
-/// estimator is right whatever it has learned. tests/agreement/learning_test.cpp learns anew for
-/// each seed.
+/// Block means over `seeds` independent renders. All use what the first seed learns: an estimator
+/// is unbiased whatever it has learned. agreement/learning_test.cpp learns anew for each seed.
 inline SeedValues block_values(const Scene& scene, const Plan& plan,
                                const IntegratorOptions& options, int seeds, uint32_t passes,
                                uint64_t first_seed, int across = 1) {
@@ -234,13 +233,13 @@ inline SeedValues block_values(const Scene& scene, const Plan& plan,
   });
 }
 
-/// IntegratorOptions::nearest_photons with which photon maps are read in a fixed radius, whose bias
-/// falls with its square as that of other estimators does.
+/// IntegratorOptions::nearest_photons for which photon maps use a fixed radius, with a bias that
+/// falls with the squared radius as for other estimators.
 inline constexpr int kAllPhotons = 1 << 30;
 
-/// The same without the bias of the merge radius, which falls with r^2: 2 L(r^2/2) - L(r^2). Both
-/// renders of a seed share all random numbers, so what does not depend on the radius keeps its own
-/// noise only. Where nothing is merged, there is nothing to remove.
+/// Extrapolates block_values() to a radius of zero: the bias falls with r^2, so the value is 2
+/// L(r^2/2) - L(r^2). Both renders of a seed share all random numbers, so that light without a
+/// radius keeps its own noise. Plans that merge nothing are rendered as they are.
 inline SeedValues unbiased_block_values(const Scene& scene, const Plan& plan,
                                         const IntegratorOptions& options, int seeds,
                                         uint32_t passes, uint64_t first_seed, int across = 1) {
@@ -267,8 +266,8 @@ inline Estimate mean_over_seeds(const Scene& scene, const Plan& plan,
   return estimate_of(block_values(scene, plan, options, seeds, passes, first_seed)[0]);
 }
 
-/// Quantiles of Student's t for 15 and 31 degrees of freedom at a two-sided level of 1e-5: a test
-/// that is right fails once in a hundred thousand choices of the seeds, and these are fixed.
+/// Quantiles of Student's t for 15 and 31 degrees of freedom, at a two-sided level of 1e-5. A
+/// correct program fails for one in a hundred thousand choices of the seeds, which are fixed.
 inline constexpr double kT15 = 6.5;
 inline constexpr double kT31 = 5.27;
 

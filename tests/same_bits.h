@@ -1,4 +1,4 @@
-// Films compared bit by bit: light, errors, biases and features. Who includes it: tests of bits.
+// Compares films bit by bit: light, errors, biases and features.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 
 namespace nephroid::testing_support {
 
-// In a file of its own, so that few objects depend on where the tree is.
+// In its own file, so that few objects depend on the path.
 std::string source_directory() {
   return NEPHROID_SOURCE_DIR;
 }

@@ -1,4 +1,4 @@
-// Where the project's files are, for the tests that read its scenes and documents.
+// Finds the files of the source tree for tests that read scenes and documents.
 #pragma once
 
 #include <fstream>
@@ -7,8 +7,7 @@
 
 namespace nephroid::testing_support {
 
-/// The absolute path of the source tree that these tests were built from, without a slash at its
-/// end.
+/// The absolute path of the source tree of this build, without a trailing slash.
 std::string source_directory();
 
 /// A file of the source tree; empty if it cannot be read.

@@ -1,4 +1,4 @@
-// `nephroid bench`: a suite in, its results out.
+// `nephroid bench`: runs a suite and writes its results.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -13,7 +13,7 @@
 namespace nephroid {
 namespace {
 
-/// A word as a shell reads it back.
+/// A word quoted for the shell.
 std::string quoted(const std::string& word) {
   constexpr const char* kPlain =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./,:=+@%";
@@ -23,7 +23,7 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-/// The command line that does the same, in this directory.
+/// The command line that repeats the run in this directory.
 std::string command_text(const BenchCommand& command, const std::string& directory) {
   std::string text = "nephroid bench " + quoted(command.suite);
   if (command.time_limit > 0) text += fmt::format(" --time {}s", command.time_limit);

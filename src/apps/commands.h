@@ -1,4 +1,4 @@
-// The commands of the program, one file each. All return the exit status and throw Error.
+// The commands of the program, each in its own file. All return the exit status and throw Error.
 #pragma once
 
 #include "options/options.h"

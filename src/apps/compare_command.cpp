@@ -1,4 +1,4 @@
-// `nephroid compare`: two pictures in, numbers and a heat map out.
+// `nephroid compare`: prints errors between two pictures and writes a heat map.
 #include <fmt/format.h>
 
 #include "apps/commands.h"

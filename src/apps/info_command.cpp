@@ -1,5 +1,4 @@
-// `nephroid info`: what a scene holds, from its description and from what was built; or what a
-// picture is of.
+// `nephroid info`: describes a scene, from its description and its built form, or a picture.
 #include <fmt/format.h>
 
 #include <unordered_map>
@@ -63,8 +62,8 @@ void print_lights(const Scene& scene) {
              scene.lights.size(), infinite, delta);
 }
 
-/// A mix goes by the labels of the materials that it shows.
-/// "glass [S, line 12]": what a material is called, the classes of its events, where it stands.
+/// "glass [S, line 12]": label, event classes and location of each material. A mix has the labels
+/// of its materials, so it is left out.
 std::vector<std::string> labels_of_materials(const SceneDescription& description,
                                              const Scene& scene) {
   std::vector<std::string> labels;
@@ -84,7 +83,7 @@ std::vector<std::string> labels_of_materials(const SceneDescription& description
   return labels;
 }
 
-/// What `--route` and `--aov` may call things: each label once, with how often it occurs.
+/// Prints the labels for `--route` and `--aov`, each once with its number of occurrences.
 void print_labels(const char* kind, const std::vector<std::string>& labels) {
   std::vector<std::pair<std::string, size_t>> counts;
   std::unordered_map<std::string, size_t> places;

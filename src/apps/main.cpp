@@ -1,5 +1,5 @@
-// The program `nephroid`: understands its arguments, runs a command, turns errors into messages and
-// exit statuses (core/errors.h).
+// The program `nephroid`: parses its arguments, runs a command, turns errors into messages and exit
+// statuses (core/errors.h).
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
   try {
     limit_image_threads(0);  // a command may have fewer
     const int status = run(std::vector<std::string>(argv + (argc > 0 ? 1 : 0), argv + argc));
-    // What was printed may still be on its way to a full disk or a closed pipe.
+    // Buffered output may still fail, on a full disk or a closed pipe.
     if (std::fflush(stdout) != 0)
       return fail(ExitStatus::kInputOutput, "standard output: cannot write");
     return status;

@@ -1,4 +1,4 @@
-// `nephroid merge`: pictures of disjoint passes in, their sum out.
+// `nephroid merge`: adds up pictures of disjoint passes.
 #include <fmt/format.h>
 
 #include "apps/commands.h"

@@ -1,4 +1,3 @@
-// The one spelling of errors and warnings.
 #include "apps/messages.h"
 
 #include <fmt/format.h>
@@ -8,7 +7,7 @@
 namespace nephroid {
 namespace {
 
-/// Bytes of the well-formed printable UTF-8 character at `i`, or 0 if there is none.
+/// Number of bytes of the well-formed printable UTF-8 character at `i`, or 0 if there is none.
 size_t printable_length(const std::string& text, size_t i) {
   const auto byte = [&](size_t k) {
     return k < text.size() ? static_cast<unsigned char>(text[k]) : 0u;
@@ -22,7 +21,7 @@ size_t printable_length(const std::string& text, size_t i) {
                                        : 0;
   for (size_t k = 1; k < length; ++k)
     if ((byte(i + k) & 0xc0) != 0x80) return 0;
-  // U+0080 to U+009F are control characters, too.
+  // U+0080 to U+009F are also control characters.
   return first == 0xc2 && byte(i + 1) < 0xa0 ? 0 : length;
 }
 

@@ -1,4 +1,3 @@
-// The texts of the bar and the lines.
 #include "apps/progress_display.h"
 
 #include <fmt/format.h>
@@ -13,8 +12,8 @@
 namespace nephroid {
 namespace {
 
-constexpr double kBarInterval = 0.1;  ///< s
-constexpr double kLineInterval = 10;  ///< s
+constexpr double kBarInterval = 0.1;  ///< seconds
+constexpr double kLineInterval = 10;  ///< seconds
 constexpr int kBarWidth = 24;
 
 std::string bar(double fraction) {

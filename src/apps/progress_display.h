@@ -1,5 +1,5 @@
-// How far a render is, on standard error: a bar that is drawn over itself on a terminal, else a
-// plain line now and then. It must not know scenes or estimators.
+// Shows the progress of a render on standard error: a bar on a terminal, else a plain line now and
+// then. It must not know scenes or estimators.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace nephroid {
 class ProgressDisplay {
  public:
   ProgressDisplay();
-  /// Shows the state if the last one has been there long enough.
+  /// Shows the progress if the last one was shown long enough.
   void show(const RenderProgress& progress);
   /// Removes the bar, so that something else can be printed.
   void clear();

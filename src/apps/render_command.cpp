@@ -1,4 +1,4 @@
-// `nephroid render`: session/render.h on a terminal.
+// `nephroid render`: runs session/render.h with output on a terminal.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -45,7 +45,7 @@ RenderRequest request_of(const RenderCommand& command) {
   return request;
 }
 
-/// --quiet leaves the warnings about the output file.
+/// With --quiet, only warnings about the output file are printed.
 RenderWarnings warnings_of(const RenderCommand& command, ProgressDisplay& display) {
   RenderWarnings warnings;
   if (!command.quiet) warnings.input = print_warning;
@@ -66,11 +66,11 @@ int exit_status(const RenderCommand& command, const RenderResult& result) {
 }  // namespace
 
 int run_render(const RenderCommand& command) {
-  // SIGUSR1 may come while the scene is read: the picture is written after the first pass.
+  // If SIGUSR1 comes while the scene is read, the picture is written after the first pass.
   SignalListener signals;
   const ThreadLimit threads(command.threads);
   limit_image_threads(command.threads);
-  // Scene files take long to read, so this comes before.
+  // Checked first, since scene files may take long to read.
   if (!command.output.empty()) check_picture_can_be_written(command.output);
   RenderRequest request = request_of(command);
 
@@ -85,7 +85,7 @@ int run_render(const RenderCommand& command) {
   ProgressDisplay display;
   Render render(request, loaded, warnings_of(command, display));
   if (!command.quiet) {
-    // Known before the first ray: after an hour it is late to hear that maxdepth is too small.
+    // Printed before the first ray, so that the user need not wait for them.
     for (const std::string& note : render.notes()) say("note: " + note + "\n");
     render.on_progress([&](const RenderProgress& progress) { display.show(progress); });
   }

@@ -1,4 +1,3 @@
-// Sentences from the counts of estimators and film.
 #include "apps/render_report.h"
 
 #include <fmt/format.h>

@@ -9,8 +9,8 @@
 
 namespace nephroid {
 
-/// Time, passes, rays, photons, radii, the share of each route and everything worth knowing about
-/// what was not rendered.
+/// Time, passes, rays, photons, radii, shares of routes, and warnings about light that was not
+/// rendered.
 std::string render_report(const RenderResult& result, const Film& film, const std::string& output);
 
 }  // namespace nephroid

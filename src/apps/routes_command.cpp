@@ -1,5 +1,5 @@
-// `nephroid routes`: the routes, what they compile to, the proof, and with a scene how its light
-// divides among them: the answer to "why do I see no caustic?".
+// `nephroid routes`: prints the routes, their automaton and the proof. With a scene it also
+// measures the share of each route in the light: the answer to "why do I see no caustic?".
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -42,7 +42,7 @@ void print_routes(const RoutePlan& plan, const RouteCompilation& compiled) {
     fmt::print("  {:{}}  {:{}}  a layer of its own\n", aov.name, name, aov.expression, expression);
 }
 
-/// Eye states that are reached without merging.
+/// Number of eye states that are reached without merging.
 size_t plain_states(const Routes& routes) {
   std::vector<bool> seen(routes.tables().eye_states);
   std::vector<EyeState> todo{routes.start()};
@@ -74,7 +74,7 @@ void print_automaton(const Routes& routes) {
       t.light_symbols / 8 * kLightKinds, bytes);
 }
 
-/// True if the routes can be rendered.
+/// Prints the proof; true if the routes can be rendered.
 bool print_proof(const RouteCompilation& compiled, bool strict) {
   const auto has = [&](RouteFinding::Kind kind) {
     return std::any_of(compiled.findings.begin(), compiled.findings.end(),
@@ -96,7 +96,8 @@ bool print_proof(const RouteCompilation& compiled, bool strict) {
   return !broken && !(strict && overlap);
 }
 
-/// A small picture of the scene, its light by route and by layer, and what the estimators say.
+/// Renders a small picture of the scene and prints its light by route and layer, and the
+/// estimators' notes.
 void print_pilot(const RoutesCommand& command, const RoutePlan& plan, CompiledPlan compiled,
                  const IntegratorOptions& options, const Scene& scene) {
   EstimatorSet set = make_estimators(std::move(compiled), options, scene);

@@ -43,7 +43,7 @@ std::string date_now() {
                      utc.tm_mday, utc.tm_hour, utc.tm_min);
 }
 
-/// The limit that counts: the command line's, the scene's, the suite's.
+/// The effective limit: the command line's, else the scene's, else the suite's.
 BenchLimit limit_of(const BenchSuite& suite, const BenchScene& scene, const BenchLimit& over_all) {
   if (over_all.is_set()) return over_all;
   return scene.limit.is_set() ? scene.limit : suite.limit;
@@ -71,7 +71,7 @@ std::vector<const BenchScene*> chosen_scenes(const BenchSuite& suite, const Benc
   return chosen;
 }
 
-/// One invocation: what all of its renders share.
+/// One invocation of a suite, with the state that its renders share.
 class Bench {
  public:
   Bench(const BenchSuite& suite, const BenchOptions& options, SignalFlags& signals)
@@ -94,7 +94,7 @@ class Bench {
     }
     result.width = reference.width();
     result.height = reference.height();
-    // Round by round: what else the machine does meets all integrators alike.
+    // Round by round, so that other load of the machine affects all integrators alike.
     const uint32_t rounds = options_.repeat > 0 ? options_.repeat : suite_.repeat;
     for (uint32_t round = 0; round < rounds; ++round)
       if (!run_all(scene, round, reference, &result)) break;
@@ -102,18 +102,18 @@ class Bench {
   }
 
  private:
-  /// The seed of a round: one after the other, without that of the reference, whose own numbers
-  /// would make the error too small.
+  /// The seed of a round: consecutive seeds, skipping the reference's, with which the error would
+  /// be too small.
   static uint64_t seed_of_round(const BenchScene& scene, uint64_t first, uint32_t round) {
     const bool rendered = scene.reference.file.empty();
     const uint64_t taken = scene.reference.integrator.seed;
     const uint64_t seed = first + round;
-    // Differences: the sum may wrap round.
+    // Compares differences, since the sum may overflow.
     return rendered && round > 0 && taken - first <= round && taken != first ? seed + 1 : seed;
   }
 
-  /// Every integrator of the scene, with the seed of the round; false if a signal stopped it. What
-  /// failed in the first round is not tried again.
+  /// Runs every integrator of the scene with the seed of the round. Runs that failed in the first
+  /// round are not repeated. False if a signal stopped it.
   bool run_all(const BenchScene& scene, uint32_t round, const Picture& reference,
                BenchSceneResult* result) {
     for (size_t i = 0; i < scene.integrators.size(); ++i) {
@@ -130,15 +130,15 @@ class Bench {
     return true;
   }
 
-  /// Of all files of a render's scene.
+  /// Hash of all files of a render's scene.
   uint64_t hash_of_scene(const BenchRender& render) {
     return scenes_.hash(render.scene->file, [&]() -> const SceneFiles& {
       return *shelf_.load(render).description.files;
     });
   }
 
-  /// The reference and its picture, from a file, from earlier or rendered now; nothing if a signal
-  /// stopped it.
+  /// The reference and its picture: from a file, kept from earlier, or rendered now. Empty if a
+  /// signal stopped it.
   std::optional<BenchReferenceResult> reference_of(const BenchScene& scene, Picture* picture) {
     const BenchReference& wanted = scene.reference;
     BenchReferenceResult result;
@@ -162,7 +162,7 @@ class Bench {
     const auto rendered = render_for_bench(render, nullptr, shelf_, signals_);
     if (!rendered) return std::nullopt;
     write_exr(files.picture, rendered->picture);
-    // Read back as a later invocation will have it.
+    // Read back, so that it is the same as in a later invocation.
     *picture = read_picture(files.picture);
     result.picture = files.picture;
     result.key = hash_picture(*picture);
@@ -176,8 +176,7 @@ class Bench {
     return result;
   }
 
-  /// The reference of an earlier invocation and its picture, if the figures beside it are of that
-  /// picture.
+  /// The reference of an earlier invocation and its picture, if the figures belong to that picture.
   static std::optional<BenchReferenceResult> kept_reference(const KeptFiles& files,
                                                             Picture* picture) {
     const auto text = text_of_file(files.json);
@@ -191,7 +190,7 @@ class Bench {
     return reference;
   }
 
-  /// A run from earlier or of now; nothing if a signal stopped it.
+  /// A run, kept from earlier or rendered now. Empty if a signal stopped it.
   std::optional<BenchRun> run_of(const BenchScene& scene, const BenchIntegrator& integrator,
                                  const Picture& reference, const std::string& reference_hash) {
     const BenchRender render{&scene, &integrator, limit_of(suite_, scene, options_.limit),
@@ -218,7 +217,7 @@ class Bench {
       run.key = key;
       run.picture = files.picture;
       write_exr(files.picture, rendered->picture);
-      // What has this file is finished.
+      // Written last: a run with this file is finished.
       write_text(files.json, run_to_json(run));
       options_.say(fmt::format("{}: {} passes in {:.2f} s, RMSE {:.4g}", title, run.end().passes,
                                run.end().seconds, run.end().errors.rmse));

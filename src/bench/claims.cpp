@@ -39,7 +39,7 @@ const BenchErrors* find(const BenchNamedErrors& list, const std::string& wanted)
   return nullptr;
 }
 
-/// Of the claim's layer; a slope is that of RMSE.
+/// The curve of the claim's metric in its layer; of RMSE for a slope.
 std::vector<CurvePoint> curve_of(const BenchRun& run, const BenchClaim& claim, BenchAxis axis) {
   std::vector<CurvePoint> curve;
   for (const BenchPoint& point : run.points) {
@@ -68,7 +68,8 @@ bool is_error(BenchMetric metric) {
          metric == BenchMetric::kMeanError;
 }
 
-/// How many renders errors at the end are of; empty for one each, and for other figures.
+/// The number of renders behind errors at the end, as text. Empty for one each, and for other
+/// metrics.
 std::string over_renders(const BenchClaim& claim, std::initializer_list<const BenchRun*> runs) {
   if (!is_error(claim.metric)) return {};
   std::string counts;
@@ -100,7 +101,7 @@ std::optional<Pair> figures_of(const BenchRun& subject, const BenchRun& other,
   return Pair{*a, *b, fmt::format(" at {} {}", short_number(x), unit)};
 }
 
-/// A figure in the unit that it has.
+/// A figure with its unit.
 std::string in_words(BenchMetric metric, double value) {
   switch (metric) {
     case BenchMetric::kMemory:
@@ -125,7 +126,7 @@ std::string measured(const BenchClaim& claim) {
   return text + ": ";
 }
 
-/// What is left of RMSEs of the whole picture without the reference's own; empty for other figures.
+/// RMSEs of the whole picture without the reference's own error, as text; empty for other metrics.
 std::string without(const BenchClaim& claim, const std::optional<double>& own_error,
                     std::initializer_list<double> values) {
   if (claim.metric != BenchMetric::kRmse || !claim.region.empty() || !claim.layer.empty() ||
@@ -167,7 +168,7 @@ BenchFigure place(const BenchClaim& claim, double value, const std::string& wher
   return figure;
 }
 
-/// Every figure of the claim in a scene; false if one could not be measured.
+/// Adds the figures of the claim in a scene; false if one could not be measured.
 bool add_figures(const BenchClaim& claim, const BenchSceneResult& scene, BenchVerdict* verdict) {
   const BenchRun* subject = scene.find_run(claim.subject);
   if (subject == nullptr) return false;
@@ -196,7 +197,7 @@ bool contains(const List& list, const std::string& name) {
   return std::find(list.begin(), list.end(), name) != list.end();
 }
 
-/// Whether a claim is about a scene of the suite.
+/// True if a claim is about a scene of the suite.
 bool is_about(const BenchClaim& claim, const BenchScene& scene) {
   if (!claim.scenes.empty()) return contains(claim.scenes, scene.name);
   const auto has = [](const auto& list, const std::string& name) {

@@ -11,7 +11,7 @@ std::optional<double> log_slope(const std::vector<CurvePoint>& points) {
   for (const CurvePoint& p : points)
     if (p.x > 0 && p.y > 0) logs.push_back({std::log(p.x), std::log(p.y)});
   if (logs.size() < kMinPoints) return std::nullopt;
-  // Half of the run, with room for rounding.
+  // The second half of the run, with room for rounding.
   const double from = logs.back().x - std::log(2.0) - 1e-9;
   size_t begin = 0;
   while (begin + kMinPoints < logs.size() && logs[begin].x < from) ++begin;
@@ -32,7 +32,7 @@ std::optional<double> log_slope(const std::vector<CurvePoint>& points) {
 }
 
 std::optional<double> log_interpolate(const std::vector<CurvePoint>& points, double x) {
-  // Of points at the same x the last counts: what was emitted once may be read by many passes.
+  // The last of several points at the same x counts: many passes may read the same photons.
   const auto after =
       std::find_if(points.begin(), points.end(), [&](const CurvePoint& p) { return p.x > x; });
   if (after == points.begin()) return std::nullopt;

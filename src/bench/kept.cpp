@@ -20,7 +20,7 @@
 namespace nephroid {
 namespace {
 
-/// Another build of the program may be faster, or right where this one is wrong.
+/// Hash of the program: another build may be faster, or correct an error.
 uint64_t hash_of_program() {
   static const uint64_t hash = [] {
     const char* self = "/proc/self/exe";
@@ -34,7 +34,7 @@ std::string limit_text(const BenchLimit& limit) {
                           : fmt::format("{} s", limit.seconds);
 }
 
-/// What a picture depends on.
+/// A text of everything that a picture depends on.
 std::string render_text(const BenchRender& render, uint64_t scene_hash) {
   const BenchScene& scene = *render.scene;
   const RoutePlan plan = plan_of(render);

@@ -1,5 +1,5 @@
-// What is in the directory of results from earlier: files under a name with a hash of all that
-// determines them. Who calls it: bench.cpp. It must not know how they are made.
+// Results kept from earlier invocations: files whose names have a hash of everything that
+// determines them. It must not know how they are made.
 #pragma once
 
 #include <cstdint>
@@ -13,19 +13,19 @@ namespace nephroid {
 /// 16 digits that change with the text.
 std::string hash_text(const std::string& text);
 
-/// Of what errors against a picture depend on: window, channels, colour space and pixels, not its
-/// metadata; 16 digits.
+/// Hash of a picture's window, channels, colour space and pixels, without its metadata; 16 digits.
 std::string hash_picture(const Picture& picture);
 
-/// Of all that determines a rendered reference: the scene (SceneFiles::hash), settings, routes and
-/// version.
+/// Hash of everything that determines a rendered reference: the scene (SceneFiles::hash), settings,
+/// routes and version.
 std::string reference_key(const BenchRender& render, uint64_t scene_hash);
-/// Of all that determines a run and its figures: those, the reference's picture (by its
-/// hash_picture), the program itself, the instruction set and the number of threads.
+/// Hash of everything that determines a run and its figures: the same, plus the reference's picture
+/// (its hash_picture), the program itself, the instruction set and the number of threads.
 std::string run_key(const BenchRender& render, uint64_t scene_hash,
                     const std::string& reference_hash);
 
-/// DIRECTORY/FOLDER/NAME-KEY, which lacks an ending. Makes the folder; throws IoError if it cannot.
+/// DIRECTORY/FOLDER/NAME-KEY, without an extension. Creates the folder; throws IoError if it
+/// cannot.
 std::string kept_stem(const std::string& directory, const std::string& folder,
                       const std::string& name, const std::string& key);
 
@@ -33,13 +33,13 @@ std::string kept_stem(const std::string& directory, const std::string& folder,
 struct KeptFiles {
   std::string json, picture;
 };
-/// Those with that stem.
+/// The files of the result with this name and key.
 KeptFiles kept_files(const std::string& directory, const std::string& folder,
                      const std::string& name, const std::string& key);
 
 /// The text of a file; empty if it cannot be read.
 std::optional<std::string> text_of_file(const std::string& file);
-/// Writes a whole file or nothing. Throws IoError.
+/// Writes a file atomically. Throws IoError.
 void write_text(const std::string& file, const std::string& text);
 
 }  // namespace nephroid

@@ -12,15 +12,15 @@
 namespace nephroid {
 namespace {
 
-/// A list of files, a line each, after the hash that they had together. A name with a line break in
-/// it is not found, which makes the list one that no longer holds.
+/// The hash of all files, then a line for each file. A name with a line break is not found again,
+/// so its list is invalid.
 std::string list_text(const SceneFiles& files) {
   std::string text = fmt::format("{:016x}\n", files.hash());
   for (const std::string& name : files.names()) text += name + "\n";
   return text;
 }
 
-/// The hash that a list begins with, if its files have it still.
+/// The hash of a list, if its files still have it.
 std::optional<uint64_t> hash_that_holds(const std::string& list, const std::string& top) {
   SceneFiles files(std::filesystem::path(top).parent_path().string());
   files.set_top(top);
@@ -30,11 +30,11 @@ std::optional<uint64_t> hash_that_holds(const std::string& list, const std::stri
   try {
     files.read(top);
     while (std::getline(lines, name)) {
-      // What is packed counts unpacked; a pipe must not be waited for.
+      // Compressed files count unpacked. Pipes are not read, since reading could block.
       const std::string path = files.counted_path_of(name);
       if (std::filesystem::is_regular_file(path)) files.read(path);
     }
-  } catch (const std::exception&) {  // a file is gone, or no file any more
+  } catch (const std::exception&) {  // a file is missing, or no longer a file
     return std::nullopt;
   }
   if (fmt::format("{:016x}", files.hash()) != hash) return std::nullopt;

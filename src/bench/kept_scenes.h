@@ -1,5 +1,5 @@
-// Of what files a scene is, kept beside the results: a second invocation knows whether one of them
-// has changed without loading the scene. Who calls it: bench.cpp. It must not know what they are.
+// Lists of the files of scenes, kept beside the results: a later invocation finds changed files
+// without loading the scene. It must not know the contents of the files.
 #pragma once
 
 #include <cstdint>
@@ -14,19 +14,19 @@ namespace nephroid {
 
 class KeptScenes {
  public:
-  /// Lists are in DIRECTORY/scenes.
+  /// The lists are in DIRECTORY/scenes.
   explicit KeptScenes(std::string directory) : directory_(std::move(directory)) {}
 
-  /// SceneFiles::hash of the scene in `file`. `load` loads it and returns its files; it is called
-  /// if no list is there or a file in it has changed. Asked for once, then remembered. Throws what
-  /// `load` throws, and IoError if the scene cannot be read or the list not be written.
+  /// SceneFiles::hash of the scene in `file`, cached. `load` loads the scene and returns its files;
+  /// it is called if there is no list or a listed file has changed. Throws the errors of `load`,
+  /// and IoError if the scene cannot be read or the list cannot be written.
   uint64_t hash(const std::string& file, const std::function<const SceneFiles&()>& load);
 
  private:
   uint64_t find_hash(const std::string& file, const std::function<const SceneFiles&()>& load) const;
 
   std::string directory_;
-  std::map<std::string, uint64_t> known_;  ///< by file
+  std::map<std::string, uint64_t> known_;  ///< hash by file
 };
 
 }  // namespace nephroid

@@ -15,14 +15,14 @@
 namespace nephroid {
 namespace {
 
-/// Points of a curve are at passes that grow by this factor.
+/// Factor of passes between the points of a curve.
 constexpr double kPointRatio = 1.25;
 
-/// Seconds that can be stopped.
+/// A clock that can be paused.
 class Stopwatch {
  public:
   double seconds() const { return machine_seconds() - paused_; }
-  /// Does what is not to be counted.
+  /// Runs `work` without counting its time.
   template <class Work>
   void pause_for(const Work& work) {
     const double begin = machine_seconds();
@@ -60,7 +60,7 @@ class Curve {
   Curve(const Film& film, const EstimatorSet& set, const Picture* reference,
         const BenchScene& scene)
       : film_(film), set_(set), reference_(reference), scene_(scene) {
-    // Runs have the layers in this order, and then those of shares.
+    // The AOVs of runs are in this order, followed by those of shares.
     if (reference_ != nullptr)
       for (const BenchEnergy& layer : scene_.layers)
         reference_layers_.push_back(layer_of(*reference_, layer.name));

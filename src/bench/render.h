@@ -1,4 +1,4 @@
-// One render of a suite: a run with its curve, or a reference. The time that measuring takes is not
+// One render of a suite: a run with its curve, or a reference. The time of measuring is not
 // counted. It must not know what is kept in files.
 #pragma once
 
@@ -9,16 +9,16 @@
 
 namespace nephroid {
 
-/// What to render and for how long.
+/// A render of a suite: scene, integrator and limit.
 struct BenchRender {
   const BenchScene* scene = nullptr;
   const BenchIntegrator* integrator = nullptr;
   BenchLimit limit;
-  bool with_energy = false;  ///< measures the scene's shares of light
+  bool with_energy = false;  ///< true: measure the scene's shares of light
 };
 
-/// The scenes of a suite as they are loaded: the last one stays, because most renders after each
-/// other are of the same scene.
+/// Loads the scenes of a suite. The last one is kept, because consecutive renders mostly use the
+/// same scene.
 class SceneShelf {
  public:
   /// The scene of a render, built with its settings. Throws SceneError and IoError.
@@ -30,20 +30,20 @@ class SceneShelf {
   LoadedScene loaded_;
 };
 
-/// The settings of a render: the scene's of the suite, then the integrator's own.
+/// The settings of a render: those of the scene in the suite, then the integrator's own.
 SettingList settings_of(const BenchRender& render);
-/// Its routes, with the AOVs that its shares need. Throws UsageError and IoError.
+/// The routes of a render, with the AOVs for its shares. Throws UsageError and IoError.
 RoutePlan plan_of(const BenchRender& render);
 
-/// A finished render; nothing if a signal stopped it.
+/// A finished render.
 struct BenchRendered {
   BenchRun run;                       ///< without key and picture
   Picture picture;                    ///< all layers, with metadata
-  std::vector<std::string> warnings;  ///< about its routes, which the run has among its notes
+  std::vector<std::string> warnings;  ///< warnings about its routes, also among the run's notes
 };
 
-/// Renders and measures against the reference as it goes. A null reference measures nothing, and
-/// the run's points have no errors. Throws Error.
+/// Renders and measures against the reference during the render. With a null reference the run's
+/// points have no errors. Empty if a signal stopped it. Throws Error.
 std::optional<BenchRendered> render_for_bench(const BenchRender& render, const Picture* reference,
                                               SceneShelf& shelf, SignalFlags& signals);
 

@@ -6,7 +6,7 @@
 namespace nephroid {
 namespace {
 
-/// Of the errors that `part` has of each render.
+/// Mean of the errors `part(render)` over all renders.
 template <class Part>
 BenchErrors mean_over(const std::vector<const BenchRun*>& renders, const Part& part) {
   BenchErrors mean;
@@ -23,7 +23,7 @@ BenchErrors mean_over(const std::vector<const BenchRun*>& renders, const Part& p
           mean.mean_error / count, mean.flip / count};
 }
 
-/// All renders have the same names in the same order.
+/// Means by name; all renders have the same names in the same order.
 template <class List>
 BenchNamedErrors means_over(const BenchRun& run, const List& list) {
   const std::vector<const BenchRun*> renders = renders_of(run);

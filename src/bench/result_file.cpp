@@ -1,5 +1,5 @@
-// JSON in the order of the structures. Reading trusts the names and types of what this program
-// wrote and gives up at anything else.
+// JSON in the order of the structures. Reading expects the names and types that this program
+// writes, and fails for anything else.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Version of results.json: another one is refused.
+/// Version of results.json; other versions are refused.
 constexpr int kResultsFormat = 2;
 
 Json errors_json(const BenchErrors& e) {
@@ -29,8 +29,8 @@ Json errors_json(const BenchErrors& e) {
           {"flip", e.flip}};
 }
 
-/// JSON has no figure that is not finite, as the relative error of a mean is where the reference is
-/// black: it is written as null.
+/// The figure of a JSON value. Figures that are not finite are written as null: the relative error
+/// of a mean for a black reference.
 double figure_of(const Json& json) {
   return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
 }
@@ -144,7 +144,7 @@ BenchReferenceResult reference_of(const Json& json) {
   return r;
 }
 
-/// What `read` makes of a text, empty if the text is something else.
+/// Parses a text and applies `read`; empty if the text does not fit.
 template <class Read>
 auto read_json(const std::string& text, const Read& read) -> std::optional<decltype(read(Json()))> {
   try {
@@ -154,7 +154,7 @@ auto read_json(const std::string& text, const Read& read) -> std::optional<declt
   }
 }
 
-/// Text of paths and messages may hold bytes that are not UTF-8.
+/// JSON as text. Paths and messages may have bytes that are not UTF-8, which are replaced.
 std::string dump(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -237,7 +237,7 @@ BenchResults results_of(const Json& json) {
   return results;
 }
 
-/// A picture in the directory of results, wherever that is now.
+/// Updates the path of a picture in the directory of results, which may have moved.
 void follow(std::string* picture, const std::string& old_directory, const std::string& directory) {
   if (picture->rfind(old_directory + "/", 0) == 0)
     *picture =

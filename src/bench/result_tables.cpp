@@ -1,4 +1,4 @@
-// Results as tables of comma-separated values: what bench/result.h declares of them.
+// Results as tables of comma-separated values.
 #include <fmt/format.h>
 
 #include "bench/result.h"
@@ -9,7 +9,7 @@ namespace {
 
 constexpr const char* kErrorColumns = "rmse,relmse,relmse_trim,mean_error,flip";
 
-/// A CSV field: quoted where it must be.
+/// A CSV field, quoted if necessary.
 std::string field(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";

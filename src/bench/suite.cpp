@@ -1,4 +1,4 @@
-// The format on one page: one function for each kind of object, the top one last.
+// One function for each kind of object in the format, the top one last.
 #include "bench/suite.h"
 
 #include <fmt/format.h>
@@ -21,14 +21,14 @@ constexpr uint64_t kAnySeed = std::numeric_limits<uint64_t>::max();
 constexpr uint64_t kMaxPasses = std::numeric_limits<uint32_t>::max() - 1;
 constexpr uint32_t kMaxRepeats = 1000;
 constexpr uint64_t kLargestSide = 65536;
-/// References are not made from the random numbers of what is measured against them.
+/// References have other random numbers than the pictures that are measured against them.
 constexpr uint64_t kReferenceSeed = 12345;
 
 std::string beside(const std::string& suite_file, const std::string& name) {
   return (std::filesystem::path(suite_file).parent_path() / name).lexically_normal().string();
 }
 
-/// A name that can be part of a file's name.
+/// Reads a name that can be part of a file's name.
 std::string name_in(const Fields& fields) {
   const JsonValue value = fields.required("name");
   const std::string& name = text_of(value, "\"name\"");
@@ -77,7 +77,7 @@ SettingList options_in(const Fields& fields) {
   return settings;
 }
 
-/// Exactly one of "integrator", "routes" and "route".
+/// Reads exactly one of "integrator", "routes" and "route".
 RouteChoice routes_in(const Fields& fields, const std::string& what, const std::string& file) {
   if (int{fields.has("integrator")} + int{fields.has("routes")} + int{fields.has("route")} != 1)
     fields.value().fail(
@@ -140,7 +140,7 @@ BenchReference reference_in(const JsonValue& value, const std::string& file) {
   return result;
 }
 
-/// The expressions of "energy" or "layer".
+/// Reads the expressions of "energy" or "layer".
 std::vector<BenchEnergy> expressions_in(const Fields& fields, const std::string& key) {
   std::vector<BenchEnergy> result;
   const std::optional<JsonValue> expressions = fields.find(key);
@@ -191,8 +191,7 @@ void read_resolution(const Fields& fields, BenchScene* scene) {
   }
 }
 
-/// Layers of a picture have names of their own: those of routes are taken, and so are those of
-/// other layers.
+/// Checks that layers have unique names, also different from those of routes.
 void check_layers(const Fields& fields, const BenchSuite& suite, const BenchScene& scene) {
   const auto check = [&](const char* key, const BenchIntegrator& integrator) {
     const std::optional<JsonValue> expressions = fields.find(key);

@@ -1,5 +1,5 @@
-// The contents of a suite file: integrators, scenes, references, and claims about how they compare
-// (docs/bench.md has the format). It must not know how anything is rendered or drawn.
+// The contents of a suite file: integrators, scenes, references and claims (format: docs/bench.md).
+// It must not know how anything is rendered or drawn.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace nephroid {
 
-/// How long a run goes on: for a time, or for a number of passes. None is set if both are 0.
+/// The limit of a run: a time or a number of passes. It is not set if both are 0.
 struct BenchLimit {
   double seconds = 0;
   uint32_t passes = 0;
@@ -20,16 +20,16 @@ struct BenchLimit {
 };
 
 struct BenchIntegrator {
-  std::string name;  ///< in the suite, the report and the names of files
+  std::string name;  ///< name in the suite, the report and file names
   RouteChoice routes;
   SettingList options;
   uint64_t seed = 0;
   bool reject_outliers = false;
 };
 
-/// A picture to measure against: a file, or a render of its own.
+/// The reference of a scene: a file, or a render by the suite.
 struct BenchReference {
-  std::string file;  ///< empty: it is rendered
+  std::string file;  ///< empty: the suite renders it
   BenchIntegrator integrator;
   BenchLimit limit;
 };
@@ -39,7 +39,7 @@ struct BenchEnergy {
   std::string name, expression;
 };
 
-/// A part of the picture with an error of its own, in fractions of its sides.
+/// A part of the picture with its own error, in fractions of the picture's sides.
 struct BenchRegion {
   std::string name;
   float x0 = 0, x1 = 1, y0 = 0, y1 = 1;
@@ -48,13 +48,13 @@ struct BenchRegion {
 struct BenchScene {
   std::string name, title, file;
   int width = 0, height = 0;  ///< 0: the scene's
-  float exposure = 1;         ///< of the pictures in the report and of FLIP
+  float exposure = 1;         ///< exposure of pictures in the report and for FLIP
   BenchReference reference;
-  std::vector<std::string> integrators;  ///< all of the suite unless it names some
-  SettingList options;                   ///< of all runs and of the reference, before their own
-  BenchLimit limit;                      ///< over the suite's
+  std::vector<std::string> integrators;  ///< by default all of the suite
+  SettingList options;                   ///< options of runs and reference, before their own
+  BenchLimit limit;                      ///< overrides the suite's limit
   std::vector<BenchEnergy> energy;
-  std::vector<BenchEnergy> layers;  ///< with errors of their own
+  std::vector<BenchEnergy> layers;  ///< layers with their own errors
   std::vector<BenchRegion> regions;
 };
 
@@ -64,22 +64,22 @@ enum class BenchMetric {
   kRelmseTrim,
   kFlip,
   kMeanError,     ///< magnitude of the relative error of the mean
-  kMemory,        ///< bytes of photons and of what is kept for each pixel, at most at once
-  kPhotonMemory,  ///< of photons and what finds them alone
-  kPixelMemory,   ///< of what is kept for each pixel alone
-  kMemoryGrowth,  ///< all memory at the end over that after the first pass
-  kPhotons,       ///< stored, in all
-  kEmitted,       ///< light paths, in all
+  kMemory,        ///< peak bytes of photons and per-pixel data
+  kPhotonMemory,  ///< peak bytes of photons and their search structure
+  kPixelMemory,   ///< peak bytes of per-pixel data
+  kMemoryGrowth,  ///< memory at the end over memory after the first pass
+  kPhotons,       ///< photons stored in all
+  kEmitted,       ///< light paths in all
   kRays,
   kPasses,
   kSeconds,
-  kSlope,  ///< of log RMSE, over the second half of the run
+  kSlope,  ///< slope of log RMSE, over the second half of the run
 };
 
-/// What curves are drawn and compared over.
+/// The x axis of curves and comparisons.
 enum class BenchAxis { kPasses, kTime, kEmitted };
 
-/// A sentence that figures bear out or not, in one of three forms.
+/// A claim that is judged by figures, in one of three forms.
 struct BenchClaim {
   enum class Form {
     kSmaller,  ///< subject <= factor * each of `others`
@@ -92,19 +92,19 @@ struct BenchClaim {
   std::string subject;
   std::vector<std::string> others;
   double factor = 1, low = 0, high = 0;
-  std::vector<std::string> scenes;      ///< all of the suite's in which it can be measured if empty
+  std::vector<std::string> scenes;      ///< empty: all scenes in which it can be measured
   std::string region;                   ///< empty: the whole picture
   std::string layer;                    ///< empty: all light
-  BenchAxis over = BenchAxis::kPasses;  ///< of a slope
-  /// Compares where both have the same number of these; empty: at the ends of the runs.
+  BenchAxis over = BenchAxis::kPasses;  ///< x axis of a slope
+  /// Compares runs at an equal value on this axis; empty: at their ends.
   std::optional<BenchAxis> at_equal;
 };
 
 struct BenchSuite {
-  std::string file;  ///< as the command line named it
+  std::string file;  ///< name on the command line
   std::string name, title, description;
   BenchLimit limit;
-  uint32_t repeat = 1;  ///< renders of each run, with seeds that follow each other
+  uint32_t repeat = 1;  ///< renders of each run, with consecutive seeds
   std::vector<BenchIntegrator> integrators;
   std::vector<BenchScene> scenes;
   std::vector<BenchClaim> claims;
@@ -114,14 +114,14 @@ struct BenchSuite {
   const BenchScene* find_scene(const std::string& wanted) const;
 };
 
-/// As readers say it.
+/// Names for reports.
 const char* metric_title(BenchMetric metric);
 const char* axis_name(BenchAxis axis);
 
-/// Understands a suite; `file` is its name, and what it names is relative to its directory. Throws
+/// Parses a suite; `file` is its name, and file names in it are relative to its directory. Throws
 /// UsageError "file:line:column: what is wrong, what was expected".
 BenchSuite parse_suite(const std::string& text, const std::string& file);
-/// Reads and understands a suite. Throws IoError too.
+/// Reads and parses a suite file. Also throws IoError.
 BenchSuite read_suite(const std::string& file);
 
 }  // namespace nephroid

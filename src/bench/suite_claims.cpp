@@ -40,7 +40,7 @@ struct AxisRow {
 constexpr AxisRow kAxes[] = {
     {BenchAxis::kPasses, "passes"}, {BenchAxis::kTime, "time"}, {BenchAxis::kEmitted, "emitted"}};
 
-/// The row whose name the value is.
+/// The row named by the value.
 template <class Row, size_t kCount>
 const Row& row_of(const Row (&rows)[kCount], const JsonValue& value, const std::string& what) {
   const std::string& name = text_of(value, what);
@@ -74,7 +74,7 @@ bool runs(const BenchScene& scene, const std::string& integrator) {
          scene.integrators.end();
 }
 
-/// Subject, others and numbers by the keys that are there.
+/// Reads subject, others and numbers, by the keys of the claim's form.
 void read_form(const Fields& fields, BenchClaim* claim) {
   const int forms = int{fields.has("smaller")} + int{fields.has("same")} + int{fields.has("of")};
   if (forms != 1)
@@ -112,7 +112,7 @@ std::vector<std::string> keys_for(const Fields& fields) {
   return keys;
 }
 
-/// What must fit together.
+/// Checks that the parts of a claim are consistent.
 void check_claim(const Fields& fields, const BenchSuite& suite, const BenchClaim& claim) {
   for (const char* key : {"smaller", "same", "of", "than", "as"}) {
     const std::optional<JsonValue> value = fields.find(key);
@@ -130,7 +130,7 @@ void check_claim(const Fields& fields, const BenchSuite& suite, const BenchClaim
         "\"region\"");
   if (fields.has("over") && claim.metric != BenchMetric::kSlope)
     fields.required("over").fail("\"over\" does not fit, expected it with a slope only");
-  // Slopes are negative: a factor would turn about what is claimed.
+  // Slopes are negative, so a factor would reverse the claim.
   if (claim.metric == BenchMetric::kSlope && claim.form != BenchClaim::Form::kBetween)
     fields.required("metric").fail(
         "slopes are not compared, expected \"of\" and \"between\" with the metric \"slope\"");

@@ -1,4 +1,4 @@
-// The claims of a suite file. It must not know how claims are judged (claims.h).
+// Parses the claims of a suite file. It must not know how claims are judged (claims.h).
 #pragma once
 
 #include "bench/suite.h"
@@ -6,8 +6,8 @@
 
 namespace nephroid {
 
-/// One claim about the integrators and scenes that the suite has so far. Throws UsageError with the
-/// place of what is wrong.
+/// Parses a claim about the integrators and scenes that the suite has so far. Throws UsageError
+/// with the location of the error.
 BenchClaim parse_claim(const JsonValue& value, const BenchSuite& suite);
 
 }  // namespace nephroid

@@ -28,7 +28,7 @@ const char* type_name(Json::value_t type) {
   }
 }
 
-/// "FILE:LINE:COLUMN" of a byte of a text.
+/// The location of a byte of a text.
 SourceLocation place_of(const std::string& text, size_t byte, const std::string& file) {
   const auto end = text.begin() + std::min(byte, text.size());
   const auto line_begin = std::find(std::make_reverse_iterator(end), text.rend(), '\n').base();
@@ -66,7 +66,7 @@ void JsonValue::fail(const std::string& message) const {
 }
 
 Json parse_json(const std::string& text, const std::string& file) {
-  // The keys of each object that is open. The library keeps the last of equal keys.
+  // The keys of each open object, for finding equal ones: the library would keep the last.
   std::vector<std::set<std::string>> keys;
   const auto check = [&](int, Json::parse_event_t event, const Json& parsed) {
     if (event == Json::parse_event_t::object_start) keys.emplace_back();

@@ -1,6 +1,5 @@
-// Values of a suite file with their places, and members of objects by name and type: what is
-// missing, unknown, of the wrong type or out of range gets a message with a JSON pointer (RFC
-// 6901). It must not know what suites are.
+// Values of a JSON file with their locations, and members of objects by name and type. Errors in
+// them have a JSON pointer (RFC 6901). It must not know what suites are.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +16,7 @@ using Json = nlohmann::ordered_json;
 
 struct JsonMember;
 
-/// A value and its place. The document must outlive it.
+/// A value and its location. The document must outlive it.
 class JsonValue {
  public:
   JsonValue(const Json& json, std::string file, Json::json_pointer where = Json::json_pointer())
@@ -44,40 +43,40 @@ struct JsonMember {
   JsonValue value;
 };
 
-/// The document that a whole text stands for; `file` is its name in messages. Throws UsageError
-/// "FILE:LINE:COLUMN: what is wrong, what was expected", and for a key that an object has twice.
+/// Parses a text as a document; `file` is its name in messages. Throws UsageError
+/// "FILE:LINE:COLUMN: what is wrong, what was expected", also for a key that an object has twice.
 Json parse_json(const std::string& text, const std::string& file);
 
-/// Throws UsageError unless the value is of a type; `what` says what it is for.
+/// Throws UsageError unless the value has the type; `what` is its name in messages.
 void expect_type(const JsonValue& value, Json::value_t type, const std::string& what);
 /// The text of a string.
 const std::string& text_of(const JsonValue& value, const std::string& what);
 /// The number of a value in [low, high].
 double number_of(const JsonValue& value, const std::string& what, double low, double high);
 
-/// One object whose members have names from a list.
+/// An object whose members have names from a list.
 class Fields {
  public:
-  /// `what` is the object in messages ("a scene"). Throws UsageError if the value is no object or
-  /// has a member with another name.
+  /// `what` is the object's name in messages ("a scene"). Throws UsageError if the value is not an
+  /// object or has a member with another name.
   Fields(JsonValue value, std::string what, const std::vector<std::string>& names);
 
   const JsonValue& value() const { return value_; }
   bool has(const std::string& name) const { return value_.json().contains(name); }
-  /// The member; throws UsageError if it is not there.
+  /// The member; throws UsageError if it is missing.
   JsonValue required(const std::string& name) const;
   std::optional<JsonValue> find(const std::string& name) const { return value_.find(name); }
 
-  // Values of members, or what to take if they are not there. All throw UsageError for another
-  // type, and numbers out of their range.
+  // Values of members, or defaults for missing ones. All throw UsageError for a wrong type, and for
+  // numbers out of range.
   std::string text(const std::string& name) const;
   std::string text_or(const std::string& name, const std::string& otherwise) const;
   double number_or(const std::string& name, double otherwise, double low, double high) const;
   uint64_t integer_or(const std::string& name, uint64_t otherwise, uint64_t low,
                       uint64_t high) const;
-  /// The items of a list; none if it is not there.
+  /// The items of a list; empty if it is missing.
   std::vector<JsonValue> list(const std::string& name) const;
-  /// A list of strings, or one string in place of a list of one.
+  /// The strings of a list, or a single string as a list of one.
   std::vector<std::string> texts(const std::string& name) const;
 
  private:
@@ -85,7 +84,8 @@ class Fields {
   std::string what_;
 };
 
-/// Runs `read`, which throws UsageErrors without a place, and puts the place of `value` in front.
+/// Runs `read`, which throws UsageErrors without a location, and prefixes them with that of
+/// `value`.
 template <class Read>
 auto read_at(const JsonValue& value, const Read& read) {
   try {

@@ -24,9 +24,9 @@ constexpr double kFirst = 360.0, kRange = 470.0;  // nm
 // The square of an error of 3e-4 CIELAB units, a few thousandths of a visible difference.
 constexpr double kGoodEnough = 1e-7;
 constexpr int kMaxIterations = 30;
-// Colours at the border of what a reflectance can do (black, white, pure hues) have their best fit
-// at infinity. The bound keeps them finite, so that single precision still places the edges; it
-// costs less than 1e-3 in any component of an sRGB colour.
+// Colours at the limit of possible reflectances (black, white, pure hues) have their best fit at
+// infinity. The bound keeps them finite, so that single precision still places the edges. It costs
+// less than 1e-3 in any component of an sRGB colour.
 constexpr double kMaxCoefficient = 1000.0;
 
 Vec3 multiply(const Matrix3d& m, const Vec3& v) {

@@ -148,8 +148,8 @@ class PathSampler {
       return hash_combine(std::bit_cast<uint32_t>(primary_->number(dimension_)), dimension_);
     return hash_combine(seed_, index_, dimension_);
   }
-  /// Any number of numbers that belong to this path and a dimension, each decision evenly spread
-  /// over the points of the sequence. Not for a PrimarySample.
+  /// An endless sampler for this path and a dimension; each decision is stratified over the points
+  /// of the sequence. Not for a PrimarySample.
   PathSampler stream(int dimension) const {
     assert(!primary_);
     return {PaddedPoint{index_}, hash_combine(seed_, dimension)};

@@ -67,19 +67,19 @@ bool FixedSum::add(const FixedSum& other) {
 }
 
 bool UnitSum::add(float x) {
-  constexpr double kStepsOfOne = 0x1p40, kLargest = 0x1p22;
+  constexpr double kStepsOfOne = 0x1p40, kMaxHeld = 0x1p22;
   if (!std::isfinite(x)) return false;
   // Exact except for the rounding to a step.
-  const double held = std::clamp(double{x}, -kLargest, kLargest);
+  const double held = std::clamp(double{x}, -kMaxHeld, kMaxHeld);
   return add(UnitSum{std::llrint(held * kStepsOfOne)}) && held == double{x};
 }
 
 bool UnitSum::add(const UnitSum& other) {
-  constexpr int64_t kMost = std::numeric_limits<int64_t>::max();
+  constexpr int64_t kMaxHigh = std::numeric_limits<int64_t>::max();
   int64_t result = 0;
   const bool overflow = __builtin_add_overflow(bits, other.bits, &result);
-  if (overflow || result < -kMost) {
-    bits = other.bits < 0 ? -kMost : kMost;
+  if (overflow || result < -kMaxHigh) {
+    bits = other.bits < 0 ? -kMaxHigh : kMaxHigh;
     return false;
   }
   bits = result;

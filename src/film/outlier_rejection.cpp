@@ -18,7 +18,7 @@ constexpr int kRowsPerChunk = 4;
 constexpr int kLevelOfOne = 32;
 constexpr uint64_t kMaxCounted = 255;
 /// Brighter estimates are not held: the film's sums report when they saturate.
-constexpr float kLargest = 0x1p56f;
+constexpr float kMaxBrightness = 0x1p56f;
 /// [O3] An estimate is no outlier if it changes its pixel by at most kSmallShare of the mean around
 /// it, or if it is at most kModerate times as bright as that mean.
 constexpr double kSmallShare = 0.25;
@@ -66,7 +66,7 @@ bool OutlierRejection::hold(int group, size_t pixel, std::span<const Rgb> values
   Rgb total;
   for (const Rgb& value : values) total = total + value;
   const float bright = brightness(total);
-  if (!(bright > 0.0f) || !(bright < kLargest)) return false;
+  if (!(bright > 0.0f) || !(bright < kMaxBrightness)) return false;
   const int level = level_of(bright, kLevels);
   Pixel& p = pixels_[group][pixel];
   uint8_t& count = p.counts[level];

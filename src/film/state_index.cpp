@@ -115,8 +115,8 @@ StateIndex StateIndex::from_bytes(std::span<const std::byte> bytes, uint64_t fil
     std::string key = in.text();
     index.metadata.emplace_back(std::move(key), in.text());
   }
-  constexpr size_t kLeastOfSection = 3 * sizeof(uint32_t) + 3 * sizeof(uint64_t);
-  for (size_t i = in.count(kLeastOfSection); i > 0; --i) {
+  constexpr size_t kMinSectionBytes = 3 * sizeof(uint32_t) + 3 * sizeof(uint64_t);
+  for (size_t i = in.count(kMinSectionBytes); i > 0; --i) {
     Section section;
     section.name = in.text();
     section.words = in.number<uint32_t>();

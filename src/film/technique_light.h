@@ -23,17 +23,17 @@ inline constexpr size_t kTechniqueCount = 6;
 constexpr const char* technique_name(Technique technique) {
   switch (technique) {
     case Technique::kMeetLight:
-      return "lights met";
+      return "BSDF sampling";
     case Technique::kSampleLight:
-      return "lights sampled";
+      return "next-event estimation";
     case Technique::kConnect:
-      return "light paths connected";
+      return "vertex connection";
     case Technique::kMerge:
-      return "photons merged";
+      return "photon merging";
     case Technique::kMeetCamera:
-      return "light paths seen";
+      return "light tracing";
     case Technique::kMeetByMirrors:
-      return "lights behind mirrors and glass";
+      return "specular chains";
   }
   return "";
 }

@@ -1,4 +1,4 @@
-// The sums behind compare.h, in double and in pixel order.
+// Sums are taken in double and in pixel order.
 #include "image/compare.h"
 
 #include <fmt/format.h>
@@ -26,7 +26,7 @@ double finite_or_huge(float value) {
   return value;
 }
 
-/// The three channels called prefix + R, G, B; empty if they are not all there.
+/// The three channels prefix + R, G, B; empty if one is missing.
 std::vector<Triple> channels_named(const Picture& picture, const std::string& prefix) {
   int index[3];
   for (int c = 0; c < 3; ++c) index[c] = picture.find_channel(prefix + "RGB"[c]);
@@ -39,7 +39,7 @@ std::vector<Triple> channels_named(const Picture& picture, const std::string& pr
   return result;
 }
 
-/// Channels R, G and B, or the first three if those names are not there.
+/// Channels R, G and B, or the first three if one of those is missing.
 std::vector<Triple> colors_of(const Picture& picture) {
   std::vector<Triple> result = channels_named(picture, "");
   if (!result.empty() || picture.pixels.empty()) return result;
@@ -66,7 +66,7 @@ double relative_weight(double reference) {
   return 1.0 / (square(reference) + kRelativeFloor);
 }
 
-/// Mean over the channels of one pixel.
+/// Squared relative error of one pixel, mean over channels.
 double pixel_error(const Triple& reference, const Triple& test) {
   double sum = 0;
   for (size_t c = 0; c < 3; ++c)
@@ -74,7 +74,7 @@ double pixel_error(const Triple& reference, const Triple& test) {
   return sum / 3;
 }
 
-/// What the reference's own error adds to pixel_error on average.
+/// Expected contribution of the reference's own error to pixel_error.
 double pixel_reference_error(const Triple& reference, const Triple& error) {
   double sum = 0;
   for (size_t c = 0; c < 3; ++c) sum += square(error[c]) * relative_weight(reference[c]);
@@ -85,7 +85,7 @@ double mean_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Mean of what is left of `values` when the pixels with the largest `errors` are dropped.
+/// Mean of `values` without the pixels with the largest `errors`.
 double trimmed_mean(const std::vector<double>& errors, const std::vector<double>& values) {
   const size_t drop =
       std::max<size_t>(1, static_cast<size_t>(static_cast<double>(errors.size()) * kTrimmedShare));
@@ -98,8 +98,8 @@ double trimmed_mean(const std::vector<double>& errors, const std::vector<double>
   return sum / static_cast<double>(order.size() - drop);
 }
 
-/// Variance of a pixel's sum over channels. Channels of one pixel share their paths, so their
-/// errors are added as if fully correlated, which can only widen the interval.
+/// Variance of a pixel's sum over channels. Channels share their paths, so their errors are added
+/// as fully correlated, which can only widen the interval.
 double sum_variance(const std::vector<Triple>& errors, size_t pixel) {
   if (errors.empty()) return 0;
   return square(errors[pixel][0] + errors[pixel][1] + errors[pixel][2]);
@@ -138,7 +138,7 @@ Deviations deviations_of(const std::vector<Triple>& reference, const std::vector
     for (size_t c = 0; c < 3; ++c) {
       const double variance = square(reference_error[p][c]) + square(test_error[p][c]);
       const double difference = square(test[p][c] - reference[p][c]);
-      // Where neither picture has an error they must be equal, to the rounding of floats.
+      // Without an error in either picture, they must be equal up to rounding.
       const double floor = square(1e-5 * reference[p][c]) + 1e-30;
       const double z2 = difference / std::max(variance, floor);
       worst = std::max(worst, z2);

@@ -1,6 +1,6 @@
-// How far a picture is from a reference: the numbers of `nephroid compare` and its heat map. Works
-// on linear RGB; values that are not finite count as 1e6, so that they show and do not spread. It
-// must not know films or scenes.
+// Errors of a picture against a reference: the figures of `nephroid compare` and its heat map.
+// Works on linear RGB; values that are not finite count as 1e6, so that they are visible but do not
+// spread. It must not know films or scenes.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@
 namespace nephroid {
 
 struct CompareOptions {
-  /// Takes the reference's own squared error (its stderr channels) out of rmse, relmse and
-  /// relmse_trim; what is left estimates the error against the truth and may be negative.
+  /// Subtracts the reference's own squared error (its stderr channels) from rmse, relmse and
+  /// relmse_trim. The result estimates the error against the truth and may be negative.
   bool subtract_reference_error = false;
 };
 
@@ -25,11 +25,11 @@ struct MeanRatio {
   uint64_t pixels = 0;
 };
 
-/// Deviations in units of the error of the difference, of both pictures together.
+/// Deviations z: the difference over its standard error, from the errors of both pictures.
 struct Deviations {
-  double share_within = 0;  ///< of pixels, with |z| below kDeviationLimit in all three channels
-  double share_in_95 = 0;   ///< of pixels and channels, within the 95 % interval of the difference
-  double rms = 0;           ///< of z over pixels and channels; 1 if both errors are right
+  double share_within = 0;  ///< share of pixels with |z| < kDeviationLimit in all three channels
+  double share_in_95 = 0;   ///< share of pixels and channels within their 95 % interval
+  double rms = 0;           ///< root mean square of z; 1 if both errors are right
 };
 inline constexpr double kDeviationLimit = 3.3;
 
@@ -39,7 +39,7 @@ struct Comparison {
   double relmse_trim = 0;  ///< the same without the worst 0.1 % of pixels (at least one)
   MeanRatio mean;          ///< all pixels, no interval
   MeanRatio dim_mean;      ///< pixels whose reference is below 10 in every channel
-  std::optional<Deviations> deviations;  ///< if both pictures have stderr channels
+  std::optional<Deviations> deviations;  ///< empty unless both pictures have stderr channels
 };
 
 /// Throws UsageError if the sizes differ, if a picture has fewer than three channels, or if the
@@ -50,21 +50,21 @@ Comparison compare_pictures(const Picture& reference, const Picture& test,
 /// Squared relative error of each pixel, mean over channels, rows from the top.
 std::vector<double> relative_squared_errors(const Picture& reference, const Picture& test);
 
-/// Colours of increasing lightness for squared relative errors from kHeatMin to kHeatMax, by the
-/// logarithm; smaller and larger errors take the end colours. Three sRGB bytes.
+/// Colours of the heat map: lightness rises with the logarithm of the squared relative error from
+/// kHeatMin to kHeatMax; errors outside are clamped. Three sRGB bytes.
 inline constexpr double kHeatMin = 1e-5, kHeatMax = 10;
 struct HeatColor {
   uint8_t r = 0, g = 0, b = 0;
 };
 HeatColor heat_color(double squared_relative_error);
 
-/// heat_color of each pixel, interleaved bytes.
+/// heat_color of each pixel as interleaved bytes.
 std::vector<uint8_t> heat_map(const Picture& reference, const Picture& test);
 
 /// Writes the heat map as PNG. Throws IoError.
 void write_heat_map(const std::string& path, const Picture& reference, const Picture& test);
 
-/// The scale of the heat map, one "error  #rrggbb" a line, one line a decade.
+/// The scale of the heat map: a line "error  #rrggbb" per decade.
 std::string heat_map_legend();
 
 }  // namespace nephroid

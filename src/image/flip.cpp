@@ -1,5 +1,5 @@
-// All filters of the paper are sums of products of two one-dimensional ones, which is how they run
-// here. Beyond its border a picture goes on with the colour of the border.
+// All filters of the paper are computed as sums of separable ones. Outside of a picture its border
+// colour continues.
 #include "image/flip.h"
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@ constexpr int64_t kRowsPerChunk = 8;
 
 using Triple = std::array<double, 3>;
 
-/// One number for each pixel.
+/// One number per pixel.
 struct Plane {
   int width = 0, height = 0;
   std::vector<double> values;
@@ -31,7 +31,7 @@ struct Plane {
   double at(int x, int y) const { return values[static_cast<size_t>(y) * width + x]; }
 };
 
-/// Weights at -r..r.
+/// The weights at -r..r.
 using Kernel = std::vector<double>;
 
 double sum_of(const Kernel& kernel) {
@@ -95,13 +95,13 @@ Triple relative_xyz(const Triple& rgb) {
   return xyz;
 }
 
-/// [FL1], the opponent space in which the eye's filters work: linear in the colour.
+/// [FL1] The opponent space in which the eye's filters work; linear in the colour.
 Triple to_opponent(const Triple& rgb) {
   const Triple f = relative_xyz(rgb);
   return {116 * f[1] - 16, 500 * (f[0] - f[1]), 200 * (f[1] - f[2])};
 }
 
-/// The colour of an opponent triple, as a screen could show it.
+/// The colour of an opponent triple, clamped to what a screen can show.
 Triple opponent_to_display(const Triple& o) {
   const double y = (o[0] + 16) / 116;
   const Triple xyz = {(y + o[1] / 500) * kWhite[0], y * kWhite[1], (y - o[2] / 200) * kWhite[2]};
@@ -110,7 +110,7 @@ Triple opponent_to_display(const Triple& o) {
   return rgb;
 }
 
-/// CIELAB, with a and b scaled by the lightness (the Hunt effect), [FL3].
+/// [FL3] CIELAB, with a and b scaled by the lightness (the Hunt effect).
 Triple to_hunt_lab(const Triple& rgb) {
   const Triple relative = relative_xyz(rgb);
   Triple f{};
@@ -124,12 +124,12 @@ Triple to_hunt_lab(const Triple& rgb) {
   return {lightness, hunt * 500 * (f[0] - f[1]), hunt * 200 * (f[1] - f[2])};
 }
 
-/// City blocks in lightness and Euclid's distance in chroma, [FL3].
+/// [FL3] City-block distance in lightness plus Euclidean distance in chroma.
 double hyab(const Triple& a, const Triple& b) {
   return std::abs(a[0] - b[0]) + std::hypot(a[1] - b[1], a[2] - b[2]);
 }
 
-/// A term of a contrast sensitivity function: amplitude and width in degrees, [FL2].
+/// [FL2] A term of a contrast sensitivity function: amplitude and width in degrees.
 struct Gaussian {
   double a, b;
 };
@@ -140,7 +140,7 @@ constexpr Sensitivity kSensitivities[3] = {
     {{{1, 0.0047}, {0, 1e-5}}}, {{{1, 0.0053}, {0, 1e-5}}}, {{{34.1, 0.04}, {13.5, 0.025}}}};
 constexpr double kWidest = 0.04;
 
-/// What the eye still sees of an opponent channel at this distance, [FL2].
+/// [FL2] An opponent channel filtered by the eye's contrast sensitivity at this distance.
 Plane seen(const Plane& channel, const Sensitivity& sensitivity, double ppd) {
   const int radius = static_cast<int>(std::ceil(3 * std::sqrt(kWidest / (2 * kPiD * kPiD)) * ppd));
   Plane result(channel.width, channel.height);
@@ -165,7 +165,7 @@ Triple triple_of(const Rgb& rgb) {
   return {rgb.r, rgb.g, rgb.b};
 }
 
-/// Colours after the eye's filters, ready for differences.
+/// Colours after the eye's filters, in the space for differences.
 std::vector<Triple> seen_colors(int width, int height, const std::vector<Rgb>& colors, double ppd) {
   std::vector<Plane> channels(3, Plane(width, height));
   for (size_t p = 0; p < colors.size(); ++p) {
@@ -180,7 +180,7 @@ std::vector<Triple> seen_colors(int width, int height, const std::vector<Rgb>& c
   return result;
 }
 
-/// [FL4]: the colour difference in [0,1]; most of the range goes to differences that are common.
+/// [FL4] The colour difference in [0,1]; most of the range is used for common differences.
 double color_error(const Triple& a, const Triple& b) {
   constexpr double kExponent = 0.7, kKnee = 0.4, kKneeValue = 0.95;
   static const double largest =
@@ -190,14 +190,14 @@ double color_error(const Triple& a, const Triple& b) {
   return std::min(1.0, kKneeValue + (error - knee) / (largest - knee) * (1 - kKneeValue));
 }
 
-/// Positive weights with sum 1 and negative ones with sum -1.
+/// Scales the positive weights to sum 1 and the negative ones to sum -1.
 void balance(Kernel& kernel) {
   double positive = 0, negative = 0;
   for (const double w : kernel) (w > 0 ? positive : negative) += w;
   for (double& w : kernel) w /= w > 0 ? positive : -negative;
 }
 
-/// Magnitude of the first or second derivative of a Gaussian, in x and in y, [FL5].
+/// [FL5] Magnitudes of the picture filtered by the first and second derivatives of a Gaussian.
 struct Features {
   Plane edges, points;
 };

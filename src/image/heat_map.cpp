@@ -1,6 +1,6 @@
-// The false colours of compare.h. They are made in CIE L*a*b*, where lightness is one coordinate:
-// it rises evenly from almost black to almost white while the hue turns from violet over red to
-// yellow, so the order of errors is seen without a legend and in black and white.
+// The false colours of compare.h, made in CIE L*a*b*. Lightness rises evenly from almost black to
+// almost white while the hue turns from violet over red to yellow. So the order of errors is
+// visible without a legend and in black and white.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,8 +32,7 @@ LinearRgb from_lab(double lightness, double a, double b) {
           0.0556434 * x - 0.2040259 * y + 1.0572252 * z};
 }
 
-/// Colour at t in [0,1]. Chroma is reduced until the colour exists, which leaves its lightness
-/// alone.
+/// Colour at t in [0,1]. Chroma is reduced until the colour is in gamut; its lightness is kept.
 LinearRgb ramp(double t) {
   const double lightness = 4 + 92 * t;
   const double hue = (300 + 165 * t) * double{kPi} / 180;
@@ -62,7 +61,7 @@ std::vector<HeatColor> make_colors() {
 }  // namespace
 
 HeatColor heat_color(double squared_relative_error) {
-  // The search for colours that exist is slow: it is done once.
+  // The search for colours in gamut is slow, so it is done once.
   static const std::vector<HeatColor> colors = make_colors();
   const double clamped = std::clamp(squared_relative_error, kHeatMin, kHeatMax);
   const double t = std::log(clamped / kHeatMin) / std::log(kHeatMax / kHeatMin);

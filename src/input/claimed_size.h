@@ -1,5 +1,5 @@
-// Whether a file can hold what it says that it holds, asked before memory is taken for it.
-// Who calls it: the readers of images and pictures. It must not know formats.
+// Checks the size that an image file claims, before memory is allocated for it. It must not know
+// formats.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,8 @@
 
 namespace nephroid {
 
-/// False if `claimed` bytes of pixels cannot be in the file: nothing that somebody painted is
-/// packed so well. Sizes that do no harm are always possible, and so are those of pipes and
-/// devices.
+/// False if `claimed` bytes of pixels cannot be in the file: no real image is compressed so well.
+/// Small sizes are always possible, and so are any sizes of pipes and devices.
 inline bool is_possible_size(uint64_t claimed, const std::string& path) {
   constexpr uint64_t kMaxBytesPerByte = 1 << 16;
   constexpr uint64_t kHarmless = uint64_t{64} << 20;

@@ -1,6 +1,5 @@
-// The graphics state: transforms, scopes, defaults and the options before WorldBegin.
-// Called through description_builder.h; what adds things to the world is in
-// description_builder_world.cpp.
+// The graphics state: transforms, scopes, defaults and the options before WorldBegin. Functions
+// that add to the world are in description_builder_world.cpp.
 #include "input/description_builder.h"
 
 #include <algorithm>
@@ -174,7 +173,7 @@ void DescriptionBuilder::set_defaults(const std::string& target, std::vector<Par
   }
   auto& defaults = state_.defaults[found - kAttributeTargets.begin()];
   for (Parameter& parameter : parameters) {
-    // A default is for whatever understands it: it is never reported as unknown.
+    // A default applies wherever it is known, so it is never reported as unknown.
     parameter.used = true;
     std::erase_if(defaults, [&](const Parameter& old) { return old.name == parameter.name; });
     defaults.push_back(std::move(parameter));

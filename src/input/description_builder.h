@@ -1,6 +1,6 @@
-// The meaning of pbrt-v4 directives: turns them, one call each, into a SceneDescription.
-// Called by the directive parser. Keeps the graphics state and its stack, and refuses what pbrt-v4
-// refuses. Knows neither the syntax nor what any type of shape, material or light means.
+// Turns pbrt-v4 directives, one call each, into a SceneDescription. Keeps the graphics state and
+// its stack, and refuses what pbrt-v4 refuses. It must not know the syntax, or the meaning of types
+// of shapes, materials or lights.
 #pragma once
 
 #include <map>
@@ -13,7 +13,7 @@
 
 namespace nephroid {
 
-/// All functions that take a place throw SceneError there if the directive is wrong.
+/// All functions with a SourceLocation throw SceneError there if the directive is wrong.
 class DescriptionBuilder {
  public:
   DescriptionBuilder(SceneDescription& scene, Diagnostics& diagnostics)
@@ -22,7 +22,7 @@ class DescriptionBuilder {
   bool in_world() const { return in_world_; }
   const std::string& color_space() const { return state_.color_space; }
 
-  // Transforms: `m` comes first, then what was current (m * ctm).
+  // Transforms: `m` is applied first, then the current transform (m * ctm).
   void concat_transform(const Mat44d& m, const char* directive, const SourceLocation& where);
   void set_transform(const Mat44d& m, const SourceLocation& where);
   void set_active_transforms(bool start, bool end);
@@ -43,12 +43,12 @@ class DescriptionBuilder {
   void object_begin(const std::string& name, const SourceLocation& where);
   void object_end(const SourceLocation& where);
   void object_instance(const std::string& name, const SourceLocation& where);
-  /// Around an imported file: nothing that it does to the graphics state or the coordinate systems
-  /// stays, and it closes what it opens.
+  /// Enclose an imported file: its changes to the graphics state and the coordinate systems are
+  /// undone, and it must close the scopes it opens.
   void import_begin(const SourceLocation& where);
   void import_end();
 
-  // Things; each directive has its explicit parameters, defaults are added here.
+  // Objects of the scene. A directive has its explicit parameters; defaults are added here.
   void add_option(Parameter option);
   void set_camera(DirectiveDescription directive);
   void set_film(DirectiveDescription directive);
@@ -73,7 +73,7 @@ class DescriptionBuilder {
   void set_area_light(DirectiveDescription directive);
   void add_shape(DirectiveDescription directive);
 
-  /// At the end of all files: everything must be closed and every name that is used defined.
+  /// Called at the end of all files: all scopes must be closed and all used names defined.
   void finish(const SourceLocation& end_of_file) const;
 
  private:
@@ -101,8 +101,8 @@ class DescriptionBuilder {
   std::vector<Scope> scopes_;
   std::map<std::string, TransformDescription> coordinate_systems_;
   Names material_names_, medium_names_, float_texture_names_, spectrum_texture_names_;
-  ObjectDescription* object_ = nullptr;  // the one being defined
-  bool warned_of_area_light_ = false;    // in the object being defined
+  ObjectDescription* object_ = nullptr;  // the object being defined
+  bool warned_of_area_light_ = false;    // true after the warning in that object
   int default_material_ = -1;
 };
 

@@ -1,5 +1,5 @@
-// What stands in the world: materials, textures, media, lights, shapes and instances, and the check
-// that every name that is used is defined. Called through description_builder.h.
+// The objects of the world: materials, textures, media, lights, shapes and instances, and the check
+// that every used name is defined.
 #include <algorithm>
 #include <utility>
 

@@ -1,6 +1,6 @@
-// The table of directives and the reading of their arguments. Called through directives.h.
-// Order rules as in pbrt-v4: the camera, film, sampler and so on before WorldBegin, the scene after
-// it, transforms, color spaces and media in both parts.
+// The table of directives and the parsing of their arguments. Order as in pbrt-v4: the camera,
+// film, sampler and so on before WorldBegin, the scene after it; transforms, colour spaces and
+// media in both parts.
 #include "input/directives.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 namespace nephroid {
 namespace {
 
-/// What a directive's function works on.
+/// The context of a directive's function.
 struct Reader {
   TokenStream& tokens;
   DescriptionBuilder& builder;
@@ -160,7 +160,7 @@ void read_import(Reader& r, const SourceLocation& where) {
   r.tokens.leave();
 }
 
-/// pbrt-v3's end of a scene; it allows another frame behind it.
+/// pbrt-v3's end of a scene, after which pbrt-v3 allows another frame.
 void read_world_end(Reader& r, const SourceLocation& where) {
   if (!r.builder.in_world()) throw SceneError(where, "WorldEnd without WorldBegin");
   r.v3.note(where, "WorldEnd is not needed");
@@ -172,7 +172,7 @@ void read_world_end(Reader& r, const SourceLocation& where) {
 
 using Place = SourceLocation;
 
-// Sorted by theme; a handful of string comparisons per directive is nothing beside its numbers.
+// Sorted by topic. A linear search is cheap compared with parsing a directive's numbers.
 constexpr std::array kDirectives = {
     Directive{{"Include", "\"file\"", "reads the file in place"}, Part::kBoth, read_include},
     Directive{

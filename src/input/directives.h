@@ -1,6 +1,5 @@
-// Which directives a pbrt-v4 scene may contain, where they may stand and how their arguments read.
-// Called by parse_pbrt_file. Turns syntax into calls of the scene builder; keeps no state of the
-// scene itself.
+// The directives of a pbrt-v4 scene: where they are allowed and how their arguments are parsed.
+// Turns syntax into calls of the scene builder; keeps no state of the scene itself.
 #pragma once
 
 #include <vector>
@@ -12,7 +11,7 @@
 
 namespace nephroid {
 
-/// A directive as docs/scene-support.md shows it.
+/// A directive as in docs/scene-support.md.
 struct FormatDirective {
   const char* name;
   const char* arguments;
@@ -22,8 +21,8 @@ struct FormatDirective {
 /// All directives of the format; all are rendered.
 std::vector<FormatDirective> format_directives();
 
-/// Reads directives up to the end of the file (and of all it includes) and gives them, upgraded by
-/// `v3`, to `builder`. Returns the place of the end. Throws SceneError.
+/// Reads directives up to the end of the file (and of all it includes) and passes them, upgraded by
+/// `v3`, to `builder`. Returns the location of the end. Throws SceneError.
 SourceLocation read_directives(TokenStream& tokens, DescriptionBuilder& builder, V3Upgrade& v3,
                                Diagnostics& diagnostics);
 

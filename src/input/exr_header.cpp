@@ -1,6 +1,5 @@
-// Layout: "OpenEXR File Layout", openexr.com; magic number, version and flags, then for each part
-// attributes of name, type, size and value up to an empty name, and an empty part at the end of
-// several.
+// Layout ("OpenEXR File Layout", openexr.com): magic number, version and flags. Then each part has
+// attributes (name, type, size and value) up to an empty name. Several parts end with an empty one.
 #include "input/exr_header.h"
 
 #include <algorithm>
@@ -19,15 +18,14 @@ namespace {
 constexpr uint32_t kMagic = 20000630;
 constexpr uint32_t kManyParts = 0x1000;
 constexpr size_t kLongestName = 255;
-/// Nobody's picture is packed so well; a small one does no harm.
+/// No real picture is compressed so well; small ones are always accepted.
 constexpr uint64_t kMaxPixelsPerByte = 1 << 16, kFewPixels = 1 << 24;
 constexpr int64_t kWidest = 1 << 16;
-/// The same of the tiles or blocks of rows that the library makes room for before it reads the
-/// first.
+/// The same for the tiles or blocks of rows that the library allocates before it reads the first.
 constexpr uint64_t kMaxBufferBytesPerByte = 512, kFewBufferBytes = 1 << 30;
 constexpr uint64_t kBytesPerChunkOffset = 8;
-constexpr uint32_t kHalf = 1;  // a channel's type; the others have four bytes
-/// By the number of the compression: none, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A, DWAA, DWAB.
+constexpr uint32_t kHalf = 1;  // channel type; the other types have four bytes
+/// [compression]: none, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A, DWAA, DWAB.
 constexpr std::array<uint64_t, 10> kRowsInBlock = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
 constexpr uint64_t kMaxRowsInBlock = 256;
 
@@ -89,7 +87,7 @@ class Header {
     std::memcpy(&value, bytes.data(), sizeof value);
     return value;
   }
-  /// Up to a zero byte; empty if there is none near.
+  /// The text up to a zero byte; empty if there is none within kLongestName bytes.
   std::optional<std::string> text() {
     std::string result;
     for (char c; file_.get(c);) {
@@ -99,7 +97,7 @@ class Header {
     }
     return std::nullopt;
   }
-  /// The library reads values by their type and goes on where that ends, whatever the size says.
+  /// Checks sizes by type: the library reads values by their type and ignores the size.
   bool has_possible_size(const std::string& type, uint32_t bytes, uint64_t end) {
     if (type == "chlist") {
       for (;;) {
@@ -129,7 +127,7 @@ class Header {
     return pixels <= kFewPixels || pixels / kMaxPixelsPerByte <= size_;
   }
 
-  /// The library would make room for as many samples as the file claims.
+  /// True for a deep image: the library would allocate as many samples as the file claims.
   bool is_deep(uint32_t bytes) {
     std::string type(std::min<uint32_t>(bytes, 4), '\0');
     file_.read(type.data(), static_cast<std::streamsize>(type.size()));
@@ -141,8 +139,8 @@ class Header {
     return compression < kRowsInBlock.size() ? kRowsInBlock[compression] : kMaxRowsInBlock;
   }
 
-  /// The tiles or blocks of rows of this part that the library holds at once, with all their
-  /// channels, and how many tiles there are: each has its offset in the file.
+  /// Checks the tiles or blocks of rows that the library holds at once, with all channels. Also the
+  /// number of tiles, each of which has an offset in the file.
   bool has_possible_chunks() const {
     const auto is_possible = [&](const Extent& chunk) {
       const double bytes = static_cast<double>(chunk.width) * static_cast<double>(chunk.height) *
@@ -150,13 +148,13 @@ class Header {
       return bytes <=
              static_cast<double>(std::max(kFewBufferBytes, size_ * kMaxBufferBytesPerByte));
     };
-    // A part that says how large its tiles are need not have any.
+    // A part may have a tile size without tiles.
     if (!is_possible({part_.window.width, std::min(part_.window.height, part_.rows_in_block)}))
       return false;
     if (!part_.tile) return true;
     const Extent& tile = *part_.tile;
     if (!is_possible(tile)) return false;
-    // A tile of no width is the library's to refuse.
+    // The library refuses empty tiles.
     if (tile.width == 0 || tile.height == 0) return true;
     const auto count = [](uint64_t all, uint64_t each) { return (all + each - 1) / each; };
     return count(part_.window.width, tile.width) * count(part_.window.height, tile.height) <=

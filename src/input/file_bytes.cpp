@@ -1,5 +1,5 @@
-// Reading a file in one go and unpacking gzip data (RFC 1952) with zlib. The output of unpacking
-// grows with what really comes out, never with what a header claims.
+// Reads whole files and unpacks gzip data (RFC 1952) with zlib. The output grows with the bytes
+// that are unpacked, never with the claims of a header.
 #include "input/file_bytes.h"
 
 #include <zlib.h>
@@ -31,7 +31,7 @@ struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
 
-/// All that comes; `expected` bytes are asked for first. Pipes may never end.
+/// Reads to the end, first `expected` bytes. The size is limited, since pipes may never end.
 std::string read_all(std::FILE& file, const std::string& path, size_t expected) {
   std::string bytes;
   size_t used = 0;
@@ -55,11 +55,11 @@ std::string read_raw(const std::string& path) {
   std::error_code ignored;
   const std::filesystem::file_status status = std::filesystem::status(path, ignored);
   if (std::filesystem::is_directory(status)) cannot_read(path, "it is a directory");
-  // Some never end.
+  // Some devices never end.
   if (std::filesystem::is_block_file(status) ||
       (std::filesystem::is_character_file(status) && path != "/dev/null" && path != "/dev/stdin"))
     cannot_read(path, "it is a device");
-  // The size is a hint only: pipes have none, and files may grow or shrink while they are read.
+  // The size is only a hint: pipes have none, and files may change while they are read.
   size_t expected = kFirstGuess;
   if (std::filesystem::is_regular_file(status)) {
     const auto size = std::filesystem::file_size(path, ignored);
@@ -79,8 +79,8 @@ struct EndInflate {
   void operator()(z_stream* stream) const { inflateEnd(stream); }
 };
 
-/// Not by gzread: it takes a descriptor and not bytes, passes on what is not packed, and has no
-/// error for an empty file.
+/// Unpacks gzip data. gzread is not used: it takes a descriptor instead of bytes, passes unpacked
+/// data through, and does not report empty files.
 std::string unpack(const std::string& path, const std::string& packed, uint64_t max_unpacked) {
   z_stream stream{};
   if (inflateInit2(&stream, 16 + MAX_WBITS) != Z_OK) cannot_read(path, "zlib could not start");
@@ -104,11 +104,11 @@ std::string unpack(const std::string& path, const std::string& packed, uint64_t 
     bytes.append(chunk.get(), produced);
 
     if (result == Z_STREAM_END) {
-      // gzip files may be chained; anything else behind the end is padding, as for gzip itself.
+      // gzip files may be chained; anything else after the end is padding, as in gzip itself.
       inside_member =
           packed.size() - offset >= 2 && packed[offset] == '\x1f' && packed[offset + 1] == '\x8b';
       if (inside_member) inflateReset(&stream);
-    } else if (result == Z_BUF_ERROR) {  // no input left, and none was enough
+    } else if (result == Z_BUF_ERROR) {  // the input ends inside of the data
       cannot_read(path, "the gzip data ends too early");
     } else if (result != Z_OK) {
       cannot_read(path, std::string("not valid gzip data") +

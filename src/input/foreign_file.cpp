@@ -1,4 +1,4 @@
-// One table of first bytes, one of names, and a look at formats that are plain text.
+// A table of first bytes, a table of names, and checks of text formats.
 #include "input/foreign_file.h"
 
 #include <algorithm>
@@ -61,7 +61,7 @@ std::string_view from_first_word(std::string_view text) {
   return text;
 }
 
-/// Lines of OBJ begin with words that no scene begins with.
+/// True if the first word is one of OBJ's, with which no scene begins.
 bool is_obj(std::string_view text) {
   const auto is_end = [](char c) { return is_blank(c); };
   const auto* const end = std::find_if(text.begin(), text.end(), is_end);
@@ -90,7 +90,7 @@ Format format_of(std::string_view bytes, const std::string& path) {
             kScene};
   if (text[0] == '<') return xml_format(text);
   if (is_obj(text)) return {"", "a Wavefront OBJ mesh", kMesh};
-  // Directives begin with a capital: such a file may be a scene whatever its name.
+  // Directives begin with a capital letter: such a file may be a scene whatever its name.
   if (std::isupper(static_cast<unsigned char>(text[0]))) return {"", "", ""};
   for (const Format& format : kNames)
     if (has_suffix(path, std::string(format.mark))) return format;

@@ -1,5 +1,5 @@
-// Files of other programs that are given as a scene: known by their first bytes, with the name as a
-// hint. It must not know how a pbrt-v4 scene reads.
+// Recognizes files of other programs given as a scene, by their first bytes and their name. It must
+// not know the syntax of pbrt-v4 scenes.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace nephroid {
 
-/// `this is a glTF scene, expected a pbrt-v4 scene ...` for a file that is something else; empty if
-/// nothing speaks against a pbrt-v4 scene.
+/// `this is a glTF scene, expected a pbrt-v4 scene ...` for a foreign file; empty if it may be a
+/// pbrt-v4 scene.
 std::string foreign_file_error(std::string_view bytes, const std::string& path);
 
 }  // namespace nephroid

@@ -1,4 +1,3 @@
-// Searching rows of the scene format and saying what was not found; see format_rows.h.
 #include "input/format_rows.h"
 
 #include "input/spelling.h"

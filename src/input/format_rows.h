@@ -1,7 +1,6 @@
-// What is known of the names of the scene format: one row per type (of shapes, materials ...) and
-// per parameter. The tables of makers carry these rows, so that makers, warnings about parameters
-// and docs/scene-support.md cannot disagree. Who calls it: all tables of types, ParameterSet's
-// warnings, the page. It must not know any type.
+// Table rows of the scene format: one per type (of shapes, materials ...) and per parameter. The
+// tables of makers carry them, so that makers, warnings and docs/scene-support.md cannot disagree.
+// It must not know any type.
 #pragma once
 
 #include <array>
@@ -13,27 +12,27 @@
 
 namespace nephroid {
 
-/// What becomes of a type or a parameter that the format knows.
+/// The treatment of a type or a parameter of the format.
 enum class Support {
   kRendered,
-  kNotNeeded,  ///< the picture does not depend on it: taken without a word
+  kNotNeeded,  ///< accepted without a warning: the picture does not depend on it
   kWarned,     ///< ignored with a warning
   kRefused,    ///< a located error
 };
 
-/// A parameter as the page shows it. The makers check types and hold the defaults.
+/// A parameter as in docs/scene-support.md. The makers check types and have the defaults.
 struct FormatParameter {
   const char* type;  ///< "float", "spectrum or texture" ...
   const char* name;
   const char* fallback = "";  ///< the default, in words
   const char* unit = "";
-  const char* note = "";  ///< half a sentence; of ignored ones it says why
+  const char* note = "";  ///< a phrase; the reason if it is ignored
   Support support = Support::kRendered;
 };
 
 using FormatParameters = std::span<const FormatParameter>;
 
-/// A type with the lists of parameters that it has, its own and those that it shares with others.
+/// A type with its lists of parameters, its own and shared ones.
 struct FormatType {
   const char* name;
   std::array<FormatParameters, 5> parameters;
@@ -44,14 +43,14 @@ struct FormatType {
   const FormatParameter* find(const std::string& parameter) const;
 };
 
-/// `"a", "b", "c"`: what could be written instead. Without what is refused and the empty name.
+/// `"a", "b", "c"`: the names that could be written instead, without refused and empty ones.
 std::string quoted_names(std::span<const FormatType> types);
 
-/// Throws SceneError at `where`: there is no `kind` of type `name`, or it is one that is refused.
+/// Throws SceneError at `where`: the type `name` of this `kind` is unknown or refused.
 [[noreturn]] void refuse_type(const std::string& kind, const std::string& name,
                               std::span<const FormatType> types, const SourceLocation& where);
 
-/// The rows of a table whose rows derive from FormatType.
+/// The FormatType parts of a table's rows.
 template <class Row, size_t N>
 std::vector<FormatType> format_types(const Row (&table)[N]) {
   return std::vector<FormatType>(std::begin(table), std::end(table));
@@ -65,7 +64,7 @@ const Row* find_row(const Row (&table)[N], const std::string& name) {
   return nullptr;
 }
 
-/// The row that makes `name`; throws SceneError at `where` if there is none or it is refused.
+/// The row of `name`. Throws SceneError at `where` if there is none or it is refused.
 template <class Row, size_t N>
 const Row& row_of(const Row (&table)[N], const std::string& kind, const std::string& name,
                   const SourceLocation& where) {

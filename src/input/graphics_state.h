@@ -1,6 +1,5 @@
-// What the attribute directives of a pbrt-v4 scene have set so far and AttributeBegin saves: the
-// current transform, material, media, area light and default parameters.
-// Used by the scene builder only. Knows nothing of syntax.
+// The graphics state that AttributeBegin saves: current transform, material, media, area light and
+// default parameters. It must not know the syntax.
 #pragma once
 
 #include <array>
@@ -14,20 +13,20 @@
 
 namespace nephroid {
 
-/// What a directive Attribute "target" gives default parameters to.
+/// The targets of the directive Attribute "target", which sets default parameters.
 enum class AttributeTarget { kShape, kLight, kMaterial, kMedium, kTexture };
 inline constexpr std::array<std::string_view, 5> kAttributeTargets = {"shape", "light", "material",
                                                                       "medium", "texture"};
 
 struct GraphicsState {
   TransformDescription ctm;
-  bool start_active = true, end_active = true;  ///< which keyframes the transform directives change
+  bool start_active = true, end_active = true;  ///< keyframes that transform directives change
   bool reverse_orientation = false;
   std::string color_space = "srgb";
   MaterialReference material;  ///< neither index nor name: the default material
   std::optional<DirectiveDescription> area_light;
   std::string inside_medium, outside_medium;
-  std::array<std::vector<Parameter>, kAttributeTargets.size()> defaults;  ///< by AttributeTarget
+  std::array<std::vector<Parameter>, kAttributeTargets.size()> defaults;  ///< [AttributeTarget]
 };
 
 }  // namespace nephroid

@@ -1,5 +1,4 @@
-// A polygon mesh as a file or a scene said it: plain arrays. Filled by the PLY reader and by the
-// "trianglemesh", "plymesh", "bilinearmesh" and "loopsubdiv" shapes.
+// A polygon mesh of a file or a scene as plain arrays, and the PLY reader.
 #pragma once
 
 #include <cstdint>
@@ -19,16 +18,17 @@ struct MeshData {
   std::vector<Vec3f> tangents;      ///< per vertex, or empty
   std::vector<uint32_t> triangles;  ///< three indices each
   std::vector<uint32_t> quads;      ///< four indices each, in ring order as PLY has them
-  std::vector<int> face_indices;    ///< of all triangles, then of all quads; or empty
+  std::vector<int> face_indices;    ///< per triangle, then per quad; or empty
 };
 
 /// Reads an ascii, binary_little_endian or binary_big_endian PLY file (".gz" is unpacked): vertex
 /// x,y,z, optional nx,ny,nz and u,v (also s,t and texture_u, texture_v); faces with 3 or 4 indices.
-/// Faces with 5 to kMaxPolygonCorners are cut into triangles, behind the triangles of the file;
-/// those with fewer than 3 distinct ones become triangles without area. Normals may be other than
-/// finite; positions and texture coordinates are finite: those of vertices that no face uses become
-/// 0, others are an error. Throws IoError or SceneError naming the file; a file shorter than its
-/// header says is an error and nothing is allocated on the header's word alone.
+/// - Faces with 5 to kMaxPolygonCorners corners are cut into triangles, appended to the file's.
+/// - Faces with fewer than 3 distinct corners become triangles without area.
+/// - Normals need not be finite. Positions and texture coordinates that are not finite become 0 if
+///   no face uses their vertex; else they are an error.
+/// - A file shorter than its header claims is an error, found before memory is allocated for it.
+/// Throws IoError or SceneError with the file's name.
 MeshData read_ply(SceneFiles& files, const std::string& path, const SourceLocation& wanted_by);
 
 }  // namespace nephroid

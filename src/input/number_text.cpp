@@ -1,4 +1,4 @@
-// Numbers from text with std::from_chars; values out of range become infinity or zero.
+// Parses with std::from_chars; values out of range become infinity or zero.
 #include "input/number_text.h"
 
 #include <algorithm>
@@ -10,14 +10,14 @@
 namespace nephroid {
 namespace {
 
-/// std::from_chars takes no leading plus; "+-1" is still no number.
+/// Removes a leading plus, which std::from_chars refuses; "+-1" is still not a number.
 std::string_view without_plus(std::string_view text) {
   if (text.size() > 1 && text[0] == '+' && text[1] != '-' && text[1] != '+') text.remove_prefix(1);
   return text;
 }
 
-/// The double next to a number that is too large or too small for one: infinity or zero. For such a
-/// number std::from_chars gives an error and no value.
+/// The nearest double, infinity or zero, of a number that is too large or too small for one. For
+/// such a number std::from_chars gives an error and no value.
 double nearest_double(std::string_view text) {
   const size_t e = std::min(text.find_first_of("eE"), text.size());
   const std::string_view digits = text.substr(0, e);

@@ -1,5 +1,5 @@
-// Numbers as users and exporters write them: "-0", "1.", ".5", "1e-3", "+5".
-// No locale changes them. It must not know what a number is for.
+// Parses numbers as users and exporters write them: "-0", "1.", ".5", "1e-3", "+5". Independent of
+// the locale. It must not know what a number is for.
 #pragma once
 
 #include <optional>
@@ -7,11 +7,11 @@
 
 namespace nephroid {
 
-/// The number that the whole of `text` spells, or nothing if it does not spell one. May be infinite
-/// (overflow or "inf") or NaN ("nan"): the caller decides what that means.
+/// Parses the whole of `text` as a number; empty if it is not one. The result may be infinite
+/// (overflow or "inf") or NaN ("nan").
 std::optional<double> parse_number(std::string_view text);
 
-/// The integer that the whole of `text` spells in decimal digits, or nothing (also on overflow).
+/// Parses the whole of `text` as a decimal integer; empty if it is not one, or on overflow.
 std::optional<long long> parse_integer(std::string_view text);
 
 }  // namespace nephroid

@@ -1,5 +1,4 @@
-// Reading Option directives: the name may carry its type ("bool pixelstats") or not ("pixelstats").
-// Called through option_directive.h.
+// The name of an Option directive may have its type ("bool pixelstats") or not ("pixelstats").
 #include "input/option_directive.h"
 
 #include <algorithm>
@@ -41,7 +40,7 @@ std::string normalized(std::string_view name) {
   return result;
 }
 
-/// Takes the values of an option whose type is not known, alone or in brackets.
+/// Skips the values of an option of unknown type, alone or in brackets.
 void skip_values(TokenStream& tokens, const SourceLocation& option) {
   const Token* token = &tokens.next();
   if (token->kind == Token::Kind::kOpen)

@@ -1,6 +1,5 @@
-// The directive Option "name" value and the options that pbrt-v4 knows.
-// Called by the directive parser. Knows names and types; what the options do is elsewhere
-// (scene/scene_options.h).
+// The directive Option "name" value, with the names and types of pbrt-v4's options. It must not
+// know their effects (scene/scene_options.h).
 #pragma once
 
 #include <optional>
@@ -13,9 +12,9 @@ namespace nephroid {
 /// All options of the format. Names are in lower case without "-" and "_".
 FormatParameters format_options();
 
-/// Takes the arguments of an Option directive. The name comes back in lower case without "-" and
-/// "_", as pbrt-v4 compares it. Warns of an unknown name and returns nothing for it; throws
-/// SceneError for a value of another type.
+/// Reads the arguments of an Option directive. The name is returned in lower case without "-" and
+/// "_", as pbrt-v4 compares it. Empty, with a warning, for an unknown name. Throws SceneError for a
+/// value of another type.
 std::optional<Parameter> read_option(TokenStream& tokens, Diagnostics& diagnostics);
 
 }  // namespace nephroid

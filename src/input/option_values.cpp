@@ -1,4 +1,4 @@
-// All parsers end in from_chars, which knows no locale.
+// All parsers use from_chars, which is independent of the locale.
 #include "input/option_values.h"
 
 #include <fmt/format.h>
@@ -126,7 +126,7 @@ double parse_duration(const std::string& option, const std::string& text) {
 
 std::pair<uint32_t, uint32_t> parse_passes(const std::string& option, const std::string& text) {
   const char* expected = "a number of passes N, or a range A..B from 0, both ends included";
-  // The last value is left free: passes are counted in 32 bits.
+  // The last value is not used: passes are counted in 32 bits.
   constexpr uint32_t kMaxPasses = std::numeric_limits<uint32_t>::max() - 1;
   const size_t dots = text.find("..");
   if (dots == std::string::npos) {

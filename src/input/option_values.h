@@ -1,6 +1,5 @@
-// The texts that options take, as values: numbers, durations, ranges, sizes. Each parser takes the
-// whole text or throws UsageError with what was expected; `option` is the name that the message
-// begins with.
+// Parses option values: numbers, durations, ranges, sizes. Each parser uses the whole text or
+// throws UsageError with what was expected. `option` is the name at the beginning of the message.
 #pragma once
 
 #include <array>
@@ -29,7 +28,7 @@ float parse_float(const std::string& option, const std::string& text, double low
 /// "X" or "LOW..HIGH" with low <= X, LOW <= HIGH and all of them up to `high`; "X" is "X..X".
 std::pair<float, float> parse_range(const std::string& option, const std::string& text, float low,
                                     float high);
-/// "4096", "64K", "1.5M" or "1G" in bytes, K, M and G being powers of 1024; up to 1024 G.
+/// "4096", "64K", "1.5M" or "1G" in bytes, up to 1024 G; K, M and G are powers of 1024.
 int64_t parse_bytes(const std::string& option, const std::string& text);
 /// The same as text, with the largest unit that leaves a whole number.
 std::string bytes_text(int64_t bytes);

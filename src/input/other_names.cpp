@@ -1,4 +1,3 @@
-// The table of other names; see other_names.h.
 #include "input/other_names.h"
 
 #include <algorithm>
@@ -8,7 +7,7 @@
 namespace nephroid {
 namespace {
 
-/// A row counts where at least one of its names is a candidate.
+/// A row applies if at least one of its names is a candidate.
 struct OtherName {
   const char* written;  ///< lower case
   std::array<const char*, 3> names;
@@ -102,7 +101,7 @@ constexpr OtherName kOtherNames[] = {
     {"d65", {"stdillum-D65"}},
 };
 
-/// What to write for a name that is a type elsewhere and a directive or another shape here.
+/// The replacement for a name that is a type elsewhere, but a directive or another shape here.
 struct Advice {
   const char* kind;
   const char* written;

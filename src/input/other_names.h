@@ -1,5 +1,4 @@
-// Names from other renderers and everyday words, with the names that pbrt-v4 has for the same.
-// One table, asked by did_you_mean where an unknown name is reported.
+// A table of names from other renderers and everyday words, with pbrt-v4's names for the same.
 #pragma once
 
 #include <string>
@@ -8,9 +7,8 @@
 
 namespace nephroid {
 
-/// `"eta"` or `"a", "b" or "c"`: what `word` is called among the candidates, letter case ignored.
-/// `kind` is what is named, "light" for example: some rows are of one kind only. Empty if the table
-/// has nothing.
+/// `"eta"` or `"a", "b" or "c"`: the candidates that mean `word`, ignoring case. `kind` is the kind
+/// of the named thing, such as "light"; some rows belong to one kind. Empty if there are none.
 std::string other_name(std::string_view word, const std::vector<std::string>& candidates,
                        std::string_view kind);
 

@@ -1,5 +1,5 @@
-// From tokens to typed values, checked against the declared type where the text still stands.
-// Called through parameter_reader.h.
+// Turns tokens into typed values and checks them against the declared type while their location in
+// the text is known.
 #include "input/parameter_reader.h"
 
 #include <cmath>
@@ -20,7 +20,7 @@ bool is_space(char c) {
   return c == ' ' || c == '\t';
 }
 
-/// Takes the next word off the front of `text`; empty at the end.
+/// Removes the next word from `text` and returns it; empty at the end.
 std::string_view take_word(std::string_view& text) {
   while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
   size_t length = 0;
@@ -56,7 +56,7 @@ const char* expected_values(Values values) {
   return "a number";
 }
 
-/// Why `token` gives no value of the parameter, although it should be a number.
+/// Throws the reason why `token` is not a valid number for the parameter.
 [[noreturn]] void wrong_number(const Parameter& parameter, const Token& token, bool integer) {
   const double value =
       number_from(token, (integer ? "an integer (" : "a number (") + title(parameter) + ")");
@@ -66,7 +66,7 @@ const char* expected_values(Values values) {
   throw SceneError(token.where(), title(parameter) + ", but " + describe(token) + reason);
 }
 
-/// A number that survives the conversion to float or, for integers, to a 32-bit int.
+/// The number of a token, checked to fit a float or, for integers, a 32-bit int.
 double checked_number(const Parameter& parameter, const Token& token, bool integer) {
   const std::optional<double> value = parse_number(token.text);
   bool good = value && std::abs(*value) <= std::numeric_limits<float>::max();

@@ -1,5 +1,5 @@
-// The typed getters of ParameterSet: type and count are checked at the moment of asking, so that
-// the message can say what was expected. Called by scene/ through scene_description.h.
+// The typed getters of ParameterSet. They check type and count when called, so that the message has
+// what was expected.
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,4 +1,3 @@
-// The table of parameter types. Called through parameter_types.h.
 #include "input/parameter_types.h"
 
 #include <algorithm>
@@ -21,10 +20,10 @@ constexpr std::array kTypes = {
     ParameterType{"normal", "normal", Values::kNumbers, 3},
     ParameterType{"normal3", "normal", Values::kNumbers, 3},
     ParameterType{"rgb", "rgb", Values::kNumbers, 3},
-    // pbrt-v3's name, which pbrt_v3.h replaces.
+    // pbrt-v3's name, replaced by pbrt_v3.h.
     ParameterType{"color", "color", Values::kNumbers, 3},
     ParameterType{"blackbody", "blackbody", Values::kNumbers, 1},
-    // Numbers of a spectrum are pairs of a wavelength and a value.
+    // The numbers of a spectrum are pairs of a wavelength and a value.
     ParameterType{"spectrum", "spectrum", Values::kSpectrum, 2},
     ParameterType{"bool", "bool", Values::kBools, 1},
     ParameterType{"string", "string", Values::kStrings, 1},

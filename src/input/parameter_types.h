@@ -1,6 +1,5 @@
-// The parameter types of pbrt-v4 scene files: their spellings, what their values are and how many
-// numbers make one item. One table, read by the parameter reader and by the getters.
-// Knows nothing of single parameters such as "radius".
+// A table of pbrt-v4's parameter types: their spellings, kinds of values and numbers per item. It
+// must not know single parameters such as "radius".
 #pragma once
 
 #include <string>
@@ -10,10 +9,10 @@ namespace nephroid {
 
 struct ParameterType {
   enum class Values { kNumbers, kIntegers, kStrings, kBools, kSpectrum };
-  const char* spelling;  ///< as a file may write it
-  const char* name;      ///< what a Parameter calls it
+  const char* spelling;  ///< spelling in a file
+  const char* name;      ///< Parameter::type
   Values values;
-  int numbers_per_item;  ///< also for one of several items; 1 for what is not numbers
+  int numbers_per_item;  ///< 1 if the values are not numbers
 };
 
 /// The type with that spelling, or nullptr.

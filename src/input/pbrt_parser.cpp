@@ -1,5 +1,4 @@
-// From a pbrt-v4 file or text to a SceneDescription: puts the token stream, the directive parser
-// and the scene builder together. Called through pbrt_parser.h.
+// Combines the token stream, the directive parser and the scene builder.
 #include "input/pbrt_parser.h"
 
 #include "input/description_builder.h"

@@ -8,12 +8,11 @@
 namespace nephroid {
 
 /// Parses the file (".gz" is unpacked) and all it includes or imports. Throws IoError if a file
-/// cannot be read and SceneError for anything that is not pbrt-v4. Suspicious things go to
-/// `diagnostics`.
+/// cannot be read and SceneError for anything that is not pbrt-v4. Warnings go to `diagnostics`.
 SceneDescription parse_pbrt_file(const std::string& path, Diagnostics& diagnostics);
 
-/// The same for text in memory; `name` stands for the file in messages, relative files are looked
-/// for in `directory`.
+/// The same for text in memory. `name` is its name in messages; file names are relative to
+/// `directory`.
 SceneDescription parse_pbrt_string(const std::string& text, const std::string& name,
                                    const std::string& directory, Diagnostics& diagnostics);
 

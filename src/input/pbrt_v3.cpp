@@ -1,5 +1,5 @@
-// The table of pbrt-v3's names that have another name in pbrt-v4, and what needs arithmetic beside
-// it. pbrt_v3_materials.cpp has the materials.
+// The table of pbrt-v3's names that have another name in pbrt-v4, and upgrades that need
+// arithmetic. Materials are in pbrt_v3_materials.cpp.
 #include "input/pbrt_v3.h"
 
 #include <algorithm>
@@ -67,7 +67,7 @@ struct TypeRow {
   const char* v3;
   const char* v4;
 };
-/// Types with another name. Those of materials are in pbrt_v3_materials.cpp.
+/// Types with another name, except materials.
 constexpr TypeRow kTypes[] = {
     {"Film", "image", "rgb"},
     {"Camera", "environment", "spherical"},
@@ -83,9 +83,9 @@ struct ParameterRow {
   const char* directive;
   const char* type;  ///< empty: all types
   const char* v3;
-  const char* v4;  ///< nullptr: the picture does not depend on it
+  const char* v4;  ///< nullptr: dropped, since the picture does not depend on it
 };
-/// Parameters with another name, or with none.
+/// Parameters with another name or without one.
 constexpr ParameterRow kParameters[] = {
     {"Film", "", "maxsampleluminance", "maxcomponentvalue"},
     {"PixelFilter", "", "xwidth", "xradius"},
@@ -134,7 +134,7 @@ void upgrade_filter(const std::string& type, Parameters& list) {
   if (value) v3::add_float(list, "sigma", 1 / std::sqrt(2 * *value), alpha->where);
 }
 
-/// The factor that the "scale" of a light is multiplied by.
+/// Removes a grey parameter of a light and returns it as a factor for the light's "scale".
 double take_grey_factor(Parameters& list, const char* name, const std::string& of_what,
                         const std::string& expected) {
   const Parameter* const found = v3::find(list, name);
@@ -145,7 +145,7 @@ double take_grey_factor(Parameters& list, const char* name, const std::string& o
   return *value;
 }
 
-/// The emission of blackbodies had a factor as their second number.
+/// Removes the second number of a blackbody emission, which was a factor, and returns it.
 std::optional<double> take_blackbody_factor(Parameters& list, const char* name) {
   Parameter* const colour = v3::find(list, name);
   if (!colour || colour->type != "blackbody" || colour->numbers.size() != 2) return std::nullopt;
@@ -154,7 +154,7 @@ std::optional<double> take_blackbody_factor(Parameters& list, const char* name) 
   return factor;
 }
 
-/// True if it changed anything.
+/// True if the list changed.
 bool upgrade_emission(const std::string& type, Parameters& list, const SourceLocation& where) {
   const std::string of_what = "light " + in_quotes(type);
   const auto of_l = take_blackbody_factor(list, "L"), of_i = take_blackbody_factor(list, "I");
@@ -182,7 +182,7 @@ bool upgrade_emission(const std::string& type, Parameters& list, const SourceLoc
 void upgrade_scale_texture(Parameters& list, bool of_floats) {
   Parameter* first = v3::find(list, "tex1");
   Parameter* second = v3::find(list, "tex2");
-  // pbrt-v4 has a factor that is a number, or a float texture.
+  // In pbrt-v4 the factor is a number or a float texture.
   const auto is_factor = [&](const Parameter* p) {
     return p && (of_floats || v3::grey_value(*p).has_value());
   };
@@ -198,7 +198,7 @@ void upgrade_scale_texture(Parameters& list, bool of_floats) {
   if (first) first->name = "tex";
 }
 
-/// True if it changed anything.
+/// True if the list changed.
 bool upgrade_image_texture(Parameters& list) {
   const auto trilinear = v3::take(list, "trilinear");
   if (trilinear && !trilinear->bools.empty() && trilinear->bools[0])
@@ -210,7 +210,7 @@ bool upgrade_image_texture(Parameters& list) {
   return trilinear || gamma;
 }
 
-/// The texture coordinates of a mesh as pbrt-v3 wrote them; nullptr if there are none.
+/// The texture coordinates of a mesh in pbrt-v3's form; nullptr if there are none.
 Parameter* old_uv(const std::string& type, Parameters& list) {
   if (type != "trianglemesh") return nullptr;
   Parameter* const uv = v3::find(list, "uv");
@@ -219,7 +219,7 @@ Parameter* old_uv(const std::string& type, Parameters& list) {
   return is_old && found->numbers.size() % 2 == 0 ? found : nullptr;
 }
 
-/// True if it was there.
+/// Removes "shadowalpha"; true if it was there.
 bool drop_shadow_alpha(const std::string& type, Parameters& list) {
   const bool is_mesh = type == "trianglemesh" || type == "plymesh";
   const Parameter* const shadow = is_mesh ? v3::find(list, "shadowalpha") : nullptr;

@@ -1,5 +1,5 @@
-// pbrt-v3's materials as those of pbrt-v4 that look the same. Highlights "Ks", which pbrt-v3 adds
-// to a diffuse part, have no equal: coats of pbrt-v4 lie over it and take light from it.
+// Upgrades pbrt-v3's materials to those of pbrt-v4 that look the same. Highlights "Ks", which
+// pbrt-v3 adds to a diffuse part, have no equal: pbrt-v4's coats lie over it and take its light.
 #include <algorithm>
 #include <cmath>
 
@@ -13,7 +13,7 @@ using v3::Parameters;
 struct MaterialRow {
   const char* v3;
   const char* v4;   ///< nullptr: none looks the same
-  const char* way;  ///< what to write instead where the meaning differs
+  const char* way;  ///< replacement if the meaning differs
 };
 constexpr MaterialRow kMaterials[] = {
     {"matte", "diffuse", "Material \"diffuse\", which has no \"sigma\""},
@@ -37,12 +37,12 @@ constexpr MaterialRow kMaterials[] = {
     {"fourier", nullptr, "Material \"measured\""},
 };
 
-/// Parameters that must have one value for the meaning to be the same; they are then dropped.
+/// Parameters that must have a certain value for the meaning to be the same; they are dropped then.
 struct FixedRow {
   const char* material;
   const char* parameter;
   double value;
-  bool is_default;  ///< pbrt-v3 has this value where the scene says nothing
+  bool is_default;  ///< true if it is pbrt-v3's default
 };
 constexpr FixedRow kFixed[] = {
     {"matte", "sigma", 0, true},     {"plastic", "Ks", 0, false},   {"uber", "Ks", 0, false},
@@ -52,7 +52,7 @@ constexpr FixedRow kFixed[] = {
     {"kdsubsurface", "Kt", 1, true},
 };
 
-/// Parameters of a highlight: of no use in a material whose "Ks" is 0.
+/// Parameters of a highlight: unused if "Ks" is 0.
 constexpr const char* kOfHighlights[] = {"roughness",      "uroughness", "vroughness",
                                          "remaproughness", "index",      "eta"};
 
@@ -69,7 +69,7 @@ const MaterialRow* find_row(const std::string& type) {
                               (row ? row->way : find_row("kdsubsurface")->way));
 }
 
-/// True if any was there.
+/// Removes fixed parameters; true if any was there.
 bool drop_fixed(const std::string& type, Parameters& list, const SourceLocation& where) {
   bool dropped = false;
   for (const FixedRow& row : kFixed) {
@@ -90,7 +90,8 @@ double v3_alpha(double roughness) {
   return 1.62142 + x * (0.819955 + x * (0.1734 + x * (0.0171201 + x * 0.000640711)));
 }
 
-/// pbrt-v4's alpha is the root of its roughness. Textures stay as they are. What there is to say.
+/// Converts roughness: pbrt-v4's alpha is the square root of its roughness. Textures stay as they
+/// are. Returns a note, or an empty text.
 std::string remap_roughness(Parameters& list, bool zero_is_smooth) {
   const Parameter* const remaps = v3::find(list, "remaproughness");
   if (remaps && !remaps->bools.empty() && !remaps->bools[0]) return {};
@@ -114,7 +115,7 @@ void rename(Parameters& list, const char* from, const char* to) {
   if (found && !v3::find(list, to)) found->name = to;
 }
 
-/// The colour, grey if the scene gives none.
+/// Renames "Kd" to "reflectance", or adds the grey default.
 void rename_colour(Parameters& list, double fallback, const SourceLocation& where) {
   rename(list, "Kd", "reflectance");
   if (!v3::find(list, "reflectance"))

@@ -1,4 +1,3 @@
-// Line by line through the header of a PLY file. Called through ply_header.h.
 #include "input/ply_header.h"
 
 #include <algorithm>
@@ -27,7 +26,7 @@ constexpr std::array kScalarNames = {
     ScalarName{"double", PlyScalar::kFloat64}, ScalarName{"float64", PlyScalar::kFloat64},
 };
 
-/// Hands out the words of a header line and complains about them.
+/// Yields the words of a header line and reports errors in them.
 class HeaderLine {
  public:
   HeaderLine(std::string_view text, int number) : rest_(text), number_(number) {}

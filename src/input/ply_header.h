@@ -1,6 +1,5 @@
-// The header of a PLY file: its format, its elements and their properties.
-// Called by the PLY reader. Knows nothing of vertices and faces.
-// Format: G. Turk, "The PLY Polygon File Format", 1994.
+// The header of a PLY file: its format, its elements and their properties. It must not know
+// vertices and faces. Format: G. Turk, "The PLY Polygon File Format", 1994.
 #pragma once
 
 #include <cstddef>
@@ -34,9 +33,9 @@ constexpr bool is_integer(PlyScalar type) {
 
 struct PlyProperty {
   std::string name;
-  PlyScalar type = PlyScalar::kFloat32;  ///< of the value, or of each value of a list
+  PlyScalar type = PlyScalar::kFloat32;  ///< type of the value, or of a list's values
   bool is_list = false;
-  PlyScalar count_type = PlyScalar::kUint8;  ///< of a list's length
+  PlyScalar count_type = PlyScalar::kUint8;  ///< type of a list's length
 };
 
 struct PlyElement {
@@ -47,7 +46,7 @@ struct PlyElement {
   /// Index of the property with that name, or -1.
   int find(std::string_view property) const;
   bool has_lists() const;
-  /// The fewest bytes that one element takes: all lists empty, in text two characters a value.
+  /// Least bytes of one element: lists are empty, and a value in text takes two characters.
   size_t least_bytes(bool ascii) const;
 };
 
@@ -58,8 +57,8 @@ struct PlyHeader {
   size_t size = 0;  ///< bytes up to and including the end of the line "end_header"
 };
 
-/// Reads the header at the start of a file's bytes. Throws std::runtime_error that says the line
-/// and what is wrong; the caller names the file.
+/// Reads the header at the start of a file's bytes. Throws std::runtime_error with the line and the
+/// fault; the caller adds the file's name.
 PlyHeader read_ply_header(std::string_view bytes);
 
 }  // namespace nephroid

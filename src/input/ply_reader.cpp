@@ -1,6 +1,5 @@
-// Reads the vertices and faces of a PLY file into a MeshData; all else in the file is passed over.
-// Called through mesh_data.h. What the header claims is compared with the size of the file before
-// anything is allocated for it. Knows nothing of rendering.
+// Reads the vertices and faces of a PLY file into a MeshData; all else in the file is skipped.
+// Claims of the header are compared with the file's size before memory is allocated for them.
 // Format: G. Turk, "The PLY Polygon File Format", 1994.
 #include <algorithm>
 #include <array>
@@ -65,7 +64,7 @@ class PlyReader {
   /// Refuses a file that cannot hold the elements even if all their lists are empty.
   void check_size(const PlyElement& element) const {
     const uint64_t needed = element.count * element.least_bytes(Source::kAscii);
-    // The last word of a text needs no blank behind it.
+    // The last word of a text needs no blank after it.
     const uint64_t present = source_.remaining() + (Source::kAscii ? 1 : 0);
     if (needed <= present) return;
     throw std::runtime_error("the file is too short: " + std::to_string(element.count) +
@@ -74,7 +73,7 @@ class PlyReader {
                              std::to_string(needed - present) + " are missing");
   }
 
-  /// Calls `read_one` for each element and says in errors where it was.
+  /// Calls `read_one` for each element and adds the element to error messages.
   template <class ReadOne>
   void for_each(const PlyElement& element, const ReadOne& read_one) {
     if (element.properties.empty()) return;
@@ -98,12 +97,12 @@ class PlyReader {
     source_.skip(property.type, count);
   }
 
-  /// A face with other than three or four corners. The file may give its vertices later.
+  /// A face with other than three or four corners. Its vertices may come later in the file.
   struct Polygon {
     std::vector<uint32_t> corners;
     std::optional<int> tag;
   };
-  /// A coordinate that is no number, of a vertex that a face may use.
+  /// A coordinate that is not finite, of a vertex that a face may use.
   struct BadValue {
     size_t vertex;
     const PlyProperty* property;
@@ -111,7 +110,7 @@ class PlyReader {
 
   void read_vertices(const PlyElement& element);
   void read_faces(const PlyElement& element);
-  /// The corners of a face with three or four go to the mesh, those of others to `polygon`.
+  /// Reads the corners of a face: three or four go to the mesh, others to `polygon`.
   void read_indices(const PlyProperty& property, Polygon* polygon);
   void check_values();
   void add_polygon(const Polygon& polygon);
@@ -125,10 +124,10 @@ class PlyReader {
   std::vector<BadValue> bad_values_;
 };
 
-/// Where the value of a vertex property goes in a row of eight floats.
+/// Index of a vertex property in a row of eight floats.
 enum Slot { kX, kY, kZ, kNx, kNy, kNz, kU, kV, kSlots };
 
-/// The slot of each property, -1 for none; coordinates that are not complete get none.
+/// The slot of each property, or -1. Incomplete coordinates have none.
 struct VertexLayout {
   std::vector<int> slots;
   bool has_normals = false;
@@ -203,8 +202,8 @@ void PlyReader<Source>::read_indices(const PlyProperty& property, Polygon* polyg
   }
 }
 
-/// Refuses positions and texture coordinates of faces that are not finite; those of vertices that
-/// no face uses become 0.
+/// Refuses positions and texture coordinates that are not finite, or sets them to 0 if no face uses
+/// their vertex.
 template <class Source>
 void PlyReader<Source>::check_values() {
   if (bad_values_.empty()) return;
@@ -222,8 +221,8 @@ void PlyReader<Source>::check_values() {
   }
 }
 
-/// Cuts a face into triangles. One with fewer than three distinct vertices becomes a triangle
-/// without area, which whoever checks the mesh removes and counts.
+/// Cuts a face into triangles. A face with fewer than three distinct vertices becomes a triangle
+/// without area; the check of the mesh removes and counts it.
 template <class Source>
 void PlyReader<Source>::add_polygon(const Polygon& polygon) {
   std::vector<uint32_t> ring = polygon.corners;

@@ -1,6 +1,5 @@
-// The values in the body of a PLY file, one after the other: as text or binary in either byte
-// order. Used by the PLY reader, which is written once for all of them. Knows nothing of elements
-// and properties.
+// Reads the values in the body of a PLY file in order: text, or binary in either byte order. It
+// must not know elements and properties.
 #pragma once
 
 #include <bit>
@@ -17,10 +16,10 @@ namespace nephroid {
 
 /// Thrown by the sources when the bytes end inside of a value.
 struct PlyTruncated {
-  uint64_t missing_bytes = 1;  ///< at least
+  uint64_t missing_bytes = 1;  ///< lower bound
 };
 
-/// Thrown by the text source for a word that is no number.
+/// Thrown by the text source for a word that is not a number.
 struct PlyBadValue {
   std::string message;
 };

@@ -1,6 +1,5 @@
-// Ear clipping, see polygon_triangles.h. Each corner remembers whether it was found to be no ear;
-// that is forgotten when a neighbour is cut off, so that about 3 n corners are looked at, each
-// among the reflex corners alone.
+// Ear clipping. A corner found to be no ear is not tested again until a neighbour is cut off. So
+// about 3 n corners are tested, each against the reflex corners only.
 #include "input/polygon_triangles.h"
 
 #include <algorithm>
@@ -60,7 +59,7 @@ class EarClipper {
       }
       at = nodes_[at].next;
       if (++missed < left) continue;
-      // No ear is known: look at all again, and in the end be content with less.
+      // No ear was found: test all again, with weaker conditions after some rounds.
       ++rounds;
       missed = 0;
       for (size_t k = 0; k < left; ++k, at = nodes_[at].next) nodes_[at].may_be_ear = true;
@@ -76,8 +75,8 @@ class EarClipper {
     bool may_be_ear = true;
     bool is_reflex = false;  ///< not convex, and not cut off yet
   };
-  /// Full rounds without an ear; polygons that do not cross themselves need one at most, but for
-  /// rounding.
+  /// Full rounds without an ear before the conditions are weakened. Except for rounding, polygons
+  /// that do not cross themselves need at most one.
   static constexpr int kExactRounds = 4, kConvexRounds = 6;
 
   bool is_convex(size_t i) const {
@@ -93,8 +92,8 @@ class EarClipper {
     return ear;
   }
 
-  /// True if no reflex corner lies in the triangle of a convex corner or on its rim. Corners at
-  /// the same places as those of the triangle do not count: holes are reached over double edges.
+  /// True if no reflex corner lies in or on the triangle of a convex corner. Corners that coincide
+  /// with the triangle's do not count: holes are connected by double edges.
   bool is_empty(size_t i) const {
     const Vec2d a = nodes_[nodes_[i].previous].p, b = nodes_[i].p, c = nodes_[nodes_[i].next].p;
     const double low_x = std::min({a.x, b.x, c.x}), high_x = std::max({a.x, b.x, c.x});
@@ -120,7 +119,7 @@ class EarClipper {
     nodes_[before].next = after;
     nodes_[after].previous = before;
     nodes_[before].may_be_ear = nodes_[after].may_be_ear = true;
-    // The corner that is gone, and neighbours that have become convex, block no ear any more.
+    // The removed corner, and neighbours that have become convex, no longer block ears.
     settle(i, false);
     settle(before, !is_convex(before));
     settle(after, !is_convex(after));
@@ -129,7 +128,7 @@ class EarClipper {
     settled_ = 0;
   }
 
-  /// Notes whether a corner is still reflex; one that is not never becomes so again.
+  /// Updates whether a corner is reflex; a corner that is not never becomes so again.
   void settle(size_t i, bool is_reflex) {
     if (!nodes_[i].is_reflex || is_reflex) return;
     nodes_[i].is_reflex = false;
@@ -137,8 +136,8 @@ class EarClipper {
   }
 
   std::vector<Node> nodes_;
-  std::vector<size_t> reflex_;  ///< corners that were reflex when the list was last cleared
-  size_t settled_ = 0;          ///< how many of them are not any more
+  std::vector<size_t> reflex_;  ///< corners that were reflex at the last cleanup
+  size_t settled_ = 0;          ///< number of them that are no longer reflex
 };
 
 }  // namespace

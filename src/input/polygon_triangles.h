@@ -1,6 +1,5 @@
-// Cuts polygons into triangles. Knows nothing of files and meshes.
-// Method: ear clipping (G. H. Meisters, "Polygons have ears", 1975) in the plane of the polygon's
-// Newell normal.
+// Cuts polygons into triangles by ear clipping (G. H. Meisters, "Polygons have ears", 1975) in the
+// plane of the polygon's Newell normal. It must not know files and meshes.
 #pragma once
 
 #include <cstddef>
@@ -12,13 +11,13 @@
 
 namespace nephroid {
 
-/// The most corners that a polygon may have: the time grows with their square.
+/// Maximum number of a polygon's corners; the time grows with its square.
 inline constexpr size_t kMaxPolygonCorners = 16384;
 
-/// Triangles of a simple polygon, convex or not, nearly plane or plane: n - 2 triples of indices
-/// into `corners` (finite positions in ring order, n of them) that wind as the polygon does. All
-/// corners are used as long as the polygon has area; triangles without area are possible where
-/// corners coincide. A polygon that crosses itself gets some n - 2 triangles. Empty for n < 3.
+/// Triangles of a simple, nearly planar polygon, convex or not. `corners` are n finite positions in
+/// ring order. The result has n - 2 triples of indices into them, in the polygon's winding. If the
+/// polygon has area, all corners are used. Coinciding corners may give triangles without area. A
+/// polygon that crosses itself also gets n - 2 triangles. Empty for n < 3.
 std::vector<uint32_t> triangulate_polygon(std::span<const Vec3f> corners);
 
 }  // namespace nephroid

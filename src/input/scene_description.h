@@ -1,6 +1,5 @@
-// What a scene file said, as plain structs: nothing is interpreted, nothing is looked up, every
-// value remembers where it stood. Written by the parsers of this folder, read by scene/. It must
-// not know what any type of shape, material or light means.
+// A parsed scene file as plain structs: nothing is interpreted or looked up, and every value has
+// its location. It must not know the meaning of types of shapes, materials or lights.
 #pragma once
 
 #include <map>
@@ -18,18 +17,19 @@ namespace nephroid {
 
 struct FormatType;
 
-/// One parameter, for instance "rgb reflectance" [ .5 .5 .5 ]. Exactly one of the vectors is used:
-/// numbers for float, integer, point*, vector*, normal*, rgb, blackbody and numeric spectra;
-/// strings for string, texture, spectrum names and spectrum files; bools for bool.
+/// One parameter, such as "rgb reflectance" [ .5 .5 .5 ]. Exactly one of the vectors is used:
+/// - numbers: float, integer, point*, vector*, normal*, rgb, blackbody, numeric spectra
+/// - strings: string, texture, names and files of spectra
+/// - bools: bool
 struct Parameter {
-  std::string type;  ///< as written, with pbrt's synonyms folded ("point" -> "point3" ...)
+  std::string type;  ///< type without pbrt's synonyms ("point" -> "point3" ...)
   std::string name;
   std::vector<double> numbers;
   std::vector<std::string> strings;
   std::vector<bool> bools;
-  std::string color_space = "srgb";  ///< in force where the parameter stood
+  std::string color_space = "srgb";  ///< current colour space at the parameter
   SourceLocation where;
-  mutable bool used = false;  ///< set by the getters; what nobody asked for is reported
+  mutable bool used = false;  ///< set by the getters; unused parameters are reported
 };
 
 /// The parameters of one directive. The getters check type and count, throw a located SceneError on
@@ -37,14 +37,14 @@ struct Parameter {
 class ParameterSet {
  public:
   std::vector<Parameter> list;
-  SourceLocation where;  ///< of the directive
-  /// If set, the getters write down what they are asked for: tests hold the tables of the format
-  /// against that.
+  SourceLocation where;  ///< location of the directive
+  /// If set, the getters record the names they are asked for. Tests compare these with the tables
+  /// of the format.
   std::set<std::string>* asked = nullptr;
 
-  /// Any type; nullptr if absent. Marks the parameter as used.
+  /// The parameter of any type; nullptr if absent. Marks it as used.
   const Parameter* find(const std::string& name) const;
-  /// Only if its type is one of `types`; another type with that name is left alone.
+  /// The same if its type is one of `types`; parameters of other types are ignored.
   const Parameter* find(const std::string& name, std::initializer_list<const char*> types) const;
 
   float get_float(const std::string& name, float fallback) const;
@@ -60,8 +60,7 @@ class ParameterSet {
   std::vector<Vec3f> get_vector3s(const std::string& name) const;
   std::vector<Vec3f> get_normals(const std::string& name) const;
 
-  /// Warns of each parameter that no getter has asked for, unless `type` says that the picture does
-  /// not depend on it.
+  /// Warns of each unused parameter, unless it is kNotNeeded in `type`.
   void report_unused(const std::string& of_what, const FormatType& type,
                      Diagnostics& diagnostics) const;
 };
@@ -80,7 +79,7 @@ struct DirectiveDescription {
 };
 
 struct CameraDescription : DirectiveDescription {
-  TransformDescription world_to_camera;  ///< the transform in force at the Camera directive
+  TransformDescription world_to_camera;  ///< current transform at the Camera directive
   std::string medium;
 };
 
@@ -99,11 +98,11 @@ struct LightDescription : DirectiveDescription {
   std::string medium;
 };
 
-/// Index into SceneDescription::materials, or a name that is resolved after parsing (named
-/// materials may be used before they are made).
+/// Index into SceneDescription::materials, or a name that is resolved after parsing: named
+/// materials may be used before they are defined.
 struct MaterialReference {
-  int index = -1;    ///< valid if >= 0
-  std::string name;  ///< else, if not empty
+  int index = -1;    ///< used if >= 0
+  std::string name;  ///< used otherwise, if not empty
   SourceLocation where;
 };
 
@@ -132,7 +131,7 @@ struct InstanceDescription {
   SourceLocation where;
 };
 
-/// Everything a scene file said, in file order. Directives that were absent are empty optionals.
+/// The contents of a scene file, in file order. Absent directives are empty optionals.
 struct SceneDescription {
   std::string file;  ///< as given by the user
   /// Never null; copies share it.
@@ -141,7 +140,7 @@ struct SceneDescription {
   std::optional<DirectiveDescription> film, sampler, pixel_filter, integrator, accelerator;
   std::optional<CameraDescription> camera;
   float transform_start_time = 0, transform_end_time = 1;
-  std::string color_space = "srgb";            ///< of the film: in force at the Film directive
+  std::string color_space = "srgb";            ///< colour space at the Film directive
   std::vector<MaterialDescription> materials;  ///< named and anonymous
   std::vector<TextureDescription> textures;
   std::vector<MediumDescription> media;

@@ -21,7 +21,7 @@ SceneFiles::SceneFiles(std::string directory)
 
 std::string SceneFiles::path_of(const std::string& name) const {
   const std::filesystem::path path(name);
-  // What is here is shown as the scene wrote it.
+  // In the current directory the scene's own spelling is kept.
   if (path.is_absolute() || directory_ == ".") return name;
   return (std::filesystem::path(directory_) / path).string();
 }
@@ -50,7 +50,7 @@ std::string SceneFiles::counted_path_of(const std::string& name) {
     const uint64_t hash = hash_file(path);
     const std::lock_guard lock(mutex_);
     read_[counted] = hash;
-  } catch (const IoError&) {  // whoever wants it will say so
+  } catch (const IoError&) {  // reported by the reader of the file
   }
   return path;
 }
@@ -80,7 +80,7 @@ std::string SceneFiles::counted_name(const std::string& path) const {
     const std::filesystem::path result = std::filesystem::absolute(name, error);
     return (error ? std::filesystem::path(name) : result).lexically_normal();
   };
-  // However the way to it is written.
+  // The same name for all spellings of a path.
   return absolute(path).lexically_relative(absolute(directory_)).string();
 }
 

@@ -1,7 +1,5 @@
-// The files of a scene: where the names in it lead, and what has been read, so that a picture can
-// say of which scene it is.
-// Who calls it: the parser, and whatever reads meshes, images, spectra, lenses, media. It must not
-// know what is in the files.
+// The files of a scene: resolves names, and hashes the files that were read, as the identity of the
+// scene. It must not know the contents of files.
 #pragma once
 
 #include <cstdint>
@@ -12,37 +10,37 @@
 
 namespace nephroid {
 
-/// The name of a scene that is read from standard input; within scenes it is a name as any other.
+/// The name of a scene that is read from standard input; within scenes it is an ordinary name.
 inline constexpr const char* kStandardInput = "-";
 
-/// May be asked from several threads.
+/// Thread-safe.
 class SceneFiles {
  public:
   /// Relative names are relative to `directory`.
   explicit SceneFiles(std::string directory = ".");
 
   const std::string& directory() const { return directory_; }
-  /// The path that a name in the scene stands for.
+  /// The path of a name in the scene.
   std::string path_of(const std::string& name) const;
 
-  /// read_file_bytes, and what has been read counts in the hash.
+  /// read_file_bytes; the file counts in the hash.
   std::string read(const std::string& path);
-  /// path_of a file that somebody else is about to read, an image for instance: it counts in the
-  /// hash, if it can be read.
+  /// path_of a file that is read elsewhere, such as an image. It counts in the hash if it can be
+  /// read.
   std::string counted_path_of(const std::string& name);
 
-  /// Of all that has been read: the files' contents and, but for the scene's own file, their names
-  /// as seen from the directory, however they are written. The same wherever the directory is (if
-  /// absolute names of files elsewhere do not occur), and in whatever order the files were read.
+  /// Hash of all files that were read: their contents and, except for the scene's own file, their
+  /// names relative to the directory. It depends neither on the order of reading nor on the
+  /// location of the directory, unless absolute names of files elsewhere occur.
   uint64_t hash() const;
-  /// Of all that has been read, the scene's own file apart: path_of finds them.
+  /// Names of all files that were read, without the scene's own; arguments for path_of.
   std::vector<std::string> names() const;
 
-  /// The scene's own file, whose name does not count.
+  /// Sets the scene's own file, whose name does not count in the hash.
   void set_top(const std::string& path) { top_ = path; }
 
  private:
-  /// How a path is called in the hash.
+  /// The name of a path in the hash.
   std::string counted_name(const std::string& path) const;
 
   std::string directory_, top_;
@@ -50,12 +48,12 @@ class SceneFiles {
   std::map<std::string, uint64_t> read_;  ///< hash of the content by counted_name
 };
 
-/// The directory that names in a scene are relative to: the scene's own, the current one for
-/// standard input and pipes.
+/// The base directory of names in a scene: the scene's own, or the current one for standard input
+/// and pipes.
 std::string directory_of_scene(const std::string& scene);
 
-/// ContentHash of a file's bytes, of none for pipes and devices, which can be read only once or
-/// never end. Throws IoError if it cannot be read.
+/// ContentHash of a file's bytes. Pipes and devices are not read, since they can be read only once
+/// or never end: they hash as empty. Throws IoError if the file cannot be read.
 uint64_t hash_file(const std::string& path);
 
 }  // namespace nephroid

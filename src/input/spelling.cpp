@@ -1,5 +1,4 @@
-// Other names, then the nearest name by edit distance (Levenshtein 1966). Called through
-// spelling.h.
+// Other names first, then the nearest name by edit distance (Levenshtein 1966).
 #include "input/spelling.h"
 
 #include <algorithm>
@@ -38,7 +37,7 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
                          std::string_view kind) {
   const std::string other = other_name(word, candidates, kind);
   if (!other.empty()) return ", did you mean " + other + "?";
-  // A third of the letters may be wrong; very long words are no typing errors of ours.
+  // A third of the letters may be wrong; very long words are not treated as typing errors.
   constexpr size_t kLongestWord = 64;
   if (word.empty() || word.size() > kLongestWord) return {};
   const std::string wanted = lower_case(word);

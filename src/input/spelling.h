@@ -1,5 +1,4 @@
-// "Did you mean ...?" for misspelt names.
-// Called where the parser reports a name that it does not know. Knows nothing of what is named.
+// "Did you mean ...?" for misspelt names. It must not know what is named.
 #pragma once
 
 #include <string>
@@ -8,9 +7,9 @@
 
 namespace nephroid {
 
-/// `, did you mean "X"?` for the candidate that `word` is another name of (other_names.h; `kind` is
-/// what is named, "light" for example), else for the nearest one (edit distance, letter case
-/// ignored), or nothing if none is near. The first of equally near candidates wins.
+/// `, did you mean "X"?` for a candidate. It is another name of `word` (other_names.h; `kind` is
+/// the kind of the named thing, such as "light"), or else the nearest by edit distance, ignoring
+/// case. Empty if none is near. The first of equally near candidates wins.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates,
                          std::string_view kind = {});
 

@@ -1,7 +1,6 @@
-// Reading of tensor files; see tensor_file.h. All numbers are little-endian:
-//   "tensor_file" and a zero byte, version 1 0, number of fields (32 bits), then per field the
-//   length of its name (16), the name, the number of dimensions (16), the type (8), the offset of
-//   its data from the start of the file (64) and its extents (64 each).
+// Layout, all numbers little-endian: "tensor_file" and a zero byte, version 1 0, number of fields
+// (32 bits). Then per field: length of its name (16), name, number of dimensions (16), type (8),
+// offset of its data from the start of the file (64), extents (64 each).
 #include "input/tensor_file.h"
 
 #include <bit>
@@ -28,14 +27,14 @@ const TypeRow& row_of(TensorType type) {
 
 constexpr std::string_view kMagic("tensor_file\0", 12);
 
-/// The unsigned number whose bytes these are, least significant first.
+/// The unsigned number with these bytes, least significant first.
 uint64_t little_endian(std::string_view bytes) {
   uint64_t value = 0;
   for (size_t i = bytes.size(); i-- > 0;) value = value << 8 | static_cast<uint8_t>(bytes[i]);
   return value;
 }
 
-/// A name from a file as a message may show it: short and printable.
+/// A file's name for something, made short and printable for messages.
 std::string shown(std::string_view name) {
   std::string text(name.substr(0, 40));
   for (char& c : text)
@@ -43,7 +42,7 @@ std::string shown(std::string_view name) {
   return name.size() > 40 ? text + "..." : text;
 }
 
-/// Hands out the bytes of the table of fields.
+/// Reads the bytes of the table of fields.
 class TableReader {
  public:
   TableReader(const TensorFile& file, std::string_view bytes) : file_(file), rest_(bytes) {}

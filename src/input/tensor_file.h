@@ -1,9 +1,7 @@
-// The tensor files in which measured reflectances are published (".bsdf"): named arrays of numbers
-// with their shapes. Called by the reader of measured materials.
-// Knows nothing of what the arrays mean. What a file claims is compared with its size before
-// anything is allocated for it.
-// Format: J. Dupuy, W. Jakob, "An Adaptive Parameterization for Efficient Material Acquisition and
-// Rendering", 2018 (the files of its data base).
+// Reads tensor files (".bsdf"), named arrays of numbers in which measured reflectances are
+// published. Claims of a file are checked before memory is allocated. It must not know what the
+// arrays mean. Format: the data base of J. Dupuy, W. Jakob, "An Adaptive Parameterization for
+// Efficient Material Acquisition and Rendering", 2018.
 #pragma once
 
 #include <cstdint>
@@ -36,7 +34,7 @@ enum class TensorType : uint8_t {
 struct TensorField {
   TensorType type = TensorType::kUint8;
   std::vector<uint64_t> shape;
-  std::string_view bytes;  ///< into the file: as many as type and shape need
+  std::string_view bytes;  ///< view into the file, of the size that type and shape need
 
   /// "float32 [2 x 3]", for messages.
   std::string to_string() const;
@@ -44,11 +42,11 @@ struct TensorField {
 
 class TensorFile {
  public:
-  /// Reads a file (".gz" is unpacked). Throws SceneError at `wanted_by`, or IoError if no scene
-  /// names the file, if it cannot be read; SceneError if it is no tensor file or is damaged.
+  /// Reads a file (".gz" is unpacked). If it cannot be read, throws SceneError at `wanted_by`, or
+  /// IoError if no scene names the file. Throws SceneError if it is damaged or not a tensor file.
   static TensorFile read(SceneFiles& files, const std::string& path,
                          const SourceLocation& wanted_by);
-  /// The same from bytes in memory; `name` stands for the file in messages.
+  /// The same from bytes in memory; `name` is the name in messages.
   TensorFile(std::string bytes, std::string name, SourceLocation wanted_by);
   TensorFile(const TensorFile&) = delete;
   TensorFile& operator=(const TensorFile&) = delete;
@@ -61,7 +59,7 @@ class TensorFile {
   /// The numbers of a field that `require` found to be of type kFloat32.
   static std::vector<float> floats(const TensorField& field);
 
-  /// Says what is wrong with the file: throws SceneError that names the file.
+  /// Throws SceneError with the file's name and the message.
   [[noreturn]] void fail(const std::string& message) const;
 
  private:

@@ -1,5 +1,5 @@
-// Opening, nesting and leaving included files. Called through token_stream.h.
-// File names resolve against the directory of the scene, not of the including file, as in pbrt-v4.
+// Opens, nests and leaves included files. File names are relative to the directory of the scene,
+// not of the including file, as in pbrt-v4.
 #include "input/token_stream.h"
 
 #include <cmath>
@@ -46,7 +46,7 @@ void TokenStream::enter(const Token& file_name) {
 
 void TokenStream::leave() {
   files_.pop_back();
-  has_ahead_ = false;  // at most the end of the file that was left
+  has_ahead_ = false;  // the look-ahead is at most the end of the left file
 }
 
 void TokenStream::push(const Token& file_name, bool is_scope) {

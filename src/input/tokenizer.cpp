@@ -1,5 +1,5 @@
-// The lexical rules of pbrt-v4 files: blanks separate, "#" starts a comment where a token could
-// start, strings stay on their line, brackets stand alone. Called through tokenizer.h.
+// The lexical rules of pbrt-v4 files: blanks separate tokens, "#" starts a comment where a token
+// could start, strings end on their line, brackets are tokens.
 #include "input/tokenizer.h"
 
 #include <utility>
@@ -14,7 +14,7 @@ bool ends_word(char c) {
   return is_blank(c) || c == '"' || c == '[' || c == ']';
 }
 
-/// The character that a backslash and `c` stand for, or 0 if they stand for none.
+/// The character of the escape sequence with `c`, or 0 if there is none.
 char unescape(char c) {
   switch (c) {
     case 'b':

@@ -1,5 +1,5 @@
-// Splits the text of a pbrt-v4 file into words, quoted strings and brackets, each with its place.
-// Called by the token stream. Knows nothing of directives or parameters.
+// Splits the text of a pbrt-v4 file into words, quoted strings and brackets, each with its
+// location. It must not know directives or parameters.
 #pragma once
 
 #include <memory>
@@ -25,20 +25,20 @@ struct Token {
 
 class Tokenizer {
  public:
-  /// `name` stands for the text in messages.
+  /// `name` is the name of the text in messages.
   Tokenizer(std::shared_ptr<const std::string> name, std::string text);
   Tokenizer(const Tokenizer&) = delete;
   Tokenizer& operator=(const Tokenizer&) = delete;
 
-  /// The next token; kEnd, at the place behind the last character, for ever after the last one.
-  /// Throws SceneError for a string without end or with an unknown escape.
+  /// The next token; after the last one always kEnd, located after the last character. Throws
+  /// SceneError for a string without an end or with an unknown escape.
   void next(Token* token);
 
  private:
   void skip_blanks_and_comments();
   void read_string(Token* token);
   void start_line();
-  /// Columns count characters: the second and later bytes of a UTF-8 sequence are none.
+  /// Columns count characters, so the second and later bytes of a UTF-8 sequence are skipped.
   void pass(char c) {
     if ((static_cast<unsigned char>(c) & 0xC0u) == 0x80u) ++skipped_bytes_;
     ++position_;
@@ -50,7 +50,7 @@ class Tokenizer {
   std::string unescaped_;
   size_t position_ = 0;
   size_t line_start_ = 0;
-  size_t skipped_bytes_ = 0;  // of the current line
+  size_t skipped_bytes_ = 0;  // in the current line
   int line_ = 1;
 };
 

@@ -1,5 +1,4 @@
-// Building the matrices of transform directives in double precision, and telling singular ones.
-// Called through transform_directives.h.
+// Matrices of transform directives in double precision, and the test for singular ones.
 #include "input/transform_directives.h"
 
 #include <algorithm>
@@ -8,8 +7,7 @@
 namespace nephroid {
 namespace {
 
-/// The unit vector along v, or nothing if v is null. Scales first so that nothing under- or
-/// overflows.
+/// The unit vector along v, or nothing if v is null. Scales first to avoid under- and overflow.
 std::optional<Vec3d> direction(const Vec3d& v) {
   const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   if (!(largest > 0)) return std::nullopt;
@@ -35,7 +33,7 @@ std::optional<Mat44d> rotation_matrix(double degrees, const Vec3d& axis) {
   const std::optional<Vec3d> unit = direction(axis);
   if (!unit) return std::nullopt;
   const Vec3d& a = *unit;
-  // Whole quarter turns are taken out first, so that they are exact.
+  // Whole quarter turns are applied separately, so that they are exact.
   int quarters = 0;
   const double rest = std::remquo(degrees, 90.0, &quarters) * (3.14159265358979323846 / 180.0);
   double s = std::sin(rest), c = std::cos(rest);
@@ -44,7 +42,7 @@ std::optional<Mat44d> rotation_matrix(double degrees, const Vec3d& axis) {
     c = -s;
     s = cosine;
   }
-  // Rodrigues' formula: row i is where the i-th unit vector goes.
+  // Rodrigues' formula: row i is the image of the i-th unit vector.
   Mat44d m;
   for (int i = 0; i < 3; ++i) {
     Vec3d e(0.0);
@@ -60,7 +58,7 @@ std::optional<Mat44d> look_at_matrix(const Vec3d& eye, const Vec3d& target, cons
   const std::optional<Vec3d> unit_up = direction(up);
   if (!forward || !unit_up) return std::nullopt;
   const Vec3d sideways = unit_up->cross(*forward);
-  // The sine of the angle between them; below this it is rounding errors.
+  // The sine of the angle between them; smaller values are rounding errors.
   constexpr double kParallel = 1e-12;
   if (!(sideways.dot(sideways) > kParallel * kParallel)) return std::nullopt;
   const Vec3d right = *direction(sideways);
@@ -87,7 +85,7 @@ bool is_affine(const Mat44d& m) {
 }
 
 bool is_singular(const Mat44d& m) {
-  // Dividing rows and columns by their largest entry takes the units out of the determinant.
+  // Rows and columns are divided by their largest entry, so the determinant has no units.
   Mat44d balanced = m;
   for (int i = 0; i < 4; ++i) {
     double largest = 0;

@@ -43,7 +43,7 @@ void set_action(const std::string& command, CommandLine& line) {
   if (command == "bench") line.action = Action::kBench;
 }
 
-/// A first word that is neither an option nor a command is most likely a command misspelt.
+/// Throws UsageError for a first word that is neither an option nor a command.
 void check_command(const std::vector<std::string>& arguments) {
   if (arguments.empty() || arguments[0].rfind('-', 0) == 0) return;
   std::vector<std::string> known;

@@ -1,4 +1,4 @@
-// argv -> CommandLine, by the option table. It must not know what commands do.
+// Parses argv into a CommandLine by the option table. It must not know what commands do.
 #pragma once
 
 #include <string>
@@ -8,9 +8,8 @@
 
 namespace nephroid {
 
-/// Understands the arguments after the program's name. Help, version and the hidden
-/// --options-markdown and --scene-support-markdown come back as Action::kPrint with the text.
-/// Throws UsageError.
+/// Parses the arguments after the program's name. Help, version and the hidden --options-markdown
+/// and --scene-support-markdown are returned as Action::kPrint with their text. Throws UsageError.
 CommandLine parse_command_line(const std::vector<std::string>& arguments);
 
 }  // namespace nephroid

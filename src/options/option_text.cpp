@@ -1,4 +1,4 @@
-// The option table as text: --help for people at a terminal, docs/options.md for everybody else.
+// The option table as text: --help and docs/options.md.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ std::string signature(const OptionDescription& option) {
   return text;
 }
 
-/// "[pixels; default: the scene's]", without what is empty.
+/// "[pixels; default: the scene's]", without empty parts.
 std::string unit_and_default(const char* unit, const char* default_text) {
   std::string text = unit;
   if (default_text[0] != '\0')
@@ -34,7 +34,7 @@ std::string unit_and_default(const char* unit, const char* default_text) {
   return text.empty() ? text : fmt::format(" [{}]", text);
 }
 
-/// One entry: the left part, then the text, wrapped into its column.
+/// One entry of help: the left part, then the text, wrapped into its column.
 std::string help_entry(const std::string& left, const std::string& text) {
   std::string result = "  " + left;
   if (result.size() + 2 > kHelpColumn)
@@ -61,7 +61,7 @@ std::string help_entry(const std::string& left, const std::string& text) {
   return result + '\n';
 }
 
-/// What an option means: its first sentence, and its default if there is room; or all.
+/// Help of an option: all of it, or its first sentence with the default if there is room.
 std::string meaning(const std::string& help, const std::string& unit_and_default, Length length) {
   if (length == Length::kAll) return help + unit_and_default;
   const std::string first = help.substr(0, help.find(". "));
@@ -114,7 +114,7 @@ bool takes_presets(const std::string& command) {
                      [](const OptionDescription* o) { return std::string("--routes") == o->name; });
 }
 
-/// The text of a table cell: a bar would end it.
+/// The text of a table cell, with bars escaped: they would end the cell.
 std::string cell(std::string text) {
   for (size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2))
     text.insert(at, "\\");
@@ -140,7 +140,7 @@ std::string program_help() {
 
 namespace {
 
-/// Options, and keys of -D.
+/// Help of options and of -D keys.
 std::string options_help(const std::string& command, Length length) {
   std::string text;
   for (const CommandDescription& row : command_table())

@@ -1,4 +1,4 @@
-// The rows of the option table. A new option is one row here and its use in apps/.
+// The rows of the option table. A new option is one row here plus its use in apps/.
 #include "options/options.h"
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kAnyNumber = std::numeric_limits<double>::infinity();
 constexpr int kMaxThreads = 4096;
-/// Libraries, tables and threads take half of it.
+/// Least value of --memory: libraries, tables and threads take half of it.
 constexpr uint64_t kMinMemory = uint64_t{256} << 20;
 constexpr int kMaxPilotPasses = 100000;
 constexpr int64_t kMaxBenchRepeats = 1000;
@@ -94,7 +94,7 @@ void set_strict(CommandLine& line, const std::string&) {
   (line.*Command).routes.strict = true;
 }
 
-/// "path, sppm, ..." as help lists names.
+/// "path, sppm, ...": names in help.
 std::string list_of(const std::vector<std::string>& names) {
   return fmt::format("{}", fmt::join(names, ", "));
 }

@@ -1,6 +1,6 @@
-// The one table of the command line: every option with its value, unit, default and help. The
-// parser (command_line.h), --help and docs/options.md are all made from it. It must not know the
-// parsing library.
+// The table of the command line: every option with its value, unit, default and help. The parser
+// (command_line.h), --help and docs/options.md are made from it. It must not know the parsing
+// library.
 #pragma once
 
 #include <array>
@@ -17,21 +17,21 @@
 
 namespace nephroid {
 
-/// What `nephroid render` was asked for; defaults are those of the table.
+/// Arguments of `nephroid render`; defaults as in the table.
 struct RenderCommand {
   std::string scene;
   std::string output;  ///< empty: named after the scene's film
   RouteChoice routes;
-  std::optional<std::pair<uint32_t, uint32_t>> passes;  ///< first and last
+  std::optional<std::pair<uint32_t, uint32_t>> passes;  ///< first and last pass
   double time_limit = 0, noise_target = 0;              ///< 0: none
   SceneOverrides overrides;
-  int threads = 0;      ///< 0: all of the machine
-  uint64_t memory = 0;  ///< bytes, 0: what the machine has
+  int threads = 0;      ///< 0: one per core
+  uint64_t memory = 0;  ///< bytes; 0: the memory of the machine
   std::optional<uint64_t> seed;
   SettingList settings;
   bool reject_outliers = false;
   bool resume = false;
-  double checkpoint_interval = 60;  ///< s
+  double checkpoint_interval = 60;  ///< seconds
   bool keeps_state = true;
   LayerPrecision layer_precision = LayerPrecision::kHalf;
   bool strict = false;
@@ -42,15 +42,15 @@ struct InfoCommand {
   std::string file;  ///< a scene or a picture
 };
 
-/// What `nephroid routes` was asked for.
+/// Arguments of `nephroid routes`.
 struct RoutesCommand {
   std::string scene;  ///< empty: none
   RouteChoice routes;
   SettingList settings;
-  uint32_t passes = 8;  ///< of the pilot
+  uint32_t passes = 8;  ///< passes of the pilot
 };
 
-/// What `nephroid merge` was asked for.
+/// Arguments of `nephroid merge`.
 struct MergeCommand {
   std::vector<std::string> inputs;
   std::string output;
@@ -61,25 +61,25 @@ struct CompareCommand {
   std::string reference, test;
   std::string heat_map;  ///< empty: none
   bool subtract_reference_error = false;
-  float exposure = 1;  ///< of FLIP
+  float exposure = 1;  ///< exposure for FLIP
 };
 
-/// What `nephroid bench` was asked for.
+/// Arguments of `nephroid bench`.
 struct BenchCommand {
   std::string suite;
   std::string directory;          ///< empty: named after the suite
-  double time_limit = 0;          ///< of each run, 0: as the suite says
-  uint32_t passes = 0;            ///< of each run, 0: as the suite says
-  uint32_t repeat = 0;            ///< renders of each run, 0: as the suite says
-  std::vector<std::string> only;  ///< names of scenes, all if empty
-  int threads = 0;                ///< 0: all of the machine
+  double time_limit = 0;          ///< seconds of each run; 0: the suite's
+  uint32_t passes = 0;            ///< passes of each run; 0: the suite's
+  uint32_t repeat = 0;            ///< renders of each run; 0: the suite's
+  std::vector<std::string> only;  ///< names of scenes; empty: all
+  int threads = 0;                ///< 0: one per core
   bool strict_claims = false;
   bool quiet = false;
 };
 
 enum class Action { kRender, kMerge, kInfo, kCompare, kRoutes, kBench, kPrint };
 
-/// A command line that has been understood.
+/// A parsed command line.
 struct CommandLine {
   Action action = Action::kPrint;
   RenderCommand render;
@@ -88,7 +88,7 @@ struct CommandLine {
   MergeCommand merge;
   RoutesCommand routes;
   BenchCommand bench;
-  std::string text;  ///< what to print, for help, version and the like
+  std::string text;  ///< text of kPrint: help, version and the like
 };
 
 struct CommandDescription {
@@ -101,7 +101,7 @@ struct OptionDescription {
   const char* name;        ///< "--time", "-D", or "SCENE" for a positional argument
   const char* short_name;  ///< "-o", empty if there is none
   const char* value;       ///< name of the value, empty for a flag and for a positional argument
-  const char* unit;        ///< empty if it has none
+  const char* unit;        ///< empty if there is none
   const char* default_text;
   const char* group;
   const char* help;
@@ -116,13 +116,13 @@ struct OptionDescription {
 };
 
 std::span<const CommandDescription> command_table();
-/// In the order in which help shows them.
+/// The options in the order of help.
 std::span<const OptionDescription> option_table();
 
 /// The program's own --help and --help-all.
 std::string program_help();
 std::string program_help_all();
-/// --help of one command of the table: what fits one screen.
+/// --help of one command of the table, on one screen.
 std::string command_help(const std::string& command);
 /// --help-all of one command of the table.
 std::string command_help_all(const std::string& command);

@@ -1,4 +1,3 @@
-// Writes the tables of the scene format as markdown; see scene_support.h.
 #include "options/scene_support.h"
 
 #include <fmt/format.h>
@@ -73,7 +72,7 @@ constexpr const char* kTail = R"(
   `photons+light`, `bdpt` and `vcm` connect to the camera: that light is always spread by the pixel filter.
 )";
 
-/// The text of a table cell: a bar would end it.
+/// The text of a table cell, with bars escaped: they would end the cell.
 std::string cell(std::string text) {
   for (size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2))
     text.insert(at, "\\");
@@ -98,7 +97,7 @@ std::string with_note(const std::string& first, const char* note) {
   return *note ? first + ": " + note : first;
 }
 
-/// Which types have the list, "all" if each does that has parameters at all.
+/// The types that have the list; "all" if all of several types do.
 std::string owners(const std::vector<FormatType>& types, const FormatParameters& list) {
   std::string names;
   bool all = true;

@@ -1,5 +1,5 @@
-// docs/scene-support.md: what becomes of every name of the scene format, from the tables that the
-// loader itself uses. It must not know any name of the format.
+// Writes docs/scene-support.md, the support of every name of the scene format, from the tables of
+// the loader. It must not know any name of the format.
 #pragma once
 
 #include <string>

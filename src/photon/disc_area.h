@@ -13,7 +13,7 @@ struct DiscProbes {
   /// Area of the disc over the area of the surface in it; its mean is within 1 % where at least a
   /// quarter of the disc is covered, and too small below.
   float inverse_cover = 1;
-  float bias_offset = 0;  ///< to be added to bias_factor() of each photon, [E4]
+  float bias_offset = 0;  ///< [W14], to be added to bias_factor() of each photon
   int rays = 0;
 };
 

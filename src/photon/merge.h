@@ -96,7 +96,7 @@ class PhotonMerger {
 
 /// [M1] Adds throughput * sum of f * flux to the parts that own the photons' paths, to be divided
 /// by (N pi r^2). The sums' bias [E4] is divided likewise. Returns the number of photons that
-/// counted. Paths of other routes and paths longer than `max_depth` events are left out.
+/// count. Paths of other routes and paths longer than `max_depth` events are left out.
 /// [M2] A path that kept one wavelength on either side adds to that one alone, times the number of
 /// wavelengths. Two sides that kept different ones make no path.
 uint32_t merge_photons(const PhotonGrid& grid, const OwnedRoutes& owned, const MergePoint& at,

@@ -23,8 +23,8 @@ class PackedSpectrum {
       return;
     }
     if (!(largest > 0.0f)) return;
-    scale_ = largest * (1.0f / kMost);
-    const float inverse = kMost / largest;
+    scale_ = largest * (1.0f / kMaxCode);
+    const float inverse = kMaxCode / largest;
     for (int i = 0; i < kSpectrumSamples; ++i)
       values_[static_cast<size_t>(i)] =
           static_cast<uint16_t>(std::max(0.0f, s[i]) * inverse + 0.5f);
@@ -42,7 +42,7 @@ class PackedSpectrum {
   }
 
  private:
-  static constexpr float kMost = 65535.0f;
+  static constexpr float kMaxCode = 65535.0f;
   std::array<uint16_t, kSpectrumSamples> values_{};
   float scale_ = 0;
 };
@@ -60,11 +60,12 @@ class PackedDirection {
       y = (1.0f - std::abs(x)) * sign(y);
       x = folded;
     }
-    x_ = static_cast<int16_t>(std::lrint(x * kMost));
-    y_ = static_cast<int16_t>(std::lrint(y * kMost));
+    x_ = static_cast<int16_t>(std::lrint(x * kMaxCode));
+    y_ = static_cast<int16_t>(std::lrint(y * kMaxCode));
   }
   Vec3f unpacked() const {
-    float x = static_cast<float>(x_) * (1.0f / kMost), y = static_cast<float>(y_) * (1.0f / kMost);
+    float x = static_cast<float>(x_) * (1.0f / kMaxCode),
+          y = static_cast<float>(y_) * (1.0f / kMaxCode);
     const float z = 1.0f - std::abs(x) - std::abs(y);
     if (z < 0.0f) {
       const float unfolded = (1.0f - std::abs(y)) * sign(x);
@@ -77,7 +78,7 @@ class PackedDirection {
   static void members(auto& self, auto& archive) { archive(self.x_, self.y_); }
 
  private:
-  static constexpr float kMost = 32767.0f;
+  static constexpr float kMaxCode = 32767.0f;
   static float sign(float x) { return x < 0.0f ? -1.0f : 1.0f; }
   int16_t x_ = 0, y_ = 0;
 };

@@ -1,4 +1,4 @@
-// Pieces of HTML: escaped text and pictures as data. It must not know results.
+// Pieces of HTML: escaped text, and pictures as data URLs. It must not know results.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace nephroid {
 
-/// The text with what HTML and XML would misread replaced; for content and for attributes.
+/// The text escaped for HTML and XML, for content and for attributes.
 std::string html_escape(const std::string& text);
 
 /// "data:image/png;base64,..." of interleaved sRGB bytes.

@@ -1,4 +1,4 @@
-// The page around the scenes: head, claims, summary, how to repeat it.
+// The page around the scenes: head, claims, summary, and the command that repeats it.
 #include "report_page/page.h"
 
 #include <fmt/format.h>
@@ -89,7 +89,7 @@ std::string claims_section(const BenchResults& results) {
       held, results.verdicts.size(), list);
 }
 
-/// RMSE of every integrator on every scene.
+/// A table of the RMSE of every integrator on every scene.
 std::string summary_section(const BenchResults& results) {
   ReportTable table;
   table.head = {"RMSE"};

@@ -20,7 +20,7 @@
 namespace nephroid {
 namespace {
 
-/// Pictures below this width are shown larger, and then with visible pixels.
+/// Pictures narrower than this are enlarged, with visible pixels.
 constexpr int kSmallWidth = 300;
 
 using Cell = ReportTable::Cell;
@@ -43,7 +43,7 @@ std::vector<const BenchRun*> good_runs(const BenchSceneResult& scene) {
   return runs;
 }
 
-/// Reference and runs.
+/// The pictures of the reference and of the runs.
 std::vector<ShownPicture> pictures_of(const BenchSceneResult& scene, float exposure) {
   std::vector<ShownPicture> shown;
   const std::vector<const BenchRun*> runs = good_runs(scene);
@@ -58,7 +58,7 @@ std::vector<ShownPicture> pictures_of(const BenchSceneResult& scene, float expos
   return shown;
 }
 
-/// Pictures are numbered 2 i, their error maps 2 i + 1.
+/// A selection of pictures: picture i has the number 2 i, its error map 2 i + 1.
 std::string select(const std::string& label, const std::vector<ShownPicture>& pictures,
                    size_t chosen) {
   std::string html = fmt::format("<label>{} <select>", label);
@@ -78,7 +78,7 @@ std::string figure(size_t number, const std::string& title, const std::string& d
       number, html_escape(title), data, html_escape(title));
 }
 
-/// A column for each picture, with its error map below; below the reference the maps' scale.
+/// A column for each picture with its error map below it; below the reference is the maps' scale.
 std::string strip(const std::vector<ShownPicture>& pictures, bool small) {
   std::string html = fmt::format("<div class=\"strip{}\">\n", small ? " small" : "");
   for (size_t i = 0; i < pictures.size(); ++i) {
@@ -112,7 +112,7 @@ std::string viewer(const BenchSceneResult& scene, float exposure) {
          strip(pictures, small);
 }
 
-/// A column: how a run's value is shown, and how good it is (smaller is better, NaN is neither).
+/// A table column: a run's value as text, and its rank (smaller is better, NaN is not ranked).
 struct Column {
   const char* name;
   std::function<std::string(const BenchRun&)> text;
@@ -144,7 +144,7 @@ Column error_column(const char* name, double BenchErrors::*error) {
 
 enum class Over { kTime, kPasses, kEmitted };
 
-/// RMSE of the picture, or of a layer by its number.
+/// The curve of the RMSE of the picture, or of a layer given by its index.
 std::vector<CurvePoint> curve_of(const BenchRun& run, Over over,
                                  std::optional<size_t> layer = std::nullopt) {
   std::vector<CurvePoint> curve;
@@ -213,7 +213,7 @@ std::string work_table(const std::vector<const BenchRun*>& runs) {
         {}}});
 }
 
-/// RMSE at the end in each region or layer.
+/// A table of the RMSE at the end in each region or layer.
 std::string parts_table(const std::string& title, const std::vector<const BenchRun*>& runs,
                         const std::function<BenchNamedErrors(const BenchRun&)>& parts) {
   std::vector<Column> columns;

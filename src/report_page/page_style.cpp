@@ -1,5 +1,5 @@
-// How the report looks and what its slider does. Plain CSS and a few lines of script; nothing is
-// loaded from anywhere.
+// Style of the report and script of its slider: plain CSS and a few lines of script. Nothing is
+// loaded from elsewhere.
 #include "report_page/page.h"
 
 namespace nephroid {

@@ -15,7 +15,7 @@ namespace {
 constexpr double kWidth = 560, kHeight = 380;
 constexpr double kLeft = 66, kRight = 16, kTop = 34, kBottom = 48;
 
-/// Colours that people with any colour vision can tell apart (Okabe & Ito), with a marker each.
+/// Colours that are distinct for any colour vision (Okabe & Ito), each with a marker.
 constexpr std::array<const char*, 8> kColors = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                 "#8a6d00", "#56b4e9", "#5b3a8c", "#333333"};
 constexpr size_t kMarkers = 4;
@@ -26,7 +26,7 @@ struct Range {
     low = std::min(low, value);
     high = std::max(high, value);
   }
-  /// Room at both ends, and at least a factor of two.
+  /// Widens the range at both ends, to at least a factor of two.
   void pad() {
     const double room = std::max(std::pow(high / low, 0.04), std::sqrt(2 * low / high));
     low /= room;
@@ -41,7 +41,7 @@ const char* color_of(size_t style) {
 
 std::string marker(size_t style, double x, double y) {
   const char* color = color_of(style);
-  // After all colours are used, the shapes move on.
+  // When the colours repeat, the marker shapes are shifted.
   switch ((style + style / kColors.size()) % kMarkers) {
     case 0:
       return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.8\" fill=\"{}\"/>", x, y,
@@ -117,7 +117,7 @@ std::vector<LogTick> log_ticks(double low, double high) {
   const int first = static_cast<int>(std::floor(std::log10(low))) - 1;
   const int last = static_cast<int>(std::ceil(std::log10(high)));
   const auto inside = [&](double v) { return v >= low * 0.999999 && v <= high * 1.000001; };
-  // Few decades leave room for numbers between them.
+  // With few decades there is room for numbers between powers of ten.
   const std::vector<std::vector<int>> choices = {{1}, {1, 2, 5}, {1, 2, 3, 4, 5, 6, 7, 8, 9}};
   const auto labelled_by = [&](const std::vector<int>& factors) {
     int count = 0;

@@ -1,5 +1,5 @@
-// Curves in a plot with two logarithmic axes, as SVG that stands by itself inside a page.
-// It must not know what the curves mean.
+// Plots curves with two logarithmic axes as self-contained SVG. It must not know what the curves
+// mean.
 #pragma once
 
 #include <string>
@@ -13,18 +13,19 @@ struct PlotSeries {
   std::string name;
   size_t style = 0;  ///< colour and marker
   std::vector<CurvePoint> points;
-  bool dashed = false;  ///< a line to compare with, without markers
+  bool dashed = false;  ///< true for a reference line without markers
 };
 
-/// Points that are not above 0 in both are left out; without any the plot says that it has no data.
+/// A plot of the series. Points that are not above 0 in both coordinates are left out. Without
+/// points the plot says that there is no data.
 std::string svg_log_plot(const std::string& title, const std::string& x_label,
                          const std::string& y_label, const std::vector<PlotSeries>& series);
 
-/// A little sample of a style's line, for legends and tables.
+/// A small sample of a style's line, for legends and tables.
 std::string svg_line_sample(size_t style);
 
-/// Marks of an axis from `low` to `high` (both above 0): powers of ten, with their multiples where
-/// there are few; `labelled` have a number.
+/// A tick of an axis from `low` to `high` (both above 0): powers of ten, with multiples if there
+/// are few. `labelled` ticks have a number.
 struct LogTick {
   double value = 0;
   bool labelled = false;

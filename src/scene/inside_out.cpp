@@ -54,8 +54,8 @@ bool InsideOutCheck::may_be_wanted(const Body& body, const ShapeGroup& top,
 void InsideOutCheck::report(const ShapeGroup& top, const Vec3f& eye,
                             Diagnostics& diagnostics) const {
   // Pairwise comparison, too slow for more; such large scenes are taken to be intended.
-  constexpr size_t kMost = 4096;
-  if (bodies_.size() > kMost) return;
+  constexpr size_t kMaxBodies = 4096;
+  if (bodies_.size() > kMaxBodies) return;
   const Body* first = nullptr;
   size_t count = 0;
   for (const Body& body : bodies_)

@@ -230,14 +230,14 @@ class SceneBuilder {
   // precision. Images are then wrong: too dark by path tracing, many times too bright by photon
   // merging.
   void check_size(const SourceLocation& file) const {
-    constexpr float kSmallest = 1e-8f, kLargest = 1e12f;
-    if (scene_->shape_count > 0 && scene_->sphere.radius < kSmallest)
+    constexpr float kMinRadius = 1e-8f, kMaxRadius = 1e12f;
+    if (scene_->shape_count > 0 && scene_->sphere.radius < kMinRadius)
       throw SceneError(
           file,
           "the radius of the scene is smaller than 1e-8 units, expected more: give its "
           "lengths in a smaller unit, or put a Scale before the camera and after "
           "WorldBegin");
-    if (scene_->sphere.radius > kLargest)
+    if (scene_->sphere.radius > kMaxRadius)
       diagnostics_.warn(file,
                         "the radius of the scene is larger than 1e12 units, expected less: "
                         "about 0.4 % of the light is lost");

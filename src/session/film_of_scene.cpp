@@ -1,4 +1,3 @@
-// Memory is added up by what takes it.
 #include "session/film_of_scene.h"
 
 #include <fmt/format.h>
@@ -16,7 +15,8 @@
 namespace nephroid {
 namespace {
 
-/// Of all estimators of a render; they render one after another.
+/// Bytes of all estimators of a render. They render one after another, so pass memory is not
+/// summed.
 PixelBytes bytes_of_estimators(const MemoryNeed& need) {
   PixelBytes all;
   for (const RouteGroup& group : need.routes.groups()) {
@@ -43,7 +43,7 @@ bool keeps_photons(const Routes& routes) {
       routes.groups(), [](const RouteGroup& group) { return descriptor_of(group).keeps_photons; });
 }
 
-/// Of a picture in memory, see film_output.cpp.
+/// Number of channels of a picture in memory (film_output.cpp).
 size_t channels_of_picture(const FilmLayout& layout, bool gbuffer) {
   constexpr size_t kCommonChannels = 20, kGbufferChannels = 16;
   return 3 * (layout.routes.size() + layout.aovs.size()) + kCommonChannels +
@@ -68,7 +68,7 @@ void check_memory(const MemoryNeed& need, uint64_t limit, bool limit_is_an_optio
   const int width = film.crop_x1 - film.crop_x0, height = film.crop_y1 - film.crop_y0;
   const double pixels = static_cast<double>(width) * height;
   const bool gbuffer = film.gbuffer != GBufferSpace::kNone;
-  // A copy of what is held is written.
+  // Counted twice: writing makes a copy of the held estimates.
   const size_t of_rejection = need.rejects_outliers ? bytes_of_rejection(need.routes) : 0;
   const size_t of_film = Film::bytes_per_pixel(need.layout, gbuffer);
   const PixelBytes of_estimators = bytes_of_estimators(need);

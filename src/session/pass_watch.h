@@ -1,5 +1,5 @@
-// Looks in on a pass while it is rendered: says when somebody waits for something. It must not know
-// what is done then.
+// Watches a pass while it is rendered: decides when attend() is due. It must not know what attend()
+// does.
 #pragma once
 
 #include <atomic>
@@ -15,9 +15,9 @@ class PassWatch final : public PassControl {
   /// `now` may be called by any thread, `attend` by the one that renders.
   PassWatch(const SignalFlags& signals, std::function<double()> now, std::function<void()> attend)
       : signals_(signals), now_(std::move(now)), attend_(std::move(attend)) {}
-  /// The time from which on attend() is called.
+  /// Sets the time from which on attend() is called.
   void wake_at(double seconds) { wake_.store(seconds, std::memory_order_relaxed); }
-  /// Whether a request to write is a reason to call it; not at first.
+  /// Sets whether a request to write calls attend(); at first it does not.
   void answer_writes(bool answers) { answers_writes_.store(answers, std::memory_order_relaxed); }
 
   bool is_wanted() const noexcept override {

@@ -1,6 +1,6 @@
-// Linux tells through /proc (proc(5)); clear_refs takes 5 for "forget the peak". A limit on data
-// segments (setrlimit(2)) counts what is reserved, more than what is held, so that the difference
-// is added to it.
+// Linux reports memory in /proc (proc(5)); writing 5 to clear_refs resets the peak. A limit on data
+// segments (setrlimit(2)) counts reserved memory, which is more than what is held, so the
+// difference is added to the limit.
 #include "session/process_memory.h"
 
 #include <sys/resource.h>
@@ -37,7 +37,7 @@ uint64_t status_number(const std::string& key) {
   return 0;
 }
 
-/// Of a line "Key:   123 kB".
+/// The bytes in a line "Key:   123 kB" of this process's status.
 uint64_t status_bytes(const std::string& key) {
   return status_number(key) * 1024;
 }
@@ -47,10 +47,11 @@ uint64_t status_bytes(const std::string& key) {
 uint64_t machine_memory() {
   uint64_t bytes = static_cast<uint64_t>(::sysconf(_SC_PHYS_PAGES)) * ::sysconf(_SC_PAGESIZE);
   const auto obey = [&](const std::filesystem::path& file) {
-    uint64_t limit = 0;  // "max" is no number
+    uint64_t limit = 0;  // "max" is not a number
     if (std::ifstream(file) >> limit && limit > 0) bytes = std::min(bytes, limit);
   };
-  // "0::/a/b" of version 2, "7:memory:/a/b" of version 1; inside a container the way is its own.
+  // "0::/a/b" in cgroup version 2, "7:memory:/a/b" in version 1. Inside a container the path may
+  // differ from the mounted one.
   obey("/sys/fs/cgroup/memory.max");
   obey("/sys/fs/cgroup/memory/memory.limit_in_bytes");
   std::ifstream groups("/proc/self/cgroup");
@@ -76,7 +77,7 @@ uint64_t bytes_of_stacks_to_come(int threads) {
   constexpr uint64_t kDefault = uint64_t{8} << 20;
   const uint64_t of_each =
       threads > 0 ? static_cast<uint64_t>(threads) : std::thread::hardware_concurrency();
-  // Of rendering; of both libraries that read and write images; and this one.
+  // Threads that render, threads of both image libraries, and this thread.
   const uint64_t of_images = std::min<uint64_t>(of_each, kMaxImageThreads);
   const uint64_t in_all = of_each + 2 * of_images + 1, started = status_number("Threads:");
   return in_all <= started ? 0

@@ -1,40 +1,39 @@
-// The memory of this process and of the machine, as the system counts it. It must not know what the
-// memory is for.
+// The memory of this process and of the machine, as reported by the system. It must not know what
+// the memory is for.
 #pragma once
 
 #include <cstdint>
 
 namespace nephroid {
 
-/// Bytes that this machine has, or that it lets this group of processes have (cgroup), if less.
+/// Bytes of the machine's memory, or the limit of this group of processes (cgroup) if that is
+/// lower.
 uint64_t machine_memory();
 
-/// Bytes of physical memory that the process holds now; 0 if the system does not tell.
+/// Bytes of physical memory that the process holds now; 0 if unknown.
 uint64_t memory_in_use();
 
-/// The system's limit on the process. Does nothing where the system has none, and in builds with
-/// sanitizers, which need memory of their own.
+/// The system's memory limit of the process. Has no effect if the system has no limits, or in
+/// builds with sanitizers, which need memory of their own.
 class MemoryLimit {
  public:
-  /// Remembers the limit that the user has set, which is never raised.
+  /// Reads the limit that the user has set, which is never raised.
   MemoryLimit();
-  /// From now on the process cannot hold more than `bytes`: allocations beyond throw
-  /// std::bad_alloc. The stacks of threads that start later count in full, so `to_come` is given
-  /// beyond.
+  /// Limits the process to `bytes`: allocations beyond throw std::bad_alloc. `to_come` is added for
+  /// the stacks of threads that start later, which count in full.
   void set(uint64_t bytes, uint64_t to_come = 0);
 
  private:
-  uint64_t of_user_ = 0;  ///< 0: there is no way to limit
+  uint64_t of_user_ = 0;  ///< the user's limit; 0: limits are not possible
 };
 
-/// Of the stacks of the threads that are still to be started for rendering with so many; 0: with
-/// all of the machine.
+/// Stack bytes of threads not yet started, for rendering with `threads` (0: one per core).
 uint64_t bytes_of_stacks_to_come(int threads);
 
-/// Starts a new peak, where the system can do that; else the peak stays that of the whole process.
+/// Resets the peak if the system supports it; else the peak stays that of the whole process.
 void restart_memory_peak();
 
-/// Bytes of physical memory held at most since the last restart; 0 if the system does not tell.
+/// Peak bytes of physical memory since the last restart_memory_peak(); 0 if unknown.
 uint64_t memory_peak();
 
 }  // namespace nephroid

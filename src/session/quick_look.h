@@ -1,5 +1,5 @@
-// A first picture for those who wait: some pixels, path-traced, before an algorithm has learned
-// and has traced its photons. Nothing of it is kept. It must not know when it is called for.
+// A quick first preview: some pixels, path-traced, before an estimator has learned and traced its
+// photons. The render does not keep them. It must not know when it is needed.
 #pragma once
 
 #include <functional>
@@ -10,21 +10,21 @@
 
 namespace nephroid {
 
-/// A scene to look at, and where to put what is seen.
+/// The scene and the output of a quick look.
 struct QuickLook {
   const Scene& scene;
   int max_depth = 100;  ///< scattering events of a path
   uint64_t seed = 0;
-  std::string output;  ///< the EXR beside which the PNG goes
+  std::string output;  ///< name of the EXR; the PNG is written beside it
   float exposure = 1;
 };
 
-/// True if the estimators have work to do before they know a pixel, and the picture is not so small
-/// that it is soon done.
+/// True if an estimator starts at lights, so that its first pixels take long, and the picture is
+/// large.
 bool is_worth_a_quick_look(const EstimatorSet& set, const FilmFormat& film);
 
-/// Path-traces the first lattice of the picture, one path a pixel, and writes the PNG; after one
-/// second of `now` or at a signal what is there, or nothing if that says too little. Throws
+/// Path-traces the first lattice of the picture, one path a pixel, and writes the PNG. Stops after
+/// one second of `now` or at a signal; then it writes the PNG only if the film can be shown. Throws
 /// IoError.
 void take_quick_look(const QuickLook& look, const SignalFlags& signals,
                      const std::function<double()>& now);

@@ -71,7 +71,7 @@ std::vector<std::string> warnings_of_passes_beyond(const RenderOptions& options)
                       options.output, done.text(), options.first_pass, *options.last_pass)};
 }
 
-/// A line for each name of the scene that the format does not have.
+/// Throws SceneError with a line for each name of the scene that the format does not have.
 void refuse_unknown_names(const LoadedScene& loaded, const IntegratorChoice& choice) {
   std::vector<std::string> names = loaded.unknown_names;
   names.insert(names.end(), choice.unknown_names.begin(), choice.unknown_names.end());
@@ -149,9 +149,10 @@ Render::Render(const RenderRequest& request, const LoadedScene& loaded, RenderWa
       (std::filesystem::exists(output) || std::filesystem::exists(state_path_beside(output))))
     resume(options, scene, set_, *film_, warnings_.output);
   else if (request.resume)
+    // As any first run of a loop that resumes: no warning about the output.
     warn_of({fmt::format("--resume: there is no {} and no state of it, the render starts anew",
                          output)},
-            warnings_.output);
+            warnings_.input);
   else if (const auto warning = warning_of_replacing(output, identity_))
     warn_of({*warning}, warnings_.output);
 

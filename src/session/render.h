@@ -1,5 +1,5 @@
-// A render from its scene to its picture: prepare, run, write. The page to begin with; each step is
-// one call, in render.cpp. It must not know command lines, terminals or how estimators make light.
+// A render from its scene to its picture: prepare, run, write. Start reading here; each step is one
+// call in render.cpp. It must not know command lines, terminals or how estimators work.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@
 
 namespace nephroid {
 
-/// What to render, by which routes and for how long.
+/// A render as the user requests it: scene, routes, settings, stop rules.
 struct RenderRequest {
   std::string scene;         ///< file name
   SceneOverrides overrides;  ///< resolution and crop window; the rest comes from `settings`
@@ -29,13 +29,13 @@ struct RenderRequest {
   RenderOptions options;
 };
 
-/// Warnings as they arise; either may be empty.
+/// Callbacks for warnings; either may be empty.
 struct RenderWarnings {
   std::function<void(const std::string&)> input;   ///< about scene, routes and settings
   std::function<void(const std::string&)> output;  ///< about the picture: resumed, replaced, failed
 };
 
-/// How the scene of a request differs from its file.
+/// The request's changes to the scene file.
 SceneOverrides scene_overrides(const RenderRequest& request);
 /// The scene of a request. Throws SceneError and IoError.
 LoadedScene load_scene(const RenderRequest& request);

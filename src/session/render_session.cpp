@@ -1,4 +1,4 @@
-// The loop of render_session.h on one page: pass, stop rules, progress, intermediate picture.
+// The loop over passes: pass, stop rules, progress, intermediate picture.
 #include "session/render_session.h"
 
 #include <fmt/format.h>
@@ -28,13 +28,13 @@
 namespace nephroid {
 namespace {
 
-/// Work that is not rendering (writing, estimating the error for display) waits this many times as
-/// long as it took last time, so that it costs less than 2 % of the time.
+/// Writing pictures and estimating the error for display wait this many times as long as they took
+/// last time. So they cost less than 2 % of the time.
 constexpr double kIdlePerWork = 50;
-constexpr double kErrorInterval = 1;       ///< s between estimates for progress, at least
-constexpr double kProgressInterval = 0.2;  ///< s, within passes
-constexpr double kShortestWait = 0.02;     ///< s, until a pass is looked in on again
-/// A spread of fewer passes says too little to stop on.
+constexpr double kErrorInterval = 1;       ///< least seconds between error estimates for progress
+constexpr double kProgressInterval = 0.2;  ///< seconds between progress reports within a pass
+constexpr double kShortestWait = 0.02;     ///< least seconds between two calls of look_in()
+/// The variance of fewer passes is too uncertain for the noise target.
 constexpr uint32_t kMinPassesForNoise = 4;
 
 double steady_seconds() {
@@ -112,7 +112,7 @@ RenderResult RenderSession::run(SignalFlags& signals) {
   take_quick_look(signals);
   std::optional<StopReason> reason;
   if (!done_.empty() && (!open_pass_ || !is_wanted(*open_pass_))) {
-    // It may have come as far as was wished for.
+    // Earlier runs may already have met a stop rule.
     if (options_.noise_target > 0 && error_check_is_due()) renew_error();
     reason = reason_to_stop(signals);
     if (reason) first_pass_statistics_ = statistics();
@@ -136,7 +136,7 @@ RenderResult RenderSession::run(SignalFlags& signals) {
   result.has_unfinished_pass = film_.has_open_pass();
   result.passes_of_run = passes_of_run();
   result.seconds = elapsed();
-  // What the clock let stand is of an earlier picture.
+  // The error is estimated now and then, so it may be that of an earlier pass.
   if ((options_.noise_target > 0 || shows_error()) && error_pass_ != passes_done_) renew_error();
   if (error_ && !is_black_) result.error = error_->total();
   result.first_pass_statistics = first_pass_statistics_;
@@ -149,7 +149,7 @@ RenderResult RenderSession::run(SignalFlags& signals) {
   result.has_state = result.has_picture && (options_.keeps_state || *reason == StopReason::kSignal);
   if (!options_.output.empty() && result.has_picture) {
     write_last_picture(result.has_state);
-    // It is left out where memory lacks, with a warning.
+    // The state is left out, with a warning, if memory is short.
     result.has_state &= std::filesystem::exists(state_path_beside(options_.output));
   }
   return result;
@@ -187,7 +187,7 @@ bool RenderSession::render_one_pass(SignalFlags& signals) {
 
 std::optional<StopReason> RenderSession::reason_to_end_pass(const SignalFlags& signals) const {
   if (signals.stop.load() != 0) return StopReason::kSignal;
-  // Before there is a picture, a time limit waits for it.
+  // A time limit waits until there is a picture to show.
   const bool has_light = film_.can_be_shown();
   if (options_.time_limit > 0 && has_light && seconds_of_all_runs() >= options_.time_limit)
     return StopReason::kTime;
@@ -233,8 +233,8 @@ std::optional<StopReason> RenderSession::reason_to_stop(const SignalFlags& signa
   return std::nullopt;
 }
 
-/// With a noise target the checks are at fixed passes, about 6 % apart, so that the clock has no
-/// say in where the render stops. Without one the estimate is for display and follows the clock.
+/// With a noise target the checks are at fixed passes, about 6 % apart, so that the end of a render
+/// does not depend on the clock. Without one the estimate is for display and follows the clock.
 bool RenderSession::error_check_is_due() const {
   if (options_.noise_target > 0)
     return passes_done_ >= kMinPassesForNoise &&
@@ -264,7 +264,7 @@ void RenderSession::renew_error_text() {
   error_text_ = error_report(film_);
 }
 
-/// A picture may have passes beyond the range that is wanted now.
+/// The picture may also have passes outside of the wanted range; these do not count.
 uint32_t RenderSession::passes_done_of_wanted() const {
   if (!passes_wanted_) return passes_done_;
   const uint32_t last = options_.first_pass + (*passes_wanted_ - 1);

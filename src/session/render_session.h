@@ -1,6 +1,6 @@
-// The loop over passes: when to stop, when to write, what to say. The only place with a clock, and
-// no pixel depends on it: time decides how many passes there are, never what a pass computes. It
-// must not know how an estimator makes light.
+// The loop over passes: decides when to stop, to write and to report. The only place with a clock:
+// time decides the number of passes, never the result of a pass. It must not know how estimators
+// work.
 #pragma once
 
 #include <cstdint>
@@ -20,77 +20,77 @@
 
 namespace nephroid {
 
-/// What to render. The rules combine and the first met stops; without a last pass, a time limit or
-/// a noise target the number of passes is the scene's pixel samples.
+/// Stop rules and output of a render. The first rule that is met stops it. Without a last pass, a
+/// time limit or a noise target, the number of passes is the scene's pixel samples.
 struct RenderOptions {
   uint32_t first_pass = 0;
-  std::optional<uint32_t> last_pass;  ///< included
-  double time_limit = 0;              ///< s, 0: none
-  double noise_target = 0;            ///< as estimated_error().total(), 0: none
-  bool show_error = true;             ///< progress has the error, which takes a little time
+  std::optional<uint32_t> last_pass;  ///< last pass, included; empty: no limit
+  double time_limit = 0;              ///< seconds; 0: none
+  double noise_target = 0;            ///< limit of estimated_error().total(); 0: none
+  bool show_error = true;             ///< true: progress has the error, which takes a little time
   uint64_t seed = 0;
-  std::string output;               ///< EXR, a PNG is written beside it; empty: nothing is written
-  std::string rescue_directory;     ///< for the last picture if it cannot be written; empty: none
-  double first_preview = 0.5;       ///< s until the first intermediate PNG, if there is light
-  double preview_interval = 5;      ///< s between intermediate PNGs, at least
-  double checkpoint_interval = 60;  ///< s between intermediate EXRs, at least
-  bool keeps_state = true;          ///< a state is left beside the last picture
+  std::string output;               ///< EXR, with a PNG beside it; empty: nothing is written
+  std::string rescue_directory;     ///< used if the last picture cannot be written; empty: none
+  double first_preview = 0.5;       ///< seconds until the first intermediate PNG, if there is light
+  double preview_interval = 5;      ///< least seconds between intermediate PNGs
+  double checkpoint_interval = 60;  ///< least seconds between intermediate EXRs
+  bool keeps_state = true;          ///< true: the last picture keeps its state
   LayerPrecision layer_precision = LayerPrecision::kHalf;
-  Checkpoint begin_with;  ///< what film and estimators hold already
+  Checkpoint begin_with;  ///< progress that film and estimators already hold
   float png_exposure = 1;
-  /// Depth of the paths of a first PNG, before the first pass (quick_look.h); 0: there is none.
+  /// Path depth of the quick look before the first pass (quick_look.h); 0: none.
   int quick_look_depth = 0;
-  std::vector<std::string> notes;  ///< of the choices that a picture tells
-  RenderIdentity identity;         ///< what the picture tells; the session sets film and seed
+  std::vector<std::string> notes;  ///< notes on choices, for the picture's metadata
+  RenderIdentity identity;         ///< for the picture's metadata; the session sets film and seed
 };
 
 enum class StopReason { kPasses, kTime, kNoise, kSignal };
 
-/// Where a render stands, after a pass or within one.
+/// The progress of a render, after a pass or within one.
 struct RenderProgress {
-  uint32_t passes_done = 0;               ///< whole ones
+  uint32_t passes_done = 0;               ///< whole passes
   bool within_pass = false;               ///< called while a pass is rendered
   std::optional<uint32_t> passes_wanted;  ///< empty if only time or error stop it
   double seconds = 0;
-  std::optional<double> seconds_left;  ///< by the rule that will be met first, as it looks now
-  std::optional<double> error;         ///< the last estimate, renewed now and then
-  double fraction = 0;                 ///< of the whole, 0..1
+  std::optional<double> seconds_left;  ///< estimate, by the rule that will be met first
+  std::optional<double> error;         ///< the last estimate, updated now and then
+  double fraction = 0;                 ///< fraction of the render that is done, 0..1
   uint64_t rays = 0;
   uint64_t photons_stored = 0;
 };
 
 struct RenderResult {
   StopReason reason = StopReason::kPasses;
-  int signal = 0;                    ///< that stopped it, if one did
-  uint32_t passes_done = 0;          ///< in all runs, whole ones
-  bool has_unfinished_pass = false;  ///< pixels have more estimates than these, some of them
-  bool has_picture = false;          ///< there is light to be shown; else nothing was written
+  int signal = 0;                    ///< signal that stopped it, 0 if none
+  uint32_t passes_done = 0;          ///< whole passes of all runs
+  bool has_unfinished_pass = false;  ///< some pixels have estimates of one more pass
+  bool has_picture = false;          ///< there is light to show; else nothing was written
   bool has_state = false;            ///< the picture has its state beside it
-  uint32_t passes_of_run = 0;        ///< in this one
-  double seconds = 0;  ///< rendering, with intermediate pictures, without the last; of this run
-  std::optional<double> error;  ///< as estimated_error().total(); empty of a black picture
-  /// As error_report(), of consistent estimators alone; of a black picture black_picture_report().
+  uint32_t passes_of_run = 0;        ///< whole passes of this run
+  double seconds = 0;  ///< time of this run with intermediate pictures, without the last one
+  std::optional<double> error;  ///< estimated_error().total(); empty for a black picture
+  /// error_report(), if all estimators are consistent; black_picture_report() for a black picture.
   std::optional<std::string> error_text;
-  std::vector<std::string> faults;  ///< as invalid_samples()
-  /// As those of the estimators: after the first pass (for where radii began) and after the last.
+  std::vector<std::string> faults;  ///< invalid_samples()
+  /// Statistics of the estimators after the first pass (initial radii) and after the last one.
   std::vector<EstimatorStatistics> first_pass_statistics, statistics;
 };
 
 class RenderSession {
  public:
-  /// Keeps references to all three. The film has the set's layout. Throws UsageError if the
-  /// options do not fit the estimators, IoError if the output cannot be written.
+  /// Keeps references to scene, set and film. The film has the set's layout. Throws UsageError if
+  /// the options do not fit the estimators, IoError if the output cannot be written.
   RenderSession(const Scene& scene, EstimatorSet& set, Film& film, RenderOptions options);
 
   /// Called after every pass, and a few times a second within passes.
   void on_progress(std::function<void(const RenderProgress&)> callback);
-  /// Called when an intermediate picture could not be written; rendering goes on.
+  /// Called when an intermediate picture cannot be written; rendering goes on.
   void on_warning(std::function<void(const std::string&)> callback);
   /// Seconds from any origin; the machine's steady clock unless set. Called by any thread.
   void use_clock(std::function<double()> seconds);
 
-  /// Renders until a rule or a signal stops it and writes the picture. Throws IoError if the last
-  /// picture cannot be written; it says where the picture is instead, if it could be rescued.
+  /// Renders until a rule or a signal stops it, and writes the picture. Throws IoError if the last
+  /// picture cannot be written; the message has the place of the rescued picture, if there is one.
   RenderResult run(SignalFlags& signals);
 
  private:
@@ -98,36 +98,36 @@ class RenderSession {
   double elapsed() const { return clock_() - start_; }
   double seconds_of_all_runs() const { return options_.begin_with.seconds + elapsed(); }
   std::optional<uint32_t> next_pass() const;
-  /// True if a pass is of the range that is wanted.
+  /// True if a pass is in the wanted range.
   bool is_wanted(uint32_t pass) const;
   uint32_t passes_of_run() const { return passes_done_ - passes_before_; }
   bool shows_error() const { return progress_ && options_.show_error; }
   bool error_check_is_due() const;
-  /// False if it was ended before it was whole.
+  /// False if the pass was stopped before its end.
   bool render_one_pass(SignalFlags& signals);
   /// Called within a pass. Throws PassStopped to end it.
   void look_in(SignalFlags& signals, PassWatch& watch);
-  /// What stops the render within a pass.
+  /// The reason to stop within a pass.
   std::optional<StopReason> reason_to_end_pass(const SignalFlags& signals) const;
-  /// How much of the pass that is not whole is done, 0..1.
+  /// Progress of the unfinished pass, 0..1.
   double fraction_of_pass() const;
   std::vector<EstimatorStatistics> statistics() const;
   void renew_error();
-  /// Makes error_text_ that of the passes so far.
+  /// Updates error_text_ to the passes so far.
   void renew_error_text();
   void report_progress(bool within_pass);
   void write_if_due(SignalFlags& signals);
-  /// If a PNG is wanted and there is none yet.
+  /// Writes a quick look if a PNG is wanted and there is none yet.
   void take_quick_look(const SignalFlags& signals);
   void write_picture();
-  /// The picture without its PNG, and its state; without one, that of an intermediate picture goes.
+  /// Writes the picture without its PNG. Writes its state too, or else removes that of an
+  /// intermediate picture.
   void write_exr_file(const std::string& path, bool with_state);
-  /// Before the first of them and before the first PNG: what another render has left, if anything,
-  /// takes the names of files_to_keep().
+  /// Called before the first write: renames the files of another render (files_to_keep()).
   void keep_previous();
   void write_png();
   void write_last_picture(bool with_state);
-  /// Writes, says what went wrong, and returns when to do it again.
+  /// Writes, warns of errors, and returns the time of the next write.
   double write_now(double interval, const std::function<void()>& write);
   uint32_t passes_done_of_wanted() const;
   std::optional<double> seconds_left(double seconds) const;
@@ -146,19 +146,19 @@ class RenderSession {
   double start_ = 0;
   std::vector<EstimatorStatistics> first_pass_statistics_;
   PassRanges done_;
-  uint32_t passes_before_ = 0, passes_done_ = 0;  ///< before this run, and by now
-  std::optional<uint32_t> open_pass_;             ///< begun and not whole
-  double fraction_before_ = 0;                    ///< of the open pass, done in other runs
+  uint32_t passes_before_ = 0, passes_done_ = 0;  ///< passes before this run, and in all runs
+  std::optional<uint32_t> open_pass_;             ///< unfinished pass
+  double fraction_before_ = 0;                    ///< fraction of open_pass_ done in other runs
   std::optional<EstimatedError> error_;
-  bool is_black_ = false;    ///< then error_, which is 0, is not told
+  bool is_black_ = false;    ///< true: error_ is 0 and not reported
   uint32_t error_pass_ = 0;  ///< passes done when error_ was estimated
-  /// The line of error_report(), empty where an estimator knows only a part of its error.
+  /// error_report(); empty if an estimator knows only a part of its error.
   std::optional<std::string> error_text_;
-  uint32_t error_text_pass_ = 0;   ///< passes done when it was made
-  double next_error_seconds_ = 0;  ///< of the estimates for progress alone
+  uint32_t error_text_pass_ = 0;   ///< passes done when error_text_ was made
+  double next_error_seconds_ = 0;  ///< next error estimate for progress
   double next_preview_seconds_ = 0, next_checkpoint_seconds_ = 0;
-  double next_progress_seconds_ = 0;  ///< within a pass
-  bool has_written_ = false;          ///< a picture or a PNG
+  double next_progress_seconds_ = 0;  ///< next progress report within a pass
+  bool has_written_ = false;          ///< true after the first picture or PNG
 };
 
 }  // namespace nephroid

@@ -1,4 +1,3 @@
-// Which of the sources of routes counts.
 #include "session/route_plan.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
-// From what the command line says about routes to a plan: an integrator's routes, a preset, a file
-// of routes, or routes one by one. It must not know scenes.
+// Makes a route plan from the command line: routes of an integrator, a preset, a file or single
+// routes. It must not know scenes.
 #pragma once
 
 #include <string>
@@ -21,15 +21,15 @@ struct RouteChoice {
   bool strict = false;
 };
 
-/// `integrator` is the name to use if neither routes nor a preset are given. Throws UsageError if
-/// more than one source of routes is given, for an unknown preset and for what is wrong in a file;
-/// IoError if the file cannot be read.
+/// `integrator` is used if neither routes nor a preset are given. Throws UsageError for more than
+/// one source of routes, an unknown preset and errors in a file; IoError if the file cannot be
+/// read.
 RoutePlan plan_of(const RouteChoice& choice, const std::string& integrator);
 
-/// What the plan came from, for the picture's metadata: "mixed", "split", "routes.txt", "--route".
+/// The plan's source, for the picture's metadata: "mixed", "split", "routes.txt", "--route".
 std::string name_of(const RouteChoice& choice, const std::string& integrator);
 
-/// The routes of a plan as a file of routes has them, and its AOVs in the same form.
+/// The routes of a plan in the format of a route file, and its AOVs in the same form.
 std::string routes_text(const RoutePlan& plan);
 std::string aovs_text(const RoutePlan& plan);
 

@@ -1,4 +1,3 @@
-// Parse, build, and keep what was suspicious.
 #include "session/scene_loading.h"
 
 #include <algorithm>

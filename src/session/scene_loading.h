@@ -1,4 +1,4 @@
-// A scene from its file, with its warnings.
+// Loads a scene from its file, with its warnings.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@ struct LoadedScene {
   SceneDescription description;
   std::unique_ptr<Scene> scene;
   std::vector<std::string> warnings;       ///< "file:line:column: message"
-  std::vector<std::string> unknown_names;  ///< those of them about names that the format lacks
+  std::vector<std::string> unknown_names;  ///< warnings about names that the format lacks
 };
 
 /// Throws SceneError and IoError.

@@ -1,4 +1,4 @@
-// How a session writes its pictures, and what they say of it.
+// Writes the pictures of a session and their metadata.
 #include <fmt/format.h>
 #include <stdlib.h>
 
@@ -27,8 +27,8 @@ void RenderSession::write_last_picture(bool with_state) {
   try {
     write_exr_file(options_.output, with_state);
   } catch (const IoError& error) {
-    // A directory of its own: nobody else can have put a link there.
-    const std::string random_letters(6, 'X');  // that mkdtemp puts in their place
+    // A new directory, in which nobody else can have put a link.
+    const std::string random_letters(6, 'X');  // replaced by mkdtemp
     std::string directory =
         (fs::path(options_.rescue_directory) / ("nephroid-" + random_letters)).string();
     const auto lost = [&] {
@@ -70,7 +70,7 @@ void RenderSession::write_exr_file(const std::string& path, bool with_state) {
   const std::string state_path = state_path_beside(path);
   if (path == options_.output) keep_previous();
   try {
-    // The state first: the picture can be made from it, not the other way round.
+    // The state comes first: the picture can be made from it, but not the reverse.
     if (with_state)
       write_state(state_path,
                   {{film_.settings().width, film_.settings().height}, film_.bounds(), metadata},
@@ -79,7 +79,7 @@ void RenderSession::write_exr_file(const std::string& path, bool with_state) {
   } catch (const std::bad_alloc&) {
     lacks_memory(path);
   }
-  // That of an intermediate picture of this render.
+  // Removes the state of an intermediate picture of this render.
   std::error_code ignored;
   if (!with_state) std::filesystem::remove(state_path, ignored);
 }
@@ -91,7 +91,7 @@ void RenderSession::keep_previous() {
   has_written_ = true;
 }
 
-/// What the program chose, and what is wrong with the picture, a line each.
+/// Choices of the program and faults of the picture, one per line.
 std::string RenderSession::choices_text() const {
   std::string choices;
   for (const std::string& line :
@@ -109,7 +109,7 @@ std::string RenderSession::choices_text() const {
 }
 
 Metadata RenderSession::state_metadata() const {
-  // Who renders nothing more has nothing to say that the picture does not say already.
+  // Without new passes the earlier metadata stay as they are.
   const bool rendered = passes_of_run() > 0 || open_pass_;
   const Checkpoint& before = options_.begin_with;
   RenderIdentity identity = options_.identity;

@@ -1,4 +1,4 @@
-// sigaction, lock-free atomics and write(2), which is all that a handler may touch.
+// Handlers use only what is safe in them: sigaction, lock-free atomics and write(2).
 #include "session/signals.h"
 
 #include <unistd.h>
@@ -29,7 +29,7 @@ auto action_of(int signal) {
   return action.sa_handler;
 }
 
-/// An answer that cannot be written changes nothing.
+/// Writes the answer to an interrupt; errors are ignored.
 void answer() {
   constexpr std::string_view kText =
       "\nnephroid: stopping and writing the picture; one more interrupt stops at once\n";
@@ -44,7 +44,7 @@ void ask_to_stop(int signal) {
   if (action_of(SIGINT) != SIG_IGN) set_action(SIGINT, SIG_DFL);
 }
 
-/// Whoever started the program may have had them ignored: nohup, a shell in the background.
+/// Signals that are ignored stay so, as under nohup or in a background shell.
 void set_stop_actions(void (*handler)(int)) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP})
     if (action_of(signal) != SIG_IGN) set_action(signal, handler);
@@ -71,9 +71,9 @@ void SignalListener::note_stops(bool answer_interrupts) {
 
 SignalListener::~SignalListener() {
   set_stop_actions(SIG_DFL);
-  // A scheduler that asks for pictures now and then knows nothing of a process that is at its end.
+  // A scheduler that requests pictures may not know that the process is ending.
   set_action(SIGUSR1, SIG_IGN);
-  // SIGPIPE and SIGXFSZ stay errors of writing: why a render failed is still to be said.
+  // SIGPIPE and SIGXFSZ stay ignored: the cause of a failed render is still to be printed.
 }
 
 SignalFlags& SignalListener::flags() const {

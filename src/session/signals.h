@@ -1,6 +1,5 @@
-// What the outside asks of a running render: stop, or write the picture now.
-// A signal handler can only reach static storage, so this is the one mutable global of the program;
-// it holds requests and never reaches a pixel.
+// Signals to a running render: stop, or write the picture now. A signal handler can only reach
+// static storage, so this is the one mutable global of the program. It never affects a pixel.
 #pragma once
 
 #include <atomic>
@@ -8,17 +7,17 @@
 namespace nephroid {
 
 struct SignalFlags {
-  std::atomic<int> stop{0};        ///< the signal that asked to stop, 0 if none did
-  std::atomic<bool> write{false};  ///< a picture is wanted now
+  std::atomic<int> stop{0};        ///< signal that requested a stop, 0 if none
+  std::atomic<bool> write{false};  ///< true if a picture is requested now
 };
 
-/// While it lives, SIGUSR1 sets `write` in flags(), and from note_stops() on SIGINT, SIGTERM and
-/// SIGHUP (unless they are ignored, as by nohup) set `stop`. Before, while there is nothing to
-/// write yet, these end the program, and so does a SIGINT after the first request to stop; a second
-/// SIGTERM, which supervisors send to a process and to its group, does not. A log that nobody reads
-/// any more and files that grow too large are errors of writing and no signals, from then on; and
-/// SIGUSR1, which comes from whoever does not see that the program is at its end, is ignored after
-/// it.
+/// Handles signals during its lifetime:
+/// - SIGUSR1 sets `write` in flags(). After its lifetime it is ignored.
+/// - SIGINT, SIGTERM and SIGHUP set `stop` from note_stops() on, unless they are ignored (nohup).
+///   Before that there is nothing to write, and they end the program.
+/// - After a request to stop, SIGINT ends the program. A second SIGTERM does not: supervisors send
+///   it to a process and to its group.
+/// - SIGPIPE and SIGXFSZ are ignored from its beginning on, so that writing fails with an error.
 class SignalListener {
  public:
   SignalListener();
@@ -26,7 +25,8 @@ class SignalListener {
   SignalListener(const SignalListener&) = delete;
   SignalListener& operator=(const SignalListener&) = delete;
 
-  /// If wished, the first SIGINT is answered on standard error: to write a picture may take long.
+  /// Starts to handle requests to stop. With `answer_interrupts` the first SIGINT is answered on
+  /// standard error, since writing a picture may take long.
   void note_stops(bool answer_interrupts = false);
   SignalFlags& flags() const;
 };

@@ -27,8 +27,8 @@ inline float guided_pdf_w(const Bsdf& bsdf, const Vec3f& wo, const Vec3f& wi, Tr
 /// is the BSDF alone. A `Guide`, ForecastLobes, DirectionTree or CasterCones, has
 ///   bool empty() const
 ///   float share() const                          share of directions from the guide, below 1
-///   Vec3f sample(float& uc, const Vec2f&) const  a unit direction, world; `uc` is rescaled to the
-///                                                part that is left of it
+///   Vec3f sample(float& uc, const Vec2f&) const  a unit direction, world; `uc` is rescaled to
+///                                                [0,1)
 ///   float pdf_w(const Vec3f&) const
 template <class Guide>
 class GuidedDirection {

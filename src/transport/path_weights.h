@@ -15,7 +15,8 @@ inline double heuristic(double ratio) {
 
 /// Sums over the techniques that cut the path at or before vertex x_i of a side, relative to the
 /// one that connects x_i to the other side. Factors that only the connection knows are left out. In
-/// Georgiev et al. 2012, `here` is dVCM, `before` is dVC, and the merging terms are dVM.
+/// Georgiev et al. 2012, `here` is dVCM and `before` is dVC; dVM is not kept, since the radius
+/// varies.
 struct PartialMisWeights {
   double here = 0;    ///< [W3]: the cut between x_{i-1} and x_i
   double before = 0;  ///< [W4]: all cuts before that one

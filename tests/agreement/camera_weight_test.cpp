@@ -1,4 +1,4 @@
-// The weight of a camera ray: a realistic lens passes the share of the light that its rays say, in
+// Camera ray weights: a realistic lens transmits the share of light that its ray weights say, in
 // path tracing and in photon mapping.
 #include <gtest/gtest.h>
 
@@ -16,8 +16,7 @@ const std::string kLens =
        Film "rgb" "integer xresolution" 6 "integer yresolution" 4
        PixelFilter "box" )";
 
-// In a room of radiance 1 a pixel shows what the lens lets through, and every blocked sample
-// counts.
+// In a room of radiance 1 a pixel equals the lens's transmittance. Blocked samples count as zero.
 TEST(CameraWeight, PathTakesTheLensesShare) {
   const auto scene =
       scene_from_text(kLens + R"(WorldBegin LightSource "infinite" "rgb L" [1 1 1])");

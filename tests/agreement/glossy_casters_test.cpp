@@ -1,5 +1,5 @@
-// Caustics of glossy materials: walks whose photons are merged behind an S or G find the picture
-// that walks alone find, whatever the roughness.
+// Caustics of glossy materials: camera paths whose photons are merged behind an S or G event find
+// the same picture as camera paths alone, at any roughness.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,7 +21,7 @@ struct Casters {
   const char* lamp;
 };
 constexpr const char* kPoint = R"(LightSource "point" "rgb I" [9 8 7] "point3 from" [1 3 0.5])";
-// And a mirror, whose caustic of a point walks do not find.
+// A disk lamp, and a mirror: camera paths cannot find its caustic if the lamp is a point.
 constexpr const char* kDisk = R"(
   AttributeBegin Translate 1 3 0.5 Rotate 90 1 0 0
   AreaLightSource "diffuse" "rgb L" [20 18 16] "bool twosided" true
@@ -33,8 +33,8 @@ const Casters kCasters[] = {{"frosted_glass_and_a_disk", "0.1", kDisk},
                             {"rough_glass_and_a_disk", "0.3", kDisk},
                             {"rougher_glass_and_a_disk", "0.5", kDisk}};
 
-/// Above the floor, so that no light is merged beyond an edge: a ball of the glass and a
-/// sheet of rough metal.
+/// A ball of the glass and a sheet of rough metal. Both stand clear of the floor, so that no light
+/// is merged beyond an edge.
 std::string world(const Casters& casters) {
   return std::string(casters.lamp) + "\n" +
          "Material \"dielectric\" \"float eta\" 1.5 \"bool remaproughness\" false "
@@ -46,7 +46,7 @@ std::string world(const Casters& casters) {
     Shape "bilinearmesh" "point3 P" [0.8 0.2 0.9  1.2 0.2 -0.5  0.8 0.8 0.9  1.2 0.8 -0.5])";
 }
 
-/// A smooth ball over a sheet of rough metal: its caustic of a point is photons' alone.
+/// A smooth ball over a sheet of rough metal. Only photons find its caustic of a point light.
 const char* const kCausticOnMetal = R"(
   LightSource "point" "rgb I" [9 8 7] "point3 from" [1 3 0.5]
   Material "conductor" "rgb reflectance" [0.9 0.7 0.4] "bool remaproughness" false
@@ -60,10 +60,10 @@ const char* const kCausticOnMetal = R"(
 struct Pictures {
   const PairView view;
 
-  /// Block means of four passes in pictures with other seeds.
+  /// Block means of four passes, for independent seeds.
   SeedValues pictures(const PairTechniques& techniques, uint64_t first_seed, int samples) const {
     return values_over_seeds(kSeeds, first_seed, [&](uint64_t seed) {
-      // Without the part of the bias that grows as the squared radius.
+      // Extrapolate to a radius of zero: the bias grows as the squared radius.
       std::vector<double> values = means(techniques, seed, samples, kRadius);
       if (techniques.light_paths == 0) return values;
       const std::vector<double> narrow =

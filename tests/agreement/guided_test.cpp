@@ -1,5 +1,5 @@
-// Photons that start where earlier ones were of use find the same picture as those that start as
-// the lights have it, with less noise; and so do walks whose caustics are photons as well.
+// Guided photon emission finds the same picture as unguided emission, with less noise. So does
+// path+photons, whose caustics are photons as well.
 #include <gtest/gtest.h>
 
 #include "integrator/bidirectional/pair_pass.h"
@@ -27,7 +27,7 @@ std::string view(const std::string& world) {
   )" + world;
 }
 
-// A glass ball that takes up a small part of what the light falls on.
+// A glass ball that covers a small part of the lit area.
 const char* const kBall =
     "AttributeBegin Translate 0 0.5 0 Shape \"sphere\" \"float radius\" 0.3 "
     "AttributeEnd\n";
@@ -53,7 +53,7 @@ double sum_of_squared_errors(const SeedValues& values) {
 
 class Guided : public ::testing::TestWithParam<Lights> {};
 
-// Those of lights, and those of what the lights shine on, which comes from all over the floor.
+// Caustics of the lights, and caustics of the lit floor, whose light arrives from everywhere.
 TEST_P(Guided, PhotonsFindTheSameCausticWithLessNoise) {
   constexpr int kSeeds = 16, kAcross = 3, kBlocks = kAcross * kAcross;
   constexpr uint32_t kPasses = 32;
@@ -115,7 +115,7 @@ TEST_P(Guided, PhotonsFindTheSameCausticWithLessNoise) {
   EXPECT_GT(of_the_lit, 1.5);
 }
 
-// The weights of walks and of photons add up to one only if both know how the photons start.
+// MIS weights of camera paths and photons add up to one only if both know the guided emission.
 TEST_P(Guided, WalksAndPhotonsTogetherFindTheSamePicture) {
   constexpr int kSeeds = 16, kAcross = 3;
   const auto scene = scene_from_text(view(std::string(kBall) + GetParam().text));

@@ -1,6 +1,5 @@
-// Camera walks that go where those of the first pass found light find the same picture as those
-// that follow their BSDFs alone, with less noise where light comes through a small part of all
-// directions.
+// Guided camera paths, which learn from the first pass where light comes from, find the same
+// picture as BSDF sampling. They are less noisy where light arrives through a small solid angle.
 #include <gtest/gtest.h>
 
 #include "integrator/bidirectional/pair_pass.h"

@@ -1,5 +1,5 @@
-// What whole integrators promise: counts, reports, limits, and what straight-through surfaces and
-// flipped cameras must not change.
+// Properties of whole integrators: counts, reports, limits, and invariance under straight-through
+// surfaces and flipped cameras.
 #include <gtest/gtest.h>
 
 #include <iomanip>
@@ -32,7 +32,7 @@ const std::string kLampAndFloor = R"(
 const std::string kGlass =
     R"(Material "dielectric" Translate 0 0.9 0 Shape "sphere" "float radius" 0.6)";
 
-// Statistics of all estimators of a preset after some passes, added up.
+// Sum of the statistics of all estimators of a preset after some passes.
 EstimatorStatistics statistics_after(const std::string& text, const std::string& integrator,
                                      const IntegratorOptions& options, uint32_t passes) {
   const auto scene = scene_from_text(text);
@@ -55,7 +55,7 @@ EstimatorStatistics statistics_after(const std::string& text, const std::string&
 
 TEST(Integrators, CountPhotonsExactly) {
   IntegratorOptions options;
-  options.photons_per_pass = 5000;  // no whole number of chunks
+  options.photons_per_pass = 5000;  // not a multiple of the chunk size
   for (const char* integrator : {"mixed", "sppm"}) {
     const EstimatorStatistics s =
         statistics_after(kView + kLampAndFloor + kGlass, integrator, options, 3);
@@ -97,7 +97,7 @@ TEST(Integrators, SayWhyThereIsNoCaustic) {
   EXPECT_EQ(seen.find("specular"), std::string::npos) << seen;
   EXPECT_NE(notes(kLampAndFloor).find("no material of the scene has a specular or glossy lobe"),
             std::string::npos);
-  // The glass hides behind the floor: photons are shot and find nothing.
+  // The glass is hidden below the floor: photons are emitted and none is useful.
   const std::string hidden =
       notes(kLampAndFloor +
             R"(Material "dielectric" Translate 0 -3 0 Shape "sphere" "float radius" 0.6)");
@@ -105,7 +105,7 @@ TEST(Integrators, SayWhyThereIsNoCaustic) {
 }
 
 TEST(Integrators, WithoutEventsOnlyLampsAreSeen) {
-  // The camera looks up into the lamp, through things that add no letter.
+  // The camera looks up into the lamp, through things that add no event.
   const std::string up = R"(
     LookAt 0 0.5 0  0 4 0  0 0 1
     Camera "perspective" "float fov" 10
@@ -120,7 +120,7 @@ TEST(Integrators, WithoutEventsOnlyLampsAreSeen) {
   IntegratorOptions options;
   options.max_depth = 0;
   options.photons_per_pass = 1024;
-  // Straight down a pane of index 1.5 reflects 2R/(1+R) = 0.0769 of the light.
+  // At normal incidence a pane of index 1.5 reflects 2R/(1+R) = 0.0769 of the light.
   for (const std::string& integrator : integrator_names()) {
     const auto mean = [&](const std::string& world) {
       return picture_mean(render(*scene_from_text(up + world), integrator, options, 1, 64));
@@ -136,7 +136,7 @@ TEST(Integrators, WithoutEventsOnlyLampsAreSeen) {
 }
 
 TEST(Integrators, AFlippedScreenIsTheSamePictureTurned) {
-  // A lamp so large that what glass reflects and focuses of it is found in every picture.
+  // The lamp is so large that every picture contains its reflections and caustics in glass.
   const std::string world = R"(
   AttributeBegin
     AreaLightSource "diffuse" "rgb L" [1 0.9 0.8]
@@ -156,7 +156,7 @@ TEST(Integrators, AFlippedScreenIsTheSamePictureTurned) {
   };
   IntegratorOptions options;
   options.photons_per_pass = 4000;
-  options.edit<MetropolisOptions>().mutations = 128;  // blocks of a few percent of noise
+  options.edit<MetropolisOptions>().mutations = 128;  // blocks with a few percent of noise
   const auto straight = scene("[-1 1 -1 1]"), turned = scene("[1 -1 1 -1]");
   const std::vector<std::string> names = integrator_names();
   parallel_chunks(static_cast<int64_t>(names.size()), 1, [&](int64_t n, int64_t, int64_t) {
@@ -172,8 +172,7 @@ TEST(Integrators, AFlippedScreenIsTheSamePictureTurned) {
 }
 
 TEST(Integrators, ALimitBoundsEveryPixel) {
-  // With a filter that is nowhere negative no mean can exceed the limit of its samples, in any
-  // route.
+  // If the filter is nowhere negative, no mean exceeds the limit of its samples, in any route.
   const std::string text = R"(
     LookAt 0 3 -5  0 0.4 0  0 1 0
     Camera "perspective" "float fov" 30
@@ -198,8 +197,8 @@ TEST(Integrators, ALimitBoundsEveryPixel) {
 }
 
 TEST(Integrators, AFewPassesHaveAllColoursOfAPrism) {
-  // Grey light through a ball of flint glass is grey, whatever wavelengths the pass has; paths that
-  // the ball bends have one of them each.
+  // A flint glass ball leaves grey light grey for any wavelengths of the pass, although each
+  // refracted path keeps a single wavelength.
   const auto scene = scene_from_text(R"(
     LookAt 0 2 -4  0 0.3 0  0 1 0
     Camera "perspective" "float fov" 40
@@ -224,14 +223,15 @@ TEST(Integrators, AFewPassesHaveAllColoursOfAPrism) {
         for (int x = 0; x < 32; ++x) sum = sum + film.value(x, y);
       squares += std::pow(sum.g / sum.r - 1, 2) + std::pow(sum.b / sum.g - 1, 2);
     }
-    // With one hero for all paths of a pass: 10 to 30 %.
+    // If all paths of a pass kept the same wavelength, this would be 10 to 30 %.
     EXPECT_LT(std::sqrt(squares / (2 * kSeeds)), 0.03) << integrator;
   }
 }
 
 TEST(Integrators, WhatWasDroppedDoesNotHideTheHero) {
-  // Blue fog behind flint glass: a red hero flies as red does, and what it carried at the blue
-  // wavelengths that the glass dropped would grow with every collision.
+  // Blue fog behind flint glass: a path whose hero wavelength is red crosses the fog as red light
+  // does. If the blue wavelengths that the glass dropped still counted, they would grow with every
+  // collision.
   const auto scene = scene_from_text(R"(
     LookAt 0 1.2 -1.5  0 0 0  0 1 0
     Camera "perspective" "float fov" 60
@@ -273,7 +273,7 @@ TEST(Integrators, WhatWasDroppedDoesNotHideTheHero) {
 }
 
 TEST(Integrators, GiveOnePictureInAllUnitsOfLength) {
-  // By powers of two, so all numbers but densities have the same digits.
+  // Scales are powers of two, so that all numbers but densities keep their mantissas.
   const auto mean_at = [](int exponent, const char* integrator) {
     const auto number = [&](double x) {
       std::ostringstream text;
@@ -300,8 +300,8 @@ TEST(Integrators, GiveOnePictureInAllUnitsOfLength) {
 }
 
 TEST(Integrators, APixelOfSharedStatisticsGoesOnAfterAPassThatIsNotFinite) {
-  // So bright that the sum over some photons is infinite in about a third of all pixels of a pass.
-  // If that stayed in a pixel's flux, more than half of all passes of pixels would be lost.
+  // So bright that the sum over some photons is infinite in about a third of the pixels of a pass.
+  // If infinity stayed in a pixel's flux, more than half of all estimates would be lost.
   const auto scene = scene_from_text(R"(
     LookAt 0 0 -5  0 0 0  0 1 0
     Camera "perspective" "float fov" 30

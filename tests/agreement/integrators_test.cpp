@@ -1,6 +1,6 @@
-// Every integrator and every estimator that routes may name find the same picture: means of blocks
-// of pixels and of the whole picture, by t-tests over independent seeds. Where photons are merged,
-// pictures are extrapolated to a radius of zero. The scenes stand in scenes.cpp.
+// Every integrator and every estimator that a route may name finds the same picture. T-tests over
+// independent seeds compare means of blocks and of the whole picture. Merging estimators are
+// extrapolated to a radius of zero. The scenes are in scenes.cpp.
 #include <gtest/gtest.h>
 
 #include "agreement/scene_assets.h"
@@ -64,7 +64,7 @@ TEST_P(Agreement, OfAllIntegrators) {
   const SeedValues reference =
       reference_values(*scene, description, options, kSeeds, description.passes);
   uint64_t first_seed = 1000;
-  options.camera_samples_per_pass = 8;  // what the path tracer adds to few passes must not be noisy
+  options.camera_samples_per_pass = 8;  // keeps the path-traced part of few passes from being noisy
   for (const std::string integrator : {"mixed", "sppm", "bdpt"}) {
     if (integrator == description.reference) continue;
     options.edit<PathOptions>().specular_trees = integrator == "bdpt";
@@ -78,9 +78,8 @@ TEST_P(Agreement, OfAllIntegrators) {
 INSTANTIATE_TEST_SUITE_P(Scenes, Agreement, ::testing::ValuesIn(kAgreementScenes),
                          [](const auto& test) { return std::string(test.param.name); });
 
-// Routes that the integrators above do not have: light tracing, and photons both merged and
-// connected, of caustics alone and wherever they can be, virtual point lights, and guided path
-// tracing.
+// Routes that the integrators above do not have: light tracing, photons that are both merged and
+// connected, virtual point lights, and guided path tracing.
 struct RoutesToCompare {
   const char* name;
   Plan plan;
@@ -100,7 +99,7 @@ std::vector<RoutesToCompare> routes_to_compare() {
           {"all-vertex", plan_of({"emission=C([SV]*L|.*M|.*H.*L):path", "rest=.*:photons+light"})}};
 }
 
-// The scenes in which these routes could go wrong by themselves; the others would only repeat them.
+// The scenes in which these routes have code of their own. The others would test nothing new.
 const char* const kScenesOfRoutes[] = {"subsurface",
                                        "rough_subsurface",
                                        "subsurface_curve",
@@ -162,7 +161,7 @@ TEST_P(RoutesAgree, WithTheReference) {
 INSTANTIATE_TEST_SUITE_P(Scenes, RoutesAgree, ::testing::ValuesIn(scenes_of_routes()),
                          [](const auto& test) { return std::string(test.param.name); });
 
-// The scene with bumps would agree as well if nothing were bumped.
+// Without this check the bump scene would agree even if nothing were bumped.
 TEST(AgreementScenes, TheBumpedGlassIsBumped) {
   const SceneAssets files;
   for (const AgreementScene& description : kAgreementScenes) {
@@ -178,7 +177,7 @@ TEST(AgreementScenes, TheBumpedGlassIsBumped) {
         const Material& material = *scene->materials[static_cast<size_t>(hit.material)];
         if (!material.has_bump()) continue;
         material.bump(hit);
-        bumped += dot(hit.shading.z, hit.ng) < 0.99f;  // eight degrees
+        bumped += dot(hit.shading.z, hit.ng) < 0.99f;  // more than eight degrees
       }
     EXPECT_GE(bumped, 4);
   }

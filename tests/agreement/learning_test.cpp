@@ -1,6 +1,5 @@
-// Estimators that learn find the right light when each render learns for itself: a picture that is
-// better where learning was lucky would be biased, however right each guide is by itself. Many
-// seeds on small films.
+// Estimators that learn are unbiased when each render learns for itself. If a lucky guide were
+// kept, each guide could be right and the picture biased all the same. Many seeds on small films.
 #include <gtest/gtest.h>
 
 #include "rendering.h"
@@ -33,7 +32,7 @@ constexpr double kQuantile = 4.42;
 struct LearningPlan {
   const char* name;
   Plan plan;
-  uint32_t passes;  ///< the first one, and two at least that have learned from it
+  uint32_t passes;  ///< the first pass, and at least two that have learned from it
 };
 
 IntegratorOptions options_of_all() {
@@ -44,7 +43,7 @@ IntegratorOptions options_of_all() {
   return options;
 }
 
-/// By an estimator that learns nothing; one for all plans.
+/// Reference values of an estimator that does not learn, shared by all plans.
 const SeedValues& right_values() {
   static const SeedValues values =
       block_values(*scene_from_text(kRoom), "bdpt", options_of_all(), kSeeds, 64, 1, 2);
@@ -66,7 +65,7 @@ TEST_P(Learning, AnewForEachSeedHasNoBias) {
     };
     std::vector<double> values = means(options.radius);
     if (!merges_photons(plan)) return values;
-    // Without the bias of the radius, as unbiased_block_values has it.
+    // Extrapolate to a radius of zero, as unbiased_block_values does.
     const std::vector<double> smaller = means(options.radius * std::sqrt(0.5f));
     for (size_t i = 0; i < values.size(); ++i) values[i] = 2 * smaller[i] - values[i];
     return values;

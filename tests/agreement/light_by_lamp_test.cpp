@@ -1,5 +1,5 @@
-// Counts of light by lamp are those of the picture: they add up to it, each is the light of its
-// lamp alone, and threads do not matter.
+// Light by lamp: the counts add up to the picture, each is the light of its lamp alone, and they do
+// not depend on the number of threads.
 #include <gtest/gtest.h>
 
 #include "core/parallel.h"
@@ -81,7 +81,7 @@ TEST_P(LightByLamp, IsTheLightOfEachLampAlone) {
   const Counts both = render(std::string(kLamp) + kSky, GetParam(), 8);
   const double share = both.light("lamp") / both.film;
   const double lamp = render(kLamp, GetParam(), 8).film, sky = render(kSky, GetParam(), 8).film;
-  // Standard error of the share: about 0.02.
+  // The standard error of the share is about 0.02.
   EXPECT_NEAR(share, lamp / (lamp + sky), 0.08);
 }
 

@@ -1,6 +1,6 @@
-// Light tracing finds what path tracing finds: the light itself, every camera that connects, media,
-// crops and wide filters, by t-tests over independent seeds. The scenes of scenes.cpp are compared
-// in integrators_test.cpp.
+// Light tracing agrees with path tracing on visible lamps, every camera that connects, media, crops
+// and wide filters, by t-tests over independent seeds. integrators_test.cpp compares the scenes of
+// scenes.cpp.
 #include <gtest/gtest.h>
 
 #include "core/parallel.h"
@@ -13,7 +13,7 @@ using namespace testing_support;
 
 constexpr int kAcross = 3, kSeeds = 16;
 
-// Nothing here is seen in a mirror, so that light tracing finds all of the picture.
+// Nothing here is seen in a mirror, so light tracing finds the whole picture.
 const std::string kBall = R"(
   AttributeBegin Material "diffuse" "rgb reflectance" [0.7 0.4 0.2]
   Translate 0 0.6 0 Shape "sphere" "float radius" 0.6 AttributeEnd )";
@@ -21,7 +21,7 @@ const std::string kRoom = R"(
   Material "diffuse" "rgb reflectance" [0.5 0.5 0.6]
   Shape "bilinearmesh" "point3 P" [-3 0 -3  3 0 -3  -3 0 3  3 0 3]
   Shape "bilinearmesh" "point3 P" [-3 0 3  3 0 3  -3 3 3  3 3 3] )";
-// In view, and on both sides.
+// Two-sided and in view.
 const std::string kLamp = R"(
   AttributeBegin AreaLightSource "diffuse" "rgb L" [5 4 3] "bool twosided" true
   Material "diffuse" "rgb reflectance" [0.2 0.2 0.2]
@@ -66,7 +66,7 @@ std::vector<LightScene> light_scenes() {
       {"orthographic",
        kLookAt + R"(Camera "orthographic" "float screenwindow" [-1.6 1.6 -1.6 1.6] )" + kFilm,
        kLamp + kRoom + kBall},
-      // Filters reach over the edges, where the picture closes upon itself.
+      // Filters reach across the seam, where the picture wraps around.
       {"equirectangular",
        spherical + R"("string mapping" "equirectangular" Film "rgb" "integer xresolution" 12
                      "integer yresolution" 12 PixelFilter "gaussian" )",
@@ -74,8 +74,7 @@ std::vector<LightScene> light_scenes() {
       {"equal_area", spherical + R"(Film "rgb" "integer xresolution" 12 "integer yresolution" 12
                      PixelFilter "gaussian" )",
        kLamp + kRoom + kBall},
-      // Everything stands in fog, the camera and the lamp as well, and sheets have it on both
-      // sides.
+      // Everything is in fog, including the camera, the lamp and both sides of the sheets.
       {"fog", fog + R"(MediumInterface "fog" "fog" )" + kView + kFilm,
        R"(MediumInterface "fog" "fog" )" + kLamp + kRoom + kBall},
       {"spot_light_in_grid_fog", kView + kFilm,
@@ -130,7 +129,7 @@ TEST_P(LightTracingAgrees, WithPathTracing) {
   EXPECT_NEAR(difference, 0, kT15 * std::sqrt(squared_error));
   EXPECT_LT(std::sqrt(squared_error), max_error(0.02 * sum)) << "too noisy to tell";
 
-  // Light tracing does find it, and not path tracing in its place.
+  // Light tracing does carry the light; path tracing does not stand in for it.
   const Film film = render(*scene, "light-only", options, 1, 1);
   double light = 0, rest = 0;
   for (int y = film.bounds().y0; y < film.bounds().y1; ++y)

@@ -1,5 +1,5 @@
-// Metropolis light transport finds the picture of path tracing, whatever the size of a pass and of
-// a chain, and in a crop.
+// Metropolis light transport finds the picture of path tracing for any pass size and chain length,
+// and in a crop.
 #include <gtest/gtest.h>
 
 #include "integrator/metropolis/metropolis_options.h"
@@ -12,7 +12,7 @@ namespace {
 using namespace testing_support;
 
 TEST(Metropolis, PassesOfAnySizeFindTheSamePicture) {
-  // The least there can be: a mutation a chain, chains as long as the pass, large steps only.
+  // Extreme settings: chains of one mutation, chains as long as the pass, large steps only.
   const auto scene = scene_from_text(kHead + kFilm + kWorld);
   IntegratorOptions options;
   options.max_depth = 4;

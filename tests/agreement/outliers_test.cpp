@@ -1,5 +1,5 @@
-// Whole renders that reject outliers: by every set of routes they are the picture without rejection
-// divided into two layers; fireflies go; caustics that photons carry stay.
+// Whole renders with outlier rejection: for every preset, kept and rejected light add up to the
+// plain picture. Fireflies go, photon caustics stay.
 #include <gtest/gtest.h>
 
 #include "core/parallel.h"
@@ -12,7 +12,7 @@ namespace {
 
 using namespace testing_support;
 
-// A small lamp, which paths through the glass meet by chance only, and a rough mirror.
+// A rough mirror, and a small lamp that paths through the glass hit only by chance.
 const char* const kScene = R"(
   LookAt 0 4 -5  0 0.4 0  0 1 0
   Camera "perspective" "float fov" 40
@@ -86,7 +86,7 @@ TEST_P(Outliers, AreThePicturesOwnLightForAnyNumberOfThreads) {
     ASSERT_EQ(films[1].value(x, y)[c], kept);
     ASSERT_EQ(films[1].outliers(x, y)[c], held);
     ASSERT_NEAR(kept + held, plain.value(x, y)[c], 1e-6f * (std::abs(kept) + std::abs(held)));
-    // From the sums of both layers: the same bits, so nothing was lost.
+    // The error is computed from the sums of both layers: equal bits show that nothing was lost.
     ASSERT_EQ(film.standard_error(x, y)[c], plain.standard_error(x, y)[c]);
   });
 }

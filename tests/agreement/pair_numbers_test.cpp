@@ -1,6 +1,5 @@
-// The eye path and the light path of a pair are independent: with one seed, the picture of a pixel
-// goes on converging as its passes grow, where every connection asks for what the light's walk
-// chose.
+// Random numbers of eye paths and light paths are independent: with a single seed, a pixel keeps
+// converging over many passes. Every connection here depends on the light path's random choice.
 #include <gtest/gtest.h>
 
 #include "integrator/bidirectional/technique_choice.h"
@@ -11,8 +10,8 @@ namespace {
 
 using namespace testing_support;
 
-// A camera that looks straight down sees the left half of each pixel on a white board and the right
-// half on a black floor. Two spots light a ceiling, one red and one blue, and nothing else.
+// The camera looks straight down. Each pixel has a white board on its left half and a black floor
+// on its right half. A red and a blue spot light shine on the ceiling only.
 std::string stripes() {
   std::string text = R"(
     LookAt 0 1 0  0 0 0  0 0 1
@@ -37,7 +36,7 @@ std::string stripes() {
   return text;
 }
 
-/// Red and blue of all pixels.
+/// Red and blue values of all pixels.
 std::vector<double> colors_of(const Film& film) {
   std::vector<double> colors;
   for (int y = 0; y < 4; ++y)
@@ -57,10 +56,10 @@ TEST_P(PairNumbers, OneSeedConverges) {
   options.max_depth = 2;
   options.photons_per_pass = 1;
   options.radius = 1e-3f;
-  // The technique that asks the light path alone what the other end of the path is.
+  // The only technique whose contribution the light path alone decides.
   options.edit<TechniqueChoice>() = {2, 2, true, false};
   constexpr uint32_t kPasses = 4096, kSeeds = 128, kSome = 16;
-  // What is right, and how far one pass is off: from seeds that are independent.
+  // Mean and variance of one pass, from independent seeds.
   std::vector<double> mean(32, 0.0), square(32, 0.0);
   const SeedValues few = values_over_seeds(kSeeds, 100, [&](uint64_t seed) {
     return colors_of(render(*scene, plan, options, seed, kSome));
@@ -80,7 +79,7 @@ TEST_P(PairNumbers, OneSeedConverges) {
   }
   std::printf("%s: error %g, of independent numbers %g, picture %g\n", GetParam(), std::sqrt(error),
               std::sqrt(expected), std::sqrt(all));
-  // Under 4 with all but certainty, as the pixels are many; over 50 if a pixel's error stayed.
+  // Almost surely below 4, as there are many pixels. Above 50 if a pixel's error did not shrink.
   EXPECT_LT(error, 4 * expected);
   EXPECT_LT(expected, 0.02 * all);
 }

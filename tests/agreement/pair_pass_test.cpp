@@ -1,5 +1,5 @@
-// Passes of path+photons find the same light however long their camera paths are, and whether
-// photons or camera paths find its caustics.
+// Passes of path+photons find the same light for any length of camera paths, and whether photons or
+// camera paths find caustics.
 #include <gtest/gtest.h>
 
 #include "pair_pass_view.h"
@@ -10,7 +10,7 @@ namespace {
 
 using namespace testing_support;
 
-// Mean of all pixels over passes, its standard error, and the rays.
+// Mean of all pixels over passes, its standard error, and the number of rays.
 struct Mean {
   double value = 0, error = 0, rays = 0;
 };
@@ -61,7 +61,7 @@ TEST(PairPass, LeavesCausticsToWalksWhereThereAreNoPhotons) {
   PairTechniques pass = camera_paths_only();
   const Mean walks = mean_of(view, pass, 200);
   pass.light_paths = 1 << 14;
-  // Pixels are large here: with the radius of a picture, merging adds five per cent.
+  // Pixels are large here: the default radius would bias merging by five percent.
   IntegratorOptions options;
   options.radius = 0.2f;
   const Mean both = mean_of(view, pass, 100, options);

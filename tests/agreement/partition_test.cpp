@@ -1,7 +1,7 @@
-// Routes divide the light and lose none: with the same seed, path tracing of a route and of its
-// complement add up to path tracing of all, pixel by pixel and pass by pass; whoever owns a route,
-// the picture is the same within noise; layers of a partition add up to the picture; and no slider
-// of roughness makes a caustic jump.
+// Routes partition the light: with one seed, path tracing of a route and of its complement add up
+// to path tracing of everything, in every pixel and pass. The picture is the same, within noise,
+// for any estimator of a route. Layers of a partition add up to the picture. Sweeping roughness
+// moves a caustic between routes without a jump.
 #include <gtest/gtest.h>
 
 #include "integrator/metropolis/metropolis_options.h"
@@ -15,7 +15,7 @@ namespace {
 
 using namespace testing_support;
 
-// Glass, varnish and a rough metal above a floor before a wall; two lamps and a dim sky. All lights
+// Glass, varnish and rough metal on a floor in front of a wall; two lamps and a dim sky. All lights
 // are large, so that path tracing finds every path.
 std::string world(
     const std::string& film = "\"integer xresolution\" 12 \"integer yresolution\" 12") {
@@ -54,8 +54,8 @@ std::string world(
 )";
 }
 
-// Fog, a glowing medium, hair, skin, a glass that disperses and one that is frosted a little: its
-// roughness lies in the band.
+// Fog, a glowing medium, hair, skin, dispersive glass, and slightly frosted glass whose roughness
+// lies in the specular band.
 std::string second_world() {
   return R"(
   LookAt 0 3.2 -4  0 0.4 0  0 1 0
@@ -106,8 +106,8 @@ Film render_routes(const Scene& scene, const std::vector<std::string>& routes,
   return render(scene, plan_of(routes, aovs), options, seed, count);
 }
 
-// Any pass of path tracing that does not look at what is useful: whatever expression the first
-// route has, it and the rest add up to the picture.
+// Holds in every pass of path tracing that does not skip useless paths: a first route with any
+// expression, and the rest, add up to the picture.
 void expect_complements(const Scene& scene, const std::vector<std::string>& expressions) {
   IntegratorOptions options;
   options.max_depth = 8;
@@ -177,7 +177,7 @@ TEST(Partition, LayersOfAPartitionAddUpToThePicture) {
     }
 }
 
-// Whoever owns a route: the same picture as path tracing, by t-tests over seeds.
+// Any estimator of a route finds the picture of path tracing, by t-tests over seeds.
 struct Owners {
   const char* name;
   std::vector<std::string> routes;
@@ -201,7 +201,7 @@ IntegratorOptions options_of_owners() {
   return options;
 }
 
-/// Path tracing of all, one for all rows.
+/// Path tracing of everything, shared by all rows.
 const SeedValues& path_traced() {
   static const SeedValues values = block_values(*scene_from_text(world()), plan_of({"all=.*:path"}),
                                                 options_of_owners(), kSeeds, 8, 1, kAcross);
@@ -264,8 +264,8 @@ const std::vector<Owners> kOwners = {
 INSTANTIATE_TEST_SUITE_P(Routes, PartitionOwners, ::testing::ValuesIn(kOwners),
                          [](const auto& test) { return std::string(test.param.name); });
 
-// A metal ring throws a caustic on the floor. Its alpha runs through the band; with a threshold in
-// place of the band the caustic's route would lose everything from one step to the next.
+// A metal ring throws a caustic on the floor. Its alpha sweeps the specular band. With a threshold
+// in place of the band, the caustic's route would lose all its light in one step.
 TEST(RoughnessBand, MovesACausticFromOneRouteToAnotherWithoutAJump) {
   constexpr uint32_t kPasses = 64;
   const auto energies = [&](float alpha) {

@@ -1,5 +1,5 @@
-// The reduced photon map: what `doidge2012` stores against what full photon mapping stores, on a
-// Cornell box with a glass sphere (Doidge et al. 2012 report about a tenth).
+// The reduced photon map: photons stored by `doidge2012` and by full photon mapping, in a Cornell
+// box with a glass sphere. Doidge et al. 2012 report about a tenth.
 #include <gtest/gtest.h>
 
 #include "integrator/learning/guiding_options.h"
@@ -34,8 +34,7 @@ const char* const kBox = R"(
 uint64_t photons_stored(const Scene& scene, const std::string& plan) {
   IntegratorOptions options;
   options.photons_per_pass = 1 << 16;
-  options.edit<GuidingOptions>().photons =
-      false;  // all start as the lights have it, as in the paper
+  options.edit<GuidingOptions>().photons = false;  // unguided emission, as in the paper
   EstimatorSet set = make_estimators(plan_named(plan), options, scene);
   Film film = film_for(scene, set);
   uint64_t stored = 0;

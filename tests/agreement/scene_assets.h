@@ -1,4 +1,4 @@
-// The files that the scenes of agreement name. Who includes it: the tests that render these scenes.
+// Files that the agreement scenes refer to.
 #pragma once
 
 #include <cmath>
@@ -13,7 +13,7 @@
 
 namespace nephroid {
 
-/// A smooth height field, a small coloured image and a measured reflection; gone with the object.
+/// A smooth height field, a small colour image and a measured BSDF. Deleted with the object.
 class SceneAssets {
  public:
   SceneAssets() {

@@ -41,7 +41,7 @@ constexpr char kDiagram[] = R"(
     LightSource "goniometric" "string filename" "PICTURE" "rgb I" [20 18 16]
   AttributeEnd
 )";
-// Above and aside; the sky beyond it is partly hidden, half of that by a sheet with alpha.
+// Above and to one side. One sheet hides part of the sky beyond it, another has alpha 0.5.
 constexpr char kPortal[] = R"(
   AttributeBegin
     Rotate 40 1 0.3 0
@@ -54,7 +54,7 @@ constexpr char kPortal[] = R"(
     Shape "bilinearmesh" "point3 P" [1 4.8 0  3 4.8 0  1 4.8 2  3 4.8 2] "float alpha" 0.5
   AttributeEnd
 )";
-// A cloud in the portal itself.
+// A cloud that fills the portal.
 constexpr char kPortalInSmoke[] = R"(
   LightSource "infinite" "rgb L" [0.8 0.9 1] "float scale" 3
     "point3 portal" [0.9 3 -0.8  2.9 3 -0.8  2.9 3 1.6  0.9 3 1.6]
@@ -72,8 +72,8 @@ constexpr char kRoom[] = R"(
   Shape "bilinearmesh" "point3 P" [-3.5 0 -3.5  -3.5 0 3.5  -3.5 3 -3.5  -3.5 3 3.5]
 )";
 
-// BALL in a scene's text: a cage whose limit is a ball of radius about 0.6, smooth and of few
-// triangles.
+// Replaces BALL in a scene's text: a control cage of few triangles whose limit surface is a smooth
+// ball of radius about 0.6.
 constexpr char kBall[] = R"(Shape "loopsubdiv" "integer levels" 2
   "integer indices" [0 2 4 2 1 4 1 3 4 3 0 4 2 0 5 1 2 5 3 1 5 0 3 5]
   "point3 P" [0.9 0 0  -0.9 0 0  0 0.9 0  0 -0.9 0  0 0 0.9  0 0 -0.9])";
@@ -82,7 +82,7 @@ constexpr char kSheetBelowGlass[] = R"(
   Shape "bilinearmesh" "point3 P" [-3 0.45 -3  3 0.45 -3  -3 0.45 3  3 0.45 3] "float alpha" 0.5
   Material "dielectric" "float eta" 1.5 Translate 0 1.2 0 Shape "sphere" "float radius" 0.6)";
 
-// Path tracing cannot find the light, nor light tracing the eye.
+// Caustics seen in a mirror: neither camera paths nor light tracing find them.
 const std::vector<LeftOut> kMirroredCaustics = {
     {"light-only", "no connection finds C S D S L if the light is at a point"},
     {"forecast", "no walk from the eye finds C D S L if the light is at a point"}};
@@ -91,7 +91,7 @@ const std::vector<LeftOut> kMirroredCaustics = {
 
 const std::vector<AgreementScene> kAgreementScenes = {
     {.name = "diffuse", .world = R"(Translate 0 0.7 0 Shape "sphere" "float radius" 0.6)"},
-    // Light goes under the surface; photons are merged where it comes out, and start from there.
+    // Light scatters below the surface; photons are merged where it leaves, and start from there.
     {.name = "subsurface", .world = R"(AttributeBegin
        Material "subsurface" "rgb mfp" [0.2 0.12 0.07] "rgb reflectance" [0.8 0.6 0.5]
        Translate -0.4 0.6 0 Shape "sphere" "float radius" 0.5 AttributeEnd
@@ -99,7 +99,7 @@ const std::vector<AgreementScene> kAgreementScenes = {
     {.name = "rough_subsurface",
      .world = R"(Material "subsurface" "rgb mfp" [0.2 0.12 0.07] "rgb reflectance" [0.8 0.6 0.5]
        "float roughness" 0.3 Translate 0 0.7 0 Shape "sphere" "float radius" 0.6)"},
-    // On curves nothing is merged, whatever their material is, and all that it does is H.
+    // On curves nothing is merged, whatever the material, and every event is H.
     {.name = "subsurface_curve",
      .world = R"(AttributeBegin
        Material "subsurface" "rgb mfp" [0.2 0.12 0.07] "rgb reflectance" [0.8 0.6 0.5]
@@ -107,7 +107,7 @@ const std::vector<AgreementScene> kAgreementScenes = {
          "point3 P" [-1.2 0.4 0.1  -0.4 0.6 -0.3  0.4 0.4 0.4  1.2 0.5 0.1] AttributeEnd
        Material "dielectric" "float eta" 1.5 Translate 0.1 1.4 0.1 Shape "sphere" "float radius" 0.5)",
      .passes = 6},
-    // Caustics through media that dim, scatter, or both, unlike for each colour.
+    // Caustics through media that absorb, scatter, or both, differently for each colour.
     {.name = "tea",
      .world = R"(MakeNamedMedium "tea" "string type" "homogeneous" "rgb sigma_a" [0.4 0.9 2]
        "rgb sigma_s" [0 0 0] MediumInterface "tea" "" Material "dielectric" "float eta" 1.33
@@ -127,14 +127,14 @@ const std::vector<AgreementScene> kAgreementScenes = {
        Translate 0 0.9 0 Shape "sphere" "float radius" 0.85 AttributeEnd
        MediumInterface "" "fog" Material "dielectric" "spectrum eta" "glass-SF11"
        Translate 0 0.9 0 Shape "sphere" "float radius" 0.5)"},
-    // What glows has no photons: path tracing takes all of its light, through glass as well.
+    // Glowing media emit no photons: path tracing finds all of their light, also through glass.
     {.name = "glowing_gas",
      .world = R"(MakeNamedMedium "fire" "string type" "homogeneous" "rgb sigma_a" [2 1.5 1]
        "rgb sigma_s" [0.5 0.5 0.5] "rgb Le" [1.2 0.7 0.3]
        AttributeBegin MediumInterface "fire" "" Material "interface"
        Translate -0.6 0.7 0 Shape "sphere" "float radius" 0.4 AttributeEnd
        Material "dielectric" "float eta" 1.5 Translate 0.5 0.9 0 Shape "sphere" "float radius" 0.5)"},
-    // Light that misses a leaf of a cut-out container stays in the medium where it was.
+    // Light that passes a cut-out part of a container stays in its medium.
     {.name = "cut_out_container",
      .world = R"(MakeNamedMedium "ink" "string type" "homogeneous" "rgb sigma_a" [2 1 0.5]
        "rgb sigma_s" [0 0 0]
@@ -224,7 +224,7 @@ const std::vector<AgreementScene> kAgreementScenes = {
      .reference_passes = 32,
      .photons = 8192,
      .passes = 6},
-    // Light from a point through smooth glass is what no path from the eye can find.
+    // No camera path finds the light of a point through smooth glass.
     {.name = "point_light_and_glass",
      .world = R"(Material "dielectric" "float eta" 1.5 Translate 0 0.9 0
                  Shape "sphere" "float radius" 0.6)",
@@ -309,7 +309,7 @@ const std::vector<AgreementScene> kAgreementScenes = {
      .world = R"(Material "dielectric" "float eta" 1.5 Translate 0.3 0.9 0.2
                  Shape "sphere" "float radius" 0.6)",
      .camera = kFlipped},
-    // The limit is above all that a sample may carry here, and must then change nothing.
+    // The limit is above any sample value here and must then change nothing.
     {.name = "signed_filter_and_limit",
      .world = R"(Material "conductor" "float roughness" 0 Translate 0 0.7 0
                  Shape "sphere" "float radius" 0.6)",

@@ -1,5 +1,5 @@
-// Specular trees, which follow both ways at each boundary, find the light that walks of one way
-// each find, with less noise, in glass, in media and with dispersion.
+// Specular trees, which follow both ways at each delta boundary, find the same light as paths that
+// choose one way, with less noise. In glass, in media and with dispersion.
 #include "integrator/path/specular_tree.h"
 
 #include <gtest/gtest.h>
@@ -17,10 +17,10 @@ namespace {
 using namespace testing_support;
 
 struct Estimate {
-  double mean = 0, variance = 0;  ///< the variance of a path
+  double mean = 0, variance = 0;  ///< variance of a path
 };
 
-/// Paths through a part of the picture, each with its own wavelengths, weighed by the sensor.
+/// Paths through a part of the picture, each with its own wavelengths, weighted by the sensor.
 Estimate look(const Scene& scene, const OwnedRoutes& owned, bool grows, bool shares_wavelengths,
               const PixelBounds& area = {0, 0, 8, 8}) {
   const SpecularTree tree(scene, owned, 20);
@@ -71,7 +71,7 @@ TEST(SpecularTree, FindsWhatWalksFindWithLessNoise) {
   struct Case {
     const char* name;
     std::string text;
-    double gain;  ///< at least, in variance; 0: no trees, and the very same paths
+    double gain;  ///< minimal gain in variance; 0: no trees, identical paths
   };
   for (const Case& c :
        {Case{"glass", ball(kClear, glass), 2}, Case{"milk glass", ball(kMilky, glass), 1},
@@ -98,8 +98,8 @@ TEST(SpecularTree, FindsWhatWalksFindWithLessNoise) {
   }
 }
 
-// Walks that look for this light alone find all of it, and foretell how noisy it is for walks that
-// choose one way at each boundary.
+// Walks for this light alone find all of it. They also predict the variance of walks that choose
+// one way at each boundary.
 TEST(SpecularChainPass, FindsTheLightBehindDeltaLobes) {
   const auto scene = scene_from_text(ball(kClear, R"(Material "dielectric" "float eta" 2)"));
   const OwnedRoutes owned = owned_routes(*scene, {"of=CS+L:photons+light", "rest=.*:path"});

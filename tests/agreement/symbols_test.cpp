@@ -1,6 +1,6 @@
-// What SceneSymbols says can occur in a scene is all that does: routes are proved, and walks are
-// held back, by it. Walks that find everything useful go through all scenes of agreement, from the
-// camera and from the lights, and whatever they meet must have been foretold.
+// SceneSymbols lists every symbol that can occur in a scene: routes are proved and paths skipped by
+// it. Paths that treat everything as useful cross all agreement scenes, from the camera and from
+// the lights. Every symbol they meet must be listed.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -17,7 +17,7 @@ namespace {
 
 using namespace testing_support;
 
-// All names in the scene, so that no symbol is present on behalf of another.
+// All names in the scene, so that no symbol is present because of another one.
 std::vector<std::string> all_labels(const Scene& scene) {
   std::set<std::string> labels;
   for (const auto* names : {&scene.material_labels, &scene.medium_labels, &scene.light_labels})
@@ -26,7 +26,7 @@ std::vector<std::string> all_labels(const Scene& scene) {
   return {labels.begin(), labels.end()};
 }
 
-// Notes every symbol that a walk meets.
+// Records every symbol that a walk meets.
 class BlindVisitor {
  public:
   BlindVisitor(const Scene& scene, const SceneSymbols& symbols, std::set<EventSymbol>& events,
@@ -45,7 +45,7 @@ class BlindVisitor {
   void medium_emission(const Medium& medium, const SampledSpectrum&) {
     lights_.insert(symbols_.glow(medium.index()));
   }
-  // Also what is not sampled: light is connected to all classes of the place, on both sides.
+  // Includes classes that were not sampled: light is connected to all of them, on both sides.
   void vertex(const Walk&, const WalkVertex& v, PathSampler&) {
     for (const EventClass c : kSurfaceClasses)
       if (contains(v.bsdf.classes(), c))
@@ -70,9 +70,9 @@ class BlindVisitor {
 class SymbolsPresent : public ::testing::TestWithParam<AgreementScene> {
  protected:
   static constexpr int kDepth = 10;
-  // Two axes of a picture's grid; the light paths are numbered.
+  // Pixels along each axis, light paths in all, camera paths per pixel.
   static constexpr int kPixels = 12;
-  static constexpr int kLightPaths = 4000, kCameraPaths = 28;  // the latter for each pixel
+  static constexpr int kLightPaths = 4000, kCameraPaths = 28;
 
   void walk_from_the_camera(const Scene& scene, float specular_alpha, BlindVisitor& visitor) {
     for (uint32_t i = 0; i < kCameraPaths; ++i) {

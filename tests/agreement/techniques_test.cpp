@@ -1,4 +1,4 @@
-// What estimators say of their techniques adds up to what they put on the film.
+// The light that estimators report by technique adds up to the light on the film.
 #include <gtest/gtest.h>
 
 #include "core/parallel.h"
@@ -68,12 +68,12 @@ TEST_P(Techniques, AddUpToTheLightOfTheirRoutes) {
   IntegratorOptions options;
   options.photons_per_pass = 4000;
   expect_sums(GetParam(), options);
-  // Photons in several batches, of which the later ones are merged alone.
+  // Photons in several batches. Those after the first are only merged.
   options.memory_photons = 1024;
   expect_sums(GetParam(), options);
 }
 
-// In all routes together every technique has something to say.
+// Over all routes, every technique of the estimator contributes.
 TEST_P(Techniques, AreTheOnesThatTheEstimatorHas) {
   const auto scene = scene_from_text(kScene);
   IntegratorOptions options;
@@ -122,7 +122,7 @@ TEST_P(Techniques, AreCountedInTheFirstPassesAlone) {
 }
 
 TEST(TechniquesOfTrees, AreNotLightsMetByWalks) {
-  // The lamp is a glint of the ball, which few paths see.
+  // The lamp is seen reflected in the ball, by few paths.
   IntegratorOptions options;
   options.camera_samples_per_pass = 16;
   IntegratorOptions with_trees = options;

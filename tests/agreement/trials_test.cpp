@@ -1,5 +1,5 @@
-// Where trials of the default integrator tell that photons of all light should be merged, its
-// picture is still that of the others.
+// The trials of the default integrator: where they choose to merge photons of all light, or share
+// walks for specular chains out among tiles, the picture stays the same.
 #include <gtest/gtest.h>
 
 #include "lamp_in_a_tube.h"
@@ -12,7 +12,7 @@ using namespace testing_support;
 
 constexpr int kSeeds = 16, kAcross = 2;
 
-/// What the default integrator says of its first passes.
+/// Notes of the default integrator after its first two passes.
 std::string notes_of(const Scene& scene, const IntegratorOptions& options) {
   EstimatorSet set = make_estimators(plan_named("mixed"), options, scene);
   Film film = film_for(scene, set);
@@ -45,7 +45,7 @@ TEST(Trials, ThatMergeAllLightFindTheSamePicture) {
               block_values(*scene, "bdpt", options, kSeeds, 32, 1, kAcross), 0.02);
 }
 
-// Some tiles have walks that look for lamps in glass alone, others leave them to camera paths.
+// Some tiles have walks for specular chains, others leave their light to camera paths.
 TEST(Trials, ThatShareGlintsOutFindTheSamePicture) {
   const auto scene = scene_from_text(R"(
     LookAt 0 1.5 -5  0 0.8 0  0 1 0 Camera "perspective" "float fov" 40
@@ -64,7 +64,7 @@ TEST(Trials, ThatShareGlintsOutFindTheSamePicture) {
     AttributeBegin Translate 0.9 0.5 -0.5 Shape "sphere" "float radius" 0.5 AttributeEnd)");
   IntegratorOptions options;
   options.max_depth = 12;
-  options.radius = 0.1f;  // nothing to see of its bias
+  options.radius = 0.1f;  // makes the bias negligible
   const std::string notes = notes_of(*scene, options);
   EXPECT_NE(notes.find("smooth glass and mirrors a pixel and pass, 0 to "), std::string::npos)
       << notes;

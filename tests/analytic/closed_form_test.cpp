@@ -1,6 +1,5 @@
-// Light whose amount is known in closed form: a disk, a point and a beam above a floor, a beam
-// through a plate of glass, a point light and its mirror image; and scenes that must not care in
-// which unit they are written.
+// Light with a closed form: a disk, a point and a beam above a floor, a beam through a glass plate,
+// a point light and its mirror image. Results do not depend on the unit of length.
 #include <gtest/gtest.h>
 
 #include <numeric>
@@ -22,8 +21,8 @@ const std::string kLookDown = R"(
   WorldBegin
 )";
 
-// The radiance of an rgb illuminant of 1 is 1 in every channel of the film, and a spectrally flat
-// reflectance keeps it so.
+// An rgb illuminant of 1 gives 1 in every channel of the film. So does a spectrally flat
+// reflectance.
 const std::string kFloor = R"(
   Material "diffuse" "spectrum reflectance" [300 0.5 900 0.5]
   Shape "bilinearmesh" "point3 P" [-3 0 -3  3 0 -3  -3 0 3  3 0 3]
@@ -48,8 +47,8 @@ void expect_radiance(const std::string& text, const std::string& integrator, dou
   expect_estimate(mean_over_seeds(*scene, integrator, options, 16, passes), expected, integrator);
 }
 
-// Direct light on the bare floor, by each integrator. Footprints are tiny here, so the radius
-// counts many.
+// Direct light on the bare floor, by each integrator. Footprints are tiny here, so the radius spans
+// many.
 void expect_direct_light(const std::string& text, double expected) {
   const auto scene = scene_from_text(text);
   IntegratorOptions options;
@@ -65,7 +64,7 @@ void expect_direct_light(const std::string& text, double expected) {
 
 TEST(ClosedForm, DiskAboveAFloor) {
   // E = pi L R^2 / (R^2 + h^2); the floor reflects rho E / pi. The disk reflects nothing. The glass
-  // ball aside makes `mixed` shoot photons, of which one scattering event leaves none.
+  // ball at the side makes `mixed` emit photons; with one scattering event no path needs them.
   const std::string text = kLookDown + R"(
     AttributeBegin
       AreaLightSource "diffuse" "rgb L" [2 2 2]
@@ -80,8 +79,7 @@ TEST(ClosedForm, DiskAboveAFloor) {
   const double expected = 0.5 * 2 * 1.5 * 1.5 / (1.5 * 1.5 + 9);
   expect_direct_light(text, expected);
 
-  // With all events the ball sends a few parts in ten thousand to the middle of the floor, and no
-  // more.
+  // With all events the ball adds only a few parts in ten thousand at the middle of the floor.
   const auto scene = scene_from_text(text);
   IntegratorOptions options = many_photons();
   options.radius = 150;
@@ -118,10 +116,9 @@ double fresnel0(double eta) {
 }
 
 TEST(ClosedForm, BeamThroughAPlate) {
-  // Light falls straight down through two parallel interfaces; between them it bounces for ever, so
-  // the plate passes (1-R)/(1+R). What the floor sends back through the plate is reflected there
-  // too, away from the camera's spot except for D S D words, which maxdepth 3 leaves out: C D S S L
-  // alone is left.
+  // Light falls straight down through two parallel interfaces. Counting the interreflections, the
+  // plate transmits (1-R)/(1+R). Light from the floor that the plate reflects back misses the
+  // camera's spot, except as D S D paths, which maxdepth 3 excludes. Only C D S S L is left.
   const std::string text = R"(Integrator "path" "integer maxdepth" 3 )" + kLookDown + R"(
     LightSource "distant" "rgb L" [3 3 3] "point3 from" [0 1 0] "point3 to" [0 0 0]
     AttributeBegin
@@ -141,10 +138,10 @@ TEST(ClosedForm, BeamThroughAPlate) {
 }
 
 TEST(ClosedForm, PointLightAndItsMirrorImage) {
-  // A mirror of silver-like constant reflectance stands behind the light; its image lights the
-  // floor as a caustic, the light itself directly.
+  // A mirror of constant reflectance stands behind the light. The light illuminates the floor
+  // directly, its mirror image does so as a caustic.
   const double h = 2, x_mirror = 1;
-  const double r_mirror = 0.9;  // "reflectance" is the normal incidence value; see below
+  const double r_mirror = 0.9;  // "reflectance" is the value at normal incidence; see below
   const std::string text = kLookDown + R"(
     LightSource "point" "rgb I" [5 5 5] "point3 from" [0 2 0]
     Material "conductor" "spectrum reflectance" [300 0.9 900 0.9] "float roughness" 0
@@ -152,10 +149,10 @@ TEST(ClosedForm, PointLightAndItsMirrorImage) {
   )" + kFloor;
   IntegratorOptions options = many_photons();
   options.radius = 20;
-  options.photons_per_pass = 1 << 14;  // aimed at the small part of the mirror that counts
+  options.photons_per_pass = 1 << 14;  // guided to the small part of the mirror that matters
   options.max_depth = 2;
-  // pbrt's conductor of reflectance r: eta = 1, k = 2 sqrt(r)/sqrt(1-r); Fresnel at the angle of
-  // the ray that reaches the origin by way of the mirror.
+  // pbrt's conductor of reflectance r: eta = 1, k = 2 sqrt(r)/sqrt(1-r). Fresnel reflectance at the
+  // angle of the ray that reaches the origin by the mirror.
   const double k2 = 4 * r_mirror / (1 - r_mirror);
   const double cos_i = 2 * x_mirror / std::hypot(2 * x_mirror, h), cos2 = cos_i * cos_i,
                sin2 = 1 - cos2;
@@ -170,7 +167,7 @@ TEST(ClosedForm, PointLightAndItsMirrorImage) {
   expect_radiance(text, "doidge2012", 0.5 / kPi * (direct + mirrored), 2, options);
 }
 
-// The same scene in other units, in `scale` parts of the first one.
+// The same scene in units that are `scale` times as small.
 std::string scaled_scene(double scale) {
   const auto f = [scale](double v) {
     char buffer[40];
@@ -226,14 +223,14 @@ double mean_of(const std::vector<double>& values) {
 class Scale : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(Scale, TheUnitOfLengthDoesNotMatter) {
-  // The limits below are for chosen seeds: rounding turns over more decisions with some seeds.
+  // These limits hold for chosen seeds: how many decisions rounding flips depends on the seed.
   if (!fixed_seeds()) GTEST_SKIP() << "compares rounding errors, not random estimates";
-  // The same seeds make the same decisions, but for those few that rounding turns over.
+  // The same seeds make the same decisions, except for a few that rounding flips.
   IntegratorOptions options;
   options.photons_per_pass = 1 << 12;
   options.max_depth = 8;
   const Plan plan(GetParam());
-  // One walk that rounding turns over and that sees the lamp in the glass is 0.2 % of 8 passes.
+  // A single flipped walk that sees the lamp in the glass is 0.2 % of 8 passes.
   uint32_t passes = GetParam() == "mixed" ? 64 : 8;
   use_whole_maps(plan, options, passes);
   const auto values = [&](double scale) {
@@ -242,8 +239,8 @@ TEST_P(Scale, TheUnitOfLengthDoesNotMatter) {
   const std::vector<double> reference = values(1.0);
   for (const double scale : {1e-4, 1e4}) {
     const std::vector<double> scaled = values(scale);
-    // What is learned counts paths by tile: rounding may turn over one number, and with it all
-    // samples of the tile in that seed.
+    // Learned sample counts are per tile: rounding may flip a count, and with it all samples of the
+    // tile for that seed.
     if (GetParam() == "mixed") {
       EXPECT_NEAR(mean_of(scaled), mean_of(reference), 5e-4 * mean_of(reference)) << scale;
       continue;

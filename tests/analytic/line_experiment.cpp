@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kAmplitude = 0.8, kHigh = 1.6, kLow = 0.4;
 
-/// Numbers in [0,1) of one pass.
+/// Random numbers in [0,1) for one pass.
 class Numbers {
  public:
   Numbers(uint64_t seed, uint32_t pass, uint64_t stream)
@@ -59,12 +59,12 @@ double count(std::span<const double> photons, double x, double radius) {
   return static_cast<double>(found);
 }
 
-/// Both estimates of one region.
+/// The two estimates for one region.
 struct Region {
   double width = 0, truth = 0;
-  SharedStatistics statistics;  ///< its radius_squared is the measure that shrinks: here the radius
-  double tau = 0;               ///< of [E1]
-  double sum = 0;               ///< of [E2], over passes
+  SharedStatistics statistics;  ///< the measure that shrinks, here the radius
+  double tau = 0;               ///< tau of [E1]
+  double sum = 0;               ///< sum of the estimates [E2] over passes
 };
 
 }  // namespace
@@ -77,7 +77,7 @@ double line_density(LineDensity density, double x) {
 
 double line_mean(LineDensity density, double center, double width) {
   if (!(width > 0)) return line_density(density, center);
-  const double begin = center - width / 2 + 1;  // turns of the line do not matter
+  const double begin = center - width / 2 + 1;  // plus one turn: the line is closed
   return (cumulative(density, begin + width) - cumulative(density, begin)) / width;
 }
 

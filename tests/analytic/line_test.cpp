@@ -1,6 +1,5 @@
-// Density estimation on a line: errors fall to zero with the powers of the number of passes that
-// [E3] predicts, for shared statistics [E1] and the memoryless radius [E2], in regions of several
-// widths.
+// Density estimation on a line, by shared statistics [E1] and the memoryless radius [E2]. Errors
+// fall with the powers of the number of passes that [E3] predicts, in regions of several widths.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -17,7 +16,7 @@ namespace {
 constexpr double kWidths[] = {0, 0.05, 0.3};
 constexpr int kSeeds = 24;
 
-/// Over seeds: the mean of the errors and their root mean square, as [method][power of two].
+/// Mean and root mean square of the errors over seeds, as [method][power of two].
 struct Statistics {
   std::vector<uint32_t> passes;
   std::vector<double> mean[2], rms[2];
@@ -53,7 +52,7 @@ std::vector<Statistics> statistics_of(LineSettings settings,
   return result;
 }
 
-/// The slope from `first` passes on.
+/// Slope from passes[first] on.
 double slope(const Statistics& s, const std::vector<double>& errors, size_t first) {
   return line_slope(std::span(s.passes).subspan(first), std::span(errors).subspan(first));
 }
@@ -93,9 +92,9 @@ TEST(LineExperiment, ASeedIsAResult) {
   }
 }
 
-/// Square roots of the exact variances on a flat density after 1, 2, 4 ... passes, as
-/// [method][power of two]. A count is binomial, and both estimates are means over passes; the radii
-/// of [E1] are those for as many photons as are expected.
+/// Exact standard deviations on a flat density after 1, 2, 4 ... passes, as [method][power of two].
+/// A count is binomial, and both estimates are means over passes. [E1] uses the radii of the
+/// expected photon counts.
 std::array<std::vector<double>, 2> exact_noise(const LineSettings& settings) {
   SharedStatistics shared;
   shared.radius_squared = settings.radius;
@@ -115,11 +114,10 @@ std::array<std::vector<double>, 2> exact_noise(const LineSettings& settings) {
   return result;
 }
 
-// A flat density has no bias, and where a region looks does not matter: the error is noise, whose
-// square falls with passes^-alpha. Of 400 seeds the logarithm of a root mean square has a standard
-// error of 1/sqrt(800) = 0.035, and a fit over six doublings one of 0.035 / sqrt(17.5 * 0.48) =
-// 0.012, about twice that as the points are correlated. The slopes of the three values of alpha are
-// 0.07 and more apart.
+// A flat density has no bias, and a region's points do not matter: the error is noise whose square
+// falls with passes^-alpha. With 400 seeds the logarithm of the rms has a standard error of
+// 1/sqrt(800) = 0.035. A fit over six doublings has 0.035 / sqrt(17.5 * 0.48) = 0.012, or twice
+// that, as the points are correlated. Slopes of the three alphas differ by 0.07 or more.
 TEST(LineExperiment, NoiseFallsAsPredicted) {
   constexpr int kNoiseSeeds = 400;
   for (const double alpha : {0.5, 2.0 / 3.0, 0.8}) {
@@ -141,15 +139,15 @@ TEST(LineExperiment, NoiseFallsAsPredicted) {
             found[r].rms[method].back(), exact[method].back());
         EXPECT_NEAR(predicted, -alpha / 2, 0.04);
         EXPECT_NEAR(fitted, predicted, 0.05);
-        // Four standard errors; [E1] has the noise of its radii, too.
+        // Four standard errors. [E1] also has noise in its radii.
         EXPECT_NEAR(found[r].rms[method].back() / exact[method].back(), 1, 0.15);
       }
   }
 }
 
-// At the crest of a wave the bias of a pass is known in closed form, and its mean over passes falls
-// with passes^(2 alpha - 2) in the end. Seen from 16 passes on, a sum that starts at 1 is not yet
-// that power: the fit is compared with that of the exact sums, and both stand near the power.
+// At the crest of a wave the bias of a pass has a closed form, and its mean over passes tends to
+// passes^(2 alpha - 2). After 16 passes the sum is not yet that power: the fit is compared with the
+// exact sums, and both with the power within a wider limit.
 TEST(LineExperiment, BiasFallsAsPredicted) {
   LineSettings settings;
   settings.density = LineDensity::kWave;
@@ -158,8 +156,8 @@ TEST(LineExperiment, BiasFallsAsPredicted) {
   settings.passes = 256;
   const double crest[] = {0};
   const auto found = statistics_of(settings, crest);
-  // Mean densities within the radii of both methods, those of [E1] with as many photons as are
-  // expected.
+  // Mean densities within the radii of both methods. [E1] uses the radii of the expected photon
+  // counts.
   SharedStatistics shared;
   shared.radius_squared = settings.radius;
   double sums[2] = {0, 0};
@@ -188,8 +186,7 @@ TEST(LineExperiment, BiasFallsAsPredicted) {
   }
 }
 
-// Everywhere, in regions of any width and across a step, both estimates tend to the mean of the
-// region.
+// In regions of any width, and across a step, both estimates tend to the region's mean.
 TEST(LineExperiment, ErrorsOfAllRegionsFallToZero) {
   for (const LineDensity density : {LineDensity::kWave, LineDensity::kStep}) {
     LineSettings settings;
@@ -206,7 +203,7 @@ TEST(LineExperiment, ErrorsOfAllRegionsFallToZero) {
                     found[r].rms[method].back(), fitted);
         EXPECT_LT(found[r].rms[method].back(), 0.35 * found[r].rms[method][3]);
         EXPECT_GT(fitted,
-                  -0.7);  // where a region looks is noise that falls with 1/2, and no faster
+                  -0.7);  // noise of the points within a region falls with 1/2
         EXPECT_LT(fitted, -0.25);
       }
   }

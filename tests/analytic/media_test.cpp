@@ -1,7 +1,6 @@
-// Light in media whose amount is known: slabs that absorb and glow, single scattering against
-// quadrature, and two equilibria in which nothing can be seen - a white furnace without absorption
-// and an enclosure whose medium glows as its walls do. All with coefficients that depend on the
-// wavelength, so that spectral weights that are not unbiased show.
+// Media with known results: slabs that absorb and emit, single scattering against quadrature, and
+// two equilibria. These are a white furnace without absorption, and an enclosure whose medium emits
+// as its walls do. All coefficients vary with wavelength, to reveal biased spectral weights.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -15,8 +14,8 @@ using namespace testing_support;
 
 using SpectralRadiance = std::function<SampledSpectrum(const SampledWavelengths&)>;
 
-/// What the film makes of a spectrum, as the mean of its channels, by quadrature over `count` times
-/// 8 wavelengths. The film's curves are steps of a nanometre, so that it takes many.
+/// Mean of the film's channels for a spectrum, by quadrature over `count` times 8 wavelengths. Many
+/// are needed: the film's curves are steps of a nanometre.
 double film_mean(const Scene& scene, const SpectralRadiance& radiance, int count = 4096) {
   double sum = 0;
   for (int i = 0; i < count; ++i) {
@@ -29,7 +28,7 @@ double film_mean(const Scene& scene, const SpectralRadiance& radiance, int count
   return sum / count;
 }
 
-/// The radiance of "rgb L" [1 1 1] and of "rgb Le" [1 1 1]: the white of sRGB with luminance 1.
+/// Radiance of "rgb L" [1 1 1] and of "rgb Le" [1 1 1]: the sRGB white with luminance 1.
 SampledSpectrum white(const SampledWavelengths& lambda) {
   const Spectrum& illuminant = RgbColorSpace::srgb().illuminant();
   return illuminant.sample(lambda) / spectrum_to_photometric(illuminant);
@@ -49,7 +48,7 @@ struct MediumText {
   std::string text;  ///< parameters of MakeNamedMedium "m", its type first
 };
 
-/// "[ ... ]": `count` values between `least` and `most` in a fixed disorder.
+/// "[ ... ]": `count` values between `least` and `most` in a fixed scrambled order.
 std::string disorder(int count, double least, double most) {
   std::string text = "[";
   for (int i = 0; i < count; ++i)
@@ -67,9 +66,8 @@ std::string rgb(const std::string& name, double r, double g, double b) {
 const std::string kGrid = R"("integer nx" 4 "integer ny" 4 "integer nz" 4
   "point3 p0" [ -2 -2 -2 ] "point3 p1" [ 2 2 2 ] )";
 
-/// One of each kind that can emit, with absorption of about `a`, scattering of about `s` and the
-/// emission of `le` times the white of sRGB. Grids are larger than the unit ball, within which
-/// their emission is constant.
+/// One medium of each kind that can emit: absorption about `a`, scattering about `s`, emission `le`
+/// times the sRGB white. Grids extend beyond the unit ball, inside which emission is constant.
 std::vector<MediumText> media(double a, double s, double le = 0) {
   const std::string both =
       rgb("sigma_a", 0.2 * a, 0.5 * a, a) + rgb("sigma_s", s, 0.6 * s, 0.3 * s);
@@ -83,7 +81,7 @@ std::vector<MediumText> media(double a, double s, double le = 0) {
   if (le > 0) {
     all[0].text += rgb("Le", le, le, le);
     all[1].text += rgb("Le", le, le, le) + "\"float Lescale\" " + constant(64, 1);
-    // As in pbrt-v4 this kind alone does not divide by the luminance.
+    // As in pbrt-v4, only this kind does not divide by the luminance.
     const float luminance = spectrum_to_photometric(RgbColorSpace::srgb().illuminant());
     all[2].text +=
         "\"rgb Le\" " + constant(3 * 64, le) + "\"float Lescale\" " + std::to_string(1 / luminance);
@@ -105,7 +103,7 @@ std::string camera(const std::string& before = "", double fov = 0.05, double z =
   )";
 }
 
-// The medium "m" between z = -1 and z = 0.5.
+// The medium "m" from z = -1 to z = 0.5.
 const std::string kSlab = R"(
   AttributeBegin
     Material "interface"
@@ -115,7 +113,7 @@ const std::string kSlab = R"(
 )";
 const std::string kWhiteSky = "LightSource \"infinite\" \"rgb L\" [ 1 1 1 ]\n";
 
-/// Midpoint rule along the axis through the slab: `at(properties, transmittance so far, dt)`.
+/// Midpoint rule along the axis through the slab: calls `at(properties, transmittance so far, dt)`.
 template <class F>
 SampledSpectrum along_axis(const Medium& medium, float z0, float z1,
                            const SampledWavelengths& lambda, F&& at) {
@@ -182,8 +180,8 @@ TEST(Media, GlowingSlab) {
 }
 
 TEST(Media, SingleScatteringOfAPointLight) {
-  // Everything is in the medium; a black wall ends the view. One event: the sum over the axis of
-  // what the lamp sends there and the phase function turns towards the camera.
+  // The medium fills everything; a black wall ends the view. Single scattering: the integral along
+  // the axis of the lamp's light that the phase function sends to the camera.
   for (const MediumText& m : media(0.3, 0.5)) {
     const auto scene =
         scene_from_text(camera(named(m) + "MediumInterface \"m\" \"m\"\n", 0.05, -1.9) + R"(
@@ -220,7 +218,7 @@ TEST(Media, SingleScatteringOfAPointLight) {
   }
 }
 
-// A ball of the medium; `material` is that of its surface.
+// A ball of the medium, whose surface has `material`.
 std::string ball(const std::string& material) {
   return "AttributeBegin MediumInterface \"m\" \"\" Material " + material +
          " Shape \"sphere\" \"float radius\" 1 AttributeEnd\n";
@@ -238,7 +236,7 @@ TEST(Media, WhiteFurnaceIsNotSeen) {
         scene_from_text(camera("", 18) + named(m) + ball("\"interface\"") + kWhiteSky);
     expect_mean(*scene, "path", m.name, 1, 64, options);
   }
-  // Within glass, from which light finds out late.
+  // Inside glass, where paths are long because light leaves rarely.
   const MediumText& milk = white_media[0];
   const auto glass = scene_from_text(camera("", 18) + named(milk) +
                                      ball("\"dielectric\" \"float eta\" 1.4") + kWhiteSky);
@@ -246,8 +244,8 @@ TEST(Media, WhiteFurnaceIsNotSeen) {
 }
 
 TEST(Media, EquilibriumIsNotSeen) {
-  // A medium that glows as the sky does: what it takes away it gives back. With a ball of
-  // reflectance 1 inside.
+  // The medium emits as the sky does, so it emits as much as it absorbs. A ball of reflectance 1 is
+  // inside.
   for (const MediumText& m : media(0.5, 1.5, 1)) {
     const auto scene =
         scene_from_text(camera("", 18) + named(m) + ball("\"interface\"") + kWhiteSky +
@@ -260,14 +258,14 @@ TEST(Media, EquilibriumIsNotSeen) {
 }
 
 TEST(Media, CausticThroughAbsorbingGlass) {
-  // A beam falls straight through a plate of coloured glass onto a floor that the camera sees from
-  // under the plate. Photons carry it; three events leave C D S S L alone.
+  // A beam falls straight through a plate of coloured glass onto a floor, which the camera sees
+  // from below the plate. Photons carry the light; with three events only C D S S L is left.
   IntegratorOptions options;
   options.photons_per_pass = 1 << 12;
   options.radius = 300;  // footprints are tiny here, and the beam is uniform
   options.max_depth = 3;
   const double r = (0.5 / 2.5) * (0.5 / 2.5);
-  // Layers: the same under all of the plate.
+  // Layers: the same density everywhere in the plate's plane.
   std::string layers = "[";
   for (int z = 0; z < 4; ++z) layers += " 1 1 1 1  .9 .9 .9 .9  .2 .2 .2 .2  .6 .6 .6 .6";
   std::vector<MediumText> plates = {media(1.5, 0)[0]};

@@ -1,5 +1,5 @@
-// Photon maps and hit points where the light is known in closed form: the bound of the bias [N2], a
-// closed furnace, which has no bias, and a hit point that stays where it is.
+// Photon maps and hit points where the light has a closed form: the bias bound [N2], a closed
+// furnace, which is unbiased, and a hit point that stays.
 #include "integrator/photon_mapping/photon_map.h"
 
 #include <gtest/gtest.h>
@@ -13,8 +13,8 @@ namespace {
 
 using namespace testing_support;
 
-// One pixel sees a lit disk and the dark around it. A hit point lies on one of the two for ever; a
-// new walk in each pass sees both.
+// One pixel sees a lit disk and darkness around it. A hit point of `ppm` stays on one of the two
+// for ever. The new walks of each `sppm` pass see both.
 TEST(HitPoints, Stay) {
   const auto scene = scene_from_text(R"(
     LookAt 0 2 0.001  0 0 0  0 0 1
@@ -33,7 +33,7 @@ TEST(HitPoints, Stay) {
   for (uint64_t seed = 0; seed < 16; ++seed) {
     const double stays = picture_mean(render(*scene, "ppm", options, seed, 12));
     const double moves = picture_mean(render(*scene, "sppm", options, seed, 12));
-    // At the edge of the disk half of the photons are missing, or a little more.
+    // At the edge of the disk about half of the photons are missing.
     EXPECT_TRUE(stays == 0 || stays > 0.4 * 0.5 * static_cast<double>(kInvPi)) << stays;
     EXPECT_GT(moves, 0.05 * 0.5 * static_cast<double>(kInvPi));
     EXPECT_LT(moves, 0.8 * 0.5 * static_cast<double>(kInvPi));
@@ -44,7 +44,7 @@ TEST(HitPoints, Stay) {
 }
 
 // A point light at height 1 above a floor: E = I (1 + x^2)^(-3/2), whose second derivatives are at
-// most 3 I in magnitude. Relative to E at the middle, [N2] is 0.15 r^2 * 3.
+// most 3 I. Relative to E at the middle, [N2] is 0.15 r^2 * 3.
 TEST(PhotonMap, BiasKeepsToItsBound) {
   const auto scene = scene_from_text(R"(
     LookAt 0 0.5 0.0005  0 0 0  0 0 1
@@ -81,7 +81,7 @@ TEST(PhotonMap, BiasKeepsToItsBound) {
     EXPECT_LT(kT31 * bias.error, max_error(0.02));
     return std::pair{radius, bias};
   };
-  // The light is strongest in the middle, so the map is too dark there, by nearly the bound.
+  // Light is strongest in the middle, so the map is too dark there, by nearly the bound.
   const auto [fixed, dark] = look(kAllPhotons, 0.5);
   EXPECT_NEAR(fixed, 0.5, 1e-3);
   EXPECT_LT(dark.mean, -0.05);
@@ -90,10 +90,10 @@ TEST(PhotonMap, BiasKeepsToItsBound) {
   EXPECT_GT(less.mean, dark.mean);
 }
 
-// Inside of a sphere that glows and reflects half of all light, radiance is the same everywhere. A
-// cap of a sphere has the area of the plane disk with its chord for a radius: the estimate has no
-// bias, whatever its radius. Few photons make it noisy, not wrong: the last one chooses the radius
-// and is not counted. Were it, they would be too bright by a part in 19.
+// Inside a sphere that emits and reflects half of all light, radiance is uniform. A spherical cap
+// has the area of the disk whose radius is its chord: the estimate is unbiased for any radius. Few
+// photons add noise only: the farthest one sets the radius and is not counted. If it were,
+// estimates would be too bright by 1/19.
 TEST(PhotonMap, AClosedFurnaceIsFlat) {
   const auto scene = scene_from_text(R"(
     LookAt 0 0 0  0 0 1  0 1 0
@@ -117,7 +117,7 @@ TEST(PhotonMap, AClosedFurnaceIsFlat) {
               {"all=C[DG].*:photonmap", kAllPhotons, 2},
               {"all=C[DG].*:ppm", 0, 8}};
   for (const auto& row : rows) {
-    options.camera_samples_per_pass = row.walks;  // few where each reads a tenth of all photons
+    options.camera_samples_per_pass = row.walks;  // fewer where each gathers a tenth of all photons
     options.edit<PhotonMapOptions>().nearest_photons = row.nearest;
     const SeedValues values = values_over_seeds(16, 0, [&](uint64_t seed) {
       EstimatorSet set = make_estimators(plan_of({row.route, "rest=.*:path"}), options, *scene);

@@ -1,6 +1,5 @@
-// What estimators learn is all that their passes depend on beside scene, options and pass key: a
-// value that was written and read again, and another estimator of the same plan, give the same
-// bits.
+// Passes depend only on scene, options, pass key and learned values: a value written and read
+// again, or another estimator of the same plan, gives the same bits.
 #include <gtest/gtest.h>
 
 #include "determinism/scene_of_all_kinds.h"
@@ -17,7 +16,7 @@ using namespace testing_support;
 
 class LearnedBits : public ::testing::TestWithParam<std::string> {};
 
-/// The value after its bytes have been through a file.
+/// The value after serialization.
 std::shared_ptr<const Learned> copied(const Estimator& estimator, const FilmFormat& format,
                                       const std::shared_ptr<const Learned>& value) {
   if (!value) return nullptr;
@@ -70,7 +69,7 @@ TEST_P(LearnedBits, BytesThatAreCutOffAreRefused) {
   }
 }
 
-/// The same bytes, read and used for a pass. False if they are refused.
+/// Reads the bytes and uses them for a pass. False if they are refused.
 bool can_be_used(EstimatorSet& set, size_t number, std::span<const std::byte> bytes,
                  const Scene& scene, Film& film) {
   Estimator& estimator = *set.estimators[number];
@@ -92,7 +91,7 @@ TEST_P(LearnedBits, BytesThatAreDamagedAreRefusedOrDoNoHarm) {
   text.replace(text.find(size), size.size(), "xresolution\" 6 \"integer yresolution\" 5");
   const auto scene = scene_from_text(text);
   IntegratorOptions options;
-  // But for one whose number of photons is learned, few.
+  // Few photons, except where their number is learned.
   options.photons_per_pass = GetParam() == "mixed" ? 0 : 1 << 12;
   options.edit<MetropolisOptions>().mutations = 1;
   EstimatorSet set = make_estimators(plan_named(GetParam()), options, *scene);

@@ -1,5 +1,5 @@
-// What path+photons learns is a function of scene, film, options and seed: the same bits for any
-// number of threads and whichever passes a process renders, in whichever order.
+// What path+photons learns is a function of scene, film, options and seed. The bits do not depend
+// on threads, the order of passes, or their split among processes.
 #include <gtest/gtest.h>
 
 #include "core/parallel.h"
@@ -13,8 +13,8 @@ namespace {
 
 using namespace testing_support;
 
-// A small lamp, a glass ball and a floor of which it takes up little: photons are aimed, and tiles
-// differ in their noise.
+// A small lamp, and a glass ball on a much larger floor: photon emission is guided, and tiles
+// differ in noise.
 const std::string kScene = R"(
   LookAt 0 3 -4  0 0.3 0  0 1 0
   Camera "perspective" "float fov" 45
@@ -37,12 +37,12 @@ const std::string kScene = R"(
   Translate 0 0.6 0 Shape "sphere" "float radius" 0.4
 )";
 
-// Trials tell that photons of all light should be merged.
+// Trials choose to merge photons of all light.
 const std::string kTube =
     lamp_in_a_tube(R"(LookAt 0 1.4 -4  0 1.2 0  0 1 0 Camera "perspective" "float fov" 50)", 32);
 
-// Walks learn where the light comes from. The hair, which nobody sees, keeps photons of all light
-// away, with which there would be nothing to learn.
+// Camera paths are guided. The hair, out of view, prevents photons of all light, with which nothing
+// would be guided.
 const std::string kPatch = lit_patch(R"(
   Material "hair" "float eumelanin" 0.3
   Shape "curve" "point3 P" [20 0 0  20 1 0  20 2 0  20 3 0] "float width" 0.01
@@ -50,11 +50,11 @@ const std::string kPatch = lit_patch(R"(
                                      40);
 
 struct Rendered {
-  std::vector<Film> film;  ///< one
+  std::vector<Film> film;  ///< one film
   std::vector<std::string> notes;
 };
 
-/// Passes in this order, each part by estimators of its own.
+/// Renders passes in this order, each part by new estimators.
 Rendered render_parts(const std::string& text, const std::vector<std::vector<uint32_t>>& parts,
                       const IntegratorOptions& options = {}) {
   const auto scene = scene_from_text(text);
@@ -85,7 +85,7 @@ TEST(PathAndPhotons, HasTheSameBitsForAnyNumberOfThreads) {
                        std::to_string(threads) + " threads");
       EXPECT_EQ(found.back().notes, found[0].notes);
     }
-    // The test would be worth little if nothing were learned.
+    // Without learning the test would prove little.
     const std::string notes = ::testing::PrintToString(found[0].notes);
     const bool all_light = says(found[0], "photons of all light");
     EXPECT_EQ(all_light, text == kTube) << notes;

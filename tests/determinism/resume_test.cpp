@@ -1,6 +1,6 @@
-// A render that is interrupted after any pass or within one and goes on from its picture, any
-// number of times, ends with the bits of one that was not; and so does the sum of pictures of
-// disjoint passes, in any order. For all integrators and all presets of routes.
+// A render interrupted after or within any pass, any number of times, and resumed from its picture
+// ends with the bits of an uninterrupted one. So does the sum of pictures of disjoint passes, in
+// any order. For all integrators and presets.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -33,7 +33,7 @@ IntegratorOptions small_passes() {
   return options;
 }
 
-/// Ends a pass when it is looked in on for the last of so many times.
+/// Stops a pass at the given call of attend().
 class StopAt final : public PassControl {
  public:
   explicit StopAt(int looks) : looks_(looks) {}
@@ -46,7 +46,7 @@ class StopAt final : public PassControl {
   int looks_;
 };
 
-/// A run of the program: it begins with what film and estimators are when they are new.
+/// A run of the program: starts with a new film and new estimators.
 struct OneRun {
   OneRun(const Scene& of_scene, const std::string& plan, bool rejects)
       : scene(of_scene),
@@ -65,7 +65,7 @@ struct OneRun {
       done.add(pass);
     }
   }
-  /// Renders up to a pass. False if the control ended it before.
+  /// Renders up to pass `last`. False if the control stopped it before.
   bool render_watched(uint32_t last, PassControl& control) {
     for (uint32_t pass = open.value_or(done.first_missing(0)); pass <= last; ++pass) {
       open = pass;
@@ -107,7 +107,7 @@ struct OneRun {
   std::optional<uint32_t> open;
 };
 
-/// One of the plans with a film that keeps positions and the like as well.
+/// A scene for one of the plans. One of them has a film with positions and other geometry.
 std::unique_ptr<Scene> scene_for(const std::string& plan) {
   std::string text = kScene;
   const std::string film = "Film \"rgb\"";
@@ -155,7 +155,7 @@ TEST_P(Resume, EndsWithTheBitsOfOneRun) {
                         state_of(*scene, whole.set, whole.film),
                         std::to_string(ends.size()) + " runs");
     }
-    // The rest of the presets does not depend on what the film does with estimates.
+    // One preset is enough: rejection does not depend on the estimator.
     if (GetParam() != "path") break;
   }
 }
@@ -167,7 +167,7 @@ TEST_P(Resume, WithinPassesEndsWithTheBitsOfOneRun) {
   const std::string path = directory.file("picture.exr");
   OneRun whole(*scene, GetParam(), GetParam() == "path");
   whole.render(0, kLast);
-  // More and more looks, so that it ends whatever part of a pass is lost with a stop.
+  // Stops come later and later, so that the loop ends even if each one loses part of a pass.
   int stops = 0, within = 0;
   for (int looks = 1, growth = 3;; looks += growth, ++growth) {
     OneRun run(*scene, GetParam(), GetParam() == "path");

@@ -1,4 +1,4 @@
-// A scene with lights, surfaces, media and shapes of every kind. Who includes it: tests of bits.
+// A scene with lights, surfaces, media and shapes of every kind, for bit-by-bit comparisons.
 #pragma once
 
 namespace nephroid::testing_support {

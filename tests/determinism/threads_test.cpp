@@ -1,5 +1,4 @@
-// The same bits for any number of threads and for any order of the passes, by all integrators and
-// all presets of routes.
+// The same bits for any number of threads and any order of passes, for all integrators and presets.
 #include <gtest/gtest.h>
 
 #include "core/parallel.h"
@@ -13,7 +12,7 @@ namespace {
 
 using namespace testing_support;
 
-// The features are compared above; they must not all be zero.
+// The features must not all be zero, or comparing them would prove nothing.
 void expect_features(const Film& film) {
   double albedo = 0, depth = 0, normal = 0;
   const PixelBounds& b = film.bounds();
@@ -64,11 +63,11 @@ TEST_P(Determinism, AnyOrderOfIndependentPasses) {
 }
 
 TEST_P(Determinism, BatchesOfPhotonsLoseNothing) {
-  // A pass in many batches gathers the same photons: equal up to the rounding of the sums.
+  // A pass in many batches gathers the same photons: equal up to rounding of the sums.
   const auto scene = scene_from_text(kScene);
   IntegratorOptions whole, batched;
   whole.photons_per_pass = batched.photons_per_pass = 100000;
-  batched.memory_photons = 1;  // as few photons at once as there can be
+  batched.memory_photons = 1;  // the smallest possible batches
   const EstimatorSet set = make_estimators(plan_named(GetParam()), whole, *scene);
   for (const RouteGroup& group : set.routes->groups())
     if (is_one_of(group.estimator, {"photonmap"}))

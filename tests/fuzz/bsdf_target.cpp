@@ -1,11 +1,11 @@
-// The reader of measured reflection on hostile files, and what it makes of them; see targets.h.
+// Reads hostile files of measured BSDFs and evaluates them; see targets.h.
 #include "fuzz/targets.h"
 #include "scene/material/measured_file.h"
 
 namespace nephroid::fuzz {
 namespace {
 
-/// Asks for a few values and samples on both sides: all must be numbers.
+/// Evaluates and samples a few times on both sides: all results must be numbers.
 void use(const MeasuredBrdf& brdf) {
   const MeasuredBsdf bsdf(brdf, SampledWavelengths::sample_visible(0.4f));
   const Vec3f directions[] = {

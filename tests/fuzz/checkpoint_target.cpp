@@ -1,4 +1,4 @@
-// States of a render; see targets.h.
+// Render states; see targets.h.
 #include <cstring>
 #include <span>
 #include <vector>
@@ -28,7 +28,7 @@ void read(const std::string& path) {
   invalid_samples(film);
 }
 
-/// A file whose index has the checksum that its end tells: no fuzzer finds one.
+/// Corrects the checksum of the index in the footer: no fuzzer would find one.
 std::string with_right_hash(std::string bytes) {
   constexpr size_t kFooter = 32;
   uint64_t at = 0, size = 0;
@@ -42,7 +42,7 @@ std::string with_right_hash(std::string bytes) {
   return bytes;
 }
 
-/// What is held of outliers, which checksums protect in a file.
+/// Held outliers, which checksums protect in a file.
 void held(const std::string& bytes) {
   std::vector<uint32_t> words(bytes.size() / 4);
   if (!words.empty()) std::memcpy(words.data(), bytes.data(), words.size() * 4);

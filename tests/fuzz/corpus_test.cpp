@@ -1,4 +1,4 @@
-// Every input that a fuzzer ever failed on, and a few that lead it into the code, once more.
+// Replays every input that a fuzzer ever failed on, and a few that lead it into the code.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,13 +1,12 @@
-// A file on the disk for readers that open it themselves, in other libraries.
-// Who calls it: the fuzz targets.
+// A file on disk for readers of other libraries, which open it themselves.
 #pragma once
 
 #include <string>
 
 namespace nephroid::fuzz {
 
-/// There while it lives; in memory (/dev/shm) where the machine has that. At most one of each
-/// suffix at a time in a process.
+/// Deletes its file on destruction. It is in memory (/dev/shm) where possible. At most one file per
+/// suffix and process at a time.
 class DiskFile {
  public:
   DiskFile(const std::string& bytes, const std::string& suffix);
@@ -20,7 +19,7 @@ class DiskFile {
   std::string path_;
 };
 
-/// ".tga" if the bytes begin as no other image does, else ".image".
+/// ".tga" if the bytes match no other image format, else ".image".
 std::string image_suffix(const std::string& bytes);
 
 }  // namespace nephroid::fuzz

@@ -1,4 +1,4 @@
-// Lights with images, on hostile ones; see targets.h.
+// Lights with hostile images; see targets.h.
 #include <cmath>
 #include <cstdio>
 
@@ -21,7 +21,7 @@ bool is_density(float pdf) {
   return std::isfinite(pdf) && pdf >= 0.0f;
 }
 
-/// Samples and densities must be finite and agree with each other as far as signs go.
+/// Samples and densities must be finite, and their signs consistent.
 void use(Light& light) {
   light.set_scene_sphere({Vec3f(0, 0, 0), 2});
   const SampledWavelengths lambda = SampledWavelengths::sample_visible(0.4f);

@@ -1,4 +1,4 @@
-// Images of textures, read whole and tile by tile; see targets.h.
+// Texture images, read whole and tile by tile; see targets.h.
 #include <cstdlib>
 
 #include "fuzz/disk_file.h"
@@ -20,7 +20,7 @@ void look_at(const Image& image) {
   for (int y = 0; y < image.height(); y += 1 + image.height() / 8)
     for (int x = 0; x < image.width(); x += 1 + image.width() / 8)
       sum += image.value(x, y, image.channels() - 1);
-  if (sum == 12345.678f) std::abort();  // so that nothing is left out
+  if (sum == 12345.678f) std::abort();  // keeps the compiler from dropping the sum
 }
 
 }  // namespace
@@ -36,7 +36,7 @@ void image(const std::string& bytes) {
   } catch (const Error&) {
   }
   try {
-    // No room: nothing is read whole.
+    // A cache too small to read any image whole.
     ImageCache cache(1 << 16);
     for (const auto& encoding : {ColorEncoding::srgb(), ColorEncoding::linear()})
       look_at(*cache.get(file.path(), encoding, {}));

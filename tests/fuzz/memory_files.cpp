@@ -1,4 +1,4 @@
-// The fopen of the programs of this folder; see memory_files.h.
+// Replaces fopen in the programs of this folder; see memory_files.h.
 #include "fuzz/memory_files.h"
 
 #include <cerrno>
@@ -28,7 +28,7 @@ extern "C" std::FILE* __real_fopen(const char* path, const char* mode);
 
 extern "C" std::FILE* __wrap_fopen(const char* path, const char* mode) {
   auto& files = nephroid::fuzz::files_in_memory();
-  // libFuzzer writes what it learns and finds; the readers under test only read.
+  // libFuzzer writes files of its own; the readers under test only read.
   if (files.empty() || mode[0] == 'w') return __real_fopen(path, mode);
   const auto found = files.find(path);
   if (found == files.end()) {

@@ -1,6 +1,5 @@
-// Files that exist in memory only. The programs of this folder are linked with --wrap=fopen, so
-// that the readers under test open these files and no others, whatever names the bytes contain.
-// Who calls it: the fuzz targets.
+// Files in memory. The programs of this folder are linked with --wrap=fopen, so that the readers
+// under test open these files and no others, whatever names the bytes contain.
 #pragma once
 
 #include <map>
@@ -8,8 +7,7 @@
 
 namespace nephroid::fuzz {
 
-/// While it lives, reading finds these files (at least one) and nothing else. At most one at a
-/// time.
+/// While it lives, reads find these files (at least one) and no others. At most one at a time.
 class MemoryFiles {
  public:
   explicit MemoryFiles(std::map<std::string, std::string> files);

@@ -1,4 +1,4 @@
-// NanoVDB files, and media made of them; see targets.h.
+// NanoVDB files and the media made of them; see targets.h.
 #include <cstring>
 
 #include "fuzz/disk_file.h"
@@ -13,8 +13,8 @@ namespace {
 
 constexpr size_t kPatchBytes = 8;
 
-/// A sound file of two grids, as the library writes it. Half a megabyte, so that no fuzzer would
-/// make one.
+/// A valid file with two grids, written by the library. At half a megabyte, no fuzzer would make
+/// one.
 const std::string& sound_file() {
   static const std::string bytes = [] {
     const DiskFile file("", ".nvdb");
@@ -26,8 +26,8 @@ const std::string& sound_file() {
   return bytes;
 }
 
-/// Input that begins as a NanoVDB file does is one. Any other is a list of changes to a sound file:
-/// four bytes that say where, four that are put there.
+/// Input that begins as a NanoVDB file is used as it is. Other input is a list of changes to a
+/// valid file: four bytes of offset, four bytes of new data.
 std::string file_of(const std::string& bytes) {
   if (bytes.starts_with("NanoVDB")) return bytes;
   std::string file = sound_file();

@@ -6,7 +6,7 @@
 namespace nephroid::fuzz {
 namespace {
 
-/// What readers of meshes rely on.
+/// Checks the guarantees for users of meshes.
 void check(const MeshData& mesh) {
   const size_t vertices = mesh.positions.size();
   bool good = mesh.triangles.size() % 3 == 0 && mesh.quads.size() % 4 == 0;

@@ -1,4 +1,4 @@
-// Light path expressions and files of routes in hostile text, compiled and proved; see targets.h.
+// Hostile light path expressions and route files, compiled and proved; see targets.h.
 #include "core/errors.h"
 #include "fuzz/targets.h"
 #include "integrator/presets/estimator_table.h"
@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::string_view kAov = "--aov ";
 
-/// Reads words of all symbols from both ends and traps where they do not meet in the same owner.
+/// Reads words of all symbols from both ends and traps where the owners differ.
 void use(const Routes& routes) {
   const RouteTables& t = routes.tables();
   const auto events = static_cast<EventSymbol>(t.event_symbols);

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::string_view kMark = "#file ";
 
-/// Cuts the bytes at lines "#file NAME"; what stands before the first of them is "scene.pbrt".
+/// Splits the bytes at lines "#file NAME". The part before the first one is "scene.pbrt".
 std::map<std::string, std::string> files_of(const std::string& bytes) {
   std::map<std::string, std::string> files;
   std::string* current = &files["scene.pbrt"];

@@ -1,31 +1,31 @@
-// What is fuzzed: each target reads hostile bytes and may only return or throw an Error that it
-// catches itself; anything else (a crash, another exception, a hang) is a finding.
-// Who calls it: libFuzzer (libfuzzer/entry.cpp) and the replay of the corpus in `make test`.
+// Fuzz targets: each reads hostile bytes and may only return or throw an Error that it catches
+// itself. A crash, another exception or a hang is a finding. libFuzzer (libfuzzer/entry.cpp) and
+// the replay of the corpus in `make test` run them.
 #pragma once
 
 #include <string>
 
 namespace nephroid::fuzz {
 
-/// A scene text with the files that it may include: a line "#file NAME" starts the next file.
+/// A scene text and the files it may include: a line "#file NAME" starts the next file.
 void scene(const std::string& bytes);
 /// A PLY file.
 void ply(const std::string& bytes);
-/// A file of measured reflection; what can be read is also evaluated and sampled.
+/// A measured BSDF; a valid one is also evaluated and sampled.
 void bsdf(const std::string& bytes);
-/// A file of routes, with lines "--aov NAME=EXPRESSION" among them; what can be read is compiled
-/// and proved, and its tables must agree with themselves from both ends.
+/// A file of routes, which may contain lines "--aov NAME=EXPRESSION". Valid ones are compiled and
+/// proved, and their tables must agree from both ends.
 void routes(const std::string& bytes);
 
-/// An image file, read whole, as it is stored, and tile by tile.
+/// An image file, read whole, in its stored encoding, and tile by tile.
 void image(const std::string& bytes);
-/// An image file as the lights that take one have it; what can be read is sampled.
+/// An image file as lights read it; a valid one is sampled.
 void environment(const std::string& bytes);
-/// A NanoVDB file, or changes to a sound one; what can be read is looked up and walked through.
+/// A NanoVDB file, or changes to a valid one. Valid grids are looked up and traversed.
 void nanovdb(const std::string& bytes);
-/// A picture with the state of a render, read without its scene; or words of held outliers.
+/// A picture with a render state, read without its scene; or words of held outliers.
 void checkpoint(const std::string& bytes);
-/// A command line, an argument a line.
+/// A command line, one argument per line.
 void command(const std::string& bytes);
 
 }  // namespace nephroid::fuzz

@@ -1,6 +1,6 @@
-// Bad scenes for the real program: whatever is wrong, it says where, ends with the right status and
-// leaves no file behind; what still makes a picture is a warning. Variants of one fault are only
-// read and built, without starting the program again.
+// Bad scenes for the real program: it locates every fault, exits with the right status and leaves
+// no file behind. Faults that still allow a picture are warnings. Variants of a fault are only read
+// and built, without starting the program.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -35,7 +35,7 @@ TEST(BadSceneFile, IsASceneErrorIfItIsNoScene) {
   std::string garbage(5000, '\0');
   for (size_t i = 0; i < garbage.size(); ++i) garbage[i] = static_cast<char>(i * i * 31 + i / 7);
   SceneFolder(garbage).expect_error(kScene, "scene.pbrt:1:1: the file holds zero bytes");
-  // What a terminal would obey is not sent to it.
+  // Control characters are not passed on to the terminal.
   std::replace(garbage.begin(), garbage.end(), '\0', '\x1b');
   const ProgramRun run = SceneFolder(garbage).render();
   EXPECT_EQ(run.status, kScene);
@@ -149,7 +149,7 @@ TEST(BadMaterial, IsLocated) {
                  "7:20: cannot read image \"absent.png\"");
 }
 
-// Numbers whose inverse is infinite, where colours are looked up in tables.
+// Numbers whose inverse is infinite, for colours that are looked up in tables.
 TEST(DarkestColour, IsDrawn) {
   SceneFolder(kHead + "Material \"diffuse\" \"rgb reflectance\" [ 1e-45 -0 0 ]\n" + kTriangle +
               "LightSource \"infinite\" \"rgb L\" [ 0 1e-40 0 ]\n")
@@ -180,7 +180,7 @@ TEST(BadImage, IsLocated) {
   const std::string texture = "Texture \"a\" \"spectrum\" \"imagemap\" \"string filename\" ";
   expect_image_error(texture + "\"a.png\"\n", "a.png", "no png",
                      "7:35: cannot read image \"a.png\": ");
-  // A header that promises far more than the file has.
+  // A header that promises far more than the file holds.
   expect_image_error(
       texture + "\"a.pfm\"\n", "a.pfm", "PF\n20000 20000\n-1.0\n" + kPly,
       "7:35: image \"a.pfm\" says that it has 20000 x 20000 pixels of 3 channels, which "
@@ -209,7 +209,7 @@ TEST(BadTransform, IsLocated) {
   expect_refused("Rotate 10 0 0 0\n", "7:1: the axis of Rotate is null");
 }
 
-// The ray tracer ends the program at coordinates that it cannot hold.
+// The ray tracer would abort the program at coordinates that it cannot represent.
 TEST(FarAwayThings, AreLocated) {
   expect_scene_error("ObjectBegin \"o\"\nScale 1e-30 1e-30 1e-30\n" + kTriangle +
                          "ObjectEnd\nScale 1e30 1e30 1e30\nObjectInstance \"o\"\n",
@@ -276,7 +276,7 @@ TEST(BadFilm, IsLocated) {
   expect_refused("", "1:1: unknown film \"rbg\"", film("\"rbg\""));
 }
 
-// A filter of which nothing is left would send rays nowhere.
+// A filter that is zero everywhere would send no rays.
 TEST(BadPixelFilter, IsLocated) {
   SceneFolder("PixelFilter \"gaussian\" \"float sigma\" 1e-30\n" + kHead + kTriangle)
       .expect_error(kScene, "scene.pbrt:1:1: the parameters of the pixel filter \"gaussian\"");

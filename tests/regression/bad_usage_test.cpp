@@ -1,5 +1,5 @@
-// Bad command lines for the real program and outputs that it cannot write; and that a picture of an
-// earlier render survives a render that fails. Bad scenes are in bad_input_test.cpp.
+// Bad command lines for the real program and outputs that it cannot write. The picture of an
+// earlier render survives a render that fails. bad_input_test.cpp has bad scenes.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

@@ -1,5 +1,5 @@
-// Resuming and merging as a user does it, with the program: what comes out has the bits of one run,
-// what is of another render is refused by name, and a log that cannot be written ends nothing.
+// Resuming and merging with the real program: the result has the bits of a single run, data of
+// another render are refused by name, and an unwritable log ends nothing.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 class CheckpointCommand : public ::testing::Test {
  protected:
-  /// Renders the caustic room, small; expects that status.
+  /// Renders the small caustic room and expects that status.
   ProgramRun render(const std::string& output, const std::vector<std::string>& more,
                     int status = 0) {
     std::vector<std::string> arguments{"render", kRoom, "--resolution", "24x16", "-t",
@@ -74,7 +74,7 @@ TEST_F(CheckpointCommand, WhatIsReplacedIsSaid) {
   expect_said(render("a", {"--passes", "1", "--seed", "5"}),
               "a.exr has passes 0..2 of another render; it is kept as a.previous.exr, with "
               "a.previous.state and a.previous.png, in place of what was kept before");
-  // Of a picture without a state no older state is kept.
+  // A picture without a state keeps no older state.
   render("a", {"--passes", "1", "--no-state"});
   render("a", {"--passes", "1"});
   EXPECT_TRUE(std::filesystem::exists(folder_.path("a.previous.exr")));
@@ -133,7 +133,7 @@ TEST_F(CheckpointCommand, ANoiseTargetThatIsMetIsMet) {
 }
 
 TEST_F(CheckpointCommand, WhatIsNotFiniteIsSaidAndStrictAboutIt) {
-  // Light that floating-point numbers hold, on a film whose sensitivity makes too much of it.
+  // The light is finite, but the film's sensitivity makes it overflow.
   const SceneFolder folder(
       "Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 8 \"float iso\" 1e30\n"
       "LookAt 0 0 -3  0 0 0  0 1 0\nCamera \"perspective\"\nWorldBegin\n"

@@ -1,6 +1,5 @@
-// The scenes of the folder "features": one tiny scene for each feature of the scene format, and its
-// picture by one seed. Who calls it: feature_test.cpp and features/update.cpp, which stores what
-// the test compares with. It must not know what is stored.
+// The scenes of the folder "features", one tiny scene for each feature of the scene format, and
+// their pictures for one seed. It must not know what is stored.
 #pragma once
 
 #include <algorithm>
@@ -30,7 +29,7 @@ inline std::vector<std::string> feature_names() {
   return names;
 }
 
-/// Throws std::runtime_error if there is something to warn of: the scenes are as they should be.
+/// Throws std::runtime_error on any warning: these scenes are correct.
 inline std::unique_ptr<Scene> load_feature(const std::string& name) {
   Diagnostics diagnostics;
   const SceneDescription description =
@@ -52,7 +51,7 @@ inline Picture feature_picture(const Scene& scene, uint64_t seed, uint32_t passe
   return film_picture(render(scene, "path", feature_options(scene, "path"), seed, passes), {});
 }
 
-/// The channels that are compared: colours, and the geometry that a gbuffer film has.
+/// The compared channels: colours, and the geometry of a gbuffer film.
 inline std::vector<std::string> compared_channels(const Picture& picture) {
   std::vector<std::string> names = {"R", "G", "B"};
   if (picture.find_channel("Albedo.R") < 0) return names;

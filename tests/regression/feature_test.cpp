@@ -1,7 +1,7 @@
-// Every feature of the scene format still looks as it did: one tiny scene each in the folder
-// "features", rendered with several seeds and compared with the stored mean of many more, pixel by
-// pixel and as a whole. tools/update_regression writes what is stored. The levels are those of
-// theory for the whole picture, so that red means changed.
+// Every feature of the scene format still looks as it did. Each tiny scene of the folder "features"
+// is rendered with several seeds. Pixels and the whole picture are compared with the stored mean of
+// many more seeds, at exact levels, so that red means changed. tools/update_regression writes what
+// is stored.
 #include <gtest/gtest.h>
 
 #include <boost/math/distributions/students_t.hpp>
@@ -14,14 +14,14 @@ namespace {
 
 using namespace testing_support;
 
-/// A picture that is right is called wrong once in ten thousand choices of the seeds.
+/// A correct picture is rejected for one in ten thousand choices of the seeds.
 constexpr double kFalseAlarm = 1e-4;
 constexpr int kSeeds = 12;
 
-/// What independent renders say of a number.
+/// Statistics of a number over independent renders.
 struct Measured {
   double mean = 0;
-  double variance = 0;  ///< of the mean
+  double variance = 0;  ///< variance of the mean
   int seeds = 0;
 };
 
@@ -30,10 +30,10 @@ Measured measured(const std::vector<double>& values) {
   return {e.mean, e.error * e.error, static_cast<int>(values.size())};
 }
 
-/// Probability that the means of two measurements of the same number are so far apart: Welch's t.
+/// Probability that the means of two measurements of one number are so far apart: Welch's t.
 double probability(const Measured& a, const Measured& b) {
   const double variance = a.variance + b.variance, distance = std::abs(a.mean - b.mean);
-  // Without noise only rounding is left.
+  // Without noise only rounding remains.
   if (distance <= 1e-5 * (1e-3 + std::abs(b.mean))) return 1;
   if (!(variance > 0)) return 0;
   const auto square = [](double x) { return x * x; };
@@ -43,7 +43,7 @@ double probability(const Measured& a, const Measured& b) {
   return 2 * boost::math::cdf(boost::math::complement(t, distance / std::sqrt(variance)));
 }
 
-/// Level of one of `count` tests, none of which may fail by chance (Sidak).
+/// Level of each of `count` tests, so that all pass with the wanted probability (Sidak).
 double level_of(size_t count) {
   return -std::expm1(std::log1p(-kFalseAlarm) / static_cast<double>(count));
 }
@@ -59,7 +59,7 @@ class Reference {
       if (channel.starts_with("mean.")) channels_.push_back(channel.substr(5));
   }
 
-  uint32_t passes() const { return passes_; }  ///< of each seed
+  uint32_t passes() const { return passes_; }  ///< passes of each seed
   const std::vector<std::string>& channels() const { return channels_; }
   int width() const { return picture_.width(); }
   int height() const { return picture_.height(); }
@@ -71,7 +71,7 @@ class Reference {
     };
     return {value("mean"), value("variance"), seeds_};
   }
-  /// The mean of the whole picture, of channel R, G or B.
+  /// The mean of channel R, G or B over the whole picture.
   Measured whole(size_t channel) const {
     return {numbers("picture_mean").at(channel), numbers("picture_variance").at(channel), seeds_};
   }
@@ -92,7 +92,7 @@ class Reference {
   uint32_t passes_ = 0;
 };
 
-/// Compares a channel with what is stored, pixel by pixel; says the worst of those that differ.
+/// Compares a channel pixel by pixel with what is stored and reports the worst difference.
 void expect_same_pixels(const SeedValues& found, const Reference& reference,
                         const std::string& channel) {
   const double level = level_of(found.size() * reference.channels().size());
@@ -101,7 +101,7 @@ void expect_same_pixels(const SeedValues& found, const Reference& reference,
   for (size_t i = 0; i < found.size(); ++i) {
     const Measured stored = reference.pixel(channel, i);
     Measured now = measured(found[i]);
-    // Few seeds may all miss what is rare. The stored spread tells how much they vary at least.
+    // Few seeds may all miss rare light. The stored variance is a lower limit for theirs.
     const double usual = stored.variance * stored.seeds / now.seeds;
     if (usual > now.variance) now = {now.mean, usual, stored.seeds};
     const double p = probability(now, stored);
@@ -139,11 +139,11 @@ TEST_P(Feature, LooksAsStoredWithPath) {
   }
 }
 
-// Photons blur a pixel, not the picture: the mean of the three channels, without the bias of the
-// radius.
+// Photons blur pixels, not the picture: compares the mean of the three channels, extrapolated to a
+// radius of zero.
 TEST_P(Feature, HasTheStoredMeanWithMixed) {
   const auto scene = load_feature(GetParam());
-  if (!scene->media.empty()) return;  // caustics inside media are not those of photons
+  if (!scene->media.empty()) return;  // caustics inside media are not photons'
   const Reference reference(GetParam());
   IntegratorOptions options = feature_options(*scene, "mixed");
   options.radius = 1;
@@ -153,7 +153,7 @@ TEST_P(Feature, HasTheStoredMeanWithMixed) {
   Measured stored{0, 0, reference.whole(0).seeds};
   for (size_t c = 0; c < 3; ++c) {
     stored.mean += reference.whole(c).mean / 3;
-    // The channels vary together: the mean varies at most as much as their mean deviation.
+    // The channels are correlated: the mean's deviation is at most their mean deviation.
     stored.variance += std::sqrt(reference.whole(c).variance) / 3;
   }
   stored.variance *= stored.variance;

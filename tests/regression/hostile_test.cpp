@@ -1,5 +1,5 @@
-// Scenes that mean no good (tests/hostile, expected.txt has what becomes of each): a picture or a
-// message with its place, soon and with little memory.
+// Hostile scenes (tests/hostile, with their outcomes in expected.txt): each gives a picture or a
+// located message, soon and with little memory.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -25,7 +25,7 @@ constexpr bool kIsSlowAndLarge = true;
 constexpr bool kIsSlowAndLarge = false;
 #endif
 
-/// What would take all memory where --memory has no effect.
+/// Scenes that would take all memory where --memory has no effect.
 const std::set<std::string> kNeedALimit = {"displacement_edges_of_1e-9.pbrt",
                                            "film_of_4_gigapixels.pbrt", "only_worldbegin.pbrt",
                                            "zip_bomb.pbrt.gz"};
@@ -35,7 +35,7 @@ std::string bytes_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// "picture", or exit status and beginning of the message, by name of the scene.
+/// By scene name: "picture", or the exit status and the beginning of the message.
 std::map<std::string, std::string> expectations(const fs::path& folder) {
   std::map<std::string, std::string> found;
   std::ifstream file(folder / "expected.txt");

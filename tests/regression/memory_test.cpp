@@ -50,8 +50,8 @@ INSTANTIATE_TEST_SUITE_P(Integrators, MemoryLimit,
                          ::testing::Values("mixed", "path", "sppm", "ppm", "photonmap", "vcm",
                                            "mlt"));
 
-// Each thread has a stack, and the encoder has buffers of whole rows for each of its threads: what
-// fits is rendered and written, again and again, and what does not is refused before it starts.
+// Each thread has a stack, and each thread of the encoder has buffers of whole rows. What fits is
+// rendered and written; anything larger is refused before it starts.
 TEST(MemoryLimitOption, ManyThreadsAndWidePicturesAreCounted) {
   if (kIsLarge) GTEST_SKIP() << "sanitizers take memory of their own";
   const testing::TemporaryDirectory folder;

@@ -1,5 +1,5 @@
-// The scenes of this repository, as the program sees them: each is read without a warning and gives
-// a picture. Who calls it: nobody, these are tests. It must not know what the pictures show.
+// The scenes of this repository are read by the real program without a warning and give a picture.
+// It must not know what the pictures show.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Files below scenes/ that are scenes and not parts of one.
+/// Files below scenes/ that are whole scenes, not parts of one.
 std::vector<std::string> own_scenes() {
   std::vector<std::string> found;
   for (const auto& entry :

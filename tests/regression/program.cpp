@@ -41,7 +41,7 @@ pid_t start(const std::string& folder, const std::vector<std::string>& arguments
   return child;
 }
 
-/// The most memory that a process has held. What wait4 tells has that of whoever started it.
+/// Peak memory of a process. wait4 would report that of the process that started it.
 uint64_t peak_memory_of(pid_t process) {
   std::ifstream status("/proc/" + std::to_string(process) + "/status");
   for (std::string line; std::getline(status, line);)
@@ -49,7 +49,7 @@ uint64_t peak_memory_of(pid_t process) {
   return 0;
 }
 
-/// Reads to the end and looks at the memory meanwhile; false if the end does not come in time.
+/// Reads to the end while sampling the memory. False if the end does not come in time.
 bool read_all(int descriptor, pid_t process, std::string* text, uint64_t* peak_memory) {
   const auto deadline = std::chrono::steady_clock::now() + kPatience;
   constexpr int kMilliseconds = 10;

@@ -1,5 +1,5 @@
-// A folder with a scene that is to be rendered, and what is expected of the program then.
-// Who calls it: the tests of this folder. The scene's own lines start at line 7.
+// A folder with a scene to render, and expectations on the program's status, messages and files.
+// The scene's own lines start at line 7.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace nephroid::testing_support {
 
-/// Exit statuses of the program as its users know them.
+/// Documented exit statuses of the program.
 inline constexpr int kUsage = 2, kScene = 3, kInputOutput = 4;
 
 /// Lines 1 to 4: film (8 x 8 pixels, "picture.exr"), sampler, look-at and camera.
@@ -32,10 +32,10 @@ class SceneFolder {
   ProgramRun render(std::vector<std::string> more = {}) const;
 
   /// Expects that rendering ends with this status and a message that begins with `message`, and
-  /// that it neither makes nor removes a file.
+  /// that it neither creates nor removes a file.
   void expect_error(int status, const std::string& message,
                     std::vector<std::string> more = {}) const;
-  /// Expects a picture, all of these warnings and nothing else new in the folder.
+  /// Expects a picture, all of these warnings and no other new file.
   void expect_picture(const std::vector<std::string>& warnings,
                       std::vector<std::string> more = {}) const;
 
@@ -43,12 +43,12 @@ class SceneFolder {
   testing::TemporaryDirectory directory_;
 };
 
-/// Expects that kHead with these lines behind it is refused as a wrong scene, with a message that
-/// begins with "scene.pbrt:" and `message`.
+/// Expects that kHead followed by these lines is refused as a bad scene, with a message that begins
+/// with "scene.pbrt:" and `message`.
 void expect_scene_error(const std::string& lines, const std::string& message);
 
-/// The same without starting the program, for the many variants of one fault: only reads and
-/// builds the scene. `options` replaces the first four lines.
+/// The same without starting the program, for many variants of one fault: only reads and builds the
+/// scene. `options` replaces the first four lines.
 void expect_refused(const std::string& lines, const std::string& message,
                     const std::string& options = kOptions);
 

@@ -1,5 +1,5 @@
-// Scenes that do not come as files with a name of their own, and names that the format does not
-// have, for the real program.
+// Scenes from standard input and pipes, unknown names, and files of other formats, for the real
+// program.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 

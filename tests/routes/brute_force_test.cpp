@@ -1,8 +1,7 @@
-// 200 random sets of routes, and presets, against what they mean by definition: every word of
-// up to six letters over all letters, and of up to twelve over one D and one S, with every kind of
-// light, from both ends and at every meeting point. Sets that are wrong (holes, routes that own
-// nothing, photons without a merge vertex) are among them: the proof must find what these words
-// show.
+// Compares 200 random route sets, and the presets, with their definition: every word of up to six
+// letters over all letters, and of up to twelve over D and S. Every kind of light, both ends and
+// every meeting point are tried. Some sets have faults (holes, routes that own nothing, photons
+// without a merge vertex), which the proof must find.
 #include <gtest/gtest.h>
 
 #include "core/errors.h"
@@ -36,7 +35,7 @@ RouteCompilation compile(const OracleRoutes& set, const SymbolSet* symbols) {
   return compile_routes(routes, aovs, symbols);
 }
 
-/// Some of all symbols, at least one light and one event among them.
+/// A random subset with at least one light and one event.
 SymbolSet some_symbols(const SymbolSet& all, RandomRoutes& random) {
   SymbolSet some = all;
   for (size_t i = 1; i < all.events.size(); ++i)
@@ -46,7 +45,7 @@ SymbolSet some_symbols(const SymbolSet& all, RandomRoutes& random) {
   return some;
 }
 
-/// All words of the sizes that this set's alphabet allows within the time of a test.
+/// All words up to the length that a test has time for with this alphabet.
 void compare_words(Comparison& comparison, const Alphabet& alphabet, RandomRoutes& random) {
   std::vector<int> all;
   for (int e = 0; e < alphabet.events(); ++e) all.push_back(e);
@@ -59,8 +58,8 @@ void compare_words(Comparison& comparison, const Alphabet& alphabet, RandomRoute
   }
 }
 
-/// One set: the compiled tables and findings against the oracle. `variant` says which symbols the
-/// scene has: all but glowing media, all, some, or some after compiling for all.
+/// Compares the compiled tables and findings of a set with the oracle. `variant` chooses the
+/// scene's symbols: all but glowing media, all, some, or some after compiling for all.
 void compare(OracleRoutes set, int variant, RandomRoutes& random) {
   SCOPED_TRACE(description(set));
   RouteCompilation compilation = compile(set, nullptr);
@@ -77,7 +76,7 @@ void compare(OracleRoutes set, int variant, RandomRoutes& random) {
   EXPECT_EQ(comparison.failure(), "");
   EXPECT_GT(comparison.words(), 20000u);
 
-  // What is thrown is the first error, or under --strict-routes the first overlap.
+  // The first error is thrown, or under --strict-routes the first overlap.
   using Kind = RouteFinding::Kind;
   const RouteFinding *error = nullptr, *overlap = nullptr;
   for (const RouteFinding& f : compilation.findings) {
@@ -114,7 +113,7 @@ TEST_P(BruteForce, TablesAndProofsAgreeWithTheDefinition) {
 
 INSTANTIATE_TEST_SUITE_P(Sets, BruteForce, ::testing::Range(0, 40));
 
-/// The trees of a preset; compare_preset checks that they are what it says.
+/// Trees of a preset's expressions. compare_preset checks that they match the preset.
 Tree letters(std::string_view set) {
   return Tree::of(set.size() == 1 ? *atom_of(std::string(set), {}) : set_of(set, false));
 }
@@ -191,7 +190,7 @@ TEST(Expressions, WithoutPathsAreRefused) {
   const Alphabet alphabet(0);
   int refused = 0;
   for (int n = 0; n < 1000; ++n) {
-    // Most expressions that begin before the eye or end behind a light have no path.
+    // Most expressions that begin before the eye or end behind a light match no path.
     Tree tree = random.expression(false);
     const Tree event = Tree::of(*atom_of("D", {}));
     if (n % 4 == 1) tree = Tree::sequence({event, tree});

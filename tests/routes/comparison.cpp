@@ -1,4 +1,4 @@
-// Compiled routes against their meaning, word by word; see comparison.h.
+// Compares compiled routes with their definition, word by word; see comparison.h.
 #include "routes/comparison.h"
 
 #include <algorithm>
@@ -81,7 +81,7 @@ void Comparison::push(int event) {
     Machine* const machine = set_.merging(route);
     if (machine == nullptr) continue;
     for (Machine::State& state : now.marked[r]) state = machine->step(state, plain);
-    // The marked event may be this one: all before it are read without marks.
+    // The marked event may be this one: all earlier ones are read without marks.
     Machine::State state = machine->step(machine->start(), set_.alphabet().eye());
     for (size_t i = 0; i < n; ++i)
       state = machine->step(state, set_.alphabet().event(path_.events[i]));
@@ -315,7 +315,7 @@ void Comparison::findings(const RouteCompilation& compilation) {
     const auto owned = [&](const Path& path) {
       return present(path) && set_.facts(path).owner == route;
     };
-    if (found(Kind::kUnreachable, {route})) continue;  // named there: checked above
+    if (found(Kind::kUnreachable, {route})) continue;  // unreachable routes were checked above
     if (std::none_of(paths.begin(), paths.end(), owned) || paths[0].events.size() > events)
       fail("'" + compilation.examples[size_t(route)] + "' is not a shortest path of route " +
            std::to_string(route));

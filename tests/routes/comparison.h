@@ -1,7 +1,6 @@
-// Holds compiled routes against what they mean by definition (oracle_routes.h), word by word: the
-// owner from the eye and from every possible meeting point, merge vertices, what walks are told is
-// useful, and all findings of the proof.
-// Who calls it: brute_force_test.cpp. It must not know how routes are compiled.
+// Compares compiled routes with their definition (oracle_routes.h), word by word: owners from the
+// eye and from every meeting point, merge vertices, useful events, and all findings of the proof.
+// It must not know how routes are compiled.
 #pragma once
 
 #include <map>
@@ -16,45 +15,45 @@
 
 namespace nephroid::oracle {
 
-/// Every event and light of the alphabet (light from media if `media`), as routes number them.
+/// Every event and light of the alphabet (light from media only if `media`), as numbered by routes.
 SymbolSet all_symbols(const Routes& routes, bool media);
 
-/// True if the estimator connects light walks to the camera.
+/// True for estimators that connect light paths to the camera.
 inline bool connects_lights(const EstimatorTraits* kind) {
   return is_one_of(kind, {"lighttrace", "photons+light"});
 }
 
-/// True if the estimator has the reach of path tracing from the eye.
+/// True for estimators that find the same paths as path tracing from the eye.
 inline bool walks_from_eye(const EstimatorTraits* kind) {
   return is_one_of(kind, {"path", "pssmlt"});
 }
 
-/// True if it makes a path of an eye's and a light's walk, cut anywhere.
+/// True for estimators that join an eye path and a light path at any vertex.
 inline bool is_cut_anywhere(const EstimatorTraits* kind) {
   return is_one_of(kind, {"bdpt", "vcm", "bpm", "path+photons", "mlt"});
 }
 
 class Comparison {
  public:
-  /// Findings are about paths of the symbols in `present`; so is what `routes` call useful. All
-  /// must outlive the comparison.
+  /// Findings concern paths over the symbols in `present`, and so do the useful events of `routes`.
+  /// The arguments must outlive the comparison.
   Comparison(OracleRoutes& set, const Routes& routes, const SymbolSet& present);
 
-  /// All words with up to `length` of these events, ending on each light of the alphabet.
+  /// Compares all words of up to `length` of these events, with each light of the alphabet.
   void all_words(const std::vector<int>& events, size_t length);
-  /// One word, all its beginnings, and all lights.
+  /// Compares one word, all its prefixes, and all lights.
   void word(const std::vector<int>& events);
-  /// The findings against the words compared before.
+  /// Compares the findings with the words compared before.
   void findings(const RouteCompilation& compilation);
-  /// That nothing is called useful which leads nowhere, by the tables themselves.
+  /// Checks in the tables that no event is called useful which leads nowhere.
   void nothing_hopeless();
 
-  /// What went wrong first, and how many words were compared.
+  /// The first failure, and the number of words compared.
   const std::string& failure() const { return failure_; }
   size_t words() const { return words_; }
 
  private:
-  /// One more event of the current word, and everything that has read it.
+  /// Appends an event to the current word and advances all machines.
   void push(int event);
   void pop() { path_.events.pop_back(); }
   void visit(const std::vector<int>& events, size_t length);
@@ -80,13 +79,13 @@ class Comparison {
   std::map<std::pair<int, std::vector<int>>, Part> parts_;
 
   Path path_;
-  /// What has read the first n events, in element n.
+  /// States of all machines after the first n events, in element n.
   struct Read {
     EyeState eye = 0;
     std::vector<Machine::State> routes, aovs;
-    std::vector<std::vector<Machine::State>> marked;  // [route][event that is marked]
+    std::vector<std::vector<Machine::State>> marked;  // [route][marked event]
     bool present = true, hair = false;
-    std::vector<bool> useful;  // [group]: camera walks are told to go on
+    std::vector<bool> useful;  // [group]: camera paths should go on
   };
   std::vector<Read> read_;
   std::vector<size_t> vertices_;  // merge vertices of the current word
@@ -94,7 +93,7 @@ class Comparison {
   std::set<std::pair<int, int>> overlaps_;
   std::set<std::pair<RouteFinding::Kind, int>> defects_;
   bool hole_ = false, dark_medium_ = false;
-  std::map<int, size_t> shortest_;  // [route]: events in a word that it owns
+  std::map<int, size_t> shortest_;  // [route]: events in its shortest word
   std::string failure_;
   size_t words_ = 0;
 };

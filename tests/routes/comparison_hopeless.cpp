@@ -1,6 +1,5 @@
-// The upper bound of what walks are told is useful: events that lead nowhere must not be. The lower
-// bound, that every path can be walked, is checked word by word in comparison.cpp; see
-// comparison.h.
+// Upper bound of the useful events: no event that leads nowhere is called useful. comparison.cpp
+// checks the lower bound, that every path can be sampled; see comparison.h.
 #include <algorithm>
 
 #include "routes/comparison.h"
@@ -11,7 +10,7 @@ void Comparison::nothing_hopeless() {
   path_ = {};
   const RouteTables& tables = routes_.tables();
   const size_t eyes = tables.eye_states, ends = tables.light_states;
-  // States that some path leads to.
+  // States that some path reaches.
   std::vector<bool> eye_reached(eyes), light_reached(ends);
   std::vector<EyeState> eye_queue{routes_.start()};
   std::vector<LightState> light_queue;
@@ -29,7 +28,7 @@ void Comparison::nothing_hopeless() {
         light_reached[s] = true, light_queue.push_back(s);
 
   for (size_t g = 0; g < routes_.groups().size(); ++g) {
-    // Events that lead on to something of the group, found by going round until nothing changes.
+    // Events that can still lead to a path of the group, by fixed-point iteration.
     const auto closure = [&](size_t states, const auto& next, const auto& good) {
       std::vector<bool> alive(states);
       for (size_t s = 0; s < states; ++s) alive[s] = good(s);

@@ -1,5 +1,5 @@
-// Runs docs/routes.md: every set of routes in it compiles, every word has the owner and the layers
-// that stand beside it, and every message is what the program says, to the letter.
+// Runs docs/routes.md: every route set in it compiles, every word has the owner and layers beside
+// it, and every message is exactly the program's.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -46,7 +46,7 @@ std::vector<Block> blocks() {
   return all;
 }
 
-/// The value of `option 'VALUE'` or `option "VALUE"` as a shell hands it over, empty if the line is
+/// The value of `option 'VALUE'` or `option "VALUE"` as a shell would pass it. Empty if the line is
 /// not that option.
 std::optional<std::string> value_of(const std::string& line, const std::string& option) {
   if (line.rfind(option + " ", 0) != 0) return {};
@@ -65,7 +65,7 @@ struct Options {
   std::vector<AovDefinition> aovs;
 };
 
-/// Reads the lines that are options; the rest is returned as one text.
+/// Reads the lines that are options. Returns the rest as one text.
 std::string read_options(const std::vector<std::string>& lines, Options& options) {
   std::string rest;
   for (const std::string& line : lines) {
@@ -108,8 +108,9 @@ std::vector<std::string> columns_of(const std::string& row) {
   return columns;
 }
 
-/// "PATH | ROUTE | LAYERS | WHY"; without AOVs there is no third column. Lights are all but those
-/// of media, unless the word says M.
+/// "PATH | ROUTE | LAYERS | WHY", without the third column if there are no AOVs. Checks all lights
+/// but those of media, or those of media as well if the word says M.
+/// those of media as well if the word says M.
 void check_row(const Routes& routes, const std::string& row) {
   SCOPED_TRACE(row);
   const std::vector<std::string> columns = columns_of(row);
@@ -168,7 +169,7 @@ TEST(Documentation, EveryExampleHolds) {
   EXPECT_GE(rows, 50);
 }
 
-/// What the program says to the routes of a block: the error, or each of the warnings.
+/// The program's messages on the routes of a block: the error, or each warning.
 std::vector<std::string> messages_of(const std::vector<std::string>& lines) {
   Options options;
   std::vector<std::string> messages;
@@ -188,7 +189,7 @@ TEST(Documentation, EveryMessageIsSaid) {
   for (const Block& block : blocks()) {
     if (block.kind != "error" && block.kind != "warning") continue;
     SCOPED_TRACE("docs/routes.md:" + std::to_string(block.line));
-    // Options first, then the message, which may quote an option on a line that is indented.
+    // Options come first, then the message, which may quote an option on an indented line.
     std::vector<std::string> options;
     std::string expected;
     for (const std::string& line : block.lines) {

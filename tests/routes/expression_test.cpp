@@ -1,5 +1,5 @@
-// The grammar of light path expressions, and what is said to users who get it wrong: column, caret
-// and what was expected.
+// The grammar of light path expressions, and the messages about syntax errors: column, caret and
+// what was expected.
 #include "route/expression.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 namespace nephroid {
 namespace {
 
-// What a user is told about a text, "" if nothing is wrong with it.
+// The message about a text, "" if it is correct.
 template <class Parse>
 std::string complaint(Parse parse) {
   try {
@@ -27,7 +27,7 @@ std::string complaint(Parse parse) {
 
 struct Mistake {
   std::string text;
-  size_t column;  ///< from 1
+  size_t column;  ///< column, from 1
   std::string part_of_message;
 };
 
@@ -145,8 +145,8 @@ TEST(Expression, LabelsMayHoldWhatElseHasAMeaning) {
   EXPECT_EQ(mentioned_labels(routes, {}), std::vector<std::string>{"a:b [c] @"});
 }
 
-// Plain words of up to four events over D, G, S, V and H that an expression matches, with an
-// emissive shape as the light; `aov` stands for any expression, since layers need no partition.
+// Words of up to four plain events over D, G, S, V and H that an expression matches, with an
+// emissive shape as the light. `aov` takes any expression, since layers need no partition.
 std::vector<std::string> matched(const std::string& expression) {
   const Routes routes = compiled({"rest=.*:path"}, {"x=" + expression}).routes;
   std::vector<std::string> result;

@@ -1,5 +1,5 @@
-// Words of plain letters, "DDS", followed through compiled routes: reflected events without labels.
-// Who calls it: tests of routes.
+// Words of plain letters, "DDS", followed through compiled routes: reflection events without
+// labels.
 #pragma once
 
 #include <string>
@@ -20,7 +20,7 @@ inline EventSymbol event_of(char letter) {
   return event_symbol(c, false, 0);
 }
 
-/// All words over the letters of up to `length` letters, the empty one included.
+/// All words of up to `length` of these letters, including the empty one.
 inline std::vector<std::string> words(int length, const std::string& letters) {
   std::vector<std::string> all{""};
   for (size_t i = 0; i < all.size(); ++i)
@@ -45,7 +45,7 @@ inline LightState read_from_light(const Routes& routes, const std::string& event
   return state;
 }
 
-/// Name of the route that owns C `events` and a light, "" if none does.
+/// Name of the route that owns C `events` and a light, "" if there is none.
 inline std::string owner_name(const Routes& routes, const std::string& events,
                               LightKind light = LightKind::kShape) {
   const Part part = routes.owner(read_from_eye(routes, events), light_symbol(light, 0));

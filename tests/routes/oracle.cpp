@@ -1,4 +1,4 @@
-// The plain matchers of light path expressions; see oracle.h.
+// Plain matchers of light path expressions; see oracle.h.
 #include "routes/oracle.h"
 
 #include <stdexcept>
@@ -84,7 +84,7 @@ bool Tree::has_marks() const {
 
 namespace {
 
-/// The places (a bit each) at which a match of `tree` can end that begins at place i.
+/// The places (one bit each) at which a match of `tree` that begins at place i can end.
 uint32_t ends(const Tree& tree, const Alphabet& alphabet, const Word& word, size_t i,
               Atom::Marks marks) {
   const auto after = [&](const Tree& part, uint32_t starts) {
@@ -108,7 +108,7 @@ uint32_t ends(const Tree& tree, const Alphabet& alphabet, const Word& word, size
       uint32_t here = 1u << i;
       for (int n = 0; n < tree.least; ++n) here = after(tree.parts[0], here);
       result = here;
-      // More turns than letters find nothing new.
+      // More repetitions than letters find nothing new.
       const int turns = tree.most < 0 ? static_cast<int>(word.size()) : tree.most - tree.least;
       for (int n = 0; n < turns; ++n) result |= here = after(tree.parts[0], here);
       return result;
@@ -135,7 +135,7 @@ std::string ecmascript(const Tree& tree, const Alphabet& alphabet, Atom::Marks m
     case Tree::Kind::kAtom:
       for (Letter letter = 0; letter < alphabet.size(); ++letter)
         if (tree.atom.matches(alphabet, letter, marks)) out += character_of(letter);
-      return out.empty() ? "!" : "[" + out + "]";  // no word has a !
+      return out.empty() ? "!" : "[" + out + "]";  // no word contains a !
     case Tree::Kind::kSequence:
       for (const Tree& part : tree.parts) out += ecmascript(part, alphabet, marks);
       return "(?:" + out + ")";
@@ -193,7 +193,7 @@ Machine::Ends Machine::add(const Tree& tree) {
       }
       break;
     case Tree::Kind::kRepeat: {
-      // x{2,4} is x x x? x?, x{2,} is x x x*: each copy has places of its own.
+      // x{2,4} is x x x? x?, x{2,} is x x x*: each copy has its own places.
       all.nullable = true;
       for (int n = 0; n < tree.least; ++n) append(add(tree.parts[0]));
       for (int n = tree.least; n < (tree.most < 0 ? tree.least + 1 : tree.most); ++n) {

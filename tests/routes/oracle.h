@@ -1,8 +1,7 @@
-// A plain second opinion on light path expressions: expressions as trees that are made, not parsed,
-// and three ways to match a word with one: by trying all ways to cut the word (slow and obvious),
-// by the standard library's regular expressions, and by a set of positions that is carried from
-// letter to letter (Glushkov 1961). oracle_test.cpp holds them against each other. Who calls it:
-// tests of routes. It must not use src/route but for its numbering of kinds.
+// A simple second implementation of light path expressions: trees that are built, not parsed, and
+// three matchers. One tries all ways to split the word, one uses std::regex, one carries sets of
+// positions (Glushkov 1961). oracle_test.cpp compares them. It must not use src/route except for
+// its numbering of kinds.
 #pragma once
 
 #include <bitset>
@@ -16,15 +15,15 @@
 
 namespace nephroid::oracle {
 
-/// A letter of a word as a small number: C, then events, then events at which photons are merged,
-/// then lights; each for every label, label 0 (any other name) first.
+/// A letter of a word as a small number: C, then events, then marked events (photons are merged
+/// there), then lights. Each exists for every label; label 0, any other name, comes first.
 using Letter = int;
 
 /// `labels`: number of names that expressions may mention.
 class Alphabet {
  public:
   explicit Alphabet(int labels) : labels_(labels + 1) {}
-  int labels() const { return labels_; }  ///< 0 included
+  int labels() const { return labels_; }  ///< number of labels, including label 0
   int events() const { return kEventKinds * labels_; }
   int lights() const { return kLightKinds * labels_; }
   int size() const { return 1 + 2 * events() + lights(); }
@@ -48,16 +47,16 @@ class Alphabet {
   int labels_;
 };
 
-/// What one place in an expression stands for, and how it is written.
+/// The letters that one place in an expression matches, and its text.
 struct Atom {
   std::string text;
   bool eye = false;
-  unsigned events = 0;  ///< a bit for each EventKind
-  unsigned lights = 0;  ///< a bit for each LightKind
+  unsigned events = 0;  ///< one bit per EventKind
+  unsigned lights = 0;  ///< one bit per LightKind
   int label = -1;       ///< -1: any
-  bool marked = false;  ///< photons are merged here, hence at D and G only
+  bool marked = false;  ///< photons are merged here, so only D and G
 
-  /// How marks in expressions and words are read.
+  /// Whether marks in expressions and words are ignored or obeyed.
   enum class Marks { kIgnore, kObey };
   bool matches(const Alphabet& alphabet, Letter letter, Marks marks) const;
 };
@@ -70,21 +69,21 @@ struct Tree {
   Kind kind = Kind::kAtom;
   Atom atom;
   std::vector<Tree> parts;
-  int least = 0, most = -1;  ///< of a repetition; -1: any number
+  int least = 0, most = -1;  ///< bounds of a repetition; -1: unbounded
 
   static Tree of(Atom atom);
   static Tree sequence(std::vector<Tree> parts);
   static Tree choice(std::vector<Tree> parts);
   static Tree repeat(Tree part, int least, int most);
 
-  /// In the notation of light path expressions.
+  /// The notation of light path expressions.
   std::string text() const;
   bool has_marks() const;
 };
 
 using Word = std::vector<Letter>;
 
-/// Tries all ways to cut the word, which has at most 30 letters.
+/// Tries all ways to split the word, which has at most 30 letters.
 bool matches_by_cutting(const Tree& tree, const Alphabet& alphabet, const Word& word,
                         Atom::Marks marks);
 
@@ -93,11 +92,11 @@ std::string ecmascript(const Tree& tree, const Alphabet& alphabet, Atom::Marks m
 /// For alphabets of up to 62 letters.
 char character_of(Letter letter);
 
-/// Carries the set of places in an expression at which a word may stand. Each set that occurs gets
-/// a number, so that brute force over many words is cheap.
+/// Carries the set of places in an expression that a word can have reached. Sets are numbered as
+/// they occur, so that brute force over many words is cheap.
 class Machine {
  public:
-  /// At most 256 places, counted after {n,m} is written out.
+  /// At most 256 places, counted after {n,m} is expanded.
   Machine(const Tree& tree, const Alphabet& alphabet, Atom::Marks marks);
 
   using State = int;
@@ -105,7 +104,7 @@ class Machine {
   State step(State state, Letter letter);
   bool accepts(State state) const { return accepts_[static_cast<size_t>(state)]; }
   bool accepts(const Word& word);
-  /// True if some word C e1 ... en l without marks in it matches.
+  /// True if an unmarked word C e1 ... en l matches.
   bool matches_any_path() const;
 
  private:
@@ -124,7 +123,7 @@ class Machine {
   Places last_;
   std::vector<Places> sets_;  // [state]
   std::vector<bool> accepts_;
-  std::vector<std::vector<State>> steps_;  // [state][letter], -1: not asked for yet
+  std::vector<std::vector<State>> steps_;  // [state][letter], -1: not computed yet
   std::unordered_map<Places, State> numbers_;
 };
 

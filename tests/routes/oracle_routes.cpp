@@ -1,4 +1,4 @@
-// The meaning of a set of routes by definition; see oracle_routes.h.
+// The definition of a route set; see oracle_routes.h.
 #include "routes/oracle_routes.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ constexpr unsigned bit(LightKind kind) {
   return 1u << static_cast<int>(kind);
 }
 
-/// Kinds of events whose class is the letter; '.' is any of them.
+/// Event kinds of the class that the letter names; '.' is any class.
 unsigned class_bits(char letter) {
   switch (letter) {
     case 'D':
@@ -36,7 +36,7 @@ unsigned class_bits(char letter) {
   }
 }
 
-/// Kinds of events on that side of a surface; '.' is any event.
+/// Event kinds on that side of a surface; '.' is any side.
 unsigned side_bits(char letter) {
   const unsigned t = bit(EventKind::kDT) | bit(EventKind::kGT) | bit(EventKind::kST);
   switch (letter) {
@@ -179,7 +179,7 @@ bool OracleRoutes::can_sample(int route, const Path& path, size_t merge_vertices
   if (is_one_of(routes_[size_t(route)].estimator, {"lighttrace"}))
     return n == 0 ? light == LightKind::kShape : !specular(kind_at(0));
   if (is_one_of(routes_[size_t(route)].estimator, {"pointlights"})) {
-    // Found by connection if the first D or G is followed by another at once.
+    // Found by connection if the event after the first D or G is also D or G.
     const auto rough = [](EventKind k) {
       return class_of(k) == EventClass::kDiffuse || class_of(k) == EventClass::kGlossy;
     };
@@ -190,8 +190,8 @@ bool OracleRoutes::can_sample(int route, const Path& path, size_t merge_vertices
   const bool no_area = light == LightKind::kPoint || light == LightKind::kDistant;
   const EstimatorTraits* const estimator = routes_[size_t(route)].estimator;
   const bool connects = is_one_of(estimator, {"bdpt", "vcm", "mlt"});
-  // Photons of path+photons have come by way of an S, as in all words that it cannot find
-  // otherwise.
+  // path+photons merges only photons that passed an S. All words that it cannot find otherwise
+  // contain one.
   const bool merges = is_one_of(estimator, {"vcm", "bpm", "path+photons"});
   if (no_area && connects && n > 0 && !specular(kind_at(0))) return true;
   for (size_t i = 0; no_area && i < n; ++i) {
@@ -222,7 +222,7 @@ PathFacts OracleRoutes::facts(const Path& path) {
 
 std::vector<Path> OracleRoutes::paths_of(const std::string& word, size_t most) const {
   std::vector<Path> paths(1);
-  // Letters stand apart; a space in a label is part of it.
+  // Letters are separated by spaces; a space in a label belongs to the label.
   std::vector<std::string> tokens(1);
   bool in_label = false;
   for (const char c : word) {

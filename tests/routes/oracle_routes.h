@@ -1,6 +1,6 @@
-// What a set of routes means, word by word and by the definitions of docs/routes.md alone: owners,
-// layers and merge vertices. No automaton of several routes, no tables.
-// Who calls it: tests of routes. It must not use src/route but for the rows of estimators.
+// The meaning of a route set, word by word, from the definitions of docs/routes.md alone: owners,
+// layers and merge vertices. No automaton over several routes, no tables. It must not use src/route
+// except for the list of estimators.
 #pragma once
 
 #include <optional>
@@ -20,24 +20,24 @@ struct OracleRoute {
   const EstimatorTraits* estimator = estimator_named("path");
 };
 
-/// Events, eye first, and a light, as indices into the alphabet's.
+/// Events, eye first, and a light, as indices into the alphabet.
 struct Path {
   std::vector<int> events;
   int light = 0;
 };
 
-/// What is true of a path.
+/// Properties of a path.
 struct PathFacts {
-  std::vector<int> matching;           ///< routes, in order
-  std::optional<int> owner;            ///< the one that renders it
-  std::vector<int> aovs;               ///< the layers that it lies in
-  std::vector<size_t> merge_vertices;  ///< from 0; of the owner, if its estimator merges
-  bool marked_twice = false;  ///< the owner matches with two merge vertices in the same reading
+  std::vector<int> matching;           ///< matching routes, in order
+  std::optional<int> owner;            ///< the route that renders it
+  std::vector<int> aovs;               ///< layers that contain it
+  std::vector<size_t> merge_vertices;  ///< from 0; empty if the owner's estimator does not merge
+  bool marked_twice = false;           ///< the owner matches with two merge vertices in one reading
 };
 
 class OracleRoutes {
  public:
-  /// `labels`: the names that atoms mean by 1, 2, ...
+  /// `labels`: the names of labels 1, 2, ...
   OracleRoutes(std::vector<OracleRoute> routes, std::vector<OracleRoute> aovs,
                std::vector<std::string> labels);
 
@@ -47,29 +47,29 @@ class OracleRoutes {
   const std::vector<std::string>& labels() const { return labels_; }
   const EstimatorTraits& type(int route) const { return *routes_[size_t(route)].estimator; }
 
-  /// Machines that read words without marks, and those that find the merge vertices of a route:
-  /// they read words with one mark. Routes whose estimators do not merge have none.
+  /// Machines for words without marks, and those that find the merge vertices of a route by reading
+  /// words with one mark. Routes whose estimators do not merge have none of the latter.
   Machine& route(int i) { return plain_[size_t(i)]; }
   Machine& aov(int i) { return layers_[size_t(i)]; }
   Machine* merging(int i) { return merging_[size_t(i)] ? &*merging_[size_t(i)] : nullptr; }
 
   bool touches_hair(const Path& path) const;
-  /// True if a path from this light, with an H or without, can be owned by the route.
+  /// True if the route may own a path from this light, with or without an H.
   bool can_own(int route, int light, bool hair) const {
     return (alphabet_.light_kind(light) != LightKind::kMedium && !hair) ||
            !type(route).starts_at_lights;
   }
   /// True if any estimator has a technique for the path.
   bool somebody_can_sample(const Path& path) const;
-  /// True if the estimator of the route has a technique for the path, whose owner it is.
+  /// True if the estimator of the route, the path's owner, has a technique for it.
   bool can_sample(int route, const Path& path, size_t merge_vertices) const;
 
   PathFacts facts(const Path& path);
 
-  /// All paths that a word such as "C <TS'glass'> D L" stands for, each letter read as a place in
-  /// an expression. Stops after `most` of them. Empty if it is not such a word.
+  /// All paths that a word such as "C <TS'glass'> D L" denotes, each letter read as a place in an
+  /// expression. Stops after `most` paths. Empty if it is no such word.
   std::vector<Path> paths_of(const std::string& word, size_t most = 200000) const;
-  /// In the same notation, every detail written.
+  /// The path in the same notation, in full detail.
   std::string text(const Path& path) const;
 
  private:
@@ -81,7 +81,7 @@ class OracleRoutes {
 };
 
 /// One place of an expression from its text: a letter or <..>, without sets and marks. Empty if it
-/// is neither. `labels`: names of labels 1, 2, ...; a name that is not among them is label 0.
+/// is neither. `labels`: the names of labels 1, 2, ...; any other name is label 0.
 std::optional<Atom> atom_of(const std::string& text, const std::vector<std::string>& labels);
 
 /// A set [DG], or [^DG] if `complement`, of letters.

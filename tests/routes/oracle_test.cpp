@@ -1,4 +1,4 @@
-// The plain matchers themselves, held against each other and against words that anybody can check.
+// The plain matchers, compared with each other and with words that are easy to check.
 #include "routes/oracle.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ Tree letter(const char* text) {
   return Tree::of(*atom_of(text, {}));
 }
 
-/// All words C e1 ... en l with up to `length` events; each is also made with one mark.
+/// All words C e1 ... en l with up to `length` events, each once without and once with a mark.
 std::vector<Word> words(const Alphabet& alphabet, int length) {
   std::vector<Word> prefixes{{alphabet.eye()}}, all;
   for (size_t i = 0; i < prefixes.size(); ++i)
@@ -89,7 +89,7 @@ TEST_P(OracleSeeds, MatchersAgree) {
       for (const Letter l : word) characters += character_of(l);
       ASSERT_EQ(accepted, std::regex_match(characters, regex)) << tree.text() << "\n" << characters;
     }
-    // Longer words, some of them long enough for {n,m} of {n,m}.
+    // Longer words, some long enough for nested {n,m}.
     for (int k = 0; k < 300; ++k) {
       Word word{alphabet.eye()};
       for (int i = random.below(12); i > 0; --i)

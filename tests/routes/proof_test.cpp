@@ -1,5 +1,5 @@
-// What the proof finds, in words: one small set of routes for each kind of finding, and that the
-// presets have none but warnings of light that nobody can find.
+// Findings of the proof: one small route set for each kind. The presets have none but warnings of
+// light that no estimator can find.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ TEST(Proof, PresetsAreCompleteAndDisjoint) {
     const RouteCompilation compilation = compile_routes(route_preset(p.name).value(), {});
     EXPECT_FALSE(has_error(compilation));
     EXPECT_TRUE(findings_of(compilation, Kind::kOverlap).empty());
-    // Everything that can occur at once, glowing media and hair as well.
+    // Everything that can occur at once, including glowing media and hair.
     const SymbolSet all{std::vector<bool>(8, true), std::vector<bool>(8, true)};
     const RouteCompilation with_all = compile_routes(route_preset(p.name).value(), {}, &all);
     EXPECT_FALSE(has_error(with_all));
@@ -68,7 +68,7 @@ TEST(Proof, RoutesWithoutPathsAreErrorsUnlessOnlyTheSceneLacksThem) {
   EXPECT_NE(found[0].message.find("'all' for instance C D S L"), std::string::npos);
   EXPECT_EQ(findings_of(compiled({"fire=C.*M:photons", "rest=.*:path"}), Kind::kUnreachable).size(),
             1u);
-  // A scene without glass makes no route wrong; there is just no example.
+  // A scene without glass makes no route wrong; its route only has no example.
   const SymbolSet dull = symbols_of("D", {LightKind::kShape});
   const RouteCompilation c = compiled({"caustic=C.*DS+L:photons", "rest=.*:path"}, {}, &dull);
   EXPECT_TRUE(c.findings.empty());
@@ -91,7 +91,7 @@ TEST(Proof, PathTracingMissesPointsBehindSpecularSurfaces) {
   EXPECT_TRUE(warnings("DS", LightKind::kEnvironment).empty());
   for (const LightKind light : {LightKind::kPoint, LightKind::kDistant}) {
     ASSERT_EQ(warnings("DS", light).size(), 1u);
-    // The caustic is lost light; the light itself in a mirror nobody can find.
+    // The caustic is lost. A point light in a mirror is not reported: no estimator finds it.
     EXPECT_EQ(warnings("DS", light)[0].witness, "C D S L");
     EXPECT_FALSE(warnings("DS", light)[0].is_error);
     EXPECT_TRUE(warnings("S", light).empty());
@@ -146,11 +146,11 @@ TEST(Proof, EachPathOfPhotonsHasOneMergeVertex) {
   ASSERT_EQ(findings_of(two, Kind::kTwoMergeVertices).size(), 1u);
   EXPECT_EQ(findings_of(two, Kind::kTwoMergeVertices)[0].witness, "C D D L");
   EXPECT_TRUE(findings_of(two, Kind::kTwoMergeVertices)[0].is_error);
-  // Two marks in one reading make no marking with a single one.
+  // A reading with two marks does not count as a reading with one.
   EXPECT_TRUE(has_error(compiled({"a=CD@D@L:photons", "rest=.*:path"})));
-  // The same words by an estimator that merges nothing need no vertex, and marks are nothing to it.
+  // Estimators that do not merge need no vertex and ignore marks.
   EXPECT_FALSE(has_error(compiled({"glass=CS+L:path", "a=C.*D@.*L:lighttrace", "rest=.*:path"})));
-  // Ambiguous readings that agree on the vertex are one.
+  // Ambiguous readings with the same merge vertex count as one.
   EXPECT_FALSE(has_error(compiled({"a=C(S*|S*)D@(.*|D.*)L:photons", "rest=.*:path"})));
 }
 

@@ -1,5 +1,5 @@
-// Random sets of routes; see random_routes.h. Only the generator's numbers are used, none of the
-// standard library's distributions, which differ from machine to machine.
+// Random route sets; see random_routes.h. They use the generator's raw numbers: distributions of
+// the standard library differ between machines.
 #include "routes/random_routes.h"
 
 #include <iterator>
@@ -142,7 +142,7 @@ OracleRoutes RandomRoutes::set() {
     const EstimatorTraits* const kind =
         estimator_named(kEstimators[below(static_cast<int>(std::size(kEstimators)))]);
     Tree tree = possible(kind->merges && chance(45));
-    // Half of the routes without a mark have a merge vertex in each path.
+    // Half of the unmarked routes have a merge vertex in each path.
     if (kind->merges && !tree.has_marks() && chance(50))
       tree = Tree::sequence({Tree::of(*atom_of("C", {})),
                              Tree::repeat(Tree::of(set_of("SV", false)), 0, -1),

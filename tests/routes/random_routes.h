@@ -1,5 +1,4 @@
-// Random light path expressions and sets of routes, the same for the same seed on every machine.
-// Who calls it: tests of routes.
+// Random light path expressions and route sets, the same for the same seed on every machine.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +10,13 @@ namespace nephroid::oracle {
 
 class RandomRoutes {
  public:
-  /// `labels`: names of materials and lights that expressions may mention.
+  /// `labels`: names of materials and lights that expressions may use.
   RandomRoutes(uint32_t seed, std::vector<std::string> labels);
 
-  /// Two to five routes, most often followed by `rest=.*:path`, and up to two AOVs. Each expression
+  /// Two to five routes, usually followed by `rest=.*:path`, and up to two AOVs. Each expression
   /// matches some path. Some sets have holes, overlaps, or routes without a merge vertex.
   OracleRoutes set();
-  /// A whole expression, with marks (at most one at a time in most readings) if `marked`.
+  /// A whole expression. If `marked`, it has marks, in most readings at most one.
   Tree expression(bool marked);
   /// A number in [0, n).
   int below(int n) { return static_cast<int>(random_() % static_cast<uint32_t>(n)); }
@@ -27,7 +26,7 @@ class RandomRoutes {
   Atom event();
   Atom light();
   Atom rough();
-  /// A part of an expression for events.
+  /// The part of an expression that matches events.
   Tree events(int depth);
   Tree repeated(Tree tree);
 

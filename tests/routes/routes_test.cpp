@@ -1,6 +1,5 @@
-// The preset of the paper against the paper: its worked example, its bit-encoded form, and the
-// small hand-made tables that the general router replaced; and the useful events that follow from
-// tables.
+// Compares the preset `doidge2012` with its paper: the worked example, the bit-encoded form, and
+// the small hand-made tables that the general router replaced. Also tests useful events.
 #include "route/routes.h"
 
 #include <gtest/gtest.h>
@@ -15,10 +14,10 @@
 namespace nephroid {
 namespace {
 
-// The paper's form: a path is a string of bits (1 = specular), the last of which say whether a
-// vertex may be lit by hitting a light (implicit) or by asking for one (explicit).
+// The paper's form: a path is a bit string (1 = specular). The last bits decide whether a vertex
+// may be lit implicitly (hitting a light) or explicitly (sampling one).
 bool diffuse_by_bits(const std::string& events) {
-  // Trailing D or none, then a run of ones which a zero (D) precedes: a caustic.
+  // An optional trailing D, then a run of ones preceded by a zero (D): a caustic.
   uint32_t bits = 0;
   for (const char e : events) bits = (bits << 1) | (e == 'S' ? 1u : 0u);
   const int n = static_cast<int>(events.size());
@@ -30,7 +29,7 @@ bool diffuse_by_bits(const std::string& events) {
   return !(k > before && k < n);
 }
 
-// The table that was written by hand for C [SD]* D S+ D? L.
+// The hand-written table for C [SD]* D S+ D? L.
 bool diffuse_by_table(const std::string& events) {
   enum { kNoDiffuse, kDiffuseLast, kSpecularChain, kChainThenDiffuse };
   constexpr std::array<std::array<int, 2>, 4> next = {{{kDiffuseLast, kNoDiffuse},
@@ -72,11 +71,9 @@ TEST(Routes, TheBitsAndTheTableOfThePaperAgree) {
 }
 
 TEST(Routes, ThePaperNeedsElevenStatesFromTheEyeAndFiveFromTheLight) {
-  // From the eye, without a merge: nothing rough yet; something rough but no D or G yet (V); D
-  // last;
-  // ... and all of these again once the D or G where photons are merged is behind; and hair, which
-  // nothing that follows can change. A minimal automaton has no two states that agree on all
-  // continuations.
+  // Eye states without a merge: no rough event yet; V but no D or G yet; D last; and so on. Each
+  // exists once more after the D or G where photons are merged. Hair is a state that nothing
+  // changes. A minimal automaton has no two states that agree on all continuations.
   const Routes routes = preset("doidge2012");
   const RouteTables& t = routes.tables();
   EXPECT_EQ(t.eye_states, 11u);
@@ -119,7 +116,7 @@ TEST(Routes, UselessWalksEnd) {
   const size_t photons = group_of(routes, estimator_named("photons"));
   const size_t path = group_of(routes, estimator_named("path"));
   constexpr ClassMask all = ClassMask::kEvery;
-  // A photon that left two rough surfaces without a specular one is no caustic any more.
+  // After two rough surfaces and no specular one, a photon is no caustic any more.
   const LightState once = read_from_light(routes, "D");
   EXPECT_EQ(routes.useful_before_deposit(photons, once, 0), ClassMask::kSpecular);
   EXPECT_EQ(routes.useful_before_deposit(photons, read_from_light(routes, "DD"), 0),
@@ -132,7 +129,7 @@ TEST(Routes, UselessWalksEnd) {
     EXPECT_FALSE(routes.needs_specular(photons, read_from_light(routes, free))) << free;
   const Routes whole = preset("all-photons");
   EXPECT_FALSE(whole.needs_specular(group_of(whole, estimator_named("photons"))));
-  // The camera walk of photons ends at its first D or G; that of path tracing may always count.
+  // A camera path for photons ends at its first D or G. Path tracing may always go on.
   EXPECT_EQ(routes.merges(photons, routes.start(), 0), ClassMask::kRough);
   EXPECT_EQ(routes.useful_before_merge(photons, routes.start(), 0),
             ClassMask::kSpecular | ClassMask::kVolume);
@@ -143,7 +140,7 @@ TEST(Routes, UselessWalksEnd) {
   EXPECT_FALSE(routes.ends(path, read_from_eye(routes, "DS")) &&
                !routes.owns(path, routes.owner(read_from_eye(routes, "DS"),
                                                light_symbol(LightKind::kMedium, 0))));
-  // Only path tracing ends walks at lights; only photons are stored.
+  // Only path tracing ends paths at lights; only photons are stored.
   EXPECT_EQ(routes.deposits(path, once, 0), ClassMask::kNone);
   EXPECT_FALSE(routes.owns(path, kNoPart));
 }
@@ -152,14 +149,14 @@ TEST(Routes, FewerEventsAreUsefulWhereFewerCanOccur) {
   const Routes routes = preset("all-photons");
   const size_t path = group_of(routes, estimator_named("path"));
   EXPECT_TRUE(contains(routes.useful(path, read_from_eye(routes, "D"), 0), EventClass::kVolume));
-  // Without glowing media no camera walk goes on behind the first D in vain.
+  // Without glowing media no camera path needs to go on after the first D.
   const Routes clear = routes.restricted_to(symbols_of("DS", {LightKind::kShape}));
   EXPECT_EQ(clear.useful(path, clear.start(), 0), ClassMask::kSpecular);
   EXPECT_EQ(clear.useful(path, read_from_eye(clear, "D"), 0), ClassMask::kNone);
   const size_t photons = group_of(clear, estimator_named("photons"));
   EXPECT_EQ(clear.merges(photons, clear.start(), 0), ClassMask::kDiffuse);
   EXPECT_EQ(clear.deposits(photons, read_from_light(clear, ""), 0), ClassMask::kDiffuse);
-  // Without specular surfaces there are no caustics, so nothing is of use to them.
+  // Without specular surfaces there are no caustics, so nothing is useful for them.
   const Routes dull = preset("doidge2012").restricted_to(symbols_of("DG", {LightKind::kShape}));
   const size_t caustics = group_of(dull, estimator_named("photons"));
   EXPECT_EQ(dull.useful_before_merge(caustics, dull.start(), 0), ClassMask::kNone);
@@ -170,14 +167,14 @@ TEST(Routes, LightTracingConnectsWhereTheFirstEventOfItsWordsAllows) {
   const Routes routes = preset("split");
   const size_t group = group_of(routes, estimator_named("lighttrace"));
   const LightState glass = read_from_light(routes, "S");
-  // C D S L; not C S S L, and not C V S L, which has no D.
+  // C D S L, but neither C S S L nor C V S L, which has no D.
   EXPECT_EQ(routes.connects(group, glass, 0), ClassMask::kRough);
   EXPECT_EQ(routes.connects(group, read_from_light(routes, ""), 0), ClassMask::kNone);
   EXPECT_EQ(routes.connects(group, read_from_light(routes, "DS"), 0),
             ClassMask::kRough | ClassMask::kVolume);
   EXPECT_EQ(routes.useful_before_connection(group, read_from_light(routes, "DD"), 0),
             ClassMask::kNone);
-  // Photons are stored for words that begin with S only: at the D behind it.
+  // Photons are stored only for words that begin with S, at the D behind it.
   const size_t photons = group_of(routes, estimator_named("photons"));
   EXPECT_EQ(routes.deposits(photons, glass, 0), ClassMask::kRough);
   EXPECT_EQ(routes.merges(photons, routes.start(), 0), ClassMask::kNone);
@@ -196,7 +193,7 @@ TEST(Routes, PartsAreRoutesCutByLayers) {
   const Routes routes =
       compiled({"caustic=C.*DS+L:photons", "rest=.*:path"}, {"key=C.*<L.'key'>", "direct=C[DGV]L"})
           .routes;
-  // caustic: with and without the key; rest: each of four.
+  // caustic: with and without the key. rest: all four combinations of key and direct.
   EXPECT_EQ(routes.parts().size(), 6u);
   ASSERT_EQ(routes.labels(), std::vector<std::string>{"key"});
   EXPECT_EQ(routes.label("key"), 1);

@@ -1,4 +1,4 @@
-// What can occur in a scene, from its text: letters by the materials and shapes that there are.
+// Symbols that can occur in a scene, from its text: letters follow from materials and shapes.
 #include "route/scene_symbols.h"
 
 #include <gtest/gtest.h>
@@ -94,7 +94,7 @@ TEST(SceneSymbols, AMixGoesByItsMaterials) {
   EXPECT_FALSE(SceneSymbols(*scene, {"pain"}).unknown_is_mix());
   const auto curve = scene_of(materials + use("paint") + kCurve);
   for (const char* name : {"wood", "glass", "fur"}) EXPECT_EQ(letters(*curve, name), "H") << name;
-  // A light may be called what a mix is called.
+  // A light may have the same name as a mix.
   const auto lamp = scene_of(materials + "LightSource \"point\" \"string name\" \"paint\"\n");
   EXPECT_TRUE(unknown(*lamp, {"paint"}).empty());
 }

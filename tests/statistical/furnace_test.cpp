@@ -1,6 +1,6 @@
-// White furnace: if everything reflects all light and light comes from everywhere, the radiance is
-// 1 everywhere. Each integrator and each preset of routes must find it, up to the noise of its own
-// estimate; where photons are merged, the estimate is extrapolated to a radius of zero.
+// White furnace: if everything reflects all light and light arrives from everywhere, the radiance
+// is 1 everywhere. Each integrator and preset must find it within its own noise. Merging estimators
+// are extrapolated to a radius of zero.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -19,11 +19,11 @@ using namespace testing_support;
 struct FurnaceScene {
   const char* name;
   const char* objects;
-  double lost = 0;     ///< of all light, by a material that cannot be quite white
-  double photons = 1;  ///< of what others need: most of them are seen
+  double lost = 0;     ///< share of light lost in a material that cannot be quite white
+  double photons = 1;  ///< photons, relative to the other scenes; fewer if most are seen
 };
 
-// WALL: a white wall behind the objects whose edge is out of view. BALL: a smooth ball of few
+// WALL: a white wall behind the objects, its edge out of view. BALL: a smooth ball of few
 // triangles.
 constexpr char kWall[] = R"(
   Material "diffuse" "spectrum reflectance" [300 1 900 1]
@@ -38,15 +38,15 @@ const FurnaceScene kScenes[] = {
                    Shape "sphere" "float radius" 1)",
      0, 0.25},
     {"glass", R"(Material "dielectric" Shape "sphere" "float radius" 1)", 0, 0.25},
-    // Microfacets shade each other, and what bounces between them is lost.
+    // Microfacets shadow each other, and light between them is lost.
     {"rough_glass_before_wall",
      R"(WALL Material "dielectric" "float roughness" 0.02 "bool remaproughness" false
         Shape "sphere" "float radius" 0.7)",
      5e-3},
     {"glass_before_wall", R"(WALL Material "dielectric" Shape "sphere" "float radius" 0.7)"},
     {"thin_glass_before_wall", R"(WALL Material "thindielectric" Shape "disk" "float radius" 0.9)"},
-    // A conductor of reflectance 1 has a complex index that is large, not infinite: it keeps a few
-    // parts in ten thousand of each reflection.
+    // A conductor of reflectance 1 has a large but finite complex index: it absorbs a few parts in
+    // ten thousand at each reflection.
     {"mirror_before_wall",
      R"(WALL Material "conductor" "spectrum reflectance" [300 1 900 1] "float roughness" 0
         Shape "sphere" "float radius" 0.7)",
@@ -79,7 +79,7 @@ const FurnaceScene kScenes[] = {
     {"hair_before_wall",
      R"(WALL Material "hair" "rgb sigma_a" [0 0 0] Shape "curve" "string type" "cylinder"
         "float width" 0.3 "point3 P" [-1.2 -1 0  -0.5 2 0.5  0.6 -2 -0.5  1.3 1 0])"},
-    // Smooth normals send a little light into the ball, where it may stay.
+    // Shading normals send a little light into the ball, where it may stay.
     {"smooth_mesh", R"(Material "diffuse" "spectrum reflectance" [300 1 900 1] BALL)", 3e-3, 0.25},
     {"instance_behind_glass",
      R"(ObjectBegin "ball" Material "diffuse" "spectrum reflectance" [300 1 900 1] BALL ObjectEnd
@@ -108,15 +108,15 @@ std::string furnace_text(const FurnaceScene& furnace) {
 
 class Furnace : public ::testing::TestWithParam<std::tuple<FurnaceScene, std::string>> {};
 
-/// What the eye sees of the light alone: the constant spectrum has Y = 1 but is not the white of
-/// sRGB. One for all rows.
+/// The view of the light alone: the constant spectrum has Y = 1 but is not sRGB white. Shared by
+/// all rows.
 const Estimate& light_alone() {
   static const Estimate estimate =
       mean_over_seeds(*scene_from_text(furnace_text({"empty", ""})), "path", {}, 16, 64, 1000);
   return estimate;
 }
 
-/// As many as bring the standard error to a few parts in a thousand.
+/// Passes that reduce the standard error to a few parts in a thousand.
 uint32_t passes_of(const std::string& plan) {
   if (plan == "vcm") return 12;
   if (merges_photons(plan_named(plan))) return 8;
@@ -130,7 +130,7 @@ TEST_P(Furnace, RadianceIsOne) {
   const auto& [furnace, plan] = GetParam();
   const auto scene = scene_from_text(furnace_text(furnace));
   IntegratorOptions options;
-  // Where nearly all light is photons, they must be many.
+  // Plans in which photons carry nearly all light need many.
   const bool mostly_photons =
       plan == "sppm" || plan == "ppm" || plan == "bpm" || plan == "all-photons";
   options.photons_per_pass =
@@ -153,8 +153,8 @@ TEST_P(Furnace, RadianceIsOne) {
   EXPECT_LT(error, max_error(0.01 * expected.mean)) << "the estimate is too noisy to tell";
 }
 
-// Fibres that absorb nothing cannot be seen either. Photons are not gathered on hair, so this is
-// for path tracing alone.
+// Fibres that absorb nothing are invisible as well. No photons are merged on hair, so only path
+// tracing is tested.
 TEST(HairFurnace, RadianceIsOne) {
   std::string curls = "Material \"hair\" \"rgb sigma_a\" [0 0 0]\n";
   for (const char* type : {"flat", "cylinder", "ribbon"})
@@ -167,14 +167,14 @@ TEST(HairFurnace, RadianceIsOne) {
   const double error = std::hypot(e.error, expected.error);
   EXPECT_NEAR(e.mean, expected.mean, kT15 * error + 1e-3);
   EXPECT_LT(error, max_error(0.01 * expected.mean));
-  // Dark hair is seen.
+  // Dark hair is visible.
   curls.replace(curls.find("[0 0 0]"), 7, "[9 9 9]");
   const auto dark = scene_from_text(furnace_text({"dark", curls.c_str()}));
   EXPECT_LT(mean_over_seeds(*dark, "path", {}, 16, 16).mean, 0.95 * expected.mean);
 }
 
-// The first plan with a set of estimators is tested in all scenes. Plans that have the same set
-// differ from it only in which paths are whose: these scenes have paths of every kind.
+// The first plan with a given set of estimators is tested in all scenes. Other plans with that set
+// differ only in how they divide the paths: these scenes have paths of every kind.
 const char* const kScenesOfRoutes[] = {"glass_before_wall", "half_glass_half_diffuse"};
 
 std::vector<std::tuple<FurnaceScene, std::string>> furnace_rows() {

@@ -1,5 +1,5 @@
-// Chains over functions of which everything is known: how long they stay where, and that what a
-// pass adds up to has no bias, however short its chains and few its paths.
+// Markov chains over known functions: how long chains stay where, and that the sum of a pass is
+// unbiased, however short its chains and few its paths.
 #include "integrator/metropolis/markov_chain.h"
 
 #include <gtest/gtest.h>
@@ -17,8 +17,8 @@ using namespace testing_support;
 
 constexpr int kCells = 16;
 
-/// Bright in two places that small steps do not connect, black in between, coloured differently.
-/// The integral over cell i is known in closed form for any i.
+/// Two bright places that small steps do not connect, with black between them and different
+/// colours. The integral over each cell has a closed form.
 Rgb light_at(double x) {
   if (x < 0.25) return {static_cast<float>(8 * x), 1, 0};
   if (x >= 0.5 && x < 0.5625) return {0, 40, static_cast<float>(640 * (x - 0.5))};
@@ -29,7 +29,7 @@ double brightness_at(double x) {
   const Rgb c = light_at(x);
   return (double{c.r} + double{c.g} + double{c.b}) / 3;
 }
-/// Mean over cell i by the midpoint rule, exact for what is linear within a cell.
+/// Mean over cell i by the midpoint rule, exact for functions linear within a cell.
 Rgb light_of_cell(int i) {
   return light_at((i + 0.5) / kCells);
 }
@@ -38,7 +38,7 @@ class Toy : public PathFunction {
  public:
   void evaluate(MarkovSample& numbers, FoundLight& found) override {
     const float x = numbers.stream(0).number(0);
-    // Numbers that do nothing, and a part that comes from elsewhere.
+    // An unused random number, and a second route whose light is mirrored.
     numbers.stream(1).number(static_cast<int>(x * 10));
     ++found.rays;
     found.add(Vec2f(x * kCells, 0.5f), 0, light_at(double{x}) * kCells);
@@ -69,7 +69,7 @@ FilmArea area_of_cells(const PixelFilter& filter) {
 }
 
 TEST(MarkovChain, StaysWhereItIsBrightInProportion) {
-  // Every 64th state of long chains: next to independent, for a chi-square test over cells.
+  // Every 64th state of long chains: almost independent, for a chi-square test over cells.
   ChainSettings settings;
   settings.large_step = 0.4f;
   double expected[kCells] = {}, total = 0;
@@ -110,7 +110,7 @@ struct PassCase {
   const char* name;
   ChainSettings settings;
   double balance = 1;
-  bool importance = false;  ///< learned, and wrong: from paths that see little
+  bool importance = false;  ///< uses a wrong importance, learned from paths that see little
 };
 
 class ChainPasses : public ::testing::TestWithParam<PassCase> {};
@@ -126,7 +126,7 @@ TEST_P(ChainPasses, HaveNoBias) {
     EXPECT_GT(pilot.importance.at({15, 0.5f}), 5 * pilot.importance.at({1, 0.5f}));
   }
   constexpr int kSeeds = 32;
-  // As many paths whatever the size of a pass.
+  // The same number of paths for any size of pass.
   const auto passes_of_seed = static_cast<uint32_t>(std::max<int64_t>(
       400, 120000 / (GetParam().settings.bootstrap +
                      GetParam().settings.chains * GetParam().settings.mutations)));
@@ -187,7 +187,7 @@ TEST(MarkovChain, ThePilotMakesTheFilmEquallyBright) {
   const FilmArea area = area_of_cells(*scene->filter);
   constexpr int kPaths = 1 << 14;
   const ChainPilot pilot = look_around(3, kPaths, area, 1, make_toy);
-  // What it would learn from all paths there are.
+  // The importance that all paths would give.
   FilmImportance all(area);
   constexpr int kAll = 1 << 18;
   double mean = 0;
@@ -203,9 +203,9 @@ TEST(MarkovChain, ThePilotMakesTheFilmEquallyBright) {
             (static_cast<double>(all.at({static_cast<float>(x) * kCells, 0.5f})) +
              static_cast<double>(all.at({static_cast<float>(1 - x) * kCells, 0.5f})) / 2);
   }
-  // Brightness b of mean 1 gives 1/(b + 0.05): no error of b is amplified, and with n paths the
-  // share of a cell, whose paths are at most 26 times as bright as the mean, is off by less than
-  // sqrt(26/n) of a standard deviation; 4.5 of them, which seed 3 is not to exceed.
+  // The importance is 1/(b + 0.05) for brightness b of mean 1: no error of b is amplified. A cell's
+  // paths are at most 26 times as bright as the mean. With n paths its share has a standard
+  // deviation below sqrt(26/n); seed 3 must stay within 4.5 of them.
   const double noise = 4.5 * std::sqrt(26.0 / kPaths);
   for (int i = 0; i < kCells; ++i) {
     const Vec2f place(static_cast<float>(i) + 0.5f, 0.5f);
@@ -216,7 +216,7 @@ TEST(MarkovChain, ThePilotMakesTheFilmEquallyBright) {
   EXPECT_GT(pilot.kinds[0], sqr(pilot.balance)) << "a mean of squares";
   const ChainPilot again = look_around(3, kPaths, area, 1, make_toy);
   EXPECT_EQ(again.balance, pilot.balance);
-  // In a converged importance, what is bright is visited less often than it is bright.
+  // With a converged importance, bright cells are visited less than in proportion to brightness.
   const auto weight = [&](int i) { return all.at({static_cast<float>(i) + 0.5f, 0.5f}); };
   EXPECT_GT(weight(6), weight(8)) << "black, with the bright place at a distance";
   EXPECT_GT(weight(13), weight(8)) << "dim";

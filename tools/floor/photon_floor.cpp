@@ -1,8 +1,7 @@
-// Measures photons against what no photon map could beat: prints a line of Markdown for each scene.
-// Traces a pass of photons (one thread), sorts them into the grid, and asks the grid for those
-// around places between photons, with a radius that finds about so many. The bare loop then
-// visits the photons that were found once more, at known places of the same sorted photons. Built
-// and run by tools/measure_photons.
+// Compares gathering photons with a lower bound and prints a line of Markdown for each scene.
+// Traces a pass of photons on one thread, sorts them into the grid and queries places between them.
+// A bare loop then visits the same photons again at known positions of the sorted array.
+// tools/measure_photons builds and runs it.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -43,7 +42,7 @@ double least_seconds(const auto& f) {
   return least;
 }
 
-/// Every photon of the scene, as `sppm` wants them.
+/// The route of all photons, as in `sppm`.
 OwnedRoutes all_photons(const Scene& scene) {
   const std::vector<RouteDefinition> routes = {
       parse_route("photons=.*:photons", estimator_traits())};
@@ -68,7 +67,7 @@ float radius_for(const PhotonGrid& grid, size_t wanted) {
   return radii[radii.size() / 2];
 }
 
-/// Places between photons, near each other as those of neighbouring pixels are.
+/// Query points between photons, as close to each other as those of neighbouring pixels.
 std::vector<Vec3f> places(const PhotonGrid& grid, float radius) {
   std::vector<Vec3f> all;
   for (size_t i = 0; i < kQueries; ++i) {
@@ -83,8 +82,8 @@ std::vector<Vec3f> places(const PhotonGrid& grid, float radius) {
 }
 
 struct Gather {
-  double found = 0;                              ///< photons a query
-  double nanoseconds = 0, bare_nanoseconds = 0;  ///< of a query
+  double found = 0;                              ///< photons per query
+  double nanoseconds = 0, bare_nanoseconds = 0;  ///< times per query
 };
 
 Gather measure_gather(const PhotonGrid& grid, size_t wanted) {
@@ -95,7 +94,7 @@ Gather measure_gather(const PhotonGrid& grid, size_t wanted) {
     for (const Vec3f& p : where)
       grid.query(p, radius, [&](const Photon& photon, float) { sum += photon.flux.unpacked(); });
   });
-  // Runs of photons that follow each other in memory.
+  // Photons that are contiguous in memory.
   struct Run {
     uint32_t begin, end;
   };
@@ -124,7 +123,7 @@ Gather measure_gather(const PhotonGrid& grid, size_t wanted) {
           if (dot(d, d) <= radius * radius) bare_sum += photons[i].flux.unpacked();
         }
   });
-  // The same photons in the same order: the same sum to the last bit, which also keeps the loops.
+  // Same photons in the same order: equal bits. The check also keeps the loops from being removed.
   if (!(sum == bare_sum)) throw std::runtime_error("the bare loop found another sum of photons");
   const double queries = static_cast<double>(where.size());
   return {static_cast<double>(found) / queries, 1e9 * seconds / queries, 1e9 * bare / queries};

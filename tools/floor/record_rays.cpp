@@ -1,7 +1,7 @@
-// Stands between the renderer and Embree (LD_PRELOAD): passes every query on, counts them, keeps
-// some, and before the first scene is released traces these once more in a bare loop. Prints to
-// stderr "floor: N queries" and "floor: K kept in S s". Built and run by tools/measure_floor; for
-// renders on one thread alone. NEPHROID_FLOOR_EVERY=N keeps one run of queries in N; none without.
+// An LD_PRELOAD library between renderer and Embree. Forwards and counts every query, keeps some,
+// and replays these in a bare loop before the first scene is released. Prints "floor: N queries"
+// and "floor: K kept in S s" to stderr. tools/measure_floor runs it; one thread only.
+// NEPHROID_FLOOR_EVERY=N keeps one run of queries in N, none if unset.
 #include <dlfcn.h>
 #include <embree3/rtcore.h>
 #include <pmmintrin.h>
@@ -14,7 +14,7 @@
 
 namespace {
 
-/// Queries that are kept follow each other in runs of so many: neighbours share what is in caches.
+/// Length of a run of kept queries: neighbours share the caches.
 constexpr size_t kRun = 4096;
 
 struct Query {
@@ -49,7 +49,7 @@ void record(RTCScene scene, const RTCRay& ray, bool occlusion) {
   if (every() > 0 && run % every() == 0) kept().push_back({scene, ray, occlusion});
 }
 
-/// Callbacks may look for more behind what Embree knows of a query.
+/// Callbacks may expect more data behind Embree's part of the context.
 struct Context {
   RTCIntersectContext embree;
   unsigned char more[64] = {};

@@ -1,7 +1,6 @@
-// Deals the dimensions of the Sobol' sequence to the decisions of a camera path, and others to
-// those of a light path that is connected with it: prints the orders that
-// src/transport/path_points.cpp has. See docs/estimators.md, section 25, for what is measured
-// ([U1]) and what is weighed against what. Run it by tools/choose_dimensions.
+// Assigns dimensions of the Sobol' sequence to the decisions of a camera path, and others to those
+// of connected light paths. Prints the orders in src/transport/path_points.cpp. The measure is
+// [U1], see docs/estimators.md, section 25. tools/choose_dimensions runs it.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -16,18 +15,18 @@ using namespace nephroid;
 
 namespace {
 
-/// Those of camera paths come first; light paths have what follows.
+/// Camera paths have the first dimensions, light paths those that follow.
 constexpr int kDimensions = kSobolDimensions, kOfEye = 96, kNumbersOfLight = 48;
-/// Runs of 2^4 to 2^12 points count alike.
+/// All runs of 2^4 to 2^12 points have the same weight.
 constexpr int kFirstLog2 = 4, kLastLog2 = 12;
-/// As many as these have numbers for.
+/// The vertices that have numbers of their own.
 constexpr int kVertices = 11, kVerticesOfLight = 5;
-/// Where roulette is worth a dimension before the vertices behind have theirs.
+/// Vertices whose roulette has its dimension before later vertices.
 constexpr int kVerticesOfRoulette = 3;
-/// One poor run must not hide what the others are like.
+/// Limits the influence of a single poor run.
 constexpr double kMaxRatio = 20;
 
-using Decision = std::vector<int>;  ///< its dimensions
+using Decision = std::vector<int>;  ///< dimensions of a decision
 
 /// 1 + (1 - rho) g(z) of [U1], for each point and dimension.
 struct Run {
@@ -45,7 +44,7 @@ struct Run {
     }
   }
   const double* of_point(size_t i) const { return &factors[i * kDimensions]; }
-  /// Unevenness of the first two dimensions.
+  /// Unevenness of the first pair of dimensions.
   double best_pair() const {
     double sum = 0;
     for (size_t i = 0; i < points; ++i) sum += product(i, {0, 1});
@@ -74,14 +73,15 @@ double nth(std::vector<double> values, double part) {
   return *at;
 }
 
-/// Dimensions to choose from.
+/// The dimensions to choose from.
 struct Pool {
   int begin, end;
 };
 
 using Table = std::array<std::array<double, kDimensions>, kDimensions>;
 
-/// How uneven each pair of dimensions is together with others, over what is good; mean over runs.
+/// Unevenness of each pair of dimensions combined with others, relative to a good pair. Mean over
+/// runs.
 Table pairs(const Decision& with, Pool pool) {
   Table sum{};
   for (const Run& run : runs()) {
@@ -103,7 +103,7 @@ Table pairs(const Decision& with, Pool pool) {
   return sum;
 }
 
-/// The same of single dimensions.
+/// The same for single dimensions.
 std::array<double, kDimensions> singles(const Decision& with, Pool pool) {
   std::array<double, kDimensions> sum{};
   for (const Run& run : runs()) {
@@ -192,14 +192,14 @@ void print(const char* what, const Decision& order) {
     std::printf("%d,%s", order[i], (i + 1) % 16 == 0 ? "\n" : " ");
 }
 
-/// Film, wavelength, and so on as in src/transport/walk.h.
+/// Film, wavelength, and so on in the order of src/transport/walk.h.
 Decision deal_to_eye(std::vector<Vertex>& path) {
   Dealer dealer({0, kOfEye});
   const Decision film = dealer.take({0, 1});
   for (int i = 0; i < kVertices; ++i) {
     Vertex v;
-    // What vertex i is integrated with: the direction before it, the one before that, and the lobe
-    // between, which alone decides at glass.
+    // Vertex i is integrated with the last two directions and the lobe between, which alone decides
+    // at glass.
     const bool first = i == 0;
     const Vertex before = first ? Vertex{} : path.back();
     const Decision near = first ? film : before.direction;
@@ -243,7 +243,7 @@ Decision deal_to_eye(std::vector<Vertex>& path) {
   return joined({order, dealer.rest()});
 }
 
-/// Light, point and direction, then vertices; beside the first ones of the eye.
+/// Light, point and direction, then vertices; together with the first ones of the camera path.
 Decision deal_to_light(const std::vector<Vertex>& eye) {
   Dealer dealer({kOfEye, kDimensions});
   const Decision film = {0, 1}, first = eye[0].direction;
@@ -265,7 +265,7 @@ Decision deal_to_light(const std::vector<Vertex>& eye) {
   std::vector<Decision> others;  // roulette and flight
   for (const Vertex& v : path)
     others.push_back(joined({dealer.number({{v.direction}}), dealer.number({{v.direction}})}));
-  // Nobody asks for lights at these vertices.
+  // These vertices sample no lights.
   const Decision rest = dealer.rest();
   auto next = rest.begin();
   Decision order = joined({light, point, away});

@@ -1,6 +1,6 @@
-// Puts the file that make_tables wrote into the program as read-only bytes, without making the
-// compiler parse millions of numbers. Who calls it: src/core/spectra_data.cpp, by symbol name.
-// NEPHROID_TABLES_FILE is the path of the file; cmake/tables.cmake sets it.
+// Embeds the file that make_tables wrote into the program as read-only bytes: the compiler need not
+// parse millions of numbers. src/core/spectra_data.cpp uses its symbol. cmake/tables.cmake sets
+// NEPHROID_TABLES_FILE, the path of the file.
 
 __asm__(
     ".pushsection .rodata\n"

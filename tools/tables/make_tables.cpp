@@ -1,7 +1,6 @@
-// Build-time program: make_tables DATA_FOLDER OUTPUT. Turns the measured spectra (CSV) into arrays
-// of floats in the form in which the renderer uses them, fits the sRGB coefficients, and writes all
-// into one binary file whose layout is in core/spectra_data.h. Who calls it: cmake/tables.cmake. It
-// must not depend on the renderer beyond these two headers.
+// Build-time program: make_tables DATA_FOLDER OUTPUT. Resamples the measured spectra (CSV), fits
+// the sRGB coefficients, and writes all into one binary file with the layout of
+// core/spectra_data.h. It must not depend on the renderer beyond these two headers.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -55,8 +54,8 @@ Columns read_csv(const std::filesystem::path& path) {
   return columns;
 }
 
-/// Continues the first and last values to just beyond the visible range, as pbrt-v4 does for
-/// measured spectra.
+/// Extends the first and last values to just beyond the visible range, as pbrt-v4 does for measured
+/// spectra.
 void continue_ends(Columns& columns) {
   if (columns[0].front() > kFirst)
     for (size_t c = 0; c < columns.size(); ++c)
@@ -66,7 +65,7 @@ void continue_ends(Columns& columns) {
       columns[c].push_back(c ? columns[c].back() : kLast + 1);
 }
 
-/// All value columns at 360, 361, ..., 830 nm, linear between the given points.
+/// All value columns at 360, 361, ..., 830 nm, interpolated linearly.
 Columns resample(const Columns& in) {
   const std::vector<float>& lambda = in[0];
   Columns out(in.size() - 1);
@@ -81,7 +80,7 @@ Columns resample(const Columns& in) {
   return out;
 }
 
-/// Scales so that the integral of `power` times `y` is that of an equal-energy spectrum of value 1.
+/// Scales `power` so that its integral times `y` equals that of an equal-energy spectrum of 1.
 void normalise(std::vector<float>& power, const std::vector<float>& y) {
   double sum = 0, equal_energy = 0;
   for (int i = 0; i < kTableNodes; ++i) {

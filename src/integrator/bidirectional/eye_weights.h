@@ -52,12 +52,14 @@ class EyePartialWeights {
   /// True if paths merge at an event of class `c` in this case.
   bool merges(EventClass c, Caster behind) const { return contains(rule_.receivers(behind), c); }
   /// The sums at the vertex for the case with the most merges.
-  const PartialMisWeights& most() const { return sums_[kMost]; }
+  const PartialMisWeights& most() const { return sums_[kBehindSpecular]; }
   /// The last vertex before the light, if the walk hits a light next.
-  const SideEnd& end_to_light() const { return ends_[rule_.merges_all_light() ? kMost : 0]; }
+  const SideEnd& end_to_light() const {
+    return ends_[rule_.merges_all_light() ? kBehindSpecular : 0];
+  }
 
  private:
-  static constexpr size_t kMost = static_cast<size_t>(Caster::kSpecular);
+  static constexpr size_t kBehindSpecular = static_cast<size_t>(Caster::kSpecular);
 
   /// Calls `f` for each case that differs.
   template <class F>
@@ -67,7 +69,7 @@ class EyePartialWeights {
       if (rule_.caster_of(EventClass::kGlossy) != Caster::kNone)
         f(static_cast<size_t>(Caster::kGlossy));
     }
-    f(kMost);
+    f(kBehindSpecular);
   }
 
   const bool connects_;

@@ -35,9 +35,9 @@ class MergeRoulette {
   }
   /// q of [W12], the survival probability at the next rough vertex; 1 from then on.
   float survival() {
-    constexpr float kLeast = 1.0f / 16;
+    constexpr float kMinSurvival = 1.0f / 16;
     const float merged = photons_for_one_ * static_cast<float>(std::exchange(before_, 0u));
-    return std::clamp(1 / std::max(merged, 1.0f), kLeast, 1.0f);
+    return std::clamp(1 / std::max(merged, 1.0f), kMinSurvival, 1.0f);
   }
   bool counts() const { return counts_; }
   uint64_t merged() const { return all_; }  ///< photons merged so far

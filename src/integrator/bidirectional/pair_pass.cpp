@@ -379,8 +379,8 @@ PairFindings measure(const PairPass& pass, const FilmFormat& film, const PairSam
   return found;
 }
 
-size_t try_out(const PairPass& pass, const FilmFormat& film, const PairTrial& trial,
-               SampleVariance& variance, EstimatorStatistics& statistics) {
+size_t run_trial(const PairPass& pass, const FilmFormat& film, const PairTrial& trial,
+                 SampleVariance& variance, EstimatorStatistics& statistics) {
   std::vector<RadianceRecord> records;
   Destinations destinations{.paths = &variance};
   if (trial.counts_records) {

@@ -109,8 +109,8 @@ PairFindings measure(const PairPass& pass, const FilmFormat& film, const PairSam
                      const PairLearning& learning, EstimatorStatistics& statistics);
 /// Adds the light of camera paths, without specular chains, to `variance`. Returns the number of
 /// radiance records that the paths would leave.
-size_t try_out(const PairPass& pass, const FilmFormat& film, const PairTrial& trial,
-               SampleVariance& variance, EstimatorStatistics& statistics);
+size_t run_trial(const PairPass& pass, const FilmFormat& film, const PairTrial& trial,
+                 SampleVariance& variance, EstimatorStatistics& statistics);
 
 /// Memory of a pass per pixel, with at most so many samples.
 size_t pair_pass_bytes_per_pixel(size_t parts, size_t samples, bool clamps, bool splats);

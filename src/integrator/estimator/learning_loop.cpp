@@ -8,7 +8,7 @@ namespace nephroid {
 namespace {
 
 // A damaged file must not claim all memory. A larger value is not saved but learned again.
-constexpr size_t kMostWords = size_t{64} << 18;
+constexpr size_t kMaxWords = size_t{64} << 18;
 // Version of the bytes that estimators write. Increase it when the members of any value change.
 constexpr uint32_t kLayout = 1;
 
@@ -45,7 +45,7 @@ void LearningLoop::add_state(const Estimator& estimator, const FilmFormat& forma
     value_->write(to);
     const std::vector<std::byte>& bytes = to.bytes();
     std::vector<uint32_t> words(1 + (bytes.size() + 3) / 4);
-    if (words.size() > kMostWords) return {};
+    if (words.size() > kMaxWords) return {};
     words[0] = static_cast<uint32_t>(bytes.size());
     std::memcpy(words.data() + 1, bytes.data(), bytes.size());
     return words;
@@ -67,7 +67,7 @@ void LearningLoop::add_state(const Estimator& estimator, const FilmFormat& forma
     seed_ = seed;
     was_read_ = true;
   };
-  state.streams.push_back({std::move(name), kMostWords, save, load});
+  state.streams.push_back({std::move(name), kMaxWords, save, load});
 }
 
 void LearningLoop::add_to(EstimatorStatistics& statistics) const {

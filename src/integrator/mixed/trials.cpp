@@ -112,20 +112,20 @@ Candidate Trials::run(const PairTechniques& techniques, const EmissionGuide& emi
   std::vector<SampleVariance> passes(kTrialPasses, SampleVariance(film_.bounds(), spacing_));
   for (uint32_t i = 0; i < kTrialPasses; ++i)
     records +=
-        try_out({.key = key,
-                 .seed = hash_combine(key.seed, kPathAndPhotonsNumber, i),
-                 .scene = scene_,
-                 .owned = owned_,
-                 .options = options_,
-                 .techniques = techniques,
-                 // Makes the lattice as noisy as the film with as many light paths per pixel.
-                 .radius_pixels = static_cast<float>(spacing_) * radius_of_pass(options_, 0, 0),
-                 .photons_for_one = photons_for_one(techniques),
-                 .emission = emission,
-                 .light_paths_vary = true,
-                 .independent_samples = true,
-                 .control = control_},
-                film_, trial, passes[i], counts);
+        run_trial({.key = key,
+                   .seed = hash_combine(key.seed, kPathAndPhotonsNumber, i),
+                   .scene = scene_,
+                   .owned = owned_,
+                   .options = options_,
+                   .techniques = techniques,
+                   // Makes the lattice as noisy as the film with as many light paths per pixel.
+                   .radius_pixels = static_cast<float>(spacing_) * radius_of_pass(options_, 0, 0),
+                   .photons_for_one = photons_for_one(techniques),
+                   .emission = emission,
+                   .light_paths_vary = true,
+                   .independent_samples = true,
+                   .control = control_},
+                  film_, trial, passes[i], counts);
   costs_.rays += counts.rays;
   costs_.hold(counts.photon_bytes, counts.pixel_bytes);
   const size_t stride =

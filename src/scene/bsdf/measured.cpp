@@ -152,7 +152,7 @@ SampledSpectrum MeasuredBrdf::ratio(const View& view, const Vec2f& u,
       sum += here * weight;
     }
   }
-  return clamp(sum, 0.0f, kLargest);
+  return clamp(sum, 0.0f, kMaxValue);
 }
 
 float MeasuredBrdf::factor(const View& view, const Vec2f& facet, float cos_i) const {

@@ -12,7 +12,7 @@ namespace nephroid {
 /// Contents of a file. Directions are polar angles and azimuths in radians. Grids lie on the square
 /// (sqrt(2 theta / pi), (phi + pi) / (2 pi)) of facet normals or directions. The last two lie on
 /// the square that the facet warp maps to facet normals. All numbers are finite and at most
-/// MeasuredBrdf::kLargest.
+/// MeasuredBrdf::kMaxValue.
 struct MeasuredTables {
   std::vector<float> phi, theta;   ///< outgoing direction, increasing; grids [phi][theta]
   std::vector<float> wavelengths;  ///< nm, increasing
@@ -30,7 +30,7 @@ using WavelengthPlaces = std::array<ParameterAxis::Place, kSpectrumSamples>;
 /// One measured surface, shared by all points that have it. Constant after construction.
 class MeasuredBrdf {
  public:
-  static constexpr float kLargest = 1e9f;  ///< bound of all numbers in the tables
+  static constexpr float kMaxValue = 1e9f;  ///< bound of all numbers in the tables
 
   explicit MeasuredBrdf(MeasuredTables tables);
 

@@ -10,9 +10,12 @@ constexpr FormatParameter kCommon[] = {
     {"string", "name", "none", "", "what light path expressions call it; not in pbrt-v4"},
 };
 constexpr FormatParameter kPower[] = {
-    {"float", "power", "none", "W", "replaces the brightness if above 0"}};
+    {"float", "power", "none", "W",
+     "flux of a white lamp if above 0; \"scale\" and the size of an rgb colour still multiply it"}};
 constexpr FormatParameter kIlluminance[] = {
-    {"float", "illuminance", "none", "lx", "replaces the brightness if above 0"}};
+    {"float", "illuminance", "none", "lx",
+     "of white light on a surface that faces it, if above 0; \"scale\" and the size of an rgb "
+     "colour still multiply it, and an image gives twice as much, as in pbrt-v4"}};
 constexpr FormatParameter kFrom[] = {{"point3", "from", "0 0 0"}};
 constexpr FormatParameter kTo[] = {{"point3", "to", "0 0 1"}};
 constexpr FormatParameter kIntensity[] = {

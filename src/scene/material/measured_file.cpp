@@ -52,7 +52,7 @@ class Fields {
     std::vector<float> values =
         TensorFile::floats(file_.require(name, TensorType::kFloat32, dimensions));
     for (size_t i = 0; i < values.size(); ++i)
-      if (!(std::abs(values[i]) <= MeasuredBrdf::kLargest))
+      if (!(std::abs(values[i]) <= MeasuredBrdf::kMaxValue))
         fail(name, "has a number that is not finite or beyond 1e9, at " + std::to_string(i) +
                        " (counted from 0)");
     return values;

@@ -12,7 +12,7 @@ namespace nephroid {
 namespace {
 
 /// Bound of coordinates and transform entries, so that their products are finite.
-constexpr double kLargest = 1e30;
+constexpr double kMaxValue = 1e30;
 
 using Root = nanovdb::NanoRoot<float>;
 using Upper = nanovdb::NanoUpper<float>;
@@ -171,7 +171,7 @@ std::unique_ptr<NanoVdbGrid> NanoVdbGrid::read(const std::string& file, const st
   auto impl = std::make_unique<Impl>();
   impl->bytes = std::move(*bytes);
   const auto& data = *reinterpret_cast<const nanovdb::GridData*>(impl->bytes.data());
-  const auto is_usable = [](double x) { return std::abs(x) < kLargest; };
+  const auto is_usable = [](double x) { return std::abs(x) < kMaxValue; };
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) impl->medium_from_index[j][i] = data.mMap.mMatD[3 * i + j];
     impl->medium_from_index[3][i] = data.mMap.mVecD[i];
@@ -179,7 +179,7 @@ std::unique_ptr<NanoVdbGrid> NanoVdbGrid::read(const std::string& file, const st
       if (!is_usable(impl->medium_from_index[j][i]))
         throw SceneError(where, title + " has a transform that is not finite");
     const double min = data.mWorldBBox.min()[i], max = data.mWorldBBox.max()[i];
-    if (!is_usable(min) || !is_usable(max) || !(max - min > 1 / kLargest))
+    if (!is_usable(min) || !is_usable(max) || !(max - min > 1 / kMaxValue))
       throw SceneError(where, title + " is empty or infinite");
     impl->medium_min[i] = min;
     impl->medium_max[i] = max;

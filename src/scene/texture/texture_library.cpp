@@ -25,7 +25,7 @@ struct TextureCost {
 };
 /// Deeper nesting overflows the stack. The number of lookups can grow exponentially, for example if
 /// each texture mixes the one before it with itself.
-constexpr int kDeepest = 256;
+constexpr int kMaxDepth = 256;
 constexpr double kMaxLooks = 10000;
 
 /// A texture that is made when it is first requested.
@@ -159,11 +159,11 @@ struct TextureLibrary::Impl final : TextureScope {
   }
 
   static void check_depth(const TextureDescription& d, int depth) {
-    if (depth > kDeepest)
+    if (depth > kMaxDepth)
       throw SceneError(d.where, "texture \"" + d.name +
                                     "\" is one of textures in each other more "
                                     "than " +
-                                    std::to_string(kDeepest) + " deep, expected fewer");
+                                    std::to_string(kMaxDepth) + " deep, expected fewer");
   }
 
   /// The single string of a texture reference.

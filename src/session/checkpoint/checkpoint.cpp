@@ -25,7 +25,7 @@ RenderState state_of(const Scene& scene, EstimatorSet& set, Film& film) {
   for (size_t i = 0; i < set.estimators.size(); ++i) {
     Estimator& estimator = *set.estimators[i];
     estimator.add_state(scene, film, state);
-    // A photon map is large and soon made again.
+    // A photon map is left out: it is large and quickly made again.
     if (!estimator.descriptor().capabilities.learned_is_light)
       set.learned[i].add_state(estimator, film.format(),
                                fmt::format("{}learned.{}", RenderState::kOptionalPrefix, i), state);

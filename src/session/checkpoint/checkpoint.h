@@ -13,11 +13,11 @@
 
 namespace nephroid {
 
-/// What has been rendered before.
+/// The progress of earlier runs.
 struct Checkpoint {
-  PassRanges passes;                  ///< whole ones
-  std::optional<uint32_t> open_pass;  ///< begun and not whole
-  double seconds = 0;                 ///< of rendering, all runs together
+  PassRanges passes;                  ///< whole passes
+  std::optional<uint32_t> open_pass;  ///< unfinished pass
+  double seconds = 0;                 ///< rendering time of all runs
   std::string history;                ///< a line for each run
   std::string choices;                ///< the report of the last run
   std::string instruction_sets;
@@ -27,58 +27,59 @@ struct Checkpoint {
 /// True if the passes of all estimators are independent, so that they can be added up.
 bool passes_are_independent(const EstimatorSet& set);
 
-/// All that a render keeps, as it lies in memory: of the film and of the estimators.
+/// The complete state of a render in memory: film and estimators.
 RenderState state_of(const Scene& scene, EstimatorSet& set, Film& film);
 
-/// The state of a picture, whose name or the state's own is `path`. Throws IoError, "cannot
-/// `purpose`", if it is not there.
+/// Opens the state of a picture; `path` is the picture's name or the state's own. Throws IoError,
+/// "cannot `purpose`", if it is missing.
 StateFile open_state(const std::string& path, const std::string& purpose);
 
-/// Throws IoError if picture, PNG or state cannot be written. Removes what processes of this
-/// machine have left of them when they were killed.
+/// Throws IoError if picture, PNG or state cannot be written. Removes their temporary files that
+/// killed processes of this machine have left.
 void check_picture_can_be_written(const std::string& output);
 
 /// A file that a new render is about to replace, and the name under which it is kept.
 struct KeptFile {
   std::string path, kept;
 };
-/// Picture, state and PNG, those that are there: "a/b.exr" is kept as "a/b.previous.exr". A PNG
-/// alone, as a render leaves it that ends before its first picture, is kept if there is no earlier
-/// one to lose.
+/// Picture, state and PNG, if they exist: "a/b.exr" is kept as "a/b.previous.exr". A PNG alone
+/// comes from a render that ended before its first picture. It is kept unless it would replace an
+/// earlier kept one.
 std::vector<KeptFile> files_to_keep(const std::string& output);
-/// Gives them the names under which they are kept. Throws IoError.
+/// Renames files_to_keep(). Throws IoError.
 void keep_files(const std::string& output);
 
-/// The whole passes that a state has. Throws IoError, "cannot `purpose`", if it does not say so.
+/// The whole passes of a state. Throws IoError, "cannot `purpose`", if its metadata lack them.
 PassRanges passes_of(const StateFile& file, const std::string& purpose);
-/// The pass of which it has a part. Throws IoError for what is no pass.
+/// The unfinished pass of a state. Throws IoError if the metadata are invalid.
 std::optional<uint32_t> open_pass_of(const StateFile& file);
 
-/// A time in the metadata, 0 if it is not there. Throws IoError for what is no time.
+/// A time in the metadata, 0 if it is missing. Throws IoError if it is invalid.
 double seconds_of(const StateFile& file, const std::string& key);
 
-/// Throws UsageError, "cannot `purpose`", with all differences, unless the file is of the
-/// render `other`, which the message calls `name`, "here" for example.
+/// Throws UsageError, "cannot `purpose`", with all differences, unless the file belongs to the
+/// render `other`. The message calls `other` `name`, for example "here".
 void require_same_render(const StateFile& file, const RenderIdentity& other,
                          const std::string& name, const std::string& purpose);
 
-/// A warning if the file was rendered with other instruction sets than `other`, called `name`.
+/// A warning if the file was rendered with instruction sets different from those of `other`, which
+/// it calls `name`.
 std::optional<std::string> warning_of_instruction_sets(const StateFile& file,
                                                        const RenderIdentity& other,
                                                        const std::string& name);
 
-/// Metadata of the progress: passes, times and history.
+/// Adds metadata of the progress: passes, times and history.
 void add_progress(const Checkpoint& progress, Metadata* metadata);
-/// Metadata of the film's estimates, of each route and of rejected outliers.
+/// Adds metadata of the film's estimates: their numbers by route, and that of rejected outliers.
 void add_estimates(const Film& film, Metadata* metadata);
 
-/// What a new render `here` is about to replace at its output, and where it is kept, as a sentence;
-/// empty if nothing is there.
+/// A warning about the files that the render `here` is about to replace, and the names under which
+/// they are kept. Empty if there are none.
 std::optional<std::string> warning_of_replacing(const std::string& output,
                                                 const RenderIdentity& here);
 
-/// Reads the state of a picture into film and estimators. Throws UsageError if it is of another
-/// render, with all that differs, and IoError if it has none or it cannot be read.
+/// Loads the state of a picture into film and estimators. Throws UsageError with all differences if
+/// it belongs to another render, IoError if it is missing or cannot be read.
 Checkpoint go_on_from(const std::string& path, const RenderIdentity& here, const Scene& scene,
                       EstimatorSet& set, Film& film);
 

@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// A block of zeros is not packed better than that.
+/// Upper bound of the compression ratio, that of a block of zeros.
 constexpr double kMaxBytesPerByte = 20000;
 
 Json layout_of(const StateFile& file) {

@@ -1,5 +1,5 @@
-// What a film is, in the metadata of its state, so that it can be made again without the scene.
-// It must not know what is in a film.
+// Describes a film in the metadata of its state, so that it can be recreated without the scene. It
+// must not know the contents of a film.
 #pragma once
 
 #include "film/film.h"
@@ -7,16 +7,17 @@
 
 namespace nephroid {
 
-/// `passes_add_up`: those of the film's estimators are independent of each other.
+/// `passes_add_up`: the passes of the film's estimators are independent.
 void add_film_metadata(const Film& film, bool passes_add_up, Metadata* metadata);
 
-/// Metadata of a state without what the program alone reads, for its picture.
+/// The metadata of a state without the entry that only the program reads, for its picture.
 Metadata picture_metadata_of(Metadata metadata);
 
-/// An empty film like that of the picture. Throws IoError if its metadata make no sense.
+/// An empty film with the settings and layout of the state's. Throws IoError if its metadata are
+/// invalid.
 Film film_of(const StateFile& file);
 
-/// What add_film_metadata was told.
+/// The `passes_add_up` of add_film_metadata.
 bool passes_add_up(const StateFile& file);
 
 }  // namespace nephroid

@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kPurpose = "merge it";
 
-/// A picture to be merged. There may be more of them than files may be open.
+/// A picture to be merged. It is not kept open: there may be more pictures than open files allowed.
 struct Input {
   std::string path;
   PassRanges passes;
@@ -43,7 +43,7 @@ Merged merge_pictures(const std::vector<std::string>& inputs, const std::string&
   std::vector<Input> files;
   for (const std::string& path : inputs)
     files.push_back({path, passes_of(open_state(path, kPurpose), kPurpose)});
-  // The order of the arguments does not count.
+  // Sorted, so that the order of the arguments does not matter.
   std::ranges::sort(
       files, {}, [](const Input& i) { return i.passes.empty() ? 0 : i.passes.ranges()[0].first; });
   const StateFile first = open_state(files[0].path, kPurpose);
@@ -82,7 +82,7 @@ Merged merge_pictures(const std::vector<std::string>& inputs, const std::string&
   Film sum = film_of(first);
   for (const Input& input : files) {
     StateFile file = open_state(input.path, kPurpose);
-    // A render that goes on may have written a newer one meanwhile.
+    // A running render may have written a newer state meanwhile.
     if (passes_of(file, kPurpose) != input.passes || open_pass_of(file))
       throw IoError(input.path + ": cannot merge it: it changed while it was read");
     Film film = film_of(first);

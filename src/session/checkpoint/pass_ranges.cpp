@@ -11,7 +11,7 @@
 namespace nephroid {
 namespace {
 
-/// The number at the beginning of `text`, which is taken away; empty if there is none.
+/// Removes the number at the beginning of `text` and returns it; empty if there is none.
 std::optional<uint32_t> take_number(std::string_view& text) {
   uint32_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -36,7 +36,7 @@ std::optional<PassRanges> PassRanges::parse(const std::string& text) {
     const auto first = take_number(rest);
     if (!first || !take(rest, "..")) return std::nullopt;
     const auto last = take_number(rest);
-    // The greatest number is no pass, so that they can be counted.
+    // The greatest number is not a pass, so that passes can be counted.
     if (!last || *last < *first || *last == std::numeric_limits<uint32_t>::max())
       return std::nullopt;
     if (!result.empty() && *first <= result.ranges_.back().last) return std::nullopt;
@@ -84,7 +84,7 @@ uint32_t PassRanges::first_missing(uint32_t from) const {
 }
 
 std::optional<PassRange> PassRanges::overlap(const PassRanges& other) const {
-  // Side by side: both are in order.
+  // Both are sorted, so they are compared in parallel.
   auto a = ranges_.begin(), b = other.ranges_.begin();
   while (a != ranges_.end() && b != other.ranges_.end()) {
     if (a->first <= b->last && b->first <= a->last)

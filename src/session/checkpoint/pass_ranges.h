@@ -1,5 +1,4 @@
-// Which passes of a render have been done: ranges, both ends included. It must not know what a pass
-// is.
+// A set of passes as ranges, both ends included. It must not know what a pass is.
 #pragma once
 
 #include <cstdint>
@@ -18,27 +17,27 @@ class PassRanges {
  public:
   PassRanges() = default;
   explicit PassRanges(PassRange range) : ranges_{range} {}
-  /// "0..63,100..199", as text() writes it; empty if it is anything else, or if the ranges do not
-  /// increase.
+  /// Parses "0..63,100..199", the format of text(). Empty for anything else, or if the ranges do
+  /// not increase.
   static std::optional<PassRanges> parse(const std::string& text);
   std::string text() const;
 
-  /// In increasing order, none next to another.
+  /// In increasing order; adjacent ranges are joined.
   const std::vector<PassRange>& ranges() const { return ranges_; }
   bool empty() const { return ranges_.empty(); }
   uint64_t count() const;
-  /// Of those from first to last of `within`.
+  /// Number of passes in the range `within`.
   uint64_t count(PassRange within) const;
   bool contains(uint32_t pass) const;
-  /// The lowest pass from `from` on that is not in it; the greatest number, which is no pass, if
-  /// all are.
+  /// The lowest missing pass from `from` on. If none is missing, the greatest number, which is not
+  /// a pass.
   uint32_t first_missing(uint32_t from) const;
-  /// What both have; empty if nothing.
+  /// The first common range; empty if there is none.
   std::optional<PassRange> overlap(const PassRanges& other) const;
 
-  /// One that is not in it.
+  /// Adds a pass that it does not contain.
   void add(uint32_t pass);
-  /// Others that do not overlap.
+  /// Adds passes that do not overlap.
   void add(const PassRanges& other);
 
   bool operator==(const PassRanges&) const = default;

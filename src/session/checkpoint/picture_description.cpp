@@ -1,4 +1,3 @@
-// Line by line from the metadata.
 #include "session/checkpoint/picture_description.h"
 
 #include <fmt/format.h>
@@ -29,7 +28,7 @@ std::string state_line(const StateFile& file) {
                      passes.text(), open ? fmt::format(" and a part of pass {}", *open) : "", use);
 }
 
-/// Of the state beside a picture.
+/// The description of the state beside a picture.
 std::string state_line_beside(const std::string& path) {
   const std::string state = state_path_beside(path);
   if (!std::filesystem::exists(state))
@@ -66,7 +65,7 @@ std::string entries(const Metadata& metadata) {
   return text;
 }
 
-/// The first bytes of a file; zeros where it has none.
+/// The first bytes of a file, padded with zeros.
 std::array<char, 7> begin_of(const std::string& path) {
   std::array<char, 7> begin{};
   std::ifstream(path, std::ios::binary).read(begin.data(), begin.size());
@@ -81,7 +80,7 @@ bool is_state(const std::string& path) {
 }  // namespace
 
 bool is_picture(const std::string& path) {
-  // What is read of a pipe is gone.
+  // Reading would consume the bytes of a pipe.
   if (path == kStandardInput || is_stream(path)) return false;
   constexpr std::array<char, 4> kMagic = {0x76, 0x2f, 0x31, 0x01};
   const auto begin = begin_of(path);

@@ -1,4 +1,4 @@
-// One table of members and metadata; -D keys are compared one by one.
+// One table maps members to metadata; -D keys are compared one by one.
 #include "session/checkpoint/render_identity.h"
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@ namespace {
 struct Field {
   const char* key;
   std::string RenderIdentity::*text;
-  bool decides;  ///< renders that differ in it are different renders
+  bool decides;  ///< true if a difference makes it another render
 };
 
 /// In the order in which differences are listed.
@@ -32,7 +32,7 @@ constexpr Field kFields[] = {
     {kInstructionSetKey, &RenderIdentity::instruction_sets, false},
 };
 
-/// The picture does not depend on these -D keys.
+/// -D keys that do not change the picture.
 constexpr const char* kPictureIsTheSame[] = {"texture-cache"};
 
 /// "key=value" words, by key.

@@ -1,4 +1,3 @@
-// Asks the processor and the compiler's own macros.
 #include "session/checkpoint/version.h"
 
 namespace nephroid {

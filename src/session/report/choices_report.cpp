@@ -13,7 +13,7 @@ namespace nephroid {
 
 namespace {
 
-/// Shares of techniques below this are not worth saying.
+/// Smaller shares of techniques are not reported.
 constexpr double kMinShare = 1e-4;
 
 double part(uint64_t some, uint64_t all) {
@@ -45,7 +45,7 @@ void add_light_paths(const EstimatorStatistics& last, uint32_t passes,
       100 * part(last.light_paths_useful, last.light_paths)));
 }
 
-/// Where the work went, of estimators that tell it apart.
+/// Adds the shares of rays, for estimators that count them separately.
 void add_rays(const EstimatorStatistics& last, std::vector<std::string>& lines) {
   if (last.rays == 0 || last.light_rays + last.learning_rays == 0) return;
   const uint64_t of_camera = last.rays - last.light_rays - last.learning_rays;
@@ -84,7 +84,7 @@ std::vector<std::string> choices_report(const std::vector<EstimatorStatistics>& 
                                         uint32_t passes) {
   std::vector<std::string> lines;
   for (size_t i = 0; i < last.size(); ++i) {
-    // Within the first pass there is nothing of it yet, and nothing to be said of passes.
+    // Within the first pass there are no statistics of it and no rates per pass.
     if (i < first.size() && passes > 0) {
       add_photons(first[i], last[i], passes, lines);
       add_light_paths(last[i], passes, lines);

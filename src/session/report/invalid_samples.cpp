@@ -7,7 +7,7 @@
 namespace nephroid {
 namespace {
 
-/// What the ray through the middle of a pixel meets first.
+/// The material and point that the ray through the middle of a pixel hits first.
 std::string seen_at(const Scene& scene, int x, int y) {
   const auto ray = scene.camera->generate_ray(
       {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f}, {0.5f, 0.5f}, 0.5f);
@@ -26,7 +26,7 @@ std::vector<std::string> report(const Scene* scene, const Film& film) {
     std::string line = fmt::format("{} estimates of route {} were not finite and were left out",
                                    bad.count, layout.routes[r]);
     const PixelBounds& crop = film.bounds();
-    // None, or from a file that is wrong.
+    // Out of range if there is none, or if it comes from a wrong file.
     if (bad.first_pixel < static_cast<uint64_t>(crop.area())) {
       const uint64_t width = crop.width();
       const int x = crop.x0 + static_cast<int>(bad.first_pixel % width);

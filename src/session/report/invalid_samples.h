@@ -1,5 +1,4 @@
-// Samples that a render left out because they were not finite, in sentences. It must not know where
-// they come from.
+// Reports invalid samples: left out because they were not finite. It must not know their cause.
 #pragma once
 
 #include <string>
@@ -10,10 +9,10 @@
 
 namespace nephroid {
 
-/// A line for each route of which estimates were not finite, with how many, and the first pixel and
-/// what is seen there; and one if sums reached their limit. Empty if nothing was left out.
+/// A line for each route with invalid estimates: their number, the first pixel, and the material
+/// seen there. Another line if sums reached their limit. Empty if nothing was left out.
 std::vector<std::string> invalid_samples(const Scene& scene, const Film& film);
-/// The same where there is no scene to look at.
+/// The same without a scene: the material is left out.
 std::vector<std::string> invalid_samples(const Film& film);
 
 }  // namespace nephroid

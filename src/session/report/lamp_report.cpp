@@ -11,10 +11,10 @@ namespace nephroid {
 
 namespace {
 
-/// Lights that are named; the rest is summed up.
+/// Maximum number of lights that are named; the rest is summed up.
 constexpr size_t kMaxNamed = 5, kMaxNamedDark = 3;
 
-/// Of all estimators; nothing if some of them does not tell lights apart.
+/// Light per lamp of all estimators. Empty if one of them does not count lamps separately.
 std::optional<std::vector<LampLight>> lamps_of(const std::vector<EstimatorStatistics>& statistics) {
   std::vector<LampLight> all;
   for (const EstimatorStatistics& s : statistics) {
@@ -41,7 +41,7 @@ double total_of(const std::vector<LampLight>& lamps) {
 std::string line_of_shares(const std::vector<LampLight>& brightest, double total) {
   std::string line = "light by lamp:";
   size_t named = brightest.size();
-  // To sum up a single one would be no shorter than its name.
+  // A single further light is named as well: "1 others" would not be shorter.
   if (named > kMaxNamed + 1) named = kMaxNamed;
   double rest = total;
   for (size_t i = 0; i < named; ++i) {
@@ -55,7 +55,7 @@ std::string line_of_shares(const std::vector<LampLight>& brightest, double total
   return line + " (first passes)";
 }
 
-/// Why light did not come to the camera, as far as shadow rays tell; `it`: what they went to.
+/// The likely reason, from shadow rays, why no light reached the camera. `it` names the lights.
 std::string reason_of(uint64_t rays, const char* it) {
   if (rays > 0)
     return fmt::format(

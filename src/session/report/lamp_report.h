@@ -1,4 +1,4 @@
-// Which lights the picture is lit by, and why it is black. It must not know scenes.
+// Reports the shares of lights in the picture, or why it is black. It must not know scenes.
 #pragma once
 
 #include <optional>
@@ -10,13 +10,13 @@
 
 namespace nephroid {
 
-/// The shares of lights in passes 0 to 7, brightest first, and notes on those that bring none.
-/// Nothing if these passes were not rendered here, or some estimator does not tell lights apart.
+/// Shares of lights in passes 0 to 7, brightest first, and notes on lights without any. Empty if
+/// these passes were not rendered here, or if an estimator does not count lamps separately.
 std::vector<std::string> lamp_report(const std::vector<EstimatorStatistics>& statistics);
 
 /// True if every pixel is zero in all routes.
 bool is_black(const Film& film);
-/// A line on a black picture, in place of its estimated error, with what is known of the cause.
+/// A line on a black picture with its likely cause, in place of the estimated error.
 std::string black_picture_report(const std::vector<EstimatorStatistics>& statistics);
 
 }  // namespace nephroid

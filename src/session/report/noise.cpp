@@ -1,5 +1,5 @@
-// Sums over the film, per chunk of rows and then in the order of the chunks: the stop rule must not
-// depend on threads.
+// Sums over the film are taken per chunk of rows, then in the order of the chunks: the stop rule
+// must not depend on threads.
 #include "session/report/noise.h"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ double sum_over_pixels(const Film& film, const Term& term) {
   return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
-/// Of all light, whatever is held: that is what the error is of.
+/// All light of a pixel, held outliers included, as the error refers to it.
 Rgb all_light(const Film& film, int x, int y) {
   const Rgb value = film.value(x, y);
   return film.rejection() != nullptr ? value + film.outliers(x, y) : value;
@@ -50,7 +50,7 @@ double relative_square(const Film& film, const Error& error_of) {
   return sum / (3.0 * static_cast<double>(film.bounds().area()));
 }
 
-/// [F5]
+/// [F5] The bias term.
 double relative_square_of_bias(const Film& film) {
   if (!film.has_bias()) return 0;
   const double sum = sum_over_pixels(film, [&](int x, int y) {
@@ -78,8 +78,8 @@ std::optional<EstimatedError> estimated_error(const Film& film) {
 }
 
 double passes_to(const EstimatedError& error, double target) {
-  // noise^2 / g + bias^2 / g^(2/3) = target^2 for g = t^3: Newton's method comes from above, where
-  // the polynomial is convex.
+  // Solves noise^2 / g + bias^2 / g^(2/3) = target^2 for g = t^3 by Newton's method from above,
+  // where the polynomial is convex.
   const double noise2 = sqr(error.noise / target), bias2 = sqr(error.bias / target);
   double t = std::cbrt(noise2) + std::sqrt(bias2);
   for (int i = 0; i < 32 && t > 0; ++i)

@@ -1,13 +1,13 @@
-// Large numbers for people to read. It must not know what they count.
+// Short texts of large numbers. It must not know what they count.
 #pragma once
 
 #include <string>
 
 namespace nephroid {
 
-/// "1.23 M": three digits and the letter of the thousands.
+/// "1.23 M": three digits and an SI prefix.
 std::string short_number(double value);
-/// "1.23 MiB": three digits and the unit by powers of 1024.
+/// "1.23 MiB": three digits and a binary unit.
 std::string short_bytes(double bytes);
 
 }  // namespace nephroid

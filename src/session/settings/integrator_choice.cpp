@@ -1,4 +1,3 @@
-// Defaults, the scene's Integrator line, then -D.
 #include "session/settings/integrator_choice.h"
 
 #include <fmt/format.h>
@@ -10,8 +9,8 @@
 namespace nephroid {
 namespace {
 
-/// What the scene's Integrator line says. Radii of pbrt's sppm are in world units and chosen for
-/// its own photon counts: ours is chosen by the footprint, so theirs is only mentioned.
+/// Applies the scene's Integrator line. The radius of pbrt's sppm is in world units and made for
+/// its own photon counts. Ours is in pixel footprints, so theirs is only mentioned.
 void take_scene_parameters(const ParameterSet& parameters, bool follow_scene,
                            IntegratorChoice* choice) {
   constexpr int kAbsent = -1;
@@ -37,7 +36,7 @@ void take_scene_parameters(const ParameterSet& parameters, bool follow_scene,
     options.photons_per_pass = photons;
 }
 
-/// The row of a pbrt-v4 integrator; empty if there is none of that name.
+/// The format type of a pbrt-v4 integrator; empty if the name is unknown.
 std::optional<FormatType> pbrt_integrator(const std::string& name) {
   for (const FormatType& type : scene_integrator_types())
     if (name == type.name) return type;
@@ -51,7 +50,7 @@ std::string pbrt_integrator_names() {
   return names;
 }
 
-/// The integrator that stands for the scene's own.
+/// The integrator that corresponds to the scene's own.
 std::string integrator_of_scene(const std::string& scene_integrator, const SourceLocation& where) {
   // Without an Integrator line pbrt-v4 renders with volpath.
   const std::string own = scene_integrator.empty() ? "volpath" : scene_integrator;
@@ -65,7 +64,7 @@ std::string integrator_of_scene(const std::string& scene_integrator, const Sourc
   return name;
 }
 
-/// Warns of what pbrt-v4 would not know; nothing depends on it.
+/// Warns of names that pbrt-v4 does not have; they have no effect.
 void warn_of_unknown_names(const std::string& scene_integrator, const ParameterSet& parameters,
                            IntegratorChoice* choice) {
   Diagnostics diagnostics;

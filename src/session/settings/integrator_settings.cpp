@@ -97,7 +97,7 @@ const IntegratorSetting kSettings[] = {
      [](const RenderSettings& s) { return bytes_text(s.scene.texture_memory); }},
 };
 
-/// "For path, forecast, bdpt.", the estimators that have a setting.
+/// "For path, forecast, bdpt.": the estimators with a setting.
 std::string owners_of(const EstimatorSetting& setting) {
   std::vector<std::string> names;
   for (const EstimatorDescriptor* estimator : estimator_table())
@@ -106,7 +106,7 @@ std::string owners_of(const EstimatorSetting& setting) {
   return fmt::format("For {}.", fmt::join(names, ", "));
 }
 
-/// The rows above and those of all estimators, each once.
+/// The settings above and those of all estimators, each once.
 std::vector<IntegratorSetting> all_settings() {
   std::vector<IntegratorSetting> all(std::begin(kSettings), std::end(kSettings));
   std::set<const EstimatorSetting*> seen;

@@ -1,4 +1,4 @@
-// The numbers of a render, each a key of -D: one table with default, unit and help.
+// The settings of a render, each a -D key: one table with default, unit and help.
 #pragma once
 
 #include <functional>
@@ -14,14 +14,14 @@
 
 namespace nephroid {
 
-/// Numbers that no integrator looks at: scenes are built, and films reject outliers, with them.
+/// Settings that no integrator uses: for building scenes and rejecting outliers.
 struct SceneSettings {
   SpecularBand specular_band;
   uint64_t texture_memory = kDefaultTextureMemory;  ///< bytes for the pixels of image textures
-  int outlier_neighbours = 8;                       ///< similar estimates that confirm one
+  int outlier_neighbours = 8;                       ///< similar estimates needed to confirm one
 };
 
-/// All that -D sets.
+/// All settings of -D.
 struct RenderSettings {
   IntegratorOptions integrator;
   SceneSettings scene;
@@ -34,35 +34,34 @@ struct IntegratorSetting {
   const char* key;
   const char* value;  ///< placeholder of the value in help: "N", "X"
   const char* default_text;
-  const char* unit;  ///< empty if it has none
+  const char* unit;  ///< empty if there is none
   std::string help;
   /// Parses and stores; throws UsageError.
   std::function<void(RenderSettings& settings, const std::string& text)> apply;
-  /// The stored value as metadata have it.
+  /// The stored value as text, for metadata.
   std::function<std::string(const RenderSettings& settings)> print;
   bool is_for_everybody = false;  ///< --help shows it; --help-all shows all
 };
 
-/// The table of keys, in the order in which help shows them: those of all renders, then those of
-/// single estimators.
+/// The table of keys in the order of help: keys of all renders, then those of single estimators.
 std::span<const IntegratorSetting> integrator_settings();
 
-/// Keys and values of -D, in the order in which they were given; the last one of a key counts.
+/// Keys and values of -D in the given order; the last value of a key counts.
 using SettingList = std::vector<std::pair<std::string, std::string>>;
 
 /// "key=value" as a pair whose key is known and whose value is valid. Throws UsageError that lists
 /// the keys.
 std::pair<std::string, std::string> parse_setting(const std::string& text);
 
-/// Applies what parse_setting has accepted.
+/// Applies settings that parse_setting has accepted.
 void apply_settings(const SettingList& settings, RenderSettings* target);
 
-/// The list over the defaults. With a limit of `memory` bytes, 0 being none, textures and photons
-/// have a quarter of it each at most, unless the list says otherwise.
+/// The defaults, overridden by the list. With a limit of `memory` bytes (0: none), textures and
+/// photons get at most a quarter of it each, unless the list sets them.
 RenderSettings render_settings(const SettingList& list, uint64_t memory = 0);
 
-/// Bytes of a photon, of its copy in the list of a chunk, and of its share of the grid while that
-/// is built (two codes, two places, a position).
+/// Bytes per photon: the photon, its copy in the list of a chunk, and its share of the grid under
+/// construction (two codes, two indices, a position).
 inline constexpr size_t kBytesPerPhoton = 2 * sizeof(Photon) + 48;
 
 /// "max-depth=100 radius=0 ...", every key.

@@ -9,12 +9,12 @@
 namespace nephroid {
 namespace {
 
-/// In and out of a closed body; one more to see a lit surface behind it, or to light one.
+/// Events into and out of a closed body. Seeing or lighting a surface behind it takes one more.
 constexpr int kEventsThroughGlass = 2;
-/// At a mirror; one more to see a lit surface in it.
+/// Events at a mirror. Seeing a lit surface in it takes one more.
 constexpr int kEventsAtMirror = 1;
 
-/// The first material that is on a shape and for which `is_wanted`.
+/// The first material on a shape for which `is_wanted` is true.
 template <class IsWanted>
 std::optional<size_t> first_material(const Scene& scene, const IsWanted& is_wanted) {
   const MaterialsOfShapes shown = materials_of_shapes(scene);
@@ -23,7 +23,7 @@ std::optional<size_t> first_material(const Scene& scene, const IsWanted& is_want
   return std::nullopt;
 }
 
-/// True of metal and thin glass.
+/// True for metal and thin glass.
 bool mirrors_only(const Material& material) {
   const ClassMask classes = material.possible_classes();
   return !material.refracts() && !contains(classes, EventClass::kDiffuse) &&

@@ -1,4 +1,4 @@
-// Light that a small max-depth leaves out. It must not know integrators.
+// Notes on light that is lost by a small max-depth. It must not know integrators.
 #pragma once
 
 #include <string>
@@ -9,9 +9,9 @@
 
 namespace nephroid {
 
-/// Notes on things of the scene that look black because paths end too early. A path may have
-/// `max_depth` scattering events, the one at which a lamp is sampled among them; the ways straight
-/// through thin glass are none.
+/// Notes on objects that look black because paths end too early. A path may have `max_depth`
+/// scattering events, including the one where a light is sampled. Straight-through events of thin
+/// glass do not count.
 std::vector<std::string> notes_of_short_paths(const Scene& scene, const RenderSettings& settings);
 
 }  // namespace nephroid

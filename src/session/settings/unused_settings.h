@@ -1,5 +1,4 @@
-// Which of the user's -D keys change nothing with the routes of a render. It must not know what the
-// keys do.
+// Finds -D keys that have no effect with the routes of a render. It must not know what the keys do.
 #pragma once
 
 #include <string>
@@ -9,7 +8,7 @@
 
 namespace nephroid {
 
-/// A warning for each key that concerns only estimators which own no route here.
+/// A warning for each key that belongs only to estimators without a route.
 std::vector<std::string> unused_settings(const std::vector<std::string>& keys,
                                          const Routes& routes);
 

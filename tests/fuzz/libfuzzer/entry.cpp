@@ -1,4 +1,4 @@
-// Where libFuzzer enters a target; the build names the target (cmake/fuzz.cmake).
+// The entry point of libFuzzer; the build names the target (cmake/fuzz.cmake).
 #include <cstddef>
 #include <cstdint>
 

@@ -1,7 +1,6 @@
-// Writes the files that the scenes of this folder name and nobody would type: two small images, a
-// measured reflection and a grid of density and temperature. Run by hand when one of them is to
-// change: ninja make_feature_assets && bin/make_feature_assets FOLDER. It must not know what the
-// scenes do with them.
+// Writes the binary files that the scenes of this folder name: two small images, a measured BSDF
+// and a grid of density and temperature. Run by hand to change one: ninja make_feature_assets &&
+// bin/make_feature_assets FOLDER. It must not know what the scenes do with them.
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -22,7 +21,7 @@ void write_pfm(const std::string& path, const char* kind, int size,
   for (const float v : values) out.write(reinterpret_cast<const char*>(&v), sizeof v);
 }
 
-/// Eight by eight pixels: a bright and a dim corner, and colours that tell up from right.
+/// Eight by eight pixels: a bright and a dim corner, and colours that distinguish up from right.
 void write_picture(const std::string& path) {
   std::vector<float> values;
   for (int y = 0; y < 8; ++y)
@@ -52,7 +51,7 @@ void write_measured(const std::string& path) {
       << testing_measured::bsdf_file_of(testing_measured::tables_of(surface));
 }
 
-/// A ball of smoke with a hot core, 11 voxels across around the origin.
+/// A ball of smoke with a hot core, 11 voxels across, centred at the origin.
 void write_puff(const std::string& path) {
   const auto radius = [](int x, int y, int z) {
     return std::sqrt(static_cast<float>(x * x + y * y + z * z)) / 5.0f;

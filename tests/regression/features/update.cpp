@@ -1,7 +1,7 @@
-// Writes what feature_test.cpp compares with: for each scene named on the command line SCENE.exr,
-// with the mean over many seeds and the variance of that mean for each channel, and as metadata the
-// number of seeds, the passes of each, and mean and variance of the whole picture's colours. Run it
-// by tools/update_regression. It must not know the test's seeds but that they are small.
+// Writes SCENE.exr, which feature_test.cpp compares with, for each scene named on the command line:
+// channel means over many seeds and their variances. Metadata hold the number of seeds, their
+// passes, and mean and variance of the whole picture's colours. tools/update_regression runs it. It
+// must not know the test's seeds except that they are small.
 #include <cstdio>
 
 #include "film/exr_file.h"

@@ -1,4 +1,4 @@
-// Suites with pictures of a few pixels, run in a directory of their own.
+// Suites with pictures of a few pixels, each run in a folder of its own.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace nephroid {
 inline const std::string kRoom =
     testing_support::source_directory() + "/scenes/caustic-room/scene.pbrt";
 
-/// A suite of 8 x 8 pixels; `more` are further scenes, with a comma in front.
+/// A suite of 8 x 8 pixels. `more` adds scenes, with a leading comma.
 inline std::string small_suite(const std::string& more = "") {
   return R"({"name": "tiny", "title": "Tiny <suite>", "description": "One.\n\nTwo & three.",
     "passes": 4,
@@ -47,7 +47,7 @@ class BenchRuns : public testing::Test {
   }
 
   ScratchDirectory scratch_;
-  BenchOptions options_;  ///< beside what run() sets
+  BenchOptions options_;  ///< options other than those that run() sets
   SignalFlags signals_;
   std::string said_;
 };

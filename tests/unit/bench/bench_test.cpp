@@ -1,4 +1,4 @@
-// Whole suites with pictures of a few pixels: what is rendered, what is kept and what goes wrong.
+// Whole suites with pictures of a few pixels: rendering, reuse of earlier results, and failures.
 #include "bench/bench.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ TEST_F(BenchRuns, MeasuresEveryIntegrator) {
   EXPECT_EQ(room.reference.passes, 6u);
   ASSERT_TRUE(room.reference.own_error);
   EXPECT_GT(*room.reference.own_error, 0);
-  // Of the layer and of the share.
+  // The layer's share and the named share.
   ASSERT_EQ(room.reference.energy.size(), 2u);
   EXPECT_EQ(room.reference.energy[0].first, "lit");
   EXPECT_GT(room.reference.energy[0].second, 0);
@@ -52,9 +52,9 @@ TEST_F(BenchRuns, MeasuresEveryIntegrator) {
     for (size_t i = 1; i < run.points.size(); ++i)
       EXPECT_GT(run.points[i].seconds, run.points[i - 1].seconds);
   }
-  // Four passes of a path each are the reference's first four with another seed: no photons.
+  // Path tracing stores no photons.
   EXPECT_EQ(room.runs[0].bytes, 0u);
-  // The pass that keeps most photons need not be the one that keeps most for the pixels.
+  // The peaks of photon memory and pixel memory may fall in different passes.
   EXPECT_LE(room.runs[1].bytes, room.runs[1].photon_bytes + room.runs[1].pixel_bytes);
   EXPECT_GT(room.runs[1].bytes, room.runs[1].pixel_bytes);
   EXPECT_EQ(room.runs[0].emitted, 0u);
@@ -68,7 +68,7 @@ TEST_F(BenchRuns, MeasuresEveryIntegrator) {
 }
 
 TEST_F(BenchRuns, TheSameReferenceHasNoError) {
-  // The integrator is the reference, with its seed.
+  // The run is the reference itself, with its seed.
   std::string suite = small_suite();
   const std::string old_part = "\"integrator\": \"path\"}";
   suite.replace(suite.find(old_part), old_part.size(),
@@ -77,7 +77,7 @@ TEST_F(BenchRuns, TheSameReferenceHasNoError) {
   suite.replace(suite.find(passes), passes.size(), "\"passes\": 4}");
   const BenchResults results = run(suite);
   const BenchErrors& errors = results.scenes.at(0).find_run("path")->end().errors;
-  // Layers of the reference (its shares of light) change how sums are rounded, no more.
+  // The reference's extra layers change only the rounding of sums.
   EXPECT_LT(errors.rmse, 1e-5);
   EXPECT_LT(results.scenes[0].find_run("path")->end().layers.at(0).second.rmse, 1e-5);
   EXPECT_LT(errors.flip, 1e-2);
@@ -120,7 +120,7 @@ TEST_F(BenchRuns, WhatIsThereIsNotRenderedAgain) {
     EXPECT_TRUE(second.scenes[0].runs[i].kept);
     EXPECT_EQ(run_to_json(second.scenes[0].runs[i]), run_to_json(first.scenes[0].runs[i]));
   }
-  // Another setting of one integrator is another run; the rest stays.
+  // Another setting of an integrator makes another run; the others stay.
   std::string changed = small_suite();
   const std::string old_part = "\"photons\": 1024";
   changed.replace(changed.find(old_part), old_part.size(), "\"photons\": 2048");
@@ -151,7 +151,7 @@ TEST_F(BenchRuns, AnotherFileOfTheSceneIsAnotherScene) {
   EXPECT_TRUE(kept());
   write_mesh("-1 0 4  1 0 4  0 2 4");
   EXPECT_FALSE(kept());
-  // One that is included since counts as well.
+  // Files added later by Include count as well.
   write_text(scratch_.file("more.pbrt"), "Shape \"disk\"");
   write_text(scratch_.file("mesh.pbrt"), "Include \"more.pbrt\"");
   EXPECT_FALSE(kept());
@@ -168,15 +168,15 @@ TEST_F(BenchRuns, WhatWasRemovedIsRenderedAgain) {
   EXPECT_EQ(second.failures(), 0) << said_;
   EXPECT_FALSE(second.scenes.at(0).reference.kept);
   EXPECT_TRUE(std::filesystem::exists(second.scenes[0].reference.picture));
-  // As many passes make the same picture: errors against it still hold.
+  // The same number of passes gives the same picture, so errors against it still hold.
   EXPECT_EQ(second.scenes[0].reference.key, first.scenes[0].reference.key);
   EXPECT_TRUE(second.scenes[0].runs.at(0).kept);
   EXPECT_FALSE(second.scenes[0].runs.at(1).kept);
   EXPECT_TRUE(run(small_suite()).scenes.at(0).reference.kept);
 }
 
-/// Replaces the reference and its figures by those of another picture, as a machine that had time
-/// for other passes would have left them.
+/// Replaces the reference and its figures by those of another picture, as if a machine with another
+/// speed had stopped after other passes.
 void brighten(BenchReferenceResult reference) {
   Picture picture = read_picture(reference.picture);
   for (float& value : picture.pixels) value *= 2;
@@ -196,7 +196,7 @@ TEST_F(BenchRuns, RunsAreNotKeptForAnotherPictureOfTheReference) {
     EXPECT_NE(second.scenes[0].runs[i].end().errors.rmse,
               first.scenes[0].runs.at(i).end().errors.rmse);
   }
-  // The first picture comes back, and with it what was measured against it.
+  // Rendering the first picture again brings back its measurements.
   std::filesystem::remove(second.scenes[0].reference.picture);
   const BenchResults third = run(small_suite());
   EXPECT_FALSE(third.scenes.at(0).reference.kept);
@@ -231,8 +231,8 @@ TEST_F(BenchRuns, AReferenceFileIsKnownByItsPixels) {
   EXPECT_FALSE(run(suite, {"other"}).scenes.at(0).runs.at(0).kept);
 }
 
-// A run that is its own reference, in a space whose colours are not those of a screen, and with a
-// parameter that nobody knows.
+// A run that is its own reference, in a colour space wider than the screen's, and with an unknown
+// parameter.
 TEST_F(BenchRuns, ColoursAreComparedInTheirSpaceAndWarningsAreSaid) {
   const std::string scene = scratch_.file("wide.pbrt");
   std::ofstream(scene) << R"(LookAt 0 0 -3  0 0 0  0 1 0 Camera "perspective" "float fov" 40
@@ -342,14 +342,14 @@ TEST_F(BenchRuns, ResultsAreReadBack) {
   const BenchResults back = results_from_json(text, scratch_.file("out/results.json"));
   EXPECT_EQ(results_json(back), text);
   EXPECT_EQ(back.scenes.at(0).reference.integrator, "path");
-  // Results that were moved have their pictures with them; those of others stay where they were.
+  // Moved results refer to the pictures beside them.
   const BenchResults moved = results_from_json(text, "/elsewhere/results.json");
   EXPECT_EQ(moved.scenes.at(0).runs.at(1).picture.rfind("/elsewhere/runs/room-mixed-", 0), 0u);
   EXPECT_EQ(moved.scenes[0].runs[1].again.at(0).picture.rfind("/elsewhere/runs/", 0), 0u);
   EXPECT_EQ(moved.scenes[0].reference.picture.rfind("/elsewhere/references/", 0), 0u);
 }
 
-// Whatever is wrong, the message names the file and what it should have been.
+// Every message names the file and what was expected.
 TEST_F(BenchRuns, OtherTextIsNoResults) {
   run(small_suite());
   const std::string text = file("results.json");

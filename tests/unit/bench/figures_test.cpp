@@ -1,4 +1,4 @@
-// Slopes and claims of made-up curves, and what is kept of a run.
+// Slopes and claims on synthetic curves, and stored results.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -55,15 +55,15 @@ TEST(Fit, BetweenPoints) {
 }
 
 TEST(Fit, TheLastOfPointsAtOnePlaceCounts) {
-  // A photon map is emitted by the first pass.
+  // For example a photon map, which the first pass emits.
   const std::vector<CurvePoint> points = {{4, 8}, {4, 2}, {4, 1}};
   EXPECT_EQ(*log_interpolate(points, 4), 1);
   EXPECT_FALSE(log_interpolate(points, 3));
   EXPECT_FALSE(log_interpolate(points, 5));
 }
 
-/// Two integrators on one scene: `fast` has half the error of `slow` after the same passes, and
-/// emits four times as many light paths.
+/// Two integrators on one scene: after the same passes `fast` has half the error of `slow`, and has
+/// emitted four times as many light paths.
 BenchResults made_up(const std::string& claim) {
   BenchResults results;
   results.suite = parse_suite(R"({"name": "s", "passes": 1, "integrators": [
@@ -115,7 +115,7 @@ TEST(Claims, AreJudgedByTheirFigures) {
       {R"("metric": "rmse", "smaller": "slow", "than": ["fast"])", State::kFails},
       {R"("metric": "rmse", "same": "fast", "as": "slow", "factor": 1.9)", State::kFails},
       {R"("metric": "rmse", "same": "fast", "as": "slow", "factor": 2.1)", State::kHolds},
-      // After as many light paths the two are equal.
+      // After the same number of light paths the two are equal.
       {R"("metric": "rmse", "same": "fast", "as": "slow", "factor": 1.001, "at": "emitted")",
        State::kHolds},
       {R"("metric": "rmse", "same": "fast", "as": "slow", "factor": 1.9, "at": "passes")",
@@ -125,7 +125,7 @@ TEST(Claims, AreJudgedByTheirFigures) {
       {R"("metric": "slope", "of": "fast", "between": [-0.501, -0.499])", State::kHolds},
       {R"("metric": "slope", "of": "fast", "between": [-0.4, 0], "over": "time")", State::kFails},
       {R"("metric": "memory_growth", "of": "fast", "between": [1.25, 1.25])", State::kHolds},
-      // A layer: fast has emitted four times as much and is no better.
+      // In the layer, fast has emitted four times as much and is no better.
       {R"("metric": "rmse", "same": "fast", "as": "slow", "layer": "seen")", State::kHolds},
       {R"("metric": "rmse", "smaller": "slow", "than": "fast", "layer": "seen", "factor": 0.26,
           "at": "emitted")",
@@ -133,7 +133,7 @@ TEST(Claims, AreJudgedByTheirFigures) {
       {R"("metric": "slope", "of": "fast", "between": [-1.01, -0.99], "layer": "seen")",
        State::kHolds},
       {R"("metric": "pixel_memory", "of": "fast", "between": [300, 300])", State::kHolds},
-      // What stores nothing has no memory to speak of.
+      // Without stored photons there is no memory to compare.
       {R"("metric": "memory", "of": "slow", "between": [0, 9])", State::kNotMeasured},
       {R"("metric": "passes", "of": "slow", "between": [64, 64])", State::kHolds},
   };
@@ -169,7 +169,7 @@ TEST(Claims, AMissingRunIsNotMeasured) {
   EXPECT_EQ(judge_claims(results).at(0).state, BenchVerdict::State::kNotMeasured);
 }
 
-// One picture is one draw: what counts is the error to be expected.
+// A single render is random: the expected error counts.
 TEST(Repeats, ErrorsAreThoseOfAllRenders) {
   BenchResults results =
       made_up(R"({"text": "t", "metric": "rmse", "smaller": "fast", "than": "slow"})");
@@ -188,7 +188,7 @@ TEST(Repeats, ErrorsAreThoseOfAllRenders) {
   EXPECT_EQ(rmse_range(fast).least, alone);
   EXPECT_EQ(rmse_range(fast).most, 7 * alone);
   EXPECT_EQ(results.failures(), 1);
-  // Alone it would be better than `slow` by a factor of two.
+  // Its first run alone would be twice as good as `slow`.
   const BenchVerdict verdict = judge_claims(results).at(0);
   EXPECT_EQ(verdict.state, BenchVerdict::State::kFails);
   EXPECT_NE(verdict.figures.at(0).text.find("over 2 and 1 renders"), std::string::npos);
@@ -221,7 +221,7 @@ TEST(ResultFiles, FiguresThatAreNotFiniteAreReadBack) {
   EXPECT_FALSE(std::isfinite(kept->end().errors.mean_error));
 }
 
-// A picture with an infinite standard error somewhere is kept as any other.
+// A picture with an infinite standard error is kept like any other.
 TEST(ResultFiles, AReferenceWhoseErrorIsNotFiniteIsReadBack) {
   BenchReferenceResult reference;
   reference.key = "0123456789abcdef";

@@ -1,4 +1,4 @@
-// Runs that are rendered several times, with other seeds.
+// Runs that are repeated with other seeds.
 #include "bench/repeats.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace nephroid {
 namespace {
 
-/// The small suite with a member more.
+/// The small suite with one more member.
 std::string suite_with(const std::string& member) {
   std::string suite = small_suite();
   return suite.insert(1, member + ", ");
@@ -42,7 +42,7 @@ TEST_F(BenchRuns, TheCommandLineSaysHowOften) {
   EXPECT_EQ(run(suite_with("\"repeat\": 3")).scenes.at(0).runs.at(0).again.size(), 1u);
 }
 
-// Else a run would be compared with its own numbers.
+// With the reference's seed a run would be compared with its own samples.
 TEST_F(BenchRuns, DoNotTakeTheSeedOfTheReference) {
   std::string suite = suite_with("\"repeat\": 4");
   const std::string passes = "\"passes\": 6}";
@@ -57,7 +57,7 @@ TEST_F(BenchRuns, DoNotTakeTheSeedOfTheReference) {
 }
 
 TEST_F(BenchRuns, WhatFailsIsNotRepeated) {
-  // The reference has another size.
+  // The reference has another size, so the run fails.
   std::string suite = small_suite(R"(, {"name": "small", "file": ")" + kRoom +
                                   R"(", "resolution": [4, 4], "reference": {"file": ")" +
                                   run(small_suite()).scenes.at(0).reference.picture + "\"}}");

@@ -1,4 +1,4 @@
-// Suite files: what is understood, and where each message points.
+// Suite files: valid contents, and the location that each message names.
 #include "bench/suite.h"
 
 #include <gtest/gtest.h>
@@ -89,7 +89,7 @@ TEST(Suite, EverythingIsUnderstood) {
   EXPECT_EQ(suite.claims[4].layer, "seen");
 }
 
-/// A suite with a replaced part, and the place that the message about it should name.
+/// A suite with one part replaced, and the location that its message must name.
 struct WrongSuite {
   const char *old_part, *new_part;
   const char* pointer;
@@ -142,7 +142,7 @@ TEST(Suite, ErrorsPointAtTheirPlace) {
        "scene \"cup\" has no region \"roof\""},
       {"\"metric\": \"flip\"", "\"metric\": \"memory\"", "/claims/3/region",
        "\"region\" does not fit"},
-      // Of a rendered reference, of the runs, and of the shares.
+      // Names taken by a rendered reference, by the runs, and by shares.
       {"{\"caustic_light\"", "{\"diffuse\"", "/scenes/0/energy/diffuse",
        "the name \"diffuse\" is taken by a route of reference, expected another one"},
       {"{\"seen\"", "{\"caustic\"", "/scenes/0/layer/caustic",
@@ -226,7 +226,7 @@ TEST(JsonText, Errors) {
     const std::string error = json_error(text);
     EXPECT_EQ(error.rfind(message, 0), 0u) << error;
   }
-  // The same key in other objects is none twice, and nothing is too deep.
+  // A key may recur in another object, and nesting has no limit.
   EXPECT_EQ(parse_json("[{\"a\": {\"a\": 1}}, {\"a\": 2}]", "f").size(), 2u);
   EXPECT_NE(json_error(std::string(1000000, '[')).find("the file ends"), std::string::npos);
 }

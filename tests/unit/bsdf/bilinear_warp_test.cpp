@@ -1,5 +1,5 @@
-// Warps of bilinear densities: normalisation, chi-square, inverse, mixtures of grids and the
-// degenerate grids that files may hold.
+// Bilinear warps: normalisation, chi-square, inverse, mixtures of grids, and degenerate grids from
+// files.
 #include "scene/bsdf/bilinear_warp.h"
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ TEST(BilinearWarp, DensityIntegratesToOneAndIsProportional) {
   constexpr size_t kSteps = 120;
   for (size_t i = 0; i < kSteps * kSteps; ++i)
     sum += static_cast<double>(warp.density(middle(i, kSteps), only));
-  // Midpoints of bins that lie inside of cells are exact.
+  // The midpoint rule is exact for bins inside a cell.
   EXPECT_NEAR(sum / (kSteps * kSteps), 1.0, 1e-4);
   const float scale = warp.density({0, 0}, only) / family.values[20];
   for (size_t y = 0; y < 4; ++y)
@@ -61,7 +61,7 @@ TEST(BilinearWarp, SamplesFollowTheDensityOfAMixture) {
     const size_t y = std::min(kBins - 1, static_cast<size_t>(p.y * kBins));
     observed[y * kBins + x] += 1.0;
   }
-  // Bins lie inside of cells (12 is a multiple of 4 and 3), where the midpoint is exact.
+  // Bins lie inside cells (12 is a multiple of 4 and 3), where the midpoint rule is exact.
   const auto p_value_against = [&](const GridMix& stated) {
     for (size_t i = 0; i < expected.size(); ++i)
       expected[i] =

@@ -1,5 +1,5 @@
-// Profiles of subsurface scattering: splines, the moments of the Fresnel term, beam diffusion
-// against an independent program and against theory, and the sampling of radii.
+// Subsurface profiles: splines, Fresnel moments, beam diffusion against theory and an independent
+// program, and sampling of radii.
 #include "scene/bsdf/bssrdf_table.h"
 
 #include <gtest/gtest.h>
@@ -75,7 +75,7 @@ TEST(CatmullRom, InversionFindsTheValueAgain) {
 
 TEST(FresnelMoments, FollowTheIntegrals) {
   for (const double eta : {1.0 / 2.0, 1.0 / 1.5, 1.0 / 1.33, 1.1, 1.33, 1.5, 1.8}) {
-    // Light inside of a medium of index eta that meets vacuum.
+    // Light inside a medium of index eta at its boundary to vacuum.
     const auto f = [&](double c) {
       return static_cast<double>(
           fresnel_dielectric(static_cast<float>(-c), static_cast<float>(eta)));
@@ -90,7 +90,7 @@ TEST(FresnelMoments, FollowTheIntegrals) {
 }
 
 TEST(BeamDiffusion, SingleScatteringHasTheClosedForm) {
-  // Isotropic scattering below no boundary: albedo/2 times the integral of mu/(1+mu).
+  // Isotropic scattering without a boundary: albedo/2 times the integral of mu/(1+mu).
   const double total = simpson(0.0, 40.0, 20000, [](double r) {
     return r > 0.0 ? 2 * M_PI * r * beam_diffusion_single(1.0, 0.0, 1.0, r) : 0.0;
   });
@@ -100,7 +100,8 @@ TEST(BeamDiffusion, SingleScatteringHasTheClosedForm) {
 }
 
 TEST(BeamDiffusion, MultipleScatteringKnowsOnlyTheReducedCoefficients) {
-  // Mean cosine g with albedo a is isotropic scattering whose free path is longer by `stretch`.
+  // Scattering with mean cosine g and albedo a equals isotropic scattering with a free path longer
+  // by `stretch`.
   const double a = 0.9, g = 0.6, stretch = 1.0 / (1.0 - a * g);
   const double reduced = a * (1.0 - g) * stretch;
   for (const double r : {0.1, 1.0, 6.0})
@@ -110,7 +111,7 @@ TEST(BeamDiffusion, MultipleScatteringKnowsOnlyTheReducedCoefficients) {
   EXPECT_EQ(beam_diffusion_multiple(0.0, 0.0, 1.3, 1.0), 0.0);
 }
 
-// Computed by a program of its own, in double, from the formulas of Habel et al. 2013.
+// Computed in double precision by a separate program, from the formulas of Habel et al. 2013.
 struct Published {
   float g, eta;
   int albedo;

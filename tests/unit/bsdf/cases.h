@@ -1,6 +1,5 @@
-// All BSDF families with the parameters that the tests run through; a new family gets a row here
-// and is covered by every test that iterates over the table. Who calls it: the tests of this
-// folder.
+// All BSDF families with test parameters. A new family gets a row here, and every test that
+// iterates over the table covers it.
 #pragma once
 
 #include <functional>
@@ -19,16 +18,16 @@
 
 namespace nephroid::testing_bsdf {
 
-/// Up to this alpha the lobes of the cases are of class S.
+/// Lobes of the cases are of class S up to this alpha.
 inline constexpr float kSpecularAlpha = 0.05f;
 
 struct BsdfCase {
   std::string name;
   std::function<const Bsdf*(BsdfArena&)> make;
-  bool stochastic = false;  ///< values are estimates
-  bool refracts = false;    ///< radiance and importance differ
-  bool adjoint = true;      ///< importance is radiance with wo and wi exchanged
-  bool reciprocal = true;   ///< the same value if both directions are exchanged
+  bool stochastic = false;  ///< values are random estimates
+  bool refracts = false;    ///< radiance and importance modes differ
+  bool adjoint = true;      ///< importance equals radiance with wo and wi exchanged
+  bool reciprocal = true;   ///< same value with wo and wi exchanged
 };
 
 inline SampledSpectrum ramp(float from, float to) {

@@ -1,5 +1,5 @@
-// Sampling agrees with the stated densities: chi-square of every family, per class and per set of
-// classes, over the whole sphere. The integral of the density must be the share of samples.
+// Samples follow the stated densities: chi-square for every family, per class and per set of
+// classes, over the whole sphere. The density must integrate to the share of samples.
 #include <gtest/gtest.h>
 
 #include "unit/bsdf/cases.h"
@@ -17,7 +17,7 @@ struct Question {
   TransportMode mode;
 };
 
-/// p-value of the samples of one class against its density; the last bin is everything else.
+/// p-value of the samples of a class against its density. The last bin is the rest.
 double p_value(const Bsdf& bsdf, const Question& q, int count, uint64_t seed) {
   std::vector<double> observed(kZBins * kPhiBins + 1, 0.0), expected(kZBins * kPhiBins + 1, 0.0);
   TestRandom random(seed);
@@ -91,7 +91,7 @@ TEST(BsdfChiSquare, SamplesFollowTheDensity) {
 }
 
 TEST(BsdfChiSquare, NoticesAWrongDensity) {
-  // The test itself must be able to fail: samples of roughness 0.2 against the density of 0.22.
+  // The test must be able to fail: samples of roughness 0.2 against the density of 0.22.
   class Wrong final : public Bsdf {
    public:
     ClassMask classes() const override { return ClassMask::kGlossy; }

@@ -1,5 +1,5 @@
-// What the interface promises, for every family: sample and eval agree, classes outside `among`
-// never appear, both modes obey the adjoint relation, nothing is NaN or creates energy.
+// Guarantees of the interface for every family: sample and eval agree, classes outside `among`
+// never occur, both modes are adjoint, and nothing is NaN or creates energy.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -46,8 +46,8 @@ TEST(BsdfContract, SampleAgreesWithEval) {
       }
       if (s->delta) continue;
       EXPECT_TRUE(contains(bsdf.finite_classes(), s->event)) << c.name;
-      // The facet is found again from rounded directions: a few ulps over the narrowest alpha, more
-      // where the cosines are small.
+      // eval() recovers the facet from rounded directions: its error is a few ulps divided by the
+      // narrowest alpha, and larger at grazing angles.
       const float grazing = std::min(std::abs(wo.z), std::abs(s->wi.z));
       if (grazing < 0.02f) continue;
       const BsdfEval e = bsdf.eval(wo, s->wi, mode, s->event, among);
@@ -57,7 +57,7 @@ TEST(BsdfContract, SampleAgreesWithEval) {
   }
 }
 
-// Who chose among all that there is knows the density among all classes.
+// Sampling among all existing classes has the same density as sampling among all classes.
 TEST(BsdfContract, OtherClassesThanThereAreMakeNoDifference) {
   for (const BsdfCase& c : all_cases()) {
     BsdfArena arena;
@@ -65,7 +65,7 @@ TEST(BsdfContract, OtherClassesThanThereAreMakeNoDifference) {
     TestRandom random(13);
     for (int i = 0; i < 300; ++i) {
       const Vec3f wo = spherical(2.0 * random.next() - 1.0, 6.28 * random.next());
-      // A narrow lobe is met by its own samples only.
+      // Only its own samples hit a narrow lobe.
       const auto s =
           bsdf.sample(wo, random.next(), random.next2(), TransportMode::kRadiance, ClassMask::kAll);
       const Vec3f wi = s ? s->wi : spherical(2.0 * random.next() - 1.0, 6.28 * random.next());
@@ -104,7 +104,7 @@ TEST(BsdfContract, ClassesOutsideTheMaskNeverAppear) {
 
 TEST(BsdfContract, RadianceAndImportanceAreAdjoint) {
   for (const BsdfCase& c : all_cases()) {
-    // Stochastic ones only in the mean: layered_test.cpp. Hair has symmetries of its own.
+    // Stochastic ones are adjoint only in the mean: layered_test.cpp. Hair has its own symmetries.
     if (c.stochastic || !c.adjoint) continue;
     BsdfArena arena;
     const Bsdf& bsdf = *c.make(arena);
@@ -116,7 +116,7 @@ TEST(BsdfContract, RadianceAndImportanceAreAdjoint) {
       for (const EventClass e : kSurfaceClasses) {
         const auto radiance = bsdf.eval(a, b, TransportMode::kRadiance, e, ClassMask::kAll);
         const auto importance = bsdf.eval(b, a, TransportMode::kImportance, e, ClassMask::kAll);
-        // Absolute: some ulps of 1 - F, with F the Fresnel term next to total reflection.
+        // Absolute tolerance: a few ulps of 1 - F near total reflection.
         expect_near(radiance.f, importance.f, 2e-3f, c.name, 1e-6f);
         const auto same_way = bsdf.eval(a, b, TransportMode::kImportance, e, ClassMask::kAll);
         if (c.reciprocal && (!c.refracts || same_hemisphere(a, b)))
@@ -126,7 +126,7 @@ TEST(BsdfContract, RadianceAndImportanceAreAdjoint) {
   }
 }
 
-// Whoever chooses a direction by other means scales by the same eta as sample() does.
+// eta_between() of a direction equals the eta of a sample in that direction.
 TEST(BsdfContract, EtaOfADirectionIsThatOfASampleThere) {
   int refracted = 0;
   for (const BsdfCase& c : all_cases()) {
@@ -250,8 +250,7 @@ TEST(BsdfContract, NothingIsEverNan) {
       ASSERT_NE(s->wi.z, 0.0f) << c.name;
       const SampledSpectrum weight = s->f * (std::abs(s->wi.z) / s->pdf_w);
       ASSERT_TRUE(weight.is_finite()) << c.name << wo.z;
-      // Only a walk from the eye divides by the cosine that it is multiplied with, if values are
-      // not reciprocal.
+      // If values are not reciprocal, only radiance mode samples with the cosine of its value.
       if (!c.stochastic && (c.reciprocal || mode == TransportMode::kRadiance)) {
         ASSERT_LT(weight.max_component(), 10.0f) << c.name << wo.z;
       }

@@ -1,5 +1,5 @@
-// Hair: white fibres lose no light, absorbing ones lose what their paths say, the model has the
-// symmetries of a cylinder, and its lobes stand where refraction puts them.
+// Hair: white fibres lose no light, absorption follows the paths inside the fibre, and scattering
+// has the symmetries of a cylinder. Lobes lie where refraction sends them.
 #include "scene/bsdf/hair.h"
 
 #include <gtest/gtest.h>
@@ -21,8 +21,8 @@ double scattering(const HairBsdf& b, const Vec3f& wo, const Vec3f& wi) {
   return b.eval(wo, wi, kMode, EventClass::kDiffuse, ClassMask::kAll).f[0] *
          static_cast<double>(std::abs(wi.z));
 }
-/// Integral of the scattering function over all directions; the fibre's axis is the polar axis, so
-/// that no lobe is cut by the parametrisation.
+/// Integral of the scattering function over all directions. The fibre's axis is the polar axis, so
+/// that the parametrisation cuts no lobe.
 double whole_sphere(const HairBsdf& b, const Vec3f& wo) {
   return integrate_range([&](const Vec3f& w) { return scattering(b, wo, Vec3f(w.z, w.x, w.y)); },
                          -1.0, 1.0, 1e-4);
@@ -37,8 +37,8 @@ TEST(Hair, WhiteFibresScatterAllLight) {
 }
 
 TEST(Hair, NarrowLobesKeepTheirEnergyInSamples) {
-  // Lobes too narrow to integrate: the mean weight of the samples of a white fibre is 1 exactly,
-  // sample by sample, for the attenuation sums up to 1 and value and density are the same.
+  // These lobes are too narrow to integrate. Each sample of a white fibre weighs exactly 1, since
+  // the attenuations add up to 1 and the value equals the density.
   for (const float beta : {0.01f, 0.03f, 1.0f}) {
     const HairBsdf b = hair(0.4f, 0.0f, beta, beta);
     TestRandom random(5);
@@ -58,13 +58,13 @@ TEST(Hair, NarrowLobesKeepTheirEnergyInSamples) {
 }
 
 TEST(Hair, AbsorptionIsThatOfThePathsInside) {
-  // Straight on through the middle: reflection f, then chords of two radii between reflections.
+  // Straight through the middle: reflection f, then chords of two radii between reflections.
   const float sigma = 0.3f, f = fresnel_dielectric(1.0f, 1.55f), t = std::exp(-2.0f * sigma);
   const float expected = f + (1 - f) * (1 - f) * t / (1 - f * t);
   const HairBsdf b = hair(0.0f, sigma, 0.4f, 0.4f);
   EXPECT_NEAR(b.albedo(Vec3f(0, 0, 1))[0], expected, 1e-5f);
   EXPECT_NEAR(whole_sphere(b, Vec3f(0, 0, 1)), expected, 1e-3);
-  // An inclined ray: Snell in three dimensions gives the length of the chord.
+  // For an inclined ray, Snell's law in three dimensions gives the chord.
   const Vec3f wo = normalize(Vec3f(0.6f, 0.0f, 0.8f));
   const float sin_t = 0.6f / 1.55f, cos_t = std::sqrt(1 - sin_t * sin_t);
   const float fi = fresnel_dielectric(0.8f, 1.55f), ti = std::exp(-2.0f * sigma / cos_t);
@@ -72,8 +72,8 @@ TEST(Hair, AbsorptionIsThatOfThePathsInside) {
 }
 
 TEST(Hair, LobesStandWhereRefractionPutsThem) {
-  // Narrow lobes: each sample lies near the geometric direction of its lobe. R: mirrored about the
-  // normal of the cylinder; TT: bent twice by gamma_o - gamma_t.
+  // With narrow lobes each sample is close to its lobe's geometric direction. R: mirrored about the
+  // cylinder's normal. TT: refracted twice by gamma_o - gamma_t.
   const float h = 0.6f, gamma_o = std::asin(h), gamma_t = std::asin(h / 1.55f);
   const HairBsdf b = hair(h, 0.0f, 0.02f, 0.02f, 0.0f);
   const Vec3f wo(0, 0, 1);
@@ -90,8 +90,8 @@ TEST(Hair, LobesStandWhereRefractionPutsThem) {
 }
 
 TEST(Hair, TiltedScalesMoveTheReflectionTowardsTheRoot) {
-  // Reflection off scales tilted by alpha leaves 2 alpha away from the mirrored direction.
-  const HairBsdf b = hair(0.0f, 50.0f, 0.02f, 0.3f, 3.0f);  // dark: nothing but R
+  // Reflection off scales tilted by alpha is 2 alpha away from the mirror direction.
+  const HairBsdf b = hair(0.0f, 50.0f, 0.02f, 0.3f, 3.0f);  // dark: only R
   const Vec3f wo(0, 0, 1);
   TestRandom random(3);
   Mean theta;
@@ -121,11 +121,11 @@ TEST(Hair, HasTheSymmetriesOfACylinder) {
     EXPECT_NEAR(scattering(b, turned(wo, angle), turned(wi, angle)), value, 1e-3 * value);
     EXPECT_NEAR(scattering(mirrored, Vec3f(wo.x, -wo.y, wo.z), Vec3f(wi.x, -wi.y, wi.z)), value,
                 1e-3 * value);
-    // Seen from the other end the scales lean the other way.
+    // From the other end, the scales lean the other way.
     EXPECT_NEAR(scattering(reversed, Vec3f(-wo.x, wo.y, wo.z), Vec3f(-wi.x, wi.y, wi.z)), value,
                 1e-3 * value);
-    // Reciprocity holds for equal inclinations, where nothing tells the two ends of a path apart
-    // but the place on the width; through the middle not even that.
+    // Through the middle of the fibre and without tilt, scattering is reciprocal for directions of
+    // equal inclination.
     const HairBsdf middle = hair(0.0f, 0.2f, 0.5f, 0.5f, 0.0f);
     const float c = std::sqrt(1.0f - wo.x * wo.x);
     const Vec3f same(wo.x, c * std::cos(wi.y), c * std::sin(wi.y));

@@ -1,5 +1,5 @@
-// Coated surfaces against a brute-force walk that knows no connections, no closed form and no
-// classes: light enters, bounces and leaves wherever it happens to.
+// Coated surfaces against brute-force random walks without connections, closed forms or classes:
+// light enters, bounces and leaves.
 #include <gtest/gtest.h>
 
 #include "unit/bsdf/cases.h"
@@ -8,15 +8,15 @@
 namespace nephroid::testing_bsdf {
 namespace {
 
-constexpr int kBins = 6;  // equal steps of the cosine of wi
+constexpr int kBins = 6;  // uniform steps in the cosine of wi
 
 struct Left {
   Vec3f wi;
   SampledSpectrum weight;
 };
 
-/// One analogue path that entered the coat from wo; empty if absorbed or longer than the model
-/// allows.
+/// One analogue path that entered the coat from wo. Empty if it is absorbed or longer than the
+/// model allows.
 template <class Base>
 std::optional<Left> brute_force(const Coat& coat, const Base& base, const Vec3f& wo,
                                 TestRandom& random) {
@@ -84,7 +84,7 @@ Energies brute_force_energies(const Coat& coat, const Base& base, const Vec3f& w
   return e;
 }
 
-/// Energy per bin of a BSDF's samples with the coat's own reflection taken away.
+/// Energy per bin of a BSDF's samples, without the coat's own reflection.
 Energies sampled_energies(const Bsdf& bsdf, const Coat& coat, const Vec3f& wo, int count) {
   Energies e;
   TestRandom random(202);
@@ -115,8 +115,8 @@ void expect_same(const Energies& a, const Energies& b, const std::string& what) 
 
 template <class Base>
 void compare(const std::string& name, const Coat& coat, const Base& base) {
-  // One walk alone is far from normally distributed where light leaves at grazing angles; the mean
-  // of some is what the test's error bounds can deal with.
+  // A single walk is far from normally distributed at grazing exits. The error bounds of this test
+  // need the mean of several.
   Coat averaged = coat;
   averaged.walks = 8;
   const CoatedBsdf<Base> bsdf(averaged, base, kSpecularAlpha);
@@ -185,7 +185,7 @@ TEST(Layered, ClosedFormIsTheMeanOfTheWalk) {
           WalkRandom random(77);
           for (int n = 0; n < 10000; ++n)
             walk.add(LayeredWalk<LambertSurface>(coat, grey, wi, mode).run(wo, random)[kLane]);
-          // 2e-3: the table's interpolation at grazing angles.
+          // 2e-3: interpolation error of the table at grazing angles.
           EXPECT_NEAR(walk.mean(), exact, 5.0 * walk.error() + 2e-3 * exact) << alpha << o << i;
         }
       }
@@ -233,7 +233,7 @@ TEST(Layered, InnerReflectanceMatchesAFineQuadrature) {
 }
 
 TEST(Layered, SmoothCoatOverWhiteReturnsNearlyAllLight) {
-  // Without absorption and with bounces enough, what enters must leave.
+  // Without absorption and with enough bounces, all light leaves.
   const CoatTable table({1.5f, {}}, 1e-30f, 2000);
   const CoatedDiffuseBsdf white(&table, SampledSpectrum(1.0f), 0.05f);
   for (const float angle : {0.0f, 45.0f, 80.0f})

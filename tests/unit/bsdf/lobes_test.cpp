@@ -1,4 +1,4 @@
-// Known answers of single lobes: Fresnel terms, the facet distribution, mirrors, panes and the
+// Single lobes with known results: Fresnel terms, the facet distribution, mirrors, panes and the
 // energy of rough glass.
 #include <gtest/gtest.h>
 
@@ -15,10 +15,10 @@ TEST(Fresnel, DielectricKnownValues) {
   EXPECT_NEAR(fresnel_dielectric(-1.0f, 1.5f), 0.04f, 1e-6f);
   EXPECT_EQ(fresnel_dielectric(-0.5f, 1.5f), 1.0f);  // beyond the critical angle
   EXPECT_NEAR(fresnel_dielectric(0.0f, 1.5f), 1.0f, 1e-6f);
-  // At Brewster's angle only one polarisation is left.
+  // At Brewster's angle only one polarisation is reflected.
   const float brewster = std::cos(std::atan(1.5f));
   EXPECT_NEAR(fresnel_dielectric(brewster, 1.5f), 0.5f * sqr((1 - 2.25f) / (1 + 2.25f)), 1e-5f);
-  // The same from both sides of one ray.
+  // Equal from both sides of one ray.
   const float c = 0.6f, inside = std::sqrt(1 - (1 - c * c) / 2.25f);
   EXPECT_NEAR(fresnel_dielectric(c, 1.5f), fresnel_dielectric(-inside, 1.5f), 1e-6f);
 }
@@ -76,7 +76,7 @@ TEST(Mirrors, BothWaysOfSmoothGlassAreThoseOfItsSamples) {
     const Vec3f wo = spherical(2.0 * random.next() - 1.0, 6.28 * random.next());
     for (const TransportMode mode : {TransportMode::kRadiance, TransportMode::kImportance}) {
       const auto both = glass.delta_pair(wo, mode);
-      // Inside, beyond the critical angle, all is reflected.
+      // Inside, all light beyond the critical angle is reflected.
       EXPECT_EQ(both.has_value(), wo.z > 0 || wo.z < -std::sqrt(1 - 1 / 2.25f)) << wo.z;
       if (!both) continue;
       ++pairs;

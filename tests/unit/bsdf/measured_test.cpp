@@ -1,5 +1,5 @@
-// Measured reflection against a surface whose reflection is known: values, densities, energy,
-// symmetry, sides and what is not reciprocal.
+// The measured BSDF against a known surface: values, densities, energy, symmetry, sides and
+// non-reciprocal tables.
 #include "scene/bsdf/measured.h"
 
 #include <gtest/gtest.h>
@@ -37,9 +37,9 @@ BsdfEval evaluate(const MeasuredBrdf& brdf, const Vec3f& wo, const Vec3f& wi) {
   return brdf.evaluate(wo, wi, brdf.places(kLambda));
 }
 
-/// How far f is from the known surface, over directions as light takes them: the mean relative
-/// error, and the share of directions where it is above 5 %. (The few directions between the last
-/// node above the horizon and the first below it are far off in any table.)
+/// Error of f against the known surface over sampled directions: the mean relative error, and the
+/// share of directions above 5 %. In any table, directions around the last node above the horizon
+/// are far off.
 struct Errors {
   double mean = 0, outliers = 0;
 };
@@ -74,7 +74,7 @@ TEST(Measured, ReproducesAKnownSurface) {
 }
 
 TEST(Measured, FinerTablesComeCloser) {
-  // Twice as many nodes of piecewise linear functions: a quarter of the error.
+  // Twice the nodes of a piecewise linear function: a quarter of the error.
   for (const GgxSurface& coarse : {isotropic(0.4f), brushed(1), brushed(4)}) {
     GgxSurface fine = coarse;
     fine.polar = 2 * coarse.polar - 1;
@@ -88,7 +88,7 @@ TEST(Measured, FinerTablesComeCloser) {
 }
 
 TEST(Measured, DensityFollowsLight) {
-  // Sampling is close to ideal: f cos / pdf hardly varies, but for the tint.
+  // Sampling is almost ideal: f cos / pdf varies only by the tint.
   for (const GgxSurface& surface : {isotropic(0.3f), brushed(1)}) {
     const MeasuredBrdf brdf(tables_of(surface));
     TestRandom random(9);
@@ -106,8 +106,8 @@ TEST(Measured, DensityFollowsLight) {
 }
 
 TEST(Measured, DensityAndLostSamplesSumToOne) {
-  // At grazing angles many facets send the light into the surface; what is lost there is missing
-  // in the integral of the density, not spread over the rest.
+  // At grazing angles many facets reflect light into the surface. The density's integral lacks that
+  // part; it is not spread over the rest.
   for (const GgxSurface& surface : {isotropic(0.8f), brushed(1)}) {
     const MeasuredBrdf brdf(tables_of(surface));
     for (const float angle : {0.0f, 60.0f, 85.0f}) {
@@ -146,7 +146,7 @@ TEST(Measured, ReflectsAsMuchAsTheKnownSurface) {
       }
       EXPECT_NEAR(energy.mean(), known.mean(),
                   4 * std::hypot(energy.error(), known.error()) + 0.01 * known.mean());
-      // For denoising only: the right size is enough.
+      // The albedo serves denoising only, so a rough value is enough.
       EXPECT_NEAR(brdf.albedo(wo, brdf.places(kLambda))[4], known.mean(), 0.1 * known.mean());
     }
   }
@@ -175,7 +175,7 @@ TEST(Measured, SymmetryStandsForTheMissingAzimuths) {
     for (int i = 0; i < 1000; ++i) {
       const Vec3f wo = spherical(0.1 + 0.9 * random.next(), 6.28 * random.next());
       const Vec3f wi = spherical(0.1 + 0.9 * random.next(), 6.28 * random.next());
-      // Exactly what symmetry says: half a turn and, for the quarter, mirrors change nothing.
+      // Exact symmetries: half a turn and, for quarter tables, mirroring.
       const auto same_as = [&](float x, float y) {
         const BsdfEval a = evaluate(part, wo, wi);
         const BsdfEval b = evaluate(part, {wo.x * x, wo.y * y, wo.z}, {wi.x * x, wi.y * y, wi.z});
@@ -215,7 +215,7 @@ TEST(Measured, BothSidesReflectAndNothingPasses) {
 }
 
 TEST(Measured, BothModesUseTheValueTowardsTheEye) {
-  // Make the tables clearly not reciprocal: twice as bright towards grazing eyes.
+  // Non-reciprocal tables: twice as bright for grazing wo.
   MeasuredTables tables = tables_of(isotropic(0.5f));
   const size_t grid = tables.spectra.grid_size() * tables.wavelengths.size();
   for (size_t i = 0; i < tables.spectra.values.size(); ++i)

@@ -1,6 +1,5 @@
-// Statistics of the BSDF tests: adaptive integrals over the sphere, chi-square with its exact tail,
-// and running means. Everything is deterministic.
-// Who calls it: the tests of this folder.
+// Statistics for the BSDF tests: adaptive integrals over the sphere, chi-square with its exact
+// tail, and running means. All of it is deterministic.
 #pragma once
 
 #include <cmath>
@@ -12,7 +11,7 @@
 
 namespace nephroid::testing_bsdf {
 
-/// Random numbers from a counter; independent of the project's own walks.
+/// Counter-based random numbers, independent of the project's samplers.
 class TestRandom {
  public:
   explicit TestRandom(uint64_t seed) : state_(mix_bits(seed + 0x1234567ull)) {}
@@ -54,7 +53,7 @@ inline double gauss_cell(const SphereFunction& f, double z0, double z1, double p
   return sum * 0.25 * (z1 - z0) * (p1 - p0);
 }
 
-/// Integral of f over a cell in z and phi, by solid angle, to about `tolerance`.
+/// Integral of f over a cell in z and phi, in solid angle, to about `tolerance`.
 inline double integrate_cell(const SphereFunction& f, double z0, double z1, double p0, double p1,
                              double tolerance, int depth, double coarse) {
   const double zm = 0.5 * (z0 + z1), pm = 0.5 * (p0 + p1);
@@ -73,8 +72,8 @@ inline double integrate_cell(const SphereFunction& f, double z0, double z1, doub
   return integrate_cell(f, z0, z1, p0, p1, tolerance, 7, gauss_cell(f, z0, z1, p0, p1));
 }
 
-/// Integral over a range of z and all phi, by solid angle; starts from cells that no peak slips
-/// through.
+/// Integral over a range of z and all phi, in solid angle. The initial cells are small enough for
+/// every peak.
 inline double integrate_range(const SphereFunction& f, double z0, double z1, double tolerance) {
   constexpr int kSplit = 16;
   double sum = 0.0;
@@ -109,7 +108,7 @@ inline double chi_square_p_value(double x, int dof) {
   return front * h;
 }
 
-/// p-value of counts against expected counts; bins that expect less than 5 are pooled.
+/// p-value of counts against expected counts. Bins that expect less than 5 are pooled.
 inline double chi_square_test(const std::vector<double>& observed,
                               const std::vector<double>& expected) {
   double statistic = 0.0, pool_o = 0.0, pool_e = 0.0;
@@ -129,11 +128,11 @@ inline double chi_square_test(const std::vector<double>& observed,
   if (pool_e >= 5.0)
     add(pool_o, pool_e);
   else if (pool_o > 5.0 + 6.0 * std::sqrt(5.0))
-    return 0.0;  // many samples where none are expected
+    return 0.0;  // many samples where none is expected
   return bins > 1 ? chi_square_p_value(statistic, bins - 1) : 1.0;
 }
 
-/// Level of each of n tests so that all together fail by chance with probability `total`.
+/// Level of each of n tests so that a false alarm among all has probability `total`.
 inline double sidak(double total, int n) {
   return 1.0 - std::pow(1.0 - total, 1.0 / n);
 }

@@ -1,5 +1,5 @@
-// The lobes at the two ends of subsurface scattering: the exit's density and its energy, and what
-// the boundary reflects and lets in. The boundary also runs through the tests of all families.
+// The two ends of subsurface scattering: density and energy of the exit, and what the boundary
+// reflects and transmits. The tests of all families cover the boundary as well.
 #include <gtest/gtest.h>
 
 #include "scene/bsdf/fresnel.h"
@@ -123,7 +123,7 @@ TEST(SubsurfaceInterface, LetsInWhatADielectricLetsThrough) {
 }
 
 TEST(SubsurfaceInterface, EntryAndExitTogetherAreReciprocal) {
-  // (1 - F) at one end times (1 - F) / (c pi) at the other: either way round and in either mode.
+  // (1 - F) at one end times (1 - F) / (c pi) at the other: the same both ways and in both modes.
   const float eta = 1.4f;
   const SubsurfaceInterfaceBsdf entry({eta, TrowbridgeReitz()}, 0.05f);
   const NormalizedFresnelBsdf exit(eta);
@@ -163,7 +163,7 @@ TEST(SubsurfaceInterface, SamplesSayWhatTheyAre) {
   EXPECT_EQ(back->event, kS);
   EXPECT_FALSE(back->subsurface);
 
-  // Without a boundary everything goes in.
+  // Without a boundary all light enters.
   const SubsurfaceInterfaceBsdf open({1.0f, TrowbridgeReitz()}, 0.05f);
   EXPECT_EQ(open.classes(), ClassMask::kDiffuse);
   const auto s = open.sample(wo, 0.9f, {0.2f, 0.3f}, TransportMode::kRadiance, ClassMask::kDiffuse);

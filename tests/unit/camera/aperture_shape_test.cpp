@@ -1,5 +1,5 @@
-// Shapes of stops: they let through as much light as a round one, lie the right way up, and say how
-// far they reach.
+// Shapes of aperture stops: they transmit as much light as a round one, are the right way up, and
+// know their reach.
 #include "scene/camera/aperture_shape.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ TEST(ApertureShape, AsBrightAsARoundStop) {
     const auto shape = stop(name);
     ASSERT_NE(shape, nullptr) << name;
     EXPECT_NEAR(mean_over_square(*shape), kPi / 4, 0.003) << name;
-    // Nothing beyond the reach, something close to it.
+    // Nothing lies beyond the reach, something close to it.
     double furthest = 0;
     for (int y = -200; y <= 200; ++y)
       for (int x = -200; x <= 200; ++x)
@@ -45,7 +45,7 @@ TEST(ApertureShape, ValuesOfTheBuiltInOnes) {
   const auto square = stop("square");
   EXPECT_NEAR(square->at(0.3, -0.4), kPi, 1e-4);
   EXPECT_EQ(square->at(0.3, -0.6), 0.0f);
-  // The pentagon stands on its tip, the star has one towards -x.
+  // The pentagon stands on its tip; the star has a tip towards -x.
   const auto pentagon = stop("pentagon");
   EXPECT_GT(pentagon->at(0, -0.75), 0.0f);
   EXPECT_EQ(pentagon->at(0, 0.75), 0.0f);

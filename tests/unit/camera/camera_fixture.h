@@ -1,4 +1,4 @@
-// Cameras from scene text, for the tests of this folder.
+// Cameras from scene text.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ inline void expect_near(const Vec3f& a, const Vec3f& b) {
   EXPECT_LT(length(a - b), 1e-5f) << a.x << ' ' << a.y << ' ' << a.z;
 }
 
-/// What make_camera says when it refuses.
+/// The error message of make_camera.
 inline std::string camera_error(const std::string& text) {
   try {
     camera_of(text, 8, 8);

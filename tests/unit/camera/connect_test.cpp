@@ -1,5 +1,5 @@
-// Camera::connect against generate_ray: the way back goes through the point, densities are its
-// differentials, and everything that is seen is counted.
+// Camera::connect against generate_ray: the ray back passes the point, densities match its
+// differentials, and all visible light is counted.
 #include <random>
 
 #include "unit/camera/camera_fixture.h"
@@ -16,7 +16,7 @@ const std::string kUneven = "Rotate 33 1 2 3 Translate 0.3 -0.2 0.4 Scale 1.5 0.
 const std::string kMoving =
     "ActiveTransform EndTime Translate 0.2 0.1 -0.3 Rotate 25 0 1 0 ActiveTransform All ";
 
-// All kinds, with turned windows, lenses, stretched and moving frames.
+// All types, with flipped screen windows, lenses, scaled and moving frames.
 std::vector<std::string> cameras() {
   const std::string lens = " \"float lensradius\" 0.2 \"float focaldistance\" 3";
   std::vector<std::string> all;
@@ -67,7 +67,7 @@ TEST(CameraConnect, DensityIsTheDifferentialOfTheFilmPoint) {
     const auto camera = camera_of(text, kWidth, kHeight);
     Random random;
     for (int i = 0; i < 30; ++i) {
-      // Away from the folds of the maps of the sphere.
+      // Away from the folds of the spherical mappings.
       const Vec2f film((0.1f + 0.3f * random.next()) * kWidth,
                        (0.1f + 0.3f * random.next()) * kHeight);
       const Vec2f u_lens(random.next(), random.next());
@@ -76,7 +76,7 @@ TEST(CameraConnect, DensityIsTheDifferentialOfTheFilmPoint) {
         const Ray ray = camera->generate_ray(film + step, u_lens, u_time)->ray;
         return ray.o + ray.d * t;
       };
-      // Points at a constant distance from the lens, and of parallel rays, lie on a surface that is
+      // Points at a constant distance from the lens, or on parallel rays, lie on a surface
       // perpendicular to the ray.
       constexpr float kStep = 0.2f;
       const Ray ray = camera->generate_ray(film, u_lens, u_time)->ray;
@@ -92,14 +92,13 @@ TEST(CameraConnect, DensityIsTheDifferentialOfTheFilmPoint) {
   }
 }
 
-// Points that are spread evenly over a surface which fills the view cover every pixel once,
-// whatever the lens.
+// Points spread uniformly over a surface that fills the view cover every pixel once, for any lens.
 TEST(CameraConnect, AWallCoversThePicture) {
   constexpr int kPoints = 200000;
   for (const std::string& camera_text : cameras()) {
     if (camera_text.find("spherical") != std::string::npos) continue;
     const auto camera = camera_of(camera_text, kWidth, kHeight);
-    // A square in the plane that the middle of the film sees at distance 2, slanted.
+    // A slanted square through the point that the film's centre sees at distance 2.
     const Ray axis = camera->generate_ray({kWidth / 2, kHeight / 2}, {0.5f, 0.5f}, 0.5f)->ray;
     const Vec3f n = normalize(axis.d + Vec3f(0.11f, 0.07f, -0.05f));
     const Frame frame = Frame::from_z(n);
@@ -125,7 +124,7 @@ TEST(CameraConnect, AWallCoversThePicture) {
   }
 }
 
-// The whole sphere of directions is the whole picture, and both halves of it are halves.
+// The whole sphere of directions covers the whole picture, each half one half.
 TEST(CameraConnect, TheSphereCoversThePicture) {
   for (const std::string mapping : {"equirectangular", "equalarea"}) {
     const auto camera = camera_of(
@@ -157,7 +156,7 @@ TEST(CameraConnect, NothingBehindTheCamera) {
     EXPECT_FALSE(camera->connect({0.1f, 0.2f, -1}, {0.5f, 0.5f}, 0));
     EXPECT_FALSE(camera->connect({0.1f, 0.2f, 0}, {0.5f, 0.5f}, 0));
     EXPECT_TRUE(camera->connect({0.1f, 0.2f, 1}, {0.5f, 0.5f}, 0));
-    // Beside the picture is not behind it.
+    // A point outside the picture is not behind the camera.
     const auto beside = camera->connect({50, 0, 1}, {0.5f, 0.5f}, 0);
     ASSERT_TRUE(beside);
     EXPECT_GT(beside->film.x, kWidth);
@@ -173,8 +172,8 @@ TEST(CameraConnect, MeasuredLensesDoNotConnect) {
   EXPECT_FALSE(camera->connect({0, 0, 1}, {0.5f, 0.5f}, 0));
 }
 
-// What a wide filter sees beyond the edges of the picture of a sphere is inside of it as well:
-// every film point outside is a repeat of the point that sees the same.
+// Directions beyond the edges of a spherical picture also lie inside it: every film point outside
+// repeats the inner point that sees the same.
 TEST(CameraConnect, PicturesOfSpheresRepeat) {
   for (const std::string mapping : {"equirectangular", "equalarea"}) {
     const auto camera =

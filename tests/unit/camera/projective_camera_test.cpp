@@ -1,5 +1,5 @@
-// Perspective and orthographic cameras: rays through known film points, the thin lens, the pixel
-// footprint, the shutter and the moving camera.
+// Perspective and orthographic cameras: rays through known film points, the thin lens, pixel
+// footprints, the shutter and moving cameras.
 #include "unit/camera/camera_fixture.h"
 
 namespace nephroid {
@@ -48,7 +48,7 @@ TEST(Camera, LensRaysMeetOnThePlaneOfFocus) {
   }
 }
 
-// The lens of an orthographic camera lies on the axis, as pbrt-v4 has it.
+// The lens of an orthographic camera is on the axis, as in pbrt-v4.
 TEST(Camera, OrthographicLens) {
   const auto c = camera_of(
       "Camera \"orthographic\" \"float lensradius\" 0.3 \"float focaldistance\" 5", 64, 64);

@@ -1,5 +1,5 @@
-// The realistic camera against theory: the thin lens formula, sharpness, the light on the film, and
-// uniform sampling of the rear element as the brute force that exit pupils are compared with.
+// The realistic camera against theory (thin lens formula, sharpness, irradiance on the film) and
+// against brute-force uniform sampling of the rear element instead of exit pupils.
 #include <cmath>
 #include <fstream>
 
@@ -41,7 +41,7 @@ TEST(LensSystem, ThinLensFormula) {
   for (const double distance : {0.5, 1.0, 3.0, 1000.0}) {
     LensSystem lens = thin_lens();
     ASSERT_TRUE(lens.focus(distance, 1e-5));
-    // 1/s + 1/s' = 1/f with s + s' the distance from the film.
+    // 1/s + 1/s' = 1/f, where s + s' is the distance from the film.
     const double image = (distance - std::sqrt(distance * distance - 0.4 * distance)) / 2;
     EXPECT_NEAR(lens.rear_z(), image, 2e-5) << distance;
     const auto passed = lens.trace_from_film({{0, 0, 0}, {1e-4, 2e-4, lens.rear_z()}});
@@ -51,7 +51,7 @@ TEST(LensSystem, ThinLensFormula) {
     EXPECT_LT(std::hypot(at.x, at.y) / distance, 1e-6) << distance;
   }
   LensSystem lens = thin_lens();
-  EXPECT_FALSE(lens.focus(0.399, 1e-5));  // nearer than 4 f there is no image
+  EXPECT_FALSE(lens.focus(0.399, 1e-5));  // no image forms nearer than 4 f
 }
 
 TEST(LensSystem, RaysGoBackTheWayTheyCame) {
@@ -73,8 +73,8 @@ TEST(LensSystem, RaysGoBackTheWayTheyCame) {
   EXPECT_GT(passed, 20);
 }
 
-// Every point of the rear plane through which light gets lies within the pupil's bounds, also where
-// a shape of the stop is turned against them; and the bounds are not much larger than that.
+// Every point of the rear plane that passes light is within the pupil's bounds, also if the stop's
+// shape is rotated against them. The bounds are not much larger.
 TEST(LensSystem, PupilBoundsHoldAllThatPasses) {
   for (const char* shape_name : {"", "star", "square"}) {
     const LensSystem lens(symmetric_surfaces(0.004), stop(shape_name));
@@ -116,7 +116,7 @@ TEST(RealisticCamera, SharpAtTheDistanceInFocusOnly) {
     const auto r = c->generate_ray({33, 16}, random_point(5, i), 0);
     if (!r) continue;
     const auto at = [&](float z) { return r->ray.o + r->ray.d * ((z - r->ray.o.z) / r->ray.d.z); };
-    // Three pixels right and four above the middle, magnified.
+    // Three pixels right of the centre and four above it, magnified.
     EXPECT_NEAR(at(1).x, 3 * pixel * object / image, 4e-5);
     EXPECT_NEAR(at(1).y, 4 * pixel * object / image, 4e-5);
     blur_near = std::max(blur_near, static_cast<double>(std::abs(at(0.6f).x - at(1).x * 0.55f)));
@@ -161,15 +161,15 @@ Light light_of(const std::vector<double>& values) {
   return l;
 }
 
-/// The symmetric lens in focus at 2 m, sampled over the plane before its rear element, and a little
-/// more, because that is curved.
+/// The symmetric lens focused at 2 m, sampled over the plane before its rear element and slightly
+/// beyond, because the element is curved.
 class BruteForce {
  public:
   explicit BruteForce(double stop_radius, const char* shape = "")
       : lens_(symmetric_surfaces(stop_radius), stop(shape)) {
     EXPECT_TRUE(lens_.focus(2, 35e-6));
   }
-  /// Film point as the camera takes it; empty if blocked.
+  /// The camera's film point; empty if blocked.
   std::optional<CameraRay> generate(const Vec2f& film, int width, int height,
                                     const Vec2f& u) const {
     const double pixel = 0.035 / std::hypot(width, height);
@@ -224,7 +224,8 @@ TEST(RealisticCamera, AgreesWithUniformSamplingOfTheRearElement) {
   }
 }
 
-// Two samples of the same distribution: where passing rays leave the front, on a grid of cells.
+// Two samples of the same distribution: exit points of passing rays at the front, in a grid of
+// cells.
 TEST(RealisticCamera, ChiSquareOfThePupil) {
   const auto camera = camera_of(symmetric("12", ""), 60, 40);
   const BruteForce brute(0.006);
@@ -255,7 +256,7 @@ TEST(RealisticCamera, ChiSquareOfThePupil) {
       ++dof;
     }
     ASSERT_GT(dof, 20);
-    // Wilson & Hilferty's quantile at a level of 1e-5.
+    // The quantile at level 1e-5, by Wilson & Hilferty.
     const double v = 2 / (9 * dof);
     EXPECT_LT(chi2, dof * std::pow(1 - v + 4.265 * std::sqrt(v), 3)) << film.x;
   }

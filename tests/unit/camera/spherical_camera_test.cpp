@@ -1,4 +1,4 @@
-// The spherical camera: directions that are known, equal areas, and edges that a filter crosses.
+// The spherical camera: known directions, equal areas, and filters that cross the edges.
 #include "unit/camera/camera_fixture.h"
 
 namespace nephroid {
@@ -30,7 +30,7 @@ TEST(SphericalCamera, EqualArea) {
   expect_near(ray_of(*c, {0, 0}, kLens, 0).d, {0, -1, 0});
   expect_near(ray_of(*c, {32, 16}, kLens, 0).d, {1, 0, 0});
   expect_near(ray_of(*c, {16, 32}, kLens, 0).d, {0, 0, 1});
-  // Each pixel sees the same solid angle: the parallelogram of its differentials.
+  // Every pixel sees the same solid angle, spanned by its differentials.
   constexpr float kStep = 0.01f;
   for (const Vec2f& film : {Vec2f(3.3f, 7.1f), Vec2f(20.2f, 14.6f), Vec2f(30.9f, 29.2f)}) {
     const Vec3f d = ray_of(*c, film, kLens, 0).d;
@@ -40,7 +40,7 @@ TEST(SphericalCamera, EqualArea) {
   }
 }
 
-// A little over an edge the sphere goes on: there is no jump.
+// Just beyond an edge the sphere continues without a jump.
 TEST(SphericalCamera, FilterOverTheEdge) {
   const auto c = camera_of("Camera \"spherical\"", 64, 64);
   for (const Vec2f& edge : {Vec2f(0, 11), Vec2f(64, 50), Vec2f(22, 0), Vec2f(5, 64)})

@@ -1,5 +1,5 @@
-// The film sensor: in expectation over wavelength sampling, light of a known colour is seen as that
-// colour, with all wavelengths or with the hero alone.
+// The film sensor: the mean over wavelength samples of a light's response is the light's colour,
+// with all wavelengths or with the hero alone.
 #include <gtest/gtest.h>
 
 #include "core/color.h"
@@ -8,8 +8,8 @@
 namespace nephroid {
 namespace {
 
-/// Mean of the sensor's response over `n` values of u, midpoints. The curves are looked up at the
-/// nearest nanometre, so the integrand has 471 steps and the error is about a step in n.
+/// Mean sensor response over `n` midpoints of u. The curves are looked up at the nearest nanometre,
+/// so the integrand has 471 steps and the error is about one step in n.
 Rgb mean_response(const RgbColorSpace& space, const Spectrum& light, float scale, bool hero_only,
                   float imaging_ratio = 1) {
   const int n = 40000;
@@ -47,7 +47,7 @@ TEST(Sensor, ColourAndImagingRatioCarryOver) {
 }
 
 TEST(Sensor, OtherSpacesSeeTheSameLight) {
-  // A light defined in one space and seen in another: the matrices say what to expect.
+  // A light is defined in one space and seen in another: the matrices give the expected value.
   const RgbColorSpace &srgb = RgbColorSpace::srgb(), &wide = *RgbColorSpace::find("rec2020");
   const SpectrumPtr light = rgb_illuminant_spectrum(srgb, {0.8f, 0.3f, 0.2f});
   const float scale = 1 / spectrum_to_photometric(*light);

@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kSpaces[] = {"srgb", "dci-p3", "rec2020", "aces2065-1"};
 
-/// The rgb of a reflectance seen under the standard illuminant, summed in double.
+/// Rgb of a reflectance under the standard illuminant, summed in double precision.
 std::array<double, 3> seen_colour(const RgbColorSpace& space, const SigmoidPolynomial& s) {
   double xyz[3] = {}, norm = 0;
   for (int l = 360; l <= 830; ++l) {
@@ -70,8 +70,8 @@ TEST(RgbColorSpace, OnlyTheFourSpacesExist) {
 }
 
 TEST(RgbColorSpace, MatricesArePublishedOnes) {
-  // IEC 61966-2-1, ITU-R BT.2020, SMPTE ST 2065-1. They use white points rounded to four decimals,
-  // which moves the entries by up to 2e-3.
+  // IEC 61966-2-1, ITU-R BT.2020 and SMPTE ST 2065-1 round white points to four decimals, which
+  // changes entries by up to 2e-3.
   const float srgb[3][3] = {
       {3.2406f, -1.5372f, -0.4986f}, {-0.9689f, 1.8758f, 0.0415f}, {0.0557f, -0.2040f, 1.0570f}};
   const float rec2020[3][3] = {
@@ -97,27 +97,27 @@ TEST(RgbColorSpace, WhiteIsTheIlluminantAndMatricesAreInverse) {
 }
 
 TEST(RgbColorSpace, SrgbColoursComeBack) {
-  // The table is exact at its nodes to about 1e-3; between them the coefficients are interpolated,
-  // which costs 2e-4 on average. The worst colours are pale yellows with two components at 1, where
-  // the exact polynomial tends to infinity.
+  // The table is exact to about 1e-3 at its nodes. Interpolation between them adds 2e-4 on average.
+  // The worst colours are pale yellows with two components at 1, where the exact polynomial tends
+  // to infinity.
   const Errors all = round_trip(RgbColorSpace::srgb(), 0.0f, 1.0f, 14);
   EXPECT_LT(all.mean, 4e-4);
   EXPECT_LT(all.most, 1e-2);
-  // What surfaces are made of is better.
+  // Colours of real surfaces are better.
   EXPECT_LT(round_trip(RgbColorSpace::srgb(), 0.03f, 0.9f, 14).most, 2e-3);
 }
 
 TEST(RgbColorSpace, MutedColoursComeBackInEverySpace) {
-  // Wide spaces hold colours that no surface can have, which therefore cannot come back; muted
-  // colours must. The wider the space, the more saturated the colour of the same numbers, and the
-  // larger the error of interpolating.
+  // Wide spaces contain colours that no surface has and that do not survive a round trip. Muted
+  // colours must. In a wider space the same numbers are more saturated, and the interpolation error
+  // grows.
   for (const char* name : kSpaces)
     EXPECT_LT(round_trip(*RgbColorSpace::find(name), 0.3f, 0.7f, 8).most, 2.5e-3) << name;
 }
 
 TEST(RgbColorSpace, EmissionOfTheCornellBoxMatchesPbrt) {
-  // pbrt-v4 shows its light of rgb (17, 12, 4) as (17.0028, 11.9952, 3.9942), give or take 1e-3:
-  // its table has the same nodes as ours, hence an error of the same size, 2e-4 of the scale of 34.
+  // pbrt-v4 shows its light of rgb (17, 12, 4) as (17.0028, 11.9952, 3.9942), within 1e-3. Its
+  // table has the same nodes, hence an error of the same size: 2e-4 of the scale of 34.
   const Rgb rgb{17.0f / 34, 12.0f / 34, 4.0f / 34};
   const auto seen = seen_colour(RgbColorSpace::srgb(), RgbColorSpace::srgb().polynomial(rgb));
   EXPECT_NEAR(34 * seen[0], 17.0028, 7e-3);
@@ -203,8 +203,8 @@ TEST(SigmoidTable, NodesAreFittedAndThreadsDoNotMatter) {
           most = std::max(most, error);
           mean += error / static_cast<double>(table.coefficients.size() / 3);
         }
-  // Most nodes are exact to the accuracy of float; the bound that keeps coefficients finite costs
-  // more at black, white and pure hues.
+  // Most nodes are exact to float precision. At black, white and pure hues, the bound that keeps
+  // coefficients finite costs accuracy.
   EXPECT_LT(mean, 2e-5);
   EXPECT_LT(most, 3e-3);
 }

@@ -1,5 +1,5 @@
-// Small steps go as far in either direction; a rejected proposal leaves no trace; and numbers that
-// are moved when they are asked for are those that would have been moved at once.
+// Small steps are symmetric, a rejected proposal leaves no trace, and numbers mutated lazily equal
+// those mutated at once.
 #include "core/markov_sample.h"
 
 #include <gtest/gtest.h>
@@ -14,15 +14,15 @@ float origin(int stream, int dimension) {
   return bits_to_unit_float(static_cast<uint32_t>(hash_combine(77, stream, dimension) >> 32));
 }
 
-/// From a to b on the ring of length 1, in [-1/2, 1/2).
+/// Signed distance from a to b on the ring of length 1, in [-1/2, 1/2).
 double around(float a, float b) {
   const double d = double{b} - double{a};
   return d - std::floor(d + 0.5);
 }
 
 TEST(MarkovSample, SmallStepsAreSymmetricOnTheRing) {
-  // For a start anywhere, the edge included: as often down as up, and the distances of both are
-  // spread alike, evenly in the logarithm.
+  // From any start, the edge included, steps go up as often as down. Distances both ways are
+  // distributed alike: uniformly in the logarithm.
   const SmallStep step;
   constexpr int kSteps = 1 << 16, kCells = 16;
   for (const float start : {0.0f, 0.001f, 0.5f, 0.9999f, kOneMinusEpsilon}) {
@@ -48,7 +48,7 @@ TEST(MarkovSample, SmallStepsAreSymmetricOnTheRing) {
 }
 
 TEST(MarkovSample, StepsThereAndBackHaveTheSameDensity) {
-  // How many of the steps from cell i of a ring end in cell j: a symmetric table.
+  // Counts of steps from cell i of a ring to cell j: a symmetric table.
   constexpr int kCells = 100, kSteps = 1 << 19;
   std::vector<int> from_to(kCells * kCells, 0);
   for (int i = 0; i < kSteps; ++i) {
@@ -71,7 +71,7 @@ TEST(MarkovSample, StepsThereAndBackHaveTheSameDensity) {
   EXPECT_LT(chi_square, pairs + 4.5 * std::sqrt(2.0 * pairs) + 14);
 }
 
-/// All numbers of streams and dimensions that tests look at.
+/// All numbers of the streams and dimensions under test.
 std::vector<float> all_numbers(MarkovSample& sample) {
   std::vector<float> all;
   for (int s = 0; s < MarkovSample::kStreams; ++s)
@@ -104,7 +104,7 @@ TEST(MarkovSample, ARejectedProposalLeavesNoTrace) {
 }
 
 TEST(MarkovSample, LazyIsTheSameAsEager) {
-  // One is asked for all numbers of every proposal, the other for few of them.
+  // One sample is asked for all numbers of every proposal, the other for few.
   MarkovSample eager({}), lazy({});
   eager.start(origin, 9);
   lazy.start(origin, 9);

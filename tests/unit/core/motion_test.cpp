@@ -1,5 +1,5 @@
-// Moving transforms against what is known of them: keyframes, constant angular speed, straight
-// paths, and bounds that hold every sampled point.
+// Moving transforms with known results: keyframes, constant angular speed, straight paths, and
+// bounds that contain every sampled point.
 #include "core/motion.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ Mat44d translation(double x, double y, double z) {
   m[3][0] = x, m[3][1] = y, m[3][2] = z;
   return m;
 }
-/// Anything affine: shear, unequal scales, mirrored or not, far away.
+/// An arbitrary affine matrix: shear, unequal scales, mirrored or not, far away.
 Mat44d random_matrix(Numbers& u, bool mirror) {
   Mat44d m = rotation(360 * u(), Vec3d(u.centred(), u.centred(), u.centred() + 1e-3)) *
              scaling(0.1 + 3 * u(), 0.1 + 3 * u(), 0.1 + 3 * u()) *
@@ -89,7 +89,7 @@ TEST(Motion, RotationsTurnAtConstantSpeedTheShortWay) {
   for (int i = 0; i < 200; ++i) {
     const Vec3d axis(u.centred(), u.centred(), u.centred() + 1e-3);
     const Mat44d base = random_matrix(u, false);
-    // Keyframes S R0 and S R0 R(angle): the stretch stays, the turn is about the world's axis.
+    // Keyframes S R0 and S R0 R(angle): the stretch stays, and the rotation is about a world axis.
     for (const double degrees : {0.01, 1.0, 90.0, 170.0, 179.9, -179.9}) {
       Mat44d linear = base;
       for (int j = 0; j < 3; ++j) linear[3][j] = 0;
@@ -97,13 +97,13 @@ TEST(Motion, RotationsTurnAtConstantSpeedTheShortWay) {
       for (const float time : {0.1f, 0.5f, 0.8f})
         EXPECT_LT(difference(t.at(time).m, linear * rotation(degrees * double(time), axis)), 1e-10);
     }
-    // Beyond half a turn the way round is shorter.
+    // Beyond half a turn the other way is shorter.
     const MotionTransform t(Mat44d(), rotation(200, axis));
     EXPECT_LT(difference(t.at(0.25f).m, rotation(-40, axis)), 1e-10);
   }
 }
 
-// pbrt-v4: the float sine of 180 degrees is below zero.
+// As in pbrt-v4, whose float sine of 180 degrees is negative.
 TEST(Motion, AHalfTurnAboutACoordinateAxisGoesClockwise) {
   for (int i = 0; i < 3; ++i) {
     Vec3d axis(0, 0, 0);
@@ -121,13 +121,13 @@ TEST(Motion, TranslationAndStretchAreLinear) {
   const MotionTransform t(scaling(1, 2, 3) * translation(1, 0, 0),
                           scaling(3, 2, 1) * translation(0, 4, 0));
   EXPECT_LT(difference(t.at(0.25f).m, scaling(1.5, 2, 2.5) * translation(0.75, 1, 0)), 1e-14);
-  // A mirrored thing keeps its picture; it does not turn inside out.
+  // A mirrored object stays mirrored; it does not turn inside out.
   const MotionTransform mirrored(scaling(-1, 1, 1), scaling(-3, 1, 1) * translation(0, 0, 8));
   EXPECT_LT(difference(mirrored.at(0.5f).m, scaling(-2, 1, 1) * translation(0, 0, 4)), 1e-14);
 }
 
-// The motion about a pivot is that of the matrices seen from there (pbrt-v4 decomposes the matrices
-// of instances in its rendering space, whose origin is the camera).
+// Motion about a pivot is that of the matrices relative to the pivot. pbrt-v4 decomposes the
+// matrices of instances in rendering space, whose origin is the camera.
 TEST(Motion, ThePivotMovesStraight) {
   Numbers u{4};
   for (int i = 0; i < 100; ++i) {

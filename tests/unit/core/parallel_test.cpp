@@ -1,4 +1,5 @@
-// Parallel loops: every chunk once, the same chunks for any number of threads, denormals flushed.
+// Parallel loops: each chunk runs once, chunks do not depend on the number of threads, and
+// denormals are flushed.
 #include "core/parallel.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +30,7 @@ TEST(Parallel, NothingToDo) {
   parallel_chunks(0, 16, [](int64_t, int64_t, int64_t) { ADD_FAILURE(); });
 }
 
-/// Wants to look in all the time, and throws at a certain look.
+/// Always wants attention, and throws at a given call.
 class Watch final : public PassControl {
  public:
   explicit Watch(int last) : last_(last) {}

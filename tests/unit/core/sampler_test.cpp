@@ -1,5 +1,4 @@
-// Random numbers as functions: stratified, uniform, decorrelated, and a function of their key
-// alone.
+// Random numbers: stratified, uniform, decorrelated, and pure functions of their key.
 #include "core/sampler.h"
 
 #include <gtest/gtest.h>
@@ -69,7 +68,7 @@ TEST(PaddedPoint, EachDecisionIsANetOverAnyRunOfSamples) {
         }
 }
 
-// Of the streams that the paths of a pixel have at one dimension.
+// The streams of a pixel's paths at one dimension.
 TEST(PathSampler, StreamsAreEvenlySpreadOverThePoints) {
   for (const int dimension : {0, 3, 300}) {
     std::set<int> first, second;
@@ -91,8 +90,8 @@ TEST(PathSampler, StreamsAreEvenlySpreadOverThePoints) {
 
 TEST(PaddedPoint, DecisionsHaveNothingToDoWithEachOther) {
   // Pairs of numbers of two decisions, over sixteen samples of many pixels: each of 4 x 4 cells
-  // gets its share, and within a pixel as many cells are hit as by chance. Sobol' dimensions 2 and
-  // 13 would hit 4 of the 16.
+  // gets its share, and a pixel hits as many cells as by chance. Sobol' dimensions 2 and 13 would
+  // hit 4 of the 16.
   for (const auto& [a, b] : {std::pair{0, 2}, {2, 13}, {4, 7}, {1, 0}, {3, 200}}) {
     std::array<int, 16> histogram{};
     double cells = 0;
@@ -110,10 +109,10 @@ TEST(PaddedPoint, DecisionsHaveNothingToDoWithEachOther) {
       }
       cells += static_cast<double>(hit.size()) / kPixels;
     }
-    // Both numbers are stratified, so a cell has less spread than by chance alone; five standard
-    // errors of chance.
+    // Both numbers are stratified, so counts per cell vary less than by chance: five standard
+    // errors of chance are ample.
     for (const int n : histogram) EXPECT_NEAR(n, kPixels, 5 * std::sqrt(kPixels)) << a << ' ' << b;
-    // By chance four in each row and column hit about eleven.
+    // By chance, four points in each row and column hit about eleven cells.
     EXPECT_NEAR(cells, 10.9, 0.3) << a << ' ' << b;
   }
 }
@@ -139,7 +138,7 @@ TEST(PaddedPoint, UniformOverSeedsAtEveryIndex) {
 }
 
 TEST(Sampler, UniformOverSeedsAtEveryIndex) {
-  // At a fixed index and dimension the scramble alone must make the number uniform: chi-square with
+  // At a fixed index and dimension the scramble alone must make the number uniform. Chi-square with
   // 63 degrees of freedom; 124.8 is the quantile for 1e-5.
   for (const int d : {0, 1, 7, 30, 200, 300})
     for (const uint32_t i : {0u, 1u, 77u}) {
@@ -158,7 +157,7 @@ TEST(Sampler, UniformOverSeedsAtEveryIndex) {
 }
 
 TEST(Sampler, PixelsAreNotCorrelated) {
-  // Correlation of neighbouring seeds at the same index: standard error 1/sqrt(n).
+  // Correlation of neighbouring seeds at the same index has the standard error 1/sqrt(n).
   double sum = 0;
   constexpr int kPairs = 20000;
   const SobolPoint point(5);
@@ -179,7 +178,7 @@ TEST(Sampler, ValuesBelongToTheirDimension) {
 }
 
 TEST(Sampler, ScramblePreservesElementaryIntervals) {
-  // Numbers that agree in their first k bits still do after Owen's scramble.
+  // Numbers with equal first k bits keep them equal under Owen scrambling.
   for (uint32_t seed = 1; seed < 200; ++seed) {
     const uint32_t a = owen_scramble_reversed(reverse_bits(0xabcd0000u), seed * 2654435761u);
     const uint32_t b = owen_scramble_reversed(reverse_bits(0xabcdffffu), seed * 2654435761u);

@@ -1,4 +1,4 @@
-// The tables that are linked into the program: they are all there, in order, and hold numbers.
+// The embedded tables: all are present, ordered, and contain numbers.
 #include "core/spectra_data.h"
 
 #include <gtest/gtest.h>

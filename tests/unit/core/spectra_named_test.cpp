@@ -1,4 +1,4 @@
-// Measured spectra under pbrt-v4's names, against published constants of the materials and lights.
+// Measured spectra by pbrt-v4's names, against published constants of materials and lights.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -39,8 +39,8 @@ TEST(NamedSpectra, AllNamesOfTheSceneFormatExist) {
 }
 
 TEST(NamedSpectra, GlassesHaveTheirCatalogueIndex) {
-  // Schott's n_d, at the yellow helium line. Points are 21 nm apart or so: with a curvature of
-  // 1e-6 / nm^2 at most a chord is off by 21^2 / 8 * 1e-6.
+  // Schott's n_d, at the yellow helium line. Points are about 21 nm apart: with a curvature below
+  // 1e-6 / nm^2 the error of a chord is at most 21^2 / 8 * 1e-6.
   const float d_line = 587.56f;
   EXPECT_NEAR(value("glass-BK7", d_line), 1.51680f, 6e-5f);
   EXPECT_NEAR(value("glass-BAF10", d_line), 1.67003f, 6e-5f);
@@ -57,7 +57,7 @@ TEST(NamedSpectra, MetalsAreTheirTablesAndLinearBetween) {
   EXPECT_FLOAT_EQ(value("metal-Ag-k", 855.063293f), 5.720624f);
   EXPECT_FLOAT_EQ(value("metal-Cu-eta", 0.5f * (855.063293f + 885.601257f)), 0.29f);
   EXPECT_EQ(value("metal-MgO-k", 500), 0.0f);
-  // Gold absorbs blue more than red: its index crosses from above 1 to below.
+  // Gold absorbs blue more than red: its index falls from above 1 to below.
   EXPECT_GT(value("metal-Au-eta", 450), 1.0f);
   EXPECT_LT(value("metal-Au-eta", 650), 0.3f);
 }
@@ -75,9 +75,9 @@ TEST(NamedSpectra, IlluminantsHaveLuminanceOneAndTheirChromaticity) {
     const char* name;
     float x, y;
   };
-  // CIE 15:2004, two-degree observer, four decimals; ACES white from TB-2018-001. The fluorescent
-  // lamps are tabulated by 5 nm, which CIE sums at 5 nm and we at 1 nm. pbrt-v4's D50 is bluer than
-  // CIE's (0.3457, 0.3585); ours is pbrt-v4's.
+  // CIE 15:2004, two-degree observer, four decimals; ACES white from TB-2018-001. Fluorescent lamps
+  // are tabulated every 5 nm; CIE sums these, we sum every 1 nm. Our D50 is pbrt-v4's, which is
+  // bluer than CIE's (0.3457, 0.3585).
   const Known known[] = {{"stdillum-A", 0.44758f, 0.40745f},   {"stdillum-D50", 0.3368f, 0.3580f},
                          {"stdillum-D65", 0.31272f, 0.32903f}, {"stdillum-F2", 0.3721f, 0.3751f},
                          {"stdillum-F7", 0.3129f, 0.3292f},    {"stdillum-F11", 0.3805f, 0.3769f},
@@ -115,13 +115,13 @@ TEST(NamedSpectra, IlluminantsAreLookedUpAtTheNearestNanometre) {
 }
 
 TEST(NamedSpectra, DaylightIsTheStandardIlluminantAtItsTemperature) {
-  // D65 is daylight at 6500 K; the standard rounds the two factors of the series to three decimals.
+  // D65 is daylight at 6500 K. The standard rounds both factors of the series to three decimals.
   const SpectrumPtr made = daylight_spectrum(6500), standard = named_spectrum("stdillum-D65");
   for (int l = 380; l <= 780; l += 10) {
     const float lambda = static_cast<float>(l);
     EXPECT_NEAR((*made)(lambda) / (*made)(560), (*standard)(lambda) / (*standard)(560), 2e-3f) << l;
   }
-  // CIE's chromaticities of D50 and D75, on either side of the joint of the series at 7000 K.
+  // CIE's chromaticities of D50 and D75, on both sides of the joint of the series at 7000 K.
   const auto expect_chromaticity = [](float kelvin, float x, float y) {
     const Xyz c = spectrum_to_xyz(*daylight_spectrum(kelvin));
     EXPECT_NEAR(c.x / (c.x + c.y + c.z), x, 3e-4f) << kelvin;
@@ -129,7 +129,7 @@ TEST(NamedSpectra, DaylightIsTheStandardIlluminantAtItsTemperature) {
   };
   expect_chromaticity(5000, 0.34567f, 0.35851f);
   expect_chromaticity(7500, 0.29903f, 0.31488f);
-  // Below 4000 K the series is not defined.
+  // The series is undefined below 4000 K.
   EXPECT_EQ((*daylight_spectrum(3000))(600), (*blackbody_spectrum(3000))(600));
 }
 

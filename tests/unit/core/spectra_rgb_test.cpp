@@ -38,7 +38,7 @@ TEST(RgbSpectra, UnboundedIsAScaledReflectanceOfHalfTheRange) {
   const RgbColorSpace& space = RgbColorSpace::srgb();
   const SpectrumPtr s = rgb_unbounded_spectrum(space, {50, 20, 5});
   const SigmoidPolynomial p = space.polynomial({0.5f, 0.2f, 0.05f});
-  // The sigmoid loses digits near zero: its terms are 1/2.
+  // Near zero the sigmoid loses digits: its terms are 1/2.
   EXPECT_NEAR((*s)(480), 100 * p(480), 100 * 1e-6f);
   EXPECT_NEAR(s->max_value(), 100 * p.max_value(), 100 * 1e-6f);
   EXPECT_FLOAT_EQ((*rgb_unbounded_spectrum(space, {7, 7, 7}))(600), 7.0f);
@@ -51,7 +51,8 @@ TEST(RgbSpectra, EmissionHasItsColourInEverySpace) {
     const RgbColorSpace& space = *RgbColorSpace::find(name);
     for (const Rgb rgb : {Rgb{1, 1, 1}, Rgb{17, 12, 6}, Rgb{0.02f, 0.03f, 0.025f}}) {
       const Rgb seen = emitted_colour(space, *rgb_illuminant_spectrum(space, rgb));
-      // Interpolation of the coefficients, as for reflectances, at twice the largest component.
+      // Interpolation error of the coefficients, as for reflectances, at twice the largest
+      // component.
       const float tolerance = 1e-3f * 2 * std::max({rgb.r, rgb.g, rgb.b});
       for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c], rgb[c], tolerance) << name;
     }
@@ -64,7 +65,7 @@ TEST(RgbSpectra, EmissionIsMeasuredByItsIlluminant) {
   EXPECT_EQ(&red->photometric_reference(), &space.illuminant());
   EXPECT_EQ(spectrum_to_photometric(*red), spectrum_to_photometric(space.illuminant()));
   EXPECT_NEAR(spectrum_to_photometric(*red), kCieYIntegral, 1e-4f);
-  // The colour itself is not: red of 3 has luminance of about 3 * 0.21.
+  // The colour itself is not preserved: red of 3 has a luminance of about 3 * 0.21.
   EXPECT_NEAR(spectrum_to_xyz(*red).y, 3 * 0.2126f + 0.1f * 0.7874f, 5e-3f);
 }
 

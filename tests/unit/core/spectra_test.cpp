@@ -1,4 +1,4 @@
-// Constant, piecewise linear and black-body spectra, and the integrals against the matching curves.
+// Constant, piecewise linear and black-body spectra, and integrals against the matching curves.
 #include "core/spectra.h"
 
 #include <gtest/gtest.h>
@@ -65,7 +65,7 @@ TEST(Spectra, BlackbodyPeaksWhereWienSaysWithValueOne) {
 }
 
 TEST(Spectra, BlackbodyFollowsPlanck) {
-  // Ratio of two wavelengths, from the law itself in double.
+  // The ratio of two wavelengths by Planck's law, in double precision.
   const double t = 2856, c2 = 1.438776877e7;  // nm K
   const auto planck = [=](double l) { return std::pow(l, -5) / std::expm1(c2 / (l * t)); };
   const SpectrumPtr s = blackbody_spectrum(static_cast<float>(t));
@@ -86,7 +86,7 @@ TEST(Spectra, MatchingCurvesAreNormalisedByTheirYIntegral) {
   EXPECT_NEAR(spectrum_to_photometric(*constant_spectrum(1)), kCieYIntegral, 1e-4f);
   const Xyz white = spectrum_to_xyz(*constant_spectrum(1));
   EXPECT_NEAR(white.y, 1.0f, 1e-6f);
-  // The equal-energy colour has equal tristimulus values up to the rounding of the CIE tables.
+  // An equal-energy spectrum has equal tristimulus values, up to rounding in the CIE tables.
   EXPECT_NEAR(white.x, 1.0f, 1e-3f);
   EXPECT_NEAR(white.z, 1.0f, 1e-3f);
 }

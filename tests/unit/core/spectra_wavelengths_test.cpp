@@ -1,5 +1,5 @@
-// Wavelength sampling: the density integrates to one, samples follow it, and dropping the secondary
-// wavelengths keeps estimates unbiased.
+// Wavelength sampling: the density integrates to one, samples follow it, and dropping secondary
+// wavelengths leaves estimates unbiased.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -25,7 +25,7 @@ double visible_integral(double a, double b) {
 }
 
 TEST(SampledWavelengths, VisibleDensityIntegratesToOne) {
-  // The constants of the density have eight digits, float arithmetic seven.
+  // The density's constants have eight digits, floats have seven.
   EXPECT_NEAR(visible_integral(360, 830), 1.0, 1e-5);
   EXPECT_EQ(SampledWavelengths::visible_pdf(359.9f), 0.0f);
   EXPECT_EQ(SampledWavelengths::visible_pdf(830.1f), 0.0f);
@@ -51,7 +51,7 @@ TEST(SampledWavelengths, VisibleSamplesAreStratified) {
   }
 }
 
-/// Pearson's statistic of the counts in ten-nanometre bins against the integral of visible_pdf.
+/// Pearson's statistic of counts in 10 nm bins against the integral of visible_pdf.
 template <class Draw>
 double chi_square(const Draw& draw) {
   constexpr int kBins = 47, kDraws = 200000;
@@ -71,13 +71,13 @@ double chi_square(const Draw& draw) {
 }
 
 TEST(SampledWavelengths, VisibleSamplesFollowTheDensity) {
-  // Quantile 1 - 1e-5 of chi-square with 46 degrees of freedom.
+  // The quantile 1 - 1e-5 of chi-square with 46 degrees of freedom.
   const double threshold = 97.0;
   EXPECT_LT(chi_square([](float u) { return SampledWavelengths::sample_visible(u).lambda(0); }),
             threshold);
   EXPECT_LT(chi_square([](float u) { return SampledWavelengths::sample_visible(u).lambda(5); }),
             threshold);
-  // The test can tell: a shift of two nanometres fails.
+  // The test must be able to fail: a shift of two nanometres does.
   EXPECT_GT(chi_square([](float u) {
               return std::min(SampledWavelengths::sample_visible(u).lambda(0) + 2.0f, 830.0f);
             }),
@@ -136,7 +136,7 @@ TEST(SampledWavelengths, TerminatingKeepsTheMean) {
     s.terminate_secondary();
     hero += safe_div(values, s.pdf()).average();
   }
-  // Midpoint rule over u: the integrand is steep near 830 nm only.
+  // Midpoint rule over u: the integrand is steep only near 830 nm.
   EXPECT_NEAR(all / n, exact, 1e-4 * exact);
   EXPECT_NEAR(hero / n, exact, 1e-4 * exact);
 }

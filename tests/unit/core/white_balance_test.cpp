@@ -1,5 +1,5 @@
-// White balance: the light that is said to be white becomes white and as bright, and nothing
-// happens where it is white already.
+// White balance: the chosen white light becomes white with the same luminance. If it is white
+// already, nothing changes.
 #include "core/white_balance.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ TEST(WhiteBalance, DaylightOfTheSpaceChangesLittle) {
   const ColorMatrix m = white_balance(RgbColorSpace::srgb(), 6504);
   for (size_t r = 0; r < 3; ++r)
     for (size_t c = 0; c < 3; ++c) EXPECT_NEAR(m[r][c], r == c ? 1 : 0, 5e-3);
-  // A warm light taken for white makes everything bluer.
+  // Taking a warm light for white makes everything bluer.
   const Rgb grey = white_balance(RgbColorSpace::srgb(), 3500) * Rgb{0.5f, 0.5f, 0.5f};
   EXPECT_GT(grey.b, 1.3f * grey.r);
 }

@@ -1,4 +1,4 @@
-// Whole-file replacement: the new content or the old one, never anything else left behind.
+// Whole-file replacement: either the new content or the old one, and no leftovers.
 #include "film/atomic_file.h"
 
 #include <gtest/gtest.h>
@@ -86,7 +86,7 @@ TEST(AtomicFile, UnwritableDirectory) {
   EXPECT_THROW(check_file_can_be_written(directory.file("out.bin")), IoError);
 }
 
-// A limit on the size of files fails in write(), as a full disk does.
+// A file size limit makes write() fail, as a full disk does.
 TEST(AtomicFile, DiskErrorLeavesTheOldFileAndNothingElse) {
   const ScratchDirectory directory;
   const std::string path = directory.file("out.bin");
@@ -110,7 +110,7 @@ TEST(AtomicFile, DiskErrorLeavesTheOldFileAndNothingElse) {
   EXPECT_EQ(directory.entries(), 1u);
 }
 
-// Of processes that are no more, on this machine; nobody else's.
+// Leftovers of dead processes of this machine are removed, no others.
 TEST(AtomicFile, LeftoversOfTheDeadAreRemoved) {
   const ScratchDirectory directory;
   const std::string path = directory.file("out.bin");
@@ -124,7 +124,7 @@ TEST(AtomicFile, LeftoversOfTheDeadAreRemoved) {
   ::waitpid(child, &status, 0);
   ASSERT_TRUE(WIFSIGNALED(status));
   EXPECT_EQ(directory.entries(), 1u);
-  // In a container that is started again, they have had the number that we have now.
+  // After a container restart, an earlier process may have had our process id.
   const std::string leftover = fs::directory_iterator(directory.file(""))->path().string();
   const size_t number = leftover.rfind('@') + 1;
   write_text(leftover.substr(0, number) + std::to_string(::getpid()) + "-7", "an earlier start's");
@@ -138,7 +138,7 @@ TEST(AtomicFile, LeftoversOfTheDeadAreRemoved) {
   EXPECT_EQ(directory.entries(), 4u);
 }
 
-// A process that we do not see, in another container of this host, writes it.
+// Another container of this host writes the file: we cannot see its process.
 TEST(AtomicFile, WhatSomebodyHoldsIsNoLeftover) {
   const ScratchDirectory directory;
   const std::string path = directory.file("out.bin");
@@ -178,7 +178,7 @@ TEST(AtomicFile, CheckLeavesNothingBehind) {
 TEST(AtomicFile, NameWithoutDirectoryAndLongName) {
   const ScratchDirectory directory;
   EXPECT_THROW(check_file_can_be_written(""), IoError);
-  // Names may have 255 bytes; the temporary name must not be longer than the system allows.
+  // File names may have 255 bytes; temporary names must not exceed that.
   write_text(directory.file(std::string(250, 'n')), "x");
   EXPECT_EQ(directory.entries(), 1u);
 }

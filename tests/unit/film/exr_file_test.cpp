@@ -1,5 +1,5 @@
-// A picture as a file: rows come back, layers are as narrow as they may be, and what cannot be
-// written leaves what was there.
+// A picture as a file: rows are read back, layers are as narrow as their values allow, and a failed
+// write leaves the old file.
 #include "film/exr_file.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@
 namespace nephroid {
 namespace {
 
-/// Taller than what is written at a time.
+/// Taller than the rows written at a time.
 Picture some_picture() {
   Picture picture;
   picture.full_width = 100;
@@ -46,7 +46,7 @@ TEST(ExrFile, ComesBackBitForBit) {
   EXPECT_EQ(head.window, wanted.window);
 }
 
-/// What a layer `a` of the value comes back as, beside R G B of 1/3 and a bias of 1/3.
+/// The picture read back, with a layer `a` of the value beside R G B of 1/3 and a bias of 1/3.
 Picture with_layer(float value) {
   const ScratchDirectory directory;
   PictureHead head = some_picture();
@@ -76,7 +76,7 @@ TEST(ExrFile, LayersAreNarrowWhereTheirValuesFit) {
   EXPECT_EQ(with_layer(65504).pixels[3], 65504.0f);
 }
 
-// Whichever byte is the first that the disk has no room for: the table of offsets comes last.
+// Tests various first bytes for which the disk has no room. The offset table is written last.
 TEST(ExrFile, AFullDiskIsAnErrorAndTheOldFileStays) {
   const ScratchDirectory directory;
   const std::string path = directory.file("a.exr");
@@ -100,7 +100,7 @@ TEST(ExrFile, AFullDiskIsAnErrorAndTheOldFileStays) {
   EXPECT_EQ(files, 1u);
 }
 
-// Wide pictures have large blocks, of which fewer are held.
+// Wide pictures have large blocks, so fewer blocks are held.
 TEST(ExrFile, TheEncoderHoldsNoMoreThanItMay) {
   constexpr size_t kChannels = 40;
   for (const int threads : {1, 8}) {

@@ -1,4 +1,4 @@
-// Pictures written and read back: every channel, window, metadata, colour attribute; the PNG's
+// Pictures written and read back: every channel, windows, metadata, the colour attribute and PNG
 // codes.
 #include "film/film_output.h"
 
@@ -25,7 +25,7 @@ FilmSettings cropped() {
   return settings;
 }
 
-/// Different in each pixel, route and pass.
+/// Different values in each pixel, route and pass.
 Film filled_film(const FilmSettings& settings) {
   Film film(settings, FilmLayout::of_routes({"diffuse", "caustic"}));
   const PixelBounds& b = film.bounds();
@@ -186,7 +186,7 @@ TEST(FilmOutput, GbufferLayers) {
   EXPECT_EQ(pixel(picture, 5, 3, "P.X"), 0.0f);
   EXPECT_EQ(pixel(picture, 4, 4, "Albedo.R"), film.albedo(4, 4).r);
   EXPECT_EQ(pixel(picture, 4, 4, "Z"), film.depth(4, 4));
-  // Three estimates: the variance of one of them is three times that of their mean.
+  // With three estimates, the variance of one is three times that of their mean.
   const float error = film.standard_error(4, 4).r;
   EXPECT_GT(error, 0.0f);
   EXPECT_NEAR(pixel(picture, 4, 4, "Variance.R"), 3 * error * error, 1e-5f * error * error);
@@ -237,7 +237,7 @@ TEST(FilmOutput, ChromaticitiesOfOtherSpacesAreStored) {
   write_film(directory.file("wide.exr"), filled_film(settings), {}, 1);
   const std::vector<float> stored = stored_chromaticities(directory.file("wide.exr"));
   ASSERT_EQ(stored.size(), 8u);
-  // ITU-R BT.2020: primaries to three digits; its white point D65 comes out of the tables.
+  // ITU-R BT.2020: primaries have three digits; its white point D65 follows from the tables.
   const float expected[8] = {0.708f, 0.292f, 0.170f, 0.797f, 0.131f, 0.046f, 0.3127f, 0.3290f};
   for (size_t i = 0; i < 8; ++i) EXPECT_NEAR(stored[i], expected[i], 1e-3) << i;
 

@@ -1,4 +1,4 @@
-// A film has what its scene says of it.
+// A film has the settings of its scene.
 #include "film/film_settings.h"
 
 #include <gtest/gtest.h>

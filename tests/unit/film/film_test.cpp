@@ -1,4 +1,4 @@
-// The statistics of a film against the same numbers computed plainly in double.
+// The statistics of a film against a direct computation in double precision.
 #include "film/film.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ float random_value(uint64_t i) {
   return bits_to_unit_float(static_cast<uint32_t>(mix_bits(i) >> 32)) * 3;
 }
 
-/// Mean and standard error of the mean, the textbook's way.
+/// Mean and standard error of the mean, by definition.
 struct Plain {
   double mean = 0, error = 0;
 };
@@ -58,7 +58,7 @@ TEST(Film, MeanAndErrorOfOneRoute) {
   EXPECT_FLOAT_EQ(value.b, static_cast<float>(-plain.mean));
   EXPECT_FLOAT_EQ(error.r, static_cast<float>(plain.error));
   EXPECT_FLOAT_EQ(error.g, static_cast<float>(2 * plain.error));
-  // Neighbours saw nothing.
+  // Neighbours received nothing.
   EXPECT_EQ(film.value(4, 4).r, 0.0f);
   EXPECT_EQ(film.value(3, 3).r, 0.0f);
 }
@@ -84,7 +84,7 @@ TEST(Film, RoutesAddUpEachWithItsOwnCount) {
 }
 
 TEST(Film, BeautyIsRoundedOnce) {
-  // Each route alone rounds to 1: only the exact sum of both shows the rest.
+  // Each route alone rounds to 1: only the exact sum shows the rest.
   Film film(small_film(), FilmLayout::of_routes({"a", "b"}));
   add_one(film, 0, 2, 1, {1, 0, 0});
   add_one(film, 1, 2, 1, {0x1p-23f, 0, 0});
@@ -107,7 +107,7 @@ TEST(Film, EqualEstimatesHaveNoErrorToSpeakOf) {
   Film film(small_film(), FilmLayout::of_routes({"all"}));
   for (int i = 0; i < 100; ++i) add_one(film, 0, 2, 1, {0.1f, 1e6f, 3});
   film.add_estimates(0, 100);
-  // What is left is the rounding of the mean square in double: sqrt(2^-52 / 99) of the value.
+  // The remainder is rounding of the mean square in double: sqrt(2^-52 / 99) of the value.
   EXPECT_LE(film.standard_error(2, 1).r, 0.1f * 2e-9f);
   EXPECT_LE(film.standard_error(2, 1).g, 1e6f * 2e-9f);
 }
@@ -146,8 +146,8 @@ TEST(Film, Features) {
   Film film(small_film(), FilmLayout::of_routes({"all"}));
   film.add_features(2, 1, {0.5f, 0.25f, 1}, {0, 0, 1}, 10);
   film.add_features(2, 1, {0.5f, 0.75f, 1}, {0, 1, 0}, 20);
-  film.add_features(2, 1, {0, 0, 0}, {0, 0, 0}, kInfinity);  // missed everything
-  film.add_features(2, 1, {0, 0, 0}, {0, 0, 0}, 0);          // the same in other words
+  film.add_features(2, 1, {0, 0, 0}, {0, 0, 0}, kInfinity);  // hit nothing
+  film.add_features(2, 1, {0, 0, 0}, {0, 0, 0}, 0);          // also hit nothing
   EXPECT_EQ(film.saturated_values(), 0u);
   film.add_feature_estimates(4);
   EXPECT_FLOAT_EQ(film.albedo(2, 1).r, 0.25f);
@@ -161,7 +161,7 @@ TEST(Film, Features) {
   EXPECT_EQ(film.bad_estimates(0).count, 0u);
 }
 
-/// Three routes in two groups: routes 0 and 2 are rendered together, as parts 0, 2 and 3.
+/// Three routes in two groups: the parts 0, 2 and 3 of routes 0 and 2 are rendered together.
 FilmLayout layout_with_aovs() {
   FilmLayout layout;
   layout.routes = {"diffuse", "caustic", "rest"};
@@ -201,7 +201,7 @@ TEST(Film, PartsAddUpToRoutesAovsAndBeauty) {
   EXPECT_EQ(film.parts_of(0), (std::vector<int>{0, 2, 3}));
   EXPECT_EQ(film.parts_of(1), (std::vector<int>{1}));
   double sums[4] = {0, 0, 0, 0};
-  std::vector<float> first, second;  // what an estimate of each group found altogether
+  std::vector<float> first, second;  // total estimate of each group
   for (uint64_t i = 0; i < 30; ++i) {
     const Rgb values[] = {
         {random_value(i), 0, 0}, {random_value(i + 1000), 0, 0}, {-random_value(i + 2000), 0, 0}};
@@ -228,7 +228,7 @@ TEST(Film, PartsAddUpToRoutesAovsAndBeauty) {
   near(film.aov_value(1, 4, 2), sums[3] / 30 + sums[1] / 12);
   EXPECT_EQ(film.aov_value(2, 4, 2).r, 0.0f);
   near(film.value(4, 2), (sums[0] + sums[2] + sums[3]) / 30 + sums[1] / 12);
-  // The error is that of the groups' totals: parts of one estimate are not independent.
+  // The error follows from the groups' totals: parts of an estimate are not independent.
   const Plain a = plain_statistics(first), b = plain_statistics(second);
   EXPECT_NEAR(film.standard_error(4, 2).r, std::hypot(a.error, b.error), 1e-6);
 }
@@ -246,7 +246,7 @@ TEST(Film, PartsThatCancelInEachEstimateHaveNoError) {
 }
 
 TEST(Film, SumsOfPartsAreRoundedOnce) {
-  // Each part alone rounds to 1 or to nothing beside it; the AOV and the route are exact sums.
+  // Each part alone rounds to 1 or vanishes beside it. Sums over parts are exact.
   FilmLayout layout;
   layout.routes = {"all"};
   layout.aovs = {"same"};

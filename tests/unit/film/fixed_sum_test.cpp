@@ -1,5 +1,5 @@
-// The accumulator against __int128 arithmetic that is written out, and against its promises: exact,
-// independent of order, rounded to the nearest step, held at its limits.
+// The accumulator against __int128 arithmetic, and its guarantees: exact, independent of order,
+// rounded to the nearest step, clamped to its limits.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ FixedSum sum_of(const std::vector<double>& values) {
   return sum;
 }
 
-/// Doubles over many magnitudes, either sign.
+/// Doubles of many magnitudes and both signs.
 std::vector<double> spread_values(size_t count) {
   std::vector<double> values;
   for (size_t i = 0; i < count; ++i) {
@@ -54,7 +54,7 @@ TEST(FixedSum, AnyOrderHasTheSameBits) {
   std::sort(values.begin(), values.end(),
             [](double a, double b) { return std::abs(a) < std::abs(b); });
   EXPECT_EQ(sum_of(values).bits, forward.bits);
-  // In parts, added afterwards.
+  // Partial sums, added afterwards.
   FixedSum parts[7], total;
   for (size_t i = 0; i < values.size(); ++i) parts[i % 7].add(values[i]);
   for (const FixedSum& part : parts) EXPECT_TRUE(total.add(part));
@@ -110,7 +110,7 @@ TEST(FixedSum, RoundingErrorIsAtMostHalfAStepEach) {
         std::ldexp(static_cast<double>(bits >> 11), -64 - static_cast<int>(bits % 53));
     FixedSum sum;
     ASSERT_TRUE(sum.add(value));
-    // Both are below 2^53 steps, so that doubles hold them exactly.
+    // Both are below 2^53 steps, which doubles hold exactly.
     const double steps = static_cast<double>(static_cast<int64_t>(sum.bits));
     ASSERT_LE(std::abs(steps - value * 0x1p64), 0.5) << i;
   }
@@ -148,7 +148,7 @@ TEST(FixedSum, HoldsTheLargestValuesAndSaturatesBeyond) {
 }
 
 TEST(FixedSum, ValueIsRoundedToNearestOnce) {
-  // 2^53 + 1 lies between two doubles, with a little more it is nearer to the upper one.
+  // 2^53 + 1 lies between two doubles. With a little more it is closer to the upper one.
   FixedSum sum;
   sum.add(0x1p53);
   sum.add(1.0);

@@ -1,5 +1,4 @@
-// Estimates of groups that have a single part, as most films of the tests have.
-// Used by the tests of film and session.
+// Adds estimates to groups with a single part, as most test films have.
 #pragma once
 
 #include "film/film.h"

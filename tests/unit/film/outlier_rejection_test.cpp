@@ -1,4 +1,4 @@
-// Films that reject outliers: what stays, what goes, what returns; and that nothing is lost.
+// Films that reject outliers: which estimates stay, go and return. No light is lost.
 #include "film/outlier_rejection.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ FilmSettings settings_of_test() {
   return settings;
 }
 
-/// A film of `groups` routes, each a group, that rejects.
+/// A rejecting film with `groups` routes, each in its own group.
 Film rejecting(int groups = 1, float exposed_pixels = 1) {
   std::vector<std::string> names;
   for (int g = 0; g < groups; ++g) names.push_back("r" + std::to_string(g));
@@ -62,7 +62,7 @@ void add_pass(Film& film, uint64_t pass) {
   film.add_estimates(0, 1);
 }
 
-/// Heavy tails: one estimate in 16 is 2 to 2^12 times as bright as the others, or negative.
+/// Heavy tails: one estimate in 16 is 2 to 2^12 times as bright as the rest, or negative.
 Rgb heavy(uint64_t pass, int x, int y, int group) {
   const uint64_t key = hash_combine(pass, static_cast<uint64_t>(x), static_cast<uint64_t>(y),
                                     static_cast<uint64_t>(group));
@@ -124,7 +124,7 @@ TEST(OutlierRejection, WhatIsIsolatedIsInItsOwnLayer) {
 TEST(OutlierRejection, WhatIsConfirmedReturns) {
   Film plain(settings_of_test(), FilmLayout::of_routes({"all"}));
   Film film = rejecting();
-  // A bright estimate a pass, each in another pixel of a 3 x 3 block: the eighth confirms all.
+  // One bright estimate per pass, each in another pixel of a 3 x 3 block: the eighth confirms all.
   for (uint64_t pass = 0; pass < 8; ++pass) {
     for (Film* f : {&plain, &film}) {
       add_pass(*f, pass);
@@ -141,7 +141,7 @@ TEST(OutlierRejection, WhatIsConfirmedReturns) {
 }
 
 TEST(OutlierRejection, WhatIsRareInAWholeRegionIsShown) {
-  // The only light of a region comes in one estimate of fifty, as that of a lamp seldom chosen.
+  // The only light of a region comes in one estimate of fifty, like that of a rarely chosen lamp.
   FilmSettings settings;
   settings.width = settings.height = 48;
   settings.crop = {0, 0, 48, 48};
@@ -159,7 +159,7 @@ TEST(OutlierRejection, WhatIsRareInAWholeRegionIsShown) {
     film.finish_pass();
   }
   EXPECT_GT(bright, 300u);
-  // In the corners the window is a quarter of the others.
+  // In the corners the window has a quarter of its usual size.
   EXPECT_LT(film.rejection()->held_estimates(), bright / 50);
 }
 
@@ -195,7 +195,7 @@ TEST(OutlierRejection, WhatHardlyChangesItsPixelReturns) {
     add_pass(film, passes);
     film.finish_pass();
   }
-  // The octave of 40 ends at 64, a quarter of 256 times the surroundings of about 1.
+  // The octave of 40 ends at 64. This is a quarter of 256 times the surroundings of about 1.
   EXPECT_NEAR(static_cast<double>(passes), 256, 26);
 }
 
@@ -210,7 +210,8 @@ TEST(OutlierRejection, APhotonDoesNotConfirmItself) {
   }
 }
 
-// A pixel's counts end at 255, and so does what is asked for, if a light path exposes everything.
+// Counts of a pixel saturate at 255, and so does the required count, even if one light path splats
+// on all pixels.
 TEST(OutlierRejection, HalfOf255PassesConfirmHoweverManyThereAre) {
   for (const uint64_t bright : {127u, 128u}) {
     OutlierRejection rejection(1, 1, {1}, {{1e6f}, 8});
@@ -233,7 +234,7 @@ TEST(OutlierRejection, NothingIsLost) {
     add_heavy_pass(plain, pass);
     add_heavy_pass(film, pass);
     for_each_pixel(film, [&](int x, int y) {
-      // Both layers' sums together give the standard error: the same bits, so the same sums.
+      // The standard error uses the sums of both layers: equal bits show equal sums.
       expect_same(film.standard_error(x, y), plain.standard_error(x, y), x, y);
       const Rgb whole = plain.value(x, y), kept = film.value(x, y), out = film.outliers(x, y);
       for (int c = 0; c < 3; ++c) {
@@ -308,7 +309,7 @@ TEST(OutlierRejection, APixelHoldsSoManyBrightnessesOnly) {
   add_pass(film, 0);
   film.finish_pass();
   const float before = film.value(7, 6).r;
-  // From dark to bright, each 16 times the one before: the darkest make room for the brightest.
+  // From dark to bright, each 16 times the previous one: the darkest make room for the brightest.
   float sum = 0, brightest = 0;
   for (int i = 0; i < 6; ++i) {
     const float value = std::ldexp(1.0f, 6 + 4 * i);
@@ -319,7 +320,7 @@ TEST(OutlierRejection, APixelHoldsSoManyBrightnessesOnly) {
   EXPECT_EQ(film.rejection()->held_estimates(), uint64_t{OutlierRejection::kMaxHeld});
   EXPECT_EQ(film.value(7, 6).r, before + sum);
   EXPECT_EQ(film.outliers(7, 6).r, brightest);
-  // What is darker than all that is held does not wait either.
+  // An estimate darker than all held ones is not held either.
   add_one(film, 0, 7, 6, grey(32));
   EXPECT_EQ(film.rejection()->held_estimates(), uint64_t{OutlierRejection::kMaxHeld});
   EXPECT_EQ(film.value(7, 6).r, before + sum + 32);

@@ -1,4 +1,4 @@
-// Slices: every pixel once, coarse to fine, and found again from the pixel.
+// Slices contain every pixel once, coarse to fine, and a pixel knows its slice.
 #include "film/pixel_slices.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ TEST(PixelSlices, ReachEveryPixelOnceAndCoarseToFine) {
           ++seen[static_cast<size_t>(y * crop.width() + x)];
         }
       }
-      // All of the lattice is reached.
+      // All points of the lattice are reached.
       for (int y = 0; y < crop.height(); y += spacing)
         for (int x = 0; x < crop.width(); x += spacing)
           ASSERT_EQ(seen[static_cast<size_t>(y * crop.width() + x)], 1) << level;

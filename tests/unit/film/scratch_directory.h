@@ -1,4 +1,4 @@
-// A directory of a test's own that is gone afterwards.
+// A temporary directory, deleted with the object.
 #pragma once
 
 #include <unistd.h>

@@ -1,5 +1,5 @@
-// Splats: every filter's weights add up to 1, a pixel is what filter importance sampling finds, and
-// neither crops, batches nor threads can be told from the result.
+// Splats: the weights of every filter add up to 1, pixels agree with filter importance sampling,
+// and results do not depend on crops, batches or threads.
 #include "film/splats.h"
 
 #include <gtest/gtest.h>
@@ -41,13 +41,13 @@ FilmLayout two_parts() {
   return layout;
 }
 
-/// Different frequencies in x and y, neither odd nor even in any pixel; its mean is 1.
+/// Different frequencies in x and y, neither odd nor even in any pixel. Its mean is 1.
 float smooth(const Vec2f& film) {
   return 1 + 0.5f * std::sin(0.9f * film.x + 0.3f) + 0.25f * std::cos(0.7f * film.y);
 }
 
-/// Positions that fill the film and `margin` pixels around it evenly, with what they are worth for
-/// an expected density of one per pixel.
+/// Positions that fill the film and a margin of `margin` pixels evenly, with their values for an
+/// expected density of one per pixel.
 std::vector<Splat> dense_splats(uint32_t count, float margin, float (*function)(const Vec2f&)) {
   const float width = kWidth + 2 * margin, height = kHeight + 2 * margin;
   const float worth = width * height / static_cast<float>(count);
@@ -88,8 +88,8 @@ bool same_bits(const Film& a, const Film& b, const PixelBounds& where) {
 class Splats : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(Splats, WeightsAddUpToOneInEveryPixel) {
-  // A regular grid that is much finer than the filter, up to where no pixel is reached: what a
-  // pixel gets is the integral of the filter, negative lobes included, to the error of a sum.
+  // A regular grid, much finer than the filter, that extends beyond its reach. A pixel receives the
+  // filter's integral, negative lobes included, up to summation error.
   const auto filter = filter_named(GetParam());
   const Vec2f radius = filter->radius();
   constexpr int kAcross = 16;
@@ -113,7 +113,7 @@ TEST_P(Splats, WeightsAddUpToOneInEveryPixel) {
 }
 
 TEST_P(Splats, OneSplatSpreadsOneOverThePixels) {
-  // The mean over positions within a pixel of the sum over all pixels: exactly 1.
+  // The mean over positions within a pixel of the sum over all pixels is exactly 1.
   const auto filter = filter_named(GetParam());
   const Film film = [&] {
     std::vector<Splat> splats;
@@ -137,7 +137,7 @@ TEST_P(Splats, AgreesWithFilterImportanceSampling) {
   const auto filter = filter_named(GetParam());
   const float margin = std::max(filter->radius().x, filter->radius().y) + 1;
   const Film film = film_of(dense_splats(1 << 17, margin, smooth), *filter);
-  // Corner, border and middle: next to the border half of the filter is outside of the film.
+  // Corner, border and middle: at the border half of the filter is outside the film.
   const int pixels[][2] = {{0, 0}, {kWidth - 1, 20}, {4, 15}, {4, 16}, {2, kHeight - 1}};
   for (const auto& [x, y] : pixels) {
     double sum = 0, squares = 0;
@@ -152,7 +152,7 @@ TEST_P(Splats, AgreesWithFilterImportanceSampling) {
       sum += v / kSamples;
       squares += v * v / kSamples;
     }
-    // The splats' points are as evenly spread as the samples, but fewer fall into a pixel.
+    // The splats are as evenly spread as the samples, but fewer fall into a pixel.
     const double error = std::sqrt((squares - sum * sum) / kSamples);
     EXPECT_NEAR(film.value(x, y).r, sum, 4 * error + 0.01) << x << ' ' << y;
     EXPECT_NEAR(film.value(x, y).g, 2 * sum, 8 * error + 0.02) << x << ' ' << y;
@@ -205,7 +205,7 @@ TEST(SplatBuffer, APassIsOneEstimate) {
   const auto box = filter_named("box");
   Film film(settings_of(), two_parts());
   SplatBuffer buffer(film, 0, *box);
-  // Totals 6 and 2 of two passes: mean 4 and standard error 2.
+  // Totals 6 and 2 of two passes: mean 4, standard error 2.
   const Splat first[] = {splat_at(3.5f, 5.5f, {2, 0, 0}), splat_at(3.2f, 5.1f, {10, 0, 0}, 1)};
   const Splat second[] = {splat_at(3.9f, 5.9f, {4, 0, 0}, 1)};
   buffer.add(first);

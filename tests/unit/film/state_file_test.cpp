@@ -1,5 +1,4 @@
-// A state as a file: what is written comes back, and what is missing, of another size or damaged is
-// said.
+// A state as a file: data are read back; missing, damaged or wrongly sized data are reported.
 #include "film/state_file.h"
 
 #include <gtest/gtest.h>
@@ -142,7 +141,7 @@ TEST(StateFile, WhatIsOptionalMayBeMissingUnknownOrUnreadable) {
                                             "sense"});
 }
 
-// Wherever a bit falls or the file ends: that is said, or nothing that is loaded has changed.
+// Any flipped bit or early end is reported, or leaves the loaded data intact.
 TEST(StateFile, NoticesDamage) {
   const ScratchDirectory directory;
   const std::string path = directory.file("a.state"), broken = directory.file("b.state");
@@ -168,7 +167,7 @@ TEST(StateFile, NoticesDamage) {
   EXPECT_GT(noticed, tried * 9 / 10) << "compressed blocks have bits that mean nothing";
 }
 
-// An earlier or a later build is not taken for damage.
+// A file of another version is not reported as damaged.
 TEST(StateFile, SaysThatAnotherVersionWroteIt) {
   const ScratchDirectory directory;
   const std::string path = directory.file("a.state");
@@ -193,7 +192,7 @@ TEST(StateFile, NamesTheFileThatItCannotRead) {
   }
 }
 
-// An index is believed only as far as its blocks lie within the file.
+// An index is accepted only if its blocks lie within the file.
 TEST(StateIndex, ComesBackAndMustMakeSense) {
   StateIndex index{{8, 8}, {0, 0, 8, 8}, {{"key", "value"}}, {}};
   index.sections.push_back({"a", 12, 48 * 10000, 5, 100, {10, 20}});
@@ -218,7 +217,7 @@ TEST(StateIndex, ComesBackAndMustMakeSense) {
   EXPECT_THROW(StateIndex::from_bytes(some, 130), IoError);
 }
 
-// Sums of a picture have zeros above and below.
+// Sums of pictures have zeros in their highest and lowest bytes.
 TEST(PackedBlocks, BytesOfEqualPlacePackBetter) {
   std::vector<uint64_t> sums(1000);
   uint32_t x = 1;

@@ -1,4 +1,4 @@
-// The measures against numbers worked out by hand, and the promises of the heat map's colours.
+// Error measures against hand-computed numbers, and the guarantees of the heat map's colours.
 #include "image/compare.h"
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ TEST(Compare, HandComputed) {
   EXPECT_NEAR(c.rmse, std::sqrt(5.01 / 9), 1e-7);
   const double pixels[3] = {1 / 1.01 / 3, 0.01 / 0.01 / 3, 4 / 4.01 / 3};
   EXPECT_NEAR(c.relmse, (pixels[0] + pixels[1] + pixels[2]) / 3, 1e-7);
-  // One pixel is dropped, the worst: the second is 1/3, the third a little less.
+  // Only the worst pixel is dropped: the second is 1/3, the third slightly less.
   EXPECT_NEAR(c.relmse_trim, (pixels[0] + pixels[2]) / 2, 1e-7);
   EXPECT_NEAR(c.mean.value, (2 + 1 + 1 + 0.1 + 2 + 2) / 9 - 1, 1e-7);
   EXPECT_FALSE(c.mean.half_width.has_value());
@@ -46,7 +46,7 @@ TEST(Compare, HandComputed) {
 
 TEST(Compare, TrimDropsOneInAThousand) {
   std::vector<float> reference(3 * 3000, 1.0f), test = reference;
-  // Three pixels of 3000 may go: the fourth largest stays.
+  // Three pixels of 3000 may be dropped: the fourth largest stays.
   for (size_t i = 0; i < 4; ++i) test[3 * 700 * i] = 1 + 10 * static_cast<float>(i + 1);
   const Comparison c = compare_pictures(rgb(reference), rgb(test), {});
   EXPECT_NEAR(c.relmse_trim, 100 / 1.01 / 3 / 2997, 1e-9);
@@ -80,7 +80,7 @@ TEST(Compare, DimMeanLeavesBrightPixelsOutAndPropagatesBothErrors) {
   EXPECT_EQ(r.pixels, 2u);
   const double ratio = 14.0 / 12.0;
   EXPECT_NEAR(r.value, ratio - 1, 1e-12);
-  // Channels fully correlated, pixels independent: sums of stderr per pixel, squared.
+  // Channels are fully correlated, pixels independent: per pixel, sums of stderr squared.
   const double test_variance = 0.6 * 0.6 + 0.1 * 0.1;
   const double reference_variance = 0.4 * 0.4 + 0.3 * 0.3;
   const double sigma = std::sqrt(test_variance + ratio * ratio * reference_variance) / 12.0;
@@ -120,21 +120,21 @@ double luminance(const HeatColor& c) {
 TEST(Compare, DeviationsAreInUnitsOfBothErrors) {
   const Picture reference =
       picture_of(kWithError, {1, 1, 1, .3f, .3f, .3f, 2, 2, 2, 0, 0, 0, 3, 3, 3, 0, 0, 0});
-  // z of 2 in one channel, of 4 in one channel, and a pixel that is equal and has no error.
+  // z of 2 in one channel, of 4 in one channel, and an equal pixel without an error.
   const Picture test =
       picture_of(kWithError, {2, 1, 1, .4f, .4f, .4f, 2, 6, 2, 1, 1, 1, 3, 3, 3, 0, 0, 0});
   const Comparison c = compare_pictures(reference, test, {});
   ASSERT_TRUE(c.deviations);
   EXPECT_NEAR(c.deviations->share_within, 2.0 / 3, 1e-12);
   EXPECT_NEAR(c.deviations->rms, std::sqrt((4.0 + 16.0) / 9), 1e-6);
-  // Of nine values one is two and one four errors off.
+  // Of nine values one is two standard errors off, and one four.
   EXPECT_NEAR(c.deviations->share_in_95, 7.0 / 9, 1e-12);
   EXPECT_FALSE(compare_pictures(reference, rgb({1, 1, 1, 2, 2, 2, 3, 3, 3}), {}).deviations);
 }
 
 TEST(HeatMap, LargerErrorsAreLighter) {
   double last = -1;
-  // Steps of an eighth of a decade are far more than the rounding of codes.
+  // Steps of an eighth of a decade are far above the rounding of codes.
   for (double exponent = -5; exponent <= 1.0001; exponent += 0.125) {
     const double y = luminance(heat_color(std::pow(10.0, exponent)));
     EXPECT_GT(y, last) << exponent;

@@ -1,6 +1,5 @@
-// FLIP: what must hold of any such measure, and values of a second implementation that was written
-// from the paper with whole two-dimensional filters, where this one has products of rows and
-// columns.
+// FLIP: general properties, and values of a second implementation, written from the paper with
+// two-dimensional filters. This one uses separable filters.
 #include "image/flip.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +14,7 @@
 namespace nephroid {
 namespace {
 
-/// Colours in [0,1] that look random.
+/// Pseudo-random colours in [0,1].
 std::vector<Rgb> pattern(int width, int height, int k) {
   std::vector<Rgb> colors;
   for (int y = 0; y < height; ++y)
@@ -28,7 +27,7 @@ std::vector<Rgb> pattern(int width, int height, int k) {
   return colors;
 }
 
-/// A pattern, mixed with a share of another.
+/// A pattern mixed with a share of another one.
 std::vector<Rgb> disturbed(int width, int height, float share) {
   std::vector<Rgb> colors = pattern(width, height, 0);
   const std::vector<Rgb> other = pattern(width, height, 3);
@@ -69,7 +68,7 @@ TEST(Flip, GrowsWithTheDistortion) {
   }
 }
 
-// Colours are floats here and doubles there.
+// Colours are floats here and doubles in the other implementation.
 constexpr double kTolerance = 2e-6;
 
 TEST(Flip, ValuesOfTheSecondImplementation) {
@@ -122,7 +121,7 @@ TEST(Flip, ColoursAsAScreenShowsThem) {
   EXPECT_FLOAT_EQ(colors[1].r, 0.25f);
   EXPECT_EQ(colors[1].g, 0);
   EXPECT_EQ(colors[1].b, 0);
-  // Full green of a wider space is beyond what sRGB has: no red is left.
+  // Full green of a wider space is outside sRGB: no red is left.
   Picture wide = picture_of({"R", "G", "B"}, {0, 0.5f, 0});
   wide.color_space = RgbColorSpace::find("rec2020");
   const Rgb green = display_colors(wide, 1)[0];

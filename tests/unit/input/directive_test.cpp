@@ -1,4 +1,4 @@
-// The directives that make up a scene: what they add, what they inherit and what they refuse.
+// The directives that make up a scene: what they add, inherit and refuse.
 #include <gtest/gtest.h>
 
 #include "input/format_rows.h"

@@ -1,4 +1,4 @@
-// Headers that the library must not be given, and those that it may.
+// EXR headers that must not reach the library, and those that may.
 #include "input/exr_header.h"
 
 #include <gtest/gtest.h>
@@ -62,7 +62,7 @@ TEST_F(ExrHeader, ClaimsBeyondTheFileAreFaults) {
   EXPECT_NE(fault(text("negative") + text("string") + number(0xffffffff) + "abc" + text("")), "");
   EXPECT_NE(fault(attribute("dataWindow", "box2i", box(0, 0, 60000, 60000)) + text("")), "");
   EXPECT_NE(fault(attribute("dataWindow", "box2i", box(0, 0, 6000000, 7)) + text("")), "");
-  // The second part, too.
+  // Also the second part.
   EXPECT_NE(
       fault(kSound + text("") + attribute("dataWindow", "box2i", box(0, 0, 60000, 60000)), 0x1002),
       "");
@@ -83,7 +83,7 @@ TEST_F(ExrHeader, TilesAndBlocksOfAllThreadsAreBoundedWithAllTheirChannels) {
     return attribute("dataWindow", "box2i", box(0, 0, width - 1, height - 1));
   };
   const std::string end = text(""), four = channels(4, kFloat), five = channels(5, kFloat);
-  // 64 MiB each, and 16 of them.
+  // Four channels of 16 MiB each make 64 MiB tiles: four are allowed, five are not.
   EXPECT_EQ(fault(four + window(4096, 4096) + tiles(2048, 2048) + end + std::string(32, 'x')), "");
   EXPECT_NE(fault(five + window(4096, 4096) + tiles(2048, 2048) + end + std::string(32, 'x')), "");
   EXPECT_NE(fault(tiles(2048, 2048) + five + end), "") << "in any order";

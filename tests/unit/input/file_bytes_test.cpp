@@ -1,4 +1,4 @@
-// Whole files, packed and not, and the errors that name them.
+// Whole files, compressed or not, and errors that name them.
 #include "input/file_bytes.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ using testing::error_of;
 using testing::gzip;
 using testing::TemporaryDirectory;
 
-/// Bytes that do not pack well, from a small linear congruential generator.
+/// Poorly compressible bytes from a small linear congruential generator.
 std::string noise(size_t size) {
   std::string bytes(size, '\0');
   uint32_t state = 1;

@@ -1,4 +1,4 @@
-// What files of other programs are called when they are given as a scene.
+// Recognizes files of other programs that are given as a scene.
 #include "input/foreign_file.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// gzip by way of zlib's deflate.
+// gzip by zlib's deflate.
 #include "unit/input/gzip_bytes.h"
 
 #include <zlib.h>

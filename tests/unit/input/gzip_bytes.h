@@ -1,5 +1,4 @@
-// Packs bytes as a gzip file, to test that they are unpacked again.
-// Used by the tests of this folder only.
+// Packs bytes as a gzip file, to test unpacking.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Include and Import: where files are looked for, what scope they have, and how they fail.
+// Include and Import: search paths, scopes and errors.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -159,7 +159,7 @@ TEST_F(IncludeTest, TheSameFileTwiceIsNoCycle) {
 }
 
 TEST_F(IncludeTest, TheNumberOfFilesIsLimited) {
-  // Each file has the next one twice.
+  // Each file includes the next one twice.
   constexpr int kLast = 40;
   for (int i = 0; i < kLast; ++i) {
     const std::string next = "Include \"" + std::to_string(i + 1) + ".pbrt\"\n";

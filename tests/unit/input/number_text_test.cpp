@@ -1,4 +1,4 @@
-// Every spelling of a number that scene files use, and what is no number.
+// Every spelling of a number in scene files, and texts that are no number.
 #include "input/number_text.h"
 
 #include <gtest/gtest.h>
@@ -50,7 +50,7 @@ TEST(NumberText, PassesOnWhatIsNotFinite) {
   EXPECT_TRUE(std::isnan(*parse_number("nan")));
 }
 
-// Whatever stands before the exponent, and however long that is.
+// For any digits before the exponent, and any number of them.
 TEST(NumberText, RoundsWhatNoDoubleHolds) {
   const std::string zeros(400, '0');
   const std::string huge[] = {"1e309",

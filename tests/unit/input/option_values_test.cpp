@@ -1,4 +1,4 @@
-// Texts of options that are understood, and those that must not be.
+// Option texts that are valid, and those that must be refused.
 #include "input/option_values.h"
 
 #include <gtest/gtest.h>

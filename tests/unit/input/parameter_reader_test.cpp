@@ -1,4 +1,4 @@
-// Every parameter type: its spellings, its values with and without brackets, and what is refused.
+// Every parameter type: spellings, values with and without brackets, and errors.
 #include "input/parameter_reader.h"
 
 #include <gtest/gtest.h>

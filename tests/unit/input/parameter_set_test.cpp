@@ -1,4 +1,4 @@
-// The getters of ParameterSet: values, defaults, errors with their place, and unused parameters.
+// The getters of ParameterSet: values, defaults, located errors, and unused parameters.
 #include <gtest/gtest.h>
 
 #include "input/format_rows.h"
@@ -120,7 +120,7 @@ TEST(ParameterSet, AWrongCountIsALocatedError) {
             "scene.pbrt:2:1: parameter \"p\" has 6 numbers, expected 3");
 }
 
-// Sets need not come from the parser; the getters trust nobody.
+// The getters also check sets that do not come from the parser.
 TEST(ParameterSet, ChecksSetsThatNoParserMade) {
   ParameterSet set;
   Parameter parameter;

@@ -1,5 +1,4 @@
-// Short ways to parse a text and to get at the message of the error that it causes.
-// Used by the tests of this folder only.
+// Parses a text and extracts the messages of its errors and warnings.
 #pragma once
 
 #include <string>
@@ -14,7 +13,7 @@ inline SceneDescription parse(const std::string& text) {
   return parse_pbrt_string(text, "t.pbrt", ".", diagnostics);
 }
 
-/// What the error says that `action` causes, or "no error".
+/// The message of the error that `action` throws, or "no error".
 template <class Action>
 std::string error_of(const Action& action) {
   try {
@@ -29,7 +28,7 @@ inline std::string parse_error(const std::string& text) {
   return error_of([&] { parse(text); });
 }
 
-/// All warnings of `text`, each with its place and on its own line.
+/// All warnings of `text`, each with its location and on its own line.
 inline std::string parse_warnings(const std::string& text) {
   Diagnostics diagnostics;
   parse_pbrt_string(text, "t.pbrt", ".", diagnostics);

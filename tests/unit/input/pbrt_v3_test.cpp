@@ -1,4 +1,4 @@
-// Scenes with names of pbrt-v3: what they become, what is said of it, and what is refused.
+// Scenes with names of pbrt-v3: how they are converted, the warnings, and what is refused.
 #include "input/pbrt_v3.h"
 
 #include <gtest/gtest.h>
@@ -101,7 +101,7 @@ TEST(PbrtV3, MaterialsThatAreTheSame) {
   EXPECT_EQ(skin.parameters.get_float("eta", 0), 1.3f);
 }
 
-// The microfacet alpha stays what it was: pbrt-v4 takes the root of a roughness.
+// The microfacet alpha is kept: pbrt-v4 takes the square root of a roughness.
 TEST(PbrtV3, RoughnessGivesTheSameMicrofacets) {
   const auto alpha = [](const std::string& text) {
     return std::sqrt(material(text).parameters.get_float("roughness", -1));

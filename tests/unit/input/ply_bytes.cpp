@@ -1,4 +1,4 @@
-// Encodes values for PLY files, whatever the byte order of this machine.
+// Encodes values for PLY files, for any byte order of this machine.
 #include "unit/input/ply_bytes.h"
 
 #include <bit>

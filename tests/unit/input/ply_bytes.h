@@ -1,5 +1,4 @@
 // Writes small PLY files in each of the three encodings, value by value.
-// Used by the tests of this folder only.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +14,7 @@ class PlyBytes {
 
   /// Adds the header; `body` is its lines between "format" and "end_header".
   PlyBytes& header(const std::string& body);
-  /// Adds one value of the PLY type with that name.
+  /// Adds one value of the named PLY type.
   PlyBytes& add(const std::string& type, double value);
   const std::string& bytes() const { return bytes_; }
 

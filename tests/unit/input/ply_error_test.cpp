@@ -1,4 +1,4 @@
-// What is wrong with a PLY file, said exactly.
+// Exact error messages on PLY files.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -31,7 +31,8 @@ class PlyErrorTest : public ::testing::Test {
     EXPECT_EQ(message.substr(0, start.size()), start);
     return message.size() > start.size() ? message.substr(start.size()) : message;
   }
-  /// Three vertices and one face with these corners, as text and as bytes: both must say the same.
+  /// Three vertices and one face with these corners, as text and as bytes: both must give the same
+  /// error.
   std::string error_of_face(const std::vector<double>& corners,
                             const std::string& list = "uchar int") {
     std::string messages[2];
@@ -111,7 +112,7 @@ TEST_F(PlyErrorTest, ShortFilesTellWhatIsMissing) {
             "the file is too short: 3 elements \"vertex\" need at least 18 bytes, 6 are missing");
 }
 
-// Neither memory nor time goes into what a header merely claims.
+// Sizes that a header merely claims cost neither memory nor time.
 TEST_F(PlyErrorTest, HugeClaimsAreRefusedAtOnce) {
   const std::string coordinates = "property float x\nproperty float y\nproperty float z\n";
   for (const std::string format : {"ascii", "binary_little_endian", "binary_big_endian"}) {

@@ -34,7 +34,7 @@ INSTANTIATE_TEST_SUITE_P(AllEncodings, PlyTest,
                          ::testing::Values(PlyEncoding::kAscii, PlyEncoding::kLittleEndian,
                                            PlyEncoding::kBigEndian));
 
-/// Four vertices of a unit square, a triangle and a quad.
+/// Four vertices of a unit square, with a triangle and a quad.
 std::string square(PlyEncoding encoding) {
   PlyBytes ply(encoding);
   ply.header(
@@ -87,7 +87,7 @@ TEST_P(PlyTest, CutsLargeFacesIntoTriangles) {
   const MeshData mesh = read(
       hexagon(GetParam(),
               {{{0, 1, 2, 3, 4, 5}, 7}, {{0, 1, 2}, 8}, {{0, 1, 2, 3}, 9}, {{5, 4, 3, 3}, 10}}));
-  // Triangles of the file come first, quads stay what they are, even those with three corners.
+  // The file's triangles come first. Quads stay quads, also those with three distinct corners.
   ASSERT_EQ(mesh.triangles.size(), 3u * 5);
   EXPECT_EQ(Indices(mesh.triangles.begin(), mesh.triangles.begin() + 3), Indices({0, 1, 2}));
   EXPECT_EQ(mesh.quads, Indices({0, 1, 2, 3, 5, 4, 3, 3}));
@@ -134,7 +134,7 @@ TEST_P(PlyTest, ValuesOfVerticesThatNoFaceUsesDoNotMatter) {
   EXPECT_EQ(mesh.positions.at(3), Vec3f(0, 0, 0));
   EXPECT_EQ(mesh.uvs.at(3), Vec2f(0, 0));
   EXPECT_EQ(mesh.uvs.at(2), Vec2f(0.5f, 0.5f));
-  // Normals are left to whoever checks the mesh.
+  // Normals are checked with the mesh, not here.
   EXPECT_TRUE(std::isnan(mesh.normals.at(0).x));
 }
 
@@ -266,11 +266,11 @@ TEST_P(PlyTest, FacesMayComeBeforeVertices) {
   EXPECT_EQ(mesh.positions.size(), 3u);
 }
 
-// Whatever byte the file ends at, the answer is an error that tells so, never a crash.
+// A file that is cut off at any byte gives an error that says so.
 TEST_P(PlyTest, EveryTruncationIsAnError) {
   const std::string whole = square(GetParam());
   const size_t body = whole.find("end_header\n") + 11;
-  // The last character of a text is a blank that nothing misses, and so is the digit before it.
+  // A text ends with a blank that may be missing.
   const size_t end = whole.size() - (GetParam() == PlyEncoding::kAscii ? 1 : 0);
   for (size_t size = body; size < end; ++size) {
     try {

@@ -1,4 +1,4 @@
-// Triangles of polygons: the area, the winding and the inside stay what they were.
+// Triangulated polygons keep their area, winding and interior.
 #include "input/polygon_triangles.h"
 
 #include <gtest/gtest.h>
@@ -20,8 +20,8 @@ Vec3d area_vector(const Corners& ring) {
   return sum;
 }
 
-/// n - 2 triangles of known corners, all of which wind as the polygon does and are in sum as large:
-/// so none overlaps another or sticks out.
+/// Expects n - 2 triangles of the ring's corners that wind like the polygon and have its total
+/// area: so none overlaps another or sticks out.
 void expect_good_triangles(const Corners& ring, double tolerance = 1e-6) {
   const std::vector<uint32_t> t = triangulate_polygon(ring);
   ASSERT_EQ(t.size(), 3 * (ring.size() - 2));
@@ -39,7 +39,7 @@ void expect_good_triangles(const Corners& ring, double tolerance = 1e-6) {
   EXPECT_EQ(used.size(), ring.size());
 }
 
-/// The ring as it is, backwards, from every corner, and out of the plane of x and y.
+/// Tests the ring itself, reversed, from every corner, and rotated out of the xy plane.
 void expect_good_from_everywhere(const Corners& ring) {
   const auto turned = [](const Vec3f& p) {
     return Vec3f(0.36f * p.x - 0.8f * p.y, 0.48f * p.x + 0.6f * p.y, 0.8f * p.x) * 7.0f +
@@ -80,7 +80,7 @@ TEST(PolygonTriangles, Concave) {
   expect_good_from_everywhere({{0, 0, 0}, {3, 0, 0}, {3, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}});
   expect_good_from_everywhere(star(5, 0.3f));
   expect_good_from_everywhere(star(17, 0.02f));
-  // A comb, whose teeth see nothing of each other.
+  // A comb whose teeth cannot see each other.
   Corners comb = {{20, 5, 0}, {0, 5, 0}};
   for (int i = 0; i < 10; ++i) {
     const auto x = static_cast<float>(2 * i);
@@ -98,7 +98,7 @@ TEST(PolygonTriangles, CornersOnAnEdge) {
 }
 
 TEST(PolygonTriangles, AHoleBehindADoubleEdge) {
-  // A square with a square hole, as programs write it that know no holes.
+  // A square with a square hole, as written by programs without holes.
   const Corners ring = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}, {0, 0, 0},
                         {1, 1, 0}, {1, 3, 0}, {3, 3, 0}, {3, 1, 0}, {1, 1, 0}};
   EXPECT_NEAR(area_vector(ring).z, 12.0, 1e-9);
@@ -136,7 +136,7 @@ TEST(PolygonTriangles, WithoutAreaOrCrossingThemselvesTheyStillEnd) {
 TEST(PolygonTriangles, LargeOnesTakeNoTimeToSpeakOf) {
   const auto start = std::chrono::steady_clock::now();
   expect_good_triangles(star(2000, 0.9f), 1e-4);
-  // Generous, for slow machines: it is about a hundredth of this.
+  // Generous, for slow machines: it takes about a hundredth of this.
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
 }
 

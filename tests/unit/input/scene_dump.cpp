@@ -1,4 +1,4 @@
-// Writes a SceneDescription as text; numbers with nine digits, matrices row by row.
+// Writes a SceneDescription as text: numbers with nine digits, matrices row by row.
 #include "unit/input/scene_dump.h"
 
 #include <cstdio>

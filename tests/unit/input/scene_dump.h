@@ -1,5 +1,4 @@
-// A SceneDescription as text, one fact a line, for comparison with the files in golden/.
-// Used by the tests of this folder only.
+// A SceneDescription as text, one fact per line, to compare with the files in golden/.
 #pragma once
 
 #include <string>
@@ -8,7 +7,7 @@
 
 namespace nephroid::testing {
 
-/// Everything that the description holds, then the warnings. Places are without their directory.
+/// All of the description, then the warnings. Locations omit their directory.
 std::string dump(const SceneDescription& scene, const Diagnostics& diagnostics);
 
 }  // namespace nephroid::testing

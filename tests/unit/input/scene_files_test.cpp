@@ -25,7 +25,7 @@ TEST(SceneFiles, NamesInPipesCountFromTheCurrentDirectory) {
   EXPECT_EQ(directory_of_scene("/dev/fd/3"), ".");
 }
 
-/// Hash of a scene of two files in a directory, read in one order or the other.
+/// Hash of a scene of two files in a directory, read in either order.
 uint64_t hash_of_scene(const TemporaryDirectory& directory, const std::string& top,
                        const std::string& mesh, bool mesh_first = false) {
   SceneFiles files(directory.path());

@@ -1,5 +1,4 @@
 // A directory for the files of one test, removed when the test ends.
-// Used by the tests of this folder and by the regression tests.
 #pragma once
 
 #include <cstdlib>

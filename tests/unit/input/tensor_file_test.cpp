@@ -1,4 +1,4 @@
-// Tensor files: what is read, and that nothing a damaged file says is believed.
+// Tensor files: reading, and robustness against damaged files.
 #include "input/tensor_file.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ void append(std::string& to, uint64_t value, int bytes) {
   for (int i = 0; i < bytes; ++i) to += static_cast<char>(value >> (8 * i) & 0xFF);
 }
 
-/// A file with these bytes in its table of fields and behind it.
+/// A file with this field table and these bytes after it.
 std::string file_with(uint32_t fields, const std::string& rest) {
   std::string bytes("tensor_file\0\1\0", 14);
   append(bytes, fields, 4);
@@ -37,7 +37,7 @@ std::string field(const std::string& name, int type, uint64_t offset,
   return bytes;
 }
 
-/// A matrix of floats and a text, in that order.
+/// A matrix of floats, then a text.
 std::string two_fields() {
   std::string table = field("m", 10, 0, {2, 3}) + field("text", 1, 0, {5});
   const uint64_t start = 18 + table.size();
@@ -118,7 +118,7 @@ TEST(TensorFile, ClaimsBeyondTheFileAreRefused) {
   for (const uint64_t offset : {uint64_t{40}, uint64_t{1} << 40, ~uint64_t{0}})
     EXPECT_NE(message_for(file_with(1, field("a", 1, offset, {1}))).find("at offset"),
               std::string::npos);
-  // Nothing is nothing, wherever it is and whatever the other extents say.
+  // An extent of zero makes a field empty, at any offset and with any other extents.
   const TensorFile empty(file_with(1, field("a", 10, ~uint64_t{0}, {huge, 0, huge})), "f", {});
   EXPECT_TRUE(TensorFile::floats(*empty.find("a")).empty());
 }

@@ -1,4 +1,4 @@
-// Words, strings, brackets and comments, with the place of each.
+// Words, strings, brackets and comments, each with its location.
 #include "input/tokenizer.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The transform directives, seen through the transform of a shape that follows them.
+// The transform directives, observed in the transform of the shape that follows.
 #include <gtest/gtest.h>
 
 #include <cmath>

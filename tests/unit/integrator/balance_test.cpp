@@ -1,5 +1,4 @@
-// How the work of a pass is shared out: against sums by hand, and against the best of all that can
-// be tried where the optimum is known.
+// Sample allocation, against sums by hand, and against all alternatives where the optimum is known.
 #include "integrator/mixed/balance.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +13,7 @@ PixelBounds tiles(int across, int down) {
 }
 
 TEST(SampleMap, IsOnePathForEachPixelAtFirst) {
-  // Tiles at the border are cut off.
+  // Tiles at the border are clipped.
   const PixelBounds b{3, 5, 3 + 2 * kTile + 1, 5 + kTile + 2};
   SampleMap map(b);
   ASSERT_EQ(map.counts().size(), 6u);
@@ -32,8 +31,8 @@ TEST(SampleMap, IsOnePathForEachPixelAtFirst) {
 TEST(SampleVariance, IsTheVarianceOverTheBrightnessOfATile) {
   const PixelBounds b = tiles(3, 1);
   SampleVariance spread(b);
-  // Each pixel of the first tile has four samples of mean 6, each of the second three of mean 60;
-  // those of the third have one and tell nothing.
+  // Each pixel of the first tile has four samples of mean 6, of the second tile three of mean 60.
+  // Those of the third have one sample, which gives no variance.
   for (int y = 0; y < kTile; ++y)
     for (int x = 0; x < 3 * kTile; ++x) {
       if (x < kTile)
@@ -52,7 +51,7 @@ TEST(SampleVariance, IsTheVarianceOverTheBrightnessOfATile) {
   EXPECT_NEAR(found.cost[1], 5, 1e-12);
   EXPECT_EQ(found.cost[2], 0);
 
-  // Light beside it makes the same spread less noisy.
+  // With light of another estimator added, the same variance counts less.
   SampleVariance beside(b);
   for (int y = 0; y < b.height(); ++y)
     for (int x = 0; x < b.width(); ++x)
@@ -62,7 +61,7 @@ TEST(SampleVariance, IsTheVarianceOverTheBrightnessOfATile) {
   EXPECT_NEAR(beside.by_tile().variance[2], (1000 - 15 * 30) / (15 * 1.1), 1e-12);
 }
 
-// [A6] needs the spread of the samples of two passes and of both together.
+// [A6] needs the variance within two passes and over both together.
 TEST(SampleVariance, AddsUp) {
   const PixelBounds b = tiles(2, 1);
   SampleVariance first(b), second(b), both(b);
@@ -78,7 +77,7 @@ TEST(SampleVariance, AddsUp) {
   EXPECT_EQ(first.by_tile().cost, both.by_tile().cost);
 }
 
-/// Blocks of tiles side by side, wide enough to have tiles none of whose neighbours differ.
+/// Blocks of tiles, side by side, wide enough to have tiles without differing neighbours.
 struct Blocks {
   static constexpr int kWidth = 5, kHeight = 3;
   explicit Blocks(const std::vector<std::pair<double, double>>& variance_and_cost)
@@ -97,7 +96,7 @@ struct Blocks {
   }
   int across;
   SampleVariance::ByTile spread;
-  std::vector<int> samples;  ///< in the middle of each block
+  std::vector<int> samples;  ///< samples per pixel in the middle of each block
 };
 
 // [A2]
@@ -106,8 +105,8 @@ TEST(AllocateSamples, GoesWithTheRootOfVarianceOverCost) {
                                                           {2, 1}, {50, 1}, {128, 4}, {2, 1}};
   const Blocks blocks(v_and_c);
   EXPECT_EQ(blocks.samples, (std::vector<int>{1, 2, 3, 2, 1, 5, 4, 1}));
-  // No other way to share out has less error for the same work: variance times cost grows whichever
-  // block has one path more or fewer.
+  // No other allocation has less error for the same work: variance times cost grows if any block
+  // has one path more or fewer.
   const auto expense = [&](const std::vector<int>& n) {
     double error = 0, work = 0;
     for (size_t i = 0; i < n.size(); ++i) {
@@ -125,8 +124,8 @@ TEST(AllocateSamples, GoesWithTheRootOfVarianceOverCost) {
 }
 
 TEST(AllocateSamples, KeepsItsBounds) {
-  // What is ten thousand times as noisy as the rest has eight paths; what is black has one, and
-  // does not make the quiet look noisy.
+  // A block ten thousand times as noisy as the rest has eight paths. A black block has one, and
+  // does not make quiet ones look noisy.
   EXPECT_EQ(Blocks({{1, 1}, {1e4, 1}, {1, 1}, {4, 1}, {1, 1}, {1, 1}, {1, 1}, {1, 1}}).samples,
             (std::vector<int>{1, 8, 1, 2, 1, 1, 1, 1}));
   EXPECT_EQ(Blocks({{0, 1}, {1, 1}, {1, 1}, {1, 1}, {1, 1}, {1, 1}, {9, 1}}).samples,
@@ -141,14 +140,14 @@ TEST(AllocateSamples, LooksForChainsWhereThatIsCheaper) {
     double chains, cost, choice;
     int expected_paths, expected_chains;
   };
-  // Camera paths have variance 4 and take 4 rays.
+  // Camera paths have variance 4 and cost 4 rays.
   const std::vector<Block> blocks = {
-      {0, 1, 0, 1, 0},       // nothing to be seen there
-      {0, 3, 0, 1, 1},       // boundaries, but no light so far: it may be a rare one
+      {0, 1, 0, 1, 0},       // no boundaries, no light
+      {0, 3, 0, 1, 1},       // boundaries, but no light yet: it may be rare
       {2, 9, 3, 1, 0},       // a tree costs more than it gains
       {1, 4, 100, 1, 1},     // rare reflections of lamps
-      {36, 4, 1000, 1, 3},   // bright ones
-      {1e6, 4, 1e8, 1, 32},  // never more than this
+      {36, 4, 1000, 1, 3},   // bright reflections
+      {1e6, 4, 1e8, 1, 32},  // the maximum
       {0, 1, 0, 1, 0},
   };
   constexpr int kSide = 5;
@@ -173,11 +172,11 @@ TEST(AllocateSamples, LooksForChainsWhereThatIsCheaper) {
 }
 
 TEST(AllocateSamples, HasFewPathsAPass) {
-  // Shares stay in proportion, but what is quiet has more than its own.
+  // Ratios are kept, but quiet blocks have more than their share.
   const std::vector<int> samples =
       Blocks({{1, 1}, {64, 1}, {64, 1}, {64, 1}, {16, 1}, {64, 1}}).samples;
   EXPECT_EQ(samples, (std::vector<int>{1, 3, 3, 3, 1, 3}));
-  // Or as few as the caller asks for.
+  // The caller's upper limit on the mean holds.
   SampleVariance::ByTile spread;
   for (int i = 0; i < 24; ++i) {
     spread.variance.push_back(i < 4 ? 1 : 64);
@@ -216,8 +215,8 @@ TEST(WinsorizedMean, LeavesOutTheFewThatStandOut) {
   EXPECT_NEAR(winsorized_mean(values), 5, 0.02);
 }
 
-/// A pass whose camera paths have variance a and cost c for each path of a pixel, its N light paths
-/// b/N and d N.
+/// A model pass: per pixel, camera paths have variance a and cost c; N light paths have variance
+/// b/N and cost d N.
 struct Model {
   double a, b, c, d;
   double variance(double camera, double light) const {
@@ -276,7 +275,7 @@ TEST(Balance, HasAFewestNumberOfLightPathsUnlessTheyLeaveTooManyPhotons) {
   EXPECT_EQ(balance.light_paths(1), static_cast<int64_t>(balance.max_photons / 4));
 }
 
-// A lattice that stands for a larger film: as many light paths for each pixel, at the same
+// A small lattice of pixels represents a larger film: as many light paths per pixel, at the same
 // efficiency.
 TEST(Balance, GrowsWithTheFilm) {
   const Model m{0.2, 500, 1e5, 4};
@@ -313,10 +312,10 @@ TEST(SampleMap, HasLargerTilesWhereItIsLearnedFromFewerPixels) {
 }
 
 TEST(Balance, KeepsItsBoundsWhateverTrialsSay) {
-  // Light paths that bring no noise are as few as can be, and so are those that cost nothing.
+  // Light paths that add no noise, or cost nothing, are reduced to the minimum.
   EXPECT_EQ(Balance(Model{0.2, 0, 1e5, 4}.trial(1 << 16)).light_paths(1), 1024);
   EXPECT_EQ(Balance(Model{0.2, 500, 1e5, 0}.trial(1 << 16)).light_paths(1), 1024);
-  // Camera paths that bring none leave the light paths some.
+  // Camera paths without noise do not give all work to light paths.
   const Balance still(Model{0, 500, 1e5, 4}.trial(1 << 16));
   EXPECT_LT(still.light_paths(1), 1 << 22);
   EXPECT_EQ(still.light_paths(1e3), 1 << 22);

@@ -1,4 +1,4 @@
-// The table of estimators: complete rows, each name once.
+// The table of estimators: complete rows and unique names.
 #include "integrator/presets/estimator_table.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// The sums of an eye path with and without merges that only a caster makes possible, against the
-// recursion of one side (path_weights_test.cpp compares that with brute force).
+// Partial MIS weights of an eye path, with and without merges that need a caster, against the
+// recursion of one side. path_weights_test.cpp compares that with brute force.
 #include "integrator/bidirectional/eye_weights.h"
 
 #include <gtest/gtest.h>
@@ -42,8 +42,8 @@ TEST(EyePartialWeights, AreThoseOfOneSideWhereAllMerges) {
   }
 }
 
-// Against the rule itself: a merge at a D needs a caster behind it, one at a G an S; casters are S
-// alone, or G as well.
+// The rule: a merge at a D needs a caster behind it, one at a G needs an S. Casters are S alone, or
+// G as well.
 class Casters : public testing::TestWithParam<std::tuple<bool, std::string>> {};
 INSTANTIATE_TEST_SUITE_P(
     EyePartialWeights, Casters,
@@ -59,7 +59,7 @@ TEST_P(Casters, LetVerticesBeforeThemMerge) {
   EyePartialWeights eye(false, CasterRule(with_glossy ? ClassMask::kSpecular | ClassMask::kGlossy
                                                       : ClassMask::kSpecular));
   eye.arrive_first(0);
-  // What stands behind the last vertex: nothing but the light, a G, or an S.
+  // What follows the last vertex: only the light, a G, or an S.
   const std::string behind[] = {"", "G", "S"};
   const auto merges = [&](size_t i, const std::string& word) {
     const bool s = word.find('S', i + 1) != std::string::npos;

@@ -1,4 +1,5 @@
-// What a forecast learns: photons of lights that met casters first, once and for all passes.
+// Learning of forecasts: photons that met casters on their way from lights, traced once for all
+// passes.
 #include <gtest/gtest.h>
 
 #include "photon/forecast_map.h"
@@ -9,8 +10,8 @@ namespace {
 
 using namespace testing_support;
 
-// A lamp above a floor, a mirror beside it, and a screen that may hide the lamp from the mirror,
-// but not from what the mirror sees.
+// A lamp above a floor, a mirror at its side, and a screen that may hide the lamp from the mirror.
+// The mirror still sees the lit floor.
 std::string mirror_and_lamp(bool hidden) {
   return std::string(R"(
   LookAt 0 3 -5  0 0.4 0  0 1 0
@@ -58,7 +59,7 @@ TEST(Forecast, IsLearnedOnce) {
   EXPECT_EQ(later.photons_stored, first.photons_stored);
 }
 
-// What is said of records is of those that are there, and only if they change directions.
+// Notes on records describe existing records, and only those that change directions.
 TEST(Forecast, SaysWhatItsSightsAreGoodFor) {
   const auto scene = scene_from_text(mirror_and_lamp(false));
   const std::vector<std::string> routes = {"all=.*:forecast"};
@@ -76,7 +77,7 @@ TEST(Forecast, SaysWhatItsSightsAreGoodFor) {
   EXPECT_EQ(both.notes, other.notes);
 }
 
-// What a mirror shows of a lit floor is no light that a walk could be sent to.
+// A lit floor seen in a mirror is no light that guides a path.
 TEST(Forecast, KnowsOnlyWhatComesFromLights) {
   const auto scene = scene_from_text(mirror_and_lamp(true));
   EXPECT_GT(
@@ -88,8 +89,7 @@ TEST(Forecast, KnowsOnlyWhatComesFromLights) {
   EXPECT_NE(s.notes[0].find("none of 8192"), std::string::npos);
 }
 
-// Photons are traced in rounds until there are records enough for a map, or it is clear that there
-// are hardly any.
+// Photons are traced in rounds until a map has enough records, or there are clearly almost none.
 TEST(Forecast, LearnsInRoundsForAsLongAsSightsAreFew) {
   constexpr uint64_t kRound = 1 << 16, kEnough = 1 << 15, kMax = 16 * kRound;
   const std::vector<std::string> routes = {"caustic=C.*[DG]S+L:forecast", "rest=.*:path"};

@@ -1,4 +1,4 @@
-// [E5], how far photons are merged.
+// [E5], the merge radius.
 #include "integrator/photons/merge_radius.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// [W12], how eye paths end behind merged photons.
+// [W12], Russian roulette of eye paths behind merged photons.
 #include "integrator/bidirectional/merge_roulette.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ TEST(MergeRoulette, IsPlayedBehindTheFirstRoughVertexOnly) {
   glossy.leave(EventClass::kDiffuse, false);
   EXPECT_EQ(glossy.survival(), 1) << "photons count once behind a rough event";
 
-  // Light on its way out from under a surface is that of the place where it comes out.
+  // Light that leaves below a surface counts where it leaves.
   MergeRoulette under(nullptr, false, 1);
   merge(under, 8);
   under.come_out();

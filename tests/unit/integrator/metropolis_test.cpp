@@ -1,5 +1,5 @@
-// Metropolis estimators: kinds of paths are chosen as often as they say, and what they report.
-// Their pictures are compared in tests/agreement/metropolis_test.cpp.
+// Metropolis estimators: kinds of paths are chosen with their stated probabilities, and statistics.
+// tests/agreement/metropolis_test.cpp compares pictures.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 using namespace testing_support;
 
-// The number of the one of a preset's estimators that chains explore.
+// Index of the estimator of a preset that runs Markov chains.
 size_t chains_of(const EstimatorSet& set) {
   for (size_t i = 0; i < set.estimators.size(); ++i) {
     const Estimator* e = set.estimators[i].get();
@@ -35,7 +35,7 @@ EstimatorStatistics statistics_of(const std::string& text, const std::string& in
   return set.statistics()[chains_of(set)];
 }
 
-/// How often each kind is chosen, of evenly spread numbers, is what the choice says.
+/// The choice picks each kind as often as it states, for evenly spread numbers.
 void expect_shares(const KindChoice& choice) {
   constexpr int kSide = 512;
   std::vector<int> found(choice.kinds(), 0);
@@ -84,8 +84,8 @@ TEST(KindChoice, ChoosesAsOftenAsItSays) {
 }
 
 TEST(KindChoice, TriesWhatIsSeldomAndBrightMoreOftenThanItAddsLight) {
-  // Two kinds with the same mean light; one has it in a hundredth of its paths. The noise of
-  // independent paths is least with probabilities as the roots of the mean squares: ten to one.
+  // Two kinds have the same mean light, but one has it in a hundredth of its paths. Independent
+  // paths have the least noise with probabilities proportional to rms light: ten to one.
   const KindChoice guess(1);
   const double p = double{share_of(guess, 1, 0)};
   ASSERT_EQ(guess.kinds(), 4u);
@@ -105,7 +105,7 @@ TEST(Metropolis, CountsItsPathsAndSaysHowItWent) {
     options.edit<MetropolisOptions>().chain_length = 100;
     options.edit<MetropolisOptions>().large_step = 0.25f;
     const EstimatorStatistics s = statistics_of(kHead + kFilm + kWorld, integrator, options, 2);
-    // 2880 mutations are 29 chains of 100, and a bootstrap of a quarter as many.
+    // 2880 mutations are 29 chains of 100, plus a bootstrap a quarter as large.
     EXPECT_EQ(s.camera_paths, 2u * (2900 + 725)) << integrator;
     EXPECT_GT(s.rays, s.camera_paths / 2) << integrator;
     EXPECT_GT(s.splats, 1000u) << integrator;

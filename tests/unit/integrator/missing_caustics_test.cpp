@@ -1,4 +1,4 @@
-// Notes on caustics that are missing or elsewhere.
+// Notes on caustics that are missing, or rendered by another estimator.
 #include "integrator/photons/missing_caustics.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ using testing_support::owned_routes, testing_support::scene_from_text;
 
 constexpr const char* kStart = "Camera \"perspective\" WorldBegin LightSource \"point\"\n";
 
-/// The note on glossy caustics of a scene, or empty.
+/// The note on a scene's glossy caustics, or empty.
 std::string note_of(const std::string& world, bool by_path_tracing = true) {
   const auto scene = scene_from_text(kStart + world);
   EstimatorStatistics s;

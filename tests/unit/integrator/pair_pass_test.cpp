@@ -1,5 +1,5 @@
-// Passes of path+photons as they are numbered and measured: each goes on where the one before
-// ended, and what a pass tells of its variance does not depend on memory.
+// Numbering and measurement of path+photons passes: each pass continues the sample sequence of the
+// previous one, and its variance does not depend on memory.
 #include "integrator/bidirectional/pair_pass.h"
 
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@ namespace {
 
 using namespace testing_support;
 
-// Light that depends on the place alone: over that of even light in the same pass, which has the
-// same colours, a pixel tells where its paths came down.
+// Light that depends only on position. Divided by uniform light of the same pass, which has the
+// same colours, a pixel reveals where its paths hit.
 struct Places {
   PairView uneven{R"(LightSource "point" "rgb I" [9 9 9] "point3 from" [1.5 1.2 0.7])"};
   PairView even{
@@ -33,7 +33,7 @@ struct Places {
 TEST(PairPass, GoesOnWithThePointsThatThePassBeforeHasLeft) {
   const Places places;
   constexpr uint32_t kPaths = 3, kPasses = 3;
-  // One path a pass, in the order of their numbers.
+  // One path per pass, in the order of the sequence.
   std::vector<std::vector<double>> single;
   for (uint32_t i = 0; i < kPaths * kPasses; ++i)
     single.push_back(places.of(i, places.even.one_path));
@@ -62,7 +62,7 @@ TEST(PairPass, TellsTheSameVarianceInBatches) {
     options.memory_photons = memory;
     SampleVariance found(view.bounds);
     EstimatorStatistics statistics;
-    try_out(view.pass_of(pass, 0, options), format, {.paths = map}, found, statistics);
+    run_trial(view.pass_of(pass, 0, options), format, {.paths = map}, found, statistics);
     EXPECT_GT(statistics.photons_stored, 100u);
     return found.by_tile();
   };

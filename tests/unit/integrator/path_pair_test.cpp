@@ -1,6 +1,5 @@
-// The weights of pairs against brute force: both walks are run once more and written down, and the
-// densities of every technique of a path are multiplied up from its vertices, as [W1] says, without
-// the sums that walks carry along.
+// MIS weights of path pairs against brute force: both walks are repeated and recorded, and the
+// densities of all techniques are multiplied up by [W1]. The walks' partial weights are not used.
 #include "integrator/bidirectional/path_pair.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +16,7 @@ namespace {
 
 using namespace testing_support;
 
-/// A vertex of a path, of the eye's or the light's walk. Its material has one class.
+/// A vertex of an eye or light path. Its material has one class.
 struct Vertex {
   Vec3f p, ng{0, 0, 0}, ns{0, 0, 0};
   std::shared_ptr<BsdfArena> arena;
@@ -27,7 +26,7 @@ struct Vertex {
   bool delta = false;
 
   double cosine(const Vec3f& w) const { return length_squared(ng) > 0 ? abs_dot(ng, w) : 1.0; }
-  /// Density of scattering from where `from` lies to where `to` lies, both unit and world.
+  /// Density of scattering from direction `from` into `to`, both unit vectors in world space.
   double density(const Vec3f& from, const Vec3f& to, TransportMode mode) const {
     if (delta) return 1;
     if (!bsdf) return phase.eval(from, to);
@@ -38,14 +37,14 @@ struct Vertex {
   }
 };
 
-/// Where a path ends on a light.
+/// The end of a path on a light.
 struct LightEnd {
   int light = -1;
   Vec3f p{0, 0, 0}, ng{0, 0, 0};
-  Vec3f w{0, 0, 0};  ///< of infinite lights: towards them
+  Vec3f w{0, 0, 0};  ///< direction towards an infinite light
 };
 
-/// Writes down what a walk meets.
+/// Records the vertices of a walk.
 class Recorder {
  public:
   explicit Recorder(const Scene& scene) : scene_(scene) {}
@@ -97,7 +96,7 @@ class Recorder {
   const Scene& scene_;
 };
 
-/// The densities of all techniques of one path, [W1].
+/// Densities of all techniques of one path, [W1].
 class BruteForce {
  public:
   BruteForce(const Scene& scene, std::vector<Vertex> vertices, const LightEnd& end, double camera,
@@ -165,7 +164,7 @@ class BruteForce {
     const double solid = light_.pdf_towards(at(k).p, w, end_.p, end_.ng);
     return chosen * solid * (light_.is_infinite() ? 1 : factor(k, k + 1, lens));
   }
-  /// The measure in which the start of a distant light is counted: the direction's.
+  /// The measure for the start of a distant light: that of directions.
   double scale() const {
     return light_.is_infinite() ? double{light_.emission_pdf(end_.ng, -end_.w).pdf_a} : 1.0;
   }
@@ -249,7 +248,7 @@ TEST_P(PathPair, WeightsAreThoseOfBruteForce) {
         camera.walk.per_wavelength = true;
         return camera;
       };
-      // What the two walks do.
+      // Repeat the two walks.
       PathSampler eye_sampler(point, seed);
       CameraPath camera = start(eye_sampler);
       const Vec3f lens = camera.walk.ray.o;
@@ -278,7 +277,7 @@ TEST_P(PathPair, WeightsAreThoseOfBruteForce) {
       }
       for (int s = 0; s <= 4; ++s)
         for (int t = 1; t <= 4; ++t) {
-          // Its weight is that of the light with it over that without.
+          // The weight is the ratio of light with and without weights.
           double light_sum[2] = {};
           for (const bool weighted : {false, true}) {
             settings.technique = {s, t, true, weighted};
@@ -305,7 +304,7 @@ TEST_P(PathPair, WeightsAreThoseOfBruteForce) {
                             eye.vertices.begin() + static_cast<std::ptrdiff_t>(from_eye));
             for (int i = s - 2; i >= 0; --i)
               vertices.push_back(light.vertices[static_cast<size_t>(i)]);
-            // The last events of both are finite there, whatever the walks went on with.
+            // The connection evaluates both ends, whatever the walks sampled there.
             if (from_eye > 0) vertices[from_eye - 1].delta = false;
             if (s > 1) vertices[from_eye].delta = false;
             end = origin;
@@ -335,7 +334,7 @@ TEST_P(PathPair, WeightsAreThoseOfBruteForce) {
   std::printf("%d paths, %d outliers, largest difference %g\n", count, outliers, worst);
   EXPECT_GT(count, 2000);
   EXPECT_GE(checked.size(), 12u);
-  // Where a path grazes a surface, rounding of its vertices shows in the cosine.
+  // At grazing vertices the cosine is sensitive to rounding.
   EXPECT_LE(outliers, count / 1000);
 }
 

@@ -1,5 +1,5 @@
-// What is seen before any light path is traced: casters are where runs of specular events end that
-// began behind a rough vertex, and a small thing in a large place is found by them at once.
+// Guiding before any light path is traced. Casters are the ends of specular runs that start at a
+// rough vertex. A small object in a large scene is found at once.
 #include "integrator/learning/photon_guiding.h"
 
 #include <gtest/gtest.h>
@@ -45,11 +45,11 @@ TEST(CausticCasters, AreWhatSpecularRunsEndOn) {
   const auto glass = casters_of(kView + kGlass);
   EXPECT_GT(glass.size(), 20u);
   for (const Vec3f& p : glass) EXPECT_NEAR(length(p - Vec3f(0, 0.4f, 0)), 0.3f, 1e-4f);
-  // Seen from the floor, not from the camera.
+  // Visible from the floor, not from the camera.
   const auto mirror = casters_of(kView + kMirrorBehindTheEye);
   EXPECT_GT(mirror.size(), 20u);
   for (const Vec3f& p : mirror) EXPECT_NEAR(p.z, -6, 1e-4f);
-  // The camera's own look through glass is no caustic's: without a rough vertex in front.
+  // Glass in front of the camera is no caster: no rough vertex precedes it.
   EXPECT_TRUE(casters_of(R"(Camera "perspective" "float fov" 30
       Film "rgb" "integer xresolution" 64 "integer yresolution" 64 WorldBegin
       LightSource "infinite" "rgb L" [1 1 1]
@@ -64,8 +64,8 @@ TEST(CausticCasters, HaveNoNumbersOfTheirOwnInPathsThatAreTooShort) {
 }
 
 TEST(PhotonGuiding, FindsASmallThingThatChanceDoesNot) {
-  // Of all directions, 6 in a million are those in which the lamp shines on the glass: a tenth of
-  // a path of the 16384 of a round.
+  // The lamp emits 6 of a million photons towards the glass: a tenth of a path of the 16384 of a
+  // round.
   const auto scene = scene_from_text(kView + kGlass);
   const EstimatorSet set = make_estimators(Plan("doidge2012"), {}, *scene);
   const Film film = film_for(*scene, set);
@@ -88,12 +88,12 @@ TEST(PhotonGuiding, FindsASmallThingThatChanceDoesNot) {
     const Vec3f way = Vec3f(0, 0.4f, 0) - start->ray.o;
     met += length_squared(way - start->ray.d * dot(way, start->ray.d)) < 0.09f;
   }
-  // Others light the floor that is seen through the glass.
+  // The others light the floor behind the glass.
   EXPECT_GT(met, kPaths / 6);
 }
 
-// A lamp lights a spot on the floor, six metres away: of what that scatters next to nothing meets
-// the glass by chance.
+// A lamp lights a spot on the floor, six metres away. Almost none of the scattered light hits the
+// glass by chance.
 TEST(PhotonGuiding, AimFromTheFloorAtTheGlass) {
   std::string text = kView + kGlass;
   const std::string lamp = R"(LightSource "point" "rgb I" [900 900 900] "point3 from" [20 60 -10])";
@@ -114,12 +114,12 @@ TEST(PhotonGuiding, AimFromTheFloorAtTheGlass) {
   };
   EXPECT_GT(stored(guide), 500u);
   EXPECT_GT(stored(guide), 5 * stored(from_lights_alone));
-  // Where all photons are of use, those that bounce go as the surface has it.
+  // If all photons are useful, scattering is not guided.
   const OwnedRoutes all = owned_routes(*scene, {"all=.*:photons"});
   EXPECT_TRUE(guide_photons(1, *scene, film.format(), all, {}, true).guide.casters.empty());
 }
 
-// Casters are seen, but nothing shines on them: there is nothing to aim from.
+// Casters exist, but no light reaches them: there is nothing to guide.
 TEST(PhotonGuiding, StandsLampsThatAreBlack) {
   std::string text = kView + kGlass;
   const std::string lamp = "[900 900 900]";

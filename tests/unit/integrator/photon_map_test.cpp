@@ -1,5 +1,5 @@
-// Photon maps and hit points: what is traced once, whose photons are whose and what memory grows
-// with. Light that is known in closed form is in tests/analytic/photon_map_test.cpp.
+// Photon maps and hit points: emission once, the owner of photons, and memory.
+// tests/analytic/photon_map_test.cpp compares light with closed forms.
 #include "integrator/photon_mapping/photon_map.h"
 
 #include <gtest/gtest.h>
@@ -59,11 +59,11 @@ TEST(PhotonMap, IsTracedOnceAndEachRouteHasItsOwn) {
     EXPECT_NE(statistics[0].notes[0].find("'caustic'"), std::string::npos);
     EXPECT_EQ(statistics[2].photon_paths, 0u);
   }
-  // As many as 16 passes have, if nobody says how many.
+  // The default is the photons of 16 passes.
   options.edit<PhotonMapOptions>().map_photons = 0;
   options.photons_per_pass = 1024;
   EXPECT_EQ(statistics_after(*scene, "photonmap", options, 2)[1].photon_paths, 16u * 1024u);
-  // Memory ends the emission.
+  // The memory limit ends emission.
   options.edit<PhotonMapOptions>().map_photons = 1 << 20;
   options.memory_photons = 5000;
   const auto small = statistics_after(*scene, "photonmap", options, 2)[1];
@@ -118,7 +118,7 @@ TEST(Memory, IsCountedByAllThatHoldIt) {
     EXPECT_GT(held(name, 1).photon_bytes, 0u) << name;
     EXPECT_GT(held(name, 1).pixel_bytes, 0u) << name;
   }
-  // Pixels that are complete one by one need no room.
+  // Pixels that are completed one by one need no memory.
   EXPECT_GT(held("bpm", 1).photon_bytes, 0u);
   EXPECT_EQ(held("bpm", 1).pixel_bytes, 0u);
   for (const char* name : {"bdpt", "mlt", "pssmlt"}) {
@@ -129,9 +129,9 @@ TEST(Memory, IsCountedByAllThatHoldIt) {
   EXPECT_EQ(held("path-only", 1).pixel_bytes, 0u);
 }
 
-// The edge of two tiles is in the middle of a pixel, in x. All passes of a set have one moment and
-// one hero wavelength: if each set saw its own strip of the pixel only, the pixel would be made of
-// sixteen such pairs whatever the number of passes.
+// An edge between two tiles runs through the pixel. All passes of a set share time and hero
+// wavelength. If each set saw only its own strip, the pixel would consist of sixteen such pairs for
+// any number of passes.
 const std::string kEdge = R"(
   LookAt 0 1 0  0 0 0  0 0 1
   Camera "perspective" "float fov" 40
@@ -164,7 +164,7 @@ TEST(PhotonMap, EachSetSeesTheWholeOfAPixel) {
       mean += sets.back() / 16;
     }
     EXPECT_GT(mean, 0);
-    // One tile alone would be 5/3 or 1/3 of the mean.
+    // Seeing a single tile gives 5/3 or 1/3 of the mean.
     for (const double value : sets) EXPECT_NEAR(value, mean, 0.2 * mean) << "seed " << seed;
     const auto [least, most] = std::minmax_element(sets.begin(), sets.end());
     std::printf("sets: %.3f to %.3f of their mean\n", *least / mean, *most / mean);
@@ -177,7 +177,7 @@ TEST(PhotonMap, WalksDoNotRepeatWhenTheirNumberTakesMoreThan32Bits) {
   options.edit<PhotonMapOptions>().map_photons = 16 * 256;
   options.camera_samples_per_pass = 1 << 12;
   const Plan plan = plan_of({"all=C[DG].*:photonmap", "rest=.*:path"});
-  // The walks of the second have the numbers 2^32 + k in their set.
+  // Walks of the second render have the numbers 2^32 + k in their set.
   const Rgb first = render(*scene, plan, options, 1, 1, 0).value(0, 0);
   const Rgb later = render(*scene, plan, options, 1, 1, 16u << 20).value(0, 0);
   EXPECT_GT(first.g, 0.0f);

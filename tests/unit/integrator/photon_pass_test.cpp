@@ -1,5 +1,5 @@
-// The wavelengths and the moment of a pass: over any sixteen passes from a multiple of sixteen on,
-// every quarter of the spectrum meets every quarter of the time.
+// Wavelengths and time of a pass: in any sixteen passes from a multiple of sixteen on, each quarter
+// of the spectrum meets each quarter of the time.
 #include "integrator/photons/photon_pass.h"
 
 #include <gtest/gtest.h>
@@ -34,8 +34,8 @@ TEST(PhotonPass, HasAllWavelengthsAtAllTimes) {
     }
 }
 
-// [P5]: the colour of what does not disperse hangs on the places of wavelengths in their intervals,
-// that behind a prism on the heroes.
+// [P5]: without dispersion, colour depends on the positions of wavelengths in their intervals;
+// behind a prism it depends on the heroes.
 TEST(WavelengthsOfPass, PlacesAreEvenlySpacedAndHeroesInAllIntervals) {
   for (const uint64_t seed : {1, 2, 3})
     for (const uint32_t count : {2u, 4u, 8u, 16u, 64u, 256u})

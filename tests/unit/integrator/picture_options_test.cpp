@@ -1,5 +1,5 @@
-// What the scene's options change in a picture: samples without jitter, forced diffuse surfaces and
-// the layers of a gbuffer film.
+// Scene options that change a picture: pixels without jitter, forced diffuse surfaces, and the
+// layers of a gbuffer film.
 #include <gtest/gtest.h>
 
 #include "rendering.h"
@@ -12,7 +12,7 @@ using namespace testing_support;
 const std::string kFilm =
     R"(PixelFilter "box" Film "rgb" "integer xresolution" 4 "integer yresolution" 4 )";
 
-// A wall that is half lamp: without jitter each pixel is all lamp or none, and has no noise.
+// A wall that is half lamp: without jitter each pixel is all lamp or none, without noise.
 TEST(Options, PixelsWithoutJitter) {
   const std::string world = R"(Camera "orthographic" )" + kFilm + R"(WorldBegin
       AreaLightSource "diffuse" "rgb L" [1 1 1] "bool twosided" true
@@ -20,7 +20,7 @@ TEST(Options, PixelsWithoutJitter) {
   const Film without =
       render(*scene_from_text(R"(Option "disablepixeljitter" true )" + world), "path", {}, 1, 64);
   const Film with = render(*scene_from_text(world), "path", {}, 1, 64);
-  // The edge lies inside of the third column, to the right of its centre.
+  // The edge lies in the third column, right of its centre.
   EXPECT_NEAR(without.value(2, 1).g, 1, 0.05);
   EXPECT_EQ(without.value(3, 1).g, 0.0f);
   EXPECT_NEAR(with.value(2, 1).g, 0.6, 0.08);
@@ -35,8 +35,8 @@ TEST(Options, WavelengthsWithoutJitter) {
   EXPECT_GT(render(*scene_from_text(world), "path", {}, 1, 8).standard_error(1, 1).r, 1e-4f);
 }
 
-// A smooth dielectric of index n, seen at right angles, reflects F and transmits (1 - F) / n^2 of
-// the radiance; as a Lambertian surface it reflects their sum into a uniform room.
+// At normal incidence a smooth dielectric of index n reflects F and transmits (1 - F) / n^2 of the
+// radiance. Forced diffuse, it reflects their sum into a uniform room.
 TEST(Options, ForcedDiffuse) {
   const auto scene = scene_from_text(R"(Option "forcediffuse" true
       Camera "perspective" "float fov" 1 )" +
@@ -50,7 +50,7 @@ TEST(Options, ForcedDiffuse) {
   EXPECT_NEAR(picture_mean(film), expected, 0.02 * expected);
 }
 
-// A plane z = 3.5 + x/2 before a camera at (1, 2, 0) that looks along z.
+// A plane z = 3.5 + x/2 in front of a camera at (1, 2, 0) that looks along z.
 const std::string kPlane = R"( "integer xresolution" 8 "integer yresolution" 8
       Translate -1 -2 0
       Camera "orthographic" "float screenwindow" [-1 1 -1 1]
@@ -64,7 +64,7 @@ TEST(GBuffer, LayersOfAPlane) {
                                        std::string(world ? "\"world\"" : "\"camera\"") + kPlane);
     const Film film = render(*scene, "path", {}, 1, 4);
     const SurfaceSample s = film.surface(6, 1);
-    // The pixel's centre is (5/8, 5/8) before the camera.
+    // The pixel's centre is (5/8, 5/8) in camera space.
     const Vec3f camera_p(0.625f, 0.625f, 4.3125f);
     const Vec3f offset = world ? Vec3f(1, 2, 0) : Vec3f(0, 0, 0);
     EXPECT_LT(length(s.p - (camera_p + offset)), 1e-5f);

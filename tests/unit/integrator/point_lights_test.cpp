@@ -1,4 +1,4 @@
-// Virtual point lights: the share that is theirs is bounded, and they are chosen by their flux.
+// Virtual point lights: their share is bounded, and they are chosen by flux.
 #include "integrator/virtual_lights/point_lights.h"
 
 #include <gtest/gtest.h>
@@ -80,13 +80,14 @@ TEST(PointLightPool, ChoosesByFlux) {
     }
     ASSERT_NEAR(flux, total, 1e-5 * total);
   }
-  // The numbers lie evenly, so each is chosen as often as it should be, to within one or two.
+  // The numbers are evenly spaced, so each light is chosen the right number of times, within one or
+  // two.
   for (size_t i = 0; i < pool.size(); ++i)
     EXPECT_NEAR(chosen[&pool[i]],
                 kCount * kNumbers * static_cast<double>(pool[i].flux.max_component()) / total, 2);
 }
 
-/// Flux of the point lights to the left, and of all.
+/// Flux of the point lights on the left, and of all.
 std::pair<double, double> fluxes(const PointLightPool& pool) {
   double left = 0, all = 0;
   for (size_t i = 0; i < pool.size(); ++i) {
@@ -121,7 +122,7 @@ TEST(PointLightPool, KeepsTheFluxOfThoseThatItCannotHold) {
   EXPECT_NEAR(e.mean, 0, 4 * e.error);
 }
 
-// [L5] Where no light is lost, a path leaves a light at each of its events.
+// [L5] Where no light is absorbed, a path leaves a point light at each of its events.
 TEST(PointLightPool, HoldsNoMoreHoweverDeepAPathIs) {
   const auto scene = scene_from_text(kWhiteBall);
   const OwnedRoutes owned = owned_routes(*scene, kAllByPointLights);
@@ -151,7 +152,7 @@ TEST(PointLightPool, IsThinnedAlikeByAnyNumberOfThreads) {
   }
 }
 
-// With the memory of one photon there is room for a thousand point lights.
+// The memory of one photon has room for a thousand point lights.
 TEST(PointLights, FindTheSameLightInLittleMemory) {
   const auto scene = scene_from_text(kCorner);
   IntegratorOptions options;

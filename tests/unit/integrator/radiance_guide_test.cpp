@@ -1,6 +1,5 @@
-// What walks found, made into densities of directions: they are densities that samples follow,
-// they look where the light is, on each side of a surface by itself, and where it does not pay
-// nobody is guided.
+// Directional densities learned from camera paths: samples follow them, they favour the light,
+// separately on each side of a surface, and nothing is guided where it does not pay.
 #include "integrator/learning/radiance_guide.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +18,7 @@ using testing_bsdf::TestRandom;
 
 constexpr int kRecords = 30000;
 
-/// Walks from a diffuse floor of the unit square (or its underside) in light of `radiance`.
+/// Paths from a diffuse unit square (or its underside) into light of the given radiance.
 std::vector<RadianceRecord> walks(const std::function<float(const Vec3f& p, const Vec3f& w)>& light,
                                   bool below = false) {
   std::vector<RadianceRecord> records;
@@ -37,13 +36,13 @@ std::vector<RadianceRecord> walks(const std::function<float(const Vec3f& p, cons
   return records;
 }
 
-/// A tenth of the upper hemisphere around an axis is a hundred times as bright as the rest.
+/// A cap of a tenth of the upper hemisphere is a hundred times as bright as the rest.
 float spot(const Vec3f& axis, const Vec3f& w) {
   return dot(normalize(axis), w) > 0.9f ? 1.0f : 0.01f;
 }
 
 TEST(RadianceGuide, LooksWhereTheLightIs) {
-  // From the left half of the floor it comes from the right, and the other way round.
+  // The left half of the floor is lit from the right, and the right half from the left.
   const Vec3f from_left(1, 0, 1), from_right(-1, 0, 1);
   const RadianceGuide guide(walks([&](const Vec3f& p, const Vec3f& w) {
     return spot(p.x < 0.5f ? from_left : from_right, w);
@@ -60,7 +59,7 @@ TEST(RadianceGuide, LooksWhereTheLightIs) {
       float uc = random.next();
       inside += dot(axis, tree.sample(uc, random.next2())) > 0.9f;
     }
-    // A cosine-distributed direction is there one time in fourteen.
+    // Cosine sampling would hit the cap one time in fourteen.
     EXPECT_GT(inside, 5000) << x;
   }
 }
@@ -70,8 +69,8 @@ TEST(RadianceGuide, IsADensityThatSamplesFollow) {
       walks([](const Vec3f&, const Vec3f& w) { return spot(Vec3f(1, 1, 2), w); }));
   const DirectionTree tree = guide.at(Vec3f(0.3f, 0.3f, 0), Vec3f(0, 0, 1), false);
   ASSERT_FALSE(tree.empty());
-  // In the square of the map, cell by cell of a grid: what samples find there against the mean of
-  // the density, whose leaves are cells of a power of two themselves.
+  // In the unit square, per cell of a grid: counts of samples against the mean density, whose
+  // leaves are power-of-two cells.
   constexpr int kGrid = 16, kFine = 8, kSamples = 200000;
   std::vector<double> observed(kGrid * kGrid, 0.0), expected(kGrid * kGrid, 0.0);
   TestRandom random(4);
@@ -114,8 +113,8 @@ TEST(RadianceGuide, KeepsTheSidesOfASurfaceApart) {
   EXPECT_LT(down.pdf_w(normalize(above)), 0.01f);
 }
 
-// The BSDF of a diffuse floor is as good as can be in even light; without light there is nothing to
-// learn, nor is there where walls have not been seen.
+// In uniform light the BSDF of a diffuse floor is optimal. Without light, or without records, there
+// is nothing to learn.
 TEST(RadianceGuide, LeavesAloneWhatItCannotMend) {
   const RadianceGuide even(walks([](const Vec3f&, const Vec3f&) { return 1.0f; }));
   EXPECT_FALSE(even.guides());
@@ -135,8 +134,7 @@ TEST(RadianceGuide, LeavesAloneWhatItCannotMend) {
   EXPECT_FALSE(RadianceGuide(std::move(few)).guides());
 }
 
-// A polished floor: whatever directions its diffuse base would like, what a mirror shows must not
-// be looked at more rarely for it.
+// A polished floor: guiding the diffuse base must not take samples from the mirror.
 TEST(RadianceGuide, CountsWhatOtherLobesLose) {
   const auto diffuse = [](const Vec3f&, const Vec3f& w) { return spot(Vec3f(1, 1, 2), w); };
   std::vector<RadianceRecord> records = walks(diffuse);
@@ -150,7 +148,7 @@ TEST(RadianceGuide, CountsWhatOtherLobesLose) {
   EXPECT_FALSE(RadianceGuide(std::move(records)).guides());
 }
 
-// The order of the tree's making is the records' own: the same records make the same guide.
+// The tree is built in the order of the records: the same records give the same guide.
 TEST(RadianceGuide, IsAFunctionOfItsRecords) {
   const auto make = [] {
     return RadianceGuide(

@@ -1,5 +1,5 @@
-// Specular trees grow only for routes and techniques that own the light they find. That they find
-// it all is tested in tests/agreement/specular_tree_test.cpp.
+// Specular trees grow only for routes and techniques that own their light.
+// tests/agreement/specular_tree_test.cpp tests that they find all of it.
 #include "integrator/path/specular_tree.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// [A6], which noise is of the camera and which of the photons, against noise that is made here.
+// [A6], the split of noise between camera and photons, against synthetic noise.
 #include "integrator/mixed/trials.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ TEST(SplitNoise, TellsTheNoiseThatSamplesShare) {
   std::normal_distribution<double> normal;
   for (const auto& variances : {std::pair{1.0, 0.0}, {0.0, 1.0}, {0.5, 2.0}, {2.0, 0.5}}) {
     const double camera = variances.first, photons = variances.second;
-    // All samples of a pixel and pass have the same photons.
+    // All samples of a pixel and pass share their photons.
     std::vector<double> shared(2 * kBounds.area());
     for (double& v : shared) v = normal(random);
     const TrialNoise noise = noise_of([&](int pass, int pixel, int) {
@@ -38,14 +38,14 @@ TEST(SplitNoise, TellsTheNoiseThatSamplesShare) {
     EXPECT_NEAR(noise.light, 10, 0.05);
     EXPECT_NEAR(noise.variance_of_camera, camera, 0.03);
     EXPECT_NEAR(noise.variance_of_photons, photons, 0.05);
-    // Over the mean of a tile and a tenth of the picture's.
+    // Over the mean of a tile plus a tenth of the picture's mean.
     EXPECT_NEAR(noise.of_camera, camera / 11, 0.003);
     EXPECT_NEAR(noise.of_photons, photons / 11, 0.005);
   }
 }
 
 TEST(SplitNoise, DoesNotBlamePhotonsForFireflies) {
-  // Each in one sample of a pixel, and far brighter than all else in its tile.
+  // Each is in a single sample of a pixel, far brighter than all else in its tile.
   const TrialNoise noise = noise_of([](int pass, int pixel, int k) {
     return pixel % 1009 == 0 && pass == pixel / 1009 % 2 && k == 0 ? 1e4 : 1e-3;
   });

@@ -8,7 +8,7 @@ const std::string kWhiteL = "\"spectrum L\" " + kWhite + " ";
 const Vec3f kUp(0, 0, 1);
 
 ShapePtr disk_above(float height, float radius) {
-  // Faces down: its outside would be +z.
+  // Faces down; without reversed orientation its outside would be +z.
   return make_disk(Transform(), true, height, radius, 0, 360);
 }
 ShapePtr sphere_at(const Vec3f& center, float radius) {
@@ -31,7 +31,7 @@ TEST(AreaLight, DiskLightsThePointBelow) {
   const LightPtr light = area_light_of(kWhiteL, disk_above(2, 1.5f));
   const double expected = kPi * kUnit * 1.5 * 1.5 / (1.5 * 1.5 + 4);
   EXPECT_TRUE(agrees(irradiance(*light, {0, 0, 0}, kUp, 40000), expected));
-  // Nothing on the back.
+  // No light on the back.
   EXPECT_EQ(irradiance(*light, {0, 0, 4}, -kUp, 100).mean(), 0.0);
 }
 
@@ -83,7 +83,7 @@ TEST(AreaLight, EmitsItsPowerOnOneSideOrOnBoth) {
         emitted_flux(*area_light_of(kWhiteL + sides + "\"float scale\" 4", disk_above(2, 1.5f)),
                      2000),
         4 * expected));
-    // "power" overrides what radiance there was.
+    // "power" overrides the radiance.
     const LightPtr lamp =
         area_light_of(kWhiteL + sides + "\"float power\" 60", disk_above(2, 1.5f));
     EXPECT_TRUE(agrees(emitted_flux(*lamp, 2000), 60 * kUnit));
@@ -102,7 +102,7 @@ TEST(AreaLight, RaysLeaveOnTheOutsideOnly) {
 }
 
 TEST(AreaLight, RaysOfASphereStartOutsideOfIt) {
-  // Far from the origin, where a careless offset would leave them inside.
+  // Far from the origin, where a poor offset would leave them inside.
   const Vec3f center(1000, 0, 0);
   const LightPtr light = area_light_of(kWhiteL, sphere_at(center, 0.25f));
   const auto enters = [&](const Ray& r) {
@@ -119,7 +119,7 @@ TEST(AreaLight, AlphaThinsWhatIsSampledAndLeavesWhatIsHit) {
   const double expected = 0.25 * kPi * kUnit * 1.5 * 1.5 / (1.5 * 1.5 + 4);
   EXPECT_TRUE(agrees(irradiance(*light, {0, 0, 0}, kUp, 40000), expected));
   EXPECT_TRUE(agrees(emitted_flux(*light, 2000), 0.25 * kPi * kUnit * kPi * 1.5 * 1.5));
-  // A walk that hits it has found it to be there.
+  // A walk that hits the lamp has already passed its alpha.
   EXPECT_NEAR(light->radiance({0, 0, 2}, -kUp, {0, 0}, -kUp, test_wavelengths())[0], kUnit,
               1e-6f * kUnit);
 }
@@ -136,12 +136,12 @@ TEST(AreaLight, AlphaOfZeroMakesALampThatNobodySees) {
 }
 
 TEST(AreaLight, AlphaTexturesCutTheLampOut) {
-  /// There where u > 1/2, half there elsewhere.
+  /// 1 where u > 1/2, 0.5 elsewhere.
   class Step final : public FloatTexture {
    public:
     float eval(const TextureContext& c) const override { return c.uv.x > 0.5f ? 1.0f : 0.5f; }
   };
-  // In the rectangle's u the right half is that of negative x.
+  // In the rectangle's u, the right half is that of negative x.
   const auto alpha = std::make_shared<Step>();
   const LightPtr light = area_light_of(kWhiteL, rectangle(1, 1, 2), alpha);
   const LightPtr right = area_light_of(kWhiteL, rectangle(1, 1, 2));
@@ -149,7 +149,7 @@ TEST(AreaLight, AlphaTexturesCutTheLampOut) {
   EXPECT_TRUE(
       agrees(emitted_flux(*light, 20000, [](const Ray& r) { return r.o.x < 0 ? 1.0 : 0.0; }),
              kPi * 2 * kUnit));
-  // Seen from below the centre, where both halves give the same.
+  // Seen from below the centre, where both halves contribute equally.
   const Mean whole = irradiance(*right, {0, 0, 0}, kUp, 20000);
   EXPECT_TRUE(agrees(irradiance(*light, {0, 0, 0}, kUp, 20000, 5), 0.75 * whole.mean(),
                      0.75 * whole.error()));
@@ -166,7 +166,7 @@ TEST(AreaLight, ImagesShineOnBothSidesIfAsked) {
     const Light& light = *lights.at(0);
     EXPECT_EQ(light.radiance({0, 0, 2}, -kUp, {0.5f, 0.5f}, kUp, test_wavelengths()).is_black(),
               !both);
-    // The mean of the pixels is 3, and of what is smooth between them by symmetry too.
+    // The mean of the pixels is 3, and by symmetry so is that of the interpolated image.
     const SpectrumPtr white = rgb_illuminant_spectrum(RgbColorSpace::srgb(), {1, 1, 1});
     const double unit = white->sample(test_wavelengths())[0] / spectrum_to_photometric(*white);
     const double flux = 3 * unit * kPi * 4 * (both ? 2 : 1);

@@ -36,7 +36,7 @@ TEST(PointLight, EmitsItsPower) {
 }
 
 TEST(PointLight, RgbIsMeasuredByItsIlluminant) {
-  // As in pbrt-v4, "rgb I [2 2 2]" is twice the white of the colour space, scaled to luminance 1.
+  // As in pbrt-v4, "rgb I [2 2 2]" is twice the colour space's white, scaled to luminance 1.
   const LightPtr one = light_of("LightSource \"point\"");
   const LightPtr two = light_of("LightSource \"point\" \"rgb I\" [2 2 2]");
   EXPECT_NEAR(radiance_towards(*two, {0, 0, 1}) / radiance_towards(*one, {0, 0, 1}), 2.0f, 2e-3f);
@@ -60,7 +60,7 @@ TEST(SpotLight, HasASmoothEdgeInTheCosine) {
       kWhite);
   const auto at = [&](double degrees) {
     const double a = degrees * kPi / 180;
-    // On the unit sphere around the light.
+    // A point on the unit sphere around the light.
     return radiance_towards(
                *light, {static_cast<float>(std::sin(a)), 0, static_cast<float>(5 - std::cos(a))}) /
            kUnit;
@@ -105,7 +105,7 @@ TEST(SpotLight, EmissionFollowsItsDensity) {
       "LightSource \"spot\" \"float coneangle\" 60 "
       "\"float conedeltaangle\" 40 \"spectrum I\" " +
       kWhite);
-  // Counts in rings of equal width in the cosine against the intensity integrated over them.
+  // Counts in rings of equal width in the cosine, against the integral of the intensity.
   constexpr int kRings = 40;
   const double inner = std::cos(20 * kPi / 180), outer = 0.5;
   const double total = (1 - inner) + (inner - outer) / 2;
@@ -121,7 +121,7 @@ TEST(SpotLight, EmissionFollowsItsDensity) {
     ASSERT_TRUE(e);
     const int ring = static_cast<int>((e->ray.d.z - outer) / (1 - outer) * kRings);
     ++observed[std::clamp(ring, 0, kRings - 1)];
-    // The density is the intensity over the flux.
+    // The density is intensity divided by flux.
     const auto back = light->sample_towards(e->ray.d, {0, 0}, test_wavelengths());
     EXPECT_NEAR(e->pdf_w, (back ? back->radiance[0] : 0) / kUnit / (2 * kPi * total), 2e-5);
   }

@@ -1,5 +1,5 @@
-// What a light sends is what arrives: the flux through a disk, once by rays that leave the light
-// and once by the light seen from the disk, for every kind of light.
+// Emitted light equals received light: the flux through a disk by rays that leave the light, and by
+// the light seen from the disk, for every kind of light.
 #include "core/warps.h"
 #include "unit/light/light_fixture.h"
 
@@ -62,7 +62,8 @@ TEST(Duality, Area) {
                      Mat44d().setAxisAngle(Vec3d(1, 0, 0), 0.4) *
                      Mat44d().setTranslation(Vec3d(0.1, 0, z)));
   };
-  // A sphere hides its far side from the receiver but, here, not from its own rays: one side only.
+  // A sphere hides its far side from the receiver, but not from its own rays here: use one side
+  // only.
   const Transform above(Mat44d().setTranslation(Vec3d(0, 0.4, 1.5)));
   expect_duality(*area_light_of("", make_sphere(above, false, 0.5f, -0.5f, 0.5f, 360)), "sphere");
   for (const char* sides : {"", "\"bool twosided\" true"}) {

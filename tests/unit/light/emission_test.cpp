@@ -1,18 +1,17 @@
-// Directions of emitted rays against the densities that come with them, for every kind of light:
-// over each part of the sphere the mean of 1/density is the solid angle that is lit; and
-// emission_pdf against both.
+// Directions of emitted rays against their densities, for every kind of light. Over each part of
+// the sphere, the mean of 1/density is the lit solid angle. emission_pdf must agree with both.
 #include "unit/light/light_fixture.h"
 
 namespace nephroid::testing_light {
 namespace {
 
-/// True for directions of travel in which the light emits.
+/// True for directions into which the light emits.
 using Lit = std::function<bool(const Vec3f&)>;
 
-/// True if the light, asked for the ray that was sampled, says the densities that came with it.
+/// True if emission_pdf() of the sampled ray returns the sample's own densities.
 bool says_same_densities(const Light& light, const EmissionSample& e) {
   const EmissionDensity density = light.emission_pdf(e.ng, e.ray.d);
-  // Through a portal the one is across the ray, the other on the portal.
+  // Through a portal, one is measured across the ray, the other on the portal.
   const float across = e.from_behind ? e.cos_theta : 1.0f;
   return std::abs(density.pdf_w - e.pdf_w) <= 1e-3f * e.pdf_w &&
          std::abs(density.pdf_a * across - e.pdf_a) <= 1e-3f * e.pdf_a;
@@ -26,7 +25,7 @@ void expect_density(const Light& light, const Lit& lit, const std::string& name)
     return std::clamp(row, 0, kRows - 1) * kColumns + std::clamp(column, 0, kColumns - 1);
   };
   std::vector<double> expected(kRows * kColumns);
-  // Odd offsets: borders of what is lit must not run along the points.
+  // Odd offsets keep borders of lit regions off the points.
   for (int y = 0; y < kRows * kSub; ++y)
     for (int x = 0; x < kColumns * kSub; ++x) {
       const Vec3f w = testing_bsdf::spherical((y + 0.4871) / (kRows * kSub) * 2 - 1,
@@ -46,7 +45,7 @@ void expect_density(const Light& light, const Lit& lit, const std::string& name)
     found[bin].add(1.0 / e->pdf_w);
     ++counts[bin];
   }
-  // Between two pixels of an image rounding may decide.
+  // Rounding may decide between two pixels of an image.
   EXPECT_LE(strangers, 20) << name;
   int tested = 0;
   const double cell = 4 * M_PI / (kRows * kColumns);
@@ -57,7 +56,7 @@ void expect_density(const Light& light, const Lit& lit, const std::string& name)
       ++tested;
       Mean& m = found[bin];
       m.n = kCount;  // samples elsewhere count as 0
-      // Borders of what is lit are found to a point or two.
+      // Borders of lit regions are located to a point or two.
       const double border = expected[bin] < 0.999 * cell ? 0.03 * cell : 1e-4 * cell;
       EXPECT_TRUE(agrees(m, expected[bin], border / 4.5)) << name << ", bin " << bin;
     }
@@ -65,7 +64,7 @@ void expect_density(const Light& light, const Lit& lit, const std::string& name)
   EXPECT_GE(tested, 6) << name;
 }
 
-/// Lit directions of a light at a point.
+/// Lit directions at a point around a light.
 Lit seen_from_around(const Light& light, const Vec3f& p) {
   return [&light, p](const Vec3f& w) {
     const auto s = light.sample_towards(p + w, {0.5f, 0.5f}, test_wavelengths());
@@ -104,7 +103,7 @@ TEST_F(Emission, OfTheSky) {
       expect_density(
           *make(std::string(transform) + " LightSource " + light),
           [](const Vec3f&) { return true; }, std::string(transform) + " " + light);
-  // Through a portal all directions come that lead in.
+  // Through a portal, all directions into the scene are lit.
   for (const char* image : {"", "\"string filename\" \"a.exr\""}) {
     const LightPtr light = make(std::string("LightSource \"infinite\" \"point3 portal\" "
                                             "[-1 -1 1  -1 0 2  1 0 2  1 -1 1] ") +

@@ -1,5 +1,5 @@
-// Projection and goniometric lights: where each pixel of their images goes, what they emit, and
-// that directions follow the pixels.
+// Projection and goniometric lights: the position of each image pixel, the emission, and sampled
+// directions.
 #include "scene/light/equal_area_map.h"
 #include "unit/light/light_fixture.h"
 
@@ -22,7 +22,7 @@ class ImagePointLight : public ::testing::Test {
     const auto s = light.sample_towards(w, {0.5f, 0.5f}, test_wavelengths());
     return s ? s->radiance[0] * dot(w, w) : 0.0f;
   }
-  /// That of a grey pixel of value 1.
+  /// Intensity of a grey pixel of value 1.
   static float unit() {
     const Spectrum& white = RgbColorSpace::srgb().illuminant();
     return white.sample(test_wavelengths())[0] / spectrum_to_photometric(white);
@@ -90,8 +90,8 @@ TEST_F(ImagePointLight, ProjectedDirectionsFollowThePixels) {
     solid_angle.add(1 / e->pdf_w);
     EXPECT_NEAR(intensity(*light, w), e->radiance[0], 1e-5f * e->radiance[0]);
   }
-  // Power of a pixel: its value times the solid angle at its centre; and the solid angle, exactly,
-  // of the pixels that are not black.
+  // Power of a pixel: its value times the solid angle at its centre. Also the exact solid angle of
+  // all pixels that are not black.
   double total = 0, seen = 0;
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x) {
@@ -150,7 +150,7 @@ TEST_F(ImagePointLight, DiagramDirectionsFollowThePixels) {
     const int pixel = std::min(static_cast<int>(st.y * kSize), kSize - 1) * kSize +
                       std::min(static_cast<int>(st.x * kSize), kSize - 1);
     ++observed[pixel];
-    // The density is the intensity over the flux.
+    // The density is intensity divided by flux.
     EXPECT_NEAR(e->pdf_w, e->radiance[0] / kUnit / (4 * kPi * total / (kSize * kSize)), 1e-5);
   }
   for (size_t i = 0; i < values.size(); ++i) expected[i] = kCount * values[i] / total;
@@ -158,7 +158,7 @@ TEST_F(ImagePointLight, DiagramDirectionsFollowThePixels) {
 }
 
 TEST_F(ImagePointLight, PowerForChoosingIsWhatIsEmitted) {
-  // Each pixel counts with the solid angle at its centre, so they must be small.
+  // Each pixel counts with the solid angle at its centre, so pixels must be small.
   std::vector<float> values;
   for (int i = 0; i < 32 * 16; ++i) values.push_back(static_cast<float>(i / 3 % 5));
   write("a.exr", 32, values);
@@ -169,7 +169,7 @@ TEST_F(ImagePointLight, PowerForChoosingIsWhatIsEmitted) {
     TestRandom random(7);
     Mean mean;
     for (int i = 0; i < 20000; ++i) {
-      // Wavelengths are chosen by the density over which power() averages.
+      // Wavelengths follow the density over which power() averages.
       const auto lambda = SampledWavelengths::sample_visible(random.next());
       const auto e = light->sample_emission({0, 0}, random.next2(), lambda);
       mean.add(e ? e->radiance.average() / e->pdf_w : 0.0);

@@ -1,5 +1,5 @@
-// Infinite lights: the uniform one, the map of images to the sphere, and directions sampled from
-// images.
+// Infinite lights: the uniform one, the mapping of images to the sphere, and directions sampled
+// from images.
 #include <numeric>
 
 #include "scene/light/equal_area_map.h"
@@ -28,7 +28,7 @@ TEST(EqualAreaMap, HasTheLayoutOfPbrt) {
   EXPECT_TRUE(near(equal_area_square_to_sphere({1, 0.5f}), {1, 0, 0}));
   EXPECT_TRUE(near(equal_area_square_to_sphere({0.5f, 1}), {0, 1, 0}));
   EXPECT_TRUE(near(equal_area_square_to_sphere({0.5f, 0}), {0, -1, 0}));
-  // A quarter of the area of the square is above z = 1/2, by areas of the sphere.
+  // The map preserves area: uniform points are uniform on the sphere.
   TestRandom random(2);
   constexpr int kCount = 200000, kBins = 20;
   std::vector<double> observed(kBins * kBins),
@@ -61,7 +61,7 @@ TEST(PiecewiseConstant2D, SamplesCellsByTheirWeights) {
   for (int i = 0; i < 12; ++i) EXPECT_EQ(observed[i] == 0, weights[i] == 0) << i;
   EXPECT_GT(chi_square_test(observed, expected), 1e-4);
   EXPECT_FALSE(PiecewiseConstant2D({0, 0, 0, 0}, 2, 2).sample({0.5f, 0.5f}));
-  // The inverse of this mean is no float.
+  // The inverse of this mean overflows a float.
   const PiecewiseConstant2D faint({0, 4e-39f, 0, 0}, 2, 2);
   EXPECT_FALSE(faint.sample({0.5f, 0.5f}));
   EXPECT_EQ(faint.pdf(0, 0), 0);
@@ -96,7 +96,7 @@ TEST(UniformInfiniteLight, RaysStartOutsideAndCrossTheScene) {
   }
 }
 
-/// A map of 16 x 16 grey pixels with one that is 10 000 times brighter, and a black half.
+/// A map of 16 x 16 grey pixels, one of them 10 000 times brighter, and one half black.
 class ImageInfiniteLight : public ::testing::Test {
  protected:
   static constexpr int kSize = 16;
@@ -132,7 +132,7 @@ class ImageInfiniteLight : public ::testing::Test {
     return sum;
   }
 
-  /// What light sampling follows: the part of each pixel above the average.
+  /// The target of light sampling: the part of each pixel above the average.
   std::vector<double> above_average() const {
     std::vector<double> above;
     for (const float v : values) above.push_back(std::max(0.0, v - total() / kPixels));
@@ -176,7 +176,7 @@ TEST_F(ImageInfiniteLight, DensityAndRadianceAreThoseOfThePixel) {
   }
   for (int i = 0; i < 2000; ++i) {
     const auto s = light->sample_towards({0, 0, 0}, random.next2(), test_wavelengths());
-    // A direction at the very edge of a pixel may round into the next.
+    // A direction at the edge of a pixel may round into the next one.
     const Vec2f st = equal_area_sphere_to_square(s->wi) * static_cast<float>(kSize);
     const float edge = std::min({st.x - std::floor(st.x), std::ceil(st.x) - st.x,
                                  st.y - std::floor(st.y), std::ceil(st.y) - st.y});
@@ -189,13 +189,13 @@ TEST_F(ImageInfiniteLight, DensityAndRadianceAreThoseOfThePixel) {
 TEST_F(ImageInfiniteLight, EmitsItsPower) {
   const LightPtr light = make("", "\"float scale\" 2", {{1, 2, 3}, 5});
   const double expected = 2 * unit() * total() / kPixels * 4 * kPi * kPi * 25;
-  // The polynomials of greys are good to a few thousandths.
+  // Polynomials of greys are accurate to a few thousandths.
   EXPECT_NEAR(emitted_flux(*light, 1000).mean(), expected, 3e-3 * expected);
 }
 
 TEST_F(ImageInfiniteLight, TurnsWithItsTransform) {
   const LightPtr plain = make(), turned = make("Rotate 90 1 0 0");
-  // The rotation takes y to z.
+  // The rotation maps y to z.
   TestRandom random(8);
   int same = 0;
   for (int i = 0; i < 1000; ++i) {
@@ -210,8 +210,7 @@ TEST_F(ImageInfiniteLight, DensityIntegratesToOneUnderAnyTransform) {
   for (const char* transform :
        {"", "Rotate 30 1 2 3", "Scale -1 1 1", "Scale 1 3 0.5 Rotate 20 1 1 0"}) {
     const LightPtr light = make(transform);
-    // By pixels: sub-samples of each, mapped like the light does it; here by midpoints of the
-    // sphere.
+    // The light integrates subsamples of each pixel, this test the midpoints of a fine grid.
     double integral = 0;
     constexpr int kRows = 1200;
     for (int y = 0; y < kRows; ++y)
@@ -221,8 +220,8 @@ TEST_F(ImageInfiniteLight, DensityIntegratesToOneUnderAnyTransform) {
         integral += light->pdf_towards({0, 0, 0}, w, {}, {});
       }
     integral *= 4 * kPi / kRows / kRows;
-    // The bright pixel has 75 x 75 of the points (fewer where the map squeezes it): its border
-    // decides.
+    // The bright pixel contains 75 x 75 of the points (fewer where the map shrinks it): its border
+    // limits the accuracy.
     EXPECT_NEAR(integral, 1.0, 0.03) << transform;
   }
 }

@@ -1,5 +1,5 @@
-// Infinite lights with latitude-longitude maps: which pixel lies where, and that what is sampled,
-// its density and its radiance are those of the pixels' solid angles.
+// Infinite lights with latitude-longitude maps: the position of each pixel, and samples, densities
+// and radiance by the pixels' solid angles.
 #include "scene/light/equal_area_map.h"
 #include "scene/light/sphere_map.h"
 #include "unit/light/light_fixture.h"
@@ -14,12 +14,12 @@ Vec3f at_angles(double theta, double phi) {
       Vec3d(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)));
 }
 
-/// Cosine of the polar angle at the upper rim of a row.
+/// Cosine of the polar angle at the upper edge of a row.
 double cos_at_rim(int row) {
   return std::cos(double{kPi} * row / kHeight);
 }
 
-/// A sky that varies smoothly over seam and poles.
+/// A sky that is smooth across seam and poles.
 float smooth(const Vec3f& w) {
   return 2 + w.x + 0.5f * w.y + 0.3f * w.z;
 }
@@ -155,7 +155,7 @@ TEST_F(LatitudeLongitudeLight, DirectionsFollowWhatIsAboveTheAverage) {
 TEST_F(LatitudeLongitudeLight, PhotonsFollowTheRadiance) {
   const LightPtr light = make("Rotate 40 1 2 3", "\"float scale\" 2", {{1, 2, 3}, 5});
   const double expected = 2 * unit() * total() * kPi * 25;
-  // Every photon carries the same, up to the polynomials of greys.
+  // All photons carry the same, up to the polynomials of greys.
   const Mean flux = emitted_flux(*light, 4000);
   EXPECT_NEAR(flux.mean(), expected, 3e-3 * expected);
   EXPECT_LT(flux.error(), 1e-3 * expected);
@@ -166,7 +166,7 @@ TEST_F(LatitudeLongitudeLight, PhotonsFollowTheRadiance) {
     const auto e = light->sample_emission(u, random.next2(), test_wavelengths());
     ASSERT_TRUE(e);
     const float asked = light->emission_pdf({}, e->ray.d).pdf_w;
-    // A direction at the very edge of a pixel may round into the next.
+    // A direction at the edge of a pixel may round into the next one.
     at_an_edge += std::abs(asked - e->pdf_w) > 1e-4f * e->pdf_w;
   }
   EXPECT_LE(at_an_edge, 3);
@@ -217,7 +217,7 @@ TEST_F(LatitudeLongitudeLight, IsTheSkyOfTheOctahedralMap) {
     for (int i = 0; i < 500; ++i) {
       const Vec3f w = square_to_sphere(random.next2());
       const float expected = b->radiance_at_infinity({0, 0, 0}, w, test_wavelengths())[0];
-      // Both are constant by pixels.
+      // Both are constant per pixel.
       EXPECT_NEAR(a->radiance_at_infinity({0, 0, 0}, w, test_wavelengths())[0], expected,
                   0.05f * expected);
     }

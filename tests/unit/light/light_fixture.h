@@ -1,5 +1,4 @@
-// Lights from the text of a scene or on a shape, and estimates of what they send and what arrives.
-// Used by the tests of this folder.
+// Lights from scene text or on a shape, and estimates of emitted and received light.
 #pragma once
 
 #include <OpenImageIO/imageio.h>
@@ -22,7 +21,7 @@ using testing_bsdf::chi_square_test;
 using testing_bsdf::Mean;
 using testing_bsdf::TestRandom;
 
-/// A constant spectrum of value 1, and what the scene's lights make of it: radiance of luminance 1.
+/// A constant spectrum of value 1. The scene's lights scale it to luminance 1.
 inline const std::string kWhite = "[ 200 1 900 1 ]";
 inline constexpr float kUnit = 1.0f / kCieYIntegral;
 
@@ -30,7 +29,7 @@ inline SampledWavelengths test_wavelengths() {
   return SampledWavelengths::sample_visible(0.37f);
 }
 
-/// The lights of a scene, before a scene sphere is known.
+/// The lights of a scene, before the scene sphere is known.
 inline std::vector<LightPtr> lights_of(const std::string& text, const std::string& directory = ".",
                                        Diagnostics* diagnostics = nullptr) {
   Diagnostics own;
@@ -66,7 +65,7 @@ inline LightPtr area_light_of(const std::string& parameters, const ShapePtr& sha
   return std::move(lights[0]);
 }
 
-/// A rectangle in the plane z = `z` around the axis, facing down (its outside is -z).
+/// A rectangle in the plane z = `z` around the axis, facing down (outside -z).
 inline ShapePtr rectangle(float half_x, float half_y, float z) {
   MeshData m;
   // pbrt's order p00 p10 p01 p11; the outside is dpdu x dpdv.
@@ -77,8 +76,8 @@ inline ShapePtr rectangle(float half_x, float half_y, float z) {
   return make_bilinear_mesh(m, false);
 }
 
-/// One unbiased estimate of the irradiance at a point: the light's own sample, and a uniform
-/// direction for what light sampling leaves to walks that leave the scene.
+/// One unbiased estimate of the irradiance at a point: the light's own sample, plus a uniform
+/// direction for light that is left to escaping paths.
 inline double irradiance_sample(const Light& light, const Vec3f& p, const Vec3f& n,
                                 TestRandom& random) {
   const auto s = light.sample_towards(p, random.next2(), test_wavelengths());
@@ -101,7 +100,7 @@ inline Mean irradiance(const Light& light, const Vec3f& p, const Vec3f& n, int c
   return mean;
 }
 
-/// Flux at the first wavelength by sample_emission; rays count by `weight`.
+/// Flux at the first wavelength by sample_emission, with rays weighted by `weight`.
 inline Mean emitted_flux(const Light& light, int count,
                          const std::function<double(const Ray&)>& weight, uint64_t seed = 2) {
   TestRandom random(seed);
@@ -118,7 +117,7 @@ inline Mean emitted_flux(const Light& light, int count, uint64_t seed = 2) {
       light, count, [](const Ray&) { return 1.0; }, seed);
 }
 
-/// Luminous flux by sample_emission, in units of a light of luminance 1 (a scene's lumens).
+/// Luminous flux by sample_emission, relative to a light of luminance 1 (a scene's lumens).
 inline Mean luminous_flux(const Light& light, int count, uint64_t seed = 9) {
   TestRandom random(seed);
   Mean mean;
@@ -134,8 +133,8 @@ inline Mean luminous_flux(const Light& light, int count, uint64_t seed = 9) {
   return mean;
 }
 
-/// True if the mean is `expected` within 4.5 standard errors (and float rounding): by chance this
-/// fails once in 150 000 times, and the seeds are fixed.
+/// True if the mean is `expected` within 4.5 standard errors (and float rounding). A false alarm
+/// has a chance of one in 150 000, and the seeds are fixed.
 inline ::testing::AssertionResult agrees(const Mean& m, double expected, double error = 0.0) {
   const double tolerance =
       4.5 * std::sqrt(m.error() * m.error() + error * error) + 2e-6 * std::abs(expected);

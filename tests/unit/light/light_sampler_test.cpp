@@ -1,5 +1,5 @@
-// The light sampler: probabilities that sum to one, are met by the samples, and are zero only where
-// nothing arrives; for no light, a few and very many.
+// The light sampler: probabilities sum to one, samples follow them, and they are zero only where no
+// light arrives. For no light, a few and very many.
 #include "scene/light/light_sampler.h"
 
 #include "core/warps.h"
@@ -9,7 +9,7 @@
 namespace nephroid::testing_light {
 namespace {
 
-/// A light that has bounds and power and nothing else.
+/// A light with bounds and power only.
 class FakeLight final : public Light {
  public:
   FakeLight(const Vec3f& p, float power, const Vec3f& axis = {0, 0, 1}, float cos_o = -1,
@@ -39,7 +39,7 @@ class FakeLight final : public Light {
   LightBounds b_;
 };
 
-/// Triangles, spots and points in a unit cube, `n` in all, and `infinite` infinite lights.
+/// `n` triangles, spots and points in a unit cube, and `infinite` infinite lights.
 std::vector<LightPtr> zoo(int n, int infinite) {
   TestRandom random(21);
   std::vector<LightPtr> lights;
@@ -71,7 +71,7 @@ std::vector<LightPtr> zoo(int n, int infinite) {
   return lights;
 }
 
-/// Counts of samples against pmf(); what samples do not give must be the missing rest.
+/// Counts of samples against pmf(). Empty samples must be the missing rest.
 void expect_frequencies(const std::vector<LightPtr>& lights, const Vec3f& p, const Vec3f& n,
                         int count) {
   const LightSampler sampler(lights);
@@ -173,14 +173,14 @@ TEST(LightSampler, NearAndBrightLightsComeFirst) {
   for (int i = 0; i < 100; ++i)
     lights.push_back(std::make_unique<FakeLight>(Vec3f(static_cast<float>(i) * 10, 0, 0), 1.0f));
   const LightSampler sampler(lights);
-  // Uniform would be 0.01 each.
+  // A uniform choice would give 0.01 each.
   EXPECT_GT(sampler.pmf({500, 0, 1}, {0, 0, 0}, 50), 0.2f);
   EXPECT_LT(sampler.pmf({500, 0, 1}, {0, 0, 0}, 0), 0.01f);
 }
 
 TEST(LightSampler, NothingIsSpentOnWindowsSeenFromBehind) {
-  // The sphere around a large window reaches far behind it; its light does not. Straight and
-  // tilted, far from the origin, of one pane or of eight.
+  // The bounding sphere of a large window reaches far behind it, its light does not. Straight or
+  // tilted, far from the origin, with one pane or eight.
   const Vec3f tilted = normalize(Vec3f(1, 2, 3)), side = normalize(cross(tilted, Vec3f(0, 0, 1)));
   const std::pair<Vec3f, Vec3f> frames[] = {{{0, 0, 1}, {1, 0, 0}}, {tilted, side}};
   for (const auto& frame : frames)

@@ -1,5 +1,5 @@
-// Infinite lights with a portal: the windowed distribution, what is seen and what is not, the
-// density of directions, closed forms.
+// Infinite lights with a portal: the windowed distribution, visibility, densities of directions,
+// and closed forms.
 #include "scene/light/equal_area_map.h"
 #include "scene/light/windowed_distribution.h"
 #include "unit/light/light_fixture.h"
@@ -41,7 +41,7 @@ TEST(WindowedDistribution, SamplesWindowsByTheirWeights) {
   const WindowedDistribution grid(weights, kWidth, kHeight);
   for (const Window w : {Window{}, Window{0.1, 0.05, 0.93, 0.71}, Window{0.31, 0.22, 0.4, 0.36},
                          Window{0.44, 0.5, 0.5, 0.501}, Window{0.0, 0.3, 0.2, 1.0}}) {
-    // Bins are parts of the window, each held up against its own integral.
+    // Bins are parts of the window; each has its own expected integral.
     constexpr int kBins = 12, kCount = 60000;
     std::vector<double> observed(kBins * kBins), expected(kBins * kBins);
     TestRandom random(2);
@@ -76,13 +76,13 @@ TEST(WindowedDistribution, ABlackWindowGivesNothing) {
   EXPECT_TRUE(grid.sample({0.5f, 0.5f}, {0, 0, 0.8, 0.8}));
 }
 
-/// A window of 2 x 1 at z = 1.5 above the origin, outside up.
+/// A window of 2 x 1 at z = 1.5 above the origin, its outside up.
 const std::string kPortal = "\"point3 portal\" [-1 -0.5 1.5  -1 0.5 1.5  1 0.5 1.5  1 -0.5 1.5] ";
 const SceneSphere kSphere{{0, 0, 0}, 3};
 
 class PortalLight : public ::testing::Test {
  protected:
-  /// A sky that varies smoothly, or by pixels.
+  /// Two skies: a smooth one, and one of distinct pixels.
   void SetUp() override {
     std::vector<float> smooth, pixels;
     for (int y = 0; y < 64; ++y)
@@ -117,7 +117,7 @@ TEST_F(PortalLight, IsSeenThroughThePortalOnly) {
   EXPECT_EQ(seen(*light, {0, 0, 0}, {0, 0, -1}), 0.0f);
   EXPECT_EQ(seen(*light, {5, 0, 0}, {0, 0, 1}), 0.0f);
   EXPECT_GT(seen(*light, {5, 0, 0}, {-5, 0, 1.5f}), 0.0f);
-  // From outside nothing, in whatever direction; nor does it help to look in.
+  // From outside nothing is seen in any direction, not even through the portal.
   EXPECT_EQ(seen(*light, {0, 0, 2}, {0, 0, 1}), 0.0f);
   EXPECT_EQ(seen(*light, {0, 0, 2}, {0, 0, -1}), 0.0f);
   EXPECT_FALSE(light->sample_towards({0, 0, 2}, {0.5f, 0.5f}, test_wavelengths()));
@@ -131,7 +131,7 @@ TEST_F(PortalLight, TransformsTurnTheSkyAndNotThePortal) {
   for (int i = 0; i < 500; ++i) {
     const Vec3f to(2 * random.next() - 1, random.next() - 0.5f, 1.5f);
     const float a = seen(*light, {0, 0, 0}, to), b = seen(*open, {0, 0, 0}, to);
-    // Both are constant by pixels, of different shapes.
+    // Both are constant per pixel, with pixels of different shapes.
     EXPECT_NEAR(a, b, 0.07f * b);
   }
 }
@@ -162,7 +162,7 @@ TEST_F(PortalLight, DirectionsFollowTheirDensity) {
       }
     double total = 0;
     for (double& e : expected) total += e *= 2.0 / sqr(kBins * kSub);
-    // The borders of the map's pixels cross the bins.
+    // Borders of the map's pixels cross the bins.
     EXPECT_NEAR(total, 1.0, 5e-3);
     for (double& e : expected) e *= kCount / total;
     EXPECT_GT(chi_square_test(observed, expected), 1e-4) << from;
@@ -182,12 +182,12 @@ TEST_F(PortalLight, SampledDensityIsTheDensityAsked) {
     same += std::abs(pdf - s->pdf_w) < 1e-4f * s->pdf_w &&
             light->radiance_at_infinity(from, s->wi, test_wavelengths())[0] == s->radiance[0];
   }
-  // At the very edges of pixels and of the portal rounding decides.
+  // At edges of pixels and of the portal, rounding decides.
   EXPECT_GE(same, kCount - 4);
 }
 
 TEST_F(PortalLight, AUniformSkyIsALampOfThePortalsShape) {
-  // A window under a sky of one colour lights like a rectangle of its radiance.
+  // A window under a uniform sky lights like a rectangle of that radiance.
   const LightPtr light = make(kPortal);
   const double radiance = seen(*light, {0, 0, 0}, {0, 0, 1});
   const double white = seen(*make(""), {0, 0, 0}, {0, 0, 1});
@@ -227,7 +227,7 @@ TEST_F(PortalLight, RaysStartOnThePortalAndComeFromBehind) {
     EXPECT_LT(e->ray.d.z, 0.0f);
     EXPECT_NEAR(e->ray.o.z, 1.5f, 1e-6f);
     EXPECT_TRUE(std::abs(e->ray.o.x) <= 1 && std::abs(e->ray.o.y) <= 0.5f);
-    // The sky seen where the ray goes.
+    // The sky in the direction the ray came from.
     const Vec3f to = e->ray.o + e->ray.d;
     if (e->cos_theta > 0.01f) {
       EXPECT_GT(light->radiance_at_infinity(to, -e->ray.d, test_wavelengths())[0], 0.0f);
@@ -240,7 +240,7 @@ TEST_F(PortalLight, ColoursThatAreNoRgbAreConverted) {
   lights_of("LightSource \"infinite\" \"blackbody L\" 4000 " + kPortal, ".", &d);
   ASSERT_EQ(d.warnings().size(), 1u);
   EXPECT_NE(d.warnings()[0].message.find("rgb"), std::string::npos);
-  // An rgb colour stays what it is without a portal.
+  // An rgb colour is the same with and without a portal.
   const LightPtr portal = make("\"rgb L\" [3 2 1] \"float scale\" 2 " + kPortal);
   const LightPtr open = make("\"rgb L\" [3 2 1] \"float scale\" 2");
   const float expected = seen(*open, {0, 0, 0}, {0, 0, 1});

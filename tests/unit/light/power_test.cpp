@@ -1,5 +1,5 @@
-// "power" is what a light emits in lumens, whatever its colour and image: measured by rays that
-// leave it. And "illuminance", what arrives.
+// "power" is the emission of a light in lumens for any colour and image, measured by emitted rays.
+// "illuminance" is the light that arrives.
 #include "unit/light/light_fixture.h"
 
 namespace nephroid::testing_light {
@@ -42,8 +42,8 @@ TEST_F(LightPower, OfProjectedImages) {
         light_of(std::string("LightSource \"projection\" \"string filename\" \"") + image +
                      "\" \"float power\" 60 \"float fov\" 80",
                  {}, scratch.path().string());
-    // Each pixel counts with the solid angle at its centre, as in pbrt-v4: with so few pixels some
-    // thousandths off.
+    // As in pbrt-v4 each pixel counts with the solid angle at its centre: a few thousandths off
+    // with so few pixels.
     EXPECT_TRUE(agrees(luminous_flux(*lamp, 40000), 60, 0.15)) << image;
   }
 }
@@ -56,8 +56,7 @@ TEST_F(LightPower, OfShapes) {
           agrees(luminous_flux(*area_light_of(sides + colour + "\"float power\" 60", disk), 40000),
                  60, 0.03))
           << sides << colour;
-    // Constant by pixels in the sum, smooth in between on the shape: the mean is not quite the
-    // same.
+    // The sum is constant per pixel, the shape interpolates: the means differ slightly.
     const auto lamp = area_lights_of(sides + "\"string filename\" \"a.exr\" \"float power\" 60",
                                      rectangle(1, 2, 3), nullptr, scratch.path().string());
     EXPECT_NEAR(luminous_flux(*lamp.at(0), 40000).mean(), 60, 0.02 * 60) << sides;

@@ -1,5 +1,5 @@
-// Materials from a few parameters, and a point on a flat surface to ask them at.
-// Who includes it: the tests of materials. It must not know single materials.
+// Materials from a few parameters, and a point on a flat surface to evaluate them at. It must not
+// know single materials.
 #pragma once
 
 #include "scene/material/material.h"
@@ -57,7 +57,7 @@ struct Made {
   }
 };
 
-/// The located message of the error that making these materials throws; empty if there is none.
+/// The located error message of making these materials; empty if there is none.
 inline std::string error_of(std::vector<MaterialDescription> list) {
   try {
     Made made(std::move(list));
@@ -83,7 +83,7 @@ inline constexpr float kSpecularAlpha = 0.05f;
 inline const Vec3f kWo = normalize(Vec3f(0.5f, 0.0f, 0.7f));
 inline const Vec3f kWi = normalize(Vec3f(-0.2f, 0.3f, 0.9f));
 
-/// Of the class `c`, at a flat point, from kWo to kWi.
+/// Evaluates class `c` at a flat point, from kWo to kWi.
 inline BsdfEval eval_of(const Material& m, EventClass c) {
   SampledWavelengths lambda = SampledWavelengths::sample_visible(0.3f);
   BsdfArena arena;

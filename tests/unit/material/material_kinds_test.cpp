@@ -1,5 +1,4 @@
-// Each kind of material by itself: what its parameters mean, and that the BSDF that it makes is the
-// one that they describe.
+// Each material: the meaning of its parameters, and the BSDF that it makes.
 #include <gtest/gtest.h>
 
 #include "core/sampler.h"
@@ -90,7 +89,7 @@ TEST(DielectricMaterials, StraightPassageHasTheWeightOfTheSample) {
 }
 
 TEST(CoatedMaterials, ClosedFormAndWalkAgreeInTheMean) {
-  // An invisible anisotropy sends the second material down the general road.
+  // A tiny anisotropy forces the second material to use random walks.
   const Made made({material("coateddiffuse", {numbers("float", "roughness", {0.09})}),
                    material("coateddiffuse", {numbers("float", "uroughness", {0.09}),
                                               numbers("float", "vroughness", {0.090001})})});
@@ -152,7 +151,7 @@ TEST(HairMaterials, ColoursByEveryParametrisation) {
   EXPECT_FALSE(made.materials[0]->merges_photons());
   EXPECT_EQ(made.materials[0]->possible_classes(), ClassMask::kDiffuse);
 
-  // The fit of reflectance: sigma_a = (ln c / polynomial(beta_n))^2, at beta_n = 0.3.
+  // Reflectance fit: sigma_a = (ln c / polynomial(beta_n))^2, at beta_n = 0.3.
   const double b = 0.3, c = 0.6;
   const double fit = 5.969 - 0.215 * b + 2.532 * b * b - 10.73 * std::pow(b, 3) +
                      5.574 * std::pow(b, 4) + 0.245 * std::pow(b, 5);

@@ -1,6 +1,6 @@
-// Materials from their descriptions: every row of the table makes a BSDF with the scene format's
-// defaults, classes are told beforehand, mixes choose with the right probability, bumps tilt the
-// frame, errors are located. What single materials do is in material_kinds_test.cpp.
+// Materials from descriptions: every row of the table makes a BSDF with the format's defaults,
+// classes are predicted, mixes choose with the right probability. Bumps tilt the frame, errors are
+// located. material_kinds_test.cpp tests single materials.
 #include "scene/material/material.h"
 
 #include <OpenImageIO/imageio.h>
@@ -18,7 +18,7 @@ using namespace testing_support;
 
 TEST(MaterialTable, EveryTypeMakesABsdfWithItsDefaults) {
   for (const MaterialRow& row : material_table()) {
-    // These have no defaults: other materials, and a file (measured_material_test.cpp).
+    // These have no defaults: they need materials or a file (measured_material_test.cpp).
     if (std::string(row.name) == "mix" || std::string(row.name) == "measured") continue;
     const Made made({material(row.name)});
     ASSERT_EQ(made.materials.size(), 1u) << row.name;
@@ -105,7 +105,7 @@ TEST(PossibleClasses, AreThoseOfAllThresholdsInTheBand) {
 }
 
 TEST(PossibleClasses, CoverWhatTheBsdfHas) {
-  // All combinations of coat, metal, gap and index at thresholds in the band.
+  // All combinations of coat, metal, gap and index, for thresholds in the band.
   const SpecularBand band{0.1f, 0.3f};
   for (const double coat : {0.0, 0.2, 0.5})
     for (const double metal : {0.0, 0.2, 0.5})
@@ -174,7 +174,7 @@ TEST(MixMaterials, ChooseByAmountAndNest) {
 TEST(Bump, ARampTiltsTheNormalByItsSlope) {
   SceneDescription description;
   Diagnostics diagnostics;
-  // Two texels, interpolated: between their centres at u = 1/4 and 3/4 the slope is 1/2.
+  // Two interpolated texels: between their centres at u = 1/4 and 3/4 the slope is 1/2.
   const auto file = std::filesystem::path(testing::TempDir()) / "nephroid_bump_test.exr";
   const float texels[2] = {0.0f, 0.25f};
   const auto out = OIIO::ImageOutput::create(file.string());
@@ -196,7 +196,7 @@ TEST(Bump, ARampTiltsTheNormalByItsSlope) {
   const Vec3f expected = normalize(Vec3f(-0.5f, 0.0f, 1.0f));
   EXPECT_LT(length(point.shading.z - expected), 1e-3f);
   EXPECT_NEAR(dot(point.shading.x, point.shading.z), 0.0f, 1e-5f);
-  // Seen from a surface that was turned inside out, the normal stays on the outside.
+  // On a flipped surface the normal stays on the outside.
   SurfaceInteraction flipped = flat_point();
   flipped.ng = Vec3f(0, 0, -1);
   flipped.shading = Frame::from_z_and_tangent(Vec3f(0, 0, -1), flipped.dpdu);

@@ -1,4 +1,4 @@
-// The material "measured" and the files it reads: shared, complete, or refused with the reason.
+// The material "measured" and its files: shared, complete, or refused with a reason.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -158,7 +158,7 @@ TEST(MeasuredFile, FieldsMustFitTogether) {
 
 TEST(MeasuredFile, ExtentsMustBeThoseOfTheAxes) {
   std::string bytes = bsdf_file_of(tables_of(small_surface()));
-  // Behind the name stand two bytes, one and eight, then the extents of eight bytes each.
+  // The name is followed by fields of two bytes, one and eight, then by extents of eight bytes.
   const size_t extents = bytes.find("spectra") + 7 + 11;
   bytes[extents + 16] = 1;
   EXPECT_EQ(

@@ -1,4 +1,4 @@
-// Normal maps: what is stored in the image is the normal that the surface gets.
+// Normal maps: the surface gets the normal stored in the image.
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 

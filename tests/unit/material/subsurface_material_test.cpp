@@ -1,5 +1,5 @@
-// The material "subsurface" from the text of a scene: every way of describing the medium, the
-// boundary's roughness, and located errors.
+// The material "subsurface" from scene text: every description of the medium, the boundary's
+// roughness, and located errors.
 #include <gtest/gtest.h>
 
 #include "input/pbrt_parser.h"
@@ -37,7 +37,7 @@ SampledWavelengths test_wavelengths() {
   return SampledWavelengths::sample_visible(0.3f);
 }
 
-/// Sp at a distance.
+/// Sp at distance r.
 SampledSpectrum profile_of(const Made& made, float r,
                            const SampledWavelengths& lambda = test_wavelengths()) {
   BsdfArena arena;
@@ -84,7 +84,7 @@ TEST(SubsurfaceMaterial, ReflectanceAndFreePathAreInverted) {
       Made("\"spectrum reflectance\" [ 200 .6 900 .6 ] \"spectrum mfp\" [ 200 .25 900 .25 "
            "] \"float scale\" 2"),
       table, 2.0f * (1.0f - albedo), 2.0f * albedo);
-  // The free path is 1 if nothing is said.
+  // The default free path is 1.
   expect_medium(Made("\"spectrum reflectance\" [ 200 .6 900 .6 ]"), table, 1.0f - albedo, albedo);
 }
 

@@ -1,4 +1,4 @@
-// What users get wrong about media: the message names the place, the fault and what was expected.
+// Errors in media: the message names the location, the fault and what was expected.
 #include "unit/medium/medium_fixture.h"
 
 namespace nephroid::testing_medium {

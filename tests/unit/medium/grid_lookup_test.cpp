@@ -1,4 +1,4 @@
-// What grids hold between and beyond their samples: known answers for pbrt-v4's convention.
+// Grid values between and beyond the samples: known results for pbrt-v4's convention.
 #include "scene/medium/sampled_grid.h"
 #include "scene/texture/noise.h"
 #include "unit/medium/medium_fixture.h"
@@ -18,7 +18,7 @@ TEST(SampledGrid, SamplesLieInTheMiddleOfCells) {
   EXPECT_EQ(grid.lookup({0.75f, 0.75f, 0.5f}, kSame), 11);
   EXPECT_EQ(grid.lookup({0.5f, 0.25f, 0.5f}, kSame), 2);
   EXPECT_EQ(grid.lookup({0.5f, 0.5f, 0.5f}, kSame), 5);
-  // Halfway to where the neighbours beyond the walls would be, which are 0.
+  // Halfway to the neighbours beyond the walls, which are 0.
   EXPECT_EQ(grid.lookup({0, 0.25f, 0.5f}, kSame), 0.5f);
   EXPECT_EQ(grid.lookup({0.25f, 0.25f, 0}, kSame), 0.5f);
   EXPECT_EQ(grid.lookup({0, 0, 0}, kSame), 0.125f);
@@ -76,7 +76,7 @@ TEST(UniformGrid, DensityScalesBothCoefficients) {
   const MediumPtr one = medium_of(
       "homogeneous", "\"rgb sigma_a\" [ 1 2 3 ] \"rgb sigma_s\" [ 3 2 1 ] \"float scale\" 2");
   const auto lambda = test_wavelengths();
-  // The box is 2 <= x <= 10 in the world; coefficients are per world length.
+  // The box is 2 <= x <= 10 in world space; coefficients are per unit of world length.
   for (const auto& [x, density] : {std::pair(4.0f, 1.0f), {8.0f, 4.0f}, {6.0f, 2.5f}}) {
     const MediumProperties p = m->at({x, 0.5f, 0.5f}, lambda), q = one->at({0, 0, 0}, lambda);
     for (int i = 0; i < kSpectrumSamples; ++i) {
@@ -97,7 +97,7 @@ TEST(UniformGrid, EmitsLeOverItsLuminanceTimesLescale) {
   EXPECT_TRUE(scaled->is_emissive());
   EXPECT_NEAR(scaled->at({0.25f, 0.5f, 0.5f}, lambda).le[3], 2 / kCieYIntegral, 1e-6f);
   EXPECT_NEAR(scaled->at({0.75f, 0.5f, 0.5f}, lambda).le[3], 5 / kCieYIntegral, 1e-6f);
-  // Without "Lescale" there is one sample in the middle of the box.
+  // Without "Lescale" there is a single sample in the middle of the box.
   const MediumPtr plain = medium_of("uniformgrid", parameters + le);
   EXPECT_NEAR(plain->at({0.5f, 0.5f, 0.5f}, lambda).le[3], 1 / kCieYIntegral, 1e-7f);
   EXPECT_NEAR(plain->at({0.25f, 0.5f, 0.5f}, lambda).le[3], 0.75f / kCieYIntegral, 1e-7f);
@@ -112,7 +112,7 @@ TEST(UniformGrid, TemperaturesAreBlackBodiesWithAMaximumOfOne) {
                          "\"float temperature\" [ 10 40 ] \"float Lescale\" [ 3 3 ] "
                          "\"float temperatureoffset\" 9.5 \"float temperaturescale\" 100 ");
   EXPECT_TRUE(m->is_emissive());
-  // (40 - 9.5) * 100 = 3050 K; (10 - 9.5) * 100 = 50 K does not glow.
+  // (40 - 9.5) * 100 = 3050 K. At (10 - 9.5) * 100 = 50 K nothing is emitted.
   const SampledSpectrum hot = m->at({0.75f, 0.5f, 0.5f}, lambda).le;
   const SpectrumPtr planck = blackbody_spectrum(3050);
   for (int i = 0; i < kSpectrumSamples; ++i) {
@@ -142,7 +142,7 @@ TEST(RgbGrid, SamplesAreTheSpectraOfTheirColours) {
   for (int i = 0; i < kSpectrumSamples; ++i) {
     EXPECT_NEAR(p.sigma_a[i], 2 * a->sample(lambda)[i], 1e-5f);
     EXPECT_NEAR(middle.sigma_a[i], a->sample(lambda)[i] + 1, 1e-5f);
-    // Where there is no grid the coefficient is 1 up to the walls.
+    // Without a grid the coefficient is 1 up to the walls.
     EXPECT_EQ(m->at({0, 0, 0}, lambda).sigma_s[i], 2);
     EXPECT_NEAR(p.le[i], 4 * le->sample(lambda)[i], 1e-5f * p.le[i]);
   }
@@ -159,7 +159,7 @@ TEST(Cloud, IsFullBelowEmptyAboveAndTheNoiseInBetween) {
   };
   EXPECT_EQ(density_at("", {0.3f, -0.1f, 0.2f}), 1);
   EXPECT_EQ(density_at("", {0.3f, 1, 0.2f}), 0);
-  // Without wisps, the octaves by hand.
+  // Without wisps: the octaves, computed by hand.
   const MediumPtr smooth = medium_of(
       "cloud", kOne + "\"float wispiness\" 0 \"float frequency\" 4 \"float density\" 0.9");
   TestRandom random(9);
@@ -175,7 +175,7 @@ TEST(Cloud, IsFullBelowEmptyAboveAndTheNoiseInBetween) {
     between += body > 0 && expected < 1;
   }
   EXPECT_GT(between, 30);
-  // Medium space is not the box.
+  // The cloud is defined in medium space, not relative to the box.
   EXPECT_EQ(density_at("\"point3 p0\" [ 0 -1 0 ] \"point3 p1\" [ 2 3 2 ]", {1.5f, 2, 1.5f}), 0);
   EXPECT_FALSE(medium_of("cloud", "")->is_emissive());
 }
@@ -192,7 +192,7 @@ TEST(Homogeneous, CoefficientsEmissionAndPresets) {
   EXPECT_EQ(p.sigma_a[0], 6);
   EXPECT_TRUE(p.sigma_s.is_black() && m->is_purely_absorbing() && m->is_emissive());
   EXPECT_EQ(p.phase.g(), -0.4f);
-  // The rgb value stays: luminance is taken of the illuminant.
+  // The rgb value is kept: the luminance is that of the illuminant.
   const Spectrum& white = RgbColorSpace::srgb().illuminant();
   const float expected = 5 * 2 * white.sample(lambda)[2] / spectrum_to_photometric(white);
   EXPECT_NEAR(p.le[2], expected, 1e-4f * expected);

@@ -1,4 +1,4 @@
-// Majorants: pieces of a ray are contiguous, cover exactly what lies inside and bound the
+// Majorants: segments of a ray are contiguous, cover exactly the part inside, and bound the
 // extinction there.
 #include "scene/medium/medium_space.h"
 #include "scene/medium/sampled_grid.h"
@@ -25,7 +25,7 @@ TEST(MajorantIterator, PiecesAreContiguousAndBruteForceAgrees) {
   int inside = 0;
   for (int n = 0; n < 3000; ++n) {
     Ray ray = random_ray(random, {0.5f, 0.5f, 0.5f}, 2);
-    // Starts and walls on the lattice of cells.
+    // Some starts and walls on the cell lattice.
     if (n % 5 == 0)
       for (int i = 0; i < 3; ++i)
         ray.o[i] = std::round(ray.o[i] * static_cast<float>(kResolution[i])) /
@@ -44,7 +44,7 @@ TEST(MajorantIterator, PiecesAreContiguousAndBruteForceAgrees) {
       if (i > 0) {
         ASSERT_EQ(segments[i].t_min, segments[i - 1].t_max);
       }
-      // The cell of a point well inside the piece, found without any walking.
+      // The cell of a point well inside the segment, computed directly.
       for (const double f : {0.01, 0.5, 0.99}) {
         const double t = segments[i].t_min + f * (double(segments[i].t_max) - segments[i].t_min);
         int cell[3];
@@ -90,7 +90,7 @@ TEST(Majorants, BoundTheExtinctionAndCoverAllOfIt) {
       const auto lambda = SampledWavelengths::sample_visible(random.next());
       const float t_max = n % 2 ? kInfinity : c.radius * random.next();
       const auto segments = segments_of(c.medium->majorants(ray, t_max, lambda));
-      // Inside of pieces the majorant holds.
+      // The majorant bounds the extinction inside its segment.
       for (const MajorantSegment& s : segments) {
         const float end = std::min(s.t_max, s.t_min + 10 * c.radius);
         for (int i = 0; i < 20; ++i) {
@@ -120,7 +120,7 @@ TEST(MediumSpace, CutsRaysExactlyAndSurvivesAnything) {
     for (int i = 0; i < 50; ++i) {
       const float t = 20 * random.next();
       const Vec3f p = space.to_cube(ray.o + ray.d * t);
-      float outside = -kInfinity;  // how far, in widths of the box
+      float outside = -kInfinity;  // distance to the box, in its widths
       for (int a = 0; a < 3; ++a) outside = std::max({outside, -p[a], p[a] - 1});
       if (std::abs(outside) < 1e-4f) continue;
       ASSERT_EQ(outside < 0, r && t >= r->t_min && t < r->t_max);

@@ -1,4 +1,4 @@
-// The media that the tests of this folder go through, see medium_fixture.h.
+// The media that the tests iterate over, see medium_fixture.h.
 #include "unit/medium/medium_fixture.h"
 
 namespace nephroid::testing_medium {

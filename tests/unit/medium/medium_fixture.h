@@ -1,5 +1,4 @@
-// Media from the text of a scene, rays through them and quadrature along rays. Used by the tests of
-// this folder.
+// Media from scene text, random rays through them, and quadrature along rays.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -50,10 +49,10 @@ inline std::string random_values(int count, uint64_t seed, bool sparse = false) 
   return text + " ]";
 }
 
-/// A transform that turns, stretches unevenly and moves.
+/// A transform with rotation, uneven scaling and translation.
 inline const std::string kUneven = "Translate 1 -2 0.5 Rotate 33 1 2 3 Scale 2 0.5 3";
 
-/// A unit ray from near the box of all test media towards or past it.
+/// A unit ray from near the box of all test media, towards it or past it.
 inline Ray random_ray(TestRandom& random, const Vec3f& center, float radius) {
   const auto point = [&] {
     return center +
@@ -62,7 +61,7 @@ inline Ray random_ray(TestRandom& random, const Vec3f& center, float radius) {
   Ray ray;
   ray.o = point();
   ray.d = normalize(point() - ray.o);
-  // Every fourth runs along an axis.
+  // Every fourth ray is parallel to an axis.
   if (random.next() < 0.25f) {
     const int axis = static_cast<int>(random.next() * 3);
     ray.d = {0, 0, 0};
@@ -75,10 +74,10 @@ inline Ray random_ray(TestRandom& random, const Vec3f& center, float radius) {
 struct MediumCase {
   const char* name;
   MediumPtr medium;
-  Vec3f center{0, 0, 0};  ///< of a ball that holds it
+  Vec3f center{0, 0, 0};  ///< centre of a ball that contains it
   float radius = 4;
 };
-/// All of them but those from files.
+/// All cases except those from files.
 std::vector<MediumCase> medium_cases();
 
 }  // namespace nephroid::testing_medium

@@ -1,4 +1,4 @@
-// Media from NanoVDB files: values, placing, majorants, and files that are not what they should be.
+// Media from NanoVDB files: values, placement, majorants, and bad files.
 #include <fstream>
 #include <sstream>
 
@@ -84,7 +84,7 @@ TEST(NanoVdb, TemperaturesGlow) {
   EXPECT_TRUE(m->at({2, 3.25f, 3 + 0.25f * 28}, lambda).le.is_black());
   EXPECT_TRUE(m->at({0, 3.25f, 4}, lambda).le.is_black());
   EXPECT_FALSE(m->at({0, 3.25f, 4}, lambda).sigma_a.is_black());
-  // Both boxes are gone through.
+  // The ray passes through both boxes.
   auto pieces = m->majorants({{2, 3.25f, 0}, {0, 0, 1}, kInfinity, 0}, kInfinity, lambda);
   float end = 0;
   while (const auto s = pieces.next()) end = s->t_max;
@@ -171,7 +171,7 @@ TEST(NanoVdb, BrokenFilesAreErrorsAndNeverCrashes) {
       if (n % 4 == 0) {
         bytes.resize(static_cast<size_t>(random.next() * static_cast<float>(whole.size())));
       } else {
-        // Mostly in the headers, where the sizes and offsets stand.
+        // Mostly in the headers, which hold sizes and offsets.
         const float reach = n % 4 == 1 ? static_cast<float>(whole.size()) : 1100.0f;
         for (int k = 0; k < 6; ++k)
           bytes[static_cast<size_t>(random.next() * reach) % bytes.size()] =

@@ -1,4 +1,4 @@
-// Writes small NanoVDB files with the library's own builder. Used by the tests of this folder.
+// Writes small NanoVDB files with the library's own builder.
 #pragma once
 
 #include <array>
@@ -8,8 +8,8 @@
 
 namespace nephroid::testing_medium {
 
-/// A dense box of voxels [first, last] with the value of a function, in a grid that is placed by a
-/// voxel size and the world position of voxel (0, 0, 0).
+/// A dense box of voxels [first, last] with values of a function. The grid is placed by the voxel
+/// size and the world position of voxel (0, 0, 0).
 struct VoxelBox {
   std::string name;
   std::array<int, 3> first, last;
@@ -21,7 +21,7 @@ struct VoxelBox {
   float background = 0;
 };
 
-/// Packed with zlib if `zip`.
+/// Compressed with zlib if `zip`.
 void write_nanovdb(const std::string& path, const std::vector<VoxelBox>& grids, bool zip = false);
 
 }  // namespace nephroid::testing_medium

@@ -1,4 +1,4 @@
-// The phase function: normalised, symmetric, sampled as it is evaluated, its mean cosine is g.
+// The phase function: normalised, symmetric, sampled as evaluated, with mean cosine g.
 #include "scene/medium/phase_function.h"
 
 #include "unit/medium/medium_fixture.h"
@@ -37,8 +37,7 @@ TEST(HenyeyGreenstein, SamplesFollowTheDensity) {
     const HenyeyGreenstein phase(g);
     const Vec3f wo = spherical(0.3, 1.1);
     const Frame frame = Frame::from_z(wo);
-    // Equal steps of the angle's share of the density itself would test nothing: steps of the
-    // cosine grow from the peak.
+    // Cells of equal probability would test nothing: cells in the cosine grow from the peak.
     const auto edge = [&](int i) {
       const double s = double(i) / kZ;
       const double from_peak = std::abs(g) > 0.8f ? 2 * s * s * s : 2 * s;
@@ -46,7 +45,7 @@ TEST(HenyeyGreenstein, SamplesFollowTheDensity) {
     };
     std::vector<double> expected, observed(kZ * kPhi, 0.0);
     for (int i = 0; i < kZ; ++i) {
-      // The distribution function in closed form, as a function of z = cos(wo, wi).
+      // The distribution function in closed form, with z = cos(wo, wi).
       const auto cdf = [&](double z) {
         if (std::abs(g) < 1e-3) return 0.5 * z;
         return -(1 - double(g) * g) / (2 * double(g)) / std::sqrt(1 + double(g) * g + 2 * g * z);
@@ -77,7 +76,7 @@ TEST(HenyeyGreenstein, SampleTellsTheDensityThatEvalTells) {
       const Vec3f wo = square_to_sphere(random.next2());
       const PhaseSample s = phase.sample(wo, random.next2());
       ASSERT_NEAR(length(s.wi), 1.0f, 1e-6f);
-      // Near the peak the density changes by a per cent within the rounding of a direction.
+      // Near the peak, rounding a direction changes the density by a percent.
       ASSERT_NEAR(phase.eval(wo, s.wi), s.pdf_w, (std::abs(g) > 0.9f ? 2e-3f : 2e-5f) * s.pdf_w)
           << g;
       ASSERT_EQ(phase.eval(wo, s.wi), phase.eval(s.wi, wo));
@@ -95,12 +94,12 @@ TEST(HenyeyGreenstein, CornersOfTheUnitSquareGiveFiniteDirections) {
 }
 
 TEST(HenyeyGreenstein, ForwardIsWherePbrtHasIt) {
-  // g > 0 scatters to dot(wo, wi) = -1, and small samples are forward.
+  // g > 0 scatters towards dot(wo, wi) = -1, and small random numbers scatter forward.
   const HenyeyGreenstein forward(0.8f);
   const Vec3f wo(1, 0, 0);
   EXPECT_GT(forward.eval(wo, -wo), 100 * forward.eval(wo, wo));
   EXPECT_LT(dot(wo, forward.sample(wo, {0, 0}).wi), -0.999f);
-  // Values outside [-0.99, 0.99] are taken to be at its ends.
+  // Values beyond [-0.99, 0.99] are clamped.
   EXPECT_EQ(HenyeyGreenstein(1.0f).g(), 0.99f);
   EXPECT_EQ(HenyeyGreenstein(-1.0f).g(), -0.99f);
 }

@@ -1,11 +1,11 @@
-// Ratio tracking along the majorants against quadrature: they agree only if majorants, lookups and
-// the cutting of rays do.
+// Ratio tracking with majorants against quadrature: they agree only if majorants, lookups and ray
+// clipping agree.
 #include "unit/medium/medium_fixture.h"
 
 namespace nephroid::testing_medium {
 namespace {
 
-/// Optical depth at one wavelength up to t_max by the midpoint rule.
+/// Optical depth up to t_max at one wavelength, by the midpoint rule.
 double optical_depth(const Medium& medium, const Ray& ray, float t_max, int k,
                      const SampledWavelengths& lambda) {
   float begin = kInfinity, end = 0;
@@ -66,7 +66,7 @@ TEST(Transmittance, RatioTrackingIsTheIntegral) {
 }
 
 TEST(Transmittance, DoesNotDependOnTheUnitOfLength) {
-  // The same medium at 1e-4 and at 1e4 units: its optical depth is the same.
+  // The same medium at scales of 1e-4 and 1e4: its optical depth does not change.
   const std::string grid = "\"integer nx\" 3 \"integer ny\" 3 \"integer nz\" 3 \"float density\" " +
                            random_values(27, 6) + " \"float scale\" ";
   std::vector<double> depths;

@@ -1,4 +1,4 @@
-// argv as users type it, and what is made from the option table.
+// Command lines as typed by users, and the effect of the option table.
 #include "options/command_line.h"
 
 #include <gtest/gtest.h>
@@ -91,7 +91,7 @@ TEST(CommandLine, OtherSpellings) {
   EXPECT_EQ(parse("render --output=x.exr s.pbrt").render.output, "x.exr");
   EXPECT_EQ(parse("render s.pbrt -t2").render.threads, 2);
   EXPECT_EQ(parse("render s.pbrt --threads 2").render.threads, 2);
-  // A setting takes one word and leaves the scene alone.
+  // A setting takes one word and does not consume the scene's name.
   EXPECT_EQ(parse("render -D radius=2 s.pbrt").render.scene, "s.pbrt");
 }
 

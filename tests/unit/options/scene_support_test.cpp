@@ -1,6 +1,5 @@
-// docs/scene-support.md is current and honest: what the loader asks for is in the tables that the
-// page is made of, what they call rendered is asked for, and warnings and errors come where they
-// say.
+// docs/scene-support.md is current and true: the loader reads only listed parameters, reads all
+// that are called rendered, and warns and fails where the page says so.
 #include "options/scene_support.h"
 
 #include <gtest/gtest.h>
@@ -30,14 +29,14 @@ std::string read_text(const std::filesystem::path& path) {
   return text.str();
 }
 
-/// What loading one scene brought to light.
+/// Observations from loading one scene.
 struct Outcome {
-  std::set<std::string> asked;  ///< names of parameters of the directive under test
-  std::string messages;         ///< warnings, notes and the error, one a line
+  std::set<std::string> asked;  ///< parameters of the directive under test that were read
+  std::string messages;         ///< warnings, notes and the error, one per line
   bool failed = false;
 };
 
-/// Loads tiny scenes in which one directive is under test.
+/// Loads tiny scenes with one directive under test.
 class Loader {
  public:
   Loader() {
@@ -55,7 +54,7 @@ class Loader {
     testing_medium::write_nanovdb(files_.path("cloud.nvdb"), {box});
   }
 
-  /// Textures are loaded with values of both kinds, integrators as the scene's own choice.
+  /// Textures are loaded with both kinds of values, integrators as the scene's own choice.
   Outcome load(const std::string& directive, const std::string& type,
                const std::string& parameters) const {
     const std::string given = base(directive, type) + " " + parameters;
@@ -72,7 +71,7 @@ class Loader {
   }
 
  private:
-  /// What the type cannot do without.
+  /// The parameters that the type requires.
   static std::string base(const std::string& directive, const std::string& type) {
     static const std::map<std::string, std::string> kNeeded = {
         {"Camera realistic", R"("string lensfile" "no lenses")"},
@@ -155,7 +154,7 @@ class Loader {
   testing::TemporaryDirectory files_;
 };
 
-/// The parameter with some value of its type, as a scene says it.
+/// The parameter in scene syntax, with some value of its type.
 std::string example(const FormatParameter& p) {
   const std::string type = p.type, name = p.name;
   static const std::map<std::string, std::string> kOfName = {{"mapping", "\"planar\""},
@@ -191,7 +190,7 @@ TEST(SceneSupport, PageIsCurrent) {
 }
 
 TEST(SceneSupport, ExamplesLoad) {
-  // Otherwise the tests below would see only what is asked for before an error.
+  // Otherwise the tests below would see only parameters read before an error.
   const Loader loader;
   const std::set<std::string> need_files = {"realistic", "measured"};
   for (const FormatKind& kind : format_kinds())
@@ -218,7 +217,7 @@ TEST(SceneSupport, LoaderAsksForWhatIsListedAndNothingElse) {
       for (const FormatParameter& p : parameters_of(type))
         EXPECT_TRUE(p.support != Support::kRendered || asked.count(p.name))
             << what << ": \"" << p.name << "\" is not rendered";
-      // What one integrator has counts for all: the scene's choice need not be the user's.
+      // Integrators share their parameters: the user may choose another one than the scene.
       const bool shared = std::string(kind.directive) == "Integrator";
       for (const std::string& name : asked)
         EXPECT_TRUE(type.find(name) || (shared && of_kind.count(name)))
@@ -280,13 +279,13 @@ TEST(SceneSupport, NamesWithoutEffectAreExplained) {
          "parameter \"emissionfilename\" of shape \"bilinearmesh\" is ignored: it tells where");
 }
 
-// Loading sees only the branches that the examples reach; the text of the loader has all.
+// Loading reaches only the branches of the examples; the loader's source text has all names.
 TEST(SceneSupport, EveryNameInTheTextOfTheLoaderIsListed) {
   std::set<std::string> listed;
   for (const FormatKind& kind : format_kinds())
     for (const FormatType& type : kind.types)
       for (const FormatParameter& p : parameters_of(type)) listed.insert(p.name);
-  // Roughness and indices of coated conductors are written with a prefix.
+  // Roughness and index of coated conductors have a prefix.
   const std::regex getter(
       R"rx((?:\b(?:p|parameters)\.(?:get_\w+|find)\(|\b(?:float_texture|spectrum_texture|read_\w+)\((?:[\w.]+, )+(?:prefix \+ )?)"([^" ]+)")rx");
   int found = 0;
@@ -294,7 +293,7 @@ TEST(SceneSupport, EveryNameInTheTextOfTheLoaderIsListed) {
   for (const char* folder : {"src/scene", "src/session", "src/integrator"}) {
     for (const auto& entry : std::filesystem::recursive_directory_iterator(source / folder)) {
       if (!entry.is_regular_file()) continue;
-      // Getters run over lines: one space for any white space.
+      // Calls span lines: replaces white space by single spaces.
       const std::string text = std::regex_replace(read_text(entry.path()), std::regex("\\s+"), " ");
       for (std::sregex_iterator i(text.begin(), text.end(), getter), end; i != end; ++i, ++found)
         EXPECT_TRUE(listed.count((*i)[1])) << entry.path() << ": \"" << (*i)[1] << "\"";

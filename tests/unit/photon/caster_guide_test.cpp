@@ -1,6 +1,5 @@
-// Casters that photons aim at from rough surfaces: the cones are a density that samples follow,
-// however narrow they are, and a guide holds what it has learned and leaves out what a vertex does
-// not reach.
+// Guiding towards casters from rough surfaces: samples follow the density of the cones, however
+// narrow. A guide contains the casters it learned and omits those that a vertex cannot reach.
 #include "photon/caster_guide.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +21,7 @@ Vec3f random_direction(TestRandom& random) {
   return spherical(2 * double{u.x} - 1, 2 * M_PI * double{u.y});
 }
 
-/// Eight parts of the sphere.
+/// Octants of the sphere.
 size_t octant(const Vec3f& w) {
   return (w.x > 0 ? 1u : 0u) + (w.y > 0 ? 2u : 0u) + (w.z > 0 ? 4u : 0u);
 }
@@ -62,7 +61,7 @@ TEST(CasterCones, AreADensityThatSamplesFollow) {
         << k;
 }
 
-// What is left of the number that chose a cone is as good as new.
+// The random number that chose a cone can be reused.
 TEST(CasterCones, LeaveARandomNumber) {
   const CasterCones cones = overlapping_cones();
   std::array<int, 4> quarters{};
@@ -75,7 +74,7 @@ TEST(CasterCones, LeaveARandomNumber) {
   for (const int n : quarters) EXPECT_NEAR(n, kSamples / 4, 4);
 }
 
-// A direction whose density lacks its own cone's would weigh thousands of times too much.
+// A density that misses the sample's own cone would make its weight thousands of times too large.
 TEST(CasterCones, HoldWhatTheySampleHoweverNarrow) {
   TestRandom random(2);
   for (const float narrowness : {1e-2f, 1e-5f, 1e-8f, 1e-11f}) {
@@ -83,7 +82,7 @@ TEST(CasterCones, HoldWhatTheySampleHoweverNarrow) {
       CasterCones cones;
       cones.add(random_direction(random), narrowness, 1);
       float uc = random.next();
-      // The rim, where rounding decides, as often as all else.
+      // Half of the samples lie on the rim, where rounding decides.
       Vec2f u = random.next2();
       if (i % 2 == 0) u.x = kOneMinusEpsilon;
       const Vec3f w = cones.sample(uc, u);
@@ -123,7 +122,7 @@ struct Glasses {
 
 TEST(CasterGuide, HoldsWhereCastersWereMet) {
   const Glasses glasses;
-  // As many as pay.
+  // As many as pay off.
   ASSERT_GE(glasses.guide.places(), 2u);
   size_t around = 0;
   for (const UsefulStart& m : glasses.met) {
@@ -135,7 +134,7 @@ TEST(CasterGuide, HoldsWhereCastersWereMet) {
     EXPECT_GE(balls, 1u);
     around += wide;
   }
-  // One around both, in case there is more between them.
+  // One place around both, in case there is more between them.
   EXPECT_EQ(around, glasses.met.size());
 }
 
@@ -161,13 +160,13 @@ TEST(CasterGuide, AimsAtCastersThatAVertexReaches) {
   const auto between = shares(LitVertex({0, 0, 0}), paper);
   EXPECT_GT(between[0], 100);
   EXPECT_GT(between[1], 100);
-  // In the one glass, of which there is nothing to gain: only the other one is aimed at.
+  // Inside one glass, which guiding cannot help: only the other one is a target.
   const LitVertex within(glasses.left + Vec3f(0.05f, 0.02f, -0.03f));
   const auto inside = shares(within, thin);
   EXPECT_LT(inside[0], 10);
   EXPECT_GT(inside[1], 900);
   EXPECT_EQ(within.cones(glasses.guide, thin).pdf_w(normalize(glasses.left - within.surface.p)), 0);
-  // From above, where paper scatters nothing down, but what light shines through does.
+  // From above: paper scatters nothing down, a translucent sheet does.
   EXPECT_EQ(shares(LitVertex({0, 0, 4}), paper)[0], 0);
   EXPECT_GT(shares(LitVertex({0, 0, 4}), thin)[0], 100);
 }

@@ -1,6 +1,5 @@
-// Light paths that start where earlier ones were of use: whatever is counted over them with their
-// weights has the mean that it has over the lights' own starts, for every kind of light; and the
-// density of a start integrates to one.
+// Guided emission: weighted counts of light paths have the same mean as with unguided emission, for
+// every kind of light. The density of a start integrates to one.
 #include "photon/emission_guide.h"
 
 #include <gtest/gtest.h>
@@ -48,8 +47,8 @@ const Lights kLights[] = {
        LightSource "infinite" "rgb L" [0.05 0.05 0.05])"},
 };
 
-/// Two far-off places of use for each light, and one that the lamps reach into; those of one light
-/// in a scene of several differ.
+/// Two distant useful places for each light, and one that the lamps intersect. Lights of one scene
+/// have different places.
 EmissionGuide guide_for(const Scene& scene) {
   TestRandom random(5);
   std::vector<UsefulStart> starts;
@@ -63,7 +62,7 @@ EmissionGuide guide_for(const Scene& scene) {
   return {scene, starts, 20000};
 }
 
-/// The same without knowing what is of use: places that could be.
+/// The same with potentially useful places, the casters.
 EmissionGuide guide_to_casters(const Scene& scene) {
   TestRandom random(6);
   std::vector<UsefulStart> starts;
@@ -85,8 +84,7 @@ std::optional<Emission> random_start(const Scene& scene, const EmissionGuide& gu
   return emit(scene, guide, test_wavelengths(), 0, sampler);
 }
 
-/// What is counted of starts, in bins of the direction and of the place on a plane that the rays
-/// cross.
+/// Counts of starts, binned by direction and by position on a plane that the rays cross.
 class Bins {
  public:
   void add(const Emission* e) {
@@ -117,7 +115,7 @@ class Bins {
     flux_[bin].add(e.flux[0]);
     number_[bin].add(e.weight);
   }
-  /// Paths elsewhere count as zero.
+  /// Paths in other bins count as zero.
   Mean of_all(Mean m) const {
     m.n = paths_;
     return m;
@@ -127,8 +125,8 @@ class Bins {
 };
 
 void expect_same_mean(const Mean& a, const Mean& b, const std::string& what) {
-  // By chance one of ten thousand means is as far off with a probability of a few parts in a
-  // thousand; the seeds are fixed.
+  // One of ten thousand means exceeds this by chance with a probability of a few in a thousand. The
+  // seeds are fixed.
   EXPECT_NEAR(a.mean(), b.mean(), 5.2 * std::hypot(a.error(), b.error())) << what;
 }
 
@@ -235,7 +233,7 @@ TEST_P(GuidedEmission, HasADensityThatIntegratesToItsGain) {
 }
 
 TEST(EmissionGuide, ChoosesLightsByPowerTimesGain) {
-  // More lights than clusters: several share what was found of them.
+  // With more lights than clusters, several lights share their records.
   std::string lights;
   for (int i = 0; i < 600; ++i)
     lights += "LightSource \"point\" \"rgb I\" [1 1 1] \"float scale\" " +
@@ -276,7 +274,7 @@ TEST(EmissionGuide, ThatHasLearnedNothingLeavesThePathsAsTheyAre) {
     EXPECT_TRUE(learned_nothing.empty());
     for (uint32_t i = 0; i < 200; ++i) {
       const auto e = random_start(*scene, learned_nothing, i, 4);
-      // By hand: light 1, position 2, direction 2.
+      // By hand: numbers for light 1, position 2, direction 2.
       const SobolPoint point(i, 0);
       PathSampler sampler(point, 4);
       float u = sampler.get_1d();
@@ -315,8 +313,8 @@ TEST(EmissionGuide, TellsTheDensityOfStartPoints) {
   }
 }
 
-// A target so small that rounding moves rays across its edge: none may come out of it with the
-// weight of a ray that was not aimed, ten million times as large.
+// A target so small that rounding moves rays across its edge. No ray may get the weight of an
+// unguided one, which is ten million times as large.
 TEST(EmissionGuide, AimsAtSmallTargetsInSpiteOfRounding) {
   for (const char* name : {"point", "ball", "uniform_sky", "distant"}) {
     const auto lights = std::find_if(std::begin(kLights), std::end(kLights),

@@ -1,5 +1,4 @@
-// How the targets of a guide to emission are made of useful starts: where they lie, how large they
-// are, and how often they are aimed at.
+// Targets of guided emission, made of useful starts: their positions, sizes and probabilities.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +19,7 @@ const char* const kPoint = R"(LightSource "point" "rgb I" [2 3 4] "point3 from" 
 TEST(EmissionTargets, HasATargetAroundEachStart) {
   const auto scene = scene_with(kPoint);
   TestRandom random(7);
-  // From a single start to many more clusters than targets.
+  // From a single cluster to many more clusters than targets.
   for (const int clusters : {1, 2, 30, 45, 200})
     for (const int each : {1, 7, 40}) {
       std::vector<UsefulStart> starts;
@@ -35,7 +34,7 @@ TEST(EmissionTargets, HasATargetAroundEachStart) {
         EXPECT_GE(target.radius, 1e-4f * scene->sphere.radius);
         EXPECT_LE(target.radius, 1.6f * scene->sphere.radius);
       }
-      // Those around several places cover everything, whatever these do.
+      // Wider targets, around several places, cover everything anyway.
       const auto places = guide.targets().first(guide.places());
       for (const UsefulStart& start : starts)
         EXPECT_TRUE(std::any_of(places.begin(), places.end(), [&](const EmissionGuide::Target& t) {
@@ -44,7 +43,7 @@ TEST(EmissionTargets, HasATargetAroundEachStart) {
     }
 }
 
-// What no start has found at the rim of a place still has paths of a bounded weight.
+// Paths at the rim of a place, where no start was found, have bounded weights as well.
 TEST(EmissionTargets, HasWiderBallsAroundTightOnes) {
   const auto scene = scene_with(kPoint);
   TestRandom random(9);
@@ -63,7 +62,7 @@ TEST(EmissionTargets, HasWiderBallsAroundTightOnes) {
     around += choice->target >= static_cast<int>(guide.places());
   }
   EXPECT_NEAR(static_cast<double>(around) / aimed, 0.125, 0.001);
-  // Ten per cent further out than the farthest start, all around.
+  // Ten percent beyond the farthest start, in all directions.
   const Vec3f lamp(0.3f, 2.5f, 0);
   double inside = 0;
   for (int i = 0; i < 360; ++i) {
@@ -87,7 +86,7 @@ TEST(EmissionTargets, GivesFewStartsAsMuchRoomAsTheyStandFor) {
     EXPECT_EQ(guide.targets().size(), 1u);
     return static_cast<double>(guide.targets()[0].radius);
   };
-  // The part of all directions that go through a small ball r at distance d is r^2 / (4 d^2).
+  // A small ball of radius r at distance d covers r^2 / (4 d^2) of all directions.
   EXPECT_NEAR(radius(kPoint, 1, 1, 10000), 2 * 2.0 * 0.01, 1e-6);
   EXPECT_NEAR(radius(kPoint, 4, 1, 10000), 2 * 2.0 * 0.02, 1e-6);
   EXPECT_NEAR(radius(kPoint, 4, 0.25f, 10000), 2 * 2.0 * 0.01, 1e-6) << "a path that was aimed";

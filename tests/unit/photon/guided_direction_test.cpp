@@ -1,5 +1,5 @@
-// Directions that photons foretold: the lobes and the mixture are densities, what is sampled
-// follows them, and a map looks towards the casters of the nearest records.
+// Directions predicted from photons: samples follow the densities of lobes and mixture, and a map
+// favours the casters of the nearest records.
 #include "transport/guided_direction.h"
 
 #include <gtest/gtest.h>
@@ -75,8 +75,8 @@ TEST(ForecastLobes, AreADensityThatSamplesFollow) {
 TEST(ForecastLobes, AreExactWhereTheyAreNarrow) {
   ForecastLobes lobes;
   const Vec3f axis = normalize(Vec3f(0.3f, -0.5f, 0.8f));
-  lobes.add(axis, 0.0f);  // as narrow as they get: a hundredth of a radian
-  // In rings around the axis, far below what cos(theta) tells apart from 1.
+  lobes.add(axis, 0.0f);  // the narrowest width, a hundredth of a radian
+  // In rings around the axis that cos(theta) cannot distinguish from 1.
   const double k = 1e4;
   TestRandom random(2);
   std::vector<double> observed(6, 0.0), expected;
@@ -98,7 +98,7 @@ TEST(ForecastLobes, AreExactWhereTheyAreNarrow) {
   EXPECT_GT(chi_square_test(observed, expected), kLevel);
 }
 
-// [T3], for every class that a BSDF has, in a frame that is not the world's.
+// [T3], for every class of a BSDF, in a shading frame other than world space.
 TEST(GuidedDirection, IsADensityThatSamplesFollow) {
   const Frame shading = Frame::from_z(normalize(Vec3f(0.2f, -0.3f, 0.9f)));
   const ForecastLobes lobes = some_lobes();
@@ -155,7 +155,7 @@ TEST(GuidedDirection, IsADensityThatSamplesFollow) {
   EXPECT_GE(questions, 7);
 }
 
-// Roulette leaves out the factor that refraction has, whoever chose the direction.
+// Russian roulette omits the factor of refraction for guided directions as well.
 TEST(GuidedDirection, ScalesByRefractionAsTheBsdfDoes) {
   BsdfArena arena;
   const float eta = 1.5f;
@@ -169,7 +169,7 @@ TEST(GuidedDirection, ScalesByRefractionAsTheBsdfDoes) {
     TestRandom random(5);
     int transmitted = 0, reflected = 0;
     for (int i = 0; i < 4000; ++i) {
-      // Numbers below a half choose a lobe of the forecast.
+      // Numbers below one half choose a lobe of the forecast.
       const float uc = 0.5f * random.next();
       float gain = 0;
       const auto s = mixture.sample(uc, random.next2(), gain);
@@ -229,7 +229,7 @@ TEST(ForecastMap, LooksTowardsTheCastersOfTheNearest) {
     for (const CausticRecord& record : by_distance) {
       const float distance = length(record.caster - p);
       const Vec3f axis = (record.caster - p) / distance;
-      std::vector<float> gaps;  // the first is to the axis itself
+      std::vector<float> gaps;  // the first one is to the axis itself
       for (const CausticRecord& other : by_distance)
         gaps.push_back(length(normalize(other.caster - p) - axis));
       std::sort(gaps.begin(), gaps.end());

@@ -1,4 +1,4 @@
-// Merging at one visible point, with photons made by hand so that every answer is known.
+// Merging at one visible point, with hand-made photons and known results.
 #include "photon/merge.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 constexpr float kReflectance = 0.6f, kTransmittance = 0.3f, kRadius = 0.1f;
 constexpr int kAnyDepth = 100;
 
-// As a photon keeps it.
+// Rounded as in a photon.
 SampledSpectrum ramp() {
   SampledSpectrum s;
   for (int i = 0; i < kSpectrumSamples; ++i) s.set(i, 1.0f + static_cast<float>(i));
@@ -36,13 +36,13 @@ OwnedRoutes all_photons() {
   return testing_support::owned_routes(one_material(), {"photons=.*:photons"});
 }
 
-// What a merge found.
+// Results of a merge.
 struct Merged {
   SampledSpectrum reflected;
   uint32_t found = 0;
 };
 
-// A visible point at the origin of a floor whose normal is +z, seen from above.
+// A visible point at the origin of a floor with normal +z, seen from above.
 struct VisiblePoint {
   SurfaceInteraction surface;
   DiffuseBsdf reflecting{SampledSpectrum(kReflectance)};
@@ -69,7 +69,7 @@ struct VisiblePoint {
     for (const SampledSpectrum& sum : sums.sums()) merged.reflected += sum;
     return merged;
   }
-  // By the nearest photons of set 0.
+  // Merges the nearest photons of set 0.
   Merged merge_near(const std::vector<Photon>& photons, size_t wanted, float max_radius,
                     float* radius) const {
     const OwnedRoutes owned = all_photons();
@@ -91,7 +91,7 @@ struct VisiblePoint {
   }
 };
 
-// The light side of a photon straight from a lamp, in routes where all states are alike.
+// Light state of a photon straight from a lamp, for routes with a single state.
 LightState straight_from(const OwnedRoutes& owned) {
   return owned.routes->emitted(light_symbol(LightKind::kShape, 0));
 }
@@ -143,8 +143,8 @@ TEST(Merge, PhotonsOfAWallDoNotCountOnTheFloor) {
 }
 
 TEST(Merge, ThePhotonsOwnCosineIsTheDensityOfItsLanding) {
-  // On a surface that bends, photons of a beam lie with the density of the cosine at their own
-  // place.
+  // On a curved surface, the density of a beam's photons is proportional to the cosine at each
+  // photon.
   const VisiblePoint point;
   Photon bent = photon_from({0.6f, 0, 0.8f});
   bent.ng = PackedDirection(normalize(Vec3f(0.4f, 0, 1)));
@@ -179,7 +179,7 @@ TEST(Merge, TheSideOfArrivalSelectsReflectionOrTransmission) {
 
 TEST(Merge, WhatIsLeftStandsForAllWavelengths) {
   const VisiblePoint point;
-  // Over all pairs of heroes the mean is that of all wavelengths.
+  // The mean over all pairs of heroes is that of all wavelengths.
   SampledSpectrum mean_one_dropped, mean_both_dropped;
   const SampledSpectrum expected_whole = ramp() * (kReflectance * kInvPi);
   const Photon whole = photon_from({0, 0, 1});
@@ -262,7 +262,7 @@ TEST(MergeNearest, IsAConeToTheLastPhoton) {
   // Weights 1 - 1/3, 1 - 2/3 and 0.
   const float cone = 3 / (kPi * sqr(0.03f));
   expect_spectrum(m.reflected, ramp() * (kReflectance * kInvPi * cone), "three of four");
-  // Too few: the largest radius, and the cone reaches to it.
+  // Too few photons: the largest radius, for the cone as well.
   const Merged all = point.merge_near(photons, 50, 0.1f, &radius);
   EXPECT_EQ(all.found, 4u);
   EXPECT_EQ(radius, 0.1f);
@@ -276,7 +276,7 @@ TEST(MergeNearest, OtherSetsChooseTheRadiusAndNoMore) {
   for (size_t i = 0; i < photons.size(); ++i)
     photons[i].p = Vec3f(0.01f * static_cast<float>(i + 1), 0, 0);
   photons[0].set = 5;
-  // One that does not count at all, for its normal, does not choose the radius either.
+  // A photon rejected for its normal does not affect the radius.
   photons[1].ng = PackedDirection(Vec3f(1, 0, 0));
   float radius = 0;
   const Merged m = point.merge_near(photons, 3, 0.1f, &radius);

@@ -1,4 +1,4 @@
-// How far packed values are from what they stand for.
+// Errors of packed values.
 #include "photon/packed_values.h"
 
 #include <gtest/gtest.h>

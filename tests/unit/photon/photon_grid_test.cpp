@@ -1,5 +1,5 @@
-// The photon grid against brute force: every photon in range found once, none lost, whatever the
-// scale and the position.
+// The photon grid against brute force: every photon in range is found once, at any scale and
+// position.
 #include "photon/photon_grid.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ struct Numbers {
   }
 };
 
-// Half of the photons lie on a plane, a quarter in a tiny cluster, the rest anywhere.
+// Half of the photons are on a plane, a quarter in a tiny cluster, the rest anywhere.
 std::vector<Photon> make_photons(int count, const Vec3f& origin, float scale, uint64_t seed) {
   Numbers u{seed * 1000003};
   std::vector<Photon> photons(static_cast<size_t>(count));
@@ -40,7 +40,7 @@ void compare(int count, const Vec3f& origin, float scale) {
   ASSERT_EQ(grid.size(), photons.size());
   Numbers u{99};
   for (int q = 0; q < 200; ++q) {
-    // Some queries sit exactly on a photon, some outside of the box.
+    // Some queries are exactly on a photon, some outside the box.
     Vec3f c = origin + Vec3f(u(), u(), u()) * (1.4f * scale) - Vec3f(0.2f * scale);
     if (q % 3 == 0) c = photons[static_cast<size_t>(u() * static_cast<float>(count))].p;
     const float r = scale * std::pow(10.0f, -4.0f + 4.3f * u());
@@ -62,9 +62,9 @@ TEST(PhotonGrid, FindsWhatBruteForceFinds) {
   compare(5000, Vec3f(0, 0, 0), 1.0f);
   compare(3000, Vec3f(-3, 2, 1), 1.0f);
 }
-// Where a query's ends are rounded by more than a cell's size differs from it, it may span three.
+// If rounding of a query's ends exceeds the slack of its cells, it may span three.
 TEST(PhotonGrid, EndsOfQueriesThatAreRounded) {
-  constexpr float kUnit = 0x1p-23f;  // between neighbouring floats behind 1
+  constexpr float kUnit = 0x1p-23f;  // the spacing of floats above 1
   std::vector<Photon> photons(220);
   for (size_t i = 0; i < photons.size(); ++i)
     photons[i].p = Vec3f(1 + static_cast<float>(i / 10) * kUnit, 0, 0);
@@ -82,7 +82,7 @@ TEST(PhotonGrid, EndsOfQueriesThatAreRounded) {
       ASSERT_EQ(found, expected) << place << " radius " << radius;
     }
 }
-// Photons, centers and rims of queries lie on the boundaries of cells, of every size.
+// Photons, centres and rims of queries on cell boundaries of every size.
 TEST(PhotonGrid, BoundariesOfCells) {
   constexpr int kSide = 16;
   std::vector<Photon> photons(kSide * kSide * kSide + 1);
@@ -90,7 +90,7 @@ TEST(PhotonGrid, BoundariesOfCells) {
   for (size_t i = 0; i + 1 < photons.size(); ++i)
     photons[i].p = Vec3f(static_cast<float>(i % kSide), static_cast<float>(i / kSide % kSide),
                          static_cast<float>(i / kSide / kSide));
-  // With this one the box is as many quanta wide as there are.
+  // This photon makes the box exactly as many quanta wide as exist.
   photons.back().p = Vec3f(static_cast<float>((1 << PhotonGrid::kCoordinateBits) - 1) / 65536);
   const PhotonGrid grid(photons);
   for (const float radius : {0.0f, 1.0f, 1.5f, 2.0f, 3.0f, 4.0f, 8.0f})
@@ -148,7 +148,7 @@ TEST(PhotonGrid, OrderOfPhotonsInACellIsKept) {
 }
 
 TEST(PhotonGrid, SortsAsAStableSortOfCellsDoes) {
-  // Of places on a line the order of cells is that of the line.
+  // For positions on a line, cells are ordered along it.
   std::vector<Photon> photons(1000);
   for (size_t i = 0; i < photons.size(); ++i) {
     photons[i].p = Vec3f(static_cast<float>(i * 7919 % 37), 2, 3);
@@ -178,7 +178,7 @@ TEST(PhotonGrid, SaysWhatItTakes) {
   EXPECT_LE(of_each, sizeof(Photon) + 20.0 + 64.0);
 }
 
-// The nearest photons by a sort of all of them; of two at the same distance the first one.
+// The nearest photons by sorting all of them. Of two at the same distance, the first one counts.
 std::vector<PhotonGrid::Neighbour> nearest_of_all(const PhotonGrid& grid, const Vec3f& c,
                                                   float radius, size_t wanted, int every) {
   std::vector<PhotonGrid::Neighbour> all;
@@ -195,7 +195,7 @@ std::vector<PhotonGrid::Neighbour> nearest_of_all(const PhotonGrid& grid, const 
 TEST(PhotonGrid, NearestAreThoseOfBruteForce) {
   const Vec3f origin(2, -1, 0.5f);
   std::vector<Photon> photons = make_photons(3000, origin, 2, 5);
-  for (size_t i = 0; i < 200; ++i) photons[i].p = photons[200 + i].p;  // pairs in one place
+  for (size_t i = 0; i < 200; ++i) photons[i].p = photons[200 + i].p;  // pairs at the same position
   const PhotonGrid grid(photons);
   Numbers u{7};
   std::vector<PhotonGrid::Neighbour> found;
@@ -205,7 +205,7 @@ TEST(PhotonGrid, NearestAreThoseOfBruteForce) {
     if (q % 3 == 0) c = photons[static_cast<size_t>(u() * 3000)].p;
     const float radius = 2 * std::pow(10.0f, -3.0f + 3.3f * u());
     const size_t wanted = 1 + static_cast<size_t>(u() * 120);
-    const int every = 1 + q % 4;  // of the others none counts
+    const int every = 1 + q % 4;  // only every such photon counts
     grid.nearest(
         c, radius, wanted, [&](const Photon& p) { return p.events % every == 0; }, found);
     ASSERT_EQ(found, nearest_of_all(grid, c, radius, wanted, every)) << "query " << q;

@@ -1,5 +1,4 @@
-// Photons as they leave lights and land: how many, how much, and that neither threads nor batches
-// matter.
+// Photons from lights to surfaces: their number and flux, for any number of threads and batches.
 #include "photon/photon_tracer.h"
 
 #include <gtest/gtest.h>
@@ -50,7 +49,7 @@ void expect_same(const std::vector<Photon>& a, const std::vector<Photon>& b) {
   for (size_t i = 0; i < a.size(); ++i) ASSERT_TRUE(same(a[i], b[i])) << "photon " << i;
 }
 
-// A lamp of every kind above a floor, with glass, a varnished ball and a sheet that is half there.
+// A lamp of every kind above a floor, with glass, a coated ball and a sheet of alpha 0.5.
 const char* const kMany = R"(
   WorldBegin
   AttributeBegin
@@ -133,8 +132,8 @@ TEST(PhotonTracer, PassesAndSeedsHaveTheirOwnPhotons) {
 }
 
 TEST(PhotonTracer, AFloorReceivesWhatTheLampSendsThere) {
-  // Two parallel disks on one axis, radius r1 and r2 at distance h: of pi A L the share
-  // (s - sqrt(s^2 - 4 (r2/r1)^2)) / 2 arrives, s = 1 + (h^2 + r2^2)/r1^2.
+  // Two parallel disks on one axis, radii r1 and r2 at distance h. The share (s - sqrt(s^2 - 4
+  // (r2/r1)^2)) / 2 of pi A L arrives, with s = 1 + (h^2 + r2^2)/r1^2.
   const auto scene = scene_from_text(R"(
     WorldBegin
     AttributeBegin
@@ -171,8 +170,8 @@ TEST(PhotonTracer, AFloorReceivesWhatTheLampSendsThere) {
 }
 
 TEST(PhotonTracer, RouletteKeepsTheMean) {
-  // A point light in a hollow ball: after k reflections all its light still lies on the ball, times
-  // rho^k.
+  // A point light in a hollow ball: after k reflections all of its light times rho^k is on the
+  // ball.
   const auto scene = scene_from_text(R"(
     WorldBegin
     LightSource "point" "spectrum I" [300 1 900 1] "point3 from" [0.1 0.2 -0.1]
@@ -191,7 +190,7 @@ TEST(PhotonTracer, RouletteKeepsTheMean) {
   EXPECT_EQ(counts[0], kPhotons);
   for (size_t k = 1; k < sums.size(); ++k) {
     EXPECT_LT(counts[k], counts[k - 1]) << "nobody was killed, so nothing is tested";
-    // The number of survivors is binomial at each step: six standard deviations of the sum of them.
+    // The number of survivors is binomial at each step: allow six standard deviations of their sum.
     double variance = 0;
     for (size_t j = 1; j <= k; ++j) variance += 1 / counts[j];
     for (int i = 0; i < kSpectrumSamples; ++i) {
@@ -205,8 +204,8 @@ TEST(PhotonTracer, RouletteKeepsTheMean) {
 }
 
 TEST(PhotonTracer, APartlyPresentSheetStoresTheLightThatItShows) {
-  // Photons meet half of the sheet, and so do eyes: what is stored stands for the whole irradiance,
-  // and what goes on to the floor is the other half.
+  // Photons and eye paths meet the sheet with probability alpha. Stored photons represent the whole
+  // irradiance; the rest goes on to the floor.
   const auto flux = [](const char* alpha, float height) {
     const auto scene = scene_from_text(std::string(R"(
       WorldBegin
@@ -246,7 +245,7 @@ TEST(PhotonTracer, AMapEndsWithAWholeChunkOfEachSetAndKeepsItAll) {
     expect_same(of_set(whole, s),
                 trace_photons(*scene, owned, sets[static_cast<size_t>(s)], 0, 5000).photons);
 
-  // With less room it is the beginning of the same map, and every photon of its paths is there.
+  // With less memory it is the beginning of the same map, with every photon of its paths.
   const int64_t limit = static_cast<int64_t>(whole.trace.photons.size()) / 2;
   const PhotonMapTrace half = trace_map(*scene, owned, sets, limit);
   EXPECT_EQ(half.paths_of_set % kPhotonChunk, 0);

@@ -1,4 +1,4 @@
-// Equations [E1] and [E2] on paper-sized examples, and the convergence that they promise.
+// Equations [E1] and [E2] on small examples, and their convergence.
 #include "photon/radius_schedule.h"
 
 #include <gtest/gtest.h>
@@ -43,9 +43,9 @@ TEST(RadiusSchedule, PassWithoutPhotonsKeepsTheRadius) {
 }
 
 TEST(RadiusSchedule, OneDimensionalDensityConverges) {
-  // Hachisuka & Jensen's one-dimensional validation in the plane: photons of density 2x on the unit
-  // square, seen from a point; the estimate tends to the density there, and the radius keeps
-  // shrinking.
+  // Hachisuka & Jensen's one-dimensional validation, in the plane: photons of density 2x on the
+  // unit square, gathered at one point. The estimate tends to the density there, and the radius
+  // keeps shrinking.
   SharedStatistics s;
   s.radius_squared = 0.04;
   uint64_t n = 0;
@@ -54,7 +54,7 @@ TEST(RadiusSchedule, OneDimensionalDensityConverges) {
   for (int pass = 0; pass < 400; ++pass) {
     double found = 0;
     for (int i = 0; i < 2000; ++i) {
-      // A two-dimensional golden ratio sequence, x warped to density 2x.
+      // A two-dimensional golden ratio sequence, with x warped to density 2x.
       ++n;
       const double u = std::fmod(0.5 + static_cast<double>(n) * 0.7548776662466927, 1.0);
       const double v = std::fmod(0.5 + static_cast<double>(n) * 0.5698402909980532, 1.0);

@@ -1,4 +1,4 @@
-// The tree of cuts through useful starts.
+// The tree of splits through useful starts.
 #include "photon/start_tree.h"
 
 #include <gtest/gtest.h>

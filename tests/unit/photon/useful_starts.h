@@ -1,4 +1,4 @@
-// Scenes and useful starts for the tests of guides.
+// Scenes and useful starts to test guides with.
 #pragma once
 
 #include <fstream>
@@ -13,7 +13,7 @@
 
 namespace nephroid::testing_guide {
 
-/// The lights above a floor. PICTURE in their text stands for the name of a small picture.
+/// The lights above a floor. PICTURE in their text is replaced by the name of a small picture.
 inline std::unique_ptr<Scene> scene_with(const std::string& lights) {
   const ScratchDirectory directory;
   {
@@ -33,7 +33,7 @@ inline std::unique_ptr<Scene> scene_with(const std::string& lights) {
   return build_scene(parse_pbrt_string(text, "test.pbrt", ".", diagnostics), {}, diagnostics);
 }
 
-/// Starts whose first hits are evenly spread in a ball.
+/// Adds starts whose first hits are evenly spread in a ball.
 inline void add_cluster(std::vector<UsefulStart>& starts, int light, const Vec3f& center,
                         float radius, int count, testing_bsdf::TestRandom& random) {
   for (int i = 0; i < count; ++i) {

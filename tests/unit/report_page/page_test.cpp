@@ -1,4 +1,4 @@
-// The page of suites with pictures of a few pixels.
+// The report page of suites with pictures of a few pixels.
 #include "report_page/page.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace {
 
 class Pages : public BenchRuns {
  protected:
-  /// The page of the results that run() left.
+  /// The page of the results of run().
   std::string page() {
     write_report(scratch_.file("out/results.json"), scratch_.file("page.html"));
     return text_of_file(scratch_.file("page.html")).value_or("");
@@ -25,7 +25,7 @@ class Pages : public BenchRuns {
   bool shows(const std::string& text) { return page().find(text) != std::string::npos; }
 };
 
-/// Names of tags that do not match, empty if all do. Style and script are skipped.
+/// Names of unbalanced tags, empty if there are none. Style and script are skipped.
 std::string unbalanced(const std::string& html) {
   std::vector<std::string> open;
   for (size_t at = html.find('<'); at != std::string::npos; at = html.find('<', at + 1)) {
@@ -51,14 +51,14 @@ TEST_F(Pages, TheReportStandsByItself) {
   EXPECT_EQ(unbalanced(html), "");
   EXPECT_NE(html.find("<h1>Tiny &lt;suite&gt;</h1>"), std::string::npos);
   EXPECT_NE(html.find("<p>Two &amp; three.</p>"), std::string::npos);
-  // Nothing is fetched: neither by tags nor by style.
+  // The page loads nothing from outside, neither by tags nor by style.
   for (const char* fetching : {"http:", "https:", "src=\"/", "@import", "url(", "<link"})
     EXPECT_EQ(html.find(fetching), std::string::npos) << fetching;
   for (size_t at = html.find("src=\""); at != std::string::npos; at = html.find("src=\"", at + 1))
     EXPECT_EQ(html.compare(at, 26, "src=\"data:image/png;base64"), 0);
   for (size_t at = html.find("href=\""); at != std::string::npos; at = html.find("href=\"", at + 1))
     EXPECT_EQ(html[at + 6], '#');
-  // Reference, two runs and two error maps, and the two sides of the slider.
+  // Reference, two runs, two error maps, and the two sides of the slider.
   size_t pictures = 0;
   for (size_t at = html.find("<img"); at != std::string::npos; at = html.find("<img", at + 1))
     ++pictures;
@@ -87,7 +87,7 @@ TEST_F(Pages, SayWhichPictureIsMissing) {
   EXPECT_EQ(page().find("<img"), std::string::npos);
 }
 
-// Results move with their directory.
+// Results and their pictures move together.
 TEST_F(Pages, FindPicturesBesideTheResults) {
   run(small_suite());
   const std::string before = page();

@@ -43,7 +43,7 @@ std::string error_of(const std::string& world) {
   return "";
 }
 
-/// A tangle of curves in the unit box, of every basis and degree.
+/// Random curves in the unit box, of every basis and degree.
 std::string tangle(const std::string& type, int count) {
   Numbers u{7};
   std::string text;
@@ -72,7 +72,7 @@ std::string tangle(const std::string& type, int count) {
   return text;
 }
 
-/// First hit of all pieces of all records, by the shapes themselves.
+/// First hit of all pieces of all records, by the shapes' own intersection.
 std::optional<SurfaceInteraction> brute_force(const Scene& scene, const Ray& ray) {
   std::optional<ShapeHit> first;
   const Shape* shape = nullptr;
@@ -116,9 +116,9 @@ TEST(CurveTracing, AgreesWithRecursiveSubdivision) {
       }
       if (!hit) continue;
       ++hits;
-      // Of a curve that runs along the ray the tessellation tells the depth less well.
+      // Along a curve that is parallel to the ray, the tessellation's depth is less accurate.
       if (std::abs(found.distance - expected->distance) > 0.01f) {
-        ++elsewhere;  // another curve behind an edge that only one of both meets
+        ++elsewhere;  // another curve behind an edge that only one of the two hits
         continue;
       }
       EXPECT_LT(length(found.p - expected->p), 1e-3f);
@@ -126,7 +126,7 @@ TEST(CurveTracing, AgreesWithRecursiveSubdivision) {
       EXPECT_GT(dot(found.shading.x, expected->shading.x), 0.99f);
     }
     EXPECT_GT(hits, 300) << type;
-    // Only rays at the very edge are judged differently.
+    // Only rays at an edge may differ.
     EXPECT_LE(missed + elsewhere, hits / 50) << type;
     EXPECT_EQ(shadows, 0) << type;
   }
@@ -136,7 +136,7 @@ TEST(CurveTracing, CurvesAlikeShareAGeometryAndNothingElse) {
   const std::string curves = tangle("cylinder", 12);
   const Built together(curves);
   EXPECT_EQ(together.scene->top.records.size(), 1u);
-  // An interface that nobody sees between them keeps them apart.
+  // Tiny spheres between the curves keep them apart.
   std::string apart;
   for (size_t at = 0; at < curves.size();) {
     const size_t end = curves.find('\n', at) + 1;
@@ -161,7 +161,7 @@ TEST(CurveTracing, CurvesAlikeShareAGeometryAndNothingElse) {
     EXPECT_EQ(a.uv, b.uv);
   }
   EXPECT_GT(hits, 100);
-  // Another material, transform, orientation or type begins another geometry.
+  // Another material, transform, orientation or type starts another geometry.
   const std::string one = R"(Shape "curve" "point3 P" [0 0 0 1 0 0 2 0 0 3 1 0] )";
   const Built various(one + one + "Material \"hair\" " + one + "Translate 0 1 0 " + one +
                       "ReverseOrientation " + one + one + "\"string type\" \"cylinder\" " + one +
@@ -180,7 +180,7 @@ TEST(CurveTracing, StretchedCurvesAndInstancesAreMet) {
   Ray ray;
   ray.d = Vec3f(0, 0, 1);
   SurfaceInteraction hit;
-  // Widths are of object space: 0.3 to each side, and once more three times as much.
+  // Widths are in object space: 0.3 to each side, and three times that for the scaled curve.
   for (const auto& [centre, half] : {std::pair(0.0f, 0.3f), std::pair(6.0f, 0.9f)})
     for (const float part : {-1.02f, -0.98f, 0.98f, 1.02f}) {
       ray.o = Vec3f(1.9f, centre + half * part, -4);

@@ -1,4 +1,4 @@
-// Glass whose outside is its inside is warned of, and what may be meant as a bubble is not.
+// Warnings of glass that is inside out, and none for intended bubbles.
 #include "scene/inside_out.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 namespace nephroid {
 namespace {
 
-/// The warning of a scene that is turned inside out, or empty.
+/// The warning that a scene is inside out, or empty.
 std::string warning_of(const std::string& world) {
   Diagnostics diagnostics;
   const SceneDescription d = parse_pbrt_string(
@@ -51,13 +51,13 @@ TEST(InsideOut, OnlyOfClosedGlass) {
 }
 
 TEST(InsideOut, BubblesAreWanted) {
-  // In a ball of glass, and that ball itself if it is wrong.
+  // Inside a ball of glass, and that ball itself if it is reversed.
   const std::string ball = "Shape \"sphere\" \"float radius\" 3\n";
   EXPECT_EQ(warning_of(ball + kReversed), "");
   EXPECT_NE(warning_of("ReverseOrientation " + ball + kSphere), "");
-  // Beside it.
+  // Beside the ball.
   EXPECT_NE(warning_of(kReversed + "ReverseOrientation Translate 9 0 0 " + ball), "");
-  // Under a surface of water, in a medium, around the camera, and in an object that may stand in
+  // Below a water surface, in a medium, around the camera, and in an object that may be inside
   // glass.
   EXPECT_EQ(
       warning_of("Shape \"bilinearmesh\" \"point3 P\" [-9 -9 2 9 -9 2 -9 9 2 9 9 2]\n" + kReversed),
@@ -72,7 +72,7 @@ TEST(InsideOut, BubblesAreWanted) {
   EXPECT_NE(warning_of(object + "ObjectInstance \"o\""), "");
 }
 
-/// A box as triangles, each counter-clockwise from outside, or clockwise.
+/// A box of triangles, counter-clockwise from outside if `is_right`, else clockwise.
 std::string box(bool is_right, const std::string& more = "") {
   std::string text =
       "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 0 0 0 1 1 0 1 "
@@ -92,7 +92,7 @@ TEST(InsideOut, MeshesByTheirVolume) {
   EXPECT_EQ(warning_of("ReverseOrientation " + box(false)), "");
   EXPECT_NE(warning_of("ReverseOrientation " + box(true)), "");
   EXPECT_NE(warning_of("Translate 1000 0 0 " + box(false)), "");
-  // The normals of vertices decide over their order.
+  // Vertex normals take precedence over vertex order.
   const std::string out =
       "\"normal N\" [-1 -1 -1 1 -1 -1 -1 1 -1 1 1 -1 -1 -1 1 1 -1 1 -1 1 1 1 1 1]";
   const std::string in =
@@ -102,12 +102,12 @@ TEST(InsideOut, MeshesByTheirVolume) {
 }
 
 TEST(InsideOut, OpenMeshesAreNotJudged) {
-  // Without a face, and with one that is turned the other way.
+  // With a face missing, and with one flipped.
   const std::string start = "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 0 0 1] ";
   EXPECT_NE(warning_of(start + "\"integer indices\" [0 1 2 0 3 1 0 2 3 1 3 2]"), "");
   EXPECT_EQ(warning_of(start + "\"integer indices\" [0 1 2 0 3 1 0 2 3]"), "");
   EXPECT_EQ(warning_of(start + "\"integer indices\" [0 1 2 0 3 1 0 2 3 1 2 3]"), "");
-  // Vertices at the same place are one.
+  // Vertices at the same position count as one.
   EXPECT_NE(warning_of("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 0 0 1 1 0 0] "
                        "\"integer indices\" [0 1 2 0 3 1 0 2 3 4 3 2]"),
             "");

@@ -1,5 +1,5 @@
-// Meshes from files into the scene: displacement with its texture and its errors, and instances
-// that share what they show.
+// Meshes from files: displacement with its texture and errors, and instances that share their
+// geometry.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -49,7 +49,7 @@ class MeshLoading : public ::testing::Test {
 
 TEST_F(MeshLoading, DisplacementFollowsItsTexture) {
   write_square("a.ply", true);
-  // Heights from 0 to 2 along u, in object space; the mesh is twice as large in the world.
+  // Heights from 0 to 2 along u, in object space. In world space the mesh is twice as large.
   const std::string world =
       "WorldBegin LightSource \"infinite\"\n"
       "Texture \"h\" \"float\" \"bilerp\" \"float v01\" 0 \"float v10\" 2 \"float v11\" 2\n"
@@ -59,13 +59,13 @@ TEST_F(MeshLoading, DisplacementFollowsItsTexture) {
         "Option \"float displacementedgescale\" .5\n" + world + "\"float edgelength\" .5"}) {
     const auto scene = load(text);
     const auto& mesh = dynamic_cast<const TriangleMesh&>(*scene->top.records.at(0).shape).data();
-    // The square has an area of 4 and edges of a quarter: more triangles than 2 * 4 * 16.
+    // The square has an area of 4 and edges of 1/4: more triangles than 2 * 4 * 16.
     EXPECT_GT(mesh.triangles.size() / 3, 128u);
     EXPECT_LT(mesh.triangles.size() / 3, 1024u);
     for (size_t i = 0; i < mesh.positions.size(); ++i) {
       EXPECT_NEAR(mesh.positions[i].x, 2 * mesh.uvs[i].x, 1e-6f);
       EXPECT_NEAR(mesh.positions[i].z, 4 * mesh.uvs[i].x, 1e-5f);
-      // The slope's normal, whose length is of no matter.
+      // The slope's normal, of any length.
       const Vec3f n = normalize(mesh.normals[i]);
       EXPECT_NEAR(n.x, -2 / std::sqrt(5.0f), 1e-5f);
       EXPECT_NEAR(n.z, 1 / std::sqrt(5.0f), 1e-5f);
@@ -104,7 +104,7 @@ TEST_F(MeshLoading, FaultsOfFilesAreCountedOnce) {
   EXPECT_EQ(warnings(),
             "shape \"plymesh\": 6 of 7 normals are not finite, the faces' own are used there\n"
             "shape \"plymesh\": 3 of 7 faces have no area and were removed\n");
-  // The L is met where it is, with its own normal.
+  // The L is hit where it is, with its own normal.
   for (const Vec2f& at : {Vec2f(0.5f, 0.5f), Vec2f(1.9f, 0.9f), Vec2f(0.1f, 1.9f),
                           Vec2f(1.1f, 1.1f), Vec2f(1.9f, 1.9f)}) {
     Ray ray;
@@ -132,7 +132,7 @@ TEST_F(MeshLoading, AThousandInstancesShareTheirMesh) {
   ASSERT_EQ(scene->top.instances.size(), 1000u);
   for (const InstanceRecord& instance : scene->top.instances)
     EXPECT_EQ(instance.group, scene->groups[0].get());
-  // The last one is where it should be.
+  // The last instance is at its place.
   Ray ray;
   ray.o = Vec3f(2000.5f, 0.25f, 5);
   ray.d = Vec3f(0, 0, -1);

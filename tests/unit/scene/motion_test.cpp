@@ -39,7 +39,7 @@ std::unique_ptr<Scene> scene_of(const std::string& world, const std::string& opt
   return scene_of(world, diagnostics, options);
 }
 
-/// Transform directives under which the matrix of start or end is this.
+/// Transform directives that produce this matrix.
 std::string text_of(const Mat44d& m) {
   std::string text = "ConcatTransform [";
   for (int i = 0; i < 4; ++i)
@@ -70,8 +70,8 @@ constexpr char kMesh[] =
 constexpr char kPatch[] =
     "Shape \"bilinearmesh\" \"point3 P\" [-1 -1 -0.5  1 -1 0.5  -1 1 0.5  1 1 -0.5]\n";
 
-/// Shoots rays of every time at both scenes: `moving`, and what `still(time)` makes of it.
-/// Silhouettes may differ by rounding, nothing else.
+/// Shoots rays of all times at `moving` and at `still(time)`. Only silhouettes may differ, by
+/// rounding.
 template <class Still>
 void expect_same_pictures(const Scene& scene, const Still& still, float size) {
   Numbers u{77};
@@ -103,9 +103,9 @@ void expect_same_pictures(const Scene& scene, const Still& still, float size) {
       EXPECT_LT(length(a.p - b.p), 1e-4f * size);
       for (int j = 0; j < 2; ++j) {
         const float apart = std::abs(a.uv[j] - b.uv[j]);
-        EXPECT_LT(std::min(apart, 1 - apart), 2e-2f);  // angles run around
+        EXPECT_LT(std::min(apart, 1 - apart), 2e-2f);  // angles wrap around
       }
-      // Near the silhouette of something round, a small step turns the normal by more.
+      // Near round silhouettes a small step turns the normal further.
       EXPECT_LT(length(a.ng - b.ng), 2e-2f) << "at " << time;
       EXPECT_LT(length(a.shading.z - b.shading.z), 2e-2f) << "at " << time;
     }
@@ -133,15 +133,15 @@ TEST(MotionBlur, MovingShapesAreWhereTheyBelong) {
     }
 }
 
-// The motion's own coordinates turn about the camera, as in pbrt-v4, or the world's origin if
-// asked.
+// The instance's coordinate system rotates about the camera, as in pbrt-v4, or about the world
+// origin if requested.
 TEST(MotionBlur, MovingInstancesTurnAboutTheOriginOfTheRenderingSpace) {
   const std::string object =
       std::string("ObjectBegin \"o\" Translate 0.2 0 0 ") + kSphere + kMesh + "ObjectEnd\n";
   const std::string camera =
       "LookAt 1 2 -3  0 0 0  0 1 0 ActiveTransform EndTime Translate 0.5 0 0\n"
       "Camera \"perspective\"\n";
-  // The camera's translation acts before its look-at matrix on the way from the world.
+  // From world space, the camera's translation acts before its look-at matrix.
   const Vec3d pivot(0.75, 2, -3);
   for (const std::string space : {"", "camera", "cameraworld", "world"})
     for (const Motion& m : kMotions) {
@@ -190,7 +190,7 @@ TEST(MotionBlur, MovingShapesInMovingInstances) {
   }
 }
 
-// A sphere of radius 1 that flies from x = -3 to 3: a ray along z at (x, y) meets it while its
+// A sphere of radius 1 that moves from x = -3 to 3: a ray along z at (x, y) hits it while the
 // centre is within sqrt(1 - y^2) of x.
 TEST(MotionBlur, AFlyingSphereCoversARayForItsShareOfTheShutter) {
   const auto scene =
@@ -209,7 +209,7 @@ TEST(MotionBlur, AFlyingSphereCoversARayForItsShareOfTheShutter) {
         SurfaceInteraction hit;
         if (!scene->intersect(ray, hit)) continue;
         ++met;
-        // Its normal points away from where the centre is now.
+        // The normal points away from the current centre.
         const Vec3f centre(6 * ray.time - 3, 0, 0);
         EXPECT_LT(length(hit.p - centre - hit.ng), 1e-5f);
       }
@@ -217,8 +217,8 @@ TEST(MotionBlur, AFlyingSphereCoversARayForItsShareOfTheShutter) {
     }
 }
 
-// A wheel of six spokes about z that turns by 170 degrees: at radius r a ray sees spokes of half
-// width w for the share of the angles that they sweep over it.
+// A wheel of six spokes that turns by 170 degrees about z. At radius r a ray hits spokes of half
+// width w for the share of angles that they sweep over it.
 TEST(MotionBlur, AWheelCoversARayByTheAnglesOfItsSpokes) {
   std::string spokes;
   for (int i = 0; i < 6; ++i)
@@ -234,7 +234,7 @@ TEST(MotionBlur, AWheelCoversARayByTheAnglesOfItsSpokes) {
       const double half = std::asin(0.1 / double(r)) * 180 / kPi;
       double swept = 0;
       for (int spoke = -4; spoke < 8; ++spoke) {
-        // In the wheel's coordinates the ray goes from `degrees` down to `degrees` - 170.
+        // In the wheel's frame the ray moves from `degrees` down to `degrees` - 170.
         const double low = std::max(60.0 * spoke - half, double(degrees) - 170);
         const double high = std::min(60.0 * spoke + half, double(degrees));
         swept += std::max(0.0, high - low);
@@ -252,10 +252,11 @@ TEST(MotionBlur, AWheelCoversARayByTheAnglesOfItsSpokes) {
     }
   const Bounds3f bounds = scene->top.accelerator->bounds();
   EXPECT_GE(bounds.max.y, 2.0f);
-  EXPECT_LT(bounds.max.y, 3.0f);  // a corner of the box goes round
+  EXPECT_LT(bounds.max.y, 3.0f);  // a corner of the box sweeps an arc
 }
 
-// Both hands, one after the other in time: the thing is gone where it is flat, and nothing breaks.
+// Passes through a singular matrix to the mirrored object: at that moment it vanishes, and nothing
+// breaks.
 TEST(MotionBlur, AMotionThroughAFlatPictureIsTraced) {
   const auto scene = scene_of(moving(Mat44d(), scale_matrix({-1, 1, 1})) + kMesh);
   Numbers u{5};
@@ -303,7 +304,7 @@ TEST(MotionBlur, ManyThreadsSeeTheSameBits) {
   EXPECT_EQ(one, trace(4));
 }
 
-// Rays that leave a flat moving surface, at any time, do not meet it again.
+// Rays that leave a flat moving surface never hit it again, at any time.
 TEST(MotionBlur, RaysNeverMeetTheMovingSurfaceTheyLeave) {
   const std::string plane =
       "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point3 P\" "
@@ -327,7 +328,7 @@ TEST(MotionBlur, RaysNeverMeetTheMovingSurfaceTheyLeave) {
           Ray ray;
           const float s = static_cast<float>(size);
           ray.time = u();
-          // At a point of the moving thing.
+          // Aim at a point of the moving object.
           const MotionTransform outer(turned(10, {1, 2, 3}) * moved(0, 7, 0) * grow,
                                       turned(160, {1, 0, 3}) * moved(3, -5, 2) * grow);
           const Vec3f target = outer.at(ray.time).point(Vec3f(u() - 0.5f, 0.1f, u() - 0.5f));

@@ -1,5 +1,5 @@
-// Which side of a shape is its outside: transforms map it as they map normals, so that a mirrored
-// ball shines outwards and has its glass inside, whatever the shape and wherever the mirror stands.
+// The outside of shapes: transforms map it like normals, so that a mirrored ball emits outwards and
+// contains its glass, for any shape and any position of the mirror.
 #include <gtest/gtest.h>
 
 #include "core/sampler.h"
@@ -28,7 +28,7 @@ struct Numbers {
   }
 };
 
-/// A map in the words of the scene format, and itself.
+/// A transform, and its text in the scene format.
 struct Map {
   std::string text;
   Transform transform;
@@ -57,14 +57,13 @@ const std::string kTetrahedron =
     "  \"integer indices\" [0 2 1  0 1 3  0 3 2  1 2 3] ";
 const std::string kNormals = "\"normal N\" [1 1 1  -1 -1 1  -1 1 -1  1 -1 -1] ";
 
-/// The side of the outside at a point, in the space of the shape.
+/// The outward direction at a point, in shape space.
 using Outwards = Vec3f (*)(const Vec3f& p);
 struct Case {
   const char* name;
   std::string shape;
-  Outwards outwards;  ///< null: whatever the shape says without a mirror
-  /// Its outside is mirrored only by maps that keep angles: where normals of vertices choose it, or
-  /// rays.
+  Outwards outwards;  ///< null: the direction of the unmirrored shape
+  /// Mirrored exactly only by conformal maps: vertex normals or rays choose the outside.
   bool needs_angles;
 };
 
@@ -98,8 +97,7 @@ std::vector<Case> cases() {
   };
 }
 
-/// The shape under a map: by itself, in an object whose shapes or whose instances are mapped, and
-/// moving.
+/// The shape under a map: alone, in an object whose shapes or instances are mapped, and moving.
 std::vector<std::string> placed(const std::string& shape, const std::string& map) {
   const std::string object = "ObjectBegin \"o\"\n";
   return {"AttributeBegin\n" + map + shape + "\nAttributeEnd\n",
@@ -162,7 +160,7 @@ TEST(Orientation, IsMappedAsNormalsAre) {
             if (met != scene->intersect(mapped(ray, map.transform), b)) ++differing;
             if (!met || b.record == nullptr) continue;
             ++hits;
-            // A ray at the rim may meet another part of the surface.
+            // A ray at the rim may hit another part of the surface.
             if (length(map.transform.point(a.p) - b.p) > 1e-3f)
               ++differing;
             else if (length(normalize(map.transform.normal(a.ng)) - b.ng) > 2e-2f ||
@@ -179,7 +177,7 @@ TEST(Orientation, IsMappedAsNormalsAre) {
 TEST(Orientation, MirroredLampsShineOutwards) {
   const auto lambda = SampledWavelengths::sample_visible(0.37f);
   for (const Case& c : cases()) {
-    // What is closed, and seen from its middle and from around it.
+    // Closed shapes, visible from their centre and from outside.
     const std::string name = c.name;
     if (name != "sphere" && name != "mesh" && name != "mesh with normals" && name != "cylinder")
       continue;
@@ -193,7 +191,7 @@ TEST(Orientation, MirroredLampsShineOutwards) {
         const Vec3f middle = map.transform.point({0, 0, 0});
         Numbers u{13};
         for (int i = 0; i < 200; ++i) {
-          // Walks that meet the lamp, next-event estimation and photons see the same side shine.
+          // Paths that hit the lamp, next-event estimation and photons agree on the emitting side.
           const Ray ray = mapped(random_ray(u), map.transform);
           SurfaceInteraction hit;
           if (!scene->intersect(ray, hit)) continue;

@@ -1,4 +1,4 @@
-// Every filter: samples carry weights whose mean is 1, and they are spread as the filter is.
+// Every filter: sample weights have mean 1, and samples are distributed like the filter.
 #include "scene/pixel_filter.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ TEST_P(Filters, WeightsAverageToOneAndFollowTheFilter) {
   }
   const double error = std::sqrt((squares / kN - sqr(sum / kN)) / kN);
   EXPECT_NEAR(sum / kN, 1.0, 5 * error + 1e-4);
-  // Share of each column of the filter: quadrature of the normalised filter.
+  // Expected share of each column: quadrature of the normalised filter.
   const Vec2f r = filter->radius();
   for (int b = 0; b < kBins; ++b) {
     double expected = 0;

@@ -1,6 +1,5 @@
-// Rays that leave a surface never meet it again where it is flat: the offsets cover the ray
-// tracer's rounding for triangles and rectangles anywhere, at coordinate zero too, and through
-// instances.
+// Rays that leave a flat surface never hit it again: offsets cover the ray tracer's rounding for
+// triangles and rectangles anywhere, also at coordinate zero and in instances.
 #include <gtest/gtest.h>
 
 #include "core/sampler.h"
@@ -19,8 +18,7 @@ struct Numbers {
   }
 };
 
-// Shoots rays at the plane `y = height` of the scene from above, and others away from where they
-// landed.
+// Shoots rays at the plane `y = height` from above, and others away from their hits.
 void expect_no_self_hits(const std::string& world, float size, float height) {
   Diagnostics diagnostics;
   const SceneDescription d =
@@ -36,7 +34,7 @@ void expect_no_self_hits(const std::string& world, float size, float height) {
     SurfaceInteraction hit, other;
     if (!scene->intersect(ray, hit)) continue;
     ++landed;
-    // Both sides, down to grazing directions.
+    // Both sides, including grazing directions.
     Vec3f w = square_to_cosine_hemisphere({u(), u()});
     if (i % 3 == 0) w = normalize(Vec3f(w.x, w.y, w.z * 1e-3f));
     const Vec3f up = Frame::from_z(hit.ng).to_world(i % 2 ? w : -w);

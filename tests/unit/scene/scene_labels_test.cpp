@@ -1,4 +1,4 @@
-// What light path expressions call the things of a scene: names, and types with numbers.
+// Labels of a scene's things in light path expressions: names, or types with numbers.
 #include "scene/scene_labels.h"
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ TEST(MaterialLabels, NamesAreTheFiles) {
 }
 
 TEST(MaterialLabels, NumbersAvoidNames) {
-  // Whether the name stands before or after what is numbered.
+  // Names before and after the numbered material.
   const std::string anonymous = "Material \"dielectric\"\n";
   const std::string named = "MakeNamedMaterial \"dielectric1\" \"string type\" \"diffuse\"\n";
   EXPECT_EQ(materials_of(named + anonymous + anonymous),
@@ -55,7 +55,7 @@ TEST(MediumLabels, AreNames) {
             (Labels{"fog", "milk"}));
 }
 
-/// Labels of the lights of the scene that is built, warnings and all.
+/// Light labels of a built scene, with its warnings.
 Labels lights_of(const std::string& text, std::string* warnings = nullptr,
                  const std::string& directory = ".") {
   Diagnostics diagnostics;

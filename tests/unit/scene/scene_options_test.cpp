@@ -1,4 +1,4 @@
-// Option, Accelerator, Sampler and Film lines: what is taken, what is warned of, what is refused.
+// Option, Accelerator, Sampler and Film directives: accepted, warned of, or refused.
 #include "scene/scene_options.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace {
 
 struct Built {
   std::unique_ptr<Scene> scene;
-  std::string warnings;  ///< those that stand in the file
+  std::string warnings;  ///< warnings with a location
 };
 Built build(const std::string& text) {
   Diagnostics diagnostics;

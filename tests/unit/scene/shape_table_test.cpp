@@ -1,4 +1,4 @@
-// What the table of shapes says about parameters that it does not use.
+// Reports of the shape table on unused parameters.
 #include "scene/shape_table.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What metadata of a picture are believed, and what merging refuses before it reads any state.
+// Accepted metadata of pictures, and what merging refuses before it reads a state.
 #include "session/checkpoint/checkpoint.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 namespace nephroid {
 namespace {
 
-/// A picture of two pixels with some state, of which only the metadata matter here.
+/// A picture of two pixels with some state. Only its metadata matter.
 void write(const std::string& path, const Metadata& metadata) {
   Picture picture;
   picture.full_width = picture.window.x1 = 2;
@@ -84,7 +84,7 @@ TEST(Merge, AddsUpPicturesOfThisVersionOnly) {
                                              (version.empty() ? "?" : version) + mine),
               std::string::npos)
         << refusal_of_merge(version);
-  // These are refused as well, but for what they are.
+  // These are refused later, for their film.
   EXPECT_NE(refusal_of_merge(kVersion).find("what it says of its film makes no sense"),
             std::string::npos)
       << refusal_of_merge(kVersion);

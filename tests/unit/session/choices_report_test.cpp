@@ -1,4 +1,4 @@
-// What a render says of its choices, from counts alone.
+// The report on a render's choices, from counts alone.
 #include "session/report/choices_report.h"
 
 #include <gtest/gtest.h>
@@ -58,7 +58,8 @@ TEST(TechniqueReport, NamesThoseThatCarryARouteLargestFirst) {
   s.techniques = {caustic, black};
   EXPECT_EQ(
       technique_report({s}),
-      Lines{"caustic, by technique: 75 % photons merged, 25 % lights sampled (first passes)"});
+      Lines{
+          "caustic, by technique: 75 % photon merging, 25 % next-event estimation (first passes)"});
 }
 
 TEST(ErrorReport, TellsRoutesThatAreSampledTogether) {

@@ -1,4 +1,4 @@
-// Names of outputs, the memory of a render, and how its film rejects outliers.
+// Output names, the memory of a render, and its outlier rejection.
 #include "session/film_of_scene.h"
 
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ const IntegratorOptions kNoPhotons = [] {
 }();
 
 TEST(FilmOfScene, MemoryIsThatOfThePartsGroupsAndSplats) {
-  // Just what a film of one route needs: anything more is refused.
+  // Exactly the memory of a one-route film: more is refused.
   const FilmLayout one = FilmLayout::of_routes({"all"});
   const Routes path = routes_of({"all=.*:path"});
   const auto memory = static_cast<double>(kMemory);
@@ -66,10 +66,9 @@ TEST(FilmOfScene, MemoryIsThatOfThePartsGroupsAndSplats) {
                SceneError);
   description.gbuffer = GBufferSpace::kNone;
 
-  // A splat is a sum of 48 bytes. A merging pass has a colour for each part, a filter weight and a
-  // bias; sppm keeps a radius, a count, a flux and a footprint, and in a pass a colour, a count and
-  // a filter weight, ppm the same for each of its hit points. A photon map is read without bias.
-  // Estimators render one after another.
+  // Bytes per pixel. A splat is a sum of 48 bytes. Merging has a colour per part, a filter weight
+  // and a bias. sppm keeps radius, count, flux and footprint; a pass adds colour, count and weight.
+  // ppm has these per hit point. Photon maps have no bias. Estimators render one after another.
   constexpr int kHitPoints = 5;
   IntegratorOptions options = kNoPhotons;
   options.edit<PpmOptions>().hit_points = kHitPoints;
@@ -116,7 +115,7 @@ TEST(FilmOfScene, MemoryIsRefusedWithWhatItIsFor) {
                              "MiB photons", "50 MiB textures", "the limit is 160 MiB"})
       EXPECT_NE(what.find(part), std::string::npos) << part << " in " << what;
   }
-  // Nobody keeps photons here.
+  // Without photons there is enough memory.
   EXPECT_NO_THROW(check_memory({description, one, path, kDefaults, 1, false, 100 * kMiB, 50 * kMiB},
                                160 * kMiB, true, false));
 }
@@ -158,7 +157,7 @@ TEST(FilmOfScene, RejectionKnowsHowManyPixelsALightPathExposes) {
     EXPECT_EQ(settings.exposed_pixels.size(), 1u);
     return settings.exposed_pixels.at(0);
   };
-  // With a filter of 3 x 4 pixels: at the default radius, at a radius of 3 and at one below a
+  // With a filter of 3 x 4 pixels, at the default radius, at a radius of 3, and at one below a
   // pixel.
   const PixelFilter wide = filter_of({1.5f, 2}), narrow = filter_of({0.5f, 0.5f});
   const struct {
@@ -213,8 +212,8 @@ TEST(FilmOfScene, NoRouteTakesTheNameOfALayerOfPictures) {
 }
 
 TEST(FilmOfScene, TheFilmsMemoryIsCountedInFull) {
-  // 16 bytes a sum, three sums for each part and each group, features (six of 8 bytes, and
-  // depth) and a counter.
+  // 16 bytes per sum, three sums per part and per group, features (six of 8 bytes, and depth) and a
+  // counter.
   FilmLayout layout = FilmLayout::of_routes({"a", "b"});
   const size_t two = Film::bytes_per_pixel(layout, false);
   EXPECT_GE(two, 4u * 48 + 6 * 8 + 16 + 8);

@@ -1,4 +1,4 @@
-// Defaults, the scene's Integrator line and -D, in that order.
+// Precedence: defaults, the scene's Integrator directive, then -D.
 #include "session/settings/integrator_choice.h"
 
 #include <gtest/gtest.h>

@@ -14,7 +14,7 @@
 namespace nephroid {
 namespace {
 
-// The text decides whether two pictures are of one render.
+// The text identifies settings: pictures of one render must have the same.
 TEST(IntegratorSettings, WhatDiffersHasAnotherText) {
   for (const std::string key : {"alpha", "radius", "specular-alpha", "mutations", "large-step"}) {
     RenderSettings a, b;
@@ -125,7 +125,7 @@ TEST(IntegratorSettings, Errors) {
       parse_setting(text);
       ADD_FAILURE() << text;
     } catch (const UsageError& error) {
-      // All keys are listed.
+      // The message lists all keys.
       for (const IntegratorSetting& setting : integrator_settings())
         EXPECT_NE(std::string(error.what()).find(setting.key), std::string::npos) << error.what();
     }

@@ -1,4 +1,4 @@
-// Which lights a picture is lit by, and why it is black, from counts alone.
+// The lights of a picture, and reasons for black pictures, from counts alone.
 #include "session/report/lamp_report.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The error that a film tells of, and how much of its light each route has.
+// The error that a film states, and each route's share of the light.
 #include "session/report/noise.h"
 
 #include <gtest/gtest.h>
@@ -52,8 +52,8 @@ TEST(Noise, BiasCountsWithoutItsOwnNoise) {
   FilmLayout layout = FilmLayout::of_routes({"a", "b"});
   layout.merges = {false, true};
   Film film(settings, layout);
-  // A bias of 0.2 in one pixel that is 1 bright, with estimates that are 0.1 off: squared and over
-  // two estimates 0.01 of what is no bias.
+  // A bias of 0.2 with an error of 0.1 in one pixel of value 1: the squared error, 0.01, is
+  // subtracted from the squared bias.
   for (const float b : {0.3f, 0.1f}) {
     add_one(film, 0, 0, 0, {1, 1, 1});
     for (int g = 0; g < 2; ++g) film.add_estimates(g, 1);
@@ -82,7 +82,7 @@ TEST(Noise, OfGroupsAddsUpToThatOfTheFilm) {
   }
   const auto shares = error_shares(film);
   ASSERT_EQ(shares->groups.size(), 2u);
-  // Standard errors 1 and 2 beside values of 2 and 4.
+  // Standard errors 1 and 2 for values 2 and 4.
   EXPECT_NEAR(shares->groups[0], std::sqrt(1 / 4.01 / 3), 1e-6);
   EXPECT_NEAR(shares->groups[1], std::sqrt(4 / 16.01 / 3), 1e-6);
   EXPECT_EQ(shares->bias, 0.0);

@@ -1,4 +1,4 @@
-// Ranges of passes: what they hold, how they join, what is missing, and their text.
+// Ranges of passes: contents, unions, gaps, and text.
 #include "session/checkpoint/pass_ranges.h"
 
 #include <gtest/gtest.h>
@@ -49,7 +49,7 @@ TEST(PassRanges, TellWhatTwoHave) {
             (PassRange{kLast, kLast}));
 }
 
-// Against each pair by itself.
+// All pairs of small sets, compared bit by bit.
 TEST(PassRanges, TellWhatTwoHaveHoweverTheyLie) {
   for (uint32_t a = 0; a < 128; ++a)
     for (uint32_t b = 0; b < 128; ++b) {

@@ -1,4 +1,4 @@
-// The first picture by path tracing: when it is taken, and what it shows.
+// The quick first picture by path tracing: when it is made, and what it shows.
 #include "session/quick_look.h"
 
 #include <fmt/format.h>
@@ -55,7 +55,7 @@ TEST(QuickLook, ShowsTheScene) {
   const std::string png = png_path_beside(look.output);
   ASSERT_TRUE(std::filesystem::exists(png));
   EXPECT_FALSE(std::filesystem::exists(look.output)) << "a look is no picture to go on with";
-  // The floor's 0.5 in sRGB is 0.735.
+  // The floor's value of 0.5 is 0.735 in sRGB.
   const Picture shown = read_picture(png);
   double sum = 0;
   size_t count = 0;

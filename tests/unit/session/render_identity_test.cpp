@@ -1,4 +1,4 @@
-// What makes two pictures those of different renders.
+// What distinguishes the pictures of different renders.
 #include "session/checkpoint/render_identity.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// The loop, driven by an estimator that does what the test says and a clock that the test turns:
-// which passes are rendered, when it stops, what it tells of its progress.
+// The render loop, with a scripted estimator and a scripted clock: which passes are rendered, when
+// it stops, and its progress reports.
 #include <cmath>
 
 #include "core/errors.h"
@@ -98,7 +98,7 @@ TEST_F(RenderSessionTest, TimeLimitEndsAPass) {
   const RenderResult result = run(options);
   EXPECT_EQ(result.reason, StopReason::kTime);
   EXPECT_EQ(result.passes_done, 10u);
-  EXPECT_EQ(result.seconds, 10.5);  // the first look after it
+  EXPECT_EQ(result.seconds, 10.5);  // at the next check
 }
 
 TEST_F(RenderSessionTest, TimeLimitBelowOnePassRendersOne) {
@@ -140,10 +140,10 @@ TEST_F(RenderSessionTest, APassThatWasBegunIsGoneOnWith) {
   options.last_pass = 3;
   EXPECT_EQ(run(options).passes_done, 4u);
   EXPECT_EQ(script_.passes[0].pass, 2u);
-  // What was asked for is there; what is beyond it may stay as it is.
+  // The requested pass exists; the open pass beyond it stays as it is.
   options.last_pass = 1;
   EXPECT_EQ(run(options).passes_of_run, 0u);
-  // One pass at a time.
+  // Only a single pass at a time.
   options.begin_with.passes = *PassRanges::parse("0..0");
   EXPECT_THROW(run(options), UsageError);
 }
@@ -160,7 +160,8 @@ TEST_F(RenderSessionTest, FirstRuleMetWins) {
 }
 
 TEST_F(RenderSessionTest, NoiseTargetStopsWhereTheErrorHasFallenToIt) {
-  // Even n: value 1, stderr 1/sqrt(n-1); relative 1/sqrt((n-1) * 1.01). At most 0.2 from n = 25.75.
+  // Even n: value 1, stderr 1/sqrt(n-1); relative error 1/sqrt((n-1) * 1.01). It is at most 0.2
+  // from n = 25.75 on.
   RenderOptions options;
   options.noise_target = 0.2;
   const RenderResult result = run(options);
@@ -180,7 +181,7 @@ TEST_F(RenderSessionTest, NoiseTargetDoesNotDependOnTheClock) {
 }
 
 TEST_F(RenderSessionTest, TheErrorAtTheEndIsThatOfThePicture) {
-  // Progress renews it every second: last after pass 20.
+  // Progress updates it every second: last after pass 20.
   script_.pass_seconds = 0.1;
   RenderOptions options;
   options.last_pass = 25;
@@ -230,7 +231,7 @@ TEST_F(RenderSessionTest, ProgressCountsAndForetells) {
   EXPECT_EQ(p.passes_done, 4u);
   EXPECT_EQ(*p.passes_wanted, 10u);
   EXPECT_EQ(p.seconds, 4);
-  EXPECT_NEAR(*p.seconds_left, 4.4, 1e-12);  // time is shorter than the six passes left
+  EXPECT_NEAR(*p.seconds_left, 4.4, 1e-12);  // the time limit comes before the six remaining passes
   EXPECT_NEAR(p.fraction, 4 / 8.4, 1e-12);
   EXPECT_EQ(p.rays, 400u);
   EXPECT_EQ(p.photons_stored, 40u);

@@ -1,4 +1,4 @@
-// The page: from a scene file to a film and a picture, without a command line.
+// A whole render from a scene file to a film and a picture, without a command line.
 #include "session/render.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ class RenderPage : public testing::Test {
     warnings_.output = [this](const std::string& text) { about_output_.push_back(text); };
   }
 
-  /// The value of the film's middle after a render.
+  /// The value at the film's centre after a render.
   Rgb render() {
     const LoadedScene loaded = load_scene(request_);
     Render render(request_, loaded, warnings_);

@@ -1,4 +1,4 @@
-// Which files a picture depends on, as its metadata say.
+// The files that a picture depends on, as recorded in its metadata.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -16,7 +16,7 @@ TEST(SceneHash, IsOfEveryFileThatWasRead) {
   const auto assets =
       std::filesystem::path(testing_support::source_directory()) / "tests/regression/features";
   std::vector<std::string> names;
-  // One file for each reader, and for each place that asks for an image.
+  // One file for each reader, and for each directive that takes an image.
   const auto file = [&](const std::string& like, const std::string& name) {
     std::filesystem::copy_file(assets / like, directory.file(name));
     names.push_back(name);
@@ -51,7 +51,7 @@ TEST(SceneHash, IsOfEveryFileThatWasRead) {
   for (const std::string& name : names) expected.counted_path_of(name);
   const LoadedScene loaded = load_scene(directory.file("scene.pbrt"), {});
   EXPECT_EQ(loaded.description.files->hash(), expected.hash());
-  // No less and no more: the sum knows each of them.
+  // Each file changes the hash.
   for (const std::string& left_out : names) {
     SceneFiles less(directory.path().string());
     less.set_top(directory.file("scene.pbrt"));

@@ -1,4 +1,4 @@
-// A session whose estimators do what the test says and whose clock the test turns.
+// A session with scripted estimators and a scripted clock.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,13 +14,13 @@
 
 namespace nephroid::testing_support {
 
-/// Everything that a fake pass may do, shared between test and estimator.
+/// Script of a fake pass, shared between test and estimator.
 struct Script {
   double now = 0;
   double pass_seconds = 1;
-  int looks = 0;                                    ///< control is asked so often in a pass
-  std::vector<PassKey> passes;                      ///< that were begun
-  std::function<void(const PassKey&)> during_pass;  ///< called in each
+  int looks = 0;                                    ///< calls of PassControl per pass
+  std::vector<PassKey> passes;                      ///< passes begun
+  std::function<void(const PassKey&)> during_pass;  ///< called once per pass
   std::function<void(const PassKey&, int look)> during_look;
   EstimatorDescriptor descriptor{.traits = {.name = "fake"}};
 };
@@ -39,7 +39,7 @@ class FakeEstimator : public Estimator {
     }
     if (script_.looks == 0) script_.now += script_.pass_seconds;
     if (script_.during_pass) script_.during_pass(key);
-    // 0, 2, 0, 2 ...: mean 1 and deviation 1 in every pixel.
+    // 0, 2, 0, 2 ...: mean 1 and standard deviation 1 in every pixel.
     const float value = key.pass % 2 == 0 ? 0.0f : 2.0f;
     for (int y = film.bounds().y0; y < film.bounds().y1; ++y)
       for (int x = film.bounds().x0; x < film.bounds().x1; ++x)
@@ -61,7 +61,7 @@ class FakeEstimator : public Estimator {
   EstimatorStatistics statistics_;
 };
 
-/// A film of 5 x 3 pixels, one route, and six samples for each pixel.
+/// A film of 5 x 3 pixels, one route, six samples per pixel.
 class ScriptedSession : public testing::Test {
  protected:
   ScriptedSession() {

@@ -1,5 +1,5 @@
-// Pictures that the render loop writes: at the end, now and then, on demand; what they say of
-// themselves, and what happens if they cannot be written.
+// Pictures that the render loop writes at the end, periodically and on demand: their metadata, and
+// errors in writing them.
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
@@ -29,7 +29,7 @@ std::string contents(const std::string& path) {
   return text.str();
 }
 
-/// A render whose picture goes to the directory, written before the end only if it is asked for.
+/// A render whose picture goes to the directory, written before the end only on demand.
 RenderOptions options_in(const ScratchDirectory& directory) {
   RenderOptions options;
   options.output = directory.file("out.exr");
@@ -45,12 +45,12 @@ TEST_F(SessionPictures, IntermediatePicturesAreWrittenNowAndThen) {
   std::vector<std::string> seen;
   script_.during_pass = [&](const PassKey&) { seen.push_back(passes_in(options.output)); };
   run(options);
-  // Pass i ends at i + 1 seconds; the fake clock says that writing costs nothing.
+  // Pass i ends at i + 1 seconds. For the scripted clock, writing costs nothing.
   EXPECT_EQ(seen, (std::vector<std::string>{"", "", "", "0..2", "0..2", "0..2", "0..5", "0..5"}));
   EXPECT_EQ(passes_in(options.output), "0..7");
 }
 
-// Between checkpoints the PNG shows how far it is.
+// Between checkpoints the PNG shows the progress.
 TEST_F(SessionPictures, PreviewsAreMoreFrequent) {
   const ScratchDirectory directory;
   RenderOptions options = options_in(directory);
@@ -64,15 +64,15 @@ TEST_F(SessionPictures, PreviewsAreMoreFrequent) {
     std::filesystem::remove(png);
   };
   run(options);
-  // Pass i ends at i + 1 seconds: the first preview comes at once, others at 3, a checkpoint with
-  // its own at 5, a preview at 7.
+  // Pass i ends at i + 1 seconds. The first preview comes at once, others at 3 and 7 seconds, a
+  // checkpoint with its own preview at 5.
   const std::vector<std::pair<bool, bool>> wanted = {{false, false}, {false, true},  {false, false},
                                                      {false, true},  {false, false}, {true, true},
                                                      {true, false},  {true, true}};
   EXPECT_EQ(seen, wanted);
 }
 
-// The passes of earlier runs are not rendered again, wherever they lie, and their time counts.
+// Passes of earlier runs are not rendered again, in any ranges, and their time counts.
 TEST_F(SessionPictures, GoesOnWhereEarlierRunsWere) {
   const ScratchDirectory directory;
   RenderOptions options = options_in(directory);
@@ -87,7 +87,7 @@ TEST_F(SessionPictures, GoesOnWhereEarlierRunsWere) {
   EXPECT_EQ(result.passes_of_run, 5u);
   EXPECT_EQ(result.passes_done, 10u);
   EXPECT_EQ(passes_in(options.output), "0..9");
-  // All are there: nothing is left to do, and the picture is written all the same.
+  // All passes exist: nothing is rendered, but the picture is still written.
   script_.passes.clear();
   std::filesystem::remove(options.output);
   options.begin_with.passes = *PassRanges::parse("0..9");
@@ -105,13 +105,13 @@ TEST_F(SessionPictures, GoesOnWhereEarlierRunsWere) {
   options.begin_with.seconds = 100;
   options.time_limit = 100;
   EXPECT_EQ(run(options).passes_of_run, 0u);
-  // Passes that depend on each other cannot fill a gap.
+  // Dependent passes cannot fill a gap.
   script_.descriptor.capabilities.independent_passes = false;
   options.begin_with.passes = *PassRanges::parse("0..2,5..6");
   EXPECT_THROW(run(options), UsageError);
 }
 
-// A slim picture is for the end: what may be needed to go on has the state.
+// Only the final picture lacks a state: earlier ones may be needed to resume.
 TEST_F(SessionPictures, OnlyTheLastPictureIsLeftWithoutState) {
   const ScratchDirectory directory;
   RenderOptions options = options_in(directory);
@@ -133,7 +133,7 @@ TEST_F(SessionPictures, OnlyTheLastPictureIsLeftWithoutState) {
   EXPECT_TRUE(has_state());
 }
 
-// One generation of what another render left.
+// One older version is kept of another render's files.
 TEST_F(SessionPictures, PictureAndStateOfAnotherRenderAreKept) {
   const ScratchDirectory directory;
   RenderOptions options = options_in(directory);
@@ -156,7 +156,7 @@ TEST_F(SessionPictures, PictureAndStateOfAnotherRenderAreKept) {
   EXPECT_EQ(passes_in(kept), "0..3") << "who goes on replaces only what it goes on from";
 }
 
-// Whatever it is of: a picture without state, or no picture of this program at all.
+// Also a picture without a state, or one of another program.
 TEST_F(SessionPictures, WhatHasNoStateIsKeptToo) {
   const ScratchDirectory directory;
   RenderOptions options = options_in(directory);
@@ -169,7 +169,7 @@ TEST_F(SessionPictures, WhatHasNoStateIsKeptToo) {
   EXPECT_EQ(passes_in(options.output), "0..0");
 }
 
-// A render that ends before its first picture leaves a PNG, which is not worth an older one.
+// A render that ends before its first picture leaves a PNG, which must not replace an older one.
 TEST_F(SessionPictures, APngAloneReplacesNoKeptOne) {
   const ScratchDirectory directory;
   const std::string output = directory.file("out.exr");
@@ -199,8 +199,8 @@ TEST_F(SessionPictures, WritingStretchesItsIntervalToItsCost) {
   RenderOptions options = options_in(directory);
   options.checkpoint_interval = 1;
   options.last_pass = 999;
-  // The clock moves by a millisecond at each look: a write costs at least that, so that writes are
-  // at least 50 of them apart although the interval has passed long ago.
+  // Each write takes two seconds. Writes become rarer, so that they take a small share of the time,
+  // although the interval has passed.
   script_.pass_seconds = 0.5;
   int writes = 0;
   std::filesystem::file_time_type last{};
@@ -210,7 +210,7 @@ TEST_F(SessionPictures, WritingStretchesItsIntervalToItsCost) {
     const auto time = exists ? std::filesystem::last_write_time(options.output)
                              : std::filesystem::file_time_type{};
     if (time != last) {
-      // A picture has just been written: let it have taken two seconds.
+      // A picture has just been written: let it take two seconds.
       last = time;
       ++writes;
       script_.now += 2;
@@ -226,7 +226,7 @@ TEST_F(SessionPictures, FailedIntermediatePictureIsAWarning) {
   const ScratchDirectory directory;
   RenderOptions options = options_in(directory);
   script_.during_pass = [&](const PassKey& key) {
-    // Somebody puts a directory in the picture's place for the time of one pass.
+    // A directory takes the picture's place during one pass.
     if (key.pass == 1) {
       std::filesystem::create_directory(options.output);
       signals_.write = true;
@@ -249,7 +249,7 @@ TEST_F(SessionPictures, FailedLastPictureIsAnError) {
   EXPECT_THROW(run(options), IoError);
 }
 
-/// What IoError says, "" if there is none.
+/// The message of the IoError, "" if there is none.
 template <class F>
 std::string io_error_of(F&& f) {
   try {
@@ -275,7 +275,7 @@ TEST_F(SessionPictures, TheLastPictureIsRescuedWhereItsDirectoryVanished) {
   ASSERT_NE(said, std::string::npos) << message;
   EXPECT_EQ(message.find(state_path_beside(options.output)), 0u) << message;
   EXPECT_EQ(passes_in(message.substr(said + 18)), "0..5");
-  EXPECT_EQ(script_.passes.size(), 6u);  // it went on
+  EXPECT_EQ(script_.passes.size(), 6u);  // rendering went on
   EXPECT_FALSE(warnings_.empty());
 }
 
@@ -333,7 +333,7 @@ TEST_F(SessionPictures, MetadataOfTheCallerAndTheSession) {
 TEST_F(SessionPictures, RoutesOfOneGroupHaveItsEstimates) {
   const ScratchDirectory directory;
   set_.layout.routes = {"diffuse", "none", "caustic"};
-  set_.layout.groups = {0, 1, 0};  // nobody renders group 1
+  set_.layout.groups = {0, 1, 0};  // no estimator renders group 1
   film_ = std::make_unique<Film>(film_->settings(), set_.layout);
   const RenderOptions options = options_in(directory);
   run(options);

@@ -1,4 +1,4 @@
-// Large numbers and sizes of memory for readers.
+// Large numbers and memory sizes in readable form.
 #include "session/report/short_number.h"
 
 #include <gtest/gtest.h>

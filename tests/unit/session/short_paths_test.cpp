@@ -1,4 +1,4 @@
-// What a small max-depth leaves black is told.
+// Notes on light that a small max-depth leaves out.
 #include "session/settings/short_paths.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace {
 constexpr const char* kGlass = "Material \"dielectric\"";
 constexpr const char* kMetal = "Material \"conductor\"";
 
-/// The notes, joined, on a scene with two spheres, one of them diffuse.
+/// The joined notes for a scene with two spheres, one of them diffuse.
 std::string notes_of(int depth, const std::string& material, bool on_command_line = false) {
   const auto scene = testing_support::scene_from_text(
       "Camera \"perspective\" WorldBegin LightSource \"infinite\" Shape \"sphere\"\n" + material +
@@ -49,7 +49,7 @@ TEST(ShortPaths, MirrorsNeedTwo) {
   EXPECT_EQ(notes_of(2, kMetal), "");
   EXPECT_NE(notes_of(1, kMetal).find("2 scattering events are needed to see what it mirrors"),
             std::string::npos);
-  // Light goes straight through thin glass.
+  // Light passes straight through thin glass.
   EXPECT_EQ(notes_of(2, "Material \"thindielectric\""), "");
   EXPECT_NE(notes_of(1, "Material \"thindielectric\"").find("mirrors"), std::string::npos);
 }

@@ -1,4 +1,4 @@
-// Real signals to this process, and to a child that must die of the second.
+// Real signals to this process, and to a child that the second one must kill.
 #include "session/signals.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 namespace nephroid {
 namespace {
 
-/// What started the tests may ignore some of them: nohup, a shell in the background.
+/// The parent of the tests may ignore some signals (nohup, a shell's background job).
 class Signals : public testing::Test {
  protected:
   void SetUp() override {
@@ -105,7 +105,7 @@ TEST_F(Signals, WhatIsIgnoredStaysIgnored) {
   std::raise(SIGINT);
 }
 
-// Also when all is over and why is still to be said.
+// Also after the end, when the reason is still to be printed.
 TEST_F(Signals, WritingToNobodyIsNoSignal) {
   {
     const SignalListener listener;
@@ -125,7 +125,7 @@ TEST_F(SignalsDeathTest, BeforeThereIsSomethingToWriteTheFirstOneKills) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   const auto early = [](int signal) {
     const SignalListener listener;
-    std::raise(SIGUSR1);  // noted, for when there is
+    std::raise(SIGUSR1);  // recorded until there is a picture to write
     if (listener.flags().write.load()) std::raise(signal);
   };
   EXPECT_EXIT(early(SIGINT), testing::KilledBySignal(SIGINT), "");

@@ -1,4 +1,4 @@
-// Keys of -D that concern nobody are said; those that concern somebody, or everybody, are not.
+// Keys of -D that no estimator uses are reported; all others are not.
 #include "session/settings/unused_settings.h"
 
 #include <gtest/gtest.h>
