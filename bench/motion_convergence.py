@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""How fast the caustic of a moving object converges: RMSE of the layer `caustic` over passes.
+"""Measures how fast the caustic of a moving object converges: RMSE of the layer `caustic` over passes.
 
   bench/motion_convergence.py [--passes 1024] [--reference-passes 4096] [--plot FILE.svg]
 
-Renders scenes/moving-glass with `mixed`. The photons of a pass share one time, stratified over the passes; the
-reference is a longer render with another seed. Prints a table in Markdown and draws it. Needs the Python
-modules of OpenImageIO and NumPy (python3-openimageio, python3-numpy).
+Renders scenes/moving-glass with `mixed`. All photons of a pass share one time, stratified over the passes. The
+reference is a longer render with another seed. Prints a table in Markdown and plots it. Needs the Python modules
+of OpenImageIO and NumPy (python3-openimageio, python3-numpy).
 """
 import argparse
 import math

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Measures whether a picture's stderr layer is right: how often the truth lies within the 95 % interval it states.
+"""Measures the accuracy of a picture's stderr layer: how often the truth is within its 95 % interval.
 
   bench/noise_calibration.py SCENE [SCENE ...] [--integrator mixed ...] [--passes 64] [--renders 100] [--resolution 96x64]
 
-Renders each scene with as many seeds, and once with many more passes and another seed; compares each with that one (`nephroid
-compare`, which takes its error into account, too). Prints a table in Markdown: the share of pixels and channels whose
-difference lies within 1.96 standard errors, the mean over all renders, the least and the most of one; and the root of the
-mean of z², which is 1 where the stated error is the true one. docs/validation.md keeps the results.
+Renders each scene with --renders seeds, and a reference with many more passes and another seed. Compares each render with
+the reference (`nephroid compare`, which allows for the reference's own error). Prints a table in Markdown: the share of
+pixels and channels whose difference is within 1.96 standard errors, as the mean over all renders and the least and most of
+one; and the rms of z, which is 1 where the stated error is the true one. docs/validation.md keeps the results.
 """
 import argparse
 import pathlib
@@ -17,7 +17,7 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PROGRAM = ROOT / "build/release/bin/nephroid"
-REFERENCE = 32  # times as many passes
+REFERENCE = 32  # passes of the reference, relative to a render
 
 
 def run(arguments):

@@ -1,16 +1,17 @@
 #!/usr/bin/python3
-"""Error times CPU seconds of integrators at the sizes people render, and the references for it.
+"""Measures error times CPU seconds of integrators at typical picture sizes, and renders the references.
 
   bench/real_sizes.py references --scenes DIR --references OUT [--only NAME ...] [--seconds 300]
   bench/real_sizes.py measure --scenes DIR --references DIR [--only NAME ...] [--integrator mixed ...]
                               [--time 10 60] [--seeds 3] --results FILE.json
   bench/real_sizes.py table --results FILE.json
 
---scenes is the folder of the scenes that others made (DIR/NAME/scene.pbrt); those of this project are found by themselves,
-scenes without files are left out. A reference is the mean of two independent renders of --seconds each; its layer `stderr`
-comes from their difference, so that `nephroid compare --subtract-reference-error` can take the reference's own error out.
-`measure` renders what FILE.json does not hold yet and adds it, so it can be stopped and started again; `table` prints the
-medians over seeds as a page of Markdown (docs/measurements/real-sizes.md). Needs the Python modules of OpenImageIO and NumPy (python3-openimageio, python3-numpy).
+--scenes is the folder of third-party scenes (DIR/NAME/scene.pbrt). Scenes of this project are found without it; scenes
+without files are skipped. A reference is the mean of two independent renders of --seconds each. Its layer `stderr` is their
+difference, so that `nephroid compare --subtract-reference-error` can remove the reference's own error. `measure` renders
+results missing in FILE.json and adds them, so it can be stopped and restarted. `table` prints the medians over seeds as a
+page of Markdown (docs/measurements/real-sizes.md). Needs the Python modules of OpenImageIO and NumPy (python3-openimageio,
+python3-numpy).
 """
 import argparse
 import json
@@ -25,7 +26,7 @@ from validate import PROGRAM, ROOT, compare, run
 
 INTEGRATORS = ["mixed", "path", "doidge2012", "sppm", "vcm", "bpm", "bdpt"]
 
-# Scenes, their size here, and what renders their reference: `path` or `bdpt` where they find all light well, else an
+# Scenes, their size here, and the options of their reference: `path` or `bdpt` where they find all light well, else an
 # integrator that merges with a small first radius. The last four have no caustics: there `mixed` must keep up with `path`.
 MERGING = ["--integrator", "mixed", "-D", "radius=1"]
 PATHS = ["--integrator", "path"]
@@ -141,7 +142,7 @@ def measure(args):
 
 
 def ratio(figures):
-    """`mixed` over the best of the others."""
+    """Ratio of `mixed` to the best of the others."""
     others = [value for integrator, value in figures.items() if integrator != "mixed"]
     return f"{figures['mixed'] / min(others):.2f}" if "mixed" in figures and others else ""
 

@@ -1,17 +1,16 @@
 #!/usr/bin/env python3
-"""Do pictures depend on how paths are divided among routes? Renders every scene of a folder with several
-presets of routes and independent seeds, and compares means of blocks of the picture by Student's t.
+"""Tests that pictures do not depend on how paths are divided among routes. Renders every scene of a folder with
+several presets of routes and independent seeds, and compares block means of the pictures by Student's t.
 
   bench/route_agreement.py --scenes DIR [--only NAME ...] [--preset NAME ...] [--seeds 8] [--passes 24]
                            [--size 96] [--camera-samples 4] [--light EXPR] [--out DIR]
 
-A scene is DIR/NAME/scene.pbrt. The first preset is what the others are compared with. What is merged is
-extrapolated to a radius of zero, where its bias falls with r^2: 2 L(r/sqrt 2) - L(r), both with the same seeds.
-With --light only the light of paths that match the expression is compared, e.g. "C.*[DGVH].*L" for all but lamps
-that are seen directly or in mirrors. The columns: ratio of the picture's mean to the first preset's with its standard error; the largest |t| over
-blocks and the bound that it exceeds by chance in one of a thousand tables; how far the layers of the routes are
-from the picture at most, relative to the brightest of both. Needs NumPy and OpenImageIO (Debian:
-/usr/bin/python3).
+A scene is DIR/NAME/scene.pbrt. All presets are compared with the first one. Merged light is extrapolated to a
+radius of zero, as its bias falls with r^2: 2 L(r/sqrt 2) - L(r), both with the same seeds. With --light only paths
+that match the expression are compared, e.g. "C.*[DGVH].*L" for all but lamps seen directly or in mirrors. Columns:
+ratio of the picture's mean to that of the first preset, with its standard error; the largest |t| over blocks, and
+the bound that it exceeds by chance in one of a thousand tables; the largest deviation of the sum of route layers
+from the picture, relative to the brightest of both. Needs NumPy and OpenImageIO (Debian: /usr/bin/python3).
 """
 import argparse
 import math
@@ -43,7 +42,7 @@ def resolution_of(scene, size):
 
 
 def read(path):
-    """The picture's R G B, its route layers by name, and the light that is compared."""
+    """The picture's R G B, its route layers by name, and the compared light."""
     image = oiio.ImageBuf(str(path))
     names = image.spec().channelnames
     pixels = image.get_pixels(oiio.FLOAT)
@@ -71,7 +70,7 @@ def t_quantile(p, df):
 
 
 def values(scene, preset, options, out):
-    """[seed][block], extrapolated where something is merged, and the layers' worst difference."""
+    """Block means as [seed][block], extrapolated for merging presets, and the largest deviation of the layers."""
     merges = any(m in line for line in run([PROGRAM, "routes", "--routes", preset]).splitlines()
                  for m in (" photons ", " sppm ", " photons+light "))
     worst = 0.0

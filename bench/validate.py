@@ -4,10 +4,10 @@
   bench/validate.py --scenes DIR --references DIR [--only NAME ...] [--integrator mixed ...]
                     [--passes 64 --passes 512 | --time 15s] [--out DIR]
 
-A scene is DIR/NAME/scene.pbrt, its reference DIR/NAME.exr. The resolution is the reference's. The
-figures are those of `nephroid compare`: relmse_trim leaves out the worst 0.1 % of pixels; the mean ratio
-over pixels whose reference is below 10 comes with its 95 % interval; the last column is the share of
-pixels whose difference lies within 3.3 of its standard errors in all channels. docs/validation.md keeps the results.
+A scene is DIR/NAME/scene.pbrt, its reference DIR/NAME.exr, which sets the resolution. The figures are
+those of `nephroid compare`. relmse_trim omits the worst 0.1 % of pixels. The mean ratio, over pixels whose
+reference is below 10, has its 95 % interval. The last column is the share of pixels whose difference is
+within 3.3 standard errors in all channels. docs/validation.md keeps the results.
 """
 import argparse
 import pathlib
@@ -37,7 +37,7 @@ def run(arguments):
 
 
 def compare(reference, picture):
-    """What `nephroid compare` prints, and its figures by name, without the reference's own error."""
+    """The output of `nephroid compare`, and its figures by name, without the reference's own error."""
     text = run([PROGRAM, "compare", reference, picture, "--subtract-reference-error"])
     return text, {k: float(v) for k, v in re.findall(r"(\w+)=([-+\d.einfa]+)", text)}
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Checks the links of all Markdown pages: files and pictures exist, headings exist, and every page under docs/ can be
-reached from docs/index.md. Needs no build.
+"""Checks the links of all Markdown pages: files, pictures and headings exist, and every page under docs/ can be reached
+from docs/index.md. Needs no build.
 
-Exit status 1 and one line per fault, `file:line: what`.
+Prints one line per fault, `file:line: what`, and then exits with status 1.
 """
 import pathlib
 import re
@@ -22,7 +22,7 @@ def pages():
 
 
 def lines_outside_code(page):
-    """(number, line) without fenced blocks."""
+    """(number, line) of all lines outside fenced blocks."""
     fence = None
     for number, line in enumerate(page.read_text(encoding="utf-8").split("\n"), 1):
         mark = re.match(r"\s*(```+|~~~+)", line)

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Holds the architecture: a file includes only from its own layer and room or from those to the left of it,
-no headers include each other in a circle, each external library is included where it belongs, and files keep
-to 400 lines of 100 columns.
+"""Checks the architecture. A file includes only from its own layer and room or from those to its left. Headers
+do not include each other in a circle. External libraries are included only where they belong. Files have at most
+400 lines of 100 columns.
 
-Exit status 1 and one line per violation, `file:line: what`.
+Prints one line per violation, `file:line: what`, and then exits with status 1.
 """
 import pathlib
 import re
@@ -13,8 +13,8 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 SRC = ROOT / "src"
 LAYERS = ["core", "input", "scene", "route", "film", "transport", "photon", "integrator", "image",
           "session", "options", "bench", "report_page", "apps"]
-# Layers with folders of their own, which are rooms: in this order each includes only from those to its
-# left. "" is the layer's own files.
+# Rooms: the folders of a layer. In this order, each one includes only from those to its left. "" stands for the
+# layer's own files.
 ROOMS = {
     "scene": ["shape", "bsdf", "texture", "medium", "material", "light", "camera", ""],
     "integrator": ["estimator", "path", "photons", "learning", "photon_mapping", "virtual_lights",
@@ -35,13 +35,13 @@ LIBRARIES = {
     r"nlohmann/": {"bench", "session/checkpoint/film_metadata.cpp"},
 }
 MAX_LINES, MAX_COLUMNS = 400, 100
-# Files that are tables of text or of data, which no one reads as code.
+# Files that are tables of text or data, not code.
 TABLES = {"report_page/page_style.cpp", "options/scene_support.cpp"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 
 def layer_of(path):
-    """(layer, room) of a path relative to src/, as positions; None if it has no such place."""
+    """Positions (layer, room) of a path relative to src/, or None if it belongs to none."""
     layer, *folders = path.split("/")[:-1] or [""]
     room = "/".join(folders)
     rooms = ROOMS.get(layer, [""])
@@ -55,7 +55,7 @@ def library_allowed(path, places):
 
 
 def too_long(path, lines):
-    """Lines inside a raw string are the text of a file or of a page, not code."""
+    """Violations of the length limits; tables are exempt."""
     if path in TABLES:
         return
     if len(lines) > MAX_LINES:
@@ -66,7 +66,7 @@ def too_long(path, lines):
 
 
 def circles(includes):
-    """One line for each circle of headers."""
+    """One line per circle of headers."""
     done, stack = set(), []
 
     def visit(header):

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Writes docs/messages.md: every message of the program, from the sources. `--check` compares instead and fails if the
-page is not what the sources say.
+page differs.
 
-A message is what an error is thrown with, a warning or a note is made of. Values are shown as an ellipsis.
+Messages are the texts of errors, warnings and notes. Values appear as an ellipsis.
 """
 import pathlib
 import re
@@ -20,7 +20,7 @@ KINDS = {
 
 
 def literals(text, start):
-    """The string literals of the call whose bracket ends at `start`, as one message; values are an ellipsis."""
+    """The string literals of the call whose opening bracket ends at `start`, joined to a message. Values become an ellipsis."""
     depth, parts, value = 1, [], False
     for token in TOKEN.finditer(text, start):
         t = token[0]

@@ -62,10 +62,10 @@ std::vector<const BenchScene*> chosen_scenes(const BenchSuite& suite, const Benc
         std::find(options.only.begin(), options.only.end(), scene.name) == options.only.end())
       continue;
     if (!limit_of(suite, scene, options.limit).is_set())
-      throw UsageError(fmt::format(
-          "{}: nothing says how long runs of scene '{}' are, expected \"time\" or \"passes\" in "
-          "the suite, or --time or --passes",
-          suite.file, scene.name));
+      throw UsageError(
+          fmt::format("{}: the runs of scene '{}' have no limit, expected \"time\" or \"passes\" "
+                      "in the suite, or --time or --passes",
+                      suite.file, scene.name));
     chosen.push_back(&scene);
   }
   return chosen;

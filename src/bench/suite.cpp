@@ -95,7 +95,7 @@ RouteChoice routes_in(const Fields& fields, const std::string& what, const std::
     for (const JsonValue& item : route->items())
       choice.routes.push_back(
           read_at(item, [&] { return parse_route(text_of(item, "a route"), estimator_traits()); }));
-    if (route->json().empty()) route->fail("\"route\" is empty, expected routes");
+    if (route->json().empty()) route->fail("\"route\" is empty, expected at least one route");
     return choice;
   }
   const JsonValue source = fields.required(fields.has("routes") ? "routes" : "integrator");
@@ -187,7 +187,8 @@ void read_resolution(const Fields& fields, BenchScene* scene) {
   for (size_t i = 0; i < 2; ++i) {
     const double side = number_of(items[i], "a side of \"resolution\"", 1, kLargestSide);
     *sides[i] = static_cast<int>(side);
-    if (*sides[i] != side) items[i].fail("a side of \"resolution\" is not whole, expected pixels");
+    if (*sides[i] != side)
+      items[i].fail("a side of \"resolution\" is not whole, expected a whole number of pixels");
   }
 }
 

@@ -122,21 +122,24 @@ void check_claim(const Fields& fields, const BenchSuite& suite, const BenchClaim
   }
   if (!claim.region.empty() && (!is_error(claim.metric) || claim.at_equal))
     fields.required("region").fail(
-        "\"region\" does not fit, expected it with an error as metric and without \"at\"");
+        "\"region\" does not fit this claim, expected it only with the metric of an error and "
+        "without \"at\"");
   if (!claim.layer.empty() &&
       ((!is_error(claim.metric) && claim.metric != BenchMetric::kSlope) || !claim.region.empty()))
     fields.required("layer").fail(
-        "\"layer\" does not fit, expected it with an error or a slope as metric and without "
-        "\"region\"");
+        "\"layer\" does not fit this claim, expected it only with the metric of an error or a "
+        "slope and without \"region\"");
   if (fields.has("over") && claim.metric != BenchMetric::kSlope)
-    fields.required("over").fail("\"over\" does not fit, expected it with a slope only");
+    fields.required("over").fail(
+        "\"over\" does not fit this claim, expected it only with the metric \"slope\"");
   // Slopes are negative, so a factor would reverse the claim.
   if (claim.metric == BenchMetric::kSlope && claim.form != BenchClaim::Form::kBetween)
     fields.required("metric").fail(
         "slopes are not compared, expected \"of\" and \"between\" with the metric \"slope\"");
   if (claim.at_equal && (!is_error(claim.metric) || claim.form == BenchClaim::Form::kBetween))
     fields.required("at").fail(
-        "\"at\" does not fit, expected it where errors of integrators are compared");
+        "\"at\" does not fit this claim, expected it only with the metric of an error and with "
+        "\"smaller\" or \"same\"");
   for (const JsonValue& item : fields.list("scenes")) {
     const std::string& name = text_of(item, "a scene");
     const BenchScene* scene = suite.find_scene(name);
@@ -147,14 +150,14 @@ void check_claim(const Fields& fields, const BenchSuite& suite, const BenchClaim
     for (const std::string& integrator : needed)
       if (!runs(*scene, integrator))
         item.fail(
-            fmt::format("scene \"{}\" has no integrator \"{}\", expected a scene "
-                        "that has all of the claim's",
+            fmt::format("scene \"{}\" has no integrator \"{}\", expected a scene with all "
+                        "integrators of the claim",
                         name, integrator));
     if (!claim.region.empty() && !has(scene->regions, claim.region))
-      item.fail(fmt::format("scene \"{}\" has no region \"{}\", expected one that has", name,
+      item.fail(fmt::format("scene \"{}\" has no region \"{}\", expected a scene that has it", name,
                             claim.region));
     if (!claim.layer.empty() && !has(scene->layers, claim.layer))
-      item.fail(fmt::format("scene \"{}\" has no layer \"{}\", expected one that has", name,
+      item.fail(fmt::format("scene \"{}\" has no layer \"{}\", expected a scene that has it", name,
                             claim.layer));
   }
 }

@@ -66,7 +66,7 @@ class ByteWriter {
 
 /// Throws IoError unless the value that was read is sound.
 inline void expect_sound(bool is_sound) {
-  if (!is_sound) throw IoError("stored values are damaged: they make no sense");
+  if (!is_sound) throw IoError("stored values are damaged: one of them is invalid");
 }
 
 /// Reads the bytes of a ByteWriter. Throws IoError if the bytes end too early, a list claims to be

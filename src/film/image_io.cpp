@@ -111,7 +111,7 @@ Picture read_picture(const std::string& path) {
   const OIIO::ImageSpec& spec = in->spec();
   Picture picture{head_of(spec), {}};
   if (!is_possible_size(spec.image_bytes(true), path))
-    throw IoError(path + ": cannot read: it claims more pixels than could be in it");
+    throw IoError(path + ": cannot read: its header claims more pixels than the file can hold");
   picture.pixels.resize(spec.image_pixels() * spec.nchannels);
   if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, picture.pixels.data()))
     throw IoError(path + ": cannot read: " + in->geterror());

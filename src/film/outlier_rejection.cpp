@@ -195,7 +195,7 @@ std::vector<uint32_t> OutlierRejection::save() const {
 
 void OutlierRejection::load(std::span<const uint32_t> words) {
   const auto take = [&](void* data, size_t bytes) {
-    if (words.size() * 4 < bytes) throw IoError("it ends too early");
+    if (words.size() * 4 < bytes) throw IoError("outlier data are damaged: they end too early");
     if (bytes > 0) std::memcpy(data, words.data(), bytes);
     words = words.subspan(bytes / 4);
   };
@@ -203,12 +203,12 @@ void OutlierRejection::load(std::span<const uint32_t> words) {
     uint32_t place[2];
     take(place, sizeof place);
     if (place[0] >= pixels_.size() || place[1] >= pixels_[place[0]].size())
-      throw IoError("it has a pixel that is not there");
+      throw IoError("outlier data are damaged: pixel index out of range");
     Pixel& p = pixels_[place[0]][place[1]];
     take(static_cast<PixelHead*>(&p), sizeof(PixelHead));
     if (p.size > kMaxHeld || std::any_of(p.levels.begin(), p.levels.end(),
                                          [](uint8_t level) { return level >= kLevels; }))
-      throw IoError("a pixel holds more than it can");
+      throw IoError("outlier data are damaged: values of a pixel out of range");
     p.sums.resize(p.size * parts_[place[0]]);
     take(p.sums.data(), p.sums.size() * sizeof(RgbSum));
   }

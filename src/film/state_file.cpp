@@ -123,7 +123,7 @@ struct StateFile::Input {
   void read(uint64_t offset, std::span<std::byte> into) {
     file.seekg(static_cast<std::streamoff>(offset));
     file.read(reinterpret_cast<char*>(into.data()), static_cast<std::streamsize>(into.size()));
-    if (!file) fail("the file is shorter than it says");
+    if (!file) fail("the file is shorter than its index says");
   }
   void open(const std::string& name) {
     path = name;
@@ -142,7 +142,7 @@ struct StateFile::Input {
     const uint64_t before_footer = bytes - sizeof(footer);
     if (footer.end != kBegin || footer.index_bytes > before_footer ||
         footer.index_offset != before_footer - footer.index_bytes)
-      fail("it is not whole");
+      fail("its end is missing or damaged");
     std::vector<std::byte> of_index(footer.index_bytes);
     read(footer.index_offset, of_index);
     if (hash_of(of_index) != footer.index_hash) fail("its index is damaged");
@@ -166,7 +166,7 @@ struct StateFile::Input {
   void read_stream(const RenderState::Stream& stream) {
     const StateIndex::Section& section = at(stream.name);
     if (section.words != 1 || section.bytes > 4 * stream.most_words)
-      fail("'" + stream.name + "' has a size that it cannot have");
+      fail("'" + stream.name + "' has the wrong size");
     std::vector<uint32_t> words(section.bytes / 4);
     read_section(section, std::as_writable_bytes(std::span(words)));
     try {
@@ -233,12 +233,12 @@ std::vector<std::string> StateFile::load(const RenderState& state) {
       if (std::ranges::none_of(state.arrays, has_name) &&
           std::ranges::none_of(state.streams, has_name) &&
           !RenderState::Stream::is_optional(section.name))
-        in.fail("'" + section.name + "' is not of this render");
+        in.fail("'" + section.name + "' does not belong to this render");
     }
   for (const RenderState::Array& array : state.arrays) {
     const StateIndex::Section& section = in.at(array.name);
     if (section.bytes != array.bytes.size() || section.words != array.words)
-      in.fail("'" + array.name + "' has a size that it cannot have");
+      in.fail("'" + array.name + "' has the wrong size");
     in.read_section(section, array.bytes);
   }
   std::vector<std::string> passed_over;

@@ -54,8 +54,9 @@ std::vector<Triple> colors_of(const Picture& picture) {
 
 void check_sizes(const Picture& reference, const Picture& test) {
   if (reference.width() == test.width() && reference.height() == test.height()) return;
-  throw UsageError(fmt::format("the reference is {}x{} pixels and the other picture {}x{}",
-                               reference.width(), reference.height(), test.width(), test.height()));
+  throw UsageError(fmt::format(
+      "the reference is {}x{} pixels and the other picture {}x{}, expected the same size",
+      reference.width(), reference.height(), test.width(), test.height()));
 }
 
 double square(double x) {
@@ -171,7 +172,9 @@ Comparison compare_pictures(const Picture& reference, const Picture& test,
   const std::vector<Triple> r_error = channels_named(reference, "stderr.");
   const std::vector<Triple> x_error = channels_named(test, "stderr.");
   if (options.subtract_reference_error && r_error.empty())
-    throw UsageError("--subtract-reference-error: the reference has no stderr.R, .G, .B channels");
+    throw UsageError(
+        "--subtract-reference-error: the reference has no layer stderr, expected channels "
+        "stderr.R, stderr.G and stderr.B");
 
   std::vector<double> relative(r.size()), kept(r.size());
   double squares = 0, reference_sum = 0, test_sum = 0;

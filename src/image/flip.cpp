@@ -271,9 +271,9 @@ std::vector<double> flip_errors(int width, int height, const std::vector<Rgb>& r
 
 double flip(const Picture& reference, const Picture& test, float exposure) {
   if (reference.width() != test.width() || reference.height() != test.height())
-    throw UsageError(fmt::format("the reference is {}x{} pixels and the other picture {}x{}",
-                                 reference.width(), reference.height(), test.width(),
-                                 test.height()));
+    throw UsageError(fmt::format(
+        "the reference is {}x{} pixels and the other picture {}x{}, expected the same size",
+        reference.width(), reference.height(), test.width(), test.height()));
   const std::vector<double> errors =
       flip_errors(reference.width(), reference.height(), display_colors(reference, exposure),
                   display_colors(test, exposure));

@@ -64,8 +64,8 @@ void DescriptionBuilder::set_transform_times(double start, double end,
     throw SceneError(where, "TransformTimes ends before it starts, expected start <= end");
   if (scene_.camera)
     diagnostics_.warn(where,
-                      "TransformTimes behind Camera: pbrt-v4 keeps the earlier times for the "
-                      "camera, here they count for the camera too");
+                      "TransformTimes after Camera: pbrt-v4 would not use these times for the "
+                      "camera, here the camera uses them, too");
   scene_.transform_start_time = static_cast<float>(start);
   scene_.transform_end_time = static_cast<float>(end);
 }
@@ -113,7 +113,8 @@ void DescriptionBuilder::attribute_end(const SourceLocation& where) {
 void DescriptionBuilder::object_begin(const std::string& name, const SourceLocation& where) {
   if (object_) {
     throw SceneError(where, "ObjectBegin inside of the object \"" + object_->name +
-                                "\" that was begun at " + object_->where.to_string());
+                                "\" that was begun at " + object_->where.to_string() +
+                                ", expected ObjectEnd first");
   }
   const auto [entry, is_new] = scene_.objects.try_emplace(name);
   if (!is_new) {

@@ -55,7 +55,7 @@ struct Reader {
     if (bracketed) {
       const Token& close = tokens.next();
       if (close.kind != Token::Kind::kClose)
-        throw SceneError(close.where(), std::string("expected ']' behind the 16 numbers of ") +
+        throw SceneError(close.where(), std::string("expected ']' after the 16 numbers of ") +
                                             directive + ", found " + describe(close));
     }
     return matrix_from_numbers(numbers);
@@ -72,7 +72,7 @@ struct Directive : FormatDirective {
 void read_rotate(Reader& r, const SourceLocation& where) {
   const double degrees = r.number("Rotate");
   const std::optional<Mat44d> m = rotation_matrix(degrees, r.vector("Rotate"));
-  if (!m) throw SceneError(where, "the axis of Rotate is null, expected a direction");
+  if (!m) throw SceneError(where, "the axis of Rotate is the zero vector, expected a direction");
   r.builder.concat_transform(*m, "Rotate", where);
 }
 
@@ -82,7 +82,9 @@ void read_look_at(Reader& r, const SourceLocation& where) {
     throw SceneError(where, "LookAt looks from a point to itself, expected two different points");
   const std::optional<Mat44d> m = look_at_matrix(eye, target, up);
   if (!m)
-    throw SceneError(where, "the up vector of LookAt is null or parallel to the view direction");
+    throw SceneError(where,
+                     "the up vector of LookAt is zero or parallel to the view direction, expected "
+                     "another direction");
   r.builder.concat_transform(*m, "LookAt", where);
 }
 
@@ -144,7 +146,7 @@ void read_named(Reader& r, const char* of, const SourceLocation& where,
   directive.where = directive.parameters.where = where;
   directive.parameters.list = r.parameters();
   r.v3.upgrade(of, directive);
-  if (name.empty()) throw SceneError(where, "the name is empty, expected one to refer to");
+  if (name.empty()) throw SceneError(where, "the name is empty, expected at least one character");
   (r.builder.*add)(name, std::move(directive));
 }
 
@@ -167,7 +169,7 @@ void read_world_end(Reader& r, const SourceLocation& where) {
   const Token& token = r.tokens.peek();
   if (token.kind != Token::Kind::kEnd)
     throw SceneError(token.where(),
-                     "expected the end of the scene behind WorldEnd, found " + describe(token));
+                     "expected the end of the scene after WorldEnd, found " + describe(token));
 }
 
 using Place = SourceLocation;
@@ -332,11 +334,11 @@ constexpr std::array kDirectives = {
 void check_part(const Directive& directive, bool in_world, const SourceLocation& where) {
   if (directive.part == Part::kOptions && in_world) {
     throw SceneError(
-        where, std::string(directive.name) + " behind WorldBegin, expected it before WorldBegin");
+        where, std::string(directive.name) + " after WorldBegin, expected it before WorldBegin");
   }
   if (directive.part == Part::kWorld && !in_world) {
     throw SceneError(
-        where, std::string(directive.name) + " before WorldBegin, expected it behind WorldBegin");
+        where, std::string(directive.name) + " before WorldBegin, expected it after WorldBegin");
   }
 }
 

@@ -67,13 +67,13 @@ class Header {
         if (!has_possible_size(*type, bytes, end)) return "its header is damaged";
         file_.seekg(static_cast<std::streamoff>(end - bytes));
         if (*name == "dataWindow" && *type == "box2i" && !is_possible_window())
-          return "it claims more pixels than could be in it";
+          return "its header claims more pixels than the file can hold";
         if (*name == "type" && *type == "string" && is_deep(bytes)) return "it is a deep image";
         if (*name == "compression" && *type == "compression") part_.rows_in_block = rows_in_block();
         if (*name == "tiles" && *type == "tiledesc") part_.tile = Extent{number(), number()};
         file_.seekg(static_cast<std::streamoff>(end));
       }
-      if (!has_possible_chunks()) return "it claims more in one piece than could be in it";
+      if (!has_possible_chunks()) return "its header claims larger blocks than the file can hold";
       if (!many || attributes == 0) return "";
     }
   }

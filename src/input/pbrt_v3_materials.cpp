@@ -155,8 +155,8 @@ void upgrade_mix(Parameters& list, const SourceLocation& where) {
   const auto first = v3::take(list, "namedmaterial1"), second = v3::take(list, "namedmaterial2");
   if (!first || !second || first->strings.size() != 1 || second->strings.size() != 1)
     throw SceneError(where,
-                     "material \"mix\" has one of \"namedmaterial1\" and \"namedmaterial2\" of "
-                     "pbrt-v3, expected \"string materials\" with two names");
+                     "material \"mix\" lacks one of pbrt-v3's \"namedmaterial1\" and "
+                     "\"namedmaterial2\", expected \"string materials\" with two names");
   v3::add(list, "string", "materials", first->where).strings = {second->strings[0],
                                                                 first->strings[0]};
   Parameter* const amount = v3::find(list, "amount");

@@ -84,25 +84,28 @@ PlyElement read_element(HeaderLine& line, const PlyHeader& header) {
       element.count > kMaxElements)
     line.fail("expected a number of elements, found \"" + std::string(count) + "\"");
   for (const PlyElement& other : header.elements) {
-    if (other.name == element.name) line.fail("element \"" + element.name + "\" stands twice");
+    if (other.name == element.name)
+      line.fail("element \"" + element.name + "\" is declared twice, expected once");
   }
   return element;
 }
 
 PlyProperty read_property(HeaderLine& line, const PlyHeader& header) {
-  if (header.elements.empty()) line.fail("a property before the first element");
+  if (header.elements.empty())
+    line.fail("the property has no element, expected an element line before it");
   PlyProperty property;
   HeaderLine ahead = line;
   if (ahead.word() == "list") {
     line = ahead;
     property.is_list = true;
     property.count_type = line.scalar();
-    if (!is_integer(property.count_type)) line.fail("the length of a list is not an integer");
+    if (!is_integer(property.count_type))
+      line.fail("the length of the list has a float type, expected an integer type");
   }
   property.type = line.scalar();
   property.name = line.word("the name of a property");
   if (header.elements.back().find(property.name) >= 0)
-    line.fail("property \"" + property.name + "\" stands twice");
+    line.fail("property \"" + property.name + "\" is declared twice, expected once");
   return property;
 }
 
@@ -154,7 +157,7 @@ PlyHeader read_ply_header(std::string_view bytes) {
       PlyProperty property = read_property(line, header);
       header.elements.back().properties.push_back(std::move(property));
     } else if (keyword == "end_header") {
-      if (!has_format) line.fail("the header has no format line");
+      if (!has_format) line.fail("the header has no format line, expected one before end_header");
       header.size = start;
       return header;
     } else if (keyword != "comment" && keyword != "obj_info" && !keyword.empty()) {

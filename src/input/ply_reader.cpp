@@ -316,7 +316,7 @@ MeshData read_ply(SceneFiles& files, const std::string& path, const SourceLocati
   try {
     return read_mesh(bytes);
   } catch (const std::bad_alloc&) {
-    throw SceneError(wanted_by, "cannot use \"" + path + "\": it does not fit the memory");
+    throw SceneError(wanted_by, "cannot use \"" + path + "\": it does not fit into memory");
   } catch (const std::runtime_error& error) {
     throw SceneError(wanted_by, "cannot use \"" + path + "\": " + error.what());
   }

@@ -35,7 +35,7 @@ std::string SceneFiles::read(const std::string& path) {
     read_[counted_name(path)] = hash;
     return bytes;
   } catch (const std::bad_alloc&) {
-    throw IoError("cannot read \"" + path + "\": it does not fit the memory");
+    throw IoError("cannot read \"" + path + "\": it does not fit into memory");
   }
 }
 

@@ -139,7 +139,7 @@ TensorFile::TensorFile(std::string bytes, std::string name, SourceLocation wante
     const std::string field_name(table.take(length, nth));
     TensorField field = read_field(*this, table, all, "field \"" + shown(field_name) + "\"");
     if (!fields_.emplace(field_name, std::move(field)).second)
-      fail("field \"" + shown(field_name) + "\" stands twice");
+      fail("field \"" + shown(field_name) + "\" is in the file twice, expected once");
   }
 }
 

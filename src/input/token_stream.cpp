@@ -50,7 +50,8 @@ void TokenStream::leave() {
 }
 
 void TokenStream::push(const Token& file_name, bool is_scope) {
-  if (file_name.text.empty()) throw SceneError(file_name.where(), "the file name is empty");
+  if (file_name.text.empty())
+    throw SceneError(file_name.where(), "the file name is empty, expected a scene file");
   OpenFile file;
   file.shown_path = files_of_scene_.path_of(std::string(file_name.text));
   file.canonical_path = canonical(file.shown_path);
@@ -76,9 +77,9 @@ void TokenStream::check_nesting(const Token& file_name, const OpenFile& file) co
       throw SceneError(file_name.where(), "the file includes itself: " + chain_to(file.shown_path));
   }
   if (files_.size() > kMaxDepth) {
-    throw SceneError(file_name.where(), "files are included more than " +
-                                            std::to_string(kMaxDepth) +
-                                            " deep: " + chain_to(file.shown_path));
+    throw SceneError(file_name.where(),
+                     "files are included more than " + std::to_string(kMaxDepth) +
+                         " deep, expected fewer levels: " + chain_to(file.shown_path));
   }
   if (files_included_ >= kMaxFiles)
     throw SceneError(file_name.where(), "more than " + std::to_string(kMaxFiles) +

@@ -47,7 +47,7 @@ Tokenizer::Tokenizer(std::shared_ptr<const std::string> name, std::string text)
     throw SceneError({name_, 1, 1}, "the file is encoded in UTF-16, expected UTF-8");
   if (text_.find('\0') != std::string::npos)
     throw SceneError({name_, 1, 1},
-                     "the file holds zero bytes, so it is no text, expected a scene");
+                     "the file contains NUL bytes, so it is not text, expected a scene");
   if (start == "\xEF\xBB\xBF") position_ = line_start_ = 3;  // the UTF-8 byte order mark
 }
 

@@ -112,7 +112,8 @@ class Parser {
     const char first = skip_spaces();
     if (first == '*' || first == '+' || first == '?' || first == '{')
       fail("expected a letter, a set or a group to repeat, found the quantifier " + found());
-    if (first == '@') fail("'@' stands directly behind the letter or set that it marks, as in D@");
+    if (first == '@')
+      fail("'@' marks nothing here, expected it directly after a letter or set, as in D@");
     Expression e = first == '(' ? group(depth) : marked_atom();
     const char next = skip_spaces();
     int least = 0, most = Expression::kUnbounded;
@@ -128,7 +129,7 @@ class Parser {
       return e;
     }
     const char after = skip_spaces();
-    if (after == '@') fail("'@' stands before the quantifier, directly behind what it marks: D@+");
+    if (after == '@') fail("'@' stands after the quantifier, expected it before, as in D@+");
     if (after == '*' || after == '+' || after == '?' || after == '{')
       fail("expected one quantifier, found another, " + found() + "; use a group: (S+)?");
     Expression repetition{.kind = Expression::Kind::kRepeat, .atom = {}, .parts = {}};
@@ -141,7 +142,8 @@ class Parser {
   Expression group(int depth) {
     const size_t open = at_++;
     if (depth >= kDeepestGroup)
-      fail_at(open, "expected at most " + std::to_string(kDeepestGroup) + " groups in each other");
+      fail_at(open,
+              "expected at most " + std::to_string(kDeepestGroup) + " nested groups, found more");
     Expression e = choice(depth + 1);
     if (!take(')'))
       fail("expected ')' for the '(' at column " + column(open) + ", found " + found());
@@ -220,7 +222,8 @@ class Parser {
     p.events = events_of(c);
     p.lights = lights_of(c);
     if (!p.eye && p.events == 0 && p.lights == 0) {
-      if (c == '\'') fail("a label stands in angle brackets, as in <L.'key'> or <..'glass'>");
+      if (c == '\'')
+        fail("the label has no angle brackets, expected it as in <L.'key'> or <..'glass'>");
       if (c == ']' || c == '>' || c == '}')
         fail("found " + found() + " without the bracket that it closes");
       fail("expected " + std::string(expected) + " (letters are " + kLetters + "), found " +
@@ -238,15 +241,17 @@ class Parser {
     while (skip_spaces() != ']') {
       if (at_ >= text_.size())
         fail("expected ']' after the letters of a set, found the end of the expression");
-      if (text_[at_] == '.') fail("'.' is any symbol, so it makes no sense in a set");
-      if (text_[at_] == '^') fail("'^' stands first in a set, as in [^DG]");
+      if (text_[at_] == '.')
+        fail("'.' means any symbol and cannot stand in a set, expected letters");
+      if (text_[at_] == '^') fail("'^' stands inside the set, expected it first, as in [^DG]");
       if (text_[at_] == '[' || text_[at_] == '(' || text_[at_] == '|')
         fail("expected ']' after the letters of a set, found " + found());
       a.any_of.push_back(text_[at_] == '<' ? bracket() : letter("']' or a letter of the set"));
     }
     if (a.any_of.empty()) fail("expected letters between '[' and ']', found an empty set");
     ++at_;
-    if (a.negated && excludes_everything(a)) fail_at(open, "this set leaves no symbol");
+    if (a.negated && excludes_everything(a))
+      fail_at(open, "this set excludes every symbol, expected at least one that is left");
     return a;
   }
   static bool excludes_everything(const ExpressionAtom& a) {
@@ -284,7 +289,7 @@ class Parser {
   unsigned side_and_class() {
     if (class_bits(skip_spaces()) != 0)
       fail("expected the side, R, T or '.', found " + found() +
-           "; the class stands behind it, as in <RD>");
+           "; the class follows it, as in <RD>");
     const bool any_side = text_.compare(at_, 1, ".") == 0;
     const unsigned side = one_or_set(&side_bits, "the side: R, T, '.' or a set of them");
     if (const char c = skip_spaces(); sideless_bits(c) != 0)

@@ -26,10 +26,9 @@ LightSide reverse(const Automaton& a) {
       side.meet.push_back(std::move(vector));
       if (known.size() > kMaxLightStates || known.size() * a.states() > kMaxBytes)
         throw UsageError(
-            "the routes are too complex: read from the light their automaton has more "
-            "than " +
+            "the routes are too complex: their automaton, read from the light, has more than " +
             std::to_string(known.size() - 1) +
-            " states, expected expressions that look at fewer events near the eye");
+            " states, expected expressions that distinguish fewer events near the eye");
     }
     return at->second;
   };

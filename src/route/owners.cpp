@@ -37,7 +37,7 @@ PartAutomaton divide_into_parts(const MatchAutomaton& m, const SymbolClasses& cl
   if (numbers.size() > kNoPart)
     throw UsageError("the routes and AOVs divide the picture into " +
                      std::to_string(numbers.size()) + " parts, expected at most " +
-                     std::to_string(kNoPart) + ": fewer AOVs that overlap");
+                     std::to_string(kNoPart) + " (fewer overlapping AOVs)");
 
   PartAutomaton result;
   for (auto& [meaning, number] : numbers) {

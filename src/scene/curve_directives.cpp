@@ -102,7 +102,7 @@ void set_normals(const ParameterSet& p, CurveType type, std::vector<CurveSegment
   for (const Vec3f& n : normals)
     if (!is_finite(n) || !(max_component(abs(n)) > 0.0f))
       throw SceneError(p.find("N")->where,
-                       "a normal of this ribbon is null or no number, expected a direction");
+                       "a normal of this ribbon is zero or not finite, expected a direction");
   for (size_t i = 0; i < segments.size(); ++i) {
     segments[i].normal0 = normalize(normals[i]);
     segments[i].normal1 = normalize(normals[i + 1]);
@@ -137,7 +137,7 @@ ShapePtr make_curves(std::span<const ShapeDescription> alike, const Transform& t
     if (segments.front().width0 > 0.0f || segments.back().width1 > 0.0f)
       all.insert(all.end(), segments.begin(), segments.end());
     else
-      diagnostics.warn(d.where, "curve has no width, nothing will be seen of it");
+      diagnostics.warn(d.where, "curve has no width and will be invisible");
   }
   auto shape = std::make_shared<CurveShape>(transform, first.reverse_orientation, type, all);
   for (uint32_t i = 0; i < shape->primitive_count(); ++i) {
@@ -147,8 +147,7 @@ ShapePtr make_curves(std::span<const ShapeDescription> alike, const Transform& t
                        "curve is too large or too far away, expected coordinates up to 1e17");
   }
   if (shape->primitive_count() > 0) return shape;
-  if (!all.empty())
-    diagnostics.warn(first.where, "curve has no length, nothing will be seen of it");
+  if (!all.empty()) diagnostics.warn(first.where, "curve has no length and will be invisible");
   return nullptr;
 }
 

@@ -44,10 +44,10 @@ void set_crop(FilmDescription& film, const ParameterSet& p, const SceneOverrides
   }
   if (film.crop_x0 < film.crop_x1 && film.crop_y0 < film.crop_y1) return;
   if (overrides.has_crop)
-    throw UsageError(
-        fmt::format("--crop: the window contains no pixel of {} x {}, expected a larger one",
-                    film.width, film.height));
-  throw SceneError(p.where, "the crop window contains no pixel");
+    throw UsageError(fmt::format(
+        "--crop: the window contains no pixel of the {} x {} picture, expected a larger window",
+        film.width, film.height));
+  throw SceneError(p.where, "the crop window contains no pixel, expected a larger one");
 }
 
 constexpr FormatParameter kFilm[] = {
@@ -118,7 +118,8 @@ void set_sensor(FilmDescription& film, const ParameterSet& p, Diagnostics& diagn
     const std::vector<std::string> known(std::begin(kMeasuredSensors), std::end(kMeasuredSensors));
     if (std::find(known.begin(), known.end(), sensor) == known.end())
       throw SceneError(p.find("sensor")->where,
-                       "unknown sensor \"" + sensor + "\"" + did_you_mean(sensor, known));
+                       "unknown sensor \"" + sensor + "\"" + did_you_mean(sensor, known) +
+                           " (expected \"cie1931\" or a sensor of pbrt-v4)");
     diagnostics.warn(p.find("sensor")->where,
                      "sensor \"" + sensor + "\" is rendered as \"cie1931\" with its exposure");
     if (kelvin == 0) kelvin = 6500;

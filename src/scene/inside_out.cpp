@@ -17,8 +17,7 @@ std::string message_of(const ShapeDescription& description) {
                                 ? "because of ReverseOrientation"
                                 : "by its normals or the order of its vertices";
   return "this \"" + description.type + "\" of dielectric is inside out " + cause +
-         ": it is rendered as a bubble of air in glass, expected an outside that points away from "
-         "what it encloses";
+         ": it is rendered as a bubble of air in glass, expected normals that point outwards";
 }
 
 bool is_inside(const Bounds3f& a, const Bounds3f& b) {
@@ -63,9 +62,9 @@ void InsideOutCheck::report(const ShapeGroup& top, const Vec3f& eye,
       if (count++ == 0) first = &body;
     }
   if (first == nullptr) return;
-  diagnostics.warn(first->where,
-                   count == 1 ? first->message
-                              : first->message + "; so are " + std::to_string(count - 1) + " more");
+  diagnostics.warn(first->where, count == 1 ? first->message
+                                            : first->message + "; inside out, too: " +
+                                                  std::to_string(count - 1) + " more");
 }
 
 }  // namespace nephroid

@@ -168,12 +168,12 @@ std::unique_ptr<PixelFilter> make_pixel_filter(
   if (type == "mitchell") parameters = {p.get_float("B", 1.f / 3), p.get_float("C", 1.f / 3)};
   if (type == "sinc") parameters[0] = p.get_float("tau", 3.0f);
   if (type == "gaussian" && !(parameters[0] > 0))
-    throw SceneError(p.where, "\"sigma\" must be positive");
+    throw SceneError(p.where, "\"sigma\" of the gaussian filter must be positive");
   if (description) p.report_unused("pixel filter \"" + type + "\"", row, diagnostics);
   auto filter = std::make_unique<PixelFilter>(row.function, radius, parameters, parameters);
   if (!filter->can_be_sampled())
     throw SceneError(p.where, "the parameters of the pixel filter \"" + type +
-                                  "\" leave nothing of it, expected a positive integral");
+                                  "\" make its integral zero or negative, expected a positive one");
   return filter;
 }
 

@@ -84,7 +84,8 @@ std::vector<ShapePtr> triangle_mesh(const Context& c) {
   data.triangles = to_indices(c, c.p.get_ints("indices"));
   if (data.triangles.empty()) {
     if (data.positions.size() != 3)
-      throw SceneError(c.p.where, c.what() + " has no \"integer indices\"");
+      throw SceneError(c.p.where,
+                       c.what() + " has no \"integer indices\", expected three per triangle");
     data.triangles = {0, 1, 2};
   }
   if (data.triangles.size() % 3 != 0)
@@ -126,7 +127,8 @@ MeshData displaced(const Context& c, MeshData data, const FloatTexture& height) 
 
 std::vector<ShapePtr> ply_mesh(const Context& c) {
   const std::string name = c.p.get_string("filename", "");
-  if (name.empty()) throw SceneError(c.p.where, c.what() + " has no \"string filename\"");
+  if (name.empty())
+    throw SceneError(c.p.where, c.what() + " has no \"string filename\", expected a PLY file");
   MeshData data = read_ply(c.files, c.files.path_of(name), c.p.where);
   zero_bad_normals(data, c.p.where, c.what(), c.diagnostics);
   if (const FloatTexturePtr height = c.displacement.textures.float_texture(c.p, "displacement"))
@@ -140,7 +142,8 @@ std::vector<ShapePtr> bilinear_mesh(const Context& c) {
   std::vector<uint32_t> corners = to_indices(c, c.p.get_ints("indices"));
   if (corners.empty()) {
     if (data.positions.size() != 4)
-      throw SceneError(c.p.where, c.what() + " has no \"integer indices\"");
+      throw SceneError(c.p.where,
+                       c.what() + " has no \"integer indices\", expected four per patch");
     corners = {0, 1, 2, 3};
   }
   if (corners.size() % 4 != 0)
@@ -185,7 +188,7 @@ std::vector<ShapePtr> finish_quadric(const Context& c, ShapePtr shape) {
                                     " is too large or too far away, expected coordinates "
                                     "up to 1e17");
   if (shape->sample_area(0, Vec2f(0.5f, 0.5f))) return {std::move(shape)};
-  c.diagnostics.warn(c.p.where, c.what() + " has no area, nothing will be seen of it");
+  c.diagnostics.warn(c.p.where, c.what() + " has no area and will be invisible");
   return {};
 }
 

@@ -44,11 +44,11 @@ double steady_seconds() {
 
 void check_fits(const EstimatorSet& set, const Film& film, const RenderOptions& options) {
   if (options.last_pass && *options.last_pass < options.first_pass)
-    throw UsageError("--passes: the range ends before it begins");
+    throw UsageError("--passes: the range ends before it begins, expected A..B with A <= B");
   if (options.first_pass > 0 && film.rejection() != nullptr)
     throw UsageError(
-        fmt::format("--passes {}..: with --outliers reject what a pass shows depends on the passes "
-                    "before it, expected a range from 0",
+        fmt::format("--passes {}..: with --outliers reject each pass depends on the passes before "
+                    "it, expected a range from 0",
                     options.first_pass));
   const std::vector<PassRange>& before = options.begin_with.passes.ranges();
   const bool from_zero = before.empty() || (before.size() == 1 && before[0].first == 0);
@@ -57,7 +57,7 @@ void check_fits(const EstimatorSet& set, const Film& film, const RenderOptions& 
     if (!from_zero && !capabilities.independent_passes)
       throw UsageError(
           fmt::format("--resume: the passes of this integrator depend on each other, and the "
-                      "picture has {}, expected a range from 0",
+                      "picture has passes {}, expected a picture whose passes begin at 0",
                       options.begin_with.passes.text()));
     if (options.first_pass > 0 && !capabilities.independent_passes)
       throw UsageError(
@@ -66,8 +66,7 @@ void check_fits(const EstimatorSet& set, const Film& film, const RenderOptions& 
                       options.first_pass));
     if (options.noise_target > 0 && (capabilities.per_pixel_state || !capabilities.consistent))
       throw UsageError(
-          "--noise: this integrator cannot tell how far off its picture is, expected --passes or "
-          "--time");
+          "--noise: this integrator cannot estimate its error, expected --passes or --time");
   }
 }
 
@@ -86,8 +85,10 @@ RenderSession::RenderSession(const Scene& scene, EstimatorSet& set, Film& film,
   else if (!(options_.time_limit > 0) && !(options_.noise_target > 0))
     passes_wanted_ = std::max(1, scene_.samples_per_pixel);
   if (open_pass_ && !is_wanted(*open_pass_) && next_pass())
-    throw UsageError(fmt::format(
-        "--resume: pass {} of the picture is not whole, expected --passes with it", *open_pass_));
+    throw UsageError(
+        fmt::format("--resume: pass {} of the picture is incomplete, expected a range of --passes "
+                    "that includes it",
+                    *open_pass_));
   if (!options_.output.empty()) check_picture_can_be_written(options_.output);
 }
 

@@ -29,7 +29,7 @@ LoadedScene load_scene(const std::string& file, const SceneOverrides& overrides)
   try {
     return build(parse_pbrt_file(file, diagnostics), overrides, diagnostics);
   } catch (const std::bad_alloc&) {
-    throw IoError(file + ": the scene does not fit the memory");
+    throw IoError(file + ": the scene does not fit into memory");
   }
 }
 

@@ -32,9 +32,9 @@ void RenderSession::write_last_picture(bool with_state) {
     std::string directory =
         (fs::path(options_.rescue_directory) / ("nephroid-" + random_letters)).string();
     const auto lost = [&] {
-      return IoError(
-          fmt::format("{}; nor into '{}': what was rendered since it was last written is lost",
-                      error.what(), options_.rescue_directory));
+      return IoError(fmt::format(
+          "{}; writing into '{}' failed, too: everything rendered since the last write is lost",
+          error.what(), options_.rescue_directory));
     };
     if (options_.rescue_directory.empty() || ::mkdtemp(directory.data()) == nullptr) throw lost();
     const fs::path rescue = fs::path(directory) / fs::path(options_.output).filename();
@@ -45,7 +45,7 @@ void RenderSession::write_last_picture(bool with_state) {
       fs::remove_all(directory, ignored);
       throw lost();
     }
-    throw IoError(fmt::format("{}; the picture is in {}", error.what(), rescue.string()));
+    throw IoError(fmt::format("{}; the picture was written to {}", error.what(), rescue.string()));
   }
   write_png();
 }

@@ -22,6 +22,12 @@ inline EventSymbol symbol_at(const SceneSymbols& symbols, const WalkVertex& v, E
   return event_symbol(v.letter(c), v.transmits(wi), label_at(symbols, v));
 }
 
+/// True if the vertex is on the lamp that a light belongs to; false for null.
+inline bool is_on_lamp(const SceneSymbols& symbols, const WalkVertex* v, int light) {
+  return v && v->surface.area_light >= 0 &&
+         symbols.lamp(v->surface.area_light) == symbols.lamp(light);
+}
+
 inline EventSymbol symbol_in(const SceneSymbols& symbols, const Medium& medium) {
   return event_symbol(EventClass::kVolume, false, symbols.medium(medium.index()));
 }

@@ -1,5 +1,5 @@
-// Estimators that learn are unbiased when each render learns for itself. If a lucky guide were
-// kept, each guide could be right and the picture biased all the same. Many seeds on small films.
+// Estimators that learn are unbiased when each render learns for itself. A picture that is better
+// where its learning was lucky is biased, even if each guide is right. Many seeds on small films.
 #include <gtest/gtest.h>
 
 #include "rendering.h"

@@ -40,7 +40,7 @@ TEST(Trials, ThatMergeAllLightFindTheSamePicture) {
   IntegratorOptions options;
   options.max_depth = 6;
   const std::string notes = notes_of(*scene, options);
-  EXPECT_NE(notes.find("photons of all light"), std::string::npos) << notes;
+  EXPECT_NE(notes.find("photons render all light"), std::string::npos) << notes;
   expect_same(unbiased_block_values(*scene, "mixed", options, kSeeds, 24, 100, kAcross),
               block_values(*scene, "bdpt", options, kSeeds, 32, 1, kAcross), 0.02);
 }
@@ -66,7 +66,8 @@ TEST(Trials, ThatShareGlintsOutFindTheSamePicture) {
   options.max_depth = 12;
   options.radius = 0.1f;  // makes the bias negligible
   const std::string notes = notes_of(*scene, options);
-  EXPECT_NE(notes.find("smooth glass and mirrors a pixel and pass, 0 to "), std::string::npos)
+  EXPECT_NE(notes.find("smooth glass and mirrors per pixel and pass on average, 0 to "),
+            std::string::npos)
       << notes;
   expect_same(block_values(*scene, "mixed", options, kSeeds, 32, 100, kAcross),
               block_values(*scene, "path", options, kSeeds, 2048, 1, kAcross), 0.02);

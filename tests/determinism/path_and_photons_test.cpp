@@ -1,5 +1,5 @@
-// What path+photons learns is a function of scene, film, options and seed. The bits do not depend
-// on threads, the order of passes, or their split among processes.
+// Learned values of path+photons are a function of scene, film, options and seed. The bits do not
+// depend on threads, the order of passes, or their split among processes.
 #include <gtest/gtest.h>
 
 #include "core/parallel.h"
@@ -87,11 +87,11 @@ TEST(PathAndPhotons, HasTheSameBitsForAnyNumberOfThreads) {
     }
     // Without learning the test would prove little.
     const std::string notes = ::testing::PrintToString(found[0].notes);
-    const bool all_light = says(found[0], "photons of all light");
+    const bool all_light = says(found[0], "photons render all light");
     EXPECT_EQ(all_light, text == kTube) << notes;
     EXPECT_NE(says(found[0], "photon emission guided to"), all_light) << notes;
-    EXPECT_NE(says(found[0], "camera paths a pixel"), all_light) << notes;
-    EXPECT_FALSE(says(found[0], ", 1 to 1 by tile")) << notes;
+    EXPECT_NE(says(found[0], "camera paths per pixel"), all_light) << notes;
+    EXPECT_FALSE(says(found[0], ", 1 to 1 depending on the tile")) << notes;
     EXPECT_TRUE(says(found[0], "camera paths guided at") || text != kPatch) << notes;
   }
 }

@@ -1,5 +1,5 @@
-// The example of docs/how-to/add-an-integrator.md: it stands there word by word, it renders what
-// path tracing renders of the same routes, and it says what it cannot find.
+// The example of docs/how-to/add-an-integrator.md: the page quotes it verbatim, its picture equals
+// that of path tracing for the same routes, and it reports what it cannot find.
 #include <gtest/gtest.h>
 
 #include "how_to/direct_lighting.h"

@@ -34,7 +34,7 @@ TEST(BadSceneFile, IsASceneErrorIfItIsNoScene) {
   SceneFolder("").expect_error(kScene, "scene.pbrt:1:1: the scene ends before WorldBegin");
   std::string garbage(5000, '\0');
   for (size_t i = 0; i < garbage.size(); ++i) garbage[i] = static_cast<char>(i * i * 31 + i / 7);
-  SceneFolder(garbage).expect_error(kScene, "scene.pbrt:1:1: the file holds zero bytes");
+  SceneFolder(garbage).expect_error(kScene, "scene.pbrt:1:1: the file contains NUL bytes");
   // Control characters are not passed on to the terminal.
   std::replace(garbage.begin(), garbage.end(), '\0', '\x1b');
   const ProgramRun run = SceneFolder(garbage).render();
@@ -181,19 +181,18 @@ TEST(BadImage, IsLocated) {
   expect_image_error(texture + "\"a.png\"\n", "a.png", "no png",
                      "7:35: cannot read image \"a.png\": ");
   // A header that promises far more than the file holds.
-  expect_image_error(
-      texture + "\"a.pfm\"\n", "a.pfm", "PF\n20000 20000\n-1.0\n" + kPly,
-      "7:35: image \"a.pfm\" says that it has 20000 x 20000 pixels of 3 channels, which "
-      "cannot be in so small a file");
+  expect_image_error(texture + "\"a.pfm\"\n", "a.pfm", "PF\n20000 20000\n-1.0\n" + kPly,
+                     "7:35: image \"a.pfm\" is damaged: its header claims 20000 x 20000 pixels of "
+                     "3 channels, more than the file can hold");
   expect_image_error("LightSource \"infinite\" \"string filename\" \"a.pfm\"\n", "a.pfm",
                      "PF\n3 1\n-1.0\n" + std::string(36, '\0'),
                      "7:24: the image of an infinite light is 3 x 1, expected a square");
   // The smallest normal float, little-endian.
   const std::string faint = "Pf\n1 1\n-1.0\n" + std::string("\0\0\x80\0", 4);
   const std::string sky = "LightSource \"infinite\" \"string filename\" \"a.pfm\" ";
-  expect_image_error(sky + "\"float illuminance\" 1000\n", "a.pfm", faint,
-                     "7:50: what this light emits must grow by more than 1e30 for this "
-                     "\"illuminance\"");
+  expect_image_error(
+      sky + "\"float illuminance\" 1000\n", "a.pfm", faint,
+      "7:50: the light would have to be scaled by more than 1e30 to emit this \"illuminance\"");
   expect_image_error(sky + "\"float scale\" 1e38\n", "a.pfm", faint,
                      "7:50: the light is too bright for floating-point numbers, expected a "
                      "\"scale\" up to 1e30");
@@ -206,7 +205,7 @@ TEST(BadTransform, IsLocated) {
   expect_refused("ConcatTransform [ 1 0 0 0 0 1 0 0 0 0 1 1 0 0 0 1 ]\n",
                  "7:1: ConcatTransform gives a projective matrix, expected");
   expect_refused("LookAt 0 0 0 0 0 0 0 1 0\n", "7:1: LookAt looks from a point to itself");
-  expect_refused("Rotate 10 0 0 0\n", "7:1: the axis of Rotate is null");
+  expect_refused("Rotate 10 0 0 0\n", "7:1: the axis of Rotate is the zero vector");
 }
 
 // The ray tracer would abort the program at coordinates that it cannot represent.
@@ -237,12 +236,12 @@ TEST(BadLight, IsLocated) {
   expect_refused(
       "LightSource \"spot\" \"float coneangle\" 0.01 \"float conedeltaangle\" 0.001 "
       "\"float power\" 1e38\n",
-      "7:72: what this light emits must grow by more than 1e30 for this \"power\"");
+      "7:72: the light would have to be scaled by more than 1e30 to emit this \"power\"");
   expect_refused("LightSource \"pont\"\n", "7:1: unknown light \"pont\", did you mean \"point\"?");
   expect_refused("AreaLightSource \"diffuse\" \"rgb L\" [ 0 -1 0 ]\n" + kTriangle,
                  "7:27: \"rgb L\" has a negative or infinite component");
   expect_refused("AreaLightSource \"diffuse\" \"float power\" 1e38\n" + kTriangle,
-                 "7:27: what this light emits must grow by more than 1e30");
+                 "7:27: the light would have to be scaled by more than 1e30");
 }
 
 /// kOptions with one line replaced.

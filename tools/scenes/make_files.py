@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Writes the meshes and pictures beside the scenes red-wine, wedding-rings, pool, cut-gems, billiards and fur-ball.
 
-Run it after a change (it takes some seconds); the files are kept beside the scenes, so nobody has to run it to render.
-z is up in all of them. It uses mesh.py and nothing else.
+Run it after a change; it takes some seconds. The files are kept beside the scenes, so rendering does not need it.
+z is up in all scenes. It uses only mesh.py.
 """
 import math
 import pathlib
@@ -115,7 +115,7 @@ def pool():
     def water(u, v):
         x, y = 8.3 * u - 4.15, 5.3 * v - 0.15
         return (x, y, sum(a * math.sin(kx * x + ky * y + p) for kx, ky, p, a in waves))
-    # Loop subdivision smooths this net of control points: small to keep, smooth to refract.
+    # Loop subdivision smooths this net of control points: a small file, and smooth refraction.
     columns, rows = 80, 50
     with open(folder / "water.pbrt", "w") as out:
         out.write('# The surface of the water, made by tools/scenes/make_files.py.\n')

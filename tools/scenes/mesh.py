@@ -1,6 +1,6 @@
 """Meshes and pictures as small files: binary PLY from parametric surfaces, lathes, tubes and convex solids; PNG.
 
-Used by the scripts beside it, which write the files of scenes/. It knows nothing of any scene. Normals of smooth
+For the scripts in this folder, which write the files of scenes/. It must not know any scene. Normals of smooth
 surfaces point to the left of d/du x d/dv; facets of solids have none.
 """
 import math

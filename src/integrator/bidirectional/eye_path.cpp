@@ -242,7 +242,7 @@ class EyeVisitor {
       const Part part = routes_.owner(arm.eye, symbols_.light(d->light));
       if (!light_.owns(part)) continue;
       if (!traced) {
-        arriving = z.walk.throughput * d->radiance * shadow(*d, z.walk, sampler);
+        arriving = z.walk.throughput * d->radiance * shadow(*d, z, sampler);
         if (arriving.is_black()) return;
         start = light_start(settings_, *d, z.receiver, place_, others_cut(z, arms));
       }
@@ -265,10 +265,10 @@ class EyeVisitor {
     return false;
   }
 
-  SampledSpectrum shadow(const DirectSample& d, const Walk& walk, const PathSampler& sampler) {
+  SampledSpectrum shadow(const DirectSample& d, const EyeEnd& z, const PathSampler& sampler) {
     ++rays_;
-    light_.count_ray_to(symbols_.lamp(d.light));
-    return attenuation_to_light(settings_.scene, d, walk.lambda, sampler);
+    if (!is_on_lamp(symbols_, z.surface, d.light)) light_.count_ray_to(symbols_.lamp(d.light));
+    return attenuation_to_light(settings_.scene, d, z.walk.lambda, sampler);
   }
 
   void connect(const EyeEnd& z, const PathSampler& sampler) {

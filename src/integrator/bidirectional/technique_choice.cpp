@@ -21,10 +21,10 @@ TechniqueChoice parse_technique(const std::string& text) {
   if (which == "all" || which == "merged") return choice;
   const size_t comma = which.find(',');
   if (comma == std::string::npos)
-    throw UsageError(fmt::format(
-        "-D technique: '{}' is not valid, expected all, merged or S,T (such as 1,3), and after it "
-        ",raw if wanted",
-        text));
+    throw UsageError(
+        fmt::format("-D technique: '{}' is not valid, expected all, merged or S,T (such as 1,3), "
+                    "optionally followed by ,raw",
+                    text));
   const auto count = [](const std::string& t, int low) {
     return t == "*" ? -1 : parse_int("-D technique", t, low);
   };

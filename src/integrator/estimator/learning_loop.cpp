@@ -54,15 +54,15 @@ void LearningLoop::add_state(const Estimator& estimator, const FilmFormat& forma
     if (words.empty()) return;
     const std::span<const std::byte> bytes = std::as_bytes(words.subspan(1));
     if (words[0] > bytes.size() || words[0] + 4 <= bytes.size())
-      throw IoError("its length makes no sense");
+      throw IoError("its length is wrong");
     ByteReader from(bytes.first(words[0]));
     uint32_t layout = 0;
     uint64_t seed = 0;
     from(layout);
-    if (layout != kLayout) throw IoError("another build has learned it");
+    if (layout != kLayout) throw IoError("another build of the program wrote it");
     from(seed);
     auto value = estimator.read_learned(from, format);
-    if (!value || !from.at_end()) throw IoError("there is more than what was learned");
+    if (!value || !from.at_end()) throw IoError("its contents do not fit this estimator");
     value_ = std::move(value);
     seed_ = seed;
     was_read_ = true;

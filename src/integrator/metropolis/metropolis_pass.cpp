@@ -70,17 +70,15 @@ EstimatorStatistics MetropolisPasses::statistics() const {
   s.hold(0, pixel_bytes_);
   if (counts_.bootstrap == 0) return s;
   if (counts_.bootstrap_lit == 0) {
-    s.notes.push_back(
-        fmt::format("none of {} paths that were drawn to start chains from found any light",
-                    counts_.bootstrap));
+    s.notes.push_back(fmt::format("none of {} bootstrap paths found any light", counts_.bootstrap));
     return s;
   }
   const auto percent = [](uint64_t part, uint64_t whole) {
     return whole > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(whole) : 0.0;
   };
   s.notes.push_back(
-      fmt::format("Metropolis: {:.1f} % of {} paths to start from carry light; of the small steps "
-                  "{:.1f} % were accepted, of the large ones {:.1f} %; {:.1f} % of all were large",
+      fmt::format("Metropolis: {:.1f} % of {} bootstrap paths carry light; accepted {:.1f} % of "
+                  "small steps and {:.1f} % of large steps; {:.1f} % of all steps are large",
                   percent(counts_.bootstrap_lit, counts_.bootstrap), counts_.bootstrap,
                   percent(counts_.small_accepted, counts_.small),
                   percent(counts_.large_accepted, counts_.large),

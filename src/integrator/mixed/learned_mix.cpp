@@ -11,14 +11,14 @@ void LearnedMix::add_to(EstimatorStatistics& s) const {
   const PairTechniques& techniques = plan_.techniques;
   if (techniques.merges_all_light())
     s.notes.push_back(
-        "trial passes were better with photons of all light than with those of caustics alone");
+        "photons render all light, not only caustics: trial passes were better with it");
   if (techniques.roulette_threshold == kPatientRouletteThreshold)
     s.notes.push_back(
-        "Russian roulette begins at an eighth of what a camera path started with: trial passes "
-        "were better for it");
+        "Russian roulette begins at 1/8 of a camera path's initial throughput: trial passes were "
+        "better with it");
   if (contains(techniques.casters, EventClass::kGlossy))
     s.notes.push_back(
-        "trial passes were better with photons of the caustics of glossy materials, too");
+        "photons render caustics of glossy materials, too: trial passes were better with it");
   if (!techniques.merges_all_light()) plan_.photons.add_notes(s);
   if (plan_.directions.guides())
     s.notes.push_back(
@@ -27,12 +27,13 @@ void LearnedMix::add_to(EstimatorStatistics& s) const {
                     100 * plan_.directions.guided()));
   if (plan_.is_even) return;
   const auto note = [&s](const SampleMap& map, const char* what) {
-    s.notes.push_back(fmt::format("{:.3g} {} a pixel and pass, {} to {} by tile", map.mean(), what,
-                                  map.fewest(), map.most()));
+    s.notes.push_back(
+        fmt::format("{:.3g} {} per pixel and pass on average, {} to {} depending on the tile",
+                    map.mean(), what, map.fewest(), map.most()));
   };
   note(plan_.samples.paths, "camera paths");
   if (techniques.separates_chains && plan_.samples.chains.most() > 0)
-    note(plan_.samples.chains, "walks for lights behind smooth glass and mirrors");
+    note(plan_.samples.chains, "walks to lights seen through smooth glass and mirrors");
 }
 
 }  // namespace nephroid

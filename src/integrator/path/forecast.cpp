@@ -115,13 +115,13 @@ void LearnedForecast::add_to(EstimatorStatistics& s) const {
   s.hold(map().bytes(), 0);
   const std::string of_all = " of " + std::to_string(made_.photon_paths) + " photon paths ";
   const std::string records = std::to_string(map().size()) + " records" + of_all;
-  const std::string as_path = " a caustic: its paths are traced as by path";
+  const std::string as_path = " caustics, which are traced as by path";
   if (map().foretells())
-    s.notes.push_back(records + "foretell caustics; passes add none");
+    s.notes.push_back(records + "forecast caustics; passes add none");
   else if (map().size() > 0)
-    s.notes.push_back(records + "are too few to foretell" + as_path);
+    s.notes.push_back(records + "are too few to forecast" + as_path);
   else
-    s.notes.push_back("none" + of_all + "foretold" + as_path);
+    s.notes.push_back("none" + of_all + "forecast" + as_path);
 }
 
 /// Traces the photons of one round and appends their records.

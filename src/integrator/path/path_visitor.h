@@ -102,7 +102,7 @@ class PathVisitorOf {
     if (!d) return;
     const Part part = routes_.owner(eye, symbols_.light(d->light));
     if (!light_.owns(part)) return;
-    const ShadowFlight shadow = shadow_of(walk, *d, sampler);
+    const ShadowFlight shadow = shadow_of(walk, nullptr, *d, sampler);
     if (shadow.transmittance.is_black()) return;
     const float phase = v.phase.eval(v.wo, d->wi_world);
     add(walk, part, symbols_.lamp(d->light),
@@ -157,9 +157,11 @@ class PathVisitorOf {
   }
 
   // A walk whose choices do not depend on the hero wavelength needs a shadow ray of the same kind.
-  ShadowFlight shadow_of(const Walk& walk, const DirectSample& direct, const PathSampler& sampler) {
+  // `from`: where it starts on a surface.
+  ShadowFlight shadow_of(const Walk& walk, const WalkVertex* from, const DirectSample& direct,
+                         const PathSampler& sampler) {
     ++shadow_rays_;
-    light_.count_ray_to(symbols_.lamp(direct.light));
+    if (!is_on_lamp(symbols_, from, direct.light)) light_.count_ray_to(symbols_.lamp(direct.light));
     if (!walk.per_wavelength) return trace_shadow(scene_, direct, walk.lambda, sampler);
     ShadowFlight flight;
     flight.transmittance = attenuation_to_light(scene_, direct, walk.lambda, sampler);
@@ -202,7 +204,7 @@ class PathVisitorOf {
       any |= !evals[i].f.is_black();
     }
     if (!any) return;
-    const ShadowFlight shadow = shadow_of(walk, *d, sampler);
+    const ShadowFlight shadow = shadow_of(walk, &v, *d, sampler);
     if (shadow.transmittance.is_black()) return;
     const SampledSpectrum arriving =
         walk.throughput * d->radiance * shadow.transmittance * abs_cos_theta(wi);

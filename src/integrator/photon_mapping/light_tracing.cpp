@@ -238,7 +238,7 @@ EstimatorStatistics LightTracing::statistics() const {
   EstimatorStatistics s = statistics_;
   if (s.splats == 0 && s.light_paths > 0)
     s.notes.push_back("none of " + std::to_string(s.light_paths) +
-                      " light paths had a point of its routes that the camera sees");
+                      " light paths could be connected to the camera on one of its routes");
   return s;
 }
 

@@ -45,7 +45,7 @@ void LearnedMap::add_to(EstimatorStatistics& s) const {
   s.photons_stored += map_.grid.size();
   s.hold(map_.grid.bytes(), 0);
   if (map_.grid.size() > 0)
-    s.notes.push_back("the map of " + routes_ + " has " + std::to_string(map_.grid.size()) +
+    s.notes.push_back("the photon map of " + routes_ + " has " + std::to_string(map_.grid.size()) +
                       " photons of " + std::to_string(map_.paths) +
                       " paths; passes add none (-D map-photons=N, -D memory-photons=N)");
 }

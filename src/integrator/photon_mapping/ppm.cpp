@@ -69,7 +69,7 @@ EstimatorStatistics Ppm::statistics() const {
   EstimatorStatistics s = Sppm::statistics();
   if (!points_.empty())
     s.notes.push_back(std::to_string(points_.size()) +
-                      " hit points per pixel stay from pass to pass; passes with them take " +
+                      " hit points per pixel are kept from pass to pass; a pass needs " +
                       std::to_string((s.pixel_bytes + 1023) / 1024) + " KiB (-D hit-points=N)");
   return s;
 }

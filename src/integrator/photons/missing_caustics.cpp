@@ -29,9 +29,9 @@ std::string note_on_glossy(const OwnedRoutes& owned, const std::string& where) {
   const SceneSymbols& symbols = *owned.symbols;
   const bool one = symbols.glossy_materials().size() == 1;
   return fmt::format(
-      "no material of the scene has a specular lobe; glossy, with an alpha above -D "
-      "specular-alpha={:.3g}..{:.3g}, {}: {}. {} caustics are {}",
-      symbols.specular_band().low, symbols.specular_band().high, one ? "is" : "are",
+      "no material of the scene has a specular lobe; with an alpha above -D "
+      "specular-alpha={:.3g}..{:.3g}, {} glossy: {}. {} caustics are {}",
+      symbols.specular_band().low, symbols.specular_band().high, one ? "one is" : "these are",
       list_of_glossy(symbols.glossy_materials()), one ? "Its" : "Their", where);
 }
 
@@ -75,8 +75,8 @@ void explain_glossy_caustics(const OwnedRoutes& owned, bool by_path_tracing,
 void explain_darkness(const OwnedRoutes& owned, uint64_t found, EstimatorStatistics& s) {
   if (!photons_can_count(owned)) {
     if (has_events(owned, EventClass::kSpecular))
-      s.notes.push_back("no path that this scene can have belongs to " + names_of_routes(owned) +
-                        ", and no photons were traced for it");
+      s.notes.push_back("no path in this scene can belong to " + names_of_routes(owned) +
+                        ", so no photons were traced for it");
     else if (has_events(owned, EventClass::kGlossy))
       s.notes.push_back(note_on_glossy(owned, "light of other routes"));
     else

@@ -18,7 +18,7 @@ void require_connecting_camera(const Scene& scene, EstimatorTable table) {
   for (const EstimatorDescriptor* row : table)
     if (row->traits.connects) names.emplace_back(row->traits.name);
   throw UsageError(
-      fmt::format("light tracing cannot find its way through the lenses of this camera, expected "
+      fmt::format("light paths cannot be connected to this camera through its lenses, expected "
                   "routes without {}, or another camera",
                   fmt::join(names, " and ")));
 }
@@ -67,7 +67,7 @@ EstimatorSet make_estimators(CompiledPlan compiled, const IntegratorOptions& opt
   for (size_t i = 0; i < compiled.compilation.aov_matches.size(); ++i)
     if (!compiled.compilation.aov_matches[i])
       set.warnings.push_back("layer '" + compiled.compilation.routes.aovs()[i].name +
-                             "' will be black: no path that this scene can have matches '" +
+                             "' will be black: no path in this scene can match '" +
                              compiled.compilation.routes.aovs()[i].expression +
                              "' (lights are named in <L.'...'>, materials in <..'...'>)");
   const std::vector<std::string>& examples = compiled.compilation.examples;
@@ -75,8 +75,7 @@ EstimatorSet make_estimators(CompiledPlan compiled, const IntegratorOptions& opt
     const RouteDefinition& route = compiled.compilation.routes.definitions()[r];
     // Estimators that merge report this themselves.
     if (examples[r].empty() && !route.estimator->merges)
-      set.notes.push_back("'" + route.name +
-                          "' is black: no path that this scene can have belongs to it");
+      set.notes.push_back("'" + route.name + "' is black: no path in this scene can belong to it");
   }
   set.routes = std::make_shared<const Routes>(
       checked_routes(std::move(compiled.compilation), compiled.strict));

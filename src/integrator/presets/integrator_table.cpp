@@ -35,7 +35,7 @@ constexpr FormatParameter kDepth[] = {
 constexpr FormatParameter kLightSampler[] = {
     {"string", "lightsampler", "bvh", "", kOwnChoice, Support::kNotNeeded}};
 constexpr FormatParameter kRegularize[] = {
-    {"bool", "regularize", "false", "", "what it would hide, photons render", Support::kWarned}};
+    {"bool", "regularize", "false", "", "caustics are rendered without it", Support::kWarned}};
 constexpr FormatParameter kSimplePath[] = {
     {"bool", "samplebsdf", "true", "", kOwnChoice, Support::kNotNeeded},
     {"bool", "samplelights", "true", "", kOwnChoice, Support::kNotNeeded},

@@ -73,7 +73,9 @@ ApertureShape::ApertureShape(const Image& image, const SourceLocation& where)
       float value = image.value(x, y, 0);
       if (image.channels() >= 3) value = (value + image.value(x, y, 1) + image.value(x, y, 2)) / 3;
       if (!(value >= 0 && std::isfinite(value)))
-        throw SceneError(where, "an aperture image must have no value below 0");
+        throw SceneError(
+            where,
+            "the aperture image has a value that is negative or not finite, expected 0 or more");
       values_.push_back(value);
       sum += value;
       if (!(value > 0)) continue;
@@ -84,7 +86,7 @@ ApertureShape::ApertureShape(const Image& image, const SourceLocation& where)
       reach_ = std::max(reach_, std::hypot(distance(x, width_), distance(y, height_)));
     }
   const double mean = sum / (static_cast<double>(width_) * height_);
-  if (!(mean > 0)) throw SceneError(where, "an aperture image must not be black");
+  if (!(mean > 0)) throw SceneError(where, "the aperture image is black, expected a value above 0");
   reach_ = std::min(reach_, std::sqrt(2.0));
   // A round stop covers pi/4 of its square.
   for (float& value : values_) value *= static_cast<float>(static_cast<double>(kPi) / 4 / mean);

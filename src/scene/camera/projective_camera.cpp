@@ -122,7 +122,8 @@ void set_screen(ProjectiveCamera::Settings& s, const ParameterSet& p) {
                                   " values, expected 4 (x0 x1 y0 y1)");
   for (size_t i = 0; i < 4; ++i) s.screen[i] = window[i];
   if (s.screen[0] == s.screen[1] || s.screen[2] == s.screen[3])
-    throw SceneError(p.where, "\"screenwindow\" is empty");
+    throw SceneError(p.where,
+                     "\"screenwindow\" is empty, expected x0 and x1 to differ, and y0 and y1");
 }
 
 ProjectiveCamera::Settings common_settings(const CameraContext& c) {

@@ -133,7 +133,7 @@ std::vector<LensSurface> read_lens_table(SceneFiles& files, const std::string& p
         diagnostics.warn(named_by,
                          "\"aperturediameter\" is larger than the stop of the lens table, "
                          "which is " +
-                             std::to_string(diameter) + " mm wide");
+                             std::to_string(diameter) + " mm wide; the stop's size is used");
       diameter = std::min(diameter, stop_diameter_mm);
     }
     if (!(diameter > 0) || n[i + 1] < 0 || n[i + 2] < 0)

@@ -60,8 +60,9 @@ LightPtr make_distant_light(const LightDescription& description, const LightScop
   const Vec3f from = p.get_point3("from").value_or(Vec3f(0.0f));
   const Vec3f to = p.get_point3("to").value_or(Vec3f(0, 0, 1));
   if (from == to)
-    throw SceneError(description.where,
-                     "\"from\" and \"to\" of a distant light are the same point");
+    throw SceneError(
+        description.where,
+        "\"from\" and \"to\" of a distant light are the same point, expected two different points");
   const float illuminance = p.get_float("illuminance", -1.0f);
   const float scale = illuminance > 0.0f ? e.scale * illuminance : e.scale;
   const Transform to_world(description.transform.start);

@@ -76,8 +76,9 @@ float scale_to(const Parameter& wanted, float value, double unscaled, float scal
   if (!(unscaled > 0.0)) return 0.0f;
   const double scaled = static_cast<double>(scale) * value / unscaled;
   if (!(scaled <= kLargestScale))
-    throw SceneError(wanted.where, "what this light emits must grow by more than 1e30 for this \"" +
-                                       wanted.name + "\", expected a smaller one");
+    throw SceneError(wanted.where,
+                     "the light would have to be scaled by more than 1e30 to emit this \"" +
+                         wanted.name + "\", expected a smaller value or a brighter \"L\" or image");
   return static_cast<float>(scaled);
 }
 
@@ -102,8 +103,8 @@ ImagePtr read_sphere_image(const ParameterSet& parameters, SceneFiles& files,
     throw SceneError(parameters.find("filename")->where,
                      "the image of " + of_what + " is " + std::to_string(image->width()) + " x " +
                          std::to_string(image->height()) +
-                         ", expected a square: an equal-area octahedral map, as pbrt-v4's "
-                         "\"imgtool makeequiarea\" makes of one by latitude and longitude");
+                         ", expected a square: an equal-area octahedral map (pbrt-v4's \"imgtool "
+                         "makeequiarea\" converts latitude-longitude maps)");
   return image;
 }
 

@@ -153,7 +153,9 @@ LightPtr make_spot_light(const LightDescription& description, const LightScope& 
   const Vec3f from = p.get_point3("from").value_or(Vec3f(0.0f));
   const Vec3f to = p.get_point3("to").value_or(Vec3f(0, 0, 1));
   if (from == to)
-    throw SceneError(description.where, "\"from\" and \"to\" of a spot light are the same point");
+    throw SceneError(
+        description.where,
+        "\"from\" and \"to\" of a spot light are the same point, expected two different points");
 
   float scale = e.scale;
   const float power = p.get_float("power", -1.0f);

@@ -17,7 +17,8 @@ class Fields {
     if (values.empty()) fail(name, "is empty, expected at least one number");
     for (size_t i = 1; i < values.size(); ++i)
       if (!(values[i] > values[i - 1]))
-        fail(name, "does not increase at number " + std::to_string(i) + " (counted from 0)");
+        fail(name, "does not increase at number " + std::to_string(i) +
+                       " (counted from 0), expected increasing numbers");
     return values;
   }
   /// Grids of any size, one per combination of `extents`.
@@ -53,8 +54,8 @@ class Fields {
         TensorFile::floats(file_.require(name, TensorType::kFloat32, dimensions));
     for (size_t i = 0; i < values.size(); ++i)
       if (!(std::abs(values[i]) <= MeasuredBrdf::kMaxValue))
-        fail(name, "has a number that is not finite or beyond 1e9, at " + std::to_string(i) +
-                       " (counted from 0)");
+        fail(name, "has an invalid number at " + std::to_string(i) +
+                       " (counted from 0), expected finite numbers up to 1e9");
     return values;
   }
 
@@ -68,7 +69,7 @@ void check_azimuths(const Fields& fields, const std::vector<float>& phi) {
   const float parts = std::rint(2.0f * kPi / (phi.back() - phi.front()));
   if (parts == 1.0f || parts == 2.0f || parts == 4.0f) return;
   fields.fail("phi_i", "spans " + std::to_string(phi.back() - phi.front()) +
-                           " radians, expected a turn, a half or a quarter of one");
+                           " radians, expected a whole, a half or a quarter turn");
 }
 
 }  // namespace

@@ -90,9 +90,9 @@ class InterfaceMaterial final : public Material {
 }  // namespace
 
 void refuse_deep_mixture(const SourceLocation& where) {
-  throw SceneError(where, "\"mix\" within \"mix\" is nested more than " +
+  throw SceneError(where, "materials \"mix\" are nested more than " +
                               std::to_string(kDeepestMixture) +
-                              " deep, expected a mixture of fewer");
+                              " levels deep, expected fewer levels");
 }
 
 NewMaterial make_mix(const MaterialDescription& d, const MaterialContext& c) {

@@ -45,7 +45,8 @@ class SubsurfaceMaterial final : public SurfaceMaterial {
     const float eta = checked(d.parameters, "eta", 1.33f, kMinEta, kMaxEta);
     if (read_medium(d, c) && g != 0.0f) {
       c.diagnostics.warn(d.parameters.find("g")->where,
-                         "\"g\" is ignored with a named medium, whose coefficients are reduced");
+                         "\"g\" is ignored with a named medium: its reduced scattering "
+                         "coefficients stand for g = 0");
       g = 0.0f;
     }
     table_ = c.bssrdf_tables->find_or_make(g, eta);
@@ -94,8 +95,9 @@ class SubsurfaceMaterial final : public SurfaceMaterial {
       const std::optional<ScatteringPreset> preset = scattering_preset(name);
       if (!preset)
         throw SceneError(d.parameters.find("name")->where,
-                         fmt::format("there is no measured medium \"{}\"{}", name,
-                                     did_you_mean(name, scattering_preset_names())));
+                         fmt::format("there is no measured medium \"{}\"{} (expected a substance "
+                                     "such as \"Skin1\" or \"Regular Milk\")",
+                                     name, did_you_mean(name, scattering_preset_names())));
       sigma_a_ = rgb_constant(preset->sigma_a);
       sigma_s_ = rgb_constant(preset->sigma_s);
       return true;

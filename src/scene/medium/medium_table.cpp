@@ -87,7 +87,7 @@ std::vector<MediumPtr> make_media(const SceneDescription& description, Diagnosti
       throw SceneError(d.where, "the transform of medium \"" + d.name + "\" has no inverse");
     if (d.transform.is_animated())
       diagnostics.warn(d.where,
-                       "medium \"" + d.name + "\" moves: media stay where they are at the start");
+                       "medium \"" + d.name + "\" cannot move, the start of its motion is used");
     const NewMedium medium = row.make(d, scope);
     medium->set_index(static_cast<int>(media.size()));
     media.push_back(medium);

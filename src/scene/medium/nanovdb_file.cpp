@@ -69,7 +69,8 @@ NanoVdbBytes unpack(Reader& reader, const GridEntry& entry, Codec codec) {
   uint64_t packed = entry.file_bytes;
   if (codec == Codec::kZip) {
     // The packed data start with their byte count.
-    if (packed < 8 || number_at<uint64_t>(data) > packed - 8) reader.fail("is broken");
+    if (packed < 8 || number_at<uint64_t>(data) > packed - 8)
+      reader.fail("is broken: the size of its compressed data is wrong");
     packed = number_at<uint64_t>(data);
     data += 8;
   }
@@ -100,7 +101,8 @@ std::optional<NanoVdbBytes> read_nanovdb_grid(const std::string& file, const std
   if (reader.at_end()) reader.fail("is empty");
   while (!reader.at_end()) {
     const char* header = reader.take(kHeaderBytes);
-    if (number_at<uint64_t>(header) != kMagic) reader.fail("does not begin as a NanoVDB file does");
+    if (number_at<uint64_t>(header) != kMagic)
+      reader.fail("does not begin with the magic number of NanoVDB, expected a .nvdb file");
     const uint32_t major = number_at<uint32_t>(header + 8) >> 21;
     if (major != kMajorVersion)
       reader.fail("has version " + std::to_string(major) + " of the format, expected " +

@@ -63,10 +63,10 @@ void GridCheck::check_header(const nanovdb::GridData& grid) const {
   if (grid.mMagic != NANOVDB_MAGIC_NUMBER || grid.mGridSize != static_cast<uint64_t>(size_))
     fail(" is broken: its header is wrong");
   if (grid.mGridType != nanovdb::GridType::Float)
-    fail(" does not have values of type float, which is expected");
+    fail(" has values of another type, expected float");
   if (grid.mGridClass != nanovdb::GridClass::FogVolume &&
       grid.mGridClass != nanovdb::GridClass::Unknown)
-    fail(" is not a fog volume, which is expected");
+    fail(" is of another class, expected a fog volume");
 }
 
 template <class Node>
@@ -180,7 +180,7 @@ std::unique_ptr<NanoVdbGrid> NanoVdbGrid::read(const std::string& file, const st
         throw SceneError(where, title + " has a transform that is not finite");
     const double min = data.mWorldBBox.min()[i], max = data.mWorldBBox.max()[i];
     if (!is_usable(min) || !is_usable(max) || !(max - min > 1 / kMaxValue))
-      throw SceneError(where, title + " is empty or infinite");
+      throw SceneError(where, title + " is empty or infinite, expected finite bounds");
     impl->medium_min[i] = min;
     impl->medium_max[i] = max;
   }

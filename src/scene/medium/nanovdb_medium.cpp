@@ -166,7 +166,8 @@ NewMedium make_nanovdb_medium(const MediumDescription& description, const Medium
   const std::string density_name = p.get_string("gridname", "density");
   GridPtr density = NanoVdbGrid::read(file, density_name, path, where);
   if (!density)
-    throw SceneError(where, "NanoVDB file \"" + path + "\" has no grid \"" + density_name + "\"");
+    throw SceneError(where, "NanoVDB file \"" + path + "\" has no grid \"" + density_name +
+                                "\", expected one of its grids as \"gridname\"");
   GridPtr temperature =
       NanoVdbGrid::read(file, p.get_string("temperaturename", "temperature"), path, where);
   const MediumBounds bounds(*density, temperature.get());

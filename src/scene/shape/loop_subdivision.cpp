@@ -50,7 +50,8 @@ void connect(SubdivisionMesh& mesh) {
   for (uint32_t h = 0; h < count; ++h) {
     const uint32_t a = mesh.start(h), b = mesh.end(h);
     if (a == b)
-      fail("face " + std::to_string(h / 3) + " has vertex " + std::to_string(a) + " twice");
+      fail("face " + std::to_string(h / 3) + " has vertex " + std::to_string(a) +
+           " twice, expected three different ones");
     edges[h] = {std::min(a, b), std::max(a, b), h};
   }
   std::sort(edges.begin(), edges.end(), [](const Directed& x, const Directed& y) {
@@ -110,7 +111,7 @@ void check_fans(const SubdivisionMesh& mesh) {
     const size_t in_fan = mesh.on_boundary(vertex) ? ring.size() - 1 : ring.size();
     if (in_fan != faces[vertex])
       fail("vertex " + std::to_string(vertex) +
-           " joins parts of the surface that share no edge there");
+           " joins parts of the surface that share no edge, expected a manifold mesh");
   }
 }
 
@@ -216,7 +217,7 @@ SubdivisionMesh checked_input(const std::vector<Vec3f>& positions,
     half_edges *= 4;
     if (half_edges >= kNone)
       fail(std::to_string(levels) + " levels of " + std::to_string(triangles.size() / 3) +
-           " faces are too many triangles");
+           " faces make too many triangles, expected fewer levels");
   }
   SubdivisionMesh mesh;
   std::vector<uint32_t> place(positions.size(), kNone);

@@ -129,8 +129,8 @@ void validate_mesh(MeshData& mesh, const SourceLocation& where, const std::strin
       });
   if (lost == 0) return;
   if (lost == faces)
-    diagnostics.warn(where, what + " has no area: all of its " + std::to_string(faces) +
-                                " faces are degenerate, nothing will be seen of it");
+    diagnostics.warn(where, what + " has no area and will be invisible: all of its " +
+                                std::to_string(faces) + " faces are degenerate");
   else
     diagnostics.warn(where, what + ": " + std::to_string(lost) + " of " + std::to_string(faces) +
                                 " faces have no area and were removed");
@@ -156,7 +156,7 @@ void zero_bad_normals(MeshData& mesh, const SourceLocation& where, const std::st
   if (used > 0)
     diagnostics.warn(where, what + ": " + std::to_string(used) + " of " +
                                 std::to_string(mesh.normals.size()) +
-                                " normals are not finite, the faces' own are used there");
+                                " normals are not finite, the normals of the faces are used there");
 }
 
 void reverse_normals(MeshData& mesh) {

@@ -109,7 +109,7 @@ ImagePtr read_whole(const ImageInputFile& file, const std::string& path,
   try {
     return read_pixels(file, path, wanted_by);
   } catch (const std::bad_alloc&) {
-    image_is_unreadable(path, "it does not fit the memory", wanted_by);
+    image_is_unreadable(path, "it does not fit into memory", wanted_by);
   }
 }
 
@@ -152,9 +152,8 @@ ImagePtr ImageCache::load(const std::string& path, std::optional<ColorEncoding> 
   if (file.memory() > std::max(for_whole, kSlowFromTheFront) && !file.has_parts())
     throw SceneError(
         wanted_by,
-        fmt::format("image \"{}\" takes {} MB, more than the {} MB that textures may take, and can "
-                    "only be read from front to back; expected a larger -D texture-cache, or an "
-                    "EXR or TIFF file, which can be read in parts",
+        fmt::format("image \"{}\" takes {} MB, but textures may take {} MB and its format cannot "
+                    "be read in parts, expected a larger -D texture-cache, or an EXR or TIFF file",
                     path, file.memory() >> 20, for_whole >> 20));
   if (whole_ + file.memory() > for_whole) {
     if (!tiles_) tiles_ = TileCache::make();

@@ -76,7 +76,9 @@ std::vector<int> wanted_channels(const OIIO::ImageSpec& spec, const std::string&
   if (spec.nchannels <= 2) return {0};
   const int r = spec.channelindex("R"), g = spec.channelindex("G"), b = spec.channelindex("B");
   if (r < 0 || g < 0 || b < 0)
-    throw SceneError(wanted_by, "image \"" + path + "\" has no channels named R, G and B");
+    throw SceneError(
+        wanted_by,
+        "image \"" + path + "\" has no channels named R, G and B, expected these or a grey image");
   const int a = spec.channelindex("A");
   if (a < 0) return {r, g, b};
   return {r, g, b, a};
@@ -130,10 +132,11 @@ ImageInputFile open_image(const std::string& path, std::optional<ColorEncoding> 
     image_is_unreadable(path, file.input ? file.input->geterror() : OIIO::geterror(), wanted_by);
   const OIIO::ImageSpec& spec = file.spec;
   if (spec.deep || spec.depth > 1 || spec.width < 1 || spec.height < 1 || spec.nchannels < 1)
-    throw SceneError(wanted_by, "image \"" + path + "\" is deep, a volume or empty");
+    throw SceneError(wanted_by,
+                     "image \"" + path + "\" is deep, a volume or empty, expected a flat image");
   if (!is_possible_size(spec.image_bytes(true), path))
-    throw SceneError(wanted_by, fmt::format("image \"{}\" says that it has {} x {} pixels of {} "
-                                            "channels, which cannot be in so small a file",
+    throw SceneError(wanted_by, fmt::format("image \"{}\" is damaged: its header claims {} x {} "
+                                            "pixels of {} channels, more than the file can hold",
                                             path, spec.width, spec.height, spec.nchannels));
   file.channels = wanted_channels(spec, path, wanted_by);
   file.space = &color_space_of(spec);

@@ -69,8 +69,9 @@ class ImageLookup {
       throw SceneError(where, "unknown encoding \"" + name +
                                   "\", expected \"linear\", \"sRGB\" or \"gamma X\" with X > 0");
     if (image_obeys_encoding(file)) return parsed;
-    scope.diagnostics().warn(where, "\"encoding\" is used for PNG images only: \"" + file +
-                                        "\" is read as sRGB if it is of integers, else as linear");
+    scope.diagnostics().warn(where,
+                             "\"encoding\" is used for PNG images only: \"" + file +
+                                 "\" is read as sRGB if it stores integers, otherwise as linear");
     return std::nullopt;
   }
   /// Images have their first row on top; v runs upwards.

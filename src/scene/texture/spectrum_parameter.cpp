@@ -22,7 +22,9 @@ SpectrumPtr rgb_spectrum(const Parameter& p, SpectrumKind kind) {
                                   " numbers, expected three");
   for (const double v : p.numbers) {
     if (!(v >= 0.0) || !std::isfinite(v))
-      throw SceneError(p.where, quoted(p) + " has a negative or infinite component");
+      throw SceneError(
+          p.where,
+          quoted(p) + " has a negative or infinite component, expected finite numbers from 0");
     if (kind == SpectrumKind::kAlbedo && v > 1.0)
       throw SceneError(p.where,
                        quoted(p) + " has a component above 1, expected a reflectance in [0,1]");
@@ -51,11 +53,13 @@ SpectrumPtr pairs_spectrum(const std::vector<double>& numbers, SpectrumKind kind
   std::vector<float> lambda, value;
   for (size_t i = 0; i < numbers.size(); i += 2) {
     if (!std::isfinite(numbers[i]) || !std::isfinite(numbers[i + 1]))
-      throw SceneError(where, source + " has a number that is not finite");
+      throw SceneError(where, source + " has a number that is not finite, expected finite numbers");
     if (kind == SpectrumKind::kIlluminant && numbers[i + 1] < 0.0)
-      throw SceneError(where, source + " has a negative value, which cannot be emitted");
+      throw SceneError(
+          where, source + " has a negative value, which cannot be emitted, expected 0 or more");
     if (i > 0 && !(numbers[i] > numbers[i - 2]))
-      throw SceneError(where, source + " has wavelengths that do not increase");
+      throw SceneError(where,
+                       source + " has wavelengths that do not increase, expected increasing ones");
     lambda.push_back(static_cast<float>(numbers[i]));
     value.push_back(static_cast<float>(numbers[i + 1]));
   }

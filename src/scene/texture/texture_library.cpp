@@ -149,7 +149,7 @@ struct TextureLibrary::Impl final : TextureScope {
     const TextureCost cost = texture->constant() ? TextureCost() : in_progress_.back();
     check_depth(d, cost.depth);
     if (cost.looks > kMaxLooks)
-      throw SceneError(d.where, "texture \"" + d.name + "\" is made of more than " +
+      throw SceneError(d.where, "texture \"" + d.name + "\" looks up more than " +
                                     std::to_string(static_cast<int>(kMaxLooks)) +
                                     " textures, each counted as often as it is used, expected "
                                     "fewer");
@@ -160,10 +160,9 @@ struct TextureLibrary::Impl final : TextureScope {
 
   static void check_depth(const TextureDescription& d, int depth) {
     if (depth > kMaxDepth)
-      throw SceneError(d.where, "texture \"" + d.name +
-                                    "\" is one of textures in each other more "
-                                    "than " +
-                                    std::to_string(kMaxDepth) + " deep, expected fewer");
+      throw SceneError(d.where, "texture \"" + d.name + "\" nests textures more than " +
+                                    std::to_string(kMaxDepth) +
+                                    " levels deep, expected fewer levels");
   }
 
   /// The single string of a texture reference.

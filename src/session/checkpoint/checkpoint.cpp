@@ -58,7 +58,8 @@ std::optional<uint32_t> open_pass_of(const StateFile& file) {
   const char* const end = text.data() + text.size();
   const auto [after, error] = std::from_chars(text.data(), end, pass);
   if (error != std::errc() || after != end)
-    throw IoError(fmt::format("{}: '{}' of {} is no pass", file.path(), text, kOpenPassKey));
+    throw IoError(fmt::format("{}: '{}' of {} is not a pass, expected a whole number", file.path(),
+                              text, kOpenPassKey));
   return pass;
 }
 
@@ -69,7 +70,8 @@ double seconds_of(const StateFile& file, const std::string& key) {
   const char* const end = text.data() + text.size();
   const auto [after, error] = std::from_chars(text.data(), end, seconds);
   if (error != std::errc() || after != end || !(seconds >= 0) || !std::isfinite(seconds))
-    throw IoError(fmt::format("{}: '{}' of {} is no time", file.path(), text, key));
+    throw IoError(
+        fmt::format("{}: '{}' of {} is not a time, expected seconds", file.path(), text, key));
   return seconds;
 }
 
@@ -196,7 +198,7 @@ Checkpoint go_on_from(const std::string& path, const RenderIdentity& here, const
                         value_of(metadata, kInstructionSetKey),
                         {}};
   for (const std::string& reason : passed_over)
-    checkpoint.warnings.push_back(reason + "; it is made anew");
+    checkpoint.warnings.push_back(reason + "; it is learned again");
   if (auto warning = warning_of_instruction_sets(file, here, "here"))
     checkpoint.warnings.push_back(std::move(*warning));
   return checkpoint;

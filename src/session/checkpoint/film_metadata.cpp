@@ -19,7 +19,7 @@ Json layout_of(const StateFile& file) {
 }
 
 [[noreturn]] void senseless(const StateFile& file) {
-  throw IoError(file.path() + ": cannot read its state: what it says of its film makes no sense");
+  throw IoError(file.path() + ": cannot read its state: its description of the film is damaged");
 }
 
 }  // namespace

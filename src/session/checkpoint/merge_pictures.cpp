@@ -49,9 +49,9 @@ Merged merge_pictures(const std::vector<std::string>& inputs, const std::string&
   const StateFile first = open_state(files[0].path, kPurpose);
   RenderIdentity identity = RenderIdentity::from_metadata(first.metadata());
   if (identity.version != kVersion)
-    throw UsageError(fmt::format("{}: cannot {}: it is of version {}, this program is {}",
-                                 first.path(), kPurpose,
-                                 identity.version.empty() ? "?" : identity.version, kVersion));
+    throw UsageError(fmt::format(
+        "{}: cannot {}: version {} rendered it, expected {}, the version of this program",
+        first.path(), kPurpose, identity.version.empty() ? "?" : identity.version, kVersion));
   Merged merged;
   std::string history, sets;
   for (const Input& input : files) {
@@ -62,15 +62,19 @@ Merged merge_pictures(const std::vector<std::string>& inputs, const std::string&
       throw UsageError(name + ": cannot " + kPurpose + ": " + why);
     };
     if (const auto open = open_pass_of(file))
-      refuse(fmt::format("its pass {} is not whole; --resume goes on with it", *open));
+      refuse(fmt::format("its pass {} is incomplete, expected whole passes; --resume completes it",
+                         *open));
     if (value_of(file.metadata(), kOutliersKey) == "reject")
-      refuse("with --outliers reject passes depend on each other; --resume goes on with it");
+      refuse(
+          "with --outliers reject passes depend on each other; --resume continues the render "
+          "instead");
     if (!passes_add_up(file))
-      refuse("passes of this integrator cannot be added up; --resume goes on with it");
+      refuse("passes of this integrator cannot be added up; --resume continues the render instead");
     if (merged.passes.overlap(passes))
       for (const Input& other : files)
         if (const auto both = other.passes.overlap(passes); both && &other != &input)
-          refuse(fmt::format("{} has passes {}..{}, too", other.path, both->first, both->last));
+          refuse(fmt::format("{} has passes {}..{}, too, expected each pass in one picture only",
+                             other.path, both->first, both->last));
     merged.passes.add(passes);
     merged.seconds += seconds_of(file, kSecondsKey);
     history += value_of(file.metadata(), kHistoryKey);

@@ -6,6 +6,7 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <span>
 #include <string_view>
 
@@ -65,6 +66,23 @@ std::string entries(const Metadata& metadata) {
   return text;
 }
 
+/// "R, G, B, N, Z, albedo": the names of the channels, those of a layer once.
+std::string layers_of(std::vector<std::string> channels) {
+  // Files have their channels by name.
+  const auto is_of_picture = [](const std::string& c) { return c == "R" || c == "G" || c == "B"; };
+  const auto end = std::stable_partition(channels.begin(), channels.end(), is_of_picture);
+  std::sort(channels.begin(), end, std::greater<>());
+  std::string text;
+  std::vector<std::string_view> listed;
+  for (const std::string& channel : channels) {
+    const std::string_view layer = std::string_view(channel).substr(0, channel.rfind('.'));
+    if (std::ranges::find(listed, layer) != listed.end()) continue;
+    text += fmt::format("{}{}", listed.empty() ? "" : ", ", layer);
+    listed.push_back(layer);
+  }
+  return text;
+}
+
 /// The first bytes of a file, padded with zeros.
 std::array<char, 7> begin_of(const std::string& path) {
   std::array<char, 7> begin{};
@@ -95,6 +113,7 @@ std::string description_of_picture(const std::string& path) {
   }
   const PictureHead head = read_picture_head(path);
   return heading("picture", path, {head.full_width, head.full_height}, head.window) +
+         fmt::format("layers: {}\n", layers_of(head.channels)) +
          fmt::format("state: {}\n", state_line_beside(path)) + entries(head.metadata);
 }
 

@@ -57,7 +57,7 @@ class Differences {
     if (there == here) return;
     if (what == "scene_hash") {
       sentences_.push_back(fmt::format(
-          "the scene, or a file that it reads, is another one ({}, {} {})", there, name_, here));
+          "the scene, or a file that it reads, has changed ({}, {} {})", there, name_, here));
       return;
     }
     const auto shown = [](const std::string& value) { return value.empty() ? "nothing" : value; };

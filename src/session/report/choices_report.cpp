@@ -45,9 +45,10 @@ void add_light_paths(const EstimatorStatistics& last, uint32_t passes,
       100 * part(last.light_paths_useful, last.light_paths)));
 }
 
-/// Adds the shares of rays, for estimators that count them separately.
+/// Adds the shares of rays, for estimators that count those of light paths separately.
 void add_rays(const EstimatorStatistics& last, std::vector<std::string>& lines) {
-  if (last.rays == 0 || last.light_rays + last.learning_rays == 0) return;
+  const bool counts_light_rays = last.light_rays > 0 || last.photon_paths + last.light_paths == 0;
+  if (last.rays == 0 || !counts_light_rays || last.light_rays + last.learning_rays == 0) return;
   const uint64_t of_camera = last.rays - last.light_rays - last.learning_rays;
   lines.push_back(
       fmt::format("rays: {:.3g} % of camera paths, {:.3g} % of light paths, {:.3g} % to learn",

@@ -63,8 +63,8 @@ std::string reason_of(uint64_t rays, const char* it) {
         "and no other path found light",
         short_number(static_cast<double>(rays)), it);
   return fmt::format(
-      "no shadow ray went to {}: it is dark or dim, or shines away from all that camera paths met, "
-      "or these were only smooth surfaces, or none, or their depth ends before",
+      "no shadow ray went to {}: too dim, facing away from what camera paths met, or camera paths "
+      "met no rough surface within their depth",
       it);
 }
 

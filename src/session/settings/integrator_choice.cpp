@@ -23,8 +23,8 @@ void take_scene_parameters(const ParameterSet& parameters, bool follow_scene,
                      fmt::format("\"maxdepth\" is {}, expected at least 0", max_depth));
   if (depth == nullptr && !depth_is_given)
     choice->notes.push_back(
-        fmt::format("the scene gives no maxdepth: paths have up to {} scattering events, where "
-                    "pbrt-v4 stops at 5 (-D max-depth=5)",
+        fmt::format("the scene gives no maxdepth: paths have up to {} scattering events; "
+                    "pbrt-v4 would stop at 5, too few for glass (-D max-depth=5 to compare)",
                     options.max_depth));
   if (depth != nullptr && !depth_is_given) options.max_depth = max_depth;
   if (parameters.find("radius") != nullptr)
@@ -59,8 +59,10 @@ std::string integrator_of_scene(const std::string& scene_integrator, const Sourc
                                         pbrt_integrator_names()));
   std::string name = integrator_for_scene_name(own);
   if (name.empty())
-    throw UsageError(fmt::format(
-        "--integrator scene: there is no integrator that stands for the scene's '{}'", own));
+    throw UsageError(
+        fmt::format("--integrator scene: the scene's integrator '{}' has no equivalent here, "
+                    "expected the name of an integrator",
+                    own));
   return name;
 }
 
@@ -77,7 +79,7 @@ void warn_of_unknown_names(const std::string& scene_integrator, const ParameterS
   } else {
     if (parameters.get_bool("regularize", false))
       diagnostics.warn(parameters.find("regularize")->where,
-                       "\"regularize\" has no effect here: what it would hide, photons render");
+                       "\"regularize\" has no effect here: caustics are rendered without it");
     parameters.report_unused("integrator \"" + own + "\"", *type, diagnostics);
   }
   for (const Warning& warning : diagnostics.warnings()) {

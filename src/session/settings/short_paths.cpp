@@ -43,20 +43,19 @@ std::vector<std::string> notes_of_short_paths(const Scene& scene, const RenderSe
     const auto glass =
         first_material(scene, [](const Material& material) { return material.refracts(); });
     if (glass)
-      notes.push_back(fmt::format(
-          "{} {} {}: {} scattering events are needed to see through it and for its caustics, {}",
-          ends, depth < kEventsThroughGlass ? "inside" : "behind", name_of_material(scene, *glass),
-          kEventsThroughGlass + 1,
-          depth < kEventsThroughGlass ? "so that it looks black but for lights in it"
-                                      : "so that only lights are seen through it"));
+      notes.push_back(
+          fmt::format("{} {} {}: with fewer than {} scattering events it casts no caustics and {}",
+                      ends, depth < kEventsThroughGlass ? "inside" : "behind",
+                      name_of_material(scene, *glass), kEventsThroughGlass + 1,
+                      depth < kEventsThroughGlass ? "looks black, except for lights in it"
+                                                  : "shows only lights behind it"));
   }
   if (depth <= kEventsAtMirror) {
     const auto mirror = first_material(scene, mirrors_only);
     if (mirror)
-      notes.push_back(fmt::format(
-          "{} at {}: {} scattering events are needed to see what it mirrors, so that only lights "
-          "are seen in it",
-          ends, name_of_material(scene, *mirror), kEventsAtMirror + 1));
+      notes.push_back(
+          fmt::format("{} at {}: with fewer than {} scattering events it mirrors only lights", ends,
+                      name_of_material(scene, *mirror), kEventsAtMirror + 1));
   }
   return notes;
 }

@@ -250,7 +250,7 @@ TEST(BsdfContract, NothingIsEverNan) {
       ASSERT_NE(s->wi.z, 0.0f) << c.name;
       const SampledSpectrum weight = s->f * (std::abs(s->wi.z) / s->pdf_w);
       ASSERT_TRUE(weight.is_finite()) << c.name << wo.z;
-      // If values are not reciprocal, only radiance mode samples with the cosine of its value.
+      // Unless values are reciprocal, the cosine cancels only in radiance mode.
       if (!c.stochastic && (c.reciprocal || mode == TransportMode::kRadiance)) {
         ASSERT_LT(weight.max_component(), 10.0f) << c.name << wo.z;
       }

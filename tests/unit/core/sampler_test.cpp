@@ -89,7 +89,7 @@ TEST(PathSampler, StreamsAreEvenlySpreadOverThePoints) {
 }
 
 TEST(PaddedPoint, DecisionsHaveNothingToDoWithEachOther) {
-  // Pairs of numbers of two decisions, over sixteen samples of many pixels: each of 4 x 4 cells
+  // Pairs of numbers of two decisions, over sixteen samples of many pixels. Each of 4 x 4 cells
   // gets its share, and a pixel hits as many cells as by chance. Sobol' dimensions 2 and 13 would
   // hit 4 of the 16.
   for (const auto& [a, b] : {std::pair{0, 2}, {2, 13}, {4, 7}, {1, 0}, {3, 200}}) {

@@ -100,13 +100,13 @@ TEST(StateFile, SaysWhatDoesNotFit) {
   write_state(path, some_head(), state);
   Memory other(2);
   other.few.push_back(1);
-  EXPECT_NE(error_of_load(path, other).find("'few' has a size"), std::string::npos);
+  EXPECT_NE(error_of_load(path, other).find("'few' has the wrong size"), std::string::npos);
   other = Memory(2);
   other.sums.pop_back();
-  EXPECT_NE(error_of_load(path, other).find("'sums' has a size"), std::string::npos);
+  EXPECT_NE(error_of_load(path, other).find("'sums' has the wrong size"), std::string::npos);
   other = Memory(2);
   other.most_words = 2499;
-  EXPECT_NE(error_of_load(path, other).find("'stream' has a size"), std::string::npos);
+  EXPECT_NE(error_of_load(path, other).find("'stream' has the wrong size"), std::string::npos);
   state.arrays.erase(state.arrays.begin() + 1);
   write_state(path, some_head(), state);
   other = Memory(2);
@@ -114,7 +114,8 @@ TEST(StateFile, SaysWhatDoesNotFit) {
   state = saved.state();
   state.add("more", std::span(saved.few));
   write_state(path, some_head(), state);
-  EXPECT_NE(error_of_load(path, other).find("'more' is not of this render"), std::string::npos);
+  EXPECT_NE(error_of_load(path, other).find("'more' does not belong to this render"),
+            std::string::npos);
 }
 
 TEST(StateFile, WhatIsOptionalMayBeMissingUnknownOrUnreadable) {

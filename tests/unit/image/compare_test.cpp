@@ -127,7 +127,7 @@ TEST(Compare, DeviationsAreInUnitsOfBothErrors) {
   ASSERT_TRUE(c.deviations);
   EXPECT_NEAR(c.deviations->share_within, 2.0 / 3, 1e-12);
   EXPECT_NEAR(c.deviations->rms, std::sqrt((4.0 + 16.0) / 9), 1e-6);
-  // Of nine values one is two standard errors off, and one four.
+  // One of nine values is two standard errors off, another one four.
   EXPECT_NEAR(c.deviations->share_in_95, 7.0 / 9, 1e-12);
   EXPECT_FALSE(compare_pictures(reference, rgb({1, 1, 1, 2, 2, 2, 3, 3, 3}), {}).deviations);
 }

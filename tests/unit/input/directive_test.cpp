@@ -49,13 +49,13 @@ TEST(Directives, EveryDirectiveStandsInItsPart) {
   for (const std::string name : {"TransformTimes", "Camera", "Film", "Sampler", "PixelFilter",
                                  "Integrator", "Accelerator", "WorldBegin"})
     EXPECT_EQ(parse_error("WorldBegin\n " + name),
-              "t.pbrt:2:2: " + name + " behind WorldBegin, expected it before WorldBegin");
+              "t.pbrt:2:2: " + name + " after WorldBegin, expected it before WorldBegin");
   for (const std::string name :
        {"Import", "AttributeBegin", "AttributeEnd", "TransformBegin", "TransformEnd",
         "ReverseOrientation", "ObjectBegin", "ObjectEnd", "ObjectInstance", "Material",
         "NamedMaterial", "MakeNamedMaterial", "Texture", "LightSource", "AreaLightSource", "Shape"})
     EXPECT_EQ(parse_error("\n " + name),
-              "t.pbrt:2:2: " + name + " before WorldBegin, expected it behind WorldBegin");
+              "t.pbrt:2:2: " + name + " before WorldBegin, expected it after WorldBegin");
   const std::string both =
       "Identity Translate 1 2 3 Scale 1 2 3 Rotate 1 2 3 4 LookAt 0 0 0 1 1 1 0 1 0 "
       "Transform [1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1] ConcatTransform [1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 "
@@ -75,7 +75,7 @@ TEST(Directives, UnknownOnesGetASuggestion) {
   EXPECT_EQ(parse_error("Xyzzy"), "t.pbrt:1:1: unknown directive \"Xyzzy\"");
   EXPECT_EQ(parse_error("WorldEnd"), "t.pbrt:1:1: WorldEnd without WorldBegin");
   EXPECT_EQ(parse_error("WorldBegin WorldEnd Film \"rgb\""),
-            "t.pbrt:1:21: expected the end of the scene behind WorldEnd, found \"Film\"");
+            "t.pbrt:1:21: expected the end of the scene after WorldEnd, found \"Film\"");
   EXPECT_EQ(parse_error("\"float a\" 1"), "t.pbrt:1:1: expected a directive, found \"float a\"");
   EXPECT_EQ(parse_error("WorldBegin ]"), "t.pbrt:1:12: expected a directive, found ']'");
   EXPECT_EQ(parse_error("WorldBegin 5"), "t.pbrt:1:12: unknown directive \"5\"");
@@ -165,7 +165,7 @@ TEST(Directives, MaterialErrors) {
   EXPECT_EQ(parse_error("WorldBegin\nMakeNamedMaterial \"m\" \"float type\" 1"),
             "t.pbrt:2:23: parameter \"type\" has type \"float\", expected \"string\"");
   EXPECT_EQ(parse_error("WorldBegin\nMakeNamedMaterial \"\""),
-            "t.pbrt:2:1: the name is empty, expected one to refer to");
+            "t.pbrt:2:1: the name is empty, expected at least one character");
   EXPECT_EQ(parse_error("WorldBegin\n" + make + "  NamedMaterial \"n\" Shape \"sphere\""),
             "t.pbrt:3:3: named material \"n\" is not defined, did you mean \"m\"?");
   EXPECT_EQ(parse_error("WorldBegin NamedMaterial \"unused\""), "no error");

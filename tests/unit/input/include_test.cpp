@@ -126,7 +126,8 @@ TEST_F(IncludeTest, MissingFilesAreErrorsWhereTheyAreNamed) {
   EXPECT_EQ(file_error("scene.pbrt"), at("scene.pbrt") + ":2:11: cannot read \"" +
                                           at("absent.pbrt") + "\": No such file or directory");
   directory_.write("scene.pbrt", "WorldBegin Import \"\"");
-  EXPECT_EQ(file_error("scene.pbrt"), at("scene.pbrt:1:19: the file name is empty"));
+  EXPECT_EQ(file_error("scene.pbrt"),
+            at("scene.pbrt:1:19: the file name is empty, expected a scene file"));
   directory_.write("scene.pbrt", "Include \"sub\"");
   std::filesystem::create_directory(at("sub"));
   EXPECT_EQ(file_error("scene.pbrt"),

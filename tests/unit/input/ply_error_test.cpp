@@ -151,7 +151,8 @@ TEST_F(PlyErrorTest, HeadersAreChecked) {
   EXPECT_EQ(error_in("plyx\n"), "header line 1: expected \"ply\"");
   EXPECT_EQ(error_in("ply\nformat ascii 1.0\n"),
             "the file ends inside the header, expected end_header");
-  EXPECT_EQ(error_in("ply\nend_header\n"), "header line 2: the header has no format line");
+  EXPECT_EQ(error_in("ply\nend_header\n"),
+            "header line 2: the header has no format line, expected one before end_header");
   EXPECT_EQ(error_in("ply\nformat binary 1.0\n"),
             "header line 2: unknown format \"binary\", expected ascii, binary_little_endian or "
             "binary_big_endian");
@@ -159,18 +160,20 @@ TEST_F(PlyErrorTest, HeadersAreChecked) {
             "header line 4: unknown type \"half\", expected char, uchar, short, ushort, int, uint, "
             "float or double");
   EXPECT_EQ(line4("property list float int x"),
-            "header line 4: the length of a list is not an integer");
+            "header line 4: the length of the list has a float type, expected an integer type");
   EXPECT_EQ(line4("property float"), "header line 4: expected the name of a property");
   EXPECT_EQ(line4("element face many"),
             "header line 4: expected a number of elements, found \"many\"");
   EXPECT_EQ(line4("element face -1"), "header line 4: expected a number of elements, found \"-1\"");
   EXPECT_EQ(line4("element face 99999999999999"),
             "header line 4: expected a number of elements, found \"99999999999999\"");
-  EXPECT_EQ(line4("element vertex 3"), "header line 4: element \"vertex\" stands twice");
-  EXPECT_EQ(line4("property int a\nproperty int a"), "header line 5: property \"a\" stands twice");
+  EXPECT_EQ(line4("element vertex 3"),
+            "header line 4: element \"vertex\" is declared twice, expected once");
+  EXPECT_EQ(line4("property int a\nproperty int a"),
+            "header line 5: property \"a\" is declared twice, expected once");
   EXPECT_EQ(line4("vertices"), "header line 4: unknown keyword \"vertices\"");
   EXPECT_EQ(error_in("ply\nformat ascii 1.0\nproperty float x\n"),
-            "header line 3: a property before the first element");
+            "header line 3: the property has no element, expected an element line before it");
 }
 
 TEST_F(PlyErrorTest, MeshesNeedVerticesAndFaces) {

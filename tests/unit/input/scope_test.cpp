@@ -66,7 +66,8 @@ TEST(Objects, ErrorsHaveTheirPlace) {
   EXPECT_EQ(parse_error("WorldBegin ObjectBegin \"a\" ObjectEnd\nObjectBegin \"a\" ObjectEnd"),
             "t.pbrt:2:1: object \"a\" is already defined at t.pbrt:1:12");
   EXPECT_EQ(parse_error("WorldBegin ObjectBegin \"a\"\nObjectBegin \"b\""),
-            "t.pbrt:2:1: ObjectBegin inside of the object \"a\" that was begun at t.pbrt:1:12");
+            "t.pbrt:2:1: ObjectBegin inside of the object \"a\" that was begun at t.pbrt:1:12, "
+            "expected ObjectEnd first");
   EXPECT_EQ(parse_error("WorldBegin ObjectBegin \"a\" ObjectEnd ObjectBegin \"b\"\n"
                         "ObjectInstance \"a\""),
             "t.pbrt:2:1: ObjectInstance inside of the object \"b\", objects cannot contain "

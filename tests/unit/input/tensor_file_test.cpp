@@ -99,7 +99,7 @@ TEST(TensorFile, WrongTablesAreRefused) {
   EXPECT_EQ(message_for(file_with(1, field("a", 0, 18, {1}))),
             "field \"a\" has the unknown type 0, expected 1 to 11");
   EXPECT_EQ(message_for(file_with(2, field("a", 1, 18, {1}) + field("a", 1, 18, {1}))),
-            "field \"a\" stands twice");
+            "field \"a\" is in the file twice, expected once");
   EXPECT_EQ(message_for(file_with(4000000000u, field("a", 1, 18, {1}))),
             "the file ends inside field 2 of 4000000000 in the table, 2 bytes are missing");
 }

@@ -159,15 +159,18 @@ TEST(Transforms, SingularOnesAreErrors) {
   EXPECT_EQ(parse_error("Transform [1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 0]"),
             "t.pbrt:1:1: Transform is a singular matrix, expected one that can be inverted");
   EXPECT_EQ(parse_error("Rotate 90 0 0 0"),
-            "t.pbrt:1:1: the axis of Rotate is null, expected a direction");
+            "t.pbrt:1:1: the axis of Rotate is the zero vector, expected a direction");
   EXPECT_EQ(parse_error("LookAt 1 2 3 1 2 3 0 1 0"),
             "t.pbrt:1:1: LookAt looks from a point to itself, expected two different points");
   EXPECT_EQ(parse_error("LookAt 0 0 0 1 2 3 2 4 6"),
-            "t.pbrt:1:1: the up vector of LookAt is null or parallel to the view direction");
+            "t.pbrt:1:1: the up vector of LookAt is zero or parallel to the view direction, "
+            "expected another direction");
   EXPECT_EQ(parse_error("LookAt 0 0 0 1 2 3 -.1 -.2 -.3"),
-            "t.pbrt:1:1: the up vector of LookAt is null or parallel to the view direction");
+            "t.pbrt:1:1: the up vector of LookAt is zero or parallel to the view direction, "
+            "expected another direction");
   EXPECT_EQ(parse_error("LookAt 0 0 0 1 2 3 0 0 0"),
-            "t.pbrt:1:1: the up vector of LookAt is null or parallel to the view direction");
+            "t.pbrt:1:1: the up vector of LookAt is zero or parallel to the view direction, "
+            "expected another direction");
 }
 
 TEST(Transforms, ExtremeUnitsAreNotSingular) {
@@ -197,7 +200,7 @@ TEST(Transforms, BadNumbersAreErrors) {
   EXPECT_EQ(parse_error("Transform [1 2 3]"),
             "t.pbrt:1:17: expected a number of Transform, found ']'");
   EXPECT_EQ(parse_error("Transform [1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 5]"),
-            "t.pbrt:1:44: expected ']' behind the 16 numbers of Transform, found \"5\"");
+            "t.pbrt:1:44: expected ']' after the 16 numbers of Transform, found \"5\"");
   EXPECT_EQ(parse_error("ActiveTransform Both"),
             "t.pbrt:1:17: expected All, StartTime or EndTime, found \"Both\"");
 }

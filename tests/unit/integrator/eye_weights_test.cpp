@@ -59,7 +59,7 @@ TEST_P(Casters, LetVerticesBeforeThemMerge) {
   EyePartialWeights eye(false, CasterRule(with_glossy ? ClassMask::kSpecular | ClassMask::kGlossy
                                                       : ClassMask::kSpecular));
   eye.arrive_first(0);
-  // What follows the last vertex: only the light, a G, or an S.
+  // The rest of the path after the last vertex: only the light, a G, or an S.
   const std::string behind[] = {"", "G", "S"};
   const auto merges = [&](size_t i, const std::string& word) {
     const bool s = word.find('S', i + 1) != std::string::npos;

@@ -52,7 +52,7 @@ TEST(Forecast, IsLearnedOnce) {
   EXPECT_EQ(first.photon_paths_useful, first.photons_stored) << "no path lands twice";
   EXPECT_GE(first.photon_bytes, first.photons_stored * 6 * sizeof(float));
   ASSERT_EQ(first.notes.size(), 1u);
-  EXPECT_NE(first.notes[0].find("foretell"), std::string::npos);
+  EXPECT_NE(first.notes[0].find("forecast"), std::string::npos);
   const EstimatorStatistics later =
       statistics_after(*scene, routes, {{1, 0}, {1, 1}, {1, 2}, {1, 3}, {1, 4}});
   EXPECT_EQ(later.photon_paths, first.photon_paths);
@@ -68,8 +68,8 @@ TEST(Forecast, SaysWhatItsSightsAreGoodFor) {
   ASSERT_LT(few.photons_stored, static_cast<uint64_t>(ForecastLobes::kMaxLobes));
   ASSERT_EQ(few.notes.size(), 1u);
   EXPECT_EQ(few.notes[0], std::to_string(few.photons_stored) +
-                              " records of 128 photon paths are too few to foretell a caustic: its "
-                              "paths are traced as by path");
+                              " records of 128 photon paths are too few to forecast caustics, "
+                              "which are traced as by path");
   const EstimatorStatistics other = statistics_after(*scene, routes, {{2, 0}});
   const EstimatorStatistics both = statistics_after(*scene, routes, {{1, 0}, {2, 0}});
   EXPECT_EQ(both.photons_stored, other.photons_stored) << "those of the first seed are gone";

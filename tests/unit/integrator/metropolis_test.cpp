@@ -110,7 +110,7 @@ TEST(Metropolis, CountsItsPathsAndSaysHowItWent) {
     EXPECT_GT(s.rays, s.camera_paths / 2) << integrator;
     EXPECT_GT(s.splats, 1000u) << integrator;
     ASSERT_EQ(s.notes.size(), 1u) << integrator;
-    EXPECT_NE(s.notes[0].find("of 1450 paths"), std::string::npos) << s.notes[0];
+    EXPECT_NE(s.notes[0].find("of 1450 bootstrap paths"), std::string::npos) << s.notes[0];
   }
 }
 

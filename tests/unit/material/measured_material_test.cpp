@@ -133,10 +133,10 @@ TEST(MeasuredFile, FieldsMustFitTogether) {
   EXPECT_EQ(with([](MeasuredTables&) {}), "no error");
   EXPECT_EQ(with([](MeasuredTables& t) { t.theta[1] = t.theta[2]; }),
             "cannot use \"f.bsdf\": field \"theta_i\" does not increase at number 2 (counted from "
-            "0)");
+            "0), expected increasing numbers");
   EXPECT_NE(with([](MeasuredTables& t) {
               t.facets.values[3] = NAN;
-            }).find("field \"ndf\" has a number that is not finite or beyond 1e9, at 3"),
+            }).find("field \"ndf\" has an invalid number at 3"),
             std::string::npos);
   EXPECT_NE(with([](MeasuredTables& t) { t.spectra.values[5] = 2e9f; }).find("\"spectra\""),
             std::string::npos);
@@ -152,8 +152,8 @@ TEST(MeasuredFile, FieldsMustFitTogether) {
       with([](MeasuredTables& t) {
         t.phi = {0, 1, 2};
       }),
-      "cannot use \"f.bsdf\": field \"phi_i\" spans 2.000000 radians, expected a turn, a half "
-      "or a quarter of one");
+      "cannot use \"f.bsdf\": field \"phi_i\" spans 2.000000 radians, expected a whole, a half "
+      "or a quarter turn");
 }
 
 TEST(MeasuredFile, ExtentsMustBeThoseOfTheAxes) {

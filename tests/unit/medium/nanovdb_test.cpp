@@ -133,7 +133,7 @@ TEST(NanoVdb, SaysWhatIsWrongWithAFile) {
   write_bytes(path, "");
   expect(message_of(path), "is empty");
   write_bytes(path, "a text that is longer than a header is");
-  expect(message_of(path), "does not begin as a NanoVDB file does");
+  expect(message_of(path), "does not begin with the magic number of NanoVDB");
   write_nanovdb(path, {density_box()});
   expect(message_of(path, "\"string gridname\" \"smoke\""), "has no grid \"smoke\"");
   std::string version = bytes_of(path);
@@ -143,11 +143,11 @@ TEST(NanoVdb, SaysWhatIsWrongWithAFile) {
   VoxelBox box = density_box();
   box.doubles = true;
   write_nanovdb(path, {box});
-  expect(message_of(path), "does not have values of type float");
+  expect(message_of(path), "has values of another type, expected float");
   box = density_box();
   box.fog = false;
   write_nanovdb(path, {box});
-  expect(message_of(path), "is not a fog volume");
+  expect(message_of(path), "is of another class, expected a fog volume");
   box = density_box();
   box.value = [](int x, int, int) { return x == 3 ? kInfinity : 1.0f; };
   write_nanovdb(path, {box});

@@ -1,5 +1,5 @@
-// Curves in a scene: the ray tracer's tessellated ribbons agree with recursive subdivision, curves
-// that are alike share a geometry without changing a hit, and wrong directives are located.
+// Curves in a scene: tessellated ribbons agree with recursive subdivision, curves of one kind share
+// a geometry without changing a hit, and bad directives are located.
 #include <gtest/gtest.h>
 
 #include <optional>
@@ -220,7 +220,7 @@ TEST(CurveTracing, WrongDirectivesGetLocatedErrors) {
   expect_error("Shape \"curve\" \"string type\" \"tube\" " + p4, "\"tube\" is unknown");
   expect_error("Shape \"curve\" \"string type\" \"ribbon\" " + p4, "0 normals \"N\", expected 2");
   expect_error("Shape \"curve\" \"string type\" \"ribbon\" \"normal N\" [0 0 1 0 0 0] " + p4,
-               "is null");
+               "is zero");
   expect_error("Shape \"curve\" \"float width\" -1 " + p4, "negative");
   expect_error("Shape \"curve\" \"point3 P\" [0 0 0 1e18 0 0 2 0 0 3 1 0]", "too far away");
   expect_error("AreaLightSource \"diffuse\" Shape \"curve\" " + p4, "cannot be an area light");

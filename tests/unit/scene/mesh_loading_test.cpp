@@ -101,9 +101,10 @@ TEST_F(MeshLoading, FaultsOfFilesAreCountedOnce) {
   const auto scene = load(
       "Camera \"perspective\" WorldBegin LightSource \"infinite\"\n"
       "Shape \"plymesh\" \"string filename\" \"a.ply\"");
-  EXPECT_EQ(warnings(),
-            "shape \"plymesh\": 6 of 7 normals are not finite, the faces' own are used there\n"
-            "shape \"plymesh\": 3 of 7 faces have no area and were removed\n");
+  EXPECT_EQ(
+      warnings(),
+      "shape \"plymesh\": 6 of 7 normals are not finite, the normals of the faces are used there\n"
+      "shape \"plymesh\": 3 of 7 faces have no area and were removed\n");
   // The L is hit where it is, with its own normal.
   for (const Vec2f& at : {Vec2f(0.5f, 0.5f), Vec2f(1.9f, 0.9f), Vec2f(0.1f, 1.9f),
                           Vec2f(1.1f, 1.1f), Vec2f(1.9f, 1.9f)}) {

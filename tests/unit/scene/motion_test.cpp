@@ -1,5 +1,5 @@
-// What moves, against the same thing standing still where it is at the ray's time; against
-// intervals of time in closed form; rays that leave moving surfaces; what cannot move says so.
+// Moving objects against a still copy at the ray's time and against closed forms. Rays leave moving
+// surfaces. Objects that cannot move give warnings.
 #include "core/motion.h"
 
 #include <gtest/gtest.h>
@@ -190,7 +190,7 @@ TEST(MotionBlur, MovingShapesInMovingInstances) {
   }
 }
 
-// A sphere of radius 1 that moves from x = -3 to 3: a ray along z at (x, y) hits it while the
+// A sphere of radius 1 that moves from x = -3 to 3. A ray along z at (x, y) hits it while its
 // centre is within sqrt(1 - y^2) of x.
 TEST(MotionBlur, AFlyingSphereCoversARayForItsShareOfTheShutter) {
   const auto scene =

@@ -112,7 +112,8 @@ TEST(FilmLine, ExposureAndWhiteBalance) {
   EXPECT_EQ(measured.warnings,
             "test.pbrt:1:12: sensor \"nikon_d850\" is rendered as \"cie1931\" with its exposure\n");
   EXPECT_EQ(error_of("Film \"rgb\" \"string sensor\" \"nikon_d85\""),
-            "test.pbrt:1:12: unknown sensor \"nikon_d85\", did you mean \"nikon_d850\"?");
+            "test.pbrt:1:12: unknown sensor \"nikon_d85\", did you mean \"nikon_d850\"? (expected "
+            "\"cie1931\" or a sensor of pbrt-v4)");
   EXPECT_EQ(error_of("Film \"rgb\" \"float whitebalance\" 20"),
             "test.pbrt:1:12: \"whitebalance\" must be 0 or a temperature from 500 to 100000 K");
 }

@@ -53,8 +53,9 @@ TEST(PictureDescription, SaysWhatThePictureIsOf) {
   const std::string passes = "8 passes (0..1,4..9), to be resumed or merged\n";
   const std::string history = "history:\n  2 passes in 1.000 s\n  6 passes in 3.000 s\n";
   const std::string ranges = "passes: 0..1,4..9\n";
-  EXPECT_EQ(description_of_picture(path), "picture: " + path + "\nresolution: 2x1\nstate: " +
-                                              state + ": " + passes + history + ranges);
+  EXPECT_EQ(description_of_picture(path),
+            "picture: " + path + "\nresolution: 2x1\nlayers: R, G, B\nstate: " + state + ": " +
+                passes + history + ranges);
   EXPECT_EQ(description_of_picture(state),
             "state: " + state + "\nresolution: 2x1\nstate: " + passes + ranges + history);
   EXPECT_TRUE(is_picture(state));
@@ -78,14 +79,13 @@ std::string refusal_of_merge(const std::string& version) {
 }
 
 TEST(Merge, AddsUpPicturesOfThisVersionOnly) {
-  const std::string mine = std::string(", this program is ") + kVersion;
+  const std::string mine = std::string(" rendered it, expected ") + kVersion;
   for (const std::string version : {"0.0.1", ""})
-    EXPECT_NE(refusal_of_merge(version).find("it is of version " +
-                                             (version.empty() ? "?" : version) + mine),
+    EXPECT_NE(refusal_of_merge(version).find("version " + (version.empty() ? "?" : version) + mine),
               std::string::npos)
         << refusal_of_merge(version);
   // These are refused later, for their film.
-  EXPECT_NE(refusal_of_merge(kVersion).find("what it says of its film makes no sense"),
+  EXPECT_NE(refusal_of_merge(kVersion).find("its description of the film is damaged"),
             std::string::npos)
       << refusal_of_merge(kVersion);
 }

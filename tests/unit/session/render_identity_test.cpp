@@ -1,4 +1,4 @@
-// What distinguishes the pictures of different renders.
+// Identity of a render: differences by which two pictures belong to different renders.
 #include "session/checkpoint/render_identity.h"
 
 #include <gtest/gtest.h>

@@ -271,10 +271,10 @@ TEST_F(SessionPictures, TheLastPictureIsRescuedWhereItsDirectoryVanished) {
     if (key.pass == 1) std::filesystem::remove_all(directory.file("pictures"));
   };
   const std::string message = io_error_of([&] { run(options); });
-  const size_t said = message.find("the picture is in ");
+  const size_t said = message.find("the picture was written to ");
   ASSERT_NE(said, std::string::npos) << message;
   EXPECT_EQ(message.find(state_path_beside(options.output)), 0u) << message;
-  EXPECT_EQ(passes_in(message.substr(said + 18)), "0..5");
+  EXPECT_EQ(passes_in(message.substr(said + 27)), "0..5");
   EXPECT_EQ(script_.passes.size(), 6u);  // rendering went on
   EXPECT_FALSE(warnings_.empty());
 }
@@ -290,7 +290,7 @@ TEST_F(SessionPictures, WhatCannotBeRescuedIsTheFirstError) {
   };
   const std::string message = io_error_of([&] { run(options); });
   EXPECT_EQ(message.find(state_path_beside(options.output)), 0u) << message;
-  EXPECT_EQ(message.find("the picture is in"), std::string::npos);
+  EXPECT_EQ(message.find("the picture was written to"), std::string::npos);
 }
 
 TEST_F(SessionPictures, UnwritableOutputIsSaidBeforeTheFirstPass) {

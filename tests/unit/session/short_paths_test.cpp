@@ -28,15 +28,12 @@ std::string notes_of(int depth, const std::string& material, bool on_command_lin
 
 TEST(ShortPaths, GlassNeedsThreeEvents) {
   EXPECT_EQ(notes_of(3, kGlass), "");
-  EXPECT_EQ(
-      notes_of(2, kGlass),
-      "the scene's maxdepth 2 ends paths behind dielectric1 (test.pbrt:2:1): 3 scattering "
-      "events are needed to see through it and for its caustics, so that only lights are seen "
-      "through it");
+  EXPECT_EQ(notes_of(2, kGlass),
+            "the scene's maxdepth 2 ends paths behind dielectric1 (test.pbrt:2:1): with fewer than "
+            "3 scattering events it casts no caustics and shows only lights behind it");
   EXPECT_EQ(notes_of(1, kGlass, true),
-            "-D max-depth=1 ends paths inside dielectric1 (test.pbrt:2:1): 3 scattering events are "
-            "needed to see through it and for its caustics, so that it looks black but for lights "
-            "in it");
+            "-D max-depth=1 ends paths inside dielectric1 (test.pbrt:2:1): with fewer than 3 "
+            "scattering events it casts no caustics and looks black, except for lights in it");
   EXPECT_NE(notes_of(2,
                      "MakeNamedMaterial \"a\" \"string type\" \"dielectric\" MakeNamedMaterial "
                      "\"b\" \"string type\" \"diffuse\" Material \"mix\" \"string materials\" "
@@ -47,7 +44,7 @@ TEST(ShortPaths, GlassNeedsThreeEvents) {
 
 TEST(ShortPaths, MirrorsNeedTwo) {
   EXPECT_EQ(notes_of(2, kMetal), "");
-  EXPECT_NE(notes_of(1, kMetal).find("2 scattering events are needed to see what it mirrors"),
+  EXPECT_NE(notes_of(1, kMetal).find("with fewer than 2 scattering events it mirrors only"),
             std::string::npos);
   // Light passes straight through thin glass.
   EXPECT_EQ(notes_of(2, "Material \"thindielectric\""), "");

@@ -1,5 +1,5 @@
-// Tests of bilinear patches: hits against the parametric form and against triangles, frames,
-// normals, areas, sampling of rectangles and of twisted patches.
+// Bilinear patches: hits against the parametric form and against triangles, frames, normals, areas,
+// and sampling of rectangles and twisted patches.
 #include "scene/shape/plane_rectangle.h"
 #include "shape_checks.h"
 
@@ -39,7 +39,7 @@ TEST(BilinearMesh, EveryPointOfThePatchIsHit) {
     if (abs_dot(normalize(ray.d), target.ng) < 0.05f) continue;
     const auto hit = shape->intersect(0, ray, 0.0f);
     ASSERT_TRUE(hit) << i;
-    ASSERT_LT(hit->t, 2.0f + 1e-4f);  // or an earlier one
+    ASSERT_LT(hit->t, 2.0f + 1e-4f);  // or an earlier hit
     const SurfaceInteraction s = surface_at(*shape, 0, hit->uv);
     EXPECT_LT(length(s.p - (ray.o + ray.d * hit->t)), 2e-5f);
   }
@@ -78,7 +78,7 @@ TEST(BilinearMesh, NeighboursLeaveNoGap) {
   ASSERT_EQ(shape->primitive_count(), 2u);
   Random random(3);
   for (int i = 0; i < 20000; ++i) {
-    // Through points of the shared edge.
+    // Aim at points of the shared edge.
     const Vec3f target =
         data.positions[1] + (data.positions[4] - data.positions[1]) * random.unit();
     Ray ray;
@@ -107,7 +107,7 @@ TEST(BilinearMesh, TextureCoordinatesScaleTheDerivatives) {
   EXPECT_LT(length(b.dpdu - a.dpdu * 0.5f), 1e-6f);
   EXPECT_LT(length(b.dpdv - a.dpdv * 0.25f), 1e-6f);
   EXPECT_LT(length(b.ng - a.ng), 1e-6f);
-  // A mirrored texture does not turn the surface around.
+  // A mirrored texture does not flip the surface.
   data.uvs = std::vector<Vec2f>{{1, 0}, {0, 0}, {1, 1}, {0, 1}};
   EXPECT_LT(length(surface_at(*make_bilinear_mesh(data, false), 0, {0.2f, 0.2f}).ng - a.ng), 1e-6f);
 }
@@ -133,7 +133,7 @@ TEST(BilinearMesh, AreasAreThoseOfTheClosedForm) {
   EXPECT_NEAR(make_bilinear_mesh(rectangle(), false)->area(0),
               length(cross(Vec3f(1.2f, 0.5f, 0.1f), Vec3f(-0.5f, 1.2f, 0))), 1e-6f);
   EXPECT_NEAR(make_bilinear_mesh(trapezoid(), false)->area(0), 1.25f, 1e-6f);
-  // Pinched to a triangle.
+  // A patch degenerated to a triangle.
   EXPECT_NEAR(make_bilinear_mesh(patch({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 1, 0}), false)->area(0),
               0.5f, 1e-6f);
   for (const MeshData& data : {rectangle(), trapezoid(), twisted()}) {
@@ -199,7 +199,7 @@ TEST(BilinearMesh, RaysDoNotMeetThePlanePatchTheyLeave) {
   for (int i = 0; i < 40000; ++i) {
     const float size = std::pow(10.0f, random.in(-4, 4));
     const Vec3f center = random.direction() * std::pow(10.0f, random.in(-4, 4));
-    // Corners that floats hold exactly in a plane: multiples of a power of two along two axes.
+    // Corners in a plane that floats represent exactly: multiples of a power of two along two axes.
     const float grid = std::exp2(std::ceil(std::log2(std::max(size, length(center)))) - 16.0f);
     const auto snap = [&](float x) { return std::round(x / grid) * grid; };
     const Vec3f o(snap(center.x), snap(center.y), snap(center.z));
@@ -211,7 +211,7 @@ TEST(BilinearMesh, RaysDoNotMeetThePlanePatchTheyLeave) {
   EXPECT_GT(hits, 4000);
 }
 
-// Lamps keep the rectangles and ask these in place of the mesh.
+// Lamps keep rectangles and sample these instead of the mesh.
 TEST(BilinearMesh, RectanglesSampleAsTheMeshDoes) {
   MeshData with_uvs = rectangle(), with_normals = rectangle();
   with_uvs.uvs = {{0.5f, 0}, {0.5f, 1}, {0.25f, 0}, {0.25f, 1}};
@@ -224,7 +224,7 @@ TEST(BilinearMesh, RectanglesSampleAsTheMeshDoes) {
       const auto plane = shape->rectangle(0);
       ASSERT_TRUE(plane);
       for (int i = 0; i < 200; ++i) {
-        // Every other place is so far away that the rectangle is sampled by area.
+        // Every other point is so far away that the rectangle is sampled by area.
         const Vec3f from = random.in_box(i % 2 == 0 ? 3.0f : 3000.0f);
         const Vec2f u = random.square();
         const auto a = plane->sample_towards(from, u), b = shape->sample_towards(0, from, u);

@@ -1,5 +1,5 @@
-// Curves: bases become the right Bezier segments, rays meet them where a brute-force search finds
-// the curve, hits are described as the format says, and maps applied to points or to rays agree.
+// Curves: bases become the right Bezier segments, and rays hit them where a brute-force search
+// finds the curve. Hits follow the format. Transforming points or rays gives the same result.
 #include "scene/shape/curve.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ std::vector<Vec3f> some_points(size_t count, uint64_t seed) {
   return points;
 }
 
-/// The uniform b-spline's basis function by the recursion of Cox and de Boor, knots at integers.
+/// Basis function of the uniform b-spline by the Cox-de Boor recursion, knots at integers.
 double basis(int degree, double x) {
   if (degree == 0) return x >= 0 && x < 1 ? 1.0 : 0.0;
   return (x * basis(degree - 1, x) + (degree + 1 - x) * basis(degree - 1, x - 1)) / degree;
@@ -79,7 +79,7 @@ CurveSegment bent(float width0, float width1) {
   return s;
 }
 
-/// First hit of any piece.
+/// First hit among all pieces.
 std::optional<ShapeHit> first_hit(const Shape& shape, const Ray& ray, uint32_t* piece) {
   std::optional<ShapeHit> first;
   for (uint32_t i = 0; i < shape.primitive_count(); ++i) {
@@ -110,8 +110,8 @@ TEST(Curves, RaysMeetThemWhereBruteForceFindsTheCurve) {
     for (int i = 0; i < 4000; ++i) {
       const Ray ray = random_ray(random);
       const Vec3f d = normalize(ray.d);
-      // Where the distance from the ray has a minimum, over half of the width there: below 1 is a
-      // hit.
+      // At each minimum of the distance to the ray: its ratio to the half width there. Below 1 it
+      // is a hit.
       constexpr int kSteps = 1000;
       double distance[kSteps + 1], least = kInfinity, front = kInfinity;
       bool at_edge = false;
@@ -140,13 +140,13 @@ TEST(Curves, RaysMeetThemWhereBruteForceFindsTheCurve) {
     EXPECT_GT(hits, 500);
     EXPECT_GT(misses, 500);
     EXPECT_LT(unclear, 400);
-    // Where the curve runs along the ray it may turn back within what is taken for straight.
+    // A curve along the ray may turn back within the tolerance for straight pieces.
     EXPECT_LE(elsewhere, hits / 200);
   }
 }
 
 TEST(Curves, RibbonsLookNarrowerTheMoreTheyTurnAway) {
-  // A straight ribbon along x with its normal along z.
+  // A straight ribbon along x, with normal z.
   CurveSegment s;
   s.points = {Vec3f(-1, 0, 0), Vec3f(-1 / 3.0f, 0, 0), Vec3f(1 / 3.0f, 0, 0), Vec3f(1, 0, 0)};
   s.width0 = s.width1 = 0.2f;
@@ -164,7 +164,7 @@ TEST(Curves, RibbonsLookNarrowerTheMoreTheyTurnAway) {
       EXPECT_EQ(shape.is_hit(0, 0.6f, ray), part < 1) << degrees;
     }
   }
-  // Turned by a quarter from one end to the other: 45 degrees in the middle.
+  // Twisted by 90 degrees from end to end: 45 degrees in the middle.
   s.normal1 = Vec3f(0, 1, 0);
   const CurveShape twisted(Transform(), false, CurveType::kRibbon, {s});
   Ray ray;
@@ -191,13 +191,13 @@ TEST(Curves, HitsAreDescribedAsTheFormatSays) {
       SurfaceInteraction at;
       shape.fill(piece, hit->uv, ray, hit->t, at);
       const Vec3f d = normalize(ray.d), curve = bezier_point(s, at.uv.x), off = at.p - curve;
-      // On the ray, in the plane across it through the nearest point of the curve.
+      // The point is on the ray, in the plane across the ray through the curve's nearest point.
       EXPECT_LT(length(cross(at.p - ray.o, d)), 1e-5f);
       EXPECT_NEAR(dot(off, d), 0.0f, 1e-5f);
       const float h = 1e-3f;
       const Vec3f dpdu = (bezier_point(s, at.uv.x + h) - bezier_point(s, at.uv.x - h)) / (2 * h);
       EXPECT_LT(length(at.dpdu - dpdu), 2e-3f * length(dpdu));
-      // v runs from edge to edge to the left of the curve as the ray sees it.
+      // v runs from edge to edge, to the left of the curve as seen from the ray.
       float width = lerp(at.uv.x, s.width0, s.width1);
       if (type == CurveType::kRibbon) width = length(at.dpdv);
       const Vec3f left = normalize(cross(d, at.dpdu));
@@ -226,7 +226,7 @@ TEST(Curves, HitsAreDescribedAsTheFormatSays) {
 }
 
 TEST(Curves, MapsOfPointsAndMapsOfRaysAgree) {
-  // Similar maps are baked into the points; the same map stretched by a few parts in 100 000 is
+  // Similarity transforms are baked into the points. One stretched by a few parts in 100 000 is
   // not.
   Mat44d similar = Random(17).rotation();
   similar = Mat44d().setScale(Imath::V3d(2.5, 2.5, -2.5)) * similar;
@@ -256,7 +256,7 @@ TEST(Curves, MapsOfPointsAndMapsOfRaysAgree) {
         baked.fill(piece_a, a->uv, ray, a->t, at);
         other.fill(piece_b, b->uv, ray, b->t, bt);
         if (std::abs(at.uv.x - bt.uv.x) > 0.01f) {
-          ++differ;  // a ray along the curve
+          ++differ;  // the ray is parallel to the curve
           continue;
         }
         ++compared;
@@ -274,7 +274,7 @@ TEST(Curves, MapsOfPointsAndMapsOfRaysAgree) {
 }
 
 TEST(Curves, LightLeavesTheCurveOnBothSides) {
-  // A straight curve is never met again, neither by what it reflects nor by what it lets through.
+  // A straight curve is never hit again, neither by reflected nor by transmitted rays.
   CurveSegment s;
   s.points = {Vec3f(-1, 0, 0), Vec3f(-1 / 3.0f, 0, 0), Vec3f(1 / 3.0f, 0, 0), Vec3f(1, 0, 0)};
   s.width0 = 0.02f;
@@ -309,7 +309,7 @@ TEST(Curves, PiecesAreNearlyStraightAndBounded) {
   CurveSegment point;
   point.points.fill(Vec3f(1, 2, 3));
   EXPECT_EQ(CurveShape(Transform(), false, CurveType::kFlat, {point}).primitive_count(), 0u);
-  // Hits lie in the bounds of their piece.
+  // Hits are inside the bounds of their piece.
   Random random(29);
   for (int i = 0; i < 1000; ++i) {
     const Ray ray = random_ray(random);

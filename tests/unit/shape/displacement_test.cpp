@@ -1,5 +1,4 @@
-// Displaced meshes: how fine they are, that they have no cracks, where their points end up, and
-// that nothing is lost on the way.
+// Displaced meshes: edge lengths, no cracks, positions of the vertices, and no lost data.
 #include "scene/shape/displacement.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +9,7 @@
 namespace nephroid {
 namespace {
 
-/// The unit square in the plane z = 0, as one quad, facing up.
+/// The unit square at z = 0, as one quad facing up.
 MeshData square() {
   MeshData mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
@@ -67,14 +66,14 @@ TEST(Displacement, EdgesAreShortInTheWorldAndNotMuchShorter) {
   d.object_to_world = Transform(stretched);
   const MeshData mesh = *displace_mesh(square(), d);
   EXPECT_LT(longest_edge(mesh, d.object_to_world), 0.1f);
-  // Area 6 with triangles of legs between 0.05 and 0.1: a count far above that would be waste.
+  // Area 6, triangles with legs between 0.05 and 0.1: far more triangles would be wasted.
   EXPECT_LT(mesh.triangles.size() / 3, 6 / (0.5 * 0.035 * 0.035));
   EXPECT_GT(mesh.triangles.size() / 3, 6 / (0.5 * 0.1 * 0.1));
 }
 
 TEST(Displacement, NeighboursShareTheirVertices) {
-  // Triangles of very different sizes: each inner edge is met once in either direction, so that
-  // there is no gap to look through.
+  // Triangles of very different sizes: each inner edge occurs once in either direction, so that
+  // there is no gap.
   MeshData coarse;
   coarse.positions = {{0, 0, 0}, {4, 0, 0}, {0, 1, 0}, {4, 1, 0}, {2, -0.2f, 1}, {0, 5, 0}};
   coarse.uvs.resize(6, Vec2f(0, 0));
@@ -104,14 +103,14 @@ TEST(Displacement, AnOctahedronWithTheRightHeightsBecomesASphere) {
   mesh.uvs.resize(6, Vec2f(0, 0));
   mesh.triangles = {0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4, 1, 0, 5, 2, 1, 5, 3, 2, 5, 0, 3, 5};
   Displacement d = constant(0, 0.1f);
-  // Midpoints get the normals of their neighbours: no longer radial in general, so the way to the
-  // sphere is bounded, not equal.
+  // Midpoints get interpolated normals, which are not radial in general: the distance to the sphere
+  // is bounded, not zero.
   d.height = [](const Vec3f& p, const Vec2f&) { return 1 - length(p); };
   const MeshData sphere = *displace_mesh(mesh, d);
   EXPECT_NEAR(area(sphere), 4 * kPi, 0.02 * 4 * kPi);
   for (size_t i = 0; i < sphere.positions.size(); ++i) {
     EXPECT_NEAR(length(sphere.positions[i]), 1.0f, 0.02f);
-    // The new normals are those of the sphere.
+    // The new normals are the sphere's.
     EXPECT_GT(dot(sphere.normals[i], normalize(sphere.positions[i])), 0.98f);
   }
 }

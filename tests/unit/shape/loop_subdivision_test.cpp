@@ -1,4 +1,4 @@
-// Tests of Loop subdivision: counts, limits known in closed form, normals, boundaries, bad input.
+// Loop subdivision: counts, closed-form limits, normals, boundaries, bad input.
 #include <gtest/gtest.h>
 
 #include <stdexcept>
@@ -27,7 +27,7 @@ TEST(LoopSubdivision, CountsFollowEuler) {
 }
 
 TEST(LoopSubdivision, CornersOfATetrahedronMoveToOneFifth) {
-  // Valence 3: limit = 2/5 p + 1/5 (sum of the others = -p), and levels do not change a limit.
+  // Valence 3: limit = 2/5 p + 1/5 (sum of the others = -p). The level does not change a limit.
   for (int levels = 0; levels <= 4; ++levels) {
     const MeshData mesh = loop_subdivide(kTetrahedron, kTetrahedronFaces, levels);
     for (const Vec3f& corner : kTetrahedron) {
@@ -42,7 +42,7 @@ TEST(LoopSubdivision, StaysWithinTheHullAndKeepsSymmetry) {
   const MeshData mesh = loop_subdivide(kTetrahedron, kTetrahedronFaces, 4);
   Vec3f sum(0, 0, 0);
   for (const Vec3f& p : mesh.positions) {
-    // The faces of this tetrahedron are x + y + z >= -1 and its mirror images.
+    // This tetrahedron's faces are x + y + z >= -1 and its mirror images.
     EXPECT_GE(p.x + p.y + p.z, -1.0f);
     EXPECT_GE(p.x - p.y - p.z, -1.0f);
     EXPECT_GE(-p.x + p.y - p.z, -1.0f);
@@ -53,7 +53,7 @@ TEST(LoopSubdivision, StaysWithinTheHullAndKeepsSymmetry) {
 }
 
 TEST(LoopSubdivision, OctahedronCornerHasItsKnownLimitAndNormal) {
-  // Valence 4: neighbour weight 3/32, limit weight 1 / (4 + 3 / (8 * 3/32)) = 1/8; the ring sums to
+  // Valence 4: neighbour weight 3/32, limit weight 1 / (4 + 3 / (8 * 3/32)) = 1/8. The ring sums to
   // 0.
   for (int levels : {0, 3}) {
     const MeshData mesh = loop_subdivide(kOctahedron, kOctahedronFaces, levels);
@@ -61,7 +61,7 @@ TEST(LoopSubdivision, OctahedronCornerHasItsKnownLimitAndNormal) {
     for (size_t i = 0; i < mesh.positions.size(); ++i) {
       if (length(mesh.positions[i] - Vec3f(0, 0, 0.5f)) > 1e-6f) continue;
       found = true;
-      // These faces are counter-clockwise seen from outside; the normals point to the inside.
+      // These faces are counter-clockwise from outside; the normals point inwards.
       EXPECT_LT(length(normalize(mesh.normals[i]) - Vec3f(0, 0, -1)), 1e-6f);
     }
     EXPECT_TRUE(found) << levels;
@@ -79,7 +79,7 @@ TEST(LoopSubdivision, NormalsAgreeWithTheFacesUpToTheCommonSide) {
   }
 }
 
-/// An n x n grid of squares in the plane z = 2, each cut in two.
+/// An n x n grid of squares at z = 2, each split in two.
 void make_grid(int n, std::vector<Vec3f>& positions, std::vector<uint32_t>& faces) {
   for (int y = 0; y <= n; ++y)
     for (int x = 0; x <= n; ++x) positions.emplace_back(float(x), float(y), 2.0f);
@@ -103,8 +103,8 @@ TEST(LoopSubdivision, PlanesStayPlaneWithNormalsAtEveryBoundary) {
     EXPECT_LT(length(normalize(mesh.normals[i]) - Vec3f(0, 0, -1)), 1e-5f);
     box.extendBy(mesh.positions[i]);
   }
-  // The boundary is straight in the middle of a side. A corner goes to 1/8 of both neighbours, then
-  // from (1/8,1/8) to (5/32,5/32), and last by 1/5 of the two at (5/16,1/16) and (1/16,5/16).
+  // In the middle of a side the boundary is straight. A corner moves to 1/8 of both neighbours,
+  // then from (1/8,1/8) to (5/32,5/32), then by 1/5 of the two at (5/16,1/16) and (1/16,5/16).
   EXPECT_NEAR(box.min.x, 0.0f, 1e-6f);
   EXPECT_NEAR(box.max.y, 3.0f, 1e-6f);
   float corner = kInfinity;

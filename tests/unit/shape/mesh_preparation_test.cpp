@@ -1,4 +1,4 @@
-// Tests of what happens to a mesh before it becomes a shape: checks, quads, transforms.
+// Preparation of a mesh before it becomes a shape: checks, quads, transforms.
 #include "scene/shape/mesh_preparation.h"
 
 #include <gtest/gtest.h>
@@ -106,7 +106,7 @@ TEST(MeshPreparation, NormalsThatAreNotFiniteLeaveTheFacesTheirOwn) {
             std::string::npos);
   for (const size_t i : {1u, 2u, 4u, 5u}) EXPECT_EQ(mesh.normals[i], Vec3f(0, 0, 0));
   EXPECT_EQ(mesh.normals[0], Vec3f(0, 0.6f, 0.8f));
-  // The triangle 1 4 2 is left with none.
+  // The triangle 1 4 2 has no normal left.
   SurfaceInteraction hit;
   TriangleMesh(triangles_of(mesh), false).fill(0, {0.3f, 0.3f}, Ray(), 0, hit);
   EXPECT_EQ(hit.ng, Vec3f(0, 0, 1));
@@ -138,7 +138,7 @@ TEST(MeshPreparation, QuadsBecomeTrianglesOrPatches) {
   EXPECT_EQ(triangles.triangles, (std::vector<uint32_t>{1, 4, 2}));
   EXPECT_EQ(triangles.face_indices, (std::vector<int>{7}));
 
-  // A patch and the triangles of the same ring face the same way.
+  // A patch and the triangles of its ring face the same way.
   SurfaceInteraction a, b;
   make_bilinear_mesh(quads, false)->fill(0, {0.5f, 0.5f}, Ray(), 0, a);
   TriangleMesh(split, false).fill(1, {0.3f, 0.3f}, Ray(), 0, b);

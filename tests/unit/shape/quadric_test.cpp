@@ -1,4 +1,4 @@
-// Tests of spheres, disks and cylinders: hits, frames, areas, sampling, error bounds.
+// Spheres, disks and cylinders: hits, frames, areas, sampling, error bounds.
 #include "shape_checks.h"
 
 namespace nephroid {
@@ -28,7 +28,7 @@ struct Case {
   float size;
 };
 
-/// Whole and cut shapes, under maps that keep angles and under others, some left-handed.
+/// Whole and clipped shapes, under conformal and other transforms, some left-handed.
 std::vector<Case> cases() {
   const Transform rigid = turned_and_moved(1, scaled(1.5, 1.5, 1.5));
   const Transform mirror = turned_and_moved(2, scaled(1, 1, -1));
@@ -99,7 +99,7 @@ TEST(Quadrics, AreasAreThoseOfTheClosedForm) {
   const double spheroid = 2 * double(kPi) * (1 + 2 / e * std::asin(e));
   const Transform stretched = turned_and_moved(7, scaled(1, 1, 2));
   EXPECT_NEAR(make_sphere(stretched, false, 1, -1, 1, 360)->area(0) / spheroid, 1.0, 1e-5);
-  // Stratified Monte Carlo agrees where there is no closed form.
+  // Stratified Monte Carlo, for shapes without a closed form.
   for (const Case& c : cases())
     EXPECT_NEAR(mean_area(*c.shape, 0, 200) / c.shape->area(0), 1.0, 2e-4) << c.name;
 }
@@ -113,13 +113,13 @@ TEST(Quadrics, SolidAnglesAreThoseOfTheClosedForm) {
     const double sin2 = 1 / (d * d), expected = 2 * double(kPi) * sin2 / (1 + std::sqrt(1 - sin2));
     EXPECT_NEAR(mean_solid_angle(*sphere, 0, from, 4) / expected, 1.0, 1e-4) << distance;
   }
-  // From inside, all directions; from the axis of a disk, those of its cone.
+  // From inside: all directions. From the axis of a disk: those of its cone.
   EXPECT_NEAR(mean_solid_angle(*sphere, 0, {0.8f, -0.7f, 2.1f}, 400) / (4 * kPi), 1.0, 1e-3);
   const ShapePtr disk = make_disk(Transform(), false, 0, 1, 0, 360);
   EXPECT_NEAR(mean_solid_angle(*disk, 0, {0, 0, 2}, 400), 2 * kPi * (1 - 2 / std::sqrt(5.0)), 1e-5);
-  // An ellipsoid seen from its long axis covers the cone that touches it.
+  // From its long axis, an ellipsoid covers the tangent cone.
   const ShapePtr egg = make_sphere(Transform(scaled(1, 1, 3)), false, 1, -1, 1, 360);
-  // Tangent from (0,0,6) to x^2 + z^2/9 = 1 touches at z = 1.5, x = sqrt(.75): tan = x / 4.5.
+  // The tangent from (0,0,6) to x^2 + z^2/9 = 1 touches at z = 1.5, x = sqrt(.75): tan = x / 4.5.
   const double tan2 = 0.75 / (4.5 * 4.5), cosine = 1 / std::sqrt(1 + tan2);
   EXPECT_NEAR(mean_solid_angle(*egg, 0, {0, 0, 6}, 400) / (2 * kPi * (1 - cosine)), 1.0, 1e-4);
 }
@@ -156,7 +156,7 @@ TEST(Quadrics, OutsideFollowsReverseOrientationAndIsMirroredWithTheShape) {
 
 TEST(Quadrics, TextureCoordinatesAreThoseOfPbrt) {
   const ShapePtr sphere = make_sphere(Transform(), false, 2, -1, 2, 180);
-  // v runs from the lower cut (0) to the top (1), u over phi_max.
+  // v runs from the lower clip (0) to the top (1), u over phi_max.
   const SurfaceInteraction low = surface_at(*sphere, 0, {0.5f, 0});
   EXPECT_LT(length(low.p - Vec3f(0, std::sqrt(3.0f), -1)), 1e-5f);
   EXPECT_NEAR(surface_at(*sphere, 0, {0.25f, 1}).p.z, 2, 1e-5f);
@@ -168,13 +168,13 @@ TEST(Quadrics, TextureCoordinatesAreThoseOfPbrt) {
   EXPECT_LT(length(top.p - Vec3f(0, 1, 3)), 1e-6f);
 }
 
-/// The signed function whose zeros are the surface, and whether a point is within the limits.
+/// A signed function that is zero on the surface, and a test of the clipping limits.
 struct Implicit {
   std::function<double(const Vec3d&)> value;
   std::function<bool(const Vec3d&)> kept;
 };
 
-/// First sign change along the ray at a kept point, by small steps; negative if there is none.
+/// First sign change along the ray at a kept point, in small steps. Negative if there is none.
 double march(const Implicit& surface, const Vec3d& o, const Vec3d& d, double t_end, int steps) {
   double before = surface.value(o);
   for (int i = 1; i <= steps; ++i) {
@@ -305,19 +305,19 @@ TEST(Quadrics, ErrorBoundsHoldTheTrueSurfaceAndLittleMore) {
   Random random(33);
   for (int i = 0; i < 20000; ++i) {
     const float radius = std::pow(10.0f, random.in(-4, 4));
-    // Within a thousand radii, where the rounding is small against the curvature.
+    // Within a thousand radii, where rounding is small compared with the curvature.
     const Vec3f center = random.direction() * (radius * std::pow(10.0f, random.in(-3, 3)));
     const ShapePtr sphere = make_sphere(Transform(moved(center.x, center.y, center.z)), false,
                                         radius, -radius, radius, 360);
     const auto s = sphere->sample_area(0, random.square());
     const Vec3d from_center(double(s->p.x) - center.x, double(s->p.y) - center.y,
                             double(s->p.z) - center.z);
-    // The true normal at the float point, and how far off the sphere that point is along it.
+    // The true normal at the float point, and that point's distance from the sphere along it.
     const double distance = from_center.length();
     double bound = 0.0;
     for (int k = 0; k < 3; ++k) {
       bound += std::abs(from_center[k]) / distance * s->p_error[k];
-      // Half a unit in the last place, at most, and what double adds where the terms cancel.
+      // At most half a unit in the last place, plus double's error where terms cancel.
       EXPECT_LE(s->p_error[k], std::abs(s->p[k]) * 0x1.01p-24f +
                                    1e-14f * (radius + std::abs(s->p[k]) + std::abs(center[k])));
     }
@@ -326,7 +326,7 @@ TEST(Quadrics, ErrorBoundsHoldTheTrueSurfaceAndLittleMore) {
 }
 
 TEST(Quadrics, ErrorBoundsHoldWhereTheTransformCancels) {
-  // A disk 1e7 up in object space, turned and brought back: only double's own error is left.
+  // A disk at 1e7 in object space, rotated and moved back: only double's error is left.
   Random random(34);
   int hits = 0;
   for (int i = 0; i < 5000; ++i) {
@@ -341,7 +341,7 @@ TEST(Quadrics, RaysIntoASphereCrossItOnce) {
   Random random(32);
   for (int i = 0; i < 20000; ++i) {
     const float radius = std::pow(10.0f, random.in(-3, 4));
-    // Where floats still tell the points of the sphere apart.
+    // Where floats can still represent points of the sphere.
     const Vec3f center = random.direction() * (radius * std::pow(10.0f, random.in(-3, 3)));
     const ShapePtr sphere = make_sphere(Transform(moved(center.x, center.y, center.z)), false,
                                         radius, -radius, radius, 360);
@@ -360,7 +360,7 @@ TEST(Quadrics, RaysIntoASphereCrossItOnce) {
 }
 
 TEST(Quadrics, PointsOfLargeShapesStayOnTheRay) {
-  // A ground disk of radius 1e4, met close to the viewer: the point must not snap to a grid of uv.
+  // A ground disk of radius 1e4, hit close to the viewer: the point must not snap to a grid of uv.
   const ShapePtr ground = make_disk(Transform(), false, 0, 1e4f, 0, 360);
   Ray ray;
   ray.o = Vec3f(3.3f, 4.7f, 1.5f);

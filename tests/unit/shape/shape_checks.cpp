@@ -1,4 +1,4 @@
-// Implementation of the checks that hold for every shape. Used by the tests of this folder.
+// Implementation of the checks for every shape.
 #include "shape_checks.h"
 
 namespace nephroid::testing {
@@ -6,7 +6,7 @@ namespace {
 
 constexpr int kBins = 8, kCells = 48, kSamples = 40000;
 
-/// Upper quantile of the chi-square distribution at a tail of 1e-5 (Wilson & Hilferty).
+/// Upper quantile of the chi-square distribution for a tail of 1e-5 (Wilson & Hilferty).
 double chi_square_limit(int degrees) {
   const double n = degrees, z = 4.265;
   const double c = 1.0 - 2.0 / (9.0 * n) + z * std::sqrt(2.0 / (9.0 * n));
@@ -59,7 +59,7 @@ void compare(const std::vector<double>& expected, const std::vector<int>& found,
     add(rare_expected, rare_found);
   else
     EXPECT_LE(rare_found, rare_expected + 8.0 * std::sqrt(rare_expected + 1.0));
-  // The grid integrates a density with a jump at the rim of what is seen: 1/grid of it.
+  // The integrated density jumps at the rim of the visible part: the error is about 1/grid.
   EXPECT_NEAR(total, 1.0, 4e-3);
   EXPECT_LT(chi2, chi_square_limit(degrees)) << degrees << " degrees of freedom";
 }
@@ -109,8 +109,7 @@ Parameters triangle_parameters() {
 void check_area_sampling(const Shape& shape, uint32_t primitive, const Parameters& parameters) {
   Random random(11);
   std::vector<int> found(kBins * kBins, 0);
-  // The density as a function of place, where it is not uniform, is read off the samples: each
-  // sample's 1/pdf estimates the area element of its bin.
+  // Non-uniform densities are estimated from the samples: the mean of 1/pdf is the area of a bin.
   std::vector<double> inverse_pdf(kBins * kBins, 0.0);
   for (int i = 0; i < kSamples; ++i) {
     const auto s = shape.sample_area(primitive, random.square());
@@ -125,7 +124,7 @@ void check_area_sampling(const Shape& shape, uint32_t primitive, const Parameter
   for (const double a : areas) total += a;
   for (size_t i = 0; i < areas.size(); ++i) {
     if (found[i] < 50) continue;
-    // Binomial noise of the count; 1/pdf varies little within a bin.
+    // Binomial noise of the count. 1/pdf varies little within a bin.
     EXPECT_NEAR(inverse_pdf[i] / areas[i], 1.0, 5.0 / std::sqrt(found[i]) + 0.02) << "bin " << i;
   }
   EXPECT_NEAR(shape.area(primitive) / total, 1.0, 2e-3);
@@ -187,7 +186,7 @@ void check_derivatives(const Shape& shape, uint32_t primitive, const Vec2f& uv, 
     const SurfaceInteraction b = surface_at(shape, primitive, uv + step);
     const Vec3f by_p = (b.p - a.p) * (0.5f / kStep) - dp;
     const Vec3f by_n = (b.shading.z - a.shading.z) * (0.5f / kStep) - dn;
-    // Third derivatives of a full turn are (2 pi)^3; times step^2 / 6 that is 2e-4 of the size.
+    // Third derivatives of a full turn are (2 pi)^3. Times step^2 / 6 this is 2e-4 of the size.
     EXPECT_LT(length(by_p), 1e-3f * scale);
     EXPECT_LT(length(by_n), 2e-3f * (1.0f + length(dn)));
   };
@@ -214,7 +213,7 @@ int check_no_self_hits(const Shape& shape, const Vec3f& around, float size, bool
       Ray leaving;
       leaving.d = random.direction();
       if (i % 2 == 1) {
-        // Nearly grazing.
+        // Almost grazing.
         const Vec3f along = cross(s.ng, leaving.d);
         leaving.d = along + s.ng * random.in(-1e-5f, 1e-5f);
       }

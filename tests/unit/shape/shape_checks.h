@@ -1,5 +1,5 @@
-// Checks that hold for every shape: its sampling densities, its derivatives, its error bounds.
-// Used by the tests of this folder; the shape is seen through its interface alone.
+// Checks for every shape: sampling densities, derivatives and error bounds. It sees a shape through
+// its interface only.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -31,34 +31,33 @@ class Random {
   uint64_t state_;
 };
 
-/// The shape's surface by its parameters: fill() without a ray.
+/// The shape's surface at a parameter: fill() without a ray.
 SurfaceInteraction surface_at(const Shape& shape, uint32_t primitive, const Vec2f& hit_uv);
 
-/// Which part of the unit square parametrizes the primitive (the share of a grid cell around a
-/// point of it), and the hit_uv of a parameter.
+/// The part of the unit square that parametrizes the primitive (the covered share of the grid cell
+/// around a point), and the hit_uv of a parameter.
 struct Parameters {
   std::function<double(const Vec2f&)> share = [](const Vec2f&) { return 1.0; };
   std::function<Vec2f(const Vec2f&)> hit_uv = [](const Vec2f& uv) { return uv; };
 };
-/// Those of a triangle without texture coordinates: corners (0,0), (1,0), (1,1).
+/// Parameters of a triangle without texture coordinates: corners (0,0), (1,0), (1,1).
 Parameters triangle_parameters();
 
-/// Samples by area and compares the histogram over the parameters with 1/pdf_a and the area
-/// element.
+/// Samples by area. Compares the histogram over the parameters with 1/pdf_a and the area element.
 void check_area_sampling(const Shape& shape, uint32_t primitive, const Parameters& parameters = {});
-/// The same for sample_towards; the expected histogram comes from pdf_towards.
+/// The same for sample_towards. The expected histogram follows from pdf_towards.
 void check_direction_sampling(const Shape& shape, uint32_t primitive, const Vec3f& from,
                               const Parameters& parameters = {});
-/// Mean of 1/pdf_w over sample_towards with n^2 stratified samples: the solid angle covered, if
-/// every point of the primitive is seen from `from`.
+/// Mean of 1/pdf_w over n^2 stratified samples of sample_towards: the covered solid angle, if every
+/// point of the primitive is visible from `from`.
 double mean_solid_angle(const Shape& shape, uint32_t primitive, const Vec3f& from, int n);
 /// Monte Carlo estimate of the area: mean of 1/pdf_a.
 double mean_area(const Shape& shape, uint32_t primitive, int n);
-/// dpdu, dpdv, dndu, dndv against central differences at a parameter. `scale` is a typical length.
+/// Compares dpdu, dpdv, dndu, dndv with central differences. `scale` is a typical length.
 void check_derivatives(const Shape& shape, uint32_t primitive, const Vec2f& uv, float scale);
-/// Rays that leave a hit point never meet a plane shape again, on either side; nor a convex one on
-/// the outside (`convex`). `around` is a point near the shape, `size` its typical size. Returns the
-/// number of hits that were looked at.
+/// Rays that leave a hit never hit a flat shape again, on either side, nor a `convex` one on its
+/// outside. `around` is a point near the shape, `size` its typical size. Returns the number of hits
+/// tested.
 int check_no_self_hits(const Shape& shape, const Vec3f& around, float size, bool convex,
                        Random& random);
 

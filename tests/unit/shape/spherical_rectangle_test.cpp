@@ -1,4 +1,4 @@
-// Solid angles of rectangles near and far: exact where a closed form exists, never huge by
+// Solid angles of near and far rectangles: exact where a closed form exists, and never inflated by
 // rounding.
 #include "scene/shape/spherical_rectangle.h"
 
@@ -26,7 +26,7 @@ TEST(SphericalRectangle, RoundingNeverMakesItHuge) {
       const auto u = [&](uint64_t k) {
         return 2.0 * bits_to_unit_float(static_cast<uint32_t>(hash_combine(i, k) >> 32)) - 1.0;
       };
-      // Anywhere, and close to the rectangle's plane.
+      // Anywhere, or close to the rectangle's plane.
       const Vec3d from(distance * (1.0 + u(0)), distance * u(1),
                        (i % 2 ? distance : 1e-6) * (u(2) + 1.5));
       const double omega = SphericalRectangle(from, kUnit).solid_angle();

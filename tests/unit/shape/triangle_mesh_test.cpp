@@ -1,4 +1,4 @@
-// Tests of triangle meshes: frames, orientation, error bounds, sampling of directions.
+// Triangle meshes: frames, orientation, error bounds, sampling of directions.
 #include "shape_checks.h"
 
 namespace nephroid {
@@ -62,7 +62,7 @@ TEST(TriangleMesh, DerivativesMatchFiniteDifferencesOverTheTexture) {
   data.normals = std::vector<Vec3f>{{0.2f, 0.3f, 1}, {0.1f, -0.2f, 0.9f}, {-0.2f, 0.4f, 1.1f}};
   const TriangleMesh mesh(data, false);
   const SurfaceInteraction s = surface_at(mesh, 0, {0.3f, 0.3f});
-  // Walk in barycentrics; uv and p are linear in them, so the chain rule must close exactly.
+  // Step in barycentric coordinates: uv and p are linear in them, so the chain rule is exact.
   for (const Vec2f& step : {Vec2f(0.1f, 0), Vec2f(0, 0.1f), Vec2f(0.1f, -0.2f)}) {
     const Vec2f to = Vec2f(0.3f, 0.3f) + step;
     const SurfaceInteraction moved = surface_at(mesh, 0, to);
@@ -158,19 +158,19 @@ TEST(TriangleMesh, RaysAimedAtAPointHitItAndRaysAimedBesideItMiss) {
 TEST(TriangleMesh, SamplingHasTheDensityItReports) {
   const TriangleMesh mesh(kSkew, false);
   check_area_sampling(mesh, 0, triangle_parameters());
-  // Near (by solid angle), at the plane's edge, and far (by area).
+  // Near (by solid angle), at the edge of the plane, and far (by area).
   for (const Vec3f& from : {Vec3f(1.6f, 0.5f, 1.2f), Vec3f(0, 0, 0), Vec3f(3, 3, 3),
                             Vec3f(1.6f, 0.6f, 1.75f), Vec3f(60, 80, -40)})
     check_direction_sampling(mesh, 0, from, triangle_parameters());
 }
 
 TEST(TriangleMesh, SolidAnglesAreThoseOfTheClosedForm) {
-  // An octant of the sphere, and one eighth of what the faces of a cube cover.
+  // An octant of the sphere, and half of a cube's face, which covers a twelfth of it.
   const TriangleMesh octant(one_triangle({1, 0, 0}, {0, 3, 0}, {0, 0, 0.5f}), false);
   EXPECT_NEAR(mean_solid_angle(octant, 0, {0, 0, 0}, 4), kPi / 2, 1e-6);
   const TriangleMesh half_face(one_triangle({-1, -1, 1}, {1, -1, 1}, {1, 1, 1}), false);
   EXPECT_NEAR(mean_solid_angle(half_face, 0, {0, 0, 0}, 4), kPi / 3, 1e-6);
-  // Small: sampled by area, the mean of 1/pdf is area * cos / d^2 up to the size over the distance.
+  // Small: sampled by area, with mean 1/pdf equal to area * cos / d^2 up to size / distance.
   EXPECT_NEAR(mean_solid_angle(half_face, 0, {0, 0, -999}, 64) / 2e-6, 1.0, 1e-5);
 }
 

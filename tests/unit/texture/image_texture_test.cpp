@@ -1,4 +1,4 @@
-// Image textures: lookups, wraps, encodings and channels against values worked out by hand.
+// Image textures: lookups, wrap modes, encodings and channels, against hand-computed values.
 #include <cstdio>
 #include <numeric>
 
@@ -45,7 +45,7 @@ TEST(Image, OctahedralWrapMirrorsEachEdgeAtItsMiddle) {
   EXPECT_EQ(texel(4, 0), 15.0f);
   EXPECT_EQ(texel(0, -1), 3.0f);
   EXPECT_EQ(texel(1, 4), 14.0f);
-  // All four corners of the square are the same point of the sphere.
+  // All four corners of the square are one point of the sphere.
   EXPECT_EQ(texel(-1, -1), 15.0f);
 }
 
@@ -104,7 +104,7 @@ TEST_F(ImageTexture, BytesAreSrgbUnlessTheSceneSaysOtherwise) {
               stored, 1e-6);
   EXPECT_NEAR(make(map("float", "a.png", "\"string encoding\" \"gamma 3\"")).value("t", 0, 0),
               std::pow(stored, 3.0), 1e-6);
-  // As in pbrt-v4 only PNG files listen to "encoding", but here one is told.
+  // As in pbrt-v4 only PNG files use "encoding", but here there is a warning.
   const Textures tga = make(map("float", "a.tga", "\"string encoding\" \"linear\""));
   EXPECT_NEAR(tga.value("t", 0, 0), srgb_to_linear(stored), 1e-6);
   EXPECT_NE(tga.warnings().find("PNG images only"), std::string::npos);
@@ -124,7 +124,7 @@ TEST_F(ImageTexture, SixteenBitsAreDecodedAndFloatsAreLinear) {
 }
 
 TEST_F(ImageTexture, PfmRowsRunUpwards) {
-  // The format has the bottom row first; the sign of the scale says that bytes are little-endian.
+  // The format stores the bottom row first. A negative scale means little-endian.
   FILE* f = std::fopen(scratch.file("a.pfm").c_str(), "wb");
   std::fputs("Pf\n1 2\n-1.0\n", f);
   const float rows[2] = {3, 7};
@@ -141,7 +141,7 @@ TEST_F(ImageTexture, FloatPicksGreyMeanOrAlpha) {
   EXPECT_FLOAT_EQ(v("rgb.exr"), 3.0f);
   write_image<float>(scratch.file("rgba.exr"), 1, 1, 4, OIIO::TypeDesc::FLOAT, {1, 2, 6, 0.25f});
   EXPECT_FLOAT_EQ(v("rgba.exr"), 0.25f);
-  // An alpha of 1 everywhere is none.
+  // An alpha of 1 everywhere counts as none.
   write_image<float>(scratch.file("opaque.exr"), 1, 1, 4, OIIO::TypeDesc::FLOAT, {1, 2, 6, 1});
   EXPECT_FLOAT_EQ(v("opaque.exr"), 3.0f);
   // Grey with alpha is grey.
@@ -212,7 +212,7 @@ TEST_F(ImageTexture, ErrorsAreLocated) {
             std::string::npos);
   EXPECT_NE(error("Texture \"t\" \"float\" \"imagemap\"").find("no \"filename\""),
             std::string::npos);
-  // A file that is no image.
+  // A file that is not an image.
   FILE* f = std::fopen(scratch.file("text.png").c_str(), "w");
   std::fputs("not a picture", f);
   std::fclose(f);

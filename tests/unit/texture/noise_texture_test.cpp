@@ -1,5 +1,5 @@
-// Noise, its sums and the textures made of it, against values worked out by hand and against what
-// theory says of them: zeros, means, smoothness.
+// Noise, its sums and their textures, against hand-computed values and known properties: zeros,
+// means, smoothness.
 #include <array>
 #include <cmath>
 
@@ -9,7 +9,7 @@
 namespace nephroid::testing_texture {
 namespace {
 
-/// Points that are spread evenly over a cube of side `side` (Roberts' additive recurrence).
+/// Points evenly spread over a cube of side `side` (Roberts' additive recurrence).
 Vec3f spread_point(int i, double side) {
   const std::array<double, 3> step = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
   const auto at = [&](size_t k) {
@@ -27,8 +27,8 @@ TEST(Noise, VanishesOnTheLattice) {
 }
 
 TEST(Noise, HasTheKnownGradients) {
-  // Near a lattice point the noise is the gradient there times the offset. By hand for the origin:
-  // p[0] = 151, p[151] = 17, p[17] = 36, and 36 mod 16 = 4 stands for the edge (1, 0, 1).
+  // Near a lattice point the noise is the gradient there times the offset. For the origin: p[0] =
+  // 151, p[151] = 17, p[17] = 36, and 36 mod 16 = 4 is the edge (1, 0, 1).
   const float e = 1e-3f;
   EXPECT_NEAR(noise(Vec3f(e, 0, 0)) / e, 1.0f, 1e-3f);
   EXPECT_NEAR(noise(Vec3f(0, e, 0)) / e, 0.0f, 1e-3f);
@@ -37,11 +37,11 @@ TEST(Noise, HasTheKnownGradients) {
 }
 
 TEST(Noise, AgreesWithSumsOverCornersByHand) {
-  // In the middle of the first cell all eight weights are 1/8. The hashes of its corners (x runs
-  // first) are 4 6 12 0 7 4 14 3; gradient times offset: 1, -1, 0, -1, 0 ... add up to -1.
+  // In the middle of the first cell all eight weights are 1/8. The hashes of its corners (x first)
+  // are 4 6 12 0 7 4 14 3. Gradient times offset, 1, -1, 0, -1, 0 ..., adds up to -1.
   EXPECT_FLOAT_EQ(noise(Vec3f(0.5f, 0.5f, 0.5f)), -0.125f);
-  // Elsewhere: the same sum with the twelve edges as vectors and the weights as products, in
-  // double arithmetic.
+  // Elsewhere: the same sum in double precision, with the twelve edges as vectors and products as
+  // weights.
   EXPECT_NEAR(noise(Vec3f(0.25f, 1.75f, 2.5f)), 0.124623775, 1e-6);
   EXPECT_NEAR(noise(Vec3f(1.5f, 2.8f, 0.5f)), 0.569592, 1e-6);
   EXPECT_NEAR(noise(Vec3f(-3.2f, 77.4f, 255.9f)), -3.62754e-5, 1e-5);
@@ -50,7 +50,7 @@ TEST(Noise, AgreesWithSumsOverCornersByHand) {
 TEST(Noise, RepeatsAfter256AndIsNotTheSameInBetween) {
   int different = 0;
   for (int i = 0; i < 64; ++i) {
-    // Multiples of 1/64 keep their digits at 256.
+    // Multiples of 1/64 are exact at 256.
     Vec3f p = spread_point(i, 8.0);
     for (int k = 0; k < 3; ++k) p[k] = std::floor(p[k] * 64.0f) / 64.0f;
     EXPECT_EQ(noise(p), noise(p + Vec3f(256, -256, 512)));
@@ -60,8 +60,8 @@ TEST(Noise, RepeatsAfter256AndIsNotTheSameInBetween) {
 }
 
 TEST(Noise, IsSmoothAcrossCells) {
-  // The first derivatives from both sides of a lattice plane agree: differences that would show a
-  // kink are of the order of the step.
+  // First derivatives on both sides of a lattice plane agree: differences are of the order of the
+  // step, so there is no kink.
   const float h = 1.0f / 256;
   for (int i = 0; i < 200; ++i) {
     Vec3f p = spread_point(i, 16.0);
@@ -82,7 +82,7 @@ TEST(Noise, HasMeanZeroAndStaysBounded) {
     squares += double(v) * v;
     largest = std::max(largest, std::abs(v));
   }
-  // Over a whole period the mean is 0 but for the permutation's chance (a few in a thousand).
+  // Over a whole period the mean is 0, up to the permutation's randomness (a few in a thousand).
   EXPECT_NEAR(sum / count, 0.0, 0.01);
   EXPECT_NEAR(std::sqrt(squares / count), 0.27, 0.02);
   EXPECT_LT(largest, 1.1f);
@@ -105,7 +105,7 @@ TEST(FractalNoise, IsTheSumOfItsOctaves) {
     absolute += o * std::abs(noise(p * f));
   }
   EXPECT_NEAR(fractal_noise(p, {}, 0.6f, 3), sum, 1e-6f);
-  // Turbulence has its faded octave, which counts as 0.2, behind the three.
+  // Turbulence has a faded octave of weight 0.2 after the three.
   EXPECT_NEAR(turbulence(p, {}, 0.6f, 3), absolute + 0.2f * 0.6f * 0.6f * 0.6f, 1e-6f);
 }
 
@@ -114,13 +114,13 @@ TEST(FractalNoise, LosesOctavesToTheFootprint) {
   const auto footprint = [](float length) {
     return NoiseFootprint{Vec3f(0, length, 0), Vec3f(0.5f * length, 0, 0)};
   };
-  // A footprint of 2^-3 leaves two octaves of eight, one of a whole unit none.
+  // A footprint of 2^-3 leaves two octaves of eight, a footprint of one unit none.
   EXPECT_NEAR(fractal_noise(p, footprint(0.125f), 0.5f, 8), fractal_noise(p, {}, 0.5f, 2), 1e-6f);
   EXPECT_EQ(fractal_noise(p, footprint(1.0f), 0.5f, 8), 0.0f);
   EXPECT_EQ(fractal_noise(p, footprint(1e-6f), 0.5f, 8), fractal_noise(p, {}, 0.5f, 8));
-  // What turbulence loses is made up for by means: 0.2 (1 + 1 + 1/2 + 1/4 + ... + 1/128).
+  // Turbulence replaces lost octaves by their means: 0.2 (1 + 1 + 1/2 + 1/4 + ... + 1/128).
   EXPECT_NEAR(turbulence(p, footprint(1.0f), 0.5f, 8), 0.2 * (1 + 2 - 1.0 / 128), 1e-5);
-  // Halfway between two numbers of octaves the next one counts half.
+  // Halfway between two numbers of octaves, the next octave counts half.
   const float half_way = 0.125f / std::sqrt(2.0f);
   EXPECT_NEAR(fractal_noise(p, footprint(half_way), 0.5f, 8),
               0.5f * (fractal_noise(p, {}, 0.5f, 2) + fractal_noise(p, {}, 0.5f, 3)), 1e-5f);
@@ -164,7 +164,7 @@ SampledSpectrum marble_at(const Textures& t, const Vec3f& p, SpectrumKind kind) 
 }
 
 TEST(MarbleTexture, HasTheColoursOfItsSpline) {
-  // Without variation the layers are those of y alone: sin(y) = 1 is the end of the spline, whose
+  // Without variation the layers depend on y alone: sin(y) = 1 is the end of the spline, whose
   // control points are four colours.
   const Textures t("Texture \"m\" \"spectrum\" \"marble\" \"float variation\" 0 \"float scale\" 2");
   const auto expect = [&](float y, const Rgb& colour) {
@@ -179,9 +179,9 @@ TEST(MarbleTexture, HasTheColoursOfItsSpline) {
   const float half_pi = 0.5f * kPi;
   expect(half_pi / 2, {.87f, .87f, .9f});   // sin = 1: the last control point
   expect(-half_pi / 2, {.87f, .87f, .9f});  // sin = -1: the first one
-  // sin = 0 begins the segment of the points 3 to 6.
+  // sin = 0 starts the segment of points 3 to 6.
   expect(1e-4f, {.75f, .75f, .75f});
-  // sin = 0.5 is the middle of the segment of the points 4 to 7: (c4 + 3 c5 + 3 c6 + c7) / 8.
+  // sin = 0.5 is the middle of the segment of points 4 to 7: (c4 + 3 c5 + 3 c6 + c7) / 8.
   expect(kPi / 12, {1.5f * (.6f + 6 * .58f + .2f) / 8, 1.5f * (.59f + 6 * .58f + .2f) / 8,
                     1.5f * (.58f + 6 * .6f + .33f) / 8});
 }

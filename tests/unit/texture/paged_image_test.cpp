@@ -1,5 +1,5 @@
-// Images that stay in their files: the pixels are those of images that are read whole, bit for bit,
-// for all kinds of files, and the memory is bounded.
+// Paged images: their pixels equal those of images read whole, bit for bit, for all kinds of files,
+// and memory is bounded.
 #include <cstdio>
 #include <filesystem>
 #include <thread>
@@ -22,7 +22,7 @@ bool same(const Rgb& a, const Rgb& b) {
   return a.r == b.r && a.g == b.g && a.b == b.b;
 }
 
-/// Number of lookups, of all kinds, in which two images differ.
+/// Number of lookups, of all kinds, that differ between two images.
 int differences(const Image& a, const Image& b, int lookups, uint64_t seed) {
   int different = 0;
   for (int i = 0; i < lookups; ++i) {
@@ -50,7 +50,7 @@ class PagedImage : public ::testing::Test {
           static_cast<T>(static_cast<float>(scale * unit_number(static_cast<uint64_t>(i) + 99)));
     return values;
   }
-  /// Compares a paged image with one that is read whole.
+  /// Compares a paged image with the same image read whole.
   void expect_same(const std::string& name, int channels,
                    std::optional<ColorEncoding> encoding = {}) {
     ImageCache paged(0);
@@ -106,7 +106,7 @@ TEST_F(PagedImage, AnAlphaOfOneEverywhereIsNone) {
   for (size_t i = 3; i < values.size(); i += 4) values[i] = 255;
   write_image<uint8_t>(scratch.file("opaque.png"), w, h, 4, OIIO::TypeDesc::UINT8, values);
   expect_same("opaque.png", 3);
-  // The very last pixel counts.
+  // Also if only the last pixel is not opaque.
   values.back() = 254;
   write_image<uint8_t>(scratch.file("almost.png"), w, h, 4, OIIO::TypeDesc::UINT8, values);
   expect_same("almost.png", 4);
@@ -145,7 +145,7 @@ TEST_F(PagedImage, ManyThreadsSeeTheSameInBoundedMemory) {
   const std::string path = scratch.file("large.exr");
   write_large(path);
   const ImagePtr whole = read_image(path, {}, {});
-  constexpr uint64_t kTiles = 4 << 20;  // of four times as much, a quarter
+  constexpr uint64_t kTiles = 4 << 20;  // tiles get a quarter of the cache
   ImageCache cache(4 * kTiles);
   const ImagePtr paged = cache.get(path, {}, {});
   EXPECT_EQ(paged->memory(), 0u);
@@ -162,7 +162,7 @@ TEST_F(PagedImage, ManyThreadsSeeTheSameInBoundedMemory) {
   for (std::thread& thread : threads) thread.join();
   for (size_t t = 0; t < 4; ++t) {
     EXPECT_EQ(different[t], 0);
-    // Each thread may hold on to a few tiles more.
+    // Each thread may hold a few tiles more.
     EXPECT_LT(most[t], kTiles + 4 * 4 * 64 * 64 * 6);
     EXPECT_GT(most[t], kTiles / 2);
   }
@@ -172,12 +172,12 @@ TEST_F(PagedImage, WhatFitsIsReadWholeAndCountsTogether) {
   for (const char* name : {"a.png", "b.png", "c.png"})
     write_image<uint8_t>(scratch.file(name), 100, 100, 1, OIIO::TypeDesc::UINT8,
                          noise_values<uint8_t>(10000, 255));
-  // Three quarters of the limit hold two of them.
+  // Three quarters of the limit have room for two of them.
   ImageCache cache(30000);
   EXPECT_EQ(cache.get(scratch.file("a.png"), {}, {})->memory(), 10000u);
   EXPECT_EQ(cache.get(scratch.file("b.png"), {}, {})->memory(), 10000u);
   EXPECT_EQ(cache.get(scratch.file("c.png"), {}, {})->memory(), 0u);
-  EXPECT_GT(cache.memory(), 20000u);  // and the tiles of the corners of the third
+  EXPECT_GT(cache.memory(), 20000u);  // and the tiles at the third one's corners
 }
 
 TEST_F(PagedImage, TexturesLookTheSameWithAndWithoutMemory) {
@@ -210,7 +210,7 @@ TEST_F(PagedImage, FaultyFilesAreErrorsAtTheirPlace) {
   } catch (const SceneError& e) {
     EXPECT_EQ(std::string(e.what()).find("t.pbrt:4:2"), 0u) << e.what();
   }
-  // A file that ends too early is found out when it is opened.
+  // A truncated file is detected when it is opened.
   write_image<float>(scratch.file("cut.exr"), 64, 256, 1, OIIO::TypeDesc::FLOAT,
                      noise_values<float>(64 * 256, 1));
   std::filesystem::resize_file(scratch.file("cut.exr"), 20000);

@@ -1,4 +1,4 @@
-// Bilerp, dots, directionmix and the products of images with constants, against their formulas.
+// Bilerp, dots, directionmix and products of images with constants, against their formulas.
 #include <cmath>
 
 #include "scene/texture/noise.h"
@@ -16,7 +16,7 @@ TEST(BilerpTexture, InterpolatesBetweenItsCorners) {
   EXPECT_FLOAT_EQ(t.value("a", 0, 1), 4);
   EXPECT_FLOAT_EQ(t.value("a", 0.5f, 1), 8);
   EXPECT_FLOAT_EQ(t.value("a", 0.25f, 0.25f), 0.75f * 1.5f + 0.25f * 6);
-  // Beyond the square it goes on as it is.
+  // The interpolation continues beyond the square.
   EXPECT_FLOAT_EQ(t.value("a", 1, 0), 3);
   // The defaults rise from 0 to 1 with t.
   EXPECT_FLOAT_EQ(t.value("d", 0.3f, 0.7f), 0.7f);
@@ -54,7 +54,7 @@ TEST(DotsTexture, AboutHalfOfTheCellsHaveADiscOfTheKnownArea) {
                       ? 1
                       : 0;
       const double area = double(hits) / (samples * samples);
-      // A whole disc or none: those that are shifted stay in their cell.
+      // A whole disc or none: shifted discs stay inside their cell.
       if (hits > 0) {
         EXPECT_NEAR(area, kPi * 0.35 * 0.35, 0.02) << x << " " << y;
       }
@@ -66,14 +66,14 @@ TEST(DotsTexture, AboutHalfOfTheCellsHaveADiscOfTheKnownArea) {
     }
   }
   EXPECT_NEAR(covered, expected, 0.002 * expected);
-  // The noise at the middles of cells is as often positive as negative (and 0 for some).
+  // Noise at the centres of cells is as often positive as negative (and sometimes 0).
   EXPECT_GT(dots, 0.3 * cells * cells);
   EXPECT_LT(dots, 0.6 * cells * cells);
 }
 
 TEST(DotsTexture, ShowsWhatPbrtShows) {
-  // (1,0) has a dot, because the noise at (1.5, 0.5, 0.5) is positive there; pbrt-v4 shows the
-  // parameter "outside" in the discs. Half a cell away from its centre there is never a disc.
+  // (1,0) has a dot, because the noise at (1.5, 0.5, 0.5) is positive. As in pbrt-v4, discs show
+  // the parameter "outside". Half a cell from the centre there is never a disc.
   int x = 0;
   while (!(noise(Vec3f(float(x) + 0.5f, 0.5f, 0.5f)) > 0)) ++x;
   const Textures t(
@@ -100,7 +100,7 @@ TEST(DirectionMixTexture, FollowsTheCosine) {
     context.n = Vec3f(std::sin(angle), 0, std::cos(angle));
     const float w = std::abs(std::cos(angle));
     EXPECT_NEAR(t.number("a")->eval(context), 10 * w + 20 * (1 - w), 1e-4f) << degrees;
-    // The defaults are 0 where the surface faces the direction and 1 across it.
+    // The defaults are 0 where the surface faces the direction and 1 where it is perpendicular.
     const SampledSpectrum s =
         t.spectrum("s")->eval(context, SampledWavelengths::sample_visible(0.3f));
     EXPECT_NEAR(s.average(), 1 - w, 1e-5f) << degrees;
@@ -156,7 +156,7 @@ TEST_F(ScaledImage, AConstantScaleMultipliesWhatIsStored) {
   EXPECT_FLOAT_EQ(t.value("i", 0, 0), 0.4f);
   EXPECT_FLOAT_EQ(t.value("a", 0, 0), 0.7f);
   EXPECT_FLOAT_EQ(t.value("b", 0, 0), 0.7f);
-  // A scale that varies multiplies the result.
+  // A varying scale multiplies the result.
   EXPECT_FLOAT_EQ(t.value("c", 0, 0), 0.2f);
   EXPECT_NEAR(t.level("A", 0, 0), 0.7f, 1e-3f);
 }

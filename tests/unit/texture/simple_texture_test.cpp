@@ -1,5 +1,5 @@
-// Constants, products, mixtures, checkerboards and mappings against values worked out by hand, and
-// the errors of a texture library.
+// Constants, products, mixtures, checkerboards and mappings against hand-computed values, and the
+// errors of a texture library.
 #include "unit/texture/texture_fixture.h"
 
 namespace nephroid::testing_texture {
@@ -66,7 +66,7 @@ TEST(CheckerboardTexture, HasCubesInTheFrameOfItsDirective) {
                       Scale 2 2 2
                       Texture "a" "float" "checkerboard" "integer dimension" 3
                       AttributeEnd)");
-  // Cubes of side 2, the first from (1,0,0) on.
+  // Cubes of side 2, starting at (1,0,0).
   EXPECT_EQ(t.value("a", 0, 0, {1.5f, 0.5f, 0.5f}), 1.0f);
   EXPECT_EQ(t.value("a", 0, 0, {0.5f, 0.5f, 0.5f}), 0.0f);
   EXPECT_EQ(t.value("a", 0, 0, {0.5f, -0.5f, 0.5f}), 1.0f);
@@ -75,7 +75,7 @@ TEST(CheckerboardTexture, HasCubesInTheFrameOfItsDirective) {
   EXPECT_EQ(t.value("a", 0, 0, {3.5f, 2.5f, 2.5f}), 0.0f);
 }
 
-// Cells of 1/16 show where a mapping puts a point.
+// Cells of 1/16 show where a mapping sends a point.
 std::string board(const std::string& mapping) {
   return "Texture \"a\" \"float\" \"checkerboard\" \"string mapping\" \"" + mapping + "\"";
 }
@@ -90,7 +90,7 @@ TEST(TextureMapping, PlanarProjectsOnTwoVectors) {
 }
 
 TEST(TextureMapping, CylindricalAndSphericalFollowPbrt) {
-  // Looked at through images, where (s, t) can be read off: one row of four grey levels each.
+  // Observed through images that reveal (s, t): one row or column of four grey levels.
   const ScratchDirectory scratch;
   write_image<float>(scratch.file("row.exr"), 4, 1, 1, OIIO::TypeDesc::FLOAT, {0, 1, 2, 3});
   write_image<float>(scratch.file("column.exr"), 1, 4, 1, OIIO::TypeDesc::FLOAT, {0, 1, 2, 3});
@@ -134,7 +134,7 @@ TEST(TextureLibrary, FindsParametersOfAllKinds) {
 }
 
 TEST(TextureLibrary, KeepsThreeKindsOfASpectrumTextureApart) {
-  // An rgb of 4 is a fine emission but no reflectance, and says so when somebody asks for one.
+  // An rgb of 4 is a valid emission but no reflectance: using it as one gives a warning.
   const Textures t(R"(Texture "a" "spectrum" "constant" "rgb value" [4 4 4])");
   EXPECT_NEAR(t.level("a", 0, 0, SpectrumKind::kUnbounded), 4.0f, 1e-3f);
   EXPECT_THROW(t.spectrum("a", SpectrumKind::kAlbedo), SceneError);
@@ -151,7 +151,7 @@ TEST(TextureLibrary, ResolvesNamesInAnyOrder) {
   EXPECT_EQ(t.number("a")->constant(), 6.0f);
 }
 
-/// "t0", and `count` textures of a class, each made of the one before it.
+/// "t0", and `count` textures of one class, each made of the previous one.
 std::string chain_of(int count, const std::string& values, const std::string& rest) {
   std::string text = "Texture \"t0\" \"" + values + "\" \"checkerboard\"\n";
   for (int i = 1; i <= count; ++i) {
@@ -173,7 +173,7 @@ TEST(TextureLibrary, BoundsWhatOneLookAsksFor) {
     EXPECT_NE(error_of(chain_of(256, values, one)).find("more than 256 deep"), std::string::npos);
     // 1, 3, 7, ... 8191 textures.
     EXPECT_EQ(error_of(chain_of(12, values, both)), "no error");
-    EXPECT_NE(error_of(chain_of(13, values, both)).find("\"t13\" is made of more than 10000"),
+    EXPECT_NE(error_of(chain_of(13, values, both)).find("\"t13\" looks up more than 10000"),
               std::string::npos);
     EXPECT_EQ(error_of(chain_of(20000, values, itself)), "no error") << "each is the one before it";
   }

@@ -1,4 +1,4 @@
-// Spectra of parameters: every way to write one, and what is refused.
+// Spectra in parameters: every way to write them, and errors.
 #include <fstream>
 
 #include "unit/texture/texture_fixture.h"

@@ -1,5 +1,4 @@
-// Textures from the text of a scene, image files made on the spot, and values as numbers.
-// Used by the tests of this folder.
+// Textures from scene text, temporary image files, and texture values as numbers.
 #pragma once
 
 #include <OpenImageIO/imageio.h>
@@ -14,7 +13,7 @@
 
 namespace nephroid::testing_texture {
 
-/// A scene's textures, with what the parser and the library warned of.
+/// A scene's textures, and the warnings of parser and library.
 struct Textures {
   explicit Textures(const std::string& text, const std::string& directory = ".")
       : description(parse_pbrt_string("WorldBegin\n" + text, "t.pbrt", directory, diagnostics)),
@@ -42,7 +41,7 @@ struct Textures {
     context.p = p;
     return number(name)->eval(context);
   }
-  /// Mean over wavelengths of a spectrum texture.
+  /// Mean of a spectrum texture over wavelengths.
   float level(const std::string& name, float u, float v,
               SpectrumKind kind = SpectrumKind::kAlbedo) const {
     TextureContext context;
@@ -60,7 +59,7 @@ struct Textures {
   TextureLibrary library;
 };
 
-/// What the error says that the textures of `text` cause, or "no error".
+/// The message of the error that the textures of `text` cause, or "no error".
 inline std::string error_of(const std::string& text, const std::string& directory = ".") {
   try {
     const Textures textures(text, directory);

@@ -1,5 +1,5 @@
-// The flight whose choices do not depend on the hero: each wavelength is right by itself, in closed
-// forms, against quadrature and against the flight that needs the mean over all heroes.
+// Flight whose choices do not depend on the hero: each wavelength is unbiased by itself. Compared
+// with closed forms, quadrature, and the flight that needs the mean over heroes.
 #include "transport/medium_flight.h"
 
 #include <gtest/gtest.h>
@@ -14,8 +14,8 @@ namespace {
 
 using testing_bsdf::Mean;
 
-/// A medium along x whose coefficients are given per wavelength; its density is 1 or, uneven,
-/// varies between 0 and 1 under a stepped majorant. `turn` moves all wavelengths by as many places.
+/// A medium along x with coefficients per wavelength. Its density is 1 or, if uneven, varies
+/// between 0 and 1 under a stepped majorant. `turn` rotates the wavelengths by as many places.
 class TestMedium final : public Medium {
  public:
   TestMedium(const SampledSpectrum& sigma_a, const SampledSpectrum& sigma_s, bool uneven,
@@ -39,7 +39,7 @@ class TestMedium final : public Medium {
   MajorantIterator majorants(const Ray& ray, float t_max,
                              const SampledWavelengths&) const override {
     if (!uneven_) return MajorantIterator(MajorantSegment{0, t_max, sigma_a_ + sigma_s_});
-    // Four cells over [0, 4); the second's bound is loose.
+    // Four cells over [0, 4). The second one's bound is loose.
     static constexpr float kScales[4] = {1.0f, 1.6f, 1.0f, 1.0f};
     static constexpr int kResolution[3] = {4, 1, 1};
     return MajorantIterator(Vec3d(ray.o.x / 4, 0.5, 0.5), Vec3d(ray.d.x / 4, 0, 0), 0,
@@ -59,14 +59,14 @@ SampledSpectrum spectrum(const float (&values)[kSpectrumSamples]) {
   return s;
 }
 
-// The third wavelength meets nothing, the fourth is only absorbed, the fifth only scattered.
+// The third wavelength has no collisions, the fourth is only absorbed, the fifth only scattered.
 const SampledSpectrum kAbsorbed = spectrum({0.3f, 0.0f, 0.0f, 1.2f, 0.0f, 0.2f, 0.1f, 0.6f});
 const SampledSpectrum kScattered = spectrum({1.0f, 2.0f, 0.0f, 0.0f, 0.4f, 0.7f, 1.5f, 0.1f});
 const SampledWavelengths kLambda = SampledWavelengths::sample_visible(0.3f);
 constexpr float kEnd = 1.7f, kHalf = 0.8f;
 const Ray kRay{Vec3f(0, 0, 0), Vec3f(1, 0, 0), kInfinity, 0};
 
-/// Throughput at the end and of collisions in the first part and in the rest, for a wavelength.
+/// Throughput of one wavelength at the end, and at collisions in the first part and in the rest.
 struct Expected {
   double through = 1, near = 0, far = 0;
 };
@@ -87,7 +87,7 @@ Expected quadrature(const TestMedium& medium, int k) {
   return e;
 }
 
-/// Means of what Expected has, over flights.
+/// Means of the values of Expected over flights.
 struct Measured {
   Mean through, near, far;
   void add(const std::optional<Collision>& c, double value) {
@@ -105,7 +105,7 @@ void expect_agree(const Measured& m, const Expected& e, int k) {
 TEST(FlightPerWavelength, EachWavelengthIsRightByItself) {
   for (const bool uneven : {false, true}) {
     const TestMedium medium(kAbsorbed, kScattered, uneven);
-    // A start that is not grey: what came before weighs the choices and must not matter otherwise.
+    // A coloured start: the earlier throughput weights the choices and must not matter otherwise.
     const SampledSpectrum start = spectrum({1.0f, 0.2f, 3.0f, 0.5f, 1.0f, 0.0f, 0.01f, 2.0f});
     Measured measured[kSpectrumSamples];
     FlightRandom random(-1.0f, 11);
@@ -134,13 +134,13 @@ TEST(FlightPerWavelength, ClosedFormOfAUniformMedium) {
   }
 }
 
-// fly() is right in the mean over which wavelength is the hero.
+// fly() is unbiased in the mean over heroes.
 TEST(FlightPerWavelength, AgreesWithTheFlightOfTheHero) {
   for (const bool uneven : {false, true}) {
     Measured heroes[kSpectrumSamples], each[kSpectrumSamples];
     FlightRandom random(-1.0f, 5);
     for (int turn = 0; turn < kSpectrumSamples; ++turn) {
-      // The hero must be able to meet something.
+      // The hero needs possible collisions.
       const TestMedium medium(kAbsorbed + SampledSpectrum(0.2f), kScattered + SampledSpectrum(0.1f),
                               uneven, turn);
       for (int n = 0; n < 10000; ++n) {
@@ -167,7 +167,7 @@ TEST(FlightPerWavelength, AgreesWithTheFlightOfTheHero) {
   }
 }
 
-// Choices follow what the wavelengths carry, so that their mean never grows: no fireflies.
+// Choices follow the throughput of wavelengths, so that its mean never grows: no fireflies.
 TEST(FlightPerWavelength, TheMeanNeverGrows) {
   const TestMedium medium(kAbsorbed, kScattered, true);
   FlightRandom random(-1.0f, 3);
@@ -186,7 +186,7 @@ TEST(FlightPerWavelength, TheHeroAloneIsDeltaTracked) {
   for (const int hero : {0, 5}) {
     SampledWavelengths lambda = kLambda.with_hero(hero);
     lambda.terminate_secondary();
-    // Without absorption nothing is lost, whatever the other wavelengths would have met.
+    // Without absorption nothing is lost, whatever other wavelengths do.
     const TestMedium medium(SampledSpectrum(), kScattered, true);
     Measured measured;
     FlightRandom random(-1.0f, 17);
@@ -200,7 +200,7 @@ TEST(FlightPerWavelength, TheHeroAloneIsDeltaTracked) {
   }
 }
 
-// A medium that only absorbs and is denser than any number of collisions.
+// A medium that only absorbs, and needs more collisions than are allowed.
 TEST(FlightPerWavelength, AnOpaqueMediumEndsTheWalk) {
   const TestMedium medium(SampledSpectrum(1e12f), SampledSpectrum(), true);
   FlightRandom random(-1.0f, 1);

@@ -1,4 +1,4 @@
-// Which dimensions of the Sobol' sequence the decisions of paths have.
+// The Sobol' dimensions of a path's decisions.
 #include "transport/path_points.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ TEST(PathPoints, EveryDimensionIsDealtOnce) {
   std::set<int> eye, all;
   for (int d = 0; d < kEyePathDimensions; ++d) eye.insert(dimension_of(d));
   EXPECT_EQ(eye.size(), static_cast<size_t>(kEyePathDimensions));
-  // What a camera path has beyond those that are dealt to it has its own number.
+  // Further numbers of a camera path keep their own dimensions.
   EXPECT_EQ(*eye.rbegin(), kEyePathDimensions - 1);
   for (int d = 0; d < kPairDimensions; ++d) all.insert(dimension_of(d));
   EXPECT_EQ(all.size(), static_cast<size_t>(kPairDimensions));
@@ -35,8 +35,8 @@ TEST(PathPoints, HaveTheNumbersOfThoseDimensions) {
     EXPECT_EQ(light.reversed(d), plain.reversed(dimension_of(d)));
 }
 
-/// [U1] of two decisions, over what the first two dimensions of the sequence have: mean over runs
-/// of 2^4 to 2^12 points.
+/// [U1] of two decisions relative to the sequence's first two dimensions, mean over runs of 2^4 to
+/// 2^12 points.
 double unevenness(int first, int second) {
   const auto factor = [](const SobolPoint& p, int d) {
     const double rest = std::ldexp(1.0, -std::countr_zero(p.reversed(d)));
@@ -56,7 +56,7 @@ double unevenness(int first, int second) {
   return sum / 9;
 }
 
-// In the order of the sequence the directions of the second and third vertex had 16 and 13.
+// In the sequence's own order, the directions of the second and third vertex have 16 and 13.
 TEST(PathPoints, DecisionsOfTwoNumbersAreNearlyAsEvenAsCanBe) {
   EXPECT_NEAR(unevenness(dimensions::kFilm, dimensions::kFilm + 1), 1, 1e-12);
   for (int vertex = 0; vertex < 11; ++vertex) {
@@ -66,7 +66,7 @@ TEST(PathPoints, DecisionsOfTwoNumbersAreNearlyAsEvenAsCanBe) {
       EXPECT_LT(unevenness(at + decision, at + decision + 1), vertex < 2 ? 2.0 : 2.6)
           << "vertex " << vertex << ", decision " << decision;
   }
-  // Point and direction of the light, then its vertices; in the order of the sequence up to 12.
+  // Point and direction of the light, then its vertices. In the sequence's own order up to 12.
   EXPECT_LT(unevenness(kEyePathDimensions + 1, kEyePathDimensions + 2), 2.5);
   EXPECT_LT(unevenness(kEyePathDimensions + 3, kEyePathDimensions + 4), 2.5);
   for (int vertex = 0; vertex < 5; ++vertex) {

@@ -1,5 +1,5 @@
-// Weights of techniques against brute force: random paths, for which the densities of all
-// techniques are written down one by one, without any recursion.
+// MIS weights against brute force: for random paths, the densities of all techniques are computed
+// one by one, without a recursion.
 #include "transport/path_weights.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ struct RandomPath {
   int k = 1;
   std::vector<EventDensity> eye;   // [i]: forward is towards the light
   std::vector<LineFactors> lines;  // [i]: from x_i (a) to x_{i+1} (b)
-  std::vector<double> merge;       // [i]: expected photons over area, 0 where none merge
+  std::vector<double> merge;       // [i]: expected photons over area, 0 where none are merged
   double camera = 1, light_paths = 1;
   LightStart light;
 };
@@ -54,7 +54,7 @@ RandomPath random_path(uint32_t seed) {
   return path;
 }
 
-/// One technique: what it is and its density, up to a factor that all share.
+/// One technique, and its density up to a common factor.
 struct Technique {
   enum Kind { kHit, kDirect, kConnect, kCamera, kMerge } kind = kHit;
   int at = 0;  // the last vertex of the eye side
@@ -74,7 +74,7 @@ std::vector<Technique> all_techniques(const RandomPath& p) {
     if (i == p.k) return p.light.onward * at(p.lines, i).at_a;
     return at(p.eye, i + 1).back * at(p.lines, i).at_a;
   };
-  // Vertices 1 to `eye` come from the eye, `light` to n from the light.
+  // Eye path: vertices 1 to `eye`. Light path: vertices `light` to n.
   const auto product = [&](int eye, int light) {
     double d = 1;
     for (int i = 1; i <= eye; ++i) d *= from_eye(i);
@@ -95,7 +95,7 @@ std::vector<Technique> all_techniques(const RandomPath& p) {
   return all;
 }
 
-/// The weight as walks that carry sums along find it.
+/// The weight from the partial sums that walks carry.
 double recursive_weight(const RandomPath& p, const Technique& technique) {
   const auto event = [&](int i) { return p.eye[static_cast<size_t>(i)]; };
   const auto turned = [&](int i) {

@@ -1,6 +1,6 @@
-// The way from where light enters a subsurface material to where it leaves: means over probes must
-// be the area integrals of the profile, known in one dimension for planes, slabs and spheres,
-// whatever else stands along the probe.
+// From the entry to the exit of light in a subsurface material: means over probes must equal the
+// area integrals of the profile, for any other objects along the probe. Planes, slabs and spheres
+// have one-dimensional integrals.
 #include "transport/subsurface_walk.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 using testing_bsdf::Mean;
 using testing_bsdf::TestRandom;
 
-// Free paths of 0.15 to 0.5, albedos that differ: wavelengths part.
+// Free paths of 0.15 to 0.5 and different albedos: wavelengths differ.
 const std::string kColoured =
     "Material \"subsurface\" \"spectrum sigma_a\" [ 360 0.4 830 0.05 ] "
     "\"spectrum sigma_s\" [ 360 6 830 2 ] ";
@@ -59,12 +59,12 @@ struct Entry {
     for (int i = 0; i < kSpectrumSamples; ++i) reach = std::max(reach, bssrdf->reach(i));
     return reach;
   }
-  /// Integral of 2 pi r Sp(r) h(r) from `a` to the longest reach or `b`.
+  /// Integral of 2 pi r Sp(r) h(r) from `a` to `b` or the longest reach.
   template <class H>
   double profile_integral(int i, double a, double b, H&& h) const {
     b = std::min<double>(b, longest_reach());
     if (a >= b) return 0.0;
-    // The profile is steep near its middle: steps of equal ratio from there.
+    // The profile is steep near its middle: steps grow by a constant ratio.
     constexpr int kSteps = 4000;
     const double start = std::max(a, 1e-6);
     double sum = 0.0, r0 = start;
@@ -80,7 +80,7 @@ struct Entry {
     Mean weight[kSpectrumSamples];
     int rays = 0, found = 0;
   };
-  /// Means of the weight times h(exit) over `count` walks.
+  /// Means of weight times h(exit) over `count` walks.
   template <class H>
   Result walk(int count, H&& h) const {
     Result result;
@@ -107,7 +107,7 @@ double unity(double) {
   return 1.0;
 }
 
-/// `allowed` is the relative error of what the expectation leaves out.
+/// `allowed` is the relative error of the expectation, which neglects something.
 void expect_means(const Entry::Result& found, const std::vector<double>& expected,
                   const std::string& what, double allowed = 1e-3) {
   EXPECT_GT(found.found, 1000) << what;
@@ -131,7 +131,7 @@ TEST(SubsurfaceWalk, PlaneGivesTheIntegralOfTheProfile) {
   const Entry e(kColoured + quad(300, 0), {0.1f, 5, 0.2f}, {0, -1, 0});
   const auto expected = plane_integrals(e);
   expect_means(e.walk(kWalks, one), expected, "plane ");
-  // All but the share beyond the reach is the effective albedo.
+  // Except for the part beyond the reach, it is the effective albedo.
   EXPECT_LT(e.longest_reach(), 100.0f);
   const BssrdfTable table(0.0f, 1.33f);
   for (int i = 0; i < kSpectrumSamples; ++i) {
@@ -149,7 +149,7 @@ TEST(SubsurfaceWalk, HeroAloneGivesTheSame) {
 }
 
 TEST(SubsurfaceWalk, SlabAddsItsOtherSide) {
-  // Across a gap of h the area element is 2 pi r dr again, from r = h on.
+  // Across a gap of h the area element is again 2 pi r dr, from r = h on.
   for (const float h : {0.05f, 0.4f, 1.5f}) {
     const Entry e(kColoured + quad(300, 0) + quad(300, -h, false), {0.1f, 5, 0.2f}, {0, -1, 0});
     std::vector<double> expected = plane_integrals(e);
@@ -160,7 +160,7 @@ TEST(SubsurfaceWalk, SlabAddsItsOtherSide) {
 }
 
 TEST(SubsurfaceWalk, SphereGivesTheIntegralOverTheSphere) {
-  // On a sphere of any radius R the area element is 2 pi r dr, r the chord up to 2 R. The second
+  // On a sphere of radius R the area element is 2 pi r dr, with chords r up to 2 R. The second
   // weight is the cosine of a distant light above the entry.
   for (const float radius : {0.2f, 1.0f, 4.0f}) {
     const Entry e(kColoured + "Shape \"sphere\" \"float radius\" " + std::to_string(radius),
@@ -208,7 +208,7 @@ TEST(SubsurfaceWalk, MixedMaterialsLetLightOutWhereTheyAreSubsurface) {
       "\"spectrum sigma_s\" [ 360 4 830 2 ]\n"
       "Material \"mix\" \"string materials\" [ \"a\" \"b\" ] "
       "\"float amount\" 0.3\n";
-  // The choice is a hash of point and direction: look until one is found.
+  // The choice is a hash of point and direction: search for a subsurface one.
   for (float x = 0.0f; x < 5.0f; x += 0.1f) {
     Diagnostics diagnostics;
     const SceneDescription d =
@@ -266,7 +266,7 @@ TEST(SubsurfaceWalk, ExitsAreReadyForTheNextVertex) {
 }
 
 TEST(SubsurfaceWalk, WhiteFurnaceReturnsTheEffectiveAlbedo) {
-  // A plane of whatever reflectance is asked for, if the asked one is that of the medium.
+  // A plane has the requested reflectance, which is that of the medium.
   for (const float reflectance : {0.2f, 0.5f, 0.9f}) {
     const Entry e(
         "Material \"subsurface\" \"spectrum mfp\" [ 360 0.02 830 0.05 ] "
