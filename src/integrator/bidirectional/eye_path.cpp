@@ -360,7 +360,7 @@ void EyeVisitor::merge(const Walk& walk, const WalkVertex& v, ClassMask among,
       merger.emplace(settings_.owned, at, settings_.max_depth,
                      [&](EventSymbol event) { return routes_.next(eye_, event); });
       // Behind other rough events merges have little weight.
-      if (first_)
+      if (first_ && merging.corrects_edges)
         disc =
             probe_disc(settings_.scene, v.surface, radius, sampler.stream(walk.vertex_dimension()));
       probes_ += disc.rays;

@@ -59,6 +59,9 @@ struct PairPass {
   bool light_paths_vary = false;
   /// The samples of a pixel are independent, not stratified, so their variance is that of one.
   bool independent_samples = false;
+  /// [W13]; not over a lattice of pixels, where discs are larger and hold fewer photons than those
+  /// of the film, and would seem noisier.
+  bool corrects_edges = true;
   /// Techniques to render: all, or one alone.
   TechniqueChoice technique{};
   PassControl& control = unwatched;

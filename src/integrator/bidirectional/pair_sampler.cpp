@@ -50,6 +50,7 @@ PairSampler::PairSampler(const PairPass& pass, const FilmFormat& of_film, const 
   merging.photons = static_cast<double>(techniques.light_paths);
   merging.radius_pixels = pass.radius_pixels;
   merging.photons_for_one = pass.photons_for_one;
+  merging.corrects_edges = pass.corrects_edges;
   merging.footprint = photons.footprint;
   merging.eye = pass.scene.camera->camera_to_world(photons.trace.time).point(Vec3f(0, 0, 0));
   merging.connects = techniques.connects;

@@ -34,8 +34,9 @@ struct PairMerging {
   Vec3f eye{0, 0, 0};  ///< origin of distances
   /// In trials with a small radius: photons that the wide radius merges for each one merged here.
   float photons_for_one = 1;
-  bool connects = true;  ///< false: eye vertices are connected to lights only
-  CasterRule rule;       ///< rule that says which photons are merged
+  bool corrects_edges = true;  ///< [W13]
+  bool connects = true;        ///< false: eye vertices are connected to lights only
+  CasterRule rule;             ///< rule that says which photons are merged
 
   bool merges_all_light() const { return rule.merges_all_light() && photons > 0; }
   float radius_at(const Vec3f& p) const { return radius_pixels * footprint.width(length(p - eye)); }

@@ -167,6 +167,7 @@ std::shared_ptr<const Learned> PathAndPhotons::learn(const Scene& scene, const F
         std::ceil(static_cast<double>(pass.techniques.light_paths) * static_cast<double>(pixels) /
                   static_cast<double>(film.bounds().area())));
     pass.radius_pixels *= static_cast<float>(spacing_of(film));
+    pass.corrects_edges = false;
     PairFindings found = measure(pass, film, {measured, measured}, learning, costs);
     if (found.variance) plan.samples = allocation(*found.variance, plan, film);
     const size_t record_bytes = found.records.capacity() * sizeof(RadianceRecord);

@@ -124,6 +124,7 @@ Candidate Trials::run(const PairTechniques& techniques, const EmissionGuide& emi
                    .emission = emission,
                    .light_paths_vary = true,
                    .independent_samples = true,
+                   .corrects_edges = false,
                    .control = control_},
                   film_, trial, passes[i], counts);
   costs_.rays += counts.rays;
