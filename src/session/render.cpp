@@ -149,10 +149,9 @@ Render::Render(const RenderRequest& request, const LoadedScene& loaded, RenderWa
       (std::filesystem::exists(output) || std::filesystem::exists(state_path_beside(output))))
     resume(options, scene, set_, *film_, warnings_.output);
   else if (request.resume)
-    // As any first run of a loop that resumes: no warning about the output.
     warn_of({fmt::format("--resume: there is no {} and no state of it, the render starts anew",
                          output)},
-            warnings_.input);
+            warnings_.output);
   else if (const auto warning = warning_of_replacing(output, identity_))
     warn_of({*warning}, warnings_.output);
 

@@ -51,7 +51,7 @@ SpectrumInput read_spectrum(const TextureLibrary& textures, const ParameterSet& 
 class RoughnessInput {
  public:
   RoughnessInput() = default;
-  /// Reads <prefix>uroughness and <prefix>vroughness; each defaults to <prefix>roughness, then 0.
+  /// Reads PREFIXuroughness and PREFIXvroughness; each defaults to PREFIXroughness, then to 0.
   RoughnessInput(const TextureLibrary& textures, const ParameterSet& parameters,
                  const std::string& prefix, bool remap);
 

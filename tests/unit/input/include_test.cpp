@@ -183,9 +183,10 @@ TEST_F(IncludeTest, DepthIsLimited) {
   EXPECT_EQ(parse_file("0.pbrt").shapes.size(), 1u);
   chain(65);
   const std::string message = file_error("0.pbrt");
-  const std::string start = at("64.pbrt") +
-                            ":1:9: files are included more than 64 deep: " + at("0.pbrt") + " -> " +
-                            at("1.pbrt") + " -> ";
+  const std::string start =
+      at("64.pbrt") +
+      ":1:9: files are included more than 64 deep, expected fewer levels: " + at("0.pbrt") +
+      " -> " + at("1.pbrt") + " -> ";
   EXPECT_EQ(message.substr(0, start.size()), start);
   EXPECT_TRUE(message.ends_with(" -> " + at("64.pbrt") + " -> " + at("65.pbrt"))) << message;
 }

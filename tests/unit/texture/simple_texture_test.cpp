@@ -170,7 +170,8 @@ TEST(TextureLibrary, BoundsWhatOneLookAsksFor) {
   for (const std::string values : {"float", "spectrum"}) {
     SCOPED_TRACE(values);
     EXPECT_EQ(error_of(chain_of(255, values, one)), "no error");
-    EXPECT_NE(error_of(chain_of(256, values, one)).find("more than 256 deep"), std::string::npos);
+    EXPECT_NE(error_of(chain_of(256, values, one)).find("more than 256 levels deep"),
+              std::string::npos);
     // 1, 3, 7, ... 8191 textures.
     EXPECT_EQ(error_of(chain_of(12, values, both)), "no error");
     EXPECT_NE(error_of(chain_of(13, values, both)).find("\"t13\" looks up more than 10000"),
@@ -182,7 +183,7 @@ TEST(TextureLibrary, BoundsWhatOneLookAsksFor) {
     backwards += "Texture \"t" + std::to_string(i) + "\" \"float\" \"scale\" \"texture tex\" \"t" +
                  std::to_string(i + 1) + "\"\n";
   backwards += "Texture \"t20000\" \"float\" \"constant\"";
-  EXPECT_NE(error_of(backwards).find("more than 256 deep"), std::string::npos);
+  EXPECT_NE(error_of(backwards).find("more than 256 levels deep"), std::string::npos);
 }
 
 TEST(TextureLibrary, ErrorsNameThePlace) {
