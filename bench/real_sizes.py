@@ -162,8 +162,8 @@ Written by `bench/real_sizes.py table`; the pictures are made by its commands `r
 
 Revision {all_of("revision")}, {all_of("day")}, on {all_of("machine")}.
 
-A figure is relMSE, without the worst 0.1 % of pixels and without the reference's own error, times CPU seconds; in brackets of all pixels.
-It is the median of the seeds. The last column is `mixed` over the best of the others.""")
+A figure is relMSE times CPU seconds. It leaves out the worst 0.1 % of pixels and the reference's own error. The figure in brackets includes
+all pixels. It is the median of the seeds. The last column is `mixed` over the best of the others.""")
     for seconds in sorted({r["time"] for r in results}):
         shown = [i for i in INTEGRATORS if any(key[0] == seconds and key[2] == i for key in runs)]
         seeds = {r["seed"] for r in results if r["time"] == seconds}

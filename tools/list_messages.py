@@ -21,9 +21,10 @@ KINDS = {
 
 def literals(text, start):
     """The string literals of the call whose opening bracket ends at `start`, joined to a message. Values become an ellipsis."""
-    depth, parts, value = 1, [], False
+    depth, parts, value, before = 1, [], False, ""
     for token in TOKEN.finditer(text, start):
-        t = token[0]
+        t, last = token[0], before
+        before = t
         if t == "(":
             depth += 1
         elif t == ")":
@@ -33,6 +34,11 @@ def literals(text, start):
         elif t.startswith("//") or t.startswith("'"):
             continue
         elif token[2] is not None or token[3] is not None:
+            # The name of a parameter that a nested call looks up is no part of the message.
+            if depth > 1 and last == "(" and re.fullmatch(r'"[\w-]+"', t):
+                continue
+            if parts and re.fullmatch(r"\s*:\s*", last):
+                parts.append(" / ")
             piece = token[2] if token[2] is not None else token[3].replace('\\"', '"').replace("\\n", " ").replace("\\\\", "\\")
             if value and parts:
                 parts.append("…")
@@ -42,7 +48,7 @@ def literals(text, start):
             value = True
     message = "".join(parts) + ("…" if value and parts else "")
     message = re.sub(r"\{\{|\}\}", "'", re.sub(r"\{[^{}]*\}", "…", message))
-    return re.sub(r"\s+", " ", message).strip(" :")
+    return re.sub(r"\s+", " ", message).strip(" :/")
 
 
 def messages():
