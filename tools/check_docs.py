@@ -6,7 +6,6 @@ Prints one line per fault, `file:line: what`, and then exits with status 1.
 """
 import pathlib
 import re
-import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -16,9 +15,9 @@ HEADING = re.compile(r"^#{1,6}\s+(.*?)\s*#*$")
 
 
 def pages():
-    listed = subprocess.run(["git", "-C", ROOT, "ls-files", "-co", "--exclude-standard", "*.md"],
-                            capture_output=True, text=True, check=True).stdout.split("\n")
-    return [ROOT / name for name in listed if name and (ROOT / name).exists()]
+    """All pages but those of build folders and of hidden ones."""
+    return sorted(page for page in ROOT.rglob("*.md")
+                  if not re.match(r"build|out$|\.", page.relative_to(ROOT).parts[0]))
 
 
 def lines_outside_code(page):
