@@ -10,12 +10,16 @@ namespace {
 
 using namespace testing_support;
 
-constexpr char kView[] = R"(
-  LookAt 0 3 0  0 0 0  0 0 1
-  Camera "perspective" "float fov" 10
-  Film "rgb" "integer xresolution" 8 "integer yresolution" 8
-  PixelFilter "box" "float xradius" 0.5 "float yradius" 0.5
-  WorldBegin
+// A square picture from above.
+std::string view(int pixels) {
+  const std::string side = std::to_string(pixels);
+  return "LookAt 0 3 0  0 0 0  0 0 1 Camera \"perspective\" \"float fov\" 10 Film \"rgb\" "
+         "\"integer "
+         "xresolution\" " +
+         side + " \"integer yresolution\" " + side +
+         " PixelFilter \"box\" \"float xradius\" 0.5 \"float yradius\" 0.5 WorldBegin\n";
+}
+constexpr char kFloor[] = R"(
   LightSource "point" "rgb I" [1 1 1] "point3 from" [0 1 0]
   Material "diffuse" "rgb reflectance" [0.5 0.5 0.5]
   Shape "bilinearmesh" "point3 P" [-2 0 -2  2 0 -2  -2 0 2  2 0 2]
@@ -55,7 +59,7 @@ class MergeBias : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(MergeBias, IsTheDifferenceToASmallRadius) {
   const bool behind_pane = GetParam() == "path+photons";
-  const auto scene = scene_from_text(std::string(kView) + (behind_pane ? kPane : ""));
+  const auto scene = scene_from_text(view(8) + kFloor + (behind_pane ? kPane : ""));
   const Sums sharp = sums_of(*scene, GetParam(), 1.5f), blurred = sums_of(*scene, GetParam(), 6);
   const double bias = blurred.light - sharp.light;
   EXPECT_LT(bias, -0.02 * sharp.light);
@@ -73,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(Estimators, MergeBias,
 
 // What does not merge has no such layer.
 TEST(MergeBiasOfFilms, IsOfMergesAlone) {
-  const auto scene = scene_from_text(kView);
+  const auto scene = scene_from_text(view(8) + kFloor);
   EstimatorSet set = make_estimators(plan_of({"all=.*:path"}), {}, *scene);
   const Film film = film_for(*scene, set);
   EXPECT_FALSE(film.has_bias());
@@ -81,18 +85,10 @@ TEST(MergeBiasOfFilms, IsOfMergesAlone) {
 }
 
 // Slats far above a floor, with gaps as wide as they are, all of it narrower than the radius.
-constexpr char kSlats[] = R"(
-  LookAt 0 3 0  0 0 0  0 0 1
-  Camera "perspective" "float fov" 10
-  Film "rgb" "integer xresolution" 16 "integer yresolution" 16
-  PixelFilter "box" "float xradius" 0.5 "float yradius" 0.5
-  WorldBegin
-  LightSource "infinite" "rgb L" [1 1 1]
-  Material "diffuse" "rgb reflectance" [0.5 0.5 0.5]
-)";
-
 TEST(NarrowThings, AreAsBrightAsByPathTracing) {
-  std::string text = kSlats;
+  std::string text = view(16) +
+                     "LightSource \"infinite\" \"rgb L\" [1 1 1] Material \"diffuse\" \"rgb "
+                     "reflectance\" [0.5 0.5 0.5]\n";
   for (int i = -6; i < 6; ++i) {
     const std::string x0 = std::to_string(0.05 * i), x1 = std::to_string(0.05 * i + 0.025);
     text += "Shape \"bilinearmesh\" \"point3 P\" [" + x0 + " 0 -1 " + x1 + " 0 -1 " + x0 + " 0 1 " +
