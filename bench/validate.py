@@ -50,10 +50,10 @@ def measure(scene, reference, integrator, stop, out):
          "--resolution", f"{width}x{height}", "--quiet", *stop])
     seconds = time.monotonic() - started
     text, figures = compare(reference, out)
-    dim = re.search(r"mean_rel below 10: (\S+)(?: \+- (\S+))?", text)
-    if dim:
-        figures["dim"] = float(dim.group(1))
-        figures["dim_half"] = float(dim.group(2)) if dim.group(2) else float("nan")
+    # Without a number if the reference is black there, or if there are no such pixels.
+    dim = re.search(r"mean_rel below 10: (-?[\d.]\S*)(?: \+- (\S+))?", text)
+    figures["dim"] = float(dim.group(1)) if dim else float("nan")
+    figures["dim_half"] = float(dim.group(2)) if dim and dim.group(2) else float("nan")
     return seconds, figures
 
 

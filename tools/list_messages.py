@@ -19,13 +19,34 @@ KINDS = {
 }
 
 
+def counted(text, start):
+    """The plural of a call of counted() or in_number() whose opening bracket ends at `start`, and the end of the call."""
+    depth, words = 1, []
+    for token in TOKEN.finditer(text, start):
+        depth += {"(": 1, ")": -1}.get(token[0], 0)
+        if depth == 0:
+            return words[1] if len(words) > 1 else words[0] + "s" if words else "", token.end()
+        if token[3] is not None:
+            words.append(token[3].replace('\\"', '"'))
+    return "", start
+
+
 def literals(text, start):
     """The string literals of the call whose opening bracket ends at `start`, joined to a message. Values become an ellipsis."""
-    depth, parts, value, before = 1, [], False, ""
+    depth, parts, value, before, resume = 1, [], False, "", start
     for token in TOKEN.finditer(text, start):
+        if token.start() < resume:
+            continue
         t, last = token[0], before
         before = t
-        if t == "(":
+        noun = re.search(r"(,?)[^,]*\b(counted|in_number)$", last) if t == "(" else None
+        if noun:
+            plural, resume = counted(text, token.end())
+            # As an argument it stands where the format has an ellipsis.
+            if not noun[1]:
+                parts.append(plural if noun[2] == "in_number" else "… " + (plural or "…"))
+                value = False
+        elif t == "(":
             depth += 1
         elif t == ")":
             depth -= 1

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "apps/commands.h"
+#include "core/counted.h"
 #include "film/atomic_file.h"
 #include "image/compare.h"
 #include "image/flip.h"
@@ -14,9 +15,13 @@ void print_dim_mean(const MeanRatio& ratio) {
     fmt::print("mean_rel below 10: no such pixels\n");
     return;
   }
+  if (!ratio.is_defined()) {
+    fmt::print("mean_rel below 10: undefined, the reference is black there\n");
+    return;
+  }
   fmt::print("mean_rel below 10: {:.6g}", ratio.value);
   if (ratio.half_width) fmt::print(" +- {:.3g} (95 %)", *ratio.half_width);
-  fmt::print(" over {} pixels\n", ratio.pixels);
+  fmt::print(" over {}\n", counted(ratio.pixels, "pixel"));
 }
 
 }  // namespace
@@ -28,8 +33,12 @@ int run_compare(const CompareCommand& command) {
   CompareOptions options;
   options.subtract_reference_error = command.subtract_reference_error;
   const Comparison result = compare_pictures(reference, test, options);
-  fmt::print("rmse={:.6g} relmse={:.6g} relmse_trim={:.6g} mean_rel={:.6g}\n", result.rmse,
-             result.relmse, result.relmse_trim, result.mean.value);
+  fmt::print("rmse={:.6g} relmse={:.6g} relmse_trim={:.6g}", result.rmse, result.relmse,
+             result.relmse_trim);
+  if (result.mean.is_defined())
+    fmt::print(" mean_rel={:.6g}\n", result.mean.value);
+  else
+    fmt::print("\nmean_rel: undefined, the reference is black\n");
   fmt::print("flip={:.6g} (mean, at exposure {:g})\n", flip(reference, test, command.exposure),
              command.exposure);
   print_dim_mean(result.dim_mean);

@@ -6,6 +6,7 @@
 
 #include "apps/commands.h"
 #include "apps/messages.h"
+#include "core/counted.h"
 #include "integrator/presets/integrator_table.h"
 #include "scene/embree_scene.h"
 #include "session/checkpoint/picture_description.h"
@@ -32,8 +33,9 @@ void print_geometry(const Scene& scene) {
   uint64_t triangles = count_triangles(scene.top, &other);
   for (const auto* groups : {&scene.groups, &scene.moving_shapes})
     for (const auto& group : *groups) triangles += count_triangles(*group, &other);
-  fmt::print("shapes: {} ({} triangles, {} other primitives), {} instances of {} objects\n",
-             scene.shape_count, triangles, other, scene.instance_count, scene.groups.size());
+  fmt::print("shapes: {} ({}, {}), {} of {}\n", scene.shape_count, counted(triangles, "triangle"),
+             counted(other, "other primitive"), counted(scene.instance_count, "instance"),
+             counted(scene.groups.size(), "object"));
   const Bounds3f bounds = scene.top.accelerator->bounds();
   if (bounds.isEmpty())
     fmt::print("extents: nothing\n");

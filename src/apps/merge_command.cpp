@@ -3,6 +3,7 @@
 
 #include "apps/commands.h"
 #include "apps/messages.h"
+#include "core/counted.h"
 #include "core/errors.h"
 #include "film/film_output.h"
 #include "film/state_file.h"
@@ -17,9 +18,9 @@ int run_merge(const MergeCommand& command) {
   check_picture_can_be_written(command.output);
   const Merged merged = merge_pictures(command.inputs, command.output, command.layer_precision);
   for (const std::string& warning : merged.warnings) print_warning(warning);
-  fmt::print("{} passes ({}), rendered in {:.1f} s; wrote {}, {} and {}\n", merged.passes.count(),
-             merged.passes.text(), merged.seconds, command.output, png_path_beside(command.output),
-             state_path_beside(command.output));
+  fmt::print("{} ({}), rendered in {:.1f} s; wrote {}, {} and {}\n",
+             counted(merged.passes.count(), "pass", "passes"), merged.passes.text(), merged.seconds,
+             command.output, png_path_beside(command.output), state_path_beside(command.output));
   return static_cast<int>(ExitStatus::kDone);
 }
 

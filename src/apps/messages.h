@@ -1,6 +1,6 @@
-// Errors and warnings on standard error. They may quote any file, so control characters and bytes
-// that are not UTF-8 are shown as \xNN: a terminal must not obey them. It must not know what the
-// messages are about.
+// Writes errors and warnings to standard error. Messages may quote any file, so control characters
+// and invalid UTF-8 are escaped as \xNN: a terminal must not obey them. It must not know the
+// contents of messages.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ void print_error(const std::string& message);
 void print_warning(const std::string& message);
 void print_warnings(const std::vector<std::string>& messages);
 
-/// The text with all bytes that are not printable UTF-8 as \xNN, except line ends.
+/// Escapes all bytes that are not printable UTF-8 as \xNN, except line ends.
 std::string printable(const std::string& text);
 
 }  // namespace nephroid

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "apps/messages.h"
+#include "core/counted.h"
 #include "session/report/short_number.h"
 
 namespace nephroid {
@@ -24,12 +25,12 @@ std::string bar(double fraction) {
 std::string description(const RenderProgress& p) {
   std::string text = fmt::format("{}", p.passes_done);
   if (p.passes_wanted) text += fmt::format("/{}", *p.passes_wanted);
-  text += " passes";
+  text += in_number(p.passes_wanted.value_or(p.passes_done), " pass", " passes");
   if (p.seconds_left) text += fmt::format(", {} left", clock_text(*p.seconds_left));
   if (p.seconds > 0)
     text += fmt::format(", {} rays/s", short_number(static_cast<double>(p.rays) / p.seconds));
   if (p.photons_stored > 0)
-    text += fmt::format(", {} photons kept", short_number(static_cast<double>(p.photons_stored)));
+    text += fmt::format(", {} kept", short_count(static_cast<double>(p.photons_stored), "photon"));
   if (p.error) text += fmt::format(", error {:.3g}", *p.error);
   return text;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/counted.h"
 #include "film/film_output.h"
 #include "film/state_file.h"
 #include "session/report/choices_report.h"
@@ -28,9 +29,9 @@ const char* reason_text(StopReason reason) {
 std::string summary(const RenderResult& result) {
   uint64_t rays = 0;
   for (const EstimatorStatistics& s : result.statistics) rays += s.rays;
-  std::string text = fmt::format("{} pass{} in {:.1f} s ({})", result.passes_of_run,
-                                 result.passes_of_run == 1 ? "" : "es", result.seconds,
-                                 reason_text(result.reason));
+  std::string text =
+      fmt::format("{} in {:.1f} s ({})", counted(result.passes_of_run, "pass", "passes"),
+                  result.seconds, reason_text(result.reason));
   if (result.passes_done > result.passes_of_run)
     text += fmt::format(", {} in all runs", result.passes_done);
   if (result.has_unfinished_pass)
@@ -66,9 +67,9 @@ std::string route_lines(const Film& film) {
   std::string text = line("light by route:", film.layout().routes, shares.routes);
   if (!shares.aovs.empty()) text += line("of it in layers:", film.layout().aovs, shares.aovs);
   if (const OutlierRejection* rejection = film.rejection())
-    text += fmt::format(
-        "outliers: {} estimates of {} held, {:.3g} % of all light (layer 'outliers')\n",
-        rejection->held_estimates(), short_number(all_estimates(film)), 100 * shares.outliers);
+    text += fmt::format("outliers: {} of {} held, {:.3g} % of all light (layer 'outliers')\n",
+                        counted(rejection->held_estimates(), "estimate"),
+                        short_number(all_estimates(film)), 100 * shares.outliers);
   return text;
 }
 

@@ -8,6 +8,7 @@
 
 #include "apps/commands.h"
 #include "apps/messages.h"
+#include "core/counted.h"
 #include "core/errors.h"
 #include "film/film_settings.h"
 #include "integrator/presets/estimator_set.h"
@@ -68,25 +69,23 @@ void print_automaton(const Routes& routes) {
   const size_t bytes = t.eye_next.bytes() + t.merge_next.bytes() + t.owner.size() +
                        t.emitted.bytes() + t.light_next.bytes() + t.meet.size();
   fmt::print(
-      "automaton: {} states from the eye, {} more behind a merge, {} states from the light, "
+      "automaton: {} from the eye, {} more behind a merge, {} from the light, "
       "{} kinds of events, {} of lights, {} bytes\n",
-      plain, t.eye_states - plain, t.light_states, t.event_symbols / 8 * kEventKinds,
-      t.light_symbols / 8 * kLightKinds, bytes);
+      counted(plain, "state"), t.eye_states - plain, counted(t.light_states, "state"),
+      t.event_symbols / 8 * kEventKinds, t.light_symbols / 8 * kLightKinds, bytes);
 }
 
 /// Prints the proof; true if the routes can be rendered.
 bool print_proof(const RouteCompilation& compiled, bool strict) {
-  const auto has = [&](RouteFinding::Kind kind) {
-    return std::any_of(compiled.findings.begin(), compiled.findings.end(),
-                       [&](const RouteFinding& f) { return f.kind == kind; });
-  };
-  const bool complete = !has(RouteFinding::Kind::kHole);
-  const bool overlap = has(RouteFinding::Kind::kOverlap);
+  const bool overlap =
+      std::any_of(compiled.findings.begin(), compiled.findings.end(),
+                  [](const RouteFinding& f) { return f.kind == RouteFinding::Kind::kOverlap; });
   const bool broken = std::any_of(compiled.findings.begin(), compiled.findings.end(),
                                   [](const RouteFinding& f) { return f.is_error; });
-  fmt::print("proof: {} states, {}, {}\n", plain_states(compiled.routes),
-             complete ? "complete" : "not complete",
-             overlap ? "disjoint only because the first match wins" : "disjoint");
+  fmt::print("proof: {}, {}\n", counted(plain_states(compiled.routes), "state"),
+             broken    ? "failed"
+             : overlap ? "complete, disjoint only because the first match wins"
+                       : "complete, disjoint");
   for (const RouteFinding& finding : compiled.findings)
     fmt::print("{}: {}\n",
                finding.is_error || (strict && finding.kind == RouteFinding::Kind::kOverlap)
@@ -105,8 +104,8 @@ void print_pilot(const RoutesCommand& command, const RoutePlan& plan, CompiledPl
   Film film(film_settings(scene.film), set.layout);
   for (uint32_t pass = 0; pass < command.passes; ++pass)
     set.render_pass({scene.scene_seed, pass}, scene, film);
-  fmt::print("light of {} ({} passes at {} x {}):\n", command.scene, command.passes,
-             scene.film.width, scene.film.height);
+  fmt::print("light of {} ({} at {} x {}):\n", command.scene,
+             counted(command.passes, "pass", "passes"), scene.film.width, scene.film.height);
   const EnergyShares shares = energy_shares(film);
   for (size_t i = 0; i < plan.routes.size(); ++i)
     fmt::print("  {:16} {:6.3g} %\n", plan.routes[i].name, 100 * shares.routes[i]);

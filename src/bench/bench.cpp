@@ -13,6 +13,7 @@
 #include "bench/kept_scenes.h"
 #include "bench/measure.h"
 #include "bench/render.h"
+#include "core/counted.h"
 #include "core/errors.h"
 #include "core/parallel.h"
 #include "film/atomic_file.h"
@@ -219,8 +220,9 @@ class Bench {
       write_exr(files.picture, rendered->picture);
       // Written last: a run with this file is finished.
       write_text(files.json, run_to_json(run));
-      options_.say(fmt::format("{}: {} passes in {:.2f} s, RMSE {:.4g}", title, run.end().passes,
-                               run.end().seconds, run.end().errors.rmse));
+      options_.say(fmt::format("{}: {} in {:.2f} s, RMSE {:.4g}", title,
+                               counted(run.end().passes, "pass", "passes"), run.end().seconds,
+                               run.end().errors.rmse));
       return run;
     } catch (const std::exception& error) {
       failed.failure = error.what();

@@ -168,7 +168,8 @@ BenchVerdict::State state_of(const std::string& name) {
   using State = BenchVerdict::State;
   for (const State state : {State::kHolds, State::kFails, State::kNotMeasured})
     if (name == state_name(state)) return state;
-  throw UsageError("unknown state '" + name + "' of a claim");
+  throw UsageError("a claim has the unknown state '" + name +
+                   "', expected 'holds', 'fails' or 'not measured'");
 }
 
 /// A run of results.json, with its repetitions.

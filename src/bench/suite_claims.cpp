@@ -135,7 +135,7 @@ void check_claim(const Fields& fields, const BenchSuite& suite, const BenchClaim
   // Slopes are negative, so a factor would reverse the claim.
   if (claim.metric == BenchMetric::kSlope && claim.form != BenchClaim::Form::kBetween)
     fields.required("metric").fail(
-        "slopes are not compared, expected \"of\" and \"between\" with the metric \"slope\"");
+        "the metric \"slope\" cannot be compared, expected \"of\" and \"between\" with it");
   if (claim.at_equal && (!is_error(claim.metric) || claim.form == BenchClaim::Form::kBetween))
     fields.required("at").fail(
         "\"at\" does not fit this claim, expected it only with the metric of an error and with "

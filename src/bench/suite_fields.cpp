@@ -80,10 +80,10 @@ Json parse_json(const std::string& text, const std::string& file) {
     return Json::parse(text, check);
   } catch (const Json::parse_error& error) {
     const size_t last = std::max<size_t>(error.byte, 1) - 1;
-    throw UsageError(located(
-        place_of(text, last, file),
-        last >= text.size() ? "the file ends in the middle of JSON, expected the rest of it"
-                            : fmt::format("'{}' does not belong here, expected JSON", text[last])));
+    throw UsageError(located(place_of(text, last, file),
+                             last >= text.size()
+                                 ? "the file ends before the JSON is complete"
+                                 : fmt::format("found '{}', expected JSON", text[last])));
   } catch (const Json::exception& error) {
     throw UsageError(
         fmt::format("{}: {}, expected numbers that a double can hold", file, error.what()));

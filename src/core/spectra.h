@@ -36,7 +36,7 @@ SpectrumPtr piecewise_linear_spectrum(std::vector<float> lambda, std::vector<flo
 /// Planck's law at `kelvin`, scaled so that its maximum is 1.
 /// Black (0 everywhere) unless `kelvin` is positive.
 SpectrumPtr blackbody_spectrum(float kelvin);
-/// The same at the wavelengths of a path, for temperatures that are only known while rendering.
+/// blackbody_spectrum(kelvin) at the wavelengths of a path, for temperatures that vary in a medium.
 SampledSpectrum sample_blackbody(float kelvin, const SampledWavelengths& lambda);
 /// CIE daylight of a correlated colour temperature, or a black body below 4000 K, where the series
 /// is not defined. The scale is arbitrary.

@@ -6,8 +6,8 @@
 
 namespace nephroid {
 
-/// Linear map of rgb values of `space` that gives daylight of a correlated colour temperature the
-/// chromaticity of the space's white. Below 4000 K daylight is a black body.
+/// Matrix for rgb values of `space` that maps daylight of the correlated colour temperature
+/// `kelvin` to the space's white. Below 4000 K, a black body replaces daylight.
 ColorMatrix white_balance(const RgbColorSpace& space, float kelvin);
 
 }  // namespace nephroid

@@ -46,6 +46,8 @@ struct FilmLayout {
   std::vector<Part> parts;
   std::vector<int> groups;   ///< [route]: its group, numbered from 0 without a gap
   std::vector<bool> merges;  ///< [group]: true if it estimates its bias; false past the end
+  /// False if a group replaces its estimates, so that the picture's variance is unknown.
+  bool has_error = true;
 
   /// One part and one group for each route, no AOVs.
   static FilmLayout of_routes(std::vector<std::string> names);

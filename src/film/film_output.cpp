@@ -26,18 +26,18 @@ std::vector<std::string> channel_names(const Film& film) {
   for (const std::string& route : film.layout().routes) add_layer(channels, route, "RGB");
   for (const std::string& aov : film.layout().aovs) add_layer(channels, aov, "RGB");
   if (film.rejection() != nullptr) add_layer(channels, "outliers", "RGB");
-  const bool gbuffer = film.settings().gbuffer;
+  const bool gbuffer = film.settings().gbuffer, has_error = film.layout().has_error;
   add_layer(channels, gbuffer ? "Albedo" : "albedo", "RGB");
   add_layer(channels, "N", "XYZ");
   if (gbuffer) {
     add_layer(channels, "P", "XYZ");
     add_layer(channels, "Ns", "XYZ");
     for (const char* name : {"u", "v", "dzdx", "dzdy"}) channels.emplace_back(name);
-    add_layer(channels, "Variance", "RGB");
-    add_layer(channels, "RelativeVariance", "RGB");
+    if (has_error) add_layer(channels, "Variance", "RGB");
+    if (has_error) add_layer(channels, "RelativeVariance", "RGB");
   }
   add_layer(channels, "", "Z");
-  add_layer(channels, "stderr", "RGB");
+  if (has_error) add_layer(channels, "stderr", "RGB");
   if (film.has_bias()) channels.emplace_back("bias.Y");
   channels.emplace_back("samples");
   return channels;
@@ -64,6 +64,7 @@ float* put_gbuffer(float* out, const Film& film, int x, int y, uint64_t samples)
   out = put(out, s.p);
   out = put(out, s.ns);
   for (const float value : {s.uv.x, s.uv.y, s.dzdx, s.dzdy}) *out++ = value;
+  if (!film.layout().has_error) return out;
   // Variance of a single sample, and the same over the mean.
   const Rgb error = film.standard_error(x, y), mean = film.value(x, y);
   const float n = static_cast<float>(samples);
@@ -120,7 +121,7 @@ void film_row(const Film& film, int y, float* out) {
     out = put(out, gbuffer ? film.surface(x, y).n : film.normal(x, y));
     if (gbuffer) out = put_gbuffer(out, film, x, y, samples);
     *out++ = film.depth(x, y);
-    out = put(out, film.standard_error(x, y));
+    if (film.layout().has_error) out = put(out, film.standard_error(x, y));
     if (film.has_bias()) *out++ = film.bias(x, y);
     *out++ = static_cast<float>(samples);
   }

@@ -12,7 +12,7 @@ namespace nephroid {
 ///   R G B     all routes, then a layer per route ("caustic.R" ...) and per AOV
 ///   outliers  if the film rejects outliers
 ///   albedo, N (world space), Z
-///   stderr    standard error of R G B
+///   stderr    standard error of R G B, unless a group replaces its estimates
 ///   bias.Y    [E4], mean of R G B, if a group estimates its bias
 ///   samples   estimates per pixel, the maximum over groups
 /// A gbuffer film has pbrt-v4's layers instead of albedo and N, in the film's coordinate system:

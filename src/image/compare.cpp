@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
+#include "core/counted.h"
 #include "core/errors.h"
 
 namespace nephroid {
@@ -45,7 +47,7 @@ std::vector<Triple> colors_of(const Picture& picture) {
   if (!result.empty() || picture.pixels.empty()) return result;
   const size_t stride = picture.channels.size();
   if (stride < 3)
-    throw UsageError(fmt::format("a picture has {} channel(s), expected at least three", stride));
+    throw UsageError("a picture has " + counted(stride, "channel") + ", expected at least three");
   result.resize(picture.pixels.size() / stride);
   for (size_t p = 0; p < result.size(); ++p)
     for (size_t c = 0; c < 3; ++c) result[p][c] = finite_or_huge(picture.pixels[p * stride + c]);
@@ -99,6 +101,11 @@ double trimmed_mean(const std::vector<double>& errors, const std::vector<double>
   return sum / static_cast<double>(order.size() - drop);
 }
 
+/// Mean of the test over mean of the reference, minus 1; NaN if the reference is black.
+double relative_difference(double test, double reference) {
+  return reference == 0 ? std::numeric_limits<double>::quiet_NaN() : test / reference - 1;
+}
+
 /// Variance of a pixel's sum over channels. Channels share their paths, so their errors are added
 /// as fully correlated, which can only widen the interval.
 double sum_variance(const std::vector<Triple>& errors, size_t pixel) {
@@ -120,11 +127,10 @@ MeanRatio dim_ratio(const std::vector<Triple>& reference, const std::vector<Trip
     reference_variance += sum_variance(reference_error, p);
     test_variance += sum_variance(test_error, p);
   }
-  const double ratio = test_sum / reference_sum;
-  result.value = ratio - 1;
-  if (!reference_error.empty() || !test_error.empty())
+  result.value = relative_difference(test_sum, reference_sum);
+  if (result.is_defined() && (!reference_error.empty() || !test_error.empty()))
     result.half_width = kTwoSided95 *
-                        std::sqrt(test_variance + square(ratio) * reference_variance) /
+                        std::sqrt(test_variance + square(result.value + 1) * reference_variance) /
                         std::abs(reference_sum);
   return result;
 }
@@ -193,7 +199,7 @@ Comparison compare_pictures(const Picture& reference, const Picture& test,
   result.rmse = std::copysign(std::sqrt(std::abs(mean_square)), mean_square);
   result.relmse = mean_of(kept);
   result.relmse_trim = trimmed_mean(relative, kept);
-  result.mean.value = test_sum / reference_sum - 1;
+  result.mean.value = relative_difference(test_sum, reference_sum);
   result.mean.pixels = r.size();
   result.dim_mean = dim_ratio(r, x, r_error, x_error);
   if (!r_error.empty() && !x_error.empty())

@@ -3,6 +3,7 @@
 // spread. It must not know films or scenes.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -20,9 +21,12 @@ struct CompareOptions {
 
 /// A relative mean error with half the width of its 95 % interval, if the error is known.
 struct MeanRatio {
-  double value = 0;  ///< mean of the test over mean of the reference, minus 1
+  double value = 0;  ///< mean of the test over mean of the reference, minus 1; NaN if that is 0
   std::optional<double> half_width;
   uint64_t pixels = 0;
+
+  /// False if the reference is black.
+  bool is_defined() const { return !std::isnan(value); }
 };
 
 /// Deviations z: the difference over its standard error, from the errors of both pictures.

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/counted.h"
 #include "core/errors.h"
 #include "core/parallel.h"
 
@@ -231,7 +232,7 @@ Features features_of(int width, int height, const std::vector<Rgb>& colors, doub
 std::vector<Rgb> display_colors(const Picture& picture, float exposure) {
   const size_t stride = picture.channels.size();
   if (stride < 3)
-    throw UsageError(fmt::format("a picture has {} channel(s), expected at least three", stride));
+    throw UsageError("a picture has " + counted(stride, "channel") + ", expected at least three");
   size_t index[3] = {0, 1, 2};
   const int named[3] = {picture.find_channel("R"), picture.find_channel("G"),
                         picture.find_channel("B")};

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/counted.h"
 #include "input/number_text.h"
 #include "input/parameter_types.h"
 
@@ -113,8 +114,8 @@ void check_count(const Parameter& parameter, const ParameterType& type) {
   if (numbers + parameter.strings.size() + parameter.bools.size() == 0)
     throw SceneError(parameter.where, title(parameter) + ", but no values");
   if (numbers % type.numbers_per_item != 0) {
-    throw SceneError(parameter.where, title(parameter) + " and " + std::to_string(numbers) +
-                                          " numbers, expected a multiple of " +
+    throw SceneError(parameter.where, title(parameter) + " and " + counted(numbers, "number") +
+                                          ", expected a multiple of " +
                                           std::to_string(type.numbers_per_item));
   }
 }

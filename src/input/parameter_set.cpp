@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/counted.h"
 #include "input/format_rows.h"
 #include "input/spelling.h"
 
@@ -26,9 +27,8 @@ const Parameter* find_typed(const ParameterSet& set, const std::string& name, co
 
 void expect_count(const Parameter& parameter, size_t found, size_t expected) {
   if (found == expected) return;
-  throw SceneError(parameter.where, title(parameter) + " has " + std::to_string(found) +
-                                        (found == 1 ? " value" : " values") + ", expected " +
-                                        std::to_string(expected));
+  throw SceneError(parameter.where, title(parameter) + " has " + counted(found, "value") +
+                                        ", expected " + std::to_string(expected));
 }
 
 float to_float(const Parameter& parameter, double value) {
@@ -61,9 +61,8 @@ std::vector<Vec> get_items(const ParameterSet& set, const std::string& name, con
   const size_t size = Vec::dimensions();
   const size_t count = parameter->numbers.size();
   if (count % size != 0) {
-    throw SceneError(parameter->where, title(*parameter) + " has " + std::to_string(count) +
-                                           " numbers, expected a multiple of " +
-                                           std::to_string(size));
+    throw SceneError(parameter->where, title(*parameter) + " has " + counted(count, "number") +
+                                           ", expected a multiple of " + std::to_string(size));
   }
   std::vector<Vec> items;
   items.reserve(count / size);
@@ -76,8 +75,8 @@ std::optional<Vec3f> get_item(const ParameterSet& set, const std::string& name, 
   if (!parameter) return std::nullopt;
   if (parameter->numbers.size() != 3) {
     throw SceneError(parameter->where, title(*parameter) + " has " +
-                                           std::to_string(parameter->numbers.size()) +
-                                           " numbers, expected 3");
+                                           counted(parameter->numbers.size(), "number") +
+                                           ", expected 3");
   }
   return item_at<Vec3f>(*parameter, 0);
 }

@@ -62,11 +62,12 @@ const MaterialRow* find_row(const std::string& type) {
   return found == std::end(kMaterials) ? nullptr : found;
 }
 
+/// `because` follows "cannot be upgraded: ".
 [[noreturn]] void no_equal(const SourceLocation& where, const std::string& type,
                            const std::string& because) {
   const MaterialRow* const row = find_row(type);
-  throw SceneError(where, "material \"" + type + "\" is pbrt-v3's" + because + ", expected " +
-                              (row ? row->way : find_row("kdsubsurface")->way));
+  throw SceneError(where, "pbrt-v3 material \"" + type + "\" cannot be upgraded: " + because +
+                              ", expected " + (row ? row->way : find_row("kdsubsurface")->way));
 }
 
 /// Removes fixed parameters; true if any was there.
@@ -78,8 +79,8 @@ bool drop_fixed(const std::string& type, Parameters& list, const SourceLocation&
     dropped |= found.has_value();
     if (found ? v3::grey_value(*found) == row.value : row.is_default) continue;
     no_equal(found ? found->where : where, type,
-             ", and its \"" + std::string(row.parameter) + "\"" +
-                 (found ? "" : ", which it has by default,") + " has no equal in pbrt-v4");
+             "pbrt-v4 has no counterpart to its \"" + std::string(row.parameter) + "\"" +
+                 (found ? "" : " (set by default)"));
   }
   return dropped;
 }
@@ -133,8 +134,7 @@ void upgrade_translucent(Parameters& list, const SourceLocation& where) {
   const bool is_number = !colour || colour->type == "rgb";
   if (!r || !t || (!is_number && *r != *t))
     no_equal(where, "translucent",
-             ", and its \"reflect\" and \"transmit\" are not two grey numbers, or differ with a "
-             "\"Kd\" that is no rgb");
+             "its \"reflect\" and \"transmit\" are not grey, or differ while \"Kd\" is not an rgb");
   for (const char* const name : {"reflectance", "transmittance"}) {
     Parameter part = colour ? *colour : Parameter();
     if (!colour) {
@@ -203,7 +203,7 @@ void V3Upgrade::upgrade_material(DirectiveDescription& directive) {
     upgrade_mix(list, where);
   }
   const MaterialRow* const row = find_row(type);
-  if (row && !row->v4) no_equal(where, type, " and has no equal in pbrt-v4");
+  if (row && !row->v4) no_equal(where, type, "pbrt-v4 has no counterpart");
   const bool dropped = drop_fixed(type, list, where);
   if (dropped && !row) note(where, "\"Kr\" and \"Kt\" of material \"" + type + "\" are 1");
   if (!row) return;

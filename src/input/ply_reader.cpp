@@ -10,6 +10,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "core/counted.h"
 #include "input/file_bytes.h"
 #include "input/mesh_data.h"
 #include "input/ply_header.h"
@@ -67,10 +68,11 @@ class PlyReader {
     // The last word of a text needs no blank after it.
     const uint64_t present = source_.remaining() + (Source::kAscii ? 1 : 0);
     if (needed <= present) return;
-    throw std::runtime_error("the file is too short: " + std::to_string(element.count) +
-                             " elements \"" + element.name + "\" need at least " +
-                             std::to_string(needed) + " bytes, " +
-                             std::to_string(needed - present) + " are missing");
+    const uint64_t missing = needed - present;
+    throw std::runtime_error(
+        "the file is too short: " + counted(element.count, "element") + " \"" + element.name +
+        in_number(element.count, "\" needs", "\" need") + " at least " + counted(needed, "byte") +
+        ", " + std::to_string(missing) + in_number(missing, " is", " are") + " missing");
   }
 
   /// Calls `read_one` for each element and adds the element to error messages.
@@ -85,7 +87,8 @@ class PlyReader {
       const uint64_t bytes = truncated.missing_bytes + after * element.least_bytes(Source::kAscii);
       throw std::runtime_error("the file is too short: it ends inside " + nth(element, i) + " of " +
                                std::to_string(element.count) + ", at least " +
-                               std::to_string(bytes) + " bytes are missing");
+                               counted(bytes, "byte") + in_number(bytes, " is", " are") +
+                               " missing");
     } catch (const PlyBadValue& bad) {
       throw std::runtime_error(nth(element, i) + ": " + bad.message);
     }
@@ -196,8 +199,8 @@ void PlyReader<Source>::read_indices(const PlyProperty& property, Polygon* polyg
     const int64_t index = source_.integer(property.type);
     if (index < 0 || static_cast<uint64_t>(index) >= vertex_count_)
       throw PlyBadValue{"vertex index " + std::to_string(index) +
-                        " is out of range, the file has " + std::to_string(vertex_count_) +
-                        " vertices"};
+                        " is out of range, the file has " +
+                        counted(vertex_count_, "vertex", "vertices")};
     indices.push_back(static_cast<uint32_t>(index));
   }
 }

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <utility>
 
+#include "core/counted.h"
 #include "input/file_bytes.h"
 
 namespace nephroid {
@@ -50,8 +51,8 @@ class TableReader {
   size_t remaining() const { return rest_.size(); }
   std::string_view take(size_t count, const std::string& what) {
     if (count > rest_.size())
-      file_.fail("the file ends inside " + what + ", " + std::to_string(count - rest_.size()) +
-                 " bytes are missing");
+      file_.fail("the file ends inside " + what + ", " + counted(count - rest_.size(), "byte") +
+                 in_number(count - rest_.size(), " is", " are") + " missing");
     const std::string_view taken = rest_.substr(0, count);
     rest_.remove_prefix(count);
     return taken;
@@ -95,7 +96,7 @@ TensorField read_field(const TensorFile& file, TableReader& table, std::string_v
   const uint64_t needed = needed_bytes(field, bytes.size());
   if (needed > present)
     file.fail("the file is too short for " + what + ", " + field.to_string() + " at offset " +
-              std::to_string(offset) + ": it has " + std::to_string(bytes.size()) + " bytes");
+              std::to_string(offset) + ": it has " + counted(bytes.size(), "byte"));
   if (needed > 0) field.bytes = bytes.substr(offset, needed);
   return field;
 }
@@ -151,9 +152,8 @@ const TensorField* TensorFile::find(const std::string& name) const {
 const TensorField& TensorFile::require(const std::string& name, TensorType type,
                                        size_t dimensions) const {
   const TensorField* const field = find(name);
-  const std::string expected = std::string(row_of(type).name) + " with " +
-                               std::to_string(dimensions) +
-                               (dimensions == 1 ? " dimension" : " dimensions");
+  const std::string expected =
+      std::string(row_of(type).name) + " with " + counted(dimensions, "dimension");
   if (!field) fail("it has no field \"" + name + "\", expected " + expected);
   if (field->type != type || field->shape.size() != dimensions)
     fail("field \"" + name + "\" is " + field->to_string() + ", expected " + expected);

@@ -9,6 +9,7 @@
 #include "bench/figure_text.h"
 #include "bench/kept.h"
 #include "bench/repeats.h"
+#include "core/counted.h"
 #include "core/errors.h"
 #include "image/compare.h"
 #include "report_page/html_text.h"
@@ -124,7 +125,7 @@ std::string again_section(const BenchResults& results) {
   const BenchMachine& m = results.machine;
   return fmt::format(
       "<h2 id=\"again\">How to repeat it</h2>\n<pre>{}</pre>\n"
-      "<p>Nephroid {}; instruction set {}; {} thread{} on {}; {}. Pictures of the same number of "
+      "<p>Nephroid {}; instruction set {}; {} on {}; {}. Pictures of the same number of "
       "passes have the same bits for any number of threads; how many passes fit into a time "
       "depends "
       "on the machine and on what else it does.</p>\n"
@@ -138,8 +139,8 @@ std::string again_section(const BenchResults& results) {
       "reference’s is the larger. results.json, runs.csv and curves.csv in the same directory have "
       "all "
       "figures.</p>\n",
-      html_escape(m.command), html_escape(m.version), html_escape(m.instruction_set), m.threads,
-      m.threads == 1 ? "" : "s", html_escape(m.processor), html_escape(m.date));
+      html_escape(m.command), html_escape(m.version), html_escape(m.instruction_set),
+      counted(m.threads, "thread"), html_escape(m.processor), html_escape(m.date));
 }
 
 }  // namespace
@@ -179,8 +180,8 @@ std::string bench_report(const BenchResults& results) {
         "<p class=\"failure\">The benchmark was stopped before its end. The same command goes on "
         "where it stopped.</p>\n";
   if (results.failures() > 0)
-    html += fmt::format("<p class=\"failure\">{} part{} of this benchmark failed, see below.</p>\n",
-                        results.failures(), results.failures() == 1 ? "" : "s");
+    html += fmt::format("<p class=\"failure\">{} of this benchmark failed, see below.</p>\n",
+                        counted(results.failures(), "part"));
   html += claims_section(results) + summary_section(results);
   for (const BenchSceneResult& scene : results.scenes) html += report_of_scene(results, scene);
   return html + again_section(results) + "<script>" + kReportScript +

@@ -9,6 +9,7 @@
 #include "bench/figure_text.h"
 #include "bench/fit.h"
 #include "bench/repeats.h"
+#include "core/counted.h"
 #include "core/errors.h"
 #include "image/compare.h"
 #include "image/flip.h"
@@ -276,8 +277,8 @@ std::string facts(const BenchScene& scene, const BenchSceneResult& result) {
   std::string text =
       fmt::format("{}, {} × {} pixels. Reference: ", scene.file, result.width, result.height);
   if (r.rendered)
-    text += fmt::format("rendered with {}, {} passes in {}", r.integrator, r.passes,
-                        seconds_in_words(r.seconds));
+    text += fmt::format("rendered with {}, {} in {}", r.integrator,
+                        counted(r.passes, "pass", "passes"), seconds_in_words(r.seconds));
   else
     text += r.picture;
   if (r.own_error)

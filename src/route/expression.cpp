@@ -161,8 +161,8 @@ class Parser {
     if (!take('}'))
       fail("expected '}' for the '{' at column " + column(open) + ", found " + found());
     if (most != Expression::kUnbounded && most < least)
-      fail_at(open, "expected {least,most}, found " + std::to_string(least) + " as the least and " +
-                        std::to_string(most) + " as the most");
+      fail_at(open, "the minimum " + std::to_string(least) + " is above the maximum " +
+                        std::to_string(most) + ", expected {min,max}");
   }
   int number() {
     skip_spaces();
@@ -224,8 +224,7 @@ class Parser {
     if (!p.eye && p.events == 0 && p.lights == 0) {
       if (c == '\'')
         fail("the label has no angle brackets, expected it as in <L.'key'> or <..'glass'>");
-      if (c == ']' || c == '>' || c == '}')
-        fail("found " + found() + " without the bracket that it closes");
+      if (c == ']' || c == '>' || c == '}') fail("expected an opening bracket before " + found());
       fail("expected " + std::string(expected) + " (letters are " + kLetters + "), found " +
            found());
     }

@@ -35,9 +35,9 @@ PartAutomaton divide_into_parts(const MatchAutomaton& m, const SymbolClasses& cl
       if (!word.is_marked && owner != kNoRoute) numbers[{owner, word.aovs}] = 0;
     }
   if (numbers.size() > kNoPart)
-    throw UsageError("the routes and AOVs divide the picture into " +
-                     std::to_string(numbers.size()) + " parts, expected at most " +
-                     std::to_string(kNoPart) + " (fewer overlapping AOVs)");
+    throw UsageError("the routes and AOVs overlap in " + std::to_string(numbers.size()) +
+                     " combinations, expected at most " + std::to_string(kNoPart) +
+                     ": use fewer overlapping AOVs");
 
   PartAutomaton result;
   for (auto& [meaning, number] : numbers) {

@@ -234,7 +234,7 @@ class Prover {
                                          });
     if (!search.is_complete())
       throw UsageError(
-          "the routes are too complex: it cannot be proved that each path has one merge vertex, "
+          "the routes are too complex to prove that each path has exactly one merge vertex, "
           "expected simpler expressions or fewer '@'");
     std::set<std::pair<int, Kind>> reported;
     for (size_t n = 0; n < search.nodes().size(); ++n)

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/counted.h"
 #include "scene/shape/curve.h"
 
 namespace nephroid {
@@ -63,7 +64,7 @@ std::vector<CurveSegment> segments_of(const ParameterSet& p) {
       bezier ? bezier_segments(points, degree) : bspline_segments(points, degree);
   if (segments.empty()) {
     const std::string first = std::to_string(degree + 1), next = std::to_string(degree);
-    throw SceneError(p.where, "curve has " + std::to_string(points.size()) + " points in \"P\", " +
+    throw SceneError(p.where, "curve has " + counted(points.size(), "point") + " in \"P\", " +
                                   (bezier ? "expected " + first + " and " + next +
                                                 " more for each further Bezier segment"
                                           : "expected at least " + first + " for its b-spline"));
@@ -96,9 +97,9 @@ void set_normals(const ParameterSet& p, CurveType type, std::vector<CurveSegment
     return;
   }
   if (normals.size() != segments.size() + 1)
-    throw SceneError(p.where,
-                     "ribbon has " + std::to_string(normals.size()) + " normals \"N\", expected " +
-                         std::to_string(segments.size() + 1) + ": one at each end of its segments");
+    throw SceneError(p.where, "ribbon has " + counted(normals.size(), "normal") +
+                                  " \"N\", expected " + std::to_string(segments.size() + 1) +
+                                  ": one at each end of its segments");
   for (const Vec3f& n : normals)
     if (!is_finite(n) || !(max_component(abs(n)) > 0.0f))
       throw SceneError(p.find("N")->where,

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string>
 
+#include "core/counted.h"
+
 namespace nephroid {
 namespace {
 
@@ -62,9 +64,10 @@ void InsideOutCheck::report(const ShapeGroup& top, const Vec3f& eye,
       if (count++ == 0) first = &body;
     }
   if (first == nullptr) return;
-  diagnostics.warn(first->where, count == 1 ? first->message
-                                            : first->message + "; inside out, too: " +
-                                                  std::to_string(count - 1) + " more");
+  diagnostics.warn(first->where,
+                   count == 1
+                       ? first->message
+                       : first->message + "; also inside out: " + counted(count - 1, "more shape"));
 }
 
 }  // namespace nephroid

@@ -62,6 +62,14 @@ struct ShapeRecord {
   MediumInterface media;       ///< media of leaving rays, if they differ
 };
 
+/// The medium on the side of a surface to which `w` (world) points, for light that is in `current`.
+inline const Medium* medium_towards(const SurfaceInteraction& surface, const Vec3f& w,
+                                    const Medium* current) {
+  const MediumInterface& media = surface.record->media;
+  if (!media.is_transition()) return current;
+  return dot(w, surface.ng) > 0.0f ? media.outside : media.inside;
+}
+
 struct ShapeGroup;
 
 struct InstanceRecord {

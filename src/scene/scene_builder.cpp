@@ -13,6 +13,7 @@
 #include "scene/scene.h"
 #include "scene/scene_labels.h"
 #include "scene/shape_table.h"
+#include "scene/surrounding_medium.h"
 
 namespace nephroid {
 
@@ -119,7 +120,7 @@ class SceneBuilder {
         failed[i] = std::current_exception();
       }
     });
-    // Moving shapes are placed after the still ones, each directive as a group of its own.
+    // Each directive with a moving shape makes its own group, placed after all static shapes.
     std::vector<std::pair<const ShapeDescription*, const ShapeGroup*>> moving;
     for (size_t i = 0; i < runs.size(); ++i) {
       if (failed[i]) std::rethrow_exception(failed[i]);
@@ -234,13 +235,12 @@ class SceneBuilder {
     if (scene_->shape_count > 0 && scene_->sphere.radius < kMinRadius)
       throw SceneError(
           file,
-          "the radius of the scene is smaller than 1e-8 units, expected more: give its "
-          "lengths in a smaller unit, or put a Scale before the camera and after "
-          "WorldBegin");
+          "the scene's radius is below 1e-8 units, expected at least 1e-8: use a smaller unit of "
+          "length, or a Scale before the camera and one after WorldBegin");
     if (scene_->sphere.radius > kMaxRadius)
       diagnostics_.warn(file,
-                        "the radius of the scene is larger than 1e12 units, expected less: "
-                        "about 0.4 % of the light is lost");
+                        "the scene's radius is above 1e12 units, expected at most 1e12: about "
+                        "0.4 % of the light is lost");
   }
 
   // The origin of pbrt-v4's rendering space: the camera in the middle of its motion.
@@ -249,6 +249,16 @@ class SceneBuilder {
     const TransformDescription& camera = d_.camera->world_to_camera;
     const Mat44d start = camera.start.inverse(), end = camera.end.inverse();
     for (int j = 0; j < 3; ++j) instance_pivot_[j] = 0.5 * (start[3][j] + end[3][j]);
+  }
+
+  // Their photons start in the medium in which camera paths leave the scene, whatever medium the
+  // file has set for them.
+  void surround_infinite_lights() {
+    if (scene_->media.empty()) return;
+    const std::optional<const Medium*> medium = surrounding_medium(*scene_);
+    if (!medium) return;
+    for (size_t i = 0; i < scene_->lights.size(); ++i)
+      if (scene_->lights[i]->is_infinite()) scene_->light_media[i] = {*medium, *medium};
   }
 
   void finish() {
@@ -261,6 +271,7 @@ class SceneBuilder {
     const SourceLocation file{std::make_shared<const std::string>(d_.file), 0, 0};
     check_size(file);
     for (const LightPtr& light : scene_->lights) light->set_scene_sphere(scene_->sphere);
+    surround_infinite_lights();
     scene_->light_sampler = std::make_unique<LightSampler>(scene_->lights);
     inside_out_.report(scene_->top, scene_->camera->camera_to_world(0.0f).point(Vec3f(0, 0, 0)),
                        diagnostics_);
@@ -269,7 +280,7 @@ class SceneBuilder {
       diagnostics_.warn(file, "the scene has no light, the picture will be black");
     if (!d_.camera)
       diagnostics_.warn(file,
-                        "the scene has no camera, a perspective camera at the origin is used");
+                        "the scene has no Camera, so a perspective camera at the origin is used");
   }
 
   const SceneDescription& d_;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "core/counted.h"
 #include "scene/curve_directives.h"
 #include "scene/shape/displacement.h"
 #include "scene/shape/emitter_rectangles.h"
@@ -90,8 +91,8 @@ std::vector<ShapePtr> triangle_mesh(const Context& c) {
   }
   if (data.triangles.size() % 3 != 0)
     throw SceneError(c.p.where, c.what() + ": \"indices\" has " +
-                                    std::to_string(data.triangles.size()) +
-                                    " values, expected a multiple of 3");
+                                    counted(data.triangles.size(), "value") +
+                                    ", expected a multiple of 3");
   return finish_mesh(c, std::move(data));
 }
 
@@ -147,8 +148,8 @@ std::vector<ShapePtr> bilinear_mesh(const Context& c) {
     corners = {0, 1, 2, 3};
   }
   if (corners.size() % 4 != 0)
-    throw SceneError(c.p.where, c.what() + ": \"indices\" has " + std::to_string(corners.size()) +
-                                    " values, expected a multiple of 4");
+    throw SceneError(c.p.where, c.what() + ": \"indices\" has " + counted(corners.size(), "value") +
+                                    ", expected a multiple of 4");
   // Corners are named p00 p10 p01 p11; meshes keep quads in ring order.
   for (size_t i = 0; i < corners.size(); i += 4) std::swap(corners[i + 2], corners[i + 3]);
   data.quads = std::move(corners);

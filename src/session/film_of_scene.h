@@ -28,9 +28,9 @@ struct MemoryNeed {
   bool writes = false;    ///< true if a picture is written at the end
 };
 
-/// Refuses a render that does not fit `limit` bytes, before it allocates them, with a list of what
-/// needs them. Memory of the estimators is included. Throws UsageError if the limit or the film's
-/// size came from the command line, else SceneError at the Film directive.
+/// Checks, before anything is allocated, that the render fits in `limit` bytes, estimators
+/// included. If not, throws an error that lists the memory needs: UsageError if the limit or the
+/// film's size came from the command line, else SceneError at the Film directive.
 void check_memory(const MemoryNeed& need, uint64_t limit, bool limit_is_an_option,
                   bool size_is_an_option);
 

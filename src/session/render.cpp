@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <set>
 
+#include "core/counted.h"
 #include "film/film_settings.h"
 #include "input/scene_files.h"
 #include "session/film_of_scene.h"
@@ -76,9 +77,9 @@ void refuse_unknown_names(const LoadedScene& loaded, const IntegratorChoice& cho
   std::vector<std::string> names = loaded.unknown_names;
   names.insert(names.end(), choice.unknown_names.begin(), choice.unknown_names.end());
   if (names.empty()) return;
-  throw SceneError(
-      {}, fmt::format("{}\n--strict: {} unknown {} in the scene, expected names of pbrt-v4",
-                      fmt::join(names, "\n"), names.size(), names.size() == 1 ? "name" : "names"));
+  throw SceneError({}, fmt::format("{}\n--strict: ", fmt::join(names, "\n")) +
+                           counted(names.size(), "unknown name") +
+                           " in the scene, expected names of pbrt-v4");
 }
 
 /// Reads the state of an earlier run into film and estimators.

@@ -26,7 +26,8 @@ void check_one_source(const RouteChoice& choice) {
     given += std::string(count == 0 ? "" : " and ") + name;
     ++count;
   }
-  if (count > 1) throw UsageError(given + " each choose the routes, expected only one of them");
+  if (count > 1)
+    throw UsageError(given + " cannot be combined: each sets the routes, expected one of them");
 }
 
 std::string read_file(const std::string& file) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <new>
 
+#include "core/counted.h"
 #include "core/errors.h"
 #include "film/exr_file.h"
 #include "film/film_output.h"
@@ -124,8 +125,9 @@ Metadata RenderSession::state_metadata() const {
   progress.seconds = seconds_of_all_runs();
   progress.history = before.history;
   if (rendered)
-    progress.history += fmt::format("{} passes{} in {:.3f} s\n", passes_of_run(),
-                                    film_.has_open_pass() ? " and a part of one" : "", elapsed());
+    progress.history +=
+        fmt::format("{}{} in {:.3f} s\n", counted(passes_of_run(), "pass", "passes"),
+                    film_.has_open_pass() ? " and a part of one" : "", elapsed());
   add_progress(progress, &metadata);
   metadata.emplace_back(kChoicesKey, rendered ? choices_text() : before.choices);
   add_estimates(film_, &metadata);

@@ -91,14 +91,6 @@ inline SampledSpectrum merged_spectrum(const SampledSpectrum& value, int a, int 
   return whole_spectrum(value, a) * static_cast<float>(kSpectrumSamples);
 }
 
-/// The medium on the side of a surface to which `w` (world) points, for light that is in `current`.
-inline const Medium* medium_towards(const SurfaceInteraction& surface, const Vec3f& w,
-                                    const Medium* current) {
-  const MediumInterface& media = surface.record->media;
-  if (!media.is_transition()) return current;
-  return dot(w, surface.ng) > 0.0f ? media.outside : media.inside;
-}
-
 /// A surface vertex that a visitor sees.
 struct WalkVertex {
   const SurfaceInteraction& surface;

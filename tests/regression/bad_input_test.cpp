@@ -105,7 +105,7 @@ TEST(BadMesh, IsLocated) {
   expect_refused(positions + "\"integer indices\" [ 0 1 ]\n",
                  "7:1: shape \"trianglemesh\": \"indices\" has 2 values");
   expect_refused(positions + "\"normal N\" [ 0 0 1 ]\n",
-                 "7:1: shape \"trianglemesh\" has 1 normals, expected 3");
+                 "7:1: shape \"trianglemesh\" has 1 normal, expected 3");
   expect_refused("Shape \"trianglemesh\" \"point3 P\" [ 0 1e39 0 ]\n",
                  "7:37: parameter \"P\" has type \"point3\", but \"1e39\" does not fit");
   expect_refused(
@@ -194,8 +194,8 @@ TEST(BadImage, IsLocated) {
       sky + "\"float illuminance\" 1000\n", "a.pfm", faint,
       "7:50: the light would have to be scaled by more than 1e30 to emit this \"illuminance\"");
   expect_image_error(sky + "\"float scale\" 1e38\n", "a.pfm", faint,
-                     "7:50: the light is too bright for floating-point numbers, expected a "
-                     "\"scale\" up to 1e30");
+                     "7:50: \"scale\" makes the light too bright for floating-point numbers, "
+                     "expected at most 1e30");
 }
 
 TEST(BadTransform, IsLocated) {
@@ -342,14 +342,14 @@ TEST(SuspiciousScene, IsAWarning) {
        "scene.pbrt:8:32: unknown parameter \"vlaue\"",
        "scene.pbrt:9:1: shape \"trianglemesh\": 2 of 4 faces have no area and were removed",
        "scene.pbrt:10:1: shape \"disk\" has no area",
-       "scene.pbrt: the scene has no camera, a perspective camera at the origin is used"});
+       "scene.pbrt: the scene has no Camera, so a perspective camera at the origin is used"});
 }
 
 TEST(EmptyScene, IsABlackPictureAndWarnings) {
   const SceneFolder folder(kOptions.substr(0, kOptions.find("LookAt")) + "WorldBegin\n");
   folder.expect_picture({"scene.pbrt: the scene has no shapes",
                          "scene.pbrt: the scene has no light",
-                         "scene.pbrt: the scene has no camera"});
+                         "scene.pbrt: the scene has no Camera"});
   const Picture picture = read_picture(folder.path("picture.exr"));
   EXPECT_EQ(picture.width(), 8);
   const size_t stride = picture.channels.size(),

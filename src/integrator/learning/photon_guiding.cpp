@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/counted.h"
 #include "integrator/learning/guiding_options.h"
 #include "integrator/learning/visible_points.h"
 #include "route/plan.h"
@@ -97,16 +98,14 @@ void LearnedPhotons::add_to(EstimatorStatistics& statistics) const {
 }
 
 void GuidedPhotons::add_notes(EstimatorStatistics& statistics) const {
-  const auto plural = [](size_t count) { return count == 1 ? "" : "s"; };
   if (const size_t targets = guide.starts.places(); targets > 0)
-    statistics.notes.push_back(fmt::format(
-        "photon emission guided to {} target{}; without guiding {:.2g} % of photon paths would be "
-        "useful",
-        targets, plural(targets), 100 * guide.starts.share_unaimed()));
-  if (const size_t targets = guide.casters.places(); targets > 0)
     statistics.notes.push_back(
-        fmt::format("photons scattered by rough surfaces guided to {} caustic caster{}", targets,
-                    plural(targets)));
+        "photon emission guided to " + counted(targets, "target") +
+        fmt::format("; without guiding {:.2g} % of photon paths would be useful",
+                    100 * guide.starts.share_unaimed()));
+  if (const size_t targets = guide.casters.places(); targets > 0)
+    statistics.notes.push_back("photons scattered by rough surfaces guided to " +
+                               counted(targets, "caustic caster"));
 }
 
 }  // namespace nephroid

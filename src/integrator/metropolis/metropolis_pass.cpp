@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/counted.h"
 #include "core/parallel.h"
 #include "scene/scene.h"
 
@@ -70,19 +71,20 @@ EstimatorStatistics MetropolisPasses::statistics() const {
   s.hold(0, pixel_bytes_);
   if (counts_.bootstrap == 0) return s;
   if (counts_.bootstrap_lit == 0) {
-    s.notes.push_back(fmt::format("none of {} bootstrap paths found any light", counts_.bootstrap));
+    s.notes.push_back("none of " + counted(counts_.bootstrap, "bootstrap path") +
+                      " found any light");
     return s;
   }
   const auto percent = [](uint64_t part, uint64_t whole) {
     return whole > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(whole) : 0.0;
   };
-  s.notes.push_back(
-      fmt::format("Metropolis: {:.1f} % of {} bootstrap paths carry light; accepted {:.1f} % of "
-                  "small steps and {:.1f} % of large steps; {:.1f} % of all steps are large",
-                  percent(counts_.bootstrap_lit, counts_.bootstrap), counts_.bootstrap,
-                  percent(counts_.small_accepted, counts_.small),
-                  percent(counts_.large_accepted, counts_.large),
-                  percent(counts_.large, counts_.large + counts_.small)));
+  s.notes.push_back(fmt::format(
+      "Metropolis: {:.1f} % of {} bootstrap paths carry light; acceptance rate {:.1f} % "
+      "for small steps, {:.1f} % for large steps, which are {:.1f} % of all steps",
+      percent(counts_.bootstrap_lit, counts_.bootstrap), counts_.bootstrap,
+      percent(counts_.small_accepted, counts_.small),
+      percent(counts_.large_accepted, counts_.large),
+      percent(counts_.large, counts_.large + counts_.small)));
   return s;
 }
 

@@ -11,20 +11,18 @@ void LearnedMix::add_to(EstimatorStatistics& s) const {
   const PairTechniques& techniques = plan_.techniques;
   if (techniques.merges_all_light())
     s.notes.push_back(
-        "photons render all light, not only caustics: trial passes were better with it");
+        "photons render all light, not only caustics: trial passes had less error with it");
   if (techniques.roulette_threshold == kPatientRouletteThreshold)
     s.notes.push_back(
-        "Russian roulette begins at 1/8 of a camera path's initial throughput: trial passes were "
-        "better with it");
+        "Russian roulette begins at 1/8 of a camera path's initial throughput: trial passes had "
+        "less error with it");
   if (contains(techniques.casters, EventClass::kGlossy))
     s.notes.push_back(
-        "photons render caustics of glossy materials, too: trial passes were better with it");
+        "photons render caustics of glossy materials, too: trial passes had less error with it");
   if (!techniques.merges_all_light()) plan_.photons.add_notes(s);
   if (plan_.directions.guides())
-    s.notes.push_back(
-        fmt::format("camera paths guided at {:.3g} % of the rough surfaces that "
-                    "they met",
-                    100 * plan_.directions.guided()));
+    s.notes.push_back(fmt::format("camera paths guided at {:.3g} % of the rough surfaces they met",
+                                  100 * plan_.directions.guided()));
   if (plan_.is_even) return;
   const auto note = [&s](const SampleMap& map, const char* what) {
     s.notes.push_back(

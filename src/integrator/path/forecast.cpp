@@ -1,5 +1,6 @@
 #include "integrator/path/forecast.h"
 
+#include "core/counted.h"
 #include "integrator/estimator/reach.h"
 #include "integrator/path/path_options.h"
 #include "integrator/path/path_pass.h"
@@ -113,13 +114,14 @@ void LearnedForecast::add_to(EstimatorStatistics& s) const {
   s.photon_paths_useful += made_.photon_paths_useful;
   s.photons_stored += map().size();
   s.hold(map().bytes(), 0);
-  const std::string of_all = " of " + std::to_string(made_.photon_paths) + " photon paths ";
-  const std::string records = std::to_string(map().size()) + " records" + of_all;
+  const std::string of_all = " of " + counted(made_.photon_paths, "photon path") + " ";
+  const std::string records = counted(map().size(), "record") + of_all;
   const std::string as_path = " caustics, which are traced as by path";
   if (map().foretells())
     s.notes.push_back(records + "forecast caustics; passes add none");
   else if (map().size() > 0)
-    s.notes.push_back(records + "are too few to forecast" + as_path);
+    s.notes.push_back(records + in_number(map().size(), "is", "are") + " too few to forecast" +
+                      as_path);
   else
     s.notes.push_back("none" + of_all + "forecast" + as_path);
 }

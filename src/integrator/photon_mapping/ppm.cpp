@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/counted.h"
 #include "input/option_values.h"
 #include "scene/scene.h"
 #include "transport/path_points.h"
@@ -68,8 +69,8 @@ std::span<const SobolPoint> Ppm::points(const PhotonPass&, const Scene& scene) {
 EstimatorStatistics Ppm::statistics() const {
   EstimatorStatistics s = Sppm::statistics();
   if (!points_.empty())
-    s.notes.push_back(std::to_string(points_.size()) +
-                      " hit points per pixel are kept from pass to pass; a pass needs " +
+    s.notes.push_back(counted(points_.size(), "hit point") +
+                      " per pixel, kept from pass to pass; a pass needs " +
                       std::to_string((s.pixel_bytes + 1023) / 1024) + " KiB (-D hit-points=N)");
   return s;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string>
 
+#include "core/counted.h"
 #include "integrator/photons/photon_pass.h"
 
 namespace nephroid {
@@ -40,7 +41,7 @@ constexpr const char* kNoCaustics =
 constexpr const char* kNoPhotonsNeeded = ", and no photons were needed";
 
 void explain_lost_paths(const OwnedRoutes& owned, EstimatorStatistics& s) {
-  const std::string of_all = " of " + std::to_string(s.photon_paths) + " photon paths ";
+  const std::string of_all = " of " + counted(s.photon_paths, "photon path") + " ";
   if (s.photon_paths_specular == 0) {
     s.notes.push_back("0" + of_all + "met a specular surface");
     return;
@@ -49,7 +50,7 @@ void explain_lost_paths(const OwnedRoutes& owned, EstimatorStatistics& s) {
                           "met a specular surface, none reached a diffuse one behind it";
   s.notes.push_back(
       has_events(owned, EventClass::kDiffuse) || has_events(owned, EventClass::kGlossy)
-          ? met + " within the depth of paths (-D max-depth)"
+          ? met + " within the maximum path depth (-D max-depth)"
           : met + ": the scene has no diffuse or glossy surface, where photons are merged");
 }
 
@@ -85,11 +86,11 @@ void explain_darkness(const OwnedRoutes& owned, uint64_t found, EstimatorStatist
   }
   if (found > 0 || s.photon_paths == 0) return;
   if (s.photons_stored > 0)
-    s.notes.push_back(std::to_string(s.photons_stored) +
-                      " photons were stored, none near a point that the camera sees");
+    s.notes.push_back(counted(s.photons_stored, "photon") +
+                      " stored, none near a point that the camera sees");
   else if (deposits_at_once(owned))
-    s.notes.push_back("none of " + std::to_string(s.photon_paths) +
-                      " photon paths met a surface at which its route merges");
+    s.notes.push_back("none of " + counted(s.photon_paths, "photon path") +
+                      " met a surface at which its route merges");
   else
     explain_lost_paths(owned, s);
 }

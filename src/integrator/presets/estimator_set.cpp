@@ -31,8 +31,11 @@ FilmLayout layout_of(const Routes& routes, EstimatorTable table) {
   layout.groups.resize(layout.routes.size());
   for (size_t g = 0; g < routes.groups().size(); ++g)
     for (const int route : routes.groups()[g].routes) layout.groups[route] = static_cast<int>(g);
-  for (const RouteGroup& group : routes.groups())
-    layout.merges.push_back(descriptor_of(group, table).merges_with_radius);
+  for (const RouteGroup& group : routes.groups()) {
+    const EstimatorDescriptor& estimator = descriptor_of(group, table);
+    layout.merges.push_back(estimator.merges_with_radius);
+    if (estimator.capabilities.per_pixel_state) layout.has_error = false;
+  }
   return layout;
 }
 

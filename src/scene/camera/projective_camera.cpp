@@ -1,5 +1,6 @@
 // The perspective and the orthographic camera, with a thin lens. They differ only in how a film
 // point becomes a camera ray (pbrt-v4 sections 5.2 and 5.3). It must not know lens systems.
+#include "core/counted.h"
 #include "core/warps.h"
 #include "scene/camera/camera_table.h"
 
@@ -118,8 +119,8 @@ void set_screen(ProjectiveCamera::Settings& s, const ParameterSet& p) {
   const std::vector<float> window = p.get_floats("screenwindow");
   if (window.empty()) return;
   if (window.size() != 4)
-    throw SceneError(p.where, "\"screenwindow\" has " + std::to_string(window.size()) +
-                                  " values, expected 4 (x0 x1 y0 y1)");
+    throw SceneError(p.where, "\"screenwindow\" has " + counted(window.size(), "value") +
+                                  ", expected 4 (x0 x1 y0 y1)");
   for (size_t i = 0; i < 4; ++i) s.screen[i] = window[i];
   if (s.screen[0] == s.screen[1] || s.screen[2] == s.screen[3])
     throw SceneError(p.where,

@@ -3,6 +3,7 @@
 // 1995; pbrt-v4 section 5.4.
 #include <array>
 
+#include "core/counted.h"
 #include "core/parallel.h"
 #include "input/file_bytes.h"
 #include "input/number_text.h"
@@ -123,8 +124,8 @@ std::vector<LensSurface> read_lens_table(SceneFiles& files, const std::string& p
   const std::vector<double> n = read_numbers(files, path, named_by);
   const SourceLocation table{std::make_shared<const std::string>(path), 0, 0};
   if (n.empty() || n.size() % 4 != 0)
-    throw SceneError(table, "the lens table has " + std::to_string(n.size()) +
-                                " numbers, expected four per surface");
+    throw SceneError(
+        table, "the lens table has " + counted(n.size(), "number") + ", expected four per surface");
   std::vector<LensSurface> surfaces;
   for (size_t i = 0; i < n.size(); i += 4) {
     double diameter = n[i + 3];

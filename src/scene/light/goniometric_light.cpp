@@ -65,7 +65,7 @@ LightPtr make_goniometric_light(const LightDescription& description, const Light
   std::vector<float> diagram = {1.0f};
   if (p.get_string("filename", "").empty()) {
     scope.diagnostics.warn(description.where,
-                           "the goniometric light has no \"filename\" and shines alike in all "
+                           "the goniometric light has no \"filename\", so it shines equally in all "
                            "directions");
   } else {
     const ImagePtr image = read_sphere_image(p, scope.files, "a goniometric light");

@@ -67,8 +67,8 @@ float image_emission_scale(const ParameterSet& parameters, const RgbColorSpace& 
   const float scale = read_scale(parameters) / spectrum_to_photometric(space.illuminant());
   if (!(scale <= kLargestScale))
     throw SceneError(parameters.find("scale")->where,
-                     "the light is too bright for floating-point numbers, expected a \"scale\" up "
-                     "to 1e30");
+                     "\"scale\" makes the light too bright for floating-point numbers, expected at "
+                     "most 1e30");
   return scale;
 }
 

@@ -4,6 +4,7 @@
 // Portal-Masked Environment Map Sampling.
 #include <array>
 
+#include "core/counted.h"
 #include "core/parallel.h"
 #include "scene/light/direction_map.h"
 #include "scene/light/infinite_emission.h"
@@ -231,8 +232,8 @@ Portal read_portal(const ParameterSet& p) {
   const std::vector<Vec3f> c = p.get_point3s("portal");
   const SourceLocation& where = p.find("portal")->where;
   if (c.size() != 4)
-    throw SceneError(where, "the \"portal\" of an infinite light has " + std::to_string(c.size()) +
-                                " corners, expected 4");
+    throw SceneError(where, "the \"portal\" of an infinite light has " +
+                                counted(c.size(), "corner") + ", expected 4");
   const auto edge = [&](size_t a, size_t b) { return (Vec3d(c[b]) - Vec3d(c[a])).normalized(); };
   const Vec3d e01 = edge(0, 1), e12 = edge(1, 2), e32 = edge(3, 2), e03 = edge(0, 3);
   // The tolerances are pbrt-v4's.

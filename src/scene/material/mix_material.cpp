@@ -4,6 +4,7 @@
 #include <bit>
 #include <string>
 
+#include "core/counted.h"
 #include "core/sampler.h"
 #include "scene/material/inputs.h"
 #include "scene/material/table.h"
@@ -18,8 +19,8 @@ class MixMaterial final : public Material {
     const Parameter* names = d.parameters.find("materials", {"string"});
     if (!names || names->strings.size() != 2)
       throw SceneError(names ? names->where : d.where,
-                       "\"mix\" has " + std::to_string(names ? names->strings.size() : size_t{0}) +
-                           " names in \"string materials\", expected two");
+                       "\"mix\" has " + counted(names ? names->strings.size() : 0, "name") +
+                           " in \"string materials\", expected two");
     for (int i = 0; i < 2; ++i) {
       materials_[i] = c.named(names->strings[i], names->where);
       if (const auto* mix = dynamic_cast<const MixMaterial*>(materials_[i].get()))

@@ -3,6 +3,8 @@
 
 #include <optional>
 
+#include "core/counted.h"
+
 namespace nephroid {
 
 namespace {
@@ -26,8 +28,8 @@ void expect_samples(const Parameter& p, const std::array<int, 3>& resolution,
   const auto count = sample_count(resolution);
   if (count && p.numbers.size() == *count * numbers_per_item) return;
   throw SceneError(p.where, "\"" + p.name + "\" has " +
-                                std::to_string(p.numbers.size() / numbers_per_item) +
-                                " values, expected nx x ny x nz = " + product(resolution) +
+                                counted(p.numbers.size() / numbers_per_item, "value") +
+                                ", expected nx x ny x nz = " + product(resolution) +
                                 (count ? " = " + std::to_string(*count) : ""));
 }
 

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/counted.h"
 #include "scene/shape/bilinear_patch.h"
 #include "scene/shape/closed_mesh.h"
 #include "scene/shape/plane_rectangle.h"
@@ -129,8 +130,8 @@ BilinearMesh::BilinearMesh(MeshData data, bool flip) : data_(std::move(data)), f
   for (const uint32_t index : data_.quads)
     if (index >= data_.positions.size())
       throw std::invalid_argument("bilinear mesh: vertex index " + std::to_string(index) +
-                                  " is out of range, there are " +
-                                  std::to_string(data_.positions.size()) + " vertices");
+                                  " is out of range, the mesh has " +
+                                  counted(data_.positions.size(), "vertex", "vertices"));
   const size_t count = data_.quads.size() / 4;
   is_rectangle_.resize(count);
   for (size_t i = 0; i < count; ++i) {

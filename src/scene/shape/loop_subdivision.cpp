@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/counted.h"
 #include "scene/shape/shape.h"
 
 namespace nephroid {
@@ -209,22 +210,22 @@ Vec3d limit_normal(const SubdivisionMesh& mesh, uint32_t vertex,
 SubdivisionMesh checked_input(const std::vector<Vec3f>& positions,
                               const std::vector<uint32_t>& triangles, int levels) {
   if (triangles.size() % 3 != 0)
-    fail(std::to_string(triangles.size()) + " indices, expected a multiple of 3");
+    fail(counted(triangles.size(), "index", "indices") + ", expected a multiple of 3");
   // All half-edge numbers must be below kNone.
   uint64_t half_edges = triangles.size();
   if (levels < 0) fail("level " + std::to_string(levels) + ", expected 0 or more");
   for (int i = 0; i < levels && half_edges > 0; ++i) {
     half_edges *= 4;
     if (half_edges >= kNone)
-      fail(std::to_string(levels) + " levels of " + std::to_string(triangles.size() / 3) +
-           " faces make too many triangles, expected fewer levels");
+      fail("subdivision of " + counted(triangles.size() / 3, "face") + " to level " +
+           std::to_string(levels) + " makes too many triangles, expected a lower level");
   }
   SubdivisionMesh mesh;
   std::vector<uint32_t> place(positions.size(), kNone);
   for (const uint32_t index : triangles) {
     if (index >= positions.size())
-      fail("vertex index " + std::to_string(index) + " is out of range, there are " +
-           std::to_string(positions.size()) + " vertices");
+      fail("vertex index " + std::to_string(index) + " is out of range, the mesh has " +
+           counted(positions.size(), "vertex", "vertices"));
     const Vec3f& p = positions[index];
     if (!is_finite(p)) fail("the position of vertex " + std::to_string(index) + " is not finite");
     if (place[index] == kNone) {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "core/counted.h"
 #include "scene/shape/shape.h"
 
 namespace nephroid {
@@ -27,9 +28,9 @@ class MeshChecker {
 
   void check() const {
     check_positions();
-    check_count(mesh_.normals.size(), "normals");
-    check_count(mesh_.uvs.size(), "texture coordinates");
-    check_count(mesh_.tangents.size(), "tangents");
+    check_count(mesh_.normals.size(), "normal");
+    check_count(mesh_.uvs.size(), "texture coordinate");
+    check_count(mesh_.tangents.size(), "tangent");
     check_finite(mesh_.normals, "normal");
     check_finite(mesh_.tangents, "tangent");
     check_finite(mesh_.uvs, "texture coordinate");
@@ -37,8 +38,8 @@ class MeshChecker {
     check_indices(mesh_.quads, 4, "quad");
     const size_t faces = mesh_.triangles.size() / 3 + mesh_.quads.size() / 4;
     if (!mesh_.face_indices.empty() && mesh_.face_indices.size() != faces)
-      fail("has " + std::to_string(mesh_.face_indices.size()) + " face indices, expected " +
-           std::to_string(faces) + ", one per face");
+      fail("has " + counted(mesh_.face_indices.size(), "face index", "face indices") +
+           ", expected " + std::to_string(faces) + ", one per face");
     if (faces > kMaxFaces)
       fail("has " + std::to_string(faces) + " faces, expected at most " +
            std::to_string(kMaxFaces) + " in one shape");
@@ -59,8 +60,8 @@ class MeshChecker {
   }
   void check_count(size_t count, const char* of) const {
     if (count != 0 && count != mesh_.positions.size())
-      fail("has " + std::to_string(count) + " " + of + ", expected " +
-           std::to_string(mesh_.positions.size()) + ", one per vertex");
+      fail("has " + counted(count, of) + ", expected " + std::to_string(mesh_.positions.size()) +
+           ", one per vertex");
   }
   template <class V>
   void check_finite(const std::vector<V>& values, const char* of) const {
@@ -70,7 +71,7 @@ class MeshChecker {
   }
   void check_indices(const std::vector<uint32_t>& indices, size_t corners, const char* of) const {
     if (indices.size() % corners != 0)
-      fail("has " + std::to_string(indices.size()) + " indices of " + of +
+      fail("has " + counted(indices.size(), "index", "indices") + " of " + of +
            "s, expected a multiple of " + std::to_string(corners));
     for (size_t i = 0; i < indices.size(); ++i)
       if (indices[i] >= mesh_.positions.size())
@@ -129,11 +130,12 @@ void validate_mesh(MeshData& mesh, const SourceLocation& where, const std::strin
       });
   if (lost == 0) return;
   if (lost == faces)
-    diagnostics.warn(where, what + " has no area and will be invisible: all of its " +
-                                std::to_string(faces) + " faces are degenerate");
+    diagnostics.warn(where, what + " has no area and will be invisible: it has only " +
+                                counted(faces, "degenerate face"));
   else
-    diagnostics.warn(where, what + ": " + std::to_string(lost) + " of " + std::to_string(faces) +
-                                " faces have no area and were removed");
+    diagnostics.warn(
+        where, what + ": " + std::to_string(lost) + " of " + std::to_string(faces) + " faces " +
+                   in_number(lost, "has no area and was", "have no area and were") + " removed");
 }
 
 void zero_bad_normals(MeshData& mesh, const SourceLocation& where, const std::string& what,
@@ -155,8 +157,9 @@ void zero_bad_normals(MeshData& mesh, const SourceLocation& where, const std::st
       }
   if (used > 0)
     diagnostics.warn(where, what + ": " + std::to_string(used) + " of " +
-                                std::to_string(mesh.normals.size()) +
-                                " normals are not finite, the normals of the faces are used there");
+                                std::to_string(mesh.normals.size()) + " normals " +
+                                in_number(used, "is", "are") +
+                                " not finite, the normals of the faces are used there");
 }
 
 void reverse_normals(MeshData& mesh) {

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/counted.h"
 #include "core/warps.h"
 #include "scene/shape/closed_mesh.h"
 #include "scene/shape/shape.h"
@@ -156,8 +157,8 @@ TriangleMesh::TriangleMesh(MeshData data, bool flip) : data_(std::move(data)), f
   for (const uint32_t index : data_.triangles)
     if (index >= data_.positions.size())
       throw std::invalid_argument("triangle mesh: vertex index " + std::to_string(index) +
-                                  " is out of range, there are " +
-                                  std::to_string(data_.positions.size()) + " vertices");
+                                  " is out of range, the mesh has " +
+                                  counted(data_.positions.size(), "vertex", "vertices"));
 }
 
 uint32_t TriangleMesh::primitive_count() const {

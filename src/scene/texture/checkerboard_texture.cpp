@@ -7,8 +7,8 @@ namespace nephroid {
 
 namespace {
 
-/// Selects the texture of a point. Squares (cubes) have unit size; the one that starts at the
-/// origin towards positive coordinates has the first texture.
+/// Chooses between the two textures at a point. Squares (or cubes) have unit size; the one with
+/// coordinates from 0 to 1 has the first texture.
 class Board {
  public:
   explicit Board(const TextureDescription& description)
@@ -30,7 +30,8 @@ class Board {
   }
 
  private:
-  /// Whether the number of a coordinate's cell is odd; in float, so that nothing overflows.
+  /// True if the cell that contains the coordinate has an odd index. Uses float: an integer could
+  /// overflow.
   static bool odd(float v) {
     const float cell = std::floor(v);
     return cell - 2.0f * std::floor(cell * 0.5f) != 0.0f;

@@ -13,6 +13,7 @@
 #include <span>
 #include <string_view>
 
+#include "core/counted.h"
 #include "input/claimed_size.h"
 #include "input/exr_header.h"
 #include "input/file_bytes.h"
@@ -135,9 +136,10 @@ ImageInputFile open_image(const std::string& path, std::optional<ColorEncoding> 
     throw SceneError(wanted_by,
                      "image \"" + path + "\" is deep, a volume or empty, expected a flat image");
   if (!is_possible_size(spec.image_bytes(true), path))
-    throw SceneError(wanted_by, fmt::format("image \"{}\" is damaged: its header claims {} x {} "
-                                            "pixels of {} channels, more than the file can hold",
-                                            path, spec.width, spec.height, spec.nchannels));
+    throw SceneError(wanted_by,
+                     fmt::format("image \"{}\" is damaged: its header claims {} x {} pixels of ",
+                                 path, spec.width, spec.height) +
+                         counted(spec.nchannels, "channel") + ", more than the file can hold");
   file.channels = wanted_channels(spec, path, wanted_by);
   file.space = &color_space_of(spec);
   file.encoding =

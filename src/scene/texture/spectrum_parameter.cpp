@@ -2,6 +2,7 @@
 // bodies, with pbrt-v4's checks.
 #include <cmath>
 
+#include "core/counted.h"
 #include "input/file_bytes.h"
 #include "input/number_text.h"
 #include "input/spelling.h"
@@ -18,8 +19,8 @@ std::string quoted(const Parameter& p) {
 
 SpectrumPtr rgb_spectrum(const Parameter& p, SpectrumKind kind) {
   if (p.numbers.size() != 3)
-    throw SceneError(p.where, quoted(p) + " has " + std::to_string(p.numbers.size()) +
-                                  " numbers, expected three");
+    throw SceneError(
+        p.where, quoted(p) + " has " + counted(p.numbers.size(), "number") + ", expected three");
   for (const double v : p.numbers) {
     if (!(v >= 0.0) || !std::isfinite(v))
       throw SceneError(
@@ -48,8 +49,8 @@ SpectrumPtr rgb_spectrum(const Parameter& p, SpectrumKind kind) {
 SpectrumPtr pairs_spectrum(const std::vector<double>& numbers, SpectrumKind kind,
                            const SourceLocation& where, const std::string& source) {
   if (numbers.size() < 2 || numbers.size() % 2 != 0)
-    throw SceneError(where, source + " has " + std::to_string(numbers.size()) +
-                                " numbers, expected pairs of a wavelength in nm and a value");
+    throw SceneError(where, source + " has " + counted(numbers.size(), "number") +
+                                ", expected pairs of a wavelength in nm and a value");
   std::vector<float> lambda, value;
   for (size_t i = 0; i < numbers.size(); i += 2) {
     if (!std::isfinite(numbers[i]) || !std::isfinite(numbers[i + 1]))

@@ -1,6 +1,6 @@
-// The table of texture classes: the scene format's name and its makers. A new class is one file
-// with its two makers and one row in texture_table.cpp. The makers must not know the library, only
-// TextureScope.
+// The table of texture classes. A row has the class name in the scene format and two makers, for
+// float and spectrum textures. A new class needs a file with its makers and a row in
+// texture_table.cpp. Makers see the texture library only through TextureScope.
 #pragma once
 
 #include <string>

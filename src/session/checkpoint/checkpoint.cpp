@@ -79,8 +79,8 @@ void require_same_render(const StateFile& file, const RenderIdentity& other,
                          const std::string& name, const std::string& purpose) {
   const auto found = RenderIdentity::from_metadata(file.metadata()).differences(other, name);
   if (found.empty()) return;
-  throw UsageError(fmt::format("{}: cannot {}: it is of another render:\n  {}", file.path(),
-                               purpose, fmt::join(found, "\n  ")));
+  throw UsageError(fmt::format("{}: cannot {}: it belongs to a different render:\n  {}",
+                               file.path(), purpose, fmt::join(found, "\n  ")));
 }
 
 std::optional<std::string> warning_of_instruction_sets(const StateFile& file,

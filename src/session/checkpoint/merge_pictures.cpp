@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/counted.h"
 #include "core/errors.h"
 #include "film/film_output.h"
 #include "session/checkpoint/checkpoint.h"
@@ -33,7 +34,8 @@ void warn_of_gaps(Merged& merged) {
   }
   if (gaps > kMaxNamed)
     merged.warnings.push_back(
-        fmt::format("{} more ranges of passes are in none of them", gaps - kMaxNamed));
+        fmt::format("also in none of the pictures: {}",
+                    counted(gaps - kMaxNamed, "more range of passes", "more ranges of passes")));
 }
 
 }  // namespace
@@ -62,7 +64,7 @@ Merged merge_pictures(const std::vector<std::string>& inputs, const std::string&
       throw UsageError(name + ": cannot " + kPurpose + ": " + why);
     };
     if (const auto open = open_pass_of(file))
-      refuse(fmt::format("its pass {} is incomplete, expected whole passes; --resume completes it",
+      refuse(fmt::format("pass {} is incomplete, expected whole passes: complete it with --resume",
                          *open));
     if (value_of(file.metadata(), kOutliersKey) == "reject")
       refuse(

@@ -10,6 +10,7 @@
 #include <span>
 #include <string_view>
 
+#include "core/counted.h"
 #include "input/file_bytes.h"
 #include "input/scene_files.h"
 #include "session/checkpoint/checkpoint.h"
@@ -25,8 +26,8 @@ std::string state_line(const StateFile& file) {
                           : open               ? "to be resumed (only whole passes can be merged)"
                                                : "to be resumed or merged";
   if (passes.empty() && open) return fmt::format("a part of pass {}, {}", *open, use);
-  return fmt::format("{} pass{} ({}){}, {}", passes.count(), passes.count() == 1 ? "" : "es",
-                     passes.text(), open ? fmt::format(" and a part of pass {}", *open) : "", use);
+  return fmt::format("{} ({}){}, {}", counted(passes.count(), "pass", "passes"), passes.text(),
+                     open ? fmt::format(" and a part of pass {}", *open) : "", use);
 }
 
 /// The description of the state beside a picture.

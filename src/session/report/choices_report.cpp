@@ -24,12 +24,11 @@ void add_photons(const EstimatorStatistics& first, const EstimatorStatistics& la
                  std::vector<std::string>& lines) {
   if (last.photon_paths == 0) return;
   const double paths = static_cast<double>(last.photon_paths);
-  lines.push_back(
-      fmt::format("photons: {} paths {}, {} photons kept in all, {:.3g} % of paths kept any",
-                  short_number(last.photons_stay ? paths : paths / passes),
-                  last.photons_stay ? "once" : "per pass",
-                  short_number(static_cast<double>(last.photons_stored)),
-                  100 * part(last.photon_paths_useful, last.photon_paths)));
+  lines.push_back(fmt::format("photons: {} {}, {} kept in all, {:.3g} % of paths kept any",
+                              short_count(last.photons_stay ? paths : paths / passes, "path"),
+                              last.photons_stay ? "once" : "per pass",
+                              short_count(static_cast<double>(last.photons_stored), "photon"),
+                              100 * part(last.photon_paths_useful, last.photon_paths)));
   if (last.radius_max_pixels > 0)
     lines.push_back(
         fmt::format("merge radius: {:.3g} pixels in the first pass to {:.3g} in the last",
@@ -39,10 +38,11 @@ void add_photons(const EstimatorStatistics& first, const EstimatorStatistics& la
 void add_light_paths(const EstimatorStatistics& last, uint32_t passes,
                      std::vector<std::string>& lines) {
   if (last.light_paths == 0) return;
-  lines.push_back(fmt::format(
-      "light paths: {} per pass, {} connections to the camera in all, {:.3g} % of paths had any",
-      short_number(part(last.light_paths, passes)), short_number(static_cast<double>(last.splats)),
-      100 * part(last.light_paths_useful, last.light_paths)));
+  lines.push_back(
+      fmt::format("light paths: {} per pass, {} to the camera in all, {:.3g} % of paths had any",
+                  short_number(part(last.light_paths, passes)),
+                  short_count(static_cast<double>(last.splats), "connection"),
+                  100 * part(last.light_paths_useful, last.light_paths)));
 }
 
 /// Adds the shares of rays, for estimators that count those of light paths separately.

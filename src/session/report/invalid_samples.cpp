@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/counted.h"
 #include "scene/camera/camera.h"
 
 namespace nephroid {
@@ -23,25 +24,26 @@ std::vector<std::string> report(const Scene* scene, const Film& film) {
   for (size_t r = 0; r < layout.routes.size(); ++r) {
     const BadEstimates& bad = film.bad_estimates(static_cast<int>(r));
     if (bad.count == 0) continue;
-    std::string line = fmt::format("{} estimates of route {} were not finite and were left out",
-                                   bad.count, layout.routes[r]);
+    const std::string were = in_number(bad.count, "was", "were");
+    std::string line = fmt::format("{} of route {} {} not finite and {} left out",
+                                   counted(bad.count, "estimate"), layout.routes[r], were, were);
     const PixelBounds& crop = film.bounds();
     // Out of range if there is none, or if it comes from a wrong file.
     if (bad.first_pixel < static_cast<uint64_t>(crop.area())) {
       const uint64_t width = crop.width();
       const int x = crop.x0 + static_cast<int>(bad.first_pixel % width);
       const int y = crop.y0 + static_cast<int>(bad.first_pixel / width);
-      line += fmt::format("; the first of their pixels is {},{}", x, y);
+      line += fmt::format("; first at pixel {},{}", x, y);
       if (scene != nullptr) line += ", where the camera sees " + seen_at(*scene, x, y);
     }
     lines.push_back(line);
   }
   if (film.saturated_values() > 0)
     lines.push_back(
-        fmt::format("{} values of pixels (light, features or estimates of errors) reached the "
-                    "limit of a sum or "
-                    "were not finite",
-                    film.saturated_values()));
+        fmt::format("{} (light, features or error estimates) reached the limit of a sum or {} not "
+                    "finite",
+                    counted(film.saturated_values(), "pixel value"),
+                    in_number(film.saturated_values(), "was", "were")));
   return lines;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/counted.h"
 #include "session/report/short_number.h"
 
 namespace nephroid {
@@ -83,7 +84,7 @@ std::vector<std::string> lamp_report(const std::vector<EstimatorStatistics>& sta
       lines.push_back(fmt::format("note: {} brought no light in the first passes: {}", lamp.name,
                                   reason_of(lamp.rays, "it")));
   if (dark > kMaxNamedDark)
-    lines.push_back(fmt::format("note: {} more lights brought none", dark - kMaxNamedDark));
+    lines.push_back("note: " + counted(dark - kMaxNamedDark, "more light") + " brought none");
   return lines;
 }
 

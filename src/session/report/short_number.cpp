@@ -23,6 +23,11 @@ std::string short_number(double value) {
   return in_units(value, 1000, kUnits);
 }
 
+std::string short_count(double count, const std::string& noun) {
+  const std::string number = short_number(count);
+  return number + " " + noun + (number == "1" ? "" : "s");
+}
+
 std::string short_bytes(double bytes) {
   constexpr const char* kUnits[] = {" B", " KiB", " MiB", " GiB", " TiB"};
   return in_units(bytes, 1024, kUnits);

@@ -14,11 +14,11 @@
 
 namespace nephroid {
 
-/// Settings that no integrator uses: for building scenes and rejecting outliers.
+/// Settings of scene building and outlier rejection, which no integrator reads.
 struct SceneSettings {
   SpecularBand specular_band;
   uint64_t texture_memory = kDefaultTextureMemory;  ///< bytes for the pixels of image textures
-  int outlier_neighbours = 8;                       ///< similar estimates needed to confirm one
+  int outlier_neighbours = 8;                       ///< similar estimates that confirm an outlier
 };
 
 /// All settings of -D.
@@ -40,7 +40,7 @@ struct IntegratorSetting {
   std::function<void(RenderSettings& settings, const std::string& text)> apply;
   /// The stored value as text, for metadata.
   std::function<std::string(const RenderSettings& settings)> print;
-  bool is_for_everybody = false;  ///< --help shows it; --help-all shows all
+  bool is_for_everybody = false;  ///< listed by --help; --help-all lists every setting
 };
 
 /// The table of keys in the order of help: keys of all renders, then those of single estimators.

@@ -37,25 +37,25 @@ std::vector<std::string> notes_of_short_paths(const Scene& scene, const RenderSe
   const std::string ends =
       fmt::format("{}{} ends paths",
                   settings.gives("max-depth") ? "-D max-depth=" : "the scene's maxdepth ", depth);
-  if (depth == 0) return {ends + " at the first surface: nothing but lights is seen"};
+  if (depth == 0) return {ends + " at the first surface: only lights are visible"};
   std::vector<std::string> notes;
   if (depth <= kEventsThroughGlass) {
     const auto glass =
         first_material(scene, [](const Material& material) { return material.refracts(); });
     if (glass)
-      notes.push_back(
-          fmt::format("{} {} {}: with fewer than {} scattering events it casts no caustics and {}",
-                      ends, depth < kEventsThroughGlass ? "inside" : "behind",
-                      name_of_material(scene, *glass), kEventsThroughGlass + 1,
-                      depth < kEventsThroughGlass ? "looks black, except for lights in it"
-                                                  : "shows only lights behind it"));
+      notes.push_back(fmt::format(
+          "{} {} {}: it casts no caustics and {}, expected at least {} scattering events", ends,
+          depth < kEventsThroughGlass ? "inside" : "behind", name_of_material(scene, *glass),
+          depth < kEventsThroughGlass ? "is black except for lights in it"
+                                      : "shows only lights behind it",
+          kEventsThroughGlass + 1));
   }
   if (depth <= kEventsAtMirror) {
     const auto mirror = first_material(scene, mirrors_only);
     if (mirror)
       notes.push_back(
-          fmt::format("{} at {}: with fewer than {} scattering events it mirrors only lights", ends,
-                      name_of_material(scene, *mirror), kEventsAtMirror + 1));
+          fmt::format("{} at {}: it reflects only lights, expected at least {} scattering events",
+                      ends, name_of_material(scene, *mirror), kEventsAtMirror + 1));
   }
   return notes;
 }

@@ -155,7 +155,7 @@ TEST(Suite, ErrorsPointAtTheirPlace) {
       {"\"metric\": \"relmse\", \"smaller\"", "\"metric\": \"rays\", \"smaller\"",
        "/claims/4/layer", "\"layer\" does not fit"},
       {"\"metric\": \"rmse\", \"smaller\"", "\"metric\": \"slope\", \"smaller\"",
-       "/claims/0/metric", "slopes are not compared"},
+       "/claims/0/metric", "the metric \"slope\" cannot be compared"},
       {"\"over\": \"emitted\"", "\"factor\": 2", "/claims/1/factor",
        "unknown key \"factor\" in a claim of this form"},
   };
@@ -217,9 +217,9 @@ TEST(JsonText, Errors) {
       {"{\"a\": 1,\n \"a\": 2}", "f: \"a\" is given twice in an object, expected it once"},
       {"[1, 2", "f:1:6: the file ends"},
       {"", "f:1:1: the file ends"},
-      {"[1,\n x]", "f:2:2: 'x' does not belong here, expected JSON"},
-      {"[1,\n  2] 3", "f:2:6: '3' does not belong here"},
-      {"[\n\"a\n\"]", "f:2:3: '\n' does not belong here"},
+      {"[1,\n x]", "f:2:2: found 'x', expected JSON"},
+      {"[1,\n  2] 3", "f:2:6: found '3'"},
+      {"[\n\"a\n\"]", "f:2:3: found '\n'"},
       {"[1e999]", "f: [json.exception.out_of_range.406] number overflow"},
   };
   for (const auto& [text, message] : cases) {

@@ -73,6 +73,23 @@ TEST(FilmOutput, TellsTheBiasOfWhatMerges) {
   EXPECT_EQ(pixel(picture, 1, 0, "bias.Y"), -0.5f);
 }
 
+TEST(FilmOutput, UnknownErrorsHaveNoLayer) {
+  for (const bool gbuffer : {false, true}) {
+    FilmSettings settings = cropped();
+    settings.gbuffer = gbuffer;
+    FilmLayout layout = FilmLayout::of_routes({"a"});
+    const size_t all = film_picture(Film(settings, layout), {}).channels.size();
+    layout.has_error = false;
+    Film film(settings, layout);
+    film.set_estimates(0, 1);
+    const Picture picture = film_picture(film, {});
+    EXPECT_EQ(picture.channels.size(), all - (gbuffer ? 9 : 3));
+    for (const char* channel : {"stderr.R", "Variance.R", "RelativeVariance.R"})
+      EXPECT_EQ(picture.find_channel(channel), -1) << channel;
+    EXPECT_EQ(pixel(picture, 4, 3, "samples"), 1.0f);
+  }
+}
+
 TEST(FilmOutput, ExrHoldsEveryLayerBitForBit) {
   const ScratchDirectory directory;
   const std::string path = directory.file("out.exr");

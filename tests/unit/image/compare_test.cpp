@@ -96,6 +96,22 @@ TEST(Compare, DimMeanIntervalNeedsAnError) {
   EXPECT_NEAR(*compare_pictures(with, plain, {}).dim_mean.half_width, 1.959964 * 0.3 / 3, 1e-6);
 }
 
+// A black reference has no relative mean: it is not defined instead of infinite.
+TEST(Compare, MeansOfABlackReferenceAreUndefined) {
+  const Picture black = picture_of(kWithError, {0, 0, 0, 0.1f, 0.1f, 0.1f});
+  for (const Picture& test : {rgb({1, 2, 3}), rgb({0, 0, 0})}) {
+    const Comparison c = compare_pictures(black, test, {});
+    EXPECT_FALSE(c.mean.is_defined());
+    EXPECT_FALSE(c.dim_mean.is_defined());
+    EXPECT_FALSE(c.dim_mean.half_width.has_value());
+    EXPECT_EQ(c.dim_mean.pixels, 1u);
+    EXPECT_TRUE(std::isfinite(c.rmse) && std::isfinite(c.relmse));
+  }
+  const Comparison lit = compare_pictures(rgb({1, 2, 3}), black, {});
+  EXPECT_TRUE(lit.mean.is_defined() && lit.dim_mean.is_defined());
+  EXPECT_EQ(lit.mean.value, -1);
+}
+
 TEST(Compare, ReferenceErrorIsSubtracted) {
   const Picture reference = picture_of(kWithError, {1, 1, 1, 0.1f, 0, 0, 0, 0, 0, 0, 0, 0.3f});
   const Picture test = rgb({1.5f, 1, 1, 1, 0, 0});

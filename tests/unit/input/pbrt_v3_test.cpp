@@ -132,20 +132,23 @@ TEST(PbrtV3, NamedMaterialsAndMixtures) {
 
 TEST(PbrtV3, MaterialsThatAreNotTheSameAreRefusedWithThePbrtV4Way) {
   EXPECT_EQ(parse_error("WorldBegin\nMaterial \"plastic\""),
-            "t.pbrt:2:1: material \"plastic\" is pbrt-v3's, and its \"Ks\", which it has by "
-            "default, has no equal in pbrt-v4, expected Material \"coateddiffuse\" with "
+            "t.pbrt:2:1: pbrt-v3 material \"plastic\" cannot be upgraded: pbrt-v4 has no "
+            "counterpart to its \"Ks\" (set by default), expected Material \"coateddiffuse\" with "
             "\"reflectance\" and \"roughness\", "
             "or \"Ks\" 0");
-  EXPECT_EQ(parse_error("WorldBegin\nMaterial \"matte\" \"float sigma\" 20"),
-            "t.pbrt:2:18: material \"matte\" is pbrt-v3's, and its \"sigma\" has no equal in "
-            "pbrt-v4, expected Material \"diffuse\", which has no \"sigma\"");
+  EXPECT_EQ(
+      parse_error("WorldBegin\nMaterial \"matte\" \"float sigma\" 20"),
+      "t.pbrt:2:18: pbrt-v3 material \"matte\" cannot be upgraded: pbrt-v4 has no counterpart "
+      "to its \"sigma\", expected Material \"diffuse\", which has no \"sigma\"");
   for (const std::string type : {"uber", "substrate", "translucent", "disney", "fourier"}) {
     const std::string error = parse_error("WorldBegin\nMaterial \"" + type + "\"");
-    EXPECT_EQ(error.find("t.pbrt:2:1: material \"" + type + "\" is pbrt-v3's"), 0u) << error;
+    EXPECT_EQ(error.find("t.pbrt:2:1: pbrt-v3 material \"" + type + "\" cannot be upgraded: "), 0u)
+        << error;
     EXPECT_NE(error.find("expected Material \""), std::string::npos) << error;
   }
   EXPECT_EQ(parse_error("WorldBegin Material \"glass\" \"rgb Kt\" [1 .5 .5]")
-                .find("t.pbrt:1:29: material \"glass\" is pbrt-v3's, and its \"Kt\""),
+                .find("t.pbrt:1:29: pbrt-v3 material \"glass\" cannot be upgraded: pbrt-v4 has no "
+                      "counterpart to its \"Kt\""),
             0u);
 }
 

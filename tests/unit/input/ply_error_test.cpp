@@ -106,8 +106,11 @@ TEST_F(PlyErrorTest, ShortFilesTellWhatIsMissing) {
   EXPECT_EQ(error_in(header + std::string(20, '\0')),
             "the file is too short: 3 elements \"vertex\" need at least 36 bytes, 16 are missing");
   EXPECT_EQ(error_in(header + std::string(36, '\0') + "\x03" + std::string(7, '\0')),
-            "the file is too short: it ends inside face 0 (counted from 0) of 1, at least 1 bytes "
-            "are missing");
+            "the file is too short: it ends inside face 0 (counted from 0) of 1, at least 1 byte "
+            "is missing");
+  EXPECT_EQ(error_in("ply\nformat ascii 1.0\nelement junk 1\nproperty int a\n" + kVertices +
+                     kFaces + "end_header\n"),
+            "the file is too short: 1 element \"junk\" needs at least 2 bytes, 1 is missing");
   EXPECT_EQ(error_in("ply\nformat ascii 1.0\n" + kVertices + kFaces + "end_header\n0 0 0 1 0 0"),
             "the file is too short: 3 elements \"vertex\" need at least 18 bytes, 6 are missing");
 }

@@ -72,7 +72,7 @@ TEST(MissingCaustics, PhotonsNeedASurfaceToBeMergedAt) {
   EXPECT_EQ(note("Material \"dielectric\"" + kSphere),
             start + ": the scene has no diffuse or glossy surface, where photons are merged");
   EXPECT_EQ(note(kSphere + "Material \"dielectric\"" + kSphere),
-            start + " within the depth of paths (-D max-depth)");
+            start + " within the maximum path depth (-D max-depth)");
 }
 
 }  // namespace

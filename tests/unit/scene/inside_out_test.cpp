@@ -35,6 +35,8 @@ TEST(InsideOut, SphereIsNamedWithItsPlaceAndCause) {
                           "ReverseOrientation"),
             0u)
       << reversed;
+  const std::string two = warning_of(kReversed + "Translate 9 0 0 " + kSphere);
+  EXPECT_NE(two.find("; also inside out: 1 more shape"), std::string::npos) << two;
   // A mirrored ball keeps its outside.
   EXPECT_EQ(warning_of("Scale -1 1 1\n" + kSphere), "");
   EXPECT_NE(warning_of("Scale -1 1 1\n" + kReversed), "");

@@ -45,7 +45,7 @@ TEST(SceneSize, ScenesTooSmallForSinglePrecisionAreRefused) {
     build_text(scene("1e-9"));
     ADD_FAILURE() << "no error";
   } catch (const SceneError& error) {
-    EXPECT_NE(std::string(error.what()).find("smaller than 1e-8 units"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("below 1e-8 units"), std::string::npos);
   }
 }
 

@@ -33,17 +33,17 @@ TEST(FaultReport, TellsRoutePixelAndWhatIsSeenThere) {
   const std::vector<std::string> lines = invalid_samples(*scene, film);
   ASSERT_EQ(lines.size(), 3u);
   EXPECT_EQ(lines[0],
-            "1 estimates of route diffuse were not finite and were left out; the first of their "
-            "pixels is 5,5, where the camera sees nothing");
-  EXPECT_EQ(lines[1].find("2 estimates of route caustic were not finite and were left out; the "
-                          "first of their pixels is 10,10, where the camera sees material glass "
+            "1 estimate of route diffuse was not finite and was left out; first at pixel "
+            "5,5, where the camera sees nothing");
+  EXPECT_EQ(lines[1].find("2 estimates of route caustic were not finite and were left out; "
+                          "first at pixel 10,10, where the camera sees material glass "
                           "at ("),
             0u)
       << lines[1];
   EXPECT_EQ(
       lines[2],
-      "3 values of pixels (light, features or estimates of errors) reached the limit of a sum "
-      "or were not finite");
+      "3 pixel values (light, features or error estimates) reached the limit of a sum or were not "
+      "finite");
 }
 
 }  // namespace

@@ -53,6 +53,8 @@ TEST(LampReport, ManyAreSummedUp) {
             "light by lamp: l20 57 %, l6 1 %, l7 1 %, l8 1 %, l9 1 %, 45 others 39 % (first "
             "passes)");
   EXPECT_EQ(lines[4], "note: 3 more lights brought none");
+  lamps.erase(lamps.begin(), lamps.begin() + 2);
+  EXPECT_EQ(lamp_report({of(lamps)}).at(4), "note: 1 more light brought none");
 }
 
 TEST(BlackPicture, HasNoErrorAndACause) {

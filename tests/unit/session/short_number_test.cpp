@@ -17,6 +17,13 @@ TEST(ShortNumber, HasThreeDigitsAndTheLetterOfTheThousands) {
   EXPECT_EQ(short_number(1.2345e16), "12345 T");
 }
 
+TEST(ShortCount, HasANounInTheRightNumber) {
+  EXPECT_EQ(short_count(0, "photon"), "0 photons");
+  EXPECT_EQ(short_count(1, "photon"), "1 photon");
+  EXPECT_EQ(short_count(1.5, "path"), "1.5 paths");
+  EXPECT_EQ(short_count(1000, "photon"), "1 k photons");
+}
+
 TEST(ShortBytes, GoesByPowersOf1024) {
   EXPECT_EQ(short_bytes(0), "0 B");
   EXPECT_EQ(short_bytes(999), "999 B");

@@ -29,11 +29,11 @@ std::string notes_of(int depth, const std::string& material, bool on_command_lin
 TEST(ShortPaths, GlassNeedsThreeEvents) {
   EXPECT_EQ(notes_of(3, kGlass), "");
   EXPECT_EQ(notes_of(2, kGlass),
-            "the scene's maxdepth 2 ends paths behind dielectric1 (test.pbrt:2:1): with fewer than "
-            "3 scattering events it casts no caustics and shows only lights behind it");
+            "the scene's maxdepth 2 ends paths behind dielectric1 (test.pbrt:2:1): it casts no "
+            "caustics and shows only lights behind it, expected at least 3 scattering events");
   EXPECT_EQ(notes_of(1, kGlass, true),
-            "-D max-depth=1 ends paths inside dielectric1 (test.pbrt:2:1): with fewer than 3 "
-            "scattering events it casts no caustics and looks black, except for lights in it");
+            "-D max-depth=1 ends paths inside dielectric1 (test.pbrt:2:1): it casts no caustics "
+            "and is black except for lights in it, expected at least 3 scattering events");
   EXPECT_NE(notes_of(2,
                      "MakeNamedMaterial \"a\" \"string type\" \"dielectric\" MakeNamedMaterial "
                      "\"b\" \"string type\" \"diffuse\" Material \"mix\" \"string materials\" "
@@ -44,18 +44,19 @@ TEST(ShortPaths, GlassNeedsThreeEvents) {
 
 TEST(ShortPaths, MirrorsNeedTwo) {
   EXPECT_EQ(notes_of(2, kMetal), "");
-  EXPECT_NE(notes_of(1, kMetal).find("with fewer than 2 scattering events it mirrors only"),
-            std::string::npos);
+  EXPECT_NE(
+      notes_of(1, kMetal).find("it reflects only lights, expected at least 2 scattering events"),
+      std::string::npos);
   // Light passes straight through thin glass.
   EXPECT_EQ(notes_of(2, "Material \"thindielectric\""), "");
-  EXPECT_NE(notes_of(1, "Material \"thindielectric\"").find("mirrors"), std::string::npos);
+  EXPECT_NE(notes_of(1, "Material \"thindielectric\"").find("reflects"), std::string::npos);
 }
 
 TEST(ShortPaths, NothingIsSaidOfWhatIsNotThere) {
   EXPECT_EQ(notes_of(1, ""), "");
   EXPECT_EQ(notes_of(2, "Material \"dielectric\" Material \"diffuse\""), "");
   EXPECT_EQ(notes_of(2, "Material \"dielectric\" \"float eta\" 1"), "");
-  EXPECT_NE(notes_of(0, "").find("nothing but lights is seen"), std::string::npos);
+  EXPECT_NE(notes_of(0, "").find("only lights are visible"), std::string::npos);
 }
 
 }  // namespace
