@@ -75,13 +75,24 @@ class PartSums {
       if (std::isfinite(found)) light[l.lamp] += found;
     }
   }
-  /// Adds to the estimated bias [E4] of all parts together.
-  void add_bias(const SampledSpectrum& value) { bias_ += value; }
+  /// Turns on the sum of squares of merged photons. `weights` must outlive it.
+  void measure_photons(const SensorWeights& weights) { photon_weights_ = &weights; }
+  /// Adds to the estimated bias [E4] of all parts together, and to that sum, the `value` of one
+  /// merged photon, which a part has already.
+  void add_merged(const SampledSpectrum& value, const SampledSpectrum& bias) {
+    bias_ += bias;
+    if (photon_weights_ == nullptr) return;
+    const Rgb color = photon_weights_->apply(value);
+    photon_squares_ += sqr((double{color.r} + color.g + color.b) / 3);
+  }
+  /// The sum, of means of a colour's components, since the last clear().
+  double photon_squares() const { return photon_squares_; }
   void clear() {
     for (SampledSpectrum& sum : sums_) sum = SampledSpectrum();
     for (auto& sums : of_techniques_) sums.fill(SampledSpectrum());
     of_lamps_.clear();
     bias_ = SampledSpectrum();
+    photon_squares_ = 0;
   }
   std::span<const SampledSpectrum> sums() const { return sums_; }
 
@@ -130,6 +141,8 @@ class PartSums {
   std::vector<OfLamp> of_lamps_;     ///< light per lamp since the last clear()
   std::vector<uint32_t> lamp_rays_;  ///< [lamp]; empty: off
   SampledSpectrum bias_;
+  const SensorWeights* photon_weights_ = nullptr;  ///< null: photons are not measured
+  double photon_squares_ = 0;
   std::vector<Rgb> colors_;
 };
 

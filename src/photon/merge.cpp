@@ -20,7 +20,7 @@ bool add(const PhotonMerger& merger, const MergePoint& at, const Photon& photon,
         at.throughput * (event.bsdf.f * event.cosine) * photon.flux.unpacked() * weight, at.left,
         photon.left);
     sums.add(event.part, value);
-    sums.add_bias(value * bias);
+    sums.add_merged(value, value * bias);
   });
 }
 

@@ -10,7 +10,7 @@
 namespace nephroid {
 
 /// The event of one class at a connection end.
-struct Arm {
+struct ConnectionEnd {
   SampledSpectrum f;  ///< BSDF or phase function times the cosine
   EventDensity density;
   double merge = 0;      ///< m of [W8]
@@ -18,7 +18,7 @@ struct Arm {
   LightState light = 0;  ///< light side: state behind the event
   bool used = false;
 };
-using Arms = std::array<Arm, std::size(kSurfaceClasses)>;
+using ConnectionEnds = std::array<ConnectionEnd, std::size(kSurfaceClasses)>;
 
 /// The eye's end of a connection, on a surface or in a medium.
 struct EyeEnd {
@@ -27,7 +27,7 @@ struct EyeEnd {
   const MediumVertex* medium = nullptr;
   ClassMask among = ClassMask::kNone;  ///< on a surface: finite classes of use
   Receiver receiver;
-  /// Event class of arm `i`.
+  /// Event class of ConnectionEnds[i].
   EventClass class_of(size_t i) const { return medium ? EventClass::kVolume : kSurfaceClasses[i]; }
 };
 
@@ -43,7 +43,7 @@ inline SampledSpectrum attenuation_between(const Scene& scene, const EyeEnd& z,
 }
 
 /// Evaluates the events at a light vertex towards the unit direction `w`. False if there is none.
-bool arms_of_light(const Routes& routes, const SceneSymbols& symbols, const LightVertex& y,
-                   const Vec3f& w, Arms& arms);
+bool ends_at_light(const Routes& routes, const SceneSymbols& symbols, const LightVertex& y,
+                   const Vec3f& w, ConnectionEnds& ends);
 
 }  // namespace nephroid

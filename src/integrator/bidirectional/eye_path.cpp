@@ -173,7 +173,7 @@ class EyeVisitor {
                  float bias = 0) {
     guided_.add(whole);
     light_.add(part, lamp, whole, technique);
-    if (bias != 0) light_.add_bias(whole * bias);
+    if (technique == Technique::kMerge) light_.add_merged(whole, whole * bias);
   }
 
   void arrive(const Place& place) {
@@ -193,11 +193,11 @@ class EyeVisitor {
   /// Evaluates the events at an eye vertex towards the unit direction `w` of a light or a light
   /// vertex. False if none is of use. Casters do not matter: paths are connected to light vertices
   /// only if all light is merged.
-  bool arms_of_eye(const EyeEnd& z, const Vec3f& w, Arms& arms) const {
+  bool ends_at_eye(const EyeEnd& z, const Vec3f& w, ConnectionEnds& ends) const {
     if (z.medium) {
-      Arm& arm = arms[0];
+      ConnectionEnd& end = ends[0];
       const double p = z.medium->phase.eval(z.medium->wo, w);
-      arm = {SampledSpectrum(static_cast<float>(p)),
+      end = {SampledSpectrum(static_cast<float>(p)),
              {p, p, true},
              0,
              routes_.next(eye_, symbol_in(symbols_, z.medium->medium)),
@@ -208,21 +208,21 @@ class EyeVisitor {
     const WalkVertex& v = *z.surface;
     const Vec3f wi = v.to_local(w);
     bool any = false;
-    for (size_t i = 0; i < arms.size(); ++i) {
+    for (size_t i = 0; i < ends.size(); ++i) {
       const EventClass c = kSurfaceClasses[i];
       if (!contains(z.among, c)) continue;
       const BsdfEval e = v.bsdf.eval(v.wo, wi, TransportMode::kRadiance, c, ClassMask::kAll);
       if (e.f.is_black()) continue;
-      Arm& arm = arms[i];
-      arm.used = any = true;
-      arm.f = e.f * abs_cos_theta(wi);
-      arm.density = {e.pdf_w, 0, true};
+      ConnectionEnd& end = ends[i];
+      end.used = any = true;
+      end.f = e.f * abs_cos_theta(wi);
+      end.density = {e.pdf_w, 0, true};
       if (v.subsurface_exit)
-        arm.density.forward = subsurface_density(v.surface.ng, w);
+        end.density.forward = subsurface_density(v.surface.ng, w);
       else if (sums_.at_cut(c, Caster::kNone).before > 0)
-        arm.density.back = event_density(v.bsdf, wi, v.wo, TransportMode::kImportance, c);
-      arm.merge = sums_.merges(c, Caster::kNone) ? merge_weight() : 0;
-      arm.eye = routes_.next(eye_, symbol_at(symbols_, v, c, wi));
+        end.density.back = event_density(v.bsdf, wi, v.wo, TransportMode::kImportance, c);
+      end.merge = sums_.merges(c, Caster::kNone) ? merge_weight() : 0;
+      end.eye = routes_.next(eye_, symbol_at(symbols_, v, c, wi));
     }
     return any;
   }
@@ -231,36 +231,36 @@ class EyeVisitor {
     if (!makes(1, z.walk)) return;
     const auto d = sample_direct(settings_.scene, z.receiver, z.walk.lambda, sampler);
     if (!d) return;
-    Arms arms;
-    if (!arms_of_eye(z, d->wi_world, arms)) return;
+    ConnectionEnds ends;
+    if (!ends_at_eye(z, d->wi_world, ends)) return;
     SampledSpectrum arriving;
     LightStart start;
     bool traced = false;
-    for (size_t i = 0; i < arms.size(); ++i) {
-      const Arm& arm = arms[i];
-      if (!arm.used) continue;
-      const Part part = routes_.owner(arm.eye, symbols_.light(d->light));
+    for (size_t i = 0; i < ends.size(); ++i) {
+      const ConnectionEnd& end = ends[i];
+      if (!end.used) continue;
+      const Part part = routes_.owner(end.eye, symbols_.light(d->light));
       if (!light_.owns(part)) continue;
       if (!traced) {
         arriving = z.walk.throughput * d->radiance * shadow(*d, z, sampler);
         if (arriving.is_black()) return;
-        start = light_start(settings_, *d, z.receiver, place_, others_cut(z, arms));
+        start = light_start(settings_, *d, z.receiver, place_, others_cut(z, ends));
       }
       traced = true;
       double weight = 1;
       if (settings_.technique.weighted)
         weight = weight_of_direct(start, sums_.at_cut(z.class_of(i), Caster::kNone),
-                                  arm.density.forward, arm.density.back, arm.merge);
+                                  end.density.forward, end.density.back, end.merge);
       add(part, symbols_.lamp(d->light), z.walk, Technique::kSampleLight,
-          arriving * arm.f * static_cast<float>(weight));
+          arriving * end.f * static_cast<float>(weight));
     }
   }
 
   /// True if light paths could also have come here from the light, by one of the events.
-  bool others_cut(const EyeEnd& z, const Arms& arms) const {
-    for (size_t i = 0; i < arms.size(); ++i)
-      if (arms[i].used &&
-          (arms[i].merge > 0 || !sums_.at_cut(z.class_of(i), Caster::kNone).empty()))
+  bool others_cut(const EyeEnd& z, const ConnectionEnds& ends) const {
+    for (size_t i = 0; i < ends.size(); ++i)
+      if (ends[i].used &&
+          (ends[i].merge > 0 || !sums_.at_cut(z.class_of(i), Caster::kNone).empty()))
         return true;
     return false;
   }
@@ -284,16 +284,16 @@ class EyeVisitor {
     const float d2 = length_squared(way);
     if (!(d2 > 0.0f)) return;
     const Vec3f w = way / std::sqrt(d2);
-    Arms eye_arms, light_arms;
-    if (!arms_of_eye(z, w, eye_arms) || !arms_of_light(routes_, symbols_, y, -w, light_arms))
+    ConnectionEnds eye_ends, light_ends;
+    if (!ends_at_eye(z, w, eye_ends) || !ends_at_light(routes_, symbols_, y, -w, light_ends))
       return;
     const Place at_y{y.surface.p, y.in_medium ? Vec3f(0, 0, 0) : y.surface.ng};
     const LineFactors line = line_between(place_, at_y);
     SampledSpectrum arriving;
     bool traced = false;
-    for (const Arm& a : eye_arms) {
+    for (const ConnectionEnd& a : eye_ends) {
       if (!a.used) continue;
-      for (const Arm& b : light_arms) {
+      for (const ConnectionEnd& b : light_ends) {
         if (!b.used) continue;
         const Part part = routes_.meet(a.eye, b.light);
         if (!light_.owns(part)) continue;

@@ -229,12 +229,12 @@ const Bsdf* LightVertex::bsdf() const {
   return bsdf_;
 }
 
-bool arms_of_light(const Routes& routes, const SceneSymbols& symbols, const LightVertex& y,
-                   const Vec3f& w, Arms& arms) {
+bool ends_at_light(const Routes& routes, const SceneSymbols& symbols, const LightVertex& y,
+                   const Vec3f& w, ConnectionEnds& ends) {
   if (y.in_medium) {
     const double p = y.phase.eval(y.surface.wo, w);
     const Label label = symbols.medium(y.medium_index);
-    arms[0] = {SampledSpectrum(static_cast<float>(p)),
+    ends[0] = {SampledSpectrum(static_cast<float>(p)),
                {p, p, true},
                0,
                0,
@@ -249,21 +249,21 @@ bool arms_of_light(const Routes& routes, const SceneSymbols& symbols, const Ligh
   if (!std::isfinite(cosine)) return false;
   const bool transmits = y.subsurface_exit || y.wo.z * wi.z < 0.0f;
   bool any = false;
-  for (size_t i = 0; i < arms.size(); ++i) {
+  for (size_t i = 0; i < ends.size(); ++i) {
     const EventClass c = kSurfaceClasses[i];
     if (!contains(y.classes, c)) continue;
     const BsdfEval e = bsdf->eval(y.wo, wi, TransportMode::kImportance, c, ClassMask::kAll);
     if (e.f.is_black()) continue;
-    Arm& arm = arms[i];
-    arm.used = any = true;
-    arm.f = e.f * cosine;
-    arm.density = {e.pdf_w, 0, true};
+    ConnectionEnd& end = ends[i];
+    end.used = any = true;
+    end.f = e.f * cosine;
+    end.density = {e.pdf_w, 0, true};
     if (y.subsurface_exit)
-      arm.density.forward = subsurface_density(y.surface.ng, w);
+      end.density.forward = subsurface_density(y.surface.ng, w);
     else if (y.sums.before > 0)
-      arm.density.back = event_density(*bsdf, wi, y.wo, TransportMode::kRadiance, c);
-    arm.merge = y.merges && contains(ClassMask::kRough, c) ? y.merge : 0;
-    arm.light = routes.light_next(y.state, event_symbol(y.merges ? c : EventClass::kHair, transmits,
+      end.density.back = event_density(*bsdf, wi, y.wo, TransportMode::kRadiance, c);
+    end.merge = y.merges && contains(ClassMask::kRough, c) ? y.merge : 0;
+    end.light = routes.light_next(y.state, event_symbol(y.merges ? c : EventClass::kHair, transmits,
                                                         symbols.material(y.material->index())));
   }
   return any;

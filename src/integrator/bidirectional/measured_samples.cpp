@@ -19,6 +19,7 @@ void MeasuredSamples::add_to(SampleVariance& variance, const SampleMap& map) con
         const size_t pixel = pixel_of(b.x0 + x, b.y0 + y);
         const Sample& sample = samples_[pixel * most_ + k];
         variance.add(x, y, sample.light, sample.cost);
+        variance.add_photons(x, y, sample.photon_squares);
       }
 }
 

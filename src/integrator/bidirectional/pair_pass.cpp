@@ -143,7 +143,7 @@ class PairRendering {
     const int samples = s_.camera.paths.at(x - b.x0, y - b.y0);
     for (int k = 0; k < samples; ++k) {
       const PairSampler::SampleLight found = s_.trace(x, y, samples, k, worker, sums);
-      if (to_.paths) to_.paths->add(x - b.x0, y - b.y0, found.mean, found.cost());
+      if (to_.paths) found.add_to(*to_.paths, x - b.x0, y - b.y0);
     }
   }
 
@@ -278,7 +278,7 @@ class PairRendering {
         merged_.empty() ? nullptr : &merged_[sample]);
     if (measured_) {
       const size_t measured = measured_->sample(x, y, k);
-      measured_->add_light(measured, found.mean);
+      measured_->add_light(measured, found.mean, found.photon_squares);
       measured_->add_cost(measured,
                           s_.settings.merges_only ? found.cost_of_merges() : found.cost());
     }

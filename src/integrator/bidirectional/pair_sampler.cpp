@@ -71,6 +71,7 @@ PairSampler::Worker::Worker(const PairSampler& sampler, PairRow& of_row)
       row(of_row),
       lamps(&sampler.lamps, light) {
   row.techniques = sampler.counter.start_row(light);
+  if (sampler.film == nullptr) light.measure_photons(sampler.photons.weights);
 }
 
 uint32_t PairSampler::first_index(int n) const {
@@ -150,8 +151,9 @@ PairSampler::SampleLight PairSampler::trace(int x, int y, int samples, int k, Wo
   for (size_t i = 0; i < parts; ++i) sums.values[i] = sums.values[i] + colors[i];
   if (!settings.merges_only) ++row.camera_paths;
   const double seen = total_of(colors);
-  return {static_cast<float>(seen / (3.0 * share)), row.rays - rays_before, counts.merged,
-          std::abs(path.filter_weight) * share};
+  return {static_cast<float>(seen / (3.0 * share)),
+          static_cast<float>(light.photon_squares() * sqr(factor / share)), row.rays - rays_before,
+          counts.merged, std::abs(path.filter_weight) * share};
 }
 
 }  // namespace nephroid

@@ -63,13 +63,18 @@ class PairSampler {
   };
   /// Light and cost of a sample.
   struct SampleLight {
-    float mean = 0;  ///< mean of the components, as if it were the pixel's only sample
+    float mean = 0;            ///< mean of the components, as if it were the pixel's only sample
+    float photon_squares = 0;  ///< sum of squares of that mean's terms, one per merged photon
     uint64_t rays = 0, merged = 0;
     double cost_of_merges() const { return kCostOfMerge * static_cast<double>(merged); }
     double cost() const {
       return static_cast<double>(rays) + cost_of_merges();
     }                  ///< total cost in rays
     float weight = 0;  ///< magnitude of the filter's weight, times the sample's share
+    void add_to(SampleVariance& variance, int x, int y) const {
+      variance.add(x, y, mean, cost());
+      variance.add_photons(x, y, photon_squares);
+    }
   };
 
   /// Traces sample `k` of a pixel's `samples`. A sample that does not wait is clamped at once.

@@ -36,6 +36,7 @@ void SampleVariance::add(const SampleVariance& other) {
   for (size_t i = 0; i < sums_.size(); ++i) {
     sums_[i].light += other.sums_[i].light;
     sums_[i].square += other.sums_[i].square;
+    sums_[i].photons += other.sums_[i].photons;
     sums_[i].rays += other.sums_[i].rays;
     sums_[i].samples += other.sums_[i].samples;
   }
@@ -47,7 +48,7 @@ SampleVariance::ByTile SampleVariance::by_tile(const SampleVariance* others) con
   ByTile out;
   out.variance.assign(tiles.counts().size(), 0);
   out.cost = out.variance;
-  out.light = out.brightness = out.variance;
+  out.light = out.brightness = out.photons = out.variance;
   std::vector<double> pixels(out.variance);
   double all_light = 0, all_pixels = 0;
   size_t i = 0;
@@ -59,6 +60,7 @@ SampleVariance::ByTile SampleVariance::by_tile(const SampleVariance* others) con
       const double mean = s.light / s.samples;
       out.cost[tile] += s.rays / s.samples;
       out.variance[tile] += std::max(0.0, (s.square - mean * s.light) / (s.samples - 1));
+      out.photons[tile] += s.photons / s.samples;
       out.light[tile] += std::abs(mean);
       all_light += std::abs(mean) + (others ? other.light[tile] : 0);
       ++pixels[tile];
@@ -73,6 +75,7 @@ SampleVariance::ByTile SampleVariance::by_tile(const SampleVariance* others) con
     const double brightness = out.light[t] + (others ? other.light[t] : 0) + floor;
     out.brightness[t] = brightness;
     out.variance[t] = brightness > 0 ? out.variance[t] / (pixels[t] * brightness) : 0;
+    out.photons[t] = brightness > 0 ? out.photons[t] / (pixels[t] * brightness) : 0;
     out.cost[t] /= pixels[t];
   }
   return out;

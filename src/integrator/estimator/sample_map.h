@@ -51,7 +51,7 @@ class SampleMap {
 /// Variance among the samples of each pixel of a lattice; each pixel has one writer at a time.
 class SampleVariance {
   struct Sums {
-    double light = 0, square = 0, rays = 0;
+    double light = 0, square = 0, photons = 0, rays = 0;
     int samples = 0;
   };
 
@@ -75,11 +75,17 @@ class SampleVariance {
     s.square += square;
     ++s.samples;
   }
+  /// Adds the sum of squares of a sample's light from merged photons, one by one: the variance of
+  /// that light due to the photons, which arrive independently of each other ([A6]).
+  void add_photons(int x, int y, double squares) {
+    sums_[static_cast<size_t>(y / spacing_) * width_ + x / spacing_].photons += squares;
+  }
   /// Adds the samples of another object on the same lattice.
   void add(const SampleVariance& other);
   /// Means per tile; zero where no pixel has two samples.
   struct ByTile {
     std::vector<double> variance;    ///< [tile] variance of a sample over `brightness`, [A1]
+    std::vector<double> photons;     ///< [tile] variance due to photons over `brightness`
     std::vector<double> brightness;  ///< [tile] the divisor of `variance`
     std::vector<double> light;       ///< [tile] mean magnitude of the light
     std::vector<double> cost;        ///< [tile] rays per sample

@@ -68,26 +68,31 @@ TrialNoise split_noise(std::span<const SampleVariance> passes, const SampleMap& 
       within[t] += of_pass.variance[t] * of_pass.brightness[t] / static_cast<double>(passes.size());
   }
   TrialNoise noise;
-  std::vector<double> relative_all, relative_within;
-  double raw_all = 0, raw_within = 0;
+  std::vector<double> relative_all, relative_within, relative_photons;
+  double raw_all = 0, raw_within = 0, raw_photons = 0;
   for (size_t t = 0; t < within.size(); ++t) {
     if (tiles.counts()[t] == 0) continue;
     const double brightness = of_all.brightness[t];
     relative_all.push_back(of_all.variance[t]);
     relative_within.push_back(brightness > 0 ? within[t] / brightness : 0);
+    relative_photons.push_back(of_all.photons[t]);
     raw_all += of_all.variance[t] * brightness;
     raw_within += within[t];
+    raw_photons += of_all.photons[t] * brightness;
     noise.light += of_all.light[t];
   }
-  const auto photons = [sharing](double all, double camera) {
-    return std::max(0.0, all - camera) / (1 - sharing);
+  // The difference is right in the mean, but a few bright camera paths can hide the photons in it.
+  // Independent photons bound it from above. Stratified ones have at least half of that.
+  const auto photons = [sharing](double all, double camera, double independent) {
+    return std::clamp((all - camera) / (1 - sharing), 0.5 * independent, independent);
   };
   const double count = static_cast<double>(std::max<size_t>(1, relative_all.size()));
   noise.light /= count;
   noise.variance_of_camera = raw_within / count;
-  noise.variance_of_photons = photons(raw_all, raw_within) / count;
+  noise.variance_of_photons = photons(raw_all, raw_within, raw_photons) / count;
   noise.of_camera = winsorized_mean(std::move(relative_within));
-  noise.of_photons = photons(winsorized_mean(std::move(relative_all)), noise.of_camera);
+  noise.of_photons = photons(winsorized_mean(std::move(relative_all)), noise.of_camera,
+                             winsorized_mean(std::move(relative_photons)));
   return noise;
 }
 

@@ -12,14 +12,17 @@ namespace {
 constexpr int kSamples = 2;
 const PixelBounds kBounds{0, 0, 256, 256};
 
-/// Samples of two passes: `light(pass, pixel, sample)`.
-TrialNoise noise_of(const std::function<double(int, int, int)>& light) {
+/// Samples of two passes: `light(pass, pixel, sample)`. Each merges photons that would have
+/// `photon_variance` if they were independent.
+TrialNoise noise_of(const std::function<double(int, int, int)>& light, double photon_variance) {
   std::vector<SampleVariance> passes(2, SampleVariance(kBounds));
   for (int pass = 0; pass < 2; ++pass)
     for (int y = 0; y < kBounds.y1; ++y)
       for (int x = 0; x < kBounds.x1; ++x)
-        for (int k = 0; k < kSamples; ++k)
+        for (int k = 0; k < kSamples; ++k) {
           passes[pass].add(x, y, light(pass, y * kBounds.x1 + x, k), 1);
+          passes[pass].add_photons(x, y, photon_variance);
+        }
   return split_noise(passes, SampleMap(kBounds), kSamples);
 }
 
@@ -31,10 +34,14 @@ TEST(SplitNoise, TellsTheNoiseThatSamplesShare) {
     // All samples of a pixel and pass share their photons.
     std::vector<double> shared(2 * kBounds.area());
     for (double& v : shared) v = normal(random);
-    const TrialNoise noise = noise_of([&](int pass, int pixel, int) {
-      return 10 + std::sqrt(photons) * shared[pass * kBounds.area() + pixel] +
-             std::sqrt(camera) * normal(random);
-    });
+    // Stratified photons vary less than independent ones.
+    const double independent = 1.5 * photons;
+    const TrialNoise noise = noise_of(
+        [&](int pass, int pixel, int) {
+          return 10 + std::sqrt(photons) * shared[pass * kBounds.area() + pixel] +
+                 std::sqrt(camera) * normal(random);
+        },
+        independent);
     EXPECT_NEAR(noise.light, 10, 0.05);
     EXPECT_NEAR(noise.variance_of_camera, camera, 0.03);
     EXPECT_NEAR(noise.variance_of_photons, photons, 0.05);
@@ -44,13 +51,23 @@ TEST(SplitNoise, TellsTheNoiseThatSamplesShare) {
   }
 }
 
+/// Light with fireflies, each in a single sample of a pixel and far brighter than all else in its
+/// tile. They make the difference of the two variances negative.
+double light_with_fireflies(int pass, int pixel, int k) {
+  return pixel % 1009 == 0 && pass == pixel / 1009 % 2 && k == 0 ? 1e4 : 1;
+}
+
 TEST(SplitNoise, DoesNotBlamePhotonsForFireflies) {
-  // Each is in a single sample of a pixel, far brighter than all else in its tile.
-  const TrialNoise noise = noise_of([](int pass, int pixel, int k) {
-    return pixel % 1009 == 0 && pass == pixel / 1009 % 2 && k == 0 ? 1e4 : 1e-3;
-  });
+  const TrialNoise noise = noise_of(light_with_fireflies, 0);
   EXPECT_GT(noise.of_camera, 0);
-  EXPECT_LT(noise.of_photons, 1e-6 * noise.of_camera);
+  EXPECT_EQ(noise.of_photons, 0);
+}
+
+TEST(SplitNoise, SeesPhotonsBehindFireflies) {
+  const double independent = 0.25;
+  const TrialNoise noise = noise_of(light_with_fireflies, independent);
+  EXPECT_GE(noise.variance_of_photons, 0.5 * independent * (1 - 1e-9));
+  EXPECT_LE(noise.variance_of_photons, independent * (1 + 1e-9));
 }
 
 TEST(SplitNoise, LooksAtTheTilesThatHaveSamples) {
