@@ -1,0 +1,45 @@
+#include "input/scene_reader.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "input/file_bytes.h"
+#include "input/pbrt_parser.h"
+
+namespace nephroid {
+namespace {
+
+struct SceneFormat {
+  const char* suffix;  ///< end of the file's name, in lower case
+  SceneDescription (*read)(const std::string& path, const ImportOptions& options,
+                           Diagnostics& diagnostics);
+};
+
+SceneDescription read_pbrt(const std::string& path, const ImportOptions&,
+                           Diagnostics& diagnostics) {
+  return parse_pbrt_file(path, diagnostics);
+}
+
+/// One row per suffix. The last row takes every other name.
+constexpr SceneFormat kFormats[] = {
+    {"", read_pbrt},
+};
+
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+}  // namespace
+
+SceneDescription read_scene(const std::string& path, const ImportOptions& options,
+                            Diagnostics& diagnostics) {
+  const std::string name = lower_case(path);
+  const SceneFormat* format = std::find_if(
+      std::begin(kFormats), std::end(kFormats),
+      [&](const SceneFormat& row) { return has_suffix(name, row.suffix); });
+  return format->read(path, options, diagnostics);
+}
+
+}  // namespace nephroid
