@@ -4,6 +4,7 @@
 #include <cctype>
 
 #include "input/file_bytes.h"
+#include "input/mitsuba/mitsuba_reader.h"
 #include "input/pbrt_parser.h"
 
 namespace nephroid {
@@ -22,6 +23,7 @@ SceneDescription read_pbrt(const std::string& path, const ImportOptions&,
 
 /// One row per suffix. The last row takes every other name.
 constexpr SceneFormat kFormats[] = {
+    {".xml", read_mitsuba},
     {"", read_pbrt},
 };
 
