@@ -54,9 +54,7 @@ MetalIndex metal_index(const std::string& name, const SourceLocation& where) {
       known.push_back(spectrum.substr(6, spectrum.size() - 10));
   std::string names;
   for (const std::string& n : known) names += (names.empty() ? "" : ", ") + n;
-  throw SceneError(where, "conductor \"" + name.substr(0, 40) + "\" is unknown" +
-                              did_you_mean(name, known) +
-                              ", expected eta and k, or one of " + names);
+  throw SceneError(where, "conductor \"" + name.substr(0, 40) + "\" is unknown, expected eta and k, or one of " + names + did_you_mean(name, known));
 }
 
 }  // namespace nephroid::mitsuba

@@ -7,9 +7,9 @@ void refuse_plugin(const Object& object, const Plugin* row, const std::vector<st
   if (row) throw SceneError(object.where, title + " cannot be rendered: " + row->note);
   std::string names;
   for (const std::string& name : known) names += (names.empty() ? "\"" : ", \"") + name + "\"";
-  throw SceneError(object.where, title + " is unknown" +
-                                     did_you_mean(object.type, known, object.tag) + ", expected " +
-                                     (names.empty() ? "none" : names));
+  throw SceneError(object.where, title + " is unknown, expected " +
+                                     (names.empty() ? "none" : names) +
+                                     did_you_mean(object.type, known, object.tag));
 }
 
 }  // namespace nephroid::mitsuba

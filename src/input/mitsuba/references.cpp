@@ -71,8 +71,8 @@ Object* Ids::find(const std::string& id, const SourceLocation& where) const {
   }
   std::vector<std::string> known;
   for (const auto& entry : objects_) known.push_back(entry.first);
-  throw SceneError(where, "there is no object with id \"" + id + "\"" + did_you_mean(id, known) +
-                              ", expected the id of an object");
+  throw SceneError(where, "there is no object with id \"" + id + "\", expected the id of an object" +
+                              did_you_mean(id, known));
 }
 
 void resolve_references(Object& root, const Ids& ids) {

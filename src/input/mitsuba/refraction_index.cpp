@@ -52,9 +52,8 @@ double index_of(const std::string& name, const SourceLocation& where) {
     if (lower == s.name) return s.index;
     known.emplace_back(s.name);
   }
-  throw SceneError(where, "substance \"" + name.substr(0, 40) + "\" is unknown" +
-                              did_you_mean(lower, known) +
-                              ", expected a refractive index or a name such as \"bk7\"");
+  throw SceneError(where, "substance \"" + name.substr(0, 40) + "\" is unknown, expected a refractive index or a name such as \"bk7\"" +
+                              did_you_mean(lower, known));
 }
 
 /// Fresnel reflectance of unpolarized light; `eta` is transmitted over incident index.

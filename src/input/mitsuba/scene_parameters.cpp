@@ -40,9 +40,8 @@ std::string SceneParameters::replaced(const std::string& text, const SourceLocat
     if (value == values_.end()) {
       std::vector<std::string> known;
       for (const auto& entry : values_) known.push_back(entry.first);
-      throw SceneError(where, "parameter \"$" + name + "\" has no value" +
-                                  did_you_mean(name, known) +
-                                  ", expected a <default> or a value on the command line");
+      throw SceneError(where, "parameter \"$" + name + "\" has no value, expected a <default> or one on the command line" +
+                                  did_you_mean(name, known));
     }
     used_.insert(name);
     result += value->second;
