@@ -4,6 +4,7 @@
 #include <cctype>
 
 #include "input/file_bytes.h"
+#include "input/gltf/gltf_reader.h"
 #include "input/pbrt_parser.h"
 
 namespace nephroid {
@@ -22,6 +23,8 @@ SceneDescription read_pbrt(const std::string& path, const ImportOptions&,
 
 /// One row per suffix. The last row takes every other name.
 constexpr SceneFormat kFormats[] = {
+    {".gltf", read_gltf},
+    {".glb", read_gltf},
     {"", read_pbrt},
 };
 
@@ -36,9 +39,9 @@ std::string lower_case(std::string text) {
 SceneDescription read_scene(const std::string& path, const ImportOptions& options,
                             Diagnostics& diagnostics) {
   const std::string name = lower_case(path);
-  const SceneFormat* format = std::find_if(
-      std::begin(kFormats), std::end(kFormats),
-      [&](const SceneFormat& row) { return has_suffix(name, row.suffix); });
+  const SceneFormat* format =
+      std::find_if(std::begin(kFormats), std::end(kFormats),
+                   [&](const SceneFormat& row) { return has_suffix(name, row.suffix); });
   return format->read(path, options, diagnostics);
 }
 

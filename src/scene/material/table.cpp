@@ -11,6 +11,13 @@ constexpr FormatParameter kSurface[] = {
     {"float or texture", "displacement", "none", "scene units",
      "bumps; not together with \"normalmap\", which wins with a warning"},
     {"string", "normalmap", "none", "", "an image file"},
+    {"float", "normalmap.scale", "1", "", "of the first two components; not in pbrt-v4"},
+    {"bool", "normalmap.handedness", "false", "",
+     "mirrored texture coordinates mirror the map; not in pbrt-v4"},
+    {"string", "normalmap.uwrap", "repeat", "", "not in pbrt-v4"},
+    {"string", "normalmap.vwrap", "repeat", "", "not in pbrt-v4"},
+    {"integer", "normalmap.uvset", "0", "", "as of textures; not in pbrt-v4"},
+    {"float[6]", "normalmap.uvtransform", "1 0 0 0 1 0", "", "as of textures; not in pbrt-v4"},
 };
 constexpr FormatParameter kRoughness[] = {
     {"float or texture", "roughness", "0"},
