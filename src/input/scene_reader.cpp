@@ -4,6 +4,7 @@
 #include <cctype>
 
 #include "input/file_bytes.h"
+#include "input/gltf/gltf_reader.h"
 #include "input/mitsuba/mitsuba_reader.h"
 #include "input/pbrt_parser.h"
 
@@ -23,6 +24,8 @@ SceneDescription read_pbrt(const std::string& path, const ImportOptions&,
 
 /// One row per suffix. The last row takes every other name.
 constexpr SceneFormat kFormats[] = {
+    {".gltf", read_gltf},
+    {".glb", read_gltf},
     {".xml", read_mitsuba},
     {"", read_pbrt},
 };
