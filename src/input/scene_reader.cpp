@@ -36,9 +36,9 @@ std::string lower_case(std::string text) {
 SceneDescription read_scene(const std::string& path, const ImportOptions& options,
                             Diagnostics& diagnostics) {
   const std::string name = lower_case(path);
-  const SceneFormat* format = std::find_if(
-      std::begin(kFormats), std::end(kFormats),
-      [&](const SceneFormat& row) { return has_suffix(name, row.suffix); });
+  const SceneFormat* format =
+      std::find_if(std::begin(kFormats), std::end(kFormats),
+                   [&](const SceneFormat& row) { return has_suffix(name, row.suffix); });
   return format->read(path, options, diagnostics);
 }
 
