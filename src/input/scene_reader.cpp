@@ -4,7 +4,9 @@
 #include <cctype>
 
 #include "input/file_bytes.h"
+#include "input/obj/obj_scene.h"
 #include "input/pbrt_parser.h"
+#include "input/staging/staging.h"
 
 namespace nephroid {
 namespace {
@@ -13,6 +15,7 @@ struct SceneFormat {
   const char* suffix;  ///< end of the file's name, in lower case
   SceneDescription (*read)(const std::string& path, const ImportOptions& options,
                            Diagnostics& diagnostics);
+  bool is_complete = false;  ///< a scene without camera or light is meant to be so
 };
 
 SceneDescription read_pbrt(const std::string& path, const ImportOptions&,
@@ -22,7 +25,9 @@ SceneDescription read_pbrt(const std::string& path, const ImportOptions&,
 
 /// One row per suffix. The last row takes every other name.
 constexpr SceneFormat kFormats[] = {
-    {"", read_pbrt},
+    {".obj", read_obj_scene},
+    {".obj.gz", read_obj_scene},
+    {"", read_pbrt, true},
 };
 
 std::string lower_case(std::string text) {
@@ -39,7 +44,9 @@ SceneDescription read_scene(const std::string& path, const ImportOptions& option
   const SceneFormat* format =
       std::find_if(std::begin(kFormats), std::end(kFormats),
                    [&](const SceneFormat& row) { return has_suffix(name, row.suffix); });
-  return format->read(path, options, diagnostics);
+  SceneDescription scene = format->read(path, options, diagnostics);
+  stage_scene(&scene, format->is_complete, options, diagnostics);
+  return scene;
 }
 
 }  // namespace nephroid
