@@ -16,7 +16,7 @@ LAYERS = ["core", "input", "scene", "route", "film", "transport", "photon", "int
 # Rooms: the folders of a layer. In this order, each one includes only from those to its left. "" stands for the
 # layer's own files.
 ROOMS = {
-    "input": ["", "obj", "gltf", "mitsuba"],
+    "input": ["", "obj", "gltf", "mitsuba", "staging", "convert"],
     "scene": ["shape", "bsdf", "texture", "medium", "material", "light", "camera", ""],
     "integrator": ["estimator", "path", "photons", "learning", "photon_mapping", "virtual_lights",
                    "bidirectional", "metropolis", "mixed", "presets"],

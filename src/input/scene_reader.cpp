@@ -6,7 +6,9 @@
 #include "input/file_bytes.h"
 #include "input/gltf/gltf_reader.h"
 #include "input/mitsuba/mitsuba_reader.h"
+#include "input/obj/obj_scene.h"
 #include "input/pbrt_parser.h"
+#include "input/staging/staging.h"
 
 namespace nephroid {
 namespace {
@@ -15,6 +17,7 @@ struct SceneFormat {
   const char* suffix;  ///< end of the file's name, in lower case
   SceneDescription (*read)(const std::string& path, const ImportOptions& options,
                            Diagnostics& diagnostics);
+  bool is_complete = false;  ///< a scene without camera or light is meant to be so
 };
 
 SceneDescription read_pbrt(const std::string& path, const ImportOptions&,
@@ -24,10 +27,12 @@ SceneDescription read_pbrt(const std::string& path, const ImportOptions&,
 
 /// One row per suffix. The last row takes every other name.
 constexpr SceneFormat kFormats[] = {
+    {".obj", read_obj_scene},
+    {".obj.gz", read_obj_scene},
     {".gltf", read_gltf},
     {".glb", read_gltf},
     {".xml", read_mitsuba},
-    {"", read_pbrt},
+    {"", read_pbrt, true},
 };
 
 std::string lower_case(std::string text) {
@@ -44,7 +49,9 @@ SceneDescription read_scene(const std::string& path, const ImportOptions& option
   const SceneFormat* format =
       std::find_if(std::begin(kFormats), std::end(kFormats),
                    [&](const SceneFormat& row) { return has_suffix(name, row.suffix); });
-  return format->read(path, options, diagnostics);
+  SceneDescription scene = format->read(path, options, diagnostics);
+  stage_scene(&scene, format->is_complete, options, diagnostics);
+  return scene;
 }
 
 }  // namespace nephroid

@@ -41,6 +41,15 @@ void set_action(const std::string& command, CommandLine& line) {
   if (command == "compare") line.action = Action::kCompare;
   if (command == "routes") line.action = Action::kRoutes;
   if (command == "bench") line.action = Action::kBench;
+  if (command == "convert") line.action = Action::kConvert;
+}
+
+/// Gives the options about scene files to the commands that read one.
+void share_import_options(CommandLine& line) {
+  line.render.overrides.import = line.import;
+  line.info.import = line.import;
+  line.routes.import = line.import;
+  line.convert.import = line.import;
 }
 
 /// Throws UsageError for a first word that is neither an option nor a command.
@@ -102,6 +111,7 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments) {
   if (options_page) return printing(options_markdown());
   if (scene_support_page) return printing(scene_support_markdown());
   if (chosen_command().empty()) throw UsageError("no command given\n\n" + program_help());
+  share_import_options(line);
   return line;
 }
 

@@ -89,6 +89,7 @@ void IgnoredLines::report() const {
     const auto known =
         std::find_if(rows_.begin(), rows_.end(),
                      [&](const FormatParameter& row) { return keyword == row.name; });
+    if (known != rows_.end() && known->support == Support::kNotNeeded) continue;
     if (known != rows_.end())
       diagnostics_.warn(where, subject + ": " + known->note);
     else

@@ -129,7 +129,8 @@ void ObjReader::read_position(std::string_view text) {
 void ObjReader::read_normal(std::string_view text) {
   std::array<float, 3> n{};
   read_numbers(text, 3, &n);
-  normals_.emplace_back(n[0], n[1], n[2]);
+  const Vec3f normal(n[0], n[1], n[2]);
+  normals_.push_back(is_finite(normal) ? normal : Vec3f(0, 0, 0));
 }
 
 void ObjReader::read_uv(std::string_view text) {
@@ -259,7 +260,6 @@ ObjFile read_obj(SceneFiles& files, const std::string& path, const SourceLocatio
 }
 
 MeshData joined_mesh(const ObjFile& file) {
-  const float nan = std::numeric_limits<float>::quiet_NaN();
   bool has_uvs = false, has_normals = false;
   for (const ObjPart& part : file.parts) {
     has_uvs = has_uvs || !part.mesh.uvs.empty();
@@ -273,7 +273,7 @@ MeshData joined_mesh(const ObjFile& file) {
     all.positions.insert(all.positions.end(), mesh.positions.begin(), mesh.positions.end());
     all.normals.insert(all.normals.end(), mesh.normals.begin(), mesh.normals.end());
     all.uvs.insert(all.uvs.end(), mesh.uvs.begin(), mesh.uvs.end());
-    if (has_normals) all.normals.resize(all.positions.size(), Vec3f(nan, nan, nan));
+    if (has_normals) all.normals.resize(all.positions.size(), Vec3f(0, 0, 0));
     if (has_uvs) all.uvs.resize(all.positions.size(), Vec2f(0, 0));
   }
   return all;

@@ -37,8 +37,8 @@ struct ObjFile {
 ObjFile read_obj(SceneFiles& files, const std::string& path, const SourceLocation& wanted_by,
                  Diagnostics& diagnostics);
 
-/// All parts as one mesh. If only some have normals, the others get NaN, which stands for the
-/// normal of the face; if only some have texture coordinates, the others get (0, 0).
+/// All parts as one mesh. If only some have normals, the others get (0, 0, 0), which stands for
+/// the normal of the face; if only some have texture coordinates, the others get (0, 0).
 MeshData joined_mesh(const ObjFile& file);
 
 }  // namespace nephroid

@@ -21,7 +21,9 @@ constexpr FormatParameter kTo[] = {{"point3", "to", "0 0 1"}};
 constexpr FormatParameter kIntensity[] = {
     {"spectrum", "I", "illuminant of the colour space", "intensity"}};
 constexpr FormatParameter kDistant[] = {
-    {"spectrum", "L", "illuminant of the colour space", "irradiance"}};
+    {"spectrum", "L", "illuminant of the colour space", "irradiance"},
+    {"float", "angle", "0", "degrees",
+     "angular diameter, 0 to 180; the irradiance does not depend on it; not in pbrt-v4"}};
 constexpr FormatParameter kSpotAxis[] = {
     {"point3", "to", "0 0 1"},
     {"float", "coneangle", "30", "degrees", "0 to 180"},

@@ -40,7 +40,6 @@ struct IntegratorSetting {
   std::function<void(RenderSettings& settings, const std::string& text)> apply;
   /// The stored value as text, for metadata.
   std::function<std::string(const RenderSettings& settings)> print;
-  bool is_for_everybody = false;  ///< --help shows it; --help-all shows all
 };
 
 /// The table of keys in the order of help: keys of all renders, then those of single estimators.

@@ -201,7 +201,7 @@ TEST(MitsubaMedium, ColouredAlbedosMakeAGridOfColours) {
   albedo.values.assign(24, 1.0f);
   albedo.values[3] = 0;  // red of the second voxel, whose density is 1
   MitsubaScene scene;
-  scene.folder().write("grid.vol", volume_file({}));
+  scene.folder().write("grid.vol", volume_file(VolumeSample()));
   scene.folder().write("albedo.vol", volume_file(albedo));
   const SceneDescription d = with_medium(
       scene, grid_medium("<volume type=\"gridvolume\" name=\"albedo\">" +
@@ -237,7 +237,7 @@ TEST(MitsubaMedium, BadVolumesAreErrors) {
   VolumeSample empty;
   empty.max = empty.min;
   EXPECT_NE(error(volume_file(empty)).find("the box of the volume is empty"), std::string::npos);
-  const std::string good = volume_file({});
+  const std::string good = volume_file(VolumeSample());
   for (size_t size = 0; size < good.size(); ++size)
     EXPECT_NE(error(good.substr(0, size)).find("the volume cannot be used"), std::string::npos);
 }

@@ -3,6 +3,7 @@
 #include <zlib.h>
 
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 namespace nephroid::testing {
@@ -56,6 +57,13 @@ std::string mesh_bytes(const SerializedSample& m) {
 }
 
 }  // namespace
+
+SerializedSample::SerializedSample()
+    : positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, triangles{0, 1, 2} {}
+
+VolumeSample::VolumeSample() : values(8) {
+  std::iota(values.begin(), values.end(), 0.0f);
+}
 
 std::string serialized_file(const std::vector<SerializedSample>& meshes) {
   std::string bytes;

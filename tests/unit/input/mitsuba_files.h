@@ -13,12 +13,14 @@ namespace nephroid::testing {
 struct SerializedSample {
   int version = 4;
   bool is_double = false, has_face_normals = false;
-  std::vector<Vec3f> positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  std::vector<Vec3f> positions;
   std::vector<Vec3f> normals;
   std::vector<Vec2f> uvs;
   std::vector<Vec3f> colors;
-  std::vector<uint32_t> triangles = {0, 1, 2};
+  std::vector<uint32_t> triangles;
   uint64_t claimed_triangles = 0;  ///< written instead of the true number if above 0
+
+  SerializedSample();
 };
 
 /// A file with these meshes, which have one version.
@@ -29,7 +31,9 @@ struct VolumeSample {
   int resolution[3] = {2, 2, 2};
   int channels = 1;
   Vec3f min{0, 0, 0}, max{1, 1, 1};
-  std::vector<float> values = {0, 1, 2, 3, 4, 5, 6, 7};  ///< in 0 to 1 for encoding 3
+  std::vector<float> values;  ///< 0 to 7 by default; in 0 to 1 for encoding 3
+
+  VolumeSample();
 };
 std::string volume_file(const VolumeSample& volume);
 

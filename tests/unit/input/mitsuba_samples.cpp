@@ -49,10 +49,10 @@ void write_sample_files(const TemporaryDirectory& folder) {
                "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
                "property float z\nelement face 1\nproperty list uchar int vertex_index\n"
                "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
-  folder.write("mesh.serialized", serialized_file({{}}));
+  folder.write("mesh.serialized", serialized_file({SerializedSample()}));
   folder.write("hair.txt", "0 0 0\n0 0 1\n\n1 0 0\n1 0 1\n");
   folder.write("curves.txt", "0 0 0 1\n0 0 1 1\n0 0 2 1\n0 0 3 1\n");
-  folder.write("grid.vol", volume_file({}));
+  folder.write("grid.vol", volume_file(VolumeSample()));
 }
 
 std::string scene_with(const std::string& tag, const std::string& name, const std::string& body) {

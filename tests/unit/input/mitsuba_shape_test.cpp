@@ -119,7 +119,7 @@ TEST(MitsubaShape, SerializedMeshesOfBothVersionsAndPrecisions) {
 }
 
 TEST(MitsubaShape, SerializedFaultsAreErrors) {
-  const std::string good = serialized_file({{}});
+  const std::string good = serialized_file({SerializedSample()});
   const auto error = [](const std::string& bytes, int index = 0) {
     return error_of([&] { mitsuba::read_serialized(bytes, index, {}); });
   };
@@ -152,7 +152,7 @@ TEST(MitsubaShape, SerializedFaultsAreErrors) {
 }
 
 TEST(MitsubaShape, EachCutOfASerializedFileIsAnErrorOrAMesh) {
-  const std::string good = serialized_file({{}, {}});
+  const std::string good = serialized_file({SerializedSample(), SerializedSample()});
   for (size_t size = 0; size < good.size(); ++size)
     error_of([&] { mitsuba::read_serialized(good.substr(0, size), 1, {}); });
 }
