@@ -43,7 +43,8 @@ LIBRARIES = {
 }
 MAX_LINES, MAX_COLUMNS = 400, 100
 # Files that are tables of text or data, not code.
-TABLES = {"report_page/page_style.cpp", "options/scene_support.cpp", "input/mitsuba/hosek_wilkie_data.cpp"}
+TABLES = {"report_page/page_style.cpp", "options/scene_support.cpp", "input/mitsuba/hosek_wilkie_data.cpp",
+          "options/mitsuba_support.cpp"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 

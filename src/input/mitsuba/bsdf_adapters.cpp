@@ -101,16 +101,15 @@ Surface write_blend(PluginProperties& p) {
   const std::vector<Surface> all = nested_surfaces(p, 2);
   const auto weight = read_float(p, "weight");
   Surface surface;
-  surface.material =
-      mixture(p, with_opacity(p, all[0]), with_opacity(p, all[1]),
-              weight.value_or(numbers_parameter("float", "", {0.5}, p.where())));
+  surface.material = mixture(p, with_opacity(p, all[0]), with_opacity(p, all[1]),
+                             weight.value_or(numbers_parameter("float", "", {0.5}, p.where())));
   surface.is_one_sided = all[0].is_one_sided && all[1].is_one_sided;
   return surface;
 }
 
 Surface write_mixture(PluginProperties& p) {
-  const std::vector<double> weights = finite_numbers(p.text("weights", ""), "\"weights\"",
-                                                     p.where());
+  const std::vector<double> weights =
+      finite_numbers(p.text("weights", ""), "\"weights\"", p.where());
   std::vector<Surface> all = nested_surfaces(p, 1);
   if (weights.size() != all.size())
     throw SceneError(p.where(), p.title() + " has " + std::to_string(weights.size()) +
@@ -120,8 +119,7 @@ Surface write_mixture(PluginProperties& p) {
   surface.is_one_sided = true;
   double sum = 0;
   for (size_t i = 0; i < all.size(); ++i) {
-    if (!(weights[i] >= 0))
-      throw SceneError(p.where(), "a weight is negative, expected 0 or more");
+    if (!(weights[i] >= 0)) throw SceneError(p.where(), "a weight is negative, expected 0 or more");
     surface.is_one_sided = surface.is_one_sided && all[i].is_one_sided;
     sum += weights[i];
     const std::string part = with_opacity(p, all[i]);
@@ -147,8 +145,7 @@ Surface write_bump_map(PluginProperties& p) {
 
 Surface write_normal_map(PluginProperties& p) {
   const Object* texture = p.first_child("texture");
-  if (!texture)
-    throw SceneError(p.where(), p.title() + " has no texture, expected one of normals");
+  if (!texture) throw SceneError(p.where(), p.title() + " has no texture, expected one of normals");
   return with_parameter(p, text_parameter("string", "normalmap",
                                           {bitmap_file(p.context(), *texture)}, texture->where));
 }

@@ -36,8 +36,8 @@ void add_index(PluginProperties& p, ParameterSet& set, const std::string& metal)
 
 /// Mitsuba's "none" is a mirror; Mitsuba 3 also has one by default.
 bool is_mirror(PluginProperties& p, std::string* metal) {
-  const bool has_index = p.has("eta") || p.has("k") || p.child("spectrum", "eta") ||
-                         p.child("texture", "eta");
+  const bool has_index =
+      p.has("eta") || p.has("k") || p.child("spectrum", "eta") || p.child("texture", "eta");
   *metal = p.text("material", has_index || p.context().is_before_version_2() ? "Cu" : "none");
   const bool is_none = *metal == "none" || *metal == "None";
   if (is_none && has_index) *metal = "Cu";

@@ -16,14 +16,15 @@ void check_distribution(PluginProperties& p) {
       !p.has("alpha_u"))
     return;
   if (distribution != "ggx")
-    warn_approximated(p, "distribution \"" + distribution +
-                             "\" is rendered as \"ggx\" of the same alpha");
+    warn_approximated(
+        p, "distribution \"" + distribution + "\" is rendered as \"ggx\" of the same alpha");
 }
 
 Parameter alpha_of(PluginProperties& p, const char* name, const Parameter& fallback) {
   const auto found = read_float(p, name);
   if (found && found->type == "float" && !(found->numbers[0] >= 0 && found->numbers[0] <= 10))
-    throw SceneError(found->where, std::string("\"") + name + "\" is out of range, expected 0 to 10");
+    throw SceneError(found->where,
+                     std::string("\"") + name + "\" is out of range, expected 0 to 10");
   return found.value_or(fallback);
 }
 

@@ -63,8 +63,7 @@ Surface write_phong(PluginProperties& p) {
   if (exponent && exponent->type == "texture")
     warn_approximated(p, "\"exponent\" is a texture, 30 is used");
   const double n = exponent && exponent->type == "float" ? exponent->numbers[0] : 30;
-  if (!(n >= 0))
-    throw SceneError(exponent->where, "\"exponent\" is negative, expected 0 or more");
+  if (!(n >= 0)) throw SceneError(exponent->where, "\"exponent\" is negative, expected 0 or more");
   // The angle to the half vector is half of that to the mirror direction: its exponent is 4 n, and
   // alpha^2 = 2 / (exponent + 2).
   const double alpha = std::sqrt(2 / (4 * n + 2));

@@ -38,8 +38,7 @@ MaterialDescription common(PluginProperties& p) {
   copy_float(p, "sheen", m.parameters, "fuzz_weight");
   if (constant(p, "flatness", 0) != 0) warn_approximated(p, "\"flatness\" is ignored");
   for (const char* tint : {"spec_tint", "sheen_tint"})
-    if (constant(p, tint, 0) != 0)
-      warn_approximated(p, std::string("\"") + tint + "\" is ignored");
+    if (constant(p, tint, 0) != 0) warn_approximated(p, std::string("\"") + tint + "\" is ignored");
   return m;
 }
 

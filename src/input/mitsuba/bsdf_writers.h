@@ -65,8 +65,7 @@ std::string mixture(PluginProperties& properties, const std::string& first,
 
 /// Sets the microfacet distribution from "alpha", or "alpha_u" and "alpha_v", as parameters
 /// `prefix` + "roughness". Warns of distributions other than GGX.
-void add_roughness(PluginProperties& properties, ParameterSet& set,
-                   const std::string& prefix = "");
+void add_roughness(PluginProperties& properties, ParameterSet& set, const std::string& prefix = "");
 /// The same as specular_roughness of "principled", whose square is alpha. Textures get a warning.
 void add_principled_roughness(PluginProperties& properties, ParameterSet& set);
 

@@ -24,15 +24,14 @@ ColorValue spectrum_of_pairs(std::vector<double> pairs, ColorUse use, const Sour
 /// The same value at all wavelengths. Mitsuba 3 emits it as equal energy, Mitsuba 0.6 as white.
 ColorValue uniform_spectrum(double value, ColorUse use, bool is_before_version_2,
                             const SourceLocation& where) {
-  if (use != ColorUse::kEmission || is_before_version_2)
-    return constant_color(Vec3d(value), where);
+  if (use != ColorUse::kEmission || is_before_version_2) return constant_color(Vec3d(value), where);
   return spectrum_of_pairs({360, value, 830, value}, use, where);
 }
 
 ColorValue black_body(const Property& p) {
-  const double kelvin = kelvin_of_text(p.attribute("temperature").empty()
-                                           ? p.attribute("value")
-                                           : p.attribute("temperature"), p.where);
+  const double kelvin = kelvin_of_text(
+      p.attribute("temperature").empty() ? p.attribute("value") : p.attribute("temperature"),
+      p.where);
   ColorValue color;
   color.parameter = numbers_parameter("blackbody", "", {kelvin}, p.where);
   color.scale = luminance_of_black_body(kelvin);
@@ -58,8 +57,9 @@ ColorValue color_of_property(PluginProperties& properties, const Property& p, Co
   if (p.tag == "rgb" || p.tag == "srgb" || p.tag == "color")
     return constant_color(rgb_of_text(p, p.tag == "srgb"), p.where);
   if (p.tag == "float" || p.tag == "integer")
-    return constant_color(Vec3d(finite_number(p.attribute("value"),
-                                              "property \"" + p.name + "\"", p.where)), p.where);
+    return constant_color(
+        Vec3d(finite_number(p.attribute("value"), "property \"" + p.name + "\"", p.where)),
+        p.where);
   if (p.tag == "blackbody") return black_body(p);
   if (p.tag != "spectrum")
     throw SceneError(p.where, "property \"" + p.name + "\" is a <" + p.tag +
@@ -69,8 +69,7 @@ ColorValue color_of_property(PluginProperties& properties, const Property& p, Co
   const std::string text = p.attribute("value");
   if (text.find(':') != std::string::npos)
     return spectrum_of_pairs(pairs_of_text(text, p.where), use, p.where);
-  const std::vector<double> numbers =
-      finite_numbers(text, "property \"" + p.name + "\"", p.where);
+  const std::vector<double> numbers = finite_numbers(text, "property \"" + p.name + "\"", p.where);
   // Mitsuba compiled for rgb takes three numbers, too.
   if (numbers.size() == 3)
     return constant_color(Vec3d(numbers[0], numbers[1], numbers[2]), p.where);
@@ -103,8 +102,9 @@ ColorValue read_regular(PluginProperties& p, ColorUse use) {
   const std::vector<double> values = finite_numbers(p.text("values", ""), "\"values\"", p.where());
   const double first = p.number("wavelength_min", 360), last = p.number("wavelength_max", 830);
   if (values.size() < 2 || !(last > first))
-    throw SceneError(p.where(), "a regular spectrum needs two \"values\" or more and an interval "
-                                "of wavelengths");
+    throw SceneError(p.where(),
+                     "a regular spectrum needs two \"values\" or more and an interval "
+                     "of wavelengths");
   std::vector<double> pairs;
   for (size_t i = 0; i < values.size(); ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(values.size() - 1);
@@ -147,7 +147,8 @@ struct SpectrumRow : Plugin {
 };
 constexpr PluginSupport kLoaded = PluginSupport::kLoaded;
 constexpr SpectrumRow kSpectra[] = {
-    {{"spectrum", "uniform", kLoaded, "emission has equal energy at all wavelengths"}, read_uniform},
+    {{"spectrum", "uniform", kLoaded, "emission has equal energy at all wavelengths"},
+     read_uniform},
     {{"spectrum", "d65", kLoaded, "white"}, read_white},
     {{"spectrum", "srgb", kLoaded, "linear rgb with the primaries of sRGB"}, read_white},
     {{"spectrum", "regular"}, read_regular},
@@ -205,8 +206,9 @@ std::optional<Vec3d> read_rgb(PluginProperties& properties, const std::string& n
   if (!color) return std::nullopt;
   if (!color->rgb)
     throw SceneError(color->parameter.where,
-                     "\"" + name + "\" is no rgb colour, expected one: spectra and textures are "
-                     "not supported here");
+                     "\"" + name +
+                         "\" is no rgb colour, expected one: spectra and textures are "
+                         "not supported here");
   return color->rgb;
 }
 
@@ -219,8 +221,7 @@ std::optional<Parameter> read_float(PluginProperties& properties, const std::str
   if (!p) {
     if (const Object* spectrum = properties.child("spectrum", name)) {
       const ColorValue color = color_of_plugin(context, *spectrum, ColorUse::kUnbounded);
-      if (color.rgb)
-        return numbers_parameter("float", "", {mean(*color.rgb)}, spectrum->where);
+      if (color.rgb) return numbers_parameter("float", "", {mean(*color.rgb)}, spectrum->where);
       throw SceneError(spectrum->where, "\"" + name + "\" is a spectrum, expected a number");
     }
     return std::nullopt;

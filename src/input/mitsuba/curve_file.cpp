@@ -30,7 +30,8 @@ void add_point(Strand& strand, std::string_view text, bool has_radii, size_t lin
     if (good) values[i] = static_cast<float>(*value);
   }
   if (!good)
-    throw SceneError(where, "line " + std::to_string(line) + " of the file has no point, expected " +
+    throw SceneError(where, "line " + std::to_string(line) +
+                                " of the file has no point, expected " +
                                 (has_radii ? "x, y, z and a radius" : "x, y and z"));
   strand.points.emplace_back(values[0], values[1], values[2]);
   if (has_radii) strand.radii.push_back(values[3]);
@@ -55,8 +56,7 @@ std::vector<Strand> read_text(std::string_view bytes, bool has_radii, const Sour
 /// Three floats per point; an infinite one in front begins a strand.
 std::vector<Strand> read_binary(std::string_view bytes, const SourceLocation& where) {
   const auto next_float = [&]() {
-    if (bytes.size() < sizeof(float))
-      throw SceneError(where, "the hair file ends too early");
+    if (bytes.size() < sizeof(float)) throw SceneError(where, "the hair file ends too early");
     float value;
     std::memcpy(&value, bytes.data(), sizeof(value));
     bytes.remove_prefix(sizeof(value));

@@ -64,9 +64,8 @@ Geometry with_radii(PluginProperties& p, size_t min_points, bool is_spline) {
       const double linear = first + (last - first) * share;
       varies |= std::abs(strand.radii[i] - linear) > 0.01 * std::max(first, last);
     }
-    geometry.shapes.push_back(curve(
-        p, is_spline ? strand.points : straight_segments(strand.points),
-        is_spline ? "bspline" : "bezier", 2 * first, 2 * last));
+    geometry.shapes.push_back(curve(p, is_spline ? strand.points : straight_segments(strand.points),
+                                    is_spline ? "bspline" : "bezier", 2 * first, 2 * last));
   }
   if (varies)
     warn_approximated(p, "radii are linear from the first point of a curve to the last one");

@@ -31,8 +31,9 @@ void write_spot(PluginProperties& p, LightDescription& light) {
   const double cutoff = p.number("cutoff_angle", 20);
   const double beam = p.number("beam_width", 0.75 * cutoff);
   if (!(cutoff > 0 && cutoff <= 180 && beam >= 0 && beam <= cutoff))
-    throw SceneError(p.where(), "\"cutoff_angle\" and \"beam_width\" are out of range, expected "
-                                "degrees, the second not above the first");
+    throw SceneError(p.where(),
+                     "\"cutoff_angle\" and \"beam_width\" are out of range, expected "
+                     "degrees, the second not above the first");
   add_float(light.parameters, "coneangle", cutoff);
   add_float(light.parameters, "conedeltaangle", cutoff - beam);
   if (read_color(p, "texture", ColorUse::kUnbounded))
@@ -89,7 +90,8 @@ constexpr EmitterRow kEmitters[] = {
     {{"emitter", "sunsky", kApproximated, kSkyNote}, write_sun_and_sky},
     {{"emitter", "collimated", kRefused, "its beam has no width, so no path can meet it"}},
     {{"emitter", "projector", kRefused, "there is no such light here"}},
-    {{"emitter", "directionalarea", kRefused, "its light has one direction, so no path can meet it"}},
+    {{"emitter", "directionalarea", kRefused,
+      "its light has one direction, so no path can meet it"}},
     {{"emitter", "timed_sunsky", kRefused, "there is no such light here"}},
 };
 
@@ -99,8 +101,9 @@ void write_emitter(ImportContext& context, const Object& object) {
   PluginProperties p(object, context);
   const EmitterRow& row = plugin_row(kEmitters, object, context.diagnostics);
   if (!row.write)
-    throw SceneError(object.where, "emitter \"" + object.type + "\" stands outside of a shape, "
-                                   "expected it in one");
+    throw SceneError(object.where, "emitter \"" + object.type +
+                                       "\" stands outside of a shape, "
+                                       "expected it in one");
   LightDescription light = directive<LightDescription>("", object.where);
   row.write(p, light);
   if (const Object* medium = p.first_child("medium")) light.medium = write_medium(context, *medium);

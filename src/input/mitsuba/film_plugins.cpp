@@ -9,13 +9,15 @@
 namespace nephroid::mitsuba {
 namespace {
 
-constexpr PluginSupport kLoaded = PluginSupport::kLoaded, kApproximated = PluginSupport::kApproximated;
+constexpr PluginSupport kLoaded = PluginSupport::kLoaded,
+                        kApproximated = PluginSupport::kApproximated;
 
 constexpr Plugin kFilms[] = {
     {"film", "hdrfilm"},
     {"film", "tiledhdrfilm"},
     {"film", "mfilm", kLoaded, "size and crop; the picture is an OpenEXR file"},
-    {"film", "ldrfilm", kApproximated, "size and crop; the picture is linear, without tone mapping"},
+    {"film", "ldrfilm", kApproximated,
+     "size and crop; the picture is linear, without tone mapping"},
     {"film", "specfilm", kApproximated, "the picture has colours, no spectra"},
 };
 
@@ -125,8 +127,7 @@ FilmSize write_film(PluginProperties& sensor, const std::string& scene_name) {
   const FilmSize size = object ? read_film(context, *object, film) : FilmSize{768, 576};
   add_integer(film.parameters, "xresolution", size.width);
   add_integer(film.parameters, "yresolution", size.height);
-  add_text(film.parameters, "filename",
-           std::filesystem::path(scene_name).stem().string() + ".exr");
+  add_text(film.parameters, "filename", std::filesystem::path(scene_name).stem().string() + ".exr");
   context.scene.film = std::move(film);
   return size;
 }

@@ -57,8 +57,7 @@ Rgb HosekWilkieSky::radiance(double theta, double gamma) const {
     // Equations 8 and 9 of the paper; the letters are those of its coefficients.
     const double* s = channels_[c].shape;
     const double g = s[8];
-    const double chi =
-        (1 + cos_gamma * cos_gamma) / std::pow(1 + g * g - 2 * g * cos_gamma, 1.5);
+    const double chi = (1 + cos_gamma * cos_gamma) / std::pow(1 + g * g - 2 * g * cos_gamma, 1.5);
     const double f = (1 + s[0] * std::exp(s[1] / (cos_theta + 0.01))) *
                      (s[2] + s[3] * std::exp(s[4] * gamma) + s[5] * cos_gamma * cos_gamma +
                       s[6] * chi + s[7] * std::sqrt(cos_theta));

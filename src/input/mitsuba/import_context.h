@@ -25,14 +25,15 @@ struct ImportContext {
   SceneDescription& scene;
   const ImportOptions& options;
   Diagnostics& diagnostics;
-  int version = 0;  ///< major version of the scene, 0 for 0.5 and 0.6
-  bool moves = false;  ///< true if a transform is animated
-  int one_sided_shapes = 0;        ///< open shapes whose backs are black in Mitsuba
+  int version = 0;                      ///< major version of the scene, 0 for 0.5 and 0.6
+  bool moves = false;                   ///< true if a transform is animated
+  int one_sided_shapes = 0;             ///< open shapes whose backs are black in Mitsuba
   SourceLocation first_one_sided = {};  ///< the first of them
 
   // What was written, so that a shared object is written once.
   std::map<const Object*, Surface> surfaces = {};
-  std::map<std::pair<const Object*, std::string>, std::string> textures = {};  ///< by object and use
+  std::map<std::pair<const Object*, std::string>, std::string> textures =
+      {};  ///< by object and use
   std::map<const Object*, std::string> media = {};
   std::map<const Object*, std::string> groups = {};
 

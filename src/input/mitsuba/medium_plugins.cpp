@@ -66,16 +66,17 @@ void write_homogeneous(PluginProperties& p, MediumDescription& m) {
   const auto absorption = constant_of(p, "sigma_a"), scattering = constant_of(p, "sigma_s");
   const auto extinction = constant_of(p, "sigma_t");
   double scale = p.number("scale", 1);
-  const bool is_given = absorption || scattering || extinction || !p.context().is_before_version_2();
+  const bool is_given =
+      absorption || scattering || extinction || !p.context().is_before_version_2();
   if (p.has("material") || !is_given) {
     // Mitsuba's presets are pbrt-v4's, per millimetre, for scenes in units of ten centimetres.
     add_text(m.parameters, "preset", p.text("material", "Skin1"));
     scale *= 100;
   } else {
-    const Coefficients c = absorption || scattering
-                               ? Coefficients{absorption.value_or(Vec3d(0.0)),
-                                              scattering.value_or(Vec3d(0.0))}
-                               : of_extinction(extinction.value_or(Vec3d(1.0)), albedo_of(p));
+    const Coefficients c =
+        absorption || scattering
+            ? Coefficients{absorption.value_or(Vec3d(0.0)), scattering.value_or(Vec3d(0.0))}
+            : of_extinction(extinction.value_or(Vec3d(1.0)), albedo_of(p));
     add_rgb(m.parameters, "sigma_a", c.absorption);
     add_rgb(m.parameters, "sigma_s", c.scattering);
   }
@@ -90,7 +91,8 @@ void add_colored_grid(PluginProperties& p, MediumDescription& m, const VolumeSou
   for (size_t i = 0; i < density.grid.voxels(); ++i)
     for (int c = 0; c < 3; ++c) {
       const double t = density.grid.values[i];
-      const double a = albedo.grid.values[albedo.grid.channels == 3 ? 3 * i + static_cast<size_t>(c) : i];
+      const double a =
+          albedo.grid.values[albedo.grid.channels == 3 ? 3 * i + static_cast<size_t>(c) : i];
       if (a > 1) throw SceneError(p.where(), "an albedo is above 1, expected 0 to 1");
       absorption.push_back(t * (1 - a));
       scattering.push_back(t * a);

@@ -116,8 +116,6 @@ Geometry serialized_geometry(PluginProperties& p) {
     file_is_unreadable(named_by, error.what());
   }
   SerializedMesh found = read_serialized(bytes, index, named_by);
-  if (found.has_colors)
-    warn_approximated(p, "vertex colours are ignored");
   turn_v_over(found.mesh);
   return of_file(p, std::move(found.mesh), found.has_face_normals);
 }

@@ -28,8 +28,7 @@ std::vector<double> flat(const std::vector<Vec>& vectors) {
   std::vector<double> numbers;
   numbers.reserve(vectors.size() * Vec::dimensions());
   for (const Vec& v : vectors)
-    for (unsigned int i = 0; i < Vec::dimensions(); ++i)
-      numbers.push_back(v[static_cast<int>(i)]);
+    for (unsigned int i = 0; i < Vec::dimensions(); ++i) numbers.push_back(v[static_cast<int>(i)]);
   return numbers;
 }
 
@@ -54,7 +53,8 @@ std::vector<uint32_t> places_of(const MeshData& mesh) {
     const std::array<uint32_t, 3> bits = {std::bit_cast<uint32_t>(p.x + 0.0f),
                                           std::bit_cast<uint32_t>(p.y + 0.0f),
                                           std::bit_cast<uint32_t>(p.z + 0.0f)};
-    places.push_back(numbers.try_emplace(bits, static_cast<uint32_t>(numbers.size())).first->second);
+    places.push_back(
+        numbers.try_emplace(bits, static_cast<uint32_t>(numbers.size())).first->second);
   }
   return places;
 }
@@ -88,8 +88,7 @@ bool is_open(const MeshData& mesh) {
   std::vector<std::pair<uint32_t, uint32_t>> edges;
   for (size_t i = 0; i + 2 < triangles.size(); i += 3)
     for (size_t k = 0; k < 3; ++k)
-      edges.push_back(
-          std::minmax({places[triangles[i + k]], places[triangles[i + (k + 1) % 3]]}));
+      edges.push_back(std::minmax({places[triangles[i + k]], places[triangles[i + (k + 1) % 3]]}));
   std::sort(edges.begin(), edges.end());
   for (size_t i = 0; i < edges.size(); i += 2) {
     const bool has_pair = i + 1 < edges.size() && edges[i] == edges[i + 1];
@@ -107,6 +106,10 @@ void set_mesh(ShapeDescription& shape, const MeshData& mesh) {
   add_numbers(set, "integer", "indices", std::vector<double>(triangles.begin(), triangles.end()));
   if (!mesh.normals.empty()) add_numbers(set, "normal", "N", flat(mesh.normals));
   if (!mesh.uvs.empty()) add_numbers(set, "point2", "uv", flat(mesh.uvs));
+  if (mesh.colors.empty()) return;
+  std::vector<double> colors;
+  for (const auto& color : mesh.colors) colors.insert(colors.end(), color.begin(), color.end());
+  add_numbers(set, "float", "vertexcolors", std::move(colors));
 }
 
 MeshData rectangle_mesh() {

@@ -7,8 +7,8 @@
 
 namespace nephroid::mitsuba {
 
-/// Normals of vertices, as Mitsuba makes them for meshes without: those of the faces around, weighed
-/// by angle (Thuermer & Wuethrich 1998). Vertices without area get none (0).
+/// Normals of vertices, as Mitsuba makes them for meshes without: those of the faces around,
+/// weighed by angle (Thuermer & Wuethrich 1998). Vertices without area get none (0).
 std::vector<Vec3f> smooth_normals(const MeshData& mesh);
 
 void turn_v_over(MeshData& mesh);

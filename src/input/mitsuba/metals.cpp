@@ -34,8 +34,8 @@ constexpr Metal kMetals[] = {
 };
 
 Parameter three_values(const std::array<double, 3>& v, const SourceLocation& where) {
-  return numbers_parameter("spectrum", "",
-                           {360, v[0], 450, v[0], 550, v[1], 650, v[2], 830, v[2]}, where);
+  return numbers_parameter("spectrum", "", {360, v[0], 450, v[0], 550, v[1], 650, v[2], 830, v[2]},
+                           where);
 }
 
 }  // namespace
@@ -54,7 +54,9 @@ MetalIndex metal_index(const std::string& name, const SourceLocation& where) {
       known.push_back(spectrum.substr(6, spectrum.size() - 10));
   std::string names;
   for (const std::string& n : known) names += (names.empty() ? "" : ", ") + n;
-  throw SceneError(where, "conductor \"" + name.substr(0, 40) + "\" is unknown, expected eta and k, or one of " + names + did_you_mean(name, known));
+  throw SceneError(where, "conductor \"" + name.substr(0, 40) +
+                              "\" is unknown, expected eta and k, or one of " + names +
+                              did_you_mean(name, known));
 }
 
 }  // namespace nephroid::mitsuba

@@ -32,12 +32,14 @@ const Object* chosen_sensor(const Document& document, const std::string& wanted)
   const auto index = parse_integer(wanted);
   std::string names;
   for (size_t i = 0; i < sensors.size(); ++i) {
-    const bool is_wanted = sensors[i]->id == wanted || (index && *index == static_cast<long long>(i));
+    const bool is_wanted =
+        sensors[i]->id == wanted || (index && *index == static_cast<long long>(i));
     if (is_wanted) return sensors[i];
     names += (i > 0 ? ", " : "") + (sensors[i]->id.empty() ? std::to_string(i) : sensors[i]->id);
   }
-  throw SceneError(document.scene.where, "there is no camera \"" + wanted + "\", expected one of: " +
-                                             (names.empty() ? "none" : names));
+  throw SceneError(document.scene.where,
+                   "there is no camera \"" + wanted +
+                       "\", expected one of: " + (names.empty() ? "none" : names));
 }
 
 void write_object(ImportContext& context, const Object& object) {
@@ -53,8 +55,8 @@ void write_object(ImportContext& context, const Object& object) {
              object.tag == "texture" || object.tag == "medium" || object.tag == "sensor") {
     // Written where a shape, a BSDF or the camera uses it.
   } else {
-    context.diagnostics.warn(object.where, object.tag + " \"" + object.type +
-                                               "\" outside of other objects is ignored");
+    context.diagnostics.warn(
+        object.where, object.tag + " \"" + object.type + "\" outside of other objects is ignored");
   }
 }
 

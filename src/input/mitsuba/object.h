@@ -29,8 +29,8 @@ struct Property {
 struct Object;
 
 struct Child {
-  std::string name;       ///< name of the parent's property; may be empty
-  std::string reference;  ///< id of a <ref>; empty for an object in place
+  std::string name;                ///< name of the parent's property; may be empty
+  std::string reference;           ///< id of a <ref>; empty for an object in place
   const Object* object = nullptr;  ///< never null in a finished document
   SourceLocation where;
 };

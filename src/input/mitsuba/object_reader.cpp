@@ -25,11 +25,12 @@ namespace {
 constexpr int kMaxNesting = 64;    ///< of elements
 constexpr int kMaxIncludes = 256;  ///< in the whole scene; files can include others twice
 
-constexpr std::array kProperties = {"boolean", "integer", "float", "string",    "rgb",   "srgb",
+constexpr std::array kProperties = {"boolean", "integer", "float",  "string",    "rgb", "srgb",
                                     "color",   "point",   "vector", "blackbody", "long"};
-constexpr std::array kObjects = {"shape",  "bsdf",    "emitter",    "sensor", "medium",    "texture",
-                                 "film",   "rfilter", "integrator", "phase",  "sampler",   "volume",
-                                 "scene",  "camera",  "luminaire",  "spectrum", "subsurface"};
+constexpr std::array kObjects = {"shape",    "bsdf",      "emitter", "sensor",     "medium",
+                                 "texture",  "film",      "rfilter", "integrator", "phase",
+                                 "sampler",  "volume",    "scene",   "camera",     "luminaire",
+                                 "spectrum", "subsurface"};
 
 template <size_t N>
 bool is_one_of(const std::array<const char*, N>& names, std::string_view name) {
@@ -67,7 +68,8 @@ class ObjectReader {
     if (root.name() != std::string("scene")) {
       const std::string foreign = foreign_file_error(bytes, path);
       throw SceneError(text.start(), foreign.empty() ? "this has no element <scene>, expected a "
-                                                       "Mitsuba scene" : foreign);
+                                                       "Mitsuba scene"
+                                                     : foreign);
     }
     if (open_files_.empty()) {
       document.scene.where = text.place(root);
@@ -108,16 +110,16 @@ class ObjectReader {
   void read_element(const XmlText& text, const Node& node, Object& into, Document& document,
                     int depth) {
     const std::string tag = node.name();
-    const bool is_plugin = is_one_of(kObjects, tag) && (tag != "spectrum" || node.attribute("type"));
+    const bool is_plugin =
+        is_one_of(kObjects, tag) && (tag != "spectrum" || node.attribute("type"));
     if (is_plugin) {
       add_object(text, node, into, document, depth);
     } else if (is_one_of(kProperties, tag) || tag == "spectrum" || tag == "transform" ||
                tag == "animation") {
       add_property(text, node, into);
     } else if (tag == "ref") {
-      into.children.push_back(
-          {snake_case(value(text, node, "name")), required(text, node, "id"), nullptr,
-           text.place(node)});
+      into.children.push_back({snake_case(value(text, node, "name")), required(text, node, "id"),
+                               nullptr, text.place(node)});
     } else if (into.tag == "scene" && depth == 1) {
       read_directive(text, node, document);
     } else {
@@ -135,8 +137,9 @@ class ObjectReader {
     } else if (tag == "alias") {
       ids_.add_alias(required(text, node, "id"), required(text, node, "as"), text.place(node));
     } else if (tag == "path") {
-      diagnostics_.warn(text.place(node), "<path> is ignored: files are looked up in the scene's "
-                                          "folder only");
+      diagnostics_.warn(text.place(node),
+                        "<path> is ignored: files are looked up in the scene's "
+                        "folder only");
     } else {
       throw SceneError(text.place(node), "<" + tag + "> is unknown, expected a Mitsuba element");
     }
@@ -144,8 +147,8 @@ class ObjectReader {
 
   void include(const XmlText& text, const Node& node, Document& document) {
     const SourceLocation where = text.place(node);
-    const std::string name = contained_file(files_, required(text, node, "filename"),
-                                            options_.allow_outside, where);
+    const std::string name =
+        contained_file(files_, required(text, node, "filename"), options_.allow_outside, where);
     const std::string path = files_.path_of(name);
     if (std::find(open_files_.begin(), open_files_.end(), path) != open_files_.end())
       throw SceneError(where, "\"" + name + "\" includes itself");
@@ -205,8 +208,9 @@ class ObjectReader {
       m = m * transform_element(element.name(), attributes(text, element), text.place(element));
     }
     if (!is_invertible(m) || is_singular(m) || !is_affine(m))
-      throw SceneError(text.place(node), "the transform has no inverse or is projective, expected "
-                                         "an affine map");
+      throw SceneError(text.place(node),
+                       "the transform has no inverse or is projective, expected "
+                       "an affine map");
     return m;
   }
 
@@ -225,16 +229,16 @@ class ObjectReader {
     if (keys.empty())
       throw SceneError(text.place(node), "<animation> is empty, expected transforms");
     if (keys.size() > 2)
-      diagnostics_.warn(text.place(node), "an animation has more than two keyframes, the first and "
-                                          "the last one are used");
+      diagnostics_.warn(text.place(node),
+                        "an animation has more than two keyframes, the first and "
+                        "the last one are used");
     return {keys.begin()->second, keys.rbegin()->second};
   }
 
   std::map<std::string, std::string> attributes(const XmlText& text, const Node& node) const {
     std::map<std::string, std::string> all;
     for (const pugi::xml_attribute& attribute : node.attributes())
-      all[attribute.name()] =
-          parameters_.replaced(attribute.value(), text.place(node, attribute));
+      all[attribute.name()] = parameters_.replaced(attribute.value(), text.place(node, attribute));
     return all;
   }
 
@@ -248,8 +252,8 @@ class ObjectReader {
   std::string required(const XmlText& text, const Node& node, const char* name) const {
     std::string found = value(text, node, name);
     if (found.empty())
-      throw SceneError(text.place(node), "<" + std::string(node.name()) + "> has no \"" + name +
-                                             "\", expected one");
+      throw SceneError(text.place(node),
+                       "<" + std::string(node.name()) + "> has no \"" + name + "\", expected one");
     return found;
   }
 

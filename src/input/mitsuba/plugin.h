@@ -1,5 +1,5 @@
-// Rows of the tables of Mitsuba's plug-ins: what is loaded, approximated with a warning, or refused.
-// It must not know any plug-in.
+// Rows of the tables of Mitsuba's plug-ins: what is loaded, approximated with a warning, or
+// refused. It must not know any plug-in.
 #pragma once
 
 #include <string>
@@ -45,11 +45,11 @@ const Row& plugin_row(const Row (&table)[N], const Object& object, Diagnostics& 
   }
   if (!found || found->support == PluginSupport::kRefused) refuse_plugin(object, found, known);
   if (found->support != PluginSupport::kLoaded)
-    diagnostics.warn(object.where,
-                     object.tag + " \"" + object.type + "\" " +
-                         (found->support == PluginSupport::kIgnored ? "is ignored: "
-                                                                    : "is approximated: ") +
-                         found->note);
+    diagnostics.warn(
+        object.where,
+        object.tag + " \"" + object.type + "\" " +
+            (found->support == PluginSupport::kIgnored ? "is ignored: " : "is approximated: ") +
+            found->note);
   return *found;
 }
 

@@ -171,28 +171,27 @@ void PluginProperties::report_unused() const {
   const std::vector<std::string> known(asked_.begin(), asked_.end());
   for (const Property& p : object_.properties)
     if (!asked_.contains(p.name) && !is_not_needed(p.name))
-      context_.diagnostics.warn_of_unknown_name(
-          p.where, quoted(p) + " of " + title() + " is unknown, it is ignored" +
-                       did_you_mean(p.name, known));
+      context_.diagnostics.warn_of_unknown_name(p.where, quoted(p) + " of " + title() +
+                                                             " is unknown, it is ignored" +
+                                                             did_you_mean(p.name, known));
   for (const Child& c : object_.children)
     if (!used_children_.contains(&c))
-      context_.diagnostics.warn_of_unknown_name(
-          c.where, c.object->tag + " \"" + c.object->type + "\" in " + title() +
-                       " has no use there, it is ignored");
+      context_.diagnostics.warn_of_unknown_name(c.where, c.object->tag + " \"" + c.object->type +
+                                                             "\" in " + title() +
+                                                             " has no use there, it is ignored");
 }
 
 Vec3d vector_value(const Property& p) {
   if (p.attributes.contains("value")) {
     const std::vector<double> v = finite_numbers(p.attribute("value"), quoted(p), p.where);
     if (v.size() == 3) return {v[0], v[1], v[2]};
-    throw SceneError(p.where, quoted(p) + " has " + std::to_string(v.size()) +
-                                  " numbers, expected three");
+    throw SceneError(p.where,
+                     quoted(p) + " has " + std::to_string(v.size()) + " numbers, expected three");
   }
   Vec3d v(0.0);
   for (int i = 0; i < 3; ++i) {
     const std::string axis(1, "xyz"[i]);
-    if (p.attributes.contains(axis))
-      v[i] = finite_number(p.attribute(axis), quoted(p), p.where);
+    if (p.attributes.contains(axis)) v[i] = finite_number(p.attribute(axis), quoted(p), p.where);
   }
   return v;
 }

@@ -51,7 +51,7 @@ class PluginProperties {
 
   const Object& object_;
   ImportContext& context_;
-  std::set<std::string> asked_;         ///< names of properties
+  std::set<std::string> asked_;  ///< names of properties
   std::set<const Child*> used_children_;
 };
 

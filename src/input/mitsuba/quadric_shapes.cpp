@@ -48,7 +48,8 @@ Geometry disk_geometry(PluginProperties& p) {
 }
 
 Geometry cylinder_geometry(PluginProperties& p) {
-  const Vec3d from = p.point("p0").value_or(Vec3d(0.0)), to = p.point("p1").value_or(Vec3d(0, 0, 1));
+  const Vec3d from = p.point("p0").value_or(Vec3d(0.0)),
+              to = p.point("p1").value_or(Vec3d(0, 0, 1));
   const double length = (to - from).length();
   if (!(length > 0) || !std::isfinite(length))
     throw SceneError(p.where(), "\"p0\" and \"p1\" of a cylinder are the same point, expected two");

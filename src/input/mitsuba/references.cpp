@@ -52,8 +52,8 @@ void Ids::add(const std::string& id, Object* object) {
   const SourceLocation where = object->where;
   const auto [entry, is_new] = objects_.try_emplace(id, object);
   if (!is_new)
-    throw SceneError(where, "id \"" + id + "\" is already given at " +
-                                entry->second->where.to_string());
+    throw SceneError(where,
+                     "id \"" + id + "\" is already given at " + entry->second->where.to_string());
 }
 
 void Ids::add_alias(const std::string& id, const std::string& as, const SourceLocation& where) {
@@ -71,8 +71,8 @@ Object* Ids::find(const std::string& id, const SourceLocation& where) const {
   }
   std::vector<std::string> known;
   for (const auto& entry : objects_) known.push_back(entry.first);
-  throw SceneError(where, "there is no object with id \"" + id + "\", expected the id of an object" +
-                              did_you_mean(id, known));
+  throw SceneError(where, "there is no object with id \"" + id +
+                              "\", expected the id of an object" + did_you_mean(id, known));
 }
 
 void resolve_references(Object& root, const Ids& ids) {

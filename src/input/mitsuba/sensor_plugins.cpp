@@ -1,5 +1,5 @@
-// Cameras look along local +z, with +x to the left and +y up. In pbrt-v4's camera space +x is to the
-// right: the first axis changes its sign.
+// Cameras look along local +z, with +x to the left and +y up. In pbrt-v4's camera space +x is to
+// the right: the first axis changes its sign.
 #include "input/mitsuba/sensor_plugins.h"
 
 #include <algorithm>
@@ -39,19 +39,20 @@ double half_width(PluginProperties& p, double aspect) {
   if (axis == "x") return tangent;
   if (axis == "y") return tangent * aspect;
   if (axis == "diagonal") return tangent / std::sqrt(1 + 1 / (aspect * aspect));
-  throw SceneError(p.where(), "\"fov_axis\" is \"" + axis +
-                                  "\", expected x, y, diagonal, smaller or larger");
+  throw SceneError(p.where(),
+                   "\"fov_axis\" is \"" + axis + "\", expected x, y, diagonal, smaller or larger");
 }
 
-/// The window of the screen, whose shorter side is from -1 to 1, moved by the principal point.
+/// The window of the screen, whose shorter side is from -1 to 1. Each point of the film shows what
+/// lies the offset to the right and below, in units of the film.
 void add_window(PluginProperties& p, ParameterSet& set, double aspect) {
   const double x = p.number("principal_point_offset_x", 0),
                y = p.number("principal_point_offset_y", 0);
   if (x == 0 && y == 0) return;
   const double width = std::max(1.0, aspect), height = std::max(1.0, 1 / aspect);
   add_numbers(set, "float", "screenwindow",
-              {-width - 2 * width * x, width - 2 * width * x, -height + 2 * height * y,
-               height + 2 * height * y});
+              {-width + 2 * width * x, width + 2 * width * x, -height - 2 * height * y,
+               height - 2 * height * y});
 }
 
 void add_view(PluginProperties& p, CameraDescription& camera, double aspect) {
@@ -131,7 +132,8 @@ void write_sensor(ImportContext& context, const Object& object, const std::strin
   add_shutter(p, camera);
   const TransformDescription world = p.transform();
   camera.world_to_camera = {world_to_camera(world.start), world_to_camera(world.end)};
-  if (const Object* medium = p.first_child("medium")) camera.medium = write_medium(context, *medium);
+  if (const Object* medium = p.first_child("medium"))
+    camera.medium = write_medium(context, *medium);
   p.report_unused();
   context.scene.camera = std::move(camera);
 }

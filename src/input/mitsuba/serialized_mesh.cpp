@@ -47,7 +47,8 @@ int version_at(std::string_view bytes, size_t offset) {
 /// offsets of 4 bytes in version 3 and of 8 bytes in version 4.
 std::string_view packed_mesh(std::string_view bytes, int version, int index) {
   const size_t entry = version == 3 ? 4 : 8;
-  const uint32_t count = value_at<uint32_t>(bytes, bytes.size() - std::min<size_t>(bytes.size(), 4));
+  const uint32_t count =
+      value_at<uint32_t>(bytes, bytes.size() - std::min<size_t>(bytes.size(), 4));
   if (bytes.size() < 8 || count > (bytes.size() - 4) / entry)
     throw BadFile("the file claims to hold " + std::to_string(count) +
                   " meshes, expected fewer for its size");
@@ -60,9 +61,8 @@ std::string_view packed_mesh(std::string_view bytes, int version, int index) {
                       : value_at<uint64_t>(bytes, table + i * entry);
   };
   const uint64_t begin = offset_of(static_cast<size_t>(index));
-  const uint64_t end = static_cast<uint32_t>(index) + 1 < count
-                           ? offset_of(static_cast<size_t>(index) + 1)
-                           : table;
+  const uint64_t end =
+      static_cast<uint32_t>(index) + 1 < count ? offset_of(static_cast<size_t>(index) + 1) : table;
   if (begin >= table || end > table || end < begin || end - begin < 4)
     throw BadFile("the place of mesh " + std::to_string(index) + " is wrong");
   version_at(bytes, begin);
@@ -114,12 +114,13 @@ SerializedMesh read_mesh(std::string_view packed, int version) {
                   std::to_string(triangles) + " triangles, expected at most 2^32");
   SerializedMesh result;
   result.has_face_normals = (flags & kFaceNormals) != 0;
-  result.has_colors = (flags & kColors) != 0;
   MeshData& mesh = result.mesh;
   mesh.positions = vectors(read_numbers(stream, flags, vertices, 3));
   if (flags & kNormals) mesh.normals = vectors(read_numbers(stream, flags, vertices, 3));
   if (flags & kUvs) mesh.uvs = pairs(read_numbers(stream, flags, vertices, 2));
-  if (flags & kColors) read_numbers(stream, flags, vertices, 3);
+  if (flags & kColors)
+    for (const Vec3f& color : vectors(read_numbers(stream, flags, vertices, 3)))
+      mesh.colors.push_back({color.x, color.y, color.z, 1});
   mesh.triangles = stream.read_values<uint32_t>(3 * triangles);
   return result;
 }
@@ -131,6 +132,10 @@ void check(const MeshData& mesh) {
                     std::to_string(mesh.positions.size()));
   for (const Vec3f& p : mesh.positions)
     if (!is_finite(p)) throw BadFile("a position is not finite, expected finite numbers");
+  for (const auto& color : mesh.colors)
+    for (const float c : color)
+      if (!(c >= 0) || !std::isfinite(c))
+        throw BadFile("a colour is negative or not finite, expected finite numbers from 0");
 }
 
 }  // namespace

@@ -12,7 +12,6 @@ namespace nephroid::mitsuba {
 struct SerializedMesh {
   MeshData mesh;
   bool has_face_normals = false;  ///< the mesh shall look faceted
-  bool has_colors = false;        ///< vertex colours, which were skipped
 };
 
 /// The mesh number `index` of a file in version 3 or 4. Memory is bounded by what the file

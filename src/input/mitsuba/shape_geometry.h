@@ -1,5 +1,5 @@
-// The geometry of one shape of Mitsuba: type, parameters and transform of pbrt-v4's shape. Material,
-// media and light are not set.
+// The geometry of one shape of Mitsuba: type, parameters and transform of pbrt-v4's shape.
+// Material, media and light are not set.
 #pragma once
 
 #include <vector>

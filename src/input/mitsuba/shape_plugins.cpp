@@ -67,12 +67,13 @@ struct Attachments {
 Attachments attachments(PluginProperties& p) {
   Attachments a;
   const std::vector<const Child*> bsdfs = p.children("bsdf"), emitters = p.children("emitter");
-  if (bsdfs.size() > 1)
-    warn_approximated(p, "it has several BSDFs, the first one is used");
+  if (bsdfs.size() > 1) warn_approximated(p, "it has several BSDFs, the first one is used");
   if (emitters.size() > 1) warn_approximated(p, "it has several emitters, the first one is used");
   if (!emitters.empty()) a.light = area_light(p.context(), *emitters[0]->object);
-  if (const Object* medium = p.child("medium", "interior")) a.inside = write_medium(p.context(), *medium);
-  if (const Object* medium = p.child("medium", "exterior")) a.outside = write_medium(p.context(), *medium);
+  if (const Object* medium = p.child("medium", "interior"))
+    a.inside = write_medium(p.context(), *medium);
+  if (const Object* medium = p.child("medium", "exterior"))
+    a.outside = write_medium(p.context(), *medium);
   const bool is_boundary = !a.inside.empty() || !a.outside.empty();
   a.surface = bsdfs.empty() ? default_surface(p, a.light.has_value(), is_boundary)
                             : write_bsdf(p.context(), *bsdfs[0]->object);
@@ -100,7 +101,8 @@ void add_geometry(PluginProperties& p, const ShapeRow& row, Shapes& into) {
   Geometry geometry = row.geometry(p);
   const Attachments a = attachments(p);
   const bool flips = p.boolean("flip_normals", false);
-  if (geometry.is_open && a.surface.is_one_sided && !a.light) note_one_sided(p.context(), p.where());
+  if (geometry.is_open && a.surface.is_one_sided && !a.light)
+    note_one_sided(p.context(), p.where());
   for (ShapeDescription& shape : geometry.shapes) {
     attach(a, flips, shape);
     into.push_back(std::move(shape));
@@ -117,8 +119,9 @@ std::string write_group(ImportContext& context, const Object& group) {
   object.where = group.where;
   for (const Child* child : p.children("shape")) {
     if (child->object->type == "instance" || child->object->type == "shapegroup")
-      throw SceneError(child->where, "a shape group has an instance or a group in it, expected "
-                                     "other shapes");
+      throw SceneError(child->where,
+                       "a shape group has an instance or a group in it, expected "
+                       "other shapes");
     add_shapes(context, *child->object, object.shapes);
   }
   for (ShapeDescription& shape : object.shapes)
@@ -134,7 +137,8 @@ std::string write_group(ImportContext& context, const Object& group) {
 void add_instance(PluginProperties& p) {
   const Object* group = p.first_child("shape");
   if (!group || group->type != "shapegroup")
-    throw SceneError(p.where(), "an instance has no shape group in it, expected a reference to one");
+    throw SceneError(p.where(),
+                     "an instance has no shape group in it, expected a reference to one");
   InstanceDescription instance;
   instance.object = write_group(p.context(), *group);
   instance.transform = p.transform();

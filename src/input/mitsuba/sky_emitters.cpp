@@ -111,9 +111,9 @@ std::vector<Rgb> sky_pixels(const Daylight& d, const Vec3d& albedo, bool extends
       double theta = zenith / d.stretch;
       const bool is_below = theta >= 0.5 * kPiDouble;
       if (is_below) theta = 0.5 * kPiDouble - 1e-4;
-      const double cos_gamma = std::cos(theta) * std::cos(d.sun.zenith) +
-                               std::sin(theta) * std::sin(d.sun.zenith) *
-                                   std::cos(azimuth - d.sun.azimuth);
+      const double cos_gamma =
+          std::cos(theta) * std::cos(d.sun.zenith) +
+          std::sin(theta) * std::sin(d.sun.zenith) * std::cos(azimuth - d.sun.azimuth);
       double share = is_below && !extends ? 0 : 1;
       if (extends) share = smooth_step(2 - 2 * zenith / kPiDouble);
       pixels.push_back(sky.radiance(theta, std::acos(std::clamp(cos_gamma, -1.0, 1.0))) *
@@ -149,8 +149,7 @@ void set_sun(PluginProperties& p, const Daylight& d, double scale, LightDescript
   add_numbers(light.parameters, "point3", "to", {0, 0, 0});
   const double size = factor(p, "sun_radius_scale", 1);
   if (size > 0)
-    add_float(light.parameters, "angle",
-              std::min(180.0, size * kSunDiameter * 180 / kPiDouble));
+    add_float(light.parameters, "angle", std::min(180.0, size * kSunDiameter * 180 / kPiDouble));
   light.transform = {d.to_world, d.to_world};
 }
 

@@ -33,8 +33,9 @@ void check_pairs(const std::vector<double>& pairs, const SourceLocation& where) 
                                 " numbers, expected pairs of a wavelength and a value");
   for (size_t i = 2; i < pairs.size(); i += 2)
     if (!(pairs[i] > pairs[i - 2]))
-      throw SceneError(where, "the wavelengths of a spectrum do not increase, expected increasing "
-                              "ones");
+      throw SceneError(where,
+                       "the wavelengths of a spectrum do not increase, expected increasing "
+                       "ones");
 }
 
 }  // namespace

@@ -24,8 +24,7 @@ double positive(double angle) {
 SunPosition sun_position(const PlaceAndTime& when) {
   const double hours =
       when.hour - when.time_zone + (when.minute + when.second / 60) / 60;  // universal time
-  const double days =
-      julian_day(when.year, when.month, when.day) - 0.5 + hours / 24 - 2451545.0;
+  const double days = julian_day(when.year, when.month, when.day) - 0.5 + hours / 24 - 2451545.0;
   // Ecliptic coordinates.
   const double omega = 2.1429 - 0.0010394594 * days;
   const double mean_longitude = 4.8950630 + 0.017202791698 * days;
@@ -35,20 +34,19 @@ SunPosition sun_position(const PlaceAndTime& when) {
                            0.0000203 * std::sin(omega);
   const double obliquity = 0.4090928 - 6.2140e-9 * days + 0.0000396 * std::cos(omega);
   // Celestial coordinates.
-  const double right_ascension = positive(
-      std::atan2(std::cos(obliquity) * std::sin(longitude), std::cos(longitude)));
+  const double right_ascension =
+      positive(std::atan2(std::cos(obliquity) * std::sin(longitude), std::cos(longitude)));
   const double declination = std::asin(std::sin(obliquity) * std::sin(longitude));
   // Local coordinates.
   const double sidereal_hours = 6.6974243242 + 0.0657098283 * days + hours;
-  const double hour_angle =
-      (sidereal_hours * 15 + when.longitude) * kDegree - right_ascension;
+  const double hour_angle = (sidereal_hours * 15 + when.longitude) * kDegree - right_ascension;
   const double latitude = when.latitude * kDegree;
   SunPosition sun;
   sun.zenith = std::acos(std::cos(latitude) * std::cos(hour_angle) * std::cos(declination) +
                          std::sin(declination) * std::sin(latitude));
-  sun.azimuth = positive(
-      std::atan2(-std::sin(hour_angle), std::tan(declination) * std::cos(latitude) -
-                                            std::sin(latitude) * std::cos(hour_angle)));
+  sun.azimuth =
+      positive(std::atan2(-std::sin(hour_angle), std::tan(declination) * std::cos(latitude) -
+                                                     std::sin(latitude) * std::cos(hour_angle)));
   // Parallax: the radius of the earth over the distance of the sun, in km.
   sun.zenith += 6371.01 / 149597890 * std::sin(sun.zenith);
   return sun;

@@ -2,8 +2,9 @@
 // Mitsuba at the upper one.
 #include "input/mitsuba/texture_plugins.h"
 
-#include <cmath>
 #include <fmt/format.h>
+
+#include <cmath>
 #include <iterator>
 
 #include "input/file_bytes.h"
@@ -63,8 +64,9 @@ void add_wrap(PluginProperties& p, ParameterSet& set) {
     warn_approximated(p, "wrap mode \"" + u + "\" is rendered as repeat");
     add_text(set, "wrap", "repeat");
   } else {
-    throw SceneError(p.where(), "wrap mode \"" + u + "\" is unknown, expected repeat, clamp, "
-                                "mirror, zero or one");
+    throw SceneError(p.where(), "wrap mode \"" + u +
+                                    "\" is unknown, expected repeat, clamp, "
+                                    "mirror, zero or one");
   }
 }
 
@@ -112,9 +114,9 @@ void write_scale(PluginProperties& p, TextureDescription& t, TextureUse use) {
   t.type = "scale";
   const Object* nested = p.first_child("texture");
   if (nested) {
-    add_as(t.parameters, "tex",
-           text_parameter("texture", "", {write_texture(p.context(), *nested, use)},
-                          nested->where));
+    add_as(
+        t.parameters, "tex",
+        text_parameter("texture", "", {write_texture(p.context(), *nested, use)}, nested->where));
   } else {
     add_values(p, t.parameters, "value", "tex", use, 1);
   }
@@ -124,14 +126,16 @@ void write_scale(PluginProperties& p, TextureDescription& t, TextureUse use) {
   add_float(t.parameters, "scale", mean(scale));
 }
 
-void write_grey(PluginProperties& p, TextureDescription& t, TextureUse use) {
-  t.type = "constant";
-  p.text("name", "");
-  p.number("scale", 1);
+/// Colours of .serialized meshes; surfaces without are white.
+void write_vertex_colors(PluginProperties& p, TextureDescription& t, TextureUse use) {
+  t.type = "vertexcolor";
+  if (p.text("name", "vertex_color") != "vertex_color")
+    warn_approximated(p, "vertices have no other attribute than \"vertex_color\", it is used");
+  const double scale = p.number("scale", 1);
   if (use == TextureUse::kColor)
-    add_rgb(t.parameters, "value", Vec3d(0.5));
+    add_rgb(t.parameters, "factor", Vec3d(scale));
   else
-    add_float(t.parameters, "value", 0.5);
+    add_float(t.parameters, "scale", scale);
 }
 
 struct TextureRow : Plugin {
@@ -140,7 +144,7 @@ struct TextureRow : Plugin {
 };
 constexpr PluginSupport kLoaded = PluginSupport::kLoaded, kRefused = PluginSupport::kRefused,
                         kApproximated = PluginSupport::kApproximated;
-constexpr const char* kNoColors = "meshes have no colours here, the texture is grey (0.5)";
+constexpr const char* kOfSerialized = "those of .serialized meshes; others are white";
 constexpr const char* kNoSuchTexture = "there is no such texture here";
 constexpr TextureRow kTextures[] = {
     {{"texture", "bitmap", kLoaded, "bilinear; rotations of uv are ignored with a warning"},
@@ -148,8 +152,8 @@ constexpr TextureRow kTextures[] = {
     {{"texture", "checkerboard"}, write_checkerboard},
     {{"texture", "scale", kLoaded, "a coloured scale is replaced by its mean, with a warning"},
      write_scale},
-    {{"texture", "vertexcolors", kApproximated, kNoColors}, write_grey},
-    {{"texture", "mesh_attribute", kApproximated, kNoColors}, write_grey},
+    {{"texture", "vertexcolors", kLoaded, kOfSerialized}, write_vertex_colors},
+    {{"texture", "mesh_attribute", kApproximated, kOfSerialized}, write_vertex_colors},
     {{"texture", "gridtexture", kRefused, kNoSuchTexture}},
     {{"texture", "wireframe", kRefused, kNoSuchTexture}},
     {{"texture", "curvature", kRefused, kNoSuchTexture}},

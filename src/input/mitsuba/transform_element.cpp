@@ -19,9 +19,7 @@ struct Element {
     const auto it = attributes.find(key);
     return it == attributes.end() ? nullptr : &it->second;
   }
-  std::string title(const std::string& key) const {
-    return "\"" + key + "\" of <" + tag + ">";
-  }
+  std::string title(const std::string& key) const { return "\"" + key + "\" of <" + tag + ">"; }
   double number(const std::string& key, double fallback) const {
     const std::string* text = find(key);
     return text ? finite_number(*text, title(key), where) : fallback;
@@ -68,8 +66,7 @@ Mat44d matrix(const Element& e) {
 /// Local +z looks at the target, +y is up and +x to the left: the inverse of pbrt's matrix, as it
 /// has the same numbers for a frame of the other handedness.
 Mat44d look_at(const Element& e) {
-  if (!e.find("origin") || !e.find("target"))
-    e.refuse("<lookat> needs \"origin\" and \"target\"");
+  if (!e.find("origin") || !e.find("target")) e.refuse("<lookat> needs \"origin\" and \"target\"");
   const Vec3d up = e.find("up") ? three_numbers(e, "up") : Vec3d(0, 1, 0);
   const Vec3d origin = three_numbers(e, "origin"), target = three_numbers(e, "target");
   std::optional<Mat44d> world_to_local = look_at_matrix(origin, target, up);
@@ -97,7 +94,8 @@ Mat44d transform_element(const std::string& tag, const Attributes& attributes,
   else if (tag == "lookat" || tag == "lookAt")
     m = look_at(e);
   else
-    e.refuse("<" + tag + "> in a transform is unknown, expected translate, rotate, scale, matrix "
+    e.refuse("<" + tag +
+             "> in a transform is unknown, expected translate, rotate, scale, matrix "
              "or lookat");
   if (is_singular(m)) e.refuse("<" + tag + "> has no inverse, expected a regular transform");
   return m;

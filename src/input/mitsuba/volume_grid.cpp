@@ -24,8 +24,7 @@ Value value_at(std::string_view bytes, size_t offset) {
 void check_header(std::string_view bytes, const SourceLocation& where) {
   if (bytes.size() < kHeader || !bytes.starts_with("VOL"))
     refuse(where, "it does not start with VOL, expected a .vol file");
-  if (bytes[3] != 3)
-    refuse(where, "it has version " + std::to_string(bytes[3]) + ", expected 3");
+  if (bytes[3] != 3) refuse(where, "it has version " + std::to_string(bytes[3]) + ", expected 3");
 }
 
 size_t bytes_per_value(int32_t encoding, const SourceLocation& where) {
@@ -56,8 +55,8 @@ VolumeGrid read_volume_grid(std::string_view bytes, const SourceLocation& where)
   for (int i = 0; i < 3; ++i) {
     grid.resolution[i] = value_at<int32_t>(bytes, 8 + 4 * static_cast<size_t>(i));
     if (grid.resolution[i] < 1 || grid.resolution[i] > kMaxResolution)
-      refuse(where, "a resolution is " + std::to_string(grid.resolution[i]) +
-                        ", expected 1 to 1048576");
+      refuse(where,
+             "a resolution is " + std::to_string(grid.resolution[i]) + ", expected 1 to 1048576");
     count *= static_cast<uint64_t>(grid.resolution[i]);
   }
   grid.channels = value_at<int32_t>(bytes, 20);
@@ -69,9 +68,10 @@ VolumeGrid read_volume_grid(std::string_view bytes, const SourceLocation& where)
   read_box(bytes, grid, where);
   grid.values.reserve(count);
   for (size_t i = 0; i < count; ++i) {
-    const float v = encoding == kFloat32
-                        ? value_at<float>(bytes, kHeader + i * size)
-                        : static_cast<float>(static_cast<unsigned char>(bytes[kHeader + i])) / 255.f;
+    const float v =
+        encoding == kFloat32
+            ? value_at<float>(bytes, kHeader + i * size)
+            : static_cast<float>(static_cast<unsigned char>(bytes[kHeader + i])) / 255.f;
     if (!(v >= 0) || !std::isfinite(v))
       refuse(where, "a value is negative or not finite, expected finite numbers from 0");
     grid.values.push_back(v);

@@ -39,8 +39,9 @@ void set_box(PluginProperties& p, VolumeSource& source) {
   }
   for (int i = 0; i < 3; ++i)
     if (!(source.p1[i] > source.p0[i]))
-      throw SceneError(p.where(), "the box of the volume is empty, expected a lower and a higher "
-                                  "corner");
+      throw SceneError(p.where(),
+                       "the box of the volume is empty, expected a lower and a higher "
+                       "corner");
   if (p.context().version < 3) widen(source);
 }
 
@@ -52,8 +53,7 @@ bool is_grid(const Object& object) {
 
 Vec3d constant_volume(ImportContext& context, const Object& object) {
   plugin_row(kVolumes, object, context.diagnostics);
-  if (is_grid(object))
-    throw SceneError(object.where, "this is a grid, expected a constant volume");
+  if (is_grid(object)) throw SceneError(object.where, "this is a grid, expected a constant volume");
   PluginProperties p(object, context);
   const Vec3d value = read_rgb(p, "value").value_or(Vec3d(1.0));
   p.report_unused();

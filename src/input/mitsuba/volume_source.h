@@ -10,7 +10,7 @@ namespace nephroid::mitsuba {
 
 struct VolumeSource {
   VolumeGrid grid;
-  Vec3d p0, p1;    ///< box whose cells have the values in their middle
+  Vec3d p0, p1;  ///< box whose cells have the values in their middle
   Mat44d to_world;
 };
 

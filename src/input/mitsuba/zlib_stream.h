@@ -1,5 +1,5 @@
-// Unpacks zlib data piece by piece, so that memory is taken only for what is there. It must not know
-// what the bytes mean.
+// Unpacks zlib data piece by piece, so that memory is taken only for what is there. It must not
+// know what the bytes mean.
 #pragma once
 
 #include <zlib.h>

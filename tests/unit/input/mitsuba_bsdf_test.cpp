@@ -39,16 +39,16 @@ TEST(MitsubaBsdf, ReflectancesAboveOneAreRenderedAsOne) {
       with_bsdf(scene, bsdf("diffuse", value("rgb", "reflectance", "2, 0.5, 0")));
   EXPECT_EQ(parameter(d.materials[0].parameters, "reflectance").numbers, (Numbers{1, 0.5, 0}));
   EXPECT_NE(scene.warnings().find("a reflectance is above 1"), std::string::npos);
-  EXPECT_NE(scene.error("<bsdf type=\"diffuse\" id=\"a\">" +
-                        value("rgb", "reflectance", "-1 0 0") + "</bsdf>")
+  EXPECT_NE(scene
+                .error("<bsdf type=\"diffuse\" id=\"a\">" + value("rgb", "reflectance", "-1 0 0") +
+                       "</bsdf>")
                 .find("negative component"),
             std::string::npos);
 }
 
 TEST(MitsubaBsdf, IndicesAreNumbersOrNames) {
   EXPECT_NEAR(number(material_of(bsdf("dielectric")).parameters, "eta"), 1.5046 / 1.000277, 1e-12);
-  const std::string water =
-      value("string", "intIOR", "Water") + value("float", "extIOR", "1.5");
+  const std::string water = value("string", "intIOR", "Water") + value("float", "extIOR", "1.5");
   EXPECT_NEAR(number(material_of(bsdf("dielectric", water)).parameters, "eta"), 1.333 / 1.5, 1e-12);
   EXPECT_NEAR(number(material_of(bsdf("thindielectric")).parameters, "eta"), 1.5046 / 1.000277,
               1e-12);
@@ -60,14 +60,13 @@ TEST(MitsubaBsdf, IndicesAreNumbersOrNames) {
 }
 
 TEST(MitsubaBsdf, AlphaIsTheRoughnessItself) {
-  const MaterialDescription m =
-      material_of(bsdf("roughdielectric", value("float", "alpha", "0.3") +
-                                              value("string", "distribution", "ggx")));
+  const MaterialDescription m = material_of(bsdf(
+      "roughdielectric", value("float", "alpha", "0.3") + value("string", "distribution", "ggx")));
   EXPECT_EQ(m.type, "dielectric");
   EXPECT_EQ(number(m.parameters, "roughness"), 0.3);
   EXPECT_EQ(parameter(m.parameters, "remaproughness").bools, std::vector<bool>{false});
-  const MaterialDescription two = material_of(bsdf(
-      "roughconductor", value("float", "alphaU", "0.1") + value("float", "alphaV", "0.2")));
+  const MaterialDescription two = material_of(
+      bsdf("roughconductor", value("float", "alphaU", "0.1") + value("float", "alphaV", "0.2")));
   EXPECT_EQ(number(two.parameters, "uroughness"), 0.1);
   EXPECT_EQ(number(two.parameters, "vroughness"), 0.2);
 }
@@ -97,8 +96,9 @@ TEST(MitsubaBsdf, ConductorsAreNamedOrGiven) {
   EXPECT_EQ(parameter(given, "eta").numbers, (Numbers{0.5, 1, 1.5}));
   EXPECT_EQ(parameter(given, "k").numbers, (Numbers{2, 2, 2}));
   MitsubaScene scene;
-  EXPECT_NE(scene.error("<bsdf type=\"conductor\" id=\"a\">\n" +
-                        value("string", "material", "unobtainium") + "</bsdf>")
+  EXPECT_NE(scene
+                .error("<bsdf type=\"conductor\" id=\"a\">\n" +
+                       value("string", "material", "unobtainium") + "</bsdf>")
                 .find("scene.xml:3:1: conductor \"unobtainium\" is unknown"),
             std::string::npos);
 }
@@ -107,13 +107,13 @@ TEST(MitsubaBsdf, TheDefaultConductorIsCopperInTheOldVersionAndAMirrorInTheNewOn
   EXPECT_EQ(text(material_of(bsdf("conductor")).parameters, "eta"), "metal-Cu-eta");
   EXPECT_EQ(parameter(material_of(bsdf("conductor"), "3.0.0").parameters, "reflectance").numbers,
             (Numbers{1, 1, 1}));
-  EXPECT_EQ(parameter(material_of(bsdf("conductor", value("string", "material", "none") +
-                                                        value("spectrum", "specularReflectance",
-                                                              "0.25")))
-                          .parameters,
-                      "reflectance")
-                .numbers,
-            (Numbers{0.25, 0.25, 0.25}));
+  EXPECT_EQ(
+      parameter(material_of(bsdf("conductor", value("string", "material", "none") +
+                                                  value("spectrum", "specularReflectance", "0.25")))
+                    .parameters,
+                "reflectance")
+          .numbers,
+      (Numbers{0.25, 0.25, 0.25}));
 }
 
 TEST(MitsubaBsdf, AConductorsReflectanceAbsorbsTheRest) {
@@ -145,24 +145,24 @@ TEST(MitsubaBsdf, LinearPlasticHasABaseOfTheSameReflectance) {
   const double expected[] = {0.2, 0.5, 1};
   for (size_t i = 0; i < 3; ++i)
     EXPECT_NEAR(base[i] / (1 - f * base[i]), expected[i] / (1 - f), 0.01 * expected[i]);
-  const MaterialDescription nonlinear = material_of(
-      bsdf("plastic", value("rgb", "diffuseReflectance", "0.2, 0.5, 1") +
-                          value("boolean", "nonlinear", "true")));
+  const MaterialDescription nonlinear =
+      material_of(bsdf("plastic", value("rgb", "diffuseReflectance", "0.2, 0.5, 1") +
+                                      value("boolean", "nonlinear", "true")));
   EXPECT_EQ(parameter(nonlinear.parameters, "reflectance").numbers, (Numbers{0.2, 0.5, 1}));
 }
 
 TEST(MitsubaBsdf, CoatsCoverConductorsAndDiffuseSurfaces) {
-  const MaterialDescription metal = material_of(
-      bsdf("coating", value("float", "thickness", "2") + value("spectrum", "sigmaA", "0.25") +
-                          bsdf("roughconductor", value("float", "alpha", "0.2") +
-                                                     value("string", "material", "Ag"))));
+  const MaterialDescription metal = material_of(bsdf(
+      "coating", value("float", "thickness", "2") + value("spectrum", "sigmaA", "0.25") +
+                     bsdf("roughconductor",
+                          value("float", "alpha", "0.2") + value("string", "material", "Ag"))));
   EXPECT_EQ(metal.type, "coatedconductor");
   EXPECT_EQ(text(metal.parameters, "conductor.eta"), "metal-Ag-eta");
   EXPECT_EQ(number(metal.parameters, "conductor.roughness"), 0.2);
   EXPECT_EQ(number(metal.parameters, "interface.thickness"), 0.5);
-  const MaterialDescription paint = material_of(
-      bsdf("roughcoating", value("float", "alpha", "0.1") +
-                               bsdf("diffuse", value("rgb", "reflectance", "1, 0, 0"))));
+  const MaterialDescription paint = material_of(bsdf(
+      "roughcoating",
+      value("float", "alpha", "0.1") + bsdf("diffuse", value("rgb", "reflectance", "1, 0, 0"))));
   EXPECT_EQ(paint.type, "coateddiffuse");
   EXPECT_EQ(parameter(paint.parameters, "reflectance").numbers, (Numbers{1, 0, 0}));
   EXPECT_EQ(number(paint.parameters, "roughness"), 0.1);
@@ -171,10 +171,10 @@ TEST(MitsubaBsdf, CoatsCoverConductorsAndDiffuseSurfaces) {
 
 TEST(MitsubaBsdf, LobesOfPhongKeepTheirReflectances) {
   MitsubaScene scene;
-  const SceneDescription d = with_bsdf(
-      scene, bsdf("phong", value("rgb", "diffuseReflectance", "0.3 0.3 0.3") +
-                               value("rgb", "specularReflectance", "0.1 0.1 0.1") +
-                               value("float", "exponent", "199.5")));
+  const SceneDescription d =
+      with_bsdf(scene, bsdf("phong", value("rgb", "diffuseReflectance", "0.3 0.3 0.3") +
+                                         value("rgb", "specularReflectance", "0.1 0.1 0.1") +
+                                         value("float", "exponent", "199.5")));
   const MaterialDescription mix = material(d, d.shapes[0].material.name);
   const double share = number(mix.parameters, "amount");
   const std::vector<std::string> parts = parameter(mix.parameters, "materials").strings;
@@ -188,7 +188,8 @@ TEST(MitsubaBsdf, LobesOfPhongKeepTheirReflectances) {
 TEST(MitsubaBsdf, AMaskIsTheOpacityOfTheShape) {
   MitsubaScene scene;
   const SceneDescription d = with_bsdf(
-      scene, bsdf("twosided", bsdf("mask", value("rgb", "opacity", "0.2 0.2 0.5") + bsdf("diffuse"))));
+      scene,
+      bsdf("twosided", bsdf("mask", value("rgb", "opacity", "0.2 0.2 0.5") + bsdf("diffuse"))));
   EXPECT_NEAR(number(d.shapes[0].parameters, "alpha"), 0.3, 1e-12);
   EXPECT_EQ(material(d, d.shapes[0].material.name).type, "diffuse");
 }
@@ -196,8 +197,9 @@ TEST(MitsubaBsdf, AMaskIsTheOpacityOfTheShape) {
 TEST(MitsubaBsdf, AMaskInAMixtureMixesWithNothing) {
   MitsubaScene scene;
   const SceneDescription d = with_bsdf(
-      scene, bsdf("blendbsdf", value("float", "weight", "0.25") + bsdf("diffuse") +
-                                   bsdf("mask", value("float", "opacity", "0.4") + bsdf("diffuse"))));
+      scene,
+      bsdf("blendbsdf", value("float", "weight", "0.25") + bsdf("diffuse") +
+                            bsdf("mask", value("float", "opacity", "0.4") + bsdf("diffuse"))));
   EXPECT_FALSE(has_parameter(d.shapes[0].parameters, "alpha"));
   const MaterialDescription blend = material(d, d.shapes[0].material.name);
   EXPECT_EQ(number(blend.parameters, "amount"), 0.25);
@@ -229,7 +231,8 @@ TEST(MitsubaBsdf, BumpAndNormalMapsAreParametersOfACopy) {
       "<bsdf type=\"diffuse\" id=\"plain\"/>\n<shape type=\"sphere\"><ref id=\"plain\"/></shape>\n"
       "<shape type=\"sphere\"><bsdf type=\"bumpmap\"><float name=\"scale\" value=\"2\"/>"
       "<texture type=\"checkerboard\"/><ref id=\"plain\"/></bsdf></shape>\n"
-      "<shape type=\"sphere\"><bsdf type=\"normalmap\"><texture type=\"bitmap\" name=\"normalmap\">" +
+      "<shape type=\"sphere\"><bsdf type=\"normalmap\"><texture type=\"bitmap\" "
+      "name=\"normalmap\">" +
       value("string", "filename", "n.png") + "</texture><ref id=\"plain\"/></bsdf></shape>\n");
   EXPECT_FALSE(has_parameter(material(d, d.shapes[0].material.name).parameters, "displacement"));
   const std::string height =
@@ -241,11 +244,10 @@ TEST(MitsubaBsdf, BumpAndNormalMapsAreParametersOfACopy) {
 
 TEST(MitsubaBsdf, PrincipledKeepsItsNames) {
   const ParameterSet set =
-      material_of(bsdf("principled", value("rgb", "base_color", "0.1 0.2 0.3") +
-                                         value("float", "roughness", "0.4") +
-                                         value("float", "metallic", "0.6") +
-                                         value("float", "spec_trans", "0.7") +
-                                         value("float", "specular", "0.5")),
+      material_of(bsdf("principled",
+                       value("rgb", "base_color", "0.1 0.2 0.3") +
+                           value("float", "roughness", "0.4") + value("float", "metallic", "0.6") +
+                           value("float", "spec_trans", "0.7") + value("float", "specular", "0.5")),
                   "3.0.0")
           .parameters;
   EXPECT_EQ(parameter(set, "base_color").numbers, (Numbers{0.1, 0.2, 0.3}));

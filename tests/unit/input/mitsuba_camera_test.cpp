@@ -46,15 +46,24 @@ TEST(MitsubaCamera, AnglesOfViewBecomeThoseOfTheShorterSide) {
 
 TEST(MitsubaCamera, XIsTurnedToTheRight) {
   MitsubaScene scene;
-  const SceneDescription d = with_sensor(
-      scene, "<transform name=\"toWorld\"><lookat origin=\"0,0,5\" target=\"0,0,0\" "
-             "up=\"0,1,0\"/></transform>");
+  const SceneDescription d =
+      with_sensor(scene,
+                  "<transform name=\"toWorld\"><lookat origin=\"0,0,5\" target=\"0,0,0\" "
+                  "up=\"0,1,0\"/></transform>");
   // Who looks along -z has +x at the right, which is +x of pbrt-v4's camera space.
   Vec3d right, ahead;
   d.camera->world_to_camera.start.multDirMatrix(Vec3d(1, 0, 0), right);
   d.camera->world_to_camera.start.multVecMatrix(Vec3d(0, 0, 0), ahead);
   EXPECT_NEAR((right - Vec3d(1, 0, 0)).length(), 0, 1e-12);
   EXPECT_NEAR((ahead - Vec3d(0, 0, 5)).length(), 0, 1e-12);
+}
+
+TEST(MitsubaCamera, ThePrincipalPointMovesTheScreen) {
+  MitsubaScene scene;
+  const SceneDescription d =
+      with_sensor(scene, film(200, 100) + value("float", "principal_point_offset_x", "0.25") +
+                             value("float", "principal_point_offset_y", "0.5"));
+  EXPECT_EQ(parameter(d.camera->parameters, "screenwindow").numbers, (Numbers{-1, 3, -2, 0}));
 }
 
 TEST(MitsubaCamera, LensesHaveRadiusAndDistance) {
@@ -76,13 +85,12 @@ TEST(MitsubaCamera, OrthographicFilmIsTwoUnitsWide) {
 
 TEST(MitsubaCamera, FilmsHaveSizeCropAndFilter) {
   MitsubaScene scene;
-  const std::string crop = value("integer", "cropOffsetX", "10") +
-                           value("integer", "cropOffsetY", "20") +
-                           value("integer", "cropWidth", "30") + value("integer", "cropHeight", "5");
+  const std::string crop =
+      value("integer", "cropOffsetX", "10") + value("integer", "cropOffsetY", "20") +
+      value("integer", "cropWidth", "30") + value("integer", "cropHeight", "5");
   const SceneDescription d = with_sensor(
-      scene, film(100, 50, crop + "<rfilter type=\"tent\"/>") +
-                 "<sampler type=\"ldsampler\">" + value("integer", "sampleCount", "64") +
-                 "</sampler>");
+      scene, film(100, 50, crop + "<rfilter type=\"tent\"/>") + "<sampler type=\"ldsampler\">" +
+                 value("integer", "sampleCount", "64") + "</sampler>");
   EXPECT_EQ(number(d.film->parameters, "xresolution"), 100);
   EXPECT_EQ(parameter(d.film->parameters, "pixelbounds").numbers, (Numbers{10, 40, 20, 25}));
   EXPECT_EQ(text(d.film->parameters, "filename"), "scene.exr");
@@ -107,10 +115,9 @@ TEST(MitsubaCamera, TheDefaultFilterIsMitsubasGaussian) {
 }
 
 TEST(MitsubaCamera, TheUserChoosesASensorByIdOrIndex) {
-  const std::string body =
-      "<sensor type=\"perspective\" id=\"a\">" + value("float", "fov", "30") + film(9, 9) +
-      "</sensor>\n<sensor type=\"perspective\" id=\"b\">" + value("float", "fov", "40") +
-      film(9, 9) + "</sensor>\n";
+  const std::string body = "<sensor type=\"perspective\" id=\"a\">" + value("float", "fov", "30") +
+                           film(9, 9) + "</sensor>\n<sensor type=\"perspective\" id=\"b\">" +
+                           value("float", "fov", "40") + film(9, 9) + "</sensor>\n";
   MitsubaScene scene;
   const auto fov = [&] { return number(scene.read(body).camera->parameters, "fov"); };
   EXPECT_NEAR(fov(), 30, 1e-9);
@@ -119,8 +126,7 @@ TEST(MitsubaCamera, TheUserChoosesASensorByIdOrIndex) {
   scene.options.camera = "1";
   EXPECT_NEAR(fov(), 40, 1e-9);
   scene.options.camera = "c";
-  EXPECT_EQ(scene.error(body),
-            "scene.xml:1:1: there is no camera \"c\", expected one of: a, b");
+  EXPECT_EQ(scene.error(body), "scene.xml:1:1: there is no camera \"c\", expected one of: a, b");
 }
 
 TEST(MitsubaIntegrator, NamesAndDepthsAreTranslated) {
@@ -130,13 +136,12 @@ TEST(MitsubaIntegrator, NamesAndDepthsAreTranslated) {
   EXPECT_EQ(d.integrator->type, "sppm");
   // Six edges of a path have five scattering events.
   EXPECT_EQ(number(d.integrator->parameters, "maxdepth"), 5);
-  const SceneDescription nested = scene.read(
-      "<integrator type=\"adaptive\"><integrator type=\"bdpt\"/></integrator>\n");
+  const SceneDescription nested =
+      scene.read("<integrator type=\"adaptive\"><integrator type=\"bdpt\"/></integrator>\n");
   EXPECT_EQ(nested.integrator->type, "bdpt");
   EXPECT_FALSE(has_parameter(nested.integrator->parameters, "maxdepth"));
-  const SceneDescription unknown = scene.read("<integrator type=\"guidedpath\">" +
-                                              value("integer", "maxDepth", "32") +
-                                              "</integrator>\n");
+  const SceneDescription unknown = scene.read(
+      "<integrator type=\"guidedpath\">" + value("integer", "maxDepth", "32") + "</integrator>\n");
   EXPECT_EQ(number(unknown.integrator->parameters, "maxdepth"), 31);
   EXPECT_NE(scene.warnings().find("integrator \"guidedpath\" is unknown"), std::string::npos);
 }
@@ -149,10 +154,9 @@ SceneDescription with_medium(MitsubaScene& scene, const std::string& medium,
 TEST(MitsubaMedium, CoefficientsComeInTwoForms) {
   MitsubaScene scene;
   const SceneDescription d = with_medium(
-      scene, "<medium type=\"homogeneous\" name=\"interior\">" +
-                 value("rgb", "sigmaT", "1 2 4") + value("rgb", "albedo", "0.5 0.25 0") +
-                 value("float", "scale", "10") + "<phase type=\"hg\">" + value("float", "g", "0.3") +
-                 "</phase></medium>");
+      scene, "<medium type=\"homogeneous\" name=\"interior\">" + value("rgb", "sigmaT", "1 2 4") +
+                 value("rgb", "albedo", "0.5 0.25 0") + value("float", "scale", "10") +
+                 "<phase type=\"hg\">" + value("float", "g", "0.3") + "</phase></medium>");
   const ParameterSet& set = d.media.at(0).parameters;
   EXPECT_EQ(d.shapes[0].inside_medium, d.media[0].name);
   EXPECT_EQ(parameter(set, "sigma_s").numbers, (Numbers{0.5, 0.5, 0}));
@@ -160,9 +164,9 @@ TEST(MitsubaMedium, CoefficientsComeInTwoForms) {
   EXPECT_EQ(number(set, "scale"), 10);
   EXPECT_EQ(number(set, "g"), 0.3);
   MitsubaScene other;
-  const SceneDescription direct = with_medium(
-      other, "<medium type=\"homogeneous\" name=\"exterior\">" + value("rgb", "sigmaS", "1 2 3") +
-                 "</medium>");
+  const SceneDescription direct =
+      with_medium(other, "<medium type=\"homogeneous\" name=\"exterior\">" +
+                             value("rgb", "sigmaS", "1 2 3") + "</medium>");
   EXPECT_EQ(parameter(direct.media.at(0).parameters, "sigma_a").numbers, (Numbers{0, 0, 0}));
   EXPECT_EQ(direct.shapes[0].outside_medium, direct.media[0].name);
 }
@@ -203,9 +207,9 @@ TEST(MitsubaMedium, ColouredAlbedosMakeAGridOfColours) {
   MitsubaScene scene;
   scene.folder().write("grid.vol", volume_file(VolumeSample()));
   scene.folder().write("albedo.vol", volume_file(albedo));
-  const SceneDescription d = with_medium(
-      scene, grid_medium("<volume type=\"gridvolume\" name=\"albedo\">" +
-                         value("string", "filename", "albedo.vol") + "</volume>"));
+  const SceneDescription d =
+      with_medium(scene, grid_medium("<volume type=\"gridvolume\" name=\"albedo\">" +
+                                     value("string", "filename", "albedo.vol") + "</volume>"));
   EXPECT_EQ(d.media.at(0).type, "rgbgrid");
   const ParameterSet& set = d.media[0].parameters;
   EXPECT_EQ(parameter(set, "sigma_a").numbers.at(3), 1);
@@ -217,10 +221,12 @@ TEST(MitsubaMedium, BadVolumesAreErrors) {
   MitsubaScene scene;
   const auto error = [&](const std::string& bytes) {
     scene.folder().write("grid.vol", bytes);
-    const std::string all = scene.error("<shape type=\"sphere\">" + grid_medium(kHalf) + "</shape>");
+    const std::string all =
+        scene.error("<shape type=\"sphere\">" + grid_medium(kHalf) + "</shape>");
     return all.substr(all.find(": ") + 2);
   };
-  EXPECT_EQ(error("VOX"), "the volume cannot be used: it does not start with VOL, expected a .vol file");
+  EXPECT_EQ(error("VOX"),
+            "the volume cannot be used: it does not start with VOL, expected a .vol file");
   VolumeSample half;
   half.encoding = 2;
   EXPECT_NE(error(volume_file(half)).find("of type 2"), std::string::npos);

@@ -53,10 +53,10 @@ TEST(MitsubaDocument, IncludesAreReadInPlace) {
 
 TEST(MitsubaDocument, IncludesOfThemselvesAreErrors) {
   MitsubaScene scene;
-  scene.folder().write("a.xml", "<scene version=\"0.6.0\">\n <include filename=\"b.xml\"/></scene>");
+  scene.folder().write("a.xml",
+                       "<scene version=\"0.6.0\">\n <include filename=\"b.xml\"/></scene>");
   scene.folder().write("b.xml", "<scene version=\"0.6.0\"><include filename=\"a.xml\"/></scene>");
-  EXPECT_EQ(scene.error("<include filename=\"a.xml\"/>"),
-            "b.xml:1:24: \"a.xml\" includes itself");
+  EXPECT_EQ(scene.error("<include filename=\"a.xml\"/>"), "b.xml:1:24: \"a.xml\" includes itself");
   EXPECT_TRUE(has(scene.error("<include filename=\"none.xml\"/>"),
                   "scene.xml:2:1: \"none.xml\" cannot be included"));
 }
@@ -84,10 +84,10 @@ TEST(MitsubaDocument, ReferencesMayStandBeforeTheirObjects) {
 
 TEST(MitsubaDocument, ASharedBsdfIsOneMaterial) {
   MitsubaScene scene;
-  const SceneDescription d = scene.read("<bsdf type=\"dielectric\" id=\"glass\"/>\n" +
-                                        std::string(3, ' ') +
-                                        "<shape type=\"sphere\"><ref id=\"glass\"/></shape>"
-                                        "<shape type=\"cube\"><ref id=\"glass\"/></shape>\n");
+  const SceneDescription d =
+      scene.read("<bsdf type=\"dielectric\" id=\"glass\"/>\n" + std::string(3, ' ') +
+                 "<shape type=\"sphere\"><ref id=\"glass\"/></shape>"
+                 "<shape type=\"cube\"><ref id=\"glass\"/></shape>\n");
   EXPECT_EQ(d.materials.size(), 1u);
   EXPECT_EQ(d.shapes[1].material.name, "glass");
 }
@@ -198,8 +198,9 @@ TEST(MitsubaDocument, UnknownNamesAreWarningsOrErrors) {
   EXPECT_TRUE(has(error, "did you mean \"sphere\"?")) << error;
   EXPECT_EQ(scene.error("<shpe type=\"sphere\"/>\n"),
             "scene.xml:2:1: <shpe> is unknown, expected a Mitsuba element");
-  scene.read("<shape type=\"sphere\">\n<float name=\"radus\" value=\"1\"/>\n"
-             "<integer name=\"samplingWeight\" value=\"1\"/></shape>\n");
+  scene.read(
+      "<shape type=\"sphere\">\n<float name=\"radus\" value=\"1\"/>\n"
+      "<integer name=\"samplingWeight\" value=\"1\"/></shape>\n");
   EXPECT_EQ(scene.warnings(),
             "scene.xml:3:1: property \"radus\" of shape \"sphere\" is unknown, it is ignored, did "
             "you mean \"radius\"?\n");

@@ -49,16 +49,15 @@ TEST(MitsubaLight, AConstantSpectrumIsWhiteInTheOldVersionAndEqualEnergyInTheNew
 }
 
 TEST(MitsubaLight, SpectraKeepTheirLuminance) {
-  const LightDescription l =
-      light("constant", value("spectrum", "radiance", "500:2, 600:4"));
+  const LightDescription l = light("constant", value("spectrum", "radiance", "500:2, 600:4"));
   const SpectrumPtr spectrum = piecewise_linear_spectrum({500, 600}, {2, 4});
   EXPECT_EQ(parameter(l.parameters, "L").numbers, (Numbers{500, 2, 600, 4}));
   EXPECT_NEAR(number(l.parameters, "scale"), spectrum_to_xyz(*spectrum).y, 1e-6);
 }
 
 TEST(MitsubaLight, BlackBodiesHaveTheRadianceOfPlanck) {
-  const LightDescription l = light(
-      "constant", "<blackbody name=\"radiance\" temperature=\"5000K\" scale=\"0.5\"/>");
+  const LightDescription l =
+      light("constant", "<blackbody name=\"radiance\" temperature=\"5000K\" scale=\"0.5\"/>");
   EXPECT_EQ(parameter(l.parameters, "L").numbers, (Numbers{5000}));
   // 2 h c^2 / lambda^5 / (exp(h c / (lambda k T)) - 1) at 560 nm is 1.27e4 W / (m^2 sr nm), near
   // the maximum: the mean over the luminous efficiency is a little less.
@@ -107,13 +106,16 @@ TEST(MitsubaLight, WrongSpectraAreErrors) {
   const auto error = [&](const std::string& text) {
     return scene.error(emitter("constant", "\n" + value("spectrum", "radiance", text)));
   };
-  EXPECT_EQ(error("500:1, 400:2"),
-            "scene.xml:3:1: the wavelengths of a spectrum do not increase, expected increasing ones");
-  EXPECT_EQ(error("500:1, 600"), "scene.xml:3:1: a spectrum has \"600\", expected WAVELENGTH:VALUE");
+  EXPECT_EQ(
+      error("500:1, 400:2"),
+      "scene.xml:3:1: the wavelengths of a spectrum do not increase, expected increasing ones");
+  EXPECT_EQ(error("500:1, 600"),
+            "scene.xml:3:1: a spectrum has \"600\", expected WAVELENGTH:VALUE");
   EXPECT_EQ(error("500:inf"),
             "scene.xml:3:1: a value of a spectrum is \"inf\", expected a finite number");
-  EXPECT_EQ(error(""), "scene.xml:3:1: property \"radiance\" has 0 numbers, expected one, or pairs "
-                       "WAVELENGTH:VALUE");
+  EXPECT_EQ(error(""),
+            "scene.xml:3:1: property \"radiance\" has 0 numbers, expected one, or pairs "
+            "WAVELENGTH:VALUE");
 }
 
 TEST(MitsubaLight, PointsStandAtTheirPosition) {
@@ -135,9 +137,9 @@ TEST(MitsubaLight, DirectionalLightTravelsInItsDirection) {
 
 TEST(MitsubaLight, AreaLightsBelongToShapes) {
   MitsubaScene scene;
-  const SceneDescription d = scene.read("<shape type=\"sphere\">" +
-                                        emitter("area", value("rgb", "radiance", "1 2 3")) +
-                                        "</shape>\n");
+  const SceneDescription d =
+      scene.read("<shape type=\"sphere\">" + emitter("area", value("rgb", "radiance", "1 2 3")) +
+                 "</shape>\n");
   EXPECT_EQ(d.shapes[0].area_light->type, "diffuse");
   EXPECT_EQ(parameter(d.shapes[0].area_light->parameters, "L").numbers, (Numbers{1, 2, 3}));
   EXPECT_NE(scene.error(emitter("area")).find("stands outside of a shape"), std::string::npos);
@@ -207,10 +209,9 @@ TEST(MitsubaSky, TheSunGivesAHundredThousandLuxAndReddensAtTheHorizon) {
 
 TEST(MitsubaSky, SunAndSkyAreTwoLights) {
   MitsubaScene scene;
-  const SceneDescription d = scene.read(
-      emitter("sunsky", value("vector", "sunDirection", "0, 1, 1") +
-                            value("float", "sunRadiusScale", "2") +
-                            value("float", "skyScale", "3")));
+  const SceneDescription d = scene.read(emitter(
+      "sunsky", value("vector", "sunDirection", "0, 1, 1") + value("float", "sunRadiusScale", "2") +
+                    value("float", "skyScale", "3")));
   ASSERT_EQ(d.lights.size(), 2u);
   EXPECT_EQ(d.lights[0].type, "distant");
   const Numbers from = parameter(d.lights[0].parameters, "from").numbers;

@@ -25,8 +25,7 @@ TEST(MitsubaPlugins, HaveTheOutcomeOfTheirTable) {
     SCOPED_TRACE(title(plugin));
     MitsubaScene scene;
     write_sample_files(scene.folder());
-    const std::string error =
-        scene.error(scene_with(plugin.tag, plugin.name, body_of(plugin)));
+    const std::string error = scene.error(scene_with(plugin.tag, plugin.name, body_of(plugin)));
     if (plugin.support == PluginSupport::kRefused) {
       EXPECT_NE(error.find(title(plugin) + " cannot be rendered: "), std::string::npos) << error;
       EXPECT_NE(std::string(plugin.note), "");
@@ -35,8 +34,9 @@ TEST(MitsubaPlugins, HaveTheOutcomeOfTheirTable) {
     EXPECT_EQ(error, "no error");
     const std::string warnings = scene.warnings();
     EXPECT_EQ(warnings.find("is unknown, it is ignored"), std::string::npos) << warnings;
-    const bool is_announced = warnings.find(title(plugin) + " is approximated") != std::string::npos ||
-                              warnings.find(title(plugin) + " is ignored") != std::string::npos;
+    const bool is_announced =
+        warnings.find(title(plugin) + " is approximated") != std::string::npos ||
+        warnings.find(title(plugin) + " is ignored") != std::string::npos;
     EXPECT_EQ(is_announced, plugin.support != PluginSupport::kLoaded) << warnings;
   }
 }

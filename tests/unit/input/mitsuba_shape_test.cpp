@@ -35,9 +35,10 @@ TEST(MitsubaShape, SphereHasCentreAndRadiusInItsTransform) {
   MitsubaScene scene;
   const ShapeDescription s =
       scene
-          .read(shape("sphere", "<point name=\"center\" x=\"1\" z=\"3\"/><float name=\"radius\" "
-                                "value=\"2\"/><transform name=\"toWorld\"><scale value=\"10\"/>"
-                                "</transform><boolean name=\"flipNormals\" value=\"true\"/>"))
+          .read(shape("sphere",
+                      "<point name=\"center\" x=\"1\" z=\"3\"/><float name=\"radius\" "
+                      "value=\"2\"/><transform name=\"toWorld\"><scale value=\"10\"/>"
+                      "</transform><boolean name=\"flipNormals\" value=\"true\"/>"))
           .shapes[0];
   EXPECT_EQ(number(s.parameters, "radius"), 2);
   Vec3d center;
@@ -49,8 +50,10 @@ TEST(MitsubaShape, SphereHasCentreAndRadiusInItsTransform) {
 TEST(MitsubaShape, CylinderRunsFromPointToPoint) {
   MitsubaScene scene;
   const ShapeDescription s =
-      scene.read(shape("cylinder", "<point name=\"p0\" value=\"1, 1, 1\"/><point name=\"p1\" "
-                                   "value=\"1, 4, 5\"/><float name=\"radius\" value=\"0.5\"/>"))
+      scene
+          .read(shape("cylinder",
+                      "<point name=\"p0\" value=\"1, 1, 1\"/><point name=\"p1\" "
+                      "value=\"1, 4, 5\"/><float name=\"radius\" value=\"0.5\"/>"))
           .shapes[0];
   EXPECT_EQ(number(s.parameters, "zmin"), 0);
   EXPECT_NEAR(number(s.parameters, "zmax"), 5, 1e-12);
@@ -115,6 +118,9 @@ TEST(MitsubaShape, SerializedMeshesOfBothVersionsAndPrecisions) {
       EXPECT_EQ(parameter(s.parameters, "indices").numbers, (Numbers{0, 1, 2, 0, 2, 3}));
       EXPECT_EQ(parameter(s.parameters, "N").numbers.at(4), 1);
       EXPECT_EQ(parameter(s.parameters, "uv").numbers.at(3), 0.75);
+      // Red, green, blue and alpha for each vertex.
+      EXPECT_EQ(parameter(s.parameters, "vertexcolors").numbers.at(5), 1);
+      EXPECT_EQ(parameter(s.parameters, "vertexcolors").numbers.size(), 16u);
     }
 }
 
@@ -131,7 +137,8 @@ TEST(MitsubaShape, SerializedFaultsAreErrors) {
             "file");
   std::string other_version = good;
   other_version[2] = 5;
-  EXPECT_EQ(error(other_version), "the file cannot be used: the file has version 5, expected 3 or 4");
+  EXPECT_EQ(error(other_version),
+            "the file cannot be used: the file has version 5, expected 3 or 4");
   std::string many = good;
   many[many.size() - 1] = '\x7f';
   EXPECT_NE(error(many).find("claims to hold 2130706433 meshes"), std::string::npos);
@@ -171,8 +178,7 @@ TEST(MitsubaShape, MeshesWithoutNormalsBecomeSmoothUnlessTheyAreFaceted) {
   EXPECT_NEAR(ridge.length(), 1, 1e-6);
   EXPECT_LT(std::abs(ridge.x), length);
   const ShapeDescription faceted =
-      scene
-          .read(shape("obj", file("roof.obj") + "<boolean name=\"faceNormals\" value=\"true\"/>"))
+      scene.read(shape("obj", file("roof.obj") + "<boolean name=\"faceNormals\" value=\"true\"/>"))
           .shapes[0];
   EXPECT_FALSE(has_parameter(faceted.parameters, "N"));
 }
@@ -182,9 +188,9 @@ TEST(MitsubaShape, TextureCoordinatesOfFilesAreTurnedOver) {
   scene.folder().write("uv.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0.25\nf 1/1 2/1 3/1\n");
   const std::string flip = "<boolean name=\"flipTexCoords\" value=\"false\"/>";
   // Mitsuba turns those of OBJ over by itself.
-  EXPECT_EQ(parameter(scene.read(shape("obj", file("uv.obj"))).shapes[0].parameters, "uv")
-                .numbers.at(1),
-            0.25);
+  EXPECT_EQ(
+      parameter(scene.read(shape("obj", file("uv.obj"))).shapes[0].parameters, "uv").numbers.at(1),
+      0.25);
   EXPECT_EQ(parameter(scene.read(shape("obj", file("uv.obj") + flip)).shapes[0].parameters, "uv")
                 .numbers.at(1),
             0.75);
@@ -192,15 +198,16 @@ TEST(MitsubaShape, TextureCoordinatesOfFilesAreTurnedOver) {
 
 TEST(MitsubaShape, PlyFilesWithNormalsAreLeftToTheLoader) {
   const auto ply = [](const std::string& properties, const std::string& rest) {
-    std::string text = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
-                       "property float y\nproperty float z\n" + properties +
-                       "element face 1\nproperty list uchar int vertex_index\nend_header\n";
+    std::string text =
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+        "property float y\nproperty float z\n" +
+        properties + "element face 1\nproperty list uchar int vertex_index\nend_header\n";
     for (const char* point : {"0 0 0", "1 0 0", "0 1 0"}) text += point + rest + "\n";
     return text + "3 0 1 2\n";
   };
   MitsubaScene scene;
-  scene.folder().write("n.ply", ply("property float nx\nproperty float ny\nproperty float nz\n",
-                                    " 0 0 1"));
+  scene.folder().write("n.ply",
+                       ply("property float nx\nproperty float ny\nproperty float nz\n", " 0 0 1"));
   scene.folder().write("uv.ply", ply("property float u\nproperty float v\n", " 0.5 0.25"));
   const ShapeDescription direct = scene.read(shape("ply", file("n.ply"))).shapes[0];
   EXPECT_EQ(direct.type, "plymesh");
@@ -232,7 +239,8 @@ TEST(MitsubaShape, BinaryHairHasInfiniteMarks) {
     bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
   };
   add(uint32_t{4});
-  for (const float x : {0.f, 0.f, 0.f, 0.f, 0.f, 1.f, float(INFINITY), 5.f, 0.f, 0.f, 5.f, 0.f, 1.f})
+  for (const float x :
+       {0.f, 0.f, 0.f, 0.f, 0.f, 1.f, float(INFINITY), 5.f, 0.f, 0.f, 5.f, 0.f, 1.f})
     add(x);
   MitsubaScene scene;
   scene.folder().write("hair.bin", bytes);
@@ -258,8 +266,9 @@ TEST(MitsubaShape, GroupsAreObjectsWithInstances) {
   MitsubaScene scene;
   const SceneDescription d = scene.read(
       "<shape type=\"shapegroup\" id=\"pair\">" + shape("sphere") + shape("cube") + "</shape>\n" +
-      shape("instance", "<ref id=\"pair\"/><transform name=\"toWorld\"><translate x=\"3\"/>"
-                        "</transform>") +
+      shape("instance",
+            "<ref id=\"pair\"/><transform name=\"toWorld\"><translate x=\"3\"/>"
+            "</transform>") +
       shape("instance", "<ref id=\"pair\"/>"));
   EXPECT_TRUE(d.shapes.empty());
   ASSERT_EQ(d.objects.at("pair").shapes.size(), 2u);
@@ -271,9 +280,9 @@ TEST(MitsubaShape, GroupsAreObjectsWithInstances) {
 
 TEST(MitsubaShape, DefaultsOfMaterialsAreThoseOfTheVersion) {
   MitsubaScene scene;
-  const SceneDescription d = scene.read(
-      shape("sphere") + shape("sphere", "<emitter type=\"area\"/>") +
-      shape("sphere", "<medium name=\"interior\" type=\"homogeneous\"/>"));
+  const SceneDescription d =
+      scene.read(shape("sphere") + shape("sphere", "<emitter type=\"area\"/>") +
+                 shape("sphere", "<medium name=\"interior\" type=\"homogeneous\"/>"));
   EXPECT_EQ(material(d, d.shapes[0].material.name).type, "diffuse");
   EXPECT_EQ(parameter(material(d, d.shapes[1].material.name).parameters, "reflectance").numbers,
             (Numbers{0, 0, 0}));

@@ -28,9 +28,9 @@ double t_at(const TextureDescription& t, double v) {
 }
 
 TEST(MitsubaTexture, BitmapsShowTheSamePixel) {
-  const TextureDescription t = bitmap(
-      value("float", "uscale", "2") + value("float", "vscale", "3") +
-      value("float", "uoffset", "0.25") + value("float", "voffset", "0.5"));
+  const TextureDescription t =
+      bitmap(value("float", "uscale", "2") + value("float", "vscale", "3") +
+             value("float", "uoffset", "0.25") + value("float", "voffset", "0.5"));
   EXPECT_EQ(t.type, "imagemap");
   EXPECT_EQ(t.value_type, "spectrum");
   EXPECT_EQ(number(t.parameters, "uscale"), 2);
@@ -53,7 +53,8 @@ TEST(MitsubaTexture, GammaAndRawAreEncodings) {
   EXPECT_EQ(text(bitmap(value("float", "gamma", "1")).parameters, "encoding"), "linear");
   EXPECT_EQ(text(bitmap(value("float", "gamma", "1.8")).parameters, "encoding"), "gamma 1.8");
   EXPECT_EQ(text(bitmap(value("boolean", "raw", "true")).parameters, "encoding"), "linear");
-  EXPECT_FALSE(has_parameter(bitmap(value("boolean", "raw", "true"), "a.exr").parameters, "encoding"));
+  EXPECT_FALSE(
+      has_parameter(bitmap(value("boolean", "raw", "true"), "a.exr").parameters, "encoding"));
 }
 
 TEST(MitsubaTexture, WrapAndFilterModes) {
@@ -64,8 +65,8 @@ TEST(MitsubaTexture, WrapAndFilterModes) {
 }
 
 TEST(MitsubaTexture, ChecksAreHalfAUnitWide) {
-  const TextureDescription t = texture(
-      "checkerboard", value("rgb", "color0", "1 0 0") + value("float", "voffset", "0.1"));
+  const TextureDescription t =
+      texture("checkerboard", value("rgb", "color0", "1 0 0") + value("float", "voffset", "0.1"));
   EXPECT_EQ(parameter(t.parameters, "tex1").numbers, (std::vector<double>{1, 0, 0}));
   EXPECT_EQ(parameter(t.parameters, "tex2").numbers, (std::vector<double>{0.2, 0.2, 0.2}));
   // Mitsuba's first colour is where floor(2 u) + floor(2 v) is even; the mesh has 1 - v.
@@ -77,11 +78,12 @@ TEST(MitsubaTexture, ChecksAreHalfAUnitWide) {
 
 TEST(MitsubaTexture, ATextureHasOneFormPerUse) {
   MitsubaScene scene;
-  const SceneDescription d = scene.read(
-      "<texture type=\"bitmap\" id=\"t\">" + value("string", "filename", "t.png") + "</texture>\n"
-      "<bsdf type=\"mask\" id=\"m\"><ref name=\"opacity\" id=\"t\"/>"
-      "<bsdf type=\"diffuse\"><ref name=\"reflectance\" id=\"t\"/></bsdf></bsdf>\n"
-      "<bsdf type=\"diffuse\" id=\"d\"><ref name=\"reflectance\" id=\"t\"/></bsdf>\n");
+  const SceneDescription d =
+      scene.read("<texture type=\"bitmap\" id=\"t\">" + value("string", "filename", "t.png") +
+                 "</texture>\n"
+                 "<bsdf type=\"mask\" id=\"m\"><ref name=\"opacity\" id=\"t\"/>"
+                 "<bsdf type=\"diffuse\"><ref name=\"reflectance\" id=\"t\"/></bsdf></bsdf>\n"
+                 "<bsdf type=\"diffuse\" id=\"d\"><ref name=\"reflectance\" id=\"t\"/></bsdf>\n");
   ASSERT_EQ(d.textures.size(), 2u);
   EXPECT_NE(d.textures[0].value_type, d.textures[1].value_type);
   EXPECT_NE(d.textures[0].name, d.textures[1].name);

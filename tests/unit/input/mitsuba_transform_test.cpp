@@ -21,8 +21,7 @@ Vec3d moved(const std::string& elements, const Vec3d& point) {
 }
 
 void expect_near(const Vec3d& found, const Vec3d& expected) {
-  EXPECT_NEAR((found - expected).length(), 0, 1e-9)
-      << found.x << " " << found.y << " " << found.z;
+  EXPECT_NEAR((found - expected).length(), 0, 1e-9) << found.x << " " << found.y << " " << found.z;
 }
 
 TEST(MitsubaTransform, LaterElementsAreAppliedLater) {
