@@ -1,5 +1,6 @@
 // `nephroid info`: describes a scene, from its description and its built form, or a picture.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <unordered_map>
 #include <utility>
@@ -118,6 +119,17 @@ void print_integrator(const Scene& scene) {
   fmt::print("pixel samples: {}\n", scene.samples_per_pixel);
 }
 
+/// Prints the names that --camera, --variant and --at choose among.
+void print_choices(const FileChoices& choices) {
+  const auto print = [](const char* kind, const char* option,
+                        const std::vector<std::string>& names) {
+    if (!names.empty()) fmt::print("{} ({}): {}\n", kind, option, fmt::join(names, "; "));
+  };
+  print("cameras of the file", "--camera", choices.cameras);
+  print("material variants", "--variant", choices.variants);
+  print("animations", "--at", choices.animations);
+}
+
 }  // namespace
 
 int run_info(const InfoCommand& command) {
@@ -125,13 +137,16 @@ int run_info(const InfoCommand& command) {
     fmt::print("{}", description_of_picture(command.file));
     return static_cast<int>(ExitStatus::kDone);
   }
-  const LoadedScene loaded = load_scene(command.file, SceneOverrides{});
+  SceneOverrides overrides;
+  overrides.import = command.import;
+  const LoadedScene loaded = load_scene(command.file, overrides);
   print_warnings(loaded.warnings);
   const Scene& scene = *loaded.scene;
   fmt::print("scene: {}\n", command.file);
   print_film(scene);
   fmt::print("camera: {}\n", loaded.description.camera ? loaded.description.camera->type
                                                        : std::string("perspective (default)"));
+  print_choices(loaded.description.choices);
   print_integrator(scene);
   print_geometry(scene);
   fmt::print("materials: {}, {}\n", scene.materials.size(), caustics_of(scene));

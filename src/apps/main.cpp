@@ -42,6 +42,8 @@ int run(const std::vector<std::string>& arguments) {
       return run_routes(line.routes);
     case Action::kBench:
       return run_bench(line.bench);
+    case Action::kConvert:
+      return run_convert(line.convert);
     case Action::kPrint:
       break;
   }

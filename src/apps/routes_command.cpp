@@ -131,6 +131,7 @@ int run_routes(const RoutesCommand& command) {
   }
   RenderRequest request;
   request.scene = command.scene;
+  request.overrides.import = command.import;
   request.routes = command.routes;
   request.settings = render_settings(command.settings);
   const LoadedScene loaded = load_small_scene(request, kPilotSize);

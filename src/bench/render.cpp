@@ -146,7 +146,8 @@ void fill_run(const RenderResult& result, const Film& film, const BenchRender& r
 
 bool same(const SceneOverrides& a, const SceneOverrides& b) {
   return a.width == b.width && a.height == b.height && a.specular_band.low == b.specular_band.low &&
-         a.specular_band.high == b.specular_band.high && a.texture_memory == b.texture_memory;
+         a.specular_band.high == b.specular_band.high && a.texture_memory == b.texture_memory &&
+         a.import == b.import;
 }
 
 /// The routes of a render and the AOVs that its shares of light need.

@@ -131,6 +131,14 @@ struct InstanceDescription {
   SourceLocation where;
 };
 
+/// What a file offers besides the description, in file order: `nephroid info` lists it. Empty for
+/// pbrt-v4.
+struct FileChoices {
+  std::vector<std::string> cameras;     ///< names, or numbers where there are none; for --camera
+  std::vector<std::string> variants;    ///< for --variant
+  std::vector<std::string> animations;  ///< names with their times, as in "walk, 0 to 2.5 s"; --at
+};
+
 /// The contents of a scene file, in file order. Absent directives are empty optionals.
 struct SceneDescription {
   std::string file;  ///< as given by the user
@@ -148,6 +156,7 @@ struct SceneDescription {
   std::vector<ShapeDescription> shapes;
   std::map<std::string, ObjectDescription> objects;
   std::vector<InstanceDescription> instances;
+  FileChoices choices;
 };
 
 }  // namespace nephroid

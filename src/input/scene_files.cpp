@@ -55,6 +55,22 @@ std::string SceneFiles::counted_path_of(const std::string& name) {
   return path;
 }
 
+FileSource SceneFiles::source_of(const std::string& name) {
+  if (std::shared_ptr<const std::string> bytes = in_memory(name)) return {name, std::move(bytes)};
+  return counted_path_of(name);
+}
+
+void SceneFiles::add_in_memory(const std::string& name, std::string bytes) {
+  const std::lock_guard lock(mutex_);
+  in_memory_[name] = std::make_shared<const std::string>(std::move(bytes));
+}
+
+std::shared_ptr<const std::string> SceneFiles::in_memory(const std::string& name) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = in_memory_.find(name);
+  return found == in_memory_.end() ? nullptr : found->second;
+}
+
 uint64_t SceneFiles::hash() const {
   const std::lock_guard lock(mutex_);
   ContentHash all;

@@ -4,14 +4,26 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace nephroid {
 
 /// The name of a scene that is read from standard input; within scenes it is an ordinary name.
 inline constexpr const char* kStandardInput = "-";
+
+/// A file to read: on disk, or in memory if there are bytes.
+struct FileSource {
+  std::string path;                          ///< name in messages, and of a file on disk
+  std::shared_ptr<const std::string> bytes;  ///< contents of a file in memory; null on disk
+
+  FileSource(std::string file) : path(std::move(file)) {}  // NOLINT: a path is a source
+  FileSource(std::string name, std::shared_ptr<const std::string> contents)
+      : path(std::move(name)), bytes(std::move(contents)) {}
+};
 
 /// Thread-safe.
 class SceneFiles {
@@ -28,6 +40,14 @@ class SceneFiles {
   /// path_of a file that is read elsewhere, such as an image. It counts in the hash if it can be
   /// read.
   std::string counted_path_of(const std::string& name);
+  /// The same for a name that may be that of a file in memory.
+  FileSource source_of(const std::string& name);
+
+  /// Adds a file that is a part of another one, such as an image in a GLB file. It does not count
+  /// in the hash by itself: the file that contains it does.
+  void add_in_memory(const std::string& name, std::string bytes);
+  /// The contents of such a file; null if there is none of that name.
+  std::shared_ptr<const std::string> in_memory(const std::string& name) const;
 
   /// Hash of all files that were read: their contents and, except for the scene's own file, their
   /// names relative to the directory. It depends neither on the order of reading nor on the
@@ -46,6 +66,7 @@ class SceneFiles {
   std::string directory_, top_;
   mutable std::mutex mutex_;
   std::map<std::string, uint64_t> read_;  ///< hash of the content by counted_name
+  std::map<std::string, std::shared_ptr<const std::string>> in_memory_;  ///< by name
 };
 
 /// The base directory of names in a scene: the scene's own, or the current one for standard input

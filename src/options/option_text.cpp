@@ -140,7 +140,7 @@ std::string program_help() {
 
 namespace {
 
-/// Help of options and of -D keys.
+/// Help of options; at full length also of rare ones and of -D keys.
 std::string options_help(const std::string& command, Length length) {
   std::string text;
   for (const CommandDescription& row : command_table())
@@ -150,25 +150,27 @@ std::string options_help(const std::string& command, Length length) {
   for (const std::string& group : groups_of(command)) {
     text += fmt::format("\n{}:\n", group.empty() ? "Options" : group);
     for (const OptionDescription* option : options_of(command))
-      if (!option->is_positional() && group == option->group)
+      if (!option->is_positional() && group == option->group &&
+          (length == Length::kAll || !option->is_rare))
         text += help_entry(
             signature(*option),
             meaning(option->help, unit_and_default(option->unit, option->default_text), length));
   }
-  if (!takes_settings(command)) return text;
-  text += length == Length::kAll ? "\nKeys of -D:\n" : "\nKeys of -D, the most useful ones:\n";
+  if (!takes_settings(command) || length != Length::kAll) return text;
+  text += "\nKeys of -D:\n";
   for (const IntegratorSetting& setting : integrator_settings())
-    if (length == Length::kAll || setting.is_for_everybody)
-      text += help_entry(
-          fmt::format("{}={}", setting.key, setting.value),
-          meaning(setting.help, unit_and_default(setting.unit, setting.default_text), length));
+    text += help_entry(
+        fmt::format("{}={}", setting.key, setting.value),
+        meaning(setting.help, unit_and_default(setting.unit, setting.default_text), length));
   return text;
 }
 
 }  // namespace
 
 std::string command_help(const std::string& command) {
-  const bool has_more = takes_settings(command);
+  const auto options = options_of(command);
+  const bool has_more = std::any_of(options.begin(), options.end(),
+                                    [](const OptionDescription* o) { return o->is_rare; });
   std::string text = options_help(command, has_more ? Length::kOneLine : Length::kAll);
   text += "\n" + help_entry("-h, --help", "Print this.");
   if (has_more)

@@ -13,6 +13,7 @@
 #include "integrator/presets/estimator_table.h"
 #include "integrator/presets/integrator_table.h"
 #include "integrator/presets/route_presets.h"
+#include "options/import_rows.h"
 
 namespace nephroid {
 namespace {
@@ -105,7 +106,7 @@ std::vector<std::string> estimator_names() {
 }
 
 const std::string kIntegratorHelp =
-    "Rendering algorithm: " + list_of(integrator_names()) +
+    "Rendering algorithm. One of " + list_of(integrator_names()) +
     ", or scene (the one named in the scene file). Each is a preset of routes: path is path-only, "
     "the others have the names of theirs.";
 constexpr const char* kRoutesHelp =
@@ -123,7 +124,13 @@ constexpr const char* kFloatHelp =
     "All layers in 32-bit floats. Otherwise R, G, B, Z, positions and variances are, and other "
     "layers are in 16 bits unless these do not hold their values.";
 constexpr const char* kStrictHelp = "Overlapping routes are an error.";
-constexpr const char* kSettingHelp = "Set a number of the integrator; may be given several times.";
+constexpr const char* kSettingHelp = "Set a number of the integrator, as in max-depth=8 or photons=1000000. May be given several times.";
+
+void set_converted(CommandLine& line, const std::string& text) {
+  if (text.size() <= 5 || !text.ends_with(".pbrt"))
+    throw UsageError("OUT.pbrt: '" + text + "' is not valid, expected a name that ends in .pbrt");
+  line.convert.output = text;
+}
 
 void set_heat_map(CommandLine& line, const std::string& text) {
   const bool is_png = text.size() > 4 && text.compare(text.size() - 4, 4, ".png") == 0;
@@ -148,19 +155,20 @@ constexpr CommandDescription kCommands[] = {
     {"info", "Describe a scene file, or the render stored in a picture."},
     {"routes", "Say who renders which light, prove it, and measure it in a scene."},
     {"compare", "Measure how far a picture is from a reference."},
+    {"convert", "Write a scene as a pbrt-v4 scene, with its meshes beside it."},
     {"bench", "Run a suite of integrators and scenes and write its results."},
 };
 
 const OptionDescription kOptions[] = {
     {"render", "SCENE", "", "", "", "", "",
-     "A pbrt-v4 scene file (also .gz), or - for standard input.", false,
+     "A scene: .pbrt (also .gz), .gltf, .glb, .xml (Mitsuba), .obj, - for standard input.", false,
      [](CommandLine& l, const std::string& t) { l.render.scene = t; }},
     {"render", "--output", "-o", "OUT.exr", "",
      "named after the scene's film, in the current directory", "Output",
      "The picture with all its layers. A PNG is written beside it.", false,
      set_output<&CommandLine::render>},
     {"render", "--aov", "", "NAME=EXPR", "", "", "Output", kAovHelp, true,
-     add_aov<&CommandLine::render>},
+     add_aov<&CommandLine::render>, true},
     {"render", "--resume", "", "", "", "", "Output",
      "Go on with the render of OUT.state, or start it. The result has the bits of an uninterrupted "
      "run.",
@@ -171,31 +179,31 @@ const OptionDescription kOptions[] = {
      false,
      [](CommandLine& l, const std::string& t) {
        l.render.checkpoint_interval = parse_duration("--checkpoint", t);
-     }},
+     }, true},
     {"render", "--strict", "", "", "", "", "Output",
      "Exit status 3 for unknown names, 1 for samples left out. A scene with unknown parameters, "
      "options and the like is not rendered; samples are left out if they are infinite or NaN, or "
      "their sums beyond their range.",
      false,
-     [](CommandLine& l, const std::string&) { l.render.strict = true; }},
+     [](CommandLine& l, const std::string&) { l.render.strict = true; }, true},
     {"render", "--no-state", "", "", "", "", "Output",
      "Leave no OUT.state beside the last picture. --resume and merge need it; pictures on the way, "
      "and that of a render that a signal stops, have one.",
      false,
-     [](CommandLine& l, const std::string&) { l.render.keeps_state = false; }},
+     [](CommandLine& l, const std::string&) { l.render.keeps_state = false; }, true},
     {"render", "--float", "", "", "", "", "Output", kFloatHelp, false,
-     set_float<&CommandLine::render>},
+     set_float<&CommandLine::render>, true},
     {"render", "--quiet", "", "", "", "", "Output",
      "Print only errors, and warnings about the output file.",
      false, [](CommandLine& l, const std::string&) { l.render.quiet = true; }},
     {"render", "--integrator", "", "NAME", "", "mixed", "Algorithm", kIntegratorHelp.c_str(), false,
      set_integrator<&CommandLine::render>},
     {"render", "--routes", "", "PRESET|FILE", "", "those of the integrator", "Algorithm",
-     kRoutesHelp, false, set_routes<&CommandLine::render>},
+     kRoutesHelp, false, set_routes<&CommandLine::render>, true},
     {"render", "--route", "", "NAME=EXPR:ESTIMATOR", "", "", "Algorithm", kRouteHelp.c_str(), true,
-     add_route<&CommandLine::render>},
+     add_route<&CommandLine::render>, true},
     {"render", "--strict-routes", "", "", "", "", "Algorithm", kStrictHelp, false,
-     set_strict<&CommandLine::render>},
+     set_strict<&CommandLine::render>, true},
     {"render", "-D", "", "KEY=VALUE", "", "", "Algorithm", kSettingHelp, true,
      add_setting<&CommandLine::render>},
     {"render", "--outliers", "", "reject|off", "", "off", "Algorithm",
@@ -242,7 +250,7 @@ const OptionDescription kOptions[] = {
        l.render.memory = parse_bytes("--memory", t);
        if (l.render.memory < kMinMemory)
          throw UsageError("--memory: '" + t + "' is not valid, expected at least 256M");
-     }},
+     }, true},
     {"merge", "PICTURE", "", "", "", "", "",
      "Pictures of one render, of disjoint passes (render --passes A..B), or their states, which "
      "must be beside them.", true,
@@ -273,9 +281,14 @@ const OptionDescription kOptions[] = {
        l.routes.passes = static_cast<uint32_t>(parse_integer("--passes", t, 1, kMaxPilotPasses));
      }},
     {"info", "FILE", "", "", "", "", "",
-     "A pbrt-v4 scene file, may be compressed (.gz), - for standard input, or a picture that this "
+     "A scene (.pbrt, .gltf, .glb, .xml, .obj), - for standard input, or a picture that this "
      "program wrote.", false,
      [](CommandLine& l, const std::string& t) { l.info.file = t; }},
+    {"convert", "IN", "", "", "", "", "", "A scene (.pbrt, .gltf, .glb, .xml, .obj).", false,
+     [](CommandLine& l, const std::string& t) { l.convert.input = t; }},
+    {"convert", "OUT.pbrt", "", "", "", "", "",
+     "The scene as text. Meshes and images of the file get names that begin like it.", false,
+     set_converted},
     {"compare", "REF", "", "", "", "", "", "The reference picture.", false,
      [](CommandLine& l, const std::string& t) { l.compare.reference = t; }},
     {"compare", "TEST", "", "", "", "", "", "The picture to measure, of the same size.", false,
@@ -331,7 +344,19 @@ std::span<const CommandDescription> command_table() {
   return kCommands;
 }
 std::span<const OptionDescription> option_table() {
-  return kOptions;
+  static const std::vector<OptionDescription> kTable = [] {
+    std::vector<OptionDescription> table;
+    for (const OptionDescription& row : kOptions) {
+      table.push_back(row);
+      // Those about scene files follow the last argument of the commands that read one.
+      const std::string name = row.name;
+      if (name != "SCENE" && name != "FILE" && name != "OUT.pbrt") continue;
+      const std::vector<OptionDescription> shared = import_rows(row.command);
+      table.insert(table.end(), shared.begin(), shared.end());
+    }
+    return table;
+  }();
+  return kTable;
 }
 
 }  // namespace nephroid

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "film/film_output.h"
+#include "input/import_options.h"
 #include "scene/scene.h"
 #include "session/route_plan.h"
 #include "session/settings/integrator_settings.h"
@@ -40,6 +41,13 @@ struct RenderCommand {
 
 struct InfoCommand {
   std::string file;  ///< a scene or a picture
+  ImportOptions import;
+};
+
+/// Arguments of `nephroid convert`.
+struct ConvertCommand {
+  std::string input, output;
+  ImportOptions import;
 };
 
 /// Arguments of `nephroid routes`.
@@ -47,6 +55,7 @@ struct RoutesCommand {
   std::string scene;  ///< empty: none
   RouteChoice routes;
   SettingList settings;
+  ImportOptions import;
   uint32_t passes = 8;  ///< passes of the pilot
 };
 
@@ -77,7 +86,7 @@ struct BenchCommand {
   bool quiet = false;
 };
 
-enum class Action { kRender, kMerge, kInfo, kCompare, kRoutes, kBench, kPrint };
+enum class Action { kRender, kMerge, kInfo, kCompare, kRoutes, kBench, kConvert, kPrint };
 
 /// A parsed command line.
 struct CommandLine {
@@ -88,6 +97,8 @@ struct CommandLine {
   MergeCommand merge;
   RoutesCommand routes;
   BenchCommand bench;
+  ConvertCommand convert;
+  ImportOptions import;  ///< options about scene files, copied to the command after parsing
   std::string text;  ///< text of kPrint: help, version and the like
 };
 
@@ -108,6 +119,7 @@ struct OptionDescription {
   bool repeatable;
   /// Parses and stores; throws UsageError. The text is empty for a flag.
   void (*apply)(CommandLine& line, const std::string& text);
+  bool is_rare = false;  ///< in --help-all only
 
   constexpr bool is_positional() const { return name[0] != '-'; }
   /// A positional argument with a default may be left out.

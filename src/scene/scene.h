@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/color.h"
+#include "input/import_options.h"
 #include "scene/embree_scene.h"
 #include "scene/interaction.h"
 #include "scene/light/light_sampler.h"
@@ -43,6 +44,7 @@ struct SceneOverrides {
   float crop[4] = {0, 1, 0, 1};  ///< x0 x1 y0 y1 in [0,1]
   SpecularBand specular_band;
   uint64_t texture_memory = kDefaultTextureMemory;  ///< bytes for the pixels of image textures
+  ImportOptions import;                             ///< choices about scenes that are not pbrt-v4
 };
 
 /// The media on both sides of a surface or around a light; null is empty space.

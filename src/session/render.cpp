@@ -56,6 +56,8 @@ RenderIdentity identity_of(const RenderRequest& request, const LoadedScene& load
   identity.scene_hash = fmt::format("{:016x}", loaded.description.files->hash());
   identity.integrator = name_of(request.routes, choice.name);
   identity.options = settings_text(choice.settings);
+  if (const std::string import = import_options_text(request.overrides.import); !import.empty())
+    identity.options += " " + import;
   identity.routes = routes_text(plan);
   identity.aovs = aovs_text(plan);
   return identity;

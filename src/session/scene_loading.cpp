@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <new>
 
-#include "input/pbrt_parser.h"
+#include "input/scene_reader.h"
 #include "scene/film_description.h"
 
 namespace nephroid {
@@ -27,7 +27,7 @@ LoadedScene build(SceneDescription description, const SceneOverrides& overrides,
 LoadedScene load_scene(const std::string& file, const SceneOverrides& overrides) {
   Diagnostics diagnostics;
   try {
-    return build(parse_pbrt_file(file, diagnostics), overrides, diagnostics);
+    return build(read_scene(file, overrides.import, diagnostics), overrides, diagnostics);
   } catch (const std::bad_alloc&) {
     throw IoError(file + ": the scene does not fit into memory");
   }
@@ -35,7 +35,7 @@ LoadedScene load_scene(const std::string& file, const SceneOverrides& overrides)
 
 LoadedScene load_small_scene(const std::string& file, SceneOverrides overrides, int longest_side) {
   Diagnostics diagnostics;
-  SceneDescription description = parse_pbrt_file(file, diagnostics);
+  SceneDescription description = read_scene(file, overrides.import, diagnostics);
   const FilmDescription film = make_film_description(description, overrides, diagnostics);
   const double scale =
       std::min(1.0, static_cast<double>(longest_side) / std::max(film.width, film.height));

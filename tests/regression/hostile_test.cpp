@@ -35,6 +35,11 @@ std::string bytes_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
+bool is_scene(const std::string& name) {
+  return name.ends_with(".pbrt") || name.ends_with(".pbrt.gz") || name.ends_with(".obj") ||
+         name.ends_with(".xml");
+}
+
 /// By scene name: "picture", or the exit status and the beginning of the message.
 std::map<std::string, std::string> expectations(const fs::path& folder) {
   std::map<std::string, std::string> found;
@@ -60,7 +65,7 @@ TEST(HostileScenes, GiveAPictureOrALocatedMessage) {
   std::map<std::string, std::string> expected = expectations(hostile);
   size_t scenes = 0;
   for (const std::string& name : names_in(folder.path())) {
-    if (!name.ends_with(".pbrt") && !name.ends_with(".pbrt.gz")) continue;
+    if (!is_scene(name)) continue;
     SCOPED_TRACE(name);
     ++scenes;
     if (kIsSlowAndLarge && kNeedALimit.contains(name)) continue;

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "scene/light/equal_area_map.h"
+#include "core/equal_area_map.h"
 
 namespace nephroid {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/parallel.h"
-#include "scene/light/equal_area_map.h"
+#include "core/equal_area_map.h"
 
 namespace nephroid {
 

@@ -1,4 +1,5 @@
-// The distant light: parallel light from one direction, like a sun without extent.
+// The distant light: parallel light from one direction, like a sun without extent; with an angle it
+// is the light of sun_light.cpp.
 #include "core/warps.h"
 #include "scene/light/infinite_emission.h"
 #include "scene/light/light_table.h"
@@ -66,8 +67,13 @@ LightPtr make_distant_light(const LightDescription& description, const LightScop
   const float illuminance = p.get_float("illuminance", -1.0f);
   const float scale = illuminance > 0.0f ? e.scale * illuminance : e.scale;
   const Transform to_world(description.transform.start);
-  return std::make_unique<DistantLight>(normalize(to_world.vector(normalize(from - to))),
-                                        EmissionSpectrum(*e.spectrum, scale));
+  const Vec3f to_light = normalize(to_world.vector(normalize(from - to)));
+  const float angle = p.get_float("angle", 0.0f);
+  if (!(angle >= 0 && angle <= 180))
+    throw SceneError(p.find("angle")->where,
+                     "\"angle\" of a distant light must be a number from 0 to 180 degrees");
+  if (angle > 0) return make_sun_light(to_light, angle * kPi / 180, *e.spectrum, scale);
+  return std::make_unique<DistantLight>(to_light, EmissionSpectrum(*e.spectrum, scale));
 }
 
 }  // namespace nephroid

@@ -1,7 +1,7 @@
 // The goniometric light: a point whose intensity over directions is a measured diagram, an
 // equal-area octahedral map that is constant within each pixel. Directions are sampled in
 // proportion to it.
-#include "scene/light/equal_area_map.h"
+#include "core/equal_area_map.h"
 #include "scene/light/light_table.h"
 #include "scene/light/piecewise_constant_2d.h"
 #include "scene/light/point_emitter.h"

@@ -21,7 +21,9 @@ constexpr FormatParameter kTo[] = {{"point3", "to", "0 0 1"}};
 constexpr FormatParameter kIntensity[] = {
     {"spectrum", "I", "illuminant of the colour space", "intensity"}};
 constexpr FormatParameter kDistant[] = {
-    {"spectrum", "L", "illuminant of the colour space", "irradiance"}};
+    {"spectrum", "L", "illuminant of the colour space", "irradiance"},
+    {"float", "angle", "0", "degrees",
+     "angular diameter, 0 to 180; the irradiance does not depend on it; not in pbrt-v4"}};
 constexpr FormatParameter kSpotAxis[] = {
     {"point3", "to", "0 0 1"},
     {"float", "coneangle", "30", "degrees", "0 to 180"},
@@ -51,6 +53,13 @@ constexpr FormatParameter kArea[] = {
     {"string", "filename", "none", "", "an image over the shape's uv"},
     {"bool", "twosided", "false"},
 };
+constexpr FormatParameter kAreaImage[] = {
+    {"rgb", "factor", "1 1 1", "", "of the image; not in pbrt-v4"},
+    {"string", "uwrap", "clamp", "", "as of textures; not in pbrt-v4"},
+    {"string", "vwrap", "clamp", "", "as of textures; not in pbrt-v4"},
+    {"float[6]", "uvtransform", "1 0 0 0 1 0", "", "as of textures; not in pbrt-v4"},
+    {"integer", "uvset", "0", "", "lights use the first texture coordinates", Support::kWarned},
+};
 
 struct Row : FormatType {
   LightMaker make;
@@ -65,7 +74,7 @@ constexpr Row kLights[] = {
 };
 constexpr FormatType kAreaLights[] = {
     {"diffuse",
-     {kArea, kCommon, kPower},
+     {kArea, kAreaImage, kCommon, kPower},
      "\"power\" counts for each triangle, patch or quadric of the shape, with a warning if there "
      "are several; alpha of the shape counts once, as where a camera ray hits. On curves an error, "
      "on interface materials and in object definitions ignored with a warning"}};

@@ -34,6 +34,10 @@ using LightMaker = LightPtr (*)(const LightDescription&, const LightScope&);
 LightPtr make_point_light(const LightDescription&, const LightScope&);
 LightPtr make_spot_light(const LightDescription&, const LightScope&);
 LightPtr make_distant_light(const LightDescription&, const LightScope&);
+/// A distant light of this angular diameter (radians, above 0 and up to pi) around the unit
+/// direction `to_light`. `irradiance` scales `spectrum` to that of a surface that faces the light.
+LightPtr make_sun_light(const Vec3f& to_light, float angle, const Spectrum& spectrum,
+                        float irradiance);
 /// Uniform; or one of the two below if there is a "filename" or a "portal".
 LightPtr make_infinite_light(const LightDescription&, const LightScope&);
 LightPtr make_image_infinite_light(const LightDescription&, const LightScope&);

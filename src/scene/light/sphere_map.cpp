@@ -1,7 +1,7 @@
 // Octahedral and latitude-longitude maps, see sphere_map.h.
 #include "scene/light/sphere_map.h"
 
-#include "scene/light/equal_area_map.h"
+#include "core/equal_area_map.h"
 
 namespace nephroid {
 namespace {

@@ -31,6 +31,8 @@ class MeshChecker {
     check_count(mesh_.normals.size(), "normal");
     check_count(mesh_.uvs.size(), "texture coordinate");
     check_count(mesh_.tangents.size(), "tangent");
+    check_count(mesh_.second_uvs.size(), "second texture coordinate");
+    check_count(mesh_.colors.size(), "vertex colour");
     check_finite(mesh_.normals, "normal");
     check_finite(mesh_.tangents, "tangent");
     check_finite(mesh_.uvs, "texture coordinate");

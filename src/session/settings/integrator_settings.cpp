@@ -17,24 +17,20 @@ namespace {
 
 constexpr float kMaxFloat = std::numeric_limits<float>::max();
 
-constexpr bool kForEverybody = true;
-
-// --help shows the first five; settings of single estimators are in their descriptors.
+// Settings of single estimators are in their descriptors.
 const IntegratorSetting kSettings[] = {
     {"max-depth", "N", "100, or the scene's maxdepth", "",
      "Scattering events of a whole path, from the camera to the light.",
      [](RenderSettings& s, const std::string& t) {
        s.integrator.max_depth = parse_int("-D max-depth", t, 0);
      },
-     [](const RenderSettings& s) { return fmt::format("{}", s.integrator.max_depth); },
-     kForEverybody},
+     [](const RenderSettings& s) { return fmt::format("{}", s.integrator.max_depth); }},
     {"photons", "N", "0, chosen", "paths",
      "Photon paths emitted per pass. 0 chooses by the size of the film.",
      [](RenderSettings& s, const std::string& t) {
        s.integrator.photons_per_pass = parse_integer("-D photons", t, 0);
      },
-     [](const RenderSettings& s) { return fmt::format("{}", s.integrator.photons_per_pass); },
-     kForEverybody},
+     [](const RenderSettings& s) { return fmt::format("{}", s.integrator.photons_per_pass); }},
     {"camera-samples", "N", "0, chosen", "samples",
      "Camera paths per pixel and pass. Up to 65535; 0 lets the integrator choose. In `mixed` also "
      "walks for lamps behind glass.",
@@ -43,15 +39,14 @@ const IntegratorSetting kSettings[] = {
      },
      [](const RenderSettings& s) {
        return fmt::format("{}", s.integrator.camera_samples_per_pass);
-     },
-     kForEverybody},
+     }},
     {"radius", "X", "0, chosen", "pixels",
      "Merge radius of the first pass. It is in footprints of a pixel; 0 lets the integrator "
      "choose.",
      [](RenderSettings& s, const std::string& t) {
        s.integrator.radius = parse_float("-D radius", t, 0, kMaxFloat, false);
      },
-     [](const RenderSettings& s) { return fmt::format("{}", s.integrator.radius); }, kForEverybody},
+     [](const RenderSettings& s) { return fmt::format("{}", s.integrator.radius); }},
     {"specular-alpha", "X|LOW..HIGH", "0.035..0.07", "",
      "Roughness up to which a lobe is specular (S), not glossy (G). It is the microfacet "
      "alpha "
@@ -65,8 +60,7 @@ const IntegratorSetting kSettings[] = {
        const SpecularBand& band = s.scene.specular_band;
        return band.low == band.high ? fmt::format("{}", band.low)
                                     : fmt::format("{}..{}", band.low, band.high);
-     },
-     kForEverybody},
+     }},
     {"alpha", "X", "0.6666667", "",
      "How fast the merge radius shrinks, above 0 to 1: 1 keeps it, smaller values shrink faster.",
      [](RenderSettings& s, const std::string& t) {

@@ -40,7 +40,6 @@ struct IntegratorSetting {
   std::function<void(RenderSettings& settings, const std::string& text)> apply;
   /// The stored value as text, for metadata.
   std::function<std::string(const RenderSettings& settings)> print;
-  bool is_for_everybody = false;  ///< listed by --help; --help-all lists every setting
 };
 
 /// The table of keys in the order of help: keys of all renders, then those of single estimators.

@@ -152,12 +152,59 @@ TEST(DistantLight, ShinesAlongOneDirection) {
   EXPECT_EQ(light->emission_pdf(e->ng, e->ray.d).pdf_w, e->pdf_w);
 }
 
+TEST(DistantLight, WithAnAngleIsACapOfTheSameIrradiance) {
+  const SceneSphere sphere{{1, 2, 3}, 10};
+  for (const float degrees : {0.53f, 20.0f, 180.0f}) {
+    SCOPED_TRACE(degrees);
+    const LightPtr light = light_of(
+        "LightSource \"distant\" \"point3 from\" [0 0 4] \"point3 to\" [0 0 1] \"spectrum L\" " +
+            kWhite + " \"float illuminance\" 5 \"float angle\" " + std::to_string(degrees),
+        sphere);
+    EXPECT_FALSE(light->is_delta());
+    EXPECT_TRUE(agrees(irradiance(*light, {0, 0, 0}, {0, 0, 1}, 20000), 5 * kUnit));
+    // Flux through the disk of the scene, which is perpendicular to each ray.
+    const double half = degrees * kPi / 360;
+    const double solid_angle = 2 * kPi * (1 - std::cos(half));
+    const double radiance = 5 * kUnit / (kPi * std::sin(half) * std::sin(half));
+    const double flux = radiance * solid_angle * kPi * 100;
+    EXPECT_TRUE(agrees(emitted_flux(*light, 1000), flux, 1e-4 * flux));
+    EXPECT_NEAR(light->power(), flux, 1e-3 * flux);
+    const auto seen = [&](double angle) {
+      const Vec3f w(static_cast<float>(std::sin(angle)), 0, static_cast<float>(std::cos(angle)));
+      EXPECT_EQ(light->pdf_towards({}, w, {}, {}) > 0, light->emission_pdf({}, -w).pdf_w > 0);
+      return light->radiance_at_infinity({}, w, test_wavelengths())[0];
+    };
+    EXPECT_NEAR(seen(0.99 * half), radiance, 1e-3 * radiance);
+    EXPECT_EQ(seen(1.01 * half), 0);
+    EXPECT_NEAR(light->pdf_towards({}, {0, 0, 1}, {}, {}) * solid_angle, 1, 1e-3);
+  }
+}
+
 TEST(DistantLight, IgnoresScalesOfItsTransform) {
   const LightPtr light = light_of(
       "Scale 7 7 7\nLightSource \"distant\" \"point3 from\" [0 1 0] "
       "\"point3 to\" [0 0 0] \"spectrum L\" " +
       kWhite);
   EXPECT_NEAR(radiance_towards(*light, {0, 0, 0}), kUnit, 1e-6f * kUnit);
+}
+
+TEST(DistantLight, SamplesItsCapUniformly) {
+  const LightPtr light =
+      light_of("LightSource \"distant\" \"point3 from\" [0 0 1] \"float angle\" 120");
+  constexpr int kCount = 100000, kRings = 10, kSectors = 8;
+  std::vector<double> observed(kRings * kSectors),
+      expected(kRings * kSectors, static_cast<double>(kCount) / (kRings * kSectors));
+  TestRandom random(5);
+  for (int i = 0; i < kCount; ++i) {
+    const auto s = light->sample_towards({0, 0, 0}, random.next2(), test_wavelengths());
+    ASSERT_TRUE(s);
+    EXPECT_NEAR(length(s->wi), 1, 1e-6f);
+    // The cap reaches 60 degrees from the axis, where 1 - cos is 1/2.
+    const int ring = static_cast<int>((1 + s->wi.z) * 2 * kRings);
+    const int sector = static_cast<int>((std::atan2(s->wi.y, s->wi.x) / (2 * kPi) + 0.5) * kSectors);
+    ++observed[std::clamp(ring, 0, kRings - 1) * kSectors + std::clamp(sector, 0, kSectors - 1)];
+  }
+  EXPECT_GT(chi_square_test(observed, expected), 1e-4);
 }
 
 TEST(LightDirectives, ErrorsNameThePlace) {

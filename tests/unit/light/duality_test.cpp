@@ -47,6 +47,8 @@ TEST(Duality, PointAndDistant) {
   for (const char* text :
        {"LightSource \"point\" \"point3 from\" [1 0 1.5]",
         "LightSource \"distant\" \"point3 from\" [1 0 3] \"point3 to\" [0 0 0]",
+        "LightSource \"distant\" \"point3 from\" [1 0 3] \"point3 to\" [0 0 0] \"float angle\" 40",
+        "LightSource \"distant\" \"point3 from\" [1 0 3] \"point3 to\" [0 0 0] \"float angle\" .53",
         "LightSource \"infinite\"",
         "LightSource \"spot\" \"point3 from\" [0 0 2] \"point3 to\" [0.5 0 0] \"float coneangle\" "
         "25 "

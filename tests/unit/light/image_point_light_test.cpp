@@ -1,6 +1,6 @@
 // Projection and goniometric lights: the position of each image pixel, the emission, and sampled
 // directions.
-#include "scene/light/equal_area_map.h"
+#include "core/equal_area_map.h"
 #include "unit/light/light_fixture.h"
 
 namespace nephroid::testing_light {

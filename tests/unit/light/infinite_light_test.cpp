@@ -2,7 +2,7 @@
 // from images.
 #include <numeric>
 
-#include "scene/light/equal_area_map.h"
+#include "core/equal_area_map.h"
 #include "scene/light/piecewise_constant_2d.h"
 #include "unit/light/light_fixture.h"
 

@@ -1,6 +1,6 @@
 // Infinite lights with latitude-longitude maps: the position of each pixel, and samples, densities
 // and radiance by the pixels' solid angles.
-#include "scene/light/equal_area_map.h"
+#include "core/equal_area_map.h"
 #include "scene/light/sphere_map.h"
 #include "unit/light/light_fixture.h"
 

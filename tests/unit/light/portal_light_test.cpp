@@ -1,6 +1,6 @@
 // Infinite lights with a portal: the windowed distribution, visibility, densities of directions,
 // and closed forms.
-#include "scene/light/equal_area_map.h"
+#include "core/equal_area_map.h"
 #include "scene/light/windowed_distribution.h"
 #include "unit/light/light_fixture.h"
 

@@ -171,6 +171,14 @@ TEST_F(RenderPage, RefusesAnotherRenderAndTooLittleMemory) {
   request_.resume = true;
   request_.seed = 10;
   EXPECT_THROW(render(), UsageError);
+  request_.seed.reset();
+  EXPECT_NO_THROW(render());
+  request_.overrides.import.floor = true;
+  EXPECT_THROW(render(), UsageError);
+  request_.overrides.import = {};
+  request_.overrides.import.exposure = 1;
+  EXPECT_THROW(render(), UsageError);
+  request_.overrides.import = {};
   request_.resume = false;
   request_.memory = 1 << 20;
   EXPECT_THROW(render(), UsageError);

@@ -1,5 +1,5 @@
 // Clarberg's map, see equal_area_map.h.
-#include "scene/light/equal_area_map.h"
+#include "core/equal_area_map.h"
 
 namespace nephroid {
 

@@ -1,0 +1,38 @@
+// The files beside a converted scene: it writes meshes and images in memory there, and finds the
+// names by which the new scene reads the files of the old one. It must not know directives.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "input/mesh_data.h"
+#include "input/scene_description.h"
+
+namespace nephroid {
+
+class CompanionFiles {
+ public:
+  /// `scene_file` is the path of the converted scene.
+  CompanionFiles(const SceneDescription& scene, const std::string& scene_file);
+
+  /// Writes a mesh and returns its name for the converted scene. Throws IoError.
+  std::string add_mesh(const MeshData& mesh);
+  /// The name for the converted scene of a file that the old one names. Files in memory are
+  /// written. Throws IoError.
+  std::string name_of(const std::string& old_name);
+
+ private:
+  std::string new_name(const std::string& suffix);
+  void write(const std::string& name, const std::string& bytes) const;
+
+  SceneFiles& files_;
+  std::string directory_;  ///< directory of the converted scene
+  std::string stem_;       ///< beginning of all names
+  int count_ = 0;
+  std::map<std::string, std::string> written_;  ///< names of files in memory
+};
+
+/// Writes a file. Throws IoError.
+void write_bytes(const std::string& path, const std::string& bytes);
+
+}  // namespace nephroid

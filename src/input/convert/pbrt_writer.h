@@ -1,0 +1,19 @@
+// Writes a scene description as a pbrt-v4 scene with its meshes and images beside it. It must not
+// know the meaning of types, but for the names of parameters that are files.
+#pragma once
+
+#include <string>
+
+#include "input/scene_description.h"
+
+namespace nephroid {
+
+/// Writes the scene to `path`. Reading it gives a description of the same scene:
+/// - materials without a name get the one by which light path expressions know them;
+/// - triangle meshes of more than a few faces become PLY files beside the scene, and so do images in
+///   memory;
+/// - names of other files are relative to the new scene.
+/// Comments say what of the scene is not pbrt-v4's. Throws IoError if a file cannot be written.
+void write_pbrt(const SceneDescription& scene, const std::string& path);
+
+}  // namespace nephroid

@@ -1,0 +1,137 @@
+#include "input/obj/obj_scene.h"
+
+#include <filesystem>
+#include <map>
+#include <utility>
+
+#include "input/contained_file.h"
+#include "input/mesh_directive.h"
+#include "input/obj/mtl_material.h"
+#include "input/obj/obj_file.h"
+#include "input/parameter_list.h"
+#include "input/spelling.h"
+
+namespace nephroid {
+namespace {
+
+constexpr double kClay = 0.6;  ///< reflectance of faces without a material
+
+class ObjScene {
+ public:
+  ObjScene(const std::string& path, const ImportOptions& options, Diagnostics& diagnostics)
+      : options_(options), diagnostics_(diagnostics) {
+    scene_.file = path;
+    scene_.files = std::make_shared<SceneFiles>(directory_of_scene(path));
+    scene_.files->set_top(path);
+  }
+
+  SceneDescription read() {
+    const ObjFile file = read_obj(*scene_.files, scene_.file, {}, diagnostics_);
+    if (file.parts.empty())
+      throw SceneError({std::make_shared<const std::string>(scene_.file), 0, 0},
+                       "the file has no faces, expected lines such as \"f 1 2 3\"");
+    for (const ObjLibrary& library : file.libraries) read_library(library);
+    for (const ObjPart& part : file.parts) add_shape(part);
+    return std::move(scene_);
+  }
+
+ private:
+  /// What a material of the file gives to its shapes.
+  struct OfShapes {
+    MaterialReference material;
+    std::optional<DirectiveDescription> area_light;
+    std::optional<Parameter> alpha;
+  };
+
+  void read_library(const ObjLibrary& library);
+  void name_images(MtlMaterial& material, const std::string& library) const;
+  const OfShapes& material_of(const ObjPart& part);
+  OfShapes convert(const MtlMaterial& mtl);
+  OfShapes clay(const SourceLocation& where);
+  void add_shape(const ObjPart& part);
+
+  const ImportOptions& options_;
+  Diagnostics& diagnostics_;
+  SceneDescription scene_;
+  std::map<std::string, MtlMaterial> library_;  ///< all materials of all MTL files
+  std::map<std::string, OfShapes> used_;        ///< by their names in the file
+};
+
+void ObjScene::read_library(const ObjLibrary& library) {
+  const std::string name =
+      contained_file(*scene_.files, library.name, options_.allow_outside, library.where);
+  try {
+    for (auto& entry : read_mtl(*scene_.files, scene_.files->path_of(name), diagnostics_)) {
+      name_images(entry.second, name);
+      library_.try_emplace(entry.first, std::move(entry.second));
+    }
+  } catch (const IoError& error) {
+    diagnostics_.warn(library.where, std::string(error.what()) + "; its materials are missing");
+  }
+}
+
+/// Makes the names of images relative to the scene; in MTL files they are relative to these.
+void ObjScene::name_images(MtlMaterial& material, const std::string& library) const {
+  const std::filesystem::path folder = std::filesystem::path(library).parent_path();
+  for (auto& entry : material.maps) {
+    MtlMap& map = entry.second;
+    map.file = contained_file(*scene_.files, (folder / map.file).string(), options_.allow_outside,
+                              map.where);
+  }
+}
+
+ObjScene::OfShapes ObjScene::convert(const MtlMaterial& mtl) {
+  ConvertedMaterial converted =
+      convert_mtl(mtl, options_.solid_glass, &scene_.textures, diagnostics_);
+  OfShapes of_shapes;
+  of_shapes.material = {static_cast<int>(scene_.materials.size()), "", mtl.where};
+  of_shapes.area_light = std::move(converted.area_light);
+  of_shapes.alpha = std::move(converted.alpha);
+  scene_.materials.push_back(std::move(converted.material));
+  return of_shapes;
+}
+
+ObjScene::OfShapes ObjScene::clay(const SourceLocation& where) {
+  ParameterList list(where);
+  list.add_color("reflectance", {kClay, kClay, kClay});
+  MaterialDescription material;
+  static_cast<DirectiveDescription&>(material) = std::move(list).directive("diffuse");
+  OfShapes of_shapes;
+  of_shapes.material = {static_cast<int>(scene_.materials.size()), "", where};
+  scene_.materials.push_back(std::move(material));
+  return of_shapes;
+}
+
+const ObjScene::OfShapes& ObjScene::material_of(const ObjPart& part) {
+  const auto used = used_.find(part.material);
+  if (used != used_.end()) return used->second;
+  const auto known = library_.find(part.material);
+  if (known != library_.end())
+    return used_.emplace(part.material, convert(known->second)).first->second;
+  if (!part.material.empty()) {
+    std::vector<std::string> names;
+    for (const auto& entry : library_) names.push_back(entry.first);
+    diagnostics_.warn(part.where, "material \"" + part.material + "\" is not defined" +
+                                      did_you_mean(part.material, names) +
+                                      "; its faces are grey");
+  }
+  return used_.emplace(part.material, clay(part.where)).first->second;
+}
+
+void ObjScene::add_shape(const ObjPart& part) {
+  const OfShapes& of_shapes = material_of(part);
+  ShapeDescription& shape = scene_.shapes.emplace_back();
+  static_cast<DirectiveDescription&>(shape) = mesh_directive(part.mesh, part.where);
+  if (of_shapes.alpha) shape.parameters.list.push_back(*of_shapes.alpha);
+  shape.material = of_shapes.material;
+  shape.area_light = of_shapes.area_light;
+}
+
+}  // namespace
+
+SceneDescription read_obj_scene(const std::string& path, const ImportOptions& options,
+                                Diagnostics& diagnostics) {
+  return ObjScene(path, options, diagnostics).read();
+}
+
+}  // namespace nephroid

@@ -1,0 +1,17 @@
+// Reads a scene file of any format into a SceneDescription. It must not know the contents of
+// formats.
+#pragma once
+
+#include <string>
+
+#include "input/import_options.h"
+#include "input/scene_description.h"
+
+namespace nephroid {
+
+/// The reader is chosen by the end of the name; without a known one the file is pbrt-v4. Throws
+/// IoError if a file cannot be read and SceneError if its contents are wrong.
+SceneDescription read_scene(const std::string& path, const ImportOptions& options,
+                            Diagnostics& diagnostics);
+
+}  // namespace nephroid

@@ -1,0 +1,104 @@
+#include "input/staging/staging.h"
+
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include "input/parameter_list.h"
+#include "input/staging/default_view.h"
+#include "input/staging/scene_bounds.h"
+#include "input/staging/sun_and_sky.h"
+
+namespace nephroid {
+namespace {
+
+/// The film of the scene; one is added if there is none.
+ParameterSet& film_parameters(SceneDescription* scene) {
+  if (!scene->film)
+    scene->film = ParameterList(not_in_a_file("default film")).directive("rgb");
+  return scene->film->parameters;
+}
+
+void set_parameter(ParameterSet* set, Parameter parameter) {
+  std::erase_if(set->list, [&](const Parameter& old) { return old.name == parameter.name; });
+  set->list.push_back(std::move(parameter));
+}
+
+void set_iso(SceneDescription* scene, double iso, const char* option) {
+  ParameterList list(not_in_a_file(option));
+  list.add_float("iso", iso);
+  set_parameter(&film_parameters(scene), list.take().list.front());
+}
+
+/// Seconds for which the shutter is open.
+double exposure_time(const SceneDescription& scene) {
+  if (!scene.camera) return 1;
+  const ParameterSet& p = scene.camera->parameters;
+  const double seconds = p.get_float("shutterclose", 1) - p.get_float("shutteropen", 0);
+  return seconds > 0 ? seconds : 1;  // else an error of the film's maker
+}
+
+/// Names the picture after the scene's file.
+void name_picture(SceneDescription* scene) {
+  std::filesystem::path name = std::filesystem::path(scene->file).filename();
+  if (name.extension() == ".gz") name = name.stem();
+  ParameterList list(not_in_a_file("default film"));
+  list.add_string("filename", name.replace_extension(".exr").string());
+  set_parameter(&film_parameters(scene), list.take().list.front());
+}
+
+/// Bounds that are read once, if they are wanted.
+class LazyBounds {
+ public:
+  explicit LazyBounds(const SceneDescription& scene) : scene_(scene) {}
+  /// Throws SceneError for a scene without shapes; `wanted_for` goes into the message.
+  const Bounds3d& get(const char* wanted_for) {
+    if (!bounds_) bounds_ = scene_bounds(scene_);
+    if (bounds_->isEmpty())
+      throw SceneError({std::make_shared<const std::string>(scene_.file), 0, 0},
+                       std::string("the scene has no shapes, expected some for ") + wanted_for);
+    return *bounds_;
+  }
+
+ private:
+  const SceneDescription& scene_;
+  std::optional<Bounds3d> bounds_;
+};
+
+}  // namespace
+
+void stage_scene(SceneDescription* scene, bool is_complete, const ImportOptions& options,
+                 Diagnostics& diagnostics) {
+  const SourceLocation whole_file{std::make_shared<const std::string>(scene->file), 0, 0};
+  LazyBounds bounds(*scene);
+  if (!is_complete && !scene->film) name_picture(scene);
+  if (!is_complete && !scene->camera) {
+    scene->camera = framed_camera(bounds.get("a view of them"), surroundings_of(*scene));
+    diagnostics.warn(whole_file, "the file has no camera: the view is from the front right");
+  }
+  const Surroundings surroundings = surroundings_of(*scene);
+  const bool is_lit = has_light(*scene) || !options.environment.empty() || options.sun;
+  const Bounds3d extent = options.floor || !(is_complete || is_lit)
+                              ? bounds.get("a floor or lamps around them")
+                              : Bounds3d();
+  if (options.sun) {
+    // A white surface that faces the sun gets the value 1.
+    const double illuminance = set_sun(scene, *options.sun, surroundings);
+    set_iso(scene, 100 * 3.14159265358979323846 / (illuminance * exposure_time(*scene)), "--sun");
+  }
+  if (!options.environment.empty()) set_environment(scene, options.environment, surroundings);
+  if (!is_complete && !is_lit) {
+    add_studio_light(scene, extent, surroundings);
+    diagnostics.warn(whole_file,
+                     "the file has no light: a grey sky and a soft lamp light it (--sun and "
+                     "--environment give other light)");
+  }
+  if (options.floor) add_floor(scene, extent, surroundings);
+  if (options.exposure != 0) {
+    const double iso = film_parameters(scene).get_float("iso", 100);
+    set_iso(scene, iso * std::exp2(options.exposure), "--exposure");
+  }
+}
+
+}  // namespace nephroid

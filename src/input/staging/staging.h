@@ -1,0 +1,19 @@
+// What a scene needs to be seen, where its file or the user says so little: camera, light, floor,
+// sky, exposure. It must not know formats.
+#pragma once
+
+#include "input/import_options.h"
+#include "input/scene_description.h"
+
+namespace nephroid {
+
+/// Applies --floor, --sun, --environment and --exposure to a scene of any format. A scene that is
+/// not complete by its author's will also gets a camera and light if it has none, with a warning.
+/// - The view is framed around all shapes, from the front right and above. The front is the south
+///   (surroundings.h).
+/// - The light is a grey sky and a soft lamp. A white surface that faces the lamp has the value 1.
+/// Throws SceneError if shapes are needed and there are none.
+void stage_scene(SceneDescription* scene, bool is_complete, const ImportOptions& options,
+                 Diagnostics& diagnostics);
+
+}  // namespace nephroid
