@@ -17,8 +17,8 @@ inline constexpr const char* kStandardInput = "-";
 
 /// A file to read: on disk, or in memory if there are bytes.
 struct FileSource {
-  std::string path;                         ///< name in messages, and of a file on disk
-  std::shared_ptr<const std::string> bytes; ///< contents of a file in memory; null on disk
+  std::string path;                          ///< name in messages, and of a file on disk
+  std::shared_ptr<const std::string> bytes;  ///< contents of a file in memory; null on disk
 
   FileSource(std::string file) : path(std::move(file)) {}  // NOLINT: a path is a source
   FileSource(std::string name, std::shared_ptr<const std::string> contents)
@@ -43,8 +43,8 @@ class SceneFiles {
   /// The same for a name that may be that of a file in memory.
   FileSource source_of(const std::string& name);
 
-  /// Adds a file that is a part of another one, such as an image in a GLB file. It does not count in
-  /// the hash by itself: the file that contains it does.
+  /// Adds a file that is a part of another one, such as an image in a GLB file. It does not count
+  /// in the hash by itself: the file that contains it does.
   void add_in_memory(const std::string& name, std::string bytes);
   /// The contents of such a file; null if there is none of that name.
   std::shared_ptr<const std::string> in_memory(const std::string& name) const;
