@@ -16,7 +16,7 @@ LAYERS = ["core", "input", "scene", "route", "film", "transport", "photon", "int
 # Rooms: the folders of a layer. In this order, each one includes only from those to its left. "" stands for the
 # layer's own files.
 ROOMS = {
-    "input": ["", "obj", "staging", "convert"],
+    "input": ["", "obj", "gltf", "mitsuba", "staging", "convert"],
     "scene": ["shape", "bsdf", "texture", "medium", "material", "light", "camera", ""],
     "integrator": ["estimator", "path", "photons", "learning", "photon_mapping", "virtual_lights",
                    "bidirectional", "metropolis", "mixed", "presets"],
@@ -35,11 +35,16 @@ LIBRARIES = {
     r"nanovdb/": {"scene/medium/nanovdb_grid.cpp"},
     r"xxhash": {"core/content_hash.cpp"},
     r"CLI/": {"options", "report_page/main.cpp"},
-    r"nlohmann/": {"bench", "session/checkpoint/film_metadata.cpp"},
+    r"nlohmann/": {"bench", "session/checkpoint/film_metadata.cpp", "input/gltf/json_value.h",
+                   "input/gltf/json_value.cpp"},
+    r"draco/": {"input/gltf/draco.cpp"},
+    r"meshoptimizer": {"input/gltf/meshopt.cpp"},
+    r"pugixml": {"input/mitsuba/xml_text.h"},
 }
 MAX_LINES, MAX_COLUMNS = 400, 100
 # Files that are tables of text or data, not code.
-TABLES = {"report_page/page_style.cpp", "options/scene_support.cpp"}
+TABLES = {"report_page/page_style.cpp", "options/scene_support.cpp", "input/mitsuba/hosek_wilkie_data.cpp",
+          "options/mitsuba_support.cpp"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 

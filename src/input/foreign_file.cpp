@@ -10,6 +10,7 @@ namespace nephroid {
 namespace {
 
 constexpr const char* kScene = "";
+constexpr const char* kOtherName = " (scenes of this format have names that end in .gltf or .glb)";
 constexpr const char* kMesh = " (meshes are read as PLY, by Shape \"plymesh\")";
 constexpr const char* kPly = " (Shape \"plymesh\" \"string filename\" reads it)";
 constexpr const char* kImage = " (images are read by Texture \"imagemap\" and by lights)";
@@ -21,7 +22,7 @@ struct Format {
 };
 
 constexpr Format kFirstBytes[] = {
-    {"glTF", "a binary glTF scene (GLB)", kScene},
+    {"glTF", "a binary glTF scene (GLB)", kOtherName},
     {"#usda", "a USD scene", kScene},
     {"PXR-USDC", "a binary USD scene", kScene},
     {"BLENDER", "a Blender file", kScene},
@@ -40,7 +41,6 @@ constexpr Format kFirstBytes[] = {
 };
 
 constexpr Format kNames[] = {
-    {".gltf", "a glTF scene", kScene},       {".glb", "a binary glTF scene (GLB)", kScene},
     {".usd", "a USD scene", kScene},         {".usda", "a USD scene", kScene},
     {".usdc", "a binary USD scene", kScene}, {".usdz", "a USD scene", kScene},
     {".blend", "a Blender file", kScene},    {".fbx", "an FBX scene", kScene},
@@ -85,9 +85,9 @@ Format format_of(std::string_view bytes, const std::string& path) {
     if (bytes.starts_with(format.mark)) return format;
   const std::string_view text = from_first_word(bytes);
   if (text.empty()) return {"", "", ""};
-  if (text[0] == '{')
-    return {"", text.find("\"asset\"") != std::string_view::npos ? "a glTF scene" : "a JSON file",
-            kScene};
+  if (text[0] == '{' && text.find("\"asset\"") != std::string_view::npos)
+    return {"", "a glTF scene", kOtherName};
+  if (text[0] == '{') return {"", "a JSON file", kScene};
   if (text[0] == '<') return xml_format(text);
   if (is_obj(text)) return {"", "a Wavefront OBJ mesh", kMesh};
   // Directives begin with a capital letter: such a file may be a scene whatever its name.

@@ -1,6 +1,7 @@
 // A polygon mesh of a file or a scene as plain arrays, and the PLY reader.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -13,12 +14,14 @@ namespace nephroid {
 
 struct MeshData {
   std::vector<Vec3f> positions;
-  std::vector<Vec3f> normals;       ///< per vertex, or empty
-  std::vector<Vec2f> uvs;           ///< per vertex, or empty
-  std::vector<Vec3f> tangents;      ///< per vertex, or empty
-  std::vector<uint32_t> triangles;  ///< three indices each
-  std::vector<uint32_t> quads;      ///< four indices each, in ring order as PLY has them
-  std::vector<int> face_indices;    ///< per triangle, then per quad; or empty
+  std::vector<Vec3f> normals;                ///< per vertex, or empty
+  std::vector<Vec2f> uvs;                    ///< per vertex, or empty
+  std::vector<Vec3f> tangents;               ///< per vertex, or empty
+  std::vector<Vec2f> second_uvs;             ///< per vertex, or empty
+  std::vector<std::array<float, 4>> colors;  ///< linear rgb and alpha per vertex, or empty
+  std::vector<uint32_t> triangles;           ///< three indices each
+  std::vector<uint32_t> quads;               ///< four indices each, in ring order as PLY has them
+  std::vector<int> face_indices;             ///< per triangle, then per quad; or empty
 };
 
 /// Reads an ascii, binary_little_endian or binary_big_endian PLY file (".gz" is unpacked): vertex

@@ -4,6 +4,8 @@
 #include <cctype>
 
 #include "input/file_bytes.h"
+#include "input/gltf/gltf_reader.h"
+#include "input/mitsuba/mitsuba_reader.h"
 #include "input/obj/obj_scene.h"
 #include "input/pbrt_parser.h"
 #include "input/staging/staging.h"
@@ -27,6 +29,9 @@ SceneDescription read_pbrt(const std::string& path, const ImportOptions&,
 constexpr SceneFormat kFormats[] = {
     {".obj", read_obj_scene},
     {".obj.gz", read_obj_scene},
+    {".gltf", read_gltf},
+    {".glb", read_gltf},
+    {".xml", read_mitsuba},
     {"", read_pbrt, true},
 };
 

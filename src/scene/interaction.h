@@ -6,6 +6,7 @@
 
 namespace nephroid {
 
+struct MeshData;
 struct ShapeRecord;
 
 /// World space throughout. `ng` and the shading frame's z point to the outside of the shape,
@@ -32,6 +33,9 @@ struct SurfaceInteraction {
   int area_light = -1;  ///< index into Scene's lights, -1 if the surface does not emit
   uint32_t shape = 0, primitive = 0;    ///< in the Scene's numbering
   const ShapeRecord* record = nullptr;  ///< the shape's record in the Scene
+  /// The mesh that was hit, if its vertices have more than the usual attributes; else null.
+  const MeshData* mesh = nullptr;
+  Vec2f barycentric;  ///< place in the triangle, if there is a mesh
 
   Vec3f spawn_origin(const Vec3f& w) const { return offset_ray_origin(p, p_error, ng, w); }
 };

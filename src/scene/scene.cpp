@@ -67,6 +67,7 @@ bool Scene::intersect_masked(const Ray& ray, unsigned mask, SurfaceInteraction& 
     group = instance.group;
   }
   const ShapeRecord* record = &group->records[found->geometry];
+  hit.mesh = nullptr;
   record->shape->fill(found->primitive, found->uv, local, found->t, hit);
   while (depth > 0) to_world(*placed[--depth], hit);
   hit.wo = -normalize(ray.d);

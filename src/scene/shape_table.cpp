@@ -46,7 +46,9 @@ std::vector<ShapePtr> finish_mesh(const Context& c, MeshData data) {
   transform_mesh(data, c.transform);
   validate_mesh(data, c.p.where, c.what(), c.diagnostics);
   // A light's "power" counts per primitive, so those primitives must stay as they are.
-  if (c.description.area_light && !c.description.area_light->parameters.find("power"))
+  // Patches have no further attributes.
+  const bool is_plain = data.second_uvs.empty() && data.colors.empty();
+  if (is_plain && c.description.area_light && !c.description.area_light->parameters.find("power"))
     data = join_rectangles(std::move(data));
   std::vector<ShapePtr> shapes;
   MeshData patches;
@@ -77,9 +79,22 @@ MeshData vertices_of(const Context& c) {
   return data;
 }
 
+std::vector<std::array<float, 4>> vertex_colors(const Context& c) {
+  const std::vector<float> numbers = c.p.get_floats("vertexcolors");
+  if (numbers.size() % 4 != 0)
+    throw SceneError(c.p.where, c.what() + ": \"vertexcolors\" has " +
+                                    std::to_string(numbers.size()) +
+                                    " values, expected a multiple of 4");
+  std::vector<std::array<float, 4>> colors(numbers.size() / 4);
+  for (size_t i = 0; i < numbers.size(); ++i) colors[i / 4][i % 4] = numbers[i];
+  return colors;
+}
+
 std::vector<ShapePtr> triangle_mesh(const Context& c) {
   MeshData data = vertices_of(c);
   data.tangents = c.p.get_vector3s("S");
+  data.second_uvs = c.p.get_point2s("uv2");
+  data.colors = vertex_colors(c);
   data.face_indices = c.p.get_ints("faceIndices");
   data.triangles = to_indices(c, c.p.get_ints("indices"));
   if (data.triangles.empty()) {
@@ -230,6 +245,10 @@ constexpr FormatParameter kAttributes[] = {
 constexpr FormatParameter kTriangles[] = {
     {"integer[]", "indices", "0 1 2, of three vertices"},
     {"vector3[]", "S", "none", "", "tangents, one for each vertex"},
+    {"point2[]", "uv2", "none", "",
+     "second texture coordinates, which textures name by \"uvset\"; not in pbrt-v4"},
+    {"float[]", "vertexcolors", "none", "",
+     "linear r, g, b and alpha for each vertex, which textures use; not in pbrt-v4"},
 };
 constexpr FormatParameter kPly[] = {
     {"string", "filename", "none: an error", "", "PLY, may be compressed"},

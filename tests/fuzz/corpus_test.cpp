@@ -38,7 +38,9 @@ INSTANTIATE_TEST_SUITE_P(
                       Target{"obj", fuzz::obj}, Target{"bsdf", fuzz::bsdf},
                       Target{"routes", fuzz::routes}, Target{"image", fuzz::image},
                       Target{"environment", fuzz::environment}, Target{"nanovdb", fuzz::nanovdb},
-                      Target{"checkpoint", fuzz::checkpoint}, Target{"command", fuzz::command}),
+                      Target{"checkpoint", fuzz::checkpoint}, Target{"command", fuzz::command},
+                      Target{"mitsuba", fuzz::mitsuba}, Target{"serialized", fuzz::serialized},
+                      Target{"volume", fuzz::volume}),
     [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace

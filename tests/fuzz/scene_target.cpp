@@ -1,5 +1,5 @@
 // The scene parser on hostile text; see targets.h.
-#include "fuzz/file_bundle.h"
+#include "fuzz/file_list.h"
 #include "fuzz/memory_files.h"
 #include "fuzz/targets.h"
 #include "input/pbrt_parser.h"

@@ -9,6 +9,12 @@ namespace nephroid::fuzz {
 
 /// A scene text and the files it may include: a line "#file NAME" starts the next file.
 void scene(const std::string& bytes);
+/// A Mitsuba scene and the files it names, in the same form; the first is "scene.xml".
+void mitsuba(const std::string& bytes);
+/// A .serialized file; or, without its magic number, the unpacked contents of one mesh.
+void serialized(const std::string& bytes);
+/// A .vol file.
+void volume(const std::string& bytes);
 /// A PLY file.
 void ply(const std::string& bytes);
 /// An OBJ file and the files of materials that it may name, as in `scene`.

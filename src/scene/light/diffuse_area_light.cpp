@@ -3,6 +3,8 @@
 #include "core/warps.h"
 #include "scene/light/light_table.h"
 #include "scene/shape/plane_rectangle.h"
+#include "scene/texture/image_placement.h"
+#include "scene/texture/rgb_spectrum.h"
 
 namespace nephroid {
 
@@ -12,6 +14,8 @@ namespace {
 struct AreaEmission {
   EmissionSpectrum radiance;  ///< radiance, or for an image its illuminant; times all scales
   ImagePtr image;             ///< null if uniform
+  ImagePlacement placement;   ///< of the image
+  Rgb factor;                 ///< of the image
   float image_mean = 1;       ///< mean of all values of the image
   bool two_sided = false;
   FloatTexturePtr alpha;   ///< null if the surface is opaque everywhere
@@ -19,7 +23,7 @@ struct AreaEmission {
 
   SampledSpectrum at(const Vec2f& uv, const SampledWavelengths& lambda) const {
     if (!image) return radiance.sample(lambda);
-    const Rgb c = image->bilinear({uv.x, 1.0f - uv.y}, WrapMode::kClamp);
+    const Rgb c = product(image->bilinear(placement.in_image(uv), placement.wrap()), factor);
     return RgbEmission(image->color_space(), c).sample(lambda) * radiance.sample(lambda);
   }
 };
@@ -164,6 +168,7 @@ double weighted_mean(const Image& image, const Rgb& weights) {
 struct UniformOrImage {
   EmissionColor emission;
   ImagePtr image;
+  Rgb factor{1, 1, 1};
   double luminance = 1.0;  ///< mean luminance of the image, in units of its illuminant
 };
 
@@ -181,7 +186,8 @@ UniformOrImage read_area_emission(const DirectiveDescription& description, Scene
   const RgbColorSpace& space = e.image->color_space();
   e.emission.spectrum = {std::shared_ptr<const void>(), &space.illuminant()};
   e.emission.scale = image_emission_scale(p, space);
-  e.luminance = weighted_mean(*e.image, luminance_weights(space));
+  e.factor = read_factor(p);
+  e.luminance = weighted_mean(*e.image, product(luminance_weights(space), e.factor));
   return e;
 }
 
@@ -202,10 +208,11 @@ std::vector<LightPtr> make_area_lights(const DirectiveDescription& description, 
   const bool invisible = opacity && *opacity <= 0.0f;
   if (invisible || (opacity && *opacity >= 1.0f)) alpha = nullptr;
   const float image_mean =
-      e.image ? static_cast<float>(weighted_mean(*e.image, {1 / 3.0f, 1 / 3.0f, 1 / 3.0f})) : 1.0f;
+      e.image ? static_cast<float>(weighted_mean(*e.image, e.factor * (1 / 3.0f))) : 1.0f;
+  const ImagePlacement placement(e.image ? p : ParameterSet(), "", WrapMode::kClamp);
   const auto emission = std::make_shared<const AreaEmission>(
-      AreaEmission{EmissionSpectrum(*e.emission.spectrum, e.emission.scale), e.image, image_mean,
-                   two_sided, std::move(alpha), invisible});
+      AreaEmission{EmissionSpectrum(*e.emission.spectrum, e.emission.scale), e.image, placement,
+                   e.factor, image_mean, two_sided, std::move(alpha), invisible});
 
   std::vector<LightPtr> lights;
   const uint32_t count = shape->primitive_count();

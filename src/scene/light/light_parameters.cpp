@@ -84,8 +84,9 @@ float scale_to(const Parameter& wanted, float value, double unscaled, float scal
 
 ImagePtr read_light_image(const ParameterSet& parameters, SceneFiles& files) {
   const Parameter& p = *parameters.find("filename");
-  const std::string path = files.counted_path_of(parameters.get_string("filename", ""));
-  ImagePtr image = read_image(path, std::nullopt, p.where);
+  const FileSource source = files.source_of(parameters.get_string("filename", ""));
+  const std::string& path = source.path;
+  ImagePtr image = read_image(source, std::nullopt, p.where);
   // Limit with room for the light's area, which multiplies the radiance.
   constexpr float kBrightest = 1e30f;
   if (const float largest = image->largest_value(); !(largest <= kBrightest))

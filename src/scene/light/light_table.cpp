@@ -53,6 +53,13 @@ constexpr FormatParameter kArea[] = {
     {"string", "filename", "none", "", "an image over the shape's uv"},
     {"bool", "twosided", "false"},
 };
+constexpr FormatParameter kAreaImage[] = {
+    {"rgb", "factor", "1 1 1", "", "of the image; not in pbrt-v4"},
+    {"string", "uwrap", "clamp", "", "as of textures; not in pbrt-v4"},
+    {"string", "vwrap", "clamp", "", "as of textures; not in pbrt-v4"},
+    {"float[6]", "uvtransform", "1 0 0 0 1 0", "", "as of textures; not in pbrt-v4"},
+    {"integer", "uvset", "0", "", "lights use the first texture coordinates", Support::kWarned},
+};
 
 struct Row : FormatType {
   LightMaker make;
@@ -67,7 +74,7 @@ constexpr Row kLights[] = {
 };
 constexpr FormatType kAreaLights[] = {
     {"diffuse",
-     {kArea, kCommon, kPower},
+     {kArea, kAreaImage, kCommon, kPower},
      "\"power\" counts for each triangle, patch or quadric of the shape, with a warning if there "
      "are several; alpha of the shape counts once, as where a camera ray hits. On curves an error, "
      "on interface materials and in object definitions ignored with a warning"}};

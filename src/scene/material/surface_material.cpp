@@ -27,35 +27,42 @@ Tangents bumped(const SurfaceInteraction& s, const FloatTexture& displacement) {
 
 Tangents normal_mapped(const SurfaceInteraction& s, const NormalMap& map) {
   const Frame frame = Frame::from_z_and_tangent(s.shading.z, s.shading_dpdu);
-  const Vec3f n = frame.to_world(normalize(map.at(s.uv)));
+  Vec3f local = map.at(TextureContext(s));
+  if (map.obeys_handedness() && dot(cross(s.dpdu, s.dpdv), s.ng) < 0.0f) local.y = -local.y;
+  const Vec3f n = frame.to_world(normalize(local));
   const Vec3f u = normalize(s.shading_dpdu - n * dot(s.shading_dpdu, n));
   return {u * length(s.shading_dpdu), normalize(cross(n, u)) * length(s.shading_dpdv)};
 }
 
 }  // namespace
 
-NormalMap::NormalMap(const std::string& file, const SourceLocation& where)
-    : image_(read_stored_image(file, where)) {
+NormalMap::NormalMap(const ParameterSet& parameters, SceneFiles& files)
+    : placement_(parameters, "normalmap.", WrapMode::kRepeat),
+      scale_(parameters.get_float("normalmap.scale", 1.0f)),
+      obeys_handedness_(parameters.get_bool("normalmap.handedness", false)) {
+  const FileSource file = files.source_of(parameters.get_string("normalmap", ""));
+  const SourceLocation& where = parameters.find("normalmap")->where;
+  image_ = read_stored_image(file, where);
   if (image_->channels() < 3)
-    throw SceneError(where, "normal map \"" + file + "\" is grey, expected three channels");
+    throw SceneError(where, "normal map \"" + file.path + "\" is grey, expected three channels");
 }
 
-Vec3f NormalMap::at(const Vec2f& uv) const {
-  const Rgb c = image_->bilinear({uv.x, 1.0f - uv.y}, WrapMode::kRepeat);
-  return Vec3f(c.r, c.g, c.b) * 2.0f - Vec3f(1.0f);
+Vec3f NormalMap::at(const TextureContext& context) const {
+  const Vec2f st = placement_.in_image(placement_.coordinates(context));
+  const Rgb c = image_->bilinear(st, placement_.wrap());
+  const Vec3f n = Vec3f(c.r, c.g, c.b) * 2.0f - Vec3f(1.0f);
+  return {n.x * scale_, n.y * scale_, n.z};
 }
 
 SurfaceMaterial::SurfaceMaterial(const MaterialDescription& description,
                                  const MaterialContext& context) {
   displacement_ = context.textures.float_texture(description.parameters, "displacement");
-  const std::string file = description.parameters.get_string("normalmap", "");
-  if (file.empty()) return;
+  if (description.parameters.get_string("normalmap", "").empty()) return;
   if (displacement_)
     context.diagnostics.warn(description.where,
                              "material has both \"displacement\" and \"normalmap\"; only the "
                              "normal map is used");
-  normal_map_ = std::make_shared<NormalMap>(context.files.counted_path_of(file),
-                                            description.parameters.find("normalmap")->where);
+  normal_map_ = std::make_shared<NormalMap>(description.parameters, context.files);
 }
 
 void SurfaceMaterial::bump(SurfaceInteraction& s) const {

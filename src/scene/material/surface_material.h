@@ -4,20 +4,27 @@
 #pragma once
 
 #include "scene/material/table.h"
+#include "scene/texture/image_placement.h"
 
 namespace nephroid {
 
-/// An image of tangent-space normals, without colour conversion, repeated over uv.
+/// An image of tangent-space normals, without colour conversion, by default repeated over uv.
 class NormalMap {
  public:
-  /// Reads an image file. Throws IoError if that fails, and SceneError at `where` if the image does
-  /// not have three channels.
-  NormalMap(const std::string& file, const SourceLocation& where);
-  /// Bilinear value at uv (v upwards) mapped to [-1,1] per component, not normalised.
-  Vec3f at(const Vec2f& uv) const;
+  /// Reads the image file "normalmap" and how it is used. Throws SceneError if that fails or the
+  /// image does not have three channels.
+  NormalMap(const ParameterSet& parameters, SceneFiles& files);
+  /// Bilinear value mapped to [-1,1] per component, x and y times the scale, not normalised.
+  Vec3f at(const TextureContext& context) const;
+  /// True if the second axis points along v, so that mirrored coordinates mirror the map. Else it
+  /// is that of a right-handed frame, as in pbrt-v4.
+  bool obeys_handedness() const { return obeys_handedness_; }
 
  private:
   ImagePtr image_;
+  ImagePlacement placement_;
+  float scale_;
+  bool obeys_handedness_;
 };
 
 class SurfaceMaterial : public Material {

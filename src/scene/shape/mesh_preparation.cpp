@@ -30,6 +30,8 @@ class MeshChecker {
     check_count(mesh_.normals.size(), "normals");
     check_count(mesh_.uvs.size(), "texture coordinates");
     check_count(mesh_.tangents.size(), "tangents");
+    check_count(mesh_.second_uvs.size(), "second texture coordinates");
+    check_count(mesh_.colors.size(), "vertex colours");
     check_finite(mesh_.normals, "normal");
     check_finite(mesh_.tangents, "tangent");
     check_finite(mesh_.uvs, "texture coordinate");

@@ -196,6 +196,10 @@ void TriangleMesh::fill(uint32_t primitive, const Vec2f& barycentric, const Ray&
   const Corners c = corners_of(data_, primitive);
   set_point(c, b, &out.p, &out.p_error);
   out.uv = texture_point(data_, v, b);
+  if (!data_.second_uvs.empty() || !data_.colors.empty()) {
+    out.mesh = &data_;
+    out.barycentric = barycentric;
+  }
   out.face_index = data_.face_indices.empty() ? 0 : data_.face_indices[primitive];
 
   out.dndu = out.dndv = Vec3f(0, 0, 0);

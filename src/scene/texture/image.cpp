@@ -7,38 +7,59 @@ namespace nephroid {
 
 namespace {
 
-int modulo(int a, int b) {
-  const int r = a % b;
+template <class Integer>
+Integer modulo(int a, Integer b) {
+  const Integer r = a % b;
   return r < 0 ? r + b : r;
 }
 
-/// Wraps a pixel into the image. False if it lies in a black surround.
-bool wrap_pixel(int& x, int& y, int width, int height, WrapMode wrap) {
-  if (x >= 0 && x < width && y >= 0 && y < height) return true;
+/// The position without whole periods of its wrap mode, so that weights keep precision far from the
+/// origin.
+float within_period(float x, WrapMode wrap) {
+  if (wrap == WrapMode::kRepeat) return x - std::floor(x);
+  if (wrap == WrapMode::kMirror) return x - 2.0f * std::floor(0.5f * x);
+  return x;
+}
+
+/// Wraps a pixel coordinate into 0 to size - 1. False if it lies in a black surround.
+bool wrap_axis(int& x, int size, WrapMode wrap) {
+  if (x >= 0 && x < size) return true;
   switch (wrap) {
     case WrapMode::kRepeat:
-      x = modulo(x, width);
-      y = modulo(y, height);
+      x = modulo(x, size);
       return true;
-    case WrapMode::kClamp:
-      x = std::clamp(x, 0, width - 1);
-      y = std::clamp(y, 0, height - 1);
+    case WrapMode::kMirror: {
+      const int folded = static_cast<int>(modulo(x, 2 * int64_t{size}));
+      x = folded < size ? folded : 2 * size - 1 - folded;
       return true;
+    }
     case WrapMode::kBlack:
       return false;
-    case WrapMode::kOctahedralSphere:
-      // Beyond an edge the sphere continues at the point mirrored about the middle of that edge.
-      if (x < 0 || x >= width) {
-        x = std::clamp(x < 0 ? -1 - x : 2 * width - 1 - x, 0, width - 1);
-        y = height - 1 - y;
-      }
-      if (y < 0 || y >= height) {
-        x = width - 1 - x;
-        y = std::clamp(y < 0 ? -1 - y : 2 * height - 1 - y, 0, height - 1);
-      }
+    default:
+      x = std::clamp(x, 0, size - 1);
       return true;
   }
-  return false;
+}
+
+/// Beyond an edge the sphere continues at the point mirrored about the middle of that edge.
+void wrap_octahedron(int& x, int& y, int width, int height) {
+  if (x < 0 || x >= width) {
+    x = std::clamp(x < 0 ? -1 - x : 2 * width - 1 - x, 0, width - 1);
+    y = height - 1 - y;
+  }
+  if (y < 0 || y >= height) {
+    x = width - 1 - x;
+    y = std::clamp(y < 0 ? -1 - y : 2 * height - 1 - y, 0, height - 1);
+  }
+}
+
+/// Wraps a pixel into the image. False if it lies in a black surround.
+bool wrap_pixel(int& x, int& y, int width, int height, WrapModes wrap) {
+  if (x >= 0 && x < width && y >= 0 && y < height) return true;
+  if (wrap.u != WrapMode::kOctahedralSphere)
+    return wrap_axis(x, width, wrap.u) && wrap_axis(y, height, wrap.v);
+  wrap_octahedron(x, y, width, height);
+  return true;
 }
 
 /// Pixel coordinate of a position; positions far outside stay representable.
@@ -61,10 +82,8 @@ struct Footprint {
   std::array<size_t, 4> pixel{};
   std::array<float, 4> weight{};
 };
-Footprint bilinear_footprint(const Vec2f& st, int width, int height, WrapMode wrap) {
-  // Subtracts the period first, so that weights keep precision far from the origin.
-  Vec2f p = st;
-  if (wrap == WrapMode::kRepeat) p = {p.x - std::floor(p.x), p.y - std::floor(p.y)};
+Footprint bilinear_footprint(const Vec2f& st, int width, int height, WrapModes wrap) {
+  const Vec2f p(within_period(st.x, wrap.u), within_period(st.y, wrap.v));
   const float x = p.x * static_cast<float>(width) - 0.5f;
   const float y = p.y * static_cast<float>(height) - 0.5f;
   const int x0 = floor_to_int(x), y0 = floor_to_int(y);
@@ -127,6 +146,7 @@ auto with_values(const Image::Pixels& pixels, Footprint& f, int width, int chann
 
 std::optional<WrapMode> parse_wrap_mode(std::string_view name) {
   if (name == "repeat") return WrapMode::kRepeat;
+  if (name == "mirror") return WrapMode::kMirror;
   if (name == "black") return WrapMode::kBlack;
   if (name == "clamp") return WrapMode::kClamp;
   if (name == "octahedralsphere") return WrapMode::kOctahedralSphere;
@@ -166,19 +186,19 @@ float Image::value(int x, int y, int channel) const {
   });
 }
 
-Rgb Image::texel(int x, int y, WrapMode wrap) const {
+Rgb Image::texel(int x, int y, WrapModes wrap) const {
   if (!wrap_pixel(x, y, width_, height_, wrap)) return {};
   if (channels_ >= 3) return {value(x, y, 0), value(x, y, 1), value(x, y, 2)};
   const float v = value(x, y, 0);
   return {v, v, v};
 }
 
-Rgb Image::nearest(const Vec2f& st, WrapMode wrap) const {
+Rgb Image::nearest(const Vec2f& st, WrapModes wrap) const {
   return texel(floor_to_int(st.x * static_cast<float>(width_)),
                floor_to_int(st.y * static_cast<float>(height_)), wrap);
 }
 
-Rgb Image::bilinear(const Vec2f& st, WrapMode wrap) const {
+Rgb Image::bilinear(const Vec2f& st, WrapModes wrap) const {
   Footprint f = bilinear_footprint(st, width_, height_, wrap);
   return with_values(pixels_, f, width_, channels_, [&](const auto& values) {
     const float r = weighted(values, f, channels_, 0);
@@ -187,13 +207,13 @@ Rgb Image::bilinear(const Vec2f& st, WrapMode wrap) const {
   });
 }
 
-float Image::nearest_float(const Vec2f& st, WrapMode wrap) const {
+float Image::nearest_float(const Vec2f& st, WrapModes wrap) const {
   int x = floor_to_int(st.x * static_cast<float>(width_));
   int y = floor_to_int(st.y * static_cast<float>(height_));
   return wrap_pixel(x, y, width_, height_, wrap) ? value(x, y, 0) : 0.0f;
 }
 
-float Image::bilinear_float(const Vec2f& st, WrapMode wrap) const {
+float Image::bilinear_float(const Vec2f& st, WrapModes wrap) const {
   if (channels_ == 3) {
     const Rgb c = bilinear(st, wrap);
     return (c.r + c.g + c.b) / 3.0f;
@@ -202,6 +222,22 @@ float Image::bilinear_float(const Vec2f& st, WrapMode wrap) const {
   const int channel = channels_ == 4 ? 3 : 0;
   return with_values(pixels_, f, width_, channels_,
                      [&](const auto& values) { return weighted(values, f, channels_, channel); });
+}
+
+float Image::nearest_channel(const Vec2f& st, WrapModes wrap, int channel) const {
+  int x = floor_to_int(st.x * static_cast<float>(width_));
+  int y = floor_to_int(st.y * static_cast<float>(height_));
+  if (!wrap_pixel(x, y, width_, height_, wrap)) return 0.0f;
+  if (channel == 3 && channels_ < 4) return 1.0f;
+  return value(x, y, channels_ < 3 ? 0 : channel);
+}
+
+float Image::bilinear_channel(const Vec2f& st, WrapModes wrap, int channel) const {
+  Footprint f = bilinear_footprint(st, width_, height_, wrap);
+  if (channel == 3 && channels_ < 4) return f.weight[0] + f.weight[1] + f.weight[2] + f.weight[3];
+  const int stored = channels_ < 3 ? 0 : channel;
+  return with_values(pixels_, f, width_, channels_,
+                     [&](const auto& values) { return weighted(values, f, channels_, stored); });
 }
 
 }  // namespace nephroid

@@ -18,9 +18,16 @@ namespace nephroid {
 
 /// Lookups outside of the image. kOctahedralSphere continues an equal-area octahedral map across
 /// the edges of its sphere.
-enum class WrapMode { kRepeat, kBlack, kClamp, kOctahedralSphere };
-/// Parses "repeat", "black", "clamp" or "octahedralsphere". Empty for anything else.
+enum class WrapMode { kRepeat, kMirror, kBlack, kClamp, kOctahedralSphere };
+/// Parses "repeat", "mirror", "black", "clamp" or "octahedralsphere". Empty for anything else.
 std::optional<WrapMode> parse_wrap_mode(std::string_view name);
+
+/// The modes of both axes. kOctahedralSphere is one of both together.
+struct WrapModes {
+  WrapMode u, v;
+  WrapModes(WrapMode both) : u(both), v(both) {}  // NOLINT: one mode is that of both axes
+  WrapModes(WrapMode along_u, WrapMode along_v) : u(along_u), v(along_v) {}
+};
 
 /// Pixels that are not in memory. Safe to use from any number of threads.
 class PixelSource {
@@ -59,18 +66,23 @@ class Image {
   /// Linear value of one channel of a pixel inside the image.
   float value(int x, int y, int channel) const;
   /// Colour of a pixel, which can lie outside; three equal values for grey images.
-  Rgb texel(int x, int y, WrapMode wrap) const;
+  Rgb texel(int x, int y, WrapModes wrap) const;
   /// Colour of the pixel that contains `st`. (0,0) is the upper left corner of the image, (1,1) the
   /// lower right one.
-  Rgb nearest(const Vec2f& st, WrapMode wrap) const;
+  Rgb nearest(const Vec2f& st, WrapModes wrap) const;
   /// Colour interpolated between the centres of the four nearest pixels.
-  Rgb bilinear(const Vec2f& st, WrapMode wrap) const;
+  Rgb bilinear(const Vec2f& st, WrapModes wrap) const;
 
   /// The same as one number. The nearest pixel gives its first channel (like pbrt-v4's filter
   /// "point"). The bilinear lookup gives grey, else alpha if there is one, else the mean of r, g,
   /// b.
-  float nearest_float(const Vec2f& st, WrapMode wrap) const;
-  float bilinear_float(const Vec2f& st, WrapMode wrap) const;
+  float nearest_float(const Vec2f& st, WrapModes wrap) const;
+  float bilinear_float(const Vec2f& st, WrapModes wrap) const;
+
+  /// One channel: 0 to 2 are red, green and blue, which are equal in grey images, and 3 is alpha,
+  /// which is 1 where there is none.
+  float nearest_channel(const Vec2f& st, WrapModes wrap, int channel) const;
+  float bilinear_channel(const Vec2f& st, WrapModes wrap, int channel) const;
 
  private:
   int width_, height_, channels_;

@@ -115,24 +115,22 @@ ImagePtr read_whole(const ImageInputFile& file, const std::string& path,
 
 }  // namespace
 
-ImagePtr read_image(const std::string& path, std::optional<ColorEncoding> encoding,
+ImagePtr read_image(const FileSource& source, std::optional<ColorEncoding> encoding,
                     const SourceLocation& wanted_by) {
-  return read_whole(open_image(path, encoding, wanted_by), path, wanted_by);
+  return read_whole(open_image(source, encoding, wanted_by), source.path, wanted_by);
 }
 
-ImagePtr read_stored_image(const std::string& path, const SourceLocation& wanted_by) {
-  ImageInputFile file = open_image(path, {}, wanted_by);
-  file.encoding = ColorEncoding::linear();
-  return read_whole(file, path, wanted_by);
+ImagePtr read_stored_image(const FileSource& source, const SourceLocation& wanted_by) {
+  return read_image(source, ColorEncoding::linear(), wanted_by);
 }
 
 ImageCache::ImageCache(uint64_t limit) : limit_(limit) {}
 ImageCache::~ImageCache() = default;
 
-ImagePtr ImageCache::get(const std::string& path, std::optional<ColorEncoding> encoding,
+ImagePtr ImageCache::get(const FileSource& source, std::optional<ColorEncoding> encoding,
                          const SourceLocation& wanted_by) {
-  ImagePtr& image = images_[{path, encoding}];
-  if (!image) image = load(path, encoding, wanted_by);
+  ImagePtr& image = images_[{source.path, encoding}];
+  if (!image) image = load(source, encoding, wanted_by);
   return image;
 }
 
@@ -142,20 +140,26 @@ namespace {
 constexpr uint64_t kSlowFromTheFront = uint64_t{256} << 20;
 }  // namespace
 
-ImagePtr ImageCache::load(const std::string& path, std::optional<ColorEncoding> encoding,
+ImagePtr ImageCache::load(const FileSource& source, std::optional<ColorEncoding> encoding,
                           const SourceLocation& wanted_by) {
-  ImageInputFile file = open_image(path, encoding, wanted_by);
+  const std::string& path = source.path;
+  ImageInputFile file = open_image(source, encoding, wanted_by);
   // A quarter of the limit is reserved for tiles of images that do not fit. They get no more, since
   // memory is budgeted before the render begins.
   const uint64_t for_whole = limit_ - limit_ / 4;
   ImagePtr image;
-  if (file.memory() > std::max(for_whole, kSlowFromTheFront) && !file.has_parts())
+  // Nor can a file in memory be paged.
+  const bool fits = whole_ + file.memory() <= for_whole;
+  const bool can_be_paged =
+      !source.bytes &&
+      (file.memory() <= std::max(for_whole, kSlowFromTheFront) || file.has_parts());
+  if (!fits && !can_be_paged)
     throw SceneError(
         wanted_by,
         fmt::format("image \"{}\" takes {} MB, but textures may take {} MB and its format cannot "
                     "be read in parts, expected a larger -D texture-cache, or an EXR or TIFF file",
                     path, file.memory() >> 20, for_whole >> 20));
-  if (whole_ + file.memory() > for_whole) {
+  if (!fits) {
     if (!tiles_) tiles_ = TileCache::make();
     image = tiles_->open(file, path, wanted_by);
   }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/errors.h"
+#include "input/scene_files.h"
 #include "scene/texture/color_encoding.h"
 #include "scene/texture/image.h"
 
@@ -16,22 +17,22 @@ namespace nephroid {
 
 using ImagePtr = std::shared_ptr<const Image>;
 
-/// Reads EXR, PNG, JPEG, HDR, PFM, TGA, TIFF and BMP files, detected by their first bytes (TGA by
-/// name). As in pbrt-v4, only PNG files use `encoding` (sRGB if empty); other integer formats are
-/// sRGB, floating-point ones linear. Bytes stay bytes, 16-bit values become half. Two channels make
+/// Reads EXR, PNG, JPEG, WebP, HDR, PFM, TGA, TIFF and BMP files, detected by their first bytes
+/// (TGA by name); in memory PNG, JPEG and WebP only. Integers have the `encoding` (sRGB if empty),
+/// floating-point values are linear. Bytes stay bytes, 16-bit values become half. Two channels make
 /// a grey image; more than two must include R, G and B. Throws SceneError at `wanted_by` (IoError
 /// if no scene names the file) if the file cannot be read or has another format.
-ImagePtr read_image(const std::string& path, std::optional<ColorEncoding> encoding,
+ImagePtr read_image(const FileSource& source, std::optional<ColorEncoding> encoding,
                     const SourceLocation& wanted_by);
 /// The same without decoding: stored numbers, integers mapped to [0,1], for all formats.
-ImagePtr read_stored_image(const std::string& path, const SourceLocation& wanted_by);
+ImagePtr read_stored_image(const FileSource& source, const SourceLocation& wanted_by);
 
 /// Throws the error of an unreadable image (file_is_unreadable), with OpenImageIO's reason in one
 /// line.
 [[noreturn]] void image_is_unreadable(const std::string& path, std::string reason,
                                       const SourceLocation& wanted_by);
 
-/// True if read_image uses the encoding for this file.
+/// True if pbrt-v4 uses the encoding that a scene gives for this file: for PNG only.
 bool image_obeys_encoding(const std::string& path);
 
 /// Default limit of the bytes used by a scene's texture images.
@@ -48,13 +49,13 @@ class ImageCache {
   explicit ImageCache(uint64_t limit = kDefaultTextureMemory);
   ~ImageCache();
   /// Throws the errors of read_image.
-  ImagePtr get(const std::string& path, std::optional<ColorEncoding> encoding,
+  ImagePtr get(const FileSource& source, std::optional<ColorEncoding> encoding,
                const SourceLocation& wanted_by);
   /// Bytes that all images of this cache use now.
   uint64_t memory() const;
 
  private:
-  ImagePtr load(const std::string& path, std::optional<ColorEncoding> encoding,
+  ImagePtr load(const FileSource& source, std::optional<ColorEncoding> encoding,
                 const SourceLocation& wanted_by);
 
   uint64_t limit_;

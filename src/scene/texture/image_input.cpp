@@ -28,6 +28,7 @@ struct Format {
   std::vector<std::string_view> beginnings;  ///< any of these bytes starts the file
   std::string_view suffix;                   ///< file name suffix, if the content does not tell
   Creator create;
+  bool from_memory = false;  ///< files in memory may have this format, too
 };
 
 /// Only these readers of OpenImageIO's many (films among them): fewer can be attacked by a hostile
@@ -36,12 +37,14 @@ std::span<const Format> formats() {
   using namespace std::string_view_literals;
   static const Format kFormats[] = {
       {{"\x76\x2f\x31\x01"sv}, {}, [] { return OIIO::ImageInput::create("openexr").release(); }},
-      {{"\x89PNG"sv}, {}, [] { return OIIO::ImageInput::create("png").release(); }},
-      {{"\xff\xd8\xff"sv}, {}, [] { return OIIO::ImageInput::create("jpeg").release(); }},
+      {{"\x89PNG"sv}, {}, [] { return OIIO::ImageInput::create("png").release(); }, true},
+      {{"\xff\xd8\xff"sv}, {}, [] { return OIIO::ImageInput::create("jpeg").release(); }, true},
+      {{"RIFF"sv}, {}, [] { return OIIO::ImageInput::create("webp").release(); }, true},
       {{"#?"sv}, {}, [] { return OIIO::ImageInput::create("hdr").release(); }},
       {{"PF"sv, "Pf"sv, "P1"sv, "P2"sv, "P3"sv, "P4"sv, "P5"sv, "P6"sv},
        {},
-       [] { return OIIO::ImageInput::create("pnm").release(); }},
+       [] { return OIIO::ImageInput::create("pnm").release(); },
+       true},
       {{"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv},
        {},
        [] { return OIIO::ImageInput::create("tiff").release(); }},
@@ -51,8 +54,10 @@ std::span<const Format> formats() {
   return kFormats;
 }
 
-/// Throws like open_image if the file cannot be read or has no known format.
-Creator reader_of(const std::string& path, const SourceLocation& wanted_by) {
+/// The first bytes of a file. Throws like open_image if it cannot be read.
+std::string first_bytes(const FileSource& source, const SourceLocation& wanted_by) {
+  if (source.bytes) return source.bytes->substr(0, 8);
+  const std::string& path = source.path;
   std::error_code ignored;
   const std::filesystem::file_status status = std::filesystem::status(path, ignored);
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
@@ -61,13 +66,30 @@ Creator reader_of(const std::string& path, const SourceLocation& wanted_by) {
   if (!file) image_is_unreadable(path, std::strerror(errno), wanted_by);
   std::array<char, 8> bytes{};
   file.read(bytes.data(), bytes.size());
-  const std::string_view begin(bytes.data(), file.gcount());
-  for (const Format& format : formats())
-    if (std::ranges::any_of(format.beginnings, [&](auto b) { return begin.starts_with(b); }) ||
-        (!format.suffix.empty() && has_suffix(path, std::string(format.suffix))))
-      return format.create;
-  image_is_unreadable(path, "it is none of the formats EXR, PNG, JPEG, HDR, PFM, TGA, TIFF and BMP",
+  return {bytes.data(), static_cast<size_t>(file.gcount())};
+}
+
+/// Throws like open_image if the file cannot be read or has no known format.
+Creator reader_of(const FileSource& source, const SourceLocation& wanted_by) {
+  const std::string begin = first_bytes(source, wanted_by);
+  for (const Format& format : formats()) {
+    const bool is_it =
+        std::ranges::any_of(format.beginnings, [&](auto b) { return begin.starts_with(b); }) ||
+        (!format.suffix.empty() && has_suffix(source.path, std::string(format.suffix)));
+    if (is_it && (!source.bytes || format.from_memory)) return format.create;
+  }
+  image_is_unreadable(source.path,
+                      source.bytes
+                          ? "it is none of the formats PNG, JPEG and WebP"
+                          : "it is none of the formats EXR, PNG, JPEG, WebP, HDR, PFM, TGA, TIFF "
+                            "and BMP",
                       wanted_by);
+}
+
+/// False if `claimed` bytes of pixels cannot be in the file.
+bool is_possible(uint64_t claimed, const FileSource& source) {
+  return source.bytes ? is_possible_size(claimed, source.bytes->size())
+                      : is_possible_size(claimed, source.path);
 }
 
 /// Indices of the file's channels that the image keeps: grey, rgb or rgba.
@@ -118,30 +140,37 @@ bool ImageInputFile::has_parts() const {
   return spec.tile_width > 0 || format == "openexr" || format == "tiff";
 }
 
-ImageInputFile open_image(const std::string& path, std::optional<ColorEncoding> encoding,
+ImageInputFile open_image(const FileSource& source, std::optional<ColorEncoding> encoding,
                           const SourceLocation& wanted_by) {
+  const std::string& path = source.path;
   ImageInputFile file;
+  file.source = source;
   // Alpha is separate data here, so colours must not be premultiplied.
   OIIO::ImageSpec wish;
   wish.attribute("oiio:UnassociatedAlpha", 1);
-  file.create = reader_of(path, wanted_by);
-  if (const std::string fault = fault_of_exr_header(path); !fault.empty())
+  file.create = reader_of(source, wanted_by);
+  if (const std::string fault = source.bytes ? "" : fault_of_exr_header(path); !fault.empty())
     image_is_unreadable(path, fault, wanted_by);
   file.input.reset(file.create());
+  if (source.bytes && file.input) {
+    file.memory_reader =
+        std::make_unique<OIIO::Filesystem::IOMemReader>(source.bytes->data(), source.bytes->size());
+    if (!file.input->set_ioproxy(file.memory_reader.get()))
+      image_is_unreadable(path, "its format cannot be read from memory", wanted_by);
+  }
   if (!file.input || !file.input->open(path, file.spec, wish))
     image_is_unreadable(path, file.input ? file.input->geterror() : OIIO::geterror(), wanted_by);
   const OIIO::ImageSpec& spec = file.spec;
   if (spec.deep || spec.depth > 1 || spec.width < 1 || spec.height < 1 || spec.nchannels < 1)
     throw SceneError(wanted_by,
                      "image \"" + path + "\" is deep, a volume or empty, expected a flat image");
-  if (!is_possible_size(spec.image_bytes(true), path))
+  if (!is_possible(spec.image_bytes(true), source))
     throw SceneError(wanted_by, fmt::format("image \"{}\" is damaged: its header claims {} x {} "
                                             "pixels of {} channels, more than the file can hold",
                                             path, spec.width, spec.height, spec.nchannels));
   file.channels = wanted_channels(spec, path, wanted_by);
   file.space = &color_space_of(spec);
-  file.encoding =
-      image_obeys_encoding(path) ? encoding.value_or(ColorEncoding::srgb()) : ColorEncoding::srgb();
+  file.encoding = encoding.value_or(ColorEncoding::srgb());
   switch (spec.format.basetype) {
     case OIIO::TypeDesc::UINT8:
       file.type = StoredType::kByte;

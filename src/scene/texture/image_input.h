@@ -2,6 +2,7 @@
 // image_file.cpp and paged_image.cpp include it.
 #pragma once
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <memory>
@@ -11,6 +12,7 @@
 
 #include "core/color.h"
 #include "core/errors.h"
+#include "input/scene_files.h"
 #include "scene/texture/color_encoding.h"
 
 namespace nephroid {
@@ -20,7 +22,9 @@ enum class StoredType { kByte, kShort, kHalf, kFloat };
 
 struct ImageInputFile {
   OIIO::ImageInput::Creator create = nullptr;  ///< creates another reader of the file's format
-  std::unique_ptr<OIIO::ImageInput> input;
+  FileSource source{std::string()};
+  std::unique_ptr<OIIO::Filesystem::IOMemReader> memory_reader;  ///< null for files on disk
+  std::unique_ptr<OIIO::ImageInput> input;                       ///< reads from memory_reader
   OIIO::ImageSpec spec;
   std::vector<int> channels;  ///< indices of grey, rgb or rgba among the file's channels
   StoredType type = StoredType::kFloat;
@@ -34,7 +38,7 @@ struct ImageInputFile {
 };
 
 /// Opens a file. `encoding` and the errors are those of read_image.
-ImageInputFile open_image(const std::string& path, std::optional<ColorEncoding> encoding,
+ImageInputFile open_image(const FileSource& source, std::optional<ColorEncoding> encoding,
                           const SourceLocation& wanted_by);
 
 /// The value type to ask OpenImageIO for.

@@ -1,5 +1,7 @@
 // Texture class "imagemap". Filters "bilinear", "trilinear" and "ewa" are all bilinear lookups of
 // the full image: without ray footprints their limit is the same, and the pixel's samples filter.
+#include "scene/texture/image_placement.h"
+#include "scene/texture/rgb_spectrum.h"
 #include "scene/texture/texture_mapping.h"
 #include "scene/texture/texture_table.h"
 
@@ -10,7 +12,10 @@ namespace {
 /// Code shared by float and spectrum image textures.
 class ImageLookup {
  public:
-  ImageLookup(const TextureDescription& description, TextureScope& scope) : mapping_(description) {
+  ImageLookup(const TextureDescription& description, TextureScope& scope)
+      : mapping_(description),
+        placement_(description.parameters, "", wrap_mode(description.parameters)),
+        times_vertex_color_(description.parameters.get_bool("vertexcolor", false)) {
     const ParameterSet& p = description.parameters;
     const std::string filter = p.get_string("filter", "bilinear");
     if (filter != "point" && filter != "bilinear" && filter != "trilinear" && filter != "ewa" &&
@@ -20,13 +25,6 @@ class ImageLookup {
                            "\", expected \"point\", \"bilinear\", \"trilinear\" or \"ewa\"");
     point_ = filter == "point";
 
-    const std::string wrap = p.get_string("wrap", "repeat");
-    const auto mode = parse_wrap_mode(wrap);
-    if (!mode)
-      throw SceneError(p.find("wrap")->where,
-                       "unknown wrap mode \"" + wrap +
-                           "\", expected \"repeat\", \"black\", \"clamp\" or \"octahedralsphere\"");
-    wrap_ = *mode;
     scale_ = p.get_float("scale", 1.0f);
     invert_ = p.get_bool("invert", false);
 
@@ -34,20 +32,30 @@ class ImageLookup {
     if (file.empty())
       throw SceneError(description.where, "texture \"" + description.name +
                                               "\" has no \"filename\", expected an image file");
-    const std::string path = scope.files().counted_path_of(file);
-    image_ = scope.images().get(path, encoding(p, file, scope), p.find("filename")->where);
+    image_ = scope.images().get(scope.files().source_of(file), encoding(p, file, scope),
+                                p.find("filename")->where);
   }
 
+  /// Reads what only float textures have.
+  void read_number_parameters(const ParameterSet& p) {
+    channel_ = read_channel(p);
+    cutoff_ = read_cutoff(p);
+  }
+  /// Reads what only spectrum textures have.
+  void read_color_parameters(const ParameterSet& p) { factor_ = read_factor(p); }
+
   float number(const TextureContext& context) const {
-    const Vec2f st = position(context);
-    const float v =
-        scale_ * (point_ ? image_->nearest_float(st, wrap_) : image_->bilinear_float(st, wrap_));
-    return invert_ ? std::max(0.0f, 1.0f - v) : v;
+    float v = scale_ * stored_number(position(context));
+    if (times_vertex_color_) v *= context.vertex_channel(channel_.value_or(3));
+    return after_cutoff(invert_ ? std::max(0.0f, 1.0f - v) : v, cutoff_);
   }
   Rgb colour(const TextureContext& context) const {
     const Vec2f st = position(context);
-    Rgb c = (point_ ? image_->nearest(st, wrap_) : image_->bilinear(st, wrap_)) * scale_;
+    const WrapModes wrap = placement_.wrap();
+    Rgb c = (point_ ? image_->nearest(st, wrap) : image_->bilinear(st, wrap)) * scale_;
     if (invert_) c = {1.0f - c.r, 1.0f - c.g, 1.0f - c.b};
+    c = product(c, factor_);
+    if (times_vertex_color_) c = product(c, context.vertex_rgb());
     return {std::max(0.0f, c.r), std::max(0.0f, c.g), std::max(0.0f, c.b)};
   }
   const RgbColorSpace& color_space() const { return image_->color_space(); }
@@ -68,23 +76,42 @@ class ImageLookup {
     if (!parsed)
       throw SceneError(where, "unknown encoding \"" + name +
                                   "\", expected \"linear\", \"sRGB\" or \"gamma X\" with X > 0");
-    if (image_obeys_encoding(file)) return parsed;
+    if (p.get_bool("forceencoding", false) || image_obeys_encoding(file)) return parsed;
     scope.diagnostics().warn(where,
                              "\"encoding\" is used for PNG images only: \"" + file +
                                  "\" is read as sRGB if it stores integers, otherwise as linear");
     return std::nullopt;
   }
-  /// Images have their first row on top; v runs upwards.
+  /// The mode of both axes by "wrap".
+  static WrapMode wrap_mode(const ParameterSet& p) {
+    const std::string wrap = p.get_string("wrap", "repeat");
+    if (const auto mode = parse_wrap_mode(wrap)) return *mode;
+    throw SceneError(p.find("wrap")->where,
+                     "unknown wrap mode \"" + wrap +
+                         "\", expected \"repeat\", \"mirror\", \"black\", \"clamp\" or "
+                         "\"octahedralsphere\"");
+  }
   Vec2f position(const TextureContext& context) const {
-    const Vec2f st = mapping_.map(context);
-    return {st.x, 1.0f - st.y};
+    TextureContext used = context;
+    used.uv = placement_.coordinates(context);
+    return placement_.in_image(mapping_.map(used));
+  }
+  float stored_number(const Vec2f& st) const {
+    const WrapModes wrap = placement_.wrap();
+    if (channel_)
+      return point_ ? image_->nearest_channel(st, wrap, *channel_)
+                    : image_->bilinear_channel(st, wrap, *channel_);
+    return point_ ? image_->nearest_float(st, wrap) : image_->bilinear_float(st, wrap);
   }
 
   TextureMapping2D mapping_;
+  ImagePlacement placement_;
   ImagePtr image_;
-  WrapMode wrap_ = WrapMode::kRepeat;
   float scale_ = 1.0f;
-  bool invert_ = false, point_ = false;
+  Rgb factor_{1, 1, 1};
+  std::optional<int> channel_;
+  std::optional<float> cutoff_;
+  bool invert_ = false, point_ = false, times_vertex_color_ = false;
 };
 
 class ImageFloatTexture final : public FloatTexture {
@@ -106,14 +133,7 @@ class ImageSpectrumTexture final : public SpectrumTexture {
 
   SampledSpectrum eval(const TextureContext& context,
                        const SampledWavelengths& lambda) const override {
-    const Rgb c = lookup_.colour(context);
-    const RgbColorSpace& space = lookup_.color_space();
-    if (kind_ == SpectrumKind::kAlbedo) return space.polynomial(c).sample(lambda);
-    // An unbounded colour is represented as a reflectance of at most 1/2 times a scale.
-    const float scale = 2.0f * std::max({c.r, c.g, c.b});
-    if (!(scale > 0.0f)) return SampledSpectrum();
-    const SampledSpectrum s = space.polynomial(c * (1.0f / scale)).sample(lambda) * scale;
-    return kind_ == SpectrumKind::kUnbounded ? s : s * space.illuminant().sample(lambda);
+    return spectrum_of(lookup_.colour(context), lookup_.color_space(), kind_, lambda);
   }
   SpectrumTexturePtr with_values_times(float factor) const override {
     return std::make_shared<ImageSpectrumTexture>(lookup_.times(factor), kind_);
@@ -127,12 +147,16 @@ class ImageSpectrumTexture final : public SpectrumTexture {
 }  // namespace
 
 FloatTexturePtr make_float_imagemap(const TextureDescription& description, TextureScope& scope) {
-  return std::make_shared<ImageFloatTexture>(ImageLookup(description, scope));
+  ImageLookup lookup(description, scope);
+  lookup.read_number_parameters(description.parameters);
+  return std::make_shared<ImageFloatTexture>(std::move(lookup));
 }
 
 SpectrumTexturePtr make_spectrum_imagemap(const TextureDescription& description, SpectrumKind kind,
                                           TextureScope& scope) {
-  return std::make_shared<ImageSpectrumTexture>(ImageLookup(description, scope), kind);
+  ImageLookup lookup(description, scope);
+  lookup.read_color_parameters(description.parameters);
+  return std::make_shared<ImageSpectrumTexture>(std::move(lookup), kind);
 }
 
 }  // namespace nephroid

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/spectra.h"
+#include "input/mesh_data.h"
 #include "input/scene_description.h"
 #include "scene/interaction.h"
 #include "scene/texture/image_file.h"
@@ -21,10 +22,26 @@ struct TextureContext {
   Vec3f dpdx{0, 0, 0}, dpdy{0, 0, 0};
   float dudx = 0, dudy = 0, dvdx = 0, dvdy = 0;
   int face_index = 0;
+  const MeshData* mesh = nullptr;  ///< see SurfaceInteraction
+  uint32_t primitive = 0;
+  Vec2f barycentric{0, 0};
 
   TextureContext() = default;
   explicit TextureContext(const SurfaceInteraction& s)
-      : p(s.p), n(s.ng), uv(s.uv), face_index(s.face_index) {}
+      : p(s.p),
+        n(s.ng),
+        uv(s.uv),
+        face_index(s.face_index),
+        mesh(s.mesh),
+        primitive(s.primitive),
+        barycentric(s.barycentric) {}
+
+  /// The second texture coordinates; the first ones on surfaces without.
+  Vec2f second_uv() const;
+  /// A channel of the vertices' colours, 3 is alpha; 1 on surfaces without.
+  float vertex_channel(int channel) const;
+  /// The vertices' colour; white on surfaces without.
+  Rgb vertex_rgb() const { return {vertex_channel(0), vertex_channel(1), vertex_channel(2)}; }
 };
 
 class FloatTexture {

@@ -39,16 +39,34 @@ constexpr FormatParameter kCheckerboard[] = {
     {"values or texture", "tex2", "0"},
 };
 constexpr FormatParameter kImageMap[] = {
-    {"string", "filename", "none: an error", "", "EXR, PNG, JPEG, HDR, PFM, TGA, TIFF, BMP"},
+    {"string", "filename", "none: an error", "", "EXR, PNG, JPEG, WebP, HDR, PFM, TGA, TIFF, BMP"},
     {"string", "filter", "bilinear", "",
      "point or bilinear; trilinear and ewa are bilinear on the finest level"},
     {"float", "maxanisotropy", "8", "", "of ewa", Support::kNotNeeded},
-    {"string", "wrap", "repeat", "", "repeat, black, clamp or octahedralsphere"},
+    {"string", "wrap", "repeat", "", "repeat, mirror, black, clamp or octahedralsphere"},
     {"float", "scale", "1"},
     {"bool", "invert", "false"},
     {"string", "encoding", "sRGB", "",
      "of PNG images: sRGB, linear or \"gamma X\"; with other images ignored with a warning"},
+    {"bool", "forceencoding", "false", "",
+     "\"encoding\" counts for all images that store integers; not in pbrt-v4"},
+    {"bool", "vertexcolor", "false", "",
+     "times the colours of the mesh's vertices, or their \"channel\"; not in pbrt-v4"},
 };
+constexpr FormatParameter kPlacement[] = {
+    {"string", "uwrap", "wrap", "", "mode along u; not in pbrt-v4"},
+    {"string", "vwrap", "wrap", "", "mode along v; not in pbrt-v4"},
+    {"integer", "uvset", "0", "", "1: the second texture coordinates of the mesh; not in pbrt-v4"},
+    {"float[6]", "uvtransform", "1 0 0 0 1 0", "",
+     "two rows of a matrix for columns (u, v, 1), after the mapping; not in pbrt-v4"},
+};
+constexpr FormatParameter kChannel[] = {
+    {"string", "channel", "none", "", "r, g, b or a, of float textures; not in pbrt-v4"},
+    {"float", "cutoff", "none", "",
+     "values below are 0, all others 1, of float textures; not in pbrt-v4"},
+    {"rgb", "factor", "1 1 1", "", "of spectrum textures; not in pbrt-v4"},
+};
+constexpr FormatParameter kVertexColor[] = {{"float", "scale", "1", "", "of float textures"}};
 constexpr FormatParameter kBilerp[] = {
     {"values", "v00", "0"}, {"values", "v10", "0"}, {"values", "v01", "1"}, {"values", "v11", "1"}};
 constexpr FormatParameter kDots[] = {
@@ -78,7 +96,12 @@ constexpr Row kTable[] = {
     {{"checkerboard", {kCheckerboard, kMapping}},
      make_float_checkerboard,
      make_spectrum_checkerboard},
-    {{"imagemap", {kImageMap, kMapping}}, make_float_imagemap, make_spectrum_imagemap},
+    {{"imagemap", {kImageMap, kPlacement, kChannel, kMapping}},
+     make_float_imagemap,
+     make_spectrum_imagemap},
+    {{"vertexcolor", {kVertexColor, kChannel}, "\"vertexcolors\" of the mesh; not in pbrt-v4"},
+     make_float_vertexcolor,
+     make_spectrum_vertexcolor},
     {{"bilerp", {kBilerp, kMapping}}, make_float_bilerp, make_spectrum_bilerp},
     {{"dots", {kDots, kMapping}}, make_float_dots, make_spectrum_dots},
     {{"fbm", {kNoise}, "float only"}, make_float_fbm, nullptr},

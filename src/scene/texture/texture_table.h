@@ -54,6 +54,9 @@ SpectrumTexturePtr make_spectrum_checkerboard(const TextureDescription&, Spectru
                                               TextureScope&);
 FloatTexturePtr make_float_imagemap(const TextureDescription&, TextureScope&);
 SpectrumTexturePtr make_spectrum_imagemap(const TextureDescription&, SpectrumKind, TextureScope&);
+FloatTexturePtr make_float_vertexcolor(const TextureDescription&, TextureScope&);
+SpectrumTexturePtr make_spectrum_vertexcolor(const TextureDescription&, SpectrumKind,
+                                             TextureScope&);
 FloatTexturePtr make_float_bilerp(const TextureDescription&, TextureScope&);
 SpectrumTexturePtr make_spectrum_bilerp(const TextureDescription&, SpectrumKind, TextureScope&);
 FloatTexturePtr make_float_directionmix(const TextureDescription&, TextureScope&);

@@ -1,0 +1,143 @@
+#include "input/gltf/deformation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nephroid::gltf {
+namespace {
+
+void add_weighted(Document& document, const JsonValue& target, const std::string& name,
+                  double weight, std::vector<Vec3f>& to) {
+  if (to.empty()) return;
+  const std::optional<NumberArray> offsets = find_accessor(document, target, name, 3);
+  if (!offsets) return;
+  if (offsets->count != to.size())
+    target.fail(name + " has " + std::to_string(offsets->count) + " elements, expected " +
+                std::to_string(to.size()) + ", one per vertex");
+  const auto w = static_cast<float>(weight);
+  for (size_t i = 0; i < to.size(); ++i)
+    to[i] += Vec3f((*offsets)[i][0], (*offsets)[i][1], (*offsets)[i][2]) * w;
+}
+
+/// The matrices of a skin's joints, mesh to world.
+std::vector<Mat44d> joint_matrices(Document& document, const JsonValue& skin,
+                                   const NodeGraph& nodes) {
+  std::vector<Mat44d> matrices;
+  for (const JsonValue& joint : skin.get("joints").elements()) {
+    document.item("nodes", joint.index(), joint);
+    matrices.push_back(nodes.world(joint.index()).start);
+  }
+  const auto inverse = find_accessor(document, skin, "inverseBindMatrices", 16);
+  if (!inverse) return matrices;
+  if (inverse->count < matrices.size())
+    skin.get("inverseBindMatrices").fail("there are fewer matrices than joints");
+  for (size_t i = 0; i < matrices.size(); ++i) {
+    Mat44d m;
+    for (int k = 0; k < 16; ++k) m[k / 4][k % 4] = (*inverse)[i][k];
+    matrices[i] = m * matrices[i];
+  }
+  return matrices;
+}
+
+/// The sum of the matrices of a vertex, by joints and weights of up to several sets of four.
+class Blend {
+ public:
+  Blend(AttributeSource& source, const JsonValue& primitive, size_t vertices,
+        std::vector<Mat44d> joints)
+      : joints_(std::move(joints)) {
+    constexpr size_t kMaxSets = 8;
+    for (size_t set = 0; set < kMaxSets; ++set) {
+      auto numbers = source.find("JOINTS_" + std::to_string(set));
+      auto weights = source.find("WEIGHTS_" + std::to_string(set));
+      if (!numbers || !weights) break;
+      if (numbers->width != 4 || weights->width != 4 || numbers->count != vertices ||
+          weights->count != vertices)
+        primitive.fail("JOINTS and WEIGHTS have no four numbers for each vertex");
+      for (const float joint : numbers->values)
+        if (!(joint >= 0 && joint < static_cast<float>(joints_.size())))
+          primitive.fail("joint " + std::to_string(static_cast<int64_t>(joint)) +
+                         " is out of range, the skin has " + std::to_string(joints_.size()));
+      sets_.push_back({*std::move(numbers), *std::move(weights)});
+    }
+    if (sets_.empty()) primitive.fail("a skinned primitive has no JOINTS_0 and WEIGHTS_0");
+  }
+
+  Mat44d at(size_t vertex) const {
+    Mat44d sum(0.0);
+    double total = 0;
+    for (const auto& [numbers, weights] : sets_)
+      for (size_t k = 0; k < 4; ++k) {
+        const double weight = weights[vertex][k];
+        if (weight == 0) continue;
+        sum += joints_[static_cast<size_t>(numbers[vertex][k])] * weight;
+        total += weight;
+      }
+    return total > 0 ? sum * (1 / total) : joints_[0];
+  }
+
+ private:
+  struct Set {
+    NumberArray numbers, weights;
+  };
+  std::vector<Mat44d> joints_;
+  std::vector<Set> sets_;
+};
+
+/// The image of a normal, up to its length: by the cofactors of the matrix, which exist even where
+/// it has no inverse.
+Vec3f transformed_normal(const Mat44d& m, const Vec3f& n) {
+  const Vec3d a(m[0][0], m[0][1], m[0][2]), b(m[1][0], m[1][1], m[1][2]),
+      c(m[2][0], m[2][1], m[2][2]);
+  const Vec3d sum = b.cross(c) * double{n.x} + c.cross(a) * double{n.y} + a.cross(b) * double{n.z};
+  const double length = sum.length();
+  return length > 0 ? to_float(sum / length) : n;
+}
+
+}  // namespace
+
+std::vector<double> morph_weights(const JsonValue& node, size_t node_index, const JsonValue& mesh,
+                                  const AnimationPose& animation) {
+  std::vector<double> weights;
+  if (const std::vector<float>* animated = animation.weights(node_index))
+    weights.assign(animated->begin(), animated->end());
+  else if (node.find("weights"))
+    weights = node.find_numbers("weights");
+  else
+    weights = mesh.find_numbers("weights");
+  const bool any = std::any_of(weights.begin(), weights.end(), [](double w) { return w != 0; });
+  return any ? weights : std::vector<double>();
+}
+
+void morph(Document& document, const JsonValue& primitive, const std::vector<double>& weights,
+           Vertices& vertices) {
+  const std::optional<JsonValue> targets = primitive.find_array("targets");
+  if (!targets) return;
+  const std::vector<JsonValue> list = targets->elements();
+  for (size_t i = 0; i < std::min(list.size(), weights.size()); ++i) {
+    if (weights[i] == 0) continue;
+    add_weighted(document, list[i], "POSITION", weights[i], vertices.positions);
+    add_weighted(document, list[i], "NORMAL", weights[i], vertices.normals);
+    add_weighted(document, list[i], "TANGENT", weights[i], vertices.tangents);
+  }
+}
+
+void skin(Document& document, const JsonValue& skin, AttributeSource& source,
+          const JsonValue& primitive, const NodeGraph& nodes, Vertices& vertices) {
+  std::vector<Mat44d> joints = joint_matrices(document, skin, nodes);
+  if (joints.empty()) skin.get("joints").fail("a skin has no joints, expected one at least");
+  const Blend blend(source, primitive, vertices.positions.size(), std::move(joints));
+  for (size_t i = 0; i < vertices.positions.size(); ++i) {
+    const Mat44d m = blend.at(i);
+    Vec3d p;
+    m.multVecMatrix(to_double(vertices.positions[i]), p);
+    vertices.positions[i] = to_float(p);
+    if (!vertices.normals.empty()) vertices.normals[i] = transformed_normal(m, vertices.normals[i]);
+    if (!vertices.tangents.empty()) {
+      Vec3d t;
+      m.multDirMatrix(to_double(vertices.tangents[i]), t);
+      vertices.tangents[i] = to_float(t);
+    }
+  }
+}
+
+}  // namespace nephroid::gltf

@@ -1,0 +1,82 @@
+#include "input/gltf/lights.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "input/gltf/parameter_list.h"
+
+namespace nephroid::gltf {
+namespace {
+
+constexpr double kDegrees = 180 / 3.14159265358979323846;
+
+void add_cone(const JsonValue& light, ParameterList& list) {
+  const std::optional<JsonValue> spot = light.find_object("spot");
+  const double inner = spot ? spot->get_number("innerConeAngle", 0) : 0;
+  const double outer =
+      spot ? spot->get_number("outerConeAngle", 0.785398163397448) : 0.785398163397448;
+  if (!(inner >= 0 && outer > inner && outer <= 1.5707964))
+    light.get("spot").fail("the angles of the cone are " + std::to_string(inner) + " and " +
+                           std::to_string(outer) + ", expected 0 <= inner < outer <= pi/2");
+  list.add_float("coneangle", outer * kDegrees);
+  list.add_float("conedeltaangle", (outer - inner) * kDegrees);
+}
+
+/// The node's transform without its scale, which lights do not have.
+Mat44d rigid(Mat44d node) {
+  for (int i = 0; i < 3; ++i) {
+    const double length = Vec3d(node[i][0], node[i][1], node[i][2]).length();
+    for (int j = 0; length > 0 && j < 3; ++j) node[i][j] /= length;
+  }
+  return node;
+}
+
+void add_punctual(const JsonValue& light, const TransformDescription& world,
+                  SceneDescription& scene) {
+  const std::string type = light.get("type").text();
+  const Color color = light.get_numbers<3>("color", {1, 1, 1});
+  const double intensity = light.get_number("intensity", 1);
+  const Color emission = {color[0] * intensity, color[1] * intensity, color[2] * intensity};
+  ParameterList list(light.where());
+  if (type == "directional") {
+    list.add_color("L", emission);
+    list.add_numbers("point3", "to", {0, 0, -1});
+  } else if (type == "point" || type == "spot") {
+    list.add_color("I", emission);
+  } else {
+    light.get("type").fail("unknown type \"" + type + "\", expected directional, point or spot");
+  }
+  if (type == "spot") {
+    list.add_numbers("point3", "to", {0, 0, -1});
+    add_cone(light, list);
+  }
+  const std::string name = light.get_text("name", "");
+  if (!name.empty()) list.add_string("name", name);
+  LightDescription description;
+  static_cast<DirectiveDescription&>(description) =
+      directive(type == "directional" ? "distant" : type, std::move(list));
+  description.transform = {rigid(world.start), rigid(world.end)};
+  scene.lights.push_back(std::move(description));
+}
+
+void add_punctual_lights(Document& document, const NodeGraph& nodes, SceneDescription& scene) {
+  const auto root = document.root().extension("KHR_lights_punctual");
+  if (!root) return;
+  const std::vector<JsonValue> lights = root->get("lights").elements();
+  for (const size_t index : nodes.shown()) {
+    const auto use = document.list("nodes")[index].extension("KHR_lights_punctual");
+    if (!use) continue;
+    const size_t light = use->get_index("light");
+    if (light >= lights.size()) use->get("light").fail("there is no such light");
+    if (lights[light].get_number("intensity", 1) > 0)
+      add_punctual(lights[light], nodes.world(index), scene);
+  }
+}
+
+}  // namespace
+
+void add_lights(Document& document, const NodeGraph& nodes, SceneDescription& scene) {
+  add_punctual_lights(document, nodes, scene);
+}
+
+}  // namespace nephroid::gltf

@@ -1,0 +1,83 @@
+// The only file with meshoptimizer; see meshopt.h.
+#include "input/gltf/meshopt.h"
+
+#include <meshoptimizer.h>
+
+#include "input/gltf/document.h"
+
+namespace nephroid::gltf {
+namespace {
+
+/// The codec packs 16 elements of 1 to 256 bytes into no less than a few bytes, so a larger claim
+/// is a lie. Found before memory is allocated.
+constexpr size_t kMaxRatio = 1 << 14;
+
+struct PackedView {
+  Bytes bytes;
+  size_t count, stride;
+  std::string mode, filter;
+};
+
+PackedView read_description(Document& document, const JsonValue& extension) {
+  PackedView view{
+      document.buffer_part(extension.get_index("buffer"), extension.get_index("byteOffset", 0),
+                           extension.get_index("byteLength"), extension),
+      extension.get_index("count"), extension.get_index("byteStride"), extension.get("mode").text(),
+      extension.get_text("filter", "NONE")};
+  if (view.stride == 0 || view.stride > 256)
+    extension.get("byteStride").fail("expected a stride from 1 to 256 bytes");
+  if (view.count > (view.bytes.size() + 1) * kMaxRatio / view.stride)
+    extension.get("count").fail("this claims more elements than can be in the packed bytes");
+  return view;
+}
+
+/// Decodes the elements. Returns false if the bytes are damaged.
+bool decode(const PackedView& view, const JsonValue& extension, std::byte* target) {
+  const auto* source = reinterpret_cast<const unsigned char*>(view.bytes.data());
+  const size_t size = view.bytes.size();
+  if (view.mode == "ATTRIBUTES") {
+    if (view.stride % 4 != 0) extension.get("byteStride").fail("expected a multiple of 4");
+    return meshopt_decodeVertexBuffer(target, view.count, view.stride, source, size) == 0;
+  }
+  if (view.stride != 2 && view.stride != 4)
+    extension.get("byteStride").fail("expected 2 or 4 bytes for an index");
+  if (view.mode == "TRIANGLES") {
+    if (view.count % 3 != 0) extension.get("count").fail("expected a multiple of 3");
+    return meshopt_decodeIndexBuffer(target, view.count, view.stride, source, size) == 0;
+  }
+  if (view.mode == "INDICES")
+    return meshopt_decodeIndexSequence(target, view.count, view.stride, source, size) == 0;
+  extension.get("mode").fail("unknown mode \"" + view.mode +
+                             "\", expected ATTRIBUTES, TRIANGLES or INDICES");
+}
+
+void apply_filter(const PackedView& view, const JsonValue& extension, std::byte* target) {
+  if (view.filter == "NONE") return;
+  const JsonValue stride = extension.get("byteStride");
+  if (view.filter == "OCTAHEDRAL") {
+    if (view.stride != 4 && view.stride != 8) stride.fail("expected 4 or 8 for this filter");
+    meshopt_decodeFilterOct(target, view.count, view.stride);
+  } else if (view.filter == "QUATERNION") {
+    if (view.stride != 8) stride.fail("expected 8 for this filter");
+    meshopt_decodeFilterQuat(target, view.count, view.stride);
+  } else if (view.filter == "EXPONENTIAL") {
+    if (view.stride % 4 != 0) stride.fail("expected a multiple of 4 for this filter");
+    meshopt_decodeFilterExp(target, view.count, view.stride);
+  } else {
+    extension.get("filter").fail("unknown filter \"" + view.filter +
+                                 "\", expected NONE, OCTAHEDRAL, QUATERNION or EXPONENTIAL");
+  }
+}
+
+}  // namespace
+
+std::vector<std::byte> decompress_meshopt(Document& document, const JsonValue& extension) {
+  const PackedView view = read_description(document, extension);
+  std::vector<std::byte> bytes(view.count * view.stride);
+  if (!decode(view, extension, bytes.data()))
+    extension.fail("the packed bytes are damaged, expected data of meshoptimizer");
+  apply_filter(view, extension, bytes.data());
+  return bytes;
+}
+
+}  // namespace nephroid::gltf

@@ -1,0 +1,114 @@
+#include "input/gltf/support.h"
+
+#include <algorithm>
+
+namespace nephroid::gltf {
+namespace {
+
+using enum FeatureSupport;
+
+constexpr Feature kExtensions[] = {
+    {"KHR_materials_ior", kLoaded, ""},
+    {"KHR_materials_specular", kLoaded,
+     "factor and colour weigh the edges of metals, too, as in OpenPBR"},
+    {"KHR_materials_transmission", kApproximated,
+     "thin without KHR_materials_volume, as the specification says: no caustic, with a warning; "
+     "`--solid-glass` makes it solid"},
+    {"KHR_materials_volume", kLoaded,
+     "a thickness above 0 makes it solid, its size and texture have no meaning for a ray tracer"},
+    {"KHR_materials_dispersion", kLoaded, "of solid glass"},
+    {"KHR_materials_clearcoat", kApproximated, "a normal map of the coat is ignored"},
+    {"KHR_materials_sheen", kApproximated, "the fuzz of OpenPBR stands for the Charlie lobe"},
+    {"KHR_materials_iridescence", kLoaded, ""},
+    {"KHR_materials_anisotropy", kApproximated, "the texture of directions is ignored"},
+    {"KHR_materials_emissive_strength", kLoaded, ""},
+    {"KHR_materials_diffuse_transmission", kLoaded, ""},
+    {"KHR_materials_unlit", kApproximated, "emits its base colour, and so lights others"},
+    {"KHR_materials_variants", kLoaded, "`--variant NAME`"},
+    {"KHR_materials_pbrSpecularGlossiness", kApproximated,
+     "a dielectric whose normal reflectance is the specular colour"},
+    {"KHR_lights_punctual", kLoaded,
+     "a candela, a lux and a candela per square metre are one unit each; a light has no radius, "
+     "\"range\" is not needed, the edge of a spot is pbrt's smooth step"},
+    {"KHR_texture_transform", kLoaded, "the directions of normal maps do not turn"},
+    {"KHR_mesh_quantization", kLoaded, ""},
+    {"KHR_draco_mesh_compression", kLoaded, ""},
+    {"EXT_meshopt_compression", kLoaded, ""},
+    {"EXT_mesh_gpu_instancing", kLoaded, ""},
+    {"EXT_texture_webp", kLoaded, ""},
+    {"KHR_texture_basisu", kRefused, "KTX2 images cannot be read; a PNG or JPEG fallback is used"},
+    {"KHR_node_visibility", kLoaded, ""},
+    {"KHR_xmp_json_ld", kIgnored, "metadata"},
+    {"KHR_xmp", kIgnored, "metadata"},
+};
+
+constexpr Feature kFeatures[] = {
+    {"containers", kLoaded,
+     ".gltf with files or data URIs, .glb; files only from the scene's "
+     "folder unless `--allow-outside` permits others"},
+    {"scenes", kLoaded, "the scene that the file chooses, else the first, else all root nodes"},
+    {"nodes", kLoaded,
+     "matrices, or translation, rotation and scale, mirrored ones too; a mesh "
+     "scaled to nothing is left out with a warning"},
+    {"accessors", kLoaded, "all types, normalised, sparse, strided"},
+    {"triangles, strips, fans", kLoaded, ""},
+    {"points and lines", kIgnored, "they have no area: left out with a warning"},
+    {"texture coordinates", kLoaded, "two sets per material, more with a warning"},
+    {"vertex colours", kLoaded, "COLOR_0"},
+    {"tangents", kLoaded,
+     "made along u where a normal map needs them, averaged by angle as "
+     "MikkTSpace does, without its splits where mirrored halves meet"},
+    {"samplers", kApproximated, "wrap modes are loaded; filters are bilinear on the finest level"},
+    {"metallic-roughness", kLoaded, "Material \"principled\""},
+    {"normal maps", kLoaded, "with scale"},
+    {"occlusion maps", kIgnored, "the light is traced"},
+    {"emission", kLoaded, "an area light; one unit of the picture for a factor of 1"},
+    {"alpha modes", kLoaded, "BLEND is coverage, MASK a cutoff"},
+    {"double-sided", kApproximated,
+     "all surfaces are seen from both sides; it decides whether "
+     "both sides emit"},
+    {"cameras", kLoaded,
+     "perspective and orthographic, `--camera NAME` or an index; a film of "
+     "1280 pixels along the longer side; clipping planes are not needed"},
+    {"morph targets", kLoaded, "positions, normals and tangents"},
+    {"skins", kLoaded, "at the start of the shutter"},
+    {"animations", kLoaded, "all of a file at one moment, `--at`"},
+};
+
+const Feature* find_extension(const std::string& name) {
+  const auto* const found = std::find_if(std::begin(kExtensions), std::end(kExtensions),
+                                         [&](const Feature& f) { return name == f.name; });
+  return found == std::end(kExtensions) ? nullptr : found;
+}
+
+}  // namespace
+
+std::span<const Feature> extension_table() {
+  return kExtensions;
+}
+
+std::span<const Feature> feature_table() {
+  return kFeatures;
+}
+
+void check_extensions(const Document& document) {
+  const JsonValue root = document.root();
+  const auto required = root.find_array("extensionsRequired");
+  const auto used = root.find_array("extensionsUsed");
+  if (required)
+    for (const JsonValue& name : required->elements()) {
+      const Feature* feature = find_extension(name.text());
+      if (!feature)
+        name.fail("the file requires the extension \"" + name.text() +
+                  "\", which is not supported");
+      if (feature->support == kRefused)
+        name.fail("the file requires the extension \"" + name.text() + "\": " + feature->note);
+    }
+  if (used)
+    for (const JsonValue& name : used->elements())
+      if (!find_extension(name.text()))
+        document.diagnostics().warn(
+            name.where(), "the extension \"" + name.text() + "\" is not supported, it is ignored");
+}
+
+}  // namespace nephroid::gltf

@@ -1,0 +1,80 @@
+// Mitsuba 3's principled BSDFs (Burley 2012, 2015) as "principled" in the terms of OpenPBR.
+#include <algorithm>
+#include <cmath>
+
+#include "input/mitsuba/bsdf_writers.h"
+#include "input/mitsuba/refraction_index.h"
+
+namespace nephroid::mitsuba {
+namespace {
+
+/// Copies a number or texture; nothing is written if it is absent.
+void copy_float(PluginProperties& p, const char* from, ParameterSet& set, const char* to) {
+  if (auto value = read_float(p, from)) add_as(set, to, std::move(*value));
+}
+
+/// A constant of the model; a texture is replaced by `fallback` with a warning.
+double constant(PluginProperties& p, const char* name, double fallback) {
+  const auto value = read_float(p, name);
+  if (!value) return fallback;
+  if (value->type == "float") return value->numbers[0];
+  warn_approximated(p, std::string("a texture of \"") + name + "\" is ignored");
+  return fallback;
+}
+
+/// The index that "specular" stands for (Burley 2015): F0 = 0.08 specular.
+double index_of_specular(double specular) {
+  return 2 / (1 - std::sqrt(0.08 * std::clamp(specular, 0.0, 1.0))) - 1;
+}
+
+MaterialDescription common(PluginProperties& p) {
+  MaterialDescription m = material(p, "principled");
+  add_color(m.parameters, "base_color", read_color(p, "base_color", ColorUse::kReflectance), 0.5);
+  const auto roughness = read_float(p, "roughness");
+  add_as(m.parameters, "specular_roughness",
+         roughness.value_or(numbers_parameter("float", "", {0.5}, p.where())));
+  copy_float(p, "anisotropic", m.parameters, "specular_roughness_anisotropy");
+  copy_float(p, "spec_trans", m.parameters, "transmission_weight");
+  copy_float(p, "sheen", m.parameters, "fuzz_weight");
+  if (constant(p, "flatness", 0) != 0) warn_approximated(p, "\"flatness\" is ignored");
+  for (const char* tint : {"spec_tint", "sheen_tint"})
+    if (constant(p, tint, 0) != 0) warn_approximated(p, std::string("\"") + tint + "\" is ignored");
+  return m;
+}
+
+}  // namespace
+
+Surface write_principled(PluginProperties& p) {
+  MaterialDescription m = common(p);
+  copy_float(p, "metallic", m.parameters, "base_metalness");
+  const auto color = read_color(p, "base_color", ColorUse::kReflectance);
+  add_color(m.parameters, "transmission_color", color, 0.5);
+  const double eta = p.has("eta") ? refraction_index(p, "eta", "pet")
+                                  : index_of_specular(p.number("specular", 0.5));
+  add_float(m.parameters, "specular_ior", eta);
+  // The clearcoat has a quarter of a layer's reflectance, index 1.5 and its own roughness.
+  const double coat = constant(p, "clearcoat", 0), gloss = constant(p, "clearcoat_gloss", 0);
+  if (coat > 0) {
+    add_float(m.parameters, "coat_weight", 0.25 * coat);
+    add_float(m.parameters, "coat_ior", 1.5);
+    add_float(m.parameters, "coat_darkening", 0);
+    add_float(m.parameters, "coat_roughness", std::sqrt(std::lerp(0.1, 0.001, gloss)));
+  }
+  const bool transmits = p.has("spec_trans") || p.child("texture", "spec_trans");
+  return surface_of(p, std::move(m), !transmits);
+}
+
+Surface write_thin_principled(PluginProperties& p) {
+  MaterialDescription m = common(p);
+  add_bool(m.parameters, "geometry_thin_walled", true);
+  const auto color = read_color(p, "base_color", ColorUse::kReflectance);
+  add_color(m.parameters, "transmission_color", color, 0.5);
+  add_color(m.parameters, "diffuse_transmission_color", color, 0.5);
+  // Mitsuba's "diff_trans" of 1 transmits half of the light, of 2 all of it.
+  add_float(m.parameters, "diffuse_transmission_weight",
+            std::clamp(0.5 * constant(p, "diff_trans", 0), 0.0, 1.0));
+  add_float(m.parameters, "specular_ior", p.has("eta") ? refraction_index(p, "eta", "pet") : 1.5);
+  return surface_of(p, std::move(m), false);
+}
+
+}  // namespace nephroid::mitsuba

@@ -1,0 +1,52 @@
+// State of one import: the description that is written and what was written already. It must not
+// know plug-ins.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "input/import_options.h"
+#include "input/mitsuba/object.h"
+#include "input/scene_description.h"
+
+namespace nephroid::mitsuba {
+
+/// A BSDF as shapes use it.
+struct Surface {
+  std::string material;            ///< name of a material
+  std::optional<Parameter> alpha;  ///< opacity, from "mask"
+  bool is_one_sided = false;       ///< in Mitsuba its back is black
+};
+
+struct ImportContext {
+  SceneDescription& scene;
+  const ImportOptions& options;
+  Diagnostics& diagnostics;
+  int version = 0;                      ///< major version of the scene, 0 for 0.5 and 0.6
+  bool moves = false;                   ///< true if a transform is animated
+  int one_sided_shapes = 0;             ///< open shapes whose backs are black in Mitsuba
+  SourceLocation first_one_sided = {};  ///< the first of them
+
+  // What was written, so that a shared object is written once.
+  std::map<const Object*, Surface> surfaces = {};
+  std::map<std::pair<const Object*, std::string>, std::string> textures =
+      {};  ///< by object and use
+  std::map<const Object*, std::string> media = {};
+  std::map<const Object*, std::string> groups = {};
+
+  std::set<std::string> names = {};  ///< taken names of materials, textures, media and objects
+
+  bool is_before_version_2() const { return version < 2; }
+  /// The object's id, or a name of its plug-in, made unique.
+  std::string unique_name(const Object& object) {
+    const std::string wanted = object.id.empty() ? object.type : object.id;
+    std::string name = wanted;
+    for (int i = 2; !names.insert(name).second; ++i) name = wanted + "-" + std::to_string(i);
+    return name;
+  }
+};
+
+}  // namespace nephroid::mitsuba

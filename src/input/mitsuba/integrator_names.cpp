@@ -1,0 +1,79 @@
+#include "input/mitsuba/integrator_names.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "input/mitsuba/parameter_values.h"
+
+namespace nephroid::mitsuba {
+namespace {
+
+struct IntegratorRow : Plugin {
+  const char* pbrt = nullptr;  ///< name of pbrt-v4; null if there is none
+};
+constexpr PluginSupport kLoaded = PluginSupport::kLoaded, kIgnored = PluginSupport::kIgnored;
+constexpr const char* kNoMethod = "there is no such method here";
+constexpr IntegratorRow kIntegrators[] = {
+    {{"integrator", "path"}, "path"},
+    {{"integrator", "volpath"}, "volpath"},
+    {{"integrator", "volpath_simple"}, "volpath"},
+    {{"integrator", "volpathmis"}, "volpath"},
+    {{"integrator", "direct", kLoaded, "path, with one scattering event"}, "path"},
+    {{"integrator", "bdpt"}, "bdpt"},
+    {{"integrator", "mlt"}, "mlt"},
+    {{"integrator", "pssmlt"}, "mlt"},
+    {{"integrator", "erpt"}, "mlt"},
+    {{"integrator", "ptracer"}, "lightpath"},
+    {{"integrator", "photonmapper"}, "sppm"},
+    {{"integrator", "ppm"}, "sppm"},
+    {{"integrator", "sppm"}, "sppm"},
+    {{"integrator", "adaptive", kLoaded, "that in it"}},
+    {{"integrator", "irrcache", kLoaded, "that in it"}},
+    {{"integrator", "multichannel", kLoaded, "that in it"}},
+    {{"integrator", "aov", kLoaded, "that in it"}},
+    {{"integrator", "moment", kLoaded, "that in it"}},
+    {{"integrator", "stokes", kLoaded, "that in it"}},
+    {{"integrator", "vpl", kIgnored, kNoMethod}},
+    {{"integrator", "ao", kIgnored, kNoMethod}},
+    {{"integrator", "field", kIgnored, kNoMethod}},
+    {{"integrator", "depth", kIgnored, kNoMethod}},
+};
+
+/// Mitsuba counts the edges of a path, the renderer its scattering events; -1 is no limit.
+void add_depth(PluginProperties& p, const std::string& type, ParameterSet& set) {
+  const int depth = p.integer("max_depth", -1);
+  if (type == "direct")
+    add_integer(set, "maxdepth", 1);
+  else if (depth >= 0)
+    add_integer(set, "maxdepth", std::max(0, depth - 1));
+}
+
+}  // namespace
+
+void write_integrator(ImportContext& context, const Object& object) {
+  const auto* const row =
+      std::find_if(std::begin(kIntegrators), std::end(kIntegrators),
+                   [&](const IntegratorRow& r) { return object.type == r.name; });
+  PluginProperties p(object, context);
+  if (row != std::end(kIntegrators) && !row->pbrt && row->support == kLoaded) {
+    if (const Object* nested = p.first_child("integrator")) write_integrator(context, *nested);
+    return;
+  }
+  if (row == std::end(kIntegrators) || !row->pbrt) {
+    context.diagnostics.warn(object.where, "integrator \"" + object.type +
+                                               "\" is unknown, only \"max_depth\" is used of it");
+  }
+  const bool is_known = row != std::end(kIntegrators) && row->pbrt;
+  DirectiveDescription integrator = directive(is_known ? row->pbrt : "volpath", object.where);
+  add_depth(p, object.type, integrator.parameters);
+  if (p.boolean("hide_emitters", false)) warn_approximated(p, "emitters are not hidden");
+  // Other properties are of Mitsuba's methods.
+  context.scene.integrator = std::move(integrator);
+}
+
+std::vector<Plugin> integrator_plugins() {
+  return std::vector<Plugin>(std::begin(kIntegrators), std::end(kIntegrators));
+}
+
+}  // namespace nephroid::mitsuba

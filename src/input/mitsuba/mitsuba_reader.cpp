@@ -1,0 +1,88 @@
+#include "input/mitsuba/mitsuba_reader.h"
+
+#include <vector>
+
+#include "input/mitsuba/bsdf_plugins.h"
+#include "input/mitsuba/emitter_plugins.h"
+#include "input/mitsuba/integrator_names.h"
+#include "input/mitsuba/medium_plugins.h"
+#include "input/mitsuba/object_reader.h"
+#include "input/mitsuba/sensor_plugins.h"
+#include "input/mitsuba/shape_plugins.h"
+#include "input/mitsuba/texture_plugins.h"
+#include "input/number_text.h"
+#include "input/token_stream.h"
+
+namespace nephroid {
+namespace {
+
+using namespace mitsuba;
+
+std::vector<const Object*> objects_with(const Document& document, const char* tag) {
+  std::vector<const Object*> found;
+  for (const Child& child : document.scene.children)
+    if (child.object->tag == tag) found.push_back(child.object);
+  return found;
+}
+
+/// The sensor that the user named by id or index; the first by default.
+const Object* chosen_sensor(const Document& document, const std::string& wanted) {
+  const std::vector<const Object*> sensors = objects_with(document, "sensor");
+  if (wanted.empty()) return sensors.empty() ? nullptr : sensors[0];
+  const auto index = parse_integer(wanted);
+  std::string names;
+  for (size_t i = 0; i < sensors.size(); ++i) {
+    const bool is_wanted =
+        sensors[i]->id == wanted || (index && *index == static_cast<long long>(i));
+    if (is_wanted) return sensors[i];
+    names += (i > 0 ? ", " : "") + (sensors[i]->id.empty() ? std::to_string(i) : sensors[i]->id);
+  }
+  throw SceneError(document.scene.where,
+                   "there is no camera \"" + wanted +
+                       "\", expected one of: " + (names.empty() ? "none" : names));
+}
+
+void write_object(ImportContext& context, const Object& object) {
+  if (object.tag == "shape") {
+    write_shape(context, object);
+  } else if (object.tag == "emitter") {
+    write_emitter(context, object);
+  } else if (object.tag == "integrator") {
+    write_integrator(context, object);
+  } else if (object.tag == "bsdf") {
+    if (!object.id.empty()) write_bsdf(context, object);
+  } else if (object.tag == "phase" || object.tag == "volume" || object.tag == "spectrum" ||
+             object.tag == "texture" || object.tag == "medium" || object.tag == "sensor") {
+    // Written where a shape, a BSDF or the camera uses it.
+  } else {
+    context.diagnostics.warn(
+        object.where, object.tag + " \"" + object.type + "\" outside of other objects is ignored");
+  }
+}
+
+void warn_of_one_sided(const ImportContext& context) {
+  const int count = context.one_sided_shapes;
+  if (count == 0) return;
+  context.diagnostics.warn(
+      context.first_one_sided,
+      "open shapes with one-sided BSDFs, " + std::to_string(count) +
+          " in all, this the first: in Mitsuba their backs are black, here both sides are alike");
+}
+
+}  // namespace
+
+SceneDescription read_mitsuba(const std::string& path, const ImportOptions& options,
+                              Diagnostics& diagnostics) {
+  SceneDescription scene;
+  scene.file = shown_name(path);
+  scene.files = std::make_shared<SceneFiles>(directory_of_scene(path));
+  const Document document = read_document(path, *scene.files, options, diagnostics);
+  ImportContext context{scene, options, diagnostics, document.version};
+  for (const Child& child : document.scene.children) write_object(context, *child.object);
+  if (const Object* sensor = chosen_sensor(document, options.camera))
+    write_sensor(context, *sensor, path);
+  warn_of_one_sided(context);
+  return scene;
+}
+
+}  // namespace nephroid

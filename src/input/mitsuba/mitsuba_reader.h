@@ -1,0 +1,16 @@
+// Reads scenes of Mitsuba 0.5, 0.6, 2 and 3. It must not know XML or plug-ins.
+#pragma once
+
+#include <string>
+
+#include "input/import_options.h"
+#include "input/scene_description.h"
+
+namespace nephroid {
+
+/// The camera is `options.camera`, by id or index, else the first. Throws IoError if the scene
+/// cannot be read and SceneError if its contents are wrong.
+SceneDescription read_mitsuba(const std::string& path, const ImportOptions& options,
+                              Diagnostics& diagnostics);
+
+}  // namespace nephroid

@@ -1,0 +1,175 @@
+#include "input/mitsuba/shape_plugins.h"
+
+#include <iterator>
+#include <utility>
+
+#include "input/mitsuba/bsdf_plugins.h"
+#include "input/mitsuba/emitter_plugins.h"
+#include "input/mitsuba/medium_plugins.h"
+#include "input/mitsuba/parameter_values.h"
+#include "input/mitsuba/shape_geometry.h"
+
+namespace nephroid::mitsuba {
+namespace {
+
+using Shapes = std::vector<ShapeDescription>;
+
+struct ShapeRow : Plugin {
+  GeometryWriter geometry = nullptr;  ///< null for shapes of shapes
+};
+constexpr PluginSupport kLoaded = PluginSupport::kLoaded, kRefused = PluginSupport::kRefused;
+constexpr const char* kNoSuchShape = "there is no such shape here";
+constexpr ShapeRow kShapes[] = {
+    {{"shape", "obj", kLoaded, "one mesh; materials of MTL files are not read"}, obj_geometry},
+    {{"shape", "ply"}, ply_geometry},
+    {{"shape", "serialized", kLoaded, "versions 3 and 4"}, serialized_geometry},
+    {{"shape", "rectangle"}, rectangle_geometry},
+    {{"shape", "cube"}, cube_geometry},
+    {{"shape", "sphere"}, sphere_geometry},
+    {{"shape", "disk", kLoaded, "uv are pbrt-v4's"}, disk_geometry},
+    {{"shape", "cylinder", kLoaded, "uv are pbrt-v4's"}, cylinder_geometry},
+    {{"shape", "hair", kLoaded, "text and BINARY_HAIR"}, hair_geometry},
+    {{"shape", "bsplinecurve", kLoaded, "radii are linear along a curve"}, spline_geometry},
+    {{"shape", "linearcurve", kLoaded, "radii are linear along a curve"}, polyline_geometry},
+    {{"shape", "shapegroup"}},
+    {{"shape", "instance"}},
+    {{"shape", "merge"}},
+    {{"shape", "heightfield", kRefused, kNoSuchShape}},
+    {{"shape", "deformable", kRefused, kNoSuchShape}},
+    {{"shape", "sdfgrid", kRefused, kNoSuchShape}},
+    {{"shape", "ellipsoids", kRefused, kNoSuchShape}},
+    {{"shape", "ellipsoidsmesh", kRefused, kNoSuchShape}},
+};
+
+/// Mitsuba's default: black on lamps, nothing on boundaries of media, else grey.
+Surface default_surface(PluginProperties& p, bool emits, bool is_boundary) {
+  Surface surface;
+  if (is_boundary && !emits && p.context().is_before_version_2()) {
+    surface.material = null_material(p.context(), p.where());
+  } else if (emits) {
+    surface.material = black_material(p.context(), p.where());
+  } else {
+    MaterialDescription grey = directive<MaterialDescription>("diffuse", p.where());
+    grey.name = p.context().unique_name(p.object());
+    surface.material = grey.name;
+    surface.is_one_sided = true;
+    p.context().scene.materials.push_back(std::move(grey));
+  }
+  return surface;
+}
+
+struct Attachments {
+  Surface surface;
+  std::optional<DirectiveDescription> light;
+  std::string inside, outside;
+};
+
+Attachments attachments(PluginProperties& p) {
+  Attachments a;
+  const std::vector<const Child*> bsdfs = p.children("bsdf"), emitters = p.children("emitter");
+  if (bsdfs.size() > 1) warn_approximated(p, "it has several BSDFs, the first one is used");
+  if (emitters.size() > 1) warn_approximated(p, "it has several emitters, the first one is used");
+  if (!emitters.empty()) a.light = area_light(p.context(), *emitters[0]->object);
+  if (const Object* medium = p.child("medium", "interior"))
+    a.inside = write_medium(p.context(), *medium);
+  if (const Object* medium = p.child("medium", "exterior"))
+    a.outside = write_medium(p.context(), *medium);
+  const bool is_boundary = !a.inside.empty() || !a.outside.empty();
+  a.surface = bsdfs.empty() ? default_surface(p, a.light.has_value(), is_boundary)
+                            : write_bsdf(p.context(), *bsdfs[0]->object);
+  if (p.first_child("subsurface"))
+    warn_approximated(p, "its subsurface scattering is ignored, only the BSDF is rendered");
+  return a;
+}
+
+void attach(const Attachments& a, bool flips, ShapeDescription& shape) {
+  shape.reverse_orientation = flips;
+  shape.material = {-1, a.surface.material, shape.where};
+  shape.area_light = a.light;
+  shape.inside_medium = a.inside;
+  shape.outside_medium = a.outside;
+  if (a.surface.alpha) shape.parameters.list.push_back(*a.surface.alpha);
+}
+
+void note_one_sided(ImportContext& context, const SourceLocation& where) {
+  if (context.one_sided_shapes++ == 0) context.first_one_sided = where;
+}
+
+void add_shapes(ImportContext& context, const Object& object, Shapes& into);
+
+void add_geometry(PluginProperties& p, const ShapeRow& row, Shapes& into) {
+  Geometry geometry = row.geometry(p);
+  const Attachments a = attachments(p);
+  const bool flips = p.boolean("flip_normals", false);
+  if (geometry.is_open && a.surface.is_one_sided && !a.light)
+    note_one_sided(p.context(), p.where());
+  for (ShapeDescription& shape : geometry.shapes) {
+    attach(a, flips, shape);
+    into.push_back(std::move(shape));
+  }
+}
+
+/// The object of a shape group, which is written at its first use.
+std::string write_group(ImportContext& context, const Object& group) {
+  const auto known = context.groups.find(&group);
+  if (known != context.groups.end()) return known->second;
+  PluginProperties p(group, context);
+  ObjectDescription object;
+  object.name = context.unique_name(group);
+  object.where = group.where;
+  for (const Child* child : p.children("shape")) {
+    if (child->object->type == "instance" || child->object->type == "shapegroup")
+      throw SceneError(child->where,
+                       "a shape group has an instance or a group in it, expected "
+                       "other shapes");
+    add_shapes(context, *child->object, object.shapes);
+  }
+  for (ShapeDescription& shape : object.shapes)
+    if (shape.area_light) {
+      context.diagnostics.warn(shape.where, "emitters of shape groups do not emit");
+      shape.area_light.reset();
+    }
+  p.report_unused();
+  context.scene.objects[object.name] = object;
+  return context.groups[&group] = object.name;
+}
+
+void add_instance(PluginProperties& p) {
+  const Object* group = p.first_child("shape");
+  if (!group || group->type != "shapegroup")
+    throw SceneError(p.where(),
+                     "an instance has no shape group in it, expected a reference to one");
+  InstanceDescription instance;
+  instance.object = write_group(p.context(), *group);
+  instance.transform = p.transform();
+  instance.where = p.where();
+  p.context().scene.instances.push_back(std::move(instance));
+}
+
+void add_shapes(ImportContext& context, const Object& object, Shapes& into) {
+  PluginProperties p(object, context);
+  const ShapeRow& row = plugin_row(kShapes, object, context.diagnostics);
+  if (row.geometry) {
+    add_geometry(p, row, into);
+  } else if (object.type == "instance") {
+    add_instance(p);
+  } else if (object.type == "shapegroup") {
+    write_group(context, object);
+    return;
+  } else {
+    for (const Child* child : p.children("shape")) add_shapes(context, *child->object, into);
+  }
+  p.report_unused();
+}
+
+}  // namespace
+
+void write_shape(ImportContext& context, const Object& object) {
+  add_shapes(context, object, context.scene.shapes);
+}
+
+std::vector<Plugin> shape_plugins() {
+  return std::vector<Plugin>(std::begin(kShapes), std::end(kShapes));
+}
+
+}  // namespace nephroid::mitsuba

@@ -1,0 +1,20 @@
+// Mitsuba's sun and sky as lights of pbrt-v4, and the frame of its environment maps.
+#pragma once
+
+#include "input/mitsuba/plugin.h"
+
+namespace nephroid::mitsuba {
+
+/// The local frame of pbrt-v4's latitude-longitude maps, +z up and phi from +x, in Mitsuba's: +y is
+/// up, the left edge of the image at -z and its first quarter at +x.
+Mat44d environment_frame();
+
+inline constexpr const char* kSkyNote =
+    "the sky is that of Hosek and Wilkie (2012) in rgb, the sun that of Preetham et al. (1999)";
+
+void write_sky(PluginProperties& properties, LightDescription& light);
+void write_sun(PluginProperties& properties, LightDescription& light);
+/// The sun becomes a light of its own.
+void write_sun_and_sky(PluginProperties& properties, LightDescription& light);
+
+}  // namespace nephroid::mitsuba

@@ -1,0 +1,93 @@
+// Textures of Mitsuba: mappings, encodings and their uses.
+#include <cmath>
+
+#include "unit/input/mitsuba_scene.h"
+
+namespace nephroid::testing {
+namespace {
+
+std::string value(const std::string& tag, const std::string& name, const std::string& text) {
+  return "<" + tag + " name=\"" + name + "\" value=\"" + text + "\"/>";
+}
+
+/// The first texture of a scene with a diffuse sphere.
+TextureDescription texture(const std::string& type, const std::string& body) {
+  MitsubaScene scene;
+  return scene
+      .read("<shape type=\"sphere\"><bsdf type=\"diffuse\"><texture name=\"reflectance\" type=\"" +
+            type + "\">" + body + "</texture></bsdf></shape>\n")
+      .textures.at(0);
+}
+TextureDescription bitmap(const std::string& body, const std::string& file = "a.png") {
+  return texture("bitmap", value("string", "filename", file) + body);
+}
+
+/// t of pbrt-v4's uv mapping.
+double t_at(const TextureDescription& t, double v) {
+  return number(t.parameters, "vscale") * v + number(t.parameters, "vdelta");
+}
+
+TEST(MitsubaTexture, BitmapsShowTheSamePixel) {
+  const TextureDescription t =
+      bitmap(value("float", "uscale", "2") + value("float", "vscale", "3") +
+             value("float", "uoffset", "0.25") + value("float", "voffset", "0.5"));
+  EXPECT_EQ(t.type, "imagemap");
+  EXPECT_EQ(t.value_type, "spectrum");
+  EXPECT_EQ(number(t.parameters, "uscale"), 2);
+  EXPECT_EQ(number(t.parameters, "udelta"), 0.25);
+  // Meshes have v = 1 - v of Mitsuba, and pbrt-v4 counts rows from below: 1 - t is the place from
+  // above, Mitsuba's 3 v + 0.5.
+  for (const double v : {0.0, 0.3, 1.0}) EXPECT_NEAR(1 - t_at(t, 1 - v), 3 * v + 0.5, 1e-12);
+}
+
+TEST(MitsubaTexture, TransformsOfUvAreScaleAndOffset) {
+  const TextureDescription t = bitmap(
+      "<transform name=\"to_uv\"><scale x=\"2\" y=\"3\"/><translate x=\"0.25\" y=\"0.5\"/>"
+      "</transform>");
+  EXPECT_EQ(number(t.parameters, "udelta"), 0.25);
+  EXPECT_NEAR(1 - t_at(t, 0.5), 2, 1e-12);
+}
+
+TEST(MitsubaTexture, GammaAndRawAreEncodings) {
+  EXPECT_FALSE(has_parameter(bitmap("").parameters, "encoding"));
+  EXPECT_EQ(text(bitmap(value("float", "gamma", "1")).parameters, "encoding"), "linear");
+  EXPECT_EQ(text(bitmap(value("float", "gamma", "1.8")).parameters, "encoding"), "gamma 1.8");
+  EXPECT_EQ(text(bitmap(value("boolean", "raw", "true")).parameters, "encoding"), "linear");
+  EXPECT_FALSE(
+      has_parameter(bitmap(value("boolean", "raw", "true"), "a.exr").parameters, "encoding"));
+}
+
+TEST(MitsubaTexture, WrapAndFilterModes) {
+  EXPECT_EQ(text(bitmap("").parameters, "wrap"), "repeat");
+  EXPECT_EQ(text(bitmap(value("string", "wrapMode", "clamp")).parameters, "wrap"), "clamp");
+  EXPECT_EQ(text(bitmap(value("string", "wrapMode", "zero")).parameters, "wrap"), "black");
+  EXPECT_EQ(text(bitmap(value("string", "filterType", "nearest")).parameters, "filter"), "point");
+}
+
+TEST(MitsubaTexture, ChecksAreHalfAUnitWide) {
+  const TextureDescription t =
+      texture("checkerboard", value("rgb", "color0", "1 0 0") + value("float", "voffset", "0.1"));
+  EXPECT_EQ(parameter(t.parameters, "tex1").numbers, (std::vector<double>{1, 0, 0}));
+  EXPECT_EQ(parameter(t.parameters, "tex2").numbers, (std::vector<double>{0.2, 0.2, 0.2}));
+  // Mitsuba's first colour is where floor(2 u) + floor(2 v) is even; the mesh has 1 - v.
+  for (const double v : {0.1, 0.3, 0.45, 0.7}) {
+    const long found = std::lround(std::floor(t_at(t, 1 - v)));
+    EXPECT_EQ(((found % 2) + 2) % 2, std::lround(std::floor(2 * (v + 0.1))) % 2) << v;
+  }
+}
+
+TEST(MitsubaTexture, ATextureHasOneFormPerUse) {
+  MitsubaScene scene;
+  const SceneDescription d =
+      scene.read("<texture type=\"bitmap\" id=\"t\">" + value("string", "filename", "t.png") +
+                 "</texture>\n"
+                 "<bsdf type=\"mask\" id=\"m\"><ref name=\"opacity\" id=\"t\"/>"
+                 "<bsdf type=\"diffuse\"><ref name=\"reflectance\" id=\"t\"/></bsdf></bsdf>\n"
+                 "<bsdf type=\"diffuse\" id=\"d\"><ref name=\"reflectance\" id=\"t\"/></bsdf>\n");
+  ASSERT_EQ(d.textures.size(), 2u);
+  EXPECT_NE(d.textures[0].value_type, d.textures[1].value_type);
+  EXPECT_NE(d.textures[0].name, d.textures[1].name);
+}
+
+}  // namespace
+}  // namespace nephroid::testing
