@@ -26,8 +26,9 @@ std::string contained_file(const SceneFiles& files, const std::string& name, boo
   const fs::path folder = fs::weakly_canonical(files.directory(), error);
   const fs::path path = error ? fs::path() : fs::weakly_canonical(files.path_of(name), error);
   if (error || !lies_below(path, folder))
-    throw SceneError(named_by, "\"" + name + "\" lies outside of the scene's folder, expected a "
-                               "file in it (--allow-outside permits others)");
+    throw SceneError(named_by, "\"" + name +
+                                   "\" lies outside of the scene's folder, expected a "
+                                   "file in it (--allow-outside permits others)");
   return name;
 }
 

@@ -1,5 +1,5 @@
-// Choices of the user about scene files: which camera and moment of a file, what a missing thickness
-// of glass means, and the floor, light and exposure that no file has.
+// Choices of the user about scene files: which camera and moment of a file, what a missing
+// thickness of glass means, and the floor, light and exposure that no file has.
 #pragma once
 
 #include <map>

@@ -19,8 +19,7 @@ std::vector<double> numbers_of(const std::vector<Vec>& items) {
 }
 
 bool are_indices(const std::vector<uint32_t>& indices, size_t count) {
-  return std::all_of(indices.begin(), indices.end(),
-                     [&](uint32_t index) { return index < count; });
+  return std::all_of(indices.begin(), indices.end(), [&](uint32_t index) { return index < count; });
 }
 
 /// True if a PLY file can hold all parameters, or "plymesh" has them, too.

@@ -25,9 +25,8 @@ void set_sun(CommandLine& line, const std::string& text) {
   if (comma == std::string::npos)
     throw UsageError("--sun: '" + text +
                      "' is not valid, expected elevation,azimuth in degrees as in 35,120");
-  line.import.sun =
-      SunDirection{parse_number("--sun", text.substr(0, comma), 0, 90, false),
-                   parse_number("--sun", text.substr(comma + 1), -360, 360, false)};
+  line.import.sun = SunDirection{parse_number("--sun", text.substr(0, comma), 0, 90, false),
+                                 parse_number("--sun", text.substr(comma + 1), -360, 360, false)};
 }
 
 void add_define(CommandLine& line, const std::string& text) {
@@ -51,9 +50,8 @@ const OptionDescription kRows[] = {
      [](CommandLine& l, const std::string& t) {
        l.import.exposure = parse_number("--exposure", t, -kMostStops, kMostStops, false);
      }},
-    {"", "--floor", "", "", "", "", "Scene",
-     "Add a matte grey floor under the lowest point.", false,
-     [](CommandLine& l, const std::string&) { l.import.floor = true; }},
+    {"", "--floor", "", "", "", "", "Scene", "Add a matte grey floor under the lowest point.",
+     false, [](CommandLine& l, const std::string&) { l.import.floor = true; }},
     {"", "--environment", "", "IMAGE", "", "none", "Scene",
      "Light the scene by an image of surroundings. It is a latitude-longitude map (2:1) or an "
      "equal-area octahedral one (1:1), and replaces infinite lights. Without other lights, a white "

@@ -124,7 +124,8 @@ constexpr const char* kFloatHelp =
     "All layers in 32-bit floats. Otherwise R, G, B, Z, positions and variances are, and other "
     "layers are in 16 bits unless these do not hold their values.";
 constexpr const char* kStrictHelp = "Overlapping routes are an error.";
-constexpr const char* kSettingHelp = "Set a number of the integrator, as in max-depth=8 or photons=1000000. May be given several times.";
+constexpr const char* kSettingHelp =
+    "Set a number of the integrator, as in max-depth=8. May be given several times.";
 
 void set_converted(CommandLine& line, const std::string& text) {
   if (text.size() <= 5 || !text.ends_with(".pbrt"))
@@ -161,7 +162,7 @@ constexpr CommandDescription kCommands[] = {
 
 const OptionDescription kOptions[] = {
     {"render", "SCENE", "", "", "", "", "",
-     "A scene: .pbrt (also .gz), .gltf, .glb, .xml (Mitsuba), .obj, - for standard input.", false,
+     "A scene: pbrt-v4, glTF, Mitsuba XML or OBJ; - for standard input.", false,
      [](CommandLine& l, const std::string& t) { l.render.scene = t; }},
     {"render", "--output", "-o", "OUT.exr", "",
      "named after the scene's film, in the current directory", "Output",
@@ -281,10 +282,10 @@ const OptionDescription kOptions[] = {
        l.routes.passes = static_cast<uint32_t>(parse_integer("--passes", t, 1, kMaxPilotPasses));
      }},
     {"info", "FILE", "", "", "", "", "",
-     "A scene (.pbrt, .gltf, .glb, .xml, .obj), - for standard input, or a picture that this "
+     "A scene (pbrt-v4, glTF, Mitsuba XML or OBJ), - for standard input, or a picture that this "
      "program wrote.", false,
      [](CommandLine& l, const std::string& t) { l.info.file = t; }},
-    {"convert", "IN", "", "", "", "", "", "A scene (.pbrt, .gltf, .glb, .xml, .obj).", false,
+    {"convert", "IN", "", "", "", "", "", "A scene: pbrt-v4, glTF, Mitsuba XML or OBJ; - for standard input.", false,
      [](CommandLine& l, const std::string& t) { l.convert.input = t; }},
     {"convert", "OUT.pbrt", "", "", "", "", "",
      "The scene as text. Meshes and images of the file get names that begin like it.", false,

@@ -99,7 +99,7 @@ struct CommandLine {
   BenchCommand bench;
   ConvertCommand convert;
   ImportOptions import;  ///< options about scene files, copied to the command after parsing
-  std::string text;  ///< text of kPrint: help, version and the like
+  std::string text;      ///< text of kPrint: help, version and the like
 };
 
 struct CommandDescription {

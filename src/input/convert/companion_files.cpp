@@ -20,9 +20,8 @@ struct Mark {
   const char* suffix;
 };
 constexpr Mark kImages[] = {
-    {"\x89PNG", ".png"},   {"\xff\xd8\xff", ".jpg"}, {"RIFF", ".webp"},
-    {"PF", ".pfm"},        {"#?RADIANCE", ".hdr"},   {"\x76\x2f\x31\x01", ".exr"},
-    {"\xabKTX", ".ktx2"},
+    {"\x89PNG", ".png"},    {"\xff\xd8\xff", ".jpg"},     {"RIFF", ".webp"},    {"PF", ".pfm"},
+    {"#?RADIANCE", ".hdr"}, {"\x76\x2f\x31\x01", ".exr"}, {"\xabKTX", ".ktx2"},
 };
 
 /// The end of an image file's name, by its first bytes.
@@ -69,8 +68,8 @@ std::string CompanionFiles::name_of(const std::string& old_name) {
   }
   if (fs::path(old_name).is_absolute()) return old_name;
   std::error_code error;
-  const fs::path relative = fs::proximate(fs::absolute(files_.path_of(old_name)),
-                                          fs::absolute(directory_), error);
+  const fs::path relative =
+      fs::proximate(fs::absolute(files_.path_of(old_name)), fs::absolute(directory_), error);
   return error ? fs::absolute(files_.path_of(old_name)).string() : relative.string();
 }
 

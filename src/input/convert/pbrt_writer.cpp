@@ -112,11 +112,9 @@ void PbrtWriter::directive(const std::string& beginning, const ParameterSet& par
   if (!parameters.list.empty()) set_color_space(parameters.list.front().color_space);
   line(beginning);
   for (const Parameter& parameter : parameters.list) {
-    const bool is_wanted = std::none_of(left_out.begin(), left_out.end(), [&](const char* name) {
-      return parameter.name == name;
-    });
-    if (is_wanted)
-      line("  " + parameter_text(names_files ? with_new_names(parameter) : parameter));
+    const bool is_wanted = std::none_of(left_out.begin(), left_out.end(),
+                                        [&](const char* name) { return parameter.name == name; });
+    if (is_wanted) line("  " + parameter_text(names_files ? with_new_names(parameter) : parameter));
   }
 }
 
@@ -181,9 +179,9 @@ void PbrtWriter::write_materials() {
   for (size_t i = 0; i < scene_.materials.size(); ++i) {
     const MaterialDescription& m = scene_.materials[i];
     const std::string type = m.type.empty() ? "interface" : m.type;
-    directive("MakeNamedMaterial " + quoted_text(materials_[i]) + " \"string type\" " +
-                  quoted_text(type),
-              m.parameters, {"type"});
+    directive(
+        "MakeNamedMaterial " + quoted_text(materials_[i]) + " \"string type\" " + quoted_text(type),
+        m.parameters, {"type"});
   }
 }
 

@@ -10,7 +10,8 @@ namespace nephroid {
 
 /// Writes the scene to `path`. Reading it gives a description of the same scene:
 /// - materials without a name get the one by which light path expressions know them;
-/// - triangle meshes of more than a few faces become PLY files beside the scene, and so do images in
+/// - triangle meshes of more than a few faces become PLY files beside the scene, and so do images
+/// in
 ///   memory;
 /// - names of other files are relative to the new scene.
 /// Comments say what of the scene is not pbrt-v4's. Throws IoError if a file cannot be written.

@@ -86,9 +86,9 @@ void IgnoredLines::report() const {
                                     ? "\"" + keyword + "\" is ignored"
                                     : std::to_string(lines.count) + " lines \"" + keyword +
                                           "\" are ignored, this is the first";
-    const auto known =
-        std::find_if(rows_.begin(), rows_.end(),
-                     [&](const FormatParameter& row) { return keyword == row.name; });
+    const auto known = std::find_if(rows_.begin(), rows_.end(), [&](const FormatParameter& row) {
+      return keyword == row.name;
+    });
     if (known != rows_.end() && known->support == Support::kNotNeeded) continue;
     if (known != rows_.end())
       diagnostics_.warn(where, subject + ": " + known->note);

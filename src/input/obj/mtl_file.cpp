@@ -27,9 +27,9 @@ struct MapOption {
   bool is_rendered;
 };
 constexpr MapOption kMapOptions[] = {
-    {"-s", 3, true},       {"-o", 3, true},        {"-bm", 1, true},      {"-clamp", 1, true},
-    {"-blendu", 1, true},  {"-blendv", 1, true},   {"-texres", 1, true},  {"-t", 3, false},
-    {"-mm", 2, false},     {"-imfchan", 1, false}, {"-cc", 1, false},     {"-boost", 1, false},
+    {"-s", 3, true},      {"-o", 3, true},        {"-bm", 1, true},     {"-clamp", 1, true},
+    {"-blendu", 1, true}, {"-blendv", 1, true},   {"-texres", 1, true}, {"-t", 3, false},
+    {"-mm", 2, false},    {"-imfchan", 1, false}, {"-cc", 1, false},    {"-boost", 1, false},
     {"-type", 1, false},
 };
 

@@ -47,8 +47,7 @@ class Converter {
     ConvertedMaterial result;
     result.area_light = area_light();
     result.alpha = alpha();
-    static_cast<DirectiveDescription&>(result.material) =
-        std::move(list_).directive("principled");
+    static_cast<DirectiveDescription&>(result.material) = std::move(list_).directive("principled");
     result.material.name = mtl_.name;
     return result;
   }
@@ -70,8 +69,7 @@ class Converter {
   }
 
   /// Adds the image as a texture and returns its name.
-  std::string texture(const char* keyword, const MtlMap& map, const char* value_type,
-                      double scale);
+  std::string texture(const char* keyword, const MtlMap& map, const char* value_type, double scale);
   /// Adds `parameter` as the image of `keyword`, if there is one.
   bool add_map(const char* parameter, const char* keyword, const char* value_type,
                double scale = 1);
@@ -118,8 +116,8 @@ bool Converter::add_map(const char* parameter, const char* keyword, const char* 
 }
 
 void Converter::add_base() {
-  const Color kd = unit(mtl_.color("Kd").value_or(mtl_.map("map_Kd") ? Color{1, 1, 1}
-                                                                      : Color{0.8, 0.8, 0.8}));
+  const Color kd =
+      unit(mtl_.color("Kd").value_or(mtl_.map("map_Kd") ? Color{1, 1, 1} : Color{0.8, 0.8, 0.8}));
   if (is_mirror()) {
     list_.add_color("base_color", unit(*mtl_.color("Ks")));
     list_.add_float("base_metalness", 1);
@@ -127,8 +125,9 @@ void Converter::add_base() {
   }
   const bool is_grey = kd[0] == kd[1] && kd[1] == kd[2];
   if (mtl_.map("map_Kd") && !is_grey)
-    diagnostics_.warn(mtl_.where, "Kd is a colour and map_Kd an image: the image is multiplied by "
-                                  "the largest part of Kd only");
+    diagnostics_.warn(mtl_.where,
+                      "Kd is a colour and map_Kd an image: the image is multiplied by "
+                      "the largest part of Kd only");
   if (!add_map("base_color", "map_Kd", "spectrum", largest(kd))) list_.add_color("base_color", kd);
   if (!add_map("base_metalness", "map_Pm", "float"))
     list_.add_float("base_metalness", unit(number("Pm", 0)));
@@ -162,14 +161,14 @@ void Converter::add_transmission() {
   list_.add_float("transmission_weight", opacity_ < 1 ? 1 - opacity_ : 1);
   list_.add_color("transmission_color", largest(tf) > 0 ? tf : Color{1, 1, 1});
   if (largest(tf) == 0)
-    diagnostics_.warn(mtl_.where, "glass with a black Tf is clear, expected the colour of the "
-                                  "light that passes");
+    diagnostics_.warn(mtl_.where,
+                      "glass with a black Tf is clear, expected the colour of the "
+                      "light that passes");
 }
 
 void Converter::add_layers() {
   const auto add_unit = [&](const char* keyword, const char* parameter) {
-    if (const double value = unit(number(keyword, 0)); value > 0)
-      list_.add_float(parameter, value);
+    if (const double value = unit(number(keyword, 0)); value > 0) list_.add_float(parameter, value);
   };
   add_unit("Ps", "fuzz_weight");
   add_unit("Pc", "coat_weight");
@@ -180,8 +179,7 @@ void Converter::add_layers() {
 void Converter::add_relief() {
   if (const MtlMap* normals = mtl_.map("norm")) {
     list_.add_string("normalmap", normals->file);
-    if (mtl_.map("bump"))
-      diagnostics_.warn(mtl_.where, "bump is ignored beside norm");
+    if (mtl_.map("bump")) diagnostics_.warn(mtl_.where, "bump is ignored beside norm");
     return;
   }
   if (const MtlMap* bump = mtl_.map("bump")) add_map("displacement", "bump", "float", bump->bump);
@@ -216,8 +214,7 @@ std::optional<Parameter> Converter::alpha() {
 }  // namespace
 
 ConvertedMaterial convert_mtl(const MtlMaterial& mtl, bool solid_glass,
-                              std::vector<TextureDescription>* textures,
-                              Diagnostics& diagnostics) {
+                              std::vector<TextureDescription>* textures, Diagnostics& diagnostics) {
   return Converter(mtl, solid_glass, textures, diagnostics).convert();
 }
 

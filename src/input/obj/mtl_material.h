@@ -20,7 +20,6 @@ struct ConvertedMaterial {
 /// Converts a material, and appends its textures to `textures`. The names of its images are
 /// those in the scene already. `solid_glass`: see ImportOptions.
 ConvertedMaterial convert_mtl(const MtlMaterial& mtl, bool solid_glass,
-                              std::vector<TextureDescription>* textures,
-                              Diagnostics& diagnostics);
+                              std::vector<TextureDescription>* textures, Diagnostics& diagnostics);
 
 }  // namespace nephroid

@@ -112,8 +112,7 @@ const ObjScene::OfShapes& ObjScene::material_of(const ObjPart& part) {
     std::vector<std::string> names;
     for (const auto& entry : library_) names.push_back(entry.first);
     diagnostics_.warn(part.where, "material \"" + part.material + "\" is not defined" +
-                                      did_you_mean(part.material, names) +
-                                      "; its faces are grey");
+                                      did_you_mean(part.material, names) + "; its faces are grey");
   }
   return used_.emplace(part.material, clay(part.where)).first->second;
 }

@@ -12,8 +12,8 @@ namespace nephroid {
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
-constexpr double kFieldOfView = 35;                            ///< degrees
-constexpr double kCameraAzimuth = 35, kCameraElevation = 22;   ///< degrees, azimuth from the front
+constexpr double kFieldOfView = 35;                           ///< degrees
+constexpr double kCameraAzimuth = 35, kCameraElevation = 22;  ///< degrees, azimuth from the front
 constexpr double kKeyAzimuth = -30, kKeyElevation = 50;
 constexpr double kFrame = 1.08;  ///< distance over that at which the bounds fill the frame
 
@@ -88,15 +88,16 @@ SourceLocation not_in_a_file(const char* what) {
 }
 
 CameraDescription framed_camera(const Bounds3d& bounds, const Surroundings& surroundings) {
-  const Vec3d to_camera =
-      direction_from_front(surroundings, kCameraAzimuth, kCameraElevation);
+  const Vec3d to_camera = direction_from_front(surroundings, kCameraAzimuth, kCameraElevation);
   const Vec3d centre = bounds.center();
   const Vec3d eye = centre + to_camera * framing_distance(bounds, to_camera, surroundings.up);
   ParameterList list(not_in_a_file("default camera"));
   list.add_float("fov", kFieldOfView);
   CameraDescription camera;
   static_cast<DirectiveDescription&>(camera) = std::move(list).directive("perspective");
-  const Mat44d matrix = look_at_matrix(eye, centre, surroundings.up).value_or(Mat44d());
+  // Files of other programs have right-handed coordinates, and the camera's are left-handed.
+  const Mat44d matrix = look_at_matrix(eye, centre, surroundings.up).value_or(Mat44d()) *
+                        scale_matrix(Vec3d(-1, 1, 1));
   camera.world_to_camera = {matrix, matrix};
   return camera;
 }
@@ -118,9 +119,9 @@ void add_studio_light(SceneDescription* scene, const Bounds3d& bounds,
   const double radius = radius_of(bounds);
   const Vec3d to_key = direction_from_front(surroundings, kKeyAzimuth, kKeyElevation);
   const SourceLocation where = not_in_a_file("default key light");
-  ShapeDescription& key =
-      add_disk(scene, radius * kKeyRadius,
-               disk_to_world(bounds.center() + to_key * (radius * kKeyDistance), -to_key), 0, where);
+  ShapeDescription& key = add_disk(
+      scene, radius * kKeyRadius,
+      disk_to_world(bounds.center() + to_key * (radius * kKeyDistance), -to_key), 0, where);
   // Illuminance of a disk on its axis: pi L sin^2 of its angular radius.
   const double sine2 =
       kKeyRadius * kKeyRadius / (kKeyRadius * kKeyRadius + kKeyDistance * kKeyDistance);

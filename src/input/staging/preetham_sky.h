@@ -15,7 +15,8 @@ namespace nephroid {
 /// A sky in the frame east, north, up.
 class PreethamSky {
  public:
-  /// `to_sun` is a unit vector at or above the horizon. `turbidity` is 2 for clear air, 10 for haze.
+  /// `to_sun` is a unit vector at or above the horizon. `turbidity` is 2 for clear air, 10 for
+  /// haze.
   explicit PreethamSky(const Vec3d& to_sun, double turbidity = 3);
 
   /// Luminance of the sky in a unit direction above the horizon, as linear sRGB in cd/m^2.

@@ -40,9 +40,9 @@ Bounds3d of_ply(const ParameterSet& p, SceneFiles& files) {
 Bounds3d of_curve(const ParameterSet& p, SceneFiles& files) {
   Bounds3d bounds = of_points(p, files);
   const double width = p.get_float("width", 1);
-  const double half =
-      std::max(p.get_float("width0", static_cast<float>(width)),
-               p.get_float("width1", static_cast<float>(width))) / 2;
+  const double half = std::max(p.get_float("width0", static_cast<float>(width)),
+                               p.get_float("width1", static_cast<float>(width))) /
+                      2;
   if (bounds.isEmpty()) return bounds;
   const Vec3d margin(half, half, half);
   return {bounds.min - margin, bounds.max + margin};
@@ -73,8 +73,8 @@ struct BoundsOfType {
 };
 
 constexpr BoundsOfType kTypes[] = {
-    {"trianglemesh", of_points}, {"plymesh", of_ply},   {"bilinearmesh", of_points},
-    {"loopsubdiv", of_points},   {"curve", of_curve},   {"sphere", of_sphere},
+    {"trianglemesh", of_points}, {"plymesh", of_ply},       {"bilinearmesh", of_points},
+    {"loopsubdiv", of_points},   {"curve", of_curve},       {"sphere", of_sphere},
     {"disk", of_disk},           {"cylinder", of_cylinder},
 };
 

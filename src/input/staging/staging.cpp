@@ -15,8 +15,7 @@ namespace {
 
 /// The film of the scene; one is added if there is none.
 ParameterSet& film_parameters(SceneDescription* scene) {
-  if (!scene->film)
-    scene->film = ParameterList(not_in_a_file("default film")).directive("rgb");
+  if (!scene->film) scene->film = ParameterList(not_in_a_file("default film")).directive("rgb");
   return scene->film->parameters;
 }
 

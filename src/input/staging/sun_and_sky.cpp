@@ -52,9 +52,9 @@ struct SkyImage {
     std::vector<size_t> below;
     Rgb on_ground{};
     for (size_t i = 0; i < pixels.size(); ++i) {
-      const Vec3f w = equal_area_square_to_sphere(
-          {(static_cast<float>(i % kSkySize) + 0.5f) / kSkySize,
-           (static_cast<float>(i / kSkySize) + 0.5f) / kSkySize});
+      const Vec3f w =
+          equal_area_square_to_sphere({(static_cast<float>(i % kSkySize) + 0.5f) / kSkySize,
+                                       (static_cast<float>(i / kSkySize) + 0.5f) / kSkySize});
       if (w.z <= 0) {
         below.push_back(i);
         continue;
@@ -88,8 +88,7 @@ struct SkyImage {
 
 }  // namespace
 
-double set_sun(SceneDescription* scene, const SunDirection& sun,
-               const Surroundings& surroundings) {
+double set_sun(SceneDescription* scene, const SunDirection& sun, const Surroundings& surroundings) {
   const Vec3d to_sun = direction_to(sun);
   const PreethamSky sky(to_sun);
   const SkyImage image(sky, sky.sun_illuminance() * to_sun.z);

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "core/parallel.h"
 #include "core/equal_area_map.h"
+#include "core/parallel.h"
 
 namespace nephroid {
 

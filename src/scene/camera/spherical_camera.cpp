@@ -1,7 +1,7 @@
 // The spherical camera: the film shows all directions around a point, by latitude and longitude or
 // by Clarberg's equal-area map (pbrt-v4 section 5.3.1). It must not know images.
-#include "scene/camera/camera_table.h"
 #include "core/equal_area_map.h"
+#include "scene/camera/camera_table.h"
 
 namespace nephroid {
 namespace {

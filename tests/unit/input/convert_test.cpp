@@ -36,7 +36,8 @@ class Canonical {
       add("camera " + scene.camera->medium, *scene.camera);
       add(scene.camera->world_to_camera);
     }
-    text_ += shortest_text(scene.transform_start_time) + shortest_text(scene.transform_end_time) + "\n";
+    text_ +=
+        shortest_text(scene.transform_start_time) + shortest_text(scene.transform_end_time) + "\n";
     for (const MaterialDescription& m : scene.materials) add("material", m);
     for (const TextureDescription& t : scene.textures) {
       add("texture " + t.name + " " + t.value_type, t);
@@ -144,8 +145,8 @@ void expect_round_trip(const SceneDescription& scene) {
 TEST(Convert, KeepsTheScenesOfTheProject) {
   int scenes = 0;
   for (const char* folder : {"scenes", "tests/unit/input/golden"})
-    for (const auto& entry : fs::recursive_directory_iterator(
-             fs::path(testing_support::source_directory()) / folder)) {
+    for (const auto& entry :
+         fs::recursive_directory_iterator(fs::path(testing_support::source_directory()) / folder)) {
       if (entry.path().extension() != ".pbrt") continue;
       if (read_file_bytes(entry.path().string()).find("\nWorldBegin") == std::string::npos)
         continue;  // a part of another scene
@@ -194,9 +195,10 @@ TEST(Convert, WritesMeshesAndImagesBesideTheScene) {
 
 TEST(Convert, NamesMaterialsAsLightPathExpressionsDo) {
   const TemporaryDirectory folder;
-  write_pbrt(testing::parse("WorldBegin\nMakeNamedMaterial \"diffuse1\" \"string type\" \"conductor\"\n"
-                            "Material \"diffuse\"\nShape \"sphere\"\nMaterial \"\"\nShape \"disk\"\n"),
-             folder.path("m.pbrt"));
+  write_pbrt(
+      testing::parse("WorldBegin\nMakeNamedMaterial \"diffuse1\" \"string type\" \"conductor\"\n"
+                     "Material \"diffuse\"\nShape \"sphere\"\nMaterial \"\"\nShape \"disk\"\n"),
+      folder.path("m.pbrt"));
   const SceneDescription scene = read(folder.path("m.pbrt"));
   ASSERT_EQ(scene.materials.size(), 3u);
   EXPECT_EQ(scene.materials[1].name, "diffuse2");

@@ -29,8 +29,8 @@ class MtlTest : public ::testing::Test {
     for (const Warning& warning : diagnostics_.warnings()) all += warning.message + "\n";
     return all;
   }
-  static double number(const SceneDescription& scene, const char* name, double fallback) {
-    return scene.materials.at(0).parameters.get_float(name, static_cast<float>(fallback));
+  static float number(const SceneDescription& scene, const char* name, float fallback) {
+    return scene.materials.at(0).parameters.get_float(name, fallback);
   }
   static std::vector<double> color(const SceneDescription& scene, const char* name) {
     const Parameter* found = scene.materials.at(0).parameters.find(name);
@@ -110,9 +110,9 @@ TEST_F(MtlTest, EmissionIsAnAreaLight) {
 }
 
 TEST_F(MtlTest, ImagesHaveTheirOptions) {
-  const SceneDescription scene =
-      read("Kd .5 .5 .5\nmap_Kd -s 2 3 1 -o .1 .2 -clamp on dir\\a b.png\nmap_d leaf.png\n"
-           "map_Bump -bm 0.02 bump.png\nMAP_PR r.png\n");
+  const SceneDescription scene = read(
+      "Kd .5 .5 .5\nmap_Kd -s 2 3 1 -o .1 .2 -clamp on dir\\a b.png\nmap_d leaf.png\n"
+      "map_Bump -bm 0.02 bump.png\nMAP_PR r.png\n");
   ASSERT_EQ(scene.textures.size(), 4u);
   const auto find = [&](const std::string& name) -> const TextureDescription& {
     for (const TextureDescription& t : scene.textures)

@@ -1,4 +1,6 @@
 // Camera, light, floor, sky and exposure of scenes that lack them.
+#include "input/staging/staging.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -6,7 +8,6 @@
 #include "core/equal_area_map.h"
 #include "input/staging/default_view.h"
 #include "input/staging/preetham_sky.h"
-#include "input/staging/staging.h"
 #include "unit/input/parse_text.h"
 
 namespace nephroid {
@@ -17,7 +18,8 @@ using testing::parse;
 
 constexpr const char* kBox =
     "WorldBegin\nAttributeBegin\nTranslate 5 1 0\nShape \"sphere\" \"float radius\" 2\n"
-    "AttributeEnd\nObjectBegin \"o\"\nShape \"bilinearmesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 0]\n"
+    "AttributeEnd\nObjectBegin \"o\"\nShape \"bilinearmesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 "
+    "0]\n"
     "ObjectEnd\nTranslate 0 0 9\nObjectInstance \"o\"\n";
 
 SceneDescription staged(const std::string& text, const ImportOptions& options = {},
@@ -40,14 +42,17 @@ TEST(SceneBounds, AreThoseOfShapesAndInstances) {
 }
 
 TEST(SceneBounds, KnowAllQuadricsAndTheirMotion) {
-  const auto of = [](const std::string& shape) { return scene_bounds(parse("WorldBegin\n" + shape)); };
+  const auto of = [](const std::string& shape) {
+    return scene_bounds(parse("WorldBegin\n" + shape));
+  };
   EXPECT_EQ(of("Shape \"disk\" \"float radius\" 3 \"float height\" 2").min, Vec3d(-3, -3, 2));
   EXPECT_EQ(of("Shape \"cylinder\" \"float zmax\" 4").max, Vec3d(1, 1, 4));
   EXPECT_EQ(of("Shape \"sphere\" \"float zmin\" 0").min, Vec3d(-1, -1, 0));
   EXPECT_EQ(of("Shape \"curve\" \"point3 P\" [0 0 0 0 0 1 0 0 2 0 0 3] \"float width\" 2").max,
             Vec3d(1, 1, 4));
-  EXPECT_EQ(of("ActiveTransform EndTime\nTranslate 5 0 0\nActiveTransform All\nShape \"sphere\"").max,
-            Vec3d(6, 1, 1));
+  EXPECT_EQ(
+      of("ActiveTransform EndTime\nTranslate 5 0 0\nActiveTransform All\nShape \"sphere\"").max,
+      Vec3d(6, 1, 1));
 }
 
 TEST(DefaultView, ShowsAllOfTheSceneAndFillsTheFrame) {
@@ -92,7 +97,8 @@ TEST(DefaultView, LightsAWhiteSurfaceToOne) {
 }
 
 TEST(DefaultView, RespectsWhatTheFileHas) {
-  const std::string lit = std::string("Camera \"orthographic\"\n") + kBox + "LightSource \"point\"\n";
+  const std::string lit =
+      std::string("Camera \"orthographic\"\n") + kBox + "LightSource \"point\"\n";
   const SceneDescription scene = staged(lit);
   EXPECT_EQ(scene.camera->type, "orthographic");
   EXPECT_EQ(scene.lights.size(), 1u);
@@ -152,10 +158,10 @@ TEST(Exposure, CountsStopsOverTheScenes) {
 TEST(Sun, ReplacesLightsAtInfinityAndKeepsLamps) {
   ImportOptions options;
   options.sun = SunDirection{30, 90};
-  const SceneDescription scene =
-      staged(std::string(kBox) + "LightSource \"distant\"\nLightSource \"infinite\"\n"
-                                 "LightSource \"point\"\n",
-             options, true);
+  const SceneDescription scene = staged(std::string(kBox) +
+                                            "LightSource \"distant\"\nLightSource \"infinite\"\n"
+                                            "LightSource \"point\"\n",
+                                        options, true);
   ASSERT_EQ(scene.lights.size(), 3u);
   EXPECT_EQ(scene.lights[0].type, "point");
   EXPECT_EQ(scene.lights[1].type, "infinite");
@@ -200,8 +206,7 @@ TEST(PreethamSky, HasThePapersZenithLuminance) {
   // Equation of the zenith at turbidity 3 with the sun 60 degrees from it, in cd/m^2.
   const double zenith_angle = kPi / 3, t = 3;
   const double chi = (4.0 / 9 - t / 120) * (kPi - 2 * zenith_angle);
-  const double expected =
-      1000 * ((4.0453 * t - 4.9710) * std::tan(chi) - 0.2155 * t + 2.4192);
+  const double expected = 1000 * ((4.0453 * t - 4.9710) * std::tan(chi) - 0.2155 * t + 2.4192);
   const PreethamSky sky({std::sin(zenith_angle), 0, std::cos(zenith_angle)}, t);
   EXPECT_NEAR(luminance(sky.luminance({0, 0, 1})), expected, 1e-3 * expected);
 }
@@ -230,7 +235,8 @@ TEST(PreethamSky, SunGrowsDimAndRedTowardsTheHorizon) {
   }
   const auto red_over_blue = [&](double degrees) {
     double red = 0, blue = 0;
-    for (const auto& [nm, value] : sun(degrees).sun_spectrum()) {
+    const PreethamSky sky = sun(degrees);
+    for (const auto& [nm, value] : sky.sun_spectrum()) {
       if (nm == 650) red = value;
       if (nm == 450) blue = value;
     }

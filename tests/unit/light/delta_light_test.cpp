@@ -201,7 +201,8 @@ TEST(DistantLight, SamplesItsCapUniformly) {
     EXPECT_NEAR(length(s->wi), 1, 1e-6f);
     // The cap reaches 60 degrees from the axis, where 1 - cos is 1/2.
     const int ring = static_cast<int>((1 + s->wi.z) * 2 * kRings);
-    const int sector = static_cast<int>((std::atan2(s->wi.y, s->wi.x) / (2 * kPi) + 0.5) * kSectors);
+    const int sector =
+        static_cast<int>((std::atan2(s->wi.y, s->wi.x) / (2 * kPi) + 0.5) * kSectors);
     ++observed[std::clamp(ring, 0, kRings - 1) * kSectors + std::clamp(sector, 0, kSectors - 1)];
   }
   EXPECT_GT(chi_square_test(observed, expected), 1e-4);

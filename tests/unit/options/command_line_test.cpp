@@ -139,7 +139,8 @@ TEST(CommandLine, Errors) {
 
 TEST(CommandLine, AllCommandsWithASceneTakeTheOptionsAboutIt) {
   const std::string options =
-      " --camera 1 --at 1.5s --variant red --solid-glass --floor --environment sky.exr --sun 30,-45 "
+      " --camera 1 --at 1.5s --variant red --solid-glass --floor --environment sky.exr --sun "
+      "30,-45 "
       "--exposure -1.5 --allow-outside --define a=1 --define b=x=y";
   ImportOptions expected;
   expected.camera = "1";
@@ -173,8 +174,8 @@ TEST(CommandLine, OptionsAboutTheSceneAreChecked) {
 TEST(CommandLine, ImportOptionsAreWordsOfTheIdentity) {
   EXPECT_EQ(import_options_text({}), "");
   const ImportOptions options =
-      parse("render s.glb --camera a%b\tc --floor --sun 5,6 --define n=1 --at 2.5").render.overrides
-          .import;
+      parse("render s.glb --camera a%b\tc --floor --sun 5,6 --define n=1 --at 2.5")
+          .render.overrides.import;
   EXPECT_EQ(import_options_text(options), "camera=a%25b%09c at=2.5 define:n=1 floor=yes sun=5,6");
 }
 
