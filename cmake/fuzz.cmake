@@ -17,6 +17,7 @@ endfunction()
 
 nephroid_fuzzer(scene nephroid_input)
 nephroid_fuzzer(ply nephroid_input)
+nephroid_fuzzer(gltf nephroid_input)
 nephroid_fuzzer(bsdf nephroid_material)
 nephroid_fuzzer(routes nephroid_integrator)
 nephroid_fuzzer(image nephroid_texture)

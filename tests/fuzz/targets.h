@@ -11,6 +11,8 @@ namespace nephroid::fuzz {
 void scene(const std::string& bytes);
 /// A PLY file.
 void ply(const std::string& bytes);
+/// A glTF file, either container.
+void gltf(const std::string& bytes);
 /// A measured BSDF; a valid one is also evaluated and sampled.
 void bsdf(const std::string& bytes);
 /// A file of routes, which may contain lines "--aov NAME=EXPRESSION". Valid ones are compiled and

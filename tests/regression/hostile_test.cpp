@@ -60,7 +60,8 @@ TEST(HostileScenes, GiveAPictureOrALocatedMessage) {
   std::map<std::string, std::string> expected = expectations(hostile);
   size_t scenes = 0;
   for (const std::string& name : names_in(folder.path())) {
-    if (!name.ends_with(".pbrt") && !name.ends_with(".pbrt.gz")) continue;
+    if (!name.ends_with(".pbrt") && !name.ends_with(".pbrt.gz") && !name.ends_with(".gltf"))
+      continue;
     SCOPED_TRACE(name);
     ++scenes;
     if (kIsSlowAndLarge && kNeedALimit.contains(name)) continue;

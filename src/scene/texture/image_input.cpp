@@ -43,7 +43,8 @@ std::span<const Format> formats() {
       {{"#?"sv}, {}, [] { return OIIO::ImageInput::create("hdr").release(); }},
       {{"PF"sv, "Pf"sv, "P1"sv, "P2"sv, "P3"sv, "P4"sv, "P5"sv, "P6"sv},
        {},
-       [] { return OIIO::ImageInput::create("pnm").release(); }},
+       [] { return OIIO::ImageInput::create("pnm").release(); },
+       true},
       {{"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv},
        {},
        [] { return OIIO::ImageInput::create("tiff").release(); }},
@@ -79,7 +80,7 @@ Creator reader_of(const FileSource& source, const SourceLocation& wanted_by) {
   }
   image_is_unreadable(source.path,
                       source.bytes
-                          ? "it is none of the formats PNG, JPEG and WebP"
+                          ? "it is none of the formats PNG, JPEG, WebP and PFM"
                           : "it is none of the formats EXR, PNG, JPEG, WebP, HDR, PFM, TGA, TIFF "
                             "and BMP",
                       wanted_by);
