@@ -137,7 +137,7 @@ class BsdfArena {
   void clear() { used_ = 0; }
 
  private:
-  static constexpr size_t kSize = 2048;
+  static constexpr size_t kSize = 4096;
   alignas(64) std::byte buffer_[kSize];
   size_t used_ = 0;
 };

@@ -74,6 +74,49 @@ constexpr FormatParameter kSubsurface[] = {
      "mean cosine, between -1 and 1, else an error; with \"name\" ignored with a warning"},
     {"float", "eta", "1.33", "", "between 0.4 and 2.5, else an error"},
 };
+constexpr FormatParameter kPrincipledBase[] = {
+    {"float or texture", "base_weight", "1"},
+    {"spectrum or texture", "base_color", "0.8", "",
+     "of the diffuse base, and of metal along the normal"},
+    {"float or texture", "base_metalness", "0"},
+    {"float or texture", "base_diffuse_roughness", "0", "", "Oren-Nayar; 0 is Lambertian"},
+    {"float or texture", "specular_weight", "1", "", "of the reflectance along the normal"},
+    {"spectrum or texture", "specular_color", "1", "",
+     "of the boundary's reflection outside; of metal at grazing angles (F82)"},
+    {"float or texture", "specular_roughness", "0.3", "", "alpha is its square"},
+    {"float or texture", "specular_roughness_anisotropy", "0", "", "along dpdu"},
+    {"float or texture", "specular_ior", "1.5", "", "0.1 to 10"},
+    {"bool", "geometry_thin_walled", "false", "",
+     "the surface is a wall with air on both sides, which bends no light"},
+};
+constexpr FormatParameter kPrincipledBelow[] = {
+    {"float or texture", "transmission_weight", "0"},
+    {"spectrum or texture", "transmission_color", "1", "", "tints light at every crossing"},
+    {"float", "transmission_dispersion_abbe_number", "0", "",
+     "0: none; else only the hero wavelength is kept where light is bent"},
+    {"float or texture", "diffuse_transmission_weight", "0"},
+    {"spectrum or texture", "diffuse_transmission_color", "1"},
+    {"float or texture", "subsurface_weight", "0"},
+    {"spectrum or texture", "subsurface_color", "0.8", "", "the colour seen"},
+    {"float or texture", "subsurface_radius", "1", "scene units", "mean free path"},
+    {"spectrum or texture", "subsurface_radius_scale", "1 0.5 0.25", "", "of the radius"},
+    {"float", "subsurface_scatter_anisotropy", "0", "", "mean cosine"},
+};
+constexpr FormatParameter kPrincipledAbove[] = {
+    {"float or texture", "fuzz_weight", "0"},
+    {"spectrum or texture", "fuzz_color", "1"},
+    {"float or texture", "fuzz_roughness", "0.5"},
+    {"float or texture", "coat_weight", "0"},
+    {"spectrum or texture", "coat_color", "1", "", "of light that passes twice along the normal"},
+    {"float or texture", "coat_roughness", "0"},
+    {"float or texture", "coat_roughness_anisotropy", "0"},
+    {"float or texture", "coat_ior", "1.6", "", "1 to 10"},
+    {"float or texture", "coat_darkening", "1", "",
+     "share of the darkening by reflection between coat and base"},
+    {"float or texture", "thin_film_weight", "0"},
+    {"float or texture", "thin_film_thickness", "0.5", "micrometres"},
+    {"float or texture", "thin_film_ior", "1.4", "", "0.1 to 10"},
+};
 constexpr FormatParameter kHair[] = {
     {"spectrum or texture", "sigma_a", "that of eumelanin 1.3", "1/radius",
      "the first of sigma_a, reflectance (color) and the pigments counts, the others are ignored "
@@ -122,6 +165,12 @@ constexpr MaterialRow kTable[] = {
       "photons merge where it comes out. A tabulated profile as in pbrt-v4 (ADR 7); below a mix "
       "light comes out where the mix shows this material"},
      make_subsurface},
+    {{"principled",
+      {kPrincipledBase, kPrincipledBelow, kPrincipledAbove, kSurface},
+      "not of pbrt-v4: the terms of OpenPBR 1.1. Fuzz, diffuse and subsurface lobes D; coat and "
+      "base S or G, each by its roughness; smooth thin walls transmit straight on, which has no "
+      "letter"},
+     make_principled},
     {{"hair", {kHair}, "H; paths that meet hair are left to routes of path (docs/routes.md)"},
      make_hair},
     {{"measured", {kMeasured, kSurface}, "G"}, make_measured},
@@ -171,7 +220,8 @@ class Maker {
         [this](const std::string& name, const SourceLocation& where) { return find(name, where); },
         &coat_tables_,
         &bssrdf_tables_,
-        &measured_files_};
+        &measured_files_,
+        &principled_tables_};
     const MaterialRow& row = row_of(kTable, "material", d.type, d.where);
     ++being_made_;
     NewMaterial material = row.make(d, context);
@@ -207,6 +257,7 @@ class Maker {
   CoatTableCache coat_tables_;
   BssrdfTableCache bssrdf_tables_;
   MeasuredCache measured_files_;
+  PrincipledTableCache principled_tables_;
 };
 
 }  // namespace

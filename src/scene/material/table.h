@@ -24,6 +24,17 @@ class CoatTableCache {
   std::map<std::tuple<float, float, float, int>, std::shared_ptr<const CoatTable>> tables_;
 };
 
+struct PrincipledTables;
+
+/// Tables of "principled", made when the first one needs them.
+class PrincipledTableCache {
+ public:
+  std::shared_ptr<const PrincipledTables> get();
+
+ private:
+  std::shared_ptr<const PrincipledTables> tables_;
+};
+
 class MeasuredCache;
 
 /// Input of a factory.
@@ -38,6 +49,7 @@ struct MaterialContext {
   CoatTableCache* coat_tables = nullptr;
   BssrdfTableCache* bssrdf_tables = nullptr;
   MeasuredCache* measured_files = nullptr;
+  PrincipledTableCache* principled_tables = nullptr;
 };
 
 /// Maximum nesting depth of mixes. Code that visits both materials of each recurses and visits up
@@ -64,6 +76,7 @@ NewMaterial make_conductor(const MaterialDescription&, const MaterialContext&);
 NewMaterial make_coated_diffuse(const MaterialDescription&, const MaterialContext&);
 NewMaterial make_coated_conductor(const MaterialDescription&, const MaterialContext&);
 NewMaterial make_subsurface(const MaterialDescription&, const MaterialContext&);
+NewMaterial make_principled(const MaterialDescription&, const MaterialContext&);
 NewMaterial make_hair(const MaterialDescription&, const MaterialContext&);
 NewMaterial make_measured(const MaterialDescription&, const MaterialContext&);
 NewMaterial make_mix(const MaterialDescription&, const MaterialContext&);

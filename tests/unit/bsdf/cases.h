@@ -14,6 +14,7 @@
 #include "scene/bsdf/dielectric.h"
 #include "scene/bsdf/diffuse.h"
 #include "scene/bsdf/hair.h"
+#include "scene/bsdf/principled.h"
 #include "scene/bsdf/subsurface_interface.h"
 
 namespace nephroid::testing_bsdf {
@@ -99,9 +100,140 @@ inline BsdfCase hair_case(float h, float sigma, float beta_m, float beta_n, floa
           false, false, false};
 }
 
+inline const PrincipledTables& principled_tables() {
+  static const PrincipledTables tables;
+  return tables;
+}
+inline const Bsdf* make_principled_bsdf(BsdfArena& a, const PrincipledSurface& surface,
+                                        float specular_alpha = kSpecularAlpha) {
+  auto* film = surface.film_weight > 0 ? a.make<PrincipledLayers::FilmNodes>() : nullptr;
+  const auto* layers = a.make<PrincipledLayers>(&principled_tables(), surface, film);
+  return a.make<PrincipledBsdf>(layers, specular_alpha);
+}
+/// A surface of roughness alpha; `change` sets the rest.
+inline PrincipledSurface principled(float alpha,
+                                    const std::function<void(PrincipledSurface&)>& change) {
+  PrincipledSurface s;
+  s.facets = {alpha, alpha};
+  s.metal_color = s.diffuse_color = ramp(0.9f, 0.4f);
+  s.lambdas = ramp(400.0f, 700.0f);
+  change(s);
+  return s;
+}
+inline BsdfCase principled_case(const std::string& name, float alpha,
+                                const std::function<void(PrincipledSurface&)>& change,
+                                bool refracts = false) {
+  const PrincipledSurface surface = principled(alpha, change);
+  return {"principled " + name, [=](BsdfArena& a) { return make_principled_bsdf(a, surface); },
+          false, refracts};
+}
+
+/// Lobes of the principled surface, alone and layered.
+inline std::vector<BsdfCase> principled_cases() {
+  using S = PrincipledSurface;
+  const auto coat = [](S& s, float alpha) {
+    s.coat_weight = 0.8f;
+    s.coat_facets = {alpha, alpha};
+    s.coat_color = ramp(0.9f, 0.6f);
+  };
+  const auto metal = [](S& s) {
+    s.metalness = 1.0f;
+    s.specular_color = ramp(0.5f, 1.0f);
+  };
+  return {
+      principled_case("plastic", 0.09f, [](S&) {}),
+      principled_case("smooth plastic", 0.0f, [](S&) {}),
+      principled_case("clay", 0.3f,
+                      [](S& s) {
+                        s.specular_weight = 0.0f;
+                        s.diffuse_roughness = 1.0f;
+                      }),
+      principled_case("metal", 0.4f, metal),
+      principled_case("brushed metal", 0.4f,
+                      [&](S& s) {
+                        metal(s);
+                        s.facets = {0.5f, 0.1f};
+                      }),
+      principled_case("mirror", 0.0f, metal),
+      principled_case("metal with film", 0.2f,
+                      [&](S& s) {
+                        metal(s);
+                        s.film_weight = 1.0f;
+                      }),
+      principled_case("half metal", 0.2f, [](S& s) { s.metalness = 0.5f; }),
+      principled_case("glass", 0.0f, [](S& s) { s.transmission = 1.0f; }, true),
+      principled_case("frosted glass", 0.3f, [](S& s) { s.transmission = 1.0f; }, true),
+      principled_case("air in glass", 0.2f,
+                      [](S& s) {
+                        s.transmission = 1.0f;
+                        s.ior = 0.7f;
+                      },
+                      true),
+      principled_case("tinted glass below varnish", 0.2f,
+                      [&](S& s) {
+                        s.transmission = 0.6f;
+                        s.transmission_color = ramp(0.9f, 0.3f);
+                        s.specular_weight = 0.5f;
+                        coat(s, 0.1f);
+                      },
+                      true),
+      principled_case("glass with film", 0.25f,
+                      [](S& s) {
+                        s.transmission = 0.7f;
+                        s.film_weight = 1.0f;
+                      },
+                      true),
+      principled_case("smooth wall", 0.0f,
+                      [](S& s) {
+                        s.transmission = 0.8f;
+                        s.thin_walled = true;
+                      }),
+      principled_case("frosted wall", 0.2f,
+                      [&](S& s) {
+                        s.transmission = 0.8f;
+                        s.thin_walled = true;
+                        coat(s, 0.0f);
+                      }),
+      principled_case("leaf", 0.2f,
+                      [](S& s) {
+                        s.diffuse_transmission = 0.4f;
+                        s.diffuse_transmission_color = ramp(0.3f, 0.9f);
+                      }),
+      principled_case("skin", 0.2f, [](S& s) { s.subsurface = 0.7f; }),
+      principled_case("velvet", 0.2f,
+                      [](S& s) {
+                        s.fuzz_weight = 1.0f;
+                        s.fuzz_roughness = 0.3f;
+                      }),
+      principled_case("car paint", 0.2f,
+                      [&](S& s) {
+                        s.metalness = 0.5f;
+                        s.diffuse_roughness = 0.5f;
+                        s.fuzz_weight = 0.3f;
+                        coat(s, 0.0f);
+                      }),
+      principled_case("varnished mirror", 0.0f,
+                      [&](S& s) {
+                        metal(s);
+                        coat(s, 0.0f);
+                      }),
+      principled_case("all", 0.03f,
+                      [&](S& s) {
+                        s.metalness = 0.2f;
+                        s.transmission = 0.3f;
+                        s.diffuse_transmission = 0.3f;
+                        s.subsurface = 0.3f;
+                        s.fuzz_weight = 0.5f;
+                        s.film_weight = 0.5f;
+                        coat(s, 0.15f);
+                      },
+                      true),
+  };
+}
+
 inline std::vector<BsdfCase> all_cases() {
   const LambertSurface grey{ramp(0.8f, 0.4f)};
-  return {
+  std::vector<BsdfCase> cases = {
       {"diffuse", [](BsdfArena& a) { return a.make<DiffuseBsdf>(ramp(0.9f, 0.1f)); }},
       {"diffusetransmission",
        [](BsdfArena& a) {
@@ -143,6 +275,8 @@ inline std::vector<BsdfCase> all_cases() {
                   metal(.2f, .2f)),
       coated_case("coated metal mirrors medium", make_coat(1.3f, 0, 0, 0.5f, .8f), metal(0, 0)),
   };
+  for (const BsdfCase& c : principled_cases()) cases.push_back(c);
+  return cases;
 }
 
 }  // namespace nephroid::testing_bsdf
