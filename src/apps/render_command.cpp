@@ -94,8 +94,7 @@ void connect(Render& render, const RenderCommand& command, FrameStream& stream) 
   check_layers(command.stream, render.film());
   for (const std::string& note : render.notes()) stream.message("note", note);
   render.on_progress([&stream](const RenderProgress& progress) { stream.progress(progress); });
-  render.on_picture(
-      [&](const ShownPicture& shown) { stream.picture(shown, command.stream); });
+  render.on_picture([&](const ShownPicture& shown) { stream.picture(shown, command.stream); });
 }
 
 /// Connects a render with the terminal.

@@ -25,9 +25,8 @@ uint64_t samples_of(const Film& film, int x, int y) {
 
 std::vector<FilmLayer> film_layers(const Film& film) {
   std::vector<FilmLayer> layers;
-  layers.push_back({"picture", "RGB", [](const Film& f, int x, int y, float* out) {
-                      put3(f.value(x, y), out);
-                    }});
+  layers.push_back({"picture", "RGB",
+                    [](const Film& f, int x, int y, float* out) { put3(f.value(x, y), out); }});
   const auto& routes = film.layout().routes;
   for (size_t r = 0; r < routes.size(); ++r)
     layers.push_back({routes[r], "RGB", [r](const Film& f, int x, int y, float* out) {
@@ -42,12 +41,10 @@ std::vector<FilmLayer> film_layers(const Film& film) {
     layers.push_back({"outliers", "RGB", [](const Film& f, int x, int y, float* out) {
                         put3(f.outliers(x, y), out);
                       }});
-  layers.push_back({"albedo", "RGB", [](const Film& f, int x, int y, float* out) {
-                      put3(f.albedo(x, y), out);
-                    }});
-  layers.push_back({"N", "XYZ", [](const Film& f, int x, int y, float* out) {
-                      put3(f.normal(x, y), out);
-                    }});
+  layers.push_back({"albedo", "RGB",
+                    [](const Film& f, int x, int y, float* out) { put3(f.albedo(x, y), out); }});
+  layers.push_back(
+      {"N", "XYZ", [](const Film& f, int x, int y, float* out) { put3(f.normal(x, y), out); }});
   layers.push_back(
       {"Z", "Z", [](const Film& f, int x, int y, float* out) { *out = f.depth(x, y); }});
   layers.push_back({"stderr", "RGB", [](const Film& f, int x, int y, float* out) {

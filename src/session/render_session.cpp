@@ -363,13 +363,13 @@ void RenderSession::show(const ShownPicture& shown) {
   const double begin = clock_();
   picture_(shown);
   const double cost = clock_() - begin;
-  const double interval = std::clamp(elapsed() / kShownPictures, kMinShowInterval, kMaxShowInterval);
+  const double interval =
+      std::clamp(elapsed() / kShownPictures, kMinShowInterval, kMaxShowInterval);
   next_picture_seconds_ = elapsed() + std::max(interval, kIdlePerShow * cost);
 }
 
 void RenderSession::show_if_due() {
-  if (picture_ && elapsed() >= next_picture_seconds_)
-    show({film_, elapsed(), passes_done_, false});
+  if (picture_ && elapsed() >= next_picture_seconds_) show({film_, elapsed(), passes_done_, false});
 }
 
 double RenderSession::write_now(double interval, const std::function<void()>& write) {

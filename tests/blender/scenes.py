@@ -120,7 +120,7 @@ LAMPS = {
     "spot": lambda s: lamp(s, "spot", "SPOT", (0, -1.6, 3.2), 400, (0.3, 0.6, 0), (0.6, 0.8, 1),
                            spot_size=math.radians(50), spot_blend=0.3, shadow_soft_size=0),
     "sun": lambda s: lamp(s, "sun", "SUN", (0, 0, 5), 1.5, (1.2, 1.6, 0), (1, 0.95, 0.8), angle=0),
-    "area": lambda s: lamp(s, "area", "AREA", (-1.2, -1.9, 2.5), 60, (0, 0, 0.5),
+    "area": lambda s: lamp(s, "area", "AREA", (-1.2, -1.9, 3.2), 80, (0, 0, 0.5),
                            shape="RECTANGLE", size=0.8, size_y=0.3),
     "disk": lambda s: lamp(s, "disk", "AREA", (1.2, 0.6, 3.9), 70, (0, 0, 0), (1, 0.5, 0.5),
                            shape="DISK", size=0.5),

@@ -66,8 +66,8 @@ double seconds_of(const std::function<void()>& work) {
 class StreamCommand : public ::testing::Test {
  protected:
   std::vector<std::string> arguments(const std::vector<std::string>& more) const {
-    std::vector<std::string> all{"render", kRoom, "--resolution", "24x16", "-t", "2",
-                                 "-D",     "photons=2000"};
+    std::vector<std::string> all{"render", kRoom, "--resolution", "24x16",
+                                 "-t",     "2",   "-D",           "photons=2000"};
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }

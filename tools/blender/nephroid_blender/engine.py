@@ -25,12 +25,11 @@ class NephroidRenderEngine(bpy.types.RenderEngine):
     bl_use_shading_nodes_custom = False  # node trees of Cycles
     bl_use_eevee_viewport = True  # material preview by Eevee
 
-    def __init__(self, *arguments, **named):
-        super().__init__(*arguments, **named)
-        self._viewport = None
+    _viewport = None
+    _has_failed = False
 
     def __del__(self):
-        if getattr(self, "_viewport", None) is not None:
+        if self._viewport is not None:
             self._viewport.close()
 
     # Final render
@@ -69,18 +68,21 @@ class NephroidRenderEngine(bpy.types.RenderEngine):
             path, "--stream", layers, *settings.stop_arguments(), *settings.algorithm_arguments(),
             *thread_arguments(scene), *_crop_arguments(scene)])
         try:
-            self._show(process, scene, layer, passes)
+            self._show(process, layer, passes)
         finally:
             process.stop()
 
-    def _show(self, process, scene, view_layer, passes):
+    def _show(self, process, view_layer, passes):
         """Shows the picture until it is done or the user cancels."""
+        shown = None
         while True:
             is_running = process.is_running
             picture = process.take_picture()
             if picture is not None:
-                self._show_picture(picture, scene, view_layer, passes)
-            self._show_progress(process.progress)
+                self._show_picture(picture, view_layer, passes)
+            if process.progress is not shown:
+                shown = process.progress
+                self._show_progress(shown)
             self._report_all(process.take_messages())
             if self.test_break():
                 return
@@ -93,19 +95,14 @@ class NephroidRenderEngine(bpy.types.RenderEngine):
         elif process.end is not None:
             self.report({"INFO"}, process.end["report"].strip())
 
-    _has_failed = False
-
-    def _show_picture(self, frame, scene, view_layer, passes):
+    def _show_picture(self, frame, view_layer, passes):
         x0, y0, x1, y1 = frame.header["window"]
-        is_cropped = scene.render.use_border and scene.render.use_crop_to_border
-        left, bottom = (0, 0) if is_cropped else (x0, frame.header["height"] - y1)
-        result = self.begin_result(left, bottom, x1 - x0, y1 - y0, layer=view_layer.name)
+        # Blender counts from the corner of the border.
+        result = self.begin_result(0, 0, x1 - x0, y1 - y0, layer=view_layer.name)
         fill(result, frame.layers(), passes)
         self.end_result(result)
 
     def _show_progress(self, progress):
-        if progress is None:
-            return
         self.update_progress(progress["fraction"])
         text = f"Pass {progress['passes'] + 1}"
         if "error" in progress:
