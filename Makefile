@@ -2,7 +2,7 @@
 BUILD := build/release
 NEPHROID := $(BUILD)/bin/nephroid
 
-.PHONY: demo test test-quick test-nightly program build deps deps-clang clang sanitize asan tsan fuzz format check-format \
+.PHONY: demo test test-quick test-nightly test-blender program build deps deps-clang clang sanitize asan tsan fuzz format check-format \
   check docs clean
 
 demo: program
@@ -30,6 +30,13 @@ test-nightly: export NEPHROID_TEST_SEED ?= $(shell date +%Y%m%d)
 test-nightly: build
 	@echo "NEPHROID_TEST_SEED=$$NEPHROID_TEST_SEED"
 	$(call run_tests,-L nightly)
+
+# The Blender add-on beside Cycles, about two minutes. Pictures of both: out/blender/*.png. Not part of make test.
+test-blender: program
+	@tools/install_deps blender
+	@mkdir -p out/blender
+	@blender -b --factory-startup --python-exit-code 1 -P tests/blender/scenes.py -- out/blender >out/blender/scenes.log 2>&1
+	@blender -b --factory-startup --python-exit-code 1 -P tests/blender/run.py -- out/blender
 
 program: deps
 	@cmake --preset release >/dev/null

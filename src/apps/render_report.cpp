@@ -78,7 +78,7 @@ std::string route_lines(const Film& film) {
 std::string render_report(const RenderResult& result, const Film& film, const std::string& output) {
   if (!result.has_picture)
     return fmt::format("{} before the first pixels were rendered: there is no {}\n",
-                       reason_text(result.reason), output);
+                       reason_text(result.reason), output.empty() ? "picture" : output);
   std::string text = summary(result);
   for (const std::string& line :
        choices_report(result.first_pass_statistics, result.statistics, result.passes_of_run))
@@ -86,6 +86,7 @@ std::string render_report(const RenderResult& result, const Film& film, const st
   if (result.error_text) text += *result.error_text + "\n";
   text += route_lines(film);
   for (const std::string& fault : result.faults) text += fmt::format("warning: {}\n", fault);
+  if (output.empty()) return text;
   if (result.has_state)
     text +=
         fmt::format("wrote {}, {} and {}, with which {}\n", output, png_path_beside(output),

@@ -10,7 +10,7 @@
 namespace nephroid {
 
 /// Time, passes, rays, photons, radii, shares of routes, and warnings about light that was not
-/// rendered.
+/// rendered. Without an output it names no files.
 std::string render_report(const RenderResult& result, const Film& film, const std::string& output);
 
 }  // namespace nephroid

@@ -31,6 +31,21 @@ void set_float(CommandLine& line, const std::string&) {
   (line.*Command).layer_precision = LayerPrecision::kFloat;
 }
 
+/// The names of a list with commas.
+std::vector<std::string> parse_names(const char* option, const std::string& text,
+                                     const char* example) {
+  std::vector<std::string> names;
+  for (size_t begin = 0; begin <= text.size();) {
+    const size_t comma = std::min(text.find(',', begin), text.size());
+    if (comma == begin)
+      throw UsageError(
+          fmt::format("{}: '{}' is not valid, expected names as in {}", option, text, example));
+    names.push_back(text.substr(begin, comma - begin));
+    begin = comma + 1;
+  }
+  return names;
+}
+
 template <auto Command>
 void set_output(CommandLine& line, const std::string& text) {
   const bool is_exr = text.size() > 4 && text.compare(text.size() - 4, 4, ".exr") == 0;
@@ -133,6 +148,10 @@ void set_converted(CommandLine& line, const std::string& text) {
   line.convert.output = text;
 }
 
+void set_stream(CommandLine& line, const std::string& text) {
+  line.render.stream = parse_names("--stream", text, "picture,caustic");
+}
+
 void set_heat_map(CommandLine& line, const std::string& text) {
   const bool is_png = text.size() > 4 && text.compare(text.size() - 4, 4, ".png") == 0;
   if (!is_png)
@@ -141,13 +160,8 @@ void set_heat_map(CommandLine& line, const std::string& text) {
 }
 
 void add_only(CommandLine& line, const std::string& text) {
-  for (size_t begin = 0; begin <= text.size();) {
-    const size_t comma = std::min(text.find(',', begin), text.size());
-    if (comma == begin)
-      throw UsageError("--only: '" + text + "' is not valid, expected names as in cup,room");
-    line.bench.only.push_back(text.substr(begin, comma - begin));
-    begin = comma + 1;
-  }
+  for (std::string& name : parse_names("--only", text, "cup,room"))
+    line.bench.only.push_back(std::move(name));
 }
 
 constexpr CommandDescription kCommands[] = {
@@ -194,6 +208,11 @@ const OptionDescription kOptions[] = {
      [](CommandLine& l, const std::string&) { l.render.keeps_state = false; }, true},
     {"render", "--float", "", "", "", "", "Output", kFloatHelp, false,
      set_float<&CommandLine::render>, true},
+    {"render", "--stream", "", "LAYER,...", "", "none", "Output",
+     "Write frames to standard output, for a program that shows the picture while it is made "
+     "(docs/stream.md). They have these layers: picture, routes, AOVs, albedo, N, Z. Messages are "
+     "frames, too, and no file is written unless --output is given.",
+     false, set_stream, true},
     {"render", "--quiet", "", "", "", "", "Output",
      "Print only errors, and warnings about the output file.",
      false, [](CommandLine& l, const std::string&) { l.render.quiet = true; }},

@@ -34,6 +34,7 @@ struct RenderCommand {
   bool resume = false;
   double checkpoint_interval = 60;  ///< seconds
   bool keeps_state = true;
+  std::vector<std::string> stream;  ///< layers of the frames on standard output; empty: no frames
   LayerPrecision layer_precision = LayerPrecision::kHalf;
   bool strict = false;
   bool quiet = false;

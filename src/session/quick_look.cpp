@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "film/film_output.h"
 #include "film/film_settings.h"
 #include "integrator/presets/integrator_table.h"
 #include "scene/scene.h"
@@ -41,7 +40,7 @@ void take_quick_look(const QuickLook& look, const SignalFlags& signals,
   } catch (const PassStopped&) {
     if (!film.can_be_shown()) return;
   }
-  write_preview(look.output, film, look.exposure);
+  look.show(film);
 }
 
 }  // namespace nephroid

@@ -165,6 +165,9 @@ Render::Render(const RenderRequest& request, const LoadedScene& loaded, RenderWa
 void Render::on_progress(std::function<void(const RenderProgress&)> callback) {
   session_->on_progress(std::move(callback));
 }
+void Render::on_picture(std::function<void(const ShownPicture&)> callback) {
+  session_->on_picture(std::move(callback));
+}
 void Render::use_clock(std::function<double()> seconds) {
   session_->use_clock(std::move(seconds));
 }

@@ -57,6 +57,8 @@ class Render {
 
   /// Called after every pass.
   void on_progress(std::function<void(const RenderProgress&)> callback);
+  /// Called with pictures on their way, see RenderSession.
+  void on_picture(std::function<void(const ShownPicture&)> callback);
   /// Seconds from any origin; the machine's steady clock unless set.
   void use_clock(std::function<double()> seconds);
 

@@ -31,6 +31,10 @@ namespace {
 /// Writing pictures and estimating the error for display wait this many times as long as they took
 /// last time. So they cost less than 2 % of the time.
 constexpr double kIdlePerWork = 50;
+/// The same for pictures that a viewer is shown, which should come soon.
+constexpr double kIdlePerShow = 8;
+/// The interval between these grows with the time so far, over this number, within limits.
+constexpr double kShownPictures = 20, kMinShowInterval = 0.2, kMaxShowInterval = 5;  ///< seconds
 constexpr double kErrorInterval = 1;       ///< least seconds between error estimates for progress
 constexpr double kProgressInterval = 0.2;  ///< seconds between progress reports within a pass
 constexpr double kShortestWait = 0.02;     ///< least seconds between two calls of look_in()
@@ -95,6 +99,9 @@ RenderSession::RenderSession(const Scene& scene, EstimatorSet& set, Film& film,
 void RenderSession::on_progress(std::function<void(const RenderProgress&)> callback) {
   progress_ = std::move(callback);
 }
+void RenderSession::on_picture(std::function<void(const ShownPicture&)> callback) {
+  picture_ = std::move(callback);
+}
 void RenderSession::on_warning(std::function<void(const std::string&)> callback) {
   warning_ = std::move(callback);
 }
@@ -109,6 +116,7 @@ RenderResult RenderSession::run(SignalFlags& signals) {
   next_error_seconds_ = 0;
   next_preview_seconds_ = std::min(options_.first_preview, options_.preview_interval);
   next_checkpoint_seconds_ = options_.checkpoint_interval;
+  next_picture_seconds_ = 0;
   RenderResult result;
   take_quick_look(signals);
   std::optional<StopReason> reason;
@@ -127,7 +135,10 @@ RenderResult RenderSession::run(SignalFlags& signals) {
     if (error_check_is_due()) renew_error();
     reason = reason_to_stop(signals);
     report_progress(false);
-    if (!reason) write_if_due(signals);
+    if (!reason) {
+      write_if_due(signals);
+      show_if_due();
+    }
   }
   if (first_pass_statistics_.empty()) first_pass_statistics_ = statistics();
 
@@ -137,14 +148,10 @@ RenderResult RenderSession::run(SignalFlags& signals) {
   result.has_unfinished_pass = film_.has_open_pass();
   result.passes_of_run = passes_of_run();
   result.seconds = elapsed();
-  // The error is estimated now and then, so it may be that of an earlier pass.
-  if ((options_.noise_target > 0 || shows_error()) && error_pass_ != passes_done_) renew_error();
-  if (error_ && !is_black_) result.error = error_->total();
   result.first_pass_statistics = first_pass_statistics_;
   result.statistics = statistics();
-  renew_error_text();
-  result.error_text = error_text_;
-  result.faults = invalid_samples(scene_, film_);
+  const bool is_dropped = *reason == StopReason::kSignal && options_.output.empty();
+  if (!is_dropped) report_errors(&result);
   // A signal may come before there is anything to write.
   result.has_picture = passes_done_ > 0 || film_.has_light();
   result.has_state = result.has_picture && (options_.keeps_state || *reason == StopReason::kSignal);
@@ -153,7 +160,18 @@ RenderResult RenderSession::run(SignalFlags& signals) {
     // The state is left out, with a warning, if memory is short.
     result.has_state &= std::filesystem::exists(state_path_beside(options_.output));
   }
+  if (picture_ && result.has_picture && !is_dropped)
+    picture_({film_, elapsed(), passes_done_, true});
   return result;
+}
+
+void RenderSession::report_errors(RenderResult* result) {
+  // The error is estimated now and then, so it may be that of an earlier pass.
+  if ((options_.noise_target > 0 || shows_error()) && error_pass_ != passes_done_) renew_error();
+  if (error_ && !is_black_) result->error = error_->total();
+  renew_error_text();
+  result->error_text = error_text_;
+  result->faults = invalid_samples(scene_, film_);
 }
 
 std::optional<uint32_t> RenderSession::next_pass() const {
@@ -200,6 +218,7 @@ void RenderSession::look_in(SignalFlags& signals, PassWatch& watch) {
   const bool can_write = film_.can_be_shown();
   if (can_write) write_if_due(signals);
   watch.answer_writes(can_write);
+  if (can_write) show_if_due();
   if (progress_ && elapsed() >= next_progress_seconds_) {
     report_progress(true);
     next_progress_seconds_ = elapsed() + kProgressInterval;
@@ -207,6 +226,7 @@ void RenderSession::look_in(SignalFlags& signals, PassWatch& watch) {
   double wake = progress_ ? next_progress_seconds_ : kInfinity;
   if (!options_.output.empty())
     wake = std::min({wake, next_preview_seconds_, next_checkpoint_seconds_});
+  if (picture_) wake = std::min(wake, next_picture_seconds_);
   if (options_.time_limit > 0)
     wake = std::min(wake, options_.time_limit - options_.begin_with.seconds);
   watch.wake_at(start_ + std::max(wake, elapsed() + kShortestWait));
@@ -320,18 +340,36 @@ void RenderSession::write_if_due(SignalFlags& signals) {
 }
 
 void RenderSession::take_quick_look(const SignalFlags& signals) {
-  if (options_.quick_look_depth == 0 || options_.output.empty() || !done_.empty() || open_pass_ ||
+  const bool is_seen = picture_ || !options_.output.empty();
+  if (options_.quick_look_depth == 0 || !is_seen || !done_.empty() || open_pass_ ||
       !is_worth_a_quick_look(set_, film_.format()))
     return;
-  write_now(0, [&] {
-    keep_previous();
-    nephroid::take_quick_look({.scene = scene_,
-                               .max_depth = options_.quick_look_depth,
-                               .seed = options_.seed,
-                               .output = options_.output,
-                               .exposure = options_.png_exposure},
-                              signals, clock_);
-  });
+  const auto show_film = [&](const Film& film) {
+    if (picture_) show({film, elapsed(), 0, false});
+    if (options_.output.empty()) return;
+    write_now(0, [&] {
+      keep_previous();
+      write_preview(options_.output, film, options_.png_exposure);
+    });
+  };
+  nephroid::take_quick_look({.scene = scene_,
+                             .max_depth = options_.quick_look_depth,
+                             .seed = options_.seed,
+                             .show = show_film},
+                            signals, clock_);
+}
+
+void RenderSession::show(const ShownPicture& shown) {
+  const double begin = clock_();
+  picture_(shown);
+  const double cost = clock_() - begin;
+  const double interval =
+      std::clamp(elapsed() / kShownPictures, kMinShowInterval, kMaxShowInterval);
+  next_picture_seconds_ = elapsed() + std::max(interval, kIdlePerShow * cost);
+}
+
+void RenderSession::show_if_due() {
+  if (picture_ && elapsed() >= next_picture_seconds_) show({film_, elapsed(), passes_done_, false});
 }
 
 double RenderSession::write_now(double interval, const std::function<void()>& write) {

@@ -76,6 +76,14 @@ struct RenderResult {
   std::vector<EstimatorStatistics> first_pass_statistics, statistics;
 };
 
+/// A picture on its way to a viewer.
+struct ShownPicture {
+  const Film& film;
+  double seconds = 0;   ///< time of this run
+  uint32_t passes = 0;  ///< whole passes; 0 also for a quick look
+  bool is_last = false;
+};
+
 class RenderSession {
  public:
   /// Keeps references to scene, set and film. The film has the set's layout. Throws UsageError if
@@ -84,6 +92,9 @@ class RenderSession {
 
   /// Called after every pass, and a few times a second within passes.
   void on_progress(std::function<void(const RenderProgress&)> callback);
+  /// Called with the picture as soon as there is one, then a few times a second and less often as
+  /// it changes less, and at the end unless a signal stopped the render.
+  void on_picture(std::function<void(const ShownPicture&)> callback);
   /// Called when an intermediate picture cannot be written; rendering goes on.
   void on_warning(std::function<void(const std::string&)> callback);
   /// Seconds from any origin; the machine's steady clock unless set. Called by any thread.
@@ -112,12 +123,17 @@ class RenderSession {
   /// Progress of the unfinished pass, 0..1.
   double fraction_of_pass() const;
   std::vector<EstimatorStatistics> statistics() const;
+  /// Error, its text and faults of the result.
+  void report_errors(RenderResult* result);
   void renew_error();
   /// Updates error_text_ to the passes so far.
   void renew_error_text();
   void report_progress(bool within_pass);
   void write_if_due(SignalFlags& signals);
-  /// Writes a quick look if a PNG is wanted and there is none yet.
+  /// Calls the picture's callback and sets the time of the next call.
+  void show(const ShownPicture& shown);
+  void show_if_due();
+  /// Shows a quick look if a picture is wanted and there is none yet.
   void take_quick_look(const SignalFlags& signals);
   void write_picture();
   /// Writes the picture without its PNG. Writes its state too, or else removes that of an
@@ -140,6 +156,7 @@ class RenderSession {
   RenderOptions options_;
   std::optional<uint32_t> passes_wanted_;
   std::function<void(const RenderProgress&)> progress_;
+  std::function<void(const ShownPicture&)> picture_;
   std::function<void(const std::string&)> warning_;
   std::function<double()> clock_;
 
@@ -157,6 +174,7 @@ class RenderSession {
   uint32_t error_text_pass_ = 0;   ///< passes done when error_text_ was made
   double next_error_seconds_ = 0;  ///< next error estimate for progress
   double next_preview_seconds_ = 0, next_checkpoint_seconds_ = 0;
+  double next_picture_seconds_ = 0;   ///< next call of picture_
   double next_progress_seconds_ = 0;  ///< next progress report within a pass
   bool has_written_ = false;          ///< true after the first picture or PNG
 };

@@ -1,0 +1,33 @@
+"""Preferences of the add-on: the path of the program."""
+import bpy
+from bpy.props import StringProperty
+
+from .program import find_program
+
+
+class NephroidPreferences(bpy.types.AddonPreferences):
+    bl_idname = __package__
+
+    program: StringProperty(name="Program", subtype="FILE_PATH",
+                            description="Path of nephroid; empty: the one of PATH, or of the "
+                                        "repository that the add-on lies in")
+
+    def draw(self, context):
+        self.layout.prop(self, "program")
+        found = find_program(bpy.path.abspath(self.program))
+        self.layout.label(text=f"Found: {found}" if found else "There is no such program",
+                          icon="CHECKMARK" if found else "ERROR")
+
+
+def program_path():
+    """The program to run, "" if none is found."""
+    addon = bpy.context.preferences.addons.get(__package__)
+    return find_program(bpy.path.abspath(addon.preferences.program) if addon else "")
+
+
+def register():
+    bpy.utils.register_class(NephroidPreferences)
+
+
+def unregister():
+    bpy.utils.unregister_class(NephroidPreferences)
