@@ -4,6 +4,8 @@
 namespace nephroid::testing_light {
 namespace {
 
+const Vec3f kOrigin(0, 0, 0);
+
 float radiance_towards(const Light& light, const Vec3f& from) {
   const auto s = light.sample_towards(from, {0.5f, 0.5f}, test_wavelengths());
   return s ? s->radiance[0] : 0.0f;
@@ -171,12 +173,13 @@ TEST(DistantLight, WithAnAngleIsACapOfTheSameIrradiance) {
     EXPECT_NEAR(light->power(), flux, 1e-3 * flux);
     const auto seen = [&](double angle) {
       const Vec3f w(static_cast<float>(std::sin(angle)), 0, static_cast<float>(std::cos(angle)));
-      EXPECT_EQ(light->pdf_towards({}, w, {}, {}) > 0, light->emission_pdf({}, -w).pdf_w > 0);
-      return light->radiance_at_infinity({}, w, test_wavelengths())[0];
+      EXPECT_EQ(light->pdf_towards(kOrigin, w, kOrigin, kOrigin) > 0,
+                light->emission_pdf(kOrigin, -w).pdf_w > 0);
+      return light->radiance_at_infinity(kOrigin, w, test_wavelengths())[0];
     };
     EXPECT_NEAR(seen(0.99 * half), radiance, 1e-3 * radiance);
     EXPECT_EQ(seen(1.01 * half), 0);
-    EXPECT_NEAR(light->pdf_towards({}, {0, 0, 1}, {}, {}) * solid_angle, 1, 1e-3);
+    EXPECT_NEAR(light->pdf_towards(kOrigin, {0, 0, 1}, kOrigin, kOrigin) * solid_angle, 1, 1e-3);
   }
 }
 
