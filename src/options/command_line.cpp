@@ -9,6 +9,7 @@
 
 #include "core/errors.h"
 #include "options/mitsuba_support.h"
+#include "options/obj_support.h"
 #include "options/scene_support.h"
 #include "session/checkpoint/version.h"
 
@@ -75,13 +76,14 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments) {
   check_command(arguments);
   CommandLine line;
   CLI::App app;
-  bool options_page = false, scene_support_page = false, mitsuba_page = false;
+  bool options_page = false, scene_support_page = false, mitsuba_page = false, obj_page = false;
   app.name("nephroid");
   app.set_help_all_flag("--help-all");
   app.set_version_flag("--version", kVersion);
   app.add_flag("--options-markdown", options_page)->group("");
   app.add_flag("--scene-support-markdown", scene_support_page)->group("");
   app.add_flag("--mitsuba-support-markdown", mitsuba_page)->group("");
+  app.add_flag("--obj-support-markdown", obj_page)->group("");
   app.require_subcommand(0, 1);
   for (const CommandDescription& command : command_table()) {
     CLI::App* sub = app.add_subcommand(command.name, command.help);
@@ -113,6 +115,7 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments) {
   if (options_page) return printing(options_markdown());
   if (scene_support_page) return printing(scene_support_markdown());
   if (mitsuba_page) return printing(mitsuba_support_markdown());
+  if (obj_page) return printing(obj_support_markdown());
   if (chosen_command().empty()) throw UsageError("no command given\n\n" + program_help());
   share_import_options(line);
   return line;
