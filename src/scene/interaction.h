@@ -35,7 +35,7 @@ struct SurfaceInteraction {
   const ShapeRecord* record = nullptr;  ///< the shape's record in the Scene
   /// The mesh that was hit, if its vertices have more than the usual attributes; else null.
   const MeshData* mesh = nullptr;
-  Vec2f barycentric;  ///< place in the triangle, if there is a mesh
+  Vec2f barycentric{0, 0};  ///< place in the triangle, if there is a mesh
 
   Vec3f spawn_origin(const Vec3f& w) const { return offset_ray_origin(p, p_error, ng, w); }
 };

@@ -19,6 +19,8 @@ void volume(const std::string& bytes);
 void ply(const std::string& bytes);
 /// An OBJ file and the files of materials that it may name, as in `scene`.
 void obj(const std::string& bytes);
+/// A glTF file, either container.
+void gltf(const std::string& bytes);
 /// A measured BSDF; a valid one is also evaluated and sampled.
 void bsdf(const std::string& bytes);
 /// A file of routes, which may contain lines "--aov NAME=EXPRESSION". Valid ones are compiled and

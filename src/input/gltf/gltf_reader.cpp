@@ -27,11 +27,12 @@ SceneDescription read(const std::string& path, const ImportOptions& options,
   gltf::Document document(path, *scene.files, options, diagnostics);
   check_version(document);
   gltf::check_extensions(document);
-  const gltf::AnimationPose pose(document, options.time);
-  const gltf::NodeGraph nodes(document, pose, pose);
+  const gltf::AnimationPose start(document, options.time);
+  const gltf::AnimationPose end(document, options.time + options.shutter);
+  const gltf::NodeGraph nodes(document, start, end);
   gltf::add_camera(document, nodes, scene);
   gltf::add_lights(document, nodes, scene);
-  gltf::Meshes(document, scene, nodes, pose).add_all();
+  gltf::Meshes(document, scene, nodes, start).add_all();
   return scene;
 }
 

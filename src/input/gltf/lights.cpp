@@ -73,10 +73,43 @@ void add_punctual_lights(Document& document, const NodeGraph& nodes, SceneDescri
   }
 }
 
+/// EXT_lights_image_based as a uniform light of the mean radiance: the first coefficient of the
+/// irradiance, in real spherical harmonics, is pi / Y00 times the mean of the radiance.
+void add_image_based_light(Document& document, SceneDescription& scene) {
+  const std::optional<JsonValue> shown = chosen_scene(document);
+  const auto use = shown ? shown->extension("EXT_lights_image_based") : std::nullopt;
+  if (!use) return;
+  const JsonValue root = document.root();
+  const auto extension = root.extension("EXT_lights_image_based");
+  if (!extension) root.fail("\"EXT_lights_image_based\" is missing, expected its lights");
+  const std::vector<JsonValue> lights = extension->get("lights").elements();
+  const size_t index = use->get_index("light");
+  if (index >= lights.size()) use->get("light").fail("there is no such light");
+  const JsonValue& light = lights[index];
+  const std::vector<JsonValue> coefficients = light.get("irradianceCoefficients").elements();
+  if (coefficients.empty() || coefficients[0].elements().size() != 3)
+    light.get("irradianceCoefficients").fail("expected nine triples of numbers");
+  constexpr double kMeanOfFirst = 0.28209479177387814 / 3.14159265358979323846;  // Y00 / pi
+  Color radiance;
+  for (size_t i = 0; i < 3; ++i)
+    radiance[i] = std::max(0.0, coefficients[0].elements()[i].number()) * kMeanOfFirst *
+                  light.get_number("intensity", 1);
+  document.diagnostics().warn(
+      light.where(),
+      "EXT_lights_image_based is approximated by its mean radiance, the same from "
+      "all directions");
+  ParameterList list(light.where());
+  list.add_color("L", radiance);
+  LightDescription description;
+  static_cast<DirectiveDescription&>(description) = directive("infinite", std::move(list));
+  scene.lights.push_back(std::move(description));
+}
+
 }  // namespace
 
 void add_lights(Document& document, const NodeGraph& nodes, SceneDescription& scene) {
   add_punctual_lights(document, nodes, scene);
+  add_image_based_light(document, scene);
 }
 
 }  // namespace nephroid::gltf

@@ -80,17 +80,33 @@ void add_diffuse_transmission(SurfaceInputs& inputs) {
                                   "diffuseTransmissionColorTexture"));
 }
 
-void add_specular(SurfaceInputs& inputs) {
-  if (const auto ior = inputs.extension("KHR_materials_ior")) {
-    const double index = ior->get_number("ior", 1.5);
-    // 0 stands for a reflectance of 1 in the specification, which a large index approaches.
-    constexpr double kLargeIndex = 1000;
-    inputs.list.add_float("specular_ior", index == 0 ? kLargeIndex : index);
+void add_reflectance(SurfaceInputs& inputs, double reflectance, NumberInput weight) {
+  // The largest index that the material takes, and its reflectance ((n - 1) / (n + 1))^2.
+  constexpr double kMaxIndex = 10, kMaxReflectance = 81.0 / 121.0;
+  if (reflectance < kMaxReflectance) {
+    const double root = std::sqrt(reflectance);
+    inputs.list.add_float("specular_ior", (1 + root) / (1 - root));
+  } else {
+    inputs.list.add_float("specular_ior", kMaxIndex);
+    weight.factor *= reflectance / kMaxReflectance;
   }
+  if (weight.texture || weight.factor != 1) inputs.add("specular_weight", weight);
+}
+
+void add_specular(SurfaceInputs& inputs) {
   const auto specular = inputs.extension("KHR_materials_specular");
+  NumberInput weight;
+  if (specular)
+    weight = SurfaceInputs::number(*specular, "specularFactor", 1, "specularTexture", 'a');
+  double index = 1.5;
+  if (const auto ior = inputs.extension("KHR_materials_ior")) index = ior->get_number("ior", 1.5);
+  if (index == 0) {
+    add_reflectance(inputs, 1, weight);  // so the specification says
+  } else {
+    inputs.list.add_float("specular_ior", index);
+    if (specular) inputs.add("specular_weight", weight);
+  }
   if (!specular) return;
-  inputs.add("specular_weight",
-             SurfaceInputs::number(*specular, "specularFactor", 1, "specularTexture", 'a'));
   inputs.add("specular_color", SurfaceInputs::color(*specular, "specularColorFactor", kWhite,
                                                     "specularColorTexture"));
 }

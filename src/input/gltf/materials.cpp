@@ -117,11 +117,9 @@ void add_specular_glossiness(SurfaceInputs& inputs, const JsonValue& extension) 
   inputs.add("base_color", inputs.base);
   ColorInput specular =
       SurfaceInputs::color(extension, "specularFactor", kWhite, "specularGlossinessTexture");
-  const double reflectance = std::clamp(largest(specular.factor), 0.0, 0.98);
+  const double reflectance = std::clamp(largest(specular.factor), 0.0, 1.0);
   if (reflectance > 0) {
-    // The index n of reflectance ((n - 1) / (n + 1))^2.
-    const double root = std::sqrt(reflectance);
-    inputs.list.add_float("specular_ior", (1 + root) / (1 - root));
+    add_reflectance(inputs, reflectance, NumberInput());
     specular.factor = times(specular.factor, 1 / largest(specular.factor));
     inputs.add("specular_color", specular);
   } else {

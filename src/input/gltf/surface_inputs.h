@@ -59,6 +59,8 @@ struct SurfaceInputs {
 void add_transmission(SurfaceInputs& inputs);
 void add_diffuse_transmission(SurfaceInputs& inputs);
 void add_specular(SurfaceInputs& inputs);
+/// Writes the index and the weight of a dielectric with this reflectance along the normal.
+void add_reflectance(SurfaceInputs& inputs, double reflectance, NumberInput weight);
 void add_clearcoat(SurfaceInputs& inputs);
 void add_sheen(SurfaceInputs& inputs);
 void add_anisotropy(SurfaceInputs& inputs, const NumberInput& roughness);

@@ -35,20 +35,29 @@ std::optional<BsdfSample> PrincipledBsdf::sample(const Vec3f& wo, float uc, cons
 
   BsdfSample s;
   switch (static_cast<Lobe>(lobe)) {
-    case kFuzz: s.wi = uniform_hemisphere(u, v.side); break;
+    case kFuzz:
+      s.wi = uniform_hemisphere(u, v.side);
+      break;
     case kDiffuse:
       s.wi = uc < uniform_share() ? uniform_hemisphere(u, v.side) : cosine_hemisphere(u, v.side);
       break;
-    case kDiffuseThrough: s.wi = cosine_hemisphere(u, -v.side); break;
+    case kDiffuseThrough:
+      s.wi = cosine_hemisphere(u, -v.side);
+      break;
     case kMultiple:
       s.wi = cosine_hemisphere(u, v.side);
       s.event = facet_class_;
       break;
-    case kCoat: return sample_coat(v, u);
-    case kFacets: return sample_facets(v, uc, u, mode);
-    case kSubsurface: return enter(v);
-    case kStraight: return go_straight(v);
-    case kLobes: return std::nullopt;
+    case kCoat:
+      return sample_coat(v, u);
+    case kFacets:
+      return sample_facets(v, uc, u, mode);
+    case kSubsurface:
+      return enter(v);
+    case kStraight:
+      return go_straight(v);
+    case kLobes:
+      return std::nullopt;
   }
   return finish(v, s, mode);
 }

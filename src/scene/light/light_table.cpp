@@ -58,7 +58,6 @@ constexpr FormatParameter kAreaImage[] = {
     {"string", "uwrap", "clamp", "", "as of textures; not in pbrt-v4"},
     {"string", "vwrap", "clamp", "", "as of textures; not in pbrt-v4"},
     {"float[6]", "uvtransform", "1 0 0 0 1 0", "", "as of textures; not in pbrt-v4"},
-    {"integer", "uvset", "0", "", "lights use the first texture coordinates", Support::kWarned},
 };
 
 struct Row : FormatType {

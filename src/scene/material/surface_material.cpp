@@ -40,6 +40,7 @@ NormalMap::NormalMap(const ParameterSet& parameters, SceneFiles& files)
     : placement_(parameters, "normalmap.", WrapMode::kRepeat),
       scale_(parameters.get_float("normalmap.scale", 1.0f)),
       obeys_handedness_(parameters.get_bool("normalmap.handedness", false)) {
+  placement_.choose_set(parameters, "normalmap.");
   const FileSource file = files.source_of(parameters.get_string("normalmap", ""));
   const SourceLocation& where = parameters.find("normalmap")->where;
   image_ = read_stored_image(file, where);

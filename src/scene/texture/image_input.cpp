@@ -80,7 +80,7 @@ Creator reader_of(const FileSource& source, const SourceLocation& wanted_by) {
   }
   image_is_unreadable(source.path,
                       source.bytes
-                          ? "it is none of the formats PNG, JPEG and WebP"
+                          ? "it is none of the formats PNG, JPEG, WebP and PFM"
                           : "it is none of the formats EXR, PNG, JPEG, WebP, HDR, PFM, TGA, TIFF "
                             "and BMP",
                       wanted_by);

@@ -20,11 +20,6 @@ ImagePlacement::ImagePlacement(const ParameterSet& parameters, const std::string
                                WrapModes fallback)
     : wrap_(read_wrap(parameters, prefix + "uwrap", fallback.u),
             read_wrap(parameters, prefix + "vwrap", fallback.v)) {
-  const int set = parameters.get_int(prefix + "uvset", 0);
-  if (set != 0 && set != 1)
-    throw SceneError(parameters.find(prefix + "uvset")->where,
-                     "\"" + prefix + "uvset\" is " + std::to_string(set) + ", expected 0 or 1");
-  second_set_ = set == 1;
   const std::vector<float> map = parameters.get_floats(prefix + "uvtransform");
   if (map.empty()) return;
   if (map.size() != map_.size())
@@ -32,6 +27,14 @@ ImagePlacement::ImagePlacement(const ParameterSet& parameters, const std::string
         parameters.find(prefix + "uvtransform")->where,
         "\"" + prefix + "uvtransform\" has " + std::to_string(map.size()) + " numbers, expected 6");
   std::copy(map.begin(), map.end(), map_.begin());
+}
+
+void ImagePlacement::choose_set(const ParameterSet& parameters, const std::string& prefix) {
+  const int set = parameters.get_int(prefix + "uvset", 0);
+  if (set != 0 && set != 1)
+    throw SceneError(parameters.find(prefix + "uvset")->where,
+                     "\"" + prefix + "uvset\" is " + std::to_string(set) + ", expected 0 or 1");
+  second_set_ = set == 1;
 }
 
 }  // namespace nephroid

@@ -13,9 +13,11 @@ namespace nephroid {
 
 class ImagePlacement {
  public:
-  /// Reads "uvset", "uvtransform", "uwrap" and "vwrap", with a prefix before each name. Throws
-  /// SceneError for values that are wrong.
+  /// Reads "uvtransform", "uwrap" and "vwrap", with a prefix before each name. Throws SceneError
+  /// for values that are wrong.
   ImagePlacement(const ParameterSet& parameters, const std::string& prefix, WrapModes fallback);
+  /// Reads "uvset", too; without it the first set is used.
+  void choose_set(const ParameterSet& parameters, const std::string& prefix);
 
   /// The texture coordinates of a point in the set that is used.
   Vec2f coordinates(const TextureContext& context) const {

@@ -17,6 +17,7 @@ class ImageLookup {
         placement_(description.parameters, "", wrap_mode(description.parameters)),
         times_vertex_color_(description.parameters.get_bool("vertexcolor", false)) {
     const ParameterSet& p = description.parameters;
+    placement_.choose_set(p, "");
     const std::string filter = p.get_string("filter", "bilinear");
     if (filter != "point" && filter != "bilinear" && filter != "trilinear" && filter != "ewa" &&
         filter != "EWA")
@@ -70,13 +71,14 @@ class ImageLookup {
   static std::optional<ColorEncoding> encoding(const ParameterSet& p, const std::string& file,
                                                TextureScope& scope) {
     const std::string name = p.get_string("encoding", "");
+    const bool is_forced = p.get_bool("forceencoding", false);
     if (name.empty()) return std::nullopt;
     const SourceLocation& where = p.find("encoding")->where;
     const auto parsed = ColorEncoding::parse(name);
     if (!parsed)
       throw SceneError(where, "unknown encoding \"" + name +
                                   "\", expected \"linear\", \"sRGB\" or \"gamma X\" with X > 0");
-    if (p.get_bool("forceencoding", false) || image_obeys_encoding(file)) return parsed;
+    if (is_forced || image_obeys_encoding(file)) return parsed;
     scope.diagnostics().warn(where,
                              "\"encoding\" is used for PNG images only: \"" + file +
                                  "\" is read as sRGB if it stores integers, otherwise as linear");

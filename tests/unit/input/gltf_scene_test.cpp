@@ -233,5 +233,23 @@ TEST(GltfLights, PunctualLightsKeepTheirUnits) {
   EXPECT_EQ(numbers_of(scene.lights[2].parameters, "L"), (std::vector<double>{3, 3, 3}));
 }
 
+TEST(GltfLights, ImageBasedLightsAreTheirMean) {
+  // A uniform environment of radiance 2 has the irradiance 2 pi, whose coefficient is over Y00.
+  const double first = 2 * 3.14159265358979 / 0.28209479177387814;
+  const std::string file = fmt::format(
+      R"({{"asset":{{"version":"2.0"}},"scenes":[{{"extensions":{{"EXT_lights_image_based":{{"light":0}}}}}}],)"
+      R"("extensions":{{"EXT_lights_image_based":{{"lights":[{{"intensity":0.5,"irradianceCoefficients":)"
+      R"([[{0},{0},0],[0,0,0]]}}]}}}}}})",
+      first);
+  const ReadScene read = read_gltf_text(file);
+  ASSERT_EQ(read.scene.lights.size(), 1u);
+  EXPECT_EQ(read.scene.lights[0].type, "infinite");
+  const std::vector<double> radiance = numbers_of(read.scene.lights[0].parameters, "L");
+  ASSERT_EQ(radiance.size(), 3u);
+  EXPECT_NEAR(radiance[0], 1, 1e-9);
+  EXPECT_EQ(radiance[2], 0);
+  EXPECT_EQ(read.warnings.size(), 1u);
+}
+
 }  // namespace
 }  // namespace nephroid::testing

@@ -20,15 +20,80 @@ std::string write_image(const std::vector<float>& pixels, int width, int height,
   return path.string();
 }
 
+/// The parameters of a material with a normal map.
+ParameterSet with_map(const std::string& file) {
+  Parameter p;
+  p.type = "string";
+  p.name = "normalmap";
+  p.strings = {file};
+  ParameterSet set;
+  set.list = {p};
+  return set;
+}
+TextureContext at(const Vec2f& uv) {
+  TextureContext context;
+  context.uv = uv;
+  return context;
+}
+
 TEST(NormalMapImage, ValuesAreMappedFlippedAndRepeated) {
   // Two rows: the upper one points up, the lower one along u.
   const std::string file =
       write_image({.5f, .5f, 1, .5f, .5f, 1, 1, .5f, .5f, 1, .5f, .5f}, 2, 2, 3);
-  const NormalMap map(file, {});
-  EXPECT_EQ(map.at({0.25f, 0.75f}), Vec3f(0, 0, 1));
-  EXPECT_EQ(map.at({0.25f, 0.25f}), Vec3f(1, 0, 0));
-  EXPECT_EQ(map.at({3.25f, -0.75f}), Vec3f(1, 0, 0));
-  EXPECT_EQ(map.at({0.25f, 0.5f}), Vec3f(0.5f, 0, 0.5f));
+  SceneFiles files;
+  const NormalMap map(with_map(file), files);
+  EXPECT_EQ(map.at(at({0.25f, 0.75f})), Vec3f(0, 0, 1));
+  EXPECT_EQ(map.at(at({0.25f, 0.25f})), Vec3f(1, 0, 0));
+  EXPECT_EQ(map.at(at({3.25f, -0.75f})), Vec3f(1, 0, 0));
+  EXPECT_EQ(map.at(at({0.25f, 0.5f})), Vec3f(0.5f, 0, 0.5f));
+  std::filesystem::remove(file);
+}
+
+TEST(NormalMapImage, ScaleAndPlacement) {
+  const std::string file =
+      write_image({.5f, .5f, 1, .5f, .5f, 1, 1, .5f, .5f, 1, .5f, .5f}, 2, 2, 3);
+  ParameterSet set = with_map(file);
+  Parameter scale;
+  scale.type = "float";
+  scale.name = "normalmap.scale";
+  scale.numbers = {0.25};
+  Parameter transform = scale;
+  transform.name = "normalmap.uvtransform";
+  transform.numbers = {1, 0, 0, 0, 1, 0.5};
+  set.list.push_back(scale);
+  set.list.push_back(transform);
+  SceneFiles files;
+  const NormalMap map(set, files);
+  EXPECT_EQ(map.at(at({0.25f, 0.25f})), Vec3f(0, 0, 1));
+  EXPECT_EQ(map.at(at({0.25f, 0.75f})), Vec3f(0.25f, 0, 0));
+  std::filesystem::remove(file);
+}
+
+TEST(NormalMapImage, MirroredCoordinatesMirrorTheMapIfAskedTo) {
+  // Tilted along v.
+  const std::string file = write_image({.5f, .8f, .9f}, 1, 1, 3);
+  for (const bool handed : {false, true}) {
+    SceneDescription description;
+    MaterialDescription d;
+    d.type = "diffuse";
+    d.parameters = with_map(file);
+    Parameter p;
+    p.type = "bool";
+    p.name = "normalmap.handedness";
+    p.bools = {handed};
+    d.parameters.list.push_back(p);
+    description.materials = {d};
+    Diagnostics diagnostics;
+    const TextureLibrary textures(description, diagnostics);
+    const auto made = make_materials(description, textures, {}, diagnostics);
+    SurfaceInteraction s;
+    s.ng = Vec3f(0, 0, 1);
+    s.dpdu = s.shading_dpdu = Vec3f(1, 0, 0);
+    s.dpdv = Vec3f(0, -1, 0);
+    s.shading_dpdv = Vec3f(0, 1, 0);
+    made[0]->bump(s);
+    EXPECT_GT(s.shading.z.y * (handed ? -1.0f : 1.0f), 0.3f);
+  }
   std::filesystem::remove(file);
 }
 
@@ -61,9 +126,10 @@ TEST(NormalMapImage, TiltsTheFrameOfAMaterial) {
 }
 
 TEST(NormalMapImage, BadFilesAreErrors) {
-  EXPECT_THROW(NormalMap("no_such_image.png", {}), IoError);
+  SceneFiles files;
+  EXPECT_THROW(NormalMap(with_map("no_such_image.png"), files), IoError);
   const std::string file = write_image({0.5f}, 1, 1, 1);
-  EXPECT_THROW(NormalMap(file, {}), SceneError);
+  EXPECT_THROW(NormalMap(with_map(file), files), SceneError);
   std::filesystem::remove(file);
 }
 
