@@ -39,8 +39,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Target{"routes", fuzz::routes}, Target{"image", fuzz::image},
                       Target{"environment", fuzz::environment}, Target{"nanovdb", fuzz::nanovdb},
                       Target{"checkpoint", fuzz::checkpoint}, Target{"command", fuzz::command},
-                      Target{"gltf", fuzz::gltf}, Target{"mitsuba", fuzz::mitsuba}, Target{"serialized", fuzz::serialized},
-                      Target{"volume", fuzz::volume}),
+                      Target{"gltf", fuzz::gltf}, Target{"mitsuba", fuzz::mitsuba},
+                      Target{"serialized", fuzz::serialized}, Target{"volume", fuzz::volume}),
     [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace
