@@ -40,7 +40,7 @@ if(TARGET nephroid_tables)
   target_link_libraries(nephroid_core PUBLIC nephroid_tables)
 endif()
 nephroid_layer(input input nephroid_core ZLIB::ZLIB nlohmann_json::nlohmann_json PkgConfig::draco
-               pugixml::pugixml ${MESHOPTIMIZER_LIBRARY} ROOMS obj gltf mitsuba staging convert)
+               pugixml::pugixml ${MESHOPTIMIZER_LIBRARY} ROOMS sky obj gltf mitsuba staging convert)
 nephroid_layer(shape scene/shape nephroid_input)
 nephroid_layer(bsdf scene/bsdf nephroid_core)
 nephroid_layer(texture scene/texture nephroid_input PkgConfig::OpenImageIO)

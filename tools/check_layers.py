@@ -16,7 +16,7 @@ LAYERS = ["core", "input", "scene", "route", "film", "transport", "photon", "int
 # Rooms: the folders of a layer. In this order, each one includes only from those to its left. "" stands for the
 # layer's own files.
 ROOMS = {
-    "input": ["", "obj", "gltf", "mitsuba", "staging", "convert"],
+    "input": ["", "sky", "obj", "gltf", "mitsuba", "staging", "convert"],
     "scene": ["shape", "bsdf", "texture", "medium", "material", "light", "camera", ""],
     "integrator": ["estimator", "path", "photons", "learning", "photon_mapping", "virtual_lights",
                    "bidirectional", "metropolis", "mixed", "presets"],
@@ -43,8 +43,8 @@ LIBRARIES = {
 }
 MAX_LINES, MAX_COLUMNS = 400, 100
 # Files that are tables of text or data, not code.
-TABLES = {"report_page/page_style.cpp", "options/scene_support.cpp", "input/mitsuba/hosek_wilkie_data.cpp",
-          "options/mitsuba_support.cpp"}
+TABLES = {"report_page/page_style.cpp", "options/scene_support.cpp", "input/sky/hosek_wilkie_data.cpp",
+          "options/mitsuba_support.cpp", "options/obj_support.cpp", "options/gltf_support.cpp"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 

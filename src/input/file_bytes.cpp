@@ -121,7 +121,7 @@ std::string unpack(const std::string& path, const std::string& packed, uint64_t 
 }  // namespace
 
 void file_is_unreadable(const SourceLocation& named_by, const std::string& message) {
-  if (named_by.line > 0) throw SceneError(named_by, message);
+  if (named_by.file) throw SceneError(named_by, message);
   throw IoError(message);
 }
 

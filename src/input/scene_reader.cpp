@@ -27,12 +27,8 @@ SceneDescription read_pbrt(const std::string& path, const ImportOptions&,
 
 /// One row per suffix. The last row takes every other name.
 constexpr SceneFormat kFormats[] = {
-    {".obj", read_obj_scene},
-    {".obj.gz", read_obj_scene},
-    {".gltf", read_gltf},
-    {".glb", read_gltf},
-    {".xml", read_mitsuba},
-    {"", read_pbrt, true},
+    {".obj", read_obj_scene}, {".obj.gz", read_obj_scene}, {".gltf", read_gltf},
+    {".glb", read_gltf},      {".xml", read_mitsuba},      {"", read_pbrt, true},
 };
 
 std::string lower_case(std::string text) {

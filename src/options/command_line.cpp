@@ -10,6 +10,7 @@
 #include "core/errors.h"
 #include "options/gltf_support.h"
 #include "options/mitsuba_support.h"
+#include "options/obj_support.h"
 #include "options/scene_support.h"
 #include "session/checkpoint/version.h"
 
@@ -64,6 +65,19 @@ void check_command(const std::vector<std::string>& arguments) {
                                fmt::join(known, ", ")));
 }
 
+/// A page of docs/ that tools/update_docs writes.
+struct Page {
+  const char* flag;
+  std::string (*text)();
+};
+constexpr Page kPages[] = {
+    {"--options-markdown", options_markdown},
+    {"--scene-support-markdown", scene_support_markdown},
+    {"--gltf-support-markdown", gltf_support_markdown},
+    {"--mitsuba-support-markdown", mitsuba_support_markdown},
+    {"--obj-support-markdown", obj_support_markdown},
+};
+
 CommandLine printing(const std::string& text) {
   CommandLine line;
   line.text = text;
@@ -76,15 +90,12 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments) {
   check_command(arguments);
   CommandLine line;
   CLI::App app;
-  bool options_page = false, scene_support_page = false, gltf_support_page = false,
-       mitsuba_page = false;
+  const Page* page = nullptr;
   app.name("nephroid");
   app.set_help_all_flag("--help-all");
   app.set_version_flag("--version", kVersion);
-  app.add_flag("--options-markdown", options_page)->group("");
-  app.add_flag("--scene-support-markdown", scene_support_page)->group("");
-  app.add_flag("--gltf-support-markdown", gltf_support_page)->group("");
-  app.add_flag("--mitsuba-support-markdown", mitsuba_page)->group("");
+  for (const Page& row : kPages)
+    app.add_flag_callback(row.flag, [&page, &row] { page = &row; })->group("");
   app.require_subcommand(0, 1);
   for (const CommandDescription& command : command_table()) {
     CLI::App* sub = app.add_subcommand(command.name, command.help);
@@ -113,10 +124,7 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments) {
     throw UsageError(fmt::format("{} (see nephroid {}{}--help)", error.what(), command,
                                  command.empty() ? "" : " "));
   }
-  if (options_page) return printing(options_markdown());
-  if (scene_support_page) return printing(scene_support_markdown());
-  if (gltf_support_page) return printing(gltf_support_markdown());
-  if (mitsuba_page) return printing(mitsuba_support_markdown());
+  if (page) return printing(page->text());
   if (chosen_command().empty()) throw UsageError("no command given\n\n" + program_help());
   share_import_options(line);
   return line;

@@ -60,7 +60,8 @@ const OptionDescription kRows[] = {
     {"", "--sun", "", "ELEVATION,AZIMUTH", "degrees", "none", "Scene",
      "Light the scene by the sun and a clear sky. Azimuth counts from north to east; north is -z "
      "where +y is up. It replaces distant and infinite lights, and the exposure is set for it. "
-     "Sky and air are Preetham's model (1999) with turbidity 3, the sun has 0.53 degrees.",
+     "The sky is Hosek and Wilkie's (2012), the air Preetham's (1999), both with turbidity 3; the "
+     "sun has 0.53 degrees.",
      false, set_sun},
     {"", "--variant", "", "NAME", "", "none", "Scene", "Material variant of a glTF file.", false,
      [](CommandLine& l, const std::string& t) { l.import.variant = t; }, true},

@@ -304,7 +304,8 @@ const OptionDescription kOptions[] = {
      "A scene (pbrt-v4, glTF, Mitsuba XML or OBJ), - for standard input, or a picture that this "
      "program wrote.", false,
      [](CommandLine& l, const std::string& t) { l.info.file = t; }},
-    {"convert", "IN", "", "", "", "", "", "A scene: pbrt-v4, glTF, Mitsuba XML or OBJ; - for standard input.", false,
+    {"convert", "IN", "", "", "", "", "",
+     "A scene: pbrt-v4, glTF, Mitsuba XML or OBJ; - for standard input.", false,
      [](CommandLine& l, const std::string& t) { l.convert.input = t; }},
     {"convert", "OUT.pbrt", "", "", "", "", "",
      "The scene as text. Meshes and images of the file get names that begin like it.", false,

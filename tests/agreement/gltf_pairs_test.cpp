@@ -42,8 +42,8 @@ TEST_P(GltfPair, AgreesWithItsPbrtScene) {
   for (size_t i = 0; i < a.size(); ++i) {
     const Estimate x = estimate_of(a[i]), y = estimate_of(b[i]);
     const double s = std::hypot(x.error, y.error);
-    EXPECT_LE(std::abs(x.mean - y.mean), kT31 * s + 1e-6) << "block " << i << ": " << x.mean
-                                                          << " and " << y.mean;
+    EXPECT_LE(std::abs(x.mean - y.mean), kT31 * s + 1e-6)
+        << "block " << i << ": " << x.mean << " and " << y.mean;
     sum += x.mean;
     error += s * s;
   }

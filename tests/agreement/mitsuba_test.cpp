@@ -188,17 +188,17 @@ TEST(MitsubaClosedForm, BlendsMasksAndMirrorsUnderASky) {
   expect_estimate(
       pictures.mean(under_sky("<bsdf type=\"blendbsdf\">" + value("float", "weight", "0.25") +
                               half + mirror + "</bsdf>"),
-                    64),
+                    256),
       0.75 * 0.5 + 0.25);
   // Through the mask the sky below is seen.
   expect_estimate(pictures.mean(under_sky("<bsdf type=\"mask\">" +
                                           value("float", "opacity", "0.25") + half + "</bsdf>"),
-                                64),
+                                256),
                   0.25 * 0.5 + 0.75);
   expect_estimate(
       pictures.mean(under_sky("<bsdf type=\"mixturebsdf\">" +
                               value("string", "weights", "0.5, 0.25") + half + mirror + "</bsdf>"),
-                    64),
+                    256),
       0.25 + 0.25);
 }
 

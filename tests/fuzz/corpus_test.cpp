@@ -35,11 +35,11 @@ TEST_P(FuzzCorpus, NothingCrashes) {
 INSTANTIATE_TEST_SUITE_P(
     AllTargets, FuzzCorpus,
     ::testing::Values(Target{"scene", fuzz::scene}, Target{"ply", fuzz::ply},
-                      Target{"obj", fuzz::obj}, Target{"gltf", fuzz::gltf},
-                      Target{"bsdf", fuzz::bsdf}, Target{"routes", fuzz::routes},
-                      Target{"image", fuzz::image}, Target{"environment", fuzz::environment},
-                      Target{"nanovdb", fuzz::nanovdb}, Target{"checkpoint", fuzz::checkpoint},
-                      Target{"command", fuzz::command}, Target{"mitsuba", fuzz::mitsuba},
+                      Target{"obj", fuzz::obj}, Target{"bsdf", fuzz::bsdf},
+                      Target{"routes", fuzz::routes}, Target{"image", fuzz::image},
+                      Target{"environment", fuzz::environment}, Target{"nanovdb", fuzz::nanovdb},
+                      Target{"checkpoint", fuzz::checkpoint}, Target{"command", fuzz::command},
+                      Target{"gltf", fuzz::gltf}, Target{"mitsuba", fuzz::mitsuba},
                       Target{"serialized", fuzz::serialized}, Target{"volume", fuzz::volume}),
     [](const auto& test) { return std::string(test.param.name); });
 

@@ -29,7 +29,7 @@ def base():
                       {"bufferView": 1, "componentType": 5123, "count": 3, "type": "SCALAR"}],
         "materials": [{"emissiveFactor": [1, 1, 1]}],
         "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
-        "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "aspectRatio": 1, "znear": 0.1}}],
+        "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "aspectRatio": 8, "znear": 0.1}}],
         "nodes": [{"mesh": 0}, {"camera": 0, "translation": [0.3, 0.3, 2]}],
         "scenes": [{"nodes": [0, 1]}],
         "scene": 0,

@@ -37,7 +37,7 @@ std::string bytes_of(const fs::path& path) {
 
 bool is_scene(const std::string& name) {
   return name.ends_with(".pbrt") || name.ends_with(".pbrt.gz") || name.ends_with(".obj") ||
-         name.ends_with(".xml") || name.ends_with(".gltf");
+         name.ends_with(".xml") || name.ends_with(".gltf") || name.ends_with(".glb");
 }
 
 /// By scene name: "picture", or the exit status and the beginning of the message.

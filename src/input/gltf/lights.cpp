@@ -95,8 +95,9 @@ void add_image_based_light(Document& document, SceneDescription& scene) {
     radiance[i] = std::max(0.0, coefficients[0].elements()[i].number()) * kMeanOfFirst *
                   light.get_number("intensity", 1);
   document.diagnostics().warn(
-      light.where(), "EXT_lights_image_based is approximated by its mean radiance, the same from "
-                     "all directions");
+      light.where(),
+      "EXT_lights_image_based is approximated by its mean radiance, the same from "
+      "all directions");
   ParameterList list(light.where());
   list.add_color("L", radiance);
   LightDescription description;

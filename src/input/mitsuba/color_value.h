@@ -34,9 +34,9 @@ std::optional<Parameter> read_float(PluginProperties& properties, const std::str
 
 ColorValue constant_color(const Vec3d& rgb, const SourceLocation& where);
 
-/// Mean of the channels.
+/// Mean of the channels; exact for grey.
 inline double mean(const Vec3d& rgb) {
-  return (rgb.x + rgb.y + rgb.z) / 3.0;
+  return rgb.x + ((rgb.y - rgb.x) + (rgb.z - rgb.x)) / 3.0;
 }
 
 /// Adds a colour as `target`, or the constant `fallback` if there is none.

@@ -60,10 +60,12 @@ void write_integrator(ImportContext& context, const Object& object) {
     if (const Object* nested = p.first_child("integrator")) write_integrator(context, *nested);
     return;
   }
-  if (row == std::end(kIntegrators) || !row->pbrt) {
+  if (row == std::end(kIntegrators))
     context.diagnostics.warn(object.where, "integrator \"" + object.type +
                                                "\" is unknown, only \"max_depth\" is used of it");
-  }
+  else if (!row->pbrt)
+    context.diagnostics.warn(object.where,
+                             "integrator \"" + object.type + "\" is ignored: " + row->note);
   const bool is_known = row != std::end(kIntegrators) && row->pbrt;
   DirectiveDescription integrator = directive(is_known ? row->pbrt : "volpath", object.where);
   add_depth(p, object.type, integrator.parameters);

@@ -103,7 +103,8 @@ void skip_name(ZlibStream& stream) {
 SerializedMesh read_mesh(std::string_view packed, int version) {
   ZlibStream stream(packed);
   const auto flags = stream.read_value<uint32_t>();
-  if (!(flags & kSinglePrecision) == !(flags & kDoublePrecision))
+  // Old files have neither flag and are in single precision.
+  if ((flags & kSinglePrecision) && (flags & kDoublePrecision))
     throw BadFile("a mesh has flags " + std::to_string(flags) +
                   ", expected those of single or of double precision");
   if (version == 4) skip_name(stream);

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "input/mitsuba/color_value.h"
-#include "input/mitsuba/hosek_wilkie_sky.h"
 #include "input/mitsuba/parameter_values.h"
-#include "input/mitsuba/pfm_image.h"
-#include "input/mitsuba/preetham_sun.h"
 #include "input/mitsuba/sun_position.h"
+#include "input/sky/hosek_wilkie_sky.h"
+#include "input/sky/pfm_image.h"
+#include "input/sky/preetham_sun.h"
 
 namespace nephroid::mitsuba {
 namespace {

@@ -15,7 +15,8 @@ constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr double kFieldOfView = 35;                           ///< degrees
 constexpr double kCameraAzimuth = 35, kCameraElevation = 22;  ///< degrees, azimuth from the front
 constexpr double kKeyAzimuth = -30, kKeyElevation = 50;
-constexpr double kFrame = 1.08;  ///< distance over that at which the bounds fill the frame
+constexpr double kMargin = 0.1;  ///< part of the distance by which the camera stands back
+const double kSlope = std::tan(kFieldOfView / 2 * kDegree);  ///< of the sides of the view
 
 constexpr double kSkyShare = 0.35;   ///< share of the sky in the light on a surface facing the key
 constexpr double kKeyDistance = 4;   ///< radii of the scene
@@ -40,19 +41,6 @@ void for_each_corner(const Bounds3d& b, const Visit& visit) {
   for (const double x : {b.min.x, b.max.x})
     for (const double y : {b.min.y, b.max.y})
       for (const double z : {b.min.z, b.max.z}) visit(Vec3d(x, y, z));
-}
-
-/// The distance from the centre at which a camera sees all corners within its square of view.
-double framing_distance(const Bounds3d& bounds, const Vec3d& to_camera, const Vec3d& up) {
-  const Vec3d right = up.cross(to_camera).normalized(), above = to_camera.cross(right);
-  const double slope = std::tan(kFieldOfView / 2 * kDegree);
-  double distance = radius_of(bounds) * 0.1;
-  for_each_corner(bounds, [&](const Vec3d& corner) {
-    const Vec3d p = corner - bounds.center();
-    const double off_axis = std::max(std::abs(p.dot(right)), std::abs(p.dot(above)));
-    distance = std::max(distance, off_axis / slope + p.dot(to_camera));
-  });
-  return distance * kFrame;
 }
 
 /// A disk that faces its local +z, at `centre`, with z turned to the unit vector `normal`.
@@ -87,17 +75,33 @@ SourceLocation not_in_a_file(const char* what) {
   return {std::make_shared<const std::string>(what), 0, 0};
 }
 
-CameraDescription framed_camera(const Bounds3d& bounds, const Surroundings& surroundings) {
-  const Vec3d to_camera = direction_from_front(surroundings, kCameraAzimuth, kCameraElevation);
-  const Vec3d centre = bounds.center();
-  const Vec3d eye = centre + to_camera * framing_distance(bounds, to_camera, surroundings.up);
+FramedView::FramedView(const Surroundings& surroundings)
+    : up_(surroundings.up),
+      forward_(-direction_from_front(surroundings, kCameraAzimuth, kCameraElevation)) {
+  right_ = forward_.cross(up_).normalized();
+  above_ = right_.cross(forward_);
+  sides_ = {right_ - forward_ * kSlope, -right_ - forward_ * kSlope, above_ - forward_ * kSlope,
+            -above_ - forward_ * kSlope};
+}
+
+/// A point p is in view from `eye` if dot(p - eye, side) <= 0 for all sides. With the eye at
+/// a right + b above + z forward, a pair of opposite sides gives a or b in the middle, and both
+/// give upper bounds of z.
+CameraDescription FramedView::camera(const SceneExtent& extent) const {
+  const std::vector<double>& h = extent.furthest;
+  const double a = (h[0] - h[1]) / 2, b = (h[2] - h[3]) / 2;
+  const double near = std::min(-(h[0] + h[1]), -(h[2] + h[3])) / (2 * kSlope);
+  const double centre = extent.bounds.center().dot(forward_);
+  const double distance = std::max(centre - near, 0.1 * radius_of(extent.bounds));
+  const double z = centre - distance * (1 + kMargin);
+  const Vec3d eye = right_ * a + above_ * b + forward_ * z;
   ParameterList list(not_in_a_file("default camera"));
   list.add_float("fov", kFieldOfView);
   CameraDescription camera;
   static_cast<DirectiveDescription&>(camera) = std::move(list).directive("perspective");
   // Files of other programs have right-handed coordinates, and the camera's are left-handed.
-  const Mat44d matrix = look_at_matrix(eye, centre, surroundings.up).value_or(Mat44d()) *
-                        scale_matrix(Vec3d(-1, 1, 1));
+  const Mat44d matrix =
+      look_at_matrix(eye, eye + forward_, up_).value_or(Mat44d()) * scale_matrix(Vec3d(-1, 1, 1));
   camera.world_to_camera = {matrix, matrix};
   return camera;
 }

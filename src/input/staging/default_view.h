@@ -1,15 +1,30 @@
 // Camera and light for scenes without: a three-quarter view, a neutral sky and a soft key light.
 #pragma once
 
+#include <array>
+#include <span>
+
 #include "input/scene_description.h"
 #include "input/staging/scene_bounds.h"
 #include "input/staging/surroundings.h"
 
 namespace nephroid {
 
-/// A perspective camera that shows all of the bounds, from the front right and above; the front is
-/// the south. The bounds are not empty.
-CameraDescription framed_camera(const Bounds3d& bounds, const Surroundings& surroundings);
+/// A perspective camera whose square of view just holds the scene, from the front right and above;
+/// the front is the south.
+class FramedView {
+ public:
+  explicit FramedView(const Surroundings& surroundings);
+
+  /// Directions for scene_extent: the outward normals of the four sides of the field of view.
+  std::span<const Vec3d> sides() const { return sides_; }
+  /// The camera for an extent in these directions, which is not empty.
+  CameraDescription camera(const SceneExtent& extent) const;
+
+ private:
+  Vec3d up_, right_, above_, forward_;
+  std::array<Vec3d, 4> sides_;
+};
 
 /// True if the scene has a light or a shape that emits.
 bool has_light(const SceneDescription& scene);

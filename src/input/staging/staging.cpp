@@ -2,7 +2,9 @@
 
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "input/parameter_list.h"
@@ -47,22 +49,24 @@ void name_picture(SceneDescription* scene) {
   set_parameter(&film_parameters(scene), list.take().list.front());
 }
 
-/// Bounds that are read once, if they are wanted.
-class LazyBounds {
+/// The extent of the scene's shapes, which is found once, if it is wanted.
+class LazyExtent {
  public:
-  explicit LazyBounds(const SceneDescription& scene) : scene_(scene) {}
+  LazyExtent(const SceneDescription& scene, std::span<const Vec3d> directions)
+      : scene_(scene), directions_(directions) {}
   /// Throws SceneError for a scene without shapes; `wanted_for` goes into the message.
-  const Bounds3d& get(const char* wanted_for) {
-    if (!bounds_) bounds_ = scene_bounds(scene_);
-    if (bounds_->isEmpty())
+  const SceneExtent& get(const char* wanted_for) {
+    if (!extent_) extent_ = scene_extent(scene_, directions_);
+    if (extent_->bounds.isEmpty())
       throw SceneError({std::make_shared<const std::string>(scene_.file), 0, 0},
                        std::string("the scene has no shapes, expected some for ") + wanted_for);
-    return *bounds_;
+    return *extent_;
   }
 
  private:
   const SceneDescription& scene_;
-  std::optional<Bounds3d> bounds_;
+  std::span<const Vec3d> directions_;
+  std::optional<SceneExtent> extent_;
 };
 
 }  // namespace
@@ -70,16 +74,17 @@ class LazyBounds {
 void stage_scene(SceneDescription* scene, bool is_complete, const ImportOptions& options,
                  Diagnostics& diagnostics) {
   const SourceLocation whole_file{std::make_shared<const std::string>(scene->file), 0, 0};
-  LazyBounds bounds(*scene);
+  const FramedView view(surroundings_of(*scene));
+  LazyExtent extent(*scene, view.sides());
   if (!is_complete && !scene->film) name_picture(scene);
   if (!is_complete && !scene->camera) {
-    scene->camera = framed_camera(bounds.get("a view of them"), surroundings_of(*scene));
+    scene->camera = view.camera(extent.get("a view of them"));
     diagnostics.warn(whole_file, "the file has no camera: the view is from the front right");
   }
   const Surroundings surroundings = surroundings_of(*scene);
   const bool is_lit = has_light(*scene) || !options.environment.empty() || options.sun;
-  const Bounds3d extent = options.floor || !(is_complete || is_lit)
-                              ? bounds.get("a floor or lamps around them")
+  const Bounds3d bounds = options.floor || !(is_complete || is_lit)
+                              ? extent.get("a floor or lamps around them").bounds
                               : Bounds3d();
   if (options.sun) {
     // A white surface that faces the sun gets the value 1.
@@ -88,12 +93,12 @@ void stage_scene(SceneDescription* scene, bool is_complete, const ImportOptions&
   }
   if (!options.environment.empty()) set_environment(scene, options.environment, surroundings);
   if (!is_complete && !is_lit) {
-    add_studio_light(scene, extent, surroundings);
+    add_studio_light(scene, bounds, surroundings);
     diagnostics.warn(whole_file,
                      "the file has no light: a grey sky and a soft lamp light it (--sun and "
                      "--environment give other light)");
   }
-  if (options.floor) add_floor(scene, extent, surroundings);
+  if (options.floor) add_floor(scene, bounds, surroundings);
   if (options.exposure != 0) {
     const double iso = film_parameters(scene).get_float("iso", 100);
     set_iso(scene, iso * std::exp2(options.exposure), "--exposure");

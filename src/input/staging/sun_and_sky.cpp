@@ -1,24 +1,29 @@
 #include "input/staging/sun_and_sky.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <utility>
 
 #include "core/equal_area_map.h"
 #include "input/parameter_list.h"
+#include "input/sky/hosek_wilkie_sky.h"
+#include "input/sky/pfm_image.h"
+#include "input/sky/preetham_sun.h"
 #include "input/staging/default_view.h"
-#include "input/staging/preetham_sky.h"
 
 namespace nephroid {
 namespace {
 
 constexpr double kPiDouble = 3.14159265358979323846;
+constexpr double kDegree = kPiDouble / 180;
 constexpr double kSunAngle = 0.53;  ///< angular diameter, degrees
+constexpr double kLowestSun = 0.1;  ///< elevation of a sun on the horizon, degrees
+constexpr double kTurbidity = 3;    ///< clear air
 constexpr int kSkySize = 256;       ///< side of the sky's image, pixels
-constexpr float kGround = 0.2f;     ///< reflectance
+/// cd/m^2 of a radiance of 1 W / (m^2 sr nm) at all wavelengths.
+constexpr float kLuminancePerRadiance = 683 * kCieYIntegral;
+constexpr float kGround = 0.2f;  ///< reflectance
 constexpr const char* kSkyFile = "sky.pfm";
 
 void remove_lights(SceneDescription* scene, std::initializer_list<const char*> types) {
@@ -36,21 +41,29 @@ void add_light(SceneDescription* scene, const char* type, ParameterList list,
   light.transform = {surroundings.to_world(), surroundings.to_world()};
 }
 
-Vec3d direction_to(const SunDirection& sun) {
-  const double elevation = sun.elevation * kPiDouble / 180, azimuth = sun.azimuth * kPiDouble / 180;
-  return {std::sin(azimuth) * std::cos(elevation), std::cos(azimuth) * std::cos(elevation),
-          std::sin(elevation)};
-}
+/// Angles of the sun, in radians; it stands above the horizon.
+struct SunAngles {
+  double zenith, azimuth;
 
-/// The sky and the ground that it and the sun light, as an equal-area octahedral map.
+  explicit SunAngles(const SunDirection& sun)
+      : zenith((90 - std::max(sun.elevation, kLowestSun)) * kDegree),
+        azimuth(sun.azimuth * kDegree) {}
+  /// In the frame east, north, up.
+  Vec3d direction() const {
+    return {std::sin(azimuth) * std::sin(zenith), std::cos(azimuth) * std::sin(zenith),
+            std::cos(zenith)};
+  }
+};
+
+/// The sky, and the ground that it and the sun light, as an equal-area octahedral map in cd/m^2.
 struct SkyImage {
-  std::vector<Rgb> pixels;  ///< cd/m^2, rows from the top
-  double illuminance = 0;   ///< of the ground, by the sky, in lux
+  std::vector<Rgb> pixels;  ///< rows from the top
+  Rgb on_ground;            ///< illuminance of the ground by the sky, in lux
 
-  SkyImage(const PreethamSky& sky, double sun_on_ground) : pixels(kSkySize * kSkySize) {
+  SkyImage(const SunAngles& sun, const Rgb& sun_on_ground) : pixels(kSkySize * kSkySize) {
+    const HosekWilkieSky sky(kTurbidity, Vec3d(kGround), 0.5 * kPiDouble - sun.zenith);
     const double per_pixel = 4 * kPiDouble / static_cast<double>(pixels.size());
     std::vector<size_t> below;
-    Rgb on_ground{};
     for (size_t i = 0; i < pixels.size(); ++i) {
       const Vec3f w =
           equal_area_square_to_sphere({(static_cast<float>(i % kSkySize) + 0.5f) / kSkySize,
@@ -59,60 +72,50 @@ struct SkyImage {
         below.push_back(i);
         continue;
       }
-      pixels[i] = sky.luminance(to_double(w));
+      const double to_sun = std::acos(std::clamp(to_double(w).dot(sun.direction()), -1.0, 1.0));
+      pixels[i] = sky.radiance(std::acos(w.z), to_sun) * kLuminancePerRadiance;
       on_ground = on_ground + pixels[i] * static_cast<float>(w.z * per_pixel);
     }
-    illuminance = RgbColorSpace::srgb().to_xyz(on_ground).y;
-    const auto sun = static_cast<float>(sun_on_ground);
-    const Rgb ground = (on_ground + Rgb{sun, sun, sun}) * (kGround * kInvPi);
+    const Rgb ground = (on_ground + sun_on_ground) * (kGround * kInvPi);
     for (const size_t i : below) pixels[i] = ground;
   }
-
-  /// The image as a PFM file, whose rows begin at the bottom, in the machine's byte order.
-  std::string pfm() const {
-    std::string bytes = "PF\n" + std::to_string(kSkySize) + " " + std::to_string(kSkySize) +
-                        (std::endian::native == std::endian::little ? "\n-1.0\n" : "\n1.0\n");
-    const size_t head = bytes.size(), row_bytes = kSkySize * 3 * sizeof(float);
-    bytes.resize(head + kSkySize * row_bytes);
-    for (size_t row = 0; row < kSkySize; ++row) {
-      std::vector<float> values;
-      for (size_t x = 0; x < kSkySize; ++x) {
-        const Rgb& c = pixels[row * kSkySize + x];
-        values.insert(values.end(), {c.r, c.g, c.b});
-      }
-      std::memcpy(bytes.data() + head + (kSkySize - 1 - row) * row_bytes, values.data(), row_bytes);
-    }
-    return bytes;
-  }
 };
+
+double luminance(const Rgb& c) {
+  return RgbColorSpace::srgb().to_xyz(c).y;
+}
+
+void add_sky(SceneDescription* scene, const SkyImage& image, const Surroundings& surroundings) {
+  scene->files->add_in_memory(kSkyFile, pfm_image(image.pixels, kSkySize, kSkySize));
+  ParameterList list(not_in_a_file("--sun"));
+  list.add_string("filename", kSkyFile);
+  list.add_string("name", "sky");
+  add_light(scene, "infinite", std::move(list), surroundings);
+}
+
+void add_sun(SceneDescription* scene, const Vec3d& to_sun, const Rgb& illuminance,
+             const Surroundings& surroundings) {
+  ParameterList list(not_in_a_file("--sun"));
+  list.add_color("L", {illuminance.r, illuminance.g, illuminance.b});
+  list.add_float("angle", kSunAngle);
+  list.add_point("from", to_sun);
+  list.add_point("to", {0, 0, 0});
+  list.add_string("name", "sun");
+  add_light(scene, "distant", std::move(list), surroundings);
+}
 
 }  // namespace
 
 double set_sun(SceneDescription* scene, const SunDirection& sun, const Surroundings& surroundings) {
-  const Vec3d to_sun = direction_to(sun);
-  const PreethamSky sky(to_sun);
-  const SkyImage image(sky, sky.sun_illuminance() * to_sun.z);
+  const SunAngles angles(sun);
+  const double solid_angle = 2 * kPiDouble * (1 - std::cos(0.5 * kSunAngle * kDegree));
+  const Rgb of_sun = sun_radiance(angles.zenith, kTurbidity) *
+                     static_cast<float>(solid_angle * kLuminancePerRadiance);
+  const SkyImage image(angles, of_sun * static_cast<float>(std::cos(angles.zenith)));
   remove_lights(scene, {"infinite", "distant"});
-
-  const SourceLocation where = not_in_a_file("--sun");
-  scene->files->add_in_memory(kSkyFile, image.pfm());
-  ParameterList of_sky(where);
-  of_sky.add_string("filename", kSkyFile);
-  of_sky.add_string("name", "sky");
-  add_light(scene, "infinite", std::move(of_sky), surroundings);
-
-  ParameterList of_sun(where);
-  std::vector<double> spectrum;
-  for (const auto& sample : sky.sun_spectrum())
-    spectrum.insert(spectrum.end(), {sample.first, sample.second});
-  of_sun.add_numbers("spectrum", "L", std::move(spectrum));
-  of_sun.add_float("illuminance", sky.sun_illuminance());
-  of_sun.add_float("angle", kSunAngle);
-  of_sun.add_point("from", to_sun);
-  of_sun.add_point("to", {0, 0, 0});
-  of_sun.add_string("name", "sun");
-  add_light(scene, "distant", std::move(of_sun), surroundings);
-  return sky.sun_illuminance() + image.illuminance;
+  add_sky(scene, image, surroundings);
+  add_sun(scene, angles.direction(), of_sun, surroundings);
+  return luminance(of_sun) + luminance(image.on_ground);
 }
 
 void set_environment(SceneDescription* scene, const std::string& file,

@@ -7,8 +7,9 @@
 
 namespace nephroid {
 
-/// Replaces all lights at infinity by the sun and a clear sky above grey ground (preetham_sky.h).
-/// Returns the illuminance of a surface that faces the sun, in lux.
+/// Replaces all lights at infinity by the sun (sky/preetham_sun.h) and a clear sky above grey
+/// ground (sky/hosek_wilkie_sky.h). Returns the illuminance of a surface that faces the sun, in
+/// lux.
 double set_sun(SceneDescription* scene, const SunDirection& sun, const Surroundings& surroundings);
 
 /// Replaces all infinite lights by the image of a file, whose name is relative to the current

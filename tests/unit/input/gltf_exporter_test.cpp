@@ -44,8 +44,7 @@ TEST_P(PackedBall, IsTheUnitBallAtItsPlace) {
     // Each edge has a triangle on both sides, in opposite directions.
     std::multiset<std::pair<double, double>> edges;
     for (size_t t = 0; t < indices.size(); t += 3)
-      for (size_t k = 0; k < 3; ++k)
-        edges.insert({indices[t + k], indices[t + (k + 1) % 3]});
+      for (size_t k = 0; k < 3; ++k) edges.insert({indices[t + k], indices[t + (k + 1) % 3]});
     for (const auto& [a, b] : edges) {
       EXPECT_EQ(edges.count({a, b}), 1u);
       EXPECT_EQ(edges.count({b, a}), 1u);

@@ -102,7 +102,7 @@ TEST(MitsubaDocument, WrongReferencesAreErrors) {
                         "<bsdf type=\"twosided\" id=\"b\"><ref id=\"a\"/></bsdf>\n"),
             "scene.xml:2:1: \"a\" refers to itself");
   EXPECT_EQ(scene.error("<bsdf type=\"diffuse\" id=\"a\"/><bsdf type=\"diffuse\" id=\"a\"/>\n"),
-            "scene.xml:2:31: id \"a\" is already given at scene.xml:2:1");
+            "scene.xml:2:30: id \"a\" is already given at scene.xml:2:1");
   EXPECT_TRUE(has(scene.error("<alias id=\"x\" as=\"y\"/><alias id=\"y\" as=\"x\"/>\n"
                               "<shape type=\"sphere\"><ref id=\"x\"/></shape>\n"),
                   "there is no object with id \"x\""));
@@ -143,7 +143,7 @@ TEST(MitsubaDocument, EntitiesAreNotExpanded) {
 TEST(MitsubaDocument, OtherXmlIsAnError) {
   MitsubaScene scene;
   EXPECT_TRUE(has(scene.file_error("<scene version=\"0.6.0\">\n<shape type=\"cube\">\n</scene>"),
-                  "scene.xml:3:9: this is not well-formed XML"));
+                  "scene.xml:3:3: this is not well-formed XML"));
   EXPECT_TRUE(has(scene.file_error("<COLLADA/>"), "scene.xml:1:1: this is a COLLADA scene"));
   EXPECT_TRUE(has(scene.file_error("<a/>"), "scene.xml:1:1: this is an XML file"));
   EXPECT_TRUE(has(scene.file_error(""), "scene.xml:1:1: "));

@@ -5,9 +5,8 @@
 
 #include <cmath>
 
-#include "core/equal_area_map.h"
+#include "core/color.h"
 #include "input/staging/default_view.h"
-#include "input/staging/preetham_sky.h"
 #include "unit/input/parse_text.h"
 
 namespace nephroid {
@@ -30,21 +29,23 @@ SceneDescription staged(const std::string& text, const ImportOptions& options = 
   return scene;
 }
 
+Bounds3d bounds_of(const std::string& text) {
+  return scene_extent(parse(text), {}).bounds;
+}
+
 Vec3d in_camera(const SceneDescription& scene, const Vec3d& p) {
   return p * scene.camera->world_to_camera.start;
 }
 
 TEST(SceneBounds, AreThoseOfShapesAndInstances) {
-  const Bounds3d bounds = scene_bounds(parse(kBox));
+  const Bounds3d bounds = bounds_of(kBox);
   EXPECT_EQ(bounds.min, Vec3d(0, -1, -2));
   EXPECT_EQ(bounds.max, Vec3d(7, 3, 9));
-  EXPECT_TRUE(scene_bounds(parse("WorldBegin\n")).isEmpty());
+  EXPECT_TRUE(bounds_of("WorldBegin\n").isEmpty());
 }
 
 TEST(SceneBounds, KnowAllQuadricsAndTheirMotion) {
-  const auto of = [](const std::string& shape) {
-    return scene_bounds(parse("WorldBegin\n" + shape));
-  };
+  const auto of = [](const std::string& shape) { return bounds_of("WorldBegin\n" + shape); };
   EXPECT_EQ(of("Shape \"disk\" \"float radius\" 3 \"float height\" 2").min, Vec3d(-3, -3, 2));
   EXPECT_EQ(of("Shape \"cylinder\" \"float zmax\" 4").max, Vec3d(1, 1, 4));
   EXPECT_EQ(of("Shape \"sphere\" \"float zmin\" 0").min, Vec3d(-1, -1, 0));
@@ -59,20 +60,42 @@ TEST(DefaultView, ShowsAllOfTheSceneAndFillsTheFrame) {
   const SceneDescription scene = staged(kBox);
   ASSERT_TRUE(scene.camera);
   const double slope = std::tan(scene.camera->parameters.get_float("fov", 0) / 2 * kPi / 180);
-  double widest = 0;
+  double left = 0, right = 0, top = 0, bottom = 0;
   for (const double x : {0.0, 7.0})
     for (const double y : {-1.0, 3.0})
       for (const double z : {-2.0, 9.0}) {
         const Vec3d p = in_camera(scene, {x, y, z});
         ASSERT_GT(p.z, 0);
-        widest = std::max({widest, std::abs(p.x / p.z), std::abs(p.y / p.z)});
+        left = std::min(left, p.x / p.z);
+        right = std::max(right, p.x / p.z);
+        bottom = std::min(bottom, p.y / p.z);
+        top = std::max(top, p.y / p.z);
       }
-  EXPECT_LT(widest, slope);
-  EXPECT_GT(widest, 0.85 * slope);
+  // The box of the sphere and that of the instance fill a part of this box only.
+  EXPECT_LT(std::max({-left, right, -bottom, top}), 1.3 * slope);
+  EXPECT_GT(std::max({-left, right, -bottom, top}), 0.85 * slope);
   // From the front right and above: the right of the scene is nearer, and up is up.
   EXPECT_LT(in_camera(scene, {7, 1, 9}).z, in_camera(scene, {0, 1, -2}).z);
   EXPECT_GT(in_camera(scene, {7, 3, 9}).y, in_camera(scene, {7, -1, 9}).y);
   EXPECT_GT(in_camera(scene, {7, 1, 3}).x, in_camera(scene, {0, 1, 3}).x);
+}
+
+TEST(DefaultView, HoldsThePointsOfAMeshTightly) {
+  const std::string points = "-3 0 1 4 0.5 0 0 2 -5 1 1 1";
+  const SceneDescription scene = staged("WorldBegin\nShape \"trianglemesh\" \"point3 P\" [" +
+                                        points + "] \"integer indices\" [0 1 2 1 2 3]\n");
+  const double slope = std::tan(scene.camera->parameters.get_float("fov", 0) / 2 * kPi / 180);
+  double left = 0, right = 0, height = 0;
+  for (const Vec3d& p : {Vec3d(-3, 0, 1), Vec3d(4, 0.5, 0), Vec3d(0, 2, -5), Vec3d(1, 1, 1)}) {
+    const Vec3d c = in_camera(scene, p);
+    ASSERT_GT(c.z, 0);
+    left = std::min(left, c.x / c.z);
+    right = std::max(right, c.x / c.z);
+    height = std::max(height, std::abs(c.y / c.z));
+  }
+  EXPECT_LT(std::max({-left, right, height}), slope);
+  EXPECT_GT(std::max(-left, right), 0.85 * slope);
+  EXPECT_NEAR(-left, right, 0.1 * slope);  // in the middle
 }
 
 TEST(DefaultView, LightsAWhiteSurfaceToOne) {
@@ -175,7 +198,11 @@ TEST(Sun, ReplacesLightsAtInfinityAndKeepsLamps) {
   EXPECT_NEAR(to_sun.z, 0, 1e-6);
   EXPECT_TRUE(scene.files->in_memory("sky.pfm"));
   // A white surface that faces the sun has a value near 1, by sun and sky.
-  const double illuminance = scene.lights[2].parameters.get_float("illuminance", 0);
+  const std::vector<double> l = scene.lights[2].parameters.find("L")->numbers;
+  const double illuminance =
+      RgbColorSpace::srgb()
+          .to_xyz({static_cast<float>(l[0]), static_cast<float>(l[1]), static_cast<float>(l[2])})
+          .y;
   const double value = scene.film->parameters.get_float("iso", 100) / 100 * illuminance / kPi;
   EXPECT_GT(value, 0.7);
   EXPECT_LT(value, 1);
@@ -198,51 +225,26 @@ TEST(Environment, IsTheOnlyInfiniteLight) {
   EXPECT_FALSE(beside.lights[1].parameters.find("illuminance"));
 }
 
-double luminance(const Rgb& c) {
-  return RgbColorSpace::srgb().to_xyz(c).y;
-}
-
-TEST(PreethamSky, HasThePapersZenithLuminance) {
-  // Equation of the zenith at turbidity 3 with the sun 60 degrees from it, in cd/m^2.
-  const double zenith_angle = kPi / 3, t = 3;
-  const double chi = (4.0 / 9 - t / 120) * (kPi - 2 * zenith_angle);
-  const double expected = 1000 * ((4.0453 * t - 4.9710) * std::tan(chi) - 0.2155 * t + 2.4192);
-  const PreethamSky sky({std::sin(zenith_angle), 0, std::cos(zenith_angle)}, t);
-  EXPECT_NEAR(luminance(sky.luminance({0, 0, 1})), expected, 1e-3 * expected);
-}
-
-TEST(PreethamSky, IsBrightAndWhiteNearTheSunAndBlueAwayFromIt) {
-  const PreethamSky sky({std::sqrt(0.5), 0, std::sqrt(0.5)});
-  const Rgb near_sun = sky.luminance(Vec3d(0.8, 0, 0.6)), away = sky.luminance(Vec3d(-0.6, 0, 0.8));
-  EXPECT_GT(luminance(near_sun), 2 * luminance(away));
-  EXPECT_GT(away.b, 1.5 * away.r);
-  EXPECT_LT(near_sun.b / near_sun.r, away.b / away.r);
-}
-
-TEST(PreethamSky, SunGrowsDimAndRedTowardsTheHorizon) {
-  const auto sun = [](double degrees) {
-    const double e = degrees * kPi / 180;
-    return PreethamSky({std::cos(e), 0, std::sin(e)});
+TEST(Sun, IsAsBrightAsDaylight) {
+  const auto sun_light = [](double elevation) {
+    ImportOptions options;
+    options.sun = SunDirection{elevation, 0};
+    const SceneDescription scene = staged(kBox, options);
+    const std::vector<double> l = scene.lights.at(1).parameters.find("L")->numbers;
+    return Rgb{static_cast<float>(l[0]), static_cast<float>(l[1]), static_cast<float>(l[2])};
   };
-  // Clear air passes about 100 klx at noon (Preetham et al. 1999; IES handbook).
-  EXPECT_NEAR(sun(90).sun_illuminance(), 100000, 10000);
+  const auto illuminance = [&](double elevation) {
+    return RgbColorSpace::srgb().to_xyz(sun_light(elevation)).y;
+  };
+  // Clear air passes about 100 klx at the zenith (IES Lighting Handbook), less through more of it.
+  EXPECT_NEAR(illuminance(90), 100000, 15000);
   double last = 1e9;
   for (const double elevation : {90, 60, 30, 10, 3, 0}) {
-    const double illuminance = sun(elevation).sun_illuminance();
-    EXPECT_LT(illuminance, last);
-    EXPECT_GT(illuminance, 0);
-    last = illuminance;
+    EXPECT_LT(illuminance(elevation), last);
+    EXPECT_GT(illuminance(elevation), 0);
+    last = illuminance(elevation);
   }
-  const auto red_over_blue = [&](double degrees) {
-    double red = 0, blue = 0;
-    const PreethamSky sky = sun(degrees);
-    for (const auto& [nm, value] : sky.sun_spectrum()) {
-      if (nm == 650) red = value;
-      if (nm == 450) blue = value;
-    }
-    return red / blue;
-  };
-  EXPECT_GT(red_over_blue(5), 3 * red_over_blue(90));
+  EXPECT_GT(sun_light(5).r / sun_light(5).b, 3 * sun_light(90).r / sun_light(90).b);
 }
 
 }  // namespace

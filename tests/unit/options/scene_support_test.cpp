@@ -12,6 +12,7 @@
 
 #include "input/option_directive.h"
 #include "input/pbrt_parser.h"
+#include "options/obj_support.h"
 #include "scene/scene.h"
 #include "session/settings/integrator_choice.h"
 #include "source_directory.h"
@@ -187,6 +188,12 @@ TEST(SceneSupport, PageIsCurrent) {
   EXPECT_EQ(read_text(testing_support::source_directory() + "/docs/scene-support.md"),
             scene_support_markdown())
       << "run tools/update_docs to make docs/scene-support.md anew";
+}
+
+TEST(ObjSupport, PageIsCurrent) {
+  EXPECT_EQ(read_text(testing_support::source_directory() + "/docs/obj-support.md"),
+            obj_support_markdown())
+      << "run tools/update_docs to make docs/obj-support.md anew";
 }
 
 TEST(SceneSupport, ExamplesLoad) {

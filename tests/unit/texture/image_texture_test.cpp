@@ -203,7 +203,7 @@ TEST_F(ImageTexture, ImagesAreSharedByPathAndEncoding) {
 TEST_F(ImageTexture, ErrorsAreLocated) {
   EXPECT_EQ(error(map("float", "missing.png")).find("t.pbrt:2:"), 0u);
   write_image<uint8_t>(scratch.file("a.png"), 1, 1, 1, OIIO::TypeDesc::UINT8, {1});
-  EXPECT_NE(error(map("float", "a.png", "\"string wrap\" \"mirror\"")).find("unknown wrap mode"),
+  EXPECT_NE(error(map("float", "a.png", "\"string wrap\" \"around\"")).find("unknown wrap mode"),
             std::string::npos);
   EXPECT_NE(
       error(map("float", "a.png", "\"string filter\" \"cubic\"")).find("unknown texture filter"),

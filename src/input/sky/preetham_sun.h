@@ -4,9 +4,9 @@
 
 #include "core/color.h"
 
-namespace nephroid::mitsuba {
+namespace nephroid {
 
 /// Linear sRGB in W / (m^2 sr nm), of the sun's disk at a zenith angle in radians, below pi / 2.
 Rgb sun_radiance(double zenith, double turbidity);
 
-}  // namespace nephroid::mitsuba
+}  // namespace nephroid

@@ -8,7 +8,7 @@
 
 #include "core/color.h"
 
-namespace nephroid::mitsuba {
+namespace nephroid {
 
 /// `pixels` in rows from the top; rows of the file begin at the bottom.
 inline std::string pfm_image(const std::vector<Rgb>& pixels, int width, int height) {
@@ -21,4 +21,4 @@ inline std::string pfm_image(const std::vector<Rgb>& pixels, int width, int heig
   return bytes;
 }
 
-}  // namespace nephroid::mitsuba
+}  // namespace nephroid

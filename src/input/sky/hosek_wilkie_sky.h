@@ -5,7 +5,7 @@
 #include "core/color.h"
 #include "core/math.h"
 
-namespace nephroid::mitsuba {
+namespace nephroid {
 
 class HosekWilkieSky {
  public:
@@ -25,4 +25,4 @@ class HosekWilkieSky {
   Channel channels_[3];
 };
 
-}  // namespace nephroid::mitsuba
+}  // namespace nephroid

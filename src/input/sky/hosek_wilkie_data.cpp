@@ -1,9 +1,9 @@
 // The RGB data of the sky model of L. Hosek and A. Wilkie, version 1.2, rounded to floats.
 // Copyright (c) 2012, Lukas Hosek and Alexander Wilkie. All rights reserved. The 3-clause BSD
 // licence is in data/sky/LICENSE-hosek-wilkie.txt.
-#include "input/mitsuba/hosek_wilkie_data.h"
+#include "input/sky/hosek_wilkie_data.h"
 
-namespace nephroid::mitsuba {
+namespace nephroid {
 
 const float kHosekWilkieShape[3][1080] = {
     {-1.099459f,     -0.1335146f,  -4.083223f,   5.919603f,    -0.1104166f,   1.600158f,
@@ -602,4 +602,4 @@ const float kHosekWilkieRadiance[3][120] = {
      28.93432f},
 };
 
-}  // namespace nephroid::mitsuba
+}  // namespace nephroid

@@ -1,11 +1,11 @@
-#include "input/mitsuba/hosek_wilkie_sky.h"
+#include "input/sky/hosek_wilkie_sky.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "input/mitsuba/hosek_wilkie_data.h"
+#include "input/sky/hosek_wilkie_data.h"
 
-namespace nephroid::mitsuba {
+namespace nephroid {
 namespace {
 
 constexpr int kTurbidities = 10, kNodes = 6;
@@ -68,4 +68,4 @@ Rgb HosekWilkieSky::radiance(double theta, double gamma) const {
   return {rgb[0], rgb[1], rgb[2]};
 }
 
-}  // namespace nephroid::mitsuba
+}  // namespace nephroid

@@ -1,5 +1,5 @@
 // Tables 1 and 2 of the paper (Iqbal, An Introduction to Solar Radiation, 1983).
-#include "input/mitsuba/preetham_sun.h"
+#include "input/sky/preetham_sun.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include "core/spectra.h"
 
-namespace nephroid::mitsuba {
+namespace nephroid {
 namespace {
 
 struct Sample {
@@ -96,4 +96,4 @@ Rgb sun_radiance(double zenith, double turbidity) {
   return {std::max(rgb.r, 0.0f), std::max(rgb.g, 0.0f), std::max(rgb.b, 0.0f)};
 }
 
-}  // namespace nephroid::mitsuba
+}  // namespace nephroid

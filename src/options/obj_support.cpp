@@ -1,0 +1,69 @@
+#include "options/obj_support.h"
+
+#include <fmt/format.h>
+
+#include "input/obj/ignored_lines.h"
+#include "input/obj/mtl_keywords.h"
+
+namespace nephroid {
+namespace {
+
+constexpr const char* kHead = R"(# OBJ and MTL files
+
+Made from the tables of the importer by `tools/update_docs`; do not edit.
+
+A file whose name ends in `.obj` or `.obj.gz` is read as a scene. `nephroid convert model.obj model.pbrt` writes what was understood
+as a pbrt-v4 scene. Each keyword is
+
+- **loaded**;
+- **not needed**: the picture does not depend on it;
+- **warned**: ignored with a warning at its first line, which gives the reason.
+
+Other keywords are warned of, and are errors with `--strict`. A wrong number or index is an error with its file and line.
+
+- An OBJ file has no camera and no light. The view is from the front right, the front is +z, and up is +y. A grey sky and a soft
+  lamp light it. `--floor`, `--sun`, `--environment` and `--exposure` change that ([options](options.md#render)).
+- Files lie in the folder of the scene or below it; `--allow-outside` permits others. Images are looked for in the folder of the
+  MTL file that names them.
+- A missing MTL file is a warning, and so is a material that is not defined; the faces are grey. A missing image is an error.
+- Faces without normals are flat. Texture coordinates have (0, 0) at the lower left of an image.
+)";
+
+const char* word_of(Support support) {
+  switch (support) {
+    case Support::kRendered:
+      return "loaded";
+    case Support::kNotNeeded:
+      return "not needed";
+    case Support::kWarned:
+      return "warned";
+    case Support::kRefused:
+      break;
+  }
+  return "refused";
+}
+
+/// The text of a table cell, with bars escaped: they would end the cell.
+std::string cell(std::string text) {
+  for (size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2))
+    text.insert(at, "\\");
+  return text;
+}
+
+std::string table_of(const char* heading, FormatParameters rows) {
+  std::string text = fmt::format(
+      "\n## {}\n\n| keyword | values | default | |\n| --- | --- | --- | --- |\n", heading);
+  for (const FormatParameter& row : rows)
+    text += fmt::format("| `{}` | {} | {} | {}{}{} |\n", row.name, cell(row.type), row.fallback,
+                        word_of(row.support), *row.note ? ": " : "", cell(row.note));
+  return text;
+}
+
+}  // namespace
+
+std::string obj_support_markdown() {
+  return kHead + table_of("Geometry", obj_keywords()) +
+         table_of("Materials, as \"principled\"", mtl_keywords());
+}
+
+}  // namespace nephroid
