@@ -1,6 +1,6 @@
 // How the layers of a principled surface share the light: what each sends back and what passes to
 // those below, so that a white surface reflects all light it gets and reflection is reciprocal
-// (docs/adr/0035-layers-of-principled.md). It must not know sampling. Papers: Kulla & Conty 2017
+// (docs/adr/0036-layers-of-principled.md). It must not know sampling. Papers: Kulla & Conty 2017
 // (lost energy, diffuse base); OpenPBR 1.1 (darkening by the coat).
 #pragma once
 
