@@ -36,7 +36,8 @@ PrincipledBsdf::PrincipledBsdf(const PrincipledLayers* layers, float specular_al
   const bool scatters =
       s_.fuzz_weight > 0.0f || !diffuse_share_.is_black() || !through_share_.is_black();
   if (scatters) finite_classes_ = ClassMask::kDiffuse;
-  if (has_coat_ && !s_.coat_facets.smooth()) finite_classes_ = finite_classes_ | mask_of(coat_class_);
+  if (has_coat_ && !s_.coat_facets.smooth())
+    finite_classes_ = finite_classes_ | mask_of(coat_class_);
   if (has_facets_ && !s_.facets.smooth()) finite_classes_ = finite_classes_ | mask_of(facet_class_);
   classes_ = finite_classes_;
   if (!subsurface_share_.is_black()) classes_ = classes_ | ClassMask::kDiffuse;
@@ -64,8 +65,7 @@ PrincipledBsdf::Shares PrincipledBsdf::energies(const View& v, ClassMask among) 
   Shares e{};
   const float c = v.up.z;
   if (contains(among, EventClass::kDiffuse)) {
-    if (s_.fuzz_weight > 0.0f)
-      e[kFuzz] = std::max(layers_->fuzz_albedo(c), s_.fuzz_weight * 0.05f);
+    if (s_.fuzz_weight > 0.0f) e[kFuzz] = std::max(layers_->fuzz_albedo(c), s_.fuzz_weight * 0.05f);
     e[kDiffuse] = (diffuse_share_ * diffuse_.reflectance() * v.base).max_component();
     e[kDiffuseThrough] = (through_share_ * v.base).max_component();
     e[kSubsurface] = (subsurface_share_ * v.base).max_component();
@@ -75,10 +75,9 @@ PrincipledBsdf::Shares PrincipledBsdf::energies(const View& v, ClassMask among) 
     e[kCoat] = std::max(layers_->coat_albedo(v.up) * v.passed.fuzz, kMinEnergy * s_.coat_weight);
   if (has_facets_ && contains(among, facet_class_)) {
     const float sent = facet_reflectance(v, v.passed, c).average() + joined_coat(v);
-    const float crossed =
-        facets_transmit_
-            ? facet_transmittance(v, v.inside ? Passed() : v.passed, c).average()
-            : 0.0f;
+    const float crossed = facets_transmit_
+                              ? facet_transmittance(v, v.inside ? Passed() : v.passed, c).average()
+                              : 0.0f;
     e[kFacets] = std::max(sent + crossed, s_.facets.smooth() ? 0.0f : kMinEnergy);
     if (s_.metalness > 0.0f && !s_.facets.smooth())
       e[kMultiple] = s_.metalness * v.passed.above * layers_->lost(v.up);
@@ -167,8 +166,7 @@ void PrincipledBsdf::add_reflection(const View& v, const Vec3f& up, EventClass c
       e.pdf_w += v.shares[kFuzz] * kInv2Pi;
     }
     if (v.shares[kDiffuse] > 0.0f) {
-      const SampledSpectrum coupled =
-          layers_->couple(v.base, layers_->reaches_base(up, passed));
+      const SampledSpectrum coupled = layers_->couple(v.base, layers_->reaches_base(up, passed));
       e.f += diffuse_share_ * coupled * diffuse_.pi_f(v.up, up) * kInvPi;
       e.pdf_w += v.shares[kDiffuse] * lerp(uniform_share(), up.z * kInvPi, kInv2Pi);
     }
@@ -198,7 +196,8 @@ void PrincipledBsdf::add_facets(const View& v, const Vec3f& up, const Passed& pa
     const float lost = layers_->lost(v.up) * layers_->lost(up);
     e.f += layers_->multiple() * layers_->metal_darkening() * v.passed.color * passed.color *
            (s_.metalness * std::min(v.passed.above, passed.above) * lost);
-    e.pdf_w += v.shares[kMultiple] * up.z * kInvPi;
+    // Facets that are not very rough lose light at grazing angles only.
+    e.pdf_w += v.shares[kMultiple] * kInv4Pi / std::sqrt(up.z);
   }
 }
 

@@ -6,8 +6,8 @@
 
 namespace nephroid {
 
-PrincipledLayers::PrincipledLayers(const PrincipledTables* tables,
-                                   const PrincipledSurface& surface, FilmNodes* film)
+PrincipledLayers::PrincipledLayers(const PrincipledTables* tables, const PrincipledSurface& surface,
+                                   FilmNodes* film)
     : tables_(tables), surface_(surface), fresnel_(surface) {
   if (surface_.coat_weight > 0.0f) prepare_coat();
   if (surface_.metalness > 0.0f) prepare_metal();
@@ -63,9 +63,8 @@ void PrincipledLayers::prepare_boundary(FilmNodes* film) {
   for (int i = 0; i < 6; ++i) {
     const float c = sqr(kX[i]);
     float fuzz;
-    const SampledSpectrum passed =
-        (SampledSpectrum(1.0f) - boundary_albedo(c, alpha)) *
-        (passed_above(c, coat_alpha, &fuzz) * 4.0f * kX[i] * c * kW[i]);
+    const SampledSpectrum passed = (SampledSpectrum(1.0f) - boundary_albedo(c, alpha)) *
+                                   (passed_above(c, coat_alpha, &fuzz) * 4.0f * kX[i] * c * kW[i]);
     lambert += passed;
     along_normal += passed * white.pi_f(Vec3f(0, 0, 1), Vec3f(safe_sqrt(1 - c * c), 0, c));
   }

@@ -27,8 +27,8 @@ class PrincipledLayers {
 
   /// Shares of light along one direction outside that pass the layers above the base.
   struct Passed {
-    float fuzz = 1;                ///< past the fuzz
-    float above = 1;               ///< past fuzz and coat
+    float fuzz = 1;               ///< past the fuzz
+    float above = 1;              ///< past fuzz and coat
     SampledSpectrum color{1.0f};  ///< transmittance of the coat's colour
   };
   Passed passed(const Vec3f& w) const;

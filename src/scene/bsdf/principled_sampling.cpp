@@ -16,6 +16,11 @@ Vec3f cosine_hemisphere(const Vec2f& u, float side) {
   return {w.x, w.y, w.z * side};
 }
 
+/// A direction whose root of the cosine is uniform.
+Vec3f grazing_hemisphere(const Vec2f& u, float side) {
+  return uniform_hemisphere({u.x * u.x, u.y}, side);
+}
+
 }  // namespace
 
 std::optional<BsdfSample> PrincipledBsdf::sample(const Vec3f& wo, float uc, const Vec2f& u,
@@ -35,20 +40,29 @@ std::optional<BsdfSample> PrincipledBsdf::sample(const Vec3f& wo, float uc, cons
 
   BsdfSample s;
   switch (static_cast<Lobe>(lobe)) {
-    case kFuzz: s.wi = uniform_hemisphere(u, v.side); break;
+    case kFuzz:
+      s.wi = uniform_hemisphere(u, v.side);
+      break;
     case kDiffuse:
       s.wi = uc < uniform_share() ? uniform_hemisphere(u, v.side) : cosine_hemisphere(u, v.side);
       break;
-    case kDiffuseThrough: s.wi = cosine_hemisphere(u, -v.side); break;
+    case kDiffuseThrough:
+      s.wi = cosine_hemisphere(u, -v.side);
+      break;
     case kMultiple:
-      s.wi = cosine_hemisphere(u, v.side);
+      s.wi = grazing_hemisphere(u, v.side);
       s.event = facet_class_;
       break;
-    case kCoat: return sample_coat(v, u);
-    case kFacets: return sample_facets(v, uc, u, mode);
-    case kSubsurface: return enter(v);
-    case kStraight: return go_straight(v);
-    case kLobes: return std::nullopt;
+    case kCoat:
+      return sample_coat(v, u);
+    case kFacets:
+      return sample_facets(v, uc, u, mode);
+    case kSubsurface:
+      return enter(v);
+    case kStraight:
+      return go_straight(v);
+    case kLobes:
+      return std::nullopt;
   }
   return finish(v, s, mode);
 }

@@ -80,8 +80,8 @@ SampledSpectrum PrincipledFresnel::metal(float c) const {
   const SampledSpectrum r0 = clamp(metal_0_, 0.0f, 0.9999f);
   const SampledSpectrum k = sqrt(r0) / sqrt(SampledSpectrum(1.0f) - r0) * 2.0f;
   const SampledSpectrum tint = safe_div(tinted, plain);
-  const SampledSpectrum filmed = with_film(
-      SampledSpectrum(), c, [&](int i) { return std::complex<float>(1.0f, k[i]); });
+  const SampledSpectrum filmed =
+      with_film(SampledSpectrum(), c, [&](int i) { return std::complex<float>(1.0f, k[i]); });
   return tinted * (1.0f - film_weight_) + filmed * tint;
 }
 

@@ -16,8 +16,8 @@ SpectrumInput read_color(const MaterialDescription& d, const MaterialContext& c,
 }
 
 SpectrumInput read_radius_scale(const MaterialDescription& d, const MaterialContext& c) {
-  SpectrumTexturePtr texture = c.textures.spectrum_texture(
-      d.parameters, "subsurface_radius_scale", SpectrumKind::kUnbounded);
+  SpectrumTexturePtr texture = c.textures.spectrum_texture(d.parameters, "subsurface_radius_scale",
+                                                           SpectrumKind::kUnbounded);
   if (!texture)
     texture = constant_spectrum_texture(
         rgb_unbounded_spectrum(RgbColorSpace::srgb(), Rgb{1.0f, 0.5f, 0.25f}));
@@ -55,8 +55,8 @@ float constant_of(const MaterialDescription& d, const MaterialContext& c, const 
 
 }  // namespace
 
-BoundedInput::BoundedInput(const MaterialDescription& d, const MaterialContext& c,
-                           const char* name, float fallback, float low, float high)
+BoundedInput::BoundedInput(const MaterialDescription& d, const MaterialContext& c, const char* name,
+                           float fallback, float low, float high)
     : input_(c.textures.float_texture(d.parameters, name, fallback)), low_(low), high_(high) {
   const std::optional<float> given = input_.constant();
   if (!given) return;
@@ -125,8 +125,8 @@ PrincipledSurface PrincipledInputs::at(const SurfaceInteraction& point,
   return s;
 }
 
-void PrincipledInputs::set_layers(const SurfaceInteraction& point,
-                                  const SampledWavelengths& lambda, PrincipledSurface& s) const {
+void PrincipledInputs::set_layers(const SurfaceInteraction& point, const SampledWavelengths& lambda,
+                                  PrincipledSurface& s) const {
   s.fuzz_weight = fuzz_weight_.at(point);
   if (s.fuzz_weight > 0.0f) {
     s.fuzz_roughness = fuzz_roughness_.at(point);
@@ -180,10 +180,9 @@ void PrincipledInputs::spread_over_wall(PrincipledSurface& s) const {
                        s.subsurface_color * reflected) /
                       reflects;
   if (transmits > 0.0f)
-    s.diffuse_transmission_color =
-        (s.diffuse_transmission_color * (rest * s.diffuse_transmission) +
-         s.subsurface_color * transmitted) /
-        transmits;
+    s.diffuse_transmission_color = (s.diffuse_transmission_color * (rest * s.diffuse_transmission) +
+                                    s.subsurface_color * transmitted) /
+                                   transmits;
   s.diffuse_transmission = transmits;
   s.subsurface = 0.0f;
 }

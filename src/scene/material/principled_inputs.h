@@ -36,7 +36,8 @@ class PrincipledInputs {
   /// Where glass separates colours, all wavelengths but the hero are terminated.
   PrincipledSurface at(const SurfaceInteraction& point, SampledWavelengths& lambda) const;
   /// Mean free path of the subsurface medium, scene units.
-  SampledSpectrum free_path(const SurfaceInteraction& point, const SampledWavelengths& lambda) const;
+  SampledSpectrum free_path(const SurfaceInteraction& point,
+                            const SampledWavelengths& lambda) const;
 
   /// What some point of the surface may have.
   bool may_transmit() const;

@@ -87,8 +87,8 @@ class PrincipledMaterial final : public SurfaceMaterial {
  private:
   const PrincipledLayers* layers(const PrincipledSurface& surface, BsdfArena& arena) const {
     const bool film = surface.film_weight > 0.0f && surface.opaque() > 0.0f;
-    return arena.make<PrincipledLayers>(
-        tables_.get(), surface, film ? arena.make<PrincipledLayers::FilmNodes>() : nullptr);
+    return arena.make<PrincipledLayers>(tables_.get(), surface,
+                                        film ? arena.make<PrincipledLayers::FilmNodes>() : nullptr);
   }
 
   PrincipledInputs inputs_;

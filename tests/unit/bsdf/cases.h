@@ -29,6 +29,7 @@ struct BsdfCase {
   bool refracts = false;    ///< radiance and importance modes differ
   bool adjoint = true;      ///< importance equals radiance with wo and wi exchanged
   bool reciprocal = true;   ///< same value with wo and wi exchanged
+  bool few_angles = false;  ///< one of many like it: fewer directions tell enough
 };
 
 inline SampledSpectrum ramp(float from, float to) {
@@ -124,8 +125,8 @@ inline BsdfCase principled_case(const std::string& name, float alpha,
                                 const std::function<void(PrincipledSurface&)>& change,
                                 bool refracts = false) {
   const PrincipledSurface surface = principled(alpha, change);
-  return {"principled " + name, [=](BsdfArena& a) { return make_principled_bsdf(a, surface); },
-          false, refracts};
+  const auto make = [=](BsdfArena& a) { return make_principled_bsdf(a, surface); };
+  return {.name = "principled " + name, .make = make, .refracts = refracts, .few_angles = true};
 }
 
 /// Lobes of the principled surface, alone and layered.
@@ -161,28 +162,33 @@ inline std::vector<BsdfCase> principled_cases() {
                         s.film_weight = 1.0f;
                       }),
       principled_case("half metal", 0.2f, [](S& s) { s.metalness = 0.5f; }),
-      principled_case("glass", 0.0f, [](S& s) { s.transmission = 1.0f; }, true),
-      principled_case("frosted glass", 0.3f, [](S& s) { s.transmission = 1.0f; }, true),
-      principled_case("air in glass", 0.2f,
-                      [](S& s) {
-                        s.transmission = 1.0f;
-                        s.ior = 0.7f;
-                      },
-                      true),
-      principled_case("tinted glass below varnish", 0.2f,
-                      [&](S& s) {
-                        s.transmission = 0.6f;
-                        s.transmission_color = ramp(0.9f, 0.3f);
-                        s.specular_weight = 0.5f;
-                        coat(s, 0.1f);
-                      },
-                      true),
-      principled_case("glass with film", 0.25f,
-                      [](S& s) {
-                        s.transmission = 0.7f;
-                        s.film_weight = 1.0f;
-                      },
-                      true),
+      principled_case(
+          "glass", 0.0f, [](S& s) { s.transmission = 1.0f; }, true),
+      principled_case(
+          "frosted glass", 0.3f, [](S& s) { s.transmission = 1.0f; }, true),
+      principled_case(
+          "air in glass", 0.2f,
+          [](S& s) {
+            s.transmission = 1.0f;
+            s.ior = 0.7f;
+          },
+          true),
+      principled_case(
+          "tinted glass below varnish", 0.2f,
+          [&](S& s) {
+            s.transmission = 0.6f;
+            s.transmission_color = ramp(0.9f, 0.3f);
+            s.specular_weight = 0.5f;
+            coat(s, 0.1f);
+          },
+          true),
+      principled_case(
+          "glass with film", 0.25f,
+          [](S& s) {
+            s.transmission = 0.7f;
+            s.film_weight = 1.0f;
+          },
+          true),
       principled_case("smooth wall", 0.0f,
                       [](S& s) {
                         s.transmission = 0.8f;
@@ -217,17 +223,18 @@ inline std::vector<BsdfCase> principled_cases() {
                         metal(s);
                         coat(s, 0.0f);
                       }),
-      principled_case("all", 0.03f,
-                      [&](S& s) {
-                        s.metalness = 0.2f;
-                        s.transmission = 0.3f;
-                        s.diffuse_transmission = 0.3f;
-                        s.subsurface = 0.3f;
-                        s.fuzz_weight = 0.5f;
-                        s.film_weight = 0.5f;
-                        coat(s, 0.15f);
-                      },
-                      true),
+      principled_case(
+          "all", 0.03f,
+          [&](S& s) {
+            s.metalness = 0.2f;
+            s.transmission = 0.3f;
+            s.diffuse_transmission = 0.3f;
+            s.subsurface = 0.3f;
+            s.fuzz_weight = 0.5f;
+            s.film_weight = 0.5f;
+            coat(s, 0.15f);
+          },
+          true),
   };
 }
 
