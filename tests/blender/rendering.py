@@ -1,6 +1,4 @@
 """Renders a .blend file with both engines and reads the linear pictures. Runs in Blender."""
-import os
-
 import bpy
 import numpy as np
 
@@ -64,8 +62,3 @@ def block_means(picture, size=20):
     height, width = (n // size * size for n in picture.shape[:2])
     blocks = picture[:height, :width].reshape(height // size, size, width // size, size, 3)
     return blocks.mean(axis=(1, 3))
-
-
-def save_report(folder, lines):
-    with open(os.path.join(folder, "report.txt"), "w", encoding="utf-8") as file:
-        file.write("\n".join(lines) + "\n")

@@ -156,7 +156,8 @@ def caustics(folder):
     volume.inputs["Density"].default_value = 2.5
     tinted.node_tree.links.new(volume.outputs[0],
                                tinted.node_tree.nodes["Material Output"].inputs["Volume"])
-    primitive("uv_sphere", tinted, radius=0.3, segments=96, ring_count=48, location=(-0.2, -0.9, 0.31))
+    primitive("uv_sphere", tinted, radius=0.3, segments=96, ring_count=48,
+              location=(-0.2, -0.9, 0.31))
     lamp(scene, "key", "POINT", (-2.2, 1.5, 2.6), 120, shadow_soft_size=0.08)
     world(scene, (1, 1, 1), 0.08)
     camera(scene, (0, -4.2, 2.4), (0, 0, 0.2), 45)

@@ -96,8 +96,8 @@ class Viewport:
         pixels[..., :3] = picture[::-1]
         buffer = gpu.types.Buffer("FLOAT", pixels.size, pixels.ravel())
         self._texture = gpu.types.GPUTexture((width, height), format="RGBA16F", data=buffer)
-        header = frame.header
-        self._engine().update_stats("Nephroid", f"pass {header['passes']}, {header['seconds']:.1f} s")
+        text = f"pass {frame.header['passes']}, {frame.header['seconds']:.1f} s"
+        self._engine().update_stats("Nephroid", text)
 
     def _draw_texture(self, scene, region):
         engine = self._engine()

@@ -1,8 +1,8 @@
 """Lamps. Powers are Blender's watts, radiances pbrt's L, with no photometric factor between them:
 Cycles' radiance 1 is the pixel value 1, as is L 1 here.
 
-Sources of the formulas: intern/cycles/scene/light.cpp and kernel/light/*.h of Blender 3.4, confirmed
-by tests/blender, which compares both programs:
+Sources of the formulas: intern/cycles/scene/light.cpp and kernel/light/*.h of Blender 3.4. The
+tests in tests/blender compare both programs, lamp by lamp.
   point  I = P / 4 pi; with a radius r it shines like a sphere of L = I / (pi r^2)
   spot   I = P / 4 pi in the axis, whatever the cone, with an edge that is a smoothstep of the
          cosine, as pbrt's is; before 4.0 times the cosine itself
@@ -75,7 +75,8 @@ class LightWriter:
         intensity = light.energy / (4 * math.pi)
         radius = light.shadow_soft_size
         if radius <= 0:
-            self._text.add("LightSource", "point", {"rgb I": [c * intensity for c in color], **name})
+            self._text.add("LightSource", "point",
+                           {"rgb I": [c * intensity for c in color], **name})
             return
         radiance = intensity / (math.pi * radius ** 2)
         self._emitter([c * radiance for c in color], name)

@@ -1,4 +1,4 @@
-"""Blender's Principled BSDF, of 3.x and of 4.x, as `Material "principled"` (terms of OpenPBR 1.1)."""
+"""Blender's Principled BSDF, of 3.x and of 4.x, as `Material "principled"` of OpenPBR 1.1."""
 import math
 
 import numpy as np
