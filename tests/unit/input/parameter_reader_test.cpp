@@ -174,7 +174,8 @@ TEST(ParameterReader, RefusesNumbersThatDoNotFit) {
 TEST(ParameterReader, RefusesWrongCounts) {
   const auto count_error = [](const std::string& type, int found, int expected) {
     return "f:1:1: parameter \"a\" has type \"" + type + "\" and " + std::to_string(found) +
-           (found == 1 ? " number" : " numbers") + ", expected a multiple of " + std::to_string(expected);
+           (found == 1 ? " number" : " numbers") + ", expected a multiple of " +
+           std::to_string(expected);
   };
   EXPECT_EQ(error_in("\"point2 a\" [1 2 3]"), count_error("point2", 3, 2));
   EXPECT_EQ(error_in("\"vector2 a\" 1"), count_error("vector2", 1, 2));
