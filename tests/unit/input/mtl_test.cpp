@@ -1,6 +1,7 @@
 // MTL materials as "principled", area lights and opacity.
 #include <gtest/gtest.h>
 
+#include "input/contained_file.h"
 #include "input/obj/obj_scene.h"
 #include "input/scene_reader.h"
 #include "unit/input/parse_text.h"
@@ -156,6 +157,14 @@ TEST_F(MtlTest, FilesOutsideOfTheFolderNeedPermission) {
   ImportOptions allowed;
   allowed.allow_outside = true;
   EXPECT_EQ(read_triangle(head, allowed).materials.at(0).type, "principled");
+}
+
+TEST_F(MtlTest, AMissingFileInTheCurrentFolderIsNotOutside) {
+  const SceneFiles files(".");
+  EXPECT_EQ(contained_file(files, "no-such-file.png", false, {}), "no-such-file.png");
+  EXPECT_NE(error_of([&] { contained_file(files, "../no-such-file.png", false, {}); })
+                .find("lies outside"),
+            std::string::npos);
 }
 
 TEST_F(MtlTest, WhatIsMissingIsGreyWithAWarning) {

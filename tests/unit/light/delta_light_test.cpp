@@ -156,6 +156,7 @@ TEST(DistantLight, ShinesAlongOneDirection) {
 
 TEST(DistantLight, WithAnAngleIsACapOfTheSameIrradiance) {
   const SceneSphere sphere{{1, 2, 3}, 10};
+  const Vec3f kOrigin(0, 0, 0);
   for (const float degrees : {0.53f, 20.0f, 180.0f}) {
     SCOPED_TRACE(degrees);
     const LightPtr light = light_of(
@@ -193,7 +194,7 @@ TEST(DistantLight, IgnoresScalesOfItsTransform) {
 
 TEST(DistantLight, SamplesItsCapUniformly) {
   const LightPtr light =
-      light_of("LightSource \"distant\" \"point3 from\" [0 0 1] \"float angle\" 120");
+      light_of("LightSource \"distant\" \"float angle\" 120");
   constexpr int kCount = 100000, kRings = 10, kSectors = 8;
   std::vector<double> observed(kRings * kSectors),
       expected(kRings * kSectors, static_cast<double>(kCount) / (kRings * kSectors));

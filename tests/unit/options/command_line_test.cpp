@@ -118,7 +118,8 @@ TEST(CommandLine, Errors) {
   EXPECT_NE(usage_error("").find("no command"), std::string::npos);
   EXPECT_EQ(
       usage_error("paint s.pbrt"),
-      "unknown command 'paint', expected one of: render, merge, info, routes, compare, bench");
+      "unknown command 'paint', expected one of: render, merge, info, routes, compare, convert, "
+      "bench");
   EXPECT_NE(usage_error("render").find("SCENE"), std::string::npos);
   EXPECT_NE(usage_error("render a.pbrt b.pbrt").find("b.pbrt"), std::string::npos);
   EXPECT_NE(usage_error("render s.pbrt --resumes").find("--resumes"), std::string::npos);
@@ -173,9 +174,12 @@ TEST(CommandLine, OptionsAboutTheSceneAreChecked) {
 
 TEST(CommandLine, ImportOptionsAreWordsOfTheIdentity) {
   EXPECT_EQ(import_options_text({}), "");
-  const ImportOptions options =
-      parse("render s.glb --camera a%b\tc --floor --sun 5,6 --define n=1 --at 2.5")
-          .render.overrides.import;
+  ImportOptions options;
+  options.camera = "a%b\tc";
+  options.floor = true;
+  options.sun = SunDirection{5, 6};
+  options.defines["n"] = "1";
+  options.time = 2.5;
   EXPECT_EQ(import_options_text(options), "camera=a%25b%09c at=2.5 define:n=1 floor=yes sun=5,6");
 }
 
