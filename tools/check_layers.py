@@ -36,7 +36,7 @@ LIBRARIES = {
     r"xxhash": {"core/content_hash.cpp"},
     r"CLI/": {"options", "report_page/main.cpp"},
     r"nlohmann/": {"bench", "session/checkpoint/film_metadata.cpp", "input/gltf/json_value.h",
-                   "input/gltf/json_value.cpp"},
+                   "input/gltf/json_value.cpp", "apps/frame_stream.cpp"},
     r"draco/": {"input/gltf/draco.cpp"},
     r"meshoptimizer": {"input/gltf/meshopt.cpp"},
     r"pugixml": {"input/mitsuba/xml_text.h"},

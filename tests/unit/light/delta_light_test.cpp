@@ -4,8 +4,6 @@
 namespace nephroid::testing_light {
 namespace {
 
-const Vec3f kOrigin(0, 0, 0);
-
 float radiance_towards(const Light& light, const Vec3f& from) {
   const auto s = light.sample_towards(from, {0.5f, 0.5f}, test_wavelengths());
   return s ? s->radiance[0] : 0.0f;
