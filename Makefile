@@ -35,7 +35,7 @@ test-nightly: build
 test-blender: program
 	@tools/install_deps blender
 	@mkdir -p out/blender
-	@blender -b --factory-startup --python-exit-code 1 -P tests/blender/scenes.py -- out/blender >out/blender/scenes.log 2>&1
+	@blender -b --factory-startup --python-exit-code 1 -P tests/blender/scenes.py -- out/blender >out/blender/scenes.log
 	@blender -b --factory-startup --python-exit-code 1 -P tests/blender/run.py -- out/blender
 
 program: deps

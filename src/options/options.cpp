@@ -189,8 +189,8 @@ const OptionDescription kOptions[] = {
      "run.",
      false, [](CommandLine& l, const std::string&) { l.render.resume = true; }},
     {"render", "--checkpoint", "", "TIME", "s, m or h", "60s", "Output",
-     "How often the picture and its state, OUT.state, are written while it is made. It is less "
-     "often where that would take more than 2 % of the time.",
+     "How often the picture and OUT.state are written meanwhile. It is less often where that would "
+     "take more than 2 % of the time.",
      false,
      [](CommandLine& l, const std::string& t) {
        l.render.checkpoint_interval = parse_duration("--checkpoint", t);
@@ -209,9 +209,9 @@ const OptionDescription kOptions[] = {
     {"render", "--float", "", "", "", "", "Output", kFloatHelp, false,
      set_float<&CommandLine::render>, true},
     {"render", "--stream", "", "LAYER,...", "", "none", "Output",
-     "Write frames to standard output, for a program that shows the picture while it is made "
-     "(docs/stream.md). They have these layers: picture, routes, AOVs, albedo, N, Z. Messages are "
-     "frames, too, and no file is written unless --output is given.",
+     "Write frames to standard output, for a viewer. They show the picture while it is made, with "
+     "these layers: picture, routes, AOVs, albedo, N, Z (docs/stream.md). Messages are frames, "
+     "too, and no file is written unless --output is given.",
      false, set_stream, true},
     {"render", "--quiet", "", "", "", "", "Output",
      "Print only errors, and warnings about the output file.",

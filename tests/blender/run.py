@@ -22,7 +22,7 @@ from nephroid_blender.program import find_program, route_names
 from rendering import (block_means, cycles, nephroid, open_scene, render_to, save_side_by_side)
 
 ARGUMENTS = sys.argv[sys.argv.index("--") + 1:]
-FOLDER = ARGUMENTS[0]
+FOLDER = os.path.abspath(ARGUMENTS[0])
 LAMPS = ("point", "ball", "spot", "sun", "area", "disk", "panel", "world")
 
 
@@ -57,10 +57,10 @@ class AgainstCycles(unittest.TestCase):
         self.compare("diffuse", 128, 8, 0.02, 0.03)
 
     def test_caustics(self):
-        self.compare("caustics", 256, 10, 0.04, 0.08)
+        self.compare("caustics", 256, 10, 0.03, 0.05)
 
     def test_instances(self):
-        self.compare("instances", 64, 8, 0.04, 0.08)
+        self.compare("instances", 64, 8, 0.02, 0.03)
 
 
 class Passes(unittest.TestCase):

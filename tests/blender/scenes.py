@@ -178,10 +178,11 @@ def checked_image(folder):
     return bpy.data.images.load(image.filepath_raw)
 
 
-def textured(name, image, scale, roughness):
-    made = material(name, "BsdfPrincipled", Roughness=roughness)
+def textured(kind, color, name, image, scale, roughness):
+    """A material of a shader node whose input `color` is a mapped image."""
+    made = material(name, kind, Roughness=roughness)
     tree = made.node_tree
-    nodes = {n.type: n for n in tree.nodes}
+    shader = next(n for n in tree.nodes if n.type.startswith("BSDF"))
     texture = tree.nodes.new("ShaderNodeTexImage")
     texture.image = image
     mapping = tree.nodes.new("ShaderNodeMapping")
@@ -190,7 +191,7 @@ def textured(name, image, scale, roughness):
     coordinates = tree.nodes.new("ShaderNodeTexCoord")
     tree.links.new(coordinates.outputs["UV"], mapping.inputs["Vector"])
     tree.links.new(mapping.outputs[0], texture.inputs["Vector"])
-    tree.links.new(texture.outputs["Color"], nodes["BSDF_PRINCIPLED"].inputs["Base Color"])
+    tree.links.new(texture.outputs["Color"], shader.inputs[color])
     return made
 
 
@@ -225,14 +226,14 @@ def instances(folder):
     scene = new_scene()
     image = checked_image(folder)
     bpy.ops.mesh.primitive_plane_add(size=6)
-    bpy.context.object.data.materials.append(textured("ground", image, 2, 0.9))
+    bpy.context.object.data.materials.append(textured("BsdfDiffuse", "Color", "ground", image, 2, 0))
     metal = material("metal", "BsdfGlossy", Color=(0.8, 0.8, 0.85, 1), Roughness=0.05)
     primitive("uv_sphere", metal, radius=0.5, segments=64, ring_count=32, location=(-1.2, 0.6, 0.5))
     bpy.ops.mesh.primitive_monkey_add(size=0.9, location=(0.2, -0.2, 0.5), rotation=(-0.5, 0, 0.4))
     monkey = bpy.context.object
     monkey.modifiers.new("smooth", "SUBSURF").render_levels = 2
     monkey.data.polygons.foreach_set("use_smooth", [True] * len(monkey.data.polygons))
-    monkey.data.materials.append(textured("skin", image, 1, 0.4))
+    monkey.data.materials.append(textured("BsdfPrincipled", "Base Color", "skin", image, 1, 0.4))
     for i in range(5):
         copy = bpy.data.objects.new(f"copy {i}", monkey.data)
         scene.collection.objects.link(copy)
@@ -254,7 +255,7 @@ def instances(folder):
 
 
 def main():
-    folder = sys.argv[sys.argv.index("--") + 1]
+    folder = os.path.abspath(sys.argv[sys.argv.index("--") + 1])
     os.makedirs(folder, exist_ok=True)
     diffuse_room(folder)
     for which in LAMPS:
