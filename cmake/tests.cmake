@@ -26,6 +26,7 @@ endif()
 # (filters of GoogleTest); the label `full` has the rest, so that no test runs twice. Suites labelled
 # `nightly` compare random estimates and can run with other seeds.
 set(quick_routes "-Sets/BruteForce*")
+set(quick_unit_bsdf "-PrincipledChiSquare*")
 set(quick_statistical "*/glass_before_wall_*")
 set(quick_determinism "ResumeRefuses*:*/mixed:*/doidge2012")
 set(quick_regression "Bad*")

@@ -238,7 +238,7 @@ inline std::vector<BsdfCase> principled_cases() {
   };
 }
 
-inline std::vector<BsdfCase> all_cases() {
+inline std::vector<BsdfCase> simple_cases() {
   const LambertSurface grey{ramp(0.8f, 0.4f)};
   std::vector<BsdfCase> cases = {
       {"diffuse", [](BsdfArena& a) { return a.make<DiffuseBsdf>(ramp(0.9f, 0.1f)); }},
@@ -282,6 +282,11 @@ inline std::vector<BsdfCase> all_cases() {
                   metal(.2f, .2f)),
       coated_case("coated metal mirrors medium", make_coat(1.3f, 0, 0, 0.5f, .8f), metal(0, 0)),
   };
+  return cases;
+}
+
+inline std::vector<BsdfCase> all_cases() {
+  std::vector<BsdfCase> cases = simple_cases();
   for (const BsdfCase& c : principled_cases()) cases.push_back(c);
   return cases;
 }

@@ -69,13 +69,13 @@ std::vector<Question> questions(const BsdfCase& c, const Bsdf& bsdf) {
   return list;
 }
 
-TEST(BsdfChiSquare, SamplesFollowTheDensity) {
+void expect_that_samples_follow_the_density(const std::vector<BsdfCase>& cases) {
   struct Result {
     std::string what;
     double p;
   };
   std::vector<Result> results;
-  for (const BsdfCase& c : all_cases()) {
+  for (const BsdfCase& c : cases) {
     BsdfArena arena;
     const Bsdf& bsdf = *c.make(arena);
     for (const Question& q : questions(c, bsdf)) {
@@ -89,6 +89,15 @@ TEST(BsdfChiSquare, SamplesFollowTheDensity) {
   ASSERT_GT(results.size(), 60u);
   const double level = sidak(0.01, static_cast<int>(results.size()));
   for (const Result& r : results) EXPECT_GT(r.p, level) << r.what;
+}
+
+TEST(BsdfChiSquare, SamplesFollowTheDensity) {
+  expect_that_samples_follow_the_density(simple_cases());
+}
+
+// Apart, since the quick tier leaves it out.
+TEST(PrincipledChiSquare, SamplesFollowTheDensity) {
+  expect_that_samples_follow_the_density(principled_cases());
 }
 
 TEST(BsdfChiSquare, NoticesAWrongDensity) {
