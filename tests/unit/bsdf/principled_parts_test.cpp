@@ -1,5 +1,5 @@
-// The parts of the principled surface against closed forms and integrals: Fresnel terms, thin films,
-// rough diffuse surfaces, and the tables of facets and fuzz.
+// The parts of the principled surface against closed forms and integrals: Fresnel terms, thin
+// films, rough diffuse surfaces, and the tables of facets and fuzz.
 #include <gtest/gtest.h>
 
 #include <complex>
