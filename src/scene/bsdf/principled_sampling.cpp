@@ -109,8 +109,8 @@ std::optional<BsdfSample> PrincipledBsdf::sample_facets(const View& v, float uc,
 std::optional<Vec3f> PrincipledBsdf::sample_rough(const View& v, float uc, const Vec2f& u) const {
   const Vec3f m = s_.facets.sample_visible(v.wo, u);
   const float om = dot(v.wo, m);
-  if (uc < reflection_share(v, std::abs(om)) || s_.thin_walled) {
-    const bool reflects = uc < reflection_share(v, std::abs(om));
+  const bool reflects = uc < reflection_share(v, std::abs(om));
+  if (reflects || s_.thin_walled) {
     const Vec3f wi = normalize(reflect_about(v.wo, m));
     if (!(wi.z * v.side > 0.0f)) return std::nullopt;
     return reflects ? wi : Vec3f(wi.x, wi.y, -wi.z);

@@ -61,14 +61,16 @@ BoundedInput::BoundedInput(const MaterialDescription& d, const MaterialContext& 
   const std::optional<float> given = input_.constant();
   if (!given) return;
   constant_ = clamped(*given);
-  if (*constant_ != *given)
+  if (*constant_ == *given) return;
+  const SourceLocation& where = d.parameters.find(name)->where;
+  if (high < kInfinity)
     c.diagnostics.warn(
-        d.parameters.find(name)->where,
-        high < kInfinity
-            ? fmt::format("\"{}\" is {}, expected a number from {} to {}; {} is used", name, *given,
-                          low, high, *constant_)
-            : fmt::format("\"{}\" is {}, expected a number of at least {}, which is used", name,
-                          *given, low));
+        where, fmt::format("\"{}\" is {}, expected a number from {} to {}; {} is used", name,
+                           *given, low, high, *constant_));
+  else
+    c.diagnostics.warn(where, fmt::format("\"{}\" is {}, expected a number of at least {}; {} is "
+                                          "used",
+                                          name, *given, low, *constant_));
 }
 
 PrincipledInputs::PrincipledInputs(const MaterialDescription& d, const MaterialContext& c)
