@@ -24,7 +24,8 @@ std::string contained_file(const SceneFiles& files, const std::string& name, boo
   if (allow_outside) return name;
   std::error_code error;
   const fs::path folder = fs::weakly_canonical(files.directory(), error);
-  const fs::path path = error ? fs::path() : fs::weakly_canonical(fs::absolute(files.path_of(name)), error);
+  const fs::path path =
+      error ? fs::path() : fs::weakly_canonical(fs::absolute(files.path_of(name)), error);
   if (error || !lies_below(path, folder))
     throw SceneError(named_by, "\"" + name +
                                    "\" lies outside of the scene's folder, expected a "

@@ -162,8 +162,9 @@ TEST_F(MtlTest, FilesOutsideOfTheFolderNeedPermission) {
 TEST_F(MtlTest, AMissingFileInTheCurrentFolderIsNotOutside) {
   const SceneFiles files(".");
   EXPECT_EQ(contained_file(files, "no-such-file.png", false, {}), "no-such-file.png");
-  EXPECT_NE(error_of([&] { contained_file(files, "../no-such-file.png", false, {}); })
-                .find("lies outside"),
+  EXPECT_NE(error_of([&] {
+              contained_file(files, "../no-such-file.png", false, {});
+            }).find("lies outside"),
             std::string::npos);
 }
 

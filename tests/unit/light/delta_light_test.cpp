@@ -191,8 +191,7 @@ TEST(DistantLight, IgnoresScalesOfItsTransform) {
 }
 
 TEST(DistantLight, SamplesItsCapUniformly) {
-  const LightPtr light =
-      light_of("LightSource \"distant\" \"float angle\" 120");
+  const LightPtr light = light_of("LightSource \"distant\" \"float angle\" 120");
   constexpr int kCount = 100000, kRings = 10, kSectors = 8;
   std::vector<double> observed(kRings * kSectors),
       expected(kRings * kSectors, static_cast<double>(kCount) / (kRings * kSectors));
