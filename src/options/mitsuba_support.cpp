@@ -25,7 +25,7 @@ writes what was understood as a pbrt-v4 scene. Each plug-in is
 A property that a plug-in does not have is a warning, and an error with `--strict`. Names of properties may be written as in
 Mitsuba 0.6 (`intIOR`) or as in Mitsuba 3 (`int_ior`), in scenes of any version.
 
-- `<default>` values are replaced by `-D name=value`. `<include>`, `<ref>` and `<alias>` are followed; objects may be used before
+- `<default>` values are replaced by `--define NAME=VALUE`. `<include>`, `<ref>` and `<alias>` are followed; objects may be used before
   they are defined.
 - Files lie in the scene's folder or below it; `--allow-outside` permits others.
 - `--camera` chooses a sensor by its id or its index from 0. By default it is the first.

@@ -40,10 +40,9 @@ std::string SceneParameters::replaced(const std::string& text, const SourceLocat
     if (value == values_.end()) {
       std::vector<std::string> known;
       for (const auto& entry : values_) known.push_back(entry.first);
-      throw SceneError(where,
-                       "parameter \"$" + name +
-                           "\" has no value, expected a <default> or one on the command line" +
-                           did_you_mean(name, known));
+      throw SceneError(where, "parameter \"$" + name +
+                                  "\" has no value, expected a <default> or one by --define" +
+                                  did_you_mean(name, known));
     }
     used_.insert(name);
     result += value->second;

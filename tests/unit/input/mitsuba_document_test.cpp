@@ -33,8 +33,8 @@ TEST(MitsubaDocument, ParametersStandAnywhereInAText) {
       "<shape type=\"ply\"><string name=\"filename\" value=\"$dir/a-$n.ply\"/></shape>\n");
   EXPECT_EQ(d.shapes[0].type, "trianglemesh");
   EXPECT_EQ(scene.error("<shape type=\"$shpae\"/>\n<default name=\"shape\" value=\"x\"/>\n"),
-            "scene.xml:2:8: parameter \"$shpae\" has no value, expected a <default> or one on "
-            "the command line");
+            "scene.xml:2:8: parameter \"$shpae\" has no value, expected a <default> or one by "
+            "--define");
 }
 
 TEST(MitsubaDocument, IncludesAreReadInPlace) {
