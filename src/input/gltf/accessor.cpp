@@ -127,6 +127,7 @@ void read_element(const std::byte* from, const Layout& layout, float* to) {
 
 /// Packed floats, the usual case, are copied at once.
 void read_elements(const Elements& elements, const Layout& layout, float* to) {
+  if (layout.count == 0) return;
   if (layout.component->code == kFloat && elements.stride == layout.width() * sizeof(float)) {
     std::memcpy(to, elements.first, layout.count * elements.stride);
     return;
