@@ -89,7 +89,8 @@ asan tsan: deps
 # Each fuzzer for FUZZ_TIME seconds (docs/reliability.md), by clang. What they learn stays in
 # build/fuzz/corpus, what they find in build/fuzz/found. OpenImageIO loses the text of an error of libpng.
 FUZZ_TIME ?= 1200
-FUZZ_TARGETS ?= scene ply obj gltf mitsuba serialized volume bsdf routes image environment nanovdb checkpoint command
+FUZZ_TARGETS ?= scene ply obj gltf mitsuba serialized volume bsdf routes image environment nanovdb \
+  checkpoint command
 fuzz: deps-clang
 	@cmake --preset fuzz >/dev/null
 	@cmake --build --preset fuzz

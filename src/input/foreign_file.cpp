@@ -11,6 +11,8 @@ namespace {
 
 constexpr const char* kScene = "";
 constexpr const char* kOtherName = " (scenes of this format have names that end in .gltf or .glb)";
+constexpr const char* kObj =
+    " (OBJ files are scenes if their names end in .obj; in scenes, meshes are PLY files)";
 constexpr const char* kMesh = " (meshes are read as PLY, by Shape \"plymesh\")";
 constexpr const char* kPly = " (Shape \"plymesh\" \"string filename\" reads it)";
 constexpr const char* kImage = " (images are read by Texture \"imagemap\" and by lights)";
@@ -45,7 +47,7 @@ constexpr Format kNames[] = {
     {".usdc", "a binary USD scene", kScene}, {".usdz", "a USD scene", kScene},
     {".blend", "a Blender file", kScene},    {".fbx", "an FBX scene", kScene},
     {".abc", "an Alembic scene", kScene},    {".xml", "an XML scene", kScene},
-    {".obj", "a Wavefront OBJ mesh", kMesh}, {".mtl", "a Wavefront material library", kScene},
+    {".obj", "a Wavefront OBJ mesh", kObj}, {".mtl", "a Wavefront material library", kScene},
     {".stl", "an STL mesh", kMesh},          {".ply", "a PLY mesh", kPly},
 };
 
@@ -89,7 +91,7 @@ Format format_of(std::string_view bytes, const std::string& path) {
     return {"", "a glTF scene", kOtherName};
   if (text[0] == '{') return {"", "a JSON file", kScene};
   if (text[0] == '<') return xml_format(text);
-  if (is_obj(text)) return {"", "a Wavefront OBJ mesh", kMesh};
+  if (is_obj(text)) return {"", "a Wavefront OBJ mesh", kObj};
   // Directives begin with a capital letter: such a file may be a scene whatever its name.
   if (std::isupper(static_cast<unsigned char>(text[0]))) return {"", "", ""};
   for (const Format& format : kNames)
