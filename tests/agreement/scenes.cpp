@@ -181,6 +181,24 @@ const std::vector<AgreementScene> kAgreementScenes = {
      .world = R"(Material "coatedconductor" "float interface.roughness" 0
                    "float conductor.roughness" 0.2
                  Translate 0 0.7 0 Shape "sphere" "float radius" 0.6)"},
+    {.name = "principled",
+     .world = R"(AttributeBegin Material "principled" "float subsurface_weight" 0.6
+         "float subsurface_radius" 0.2 "rgb subsurface_color" [0.8 0.6 0.5]
+         "float coat_weight" 0.7 "rgb coat_color" [0.9 0.7 0.6] "float fuzz_weight" 0.3
+       Translate -0.6 0.6 0 Shape "sphere" "float radius" 0.5 AttributeEnd
+       Material "principled" "float transmission_weight" 0.8 "float specular_roughness" 0
+         "rgb transmission_color" [0.9 0.6 0.4]
+       Translate 0.7 0.9 0.3 Shape "sphere" "float radius" 0.5)"},
+    {.name = "principled_pane_above_metal",
+     .world = R"(AttributeBegin Material "principled" "float base_metalness" 0.7
+         "rgb base_color" [0.9 0.6 0.3] "float specular_roughness" 0.4 "float coat_weight" 1
+         "float thin_film_weight" 0.5
+       Translate 0 0.7 0 Shape "sphere" "float radius" 0.6 AttributeEnd
+       Material "principled" "bool geometry_thin_walled" true "float transmission_weight" 0.9
+         "float specular_roughness" 0 "rgb transmission_color" [0.7 0.8 0.9]
+         "float diffuse_transmission_weight" 0.5
+       Shape "bilinearmesh" "point3 P" [-3.4 2.2 -3  3.4 2.2 -3  -3.4 2.2 3  3.4 2.2 3])",
+     .photons = 8192},
     {.name = "measured_below_glass", .world = R"(Material "measured" "string filename" "MEASURED"
                  Shape "bilinearmesh" "point3 P" [-3 0.05 -3  3 0.05 -3  -3 0.05 3  3 0.05 3]
                  Material "dielectric" "float eta" 1.5 Translate 0 0.9 0

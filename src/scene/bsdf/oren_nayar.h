@@ -26,7 +26,8 @@ class OrenNayar {
     const float s = dot(wo, wi) - wo.z * wi.z;
     const float slant = s > 0.0f ? s / std::max(std::max(wo.z, wi.z), 1e-7f) : s;
     const float lost = (1.0f - albedo(wo.z)) * (1.0f - albedo(wi.z));
-    return reflectance_ * (scale_ * (1.0f + roughness_ * slant)) + multiple_ * std::max(lost, 0.0f);
+    return reflectance_ * (scale_ * std::max(1.0f + roughness_ * slant, 0.0f)) +
+           multiple_ * std::max(lost, 0.0f);
   }
   const SampledSpectrum& reflectance() const { return reflectance_; }
 

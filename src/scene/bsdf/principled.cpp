@@ -196,7 +196,8 @@ void PrincipledBsdf::add_facets(const View& v, const Vec3f& up, const Passed& pa
     const float lost = layers_->lost(v.up) * layers_->lost(up);
     e.f += layers_->multiple() * layers_->metal_darkening() * v.passed.color * passed.color *
            (s_.metalness * std::min(v.passed.above, passed.above) * lost);
-    e.pdf_w += v.shares[kMultiple] * up.z * kInvPi;
+    // Facets that are not very rough lose light at grazing angles only.
+    e.pdf_w += v.shares[kMultiple] * kInv4Pi / std::sqrt(up.z);
   }
 }
 

@@ -16,6 +16,11 @@ Vec3f cosine_hemisphere(const Vec2f& u, float side) {
   return {w.x, w.y, w.z * side};
 }
 
+/// A direction whose root of the cosine is uniform.
+Vec3f grazing_hemisphere(const Vec2f& u, float side) {
+  return uniform_hemisphere({u.x * u.x, u.y}, side);
+}
+
 }  // namespace
 
 std::optional<BsdfSample> PrincipledBsdf::sample(const Vec3f& wo, float uc, const Vec2f& u,
@@ -45,7 +50,7 @@ std::optional<BsdfSample> PrincipledBsdf::sample(const Vec3f& wo, float uc, cons
       s.wi = cosine_hemisphere(u, -v.side);
       break;
     case kMultiple:
-      s.wi = cosine_hemisphere(u, v.side);
+      s.wi = grazing_hemisphere(u, v.side);
       s.event = facet_class_;
       break;
     case kCoat:

@@ -29,6 +29,7 @@ struct BsdfCase {
   bool refracts = false;    ///< radiance and importance modes differ
   bool adjoint = true;      ///< importance equals radiance with wo and wi exchanged
   bool reciprocal = true;   ///< same value with wo and wi exchanged
+  bool few_angles = false;  ///< one of many like it: fewer directions tell enough
 };
 
 inline SampledSpectrum ramp(float from, float to) {
@@ -124,8 +125,8 @@ inline BsdfCase principled_case(const std::string& name, float alpha,
                                 const std::function<void(PrincipledSurface&)>& change,
                                 bool refracts = false) {
   const PrincipledSurface surface = principled(alpha, change);
-  return {"principled " + name, [=](BsdfArena& a) { return make_principled_bsdf(a, surface); },
-          false, refracts};
+  const auto make = [=](BsdfArena& a) { return make_principled_bsdf(a, surface); };
+  return {.name = "principled " + name, .make = make, .refracts = refracts, .few_angles = true};
 }
 
 /// Lobes of the principled surface, alone and layered.

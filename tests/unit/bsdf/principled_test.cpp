@@ -1,5 +1,5 @@
 // The principled surface against the families that it contains, and its promises: a white surface
-// reflects all light, a coat darkens as a real one does, films show Airy's colours.
+// reflects all light, a coat darkens as a real one does.
 #include "scene/bsdf/principled.h"
 
 #include <gtest/gtest.h>
@@ -230,6 +230,64 @@ TEST(PrincipledBsdf, AWhiteSurfaceReflectsAllLightAndNoMore) {
       EXPECT_LT(energy, 1.0 + 5.0 * error + 2e-3) << what;
       EXPECT_GT(energy, w.least - 5.0 * error) << what;
     }
+  }
+}
+
+TEST(PrincipledBsdf, ACoatDarkensAsARealOneDoes) {
+  // Without absorption and with many reflections the closed form of "coateddiffuse" is exact.
+  const CoatTable table({1.6f, {}}, 1e-6f, 1000);
+  const CoatedDiffuseBsdf expected(&table, ramp(0.9f, 0.2f), kSpecularAlpha);
+  BsdfArena arena;
+  const Bsdf& coated = *make_principled_bsdf(arena, principled(0.09f, [](S& s) {
+                                               s.diffuse_color = ramp(0.9f, 0.2f);
+                                               s.specular_weight = 0.0f;
+                                               s.coat_weight = 1.0f;
+                                             }));
+  EXPECT_EQ(coated.classes(), expected.classes());
+  TestRandom random(51);
+  for (int i = 0; i < 200; ++i) {
+    const Vec3f wo = spherical(random.next(), 6.28 * random.next());
+    const Vec3f wi = spherical(random.next(), 6.28 * random.next());
+    const auto value = [&](const Bsdf& b) {
+      return b.eval(wo, wi, TransportMode::kRadiance, EventClass::kDiffuse, ClassMask::kAll).f;
+    };
+    const SampledSpectrum a = value(coated), b = value(expected);
+    for (int k = 0; k < kSpectrumSamples; ++k) EXPECT_NEAR(a[k], b[k], 0.01f * b[k]);
+  }
+}
+
+TEST(PrincipledBsdf, LightBelowLeavesAsFromTheDiffuseLobe) {
+  // Entering and leaving, with a white profile between them, is the diffuse lobe.
+  const auto layered = [](float subsurface) {
+    return principled(0.2f, [&](S& s) {
+      s.diffuse_color = SampledSpectrum(1.0f);
+      s.coat_weight = 0.7f;
+      s.coat_darkening = 0.0f;
+      s.coat_color = ramp(0.9f, 0.6f);
+      s.fuzz_weight = 0.4f;
+      s.fuzz_color = SampledSpectrum();
+      s.subsurface = subsurface;
+    });
+  };
+  BsdfArena arena, other;
+  const Bsdf& skin = *make_principled_bsdf(arena, layered(1.0f));
+  const Bsdf& paint = *make_principled_bsdf(other, layered(0.0f));
+  const PrincipledLayers layers(&principled_tables(), layered(1.0f), nullptr);
+  const PrincipledExitBsdf exit(&layers);
+  const Vec3f wi = direction_at(35.0f, 2.0f);
+  for (const float angle : {10.0f, 70.0f}) {
+    const Vec3f wo = direction_at(angle);
+    std::optional<BsdfSample> entry;
+    for (int i = 0; i < 100 && !(entry && entry->subsurface); ++i)
+      entry = skin.sample(wo, 0.01f * static_cast<float>(i), {0.5f, 0.5f}, TransportMode::kRadiance,
+                          ClassMask::kDiffuse);
+    ASSERT_TRUE(entry && entry->subsurface && entry->transmitted && entry->delta);
+    const SampledSpectrum out = exit.eval(Vec3f(0, 0, 1), wi, TransportMode::kRadiance,
+                                          EventClass::kDiffuse, ClassMask::kAll)
+                                    .f;
+    const SampledSpectrum whole =
+        paint.eval(wo, wi, TransportMode::kRadiance, EventClass::kDiffuse, ClassMask::kAll).f;
+    expect_same(entry->f * std::abs(entry->wi.z) * out, whole, "below");
   }
 }
 
