@@ -47,7 +47,7 @@ constexpr Format kNames[] = {
     {".usdc", "a binary USD scene", kScene}, {".usdz", "a USD scene", kScene},
     {".blend", "a Blender file", kScene},    {".fbx", "an FBX scene", kScene},
     {".abc", "an Alembic scene", kScene},    {".xml", "an XML scene", kScene},
-    {".obj", "a Wavefront OBJ mesh", kObj}, {".mtl", "a Wavefront material library", kScene},
+    {".obj", "a Wavefront OBJ mesh", kObj},  {".mtl", "a Wavefront material library", kScene},
     {".stl", "an STL mesh", kMesh},          {".ply", "a PLY mesh", kPly},
 };
 

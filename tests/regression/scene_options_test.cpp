@@ -24,7 +24,8 @@ class ObjProgram : public ::testing::Test {
   }
   /// A small render with more arguments.
   ProgramRun render(const std::string& scene, std::vector<std::string> more = {}) const {
-    more.insert(more.begin(), {"render", scene, "--resolution", "16x12", "--passes", "1", "-t", "2"});
+    more.insert(more.begin(),
+                {"render", scene, "--resolution", "16x12", "--passes", "1", "-t", "2"});
     return run(more);
   }
   testing::TemporaryDirectory folder_;

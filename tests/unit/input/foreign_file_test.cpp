@@ -64,10 +64,11 @@ TEST(ForeignFile, IsRefusedAsASceneAndAsAPartOfOne) {
   const TemporaryDirectory directory;
   Diagnostics diagnostics;
   const std::string path = directory.write("a.obj", "mtllib a.mtl\n");
-  EXPECT_EQ(error_of([&] { parse_pbrt_file(path, diagnostics); }),
-            path +
-                ":1:1: this is a Wavefront OBJ mesh, expected a pbrt-v4 scene (OBJ files are scenes "
-                "if their names end in .obj; in scenes, meshes are PLY files)");
+  EXPECT_EQ(
+      error_of([&] { parse_pbrt_file(path, diagnostics); }),
+      path +
+          ":1:1: this is a Wavefront OBJ mesh, expected a pbrt-v4 scene (OBJ files are scenes "
+          "if their names end in .obj; in scenes, meshes are PLY files)");
   const std::string top = directory.write("top.pbrt", "WorldBegin\nInclude \"a.obj\"");
   EXPECT_EQ(error_of([&] { parse_pbrt_file(top, diagnostics); }),
             top + ":2:9: \"" + path +
