@@ -112,6 +112,9 @@ void add_camera(Document& document, const NodeGraph& nodes, SceneDescription& sc
                            "\": the file has none");
     return;
   }
+  for (const PlacedCamera& camera : cameras)
+    scene.choices.cameras.push_back(
+        camera.name.empty() ? std::to_string(scene.choices.cameras.size()) : camera.name);
   const PlacedCamera& chosen = chosen_camera(document, cameras);
   const JsonValue& place = document.list("nodes")[chosen.node];
   const std::string type = chosen.camera.get("type").text();

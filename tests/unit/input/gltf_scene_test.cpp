@@ -201,6 +201,7 @@ TEST(GltfCameras, TheChosenOneByNameOrIndex) {
   EXPECT_EQ(type_of("top"), "orthographic");
   EXPECT_EQ(type_of("1"), "orthographic");
   EXPECT_EQ(type_of("front"), "perspective");
+  EXPECT_EQ(read_gltf_text(file).scene.choices.cameras, (std::vector<std::string>{"front", "top"}));
   ImportOptions options;
   options.camera = "side";
   EXPECT_EQ(gltf_error(file, options),
