@@ -40,6 +40,13 @@ class ParameterList {
   }
   void add_bool(const std::string& name, bool value) { add("bool", name).bools.push_back(value); }
 
+  /// The parameters of another list; their places stay.
+  void add_all(const ParameterList& other) {
+    set_.list.insert(set_.list.end(), other.set_.list.begin(), other.set_.list.end());
+  }
+
+  const SourceLocation& where() const { return set_.where; }
+  const ParameterSet& set() const { return set_; }
   /// A directive of that type with these parameters.
   DirectiveDescription directive(const std::string& type) && {
     DirectiveDescription d;

@@ -1,5 +1,5 @@
 // OBJ and MTL files on hostile text, and the view that such a scene gets; see targets.h.
-#include "fuzz/file_bundle.h"
+#include "fuzz/file_list.h"
 #include "fuzz/memory_files.h"
 #include "fuzz/targets.h"
 #include "input/obj/obj_file.h"

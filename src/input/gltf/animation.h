@@ -17,11 +17,11 @@ struct NodePose {
   std::array<double, 3> scale{1, 1, 1};
 };
 
-/// What animations set, by node.
+/// Properties that animations set, by node.
 class AnimationPose {
  public:
-  /// Evaluates all animations of the file at `time` in s. Of two that set the same property of a
-  /// node the first counts, with a warning.
+  /// Evaluates all animations of the file at `time` in s. If two set the same property of a
+  /// node, the first one counts, with a warning.
   AnimationPose(Document& document, double time);
 
   void apply(size_t node, NodePose& pose) const;

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "input/gltf/parameter_list.h"
+#include "input/parameter_list.h"
 
 namespace nephroid::gltf {
 namespace {
@@ -57,7 +57,7 @@ void add_film(SceneDescription& scene, double aspect, const SourceLocation& wher
   ParameterList list(where);
   list.add_numbers("integer", "xresolution", {std::max(1.0, std::round(width))});
   list.add_numbers("integer", "yresolution", {std::max(1.0, std::round(height))});
-  scene.film = directive("rgb", std::move(list));
+  scene.film = std::move(list).directive("rgb");
 }
 
 double positive(const JsonValue& owner, const std::string& name) {
@@ -132,7 +132,7 @@ void add_camera(Document& document, const NodeGraph& nodes, SceneDescription& sc
                        ", expected one between 0.001 and 1000");
   add_film(scene, aspect, chosen.camera.where());
   CameraDescription camera;
-  static_cast<DirectiveDescription&>(camera) = directive(type, std::move(list));
+  static_cast<DirectiveDescription&>(camera) = std::move(list).directive(type);
   const TransformDescription& world = nodes.world(chosen.node);
   camera.world_to_camera = {world_to_camera(world.start, place), world_to_camera(world.end, place)};
   scene.camera = std::move(camera);

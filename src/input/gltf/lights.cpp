@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "input/gltf/parameter_list.h"
+#include "input/parameter_list.h"
 
 namespace nephroid::gltf {
 namespace {
@@ -34,9 +34,10 @@ Mat44d rigid(Mat44d node) {
 void add_punctual(const JsonValue& light, const TransformDescription& world,
                   SceneDescription& scene) {
   const std::string type = light.get("type").text();
-  const Color color = light.get_numbers<3>("color", {1, 1, 1});
+  const ParameterList::Color color = light.get_numbers<3>("color", {1, 1, 1});
   const double intensity = light.get_number("intensity", 1);
-  const Color emission = {color[0] * intensity, color[1] * intensity, color[2] * intensity};
+  const ParameterList::Color emission = {color[0] * intensity, color[1] * intensity,
+                                         color[2] * intensity};
   ParameterList list(light.where());
   if (type == "directional") {
     list.add_color("L", emission);
@@ -54,7 +55,7 @@ void add_punctual(const JsonValue& light, const TransformDescription& world,
   if (!name.empty()) list.add_string("name", name);
   LightDescription description;
   static_cast<DirectiveDescription&>(description) =
-      directive(type == "directional" ? "distant" : type, std::move(list));
+      std::move(list).directive(type == "directional" ? "distant" : type);
   description.transform = {rigid(world.start), rigid(world.end)};
   scene.lights.push_back(std::move(description));
 }
@@ -90,7 +91,7 @@ void add_image_based_light(Document& document, SceneDescription& scene) {
   if (coefficients.empty() || coefficients[0].elements().size() != 3)
     light.get("irradianceCoefficients").fail("expected nine triples of numbers");
   constexpr double kMeanOfFirst = 0.28209479177387814 / 3.14159265358979323846;  // Y00 / pi
-  Color radiance;
+  ParameterList::Color radiance;
   for (size_t i = 0; i < 3; ++i)
     radiance[i] = std::max(0.0, coefficients[0].elements()[i].number()) * kMeanOfFirst *
                   light.get_number("intensity", 1);
@@ -101,7 +102,7 @@ void add_image_based_light(Document& document, SceneDescription& scene) {
   ParameterList list(light.where());
   list.add_color("L", radiance);
   LightDescription description;
-  static_cast<DirectiveDescription&>(description) = directive("infinite", std::move(list));
+  static_cast<DirectiveDescription&>(description) = std::move(list).directive("infinite");
   scene.lights.push_back(std::move(description));
 }
 

@@ -25,7 +25,7 @@ std::string add_interior(SurfaceInputs& inputs, const JsonValue& volume, const C
   list.add_color("sigma_a", absorption);
   list.add_color("sigma_s", kBlack);
   MediumDescription medium;
-  static_cast<DirectiveDescription&>(medium) = directive("homogeneous", std::move(list));
+  static_cast<DirectiveDescription&>(medium) = std::move(list).directive("homogeneous");
   medium.name = "interior " + std::to_string(inputs.scene.media.size());
   inputs.scene.media.push_back(medium);
   return medium.name;

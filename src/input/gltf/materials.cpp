@@ -68,7 +68,7 @@ void add_area_light(SurfaceInputs& inputs, const Color& factor,
   if (inputs.json->get_flag("doubleSided", false)) list.add_bool("twosided", true);
   const std::string name = inputs.json->get_text("name", "");
   if (!name.empty()) list.add_string("name", name);
-  inputs.surface.area_light = directive("diffuse", std::move(list));
+  inputs.surface.area_light = std::move(list).directive("diffuse");
 }
 
 void add_emission(SurfaceInputs& inputs) {
@@ -237,7 +237,7 @@ SurfaceDescription Materials::make(const std::optional<JsonValue>& material,
   inputs.surface.shape_parameters = ParameterList(where);
   describe(inputs);
   MaterialDescription description;
-  static_cast<DirectiveDescription&>(description) = directive("principled", std::move(inputs.list));
+  static_cast<DirectiveDescription&>(description) = std::move(inputs.list).directive("principled");
   description.name = unique_name(material);
   inputs.surface.material.index = static_cast<int>(scene_.materials.size());
   inputs.surface.material.where = where;

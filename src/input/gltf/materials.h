@@ -11,7 +11,7 @@
 
 namespace nephroid::gltf {
 
-/// What a shape of a material needs besides its geometry.
+/// Everything that a shape of a material needs besides its geometry.
 struct SurfaceDescription {
   MaterialReference material;
   ParameterList shape_parameters{SourceLocation{}};  ///< "alpha", if the surface is not opaque

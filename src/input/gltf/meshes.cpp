@@ -187,7 +187,7 @@ std::optional<ShapeDescription> Meshes::make_shape(const Use& use, const JsonVal
   add_vertices(list, vertices);
   list.add_all(surface.shape_parameters);
   ShapeDescription shape;
-  static_cast<DirectiveDescription&>(shape) = directive("trianglemesh", std::move(list));
+  static_cast<DirectiveDescription&>(shape) = std::move(list).directive("trianglemesh");
   shape.material = surface.material;
   shape.area_light = surface.area_light;
   shape.inside_medium = surface.interior;

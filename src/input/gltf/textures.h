@@ -8,10 +8,12 @@
 #include <vector>
 
 #include "input/gltf/document.h"
-#include "input/gltf/parameter_list.h"
+#include "input/parameter_list.h"
 #include "input/scene_description.h"
 
 namespace nephroid::gltf {
+
+using Color = ParameterList::Color;
 
 /// Which sets of texture coordinates a material uses: a mesh has room for two, and textures name
 /// them 0 and 1.
