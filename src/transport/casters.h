@@ -1,7 +1,8 @@
-// Where photons are merged: everywhere, or only if light arrived by way of a caster, an S or, as an
-// option, a G. A merge at a D needs any caster between it and the light, one at a G needs an S.
-// (Camera walks find light from G to G, and few photons lie within a G lobe.) Both sides of a path
-// must agree on this. It must not know photons or weights.
+// Where photons are merged: everywhere, or only if light arrived by way of a caster: an S, or as
+// options a G, or any event. A merge at a D needs any caster between it and the light. One at a G
+// needs an S, unless any event is a caster. (Camera walks find light from G to G, and few photons
+// lie within a G lobe.) Both sides of a path must agree on this. It must not know photons or
+// weights.
 #pragma once
 
 #include <algorithm>
@@ -16,12 +17,16 @@ inline constexpr size_t kCasters = 3;
 
 class CasterRule {
  public:
-  /// `casters`: kSpecular, or kSpecular and kGlossy, or kNone to merge photons everywhere.
+  /// `casters`: kSpecular, or kSpecular and kGlossy. kAll: any event is a caster, so photons of all
+  /// light are merged, but for those that come straight from a light. kNone: these are merged, too.
   explicit CasterRule(ClassMask casters = ClassMask::kNone) : casters_(casters) {}
 
-  bool merges_all_light() const { return casters_ == ClassMask::kNone; }
+  bool merges_all_light() const {
+    return casters_ == ClassMask::kNone || casters_ == ClassMask::kAll;
+  }
   /// The caster that an event between a vertex and the light is.
   Caster caster_of(EventClass letter) const {
+    if (merges_all_light()) return Caster::kSpecular;
     if (!contains(casters_, letter)) return Caster::kNone;
     return letter == EventClass::kSpecular ? Caster::kSpecular : Caster::kGlossy;
   }
@@ -31,7 +36,7 @@ class CasterRule {
   }
   /// Event classes that merge if `behind` is the smoothest caster between them and the light.
   ClassMask receivers(Caster behind) const {
-    if (merges_all_light() || behind == Caster::kSpecular) return ClassMask::kRough;
+    if (casters_ == ClassMask::kNone || behind == Caster::kSpecular) return ClassMask::kRough;
     return behind == Caster::kGlossy ? ClassMask::kDiffuse : ClassMask::kNone;
   }
 

@@ -114,6 +114,12 @@ TEST_P(GlossyCasters, PhotonsAndWalksFindWhatWalksAloneFind) {
                GetParam().name);
 }
 
+TEST_P(GlossyCasters, PhotonsOfIndirectLightAndWalksFindWhatWalksAloneFind) {
+  const Pictures of{PairView(world(GetParam()))};
+  expect_equal(of.pictures(merging(ClassMask::kAll), 1, 64),
+               of.pictures(camera_paths_only(), 1000, 256), GetParam().name);
+}
+
 INSTANTIATE_TEST_SUITE_P(Roughness, GlossyCasters, ::testing::ValuesIn(kCasters),
                          [](const auto& test) { return std::string(test.param.name); });
 
@@ -121,6 +127,8 @@ TEST(SpecularCasters, ThrowCausticsOntoMetalWhicheverCastersCount) {
   const Pictures of{PairView(kCausticOnMetal)};
   expect_equal(of.pictures(merging(kGlossyToo), 1, 64),
                of.pictures(merging(ClassMask::kSpecular), 1000, 64), "metal");
+  expect_equal(of.pictures(merging(ClassMask::kAll), 2000, 64),
+               of.pictures(merging(ClassMask::kSpecular), 1000, 64), "metal, any caster");
 }
 
 }  // namespace

@@ -133,7 +133,7 @@ TEST_P(Guided, WalksAndPhotonsTogetherFindTheSamePicture) {
         own.radius = radius;
         Film film = film_for(*scene, set);
         const PhotonGuide guide =
-            guide_caustic_photons(seed, *scene, film.format(), own, ClassMask::kSpecular).guide;
+            guide_photons_of(ClassMask::kSpecular, seed, *scene, film.format(), own).guide;
         EXPECT_EQ(guide.starts.empty(), !guided);
         const SampleMap map(film.bounds(), 8), no_walks(film.bounds(), 0);
         EstimatorStatistics statistics;

@@ -40,7 +40,7 @@ TEST(Trials, ThatMergeAllLightFindTheSamePicture) {
   IntegratorOptions options;
   options.max_depth = 6;
   const std::string notes = notes_of(*scene, options);
-  EXPECT_NE(notes.find("photons render all light"), std::string::npos) << notes;
+  EXPECT_NE(notes.find("photons render all indirect light"), std::string::npos) << notes;
   expect_same(unbiased_block_values(*scene, "mixed", options, kSeeds, 24, 100, kAcross),
               block_values(*scene, "bdpt", options, kSeeds, 32, 1, kAcross), 0.02);
 }

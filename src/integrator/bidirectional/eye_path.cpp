@@ -191,9 +191,8 @@ class EyeVisitor {
   }
 
   /// Evaluates the events at an eye vertex towards the unit direction `w` of a light or a light
-  /// vertex. False if none is of use. Casters do not matter: paths are connected to light vertices
-  /// only if all light is merged.
-  bool ends_at_eye(const EyeEnd& z, const Vec3f& w, ConnectionEnds& ends) const {
+  /// vertex. `behind` is the smoothest caster from there to the light. False if none is of use.
+  bool ends_at_eye(const EyeEnd& z, const Vec3f& w, Caster behind, ConnectionEnds& ends) const {
     if (z.medium) {
       ConnectionEnd& end = ends[0];
       const double p = z.medium->phase.eval(z.medium->wo, w);
@@ -219,9 +218,9 @@ class EyeVisitor {
       end.density = {e.pdf_w, 0, true};
       if (v.subsurface_exit)
         end.density.forward = subsurface_density(v.surface.ng, w);
-      else if (sums_.at_cut(c, Caster::kNone).before > 0)
+      else if (sums_.at_cut(c, behind).before > 0)
         end.density.back = event_density(v.bsdf, wi, v.wo, TransportMode::kImportance, c);
-      end.merge = sums_.merges(c, Caster::kNone) ? merge_weight() : 0;
+      end.merge = sums_.merges(c, behind) ? merge_weight() : 0;
       end.eye = routes_.next(eye_, symbol_at(symbols_, v, c, wi));
     }
     return any;
@@ -232,7 +231,7 @@ class EyeVisitor {
     const auto d = sample_direct(settings_.scene, z.receiver, z.walk.lambda, sampler);
     if (!d) return;
     ConnectionEnds ends;
-    if (!ends_at_eye(z, d->wi_world, ends)) return;
+    if (!ends_at_eye(z, d->wi_world, Caster::kNone, ends)) return;
     SampledSpectrum arriving;
     LightStart start;
     bool traced = false;
@@ -285,7 +284,9 @@ class EyeVisitor {
     if (!(d2 > 0.0f)) return;
     const Vec3f w = way / std::sqrt(d2);
     ConnectionEnds eye_ends, light_ends;
-    if (!ends_at_eye(z, w, eye_ends) || !ends_at_light(routes_, symbols_, y, -w, light_ends))
+    // All light is merged, so any event is a caster.
+    if (!ends_at_eye(z, w, Caster::kSpecular, eye_ends) ||
+        !ends_at_light(routes_, symbols_, y, -w, light_ends))
       return;
     const Place at_y{y.surface.p, y.in_medium ? Vec3f(0, 0, 0) : y.surface.ng};
     const LineFactors line = line_between(place_, at_y);

@@ -47,16 +47,14 @@ class EyePartialWeights {
   /// The sums at the vertex for a cut behind an event of class `c`; `behind` is the smoothest
   /// caster behind the event.
   const PartialMisWeights& at_cut(EventClass c, Caster behind) const {
-    return rule_.merges_all_light() ? most() : sums_[static_cast<size_t>(rule_.with(c, behind))];
+    return sums_[static_cast<size_t>(rule_.with(c, behind))];
   }
   /// True if paths merge at an event of class `c` in this case.
   bool merges(EventClass c, Caster behind) const { return contains(rule_.receivers(behind), c); }
   /// The sums at the vertex for the case with the most merges.
   const PartialMisWeights& most() const { return sums_[kBehindSpecular]; }
   /// The last vertex before the light, if the walk hits a light next.
-  const SideEnd& end_to_light() const {
-    return ends_[rule_.merges_all_light() ? kBehindSpecular : 0];
-  }
+  const SideEnd& end_to_light() const { return ends_[0]; }
 
  private:
   static constexpr size_t kBehindSpecular = static_cast<size_t>(Caster::kSpecular);
@@ -64,11 +62,9 @@ class EyePartialWeights {
   /// Calls `f` for each case that differs.
   template <class F>
   void for_each_case(const F& f) {
-    if (!rule_.merges_all_light()) {
-      f(static_cast<size_t>(Caster::kNone));
-      if (rule_.caster_of(EventClass::kGlossy) != Caster::kNone)
-        f(static_cast<size_t>(Caster::kGlossy));
-    }
+    f(static_cast<size_t>(Caster::kNone));
+    if (rule_.caster_of(EventClass::kGlossy) == Caster::kGlossy)
+      f(static_cast<size_t>(Caster::kGlossy));
     f(kBehindSpecular);
   }
 

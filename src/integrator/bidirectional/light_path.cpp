@@ -128,8 +128,8 @@ class LightVisitor : public LightWalkVisitor {
     y.lamp = lamp_;
     y.events = walk.events;
     y.sums = sums_;
-    // No caster is asked for: light vertices are connected only if all light is merged.
-    y.merge = settings_.merging ? settings_.merging->weight_at(merge_place_, false) : 0;
+    const bool merges = settings_.merging && rule_.receivers(caster_) != ClassMask::kNone;
+    y.merge = merges ? settings_.merging->weight_at(merge_place_, false) : 0;
     return y;
   }
 

@@ -13,6 +13,7 @@
 #include "integrator/path/specular_chain_pass.h"
 #include "photon/emission_guide.h"
 #include "route/scene_symbols.h"
+#include "transport/casters.h"
 
 namespace nephroid {
 
@@ -24,12 +25,12 @@ struct PairTechniques {
   int64_t light_paths = 1;  ///< number of light paths that leave photons; 0: no photons
   bool connects = true;     ///< false: camera paths are connected to lights only
   /// Classes of casters: only photons that had such an event are merged (CasterRule). kNone: all
-  /// photons are merged. If not kNone, `connects` must be false.
+  /// photons are merged. If neither kNone nor kAll, `connects` must be false.
   ClassMask casters = ClassMask::kNone;
   bool separates_chains = false;  ///< walks of their own look for specular chains
   bool follows_chains = false;    ///< camera paths grow specular trees (Leaves::kBranches)
   float roulette_threshold = 1;   ///< Russian roulette threshold of camera paths
-  bool merges_all_light() const { return casters == ClassMask::kNone; }
+  bool merges_all_light() const { return CasterRule(casters).merges_all_light(); }
   static void members(auto& self, auto& archive) {
     archive(self.light_paths, self.connects, self.casters, self.separates_chains,
             self.follows_chains, self.roulette_threshold);

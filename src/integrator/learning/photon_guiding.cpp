@@ -78,17 +78,19 @@ constexpr EstimatorTraits kMerging{.name = "photons", .merges = true, .starts_at
 
 }  // namespace
 
-GuidedPhotons guide_caustic_photons(uint64_t seed, const Scene& scene, const FilmFormat& film,
-                                    const IntegratorOptions& options, ClassMask casters,
-                                    PassControl& control) {
-  const char* route =
-      contains(casters, EventClass::kGlossy) ? "C.*(D[GS]+D?|[DG]S+[DG]?)L" : "C.*[DG]S+[DG]?L";
+GuidedPhotons guide_photons_of(ClassMask casters, uint64_t seed, const Scene& scene,
+                               const FilmFormat& film, const IntegratorOptions& options,
+                               PassControl& control) {
+  const char* route = "C.*[DG]S+[DG]?L";
+  if (casters == ClassMask::kAll)
+    route = "C.*[DG].+L";
+  else if (contains(casters, EventClass::kGlossy))
+    route = "C.*(D[GS]+D?|[DG]S+[DG]?)L";
   const CompiledPlan plan =
-      compile_plan({{{"caustic", route, &kMerging, {}}, {"rest", ".*", &kTheRest, {}}}, {}}, scene);
-  constexpr size_t kCaustics = 0;  // the group of the first route
+      compile_plan({{{"merged", route, &kMerging, {}}, {"rest", ".*", &kTheRest, {}}}, {}}, scene);
+  constexpr size_t kMerged = 0;  // the group of the first route
   const auto routes = std::make_shared<const Routes>(plan.compilation.routes);
-  return guide_photons(seed, scene, film, {routes, plan.symbols, kCaustics}, options, false,
-                       control);
+  return guide_photons(seed, scene, film, {routes, plan.symbols, kMerged}, options, false, control);
 }
 
 void LearnedPhotons::add_to(EstimatorStatistics& statistics) const {

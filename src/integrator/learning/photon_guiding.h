@@ -26,12 +26,11 @@ GuidedPhotons guide_photons(uint64_t seed, const Scene& scene, const FilmFormat&
                             const OwnedRoutes& owned, const IntegratorOptions& options,
                             bool guides_scattering, PassControl& control = unwatched);
 
-/// The same at emission only, for an estimator of any routes: photons count as useful where those
-/// of a route of caustics would be. `casters` are the classes of their casters: kSpecular, or
-/// kSpecular and kGlossy.
-GuidedPhotons guide_caustic_photons(uint64_t seed, const Scene& scene, const FilmFormat& film,
-                                    const IntegratorOptions& options, ClassMask casters,
-                                    PassControl& control = unwatched);
+/// The same at emission only, for an estimator of any routes. Photons count as useful if they have
+/// passed one of the `casters`, as CasterRule has them: kSpecular, kSpecular and kGlossy, or kAll.
+GuidedPhotons guide_photons_of(ClassMask casters, uint64_t seed, const Scene& scene,
+                               const FilmFormat& film, const IntegratorOptions& options,
+                               PassControl& control = unwatched);
 
 /// GuidedPhotons as an estimator's learned value.
 class LearnedPhotons final : public Learned {

@@ -9,17 +9,21 @@ void LearnedMix::add_to(EstimatorStatistics& s) const {
   s.learning_rays += plan_.rays + plan_.photons.rays;
   s.hold(plan_.photon_bytes, plan_.pixel_bytes);
   const PairTechniques& techniques = plan_.techniques;
-  if (techniques.merges_all_light())
+  if (techniques.casters == ClassMask::kNone)
     s.notes.push_back(
         "photons render all light, not only caustics: trial passes had less error with it");
+  if (techniques.casters == ClassMask::kAll)
+    s.notes.push_back(
+        "photons render all indirect light, not only caustics: trial passes had less error with "
+        "it");
   if (techniques.roulette_threshold == kPatientRouletteThreshold)
     s.notes.push_back(
         "Russian roulette begins at 1/8 of a camera path's initial throughput: trial passes had "
         "less error with it");
-  if (contains(techniques.casters, EventClass::kGlossy))
+  if (techniques.casters == (ClassMask::kSpecular | ClassMask::kGlossy))
     s.notes.push_back(
         "photons render caustics of glossy materials, too: trial passes had less error with it");
-  if (!techniques.merges_all_light()) plan_.photons.add_notes(s);
+  plan_.photons.add_notes(s);
   if (plan_.directions.guides())
     s.notes.push_back(fmt::format("camera paths guided at {:.3g} % of the rough surfaces they met",
                                   100 * plan_.directions.guided()));

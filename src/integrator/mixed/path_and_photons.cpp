@@ -24,6 +24,10 @@ constexpr uint64_t kMeasureStream = 0x6d656173757265;  // "measure"
 /// Required gain of merging more photons. Two passes are a rough estimate: they see neither the
 /// bias of merging nor the gain of camera paths from stratification over later passes.
 constexpr double kRequiredGain = 1.25;
+/// Photons straight from lights are tried if the others are not worse than caustic photons by this.
+constexpr double kWorthATrial = 1.5;
+/// Share of useful photon paths from which on guiding their emission costs more than it gains.
+constexpr double kEnoughUseful = 0.125;
 
 /// Camera paths per pixel of the lattice in the measured pass.
 constexpr int kMeasuredSamples = 8;
@@ -81,52 +85,57 @@ PathAndPhotons::Choice PathAndPhotons::best_of(
       .separates_chains = film.settings().max_component == kInfinity &&
                           SpecularTree(scene, owned_, options_.max_depth).finds_something(),
       .roulette_threshold = kCameraRouletteThreshold};
-  const Candidate all = trials.run(techniques, kUnguided);
-  const auto inverse_efficiency = [&all](Candidate of) {
+  const auto try_photons = [&](ClassMask casters, GuidedPhotons photons) {
+    techniques.casters = casters;
+    Choice choice{trials.run(techniques, photons.guide.starts), std::move(photons)};
+    return choice;
+  };
+  GuidedPhotons guided = photons_of(ClassMask::kAll);
+  // Camera paths ask for the density of each start, which takes some time.
+  if (guided.guide.starts.share_unaimed() > kEnoughUseful) guided.guide = {};
+  Choice all = try_photons(ClassMask::kAll, guided);
+  const auto inverse_efficiency = [most_light = all.candidate.trial](Candidate of) {
     // Photons of all light find all that caustic photons find, though they lose light at edges.
-    of.balance.variance_of_camera += of.trial.min_variance_of_unseen(all.trial);
+    of.balance.variance_of_camera += of.trial.min_variance_of_unseen(most_light);
     return of.balance.inverse_efficiency();
   };
-  const auto try_caustics = [&](ClassMask casters) {
-    Choice choice;
-    choice.photons = photons_of(casters);
-    techniques.casters = casters;
-    choice.candidate = trials.run(techniques, choice.photons.guide.starts);
-    return choice;
+  // Keeps `other` instead of `best` if it is better by `gain`; the rays of both have been traced.
+  const auto keep_better = [&](Choice& best, Choice other, double gain) {
+    const uint64_t rays = best.photons.rays + other.photons.rays;
+    if (gain * inverse_efficiency(other.candidate) < inverse_efficiency(best.candidate))
+      best = std::move(other);
+    best.photons.rays = rays;
   };
   const int64_t light_paths = techniques.light_paths;
   if (!has_events(owned_, EventClass::kSpecular)) techniques.light_paths = 0;
-  Choice caustics = try_caustics(ClassMask::kSpecular);
+  Choice best = try_photons(ClassMask::kSpecular, photons_of(ClassMask::kSpecular));
+  techniques.light_paths = light_paths;
+  const ClassMask with_glossy = ClassMask::kSpecular | ClassMask::kGlossy;
   // A part of the photons cannot leave camera paths less noise than all photons do.
   if (has_events(owned_, EventClass::kGlossy) &&
-      kRequiredGain * all.balance.variance_of_camera <
-          caustics.candidate.balance.variance_of_camera +
-              caustics.candidate.trial.min_variance_of_unseen(all.trial)) {
-    techniques.light_paths = light_paths;
-    Choice with_glossy = try_caustics(ClassMask::kSpecular | ClassMask::kGlossy);
-    const bool pays = kRequiredGain * inverse_efficiency(with_glossy.candidate) <
-                      inverse_efficiency(caustics.candidate);
-    (pays ? with_glossy : caustics).photons.rays += (pays ? caustics : with_glossy).photons.rays;
-    if (pays) caustics = std::move(with_glossy);
-  }
+      kRequiredGain * all.candidate.balance.variance_of_camera <
+          best.candidate.balance.variance_of_camera +
+              best.candidate.trial.min_variance_of_unseen(all.candidate.trial))
+    keep_better(best, try_photons(with_glossy, photons_of(with_glossy)), kRequiredGain);
   // Merging all light would blur the fine shadows of hair.
-  if (!has_events(owned_, EventClass::kHair) &&
-      kRequiredGain * all.balance.inverse_efficiency() < inverse_efficiency(caustics.candidate)) {
+  if (!has_events(owned_, EventClass::kHair)) {
+    guided.rays = 0;
+    if (inverse_efficiency(all.candidate) < kWorthATrial * inverse_efficiency(best.candidate))
+      keep_better(all, try_photons(ClassMask::kNone, std::move(guided)), kRequiredGain);
+    keep_better(best, std::move(all), kRequiredGain);
+  }
+  if (best.candidate.techniques.merges_all_light()) {
     // Separate walks for specular chains would cost more than these short camera paths.
-    Choice chosen;
-    chosen.candidate = all;
-    chosen.photons.rays = caustics.photons.rays;
-    PairTechniques& own = chosen.candidate.techniques;
+    PairTechniques& own = best.candidate.techniques;
     own.follows_chains = std::exchange(own.separates_chains, false);
-    return chosen;
+    return best;
   }
   // [A5]
-  techniques = caustics.candidate.techniques;
+  techniques = best.candidate.techniques;
   techniques.roulette_threshold = kPatientRouletteThreshold;
-  const Candidate patient = trials.run(techniques, caustics.photons.guide.starts);
-  if (inverse_efficiency(patient) < inverse_efficiency(caustics.candidate))
-    caustics.candidate = patient;
-  return caustics;
+  const Candidate patient = trials.run(techniques, best.photons.guide.starts);
+  if (inverse_efficiency(patient) < inverse_efficiency(best.candidate)) best.candidate = patient;
+  return best;
 }
 
 std::shared_ptr<const Learned> PathAndPhotons::learn(const Scene& scene, const FilmFormat& film,
@@ -136,7 +145,7 @@ std::shared_ptr<const Learned> PathAndPhotons::learn(const Scene& scene, const F
   MixPlan plan;
   Trials trials(seed, scene, film, owned_, options_, control);
   Choice choice = best_of(trials, scene, film, [&](ClassMask casters) {
-    return guide_caustic_photons(seed, scene, film, options_, casters, control);
+    return guide_photons_of(casters, seed, scene, film, options_, control);
   });
   plan.photons = std::move(choice.photons);
   const Candidate& best = choice.candidate;

@@ -43,25 +43,30 @@ TEST(EyePartialWeights, AreThoseOfOneSideWhereAllMerges) {
 }
 
 // The rule: a merge at a D needs a caster behind it, one at a G needs an S. Casters are S alone, or
-// G as well.
-class Casters : public testing::TestWithParam<std::tuple<bool, std::string>> {};
+// G as well. If any event is a caster, a merge at a D or a G needs some event behind it.
+class Casters : public testing::TestWithParam<std::tuple<ClassMask, std::string>> {};
 INSTANTIATE_TEST_SUITE_P(
     EyePartialWeights, Casters,
-    testing::Combine(testing::Bool(), testing::Values("DD", "DS", "DG", "GS", "GG", "DGD", "DSD",
-                                                      "GSGD", "DDGSGD", "GDSDG", "DVGGDSD")));
+    testing::Combine(testing::Values(ClassMask::kSpecular,
+                                     ClassMask::kSpecular | ClassMask::kGlossy, ClassMask::kAll),
+                     testing::Values("DD", "DS", "DG", "GS", "GG", "DGD", "DSD", "GSGD", "DDGSGD",
+                                     "GDSDG", "DVGGDSD")));
 
 TEST_P(Casters, LetVerticesBeforeThemMerge) {
-  const bool with_glossy = std::get<0>(GetParam());
+  const ClassMask casters = std::get<0>(GetParam());
+  const bool is_any = casters == ClassMask::kAll;
+  const bool with_glossy = !is_any && contains(casters, EventClass::kGlossy);
   const std::string letters = std::get<1>(GetParam());
   const auto class_of = [](char c) {
     return static_cast<EventClass>(std::string_view("DGSV").find(c));
   };
-  EyePartialWeights eye(false, CasterRule(with_glossy ? ClassMask::kSpecular | ClassMask::kGlossy
-                                                      : ClassMask::kSpecular));
+  EyePartialWeights eye(false, CasterRule(casters));
   eye.arrive_first(0);
   // The rest of the path after the last vertex: only the light, a G, or an S.
   const std::string behind[] = {"", "G", "S"};
   const auto merges = [&](size_t i, const std::string& word) {
+    const bool is_rough = word[i] == 'D' || word[i] == 'G';
+    if (is_any) return is_rough && i + 1 < word.size();
     const bool s = word.find('S', i + 1) != std::string::npos;
     const bool g = with_glossy && word.find('G', i + 1) != std::string::npos;
     return word[i] == 'D' ? s || g : word[i] == 'G' && s;
