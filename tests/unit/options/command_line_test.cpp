@@ -122,7 +122,13 @@ TEST(CommandLine, Errors) {
       "bench");
   EXPECT_NE(usage_error("render").find("SCENE"), std::string::npos);
   EXPECT_NE(usage_error("render a.pbrt b.pbrt").find("b.pbrt"), std::string::npos);
-  EXPECT_NE(usage_error("render s.pbrt --resumes").find("--resumes"), std::string::npos);
+  EXPECT_EQ(usage_error("render s.pbrt --resumes"),
+            "unknown option '--resumes', did you mean \"--resume\"? (see nephroid render --help)");
+  EXPECT_EQ(usage_error("info s.pbrt --zoom=3"),
+            "unknown option '--zoom' (see nephroid info --help)");
+  EXPECT_EQ(usage_error("rendr s.pbrt"),
+            "unknown command 'rendr', expected one of: render, merge, info, routes, compare, "
+            "convert, bench, did you mean \"render\"?");
   EXPECT_NE(usage_error("merge -o c.exr").find("PICTURE"), std::string::npos);
   EXPECT_NE(usage_error("render s.pbrt --passes").find("--passes"), std::string::npos);
   EXPECT_NE(usage_error("render s.pbrt --passes 0").find("--passes: '0'"), std::string::npos);
