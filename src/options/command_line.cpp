@@ -70,8 +70,7 @@ void check_command(const std::vector<std::string>& arguments) {
 std::string not_expected(const std::vector<std::string>& extra, const std::string& command) {
   const auto is_option = [](const std::string& word) { return word.rfind('-', 0) == 0; };
   const auto option = std::ranges::find_if(extra, is_option);
-  if (option == extra.end())
-    return fmt::format("'{}' was not expected", fmt::join(extra, " "));
+  if (option == extra.end()) return fmt::format("'{}' was not expected", fmt::join(extra, " "));
   const std::string name = option->substr(0, option->find('='));
   std::vector<std::string> known;
   for (const OptionDescription& row : option_table())
