@@ -12,14 +12,14 @@ constexpr const char* kHead = R"(# OBJ and MTL files
 
 Made from the tables of the importer by `tools/update_docs`; do not edit.
 
-A file whose name ends in `.obj` or `.obj.gz` is read as a scene. `nephroid convert model.obj model.pbrt` writes what was understood
-as a pbrt-v4 scene. Each keyword is
+A file whose name ends in `.obj` or `.obj.gz` is read as a scene. `nephroid convert model.obj model.pbrt` writes the imported scene
+in the format of pbrt-v4. Each keyword is
 
 - **loaded**;
 - **not needed**: the picture does not depend on it;
 - **warned**: ignored with a warning at its first line, which gives the reason.
 
-Other keywords are warned of, and are errors with `--strict`. A wrong number or index is an error with its file and line.
+Unknown keywords give a warning, and with `--strict` an error. A wrong number or index is an error with its file and line.
 
 - An OBJ file has no camera and no light. The view is from the front right, the front is +z, and up is +y. A grey sky and a soft
   lamp light it. `--floor`, `--sun`, `--environment` and `--exposure` change that ([options](options.md#render)).

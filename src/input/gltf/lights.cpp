@@ -17,7 +17,7 @@ void add_cone(const JsonValue& light, ParameterList& list) {
       spot ? spot->get_number("outerConeAngle", 0.785398163397448) : 0.785398163397448;
   if (!(inner >= 0 && outer > inner && outer <= 1.5707964))
     light.get("spot").fail("the angles of the cone are " + std::to_string(inner) + " and " +
-                           std::to_string(outer) + ", expected 0 <= inner < outer <= pi/2");
+                           std::to_string(outer) + " radians, expected 0 <= inner < outer <= pi/2");
   list.add_float("coneangle", outer * kDegrees);
   list.add_float("conedeltaangle", (outer - inner) * kDegrees);
 }
@@ -68,7 +68,9 @@ void add_punctual_lights(Document& document, const NodeGraph& nodes, SceneDescri
     const auto use = document.list("nodes")[index].extension("KHR_lights_punctual");
     if (!use) continue;
     const size_t light = use->get_index("light");
-    if (light >= lights.size()) use->get("light").fail("there is no such light");
+    if (light >= lights.size())
+      use->get("light").fail("there is no light " + std::to_string(light) +
+                             ", expected an index below " + std::to_string(lights.size()));
     if (lights[light].get_number("intensity", 1) > 0)
       add_punctual(lights[light], nodes.world(index), scene);
   }
@@ -82,14 +84,19 @@ void add_image_based_light(Document& document, SceneDescription& scene) {
   if (!use) return;
   const JsonValue root = document.root();
   const auto extension = root.extension("EXT_lights_image_based");
-  if (!extension) root.fail("\"EXT_lights_image_based\" is missing, expected its lights");
+  if (!extension)
+    root.fail(
+        "the scene has a light of EXT_lights_image_based, but the file has no list of such lights");
   const std::vector<JsonValue> lights = extension->get("lights").elements();
   const size_t index = use->get_index("light");
-  if (index >= lights.size()) use->get("light").fail("there is no such light");
+  if (index >= lights.size())
+    use->get("light").fail("there is no light " + std::to_string(index) +
+                           ", expected an index below " + std::to_string(lights.size()));
   const JsonValue& light = lights[index];
   const std::vector<JsonValue> coefficients = light.get("irradianceCoefficients").elements();
   if (coefficients.empty() || coefficients[0].elements().size() != 3)
-    light.get("irradianceCoefficients").fail("expected nine triples of numbers");
+    light.get("irradianceCoefficients")
+        .fail("the first coefficient is not a triple, expected nine triples of numbers");
   constexpr double kMeanOfFirst = 0.28209479177387814 / 3.14159265358979323846;  // Y00 / pi
   ParameterList::Color radiance;
   for (size_t i = 0; i < 3; ++i)

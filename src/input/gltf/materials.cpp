@@ -99,7 +99,7 @@ void add_normal_map(SurfaceInputs& inputs) {
   if (inputs.surface.uv_sets.place_of(set).value_or(0) != 0)
     inputs.warn(info->where(),
                 "the normal map and the emission use different sets of texture "
-                "coordinates: the directions of the map are those of the emission's");
+                "coordinates: the tangents of the normal map follow the set of the emission");
   inputs.textures.add_placed_image(inputs.list, "normalmap", "normalmap.", *info,
                                    inputs.surface.uv_sets);
   const double scale = info->get_number("scale", 1);
@@ -201,8 +201,9 @@ std::optional<size_t> Materials::chosen_variant() {
       known += (known.empty() ? "\"" : ", \"") + name + "\"";
     }
   }
-  document_.root().fail("there is no material variant \"" + wanted + "\", expected " +
-                        (known.empty() ? "none: the file has no variants" : "one of " + known));
+  document_.root().fail(
+      "there is no material variant \"" + wanted + "\"" +
+      (known.empty() ? ": the file has no variants" : ", expected one of " + known));
 }
 
 std::optional<size_t> Materials::material_index(const JsonValue& primitive) {

@@ -73,7 +73,9 @@ std::vector<Mat44d> instance_matrices(Document& document, const JsonValue& exten
     const auto take = [&](const std::optional<NumberArray>& from, auto& to) {
       if (!from) return;
       if (from->count != count)
-        attributes.fail("TRANSLATION, ROTATION and SCALE have different numbers of elements");
+        attributes.fail(
+            "TRANSLATION, ROTATION and SCALE have different numbers of elements, expected one per "
+            "instance");
       std::copy_n((*from)[i], to.size(), to.begin());
     };
     take(translations, pose.translation);

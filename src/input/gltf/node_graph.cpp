@@ -97,7 +97,7 @@ void NodeGraph::find_worlds(Document& document, const AnimationPose& start,
   std::vector<bool> reached(nodes.size(), false);
   for (const size_t node : order) reached[node] = true;
   const auto lost = std::find(reached.begin(), reached.end(), false) - reached.begin();
-  nodes[lost].fail("this node is below itself, expected a tree of nodes");
+  nodes[lost].fail("this node is a descendant of itself, expected a tree of nodes");
 }
 
 void NodeGraph::find_shown(Document& document) {

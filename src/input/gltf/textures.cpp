@@ -38,7 +38,8 @@ std::string wrap_mode(const JsonValue& sampler, const std::string& member) {
   if (code == kClamp) return "clamp";
   if (code == kMirror) return "mirror";
   if (code != kRepeat)
-    sampler.get(member).fail("unknown wrap mode, expected 33071, 33648 or 10497");
+    sampler.get(member).fail("unknown wrap mode " + std::to_string(code) +
+                             ", expected 33071 (clamp), 33648 (mirror) or 10497 (repeat)");
   return "repeat";
 }
 

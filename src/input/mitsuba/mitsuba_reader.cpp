@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "core/counted.h"
 #include "input/mitsuba/bsdf_plugins.h"
 #include "input/mitsuba/emitter_plugins.h"
 #include "input/mitsuba/integrator_names.h"
@@ -37,9 +38,9 @@ const Object* chosen_sensor(const Document& document, const std::string& wanted)
     if (is_wanted) return sensors[i];
     names += (i > 0 ? ", " : "") + (sensors[i]->id.empty() ? std::to_string(i) : sensors[i]->id);
   }
-  throw SceneError(document.scene.where,
-                   "there is no camera \"" + wanted +
-                       "\", expected one of: " + (names.empty() ? "none" : names));
+  throw SceneError(document.scene.where, "there is no camera \"" + wanted + "\"" +
+                                             (names.empty() ? ": the scene has no sensor"
+                                                            : ", expected one of: " + names));
 }
 
 void write_object(ImportContext& context, const Object& object) {
@@ -63,10 +64,11 @@ void write_object(ImportContext& context, const Object& object) {
 void warn_of_one_sided(const ImportContext& context) {
   const int count = context.one_sided_shapes;
   if (count == 0) return;
-  context.diagnostics.warn(
-      context.first_one_sided,
-      "open shapes with one-sided BSDFs, " + std::to_string(count) +
-          " in all, this the first: in Mitsuba their backs are black, here both sides are alike");
+  context.diagnostics.warn(context.first_one_sided,
+                           counted(static_cast<uint64_t>(count), "open shape") +
+                               in_number(static_cast<uint64_t>(count), " has a one-sided BSDF",
+                                         " have one-sided BSDFs, this is the first") +
+                               ": the back is black in Mitsuba, and like the front here");
 }
 
 }  // namespace

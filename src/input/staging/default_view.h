@@ -1,4 +1,5 @@
-// Camera and light for scenes without: a three-quarter view, a neutral sky and a soft key light.
+// Camera and light for scenes without them: a three-quarter view, a neutral sky and a soft key
+// light.
 #pragma once
 
 #include <array>

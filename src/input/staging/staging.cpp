@@ -59,7 +59,7 @@ class LazyExtent {
     if (!extent_) extent_ = scene_extent(scene_, directions_);
     if (extent_->bounds.isEmpty())
       throw SceneError({std::make_shared<const std::string>(scene_.file), 0, 0},
-                       std::string("the scene has no shapes, expected some for ") + wanted_for);
+                       std::string("the scene has no shapes, expected some: ") + wanted_for);
     return *extent_;
   }
 
@@ -78,14 +78,15 @@ void stage_scene(SceneDescription* scene, bool is_complete, const ImportOptions&
   LazyExtent extent(*scene, view.sides());
   if (!is_complete && !scene->film) name_picture(scene);
   if (!is_complete && !scene->camera) {
-    scene->camera = view.camera(extent.get("a view of them"));
+    scene->camera = view.camera(extent.get("the default view is framed around them"));
     diagnostics.warn(whole_file, "the file has no camera: the view is from the front right");
   }
   const Surroundings surroundings = surroundings_of(*scene);
   const bool is_lit = has_light(*scene) || !options.environment.empty() || options.sun;
-  const Bounds3d bounds = options.floor || !(is_complete || is_lit)
-                              ? extent.get("a floor or lamps around them").bounds
-                              : Bounds3d();
+  const Bounds3d bounds =
+      options.floor || !(is_complete || is_lit)
+          ? extent.get("the floor and the default lamp are placed by them").bounds
+          : Bounds3d();
   if (options.sun) {
     // A white surface that faces the sun gets the value 1.
     const double illuminance = set_sun(scene, *options.sun, surroundings);

@@ -1,5 +1,5 @@
-// What a scene needs to be seen, where its file or the user says so little: camera, light, floor,
-// sky, exposure. It must not know formats.
+// Camera, light, floor, sky and exposure for scenes that lack them or whose user asks for others.
+// It must not know formats.
 #pragma once
 
 #include "input/import_options.h"
@@ -7,8 +7,8 @@
 
 namespace nephroid {
 
-/// Applies --floor, --sun, --environment and --exposure to a scene of any format. A scene that is
-/// not complete by its author's will also gets a camera and light if it has none, with a warning.
+/// Applies --floor, --sun, --environment and --exposure to a scene of any format. Unless
+/// `is_complete`, a scene without camera or light gets one, with a warning.
 /// - The view is framed around all shapes, from the front right and above. The front is the south
 ///   (surroundings.h).
 /// - The light is a grey sky and a soft lamp. A white surface that faces the lamp has the value 1.

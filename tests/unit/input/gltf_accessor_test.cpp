@@ -131,14 +131,16 @@ TEST(GltfAccessor, RefusesUnknownTypes) {
   EXPECT_EQ(error_of(R"("bufferView":0,"componentType":5126,"type":"VEC5","count":1)"),
             "#/accessors/0/type: unknown type \"VEC5\", expected SCALAR, VEC2 to VEC4 or MAT2 to "
             "MAT4");
-  EXPECT_EQ(error_of(R"("bufferView":7,"componentType":5126,"type":"VEC3","count":1)"),
-            "#/accessors/0: index 7 into \"bufferViews\" is out of range, there are 1");
+  EXPECT_EQ(
+      error_of(R"("bufferView":7,"componentType":5126,"type":"VEC3","count":1)"),
+      "#/accessors/0: index 7 into \"bufferViews\" is out of range, expected an index below 1");
 }
 
 TEST(GltfAccessor, RefusesNumbersThatAreNotFinite) {
   GltfText file;
   file.floats({1, std::nanf(""), 3}, "SCALAR", 1);
-  EXPECT_EQ(AccessorFile(file).error(), "#/accessors/0: element 1 is not finite");
+  EXPECT_EQ(AccessorFile(file).error(),
+            "#/accessors/0: element 1 is not finite, expected finite numbers");
 }
 
 TEST(GltfAccessor, RefusesSparseIndicesOutOfRange) {

@@ -84,8 +84,8 @@ TEST(GltfAnimation, DamagedTracksAreErrors) {
   MovingTriangle backwards;
   backwards.times = {2, 0};
   EXPECT_EQ(gltf_error(backwards.text()),
-            "scene.gltf#/animations/0/samplers/0: the times of keyframes are not in increasing "
-            "order");
+            "scene.gltf#/animations/0/samplers/0: the times of keyframes are missing or not in "
+            "increasing order, expected increasing ones");
   MovingTriangle few;
   few.outputs = {1, 2, 3};
   EXPECT_NE(gltf_error(few.text()), "");

@@ -61,12 +61,13 @@ TEST(GltfNodes, OnlyTheChosenSceneIsShown) {
 TEST(GltfNodes, CyclesAreErrors) {
   const std::string head = R"({"asset":{"version":"2.0"},"nodes":)";
   EXPECT_EQ(gltf_error(head + R"([{"children":[0]}]})"),
-            "scene.gltf#/nodes/0: this node is below itself, expected a tree of nodes");
+            "scene.gltf#/nodes/0: this node is a descendant of itself, expected a tree of nodes");
   EXPECT_NE(gltf_error(head + R"([{},{"children":[2]},{"children":[1]}]})"), "");
   EXPECT_EQ(gltf_error(head + R"([{"children":[2]},{"children":[2]},{}]})"),
             "scene.gltf#/nodes/1/children/0: node 2 is a child of two nodes, expected one parent");
   EXPECT_EQ(gltf_error(head + R"([{"children":[9]}]})"),
-            "scene.gltf#/nodes/0/children/0: index 9 into \"nodes\" is out of range, there are 1");
+            "scene.gltf#/nodes/0/children/0: index 9 into \"nodes\" is out of range, expected an "
+            "index below 1");
 }
 
 TEST(GltfNodes, ALongChainDoesNotOverflowTheStack) {

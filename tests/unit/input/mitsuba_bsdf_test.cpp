@@ -262,8 +262,8 @@ TEST(MitsubaBsdf, BacksOfOpenShapesGetOneWarning) {
   MitsubaScene scene;
   scene.read(open + open);
   EXPECT_EQ(scene.warnings(),
-            "scene.xml:2:1: open shapes with one-sided BSDFs, 2 in all, this the first: in Mitsuba "
-            "their backs are black, here both sides are alike\n");
+            "scene.xml:2:1: 2 open shapes have one-sided BSDFs, this is the first: the back is "
+            "black in Mitsuba, and like the front here\n");
   for (const std::string& harmless :
        {"<shape type=\"cube\">" + bsdf("diffuse") + "</shape>\n",
         "<shape type=\"sphere\">" + bsdf("plastic") + "</shape>\n",

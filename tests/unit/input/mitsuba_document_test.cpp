@@ -183,8 +183,8 @@ TEST(MitsubaDocument, WrongValuesNameTheirElement) {
                                "<float name=\"radius\" value=\"2\"/>")),
             "scene.xml:4:1: property \"radius\" is already given at scene.xml:3:2");
   EXPECT_EQ(scene.error(sphere("<boolean name=\"flipNormals\" value=\"yes\"/>")),
-            "scene.xml:3:2: property \"flip_normals\" is neither true nor false, expected one of "
-            "them");
+            "scene.xml:3:2: property \"flip_normals\" is not a boolean, expected true "
+            "or false");
   EXPECT_EQ(scene.error(sphere("<point name=\"center\" value=\"1, 2\"/>")),
             "scene.xml:3:2: property \"center\" has 2 numbers, expected three");
   EXPECT_EQ(scene.error(sphere("<float name=\"radius\" value=\"0\"/>")),
@@ -194,7 +194,8 @@ TEST(MitsubaDocument, WrongValuesNameTheirElement) {
 TEST(MitsubaDocument, UnknownNamesAreWarningsOrErrors) {
   MitsubaScene scene;
   const std::string error = scene.error("<shape type=\"spere\"/>\n");
-  EXPECT_TRUE(has(error, "scene.xml:2:1: shape \"spere\" is unknown, expected \"obj\"")) << error;
+  EXPECT_TRUE(has(error, "scene.xml:2:1: shape \"spere\" is unknown, expected one of \"obj\""))
+      << error;
   EXPECT_TRUE(has(error, "did you mean \"sphere\"?")) << error;
   EXPECT_EQ(scene.error("<shpe type=\"sphere\"/>\n"),
             "scene.xml:2:1: <shpe> is unknown, expected a Mitsuba element");
