@@ -4,15 +4,18 @@ from bpy.props import (BoolProperty, CollectionProperty, EnumProperty, FloatProp
                        PointerProperty, StringProperty)
 
 INTEGRATORS = [
-    ("mixed", "Mixed", "Path tracing and caustic photons, weighed against each other"),
+    ("mixed", "Mixed",
+     "Path tracing and caustic photons, combined by multiple importance sampling"),
     ("path", "Path tracing", "Path tracing alone"),
     ("bdpt", "Bidirectional", "Bidirectional path tracing"),
     ("vcm", "VCM", "Vertex connection and merging"),
     ("bpm", "BPM", "Bidirectional photon mapping"),
     ("sppm", "SPPM", "Stochastic progressive photon mapping"),
     ("mlt", "Metropolis", "Metropolis light transport"),
-    ("pssmlt", "Primary space MLT", "Path tracing explored by Markov chains"),
-    ("doidge2012", "Doidge 2012", "The integrator of the paper"),
+    ("pssmlt", "Primary space MLT",
+     "Metropolis light transport in the random numbers of path tracing"),
+    ("doidge2012", "Doidge 2012",
+     "Caustics by photons alone, the rest by path tracing (Doidge et al. 2012)"),
 ]
 
 
@@ -28,7 +31,7 @@ class NephroidSettings(bpy.types.PropertyGroup):
     time_limit: FloatProperty(name="Time", subtype="TIME", unit="TIME_ABSOLUTE", default=60, min=0,
                               description="Seconds until the render stops; 0 is no limit")
     noise: FloatProperty(name="Noise", default=0, min=0, precision=3,
-                         description="Relative error at which the render stops; 0 is none")
+                         description="Relative error at which the render stops; 0 is no limit")
     passes: IntProperty(name="Passes", default=0, min=0,
                         description="Passes after which the render stops; 0 is no limit")
     route_passes: BoolProperty(name="Routes as passes", default=True,
@@ -39,7 +42,7 @@ class NephroidSettings(bpy.types.PropertyGroup):
     aovs: CollectionProperty(type=NephroidAov)
     active_aov: IntProperty()
     reject_outliers: BoolProperty(name="Reject fireflies", default=False,
-                                  description="Keeps isolated bright estimates out of the picture")
+                                  description="Keep isolated bright samples out of the picture")
     seed: IntProperty(name="Seed", default=0, min=0)
     max_depth: IntProperty(name="Max depth", default=0, min=0,
                            description="Scattering events of a path; 0 is 100")

@@ -60,13 +60,13 @@ def _source(image):
 
 
 def grid(image, output, uv, extension, closest, report):
-    """The "Color" or "Alpha" of an image; None with a warning if it cannot be read."""
+    """The "Color" or "Alpha" of an image; magenta with a warning if it cannot be read."""
     if image is None or image.size[0] == 0 or image.size[1] == 0:
         report.warn(f"image '{image.name if image else ''}'",
                     "it cannot be read, it is drawn in magenta")
         return values.color((1, 0, 1))
     if image.source in ("MOVIE", "SEQUENCE", "TILED"):
-        report.warn(f"image '{image.name}'", "one frame or tile of it is used")
+        report.warn(f"image '{image.name}'", "only one frame or tile of it is used")
     key = f"{image.name_full}"
     if output == "Alpha":
         return values.Grid("alpha of " + key, lambda: _alpha(image), uv, extension, closest)

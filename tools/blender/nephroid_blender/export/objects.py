@@ -125,8 +125,8 @@ class ObjectWriter:
         else:
             grid = surface.emission
             if grid.uv != surface.uv:
-                self._report.warn(f"material '{surface.material}'",
-                                  "the mapping of its emission is not supported, it is left out")
+                self._report.warn(f"material '{surface.material}'", "the mapping of its emission "
+                                  "texture is not supported and is left out")
             path, _ = self.materials.textures.image_file(grid, "spectrum")
             parameters["string filename"] = path
         self._text.add("AreaLightSource", "diffuse", parameters)

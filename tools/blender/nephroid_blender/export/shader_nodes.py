@@ -137,8 +137,8 @@ def _transparent(reader, node):
     color = reader.color(node.input("Color"), (1, 1, 1))
     if values.is_one(color):
         return CLEAR
-    reader.warn("a coloured Transparent BSDF is grey: its luminance is the share of light let "
-                "through")
+    reader.warn("the colour of a Transparent BSDF is not supported, its luminance is used as "
+                "transparency")
     opacity = values.apply(color, "opacity", lambda c: 1 - values.luminance(c))
     return Shader(opacity=opacity)
 

@@ -71,11 +71,12 @@ class TextureWriter:
         if grid.uv == uv:
             return {}
         if grid.uv.layer != uv.layer:
-            self._report.warn(thing, f"has textures on two UV maps, '{uv.layer}' is used for all")
+            used = f"'{uv.layer}'" if uv.layer else "the active one"
+            self._report.warn(thing, f"its textures have two UV maps, {used} is used for all")
         matrix = grid.uv.array() @ np.linalg.pinv(uv.array())
         if abs(matrix[0, 1]) + abs(matrix[1, 0]) > 1e-6 * abs(matrix[:2, :2]).max():
-            self._report.warn(thing, "has textures that are turned against each other, one is not "
-                                     "turned")
+            self._report.warn(thing, "its textures are rotated differently, one rotation is left "
+                                     "out")
         return {"float uscale": matrix[0, 0], "float vscale": matrix[1, 1],
                 "float udelta": matrix[0, 2], "float vdelta": matrix[1, 2]}
 
