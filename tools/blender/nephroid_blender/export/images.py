@@ -5,10 +5,10 @@ import numpy as np
 
 from . import values
 
-DIRECT = {  # file format and colour space: the encoding that the program reads them with
+DIRECT = {  # file format and colour space: the encoding of bytes
     ("PNG", "sRGB"): "sRGB",
     ("PNG", "Non-Color"): "linear",
-    ("JPEG", "sRGB"): None,
+    ("JPEG", "sRGB"): "sRGB",
     ("OPEN_EXR", "Linear"): None,
     ("OPEN_EXR", "Linear Rec.709"): None,
     ("OPEN_EXR", "Non-Color"): None,
@@ -46,8 +46,13 @@ def _alpha(image):
     return np.repeat(_all_pixels(image)[..., 3:], 3, axis=-1)
 
 
+def _is_grey(image):
+    """True for files of one channel; `depth` has the bits of all channels of a pixel."""
+    return image.depth == (32 if image.is_float else 8)
+
+
 def _source(image):
-    """File and encoding of an image that can be read as it is, or None."""
+    """The file of an image if the program can read it as it is, or None."""
     import bpy
     key = (image.file_format, image.colorspace_settings.name)
     if image.source != "FILE" or image.packed_file or image.is_dirty or key not in DIRECT:
@@ -56,7 +61,7 @@ def _source(image):
     endings = {"PNG": (".png",), "JPEG": (".jpg", ".jpeg"), "OPEN_EXR": (".exr",), "HDR": (".hdr",)}
     if not os.path.isfile(path) or not path.lower().endswith(endings[image.file_format]):
         return None
-    return path, DIRECT[key]
+    return values.Source(path, DIRECT[key], _is_grey(image))
 
 
 def grid(image, output, uv, extension, closest, report):

@@ -119,7 +119,4 @@ class MaterialWriter:
         if grid.uv != uv:
             self._report.warn(thing, "its normal maps have different mappings, one mapping is left "
                                      "out")
-        path, encoding = self.textures.image_file(grid, "spectrum")
-        if encoding == "sRGB":  # normal maps are read as linear
-            return self.textures.pixel_file(grid.key, grid.pixels, "spectrum")
-        return path
+        return self.textures.color_file(grid, "linear")

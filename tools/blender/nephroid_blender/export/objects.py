@@ -127,6 +127,5 @@ class ObjectWriter:
             if grid.uv != surface.uv:
                 self._report.warn(f"material '{surface.material}'", "the mapping of its emission "
                                   "texture is not supported and is left out")
-            path, _ = self.materials.textures.image_file(grid, "spectrum")
-            parameters["string filename"] = path
+            parameters["string filename"] = self.materials.textures.color_file(grid, "sRGB")
         self._text.add("AreaLightSource", "diffuse", parameters)

@@ -31,10 +31,22 @@ class TextureWriter:
         return "texture " + name, self._texture(kind, value, uv, thing)
 
     def image_file(self, grid, kind):
-        """File and encoding of the pixels; written unless there is such a file already."""
-        if grid.source is not None:
-            return grid.source
+        """File and encoding of the pixels; written unless there is such a file already.
+
+        A number is the luminance, which the program reads from files of one channel only: of others
+        it takes the alpha, or the mean of the channels.
+        """
+        source = grid.source
+        if source is not None and (kind == "spectrum" or source.is_grey):
+            return source.path, source.encoding
         return self.pixel_file(grid.key, grid.pixels, kind), None
+
+    def color_file(self, grid, read_as):
+        """The file of colours, where the program reads bytes as "sRGB" or "linear"."""
+        source = grid.source
+        if source is not None and source.encoding in (None, read_as):
+            return source.path
+        return self.pixel_file(grid.key, grid.pixels, "spectrum")
 
     def pixel_file(self, key, pixels, kind):
         if (key, kind) not in self._files:
@@ -58,7 +70,7 @@ class TextureWriter:
     def _image_parameters(self, kind, grid):
         path, encoding = self.image_file(grid, kind)
         parameters = {"string filename": path}
-        if encoding is not None:
+        if encoding is not None and path.lower().endswith(".png"):  # JPEG is sRGB without it
             parameters["string encoding"] = encoding
         if grid.extension != "REPEAT":
             parameters["string wrap"] = WRAPS.get(grid.extension, "repeat")
