@@ -101,11 +101,9 @@ class LightWriter:
             "float conedeltaangle": delta, **name})
 
     def _sun(self, light, thing, color, scale, name):
-        if light.angle > math.radians(1):
-            self._report.warn(thing, "the angle of a sun is not supported, its shadows are sharp")
         self._text.add("LightSource", "distant", {
             "rgb L": [c * light.energy for c in color], "point3 from": (0, 0, 0),
-            "point3 to": (0, 0, -1), **name})
+            "point3 to": (0, 0, -1), "float angle": math.degrees(light.angle), **name})
 
     def _area(self, light, thing, color, scale, name):
         if getattr(light, "spread", math.pi) < math.pi - 1e-3:
