@@ -41,6 +41,18 @@ class ShaderReader(ValueReader):
             self.warn(f"'{source.node.name}' as a normal is not supported, it is left out")
         return replace(found, parameters=parameters)
 
+    def check_tangent(self, node):
+        """Warns where u is not the direction of an anisotropic node.
+
+        Without a Tangent node that direction turns about the z axis of the object in Cycles.
+        """
+        socket = node.input("Tangent")
+        source = socket.source() if socket is not None else None
+        if source is None or source.node.type != "TANGENT" or \
+                source.node.node.direction_type != "UV_MAP":
+            self.warn(f"'{node.name}' is anisotropic along its UV map, expected a Tangent node of "
+                      "type UV Map")
+
     def _add_normal_map(self, node, parameters):
         if node.node.space != "TANGENT":
             self.warn(f"'{node.name}' is not in tangent space, it is left out")
@@ -109,6 +121,12 @@ def _refraction(reader, node):
     return _glass(reader, node)
 
 
+def _stretch(anisotropy):
+    """Cycles' factor of alpha along u; alpha along v is divided by it."""
+    a = min(max(anisotropy, -0.99), 0.99)
+    return 1 / (1 + a) if a < 0 else 1 - a
+
+
 def _glossy(reader, node):
     parameters = {"spectrum reflectance": reader.color(node.input("Color")),
                   "bool remaproughness": False}
@@ -116,13 +134,13 @@ def _glossy(reader, node):
     anisotropy = reader.constant(node.input("Anisotropy"))
     if anisotropy == 0:
         parameters["float roughness"] = alpha
-    else:  # alpha / (1 + a) and alpha / (1 - a) along u and v, as in Cycles
+    else:
+        reader.check_tangent(node)
         if reader.constant(node.input("Rotation")) != 0:
             reader.warn("Rotation of an anisotropic surface is not supported, it is taken as 0")
-        a = min(max(anisotropy, -0.99), 0.99)
-        along, across = (1 / (1 + a), 1 - a) if a < 0 else (1 / (1 - a), 1 + a)
-        parameters["float uroughness"] = values.apply(alpha, "u", lambda x: x * along)
-        parameters["float vroughness"] = values.apply(alpha, "v", lambda x: x / across)
+        along = _stretch(anisotropy)
+        parameters["float uroughness"] = values.apply(alpha, f"u{along}", lambda x: x * along)
+        parameters["float vroughness"] = values.apply(alpha, f"v{along}", lambda x: x / along)
     return Shader("conductor", parameters)
 
 
@@ -159,6 +177,8 @@ def _subsurface(reader, node):
 
 
 def _sheen(reader, node):
+    reader.warn(f"'{node.name}' is rendered as the fuzz of OpenPBR, whose lobe differs from that of "
+                "Cycles")
     color = reader.color(node.input("Color"))
     return Shader("principled", {
         "float base_weight": number(0), "float specular_weight": number(0),
