@@ -3,6 +3,7 @@ import bpy
 from bpy.props import (BoolProperty, CollectionProperty, EnumProperty, FloatProperty, IntProperty,
                        PointerProperty, StringProperty)
 
+DEFAULT_SECONDS = 60
 INTEGRATORS = [
     ("mixed", "Mixed",
      "Path tracing and caustic photons, combined by multiple importance sampling"),
@@ -28,8 +29,10 @@ class NephroidAov(bpy.types.PropertyGroup):
 
 class NephroidSettings(bpy.types.PropertyGroup):
     integrator: EnumProperty(name="Integrator", items=INTEGRATORS, default="mixed")
-    time_limit: FloatProperty(name="Time", subtype="TIME", unit="TIME_ABSOLUTE", default=60, min=0,
-                              description="Seconds until the render stops; 0 is no limit")
+    time_limit: FloatProperty(
+        name="Time", subtype="TIME", unit="TIME_ABSOLUTE", default=DEFAULT_SECONDS, min=0,
+        description=f"Seconds until the render stops; 0 is no limit, but {DEFAULT_SECONDS} if "
+                    "noise and passes have none either")
     noise: FloatProperty(name="Noise", default=0, min=0, precision=3,
                          description="Relative error at which the render stops; 0 is no limit")
     passes: IntProperty(name="Passes", default=0, min=0,
@@ -61,7 +64,7 @@ class NephroidSettings(bpy.types.PropertyGroup):
             arguments += ["--noise", f"{self.noise:.6g}"]
         if self.passes > 0:
             arguments += ["--passes", str(self.passes)]
-        return arguments or ["--time", "60s"]
+        return arguments or ["--time", f"{DEFAULT_SECONDS}s"]
 
     def algorithm_arguments(self):
         arguments = ["--integrator", self.integrator, "--seed", str(self.seed)]
