@@ -19,6 +19,7 @@ sys.path[:0] = [HERE, os.path.join(REPOSITORY, "tools", "blender")]
 import nephroid_blender
 from nephroid_blender.process import RenderProcess
 from nephroid_blender.program import find_program, route_names
+from exported import *  # its tests run with those of this file
 from rendering import (block_means, cycles, nephroid, open_scene, render_to, save_side_by_side)
 
 ARGUMENTS = sys.argv[sys.argv.index("--") + 1:]
@@ -123,9 +124,11 @@ class Failures(unittest.TestCase):
         open_scene(path_of("diffuse.blend"))
         scene_path = os.path.join(REPOSITORY, "scenes", "caustic-room", "scene.pbrt")
         process = RenderProcess(find_program(), [scene_path, "--stream", "picture", "--time", "1m"])
-        deadline = time.monotonic() + 20
-        while process.take_picture() is None and time.monotonic() < deadline:
+        deadline, picture = time.monotonic() + 20, None
+        while picture is None and time.monotonic() < deadline:
             time.sleep(0.01)
+            picture = process.take_picture()
+        self.assertIsNotNone(picture)
         begin = time.monotonic()
         process.stop()
         self.assertLess(time.monotonic() - begin, 0.5)

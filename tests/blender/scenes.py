@@ -264,4 +264,5 @@ def main():
     instances(folder)
 
 
-main()
+if __name__ == "__main__":
+    main()
