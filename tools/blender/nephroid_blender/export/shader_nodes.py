@@ -11,6 +11,10 @@ from .value_nodes import ValueReader
 from .values import Constant, is_zero, number
 
 
+EUMELANIN = np.array([0.506, 0.841, 1.653])  # Cycles' absorption, greater than pbrt's
+PHEOMELANIN = np.array([0.343, 0.733, 1.924])
+
+
 class ShaderReader(ValueReader):
     """Reads sockets as shaders, and as values where these are colours and numbers."""
 
@@ -177,8 +181,8 @@ def _subsurface(reader, node):
 
 
 def _sheen(reader, node):
-    reader.warn(f"'{node.name}' is rendered as the fuzz of OpenPBR, whose lobe differs from that of "
-                "Cycles")
+    reader.warn(f"'{node.name}' is rendered as the fuzz of OpenPBR, whose lobe differs from that "
+                "of Cycles")
     color = reader.color(node.input("Color"))
     return Shader("principled", {
         "float base_weight": number(0), "float specular_weight": number(0),
@@ -186,20 +190,34 @@ def _sheen(reader, node):
         "float fuzz_roughness": reader.number(node.input("Roughness", "Sigma"), 0.5)})
 
 
+def _pigment_absorption(reader, node):
+    """Cycles' absorption of melanin m, which is -log(1 - m) of pigment shared by redness, and tint.
+
+    The tint is a reflectance, as the colour of the hair would be (Chiang et al. 2016).
+    """
+    pigment = -np.log(max(1 - reader.constant(node.input("Melanin"), 0.8), 1e-4))
+    redness = reader.constant(node.input("Melanin Redness"), 1)
+    b = reader.constant(node.input("Radial Roughness"), 0.3)
+    scale = np.polyval((0.245, 5.574, -10.73, 2.532, -0.215, 5.969), b)
+    tint = np.clip(reader.constant_color(node.input("Tint")), 1e-20, 1)
+    return (pigment * (1 - redness) * EUMELANIN + pigment * redness * PHEOMELANIN +
+            (np.log(tint) / scale) ** 2)
+
+
 def _hair(reader, node):
     parameters = {"float eta": number(reader.constant(node.input("IOR"), 1.55)),
                   "float beta_m": number(reader.constant(node.input("Roughness"), 0.3)),
                   "float beta_n": number(reader.constant(node.input("Radial Roughness"), 0.3)),
                   "float alpha": number(reader.constant(node.input("Offset"), 0.0349) * 57.29578)}
+    for name in ("Coat", "Random Color", "Random Roughness"):
+        if not is_zero(reader.number(node.input(name))):
+            reader.warn(f"'{name}' of '{node.name}' is not supported, it is taken as 0")
     kind = node.node.parametrization
     if kind == "ABSORPTION":
         sigma = reader.constant_color(node.input("Absorption Coefficient"))
         parameters["spectrum sigma_a"] = values.color(sigma)
-    elif kind == "MELANIN":  # Cycles' -log(1 - m), shared by redness
-        melanin = -np.log(max(1 - reader.constant(node.input("Melanin"), 0.8), 1e-4))
-        redness = reader.constant(node.input("Melanin Redness"), 1)
-        parameters["float eumelanin"] = number(melanin * (1 - redness))
-        parameters["float pheomelanin"] = number(melanin * redness)
+    elif kind == "MELANIN":
+        parameters["spectrum sigma_a"] = values.color(_pigment_absorption(reader, node))
     else:
         parameters["spectrum reflectance"] = reader.color(node.input("Color"))
     return Shader("hair", parameters)
