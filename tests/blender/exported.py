@@ -156,6 +156,28 @@ class Materials(Exported):
         self.assertIn("fuzz of OpenPBR", self.warnings[0])
 
 
+    def hair(self, **inputs):
+        material = scenes.material("hair", "BsdfHairPrincipled", **inputs)
+        material.node_tree.nodes["Principled Hair BSDF"].parametrization = "MELANIN"
+        self.square(material)
+        return parameter(self.export(), "sigma_a")
+
+    def test_pigments_are_those_of_cycles(self):
+        pigment = -np.log(0.5)
+        np.testing.assert_allclose(self.hair(Melanin=0.5, Melanin_Redness=0.25),
+                                   pigment * np.array([0.46525, 0.814, 1.72075]), rtol=1e-4)
+        self.assertEqual(self.warnings, [])
+
+    def test_tint_of_hair_is_a_reflectance(self):
+        absorption = self.hair(Melanin=0, Tint=(0.5, 1, 1, 1), Radial_Roughness=0)
+        np.testing.assert_allclose(absorption, [(np.log(0.5) / 5.969) ** 2, 0, 0], atol=1e-6)
+
+    def test_random_hair_is_a_warning(self):
+        self.hair(Random_Color=0.5)
+        self.assertEqual(self.warnings, ["material 'hair': 'Random Color' of 'Principled Hair BSDF'"
+                                         " is not supported, it is taken as 0"])
+
+
 class Images(Exported):
     RGBA = np.array([[[255, 0, 0, 128], [0, 255, 0, 64]]], dtype=np.uint8)
 

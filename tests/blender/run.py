@@ -24,7 +24,7 @@ from rendering import (block_means, cycles, nephroid, open_scene, render_to, sav
 
 ARGUMENTS = sys.argv[sys.argv.index("--") + 1:]
 FOLDER = os.path.abspath(ARGUMENTS[0])
-LAMPS = ("point", "ball", "spot", "sun", "area", "disk", "panel", "world")
+LAMPS = ("point", "ball", "spot", "sun", "soft", "area", "disk", "panel", "world")
 
 
 def path_of(name):
@@ -62,6 +62,18 @@ class AgainstCycles(unittest.TestCase):
 
     def test_instances(self):
         self.compare("instances", 64, 8, 0.02, 0.03)
+
+    def test_principled(self):
+        self.compare("principled", 128, 6, 0.04, 0.05)
+
+    def test_relief(self):
+        self.compare("relief", 64, 4, 0.02, 0.02)
+
+    def test_volumes(self):
+        self.compare("volumes", 128, 6, 0.02, 0.02)
+
+    def test_hair(self):
+        self.compare("hair", 64, 6, 0.04, 0.04)
 
 
 class Passes(unittest.TestCase):
