@@ -71,7 +71,7 @@ SampledSpectrum PrincipledFresnel::dielectric_inside(float c) const {
 }
 
 SampledSpectrum PrincipledFresnel::metal(float c) const {
-  c = std::clamp(c, 0.0f, 1.0f);
+  c = std::min(std::abs(c), 1.0f);
   const float s = schlick(c);
   const SampledSpectrum plain = metal_0_ + (SampledSpectrum(1.0f) - metal_0_) * s;
   const SampledSpectrum tinted =

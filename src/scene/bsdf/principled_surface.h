@@ -43,14 +43,15 @@ struct PrincipledSurface {
   }
 };
 
-/// Fresnel terms of the base below coat and fuzz. Cosines are those above the surface.
+/// Fresnel terms of the base below coat and fuzz. Cosines are those above the surface, of either
+/// sign.
 class PrincipledFresnel {
  public:
   explicit PrincipledFresnel(const PrincipledSurface& surface);
 
   /// Share of flux that the boundary of the dielectric reflects, without specular_color.
   SampledSpectrum dielectric(float c) const;
-  /// The same at the cosine `c` inside, of either sign; 1 for total reflection.
+  /// The same at the cosine `c` inside; 1 for total reflection.
   SampledSpectrum dielectric_inside(float c) const;
   /// Share of flux that the two boundaries of a thin wall reflect.
   SampledSpectrum wall(float c) const {
