@@ -1,5 +1,5 @@
 // Light that scatters below a principled surface: a tabulated profile, left through the same layers
-// by which it entered. With a radius of 0 it would be the diffuse lobe. It must not know shapes.
+// by which it entered. It must not know shapes.
 #pragma once
 
 #include "scene/bsdf/principled_layers.h"

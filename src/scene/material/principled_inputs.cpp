@@ -42,6 +42,22 @@ TrowbridgeReitz roughened(const TrowbridgeReitz& base, const TrowbridgeReitz& co
           std::min(std::sqrt(sqr(base.alpha_y()) + added), 1.0f)};
 }
 
+/// Adds subsurface light to the diffuse lobes: these shares of it go to the two sides.
+void scatter_at_surface(PrincipledSurface& s, float reflected, float transmitted) {
+  const float rest = 1.0f - s.subsurface;
+  const float diffuse = rest * (1.0f - s.diffuse_transmission), through = rest - diffuse;
+  const auto blend = [&s](const SampledSpectrum& color, float share, float added) {
+    return (color * share + s.subsurface_color * added) / (share + added);
+  };
+  reflected *= s.subsurface;
+  transmitted *= s.subsurface;
+  if (diffuse + reflected > 0.0f) s.diffuse_color = blend(s.diffuse_color, diffuse, reflected);
+  if (through + transmitted > 0.0f)
+    s.diffuse_transmission_color = blend(s.diffuse_transmission_color, through, transmitted);
+  s.diffuse_transmission = through + transmitted;
+  s.subsurface = 0.0f;
+}
+
 /// A number that must be the same everywhere, by default 0.
 float constant_of(const MaterialDescription& d, const MaterialContext& c, const char* name,
                   float low, float high) {
@@ -123,7 +139,12 @@ PrincipledSurface PrincipledInputs::at(const SurfaceInteraction& point,
   set_layers(point, lambda, s);
   set_base(point, lambda, s);
   s.lambdas = lambda.lambdas();
-  if (thin_walled_ && s.subsurface > 0.0f) spread_over_wall(s);
+  if (s.subsurface == 0.0f) return s;
+  // A thin wall has no inside: light scattered in it leaves on both sides.
+  if (thin_walled_)
+    scatter_at_surface(s, 0.5f * (1.0f - g_), 0.5f * (1.0f + g_));
+  else if (free_path(point, lambda).is_black())
+    scatter_at_surface(s, 1.0f, 0.0f);
   return s;
 }
 
@@ -171,27 +192,12 @@ void PrincipledInputs::set_base(const SurfaceInteraction& point, SampledWaveleng
   if (s.subsurface > 0.0f) s.subsurface_color = color(subsurface_color_, point, lambda);
 }
 
-void PrincipledInputs::spread_over_wall(PrincipledSurface& s) const {
-  const float rest = 1.0f - s.subsurface;
-  const float reflected = 0.5f * s.subsurface * (1.0f - g_);
-  const float transmitted = 0.5f * s.subsurface * (1.0f + g_);
-  const float reflects = rest * (1.0f - s.diffuse_transmission) + reflected;
-  const float transmits = rest * s.diffuse_transmission + transmitted;
-  if (reflects > 0.0f)
-    s.diffuse_color = (s.diffuse_color * (rest * (1.0f - s.diffuse_transmission)) +
-                       s.subsurface_color * reflected) /
-                      reflects;
-  if (transmits > 0.0f)
-    s.diffuse_transmission_color = (s.diffuse_transmission_color * (rest * s.diffuse_transmission) +
-                                    s.subsurface_color * transmitted) /
-                                   transmits;
-  s.diffuse_transmission = transmits;
-  s.subsurface = 0.0f;
-}
-
 SampledSpectrum PrincipledInputs::free_path(const SurfaceInteraction& point,
                                             const SampledWavelengths& lambda) const {
-  return clamp(radius_scale_.at(point, lambda), 0.0f, kInfinity) * radius_.at(point);
+  // Wavelengths without a path of their own get one too short to be seen beside the longest.
+  constexpr float kMinShare = 1e-3f;
+  const SampledSpectrum path = radius_scale_.at(point, lambda) * radius_.at(point);
+  return clamp(path, std::max(kMinShare * path.max_component(), 0.0f), kInfinity);
 }
 
 bool PrincipledInputs::may_transmit() const {
@@ -203,7 +209,8 @@ bool PrincipledInputs::may_be_opaque_dielectric() const {
 }
 
 bool PrincipledInputs::may_scatter_below() const {
-  return !thin_walled_ && subsurface_.may_differ_from(0.0f) && may_be_opaque_dielectric();
+  return !thin_walled_ && subsurface_.may_differ_from(0.0f) && radius_.may_differ_from(0.0f) &&
+         !radius_scale_.is_black() && may_be_opaque_dielectric();
 }
 
 bool PrincipledInputs::may_have_facets() const {

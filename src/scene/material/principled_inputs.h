@@ -35,7 +35,7 @@ class PrincipledInputs {
 
   /// Where glass separates colours, all wavelengths but the hero are terminated.
   PrincipledSurface at(const SurfaceInteraction& point, SampledWavelengths& lambda) const;
-  /// Mean free path of the subsurface medium, scene units.
+  /// Mean free path of the subsurface medium, scene units; 0 at all wavelengths or at none.
   SampledSpectrum free_path(const SurfaceInteraction& point,
                             const SampledWavelengths& lambda) const;
 
@@ -67,8 +67,6 @@ class PrincipledInputs {
                 PrincipledSurface& s) const;
   void set_layers(const SurfaceInteraction& point, const SampledWavelengths& lambda,
                   PrincipledSurface& s) const;
-  /// A thin wall has no inside: light scattered in it leaves on both sides.
-  void spread_over_wall(PrincipledSurface& s) const;
 
   SpectrumInput base_color_;
   BoundedInput base_weight_, metalness_, diffuse_roughness_;

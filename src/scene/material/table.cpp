@@ -105,7 +105,8 @@ constexpr FormatParameter kPrincipledBelow[] = {
     {"spectrum or texture", "diffuse_transmission_color", "1"},
     {"float or texture", "subsurface_weight", "0"},
     {"spectrum or texture", "subsurface_color", "0.8", "", "the colour seen"},
-    {"float or texture", "subsurface_radius", "1", "scene units", "mean free path"},
+    {"float or texture", "subsurface_radius", "1", "scene units",
+     "mean free path; with 0 light leaves where it enters, as from the diffuse base"},
     {"spectrum or texture", "subsurface_radius_scale", "1 0.5 0.25", "", "of the radius"},
     {"float", "subsurface_scatter_anisotropy", "0", "", "mean cosine"},
 };
