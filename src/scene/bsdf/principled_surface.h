@@ -25,6 +25,7 @@ struct PrincipledSurface {
   SampledSpectrum fuzz_color{1.0f};
   float coat_weight = 0, coat_ior = 1.6f, coat_darkening = 1;
   SampledSpectrum coat_color{1.0f};
+  bool coat_affects_specular = true;  ///< `ior` and `film` border on the coat, not on air
   TrowbridgeReitz coat_facets;
   float film_weight = 0;
   ThinFilm film;

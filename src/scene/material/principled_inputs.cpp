@@ -116,6 +116,7 @@ PrincipledInputs::PrincipledInputs(const MaterialDescription& d, const MaterialC
       coat_ior_(d, c, "coat_ior", 1.6f, 1.0f, kMaxIor),
       coat_darkening_(d, c, "coat_darkening", 1.0f),
       coat_color_(read_color(d, c, "coat_color", 1.0f)),
+      coat_affects_specular_(d.parameters.get_bool("coat_affects_specular", true)),
       film_weight_(d, c, "thin_film_weight", 0.0f),
       film_thickness_(d, c, "thin_film_thickness", 0.5f, 0.0f, kInfinity),
       film_ior_(d, c, "thin_film_ior", 1.4f, kMinIor, kMaxIor),
@@ -161,6 +162,7 @@ void PrincipledInputs::set_layers(const SurfaceInteraction& point, const Sampled
     s.coat_darkening = coat_darkening_.at(point);
     s.coat_color = color(coat_color_, point, lambda);
     s.coat_facets = facets_of(coat_roughness_.at(point), coat_anisotropy_.at(point));
+    s.coat_affects_specular = coat_affects_specular_;
   }
   s.film_weight = film_weight_.at(point);
   if (s.film_weight > 0.0f) s.film = {film_ior_.at(point), 1000.0f * film_thickness_.at(point)};
@@ -173,8 +175,9 @@ void PrincipledInputs::set_base(const SurfaceInteraction& point, SampledWaveleng
   s.diffuse_roughness = diffuse_roughness_.at(point);
   s.specular_weight = specular_weight_.at(point);
   s.specular_color = color(specular_color_, point, lambda);
-  s.facets = roughened(facets_of(roughness_.at(point), anisotropy_.at(point)), s.coat_facets,
-                       s.coat_weight, s.coat_ior);
+  s.facets = facets_of(roughness_.at(point), anisotropy_.at(point));
+  if (s.coat_affects_specular)
+    s.facets = roughened(s.facets, s.coat_facets, s.coat_weight, s.coat_ior);
   s.transmission = transmission_.at(point);
   if (s.transmission > 0.0f) s.transmission_color = color(transmission_color_, point, lambda);
   s.ior = ior_.at(point);
@@ -216,8 +219,8 @@ bool PrincipledInputs::may_scatter_below() const {
 bool PrincipledInputs::may_have_facets() const {
   if (metalness_.may_differ_from(0.0f) || film_weight_.may_differ_from(0.0f)) return true;
   // Below a coat the relative index is not 1 where that of the base is.
-  const bool boundary =
-      specular_weight_.may_differ_from(0.0f) && (ior_.may_differ_from(1.0f) || may_have_coat());
+  const bool boundary = specular_weight_.may_differ_from(0.0f) &&
+                        (ior_.may_differ_from(1.0f) || coat_may_affect_specular());
   return boundary || (may_transmit() && ior_.may_differ_from(1.0f));
 }
 
@@ -232,7 +235,7 @@ std::optional<TrowbridgeReitz> PrincipledInputs::constant_facets() const {
   const auto roughness = roughness_.constant(), anisotropy = anisotropy_.constant();
   if (!roughness || !anisotropy) return std::nullopt;
   const TrowbridgeReitz base = facets_of(*roughness, *anisotropy);
-  if (!may_have_coat()) return base;
+  if (!coat_may_affect_specular()) return base;
   const auto coat = constant_coat_facets();
   if (!coat) return std::nullopt;
   if (coat->smooth()) return base;

@@ -63,6 +63,7 @@ class PrincipledInputs {
   }
   /// The index at wavelength `lambda` in nm, for an index `ior` at the sodium line.
   float dispersed(float ior, float lambda) const;
+  bool coat_may_affect_specular() const { return coat_affects_specular_ && may_have_coat(); }
   void set_base(const SurfaceInteraction& point, SampledWavelengths& lambda,
                 PrincipledSurface& s) const;
   void set_layers(const SurfaceInteraction& point, const SampledWavelengths& lambda,
@@ -84,6 +85,7 @@ class PrincipledInputs {
   SpectrumInput fuzz_color_;
   BoundedInput coat_weight_, coat_roughness_, coat_anisotropy_, coat_ior_, coat_darkening_;
   SpectrumInput coat_color_;
+  bool coat_affects_specular_;
   BoundedInput film_weight_, film_thickness_, film_ior_;
   bool thin_walled_;
   float g_ = 0, abbe_ = 0;

@@ -121,6 +121,9 @@ constexpr FormatParameter kPrincipledAbove[] = {
     {"float or texture", "coat_ior", "1.6", "", "1 to 10"},
     {"float or texture", "coat_darkening", "1", "",
      "share of the darkening by reflection between coat and base"},
+    {"bool", "coat_affects_specular", "true", "",
+     "false: below the coat the base's reflectance and roughness are those in air, as in glTF; not "
+     "in OpenPBR"},
     {"float or texture", "thin_film_weight", "0"},
     {"float or texture", "thin_film_thickness", "0.5", "micrometres"},
     {"float or texture", "thin_film_ior", "1.4", "", "0.1 to 10"},

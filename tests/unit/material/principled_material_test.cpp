@@ -73,6 +73,40 @@ TEST(PrincipledMaterial, SmoothGlassIsADielectric) {
   }
 }
 
+TEST(PrincipledMaterial, ACoatCanLeaveTheBaseAsItIsInAir) {
+  // By default a coat of the base's index hides the boundary. As of glTF it only takes its part.
+  const Parameter alone = boolean("coat_affects_specular", false), coat = number("coat_weight", 1),
+                  index = number("coat_ior", 1.5);
+  const SurfaceInteraction point = flat_point();
+  const Vec3f up(0, 0, 1);
+  for (const double film : {0.0, 1.0}) {
+    const Parameter with_film = number("thin_film_weight", film);
+    const Made made({principled({with_film}), principled({with_film, coat, index, alone}),
+                     principled({coat, index})});
+    const auto glossy = [&](size_t i) {
+      SampledWavelengths lambda = wavelengths();
+      BsdfArena arena;
+      return made.materials[i]
+          ->make_bsdf(point, lambda, kSpecularAlpha, arena)
+          ->eval(up, up, TransportMode::kRadiance, EventClass::kGlossy, ClassMask::kAll)
+          .f[2];
+    };
+    EXPECT_NEAR(glossy(1), 0.96f * glossy(0), 1e-4f * glossy(0));
+    EXPECT_EQ(glossy(2), 0.0f);
+  }
+}
+
+TEST(PrincipledMaterial, ARoughCoatRoughensTheBaseUnlessToldNotTo) {
+  const Parameter coat = number("coat_weight", 1), rough = number("coat_roughness", 0.9),
+                  alone = boolean("coat_affects_specular", false);
+  const Made made({principled({coat, rough}), principled({coat, rough, alone}),
+                   principled({coat, rough, alone, number("specular_ior", 1)})});
+  EXPECT_GT(*made.materials[0]->facet_alpha(), 0.5f);
+  EXPECT_FLOAT_EQ(*made.materials[1]->facet_alpha(), 0.09f);
+  // There is no boundary below the coat: its facets alone count.
+  EXPECT_FLOAT_EQ(*made.materials[2]->facet_alpha(), 0.81f);
+}
+
 TEST(PrincipledMaterial, WithoutSpecularItIsDiffuse) {
   const Made made(
       {principled({number("specular_weight", 0), numbers("rgb", "base_color", {.7, .5, .2}),
