@@ -60,6 +60,9 @@ class AgainstCycles(unittest.TestCase):
     def test_caustics(self):
         self.compare("caustics", 256, 10, 0.03, 0.05)
 
+    def test_varnish(self):
+        self.compare("varnish", 64, 2, 0.05, 0.05, 50)
+
     def test_instances(self):
         self.compare("instances", 64, 8, 0.02, 0.03)
 

@@ -166,6 +166,18 @@ def caustics(folder):
     save(folder, "caustics")
 
 
+def varnish(folder):
+    """A black varnished plate under an even sky: the picture is the reflectance of coat and base."""
+    scene = new_scene()
+    plate = material("varnish", "BsdfPrincipled", Base_Color=(0, 0, 0, 1), Roughness=0.6)
+    inputs = plate.node_tree.nodes["Principled BSDF"].inputs
+    inputs["Coat Weight" if "Coat Weight" in inputs else "Clearcoat"].default_value = 1
+    quad(scene, "plate", [(-50, -50, 0), (50, -50, 0), (50, 50, 0), (-50, 50, 0)], plate)
+    world(scene, (1, 1, 1))
+    camera(scene, (0, -3, 3), (0, 0, 0))
+    save(folder, "varnish")
+
+
 def checked_image(folder):
     """A picture with a corner to tell up, down, left and right by."""
     size = 64
@@ -267,6 +279,7 @@ def main():
     for which in LAMPS:
         diffuse_room(folder, "diffuse-" + which, (which,))
     caustics(folder)
+    varnish(folder)
     instances(folder)
 
 

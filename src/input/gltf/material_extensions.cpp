@@ -121,7 +121,9 @@ void add_clearcoat(SurfaceInputs& inputs) {
   inputs.add("coat_roughness", SurfaceInputs::number(*coat, "clearcoatRoughnessFactor", 0,
                                                      "clearcoatRoughnessTexture", 'g'));
   inputs.list.add_float("coat_ior", 1.5);
-  inputs.list.add_float("coat_darkening", 0);  // glTF's coat does not darken what is below
+  // glTF's coat neither darkens what is below nor changes its F0 and roughness.
+  inputs.list.add_float("coat_darkening", 0);
+  inputs.list.add_bool("coat_affects_specular", false);
   if (const auto map = coat->find_object("clearcoatNormalTexture"))
     inputs.warn(map->where(),
                 "a normal map of the coat is ignored: the coat has the normals of "

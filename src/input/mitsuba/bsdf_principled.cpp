@@ -58,6 +58,7 @@ Surface write_principled(PluginProperties& p) {
     add_float(m.parameters, "coat_weight", 0.25 * coat);
     add_float(m.parameters, "coat_ior", 1.5);
     add_float(m.parameters, "coat_darkening", 0);
+    add_bool(m.parameters, "coat_affects_specular", false);
     add_float(m.parameters, "coat_roughness", std::sqrt(std::lerp(0.1, 0.001, gloss)));
   }
   const bool transmits = p.has("spec_trans") || p.child("texture", "spec_trans");

@@ -54,9 +54,11 @@ double p_value(const Bsdf& bsdf, const Question& q, int count, uint64_t seed) {
 
 std::vector<Question> questions(const BsdfCase& c, const Bsdf& bsdf) {
   std::vector<Question> list;
-  const std::vector<float> angles = c.stochastic   ? std::vector<float>{50.0f}
-                                    : c.few_angles ? std::vector<float>{45.0f, 125.0f}
-                                                   : std::vector<float>{4.0f, 45.0f, 80.0f, 125.0f};
+  std::vector<float> angles = c.stochastic   ? std::vector<float>{50.0f}
+                              : c.few_angles ? std::vector<float>{45.0f, 125.0f}
+                                             : std::vector<float>{4.0f, 45.0f, 80.0f, 125.0f};
+  // From below at 125 degrees, glass of index 1.5 reflects all light.
+  if (c.refracts) angles.push_back(160.0f);
   for (const float angle : angles) {
     for (const EventClass e : kSurfaceClasses) {
       if (!contains(bsdf.finite_classes(), e)) continue;

@@ -205,6 +205,8 @@ TEST(GltfMaterials, LayersOfExtensions) {
   EXPECT_EQ(number_of(p, "coat_roughness"), 0.1);
   EXPECT_EQ(number_of(p, "coat_ior"), 1.5);
   EXPECT_EQ(number_of(p, "coat_darkening"), 0);
+  ASSERT_TRUE(p.find("coat_affects_specular"));
+  EXPECT_FALSE(flag_of(p, "coat_affects_specular"));
   EXPECT_EQ(number_of(p, "fuzz_weight"), 0.5);
   EXPECT_EQ(numbers_of(p, "fuzz_color"), (std::vector<double>{1, 0.5, 0}));
   EXPECT_EQ(number_of(p, "fuzz_roughness"), 0.7);

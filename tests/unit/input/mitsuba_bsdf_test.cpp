@@ -257,6 +257,15 @@ TEST(MitsubaBsdf, PrincipledKeepsItsNames) {
   EXPECT_NEAR(number(set, "specular_ior"), 1.5, 1e-9);
 }
 
+TEST(MitsubaBsdf, AClearcoatLeavesTheReflectanceBelowIt) {
+  const ParameterSet set =
+      material_of(bsdf("principled", value("float", "clearcoat", "0.8")), "3.0.0").parameters;
+  EXPECT_EQ(number(set, "coat_weight"), 0.2);
+  EXPECT_EQ(number(set, "coat_darkening"), 0);
+  ASSERT_TRUE(has_parameter(set, "coat_affects_specular"));
+  EXPECT_EQ(parameter(set, "coat_affects_specular").bools, std::vector<bool>{false});
+}
+
 TEST(MitsubaBsdf, BacksOfOpenShapesGetOneWarning) {
   const std::string open = "<shape type=\"rectangle\">" + bsdf("diffuse") + "</shape>\n";
   MitsubaScene scene;

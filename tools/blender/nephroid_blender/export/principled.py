@@ -102,7 +102,9 @@ def _coat(reader, node, p, is_new):
     p["float coat_roughness"] = reader.number(node.input("Coat Roughness", "Clearcoat Roughness"))
     p["float coat_ior"] = number(reader.constant(node.input("Coat IOR"), 1.5))
     p["spectrum coat_color"] = reader.color(node.input("Coat Tint"), (1, 1, 1))
+    # Cycles' coat neither darkens what is below nor changes its reflectance and roughness.
     p["float coat_darkening"] = number(0)
+    p["bool coat_affects_specular"] = False
 
 
 def _sheen(reader, node, p, is_new):
