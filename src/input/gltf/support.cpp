@@ -30,7 +30,9 @@ constexpr Feature kExtensions[] = {
     {"KHR_lights_punctual", kLoaded,
      "a candela, a lux and a candela per square metre are one unit each; a light has no radius, "
      "\"range\" is not needed, the edge of a spot is pbrt's smooth step"},
-    {"EXT_lights_image_based", kApproximated, "a uniform light of its mean radiance"},
+    {"EXT_lights_image_based", kLoaded,
+     "the sharpest cube with rotation and intensity; an image with alpha is RGBD, its colours are "
+     "sRGB; blurred cubes and irradiance are not needed"},
     {"KHR_texture_transform", kLoaded, "the directions of normal maps do not turn"},
     {"KHR_mesh_quantization", kLoaded, ""},
     {"KHR_draco_mesh_compression", kLoaded, ""},
