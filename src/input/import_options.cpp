@@ -26,6 +26,7 @@ std::string import_options_text(const ImportOptions& options) {
   if (!options.camera.empty()) add("camera", options.camera);
   if (!options.variant.empty()) add("variant", options.variant);
   if (options.time != 0) add("at", fmt::format("{}", options.time));
+  if (options.shutter != 0) add("shutter", fmt::format("{}", options.shutter));
   if (options.solid_glass) add("solid-glass", "yes");
   for (const auto& define : options.defines) add("define:" + as_word(define.first), define.second);
   if (options.floor) add("floor", "yes");

@@ -75,7 +75,9 @@ constexpr Feature kFeatures[] = {
      "1280 pixels along the longer side; clipping planes are not needed"},
     {"morph targets", kLoaded, "positions, normals and tangents"},
     {"skins", kLoaded, "at the start of the shutter"},
-    {"animations", kLoaded, "all of a file at one moment, `--at`"},
+    {"animations", kLoaded,
+     "all of a file at one moment, `--at`; nodes that move while the shutter is open, `--shutter`, "
+     "are blurred between its two ends"},
 };
 
 const Feature* find_extension(const std::string& name) {
