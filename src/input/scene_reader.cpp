@@ -37,6 +37,21 @@ std::string lower_case(std::string text) {
   return text;
 }
 
+/// Warns of choices of the user among things that the file does not have. Formats that have them
+/// refuse unknown names.
+void warn_of_missing_choices(const SceneDescription& scene, const ImportOptions& options,
+                             Diagnostics& diagnostics) {
+  const auto warn = [&](const std::string& option, const char* things) {
+    diagnostics.warn({std::make_shared<const std::string>(scene.file), 0, 0},
+                     option + " is ignored: the file has no " + things);
+  };
+  const FileChoices& choices = scene.choices;
+  if (!options.camera.empty() && choices.cameras.empty()) warn("--camera", "list of cameras");
+  if (!options.variant.empty() && choices.variants.empty()) warn("--variant", "material variants");
+  if (choices.animations.empty() && options.time != 0) warn("--at", "animations");
+  if (choices.animations.empty() && options.shutter != 0) warn("--shutter", "animations");
+}
+
 }  // namespace
 
 SceneDescription read_scene(const std::string& path, const ImportOptions& options,
@@ -46,6 +61,7 @@ SceneDescription read_scene(const std::string& path, const ImportOptions& option
       std::find_if(std::begin(kFormats), std::end(kFormats),
                    [&](const SceneFormat& row) { return has_suffix(name, row.suffix); });
   SceneDescription scene = format->read(path, options, diagnostics);
+  warn_of_missing_choices(scene, options, diagnostics);
   stage_scene(&scene, format->is_complete, options, diagnostics);
   return scene;
 }

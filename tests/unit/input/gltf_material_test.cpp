@@ -266,6 +266,8 @@ TEST(GltfMaterials, VariantsReplaceMaterials) {
     options.variant = variant;
     return read_gltf_text(text, options).scene.materials.at(0).name;
   };
+  EXPECT_EQ(read_gltf_text(text).scene.choices.variants,
+            (std::vector<std::string>{"day", "night"}));
   EXPECT_EQ(material_for(""), "a");
   EXPECT_EQ(material_for("day"), "a");
   EXPECT_EQ(material_for("night"), "b");
