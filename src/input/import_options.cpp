@@ -32,7 +32,7 @@ std::string import_options_text(const ImportOptions& options) {
   if (options.floor) add("floor", "yes");
   if (!options.environment.empty()) add("environment", options.environment);
   if (options.sun) add("sun", fmt::format("{},{}", options.sun->elevation, options.sun->azimuth));
-  if (options.exposure != 0) add("exposure", fmt::format("{}", options.exposure));
+  if (options.exposure) add("exposure", fmt::format("{}", *options.exposure));
   return text;
 }
 

@@ -17,7 +17,7 @@ struct SceneFormat {
   const char* suffix;  ///< end of the file's name, in lower case
   SceneDescription (*read)(const std::string& path, const ImportOptions& options,
                            Diagnostics& diagnostics);
-  bool is_complete = false;  ///< a scene without camera or light is meant to be so
+  FormatTraits traits;
 };
 
 SceneDescription read_pbrt(const std::string& path, const ImportOptions&,
@@ -27,8 +27,12 @@ SceneDescription read_pbrt(const std::string& path, const ImportOptions&,
 
 /// One row per suffix. The last row takes every other name.
 constexpr SceneFormat kFormats[] = {
-    {".obj", read_obj_scene}, {".obj.gz", read_obj_scene}, {".gltf", read_gltf},
-    {".glb", read_gltf},      {".xml", read_mitsuba},      {"", read_pbrt, true},
+    {".obj", read_obj_scene, {}},
+    {".obj.gz", read_obj_scene, {}},
+    {".gltf", read_gltf, {}},
+    {".glb", read_gltf, {}},
+    {".xml", read_mitsuba, {.has_exposure = true}},
+    {"", read_pbrt, {.is_complete = true, .has_exposure = true}},
 };
 
 std::string lower_case(std::string text) {
@@ -62,7 +66,7 @@ SceneDescription read_scene(const std::string& path, const ImportOptions& option
                    [&](const SceneFormat& row) { return has_suffix(name, row.suffix); });
   SceneDescription scene = format->read(path, options, diagnostics);
   warn_of_missing_choices(scene, options, diagnostics);
-  stage_scene(&scene, format->is_complete, options, diagnostics);
+  stage_scene(&scene, format->traits, options, diagnostics);
   return scene;
 }
 

@@ -49,9 +49,8 @@ const OptionDescription kRows[] = {
      "Time for which the shutter is open, as in 1/48s. Nodes of a glTF file that move in it are "
      "blurred; the picture gets no brighter.",
      false, set_shutter, true},
-    {"", "--exposure", "", "EV", "stops", "0", "Picture",
-     "Brighten the picture by so many stops. Each doubles all values, over the scene's exposure or "
-     "the one that was chosen.",
+    {"", "--exposure", "", "EV", "stops", "chosen for lights of glTF and OBJ, else 0", "Picture",
+     "Brighten the picture by so many stops over the scene's exposure. Each doubles all values.",
      false,
      [](CommandLine& l, const std::string& t) {
        l.import.exposure = parse_number("--exposure", t, -kMostStops, kMostStops, false);

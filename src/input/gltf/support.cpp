@@ -17,7 +17,7 @@ constexpr Feature kExtensions[] = {
     {"KHR_materials_volume", kLoaded,
      "a thickness above 0 makes it solid, its size and texture have no meaning for a ray tracer"},
     {"KHR_materials_dispersion", kLoaded, "of solid glass"},
-    {"KHR_materials_clearcoat", kApproximated, 
+    {"KHR_materials_clearcoat", kApproximated,
      "the coat has the normal map of the surface below, with a warning if its own is another"},
     {"KHR_materials_sheen", kApproximated, "the fuzz of OpenPBR stands for the Charlie lobe"},
     {"KHR_materials_iridescence", kLoaded, ""},
@@ -31,7 +31,8 @@ constexpr Feature kExtensions[] = {
     {"KHR_materials_pbrSpecularGlossiness", kApproximated,
      "a dielectric whose normal reflectance is the specular colour"},
     {"KHR_lights_punctual", kLoaded,
-     "a candela, a lux and a candela per square metre are one unit each; a light has no radius, "
+     "candela and lux; the exposure is chosen for the file's lights unless `--exposure` gives one, "
+     "and `--exposure 0` shows a candela per square metre as 1; a light has no radius, "
      "\"range\" is not needed, the edge of a spot is pbrt's smooth step"},
     {"EXT_lights_image_based", kLoaded,
      "the sharpest cube with rotation and intensity; an image with alpha is RGBD, its colours are "
@@ -68,7 +69,7 @@ constexpr Feature kFeatures[] = {
     {"metallic-roughness", kLoaded, "Material \"principled\""},
     {"normal maps", kLoaded, "with scale"},
     {"occlusion maps", kIgnored, "the light is traced"},
-    {"emission", kLoaded, "an area light; one unit of the picture for a factor of 1"},
+    {"emission", kLoaded, "an area light; a candela per square metre for a factor of 1"},
     {"alpha modes", kLoaded, "BLEND is coverage, MASK a cutoff"},
     {"double-sided", kApproximated,
      "all surfaces are seen from both sides; it decides whether "
