@@ -25,12 +25,16 @@ SceneDescription read_pbrt(const std::string& path, const ImportOptions&,
   return parse_pbrt_file(path, diagnostics);
 }
 
+/// Surfaces of glTF that emit up to 1, more than which needs an extension, are displays and the
+/// like.
+constexpr FormatTraits kGltf = {.glow = 1};
+
 /// One row per suffix. The last row takes every other name.
 constexpr SceneFormat kFormats[] = {
     {".obj", read_obj_scene, {}},
     {".obj.gz", read_obj_scene, {}},
-    {".gltf", read_gltf, {}},
-    {".glb", read_gltf, {}},
+    {".gltf", read_gltf, kGltf},
+    {".glb", read_gltf, kGltf},
     {".xml", read_mitsuba, {.has_exposure = true}},
     {"", read_pbrt, {.is_complete = true, .has_exposure = true}},
 };

@@ -69,7 +69,9 @@ constexpr Feature kFeatures[] = {
     {"metallic-roughness", kLoaded, "Material \"principled\""},
     {"normal maps", kLoaded, "with scale"},
     {"occlusion maps", kIgnored, "the light is traced"},
-    {"emission", kLoaded, "an area light; a candela per square metre for a factor of 1"},
+    {"emission", kLoaded,
+     "an area light; a candela per square metre for a factor of 1; a file whose only light is "
+     "emission up to that gets the sky and the lamp of files without light"},
     {"alpha modes", kLoaded, "BLEND is coverage, MASK a cutoff"},
     {"double-sided", kApproximated,
      "all surfaces are seen from both sides; it decides whether "

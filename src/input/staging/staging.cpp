@@ -104,7 +104,7 @@ void stage_scene(SceneDescription* scene, const FormatTraits& format, const Impo
     diagnostics.warn(whole_file, "the file has no camera: the view is from the front right");
   }
   const Surroundings surroundings = surroundings_of(*scene);
-  const bool has_own_light = has_light(*scene);
+  const bool has_own_light = has_light(*scene, format.glow);
   const bool is_lit = has_own_light || !options.environment.empty() || options.sun;
   const Bounds3d bounds = options.floor || !(format.is_complete || is_lit)
                               ? extent.get("a floor or lamps around them").bounds
@@ -114,7 +114,8 @@ void stage_scene(SceneDescription* scene, const FormatTraits& format, const Impo
     const double illuminance = set_sun(scene, *options.sun, surroundings);
     set_iso(scene, 100 * kIlluminanceOfOne / (illuminance * exposure_time(*scene)), "--sun");
   }
-  if (!options.environment.empty()) set_environment(scene, options.environment, surroundings);
+  if (!options.environment.empty())
+    set_environment(scene, options.environment, surroundings, format.glow);
   if (!format.is_complete && !is_lit) {
     add_studio_light(scene, bounds, surroundings);
     diagnostics.warn(whole_file,

@@ -11,6 +11,7 @@ namespace nephroid {
 struct FormatTraits {
   bool is_complete = false;   ///< a scene without camera or light is meant to be so
   bool has_exposure = false;  ///< the film's exposure is the author's
+  double glow = 0;            ///< luminance up to which a surface is no lamp, cd/m^2
 };
 
 /// Applies --floor, --sun, --environment and --exposure to a scene of any format. A scene that is

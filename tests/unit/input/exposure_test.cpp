@@ -117,5 +117,18 @@ TEST(ChosenExposure, LeavesTheStudioLightAlone) {
   EXPECT_EQ(staged("").iso, 100);
 }
 
+TEST(ChosenExposure, IsNotForDisplaysThatGlow) {
+  const auto warning = [](const std::string& emission) {
+    const Staged s =
+        staged("Translate 0 9 0 AreaLightSource \"diffuse\" " + emission + kCube, {.glow = 1});
+    EXPECT_EQ(s.warnings.size(), 1u);
+    return s.warnings.at(0).message.substr(0, 25);
+  };
+  EXPECT_EQ(warning("\"rgb L\" [0.2 1 0.2] "), "the file has no light: a ");
+  EXPECT_EQ(warning("\"rgb L\" [0.2 1.1 0.2] "), "the exposure is chosen fo");
+  EXPECT_EQ(warning("\"string filename\" \"a.png\" \"rgb factor\" [1 1 1] "),
+            "the file has no light: a ");
+}
+
 }  // namespace
 }  // namespace nephroid
