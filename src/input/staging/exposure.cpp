@@ -3,150 +3,99 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/color.h"
-#include "input/staging/scene_bounds.h"
+#include "input/staging/illumination.h"
+#include "input/staging/surface_points.h"
+#include "input/transform_directives.h"
 
 namespace nephroid {
 namespace {
 
-constexpr double kPiDouble = 3.14159265358979323846;
-constexpr double kDegree = kPiDouble / 180;
-constexpr size_t kMaxPoints = 1024;
-constexpr double kShare = 0.75;          ///< share of the vertices that are lit less
-constexpr double kImageLuminance = 0.5;  ///< assumed mean of images of surroundings, cd/m^2
-constexpr double kGlowShare = 0.25;      ///< assumed mean of images on shapes over their factor
+constexpr double kDegree = 3.14159265358979323846 / 180;
+constexpr double kShare = 0.75;  ///< share of the lit surfaces that get less
 
-/// Luminance of the colour `name` times "scale"; of white if there is no such colour.
-double luminance_of(const ParameterSet& p, const char* name) {
-  const double scale = p.get_float("scale", 1);
-  for (const Parameter& parameter : p.list) {
-    if (parameter.name != name || parameter.type != "rgb" || parameter.numbers.size() != 3)
-      continue;
-    const std::vector<double>& n = parameter.numbers;
-    return scale * RgbColorSpace::srgb()
-                       .to_xyz({static_cast<float>(n[0]), static_cast<float>(n[1]),
-                                static_cast<float>(n[2])})
-                       .y;
+/// What the camera of glTF or of the default view sees, without what hides it.
+class View {
+ public:
+  /// The camera must have a transform with an inverse.
+  View(const CameraDescription& camera, double aspect)
+      : to_camera_(camera.world_to_camera.start),
+        is_perspective_(camera.type == "perspective"),
+        eye_(Vec3d(0, 0, 0) * to_camera_.inverse()) {
+    to_camera_.inverse().multDirMatrix(Vec3d(0, 0, 1), forward_);
+    const double side =
+        is_perspective_ ? std::tan(camera.parameters.get_float("fov", 90) / 2 * kDegree) : 1;
+    half_width_ = side * std::max(aspect, 1.0);
+    half_height_ = side * std::max(1 / aspect, 1.0);
+    const std::vector<float> window = camera.parameters.get_floats("screenwindow");
+    if (window.size() != 4) return;
+    half_width_ = std::max(std::abs(window[0]), std::abs(window[1]));
+    half_height_ = std::max(std::abs(window[2]), std::abs(window[3]));
   }
-  return scale;
-}
 
-Vec3d point_of(const ParameterSet& p, const char* name, const Vec3d& fallback) {
-  const std::optional<Vec3f> point = p.get_point3(name);
-  return point ? to_double(*point) : fallback;
-}
-
-/// 1 in the cone of a spot light, 0 outside, smooth in between.
-double cone_share(const ParameterSet& p, double cosine) {
-  const double outer = p.get_float("coneangle", 30);
-  const double inner = outer - p.get_float("conedeltaangle", 5);
-  const double from = std::cos(outer * kDegree), to = std::cos(inner * kDegree);
-  if (cosine <= from) return 0;
-  if (cosine >= to) return 1;
-  const double t = (cosine - from) / (to - from);
-  return t * t * (3 - 2 * t);
-}
-
-double illuminance_of_lamp(const LightDescription& light, const Vec3d& p) {
-  const ParameterSet& parameters = light.parameters;
-  const Vec3d from = point_of(parameters, "from", {0, 0, 0});
-  const Vec3d place = from * light.transform.start;
-  const Vec3d away = p - place;
-  const double distance2 = away.dot(away);
-  if (!(distance2 > 0)) return 0;
-  double share = 1;
-  if (light.type == "spot") {
-    Vec3d axis;
-    light.transform.start.multDirMatrix(point_of(parameters, "to", {0, 0, 1}) - from, axis);
-    share = cone_share(parameters, axis.normalized().dot(away) / std::sqrt(distance2));
+  /// The size of a piece of surface in the picture, up to a factor: its solid angle, or its area
+  /// as the orthographic camera sees it. 0 outside of the picture.
+  double size(const SurfacePoint& point) const {
+    const Vec3d c = point.p * to_camera_;
+    const double scale = is_perspective_ ? c.z : 1;
+    const bool is_seen =
+        c.z > 0 && std::abs(c.x) <= half_width_ * scale && std::abs(c.y) <= half_height_ * scale;
+    if (!is_seen) return 0;
+    if (!is_perspective_) return std::abs(point.area_vector.dot(forward_));
+    const Vec3d away = point.p - eye_;
+    const double distance = away.length();
+    return std::abs(point.area_vector.dot(away)) / (distance * distance * distance);
   }
-  return share * luminance_of(parameters, "I") / distance2;
-}
 
-double illuminance_of_light(const LightDescription& light, const Vec3d& p) {
-  const ParameterSet& parameters = light.parameters;
-  const double wanted = parameters.get_float("illuminance", -1);
-  if (wanted > 0) return wanted;
-  if (light.type == "point" || light.type == "spot") return illuminance_of_lamp(light, p);
-  if (light.type == "distant") return luminance_of(parameters, "L");
-  if (light.type != "infinite") return 0;
-  const bool has_image = parameters.find("filename") || parameters.find("faces");
-  return kPiDouble * luminance_of(parameters, "L") * (has_image ? kImageLuminance : 1);
-}
-
-/// A mesh that emits, as seen from afar.
-struct Glow {
-  Vec3d centre{0, 0, 0};
-  Vec3d area_vector{0, 0, 0};  ///< sum of normals times areas: 0 for a closed mesh
-  double area = 0;
-  double luminance = 0;
-  bool is_two_sided = false;
-
-  /// The luminance times the solid angle, which is that of a disk of the area that is seen. A
-  /// closed convex mesh shows a quarter of its area.
-  double illuminance(const Vec3d& p) const {
-    const Vec3d away = p - centre;
-    const double distance2 = away.dot(away);
-    if (!(distance2 > 0)) return 0;
-    const double facing = area_vector.dot(away) / std::sqrt(distance2);
-    const double seen = (is_two_sided ? std::abs(facing) : std::max(facing, 0.0)) +
-                        (area - area_vector.length()) / 4;
-    return luminance * seen / (distance2 + seen / kPiDouble);
-  }
+ private:
+  Mat44d to_camera_;
+  bool is_perspective_;
+  Vec3d eye_, forward_;
+  double half_width_, half_height_;
 };
 
-const std::vector<double>* numbers_of(const ParameterSet& p, const char* name) {
-  for (const Parameter& parameter : p.list)
-    if (parameter.name == name) return &parameter.numbers;
-  return nullptr;
+double aspect_of(const SceneDescription& scene) {
+  if (!scene.film) return 16.0 / 9.0;
+  const ParameterSet& film = scene.film->parameters;
+  const int width = film.get_int("xresolution", 1280), height = film.get_int("yresolution", 720);
+  return width > 0 && height > 0 ? static_cast<double>(width) / height : 1;
 }
 
-Glow glow_of(const ShapeDescription& shape) {
-  Glow glow;
-  const auto* points = numbers_of(shape.parameters, "P");
-  const auto* indices = numbers_of(shape.parameters, "indices");
-  if (shape.type != "trianglemesh" || !points || !indices) return glow;
-  const auto corner = [&](size_t i) {
-    const auto vertex = static_cast<size_t>((*indices)[i]) * 3;
-    if (vertex + 2 >= points->size()) return Vec3d(0, 0, 0);  // an error of the mesh's maker
-    return Vec3d((*points)[vertex], (*points)[vertex + 1], (*points)[vertex + 2]) *
-           shape.transform.start;
-  };
-  for (size_t i = 0; i + 2 < indices->size(); i += 3) {
-    const Vec3d a = corner(i), b = corner(i + 1), c = corner(i + 2);
-    const Vec3d normal = (b - a).cross(c - a) * 0.5;
-    glow.area += normal.length();
-    glow.area_vector += normal;
-    glow.centre += (a + b + c) * (normal.length() / 3);
+/// Sizes of pieces of surface in the picture; their areas if none is in it.
+std::vector<double> sizes_of(const std::vector<SurfacePoint>& points,
+                             const SceneDescription& scene) {
+  std::vector<double> sizes;
+  double sum = 0;
+  if (scene.camera && !is_singular(scene.camera->world_to_camera.start)) {
+    const View view(*scene.camera, aspect_of(scene));
+    for (const SurfacePoint& point : points) sum += sizes.emplace_back(view.size(point));
   }
-  if (glow.area > 0) glow.centre /= glow.area;
-  const bool is_mirrored = shape.transform.start.determinant() < 0;
-  if (shape.reverse_orientation != is_mirrored) glow.area_vector = -glow.area_vector;
-  const ParameterSet& p = shape.area_light->parameters;
-  const bool has_image = numbers_of(p, "filename") != nullptr;
-  glow.luminance = luminance_of(p, has_image ? "factor" : "L") * (has_image ? kGlowShare : 1);
-  glow.is_two_sided = p.get_bool("twosided", false);
-  return glow;
+  if (sum > 0) return sizes;
+  sizes.clear();
+  for (const SurfacePoint& point : points) sizes.push_back(point.area_vector.length());
+  return sizes;
 }
 
 }  // namespace
 
 double typical_illuminance(const SceneDescription& scene) {
-  std::vector<Glow> glows;
-  for (const ShapeDescription& shape : scene.shapes)
-    if (shape.area_light) glows.push_back(glow_of(shape));
-  std::vector<double> found;
-  for (const Vec3d& p : lit_points(scene, kMaxPoints)) {
-    double sum = 0;
-    for (const LightDescription& light : scene.lights) sum += illuminance_of_light(light, p);
-    for (const Glow& glow : glows) sum += glow.illuminance(p);
-    if (sum > 0 && std::isfinite(sum)) found.push_back(sum);
+  const std::vector<SurfacePoint> points = surface_points(scene);
+  const std::vector<double> sizes = sizes_of(points, scene);
+  const Illumination light(scene);
+  std::vector<std::pair<double, double>> lit;  // illuminance and size
+  double sum = 0;
+  for (size_t i = 0; i < points.size(); ++i) {
+    const double illuminance = light.at(points[i].p);
+    if (!(illuminance > 0 && std::isfinite(illuminance) && sizes[i] > 0)) continue;
+    lit.emplace_back(illuminance, sizes[i]);
+    sum += sizes[i];
   }
-  if (found.empty()) return 0;
-  const auto place =
-      found.begin() + static_cast<std::ptrdiff_t>(kShare * static_cast<double>(found.size() - 1));
-  std::nth_element(found.begin(), place, found.end());
-  return *place;
+  std::sort(lit.begin(), lit.end());
+  double less = 0;
+  for (const auto& [illuminance, size] : lit) {
+    less += size;
+    if (less >= kShare * sum) return illuminance;
+  }
+  return 0;
 }
 
 }  // namespace nephroid

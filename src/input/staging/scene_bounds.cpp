@@ -94,37 +94,22 @@ void visit_moved(const Vec3d& p, const TransformDescription& transform, const Po
   if (is_finite(end)) visit(end);
 }
 
-void visit_shape(const ShapeDescription& shape, SceneFiles& files, const PointVisit& visit) {
-  const auto* const row =
-      std::find_if(std::begin(kTypes), std::end(kTypes),
-                   [&](const ShapeVisit& known) { return shape.type == known.type; });
-  if (row == std::end(kTypes)) return;  // an error of the table of shapes
-  row->visit(shape.parameters, files,
-             [&](const Vec3d& p) { visit_moved(p, shape.transform, visit); });
-}
-
 void visit_shapes(const std::vector<ShapeDescription>& shapes, SceneFiles& files,
                   const PointVisit& visit) {
-  for (const ShapeDescription& shape : shapes) visit_shape(shape, files, visit);
+  for (const ShapeDescription& shape : shapes) {
+    const auto* const row =
+        std::find_if(std::begin(kTypes), std::end(kTypes),
+                     [&](const ShapeVisit& known) { return shape.type == known.type; });
+    if (row == std::end(kTypes)) continue;  // an error of the table of shapes
+    row->visit(shape.parameters, files,
+               [&](const Vec3d& p) { visit_moved(p, shape.transform, visit); });
+  }
 }
 
 Bounds3d bounds_of(const std::vector<ShapeDescription>& shapes, SceneFiles& files) {
   Bounds3d bounds;
   visit_shapes(shapes, files, [&](const Vec3d& p) { bounds.extendBy(p); });
   return bounds;
-}
-
-/// Visits the corners of the boxes of all instances.
-void visit_instances(const SceneDescription& scene, const PointVisit& visit) {
-  std::map<std::string, Bounds3d> objects;
-  for (const InstanceDescription& instance : scene.instances) {
-    const auto object = scene.objects.find(instance.object);
-    if (object == scene.objects.end()) continue;
-    const auto [bounds, is_new] = objects.try_emplace(instance.object);
-    if (is_new) bounds->second = bounds_of(object->second.shapes, *scene.files);
-    visit_corners(bounds->second,
-                  [&](const Vec3d& p) { visit_moved(p, instance.transform, visit); });
-  }
 }
 
 }  // namespace
@@ -138,25 +123,15 @@ SceneExtent scene_extent(const SceneDescription& scene, std::span<const Vec3d> d
       extent.furthest[i] = std::max(extent.furthest[i], p.dot(directions[i]));
   };
   visit_shapes(scene.shapes, *scene.files, add);
-  visit_instances(scene, add);
+  std::map<std::string, Bounds3d> objects;
+  for (const InstanceDescription& instance : scene.instances) {
+    const auto object = scene.objects.find(instance.object);
+    if (object == scene.objects.end()) continue;
+    const auto [bounds, is_new] = objects.try_emplace(instance.object);
+    if (is_new) bounds->second = bounds_of(object->second.shapes, *scene.files);
+    visit_corners(bounds->second, [&](const Vec3d& p) { visit_moved(p, instance.transform, add); });
+  }
   return extent;
-}
-
-std::vector<Vec3d> lit_points(const SceneDescription& scene, size_t max_count) {
-  std::vector<Vec3d> kept;
-  size_t count = 0, step = 1;
-  const PointVisit add = [&](const Vec3d& p) {
-    if (count++ % step != 0) return;
-    kept.push_back(p);
-    if (kept.size() < 2 * max_count) return;
-    for (size_t i = 0; i < max_count; ++i) kept[i] = kept[2 * i];
-    kept.resize(max_count);
-    step *= 2;
-  };
-  for (const ShapeDescription& shape : scene.shapes)
-    if (!shape.area_light) visit_shape(shape, *scene.files, add);
-  visit_instances(scene, add);
-  return kept;
 }
 
 }  // namespace nephroid

@@ -23,8 +23,4 @@ struct SceneExtent {
 /// meshes, the corners of their boxes are taken. Throws SceneError and IoError.
 SceneExtent scene_extent(const SceneDescription& scene, std::span<const Vec3d> directions);
 
-/// Fewer than twice `max_count` points in the world, evenly chosen among those of shapes that emit
-/// nothing and of instances. Throws what scene_extent throws.
-std::vector<Vec3d> lit_points(const SceneDescription& scene, size_t max_count);
-
 }  // namespace nephroid

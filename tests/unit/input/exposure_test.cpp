@@ -1,6 +1,7 @@
 // The exposure that is chosen for the lights of files that have none.
 #include "input/staging/exposure.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,8 +17,8 @@ using testing::parse;
 constexpr double kPiDouble = 3.14159265358979323846;
 /// A small plate around the origin.
 const std::string kPlate =
-    "WorldBegin\nShape \"bilinearmesh\" \"point3 P\" [-.01 0 -.01 .01 0 -.01 -.01 0 .01 .01 0 "
-    ".01]\n";
+    "WorldBegin\nShape \"trianglemesh\" \"point3 P\" [-.01 0 -.01 .01 0 -.01 .01 0 .01 -.01 0 "
+    ".01] \"integer indices\" [0 1 2 0 2 3]\n";
 
 double illuminance(const std::string& lights) {
   return typical_illuminance(parse(kPlate + lights));
@@ -63,15 +64,47 @@ TEST(TypicalIlluminance, OfMeshesIsThatOfTheAreaSeen) {
   EXPECT_NEAR(illuminance(emits + "\n" + kCube), 2 * 6 / 4.0, 0.02);
 }
 
-/// Four plates, one of them near the lamp: it does not decide.
-TEST(TypicalIlluminance, OneBrightPlaceDoesNotDecide) {
-  std::string plates = "WorldBegin\n";
-  for (const char* y : {"0", "0", "0", "9"})
-    plates += std::string("Shape \"bilinearmesh\" \"point3 P\" [-.01 ") + y + " 0 .01 " + y +
-              " 0 -.01 " + y + " .01 .01 " + y + " .01]\n";
+/// A square of side `size` at height y, its middle at x.
+std::string plate(double x, double y, double size) {
+  return fmt::format(
+      "AttributeBegin\nTranslate {} {} 0\nScale {} 1 {}\nRotate 90 1 0 0\n{}AttributeEnd\n", x, y,
+      size, size, kSquare);
+}
+
+TEST(TypicalIlluminance, IsThatOfTheBrightestQuarterAtLeast) {
+  // The light has the height 1 above a square of 6 x 6: its brightest quarter is a disk.
+  const double radius2 = 36 / 4 / kPiDouble;
+  const std::string scene =
+      "WorldBegin\nLightSource \"point\" \"point3 from\" [0 1 0] \"rgb I\" [1 1 1]\n";
+  EXPECT_NEAR(typical_illuminance(parse(scene + plate(0, 0, 6))), 1 / (1 + radius2), 0.015);
+  // A small place near the light does not decide.
+  EXPECT_NEAR(typical_illuminance(parse(scene + plate(0, 0, 6) + plate(0, 0.9, 0.1))),
+              1 / (1 + radius2), 0.015);
+}
+
+TEST(TypicalIlluminance, IsThatOfThePicture) {
+  const std::string scene =
+      "WorldBegin\nLightSource \"point\" \"point3 from\" [0 2 0] \"rgb I\" [4 4 4]\n" +
+      plate(0, 0, 0.1) + plate(30, 0, 9);
+  // One camera sees the small plate, another one the large one, and the third none.
+  const std::string small = "LookAt 0 1 1 0 0 0 0 1 0\nCamera \"perspective\" \"float fov\" 30\n";
+  const std::string large =
+      "LookAt 30 20 1 30 0 0 0 1 0\nCamera \"perspective\" \"float fov\" 90\n";
+  const std::string away = "LookAt 0 1 1 0 2 2 0 1 0\nCamera \"perspective\" \"float fov\" 30\n";
+  EXPECT_NEAR(typical_illuminance(parse(small + scene)), 1, 0.01);
+  EXPECT_LT(typical_illuminance(parse(large + scene)), 0.01);
+  EXPECT_LT(typical_illuminance(parse(away + scene)), 0.01);
+  const std::string flat =
+      "LookAt 0 1 0 0 0 0 0 0 1\nCamera \"orthographic\" \"float screenwindow\" [-1 1 -1 1]\n";
+  EXPECT_NEAR(typical_illuminance(parse(flat + scene)), 1, 0.01);
+}
+
+TEST(TypicalIlluminance, CountsInstances) {
   EXPECT_NEAR(typical_illuminance(parse(
-                  plates + "LightSource \"point\" \"point3 from\" [0 10 0] \"rgb I\" [1 1 1]\n")),
-              0.01, 1e-4);
+                  "WorldBegin\nLightSource \"point\" \"rgb I\" [9 9 9]\nObjectBegin \"o\"\nScale "
+                  ".01 .01 .01\n" +
+                  kSquare + "ObjectEnd\nTranslate 3 0 0\nObjectInstance \"o\"\n")),
+              1, 0.01);
 }
 
 struct Staged {
