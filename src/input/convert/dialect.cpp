@@ -15,6 +15,8 @@ void add_light(const DirectiveDescription& light, std::set<std::string>* names) 
   if (has(light.parameters, "name")) names->insert("\"string name\" of lights");
   if (light.type == "distant" && has(light.parameters, "angle"))
     names->insert("\"float angle\" of distant lights");
+  if (light.type == "infinite" && has(light.parameters, "faces"))
+    names->insert("\"string faces\" of infinite lights");
 }
 
 }  // namespace

@@ -26,6 +26,15 @@ std::vector<const Object*> objects_with(const Document& document, const char* ta
   return found;
 }
 
+/// Lists the sensors and the parameters.
+void add_choices(const Document& document, FileChoices& choices) {
+  for (const Object* sensor : objects_with(document, "sensor"))
+    choices.cameras.push_back(sensor->id.empty() ? std::to_string(choices.cameras.size())
+                                                 : sensor->id);
+  for (const auto& entry : document.parameters)
+    choices.parameters.push_back(entry.first + "=" + entry.second);
+}
+
 /// The sensor that the user named by id or index; the first by default.
 const Object* chosen_sensor(const Document& document, const std::string& wanted) {
   const std::vector<const Object*> sensors = objects_with(document, "sensor");
@@ -79,6 +88,7 @@ SceneDescription read_mitsuba(const std::string& path, const ImportOptions& opti
   scene.file = shown_name(path);
   scene.files = std::make_shared<SceneFiles>(directory_of_scene(path));
   const Document document = read_document(path, *scene.files, options, diagnostics);
+  add_choices(document, scene.choices);
   ImportContext context{scene, options, diagnostics, document.version};
   for (const Child& child : document.scene.children) write_object(context, *child.object);
   if (const Object* sensor = chosen_sensor(document, options.camera))

@@ -49,7 +49,8 @@ struct Object {
 struct Document {
   int version = 0;  ///< major version: 0 for Mitsuba 0.5 and 0.6, else 2 or 3
   Object scene;
-  std::vector<std::unique_ptr<Object>> objects;  ///< owner of all objects below the scene
+  std::map<std::string, std::string> parameters;  ///< values by name
+  std::vector<std::unique_ptr<Object>> objects;   ///< owner of all objects below the scene
 };
 
 }  // namespace nephroid::mitsuba

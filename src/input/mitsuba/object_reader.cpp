@@ -55,6 +55,7 @@ class ObjectReader {
     read_file(path, shown_name(path), document);
     resolve_references(document.scene, ids_);
     parameters_.report_unused(document.scene.where, diagnostics_);
+    document.parameters = parameters_.values();
     return document;
   }
 

@@ -19,6 +19,7 @@ TEST(MitsubaDocument, ParametersHaveDefaultsThatTheUserReplaces) {
   scene.options.defines = {{"r", "0.5"}, {"unused", "1"}};
   EXPECT_EQ(number(scene.read(body).shapes[0].parameters, "radius"), 0.5);
   EXPECT_TRUE(has(scene.warnings(), "the scene has no parameter \"$unused\"")) << scene.warnings();
+  EXPECT_EQ(scene.read(body).choices.parameters, std::vector<std::string>{"r=0.5"});
 }
 
 TEST(MitsubaDocument, ParametersStandAnywhereInAText) {
