@@ -1,12 +1,12 @@
 #include "input/mitsuba/color_value.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "input/contained_file.h"
 #include "input/file_bytes.h"
 #include "input/mitsuba/parameter_values.h"
-#include "input/mitsuba/plugin.h"
 #include "input/mitsuba/spectrum_text.h"
 #include "input/mitsuba/texture_plugins.h"
 #include "input/mitsuba/value_text.h"
@@ -154,7 +154,7 @@ constexpr SpectrumRow kSpectra[] = {
     {{"spectrum", "regular"}, read_regular},
     {{"spectrum", "irregular"}, read_irregular},
     {{"spectrum", "blackbody"}, read_black_body},
-    {{"spectrum", "rawconstant", kLoaded, "as srgb"}, read_uniform},
+    {{"spectrum", "rawconstant", kLoaded, "as uniform"}, read_uniform},
 };
 
 ColorValue color_of_plugin(ImportContext& context, const Object& object, ColorUse use) {
@@ -247,6 +247,10 @@ void add_emission(ParameterSet& set, const std::string& target,
     throw SceneError(color ? color->parameter.where : set.where,
                      "an emission is negative or too bright, expected 0 to 1e30");
   if (scale != 1) add_float(set, "scale", scale);
+}
+
+std::vector<Plugin> spectrum_plugins() {
+  return std::vector<Plugin>(std::begin(kSpectra), std::end(kSpectra));
 }
 
 }  // namespace nephroid::mitsuba
