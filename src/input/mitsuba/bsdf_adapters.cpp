@@ -63,18 +63,6 @@ Surface with_parameter(PluginProperties& p, Parameter parameter) {
   return surface;
 }
 
-/// A float texture `scale` times another.
-std::string scaled_texture(PluginProperties& p, const std::string& name, double scale) {
-  if (scale == 1) return name;
-  TextureDescription t = directive<TextureDescription>("scale", p.where());
-  t.name = p.context().unique_name(p.object());
-  t.value_type = "float";
-  t.parameters.list.push_back(text_parameter("texture", "tex", {name}, p.where()));
-  add_float(t.parameters, "scale", scale);
-  p.context().scene.textures.push_back(t);
-  return t.name;
-}
-
 }  // namespace
 
 Surface write_two_sided(PluginProperties& p) {
@@ -139,8 +127,10 @@ Surface write_bump_map(PluginProperties& p) {
   const Object* texture = p.first_child("texture");
   if (!texture) throw SceneError(p.where(), p.title() + " has no texture, expected one of heights");
   const std::string name = write_texture(p.context(), *texture, TextureUse::kHeight);
-  const std::string scaled = scaled_texture(p, name, p.number("scale", 1));
-  return with_parameter(p, text_parameter("texture", "displacement", {scaled}, texture->where));
+  Parameter height = text_parameter("texture", "", {name}, texture->where);
+  height = scaled(p, std::move(height), p.number("scale", 1));
+  height.name = "displacement";
+  return with_parameter(p, std::move(height));
 }
 
 Surface write_normal_map(PluginProperties& p) {

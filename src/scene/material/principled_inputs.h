@@ -1,4 +1,4 @@
-// The inputs of the material "principled": 40 parameters, each constant or a texture, evaluated at
+// The inputs of the material "principled": 41 parameters, each constant or a texture, evaluated at
 // a point to a PrincipledSurface. It must not know lobes.
 #pragma once
 
@@ -61,6 +61,8 @@ class PrincipledInputs {
                         const SampledWavelengths& lambda) const {
     return clamp(input.at(point, lambda), 0.0f, 1.0f);
   }
+  /// OpenPBR's facets of a roughness, or of an alpha if roughness is not remapped.
+  TrowbridgeReitz facets_of(float roughness, float anisotropy) const;
   /// The index at wavelength `lambda` in nm, for an index `ior` at the sodium line.
   float dispersed(float ior, float lambda) const;
   void set_base(const SurfaceInteraction& point, SampledWavelengths& lambda,
@@ -87,7 +89,7 @@ class PrincipledInputs {
   BoundedInput coat_weight_, coat_roughness_, coat_anisotropy_, coat_ior_, coat_darkening_;
   SpectrumInput coat_color_;
   BoundedInput film_weight_, film_thickness_, film_ior_;
-  bool thin_walled_;
+  bool thin_walled_, remap_roughness_;
   float g_ = 0, abbe_ = 0;
 };
 
