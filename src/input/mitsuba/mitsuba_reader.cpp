@@ -51,10 +51,8 @@ void write_object(ImportContext& context, const Object& object) {
     write_integrator(context, object);
   } else if (object.tag == "bsdf") {
     if (!object.id.empty()) write_bsdf(context, object);
-  } else if (object.tag == "phase" || object.tag == "volume" || object.tag == "spectrum" ||
-             object.tag == "texture" || object.tag == "medium" || object.tag == "sensor") {
-    // Written where a shape, a BSDF or the camera uses it.
-  } else {
+  } else if (object.id.empty() && object.tag != "medium" && object.tag != "sensor") {
+    // Objects with an id are written where others refer to them.
     context.diagnostics.warn(
         object.where, object.tag + " \"" + object.type + "\" outside of other objects is ignored");
   }

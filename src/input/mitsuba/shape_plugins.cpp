@@ -8,6 +8,7 @@
 #include "input/mitsuba/medium_plugins.h"
 #include "input/mitsuba/parameter_values.h"
 #include "input/mitsuba/shape_geometry.h"
+#include "input/mitsuba/subsurface_plugins.h"
 
 namespace nephroid::mitsuba {
 namespace {
@@ -77,8 +78,8 @@ Attachments attachments(PluginProperties& p) {
   const bool is_boundary = !a.inside.empty() || !a.outside.empty();
   a.surface = bsdfs.empty() ? default_surface(p, a.light.has_value(), is_boundary)
                             : write_bsdf(p.context(), *bsdfs[0]->object);
-  if (p.first_child("subsurface"))
-    warn_approximated(p, "its subsurface scattering is ignored, only the BSDF is rendered");
+  if (const Object* below = p.first_child("subsurface"))
+    a.surface = write_subsurface(p.context(), *below, a.surface);
   return a;
 }
 

@@ -74,6 +74,11 @@ const Samples kBsdfs = {
     {"bsdf", "pplastic", {"material 'coateddiffuse'", "'roughness' = 0.1"}},
 };
 
+const Samples kSubsurface = {
+    {"subsurface", "dipole", {"material 'subsurface'", "'name' = 'Skin1'", "'eta' = 1.3"}},
+    {"subsurface", "singlescatter", {"material 'diffuse'"}},
+};
+
 const Samples kColors = {
     {"texture", "bitmap", {"spectrum texture 'imagemap'", "'image.png'"}, file("image.png")},
     {"texture", "checkerboard", {"spectrum texture 'checkerboard'", "'tex1' = 0.4 0.4 0.4"}},
@@ -169,7 +174,7 @@ const Samples& plugin_samples() {
   static const Samples samples = [] {
     Samples all;
     for (const Samples* part :
-         {&kShapes, &kBsdfs, &kColors, &kEmitters, &kSensors, &kMedia, &kIntegrators})
+         {&kShapes, &kBsdfs, &kSubsurface, &kColors, &kEmitters, &kSensors, &kMedia, &kIntegrators})
       all.insert(all.end(), part->begin(), part->end());
     return all;
   }();
@@ -202,7 +207,7 @@ std::string scene_with(const std::string& tag, const std::string& name, const st
   const auto in_medium = [&](const std::string& inside) {
     return in_shape("<medium name=\"interior\" type=\"heterogeneous\">" + inside + "</medium>");
   };
-  if (tag == "bsdf" || (tag == "emitter" && name == "area")) return in_shape(named(""));
+  if (tag == "bsdf" || tag == "subsurface" || (tag == "emitter" && name == "area")) return in_shape(named(""));
   if (tag == "texture")
     return in_shape("<bsdf type=\"diffuse\">" + named("reflectance") + "</bsdf>");
   if (tag == "spectrum")
