@@ -113,6 +113,8 @@ TEST(MitsubaConvention, TheFirstRowOfAnImageIsAtVZero) {
   };
   expect_image(value("float", "voffset", "0.5"), {kRed, kGreen, kBlue, kGrey});
   expect_image(to_uv("<translate y=\"0.5\"/>"), {kRed, kGreen, kBlue, kGrey});
+  // A quarter turn takes (u, v) to (-v, u): the lower left corner shows what is at (-0.25, 0.25).
+  expect_image(to_uv("<rotate z=\"1\" angle=\"90\"/>"), {kRed, kBlue, kGreen, kGrey});
 }
 
 TEST(MitsubaConvention, SpheresHaveTheFirstRowAtPlusZ) {

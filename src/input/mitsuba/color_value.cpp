@@ -4,7 +4,6 @@
 #include <iterator>
 #include <utility>
 
-#include "input/contained_file.h"
 #include "input/file_bytes.h"
 #include "input/mitsuba/parameter_values.h"
 #include "input/mitsuba/spectrum_text.h"
@@ -43,8 +42,7 @@ ColorValue black_body(const Property& p) {
 ColorValue spectrum_of_file(PluginProperties& properties, const std::string& name, ColorUse use,
                             const SourceLocation& where) {
   SceneFiles& files = *properties.context().scene.files;
-  const std::string file =
-      contained_file(files, name, properties.context().options.allow_outside, where);
+  const std::string file = properties.context().file_names.find(files, name, where);
   try {
     return spectrum_of_pairs(pairs_of_file(files.read(files.path_of(file)), where), use, where);
   } catch (const IoError& error) {

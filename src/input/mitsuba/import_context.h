@@ -8,7 +8,6 @@
 #include <string>
 #include <utility>
 
-#include "input/import_options.h"
 #include "input/mitsuba/object.h"
 #include "input/scene_description.h"
 
@@ -23,7 +22,7 @@ struct Surface {
 
 struct ImportContext {
   SceneDescription& scene;
-  const ImportOptions& options;
+  const FileNames& file_names;
   Diagnostics& diagnostics;
   int version = 0;                      ///< major version of the scene, 0 for 0.5 and 0.6
   bool moves = false;                   ///< true if a transform is animated

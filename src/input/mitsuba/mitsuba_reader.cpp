@@ -75,7 +75,7 @@ SceneDescription read_mitsuba(const std::string& path, const ImportOptions& opti
   scene.file = shown_name(path);
   scene.files = std::make_shared<SceneFiles>(directory_of_scene(path));
   const Document document = read_document(path, *scene.files, options, diagnostics);
-  ImportContext context{scene, options, diagnostics, document.version};
+  ImportContext context{scene, document.file_names, diagnostics, document.version};
   for (const Child& child : document.scene.children) write_object(context, *child.object);
   if (const Object* sensor = chosen_sensor(document, options.camera))
     write_sensor(context, *sensor, path);

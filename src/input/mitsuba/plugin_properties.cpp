@@ -5,7 +5,6 @@
 #include <cctype>
 #include <limits>
 
-#include "input/contained_file.h"
 #include "input/mitsuba/value_text.h"
 #include "input/number_text.h"
 #include "input/spelling.h"
@@ -139,7 +138,7 @@ std::string PluginProperties::file(const std::string& name) {
   const Property* p = find(name);
   if (found.empty())
     throw SceneError(p ? p->where : where(), title() + " has no \"" + name + "\", expected a file");
-  return contained_file(*context_.scene.files, found, context_.options.allow_outside, p->where);
+  return context_.file_names.find(*context_.scene.files, found, p->where);
 }
 
 const Object* PluginProperties::child(const std::string& tag, const std::string& name) {
