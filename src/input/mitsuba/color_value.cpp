@@ -82,6 +82,7 @@ ColorValue color_of_property(PluginProperties& properties, const Property& p, Co
 using SpectrumReader = ColorValue (*)(PluginProperties& properties, ColorUse use);
 
 ColorValue read_uniform(PluginProperties& p, ColorUse use) {
+  for (const char* name : {"wavelength_min", "wavelength_max"}) p.find(name);
   return uniform_spectrum(p.number("value", 1), use, false, p.where());
 }
 

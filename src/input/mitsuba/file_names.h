@@ -14,6 +14,8 @@ class FileNames {
  public:
   explicit FileNames(bool allow_outside) : allow_outside_(allow_outside) {}
 
+  bool allow_outside() const { return allow_outside_; }
+
   /// Files are looked up in `folder` before all others, as in Mitsuba.
   void add_folder(const std::string& folder) { folders_.push_back(folder); }
   /// The file's name for SceneFiles. Throws SceneError at `where` if it lies outside of the scene's

@@ -43,7 +43,9 @@ struct ImportContext {
   bool is_before_version_2() const { return version < 2; }
   /// The object's id, or a name of its plug-in, made unique.
   std::string unique_name(const Object& object) {
-    const std::string wanted = object.id.empty() ? object.type : object.id;
+    return unique_name(object.id.empty() ? object.type : object.id);
+  }
+  std::string unique_name(const std::string& wanted) {
     std::string name = wanted;
     for (int i = 2; !names.insert(name).second; ++i) name = wanted + "-" + std::to_string(i);
     return name;

@@ -7,7 +7,6 @@
 #include "input/mitsuba/parameter_values.h"
 #include "input/mitsuba/serialized_mesh.h"
 #include "input/mitsuba/shape_geometry.h"
-#include "input/obj/obj_file.h"
 #include "input/ply_header.h"
 
 namespace nephroid::mitsuba {
@@ -36,20 +35,6 @@ std::string path_of_file(PluginProperties& p) {
   return p.context().scene.files->path_of(file);
 }
 
-/// A mesh of a file. Without normals Mitsuba makes smooth ones.
-Geometry of_file(PluginProperties& p, MeshData mesh, bool has_face_normals) {
-  const bool faceted = p.boolean("face_normals", has_face_normals);
-  if (p.has("max_smooth_angle"))
-    warn_approximated(p, "\"max_smooth_angle\" is ignored, all edges are as smooth as the normals");
-  if (faceted)
-    mesh.normals.clear();
-  else if (mesh.normals.empty())
-    mesh.normals = smooth_normals(mesh);
-  ShapeDescription shape = placed(p);
-  set_mesh(shape, mesh);
-  return {{std::move(shape)}, is_open(mesh)};
-}
-
 /// True if the file can be left to the loader of scenes.
 bool is_usable_as_it_is(PluginProperties& p, const std::string& path) {
   const PlyHeader header = read_ply_header(p.context().scene.files->read(path));
@@ -71,15 +56,17 @@ Geometry cube_geometry(PluginProperties& p) {
   return built_in(p, cube_mesh());
 }
 
-Geometry obj_geometry(PluginProperties& p) {
-  const std::string path = path_of_file(p);
-  ImportContext& context = p.context();
-  const ObjFile file =
-      read_obj(*context.scene.files, path, place_of(p, "filename"), context.diagnostics);
-  MeshData mesh = joined_mesh(file);
-  // The reader has v = 0 at the lower edge; so has Mitsuba's with "flip_tex_coords".
-  if (!p.boolean("flip_tex_coords", true)) turn_v_over(mesh);
-  return of_file(p, std::move(mesh), false);
+Geometry mesh_geometry(PluginProperties& p, MeshData mesh, bool has_face_normals) {
+  const bool faceted = p.boolean("face_normals", has_face_normals);
+  if (p.has("max_smooth_angle"))
+    warn_approximated(p, "\"max_smooth_angle\" is ignored, all edges are as smooth as the normals");
+  if (faceted)
+    mesh.normals.clear();
+  else if (mesh.normals.empty())
+    mesh.normals = smooth_normals(mesh);
+  ShapeDescription shape = placed(p);
+  set_mesh(shape, mesh);
+  return {{std::move(shape)}, is_open(mesh)};
 }
 
 Geometry ply_geometry(PluginProperties& p) {
@@ -102,7 +89,7 @@ Geometry ply_geometry(PluginProperties& p) {
   }
   MeshData mesh = read_ply(*p.context().scene.files, path, named_by);
   if (!flips) turn_v_over(mesh);
-  return of_file(p, std::move(mesh), false);
+  return mesh_geometry(p, std::move(mesh), false);
 }
 
 Geometry serialized_geometry(PluginProperties& p) {
@@ -117,7 +104,7 @@ Geometry serialized_geometry(PluginProperties& p) {
   }
   SerializedMesh found = read_serialized(bytes, index, named_by);
   turn_v_over(found.mesh);
-  return of_file(p, std::move(found.mesh), found.has_face_normals);
+  return mesh_geometry(p, std::move(found.mesh), found.has_face_normals);
 }
 
 }  // namespace nephroid::mitsuba

@@ -48,7 +48,12 @@ constexpr std::array kNotNeeded = {"sampling_weight",
                                    "diffuse_transmittance_sampling_rate",
                                    "medium_sampling_weight",
                                    "use_fast_approx",
-                                   "gamma_correct"};
+                                   "gamma_correct",
+                                   "compensate",
+                                   "digits",
+                                   "variable",
+                                   "monochromatic",
+                                   "sampling_density"};
 
 bool is_not_needed(const std::string& name) {
   return std::find(kNotNeeded.begin(), kNotNeeded.end(), name) != kNotNeeded.end();

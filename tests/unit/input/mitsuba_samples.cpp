@@ -147,6 +147,9 @@ const Samples kIntegrators = {
     {"integrator", "volpath", {"integrator 'volpath'"}},
     {"integrator", "volpath_simple", {"integrator 'volpath'"}},
     {"integrator", "volpathmis", {"integrator 'volpath'"}},
+    {"integrator", "prb", {"integrator 'path'"}},
+    {"integrator", "prb_basic", {"integrator 'path'"}},
+    {"integrator", "prbvolpath", {"integrator 'volpath'"}},
     {"integrator", "direct", {"integrator 'path'", "'maxdepth' = 1"}},
     {"integrator", "bdpt", {"integrator 'bdpt'"}},
     {"integrator", "mlt", {"integrator 'mlt'"}},
@@ -166,6 +169,7 @@ const Samples kIntegrators = {
     {"integrator", "ao", {"integrator 'volpath'"}},
     {"integrator", "field", {"integrator 'volpath'"}},
     {"integrator", "depth", {"integrator 'volpath'"}},
+    {"integrator", "motion", {"integrator 'volpath'"}},
 };
 
 }  // namespace
