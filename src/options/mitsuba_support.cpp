@@ -44,6 +44,7 @@ constexpr const char* kTail = R"(
 | environment maps | +y up, left edge at -z, then +x | the frame of the light is turned accordingly |
 | texture coordinates | v = 0 at the upper edge of an image | v = 0 at the lower edge: meshes and mappings are turned over |
 | images | sRGB, if they store integers, unless they are `raw` or have a `gamma` | the same, for all uses but normal maps |
+| colours of vertices | sRGB in PLY files of 0.6, unless `srgb` is false; else linear | the same; bytes are parts of 255 |
 | anisotropy of `principled` | alphas r² / a and r² a with a² = 1 - 0.9 `anisotropic` | the same alphas in the terms of OpenPBR |
 | smooth normals | made for meshes without normals | made by the same rule, unless `face_normals` is true |
 | colours | rgb, or spectra in spectral variants | linear sRGB values become smooth spectra; a white emission is D65 |

@@ -55,29 +55,29 @@ TEST(MitsubaClosedForm, PointDirectionalAndSpotLightsOnAFloor) {
   expect_light("directional",
                value("vector", "direction", "0 3 -4") + value("rgb", "irradiance", "5 5 5"),
                5 * 0.8);
-  expect_light(
-      "spot",
-      to_world("<lookat origin=\"0,0,2\" target=\"0,0,0\" up=\"0,1,0\"/>") + intensity, 8.0 / 4);
+  expect_light("spot",
+               to_world("<lookat origin=\"0,0,2\" target=\"0,0,0\" up=\"0,1,0\"/>") + intensity,
+               8.0 / 4);
 }
 
 TEST(MitsubaClosedForm, ADiskOverAFloor) {
   // Irradiance pi L R^2 / (R^2 + h^2); the disk faces down.
   Pictures pictures;
-  const std::string lamp =
-      plugin("shape", "disk",
-             to_world("<rotate x=\"1\" angle=\"180\"/><scale value=\"1.5\"/><translate z=\"3.5\"/>") +
-                 plugin("emitter", "area", value("rgb", "radiance", "2 2 2")));
+  const std::string lamp = plugin(
+      "shape", "disk",
+      to_world("<rotate x=\"1\" angle=\"180\"/><scale value=\"1.5\"/><translate z=\"3.5\"/>") +
+          plugin("emitter", "area", value("rgb", "radiance", "2 2 2")));
   expect_estimate(pictures.mean(from_above() + floor_of_0_6() + lamp, 64),
                   0.6 * 2 * 1.5 * 1.5 / (1.5 * 1.5 + 3.5 * 3.5));
 }
 
 TEST(MitsubaClosedForm, AbsorptionInAMedium) {
   Pictures pictures;
-  const std::string ball = plugin(
-      "shape", "sphere",
-      plugin("medium", "homogeneous",
-             value("rgb", "sigmaA", "0.5 0.5 0.5") + value("rgb", "sigmaS", "0 0 0"),
-             "name=\"interior\""));
+  const std::string ball =
+      plugin("shape", "sphere",
+             plugin("medium", "homogeneous",
+                    value("rgb", "sigmaA", "0.5 0.5 0.5") + value("rgb", "sigmaS", "0 0 0"),
+                    "name=\"interior\""));
   expect_estimate(pictures.mean(from_above() + ball + plugin("emitter", "constant")),
                   std::exp(-1.0));
 }
@@ -93,8 +93,8 @@ TEST(MitsubaClosedForm, LinearPlasticReflectsFresnelAndTheRestByItsColour) {
   Pictures pictures;
   pictures.folder().write("grey.pfm", pfm(1, 1, {{0.5f, 0.5f, 0.5f}}));
   const std::string indices = value("float", "intIOR", "1.5") + value("float", "extIOR", "1");
-  for (const std::string& color : {value("spectrum", "diffuseReflectance", "0.5"),
-                                   bitmap("diffuseReflectance", "grey.pfm")})
+  for (const std::string& color :
+       {value("spectrum", "diffuseReflectance", "0.5"), bitmap("diffuseReflectance", "grey.pfm")})
     expect_estimate(pictures.mean(under_sky("plastic", indices + color), 64), 0.04 + 0.96 * 0.5);
 }
 

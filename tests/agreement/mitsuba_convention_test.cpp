@@ -1,5 +1,5 @@
-// The conventions in which Mitsuba and pbrt-v4 differ, seen in pictures. docs/mitsuba-support.md has
-// a line for each.
+// The conventions in which Mitsuba and pbrt-v4 differ, seen in pictures. docs/mitsuba-support.md
+// has a line for each.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,13 +30,13 @@ TEST(MitsubaConvention, APictureIsNotMirrored) {
 
 /// The share of a wide film, 4 x 2 pixels, in which a lamp of half width 1 at distance 1 is seen.
 double lit_share(Pictures& pictures, const std::string& axis) {
-  const std::string sensor = plugin(
-      "sensor", "perspective",
-      to_world("<lookat origin=\"0,0,1\" target=\"0,0,0\" up=\"0,1,0\"/>") +
-          value("float", "fov", "126.8699") + value("string", "fovAxis", axis) +
-          plugin("film", "hdrfilm",
-                 value("integer", "width", "4") + value("integer", "height", "2") +
-                     plugin("rfilter", "box")));
+  const std::string sensor =
+      plugin("sensor", "perspective",
+             to_world("<lookat origin=\"0,0,1\" target=\"0,0,0\" up=\"0,1,0\"/>") +
+                 value("float", "fov", "126.8699") + value("string", "fovAxis", axis) +
+                 plugin("film", "hdrfilm",
+                        value("integer", "width", "4") + value("integer", "height", "2") +
+                            plugin("rfilter", "box")));
   const Film film =
       pictures.film(sensor + plugin("shape", "rectangle", plugin("emitter", "area")), 256);
   double sum = 0;
@@ -135,11 +135,10 @@ TEST(MitsubaConvention, ChecksBeginWithTheFirstColour) {
       plugin("texture", "checkerboard",
              value("rgb", "color0", "0.8 0 0") + value("rgb", "color1", "0 0 0.8"),
              "name=\"reflectance\"");
-  expect_four(
-      pictures.film(square_from_above() + plugin("emitter", "constant") +
-                        plugin("shape", "rectangle", plugin("bsdf", "diffuse", checks)),
-                    64),
-      {kBlue, kRed, kRed, kBlue});
+  expect_four(pictures.film(square_from_above() + plugin("emitter", "constant") +
+                                plugin("shape", "rectangle", plugin("bsdf", "diffuse", checks)),
+                            64),
+              {kBlue, kRed, kRed, kBlue});
 }
 
 TEST(MitsubaConvention, FlippedAndMirroredLampsShineAsInMitsuba) {
@@ -147,13 +146,14 @@ TEST(MitsubaConvention, FlippedAndMirroredLampsShineAsInMitsuba) {
   Pictures pictures;
   const auto seen = [&](const std::string& from, const std::string& body) {
     return pictures
-        .color(camera(from, "0,0,0") +
-                   plugin("shape", "rectangle", body + plugin("emitter", "area")),
-               4)
+        .color(
+            camera(from, "0,0,0") + plugin("shape", "rectangle", body + plugin("emitter", "area")),
+            4)
         .g;
   };
   const std::string flip = value("boolean", "flipNormals", "true");
-  const std::string mirror = to_world("<scale z=\"-1\"/>"), mirror_x = to_world("<scale x=\"-1\"/>");
+  const std::string mirror = to_world("<scale z=\"-1\"/>"),
+                    mirror_x = to_world("<scale x=\"-1\"/>");
   EXPECT_NEAR(seen("0,0,3", ""), 1, 0.1);
   EXPECT_EQ(seen("0,0,-3", ""), 0);
   EXPECT_NEAR(seen("0,0,-3", flip), 1, 0.1);

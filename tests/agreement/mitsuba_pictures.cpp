@@ -33,10 +33,10 @@ std::string film_of(int size) {
 
 std::string camera(const std::string& origin, const std::string& target, int size, double fov,
                    const std::string& up) {
-  return plugin("sensor", "perspective",
-                to_world("<lookat origin=\"" + origin + "\" target=\"" + target + "\" up=\"" + up +
-                         "\"/>") +
-                    value("float", "fov", std::to_string(fov)) + film_of(size));
+  return plugin(
+      "sensor", "perspective",
+      to_world("<lookat origin=\"" + origin + "\" target=\"" + target + "\" up=\"" + up + "\"/>") +
+          value("float", "fov", std::to_string(fov)) + film_of(size));
 }
 
 std::string square_from_above() {
@@ -49,11 +49,10 @@ std::string from_above() {
 }
 
 std::string floor_of_0_6() {
-  return plugin(
-      "shape", "rectangle",
-      to_world("<scale value=\"5\"/>") +
-          plugin("bsdf", "twosided",
-                 plugin("bsdf", "diffuse", value("spectrum", "reflectance", "0.6"))));
+  return plugin("shape", "rectangle",
+                to_world("<scale value=\"5\"/>") +
+                    plugin("bsdf", "twosided",
+                           plugin("bsdf", "diffuse", value("spectrum", "reflectance", "0.6"))));
 }
 
 std::string pfm(int width, int height, const std::vector<Rgb>& pixels) {

@@ -66,14 +66,12 @@ Surface write_phong(PluginProperties& p) {
   if (!(n >= 0)) throw SceneError(exponent->where, "\"exponent\" is negative, expected 0 or more");
   // The angle to the half vector is half of that to the mirror direction: its exponent is 4 n, and
   // alpha^2 = 2 / (exponent + 2).
-  const Parameter alpha =
-      numbers_parameter("float", "", {std::sqrt(2 / (4 * n + 2))}, p.where());
+  const Parameter alpha = numbers_parameter("float", "", {std::sqrt(2 / (4 * n + 2))}, p.where());
   return lobes(p, alpha, alpha);
 }
 
 Surface write_ward(PluginProperties& p) {
-  const Parameter alpha =
-      read_alpha(p, "alpha", numbers_parameter("float", "", {0.1}, p.where()));
+  const Parameter alpha = read_alpha(p, "alpha", numbers_parameter("float", "", {0.1}, p.where()));
   p.text("variant", "");
   return lobes(p, read_alpha(p, "alpha_u", alpha), read_alpha(p, "alpha_v", alpha));
 }

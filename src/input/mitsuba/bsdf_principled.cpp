@@ -31,8 +31,8 @@ double index_of_specular(double specular) {
 /// Burley's alphas are roughness^2 / a and roughness^2 a with a^2 = 1 - 0.9 anisotropic. OpenPBR's
 /// have the ratio 1 - anisotropy and the mean square roughness^4.
 void add_facets(PluginProperties& p, ParameterSet& set) {
-  Parameter roughness = read_float(p, "roughness")
-                            .value_or(numbers_parameter("float", "", {0.5}, p.where()));
+  Parameter roughness =
+      read_float(p, "roughness").value_or(numbers_parameter("float", "", {0.5}, p.where()));
   const auto anisotropic = read_float(p, "anisotropic");
   double factor = 1;
   if (anisotropic && anisotropic->type == "float") {

@@ -1,5 +1,6 @@
 #include "input/mitsuba/file_names.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <system_error>
 
@@ -7,8 +8,10 @@
 
 namespace nephroid::mitsuba {
 
-std::string FileNames::find(const SceneFiles& files, const std::string& name,
+std::string FileNames::find(const SceneFiles& files, const std::string& written,
                             const SourceLocation& where) const {
+  std::string name = written;
+  std::replace(name.begin(), name.end(), '\\', '/');  // of scenes made on Windows
   for (auto folder = folders_.rbegin(); folder != folders_.rend(); ++folder) {
     const std::string candidate = (std::filesystem::path(*folder) / name).string();
     std::error_code ignored;

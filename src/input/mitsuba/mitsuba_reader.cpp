@@ -25,18 +25,26 @@ std::vector<const Object*> objects_with(const Document& document, const char* ta
   return found;
 }
 
+/// Ids of sensors, or indices where there are none.
+std::vector<std::string> names_of(const std::vector<const Object*>& sensors) {
+  std::vector<std::string> names;
+  for (const Object* sensor : sensors)
+    names.push_back(sensor->id.empty() ? std::to_string(names.size()) : sensor->id);
+  return names;
+}
+
 /// The sensor that the user named by id or index; the first by default.
 const Object* chosen_sensor(const Document& document, const std::string& wanted) {
   const std::vector<const Object*> sensors = objects_with(document, "sensor");
   if (wanted.empty()) return sensors.empty() ? nullptr : sensors[0];
   const auto index = parse_integer(wanted);
-  std::string names;
   for (size_t i = 0; i < sensors.size(); ++i) {
     const bool is_wanted =
         sensors[i]->id == wanted || (index && *index == static_cast<long long>(i));
     if (is_wanted) return sensors[i];
-    names += (i > 0 ? ", " : "") + (sensors[i]->id.empty() ? std::to_string(i) : sensors[i]->id);
   }
+  std::string names;
+  for (const std::string& name : names_of(sensors)) names += (names.empty() ? "" : ", ") + name;
   throw SceneError(document.scene.where,
                    "there is no camera \"" + wanted +
                        "\", expected one of: " + (names.empty() ? "none" : names));
@@ -79,6 +87,7 @@ SceneDescription read_mitsuba(const std::string& path, const ImportOptions& opti
   for (const Child& child : document.scene.children) write_object(context, *child.object);
   if (const Object* sensor = chosen_sensor(document, options.camera))
     write_sensor(context, *sensor, path);
+  scene.choices.cameras = names_of(objects_with(document, "sensor"));
   warn_of_one_sided(context);
   return scene;
 }

@@ -43,9 +43,8 @@ Surface mtl_surface(ImportContext& context, const MtlMaterial& mtl) {
 }
 
 bool has_part_of(const ObjFile& file, const std::string& material) {
-  return std::any_of(file.parts.begin(), file.parts.end(), [&](const ObjPart& part) {
-    return snake_case(part.material) == material;
-  });
+  return std::any_of(file.parts.begin(), file.parts.end(),
+                     [&](const ObjPart& part) { return snake_case(part.material) == material; });
 }
 
 /// The surfaces of parts by their materials, whose names are compared in the style of Mitsuba 3.
@@ -106,8 +105,7 @@ Geometry obj_geometry(PluginProperties& p) {
   Geometry all;
   PartSurfaces surfaces = named_surfaces(p, file, all);
   if (surfaces.empty()) surfaces = mtl_surfaces(p, file);
-  Geometry joined =
-      mesh_geometry(p, with_uvs_of_mitsuba(p, joined_mesh(file)), false);
+  Geometry joined = mesh_geometry(p, with_uvs_of_mitsuba(p, joined_mesh(file)), false);
   if (surfaces.empty() || collapse) return joined;
   all.is_open = joined.is_open;
   for (const ObjPart& part : file.parts) {

@@ -149,8 +149,7 @@ class ObjectReader {
     return true;
   }
 
-  void include(const XmlText& text, const Node& node, Object& into, Document& document,
-               int depth) {
+  void include(const XmlText& text, const Node& node, Object& into, Document& document, int depth) {
     const SourceLocation where = text.place(node);
     const std::string name =
         document.file_names.find(files_, required(text, node, "filename"), where);

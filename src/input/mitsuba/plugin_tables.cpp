@@ -14,10 +14,9 @@ namespace nephroid::mitsuba {
 
 std::vector<Plugin> plugin_tables() {
   std::vector<Plugin> all;
-  for (const auto& table :
-       {shape_plugins(), bsdf_plugins(), subsurface_plugins(), texture_plugins(),
-        spectrum_plugins(), emitter_plugins(), sensor_plugins(), medium_plugins(),
-        integrator_plugins()})
+  for (const auto& table : {shape_plugins(), bsdf_plugins(), subsurface_plugins(),
+                            texture_plugins(), spectrum_plugins(), emitter_plugins(),
+                            sensor_plugins(), medium_plugins(), integrator_plugins()})
     all.insert(all.end(), table.begin(), table.end());
   return all;
 }

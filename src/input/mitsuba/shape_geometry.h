@@ -1,5 +1,5 @@
-// The geometry of one shape of Mitsuba: type, parameters and transform of pbrt-v4's shape. Media and
-// light are not set, and a material only if the shape's file gives one.
+// The geometry of one shape of Mitsuba: type, parameters and transform of pbrt-v4's shape. Media
+// and light are not set, and a material only if the shape's file gives one.
 #pragma once
 
 #include <optional>

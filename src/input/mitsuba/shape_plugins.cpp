@@ -80,8 +80,7 @@ std::vector<const Child*> own_bsdfs(PluginProperties& p, const Geometry& geometr
 
 Attachments attachments(PluginProperties& p, const Geometry& geometry) {
   Attachments a;
-  const std::vector<const Child*> bsdfs = own_bsdfs(p, geometry),
-                                  emitters = p.children("emitter");
+  const std::vector<const Child*> bsdfs = own_bsdfs(p, geometry), emitters = p.children("emitter");
   if (bsdfs.size() > 1) warn_approximated(p, "it has several BSDFs, the first one is used");
   if (emitters.size() > 1) warn_approximated(p, "it has several emitters, the first one is used");
   if (!emitters.empty()) a.light = area_light(p.context(), *emitters[0]->object);
@@ -91,9 +90,8 @@ Attachments attachments(PluginProperties& p, const Geometry& geometry) {
     a.outside = write_medium(p.context(), *medium);
   const bool is_boundary = !a.inside.empty() || !a.outside.empty();
   const bool have_all =
-      !geometry.surfaces.empty() &&
-      std::find(geometry.surfaces.begin(), geometry.surfaces.end(), std::nullopt) ==
-          geometry.surfaces.end();
+      !geometry.surfaces.empty() && std::find(geometry.surfaces.begin(), geometry.surfaces.end(),
+                                              std::nullopt) == geometry.surfaces.end();
   if (have_all) return a;
   a.surface = bsdfs.empty() ? default_surface(p, a.light.has_value(), is_boundary)
                             : write_bsdf(p.context(), *bsdfs[0]->object);

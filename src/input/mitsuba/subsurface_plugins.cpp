@@ -67,8 +67,8 @@ Surface write_subsurface(ImportContext& context, const Object& object, const Sur
     surface.material = add_material(p, std::move(m));
   } else {
     // Without its model the scene still makes sense, whatever the plug-in.
-    context.diagnostics.warn(object.where, "subsurface \"" + object.type +
-                                               "\" is ignored: only the BSDF is rendered");
+    context.diagnostics.warn(
+        object.where, "subsurface \"" + object.type + "\" is ignored: only the BSDF is rendered");
   }
   return context.subsurfaces[key] = surface;
 }

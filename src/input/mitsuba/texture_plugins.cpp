@@ -19,9 +19,7 @@ struct UvMap {
   double u[3] = {1, 0, 0}, v[3] = {0, 1, 0};
 
   bool turns() const { return std::abs(u[1]) + std::abs(v[0]) > 1e-6; }
-  bool is_identity() const {
-    return !turns() && u[0] == 1 && u[2] == 0 && v[1] == 1 && v[2] == 0;
-  }
+  bool is_identity() const { return !turns() && u[0] == 1 && u[2] == 0 && v[1] == 1 && v[2] == 0; }
 };
 
 UvMap read_uv_map(PluginProperties& p) {
@@ -38,9 +36,9 @@ UvMap read_uv_map(PluginProperties& p) {
 
 /// The same map where v is turned over before and after it.
 void add_uv_transform(ParameterSet& set, const std::string& name, const UvMap& map) {
-  add_numbers(set, "float", name,
-              {map.u[0], -map.u[1], map.u[2] + map.u[1], -map.v[0], map.v[1],
-               1 - map.v[1] - map.v[2]});
+  add_numbers(
+      set, "float", name,
+      {map.u[0], -map.u[1], map.u[2] + map.u[1], -map.v[0], map.v[1], 1 - map.v[1] - map.v[2]});
 }
 
 bool stores_floats(const std::string& file) {
@@ -149,7 +147,7 @@ void write_scale(PluginProperties& p, TextureDescription& t, TextureUse use) {
   add_float(t.parameters, "scale", mean(scale));
 }
 
-/// Colours of .serialized meshes; surfaces without are white.
+/// Surfaces without colours are white.
 void write_vertex_colors(PluginProperties& p, TextureDescription& t, TextureUse use) {
   t.type = "vertexcolor";
   if (p.text("name", "vertex_color") != "vertex_color")
@@ -167,17 +165,16 @@ struct TextureRow : Plugin {
 };
 constexpr PluginSupport kLoaded = PluginSupport::kLoaded, kRefused = PluginSupport::kRefused,
                         kApproximated = PluginSupport::kApproximated;
-constexpr const char* kOfSerialized = "those of .serialized meshes; others are white";
+constexpr const char* kOfMeshes = "those of .serialized and PLY meshes; others are white";
 constexpr const char* kNoSuchTexture = "there is no such texture here";
 constexpr TextureRow kTextures[] = {
-    {{"texture", "bitmap", kLoaded, "bilinear"},
-     write_bitmap},
+    {{"texture", "bitmap", kLoaded, "bilinear"}, write_bitmap},
     {{"texture", "checkerboard", kLoaded, "rotations of uv are ignored with a warning"},
      write_checkerboard},
     {{"texture", "scale", kLoaded, "a coloured scale is replaced by its mean, with a warning"},
      write_scale},
-    {{"texture", "vertexcolors", kLoaded, kOfSerialized}, write_vertex_colors},
-    {{"texture", "mesh_attribute", kApproximated, kOfSerialized}, write_vertex_colors},
+    {{"texture", "vertexcolors", kLoaded, kOfMeshes}, write_vertex_colors},
+    {{"texture", "mesh_attribute", kApproximated, kOfMeshes}, write_vertex_colors},
     {{"texture", "gridtexture", kRefused, kNoSuchTexture}},
     {{"texture", "wireframe", kRefused, kNoSuchTexture}},
     {{"texture", "curvature", kRefused, kNoSuchTexture}},

@@ -89,18 +89,18 @@ TEST(MitsubaBsdf, TexturesOfAlphaAreTheRoughness) {
     EXPECT_EQ(parameter(set, "remaproughness").bools, std::vector<bool>{false}) << text;
     EXPECT_EQ(scene.warnings().find("alpha"), std::string::npos) << scene.warnings();
   }
-  const MaterialDescription ward = material_of(
-      bsdf("ward", value("rgb", "diffuseReflectance", "0 0 0") +
-                       "<texture type=\"checkerboard\" name=\"alphaU\"/>"));
+  const MaterialDescription ward =
+      material_of(bsdf("ward", value("rgb", "diffuseReflectance", "0 0 0") +
+                                   "<texture type=\"checkerboard\" name=\"alphaU\"/>"));
   EXPECT_EQ(parameter(ward.parameters, "uroughness").type, "texture");
   EXPECT_EQ(number(ward.parameters, "vroughness"), 0.1);
 }
 
 TEST(MitsubaBsdf, TwoAlphasOfTintedGlassAreItsAnisotropy) {
   const auto glass = [](const char* u, const char* v) {
-    return material_of(bsdf("roughdielectric",
-                            value("rgb", "specularReflectance", "1 0.5 0.5") +
-                                value("float", "alphaU", u) + value("float", "alphaV", v)))
+    return material_of(bsdf("roughdielectric", value("rgb", "specularReflectance", "1 0.5 0.5") +
+                                                   value("float", "alphaU", u) +
+                                                   value("float", "alphaV", v)))
         .parameters;
   };
   // OpenPBR 1.1: alpha_t = r sqrt(2 / (1 + (1 - a)^2)) for r = roughness^2, alpha_b = (1 - a)
@@ -304,11 +304,10 @@ TEST(MitsubaBsdf, PrincipledKeepsItsNames) {
 
 TEST(MitsubaBsdf, PrincipledHasTheFacetsOfBurley) {
   // Burley 2012: alphas roughness^2 / a and roughness^2 a with a = sqrt(1 - 0.9 anisotropic).
-  const ParameterSet set =
-      material_of(bsdf("principled", value("float", "roughness", "0.6") +
-                                         value("float", "anisotropic", "0.5")),
-                  "3.0.0")
-          .parameters;
+  const ParameterSet set = material_of(bsdf("principled", value("float", "roughness", "0.6") +
+                                                              value("float", "anisotropic", "0.5")),
+                                       "3.0.0")
+                               .parameters;
   const double r = number(set, "specular_roughness");
   const double across = 1 - number(set, "specular_roughness_anisotropy");
   const double alpha_t = r * r * std::sqrt(2 / (1 + across * across));

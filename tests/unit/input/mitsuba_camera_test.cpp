@@ -121,6 +121,7 @@ TEST(MitsubaCamera, TheUserChoosesASensorByIdOrIndex) {
   MitsubaScene scene;
   const auto fov = [&] { return number(scene.read(body).camera->parameters, "fov"); };
   EXPECT_NEAR(fov(), 30, 1e-9);
+  EXPECT_EQ(scene.read(body).choices.cameras, (std::vector<std::string>{"a", "b"}));
   scene.options.camera = "b";
   EXPECT_NEAR(fov(), 40, 1e-9);
   scene.options.camera = "1";

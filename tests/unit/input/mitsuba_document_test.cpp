@@ -79,6 +79,7 @@ TEST(MitsubaDocument, FilesAreFoundInTheFoldersOfPaths) {
   };
   EXPECT_EQ(reflectance("a.spd"), 0.5);
   EXPECT_EQ(reflectance("b.spd"), 0.25);
+  EXPECT_EQ(reflectance("..\\b.spd"), 0.25);
   scene.folder().write("spectra/b.spd", "400 0.75\n700 0.75\n");
   EXPECT_EQ(reflectance("b.spd"), 0.75);
   EXPECT_EQ(scene.warnings(), "");

@@ -58,11 +58,12 @@ TEST(MitsubaObj, MtlMaterialsCountInTheOldVersionWithoutABsdf) {
 
 TEST(MitsubaObj, MaterialsOfTwoFilesKeepTheirTextures) {
   TwoParts scene;
-  scene.folder().write("other/two.obj", "mtllib two.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n"
-                                        "usemtl Water\nf 1/1 2/1 3/1\n");
+  scene.folder().write("other/two.obj",
+                       "mtllib two.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n"
+                       "usemtl Water\nf 1/1 2/1 3/1\n");
   scene.folder().write("other/two.mtl", "newmtl Water\nmap_Kd sea.png\n");
-  const SceneDescription d = scene.with(
-      "</shape><shape type=\"obj\"><string name=\"filename\" value=\"other/two.obj\"/>");
+  const SceneDescription d =
+      scene.with("</shape><shape type=\"obj\"><string name=\"filename\" value=\"other/two.obj\"/>");
   ASSERT_EQ(d.textures.size(), 2u);
   EXPECT_NE(d.textures[0].name, d.textures[1].name);
   const MaterialDescription sea = material(d, d.shapes.at(2).material.name);

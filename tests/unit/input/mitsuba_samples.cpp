@@ -211,7 +211,8 @@ std::string scene_with(const std::string& tag, const std::string& name, const st
   const auto in_medium = [&](const std::string& inside) {
     return in_shape("<medium name=\"interior\" type=\"heterogeneous\">" + inside + "</medium>");
   };
-  if (tag == "bsdf" || tag == "subsurface" || (tag == "emitter" && name == "area")) return in_shape(named(""));
+  if (tag == "bsdf" || tag == "subsurface" || (tag == "emitter" && name == "area"))
+    return in_shape(named(""));
   if (tag == "texture")
     return in_shape("<bsdf type=\"diffuse\">" + named("reflectance") + "</bsdf>");
   if (tag == "spectrum")

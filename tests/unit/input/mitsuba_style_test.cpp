@@ -122,8 +122,8 @@ TEST(MitsubaStyle, ARoomOfMitsuba3LoadsWithoutAWarning) {
   const MaterialDescription table = material(d, d.shapes.at(0).material.name);
   EXPECT_EQ(table.type, "coateddiffuse");
   EXPECT_EQ(parameter(table.parameters, "reflectance").type, "texture");
-  EXPECT_TRUE(has_parameter(material(d, d.shapes.at(4).material.name).parameters,
-                            "normalmap.uvtransform"));
+  EXPECT_TRUE(
+      has_parameter(material(d, d.shapes.at(4).material.name).parameters, "normalmap.uvtransform"));
   const ShapeDescription& leaf = d.shapes.at(3);
   EXPECT_EQ(parameter(leaf.parameters, "alpha").type, "texture");
   EXPECT_TRUE(has_parameter(material(d, leaf.material.name).parameters, "displacement"));

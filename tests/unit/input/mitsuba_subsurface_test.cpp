@@ -50,24 +50,24 @@ TEST(MitsubaSubsurface, ExtinctionAndAlbedoAreTheSameMedium) {
 }
 
 TEST(MitsubaSubsurface, SubstancesAreFoundWithoutCaseAndPerTenCentimetres) {
-  const ParameterSet skin = below(value("string", "material", "skin2") + value("float", "scale", "2"));
+  const ParameterSet skin =
+      below(value("string", "material", "skin2") + value("float", "scale", "2"));
   EXPECT_EQ(text(skin, "name"), "Skin2");
   EXPECT_EQ(number(skin, "scale"), 200);
   EXPECT_EQ(number(skin, "eta"), 1.3);
   MitsubaScene scene;
-  const SceneDescription d = scene.read(
-      "<shape type=\"sphere\"><medium type=\"homogeneous\" name=\"interior\">" +
-      value("string", "material", "head & shoulders Shampoo") + "</medium></shape>\n");
+  const SceneDescription d =
+      scene.read("<shape type=\"sphere\"><medium type=\"homogeneous\" name=\"interior\">" +
+                 value("string", "material", "head & shoulders Shampoo") + "</medium></shape>\n");
   EXPECT_EQ(text(d.media.at(0).parameters, "preset"), "Head & Shoulders Shampoo");
 }
 
 TEST(MitsubaSubsurface, ShapesOfOneModelAndBoundaryShareTheMaterial) {
   MitsubaScene scene;
-  const std::string shape =
-      "<shape type=\"sphere\"><ref id=\"wax\"/><ref id=\"coat\"/></shape>\n";
-  const SceneDescription d = scene.read(
-      "<bsdf type=\"plastic\" id=\"coat\"/><subsurface type=\"dipole\" id=\"wax\"/>\n" + shape +
-      shape + "<shape type=\"sphere\"><ref id=\"wax\"/></shape>\n");
+  const std::string shape = "<shape type=\"sphere\"><ref id=\"wax\"/><ref id=\"coat\"/></shape>\n";
+  const SceneDescription d =
+      scene.read("<bsdf type=\"plastic\" id=\"coat\"/><subsurface type=\"dipole\" id=\"wax\"/>\n" +
+                 shape + shape + "<shape type=\"sphere\"><ref id=\"wax\"/></shape>\n");
   EXPECT_EQ(d.shapes.at(0).material.name, d.shapes.at(1).material.name);
   EXPECT_NE(d.shapes.at(0).material.name, d.shapes.at(2).material.name);
   EXPECT_EQ(scene.warnings().find("outside of other objects"), std::string::npos);
@@ -78,8 +78,9 @@ TEST(MitsubaSubsurface, OtherModelsLeaveTheBsdf) {
   const SceneDescription d =
       scene.read(sphere("<bsdf type=\"plastic\"/>", "vaescatter", value("float", "g", "0.5")));
   EXPECT_EQ(material(d, d.shapes.at(0).material.name).type, "coateddiffuse");
-  EXPECT_NE(scene.warnings().find("subsurface \"vaescatter\" is ignored: only the BSDF is rendered"),
-            std::string::npos);
+  EXPECT_NE(
+      scene.warnings().find("subsurface \"vaescatter\" is ignored: only the BSDF is rendered"),
+      std::string::npos);
 }
 
 }  // namespace

@@ -84,8 +84,8 @@ TEST(MitsubaTexture, GammaAndRawAreEncodings) {
   EXPECT_EQ(text(bitmap(value("boolean", "raw", "true")).parameters, "encoding"), "linear");
   EXPECT_FALSE(
       has_parameter(bitmap(value("boolean", "raw", "true"), "a.exr").parameters, "encoding"));
-  EXPECT_TRUE(has_parameter(bitmap(value("boolean", "raw", "true"), "a.jpg").parameters,
-                            "forceencoding"));
+  EXPECT_TRUE(
+      has_parameter(bitmap(value("boolean", "raw", "true"), "a.jpg").parameters, "forceencoding"));
 }
 
 TEST(MitsubaTexture, BumpsAreDecodedLikeAllImages) {
@@ -114,10 +114,10 @@ TEST(MitsubaTexture, WrapAndFilterModes) {
 
 TEST(MitsubaTexture, ANumberMayBeOneChannel) {
   MitsubaScene scene;
-  const SceneDescription d = scene.read(
-      "<bsdf type=\"mask\" id=\"a\"><texture type=\"bitmap\" name=\"opacity\">" +
-      value("string", "filename", "leaf.png") + value("string", "channel", "a") +
-      "</texture><bsdf type=\"diffuse\"/></bsdf>\n");
+  const SceneDescription d =
+      scene.read("<bsdf type=\"mask\" id=\"a\"><texture type=\"bitmap\" name=\"opacity\">" +
+                 value("string", "filename", "leaf.png") + value("string", "channel", "a") +
+                 "</texture><bsdf type=\"diffuse\"/></bsdf>\n");
   EXPECT_EQ(text(d.textures.at(0).parameters, "channel"), "a");
 }
 
