@@ -129,6 +129,21 @@ std::string mixture(PluginProperties& properties, const std::string& first,
   return add_material(properties, std::move(m));
 }
 
+Parameter scaled(PluginProperties& properties, Parameter value, double factor) {
+  if (factor == 1) return value;
+  if (value.type == "float") {
+    value.numbers[0] *= factor;
+    return value;
+  }
+  TextureDescription t = directive<TextureDescription>("scale", properties.where());
+  t.name = properties.context().unique_name(properties.object());
+  t.value_type = "float";
+  add_as(t.parameters, "tex", std::move(value));
+  add_float(t.parameters, "scale", factor);
+  properties.context().scene.textures.push_back(t);
+  return text_parameter("texture", "", {t.name}, properties.where());
+}
+
 const MaterialDescription& written_material(const ImportContext& context, const std::string& name) {
   for (const MaterialDescription& m : context.scene.materials)
     if (m.name == name) return m;

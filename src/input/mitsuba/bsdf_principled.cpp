@@ -8,9 +8,10 @@
 namespace nephroid::mitsuba {
 namespace {
 
-/// Copies a number or texture; nothing is written if it is absent.
-void copy_float(PluginProperties& p, const char* from, ParameterSet& set, const char* to) {
-  if (auto value = read_float(p, from)) add_as(set, to, std::move(*value));
+/// Copies a number or texture times a factor; nothing is written if it is absent.
+void copy_float(PluginProperties& p, const char* from, ParameterSet& set, const char* to,
+                double factor = 1) {
+  if (auto value = read_float(p, from)) add_as(set, to, scaled(p, std::move(*value), factor));
 }
 
 /// A constant of the model; a texture is replaced by `fallback` with a warning.
@@ -27,13 +28,25 @@ double index_of_specular(double specular) {
   return 2 / (1 - std::sqrt(0.08 * std::clamp(specular, 0.0, 1.0))) - 1;
 }
 
+/// Burley's alphas are roughness^2 / a and roughness^2 a with a^2 = 1 - 0.9 anisotropic. OpenPBR's
+/// have the ratio 1 - anisotropy and the mean square roughness^4.
+void add_facets(PluginProperties& p, ParameterSet& set) {
+  Parameter roughness =
+      read_float(p, "roughness").value_or(numbers_parameter("float", "", {0.5}, p.where()));
+  const auto anisotropic = read_float(p, "anisotropic");
+  double factor = 1;
+  if (anisotropic && anisotropic->type == "float") {
+    const double across = 1 - 0.9 * std::clamp(anisotropic->numbers[0], 0.0, 1.0);
+    factor = std::pow(0.5 * (1 / across + across), 0.25);
+  }
+  add_as(set, "specular_roughness", scaled(p, std::move(roughness), factor));
+  if (anisotropic) add_as(set, "specular_roughness_anisotropy", scaled(p, *anisotropic, 0.9));
+}
+
 MaterialDescription common(PluginProperties& p) {
   MaterialDescription m = material(p, "principled");
   add_color(m.parameters, "base_color", read_color(p, "base_color", ColorUse::kReflectance), 0.5);
-  const auto roughness = read_float(p, "roughness");
-  add_as(m.parameters, "specular_roughness",
-         roughness.value_or(numbers_parameter("float", "", {0.5}, p.where())));
-  copy_float(p, "anisotropic", m.parameters, "specular_roughness_anisotropy");
+  add_facets(p, m.parameters);
   copy_float(p, "spec_trans", m.parameters, "transmission_weight");
   copy_float(p, "sheen", m.parameters, "fuzz_weight");
   if (constant(p, "flatness", 0) != 0) warn_approximated(p, "\"flatness\" is ignored");
@@ -53,9 +66,10 @@ Surface write_principled(PluginProperties& p) {
                                   : index_of_specular(p.number("specular", 0.5));
   add_float(m.parameters, "specular_ior", eta);
   // The clearcoat has a quarter of a layer's reflectance, index 1.5 and its own roughness.
-  const double coat = constant(p, "clearcoat", 0), gloss = constant(p, "clearcoat_gloss", 0);
-  if (coat > 0) {
-    add_float(m.parameters, "coat_weight", 0.25 * coat);
+  const double gloss = constant(p, "clearcoat_gloss", 0);
+  const auto coat = read_float(p, "clearcoat");
+  if (coat && (coat->type == "texture" || coat->numbers[0] > 0)) {
+    add_as(m.parameters, "coat_weight", scaled(p, *coat, 0.25));
     add_float(m.parameters, "coat_ior", 1.5);
     add_float(m.parameters, "coat_darkening", 0);
     add_bool(m.parameters, "coat_affects_specular", false);
@@ -72,8 +86,7 @@ Surface write_thin_principled(PluginProperties& p) {
   add_color(m.parameters, "transmission_color", color, 0.5);
   add_color(m.parameters, "diffuse_transmission_color", color, 0.5);
   // Mitsuba's "diff_trans" of 1 transmits half of the light, of 2 all of it.
-  add_float(m.parameters, "diffuse_transmission_weight",
-            std::clamp(0.5 * constant(p, "diff_trans", 0), 0.0, 1.0));
+  copy_float(p, "diff_trans", m.parameters, "diffuse_transmission_weight", 0.5);
   add_float(m.parameters, "specular_ior", p.has("eta") ? refraction_index(p, "eta", "pet") : 1.5);
   return surface_of(p, std::move(m), false);
 }

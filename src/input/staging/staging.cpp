@@ -106,9 +106,10 @@ void stage_scene(SceneDescription* scene, const FormatTraits& format, const Impo
   const Surroundings surroundings = surroundings_of(*scene);
   const bool has_own_light = has_light(*scene, format.glow);
   const bool is_lit = has_own_light || !options.environment.empty() || options.sun;
-  const Bounds3d bounds = options.floor || !(format.is_complete || is_lit)
-                              ? extent.get("the floor and the default lamp are placed by them").bounds
-                              : Bounds3d();
+  const Bounds3d bounds =
+      options.floor || !(format.is_complete || is_lit)
+          ? extent.get("the floor and the default lamp are placed by them").bounds
+          : Bounds3d();
   if (options.sun) {
     // A white surface that faces the sun gets the value 1.
     const double illuminance = set_sun(scene, *options.sun, surroundings);

@@ -24,13 +24,6 @@ SpectrumInput read_radius_scale(const MaterialDescription& d, const MaterialCont
   return SpectrumInput(std::move(texture));
 }
 
-/// OpenPBR's facets: the mean square of both alphas is that of isotropic ones.
-TrowbridgeReitz facets_of(float roughness, float anisotropy) {
-  const float across = 1.0f - anisotropy;
-  const float x = sqr(roughness) * std::sqrt(2.0f / (1.0f + sqr(across)));
-  return {std::min(x, 1.0f), std::min(across * x, 1.0f)};
-}
-
 /// Facets seen through a rough coat of index `ior` that covers the share `weight`: the variances of
 /// slopes add up (OpenPBR 1.1).
 TrowbridgeReitz roughened(const TrowbridgeReitz& base, const TrowbridgeReitz& coat, float weight,
@@ -120,10 +113,19 @@ PrincipledInputs::PrincipledInputs(const MaterialDescription& d, const MaterialC
       film_weight_(d, c, "thin_film_weight", 0.0f),
       film_thickness_(d, c, "thin_film_thickness", 0.5f, 0.0f, kInfinity),
       film_ior_(d, c, "thin_film_ior", 1.4f, kMinIor, kMaxIor),
-      thin_walled_(d.parameters.get_bool("geometry_thin_walled", false)) {
+      thin_walled_(d.parameters.get_bool("geometry_thin_walled", false)),
+      remap_roughness_(d.parameters.get_bool("remaproughness", true)) {
   // Profiles of subsurface light are tables for one mean cosine.
   g_ = constant_of(d, c, "subsurface_scatter_anisotropy", -0.95f, 0.95f);
   abbe_ = constant_of(d, c, "transmission_dispersion_abbe_number", 0.0f, kInfinity);
+}
+
+// The mean square of both alphas is that of isotropic facets.
+TrowbridgeReitz PrincipledInputs::facets_of(float roughness, float anisotropy) const {
+  const float alpha = remap_roughness_ ? sqr(roughness) : roughness;
+  const float across = 1.0f - anisotropy;
+  const float x = alpha * std::sqrt(2.0f / (1.0f + sqr(across)));
+  return {std::min(x, 1.0f), std::min(across * x, 1.0f)};
 }
 
 float PrincipledInputs::dispersed(float ior, float lambda) const {

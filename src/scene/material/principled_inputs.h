@@ -61,6 +61,8 @@ class PrincipledInputs {
                         const SampledWavelengths& lambda) const {
     return clamp(input.at(point, lambda), 0.0f, 1.0f);
   }
+  /// OpenPBR's facets of a roughness, or of an alpha if roughness is not remapped.
+  TrowbridgeReitz facets_of(float roughness, float anisotropy) const;
   /// The index at wavelength `lambda` in nm, for an index `ior` at helium's d line, 587.56 nm.
   float dispersed(float ior, float lambda) const;
   bool coat_may_affect_specular() const { return coat_affects_specular_ && may_have_coat(); }
@@ -87,7 +89,7 @@ class PrincipledInputs {
   SpectrumInput coat_color_;
   bool coat_affects_specular_;
   BoundedInput film_weight_, film_thickness_, film_ior_;
-  bool thin_walled_;
+  bool thin_walled_, remap_roughness_;
   float g_ = 0, abbe_ = 0;
 };
 

@@ -92,6 +92,8 @@ constexpr FormatParameter kPrincipledBase[] = {
      "of the boundary's reflection outside; of metal at grazing angles (F82)"},
     {"float or texture", "specular_roughness", "0.3", "", "alpha is its square"},
     {"float or texture", "specular_roughness_anisotropy", "0", "", "along dpdu"},
+    {"bool", "remaproughness", "true", "",
+     "false: specular_roughness and coat_roughness are microfacet alphas themselves"},
     {"float or texture", "specular_ior", "1.5", "", "0.1 to 10"},
     {"bool", "geometry_thin_walled", "false", "",
      "the surface is a wall with air on both sides, which bends no light"},

@@ -71,6 +71,51 @@ TEST(MitsubaBsdf, AlphaIsTheRoughnessItself) {
   EXPECT_EQ(number(two.parameters, "vroughness"), 0.2);
 }
 
+TEST(MitsubaBsdf, TexturesOfAlphaAreTheRoughness) {
+  const std::string color = value("rgb", "specularReflectance", "1 0.5 0.5");
+  const std::string alpha =
+      "<texture type=\"checkerboard\" name=\"alpha\"/>" + value("string", "distribution", "ggx");
+  const std::pair<std::string, const char*> cases[] = {
+      {bsdf("roughdielectric", alpha), "roughness"},
+      {bsdf("roughconductor", alpha), "roughness"},
+      {bsdf("roughplastic", alpha), "roughness"},
+      {bsdf("roughdielectric", alpha + color), "specular_roughness"},
+      {bsdf("roughplastic", alpha + color), "specular_roughness"}};
+  for (const auto& [text, name] : cases) {
+    MitsubaScene scene;
+    const SceneDescription d = with_bsdf(scene, text);
+    const ParameterSet& set = d.materials.at(0).parameters;
+    EXPECT_EQ(parameter(set, name).type, "texture") << text;
+    EXPECT_EQ(parameter(set, "remaproughness").bools, std::vector<bool>{false}) << text;
+    EXPECT_EQ(scene.warnings().find("alpha"), std::string::npos) << scene.warnings();
+  }
+  const MaterialDescription ward =
+      material_of(bsdf("ward", value("rgb", "diffuseReflectance", "0 0 0") +
+                                   "<texture type=\"checkerboard\" name=\"alphaU\"/>"));
+  EXPECT_EQ(parameter(ward.parameters, "uroughness").type, "texture");
+  EXPECT_EQ(number(ward.parameters, "vroughness"), 0.1);
+}
+
+TEST(MitsubaBsdf, TwoAlphasOfTintedGlassAreItsAnisotropy) {
+  const auto glass = [](const char* u, const char* v) {
+    return material_of(bsdf("roughdielectric", value("rgb", "specularReflectance", "1 0.5 0.5") +
+                                                   value("float", "alphaU", u) +
+                                                   value("float", "alphaV", v)))
+        .parameters;
+  };
+  // OpenPBR 1.1: alpha_t = r sqrt(2 / (1 + (1 - a)^2)) for r = roughness^2, alpha_b = (1 - a)
+  // alpha_t.
+  const ParameterSet wide = glass("0.4", "0.1");
+  const double r = number(wide, "specular_roughness");
+  const double across = 1 - number(wide, "specular_roughness_anisotropy");
+  const double alpha_t = r * std::sqrt(2 / (1 + across * across));
+  EXPECT_NEAR(alpha_t, 0.4, 1e-12);
+  EXPECT_NEAR(across * alpha_t, 0.1, 1e-12);
+  const ParameterSet turned = glass("0.1", "0.4");
+  EXPECT_NEAR(number(turned, "specular_roughness"), r, 1e-12);
+  EXPECT_FALSE(has_parameter(turned, "specular_roughness_anisotropy"));
+}
+
 TEST(MitsubaBsdf, OtherDistributionsGetAWarning) {
   MitsubaScene scene;
   with_bsdf(scene, bsdf("roughdielectric", value("string", "distribution", "beckmann")));
@@ -264,6 +309,40 @@ TEST(MitsubaBsdf, AClearcoatLeavesTheReflectanceBelowIt) {
   EXPECT_EQ(number(set, "coat_darkening"), 0);
   ASSERT_TRUE(has_parameter(set, "coat_affects_specular"));
   EXPECT_EQ(parameter(set, "coat_affects_specular").bools, std::vector<bool>{false});
+}
+
+TEST(MitsubaBsdf, PrincipledHasTheFacetsOfBurley) {
+  // Burley 2012: alphas roughness^2 / a and roughness^2 a with a = sqrt(1 - 0.9 anisotropic).
+  const ParameterSet set = material_of(bsdf("principled", value("float", "roughness", "0.6") +
+                                                              value("float", "anisotropic", "0.5")),
+                                       "3.0.0")
+                               .parameters;
+  const double r = number(set, "specular_roughness");
+  const double across = 1 - number(set, "specular_roughness_anisotropy");
+  const double alpha_t = r * r * std::sqrt(2 / (1 + across * across));
+  const double a = std::sqrt(1 - 0.9 * 0.5);
+  EXPECT_NEAR(alpha_t, 0.36 / a, 1e-12);
+  EXPECT_NEAR(across * alpha_t, 0.36 * a, 1e-12);
+}
+
+TEST(MitsubaBsdf, TexturesOfPrincipledAreScaled) {
+  const auto checks = [](const std::string& name) {
+    return "<texture type=\"checkerboard\" name=\"" + name + "\"/>";
+  };
+  MitsubaScene scene;
+  const SceneDescription d = with_bsdf(
+      scene, bsdf("principled", checks("roughness") + checks("anisotropic") + checks("clearcoat")),
+      "3.0.0");
+  const ParameterSet& set = d.materials.at(0).parameters;
+  EXPECT_EQ(parameter(set, "specular_roughness").type, "texture");
+  const auto factor = [&](const char* name) {
+    for (const TextureDescription& t : d.textures)
+      if (t.name == text(set, name)) return number(t.parameters, "scale");
+    ADD_FAILURE() << name;
+    return 0.0;
+  };
+  EXPECT_EQ(factor("specular_roughness_anisotropy"), 0.9);
+  EXPECT_EQ(factor("coat_weight"), 0.25);
 }
 
 TEST(MitsubaBsdf, BacksOfOpenShapesGetOneWarning) {

@@ -219,6 +219,35 @@ TEST(MitsubaShape, PlyFilesWithNormalsAreLeftToTheLoader) {
             std::string::npos);
 }
 
+TEST(MitsubaShape, ColoursOfPlyFilesAreReadWhereATextureWantsThem) {
+  MitsubaScene scene;
+  scene.folder().write("c.ply",
+                       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                       "property float y\nproperty float z\nproperty uchar red\n"
+                       "property uchar green\nproperty uchar blue\nelement face 1\n"
+                       "property list uchar int vertex_index\nend_header\n"
+                       "0 0 0 255 128 0\n1 0 0 0 0 0\n0 1 0 0 0 0\n3 0 1 2\n");
+  const auto colors = [&](const std::string& texture, const std::string& body,
+                          const std::string& version) {
+    return parameter(scene
+                         .read(shape("ply", file("c.ply") + body +
+                                                "<bsdf type=\"diffuse\"><texture type=\"" +
+                                                texture + "\" name=\"reflectance\"/></bsdf>"),
+                               version)
+                         .shapes.at(0)
+                         .parameters,
+                     "vertexcolors")
+        .numbers.at(1);
+  };
+  // 128 / 255 is 0.2159 in linear light.
+  EXPECT_NEAR(colors("vertexcolors", "", "0.6.0"), 0.2159, 1e-4);
+  EXPECT_NEAR(colors("vertexcolors", "<boolean name=\"srgb\" value=\"false\"/>", "0.6.0"),
+              128 / 255.0, 1e-6);
+  EXPECT_NEAR(colors("mesh_attribute", "", "3.0.0"), 128 / 255.0, 1e-6);
+  EXPECT_FALSE(
+      has_parameter(scene.read(shape("ply", file("c.ply"))).shapes[0].parameters, "vertexcolors"));
+}
+
 TEST(MitsubaShape, HairIsStraightFromPointToPoint) {
   MitsubaScene scene;
   scene.folder().write("hair.txt", "0 0 0\n0 0 3\n\n\n1 0 0\n1 0 3\n1 3 3\n");

@@ -131,6 +131,15 @@ TEST(PrincipledMaterial, AlphaIsTheSquareOfRoughness) {
   EXPECT_FALSE(made.materials[3]->facet_alpha());
 }
 
+TEST(PrincipledMaterial, RoughnessThatIsNotRemappedIsAlpha) {
+  const Parameter raw = boolean("remaproughness", false);
+  const Made made({principled({number("specular_roughness", 0.25), raw}),
+                   principled({number("coat_weight", 1), number("coat_roughness", 0.04), raw})});
+  EXPECT_NEAR(*made.materials[0]->facet_alpha(), 0.25f, 1e-6f);
+  EXPECT_NEAR(*made.materials[1]->facet_alpha(), 0.04f, 1e-6f);
+  EXPECT_EQ(made.diagnostics.warnings().size(), 0u);
+}
+
 TEST(PrincipledMaterial, ARoughCoatRoughensItsBase) {
   const Made made({principled({number("base_metalness", 1), number("specular_roughness", 0),
                                number("coat_weight", 1), number("coat_roughness", 0.6)})});
