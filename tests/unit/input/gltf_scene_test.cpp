@@ -235,6 +235,20 @@ TEST(GltfLights, PunctualLightsKeepTheirUnits) {
   EXPECT_EQ(numbers_of(scene.lights[2].parameters, "L"), (std::vector<double>{3, 3, 3}));
 }
 
+TEST(GltfLights, SpotsMayHaveASharpEdge) {
+  const auto file = [](double inner, double outer) {
+    return fmt::format(
+        R"({{"asset":{{"version":"2.0"}},"extensions":{{"KHR_lights_punctual":{{"lights":[)"
+        R"({{"type":"spot","spot":{{"innerConeAngle":{},"outerConeAngle":{}}}}}]}}}},"nodes":[)"
+        R"({{"extensions":{{"KHR_lights_punctual":{{"light":0}}}}}}]}})",
+        inner, outer);
+  };
+  const SceneDescription scene = read_gltf_text(file(0.5, 0.5)).scene;
+  EXPECT_EQ(number_of(scene.lights.at(0).parameters, "conedeltaangle"), 0);
+  EXPECT_NE(gltf_error(file(0.6, 0.5)), "");
+  EXPECT_NE(gltf_error(file(0, 0)), "");
+}
+
 TEST(GltfLights, ImageBasedLightsAreTheirMean) {
   // A uniform environment of radiance 2 has the irradiance 2 pi, whose coefficient is over Y00.
   const double first = 2 * 3.14159265358979 / 0.28209479177387814;
