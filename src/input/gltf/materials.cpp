@@ -218,10 +218,12 @@ std::optional<size_t> Materials::material_index(const JsonValue& primitive) {
 
 std::string Materials::unique_name(const std::optional<JsonValue>& material) {
   const std::string name = material ? material->get_text("name", "material") : "default";
-  const int earlier = names_[name]++;
-  if (earlier == 0) return name;
-  const std::string numbered = name + "." + std::to_string(earlier + 1);
-  return names_.contains(numbered) ? unique_name(material) : (names_[numbered] = 1, numbered);
+  int& uses = names_[name];
+  if (++uses == 1) return name;
+  std::string numbered = name + "." + std::to_string(uses);
+  while (names_.contains(numbered)) numbered = name + "." + std::to_string(++uses);
+  names_[numbered] = 1;
+  return numbered;
 }
 
 SurfaceDescription Materials::make(const std::optional<JsonValue>& material,

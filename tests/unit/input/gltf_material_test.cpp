@@ -322,5 +322,24 @@ TEST(GltfMaterials, NamesAreUnique) {
   EXPECT_NE(read.scene.materials[0].name, read.scene.materials[1].name);
 }
 
+TEST(GltfMaterials, ManyTakenNamesDoNotOverflowTheStack) {
+  // "a.2" to "a.100001", and then "a" twice.
+  constexpr int kTaken = 100000;
+  std::string materials, primitives;
+  const auto add = [&, count = 0](const std::string& name) mutable {
+    const std::string comma = count > 0 ? "," : "";
+    materials += fmt::format(R"({}{{"name":"{}"}})", comma, name);
+    primitives += fmt::format(R"({}{{"attributes":{{}},"material":{}}})", comma, count++);
+  };
+  for (int i = 0; i < kTaken; ++i) add(fmt::format("a.{}", i + 2));
+  add("a");
+  add("a");
+  const ReadScene read = read_gltf_text(
+      R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"meshes":[{"primitives":[)" + primitives +
+      R"(]}],"materials":[)" + materials + "]}");
+  ASSERT_EQ(read.scene.materials.size(), static_cast<size_t>(kTaken) + 2);
+  EXPECT_EQ(read.scene.materials.back().name, fmt::format("a.{}", kTaken + 2));
+}
+
 }  // namespace
 }  // namespace nephroid::testing
