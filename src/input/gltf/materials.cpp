@@ -87,6 +87,12 @@ void make_unlit(SurfaceInputs& inputs, const BaseColor& base) {
               "KHR_materials_unlit: the surface emits its base colour, and so it lights others");
   add_area_light(inputs, {base.factor[0], base.factor[1], base.factor[2]}, base.texture,
                  inputs.where());
+  if (inputs.has_vertex_colors) {
+    inputs.surface.emits_vertex_colors = true;
+    inputs.warn(inputs.where(),
+                "KHR_materials_unlit: a lamp has one colour or an image, so the colours of "
+                "vertices are replaced by their mean over each primitive");
+  }
   inputs.list.add_color("base_color", kBlack);
   inputs.list.add_float("specular_weight", 0);
 }

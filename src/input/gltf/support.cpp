@@ -24,7 +24,9 @@ constexpr Feature kExtensions[] = {
     {"KHR_materials_anisotropy", kApproximated, "the texture of directions is ignored"},
     {"KHR_materials_emissive_strength", kLoaded, ""},
     {"KHR_materials_diffuse_transmission", kLoaded, ""},
-    {"KHR_materials_unlit", kApproximated, "emits its base colour, and so lights others"},
+    {"KHR_materials_unlit", kApproximated,
+     "emits its base colour, and so lights others; colours of vertices are averaged over each "
+     "primitive, with a warning"},
     {"KHR_materials_variants", kLoaded, "`--variant NAME`"},
     {"KHR_materials_pbrSpecularGlossiness", kApproximated,
      "a dielectric whose normal reflectance is the specular colour"},

@@ -299,6 +299,25 @@ TEST(GltfMaterials, UnlitSurfacesEmitTheirColor) {
   EXPECT_EQ(numbers_of(parameters_of(read), "base_color"), (std::vector<double>{0, 0, 0}));
 }
 
+TEST(GltfMaterials, UnlitSurfacesEmitTheMeanOfVertexColors) {
+  GltfText file;
+  const size_t colors = file.vec3({1, 0, 0, 0, 1, 0, 0.5f, 0.5f, 0});
+  const auto read = [&](const std::string& texture) {
+    return read_material(R"("pbrMetallicRoughness":{"baseColorFactor":[1,0.5,1,1])" + texture +
+                             R"(},"extensions":{"KHR_materials_unlit":{}})",
+                         {}, fmt::format(R"(,"COLOR_0":{})", colors), file);
+  };
+  const ReadScene plain = read("");
+  const ShapeDescription& shape = plain.scene.shapes.at(0);
+  EXPECT_EQ(numbers_of(shape.area_light.value().parameters, "L"),
+            (std::vector<double>{0.5, 0.25, 0}));
+  EXPECT_TRUE(numbers_of(shape.parameters, "vertexcolors").empty());
+  EXPECT_EQ(plain.warnings.size(), 2u);
+  const ReadScene image = read(R"(,"baseColorTexture":{"index":0})");
+  EXPECT_EQ(numbers_of(image.scene.shapes.at(0).area_light.value().parameters, "factor"),
+            (std::vector<double>{0.5, 0.25, 0}));
+}
+
 TEST(GltfMaterials, CompressedTexturesAreRefusedWithoutAFallback) {
   TriangleScene t;
   t.primitive_members = R"(,"material":0)";
