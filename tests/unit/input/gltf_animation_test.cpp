@@ -144,6 +144,25 @@ TEST(GltfSkin, JointsMoveVerticesAndTheNodeDoesNot) {
   EXPECT_EQ(read.scene.shapes[0].transform.start, Mat44d());
 }
 
+TEST(GltfSkin, MirroredJointsKeepTheOutsideOutside) {
+  TriangleScene t;
+  const size_t joints = t.file.add_accessor<uint8_t>(std::vector<uint8_t>(12, 0), "VEC4", 5121, 4);
+  const size_t weights = t.file.floats({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4", 4);
+  const size_t normals = t.file.vec3({0, 0, 1, 0.6f, 0, 0.8f, 0, 0, 1});
+  t.attributes = fmt::format(R"(,"JOINTS_0":{},"WEIGHTS_0":{},"NORMAL":{})", joints, weights, normals);
+  t.node_members = R"(,"skin":0},{"scale":[-2,1,1])";
+  const ReadScene read = read_gltf_text(t.file.text(t.members(R"(,"skins":[{"joints":[1]}])")));
+  const ParameterSet& p = read.scene.shapes.at(0).parameters;
+  EXPECT_EQ(numbers_of(p, "P")[3], -2);
+  EXPECT_EQ(numbers_of(p, "indices"), (std::vector<double>{0, 2, 1}));
+  const std::vector<double> n = numbers_of(p, "N");
+  ASSERT_EQ(n.size(), 9u);
+  EXPECT_NEAR(n[2], 1, 1e-6);
+  // The inverse transposed: (0.6 / -2, 0, 0.8) with the length 1.
+  EXPECT_NEAR(n[3] / n[5], -0.3 / 0.8, 1e-6);
+  EXPECT_GT(n[5], 0);
+}
+
 TEST(GltfSkin, DamagedSkinsAreErrors) {
   EXPECT_NE(gltf_error(skinned("1")).find("joint 1 is out of range, the skin has 1"),
             std::string::npos);
