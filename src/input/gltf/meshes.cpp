@@ -212,7 +212,8 @@ std::optional<ShapeDescription> Meshes::make_shape(const Use& use, const JsonVal
   if (surface.tangent_rotation != 0) rotate_tangents(vertices, surface.tangent_rotation);
   drop_unused(vertices);
   std::optional<DirectiveDescription> area_light = surface.area_light;
-  if (area_light && surface.emits_vertex_colors) tint(*area_light, mean_color(vertices));
+  if (area_light && surface.emits_vertex_colors && !vertices.colors.empty())
+    tint(*area_light, mean_color(vertices));
   if (!surface.uses_vertex_colors) vertices.colors.clear();
 
   ParameterList list(primitive.where());
