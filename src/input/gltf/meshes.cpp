@@ -83,6 +83,14 @@ bool is_placeable(const Mat44d& m) {
   return std::isfinite(determinant) && determinant != 0;
 }
 
+/// Counts the memory of instances for which the file has no data.
+void check_instances(Document& document, const JsonValue& attributes, size_t count) {
+  constexpr size_t kBytesOfInstance = 512;  // with its name and its place in the file
+  for (const JsonValue& attribute : attributes.elements())
+    if (has_data(document, attribute.index(), attribute)) return;
+  document.claim_memory(count * kBytesOfInstance, attributes);
+}
+
 /// The transforms of EXT_mesh_gpu_instancing, below the node's own.
 std::vector<Mat44d> instance_matrices(Document& document, const JsonValue& extension) {
   const JsonValue attributes = extension.get("attributes");
@@ -92,6 +100,7 @@ std::vector<Mat44d> instance_matrices(Document& document, const JsonValue& exten
   size_t count = 0;
   for (const auto* array : {&translations, &rotations, &scales})
     if (*array) count = std::max(count, (*array)->count);
+  check_instances(document, attributes, count);
   std::vector<Mat44d> matrices;
   for (size_t i = 0; i < count; ++i) {
     NodePose pose;
