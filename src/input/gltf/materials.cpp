@@ -101,8 +101,7 @@ void add_normal_map(SurfaceInputs& inputs) {
   if (!inputs.json) return;
   const std::optional<JsonValue> info = inputs.json->find_object("normalTexture");
   if (!info) return;
-  const size_t set = info->get_index("texCoord", 0);
-  if (inputs.surface.uv_sets.place_of(set).value_or(0) != 0)
+  if (inputs.surface.uv_sets.place_of(uv_set_of(*info)).value_or(0) != 0)
     inputs.warn(info->where(),
                 "the normal map and the emission use different sets of texture "
                 "coordinates: the tangents of the normal map follow the set of the emission");

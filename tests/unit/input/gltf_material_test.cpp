@@ -290,6 +290,15 @@ TEST(GltfMaterials, NormalMapsGetTangents) {
   EXPECT_NEAR(tangents[1], 0, 1e-6);
 }
 
+TEST(GltfMaterials, NormalMapsTakeTheSetOfTheirTransform) {
+  const ReadScene read = read_material(
+      R"("normalTexture":{"index":0,"extensions":{"KHR_texture_transform":{"texCoord":1}}})");
+  const ParameterSet& shape = read.scene.shapes.at(0).parameters;
+  EXPECT_EQ(numbers_of(shape, "uv"), (std::vector<double>{0, 1, 0.5, 1, 0, 0.5}));
+  EXPECT_TRUE(numbers_of(shape, "uv2").empty());
+  EXPECT_TRUE(numbers_of(parameters_of(read), "normalmap.uvset").empty());
+}
+
 TEST(GltfMaterials, UnlitSurfacesEmitTheirColor) {
   const ReadScene read = read_material(
       R"("pbrMetallicRoughness":{"baseColorFactor":[0.1,0.2,0.3,1]},"extensions":{"KHR_materials_unlit":{}})");
