@@ -151,10 +151,15 @@ void add_metallic_roughness(SurfaceInputs& inputs) {
   }
   inputs.add("base_color", inputs.base);
   inputs.add("base_metalness", metalness);
-  if (inputs.extension("KHR_materials_anisotropy"))
+  if (const auto anisotropy = inputs.extension("KHR_materials_anisotropy")) {
+    // A mirror is stretched, too, from the least roughness that counts.
+    constexpr double kMinRoughness = 0.01;
+    if (!roughness.texture && anisotropy->get_number("anisotropyStrength", 0) > 0)
+      roughness.factor = std::max(roughness.factor, kMinRoughness);
     add_anisotropy(inputs, roughness);
-  else
+  } else {
     inputs.add("specular_roughness", roughness);
+  }
   add_specular(inputs);
   add_transmission(inputs);
   add_diffuse_transmission(inputs);

@@ -218,7 +218,10 @@ std::optional<ShapeDescription> Meshes::make_shape(const Use& use, const JsonVal
   if (surface.needs_tangents && vertices.tangents.empty()) add_tangents(vertices);
   if (!use.weights.empty()) morph(document_, primitive, use.weights, vertices);
   if (use.skin) skin(document_, *use.skin, *source, primitive, nodes_, vertices);
-  if (surface.tangent_rotation != 0) rotate_tangents(vertices, surface.tangent_rotation);
+  if (surface.tangent_rotation != 0) {
+    if (vertices.normals.empty()) make_faceted(vertices);
+    rotate_tangents(vertices, surface.tangent_rotation);
+  }
   drop_unused(vertices);
   std::optional<DirectiveDescription> area_light = surface.area_light;
   if (area_light && surface.emits_vertex_colors && !vertices.colors.empty())

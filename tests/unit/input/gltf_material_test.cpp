@@ -226,6 +226,32 @@ TEST(GltfMaterials, AnisotropyKeepsTheAlphasOfBothAxes) {
   EXPECT_NEAR((1 - s) * along, 0.16, 1e-9);
 }
 
+TEST(GltfMaterials, AnisotropyStretchesMirrors) {
+  const ReadScene read = read_material(
+      R"("pbrMetallicRoughness":{"roughnessFactor":0},"extensions":{"KHR_materials_anisotropy":{"anisotropyStrength":0.5}})");
+  const double r = number_of(parameters_of(read), "specular_roughness");
+  const double s = number_of(parameters_of(read), "specular_roughness_anisotropy");
+  const double along = r * r * std::sqrt(2 / (1 + (1 - s) * (1 - s)));
+  EXPECT_NEAR(along, 0.25, 1e-3);
+  EXPECT_NEAR((1 - s) * along, 0, 1e-3);
+}
+
+TEST(GltfMaterials, AnisotropyTurnsOnFlatMeshes) {
+  const std::string material =
+      R"("extensions":{"KHR_materials_anisotropy":{"anisotropyStrength":0.5,"anisotropyRotation":0.4}})";
+  GltfText file;
+  const size_t normals = file.vec3({0, 0, 1, 0, 0, 1, 0, 0, 1});
+  const ReadScene flat = read_material(material);
+  const ReadScene smooth =
+      read_material(material, {}, fmt::format(R"(,"NORMAL":{})", normals), file);
+  const std::vector<double> expected = numbers_of(smooth.scene.shapes.at(0).parameters, "S");
+  const std::vector<double> tangents = numbers_of(flat.scene.shapes.at(0).parameters, "S");
+  ASSERT_EQ(tangents.size(), 9u);
+  ASSERT_EQ(expected.size(), 9u);
+  EXPECT_NEAR(std::abs(tangents[1]), std::sin(0.4), 1e-6);
+  for (size_t i = 0; i < 9; ++i) EXPECT_NEAR(tangents[i], expected[i], 1e-6);
+}
+
 TEST(GltfMaterials, SpecularGlossinessIsADielectricOfThatReflectance) {
   const ReadScene read = read_material(
       R"("extensions":{"KHR_materials_pbrSpecularGlossiness":{"diffuseFactor":[0.2,0.2,0.2,1],"specularFactor":[0.25,0.125,0.25],"glossinessFactor":0.75}})");
