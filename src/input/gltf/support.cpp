@@ -9,8 +9,9 @@ using enum FeatureSupport;
 
 constexpr Feature kExtensions[] = {
     {"KHR_materials_ior", kLoaded, ""},
-    {"KHR_materials_specular", kLoaded,
-     "factor and colour also scale metals at grazing angles, as in OpenPBR"},
+    {"KHR_materials_specular", kApproximated,
+     "the factor changes the index, so it dims reflections along the normal and not those at "
+     "grazing angles; factor and colour also scale metals at grazing angles, as in OpenPBR"},
     {"KHR_materials_transmission", kApproximated,
      "thin without KHR_materials_volume, as the specification says: no caustic, with a warning; "
      "`--solid-glass` makes it solid"},
@@ -29,7 +30,9 @@ constexpr Feature kExtensions[] = {
      "primitive, with a warning"},
     {"KHR_materials_variants", kLoaded, "`--variant NAME`"},
     {"KHR_materials_pbrSpecularGlossiness", kApproximated,
-     "a dielectric whose normal reflectance is the specular colour"},
+     "a dielectric whose normal reflectance is the specular colour; it dims the diffuse colour by "
+     "what it reflects, not by 1 - max(specular); with a specular texture its reflectance hardly "
+     "grows at grazing angles, as that of a metal"},
     {"KHR_lights_punctual", kLoaded,
      "a candela, a lux and a candela per square metre are one unit each; a light has no radius, "
      "\"range\" is not needed, the edge of a spot is pbrt's smooth step"},
