@@ -21,6 +21,15 @@ void add_weighted(Document& document, const JsonValue& target, const std::string
     to[i] += Vec3f((*offsets)[i][0], (*offsets)[i][1], (*offsets)[i][2]) * w;
 }
 
+/// Warns of the attributes of a target that do not move.
+void warn_of_lost_attributes(Document& document, const JsonValue& target) {
+  for (const std::string& name : target.member_names())
+    if (name.starts_with("TEXCOORD_") || name.starts_with("COLOR_"))
+      document.diagnostics().warn(target.where(), "this morph target of " + name +
+                                                      " is ignored: positions, normals and "
+                                                      "tangents are morphed");
+}
+
 /// The matrices of a skin's joints, mesh to world.
 std::vector<Mat44d> joint_matrices(Document& document, const JsonValue& skin,
                                    const NodeGraph& nodes) {
@@ -133,6 +142,7 @@ void morph(Document& document, const JsonValue& primitive, const std::vector<dou
   const std::vector<JsonValue> list = targets->elements();
   for (size_t i = 0; i < std::min(list.size(), weights.size()); ++i) {
     if (weights[i] == 0) continue;
+    warn_of_lost_attributes(document, list[i]);
     add_weighted(document, list[i], "POSITION", weights[i], vertices.positions);
     add_weighted(document, list[i], "NORMAL", weights[i], vertices.normals);
     add_weighted(document, list[i], "TANGENT", weights[i], vertices.tangents);

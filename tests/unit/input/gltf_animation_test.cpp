@@ -49,6 +49,15 @@ TEST(GltfAnimation, TheShutterGivesTwoTransforms) {
   EXPECT_NEAR(moving.end[3][0], 1.5, 1e-6);
 }
 
+TEST(GltfAnimation, NodesWithAMatrixStandStillWithAWarning) {
+  MovingTriangle m;
+  m.t.node_members = R"(,"matrix":[1,0,0,0, 0,1,0,0, 0,0,1,0, 5,6,7,1])";
+  const ReadScene read = read_gltf_text(m.text());
+  EXPECT_EQ(read.scene.shapes.at(0).transform.start[3][0], 5);
+  ASSERT_EQ(read.warnings.size(), 1u);
+  EXPECT_NE(read.warnings[0].message.find("the node has a matrix"), std::string::npos);
+}
+
 TEST(GltfAnimation, Steps) {
   MovingTriangle m;
   m.mode = "STEP";
@@ -106,6 +115,18 @@ TEST(GltfMorph, TargetsAreAddedByTheirWeights) {
   const ReadScene read = read_gltf_text(t.file.text(t.members()));
   EXPECT_EQ(numbers_of(read.scene.shapes.at(0).parameters, "P"),
             (std::vector<double>{2, 0, 0.5, 1, 0, 0.5, 0, 1, 0.5}));
+}
+
+TEST(GltfMorph, TargetsOfOtherAttributesAreWarnings) {
+  TriangleScene t;
+  const size_t zeros = t.file.vec3({0, 0, 0, 0, 0, 0, 0, 0, 0});
+  t.primitive_members =
+      fmt::format(R"(,"targets":[{{"POSITION":{0},"TEXCOORD_1":0,"COLOR_0":{0}}}])", zeros);
+  t.node_members = R"(,"weights":[0.5])";
+  const std::vector<Warning> warnings = read_gltf_text(t.file.text(t.members())).warnings;
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_NE(warnings[0].message.find("COLOR_0"), std::string::npos);
+  EXPECT_NE(warnings[1].message.find("TEXCOORD_1"), std::string::npos);
 }
 
 TEST(GltfMorph, AnimatedWeightsWin) {

@@ -193,6 +193,20 @@ TEST(GltfMaterials, VolumesAreMediaInside) {
   EXPECT_EQ(number_of(parameters_of(read), "transmission_dispersion_abbe_number"), 40);
 }
 
+TEST(GltfMaterials, VolumesOfDiffuseTransmissionAreMediaInside) {
+  const std::string volume =
+      R"("KHR_materials_volume":{"thicknessFactor":1,"attenuationDistance":2,"attenuationColor":[0.5,1,1]})";
+  const auto read = [&](const std::string& transmission) {
+    return read_material(R"("extensions":{"KHR_materials_diffuse_transmission":{"diffuseTransmissionFactor":0.5},)" +
+                         transmission + volume + "}");
+  };
+  const ReadScene diffuse = read("");
+  ASSERT_EQ(diffuse.scene.media.size(), 1u);
+  EXPECT_EQ(diffuse.scene.shapes.at(0).inside_medium, diffuse.scene.media[0].name);
+  const ReadScene both = read(R"("KHR_materials_transmission":{"transmissionFactor":0.2},)");
+  EXPECT_EQ(both.scene.media.size(), 1u);
+}
+
 TEST(GltfMaterials, LayersOfExtensions) {
   const ReadScene read = read_material(
       R"("extensions":{"KHR_materials_clearcoat":{"clearcoatFactor":0.8,"clearcoatRoughnessFactor":0.1},)"
