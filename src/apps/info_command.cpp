@@ -11,6 +11,7 @@
 #include "integrator/presets/integrator_table.h"
 #include "scene/embree_scene.h"
 #include "session/checkpoint/picture_description.h"
+#include "session/process_memory.h"
 #include "session/scene_loading.h"
 
 namespace nephroid {
@@ -140,6 +141,8 @@ int run_info(const InfoCommand& command) {
   }
   SceneOverrides overrides;
   overrides.import = command.import;
+  MemoryLimit limit;
+  limit.set(machine_memory(), bytes_of_stacks_to_come(0));
   const LoadedScene loaded = load_scene(command.file, overrides);
   print_warnings(loaded.warnings);
   const Scene& scene = *loaded.scene;

@@ -39,6 +39,18 @@ constexpr SceneFormat kFormats[] = {
     {"", read_pbrt, {.is_complete = true, .has_exposure = true}},
 };
 
+/// Warns of options that only other formats know.
+void warn_of_foreign_options(const SceneFormat& format, const std::string& path,
+                             const ImportOptions& options, Diagnostics& diagnostics) {
+  const auto warn = [&](const std::string& option, const char* formats) {
+    diagnostics.warn({std::make_shared<const std::string>(path), 0, 0},
+                     option + " is ignored: only " + formats + " files have it");
+  };
+  if (!options.defines.empty() && format.read != read_mitsuba) warn("--define", "Mitsuba");
+  if (options.solid_glass && format.read != read_gltf && format.read != read_obj_scene)
+    warn("--solid-glass", "glTF and OBJ");
+}
+
 std::string lower_case(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -68,6 +80,7 @@ SceneDescription read_scene(const std::string& path, const ImportOptions& option
   const SceneFormat* format =
       std::find_if(std::begin(kFormats), std::end(kFormats),
                    [&](const SceneFormat& row) { return has_suffix(name, row.suffix); });
+  warn_of_foreign_options(*format, path, options, diagnostics);
   SceneDescription scene = format->read(path, options, diagnostics);
   warn_of_missing_choices(scene, options, diagnostics);
   stage_scene(&scene, format->traits, options, diagnostics);

@@ -171,10 +171,11 @@ void read_sparse(Document& document, const JsonValue& accessor, const Layout& la
   }
 }
 
-void check_zeros(const JsonValue& accessor, size_t count) {
-  if (count > kMaxZeros)
-    accessor.get("count").fail("an accessor without data has " + std::to_string(count) +
+void check_zeros(Document& document, const JsonValue& accessor, const Layout& layout) {
+  if (layout.count > kMaxZeros)
+    accessor.get("count").fail("an accessor without data has " + std::to_string(layout.count) +
                                " elements, expected at most " + std::to_string(kMaxZeros));
+  document.claim_memory(layout.count * layout.width() * sizeof(double), accessor);
 }
 
 }  // namespace
@@ -193,7 +194,7 @@ NumberArray read_accessor(Document& document, size_t index, const JsonValue& wan
   if (accessor.find("bufferView"))
     elements = find_elements(document, accessor, layout.count, layout.element_size());
   else
-    check_zeros(accessor, layout.count);
+    check_zeros(document, accessor, layout);
   array.values.resize(layout.count * layout.width());
   if (elements) read_elements(*elements, layout, array.values.data());
   read_sparse(document, accessor, layout, [&](size_t place, const std::byte* from) {
@@ -225,7 +226,7 @@ std::vector<uint32_t> read_integers(Document& document, size_t index, const Json
   if (accessor.find("bufferView"))
     elements = find_elements(document, accessor, layout.count, layout.element_size());
   else
-    check_zeros(accessor, layout.count);
+    check_zeros(document, accessor, layout);
   const size_t width = layout.width();
   std::vector<uint32_t> values(layout.count * width);
   const auto read = [&](size_t place, const std::byte* from) {
@@ -238,8 +239,8 @@ std::vector<uint32_t> read_integers(Document& document, size_t index, const Json
   return values;
 }
 
-size_t accessor_count(Document& document, size_t index, const JsonValue& wanted_by) {
-  return document.item("accessors", index, wanted_by).get_index("count");
+bool has_data(Document& document, size_t index, const JsonValue& wanted_by) {
+  return document.item("accessors", index, wanted_by).find("bufferView").has_value();
 }
 
 }  // namespace nephroid::gltf

@@ -153,6 +153,12 @@ void AnimationPose::apply(size_t node, NodePose& pose) const {
   take(found->second.scale, pose.scale);
 }
 
+bool AnimationPose::moves(size_t node) const {
+  const auto found = nodes_.find(node);
+  return found != nodes_.end() &&
+         (found->second.translation || found->second.rotation || found->second.scale);
+}
+
 const std::vector<float>* AnimationPose::weights(size_t node) const {
   const auto found = nodes_.find(node);
   return found != nodes_.end() && found->second.weights ? &*found->second.weights : nullptr;

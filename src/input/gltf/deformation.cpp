@@ -21,6 +21,15 @@ void add_weighted(Document& document, const JsonValue& target, const std::string
     to[i] += Vec3f((*offsets)[i][0], (*offsets)[i][1], (*offsets)[i][2]) * w;
 }
 
+/// Warns of the attributes of a target that do not move.
+void warn_of_lost_attributes(Document& document, const JsonValue& target) {
+  for (const std::string& name : target.member_names())
+    if (name.starts_with("TEXCOORD_") || name.starts_with("COLOR_"))
+      document.diagnostics().warn(target.where(), "this morph target of " + name +
+                                                      " is ignored: positions, normals and "
+                                                      "tangents are morphed");
+}
+
 /// The matrices of a skin's joints, mesh to world.
 std::vector<Mat44d> joint_matrices(Document& document, const JsonValue& skin,
                                    const NodeGraph& nodes) {
@@ -88,14 +97,28 @@ class Blend {
   std::vector<Set> sets_;
 };
 
+/// The images of the axes.
+struct Axes {
+  explicit Axes(const Mat44d& m)
+      : x(m[0][0], m[0][1], m[0][2]), y(m[1][0], m[1][1], m[1][2]), z(m[2][0], m[2][1], m[2][2]) {}
+  bool is_mirrored() const { return x.dot(y.cross(z)) < 0; }
+
+  Vec3d x, y, z;
+};
+
 /// The unit normal transformed by the cofactors of the matrix, which exist even where it has no
-/// inverse.
-Vec3f transformed_normal(const Mat44d& m, const Vec3f& n) {
-  const Vec3d a(m[0][0], m[0][1], m[0][2]), b(m[1][0], m[1][1], m[1][2]),
-      c(m[2][0], m[2][1], m[2][2]);
-  const Vec3d sum = b.cross(c) * double{n.x} + c.cross(a) * double{n.y} + a.cross(b) * double{n.z};
-  const double length = sum.length();
-  return length > 0 ? to_float(sum / length) : n;
+/// inverse. They are the inverse transposed times the determinant, whose sign is undone.
+Vec3f transformed_normal(const Axes& to, const Vec3f& n) {
+  const Vec3d sum = to.y.cross(to.z) * double{n.x} + to.z.cross(to.x) * double{n.y} +
+                    to.x.cross(to.y) * double{n.z};
+  const double length = to.is_mirrored() ? -sum.length() : sum.length();
+  return length != 0 ? to_float(sum / length) : n;
+}
+
+/// Reverses the winding of all triangles.
+void turn_over(std::vector<uint32_t>& triangles) {
+  for (size_t t = 0; t + 2 < triangles.size(); t += 3)
+    std::swap(triangles[t + 1], triangles[t + 2]);
 }
 
 }  // namespace
@@ -120,6 +143,7 @@ void morph(Document& document, const JsonValue& primitive, const std::vector<dou
   const std::vector<JsonValue> list = targets->elements();
   for (size_t i = 0; i < std::min(list.size(), weights.size()); ++i) {
     if (weights[i] == 0) continue;
+    warn_of_lost_attributes(document, list[i]);
     add_weighted(document, list[i], "POSITION", weights[i], vertices.positions);
     add_weighted(document, list[i], "NORMAL", weights[i], vertices.normals);
     add_weighted(document, list[i], "TANGENT", weights[i], vertices.tangents);
@@ -131,18 +155,24 @@ void skin(Document& document, const JsonValue& skin, AttributeSource& source,
   std::vector<Mat44d> joints = joint_matrices(document, skin, nodes);
   if (joints.empty()) skin.get("joints").fail("a skin has no joints, expected at least one");
   const Blend blend(source, primitive, vertices.positions.size(), std::move(joints));
+  size_t mirrored = 0;
   for (size_t i = 0; i < vertices.positions.size(); ++i) {
     const Mat44d m = blend.at(i);
+    const Axes axes(m);
+    if (axes.is_mirrored()) ++mirrored;
     Vec3d p;
     m.multVecMatrix(to_double(vertices.positions[i]), p);
     vertices.positions[i] = to_float(p);
-    if (!vertices.normals.empty()) vertices.normals[i] = transformed_normal(m, vertices.normals[i]);
+    if (!vertices.normals.empty())
+      vertices.normals[i] = transformed_normal(axes, vertices.normals[i]);
     if (!vertices.tangents.empty()) {
       Vec3d t;
       m.multDirMatrix(to_double(vertices.tangents[i]), t);
       vertices.tangents[i] = to_float(t);
+      if (axes.is_mirrored()) vertices.tangent_signs[i] = -vertices.tangent_signs[i];
     }
   }
+  if (2 * mirrored > vertices.positions.size()) turn_over(vertices.triangles);
 }
 
 }  // namespace nephroid::gltf

@@ -81,6 +81,14 @@ Bytes Document::buffer_part(size_t index, size_t offset, size_t length,
   return all.subspan(offset, length);
 }
 
+void Document::claim_memory(size_t bytes, const JsonValue& wanted_by) {
+  constexpr size_t kMaxClaim = size_t{1} << 29;
+  if (bytes > kMaxClaim - claimed_)
+    wanted_by.fail("the file claims more than " + std::to_string(kMaxClaim >> 20) +
+                   " MB by elements without data, expected data for so many");
+  claimed_ += bytes;
+}
+
 Bytes Document::buffer_view(size_t index, const JsonValue& wanted_by) {
   const JsonValue& view = item("bufferViews", index, wanted_by);
   if (const std::optional<JsonValue> packed = view.extension("EXT_meshopt_compression")) {

@@ -48,6 +48,10 @@ class Document {
   /// The bytes of a "uri" member, a data URI or a file. The file is part of the scene's hash.
   std::string bytes_of_uri(const JsonValue& uri);
 
+  /// Counts memory of the scene that no bytes of the file stand for. Throws SceneError at
+  /// `wanted_by` once the whole file claims too much.
+  void claim_memory(size_t bytes, const JsonValue& wanted_by);
+
  private:
   Bytes buffer(size_t index, const JsonValue& wanted_by);
   std::string load_buffer(size_t index, const JsonValue& description);
@@ -62,6 +66,7 @@ class Document {
   std::map<std::string, std::vector<JsonValue>> lists_;
   std::map<size_t, std::string> buffers_;                  ///< loaded buffers by index
   std::map<size_t, std::vector<std::byte>> decompressed_;  ///< decompressed views by index
+  size_t claimed_ = 0;                                     ///< bytes of claim_memory
 };
 
 }  // namespace nephroid::gltf

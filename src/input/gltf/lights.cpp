@@ -14,9 +14,11 @@ void add_cone(const JsonValue& light, ParameterList& list) {
   const double inner = spot ? spot->get_number("innerConeAngle", 0) : 0;
   const double outer =
       spot ? spot->get_number("outerConeAngle", 0.785398163397448) : 0.785398163397448;
-  if (!(inner >= 0 && outer > inner && outer <= 1.5707964))
+  // Equal angles are a sharp edge, which exporters write although the specification forbids it.
+  if (!(inner >= 0 && outer >= inner && outer > 0 && outer <= 1.5707964))
     light.get("spot").fail("the angles of the cone are " + std::to_string(inner) + " and " +
-                           std::to_string(outer) + " radians, expected 0 <= inner < outer <= pi/2");
+                           std::to_string(outer) +
+                           " radians, expected 0 <= inner <= outer <= pi/2 and outer > 0");
   list.add_float("coneangle", outer * kDegrees);
   list.add_float("conedeltaangle", (outer - inner) * kDegrees);
 }

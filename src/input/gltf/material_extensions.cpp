@@ -31,7 +31,7 @@ std::string add_interior(SurfaceInputs& inputs, const JsonValue& volume, const C
   return medium.name;
 }
 
-/// Writes the interior of a volume. Returns true if the material encloses one.
+/// Adds the interior of a volume. Returns true if the material encloses one.
 bool add_volume(SurfaceInputs& inputs) {
   const auto volume = inputs.extension("KHR_materials_volume");
   // The thickness is for rasterizers: here only a thickness of 0 counts, which says thin.
@@ -91,9 +91,11 @@ void add_transmission(SurfaceInputs& inputs) {
 void add_diffuse_transmission(SurfaceInputs& inputs) {
   const auto extension = inputs.extension("KHR_materials_diffuse_transmission");
   if (!extension) return;
-  inputs.add("diffuse_transmission_weight",
-             SurfaceInputs::number(*extension, "diffuseTransmissionFactor", 0,
-                                   "diffuseTransmissionTexture", 'a'));
+  const NumberInput weight = SurfaceInputs::number(*extension, "diffuseTransmissionFactor", 0,
+                                                   "diffuseTransmissionTexture", 'a');
+  // Specular transmission has made the interior already.
+  if (weight.factor > 0 && inputs.surface.interior.empty()) add_volume(inputs);
+  inputs.add("diffuse_transmission_weight", weight);
   inputs.add("diffuse_transmission_color",
              SurfaceInputs::color(*extension, "diffuseTransmissionColorFactor", kWhite,
                                   "diffuseTransmissionColorTexture"));

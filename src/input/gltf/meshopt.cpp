@@ -8,15 +8,20 @@
 namespace nephroid::gltf {
 namespace {
 
-/// The codec packs 16 elements of 1 to 256 bytes into no less than a few bytes, so a larger claim
-/// is a lie. Found before memory is allocated.
-constexpr size_t kMaxRatio = 1 << 14;
-
 struct PackedView {
   Bytes bytes;
   size_t count, stride;
   std::string mode, filter;
 };
+
+/// The most elements that the packed bytes can hold: the codecs spend at least two bits on 16 bytes
+/// of vertices, and a byte on a triangle or an index. A larger claim is found before memory is
+/// allocated.
+size_t max_count(const PackedView& view) {
+  if (view.mode == "TRIANGLES") return 3 * view.bytes.size();
+  if (view.mode == "INDICES") return view.bytes.size();
+  return 64 * view.bytes.size() / view.stride;
+}
 
 PackedView read_description(Document& document, const JsonValue& extension) {
   PackedView view{
@@ -27,7 +32,7 @@ PackedView read_description(Document& document, const JsonValue& extension) {
   if (view.stride == 0 || view.stride > 256)
     extension.get("byteStride")
         .fail("this is " + std::to_string(view.stride) + ", expected a stride from 1 to 256 bytes");
-  if (view.count > (view.bytes.size() + 1) * kMaxRatio / view.stride)
+  if (view.count > max_count(view))
     extension.get("count").fail("this claims more elements than the packed bytes can hold");
   return view;
 }

@@ -9,8 +9,9 @@ using enum FeatureSupport;
 
 constexpr Feature kExtensions[] = {
     {"KHR_materials_ior", kLoaded, ""},
-    {"KHR_materials_specular", kLoaded,
-     "factor and colour also scale metals at grazing angles, as in OpenPBR"},
+    {"KHR_materials_specular", kApproximated,
+     "the factor changes the index, so it dims reflections along the normal and not those at "
+     "grazing angles; factor and colour also scale metals at grazing angles, as in OpenPBR"},
     {"KHR_materials_transmission", kApproximated,
      "thin without KHR_materials_volume, as the specification says: no caustic, with a warning; "
      "`--solid-glass` makes it solid"},
@@ -27,10 +28,14 @@ constexpr Feature kExtensions[] = {
      "not, with a warning"},
     {"KHR_materials_emissive_strength", kLoaded, ""},
     {"KHR_materials_diffuse_transmission", kLoaded, ""},
-    {"KHR_materials_unlit", kApproximated, "emits its base colour, and so lights others"},
+    {"KHR_materials_unlit", kApproximated,
+     "emits its base colour, and so lights others; colours of vertices are averaged over each "
+     "primitive, with a warning"},
     {"KHR_materials_variants", kLoaded, "`--variant NAME`"},
     {"KHR_materials_pbrSpecularGlossiness", kApproximated,
-     "a dielectric whose normal reflectance is the specular colour"},
+     "a dielectric whose normal reflectance is the specular colour; it dims the diffuse colour by "
+     "what it reflects, not by 1 - max(specular); with a specular texture its reflectance hardly "
+     "grows at grazing angles, as that of a metal"},
     {"KHR_lights_punctual", kLoaded,
      "candela and lux; the exposure is chosen for the file's lights unless `--exposure` gives one, "
      "and `--exposure 0` shows a candela per square metre as 1; a light has no radius, "
@@ -84,7 +89,10 @@ constexpr Feature kFeatures[] = {
     {"cameras", kLoaded,
      "perspective and orthographic, `--camera NAME` or an index; a film of "
      "1280 pixels along the longer side; clipping planes are not needed"},
-    {"morph targets", kLoaded, "positions, normals and tangents"},
+    {"morph targets", kLoaded,
+     "positions, normals and tangents; those of texture coordinates and colours are ignored, with "
+     "a "
+     "warning"},
     {"skins", kLoaded, "at the start of the shutter"},
     {"animations", kLoaded,
      "all of a file at one moment, `--at`; nodes that move while the shutter is open, `--shutter`, "

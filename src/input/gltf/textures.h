@@ -15,6 +15,10 @@ namespace nephroid::gltf {
 
 using Color = ParameterList::Color;
 
+/// The set of texture coordinates of a textureInfo object. KHR_texture_transform may choose
+/// another one.
+size_t uv_set_of(const JsonValue& info);
+
 /// Which sets of texture coordinates a material uses: a mesh has room for two, and textures name
 /// them 0 and 1.
 class UvSets {

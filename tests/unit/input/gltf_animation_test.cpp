@@ -68,6 +68,15 @@ TEST(GltfAnimation, AreListedWithTheirTimes) {
             "moments are shown");
 }
 
+TEST(GltfAnimation, NodesWithAMatrixStandStillWithAWarning) {
+  MovingTriangle m;
+  m.t.node_members = R"(,"matrix":[1,0,0,0, 0,1,0,0, 0,0,1,0, 5,6,7,1])";
+  const ReadScene read = read_gltf_text(m.text());
+  EXPECT_EQ(read.scene.shapes.at(0).transform.start[3][0], 5);
+  ASSERT_EQ(read.warnings.size(), 1u);
+  EXPECT_NE(read.warnings[0].message.find("the node has a matrix"), std::string::npos);
+}
+
 TEST(GltfAnimation, Steps) {
   MovingTriangle m;
   m.mode = "STEP";
@@ -127,6 +136,18 @@ TEST(GltfMorph, TargetsAreAddedByTheirWeights) {
             (std::vector<double>{2, 0, 0.5, 1, 0, 0.5, 0, 1, 0.5}));
 }
 
+TEST(GltfMorph, TargetsOfOtherAttributesAreWarnings) {
+  TriangleScene t;
+  const size_t zeros = t.file.vec3({0, 0, 0, 0, 0, 0, 0, 0, 0});
+  t.primitive_members =
+      fmt::format(R"(,"targets":[{{"POSITION":{0},"TEXCOORD_1":0,"COLOR_0":{0}}}])", zeros);
+  t.node_members = R"(,"weights":[0.5])";
+  const std::vector<Warning> warnings = read_gltf_text(t.file.text(t.members())).warnings;
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_NE(warnings[0].message.find("COLOR_0"), std::string::npos);
+  EXPECT_NE(warnings[1].message.find("TEXCOORD_1"), std::string::npos);
+}
+
 TEST(GltfMorph, AnimatedWeightsWin) {
   MovingTriangle m;
   const size_t target = m.t.file.vec3({0, 0, 1, 0, 0, 1, 0, 0, 1});
@@ -161,6 +182,26 @@ TEST(GltfSkin, JointsMoveVerticesAndTheNodeDoesNot) {
   ASSERT_EQ(p.size(), 9u);
   for (size_t i = 0; i < 9; ++i) EXPECT_NEAR(p[i], expected[i], 1e-6) << i;
   EXPECT_EQ(read.scene.shapes[0].transform.start, Mat44d());
+}
+
+TEST(GltfSkin, MirroredJointsKeepTheOutsideOutside) {
+  TriangleScene t;
+  const size_t joints = t.file.add_accessor<uint8_t>(std::vector<uint8_t>(12, 0), "VEC4", 5121, 4);
+  const size_t weights = t.file.floats({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4", 4);
+  const size_t normals = t.file.vec3({0, 0, 1, 0.6f, 0, 0.8f, 0, 0, 1});
+  t.attributes =
+      fmt::format(R"(,"JOINTS_0":{},"WEIGHTS_0":{},"NORMAL":{})", joints, weights, normals);
+  t.node_members = R"(,"skin":0},{"scale":[-2,1,1])";
+  const ReadScene read = read_gltf_text(t.file.text(t.members(R"(,"skins":[{"joints":[1]}])")));
+  const ParameterSet& p = read.scene.shapes.at(0).parameters;
+  EXPECT_EQ(numbers_of(p, "P")[3], -2);
+  EXPECT_EQ(numbers_of(p, "indices"), (std::vector<double>{0, 2, 1}));
+  const std::vector<double> n = numbers_of(p, "N");
+  ASSERT_EQ(n.size(), 9u);
+  EXPECT_NEAR(n[2], 1, 1e-6);
+  // The inverse transposed: (0.6 / -2, 0, 0.8) with the length 1.
+  EXPECT_NEAR(n[3] / n[5], -0.3 / 0.8, 1e-6);
+  EXPECT_GT(n[5], 0);
 }
 
 TEST(GltfSkin, DamagedSkinsAreErrors) {

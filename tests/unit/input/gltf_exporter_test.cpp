@@ -58,6 +58,23 @@ INSTANTIATE_TEST_SUITE_P(All, PackedBall,
                                            "KHR_mesh_quantization"),
                          [](const auto& test) { return std::string(test.param); });
 
+TEST(GltfExporters, DracoObeysTheAccessorsNormalisation) {
+  Diagnostics diagnostics;
+  const SceneDescription scene = read_file("colors_draco.glb", diagnostics);
+  const ParameterSet& parameters = scene.shapes.at(0).parameters;
+  const std::vector<double> p = numbers_of(parameters, "P");
+  const std::vector<double> colors = numbers_of(parameters, "vertexcolors");
+  ASSERT_EQ(p.size(), 9u);
+  ASSERT_EQ(colors.size(), 12u);
+  for (size_t i = 0; i < 3; ++i) {
+    const bool is_second = p[3 * i] > 0.5, is_third = p[3 * i + 1] > 0.5;
+    EXPECT_NEAR(colors[4 * i], is_second || is_third ? 0 : 1, 1e-6);
+    EXPECT_NEAR(colors[4 * i + 1], is_second ? 1 : 0, 1e-6);
+    EXPECT_NEAR(colors[4 * i + 2], is_third ? 0.2 : 0, 1e-6);
+    EXPECT_NEAR(colors[4 * i + 3], is_third ? 0.2 : 1, 1e-6);
+  }
+}
+
 TEST(GltfExporters, ThreeJs) {
   Diagnostics diagnostics;
   const SceneDescription scene = read_file("unit/input/gltf_files/three.gltf", diagnostics);

@@ -163,6 +163,39 @@ TEST(GltfMeshes, GpuInstancesHaveTransformsOfTheirOwn) {
   expect_near(moved(scene.instances[1].transform.start, {0.1, 0, 0}), {21, 0, 0});
 }
 
+TEST(GltfMeshes, InstancesWithoutDataAreFew) {
+  const auto error_of = [](size_t count) {
+    TriangleScene t;
+    const size_t zeros = t.file.add_raw_accessor(
+        fmt::format(R"("componentType":5126,"type":"VEC3","count":{})", count));
+    t.node_members = fmt::format(
+        R"(,"extensions":{{"EXT_mesh_gpu_instancing":{{"attributes":{{"TRANSLATION":{}}}}}}})",
+        zeros);
+    return gltf_error(t.file.text(t.members()));
+  };
+  EXPECT_EQ(error_of(1000), "");
+  EXPECT_EQ(error_of(2000000),
+            "scene.gltf#/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes: the file claims "
+            "more than 512 MB by elements without data, expected data for so many");
+}
+
+TEST(GltfMeshes, ElementsWithoutDataAreCountedOverTheFile) {
+  // Each primitive takes 48 MB.
+  const auto error_of = [](int primitives) {
+    TriangleScene t;
+    const size_t zeros =
+        t.file.add_raw_accessor(R"("componentType":5126,"type":"VEC3","count":2000000)");
+    const size_t corner = t.file.add_accessor<uint8_t>({0, 1, 2}, "SCALAR", 5121, 1);
+    std::string more;
+    for (int i = 0; i < primitives; ++i)
+      more += fmt::format(R"(}},{{"attributes":{{"POSITION":{}}},"indices":{})", zeros, corner);
+    t.primitive_members = more;
+    return gltf_error(t.file.text(t.members()));
+  };
+  EXPECT_EQ(error_of(2), "");
+  EXPECT_NE(error_of(12).find("by elements without data"), std::string::npos);
+}
+
 TEST(GltfCameras, PerspectiveLooksAlongMinusZ) {
   const std::string file =
       R"({"asset":{"version":"2.0"},"cameras":[{"type":"perspective","perspective":)"
@@ -233,6 +266,20 @@ TEST(GltfLights, PunctualLightsKeepTheirUnits) {
   EXPECT_EQ(numbers_of(scene.lights[1].parameters, "to"), (std::vector<double>{0, 0, -1}));
   EXPECT_EQ(scene.lights[2].type, "distant");
   EXPECT_EQ(numbers_of(scene.lights[2].parameters, "L"), (std::vector<double>{3, 3, 3}));
+}
+
+TEST(GltfLights, SpotsMayHaveASharpEdge) {
+  const auto file = [](double inner, double outer) {
+    return fmt::format(
+        R"({{"asset":{{"version":"2.0"}},"extensions":{{"KHR_lights_punctual":{{"lights":[)"
+        R"({{"type":"spot","spot":{{"innerConeAngle":{},"outerConeAngle":{}}}}}]}}}},"nodes":[)"
+        R"({{"extensions":{{"KHR_lights_punctual":{{"light":0}}}}}}]}})",
+        inner, outer);
+  };
+  const SceneDescription scene = read_gltf_text(file(0.5, 0.5)).scene;
+  EXPECT_EQ(number_of(scene.lights.at(0).parameters, "conedeltaangle"), 0);
+  EXPECT_NE(gltf_error(file(0.6, 0.5)), "");
+  EXPECT_NE(gltf_error(file(0, 0)), "");
 }
 
 /// A file whose scene has an image-based light with these members.
