@@ -7,7 +7,7 @@
 namespace nephroid {
 namespace {
 
-/// Least energy of a lobe that exists: its estimate at one angle can be 0 where the lobe is not.
+/// Minimum energy of a lobe that exists: the estimate for one facet can be 0 where the lobe is not.
 constexpr float kMinEnergy = 0.02f;
 
 bool same_side(const Vec3f& a, const Vec3f& b) {

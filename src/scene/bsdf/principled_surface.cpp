@@ -22,7 +22,7 @@ float index_above_base(const PrincipledSurface& s) {
 /// The index of the base's Fresnel term.
 float relative_index(const PrincipledSurface& s) {
   const float eta = s.ior / index_above_base(s);
-  // Light that came through the coat is not reflected totally, as it is bent less in all.
+  // There is no total reflection: the coat has already bent the light towards the normal.
   return eta < 1.0f && s.ior >= 1.0f ? 1.0f / eta : eta;
 }
 

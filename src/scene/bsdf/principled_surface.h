@@ -1,6 +1,6 @@
-// The values of a principled surface at one point, in the terms of OpenPBR 1.1: what the textures
-// say, and the Fresnel terms that follow. It must not know lobes or textures. Papers: Andersson et
-// al., OpenPBR Surface specification 1.1, 2024; Kutz, Hasan & Edmondson 2021 (F82 tint).
+// The values of a principled surface at one point, in the terms of OpenPBR 1.1: the evaluated
+// parameters and the Fresnel terms that follow from them. It must not know lobes or textures.
+// Papers: Andersson et al., OpenPBR Surface specification 1.1, 2024; Kutz et al. 2021 (F82 tint).
 #pragma once
 
 #include "scene/bsdf/microfacet.h"
@@ -32,8 +32,7 @@ struct PrincipledSurface {
   SampledSpectrum lambdas;  ///< nm
   bool thin_walled = false;
 
-  /// Shares of metal, of transmission, and of what lies below the opaque dielectric.
-  float metal() const { return metalness; }
+  /// Shares of transmission, and of the lobes below an opaque dielectric boundary.
   float transmitting() const { return (1.0f - metalness) * transmission; }
   float opaque() const { return (1.0f - metalness) * (1.0f - transmission); }
   /// True if light that crosses the surface is bent.

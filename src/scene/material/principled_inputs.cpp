@@ -7,7 +7,7 @@ namespace nephroid {
 namespace {
 
 constexpr float kMinIor = 0.1f, kMaxIor = 10.0f;
-/// Lines of the Abbe number, in nm: d, F and C.
+/// Lines of the Abbe number, in nm: d of helium, F and C of hydrogen.
 constexpr float kLineD = 587.56f, kLineF = 486.13f, kLineC = 656.27f;
 
 SpectrumInput read_color(const MaterialDescription& d, const MaterialContext& c, const char* name,

@@ -1,5 +1,5 @@
-// The inputs of the material "principled": 40 parameters, each constant or a texture, evaluated at
-// a point to a PrincipledSurface. It must not know lobes.
+// The inputs of the material "principled": its parameters, constants or textures, evaluated at a
+// point to a PrincipledSurface. It must not know lobes.
 #pragma once
 
 #include "scene/bsdf/principled_surface.h"
@@ -8,7 +8,7 @@
 
 namespace nephroid {
 
-/// A float between two bounds. Constants outside are warned of, all values are clamped.
+/// A float between two bounds. All values are clamped, constants outside with a warning.
 class BoundedInput {
  public:
   BoundedInput(const MaterialDescription& d, const MaterialContext& c, const char* name,
@@ -39,7 +39,7 @@ class PrincipledInputs {
   SampledSpectrum free_path(const SurfaceInteraction& point,
                             const SampledWavelengths& lambda) const;
 
-  /// What some point of the surface may have.
+  /// Whether some point of the surface may have these.
   bool may_transmit() const;
   bool may_be_opaque_dielectric() const;
   bool may_scatter_below() const;
@@ -51,7 +51,7 @@ class PrincipledInputs {
   /// The facets, if they are the same everywhere.
   std::optional<TrowbridgeReitz> constant_facets() const;
   std::optional<TrowbridgeReitz> constant_coat_facets() const;
-  /// Index of the base at 550 nm; that of glass if it varies.
+  /// Index of the base at 550 nm; 1.5 if it varies.
   float index_at_550_nm() const;
   /// Mean cosine of scattering below the surface.
   float scatter_anisotropy() const { return g_; }
@@ -61,7 +61,7 @@ class PrincipledInputs {
                         const SampledWavelengths& lambda) const {
     return clamp(input.at(point, lambda), 0.0f, 1.0f);
   }
-  /// The index at wavelength `lambda` in nm, for an index `ior` at the sodium line.
+  /// The index at wavelength `lambda` in nm, for an index `ior` at helium's d line, 587.56 nm.
   float dispersed(float ior, float lambda) const;
   bool coat_may_affect_specular() const { return coat_affects_specular_ && may_have_coat(); }
   void set_base(const SurfaceInteraction& point, SampledWavelengths& lambda,
