@@ -80,8 +80,9 @@ void expect_that_samples_follow_the_density(const std::vector<BsdfCase>& cases) 
   for (const BsdfCase& c : cases) {
     BsdfArena arena;
     const Bsdf& bsdf = *c.make(arena);
+    const int count = c.stochastic ? 40000 : c.few_angles ? 60000 : 100000;
     for (const Question& q : questions(c, bsdf)) {
-      const double p = p_value(bsdf, q, c.stochastic ? 40000 : 100000, results.size());
+      const double p = p_value(bsdf, q, count, results.size());
       results.push_back({c.name + ", wo.z " + std::to_string(q.wo.z) + ", class " +
                              std::to_string(static_cast<int>(q.event)) + ", among " +
                              std::to_string(static_cast<int>(q.among)),
