@@ -43,15 +43,61 @@ void add_facets(PluginProperties& p, ParameterSet& set) {
   if (anisotropic) add_as(set, "specular_roughness_anisotropy", scaled(p, *anisotropic, 0.9));
 }
 
+/// White mixed with the base colour, which is given luminance 1 (Burley 2012); white without tint.
+Vec3d tint(PluginProperties& p, const char* name) {
+  const double share = std::clamp(constant(p, name, 0), 0.0, 1.0);
+  const auto base = read_color(p, "base_color", ColorUse::kReflectance);
+  if (share == 0 || !base) return Vec3d(1.0);
+  if (!base->rgb) {
+    warn_approximated(p, std::string("\"") + name + "\" of a textured base colour is ignored");
+    return Vec3d(1.0);
+  }
+  const Vec3d& c = *base->rgb;
+  const double luminance = 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
+  if (!(luminance > 0)) return Vec3d(1.0);
+  return Vec3d(1.0) + (c / luminance - Vec3d(1.0)) * share;
+}
+
+/// Its components may be above 1: the largest one goes to the weight.
+double largest(const Vec3d& color) {
+  return std::max({color.x, color.y, color.z});
+}
+
+void add_sheen(PluginProperties& p, ParameterSet& set) {
+  const auto sheen = read_float(p, "sheen");
+  const bool has_sheen = sheen && (sheen->type == "texture" || sheen->numbers[0] > 0);
+  if (!has_sheen) {
+    // Exporters write a tint in any case.
+    p.find("sheen_tint");
+    p.child("texture", "sheen_tint");
+    return;
+  }
+  const Vec3d color = tint(p, "sheen_tint");
+  add_as(set, "fuzz_weight", scaled(p, *sheen, largest(color)));
+  if (color != Vec3d(1.0)) add_rgb(set, "fuzz_color", color / largest(color));
+}
+
+/// Only for dielectrics: the specular colour of a metal is another one.
+void add_specular_tint(PluginProperties& p, ParameterSet& set) {
+  const Vec3d color = tint(p, "spec_tint");
+  if (color == Vec3d(1.0)) return;
+  const auto metallic = read_float(p, "metallic");
+  if (metallic && (metallic->type == "texture" || metallic->numbers[0] > 0)) {
+    warn_approximated(p, "\"spec_tint\" is ignored, as the surface is partly a metal");
+    return;
+  }
+  add_float(set, "specular_weight", largest(color));
+  add_rgb(set, "specular_color", color / largest(color));
+}
+
 MaterialDescription common(PluginProperties& p) {
   MaterialDescription m = material(p, "principled");
   add_color(m.parameters, "base_color", read_color(p, "base_color", ColorUse::kReflectance), 0.5);
   add_facets(p, m.parameters);
   copy_float(p, "spec_trans", m.parameters, "transmission_weight");
-  copy_float(p, "sheen", m.parameters, "fuzz_weight");
+  add_sheen(p, m.parameters);
+  add_specular_tint(p, m.parameters);
   if (constant(p, "flatness", 0) != 0) warn_approximated(p, "\"flatness\" is ignored");
-  for (const char* tint : {"spec_tint", "sheen_tint"})
-    if (constant(p, tint, 0) != 0) warn_approximated(p, std::string("\"") + tint + "\" is ignored");
   return m;
 }
 

@@ -163,8 +163,7 @@ struct TextureRow : Plugin {
   void (*write)(PluginProperties& properties, TextureDescription& texture,
                 TextureUse use) = nullptr;
 };
-constexpr PluginSupport kLoaded = PluginSupport::kLoaded, kRefused = PluginSupport::kRefused,
-                        kApproximated = PluginSupport::kApproximated;
+constexpr PluginSupport kLoaded = PluginSupport::kLoaded, kRefused = PluginSupport::kRefused;
 constexpr const char* kOfMeshes = "those of .serialized and PLY meshes; others are white";
 constexpr const char* kNoSuchTexture = "this renderer has no such texture";
 constexpr TextureRow kTextures[] = {
@@ -174,7 +173,8 @@ constexpr TextureRow kTextures[] = {
     {{"texture", "scale", kLoaded, "a coloured scale is replaced by its mean, with a warning"},
      write_scale},
     {{"texture", "vertexcolors", kLoaded, kOfMeshes}, write_vertex_colors},
-    {{"texture", "mesh_attribute", kApproximated, kOfMeshes}, write_vertex_colors},
+    {{"texture", "mesh_attribute", kLoaded, "vertex_color of .serialized and PLY meshes"},
+     write_vertex_colors},
     {{"texture", "gridtexture", kRefused, kNoSuchTexture}},
     {{"texture", "wireframe", kRefused, kNoSuchTexture}},
     {{"texture", "curvature", kRefused, kNoSuchTexture}},

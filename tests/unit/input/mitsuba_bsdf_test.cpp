@@ -1,27 +1,10 @@
 // BSDFs of Mitsuba as materials: parameters, defaults and conventions.
 #include <cmath>
 
-#include "unit/input/mitsuba_scene.h"
+#include "unit/input/mitsuba_bsdfs.h"
 
 namespace nephroid::testing {
 namespace {
-
-/// The scene with one sphere of this BSDF, whose id is "it" if it shall be found by name.
-SceneDescription with_bsdf(MitsubaScene& scene, const std::string& bsdf,
-                           const std::string& version = "0.6.0") {
-  return scene.read("<shape type=\"sphere\">" + bsdf + "</shape>\n", version);
-}
-MaterialDescription material_of(const std::string& bsdf, const std::string& version = "0.6.0") {
-  MitsubaScene scene;
-  const SceneDescription d = with_bsdf(scene, bsdf, version);
-  return material(d, d.shapes.at(0).material.name);
-}
-std::string bsdf(const std::string& type, const std::string& body = "") {
-  return "<bsdf type=\"" + type + "\">" + body + "</bsdf>";
-}
-std::string value(const std::string& tag, const std::string& name, const std::string& text) {
-  return "<" + tag + " name=\"" + name + "\" value=\"" + text + "\"/>";
-}
 
 using Numbers = std::vector<double>;
 
@@ -285,64 +268,6 @@ TEST(MitsubaBsdf, BumpAndNormalMapsAreParametersOfACopy) {
   EXPECT_EQ(d.textures.back().name, height);
   EXPECT_EQ(number(d.textures.back().parameters, "scale"), 2);
   EXPECT_EQ(text(material(d, d.shapes[2].material.name).parameters, "normalmap"), "n.png");
-}
-
-TEST(MitsubaBsdf, PrincipledKeepsItsNames) {
-  const ParameterSet set =
-      material_of(bsdf("principled",
-                       value("rgb", "base_color", "0.1 0.2 0.3") +
-                           value("float", "roughness", "0.4") + value("float", "metallic", "0.6") +
-                           value("float", "spec_trans", "0.7") + value("float", "specular", "0.5")),
-                  "3.0.0")
-          .parameters;
-  EXPECT_EQ(parameter(set, "base_color").numbers, (Numbers{0.1, 0.2, 0.3}));
-  EXPECT_EQ(number(set, "specular_roughness"), 0.4);
-  EXPECT_EQ(number(set, "base_metalness"), 0.6);
-  EXPECT_EQ(number(set, "transmission_weight"), 0.7);
-  EXPECT_NEAR(number(set, "specular_ior"), 1.5, 1e-9);
-}
-
-TEST(MitsubaBsdf, AClearcoatLeavesTheReflectanceBelowIt) {
-  const ParameterSet set =
-      material_of(bsdf("principled", value("float", "clearcoat", "0.8")), "3.0.0").parameters;
-  EXPECT_EQ(number(set, "coat_weight"), 0.2);
-  EXPECT_EQ(number(set, "coat_darkening"), 0);
-  ASSERT_TRUE(has_parameter(set, "coat_affects_specular"));
-  EXPECT_EQ(parameter(set, "coat_affects_specular").bools, std::vector<bool>{false});
-}
-
-TEST(MitsubaBsdf, PrincipledHasTheFacetsOfBurley) {
-  // Burley 2012: alphas roughness^2 / a and roughness^2 a with a = sqrt(1 - 0.9 anisotropic).
-  const ParameterSet set = material_of(bsdf("principled", value("float", "roughness", "0.6") +
-                                                              value("float", "anisotropic", "0.5")),
-                                       "3.0.0")
-                               .parameters;
-  const double r = number(set, "specular_roughness");
-  const double across = 1 - number(set, "specular_roughness_anisotropy");
-  const double alpha_t = r * r * std::sqrt(2 / (1 + across * across));
-  const double a = std::sqrt(1 - 0.9 * 0.5);
-  EXPECT_NEAR(alpha_t, 0.36 / a, 1e-12);
-  EXPECT_NEAR(across * alpha_t, 0.36 * a, 1e-12);
-}
-
-TEST(MitsubaBsdf, TexturesOfPrincipledAreScaled) {
-  const auto checks = [](const std::string& name) {
-    return "<texture type=\"checkerboard\" name=\"" + name + "\"/>";
-  };
-  MitsubaScene scene;
-  const SceneDescription d = with_bsdf(
-      scene, bsdf("principled", checks("roughness") + checks("anisotropic") + checks("clearcoat")),
-      "3.0.0");
-  const ParameterSet& set = d.materials.at(0).parameters;
-  EXPECT_EQ(parameter(set, "specular_roughness").type, "texture");
-  const auto factor = [&](const char* name) {
-    for (const TextureDescription& t : d.textures)
-      if (t.name == text(set, name)) return number(t.parameters, "scale");
-    ADD_FAILURE() << name;
-    return 0.0;
-  };
-  EXPECT_EQ(factor("specular_roughness_anisotropy"), 0.9);
-  EXPECT_EQ(factor("coat_weight"), 0.25);
 }
 
 TEST(MitsubaBsdf, BacksOfOpenShapesGetOneWarning) {

@@ -9,10 +9,6 @@ std::string file(const std::string& name) {
   return "<string name=\"filename\" value=\"" + name + "\"/>";
 }
 
-std::string value(const std::string& tag, const std::string& name, const std::string& text) {
-  return "<" + tag + " name=\"" + name + "\" value=\"" + text + "\"/>";
-}
-
 using Samples = std::vector<PluginSample>;
 
 const std::string kNested = "<bsdf type=\"diffuse\"/>";

@@ -7,9 +7,6 @@ namespace {
 
 using Numbers = std::vector<double>;
 
-std::string value(const std::string& tag, const std::string& name, const std::string& text) {
-  return "<" + tag + " name=\"" + name + "\" value=\"" + text + "\"/>";
-}
 /// A sphere with that BSDF and that subsurface scattering.
 std::string sphere(const std::string& bsdf, const std::string& type, const std::string& body) {
   return "<shape type=\"sphere\">" + bsdf + "<subsurface type=\"" + type + "\">" + body +

@@ -6,10 +6,6 @@
 namespace nephroid::testing {
 namespace {
 
-std::string value(const std::string& tag, const std::string& name, const std::string& text) {
-  return "<" + tag + " name=\"" + name + "\" value=\"" + text + "\"/>";
-}
-
 /// The first texture of a scene with a diffuse sphere.
 TextureDescription texture(const std::string& type, const std::string& body) {
   MitsubaScene scene;
