@@ -117,7 +117,8 @@ Vec3f transformed_normal(const Axes& to, const Vec3f& n) {
 
 /// Reverses the winding of all triangles.
 void turn_over(std::vector<uint32_t>& triangles) {
-  for (size_t t = 0; t + 2 < triangles.size(); t += 3) std::swap(triangles[t + 1], triangles[t + 2]);
+  for (size_t t = 0; t + 2 < triangles.size(); t += 3)
+    std::swap(triangles[t + 1], triangles[t + 2]);
 }
 
 }  // namespace

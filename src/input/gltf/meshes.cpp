@@ -208,12 +208,11 @@ std::optional<ShapeDescription> Meshes::make_shape(const Use& use, const JsonVal
   const bool has_colors = primitive.get("attributes").find("COLOR_0").has_value();
   const SurfaceDescription& surface = materials_.surface_of(primitive, has_colors);
   const std::unique_ptr<AttributeSource> source = open_attributes(document_, primitive);
-  Vertices vertices =
-      read_vertices(*source, primitive,
-                    {surface.uv_sets.sets(),
-                     surface.uses_vertex_colors || surface.emits_vertex_colors,
-                     surface.needs_tangents},
-                    document_.diagnostics());
+  Vertices vertices = read_vertices(
+      *source, primitive,
+      {surface.uv_sets.sets(), surface.uses_vertex_colors || surface.emits_vertex_colors,
+       surface.needs_tangents},
+      document_.diagnostics());
   if (vertices.triangles.empty()) return std::nullopt;
   if (surface.needs_tangents && vertices.tangents.empty()) add_tangents(vertices);
   if (!use.weights.empty()) morph(document_, primitive, use.weights, vertices);

@@ -78,7 +78,8 @@ void make_faceted(Vertices& vertices) {
   for (size_t i = 0; i < vertices.positions.size(); i += 3) {
     const Vec3f* p = &vertices.positions[i];
     const Vec3f n = cross(p[1] - p[0], p[2] - p[0]);
-    vertices.normals.insert(vertices.normals.end(), 3, length(n) > 0 ? normalize(n) : Vec3f(0, 0, 1));
+    vertices.normals.insert(vertices.normals.end(), 3,
+                            length(n) > 0 ? normalize(n) : Vec3f(0, 0, 1));
   }
   add_tangents(vertices);
 }

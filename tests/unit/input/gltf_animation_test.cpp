@@ -170,7 +170,8 @@ TEST(GltfSkin, MirroredJointsKeepTheOutsideOutside) {
   const size_t joints = t.file.add_accessor<uint8_t>(std::vector<uint8_t>(12, 0), "VEC4", 5121, 4);
   const size_t weights = t.file.floats({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4", 4);
   const size_t normals = t.file.vec3({0, 0, 1, 0.6f, 0, 0.8f, 0, 0, 1});
-  t.attributes = fmt::format(R"(,"JOINTS_0":{},"WEIGHTS_0":{},"NORMAL":{})", joints, weights, normals);
+  t.attributes =
+      fmt::format(R"(,"JOINTS_0":{},"WEIGHTS_0":{},"NORMAL":{})", joints, weights, normals);
   t.node_members = R"(,"skin":0},{"scale":[-2,1,1])";
   const ReadScene read = read_gltf_text(t.file.text(t.members(R"(,"skins":[{"joints":[1]}])")));
   const ParameterSet& p = read.scene.shapes.at(0).parameters;

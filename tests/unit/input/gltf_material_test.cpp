@@ -197,8 +197,9 @@ TEST(GltfMaterials, VolumesOfDiffuseTransmissionAreMediaInside) {
   const std::string volume =
       R"("KHR_materials_volume":{"thicknessFactor":1,"attenuationDistance":2,"attenuationColor":[0.5,1,1]})";
   const auto read = [&](const std::string& transmission) {
-    return read_material(R"("extensions":{"KHR_materials_diffuse_transmission":{"diffuseTransmissionFactor":0.5},)" +
-                         transmission + volume + "}");
+    return read_material(
+        R"("extensions":{"KHR_materials_diffuse_transmission":{"diffuseTransmissionFactor":0.5},)" +
+        transmission + volume + "}");
   };
   const ReadScene diffuse = read("");
   ASSERT_EQ(diffuse.scene.media.size(), 1u);
