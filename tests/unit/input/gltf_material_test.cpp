@@ -395,7 +395,7 @@ TEST(GltfMaterials, ManyTakenNamesDoNotOverflowTheStack) {
   // "a.2" to "a.100001", and then "a" twice.
   constexpr int kTaken = 100000;
   std::string materials, primitives;
-  const auto add = [&, count = 0](const std::string& name) mutable {
+  auto add = [&, count = 0](const std::string& name) mutable {
     const std::string comma = count > 0 ? "," : "";
     materials += fmt::format(R"({}{{"name":"{}"}})", comma, name);
     primitives += fmt::format(R"({}{{"attributes":{{}},"material":{}}})", comma, count++);
