@@ -96,6 +96,8 @@ struct MaterialDescription : DirectiveDescription {
 struct LightDescription : DirectiveDescription {
   TransformDescription transform;
   std::string medium;
+  /// Mean luminance of an image of surroundings, cd/m^2, where the file gives it.
+  std::optional<double> mean_luminance;
 };
 
 /// Index into SceneDescription::materials, or a name that is resolved after parsing: named

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/color.h"
 #include "input/gltf/textures.h"
 
 namespace nephroid::gltf {
@@ -95,6 +96,19 @@ std::optional<JsonValue> find_image_based_light(Document& document) {
   return lights[index];
 }
 
+/// The mean luminance of the surroundings over pi / Y00 is the first coefficient of the irradiance,
+/// in real spherical harmonics (Ramamoorthi and Hanrahan 2001).
+std::optional<double> mean_luminance(const JsonValue& light) {
+  constexpr double kMeanOfFirst = 0.28209479177387814 / 3.14159265358979323846;
+  const std::optional<JsonValue> list = light.find_array("irradianceCoefficients");
+  if (!list || list->elements().empty()) return std::nullopt;
+  std::vector<float> rgb;
+  for (const JsonValue& number : list->elements().front().elements())
+    rgb.push_back(static_cast<float>(number.number()));
+  if (rgb.size() != 3) return std::nullopt;
+  return kMeanOfFirst * RgbColorSpace::srgb().to_xyz({rgb[0], rgb[1], rgb[2]}).y;
+}
+
 /// An infinite light with the sharpest cube of the light. The blurred ones and the irradiance are
 /// for rasterizers.
 void add_image_based_light(Document& document, SceneDescription& scene) {
@@ -119,6 +133,7 @@ void add_image_based_light(Document& document, SceneDescription& scene) {
   LightDescription description;
   static_cast<DirectiveDescription&>(description) = std::move(list).directive("infinite");
   description.transform = {matrix_of(pose), matrix_of(pose)};
+  description.mean_luminance = mean_luminance(*light);
   scene.lights.push_back(std::move(description));
 }
 

@@ -42,7 +42,7 @@ constexpr Feature kExtensions[] = {
      "\"range\" is not needed, the edge of a spot is pbrt's smooth step"},
     {"EXT_lights_image_based", kLoaded,
      "the sharpest cube with rotation and intensity; an image with alpha is RGBD, its colours are "
-     "sRGB; blurred cubes and irradiance are not needed"},
+     "sRGB; blurred cubes are not needed, and the irradiance counts for the exposure only"},
     {"KHR_texture_transform", kLoaded, "a rotation does not turn the directions in a normal map"},
     {"KHR_mesh_quantization", kLoaded, ""},
     {"KHR_draco_mesh_compression", kLoaded, ""},

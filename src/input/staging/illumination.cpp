@@ -68,7 +68,8 @@ double illuminance_of_light(const LightDescription& light, const Vec3d& p) {
   if (light.type == "distant") return luminance_of(parameters, "L");
   if (light.type != "infinite") return 0;
   const bool has_image = parameters.find("filename") || parameters.find("faces");
-  return kPiDouble * luminance_of(parameters, "L") * (has_image ? kImageLuminance : 1);
+  return kPiDouble * luminance_of(parameters, "L") *
+         (has_image ? light.mean_luminance.value_or(kImageLuminance) : 1);
 }
 
 const std::vector<double>* numbers_of(const ParameterSet& p, const char* name) {

@@ -25,7 +25,8 @@ class Illumination {
   explicit Illumination(const SceneDescription& scene);
 
   /// Illuminance in lux of a surface that faces the light. The mean luminance of images of
-  /// surroundings is taken to be 0.5, and that of images on shapes a quarter of their factor.
+  /// surroundings is taken to be 0.5 if the file does not give it, and that of images on shapes a
+  /// quarter of their factor.
   double at(const Vec3d& p) const;
 
  private:

@@ -91,6 +91,23 @@ class LazyExtent {
   std::optional<SceneExtent> extent_;
 };
 
+/// Applies --sun and --environment. A white surface that faces the sun gets the value 1.
+void add_wanted_lights(SceneDescription* scene, double glow, const ImportOptions& options,
+                       const Surroundings& surroundings) {
+  if (options.sun) {
+    const double illuminance = set_sun(scene, *options.sun, surroundings);
+    set_iso(scene, 100 * kIlluminanceOfOne / (illuminance * exposure_time(*scene)), "--sun");
+  }
+  if (!options.environment.empty()) set_environment(scene, options.environment, surroundings, glow);
+}
+
+/// Applies --exposure.
+void add_wanted_exposure(SceneDescription* scene, double stops) {
+  if (stops == 0) return;
+  const double iso = film_parameters(scene).get_float("iso", 100);
+  set_iso(scene, iso * std::exp2(stops), "--exposure");
+}
+
 }  // namespace
 
 void stage_scene(SceneDescription* scene, const FormatTraits& format, const ImportOptions& options,
@@ -110,13 +127,7 @@ void stage_scene(SceneDescription* scene, const FormatTraits& format, const Impo
       options.floor || !(format.is_complete || is_lit)
           ? extent.get("the floor and the default lamp are placed by them").bounds
           : Bounds3d();
-  if (options.sun) {
-    // A white surface that faces the sun gets the value 1.
-    const double illuminance = set_sun(scene, *options.sun, surroundings);
-    set_iso(scene, 100 * kIlluminanceOfOne / (illuminance * exposure_time(*scene)), "--sun");
-  }
-  if (!options.environment.empty())
-    set_environment(scene, options.environment, surroundings, format.glow);
+  add_wanted_lights(scene, format.glow, options, surroundings);
   if (!format.is_complete && !is_lit) {
     add_studio_light(scene, bounds, surroundings);
     diagnostics.warn(whole_file,
@@ -126,10 +137,7 @@ void stage_scene(SceneDescription* scene, const FormatTraits& format, const Impo
   if (!format.has_exposure && has_own_light && !options.sun && !options.exposure)
     choose_exposure(scene, diagnostics);
   if (options.floor) add_floor(scene, bounds, surroundings);
-  if (options.exposure.value_or(0) != 0) {
-    const double iso = film_parameters(scene).get_float("iso", 100);
-    set_iso(scene, iso * std::exp2(*options.exposure), "--exposure");
-  }
+  add_wanted_exposure(scene, options.exposure.value_or(0));
 }
 
 }  // namespace nephroid

@@ -214,9 +214,12 @@ def lights():
     s.ball(s.material((0.9, 0.9, 0.9), 1, 0.25))
     colors = [(220, 60, 60), (60, 220, 60), (90, 110, 230), (90, 70, 50), (200, 200, 60), (60, 200, 200)]
     faces = [s.image(png_rgba(4, [(*c, 64)] * 8 + [(*c, 255)] * 8)) for c in colors]
+    # The upper half of a face counts 255 / 64 times, and the first coefficient is pi / Y00 times the mean.
+    means = [sum((c[k] / 255) ** 2.2 for c in colors) / 6 * (1 + 255 / 64) / 2 for k in range(3)]
+    first = [round(mean * math.pi / 0.28209479, 4) for mean in means]
     s.extend(s.json, "EXT_lights_image_based", lights=[{
         "name": "sky", "intensity": 0.3, "rotation": [0, math.sin(0.3), 0, math.cos(0.3)], "specularImageSize": 4,
-        "irradianceCoefficients": [[0.5, 0.5, 0.5]] + [[0, 0, 0]] * 8, "specularImages": [faces]}])
+        "irradianceCoefficients": [first] + [[0, 0, 0]] * 8, "specularImages": [faces]}])
     s.extend(s.json["scenes"][0], "EXT_lights_image_based", light=0)
     s.save("EXT_lights_image_based")
 

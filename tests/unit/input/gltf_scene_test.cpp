@@ -303,11 +303,27 @@ TEST(GltfLights, ImageBasedLightsAreTheirSharpestCube) {
   ASSERT_TRUE(faces);
   EXPECT_EQ(faces->strings,
             (std::vector<std::string>{"0.png", "1.png", "2.png", "3.png", "4.png", "5.png"}));
+  EXPECT_FALSE(light.mean_luminance);
   EXPECT_EQ(number_of(light.parameters, "scale"), 0.5);
   EXPECT_EQ(string_of(light.parameters, "name"), "sky");
   expect_near(moved(light.transform.start, {0, 0, 1}), {1, 0, 0});
   EXPECT_TRUE(read.warnings.empty());
   EXPECT_TRUE(read_gltf_text(image_based(R"("intensity":0)")).scene.lights.empty());
+}
+
+TEST(GltfLights, TheirIrradianceIsTheMeanLuminance) {
+  // Surroundings of radiance 2 give the irradiance 2 pi, whose coefficient is over Y00.
+  const double first = 2 * 3.14159265358979 / 0.28209479177387814;
+  const auto luminance = [](const std::string& coefficients) {
+    return read_gltf_text(image_based(R"("specularImages":[[0,1,2,3,4,5]],)"
+                                      R"("irradianceCoefficients":)" +
+                                      coefficients))
+        .scene.lights.at(0)
+        .mean_luminance;
+  };
+  EXPECT_NEAR(luminance(fmt::format("[[{0},{0},{0}],[1,2,3]]", first)).value(), 2, 1e-5);
+  EXPECT_FALSE(luminance("[]"));
+  EXPECT_FALSE(luminance("[[1]]"));
 }
 
 TEST(GltfLights, DamagedImageBasedLightsAreErrors) {
