@@ -168,6 +168,14 @@ TEST(MitsubaDocument, MergesThatDoubleAreBounded) {
   EXPECT_EQ(scene.read(three, "3.0.0").shapes.size(), 3u);
 }
 
+TEST(MitsubaDocument, ValuesOfParametersAreBoundedInSum) {
+  std::string body = "<default name=\"x\" value=\"" + std::string(1 << 15, 'x') + "\"/>\n";
+  for (int i = 0; i < 600; ++i)
+    body += "<bsdf type=\"diffuse\" id=\"b" + std::to_string(i) + "$x\"/>\n";
+  MitsubaScene scene;
+  EXPECT_TRUE(has(scene.error(body), "parameters fill more than 2^24 characters"));
+}
+
 TEST(MitsubaDocument, DeepNestingIsAnError) {
   MitsubaScene scene;
   std::string open, close;
