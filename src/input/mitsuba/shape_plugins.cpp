@@ -101,7 +101,7 @@ Attachments attachments(PluginProperties& p, const Geometry& geometry) {
 }
 
 void attach(const Attachments& a, const Surface& surface, bool flips, ShapeDescription& shape) {
-  shape.reverse_orientation = flips;
+  shape.reverse_orientation = shape.reverse_orientation != flips;
   shape.material = {-1, surface.material, shape.where};
   shape.area_light = a.light;
   shape.inside_medium = a.inside;
