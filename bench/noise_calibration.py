@@ -6,7 +6,7 @@
 Renders each scene with --renders seeds, and a reference with many more passes and another seed. Compares each render with
 the reference (`nephroid compare`, which allows for the reference's own error). Prints a table in Markdown: the share of
 pixels and channels whose difference is within 1.96 standard errors, as the mean over all renders and the least and most of
-one; and the rms of z, which is 1 where the stated error is the true one. docs/validation.md keeps the results.
+one; and the rms of z, which is 1 where the stated error is the true one. docs/measurements/validation.md keeps the results.
 """
 import argparse
 import pathlib

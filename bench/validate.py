@@ -7,7 +7,7 @@
 A scene is DIR/NAME/scene.pbrt, its reference DIR/NAME.exr, which sets the resolution. The figures are
 those of `nephroid compare`. relmse_trim omits the worst 0.1 % of pixels. The mean ratio, over pixels whose
 reference is below 10, has its 95 % interval. The last column is the share of pixels whose difference is
-within 3.3 standard errors in all channels. docs/validation.md keeps the results.
+within 3.3 standard errors in all channels. docs/measurements/validation.md keeps the results.
 """
 import argparse
 import pathlib

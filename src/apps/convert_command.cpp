@@ -6,10 +6,13 @@
 #include "core/errors.h"
 #include "input/convert/pbrt_writer.h"
 #include "input/scene_reader.h"
+#include "session/process_memory.h"
 
 namespace nephroid {
 
 int run_convert(const ConvertCommand& command) {
+  MemoryLimit limit;
+  limit.set(machine_memory());
   Diagnostics diagnostics;
   const SceneDescription scene = read_scene(command.input, command.import, diagnostics);
   for (const Warning& warning : diagnostics.warnings())

@@ -11,6 +11,7 @@
 #include "integrator/presets/integrator_table.h"
 #include "scene/embree_scene.h"
 #include "session/checkpoint/picture_description.h"
+#include "session/process_memory.h"
 #include "session/scene_loading.h"
 
 namespace nephroid {
@@ -119,7 +120,7 @@ void print_integrator(const Scene& scene) {
   fmt::print("pixel samples: {}\n", scene.samples_per_pixel);
 }
 
-/// Prints the names that --camera, --variant and --at choose among.
+/// Prints the names that the options about scenes choose among.
 void print_choices(const FileChoices& choices) {
   const auto print = [](const char* kind, const char* option,
                         const std::vector<std::string>& names) {
@@ -128,6 +129,7 @@ void print_choices(const FileChoices& choices) {
   print("cameras of the file", "--camera", choices.cameras);
   print("material variants", "--variant", choices.variants);
   print("animations", "--at", choices.animations);
+  print("parameters of the file", "--define", choices.parameters);
 }
 
 }  // namespace
@@ -139,6 +141,8 @@ int run_info(const InfoCommand& command) {
   }
   SceneOverrides overrides;
   overrides.import = command.import;
+  MemoryLimit limit;
+  limit.set(machine_memory(), bytes_of_stacks_to_come(0));
   const LoadedScene loaded = load_scene(command.file, overrides);
   print_warnings(loaded.warnings);
   const Scene& scene = *loaded.scene;

@@ -126,7 +126,7 @@ BenchReference reference_in(const JsonValue& value, const std::string& file) {
   BenchReference result;
   if (fields.has("file")) {
     if (value.json().size() > 1)
-      value.fail("a reference from a \"file\" is not rendered, expected no other key");
+      value.fail("a reference has \"file\" and other keys, expected \"file\" alone");
     result.file = beside(file, fields.text("file"));
     return result;
   }
@@ -136,7 +136,7 @@ BenchReference reference_in(const JsonValue& value, const std::string& file) {
   result.integrator.seed = fields.integer_or("seed", kReferenceSeed, 0, kAnySeed);
   result.limit = limit_in(fields);
   if (!result.limit.is_set())
-    value.fail("a reference that is rendered needs \"passes\" or \"time\"");
+    value.fail("a reference without \"file\" has no limit, expected \"passes\" or \"time\"");
   return result;
 }
 
@@ -216,7 +216,7 @@ void check_layers(const Fields& fields, const BenchSuite& suite, const BenchScen
     for (const JsonMember& layer : fields.required("layer").members())
       if (fields.required("energy").find(layer.key))
         layer.value.fail(
-            fmt::format("the name \"{}\" is taken by \"energy\", expected another one", layer.key));
+            fmt::format("the name \"{}\" is also in \"energy\", expected another name", layer.key));
 }
 
 BenchScene scene_in(const JsonValue& value, const BenchSuite& suite) {

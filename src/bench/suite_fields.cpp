@@ -72,7 +72,7 @@ Json parse_json(const std::string& text, const std::string& file) {
     if (event == Json::parse_event_t::object_start) keys.emplace_back();
     if (event == Json::parse_event_t::object_end) keys.pop_back();
     if (event == Json::parse_event_t::key && !keys.back().insert(parsed.get<std::string>()).second)
-      throw UsageError(fmt::format("{}: {} is given twice in an object, expected it once", file,
+      throw UsageError(fmt::format("{}: {} is twice in an object, expected once", file,
                                    parsed.dump(-1, ' ', false, Json::error_handler_t::replace)));
     return true;
   };

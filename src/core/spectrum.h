@@ -10,8 +10,8 @@
 
 namespace nephroid {
 
-/// Wavelengths per path. Eight fill one AVX register; docs/performance.md has the comparison
-/// with 4.
+/// Wavelengths per path. Eight fill one AVX register; docs/measurements/wavelengths.md has the
+/// comparison with 4.
 inline constexpr int kSpectrumSamples = 8;
 
 inline constexpr float kLambdaMin = 360.0f;  ///< nm

@@ -118,7 +118,7 @@ struct StateFile::Input {
   Blocks blocks;
 
   [[noreturn]] void fail(const std::string& what) const {
-    throw IoError(path + ": cannot read its state: " + what);
+    throw IoError(path + ": cannot read this state of a render: " + what);
   }
   void read(uint64_t offset, std::span<std::byte> into) {
     file.seekg(static_cast<std::streamoff>(offset));
@@ -132,11 +132,13 @@ struct StateFile::Input {
     bytes = std::filesystem::file_size(path, error);
     if (!file || error) throw IoError(path + ": cannot read");
     std::array<char, 8> begin{};
-    if (bytes < sizeof(begin) + sizeof(Footer)) fail("it is no state of a render, or damaged");
+    if (bytes < sizeof(begin) + sizeof(Footer))
+      fail("it is damaged, expected the state of a render");
     read(0, std::as_writable_bytes(std::span(begin)));
     if (!std::equal(begin.begin(), begin.end() - 1, kBegin.begin()))
-      fail("it is no state of a render, or damaged");
-    if (begin.back() != kBegin.back()) fail("another version of this program wrote it");
+      fail("it is not the state of a render, or damaged, expected such a state");
+    if (begin.back() != kBegin.back())
+      fail("another version of this program wrote it, expected a state of this version");
     Footer footer;
     read(bytes - sizeof(footer), std::as_writable_bytes(std::span(&footer, 1)));
     const uint64_t before_footer = bytes - sizeof(footer);
@@ -233,7 +235,7 @@ std::vector<std::string> StateFile::load(const RenderState& state) {
       if (std::ranges::none_of(state.arrays, has_name) &&
           std::ranges::none_of(state.streams, has_name) &&
           !RenderState::Stream::is_optional(section.name))
-        in.fail("'" + section.name + "' does not belong to this render");
+        in.fail("'" + section.name + "' is stored, which this render does not have");
     }
   for (const RenderState::Array& array : state.arrays) {
     const StateIndex::Section& section = in.at(array.name);

@@ -197,7 +197,7 @@ void DescriptionBuilder::set_color_space(const std::string& name,
   const std::vector<std::string>& names = color_space_names();
   if (std::find(names.begin(), names.end(), lower) == names.end()) {
     throw SceneError(name_where,
-                     "unknown color space \"" + name +
+                     "unknown colour space \"" + name +
                          "\", expected \"srgb\", \"rec2020\", \"aces2065-1\" or \"dci-p3\"");
   }
   state_.color_space = lower;

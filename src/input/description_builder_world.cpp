@@ -34,7 +34,10 @@ void expect_defined(const Map& map, const char* what, const std::string& name,
 void take_type_parameter(DirectiveDescription& directive, const std::string& of_what) {
   directive.type = directive.parameters.get_string("type", "");
   if (directive.type.empty())
-    throw SceneError(directive.where, of_what + " has no parameter \"string type\"");
+    throw SceneError(
+        directive.where,
+        of_what +
+            " has no parameter \"string type\", expected one as in \"string type\" \"diffuse\"");
 }
 
 template <class Description>

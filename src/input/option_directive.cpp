@@ -46,7 +46,8 @@ void skip_values(TokenStream& tokens, const SourceLocation& option) {
   if (token->kind == Token::Kind::kOpen)
     while (token->kind != Token::Kind::kClose && token->kind != Token::Kind::kEnd)
       token = &tokens.next();
-  if (token->kind == Token::Kind::kEnd) throw SceneError(option, "this option has no values");
+  if (token->kind == Token::Kind::kEnd)
+    throw SceneError(option, "this option has no value, expected one");
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ class HeaderLine {
   }
   std::string_view word(const char* what) {
     const std::string_view result = word();
-    if (result.empty()) fail(std::string("expected ") + what);
+    if (result.empty()) fail(std::string("the line ends too early, expected ") + what);
     return result;
   }
   PlyScalar scalar() {
@@ -137,7 +137,7 @@ PlyHeader read_ply_header(std::string_view bytes) {
   for (int number = 1;; ++number) {
     const size_t end = bytes.find('\n', start);
     if (number == 1 && bytes.substr(0, 3) != "ply")
-      throw std::runtime_error("it does not start with \"ply\", so it is no PLY file");
+      throw std::runtime_error("it does not start with \"ply\", expected a PLY file");
     if (end == std::string_view::npos)
       throw std::runtime_error("the file ends inside the header, expected end_header");
     std::string_view text = bytes.substr(start, end - start);
@@ -147,7 +147,7 @@ PlyHeader read_ply_header(std::string_view bytes) {
     HeaderLine line(text, number);
     const std::string_view keyword = line.word();
     if (number == 1) {
-      if (keyword != "ply") line.fail("expected \"ply\"");
+      if (keyword != "ply") line.fail("found \"" + std::string(keyword) + "\", expected \"ply\"");
     } else if (keyword == "format") {
       header.format = read_format(line);
       has_format = true;
@@ -161,7 +161,8 @@ PlyHeader read_ply_header(std::string_view bytes) {
       header.size = start;
       return header;
     } else if (keyword != "comment" && keyword != "obj_info" && !keyword.empty()) {
-      line.fail("unknown keyword \"" + std::string(keyword) + "\"");
+      line.fail("unknown keyword \"" + std::string(keyword) +
+                "\", expected format, element, property, comment or end_header");
     }
   }
 }

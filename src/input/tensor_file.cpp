@@ -126,7 +126,7 @@ TensorFile::TensorFile(std::string bytes, std::string name, SourceLocation wante
     : bytes_(std::move(bytes)), name_(std::move(name)), wanted_by_(std::move(wanted_by)) {
   const std::string_view all = bytes_;
   if (all.substr(0, kMagic.size()) != kMagic)
-    fail("it does not start with \"tensor_file\", so it is no tensor file");
+    fail("it does not start with \"tensor_file\", expected a tensor file");
   TableReader table(*this, all.substr(kMagic.size()));
   const std::string_view version = table.take(2, "the version");
   if (version[0] != 1 || version[1] != 0)

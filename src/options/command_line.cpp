@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "core/errors.h"
+#include "input/spelling.h"
 #include "options/gltf_support.h"
 #include "options/mitsuba_support.h"
 #include "options/obj_support.h"
@@ -61,8 +62,20 @@ void check_command(const std::vector<std::string>& arguments) {
   std::vector<std::string> known;
   for (const CommandDescription& command : command_table()) known.emplace_back(command.name);
   if (std::find(known.begin(), known.end(), arguments[0]) != known.end()) return;
-  throw UsageError(fmt::format("unknown command '{}', expected one of: {}", arguments[0],
-                               fmt::join(known, ", ")));
+  throw UsageError(fmt::format("unknown command '{}', expected one of: {}{}", arguments[0],
+                               fmt::join(known, ", "), did_you_mean(arguments[0], known)));
+}
+
+/// The message for arguments that `command` does not take.
+std::string not_expected(const std::vector<std::string>& extra, const std::string& command) {
+  const auto is_option = [](const std::string& word) { return word.rfind('-', 0) == 0; };
+  const auto option = std::ranges::find_if(extra, is_option);
+  if (option == extra.end()) return fmt::format("'{}' was not expected", fmt::join(extra, " "));
+  const std::string name = option->substr(0, option->find('='));
+  std::vector<std::string> known;
+  for (const OptionDescription& row : option_table())
+    if (command == row.command && is_option(row.name)) known.emplace_back(row.name);
+  return fmt::format("unknown option '{}'{}", name, did_you_mean(name, known));
 }
 
 /// A page of docs/ that tools/update_docs writes.
@@ -119,6 +132,11 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments) {
     return printing(command.empty() ? program_help_all() : command_help_all(command));
   } catch (const CLI::CallForVersion&) {
     return printing(fmt::format("nephroid {} ({})\n", kVersion, instruction_set()));
+  } catch (const CLI::ExtrasError&) {
+    const std::string command = chosen_command();
+    throw UsageError(fmt::format("{} (see nephroid {}{}--help)",
+                                 not_expected(app.remaining(true), command), command,
+                                 command.empty() ? "" : " "));
   } catch (const CLI::ParseError& error) {
     const std::string command = chosen_command();
     throw UsageError(fmt::format("{} (see nephroid {}{}--help)", error.what(), command,

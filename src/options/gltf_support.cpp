@@ -8,7 +8,7 @@ namespace nephroid {
 namespace {
 
 constexpr const char* kHead =
-    R"(# What of glTF 2.0 is rendered
+    R"(# glTF 2.0
 
 Made from the tables of the importer by `tools/update_docs`; do not edit.
 

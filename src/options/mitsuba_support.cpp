@@ -15,9 +15,9 @@ constexpr const char* kHead = R"(# Mitsuba scenes
 Made from the tables of the importer by `tools/update_docs`; do not edit.
 
 A file whose name ends in `.xml` is read as a scene of Mitsuba 0.5, 0.6, 2 or 3. `nephroid convert scene.xml scene.pbrt`
-writes what was understood as a pbrt-v4 scene. Each plug-in is
+writes the imported scene in the format of pbrt-v4. Each plug-in is
 
-- **loaded**: as in Mitsuba, but for what its line says;
+- **loaded**: as in Mitsuba, except for what its line says (integrators: the nearest one of this renderer);
 - **approximated**: loaded with a warning;
 - **ignored**: left out with a warning;
 - **refused**: an error with its line and column.
@@ -30,6 +30,7 @@ Mitsuba 0.6 (`intIOR`) or as in Mitsuba 3 (`int_ior`), in scenes of any version.
 - Files lie in the scene's folder or below it; `--allow-outside` permits others. They are looked up in the folders of `<path>`
   first.
 - `--camera` chooses a sensor by its id or its index from 0. By default it is the first.
+- The scene's integrator is used with `--integrator scene` only; its `max_depth` always counts.
 )";
 
 constexpr const char* kTail = R"(
@@ -37,7 +38,7 @@ constexpr const char* kTail = R"(
 
 | what | Mitsuba | here |
 | --- | --- | --- |
-| camera | looks along local +z with +x to the left | +x to the right: the camera's first axis changes its sign, the world stays |
+| camera | looks along local +z with +x to the left | +x to the right: the camera's x axis is mirrored, the world is not |
 | angle of view | along x by default (`fov_axis`) | along the shorter side; the picture is the same |
 | roughness | `alpha` of Beckmann by default, or GGX | GGX with the same alpha (`remaproughness` false) |
 | backs of one-sided BSDFs | black, unless in `twosided` | like the front; a warning counts the open shapes that differ |
@@ -52,9 +53,9 @@ constexpr const char* kTail = R"(
 | a spectrum of one value, as emission | white in 0.6, equal energy in 3 | the same, by the scene's version |
 | spectra of wavelengths and black bodies, as emission | absolute | the same luminance |
 | plastics | linear in the diffuse colour by default | a base colour with the same reflectance; `nonlinear` is exact |
-| path depth | edges of a path | scattering events, one less |
-| grids of volumes | values at the corners of the box (0.6, 2) or in the middle of cells (3) | as the version says |
-| daylight | +y up in 0.6, +z up in 3 | as the version says |
+| path depth | edges of a path | scattering events, one fewer |
+| grids of volumes | values at the corners of the box (0.6, 2) or in the middle of cells (3) | by the scene's version |
+| daylight | +y up in 0.6, +z up in 3 | by the scene's version |
 )";
 
 const char* word_of(PluginSupport support) {

@@ -12,17 +12,19 @@ constexpr const char* kHead = R"(# OBJ and MTL files
 
 Made from the tables of the importer by `tools/update_docs`; do not edit.
 
-A file whose name ends in `.obj` or `.obj.gz` is read as a scene. `nephroid convert model.obj model.pbrt` writes what was understood
-as a pbrt-v4 scene. Each keyword is
+A file whose name ends in `.obj` or `.obj.gz` is read as a scene. `nephroid convert model.obj model.pbrt` writes the imported scene
+in the format of pbrt-v4. Each keyword is
 
 - **loaded**;
 - **not needed**: the picture does not depend on it;
 - **warned**: ignored with a warning at its first line, which gives the reason.
 
-Other keywords are warned of, and are errors with `--strict`. A wrong number or index is an error with its file and line.
+Unknown keywords give a warning, and with `--strict` an error. A wrong number or index is an error with its file and line.
 
 - An OBJ file has no camera and no light. The view is from the front right, the front is +z, and up is +y. A grey sky and a soft
   lamp light it. `--floor`, `--sun`, `--environment` and `--exposure` change that ([options](options.md#render)).
+- Materials that emit are the light of a file that has them. The exposure is chosen for them unless `--exposure` gives one:
+  `--exposure 0` shows a candela per square metre as 1.
 - Files lie in the folder of the scene or below it; `--allow-outside` permits others. Images are looked for in the folder of the
   MTL file that names them.
 - A missing MTL file is a warning, and so is a material that is not defined; the faces are grey. A missing image is an error.

@@ -57,7 +57,7 @@ std::vector<CurveSegment> segments_of(const ParameterSet& p) {
   for (const Vec3f& point : points)
     if (!is_in_reach(point))
       throw SceneError(p.find("P")->where,
-                       "a point of this curve is no number or too far away, expected coordinates "
+                       "a point of this curve is not finite or too far away, expected coordinates "
                        "up to 1e17");
   const bool bezier = basis == "bezier";
   std::vector<CurveSegment> segments =
@@ -80,7 +80,7 @@ void set_widths(const ParameterSet& p, std::vector<CurveSegment>& segments) {
     if (!(w >= 0.0f && w <= kLargestCoordinate))
       throw SceneError(
           p.where,
-          "a width of this curve is negative, beyond 1e17 or no number, expected 0 to 1e17");
+          "a width of this curve is negative, not finite or beyond 1e17, expected 0 to 1e17");
   const float count = static_cast<float>(segments.size());
   for (size_t i = 0; i < segments.size(); ++i) {
     segments[i].width0 = lerp(static_cast<float>(i) / count, ends[0], ends[1]);

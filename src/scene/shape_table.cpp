@@ -84,8 +84,8 @@ std::vector<std::array<float, 4>> vertex_colors(const Context& c) {
   const std::vector<float> numbers = c.p.get_floats("vertexcolors");
   if (numbers.size() % 4 != 0)
     throw SceneError(c.p.where, c.what() + ": \"vertexcolors\" has " +
-                                    std::to_string(numbers.size()) +
-                                    " values, expected a multiple of 4");
+                                    counted(numbers.size(), "value") +
+                                    ", expected a multiple of 4");
   std::vector<std::array<float, 4>> colors(numbers.size() / 4);
   for (size_t i = 0; i < numbers.size(); ++i) colors[i / 4][i % 4] = numbers[i];
   return colors;

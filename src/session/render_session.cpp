@@ -50,10 +50,10 @@ void check_fits(const EstimatorSet& set, const Film& film, const RenderOptions& 
   if (options.last_pass && *options.last_pass < options.first_pass)
     throw UsageError("--passes: the range ends before it begins, expected A..B with A <= B");
   if (options.first_pass > 0 && film.rejection() != nullptr)
-    throw UsageError(
-        fmt::format("--passes {}..: with --outliers reject each pass depends on the passes before "
-                    "it, expected a range from 0",
-                    options.first_pass));
+    throw UsageError(fmt::format(
+        "--passes {}..: each pass depends on those before it, because of --outliers reject; "
+        "expected a range from 0",
+        options.first_pass));
   const std::vector<PassRange>& before = options.begin_with.passes.ranges();
   const bool from_zero = before.empty() || (before.size() == 1 && before[0].first == 0);
   for (const auto& estimator : set.estimators) {

@@ -24,6 +24,9 @@ class CasterRule {
   bool merges_all_light() const {
     return casters_ == ClassMask::kNone || casters_ == ClassMask::kAll;
   }
+  /// True if whatever lets one vertex merge lets each D and G in front of it merge, too. Glossy
+  /// casters do so for D alone.
+  bool holds_in_front() const { return casters_ != (ClassMask::kSpecular | ClassMask::kGlossy); }
   /// The caster that an event between a vertex and the light is.
   Caster caster_of(EventClass letter) const {
     if (merges_all_light()) return Caster::kSpecular;

@@ -124,7 +124,7 @@ def _(s): s["buffers"][0]["uri"] = "http://localhost/x"
 def _(s): s["buffers"][0]["uri"] = "data:;base64,****"
 
 
-@hostile("node_below_itself", "#/nodes/0: this node is below itself, expected a tree of nodes")
+@hostile("node_below_itself", "#/nodes/0: this node is a descendant of itself, expected a tree of nodes")
 def _(s): s["nodes"][0]["children"] = [0]
 
 
@@ -167,7 +167,7 @@ def _(s):
     s["images"] = [{"bufferView": 0, "mimeType": "image/png"}]
 
 
-@hostile("skin_without_joints", "#/skins/0/joints: a skin has no joints, expected one at least")
+@hostile("skin_without_joints", "#/skins/0/joints: a skin has no joints, expected at least one")
 def _(s):
     s["skins"] = [{"joints": []}]
     s["nodes"][0]["skin"] = 0

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <iterator>
 
+#include "core/counted.h"
+
 namespace nephroid::gltf {
 namespace {
 
@@ -78,14 +80,14 @@ Elements find_elements(Document& document, const JsonValue& owner, size_t count,
   size_t stride = document.buffer_view_stride(view, owner);
   if (stride == 0) stride = element_size;
   if (stride < element_size)
-    owner.fail("elements of " + std::to_string(element_size) + " bytes overlap with a stride of " +
-               std::to_string(stride));
+    owner.fail("elements of " + counted(element_size, "byte") +
+               " overlap, expected a stride of at least that, found " + std::to_string(stride));
   const bool fits =
       count == 0 || (offset <= bytes.size() && element_size <= bytes.size() - offset &&
                      count - 1 <= (bytes.size() - offset - element_size) / stride);
   if (!fits)
-    owner.fail(std::to_string(count) + " elements reach beyond the buffer view, which has " +
-               std::to_string(bytes.size()) + " bytes");
+    owner.fail(counted(count, "element") + in_number(count, " reaches", " reach") +
+               " beyond the buffer view, which has " + std::to_string(bytes.size()) + " bytes");
   return {bytes.data() + (count == 0 ? 0 : offset), stride};
 }
 
@@ -164,15 +166,16 @@ void read_sparse(Document& document, const JsonValue& accessor, const Layout& la
     const uint32_t place = integer_at(places.first + i * places.stride, type);
     if (place >= layout.count)
       indices.fail("index " + std::to_string(place) + " is out of range, the accessor has " +
-                   std::to_string(layout.count) + " elements");
+                   counted(layout.count, "element"));
     replace(place, elements.first + i * elements.stride);
   }
 }
 
-void check_zeros(const JsonValue& accessor, size_t count) {
-  if (count > kMaxZeros)
-    accessor.get("count").fail("an accessor without data has " + std::to_string(count) +
+void check_zeros(Document& document, const JsonValue& accessor, const Layout& layout) {
+  if (layout.count > kMaxZeros)
+    accessor.get("count").fail("an accessor without data has " + std::to_string(layout.count) +
                                " elements, expected at most " + std::to_string(kMaxZeros));
+  document.claim_memory(layout.count * layout.width() * sizeof(double), accessor);
 }
 
 }  // namespace
@@ -191,7 +194,7 @@ NumberArray read_accessor(Document& document, size_t index, const JsonValue& wan
   if (accessor.find("bufferView"))
     elements = find_elements(document, accessor, layout.count, layout.element_size());
   else
-    check_zeros(accessor, layout.count);
+    check_zeros(document, accessor, layout);
   array.values.resize(layout.count * layout.width());
   if (elements) read_elements(*elements, layout, array.values.data());
   read_sparse(document, accessor, layout, [&](size_t place, const std::byte* from) {
@@ -199,7 +202,8 @@ NumberArray read_accessor(Document& document, size_t index, const JsonValue& wan
   });
   for (size_t i = 0; i < array.values.size(); ++i)
     if (!std::isfinite(array.values[i]))
-      accessor.fail("element " + std::to_string(i / array.width) + " is not finite");
+      accessor.fail("element " + std::to_string(i / array.width) +
+                    " is not finite, expected finite numbers");
   return array;
 }
 
@@ -209,8 +213,8 @@ std::optional<NumberArray> find_accessor(Document& document, const JsonValue& ow
   if (!reference) return std::nullopt;
   NumberArray array = read_accessor(document, reference->index(), *reference);
   if (array.width != width)
-    reference->fail("the accessor has " + std::to_string(array.width) +
-                    " numbers per element, expected " + std::to_string(width));
+    reference->fail("the accessor has " + counted(array.width, "number") +
+                    " per element, expected " + std::to_string(width));
   return array;
 }
 
@@ -222,7 +226,7 @@ std::vector<uint32_t> read_integers(Document& document, size_t index, const Json
   if (accessor.find("bufferView"))
     elements = find_elements(document, accessor, layout.count, layout.element_size());
   else
-    check_zeros(accessor, layout.count);
+    check_zeros(document, accessor, layout);
   const size_t width = layout.width();
   std::vector<uint32_t> values(layout.count * width);
   const auto read = [&](size_t place, const std::byte* from) {
@@ -235,8 +239,8 @@ std::vector<uint32_t> read_integers(Document& document, size_t index, const Json
   return values;
 }
 
-size_t accessor_count(Document& document, size_t index, const JsonValue& wanted_by) {
-  return document.item("accessors", index, wanted_by).get_index("count");
+bool has_data(Document& document, size_t index, const JsonValue& wanted_by) {
+  return document.item("accessors", index, wanted_by).find("bufferView").has_value();
 }
 
 }  // namespace nephroid::gltf

@@ -29,8 +29,8 @@ std::optional<NumberArray> find_accessor(Document& document, const JsonValue& ow
 /// Reads an accessor of unsigned integers exactly.
 std::vector<uint32_t> read_integers(Document& document, size_t index, const JsonValue& wanted_by);
 
-/// The claimed number of elements and numbers per element, without the data.
-size_t accessor_count(Document& document, size_t index, const JsonValue& wanted_by);
+/// True if all elements are in the file; else they are 0, or sparse.
+bool has_data(Document& document, size_t index, const JsonValue& wanted_by);
 
 /// A component type of glTF, which has OpenGL's numbers.
 struct ComponentType {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/counted.h"
 #include "input/gltf/accessor.h"
 
 namespace nephroid::gltf {
@@ -89,13 +90,15 @@ Track read_track(Document& document, const JsonValue& sampler, const std::string
   Track track{input.values,          output.values,  0,
               mode == "CUBICSPLINE", mode == "STEP", path == "rotation"};
   if (track.times.empty() || !std::is_sorted(track.times.begin(), track.times.end()))
-    sampler.fail("the times of keyframes are not in increasing order");
+    sampler.fail(
+        "the times of keyframes are missing or not in increasing order, expected increasing ones");
   const size_t parts = track.times.size() * (track.is_cubic ? 3 : 1);
   track.per_key = track.outputs.size() / parts;
   const size_t expected = path == "rotation" ? 4 : path == "weights" ? track.per_key : 3;
   if (track.per_key == 0 || track.per_key != expected || track.outputs.size() % parts != 0)
-    sampler.fail("the output has " + std::to_string(track.outputs.size()) + " numbers for " +
-                 std::to_string(track.times.size()) + " keyframes of " + path);
+    sampler.fail("the output has " + counted(track.outputs.size(), "number") + " for " +
+                 counted(track.times.size(), "keyframe") + ", expected as many for each as " +
+                 path + " takes");
   return track;
 }
 
@@ -122,7 +125,9 @@ void AnimationPose::read_channel(Document& document, const JsonValue& channel,
   if (!node) return;  // the target of an extension, which a warning names
   document.item("nodes", *node, target);
   const size_t sampler = channel.get_index("sampler");
-  if (sampler >= samplers.size()) channel.get("sampler").fail("there is no such sampler");
+  if (sampler >= samplers.size())
+    channel.get("sampler").fail("there is no sampler " + std::to_string(sampler) +
+                                ", expected an index below " + std::to_string(samplers.size()));
   Animated& animated = nodes_[*node];
   std::optional<Values>* const slot = path == "translation" ? &animated.translation
                                       : path == "rotation"  ? &animated.rotation
@@ -146,6 +151,12 @@ void AnimationPose::apply(size_t node, NodePose& pose) const {
   take(found->second.translation, pose.translation);
   take(found->second.rotation, pose.rotation);
   take(found->second.scale, pose.scale);
+}
+
+bool AnimationPose::moves(size_t node) const {
+  const auto found = nodes_.find(node);
+  return found != nodes_.end() &&
+         (found->second.translation || found->second.rotation || found->second.scale);
 }
 
 const std::vector<float>* AnimationPose::weights(size_t node) const {

@@ -25,6 +25,8 @@ class AnimationPose {
   AnimationPose(Document& document, double time);
 
   void apply(size_t node, NodePose& pose) const;
+  /// True if an animation sets the translation, rotation or scale.
+  bool moves(size_t node) const;
   /// Morph weights; nullptr if no animation sets them.
   const std::vector<float>* weights(size_t node) const;
 

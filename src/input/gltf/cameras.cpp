@@ -62,7 +62,8 @@ void add_film(SceneDescription& scene, double aspect, const SourceLocation& wher
 
 double positive(const JsonValue& owner, const std::string& name) {
   const double value = owner.get(name).number();
-  if (!(value > 0)) owner.get(name).fail("expected a number above 0");
+  if (!(value > 0))
+    owner.get(name).fail("this is " + std::to_string(value) + ", expected a number above 0");
   return value;
 }
 
@@ -73,7 +74,9 @@ double describe_perspective(const JsonValue& camera, ParameterList& list) {
   const double aspect =
       perspective.find("aspectRatio") ? positive(perspective, "aspectRatio") : kUsualAspect;
   const double vertical = positive(perspective, "yfov");
-  if (!(vertical < kPiDouble)) perspective.get("yfov").fail("expected an angle below pi");
+  if (!(vertical < kPiDouble))
+    perspective.get("yfov").fail("this is " + std::to_string(vertical) +
+                                 ", expected radians below pi");
   // pbrt's angle is that of the shorter side.
   const double angle = aspect >= 1 ? vertical : 2 * std::atan(aspect * std::tan(0.5 * vertical));
   list.add_float("fov", angle * 180 / kPiDouble);
@@ -84,7 +87,7 @@ double describe_orthographic(const JsonValue& camera, ParameterList& list) {
   const JsonValue view = camera.get("orthographic");
   // Magnifications may be negative in old files; their sign has no meaning.
   const double x = std::abs(view.get("xmag").number()), y = std::abs(view.get("ymag").number());
-  if (!(x > 0 && y > 0)) view.fail("\"xmag\" and \"ymag\" are 0, expected numbers above 0");
+  if (!(x > 0 && y > 0)) view.fail("\"xmag\" or \"ymag\" is 0, expected numbers other than 0");
   list.add_numbers("float", "screenwindow", {-x, x, -y, y});
   return x / y;
 }
@@ -95,10 +98,11 @@ Mat44d world_to_camera(Mat44d node, const JsonValue& place) {
   for (int i = 0; i < 3; ++i) {
     const double length = Vec3d(node[i][0], node[i][1], node[i][2]).length();
     if (!(length > 0 && std::isfinite(length)))
-      place.fail("the node of the camera is scaled to nothing");
+      place.fail("the node of the camera is scaled to 0, expected a scale other than 0");
     for (int j = 0; j < 3; ++j) node[i][j] *= (i == 2 ? -1 : 1) / length;
   }
-  if (!(std::abs(node.determinant()) > 0)) place.fail("the transform of the camera has no inverse");
+  if (!(std::abs(node.determinant()) > 0))
+    place.fail("the transform of the camera has no inverse, expected one that can be inverted");
   return node.inverse();
 }
 
@@ -109,7 +113,7 @@ void add_camera(Document& document, const NodeGraph& nodes, SceneDescription& sc
   if (cameras.empty()) {
     if (!document.options().camera.empty())
       document.root().fail("there is no camera \"" + document.options().camera +
-                           "\": the file has none");
+                           "\": the shown scene has none");
     return;
   }
   for (const PlacedCamera& camera : cameras)

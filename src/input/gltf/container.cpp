@@ -42,7 +42,8 @@ Container read_container(std::string_view bytes, const SourceLocation& file) {
     at = start + size;
   }
   if (container.json.empty())
-    throw SceneError(file, "the first chunk of the GLB file is no JSON, expected the scene's JSON");
+    throw SceneError(file,
+                     "the first chunk of the GLB file is not JSON, expected the scene's JSON");
   return container;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/counted.h"
+
 namespace nephroid::gltf {
 namespace {
 
@@ -12,11 +14,20 @@ void add_weighted(Document& document, const JsonValue& target, const std::string
   const std::optional<NumberArray> offsets = find_accessor(document, target, name, 3);
   if (!offsets) return;
   if (offsets->count != to.size())
-    target.fail(name + " has " + std::to_string(offsets->count) + " elements, expected " +
+    target.fail(name + " has " + counted(offsets->count, "element") + ", expected " +
                 std::to_string(to.size()) + ", one per vertex");
   const auto w = static_cast<float>(weight);
   for (size_t i = 0; i < to.size(); ++i)
     to[i] += Vec3f((*offsets)[i][0], (*offsets)[i][1], (*offsets)[i][2]) * w;
+}
+
+/// Warns of the attributes of a target that do not move.
+void warn_of_lost_attributes(Document& document, const JsonValue& target) {
+  for (const std::string& name : target.member_names())
+    if (name.starts_with("TEXCOORD_") || name.starts_with("COLOR_"))
+      document.diagnostics().warn(target.where(), "this morph target of " + name +
+                                                      " is ignored: positions, normals and "
+                                                      "tangents are morphed");
 }
 
 /// The matrices of a skin's joints, mesh to world.
@@ -30,7 +41,9 @@ std::vector<Mat44d> joint_matrices(Document& document, const JsonValue& skin,
   const auto inverse = find_accessor(document, skin, "inverseBindMatrices", 16);
   if (!inverse) return matrices;
   if (inverse->count < matrices.size())
-    skin.get("inverseBindMatrices").fail("there are fewer matrices than joints");
+    skin.get("inverseBindMatrices")
+        .fail("there are " + counted(inverse->count, "matrix", "matrices") + " for " +
+              counted(matrices.size(), "joint") + ", expected one for each");
   for (size_t i = 0; i < matrices.size(); ++i) {
     Mat44d m;
     for (int k = 0; k < 16; ++k) m[k / 4][k % 4] = (*inverse)[i][k];
@@ -39,7 +52,7 @@ std::vector<Mat44d> joint_matrices(Document& document, const JsonValue& skin,
   return matrices;
 }
 
-/// The sum of the matrices of a vertex, by joints and weights of up to several sets of four.
+/// The weighted sum of joint matrices for a vertex, from up to eight sets of four joints.
 class Blend {
  public:
   Blend(AttributeSource& source, const JsonValue& primitive, size_t vertices,
@@ -52,14 +65,15 @@ class Blend {
       if (!numbers || !weights) break;
       if (numbers->width != 4 || weights->width != 4 || numbers->count != vertices ||
           weights->count != vertices)
-        primitive.fail("JOINTS and WEIGHTS have no four numbers for each vertex");
+        primitive.fail("JOINTS_n or WEIGHTS_n is wrong, expected four numbers for each vertex");
       for (const float joint : numbers->values)
         if (!(joint >= 0 && joint < static_cast<float>(joints_.size())))
           primitive.fail("joint " + std::to_string(static_cast<int64_t>(joint)) +
-                         " is out of range, the skin has " + std::to_string(joints_.size()));
+                         " is out of range, the skin has " + counted(joints_.size(), "joint"));
       sets_.push_back({*std::move(numbers), *std::move(weights)});
     }
-    if (sets_.empty()) primitive.fail("a skinned primitive has no JOINTS_0 and WEIGHTS_0");
+    if (sets_.empty())
+      primitive.fail("a skinned primitive lacks JOINTS_0 or WEIGHTS_0, expected both");
   }
 
   Mat44d at(size_t vertex) const {
@@ -83,14 +97,28 @@ class Blend {
   std::vector<Set> sets_;
 };
 
-/// The image of a normal, up to its length: by the cofactors of the matrix, which exist even where
-/// it has no inverse.
-Vec3f transformed_normal(const Mat44d& m, const Vec3f& n) {
-  const Vec3d a(m[0][0], m[0][1], m[0][2]), b(m[1][0], m[1][1], m[1][2]),
-      c(m[2][0], m[2][1], m[2][2]);
-  const Vec3d sum = b.cross(c) * double{n.x} + c.cross(a) * double{n.y} + a.cross(b) * double{n.z};
-  const double length = sum.length();
-  return length > 0 ? to_float(sum / length) : n;
+/// The images of the axes.
+struct Axes {
+  explicit Axes(const Mat44d& m)
+      : x(m[0][0], m[0][1], m[0][2]), y(m[1][0], m[1][1], m[1][2]), z(m[2][0], m[2][1], m[2][2]) {}
+  bool is_mirrored() const { return x.dot(y.cross(z)) < 0; }
+
+  Vec3d x, y, z;
+};
+
+/// The unit normal transformed by the cofactors of the matrix, which exist even where it has no
+/// inverse. They are the inverse transposed times the determinant, whose sign is undone.
+Vec3f transformed_normal(const Axes& to, const Vec3f& n) {
+  const Vec3d sum = to.y.cross(to.z) * double{n.x} + to.z.cross(to.x) * double{n.y} +
+                    to.x.cross(to.y) * double{n.z};
+  const double length = to.is_mirrored() ? -sum.length() : sum.length();
+  return length != 0 ? to_float(sum / length) : n;
+}
+
+/// Reverses the winding of all triangles.
+void turn_over(std::vector<uint32_t>& triangles) {
+  for (size_t t = 0; t + 2 < triangles.size(); t += 3)
+    std::swap(triangles[t + 1], triangles[t + 2]);
 }
 
 }  // namespace
@@ -115,6 +143,7 @@ void morph(Document& document, const JsonValue& primitive, const std::vector<dou
   const std::vector<JsonValue> list = targets->elements();
   for (size_t i = 0; i < std::min(list.size(), weights.size()); ++i) {
     if (weights[i] == 0) continue;
+    warn_of_lost_attributes(document, list[i]);
     add_weighted(document, list[i], "POSITION", weights[i], vertices.positions);
     add_weighted(document, list[i], "NORMAL", weights[i], vertices.normals);
     add_weighted(document, list[i], "TANGENT", weights[i], vertices.tangents);
@@ -124,20 +153,26 @@ void morph(Document& document, const JsonValue& primitive, const std::vector<dou
 void skin(Document& document, const JsonValue& skin, AttributeSource& source,
           const JsonValue& primitive, const NodeGraph& nodes, Vertices& vertices) {
   std::vector<Mat44d> joints = joint_matrices(document, skin, nodes);
-  if (joints.empty()) skin.get("joints").fail("a skin has no joints, expected one at least");
+  if (joints.empty()) skin.get("joints").fail("a skin has no joints, expected at least one");
   const Blend blend(source, primitive, vertices.positions.size(), std::move(joints));
+  size_t mirrored = 0;
   for (size_t i = 0; i < vertices.positions.size(); ++i) {
     const Mat44d m = blend.at(i);
+    const Axes axes(m);
+    if (axes.is_mirrored()) ++mirrored;
     Vec3d p;
     m.multVecMatrix(to_double(vertices.positions[i]), p);
     vertices.positions[i] = to_float(p);
-    if (!vertices.normals.empty()) vertices.normals[i] = transformed_normal(m, vertices.normals[i]);
+    if (!vertices.normals.empty())
+      vertices.normals[i] = transformed_normal(axes, vertices.normals[i]);
     if (!vertices.tangents.empty()) {
       Vec3d t;
       m.multDirMatrix(to_double(vertices.tangents[i]), t);
       vertices.tangents[i] = to_float(t);
+      if (axes.is_mirrored()) vertices.tangent_signs[i] = -vertices.tangent_signs[i];
     }
   }
+  if (2 * mirrored > vertices.positions.size()) turn_over(vertices.triangles);
 }
 
 }  // namespace nephroid::gltf

@@ -19,6 +19,7 @@ void morph(Document& document, const JsonValue& primitive, const std::vector<dou
            Vertices& vertices);
 
 /// Moves vertices from the mesh to the world by the joints of a skin, at the start of the shutter.
+/// Joints that mirror keep the outside of the mesh outside.
 void skin(Document& document, const JsonValue& skin, AttributeSource& source,
           const JsonValue& primitive, const NodeGraph& nodes, Vertices& vertices);
 

@@ -1,5 +1,6 @@
 #include "input/gltf/document.h"
 
+#include "core/counted.h"
 #include "input/contained_file.h"
 #include "input/gltf/container.h"
 #include "input/gltf/meshopt.h"
@@ -31,7 +32,7 @@ const JsonValue& Document::item(const std::string& name, size_t index, const Jso
   const std::vector<JsonValue>& all = list(name);
   if (index >= all.size())
     wanted_by.fail("index " + std::to_string(index) + " into \"" + name +
-                   "\" is out of range, there are " + std::to_string(all.size()));
+                   "\" is out of range, expected an index below " + std::to_string(all.size()));
   return all[index];
 }
 
@@ -66,8 +67,8 @@ Bytes Document::buffer(size_t index, const JsonValue& wanted_by) {
   const std::string_view bytes = is_chunk ? binary_chunk_ : std::string_view(buffers_[index]);
   const size_t claimed = description.get_index("byteLength");
   if (claimed > bytes.size())
-    description.fail("this buffer claims " + std::to_string(claimed) + " bytes, there are " +
-                     std::to_string(bytes.size()));
+    description.fail("this buffer claims " + counted(claimed, "byte") + ", more than the " +
+                     std::to_string(bytes.size()) + " there are");
   return std::as_bytes(std::span(bytes.data(), claimed));
 }
 
@@ -76,8 +77,16 @@ Bytes Document::buffer_part(size_t index, size_t offset, size_t length,
   const Bytes all = buffer(index, wanted_by);
   if (offset > all.size() || length > all.size() - offset)
     wanted_by.fail("bytes " + std::to_string(offset) + " to " + std::to_string(offset + length) +
-                   " reach beyond the buffer, which has " + std::to_string(all.size()));
+                   " reach beyond the buffer, which has " + counted(all.size(), "byte"));
   return all.subspan(offset, length);
+}
+
+void Document::claim_memory(size_t bytes, const JsonValue& wanted_by) {
+  constexpr size_t kMaxClaim = size_t{1} << 29;
+  if (bytes > kMaxClaim - claimed_)
+    wanted_by.fail("the file claims more than " + std::to_string(kMaxClaim >> 20) +
+                   " MB by elements without data, expected data for so many");
+  claimed_ += bytes;
 }
 
 Bytes Document::buffer_view(size_t index, const JsonValue& wanted_by) {

@@ -39,14 +39,18 @@ class Document {
 
   /// The bytes of a buffer view, decompressed if need be. They live as long as the document.
   Bytes buffer_view(size_t index, const JsonValue& wanted_by);
-  /// The distance of elements in a buffer view; 0 if they are packed.
+  /// The stride of the elements in a buffer view, in bytes; 0 if they are tightly packed.
   size_t buffer_view_stride(size_t index, const JsonValue& wanted_by);
 
   /// A part of a buffer. Throws SceneError at `wanted_by` if it reaches beyond the end.
   Bytes buffer_part(size_t buffer, size_t offset, size_t length, const JsonValue& wanted_by);
 
-  /// The bytes of a "uri" member, a data URI or a file. The file counts in the scene's hash.
+  /// The bytes of a "uri" member, a data URI or a file. The file is part of the scene's hash.
   std::string bytes_of_uri(const JsonValue& uri);
+
+  /// Counts memory of the scene that no bytes of the file stand for. Throws SceneError at
+  /// `wanted_by` once the whole file claims too much.
+  void claim_memory(size_t bytes, const JsonValue& wanted_by);
 
  private:
   Bytes buffer(size_t index, const JsonValue& wanted_by);
@@ -62,6 +66,7 @@ class Document {
   std::map<std::string, std::vector<JsonValue>> lists_;
   std::map<size_t, std::string> buffers_;                  ///< loaded buffers by index
   std::map<size_t, std::vector<std::byte>> decompressed_;  ///< decompressed views by index
+  size_t claimed_ = 0;                                     ///< bytes of claim_memory
 };
 
 }  // namespace nephroid::gltf

@@ -9,6 +9,7 @@
 #include <draco/compression/decode.h>
 #pragma GCC diagnostic pop
 
+#include <algorithm>
 #include <cmath>
 
 namespace nephroid::gltf {
@@ -40,6 +41,18 @@ class DracoSource final : public AttributeSource {
   }
 
  private:
+  /// The integer that means 1, or 0 if the numbers count as they are. The accessor says so: most
+  /// encoders do not set Draco's own flag.
+  float value_of_one(const std::string& name, const draco::PointAttribute& attribute) const {
+    const std::optional<JsonValue> reference = attributes_.find(name);
+    if (!reference || attribute.normalized() || !draco::IsDataTypeIntegral(attribute.data_type()))
+      return 0;
+    const JsonValue accessor = document_.item("accessors", reference->index(), *reference);
+    if (!accessor.get_flag("normalized", false)) return 0;
+    const ComponentType* type = find_component_type(accessor.get_index("componentType"));
+    return type ? type->largest : 0;
+  }
+
   NumberArray unpack(const std::string& name) const {
     const JsonValue id = packed_.get(name);
     const draco::PointAttribute* attribute =
@@ -52,6 +65,8 @@ class DracoSource final : public AttributeSource {
       if (!attribute->ConvertValue(attribute->mapped_index(point), attribute->num_components(), to))
         extension_.fail("the Draco data are damaged: " + name + " cannot be read");
     }
+    if (const float one = value_of_one(name, *attribute); one > 0)
+      for (float& value : array.values) value = std::max(value / one, -1.0f);
     for (const float value : array.values)
       if (!std::isfinite(value)) extension_.fail(name + " has a value that is not finite");
     return array;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/counted.h"
+
 namespace nephroid::gltf {
 
 using nlohmann::json;
@@ -54,14 +56,22 @@ JsonValue JsonValue::get(const std::string& name) const {
 
 std::optional<JsonValue> JsonValue::find_object(const std::string& name) const {
   std::optional<JsonValue> member = find(name);
-  if (member && !member->json_->is_object()) member->fail("this is no object, expected one");
+  if (member && !member->json_->is_object())
+    member->fail(std::string("this is of type ") + member->json_->type_name() +
+                 ", expected an object");
   return member;
 }
 
 std::optional<JsonValue> JsonValue::find_array(const std::string& name) const {
   std::optional<JsonValue> member = find(name);
-  if (member && !member->json_->is_array()) member->fail("this is no array, expected one");
+  if (member && !member->json_->is_array())
+    member->fail(std::string("this is of type ") + member->json_->type_name() +
+                 ", expected an array");
   return member;
+}
+
+bool JsonValue::is_equal(const JsonValue& other) const {
+  return *json_ == *other.json_;
 }
 
 std::optional<JsonValue> JsonValue::extension(const std::string& name) const {
@@ -71,14 +81,16 @@ std::optional<JsonValue> JsonValue::extension(const std::string& name) const {
 
 std::vector<JsonValue> JsonValue::elements() const {
   std::vector<JsonValue> list;
-  if (!json_->is_array()) fail("this is no array, expected one");
+  if (!json_->is_array())
+    fail(std::string("this is of type ") + json_->type_name() + ", expected an array");
   list.reserve(json_->size());
   for (size_t i = 0; i < json_->size(); ++i) list.push_back(below((*json_)[i], std::to_string(i)));
   return list;
 }
 
 std::vector<std::string> JsonValue::member_names() const {
-  if (!json_->is_object()) fail("this is no object, expected one");
+  if (!json_->is_object())
+    fail(std::string("this is of type ") + json_->type_name() + ", expected an object");
   std::vector<std::string> names;
   for (const auto& member : json_->items()) names.push_back(member.key());
   return names;
@@ -88,7 +100,7 @@ double JsonValue::number() const {
   if (!json_->is_number())
     fail(std::string("this is of type ") + json_->type_name() + ", expected a number");
   const auto value = json_->get<double>();
-  if (!std::isfinite(value)) fail("this number is not finite");
+  if (!std::isfinite(value)) fail("this number is not finite, expected a finite one");
   return value;
 }
 
@@ -120,7 +132,9 @@ std::string JsonValue::get_text(const std::string& name, const std::string& fall
 bool JsonValue::get_flag(const std::string& name, bool fallback) const {
   const std::optional<JsonValue> member = find(name);
   if (!member) return fallback;
-  if (!member->json_->is_boolean()) member->fail("expected true or false");
+  if (!member->json_->is_boolean())
+    member->fail(std::string("this is of type ") + member->json_->type_name() +
+                 ", expected true or false");
   return member->json_->get<bool>();
 }
 
@@ -149,7 +163,7 @@ std::vector<double> JsonValue::find_numbers(const std::string& name) const {
 std::vector<double> JsonValue::find_numbers(const std::string& name, size_t count) const {
   std::vector<double> numbers = find_numbers(name);
   if (find(name) && numbers.size() != count)
-    get(name).fail("this array has " + std::to_string(numbers.size()) + " numbers, expected " +
+    get(name).fail("this array has " + counted(numbers.size(), "number") + ", expected " +
                    std::to_string(count));
   return numbers;
 }
@@ -161,7 +175,7 @@ json parse(std::string_view text, const std::string& file) {
     if (depth > kMaxDepth)
       throw SceneError({std::make_shared<const std::string>(file), 0, 0},
                        "the JSON text is nested more than " + std::to_string(kMaxDepth) +
-                           " levels deep, expected a glTF file");
+                           " levels deep, expected fewer");
     return true;
   };
   try {
@@ -173,10 +187,11 @@ json parse(std::string_view text, const std::string& file) {
     const size_t start = before.rfind('\n') + 1;  // 0 if there is none
     throw SceneError({std::make_shared<const std::string>(file), static_cast<int>(line),
                       static_cast<int>(std::max<size_t>(1, at - start))},
-                     "this is no JSON, expected the JSON text of a glTF file");
+                     "the text is not JSON from here on, expected the JSON text of a glTF file");
   } catch (const json::exception&) {
-    throw SceneError({std::make_shared<const std::string>(file), 0, 0},
-                     "a number of the JSON text is out of range");
+    throw SceneError(
+        {std::make_shared<const std::string>(file), 0, 0},
+        "a number of the JSON text is out of range, expected numbers that a double can hold");
   }
 }
 
@@ -186,7 +201,7 @@ JsonFile::JsonFile(std::string_view text, std::string file)
     : file_(std::move(file)), json_(std::make_unique<json>(parse(text, file_))) {
   if (!json_->is_object())
     throw SceneError({std::make_shared<const std::string>(file_), 1, 1},
-                     "the JSON text is no object, expected a glTF file");
+                     "the JSON text is not an object, expected a glTF file");
 }
 
 JsonFile::~JsonFile() = default;

@@ -1,9 +1,8 @@
 #include "input/gltf/lights.h"
 
-#include <algorithm>
-#include <cmath>
+#include <utility>
 
-#include "input/parameter_list.h"
+#include "input/gltf/textures.h"
 
 namespace nephroid::gltf {
 namespace {
@@ -15,9 +14,11 @@ void add_cone(const JsonValue& light, ParameterList& list) {
   const double inner = spot ? spot->get_number("innerConeAngle", 0) : 0;
   const double outer =
       spot ? spot->get_number("outerConeAngle", 0.785398163397448) : 0.785398163397448;
-  if (!(inner >= 0 && outer > inner && outer <= 1.5707964))
+  // Equal angles are a sharp edge, which exporters write although the specification forbids it.
+  if (!(inner >= 0 && outer >= inner && outer > 0 && outer <= 1.5707964))
     light.get("spot").fail("the angles of the cone are " + std::to_string(inner) + " and " +
-                           std::to_string(outer) + ", expected 0 <= inner < outer <= pi/2");
+                           std::to_string(outer) +
+                           " radians, expected 0 <= inner <= outer <= pi/2 and outer > 0");
   list.add_float("coneangle", outer * kDegrees);
   list.add_float("conedeltaangle", (outer - inner) * kDegrees);
 }
@@ -68,41 +69,56 @@ void add_punctual_lights(Document& document, const NodeGraph& nodes, SceneDescri
     const auto use = document.list("nodes")[index].extension("KHR_lights_punctual");
     if (!use) continue;
     const size_t light = use->get_index("light");
-    if (light >= lights.size()) use->get("light").fail("there is no such light");
+    if (light >= lights.size())
+      use->get("light").fail("there is no light " + std::to_string(light) +
+                             ", expected an index below " + std::to_string(lights.size()));
     if (lights[light].get_number("intensity", 1) > 0)
       add_punctual(lights[light], nodes.world(index), scene);
   }
 }
 
-/// EXT_lights_image_based as a uniform light of the mean radiance: the first coefficient of the
-/// irradiance, in real spherical harmonics, is pi / Y00 times the mean of the radiance.
-void add_image_based_light(Document& document, SceneDescription& scene) {
+/// The light of EXT_lights_image_based that the scene uses; empty if there is none.
+std::optional<JsonValue> find_image_based_light(Document& document) {
   const std::optional<JsonValue> shown = chosen_scene(document);
   const auto use = shown ? shown->extension("EXT_lights_image_based") : std::nullopt;
-  if (!use) return;
+  if (!use) return std::nullopt;
   const JsonValue root = document.root();
   const auto extension = root.extension("EXT_lights_image_based");
-  if (!extension) root.fail("\"EXT_lights_image_based\" is missing, expected its lights");
+  if (!extension)
+    root.fail(
+        "the scene has a light of EXT_lights_image_based, but the file has no list of such lights");
   const std::vector<JsonValue> lights = extension->get("lights").elements();
   const size_t index = use->get_index("light");
-  if (index >= lights.size()) use->get("light").fail("there is no such light");
-  const JsonValue& light = lights[index];
-  const std::vector<JsonValue> coefficients = light.get("irradianceCoefficients").elements();
-  if (coefficients.empty() || coefficients[0].elements().size() != 3)
-    light.get("irradianceCoefficients").fail("expected nine triples of numbers");
-  constexpr double kMeanOfFirst = 0.28209479177387814 / 3.14159265358979323846;  // Y00 / pi
-  ParameterList::Color radiance;
-  for (size_t i = 0; i < 3; ++i)
-    radiance[i] = std::max(0.0, coefficients[0].elements()[i].number()) * kMeanOfFirst *
-                  light.get_number("intensity", 1);
-  document.diagnostics().warn(
-      light.where(),
-      "EXT_lights_image_based is approximated by its mean radiance, the same from "
-      "all directions");
-  ParameterList list(light.where());
-  list.add_color("L", radiance);
+  if (index >= lights.size())
+    use->get("light").fail("there is no light " + std::to_string(index) +
+                           ", expected an index below " + std::to_string(lights.size()));
+  return lights[index];
+}
+
+/// An infinite light with the sharpest cube of the light. The blurred ones and the irradiance are
+/// for rasterizers.
+void add_image_based_light(Document& document, SceneDescription& scene) {
+  const std::optional<JsonValue> light = find_image_based_light(document);
+  const double intensity = light ? light->get_number("intensity", 1) : 0;
+  if (!(intensity > 0)) return;
+  const JsonValue cubes = light->get("specularImages");
+  if (cubes.elements().empty()) cubes.fail("this list is empty, expected the six faces of a cube");
+  const std::vector<JsonValue> faces = cubes.elements().front().elements();
+  if (faces.size() != 6)
+    cubes.fail("the cube has " + std::to_string(faces.size()) + " faces, expected 6");
+  Textures textures(document, scene);
+  std::vector<std::string> names;
+  for (const JsonValue& face : faces) names.push_back(textures.image_file(face.index(), face));
+  ParameterList list(light->where());
+  list.add_strings("faces", std::move(names));
+  if (intensity != 1) list.add_float("scale", intensity);
+  const std::string name = light->get_text("name", "");
+  if (!name.empty()) list.add_string("name", name);
+  NodePose pose;
+  pose.rotation = light->get_numbers<4>("rotation", pose.rotation);
   LightDescription description;
   static_cast<DirectiveDescription&>(description) = std::move(list).directive("infinite");
+  description.transform = {matrix_of(pose), matrix_of(pose)};
   scene.lights.push_back(std::move(description));
 }
 

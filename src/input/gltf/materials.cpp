@@ -87,6 +87,12 @@ void make_unlit(SurfaceInputs& inputs, const BaseColor& base) {
               "KHR_materials_unlit: the surface emits its base colour, and so it lights others");
   add_area_light(inputs, {base.factor[0], base.factor[1], base.factor[2]}, base.texture,
                  inputs.where());
+  if (inputs.has_vertex_colors) {
+    inputs.surface.emits_vertex_colors = true;
+    inputs.warn(inputs.where(),
+                "KHR_materials_unlit: a lamp has one colour or an image, so the colours of "
+                "vertices are replaced by their mean over each primitive");
+  }
   inputs.list.add_color("base_color", kBlack);
   inputs.list.add_float("specular_weight", 0);
 }
@@ -95,11 +101,10 @@ void add_normal_map(SurfaceInputs& inputs) {
   if (!inputs.json) return;
   const std::optional<JsonValue> info = inputs.json->find_object("normalTexture");
   if (!info) return;
-  const size_t set = info->get_index("texCoord", 0);
-  if (inputs.surface.uv_sets.place_of(set).value_or(0) != 0)
+  if (inputs.surface.uv_sets.place_of(uv_set_of(*info)).value_or(0) != 0)
     inputs.warn(info->where(),
                 "the normal map and the emission use different sets of texture "
-                "coordinates: the directions of the map are those of the emission's");
+                "coordinates: the tangents of the normal map follow the set of the emission");
   inputs.textures.add_placed_image(inputs.list, "normalmap", "normalmap.", *info,
                                    inputs.surface.uv_sets);
   const double scale = info->get_number("scale", 1);
@@ -146,10 +151,15 @@ void add_metallic_roughness(SurfaceInputs& inputs) {
   }
   inputs.add("base_color", inputs.base);
   inputs.add("base_metalness", metalness);
-  if (inputs.extension("KHR_materials_anisotropy"))
+  if (const auto anisotropy = inputs.extension("KHR_materials_anisotropy")) {
+    // A mirror is stretched, too, from the least roughness that counts.
+    constexpr double kMinRoughness = 0.01;
+    if (!roughness.texture && anisotropy->get_number("anisotropyStrength", 0) > 0)
+      roughness.factor = std::max(roughness.factor, kMinRoughness);
     add_anisotropy(inputs, roughness);
-  else
+  } else {
     inputs.add("specular_roughness", roughness);
+  }
   add_specular(inputs);
   add_transmission(inputs);
   add_diffuse_transmission(inputs);
@@ -191,18 +201,15 @@ void describe(SurfaceInputs& inputs) {
 std::optional<size_t> Materials::chosen_variant() {
   const std::string& wanted = document_.options().variant;
   if (wanted.empty()) return std::nullopt;
-  const std::optional<JsonValue> extension = document_.root().extension("KHR_materials_variants");
+  const std::vector<std::string>& variants = scene_.choices.variants;
   std::string known;
-  if (extension) {
-    const std::vector<JsonValue> variants = extension->get("variants").elements();
-    for (size_t i = 0; i < variants.size(); ++i) {
-      const std::string name = variants[i].get_text("name", "");
-      if (name == wanted) return i;
-      known += (known.empty() ? "\"" : ", \"") + name + "\"";
-    }
+  for (size_t i = 0; i < variants.size(); ++i) {
+    if (variants[i] == wanted) return i;
+    known += (known.empty() ? "\"" : ", \"") + variants[i] + "\"";
   }
-  document_.root().fail("there is no material variant \"" + wanted + "\", expected " +
-                        (known.empty() ? "none: the file has no variants" : "one of " + known));
+  document_.root().fail(
+      "there is no material variant \"" + wanted + "\"" +
+      (known.empty() ? ": the file has no variants" : ", expected one of " + known));
 }
 
 std::optional<size_t> Materials::material_index(const JsonValue& primitive) {
@@ -217,10 +224,12 @@ std::optional<size_t> Materials::material_index(const JsonValue& primitive) {
 
 std::string Materials::unique_name(const std::optional<JsonValue>& material) {
   const std::string name = material ? material->get_text("name", "material") : "default";
-  const int earlier = names_[name]++;
-  if (earlier == 0) return name;
-  const std::string numbered = name + "." + std::to_string(earlier + 1);
-  return names_.contains(numbered) ? unique_name(material) : (names_[numbered] = 1, numbered);
+  int& uses = names_[name];
+  if (++uses == 1) return name;
+  std::string numbered = name + "." + std::to_string(uses);
+  while (names_.contains(numbered)) numbered = name + "." + std::to_string(++uses);
+  names_[numbered] = 1;
+  return numbered;
 }
 
 SurfaceDescription Materials::make(const std::optional<JsonValue>& material,

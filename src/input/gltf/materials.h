@@ -19,6 +19,7 @@ struct SurfaceDescription {
   std::string interior;                              ///< medium inside; empty for none
   UvSets uv_sets;
   bool uses_vertex_colors = false;
+  bool emits_vertex_colors = false;  ///< their mean over the shape is a factor of the emission
   bool needs_tangents = false;
   double tangent_rotation = 0;  ///< angle from the tangents to the direction of anisotropy, rad
 };

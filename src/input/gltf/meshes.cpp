@@ -53,9 +53,42 @@ void add_vertices(ParameterList& list, const Vertices& vertices) {
     list.add_numbers("float", "vertexcolors", flattened(vertices.colors, 4));
 }
 
+/// The mean of the vertex colours over the area.
+ParameterList::Color mean_color(const Vertices& vertices) {
+  Vec3d sum(0.0);
+  double total = 0;
+  for (size_t t = 0; t + 2 < vertices.triangles.size(); t += 3) {
+    const uint32_t* corner = &vertices.triangles[t];
+    const auto p = [&](int k) { return to_double(vertices.positions[corner[k]]); };
+    const double area = (p(1) - p(0)).cross(p(2) - p(0)).length();
+    for (int k = 0; k < 3; ++k) {
+      const std::array<float, 4>& c = vertices.colors[corner[k]];
+      sum += Vec3d(c[0], c[1], c[2]) * area;
+    }
+    total += 3 * area;
+  }
+  if (total > 0) sum /= total;
+  return {sum.x, sum.y, sum.z};
+}
+
+/// Multiplies the colour of an area light, or the factor of its image.
+void tint(DirectiveDescription& area_light, const ParameterList::Color& color) {
+  for (Parameter& parameter : area_light.parameters.list)
+    if (parameter.name == "L" || parameter.name == "factor")
+      for (size_t i = 0; i < 3; ++i) parameter.numbers[i] *= color[i];
+}
+
 bool is_placeable(const Mat44d& m) {
   const double determinant = m.determinant();
   return std::isfinite(determinant) && determinant != 0;
+}
+
+/// Counts the memory of instances for which the file has no data.
+void check_instances(Document& document, const JsonValue& attributes, size_t count) {
+  constexpr size_t kBytesOfInstance = 512;  // with its name and its place in the file
+  for (const JsonValue& attribute : attributes.elements())
+    if (has_data(document, attribute.index(), attribute)) return;
+  document.claim_memory(count * kBytesOfInstance, attributes);
 }
 
 /// The transforms of EXT_mesh_gpu_instancing, below the node's own.
@@ -67,13 +100,16 @@ std::vector<Mat44d> instance_matrices(Document& document, const JsonValue& exten
   size_t count = 0;
   for (const auto* array : {&translations, &rotations, &scales})
     if (*array) count = std::max(count, (*array)->count);
+  check_instances(document, attributes, count);
   std::vector<Mat44d> matrices;
   for (size_t i = 0; i < count; ++i) {
     NodePose pose;
     const auto take = [&](const std::optional<NumberArray>& from, auto& to) {
       if (!from) return;
       if (from->count != count)
-        attributes.fail("TRANSLATION, ROTATION and SCALE have different numbers of elements");
+        attributes.fail(
+            "TRANSLATION, ROTATION and SCALE have different numbers of elements, expected one per "
+            "instance");
       std::copy_n((*from)[i], to.size(), to.begin());
     };
     take(translations, pose.translation);
@@ -172,16 +208,24 @@ std::optional<ShapeDescription> Meshes::make_shape(const Use& use, const JsonVal
   const bool has_colors = primitive.get("attributes").find("COLOR_0").has_value();
   const SurfaceDescription& surface = materials_.surface_of(primitive, has_colors);
   const std::unique_ptr<AttributeSource> source = open_attributes(document_, primitive);
-  Vertices vertices =
-      read_vertices(*source, primitive,
-                    {surface.uv_sets.sets(), surface.uses_vertex_colors, surface.needs_tangents},
-                    document_.diagnostics());
+  Vertices vertices = read_vertices(
+      *source, primitive,
+      {surface.uv_sets.sets(), surface.uses_vertex_colors || surface.emits_vertex_colors,
+       surface.needs_tangents},
+      document_.diagnostics());
   if (vertices.triangles.empty()) return std::nullopt;
   if (surface.needs_tangents && vertices.tangents.empty()) add_tangents(vertices);
   if (!use.weights.empty()) morph(document_, primitive, use.weights, vertices);
   if (use.skin) skin(document_, *use.skin, *source, primitive, nodes_, vertices);
-  if (surface.tangent_rotation != 0) rotate_tangents(vertices, surface.tangent_rotation);
+  if (surface.tangent_rotation != 0) {
+    if (vertices.normals.empty()) make_faceted(vertices);
+    rotate_tangents(vertices, surface.tangent_rotation);
+  }
   drop_unused(vertices);
+  std::optional<DirectiveDescription> area_light = surface.area_light;
+  if (area_light && surface.emits_vertex_colors && !vertices.colors.empty())
+    tint(*area_light, mean_color(vertices));
+  if (!surface.uses_vertex_colors) vertices.colors.clear();
 
   ParameterList list(primitive.where());
   add_vertices(list, vertices);
@@ -189,7 +233,7 @@ std::optional<ShapeDescription> Meshes::make_shape(const Use& use, const JsonVal
   ShapeDescription shape;
   static_cast<DirectiveDescription&>(shape) = std::move(list).directive("trianglemesh");
   shape.material = surface.material;
-  shape.area_light = surface.area_light;
+  shape.area_light = std::move(area_light);
   shape.inside_medium = surface.interior;
   return shape;
 }

@@ -85,6 +85,10 @@ void NodeGraph::find_worlds(Document& document, const AnimationPose& start,
     if (parents_[i] == kNone) order.push_back(i);
   for (size_t next = 0; next < order.size(); ++next) {
     const size_t node = order[next];
+    if (start.moves(node) && nodes[node].find("matrix"))
+      document.diagnostics().warn(nodes[node].where(),
+                                  "the animation of this node is ignored: the node has a matrix, "
+                                  "expected translation, rotation and scale");
     worlds_[node] = {local_transform(nodes[node], node, start),
                      local_transform(nodes[node], node, end)};
     if (const size_t parent = parents_[node]; parent != kNone) {
@@ -97,7 +101,7 @@ void NodeGraph::find_worlds(Document& document, const AnimationPose& start,
   std::vector<bool> reached(nodes.size(), false);
   for (const size_t node : order) reached[node] = true;
   const auto lost = std::find(reached.begin(), reached.end(), false) - reached.begin();
-  nodes[lost].fail("this node is below itself, expected a tree of nodes");
+  nodes[lost].fail("this node is a descendant of itself, expected a tree of nodes");
 }
 
 void NodeGraph::find_shown(Document& document) {

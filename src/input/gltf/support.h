@@ -1,4 +1,4 @@
-// The table of glTF features and extensions: which are loaded, approximated or refused. Warnings,
+// The table of glTF features and extensions: loaded, approximated, ignored or refused. Warnings,
 // errors and docs/gltf-support.md are made from it.
 #pragma once
 
@@ -11,7 +11,7 @@ namespace nephroid::gltf {
 
 enum class FeatureSupport {
   kLoaded,
-  kApproximated,  ///< with a warning where the file uses it
+  kApproximated,  ///< shown nearly right; a warning says so where it matters
   kIgnored,       ///< the picture does not need it, or a warning says what is lost
   kRefused,       ///< an error
 };

@@ -61,6 +61,29 @@ void add_tangents(Vertices& vertices) {
   }
 }
 
+void make_faceted(Vertices& vertices) {
+  const auto unshare = [&](auto& values) {
+    if (values.empty()) return;
+    std::decay_t<decltype(values)> own;
+    own.reserve(vertices.triangles.size());
+    for (const uint32_t corner : vertices.triangles) own.push_back(values[corner]);
+    values = std::move(own);
+  };
+  unshare(vertices.positions);
+  unshare(vertices.uvs[0]);
+  unshare(vertices.uvs[1]);
+  unshare(vertices.colors);
+  for (uint32_t i = 0; i < vertices.triangles.size(); ++i) vertices.triangles[i] = i;
+  vertices.normals.clear();
+  for (size_t i = 0; i < vertices.positions.size(); i += 3) {
+    const Vec3f* p = &vertices.positions[i];
+    const Vec3f n = cross(p[1] - p[0], p[2] - p[0]);
+    vertices.normals.insert(vertices.normals.end(), 3,
+                            length(n) > 0 ? normalize(n) : Vec3f(0, 0, 1));
+  }
+  add_tangents(vertices);
+}
+
 void rotate_tangents(Vertices& vertices, double angle) {
   if (vertices.normals.empty() || vertices.tangents.empty()) return;
   const auto cosine = static_cast<float>(std::cos(angle));

@@ -38,7 +38,8 @@ std::string wrap_mode(const JsonValue& sampler, const std::string& member) {
   if (code == kClamp) return "clamp";
   if (code == kMirror) return "mirror";
   if (code != kRepeat)
-    sampler.get(member).fail("unknown wrap mode, expected 33071, 33648 or 10497");
+    sampler.get(member).fail("unknown wrap mode " + std::to_string(code) +
+                             ", expected 33071 (clamp), 33648 (mirror) or 10497 (repeat)");
   return "repeat";
 }
 
@@ -56,6 +57,12 @@ std::string contents(const std::string& type, const std::string& value_type,
 }
 
 }  // namespace
+
+size_t uv_set_of(const JsonValue& info) {
+  const size_t set = info.get_index("texCoord", 0);
+  const std::optional<JsonValue> transform = info.extension("KHR_texture_transform");
+  return transform ? transform->get_index("texCoord", set) : set;
+}
 
 std::optional<int> UvSets::place_of(size_t set) {
   for (size_t i = 0; i < sets_.size(); ++i)
@@ -120,9 +127,7 @@ void Textures::add_placement(ParameterList& list, const std::string& prefix, con
   const UvTransform transform = uv_transform(info);
   if (transform != kIdentity)
     list.add_numbers("float", prefix + "uvtransform", {transform.begin(), transform.end()});
-  size_t set = info.get_index("texCoord", 0);
-  if (const auto extension = info.extension("KHR_texture_transform"))
-    set = extension->get_index("texCoord", set);
+  const size_t set = uv_set_of(info);
   const std::optional<int> place = uv_sets.place_of(set);
   if (!place)
     document_.diagnostics().warn(

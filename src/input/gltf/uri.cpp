@@ -75,7 +75,8 @@ bool is_data_uri(const std::string& uri) {
 
 std::string data_of_uri(const std::string& text, const JsonValue& uri) {
   const size_t comma = text.find(',');
-  if (comma == std::string::npos) uri.fail("this data URI has no comma, expected data behind one");
+  if (comma == std::string::npos)
+    uri.fail("this data URI has no comma, expected one before the data");
   const std::string_view type = std::string_view(text).substr(0, comma);
   const std::string_view data = std::string_view(text).substr(comma + 1);
   if (!type.ends_with(kBase64)) return percent_decoded(data);
@@ -92,7 +93,7 @@ std::string file_of_uri(const std::string& text, const JsonValue& uri) {
     uri.fail("\"" + text.substr(0, 100) +
              "\" is not in the scene's folder, expected a relative "
              "file name or a data URI: nothing is fetched from elsewhere");
-  if (text.empty()) uri.fail("this file name is empty");
+  if (text.empty()) uri.fail("this file name is empty, expected a relative one");
   return percent_decoded(text);
 }
 

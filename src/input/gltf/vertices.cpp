@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/counted.h"
 #include "input/gltf/draco.h"
 
 namespace nephroid::gltf {
@@ -73,7 +74,7 @@ std::vector<uint32_t> read_triangles(AttributeSource& source, const JsonValue& p
     corner = (*indices)[corner];
     if (corner >= vertices)
       primitive.fail("vertex index " + std::to_string(corner) + " is out of range, there are " +
-                     std::to_string(vertices) + " vertices");
+                     counted(vertices, "vertex", "vertices"));
   }
   return triangles;
 }
@@ -88,11 +89,12 @@ class VertexReader {
     std::optional<NumberArray> array = source_.find(name);
     if (!array) return std::nullopt;
     if (array->count != count_)
-      primitive_.fail(name + " has " + std::to_string(array->count) + " elements, expected " +
+      primitive_.fail(name + " has " + counted(array->count, "element") + ", expected " +
                       std::to_string(count_) + ", one per vertex");
     if (array->width < min_width || array->width > max_width)
-      primitive_.fail(name + " has " + std::to_string(array->width) +
-                      " numbers per element, expected " + std::to_string(max_width));
+      primitive_.fail(name + " has " + counted(array->width, "number") + " per element, expected " +
+                      (min_width < max_width ? std::to_string(min_width) + " to " : "") +
+                      std::to_string(max_width));
     return array;
   }
 
@@ -142,7 +144,8 @@ std::unique_ptr<AttributeSource> open_attributes(Document& document, const JsonV
 
 bool has_area(const JsonValue& primitive) {
   const size_t mode = primitive.get_index("mode", kTriangles);
-  if (mode > kFan) primitive.get("mode").fail("unknown mode, expected 0 to 6");
+  if (mode > kFan)
+    primitive.get("mode").fail("unknown mode " + std::to_string(mode) + ", expected 0 to 6");
   return mode >= kTriangles;
 }
 
@@ -154,7 +157,9 @@ Vertices read_vertices(AttributeSource& source, const JsonValue& primitive,
     diagnostics.warn(primitive.where(), "this primitive has no POSITION, it is left out");
     return vertices;
   }
-  if (positions->width != 3) primitive.fail("POSITION has no three numbers per element");
+  if (positions->width != 3)
+    primitive.fail("POSITION has " + counted(positions->width, "number") +
+                   " per element, expected 3");
   vertices.positions = to_vectors(*positions);
   vertices.triangles = read_triangles(source, primitive, positions->count);
   VertexReader reader(source, primitive, positions->count);

@@ -53,6 +53,8 @@ Vertices read_vertices(AttributeSource& source, const JsonValue& primitive,
 /// angle, as MikkTSpace does (Mikkelsen 2008). Unlike it, this splits no vertices where mirrored
 /// halves meet. Does nothing without texture coordinates or normals.
 void add_tangents(Vertices& vertices);
+/// Gives each triangle vertices of its own, with its normal and tangents along u.
+void make_faceted(Vertices& vertices);
 /// Turns tangents about the normals by an angle, counter-clockwise.
 void rotate_tangents(Vertices& vertices, double angle);
 

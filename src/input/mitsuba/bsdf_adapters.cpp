@@ -1,6 +1,7 @@
 // BSDFs that change or mix others.
 #include <map>
 
+#include "core/counted.h"
 #include "input/mitsuba/bsdf_writers.h"
 #include "input/mitsuba/texture_plugins.h"
 #include "input/mitsuba/value_text.h"
@@ -14,8 +15,8 @@ std::vector<Surface> nested_surfaces(PluginProperties& p, size_t count) {
   for (const Child* child : p.children("bsdf"))
     all.push_back(write_bsdf(p.context(), *child->object));
   if (all.size() < count)
-    throw SceneError(p.where(), p.title() + " has " + std::to_string(all.size()) +
-                                    " BSDFs in it, expected " + std::to_string(count));
+    throw SceneError(p.where(), p.title() + " has " + counted(all.size(), "BSDF") +
+                                    " in it, expected at least " + std::to_string(count));
   return all;
 }
 
@@ -102,9 +103,8 @@ Surface write_mixture(PluginProperties& p) {
       finite_numbers(p.text("weights", ""), "\"weights\"", p.where());
   std::vector<Surface> all = nested_surfaces(p, 1);
   if (weights.size() != all.size())
-    throw SceneError(p.where(), p.title() + " has " + std::to_string(weights.size()) +
-                                    " weights for " + std::to_string(all.size()) +
-                                    " BSDFs, expected one for each");
+    throw SceneError(p.where(), p.title() + " has " + counted(weights.size(), "weight") + " for " +
+                                    counted(all.size(), "BSDF") + ", expected one for each");
   Surface surface;
   surface.is_one_sided = true;
   double sum = 0;

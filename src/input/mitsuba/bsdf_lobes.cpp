@@ -11,7 +11,7 @@ Vec3d color_of(PluginProperties& p, const char* name, double fallback) {
   const auto color = read_color(p, name, ColorUse::kReflectance);
   if (!color) return Vec3d(fallback);
   if (color->rgb) return *color->rgb;
-  warn_approximated(p, std::string("\"") + name + "\" is no rgb colour, its default is used");
+  warn_approximated(p, std::string("\"") + name + "\" is not an rgb colour, its default is used");
   return Vec3d(fallback);
 }
 

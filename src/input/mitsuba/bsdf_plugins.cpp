@@ -14,7 +14,7 @@ struct BsdfRow : Plugin {
 };
 constexpr PluginSupport kLoaded = PluginSupport::kLoaded, kRefused = PluginSupport::kRefused,
                         kApproximated = PluginSupport::kApproximated;
-constexpr const char* kPolarized = "light has no polarization here";
+constexpr const char* kPolarized = "polarization is not supported";
 constexpr BsdfRow kBsdfs[] = {
     {{"bsdf", "diffuse"}, write_diffuse},
     {{"bsdf", "roughdiffuse", kApproximated,
@@ -44,12 +44,13 @@ constexpr BsdfRow kBsdfs[] = {
       "conductors and diffuse surfaces get a coat, others stay without"},
      write_rough_coating},
     {{"bsdf", "bumpmap"}, write_bump_map},
-    {{"bsdf", "normalmap", kLoaded, "of a bitmap"}, write_normal_map},
+    {{"bsdf", "normalmap", kLoaded, "its texture must be a bitmap"}, write_normal_map},
     {{"bsdf", "mask", kLoaded, "opacity of the shape; a coloured one is replaced by its mean"},
      write_mask},
     {{"bsdf", "blendbsdf"}, write_blend},
-    {{"bsdf", "mixturebsdf", kLoaded, "weights below 1 in sum absorb the rest"}, write_mixture},
-    {{"bsdf", "twosided", kLoaded, "all surfaces here are; the first BSDF counts for both sides"},
+    {{"bsdf", "mixturebsdf", kLoaded, "weights with a sum below 1 absorb the rest"}, write_mixture},
+    {{"bsdf", "twosided", kLoaded,
+      "all surfaces are two-sided here; with two BSDFs the first one is on both sides"},
      write_two_sided},
     {{"bsdf", "phong", kApproximated,
       "a mixture of diffuse and of a mirror with a ggx lobe of the same width"},

@@ -90,6 +90,7 @@ Surface write_principled(PluginProperties& p) {
     add_as(m.parameters, "coat_weight", scaled(p, *coat, 0.25));
     add_float(m.parameters, "coat_ior", 1.5);
     add_float(m.parameters, "coat_darkening", 0);
+    add_bool(m.parameters, "coat_affects_specular", false);
     add_float(m.parameters, "coat_roughness", std::sqrt(std::lerp(0.1, 0.001, gloss)));
   }
   return surface_of(p, std::move(m), !transmits);

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <utility>
 
+#include "core/counted.h"
 #include "input/file_bytes.h"
 #include "input/mitsuba/parameter_values.h"
 #include "input/mitsuba/spectrum_text.h"
@@ -102,8 +103,8 @@ ColorValue read_regular(PluginProperties& p, ColorUse use) {
   const double first = p.number("wavelength_min", 360), last = p.number("wavelength_max", 830);
   if (values.size() < 2 || !(last > first))
     throw SceneError(p.where(),
-                     "a regular spectrum needs two \"values\" or more and an interval "
-                     "of wavelengths");
+                     "a regular spectrum lacks values or wavelengths, expected two \"values\" "
+                     "or more, and \"wavelength_max\" above \"wavelength_min\"");
   std::vector<double> pairs;
   for (size_t i = 0; i < values.size(); ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(values.size() - 1);
@@ -118,9 +119,9 @@ ColorValue read_irregular(PluginProperties& p, ColorUse use) {
       finite_numbers(p.text("wavelengths", ""), "\"wavelengths\"", p.where());
   const std::vector<double> values = finite_numbers(p.text("values", ""), "\"values\"", p.where());
   if (values.size() != wavelengths.size())
-    throw SceneError(p.where(), "a spectrum has " + std::to_string(wavelengths.size()) +
-                                    " wavelengths and " + std::to_string(values.size()) +
-                                    " values, expected as many");
+    throw SceneError(p.where(), "a spectrum has " + counted(wavelengths.size(), "wavelength") +
+                                    " and " + counted(values.size(), "value") +
+                                    ", expected equally many");
   std::string text;
   for (size_t i = 0; i < values.size(); ++i)
     text += std::to_string(wavelengths[i]) + ":" + std::to_string(values[i]) + " ";
@@ -134,7 +135,8 @@ ColorValue read_irregular(PluginProperties& p, ColorUse use) {
 
 ColorValue read_black_body(PluginProperties& p, ColorUse) {
   const double kelvin = p.number("temperature", 0);
-  if (!(kelvin > 0)) throw SceneError(p.where(), "the temperature is not above 0 K");
+  if (!(kelvin > 0))
+    throw SceneError(p.where(), "the temperature is not above 0 K, expected kelvin");
   ColorValue color;
   color.parameter = numbers_parameter("blackbody", "", {kelvin}, p.where());
   color.scale = luminance_of_black_body(kelvin) * p.number("scale", 1);
@@ -205,9 +207,7 @@ std::optional<Vec3d> read_rgb(PluginProperties& properties, const std::string& n
   if (!color) return std::nullopt;
   if (!color->rgb)
     throw SceneError(color->parameter.where,
-                     "\"" + name +
-                         "\" is no rgb colour, expected one: spectra and textures are "
-                         "not supported here");
+                     "\"" + name + "\" is a spectrum or a texture, expected an rgb colour");
   return color->rgb;
 }
 

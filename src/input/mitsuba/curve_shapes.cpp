@@ -1,6 +1,7 @@
 // Shapes of strands as curves with a round cross-section.
 #include <algorithm>
 
+#include "core/counted.h"
 #include "input/file_bytes.h"
 #include "input/mitsuba/curve_file.h"
 #include "input/mitsuba/parameter_values.h"
@@ -56,8 +57,8 @@ Geometry with_radii(PluginProperties& p, size_t min_points, bool is_spline) {
   for (const Strand& strand : strands_of(p, true)) {
     if (strand.points.size() < min_points)
       throw SceneError(p.find("filename")->where,
-                       "a curve of the file has " + std::to_string(strand.points.size()) +
-                           " points, expected " + std::to_string(min_points));
+                       "a curve of the file has " + counted(strand.points.size(), "point") +
+                           ", expected at least " + std::to_string(min_points));
     const double first = strand.radii.front(), last = strand.radii.back();
     for (size_t i = 0; i < strand.radii.size(); ++i) {
       const double share = static_cast<double>(i) / static_cast<double>(strand.radii.size() - 1);

@@ -33,7 +33,7 @@ void write_spot(PluginProperties& p, LightDescription& light) {
   if (!(cutoff > 0 && cutoff <= 180 && beam >= 0 && beam <= cutoff))
     throw SceneError(p.where(),
                      "\"cutoff_angle\" and \"beam_width\" are out of range, expected "
-                     "degrees, the second not above the first");
+                     "0 to 180 degrees, \"beam_width\" not above \"cutoff_angle\"");
   add_float(light.parameters, "coneangle", cutoff);
   add_float(light.parameters, "conedeltaangle", cutoff - beam);
   if (read_color(p, "texture", ColorUse::kUnbounded))
@@ -48,7 +48,7 @@ void write_directional(PluginProperties& p, LightDescription& light) {
   const auto direction = p.point("direction");
   if (!direction) return;
   if (!(direction->length() > 0))
-    throw SceneError(p.where(), "\"direction\" is null, expected a vector");
+    throw SceneError(p.where(), "\"direction\" is the zero vector, expected a direction");
   light.transform = {};
   add_point(light.parameters, "from", Vec3d(0.0));
   add_point(light.parameters, "to", *direction);
@@ -77,22 +77,23 @@ struct EmitterRow : Plugin {
 constexpr PluginSupport kLoaded = PluginSupport::kLoaded, kRefused = PluginSupport::kRefused,
                         kApproximated = PluginSupport::kApproximated;
 constexpr EmitterRow kEmitters[] = {
-    {{"emitter", "area", kLoaded, "of shapes; a radiance of a bitmap is an image over uv"}},
+    {{"emitter", "area", kLoaded, "on shapes; a bitmap as radiance is mapped by uv"}},
     {{"emitter", "point"}, write_point},
     {{"emitter", "spot", kLoaded, "the edge is smooth, not linear; a texture is ignored"},
      write_spot},
     {{"emitter", "directional"}, write_directional},
     {{"emitter", "constant"}, write_constant},
-    {{"emitter", "envmap", kLoaded, "constant in each pixel; images are twice as wide as high"},
+    {{"emitter", "envmap", kLoaded,
+      "not interpolated between pixels; the image must be twice as wide as high"},
      write_environment},
     {{"emitter", "sky", kApproximated, kSkyNote}, write_sky},
     {{"emitter", "sun", kApproximated, kSkyNote}, write_sun},
     {{"emitter", "sunsky", kApproximated, kSkyNote}, write_sun_and_sky},
     {{"emitter", "collimated", kRefused, "its beam has no width, so no path can meet it"}},
-    {{"emitter", "projector", kRefused, "there is no such light here"}},
+    {{"emitter", "projector", kRefused, "this renderer has no such light"}},
     {{"emitter", "directionalarea", kRefused,
       "its light has one direction, so no path can meet it"}},
-    {{"emitter", "timed_sunsky", kRefused, "there is no such light here"}},
+    {{"emitter", "timed_sunsky", kRefused, "this renderer has no such light"}},
 };
 
 }  // namespace

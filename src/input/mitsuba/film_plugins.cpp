@@ -139,7 +139,8 @@ void write_sampler(PluginProperties& sensor) {
   PluginProperties p(*object, sensor.context());
   const int samples = p.integer("sample_count", 4);
   if (samples < 1)
-    throw SceneError(object->where, "\"sample_count\" is below 1, expected samples per pixel");
+    throw SceneError(object->where,
+                     "\"sample_count\" is below 1, expected at least 1 sample per pixel");
   DirectiveDescription sampler = directive("zsobol", object->where);
   add_integer(sampler.parameters, "pixelsamples", samples);
   const int seed = p.integer("seed", 0);

@@ -13,7 +13,7 @@ struct IntegratorRow : Plugin {
   const char* pbrt = nullptr;  ///< name of pbrt-v4; null if there is none
 };
 constexpr PluginSupport kLoaded = PluginSupport::kLoaded, kIgnored = PluginSupport::kIgnored;
-constexpr const char* kNoMethod = "there is no such method here";
+constexpr const char* kNoMethod = "this renderer has no such method";
 constexpr IntegratorRow kIntegrators[] = {
     {{"integrator", "path"}, "path"},
     {{"integrator", "volpath"}, "volpath"},
@@ -31,12 +31,12 @@ constexpr IntegratorRow kIntegrators[] = {
     {{"integrator", "photonmapper"}, "sppm"},
     {{"integrator", "ppm"}, "sppm"},
     {{"integrator", "sppm"}, "sppm"},
-    {{"integrator", "adaptive", kLoaded, "that in it"}},
-    {{"integrator", "irrcache", kLoaded, "that in it"}},
-    {{"integrator", "multichannel", kLoaded, "that in it"}},
-    {{"integrator", "aov", kLoaded, "that in it"}},
-    {{"integrator", "moment", kLoaded, "that in it"}},
-    {{"integrator", "stokes", kLoaded, "that in it"}},
+    {{"integrator", "adaptive", kLoaded, "the integrator inside of it"}},
+    {{"integrator", "irrcache", kLoaded, "the integrator inside of it"}},
+    {{"integrator", "multichannel", kLoaded, "the integrator inside of it"}},
+    {{"integrator", "aov", kLoaded, "the integrator inside of it"}},
+    {{"integrator", "moment", kLoaded, "the integrator inside of it"}},
+    {{"integrator", "stokes", kLoaded, "the integrator inside of it"}},
     {{"integrator", "vpl", kIgnored, kNoMethod}},
     {{"integrator", "ao", kIgnored, kNoMethod}},
     {{"integrator", "field", kIgnored, kNoMethod}},
@@ -65,11 +65,12 @@ void write_integrator(ImportContext& context, const Object& object) {
     return;
   }
   if (row == std::end(kIntegrators))
-    context.diagnostics.warn(object.where, "integrator \"" + object.type +
-                                               "\" is unknown, only \"max_depth\" is used of it");
+    context.diagnostics.warn(
+        object.where, "integrator \"" + object.type +
+                          "\" is unknown, expected one of Mitsuba; only its \"max_depth\" is used");
   else if (!row->pbrt)
-    context.diagnostics.warn(object.where,
-                             "integrator \"" + object.type + "\" is ignored: " + row->note);
+    context.diagnostics.warn(object.where, "integrator \"" + object.type + "\": " + row->note +
+                                               ", only its \"max_depth\" is used");
   const bool is_known = row != std::end(kIntegrators) && row->pbrt;
   DirectiveDescription integrator = directive(is_known ? row->pbrt : "volpath", object.where);
   add_depth(p, object.type, integrator.parameters);

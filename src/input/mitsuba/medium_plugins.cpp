@@ -14,7 +14,7 @@ namespace {
 constexpr PluginSupport kLoaded = PluginSupport::kLoaded, kRefused = PluginSupport::kRefused,
                         kApproximated = PluginSupport::kApproximated;
 
-constexpr const char* kNoSuchPhase = "there is no such phase function here";
+constexpr const char* kNoSuchPhase = "this renderer has no such phase function";
 constexpr Plugin kPhases[] = {
     {"phase", "isotropic"},
     {"phase", "hg"},
@@ -121,7 +121,7 @@ struct MediumRow : Plugin {
 };
 constexpr MediumRow kMedia[] = {
     {{"medium", "homogeneous"}, write_homogeneous},
-    {{"medium", "heterogeneous", kLoaded, "density and albedo of one grid, or constant"},
+    {{"medium", "heterogeneous", kLoaded, "density and albedo have the same grid, or are constant"},
      write_heterogeneous},
 };
 

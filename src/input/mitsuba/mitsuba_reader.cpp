@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "core/counted.h"
 #include "input/mitsuba/bsdf_plugins.h"
 #include "input/mitsuba/emitter_plugins.h"
 #include "input/mitsuba/integrator_names.h"
@@ -33,6 +34,13 @@ std::vector<std::string> names_of(const std::vector<const Object*>& sensors) {
   return names;
 }
 
+/// Lists the sensors and the parameters.
+void add_choices(const Document& document, FileChoices& choices) {
+  choices.cameras = names_of(objects_with(document, "sensor"));
+  for (const auto& entry : document.parameters)
+    choices.parameters.push_back(entry.first + "=" + entry.second);
+}
+
 /// The sensor that the user named by id or index; the first by default.
 const Object* chosen_sensor(const Document& document, const std::string& wanted) {
   const std::vector<const Object*> sensors = objects_with(document, "sensor");
@@ -45,9 +53,9 @@ const Object* chosen_sensor(const Document& document, const std::string& wanted)
   }
   std::string names;
   for (const std::string& name : names_of(sensors)) names += (names.empty() ? "" : ", ") + name;
-  throw SceneError(document.scene.where,
-                   "there is no camera \"" + wanted +
-                       "\", expected one of: " + (names.empty() ? "none" : names));
+  throw SceneError(document.scene.where, "there is no camera \"" + wanted + "\"" +
+                                             (names.empty() ? ": the scene has no sensor"
+                                                            : ", expected one of: " + names));
 }
 
 void write_object(ImportContext& context, const Object& object) {
@@ -69,10 +77,11 @@ void write_object(ImportContext& context, const Object& object) {
 void warn_of_one_sided(const ImportContext& context) {
   const int count = context.one_sided_shapes;
   if (count == 0) return;
-  context.diagnostics.warn(
-      context.first_one_sided,
-      "open shapes with one-sided BSDFs, " + std::to_string(count) +
-          " in all, this the first: in Mitsuba their backs are black, here both sides are alike");
+  context.diagnostics.warn(context.first_one_sided,
+                           counted(static_cast<uint64_t>(count), "open shape") +
+                               in_number(static_cast<uint64_t>(count), " has a one-sided BSDF",
+                                         " have one-sided BSDFs, this is the first") +
+                               ": the back is black in Mitsuba, and like the front here");
 }
 
 }  // namespace
@@ -83,6 +92,7 @@ SceneDescription read_mitsuba(const std::string& path, const ImportOptions& opti
   scene.file = shown_name(path);
   scene.files = std::make_shared<SceneFiles>(directory_of_scene(path));
   const Document document = read_document(path, *scene.files, options, diagnostics);
+  add_choices(document, scene.choices);
   ImportContext context{scene, document.file_names, diagnostics, document.version};
   for (const Child& child : document.scene.children) write_object(context, *child.object);
   if (const Object* sensor = chosen_sensor(document, options.camera))

@@ -53,7 +53,8 @@ struct Document {
   int version = 0;  ///< major version: 0 for Mitsuba 0.5 and 0.6, else 2 or 3
   Object scene;
   FileNames file_names;  ///< with the folders of the scene's <path> elements
-  std::vector<std::unique_ptr<Object>> objects;  ///< owner of all objects below the scene
+  std::map<std::string, std::string> parameters;  ///< values by name
+  std::vector<std::unique_ptr<Object>> objects;   ///< owner of all objects below the scene
 };
 
 }  // namespace nephroid::mitsuba

@@ -54,6 +54,7 @@ class ObjectReader {
     read_file(path, shown_name(path), document.scene, document, 0);
     resolve_references(document.scene, ids_);
     parameters_.report_unused(document.scene.where, diagnostics_);
+    document.parameters = parameters_.values();
     return document;
   }
 
@@ -156,7 +157,10 @@ class ObjectReader {
     const std::string path = files_.path_of(name);
     if (std::find(open_files_.begin(), open_files_.end(), path) != open_files_.end())
       throw SceneError(where, "\"" + name + "\" includes itself");
-    if (++includes_ > kMaxIncludes || open_files_.size() > kMaxNesting)
+    if (open_files_.size() > kMaxNesting)
+      throw SceneError(where, "files are included more than " + std::to_string(kMaxNesting) +
+                                  " levels deep, expected fewer");
+    if (++includes_ > kMaxIncludes)
       throw SceneError(where, "the scene includes more than " + std::to_string(kMaxIncludes) +
                                   " files, expected fewer");
     try {

@@ -8,7 +8,7 @@ void refuse_plugin(const Object& object, const Plugin* row, const std::vector<st
   std::string names;
   for (const std::string& name : known) names += (names.empty() ? "\"" : ", \"") + name + "\"";
   throw SceneError(object.where, title + " is unknown, expected " +
-                                     (names.empty() ? "none" : names) +
+                                     (names.empty() ? "none" : "one of " + names) +
                                      did_you_mean(object.type, known, object.tag));
 }
 

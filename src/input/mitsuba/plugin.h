@@ -17,7 +17,7 @@ enum class PluginSupport {
   kRefused,       ///< a located error
 };
 
-/// `note` says how, or why not; it is the text of the warning or the error.
+/// `note` says how the plug-in is loaded or why it is not: the text of the warning or the error.
 struct Plugin {
   const char* tag;
   const char* name;

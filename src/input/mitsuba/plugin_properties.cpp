@@ -5,6 +5,7 @@
 #include <cctype>
 #include <limits>
 
+#include "core/counted.h"
 #include "input/mitsuba/value_text.h"
 #include "input/number_text.h"
 #include "input/spelling.h"
@@ -102,7 +103,7 @@ int PluginProperties::integer(const std::string& name, int fallback) {
   const std::optional<long long> found = parse_integer(trimmed(value(*p, "integer")));
   if (!found || *found < std::numeric_limits<int>::min() ||
       *found > std::numeric_limits<int>::max())
-    throw SceneError(p->where, quoted(*p) + " is no 32-bit integer, expected one");
+    throw SceneError(p->where, quoted(*p) + " is not an integer, expected one that fits 32 bits");
   return static_cast<int>(*found);
 }
 
@@ -112,7 +113,7 @@ bool PluginProperties::boolean(const std::string& name, bool fallback) {
   if (p->tag != "boolean") refuse_type(*p, "boolean");
   const std::string text = snake_case(trimmed(value(*p, "boolean")));
   if (text != "true" && text != "false")
-    throw SceneError(p->where, quoted(*p) + " is neither true nor false, expected one of them");
+    throw SceneError(p->where, quoted(*p) + " is not a boolean, expected true or false");
   return text == "true";
 }
 
@@ -182,7 +183,7 @@ void PluginProperties::report_unused() const {
     if (!used_children_.contains(&c))
       context_.diagnostics.warn_of_unknown_name(c.where, c.object->tag + " \"" + c.object->type +
                                                              "\" in " + title() +
-                                                             " has no use there, it is ignored");
+                                                             " has no effect there and is ignored");
 }
 
 Vec3d vector_value(const Property& p) {
@@ -190,7 +191,7 @@ Vec3d vector_value(const Property& p) {
     const std::vector<double> v = finite_numbers(p.attribute("value"), quoted(p), p.where);
     if (v.size() == 3) return {v[0], v[1], v[2]};
     throw SceneError(p.where,
-                     quoted(p) + " has " + std::to_string(v.size()) + " numbers, expected three");
+                     quoted(p) + " has " + counted(v.size(), "number") + ", expected three");
   }
   Vec3d v(0.0);
   for (int i = 0; i < 3; ++i) {

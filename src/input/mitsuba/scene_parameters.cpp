@@ -60,6 +60,12 @@ std::string SceneParameters::replaced(const std::string& text, const SourceLocat
   return result;
 }
 
+std::map<std::string, std::string> SceneParameters::values() const {
+  std::map<std::string, std::string> values;
+  for (const std::string& name : used_) values[name] = values_.at(name);
+  return values;
+}
+
 void SceneParameters::report_unused(const SourceLocation& scene, Diagnostics& diagnostics) const {
   for (const std::string& name : defined_by_user_)
     if (!used_.contains(name))

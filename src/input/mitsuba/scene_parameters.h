@@ -20,6 +20,8 @@ class SceneParameters {
   /// The text with the values of its parameters. Throws SceneError if one is unknown, and if the
   /// values that were put into all texts so far are too long together.
   std::string replaced(const std::string& text, const SourceLocation& where) const;
+  /// The values of the parameters that the scene has.
+  std::map<std::string, std::string> values() const;
   /// Warns of values of the user that the scene does not know.
   void report_unused(const SourceLocation& scene, Diagnostics& diagnostics) const;
 

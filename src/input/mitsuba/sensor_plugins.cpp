@@ -26,7 +26,8 @@ double half_width(PluginProperties& p, double aspect) {
     std::string focal = p.text("focal_length", "50mm");
     if (focal.ends_with("mm")) focal.resize(focal.size() - 2);
     const double millimetres = finite_number(focal, "\"focal_length\"", p.where());
-    if (!(millimetres > 0)) throw SceneError(p.where(), "\"focal_length\" is not above 0");
+    if (!(millimetres > 0))
+      throw SceneError(p.where(), "\"focal_length\" is not above 0, expected millimetres");
     // Film of 36 x 24 mm.
     fov = 2 * std::atan(std::hypot(36, 24) / (2 * millimetres)) / kDegree;
     axis = "diagonal";
@@ -70,9 +71,11 @@ void write_perspective(PluginProperties& p, CameraDescription& camera, double as
 void write_thin_lens(PluginProperties& p, CameraDescription& camera, double aspect) {
   add_view(p, camera, aspect);
   const double radius = p.number("aperture_radius", 0);
-  if (!(radius >= 0)) throw SceneError(p.where(), "\"aperture_radius\" is negative");
+  if (!(radius >= 0))
+    throw SceneError(p.where(), "\"aperture_radius\" is negative, expected 0 or more");
   const double distance = p.number("focus_distance", p.number("far_clip", 1e4));
-  if (!(distance > 0)) throw SceneError(p.where(), "\"focus_distance\" is not above 0");
+  if (!(distance > 0))
+    throw SceneError(p.where(), "\"focus_distance\" is not above 0, expected a distance");
   add_float(camera.parameters, "lensradius", radius);
   add_float(camera.parameters, "focaldistance", distance);
   if (!p.text("blades", "").empty()) warn_approximated(p, "the aperture is a disc");
@@ -94,14 +97,14 @@ constexpr SensorRow kSensors[] = {
     {{"sensor", "perspective"}, write_perspective},
     {{"sensor", "thinlens"}, write_thin_lens},
     {{"sensor", "orthographic"}, write_orthographic},
-    {{"sensor", "telecentric", kRefused, "there is no such camera here"}},
-    {{"sensor", "spherical", kRefused, "there is no such camera here"}},
-    {{"sensor", "perspective_rdist", kRefused, "lenses do not distort here"}},
+    {{"sensor", "telecentric", kRefused, "this renderer has no such camera"}},
+    {{"sensor", "spherical", kRefused, "this renderer has no such camera"}},
+    {{"sensor", "perspective_rdist", kRefused, "lens distortion is not supported"}},
     {{"sensor", "irradiancemeter", kRefused, kNoPicture}},
     {{"sensor", "radiancemeter", kRefused, kNoPicture}},
     {{"sensor", "fluencemeter", kRefused, kNoPicture}},
     {{"sensor", "distant", kRefused, kNoPicture}},
-    {{"sensor", "batch", kRefused, "there is no such camera here"}},
+    {{"sensor", "batch", kRefused, "this renderer has no such camera"}},
 };
 
 Mat44d world_to_camera(const Mat44d& camera_to_world) {
@@ -115,7 +118,9 @@ void add_shutter(PluginProperties& p, CameraDescription& camera) {
   if (!(close >= open))
     throw SceneError(p.where(), "\"shutter_close\" is earlier than \"shutter_open\"");
   if (close > open && (open != 0 || close != 1))
-    warn_approximated(p, "animations run from 0 to 1 with the shutter open all the time");
+    warn_approximated(p,
+                      "keyframe times are ignored: motion goes from the first keyframe to the last "
+                      "while the shutter is open");
   add_float(camera.parameters, "shutteropen", 0);
   add_float(camera.parameters, "shutterclose", 1);
 }

@@ -64,7 +64,7 @@ std::string_view packed_mesh(std::string_view bytes, int version, int index) {
   const uint64_t end =
       static_cast<uint32_t>(index) + 1 < count ? offset_of(static_cast<size_t>(index) + 1) : table;
   if (begin >= table || end > table || end < begin || end - begin < 4)
-    throw BadFile("the place of mesh " + std::to_string(index) + " is wrong");
+    throw BadFile("the offset of mesh " + std::to_string(index) + " is out of range");
   version_at(bytes, begin);
   return bytes.substr(begin + 4, end - begin - 4);
 }
@@ -112,7 +112,8 @@ SerializedMesh read_mesh(std::string_view packed, int version) {
   constexpr uint64_t kMaxVertices = 0xffffffff, kMaxTriangles = uint64_t{1} << 34;
   if (vertices > kMaxVertices || triangles > kMaxTriangles)
     throw BadFile("a mesh claims " + std::to_string(vertices) + " vertices and " +
-                  std::to_string(triangles) + " triangles, expected at most 2^32");
+                  std::to_string(triangles) +
+                  " triangles, expected fewer than 2^32 and at most 2^34");
   SerializedMesh result;
   result.has_face_normals = (flags & kFaceNormals) != 0;
   MeshData& mesh = result.mesh;

@@ -20,7 +20,7 @@ struct ShapeRow : Plugin {
   GeometryWriter geometry = nullptr;  ///< null for shapes of shapes
 };
 constexpr PluginSupport kLoaded = PluginSupport::kLoaded, kRefused = PluginSupport::kRefused;
-constexpr const char* kNoSuchShape = "there is no such shape here";
+constexpr const char* kNoSuchShape = "this renderer has no such shape";
 constexpr ShapeRow kShapes[] = {
     {{"shape", "obj", kLoaded,
       "BSDFs may have the names of materials in the file; of 0.6, MTL materials become principled"},
@@ -30,8 +30,8 @@ constexpr ShapeRow kShapes[] = {
     {{"shape", "rectangle"}, rectangle_geometry},
     {{"shape", "cube"}, cube_geometry},
     {{"shape", "sphere"}, sphere_geometry},
-    {{"shape", "disk", kLoaded, "uv are pbrt-v4's"}, disk_geometry},
-    {{"shape", "cylinder", kLoaded, "uv are pbrt-v4's"}, cylinder_geometry},
+    {{"shape", "disk", kLoaded, "uv as in pbrt-v4"}, disk_geometry},
+    {{"shape", "cylinder", kLoaded, "uv as in pbrt-v4"}, cylinder_geometry},
     {{"shape", "hair", kLoaded, "text and BINARY_HAIR"}, hair_geometry},
     {{"shape", "bsplinecurve", kLoaded, "radii are linear along a curve"}, spline_geometry},
     {{"shape", "linearcurve", kLoaded, "radii are linear along a curve"}, polyline_geometry},

@@ -77,7 +77,7 @@ Daylight read_daylight(PluginProperties& p) {
     Vec3d local;
     d.to_world.inverse().multDirMatrix(*world, local);
     if (!(local.length() > 0))
-      throw SceneError(p.where(), "\"sun_direction\" is null, expected a vector");
+      throw SceneError(p.where(), "\"sun_direction\" is the zero vector, expected a direction");
     d.sun = position_of(local);
   } else {
     d.sun = sun_position(place_and_time(p));

@@ -5,8 +5,8 @@
 
 namespace nephroid::mitsuba {
 
-/// The local frame of pbrt-v4's latitude-longitude maps, +z up and phi from +x, in Mitsuba's: +y is
-/// up, the left edge of the image at -z and its first quarter at +x.
+/// From the frame of pbrt-v4's latitude-longitude maps (+z up, phi from +x) to Mitsuba's: +y up,
+/// the left edge of the image at -z, its first quarter at +x.
 Mat44d environment_frame();
 
 inline constexpr const char* kSkyNote =

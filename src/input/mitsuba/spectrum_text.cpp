@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/color.h"
+#include "core/counted.h"
 #include "core/spectra.h"
 #include "input/mitsuba/value_text.h"
 
@@ -25,8 +26,8 @@ Vec3d rgb_of_hexadecimal(std::string_view text, const SourceLocation& where) {
 
 void check_pairs(const std::vector<double>& pairs, const SourceLocation& where) {
   if (pairs.size() < 2 || pairs.size() % 2 != 0)
-    throw SceneError(where, "a spectrum has " + std::to_string(pairs.size()) +
-                                " numbers, expected pairs of a wavelength and a value");
+    throw SceneError(where, "a spectrum has " + counted(pairs.size(), "number") +
+                                ", expected pairs of a wavelength and a value");
   for (size_t i = 2; i < pairs.size(); i += 2)
     if (!(pairs[i] > pairs[i - 2]))
       throw SceneError(where,

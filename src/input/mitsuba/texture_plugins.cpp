@@ -151,7 +151,7 @@ void write_scale(PluginProperties& p, TextureDescription& t, TextureUse use) {
 void write_vertex_colors(PluginProperties& p, TextureDescription& t, TextureUse use) {
   t.type = "vertexcolor";
   if (p.text("name", "vertex_color") != "vertex_color")
-    warn_approximated(p, "vertices have no other attribute than \"vertex_color\", it is used");
+    warn_approximated(p, "vertices have no attribute but \"vertex_color\", which is used");
   const double scale = p.number("scale", 1);
   if (use == TextureUse::kColor)
     add_rgb(t.parameters, "factor", Vec3d(scale));
@@ -166,7 +166,7 @@ struct TextureRow : Plugin {
 constexpr PluginSupport kLoaded = PluginSupport::kLoaded, kRefused = PluginSupport::kRefused,
                         kApproximated = PluginSupport::kApproximated;
 constexpr const char* kOfMeshes = "those of .serialized and PLY meshes; others are white";
-constexpr const char* kNoSuchTexture = "there is no such texture here";
+constexpr const char* kNoSuchTexture = "this renderer has no such texture";
 constexpr TextureRow kTextures[] = {
     {{"texture", "bitmap", kLoaded, "bilinear"}, write_bitmap},
     {{"texture", "checkerboard", kLoaded, "rotations of uv are ignored with a warning"},

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/counted.h"
 #include "input/mitsuba/value_text.h"
 #include "input/transform_directives.h"
 
@@ -31,7 +32,7 @@ Vec3d three_numbers(const Element& e, const std::string& key) {
   const std::vector<double> v = finite_numbers(*e.find(key), e.title(key), e.where);
   if (v.size() == 1) return Vec3d(v[0]);
   if (v.size() != 3)
-    e.refuse(e.title(key) + " has " + std::to_string(v.size()) + " numbers, expected three");
+    e.refuse(e.title(key) + " has " + counted(v.size(), "number") + ", expected 1 or 3");
   return {v[0], v[1], v[2]};
 }
 
@@ -44,7 +45,9 @@ Vec3d vector_of(const Element& e, double fallback) {
 Mat44d rotation(const Element& e) {
   if (!e.find("angle")) e.refuse("<rotate> has no \"angle\", expected one in degrees");
   const auto matrix = rotation_matrix(e.number("angle", 0), vector_of(e, 0));
-  if (!matrix) e.refuse("the axis of <rotate> is null, expected x, y or z");
+  if (!matrix)
+    e.refuse(
+        "the axis of <rotate> is the zero vector, expected \"x\", \"y\" or \"z\" other than 0");
   return *matrix;
 }
 
@@ -54,7 +57,7 @@ Mat44d matrix(const Element& e) {
   std::vector<double> v;
   if (text) v = finite_numbers(*text, e.title("value"), e.where);
   if (v.size() != 9 && v.size() != 16)
-    e.refuse("<matrix> has " + std::to_string(v.size()) + " numbers, expected 16 or 9");
+    e.refuse("<matrix> has " + counted(v.size(), "number") + ", expected 16 or 9");
   const size_t size = v.size() == 9 ? 3 : 4;
   Mat44d m;
   for (size_t row = 0; row < size; ++row)
@@ -66,7 +69,8 @@ Mat44d matrix(const Element& e) {
 /// Local +z looks at the target, +y is up and +x to the left: the inverse of pbrt's matrix, as it
 /// has the same numbers for a frame of the other handedness.
 Mat44d look_at(const Element& e) {
-  if (!e.find("origin") || !e.find("target")) e.refuse("<lookat> needs \"origin\" and \"target\"");
+  if (!e.find("origin") || !e.find("target"))
+    e.refuse("<lookat> lacks \"origin\" or \"target\", expected both");
   const Vec3d up = e.find("up") ? three_numbers(e, "up") : Vec3d(0, 1, 0);
   const Vec3d origin = three_numbers(e, "origin"), target = three_numbers(e, "target");
   std::optional<Mat44d> world_to_local = look_at_matrix(origin, target, up);
@@ -97,7 +101,8 @@ Mat44d transform_element(const std::string& tag, const Attributes& attributes,
     e.refuse("<" + tag +
              "> in a transform is unknown, expected translate, rotate, scale, matrix "
              "or lookat");
-  if (is_singular(m)) e.refuse("<" + tag + "> has no inverse, expected a regular transform");
+  if (is_singular(m))
+    e.refuse("<" + tag + "> has no inverse, expected a transform that can be inverted");
   return m;
 }
 

@@ -4,6 +4,8 @@
 #include <cstring>
 #include <string>
 
+#include "core/counted.h"
+
 namespace nephroid::mitsuba {
 namespace {
 
@@ -22,8 +24,9 @@ Value value_at(std::string_view bytes, size_t offset) {
 }
 
 void check_header(std::string_view bytes, const SourceLocation& where) {
-  if (bytes.size() < kHeader || !bytes.starts_with("VOL"))
-    refuse(where, "it does not start with VOL, expected a .vol file");
+  if (!bytes.starts_with("VOL")) refuse(where, "it does not start with VOL, expected a .vol file");
+  if (bytes.size() < kHeader)
+    refuse(where, "it ends within its header, expected " + std::to_string(kHeader) + " bytes");
   if (bytes[3] != 3) refuse(where, "it has version " + std::to_string(bytes[3]) + ", expected 3");
 }
 
@@ -64,7 +67,7 @@ VolumeGrid read_volume_grid(std::string_view bytes, const SourceLocation& where)
     refuse(where, "it has " + std::to_string(grid.channels) + " channels, expected 1 or 3");
   count *= static_cast<uint64_t>(grid.channels);
   if (count > (bytes.size() - kHeader) / size)
-    refuse(where, "it claims " + std::to_string(count) + " values, which the file does not hold");
+    refuse(where, "it claims " + counted(count, "value") + ", more than the file holds");
   read_box(bytes, grid, where);
   grid.values.reserve(count);
   for (size_t i = 0; i < count; ++i) {

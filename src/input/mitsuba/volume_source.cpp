@@ -8,7 +8,7 @@
 namespace nephroid::mitsuba {
 namespace {
 
-constexpr const char* kNoSuchVolume = "there is no such volume here";
+constexpr const char* kNoSuchVolume = "this renderer has no such volume";
 constexpr Plugin kVolumes[] = {
     {"volume", "constvolume"},
     {"volume", "gridvolume"},

@@ -32,7 +32,7 @@ class IgnoredLines {
   std::map<std::string, Lines> lines_;
 };
 
-/// The rows of OBJ's keywords, for docs/scene-support.md.
+/// The rows of OBJ's keywords, for docs/obj-support.md.
 FormatParameters obj_keywords();
 
 }  // namespace nephroid

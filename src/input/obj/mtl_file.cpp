@@ -102,7 +102,7 @@ void MtlReader::begin_material(const std::string& name) {
 double MtlReader::read_number(std::string_view word) const {
   const std::optional<double> value = parse_number(word);
   if (!value || !std::isfinite(static_cast<float>(*value)))
-    fail("\"" + std::string(word) + "\" is not a finite number");
+    fail("\"" + std::string(word) + "\" is not a number, expected a finite one");
   return *value;
 }
 

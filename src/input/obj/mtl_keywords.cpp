@@ -36,18 +36,21 @@ constexpr const char* kNoAmbient = "ambient light stands for light that is rende
 
 constexpr Row kRows[] = {
     {{}, {"name", "newmtl", "", "", "begins a material"}},
-    color("Kd", "0.8", "base_color; of a metal without Kd, Ks is"),
-    color("Ks", "0", "its largest part is specular_weight, its hue specular_color"),
-    color("Ke", "0", "luminance of both sides, cd/m^2: an area light"),
+    color("Kd", "0.8", "base_color, 1 with map_Kd; a metal without Kd takes Ks instead"),
+    color("Ks", "0",
+          "its largest component is specular_weight, its hue specular_color; without effect on "
+          "glass and "
+          "beside Pr, Pm, map_Pr or map_Pm"),
+    color("Ke", "0", "luminance of both sides, cd/m^2, 1 with map_Ke: an area light"),
     color("Tf", "1", "transmission_color of glass"),
     number("Ns", "0",
-           "alpha = sqrt(2 / (Ns + 2)); reflections of illum 3 to 9 are sharp without Ns or from "
-           "200 on"),
+           "alpha = sqrt(2 / (Ns + 2)); with illum 3 to 9 reflections are sharp without Ns or "
+           "with Ns 200 or more"),
     number("Ni", "1.5", "specular_ior"),
     number("d", "1",
-           "with illum 4, 6, 7 or 9 and Ni other than 1, 1 - d is transmission_weight of solid "
-           "glass, all of it if d is 1 and illum 6 or 7; else opacity. --solid-glass makes glass "
-           "of every d below 1"),
+           "opacity. With illum 4, 6, 7 or 9 and Ni other than 1, the material is solid glass with "
+           "transmission_weight 1 - d. With illum 6 or 7 and d 1 the weight is 1. --solid-glass "
+           "makes glass of every d below 1"),
     number("Tr", "0", "1 - d"),
     number("illum", "2",
            "0 and 1: no highlight. 3 and 5: a metal if Kd is black. 4, 6, 7 and 9: see d"),
@@ -60,7 +63,7 @@ constexpr Row kRows[] = {
     map("map_Kd", "base_color; its factor is the largest part of Kd"),
     map("map_Ks", "specular_color"),
     map("map_Ke", "the image of the area light; Ke is its factor"),
-    map("map_d", "opacity, the grey of the image"),
+    map("map_d", "opacity, the grey of the image; without effect on glass"),
     map("map_Pr", "specular_roughness"),
     map("map_Pm", "base_metalness"),
     map("norm", "normalmap"),
@@ -75,7 +78,7 @@ constexpr Row kRows[] = {
     ignored("refl", "reflections are rendered, not looked up"),
     not_needed("Ka", kNoAmbient),
     not_needed("map_Ka", kNoAmbient),
-    not_needed("Km", "the strength of bumps in some programs, always written"),
+    not_needed("Km", "some programs write it to every file as the strength of bumps"),
     not_needed("sharpness", "reflections are rendered, not looked up"),
     not_needed("map_aat", "pictures are always antialiased"),
 };

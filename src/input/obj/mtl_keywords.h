@@ -16,7 +16,7 @@ struct MtlKeyword {
 /// The keyword, compared without case; nullptr if the format has none.
 const MtlKeyword* find_mtl_keyword(const std::string& keyword);
 
-/// The same keywords for docs/scene-support.md.
+/// The same keywords for docs/obj-support.md.
 FormatParameters mtl_keywords();
 
 }  // namespace nephroid

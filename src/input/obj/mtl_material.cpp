@@ -133,7 +133,7 @@ void Converter::add_base() {
   if (mtl_.map("map_Kd") && !is_grey)
     diagnostics_.warn(mtl_.where,
                       "Kd is a colour and map_Kd an image: the image is multiplied by "
-                      "the largest part of Kd only");
+                      "the largest component of Kd only");
   if (!add_map("base_color", "map_Kd", "spectrum", largest(kd))) list_.add_color("base_color", kd);
   if (!add_map("base_metalness", "map_Pm", "float"))
     list_.add_float("base_metalness", unit(number("Pm", 0)));
@@ -168,8 +168,8 @@ void Converter::add_transmission() {
   list_.add_color("transmission_color", largest(tf) > 0 ? tf : Color{1, 1, 1});
   if (largest(tf) == 0)
     diagnostics_.warn(mtl_.where,
-                      "glass with a black Tf is clear, expected the colour of the "
-                      "light that passes");
+                      "Tf of a glass is black, expected the colour of the light that passes; the "
+                      "glass is rendered clear");
 }
 
 void Converter::add_layers() {
@@ -185,7 +185,8 @@ void Converter::add_layers() {
 void Converter::add_relief() {
   if (const MtlMap* normals = mtl_.map("norm")) {
     list_.add_string("normalmap", normals->file);
-    if (mtl_.map("bump")) diagnostics_.warn(mtl_.where, "bump is ignored beside norm");
+    if (mtl_.map("bump"))
+      diagnostics_.warn(mtl_.where, "bump is ignored, since the material has a norm, too");
     return;
   }
   if (const MtlMap* bump = mtl_.map("bump")) add_map("displacement", "bump", "float", bump->bump);

@@ -10,6 +10,7 @@
 #include <span>
 #include <tuple>
 
+#include "core/counted.h"
 #include "input/file_bytes.h"
 #include "input/number_text.h"
 #include "input/obj/ignored_lines.h"
@@ -108,12 +109,14 @@ size_t ObjReader::read_numbers(std::string_view text, size_t least,
   size_t count = 0;
   for (std::string_view word = take_word(&text); !word.empty(); word = take_word(&text)) {
     const std::optional<double> value = parse_number(word);
-    if (!value) fail("\"" + std::string(word) + "\" is not a number");
-    if (count == Most) fail("the line has more than " + std::to_string(Most) + " numbers");
+    if (!value)
+      fail("\"" + std::string(word) + "\" is not a number, expected one as in 1.5 or 2e-3");
+    if (count == Most)
+      fail("the line has too many numbers, expected at most " + std::to_string(Most));
     (*numbers)[count++] = static_cast<float>(*value);
   }
   if (count < least)
-    fail("the line has " + std::to_string(count) + " numbers, expected at least " +
+    fail("the line has " + counted(count, "number") + ", expected at least " +
          std::to_string(least));
   return count;
 }
@@ -172,7 +175,9 @@ Corner ObjReader::read_corner(std::string_view word) const {
   size_t field = 0;
   for (size_t begin = 0; begin <= word.size(); ++field) {
     const size_t slash = std::min(word.find('/', begin), word.size());
-    if (field == 3) fail("\"" + std::string(word) + "\" has more than three indices");
+    if (field == 3)
+      fail("\"" + std::string(word) +
+           "\" has more than three indices, expected at most three as in 1/2/3");
     fields[field] = word.substr(begin, slash - begin);
     begin = slash + 1;
   }
@@ -203,7 +208,8 @@ uint32_t ObjReader::vertex_of(PartInWork& work, const Corner& corner) const {
   if (work.vertices.has_uvs()) {
     const Vec2f uv = uvs_[corner.uv];
     if (!std::isfinite(uv.x) || !std::isfinite(uv.y))
-      fail("texture coordinate " + std::to_string(corner.uv + 1) + " is not finite");
+      fail("texture coordinate " + std::to_string(corner.uv + 1) +
+           " is not finite, expected finite numbers");
     mesh.uvs.push_back(uv);
   }
   if (work.vertices.has_normals()) mesh.normals.push_back(normals_[corner.normal]);
@@ -228,16 +234,17 @@ void ObjReader::read_face(std::string_view text) {
     const Corner corner = read_corner(word);
     const Vec3f& position = positions_[corner.position];
     if (!is_finite(position))
-      fail("vertex " + std::to_string(corner.position + 1) + " is not finite");
+      fail("vertex " + std::to_string(corner.position + 1) +
+           " is not finite, expected finite numbers");
     if (corners_.size() == kMaxPolygonCorners)
-      fail("the face has more than " + std::to_string(kMaxPolygonCorners) + " corners");
+      fail("the face has too many corners, expected at most " + std::to_string(kMaxPolygonCorners));
     has_uvs = has_uvs && corner.uv != Corner::kNone;
     has_normals = has_normals && corner.normal != Corner::kNone;
     corners_.push_back(corner);
     ring_.push_back(position);
   }
   if (corners_.size() < 3)
-    fail("the face has " + std::to_string(corners_.size()) + " corners, expected at least 3");
+    fail("the face has " + counted(corners_.size(), "corner") + ", expected at least 3");
   if (is_smooth_ && !has_normals) ignored_.add("s", line_);
   add_triangles(part_for(has_uvs, has_normals));
 }

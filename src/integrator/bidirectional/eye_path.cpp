@@ -42,13 +42,7 @@ class EyeVisitor {
       const SampledSpectrum le =
           scene.lights[i]->radiance_at_infinity(walk.previous_p, walk.ray.d, walk.lambda);
       if (le.is_black()) continue;
-      double weight = 1;
-      if (weighs_hit(walk)) {
-        const SideEnd& end = sums_.end_to_light();
-        const LightStart start = light_start(settings_, i, {}, last_, -walk.ray.d,
-                                             direct_pdf_w(scene, walk, i), end.has_cuts_before());
-        weight = weight_of_hit(start, end.next({start.line.at_b, 1}));
-      }
+      const double weight = weight_of_hit(walk, i, {}, i);
       add(part, symbols_.lamp(i), walk, Technique::kMeetLight,
           walk.throughput * le * static_cast<float>(weight));
     }
@@ -60,14 +54,7 @@ class EyeVisitor {
     if (!makes(0, walk) || !light_.owns(part)) return;
     const SampledSpectrum le = light.radiance(hit.p, hit.ng, hit.uv, hit.wo, walk.lambda);
     if (le.is_black()) return;
-    double weight = 1;
-    if (weighs_hit(walk)) {
-      const SideEnd& end = sums_.end_to_light();
-      const LightStart start =
-          light_start(settings_, hit.area_light, {hit.p, hit.ng}, last_, -walk.ray.d,
-                      direct_pdf_w(settings_.scene, walk, hit), end.has_cuts_before());
-      weight = weight_of_hit(start, end.next({start.line.at_b, start.line.at_a}));
-    }
+    const double weight = weight_of_hit(walk, hit.area_light, {hit.p, hit.ng}, hit);
     add(part, symbols_.lamp(hit.area_light), walk, Technique::kMeetLight,
         walk.throughput * le * static_cast<float>(weight));
   }
@@ -145,6 +132,8 @@ class EyeVisitor {
       density = {p, p, true};
     }
     sums_.leave(density, merge, event.letter);
+    if (merge > 0 && contains(ClassMask::kRough, event.letter) && settings_.merging->merges_once())
+      may_merge_ = false;
     last_ = place_;
     first_ = first_ && !density.finite;
     eye_ = routes_.next(eye_, symbol_of(symbols_, event));
@@ -161,8 +150,14 @@ class EyeVisitor {
   bool makes(int light_vertices, const Walk& walk) const {
     return !settings_.merges_only && settings_.technique.makes(light_vertices, walk.events + 2);
   }
-  bool weighs_hit(const Walk& walk) const {
-    return settings_.technique.weighted && walk.events > 0;
+  /// [W7] `hit` as in direct_pdf_w(), the others as in light_start().
+  double weight_of_hit(const Walk& walk, int light, const Place& from, const auto& hit) const {
+    if (!settings_.technique.weighted || walk.events == 0) return 1;
+    const SideEnd& end = sums_.end_to_light();
+    const LightStart start =
+        light_start(settings_, light, from, last_, -walk.ray.d,
+                    direct_pdf_w(settings_.scene, walk, hit), end.has_cuts_before());
+    return nephroid::weight_of_hit(start, end.next({start.line.at_b, start.line.at_a}));
   }
   void add(Part part, Lamp lamp, const Walk& walk, Technique technique,
            const SampledSpectrum& value, int left_of_light = kAllWavelengths) {
@@ -186,8 +181,8 @@ class EyeVisitor {
 
   /// m of [W8], for an event of a class that merges.
   double merge_weight() const {
-    return settings_.merging && surface_->merges ? settings_.merging->weight_at(place_.p, first_)
-                                                 : 0;
+    const bool merges = settings_.merging && may_merge_ && surface_->merges;
+    return merges ? settings_.merging->weight_at(place_.p, first_) : 0;
   }
 
   /// Evaluates the events at an eye vertex towards the unit direction `w` of a light or a light
@@ -332,7 +327,8 @@ class EyeVisitor {
   EyeState eye_;
   Place last_, place_;
   Vec3f entry_wo_{0, 0, 1};
-  bool first_ = true;  ///< only delta lobes so far
+  bool first_ = true;      ///< only delta lobes so far
+  bool may_merge_ = true;  ///< false behind the vertex of a path that merges once
   EyePartialWeights sums_;
   const WalkVertex* surface_ = nullptr;
   const MediumVertex* medium_ = nullptr;
@@ -346,7 +342,7 @@ void EyeVisitor::merge(const Walk& walk, const WalkVertex& v, ClassMask among,
   const PairMerging& merging = *settings_.merging;
   const ClassMask classes = among & ClassMask::kRough;
   const float radius = merging.radius_at(place_.p);
-  if (!v.merges || classes == ClassMask::kNone || !(radius > 0.0f)) return;
+  if (!may_merge_ || !v.merges || classes == ClassMask::kNone || !(radius > 0.0f)) return;
   const MergePoint at{v, eye_, classes, walk.events + 1, walk.throughput, walk.lambda.left()};
   // Made at the first photon: most vertices have none.
   std::optional<PhotonMerger> merger;

@@ -68,7 +68,10 @@ class LightVisitor : public LightWalkVisitor {
     if (surface_) {
       end_.event = density_of_walk(walk, *surface_, event, TransportMode::kImportance,
                                    surface_->useful_classes(), sums_.before > 0);
-      end_.merge = merge_weight(*surface_, event.letter, false);
+      // A photon's own vertex is the one where a path that merges once does.
+      end_.merge = settings_.merging && settings_.merging->merges_once()
+                       ? 0
+                       : merge_weight(*surface_, event.letter, false);
     } else {
       const double p = medium_->phase.eval(medium_->wo, walk.ray.d);
       end_.event = {p, p, true};

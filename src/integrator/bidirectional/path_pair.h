@@ -39,6 +39,9 @@ struct PairMerging {
   CasterRule rule;             ///< rule that says which photons are merged
 
   bool merges_all_light() const { return rule.merges_all_light() && photons > 0; }
+  /// True if a path merges only at the first vertex that lets it. There all photons find the rest
+  /// of the path. At a later one the eye's part counts once, so it would have next to no weight.
+  bool merges_once() const { return rule.holds_in_front() && !connects; }
   float radius_at(const Vec3f& p) const { return radius_pixels * footprint.width(length(p - eye)); }
   /// m of [W8]. `first`: only delta lobes lie between the eye and `p`, so each photon is a sample
   /// of its own. Else all photons share the way there, and it counts once.

@@ -11,18 +11,18 @@ void LearnedMix::add_to(EstimatorStatistics& s) const {
   const PairTechniques& techniques = plan_.techniques;
   if (techniques.casters == ClassMask::kNone)
     s.notes.push_back(
-        "photons render all light, not only caustics: trial passes had less error with it");
+        "photons render all light, not only caustics: trial passes had less error that way");
   if (techniques.casters == ClassMask::kAll)
     s.notes.push_back(
-        "photons render all indirect light, not only caustics: trial passes had less error with "
-        "it");
+        "photons render all indirect light, not only caustics: trial passes had less error that "
+        "way");
   if (techniques.roulette_threshold == kPatientRouletteThreshold)
     s.notes.push_back(
         "Russian roulette begins at 1/8 of a camera path's initial throughput: trial passes had "
-        "less error with it");
+        "less error that way");
   if (techniques.casters == (ClassMask::kSpecular | ClassMask::kGlossy))
     s.notes.push_back(
-        "photons render caustics of glossy materials, too: trial passes had less error with it");
+        "photons render caustics of glossy materials, too: trial passes had less error that way");
   plan_.photons.add_notes(s);
   if (plan_.directions.guides())
     s.notes.push_back(fmt::format("camera paths guided at {:.3g} % of the rough surfaces they met",

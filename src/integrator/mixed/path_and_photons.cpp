@@ -117,8 +117,10 @@ PathAndPhotons::Choice PathAndPhotons::best_of(
           best.candidate.balance.variance_of_camera +
               best.candidate.trial.min_variance_of_unseen(all.candidate.trial))
     keep_better(best, try_photons(with_glossy, photons_of(with_glossy)), kRequiredGain);
-  // Merging all light would blur the fine shadows of hair.
-  if (!has_events(owned_, EventClass::kHair)) {
+  if (has_events(owned_, EventClass::kHair)) {
+    // Merging all light would blur the fine shadows of hair.
+    best.photons.rays += all.photons.rays;
+  } else {
     guided.rays = 0;
     if (inverse_efficiency(all.candidate) < kWorthATrial * inverse_efficiency(best.candidate))
       keep_better(all, try_photons(ClassMask::kNone, std::move(guided)), kRequiredGain);

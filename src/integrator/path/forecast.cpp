@@ -116,9 +116,9 @@ void LearnedForecast::add_to(EstimatorStatistics& s) const {
   s.hold(map().bytes(), 0);
   const std::string of_all = " of " + counted(made_.photon_paths, "photon path") + " ";
   const std::string records = counted(map().size(), "record") + of_all;
-  const std::string as_path = " caustics, which are traced as by path";
+  const std::string as_path = " caustics; they are path traced, as by the integrator path";
   if (map().foretells())
-    s.notes.push_back(records + "forecast caustics; passes add none");
+    s.notes.push_back(records + "forecast caustics; they are made once, not in every pass");
   else if (map().size() > 0)
     s.notes.push_back(records + in_number(map().size(), "is", "are") + " too few to forecast" +
                       as_path);

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "core/counted.h"
 #include "core/errors.h"
 #include "core/parallel.h"
 #include "film/part_sums.h"
@@ -237,8 +238,8 @@ void LightTracing::render_pass(const PassKey& key, const Learned*, const Scene& 
 EstimatorStatistics LightTracing::statistics() const {
   EstimatorStatistics s = statistics_;
   if (s.splats == 0 && s.light_paths > 0)
-    s.notes.push_back("none of " + std::to_string(s.light_paths) +
-                      " light paths could be connected to the camera on one of its routes");
+    s.notes.push_back("none of " + counted(s.light_paths, "light path") +
+                      " could be connected to the camera along a route of light tracing");
   return s;
 }
 

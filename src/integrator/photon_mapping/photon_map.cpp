@@ -46,9 +46,10 @@ void LearnedMap::add_to(EstimatorStatistics& s) const {
   s.photons_stored += map_.grid.size();
   s.hold(map_.grid.bytes(), 0);
   if (map_.grid.size() > 0)
-    s.notes.push_back("the photon map of " + routes_ + " has " +
-                      counted(map_.grid.size(), "photon") + " of " + counted(map_.paths, "path") +
-                      "; passes add none (-D map-photons=N, -D memory-photons=N)");
+    s.notes.push_back(
+        "the photon map of " + routes_ + " has " + counted(map_.grid.size(), "photon") + " of " +
+        counted(map_.paths, "path") +
+        "; it is made once, not in every pass (-D map-photons=N, -D memory-photons=N)");
 }
 
 constexpr uint64_t kStream = 0x706d6170;  // "pmap"

@@ -30,9 +30,9 @@ std::string note_on_glossy(const OwnedRoutes& owned, const std::string& where) {
   const SceneSymbols& symbols = *owned.symbols;
   const bool one = symbols.glossy_materials().size() == 1;
   return fmt::format(
-      "no material of the scene has a specular lobe; with an alpha above -D "
-      "specular-alpha={:.3g}..{:.3g}, {} glossy: {}. {} caustics are {}",
-      symbols.specular_band().low, symbols.specular_band().high, one ? "one is" : "these are",
+      "no material of the scene has a specular lobe. An alpha above -D "
+      "specular-alpha={:.3g}..{:.3g} makes it glossy: {}. {} caustics are {}",
+      symbols.specular_band().low, symbols.specular_band().high,
       list_of_glossy(symbols.glossy_materials()), one ? "Its" : "Their", where);
 }
 
@@ -90,7 +90,7 @@ void explain_darkness(const OwnedRoutes& owned, uint64_t found, EstimatorStatist
                       " stored, none near a point that the camera sees");
   else if (deposits_at_once(owned))
     s.notes.push_back("none of " + counted(s.photon_paths, "photon path") +
-                      " met a surface at which its route merges");
+                      " met a surface where its route merges photons");
   else
     explain_lost_paths(owned, s);
 }

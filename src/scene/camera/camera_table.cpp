@@ -56,7 +56,8 @@ CameraPlacement placement_of(const SceneDescription& scene) {
   if (!scene.camera) return placement;
   const TransformDescription& world_to_camera = scene.camera->world_to_camera;
   if (!is_invertible(world_to_camera.start) || !is_invertible(world_to_camera.end))
-    throw SceneError(scene.camera->where, "the camera's transform cannot be inverted");
+    throw SceneError(scene.camera->where,
+                     "the camera's transform cannot be inverted, expected one that can");
   placement.camera_to_world =
       MotionTransform(world_to_camera.start.inverse(), world_to_camera.end.inverse());
   const ParameterSet& p = scene.camera->parameters;

@@ -110,7 +110,7 @@ class ProjectiveCamera final : public Camera {
 void set_screen(ProjectiveCamera::Settings& s, const ParameterSet& p) {
   const float aspect =
       p.get_float("frameaspectratio", static_cast<float>(s.width) / static_cast<float>(s.height));
-  if (!(aspect > 0)) throw SceneError(p.where, "frameaspectratio must be positive");
+  if (!(aspect > 0)) throw SceneError(p.where, "\"frameaspectratio\" must be positive");
   const float x = aspect > 1 ? aspect : 1, y = aspect > 1 ? 1 : 1 / aspect;
   s.screen[0] = -x;
   s.screen[1] = x;
@@ -136,7 +136,7 @@ ProjectiveCamera::Settings common_settings(const CameraContext& c) {
   s.focal_distance = c.parameters.get_float("focaldistance", 1e6f);
   if (s.lens_radius < 0 || !(s.focal_distance > 0))
     throw SceneError(c.parameters.where,
-                     "\"lensradius\" must not be negative, \"focaldistance\" positive");
+                     "\"lensradius\" must not be negative, and \"focaldistance\" must be positive");
   return s;
 }
 

@@ -104,7 +104,7 @@ std::vector<double> read_numbers(SceneFiles& files, const std::string& path,
       const std::optional<double> number = parse_number(word);
       if (!number || !std::isfinite(*number))
         throw SceneError(at, "\"" + word +
-                                 "\" is no number, expected four of them per surface: "
+                                 "\" is not a number, expected four numbers per surface: "
                                  "radius, thickness, index of refraction, diameter");
       numbers.push_back(*number);
     } else if (text[i] == '\n') {

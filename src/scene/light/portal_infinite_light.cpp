@@ -243,7 +243,7 @@ Portal read_portal(const ParameterSet& p) {
   const bool square = std::abs(e01.dot(e12)) <= kTolerance && std::abs(e03.dot(e01)) <= kTolerance;
   if (!parallel || !square)
     throw SceneError(where,
-                     "the \"portal\" of an infinite light is no rectangle, expected its four "
+                     "the \"portal\" of an infinite light is not a rectangle, expected its four "
                      "corners in order");
   return Portal({c[0], c[1], c[2], c[3]});
 }

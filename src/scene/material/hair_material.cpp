@@ -40,9 +40,10 @@ class HairMaterial final : public Material {
     for (const char* name : {"beta_m", "beta_n"}) {
       const Parameter* number = d.parameters.find(name, {"float"});
       if (number && !(number->numbers[0] >= 0.0 && number->numbers[0] <= 1.0))
-        throw SceneError(number->where, "\"" + std::string(name) +
-                                            "\" of hair is a roughness, expected a number from 0 "
-                                            "to 1");
+        throw SceneError(number->where,
+                         "\"" + std::string(name) +
+                             "\" of hair is out of range, expected a roughness from 0 "
+                             "to 1");
     }
     read_color(d, c);
   }

@@ -56,7 +56,7 @@ HenyeyGreenstein read_phase(const ParameterSet& parameters) {
   const float g = parameters.get_float("g", 0.0f);
   if (!(std::abs(g) <= 1.0f))
     throw SceneError(parameters.find("g")->where,
-                     "\"g\" is the mean cosine of scattering, expected a number from -1 to 1");
+                     "\"g\" is out of range, expected the mean cosine of scattering, from -1 to 1");
   return HenyeyGreenstein(g);
 }
 

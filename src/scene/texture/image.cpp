@@ -228,14 +228,14 @@ float Image::nearest_channel(const Vec2f& st, WrapModes wrap, int channel) const
   int x = floor_to_int(st.x * static_cast<float>(width_));
   int y = floor_to_int(st.y * static_cast<float>(height_));
   if (!wrap_pixel(x, y, width_, height_, wrap)) return 0.0f;
-  if (channel == 3 && channels_ < 4) return 1.0f;
-  return value(x, y, channels_ < 3 ? 0 : channel);
+  if (channel == 3 && !has_alpha()) return 1.0f;
+  return value(x, y, stored_channel(channel));
 }
 
 float Image::bilinear_channel(const Vec2f& st, WrapModes wrap, int channel) const {
   Footprint f = bilinear_footprint(st, width_, height_, wrap);
-  if (channel == 3 && channels_ < 4) return f.weight[0] + f.weight[1] + f.weight[2] + f.weight[3];
-  const int stored = channels_ < 3 ? 0 : channel;
+  if (channel == 3 && !has_alpha()) return f.weight[0] + f.weight[1] + f.weight[2] + f.weight[3];
+  const int stored = stored_channel(channel);
   return with_values(pixels_, f, width_, channels_,
                      [&](const auto& values) { return weighted(values, f, channels_, stored); });
 }

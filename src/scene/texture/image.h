@@ -1,4 +1,4 @@
-// An image for lookups: linear values of 1, 3 or 4 channels, stored as bytes with a table, as half
+// An image for lookups: linear values of 1 to 4 channels, stored as bytes with a table, as half
 // or float numbers, or fetched on demand. Row 0 is the top row. It must not know files or scenes.
 #pragma once
 
@@ -50,8 +50,8 @@ class Image {
   using Pixels = std::variant<Bytes, Halves, Floats, Source>;
 
   /// `pixels` holds, or fetches, width * height * channels values, row by row from the top,
-  /// channels interleaved. `channels` is 1 (grey), 3 (rgb) or 4 (rgb and an alpha that is not 1
-  /// everywhere).
+  /// channels interleaved. `channels` is 1 (grey), 2 (grey and alpha), 3 (rgb) or 4 (rgb and
+  /// alpha); alpha is not 1 everywhere.
   Image(int width, int height, int channels, Pixels pixels, const RgbColorSpace& space);
 
   int width() const { return width_; }
@@ -85,6 +85,13 @@ class Image {
   float bilinear_channel(const Vec2f& st, WrapModes wrap, int channel) const;
 
  private:
+  bool has_alpha() const { return channels_ % 2 == 0; }
+  /// Where the channel of a lookup is stored; alpha only if there is one.
+  int stored_channel(int channel) const {
+    if (channel == 3) return channels_ - 1;
+    return channels_ < 3 ? 0 : channel;
+  }
+
   int width_, height_, channels_;
   Pixels pixels_;
   const RgbColorSpace* space_;

@@ -37,16 +37,17 @@ std::vector<T> read_values(OIIO::ImageInput& input, const std::vector<int>& want
   return kept;
 }
 
-/// Drops a fourth channel that is `one` everywhere. Returns the number of channels left.
+/// Drops an alpha that is `one` everywhere. Returns the number of channels left.
 template <class T>
 int drop_opaque_alpha(std::vector<T>& values, size_t channels, T one) {
-  if (channels != 4) return static_cast<int>(channels);
-  for (size_t i = 3; i < values.size(); i += 4)
-    if (values[i] != one) return 4;
-  for (size_t p = 0; p < values.size() / 4; ++p)
-    std::copy_n(values.begin() + p * 4, 3, values.begin() + p * 3);
-  values.resize(values.size() / 4 * 3);
-  return 3;
+  if (channels % 2 != 0) return static_cast<int>(channels);
+  const size_t colors = channels - 1, pixels = values.size() / channels;
+  for (size_t p = 0; p < pixels; ++p)
+    if (values[p * channels + colors] != one) return static_cast<int>(channels);
+  for (size_t p = 0; p < pixels; ++p)
+    std::copy_n(values.begin() + p * channels, colors, values.begin() + p * colors);
+  values.resize(pixels * colors);
+  return static_cast<int>(colors);
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ using ImagePtr = std::shared_ptr<const Image>;
 /// Reads EXR, PNG, JPEG, WebP, HDR, PFM, TGA, TIFF and BMP files, detected by their first bytes
 /// (TGA by name); in memory PNG, JPEG, WebP and PFM only. Integers have the `encoding` (sRGB if
 /// empty), floating-point values are linear. Bytes stay bytes, 16-bit values become half. Two
-/// channels make a grey image; more than two must include R, G and B. Throws SceneError at
+/// channels are grey and alpha; more than two must include R, G and B. Throws SceneError at
 /// `wanted_by` (IoError if no scene names the file) if the file cannot be read or has another
 /// format.
 ImagePtr read_image(const FileSource& source, std::optional<ColorEncoding> encoding,

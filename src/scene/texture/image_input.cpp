@@ -93,16 +93,17 @@ bool is_possible(uint64_t claimed, const FileSource& source) {
                       : is_possible_size(claimed, source.path);
 }
 
-/// Indices of the file's channels that the image keeps: grey, rgb or rgba.
+/// Indices of the file's channels that the image keeps: grey, rgb, and alpha after them.
 std::vector<int> wanted_channels(const OIIO::ImageSpec& spec, const std::string& path,
                                  const SourceLocation& wanted_by) {
+  const int a = spec.channelindex("A");
+  if (spec.nchannels == 2 && a >= 0) return {1 - a, a};
   if (spec.nchannels <= 2) return {0};
   const int r = spec.channelindex("R"), g = spec.channelindex("G"), b = spec.channelindex("B");
   if (r < 0 || g < 0 || b < 0)
     throw SceneError(
         wanted_by,
         "image \"" + path + "\" has no channels named R, G and B, expected these or a grey image");
-  const int a = spec.channelindex("A");
   if (a < 0) return {r, g, b};
   return {r, g, b, a};
 }

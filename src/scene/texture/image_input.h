@@ -26,7 +26,7 @@ struct ImageInputFile {
   std::unique_ptr<OIIO::Filesystem::IOMemReader> memory_reader;  ///< null for files on disk
   std::unique_ptr<OIIO::ImageInput> input;                       ///< reads from memory_reader
   OIIO::ImageSpec spec;
-  std::vector<int> channels;  ///< indices of grey, rgb or rgba among the file's channels
+  std::vector<int> channels;  ///< indices of grey or rgb, and alpha, in the file
   StoredType type = StoredType::kFloat;
   ColorEncoding encoding;  ///< encoding of integer values
   const RgbColorSpace* space = nullptr;

@@ -1,5 +1,7 @@
 #include "scene/texture/image_placement.h"
 
+#include "core/counted.h"
+
 namespace nephroid {
 namespace {
 
@@ -25,7 +27,7 @@ ImagePlacement::ImagePlacement(const ParameterSet& parameters, const std::string
   if (map.size() != map_.size())
     throw SceneError(
         parameters.find(prefix + "uvtransform")->where,
-        "\"" + prefix + "uvtransform\" has " + std::to_string(map.size()) + " numbers, expected 6");
+        "\"" + prefix + "uvtransform\" has " + counted(map.size(), "number") + ", expected 6");
   std::copy(map.begin(), map.end(), map_.begin());
 }
 

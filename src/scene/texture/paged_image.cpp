@@ -175,10 +175,10 @@ uint64_t TileCache::memory() const {
 std::shared_ptr<const Image> TileCache::open(ImageInputFile& file, const std::string& path,
                                              const SourceLocation& wanted_by) {
   if (run_of(file.channels).length() > kMaxChannels) return nullptr;
-  if (file.channels.size() == 4) {
+  if (file.channels.size() % 2 == 0) {
     const Decoder decode(file.type, file.encoding);
     const bool opaque = with_type(file.type, [&](auto example) {
-      return is_opaque<decltype(example)>(file, file.channels[3], decode, path, wanted_by);
+      return is_opaque<decltype(example)>(file, file.channels.back(), decode, path, wanted_by);
     });
     if (opaque) file.channels.pop_back();
   }

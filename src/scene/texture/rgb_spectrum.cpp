@@ -8,7 +8,8 @@ Rgb read_factor(const ParameterSet& parameters) {
   const Parameter* p = parameters.find("factor");
   if (!p) return {1, 1, 1};
   if (p->type != "rgb" || p->numbers.size() != 3)
-    throw SceneError(p->where, "\"factor\" is no rgb colour, expected \"rgb factor\" [ r g b ]");
+    throw SceneError(p->where,
+                     "\"factor\" is not an rgb colour, expected \"rgb factor\" [ r g b ]");
   const Rgb c{static_cast<float>(p->numbers[0]), static_cast<float>(p->numbers[1]),
               static_cast<float>(p->numbers[2])};
   for (int i = 0; i < 3; ++i)

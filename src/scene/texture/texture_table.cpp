@@ -117,7 +117,7 @@ constexpr Row kTable[] = {
 
 [[noreturn]] void wrong_values(const TextureDescription& description, const char* values) {
   throw SceneError(description.where, "texture class \"" + description.type + "\" has " + values +
-                                          " values only, expected another class");
+                                          " values only, expected that type, or another class");
 }
 
 }  // namespace

@@ -46,8 +46,8 @@ StateFile open_state(const std::string& path, const std::string& purpose) {
 PassRanges passes_of(const StateFile& file, const std::string& purpose) {
   const auto passes = PassRanges::parse(value_of(file.metadata(), kPassesKey));
   if (!passes || (passes->empty() && !open_pass_of(file)))
-    throw IoError(
-        fmt::format("{}: cannot {}: it does not say which passes it has", file.path(), purpose));
+    throw IoError(fmt::format("{}: cannot {}: the passes that it holds are not recorded",
+                              file.path(), purpose));
   return *passes;
 }
 

@@ -68,8 +68,8 @@ Merged merge_pictures(const std::vector<std::string>& inputs, const std::string&
                          *open));
     if (value_of(file.metadata(), kOutliersKey) == "reject")
       refuse(
-          "with --outliers reject passes depend on each other; --resume continues the render "
-          "instead");
+          "its passes depend on each other, since it was rendered with --outliers reject; "
+          "--resume continues the render instead");
     if (!passes_add_up(file))
       refuse("passes of this integrator cannot be added up; --resume continues the render instead");
     if (merged.passes.overlap(passes))

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "input/option_values.h"
+#include "input/spelling.h"
 #include "integrator/presets/estimator_table.h"
 
 namespace nephroid {
@@ -152,8 +153,12 @@ std::pair<std::string, std::string> parse_setting(const std::string& text) {
                                  text, all_keys()));
   std::string key = text.substr(0, equals), value = text.substr(equals + 1);
   const IntegratorSetting* setting = find_setting(key);
-  if (setting == nullptr)
-    throw UsageError(fmt::format("-D: unknown key '{}', expected one of: {}", key, all_keys()));
+  if (setting == nullptr) {
+    std::vector<std::string> known;
+    for (const IntegratorSetting& row : integrator_settings()) known.emplace_back(row.key);
+    throw UsageError(fmt::format("-D: unknown key '{}', expected one of: {}{}", key, all_keys(),
+                                 did_you_mean(key, known)));
+  }
   RenderSettings scratch;
   setting->apply(scratch, value);
   return {std::move(key), std::move(value)};

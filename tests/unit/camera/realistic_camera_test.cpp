@@ -287,7 +287,7 @@ TEST(RealisticCamera, LensTablesAreReadWithLineAndColumn) {
   };
   EXPECT_EQ(
       error("# head\n10 1 1.5 5\n10 x1 1 5\n").substr(path.size()),
-      ":3:4: \"x1\" is no number, expected four of them per surface: radius, thickness, index "
+      ":3:4: \"x1\" is not a number, expected four numbers per surface: radius, thickness, index "
       "of refraction, diameter");
   EXPECT_EQ(error("10 1 1.5").substr(path.size()),
             ": the lens table has 3 numbers, expected four per surface");

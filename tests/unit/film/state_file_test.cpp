@@ -114,7 +114,7 @@ TEST(StateFile, SaysWhatDoesNotFit) {
   state = saved.state();
   state.add("more", std::span(saved.few));
   write_state(path, some_head(), state);
-  EXPECT_NE(error_of_load(path, other).find("'more' does not belong to this render"),
+  EXPECT_NE(error_of_load(path, other).find("'more' is stored, which this render does not have"),
             std::string::npos);
 }
 
@@ -138,8 +138,9 @@ TEST(StateFile, WhatIsOptionalMayBeMissingUnknownOrUnreadable) {
   write_state(path, some_head(), with_optional(saved.state(), false));
   EXPECT_TRUE(StateFile(path).load(loaded.state()).empty()) << "unknown";
   EXPECT_EQ(StateFile(path).load(with_optional(loaded.state(), true)),
-            std::vector<std::string>{path + ": cannot read its state: 'optional.x': it makes no "
-                                            "sense"});
+            std::vector<std::string>{
+                path + ": cannot read this state of a render: 'optional.x': it makes no "
+                       "sense"});
 }
 
 // Any flipped bit or early end is reported, or leaves the loaded data intact.

@@ -89,7 +89,7 @@ TEST(Directives, ArgumentsAreChecked) {
   EXPECT_EQ(parse_error("WorldBegin Texture \"a\" \"colour\" \"imagemap\""),
             "t.pbrt:1:24: unknown texture type \"colour\", expected \"float\" or \"spectrum\"");
   EXPECT_EQ(parse_error("ColorSpace \"sRGBB\""),
-            "t.pbrt:1:12: unknown color space \"sRGBB\", expected \"srgb\", \"rec2020\", "
+            "t.pbrt:1:12: unknown colour space \"sRGBB\", expected \"srgb\", \"rec2020\", "
             "\"aces2065-1\" or \"dci-p3\"");
   EXPECT_EQ(parse_error("Attribute \"camera\" \"float fov\" 3"),
             "t.pbrt:1:11: unknown attribute target \"camera\", expected \"shape\", \"light\", "
@@ -132,7 +132,8 @@ TEST(Directives, UnknownOptionsAreWarnedOfAndSkipped) {
     ASSERT_EQ(diagnostics.warnings().size(), 1u);
     EXPECT_EQ(diagnostics.warnings()[0].message, "unknown option \"sed\", did you mean \"seed\"?");
   }
-  EXPECT_EQ(parse_error("Option \"sed\" [ 1"), "t.pbrt:1:8: this option has no values");
+  EXPECT_EQ(parse_error("Option \"sed\" [ 1"),
+            "t.pbrt:1:8: this option has no value, expected one");
 }
 
 TEST(Directives, Materials) {
@@ -161,7 +162,8 @@ TEST(Directives, MaterialErrors) {
   EXPECT_EQ(parse_error("WorldBegin\n" + make + " " + make),
             "t.pbrt:3:2: named material \"m\" is already defined at t.pbrt:2:1");
   EXPECT_EQ(parse_error("WorldBegin\nMakeNamedMaterial \"m\" \"float eta\" 1"),
-            "t.pbrt:2:1: named material \"m\" has no parameter \"string type\"");
+            "t.pbrt:2:1: named material \"m\" has no parameter \"string type\", expected one as in "
+            "\"string type\" \"diffuse\"");
   EXPECT_EQ(parse_error("WorldBegin\nMakeNamedMaterial \"m\" \"float type\" 1"),
             "t.pbrt:2:23: parameter \"type\" has type \"float\", expected \"string\"");
   EXPECT_EQ(parse_error("WorldBegin\nMakeNamedMaterial \"\""),
@@ -210,7 +212,8 @@ TEST(Directives, Media) {
   const std::string make = "MakeNamedMedium \"m\" \"string type\" \"homogeneous\"\n";
   EXPECT_EQ(parse_error(make + make), "t.pbrt:2:1: medium \"m\" is already defined at t.pbrt:1:1");
   EXPECT_EQ(parse_error("MakeNamedMedium \"m\""),
-            "t.pbrt:1:1: medium \"m\" has no parameter \"string type\"");
+            "t.pbrt:1:1: medium \"m\" has no parameter \"string type\", expected one as in "
+            "\"string type\" \"diffuse\"");
   EXPECT_EQ(parse_error("WorldBegin MediumInterface \"a\" \"\"\nShape \"sphere\""),
             "t.pbrt:2:1: medium \"a\" is not defined");
   EXPECT_EQ(parse_error("WorldBegin MediumInterface \"\" \"a\"\nLightSource \"point\""),

@@ -124,6 +124,26 @@ TEST(GltfAccessor, RefusesWhatReachesBeyondItsView) {
   EXPECT_NE(error_of(R"("componentType":5126,"type":"SCALAR","count":100000000)"), "");
 }
 
+TEST(GltfAccessor, PackedBytesHoldSoManyElements) {
+  const auto is_lie = [](const std::string& mode, size_t count) {
+    GltfText file;
+    file.add_view(std::string(100, '\0'),
+                  fmt::format(R"(,"extensions":{{"EXT_meshopt_compression":{{"buffer":0,)"
+                              R"("byteLength":100,"byteStride":4,"count":{},"mode":"{}"}}}})",
+                              count, mode));
+    file.add_raw_accessor(R"("bufferView":0,"componentType":5125,"type":"SCALAR","count":1)");
+    const std::string error = AccessorFile(file).error();
+    EXPECT_NE(error, "");
+    return error.find("claims more elements") != std::string::npos;
+  };
+  EXPECT_FALSE(is_lie("ATTRIBUTES", 1600));
+  EXPECT_TRUE(is_lie("ATTRIBUTES", 1601));
+  EXPECT_FALSE(is_lie("TRIANGLES", 300));
+  EXPECT_TRUE(is_lie("TRIANGLES", 303));
+  EXPECT_FALSE(is_lie("INDICES", 100));
+  EXPECT_TRUE(is_lie("INDICES", 101));
+}
+
 TEST(GltfAccessor, RefusesUnknownTypes) {
   EXPECT_EQ(error_of(R"("bufferView":0,"componentType":5124,"type":"SCALAR","count":1)"),
             "#/accessors/0/componentType: unknown component type 5124, expected 5120 to 5123, 5125 "
@@ -131,14 +151,16 @@ TEST(GltfAccessor, RefusesUnknownTypes) {
   EXPECT_EQ(error_of(R"("bufferView":0,"componentType":5126,"type":"VEC5","count":1)"),
             "#/accessors/0/type: unknown type \"VEC5\", expected SCALAR, VEC2 to VEC4 or MAT2 to "
             "MAT4");
-  EXPECT_EQ(error_of(R"("bufferView":7,"componentType":5126,"type":"VEC3","count":1)"),
-            "#/accessors/0: index 7 into \"bufferViews\" is out of range, there are 1");
+  EXPECT_EQ(
+      error_of(R"("bufferView":7,"componentType":5126,"type":"VEC3","count":1)"),
+      "#/accessors/0: index 7 into \"bufferViews\" is out of range, expected an index below 1");
 }
 
 TEST(GltfAccessor, RefusesNumbersThatAreNotFinite) {
   GltfText file;
   file.floats({1, std::nanf(""), 3}, "SCALAR", 1);
-  EXPECT_EQ(AccessorFile(file).error(), "#/accessors/0: element 1 is not finite");
+  EXPECT_EQ(AccessorFile(file).error(),
+            "#/accessors/0: element 1 is not finite, expected finite numbers");
 }
 
 TEST(GltfAccessor, RefusesSparseIndicesOutOfRange) {

@@ -49,6 +49,34 @@ TEST(GltfAnimation, TheShutterGivesTwoTransforms) {
   EXPECT_NEAR(moving.end[3][0], 1.5, 1e-6);
 }
 
+TEST(GltfAnimation, AreListedWithTheirTimes) {
+  MovingTriangle m;
+  m.times = {0.5, 2};
+  const std::string text = m.text();
+  const auto read_at = [&](double time) {
+    ImportOptions options;
+    options.time = time;
+    return read_gltf_text(text, options);
+  };
+  const ReadScene within = read_at(2);
+  EXPECT_EQ(within.scene.choices.animations, std::vector<std::string>{"animation 0, 0.5 to 2 s"});
+  EXPECT_TRUE(within.warnings.empty());
+  const ReadScene after = read_at(3);
+  ASSERT_EQ(after.warnings.size(), 1u);
+  EXPECT_EQ(after.warnings[0].message,
+            "--at: 3 s is after the end of all animations (animation 0, 0.5 to 2 s), their last "
+            "moments are shown");
+}
+
+TEST(GltfAnimation, NodesWithAMatrixStandStillWithAWarning) {
+  MovingTriangle m;
+  m.t.node_members = R"(,"matrix":[1,0,0,0, 0,1,0,0, 0,0,1,0, 5,6,7,1])";
+  const ReadScene read = read_gltf_text(m.text());
+  EXPECT_EQ(read.scene.shapes.at(0).transform.start[3][0], 5);
+  ASSERT_EQ(read.warnings.size(), 1u);
+  EXPECT_NE(read.warnings[0].message.find("the node has a matrix"), std::string::npos);
+}
+
 TEST(GltfAnimation, Steps) {
   MovingTriangle m;
   m.mode = "STEP";
@@ -84,8 +112,8 @@ TEST(GltfAnimation, DamagedTracksAreErrors) {
   MovingTriangle backwards;
   backwards.times = {2, 0};
   EXPECT_EQ(gltf_error(backwards.text()),
-            "scene.gltf#/animations/0/samplers/0: the times of keyframes are not in increasing "
-            "order");
+            "scene.gltf#/animations/0/samplers/0: the times of keyframes are missing or not in "
+            "increasing order, expected increasing ones");
   MovingTriangle few;
   few.outputs = {1, 2, 3};
   EXPECT_NE(gltf_error(few.text()), "");
@@ -106,6 +134,18 @@ TEST(GltfMorph, TargetsAreAddedByTheirWeights) {
   const ReadScene read = read_gltf_text(t.file.text(t.members()));
   EXPECT_EQ(numbers_of(read.scene.shapes.at(0).parameters, "P"),
             (std::vector<double>{2, 0, 0.5, 1, 0, 0.5, 0, 1, 0.5}));
+}
+
+TEST(GltfMorph, TargetsOfOtherAttributesAreWarnings) {
+  TriangleScene t;
+  const size_t zeros = t.file.vec3({0, 0, 0, 0, 0, 0, 0, 0, 0});
+  t.primitive_members =
+      fmt::format(R"(,"targets":[{{"POSITION":{0},"TEXCOORD_1":0,"COLOR_0":{0}}}])", zeros);
+  t.node_members = R"(,"weights":[0.5])";
+  const std::vector<Warning> warnings = read_gltf_text(t.file.text(t.members())).warnings;
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_NE(warnings[0].message.find("COLOR_0"), std::string::npos);
+  EXPECT_NE(warnings[1].message.find("TEXCOORD_1"), std::string::npos);
 }
 
 TEST(GltfMorph, AnimatedWeightsWin) {
@@ -142,6 +182,26 @@ TEST(GltfSkin, JointsMoveVerticesAndTheNodeDoesNot) {
   ASSERT_EQ(p.size(), 9u);
   for (size_t i = 0; i < 9; ++i) EXPECT_NEAR(p[i], expected[i], 1e-6) << i;
   EXPECT_EQ(read.scene.shapes[0].transform.start, Mat44d());
+}
+
+TEST(GltfSkin, MirroredJointsKeepTheOutsideOutside) {
+  TriangleScene t;
+  const size_t joints = t.file.add_accessor<uint8_t>(std::vector<uint8_t>(12, 0), "VEC4", 5121, 4);
+  const size_t weights = t.file.floats({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4", 4);
+  const size_t normals = t.file.vec3({0, 0, 1, 0.6f, 0, 0.8f, 0, 0, 1});
+  t.attributes =
+      fmt::format(R"(,"JOINTS_0":{},"WEIGHTS_0":{},"NORMAL":{})", joints, weights, normals);
+  t.node_members = R"(,"skin":0},{"scale":[-2,1,1])";
+  const ReadScene read = read_gltf_text(t.file.text(t.members(R"(,"skins":[{"joints":[1]}])")));
+  const ParameterSet& p = read.scene.shapes.at(0).parameters;
+  EXPECT_EQ(numbers_of(p, "P")[3], -2);
+  EXPECT_EQ(numbers_of(p, "indices"), (std::vector<double>{0, 2, 1}));
+  const std::vector<double> n = numbers_of(p, "N");
+  ASSERT_EQ(n.size(), 9u);
+  EXPECT_NEAR(n[2], 1, 1e-6);
+  // The inverse transposed: (0.6 / -2, 0, 0.8) with the length 1.
+  EXPECT_NEAR(n[3] / n[5], -0.3 / 0.8, 1e-6);
+  EXPECT_GT(n[5], 0);
 }
 
 TEST(GltfSkin, DamagedSkinsAreErrors) {

@@ -193,6 +193,21 @@ TEST(GltfMaterials, VolumesAreMediaInside) {
   EXPECT_EQ(number_of(parameters_of(read), "transmission_dispersion_abbe_number"), 40);
 }
 
+TEST(GltfMaterials, VolumesOfDiffuseTransmissionAreMediaInside) {
+  const std::string volume =
+      R"("KHR_materials_volume":{"thicknessFactor":1,"attenuationDistance":2,"attenuationColor":[0.5,1,1]})";
+  const auto read = [&](const std::string& transmission) {
+    return read_material(
+        R"("extensions":{"KHR_materials_diffuse_transmission":{"diffuseTransmissionFactor":0.5},)" +
+        transmission + volume + "}");
+  };
+  const ReadScene diffuse = read("");
+  ASSERT_EQ(diffuse.scene.media.size(), 1u);
+  EXPECT_EQ(diffuse.scene.shapes.at(0).inside_medium, diffuse.scene.media[0].name);
+  const ReadScene both = read(R"("KHR_materials_transmission":{"transmissionFactor":0.2},)");
+  EXPECT_EQ(both.scene.media.size(), 1u);
+}
+
 TEST(GltfMaterials, LayersOfExtensions) {
   const ReadScene read = read_material(
       R"("extensions":{"KHR_materials_clearcoat":{"clearcoatFactor":0.8,"clearcoatRoughnessFactor":0.1},)"
@@ -205,6 +220,8 @@ TEST(GltfMaterials, LayersOfExtensions) {
   EXPECT_EQ(number_of(p, "coat_roughness"), 0.1);
   EXPECT_EQ(number_of(p, "coat_ior"), 1.5);
   EXPECT_EQ(number_of(p, "coat_darkening"), 0);
+  ASSERT_TRUE(p.find("coat_affects_specular"));
+  EXPECT_FALSE(flag_of(p, "coat_affects_specular"));
   EXPECT_EQ(number_of(p, "fuzz_weight"), 0.5);
   EXPECT_EQ(numbers_of(p, "fuzz_color"), (std::vector<double>{1, 0.5, 0}));
   EXPECT_EQ(number_of(p, "fuzz_roughness"), 0.7);
@@ -224,6 +241,67 @@ TEST(GltfMaterials, AnisotropyKeepsTheAlphasOfBothAxes) {
   const double along = r * r * std::sqrt(2 / (1 + (1 - s) * (1 - s)));
   EXPECT_NEAR(along, 0.16 + (1 - 0.16) * 0.49, 1e-9);
   EXPECT_NEAR((1 - s) * along, 0.16, 1e-9);
+}
+
+TEST(GltfMaterials, AnisotropyTexturesMixBothEnds) {
+  const ReadScene read = read_material(
+      R"("pbrMetallicRoughness":{"roughnessFactor":0.4},"extensions":{"KHR_materials_anisotropy":)"
+      R"({"anisotropyStrength":0.7,"anisotropyTexture":{"index":0}}})");
+  const ReadScene whole = read_material(
+      R"("pbrMetallicRoughness":{"roughnessFactor":0.4},"extensions":{"KHR_materials_anisotropy":{"anisotropyStrength":0.7}})");
+  for (const char* name : {"specular_roughness", "specular_roughness_anisotropy"}) {
+    const ParameterSet& mix = texture_of(read, parameters_of(read), name).parameters;
+    EXPECT_EQ(number_of(mix, "tex2"), number_of(parameters_of(whole), name)) << name;
+    const ParameterSet& amount = texture_of(read, mix, "amount").parameters;
+    EXPECT_EQ(string_of(amount, "channel"), "b");
+  }
+  const ParameterSet& p = parameters_of(read);
+  EXPECT_NEAR(number_of(texture_of(read, p, "specular_roughness").parameters, "tex1"), 0.4, 1e-9);
+  ASSERT_EQ(read.warnings.size(), 1u);
+  EXPECT_NE(read.warnings[0].message.find("its directions do not"), std::string::npos);
+}
+
+TEST(GltfMaterials, ACoatWithAnotherNormalMapIsAWarning) {
+  const auto warnings = [](const std::string& below, const std::string& coat) {
+    GltfText file;
+    const size_t normals = file.vec3({0, 0, 1, 0, 0, 1, 0, 0, 1});
+    return read_material(below + R"("extensions":{"KHR_materials_clearcoat":{"clearcoatFactor":1)" +
+                             coat + "}}",
+                         {}, fmt::format(R"(,"NORMAL":{})", normals), file)
+        .warnings.size();
+  };
+  const std::string below = R"("normalTexture":{"index":0,"scale":0.5},)";
+  EXPECT_EQ(warnings("", ""), 0u);
+  EXPECT_EQ(warnings(below, R"(,"clearcoatNormalTexture":{"index":0,"scale":0.5})"), 0u);
+  EXPECT_EQ(warnings(below, R"(,"clearcoatNormalTexture":{"index":0})"), 1u);
+  EXPECT_EQ(warnings(below, ""), 1u);
+  EXPECT_EQ(warnings("", R"(,"clearcoatNormalTexture":{"index":0})"), 1u);
+}
+
+TEST(GltfMaterials, AnisotropyStretchesMirrors) {
+  const ReadScene read = read_material(
+      R"("pbrMetallicRoughness":{"roughnessFactor":0},"extensions":{"KHR_materials_anisotropy":{"anisotropyStrength":0.5}})");
+  const double r = number_of(parameters_of(read), "specular_roughness");
+  const double s = number_of(parameters_of(read), "specular_roughness_anisotropy");
+  const double along = r * r * std::sqrt(2 / (1 + (1 - s) * (1 - s)));
+  EXPECT_NEAR(along, 0.25, 1e-3);
+  EXPECT_NEAR((1 - s) * along, 0, 1e-3);
+}
+
+TEST(GltfMaterials, AnisotropyTurnsOnFlatMeshes) {
+  const std::string material =
+      R"("extensions":{"KHR_materials_anisotropy":{"anisotropyStrength":0.5,"anisotropyRotation":0.4}})";
+  GltfText file;
+  const size_t normals = file.vec3({0, 0, 1, 0, 0, 1, 0, 0, 1});
+  const ReadScene flat = read_material(material);
+  const ReadScene smooth =
+      read_material(material, {}, fmt::format(R"(,"NORMAL":{})", normals), file);
+  const std::vector<double> expected = numbers_of(smooth.scene.shapes.at(0).parameters, "S");
+  const std::vector<double> tangents = numbers_of(flat.scene.shapes.at(0).parameters, "S");
+  ASSERT_EQ(tangents.size(), 9u);
+  ASSERT_EQ(expected.size(), 9u);
+  EXPECT_NEAR(std::abs(tangents[1]), std::sin(0.4), 1e-6);
+  for (size_t i = 0; i < 9; ++i) EXPECT_NEAR(tangents[i], expected[i], 1e-6);
 }
 
 TEST(GltfMaterials, SpecularGlossinessIsADielectricOfThatReflectance) {
@@ -266,6 +344,8 @@ TEST(GltfMaterials, VariantsReplaceMaterials) {
     options.variant = variant;
     return read_gltf_text(text, options).scene.materials.at(0).name;
   };
+  EXPECT_EQ(read_gltf_text(text).scene.choices.variants,
+            (std::vector<std::string>{"day", "night"}));
   EXPECT_EQ(material_for(""), "a");
   EXPECT_EQ(material_for("day"), "a");
   EXPECT_EQ(material_for("night"), "b");
@@ -290,6 +370,15 @@ TEST(GltfMaterials, NormalMapsGetTangents) {
   EXPECT_NEAR(tangents[1], 0, 1e-6);
 }
 
+TEST(GltfMaterials, NormalMapsTakeTheSetOfTheirTransform) {
+  const ReadScene read = read_material(
+      R"("normalTexture":{"index":0,"extensions":{"KHR_texture_transform":{"texCoord":1}}})");
+  const ParameterSet& shape = read.scene.shapes.at(0).parameters;
+  EXPECT_EQ(numbers_of(shape, "uv"), (std::vector<double>{0, 1, 0.5, 1, 0, 0.5}));
+  EXPECT_TRUE(numbers_of(shape, "uv2").empty());
+  EXPECT_TRUE(numbers_of(parameters_of(read), "normalmap.uvset").empty());
+}
+
 TEST(GltfMaterials, UnlitSurfacesEmitTheirColor) {
   const ReadScene read = read_material(
       R"("pbrMetallicRoughness":{"baseColorFactor":[0.1,0.2,0.3,1]},"extensions":{"KHR_materials_unlit":{}})");
@@ -297,6 +386,25 @@ TEST(GltfMaterials, UnlitSurfacesEmitTheirColor) {
   EXPECT_EQ(numbers_of(read.scene.shapes[0].area_light->parameters, "L"),
             (std::vector<double>{0.1, 0.2, 0.3}));
   EXPECT_EQ(numbers_of(parameters_of(read), "base_color"), (std::vector<double>{0, 0, 0}));
+}
+
+TEST(GltfMaterials, UnlitSurfacesEmitTheMeanOfVertexColors) {
+  GltfText file;
+  const size_t colors = file.vec3({1, 0, 0, 0, 1, 0, 0.5f, 0.5f, 0});
+  const auto read = [&](const std::string& texture) {
+    return read_material(R"("pbrMetallicRoughness":{"baseColorFactor":[1,0.5,1,1])" + texture +
+                             R"(},"extensions":{"KHR_materials_unlit":{}})",
+                         {}, fmt::format(R"(,"COLOR_0":{})", colors), file);
+  };
+  const ReadScene plain = read("");
+  const ShapeDescription& shape = plain.scene.shapes.at(0);
+  EXPECT_EQ(numbers_of(shape.area_light.value().parameters, "L"),
+            (std::vector<double>{0.5, 0.25, 0}));
+  EXPECT_TRUE(numbers_of(shape.parameters, "vertexcolors").empty());
+  EXPECT_EQ(plain.warnings.size(), 2u);
+  const ReadScene image = read(R"(,"baseColorTexture":{"index":0})");
+  EXPECT_EQ(numbers_of(image.scene.shapes.at(0).area_light.value().parameters, "factor"),
+            (std::vector<double>{0.5, 0.25, 0}));
 }
 
 TEST(GltfMaterials, CompressedTexturesAreRefusedWithoutAFallback) {
@@ -320,6 +428,25 @@ TEST(GltfMaterials, NamesAreUnique) {
       read_gltf_text(t.file.text(t.members(R"(,"materials":[{"name":"m"},{"name":"m"}])")));
   ASSERT_EQ(read.scene.materials.size(), 2u);
   EXPECT_NE(read.scene.materials[0].name, read.scene.materials[1].name);
+}
+
+TEST(GltfMaterials, ManyTakenNamesDoNotOverflowTheStack) {
+  // "a.2" to "a.100001", and then "a" twice.
+  constexpr int kTaken = 100000;
+  std::string materials, primitives;
+  auto add = [&, count = 0](const std::string& name) mutable {
+    const std::string comma = count > 0 ? "," : "";
+    materials += fmt::format(R"({}{{"name":"{}"}})", comma, name);
+    primitives += fmt::format(R"({}{{"attributes":{{}},"material":{}}})", comma, count++);
+  };
+  for (int i = 0; i < kTaken; ++i) add(fmt::format("a.{}", i + 2));
+  add("a");
+  add("a");
+  const ReadScene read = read_gltf_text(
+      R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"meshes":[{"primitives":[)" + primitives +
+      R"(]}],"materials":[)" + materials + "]}");
+  ASSERT_EQ(read.scene.materials.size(), static_cast<size_t>(kTaken) + 2);
+  EXPECT_EQ(read.scene.materials.back().name, fmt::format("a.{}", kTaken + 2));
 }
 
 }  // namespace

@@ -61,12 +61,13 @@ TEST(GltfNodes, OnlyTheChosenSceneIsShown) {
 TEST(GltfNodes, CyclesAreErrors) {
   const std::string head = R"({"asset":{"version":"2.0"},"nodes":)";
   EXPECT_EQ(gltf_error(head + R"([{"children":[0]}]})"),
-            "scene.gltf#/nodes/0: this node is below itself, expected a tree of nodes");
+            "scene.gltf#/nodes/0: this node is a descendant of itself, expected a tree of nodes");
   EXPECT_NE(gltf_error(head + R"([{},{"children":[2]},{"children":[1]}]})"), "");
   EXPECT_EQ(gltf_error(head + R"([{"children":[2]},{"children":[2]},{}]})"),
             "scene.gltf#/nodes/1/children/0: node 2 is a child of two nodes, expected one parent");
   EXPECT_EQ(gltf_error(head + R"([{"children":[9]}]})"),
-            "scene.gltf#/nodes/0/children/0: index 9 into \"nodes\" is out of range, there are 1");
+            "scene.gltf#/nodes/0/children/0: index 9 into \"nodes\" is out of range, expected an "
+            "index below 1");
 }
 
 TEST(GltfNodes, ALongChainDoesNotOverflowTheStack) {
@@ -162,6 +163,39 @@ TEST(GltfMeshes, GpuInstancesHaveTransformsOfTheirOwn) {
   expect_near(moved(scene.instances[1].transform.start, {0.1, 0, 0}), {21, 0, 0});
 }
 
+TEST(GltfMeshes, InstancesWithoutDataAreFew) {
+  const auto error_of = [](size_t count) {
+    TriangleScene t;
+    const size_t zeros = t.file.add_raw_accessor(
+        fmt::format(R"("componentType":5126,"type":"VEC3","count":{})", count));
+    t.node_members = fmt::format(
+        R"(,"extensions":{{"EXT_mesh_gpu_instancing":{{"attributes":{{"TRANSLATION":{}}}}}}})",
+        zeros);
+    return gltf_error(t.file.text(t.members()));
+  };
+  EXPECT_EQ(error_of(1000), "");
+  EXPECT_EQ(error_of(2000000),
+            "scene.gltf#/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes: the file claims "
+            "more than 512 MB by elements without data, expected data for so many");
+}
+
+TEST(GltfMeshes, ElementsWithoutDataAreCountedOverTheFile) {
+  // Each primitive takes 48 MB.
+  const auto error_of = [](int primitives) {
+    TriangleScene t;
+    const size_t zeros =
+        t.file.add_raw_accessor(R"("componentType":5126,"type":"VEC3","count":2000000)");
+    const size_t corner = t.file.add_accessor<uint8_t>({0, 1, 2}, "SCALAR", 5121, 1);
+    std::string more;
+    for (int i = 0; i < primitives; ++i)
+      more += fmt::format(R"(}},{{"attributes":{{"POSITION":{}}},"indices":{})", zeros, corner);
+    t.primitive_members = more;
+    return gltf_error(t.file.text(t.members()));
+  };
+  EXPECT_EQ(error_of(2), "");
+  EXPECT_NE(error_of(12).find("by elements without data"), std::string::npos);
+}
+
 TEST(GltfCameras, PerspectiveLooksAlongMinusZ) {
   const std::string file =
       R"({"asset":{"version":"2.0"},"cameras":[{"type":"perspective","perspective":)"
@@ -234,22 +268,56 @@ TEST(GltfLights, PunctualLightsKeepTheirUnits) {
   EXPECT_EQ(numbers_of(scene.lights[2].parameters, "L"), (std::vector<double>{3, 3, 3}));
 }
 
-TEST(GltfLights, ImageBasedLightsAreTheirMean) {
-  // A uniform environment of radiance 2 has the irradiance 2 pi, whose coefficient is over Y00.
-  const double first = 2 * 3.14159265358979 / 0.28209479177387814;
-  const std::string file = fmt::format(
-      R"({{"asset":{{"version":"2.0"}},"scenes":[{{"extensions":{{"EXT_lights_image_based":{{"light":0}}}}}}],)"
-      R"("extensions":{{"EXT_lights_image_based":{{"lights":[{{"intensity":0.5,"irradianceCoefficients":)"
-      R"([[{0},{0},0],[0,0,0]]}}]}}}}}})",
-      first);
-  const ReadScene read = read_gltf_text(file);
+TEST(GltfLights, SpotsMayHaveASharpEdge) {
+  const auto file = [](double inner, double outer) {
+    return fmt::format(
+        R"({{"asset":{{"version":"2.0"}},"extensions":{{"KHR_lights_punctual":{{"lights":[)"
+        R"({{"type":"spot","spot":{{"innerConeAngle":{},"outerConeAngle":{}}}}}]}}}},"nodes":[)"
+        R"({{"extensions":{{"KHR_lights_punctual":{{"light":0}}}}}}]}})",
+        inner, outer);
+  };
+  const SceneDescription scene = read_gltf_text(file(0.5, 0.5)).scene;
+  EXPECT_EQ(number_of(scene.lights.at(0).parameters, "conedeltaangle"), 0);
+  EXPECT_NE(gltf_error(file(0.6, 0.5)), "");
+  EXPECT_NE(gltf_error(file(0, 0)), "");
+}
+
+/// A file whose scene has an image-based light with these members.
+std::string image_based(const std::string& members) {
+  return R"({"asset":{"version":"2.0"},"images":[{"uri":"0.png"},{"uri":"1.png"},{"uri":"2.png"},)"
+         R"({"uri":"3.png"},{"uri":"4.png"},{"uri":"5.png"}],"scenes":[{"extensions":)"
+         R"({"EXT_lights_image_based":{"light":0}}}],"extensions":{"EXT_lights_image_based":)"
+         R"({"lights":[{)" +
+         members + "}]}}}";
+}
+
+TEST(GltfLights, ImageBasedLightsAreTheirSharpestCube) {
+  // Turned by a quarter about y.
+  const ReadScene read = read_gltf_text(image_based(
+      R"("name":"sky","intensity":0.5,"rotation":[0,0.70710678118654752,0,0.70710678118654752],)"
+      R"("specularImages":[[0,1,2,3,4,5],[5,5,5,5,5,5]])"));
   ASSERT_EQ(read.scene.lights.size(), 1u);
-  EXPECT_EQ(read.scene.lights[0].type, "infinite");
-  const std::vector<double> radiance = numbers_of(read.scene.lights[0].parameters, "L");
-  ASSERT_EQ(radiance.size(), 3u);
-  EXPECT_NEAR(radiance[0], 1, 1e-9);
-  EXPECT_EQ(radiance[2], 0);
-  EXPECT_EQ(read.warnings.size(), 1u);
+  const LightDescription& light = read.scene.lights[0];
+  EXPECT_EQ(light.type, "infinite");
+  const Parameter* faces = light.parameters.find("faces");
+  ASSERT_TRUE(faces);
+  EXPECT_EQ(faces->strings,
+            (std::vector<std::string>{"0.png", "1.png", "2.png", "3.png", "4.png", "5.png"}));
+  EXPECT_EQ(number_of(light.parameters, "scale"), 0.5);
+  EXPECT_EQ(string_of(light.parameters, "name"), "sky");
+  expect_near(moved(light.transform.start, {0, 0, 1}), {1, 0, 0});
+  EXPECT_TRUE(read.warnings.empty());
+  EXPECT_TRUE(read_gltf_text(image_based(R"("intensity":0)")).scene.lights.empty());
+}
+
+TEST(GltfLights, DamagedImageBasedLightsAreErrors) {
+  const std::string at = "scene.gltf#/extensions/EXT_lights_image_based/lights/0";
+  EXPECT_EQ(gltf_error(image_based("")), at + ": \"specularImages\" is missing");
+  EXPECT_EQ(gltf_error(image_based(R"("specularImages":[])")),
+            at + "/specularImages: this list is empty, expected the six faces of a cube");
+  EXPECT_EQ(gltf_error(image_based(R"("specularImages":[[0,1,2]])")),
+            at + "/specularImages: the cube has 3 faces, expected 6");
+  EXPECT_NE(gltf_error(image_based(R"("specularImages":[[0,1,2,3,4,6]])")), "");
 }
 
 }  // namespace

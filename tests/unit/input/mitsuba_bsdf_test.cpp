@@ -302,6 +302,15 @@ TEST(MitsubaBsdf, PrincipledKeepsItsNames) {
   EXPECT_NEAR(number(set, "specular_ior"), 1.5, 1e-9);
 }
 
+TEST(MitsubaBsdf, AClearcoatLeavesTheReflectanceBelowIt) {
+  const ParameterSet set =
+      material_of(bsdf("principled", value("float", "clearcoat", "0.8")), "3.0.0").parameters;
+  EXPECT_EQ(number(set, "coat_weight"), 0.2);
+  EXPECT_EQ(number(set, "coat_darkening"), 0);
+  ASSERT_TRUE(has_parameter(set, "coat_affects_specular"));
+  EXPECT_EQ(parameter(set, "coat_affects_specular").bools, std::vector<bool>{false});
+}
+
 TEST(MitsubaBsdf, PrincipledHasTheFacetsOfBurley) {
   // Burley 2012: alphas roughness^2 / a and roughness^2 a with a = sqrt(1 - 0.9 anisotropic).
   const ParameterSet set = material_of(bsdf("principled", value("float", "roughness", "0.6") +
@@ -341,8 +350,8 @@ TEST(MitsubaBsdf, BacksOfOpenShapesGetOneWarning) {
   MitsubaScene scene;
   scene.read(open + open);
   EXPECT_EQ(scene.warnings(),
-            "scene.xml:2:1: open shapes with one-sided BSDFs, 2 in all, this the first: in Mitsuba "
-            "their backs are black, here both sides are alike\n");
+            "scene.xml:2:1: 2 open shapes have one-sided BSDFs, this is the first: the back is "
+            "black in Mitsuba, and like the front here\n");
   for (const std::string& harmless :
        {"<shape type=\"cube\">" + bsdf("diffuse") + "</shape>\n",
         "<shape type=\"sphere\">" + bsdf("plastic") + "</shape>\n",

@@ -234,7 +234,7 @@ TEST(MitsubaMedium, BadVolumesAreErrors) {
   VolumeSample large;
   large.resolution[0] = 1 << 20;
   large.resolution[1] = 1 << 20;
-  EXPECT_NE(error(volume_file(large)).find("which the file does not hold"), std::string::npos);
+  EXPECT_NE(error(volume_file(large)).find("more than the file holds"), std::string::npos);
   VolumeSample negative;
   negative.resolution[2] = -1;
   EXPECT_NE(error(volume_file(negative)).find("a resolution is -1"), std::string::npos);

@@ -19,6 +19,7 @@ TEST(MitsubaDocument, ParametersHaveDefaultsThatTheUserReplaces) {
   scene.options.defines = {{"r", "0.5"}, {"unused", "1"}};
   EXPECT_EQ(number(scene.read(body).shapes[0].parameters, "radius"), 0.5);
   EXPECT_TRUE(has(scene.warnings(), "the scene has no parameter \"$unused\"")) << scene.warnings();
+  EXPECT_EQ(scene.read(body).choices.parameters, std::vector<std::string>{"r=0.5"});
 }
 
 TEST(MitsubaDocument, ParametersStandAnywhereInAText) {
@@ -242,8 +243,8 @@ TEST(MitsubaDocument, WrongValuesNameTheirElement) {
                                "<float name=\"radius\" value=\"2\"/>")),
             "scene.xml:4:1: property \"radius\" is already given at scene.xml:3:2");
   EXPECT_EQ(scene.error(sphere("<boolean name=\"flipNormals\" value=\"yes\"/>")),
-            "scene.xml:3:2: property \"flip_normals\" is neither true nor false, expected one of "
-            "them");
+            "scene.xml:3:2: property \"flip_normals\" is not a boolean, expected true "
+            "or false");
   EXPECT_EQ(scene.error(sphere("<point name=\"center\" value=\"1, 2\"/>")),
             "scene.xml:3:2: property \"center\" has 2 numbers, expected three");
   EXPECT_EQ(scene.error(sphere("<float name=\"radius\" value=\"0\"/>")),
@@ -253,7 +254,8 @@ TEST(MitsubaDocument, WrongValuesNameTheirElement) {
 TEST(MitsubaDocument, UnknownNamesAreWarningsOrErrors) {
   MitsubaScene scene;
   const std::string error = scene.error("<shape type=\"spere\"/>\n");
-  EXPECT_TRUE(has(error, "scene.xml:2:1: shape \"spere\" is unknown, expected \"obj\"")) << error;
+  EXPECT_TRUE(has(error, "scene.xml:2:1: shape \"spere\" is unknown, expected one of \"obj\""))
+      << error;
   EXPECT_TRUE(has(error, "did you mean \"sphere\"?")) << error;
   EXPECT_EQ(scene.error("<shpe type=\"sphere\"/>\n"),
             "scene.xml:2:1: <shpe> in <scene> is unknown, expected a Mitsuba element");

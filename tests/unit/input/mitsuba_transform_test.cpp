@@ -66,9 +66,10 @@ TEST(MitsubaTransform, WrongOnesAreErrors) {
                        "</transform></shape>\n");
   };
   EXPECT_EQ(error("<scale value=\"0\"/>"),
-            "scene.xml:3:1: <scale> has no inverse, expected a regular transform");
+            "scene.xml:3:1: <scale> has no inverse, expected a transform that can be inverted");
   EXPECT_EQ(error("<rotate angle=\"3\"/>"),
-            "scene.xml:3:1: the axis of <rotate> is null, expected x, y or z");
+            "scene.xml:3:1: the axis of <rotate> is the zero vector, expected \"x\", \"y\" or "
+            "\"z\" other than 0");
   EXPECT_EQ(error("<matrix value=\"1 2 3\"/>"),
             "scene.xml:3:1: <matrix> has 3 numbers, expected 16 or 9");
   EXPECT_EQ(error("<skew/>").substr(0, 45), "scene.xml:3:1: <skew> in a transform is unkno");

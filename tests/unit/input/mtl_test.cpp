@@ -197,9 +197,9 @@ TEST_F(MtlTest, WrongValuesAreErrorsAndUnknownKeywordsWarnings) {
     const std::string message = error_of([&] { read(mtl); });
     return message.substr(message.find("m.mtl"));
   };
-  EXPECT_EQ(error("Kd 1 x 0\n"), "m.mtl:2: \"x\" is not a finite number");
-  EXPECT_EQ(error("Kd\n"), "m.mtl:2: \"\" is not a finite number");
-  EXPECT_EQ(error("Ns nan\n"), "m.mtl:2: \"nan\" is not a finite number");
+  EXPECT_EQ(error("Kd 1 x 0\n"), "m.mtl:2: \"x\" is not a number, expected a finite one");
+  EXPECT_EQ(error("Kd\n"), "m.mtl:2: \"\" is not a number, expected a finite one");
+  EXPECT_EQ(error("Ns nan\n"), "m.mtl:2: \"nan\" is not a number, expected a finite one");
   read("Kd 1\nKd spectral a.rfl\nmap_Kd\nfoo 1\nrefl a.png\nKa 1 1 1\n");
   EXPECT_EQ(warnings(),
             "\"Kd spectral\" is ignored, expected three numbers\n"

@@ -115,9 +115,10 @@ TEST_F(ObjFileTest, JoinedMeshHasAllParts) {
 TEST_F(ObjFileTest, WrongLinesAreErrors) {
   const std::string square = kSquare;
   EXPECT_EQ(error_in("v 0 0\n"), ":1: the line has 2 numbers, expected at least 3");
-  EXPECT_EQ(error_in("v 0 0 x\n"), ":1: \"x\" is not a number");
-  EXPECT_EQ(error_in("vn 0 0 1 1\n"), ":1: the line has more than 3 numbers");
-  EXPECT_EQ(error_in("v 0 0 0 0 0 0 0 0 0\n"), ":1: the line has more than 8 numbers");
+  EXPECT_EQ(error_in("v 0 0 x\n"), ":1: \"x\" is not a number, expected one as in 1.5 or 2e-3");
+  EXPECT_EQ(error_in("vn 0 0 1 1\n"), ":1: the line has too many numbers, expected at most 3");
+  EXPECT_EQ(error_in("v 0 0 0 0 0 0 0 0 0\n"),
+            ":1: the line has too many numbers, expected at most 8");
   EXPECT_EQ(error_in(square + "f 1 2\n"), ":5: the face has 2 corners, expected at least 3");
   EXPECT_EQ(error_in(square + "f 1 2 5\n"),
             ":5: vertex index 5 is out of range, there are 4 so far, counted from 1 (or back "
@@ -128,17 +129,19 @@ TEST_F(ObjFileTest, WrongLinesAreErrors) {
   EXPECT_EQ(error_in(square + "f 1//1 2//1 3//1\n").substr(0, 28), ":5: normal index 1 is out of");
   EXPECT_EQ(error_in(square + "f 1.5 2 3\n"),
             ":5: \"1.5\" is not an index, expected an integer as in 1/2/3");
-  EXPECT_EQ(error_in(square + "f 1/1/1/1 2 3\n"), ":5: \"1/1/1/1\" has more than three indices");
-  EXPECT_EQ(error_in("v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), ":4: vertex 1 is not finite");
+  EXPECT_EQ(error_in(square + "f 1/1/1/1 2 3\n"),
+            ":5: \"1/1/1/1\" has more than three indices, expected at most three as in 1/2/3");
+  EXPECT_EQ(error_in("v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
+            ":4: vertex 1 is not finite, expected finite numbers");
   EXPECT_EQ(error_in(square + "vt inf 0\nf 1/1 2/1 3/1\n"),
-            ":6: texture coordinate 1 is not finite");
+            ":6: texture coordinate 1 is not finite, expected finite numbers");
 }
 
 TEST_F(ObjFileTest, FacesHaveAtMostSoManyCorners) {
   std::string face = "f";
   for (int i = 0; i < 16385; ++i) face += " 1";
   EXPECT_EQ(error_in(std::string(kSquare) + face + "\n"),
-            ":5: the face has more than 16384 corners");
+            ":5: the face has too many corners, expected at most 16384");
 }
 
 TEST_F(ObjFileTest, IgnoredLinesAreWarnedOfOncePerKeyword) {

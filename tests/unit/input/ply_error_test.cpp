@@ -149,9 +149,9 @@ TEST_F(PlyErrorTest, HeadersAreChecked) {
   const auto line4 = [&](const std::string& line) {
     return error_in("ply\nformat ascii 1.0\nelement vertex 3\n" + line + "\nend_header\n");
   };
-  EXPECT_EQ(error_in("obj\n"), "it does not start with \"ply\", so it is no PLY file");
-  EXPECT_EQ(error_in(""), "it does not start with \"ply\", so it is no PLY file");
-  EXPECT_EQ(error_in("plyx\n"), "header line 1: expected \"ply\"");
+  EXPECT_EQ(error_in("obj\n"), "it does not start with \"ply\", expected a PLY file");
+  EXPECT_EQ(error_in(""), "it does not start with \"ply\", expected a PLY file");
+  EXPECT_EQ(error_in("plyx\n"), "header line 1: found \"plyx\", expected \"ply\"");
   EXPECT_EQ(error_in("ply\nformat ascii 1.0\n"),
             "the file ends inside the header, expected end_header");
   EXPECT_EQ(error_in("ply\nend_header\n"),
@@ -164,7 +164,8 @@ TEST_F(PlyErrorTest, HeadersAreChecked) {
             "float or double");
   EXPECT_EQ(line4("property list float int x"),
             "header line 4: the length of the list has a float type, expected an integer type");
-  EXPECT_EQ(line4("property float"), "header line 4: expected the name of a property");
+  EXPECT_EQ(line4("property float"),
+            "header line 4: the line ends too early, expected the name of a property");
   EXPECT_EQ(line4("element face many"),
             "header line 4: expected a number of elements, found \"many\"");
   EXPECT_EQ(line4("element face -1"), "header line 4: expected a number of elements, found \"-1\"");
@@ -174,7 +175,10 @@ TEST_F(PlyErrorTest, HeadersAreChecked) {
             "header line 4: element \"vertex\" is declared twice, expected once");
   EXPECT_EQ(line4("property int a\nproperty int a"),
             "header line 5: property \"a\" is declared twice, expected once");
-  EXPECT_EQ(line4("vertices"), "header line 4: unknown keyword \"vertices\"");
+  EXPECT_EQ(
+      line4("vertices"),
+      "header line 4: unknown keyword \"vertices\", expected format, element, property, comment or "
+      "end_header");
   EXPECT_EQ(error_in("ply\nformat ascii 1.0\nproperty float x\n"),
             "header line 3: the property has no element, expected an element line before it");
 }
@@ -200,7 +204,7 @@ TEST_F(PlyErrorTest, TheSceneThatWantedTheFileIsNamed) {
   const std::string bad = directory_.write("bad.ply", "x");
   EXPECT_EQ(error_of([&] { read_ply(files, bad, wanted); }),
             "s.pbrt:4:7: cannot use \"" + bad +
-                "\": it does not start with \"ply\", so it is no PLY file");
+                "\": it does not start with \"ply\", expected a PLY file");
   EXPECT_THROW(read_ply(files, absent, {}), IoError);
   EXPECT_THROW(read_ply(files, directory_.path(), {}), IoError);
 }

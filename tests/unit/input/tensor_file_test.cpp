@@ -88,7 +88,7 @@ TEST(TensorFile, FilesAreReadAndUnpackedAndNamed) {
   const std::string bad = directory.write("bad.bsdf", "nonsense");
   EXPECT_EQ(error_of([&] { TensorFile::read(files, bad, wanted); }),
             "s.pbrt:4:7: cannot use \"" + bad +
-                "\": it does not start with \"tensor_file\", so it is no tensor file");
+                "\": it does not start with \"tensor_file\", expected a tensor file");
 }
 
 TEST(TensorFile, WrongTablesAreRefused) {

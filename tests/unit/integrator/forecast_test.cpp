@@ -68,8 +68,8 @@ TEST(Forecast, SaysWhatItsSightsAreGoodFor) {
   ASSERT_LT(few.photons_stored, static_cast<uint64_t>(ForecastLobes::kMaxLobes));
   ASSERT_EQ(few.notes.size(), 1u);
   EXPECT_EQ(few.notes[0], std::to_string(few.photons_stored) +
-                              " records of 128 photon paths are too few to forecast caustics, "
-                              "which are traced as by path");
+                              " records of 128 photon paths are too few to forecast caustics; "
+                              "they are path traced, as by the integrator path");
   const EstimatorStatistics other = statistics_after(*scene, routes, {{2, 0}});
   const EstimatorStatistics both = statistics_after(*scene, routes, {{1, 0}, {2, 0}});
   EXPECT_EQ(both.photons_stored, other.photons_stored) << "those of the first seed are gone";

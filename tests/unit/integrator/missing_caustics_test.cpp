@@ -27,8 +27,8 @@ const std::string kGlass = "Material \"dielectric\" \"float roughness\" 0.02" + 
 TEST(MissingCaustics, GlossyMaterialsAreNamedWithTheirAlpha) {
   EXPECT_EQ(
       note_of(kGlass),
-      "no material of the scene has a specular lobe; with an alpha above -D "
-      "specular-alpha=0.035..0.07, one is glossy: dielectric1 (test.pbrt:2:1), alpha 0.141. Its "
+      "no material of the scene has a specular lobe. An alpha above -D "
+      "specular-alpha=0.035..0.07 makes it glossy: dielectric1 (test.pbrt:2:1), alpha 0.141. Its "
       "caustics are part of the diffuse light and rendered by path tracing");
   EXPECT_EQ(note_of(kGlass, false).find("path tracing"), std::string::npos);
   const std::string named =
@@ -42,7 +42,7 @@ TEST(MissingCaustics, TheSmoothestOfManyAreNamed) {
   for (const char* roughness : {"0.5", "0.3", "0.2", "0.4", "0.1"})
     world += "Material \"conductor\" \"float roughness\" " + std::string(roughness) + kSphere;
   const std::string note = note_of(world);
-  EXPECT_NE(note.find("these are glossy: conductor5"), std::string::npos) << note;
+  EXPECT_NE(note.find("makes it glossy: conductor5"), std::string::npos) << note;
   EXPECT_NE(note.find("alpha 0.548; and 2 more. Their"), std::string::npos) << note;
   EXPECT_EQ(note.find("conductor1"), std::string::npos) << note;
 }

@@ -119,7 +119,7 @@ TEST(MeasuredMaterial, MistakesAreLocated) {
   const BsdfFile bad("not a tensor file");
   EXPECT_EQ(error_of([&] { make({measured({bad.path()})}); }),
             "scene.pbrt:8:5: cannot use \"" + bad.path() +
-                "\": it does not start with \"tensor_file\", so it is no tensor file");
+                "\": it does not start with \"tensor_file\", expected a tensor file");
 }
 
 TEST(MeasuredFile, FieldsMustFitTogether) {

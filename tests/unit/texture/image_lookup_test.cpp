@@ -43,6 +43,18 @@ TEST(Image, ChannelsThatAreNotStored) {
   EXPECT_EQ(color.bilinear_channel({5, 5}, WrapMode::kBlack, 3), 0.0f);
 }
 
+TEST(Image, GreyWithAlpha) {
+  const Image image(2, 1, 2, Image::Floats{0.25f, 0.75f, 0.5f, 0.5f}, RgbColorSpace::srgb());
+  const Vec2f first(0.25f, 0.5f), middle(0.5f, 0.5f);
+  for (const int channel : {0, 1, 2})
+    EXPECT_EQ(image.nearest_channel(first, WrapMode::kClamp, channel), 0.25f);
+  EXPECT_EQ(image.nearest_channel(first, WrapMode::kClamp, 3), 0.75f);
+  EXPECT_FLOAT_EQ(image.bilinear_channel(middle, WrapMode::kClamp, 3), 0.625f);
+  EXPECT_FLOAT_EQ(image.bilinear_channel(middle, WrapMode::kClamp, 1), 0.375f);
+  EXPECT_FLOAT_EQ(image.bilinear(middle, WrapMode::kClamp).g, 0.375f);
+  EXPECT_FLOAT_EQ(image.bilinear_float(middle, WrapMode::kClamp), 0.375f);
+}
+
 class ImageLookup : public ::testing::Test {
  protected:
   /// The bytes of a 2 x 1 picture: red then a quarter of green and blue.

@@ -147,6 +147,9 @@ TEST_F(ImageTexture, FloatPicksGreyMeanOrAlpha) {
   // Grey with alpha is grey.
   write_image<uint8_t>(scratch.file("ya.png"), 1, 1, 2, OIIO::TypeDesc::UINT8, {255, 10});
   EXPECT_FLOAT_EQ(v("ya.png"), 1.0f);
+  EXPECT_FLOAT_EQ(make(map("float", "ya.png", R"("string channel" "a" "string encoding" "linear")"))
+                      .value("t", 0, 0),
+                  10.0f / 255.0f);
 }
 
 TEST_F(ImageTexture, ColoursAreNotMultipliedByAlpha) {

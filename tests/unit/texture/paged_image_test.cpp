@@ -84,7 +84,7 @@ TEST_F(PagedImage, BytesAndShortsAreThoseOfTheWholeImage) {
   expect_same("rgba.png", 4);
   expect_same("grey.tga", 1);
   expect_same("short.png", 3);
-  expect_same("ya.png", 1);
+  expect_same("ya.png", 2);
 }
 
 TEST_F(PagedImage, FloatsAreThoseOfTheWholeImage) {
@@ -110,6 +110,9 @@ TEST_F(PagedImage, AnAlphaOfOneEverywhereIsNone) {
   values.back() = 254;
   write_image<uint8_t>(scratch.file("almost.png"), w, h, 4, OIIO::TypeDesc::UINT8, values);
   expect_same("almost.png", 4);
+  for (size_t i = 1; i < values.size(); i += 2) values[i] = 255;
+  write_image<uint8_t>(scratch.file("grey.png"), 2 * w, h, 2, OIIO::TypeDesc::UINT8, values);
+  expect_same("grey.png", 1);
 }
 
 TEST_F(PagedImage, TilesAndDataWindowsAreTakenAsTheyAre) {

@@ -1,8 +1,8 @@
-// Writes the files of this folder, by other programs. Run it in a folder where npm has installed
-// three, @gltf-transform/core, @gltf-transform/extensions, @gltf-transform/functions, draco3dgltf and
-// meshoptimizer: node make.mjs ROOT_OF_THIS_PROJECT
+// Writes three.gltf and the packed balls of tests/regression/features, by other programs. Run it in a
+// folder where npm has installed three, @gltf-transform/core, @gltf-transform/extensions,
+// @gltf-transform/functions, draco3dgltf and meshoptimizer: node make.mjs ROOT_OF_THIS_PROJECT
 import fs from 'fs';
-import { NodeIO } from '@gltf-transform/core';
+import { Document, NodeIO } from '@gltf-transform/core';
 import { ALL_EXTENSIONS } from '@gltf-transform/extensions';
 import { draco, meshopt, quantize } from '@gltf-transform/functions';
 import draco3d from 'draco3dgltf';
@@ -32,14 +32,29 @@ const io = new NodeIO().registerExtensions(ALL_EXTENSIONS).registerDependencies(
   'meshopt.decoder': MeshoptDecoder,
 });
 for (const [name, change] of [
-  ['ball_quantized', quantize()],
-  ['ball_draco', draco({ method: 'edgebreaker' })],
-  ['ball_meshopt', meshopt({ encoder: MeshoptEncoder, level: 'high' })],
+  ['KHR_mesh_quantization', quantize()],
+  ['KHR_draco_mesh_compression', draco({ method: 'edgebreaker' })],
+  ['EXT_meshopt_compression', meshopt({ encoder: MeshoptEncoder, level: 'high' })],
 ]) {
   const document = await io.read(`${root}/tests/agreement/gltf/metal.gltf`);
   await document.transform(change);
-  await io.write(`${folder}${name}.glb`, document);
+  await io.write(`${root}/tests/regression/features/${name}.glb`, document);
 }
+
+// A triangle with colours as Blender stores them.
+const colored = new Document();
+const buffer = colored.createBuffer();
+const attribute = (type, array) =>
+  colored.createAccessor().setType(type).setArray(array).setBuffer(buffer);
+const triangle = colored.createPrimitive()
+  .setAttribute('POSITION', attribute('VEC3', new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0])))
+  .setAttribute('COLOR_0', attribute('VEC4', new Uint16Array(
+    [65535, 0, 0, 65535, 0, 65535, 0, 65535, 0, 0, 13107, 13107])).setNormalized(true))
+  .setIndices(attribute('SCALAR', new Uint16Array([0, 1, 2])));
+colored.createScene().addChild(
+  colored.createNode().setMesh(colored.createMesh().addPrimitive(triangle)));
+await colored.transform(draco());
+await io.write(`${folder}colors_draco.glb`, colored);
 
 const scene = new THREE.Scene();
 const glass = new THREE.MeshPhysicalMaterial({
