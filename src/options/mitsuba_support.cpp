@@ -48,6 +48,7 @@ constexpr const char* kTail = R"(
 | colours of vertices | sRGB in PLY files of 0.6, unless `srgb` is false; else linear | the same; bytes are parts of 255 |
 | anisotropy of `principled` | alphas r² / a and r² a with a² = 1 - 0.9 `anisotropic` | the same alphas in the terms of OpenPBR |
 | smooth normals | made for meshes without normals | made by the same rule, unless `face_normals` is true |
+| mirrored meshes of files without normals | turned over, as normals are made in the world | the same |
 | colours | rgb, or spectra in spectral variants | linear sRGB values become smooth spectra; a white emission is D65 |
 | a spectrum of one value, as emission | white in 0.6, equal energy in 3 | the same, by the scene's version |
 | spectra of wavelengths and black bodies, as emission | absolute | the same luminance |

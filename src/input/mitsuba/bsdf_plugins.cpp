@@ -60,7 +60,9 @@ constexpr BsdfRow kBsdfs[] = {
      write_ward},
     {{"bsdf", "difftrans"}, write_diffuse_transmission},
     {{"bsdf", "null"}, write_null},
-    {{"bsdf", "principled", kApproximated, "the OpenPBR material of the same parameters"},
+    {{"bsdf", "principled", kApproximated,
+      "the OpenPBR material of the same parameters; a textured base_color tints transmitted light "
+      "once too often"},
      write_principled},
     {{"bsdf", "principledthin", kApproximated,
       "the thin-walled OpenPBR material of the same parameters"},

@@ -1,6 +1,7 @@
 // Mitsuba 3's principled BSDFs (Burley 2012, 2015) as "principled" in the terms of OpenPBR.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "input/mitsuba/bsdf_writers.h"
 #include "input/mitsuba/refraction_index.h"
@@ -101,13 +102,30 @@ MaterialDescription common(PluginProperties& p) {
   return m;
 }
 
+/// Mitsuba tints light by the root of the base colour at each interface, so that glass has the base
+/// colour after two. "principled" tints by the whole transmission colour.
+void add_transmission_color(PluginProperties& p, ParameterSet& set) {
+  auto color = read_color(p, "base_color", ColorUse::kReflectance)
+                   .value_or(constant_color(Vec3d(0.5), p.where()));
+  Parameter& parameter = color.parameter;
+  const bool is_rgb = parameter.type == "rgb", is_spectrum = parameter.type == "spectrum";
+  if (!is_rgb && !is_spectrum)
+    warn_approximated(p,
+                      "its base colour tints light once where it enters and once where it leaves");
+  // A spectrum has pairs of wavelength and value.
+  for (size_t i = is_rgb ? 0 : 1; i < parameter.numbers.size(); i += is_rgb ? 1 : 2)
+    parameter.numbers[i] = std::sqrt(std::max(parameter.numbers[i], 0.0));
+  add_as(set, "transmission_color", std::move(parameter));
+}
+
 }  // namespace
 
 Surface write_principled(PluginProperties& p) {
   MaterialDescription m = common(p);
   copy_float(p, "metallic", m.parameters, "base_metalness");
-  const auto color = read_color(p, "base_color", ColorUse::kReflectance);
-  add_color(m.parameters, "transmission_color", color, 0.5);
+  const auto weight = read_float(p, "spec_trans");
+  const bool transmits = weight && (weight->type == "texture" || weight->numbers[0] > 0);
+  if (transmits) add_transmission_color(p, m.parameters);
   const double eta = p.has("eta") ? refraction_index(p, "eta", "pet")
                                   : index_of_specular(p.number("specular", 0.5));
   add_float(m.parameters, "specular_ior", eta);
@@ -121,7 +139,6 @@ Surface write_principled(PluginProperties& p) {
     add_bool(m.parameters, "coat_affects_specular", false);
     add_float(m.parameters, "coat_roughness", std::sqrt(std::lerp(0.1, 0.001, gloss)));
   }
-  const bool transmits = p.has("spec_trans") || p.child("texture", "spec_trans");
   return surface_of(p, std::move(m), !transmits);
 }
 

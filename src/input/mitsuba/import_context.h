@@ -39,6 +39,10 @@ struct ImportContext {
   std::map<const Object*, std::string> groups = {};
 
   std::set<std::string> names = {};  ///< taken names of materials, textures, media and objects
+  std::map<std::string, int> last_numbers = {};  ///< behind taken names, by the wanted name
+
+  std::set<const Object*> written_shapes = {};
+  size_t copied = 0;  ///< numbers in the shapes that were written again
 
   bool is_before_version_2() const { return version < 2; }
   /// The object's id, or a name of its plug-in, made unique.
@@ -47,7 +51,8 @@ struct ImportContext {
   }
   std::string unique_name(const std::string& wanted) {
     std::string name = wanted;
-    for (int i = 2; !names.insert(name).second; ++i) name = wanted + "-" + std::to_string(i);
+    int& number = last_numbers.try_emplace(wanted, 1).first->second;
+    while (!names.insert(name).second) name = wanted + "-" + std::to_string(++number);
     return name;
   }
 };

@@ -26,6 +26,12 @@ Geometry built_in(PluginProperties& p, const MeshData& mesh) {
   return {{std::move(shape)}, is_open(mesh)};
 }
 
+/// Mitsuba makes the normals of faces, and those of vertices that have none, in the world: a mirror
+/// turns them over.
+void make_normals_in_world(ShapeDescription& shape) {
+  shape.reverse_orientation = shape.transform.start.determinant() < 0;
+}
+
 /// The location of a property, else of the plug-in.
 SourceLocation place_of(PluginProperties& p, const char* name) {
   const Property* property = p.find(name);
@@ -79,11 +85,11 @@ Geometry mesh_geometry(PluginProperties& p, MeshData mesh, bool has_face_normals
   const bool faceted = p.boolean("face_normals", has_face_normals);
   if (p.has("max_smooth_angle"))
     warn_approximated(p, "\"max_smooth_angle\" is ignored, all edges are as smooth as the normals");
-  if (faceted)
-    mesh.normals.clear();
-  else if (mesh.normals.empty())
-    mesh.normals = smooth_normals(mesh);
+  if (faceted) mesh.normals.clear();
+  const bool has_own_normals = !mesh.normals.empty();
+  if (!faceted && !has_own_normals) mesh.normals = smooth_normals(mesh);
   ShapeDescription shape = placed(p);
+  if (!has_own_normals) make_normals_in_world(shape);
   set_mesh(shape, mesh);
   return {{std::move(shape)}, is_open(mesh)};
 }
@@ -104,6 +110,7 @@ Geometry ply_geometry(PluginProperties& p) {
   p.find("srgb");  // of vertex colours
   if (as_it_is) {
     ShapeDescription shape = placed(p);
+    if (p.boolean("face_normals", false)) make_normals_in_world(shape);
     shape.type = "plymesh";
     add_text(shape.parameters, "filename", p.file());
     return {{std::move(shape)}, false};

@@ -202,10 +202,10 @@ class ObjectReader {
           throw SceneError(text.place(nested), "<" + std::string(nested.name()) +
                                                    "> is not expected in <" + property.tag + ">");
     }
-    for (const Property& other : into.properties)
-      if (other.name == property.name)
-        throw SceneError(property.where, "property \"" + property.name + "\" is already given at " +
-                                             other.where.to_string());
+    const auto [given, is_new] = given_[&into].try_emplace(property.name, property.where);
+    if (!is_new)
+      throw SceneError(property.where, "property \"" + property.name + "\" is already given at " +
+                                           given->second.to_string());
     into.properties.push_back(std::move(property));
   }
 
@@ -270,6 +270,7 @@ class ObjectReader {
   SceneParameters parameters_;
   Diagnostics& diagnostics_;
   Ids ids_;
+  std::map<const Object*, std::map<std::string, SourceLocation>> given_;  ///< properties
   std::vector<std::string> open_files_;
   int includes_ = 0;
 };

@@ -37,7 +37,7 @@ constexpr ShapeRow kShapes[] = {
     {{"shape", "linearcurve", kLoaded, "radii are linear along a curve"}, polyline_geometry},
     {{"shape", "shapegroup"}},
     {{"shape", "instance"}},
-    {{"shape", "merge"}},
+    {{"shape", "merge", kLoaded, "its shapes stay apart; repeated ones are limited"}},
     {{"shape", "heightfield", kRefused, kNoSuchShape}},
     {{"shape", "deformable", kRefused, kNoSuchShape}},
     {{"shape", "sdfgrid", kRefused, kNoSuchShape}},
@@ -101,7 +101,7 @@ Attachments attachments(PluginProperties& p, const Geometry& geometry) {
 }
 
 void attach(const Attachments& a, const Surface& surface, bool flips, ShapeDescription& shape) {
-  shape.reverse_orientation = flips;
+  shape.reverse_orientation = shape.reverse_orientation != flips;
   shape.material = {-1, surface.material, shape.where};
   shape.area_light = a.light;
   shape.inside_medium = a.inside;
@@ -167,11 +167,34 @@ void add_instance(PluginProperties& p) {
   p.context().scene.instances.push_back(std::move(instance));
 }
 
+/// Counts numbers of shapes that are written again. References can double their count with each
+/// line of the file.
+void count_copied(ImportContext& context, size_t numbers, const SourceLocation& where) {
+  constexpr size_t kMaxCopied = size_t{1} << 26;
+  context.copied += numbers;
+  if (context.copied > kMaxCopied)
+    throw SceneError(where,
+                     "references repeat shapes of more than 2^26 numbers, expected fewer; a "
+                     "shapegroup with instances repeats them without copies");
+}
+
+size_t count_numbers(const Shapes& shapes, size_t first) {
+  size_t count = 0;
+  for (size_t i = first; i < shapes.size(); ++i)
+    for (const Parameter& parameter : shapes[i].parameters.list) count += parameter.numbers.size();
+  return count;
+}
+
 void add_shapes(ImportContext& context, const Object& object, Shapes& into) {
+  constexpr size_t kNumbersOfPlugin = 1024;  ///< the cost of a plug-in without any
+  const bool is_copy = !context.written_shapes.insert(&object).second;
+  if (is_copy) count_copied(context, kNumbersOfPlugin, object.where);
   PluginProperties p(object, context);
   const ShapeRow& row = plugin_row(kShapes, object, context.diagnostics);
   if (row.geometry) {
+    const size_t first = into.size();
     add_geometry(p, row, into);
+    if (is_copy) count_copied(context, count_numbers(into, first), object.where);
   } else if (object.type == "instance") {
     add_instance(p);
   } else if (object.type == "shapegroup") {

@@ -242,6 +242,14 @@ TEST(Convert, SaysWhatIsNotPbrts) {
                 .find("# Of Nephroid, not of pbrt-v4: \"float angle\" of distant lights, material "
                       "\"principled\".\n"),
             std::string::npos);
+  EXPECT_NE(text("WorldBegin\nTexture \"t\" \"float\" \"imagemap\" \"string filename\" \"a.png\" "
+                 "\"string wrap\" \"mirror\" \"string channel\" \"a\"\n"
+                 "ObjectBegin \"o\"\nShape \"trianglemesh\" \"point3 P\" [ 0 0 0 1 0 0 0 1 0 ] "
+                 "\"point2 uv2\" [ 0 0 1 0 0 1 ]\nObjectEnd\n")
+                .find("# Of Nephroid, not of pbrt-v4: \"point2 uv2\" of trianglemesh shapes, "
+                      "\"string channel\" of imagemap textures, \"string wrap\" \"mirror\" of "
+                      "imagemap textures.\n"),
+            std::string::npos);
 }
 
 TEST(Convert, AnUnwritableFileIsAnError) {

@@ -154,6 +154,29 @@ TEST(MitsubaDocument, LongChainsOfReferencesAreErrors) {
   EXPECT_TRUE(has(scene.error(body), "nested more than 128 levels deep"));
 }
 
+TEST(MitsubaDocument, MergesThatDoubleAreBounded) {
+  std::string body = "<shape type=\"merge\" id=\"m0\"><shape type=\"sphere\"/></shape>\n";
+  for (int i = 1; i < 60; ++i) {
+    const std::string ref = "<ref id=\"m" + std::to_string(i - 1) + "\"/>";
+    body += "<shape type=\"merge\" id=\"m" + std::to_string(i) + "\">" + ref + ref + "</shape>\n";
+  }
+  MitsubaScene scene;
+  EXPECT_TRUE(has(scene.error(body, "3.0.0"), "repeat shapes of more than 2^26 numbers"));
+  // A few repetitions are what the file says.
+  const std::string three =
+      "<shape type=\"merge\" id=\"a\"><shape type=\"sphere\"/></shape>\n"
+      "<shape type=\"merge\"><ref id=\"a\"/><ref id=\"a\"/></shape>\n";
+  EXPECT_EQ(scene.read(three, "3.0.0").shapes.size(), 3u);
+}
+
+TEST(MitsubaDocument, ValuesOfParametersAreBoundedInSum) {
+  std::string body = "<default name=\"x\" value=\"" + std::string(1 << 15, 'x') + "\"/>\n";
+  for (int i = 0; i < 600; ++i)
+    body += "<bsdf type=\"diffuse\" id=\"b" + std::to_string(i) + "$x\"/>\n";
+  MitsubaScene scene;
+  EXPECT_TRUE(has(scene.error(body), "parameters fill more than 2^24 characters"));
+}
+
 TEST(MitsubaDocument, DeepNestingIsAnError) {
   MitsubaScene scene;
   std::string open, close;

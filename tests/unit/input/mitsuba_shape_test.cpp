@@ -183,6 +183,33 @@ TEST(MitsubaShape, MeshesWithoutNormalsBecomeSmoothUnlessTheyAreFaceted) {
   EXPECT_FALSE(has_parameter(faceted.parameters, "N"));
 }
 
+TEST(MitsubaShape, MirrorsTurnMeshesWithoutNormalsOver) {
+  MitsubaScene scene;
+  scene.folder().write("bare.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  scene.folder().write("full.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\n");
+  scene.folder().write("bare.ply",
+                       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                       "property float y\nproperty float z\nelement face 1\n"
+                       "property list uchar int vertex_index\nend_header\n"
+                       "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  const std::string mirror = "<transform name=\"toWorld\"><scale x=\"-1\"/></transform>";
+  const std::string faceted = "<boolean name=\"faceNormals\" value=\"true\"/>";
+  const std::string flip = "<boolean name=\"flipNormals\" value=\"true\"/>";
+  const auto is_turned = [&](const std::string& type, const std::string& body) {
+    return scene.read(shape(type, body)).shapes.at(0).reverse_orientation;
+  };
+  EXPECT_TRUE(is_turned("obj", file("bare.obj") + mirror));
+  EXPECT_TRUE(is_turned("obj", file("bare.obj") + mirror + faceted));
+  EXPECT_TRUE(is_turned("obj", file("full.obj") + mirror + faceted));
+  EXPECT_TRUE(is_turned("ply", file("bare.ply") + mirror + faceted));
+  EXPECT_FALSE(is_turned("obj", file("bare.obj")));
+  EXPECT_FALSE(is_turned("obj", file("full.obj") + mirror));
+  EXPECT_FALSE(is_turned("obj", file("bare.obj") + mirror + flip));
+  // Mitsuba's own shapes have normals.
+  EXPECT_FALSE(is_turned("rectangle", mirror));
+  EXPECT_FALSE(is_turned("cube", mirror));
+}
+
 TEST(MitsubaShape, TextureCoordinatesOfFilesAreTurnedOver) {
   MitsubaScene scene;
   scene.folder().write("uv.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0.25\nf 1/1 2/1 3/1\n");
