@@ -31,7 +31,7 @@ test-nightly: build
 	@echo "NEPHROID_TEST_SEED=$$NEPHROID_TEST_SEED"
 	$(call run_tests,-L nightly)
 
-# The Blender add-on beside Cycles, about two minutes. Pictures of both: out/blender/*.png. Not part of make test.
+# The Blender add-on beside Cycles, about three minutes. Pictures of both: out/blender/*.png. Not part of make test.
 test-blender: program
 	@tools/install_deps blender
 	@mkdir -p out/blender

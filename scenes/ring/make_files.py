@@ -10,30 +10,11 @@ import sys
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parents[1] / "tools" / "scenes"))
-from mesh import bezier, convex, cross, tube, unit, write_ply  # noqa: E402
+from mesh import bezier, brilliant, cross, tube, unit, write_ply  # noqa: E402
 
 INNER = 0.86                   # radius of the finger
 HEAD, CENTRE = 0.41, 1.47      # radius of the middle stone, and how far from the axis its girdle is
 SIDE, SIDE_AT, SIDE_TURN = 0.215, 1.29, 30.5
-
-
-def brilliant(path, crown, star, upper, pavilion, lower, table, height):
-    """A round brilliant of radius 1 with its girdle at z = 0: angles of the facets in degrees, radius of the table."""
-    def facet(angle, turn, r, z):
-        a, t = math.radians(angle), math.radians(turn)
-        n = (math.sin(a) * math.cos(t), math.sin(a) * math.sin(t), math.cos(a))
-        return n, math.sin(a) * r + math.cos(a) * z
-    planes = [((0, 0, 1), height)]
-    for k in range(8):
-        planes.append(facet(crown, 45 * k, 1.0, 0.02))
-        planes.append(facet(star, 45 * k + 22.5, table * math.cos(math.radians(22.5)), height))
-        planes.append(facet(180 - pavilion, 45 * k, 1.0, -0.02))
-        for side in (11.25, 33.75):
-            planes.append(facet(upper, 45 * k + side, 0.995, 0.02))
-            planes.append(facet(180 - lower, 45 * k + side, 0.995, -0.02))
-    for k in range(48):
-        planes.append(facet(90, 7.5 * k, 1.0, 0))
-    convex(path, planes)
 
 
 def smooth(a, b, x):

@@ -120,7 +120,7 @@ void print_integrator(const Scene& scene) {
   fmt::print("pixel samples: {}\n", scene.samples_per_pixel);
 }
 
-/// Prints the names that --camera, --variant and --at choose among.
+/// Prints the names that the options about scenes choose among.
 void print_choices(const FileChoices& choices) {
   const auto print = [](const char* kind, const char* option,
                         const std::vector<std::string>& names) {
@@ -129,6 +129,7 @@ void print_choices(const FileChoices& choices) {
   print("cameras of the file", "--camera", choices.cameras);
   print("material variants", "--variant", choices.variants);
   print("animations", "--at", choices.animations);
+  print("parameters of the file", "--define", choices.parameters);
 }
 
 }  // namespace

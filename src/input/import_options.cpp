@@ -26,12 +26,13 @@ std::string import_options_text(const ImportOptions& options) {
   if (!options.camera.empty()) add("camera", options.camera);
   if (!options.variant.empty()) add("variant", options.variant);
   if (options.time != 0) add("at", fmt::format("{}", options.time));
+  if (options.shutter != 0) add("shutter", fmt::format("{}", options.shutter));
   if (options.solid_glass) add("solid-glass", "yes");
   for (const auto& define : options.defines) add("define:" + as_word(define.first), define.second);
   if (options.floor) add("floor", "yes");
   if (!options.environment.empty()) add("environment", options.environment);
   if (options.sun) add("sun", fmt::format("{},{}", options.sun->elevation, options.sun->azimuth));
-  if (options.exposure != 0) add("exposure", fmt::format("{}", options.exposure));
+  if (options.exposure) add("exposure", fmt::format("{}", *options.exposure));
   return text;
 }
 

@@ -28,7 +28,9 @@ struct ImportOptions {
   bool floor = false;               ///< a matte floor is added under the lowest point
   std::string environment;          ///< image of the surroundings; empty: none
   std::optional<SunDirection> sun;  ///< sun and clear sky
-  double exposure = 0;              ///< stops by which the picture is brighter
+  /// Stops by which the picture is brighter. Empty: chosen for the lights of glTF and OBJ files, 0
+  /// for other scenes.
+  std::optional<double> exposure;
 
   bool operator==(const ImportOptions&) const = default;
 };

@@ -24,14 +24,20 @@ struct MeshData {
   std::vector<int> face_indices;             ///< per triangle, then per quad; or empty
 };
 
+enum class PlyColors {
+  kSkipped,
+  kRead,  ///< r,g,b, red,green,blue or diffuse_red ..., as stored; integers are parts of 255
+};
+
 /// Reads an ascii, binary_little_endian or binary_big_endian PLY file (".gz" is unpacked): vertex
 /// x,y,z, optional nx,ny,nz and u,v (also s,t and texture_u, texture_v); faces with 3 or 4 indices.
 /// - Faces with 5 to kMaxPolygonCorners corners are cut into triangles, appended to the file's.
 /// - Faces with fewer than 3 distinct corners become triangles without area.
-/// - Normals need not be finite. Positions and texture coordinates that are not finite become 0 if
-///   no face uses their vertex; else they are an error.
+/// - Normals need not be finite. Other numbers that are not finite become 0 if no face uses their
+///   vertex; else they are an error.
 /// - A file shorter than its header claims is an error, found before memory is allocated for it.
 /// Throws IoError or SceneError with the file's name.
-MeshData read_ply(SceneFiles& files, const std::string& path, const SourceLocation& wanted_by);
+MeshData read_ply(SceneFiles& files, const std::string& path, const SourceLocation& wanted_by,
+                  PlyColors colors = PlyColors::kSkipped);
 
 }  // namespace nephroid

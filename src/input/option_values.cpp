@@ -124,6 +124,22 @@ double parse_duration(const std::string& option, const std::string& text) {
   return *value * unit;
 }
 
+double parse_seconds(const std::string& option, const std::string& text, double high) {
+  std::string number = text;
+  if (!number.empty() && number.back() == 's') number.pop_back();
+  const size_t slash = number.find('/');
+  auto value = number_of<double>(number.substr(0, slash));
+  if (value && slash != std::string::npos) {
+    const auto divisor = number_of<double>(number.substr(slash + 1));
+    if (divisor && *divisor > 0)
+      *value /= *divisor;
+    else
+      value.reset();
+  }
+  if (value && *value >= 0 && *value <= high) return *value;
+  fail(option, text, fmt::format("seconds from 0 to {:g} as in 0.5, 0.5s or 1/48s", high));
+}
+
 std::pair<uint32_t, uint32_t> parse_passes(const std::string& option, const std::string& text) {
   const char* expected = "a number of passes N, or a range A..B from 0, both ends included";
   // The last value is not used: passes are counted in 32 bits.

@@ -34,6 +34,8 @@ int64_t parse_bytes(const std::string& option, const std::string& text);
 std::string bytes_text(int64_t bytes);
 /// "90", "90s", "1.5m" or "1h" in seconds, above 0.
 double parse_duration(const std::string& option, const std::string& text);
+/// "0.5", "0.5s" or "1/48s" in seconds, from 0 to `high`.
+double parse_seconds(const std::string& option, const std::string& text, double high);
 /// "N" is passes 0 to N-1, "A..B" is A to B, both included. First and last pass.
 std::pair<uint32_t, uint32_t> parse_passes(const std::string& option, const std::string& text);
 /// "640x360": width and height, each 1 to 65536.

@@ -34,6 +34,9 @@ class ParameterList {
   void add_string(const std::string& name, std::string text) {
     add("string", name).strings.push_back(std::move(text));
   }
+  void add_strings(const std::string& name, std::vector<std::string> texts) {
+    add("string", name).strings = std::move(texts);
+  }
   /// A reference to a texture by its name.
   void add_texture(const std::string& name, std::string texture) {
     add("texture", name).strings.push_back(std::move(texture));

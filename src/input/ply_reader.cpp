@@ -24,7 +24,8 @@ namespace {
 template <class Source>
 class PlyReader {
  public:
-  PlyReader(const PlyHeader& header, std::string_view body) : header_(header), source_(body) {}
+  PlyReader(const PlyHeader& header, std::string_view body, PlyColors colors)
+      : header_(header), source_(body), colors_(colors) {}
 
   MeshData read() {
     vertex_count_ = require("vertex").count;
@@ -120,6 +121,7 @@ class PlyReader {
 
   const PlyHeader& header_;
   Source source_;
+  PlyColors colors_;
   uint64_t vertex_count_ = 0;
   MeshData mesh_;
   std::vector<int> triangle_tags_, quad_tags_;  // face_indices of either kind
@@ -127,16 +129,17 @@ class PlyReader {
   std::vector<BadValue> bad_values_;
 };
 
-/// Index of a vertex property in a row of eight floats.
-enum Slot { kX, kY, kZ, kNx, kNy, kNz, kU, kV, kSlots };
+/// Index of a vertex property in a row of floats.
+enum Slot { kX, kY, kZ, kNx, kNy, kNz, kU, kV, kRed, kGreen, kBlue, kSlots };
 
 /// The slot of each property, or -1. Incomplete coordinates have none.
 struct VertexLayout {
   std::vector<int> slots;
   bool has_normals = false;
   bool has_uvs = false;
+  bool has_colors = false;
 
-  explicit VertexLayout(const PlyElement& element) : slots(element.properties.size(), -1) {
+  VertexLayout(const PlyElement& element, PlyColors colors) : slots(element.properties.size(), -1) {
     const bool has_positions = assign(element, {"x", "y", "z"}, kX);
     if (!has_positions)
       throw std::runtime_error("the element \"vertex\" lacks x, y or z as a single number");
@@ -144,6 +147,10 @@ struct VertexLayout {
     has_uvs = assign(element, {"u", "v"}, kU) || assign(element, {"s", "t"}, kU) ||
               assign(element, {"texture_u", "texture_v"}, kU) ||
               assign(element, {"texture_s", "texture_t"}, kU);
+    has_colors = colors == PlyColors::kRead &&
+                 (assign(element, {"r", "g", "b"}, kRed) ||
+                  assign(element, {"red", "green", "blue"}, kRed) ||
+                  assign(element, {"diffuse_red", "diffuse_green", "diffuse_blue"}, kRed));
   }
 
  private:
@@ -159,11 +166,12 @@ struct VertexLayout {
 
 template <class Source>
 void PlyReader<Source>::read_vertices(const PlyElement& element) {
-  const VertexLayout layout(element);
+  const VertexLayout layout(element, colors_);
   const size_t count = element.count;
   mesh_.positions.reserve(count);
   if (layout.has_normals) mesh_.normals.reserve(count);
   if (layout.has_uvs) mesh_.uvs.reserve(count);
+  if (layout.has_colors) mesh_.colors.reserve(count);
 
   const size_t property_count = element.properties.size();
   for_each(element, [&] {
@@ -174,7 +182,8 @@ void PlyReader<Source>::read_vertices(const PlyElement& element) {
         skip(property);
         continue;
       }
-      const float value = static_cast<float>(source_.number(property.type));
+      float value = static_cast<float>(source_.number(property.type));
+      if (layout.slots[i] >= kRed && is_integer(property.type)) value /= 255.0f;
       const bool is_normal = layout.slots[i] >= kNx && layout.slots[i] <= kNz;
       if (!std::isfinite(value) && !is_normal)
         bad_values_.push_back({mesh_.positions.size(), &property});
@@ -183,6 +192,7 @@ void PlyReader<Source>::read_vertices(const PlyElement& element) {
     mesh_.positions.emplace_back(row[kX], row[kY], row[kZ]);
     if (layout.has_normals) mesh_.normals.emplace_back(row[kNx], row[kNy], row[kNz]);
     if (layout.has_uvs) mesh_.uvs.emplace_back(row[kU], row[kV]);
+    if (layout.has_colors) mesh_.colors.push_back({row[kRed], row[kGreen], row[kBlue], 1.0f});
   });
 }
 
@@ -205,8 +215,8 @@ void PlyReader<Source>::read_indices(const PlyProperty& property, Polygon* polyg
   }
 }
 
-/// Refuses positions and texture coordinates that are not finite, or sets them to 0 if no face uses
-/// their vertex.
+/// Refuses positions, texture coordinates and colours that are not finite, or sets them to 0 if no
+/// face uses their vertex.
 template <class Source>
 void PlyReader<Source>::check_values() {
   if (bad_values_.empty()) return;
@@ -221,6 +231,7 @@ void PlyReader<Source>::check_values() {
                                bad.property->name + "\" is not a finite float");
     mesh_.positions[bad.vertex] = Vec3f(0, 0, 0);
     if (!mesh_.uvs.empty()) mesh_.uvs[bad.vertex] = Vec2f(0, 0);
+    if (!mesh_.colors.empty()) mesh_.colors[bad.vertex] = {0, 0, 0, 1};
   }
 }
 
@@ -293,23 +304,24 @@ void PlyReader<Source>::read_faces(const PlyElement& element) {
   });
 }
 
-MeshData read_mesh(std::string_view bytes) {
+MeshData read_mesh(std::string_view bytes, PlyColors colors) {
   const PlyHeader header = read_ply_header(bytes);
   const std::string_view body = bytes.substr(header.size);
   constexpr bool kIsLittleEndian = std::endian::native == std::endian::little;
   switch (header.format) {
     case PlyHeader::Format::kLittleEndian:
-      return PlyReader<PlyBinarySource<!kIsLittleEndian>>(header, body).read();
+      return PlyReader<PlyBinarySource<!kIsLittleEndian>>(header, body, colors).read();
     case PlyHeader::Format::kBigEndian:
-      return PlyReader<PlyBinarySource<kIsLittleEndian>>(header, body).read();
+      return PlyReader<PlyBinarySource<kIsLittleEndian>>(header, body, colors).read();
     default:
-      return PlyReader<PlyTextSource>(header, body).read();
+      return PlyReader<PlyTextSource>(header, body, colors).read();
   }
 }
 
 }  // namespace
 
-MeshData read_ply(SceneFiles& files, const std::string& path, const SourceLocation& wanted_by) {
+MeshData read_ply(SceneFiles& files, const std::string& path, const SourceLocation& wanted_by,
+                  PlyColors colors) {
   std::string bytes;
   try {
     bytes = files.read(path);
@@ -317,7 +329,7 @@ MeshData read_ply(SceneFiles& files, const std::string& path, const SourceLocati
     file_is_unreadable(wanted_by, error.what());
   }
   try {
-    return read_mesh(bytes);
+    return read_mesh(bytes, colors);
   } catch (const std::bad_alloc&) {
     throw SceneError(wanted_by, "cannot use \"" + path + "\": it does not fit into memory");
   } catch (const std::runtime_error& error) {

@@ -96,6 +96,8 @@ struct MaterialDescription : DirectiveDescription {
 struct LightDescription : DirectiveDescription {
   TransformDescription transform;
   std::string medium;
+  /// Mean luminance of an image of surroundings, cd/m^2, where the file gives it.
+  std::optional<double> mean_luminance;
 };
 
 /// Index into SceneDescription::materials, or a name that is resolved after parsing: named
@@ -131,12 +133,12 @@ struct InstanceDescription {
   SourceLocation where;
 };
 
-/// What a file offers besides the description, in file order: `nephroid info` lists it. Empty for
-/// pbrt-v4.
+/// What a file offers besides the description: `nephroid info` lists it. Empty for pbrt-v4.
 struct FileChoices {
   std::vector<std::string> cameras;     ///< names, or numbers where there are none; for --camera
   std::vector<std::string> variants;    ///< for --variant
   std::vector<std::string> animations;  ///< names with their times, as in "walk, 0 to 2.5 s"; --at
+  std::vector<std::string> parameters;  ///< with their values, as in "spp=64"; for --define
 };
 
 /// The contents of a scene file, in file order. Absent directives are empty optionals.

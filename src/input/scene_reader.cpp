@@ -17,7 +17,7 @@ struct SceneFormat {
   const char* suffix;  ///< end of the file's name, in lower case
   SceneDescription (*read)(const std::string& path, const ImportOptions& options,
                            Diagnostics& diagnostics);
-  bool is_complete = false;  ///< a scene without camera or light is meant to be so
+  FormatTraits traits;
 };
 
 SceneDescription read_pbrt(const std::string& path, const ImportOptions&,
@@ -25,10 +25,18 @@ SceneDescription read_pbrt(const std::string& path, const ImportOptions&,
   return parse_pbrt_file(path, diagnostics);
 }
 
+/// Surfaces of glTF that emit up to 1, more than which needs an extension, are displays and the
+/// like.
+constexpr FormatTraits kGltf = {.glow = 1};
+
 /// One row per suffix. The last row takes every other name.
 constexpr SceneFormat kFormats[] = {
-    {".obj", read_obj_scene}, {".obj.gz", read_obj_scene}, {".gltf", read_gltf},
-    {".glb", read_gltf},      {".xml", read_mitsuba},      {"", read_pbrt, true},
+    {".obj", read_obj_scene, {}},
+    {".obj.gz", read_obj_scene, {}},
+    {".gltf", read_gltf, kGltf},
+    {".glb", read_gltf, kGltf},
+    {".xml", read_mitsuba, {.has_exposure = true}},
+    {"", read_pbrt, {.is_complete = true, .has_exposure = true}},
 };
 
 /// Warns of options that only other formats know.
@@ -49,6 +57,21 @@ std::string lower_case(std::string text) {
   return text;
 }
 
+/// Warns of choices of the user among things that the file does not have. Formats that have them
+/// refuse unknown names.
+void warn_of_missing_choices(const SceneDescription& scene, const ImportOptions& options,
+                             Diagnostics& diagnostics) {
+  const auto warn = [&](const std::string& option, const char* things) {
+    diagnostics.warn({std::make_shared<const std::string>(scene.file), 0, 0},
+                     option + " is ignored: the file has no " + things);
+  };
+  const FileChoices& choices = scene.choices;
+  if (!options.camera.empty() && choices.cameras.empty()) warn("--camera", "list of cameras");
+  if (!options.variant.empty() && choices.variants.empty()) warn("--variant", "material variants");
+  if (choices.animations.empty() && options.time != 0) warn("--at", "animations");
+  if (choices.animations.empty() && options.shutter != 0) warn("--shutter", "animations");
+}
+
 }  // namespace
 
 SceneDescription read_scene(const std::string& path, const ImportOptions& options,
@@ -59,7 +82,8 @@ SceneDescription read_scene(const std::string& path, const ImportOptions& option
                    [&](const SceneFormat& row) { return has_suffix(name, row.suffix); });
   warn_of_foreign_options(*format, path, options, diagnostics);
   SceneDescription scene = format->read(path, options, diagnostics);
-  stage_scene(&scene, format->is_complete, options, diagnostics);
+  warn_of_missing_choices(scene, options, diagnostics);
+  stage_scene(&scene, format->traits, options, diagnostics);
   return scene;
 }
 

@@ -10,9 +10,11 @@ constexpr double kLongestAnimation = 1e9;  ///< seconds
 constexpr double kMostStops = 60;
 
 void set_time(CommandLine& line, const std::string& text) {
-  const bool has_unit = text.size() > 1 && text.back() == 's';
-  line.import.time = parse_number("--at", has_unit ? text.substr(0, text.size() - 1) : text, 0,
-                                  kLongestAnimation, false);
+  line.import.time = parse_seconds("--at", text, kLongestAnimation);
+}
+
+void set_shutter(CommandLine& line, const std::string& text) {
+  line.import.shutter = parse_seconds("--shutter", text, kLongestAnimation);
 }
 
 void set_environment(CommandLine& line, const std::string& text) {
@@ -43,9 +45,12 @@ const OptionDescription kRows[] = {
      [](CommandLine& l, const std::string& t) { l.import.camera = t; }},
     {"", "--at", "", "TIME", "s", "0", "Picture",
      "Moment of the file's animations. The shutter opens then.", false, set_time},
-    {"", "--exposure", "", "EV", "stops", "0", "Picture",
-     "Brighten the picture by so many stops. Each doubles all values, over the scene's exposure or "
-     "the one that was chosen.",
+    {"", "--shutter", "", "TIME", "s", "0", "Picture",
+     "Time for which the shutter is open, as in 1/48s. Nodes of a glTF file that move in it are "
+     "blurred; the picture gets no brighter.",
+     false, set_shutter, true},
+    {"", "--exposure", "", "EV", "stops", "chosen for lights of glTF and OBJ, else 0", "Picture",
+     "Brighten the picture by so many stops over the scene's exposure. Each doubles all values.",
      false,
      [](CommandLine& l, const std::string& t) {
        l.import.exposure = parse_number("--exposure", t, -kMostStops, kMostStops, false);

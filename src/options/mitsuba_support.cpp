@@ -27,7 +27,8 @@ Mitsuba 0.6 (`intIOR`) or as in Mitsuba 3 (`int_ior`), in scenes of any version.
 
 - `<default>` values are replaced by `--define NAME=VALUE`. `<include>`, `<ref>` and `<alias>` are followed; objects may be used before
   they are defined.
-- Files lie in the scene's folder or below it; `--allow-outside` permits others.
+- Files lie in the scene's folder or below it; `--allow-outside` permits others. They are looked up in the folders of `<path>`
+  first.
 - `--camera` chooses a sensor by its id or its index from 0. By default it is the first.
 - The scene's integrator is used with `--integrator scene` only; its `max_depth` always counts.
 )";
@@ -43,7 +44,11 @@ constexpr const char* kTail = R"(
 | backs of one-sided BSDFs | black, unless in `twosided` | like the front; a warning counts the open shapes that differ |
 | environment maps | +y up, left edge at -z, then +x | the frame of the light is turned accordingly |
 | texture coordinates | v = 0 at the upper edge of an image | v = 0 at the lower edge: meshes and mappings are turned over |
+| images | sRGB, if they store integers, unless they are `raw` or have a `gamma` | the same, for all uses but normal maps |
+| colours of vertices | sRGB in PLY files of 0.6, unless `srgb` is false; else linear | the same; bytes are parts of 255 |
+| anisotropy of `principled` | alphas r² / a and r² a with a² = 1 - 0.9 `anisotropic` | the same alphas in the terms of OpenPBR |
 | smooth normals | made for meshes without normals | made by the same rule, unless `face_normals` is true |
+| mirrored meshes of files without normals | turned over, as normals are made in the world | the same |
 | colours | rgb, or spectra in spectral variants | linear sRGB values become smooth spectra; a white emission is D65 |
 | a spectrum of one value, as emission | white in 0.6, equal energy in 3 | the same, by the scene's version |
 | spectra of wavelengths and black bodies, as emission | absolute | the same luminance |

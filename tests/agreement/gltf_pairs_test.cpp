@@ -12,16 +12,19 @@ using namespace testing_support;
 
 struct Pair {
   const char* name;
-  double time = 0;  ///< moment of the animations, s
+  double time = 0;     ///< moment of the animations, s
+  double shutter = 0;  ///< time from it for which the shutter is open, s
 };
 
 constexpr int kSide = 40, kBlocks = 4, kSeeds = 16, kPasses = 24;
 
 class GltfPair : public ::testing::TestWithParam<Pair> {};
 
-std::unique_ptr<Scene> load(const std::string& name, double time) {
+std::unique_ptr<Scene> load(const std::string& name, const Pair& pair) {
   ImportOptions options;
-  options.time = time;
+  options.time = pair.time;
+  options.shutter = pair.shutter;
+  options.exposure = 0;
   Diagnostics diagnostics;
   const SceneDescription description =
       read_scene(source_directory() + "/tests/agreement/gltf/" + name, options, diagnostics);
@@ -32,7 +35,7 @@ std::unique_ptr<Scene> load(const std::string& name, double time) {
 
 TEST_P(GltfPair, AgreesWithItsPbrtScene) {
   const std::string name = GetParam().name;
-  const auto gltf = load(name + ".gltf", GetParam().time), pbrt = load(name + ".pbrt", 0);
+  const auto gltf = load(name + ".gltf", GetParam()), pbrt = load(name + ".pbrt", {});
   IntegratorOptions options;
   options.max_depth = 8;
   const SeedValues a = block_values(*gltf, "path", options, kSeeds, kPasses, 1, kBlocks);
@@ -57,7 +60,8 @@ TEST_P(GltfPair, AgreesWithItsPbrtScene) {
 INSTANTIATE_TEST_SUITE_P(All, GltfPair,
                          ::testing::Values(Pair{"glass"}, Pair{"thin_glass"}, Pair{"rough_glass"},
                                            Pair{"metal"}, Pair{"coat"}, Pair{"textures"},
-                                           Pair{"emissive"}, Pair{"skin", 1}, Pair{"lights"},
+                                           Pair{"emissive"}, Pair{"skin", 1},
+                                           Pair{"moving", 0.5, 1}, Pair{"lights"},
                                            Pair{"instances"}),
                          [](const auto& test) { return std::string(test.param.name); });
 

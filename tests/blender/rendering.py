@@ -34,7 +34,7 @@ def cycles(scene, path, samples):
     settings.device, settings.samples, settings.seed = "CPU", samples, 1
     settings.use_denoising = settings.use_adaptive_sampling = False
     settings.sample_clamp_indirect = settings.blur_glossy = 0
-    for name in ("max", "diffuse", "glossy", "transmission", "transparent_max"):
+    for name in ("max", "diffuse", "glossy", "transmission", "transparent_max", "volume"):
         setattr(settings, f"{name}_bounces", 32)
     return render_to(scene, path)
 

@@ -19,11 +19,12 @@ sys.path[:0] = [HERE, os.path.join(REPOSITORY, "tools", "blender")]
 import nephroid_blender
 from nephroid_blender.process import RenderProcess
 from nephroid_blender.program import find_program, route_names
+from exported import *  # its tests run with those of this file
 from rendering import (block_means, cycles, nephroid, open_scene, render_to, save_side_by_side)
 
 ARGUMENTS = sys.argv[sys.argv.index("--") + 1:]
 FOLDER = os.path.abspath(ARGUMENTS[0])
-LAMPS = ("point", "ball", "spot", "sun", "area", "disk", "panel", "world")
+LAMPS = ("point", "ball", "spot", "sun", "soft", "area", "disk", "panel", "world")
 
 
 def path_of(name):
@@ -59,8 +60,23 @@ class AgainstCycles(unittest.TestCase):
     def test_caustics(self):
         self.compare("caustics", 256, 10, 0.03, 0.05)
 
+    def test_varnish(self):
+        self.compare("varnish", 64, 2, 0.05, 0.05, 50)
+
     def test_instances(self):
         self.compare("instances", 64, 8, 0.02, 0.03)
+
+    def test_principled(self):
+        self.compare("principled", 128, 6, 0.04, 0.05)
+
+    def test_relief(self):
+        self.compare("relief", 64, 4, 0.02, 0.02)
+
+    def test_volumes(self):
+        self.compare("volumes", 128, 6, 0.02, 0.02)
+
+    def test_hair(self):
+        self.compare("hair", 64, 6, 0.04, 0.04)
 
 
 class Passes(unittest.TestCase):
@@ -123,9 +139,11 @@ class Failures(unittest.TestCase):
         open_scene(path_of("diffuse.blend"))
         scene_path = os.path.join(REPOSITORY, "scenes", "caustic-room", "scene.pbrt")
         process = RenderProcess(find_program(), [scene_path, "--stream", "picture", "--time", "1m"])
-        deadline = time.monotonic() + 20
-        while process.take_picture() is None and time.monotonic() < deadline:
+        deadline, picture = time.monotonic() + 20, None
+        while picture is None and time.monotonic() < deadline:
             time.sleep(0.01)
+            picture = process.take_picture()
+        self.assertIsNotNone(picture)
         begin = time.monotonic()
         process.stop()
         self.assertLess(time.monotonic() - begin, 0.5)

@@ -120,6 +120,8 @@ LAMPS = {
     "spot": lambda s: lamp(s, "spot", "SPOT", (0, -1.6, 3.2), 400, (0.3, 0.6, 0), (0.6, 0.8, 1),
                            spot_size=math.radians(50), spot_blend=0.3, shadow_soft_size=0),
     "sun": lambda s: lamp(s, "sun", "SUN", (0, 0, 5), 1.5, (1.2, 1.6, 0), (1, 0.95, 0.8), angle=0),
+    "soft": lambda s: lamp(s, "soft", "SUN", (0, 0, 5), 1, (-1, 1.8, 0), (0.8, 0.9, 1),
+                           angle=math.radians(15)),
     "area": lambda s: lamp(s, "area", "AREA", (-1.2, -1.9, 3.2), 80, (0, 0, 0.5),
                            shape="RECTANGLE", size=0.8, size_y=0.3),
     "disk": lambda s: lamp(s, "disk", "AREA", (1.2, 0.6, 3.9), 70, (0, 0, 0), (1, 0.5, 0.5),
@@ -162,6 +164,18 @@ def caustics(folder):
     world(scene, (1, 1, 1), 0.08)
     camera(scene, (0, -4.2, 2.4), (0, 0, 0.2), 45)
     save(folder, "caustics")
+
+
+def varnish(folder):
+    """A black varnished plate under an even sky: the picture is the reflectance of coat and base."""
+    scene = new_scene()
+    plate = material("varnish", "BsdfPrincipled", Base_Color=(0, 0, 0, 1), Roughness=0.6)
+    inputs = plate.node_tree.nodes["Principled BSDF"].inputs
+    inputs["Coat Weight" if "Coat Weight" in inputs else "Clearcoat"].default_value = 1
+    quad(scene, "plate", [(-50, -50, 0), (50, -50, 0), (50, 50, 0), (-50, 50, 0)], plate)
+    world(scene, (1, 1, 1))
+    camera(scene, (0, -3, 3), (0, 0, 0))
+    save(folder, "varnish")
 
 
 def checked_image(folder):
@@ -226,7 +240,8 @@ def instances(folder):
     scene = new_scene()
     image = checked_image(folder)
     bpy.ops.mesh.primitive_plane_add(size=6)
-    bpy.context.object.data.materials.append(textured("BsdfDiffuse", "Color", "ground", image, 2, 0))
+    ground = textured("BsdfDiffuse", "Color", "ground", image, 2, 0)
+    bpy.context.object.data.materials.append(ground)
     metal = material("metal", "BsdfGlossy", Color=(0.8, 0.8, 0.85, 1), Roughness=0.05)
     primitive("uv_sphere", metal, radius=0.5, segments=64, ring_count=32, location=(-1.2, 0.6, 0.5))
     bpy.ops.mesh.primitive_monkey_add(size=0.9, location=(0.2, -0.2, 0.5), rotation=(-0.5, 0, 0.4))
@@ -255,13 +270,18 @@ def instances(folder):
 
 
 def main():
+    sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+    from material_scenes import make_all
     folder = os.path.abspath(sys.argv[sys.argv.index("--") + 1])
     os.makedirs(folder, exist_ok=True)
+    make_all(folder)
     diffuse_room(folder)
     for which in LAMPS:
         diffuse_room(folder, "diffuse-" + which, (which,))
     caustics(folder)
+    varnish(folder)
     instances(folder)
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -1,8 +1,9 @@
-// The Mitsuba importer on hostile text; see targets.h.
+// The Mitsuba importer on hostile text, and the view that such a scene gets; see targets.h.
 #include "fuzz/file_list.h"
 #include "fuzz/memory_files.h"
+#include "fuzz/mesh_check.h"
 #include "fuzz/targets.h"
-#include "input/mitsuba/mitsuba_reader.h"
+#include "input/scene_reader.h"
 
 namespace nephroid::fuzz {
 
@@ -10,7 +11,7 @@ void mitsuba(const std::string& bytes) {
   const MemoryFiles files(files_of(bytes, "scene.xml"));
   Diagnostics diagnostics;
   try {
-    read_mitsuba("scene.xml", {}, diagnostics);
+    check_meshes(read_scene("scene.xml", {}, diagnostics));
   } catch (const Error&) {
   }
 }

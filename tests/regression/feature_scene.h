@@ -1,5 +1,5 @@
-// The scenes of the folder "features", one tiny scene for each feature of the scene format, and
-// their pictures for one seed. It must not know what is stored.
+// The scenes of the folder "features", one tiny scene for each feature of the scene format and for
+// each extension of glTF, and their pictures for one seed. It must not know what is stored.
 #pragma once
 
 #include <algorithm>
@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "film/film_output.h"
+#include "input/gltf/support.h"
+#include "input/scene_reader.h"
 #include "rendering.h"
 #include "session/settings/integrator_choice.h"
 #include "source_directory.h"
@@ -20,23 +22,56 @@ namespace nephroid::testing_support {
 inline const std::string kFeatureFolder =
     testing_support::source_directory() + "/tests/regression/features/";
 
-/// Names of all scenes, without folder and ".pbrt", sorted.
+/// Ends of the names of scenes.
+constexpr const char* kFeatureSuffixes[] = {".pbrt", ".gltf", ".glb"};
+
+/// Names of all scenes, without folder and suffix, sorted.
 inline std::vector<std::string> feature_names() {
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(kFeatureFolder))
-    if (entry.path().extension() == ".pbrt") names.push_back(entry.path().stem().string());
+    for (const char* suffix : kFeatureSuffixes)
+      if (entry.path().extension() == suffix) names.push_back(entry.path().stem().string());
   std::sort(names.begin(), names.end());
   return names;
 }
 
-/// Throws std::runtime_error on any warning: these scenes are correct.
+/// The file of a scene. Throws std::runtime_error if there is none.
+inline std::string feature_file(const std::string& name) {
+  for (const char* suffix : kFeatureSuffixes)
+    if (std::filesystem::exists(kFeatureFolder + name + suffix))
+      return kFeatureFolder + name + suffix;
+  throw std::runtime_error("there is no scene " + name);
+}
+
+/// Options of the user about a scene: without a variant its extension would show nothing.
+inline ImportOptions feature_import_options(const std::string& name) {
+  ImportOptions options;
+  options.exposure = 0;
+  if (name == "KHR_materials_variants") options.variant = "green";
+  return options;
+}
+
+/// True if loading may warn: the scene is of an extension that is approximated.
+inline bool is_approximated(const std::string& name) {
+  const auto extensions = gltf::extension_table();
+  return std::any_of(extensions.begin(), extensions.end(), [&](const gltf::Feature& extension) {
+    return name == extension.name && extension.support == gltf::FeatureSupport::kApproximated;
+  });
+}
+
+/// Throws std::runtime_error on any other warning: these scenes are correct.
 inline std::unique_ptr<Scene> load_feature(const std::string& name) {
+  constexpr int kGltfSide = 24;  // pbrt-v4 scenes say theirs
   Diagnostics diagnostics;
-  const SceneDescription description =
-      parse_pbrt_file(kFeatureFolder + name + ".pbrt", diagnostics);
-  auto scene = build_scene(description, {}, diagnostics);
-  for (const Warning& warning : diagnostics.warnings())
-    throw std::runtime_error(located(warning.where, warning.message));
+  SceneOverrides overrides;
+  overrides.import = feature_import_options(name);
+  const std::string file = feature_file(name);
+  if (!file.ends_with(".pbrt")) overrides.width = overrides.height = kGltfSide;
+  const SceneDescription description = read_scene(file, overrides.import, diagnostics);
+  auto scene = build_scene(description, overrides, diagnostics);
+  if (!is_approximated(name))
+    for (const Warning& warning : diagnostics.warnings())
+      throw std::runtime_error(located(warning.where, warning.message));
   return scene;
 }
 

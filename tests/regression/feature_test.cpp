@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <boost/math/distributions/students_t.hpp>
+#include <fstream>
 #include <sstream>
 
 #include "regression/feature_scene.h"
@@ -160,6 +161,17 @@ TEST_P(Feature, HasTheStoredMeanWithMixed) {
   EXPECT_GT(probability(now, stored), kFalseAlarm)
       << "mean: " << now.mean << " against " << stored.mean << " +- " << std::sqrt(now.variance);
   EXPECT_LT(std::sqrt(now.variance), 0.02 * now.mean) << "too noisy to tell";
+}
+
+TEST(GltfExtensions, HaveASceneEach) {
+  const std::vector<std::string> names = feature_names();
+  for (const gltf::Feature& extension : gltf::extension_table()) {
+    if (extension.support == gltf::FeatureSupport::kIgnored) continue;
+    ASSERT_TRUE(std::binary_search(names.begin(), names.end(), extension.name)) << extension.name;
+    std::ifstream file(feature_file(extension.name), std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    EXPECT_NE(text.find(std::string("\"") + extension.name), std::string::npos) << extension.name;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Feature, ::testing::ValuesIn(feature_names()),

@@ -39,6 +39,16 @@ TEST_F(ObjProgram, NamesThePictureAfterTheFileAndSaysWhatWasAdded) {
   EXPECT_TRUE(std::filesystem::exists(folder_.path("cube.exr")));
 }
 
+TEST_F(ObjProgram, WarnsOfChoicesThatTheFileDoesNotHave) {
+  const ProgramRun run =
+      render("cube.obj", {"--at", "1", "--shutter", "1/48s", "--variant", "red", "--camera", "1"});
+  EXPECT_EQ(run.status, 0) << run.errors;
+  for (const char* option : {"--at", "--shutter", "--variant", "--camera"})
+    EXPECT_NE(run.errors.find(std::string(option) + " is ignored: the file has no "),
+              std::string::npos)
+        << run.errors;
+}
+
 TEST_F(ObjProgram, ResumesOnlyWithTheSameOptionsAboutTheScene) {
   ASSERT_EQ(render("cube.obj", {"--sun", "30,45"}).status, 0);
   EXPECT_EQ(render("cube.obj", {"--sun", "30,45", "--resume"}).status, 0);

@@ -9,7 +9,7 @@ import pathlib
 import random
 import struct
 
-from mesh import bezier, convex, lathe, tube, write_png
+from mesh import bezier, brilliant, convex, lathe, tube, write_png
 
 SCENES = pathlib.Path(__file__).resolve().parents[2] / "scenes"
 
@@ -163,25 +163,6 @@ def pool():
                 if cosine > math.cos(math.radians(1.1)):
                     colour = [c + s for c, s in zip(colour, (5200, 4700, 3900))]
                 out.write(struct.pack("<3f", *colour))
-
-
-def brilliant(path, crown, star, upper, pavilion, lower, table, height):
-    """A round brilliant of radius 1 with its girdle at z = 0: angles of the facets in degrees, radius of the table."""
-    def facet(angle, turn, r, z):
-        a, t = math.radians(angle), math.radians(turn)
-        n = (math.sin(a) * math.cos(t), math.sin(a) * math.sin(t), math.cos(a))
-        return n, math.sin(a) * r + math.cos(a) * z
-    planes = [((0, 0, 1), height)]
-    for k in range(8):
-        planes.append(facet(crown, 45 * k, 1.0, 0.02))
-        planes.append(facet(star, 45 * k + 22.5, table * math.cos(math.radians(22.5)), height))
-        planes.append(facet(180 - pavilion, 45 * k, 1.0, -0.02))
-        for side in (11.25, 33.75):
-            planes.append(facet(upper, 45 * k + side, 0.995, 0.02))
-            planes.append(facet(180 - lower, 45 * k + side, 0.995, -0.02))
-    for k in range(48):
-        planes.append(facet(90, 7.5 * k, 1.0, 0))
-    convex(path, planes)
 
 
 def step_cut(path, half_width, half_depth):

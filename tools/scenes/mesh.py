@@ -1,6 +1,6 @@
 """Meshes and pictures as small files: binary PLY from parametric surfaces, lathes, tubes and convex solids; PNG.
 
-For the scripts in this folder, which write the files of scenes/. It must not know any scene. Normals of smooth
+For the scripts that write the files of scenes/. It must not know any scene. Normals of smooth
 surfaces point to the left of d/du x d/dv; facets of solids have none.
 """
 import math
@@ -148,3 +148,22 @@ def convex(path, planes):
                 corners.append(index[key])
         faces += [(corners[0], a, b) for a, b in zip(corners[1:], corners[2:])]
     write_ply(path, vertices, faces)
+
+
+def brilliant(path, crown, star, upper, pavilion, lower, table, height):
+    """A round brilliant of radius 1 with its girdle at z = 0: angles of the facets in degrees, radius of the table."""
+    def facet(angle, turn, r, z):
+        a, t = math.radians(angle), math.radians(turn)
+        n = (math.sin(a) * math.cos(t), math.sin(a) * math.sin(t), math.cos(a))
+        return n, math.sin(a) * r + math.cos(a) * z
+    planes = [((0, 0, 1), height)]
+    for k in range(8):
+        planes.append(facet(crown, 45 * k, 1.0, 0.02))
+        planes.append(facet(star, 45 * k + 22.5, table * math.cos(math.radians(22.5)), height))
+        planes.append(facet(180 - pavilion, 45 * k, 1.0, -0.02))
+        for side in (11.25, 33.75):
+            planes.append(facet(upper, 45 * k + side, 0.995, 0.02))
+            planes.append(facet(180 - lower, 45 * k + side, 0.995, -0.02))
+    for k in range(48):
+        planes.append(facet(90, 7.5 * k, 1.0, 0))
+    convex(path, planes)

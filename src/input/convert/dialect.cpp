@@ -1,33 +1,102 @@
 #include "input/convert/dialect.h"
 
+#include <map>
 #include <set>
 
 namespace nephroid {
 namespace {
 
-bool has(const ParameterSet& parameters, const char* name) {
-  for (const Parameter& parameter : parameters.list)
-    if (parameter.name == name) return true;
-  return false;
+constexpr DialectName kNames[] = {
+    {"Material", "principled"},
+    {"Material", "", "normalmap.scale"},
+    {"Material", "", "normalmap.handedness"},
+    {"Material", "", "normalmap.uwrap"},
+    {"Material", "", "normalmap.vwrap"},
+    {"Material", "", "normalmap.uvset"},
+    {"Material", "", "normalmap.uvtransform"},
+    {"Texture", "vertexcolor"},
+    {"Texture", "imagemap", "forceencoding"},
+    {"Texture", "imagemap", "vertexcolor"},
+    {"Texture", "imagemap", "wrap", "mirror"},
+    {"Texture", "imagemap", "uwrap"},
+    {"Texture", "imagemap", "vwrap"},
+    {"Texture", "imagemap", "uvset"},
+    {"Texture", "imagemap", "uvtransform"},
+    {"Texture", "imagemap", "channel"},
+    {"Texture", "imagemap", "cutoff"},
+    {"Texture", "imagemap", "factor"},
+    {"Shape", "trianglemesh", "uv2"},
+    {"Shape", "trianglemesh", "vertexcolors"},
+    {"LightSource", "", "name"},
+    {"LightSource", "distant", "angle"},
+    {"LightSource", "infinite", "faces"},
+    {"AreaLightSource", "", "name"},
+    {"AreaLightSource", "", "factor"},
+    {"AreaLightSource", "", "uwrap"},
+    {"AreaLightSource", "", "vwrap"},
+    {"AreaLightSource", "", "uvtransform"},
+};
+
+/// The word for a directive of any type.
+std::string noun(const std::string& directive) {
+  static const std::map<std::string, std::string> kNouns = {{"Material", "material"},
+                                                            {"Texture", "texture"},
+                                                            {"Shape", "shape"},
+                                                            {"LightSource", "light"},
+                                                            {"AreaLightSource", "area light"}};
+  return kNouns.at(directive);
 }
 
-void add_light(const DirectiveDescription& light, std::set<std::string>* names) {
-  if (has(light.parameters, "name")) names->insert("\"string name\" of lights");
-  if (light.type == "distant" && has(light.parameters, "angle"))
-    names->insert("\"float angle\" of distant lights");
+/// `"float angle" of distant lights`
+std::string phrase(const DialectName& name, const std::string& parameter_type) {
+  const std::string type = name.type, kind = noun(name.directive);
+  if (!*name.parameter) return kind + " \"" + type + "\"";
+  const std::string value = *name.value ? " \"" + std::string(name.value) + "\"" : "";
+  return "\"" + parameter_type + " " + name.parameter + "\"" + value + " of " +
+         (type.empty() ? "" : type + " ") + kind + "s";
 }
+
+/// Collects the names of the dialect from directives.
+class Collector {
+ public:
+  void add(const std::string& directive, const DirectiveDescription& d) {
+    for (const DialectName& name : kNames)
+      if (directive == name.directive && (!*name.type || d.type == name.type)) add(name, d);
+  }
+  void add(const ShapeDescription& shape) {
+    add("Shape", shape);
+    if (shape.area_light) add("AreaLightSource", *shape.area_light);
+  }
+  const std::set<std::string>& phrases() const { return phrases_; }
+
+ private:
+  void add(const DialectName& name, const DirectiveDescription& d) {
+    if (!*name.parameter) phrases_.insert(phrase(name, ""));
+    for (const Parameter& p : d.parameters.list)
+      if (p.name == name.parameter &&
+          (!*name.value || (!p.strings.empty() && p.strings[0] == name.value)))
+        phrases_.insert(phrase(name, p.type));
+  }
+
+  std::set<std::string> phrases_;
+};
 
 }  // namespace
 
+std::span<const DialectName> dialect_names() {
+  return kNames;
+}
+
 std::string dialect_note(const SceneDescription& scene) {
-  std::set<std::string> names;
-  for (const MaterialDescription& material : scene.materials)
-    if (material.type == "principled") names.insert("material \"principled\"");
-  for (const LightDescription& light : scene.lights) add_light(light, &names);
-  for (const ShapeDescription& shape : scene.shapes)
-    if (shape.area_light) add_light(*shape.area_light, &names);
+  Collector collector;
+  for (const MaterialDescription& material : scene.materials) collector.add("Material", material);
+  for (const TextureDescription& texture : scene.textures) collector.add("Texture", texture);
+  for (const LightDescription& light : scene.lights) collector.add("LightSource", light);
+  for (const ShapeDescription& shape : scene.shapes) collector.add(shape);
+  for (const auto& entry : scene.objects)
+    for (const ShapeDescription& shape : entry.second.shapes) collector.add(shape);
   std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  for (const std::string& phrase : collector.phrases()) list += (list.empty() ? "" : ", ") + phrase;
   return list.empty() ? "" : "# Of Nephroid, not of pbrt-v4: " + list + ".\n";
 }
 

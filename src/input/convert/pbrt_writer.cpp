@@ -17,7 +17,8 @@ namespace {
 /// Meshes with more triangles go to a file.
 constexpr size_t kMaxTrianglesInText = 32;
 
-constexpr const char* kFileParameters[] = {"filename", "normalmap", "lensfile", "emissionfilename"};
+constexpr const char* kFileParameters[] = {"filename", "faces", "normalmap", "lensfile",
+                                           "emissionfilename"};
 
 bool same_place(const SourceLocation& a, const SourceLocation& b) {
   return a.file == b.file && a.line == b.line && a.column == b.column;

@@ -1,9 +1,11 @@
-// Reads the parts of a glTF file in order: extensions, animations, nodes, camera, lights, meshes.
+// Reads the parts of a glTF file in order: extensions, choices, animations, nodes, camera, lights,
+// meshes.
 #include "input/gltf/gltf_reader.h"
 
 #include <new>
 
 #include "input/gltf/cameras.h"
+#include "input/gltf/choices.h"
 #include "input/gltf/lights.h"
 #include "input/gltf/meshes.h"
 #include "input/gltf/support.h"
@@ -27,6 +29,7 @@ SceneDescription read(const std::string& path, const ImportOptions& options,
   gltf::Document document(path, *scene.files, options, diagnostics);
   check_version(document);
   gltf::check_extensions(document);
+  gltf::add_choices(document, scene);
   const gltf::AnimationPose start(document, options.time);
   const gltf::AnimationPose end(document, options.time + options.shutter);
   const gltf::NodeGraph nodes(document, start, end);

@@ -70,6 +70,10 @@ std::optional<JsonValue> JsonValue::find_array(const std::string& name) const {
   return member;
 }
 
+bool JsonValue::is_equal(const JsonValue& other) const {
+  return *json_ == *other.json_;
+}
+
 std::optional<JsonValue> JsonValue::extension(const std::string& name) const {
   const std::optional<JsonValue> extensions = find_object("extensions");
   return extensions ? extensions->find_object(name) : std::nullopt;

@@ -34,6 +34,8 @@ class JsonValue {
   /// The member, an object or an array; empty if absent.
   std::optional<JsonValue> find_object(const std::string& name) const;
   std::optional<JsonValue> find_array(const std::string& name) const;
+  /// True if the other value has the same contents.
+  bool is_equal(const JsonValue& other) const;
   /// The extension of this object; empty if absent.
   std::optional<JsonValue> extension(const std::string& name) const;
 

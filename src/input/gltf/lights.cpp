@@ -1,9 +1,9 @@
 #include "input/gltf/lights.h"
 
-#include <algorithm>
-#include <cmath>
+#include <utility>
 
-#include "input/parameter_list.h"
+#include "core/color.h"
+#include "input/gltf/textures.h"
 
 namespace nephroid::gltf {
 namespace {
@@ -78,12 +78,11 @@ void add_punctual_lights(Document& document, const NodeGraph& nodes, SceneDescri
   }
 }
 
-/// EXT_lights_image_based as a uniform light of the mean radiance: the first coefficient of the
-/// irradiance, in real spherical harmonics, is pi / Y00 times the mean of the radiance.
-void add_image_based_light(Document& document, SceneDescription& scene) {
+/// The light of EXT_lights_image_based that the scene uses; empty if there is none.
+std::optional<JsonValue> find_image_based_light(Document& document) {
   const std::optional<JsonValue> shown = chosen_scene(document);
   const auto use = shown ? shown->extension("EXT_lights_image_based") : std::nullopt;
-  if (!use) return;
+  if (!use) return std::nullopt;
   const JsonValue root = document.root();
   const auto extension = root.extension("EXT_lights_image_based");
   if (!extension)
@@ -94,24 +93,47 @@ void add_image_based_light(Document& document, SceneDescription& scene) {
   if (index >= lights.size())
     use->get("light").fail("there is no light " + std::to_string(index) +
                            ", expected an index below " + std::to_string(lights.size()));
-  const JsonValue& light = lights[index];
-  const std::vector<JsonValue> coefficients = light.get("irradianceCoefficients").elements();
-  if (coefficients.empty() || coefficients[0].elements().size() != 3)
-    light.get("irradianceCoefficients")
-        .fail("the first coefficient is not a triple, expected nine triples of numbers");
-  constexpr double kMeanOfFirst = 0.28209479177387814 / 3.14159265358979323846;  // Y00 / pi
-  ParameterList::Color radiance;
-  for (size_t i = 0; i < 3; ++i)
-    radiance[i] = std::max(0.0, coefficients[0].elements()[i].number()) * kMeanOfFirst *
-                  light.get_number("intensity", 1);
-  document.diagnostics().warn(
-      light.where(),
-      "EXT_lights_image_based is approximated by its mean radiance, the same from "
-      "all directions");
-  ParameterList list(light.where());
-  list.add_color("L", radiance);
+  return lights[index];
+}
+
+/// The mean luminance of the surroundings over pi / Y00 is the first coefficient of the irradiance,
+/// in real spherical harmonics (Ramamoorthi and Hanrahan 2001).
+std::optional<double> mean_luminance(const JsonValue& light) {
+  constexpr double kMeanOfFirst = 0.28209479177387814 / 3.14159265358979323846;
+  const std::optional<JsonValue> list = light.find_array("irradianceCoefficients");
+  if (!list || list->elements().empty()) return std::nullopt;
+  std::vector<float> rgb;
+  for (const JsonValue& number : list->elements().front().elements())
+    rgb.push_back(static_cast<float>(number.number()));
+  if (rgb.size() != 3) return std::nullopt;
+  return kMeanOfFirst * RgbColorSpace::srgb().to_xyz({rgb[0], rgb[1], rgb[2]}).y;
+}
+
+/// An infinite light with the sharpest cube of the light. The blurred ones and the irradiance are
+/// for rasterizers.
+void add_image_based_light(Document& document, SceneDescription& scene) {
+  const std::optional<JsonValue> light = find_image_based_light(document);
+  const double intensity = light ? light->get_number("intensity", 1) : 0;
+  if (!(intensity > 0)) return;
+  const JsonValue cubes = light->get("specularImages");
+  if (cubes.elements().empty()) cubes.fail("this list is empty, expected the six faces of a cube");
+  const std::vector<JsonValue> faces = cubes.elements().front().elements();
+  if (faces.size() != 6)
+    cubes.fail("the cube has " + std::to_string(faces.size()) + " faces, expected 6");
+  Textures textures(document, scene);
+  std::vector<std::string> names;
+  for (const JsonValue& face : faces) names.push_back(textures.image_file(face.index(), face));
+  ParameterList list(light->where());
+  list.add_strings("faces", std::move(names));
+  if (intensity != 1) list.add_float("scale", intensity);
+  const std::string name = light->get_text("name", "");
+  if (!name.empty()) list.add_string("name", name);
+  NodePose pose;
+  pose.rotation = light->get_numbers<4>("rotation", pose.rotation);
   LightDescription description;
   static_cast<DirectiveDescription&>(description) = std::move(list).directive("infinite");
+  description.transform = {matrix_of(pose), matrix_of(pose)};
+  description.mean_luminance = mean_luminance(*light);
   scene.lights.push_back(std::move(description));
 }
 

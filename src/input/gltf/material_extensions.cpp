@@ -45,6 +45,25 @@ bool add_volume(SurfaceInputs& inputs) {
   return true;
 }
 
+/// True if both have the same image at the same place, or none has one.
+bool is_same_map(const std::optional<JsonValue>& a, const std::optional<JsonValue>& b) {
+  return a && b ? a->is_equal(*b) : !a && !b;
+}
+
+/// The facets of OpenPBR.
+struct StretchedFacets {
+  double roughness, anisotropy;
+};
+
+/// glTF stretches the tangent's alpha from a = roughness^2 to a + (1 - a) strength^2. OpenPBR has
+/// alpha_t = r^2 sqrt(2 / (1 + (1 - s)^2)) and alpha_b = (1 - s) alpha_t; solved for r and s.
+StretchedFacets stretched(double roughness, double strength) {
+  const double across = roughness * roughness;
+  const double along = across + (1 - across) * strength * strength;
+  const double ratio = across / along;
+  return {std::sqrt(along / std::sqrt(2 / (1 + ratio * ratio))), 1 - ratio};
+}
+
 }  // namespace
 
 void add_transmission(SurfaceInputs& inputs) {
@@ -123,10 +142,13 @@ void add_clearcoat(SurfaceInputs& inputs) {
   inputs.add("coat_roughness", SurfaceInputs::number(*coat, "clearcoatRoughnessFactor", 0,
                                                      "clearcoatRoughnessTexture", 'g'));
   inputs.list.add_float("coat_ior", 1.5);
-  inputs.list.add_float("coat_darkening", 0);  // glTF's coat does not darken what is below
-  if (const auto map = coat->find_object("clearcoatNormalTexture"))
-    inputs.warn(map->where(),
-                "a normal map of the coat is ignored: the coat has the normals of "
+  // glTF's coat neither darkens what is below nor changes its F0 and roughness.
+  inputs.list.add_float("coat_darkening", 0);
+  inputs.list.add_bool("coat_affects_specular", false);
+  const auto map = coat->find_object("clearcoatNormalTexture");
+  if (!is_same_map(map, inputs.json->find_object("normalTexture")))
+    inputs.warn(map ? map->where() : coat->where(),
+                "the coat and the surface below have different normal maps: both get the one of "
                 "the surface below");
 }
 
@@ -146,27 +168,35 @@ void add_sheen(SurfaceInputs& inputs) {
 
 void add_anisotropy(SurfaceInputs& inputs, const NumberInput& roughness) {
   const auto extension = inputs.extension("KHR_materials_anisotropy");
-  const double strength = extension->get_number("anisotropyStrength", 0);
+  const NumberInput strength =
+      SurfaceInputs::number(*extension, "anisotropyStrength", 0, "anisotropyTexture", 'b');
   inputs.surface.needs_tangents = true;
   inputs.surface.uv_sets.place_of(0);
   inputs.surface.tangent_rotation = extension->get_number("anisotropyRotation", 0);
-  if (const auto map = extension->find_object("anisotropyTexture"))
-    inputs.warn(map->where(),
-                "the directions of an anisotropy texture are ignored: the factors "
-                "of the material count");
+  if (strength.texture)
+    inputs.warn(strength.texture->where(),
+                "an anisotropy texture is approximated: its strength counts, its directions do "
+                "not");
   if (roughness.texture || roughness.factor == 0) {
+    if (roughness.texture)
+      inputs.warn(extension->where(), "anisotropy below a texture of roughness is approximated");
     inputs.add("specular_roughness", roughness);
-    inputs.list.add_float("specular_roughness_anisotropy", strength);
+    inputs.add("specular_roughness_anisotropy", strength);
     return;
   }
-  // glTF stretches the tangent's alpha from a = roughness^2 to a + (1 - a) strength^2. OpenPBR has
-  // alpha_t = r^2 sqrt(2 / (1 + (1 - s)^2)) and alpha_b = (1 - s) alpha_t; solved for r and s.
-  const double across = roughness.factor * roughness.factor;
-  const double along = across + (1 - across) * strength * strength;
-  const double ratio = across / along;
-  inputs.list.add_float("specular_roughness",
-                        std::sqrt(along / std::sqrt(2 / (1 + ratio * ratio))));
-  inputs.list.add_float("specular_roughness_anisotropy", 1 - ratio);
+  const StretchedFacets all = stretched(roughness.factor, strength.factor);
+  if (!strength.texture || strength.factor == 0) {
+    inputs.list.add_float("specular_roughness", all.roughness);
+    inputs.list.add_float("specular_roughness_anisotropy", all.anisotropy);
+    return;
+  }
+  const SourceLocation where = strength.texture->where();
+  const std::string amount =
+      inputs.textures.number(*strength.texture, {'b', 1, false, {}, false}, inputs.surface.uv_sets);
+  inputs.list.add_texture("specular_roughness",
+                          inputs.textures.mix(roughness.factor, all.roughness, amount, where));
+  inputs.list.add_texture("specular_roughness_anisotropy",
+                          inputs.textures.mix(0, all.anisotropy, amount, where));
 }
 
 void add_iridescence(SurfaceInputs& inputs) {

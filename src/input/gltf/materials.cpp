@@ -201,15 +201,11 @@ void describe(SurfaceInputs& inputs) {
 std::optional<size_t> Materials::chosen_variant() {
   const std::string& wanted = document_.options().variant;
   if (wanted.empty()) return std::nullopt;
-  const std::optional<JsonValue> extension = document_.root().extension("KHR_materials_variants");
+  const std::vector<std::string>& variants = scene_.choices.variants;
   std::string known;
-  if (extension) {
-    const std::vector<JsonValue> variants = extension->get("variants").elements();
-    for (size_t i = 0; i < variants.size(); ++i) {
-      const std::string name = variants[i].get_text("name", "");
-      if (name == wanted) return i;
-      known += (known.empty() ? "\"" : ", \"") + name + "\"";
-    }
+  for (size_t i = 0; i < variants.size(); ++i) {
+    if (variants[i] == wanted) return i;
+    known += (known.empty() ? "\"" : ", \"") + variants[i] + "\"";
   }
   document_.root().fail(
       "there is no material variant \"" + wanted + "\"" +

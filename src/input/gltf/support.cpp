@@ -19,10 +19,13 @@ constexpr Feature kExtensions[] = {
      "a thickness above 0 makes the glass solid; the value and its texture do not matter to a ray "
      "tracer"},
     {"KHR_materials_dispersion", kLoaded, "of solid glass"},
-    {"KHR_materials_clearcoat", kApproximated, "a normal map of the coat is ignored"},
+    {"KHR_materials_clearcoat", kApproximated,
+     "the coat has the normal map of the surface below, with a warning if its own is another"},
     {"KHR_materials_sheen", kApproximated, "the fuzz of OpenPBR stands for the Charlie lobe"},
     {"KHR_materials_iridescence", kLoaded, ""},
-    {"KHR_materials_anisotropy", kApproximated, "the texture of directions is ignored"},
+    {"KHR_materials_anisotropy", kApproximated,
+     "exact without textures; of an anisotropy texture the strength counts and the directions do "
+     "not, with a warning"},
     {"KHR_materials_emissive_strength", kLoaded, ""},
     {"KHR_materials_diffuse_transmission", kLoaded, ""},
     {"KHR_materials_unlit", kApproximated,
@@ -34,9 +37,12 @@ constexpr Feature kExtensions[] = {
      "what it reflects, not by 1 - max(specular); with a specular texture its reflectance hardly "
      "grows at grazing angles, as that of a metal"},
     {"KHR_lights_punctual", kLoaded,
-     "a candela, a lux and a candela per square metre are one unit each; a light has no radius, "
+     "candela and lux; the exposure is chosen for the file's lights unless `--exposure` gives one, "
+     "and `--exposure 0` shows a candela per square metre as 1; a light has no radius, "
      "\"range\" is not needed, the edge of a spot is pbrt's smooth step"},
-    {"EXT_lights_image_based", kApproximated, "a uniform light of its mean radiance"},
+    {"EXT_lights_image_based", kLoaded,
+     "the sharpest cube with rotation and intensity; an image with alpha is RGBD, its colours are "
+     "sRGB; blurred cubes are not needed, and the irradiance counts for the exposure only"},
     {"KHR_texture_transform", kLoaded, "a rotation does not turn the directions in a normal map"},
     {"KHR_mesh_quantization", kLoaded, ""},
     {"KHR_draco_mesh_compression", kLoaded, ""},
@@ -73,7 +79,9 @@ constexpr Feature kFeatures[] = {
     {"metallic-roughness", kLoaded, "Material \"principled\""},
     {"normal maps", kLoaded, "with scale"},
     {"occlusion maps", kIgnored, "occlusion is ray traced"},
-    {"emission", kLoaded, "an area light; a factor of 1 gives the pixel value 1"},
+    {"emission", kLoaded,
+     "an area light; a candela per square metre for a factor of 1; a file whose only light is "
+     "emission up to that gets the sky and the lamp of files without light"},
     {"alpha modes", kLoaded, "BLEND is coverage, MASK a cutoff"},
     {"double-sided", kApproximated,
      "all surfaces are visible from both sides; the flag only decides "
@@ -86,7 +94,9 @@ constexpr Feature kFeatures[] = {
      "a "
      "warning"},
     {"skins", kLoaded, "at the start of the shutter"},
-    {"animations", kLoaded, "all animations of the file, at the time of `--at`"},
+    {"animations", kLoaded,
+     "all of a file at one moment, `--at`; nodes that move while the shutter is open, `--shutter`, "
+     "are blurred between its two ends"},
 };
 
 const Feature* find_extension(const std::string& name) {

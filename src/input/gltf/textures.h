@@ -58,6 +58,10 @@ class Textures {
   /// The mix of two numbers by a float texture.
   std::string mix(double at_0, double at_1, const std::string& amount, const SourceLocation& where);
 
+  /// The name in the scene of the file of an image. Images inside of the file become files in
+  /// memory. Throws SceneError at `wanted_by` if there is no such image.
+  std::string image_file(size_t image, const JsonValue& wanted_by);
+
   /// The image file and the placement over the surface, with a prefix before the names of
   /// parameters, for normal maps and area lights.
   void add_placed_image(ParameterList& list, const std::string& file_parameter,
@@ -65,7 +69,6 @@ class Textures {
 
  private:
   std::string image_of(const JsonValue& info);
-  std::string image_file(size_t image, const JsonValue& wanted_by);
   std::optional<size_t> image_index(const JsonValue& texture);
   void add_placement(ParameterList& list, const std::string& prefix, const JsonValue& info,
                      UvSets& uv_sets);

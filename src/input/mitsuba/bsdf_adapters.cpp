@@ -30,11 +30,11 @@ std::string with_opacity(PluginProperties& p, const Surface& surface) {
   return mixture(p, null_material(p.context(), p.where()), surface.material, *surface.alpha);
 }
 
-/// Copies of materials with one more parameter; both parts of mixtures get it.
+/// Copies of materials with more parameters; both parts of mixtures get them.
 class ParameterAdder {
  public:
-  ParameterAdder(PluginProperties& properties, Parameter parameter)
-      : p_(properties), parameter_(std::move(parameter)) {}
+  ParameterAdder(PluginProperties& properties, std::vector<Parameter> parameters)
+      : p_(properties), parameters_(std::move(parameters)) {}
 
   std::string copy(const std::string& name) {
     const auto known = copies_.find(name);
@@ -45,35 +45,25 @@ class ParameterAdder {
         if (parameter.name == "materials")
           for (std::string& part : parameter.strings) part = copy(part);
     } else if (m.type != "interface") {
-      std::erase_if(m.parameters.list,
-                    [&](const Parameter& other) { return other.name == parameter_.name; });
-      m.parameters.list.push_back(parameter_);
+      for (const Parameter& parameter : parameters_) {
+        std::erase_if(m.parameters.list,
+                      [&](const Parameter& other) { return other.name == parameter.name; });
+        m.parameters.list.push_back(parameter);
+      }
     }
     return copies_[name] = add_material(p_, std::move(m));
   }
 
  private:
   PluginProperties& p_;
-  Parameter parameter_;
+  std::vector<Parameter> parameters_;
   std::map<std::string, std::string> copies_;
 };
 
-Surface with_parameter(PluginProperties& p, Parameter parameter) {
+Surface with_parameters(PluginProperties& p, std::vector<Parameter> parameters) {
   Surface surface = nested_surface(p);
-  surface.material = ParameterAdder(p, std::move(parameter)).copy(surface.material);
+  surface.material = ParameterAdder(p, std::move(parameters)).copy(surface.material);
   return surface;
-}
-
-/// A float texture `scale` times another.
-std::string scaled_texture(PluginProperties& p, const std::string& name, double scale) {
-  if (scale == 1) return name;
-  TextureDescription t = directive<TextureDescription>("scale", p.where());
-  t.name = p.context().unique_name(p.object());
-  t.value_type = "float";
-  t.parameters.list.push_back(text_parameter("texture", "tex", {name}, p.where()));
-  add_float(t.parameters, "scale", scale);
-  p.context().scene.textures.push_back(t);
-  return t.name;
 }
 
 }  // namespace
@@ -138,16 +128,17 @@ Surface write_mixture(PluginProperties& p) {
 Surface write_bump_map(PluginProperties& p) {
   const Object* texture = p.first_child("texture");
   if (!texture) throw SceneError(p.where(), p.title() + " has no texture, expected one of heights");
-  const std::string name = write_texture(p.context(), *texture, TextureUse::kHeight);
-  const std::string scaled = scaled_texture(p, name, p.number("scale", 1));
-  return with_parameter(p, text_parameter("texture", "displacement", {scaled}, texture->where));
+  const std::string name = write_texture(p.context(), *texture, TextureUse::kNumber);
+  Parameter height = text_parameter("texture", "", {name}, texture->where);
+  height = scaled(p, std::move(height), p.number("scale", 1));
+  height.name = "displacement";
+  return with_parameters(p, {std::move(height)});
 }
 
 Surface write_normal_map(PluginProperties& p) {
   const Object* texture = p.first_child("texture");
   if (!texture) throw SceneError(p.where(), p.title() + " has no texture, expected one of normals");
-  return with_parameter(p, text_parameter("string", "normalmap",
-                                          {bitmap_file(p.context(), *texture)}, texture->where));
+  return with_parameters(p, normal_map(p.context(), *texture));
 }
 
 }  // namespace nephroid::mitsuba

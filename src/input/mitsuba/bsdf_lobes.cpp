@@ -25,18 +25,18 @@ std::string diffuse_lobe(PluginProperties& p, const Vec3d& reflectance) {
   return add_material(p, std::move(m));
 }
 
-std::string glossy_lobe(PluginProperties& p, const Vec3d& reflectance, double alpha_u,
-                        double alpha_v) {
+std::string glossy_lobe(PluginProperties& p, const Vec3d& reflectance, const Parameter& alpha_u,
+                        const Parameter& alpha_v) {
   MaterialDescription m = material(p, "conductor");
   add_rgb(m.parameters, "reflectance", at_most_one(reflectance));
-  add_float(m.parameters, "uroughness", alpha_u);
-  add_float(m.parameters, "vroughness", alpha_v);
+  add_as(m.parameters, "uroughness", alpha_u);
+  add_as(m.parameters, "vroughness", alpha_v);
   add_bool(m.parameters, "remaproughness", false);
   return add_material(p, std::move(m));
 }
 
 /// A mixture whose lobes have, weighed by their shares, the reflectances of the BSDF.
-Surface lobes(PluginProperties& p, double alpha_u, double alpha_v) {
+Surface lobes(PluginProperties& p, const Parameter& alpha_u, const Parameter& alpha_v) {
   const Vec3d diffuse = color_of(p, "diffuse_reflectance", 0.5);
   const Vec3d glossy = color_of(p, "specular_reflectance", 0.2);
   const double sum = mean(diffuse) + mean(glossy);
@@ -66,17 +66,14 @@ Surface write_phong(PluginProperties& p) {
   if (!(n >= 0)) throw SceneError(exponent->where, "\"exponent\" is negative, expected 0 or more");
   // The angle to the half vector is half of that to the mirror direction: its exponent is 4 n, and
   // alpha^2 = 2 / (exponent + 2).
-  const double alpha = std::sqrt(2 / (4 * n + 2));
+  const Parameter alpha = numbers_parameter("float", "", {std::sqrt(2 / (4 * n + 2))}, p.where());
   return lobes(p, alpha, alpha);
 }
 
 Surface write_ward(PluginProperties& p) {
-  const double alpha = p.number("alpha", 0.1);
-  const double u = p.number("alpha_u", alpha), v = p.number("alpha_v", alpha);
-  if (!(u > 0 && v > 0 && u <= 10 && v <= 10))
-    throw SceneError(p.where(), "\"alpha\" of ward is out of range, expected above 0, at most 10");
+  const Parameter alpha = read_alpha(p, "alpha", numbers_parameter("float", "", {0.1}, p.where()));
   p.text("variant", "");
-  return lobes(p, u, v);
+  return lobes(p, read_alpha(p, "alpha_u", alpha), read_alpha(p, "alpha_v", alpha));
 }
 
 }  // namespace nephroid::mitsuba

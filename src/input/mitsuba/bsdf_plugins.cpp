@@ -60,7 +60,9 @@ constexpr BsdfRow kBsdfs[] = {
      write_ward},
     {{"bsdf", "difftrans"}, write_diffuse_transmission},
     {{"bsdf", "null"}, write_null},
-    {{"bsdf", "principled", kApproximated, "the OpenPBR material of the same parameters"},
+    {{"bsdf", "principled", kApproximated,
+      "the OpenPBR material of the same parameters; a textured base_color tints transmitted light "
+      "once too often"},
      write_principled},
     {{"bsdf", "principledthin", kApproximated,
       "the thin-walled OpenPBR material of the same parameters"},
@@ -127,6 +129,21 @@ std::string mixture(PluginProperties& properties, const std::string& first,
       text_parameter("string", "materials", {first, second}, properties.where()));
   add_as(m.parameters, "amount", std::move(amount));
   return add_material(properties, std::move(m));
+}
+
+Parameter scaled(PluginProperties& properties, Parameter value, double factor) {
+  if (factor == 1) return value;
+  if (value.type == "float") {
+    value.numbers[0] *= factor;
+    return value;
+  }
+  TextureDescription t = directive<TextureDescription>("scale", properties.where());
+  t.name = properties.context().unique_name(properties.object());
+  t.value_type = "float";
+  add_as(t.parameters, "tex", std::move(value));
+  add_float(t.parameters, "scale", factor);
+  properties.context().scene.textures.push_back(t);
+  return text_parameter("texture", "", {t.name}, properties.where());
 }
 
 const MaterialDescription& written_material(const ImportContext& context, const std::string& name) {

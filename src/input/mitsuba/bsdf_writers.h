@@ -63,11 +63,16 @@ Surface surface_of(PluginProperties& properties, MaterialDescription material, b
 std::string mixture(PluginProperties& properties, const std::string& first,
                     const std::string& second, Parameter amount);
 
+/// A number or a float texture, times a factor.
+Parameter scaled(PluginProperties& properties, Parameter value, double factor);
+
 /// Sets the microfacet distribution from "alpha", or "alpha_u" and "alpha_v", as parameters
 /// `prefix` + "roughness". Warns of distributions other than GGX.
 void add_roughness(PluginProperties& properties, ParameterSet& set, const std::string& prefix = "");
-/// The same as specular_roughness of "principled", whose square is alpha. Textures get a warning.
+/// The same as specular_roughness of "principled" and its anisotropy.
 void add_principled_roughness(PluginProperties& properties, ParameterSet& set);
+/// An alpha, by default `fallback`. Throws SceneError if it is out of range.
+Parameter read_alpha(PluginProperties& properties, const char* name, const Parameter& fallback);
 
 /// The description of a written material.
 const MaterialDescription& written_material(const ImportContext& context, const std::string& name);

@@ -1,13 +1,12 @@
 #include "input/mitsuba/color_value.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "core/counted.h"
-#include "input/contained_file.h"
 #include "input/file_bytes.h"
 #include "input/mitsuba/parameter_values.h"
-#include "input/mitsuba/plugin.h"
 #include "input/mitsuba/spectrum_text.h"
 #include "input/mitsuba/texture_plugins.h"
 #include "input/mitsuba/value_text.h"
@@ -44,8 +43,7 @@ ColorValue black_body(const Property& p) {
 ColorValue spectrum_of_file(PluginProperties& properties, const std::string& name, ColorUse use,
                             const SourceLocation& where) {
   SceneFiles& files = *properties.context().scene.files;
-  const std::string file =
-      contained_file(files, name, properties.context().options.allow_outside, where);
+  const std::string file = properties.context().file_names.find(files, name, where);
   try {
     return spectrum_of_pairs(pairs_of_file(files.read(files.path_of(file)), where), use, where);
   } catch (const IoError& error) {
@@ -85,6 +83,7 @@ ColorValue color_of_property(PluginProperties& properties, const Property& p, Co
 using SpectrumReader = ColorValue (*)(PluginProperties& properties, ColorUse use);
 
 ColorValue read_uniform(PluginProperties& p, ColorUse use) {
+  for (const char* name : {"wavelength_min", "wavelength_max"}) p.find(name);
   return uniform_spectrum(p.number("value", 1), use, false, p.where());
 }
 
@@ -156,7 +155,7 @@ constexpr SpectrumRow kSpectra[] = {
     {{"spectrum", "regular"}, read_regular},
     {{"spectrum", "irregular"}, read_irregular},
     {{"spectrum", "blackbody"}, read_black_body},
-    {{"spectrum", "rawconstant", kLoaded, "as srgb"}, read_uniform},
+    {{"spectrum", "rawconstant", kLoaded, "as uniform"}, read_uniform},
 };
 
 ColorValue color_of_plugin(ImportContext& context, const Object& object, ColorUse use) {
@@ -247,6 +246,10 @@ void add_emission(ParameterSet& set, const std::string& target,
     throw SceneError(color ? color->parameter.where : set.where,
                      "an emission is negative or too bright, expected 0 to 1e30");
   if (scale != 1) add_float(set, "scale", scale);
+}
+
+std::vector<Plugin> spectrum_plugins() {
+  return std::vector<Plugin>(std::begin(kSpectra), std::end(kSpectra));
 }
 
 }  // namespace nephroid::mitsuba

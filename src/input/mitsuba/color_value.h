@@ -4,8 +4,9 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "input/mitsuba/plugin_properties.h"
+#include "input/mitsuba/plugin.h"
 
 namespace nephroid::mitsuba {
 
@@ -46,5 +47,8 @@ void add_color(ParameterSet& set, const std::string& target, const std::optional
 /// Adds an emission as `target`, white by default, with its "scale" times `factor`.
 void add_emission(ParameterSet& set, const std::string& target,
                   const std::optional<ColorValue>& color, double factor = 1);
+
+/// Spectra that are plug-ins: <spectrum type="d65"> ...
+std::vector<Plugin> spectrum_plugins();
 
 }  // namespace nephroid::mitsuba

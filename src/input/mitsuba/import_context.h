@@ -8,7 +8,6 @@
 #include <string>
 #include <utility>
 
-#include "input/import_options.h"
 #include "input/mitsuba/object.h"
 #include "input/scene_description.h"
 
@@ -23,7 +22,7 @@ struct Surface {
 
 struct ImportContext {
   SceneDescription& scene;
-  const ImportOptions& options;
+  const FileNames& file_names;
   Diagnostics& diagnostics;
   int version = 0;                      ///< major version of the scene, 0 for 0.5 and 0.6
   bool moves = false;                   ///< true if a transform is animated
@@ -32,19 +31,28 @@ struct ImportContext {
 
   // What was written, so that a shared object is written once.
   std::map<const Object*, Surface> surfaces = {};
+  std::map<std::pair<const Object*, std::string>, Surface> subsurfaces =
+      {};  ///< by object and the boundary's material
   std::map<std::pair<const Object*, std::string>, std::string> textures =
       {};  ///< by object and use
   std::map<const Object*, std::string> media = {};
   std::map<const Object*, std::string> groups = {};
 
   std::set<std::string> names = {};  ///< taken names of materials, textures, media and objects
+  std::map<std::string, int> last_numbers = {};  ///< behind taken names, by the wanted name
+
+  std::set<const Object*> written_shapes = {};
+  size_t copied = 0;  ///< numbers in the shapes that were written again
 
   bool is_before_version_2() const { return version < 2; }
   /// The object's id, or a name of its plug-in, made unique.
   std::string unique_name(const Object& object) {
-    const std::string wanted = object.id.empty() ? object.type : object.id;
+    return unique_name(object.id.empty() ? object.type : object.id);
+  }
+  std::string unique_name(const std::string& wanted) {
     std::string name = wanted;
-    for (int i = 2; !names.insert(name).second; ++i) name = wanted + "-" + std::to_string(i);
+    int& number = last_numbers.try_emplace(wanted, 1).first->second;
+    while (!names.insert(name).second) name = wanted + "-" + std::to_string(++number);
     return name;
   }
 };

@@ -19,6 +19,9 @@ constexpr IntegratorRow kIntegrators[] = {
     {{"integrator", "volpath"}, "volpath"},
     {{"integrator", "volpath_simple"}, "volpath"},
     {{"integrator", "volpathmis"}, "volpath"},
+    {{"integrator", "prb"}, "path"},
+    {{"integrator", "prb_basic"}, "path"},
+    {{"integrator", "prbvolpath"}, "volpath"},
     {{"integrator", "direct", kLoaded, "path, with one scattering event"}, "path"},
     {{"integrator", "bdpt"}, "bdpt"},
     {{"integrator", "mlt"}, "mlt"},
@@ -38,6 +41,7 @@ constexpr IntegratorRow kIntegrators[] = {
     {{"integrator", "ao", kIgnored, kNoMethod}},
     {{"integrator", "field", kIgnored, kNoMethod}},
     {{"integrator", "depth", kIgnored, kNoMethod}},
+    {{"integrator", "motion", kIgnored, kNoMethod}},
 };
 
 /// Mitsuba counts the edges of a path, the renderer its scattering events; -1 is no limit.

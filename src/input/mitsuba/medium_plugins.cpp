@@ -5,6 +5,7 @@
 
 #include "input/mitsuba/color_value.h"
 #include "input/mitsuba/parameter_values.h"
+#include "input/mitsuba/scattering_coefficients.h"
 #include "input/mitsuba/volume_source.h"
 
 namespace nephroid::mitsuba {
@@ -38,47 +39,17 @@ double mean_cosine(PluginProperties& medium) {
   return g;
 }
 
-/// Absorption and scattering of a medium that is given in numbers.
-struct Coefficients {
-  Vec3d absorption, scattering;
-};
-
-Coefficients of_extinction(const Vec3d& extinction, const Vec3d& albedo) {
-  return {extinction * (Vec3d(1.0) - albedo), extinction * albedo};
-}
-
-/// The colour of a property or of a constant volume.
-std::optional<Vec3d> constant_of(PluginProperties& p, const char* name) {
-  if (const Object* volume = p.child("volume", name)) return constant_volume(p.context(), *volume);
-  return read_rgb(p, name);
-}
-
-Vec3d albedo_of(PluginProperties& p) {
-  const Vec3d albedo = constant_of(p, "albedo").value_or(Vec3d(0.75));
-  for (int i = 0; i < 3; ++i)
-    if (!(albedo[i] >= 0 && albedo[i] <= 1))
-      throw SceneError(p.where(), "\"albedo\" is out of range, expected 0 to 1");
-  return albedo;
-}
-
 void write_homogeneous(PluginProperties& p, MediumDescription& m) {
   m.type = "homogeneous";
-  const auto absorption = constant_of(p, "sigma_a"), scattering = constant_of(p, "sigma_s");
-  const auto extinction = constant_of(p, "sigma_t");
+  std::optional<Coefficients> c = read_coefficients(p);
+  if (!c && !p.context().is_before_version_2()) c = of_extinction(Vec3d(1.0), read_albedo(p));
   double scale = p.number("scale", 1);
-  const bool is_given =
-      absorption || scattering || extinction || !p.context().is_before_version_2();
-  if (p.has("material") || !is_given) {
-    // Mitsuba's presets are pbrt-v4's, per millimetre, for scenes in units of ten centimetres.
-    add_text(m.parameters, "preset", p.text("material", "Skin1"));
-    scale *= 100;
+  if (p.has("material") || !c) {
+    add_text(m.parameters, "preset", preset_name(p));
+    scale *= kPresetScale;
   } else {
-    const Coefficients c =
-        absorption || scattering
-            ? Coefficients{absorption.value_or(Vec3d(0.0)), scattering.value_or(Vec3d(0.0))}
-            : of_extinction(extinction.value_or(Vec3d(1.0)), albedo_of(p));
-    add_rgb(m.parameters, "sigma_a", c.absorption);
-    add_rgb(m.parameters, "sigma_s", c.scattering);
+    add_rgb(m.parameters, "sigma_a", c->absorption);
+    add_rgb(m.parameters, "sigma_s", c->scattering);
   }
   if (scale != 1) add_float(m.parameters, "scale", scale);
 }
@@ -114,7 +85,7 @@ void add_grid(PluginProperties& p, MediumDescription& m, const VolumeSource& den
     add_colored_grid(p, m, density, albedo);
   } else {
     m.type = "uniformgrid";
-    const Vec3d albedo = albedo_of(p);
+    const Vec3d albedo = read_albedo(p);
     add_rgb(m.parameters, "sigma_a", Vec3d(1.0) - albedo);
     add_rgb(m.parameters, "sigma_s", albedo);
     add_numbers(m.parameters, "float", "density",
@@ -136,7 +107,7 @@ void write_heterogeneous(PluginProperties& p, MediumDescription& m) {
     m.type = "homogeneous";
     const Vec3d extinction = density ? constant_volume(p.context(), *density)
                                      : read_rgb(p, "sigma_t").value_or(Vec3d(1.0));
-    const Coefficients c = of_extinction(extinction, albedo_of(p));
+    const Coefficients c = of_extinction(extinction, read_albedo(p));
     add_rgb(m.parameters, "sigma_a", c.absorption);
     add_rgb(m.parameters, "sigma_s", c.scattering);
   }

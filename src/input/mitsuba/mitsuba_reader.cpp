@@ -26,18 +26,33 @@ std::vector<const Object*> objects_with(const Document& document, const char* ta
   return found;
 }
 
+/// Ids of sensors, or indices where there are none.
+std::vector<std::string> names_of(const std::vector<const Object*>& sensors) {
+  std::vector<std::string> names;
+  for (const Object* sensor : sensors)
+    names.push_back(sensor->id.empty() ? std::to_string(names.size()) : sensor->id);
+  return names;
+}
+
+/// Lists the sensors and the parameters.
+void add_choices(const Document& document, FileChoices& choices) {
+  choices.cameras = names_of(objects_with(document, "sensor"));
+  for (const auto& entry : document.parameters)
+    choices.parameters.push_back(entry.first + "=" + entry.second);
+}
+
 /// The sensor that the user named by id or index; the first by default.
 const Object* chosen_sensor(const Document& document, const std::string& wanted) {
   const std::vector<const Object*> sensors = objects_with(document, "sensor");
   if (wanted.empty()) return sensors.empty() ? nullptr : sensors[0];
   const auto index = parse_integer(wanted);
-  std::string names;
   for (size_t i = 0; i < sensors.size(); ++i) {
     const bool is_wanted =
         sensors[i]->id == wanted || (index && *index == static_cast<long long>(i));
     if (is_wanted) return sensors[i];
-    names += (i > 0 ? ", " : "") + (sensors[i]->id.empty() ? std::to_string(i) : sensors[i]->id);
   }
+  std::string names;
+  for (const std::string& name : names_of(sensors)) names += (names.empty() ? "" : ", ") + name;
   throw SceneError(document.scene.where, "there is no camera \"" + wanted + "\"" +
                                              (names.empty() ? ": the scene has no sensor"
                                                             : ", expected one of: " + names));
@@ -52,10 +67,8 @@ void write_object(ImportContext& context, const Object& object) {
     write_integrator(context, object);
   } else if (object.tag == "bsdf") {
     if (!object.id.empty()) write_bsdf(context, object);
-  } else if (object.tag == "phase" || object.tag == "volume" || object.tag == "spectrum" ||
-             object.tag == "texture" || object.tag == "medium" || object.tag == "sensor") {
-    // Written where a shape, a BSDF or the camera uses it.
-  } else {
+  } else if (object.id.empty() && object.tag != "medium" && object.tag != "sensor") {
+    // Objects with an id are written where others refer to them.
     context.diagnostics.warn(
         object.where, object.tag + " \"" + object.type + "\" outside of other objects is ignored");
   }
@@ -79,10 +92,12 @@ SceneDescription read_mitsuba(const std::string& path, const ImportOptions& opti
   scene.file = shown_name(path);
   scene.files = std::make_shared<SceneFiles>(directory_of_scene(path));
   const Document document = read_document(path, *scene.files, options, diagnostics);
-  ImportContext context{scene, options, diagnostics, document.version};
+  add_choices(document, scene.choices);
+  ImportContext context{scene, document.file_names, diagnostics, document.version};
   for (const Child& child : document.scene.children) write_object(context, *child.object);
   if (const Object* sensor = chosen_sensor(document, options.camera))
     write_sensor(context, *sensor, path);
+  scene.choices.cameras = names_of(objects_with(document, "sensor"));
   warn_of_one_sided(context);
   return scene;
 }

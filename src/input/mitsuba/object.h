@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "input/mitsuba/file_names.h"
 #include "input/scene_description.h"
 
 namespace nephroid::mitsuba {
@@ -47,9 +48,13 @@ struct Object {
 
 /// The contents of a scene file and the files that it includes.
 struct Document {
+  explicit Document(bool allow_outside) : file_names(allow_outside) {}
+
   int version = 0;  ///< major version: 0 for Mitsuba 0.5 and 0.6, else 2 or 3
   Object scene;
-  std::vector<std::unique_ptr<Object>> objects;  ///< owner of all objects below the scene
+  FileNames file_names;  ///< with the folders of the scene's <path> elements
+  std::map<std::string, std::string> parameters;  ///< values by name
+  std::vector<std::unique_ptr<Object>> objects;   ///< owner of all objects below the scene
 };
 
 }  // namespace nephroid::mitsuba

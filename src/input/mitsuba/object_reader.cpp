@@ -8,7 +8,6 @@
 #include <optional>
 #include <utility>
 
-#include "input/contained_file.h"
 #include "input/file_bytes.h"
 #include "input/foreign_file.h"
 #include "input/mitsuba/references.h"
@@ -50,33 +49,41 @@ class ObjectReader {
 
   Document read(const std::string& path) {
     files_.set_top(path);
-    Document document;
+    Document document(options_.allow_outside);
     document.scene.tag = "scene";
-    read_file(path, shown_name(path), document);
+    read_file(path, shown_name(path), document.scene, document, 0);
     resolve_references(document.scene, ids_);
     parameters_.report_unused(document.scene.where, diagnostics_);
+    document.parameters = parameters_.values();
     return document;
   }
 
  private:
   using Node = pugi::xml_node;
 
-  void read_file(const std::string& path, const std::string& shown, Document& document) {
+  /// Reads the objects of a file into `into`, which is the scene but for included files.
+  void read_file(const std::string& path, const std::string& shown, Object& into,
+                 Document& document, int depth) {
     std::string bytes = files_.read(path);
     const XmlText text(bytes, shown);
     const Node root = text.root();
-    if (root.name() != std::string("scene")) {
+    const bool is_top = open_files_.empty(), is_scene = root.name() == std::string("scene");
+    // An included file can be one object.
+    if (!is_scene && (is_top || !is_one_of(kObjects, root.name()))) {
       const std::string foreign = foreign_file_error(bytes, path);
       throw SceneError(text.start(), foreign.empty() ? "this has no element <scene>, expected a "
                                                        "Mitsuba scene"
                                                      : foreign);
     }
-    if (open_files_.empty()) {
+    if (is_top) {
       document.scene.where = text.place(root);
       document.version = major_version(text, root);
     }
     open_files_.push_back(path);
-    read_children(text, root, document.scene, document, 1);
+    if (is_scene)
+      read_children(text, root, into, document, depth + 1);
+    else
+      read_element(text, root, into, document, depth + 1);
     open_files_.pop_back();
   }
 
@@ -120,35 +127,33 @@ class ObjectReader {
     } else if (tag == "ref") {
       into.children.push_back({snake_case(value(text, node, "name")), required(text, node, "id"),
                                nullptr, text.place(node)});
-    } else if (into.tag == "scene" && depth == 1) {
-      read_directive(text, node, document);
-    } else {
-      throw SceneError(text.place(node), "<" + tag + "> is not expected in <" + into.tag + ">");
+    } else if (!read_directive(text, node, into, document, depth)) {
+      throw SceneError(text.place(node), "<" + tag + "> in <" + into.tag +
+                                             "> is unknown, expected a Mitsuba element");
     }
   }
 
-  /// The elements of <scene> that are no plug-ins.
-  void read_directive(const XmlText& text, const Node& node, Document& document) {
+  /// Reads an element that is neither plug-in nor property. False if it is unknown.
+  bool read_directive(const XmlText& text, const Node& node, Object& into, Document& document,
+                      int depth) {
     const std::string tag = node.name();
-    if (tag == "default") {
+    if (tag == "default")
       parameters_.set_default(required(text, node, "name"), value(text, node, "value"));
-    } else if (tag == "include") {
-      include(text, node, document);
-    } else if (tag == "alias") {
+    else if (tag == "include")
+      include(text, node, into, document, depth);
+    else if (tag == "alias")
       ids_.add_alias(required(text, node, "id"), required(text, node, "as"), text.place(node));
-    } else if (tag == "path") {
-      diagnostics_.warn(text.place(node),
-                        "<path> is ignored: files are looked up in the scene's "
-                        "folder only");
-    } else {
-      throw SceneError(text.place(node), "<" + tag + "> is unknown, expected a Mitsuba element");
-    }
+    else if (tag == "path")
+      document.file_names.add_folder(required(text, node, "value"));
+    else
+      return false;
+    return true;
   }
 
-  void include(const XmlText& text, const Node& node, Document& document) {
+  void include(const XmlText& text, const Node& node, Object& into, Document& document, int depth) {
     const SourceLocation where = text.place(node);
     const std::string name =
-        contained_file(files_, required(text, node, "filename"), options_.allow_outside, where);
+        document.file_names.find(files_, required(text, node, "filename"), where);
     const std::string path = files_.path_of(name);
     if (std::find(open_files_.begin(), open_files_.end(), path) != open_files_.end())
       throw SceneError(where, "\"" + name + "\" includes itself");
@@ -159,7 +164,7 @@ class ObjectReader {
       throw SceneError(where, "the scene includes more than " + std::to_string(kMaxIncludes) +
                                   " files, expected fewer");
     try {
-      read_file(path, path, document);
+      read_file(path, path, into, document, depth - 1);
     } catch (const IoError& error) {
       throw SceneError(where, "\"" + name + "\" cannot be included (" + error.what() + ")");
     }
@@ -197,10 +202,10 @@ class ObjectReader {
           throw SceneError(text.place(nested), "<" + std::string(nested.name()) +
                                                    "> is not expected in <" + property.tag + ">");
     }
-    for (const Property& other : into.properties)
-      if (other.name == property.name)
-        throw SceneError(property.where, "property \"" + property.name + "\" is already given at " +
-                                             other.where.to_string());
+    const auto [given, is_new] = given_[&into].try_emplace(property.name, property.where);
+    if (!is_new)
+      throw SceneError(property.where, "property \"" + property.name + "\" is already given at " +
+                                           given->second.to_string());
     into.properties.push_back(std::move(property));
   }
 
@@ -265,6 +270,7 @@ class ObjectReader {
   SceneParameters parameters_;
   Diagnostics& diagnostics_;
   Ids ids_;
+  std::map<const Object*, std::map<std::string, SourceLocation>> given_;  ///< properties
   std::vector<std::string> open_files_;
   int includes_ = 0;
 };

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "core/counted.h"
-#include "input/contained_file.h"
 #include "input/mitsuba/value_text.h"
 #include "input/number_text.h"
 #include "input/spelling.h"
@@ -50,7 +49,12 @@ constexpr std::array kNotNeeded = {"sampling_weight",
                                    "diffuse_transmittance_sampling_rate",
                                    "medium_sampling_weight",
                                    "use_fast_approx",
-                                   "gamma_correct"};
+                                   "gamma_correct",
+                                   "compensate",
+                                   "digits",
+                                   "variable",
+                                   "monochromatic",
+                                   "sampling_density"};
 
 bool is_not_needed(const std::string& name) {
   return std::find(kNotNeeded.begin(), kNotNeeded.end(), name) != kNotNeeded.end();
@@ -140,7 +144,7 @@ std::string PluginProperties::file(const std::string& name) {
   const Property* p = find(name);
   if (found.empty())
     throw SceneError(p ? p->where : where(), title() + " has no \"" + name + "\", expected a file");
-  return contained_file(*context_.scene.files, found, context_.options.allow_outside, p->where);
+  return context_.file_names.find(*context_.scene.files, found, p->where);
 }
 
 const Object* PluginProperties::child(const std::string& tag, const std::string& name) {

@@ -7,13 +7,15 @@
 #include "input/mitsuba/medium_plugins.h"
 #include "input/mitsuba/sensor_plugins.h"
 #include "input/mitsuba/shape_plugins.h"
+#include "input/mitsuba/subsurface_plugins.h"
 #include "input/mitsuba/texture_plugins.h"
 
 namespace nephroid::mitsuba {
 
 std::vector<Plugin> plugin_tables() {
   std::vector<Plugin> all;
-  for (const auto& table : {shape_plugins(), bsdf_plugins(), texture_plugins(), emitter_plugins(),
+  for (const auto& table : {shape_plugins(), bsdf_plugins(), subsurface_plugins(),
+                            texture_plugins(), spectrum_plugins(), emitter_plugins(),
                             sensor_plugins(), medium_plugins(), integrator_plugins()})
     all.insert(all.end(), table.begin(), table.end());
   return all;

@@ -27,7 +27,7 @@ void SceneParameters::set_default(const std::string& name, const std::string& va
 }
 
 std::string SceneParameters::replaced(const std::string& text, const SourceLocation& where) const {
-  constexpr size_t kMaxLength = 1 << 20;
+  constexpr size_t kMaxLength = 1 << 20, kMaxReplaced = 1 << 24;
   std::string result;
   for (size_t i = 0; i < text.size();) {
     if (text[i] != '$') {
@@ -46,6 +46,11 @@ std::string SceneParameters::replaced(const std::string& text, const SourceLocat
     }
     used_.insert(name);
     result += value->second;
+    replaced_ += value->second.size();
+    if (replaced_ > kMaxReplaced)
+      throw SceneError(where,
+                       "the values of parameters fill more than 2^24 characters of the scene, "
+                       "expected fewer");
     if (result.size() > kMaxLength)
       throw SceneError(where,
                        "the text with its parameters has more than 2^20 characters, "
@@ -53,6 +58,12 @@ std::string SceneParameters::replaced(const std::string& text, const SourceLocat
     i += name.size() + 1;
   }
   return result;
+}
+
+std::map<std::string, std::string> SceneParameters::values() const {
+  std::map<std::string, std::string> values;
+  for (const std::string& name : used_) values[name] = values_.at(name);
+  return values;
 }
 
 void SceneParameters::report_unused(const SourceLocation& scene, Diagnostics& diagnostics) const {

@@ -17,8 +17,11 @@ class SceneParameters {
 
   /// A default counts where nothing else gave a value before.
   void set_default(const std::string& name, const std::string& value);
-  /// The text with the values of its parameters. Throws SceneError if one is unknown.
+  /// The text with the values of its parameters. Throws SceneError if one is unknown, and if the
+  /// values that were put into all texts so far are too long together.
   std::string replaced(const std::string& text, const SourceLocation& where) const;
+  /// The values of the parameters that the scene has.
+  std::map<std::string, std::string> values() const;
   /// Warns of values of the user that the scene does not know.
   void report_unused(const SourceLocation& scene, Diagnostics& diagnostics) const;
 
@@ -26,6 +29,7 @@ class SceneParameters {
   std::map<std::string, std::string> values_;
   std::set<std::string> defined_by_user_;
   mutable std::set<std::string> used_;
+  mutable size_t replaced_ = 0;  ///< characters of values in all texts
 };
 
 }  // namespace nephroid::mitsuba

@@ -1,9 +1,11 @@
-// The geometry of one shape of Mitsuba: type, parameters and transform of pbrt-v4's shape.
-// Material, media and light are not set.
+// The geometry of one shape of Mitsuba: type, parameters and transform of pbrt-v4's shape. Media
+// and light are not set, and a material only if the shape's file gives one.
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "input/mesh_data.h"
 #include "input/mitsuba/plugin.h"
 
 namespace nephroid::mitsuba {
@@ -11,6 +13,9 @@ namespace nephroid::mitsuba {
 struct Geometry {
   std::vector<ShapeDescription> shapes;
   bool is_open = false;  ///< true if the backs of its surfaces can be seen
+  /// Of each shape, where a part of a file has its own; empty if no part has.
+  std::vector<std::optional<Surface>> surfaces = {};
+  std::vector<const Child*> of_parts = {};  ///< BSDFs that stand in `surfaces`
 };
 
 using GeometryWriter = Geometry (*)(PluginProperties& properties);
@@ -23,9 +28,14 @@ Geometry cylinder_geometry(PluginProperties& properties);
 // mesh_files.cpp
 Geometry rectangle_geometry(PluginProperties& properties);
 Geometry cube_geometry(PluginProperties& properties);
-Geometry obj_geometry(PluginProperties& properties);
 Geometry ply_geometry(PluginProperties& properties);
 Geometry serialized_geometry(PluginProperties& properties);
+
+/// A mesh of a file. Without normals Mitsuba makes smooth ones.
+Geometry mesh_geometry(PluginProperties& properties, MeshData mesh, bool has_face_normals);
+
+// obj_shapes.cpp
+Geometry obj_geometry(PluginProperties& properties);
 
 // curve_shapes.cpp
 Geometry hair_geometry(PluginProperties& properties);

@@ -1,5 +1,6 @@
 #include "input/mitsuba/shape_plugins.h"
 
+#include <algorithm>
 #include <iterator>
 #include <utility>
 
@@ -8,6 +9,7 @@
 #include "input/mitsuba/medium_plugins.h"
 #include "input/mitsuba/parameter_values.h"
 #include "input/mitsuba/shape_geometry.h"
+#include "input/mitsuba/subsurface_plugins.h"
 
 namespace nephroid::mitsuba {
 namespace {
@@ -20,7 +22,9 @@ struct ShapeRow : Plugin {
 constexpr PluginSupport kLoaded = PluginSupport::kLoaded, kRefused = PluginSupport::kRefused;
 constexpr const char* kNoSuchShape = "this renderer has no such shape";
 constexpr ShapeRow kShapes[] = {
-    {{"shape", "obj", kLoaded, "one mesh; materials of MTL files are not read"}, obj_geometry},
+    {{"shape", "obj", kLoaded,
+      "BSDFs may have the names of materials in the file; of 0.6, MTL materials become principled"},
+     obj_geometry},
     {{"shape", "ply"}, ply_geometry},
     {{"shape", "serialized", kLoaded, "versions 3 and 4"}, serialized_geometry},
     {{"shape", "rectangle"}, rectangle_geometry},
@@ -33,7 +37,7 @@ constexpr ShapeRow kShapes[] = {
     {{"shape", "linearcurve", kLoaded, "radii are linear along a curve"}, polyline_geometry},
     {{"shape", "shapegroup"}},
     {{"shape", "instance"}},
-    {{"shape", "merge"}},
+    {{"shape", "merge", kLoaded, "its shapes stay apart; repeated ones are limited"}},
     {{"shape", "heightfield", kRefused, kNoSuchShape}},
     {{"shape", "deformable", kRefused, kNoSuchShape}},
     {{"shape", "sdfgrid", kRefused, kNoSuchShape}},
@@ -64,9 +68,19 @@ struct Attachments {
   std::string inside, outside;
 };
 
-Attachments attachments(PluginProperties& p) {
+/// The BSDFs of the whole shape.
+std::vector<const Child*> own_bsdfs(PluginProperties& p, const Geometry& geometry) {
+  std::vector<const Child*> bsdfs = p.children("bsdf");
+  std::erase_if(bsdfs, [&](const Child* child) {
+    return std::find(geometry.of_parts.begin(), geometry.of_parts.end(), child) !=
+           geometry.of_parts.end();
+  });
+  return bsdfs;
+}
+
+Attachments attachments(PluginProperties& p, const Geometry& geometry) {
   Attachments a;
-  const std::vector<const Child*> bsdfs = p.children("bsdf"), emitters = p.children("emitter");
+  const std::vector<const Child*> bsdfs = own_bsdfs(p, geometry), emitters = p.children("emitter");
   if (bsdfs.size() > 1) warn_approximated(p, "it has several BSDFs, the first one is used");
   if (emitters.size() > 1) warn_approximated(p, "it has several emitters, the first one is used");
   if (!emitters.empty()) a.light = area_light(p.context(), *emitters[0]->object);
@@ -75,20 +89,24 @@ Attachments attachments(PluginProperties& p) {
   if (const Object* medium = p.child("medium", "exterior"))
     a.outside = write_medium(p.context(), *medium);
   const bool is_boundary = !a.inside.empty() || !a.outside.empty();
+  const bool have_all =
+      !geometry.surfaces.empty() && std::find(geometry.surfaces.begin(), geometry.surfaces.end(),
+                                              std::nullopt) == geometry.surfaces.end();
+  if (have_all) return a;
   a.surface = bsdfs.empty() ? default_surface(p, a.light.has_value(), is_boundary)
                             : write_bsdf(p.context(), *bsdfs[0]->object);
-  if (p.first_child("subsurface"))
-    warn_approximated(p, "its subsurface scattering is ignored, only the BSDF is rendered");
+  if (const Object* below = p.first_child("subsurface"))
+    a.surface = write_subsurface(p.context(), *below, a.surface);
   return a;
 }
 
-void attach(const Attachments& a, bool flips, ShapeDescription& shape) {
-  shape.reverse_orientation = flips;
-  shape.material = {-1, a.surface.material, shape.where};
+void attach(const Attachments& a, const Surface& surface, bool flips, ShapeDescription& shape) {
+  shape.reverse_orientation = shape.reverse_orientation != flips;
+  shape.material = {-1, surface.material, shape.where};
   shape.area_light = a.light;
   shape.inside_medium = a.inside;
   shape.outside_medium = a.outside;
-  if (a.surface.alpha) shape.parameters.list.push_back(*a.surface.alpha);
+  if (surface.alpha) shape.parameters.list.push_back(*surface.alpha);
 }
 
 void note_one_sided(ImportContext& context, const SourceLocation& where) {
@@ -99,14 +117,17 @@ void add_shapes(ImportContext& context, const Object& object, Shapes& into);
 
 void add_geometry(PluginProperties& p, const ShapeRow& row, Shapes& into) {
   Geometry geometry = row.geometry(p);
-  const Attachments a = attachments(p);
+  const Attachments a = attachments(p, geometry);
   const bool flips = p.boolean("flip_normals", false);
-  if (geometry.is_open && a.surface.is_one_sided && !a.light)
-    note_one_sided(p.context(), p.where());
-  for (ShapeDescription& shape : geometry.shapes) {
-    attach(a, flips, shape);
-    into.push_back(std::move(shape));
+  bool is_one_sided = false;
+  for (size_t i = 0; i < geometry.shapes.size(); ++i) {
+    const bool has_own = i < geometry.surfaces.size() && geometry.surfaces[i];
+    const Surface& surface = has_own ? *geometry.surfaces[i] : a.surface;
+    is_one_sided = is_one_sided || surface.is_one_sided;
+    attach(a, surface, flips, geometry.shapes[i]);
+    into.push_back(std::move(geometry.shapes[i]));
   }
+  if (geometry.is_open && is_one_sided && !a.light) note_one_sided(p.context(), p.where());
 }
 
 /// The object of a shape group, which is written at its first use.
@@ -146,11 +167,34 @@ void add_instance(PluginProperties& p) {
   p.context().scene.instances.push_back(std::move(instance));
 }
 
+/// Counts numbers of shapes that are written again. References can double their count with each
+/// line of the file.
+void count_copied(ImportContext& context, size_t numbers, const SourceLocation& where) {
+  constexpr size_t kMaxCopied = size_t{1} << 26;
+  context.copied += numbers;
+  if (context.copied > kMaxCopied)
+    throw SceneError(where,
+                     "references repeat shapes of more than 2^26 numbers, expected fewer; a "
+                     "shapegroup with instances repeats them without copies");
+}
+
+size_t count_numbers(const Shapes& shapes, size_t first) {
+  size_t count = 0;
+  for (size_t i = first; i < shapes.size(); ++i)
+    for (const Parameter& parameter : shapes[i].parameters.list) count += parameter.numbers.size();
+  return count;
+}
+
 void add_shapes(ImportContext& context, const Object& object, Shapes& into) {
+  constexpr size_t kNumbersOfPlugin = 1024;  ///< the cost of a plug-in without any
+  const bool is_copy = !context.written_shapes.insert(&object).second;
+  if (is_copy) count_copied(context, kNumbersOfPlugin, object.where);
   PluginProperties p(object, context);
   const ShapeRow& row = plugin_row(kShapes, object, context.diagnostics);
   if (row.geometry) {
+    const size_t first = into.size();
     add_geometry(p, row, into);
+    if (is_copy) count_copied(context, count_numbers(into, first), object.where);
   } else if (object.type == "instance") {
     add_instance(p);
   } else if (object.type == "shapegroup") {

@@ -11,12 +11,8 @@
 namespace nephroid::mitsuba {
 namespace {
 
-double decoded(double v) {
+double decoded_value(double v) {
   return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-}
-
-Vec3d decoded(const Vec3d& v) {
-  return {decoded(v.x), decoded(v.y), decoded(v.z)};
 }
 
 Vec3d rgb_of_hexadecimal(std::string_view text, const SourceLocation& where) {
@@ -40,6 +36,10 @@ void check_pairs(const std::vector<double>& pairs, const SourceLocation& where) 
 }
 
 }  // namespace
+
+Vec3d decoded(const Vec3d& v) {
+  return {decoded_value(v.x), decoded_value(v.y), decoded_value(v.z)};
+}
 
 Vec3d rgb_of_text(const Property& property, bool is_encoded) {
   const std::string text = property.attribute("value");

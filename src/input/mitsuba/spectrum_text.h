@@ -9,6 +9,9 @@
 
 namespace nephroid::mitsuba {
 
+/// Linear values of sRGB-coded ones.
+Vec3d decoded(const Vec3d& rgb);
+
 /// Linear rgb of "0.1, 0.2, 0.3", "0.5" or "#8040ff". `is_encoded`: numbers are sRGB-coded;
 /// hexadecimal colours always are.
 Vec3d rgb_of_text(const Property& property, bool is_encoded);

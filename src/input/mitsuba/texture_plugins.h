@@ -11,14 +11,17 @@ namespace nephroid::mitsuba {
 enum class TextureUse {
   kColor,   ///< spectrum texture
   kNumber,  ///< float texture
-  kHeight,  ///< float texture of heights: images are not decoded unless they say how
 };
 
 /// The name of the texture, which is written at its first use.
 std::string write_texture(ImportContext& context, const Object& object, TextureUse use);
 
-/// The image file of a bitmap, for parameters that take file names. Throws SceneError if the
-/// texture is another one; warns of its other properties.
+/// A bitmap as the parameters of a material's normal map. Throws SceneError if the texture is
+/// another one.
+std::vector<Parameter> normal_map(ImportContext& context, const Object& object);
+
+/// The image file of a bitmap, for lights. Throws SceneError if the texture is another one; warns
+/// of its other properties.
 std::string bitmap_file(ImportContext& context, const Object& object);
 
 std::vector<Plugin> texture_plugins();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "input/parameter_list.h"
@@ -101,6 +102,11 @@ std::string Converter::texture(const char* keyword, const MtlMap& map, const cha
   if (map.v_offset != 0) list.add_float("vdelta", map.v_offset);
   if (map.clamps) list.add_string("wrap", "clamp");
   if (scale != 1) list.add_float("scale", scale);
+  // Numbers are stored as they are; colours are sRGB, which is the default.
+  if (value_type == std::string_view("float")) {
+    list.add_string("encoding", "linear");
+    list.add_bool("forceencoding", true);
+  }
   TextureDescription& texture = textures_->emplace_back();
   static_cast<DirectiveDescription&>(texture) = std::move(list).directive("imagemap");
   texture.name = mtl_.name + " " + keyword;

@@ -1,11 +1,10 @@
 #include "input/obj/obj_scene.h"
 
-#include <filesystem>
 #include <map>
 #include <utility>
 
-#include "input/contained_file.h"
 #include "input/mesh_directive.h"
+#include "input/obj/mtl_library.h"
 #include "input/obj/mtl_material.h"
 #include "input/obj/obj_file.h"
 #include "input/parameter_list.h"
@@ -30,7 +29,7 @@ class ObjScene {
     if (file.parts.empty())
       throw SceneError({std::make_shared<const std::string>(scene_.file), 0, 0},
                        "the file has no faces, expected lines such as \"f 1 2 3\"");
-    for (const ObjLibrary& library : file.libraries) read_library(library);
+    library_ = read_mtl_libraries(*scene_.files, file, {"", options_.allow_outside}, diagnostics_);
     for (const ObjPart& part : file.parts) add_shape(part);
     return std::move(scene_);
   }
@@ -43,8 +42,6 @@ class ObjScene {
     std::optional<Parameter> alpha;
   };
 
-  void read_library(const ObjLibrary& library);
-  void name_images(MtlMaterial& material, const std::string& library) const;
   const OfShapes& material_of(const ObjPart& part);
   OfShapes convert(const MtlMaterial& mtl);
   OfShapes clay(const SourceLocation& where);
@@ -56,29 +53,6 @@ class ObjScene {
   std::map<std::string, MtlMaterial> library_;  ///< all materials of all MTL files
   std::map<std::string, OfShapes> used_;        ///< by their names in the file
 };
-
-void ObjScene::read_library(const ObjLibrary& library) {
-  const std::string name =
-      contained_file(*scene_.files, library.name, options_.allow_outside, library.where);
-  try {
-    for (auto& entry : read_mtl(*scene_.files, scene_.files->path_of(name), diagnostics_)) {
-      name_images(entry.second, name);
-      library_.try_emplace(entry.first, std::move(entry.second));
-    }
-  } catch (const IoError& error) {
-    diagnostics_.warn(library.where, std::string(error.what()) + "; its materials are missing");
-  }
-}
-
-/// Makes the names of images relative to the scene; in MTL files they are relative to these.
-void ObjScene::name_images(MtlMaterial& material, const std::string& library) const {
-  const std::filesystem::path folder = std::filesystem::path(library).parent_path();
-  for (auto& entry : material.maps) {
-    MtlMap& map = entry.second;
-    map.file = contained_file(*scene_.files, (folder / map.file).string(), options_.allow_outside,
-                              map.where);
-  }
-}
 
 ObjScene::OfShapes ObjScene::convert(const MtlMaterial& mtl) {
   ConvertedMaterial converted =

@@ -36,6 +36,15 @@ double radius_of(const Bounds3d& bounds) {
   return radius > 0 ? radius : 1;
 }
 
+/// The largest component of the colour, or of the factor of the image, of an area light.
+double largest_emission(const DirectiveDescription& light) {
+  double largest = 1;
+  for (const Parameter& p : light.parameters.list)
+    if (p.type == "rgb" && !p.numbers.empty())
+      largest = *std::max_element(p.numbers.begin(), p.numbers.end());
+  return largest * light.parameters.get_float("scale", 1);
+}
+
 template <class Visit>
 void for_each_corner(const Bounds3d& b, const Visit& visit) {
   for (const double x : {b.min.x, b.max.x})
@@ -106,10 +115,11 @@ CameraDescription FramedView::camera(const SceneExtent& extent) const {
   return camera;
 }
 
-bool has_light(const SceneDescription& scene) {
+bool has_light(const SceneDescription& scene, double glow) {
   return !scene.lights.empty() ||
-         std::any_of(scene.shapes.begin(), scene.shapes.end(),
-                     [](const ShapeDescription& shape) { return shape.area_light.has_value(); });
+         std::any_of(scene.shapes.begin(), scene.shapes.end(), [&](const ShapeDescription& shape) {
+           return shape.area_light && (glow == 0 || largest_emission(*shape.area_light) > glow);
+         });
 }
 
 void add_studio_light(SceneDescription* scene, const Bounds3d& bounds,

@@ -27,8 +27,8 @@ class FramedView {
   std::array<Vec3d, 4> sides_;
 };
 
-/// True if the scene has a light or a shape that emits.
-bool has_light(const SceneDescription& scene);
+/// True if the scene has a light, or a shape that emits more than `glow`, in cd/m^2.
+bool has_light(const SceneDescription& scene, double glow);
 
 /// Adds a sky of equal luminance in all directions and a lamp above the left of the front. A white
 /// surface that faces the lamp gets the value 1 at iso 100. The bounds are not empty.

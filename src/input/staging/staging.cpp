@@ -1,5 +1,8 @@
 #include "input/staging/staging.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -9,6 +12,7 @@
 
 #include "input/parameter_list.h"
 #include "input/staging/default_view.h"
+#include "input/staging/exposure.h"
 #include "input/staging/scene_bounds.h"
 #include "input/staging/sun_and_sky.h"
 
@@ -40,6 +44,24 @@ double exposure_time(const SceneDescription& scene) {
   return seconds > 0 ? seconds : 1;  // else an error of the film's maker
 }
 
+/// Illuminance of a white surface with the value 1 at iso 100 and a second of exposure.
+constexpr double kIlluminanceOfOne = 3.14159265358979323846;
+
+/// Gives a white surface that faces the file's lights the value 1, about.
+void choose_exposure(SceneDescription* scene, Diagnostics& diagnostics) {
+  const double illuminance = typical_illuminance(*scene);
+  if (illuminance == 0) return;
+  constexpr double kMostStops = 60;
+  const double stops =
+      std::clamp(std::log2(kIlluminanceOfOne / (illuminance * exposure_time(*scene))), -kMostStops,
+                 kMostStops);
+  set_iso(scene, 100 * std::exp2(stops), "chosen exposure");
+  diagnostics.warn({std::make_shared<const std::string>(scene->file), 0, 0},
+                   fmt::format("the exposure is chosen for the file's lights: {:.1f} stops "
+                               "(--exposure gives another, 0 keeps the file's units)",
+                               stops));
+}
+
 /// Names the picture after the scene's file.
 void name_picture(SceneDescription* scene) {
   std::filesystem::path name = std::filesystem::path(scene->file).filename();
@@ -69,41 +91,53 @@ class LazyExtent {
   std::optional<SceneExtent> extent_;
 };
 
+/// Applies --sun and --environment. A white surface that faces the sun gets the value 1.
+void add_wanted_lights(SceneDescription* scene, double glow, const ImportOptions& options,
+                       const Surroundings& surroundings) {
+  if (options.sun) {
+    const double illuminance = set_sun(scene, *options.sun, surroundings);
+    set_iso(scene, 100 * kIlluminanceOfOne / (illuminance * exposure_time(*scene)), "--sun");
+  }
+  if (!options.environment.empty()) set_environment(scene, options.environment, surroundings, glow);
+}
+
+/// Applies --exposure.
+void add_wanted_exposure(SceneDescription* scene, double stops) {
+  if (stops == 0) return;
+  const double iso = film_parameters(scene).get_float("iso", 100);
+  set_iso(scene, iso * std::exp2(stops), "--exposure");
+}
+
 }  // namespace
 
-void stage_scene(SceneDescription* scene, bool is_complete, const ImportOptions& options,
+void stage_scene(SceneDescription* scene, const FormatTraits& format, const ImportOptions& options,
                  Diagnostics& diagnostics) {
   const SourceLocation whole_file{std::make_shared<const std::string>(scene->file), 0, 0};
   const FramedView view(surroundings_of(*scene));
   LazyExtent extent(*scene, view.sides());
-  if (!is_complete && !scene->film) name_picture(scene);
-  if (!is_complete && !scene->camera) {
+  if (!format.is_complete && !scene->film) name_picture(scene);
+  if (!format.is_complete && !scene->camera) {
     scene->camera = view.camera(extent.get("the default view is framed around them"));
     diagnostics.warn(whole_file, "the file has no camera: the view is from the front right");
   }
   const Surroundings surroundings = surroundings_of(*scene);
-  const bool is_lit = has_light(*scene) || !options.environment.empty() || options.sun;
+  const bool has_own_light = has_light(*scene, format.glow);
+  const bool is_lit = has_own_light || !options.environment.empty() || options.sun;
   const Bounds3d bounds =
-      options.floor || !(is_complete || is_lit)
+      options.floor || !(format.is_complete || is_lit)
           ? extent.get("the floor and the default lamp are placed by them").bounds
           : Bounds3d();
-  if (options.sun) {
-    // A white surface that faces the sun gets the value 1.
-    const double illuminance = set_sun(scene, *options.sun, surroundings);
-    set_iso(scene, 100 * 3.14159265358979323846 / (illuminance * exposure_time(*scene)), "--sun");
-  }
-  if (!options.environment.empty()) set_environment(scene, options.environment, surroundings);
-  if (!is_complete && !is_lit) {
+  add_wanted_lights(scene, format.glow, options, surroundings);
+  if (!format.is_complete && !is_lit) {
     add_studio_light(scene, bounds, surroundings);
     diagnostics.warn(whole_file,
                      "the file has no light: a grey sky and a soft lamp light it (--sun and "
                      "--environment give other light)");
   }
+  if (!format.has_exposure && has_own_light && !options.sun && !options.exposure)
+    choose_exposure(scene, diagnostics);
   if (options.floor) add_floor(scene, bounds, surroundings);
-  if (options.exposure != 0) {
-    const double iso = film_parameters(scene).get_float("iso", 100);
-    set_iso(scene, iso * std::exp2(options.exposure), "--exposure");
-  }
+  add_wanted_exposure(scene, options.exposure.value_or(0));
 }
 
 }  // namespace nephroid

@@ -119,9 +119,9 @@ double set_sun(SceneDescription* scene, const SunDirection& sun, const Surroundi
 }
 
 void set_environment(SceneDescription* scene, const std::string& file,
-                     const Surroundings& surroundings) {
+                     const Surroundings& surroundings, double glow) {
   remove_lights(scene, {"infinite"});
-  const bool is_alone = !has_light(*scene);
+  const bool is_alone = !has_light(*scene, glow);
   ParameterList list(not_in_a_file("--environment"));
   list.add_string("filename", std::filesystem::absolute(file).lexically_normal().string());
   // For an image pbrt-v4 gives twice the "illuminance" that is asked for.

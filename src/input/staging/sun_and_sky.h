@@ -13,9 +13,9 @@ namespace nephroid {
 double set_sun(SceneDescription* scene, const SunDirection& sun, const Surroundings& surroundings);
 
 /// Replaces all infinite lights by the image of a file, whose name is relative to the current
-/// directory. Without other lights it gets an illuminance of pi, so that a white surface under it
-/// has the value 1 at iso 100.
+/// directory. Without other lights, and shapes that emit more than `glow`, it gets an illuminance
+/// of pi, so that a white surface under it has the value 1 at iso 100.
 void set_environment(SceneDescription* scene, const std::string& file,
-                     const Surroundings& surroundings);
+                     const Surroundings& surroundings, double glow);
 
 }  // namespace nephroid

@@ -7,7 +7,7 @@
 namespace nephroid {
 namespace {
 
-/// Least energy of a lobe that exists: its estimate at one angle can be 0 where the lobe is not.
+/// Minimum energy of a lobe that exists: the estimate for one facet can be 0 where the lobe is not.
 constexpr float kMinEnergy = 0.02f;
 
 bool same_side(const Vec3f& a, const Vec3f& b) {
@@ -236,7 +236,7 @@ void PrincipledBsdf::add_refraction(const View& v, const Vec3f& wi, TransportMod
   if (!(length_squared(m) > 0.0f)) return;
   m = normalize(m);
   if (m.z < 0.0f) m = -m;
-  const float om = dot(v.wo, m), im = dot(wi, m);
+  const float om = dot(v.wo, m), im = dot(wi, m), c = std::abs(om);
   // Facets seen from behind do not scatter.
   if (om * v.wo.z <= 0.0f || im * wi.z <= 0.0f) return;
   const float denominator = sqr(im + om / eta);
@@ -247,8 +247,8 @@ void PrincipledBsdf::add_refraction(const View& v, const Vec3f& wi, TransportMod
   const float d = facets.d(m);
   float g = 4.0f * d * TrowbridgeReitz::g2_over_4zz(so, zo, si, zi) * jacobian;
   if (mode == TransportMode::kRadiance) g /= sqr(eta);
-  e.f += facet_transmittance(v, v.inside ? layers_->passed(wi) : v.passed, om) * g;
-  e.pdf_w += v.shares[kFacets] * (1.0f - reflection_share(v, om)) * 2.0f * d / (zo + so) * jacobian;
+  e.f += facet_transmittance(v, v.inside ? layers_->passed(wi) : v.passed, c) * g;
+  e.pdf_w += v.shares[kFacets] * (1.0f - reflection_share(v, c)) * 2.0f * d / (zo + so) * jacobian;
 }
 
 SampledSpectrum PrincipledBsdf::albedo(const Vec3f& wo) const {

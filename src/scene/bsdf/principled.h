@@ -12,8 +12,8 @@
 namespace nephroid {
 
 /// Fuzz, diffuse lobes and subsurface events are D. Coat and base are S or G by their roughness.
-/// Both sides alike, but for the share that refracts: light inside meets its boundary from below.
-/// Thin smooth walls transmit straight through. `layers` outlives the BSDF.
+/// Both sides scatter alike, except for the refracted share: inside, it meets the boundary from
+/// below. Thin smooth walls transmit straight through. `layers` outlives the BSDF.
 class PrincipledBsdf final : public Bsdf {
  public:
   PrincipledBsdf(const PrincipledLayers* layers, float specular_alpha);
@@ -37,7 +37,7 @@ class PrincipledBsdf final : public Bsdf {
     kFuzz,
     kCoat,
     kFacets,    ///< reflection and transmission of the base's facets
-    kMultiple,  ///< what metal facets reflect more than once
+    kMultiple,  ///< multiple reflections between metal facets
     kDiffuse,
     kDiffuseThrough,
     kSubsurface,
@@ -47,7 +47,7 @@ class PrincipledBsdf final : public Bsdf {
   using Shares = std::array<float, kLobes>;
   using Passed = PrincipledLayers::Passed;
 
-  /// All that is the same for any wi.
+  /// Quantities that do not depend on wi.
   struct View {
     Vec3f wo, up;  ///< `up` is wo, turned to the upper side
     Passed passed;
@@ -57,7 +57,7 @@ class PrincipledBsdf final : public Bsdf {
     Shares shares{};       ///< probabilities of the lobes; all 0 if none is among those wanted
   };
   View view(const Vec3f& wo, ClassMask among) const;
-  /// Shares of flux, roughly; classes in `among` and straight-through transmission only.
+  /// Approximate shares of flux: lobes of a class in `among`, and straight-through transmission.
   Shares energies(const View& v, ClassMask among) const;
 
   BsdfEval evaluate(const View& v, const Vec3f& wi, TransportMode mode, EventClass c) const;
@@ -68,17 +68,18 @@ class PrincipledBsdf final : public Bsdf {
   void add_wall(const View& v, const Vec3f& up, BsdfEval& e) const;
   void add_refraction(const View& v, const Vec3f& wi, TransportMode mode, BsdfEval& e) const;
 
-  /// Shares of flux that a facet at cosine `c` from wo reflects and transmits. `passed`: of wi.
+  /// Shares of flux that a facet at cosine `c` from wo reflects and transmits. `passed` is that of
+  /// wi, `outside` that of the direction outside.
   SampledSpectrum facet_reflectance(const View& v, const Passed& passed, float c) const;
   SampledSpectrum facet_transmittance(const View& v, const Passed& outside, float c) const;
   /// Probability that sample() reflects at a facet at cosine `c` from wo.
   float reflection_share(const View& v, float c) const;
   /// Share of diffuse directions that are uniform: rough surfaces are bright at grazing angles.
   float uniform_share() const { return 0.4f * s_.diffuse_roughness; }
-  /// The coat's delta lobe, which is one with a smooth base's.
+  /// Share of flux of the coat's delta lobe if it coincides with a smooth base's, else 0.
   float joined_coat(const View& v) const;
 
-  /// Value and density of a finite sample's direction. Empty if nothing goes there.
+  /// Completes a finite sample with value and density. Empty if its density is 0.
   std::optional<BsdfSample> finish(const View& v, BsdfSample s, TransportMode mode) const;
   std::optional<BsdfSample> sample_facets(const View& v, float uc, const Vec2f& u,
                                           TransportMode mode) const;
@@ -91,12 +92,12 @@ class PrincipledBsdf final : public Bsdf {
   const PrincipledLayers* layers_;
   const PrincipledSurface& s_;
   OrenNayar diffuse_;
-  /// Shares of the lobes below the dielectric boundary; the latter two with their colours.
+  /// Shares of the lobes below the dielectric boundary; through_share_ includes its colour.
   SampledSpectrum diffuse_share_, through_share_, subsurface_share_;
   EventClass coat_class_, facet_class_;
   ClassMask classes_ = ClassMask::kNone, finite_classes_ = ClassMask::kNone;
   bool has_coat_, has_facets_;
-  bool facets_transmit_;  ///< light crosses by an event of class S or G
+  bool facets_transmit_;  ///< transmission is an event of class S or G
 };
 
 }  // namespace nephroid

@@ -30,7 +30,7 @@ void PrincipledLayers::prepare_metal() {
   const SampledSpectrum mean = tables_->facets.diffuse_mean(nodes);
   const float alpha = FacetAlbedoTable::mean_alpha(surface_.facets);
   if (surface_.coat_weight > 0.0f) {
-    // A mirror returns light to the coat in a direction, rough metal in all.
+    // A mirror returns light to the coat in one direction, rough metal in all directions.
     const float inner = lerp(std::sqrt(alpha), coat_nodes_.back(), coat_diffuse_return_);
     metal_darkening_ = darkening(mean, inner);
   }

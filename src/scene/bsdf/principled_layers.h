@@ -20,8 +20,8 @@ class PrincipledLayers {
  public:
   using FilmNodes = FresnelNodes<SampledSpectrum>;
 
-  /// `tables` and `film` outlive the object. `film` is space for the Fresnel term of a thin film;
-  /// without it a surface has none.
+  /// `tables` and `film` outlive the object. `film` is storage for the Fresnel term of a thin
+  /// film; null for a surface without one.
   PrincipledLayers(const PrincipledTables* tables, const PrincipledSurface& surface,
                    FilmNodes* film);
 
@@ -48,7 +48,7 @@ class PrincipledLayers {
   float coat_fresnel(float c) const;
   /// Light that metal facets reflect more than once: this times lost(wo) lost(wi) is its f.
   const SampledSpectrum& multiple() const { return multiple_; }
-  /// Share that white facets of the base do not reflect at once.
+  /// Share that white facets of the base do not reflect at the first bounce.
   float lost(const Vec3f& w) const;
 
   /// Factors by which the coat darkens a diffuse base of this albedo, and the metal.

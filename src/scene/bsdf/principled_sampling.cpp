@@ -16,7 +16,7 @@ Vec3f cosine_hemisphere(const Vec2f& u, float side) {
   return {w.x, w.y, w.z * side};
 }
 
-/// A direction whose root of the cosine is uniform.
+/// A direction with a uniform square root of its cosine.
 Vec3f grazing_hemisphere(const Vec2f& u, float side) {
   return uniform_hemisphere({u.x * u.x, u.y}, side);
 }
@@ -30,7 +30,7 @@ std::optional<BsdfSample> PrincipledBsdf::sample(const Vec3f& wo, float uc, cons
   int lobe = 0;
   while (lobe < kLobes && !(uc < v.shares[lobe])) uc -= v.shares[lobe++];
   if (lobe == kLobes) {
-    // Rounding: the last lobe there is.
+    // Rounding left over some uc: take the last lobe.
     do --lobe;
     while (lobe >= 0 && !(v.shares[lobe] > 0.0f));
     if (lobe < 0) return std::nullopt;
@@ -157,7 +157,7 @@ std::optional<BsdfSample> PrincipledBsdf::sample_mirror(const View& v, float uc,
 }
 
 BsdfSample PrincipledBsdf::enter(const View& v) const {
-  // Nothing scales the radiance, as the exit does not undo it.
+  // No factor 1 / eta^2 for radiance here, since the exit has no inverse factor.
   BsdfSample s;
   s.wi = -v.wo;
   s.pdf_w = v.shares[kSubsurface];

@@ -1,5 +1,5 @@
-// Light that scatters below a principled surface: a tabulated profile, left through the same layers
-// by which it entered. With a radius of 0 it would be the diffuse lobe. It must not know shapes.
+// Light that scatters below a principled surface: a tabulated profile. The light leaves through the
+// same layers by which it entered. It must not know shapes.
 #pragma once
 
 #include "scene/bsdf/principled_layers.h"
@@ -7,7 +7,8 @@
 
 namespace nephroid {
 
-/// The exit: class D, for wo along the normal, whose value depends on wi only. All light leaves.
+/// The exit of light, of class D. wo is along the normal, so the value depends on wi only. All
+/// light leaves.
 class PrincipledExitBsdf final : public Bsdf {
  public:
   explicit PrincipledExitBsdf(const PrincipledLayers* layers) : layers_(layers) {}
@@ -28,7 +29,7 @@ class PrincipledExitBsdf final : public Bsdf {
 
 class PrincipledBssrdf final : public Bssrdf {
  public:
-  /// `layers` lies in the arena of exit_bsdf, too.
+  /// `layers` lives as long as the arena that exit_bsdf() gets.
   PrincipledBssrdf(const TabulatedBssrdf& profile, const PrincipledLayers* layers)
       : profile_(profile), layers_(layers) {}
 

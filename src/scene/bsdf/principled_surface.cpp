@@ -14,11 +14,15 @@ float weighted_index(float eta, float weight) {
   return (1.0f + e) / (1.0f - e);
 }
 
-/// The Fresnel term's index below a coat that covers a share of the surface.
-float index_below_coat(const PrincipledSurface& s) {
-  if (s.coat_weight == 0.0f) return s.ior;
-  const float eta = s.ior / lerp(s.coat_weight, 1.0f, s.coat_ior);
-  // Light that came through the coat is not reflected totally, as it is bent less in all.
+/// The index above the base, below a coat that covers a share of the surface.
+float index_above_base(const PrincipledSurface& s) {
+  return s.coat_affects_specular ? lerp(s.coat_weight, 1.0f, s.coat_ior) : 1.0f;
+}
+
+/// The index of the base's Fresnel term.
+float relative_index(const PrincipledSurface& s) {
+  const float eta = s.ior / index_above_base(s);
+  // There is no total reflection: the coat has already bent the light towards the normal.
   return eta < 1.0f && s.ior >= 1.0f ? 1.0f / eta : eta;
 }
 
@@ -31,7 +35,7 @@ float schlick(float c) {
 
 PrincipledFresnel::PrincipledFresnel(const PrincipledSurface& s)
     : ior_(s.ior),
-      eta_(weighted_index(index_below_coat(s), s.specular_weight)),
+      eta_(weighted_index(relative_index(s), s.specular_weight)),
       metal_0_(s.metal_color),
       metal_weight_(std::min(s.specular_weight, 1.0f)),
       film_weight_(s.film_weight),
@@ -42,8 +46,7 @@ PrincipledFresnel::PrincipledFresnel(const PrincipledSurface& s)
   const SampledSpectrum at_82 = metal_0_ + (SampledSpectrum(1.0f) - metal_0_) * schlick(kCosine);
   const float power = sqr(sqr(1.0f - kCosine)) * sqr(1.0f - kCosine);
   metal_slope_ = at_82 * (SampledSpectrum(1.0f) - s.specular_color) / (kCosine * power);
-  const float outside = lerp(s.coat_weight, 1.0f, s.coat_ior);
-  film_.index /= outside;
+  film_.index /= index_above_base(s);
 }
 
 template <class BaseIndex>
@@ -71,7 +74,7 @@ SampledSpectrum PrincipledFresnel::dielectric_inside(float c) const {
 }
 
 SampledSpectrum PrincipledFresnel::metal(float c) const {
-  c = std::clamp(c, 0.0f, 1.0f);
+  c = std::min(std::abs(c), 1.0f);
   const float s = schlick(c);
   const SampledSpectrum plain = metal_0_ + (SampledSpectrum(1.0f) - metal_0_) * s;
   const SampledSpectrum tinted =

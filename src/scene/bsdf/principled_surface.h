@@ -1,6 +1,6 @@
-// The values of a principled surface at one point, in the terms of OpenPBR 1.1: what the textures
-// say, and the Fresnel terms that follow. It must not know lobes or textures. Papers: Andersson et
-// al., OpenPBR Surface specification 1.1, 2024; Kutz, Hasan & Edmondson 2021 (F82 tint).
+// The values of a principled surface at one point, in the terms of OpenPBR 1.1: the evaluated
+// parameters and the Fresnel terms that follow from them. It must not know lobes or textures.
+// Papers: Andersson et al., OpenPBR Surface specification 1.1, 2024; Kutz et al. 2021 (F82 tint).
 #pragma once
 
 #include "scene/bsdf/microfacet.h"
@@ -25,14 +25,14 @@ struct PrincipledSurface {
   SampledSpectrum fuzz_color{1.0f};
   float coat_weight = 0, coat_ior = 1.6f, coat_darkening = 1;
   SampledSpectrum coat_color{1.0f};
+  bool coat_affects_specular = true;  ///< `ior` and `film` border on the coat, not on air
   TrowbridgeReitz coat_facets;
   float film_weight = 0;
   ThinFilm film;
   SampledSpectrum lambdas;  ///< nm
   bool thin_walled = false;
 
-  /// Shares of metal, of transmission, and of what lies below the opaque dielectric.
-  float metal() const { return metalness; }
+  /// Shares of transmission, and of the lobes below an opaque dielectric boundary.
   float transmitting() const { return (1.0f - metalness) * transmission; }
   float opaque() const { return (1.0f - metalness) * (1.0f - transmission); }
   /// True if light that crosses the surface is bent.
@@ -43,14 +43,15 @@ struct PrincipledSurface {
   }
 };
 
-/// Fresnel terms of the base below coat and fuzz. Cosines are those above the surface.
+/// Fresnel terms of the base below coat and fuzz. Cosines are those above the surface, of either
+/// sign.
 class PrincipledFresnel {
  public:
   explicit PrincipledFresnel(const PrincipledSurface& surface);
 
   /// Share of flux that the boundary of the dielectric reflects, without specular_color.
   SampledSpectrum dielectric(float c) const;
-  /// The same at the cosine `c` inside, of either sign; 1 for total reflection.
+  /// The same at the cosine `c` inside; 1 for total reflection.
   SampledSpectrum dielectric_inside(float c) const;
   /// Share of flux that the two boundaries of a thin wall reflect.
   SampledSpectrum wall(float c) const {

@@ -202,6 +202,8 @@ std::vector<LightPtr> make_area_lights(const DirectiveDescription& description, 
   const bool two_sided = p.get_bool("twosided", false);
   const float power = p.get_float("power", -1.0f);
   light_name(p);  // throws if "name" is no string; scene_labels.h uses it
+  const ParameterSet none;
+  const ImagePlacement placement(e.image ? p : none, "", WrapMode::kClamp);
   p.report_unused("area light \"" + description.type + "\"", type, diagnostics);
 
   const std::optional<float> opacity = alpha ? alpha->constant() : 1.0f;
@@ -209,7 +211,6 @@ std::vector<LightPtr> make_area_lights(const DirectiveDescription& description, 
   if (invisible || (opacity && *opacity >= 1.0f)) alpha = nullptr;
   const float image_mean =
       e.image ? static_cast<float>(weighted_mean(*e.image, e.factor * (1 / 3.0f))) : 1.0f;
-  const ImagePlacement placement(e.image ? p : ParameterSet(), "", WrapMode::kClamp);
   const auto emission = std::make_shared<const AreaEmission>(
       AreaEmission{EmissionSpectrum(*e.emission.spectrum, e.emission.scale), e.image, placement,
                    e.factor, image_mean, two_sided, std::move(alpha), invisible});

@@ -136,7 +136,7 @@ LightPtr make_image_infinite_light(const LightDescription& description, const Li
   const ParameterSet& p = description.parameters;
   if (const Parameter* colour = p.find("L"))
     throw SceneError(colour->where,
-                     "an infinite light has both \"L\" and \"filename\", expected one of them");
+                     "an infinite light has both \"L\" and an image, expected one of them");
   const ImagePtr image = read_environment_image(p, scope.files);
   const float scale = sphere_emission_scale(p, *image);
   return std::make_unique<ImageInfiniteLight>(*image, Transform(description.transform.start),

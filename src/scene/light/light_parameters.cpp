@@ -1,4 +1,5 @@
 // Parameters common to all lights: colour, photometric scale, image; see light_table.h.
+#include "scene/light/cube_map.h"
 #include "scene/light/light_table.h"
 #include "scene/light/sphere_map.h"
 
@@ -43,6 +44,34 @@ double illuminance_of(const Image& image) {
   return sum;
 }
 
+void check_emitted(const Image& image, const std::string& path, const SourceLocation& wanted_by) {
+  // Limit with room for the light's area, which multiplies the radiance.
+  constexpr float kBrightest = 1e30f;
+  if (const float largest = image.largest_value(); !(largest <= kBrightest))
+    throw SceneError(wanted_by,
+                     "image \"" + path + "\" has " +
+                         (std::isfinite(largest) ? "values above 1e30" : "infinite or NaN values") +
+                         ", which cannot be emitted");
+}
+
+/// The map of the six images that "faces" names.
+ImagePtr read_cube(const Parameter& names, SceneFiles& files) {
+  CubeFaces faces;
+  if (names.strings.size() != faces.size())
+    throw SceneError(names.where, "\"faces\" has " + std::to_string(names.strings.size()) +
+                                      " names, expected 6 images: +x, -x, +y, -y, +z and -z");
+  for (size_t i = 0; i < faces.size(); ++i) {
+    const FileSource source = files.source_of(names.strings[i]);
+    faces[i] = read_cube_face(source, names.where);
+    check_emitted(*faces[i], source.path, names.where);
+    if (faces[i]->width() != faces[0]->width())
+      throw SceneError(names.where,
+                       "the faces of the cube have " + std::to_string(faces[0]->width()) + " and " +
+                           std::to_string(faces[i]->width()) + " pixels a side, expected one size");
+  }
+  return latitude_longitude_map(faces);
+}
+
 }  // namespace
 
 EmissionColor read_emission(const ParameterSet& parameters, const std::string& name,
@@ -85,15 +114,8 @@ float scale_to(const Parameter& wanted, float value, double unscaled, float scal
 ImagePtr read_light_image(const ParameterSet& parameters, SceneFiles& files) {
   const Parameter& p = *parameters.find("filename");
   const FileSource source = files.source_of(parameters.get_string("filename", ""));
-  const std::string& path = source.path;
   ImagePtr image = read_image(source, std::nullopt, p.where);
-  // Limit with room for the light's area, which multiplies the radiance.
-  constexpr float kBrightest = 1e30f;
-  if (const float largest = image->largest_value(); !(largest <= kBrightest))
-    throw SceneError(p.where,
-                     "image \"" + path + "\" has " +
-                         (std::isfinite(largest) ? "values above 1e30" : "infinite or NaN values") +
-                         ", which cannot be emitted");
+  check_emitted(*image, source.path, p.where);
   return image;
 }
 
@@ -110,6 +132,8 @@ ImagePtr read_sphere_image(const ParameterSet& parameters, SceneFiles& files,
 }
 
 ImagePtr read_environment_image(const ParameterSet& parameters, SceneFiles& files) {
+  if (const Parameter* faces = parameters.find("faces", {"string"}))
+    return read_cube(*faces, files);
   ImagePtr image = read_light_image(parameters, files);
   if (image->width() != image->height() && image->width() != 2 * image->height())
     throw SceneError(parameters.find("filename")->where,

@@ -37,6 +37,10 @@ constexpr FormatParameter kInfinite[] = {
      "an equal-area octahedral map (square), or, not in pbrt-v4, a latitude-longitude map (twice "
      "as "
      "wide as high, +z at the top, phi from +x at the left)"},
+    {"string[6]", "faces", "none", "",
+     "images of a cube in the order +x -x +y -y +z -z, each as OpenGL takes it with its first row "
+     "on top; an alpha is a divisor of the colour (RGBD); not together with \"filename\" or "
+     "\"portal\"; not in pbrt-v4"},
     {"point3[4]", "portal", "none", "scene units",
      "a rectangle in world space, anything else is an error"},
 };

@@ -73,7 +73,8 @@ ImagePtr read_light_image(const ParameterSet& parameters, SceneFiles& files);
 ImagePtr read_sphere_image(const ParameterSet& parameters, SceneFiles& files,
                            const std::string& of_what);
 
-/// Reads the map of an infinite light (sphere_map.h), which can also be twice as wide as high.
+/// Reads the map of an infinite light (sphere_map.h): an image that is square or twice as wide as
+/// high, or the "faces" of a cube.
 ImagePtr read_environment_image(const ParameterSet& parameters, SceneFiles& files);
 
 /// image_emission_scale for a map of the sphere, times the factor for its "illuminance".

@@ -57,8 +57,15 @@ class UniformInfiniteLight final : public Light {
 
 LightPtr make_infinite_light(const LightDescription& description, const LightScope& scope) {
   const ParameterSet& p = description.parameters;
-  if (!p.get_point3s("portal").empty()) return make_portal_infinite_light(description, scope);
-  if (!p.get_string("filename", "").empty()) return make_image_infinite_light(description, scope);
+  const bool has_portal = !p.get_point3s("portal").empty();
+  const bool has_file = !p.get_string("filename", "").empty();
+  const Parameter* const faces = p.find("faces", {"string"});
+  if (faces && (has_portal || has_file))
+    throw SceneError(faces->where, std::string("an infinite light has both \"faces\" and \"") +
+                                       (has_file ? "filename" : "portal") +
+                                       "\", expected one of them");
+  if (has_portal) return make_portal_infinite_light(description, scope);
+  if (has_file || faces) return make_image_infinite_light(description, scope);
 
   const EmissionColor e = read_emission(p, "L", scope.files, scope.color_space);
   const float illuminance = p.get_float("illuminance", -1.0f);

@@ -7,7 +7,7 @@ namespace nephroid {
 namespace {
 
 constexpr float kMinIor = 0.1f, kMaxIor = 10.0f;
-/// Lines of the Abbe number, in nm: d, F and C.
+/// Lines of the Abbe number, in nm: d of helium, F and C of hydrogen.
 constexpr float kLineD = 587.56f, kLineF = 486.13f, kLineC = 656.27f;
 
 SpectrumInput read_color(const MaterialDescription& d, const MaterialContext& c, const char* name,
@@ -24,13 +24,6 @@ SpectrumInput read_radius_scale(const MaterialDescription& d, const MaterialCont
   return SpectrumInput(std::move(texture));
 }
 
-/// OpenPBR's facets: the mean square of both alphas is that of isotropic ones.
-TrowbridgeReitz facets_of(float roughness, float anisotropy) {
-  const float across = 1.0f - anisotropy;
-  const float x = sqr(roughness) * std::sqrt(2.0f / (1.0f + sqr(across)));
-  return {std::min(x, 1.0f), std::min(across * x, 1.0f)};
-}
-
 /// Facets seen through a rough coat of index `ior` that covers the share `weight`: the variances of
 /// slopes add up (OpenPBR 1.1).
 TrowbridgeReitz roughened(const TrowbridgeReitz& base, const TrowbridgeReitz& coat, float weight,
@@ -40,6 +33,22 @@ TrowbridgeReitz roughened(const TrowbridgeReitz& base, const TrowbridgeReitz& co
   const float added = 2.0f * weight * turn * coat.alpha_x() * coat.alpha_y();
   return {std::min(std::sqrt(sqr(base.alpha_x()) + added), 1.0f),
           std::min(std::sqrt(sqr(base.alpha_y()) + added), 1.0f)};
+}
+
+/// Adds subsurface light to the diffuse lobes: these shares of it go to the two sides.
+void scatter_at_surface(PrincipledSurface& s, float reflected, float transmitted) {
+  const float rest = 1.0f - s.subsurface;
+  const float diffuse = rest * (1.0f - s.diffuse_transmission), through = rest - diffuse;
+  const auto blend = [&s](const SampledSpectrum& color, float share, float added) {
+    return (color * share + s.subsurface_color * added) / (share + added);
+  };
+  reflected *= s.subsurface;
+  transmitted *= s.subsurface;
+  if (diffuse + reflected > 0.0f) s.diffuse_color = blend(s.diffuse_color, diffuse, reflected);
+  if (through + transmitted > 0.0f)
+    s.diffuse_transmission_color = blend(s.diffuse_transmission_color, through, transmitted);
+  s.diffuse_transmission = through + transmitted;
+  s.subsurface = 0.0f;
 }
 
 /// A number that must be the same everywhere, by default 0.
@@ -100,13 +109,23 @@ PrincipledInputs::PrincipledInputs(const MaterialDescription& d, const MaterialC
       coat_ior_(d, c, "coat_ior", 1.6f, 1.0f, kMaxIor),
       coat_darkening_(d, c, "coat_darkening", 1.0f),
       coat_color_(read_color(d, c, "coat_color", 1.0f)),
+      coat_affects_specular_(d.parameters.get_bool("coat_affects_specular", true)),
       film_weight_(d, c, "thin_film_weight", 0.0f),
       film_thickness_(d, c, "thin_film_thickness", 0.5f, 0.0f, kInfinity),
       film_ior_(d, c, "thin_film_ior", 1.4f, kMinIor, kMaxIor),
-      thin_walled_(d.parameters.get_bool("geometry_thin_walled", false)) {
+      thin_walled_(d.parameters.get_bool("geometry_thin_walled", false)),
+      remap_roughness_(d.parameters.get_bool("remaproughness", true)) {
   // Profiles of subsurface light are tables for one mean cosine.
   g_ = constant_of(d, c, "subsurface_scatter_anisotropy", -0.95f, 0.95f);
   abbe_ = constant_of(d, c, "transmission_dispersion_abbe_number", 0.0f, kInfinity);
+}
+
+// The mean square of both alphas is that of isotropic facets.
+TrowbridgeReitz PrincipledInputs::facets_of(float roughness, float anisotropy) const {
+  const float alpha = remap_roughness_ ? sqr(roughness) : roughness;
+  const float across = 1.0f - anisotropy;
+  const float x = alpha * std::sqrt(2.0f / (1.0f + sqr(across)));
+  return {std::min(x, 1.0f), std::min(across * x, 1.0f)};
 }
 
 float PrincipledInputs::dispersed(float ior, float lambda) const {
@@ -123,7 +142,12 @@ PrincipledSurface PrincipledInputs::at(const SurfaceInteraction& point,
   set_layers(point, lambda, s);
   set_base(point, lambda, s);
   s.lambdas = lambda.lambdas();
-  if (thin_walled_ && s.subsurface > 0.0f) spread_over_wall(s);
+  if (s.subsurface == 0.0f) return s;
+  // A thin wall has no inside: light scattered in it leaves on both sides.
+  if (thin_walled_)
+    scatter_at_surface(s, 0.5f * (1.0f - g_), 0.5f * (1.0f + g_));
+  else if (free_path(point, lambda).is_black())
+    scatter_at_surface(s, 1.0f, 0.0f);
   return s;
 }
 
@@ -140,6 +164,7 @@ void PrincipledInputs::set_layers(const SurfaceInteraction& point, const Sampled
     s.coat_darkening = coat_darkening_.at(point);
     s.coat_color = color(coat_color_, point, lambda);
     s.coat_facets = facets_of(coat_roughness_.at(point), coat_anisotropy_.at(point));
+    s.coat_affects_specular = coat_affects_specular_;
   }
   s.film_weight = film_weight_.at(point);
   if (s.film_weight > 0.0f) s.film = {film_ior_.at(point), 1000.0f * film_thickness_.at(point)};
@@ -152,8 +177,9 @@ void PrincipledInputs::set_base(const SurfaceInteraction& point, SampledWaveleng
   s.diffuse_roughness = diffuse_roughness_.at(point);
   s.specular_weight = specular_weight_.at(point);
   s.specular_color = color(specular_color_, point, lambda);
-  s.facets = roughened(facets_of(roughness_.at(point), anisotropy_.at(point)), s.coat_facets,
-                       s.coat_weight, s.coat_ior);
+  s.facets = facets_of(roughness_.at(point), anisotropy_.at(point));
+  if (s.coat_affects_specular)
+    s.facets = roughened(s.facets, s.coat_facets, s.coat_weight, s.coat_ior);
   s.transmission = transmission_.at(point);
   if (s.transmission > 0.0f) s.transmission_color = color(transmission_color_, point, lambda);
   s.ior = ior_.at(point);
@@ -171,27 +197,12 @@ void PrincipledInputs::set_base(const SurfaceInteraction& point, SampledWaveleng
   if (s.subsurface > 0.0f) s.subsurface_color = color(subsurface_color_, point, lambda);
 }
 
-void PrincipledInputs::spread_over_wall(PrincipledSurface& s) const {
-  const float rest = 1.0f - s.subsurface;
-  const float reflected = 0.5f * s.subsurface * (1.0f - g_);
-  const float transmitted = 0.5f * s.subsurface * (1.0f + g_);
-  const float reflects = rest * (1.0f - s.diffuse_transmission) + reflected;
-  const float transmits = rest * s.diffuse_transmission + transmitted;
-  if (reflects > 0.0f)
-    s.diffuse_color = (s.diffuse_color * (rest * (1.0f - s.diffuse_transmission)) +
-                       s.subsurface_color * reflected) /
-                      reflects;
-  if (transmits > 0.0f)
-    s.diffuse_transmission_color = (s.diffuse_transmission_color * (rest * s.diffuse_transmission) +
-                                    s.subsurface_color * transmitted) /
-                                   transmits;
-  s.diffuse_transmission = transmits;
-  s.subsurface = 0.0f;
-}
-
 SampledSpectrum PrincipledInputs::free_path(const SurfaceInteraction& point,
                                             const SampledWavelengths& lambda) const {
-  return clamp(radius_scale_.at(point, lambda), 0.0f, kInfinity) * radius_.at(point);
+  // Wavelengths without a path of their own get one too short to be seen beside the longest.
+  constexpr float kMinShare = 1e-3f;
+  const SampledSpectrum path = radius_scale_.at(point, lambda) * radius_.at(point);
+  return clamp(path, std::max(kMinShare * path.max_component(), 0.0f), kInfinity);
 }
 
 bool PrincipledInputs::may_transmit() const {
@@ -203,14 +214,15 @@ bool PrincipledInputs::may_be_opaque_dielectric() const {
 }
 
 bool PrincipledInputs::may_scatter_below() const {
-  return !thin_walled_ && subsurface_.may_differ_from(0.0f) && may_be_opaque_dielectric();
+  return !thin_walled_ && subsurface_.may_differ_from(0.0f) && radius_.may_differ_from(0.0f) &&
+         !radius_scale_.is_black() && may_be_opaque_dielectric();
 }
 
 bool PrincipledInputs::may_have_facets() const {
   if (metalness_.may_differ_from(0.0f) || film_weight_.may_differ_from(0.0f)) return true;
   // Below a coat the relative index is not 1 where that of the base is.
-  const bool boundary =
-      specular_weight_.may_differ_from(0.0f) && (ior_.may_differ_from(1.0f) || may_have_coat());
+  const bool boundary = specular_weight_.may_differ_from(0.0f) &&
+                        (ior_.may_differ_from(1.0f) || coat_may_affect_specular());
   return boundary || (may_transmit() && ior_.may_differ_from(1.0f));
 }
 
@@ -225,7 +237,7 @@ std::optional<TrowbridgeReitz> PrincipledInputs::constant_facets() const {
   const auto roughness = roughness_.constant(), anisotropy = anisotropy_.constant();
   if (!roughness || !anisotropy) return std::nullopt;
   const TrowbridgeReitz base = facets_of(*roughness, *anisotropy);
-  if (!may_have_coat()) return base;
+  if (!coat_may_affect_specular()) return base;
   const auto coat = constant_coat_facets();
   if (!coat) return std::nullopt;
   if (coat->smooth()) return base;

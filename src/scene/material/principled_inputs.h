@@ -1,5 +1,5 @@
-// The inputs of the material "principled": 40 parameters, each constant or a texture, evaluated at
-// a point to a PrincipledSurface. It must not know lobes.
+// The inputs of the material "principled": its parameters, constants or textures, evaluated at a
+// point to a PrincipledSurface. It must not know lobes.
 #pragma once
 
 #include "scene/bsdf/principled_surface.h"
@@ -8,7 +8,7 @@
 
 namespace nephroid {
 
-/// A float between two bounds. Constants outside are warned of, all values are clamped.
+/// A float between two bounds. All values are clamped, constants outside with a warning.
 class BoundedInput {
  public:
   BoundedInput(const MaterialDescription& d, const MaterialContext& c, const char* name,
@@ -35,11 +35,11 @@ class PrincipledInputs {
 
   /// Where glass separates colours, all wavelengths but the hero are terminated.
   PrincipledSurface at(const SurfaceInteraction& point, SampledWavelengths& lambda) const;
-  /// Mean free path of the subsurface medium, scene units.
+  /// Mean free path of the subsurface medium, scene units; 0 at all wavelengths or at none.
   SampledSpectrum free_path(const SurfaceInteraction& point,
                             const SampledWavelengths& lambda) const;
 
-  /// What some point of the surface may have.
+  /// Whether some point of the surface may have these.
   bool may_transmit() const;
   bool may_be_opaque_dielectric() const;
   bool may_scatter_below() const;
@@ -51,7 +51,7 @@ class PrincipledInputs {
   /// The facets, if they are the same everywhere.
   std::optional<TrowbridgeReitz> constant_facets() const;
   std::optional<TrowbridgeReitz> constant_coat_facets() const;
-  /// Index of the base at 550 nm; that of glass if it varies.
+  /// Index of the base at 550 nm; 1.5 if it varies.
   float index_at_550_nm() const;
   /// Mean cosine of scattering below the surface.
   float scatter_anisotropy() const { return g_; }
@@ -61,14 +61,15 @@ class PrincipledInputs {
                         const SampledWavelengths& lambda) const {
     return clamp(input.at(point, lambda), 0.0f, 1.0f);
   }
-  /// The index at wavelength `lambda` in nm, for an index `ior` at the sodium line.
+  /// OpenPBR's facets of a roughness, or of an alpha if roughness is not remapped.
+  TrowbridgeReitz facets_of(float roughness, float anisotropy) const;
+  /// The index at wavelength `lambda` in nm, for an index `ior` at helium's d line, 587.56 nm.
   float dispersed(float ior, float lambda) const;
+  bool coat_may_affect_specular() const { return coat_affects_specular_ && may_have_coat(); }
   void set_base(const SurfaceInteraction& point, SampledWavelengths& lambda,
                 PrincipledSurface& s) const;
   void set_layers(const SurfaceInteraction& point, const SampledWavelengths& lambda,
                   PrincipledSurface& s) const;
-  /// A thin wall has no inside: light scattered in it leaves on both sides.
-  void spread_over_wall(PrincipledSurface& s) const;
 
   SpectrumInput base_color_;
   BoundedInput base_weight_, metalness_, diffuse_roughness_;
@@ -86,8 +87,9 @@ class PrincipledInputs {
   SpectrumInput fuzz_color_;
   BoundedInput coat_weight_, coat_roughness_, coat_anisotropy_, coat_ior_, coat_darkening_;
   SpectrumInput coat_color_;
+  bool coat_affects_specular_;
   BoundedInput film_weight_, film_thickness_, film_ior_;
-  bool thin_walled_;
+  bool thin_walled_, remap_roughness_;
   float g_ = 0, abbe_ = 0;
 };
 

@@ -21,8 +21,8 @@ class PrincipledMaterial final : public SurfaceMaterial {
         inputs_(d, c),
         band_(c.settings.specular_band),
         tables_(c.principled_tables->get()) {
-    // The layers decide what enters and leaves, so the profile needs only the shape that an index
-    // near that of glass gives it.
+    // The layers decide how much light enters and leaves, and the profile only its shape. So the
+    // index may be clamped to the range of glasses.
     constexpr float kMinEta = 1.0f, kMaxEta = 2.0f;
     if (inputs_.may_scatter_below())
       profiles_ = c.bssrdf_tables->find_or_make(

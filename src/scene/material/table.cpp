@@ -92,6 +92,8 @@ constexpr FormatParameter kPrincipledBase[] = {
      "of the boundary's reflection outside; of metal at grazing angles (F82)"},
     {"float or texture", "specular_roughness", "0.3", "", "alpha is its square"},
     {"float or texture", "specular_roughness_anisotropy", "0", "", "along dpdu"},
+    {"bool", "remaproughness", "true", "",
+     "false: specular_roughness and coat_roughness are microfacet alphas themselves"},
     {"float or texture", "specular_ior", "1.5", "", "0.1 to 10"},
     {"bool", "geometry_thin_walled", "false", "",
      "the surface is a wall with air on both sides, which bends no light"},
@@ -105,7 +107,8 @@ constexpr FormatParameter kPrincipledBelow[] = {
     {"spectrum or texture", "diffuse_transmission_color", "1"},
     {"float or texture", "subsurface_weight", "0"},
     {"spectrum or texture", "subsurface_color", "0.8", "", "the colour seen"},
-    {"float or texture", "subsurface_radius", "1", "scene units", "mean free path"},
+    {"float or texture", "subsurface_radius", "1", "scene units",
+     "mean free path; with 0 light leaves where it enters, as from the diffuse base"},
     {"spectrum or texture", "subsurface_radius_scale", "1 0.5 0.25", "", "of the radius"},
     {"float", "subsurface_scatter_anisotropy", "0", "", "mean cosine"},
 };
@@ -120,6 +123,9 @@ constexpr FormatParameter kPrincipledAbove[] = {
     {"float or texture", "coat_ior", "1.6", "", "1 to 10"},
     {"float or texture", "coat_darkening", "1", "",
      "share of the darkening by reflection between coat and base"},
+    {"bool", "coat_affects_specular", "true", "",
+     "false: below the coat the base's reflectance and roughness are those in air, as in glTF; not "
+     "in OpenPBR"},
     {"float or texture", "thin_film_weight", "0"},
     {"float or texture", "thin_film_thickness", "0.5", "micrometres"},
     {"float or texture", "thin_film_ior", "1.4", "", "0.1 to 10"},

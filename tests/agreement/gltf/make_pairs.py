@@ -245,6 +245,19 @@ def skin():
     f.write("skin")
 
 
+def moving():
+    """A ball that moves from the left to the right between 0 s and 2 s."""
+    f = stage()
+    ball = f.node(mesh=f.mesh(BALL, [i for face in BALL_FACES for i in face], f.lambert((0.7, 0.6, 0.2)), BALL),
+                  translation=[9, 9, 9], scale=[0.6, 0.6, 0.6])
+    times = f.accessor([0.0, 2.0], "SCALAR")
+    f.json["accessors"][times].update(min=[0], max=[2])
+    places = f.accessor([(-1.6, 1, 0), (1.6, 1, 0)])
+    f.add("animations", {"name": "roll", "samplers": [{"input": times, "output": places}],
+                         "channels": [{"sampler": 0, "target": {"node": ball, "path": "translation"}}]})
+    f.write("moving")
+
+
 def lights():
     f = stage(lamp=False)
     f.json["extensionsUsed"].append("KHR_lights_punctual")
@@ -278,7 +291,7 @@ def instances():
 def main():
     write_ball()
     (FOLDER / "squares.png").write_bytes(SQUARES)
-    for make in (glass, thin_glass, rough_glass, metal, coat, textures, emissive, skin, lights, instances):
+    for make in (glass, thin_glass, rough_glass, metal, coat, textures, emissive, skin, moving, lights, instances):
         make()
 
 

@@ -189,6 +189,13 @@ inline std::vector<BsdfCase> principled_cases() {
             s.film_weight = 1.0f;
           },
           true),
+      principled_case(
+          "half metal in glass", 0.3f,
+          [](S& s) {
+            s.metalness = 0.5f;
+            s.transmission = 0.7f;
+          },
+          true),
       principled_case("smooth wall", 0.0f,
                       [](S& s) {
                         s.transmission = 0.8f;

@@ -206,6 +206,13 @@ std::vector<White> white_surfaces() {
                             s.coat_weight = 0.5f;
                           }),
                     0.97});
+    list.push_back({"half metal in glass",
+                    white(alpha,
+                          [](S& s) {
+                            s.metalness = 0.5f;
+                            s.transmission = 0.7f;
+                          }),
+                    0.8});
     list.push_back({"tinted glass",
                     white(alpha,
                           [&](S& s) {
@@ -221,7 +228,7 @@ TEST(PrincipledBsdf, AWhiteSurfaceReflectsAllLightAndNoMore) {
   for (const White& w : white_surfaces()) {
     BsdfArena arena;
     const Bsdf& bsdf = *make_principled_bsdf(arena, w.surface);
-    for (const float angle : {2.0f, 40.0f, 65.0f, 80.0f, 87.0f, 135.0f}) {
+    for (const float angle : {2.0f, 40.0f, 65.0f, 80.0f, 87.0f, 135.0f, 160.0f}) {
       double error;
       const double energy = furnace(bsdf, direction_at(angle), &error);
       const std::string what = std::string(w.name) + " alpha " +
@@ -230,6 +237,38 @@ TEST(PrincipledBsdf, AWhiteSurfaceReflectsAllLightAndNoMore) {
       EXPECT_LT(energy, 1.0 + 5.0 * error + 2e-3) << what;
       EXPECT_GT(energy, w.least - 5.0 * error) << what;
     }
+  }
+}
+
+/// Share of flux from wo inside that is refracted, by the values over the other side.
+double refracted(const Bsdf& bsdf, const Vec3f& wo) {
+  return integrate_range(
+      [&](const Vec3f& w) {
+        const BsdfEval e =
+            bsdf.eval(wo, w, TransportMode::kImportance, EventClass::kGlossy, ClassMask::kAll);
+        return static_cast<double>(e.f[0] * w.z);
+      },
+      0, 1, 1e-4);
+}
+
+TEST(PrincipledBsdf, SamplesFromInsideRefractAsMuchAsTheValuesSay) {
+  BsdfArena arena;
+  const Bsdf& bsdf = *make_principled_bsdf(arena, principled(0.3f, [](S& s) {
+                                             s.metalness = 0.5f;
+                                             s.transmission = 1.0f;
+                                             s.metal_color = SampledSpectrum(0.2f);
+                                           }));
+  for (const float angle : {150.0f, 160.0f, 178.0f}) {
+    const Vec3f wo = direction_at(angle);
+    TestRandom random(53);
+    Mean energy;
+    for (int i = 0; i < 40000; ++i) {
+      const float uc = random.next();
+      const auto s =
+          bsdf.sample(wo, uc, random.next2(), TransportMode::kImportance, ClassMask::kAll);
+      energy.add(s && s->transmitted ? s->f[0] * s->wi.z / s->pdf_w : 0.0);
+    }
+    EXPECT_NEAR(energy.mean(), refracted(bsdf, wo), 5.0 * energy.error() + 1e-3) << angle;
   }
 }
 

@@ -193,6 +193,30 @@ TEST(Convert, WritesMeshesAndImagesBesideTheScene) {
   EXPECT_EQ(read_back.face_indices, mesh.face_indices);
 }
 
+TEST(Convert, WritesTheFacesOfACube) {
+  SceneDescription scene = testing::parse("WorldBegin\nShape \"sphere\"\n");
+  std::vector<std::string> names;
+  for (int i = 0; i < 6; ++i) {
+    names.push_back("m.glb#/images/" + std::to_string(i));
+    scene.files->add_in_memory(names.back(), "\x89PNG of face " + std::to_string(i));
+  }
+  ParameterList list{SourceLocation()};
+  list.add_strings("faces", names);
+  static_cast<DirectiveDescription&>(scene.lights.emplace_back()) =
+      std::move(list).directive("infinite");
+  const TemporaryDirectory folder;
+  write_pbrt(scene, folder.path("out.pbrt"));
+  const SceneDescription written = read(folder.path("out.pbrt"));
+  const Parameter* faces = written.lights.at(0).parameters.find("faces");
+  ASSERT_TRUE(faces);
+  ASSERT_EQ(faces->strings.size(), 6u);
+  for (size_t i = 0; i < 6; ++i)
+    EXPECT_EQ(read_file_bytes(folder.path(faces->strings[i])),
+              "\x89PNG of face " + std::to_string(i));
+  EXPECT_NE(read_file_bytes(folder.path("out.pbrt")).find("\"string faces\" of infinite lights"),
+            std::string::npos);
+}
+
 TEST(Convert, NamesMaterialsAsLightPathExpressionsDo) {
   const TemporaryDirectory folder;
   write_pbrt(
@@ -217,6 +241,14 @@ TEST(Convert, SaysWhatIsNotPbrts) {
                  "LightSource \"distant\" \"float angle\" 1\n")
                 .find("# Of Nephroid, not of pbrt-v4: \"float angle\" of distant lights, material "
                       "\"principled\".\n"),
+            std::string::npos);
+  EXPECT_NE(text("WorldBegin\nTexture \"t\" \"float\" \"imagemap\" \"string filename\" \"a.png\" "
+                 "\"string wrap\" \"mirror\" \"string channel\" \"a\"\n"
+                 "ObjectBegin \"o\"\nShape \"trianglemesh\" \"point3 P\" [ 0 0 0 1 0 0 0 1 0 ] "
+                 "\"point2 uv2\" [ 0 0 1 0 0 1 ]\nObjectEnd\n")
+                .find("# Of Nephroid, not of pbrt-v4: \"point2 uv2\" of trianglemesh shapes, "
+                      "\"string channel\" of imagemap textures, \"string wrap\" \"mirror\" of "
+                      "imagemap textures.\n"),
             std::string::npos);
 }
 

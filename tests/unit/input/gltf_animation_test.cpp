@@ -49,6 +49,25 @@ TEST(GltfAnimation, TheShutterGivesTwoTransforms) {
   EXPECT_NEAR(moving.end[3][0], 1.5, 1e-6);
 }
 
+TEST(GltfAnimation, AreListedWithTheirTimes) {
+  MovingTriangle m;
+  m.times = {0.5, 2};
+  const std::string text = m.text();
+  const auto read_at = [&](double time) {
+    ImportOptions options;
+    options.time = time;
+    return read_gltf_text(text, options);
+  };
+  const ReadScene within = read_at(2);
+  EXPECT_EQ(within.scene.choices.animations, std::vector<std::string>{"animation 0, 0.5 to 2 s"});
+  EXPECT_TRUE(within.warnings.empty());
+  const ReadScene after = read_at(3);
+  ASSERT_EQ(after.warnings.size(), 1u);
+  EXPECT_EQ(after.warnings[0].message,
+            "--at: 3 s is after the end of all animations (animation 0, 0.5 to 2 s), their last "
+            "moments are shown");
+}
+
 TEST(GltfAnimation, NodesWithAMatrixStandStillWithAWarning) {
   MovingTriangle m;
   m.t.node_members = R"(,"matrix":[1,0,0,0, 0,1,0,0, 0,0,1,0, 5,6,7,1])";

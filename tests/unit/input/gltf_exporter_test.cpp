@@ -1,5 +1,5 @@
-// Files that other programs wrote (gltf_files, made by its make.mjs): three.js's exporter, and the
-// ball of tests/agreement/gltf/metal.gltf packed by gltf-transform in three ways.
+// Files that other programs wrote (gltf_files/make.mjs): three.js's exporter, and the ball of
+// tests/agreement/gltf/metal.gltf packed by gltf-transform in three ways, in tests/regression.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,15 +14,15 @@ namespace nephroid::testing {
 namespace {
 
 SceneDescription read_file(const std::string& name, Diagnostics& diagnostics) {
-  return read_gltf(testing_support::source_directory() + "/tests/unit/input/gltf_files/" + name, {},
-                   diagnostics);
+  return read_gltf(testing_support::source_directory() + "/tests/" + name, {}, diagnostics);
 }
 
 class PackedBall : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(PackedBall, IsTheUnitBallAtItsPlace) {
   Diagnostics diagnostics;
-  const SceneDescription scene = read_file(GetParam(), diagnostics);
+  const std::string name = GetParam();
+  const SceneDescription scene = read_file("regression/features/" + name + ".glb", diagnostics);
   EXPECT_TRUE(diagnostics.warnings().empty());
   ASSERT_TRUE(scene.camera);
   size_t balls = 0;
@@ -54,12 +54,9 @@ TEST_P(PackedBall, IsTheUnitBallAtItsPlace) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, PackedBall,
-                         ::testing::Values("ball_draco.glb", "ball_meshopt.glb",
-                                           "ball_quantized.glb"),
-                         [](const auto& test) {
-                           const std::string name = test.param;
-                           return name.substr(0, name.find('.'));
-                         });
+                         ::testing::Values("KHR_draco_mesh_compression", "EXT_meshopt_compression",
+                                           "KHR_mesh_quantization"),
+                         [](const auto& test) { return std::string(test.param); });
 
 TEST(GltfExporters, DracoObeysTheAccessorsNormalisation) {
   Diagnostics diagnostics;
@@ -80,7 +77,7 @@ TEST(GltfExporters, DracoObeysTheAccessorsNormalisation) {
 
 TEST(GltfExporters, ThreeJs) {
   Diagnostics diagnostics;
-  const SceneDescription scene = read_file("three.gltf", diagnostics);
+  const SceneDescription scene = read_file("unit/input/gltf_files/three.gltf", diagnostics);
   EXPECT_TRUE(diagnostics.warnings().empty());
   ASSERT_EQ(scene.shapes.size(), 2u);
   ASSERT_EQ(scene.materials.size(), 2u);

@@ -174,6 +174,8 @@ TEST(GltfMaterials, LayersOfExtensions) {
   EXPECT_EQ(number_of(p, "coat_roughness"), 0.1);
   EXPECT_EQ(number_of(p, "coat_ior"), 1.5);
   EXPECT_EQ(number_of(p, "coat_darkening"), 0);
+  ASSERT_TRUE(p.find("coat_affects_specular"));
+  EXPECT_FALSE(flag_of(p, "coat_affects_specular"));
   EXPECT_EQ(number_of(p, "fuzz_weight"), 0.5);
   EXPECT_EQ(numbers_of(p, "fuzz_color"), (std::vector<double>{1, 0.5, 0}));
   EXPECT_EQ(number_of(p, "fuzz_roughness"), 0.7);
@@ -193,6 +195,41 @@ TEST(GltfMaterials, AnisotropyKeepsTheAlphasOfBothAxes) {
   const double along = r * r * std::sqrt(2 / (1 + (1 - s) * (1 - s)));
   EXPECT_NEAR(along, 0.16 + (1 - 0.16) * 0.49, 1e-9);
   EXPECT_NEAR((1 - s) * along, 0.16, 1e-9);
+}
+
+TEST(GltfMaterials, AnisotropyTexturesMixBothEnds) {
+  const ReadScene read = read_material(
+      R"("pbrMetallicRoughness":{"roughnessFactor":0.4},"extensions":{"KHR_materials_anisotropy":)"
+      R"({"anisotropyStrength":0.7,"anisotropyTexture":{"index":0}}})");
+  const ReadScene whole = read_material(
+      R"("pbrMetallicRoughness":{"roughnessFactor":0.4},"extensions":{"KHR_materials_anisotropy":{"anisotropyStrength":0.7}})");
+  for (const char* name : {"specular_roughness", "specular_roughness_anisotropy"}) {
+    const ParameterSet& mix = texture_of(read, parameters_of(read), name).parameters;
+    EXPECT_EQ(number_of(mix, "tex2"), number_of(parameters_of(whole), name)) << name;
+    const ParameterSet& amount = texture_of(read, mix, "amount").parameters;
+    EXPECT_EQ(string_of(amount, "channel"), "b");
+  }
+  const ParameterSet& p = parameters_of(read);
+  EXPECT_NEAR(number_of(texture_of(read, p, "specular_roughness").parameters, "tex1"), 0.4, 1e-9);
+  ASSERT_EQ(read.warnings.size(), 1u);
+  EXPECT_NE(read.warnings[0].message.find("its directions do not"), std::string::npos);
+}
+
+TEST(GltfMaterials, ACoatWithAnotherNormalMapIsAWarning) {
+  const auto warnings = [](const std::string& below, const std::string& coat) {
+    GltfText file;
+    const size_t normals = file.vec3({0, 0, 1, 0, 0, 1, 0, 0, 1});
+    return read_material(below + R"("extensions":{"KHR_materials_clearcoat":{"clearcoatFactor":1)" +
+                             coat + "}}",
+                         {}, fmt::format(R"(,"NORMAL":{})", normals), file)
+        .warnings.size();
+  };
+  const std::string below = R"("normalTexture":{"index":0,"scale":0.5},)";
+  EXPECT_EQ(warnings("", ""), 0u);
+  EXPECT_EQ(warnings(below, R"(,"clearcoatNormalTexture":{"index":0,"scale":0.5})"), 0u);
+  EXPECT_EQ(warnings(below, R"(,"clearcoatNormalTexture":{"index":0})"), 1u);
+  EXPECT_EQ(warnings(below, ""), 1u);
+  EXPECT_EQ(warnings("", R"(,"clearcoatNormalTexture":{"index":0})"), 1u);
 }
 
 TEST(GltfMaterials, SpecularGlossinessIsADielectricOfThatReflectance) {
@@ -235,6 +272,8 @@ TEST(GltfMaterials, VariantsReplaceMaterials) {
     options.variant = variant;
     return read_gltf_text(text, options).scene.materials.at(0).name;
   };
+  EXPECT_EQ(read_gltf_text(text).scene.choices.variants,
+            (std::vector<std::string>{"day", "night"}));
   EXPECT_EQ(material_for(""), "a");
   EXPECT_EQ(material_for("day"), "a");
   EXPECT_EQ(material_for("night"), "b");

@@ -282,22 +282,58 @@ TEST(GltfLights, SpotsMayHaveASharpEdge) {
   EXPECT_NE(gltf_error(file(0, 0)), "");
 }
 
-TEST(GltfLights, ImageBasedLightsAreTheirMean) {
-  // A uniform environment of radiance 2 has the irradiance 2 pi, whose coefficient is over Y00.
-  const double first = 2 * 3.14159265358979 / 0.28209479177387814;
-  const std::string file = fmt::format(
-      R"({{"asset":{{"version":"2.0"}},"scenes":[{{"extensions":{{"EXT_lights_image_based":{{"light":0}}}}}}],)"
-      R"("extensions":{{"EXT_lights_image_based":{{"lights":[{{"intensity":0.5,"irradianceCoefficients":)"
-      R"([[{0},{0},0],[0,0,0]]}}]}}}}}})",
-      first);
-  const ReadScene read = read_gltf_text(file);
+/// A file whose scene has an image-based light with these members.
+std::string image_based(const std::string& members) {
+  return R"({"asset":{"version":"2.0"},"images":[{"uri":"0.png"},{"uri":"1.png"},{"uri":"2.png"},)"
+         R"({"uri":"3.png"},{"uri":"4.png"},{"uri":"5.png"}],"scenes":[{"extensions":)"
+         R"({"EXT_lights_image_based":{"light":0}}}],"extensions":{"EXT_lights_image_based":)"
+         R"({"lights":[{)" +
+         members + "}]}}}";
+}
+
+TEST(GltfLights, ImageBasedLightsAreTheirSharpestCube) {
+  // Turned by a quarter about y.
+  const ReadScene read = read_gltf_text(image_based(
+      R"("name":"sky","intensity":0.5,"rotation":[0,0.70710678118654752,0,0.70710678118654752],)"
+      R"("specularImages":[[0,1,2,3,4,5],[5,5,5,5,5,5]])"));
   ASSERT_EQ(read.scene.lights.size(), 1u);
-  EXPECT_EQ(read.scene.lights[0].type, "infinite");
-  const std::vector<double> radiance = numbers_of(read.scene.lights[0].parameters, "L");
-  ASSERT_EQ(radiance.size(), 3u);
-  EXPECT_NEAR(radiance[0], 1, 1e-9);
-  EXPECT_EQ(radiance[2], 0);
-  EXPECT_EQ(read.warnings.size(), 1u);
+  const LightDescription& light = read.scene.lights[0];
+  EXPECT_EQ(light.type, "infinite");
+  const Parameter* faces = light.parameters.find("faces");
+  ASSERT_TRUE(faces);
+  EXPECT_EQ(faces->strings,
+            (std::vector<std::string>{"0.png", "1.png", "2.png", "3.png", "4.png", "5.png"}));
+  EXPECT_FALSE(light.mean_luminance);
+  EXPECT_EQ(number_of(light.parameters, "scale"), 0.5);
+  EXPECT_EQ(string_of(light.parameters, "name"), "sky");
+  expect_near(moved(light.transform.start, {0, 0, 1}), {1, 0, 0});
+  EXPECT_TRUE(read.warnings.empty());
+  EXPECT_TRUE(read_gltf_text(image_based(R"("intensity":0)")).scene.lights.empty());
+}
+
+TEST(GltfLights, TheirIrradianceIsTheMeanLuminance) {
+  // Surroundings of radiance 2 give the irradiance 2 pi, whose coefficient is over Y00.
+  const double first = 2 * 3.14159265358979 / 0.28209479177387814;
+  const auto luminance = [](const std::string& coefficients) {
+    return read_gltf_text(image_based(R"("specularImages":[[0,1,2,3,4,5]],)"
+                                      R"("irradianceCoefficients":)" +
+                                      coefficients))
+        .scene.lights.at(0)
+        .mean_luminance;
+  };
+  EXPECT_NEAR(luminance(fmt::format("[[{0},{0},{0}],[1,2,3]]", first)).value(), 2, 1e-5);
+  EXPECT_FALSE(luminance("[]"));
+  EXPECT_FALSE(luminance("[[1]]"));
+}
+
+TEST(GltfLights, DamagedImageBasedLightsAreErrors) {
+  const std::string at = "scene.gltf#/extensions/EXT_lights_image_based/lights/0";
+  EXPECT_EQ(gltf_error(image_based("")), at + ": \"specularImages\" is missing");
+  EXPECT_EQ(gltf_error(image_based(R"("specularImages":[])")),
+            at + "/specularImages: this list is empty, expected the six faces of a cube");
+  EXPECT_EQ(gltf_error(image_based(R"("specularImages":[[0,1,2]])")),
+            at + "/specularImages: the cube has 3 faces, expected 6");
+  EXPECT_NE(gltf_error(image_based(R"("specularImages":[[0,1,2,3,4,6]])")), "");
 }
 
 }  // namespace

@@ -1,27 +1,10 @@
 // BSDFs of Mitsuba as materials: parameters, defaults and conventions.
 #include <cmath>
 
-#include "unit/input/mitsuba_scene.h"
+#include "unit/input/mitsuba_bsdfs.h"
 
 namespace nephroid::testing {
 namespace {
-
-/// The scene with one sphere of this BSDF, whose id is "it" if it shall be found by name.
-SceneDescription with_bsdf(MitsubaScene& scene, const std::string& bsdf,
-                           const std::string& version = "0.6.0") {
-  return scene.read("<shape type=\"sphere\">" + bsdf + "</shape>\n", version);
-}
-MaterialDescription material_of(const std::string& bsdf, const std::string& version = "0.6.0") {
-  MitsubaScene scene;
-  const SceneDescription d = with_bsdf(scene, bsdf, version);
-  return material(d, d.shapes.at(0).material.name);
-}
-std::string bsdf(const std::string& type, const std::string& body = "") {
-  return "<bsdf type=\"" + type + "\">" + body + "</bsdf>";
-}
-std::string value(const std::string& tag, const std::string& name, const std::string& text) {
-  return "<" + tag + " name=\"" + name + "\" value=\"" + text + "\"/>";
-}
 
 using Numbers = std::vector<double>;
 
@@ -69,6 +52,51 @@ TEST(MitsubaBsdf, AlphaIsTheRoughnessItself) {
       bsdf("roughconductor", value("float", "alphaU", "0.1") + value("float", "alphaV", "0.2")));
   EXPECT_EQ(number(two.parameters, "uroughness"), 0.1);
   EXPECT_EQ(number(two.parameters, "vroughness"), 0.2);
+}
+
+TEST(MitsubaBsdf, TexturesOfAlphaAreTheRoughness) {
+  const std::string color = value("rgb", "specularReflectance", "1 0.5 0.5");
+  const std::string alpha =
+      "<texture type=\"checkerboard\" name=\"alpha\"/>" + value("string", "distribution", "ggx");
+  const std::pair<std::string, const char*> cases[] = {
+      {bsdf("roughdielectric", alpha), "roughness"},
+      {bsdf("roughconductor", alpha), "roughness"},
+      {bsdf("roughplastic", alpha), "roughness"},
+      {bsdf("roughdielectric", alpha + color), "specular_roughness"},
+      {bsdf("roughplastic", alpha + color), "specular_roughness"}};
+  for (const auto& [text, name] : cases) {
+    MitsubaScene scene;
+    const SceneDescription d = with_bsdf(scene, text);
+    const ParameterSet& set = d.materials.at(0).parameters;
+    EXPECT_EQ(parameter(set, name).type, "texture") << text;
+    EXPECT_EQ(parameter(set, "remaproughness").bools, std::vector<bool>{false}) << text;
+    EXPECT_EQ(scene.warnings().find("alpha"), std::string::npos) << scene.warnings();
+  }
+  const MaterialDescription ward =
+      material_of(bsdf("ward", value("rgb", "diffuseReflectance", "0 0 0") +
+                                   "<texture type=\"checkerboard\" name=\"alphaU\"/>"));
+  EXPECT_EQ(parameter(ward.parameters, "uroughness").type, "texture");
+  EXPECT_EQ(number(ward.parameters, "vroughness"), 0.1);
+}
+
+TEST(MitsubaBsdf, TwoAlphasOfTintedGlassAreItsAnisotropy) {
+  const auto glass = [](const char* u, const char* v) {
+    return material_of(bsdf("roughdielectric", value("rgb", "specularReflectance", "1 0.5 0.5") +
+                                                   value("float", "alphaU", u) +
+                                                   value("float", "alphaV", v)))
+        .parameters;
+  };
+  // OpenPBR 1.1: alpha_t = r sqrt(2 / (1 + (1 - a)^2)) for r = roughness^2, alpha_b = (1 - a)
+  // alpha_t.
+  const ParameterSet wide = glass("0.4", "0.1");
+  const double r = number(wide, "specular_roughness");
+  const double across = 1 - number(wide, "specular_roughness_anisotropy");
+  const double alpha_t = r * std::sqrt(2 / (1 + across * across));
+  EXPECT_NEAR(alpha_t, 0.4, 1e-12);
+  EXPECT_NEAR(across * alpha_t, 0.1, 1e-12);
+  const ParameterSet turned = glass("0.1", "0.4");
+  EXPECT_NEAR(number(turned, "specular_roughness"), r, 1e-12);
+  EXPECT_FALSE(has_parameter(turned, "specular_roughness_anisotropy"));
 }
 
 TEST(MitsubaBsdf, OtherDistributionsGetAWarning) {
@@ -240,21 +268,6 @@ TEST(MitsubaBsdf, BumpAndNormalMapsAreParametersOfACopy) {
   EXPECT_EQ(d.textures.back().name, height);
   EXPECT_EQ(number(d.textures.back().parameters, "scale"), 2);
   EXPECT_EQ(text(material(d, d.shapes[2].material.name).parameters, "normalmap"), "n.png");
-}
-
-TEST(MitsubaBsdf, PrincipledKeepsItsNames) {
-  const ParameterSet set =
-      material_of(bsdf("principled",
-                       value("rgb", "base_color", "0.1 0.2 0.3") +
-                           value("float", "roughness", "0.4") + value("float", "metallic", "0.6") +
-                           value("float", "spec_trans", "0.7") + value("float", "specular", "0.5")),
-                  "3.0.0")
-          .parameters;
-  EXPECT_EQ(parameter(set, "base_color").numbers, (Numbers{0.1, 0.2, 0.3}));
-  EXPECT_EQ(number(set, "specular_roughness"), 0.4);
-  EXPECT_EQ(number(set, "base_metalness"), 0.6);
-  EXPECT_EQ(number(set, "transmission_weight"), 0.7);
-  EXPECT_NEAR(number(set, "specular_ior"), 1.5, 1e-9);
 }
 
 TEST(MitsubaBsdf, BacksOfOpenShapesGetOneWarning) {

@@ -11,9 +11,6 @@ using Numbers = std::vector<double>;
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
 
-std::string value(const std::string& tag, const std::string& name, const std::string& text) {
-  return "<" + tag + " name=\"" + name + "\" value=\"" + text + "\"/>";
-}
 std::string film(int width, int height, const std::string& body = "") {
   return "<film type=\"hdrfilm\">" + value("integer", "width", std::to_string(width)) +
          value("integer", "height", std::to_string(height)) + body + "</film>";
@@ -121,6 +118,7 @@ TEST(MitsubaCamera, TheUserChoosesASensorByIdOrIndex) {
   MitsubaScene scene;
   const auto fov = [&] { return number(scene.read(body).camera->parameters, "fov"); };
   EXPECT_NEAR(fov(), 30, 1e-9);
+  EXPECT_EQ(scene.read(body).choices.cameras, (std::vector<std::string>{"a", "b"}));
   scene.options.camera = "b";
   EXPECT_NEAR(fov(), 40, 1e-9);
   scene.options.camera = "1";

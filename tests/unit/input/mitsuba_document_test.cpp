@@ -19,6 +19,7 @@ TEST(MitsubaDocument, ParametersHaveDefaultsThatTheUserReplaces) {
   scene.options.defines = {{"r", "0.5"}, {"unused", "1"}};
   EXPECT_EQ(number(scene.read(body).shapes[0].parameters, "radius"), 0.5);
   EXPECT_TRUE(has(scene.warnings(), "the scene has no parameter \"$unused\"")) << scene.warnings();
+  EXPECT_EQ(scene.read(body).choices.parameters, std::vector<std::string>{"r=0.5"});
 }
 
 TEST(MitsubaDocument, ParametersStandAnywhereInAText) {
@@ -49,6 +50,42 @@ TEST(MitsubaDocument, IncludesAreReadInPlace) {
   EXPECT_EQ(number(d.shapes[0].parameters, "radius"), 4);
   EXPECT_TRUE(d.shapes[0].where.file->ends_with("parts/ball.xml"));
   EXPECT_EQ(d.shapes[0].where.line, 3);
+}
+
+TEST(MitsubaDocument, IncludesStandAnywhereAndMayBeOneObject) {
+  MitsubaScene scene;
+  scene.folder().write("glass.xml", "<bsdf version=\"3.0.0\" type=\"dielectric\" id=\"glass\"/>");
+  scene.folder().write("size.xml",
+                       "<scene version=\"3.0.0\"><float name=\"radius\" value=\"3\"/></scene>");
+  const SceneDescription d = scene.read(
+      "<shape type=\"sphere\">\n<default name=\"part\" value=\"glass\"/>"
+      "<include filename=\"$part.xml\"/><include filename=\"size.xml\"/></shape>\n",
+      "3.0.0");
+  EXPECT_EQ(d.shapes.at(0).material.name, "glass");
+  EXPECT_EQ(number(d.shapes[0].parameters, "radius"), 3);
+  scene.folder().write("other.xml", "<collada/>");
+  EXPECT_TRUE(has(scene.error("<include filename=\"other.xml\"/>"), "other.xml:1:1: "));
+}
+
+TEST(MitsubaDocument, FilesAreFoundInTheFoldersOfPaths) {
+  MitsubaScene scene;
+  scene.folder().write("spectra/a.spd", "400 0.5\n700 0.5\n");
+  scene.folder().write("b.spd", "400 0.25\n700 0.25\n");
+  const auto reflectance = [&](const std::string& file) {
+    const SceneDescription d = scene.read(
+        "<path value=\"spectra\"/>\n<bsdf type=\"diffuse\" id=\"a\"><spectrum "
+        "name=\"reflectance\" filename=\"" +
+        file + "\"/></bsdf>\n");
+    return parameter(d.materials.at(0).parameters, "reflectance").numbers.at(1);
+  };
+  EXPECT_EQ(reflectance("a.spd"), 0.5);
+  EXPECT_EQ(reflectance("b.spd"), 0.25);
+  EXPECT_EQ(reflectance("..\\b.spd"), 0.25);
+  scene.folder().write("spectra/b.spd", "400 0.75\n700 0.75\n");
+  EXPECT_EQ(reflectance("b.spd"), 0.75);
+  EXPECT_EQ(scene.warnings(), "");
+  EXPECT_TRUE(has(scene.error("<path value=\"/\"/><include filename=\"etc/passwd\"/>"),
+                  "lies outside of the scene's folder"));
 }
 
 TEST(MitsubaDocument, IncludesOfThemselvesAreErrors) {
@@ -115,6 +152,29 @@ TEST(MitsubaDocument, LongChainsOfReferencesAreErrors) {
             std::to_string(i - 1) + "\"/></bsdf>\n";
   MitsubaScene scene;
   EXPECT_TRUE(has(scene.error(body), "nested more than 128 levels deep"));
+}
+
+TEST(MitsubaDocument, MergesThatDoubleAreBounded) {
+  std::string body = "<shape type=\"merge\" id=\"m0\"><shape type=\"sphere\"/></shape>\n";
+  for (int i = 1; i < 60; ++i) {
+    const std::string ref = "<ref id=\"m" + std::to_string(i - 1) + "\"/>";
+    body += "<shape type=\"merge\" id=\"m" + std::to_string(i) + "\">" + ref + ref + "</shape>\n";
+  }
+  MitsubaScene scene;
+  EXPECT_TRUE(has(scene.error(body, "3.0.0"), "repeat shapes of more than 2^26 numbers"));
+  // A few repetitions are what the file says.
+  const std::string three =
+      "<shape type=\"merge\" id=\"a\"><shape type=\"sphere\"/></shape>\n"
+      "<shape type=\"merge\"><ref id=\"a\"/><ref id=\"a\"/></shape>\n";
+  EXPECT_EQ(scene.read(three, "3.0.0").shapes.size(), 3u);
+}
+
+TEST(MitsubaDocument, ValuesOfParametersAreBoundedInSum) {
+  std::string body = "<default name=\"x\" value=\"" + std::string(1 << 15, 'x') + "\"/>\n";
+  for (int i = 0; i < 600; ++i)
+    body += "<bsdf type=\"diffuse\" id=\"b" + std::to_string(i) + "$x\"/>\n";
+  MitsubaScene scene;
+  EXPECT_TRUE(has(scene.error(body), "parameters fill more than 2^24 characters"));
 }
 
 TEST(MitsubaDocument, DeepNestingIsAnError) {
@@ -198,7 +258,7 @@ TEST(MitsubaDocument, UnknownNamesAreWarningsOrErrors) {
       << error;
   EXPECT_TRUE(has(error, "did you mean \"sphere\"?")) << error;
   EXPECT_EQ(scene.error("<shpe type=\"sphere\"/>\n"),
-            "scene.xml:2:1: <shpe> is unknown, expected a Mitsuba element");
+            "scene.xml:2:1: <shpe> in <scene> is unknown, expected a Mitsuba element");
   scene.read(
       "<shape type=\"sphere\">\n<float name=\"radus\" value=\"1\"/>\n"
       "<integer name=\"samplingWeight\" value=\"1\"/></shape>\n");

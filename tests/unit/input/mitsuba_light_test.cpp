@@ -19,9 +19,6 @@ constexpr double kDegree = 3.14159265358979323846 / 180;
 std::string emitter(const std::string& type, const std::string& body = "") {
   return "<emitter type=\"" + type + "\">" + body + "</emitter>\n";
 }
-std::string value(const std::string& tag, const std::string& name, const std::string& text) {
-  return "<" + tag + " name=\"" + name + "\" value=\"" + text + "\"/>";
-}
 
 LightDescription light(const std::string& type, const std::string& body = "",
                        const std::string& version = "0.6.0") {

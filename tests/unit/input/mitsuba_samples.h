@@ -10,10 +10,11 @@ namespace nephroid::testing {
 
 struct PluginSample {
   std::string tag, name;
-  std::string body;  ///< elements in the plug-in
+  std::vector<std::string> becomes;  ///< parts of the scene's dump (scene_dump.h)
+  std::string body = {};             ///< elements in the plug-in
 };
 
-/// Samples of all plug-ins that need more than their name; the files they use are written by
+/// A sample of each plug-in that is not refused; the files they use are written by
 /// write_sample_files.
 const std::vector<PluginSample>& plugin_samples();
 

@@ -11,6 +11,11 @@
 
 namespace nephroid::testing {
 
+/// `<tag name="name" value="text"/>`
+inline std::string value(const std::string& tag, const std::string& name, const std::string& text) {
+  return "<" + tag + " name=\"" + name + "\" value=\"" + text + "\"/>";
+}
+
 /// A folder with a scene in the file "scene.xml".
 class MitsubaScene {
  public:

@@ -183,6 +183,33 @@ TEST(MitsubaShape, MeshesWithoutNormalsBecomeSmoothUnlessTheyAreFaceted) {
   EXPECT_FALSE(has_parameter(faceted.parameters, "N"));
 }
 
+TEST(MitsubaShape, MirrorsTurnMeshesWithoutNormalsOver) {
+  MitsubaScene scene;
+  scene.folder().write("bare.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  scene.folder().write("full.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\n");
+  scene.folder().write("bare.ply",
+                       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                       "property float y\nproperty float z\nelement face 1\n"
+                       "property list uchar int vertex_index\nend_header\n"
+                       "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  const std::string mirror = "<transform name=\"toWorld\"><scale x=\"-1\"/></transform>";
+  const std::string faceted = "<boolean name=\"faceNormals\" value=\"true\"/>";
+  const std::string flip = "<boolean name=\"flipNormals\" value=\"true\"/>";
+  const auto is_turned = [&](const std::string& type, const std::string& body) {
+    return scene.read(shape(type, body)).shapes.at(0).reverse_orientation;
+  };
+  EXPECT_TRUE(is_turned("obj", file("bare.obj") + mirror));
+  EXPECT_TRUE(is_turned("obj", file("bare.obj") + mirror + faceted));
+  EXPECT_TRUE(is_turned("obj", file("full.obj") + mirror + faceted));
+  EXPECT_TRUE(is_turned("ply", file("bare.ply") + mirror + faceted));
+  EXPECT_FALSE(is_turned("obj", file("bare.obj")));
+  EXPECT_FALSE(is_turned("obj", file("full.obj") + mirror));
+  EXPECT_FALSE(is_turned("obj", file("bare.obj") + mirror + flip));
+  // Mitsuba's own shapes have normals.
+  EXPECT_FALSE(is_turned("rectangle", mirror));
+  EXPECT_FALSE(is_turned("cube", mirror));
+}
+
 TEST(MitsubaShape, TextureCoordinatesOfFilesAreTurnedOver) {
   MitsubaScene scene;
   scene.folder().write("uv.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0.25\nf 1/1 2/1 3/1\n");
@@ -217,6 +244,35 @@ TEST(MitsubaShape, PlyFilesWithNormalsAreLeftToTheLoader) {
   EXPECT_EQ(parameter(with_uv.parameters, "uv").numbers.at(1), 0.75);
   EXPECT_NE(scene.error(shape("ply", file("none.ply"))).find("scene.xml:2:19: "),
             std::string::npos);
+}
+
+TEST(MitsubaShape, ColoursOfPlyFilesAreReadWhereATextureWantsThem) {
+  MitsubaScene scene;
+  scene.folder().write("c.ply",
+                       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                       "property float y\nproperty float z\nproperty uchar red\n"
+                       "property uchar green\nproperty uchar blue\nelement face 1\n"
+                       "property list uchar int vertex_index\nend_header\n"
+                       "0 0 0 255 128 0\n1 0 0 0 0 0\n0 1 0 0 0 0\n3 0 1 2\n");
+  const auto colors = [&](const std::string& texture, const std::string& body,
+                          const std::string& version) {
+    return parameter(scene
+                         .read(shape("ply", file("c.ply") + body +
+                                                "<bsdf type=\"diffuse\"><texture type=\"" +
+                                                texture + "\" name=\"reflectance\"/></bsdf>"),
+                               version)
+                         .shapes.at(0)
+                         .parameters,
+                     "vertexcolors")
+        .numbers.at(1);
+  };
+  // 128 / 255 is 0.2159 in linear light.
+  EXPECT_NEAR(colors("vertexcolors", "", "0.6.0"), 0.2159, 1e-4);
+  EXPECT_NEAR(colors("vertexcolors", "<boolean name=\"srgb\" value=\"false\"/>", "0.6.0"),
+              128 / 255.0, 1e-6);
+  EXPECT_NEAR(colors("mesh_attribute", "", "3.0.0"), 128 / 255.0, 1e-6);
+  EXPECT_FALSE(
+      has_parameter(scene.read(shape("ply", file("c.ply"))).shapes[0].parameters, "vertexcolors"));
 }
 
 TEST(MitsubaShape, HairIsStraightFromPointToPoint) {

@@ -6,10 +6,6 @@
 namespace nephroid::testing {
 namespace {
 
-std::string value(const std::string& tag, const std::string& name, const std::string& text) {
-  return "<" + tag + " name=\"" + name + "\" value=\"" + text + "\"/>";
-}
-
 /// The first texture of a scene with a diffuse sphere.
 TextureDescription texture(const std::string& type, const std::string& body) {
   MitsubaScene scene;
@@ -48,6 +44,35 @@ TEST(MitsubaTexture, TransformsOfUvAreScaleAndOffset) {
   EXPECT_NEAR(1 - t_at(t, 0.5), 2, 1e-12);
 }
 
+/// Where an image's texture coordinates (s, t) are for a mesh's (u, v), by "uvtransform".
+Vec2f placed(const ParameterSet& set, const std::string& name, double u, double v) {
+  const std::vector<double> m = parameter(set, name).numbers;
+  return {static_cast<float>(m.at(0) * u + m.at(1) * v + m.at(2)),
+          static_cast<float>(m.at(3) * u + m.at(4) * v + m.at(5))};
+}
+
+TEST(MitsubaTexture, RotationsOfUvAreLoaded) {
+  const std::string turned =
+      "<transform name=\"to_uv\"><rotate z=\"1\" angle=\"90\"/><scale x=\"2\" y=\"3\"/>"
+      "<translate x=\"0.5\"/></transform>";
+  MitsubaScene scene;
+  const SceneDescription d = scene.read(
+      "<bsdf type=\"normalmap\" id=\"a\"><texture type=\"bitmap\">" +
+      value("string", "filename", "n.png") + turned + value("string", "wrapModeV", "clamp") +
+      "</texture><bsdf type=\"diffuse\"/></bsdf>\n");
+  // Mitsuba's (u, v) becomes (0.5 - 2 v, 3 u). The mesh has 1 - v, and so has the image.
+  const double u = 0.3, v = 0.2;
+  for (const auto& [set, name] :
+       {std::pair(bitmap(turned).parameters, "uvtransform"),
+        std::pair(d.materials.back().parameters, "normalmap.uvtransform")}) {
+    const Vec2f st = placed(set, name, u, 1 - v);
+    EXPECT_NEAR(st.x, 0.5 - 2 * v, 1e-6) << name;
+    EXPECT_NEAR(1 - st.y, 3 * u, 1e-6) << name;
+  }
+  EXPECT_EQ(text(d.materials.back().parameters, "normalmap.vwrap"), "clamp");
+  EXPECT_EQ(scene.warnings(), "");
+}
+
 TEST(MitsubaTexture, GammaAndRawAreEncodings) {
   EXPECT_FALSE(has_parameter(bitmap("").parameters, "encoding"));
   EXPECT_EQ(text(bitmap(value("float", "gamma", "1")).parameters, "encoding"), "linear");
@@ -55,6 +80,19 @@ TEST(MitsubaTexture, GammaAndRawAreEncodings) {
   EXPECT_EQ(text(bitmap(value("boolean", "raw", "true")).parameters, "encoding"), "linear");
   EXPECT_FALSE(
       has_parameter(bitmap(value("boolean", "raw", "true"), "a.exr").parameters, "encoding"));
+  EXPECT_TRUE(
+      has_parameter(bitmap(value("boolean", "raw", "true"), "a.jpg").parameters, "forceencoding"));
+}
+
+TEST(MitsubaTexture, BumpsAreDecodedLikeAllImages) {
+  for (const bool raw : {false, true}) {
+    MitsubaScene scene;
+    const SceneDescription d = scene.read(
+        "<bsdf type=\"bumpmap\" id=\"a\"><texture type=\"bitmap\">" +
+        value("string", "filename", "b.png") + value("boolean", "raw", raw ? "true" : "false") +
+        "</texture><bsdf type=\"diffuse\"/></bsdf>\n");
+    EXPECT_EQ(has_parameter(d.textures.at(0).parameters, "encoding"), raw);
+  }
 }
 
 TEST(MitsubaTexture, WrapAndFilterModes) {
@@ -62,6 +100,21 @@ TEST(MitsubaTexture, WrapAndFilterModes) {
   EXPECT_EQ(text(bitmap(value("string", "wrapMode", "clamp")).parameters, "wrap"), "clamp");
   EXPECT_EQ(text(bitmap(value("string", "wrapMode", "zero")).parameters, "wrap"), "black");
   EXPECT_EQ(text(bitmap(value("string", "filterType", "nearest")).parameters, "filter"), "point");
+  EXPECT_EQ(text(bitmap(value("string", "wrap_mode", "mirror")).parameters, "wrap"), "mirror");
+  const ParameterSet both =
+      bitmap(value("string", "wrapModeU", "clamp") + value("string", "wrapModeV", "repeat"))
+          .parameters;
+  EXPECT_EQ(text(both, "wrap"), "clamp");
+  EXPECT_EQ(text(both, "vwrap"), "repeat");
+}
+
+TEST(MitsubaTexture, ANumberMayBeOneChannel) {
+  MitsubaScene scene;
+  const SceneDescription d =
+      scene.read("<bsdf type=\"mask\" id=\"a\"><texture type=\"bitmap\" name=\"opacity\">" +
+                 value("string", "filename", "leaf.png") + value("string", "channel", "a") +
+                 "</texture><bsdf type=\"diffuse\"/></bsdf>\n");
+  EXPECT_EQ(text(d.textures.at(0).parameters, "channel"), "a");
 }
 
 TEST(MitsubaTexture, ChecksAreHalfAUnitWide) {

@@ -136,6 +136,18 @@ TEST_F(MtlTest, ImagesHaveTheirOptions) {
   EXPECT_EQ(alpha.parameters.get_string("filename", ""), "leaf.png");
 }
 
+TEST_F(MtlTest, ImagesOfNumbersAreLinear) {
+  const SceneDescription scene =
+      read("map_Kd a.jpg\nmap_d b.jpg\nmap_Pr c.png\nmap_Pm d.tga\nmap_bump e.jpg\n");
+  ASSERT_EQ(scene.textures.size(), 5u);
+  for (const TextureDescription& t : scene.textures) {
+    const bool is_number = t.value_type == "float";
+    EXPECT_EQ(is_number, t.parameters.get_string("filename", "") != "a.jpg");
+    EXPECT_EQ(t.parameters.get_string("encoding", ""), is_number ? "linear" : "");
+    EXPECT_EQ(t.parameters.get_bool("forceencoding", false), is_number);
+  }
+}
+
 TEST_F(MtlTest, ImagesAreInTheFolderOfTheirLibrary) {
   directory_.write("lib/m.mtl", "newmtl m\nmap_Kd a.png\nnorm n.png\n");
   const SceneDescription scene = read_triangle("mtllib lib/m.mtl\nusemtl m\n");

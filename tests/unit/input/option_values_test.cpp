@@ -39,6 +39,18 @@ TEST(OptionValues, Durations) {
                  {"", "s", "0", "0s", "-1s", "5d", "5 s", "5ms", "nan", "infs", "1e999s", "m5"});
 }
 
+TEST(OptionValues, MomentsAreSecondsOrFractionsOfThem) {
+  const auto seconds = [](const std::string& option, const std::string& text) {
+    return parse_seconds(option, text, 100);
+  };
+  EXPECT_EQ(seconds("--at", "0"), 0);
+  EXPECT_EQ(seconds("--at", "2.5s"), 2.5);
+  EXPECT_EQ(seconds("--at", "1/48s"), 1 / 48.0);
+  EXPECT_EQ(seconds("--at", "3/2"), 1.5);
+  expect_refused(seconds, {"", "s", "-1", "101s", "1/", "/2", "1/0", "1/-2", "1/2/3", "nan", "inf",
+                           "1e999", "5m"});
+}
+
 TEST(OptionValues, Passes) {
   using Range = std::pair<uint32_t, uint32_t>;
   EXPECT_EQ(parse_passes("--passes", "1"), (Range{0, 0}));

@@ -25,7 +25,7 @@ SceneDescription staged(const std::string& text, const ImportOptions& options = 
                         bool is_complete = false) {
   SceneDescription scene = parse(text);
   Diagnostics diagnostics;
-  stage_scene(&scene, is_complete, options, diagnostics);
+  stage_scene(&scene, {.is_complete = is_complete, .has_exposure = true}, options, diagnostics);
   return scene;
 }
 

@@ -194,6 +194,20 @@ TEST(AreaLight, ImagesRunUpwardsInV) {
   EXPECT_NEAR(emitted_flux(*lights[0], 20000).mean(), flux, 5e-3 * flux);
 }
 
+TEST(AreaLight, TheImageHasItsPlacement) {
+  const ScratchDirectory directory;
+  write_square(directory.file("a.exr"), 1, {1, 1, 1});
+  Diagnostics d;
+  area_lights_of(
+      "\"string filename\" \"a.exr\" \"string uwrap\" \"repeat\" "
+      "\"float uvtransform\" [1 0 0 0 1 0]",
+      disk_above(2, 1), nullptr, directory.path().string(), &d);
+  EXPECT_TRUE(d.warnings().empty());
+  area_lights_of("\"rgb L\" [1 1 1] \"string uwrap\" \"repeat\"", disk_above(2, 1), nullptr, ".",
+                 &d);
+  EXPECT_EQ(d.warnings().size(), 1u);
+}
+
 TEST(AreaLight, OneLightAPrimitive) {
   MeshData m;
   m.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};

@@ -73,6 +73,40 @@ TEST(PrincipledMaterial, SmoothGlassIsADielectric) {
   }
 }
 
+TEST(PrincipledMaterial, ACoatCanLeaveTheBaseAsItIsInAir) {
+  // By default a coat of the base's index hides the boundary. As of glTF it only takes its part.
+  const Parameter alone = boolean("coat_affects_specular", false), coat = number("coat_weight", 1),
+                  index = number("coat_ior", 1.5);
+  const SurfaceInteraction point = flat_point();
+  const Vec3f up(0, 0, 1);
+  for (const double film : {0.0, 1.0}) {
+    const Parameter with_film = number("thin_film_weight", film);
+    const Made made({principled({with_film}), principled({with_film, coat, index, alone}),
+                     principled({coat, index})});
+    const auto glossy = [&](size_t i) {
+      SampledWavelengths lambda = wavelengths();
+      BsdfArena arena;
+      return made.materials[i]
+          ->make_bsdf(point, lambda, kSpecularAlpha, arena)
+          ->eval(up, up, TransportMode::kRadiance, EventClass::kGlossy, ClassMask::kAll)
+          .f[2];
+    };
+    EXPECT_NEAR(glossy(1), 0.96f * glossy(0), 1e-4f * glossy(0));
+    EXPECT_EQ(glossy(2), 0.0f);
+  }
+}
+
+TEST(PrincipledMaterial, ARoughCoatRoughensTheBaseUnlessToldNotTo) {
+  const Parameter coat = number("coat_weight", 1), rough = number("coat_roughness", 0.9),
+                  alone = boolean("coat_affects_specular", false);
+  const Made made({principled({coat, rough}), principled({coat, rough, alone}),
+                   principled({coat, rough, alone, number("specular_ior", 1)})});
+  EXPECT_GT(*made.materials[0]->facet_alpha(), 0.5f);
+  EXPECT_FLOAT_EQ(*made.materials[1]->facet_alpha(), 0.09f);
+  // There is no boundary below the coat: its facets alone count.
+  EXPECT_FLOAT_EQ(*made.materials[2]->facet_alpha(), 0.81f);
+}
+
 TEST(PrincipledMaterial, WithoutSpecularItIsDiffuse) {
   const Made made(
       {principled({number("specular_weight", 0), numbers("rgb", "base_color", {.7, .5, .2}),
@@ -95,6 +129,15 @@ TEST(PrincipledMaterial, AlphaIsTheSquareOfRoughness) {
   EXPECT_NEAR(*made.materials[1]->facet_alpha(), 0.04f, 1e-6f);
   EXPECT_NEAR(*made.materials[2]->facet_alpha(), 0.25f * std::sqrt(2.0f), 1e-6f);
   EXPECT_FALSE(made.materials[3]->facet_alpha());
+}
+
+TEST(PrincipledMaterial, RoughnessThatIsNotRemappedIsAlpha) {
+  const Parameter raw = boolean("remaproughness", false);
+  const Made made({principled({number("specular_roughness", 0.25), raw}),
+                   principled({number("coat_weight", 1), number("coat_roughness", 0.04), raw})});
+  EXPECT_NEAR(*made.materials[0]->facet_alpha(), 0.25f, 1e-6f);
+  EXPECT_NEAR(*made.materials[1]->facet_alpha(), 0.04f, 1e-6f);
+  EXPECT_EQ(made.diagnostics.warnings().size(), 0u);
 }
 
 TEST(PrincipledMaterial, ARoughCoatRoughensItsBase) {
@@ -251,6 +294,52 @@ TEST(PrincipledMaterial, LightBelowTheSurfaceHasItsColourAndRadius) {
                 1e-3f * b->pdf_a(p, Vec3f(0, 0, 1)));
   }
   EXPECT_TRUE(a->exit_bsdf(arena));
+}
+
+TEST(PrincipledMaterial, AFreePathOfZeroIsTheDiffuseLobe) {
+  const Parameter half = number("subsurface_weight", 0.5), blue = grey("base_color", 0.2),
+                  red = grey("subsurface_color", 0.8);
+  const MadeWithTexture varies({half, blue, red, split("subsurface_radius")});
+  const Made made({principled({half, blue, red, number("subsurface_radius", 0)}),
+                   principled({half, blue, red, grey("subsurface_radius_scale", 0)}),
+                   principled({grey("base_color", 0.5)})});
+  const BsdfEval expected = eval_of(*made.materials[2], EventClass::kDiffuse);
+  for (const MaterialPtr& m : {varies.material, made.materials[0], made.materials[1]}) {
+    EXPECT_EQ(m->has_bssrdf(), m == varies.material);
+    const BsdfEval e = eval_of(*m, EventClass::kDiffuse);
+    EXPECT_NEAR(e.f[2], expected.f[2], 1e-5f);
+    EXPECT_NEAR(e.pdf_w, expected.pdf_w, 1e-5f);
+  }
+}
+
+/// Share of light that a profile gives back at a wavelength, on a plane.
+double given_back(const Bssrdf& profile, const Vec3f& p, int wavelength) {
+  constexpr double kStep = 0.02;
+  double sum = 0;
+  for (double log_r = std::log(1e-6); log_r < std::log(50.0); log_r += kStep) {
+    const double r = std::exp(log_r);
+    const SampledSpectrum sp = profile.sp(p + Vec3f(static_cast<float>(r), 0, 0));
+    sum += 2 * M_PI * r * sp[wavelength] * r * kStep;
+  }
+  return sum;
+}
+
+TEST(PrincipledMaterial, AFreePathOfZeroAtSomeWavelengthsLosesNoLight) {
+  const Made made({principled(
+      {number("subsurface_weight", 1), grey("subsurface_color", 0.6),
+       numbers("spectrum", "subsurface_radius_scale", {200, 0, 550, 0, 551, 1, 900, 1})})});
+  const SampledWavelengths lambda = wavelengths();
+  const SurfaceInteraction point = flat_point(Vec3f(0, 0, 0));
+  BsdfArena arena;
+  const Bssrdf* profile = made.materials[0]->make_bssrdf(point, lambda, arena);
+  ASSERT_TRUE(profile);
+  int short_paths = 0;
+  for (int i = 0; i < kSpectrumSamples; ++i) {
+    EXPECT_NEAR(given_back(*profile, point.p, i), 0.6, 0.01) << lambda.lambdas()[i];
+    short_paths += lambda.lambdas()[i] < 550.0f;
+  }
+  EXPECT_GT(short_paths, 0);
+  EXPECT_LT(short_paths, kSpectrumSamples);
 }
 
 TEST(PrincipledMaterial, AThinWallSpreadsSubsurfaceLightToBothSides) {

@@ -146,13 +146,15 @@ TEST(CommandLine, Errors) {
 
 TEST(CommandLine, AllCommandsWithASceneTakeTheOptionsAboutIt) {
   const std::string options =
-      " --camera 1 --at 1.5s --variant red --solid-glass --floor --environment sky.exr --sun "
+      " --camera 1 --at 1.5s --shutter 1/48s --variant red --solid-glass --floor --environment "
+      "sky.exr --sun "
       "30,-45 "
       "--exposure -1.5 --allow-outside --define a=1 --define b=x=y";
   ImportOptions expected;
   expected.camera = "1";
   expected.variant = "red";
   expected.time = 1.5;
+  expected.shutter = 1 / 48.0;
   expected.solid_glass = expected.allow_outside = expected.floor = true;
   expected.defines = {{"a", "1"}, {"b", "x=y"}};
   expected.environment = "sky.exr";
@@ -172,7 +174,9 @@ TEST(CommandLine, OptionsAboutTheSceneAreChecked) {
   EXPECT_NE(usage_error("render s.obj --sun -1,0").find("--sun: '-1'"), std::string::npos);
   EXPECT_NE(usage_error("render s.obj --exposure x").find("--exposure: 'x'"), std::string::npos);
   EXPECT_NE(usage_error("render s.obj --exposure 1e9").find("--exposure"), std::string::npos);
-  EXPECT_NE(usage_error("render s.obj --at -1").find("--at"), std::string::npos);
+  EXPECT_NE(usage_error("render s.obj --at -1").find("--at: '-1'"), std::string::npos);
+  EXPECT_NE(usage_error("render s.obj --shutter 1/0s").find("--shutter: '1/0s'"),
+            std::string::npos);
   EXPECT_NE(usage_error("render s.obj --define x").find("--define: 'x'"), std::string::npos);
   EXPECT_NE(usage_error("convert s.obj t.obj").find(".pbrt"), std::string::npos);
   EXPECT_NE(usage_error("convert s.obj").find("OUT.pbrt"), std::string::npos);
@@ -186,7 +190,9 @@ TEST(CommandLine, ImportOptionsAreWordsOfTheIdentity) {
   options.sun = SunDirection{5, 6};
   options.defines["n"] = "1";
   options.time = 2.5;
-  EXPECT_EQ(import_options_text(options), "camera=a%25b%09c at=2.5 define:n=1 floor=yes sun=5,6");
+  options.shutter = 0.25;
+  EXPECT_EQ(import_options_text(options),
+            "camera=a%25b%09c at=2.5 shutter=0.25 define:n=1 floor=yes sun=5,6");
 }
 
 TEST(CommandLine, HelpAndVersion) {

@@ -10,6 +10,7 @@
 #include <regex>
 #include <sstream>
 
+#include "input/convert/dialect.h"
 #include "input/option_directive.h"
 #include "input/pbrt_parser.h"
 #include "options/obj_support.h"
@@ -307,6 +308,36 @@ TEST(SceneSupport, EveryNameInTheTextOfTheLoaderIsListed) {
     }
   }
   EXPECT_GT(found, 150);
+}
+
+/// True if the names that `nephroid convert` lists as the dialect have it.
+bool is_listed_as_dialect(const std::string& directive, const std::string& type,
+                          const std::string& parameter) {
+  const std::span<const DialectName> names = dialect_names();
+  return std::any_of(names.begin(), names.end(), [&](const DialectName& name) {
+    return directive == name.directive && (!*name.type || type == name.type) &&
+           parameter == name.parameter;
+  });
+}
+
+TEST(SceneSupport, TheDialectIsListed) {
+  int found = 0;
+  for (const FormatKind& kind : format_kinds())
+    for (const FormatType& type : kind.types) {
+      const std::string note = type.note;
+      if (note.ends_with("not in pbrt-v4") || note.starts_with("not of pbrt-v4")) {
+        EXPECT_TRUE(is_listed_as_dialect(kind.directive, type.name, "")) << type.name;
+        ++found;
+        continue;
+      }
+      for (const FormatParameter& p : parameters_of(type)) {
+        if (!std::string(p.note).ends_with("not in pbrt-v4")) continue;
+        EXPECT_TRUE(is_listed_as_dialect(kind.directive, type.name, p.name))
+            << type.name << " " << p.name;
+        ++found;
+      }
+    }
+  EXPECT_GT(found, 20);
 }
 
 }  // namespace

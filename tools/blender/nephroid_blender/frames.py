@@ -11,7 +11,7 @@ MAX_BYTES = 1 << 40
 
 
 class FrameError(Exception):
-    """The stream is not one of frames, or of another version."""
+    """The stream does not hold frames of this version."""
 
 
 @dataclass
@@ -44,7 +44,7 @@ def _read_exactly(file, count):
 
 
 def read_frame(file):
-    """The next frame; None at the end of the stream, also amid a frame."""
+    """The next frame; None at the end of the stream, even in the middle of a frame."""
     try:
         magic, version, header_bytes, payload_bytes = PREFIX.unpack(
             _read_exactly(file, PREFIX.size))

@@ -9,10 +9,10 @@ from .program import route_names
 
 @dataclass(frozen=True)
 class Pass:
-    name: str  # in Blender
-    layer: str  # in the program
+    name: str  # name in Blender
+    layer: str  # name in the program
     channels: str
-    kind: str  # of the socket
+    kind: str  # type of the socket
 
 
 def extra_passes(scene, view_layer):

@@ -9,14 +9,14 @@ class NephroidPreferences(bpy.types.AddonPreferences):
     bl_idname = __package__
 
     program: StringProperty(name="Program", subtype="FILE_PATH",
-                            description="Path of nephroid; empty: the one of PATH, or of the "
-                                        "repository that the add-on lies in")
+                            description="Path of the program; if empty, nephroid is looked for on "
+                                        "the PATH, then in the repository of the add-on")
 
     def draw(self, context):
         self.layout.prop(self, "program")
         found = find_program(bpy.path.abspath(self.program))
-        self.layout.label(text=f"Found: {found}" if found else "There is no such program",
-                          icon="CHECKMARK" if found else "ERROR")
+        text = f"Found: {found}" if found else "No program found: set the path of nephroid"
+        self.layout.label(text=text, icon="CHECKMARK" if found else "ERROR")
 
 
 def program_path():

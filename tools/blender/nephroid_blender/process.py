@@ -81,14 +81,14 @@ class RenderProcess:
         return self._end
 
     def failure(self):
-        """What standard error says of a program that failed without a frame; "" if it did not."""
+        """The end of standard error if the program failed without an `end` frame, else ""."""
         status = self._process.wait()
         if status == 0 or self._end is not None:
             return ""
         return "\n".join(self._errors[-5:]) or f"the program ended with status {status}"
 
     def stop(self):
-        """Ends the program within PATIENCE."""
+        """Asks the program to end, and kills it after PATIENCE."""
         if self._process.poll() is None:
             self._process.terminate()
             try:

@@ -3,16 +3,20 @@ import bpy
 from bpy.props import (BoolProperty, CollectionProperty, EnumProperty, FloatProperty, IntProperty,
                        PointerProperty, StringProperty)
 
+DEFAULT_SECONDS = 60
 INTEGRATORS = [
-    ("mixed", "Mixed", "Path tracing and caustic photons, weighed against each other"),
+    ("mixed", "Mixed",
+     "Path tracing and caustic photons, combined by multiple importance sampling"),
     ("path", "Path tracing", "Path tracing alone"),
     ("bdpt", "Bidirectional", "Bidirectional path tracing"),
     ("vcm", "VCM", "Vertex connection and merging"),
     ("bpm", "BPM", "Bidirectional photon mapping"),
     ("sppm", "SPPM", "Stochastic progressive photon mapping"),
     ("mlt", "Metropolis", "Metropolis light transport"),
-    ("pssmlt", "Primary space MLT", "Path tracing explored by Markov chains"),
-    ("doidge2012", "Doidge 2012", "The integrator of the paper"),
+    ("pssmlt", "Primary space MLT",
+     "Metropolis light transport in the random numbers of path tracing"),
+    ("doidge2012", "Doidge 2012",
+     "Caustics by photons alone, the rest by path tracing (Doidge et al. 2012)"),
 ]
 
 
@@ -25,10 +29,12 @@ class NephroidAov(bpy.types.PropertyGroup):
 
 class NephroidSettings(bpy.types.PropertyGroup):
     integrator: EnumProperty(name="Integrator", items=INTEGRATORS, default="mixed")
-    time_limit: FloatProperty(name="Time", subtype="TIME", unit="TIME_ABSOLUTE", default=60, min=0,
-                              description="Seconds until the render stops; 0 is no limit")
+    time_limit: FloatProperty(
+        name="Time", subtype="TIME", unit="TIME_ABSOLUTE", default=DEFAULT_SECONDS, min=0,
+        description=f"Seconds until the render stops; 0 is no limit, but {DEFAULT_SECONDS} if "
+                    "noise and passes have none either")
     noise: FloatProperty(name="Noise", default=0, min=0, precision=3,
-                         description="Relative error at which the render stops; 0 is none")
+                         description="Relative error at which the render stops; 0 is no limit")
     passes: IntProperty(name="Passes", default=0, min=0,
                         description="Passes after which the render stops; 0 is no limit")
     route_passes: BoolProperty(name="Routes as passes", default=True,
@@ -39,7 +45,7 @@ class NephroidSettings(bpy.types.PropertyGroup):
     aovs: CollectionProperty(type=NephroidAov)
     active_aov: IntProperty()
     reject_outliers: BoolProperty(name="Reject fireflies", default=False,
-                                  description="Keeps isolated bright estimates out of the picture")
+                                  description="Keep isolated bright samples out of the picture")
     seed: IntProperty(name="Seed", default=0, min=0)
     max_depth: IntProperty(name="Max depth", default=0, min=0,
                            description="Scattering events of a path; 0 is 100")
@@ -58,7 +64,7 @@ class NephroidSettings(bpy.types.PropertyGroup):
             arguments += ["--noise", f"{self.noise:.6g}"]
         if self.passes > 0:
             arguments += ["--passes", str(self.passes)]
-        return arguments or ["--time", "60s"]
+        return arguments or ["--time", f"{DEFAULT_SECONDS}s"]
 
     def algorithm_arguments(self):
         arguments = ["--integrator", self.integrator, "--seed", str(self.seed)]

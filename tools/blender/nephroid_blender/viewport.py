@@ -71,7 +71,8 @@ class Viewport:
         self._stop()
         program, engine = program_path(), self._engine()
         if not program:
-            engine.update_stats("Nephroid", "the program is not found, see the preferences")
+            engine.update_stats("Nephroid", "the program is not found: set its path in the "
+                                            "add-on's preferences")
             return
         path = write_head(self._folder.name, view, *size)
         settings = scene.nephroid

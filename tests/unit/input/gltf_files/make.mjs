@@ -1,6 +1,6 @@
-// Writes the files of this folder, by other programs. Run it in a folder where npm has installed
-// three, @gltf-transform/core, @gltf-transform/extensions, @gltf-transform/functions, draco3dgltf and
-// meshoptimizer: node make.mjs ROOT_OF_THIS_PROJECT
+// Writes three.gltf and the packed balls of tests/regression/features, by other programs. Run it in a
+// folder where npm has installed three, @gltf-transform/core, @gltf-transform/extensions,
+// @gltf-transform/functions, draco3dgltf and meshoptimizer: node make.mjs ROOT_OF_THIS_PROJECT
 import fs from 'fs';
 import { Document, NodeIO } from '@gltf-transform/core';
 import { ALL_EXTENSIONS } from '@gltf-transform/extensions';
@@ -32,13 +32,13 @@ const io = new NodeIO().registerExtensions(ALL_EXTENSIONS).registerDependencies(
   'meshopt.decoder': MeshoptDecoder,
 });
 for (const [name, change] of [
-  ['ball_quantized', quantize()],
-  ['ball_draco', draco({ method: 'edgebreaker' })],
-  ['ball_meshopt', meshopt({ encoder: MeshoptEncoder, level: 'high' })],
+  ['KHR_mesh_quantization', quantize()],
+  ['KHR_draco_mesh_compression', draco({ method: 'edgebreaker' })],
+  ['EXT_meshopt_compression', meshopt({ encoder: MeshoptEncoder, level: 'high' })],
 ]) {
   const document = await io.read(`${root}/tests/agreement/gltf/metal.gltf`);
   await document.transform(change);
-  await io.write(`${folder}${name}.glb`, document);
+  await io.write(`${root}/tests/regression/features/${name}.glb`, document);
 }
 
 // A triangle with colours as Blender stores them.

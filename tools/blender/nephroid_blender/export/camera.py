@@ -29,7 +29,8 @@ def view_of_camera(obj, scene, report):
     depth = -corners[0].z
     is_flat = camera.type == "ORTHO"
     if camera.type == "PANO":
-        report.warn(f"camera '{obj.name}'", "panoramas are not supported, it is a perspective one")
+        report.warn(f"camera '{obj.name}'",
+                    "panoramas are not supported, a perspective camera is used")
     unit = 1 if is_flat else depth
     xs = [c.x / unit for c in corners]
     ys = [c.y / unit for c in corners]
@@ -45,7 +46,7 @@ def view_of_camera(obj, scene, report):
             view.focus = max(-eye.z, 1e-6)
         if dof.aperture_blades or dof.aperture_ratio != 1:
             report.warn(f"camera '{obj.name}'", "blades and ratio of the aperture are not "
-                                                "supported, it is a disc")
+                                                "supported, a round aperture is used")
     return view
 
 

@@ -5,10 +5,10 @@ import numpy as np
 
 from . import values
 
-DIRECT = {  # file format and colour space: the encoding that the program reads them with
+DIRECT = {  # file format and colour space: the encoding of bytes
     ("PNG", "sRGB"): "sRGB",
     ("PNG", "Non-Color"): "linear",
-    ("JPEG", "sRGB"): None,
+    ("JPEG", "sRGB"): "sRGB",
     ("OPEN_EXR", "Linear"): None,
     ("OPEN_EXR", "Linear Rec.709"): None,
     ("OPEN_EXR", "Non-Color"): None,
@@ -46,8 +46,13 @@ def _alpha(image):
     return np.repeat(_all_pixels(image)[..., 3:], 3, axis=-1)
 
 
+def _is_grey(image):
+    """True for files of one channel; `depth` has the bits of all channels of a pixel."""
+    return image.depth == (32 if image.is_float else 8)
+
+
 def _source(image):
-    """File and encoding of an image that can be read as it is, or None."""
+    """The file of an image if the program can read it as it is, or None."""
     import bpy
     key = (image.file_format, image.colorspace_settings.name)
     if image.source != "FILE" or image.packed_file or image.is_dirty or key not in DIRECT:
@@ -56,17 +61,17 @@ def _source(image):
     endings = {"PNG": (".png",), "JPEG": (".jpg", ".jpeg"), "OPEN_EXR": (".exr",), "HDR": (".hdr",)}
     if not os.path.isfile(path) or not path.lower().endswith(endings[image.file_format]):
         return None
-    return path, DIRECT[key]
+    return values.Source(path, DIRECT[key], _is_grey(image))
 
 
 def grid(image, output, uv, extension, closest, report):
-    """The "Color" or "Alpha" of an image; None with a warning if it cannot be read."""
+    """The "Color" or "Alpha" of an image; magenta with a warning if it cannot be read."""
     if image is None or image.size[0] == 0 or image.size[1] == 0:
         report.warn(f"image '{image.name if image else ''}'",
                     "it cannot be read, it is drawn in magenta")
         return values.color((1, 0, 1))
     if image.source in ("MOVIE", "SEQUENCE", "TILED"):
-        report.warn(f"image '{image.name}'", "one frame or tile of it is used")
+        report.warn(f"image '{image.name}'", "only one frame or tile of it is used")
     key = f"{image.name_full}"
     if output == "Alpha":
         return values.Grid("alpha of " + key, lambda: _alpha(image), uv, extension, closest)

@@ -4,8 +4,8 @@ Cycles' radiance 1 is the pixel value 1, as is L 1 here.
 Sources of the formulas: intern/cycles/scene/light.cpp and kernel/light/*.h of Blender 3.4. The
 tests in tests/blender compare both programs, lamp by lamp.
   point  I = P / 4 pi; with a radius r it shines like a sphere of L = I / (pi r^2)
-  spot   I = P / 4 pi in the axis, whatever the cone, with an edge that is a smoothstep of the
-         cosine, as pbrt's is; before 4.0 times the cosine itself
+  spot   I = P / 4 pi along the axis, for any cone. The edge is a smoothstep of the cosine, as in
+         pbrt. Before Blender 4.0 the intensity is also multiplied by the cosine.
   area   L = P / 4 A on one side (a Lambertian lamp of flux P would have P / pi A)
   sun    P is the irradiance of a surface that faces it
 """
@@ -92,8 +92,8 @@ class LightWriter:
         if has_cosine_in_spots():
             intensity *= mean_cosine(math.cos(end), inner)
             if end > math.radians(45):
-                self._report.warn(thing, "the spot is evenly bright, in Blender before 4.0 it is "
-                                         "dimmer at its edge; both have the same flux")
+                self._report.warn(thing, "it is evenly bright here, and dimmer at its edge in "
+                                         "Blender before 4.0; the flux is the same")
         delta = math.degrees(end - math.acos(min(inner, 1)))
         self._text.add("LightSource", "spot", {
             "rgb I": [c * intensity for c in color], "point3 from": (0, 0, 0),
@@ -101,16 +101,14 @@ class LightWriter:
             "float conedeltaangle": delta, **name})
 
     def _sun(self, light, thing, color, scale, name):
-        if light.angle > math.radians(1):
-            self._report.warn(thing, "the angle of a sun is not supported, its shadows are sharp")
         self._text.add("LightSource", "distant", {
             "rgb L": [c * light.energy for c in color], "point3 from": (0, 0, 0),
-            "point3 to": (0, 0, -1), **name})
+            "point3 to": (0, 0, -1), "float angle": math.degrees(light.angle), **name})
 
     def _area(self, light, thing, color, scale, name):
         if getattr(light, "spread", math.pi) < math.pi - 1e-3:
-            self._report.warn(thing, "the spread of an area light is not supported, it is 180 "
-                                     "degrees")
+            self._report.warn(thing, "the spread of an area light is not supported, 180 "
+                                     "degrees are used")
         width = light.size * abs(scale.x)
         is_round = light.shape in ("DISK", "ELLIPSE")
         height = (light.size if light.shape in ("SQUARE", "DISK") else light.size_y) * abs(scale.y)

@@ -117,8 +117,6 @@ class MaterialWriter:
 
     def _normal_map(self, grid, uv, thing):
         if grid.uv != uv:
-            self._report.warn(thing, "has normal maps with different mappings, one is not mapped")
-        path, encoding = self.textures.image_file(grid, "spectrum")
-        if encoding == "sRGB":  # normal maps are read as linear
-            return self.textures.pixel_file(grid.key, grid.pixels, "spectrum")
-        return path
+            self._report.warn(thing, "its normal maps have different mappings, one mapping is left "
+                                     "out")
+        return self.textures.color_file(grid, "linear")

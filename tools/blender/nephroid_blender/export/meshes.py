@@ -111,6 +111,7 @@ class MeshWriter:
             self._count += 1
             if (surface.uv.layer or surface.uv.matrix != ((1, 0, 0), (0, 1, 0))) and \
                     mapped_uvs(arrays, surface.uv) is None:
-                self._report.warn(f"object '{obj.name}'", "has no UV map for its textures")
+                self._report.warn(f"object '{obj.name}'",
+                                  "it has no UV map, expected one for its textures")
             found.append((path, surface))
         return found

@@ -125,8 +125,7 @@ class ObjectWriter:
         else:
             grid = surface.emission
             if grid.uv != surface.uv:
-                self._report.warn(f"material '{surface.material}'",
-                                  "the mapping of its emission is not supported, it is left out")
-            path, _ = self.materials.textures.image_file(grid, "spectrum")
-            parameters["string filename"] = path
+                self._report.warn(f"material '{surface.material}'", "the mapping of its emission "
+                                  "texture is not supported and is left out")
+            parameters["string filename"] = self.materials.textures.color_file(grid, "sRGB")
         self._text.add("AreaLightSource", "diffuse", parameters)

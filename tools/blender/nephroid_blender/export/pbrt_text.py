@@ -1,6 +1,7 @@
 """pbrt-v4 directives as text. It must not know Blender."""
 
 IDENTITY = (1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1)
+ESCAPES = str.maketrans({"\\": r"\\", '"': r'\"', "\n": r"\n", "\r": r"\r", "\t": r"\t"})
 
 
 def number(value):
@@ -9,8 +10,8 @@ def number(value):
 
 
 def quoted(text):
-    """A string token; pbrt has no escape for a quote."""
-    return '"' + str(text).replace('"', "'").replace("\n", " ") + '"'
+    """A string token."""
+    return '"' + str(text).translate(ESCAPES) + '"'
 
 
 def numbers(values):

@@ -11,7 +11,7 @@ def merged_corners(vertex_of_corner, *attributes):
     rows += [np.ascontiguousarray(a, dtype=np.float32).view(np.uint32) for a in attributes]
     keys = np.concatenate(rows, axis=1)
     hashes = np.zeros(len(keys), dtype=np.uint64)
-    for column in keys.T:  # mixes as splitmix64 does
+    for column in keys.T:  # mixes with a constant of splitmix64
         hashes = (hashes ^ column) * np.uint64(0xBF58476D1CE4E5B9)
         hashes ^= hashes >> np.uint64(29)
     _, first, merged = np.unique(hashes, return_index=True, return_inverse=True)

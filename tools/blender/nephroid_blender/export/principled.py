@@ -102,7 +102,9 @@ def _coat(reader, node, p, is_new):
     p["float coat_roughness"] = reader.number(node.input("Coat Roughness", "Clearcoat Roughness"))
     p["float coat_ior"] = number(reader.constant(node.input("Coat IOR"), 1.5))
     p["spectrum coat_color"] = reader.color(node.input("Coat Tint"), (1, 1, 1))
+    # Cycles' coat neither darkens what is below nor changes its reflectance and roughness.
     p["float coat_darkening"] = number(0)
+    p["bool coat_affects_specular"] = False
 
 
 def _sheen(reader, node, p, is_new):
@@ -120,11 +122,23 @@ def _sheen(reader, node, p, is_new):
 
 
 def _anisotropy(reader, node, p):
-    """Both alphas: r^2 / aspect and r^2 aspect, with aspect^2 = 1 - 0.9 anisotropic."""
+    """Cycles' alphas are r^2 / aspect and r^2 aspect, with aspect^2 = 1 - 0.9 anisotropic.
+
+    OpenPBR's have the mean square r^4, so its roughness is greater.
+    """
     anisotropic = reader.number(node.input("Anisotropic"))
     if is_zero(anisotropic):
         return
+    reader.check_tangent(node)
     if not is_zero(reader.number(node.input("Anisotropic Rotation"))):
         reader.warn("Anisotropic Rotation is not supported, it is taken as 0")
     p["float specular_roughness_anisotropy"] = values.apply(anisotropic, "aspect",
                                                             lambda a: 0.9 * a)
+    p["float specular_roughness"] = reader.combined(p["float specular_roughness"], anisotropic,
+                                                    "openpbr", _roughness_of_openpbr)
+
+
+def _roughness_of_openpbr(roughness, anisotropic):
+    across = 1 - 0.9 * values.luminance(anisotropic)
+    factor = ((1 + across ** 2) / (2 * across)) ** 0.25
+    return np.minimum(values.luminance(roughness) * factor, 1)

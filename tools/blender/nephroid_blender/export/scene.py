@@ -26,6 +26,8 @@ def write_contents(folder, depsgraph, report, at_open=None, at_close=None):
     """Writes world.pbrt with its meshes and images."""
     for name in ("meshes", "images"):
         os.makedirs(os.path.join(folder, name), exist_ok=True)
+    if depsgraph.scene_eval.render.film_transparent:
+        report.warn("film", "transparency is not supported, the background is opaque")
     text = SceneText()
     for_viewport = depsgraph.mode == "VIEWPORT"
     objects = ObjectWriter(text, folder, report, for_viewport)

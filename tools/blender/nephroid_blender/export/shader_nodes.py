@@ -11,6 +11,10 @@ from .value_nodes import ValueReader
 from .values import Constant, is_zero, number
 
 
+EUMELANIN = np.array([0.506, 0.841, 1.653])  # Cycles' absorption, greater than pbrt's
+PHEOMELANIN = np.array([0.343, 0.733, 1.924])
+
+
 class ShaderReader(ValueReader):
     """Reads sockets as shaders, and as values where these are colours and numbers."""
 
@@ -40,6 +44,18 @@ class ShaderReader(ValueReader):
         else:
             self.warn(f"'{source.node.name}' as a normal is not supported, it is left out")
         return replace(found, parameters=parameters)
+
+    def check_tangent(self, node):
+        """Warns where u is not the direction of an anisotropic node.
+
+        Without a Tangent node that direction turns about the z axis of the object in Cycles.
+        """
+        socket = node.input("Tangent")
+        source = socket.source() if socket is not None else None
+        if source is None or source.node.type != "TANGENT" or \
+                source.node.node.direction_type != "UV_MAP":
+            self.warn(f"'{node.name}' is anisotropic along its UV map, expected a Tangent node of "
+                      "type UV Map")
 
     def _add_normal_map(self, node, parameters):
         if node.node.space != "TANGENT":
@@ -109,6 +125,12 @@ def _refraction(reader, node):
     return _glass(reader, node)
 
 
+def _stretch(anisotropy):
+    """Cycles' factor of alpha along u; alpha along v is divided by it."""
+    a = min(max(anisotropy, -0.99), 0.99)
+    return 1 / (1 + a) if a < 0 else 1 - a
+
+
 def _glossy(reader, node):
     parameters = {"spectrum reflectance": reader.color(node.input("Color")),
                   "bool remaproughness": False}
@@ -116,13 +138,13 @@ def _glossy(reader, node):
     anisotropy = reader.constant(node.input("Anisotropy"))
     if anisotropy == 0:
         parameters["float roughness"] = alpha
-    else:  # alpha / (1 + a) and alpha / (1 - a) along u and v, as in Cycles
+    else:
+        reader.check_tangent(node)
         if reader.constant(node.input("Rotation")) != 0:
             reader.warn("Rotation of an anisotropic surface is not supported, it is taken as 0")
-        a = min(max(anisotropy, -0.99), 0.99)
-        along, across = (1 / (1 + a), 1 - a) if a < 0 else (1 / (1 - a), 1 + a)
-        parameters["float uroughness"] = values.apply(alpha, "u", lambda x: x * along)
-        parameters["float vroughness"] = values.apply(alpha, "v", lambda x: x / across)
+        along = _stretch(anisotropy)
+        parameters["float uroughness"] = values.apply(alpha, f"u{along}", lambda x: x * along)
+        parameters["float vroughness"] = values.apply(alpha, f"v{along}", lambda x: x / along)
     return Shader("conductor", parameters)
 
 
@@ -137,8 +159,8 @@ def _transparent(reader, node):
     color = reader.color(node.input("Color"), (1, 1, 1))
     if values.is_one(color):
         return CLEAR
-    reader.warn("a coloured Transparent BSDF is grey: its luminance is the share of light let "
-                "through")
+    reader.warn("the colour of a Transparent BSDF is not supported, its luminance is used as "
+                "transparency")
     opacity = values.apply(color, "opacity", lambda c: 1 - values.luminance(c))
     return Shader(opacity=opacity)
 
@@ -159,6 +181,8 @@ def _subsurface(reader, node):
 
 
 def _sheen(reader, node):
+    reader.warn(f"'{node.name}' is rendered as the fuzz of OpenPBR, whose lobe differs from that "
+                "of Cycles")
     color = reader.color(node.input("Color"))
     return Shader("principled", {
         "float base_weight": number(0), "float specular_weight": number(0),
@@ -166,20 +190,34 @@ def _sheen(reader, node):
         "float fuzz_roughness": reader.number(node.input("Roughness", "Sigma"), 0.5)})
 
 
+def _pigment_absorption(reader, node):
+    """Cycles' absorption of melanin m, which is -log(1 - m) of pigment shared by redness, and tint.
+
+    The tint is a reflectance, as the colour of the hair would be (Chiang et al. 2016).
+    """
+    pigment = -np.log(max(1 - reader.constant(node.input("Melanin"), 0.8), 1e-4))
+    redness = reader.constant(node.input("Melanin Redness"), 1)
+    b = reader.constant(node.input("Radial Roughness"), 0.3)
+    scale = np.polyval((0.245, 5.574, -10.73, 2.532, -0.215, 5.969), b)
+    tint = np.clip(reader.constant_color(node.input("Tint")), 1e-20, 1)
+    return (pigment * (1 - redness) * EUMELANIN + pigment * redness * PHEOMELANIN +
+            (np.log(tint) / scale) ** 2)
+
+
 def _hair(reader, node):
     parameters = {"float eta": number(reader.constant(node.input("IOR"), 1.55)),
                   "float beta_m": number(reader.constant(node.input("Roughness"), 0.3)),
                   "float beta_n": number(reader.constant(node.input("Radial Roughness"), 0.3)),
                   "float alpha": number(reader.constant(node.input("Offset"), 0.0349) * 57.29578)}
+    for name in ("Coat", "Random Color", "Random Roughness"):
+        if not is_zero(reader.number(node.input(name))):
+            reader.warn(f"'{name}' of '{node.name}' is not supported, it is taken as 0")
     kind = node.node.parametrization
     if kind == "ABSORPTION":
         sigma = reader.constant_color(node.input("Absorption Coefficient"))
         parameters["spectrum sigma_a"] = values.color(sigma)
-    elif kind == "MELANIN":  # Cycles' -log(1 - m), shared by redness
-        melanin = -np.log(max(1 - reader.constant(node.input("Melanin"), 0.8), 1e-4))
-        redness = reader.constant(node.input("Melanin Redness"), 1)
-        parameters["float eumelanin"] = number(melanin * (1 - redness))
-        parameters["float pheomelanin"] = number(melanin * redness)
+    elif kind == "MELANIN":
+        parameters["spectrum sigma_a"] = values.color(_pigment_absorption(reader, node))
     else:
         parameters["spectrum reflectance"] = reader.color(node.input("Color"))
     return Shader("hair", parameters)

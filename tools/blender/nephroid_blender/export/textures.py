@@ -31,10 +31,22 @@ class TextureWriter:
         return "texture " + name, self._texture(kind, value, uv, thing)
 
     def image_file(self, grid, kind):
-        """File and encoding of the pixels; written unless there is such a file already."""
-        if grid.source is not None:
-            return grid.source
+        """File and encoding of the pixels; written unless there is such a file already.
+
+        A number is the luminance, which the program reads from files of one channel only: of others
+        it takes the alpha, or the mean of the channels.
+        """
+        source = grid.source
+        if source is not None and (kind == "spectrum" or source.is_grey):
+            return source.path, source.encoding
         return self.pixel_file(grid.key, grid.pixels, kind), None
+
+    def color_file(self, grid, read_as):
+        """The file of colours, where the program reads bytes as "sRGB" or "linear"."""
+        source = grid.source
+        if source is not None and source.encoding in (None, read_as):
+            return source.path
+        return self.pixel_file(grid.key, grid.pixels, "spectrum")
 
     def pixel_file(self, key, pixels, kind):
         if (key, kind) not in self._files:
@@ -58,7 +70,7 @@ class TextureWriter:
     def _image_parameters(self, kind, grid):
         path, encoding = self.image_file(grid, kind)
         parameters = {"string filename": path}
-        if encoding is not None:
+        if encoding is not None and path.lower().endswith(".png"):  # JPEG is sRGB without it
             parameters["string encoding"] = encoding
         if grid.extension != "REPEAT":
             parameters["string wrap"] = WRAPS.get(grid.extension, "repeat")
@@ -71,11 +83,12 @@ class TextureWriter:
         if grid.uv == uv:
             return {}
         if grid.uv.layer != uv.layer:
-            self._report.warn(thing, f"has textures on two UV maps, '{uv.layer}' is used for all")
+            used = f"'{uv.layer}'" if uv.layer else "the active one"
+            self._report.warn(thing, f"its textures have two UV maps, {used} is used for all")
         matrix = grid.uv.array() @ np.linalg.pinv(uv.array())
         if abs(matrix[0, 1]) + abs(matrix[1, 0]) > 1e-6 * abs(matrix[:2, :2]).max():
-            self._report.warn(thing, "has textures that are turned against each other, one is not "
-                                     "turned")
+            self._report.warn(thing, "its textures are rotated differently, one rotation is left "
+                                     "out")
         return {"float uscale": matrix[0, 0], "float vscale": matrix[1, 1],
                 "float udelta": matrix[0, 2], "float vdelta": matrix[1, 2]}
 

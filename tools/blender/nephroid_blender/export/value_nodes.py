@@ -349,7 +349,7 @@ def _to_luminance(reader, output):
 
 
 def _blackbody(reader, output):
-    """Linear Rec. 709 with luminance 1, by the fit of the locus of Kim et al. 2002."""
+    """Linear Rec. 709 with luminance 1, by the fit of Kim et al. 2002 to the Planckian locus."""
     t = min(max(reader.constant(output.node.input("Temperature"), 6500), 1667), 25000)
     k = 1000 / t
     x = (((-0.2661239 * k - 0.2343589) * k + 0.8776956) * k + 0.179910 if t <= 4000 else

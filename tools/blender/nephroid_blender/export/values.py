@@ -43,6 +43,14 @@ class Constant:
 
 
 @dataclass(frozen=True)
+class Source:
+    """A file that holds the pixels of a grid."""
+    path: str
+    encoding: Optional[str]  # "sRGB" or "linear" of bytes; None of floats
+    is_grey: bool  # True if it is known to have one channel
+
+
+@dataclass(frozen=True)
 class Grid:
     """An image over the unit square of `uv`. `pixels()` gives height x width x 3, linear."""
     key: str  # equal for equal pixels
@@ -50,7 +58,7 @@ class Grid:
     uv: Uv = Uv()
     extension: str = "REPEAT"
     closest: bool = False
-    source: Optional[tuple] = None  # file and encoding that hold these very pixels
+    source: Optional[Source] = None
 
 
 def number(value):

@@ -1,7 +1,7 @@
 """The world: a colour, or an image of latitude and longitude.
 
-Blender's image runs against the sun from -x (u = 1/2 - phi / 2 pi), the program's with it from +x
-(u = phi / 2 pi), so the columns are reversed and shifted by half. Both have +z at the top.
+Blender's image has u = 1/2 - phi / 2 pi, the program's u = phi / 2 pi, with phi from +x. So the
+columns are reversed and shifted by half. Both images have +z at the top.
 """
 
 import numpy as np
@@ -71,7 +71,7 @@ def write_world(text, world, materials, report):
         text.add("LightSource", "infinite", {"rgb L": light.color, **name})
         return
     if light.uv.layer != DIRECTION:
-        reader.warn("its light depends on other things than the direction, it is left out")
+        reader.warn("its light depends on more than the direction, it is left out")
         return
     file = materials.textures.pixel_file("world " + light.key,
                                          lambda: latitude_longitude(light.pixels()), "spectrum")
