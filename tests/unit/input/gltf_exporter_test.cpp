@@ -60,7 +60,7 @@ INSTANTIATE_TEST_SUITE_P(All, PackedBall,
 
 TEST(GltfExporters, DracoObeysTheAccessorsNormalisation) {
   Diagnostics diagnostics;
-  const SceneDescription scene = read_file("colors_draco.glb", diagnostics);
+  const SceneDescription scene = read_file("unit/input/gltf_files/colors_draco.glb", diagnostics);
   const ParameterSet& parameters = scene.shapes.at(0).parameters;
   const std::vector<double> p = numbers_of(parameters, "P");
   const std::vector<double> colors = numbers_of(parameters, "vertexcolors");
