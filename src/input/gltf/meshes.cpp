@@ -86,9 +86,9 @@ bool is_placeable(const Mat44d& m) {
 /// Counts the memory of instances for which the file has no data.
 void check_instances(Document& document, const JsonValue& attributes, size_t count) {
   constexpr size_t kBytesOfInstance = 512;  // with its name and its place in the file
-  for (const std::string& name : attributes.member_names()) {
-    const JsonValue attribute = attributes.get(name);
-    if (has_data(document, attribute.index(), attribute)) return;
+  for (const char* name : {"TRANSLATION", "ROTATION", "SCALE"}) {
+    const std::optional<JsonValue> attribute = attributes.find(name);
+    if (attribute && has_data(document, attribute->index(), *attribute)) return;
   }
   document.claim_memory(count * kBytesOfInstance, attributes);
 }
