@@ -39,7 +39,7 @@ class JsonValue {
   /// The extension of this object; empty if absent.
   std::optional<JsonValue> extension(const std::string& name) const;
 
-  /// Elements of an array, or members of an object in the order of their names.
+  /// The elements of an array.
   std::vector<JsonValue> elements() const;
   std::vector<std::string> member_names() const;
 

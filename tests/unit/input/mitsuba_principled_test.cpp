@@ -91,7 +91,7 @@ TEST(MitsubaPrincipled, TintsWithoutAnEffectAreSilent) {
   MitsubaScene scene;
   const SceneDescription d =
       with_bsdf(scene, bsdf("principled", value("float", "sheen_tint", "0.5")), "3.0.0");
-  EXPECT_EQ(scene.warnings().find("tint"), std::string::npos) << scene.warnings();
+  EXPECT_EQ(scene.warnings().find("_tint"), std::string::npos) << scene.warnings();
   EXPECT_FALSE(has_parameter(d.materials.at(0).parameters, "fuzz_weight"));
   with_bsdf(
       scene,

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "unit/input/gltf_text.h"
+#include "unit/input/temporary_directory.h"
 
 namespace nephroid {
 namespace {
@@ -21,11 +21,13 @@ size_t warnings_about(const std::string& option, const std::string& file,
 }
 
 TEST(SceneReader, OptionsOfOtherFormatsAreWarnings) {
-  const testing::TriangleScene triangle;
-  const std::string gltf = triangle.file.text(triangle.members());
+  const std::string gltf = R"({"asset":{"version":"2.0"},"cameras":[{"type":"perspective",)"
+                           R"("perspective":{"yfov":1,"znear":1}}],"nodes":[{"camera":0},)"
+                           R"({"extensions":{"KHR_lights_punctual":{"light":0}}}],"extensions":)"
+                           R"({"KHR_lights_punctual":{"lights":[{"type":"point"}]}}})";
   const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-  const std::string mitsuba = R"(<scene version="3.0.0"><shape type="sphere"/></scene>)";
-  const std::string pbrt = "WorldBegin\n";
+  const std::string mitsuba = R"(<scene version="3.0.0"><shape type="sphere"/></scene>)",
+                    pbrt = "WorldBegin\n";
   ImportOptions solid, define;
   solid.solid_glass = true;
   define.defines["spp"] = "4";

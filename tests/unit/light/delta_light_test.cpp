@@ -225,8 +225,8 @@ TEST(LightDirectives, ErrorsNameThePlace) {
   };
   expect("LightSource \"laser\"", "unknown light");
   expect("LightSource \"infinite\" \"point3 portal\" [0 0 0 1 0 0 1 1 0]", "3 corners");
-  expect("LightSource \"infinite\" \"point3 portal\" [0 0 0 1 0 0 2 1 0 1 1 0]", "no rectangle");
-  expect("LightSource \"infinite\" \"point3 portal\" [0 0 0 1 1 0 1 0 0 0 1 0]", "no rectangle");
+  expect("LightSource \"infinite\" \"point3 portal\" [0 0 0 1 0 0 2 1 0 1 1 0]", "not a rectangle");
+  expect("LightSource \"infinite\" \"point3 portal\" [0 0 0 1 1 0 1 0 0 0 1 0]", "not a rectangle");
   expect("LightSource \"projection\"", "filename");
   expect("LightSource \"projection\" \"string filename\" \"x.exr\" \"float fov\" 180", "fov");
   expect("LightSource \"goniometric\" \"string filename\" \"missing.exr\"", "missing.exr");
