@@ -14,7 +14,7 @@ html_show_sphinx = False
 html_show_copyright = False
 myst_heading_anchors = 4
 # Links from pages to files of the source tree, which the site does not hold.
-suppress_warnings = ["myst.xref_missing"]
+suppress_warnings = ["myst.xref_missing", "ref.myst"]
 
 
 def add_navigation(app, name, source):
