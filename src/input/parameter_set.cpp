@@ -83,14 +83,16 @@ std::optional<Vec3f> get_item(const ParameterSet& set, const std::string& name, 
 
 }  // namespace
 
+const Parameter* ParameterSet::peek(const std::string& name) const {
+  const auto found = std::ranges::find(list, name, &Parameter::name);
+  return found == list.end() ? nullptr : &*found;
+}
+
 const Parameter* ParameterSet::find(const std::string& name) const {
   if (asked) asked->insert(name);
-  for (const Parameter& parameter : list) {
-    if (parameter.name != name) continue;
-    parameter.used = true;
-    return &parameter;
-  }
-  return nullptr;
+  const Parameter* parameter = peek(name);
+  if (parameter) parameter->used = true;
+  return parameter;
 }
 
 const Parameter* ParameterSet::find(const std::string& name,

@@ -44,7 +44,9 @@ class ParameterSet {
 
   /// The parameter of any type; nullptr if absent. Marks it as used.
   const Parameter* find(const std::string& name) const;
-  /// The same if its type is one of `types`; parameters of other types are ignored.
+  /// The same without marking it: for those who look at a description before it is used.
+  const Parameter* peek(const std::string& name) const;
+  /// As find() if its type is one of `types`; parameters of other types are ignored.
   const Parameter* find(const std::string& name, std::initializer_list<const char*> types) const;
 
   float get_float(const std::string& name, float fallback) const;
@@ -133,7 +135,7 @@ struct InstanceDescription {
   SourceLocation where;
 };
 
-/// What a file offers besides the description: `nephroid info` lists it. Empty for pbrt-v4.
+/// The choices that a file offers, which `nephroid info` lists. Files of pbrt-v4 offer none.
 struct FileChoices {
   std::vector<std::string> cameras;     ///< names, or numbers where there are none; for --camera
   std::vector<std::string> variants;    ///< for --variant

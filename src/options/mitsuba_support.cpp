@@ -17,7 +17,7 @@ Made from the tables of the importer by `tools/update_docs`; do not edit.
 A file whose name ends in `.xml` is read as a scene of Mitsuba 0.5, 0.6, 2 or 3. `nephroid convert scene.xml scene.pbrt`
 writes the imported scene in the format of pbrt-v4. Each plug-in is
 
-- **loaded**: as in Mitsuba, except for what its line says (integrators: the nearest one of this renderer);
+- **loaded**: as in Mitsuba, except for what its line says (of integrators the nearest one here);
 - **approximated**: loaded with a warning;
 - **ignored**: left out with a warning;
 - **refused**: an error with its line and column.

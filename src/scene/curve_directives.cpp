@@ -13,20 +13,14 @@ namespace {
 /// Large enough to amortise a geometry's overhead, small enough to read a model in parallel.
 constexpr size_t kMaxAlike = 4096;
 
-const Parameter* parameter(const ShapeDescription& d, const char* name) {
-  for (const Parameter& p : d.parameters.list)
-    if (p.name == name) return &p;
-  return nullptr;
-}
-
 bool same_type(const ShapeDescription& a, const ShapeDescription& b) {
-  const Parameter* x = parameter(a, "type");
-  const Parameter* y = parameter(b, "type");
+  const Parameter* x = a.parameters.peek("type");
+  const Parameter* y = b.parameters.peek("type");
   return x && y ? x->strings == y->strings : !x && !y;
 }
 
 bool alike(const ShapeDescription& a, const ShapeDescription& b) {
-  return b.type == "curve" && !b.area_light && !parameter(b, "alpha") && same_type(a, b) &&
+  return b.type == "curve" && !b.area_light && !b.parameters.peek("alpha") && same_type(a, b) &&
          a.material.index == b.material.index && a.material.name == b.material.name &&
          a.reverse_orientation == b.reverse_orientation && a.inside_medium == b.inside_medium &&
          a.outside_medium == b.outside_medium && a.transform.start == b.transform.start &&

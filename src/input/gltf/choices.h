@@ -1,4 +1,4 @@
-// What a glTF file offers besides the description: its material variants and animations.
+// The choices that a glTF file offers: its material variants and animations.
 #pragma once
 
 #include "input/gltf/document.h"

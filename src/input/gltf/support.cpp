@@ -90,7 +90,7 @@ constexpr Feature kFeatures[] = {
      "perspective and orthographic, `--camera NAME` or an index; a film of "
      "1280 pixels along the longer side; clipping planes are not needed"},
     {"morph targets", kLoaded,
-     "positions, normals and tangents; those of texture coordinates and colours are a warning"},
+     "positions, normals and tangents; others are ignored, with a warning"},
     {"skins", kLoaded, "at the start of the shutter"},
     {"animations", kLoaded,
      "all of a file at one moment, `--at`; nodes that move while the shutter is open, `--shutter`, "

@@ -32,7 +32,7 @@ struct ImportContext {
   // What was written, so that a shared object is written once.
   std::map<const Object*, Surface> surfaces = {};
   std::map<std::pair<const Object*, std::string>, Surface> subsurfaces =
-      {};  ///< by object and the boundary's material
+      {};  ///< keys: an object, and the material of the boundary
   std::map<std::pair<const Object*, std::string>, std::string> textures =
       {};  ///< by object and use
   std::map<const Object*, std::string> media = {};

@@ -13,7 +13,7 @@ namespace nephroid::mitsuba {
 struct Geometry {
   std::vector<ShapeDescription> shapes;
   bool is_open = false;  ///< true if the backs of its surfaces can be seen
-  /// Of each shape, where a part of a file has its own; empty if no part has.
+  /// The surface of each shape. Empty if no part of the file has a surface of its own.
   std::vector<std::optional<Surface>> surfaces = {};
   std::vector<const Child*> of_parts = {};  ///< BSDFs that stand in `surfaces`
 };

@@ -13,7 +13,8 @@ namespace {
 constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr double kShare = 0.75;  ///< share of the lit surfaces that get less
 
-/// What the camera of glTF or of the default view sees, without what hides it.
+/// The field of view of a camera of glTF or of the default view. It knows nothing of shapes, so
+/// hidden surfaces count as seen.
 class View {
  public:
   /// The camera must have a transform with an inverse.

@@ -72,24 +72,19 @@ double illuminance_of_light(const LightDescription& light, const Vec3d& p) {
          (has_image ? light.mean_luminance.value_or(kImageLuminance) : 1);
 }
 
-const std::vector<double>* numbers_of(const ParameterSet& p, const char* name) {
-  for (const Parameter& parameter : p.list)
-    if (parameter.name == name) return &parameter.numbers;
-  return nullptr;
-}
-
 GlowingMesh glow_of(const ShapeDescription& shape) {
   GlowingMesh glow;
-  const auto* points = numbers_of(shape.parameters, "P");
-  const auto* indices = numbers_of(shape.parameters, "indices");
-  if (shape.type != "trianglemesh" || !points || !indices) return glow;
+  const Parameter* const p_of_mesh = shape.parameters.peek("P");
+  const Parameter* const indices_of_mesh = shape.parameters.peek("indices");
+  if (shape.type != "trianglemesh" || !p_of_mesh || !indices_of_mesh) return glow;
+  const std::vector<double>& points = p_of_mesh->numbers;
+  const std::vector<double>& indices = indices_of_mesh->numbers;
   const auto corner = [&](size_t i) {
-    const auto vertex = static_cast<size_t>((*indices)[i]) * 3;
-    if (vertex + 2 >= points->size()) return Vec3d(0, 0, 0);  // an error of the mesh's maker
-    return Vec3d((*points)[vertex], (*points)[vertex + 1], (*points)[vertex + 2]) *
-           shape.transform.start;
+    const auto vertex = static_cast<size_t>(indices[i]) * 3;
+    if (vertex + 2 >= points.size()) return Vec3d(0, 0, 0);  // an error of the mesh's maker
+    return Vec3d(points[vertex], points[vertex + 1], points[vertex + 2]) * shape.transform.start;
   };
-  for (size_t i = 0; i + 2 < indices->size(); i += 3) {
+  for (size_t i = 0; i + 2 < indices.size(); i += 3) {
     const Vec3d a = corner(i), b = corner(i + 1), c = corner(i + 2);
     const Vec3d normal = (b - a).cross(c - a) * 0.5;
     glow.area += normal.length();
@@ -100,7 +95,7 @@ GlowingMesh glow_of(const ShapeDescription& shape) {
   const bool is_mirrored = shape.transform.start.determinant() < 0;
   if (shape.reverse_orientation != is_mirrored) glow.area_vector = -glow.area_vector;
   const ParameterSet& p = shape.area_light->parameters;
-  const bool has_image = numbers_of(p, "filename") != nullptr;
+  const bool has_image = p.peek("filename") != nullptr;
   glow.luminance = luminance_of(p, has_image ? "factor" : "L") * (has_image ? kGlowShare : 1);
   glow.is_two_sided = p.get_bool("twosided", false);
   return glow;

@@ -31,10 +31,8 @@ void visit_box(double radius, double z_min, double z_max, const PointVisit& visi
 
 /// Points "P".
 void visit_points(const ParameterSet& p, SceneFiles&, const PointVisit& visit) {
-  const auto points = std::find_if(p.list.begin(), p.list.end(), [](const Parameter& parameter) {
-    return parameter.name == "P";
-  });
-  if (points == p.list.end()) return;
+  const Parameter* const points = p.peek("P");
+  if (!points) return;
   const std::vector<double>& n = points->numbers;
   for (size_t i = 0; i + 2 < n.size(); i += 3) visit(Vec3d(n[i], n[i + 1], n[i + 2]));
 }

@@ -7,7 +7,7 @@
 
 namespace nephroid {
 
-/// What the files of a format leave to the program.
+/// Properties of a format that decide what the program adds to a scene.
 struct FormatTraits {
   bool is_complete = false;   ///< a scene without camera or light is meant to be so
   bool has_exposure = false;  ///< the film's exposure is the author's

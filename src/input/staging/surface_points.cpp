@@ -7,8 +7,8 @@
 namespace nephroid {
 namespace {
 
-constexpr size_t kPoints = 4096;          ///< about so many in all
-constexpr size_t kMaxPointsOfMesh = 256;  ///< of a mesh
+constexpr size_t kPoints = 4096;  ///< approximate number of all points
+constexpr size_t kMaxPointsOfMesh = 256;
 constexpr size_t kMaxPointsOfTriangle = 128;
 
 /// A mesh at a place.
@@ -53,26 +53,22 @@ void add_points(const std::array<Vec3d, 3>& corner, size_t count, double weight,
   }
 }
 
-const std::vector<double>* numbers_of(const ShapeDescription& shape, const char* name) {
-  for (const Parameter& parameter : shape.parameters.list)
-    if (parameter.name == name) return &parameter.numbers;
-  return nullptr;
-}
-
 void add_points(const PlacedMesh& mesh, size_t count, std::vector<SurfacePoint>& points) {
-  const auto* p = numbers_of(*mesh.shape, "P");
-  const auto* indices = numbers_of(*mesh.shape, "indices");
-  if (!p || !indices || indices->size() < 3) return;
-  const size_t triangles = indices->size() / 3;
+  const Parameter* const points_of_mesh = mesh.shape->parameters.peek("P");
+  const Parameter* const indices_of_mesh = mesh.shape->parameters.peek("indices");
+  if (!points_of_mesh || !indices_of_mesh || indices_of_mesh->numbers.size() < 3) return;
+  const std::vector<double>& p = points_of_mesh->numbers;
+  const std::vector<double>& indices = indices_of_mesh->numbers;
+  const size_t triangles = indices.size() / 3;
   const size_t step = (triangles + count - 1) / count;
   const size_t per_triangle = std::clamp(count / triangles, size_t{1}, kMaxPointsOfTriangle);
   for (size_t t = 0; t < triangles; t += step) {
     std::array<Vec3d, 3> corner;
     for (size_t k = 0; k < 3; ++k) {
-      const double index = (*indices)[3 * t + k];
+      const double index = indices[3 * t + k];
       // An index out of range is an error of the mesh's maker.
-      if (!(index >= 0 && index < static_cast<double>(p->size() / 3))) return;
-      const double* v = &(*p)[3 * static_cast<size_t>(index)];
+      if (!(index >= 0 && index < static_cast<double>(p.size() / 3))) return;
+      const double* v = &p[3 * static_cast<size_t>(index)];
       corner[k] = Vec3d(v[0], v[1], v[2]) * mesh.to_world;
     }
     add_points(corner, per_triangle, static_cast<double>(step), points);
