@@ -67,6 +67,9 @@ nephroid_layer(session session nephroid_integrator ROOMS settings report checkpo
 nephroid_layer(options options nephroid_session)
 nephroid_layer(bench bench nephroid_options nephroid_image nlohmann_json::nlohmann_json)
 nephroid_layer(report_page report_page nephroid_bench)
+nephroid_layer(view view nephroid_session nephroid_image nlohmann_json::nlohmann_json
+               ${HTTPLIB_LIBRARY})
+include(cmake/page.cmake)
 
 # Draws the results of `nephroid bench`. The renderer does not link the page.
 add_executable(nephroid-bench-report ${CMAKE_SOURCE_DIR}/src/report_page/main.cpp)
@@ -76,7 +79,7 @@ nephroid_precompiled(nephroid-bench-report nephroid_core)
 file(GLOB app_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/apps/*.cpp)
 if(app_sources)
   add_executable(nephroid ${app_sources})
-  target_link_libraries(nephroid PRIVATE nephroid_bench CLI11::CLI11)
+  target_link_libraries(nephroid PRIVATE nephroid_bench nephroid_view CLI11::CLI11)
   nephroid_precompiled(nephroid nephroid_core)
 endif()
 

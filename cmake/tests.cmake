@@ -122,6 +122,7 @@ if(TARGET test_unit_options)
 endif()
 nephroid_test(unit/bench nephroid_bench)
 nephroid_test(unit/report_page nephroid_report_page)
+nephroid_test(unit/view nephroid_view)
 nephroid_test(routes nephroid_integrator)
 nephroid_test(how_to nephroid_integrator)
 # What the pages tell a reader to do, small and quick.

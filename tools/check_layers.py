@@ -12,7 +12,8 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SRC = ROOT / "src"
 LAYERS = ["core", "input", "scene", "route", "film", "transport", "photon", "integrator", "image",
-          "session", "options", "bench", "report_page", "apps"]
+          "session", "options", "bench", "report_page", "view",
+          "apps"]
 # Rooms: the folders of a layer. In this order, each one includes only from those to its left. "" stands for the
 # layer's own files.
 ROOMS = {
@@ -36,9 +37,10 @@ LIBRARIES = {
     r"xxhash": {"core/content_hash.cpp"},
     r"CLI/": {"options", "report_page/main.cpp"},
     r"nlohmann/": {"bench", "session/checkpoint/film_metadata.cpp", "input/gltf/json_value.h",
-                   "input/gltf/json_value.cpp", "apps/frame_stream.cpp"},
+                   "input/gltf/json_value.cpp", "apps/frame_stream.cpp", "view"},
     r"draco/": {"input/gltf/draco.cpp"},
     r"meshoptimizer": {"input/gltf/meshopt.cpp"},
+    r"httplib": {"view/server.cpp"},
     r"pugixml": {"input/mitsuba/xml_text.h"},
 }
 MAX_LINES, MAX_COLUMNS = 400, 100

@@ -6,6 +6,8 @@
 namespace nephroid {
 
 int run_render(const RenderCommand& command);
+/// `render` says what is rendered.
+int run_view(const ViewCommand& command, const RenderCommand& render);
 int run_info(const InfoCommand& command);
 int run_merge(const MergeCommand& command);
 int run_compare(const CompareCommand& command);

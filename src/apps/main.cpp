@@ -32,6 +32,8 @@ int run(const std::vector<std::string>& arguments) {
   switch (line.action) {
     case Action::kRender:
       return run_render(line.render);
+    case Action::kView:
+      return run_view(line.view, line.render);
     case Action::kInfo:
       return run_info(line.info);
     case Action::kMerge:

@@ -14,6 +14,7 @@
 #include "integrator/presets/integrator_table.h"
 #include "integrator/presets/route_presets.h"
 #include "options/import_rows.h"
+#include "options/view_rows.h"
 
 namespace nephroid {
 namespace {
@@ -166,6 +167,7 @@ void add_only(CommandLine& line, const std::string& text) {
 
 constexpr CommandDescription kCommands[] = {
     {"render", "Render a scene to an EXR and a PNG."},
+    {"view", "Show a scene while it renders, in the browser: look around, mix its lights."},
     {"merge", "Add up pictures of different passes of one render."},
     {"info", "Describe a scene file, or the render stored in a picture."},
     {"routes", "Say who renders which light, prove it, and measure it in a scene."},
@@ -375,6 +377,8 @@ std::span<const OptionDescription> option_table() {
       const std::vector<OptionDescription> shared = import_rows(row.command);
       table.insert(table.end(), shared.begin(), shared.end());
     }
+    const std::vector<OptionDescription> view = view_rows(table);
+    table.insert(table.end(), view.begin(), view.end());
     return table;
   }();
   return kTable;

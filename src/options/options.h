@@ -40,6 +40,15 @@ struct RenderCommand {
   bool quiet = false;
 };
 
+/// Arguments of `nephroid view`. What it renders, and how, is in CommandLine::render.
+struct ViewCommand {
+  std::string address = "127.0.0.1";
+  int port = 0;  ///< 0: any that is free
+  bool opens_browser = true;
+  std::string save_directory;            ///< empty: the page downloads what it saves
+  std::vector<std::string> comparisons;  ///< pictures
+};
+
 struct InfoCommand {
   std::string file;  ///< a scene or a picture
   ImportOptions import;
@@ -87,12 +96,13 @@ struct BenchCommand {
   bool quiet = false;
 };
 
-enum class Action { kRender, kMerge, kInfo, kCompare, kRoutes, kBench, kConvert, kPrint };
+enum class Action { kRender, kMerge, kInfo, kCompare, kRoutes, kBench, kConvert, kView, kPrint };
 
 /// A parsed command line.
 struct CommandLine {
   Action action = Action::kPrint;
-  RenderCommand render;
+  RenderCommand render;  ///< of `render` and `view`
+  ViewCommand view;
   InfoCommand info;
   CompareCommand compare;
   MergeCommand merge;

@@ -168,6 +168,9 @@ void Render::on_progress(std::function<void(const RenderProgress&)> callback) {
 void Render::on_picture(std::function<void(const ShownPicture&)> callback) {
   session_->on_picture(std::move(callback));
 }
+void Render::on_request(std::function<void()> callback) {
+  session_->on_request(std::move(callback));
+}
 void Render::use_clock(std::function<double()> seconds) {
   session_->use_clock(std::move(seconds));
 }

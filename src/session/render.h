@@ -59,11 +59,18 @@ class Render {
   void on_progress(std::function<void(const RenderProgress&)> callback);
   /// Called with pictures on their way, see RenderSession.
   void on_picture(std::function<void(const ShownPicture&)> callback);
+  /// Called soon after a request to write, see RenderSession.
+  void on_request(std::function<void()> callback);
   /// Seconds from any origin; the machine's steady clock unless set.
   void use_clock(std::function<double()> seconds);
 
   /// Renders until a rule or a signal stops it and writes the picture. Throws IoError.
   RenderResult run(SignalFlags& signals);
+
+  /// Writes what is rendered so far, see RenderSession. Throws IoError.
+  void save(const std::string& path, bool with_state) { session_->save(path, with_state); }
+  /// The report so far, see RenderSession.
+  std::string report() { return session_->report(); }
 
   const IntegratorChoice& integrator() const { return choice_; }
   const RoutePlan& plan() const { return plan_; }

@@ -31,8 +31,8 @@ namespace {
 /// Writing pictures and estimating the error for display wait this many times as long as they took
 /// last time. So they cost less than 2 % of the time.
 constexpr double kIdlePerWork = 50;
-/// The same for pictures that a viewer is shown, which should come soon.
-constexpr double kIdlePerShow = 8;
+/// The same for pictures that a viewer is shown: those of the first seconds should come soon.
+constexpr double kIdlePerFirstShow = 8, kIdlePerShow = 40, kSecondsOfFirstShows = 5;
 /// The interval between these grows with the time so far, over this number, within limits.
 constexpr double kShownPictures = 20, kMinShowInterval = 0.2, kMaxShowInterval = 5;  ///< seconds
 constexpr double kErrorInterval = 1;       ///< least seconds between error estimates for progress
@@ -101,6 +101,9 @@ void RenderSession::on_progress(std::function<void(const RenderProgress&)> callb
 }
 void RenderSession::on_picture(std::function<void(const ShownPicture&)> callback) {
   picture_ = std::move(callback);
+}
+void RenderSession::on_request(std::function<void()> callback) {
+  request_ = std::move(callback);
 }
 void RenderSession::on_warning(std::function<void(const std::string&)> callback) {
   warning_ = std::move(callback);
@@ -216,8 +219,8 @@ std::optional<StopReason> RenderSession::reason_to_end_pass(const SignalFlags& s
 void RenderSession::look_in(SignalFlags& signals, PassWatch& watch) {
   if (reason_to_end_pass(signals)) throw PassStopped{};
   const bool can_write = film_.can_be_shown();
-  if (can_write) write_if_due(signals);
-  watch.answer_writes(can_write);
+  if (can_write || request_) write_if_due(signals);
+  watch.answer_writes(can_write || request_);
   if (can_write) show_if_due();
   if (progress_ && elapsed() >= next_progress_seconds_) {
     report_progress(true);
@@ -330,6 +333,7 @@ void RenderSession::report_progress(bool within_pass) {
 
 void RenderSession::write_if_due(SignalFlags& signals) {
   const bool asked = signals.write.exchange(false);
+  if (asked && request_) request_();
   if (options_.output.empty()) return;
   if (asked || elapsed() >= next_checkpoint_seconds_) {
     next_checkpoint_seconds_ = write_now(options_.checkpoint_interval, [this] { write_picture(); });
@@ -365,7 +369,8 @@ void RenderSession::show(const ShownPicture& shown) {
   const double cost = clock_() - begin;
   const double interval =
       std::clamp(elapsed() / kShownPictures, kMinShowInterval, kMaxShowInterval);
-  next_picture_seconds_ = elapsed() + std::max(interval, kIdlePerShow * cost);
+  const double idle = elapsed() < kSecondsOfFirstShows ? kIdlePerFirstShow : kIdlePerShow;
+  next_picture_seconds_ = elapsed() + std::max(interval, idle * cost);
 }
 
 void RenderSession::show_if_due() {

@@ -95,6 +95,9 @@ class RenderSession {
   /// Called with the picture as soon as there is one, then a few times a second and less often as
   /// it changes less, and at the end unless a signal stopped the render.
   void on_picture(std::function<void(const ShownPicture&)> callback);
+  /// Called soon after a request to write (SignalFlags::write), while no pixel is rendered: the
+  /// film may be read. Without an output file this is all that the request does.
+  void on_request(std::function<void()> callback);
   /// Called when an intermediate picture cannot be written; rendering goes on.
   void on_warning(std::function<void(const std::string&)> callback);
   /// Seconds from any origin; the machine's steady clock unless set. Called by any thread.
@@ -103,6 +106,12 @@ class RenderSession {
   /// Renders until a rule or a signal stops it, and writes the picture. Throws IoError if the last
   /// picture cannot be written; the message has the place of the rescued picture, if there is one.
   RenderResult run(SignalFlags& signals);
+
+  /// Writes what is rendered so far, with its PNG. Called after run() or from a callback. Throws
+  /// IoError.
+  void save(const std::string& path, bool with_state);
+  /// Choices of the program, errors and faults of the picture so far, one a line.
+  std::string report();
 
  private:
   std::optional<StopReason> reason_to_stop(const SignalFlags& signals) const;
@@ -129,6 +138,7 @@ class RenderSession {
   /// Updates error_text_ to the passes so far.
   void renew_error_text();
   void report_progress(bool within_pass);
+  /// Answers requests to write.
   void write_if_due(SignalFlags& signals);
   /// Calls the picture's callback and sets the time of the next call.
   void show(const ShownPicture& shown);
@@ -157,6 +167,7 @@ class RenderSession {
   std::optional<uint32_t> passes_wanted_;
   std::function<void(const RenderProgress&)> progress_;
   std::function<void(const ShownPicture&)> picture_;
+  std::function<void()> request_;
   std::function<void(const std::string&)> warning_;
   std::function<double()> clock_;
 

@@ -51,6 +51,11 @@ void RenderSession::write_last_picture(bool with_state) {
   write_png();
 }
 
+void RenderSession::save(const std::string& path, bool with_state) {
+  write_exr_file(path, with_state);
+  write_preview(path, film_, options_.png_exposure);
+}
+
 void RenderSession::write_picture() {
   write_exr_file(options_.output, true);
   write_png();
@@ -90,6 +95,11 @@ void RenderSession::keep_previous() {
   if (has_written_ || !before.passes.empty() || before.open_pass) return;
   keep_files(options_.output);
   has_written_ = true;
+}
+
+std::string RenderSession::report() {
+  renew_error_text();
+  return choices_text();
 }
 
 /// Choices of the program and faults of the picture, one per line.

@@ -1,0 +1,288 @@
+#include "view/answers.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <filesystem>
+
+#include "core/errors.h"
+#include "film/film_output.h"
+#include "input/file_bytes.h"
+#include "session/camera_edit.h"
+#include "view/inspection_json.h"
+#include "view/json_text.h"
+#include "view/live_render.h"
+#include "view/temporary_directory.h"
+
+namespace nephroid {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int64_t kMaxUploadedPixels = int64_t{1} << 26;
+constexpr const char* kBinary = "application/octet-stream";
+
+Answer json_answer(const Json& json) {
+  Answer answer;
+  answer.body = text_of(json);
+  return answer;
+}
+
+std::string text(const Parameters& parameters, const std::string& name) {
+  const auto found = parameters.find(name);
+  return found == parameters.end() ? std::string() : found->second;
+}
+
+/// A whole number from 0; `missing` if the parameter is not given.
+uint64_t number(const Parameters& parameters, const std::string& name,
+                std::optional<uint64_t> missing = std::nullopt) {
+  const std::string given = text(parameters, name);
+  if (given.empty() && missing) return *missing;
+  uint64_t value = 0;
+  const char* end = given.data() + given.size();
+  const auto read = std::from_chars(given.data(), end, value);
+  if (read.ec != std::errc() || read.ptr != end)
+    throw UsageError(
+        fmt::format("{}: '{}' is not valid, expected a whole number from 0", name, given));
+  return value;
+}
+
+/// A coordinate of a pixel.
+int coordinate(const Parameters& parameters, const std::string& name) {
+  return static_cast<int>(std::min<uint64_t>(number(parameters, name), 1 << 24));
+}
+
+std::vector<std::string> split(const std::string& list) {
+  std::vector<std::string> parts;
+  size_t begin = 0;
+  while (begin < list.size()) {
+    const size_t end = std::min(list.find(',', begin), list.size());
+    if (end > begin) parts.push_back(list.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return parts;
+}
+
+/// The last part of a name, for a file's name without surprises.
+std::string safe_stem(const std::string& name) {
+  std::string stem = fs::path(name).stem().string();
+  for (char& c : stem) {
+    const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                          (c >= '0' && c <= '9') || c == '-' || c == '_' || c == '.';
+    if (!is_plain) c = '_';
+  }
+  return stem.empty() || stem.front() == '.' ? "picture" : stem;
+}
+
+/// A path in the directory that no file has yet.
+fs::path free_path(const std::string& directory, const std::string& name) {
+  const fs::path wanted = fs::path(directory) / name;
+  fs::path path = wanted;
+  for (int i = 2; fs::exists(path); ++i)
+    path = fs::path(directory) /
+           fmt::format("{}-{}{}", wanted.stem().string(), i, wanted.extension().string());
+  return path;
+}
+
+Answer text_answer(std::string body, const std::string& file_name) {
+  Answer answer;
+  answer.type = "text/plain; charset=utf-8";
+  answer.body = std::move(body);
+  answer.file_name = file_name;
+  return answer;
+}
+
+}  // namespace
+
+Answer failure(int status, const std::string& message) {
+  Answer answer = json_answer({{"error", message}});
+  answer.status = status;
+  return answer;
+}
+
+Answers::Answers(ViewSource& source, Comparisons& comparisons, std::string save_directory)
+    : source_(source), comparisons_(comparisons), save_directory_(std::move(save_directory)) {}
+
+uint64_t Answers::wait_for_news(uint64_t seen, double seconds) const {
+  // Comparisons change seldom and by requests, which the page follows with one for the state.
+  return source_.wait_for_news(seen, seconds);
+}
+
+LiveRender& Answers::live() {
+  if (LiveRender* live = source_.live()) return *live;
+  throw UsageError("this is a picture, expected a scene");
+}
+
+std::shared_ptr<const Picture> Answers::comparison(const std::string& id) const {
+  if (auto picture = comparisons_.find(id)) return picture;
+  throw UsageError("there is no picture '" + id + "' to compare with");
+}
+
+Answer Answers::state(const Parameters&, const std::string&) {
+  Answer answer;
+  answer.body = state_json(source_.state(), comparisons_.list(), save_directory_);
+  return answer;
+}
+
+Answer Answers::comparison_frame(const std::string& id) const {
+  const std::shared_ptr<const Picture> picture = comparison(id);
+  const FrameLayerPtr layers[] = {frame_layer(*picture, "picture", "", "RGB")};
+  FrameInfo info;
+  info.version = 1;
+  info.width = picture->full_width;
+  info.height = picture->full_height;
+  info.window = picture->window;
+  Answer answer;
+  answer.type = kBinary;
+  answer.body = encode_frame(info, layers, 0);
+  return answer;
+}
+
+Answer Answers::frame(const Parameters& parameters, const std::string&) {
+  const std::string id = text(parameters, "comparison");
+  if (!id.empty()) return comparison_frame(id);
+  std::vector<std::string> layers = split(text(parameters, "layers"));
+  if (layers.empty()) layers = {"picture"};
+  auto bytes = source_.frame(layers, number(parameters, "generation", 0),
+                             number(parameters, "since", 0));
+  Answer answer;
+  answer.type = kBinary;
+  if (bytes)
+    answer.body = std::move(*bytes);
+  else
+    answer.status = 204;
+  return answer;
+}
+
+Answer Answers::probe(const Parameters& parameters, const std::string&) {
+  const ProbedPixel pixel =
+      source_.probe(coordinate(parameters, "x"), coordinate(parameters, "y"));
+  return json_answer({{"value", json_of(pixel.value)},
+                      {"error", json_of(pixel.standard_error)},
+                      {"samples", pixel.samples}});
+}
+
+Answer Answers::compare(const Parameters& parameters, const std::string&) {
+  const std::string id = text(parameters, "with");
+  const Distance found = distance(*comparison(id), source_.colors(), source_.state().exposure);
+  const auto heat = [&](const char* kind) {
+    return fmt::format("/api/heat?with={}&kind={}", id, kind);
+  };
+  return json_answer({{"relmse", found.relmse},
+                      {"flip", found.flip},
+                      {"heat", {{"relmse", heat("relmse")}, {"flip", heat("flip")}}}});
+}
+
+Answer Answers::heat(const Parameters& parameters, const std::string&) {
+  const std::vector<uint8_t> png =
+      heat_png(*comparison(text(parameters, "with")), source_.colors(), text(parameters, "kind"),
+               source_.state().exposure);
+  Answer answer;
+  answer.type = "image/png";
+  answer.body.assign(png.begin(), png.end());
+  return answer;
+}
+
+Answer Answers::deliver(const std::string& path, const std::string& name,
+                        const std::string& type) const {
+  if (!save_directory_.empty()) {
+    const fs::path saved = free_path(save_directory_, name);
+    std::error_code error;
+    fs::copy_file(path, saved, error);
+    if (error) throw IoError(saved.string() + ": cannot write: " + error.message());
+    return json_answer({{"saved", saved.string()}});
+  }
+  Answer answer;
+  answer.type = type;
+  answer.body = read_file_bytes(path);
+  answer.file_name = name;
+  return answer;
+}
+
+Answer Answers::save(const Parameters& parameters, const std::string&) {
+  const std::string kind = text(parameters, "kind");
+  const std::string stem = safe_stem(source_.state().name);
+  if (kind == "camera" || kind == "scene") {
+    std::string body;
+    live().at_rest([&](const RenderAtRest& rest) {
+      const SceneDescription& scene = rest.loaded.description;
+      body = kind == "camera" ? camera_text(scene)
+                              : scene_text_with_camera(scene, source_.state().name);
+    });
+    return text_answer(std::move(body), kind == "camera" ? "" : stem + "-view.pbrt");
+  }
+  if (kind != "exr" && kind != "png")
+    throw UsageError("kind: '" + kind + "' is not valid, expected exr, png, scene or camera");
+  const TemporaryDirectory directory;
+  const std::string exr = directory.file(stem + ".exr");
+  source_.write(exr);
+  if (kind == "png") return deliver(png_path_beside(exr), stem + ".png", "image/png");
+  return deliver(exr, stem + ".exr", "image/x-exr");
+}
+
+Answer Answers::camera(const Parameters&, const std::string& body) {
+  return json_answer({{"generation", live().move_camera(parse_camera_change(body))}});
+}
+
+Answer Answers::pick(const Parameters&, const std::string& body) {
+  const PixelRequest pixel = parse_pixel_request(body);
+  Json json{{"point", nullptr}, {"depth", nullptr}};
+  live().at_rest([&](const RenderAtRest& rest) {
+    const FilmDescription& film = rest.loaded.scene->film;
+    const LiveState state = source_.state();
+    // The pixel is one of the full picture, whose preview is smaller.
+    const int x = pixel.x * film.width / std::max(1, state.settings.width);
+    const int y = pixel.y * film.height / std::max(1, state.settings.height);
+    if (const auto seen = seen_point(*rest.loaded.scene, x, y))
+      json = {{"point", json_of(seen->p)}, {"depth", seen->depth}};
+  });
+  return json_answer(json);
+}
+
+Answer Answers::render(const Parameters&, const std::string& body) {
+  return json_answer({{"generation", live().change(parse_render_change(body))}});
+}
+
+Answer Answers::inspect(const Parameters&, const std::string& body) {
+  const PixelRequest pixel = parse_pixel_request(body);
+  PixelInspection inspection;
+  live().at_rest([&](const RenderAtRest& rest) {
+    if (rest.is_preview) throw UsageError("the camera is moving, wait for the full picture");
+    check_pixel(pixel.x, pixel.y, rest.render.film().bounds());
+    inspection = rest.render.inspect(pixel.x, pixel.y);
+  });
+  return json_answer(inspection_json(inspection));
+}
+
+Answer Answers::snapshot(const Parameters&, const std::string&) {
+  const LiveState state = source_.state();
+  const std::string description =
+      fmt::format("{:.0f} s, {}", state.progress.seconds, state.settings.integrator);
+  return json_answer({{"id", comparisons_.add_snapshot(source_.colors(), description)}});
+}
+
+Answer Answers::upload(const Parameters& parameters, const std::string& body) {
+  const TemporaryDirectory directory;
+  const std::string path = directory.file("upload.exr");
+  write_file_bytes(path, body);
+  const std::string name = text(parameters, "name");
+  try {
+    const PictureHead head = read_picture_head(path);
+    if (head.window.area() > kMaxUploadedPixels)
+      throw UsageError(fmt::format("{}: the picture is too large, expected at most {} pixels", name,
+                                   kMaxUploadedPixels));
+    return json_answer(
+        {{"id", comparisons_.add_file(color_picture(read_picture(path)), name)}});
+  } catch (const IoError&) {
+    throw UsageError(name + ": this is no picture that can be read, expected an EXR");
+  }
+}
+
+Answer Answers::remove(const Parameters& parameters, const std::string&) {
+  const std::string id = text(parameters, "id");
+  if (!comparisons_.remove(id))
+    throw UsageError("there is no picture '" + id + "' to compare with");
+  return json_answer(Json::object());
+}
+
+}  // namespace nephroid

@@ -1,0 +1,125 @@
+#include "view/describe_render.h"
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+
+#include "film/film_layers.h"
+
+namespace nephroid {
+namespace {
+
+LayerKind kind_of(const std::string& name, const FilmLayout& layout,
+                  const std::set<std::string>& lights) {
+  if (name == "picture") return LayerKind::kPicture;
+  if (std::ranges::find(layout.routes, name) != layout.routes.end()) return LayerKind::kRoute;
+  if (lights.contains(name)) return LayerKind::kLight;
+  if (std::ranges::find(layout.aovs, name) != layout.aovs.end()) return LayerKind::kAov;
+  return LayerKind::kFeature;
+}
+
+std::vector<LiveLayer> layers_of(const Film& film, const Scene& scene) {
+  std::set<std::string> lights;
+  for (const AovDefinition& light : light_layers(scene)) lights.insert(light.name);
+  std::vector<LiveLayer> layers;
+  for (const FilmLayer& layer : film_layers(film))
+    layers.push_back({layer.name, kind_of(layer.name, film.layout(), lights), layer.channels});
+  return layers;
+}
+
+std::string why_mix_is_inexact(const Film& film) {
+  if (film.rejection() != nullptr) return "outliers are rejected, so layers do not add up exactly";
+  if (film.settings().max_component < kInfinity)
+    return "the film clamps bright samples, so layers change in other ways than the picture";
+  return {};
+}
+
+}  // namespace
+
+void apply(const RenderChange& change, RenderRequest* request, LayerChoice* layers) {
+  if (change.integrator) {
+    request->routes.integrator = *change.integrator;
+    request->routes.preset_or_file.clear();
+    request->routes.routes.clear();
+  }
+  if (change.routes) {
+    request->routes.preset_or_file = *change.routes;
+    request->routes.routes.clear();
+    if (!change.routes->empty()) request->routes.integrator.clear();
+  }
+  if (change.layers) *layers = *change.layers;
+  if (change.seed) request->seed = *change.seed;
+  if (change.time) request->options.time_limit = *change.time;
+  if (change.noise) request->options.noise_target = *change.noise;
+  if (change.resolution) {
+    request->overrides.width = change.resolution->first;
+    request->overrides.height = change.resolution->second;
+  }
+  if (change.crop) {
+    request->overrides.has_crop = true;
+    for (int i = 0; i < 4; ++i)
+      request->overrides.crop[i] = static_cast<float>((*change.crop)[static_cast<size_t>(i)]);
+  }
+}
+
+void add_layers(RouteChoice* routes, LayerChoice choice, const Scene& scene) {
+  if (choice == LayerChoice::kRoutes) return;
+  for (AovDefinition& light : light_layers(scene)) routes->aovs.push_back(std::move(light));
+}
+
+void describe(const Render& render, const LoadedScene& loaded, bool is_preview, LiveState* state) {
+  const Film& film = render.film();
+  state->is_preview = is_preview;
+  state->width = film.settings().width;
+  state->height = film.settings().height;
+  state->window = film.bounds();
+  state->progress = {};
+  // A preview has no layers of its own.
+  if (is_preview) return;
+  state->layers = layers_of(film, *loaded.scene);
+  state->why_mix_is_inexact = why_mix_is_inexact(film);
+  state->notes = render.notes();
+  state->report.clear();
+  if (state->warnings.empty()) state->warnings = loaded.warnings;
+  state->camera_type = loaded.description.camera ? loaded.description.camera->type : "perspective";
+}
+
+LiveSettings settings_of(const RenderRequest& request, LayerChoice layers, const Render& render,
+                         const Scene& scene, const FilmDescription& full) {
+  LiveSettings settings;
+  settings.integrator = request.routes.integrator_or(render.integrator().name);
+  settings.routes = request.routes.preset_or_file;
+  settings.layers = layers;
+  settings.seed = request.seed.value_or(scene.scene_seed);
+  settings.time_limit = request.options.time_limit;
+  settings.noise_target = request.options.noise_target;
+  settings.width = full.width;
+  settings.height = full.height;
+  if (request.overrides.has_crop)
+    std::copy(std::begin(request.overrides.crop), std::end(request.overrides.crop),
+              std::begin(settings.crop));
+  return settings;
+}
+
+std::string done_text(const RenderResult& result) {
+  switch (result.reason) {
+    case StopReason::kPasses:
+      return "all passes are done";
+    case StopReason::kTime:
+      return "the time is over";
+    case StopReason::kNoise:
+      return "the noise target is met";
+    case StopReason::kSignal:
+      break;
+  }
+  return "stopped";
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+}  // namespace nephroid

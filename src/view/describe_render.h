@@ -1,0 +1,30 @@
+// Describes a live render for its page, and applies the page's changes to its request.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "session/render.h"
+#include "view/live_state.h"
+#include "view/view_requests.h"
+
+namespace nephroid {
+
+/// Applies the changes that begin anew.
+void apply(const RenderChange& change, RenderRequest* request, LayerChoice* layers);
+/// Adds the AOVs of a choice of layers.
+void add_layers(RouteChoice* routes, LayerChoice choice, const Scene& scene);
+
+/// Sets what the state says of a render before its first picture.
+void describe(const Render& render, const LoadedScene& loaded, bool is_preview, LiveState* state);
+/// `full` is the film without preview.
+LiveSettings settings_of(const RenderRequest& request, LayerChoice layers, const Render& render,
+                         const Scene& scene, const FilmDescription& full);
+
+/// Why a render has ended by itself: "time limit".
+std::string done_text(const RenderResult& result);
+
+/// The lines of a text, without the newlines.
+std::vector<std::string> lines_of(const std::string& text);
+
+}  // namespace nephroid

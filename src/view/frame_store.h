@@ -1,0 +1,40 @@
+// The newest frame of a live render: keeps the layers that somebody has asked for lately. It must
+// not know how they are rendered.
+#pragma once
+
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "view/frame.h"
+
+namespace nephroid {
+
+class FrameStore {
+ public:
+  /// Makes the wanted layers of a film anew. `info` has the generation; version and film's
+  /// properties are set here. Returns the version.
+  uint64_t update(const Film& film, FrameInfo info, double now);
+  /// Makes those of `layers` that are not there, from the same film as the last update().
+  void add(const Film& film, const std::vector<std::string>& layers);
+
+  /// Notes that these layers are wanted. True if the newest frame has all of them.
+  bool want(const std::vector<std::string>& layers, double now);
+  /// The bytes of a frame (encode_frame); empty if nothing is newer than version `since` of
+  /// `generation`. Layers that the film does not have are left out.
+  std::optional<std::string> frame(const std::vector<std::string>& layers, uint64_t generation,
+                                   uint64_t since) const;
+  uint64_t version() const;
+
+ private:
+  std::vector<std::string> wanted(double now);
+
+  mutable std::mutex mutex_;
+  FrameInfo info_;
+  std::map<std::string, FrameLayerPtr> layers_;  ///< by name
+  std::map<std::string, double> wanted_;         ///< layer: time of the last request
+};
+
+}  // namespace nephroid

@@ -1,0 +1,383 @@
+#include "view/live_render.h"
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+
+#include "core/errors.h"
+#include "input/scene_files.h"
+#include "integrator/presets/integrator_table.h"
+#include "view/comparisons.h"
+#include "view/describe_render.h"
+
+namespace nephroid {
+namespace {
+
+/// Without a stop rule a view renders until it is closed.
+constexpr uint32_t kEndlessPasses = 1u << 30;
+constexpr double kLongestWaitForRest = 20;  ///< seconds
+/// While the camera moves, the resolution is such that the first picture takes about so long.
+constexpr double kPreviewSeconds = 0.05;
+constexpr double kFirstPreviewEdge = 256, kMinPreviewEdge = 96;  ///< pixels of the longer side
+
+double steady_seconds() {
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  return std::chrono::duration<double>(now).count();
+}
+
+std::chrono::duration<double> seconds(double value) {
+  return std::chrono::duration<double>(value);
+}
+
+/// The request of an edit: endless unless a rule was given.
+RenderRequest request_of(const RenderRequest& request) {
+  RenderRequest result = request;
+  RenderOptions& options = result.options;
+  options.output.clear();
+  if (!options.last_pass && !(options.time_limit > 0) && !(options.noise_target > 0))
+    options.last_pass = kEndlessPasses;
+  return result;
+}
+
+/// A quick, coarse version of a request.
+RenderRequest preview_of(const RenderRequest& request, const FilmDescription& full, double edge) {
+  RenderRequest preview = request_of(request);
+  const double scale = std::min(1.0, edge / std::max(full.width, full.height));
+  preview.overrides.width = std::max(1, static_cast<int>(std::lround(full.width * scale)));
+  preview.overrides.height = std::max(1, static_cast<int>(std::lround(full.height * scale)));
+  preview.routes = {};
+  preview.routes.integrator = "path";
+  preview.reject_outliers = false;
+  preview.options.show_error = false;
+  preview.options.time_limit = preview.options.noise_target = 0;
+  preview.options.last_pass = kEndlessPasses;
+  return preview;
+}
+
+}  // namespace
+
+LiveRender::LiveRender(RenderRequest request, LayerChoice layers)
+    : preview_edge_(kFirstPreviewEdge) {
+  state_.name = request.scene;
+  edits_.request = std::move(request);
+  edits_.layers = layers;
+  files_ = {state_.name};
+  thread_ = std::thread([this] { work(); });
+}
+
+LiveRender::~LiveRender() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_ending_ = true;
+    signals_.stop = SIGINT;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+LiveState LiveRender::state() const {
+  const std::lock_guard lock(mutex_);
+  return state_;
+}
+
+uint64_t LiveRender::wait_for_news(uint64_t seen, double longest) const {
+  std::unique_lock lock(mutex_);
+  changed_.wait_for(lock, seconds(longest), [&] { return news_ != seen || is_ending_; });
+  return news_;
+}
+
+std::vector<std::string> LiveRender::files() const {
+  const std::lock_guard lock(mutex_);
+  return files_;
+}
+
+uint64_t LiveRender::note_edit() {
+  is_paused_ = false;
+  signals_.stop = SIGINT;
+  ++news_;
+  changed_.notify_all();
+  return state_.generation = ++edits_.generation;
+}
+
+uint64_t LiveRender::move_camera(const CameraChange& change) {
+  const std::lock_guard lock(mutex_);
+  if (!is_loaded_) throw UsageError("the scene is not loaded");
+  CameraPose pose = change.applied_to(state_.camera);
+  check_pose(pose);
+  state_.camera = pose;
+  edits_.camera = std::move(pose);
+  edits_.is_moving = change.is_moving;
+  return note_edit();
+}
+
+uint64_t LiveRender::change(const RenderChange& change) {
+  if (change.integrator) plan_of_integrator(*change.integrator);  // throws for an unknown name
+  const std::lock_guard lock(mutex_);
+  if (change.begins_anew()) {
+    apply(change, &edits_.request, &edits_.layers);
+    edits_.is_moving = false;
+    return note_edit();
+  }
+  is_paused_ = change.action == RenderAction::kPause;
+  signals_.write = true;
+  changed_.notify_all();
+  return state_.generation;
+}
+
+void LiveRender::reload() {
+  const std::lock_guard lock(mutex_);
+  edits_.reloads = true;
+  edits_.is_moving = false;
+  note_edit();
+}
+
+void LiveRender::at_rest(std::function<void(const RenderAtRest&)> run) {
+  const auto task = std::make_shared<Task>();
+  task->run = std::move(run);
+  std::future<void> done = task->done.get_future();
+  {
+    const std::lock_guard lock(mutex_);
+    tasks_.push_back(task);
+    signals_.write = true;
+  }
+  changed_.notify_all();
+  while (done.wait_for(seconds(kLongestWaitForRest)) != std::future_status::ready) {
+    if (task->has_begun) continue;
+    task->is_given_up = true;
+    throw UsageError("the renderer is busy, try again");
+  }
+  done.get();
+}
+
+std::optional<std::string> LiveRender::frame(const std::vector<std::string>& layers,
+                                             uint64_t generation, uint64_t since) {
+  if (!frames_.want(layers, steady_seconds()) && frames_.version() > 0)
+    at_rest([&](const RenderAtRest& rest) { frames_.add(rest.render.film(), layers); });
+  return frames_.frame(layers, generation, since);
+}
+
+ProbedPixel LiveRender::probe(int x, int y) {
+  ProbedPixel probed;
+  at_rest([&](const RenderAtRest& rest) {
+    const Film& film = rest.render.film();
+    check_pixel(x, y, film.bounds());
+    probed.value = film.value(x, y);
+    probed.standard_error = film.standard_error(x, y);
+    for (int g = 0; g < film.layout().group_count(); ++g)
+      probed.samples = std::max(probed.samples, film.estimates(g, x, y));
+  });
+  return probed;
+}
+
+Picture LiveRender::colors() {
+  Picture picture;
+  at_rest([&](const RenderAtRest& rest) { picture = color_picture(rest.render.film()); });
+  return picture;
+}
+
+void LiveRender::write(const std::string& exr_path) {
+  at_rest([&](const RenderAtRest& rest) {
+    if (rest.is_preview) throw UsageError("the camera is moving, wait for the full picture");
+    rest.render.save(exr_path, false);
+  });
+}
+
+void LiveRender::publish(const std::function<void(LiveState&)>& change) {
+  {
+    const std::lock_guard lock(mutex_);
+    change(state_);
+    ++news_;
+  }
+  changed_.notify_all();
+}
+
+LiveRender::Edits LiveRender::take_edits() {
+  const std::lock_guard lock(mutex_);
+  signals_.stop = is_ending_ ? SIGINT : 0;
+  taken_generation_ = edits_.generation;
+  Edits edits = edits_;
+  edits_.reloads = false;
+  return edits;
+}
+
+bool LiveRender::must_stop() const {
+  return is_ending_ || edits_.generation != taken_generation_;
+}
+
+void LiveRender::work() {
+  while (true) {
+    const Edits edits = take_edits();
+    try {
+      if (edits.reloads || !loaded_) load(edits);
+      render(edits);
+    } catch (const std::exception& error) {
+      publish([&](LiveState& state) {
+        state.status = LiveStatus::kFailed;
+        state.message = error.what();
+      });
+      refuse_tasks(error.what());
+    }
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return must_stop(); });
+    if (is_ending_) break;
+  }
+  refuse_tasks("the view is closed");
+}
+
+void LiveRender::load(const Edits& edits) {
+  publish([](LiveState& state) {
+    state.status = LiveStatus::kLoading;
+    state.message.clear();
+  });
+  loaded_.reset();
+  loaded_ = load_scene(edits.request);
+  own_camera_ = camera_pose(loaded_->description, *loaded_->scene);
+  const std::lock_guard lock(mutex_);
+  is_loaded_ = true;
+  files_ = {edits.request.scene};
+  const SceneFiles& files = *loaded_->description.files;
+  for (const std::string& name : files.names()) files_.push_back(files.path_of(name));
+}
+
+void LiveRender::render(const Edits& edits) {
+  set_camera(&loaded_->description, edits.camera.value_or(own_camera_));
+  Diagnostics diagnostics;
+  RenderRequest request = request_of(edits.request);
+  renew_camera(*loaded_->scene, loaded_->description, scene_overrides(request), diagnostics);
+  const FilmDescription full = loaded_->scene->film;
+  if (edits.is_moving) {
+    request = preview_of(edits.request, full, preview_edge_);
+    renew_camera(*loaded_->scene, loaded_->description, scene_overrides(request), diagnostics);
+  } else {
+    add_layers(&request.routes, edits.layers, *loaded_->scene);
+  }
+
+  RenderWarnings warnings;
+  std::vector<std::string> texts;
+  warnings.input = [&texts](const std::string& warning) { texts.push_back(warning); };
+  Render render(request, *loaded_, warnings);
+  publish([&](LiveState& state) {
+    describe(render, *loaded_, edits.is_moving, &state);
+    state.status = LiveStatus::kRendering;
+    state.message.clear();
+    state.settings = settings_of(edits.request, edits.layers, render, *loaded_->scene, full);
+    if (edits.generation == state.generation) state.camera = edits.camera.value_or(own_camera_);
+    if (!edits.is_moving) state.warnings = texts;
+  });
+  connect(render, edits);
+  const RenderResult result = render.run(signals_);
+  const RenderAtRest rest{render, *loaded_, edits.is_moving};
+  if (result.reason != StopReason::kSignal) {
+    renew_report(render);
+    publish([&](LiveState& state) {
+      state.status = LiveStatus::kDone;
+      state.message = done_text(result);
+    });
+  }
+  rest_until_edited(rest);
+}
+
+void LiveRender::connect(Render& render, const Edits& edits) {
+  paused_seconds_ = 0;
+  render.use_clock([this] { return seconds_without_pauses(); });
+  const double begin = steady_seconds();
+  bool is_first = true;
+  render.on_picture([this, &edits, is_first, begin](const ShownPicture& shown) mutable {
+    if (is_first && edits.is_moving) {
+      // The next preview takes about the wanted time.
+      const double took = std::max(1e-3, steady_seconds() - begin);
+      const double edge = preview_edge_ * std::sqrt(kPreviewSeconds / took);
+      preview_edge_ = std::clamp(edge, std::max(kMinPreviewEdge, preview_edge_ / 2),
+                                 preview_edge_ * 1.25);
+    }
+    is_first = false;
+    FrameInfo info;
+    info.generation = edits.generation;
+    info.is_preview = edits.is_moving;
+    info.seconds = shown.seconds;
+    info.passes = shown.passes;
+    const uint64_t version = frames_.update(shown.film, info, steady_seconds());
+    publish([version](LiveState& state) { state.version = version; });
+  });
+  render.on_progress([this, &render, &edits](const RenderProgress& progress) {
+    publish([&](LiveState& state) { state.progress = progress; });
+    if (!edits.is_moving && !progress.within_pass && std::has_single_bit(progress.passes_done))
+      renew_report(render);
+  });
+  render.on_request([this, &render, &edits] {
+    const RenderAtRest rest{render, *loaded_, edits.is_moving};
+    serve(rest);
+    rest_while_paused(rest);
+  });
+}
+
+void LiveRender::renew_report(Render& render) {
+  std::vector<std::string> lines = lines_of(render.report());
+  publish([&lines](LiveState& state) { state.report = std::move(lines); });
+}
+
+void LiveRender::serve(const RenderAtRest& rest) {
+  while (true) {
+    std::shared_ptr<Task> task;
+    {
+      const std::lock_guard lock(mutex_);
+      if (tasks_.empty()) return;
+      task = tasks_.front();
+      tasks_.pop_front();
+    }
+    task->has_begun = true;
+    if (task->is_given_up) continue;
+    try {
+      task->run(rest);
+      task->done.set_value();
+    } catch (...) {
+      task->done.set_exception(std::current_exception());
+    }
+  }
+}
+
+void LiveRender::rest_while_paused(const RenderAtRest& rest) {
+  const auto is_at_rest = [this] {
+    const std::lock_guard lock(mutex_);
+    return is_paused_ && !must_stop();
+  };
+  if (!is_at_rest()) return;
+  const double begin = steady_seconds();
+  publish([](LiveState& state) { state.status = LiveStatus::kPaused; });
+  while (is_at_rest()) {
+    serve(rest);
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return !is_paused_ || must_stop() || !tasks_.empty(); });
+  }
+  paused_seconds_ += steady_seconds() - begin;
+  publish([](LiveState& state) { state.status = LiveStatus::kRendering; });
+}
+
+void LiveRender::rest_until_edited(const RenderAtRest& rest) {
+  while (true) {
+    serve(rest);
+    std::unique_lock lock(mutex_);
+    if (must_stop()) return;
+    changed_.wait(lock, [this] { return must_stop() || !tasks_.empty(); });
+  }
+}
+
+void LiveRender::refuse_tasks(const std::string& why) {
+  std::deque<std::shared_ptr<Task>> tasks;
+  {
+    const std::lock_guard lock(mutex_);
+    tasks.swap(tasks_);
+  }
+  for (const auto& task : tasks) {
+    task->has_begun = true;
+    task->done.set_exception(std::make_exception_ptr(UsageError(why)));
+  }
+}
+
+double LiveRender::seconds_without_pauses() const {
+  return steady_seconds() - paused_seconds_;
+}
+
+}  // namespace nephroid

@@ -1,0 +1,123 @@
+// A render that follows its user: it runs on a thread of its own, begins anew after each edit, and
+// lets others read the film while no pixel is rendered. It must not know the server.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <future>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "session/render.h"
+#include "view/frame_store.h"
+#include "view/view_requests.h"
+#include "view/view_source.h"
+
+namespace nephroid {
+
+/// A render while no pixel is rendered.
+struct RenderAtRest {
+  Render& render;
+  const LoadedScene& loaded;
+  bool is_preview = false;
+};
+
+class LiveRender final : public ViewSource {
+ public:
+  /// Loads the scene of the request and renders it, until the end of its lifetime. The request has
+  /// no output file.
+  LiveRender(RenderRequest request, LayerChoice layers);
+  /// Stops within a fraction of a second.
+  ~LiveRender() override;
+  LiveRender(const LiveRender&) = delete;
+  LiveRender& operator=(const LiveRender&) = delete;
+
+  LiveState state() const override;
+  uint64_t wait_for_news(uint64_t seen, double seconds) const override;
+  /// Layers that nobody has asked for lately are made now.
+  std::optional<std::string> frame(const std::vector<std::string>& layers, uint64_t generation,
+                                   uint64_t since) override;
+  ProbedPixel probe(int x, int y) override;
+  Picture colors() override;
+  void write(const std::string& exr_path) override;
+  LiveRender* live() override { return this; }
+
+  /// Edits: the render begins anew, and pictures get the generation that is returned. Throw
+  /// UsageError for a change that cannot be made.
+  uint64_t move_camera(const CameraChange& change);
+  uint64_t change(const RenderChange& change);
+  /// Reads the scene's files again.
+  void reload();
+
+  /// The scene's file and all files that it reads, as far as they are known.
+  std::vector<std::string> files() const;
+
+  /// Calls `task` on the render's thread as soon as no pixel is rendered, and returns after it.
+  /// Passes on its exceptions. Throws UsageError if nothing can be rendered, or if it takes longer
+  /// than a few seconds until the task begins.
+  void at_rest(std::function<void(const RenderAtRest&)> task);
+
+ private:
+  /// What the user has changed, read by the render's thread when it begins anew.
+  struct Edits {
+    RenderRequest request;
+    LayerChoice layers = LayerChoice::kRoutes;
+    std::optional<CameraPose> camera;  ///< empty: the scene's own
+    bool is_moving = false;
+    bool reloads = true;
+    uint64_t generation = 1;
+  };
+  struct Task {
+    std::function<void(const RenderAtRest&)> run;
+    std::promise<void> done;
+    std::atomic<bool> has_begun{false}, is_given_up{false};
+  };
+
+  /// The render's thread.
+  void work();
+  void load(const Edits& edits);
+  void render(const Edits& edits);
+  /// Connects a render with state, frames and tasks.
+  void connect(Render& render, const Edits& edits);
+  /// Runs the tasks that wait.
+  void serve(const RenderAtRest& rest);
+  /// Serves tasks until the render may go on.
+  void rest_while_paused(const RenderAtRest& rest);
+  /// Serves tasks until an edit or the end.
+  void rest_until_edited(const RenderAtRest& rest);
+  void refuse_tasks(const std::string& why);
+  Edits take_edits();
+  bool must_stop() const;  ///< true after an edit or at the end
+  /// Counts an edit; the lock is held.
+  uint64_t note_edit();
+  void publish(const std::function<void(LiveState&)>& change);
+  void renew_report(Render& render);
+  double seconds_without_pauses() const;
+
+  mutable std::mutex mutex_;
+  mutable std::condition_variable changed_;
+  LiveState state_;
+  uint64_t news_ = 1;
+  Edits edits_;
+  uint64_t taken_generation_ = 0;  ///< generation of the edits that the thread has taken
+  bool is_ending_ = false, is_paused_ = false;
+  std::deque<std::shared_ptr<Task>> tasks_;
+  bool is_loaded_ = false;
+  std::vector<std::string> files_;
+  SignalFlags signals_;  ///< of the present run
+  FrameStore frames_;
+
+  // Owned by the render's thread.
+  std::optional<LoadedScene> loaded_;
+  CameraPose own_camera_;       ///< of the scene's file
+  double preview_edge_ = 0;     ///< pixels of the longer side while the camera moves
+  double paused_seconds_ = 0;
+  std::thread thread_;
+};
+
+}  // namespace nephroid

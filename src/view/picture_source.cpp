@@ -1,0 +1,144 @@
+#include "view/picture_source.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <set>
+#include <thread>
+
+#include "core/errors.h"
+#include "film/exr_file.h"
+#include "film/film_output.h"
+#include "session/checkpoint/render_identity.h"
+#include "view/comparisons.h"
+#include "view/describe_render.h"
+
+namespace nephroid {
+namespace {
+
+constexpr const char* kPictureLayer = "picture";
+
+/// Prefix of a layer's channels in the file.
+std::string prefix_of(const std::string& layer) {
+  return layer == kPictureLayer || layer == "Z" || layer == "samples" ? "" : layer + ".";
+}
+
+/// Names of "NAME=EXPRESSION" lines.
+std::set<std::string> names_of(const std::string& definitions) {
+  std::set<std::string> names;
+  for (const std::string& line : lines_of(definitions)) names.insert(line.substr(0, line.find('=')));
+  return names;
+}
+
+LayerKind kind_of(const std::string& name, const std::set<std::string>& routes,
+                  const std::set<std::string>& aovs) {
+  if (routes.contains(name)) return LayerKind::kRoute;
+  if (aovs.contains(name)) return LayerKind::kLight;
+  return LayerKind::kFeature;
+}
+
+std::vector<LiveLayer> layers_of(const Picture& picture) {
+  const std::set<std::string> routes = names_of(value_of(picture.metadata, kRoutesKey));
+  const std::set<std::string> aovs = names_of(value_of(picture.metadata, kAovsKey));
+  std::vector<LiveLayer> layers{{kPictureLayer, LayerKind::kPicture, "RGB"}};
+  for (const std::string& channel : picture.channels) {
+    const size_t dot = channel.rfind('.');
+    if (dot == std::string::npos) continue;
+    const std::string name = channel.substr(0, dot), letter = channel.substr(dot + 1);
+    if (letter == "R" && picture.find_channel(name + ".G") >= 0 &&
+        picture.find_channel(name + ".B") >= 0)
+      layers.push_back({name, kind_of(name, routes, aovs), "RGB"});
+    if (letter == "X" && picture.find_channel(name + ".Y") >= 0 &&
+        picture.find_channel(name + ".Z") >= 0)
+      layers.push_back({name, LayerKind::kFeature, "XYZ"});
+  }
+  if (picture.find_channel("Z") >= 0) layers.push_back({"Z", LayerKind::kFeature, "Z"});
+  return layers;
+}
+
+}  // namespace
+
+void check_pixel(int x, int y, const PixelBounds& window) {
+  if (x < window.x0 || x >= window.x1 || y < window.y0 || y >= window.y1)
+    throw UsageError(fmt::format("pixel {},{} is outside of the picture, expected {}..{},{}..{}", x,
+                                 y, window.x0, window.x1 - 1, window.y0, window.y1 - 1));
+}
+
+PictureSource::PictureSource(const std::string& path) : picture_(read_picture(path)) {
+  color_picture(picture_);  // throws if it has no colours
+  state_.name = path;
+  state_.is_scene = false;
+  state_.status = LiveStatus::kDone;
+  state_.generation = state_.version = 1;
+  state_.width = picture_.full_width;
+  state_.height = picture_.full_height;
+  state_.window = picture_.window;
+  state_.layers = layers_of(picture_);
+  state_.report = lines_of(value_of(picture_.metadata, kChoicesKey));
+  state_.settings.integrator = value_of(picture_.metadata, kIntegratorKey);
+  state_.settings.width = state_.width;
+  state_.settings.height = state_.height;
+  if (value_of(picture_.metadata, kOutliersKey) == "reject")
+    state_.why_mix_is_inexact = "outliers were rejected, so layers do not add up exactly";
+}
+
+uint64_t PictureSource::wait_for_news(uint64_t seen, double seconds) const {
+  if (seen == 1) std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+  return 1;
+}
+
+FrameLayerPtr PictureSource::layer(const std::string& name) {
+  const auto found = std::ranges::find(state_.layers, name, &LiveLayer::name);
+  if (found == state_.layers.end()) return nullptr;
+  const std::lock_guard lock(mutex_);
+  FrameLayerPtr& made = layers_[name];
+  if (!made) made = frame_layer(picture_, name, prefix_of(name), found->channels);
+  return made;
+}
+
+std::optional<std::string> PictureSource::frame(const std::vector<std::string>& names,
+                                                uint64_t generation, uint64_t since) {
+  if (generation == 1 && since == 1) return std::nullopt;
+  std::vector<FrameLayerPtr> layers;
+  for (const std::string& name : names)
+    if (FrameLayerPtr made = layer(name)) layers.push_back(std::move(made));
+  FrameInfo info;
+  info.generation = info.version = 1;
+  info.width = picture_.full_width;
+  info.height = picture_.full_height;
+  info.window = picture_.window;
+  return encode_frame(info, layers, 0);
+}
+
+float PictureSource::value(size_t pixel, const std::string& channel) const {
+  const int index = picture_.find_channel(channel);
+  return index < 0 ? 0
+                   : picture_.pixels[pixel * picture_.channels.size() + static_cast<size_t>(index)];
+}
+
+ProbedPixel PictureSource::probe(int x, int y) {
+  check_pixel(x, y, picture_.window);
+  const size_t pixel = static_cast<size_t>(y - picture_.window.y0) * picture_.width() +
+                       static_cast<size_t>(x - picture_.window.x0);
+  ProbedPixel probed;
+  probed.value = {value(pixel, "R"), value(pixel, "G"), value(pixel, "B")};
+  probed.standard_error = {value(pixel, "stderr.R"), value(pixel, "stderr.G"),
+                           value(pixel, "stderr.B")};
+  probed.samples = static_cast<uint64_t>(std::max(0.0f, value(pixel, "samples")));
+  return probed;
+}
+
+Picture PictureSource::colors() {
+  return color_picture(picture_);
+}
+
+void PictureSource::write(const std::string& exr_path) {
+  write_exr(exr_path, picture_);
+  std::vector<uint8_t> bytes;
+  const Picture colors = color_picture(picture_);
+  for (const float value : colors.pixels) bytes.push_back(encode_srgb8(value));
+  write_png(png_path_beside(exr_path), colors.width(), colors.height(), bytes);
+}
+
+}  // namespace nephroid

@@ -1,0 +1,141 @@
+// Frames as the page gets them.
+#include "view/frame.h"
+
+#include <Imath/half.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "view/frame_store.h"
+
+namespace nephroid {
+namespace {
+
+/// A film with one estimate a pixel: value(x, y) in R, G and B.
+template <class Value>
+Film film_with(int width, int height, const Value& value) {
+  FilmSettings settings;
+  settings.width = width;
+  settings.height = height;
+  Film film(settings, FilmLayout::of_routes({"all"}));
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const Rgb color = value(x, y);
+      film.add(0, x, y, std::span(&color, 1));
+    }
+  film.add_estimates(0, 1);
+  return film;
+}
+
+/// A decoded frame: header, and the halves of the payload.
+struct Decoded {
+  nlohmann::json header;
+  std::vector<float> values;
+};
+
+Decoded decode(const std::string& bytes) {
+  Decoded decoded;
+  EXPECT_EQ(bytes.substr(0, 4), "NPHV");
+  uint32_t numbers[2];
+  std::memcpy(numbers, bytes.data() + 4, sizeof(numbers));
+  EXPECT_EQ(numbers[0], 1u);
+  EXPECT_EQ((12 + numbers[1]) % 8, 0u);
+  decoded.header = nlohmann::json::parse(bytes.substr(12, numbers[1]));
+  for (size_t i = 12 + numbers[1]; i + 1 < bytes.size(); i += 2) {
+    uint16_t bits;
+    std::memcpy(&bits, bytes.data() + i, 2);
+    Imath::half value;
+    value.setBits(bits);
+    decoded.values.push_back(value);
+  }
+  return decoded;
+}
+
+const Rgb kGrey{0.5f, 0.5f, 0.5f};
+
+TEST(Frame, TilesHoldTheirRowsOneAfterAnother) {
+  // Two tiles side by side, the second one narrow.
+  const Film film = film_with(70, 3, [](int x, int y) {
+    return Rgb{static_cast<float>(x), static_cast<float>(y), 0.25f};
+  });
+  FrameStore store;
+  EXPECT_EQ(store.update(film, {}, 0), 1u);
+  const Decoded frame = decode(*store.frame({"picture"}, 0, 0));
+  EXPECT_EQ(frame.header["tiles"], (std::vector<int>{0, 1}));
+  EXPECT_EQ(frame.header["window"], (std::vector<int>{0, 0, 70, 3}));
+  ASSERT_EQ(frame.values.size(), 70u * 3 * 3);
+  const float scale = frame.header["layers"][0]["scale"];
+  EXPECT_EQ(frame.values[3 * 5] * scale, 5);               // first row of the first tile
+  EXPECT_EQ(frame.values[3 * (2 * 64 + 7)] * scale, 7);    // third row
+  EXPECT_EQ(frame.values[3 * (2 * 64 + 7) + 1] * scale, 2);
+  EXPECT_EQ(frame.values[3 * (3 * 64 + 6 + 1)] * scale, 65);  // second row of the second tile
+}
+
+TEST(Frame, OnlyTilesThatChangedAreSent) {
+  FrameStore store;
+  const auto with_dot = [](float dot) {
+    return film_with(130, 64, [dot](int x, int y) {
+      return x == 100 && y == 10 ? Rgb{dot, dot, dot} : kGrey;
+    });
+  };
+  store.update(with_dot(1), {}, 0);
+  EXPECT_EQ(store.update(with_dot(2), {}, 0), 2u);
+  EXPECT_EQ(decode(*store.frame({"picture"}, 0, 1)).header["tiles"], (std::vector<int>{1}));
+  EXPECT_EQ(decode(*store.frame({"picture"}, 0, 0)).header["tiles"].size(), 3u);
+  EXPECT_FALSE(store.frame({"picture"}, 0, 2).has_value());
+  // A viewer of another generation knows nothing.
+  EXPECT_EQ(decode(*store.frame({"picture"}, 7, 2)).header["tiles"].size(), 3u);
+}
+
+TEST(Frame, AnotherGenerationIsSentAsAWhole) {
+  FrameStore store;
+  const Film film = film_with(8, 8, [](int, int) { return kGrey; });
+  store.update(film, {}, 0);
+  FrameInfo next;
+  next.generation = 1;
+  store.update(film, next, 0);
+  EXPECT_EQ(decode(*store.frame({"picture"}, 0, 1)).header["tiles"].size(), 1u);
+}
+
+TEST(Frame, BrightAndDimLayersKeepTheirDigits) {
+  for (const float level : {1e-6f, 1e-3f, 1.0f, 1e3f, 1e6f, 1e12f}) {
+    const float value = 1.2345678f * level;
+    const Film film = film_with(4, 4, [value](int, int) { return Rgb{value, value, value}; });
+    FrameStore store;
+    store.update(film, {}, 0);
+    const Decoded frame = decode(*store.frame({"picture"}, 0, 0));
+    const float scale = frame.header["layers"][0]["scale"];
+    EXPECT_NEAR(frame.values[0] * scale / value, 1, 1.0 / 2048) << level;
+    EXPECT_EQ(std::exp2(std::round(std::log2(scale))), scale) << "no power of two";
+  }
+}
+
+TEST(Frame, LayersThatNobodyHasAskedForAreMadeOnRequest) {
+  const Film film = film_with(4, 4, [](int, int) { return kGrey; });
+  FrameStore store;
+  store.update(film, {}, 0);
+  EXPECT_TRUE(store.want({"picture"}, 0));
+  EXPECT_FALSE(store.want({"picture", "all"}, 0));
+  store.add(film, {"all"});
+  EXPECT_TRUE(store.want({"all"}, 0));
+  EXPECT_EQ(decode(*store.frame({"all"}, 0, 0)).header["layers"][0]["name"], "all");
+  // From now on it is made with each picture, until the interest ends.
+  store.update(film, {}, 1);
+  EXPECT_TRUE(store.want({"all"}, 1));
+  store.update(film, {}, 1000);
+  EXPECT_FALSE(store.want({"all"}, 1000));
+}
+
+TEST(Frame, AFilmWithoutALayerLeavesItOut) {
+  const Film film = film_with(4, 4, [](int, int) { return kGrey; });
+  FrameStore store;
+  store.update(film, {}, 0);
+  store.add(film, {"caustic"});
+  const Decoded frame = decode(*store.frame({"picture", "caustic"}, 0, 0));
+  EXPECT_EQ(frame.header["layers"].size(), 1u);
+}
+
+}  // namespace
+}  // namespace nephroid
