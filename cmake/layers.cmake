@@ -68,7 +68,7 @@ nephroid_layer(options options nephroid_session)
 nephroid_layer(bench bench nephroid_options nephroid_image nlohmann_json::nlohmann_json)
 nephroid_layer(report_page report_page nephroid_bench)
 nephroid_layer(view view nephroid_session nephroid_image nlohmann_json::nlohmann_json
-               ${HTTPLIB_LIBRARY})
+               PkgConfig::httplib)
 include(cmake/page.cmake)
 
 # Draws the results of `nephroid bench`. The renderer does not link the page.

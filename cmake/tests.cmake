@@ -149,7 +149,7 @@ if(TARGET test_regression)
   target_link_libraries(update_features PRIVATE nephroid_session nephroid_image test_source_directory)
   target_include_directories(update_features PRIVATE tests)
 endif()
-nephroid_test(fuzz nephroid_options)
+nephroid_test(fuzz nephroid_options nephroid_view)
 if(TARGET test_fuzz)
   target_sources(test_fuzz PRIVATE ${CMAKE_SOURCE_DIR}/tests/unit/medium/nanovdb_writer.cpp)
   # The readers under test open files in memory (tests/fuzz/memory_files.h).

@@ -13,6 +13,7 @@
 #include "film/film_output.h"
 #include "input/import_options.h"
 #include "scene/scene.h"
+#include "session/light_layers.h"
 #include "session/route_plan.h"
 #include "session/settings/integrator_settings.h"
 
@@ -30,6 +31,7 @@ struct RenderCommand {
   uint64_t memory = 0;  ///< bytes; 0: the memory of the machine
   std::optional<uint64_t> seed;
   SettingList settings;
+  LayerChoice layers = LayerChoice::kRoutes;
   bool reject_outliers = false;
   bool resume = false;
   double checkpoint_interval = 60;  ///< seconds

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "session/inspect.h"
 #include "session/render_session.h"
 #include "session/route_plan.h"
 #include "session/scene_loading.h"
@@ -69,6 +70,7 @@ class Render {
 
   /// Writes what is rendered so far, see RenderSession. Throws IoError.
   void save(const std::string& path, bool with_state) { session_->save(path, with_state); }
+  PixelInspection inspect(int x, int y) { PixelInspection i; i.x = x; i.y = y; return i; }
   /// The report so far, see RenderSession.
   std::string report() { return session_->report(); }
 

@@ -4,8 +4,10 @@
 
 #include <charconv>
 #include <filesystem>
+#include <span>
 
 #include "core/errors.h"
+#include "film/atomic_file.h"
 #include "film/film_output.h"
 #include "input/file_bytes.h"
 #include "session/camera_edit.h"
@@ -264,7 +266,7 @@ Answer Answers::snapshot(const Parameters&, const std::string&) {
 Answer Answers::upload(const Parameters& parameters, const std::string& body) {
   const TemporaryDirectory directory;
   const std::string path = directory.file("upload.exr");
-  write_file_bytes(path, body);
+  write_file_atomically(path, std::as_bytes(std::span(body)));
   const std::string name = text(parameters, "name");
   try {
     const PictureHead head = read_picture_head(path);

@@ -1,5 +1,5 @@
 // The HTTP server of a view: one page, its pictures and its requests. docs/view-protocol.md has the
-// protocol, docs/adr/0041 what is trusted. It must not know how a picture is rendered.
+// protocol, docs/adr/0040-the-view.md what is trusted. It must not know how a picture is rendered.
 #pragma once
 
 #include <memory>

@@ -40,7 +40,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Target{"environment", fuzz::environment}, Target{"nanovdb", fuzz::nanovdb},
                       Target{"checkpoint", fuzz::checkpoint}, Target{"command", fuzz::command},
                       Target{"gltf", fuzz::gltf}, Target{"mitsuba", fuzz::mitsuba},
-                      Target{"serialized", fuzz::serialized}, Target{"volume", fuzz::volume}),
+                      Target{"serialized", fuzz::serialized}, Target{"volume", fuzz::volume},
+                      Target{"view_request", fuzz::view_request}),
     [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace

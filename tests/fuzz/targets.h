@@ -37,5 +37,7 @@ void nanovdb(const std::string& bytes);
 void checkpoint(const std::string& bytes);
 /// A command line, one argument per line.
 void command(const std::string& bytes);
+/// The body of a request to the view, or one of its headers.
+void view_request(const std::string& bytes);
 
 }  // namespace nephroid::fuzz
