@@ -62,7 +62,7 @@ void DescriptionBuilder::set_transform_times(double start, double end,
                                              const SourceLocation& where) {
   if (end < start)
     throw SceneError(where, "TransformTimes ends before it starts, expected start <= end");
-  if (scene_.camera)
+  if (scene_.camera && !keeps_camera_)
     diagnostics_.warn(where,
                       "TransformTimes after Camera: pbrt-v4 would not use these times for the "
                       "camera, here the camera uses them, too");
@@ -215,7 +215,20 @@ void DescriptionBuilder::world_begin() {
   coordinate_systems_["world"] = state_.ctm;
 }
 
+void DescriptionBuilder::keep_camera(const Parameter& option) {
+  if (in_world_)
+    diagnostics_.warn(
+        option.where,
+        "option \"keepcamera\" has no effect after WorldBegin, expected it before the "
+        "Camera");
+  keeps_camera_ = option.bools.front();
+}
+
 void DescriptionBuilder::add_option(Parameter option) {
+  if (option.name == "keepcamera") {
+    keep_camera(option);
+    return;
+  }
   std::erase_if(scene_.options, [&](const Parameter& old) { return old.name == option.name; });
   scene_.options.push_back(std::move(option));
 }
@@ -230,11 +243,15 @@ void DescriptionBuilder::set_once(std::optional<DirectiveDescription>& slot,
 }
 
 void DescriptionBuilder::set_film(DirectiveDescription directive) {
+  if (keeps_camera_ && scene_.film) return;
   scene_.color_space = state_.color_space;
   set_once(scene_.film, std::move(directive), "Film");
 }
 
 void DescriptionBuilder::set_camera(DirectiveDescription directive) {
+  // Lights and media in the space of an ignored camera stay where it is.
+  coordinate_systems_["camera"] = {state_.ctm.start.inverse(), state_.ctm.end.inverse()};
+  if (keeps_camera_ && scene_.camera) return;
   if (scene_.camera) {
     diagnostics_.warn(directive.where, "Camera was already given at " +
                                            scene_.camera->where.to_string() +
@@ -244,7 +261,6 @@ void DescriptionBuilder::set_camera(DirectiveDescription directive) {
   static_cast<DirectiveDescription&>(camera) = std::move(directive);
   camera.world_to_camera = state_.ctm;
   camera.medium = state_.outside_medium;
-  coordinate_systems_["camera"] = {state_.ctm.start.inverse(), state_.ctm.end.inverse()};
 }
 
 }  // namespace nephroid

@@ -49,6 +49,7 @@ class DescriptionBuilder {
   void import_end();
 
   // Objects of the scene. A directive has its explicit parameters; defaults are added here.
+  /// "keepcamera" is obeyed here: it says which directives count, and is no option of the scene.
   void add_option(Parameter option);
   void set_camera(DirectiveDescription directive);
   void set_film(DirectiveDescription directive);
@@ -89,6 +90,7 @@ class DescriptionBuilder {
   void set_once(std::optional<DirectiveDescription>& slot, DirectiveDescription directive,
                 const char* name);
   void add_defaults(AttributeTarget target, ParameterSet& parameters) const;
+  void keep_camera(const Parameter& option);
   void push_scope(Scope::Kind kind, const SourceLocation& where);
   void pop_scope();
   void check_nothing_open(size_t scopes) const;
@@ -97,6 +99,7 @@ class DescriptionBuilder {
   SceneDescription& scene_;
   Diagnostics& diagnostics_;
   bool in_world_ = false;
+  bool keeps_camera_ = false;  // true: the first Camera and the first Film count
   GraphicsState state_;
   std::vector<Scope> scopes_;
   std::map<std::string, TransformDescription> coordinate_systems_;

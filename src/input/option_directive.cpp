@@ -20,6 +20,9 @@ constexpr FormatParameter kOptions[] = {
     {"bool", "disablewavelengthjitter", "false", "", "all paths have the same wavelengths"},
     {"float", "displacementedgescale", "1", "", "times \"edgelength\" of displaced meshes"},
     {"bool", "forcediffuse", "false", "", "all surfaces are Lambertian and keep their reflectance"},
+    {"bool", "keepcamera", "false", "",
+     "the first Camera and the first Film count, later ones are ignored: gives an included scene "
+     "another camera; not in pbrt-v4"},
     {"string", "msereferenceimage", "none", "", "nephroid compare measures pictures",
      Support::kWarned},
     {"string", "msereferenceout", "none", "", "nephroid compare measures pictures",

@@ -1,5 +1,5 @@
-// Writes the parameters of a directive, as the pbrt parser would fill them. It must not know
-// directives.
+// Writes and replaces parameters of a directive, as the pbrt parser would fill them. It must not
+// know directives.
 #pragma once
 
 #include <array>
@@ -71,5 +71,11 @@ class ParameterList {
 
   ParameterSet set_;
 };
+
+/// Adds a parameter in place of those of the same name.
+inline void replace_parameter(ParameterSet* set, Parameter parameter) {
+  std::erase_if(set->list, [&](const Parameter& old) { return old.name == parameter.name; });
+  set->list.push_back(std::move(parameter));
+}
 
 }  // namespace nephroid

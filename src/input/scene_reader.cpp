@@ -72,18 +72,25 @@ void warn_of_missing_choices(const SceneDescription& scene, const ImportOptions&
   if (choices.animations.empty() && options.shutter != 0) warn("--shutter", "animations");
 }
 
+const SceneFormat& format_of(const std::string& path) {
+  const std::string name = lower_case(path);
+  return *std::find_if(std::begin(kFormats), std::end(kFormats),
+                       [&](const SceneFormat& row) { return has_suffix(name, row.suffix); });
+}
+
 }  // namespace
+
+bool is_pbrt_scene(const std::string& path) {
+  return format_of(path).read == read_pbrt;
+}
 
 SceneDescription read_scene(const std::string& path, const ImportOptions& options,
                             Diagnostics& diagnostics) {
-  const std::string name = lower_case(path);
-  const SceneFormat* format =
-      std::find_if(std::begin(kFormats), std::end(kFormats),
-                   [&](const SceneFormat& row) { return has_suffix(name, row.suffix); });
-  warn_of_foreign_options(*format, path, options, diagnostics);
-  SceneDescription scene = format->read(path, options, diagnostics);
+  const SceneFormat& format = format_of(path);
+  warn_of_foreign_options(format, path, options, diagnostics);
+  SceneDescription scene = format.read(path, options, diagnostics);
   warn_of_missing_choices(scene, options, diagnostics);
-  stage_scene(&scene, format->traits, options, diagnostics);
+  stage_scene(&scene, format.traits, options, diagnostics);
   return scene;
 }
 

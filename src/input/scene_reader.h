@@ -14,4 +14,7 @@ namespace nephroid {
 SceneDescription read_scene(const std::string& path, const ImportOptions& options,
                             Diagnostics& diagnostics);
 
+/// True if read_scene reads a file of that name as pbrt.
+bool is_pbrt_scene(const std::string& path);
+
 }  // namespace nephroid

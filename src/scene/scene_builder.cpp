@@ -1,19 +1,19 @@
-// Builds a Scene from a SceneDescription: textures, materials, lights, shapes, instances, camera,
-// film.
+// Builds a Scene from a SceneDescription: textures, materials, lights, shapes, instances; camera
+// and film in scene_view.cpp.
 #include <exception>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "core/parallel.h"
 #include "scene/camera/camera.h"
-#include "scene/film_description.h"
 #include "scene/inside_out.h"
 #include "scene/pixel_filter.h"
 #include "scene/sampler_description.h"
 #include "scene/scene.h"
 #include "scene/scene_labels.h"
+#include "scene/scene_view.h"
 #include "scene/shape_table.h"
-#include "scene/surrounding_medium.h"
 
 namespace nephroid {
 
@@ -39,9 +39,7 @@ class SceneBuilder {
     for (size_t i = 0; i < d_.materials.size(); ++i)
       if (!d_.materials[i].name.empty())
         material_index_[d_.materials[i].name] = static_cast<int>(i);
-    scene_->film = make_film_description(d_, overrides, diagnostics);
-    const FilmDescription& film = scene_->film;
-    scene_->camera = make_camera(d_, {film.width, film.height, film.diagonal_mm}, diagnostics);
+    set_film_and_camera(*scene_, d_, overrides, diagnostics);
     scene_->filter = make_pixel_filter(d_.pixel_filter, diagnostics);
     find_instance_pivot();
     const SamplerDescription sampler = read_sampler(d_.sampler, scene_->options.seed, diagnostics);
@@ -53,12 +51,11 @@ class SceneBuilder {
     }
     scene_->media = make_media(d_, diagnostics);
     scene_->medium_labels = medium_labels(d_);
-    for (size_t i = 0; i < d_.media.size(); ++i) medium_index_[d_.media[i].name] = i;
-    if (d_.camera) scene_->camera_medium = medium_named(d_.camera->medium, d_.camera->where);
+    media_.emplace(d_, *scene_);
+    scene_->camera_medium = medium_of_camera(d_, *media_);
     scene_->lights = make_lights(d_, diagnostics);
     for (size_t i = 0; i < d_.lights.size(); ++i) {
-      const Medium* around = medium_named(d_.lights[i].medium, d_.lights[i].where);
-      scene_->light_media.push_back({around, around});
+      scene_->light_media.push_back(medium_around(d_.lights[i], *media_));
       scene_->light_labels.push_back(light_labels_.light(i));
       scene_->light_places.push_back(d_.lights[i].where);
     }
@@ -81,14 +78,6 @@ class SceneBuilder {
   }
 
  private:
-  const Medium* medium_named(const std::string& name, const SourceLocation& where) const {
-    if (name.empty()) return nullptr;
-    const auto it = medium_index_.find(name);
-    if (it != medium_index_.end()) return scene_->media[it->second].get();
-    throw SceneError(
-        where, "medium \"" + name + "\" is not defined, expected the name of a MakeNamedMedium");
-  }
-
   int material_of(const ShapeDescription& shape) const {
     if (shape.material.index >= 0) return shape.material.index;
     const auto it = material_index_.find(shape.material.name);
@@ -148,8 +137,8 @@ class SceneBuilder {
     record.alpha = textures_.float_texture(description.parameters, "alpha");
     if (record.alpha && record.alpha->constant() && *record.alpha->constant() >= 1.0f)
       record.alpha = nullptr;
-    record.media = {medium_named(description.inside_medium, description.where),
-                    medium_named(description.outside_medium, description.where)};
+    record.media = {media_->named(description.inside_medium, description.where),
+                    media_->named(description.outside_medium, description.where)};
     if (description.area_light) add_area_light(description, shape, material, record);
     const bool passing = material.transmits_straight() || record.alpha;
     scene_->has_passing_shapes |= passing;
@@ -251,16 +240,6 @@ class SceneBuilder {
     for (int j = 0; j < 3; ++j) instance_pivot_[j] = 0.5 * (start[3][j] + end[3][j]);
   }
 
-  // Their photons start in the medium in which camera paths leave the scene, whatever medium the
-  // file has set for them.
-  void surround_infinite_lights() {
-    if (scene_->media.empty()) return;
-    const std::optional<const Medium*> medium = surrounding_medium(*scene_);
-    if (!medium) return;
-    for (size_t i = 0; i < scene_->lights.size(); ++i)
-      if (scene_->lights[i]->is_infinite()) scene_->light_media[i] = {*medium, *medium};
-  }
-
   void finish() {
     const Bounds3f bounds = scene_->top.accelerator->bounds();
     if (!bounds.isEmpty()) {
@@ -271,7 +250,7 @@ class SceneBuilder {
     const SourceLocation file{std::make_shared<const std::string>(d_.file), 0, 0};
     check_size(file);
     for (const LightPtr& light : scene_->lights) light->set_scene_sphere(scene_->sphere);
-    surround_infinite_lights();
+    surround_infinite_lights(*scene_, d_, *media_);
     scene_->light_sampler = std::make_unique<LightSampler>(scene_->lights);
     inside_out_.report(scene_->top, scene_->camera->camera_to_world(0.0f).point(Vec3f(0, 0, 0)),
                        diagnostics_);
@@ -291,7 +270,7 @@ class SceneBuilder {
   std::unique_ptr<Scene> scene_;
   std::shared_ptr<EmbreeDevice> device_;
   std::map<std::string, int> material_index_;
-  std::map<std::string, size_t> medium_index_;
+  std::optional<MediaByName> media_;
   Vec3d instance_pivot_{0, 0, 0};  ///< pivot of moving instances
 };
 

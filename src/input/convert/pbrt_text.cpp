@@ -47,4 +47,11 @@ std::string matrix_text(const Mat44d& matrix) {
   return text + " ]";
 }
 
+std::string transform_text(const TransformDescription& transform) {
+  const std::string start = "Transform " + matrix_text(transform.start) + "\n";
+  if (!transform.is_animated()) return start;
+  return "ActiveTransform StartTime\n" + start + "ActiveTransform EndTime\nTransform " +
+         matrix_text(transform.end) + "\nActiveTransform All\n";
+}
+
 }  // namespace nephroid

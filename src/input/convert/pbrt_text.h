@@ -15,5 +15,7 @@ std::string shortest_text(double value);
 std::string parameter_text(const Parameter& parameter);
 /// The sixteen numbers in brackets.
 std::string matrix_text(const Mat44d& matrix);
+/// Transform directives, on lines of their own, that set both keyframes.
+std::string transform_text(const TransformDescription& transform);
 
 }  // namespace nephroid

@@ -70,7 +70,7 @@ class PbrtWriter {
   void write_shape(const ShapeDescription& shape);
   void write_mesh(const ShapeDescription& shape, const MeshData& mesh);
 
-  void line(const std::string& text) { text_ += indent_ + text + "\n"; }
+  void line(const std::string& text) { text_ += text + "\n"; }
   /// `Name "type" parameters`; without a name of the directive's own type if `type` is null.
   void directive(const std::string& beginning, const ParameterSet& parameters,
                  std::initializer_list<const char*> left_out = {}, bool names_files = true);
@@ -93,7 +93,7 @@ class PbrtWriter {
   CompanionFiles files_;
   std::vector<std::string> materials_;
   State state_;
-  std::string text_, indent_;
+  std::string text_;
 };
 
 /// Files get the names by which the new scene finds them. A string of a spectrum is a file's name
@@ -121,13 +121,7 @@ void PbrtWriter::directive(const std::string& beginning, const ParameterSet& par
 
 void PbrtWriter::set_transform(const TransformDescription& wanted) {
   if (wanted.start == state_.transform.start && wanted.end == state_.transform.end) return;
-  if (!wanted.is_animated()) {
-    line("Transform " + matrix_text(wanted.start));
-  } else {
-    line("ActiveTransform StartTime\n" + indent_ + "Transform " + matrix_text(wanted.start));
-    line("ActiveTransform EndTime\n" + indent_ + "Transform " + matrix_text(wanted.end));
-    line("ActiveTransform All");
-  }
+  text_ += transform_text(wanted);
   state_.transform = wanted;
 }
 

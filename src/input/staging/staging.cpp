@@ -25,15 +25,10 @@ ParameterSet& film_parameters(SceneDescription* scene) {
   return scene->film->parameters;
 }
 
-void set_parameter(ParameterSet* set, Parameter parameter) {
-  std::erase_if(set->list, [&](const Parameter& old) { return old.name == parameter.name; });
-  set->list.push_back(std::move(parameter));
-}
-
 void set_iso(SceneDescription* scene, double iso, const char* option) {
   ParameterList list(not_in_a_file(option));
   list.add_float("iso", iso);
-  set_parameter(&film_parameters(scene), list.take().list.front());
+  replace_parameter(&film_parameters(scene), list.take().list.front());
 }
 
 /// Seconds for which the shutter is open.
@@ -68,7 +63,7 @@ void name_picture(SceneDescription* scene) {
   if (name.extension() == ".gz") name = name.stem();
   ParameterList list(not_in_a_file("default film"));
   list.add_string("filename", name.replace_extension(".exr").string());
-  set_parameter(&film_parameters(scene), list.take().list.front());
+  replace_parameter(&film_parameters(scene), list.take().list.front());
 }
 
 /// The extent of the scene's shapes, which is found once, if it is wanted.

@@ -3,11 +3,10 @@
 
 namespace nephroid {
 
-float Camera::motion_time(float u_time) const {
-  const CameraPlacement& p = placement_;
-  if (!(p.keyframe_end > p.keyframe_start)) return 0.0f;
-  const float time = lerp(u_time, p.shutter_open, p.shutter_close);
-  return std::clamp((time - p.keyframe_start) / (p.keyframe_end - p.keyframe_start), 0.0f, 1.0f);
+float CameraPlacement::motion_time(float u_time) const {
+  if (!(keyframe_end > keyframe_start)) return 0.0f;
+  const float time = lerp(u_time, shutter_open, shutter_close);
+  return std::clamp((time - keyframe_start) / (keyframe_end - keyframe_start), 0.0f, 1.0f);
 }
 
 Ray Camera::world_ray(const Vec3f& o, const Vec3f& d, float u_time) const {

@@ -53,6 +53,10 @@ struct CameraPlacement {
   float shutter_open = 0, shutter_close = 1;
   /// Times of the two keyframes of everything that moves (TransformTimes).
   float keyframe_start = 0, keyframe_end = 1;
+
+  /// Maps u_time in [0,1) to the shutter, as a Ray::time: 0 at the first keyframe of what moves, 1
+  /// at the second, clamped [K2]. 0 if both keyframes are at the same time.
+  float motion_time(float u_time) const;
 };
 
 class Camera {
@@ -79,9 +83,8 @@ class Camera {
   /// their number; the rest of `out` is unused.
   virtual int repeats(const Vec2f& /*film*/, std::span<Vec2f, 3> /*out*/) const { return 0; }
 
-  /// Maps u_time in [0,1) to the shutter, as a Ray::time: 0 at the first keyframe of what moves, 1
-  /// at the second, clamped [K2]. 0 if both keyframes are at the same time.
-  virtual float motion_time(float u_time) const;
+  /// CameraPlacement::motion_time of its placement.
+  virtual float motion_time(float u_time) const { return placement_.motion_time(u_time); }
   /// Camera space (x right, y up, looking along +z) to world space at a Ray::time.
   Transform camera_to_world(float motion_time) const {
     return placement_.camera_to_world.at(motion_time);
@@ -109,6 +112,9 @@ class Camera {
 /// Measures the beam of the central pixel: the rays through its centre and through those of its
 /// neighbours in x and y, all through the middle of the lens. Zero if these rays do not exist.
 PixelFootprint footprint_of_central_pixel(const Camera& camera, const CameraFilm& film);
+
+/// The placement of the scene's camera; at the origin without one. Throws SceneError.
+CameraPlacement camera_placement(const SceneDescription& scene);
 
 /// Makes the scene's camera, by default pbrt-v4's: a perspective camera of 90 degrees at the
 /// origin. Throws SceneError.

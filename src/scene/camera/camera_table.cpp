@@ -49,23 +49,6 @@ constexpr CameraRow kTable[] = {
      make_realistic_camera},
 };
 
-CameraPlacement placement_of(const SceneDescription& scene) {
-  CameraPlacement placement;
-  placement.keyframe_start = scene.transform_start_time;
-  placement.keyframe_end = scene.transform_end_time;
-  if (!scene.camera) return placement;
-  const TransformDescription& world_to_camera = scene.camera->world_to_camera;
-  if (!is_invertible(world_to_camera.start) || !is_invertible(world_to_camera.end))
-    throw SceneError(scene.camera->where,
-                     "the camera's transform cannot be inverted, expected one that can");
-  placement.camera_to_world =
-      MotionTransform(world_to_camera.start.inverse(), world_to_camera.end.inverse());
-  const ParameterSet& p = scene.camera->parameters;
-  placement.shutter_open = p.get_float("shutteropen", 0.0f);
-  placement.shutter_close = p.get_float("shutterclose", 1.0f);
-  return placement;
-}
-
 /// Each parameter can be valid alone while the camera is so far away, or its screen so large, that
 /// floating-point numbers cannot represent its rays.
 void check_rays(const Camera& camera, const CameraFilm& film, const SourceLocation& where) {
@@ -92,6 +75,23 @@ std::vector<FormatType> camera_types() {
   return format_types(kTable);
 }
 
+CameraPlacement camera_placement(const SceneDescription& scene) {
+  CameraPlacement placement;
+  placement.keyframe_start = scene.transform_start_time;
+  placement.keyframe_end = scene.transform_end_time;
+  if (!scene.camera) return placement;
+  const TransformDescription& world_to_camera = scene.camera->world_to_camera;
+  if (!is_invertible(world_to_camera.start) || !is_invertible(world_to_camera.end))
+    throw SceneError(scene.camera->where,
+                     "the camera's transform cannot be inverted, expected one that can");
+  placement.camera_to_world =
+      MotionTransform(world_to_camera.start.inverse(), world_to_camera.end.inverse());
+  const ParameterSet& p = scene.camera->parameters;
+  placement.shutter_open = p.get_float("shutteropen", 0.0f);
+  placement.shutter_close = p.get_float("shutterclose", 1.0f);
+  return placement;
+}
+
 std::unique_ptr<Camera> make_camera(const SceneDescription& scene, const CameraFilm& film,
                                     Diagnostics& diagnostics) {
   static const ParameterSet kNone;
@@ -99,7 +99,7 @@ std::unique_ptr<Camera> make_camera(const SceneDescription& scene, const CameraF
   const std::string type = scene.camera ? scene.camera->type : "perspective";
   const CameraRow& row = row_of(kTable, "camera", type, p.where);
   std::unique_ptr<Camera> camera =
-      row.make({p, placement_of(scene), film, *scene.files, diagnostics});
+      row.make({p, camera_placement(scene), film, *scene.files, diagnostics});
   if (scene.camera) p.report_unused("camera \"" + type + "\"", row, diagnostics);
   check_rays(*camera, film, p.where);
   return camera;
